@@ -1,0 +1,375 @@
+/* flowgrain: simple pictures of complicated vector fields, at every scale.
+ *
+ * A field is read (fg_field), a density evolves on it by an anisotropic Cahn-Hilliard
+ * equation (fg_evolution), the set {u > 0} of a moment (fg_density) falls into clusters,
+ * each cluster becomes one curved arrow (fg_icons), and arrows become pictures and tables.
+ * Method: Garcke, Preusser, Rumpf, Telea, Weikard and van Wijk, "A Continuous Clustering
+ * Method for Vector Fields", IEEE Visualization 2000.
+ *
+ *     fg_context *ctx;  fg_field *field;  fg_evolution *evolution;
+ *     fg_density *density;  fg_icons *icons;
+ *     fg_context_create(&ctx);
+ *     fg_field_read(&field, ctx, "wind.nc", NULL);
+ *     fg_evolution_create(&evolution, ctx, field, NULL);
+ *     do fg_evolution_step(evolution, &step); while (step.clusters > 40 || !step.clusters);
+ *     fg_density_create(&density, evolution);
+ *     fg_icons_create(&icons, ctx, field, density, NULL);
+ *     fg_picture_write(ctx, "wind.svg", field, density, icons, NULL);
+ *
+ * Conventions
+ * - A function that can fail returns fg_status; its result comes first, through `out`, and
+ *   belongs to the caller, who ends it with the matching destroy. Destroys accept NULL.
+ * - Pointers returned to const are borrowed: they live as long as the thing they came from.
+ * - Option structs: a zero field means the default; a NULL pointer means all defaults.
+ * - On failure the context keeps one message (the first), with the numbers that show it.
+ * - Arrays of samples run x fastest, then y, then z. Coordinates are the input's own.
+ * - A context, and what was made with it, is used by one thread at a time; a finished
+ *   fg_field or fg_density may be read by several threads that hold a context each.
+ */
+#ifndef FLOWGRAIN_H
+#define FLOWGRAIN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FG_VERSION_MAJOR 0
+#define FG_VERSION_MINOR 1
+#define FG_VERSION_PATCH 0
+
+#if defined(__GNUC__)
+#define FG_API __attribute__((visibility("default")))
+#else
+#define FG_API
+#endif
+
+/* ---- statuses and the context ---------------------------------------------------- */
+
+typedef enum fg_status {
+  FG_STATUS_OK = 0,
+  FG_STATUS_MEMORY,         /* an allocation failed */
+  FG_STATUS_ARGUMENT,       /* the caller asked for something impossible */
+  FG_STATUS_FILE_ACCESS,    /* a file cannot be opened, read or written */
+  FG_STATUS_FILE_FORMAT,    /* a file is damaged or not what it claims to be */
+  FG_STATUS_UNSUPPORTED,    /* well-formed, but nothing here can handle it */
+  FG_STATUS_NO_CONVERGENCE, /* the evolution broke one of its promises */
+  FG_STATUS_STOPPED,        /* fg_context_stop was called */
+  FG_STATUS_MPI             /* the message-passing layer failed */
+} fg_status;
+
+typedef struct fg_context fg_context;
+
+/* Returns the version of the library in use, "0.1.0". */
+FG_API const char *fg_version(void);
+
+/* Returns the standard word for a status, "malformed file" for example. */
+FG_API const char *fg_status_name(fg_status status);
+
+/* Makes a context: the place of messages and of the stop flag. MEMORY. */
+FG_API fg_status fg_context_create(fg_context **out);
+FG_API void fg_context_destroy(fg_context *context);
+
+/* The first failure's message, one line without a line end, "" when there was none:
+ * "FILE: what is wrong, with the numbers that show it". */
+FG_API const char *fg_context_message(const fg_context *context);
+
+/* A second line that says what to do about the failure, or "". */
+FG_API const char *fg_context_hint(const fg_context *context);
+
+/* Forgets the failure, so that the context can be used again. */
+FG_API void fg_context_clear(fg_context *context);
+
+/* Asks the work going on with this context to end with FG_STATUS_STOPPED at its next safe
+ * point. The only function that may be called from a signal handler or another thread. */
+FG_API void fg_context_stop(fg_context *context);
+
+/* ---- fields ----------------------------------------------------------------------- */
+
+typedef struct fg_field fg_field;
+
+typedef enum fg_scale {
+  FG_SCALE_AUTO = 0, /* from units and axes */
+  FG_SCALE_GEO,      /* axes in degrees, velocity along east and north */
+  FG_SCALE_MAP,      /* projected plane: axes in a length, velocity along the axes */
+  FG_SCALE_PLAIN     /* axes without a known unit */
+} fg_scale;
+
+typedef struct fg_read_options {
+  const char *vars;      /* "U,V" or one vector variable; NULL: found */
+  const char *vars_from; /* second file with the other component(s) */
+  int time;              /* index along time, from 0 */
+  int level;             /* index along level, from 0 */
+  const char *mask;      /* variable that is zero outside the domain */
+  fg_scale scale;
+} fg_read_options;
+
+/* Reads a field from a file, or makes an analytic one from "synth:NAME" (sampled at 257
+ * nodes a side in 2D). The format is found from the content, not the name. options may be
+ * NULL. FILE_ACCESS, FILE_FORMAT, UNSUPPORTED, ARGUMENT (names, indices), MEMORY. */
+FG_API fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
+                               const fg_read_options *options);
+
+/* Makes the analytic field NAME with `nodes` samples a side on the unit square
+ * (at least 2). ARGUMENT, MEMORY. */
+FG_API fg_status fg_field_create_analytic(fg_field **out, fg_context *context,
+                                          const char *name, int nodes);
+
+/* Names of the analytic fields, ended by NULL. */
+FG_API const char *const *fg_field_analytic_names(void);
+
+typedef struct fg_field_arrays {
+  int dimension;             /* 2 */
+  int size[3];               /* samples along x, y(, z); at least 2 each */
+  const double *axis[3];     /* size[k] ascending coordinates each */
+  double period[3];          /* 0, or the length after which that axis repeats; then the
+                                last sample must lie before axis[0] + period */
+  const float *velocity[3];  /* size[0] * size[1] samples a component; NaN: missing */
+  const unsigned char *valid; /* a byte a sample, 0 = missing; NULL: all but NaN */
+  fg_scale scale;            /* AUTO means PLAIN */
+  const char *velocity_name[3]; /* NULL: "u", "v", "w" */
+  const char *velocity_units;   /* NULL: "" */
+  const char *axis_name[3];     /* NULL: "x", "y", "z" */
+  const char *axis_units[3];    /* NULL: "" */
+  const char *title;            /* what it is, for captions; NULL: "" */
+  const char *time;             /* the chosen time in words; NULL: none */
+  const char *level;            /* the chosen level in words; NULL: none */
+} fg_field_arrays;
+
+/* Copies arrays into a new field. ARGUMENT (sizes, order of axes, no valid cell, infinite
+ * values, a field that is zero everywhere), MEMORY. */
+FG_API fg_status fg_field_create(fg_field **out, fg_context *context,
+                                 const fg_field_arrays *arrays);
+FG_API void fg_field_destroy(fg_field *field);
+
+/* The field's own arrays and words, borrowed; no pointer in it is NULL but `valid` (then
+ * every sample counts), `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen). */
+FG_API const fg_field_arrays *fg_field_contents(const fg_field *field);
+
+/* Velocity at a point in the input's units, bilinear; false outside the domain: beyond the
+ * border, or in a data cell with a missing corner. position and velocity: dimension
+ * numbers. */
+FG_API bool fg_field_velocity(const fg_field *field, const double position[],
+                              double velocity[]);
+
+/* The direction of the streamline in the axes' coordinates, not normalised: (u, v), but
+ * (u / cos latitude, v) on a longitude-latitude grid. False as above. */
+FG_API bool fg_field_tangent(const fg_field *field, const double position[],
+                             double tangent[]);
+
+/* Writes a field as .vti (VTK XML image data; axes must be evenly spaced) or .nc
+ * (NetCDF, CF). UNSUPPORTED for other names' ends, FILE_ACCESS, MEMORY. */
+FG_API fg_status fg_field_write(fg_context *context, const char *path,
+                                const fg_field *field);
+
+/* ---- what a file holds -------------------------------------------------------------- */
+
+typedef struct fg_inventory fg_inventory;
+
+typedef struct fg_inventory_vector {
+  int components;         /* 2 or 3 */
+  const char *name[3];    /* variables; for one vector variable name[0] only */
+  const char *units;      /* "" unknown */
+  const char *found_by;   /* "standard_name", "names", "vector variable", ... */
+  int dimension;          /* of the field it would give */
+  int size[3];            /* samples along x, y(, z) */
+  int times, levels;      /* 1 when there is no such axis */
+  double missing_share;   /* share of missing samples at the first time and level */
+  fg_scale scale;         /* what AUTO would choose */
+  double bounds[6];       /* xmin, xmax, ymin, ymax, zmin, zmax */
+  bool periodic;          /* longitude closes */
+  const char *unusable;   /* NULL, or why this pair can not be read yet */
+} fg_inventory_vector;
+
+/* Says what a file holds, without reading a whole field where that can be avoided.
+ * Statuses as fg_field_read. */
+FG_API fg_status fg_inventory_read(fg_inventory **out, fg_context *context,
+                                   const char *input);
+FG_API void fg_inventory_destroy(fg_inventory *inventory);
+FG_API const char *fg_inventory_format(const fg_inventory *inventory);
+FG_API int fg_inventory_vector_count(const fg_inventory *inventory);
+FG_API const fg_inventory_vector *fg_inventory_vector_at(const fg_inventory *inventory,
+                                                         int index);
+
+/* ---- the evolution -------------------------------------------------------------------- */
+
+typedef struct fg_evolution fg_evolution;
+
+typedef enum fg_energy {
+  FG_ENERGY_FLOW = 0, /* interfaces along streamlines are cheap */
+  FG_ENERGY_ISOTROPIC /* the original Cahn-Hilliard model */
+} fg_energy;
+
+typedef struct fg_evolution_options {
+  int nodes;         /* nodes along the longest side of the mesh [257] */
+  fg_energy energy;  /* [flow] */
+  double anisotropy; /* a, in (0, 1] [0.15] */
+  double coverage;   /* share of the area clusters shall cover, in (0, 1) [0.3] */
+  double gamma;      /* interface energy, in units of the longest side squared
+                        [(1.1 h)^2 / a; isotropic (1.5 h)^2] */
+  uint64_t seed;     /* of the initial noise [1] */
+  double accuracy;   /* eta: rms change of u allowed in a step [0.05] */
+  int cycles;        /* multigrid cycles a step [2] */
+  int threads;       /* [all cores] */
+  const float *initial; /* NULL: noise; else u at the nodes of the mesh, as fg_density has
+                           it: copied, then shifted nowhere: its mean is kept */
+} fg_evolution_options;
+
+typedef struct fg_step {
+  long step;            /* accepted steps so far */
+  double time;          /* t, in units of (longest side)^2 */
+  double tau;           /* size of this step */
+  double energy;        /* E(u) */
+  double mass;          /* integral of u over the domain, in double */
+  double area_fraction; /* share of the domain where u > 0 */
+  int clusters;         /* components of {u > 0} above the size of debris; 0 while the
+                           covered area is below 0.8 of the coverage */
+  int cycles;           /* multigrid cycles spent on this step, rejects included */
+  int rejected;         /* attempts rejected before this step was accepted */
+  long cells;           /* active cells of the mesh */
+  double increment;     /* rms of the change of u */
+  double seconds;       /* wall time since the evolution was created */
+  bool stationary;      /* the pattern no longer changes */
+} fg_step;
+
+/* Builds mesh, tensor and initial density. nodes is rounded up so that the mesh can be
+ * coarsened; fg_evolution_mesh says what it became. ARGUMENT (options out of range, a
+ * field in 3D), MEMORY. */
+FG_API fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
+                                     const fg_field *field,
+                                     const fg_evolution_options *options);
+FG_API void fg_evolution_destroy(fg_evolution *evolution);
+
+/* Makes one accepted time step and describes it. NO_CONVERGENCE when no step small enough
+ * is accepted, or mass or energy break their promise; STOPPED. */
+FG_API fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step);
+
+typedef struct fg_mesh_info {
+  int dimension;
+  int cells[3];          /* along each axis */
+  double spacing[3];     /* in the input's coordinates */
+  double gamma;          /* as used, in units of the longest side squared */
+  double anisotropy, coverage;
+  double length;         /* the longest side in the input's coordinates */
+  double domain_measure; /* area (volume) of the active cells, units of length squared */
+  long active_cells;
+  const char *kernel;    /* which vector instructions run: "avx512", "avx2", "generic" */
+} fg_mesh_info;
+
+FG_API const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution);
+
+/* ---- a moment of the evolution ----------------------------------------------------- */
+
+/* The density at the nodes of a uniform grid over the field's box; a snapshot that stays
+ * as it is while the evolution goes on. */
+typedef struct fg_density fg_density;
+
+typedef struct fg_density_arrays {
+  int dimension;
+  int nodes[3];       /* along a periodic axis the repeated last node is left out */
+  double origin[3];   /* node (0, 0), input coordinates */
+  double spacing[3];  /* input coordinates */
+  bool periodic[3];
+  const float *u;     /* nodes[0] * nodes[1] values; inside a cluster u > 0 */
+  const unsigned char *active; /* a byte a cell, 0 = masked; nodes[k] - 1 cells along an
+                                  axis, nodes[k] when periodic; NULL: all active */
+  double debris_area; /* components smaller than this are not clusters, input coords^2 */
+  double time, energy, area_fraction;
+  int clusters;
+} fg_density_arrays;
+
+/* Takes a snapshot. MEMORY. */
+FG_API fg_status fg_density_create(fg_density **out, const fg_evolution *evolution);
+
+/* Copies arrays into a density of its own, for icons from elsewhere. ARGUMENT, MEMORY. */
+FG_API fg_status fg_density_create_from_arrays(fg_density **out, fg_context *context,
+                                               const fg_density_arrays *arrays);
+FG_API void fg_density_destroy(fg_density *density);
+FG_API const fg_density_arrays *fg_density_contents(const fg_density *density);
+
+/* Writes u, labels and mask as .vti. FILE_ACCESS, UNSUPPORTED, MEMORY. */
+FG_API fg_status fg_density_write(fg_context *context, const char *path,
+                                  const fg_density *density);
+
+/* ---- icons --------------------------------------------------------------------------- */
+
+typedef enum fg_icon_kind {
+  FG_ICON_ARROW = 0, /* a curved arrow along one streamline */
+  FG_ICON_RING,      /* an arrow round a vortex, an arc of at most about 300 degrees */
+} fg_icon_kind;
+
+/* A curved arrow: a tapering body round the centreline and a triangular head. */
+typedef struct fg_icon {
+  int cluster;             /* label in the density, from 1 */
+  fg_icon_kind kind;
+  int point_count;         /* of the centreline, at least 2 */
+  const double (*points)[3]; /* from tail to the tip of the head; z = 0 in 2D; across a
+                                periodic border the coordinate goes on past it */
+  double width;            /* body's full width where the head begins */
+  double tail_width;       /* body's full width at the tail */
+  double head_length;      /* along the centreline */
+  double head_width;       /* full width of the head's base */
+  double center[3];        /* centre of the cluster's spine, on the centreline */
+  double area;             /* of the cluster (volume in 3D) */
+  double speed;            /* mean |v| along the centreline, input units */
+} fg_icon;
+
+typedef struct fg_icon_options {
+  int threads; /* [1] */
+} fg_icon_options;
+
+typedef struct fg_icons fg_icons;
+
+/* Makes the icons of a density: label, march, spine, streamline, arrow. Clusters too small
+ * for a readable arrow give none; fg_icons_dropped counts them. MEMORY, STOPPED. */
+FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
+                                 const fg_field *field, const fg_density *density,
+                                 const fg_icon_options *options);
+FG_API void fg_icons_destroy(fg_icons *icons);
+FG_API int fg_icons_count(const fg_icons *icons);
+FG_API const fg_icon *fg_icons_at(const fg_icons *icons, int index);
+FG_API int fg_icons_clusters(const fg_icons *icons); /* clusters, drawn or dropped */
+FG_API int fg_icons_dropped(const fg_icons *icons);
+
+/* Outline of an icon as a closed polygon, the first vertex not repeated. *vertices is
+ * allocated with malloc: free it. MEMORY. */
+FG_API fg_status fg_icon_outline(const fg_icon *icon, double (**vertices)[2], int *count);
+
+/* Writes icons as GeoJSON (a LineString each, coordinates of the input), or reads them
+ * back. FILE_ACCESS, FILE_FORMAT, MEMORY. */
+FG_API fg_status fg_icons_write(fg_context *context, const char *path,
+                                const fg_icons *icons);
+FG_API fg_status fg_icons_read(fg_icons **out, fg_context *context, const char *path);
+
+/* ---- pictures ----------------------------------------------------------------------- */
+
+typedef struct fg_picture_options {
+  double width;         /* of the whole picture, in points of 1/72 inch [480] */
+  double height;        /* [0: follows from the domain's shape] */
+  double pixels_per_point; /* for PNG [2] */
+  const char *palette;  /* name of a colour map, or "#rrggbb" for one colour [viridis-like] */
+  double speed_min, speed_max; /* ends of the colour key; equal: from the icons */
+  bool no_frame;        /* only mask and arrows */
+  bool transparent;     /* no background */
+  bool tint;            /* tint the clusters (density needed) */
+  const char *title;    /* caption; NULL: from the field; "" none */
+} fg_picture_options;
+
+/* Names of the colour maps, ended by NULL. */
+FG_API const char *const *fg_picture_palettes(void);
+
+/* Draws icons; the format follows the name's end: .svg, .pdf or .png. density may be NULL
+ * when there is no tint; options may be NULL. FILE_ACCESS, UNSUPPORTED, ARGUMENT, MEMORY. */
+FG_API fg_status fg_picture_write(fg_context *context, const char *path,
+                                  const fg_field *field, const fg_density *density,
+                                  const fg_icons *icons,
+                                  const fg_picture_options *options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,135 @@
+#include "base/context.h"
+
+#include <signal.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MESSAGE_BYTES = 2048 };
+
+struct fg_context {
+  char message[MESSAGE_BYTES];
+  char hint[MESSAGE_BYTES];
+  bool hint_open; /* a failure was recorded and has no hint yet */
+  atomic_int stop;
+};
+
+#define TEXT_OF(x) #x
+#define TEXT(x) TEXT_OF(x)
+
+const char *fg_version(void)
+{
+  return TEXT(FG_VERSION_MAJOR) "." TEXT(FG_VERSION_MINOR) "." TEXT(FG_VERSION_PATCH);
+}
+
+const char *fg_status_name(fg_status status)
+{
+  switch (status) {
+  case FG_STATUS_OK:
+    return "done";
+  case FG_STATUS_MEMORY:
+    return "out of memory";
+  case FG_STATUS_ARGUMENT:
+    return "impossible request";
+  case FG_STATUS_FILE_ACCESS:
+    return "file not accessible";
+  case FG_STATUS_FILE_FORMAT:
+    return "malformed file";
+  case FG_STATUS_UNSUPPORTED:
+    return "not supported";
+  case FG_STATUS_NO_CONVERGENCE:
+    return "no convergence";
+  case FG_STATUS_STOPPED:
+    return "stopped";
+  case FG_STATUS_MPI:
+    return "message passing failed";
+  }
+  return "unknown status";
+}
+
+fg_status fg_context_create(fg_context **out)
+{
+  if (!out)
+    return FG_STATUS_ARGUMENT;
+  *out = calloc(1, sizeof **out);
+  return *out ? FG_STATUS_OK : FG_STATUS_MEMORY;
+}
+
+void fg_context_destroy(fg_context *context)
+{
+  free(context);
+}
+
+const char *fg_context_message(const fg_context *context)
+{
+  return context ? context->message : "";
+}
+
+const char *fg_context_hint(const fg_context *context)
+{
+  return context ? context->hint : "";
+}
+
+void fg_context_clear(fg_context *context)
+{
+  if (!context)
+    return;
+  context->message[0] = '\0';
+  context->hint[0] = '\0';
+  context->hint_open = false;
+}
+
+void fg_context_stop(fg_context *context)
+{
+  if (context)
+    atomic_store(&context->stop, 1);
+}
+
+/* File names and attribute texts come from outside: a line end or a control character in
+ * them must not break the promise of one line. */
+static void keep_one_line(char *text)
+{
+  for (char *c = text; *c; ++c)
+    if ((unsigned char)*c < 0x20 || *c == 0x7f)
+      *c = '?';
+}
+
+fg_status fg__fail(fg_context *context, fg_status status, const char *format, ...)
+{
+  if (!context || context->message[0])
+    return status;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(context->message, sizeof context->message, format, arguments);
+  va_end(arguments);
+  keep_one_line(context->message);
+  context->hint_open = true;
+  return status;
+}
+
+fg_status fg__fail_memory(fg_context *context, const char *what, size_t bytes)
+{
+  return fg__fail(context, FG_STATUS_MEMORY, "out of memory: %zu bytes for %s", bytes,
+                  what);
+}
+
+void fg__hint(fg_context *context, const char *format, ...)
+{
+  if (!context || !context->hint_open)
+    return;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(context->hint, sizeof context->hint, format, arguments);
+  va_end(arguments);
+  keep_one_line(context->hint);
+  context->hint_open = false;
+}
+
+fg_status fg__check_stop(fg_context *context)
+{
+  if (context && atomic_load(&context->stop))
+    return fg__fail(context, FG_STATUS_STOPPED, "stopped on request");
+  return FG_STATUS_OK;
+}

@@ -1,0 +1,24 @@
+/* Statuses, messages and the stop flag, as the library's own files use them. */
+#ifndef FG__CONTEXT_H
+#define FG__CONTEXT_H
+
+#include "flowgrain/flowgrain.h"
+
+/* Records a failure and returns its status, so that a caller writes
+ *     return fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: ...", path, ...);
+ * Only the first failure is kept. A NULL context keeps nothing. */
+fg_status fg__fail(fg_context *context, fg_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Records that `bytes` could not be had for `what`; returns FG_STATUS_MEMORY. */
+fg_status fg__fail_memory(fg_context *context, const char *what, size_t bytes);
+
+/* Adds the line that says what to do about the failure just recorded. Later hints are
+ * dropped like later failures. */
+void fg__hint(fg_context *context, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* FG_STATUS_STOPPED once fg_context_stop was called, else FG_STATUS_OK. */
+fg_status fg__check_stop(fg_context *context);
+
+#endif

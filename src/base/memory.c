@@ -1,0 +1,50 @@
+#include "base/memory.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { VECTOR_BYTES = 64, FIRST_CAPACITY = 16 };
+
+void *fg__allocate(size_t count, size_t size)
+{
+  if (count == 0 || size == 0)
+    return calloc(1, 1);
+  return calloc(count, size); /* calloc itself refuses a product that overflows */
+}
+
+void *fg__allocate_aligned(size_t count, size_t size)
+{
+  if (size != 0 && count > (SIZE_MAX - VECTOR_BYTES) / size)
+    return NULL;
+  size_t bytes = count * size;
+  bytes = (bytes / VECTOR_BYTES + 1) * VECTOR_BYTES;
+  void *memory = aligned_alloc(VECTOR_BYTES, bytes);
+  if (memory)
+    memset(memory, 0, bytes);
+  return memory;
+}
+
+int fg__grow(void **array, size_t *capacity, size_t needed, size_t size)
+{
+  if (needed <= *capacity)
+    return 1;
+  size_t wanted = *capacity + *capacity / 2;
+  if (wanted < FIRST_CAPACITY)
+    wanted = FIRST_CAPACITY;
+  if (wanted < needed)
+    wanted = needed;
+  if (size != 0 && wanted > SIZE_MAX / size)
+    return 0;
+  void *grown = realloc(*array, wanted * size);
+  if (!grown)
+    return 0;
+  *array = grown;
+  *capacity = wanted;
+  return 1;
+}
+
+char *fg__copy_text(const char *text)
+{
+  return text ? strdup(text) : NULL;
+}

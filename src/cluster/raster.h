@@ -1,0 +1,47 @@
+/* What the stages after the evolution see of the density: labels on its grid, and a
+ * window a cluster. Nothing here knows a mesh. */
+#ifndef FG__RASTER_H
+#define FG__RASTER_H
+
+#include "flowgrain/flowgrain.h"
+
+/* Labels of the nodes: 0 outside every cluster, else 1 ... count in the order of each
+ * cluster's first node (x fastest). Nodes are joined when they are neighbours along an axis or across a
+ * cell whose bilinear density stays positive on the diagonal, and an active cell joins them. */
+typedef struct fg__labels {
+  int *label;        /* a number a node of the density */
+  int count;         /* clusters, debris not counted */
+  double *area;      /* [count], input coordinates squared, sub-cell: area of {u > 0} */
+  int (*bounds)[4];  /* [count], first and last node: x0, x1, y0, y1; across a periodic border
+                        x1 (y1) goes past the last node */
+  int debris;        /* components too small to be clusters: labelled -1 */
+} fg__labels;
+
+fg_status fg__labels_create(fg__labels *out, fg_context *context,
+                            const fg_density_arrays *density);
+void fg__labels_clear(fg__labels *labels);
+
+/* One cluster on a grid of its own: its bounding box and a rim of 2 nodes round it (cut where
+ * the domain ends, unless periodic). */
+typedef struct fg__window {
+  int cluster;         /* its label */
+  int nodes[2];        /* along x and y */
+  double origin[2];    /* node (0, 0), input coordinates, unwrapped */
+  double spacing[2];
+  float *level;        /* nodes[0] * nodes[1]: > 0 inside this cluster; other clusters, debris and
+                          masked places are <= 0 */
+  unsigned char *active; /* (nodes[0] - 1) * (nodes[1] - 1) cells; 0 = masked */
+  bool at_border[4];   /* the window's left, right, lower, upper edge is the domain's border
+                          (not a periodic one) */
+} fg__window;
+
+fg_status fg__window_create(fg__window *out, fg_context *context,
+                            const fg_density_arrays *density, const fg__labels *labels,
+                            int cluster);
+void fg__window_clear(fg__window *window);
+
+/* Bilinear level at a point in input coordinates; a negative number outside the window or
+ * in a masked cell. */
+double fg__window_level(const fg__window *window, const double position[2]);
+
+#endif

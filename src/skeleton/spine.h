@@ -1,0 +1,28 @@
+/* From a cluster's window to its distance map and to its spine. */
+#ifndef FG__SPINE_H
+#define FG__SPINE_H
+
+#include "cluster/raster.h"
+
+/* Distance to the cluster's border by fast marching (Sethian 1996, upwind first order at
+ * least), from the sub-cell zero set of `level` inwards, input coordinates; 0 outside.
+ * `distance` has the window's nodes. Borders of mask count as the cluster's border; whether the
+ * domain's border does, the caller says. */
+fg_status fg__march(double *distance, fg_context *context, const fg__window *window,
+                    bool domain_border_counts);
+
+/* A polyline along the ridge of the distance map, through the cluster from end to end. */
+typedef struct fg__spine {
+  int count;
+  double (*point)[2];   /* input coordinates, evenly spaced by about one cell */
+  double *distance;     /* distance to the border at each point */
+  bool closed;          /* a ring: point[count - 1] is next to point[0] */
+  double length;        /* input coordinates */
+  int center;           /* index of the middle by arc length */
+} fg__spine;
+
+fg_status fg__spine_create(fg__spine *out, fg_context *context, const fg__window *window,
+                           const double *distance);
+void fg__spine_clear(fg__spine *spine);
+
+#endif
