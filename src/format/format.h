@@ -1,0 +1,35 @@
+/* File formats: one file a format, one line in the list of registry.c. */
+#ifndef FG__FORMAT_H
+#define FG__FORMAT_H
+
+#include "base/context.h"
+
+/* A file to read: its bytes are mapped or in memory, so that a reader can be fuzzed. A
+ * library that wants to open the file itself may use `path` when `on_disk`. */
+typedef struct fg__source {
+  const char *path; /* for messages; the file's name when on_disk */
+  bool on_disk;
+  const unsigned char *bytes;
+  size_t size;
+} fg__source;
+
+typedef struct fg__format {
+  const char *name; /* as `flowgrain info` shows it */
+  bool (*is_mine)(const unsigned char *bytes, size_t size);
+  fg_status (*inventory)(fg_inventory *inventory, fg_context *context,
+                         const fg__source *source);
+  fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
+                    const fg_read_options *options);
+} fg__format;
+
+extern const fg__format fg__format_netcdf;
+extern const fg__format fg__format_vti;
+
+/* Finds the format of bytes; NULL when no reader knows them. */
+const fg__format *fg__format_find(const unsigned char *bytes, size_t size);
+
+/* Adds a copy of a vector (texts included) to an inventory. MEMORY. */
+fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
+                            const fg_inventory_vector *vector);
+
+#endif

@@ -1,0 +1,16 @@
+/* The list of icons, as the modules that fill it see it. */
+#ifndef FG__ICONS_H
+#define FG__ICONS_H
+
+#include "base/context.h"
+
+/* Makes an empty list. MEMORY. */
+fg_status fg__icons_create_empty(fg_icons **out, fg_context *context);
+
+/* Adds a copy of an icon, its points included. MEMORY. */
+fg_status fg__icons_add(fg_icons *icons, fg_context *context, const fg_icon *icon);
+
+/* Says how many clusters there were, and how many of them gave no icon. */
+void fg__icons_set_clusters(fg_icons *icons, int clusters, int dropped);
+
+#endif
