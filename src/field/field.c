@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { COMPONENTS = 2, CORNERS = 4 };
+enum { COMPONENTS = 2, CORNERS = 4, WORDS = 13 };
 
 /* Larger speeds are refused: light makes 3e8 m/s (3e14 um/s), so they are fill values
  * that the file did not declare; and up to here (v / cos latitude)^2 is finite in float.
@@ -46,7 +46,7 @@ struct fg_field {
   float *velocity[COMPONENTS];
   unsigned char *valid;      /* NULL: all */
   unsigned char *valid_cell; /* NULL: all */
-  char *word[11];            /* owned copies of the texts */
+  char *word[WORDS];         /* owned copies of the texts */
   int words;
 };
 
