@@ -6,34 +6,45 @@
 #include "flowgrain/flowgrain.h"
 
 /* Labels of the nodes: 0 outside every cluster, else 1 ... count in the order of each
- * cluster's first node (x fastest). Nodes are joined when they are neighbours along an axis or across a
- * cell whose bilinear density stays positive on the diagonal, and an active cell joins them. */
+ * cluster's first node (x fastest). Nodes are joined when they are neighbours along an
+ * axis or across a cell whose bilinear density stays positive on the diagonal, and an
+ * active cell joins them (evolve/components.h). A node without an active cell is outside.
+ */
 typedef struct fg__labels {
-  int *label;        /* a number a node of the density */
-  int count;         /* clusters, debris not counted */
-  double *area;      /* [count], input coordinates squared, sub-cell: area of {u > 0} */
-  int (*bounds)[4];  /* [count], first and last node: x0, x1, y0, y1; across a periodic border
-                        x1 (y1) goes past the last node */
-  int debris;        /* components too small to be clusters: labelled -1 */
+  int *label;       /* a number a node of the density */
+  int count;        /* clusters, debris not counted */
+  double *area;     /* [count], input coordinates squared, sub-cell: area of {u > 0} */
+  int (*bounds)[4]; /* [count], first and last node: x0, x1, y0, y1; across a periodic
+                       border x1 (y1) goes past the last node, x0 (y0) never does */
+  bool (
+      *closed)[2]; /* [count], the cluster goes round the whole period: it is cut at the
+                      column (row) where it has fewest nodes, which is x0 and again x1 */
+  int debris;      /* components too small to be clusters: labelled -1 */
 } fg__labels;
 
 fg_status fg__labels_create(fg__labels *out, fg_context *context,
                             const fg_density_arrays *density);
 void fg__labels_clear(fg__labels *labels);
 
-/* One cluster on a grid of its own: its bounding box and a rim of 2 nodes round it (cut where
- * the domain ends, unless periodic). */
+/* One cluster on a grid of its own: its bounding box and a rim of 2 nodes round it (cut
+ * where the domain ends, unless periodic). A cluster that goes round the whole period is
+ * cut: the window then spans one period from cut to cut, without a rim; what hangs on the
+ * cluster by the cut alone is left out. */
 typedef struct fg__window {
-  int cluster;         /* its label */
-  int nodes[2];        /* along x and y */
-  double origin[2];    /* node (0, 0), input coordinates, unwrapped */
+  int cluster;      /* its label */
+  int nodes[2];     /* along x and y */
+  double origin[2]; /* node (0, 0), input coordinates, unwrapped */
   double spacing[2];
-  float *level;        /* nodes[0] * nodes[1]: > 0 inside this cluster; other clusters, debris and
-                          masked places are <= 0 */
+  float *level;          /* nodes[0] * nodes[1]: > 0 inside this cluster, where it is the
+                            density; other clusters, debris and masked places are <= 0 */
   unsigned char *active; /* (nodes[0] - 1) * (nodes[1] - 1) cells; 0 = masked */
-  bool at_border[4];   /* the window's left, right, lower, upper edge is the domain's border
-                          (not a periodic one) */
+  bool at_border[4];     /* the window's left, right, lower, upper edge is the domain's
+                            border (not a periodic one), or the cut through a band */
 } fg__window;
+
+/* Whether the edge from node (x, y) of a window to its next node along `axis` adjoins an
+ * active cell: only then are its ends neighbours. The edge must exist. */
+bool fg__window_edge_active(const fg__window *window, int x, int y, int axis);
 
 fg_status fg__window_create(fg__window *out, fg_context *context,
                             const fg_density_arrays *density, const fg__labels *labels,
