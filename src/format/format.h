@@ -25,8 +25,17 @@ typedef struct fg__format {
 extern const fg__format fg__format_netcdf;
 extern const fg__format fg__format_vti;
 
+/* Maps a regular file that can be read and is not empty. FILE_ACCESS, FILE_FORMAT
+ * (empty). */
+fg_status fg__source_open(fg__source *out, fg_context *context, const char *path);
+void fg__source_close(fg__source *source);
+
 /* Finds the format of bytes; NULL when no reader knows them. */
 const fg__format *fg__format_find(const unsigned char *bytes, size_t size);
+
+/* Makes an empty inventory of a file in a format of that name. MEMORY. */
+fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
+                               const char *format);
 
 /* Adds a copy of a vector (texts included) to an inventory. MEMORY. */
 fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,

@@ -1,0 +1,208 @@
+#include "format/format.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const fg__format *const FORMATS[] = {&fg__format_netcdf, &fg__format_vti};
+static const char KNOWN_FORMATS[] =
+    "NetCDF (classic, 64-bit offset, CDF-5, NetCDF-4) and "
+    "VTK XML image data (.vti)";
+static const char SYNTHETIC[] = "synth:";
+enum { SYNTHETIC_NODES = 257, MESSAGE_BYTES = 2048 };
+
+const fg__format *fg__format_find(const unsigned char *bytes, size_t size)
+{
+  for (size_t i = 0; i < sizeof FORMATS / sizeof *FORMATS; ++i)
+    if (FORMATS[i]->is_mine(bytes, size))
+      return FORMATS[i];
+  return NULL;
+}
+
+static fg_status check_kind(fg_context *context, const char *path,
+                            const struct stat *about)
+{
+  if (S_ISDIR(about->st_mode)) {
+    fg_status status =
+        fg__fail(context, FG_STATUS_FILE_ACCESS, "%s: is a directory, not a file", path);
+    fg__hint(context, "name one file in it");
+    return status;
+  }
+  if (!S_ISREG(about->st_mode))
+    return fg__fail(context, FG_STATUS_FILE_ACCESS,
+                    "%s: is no regular file (a pipe, socket or device)", path);
+  if (about->st_size == 0)
+    return fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: is empty (0 bytes)", path);
+  if ((uintmax_t)about->st_size > SIZE_MAX)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: %jd bytes cannot be mapped",
+                    path, (intmax_t)about->st_size);
+  return FG_STATUS_OK;
+}
+
+fg_status fg__source_open(fg__source *out, fg_context *context, const char *path)
+{
+  *out = (fg__source){.path = path};
+  /* O_NONBLOCK: opening a pipe that nobody writes to must not wait */
+  const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0)
+    return fg__fail(context, FG_STATUS_FILE_ACCESS, "%s: %s", path, strerror(errno));
+  struct stat about;
+  fg_status status = FG_STATUS_OK;
+  if (fstat(file, &about) != 0)
+    status = fg__fail(context, FG_STATUS_FILE_ACCESS, "%s: %s", path, strerror(errno));
+  else
+    status = check_kind(context, path, &about);
+  if (status == FG_STATUS_OK) {
+    void *bytes = mmap(NULL, (size_t)about.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+    if (bytes == MAP_FAILED)
+      status = fg__fail(context, FG_STATUS_FILE_ACCESS, "%s: %s", path, strerror(errno));
+    else
+      *out = (fg__source){
+          .path = path, .on_disk = true, .bytes = bytes, .size = (size_t)about.st_size};
+  }
+  close(file);
+  return status;
+}
+
+void fg__source_close(fg__source *source)
+{
+  if (source->bytes)
+    munmap((void *)(uintptr_t)source->bytes, source->size);
+  source->bytes = NULL;
+}
+
+static fg_status find_format(const fg__format **out, fg_context *context,
+                             const fg__source *source)
+{
+  *out = fg__format_find(source->bytes, source->size);
+  if (*out)
+    return FG_STATUS_OK;
+  char start[3 * 4 + 1] = "";
+  for (size_t i = 0; i < 4 && i < source->size; ++i) {
+    static const char digit[] = "0123456789abcdef";
+    start[3 * i] = digit[source->bytes[i] >> 4];
+    start[3 * i + 1] = digit[source->bytes[i] & 15];
+    start[3 * i + 2] = ' ';
+    start[3 * i + 3] = '\0';
+  }
+  if (start[0])
+    start[strlen(start) - 1] = '\0';
+  fg_status status = fg__fail(context, FG_STATUS_FILE_FORMAT,
+                              "%s: unknown format (%zu bytes, starting with %s)",
+                              source->path, source->size, start);
+  fg__hint(context, "formats known: %s; or synth:NAME", KNOWN_FORMATS);
+  return status;
+}
+
+static bool is_synthetic(const char *input)
+{
+  return strncmp(input, SYNTHETIC, sizeof SYNTHETIC - 1) == 0;
+}
+
+/* What fg_field_create finds wrong with a file's samples is said of the file. */
+static fg_status name_the_file(fg_context *context, fg_status status, const char *input)
+{
+  static const char prefix[] = "field: ";
+  const char *message = fg_context_message(context);
+  if (status != FG_STATUS_ARGUMENT || strncmp(message, prefix, sizeof prefix - 1) != 0)
+    return status;
+  char words[MESSAGE_BYTES];
+  char hint[MESSAGE_BYTES];
+  strncpy(words, message + sizeof prefix - 1, sizeof words - 1);
+  strncpy(hint, fg_context_hint(context), sizeof hint - 1);
+  words[sizeof words - 1] = hint[sizeof hint - 1] = '\0';
+  fg_context_clear(context);
+  status = fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: %s", input, words);
+  if (hint[0])
+    fg__hint(context, "%s", hint);
+  return status;
+}
+
+fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
+                        const fg_read_options *options)
+{
+  if (!out || !input)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "no input to read a field from");
+  *out = NULL;
+  if (is_synthetic(input))
+    return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1,
+                                    SYNTHETIC_NODES);
+  static const fg_read_options defaults = {0};
+  fg__source source;
+  const fg__format *format = NULL;
+  fg_status status = fg__source_open(&source, context, input);
+  if (status == FG_STATUS_OK)
+    status = find_format(&format, context, &source);
+  if (status == FG_STATUS_OK)
+    status = name_the_file(
+        context, format->read(out, context, &source, options ? options : &defaults),
+        input);
+  fg__source_close(&source);
+  return status;
+}
+
+static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,
+                                   const char *name)
+{
+  fg_field *field = NULL;
+  fg_status status = fg_field_create_analytic(&field, context, name, SYNTHETIC_NODES);
+  if (status != FG_STATUS_OK)
+    return status;
+  const fg_field_arrays *arrays = fg_field_contents(field);
+  fg_inventory_vector vector = {.components = arrays->dimension,
+                                .units = arrays->velocity_units,
+                                .found_by = "formula",
+                                .dimension = arrays->dimension,
+                                .times = 1,
+                                .levels = 1,
+                                .scale = arrays->scale};
+  for (int k = 0; k < arrays->dimension; ++k) {
+    vector.name[k] = arrays->velocity_name[k];
+    vector.size[k] = arrays->size[k];
+    vector.bounds[2 * k] = arrays->axis[k][0];
+    vector.bounds[2 * k + 1] = arrays->axis[k][arrays->size[k] - 1];
+  }
+  status = fg__inventory_add(inventory, context, &vector);
+  fg_field_destroy(field);
+  return status;
+}
+
+static fg_status describe_file(fg_inventory **out, fg_context *context, const char *path)
+{
+  fg__source source;
+  const fg__format *format = NULL;
+  fg_status status = fg__source_open(&source, context, path);
+  if (status == FG_STATUS_OK)
+    status = find_format(&format, context, &source);
+  if (status == FG_STATUS_OK)
+    status = fg__inventory_create(out, context, format->name);
+  if (status == FG_STATUS_OK)
+    status = format->inventory(*out, context, &source);
+  fg__source_close(&source);
+  return status;
+}
+
+fg_status fg_inventory_read(fg_inventory **out, fg_context *context, const char *input)
+{
+  if (!out || !input)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "no input to describe");
+  *out = NULL;
+  fg_inventory *inventory = NULL;
+  fg_status status;
+  if (is_synthetic(input)) {
+    status = fg__inventory_create(&inventory, context, "analytic");
+    if (status == FG_STATUS_OK)
+      status = describe_analytic(inventory, context, input + sizeof SYNTHETIC - 1);
+  } else {
+    status = describe_file(&inventory, context, input);
+  }
+  if (status == FG_STATUS_OK)
+    *out = inventory;
+  else
+    fg_inventory_destroy(inventory);
+  return status;
+}
