@@ -1,0 +1,358 @@
+#include "icon/arrow.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Space between the outline and the cluster's border, in spacings: the zero set is known
+ * to about a tenth of a cell, and a tip on the very border looks as if it poked out. */
+static const double MARGIN = 0.35;
+
+/* Readability (in spacings): shorter or narrower is a speck in print. */
+static const double SHORTEST = 3.0;
+static const double NARROWEST_HEAD = 1.2;
+
+/* Largest width in lengths: with it the head takes 22 % of the length. Wider ones are
+ * stubs; a fat cluster does not make a fat arrow. */
+static const double LARGEST_WIDTH = 0.075;
+
+/* Shares of the free way to the border that a body's and a head's half width may take. */
+static const double BODY_SHARE = 0.5;
+static const double HEAD_SHARE = 0.85;
+
+/* Largest half width in radii of curvature, of the body and of the head, and how far the
+ * head may bend (radians): beyond that a head looks like a claw. */
+static const double BODY_BEND = 0.35;
+static const double HEAD_BEND = 0.6;
+static const double HEAD_TURNING = 0.7;
+
+/* What a wider arrow is worth: that many times the relative loss of length. */
+static const double WIDTH_WORTH = 0.3;
+
+/* Widths are tried downwards by this factor. */
+static const double WIDTH_STEP = 0.94;
+
+/* Parts closer together than this (in widths, between outlines) seem to touch. */
+static const double SELF_GAP = 1.0;
+
+/* Only parts that differ by a right angle or more can come near each other. */
+static const double SELF_TURNING = 1.5707963267948966;
+
+/* Stations a line: a head of the widest arrow then spans 9 of them. */
+enum { FEWEST_STATIONS = 40, MOST_STATIONS = 400, CLEARANCE_BISECTIONS = 8 };
+static const double STATION_SPACING = 0.5; /* in spacings of the density */
+
+/* Turn between two points of the centreline, radians, and their distance in spacings. */
+static const double POINT_TURN = 0.017;
+static const double POINT_SPACING = 1.0;
+
+typedef struct span {
+  int first, last; /* stations */
+} span;
+
+/* Free way from a point along a direction, at most `reach`. */
+static double find_clearance(const fg__window *window, const double position[2],
+                             double dx, double dy, double step, double reach)
+{
+  double inside = 0, outside = 0;
+  while (inside < reach) {
+    outside = inside + step;
+    double point[2] = {position[0] + outside * dx, position[1] + outside * dy};
+    if (!(fg__window_level(window, point) > 0))
+      break;
+    inside = outside;
+  }
+  if (inside >= reach)
+    return reach;
+  for (int i = 0; i < CLEARANCE_BISECTIONS; i++) {
+    double middle = (inside + outside) / 2;
+    double point[2] = {position[0] + middle * dx, position[1] + middle * dy};
+    if (fg__window_level(window, point) > 0)
+      inside = middle;
+    else
+      outside = middle;
+  }
+  return inside;
+}
+
+static fg_status place_stations(fg__arrow_workspace *work, fg_context *context,
+                                const fg__streamline *line, double spacing)
+{
+  double length = fg__streamline_length(line);
+  double wanted = ceil(length / (STATION_SPACING * spacing));
+  int intervals = (int)fmin(fmax(wanted, FEWEST_STATIONS), MOST_STATIONS);
+  if (!fg__grow((void **)&work->station, &work->capacity, (size_t)intervals + 1,
+                sizeof *work->station))
+    return fg__fail_memory(context, "an arrow",
+                           ((size_t)intervals + 1) * sizeof *work->station);
+  work->count = intervals + 1;
+  int hint = 0;
+  for (int i = 0; i < work->count; i++) {
+    fg__arrow_station *station = &work->station[i];
+    station->s = length * i / intervals;
+    fg__streamline_at(line, station->s, &hint, station->position, station->tangent);
+  }
+  return FG_STATUS_OK;
+}
+
+static double angle_between(const double a[2], const double b[2])
+{
+  return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
+}
+
+static void measure_stations(fg__arrow_workspace *work, const fg__window *window,
+                             double spacing)
+{
+  fg__arrow_station *station = work->station;
+  int n = work->count;
+  double delta = station[1].s - station[0].s;
+  double reach = FG__HEAD_WIDTH / 2 * LARGEST_WIDTH * station[n - 1].s / HEAD_SHARE +
+                 MARGIN * spacing;
+  station[0].turning = 0;
+  for (int i = 1; i < n; i++)
+    station[i].turning = station[i - 1].turning +
+                         angle_between(station[i - 1].tangent, station[i].tangent);
+  for (int i = 0; i < n; i++) {
+    int before = i > 0 ? i - 1 : i, after = i < n - 1 ? i + 1 : i;
+    station[i].curvature = fabs(station[after].turning - station[before].turning) /
+                           (delta * (after - before));
+    double nx = -station[i].tangent[1], ny = station[i].tangent[0];
+    double left = find_clearance(window, station[i].position, nx, ny, spacing / 2, reach);
+    double right =
+        find_clearance(window, station[i].position, -nx, -ny, spacing / 2, reach);
+    station[i].clearance = fmin(left, right) - MARGIN * spacing;
+  }
+}
+
+/* Half width that an arrow of this width has at distance u from its tip, head only. */
+static double head_half_width(double width, double u)
+{
+  return FG__HEAD_WIDTH * width / 2 * u /
+         (FG__HEAD_LENGTH * width * (1 + FG__HEAD_SWEEP));
+}
+
+/* Distance of two stations less what the outlines there may need. */
+static bool keeps_apart(const fg__arrow_station *a, const fg__arrow_station *b,
+                        double width)
+{
+  if (fabs(a->turning - b->turning) < SELF_TURNING)
+    return true;
+  double least = (0.5 + FG__HEAD_WIDTH / 2 + SELF_GAP) * width;
+  return hypot(a->position[0] - b->position[0], a->position[1] - b->position[1]) > least;
+}
+
+/* Grows a span from the start to both sides, the shorter side first, until the line ends,
+ * would turn by more than an arrow may, or would come near itself. */
+static span grow_span(const fg__arrow_workspace *work, int start, double width,
+                      double end_gap)
+{
+  const fg__arrow_station *station = work->station;
+  double total = station[work->count - 1].s;
+  span span = {start, start};
+  double lowest = station[start].turning, highest = lowest;
+  bool open[2] = {true, true};
+  while (open[0] || open[1]) {
+    int upstream = start - span.first, downstream = span.last - start;
+    int side = open[0] && (!open[1] || upstream <= downstream) ? 0 : 1;
+    int next = side == 0 ? span.first - 1 : span.last + 1;
+    open[side] = false;
+    if (next < 0 || next >= work->count || station[next].s < end_gap ||
+        station[next].s > total - end_gap)
+      continue;
+    double low = fmin(lowest, station[next].turning);
+    double high = fmax(highest, station[next].turning);
+    if (high - low > FG__LARGEST_TURNING)
+      continue;
+    bool apart = true;
+    if (high - low > SELF_TURNING)
+      for (int i = span.first; i <= span.last && apart; i++)
+        apart = keeps_apart(&station[i], &station[next], width);
+    if (!apart)
+      continue;
+    lowest = low;
+    highest = high;
+    open[side] = true;
+    if (side == 0)
+      span.first = next;
+    else
+      span.last = next;
+  }
+  return span;
+}
+
+/* Whether the head fits with its tip at a station; *base is the station where it begins.
+ */
+static bool head_fits(const fg__arrow_workspace *work, int first, int tip, double width,
+                      int *base)
+{
+  const fg__arrow_station *station = work->station;
+  double length = FG__HEAD_LENGTH * width;
+  int i = tip;
+  for (; i >= first; i--) {
+    double u = station[tip].s - station[i].s;
+    double w = head_half_width(width, u);
+    if (w > HEAD_SHARE * station[i].clearance || station[i].clearance < 0 ||
+        w * station[i].curvature > HEAD_BEND)
+      return false;
+    if (u <= length)
+      *base = i;
+    /* one station past the barbs, so that their own place is between tested ones */
+    if (u > length * (1 + FG__HEAD_SWEEP))
+      break;
+  }
+  return i >= first &&
+         fabs(station[tip].turning - station[*base].turning) <= HEAD_TURNING;
+}
+
+/* Whether the whole taper fits from a tail to the head's base. */
+static bool body_fits(const fg__arrow_workspace *work, int tail, int base, double width)
+{
+  const fg__arrow_station *station = work->station;
+  double length = station[base].s - station[tail].s;
+  for (int i = tail; i <= base; i++) {
+    double t = length > 0 ? (station[i].s - station[tail].s) / length : 1;
+    double w = width / 2 * (FG__TAIL_WIDTH + (1 - FG__TAIL_WIDTH) * t);
+    if (w > BODY_SHARE * station[i].clearance || w * station[i].curvature > BODY_BEND)
+      return false;
+  }
+  return true;
+}
+
+/* The most upstream tail from which the body fits, or base when there is none. */
+static int find_tail(const fg__arrow_workspace *work, int first, int base, double width)
+{
+  const fg__arrow_station *station = work->station;
+  double thinnest = width / 2 * FG__TAIL_WIDTH;
+  int tail = base;
+  while (tail > first && station[tail - 1].clearance * BODY_SHARE >= thinnest &&
+         station[tail - 1].curvature * thinnest <= BODY_BEND)
+    tail--;
+  while (tail < base && !body_fits(work, tail, base, width))
+    tail++;
+  return tail;
+}
+
+/* Longest arrow of one width within a span; false when there is none long enough. */
+static bool find_longest(const fg__arrow_workspace *work, span span, double width,
+                         double shortest, int *tail, int *tip)
+{
+  const fg__arrow_station *station = work->station;
+  double best = 0;
+  for (int end = span.last; end > span.first; end--) {
+    if (station[end].s - station[span.first].s <= best)
+      break;
+    int base = end;
+    if (!head_fits(work, span.first, end, width, &base))
+      continue;
+    int begin = find_tail(work, span.first, base, width);
+    double length = station[end].s - station[begin].s;
+    if (begin < base && length > best) {
+      best = length;
+      *tail = begin;
+      *tip = end;
+    }
+  }
+  return best >= shortest && best > 0;
+}
+
+static double turning_range(const fg__arrow_workspace *work, int first, int last)
+{
+  double low = work->station[first].turning, high = low;
+  for (int i = first; i <= last; i++) {
+    low = fmin(low, work->station[i].turning);
+    high = fmax(high, work->station[i].turning);
+  }
+  return high - low;
+}
+
+fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
+                        const fg__streamline *streamline, const fg__window *window,
+                        double spacing, fg__arrow_workspace *workspace)
+{
+  *out = (fg__arrow){0};
+  double length = fg__streamline_length(streamline);
+  if (length < SHORTEST * spacing)
+    return FG_STATUS_OK;
+  fg_status status = place_stations(workspace, context, streamline, spacing);
+  if (status != FG_STATUS_OK)
+    return status;
+  measure_stations(workspace, window, spacing);
+
+  const fg__arrow_station *station = workspace->station;
+  int start = (int)lround(streamline->node[streamline->start].s / length *
+                          (workspace->count - 1));
+  double narrowest = NARROWEST_HEAD * spacing / FG__HEAD_WIDTH;
+  double best = 0;
+  for (double width = LARGEST_WIDTH * length; width >= narrowest; width *= WIDTH_STEP) {
+    /* no narrower arrow can be better than this one */
+    if (length * pow(width / spacing, WIDTH_WORTH) <= best)
+      break;
+    span span = grow_span(workspace, start, width, MARGIN * spacing);
+    double shortest = fmax(SHORTEST * spacing, width / LARGEST_WIDTH);
+    int tail = 0, tip = 0;
+    if (!find_longest(workspace, span, width, shortest, &tail, &tip))
+      continue;
+    double worth = (station[tip].s - station[tail].s) * pow(width / spacing, WIDTH_WORTH);
+    if (worth > best) {
+      best = worth;
+      *out = (fg__arrow){station[tail].s, station[tip].s, width,
+                         turning_range(workspace, tail, tip)};
+    }
+  }
+  return FG_STATUS_OK;
+}
+
+void fg__arrow_workspace_clear(fg__arrow_workspace *workspace)
+{
+  free(workspace->station);
+  *workspace = (fg__arrow_workspace){0};
+}
+
+/* Number of straight pieces for a part of one segment of the streamline. */
+static int count_pieces(const fg__streamline_node *from, const fg__streamline_node *to,
+                        double length, double spacing)
+{
+  double turn = fabs(to->turning - from->turning) * length / (to->s - from->s);
+  double pieces = fmax(turn / POINT_TURN, length / (POINT_SPACING * spacing));
+  return (int)fmax(ceil(pieces - 1e-9), 1);
+}
+
+fg_status fg__arrow_centerline(double (**points)[3], int *count, fg_context *context,
+                               const fg__streamline *streamline, const fg__arrow *arrow,
+                               double spacing)
+{
+  const fg__streamline_node *node = streamline->node;
+  size_t capacity = 0, used = 0;
+  double(*point)[3] = NULL;
+  double tangent[2];
+  int hint = 0;
+  /* pieces much shorter than a point's spacing come from steps cut at the ends */
+  double least = 1e-3 * spacing;
+  for (int i = 0; i + 1 < streamline->count; i++) {
+    double from = fmax(node[i].s, arrow->tail), to = fmin(node[i + 1].s, arrow->tip);
+    if (to - from < least)
+      continue;
+    int pieces = count_pieces(&node[i], &node[i + 1], to - from, spacing);
+    if (!fg__grow((void **)&point, &capacity, used + (size_t)pieces + 1, sizeof *point)) {
+      free(point);
+      return fg__fail_memory(context, "an arrow's centreline",
+                             (used + (size_t)pieces + 1) * sizeof *point);
+    }
+    for (int k = 0; k < pieces; k++, used++)
+      fg__streamline_at(streamline, from + (to - from) * k / pieces, &hint, point[used],
+                        tangent);
+  }
+  if (!point) {
+    *points = NULL;
+    *count = 0;
+    return FG_STATUS_OK;
+  }
+  fg__streamline_at(streamline, arrow->tip, &hint, point[used], tangent);
+  used++;
+  for (size_t i = 0; i < used; i++)
+    point[i][2] = 0;
+  *points = point;
+  *count = (int)used;
+  return FG_STATUS_OK;
+}

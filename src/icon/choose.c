@@ -1,0 +1,270 @@
+#include "icon/choose.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Points of the cluster that the arrow is compared with; more change the choice no more.
+ */
+enum { SAMPLES = 200, ARROW_SAMPLES = 48 };
+
+/* Other places on the spine to start from, in parts of its length. */
+static const double PLACES[] = {0.35, 0.65, 0.2, 0.8, 0.1, 0.9};
+static const double RING_PLACES[] = {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875};
+
+/* Starts beside the centre, in distances to the border there; at half radius an arrow
+ * round the core of a vortex has as much room inside as outside. */
+static const double ASIDE[] = {0.35, -0.35, 0.6, -0.6};
+static const double HALF_RADIUS = 0.5;
+
+/* A cluster whose spine is shorter than this many of its radii is a disc: the spine has
+ * no direction worth the name. */
+static const double DISC = 2.0;
+
+/* The best line so far is shifted sideways by this share of the distance to the border,
+ * then by half of it. */
+static const double SHIFT = 0.24;
+enum { SHIFTS = 2 };
+
+/* A choice that keeps 10 % more distance from the cluster's points is as good when its
+ * arrow is twice as wide. */
+static const double WIDTH_WORTH = 0.14;
+
+typedef struct search {
+  fg__chooser *chooser;
+  fg_context *context;
+  const fg_field *field;
+  const fg__window *window;
+  const double *distance;
+  double spacing;
+  fg__streamline_limits limits;
+  fg__arrow arrow; /* best so far */
+  double cost;
+} search;
+
+/* Longest step: no longer than a cell of the data, where the bilinear field has its
+ * bends. */
+static double step_limit(const fg_field *field, const fg__window *window)
+{
+  const fg_field_arrays *contents = fg_field_contents(field);
+  double step = fmin(window->spacing[0], window->spacing[1]);
+  for (int a = 0; a < 2; a++) {
+    int n = contents->size[a];
+    step = fmin(step, (contents->axis[a][n - 1] - contents->axis[a][0]) / (n - 1));
+  }
+  return step;
+}
+
+static double distance_at(const search *search, const double position[2])
+{
+  const fg__window *window = search->window;
+  int cell[2];
+  double fraction[2];
+  for (int a = 0; a < 2; a++) {
+    double x = (position[a] - window->origin[a]) / window->spacing[a];
+    x = fmin(fmax(x, 0), window->nodes[a] - 1);
+    cell[a] = (int)fmin(floor(x), window->nodes[a] - 2);
+    fraction[a] = x - cell[a];
+  }
+  const double *d = search->distance + cell[1] * window->nodes[0] + cell[0];
+  double lower = d[0] + (d[1] - d[0]) * fraction[0];
+  d += window->nodes[0];
+  double upper = d[0] + (d[1] - d[0]) * fraction[0];
+  return lower + (upper - lower) * fraction[1];
+}
+
+/* Nodes inside the cluster, every stride-th along both axes. */
+static fg_status collect_samples(const search *search)
+{
+  const fg__window *window = search->window;
+  fg__chooser *chooser = search->chooser;
+  size_t nodes = (size_t)window->nodes[0] * (size_t)window->nodes[1], inside = 0;
+  for (size_t i = 0; i < nodes; i++)
+    inside += window->level[i] > 0;
+  int stride = (int)ceil(sqrt((double)inside / SAMPLES));
+  if (stride < 1)
+    stride = 1;
+  chooser->sample_count = 0;
+  for (int j = (window->nodes[1] - 1) % stride / 2; j < window->nodes[1]; j += stride)
+    for (int i = (window->nodes[0] - 1) % stride / 2; i < window->nodes[0]; i += stride) {
+      if (!(window->level[j * window->nodes[0] + i] > 0))
+        continue;
+      if (!fg__grow((void **)&chooser->sample, &chooser->sample_capacity,
+                    (size_t)chooser->sample_count + 1, sizeof *chooser->sample))
+        return fg__fail_memory(search->context, "points of a cluster",
+                               ((size_t)chooser->sample_count + 1) *
+                                   sizeof *chooser->sample);
+      double *sample = chooser->sample[chooser->sample_count++];
+      sample[0] = window->origin[0] + i * window->spacing[0];
+      sample[1] = window->origin[1] + j * window->spacing[1];
+    }
+  return FG_STATUS_OK;
+}
+
+/* Root of the mean square distance from the cluster's points to the arrow on the line
+ * just tried, weighed with its width. */
+static double cost_of(const search *search, const fg__arrow *arrow)
+{
+  const fg__chooser *chooser = search->chooser;
+  double line[ARROW_SAMPLES][2], tangent[2], sum = 0;
+  int hint = 0;
+  for (int k = 0; k < ARROW_SAMPLES; k++) {
+    double s = arrow->tail + (arrow->tip - arrow->tail) * k / (ARROW_SAMPLES - 1);
+    fg__streamline_at(&chooser->tried, s, &hint, line[k], tangent);
+  }
+  for (int i = 0; i < chooser->sample_count; i++) {
+    double nearest = HUGE_VAL;
+    for (int k = 0; k < ARROW_SAMPLES; k++) {
+      double dx = line[k][0] - chooser->sample[i][0];
+      double dy = line[k][1] - chooser->sample[i][1];
+      nearest = fmin(nearest, dx * dx + dy * dy);
+    }
+    sum += nearest;
+  }
+  double rms = sqrt(sum / fmax(chooser->sample_count, 1));
+  return rms / pow(arrow->width, WIDTH_WORTH);
+}
+
+/* Tries the streamline through a point. */
+static fg_status consider(search *search, double x, double y)
+{
+  fg__chooser *chooser = search->chooser;
+  double start[2] = {x, y};
+  fg_status status = fg__streamline_trace(&chooser->tried, search->context, search->field,
+                                          search->window, start, &search->limits);
+  if (status != FG_STATUS_OK || chooser->tried.count < 2)
+    return status;
+  fg__arrow arrow;
+  status = fg__arrow_fit(&arrow, search->context, &chooser->tried, search->window,
+                         search->spacing, &chooser->workspace);
+  if (status != FG_STATUS_OK || !(arrow.width > 0))
+    return status;
+  double cost = cost_of(search, &arrow);
+  if (cost < search->cost) {
+    fg__streamline line = chooser->best;
+    chooser->best = chooser->tried;
+    chooser->tried = line;
+    search->cost = cost;
+    search->arrow = arrow;
+  }
+  return FG_STATUS_OK;
+}
+
+/* Tries points at multiples of a radius beside a point, along a direction. */
+static fg_status consider_aside(search *search, const double center[2],
+                                const double direction[2], double radius,
+                                const double *multiple, size_t count)
+{
+  fg_status status = FG_STATUS_OK;
+  for (size_t i = 0; i < count && status == FG_STATUS_OK; i++)
+    status = consider(search, center[0] + multiple[i] * radius * direction[0],
+                      center[1] + multiple[i] * radius * direction[1]);
+  return status;
+}
+
+/* Unit normal of the flow; the first axis where there is no flow. */
+static void find_normal(const search *search, const double position[2], double normal[2])
+{
+  double tangent[3] = {0}, size = 0;
+  if (fg_field_tangent(search->field, position, tangent))
+    size = hypot(tangent[0], tangent[1]);
+  normal[0] = size > 0 ? -tangent[1] / size : 1;
+  normal[1] = size > 0 ? tangent[0] / size : 0;
+}
+
+static fg_status consider_spine(search *search, const fg__spine *spine)
+{
+  const double *place = spine->closed ? RING_PLACES : PLACES;
+  size_t count = spine->closed ? sizeof RING_PLACES / sizeof *RING_PLACES
+                               : sizeof PLACES / sizeof *PLACES;
+  fg_status status = FG_STATUS_OK;
+  for (size_t i = 0; i < count && status == FG_STATUS_OK; i++) {
+    int index = (int)lround(place[i] * (spine->count - 1));
+    if (spine->closed)
+      index = (spine->center + index) % spine->count;
+    status = consider(search, spine->point[index][0], spine->point[index][1]);
+  }
+  return status;
+}
+
+static fg_status consider_center(search *search, const double center[2], double radius,
+                                 bool disc)
+{
+  static const double around[] = {HALF_RADIUS, -HALF_RADIUS};
+  fg_status status = consider(search, center[0], center[1]);
+  if (status != FG_STATUS_OK)
+    return status;
+  double normal[2];
+  find_normal(search, center, normal);
+  status =
+      consider_aside(search, center, normal, radius, ASIDE, sizeof ASIDE / sizeof *ASIDE);
+  if (status == FG_STATUS_OK && disc) {
+    double along[2] = {normal[1], -normal[0]};
+    status = consider_aside(search, center, normal, radius, around, 2);
+    if (status == FG_STATUS_OK)
+      status = consider_aside(search, center, along, radius, around, 2);
+  }
+  return status;
+}
+
+/* Shifts the best line to either side of its middle. */
+static fg_status refine(search *search, double radius)
+{
+  double share = SHIFT;
+  fg_status status = FG_STATUS_OK;
+  for (int i = 0; i < SHIFTS && status == FG_STATUS_OK && search->arrow.width > 0; i++) {
+    double middle = (search->arrow.tail + search->arrow.tip) / 2;
+    double position[2], tangent[2];
+    fg__streamline_at(&search->chooser->best, middle, NULL, position, tangent);
+    double normal[2] = {-tangent[1], tangent[0]};
+    double local = fmax(distance_at(search, position), radius / 2);
+    double both[] = {share, -share};
+    status = consider_aside(search, position, normal, local, both, 2);
+    share /= 2;
+  }
+  return status;
+}
+
+fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *context,
+                           const fg_field *field, const fg__window *window,
+                           const double *distance, const fg__spine *spine)
+{
+  *arrow = (fg__arrow){0};
+  if (spine->count < 1)
+    return FG_STATUS_OK;
+  search search = {.chooser = chooser,
+                   .context = context,
+                   .field = field,
+                   .window = window,
+                   .distance = distance,
+                   .spacing = fmin(window->spacing[0], window->spacing[1]),
+                   .cost = HUGE_VAL};
+  search.limits =
+      (fg__streamline_limits){.step = step_limit(field, window),
+                              .length = 4 * (window->nodes[0] * window->spacing[0] +
+                                             window->nodes[1] * window->spacing[1]),
+                              .turning = FG__LARGEST_TURNING};
+  fg_status status = collect_samples(&search);
+  if (status != FG_STATUS_OK)
+    return status;
+
+  const double *center = spine->point[spine->center];
+  double radius = distance_at(&search, center);
+  status = consider_center(&search, center, radius, spine->length < DISC * radius);
+  if (status == FG_STATUS_OK)
+    status = consider_spine(&search, spine);
+  if (status == FG_STATUS_OK)
+    status = refine(&search, radius);
+  *arrow = search.arrow;
+  return status;
+}
+
+void fg__chooser_clear(fg__chooser *chooser)
+{
+  fg__streamline_clear(&chooser->best);
+  fg__streamline_clear(&chooser->tried);
+  fg__arrow_workspace_clear(&chooser->workspace);
+  free(chooser->sample);
+  *chooser = (fg__chooser){0};
+}

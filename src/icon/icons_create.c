@@ -1,0 +1,277 @@
+#include "icon/choose.h"
+#include "icon/icons.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+/* An arrow round more than two thirds of a turn is a ring. */
+static const double RING_TURNING = 4.19;
+
+/* The outline is tested at its vertices and between them, at least this close (in
+ * spacings of the density); an arrow that fails is made narrower this many times before
+ * it is given up. */
+static const double TEST_SPACING = 0.25;
+static const double NARROWER = 0.9;
+enum { NARROWINGS = 8, MOST_THREADS = 64 };
+
+/* What all threads share; each takes the next cluster until there is none. */
+typedef struct job {
+  const fg_field *field;
+  const fg_density_arrays *density;
+  const fg__labels *labels;
+  fg_icon *icon; /* [labels->count]; points owned, NULL where no arrow fits */
+  atomic_int next;
+  atomic_bool halted; /* a thread failed or the caller wants to stop */
+} job;
+
+typedef struct worker {
+  job *job;
+  fg_context *context; /* its own: a context is for one thread at a time */
+  fg_context *caller;  /* the caller's, on the caller's own thread, else NULL */
+  fg_status status;
+  pthread_t thread;
+  bool started;
+} worker;
+
+static bool edge_is_inside(const fg__window *window, const double a[2], const double b[2],
+                           double spacing)
+{
+  int pieces = (int)ceil(hypot(b[0] - a[0], b[1] - a[1]) / (TEST_SPACING * spacing)) + 1;
+  for (int i = 0; i < pieces; i++) {
+    double t = (double)i / pieces;
+    double point[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
+    if (!(fg__window_level(window, point) > 0))
+      return false;
+  }
+  return true;
+}
+
+static fg_status outline_is_inside(bool *inside, fg_context *context, const fg_icon *icon,
+                                   const fg__window *window, double spacing)
+{
+  double(*vertices)[2];
+  int count;
+  fg_status status = fg_icon_outline(icon, &vertices, &count);
+  if (status != FG_STATUS_OK)
+    return fg__fail(context, status, "the outline of an arrow of %d points: %s",
+                    icon->point_count, fg_status_name(status));
+  *inside = true;
+  for (int i = 0; i < count && *inside; i++)
+    *inside = edge_is_inside(window, vertices[i], vertices[(i + 1) % count], spacing);
+  free(vertices);
+  return FG_STATUS_OK;
+}
+
+static void set_width(fg_icon *icon, double width)
+{
+  icon->width = width;
+  icon->tail_width = FG__TAIL_WIDTH * width;
+  icon->head_length = FG__HEAD_LENGTH * width;
+  icon->head_width = FG__HEAD_WIDTH * width;
+}
+
+/* The point of the centreline nearest to the spine's centre. */
+static void set_center(fg_icon *icon, const double center[2])
+{
+  double nearest = HUGE_VAL;
+  for (int i = 0; i + 1 < icon->point_count; i++) {
+    const double *p = icon->points[i], *q = icon->points[i + 1];
+    double dx = q[0] - p[0], dy = q[1] - p[1];
+    double t = ((center[0] - p[0]) * dx + (center[1] - p[1]) * dy) / (dx * dx + dy * dy);
+    t = fmin(fmax(t, 0), 1);
+    double x = p[0] + t * dx, y = p[1] + t * dy;
+    double distance = hypot(center[0] - x, center[1] - y);
+    if (distance < nearest) {
+      nearest = distance;
+      icon->center[0] = x;
+      icon->center[1] = y;
+    }
+  }
+}
+
+/* Mean of |v| by arc length, trapezoidal. */
+static double mean_speed(const fg_field *field, const fg_icon *icon)
+{
+  double sum = 0, length = 0, before = 0;
+  for (int i = 0; i < icon->point_count; i++) {
+    double velocity[3] = {0}, speed = before;
+    if (fg_field_velocity(field, icon->points[i], velocity))
+      speed = hypot(velocity[0], velocity[1]);
+    if (i > 0) {
+      double piece = hypot(icon->points[i][0] - icon->points[i - 1][0],
+                           icon->points[i][1] - icon->points[i - 1][1]);
+      sum += piece * (speed + before) / 2;
+      length += piece;
+    }
+    before = speed;
+  }
+  return length > 0 ? sum / length : 0;
+}
+
+/* Turns a chosen arrow into an icon, narrowed until its real outline lies inside. */
+static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *field,
+                            const fg__window *window, const fg__streamline *line,
+                            const fg__arrow *arrow, const double center[2])
+{
+  double spacing = fmin(window->spacing[0], window->spacing[1]);
+  double(*points)[3] = NULL;
+  fg_status status =
+      fg__arrow_centerline(&points, &icon->point_count, context, line, arrow, spacing);
+  if (status != FG_STATUS_OK || icon->point_count < 2)
+    return status;
+  icon->points = (const double(*)[3])points;
+  icon->kind = arrow->turning >= RING_TURNING ? FG_ICON_RING : FG_ICON_ARROW;
+  bool inside = false;
+  double width = arrow->width;
+  for (int i = 0; i < NARROWINGS && !inside && status == FG_STATUS_OK; i++) {
+    set_width(icon, width);
+    status = outline_is_inside(&inside, context, icon, window, spacing);
+    width *= NARROWER;
+  }
+  if (!inside || status != FG_STATUS_OK) {
+    free(points);
+    icon->points = NULL;
+    return status;
+  }
+  set_center(icon, center);
+  icon->speed = mean_speed(field, icon);
+  return FG_STATUS_OK;
+}
+
+static fg_status make_icon(job *job, fg_context *context, fg__chooser *chooser, int index)
+{
+  fg__window window = {0};
+  fg__spine spine = {0};
+  fg__arrow arrow;
+  double *distance = NULL;
+  fg_status status =
+      fg__window_create(&window, context, job->density, job->labels, index + 1);
+  if (status != FG_STATUS_OK)
+    goto cleanup;
+  size_t nodes = (size_t)window.nodes[0] * (size_t)window.nodes[1];
+  distance = fg__allocate(nodes, sizeof *distance);
+  if (!distance) {
+    status = fg__fail_memory(context, "a distance map", nodes * sizeof *distance);
+    goto cleanup;
+  }
+  /* the domain's border counts: an arrow there needs room for its head like elsewhere */
+  status = fg__march(distance, context, &window, true);
+  if (status == FG_STATUS_OK)
+    status = fg__spine_create(&spine, context, &window, distance);
+  if (status == FG_STATUS_OK)
+    status =
+        fg__choose_arrow(&arrow, chooser, context, job->field, &window, distance, &spine);
+  if (status != FG_STATUS_OK || !(arrow.width > 0))
+    goto cleanup;
+  fg_icon *icon = &job->icon[index];
+  icon->cluster = index + 1;
+  icon->area = job->labels->area[index];
+  status = build_icon(icon, context, job->field, &window, &chooser->best, &arrow,
+                      spine.point[spine.center]);
+cleanup:
+  free(distance);
+  fg__spine_clear(&spine);
+  fg__window_clear(&window);
+  return status;
+}
+
+static void *work(void *argument)
+{
+  worker *worker = argument;
+  job *job = worker->job;
+  fg__chooser chooser = {0};
+  while (worker->status == FG_STATUS_OK && !atomic_load(&job->halted)) {
+    int index = atomic_fetch_add(&job->next, 1);
+    if (index >= job->labels->count)
+      break;
+    if (worker->caller)
+      worker->status = fg__check_stop(worker->caller);
+    if (worker->status == FG_STATUS_OK)
+      worker->status = make_icon(job, worker->context, &chooser, index);
+  }
+  if (worker->status != FG_STATUS_OK)
+    atomic_store(&job->halted, true);
+  fg__chooser_clear(&chooser);
+  return NULL;
+}
+
+/* The caller's thread is the first worker; one that cannot be started is done without. */
+static fg_status run_workers(job *job, fg_context *context, int threads)
+{
+  worker workers[MOST_THREADS] = {0};
+  workers[0] = (worker){.job = job, .context = context, .caller = context};
+  fg_status status = FG_STATUS_OK;
+  for (int i = 1; i < threads; i++) {
+    worker *worker = &workers[i];
+    worker->job = job;
+    if (fg_context_create(&worker->context) != FG_STATUS_OK)
+      continue;
+    worker->started = pthread_create(&worker->thread, NULL, work, worker) == 0;
+  }
+  work(&workers[0]);
+  status = workers[0].status;
+  for (int i = 1; i < threads; i++) {
+    worker *worker = &workers[i];
+    if (worker->started)
+      pthread_join(worker->thread, NULL);
+    if (worker->status != FG_STATUS_OK && status == FG_STATUS_OK)
+      status =
+          fg__fail(context, worker->status, "%s", fg_context_message(worker->context));
+    fg_context_destroy(worker->context);
+  }
+  return status;
+}
+
+fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *field,
+                          const fg_density *density, const fg_icon_options *options)
+{
+  if (!out || !field || !density)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "icons: no %s given",
+                    !out     ? "place for the result"
+                    : !field ? "field"
+                             : "density");
+  *out = NULL;
+  int threads = options && options->threads > 0 ? options->threads : 1;
+  fg__labels labels = {0};
+  fg_icons *icons = NULL;
+  job job = {.field = field, .density = fg_density_contents(density), .labels = &labels};
+  fg_status status = fg__labels_create(&labels, context, job.density);
+  if (status != FG_STATUS_OK)
+    return status;
+  job.icon = fg__allocate((size_t)labels.count, sizeof *job.icon);
+  if (!job.icon) {
+    status =
+        fg__fail_memory(context, "the icons", (size_t)labels.count * sizeof(fg_icon));
+    goto cleanup;
+  }
+  if (threads > MOST_THREADS)
+    threads = MOST_THREADS;
+  if (threads > labels.count)
+    threads = labels.count > 0 ? labels.count : 1;
+  status = run_workers(&job, context, threads);
+  if (status == FG_STATUS_OK)
+    status = fg__icons_create_empty(&icons, context);
+  int drawn = 0;
+  for (int i = 0; i < labels.count && status == FG_STATUS_OK; i++)
+    if (job.icon[i].points) {
+      status = fg__icons_add(icons, context, &job.icon[i]);
+      drawn++;
+    }
+  if (status != FG_STATUS_OK)
+    goto cleanup;
+  fg__icons_set_clusters(icons, labels.count, labels.count - drawn);
+  *out = icons;
+  icons = NULL;
+cleanup:
+  if (job.icon)
+    for (int i = 0; i < labels.count; i++)
+      free((void *)(uintptr_t)job.icon[i].points);
+  free(job.icon);
+  fg_icons_destroy(icons);
+  fg__labels_clear(&labels);
+  return status;
+}

@@ -1,0 +1,290 @@
+#include "icon/streamline.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Local error allowed a step, in longest steps. A step is at most a cell of the raster,
+ * so 100 steps stray by less than 0.03 cells: far below what a print shows. */
+static const double TOLERANCE = 3e-4;
+
+/* Shortest step, in longest steps; where the direction turns by more than LARGEST_TURN in
+ * it, the radius of curvature is below 0.02 cells: a singular point or line of the
+ * direction. */
+static const double SHORTEST_STEP = 1e-2;
+static const double LARGEST_TURN_COSINE = 0.866; /* 30 degrees a step */
+
+/* Below this share of the speed at the start the flow stands still. */
+static const double STANDSTILL = 1e-6;
+
+/* Guards against a line that goes on by shortest steps only. */
+enum { LARGEST_NODE_COUNT = 20000, BISECTIONS = 24 };
+
+typedef struct tracer {
+  const fg_field *field;
+  const fg__window *window;
+  const fg__streamline_limits *limits;
+  double standstill; /* speed in units of fg_field_tangent */
+  double sign;       /* +1 with the flow, -1 against it */
+} tracer;
+
+typedef struct trial {
+  double position[2];
+  double direction[2];
+  double error;
+} trial;
+
+static double dot(const double a[2], const double b[2])
+{
+  return a[0] * b[0] + a[1] * b[1];
+}
+
+/* Unit vector of the way to go; false outside the domain and where the flow stands still.
+ */
+static bool find_direction(const tracer *tracer, const double position[2],
+                           double direction[2])
+{
+  double tangent[3] = {0};
+  if (!fg_field_tangent(tracer->field, position, tangent))
+    return false;
+  double speed = hypot(tangent[0], tangent[1]);
+  if (!(speed > tracer->standstill))
+    return false;
+  direction[0] = tracer->sign * tangent[0] / speed;
+  direction[1] = tracer->sign * tangent[1] / speed;
+  return true;
+}
+
+/* One step of the 3(2) pair from a position with known direction; false when a stage has
+ * no direction or turns too far. */
+static bool try_step(const tracer *tracer, const double from[2], const double k1[2],
+                     double step, trial *out)
+{
+  double k2[2], k3[2], point[2];
+  for (int a = 0; a < 2; a++)
+    point[a] = from[a] + step * k1[a] / 2;
+  if (!find_direction(tracer, point, k2) || dot(k1, k2) < LARGEST_TURN_COSINE)
+    return false;
+  for (int a = 0; a < 2; a++)
+    point[a] = from[a] + step * k2[a] * 3 / 4;
+  if (!find_direction(tracer, point, k3) || dot(k1, k3) < LARGEST_TURN_COSINE)
+    return false;
+  for (int a = 0; a < 2; a++)
+    out->position[a] = from[a] + step * (2 * k1[a] + 3 * k2[a] + 4 * k3[a]) / 9;
+  const double *k4 = out->direction;
+  if (!find_direction(tracer, out->position, out->direction) ||
+      dot(k1, k4) < LARGEST_TURN_COSINE)
+    return false;
+  double error[2];
+  for (int a = 0; a < 2; a++)
+    error[a] = step * (-5 * k1[a] + 6 * k2[a] + 8 * k3[a] - 9 * k4[a]) / 72;
+  out->error = hypot(error[0], error[1]);
+  return true;
+}
+
+/* Cubic Hermite between two points with unit tangents, a length apart along the curve. */
+static void interpolate(const double p[2], const double d[2], const double q[2],
+                        const double e[2], double length, double fraction,
+                        double position[2], double tangent[2])
+{
+  double t = fraction, u = 1 - t;
+  double slope[2];
+  for (int a = 0; a < 2; a++) {
+    position[a] = u * u * (1 + 2 * t) * p[a] + t * t * (3 - 2 * t) * q[a] +
+                  length * (u * u * t * d[a] - t * t * u * e[a]);
+    slope[a] = 6 * t * u * (q[a] - p[a]) +
+               length * (u * (1 - 3 * t) * d[a] + t * (3 * t - 2) * e[a]);
+  }
+  double size = hypot(slope[0], slope[1]);
+  if (!(size > 0)) {
+    slope[0] = d[0];
+    slope[1] = d[1];
+    size = 1;
+  }
+  tangent[0] = slope[0] / size;
+  tangent[1] = slope[1] / size;
+}
+
+static bool is_inside(const tracer *tracer, const double position[2])
+{
+  return fg__window_level(tracer->window, position) > 0;
+}
+
+/* Largest fraction of the step that is still inside, by bisection on the dense output. */
+static double find_border(const tracer *tracer, const fg__streamline_node *from,
+                          const trial *to, double step, double outside)
+{
+  double inside = 0;
+  for (int i = 0; i < BISECTIONS; i++) {
+    double middle = (inside + outside) / 2, position[2], tangent[2];
+    interpolate(from->position, from->tangent, to->position, to->direction, step, middle,
+                position, tangent);
+    if (is_inside(tracer, position))
+      inside = middle;
+    else
+      outside = middle;
+  }
+  return inside;
+}
+
+static fg_status add_node(fg__streamline *line, fg_context *context,
+                          const fg__streamline_node *node)
+{
+  if (!fg__grow((void **)&line->node, &line->capacity, (size_t)line->count + 1,
+                sizeof *node))
+    return fg__fail_memory(context, "a streamline",
+                           ((size_t)line->count + 1) * sizeof *node);
+  line->node[line->count++] = *node;
+  return FG_STATUS_OK;
+}
+
+/* The node that ends a step, at a fraction of it. */
+static fg__streamline_node node_after(const fg__streamline_node *from, const trial *to,
+                                      double step, double fraction)
+{
+  fg__streamline_node node = {.s = from->s + step * fraction};
+  interpolate(from->position, from->tangent, to->position, to->direction, step, fraction,
+              node.position, node.tangent);
+  double cross = from->tangent[0] * node.tangent[1] - from->tangent[1] * node.tangent[0];
+  node.turning = from->turning + atan2(cross, dot(from->tangent, node.tangent));
+  return node;
+}
+
+/* Goes one way from the last node; directions, s and turning are those of the way gone.
+ */
+static fg_status trace_one_way(fg__streamline *line, fg_context *context,
+                               const tracer *tracer, fg__streamline_end *end)
+{
+  const fg__streamline_limits *limits = tracer->limits;
+  fg__streamline_node last = line->node[line->count - 1];
+  double first_s = last.s, lowest = last.turning, highest = last.turning;
+  double step = limits->step;
+  for (int steps = 0; steps < LARGEST_NODE_COUNT; steps++) {
+    trial next;
+    double allowed = TOLERANCE * limits->step;
+    while (!try_step(tracer, last.position, last.tangent, step, &next) ||
+           next.error > allowed) {
+      if (step <= SHORTEST_STEP * limits->step) {
+        *end = FG__STREAMLINE_SINGULAR;
+        return FG_STATUS_OK;
+      }
+      step = fmax(step / 2, SHORTEST_STEP * limits->step);
+    }
+    fg__streamline_node middle = node_after(&last, &next, step, 0.5);
+    double fraction = 1;
+    if (!is_inside(tracer, middle.position))
+      fraction = find_border(tracer, &last, &next, step, 0.5);
+    else if (!is_inside(tracer, next.position))
+      fraction = find_border(tracer, &last, &next, step, 1);
+    fg__streamline_node node = node_after(&last, &next, step, fraction);
+    if (fraction > 0) {
+      fg_status status = add_node(line, context, &node);
+      if (status != FG_STATUS_OK)
+        return status;
+    }
+    if (fraction < 1) {
+      *end = FG__STREAMLINE_LEFT;
+      return FG_STATUS_OK;
+    }
+    last = node;
+    lowest = fmin(lowest, node.turning);
+    highest = fmax(highest, node.turning);
+    if (highest - lowest >= limits->turning) {
+      *end = FG__STREAMLINE_TURNED;
+      return FG_STATUS_OK;
+    }
+    if (node.s - first_s >= limits->length)
+      break;
+    /* the error of the pair grows with the third power of the step */
+    double growth = 0.9 * cbrt(allowed / fmax(next.error, 1e-3 * allowed));
+    step = fmin(fmax(step * fmin(growth, 2), SHORTEST_STEP * limits->step), limits->step);
+  }
+  *end = FG__STREAMLINE_LONG;
+  return FG_STATUS_OK;
+}
+
+/* Turns a line gone against the flow round, so that it arrives at the start point. */
+static void reverse(fg__streamline *line)
+{
+  double length = line->node[line->count - 1].s;
+  double turned = line->node[line->count - 1].turning;
+  for (int i = 0, j = line->count - 1; i <= j; i++, j--) {
+    fg__streamline_node first = line->node[i], last = line->node[j];
+    line->node[i] = last;
+    line->node[j] = first;
+  }
+  for (int i = 0; i < line->count; i++) {
+    fg__streamline_node *node = &line->node[i];
+    node->s = length - node->s;
+    /* the angle of the reversed tangent is half a turn more: the same differences */
+    node->turning = node->turning - turned;
+    node->tangent[0] = -node->tangent[0];
+    node->tangent[1] = -node->tangent[1];
+  }
+}
+
+fg_status fg__streamline_trace(fg__streamline *out, fg_context *context,
+                               const fg_field *field, const fg__window *window,
+                               const double start[2], const fg__streamline_limits *limits)
+{
+  out->count = 0;
+  out->start = 0;
+  if (!(fg__window_level(window, start) > 0))
+    return FG_STATUS_OK;
+  double tangent[3] = {0};
+  if (!fg_field_tangent(field, start, tangent))
+    return FG_STATUS_OK;
+  double speed = hypot(tangent[0], tangent[1]);
+  if (!(speed > 0) || !isfinite(speed))
+    return FG_STATUS_OK;
+
+  tracer tracer = {field, window, limits, STANDSTILL * speed, -1};
+  fg__streamline_node first = {.position = {start[0], start[1]},
+                               .tangent = {-tangent[0] / speed, -tangent[1] / speed}};
+  fg_status status = add_node(out, context, &first);
+  if (status != FG_STATUS_OK)
+    return status;
+  status = trace_one_way(out, context, &tracer, &out->end[0]);
+  if (status != FG_STATUS_OK)
+    return status;
+  reverse(out);
+  out->start = out->count - 1;
+  tracer.sign = 1;
+  return trace_one_way(out, context, &tracer, &out->end[1]);
+}
+
+void fg__streamline_clear(fg__streamline *streamline)
+{
+  free(streamline->node);
+  *streamline = (fg__streamline){0};
+}
+
+double fg__streamline_length(const fg__streamline *streamline)
+{
+  return streamline->count > 0 ? streamline->node[streamline->count - 1].s : 0;
+}
+
+void fg__streamline_at(const fg__streamline *streamline, double s, int *hint,
+                       double position[2], double tangent[2])
+{
+  const fg__streamline_node *node = streamline->node;
+  int last = streamline->count - 1;
+  int i = hint && *hint > 0 && *hint < last && node[*hint].s <= s ? *hint : 0;
+  while (i + 1 < last && node[i + 1].s < s)
+    i++;
+  if (hint)
+    *hint = i;
+  if (last == 0) {
+    for (int a = 0; a < 2; a++) {
+      position[a] = node[0].position[a];
+      tangent[a] = node[0].tangent[a];
+    }
+    return;
+  }
+  double length = node[i + 1].s - node[i].s;
+  double fraction = length > 0 ? (s - node[i].s) / length : 0;
+  fraction = fmin(fmax(fraction, 0), 1);
+  interpolate(node[i].position, node[i].tangent, node[i + 1].position,
+              node[i + 1].tangent, length, fraction, position, tangent);
+}
