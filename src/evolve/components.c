@@ -1,7 +1,9 @@
 #include "evolve/components.h"
 
 #include <limits.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 
@@ -81,80 +83,125 @@ static void join(struct fg__run *run, int a, int b)
     run[a].parent = b;
 }
 
-/* Cuts row y into runs and writes each node's run, counted from 1, to label; 0 outside.
- * The run array holds a row more than it needs. */
-static void cut_row(fg__components *components, const fg__component_grid *grid, int y)
+/* Marks the positive nodes of row y that belong to the domain. */
+static void mark_row(fg__components *components, const fg__component_grid *grid, int y)
 {
   int width = grid->nodes[0];
   const float *u = grid->u + (size_t)y * (size_t)width;
+  unsigned char *positive = components->positive + (size_t)y * (size_t)width;
+  for (int x = 0; x < width; ++x)
+    positive[x] = u[x] > 0.0F;
+  if (!grid->active)
+    return;
+  for (int x = 0; x < width; ++x) {
+    if (positive[x] && !node_active(grid, x, y))
+      positive[x] = 0;
+  }
+}
+
+/* Eight marks at once: most stretches of a row lie wholly inside or outside. */
+static uint64_t eight(const unsigned char *positive)
+{
+  uint64_t marks;
+  memcpy(&marks, positive, sizeof marks);
+  return marks;
+}
+
+static const uint64_t all_positive = 0x0101010101010101U;
+
+/* Cuts row y into runs and writes each node's run, counted from 1, to label; 0 outside.
+ * The run array has room for as many runs as the row has nodes. */
+static void cut_row(fg__components *components, const fg__component_grid *grid, int y)
+{
+  int width = grid->nodes[0];
+  const unsigned char *positive = components->positive + (size_t)y * (size_t)width;
   int *label = components->label + (size_t)y * (size_t)width;
   struct fg__run *run = components->run;
   int last = (int)components->run_count;
   bool inside = false;
-  for (int x = 0; x < width; ++x) {
-    if (!(u[x] > 0.0F) || (grid->active && !node_active(grid, x, y))) {
-      inside = false;
-      label[x] = 0;
+  for (int x = 0; x < width;) {
+    uint64_t marks = x + 8 <= width ? eight(positive + x) : 2;
+    if (marks == 0 || (marks == all_positive && inside && !grid->active)) {
+      inside = marks != 0;
+      for (int k = 0; k < 8; ++k)
+        label[x + k] = inside ? last : 0;
+      x += 8;
       continue;
     }
-    if (!inside || (grid->active && !fg__components_edge_active(grid, x - 1, y, 0))) {
-      run[last] = (struct fg__run){.parent = last};
-      ++last;
+    int end = x + 8 < width ? x + 8 : width;
+    for (; x < end; ++x) {
+      if (!positive[x]) {
+        inside = false;
+        label[x] = 0;
+        continue;
+      }
+      if (!inside || !fg__components_edge_active(grid, x - 1, y, 0)) {
+        run[last] = (struct fg__run){.parent = last};
+        ++last;
+      }
+      inside = true;
+      label[x] = last;
     }
-    inside = true;
-    label[x] = last;
   }
   components->run_count = (size_t)last;
 }
 
-/* Share of the edge from a corner p > 0 to a corner q <= 0 that is positive. A NaN in q
- * counts as the middle. */
-static double edge_share(float p, float q)
+/* Area of the corner p > 0 of a cell whose two neighbours q and r are not positive: half
+ * the product of the positive shares of its edges. A NaN counts as half the edges. */
+static double corner_area(double p, double q, double r)
 {
-  double share = (double)p / ((double)p - (double)q);
-  return share <= 1.0 ? share : 0.5;
+  double area = 0.5 * p * p / ((p - q) * (p - r));
+  return area <= 0.5 ? area : 0.125;
 }
 
-/* Area of the corner p > 0 whose two neighbours q and r are not positive. */
-static double corner_area(float p, float q, float r)
+/* Area below the zero set when it leaves corners p, q > 0 on one side of a cell and r, s,
+ * beside p and q, on the other: the mean of the positive shares of two edges. */
+static double half_area(double p, double q, double r, double s)
 {
-  return 0.5 * edge_share(p, q) * edge_share(p, r);
+  double p_edge = p - r;
+  double q_edge = q - s;
+  double area = 0.5 * (p * q_edge + q * p_edge) / (p_edge * q_edge);
+  return area <= 1.0 ? area : 0.5;
 }
 
-/* Area of the corner p <= 0 cut off by its two neighbours q, r > 0. */
-static double notch_area(float p, float q, float r)
+/* Joins runs that meet in a cell; most have met before. */
+static inline void meet(struct fg__run *run, int a, int b)
 {
-  return 0.5 * (1.0 - edge_share(q, p)) * (1.0 - edge_share(r, p));
+  if (run[a].parent != run[b].parent)
+    join(run, a, b);
 }
 
 /* Joins the runs at the corners of an active cell and shares out its positive area.
  * Corners go round the cell: neighbours in the array are neighbours along an edge. */
-static void add_mixed_cell(struct fg__run *run, const float value[4], const int corner[4])
+static inline void add_mixed_cell(struct fg__run *run, const float value[4],
+                                  const int corner[4])
 {
-  int positive = 0;
-  int first = -1; /* a positive corner after one that is not */
-  for (int k = 0; k < 4; ++k) {
-    positive += corner[k] != 0;
-    if (corner[k] != 0 && corner[(k + 3) & 3] == 0)
-      first = k;
-  }
-  const float v[4] = {value[first], value[(first + 1) & 3], value[(first + 2) & 3],
-                      value[(first + 3) & 3]};
+  /* by the set of positive corners: a positive one after one that is not */
+  static const unsigned char first_of[16] = {0, 0, 1, 0, 2, 0, 1, 0,
+                                             3, 3, 1, 3, 2, 2, 1, 0};
+  unsigned set = (corner[0] != 0) | (corner[1] != 0) << 1 | (corner[2] != 0) << 2 |
+                 (corner[3] != 0) << 3;
+  unsigned first = first_of[set];
+  const double v[4] = {(double)value[first], (double)value[(first + 1) & 3],
+                       (double)value[(first + 2) & 3], (double)value[(first + 3) & 3]};
   int run0 = corner[first] - 1;
   int run1 = corner[(first + 1) & 3] - 1;
   int run2 = corner[(first + 2) & 3] - 1;
-  if (positive == 1) {
-    run[run0].area += corner_area(v[0], v[1], v[3]);
-  } else if (positive == 3) {
-    join(run, run0, run1);
-    join(run, run1, run2);
-    run[run0].area += 1.0 - notch_area(v[3], v[0], v[2]);
+  if (run1 >= 0 && run2 >= 0) {
+    meet(run, run0, run1);
+    meet(run, run1, run2);
+    run[run0].area += 1.0 - corner_area(-v[3], -v[0], -v[2]);
   } else if (run1 >= 0) {
-    join(run, run0, run1);
-    run[run0].area += 0.5 * (edge_share(v[0], v[3]) + edge_share(v[1], v[2]));
-  } else if (fg__components_saddle_joins(v[0], v[1], v[3], v[2])) {
-    join(run, run0, run2);
-    run[run0].area += 1.0 - notch_area(v[1], v[0], v[2]) - notch_area(v[3], v[2], v[0]);
+    meet(run, run0, run1);
+    run[run0].area += half_area(v[0], v[1], v[3], v[2]);
+  } else if (run2 < 0) {
+    run[run0].area += corner_area(v[0], v[1], v[3]);
+  } else if (fg__components_saddle_joins(value[first], value[(first + 1) & 3],
+                                         value[(first + 3) & 3],
+                                         value[(first + 2) & 3])) {
+    meet(run, run0, run2);
+    run[run0].area +=
+        1.0 - corner_area(-v[1], -v[0], -v[2]) - corner_area(-v[3], -v[2], -v[0]);
   } else {
     run[run0].area += corner_area(v[0], v[1], v[3]);
     run[run2].area += corner_area(v[2], v[1], v[3]);
@@ -173,9 +220,23 @@ static void join_rows(fg__components *components, const fg__component_grid *grid
   const int *row1 = components->label + above * width;
   const unsigned char *active = grid->active ? grid->active + (size_t)y * cells : NULL;
   struct fg__run *run = components->run;
+  const unsigned char *positive0 = components->positive + (size_t)y * width;
+  const unsigned char *positive1 = components->positive + above * width;
   int joined0 = 0; /* the pair of runs that the last full cell joined */
   int joined1 = 0;
   for (size_t x = 0; x < cells; ++x) {
+    if (x + 9 <= width) {
+      uint64_t marks0 = eight(positive0 + x);
+      uint64_t marks1 = eight(positive1 + x);
+      bool outside = (marks0 | marks1) == 0;
+      if (outside || (!active && (marks0 & marks1) == all_positive &&
+                      row0[x] == joined0 && row1[x] == joined1)) {
+        /* seven cells: the eighth has corners that were not looked at */
+        run[joined0 ? joined0 - 1 : 0].area += outside ? 0.0 : 7.0;
+        x += 6;
+        continue;
+      }
+    }
     size_t next = x + 1 < width ? x + 1 : 0;
     int a = row0[x];
     int b = row0[next];
@@ -246,12 +307,15 @@ fg_status fg__components_count(fg__components *components, fg_context *context,
   if (!fg__grow((void **)&components->label, &components->label_capacity, nodes,
                 sizeof *components->label))
     return fg__fail_memory(context, "labels", nodes * sizeof *components->label);
+  if (!fg__grow((void **)&components->positive, &components->positive_capacity, nodes, 1))
+    return fg__fail_memory(context, "marks of nodes", nodes);
   components->run_count = 0;
   for (int y = 0; y < grid->nodes[1]; ++y) {
     size_t needed = components->run_count + width;
     if (!fg__grow((void **)&components->run, &components->run_capacity, needed,
                   sizeof *components->run))
       return fg__fail_memory(context, "runs of nodes", needed * sizeof *components->run);
+    mark_row(components, grid, y);
     cut_row(components, grid, y);
     if (y > 0)
       join_rows(components, grid, y - 1);
@@ -277,6 +341,7 @@ fg_status fg__components_find(fg__components *components, fg_context *context,
 
 void fg__components_clear(fg__components *components)
 {
+  free(components->positive);
   free(components->label);
   free(components->area);
   free(components->run);

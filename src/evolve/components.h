@@ -24,8 +24,9 @@ typedef struct fg__components {
   double *area; /* [count] in cells: the part of the active cells where the bilinear
                    density is positive, the border in a cell taken as straight */
 
-  size_t label_capacity, area_capacity, run_capacity, run_count;
+  unsigned char *positive; /* a byte a node */
   struct fg__run *run;
+  size_t positive_capacity, label_capacity, area_capacity, run_capacity, run_count;
 } fg__components;
 
 /* Labels the components. Two positive nodes belong together when they are neighbours
