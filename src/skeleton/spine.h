@@ -4,21 +4,24 @@
 
 #include "cluster/raster.h"
 
-/* Distance to the cluster's border by fast marching (Sethian 1996, upwind first order at
- * least), from the sub-cell zero set of `level` inwards, input coordinates; 0 outside.
- * `distance` has the window's nodes. Borders of mask count as the cluster's border; whether the
- * domain's border does, the caller says. */
+/* Distance to the cluster's border by fast marching, from the sub-cell zero set of
+ * `level` inwards, input coordinates; 0 outside. `distance` has the window's nodes.
+ * Sethian's upwind stencil with second order differences where the front is smooth.
+ * Borders of the mask count as the cluster's border; whether the domain's border (and the
+ * cut through a band) does, the caller says: it should for spines and for the room an
+ * arrow has, since a picture ends there (a cluster that is the whole domain has no other
+ * border, so there it always does). MEMORY. */
 fg_status fg__march(double *distance, fg_context *context, const fg__window *window,
                     bool domain_border_counts);
 
 /* A polyline along the ridge of the distance map, through the cluster from end to end. */
 typedef struct fg__spine {
   int count;
-  double (*point)[2];   /* input coordinates, evenly spaced by about one cell */
-  double *distance;     /* distance to the border at each point */
-  bool closed;          /* a ring: point[count - 1] is next to point[0] */
-  double length;        /* input coordinates */
-  int center;           /* index of the middle by arc length */
+  double (*point)[2]; /* input coordinates, evenly spaced by about one cell */
+  double *distance;   /* distance to the border at each point */
+  bool closed;        /* a ring: point[count - 1] is next to point[0] */
+  double length;      /* input coordinates */
+  int center;         /* index of the middle by arc length */
 } fg__spine;
 
 fg_status fg__spine_create(fg__spine *out, fg_context *context, const fg__window *window,
