@@ -1,2 +1,33 @@
+# A thin front of CMake (CMakePresets.json). `make demo` and `make check` also install
+# what is missing, with apt.
+
+JOBS := $(shell nproc 2>/dev/null || echo 2)
+PREFIX ?= /usr/local
+
+.PHONY: all setup demo check install format clean
+
 all:
-	@cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >/dev/null && cmake --build build -j
+	@cmake --preset release -DCMAKE_INSTALL_PREFIX=$(PREFIX) >build-log 2>&1 || \
+	  { cat build-log; rm -f build-log; echo "make: 'make setup' installs what is missing" >&2; exit 1; }
+	@rm -f build-log
+	@cmake --build build -j $(JOBS)
+
+setup:
+	@scripts/setup
+
+demo: setup
+	@$(MAKE) --no-print-directory all
+	@build/flowgrain run data/gfs_20140131.nc -o demo --force
+	@echo "The pictures are in $(CURDIR)/demo"
+
+check: setup
+	@scripts/check
+
+install: all
+	@cmake --install build
+
+format:
+	@git ls-files -z '*.c' '*.h' | xargs -0 clang-format -i
+
+clean:
+	@cmake -E rm -rf build demo

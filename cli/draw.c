@@ -1,0 +1,131 @@
+/* Draws one scale of a finished run again. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "drawing.h"
+#include "json_report.h"
+
+static bool ends_with(const char *text, const char *end)
+{
+  size_t length = strlen(text), tail = strlen(end);
+  return length > tail && strcasecmp(text + length - tail, end) == 0;
+}
+
+static int check_picture_name(const char *path)
+{
+  if (ends_with(path, ".svg") || ends_with(path, ".pdf") || ends_with(path, ".png"))
+    return EXIT_DONE;
+  complain("-o %s: the name's end must be .svg, .pdf or .png", path);
+  fputs("Try 'flowgrain draw --help'.\n", stderr);
+  return EXIT_USAGE;
+}
+
+/* The scale that the options choose, -1 after a complaint. */
+static int choose_scale(const cli_settings *settings, const cli_report *report)
+{
+  int count = report->scale_count;
+  if (settings->scale_index >= count) {
+    complain("%s: has %d scale%s, and --scale-index %d was asked for", settings->operand,
+             count, count == 1 ? "" : "s", settings->scale_index);
+    return -1;
+  }
+  if (settings->scale_index >= 0)
+    return settings->scale_index;
+  if (!settings->cluster_count)
+    return count - 1;
+  for (int k = 0; k < count; ++k)
+    if (report_scale_clusters(report, k) <= settings->clusters[0])
+      return k;
+  complain("%s: its coarsest scale has %d clusters, and at most %d were asked for",
+           settings->operand, report_scale_clusters(report, count - 1),
+           settings->clusters[0]);
+  return -1;
+}
+
+static int read_icons(fg_icons **out, fg_context *context, const cli_settings *settings,
+                      const cli_report *report, int index)
+{
+  const char *name = report_scale_icons(report, index);
+  /* the name comes from a file: it must not lead out of its folder */
+  if (!name || strchr(name, '/')) {
+    complain("%s: run.json names no icons for scale %d", settings->operand, index);
+    return EXIT_FAILED;
+  }
+  char *path = join_path(settings->operand, name);
+  if (!path)
+    return EXIT_FAILED;
+  fg_status status = fg_icons_read(out, context, path);
+  free(path);
+  return status ? complain_of(context, status) : EXIT_DONE;
+}
+
+static int read_field(fg_field **out, fg_context *context, const cli_settings *settings,
+                      const cli_report *report)
+{
+  const char *input = settings->input ? settings->input : report->input;
+  if (!settings->input && report->input_absolute &&
+      access(report->input_absolute, R_OK) == 0)
+    input = report->input_absolute;
+  fg_status status = fg_field_read(out, context, input, &report->reading);
+  if (!status)
+    return EXIT_DONE;
+  int code = complain_of(context, status);
+  if (!*fg_context_hint(context))
+    fputs("Say with --input where the field is now.\n", stderr);
+  return code;
+}
+
+static int write_picture(fg_context *context, const cli_settings *settings,
+                         const cli_report *report, const fg_field *field,
+                         const fg_icons *icons)
+{
+  fg_picture_options options = settings_picture(settings);
+  options.speed_min = report->speeds[0];
+  options.speed_max = report->speeds[1];
+  char *partial = temporary_name(settings->output);
+  if (!partial)
+    return EXIT_FAILED;
+  int code = EXIT_DONE;
+  fg_status status = fg_picture_write(context, partial, field, NULL, icons, &options);
+  if (status)
+    code = complain_of(context, status);
+  else if (rename(partial, settings->output) != 0)
+    code = complain_of_file(settings->output, "cannot be written");
+  if (code)
+    unlink(partial);
+  free(partial);
+  return code;
+}
+
+int command_draw(const cli_settings *settings)
+{
+  cli_report report = {0};
+  fg_context *context = NULL;
+  fg_icons *icons = NULL;
+  fg_field *field = NULL;
+  int code = check_picture_name(settings->output);
+  if (!code)
+    code = report_read(&report, settings->operand);
+  if (code)
+    goto cleanup;
+  int index = choose_scale(settings, &report);
+  if (index < 0 || fg_context_create(&context)) {
+    code = EXIT_FAILED;
+    goto cleanup;
+  }
+  code = read_icons(&icons, context, settings, &report, index);
+  if (!code)
+    code = read_field(&field, context, settings, &report);
+  if (!code)
+    code = write_picture(context, settings, &report, field, icons);
+cleanup:
+  fg_field_destroy(field);
+  fg_icons_destroy(icons);
+  fg_context_destroy(context);
+  report_clear(&report);
+  return code;
+}

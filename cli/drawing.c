@@ -1,0 +1,266 @@
+#include "drawing.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "progress.h"
+
+struct cli_drawing {
+  const cli_settings *settings;
+  const fg_field *field;
+  const cli_output *output;
+  fg_context *context; /* the worker's own */
+  bool threaded;
+  pthread_t thread;
+
+  pthread_mutex_t lock; /* guards what follows up to `results` */
+  pthread_cond_t changed;
+  fg_density *waiting[MAX_SCALES + 1]; /* one more than wanted: a last state */
+  int added, drawn;
+  bool closed; /* no more snapshots will come */
+  fg_status status;
+
+  scale_result results[MAX_SCALES + 1]; /* written by the worker, read after it ended */
+  double speeds[2];
+  double icon_seconds, picture_seconds;
+};
+
+void speed_range(const fg_icons *icons, double range[2])
+{
+  range[0] = range[1] = 0.0;
+  for (int k = 0; k < fg_icons_count(icons); ++k) {
+    double speed = fg_icons_at(icons, k)->speed;
+    if (k == 0 || speed < range[0])
+      range[0] = speed;
+    if (k == 0 || speed > range[1])
+      range[1] = speed;
+  }
+}
+
+static char *scale_path(const cli_drawing *drawing, int index, const char *end)
+{
+  char name[32];
+  snprintf(name, sizeof name, "scale-%02d.%s", index, end);
+  return output_path(drawing->output, name);
+}
+
+static fg_status write_icons(cli_drawing *drawing, int index, const fg_icons *icons)
+{
+  char *path = scale_path(drawing, index, "geojson");
+  if (!path)
+    return FG_STATUS_MEMORY;
+  fg_status status = fg_icons_write(drawing->context, path, icons);
+  free(path);
+  return status;
+}
+
+static fg_status write_density(cli_drawing *drawing, int index, const fg_density *density)
+{
+  char *path = scale_path(drawing, index, "vti");
+  if (!path)
+    return FG_STATUS_MEMORY;
+  fg_status status = fg_density_write(drawing->context, path, density);
+  free(path);
+  return status;
+}
+
+static fg_status write_pictures(cli_drawing *drawing, int index,
+                                const fg_density *density, const fg_icons *icons)
+{
+  static const char *const ends[FORMAT_KINDS] = {"svg", "png", "pdf"};
+  fg_picture_options options = settings_picture(drawing->settings);
+  options.speed_min = drawing->speeds[0];
+  options.speed_max = drawing->speeds[1];
+  unsigned formats = drawing->settings->formats;
+  if (!formats)
+    formats = FORMAT_SVG | FORMAT_PNG;
+  fg_status status = FG_STATUS_OK;
+  for (int kind = 0; !status && kind < FORMAT_KINDS; ++kind) {
+    if (!(formats & (1U << kind)))
+      continue;
+    char *path = scale_path(drawing, index, ends[kind]);
+    if (!path)
+      return FG_STATUS_MEMORY;
+    status = fg_picture_write(drawing->context, path, drawing->field, density, icons,
+                              &options);
+    free(path);
+  }
+  return status;
+}
+
+static fg_status draw(cli_drawing *drawing, int index, const fg_density *density)
+{
+  const fg_density_arrays *moment = fg_density_contents(density);
+  scale_result *result = &drawing->results[index];
+  fg_icons *icons = NULL;
+  double start = clock_seconds();
+  fg_status status =
+      fg_icons_create(&icons, drawing->context, drawing->field, density, NULL);
+  if (!status)
+    status = write_icons(drawing, index, icons);
+  double between = clock_seconds();
+  drawing->icon_seconds += between - start;
+  if (!status && index == 0)
+    speed_range(icons, drawing->speeds);
+  if (!status)
+    status = write_pictures(drawing, index, density, icons);
+  if (!status && drawing->settings->save_field)
+    status = write_density(drawing, index, density);
+  drawing->picture_seconds += clock_seconds() - between;
+  if (!status) {
+    result->clusters = fg_icons_clusters(icons);
+    result->icons = fg_icons_count(icons);
+    result->dropped = fg_icons_dropped(icons);
+    result->time = moment->time;
+    result->energy = moment->energy;
+    result->area_fraction = moment->area_fraction;
+  }
+  fg_icons_destroy(icons);
+  return status;
+}
+
+static void *work(void *argument)
+{
+  cli_drawing *drawing = argument;
+  pthread_mutex_lock(&drawing->lock);
+  for (;;) {
+    while (drawing->drawn == drawing->added && !drawing->closed)
+      pthread_cond_wait(&drawing->changed, &drawing->lock);
+    if (drawing->drawn == drawing->added || drawing->status)
+      break;
+    int index = drawing->drawn;
+    fg_density *density = drawing->waiting[index];
+    pthread_mutex_unlock(&drawing->lock);
+    fg_status status = draw(drawing, index, density);
+    fg_density_destroy(density);
+    pthread_mutex_lock(&drawing->lock);
+    drawing->waiting[index] = NULL;
+    drawing->status = status;
+    ++drawing->drawn;
+  }
+  pthread_mutex_unlock(&drawing->lock);
+  return NULL;
+}
+
+int drawing_start(cli_drawing **out, const cli_settings *settings, const fg_field *field,
+                  const cli_output *output)
+{
+  cli_drawing *drawing = calloc(1, sizeof *drawing);
+  *out = drawing;
+  if (!drawing || fg_context_create(&drawing->context)) {
+    free(drawing);
+    *out = NULL;
+    complain("out of memory");
+    return EXIT_FAILED;
+  }
+  drawing->settings = settings;
+  drawing->field = field;
+  drawing->output = output;
+  pthread_mutex_init(&drawing->lock, NULL);
+  pthread_cond_init(&drawing->changed, NULL);
+  /* without a thread to be had, the drawing is done in order: the result is the same */
+  drawing->threaded = settings->threads != 1 &&
+                      pthread_create(&drawing->thread, NULL, work, drawing) == 0;
+  return EXIT_DONE;
+}
+
+bool drawing_add(cli_drawing *drawing, fg_density *density, const int *wanted,
+                 int wanted_count)
+{
+  pthread_mutex_lock(&drawing->lock);
+  bool accepted = drawing->added <= MAX_SCALES && !drawing->status;
+  if (accepted) {
+    scale_result *result = &drawing->results[drawing->added];
+    result->wanted_count = wanted_count;
+    for (int k = 0; k < wanted_count; ++k)
+      result->wanted[k] = wanted[k];
+    drawing->waiting[drawing->added] = density;
+    ++drawing->added;
+    pthread_cond_signal(&drawing->changed);
+  }
+  pthread_mutex_unlock(&drawing->lock);
+  if (!accepted) {
+    fg_density_destroy(density);
+    return false;
+  }
+  if (drawing->threaded)
+    return true;
+  drawing->closed = true; /* work returns when nothing waits */
+  work(drawing);
+  return !drawing->status;
+}
+
+fg_status drawing_finish(cli_drawing *drawing)
+{
+  pthread_mutex_lock(&drawing->lock);
+  drawing->closed = true;
+  pthread_cond_signal(&drawing->changed);
+  pthread_mutex_unlock(&drawing->lock);
+  if (drawing->threaded) {
+    pthread_join(drawing->thread, NULL);
+    drawing->threaded = false;
+  }
+  return drawing->status;
+}
+
+int drawing_count(const cli_drawing *drawing)
+{
+  return drawing->added;
+}
+
+int drawing_ready(cli_drawing *drawing)
+{
+  pthread_mutex_lock(&drawing->lock);
+  int ready = drawing->drawn;
+  pthread_mutex_unlock(&drawing->lock);
+  return ready;
+}
+
+bool drawing_failed(cli_drawing *drawing)
+{
+  pthread_mutex_lock(&drawing->lock);
+  bool failed = drawing->status != FG_STATUS_OK;
+  pthread_mutex_unlock(&drawing->lock);
+  return failed;
+}
+
+const scale_result *drawing_result(const cli_drawing *drawing, int index)
+{
+  return &drawing->results[index];
+}
+
+const double *drawing_speeds(const cli_drawing *drawing)
+{
+  return drawing->speeds;
+}
+
+double drawing_icon_seconds(const cli_drawing *drawing)
+{
+  return drawing->icon_seconds;
+}
+
+double drawing_picture_seconds(const cli_drawing *drawing)
+{
+  return drawing->picture_seconds;
+}
+
+fg_context *drawing_context(const cli_drawing *drawing)
+{
+  return drawing->context;
+}
+
+void drawing_destroy(cli_drawing *drawing)
+{
+  if (!drawing)
+    return;
+  if (drawing->threaded)
+    fg_context_stop(drawing->context); /* not finished: the scales are not wanted */
+  drawing_finish(drawing);
+  for (int k = 0; k <= MAX_SCALES; ++k)
+    fg_density_destroy(drawing->waiting[k]);
+  pthread_cond_destroy(&drawing->changed);
+  pthread_mutex_destroy(&drawing->lock);
+  fg_context_destroy(drawing->context);
+  free(drawing);
+}

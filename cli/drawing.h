@@ -1,0 +1,45 @@
+/* Icons, tables and pictures of the scales, made while the evolution goes on. */
+#ifndef DRAWING_H
+#define DRAWING_H
+
+#include "output.h"
+
+typedef struct scale_result {
+  int wanted[MAX_SCALES]; /* the numbers of clusters that this scale answers */
+  int wanted_count;
+  int clusters, icons, dropped;
+  double time, energy, area_fraction;
+} scale_result;
+
+typedef struct cli_drawing cli_drawing;
+
+/* Starts a worker thread, or with `threads` 1 none: then drawing_add draws before it
+ * returns. The field and output are borrowed. Returns an exit code. */
+int drawing_start(cli_drawing **out, const cli_settings *settings, const fg_field *field,
+                  const cli_output *output);
+
+/* Takes over a snapshot: the next scale. False: an earlier one has failed, or there is no
+ * memory; the snapshot is destroyed all the same. */
+bool drawing_add(cli_drawing *drawing, fg_density *density, const int *wanted,
+                 int wanted_count);
+
+/* Waits until all is drawn; the failure, if there was one, is in the context. */
+fg_status drawing_finish(cli_drawing *drawing);
+
+int drawing_count(const cli_drawing *drawing); /* scales added */
+int drawing_ready(cli_drawing *drawing);       /* scales drawn */
+bool drawing_failed(cli_drawing *drawing);     /* drawing_finish says why */
+const scale_result *drawing_result(const cli_drawing *drawing, int index);
+
+/* Mean speeds of the finest scale's icons: the ends of the colour key of every scale, so
+ * that a colour means the same in all of them. */
+const double *drawing_speeds(const cli_drawing *drawing);
+double drawing_icon_seconds(const cli_drawing *drawing);
+double drawing_picture_seconds(const cli_drawing *drawing);
+fg_context *drawing_context(const cli_drawing *drawing);
+void drawing_destroy(cli_drawing *drawing);
+
+/* Finest and fastest: the range of the icons' speeds; 0, 0 for none. */
+void speed_range(const fg_icons *icons, double range[2]);
+
+#endif

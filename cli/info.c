@@ -1,0 +1,109 @@
+/* Says what a file holds. */
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "program.h"
+
+static const char *const scale_words[] = {"auto", "geo", "map", "plain"};
+
+static int name_count(const fg_inventory_vector *vector)
+{
+  int count = 0;
+  while (count < 3 && vector->name[count])
+    ++count;
+  return count;
+}
+
+static void print_vector(const fg_inventory_vector *vector)
+{
+  static const char axis[] = "xyz";
+  printf("vectors: ");
+  for (int k = 0; k < name_count(vector); ++k)
+    printf("%s%s", k ? "," : "", vector->name[k]);
+  printf("\n  found by: %s\n", vector->found_by);
+  if (*vector->units)
+    printf("  units: %s\n", vector->units);
+  printf("  grid:");
+  for (int k = 0; k < vector->dimension; ++k)
+    printf("%s %d", k ? " x" : "", vector->size[k]);
+  putchar('\n');
+  for (int k = 0; k < vector->dimension; ++k)
+    printf("  %c: %.6g to %.6g%s\n", axis[k], vector->bounds[2 * k],
+           vector->bounds[2 * k + 1], k == 0 && vector->periodic ? ", periodic" : "");
+  printf("  times: %d\n  levels: %d\n", vector->times, vector->levels);
+  printf("  missing: %.1f %%\n", 100.0 * vector->missing_share);
+  printf("  scale: %s\n", scale_words[vector->scale]);
+  if (vector->unusable)
+    printf("  cannot be read: %s\n", vector->unusable);
+}
+
+static void add_vector(cJSON *array, const fg_inventory_vector *vector)
+{
+  cJSON *object = cJSON_CreateObject();
+  cJSON *names = cJSON_AddArrayToObject(object, "vars");
+  for (int k = 0; k < name_count(vector); ++k)
+    cJSON_AddItemToArray(names, cJSON_CreateString(vector->name[k]));
+  cJSON_AddNumberToObject(object, "components", vector->components);
+  cJSON_AddStringToObject(object, "units", vector->units);
+  cJSON_AddStringToObject(object, "found_by", vector->found_by);
+  cJSON_AddItemToObject(object, "size",
+                        cJSON_CreateIntArray(vector->size, vector->dimension));
+  cJSON_AddItemToObject(object, "bounds",
+                        cJSON_CreateDoubleArray(vector->bounds, 2 * vector->dimension));
+  cJSON_AddBoolToObject(object, "periodic", vector->periodic);
+  cJSON_AddNumberToObject(object, "times", vector->times);
+  cJSON_AddNumberToObject(object, "levels", vector->levels);
+  cJSON_AddNumberToObject(object, "missing_share", vector->missing_share);
+  cJSON_AddStringToObject(object, "scale", scale_words[vector->scale]);
+  if (vector->unusable)
+    cJSON_AddStringToObject(object, "unusable", vector->unusable);
+  cJSON_AddItemToArray(array, object);
+}
+
+static int print_json(const char *file, const fg_inventory *inventory)
+{
+  cJSON *root = cJSON_CreateObject();
+  cJSON_AddStringToObject(root, "file", file);
+  cJSON_AddStringToObject(root, "format", fg_inventory_format(inventory));
+  cJSON *array = cJSON_AddArrayToObject(root, "vectors");
+  for (int k = 0; k < fg_inventory_vector_count(inventory); ++k)
+    add_vector(array, fg_inventory_vector_at(inventory, k));
+  char *text = cJSON_Print(root);
+  if (text)
+    puts(text);
+  else
+    complain("out of memory for the JSON text");
+  int code = text ? EXIT_DONE : EXIT_FAILED;
+  cJSON_free(text);
+  cJSON_Delete(root);
+  return code;
+}
+
+int command_info(const cli_settings *settings)
+{
+  fg_context *context;
+  if (fg_context_create(&context)) {
+    complain("out of memory");
+    return EXIT_FAILED;
+  }
+  fg_inventory *inventory = NULL;
+  int code = EXIT_DONE;
+  fg_status status = fg_inventory_read(&inventory, context, settings->operand);
+  if (status)
+    code = complain_of(context, status);
+  else if (settings->json)
+    code = print_json(settings->operand, inventory);
+  else {
+    printf("file: %s\nformat: %s\n", settings->operand, fg_inventory_format(inventory));
+    for (int k = 0; k < fg_inventory_vector_count(inventory); ++k)
+      print_vector(fg_inventory_vector_at(inventory, k));
+  }
+  if (!status && fg_inventory_vector_count(inventory) == 0) {
+    complain("%s: holds no vector field", settings->operand);
+    code = EXIT_FAILED;
+  }
+  fg_inventory_destroy(inventory);
+  fg_context_destroy(context);
+  return code;
+}

@@ -1,0 +1,73 @@
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "options.h"
+
+/* A standard stream that the caller closed must not become the number of a file we open:
+ * a picture would end up with messages in it. Output then fails, and is reported. */
+static void hold_standard_streams(void)
+{
+  for (int stream = 0; stream <= 2; ++stream)
+    if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
+      int opened = open("/dev/null", stream == 1 ? O_RDONLY : O_RDWR);
+      if (opened > stream)
+        close(opened);
+    }
+}
+
+static int finish(int code)
+{
+  bool failed = fflush(stdout) != 0 || ferror(stdout);
+  if (failed && code == EXIT_DONE)
+    return complain_of_file("standard output", "cannot be written");
+  return code;
+}
+
+static int usage(void)
+{
+  fputs("Try 'flowgrain --help'.\n", stderr);
+  return EXIT_USAGE;
+}
+
+static int work(int argc, char **argv)
+{
+  if (argc < 2) {
+    complain("a command is missing");
+    return usage();
+  }
+  const char *word = argv[1];
+  if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 ||
+      strcmp(word, "help") == 0) {
+    print_program_help(stdout);
+    return EXIT_DONE;
+  }
+  if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
+    printf("flowgrain %s\n", fg_version());
+    return EXIT_DONE;
+  }
+  const cli_command *command = command_find(word);
+  if (!command) {
+    complain("unknown %s '%s'", word[0] == '-' ? "option" : "command", word);
+    return usage();
+  }
+  cli_settings settings;
+  switch (options_parse(&settings, command, argc - 1, argv + 1)) {
+  case PARSE_DONE:
+    return EXIT_DONE;
+  case PARSE_WRONG:
+    return EXIT_USAGE;
+  case PARSE_GO:
+    break;
+  }
+  return command->work(&settings);
+}
+
+int main(int argc, char **argv)
+{
+  hold_standard_streams();
+  return finish(work(argc, argv));
+}

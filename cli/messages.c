@@ -1,0 +1,53 @@
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "program.h"
+
+void complain(const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  fputs("flowgrain: ", stderr);
+  vfprintf(stderr, format, arguments);
+  fputc('\n', stderr);
+  va_end(arguments);
+}
+
+int complain_of(const fg_context *context, fg_status status)
+{
+  const char *message = fg_context_message(context);
+  const char *hint = fg_context_hint(context);
+  complain("%s", *message ? message : fg_status_name(status));
+  if (*hint)
+    fprintf(stderr, "%s\n", hint);
+  return status == FG_STATUS_STOPPED ? EXIT_INTERRUPTED : EXIT_FAILED;
+}
+
+int complain_of_file(const char *path, const char *what)
+{
+  complain("%s: %s: %s", path, what, strerror(errno));
+  return EXIT_FAILED;
+}
+
+static char *join(const char *first, const char *between, const char *second)
+{
+  size_t room = strlen(first) + strlen(between) + strlen(second) + 1;
+  char *text = malloc(room);
+  if (text)
+    snprintf(text, room, "%s%s%s", first, between, second);
+  return text;
+}
+
+char *join_texts(const char *first, const char *second)
+{
+  return join(first, "", second);
+}
+
+char *join_path(const char *folder, const char *name)
+{
+  size_t length = strlen(folder);
+  return join(folder, length && folder[length - 1] == '/' ? "" : "/", name);
+}

@@ -1,0 +1,138 @@
+#include "options.h"
+
+#include <limits.h>
+
+#define AT(member) offsetof(cli_settings, member)
+
+static const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
+static const char *const mesh_words[] = {"uniform", NULL};
+static const char *const energy_words[] = {"flow", "isotropic", NULL};
+
+enum {
+  EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH,
+  PICTURES = COMMAND_RUN | COMMAND_DRAW,
+};
+
+const cli_command command_table[] = {
+    {COMMAND_RUN, "run", "INPUT", "INPUT -o DIR [options]",
+     "evolve, and write a picture of every scale: the main job",
+     "Reads a vector field, lets clusters grow on it from fine to coarse, and writes at "
+     "every wanted number of clusters one scale into DIR: the icons as GeoJSON and their "
+     "picture. DIR also gets run.json, which says all that was done, and evolution.csv, "
+     "with a row for every time step. INPUT is a NetCDF file, VTK image data (.vti), or "
+     "synth:NAME for an analytic field (see flowgrain synth --help).",
+     true, command_run},
+    {COMMAND_DRAW, "draw", "DIR", "DIR -o PICTURE [options]",
+     "draw one scale of a finished run again, in another style",
+     "Draws a scale that `flowgrain run` left in DIR; the picture's format follows the "
+     "end of its name: .svg, .pdf or .png. The field is read again from the input that "
+     "run.json names.",
+     true, command_draw},
+    {COMMAND_INFO, "info", "FILE", "FILE [--json]", "say what a file holds",
+     "Lists the vector fields that a file holds: a line `vectors:` for each, as --vars "
+     "takes it, with its grid, share of missing values, times and levels.",
+     false, command_info},
+    {COMMAND_SYNTH, "synth", "NAME", "NAME -o FILE [--nodes N]",
+     "write an analytic field as .vti or .nc",
+     "Writes the analytic field NAME, sampled on the unit square, as VTK image data "
+     "(FILE ends in .vti) or NetCDF (.nc).",
+     true, command_synth},
+};
+const size_t command_count = sizeof command_table / sizeof command_table[0];
+
+/* Ranges are those that no input can make sensible beyond; what depends on the input, the
+ * library refuses. 16385 nodes a side is 2^14 cells: 270 million nodes, several GB. */
+const option_entry option_table[] = {
+    {"output", 'o', "DIR", COMMAND_RUN, OPTION_TEXT, AT(output), 0, 0, false, false, NULL,
+     "folder for the results; made when it is missing"},
+    {"output", 'o', "PICTURE", COMMAND_DRAW, OPTION_TEXT, AT(output), 0, 0, false, false,
+     NULL, "picture to write, .svg, .pdf or .png"},
+    {"output", 'o', "FILE", COMMAND_SYNTH, OPTION_TEXT, AT(output), 0, 0, false, false,
+     NULL, "file to write, .vti or .nc"},
+
+    {"vars", 0, "U,V", COMMAND_RUN, OPTION_TEXT, AT(vars), 0, 0, false, false, NULL,
+     "the two variables, or one vector variable [found by their standard or usual names; "
+     "an ambiguous choice is an error that lists the choices]"},
+    {"vars-from", 0, "FILE", COMMAND_RUN, OPTION_TEXT, AT(vars_from), 0, 0, false, false,
+     NULL, "second file, which holds the other component"},
+    {"time", 0, "I", COMMAND_RUN, OPTION_WHOLE, AT(time), 0, INT_MAX, false, false, NULL,
+     "index along time, from 0 [0]"},
+    {"level", 0, "I", COMMAND_RUN, OPTION_WHOLE, AT(level), 0, INT_MAX, false, false,
+     NULL, "index along level, from 0 [0]"},
+    {"mask", 0, "VAR", COMMAND_RUN, OPTION_TEXT, AT(mask), 0, 0, false, false, NULL,
+     "variable that is zero outside the domain"},
+    {"scale", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(scale), 0, 0, false, false,
+     scale_words,
+     "what the axes are: `geo` (degrees, velocity along east and north), `map` (a "
+     "projected plane) or `plain` [auto: from units and axes]"},
+
+    {"nodes", 0, "N", COMMAND_RUN, OPTION_WHOLE, AT(nodes), 17, 16385, false, false, NULL,
+     "nodes of the mesh along its longest side [257]"},
+    {"nodes", 0, "N", COMMAND_SYNTH, OPTION_WHOLE, AT(nodes), 2, 16385, false, false,
+     NULL, "samples a side [257]"},
+    {"mesh", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(mesh), 0, 0, false, false,
+     mesh_words, "kind of mesh [uniform, the only one so far]"},
+    {"energy", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(energy), 0, 0, false, false,
+     energy_words,
+     "interfacial energy: `flow` draws clusters out along the streamlines, `isotropic` "
+     "ignores the field [flow]"},
+    {"anisotropy", 0, "A", COMMAND_RUN, OPTION_NUMBER, AT(anisotropy), 0, 1, true, false,
+     NULL,
+     "cost of an interface along the flow against one across it, in (0,1]; clusters "
+     "become about 1/sqrt(A) times as long as wide [0.15]"},
+    {"coverage", 0, "C", COMMAND_RUN, OPTION_NUMBER, AT(coverage), 0, 1, true, true, NULL,
+     "share of the area that clusters shall cover, in (0,1) [0.3]"},
+    {"gamma", 0, "G", COMMAND_RUN, OPTION_NUMBER, AT(gamma), 0, 1, true, false, NULL,
+     "interface energy, in units of the longest side squared [(1.1 h)^2 / A for cells of "
+     "size h; isotropic (1.5 h)^2]"},
+    {"clusters", 0, "LIST", COMMAND_RUN, OPTION_COUNTS, 0, 1, 1000000, false, false, NULL,
+     "numbers of clusters at which to write a scale, descending, as 200,50,12; a scale "
+     "is the first moment at or below the number [the first number seen, then "
+     "..., 96, 48, 24, 12]"},
+    {"seed", 0, "S", COMMAND_RUN, OPTION_SEED, AT(seed), 1, 0, false, false, NULL,
+     "seed of the initial noise, from 1 [1]"},
+    {"max-time", 0, "T", COMMAND_RUN, OPTION_NUMBER, AT(max_time), 0, 1e300, true, false,
+     NULL, "stop when the simulated scale t reaches T; its state is the last scale"},
+    {"max-steps", 0, "K", COMMAND_RUN, OPTION_WHOLE, AT(max_steps), 1, INT_MAX, false,
+     false, NULL, "stop after K time steps; the state reached is the last scale"},
+    {"threads", 0, "N", COMMAND_RUN, OPTION_WHOLE, AT(threads), 1, 4096, false, false,
+     NULL, "threads to use; the result does not depend on it [all cores]"},
+    {"save-field", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(save_field), 0, 0, false, false,
+     NULL, "also write the density u of every scale (scale-NN.vti)"},
+
+    {"scale-index", 0, "I", COMMAND_DRAW, OPTION_WHOLE, AT(scale_index), 0,
+     MAX_SCALES - 1, false, false, NULL,
+     "which scale, 0 being the finest [the coarsest]"},
+    {"clusters", 0, "N", COMMAND_DRAW, OPTION_COUNTS, 0, 1, 1000000, false, false, NULL,
+     "the finest scale with at most N clusters"},
+    {"input", 0, "FILE", COMMAND_DRAW, OPTION_TEXT, AT(input), 0, 0, false, false, NULL,
+     "where the field is now, if it is no longer where run.json says"},
+
+    {"formats", 0, "LIST", COMMAND_RUN, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
+     "picture formats, of svg, png and pdf [svg,png]"},
+    /* 14400 points are the largest page that PDF readers promise to show. */
+    {"width", 0, "POINTS", PICTURES, OPTION_NUMBER, AT(width), 36, 14400, false, false,
+     NULL, "width of the picture in points of 1/72 inch [480]"},
+    {"palette", 0, "NAME", PICTURES, OPTION_TEXT, AT(palette), 0, 0, false, false, NULL,
+     "colour map of the speed, or #rrggbb for one colour [viridis]"},
+    {"tint", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
+     "tint the clusters behind their arrows"},
+    {"no-frame", 0, NULL, PICTURES, OPTION_FLAG, AT(no_frame), 0, 0, false, false, NULL,
+     "only mask and arrows: no axes, no keys, no caption"},
+    {"transparent", 0, NULL, PICTURES, OPTION_FLAG, AT(transparent), 0, 0, false, false,
+     NULL, "no background"},
+
+    {"force", 'f', NULL, COMMAND_RUN, OPTION_FLAG, AT(force), 0, 0, false, false, NULL,
+     "replace the results of a finished run in DIR; other files in it stay"},
+    {"quiet", 'q', NULL, COMMAND_RUN, OPTION_FLAG, AT(quiet), 0, 0, false, false, NULL,
+     "no progress bar (there is none when standard error is no terminal)"},
+    {"verbose", 'v', NULL, COMMAND_RUN, OPTION_FLAG, AT(verbose), 0, 0, false, false,
+     NULL, "say on standard error what is being done"},
+    {"json", 0, NULL, COMMAND_INFO, OPTION_FLAG, AT(json), 0, 0, false, false, NULL,
+     "as JSON"},
+    {"help", 'h', NULL, EVERY, OPTION_HELP, 0, 0, 0, false, false, NULL,
+     "print this help"},
+    {"version", 'V', NULL, EVERY, OPTION_VERSION, 0, 0, 0, false, false, NULL,
+     "print the version"},
+};
+const size_t option_count = sizeof option_table / sizeof option_table[0];

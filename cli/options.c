@@ -1,0 +1,333 @@
+#include "options.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <getopt.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* getopt_long's value for a long option is this plus its place in option_table, beyond
+ * every letter. */
+enum { LONG_BASE = 256, MAX_OPTIONS = 64 };
+
+static const char *const format_words[FORMAT_KINDS] = {"svg", "png", "pdf"};
+
+const cli_command *command_find(const char *name)
+{
+  for (size_t k = 0; k < command_count; ++k)
+    if (strcmp(command_table[k].name, name) == 0)
+      return &command_table[k];
+  return NULL;
+}
+
+static bool wrong(const cli_command *command, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static bool wrong(const cli_command *command, const char *format, ...)
+{
+  char text[512];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  complain("%s", text);
+  fprintf(stderr, "Try 'flowgrain %s --help'.\n", command->name);
+  return false;
+}
+
+static bool parse_number(double *out, const char *text)
+{
+  char *end;
+  errno = 0;
+  *out = strtod(text, &end);
+  return end != text && !*end && !isspace((unsigned char)text[0]) && isfinite(*out);
+}
+
+static bool parse_whole(intmax_t *out, const char *text)
+{
+  char *end;
+  errno = 0;
+  *out = strtoimax(text, &end, 10);
+  return end != text && !*end && !isspace((unsigned char)text[0]) && !errno;
+}
+
+static bool set_number(cli_settings *out, const cli_command *command,
+                       const option_entry *option, const char *text)
+{
+  double value;
+  bool known = parse_number(&value, text);
+  if (!known || value < option->least || value > option->most ||
+      (option->open_below && value <= option->least) ||
+      (option->open_above && value >= option->most))
+    return wrong(command, "--%s %s: a number in %c%g, %g%c is needed", option->name, text,
+                 option->open_below ? '(' : '[', option->least, option->most,
+                 option->open_above ? ')' : ']');
+  memcpy((char *)out + option->place, &value, sizeof value);
+  return true;
+}
+
+static bool set_whole(cli_settings *out, const cli_command *command,
+                      const option_entry *option, const char *text)
+{
+  intmax_t value;
+  if (!parse_whole(&value, text) || value < (intmax_t)option->least ||
+      value > (intmax_t)option->most)
+    return wrong(command, "--%s %s: a whole number from %.0f to %.0f is needed",
+                 option->name, text, option->least, option->most);
+  int number = (int)value;
+  memcpy((char *)out + option->place, &number, sizeof number);
+  return true;
+}
+
+static bool set_seed(cli_settings *out, const cli_command *command,
+                     const option_entry *option, const char *text)
+{
+  char *end;
+  errno = 0;
+  uintmax_t value = strtoumax(text, &end, 10);
+  if (!isdigit((unsigned char)text[0]) || *end || errno || value < 1 ||
+      value > UINT64_MAX)
+    return wrong(command, "--%s %s: a whole number from 1 to %" PRIu64 " is needed",
+                 option->name, text, UINT64_MAX);
+  uint64_t seed = (uint64_t)value;
+  memcpy((char *)out + option->place, &seed, sizeof seed);
+  return true;
+}
+
+/* Appends " (known: a, b, c)"-like lists within the room that is left. */
+static void list_words(char *text, size_t room, const char *const *words)
+{
+  text[0] = '\0';
+  for (size_t k = 0; words[k]; ++k) {
+    size_t used = strlen(text);
+    snprintf(text + used, room - used, "%s%s", k ? ", " : "", words[k]);
+  }
+}
+
+static bool set_choice(cli_settings *out, const cli_command *command,
+                       const option_entry *option, const char *text)
+{
+  for (int k = 0; option->words[k]; ++k)
+    if (strcmp(option->words[k], text) == 0) {
+      memcpy((char *)out + option->place, &k, sizeof k);
+      return true;
+    }
+  char words[128];
+  list_words(words, sizeof words, option->words);
+  return wrong(command, "--%s %s: not known; the choice is: %s", option->name, text,
+               words);
+}
+
+/* The next item of a list with commas, copied to `item`; NULL after the last. */
+static const char *next_item(char *item, size_t room, const char *list)
+{
+  size_t length = strcspn(list, ",");
+  snprintf(item, room, "%.*s", length < room ? (int)length : (int)room - 1, list);
+  return list[length] ? list + length + 1 : NULL;
+}
+
+static bool set_counts(cli_settings *out, const cli_command *command,
+                       const option_entry *option, const char *text)
+{
+  int most = command->bit == COMMAND_DRAW ? 1 : MAX_SCALES;
+  out->cluster_count = 0;
+  for (const char *rest = text; rest;) {
+    char item[32];
+    rest = next_item(item, sizeof item, rest);
+    intmax_t value;
+    if (!parse_whole(&value, item) || value < (intmax_t)option->least ||
+        value > (intmax_t)option->most)
+      return wrong(command, "--%s %s: '%s' is no number of clusters from %.0f to %.0f",
+                   option->name, text, item, option->least, option->most);
+    if (out->cluster_count == most)
+      return wrong(command, "--%s %s: more than %d number%s", option->name, text, most,
+                   most == 1 ? "" : "s");
+    if (out->cluster_count && value >= out->clusters[out->cluster_count - 1])
+      return wrong(command, "--%s %s: the numbers must descend, and %s follows %d",
+                   option->name, text, item, out->clusters[out->cluster_count - 1]);
+    out->clusters[out->cluster_count++] = (int)value;
+  }
+  return true;
+}
+
+static bool set_formats(cli_settings *out, const cli_command *command,
+                        const option_entry *option, const char *text)
+{
+  out->formats = 0;
+  for (const char *rest = text; rest;) {
+    char item[32];
+    rest = next_item(item, sizeof item, rest);
+    int kind = 0;
+    while (kind < FORMAT_KINDS && strcmp(item, format_words[kind]) != 0)
+      ++kind;
+    if (kind == FORMAT_KINDS)
+      return wrong(command, "--%s %s: '%s' is not one of svg, png, pdf", option->name,
+                   text, item);
+    out->formats |= 1U << kind;
+  }
+  return true;
+}
+
+static bool set_option(cli_settings *out, const cli_command *command,
+                       const option_entry *option, const char *text)
+{
+  bool yes = true;
+  switch (option->kind) {
+  case OPTION_TEXT:
+    if (!*text)
+      return wrong(command, "--%s: its %s is empty", option->name, option->argument);
+    memcpy((char *)out + option->place, &text, sizeof text);
+    return true;
+  case OPTION_FLAG:
+    memcpy((char *)out + option->place, &yes, sizeof yes);
+    return true;
+  case OPTION_WHOLE:
+    return set_whole(out, command, option, text);
+  case OPTION_SEED:
+    return set_seed(out, command, option, text);
+  case OPTION_NUMBER:
+    return set_number(out, command, option, text);
+  case OPTION_CHOICE:
+    return set_choice(out, command, option, text);
+  case OPTION_COUNTS:
+    return set_counts(out, command, option, text);
+  case OPTION_FORMATS:
+    return set_formats(out, command, option, text);
+  case OPTION_HELP:
+  case OPTION_VERSION:
+    break;
+  }
+  return true;
+}
+
+/* getopt_long's two descriptions of the options that a command knows. */
+typedef struct getopt_tables {
+  struct option longs[MAX_OPTIONS + 1];
+  char shorts[2 * MAX_OPTIONS + 2];
+} getopt_tables;
+
+static void fill_tables(getopt_tables *tables, const cli_command *command)
+{
+  memset(tables, 0, sizeof *tables);
+  size_t longs = 0, shorts = 0;
+  tables->shorts[shorts++] = ':'; /* a missing argument is reported as ':' */
+  for (size_t k = 0; k < option_count && longs < MAX_OPTIONS; ++k) {
+    const option_entry *option = &option_table[k];
+    if (!(option->commands & command->bit))
+      continue;
+    tables->longs[longs].name = option->name;
+    tables->longs[longs].has_arg = option->argument ? required_argument : no_argument;
+    tables->longs[longs++].val = LONG_BASE + (int)k;
+    if (option->letter) {
+      tables->shorts[shorts++] = option->letter;
+      if (option->argument)
+        tables->shorts[shorts++] = ':';
+    }
+  }
+}
+
+static const option_entry *find_option(const cli_command *command, int code)
+{
+  if (code >= LONG_BASE)
+    return &option_table[code - LONG_BASE];
+  for (size_t k = 0; k < option_count; ++k)
+    if ((option_table[k].commands & command->bit) && option_table[k].letter == code)
+      return &option_table[k];
+  return NULL;
+}
+
+static bool check_operands(cli_settings *out, const cli_command *command, int count,
+                           char **operands)
+{
+  if (!count)
+    return wrong(command, "%s: %s is missing", command->name, command->operand);
+  if (count > 1)
+    return wrong(command, "%s: one %s is expected, and '%s' is one more", command->name,
+                 command->operand, operands[1]);
+  if (!*operands[0])
+    return wrong(command, "%s: %s is empty", command->name, command->operand);
+  if (command->needs_output && !out->output)
+    return wrong(command, "%s: -o is missing", command->name);
+  out->operand = operands[0];
+  return true;
+}
+
+parse_result options_parse(cli_settings *out, const cli_command *command, int argc,
+                           char **argv)
+{
+  getopt_tables tables;
+  fill_tables(&tables, command);
+  memset(out, 0, sizeof *out);
+  out->scale_index = -1;
+  opterr = 0;
+  optind = 0; /* the C library's way to start afresh */
+  for (;;) {
+    int code = getopt_long(argc, argv, tables.shorts, tables.longs, NULL);
+    if (code == -1)
+      break;
+    if (code == '?' || code == ':') {
+      const option_entry *known = optopt ? find_option(command, optopt) : NULL;
+      if (known && known->argument)
+        wrong(command, "--%s: its %s is missing", known->name, known->argument);
+      else if (known)
+        wrong(command, "--%s: takes no argument", known->name);
+      else if (optopt)
+        wrong(command, "%s: unknown option -%c", command->name, optopt);
+      else
+        wrong(command, "%s: unknown option %s", command->name, argv[optind - 1]);
+      return PARSE_WRONG;
+    }
+    const option_entry *option = find_option(command, code);
+    if (option->kind == OPTION_HELP) {
+      print_command_help(stdout, command);
+      return PARSE_DONE;
+    }
+    if (option->kind == OPTION_VERSION) {
+      printf("flowgrain %s\n", fg_version());
+      return PARSE_DONE;
+    }
+    if (!set_option(out, command, option, optarg))
+      return PARSE_WRONG;
+  }
+  return check_operands(out, command, argc - optind, argv + optind) ? PARSE_GO
+                                                                    : PARSE_WRONG;
+}
+
+fg_read_options settings_reading(const cli_settings *settings)
+{
+  return (fg_read_options){
+      .vars = settings->vars,
+      .vars_from = settings->vars_from,
+      .time = settings->time,
+      .level = settings->level,
+      .mask = settings->mask,
+      .scale = (fg_scale)settings->scale,
+  };
+}
+
+fg_evolution_options settings_evolution(const cli_settings *settings)
+{
+  return (fg_evolution_options){
+      .nodes = settings->nodes,
+      .energy = (fg_energy)settings->energy,
+      .anisotropy = settings->anisotropy,
+      .coverage = settings->coverage,
+      .gamma = settings->gamma,
+      .seed = settings->seed,
+      .threads = settings->threads,
+  };
+}
+
+fg_picture_options settings_picture(const cli_settings *settings)
+{
+  return (fg_picture_options){
+      .width = settings->width,
+      .palette = settings->palette,
+      .no_frame = settings->no_frame,
+      .transparent = settings->transparent,
+      .tint = settings->tint,
+  };
+}

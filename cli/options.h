@@ -1,0 +1,71 @@
+/* The table of commands and options: parsing, --help and the manual page all follow it.
+ */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include <stdio.h>
+
+#include "program.h"
+
+enum { COMMAND_RUN = 1, COMMAND_DRAW = 2, COMMAND_INFO = 4, COMMAND_SYNTH = 8 };
+
+typedef struct cli_command {
+  unsigned bit;
+  const char *name;
+  const char *operand;  /* the one operand's name */
+  const char *synopsis; /* after the name */
+  const char *summary;  /* a clause for the list of commands */
+  const char *text;     /* a paragraph for its own help */
+  bool needs_output;
+  int (*work)(const cli_settings *settings);
+} cli_command;
+
+typedef enum option_kind {
+  OPTION_TEXT,    /* const char * */
+  OPTION_WHOLE,   /* int, least to most */
+  OPTION_SEED,    /* uint64_t */
+  OPTION_NUMBER,  /* double, least to most; the ends as `open` says */
+  OPTION_FLAG,    /* bool */
+  OPTION_CHOICE,  /* int: value of the word's place in `words` */
+  OPTION_COUNTS,  /* settings.clusters */
+  OPTION_FORMATS, /* settings.formats */
+  OPTION_HELP,
+  OPTION_VERSION
+} option_kind;
+
+typedef struct option_entry {
+  const char *name;
+  char letter;          /* 0: none */
+  const char *argument; /* NULL: takes none */
+  unsigned commands;    /* which know it */
+  option_kind kind;
+  size_t place; /* offset in settings */
+  double least, most;
+  bool open_below, open_above; /* least, most themselves are not allowed */
+  const char *const *words;    /* ended by NULL */
+  const char *help;            /* a clause; the default in [brackets] */
+} option_entry;
+
+extern const cli_command command_table[];
+extern const size_t command_count;
+extern const option_entry option_table[];
+extern const size_t option_count;
+
+/* Finds a command by its name; NULL when there is none. */
+const cli_command *command_find(const char *name);
+
+/* What parsing a command line came to. */
+typedef enum parse_result {
+  PARSE_GO,    /* do the command */
+  PARSE_DONE,  /* help or version was printed */
+  PARSE_WRONG, /* a usage error was printed */
+} parse_result;
+
+/* Parses the arguments after the command's name (argv[0] is that name). */
+parse_result options_parse(cli_settings *out, const cli_command *command, int argc,
+                           char **argv);
+
+void print_program_help(FILE *stream);
+void print_command_help(FILE *stream, const cli_command *command);
+
+#endif

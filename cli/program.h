@@ -1,0 +1,69 @@
+/* What the files of the program share: exit codes, settings, messages. */
+#ifndef PROGRAM_H
+#define PROGRAM_H
+
+#include "flowgrain/flowgrain.h"
+
+/* Exit codes of every command. */
+enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
+
+enum { MAX_SCALES = 64 };
+
+/* Picture formats, as bits of settings.formats. */
+enum { FORMAT_SVG = 1, FORMAT_PNG = 2, FORMAT_PDF = 4, FORMAT_KINDS = 3 };
+
+/* Everything a command line can say. Zero means "not said". */
+typedef struct cli_settings {
+  const char *operand; /* INPUT, FILE, DIR or NAME */
+  const char *output;
+
+  const char *vars, *vars_from, *mask;
+  int time, level;
+  int scale; /* fg_scale */
+
+  int nodes;
+  int mesh;   /* only uniform (0) is known */
+  int energy; /* fg_energy */
+  double anisotropy, coverage, gamma;
+  uint64_t seed;
+  double max_time;
+  int max_steps;
+  int threads;
+  int clusters[MAX_SCALES]; /* descending */
+  int cluster_count;
+
+  unsigned formats; /* 0: the default, SVG and PNG */
+  double width;
+  const char *palette;
+  bool tint, no_frame, transparent;
+
+  const char *input; /* draw: the field, where it is now */
+  int scale_index;   /* draw: -1 when not said */
+
+  bool save_field, force, quiet, verbose, json;
+} cli_settings;
+
+/* Prints "flowgrain: TEXT" on standard error. */
+void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Prints a context's message and its hint; returns the exit code for the failure. */
+int complain_of(const fg_context *context, fg_status status);
+
+/* Prints a file's error from errno, "flowgrain: PATH: No such file ..."; EXIT_FAILED. */
+int complain_of_file(const char *path, const char *what);
+
+/* Joins two texts, or a folder and a name with a slash between. NULL without memory. End
+ * with free. */
+char *join_texts(const char *first, const char *second);
+char *join_path(const char *folder, const char *name);
+
+int command_run(const cli_settings *settings);
+int command_draw(const cli_settings *settings);
+int command_info(const cli_settings *settings);
+int command_synth(const cli_settings *settings);
+
+fg_read_options settings_reading(const cli_settings *settings);
+fg_evolution_options settings_evolution(const cli_settings *settings);
+fg_picture_options settings_picture(const cli_settings *settings);
+
+#endif

@@ -1,0 +1,29 @@
+/* A line on the terminal that says how far a run is. */
+#ifndef PROGRESS_H
+#define PROGRESS_H
+
+#include <stdbool.h>
+
+typedef struct cli_progress {
+  bool shown;        /* standard error is a terminal and not quiet */
+  bool drawn;        /* the line is there now */
+  double last_drawn; /* seconds of the monotonic clock */
+} cli_progress;
+
+void progress_start(cli_progress *progress, bool quiet);
+
+/* Shows a stage's line at once. */
+void progress_stage(cli_progress *progress, const char *text);
+
+/* Shows the evolution's state, at most ten times a second. clusters 0: not known yet;
+ * seconds_left negative: not known. */
+void progress_evolution(cli_progress *progress, double time, int clusters,
+                        double seconds_left);
+
+/* Wipes the line, before a message and at the end. */
+void progress_wipe(cli_progress *progress);
+
+/* Seconds of the monotonic clock. */
+double clock_seconds(void);
+
+#endif

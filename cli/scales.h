@@ -1,0 +1,31 @@
+/* Which moments of the evolution become scales. */
+#ifndef SCALES_H
+#define SCALES_H
+
+#include "program.h"
+
+/* Numbers of clusters at which to take a scale, descending, and how many are behind. */
+typedef struct scale_plan {
+  int wanted[MAX_SCALES];
+  int count;
+  int next; /* wanted[next] has not been reached; count: all have */
+} scale_plan;
+
+/* Starts with a list, or with none: the default one follows from the first number seen.
+ */
+void scale_plan_start(scale_plan *plan, const int *list, int count);
+
+/* Says how many wanted numbers the state with `clusters` clusters is the first at or
+ * below; 0: it is no scale. One state is one scale, however many numbers it passes at
+ * once. `clusters` 0 means that nucleation still goes on. */
+int scale_plan_reach(scale_plan *plan, int clusters);
+
+bool scale_plan_done(const scale_plan *plan);
+
+/* Share of the way to the plan's end and seconds left, by N ~ t^-0.43; negative when
+ * nothing can be said yet. `clusters`, `time` and `seconds` now, and `time_0`,
+ * `seconds_0` when the number of clusters was first known. */
+double scale_plan_seconds_left(const scale_plan *plan, int clusters, double time,
+                               double seconds, double time_0, double seconds_0);
+
+#endif

@@ -1,0 +1,69 @@
+/* Writes an analytic field to a file. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "output.h"
+
+enum { DEFAULT_NODES = 257 };
+
+static bool name_is_known(const char *name)
+{
+  for (const char *const *known = fg_field_analytic_names(); *known; ++known)
+    if (strcmp(*known, name) == 0)
+      return true;
+  return false;
+}
+
+static int check_name(const char *name)
+{
+  if (name_is_known(name))
+    return EXIT_DONE;
+  complain("synth %s: there is no such analytic field", name);
+  fputs("The choice is:", stderr);
+  for (const char *const *known = fg_field_analytic_names(); *known; ++known)
+    fprintf(stderr, " %s", *known);
+  fputc('\n', stderr);
+  return EXIT_USAGE;
+}
+
+static int write_field(fg_context *context, const cli_settings *settings,
+                       const fg_field *field)
+{
+  char *partial = temporary_name(settings->output);
+  if (!partial)
+    return EXIT_FAILED;
+  int code = EXIT_DONE;
+  fg_status status = fg_field_write(context, partial, field);
+  if (status)
+    code = complain_of(context, status);
+  else if (rename(partial, settings->output) != 0)
+    code = complain_of_file(settings->output, "cannot be written");
+  if (code)
+    unlink(partial);
+  free(partial);
+  return code;
+}
+
+int command_synth(const cli_settings *settings)
+{
+  const char *name = settings->operand;
+  if (strncmp(name, "synth:", 6) == 0)
+    name += 6;
+  int code = check_name(name);
+  if (code)
+    return code;
+  fg_context *context;
+  if (fg_context_create(&context)) {
+    complain("out of memory");
+    return EXIT_FAILED;
+  }
+  fg_field *field = NULL;
+  int nodes = settings->nodes ? settings->nodes : DEFAULT_NODES;
+  fg_status status = fg_field_create_analytic(&field, context, name, nodes);
+  code = status ? complain_of(context, status) : write_field(context, settings, field);
+  fg_field_destroy(field);
+  fg_context_destroy(context);
+  return code;
+}
