@@ -1,0 +1,376 @@
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "base/memory.h"
+#include "evolve/components.h"
+#include "evolve/noise.h"
+#include "evolve/stepper.h"
+
+/* Defaults that give the paper's pictures (design.md section 2). */
+enum { DEFAULT_NODES = 257, DEFAULT_SEED = 1, DEFAULT_CYCLES = 2 };
+static const double default_anisotropy = 0.15, default_coverage = 0.3;
+static const double default_accuracy = 0.05;
+/* Half-width of an interface along the stream in cells; at 1 an isotropic pattern pins.
+ */
+static const double interface_cells = 1.1, isotropic_interface_cells = 1.5;
+
+/* Nucleation is over, and clusters are counted, once this share of the wanted area is
+ * covered; the noise covers it too, but has smoothed away after one growth time of linear
+ * theory. */
+static const double nucleated = 0.8;
+
+/* Debris: less than this many squares of the interface width across the stream,
+ * sqrt(gamma a); about a dozen cells by default. Such a drop is all interface. */
+static const double debris_squares = 10.0;
+
+/* The first step, as a share of the fastest growth time of linear theory. */
+static const double first_step_share = 1e-3;
+
+struct fg_evolution {
+  fg_context *context;
+  fg_evolution_options options;
+  fg_mesh_info info;
+  fg__mesh mesh;
+  fg__tensor tensor;
+  fg__stepper stepper;
+  fg__components components;
+  float *plain;       /* u without ghosts, x fastest */
+  float *plain_mass;  /* relative mass of each node, halved at borders */
+  double debris_area; /* in cells */
+  double area_fraction;
+  int clusters;
+  bool counting; /* nucleation is over */
+  struct timespec start;
+};
+
+static fg_status check_range(fg_context *context, const char *name, double value,
+                             double low, double high, bool low_included)
+{
+  if ((low_included ? value >= low : value > low) && value <= high)
+    return FG_STATUS_OK;
+  return fg__fail(context, FG_STATUS_ARGUMENT, "%s %g is not in %c%g, %g]", name, value,
+                  low_included ? '[' : '(', low, high);
+}
+
+static fg_status settle_options(fg_evolution_options *o, fg_context *context)
+{
+  if (o->nodes == 0)
+    o->nodes = DEFAULT_NODES;
+  if (o->energy == FG_ENERGY_ISOTROPIC)
+    o->anisotropy = 1.0;
+  else if (o->anisotropy == 0.0)
+    o->anisotropy = default_anisotropy;
+  if (o->coverage == 0.0)
+    o->coverage = default_coverage;
+  if (o->seed == 0)
+    o->seed = DEFAULT_SEED;
+  if (o->accuracy == 0.0)
+    o->accuracy = default_accuracy;
+  if (o->cycles == 0)
+    o->cycles = DEFAULT_CYCLES;
+  fg_status status = check_range(context, "anisotropy", o->anisotropy, 0.0, 1.0, false);
+  if (!status && !(o->coverage > 0.0 && o->coverage < 1.0))
+    status = fg__fail(context, FG_STATUS_ARGUMENT, "coverage %g is not in (0, 1)",
+                      o->coverage);
+  if (!status)
+    status = check_range(context, "accuracy", o->accuracy, 0.0, 1.0, false);
+  if (!status)
+    status = check_range(context, "cycles", o->cycles, 1, 1000, true);
+  if (!status && o->gamma != 0.0)
+    status = check_range(context, "gamma", o->gamma, 0.0, 1.0, false);
+  return status;
+}
+
+static fg_status create_mesh(fg_evolution *e, const fg_field *field)
+{
+  const fg_field_arrays *arrays = fg_field_contents(field);
+  if (arrays->dimension != 2)
+    return fg__fail(e->context, FG_STATUS_UNSUPPORTED,
+                    "the field has %d dimensions; this version evolves 2",
+                    arrays->dimension);
+  fg__mesh_description description = {.nodes = e->options.nodes};
+  for (int k = 0; k < 2; ++k) {
+    description.origin[k] = arrays->axis[k][0];
+    description.periodic[k] = arrays->period[k] > 0.0;
+    description.side[k] = description.periodic[k]
+                              ? arrays->period[k]
+                              : arrays->axis[k][arrays->size[k] - 1] - arrays->axis[k][0];
+  }
+  return fg__mesh_create(&e->mesh, e->context, &description);
+}
+
+static fg_status create_tensor(fg_evolution *e, const fg_field *field)
+{
+  size_t count = (size_t)e->mesh.cells[0] * (size_t)e->mesh.cells[1];
+  e->tensor.xx = fg__allocate(count, sizeof(float));
+  e->tensor.xy = fg__allocate(count, sizeof(float));
+  e->tensor.yy = fg__allocate(count, sizeof(float));
+  e->tensor.active = fg__allocate(count, 1);
+  if (!e->tensor.xx || !e->tensor.xy || !e->tensor.yy || !e->tensor.active)
+    return fg__fail_memory(e->context, "the tensor", count * (3 * sizeof(float) + 1));
+  fg__cells cells;
+  for (int k = 0; k < 2; ++k) {
+    cells.count[k] = e->mesh.cells[k];
+    cells.origin[k] = e->mesh.origin[k];
+    cells.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
+  }
+  return fg__tensor_fill(&e->tensor, e->context, field, e->options.energy,
+                         e->options.anisotropy, &cells);
+}
+
+static double interface_energy(const fg_evolution *e)
+{
+  double h = fmax(e->mesh.spacing[0], e->mesh.spacing[1]);
+  bool isotropic = e->options.energy == FG_ENERGY_ISOTROPIC;
+  double width = (isotropic ? isotropic_interface_cells : interface_cells) * h;
+  return e->options.gamma > 0.0 ? e->options.gamma
+                                : width * width / e->options.anisotropy;
+}
+
+/* The fastest growing mode of linear theory grows at this rate (design.md section 3).
+ * Where the mean itself is stable the wells' own curvature sets the pace. */
+static double growth_rate(const fg_evolution *e)
+{
+  double mean = 2.0 * e->options.coverage - 1.0;
+  double curvature = fmax(fabs(6.0 * mean * mean - 2.0), 1.0);
+  return curvature * curvature / (4.0 * e->options.anisotropy * e->info.gamma);
+}
+
+static void describe(fg_evolution *e)
+{
+  e->info = (fg_mesh_info){.dimension = 2,
+                           .gamma = interface_energy(e),
+                           .anisotropy = e->options.anisotropy,
+                           .coverage = e->options.coverage,
+                           .length = e->mesh.length};
+  long count = 1;
+  double cell = 1.0;
+  for (int k = 0; k < 2; ++k) {
+    e->info.cells[k] = e->mesh.cells[k];
+    e->info.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
+    cell *= e->info.spacing[k];
+    count *= e->mesh.cells[k];
+  }
+  e->info.cells[2] = 1;
+  for (long n = 0; n < count; ++n)
+    e->info.active_cells += e->tensor.active[n];
+  e->info.domain_measure = cell * (double)e->info.active_cells;
+  e->debris_area = debris_squares * e->info.gamma * e->info.anisotropy /
+                   (e->mesh.spacing[0] * e->mesh.spacing[1]);
+}
+
+static void clear_dead_nodes(const fg__level *level, float *u)
+{
+  if (!level->mass)
+    return;
+  for (size_t n = 0; n < level->array_size; ++n)
+    if ((level->mass - level->first)[n] == 0.0F)
+      (u - level->first)[n] = 0.0F;
+}
+
+/* Noise about the mean, then shifted so that the mean is met exactly. */
+static void set_initial_density(fg_evolution *e, const fg__multigrid *multigrid)
+{
+  const fg__level *level = &multigrid->level[0];
+  if (e->options.initial) {
+    fg__level_import(level, level->u, e->options.initial);
+  } else {
+    double mean = 2.0 * e->options.coverage - 1.0;
+    double correlation = sqrt(e->info.gamma * e->options.anisotropy);
+    fg__noise_fill(level, e->mesh.tile[0].first, e->mesh.cells, mean, correlation,
+                   e->options.seed, level->u);
+    double sum = 0.0, weight = 0.0;
+    for (int j = 0; j < level->rows; ++j)
+      for (int i = 0; i < level->columns; ++i) {
+        double mass =
+            (double)e->plain_mass[(size_t)j * (size_t)level->columns + (size_t)i];
+        sum += mass * (double)*fg__node(level, level->u, i, j);
+        weight += mass;
+      }
+    float shift = (float)(mean - sum / weight);
+    for (int j = 0; j < level->rows; ++j)
+      for (int i = 0; i < level->columns; ++i)
+        *fg__node(level, level->u, i, j) += shift;
+    fg__fill_ghosts(level, level->u);
+  }
+  clear_dead_nodes(level, level->u);
+}
+
+static fg_status take_plain_arrays(fg_evolution *e, const fg__level *level)
+{
+  size_t count = (size_t)level->columns * (size_t)level->rows;
+  e->plain = fg__allocate(count, sizeof *e->plain);
+  e->plain_mass = fg__allocate(count, sizeof *e->plain_mass);
+  if (!e->plain || !e->plain_mass)
+    return fg__fail_memory(e->context, "the density", 2 * count * sizeof *e->plain);
+  for (int j = 0; j < level->rows; ++j)
+    for (int i = 0; i < level->columns; ++i) {
+      bool x_border = !level->periodic[0] && (i == 0 || i == level->columns - 1);
+      bool y_border = !level->periodic[1] && (j == 0 || j == level->rows - 1);
+      float mass = (x_border ? 0.5F : 1.0F) * (y_border ? 0.5F : 1.0F);
+      if (level->mass)
+        mass *= *fg__node(level, level->mass, i, j);
+      e->plain_mass[(size_t)j * (size_t)level->columns + (size_t)i] = mass;
+    }
+  return FG_STATUS_OK;
+}
+
+static fg_status create_stepper(fg_evolution *e)
+{
+  fg__multigrid multigrid;
+  fg_status status = fg__multigrid_create(&multigrid, e->context, &e->mesh,
+                                          &e->mesh.tile[0], &e->tensor, e->info.gamma);
+  if (status)
+    return status;
+  e->info.kernel = multigrid.kernel->name;
+  status = take_plain_arrays(e, &multigrid.level[0]);
+  if (!status) {
+    set_initial_density(e, &multigrid);
+    status = fg__stepper_create(&e->stepper, e->context, &multigrid,
+                                first_step_share / growth_rate(e), e->options.accuracy,
+                                e->options.cycles);
+  }
+  if (status)
+    fg__multigrid_clear(&multigrid);
+  return status;
+}
+
+fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
+                              const fg_field *field, const fg_evolution_options *options)
+{
+  if (!out || !field)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "evolution: a NULL argument");
+  *out = NULL;
+  fg_evolution *e = fg__allocate(1, sizeof *e);
+  if (!e)
+    return fg__fail_memory(context, "an evolution", sizeof *e);
+  e->context = context;
+  clock_gettime(CLOCK_MONOTONIC, &e->start);
+  if (options)
+    e->options = *options;
+  fg_status status = settle_options(&e->options, context);
+  if (!status)
+    status = create_mesh(e, field);
+  if (!status)
+    status = create_tensor(e, field);
+  if (!status) {
+    describe(e);
+    status = create_stepper(e);
+  }
+  e->options.initial = NULL; /* the caller's, and used up */
+  if (status) {
+    fg_evolution_destroy(e);
+    return status;
+  }
+  *out = e;
+  return FG_STATUS_OK;
+}
+
+void fg_evolution_destroy(fg_evolution *evolution)
+{
+  if (!evolution)
+    return;
+  fg__stepper_clear(&evolution->stepper);
+  fg__components_clear(&evolution->components);
+  fg__mesh_clear(&evolution->mesh);
+  free(evolution->tensor.xx);
+  free(evolution->tensor.xy);
+  free(evolution->tensor.yy);
+  free(evolution->tensor.active);
+  free(evolution->plain);
+  free(evolution->plain_mass);
+  free(evolution);
+}
+
+const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution)
+{
+  return &evolution->info;
+}
+
+static const unsigned char *mask_of(const fg_evolution *e)
+{
+  long count = (long)e->mesh.cells[0] * e->mesh.cells[1];
+  return e->info.active_cells < count ? e->tensor.active : NULL;
+}
+
+static fg_status count_clusters(fg_evolution *e)
+{
+  const fg__level *level = &e->stepper.multigrid.level[0];
+  fg__level_export(level, level->u, e->plain);
+  size_t count = (size_t)level->columns * (size_t)level->rows;
+  double covered = 0.0;
+  for (size_t n = 0; n < count; ++n)
+    covered += e->plain[n] > 0.0F ? (double)e->plain_mass[n] : 0.0;
+  e->area_fraction = covered / e->stepper.total_mass;
+  bool smoothed = e->stepper.time * growth_rate(e) >= 1.0;
+  bool covered_enough = e->area_fraction >= nucleated * e->options.coverage;
+  e->counting = e->counting || (smoothed && covered_enough);
+  if (!e->counting)
+    return FG_STATUS_OK;
+  fg__component_grid grid = {.nodes = {level->columns, level->rows},
+                             .periodic = {level->periodic[0], level->periodic[1]},
+                             .u = e->plain,
+                             .active = mask_of(e),
+                             .debris_area = e->debris_area};
+  fg_status status = fg__components_count(&e->components, e->context, &grid);
+  e->clusters = e->components.count;
+  return status;
+}
+
+static double seconds_since(const struct timespec *start)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)(now.tv_sec - start->tv_sec) +
+         1e-9 * (double)(now.tv_nsec - start->tv_nsec);
+}
+
+fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
+{
+  fg_evolution *e = evolution;
+  long cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
+  fg_status status = fg__stepper_advance(&e->stepper, e->context);
+  if (!status)
+    status = count_clusters(e);
+  if (status)
+    return status;
+  const fg__stepper *s = &e->stepper;
+  *step = (fg_step){.step = s->accepted,
+                    .time = s->time,
+                    .tau = s->last_tau,
+                    .energy = s->energy,
+                    .mass = s->mass,
+                    .area_fraction = e->area_fraction,
+                    .clusters = e->clusters,
+                    .cycles = (int)(s->cycles_spent - cycles),
+                    .rejected = (int)(s->rejected - rejected),
+                    .cells = e->info.active_cells,
+                    .increment = s->increment,
+                    .seconds = seconds_since(&e->start),
+                    .stationary = fg__stepper_stationary(s)};
+  return FG_STATUS_OK;
+}
+
+fg_status fg_density_create(fg_density **out, const fg_evolution *evolution)
+{
+  const fg_evolution *e = evolution;
+  const fg__level *level = &e->stepper.multigrid.level[0];
+  fg__level_export(level, level->u, e->plain);
+  fg_density_arrays arrays = {.dimension = 2,
+                              .nodes = {level->columns, level->rows, 1},
+                              .u = e->plain,
+                              .active = mask_of(e),
+                              .debris_area = e->debris_area * e->info.spacing[0] *
+                                             e->info.spacing[1],
+                              .time = e->stepper.time,
+                              .energy = e->stepper.energy,
+                              .area_fraction = e->area_fraction,
+                              .clusters = e->clusters};
+  for (int k = 0; k < 2; ++k) {
+    arrays.origin[k] = e->mesh.origin[k];
+    arrays.spacing[k] = e->info.spacing[k];
+    arrays.periodic[k] = e->mesh.periodic[k];
+  }
+  return fg_density_create_from_arrays(out, e->context, &arrays);
+}

@@ -1,0 +1,18 @@
+#include "evolve/kernel.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const fg__kernel *fg__kernel_choose(void)
+{
+#if defined(__x86_64__)
+  const char *wanted = getenv("FLOWGRAIN_KERNEL");
+  bool any = !wanted || strcmp(wanted, "avx512") == 0;
+  if (any && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
+    return &fg__kernel_avx512;
+  if ((any || strcmp(wanted, "avx2") == 0) && __builtin_cpu_supports("avx2"))
+    return &fg__kernel_avx2;
+#endif
+  return &fg__kernel_generic;
+}

@@ -1,0 +1,59 @@
+/* The inner loops of the evolution, on the arrays of a level. kernel_body.h is their one
+ * source; it is compiled once for each vector width, and fg__kernel_choose takes the
+ * widest that the machine has. No width changes a bit of the results: every node's
+ * arithmetic is the same, sums run in FG__LANES fixed lanes, and products and sums are
+ * not fused. */
+#ifndef FG__KERNEL_H
+#define FG__KERNEL_H
+
+#include "evolve/level.h"
+
+/* The system of one implicit Euler step, rows divided by the mass (design.md section 3):
+ *     u + tau L w = p,      w - Psi'(u) - K u = q,
+ * L the Laplacian, K = gamma L_A, Psi'(u) = 2 u (u^2 - 1); q = 0 on the finest level.
+ * On coarse levels u, w are corrections and Psi'(u) is curvature * u. */
+
+/* Sums over nodes, m the relative mass. */
+typedef struct fg__changes {
+  double u;      /* m u */
+  double from_a; /* m (u - a)^2 */
+  double from_b; /* m (u - b)^2 */
+} fg__changes;
+
+typedef struct fg__kernel {
+  const char *name;
+  /* One collective Gauss-Seidel sweep in four colours (even and odd columns of even rows,
+   * then of odd rows), a local Newton step for (u, w) at each node. */
+  void (*smooth)(const fg__level *level, float tau);
+  void (*smooth_linear)(const fg__level *level, float tau);
+  /* Residuals of both equations, restricted to p and q of the coarse level, and the
+   * curvature likewise; coarse u and w become 0. */
+  void (*restrict_residual)(const fg__level *fine, const fg__level *coarse, float tau);
+  void (*restrict_residual_linear)(const fg__level *fine, const fg__level *coarse,
+                                   float tau);
+  /* Adds the bilinear interpolation of the coarse u, w to the fine ones. */
+  void (*prolong)(const fg__level *coarse, const fg__level *fine);
+  /* Adds the interpolation of one coarse array to one fine array. */
+  void (*prolong_array)(const fg__level *coarse, const float *from, const fg__level *fine,
+                        float *to);
+  /* w := Psi'(u) + K u, with ghosts. */
+  void (*chemical_potential)(const fg__level *level, const float *u, float *w);
+  /* out := restriction of p - u - tau L w, a coarse array with ghosts. */
+  void (*restrict_defect)(const fg__level *fine, const float *w, const fg__level *coarse,
+                          float *out, float tau);
+  /* Sum over nodes of m (Psi(u) + u K u / 2), m the relative mass. */
+  double (*energy)(const fg__level *level, const float *u);
+  fg__changes (*changes)(const fg__level *level, const float *u, const float *a,
+                         const float *b);
+} fg__kernel;
+
+extern const fg__kernel fg__kernel_generic;
+#if defined(__x86_64__)
+extern const fg__kernel fg__kernel_avx2, fg__kernel_avx512;
+#endif
+
+/* The fastest kernel that runs here; the environment variable FLOWGRAIN_KERNEL (generic,
+ * avx2, avx512) may ask for a narrower one. */
+const fg__kernel *fg__kernel_choose(void);
+
+#endif

@@ -1,0 +1,244 @@
+#include "evolve/stepper.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* The control of design.md section 3, found by experiment there: the last cycle's
+ * correction relative to the step's change says how well two cycles solved it. */
+static const double acceptable_correction = 0.5; /* delta above this rejects */
+static const double wanted_correction = 0.2;     /* delta that keeps tau */
+static const double correction_floor = 1e-3;     /* of the increment it is compared to */
+static const double acceptable_increment = 3.0;  /* in units of eta */
+static const double most_growth = 2.0, most_shrinkage = 0.4;
+static const double reject_factor = 0.5, after_reject = 0.75, relaxation = 1.3;
+static const double most_extrapolation = 2.0;
+
+/* Below this share of the first step something is wrong with the system itself. */
+static const double least_tau_share = 1e-9;
+
+/* Mass is held to the rounding of the stored precision. */
+static const double mass_tolerance = 1e-7;
+
+/* A pattern at rest: this many steps, each as long as a tenth of all time so far, that
+ * change u by less than this (rms); a coarsening pattern changes it by about eta. */
+enum { QUIET_STEPS = 12 };
+static const double quiet_increment = 1e-4, quiet_tau_share = 0.1;
+
+static size_t array_bytes(const fg__level *level)
+{
+  return level->array_size * sizeof(float);
+}
+
+static void copy_array(const fg__level *level, float *to, const float *from)
+{
+  memcpy(to - level->first, from - level->first, array_bytes(level));
+}
+
+static void swap(float **a, float **b)
+{
+  float *kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
+static double mean_of(const fg__stepper *s, const float *u)
+{
+  const fg__multigrid *m = &s->multigrid;
+  return m->kernel->changes(&m->level[0], u, u, u).u / s->total_mass;
+}
+
+/* The sum of masses is the sum of u when u is 1 everywhere. */
+static double weigh_domain(const fg__stepper *s)
+{
+  const fg__level *level = &s->multigrid.level[0];
+  float *ones = s->first_iterate;
+  for (size_t n = 0; n < level->array_size; ++n)
+    (ones - level->first)[n] = 1.0F;
+  return s->multigrid.kernel->changes(level, ones, ones, ones).u;
+}
+
+static double energy_of(const fg__stepper *s)
+{
+  const fg__multigrid *m = &s->multigrid;
+  return s->cell_area * m->kernel->energy(&m->level[0], m->level[0].u);
+}
+
+fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
+                             fg__multigrid *multigrid, double first_tau, double accuracy,
+                             int cycles)
+{
+  *out = (fg__stepper){.multigrid = *multigrid,
+                       .accuracy = accuracy,
+                       .cycles = cycles,
+                       .first_tau = first_tau,
+                       .tau = first_tau,
+                       .tau_limit = INFINITY};
+  *multigrid = (fg__multigrid){0};
+  const fg__level *finest = &out->multigrid.level[0], *second = finest + 1;
+  size_t size = finest->array_size + FG__LANES;
+  size_t count = 4 * size + second->array_size;
+  float *memory = fg__allocate_aligned(count, sizeof *memory);
+  if (!memory) {
+    fg__stepper_clear(out);
+    return fg__fail_memory(context, "the time steps", count * sizeof *memory);
+  }
+  out->memory = memory;
+  float **arrays[] = {&out->current, &out->previous, &out->first_iterate,
+                      &out->potential};
+  for (size_t n = 0; n < 4; ++n)
+    *arrays[n] = memory + n * size + finest->first;
+  out->defect = memory + 4 * size + second->first;
+  out->cell_area = finest->spacing[0] * finest->spacing[1];
+  out->total_mass = weigh_domain(out);
+  fg__fill_ghosts(finest, finest->u);
+  out->mean = mean_of(out, finest->u);
+  out->multigrid.kernel->chemical_potential(finest, finest->u, finest->w);
+  out->energy = energy_of(out);
+  return FG_STATUS_OK;
+}
+
+void fg__stepper_clear(fg__stepper *stepper)
+{
+  fg__multigrid_clear(&stepper->multigrid);
+  free(stepper->memory);
+  *stepper = (fg__stepper){0};
+}
+
+/* Right-hand side and first guess. With history: the last step's change continued, and
+ * its defect, kept on the next coarser grid, carried forward. */
+static void prepare(fg__stepper *s, double tau)
+{
+  fg__multigrid *m = &s->multigrid;
+  fg__level *level = &m->level[0];
+  copy_array(level, level->p, s->current);
+  copy_array(level, level->w, s->potential);
+  if (!s->history) {
+    copy_array(level, level->u, s->current);
+    return;
+  }
+  m->kernel->prolong_array(&m->level[1], s->defect, level, level->p);
+  float omega = (float)fmin(tau / s->last_tau, most_extrapolation);
+  float *u = level->u - level->first;
+  const float *now = s->current - level->first, *before = s->previous - level->first;
+  for (size_t n = 0; n < level->array_size; ++n)
+    u[n] = now[n] + omega * (now[n] - before[n]);
+}
+
+static void shift_mean(const fg__level *level, float shift)
+{
+  float *u = level->u - level->first;
+  const float *mass = level->mass ? level->mass - level->first : NULL;
+  if (!mass)
+    for (size_t n = 0; n < level->array_size; ++n)
+      u[n] += shift;
+  else
+    for (size_t n = 0; n < level->array_size; ++n)
+      u[n] += mass[n] > 0.0F ? shift : 0.0F;
+}
+
+typedef struct outcome {
+  double increment, correction, energy;
+  bool accepted;
+} outcome;
+
+static outcome attempt(fg__stepper *s, double tau)
+{
+  fg__multigrid *m = &s->multigrid;
+  fg__level *level = &m->level[0];
+  prepare(s, tau);
+  for (int n = 0; n < s->cycles; ++n) {
+    if (n == s->cycles - 1)
+      copy_array(level, s->first_iterate, level->u);
+    fg__multigrid_cycle(m, tau);
+  }
+  s->cycles_spent += s->cycles;
+  fg__changes sums = m->kernel->changes(level, level->u, s->current, s->first_iterate);
+  shift_mean(level, (float)(s->mean - sums.u / s->total_mass));
+  outcome result;
+  result.increment = sqrt(sums.from_a / s->total_mass);
+  result.correction =
+      sqrt(sums.from_b / s->total_mass) / fmax(result.increment, correction_floor);
+  result.energy = energy_of(s);
+  /* comparisons are false for NaN, which rejects */
+  result.accepted = result.correction <= acceptable_correction &&
+                    result.increment <= acceptable_increment * s->accuracy &&
+                    result.energy <= s->energy;
+  return result;
+}
+
+/* The accepted density becomes the current one; its defect is kept for the next step. */
+static void keep(fg__stepper *s, double tau, const outcome *result)
+{
+  fg__multigrid *m = &s->multigrid;
+  fg__level *level = &m->level[0];
+  swap(&s->previous, &s->current);
+  copy_array(level, s->current, level->u);
+  copy_array(level, s->potential, level->w);
+  m->kernel->chemical_potential(level, level->u, s->first_iterate);
+  m->kernel->restrict_defect(level, s->first_iterate, &m->level[1], s->defect,
+                             (float)tau);
+  s->energy = result->energy;
+  s->increment = result->increment;
+  s->history = true;
+  s->last_tau = tau;
+  s->time += tau;
+  ++s->accepted;
+}
+
+static void choose_next_tau(fg__stepper *s, double tau, const outcome *result)
+{
+  double by_increment = s->accuracy / result->increment;
+  double by_correction = sqrt(wanted_correction / result->correction);
+  double factor = fmin(by_increment, by_correction);
+  factor = fmin(fmax(factor, most_shrinkage), most_growth);
+  s->tau_limit *= relaxation;
+  s->tau = fmin(tau * factor, s->tau_limit);
+  bool quiet = result->increment < quiet_increment && tau > quiet_tau_share * s->time;
+  s->quiet_steps = quiet ? s->quiet_steps + 1 : 0;
+}
+
+fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
+{
+  fg__stepper *s = stepper;
+  fg__level *level = &s->multigrid.level[0];
+  if (s->accepted == 0) {
+    copy_array(level, s->current, level->u);
+    copy_array(level, s->potential, level->w);
+  }
+  double tau = s->tau;
+  for (;;) {
+    fg_status status = fg__check_stop(context);
+    if (status)
+      return status;
+    outcome result = attempt(s, tau);
+    if (result.accepted) {
+      keep(s, tau, &result);
+      choose_next_tau(s, tau, &result);
+      break;
+    }
+    ++s->rejected;
+    s->history = false;
+    s->tau_limit = after_reject * tau;
+    tau *= reject_factor;
+    if (!(tau > least_tau_share * s->first_tau))
+      return fg__fail(context, FG_STATUS_NO_CONVERGENCE,
+                      "no time step is accepted after step %ld at t = %g: change %g, "
+                      "correction %g at tau = %g",
+                      s->accepted, s->time, result.increment, result.correction, tau);
+  }
+  double mean = mean_of(s, level->u);
+  s->mass = s->cell_area * s->total_mass * mean;
+  if (!(fabs(mean - s->mean) <= mass_tolerance))
+    return fg__fail(context, FG_STATUS_NO_CONVERGENCE,
+                    "the mean density drifted by %g (allowed %g) in step %ld",
+                    mean - s->mean, mass_tolerance, s->accepted);
+  return FG_STATUS_OK;
+}
+
+bool fg__stepper_stationary(const fg__stepper *stepper)
+{
+  return stepper->quiet_steps >= QUIET_STEPS;
+}

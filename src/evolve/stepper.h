@@ -1,0 +1,44 @@
+/* Implicit Euler steps of the density, and how large they may be. */
+#ifndef FG__STEPPER_H
+#define FG__STEPPER_H
+
+#include "evolve/multigrid.h"
+
+typedef struct fg__stepper {
+  fg__multigrid multigrid;
+  double accuracy;   /* eta */
+  int cycles;        /* a step */
+  double cell_area;  /* hx hy, units of the longest side squared */
+  double total_mass; /* sum of the nodes' relative masses */
+  double mean;       /* of u, held */
+  double first_tau;
+
+  long accepted, rejected, cycles_spent;
+  double time, tau;    /* tau: the next step to try */
+  double last_tau;     /* the last accepted one */
+  double tau_limit;    /* after a reject */
+  double energy, mass; /* of the current u, units of the longest side */
+  double increment;    /* rms of the last step's change */
+  bool history;        /* the last step's predecessor and defect may be used */
+  long quiet_steps;    /* steps in a row that changed next to nothing */
+
+  /* arrays in the layout of level[0], besides its own */
+  float *current, *previous, *first_iterate, *potential;
+  float *defect; /* in the layout of level[1] */
+  void *memory;
+} fg__stepper;
+
+/* Takes over a multigrid hierarchy (cleared with the stepper); the density is what
+ * level[0].u holds, whose mean is kept. MEMORY. */
+fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
+                             fg__multigrid *multigrid, double first_tau, double accuracy,
+                             int cycles);
+void fg__stepper_clear(fg__stepper *stepper);
+
+/* One accepted step; level[0].u is the new density. NO_CONVERGENCE, STOPPED. */
+fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context);
+
+/* Many steps in a row changed next to nothing although time went on. */
+bool fg__stepper_stationary(const fg__stepper *stepper);
+
+#endif
