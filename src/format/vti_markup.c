@@ -1,0 +1,144 @@
+/* The markup of a VTK XML file, by libxml2, and where its appended data lie. */
+#include "base/memory.h"
+#include "format/vti.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <libxml/parser.h>
+#include <libxml/tree.h>
+
+static const char APPENDED_OPEN[] = "<AppendedData";
+static const char APPENDED_CLOSE[] = "</AppendedData";
+static const char REPAIR[] = "</AppendedData></VTKFile>";
+
+/* ---- finding the appended data ------------------------------------------------------
+ */
+
+static size_t find_first(const unsigned char *bytes, size_t size, const char *text)
+{
+  size_t length = strlen(text), at = 0;
+  while (at + length <= size) {
+    const unsigned char *found = memchr(bytes + at, text[0], size - length + 1 - at);
+    if (!found)
+      break;
+    at = (size_t)(found - bytes);
+    if (memcmp(found, text, length) == 0)
+      return at;
+    ++at;
+  }
+  return size;
+}
+
+static size_t find_last(const unsigned char *bytes, size_t size, const char *text)
+{
+  size_t length = strlen(text);
+  for (size_t at = size < length ? 0 : size - length + 1; at-- > 0;)
+    if (bytes[at] == (unsigned char)text[0] && memcmp(bytes + at, text, length) == 0)
+      return at;
+  return size;
+}
+
+static bool is_space(unsigned char c)
+{
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
+
+/* Appended data may be raw bytes, which are no XML: the markup is cut before them.
+ * *markup becomes the size of what remains; without appended data, all. */
+static fg_status cut_appended(fg__vti *vti, const fg__source *source, size_t *markup)
+{
+  *markup = source->size;
+  size_t open = find_first(source->bytes, source->size, APPENDED_OPEN);
+  if (open == source->size)
+    return FG_STATUS_OK;
+  const unsigned char *close = memchr(source->bytes + open, '>', source->size - open);
+  if (!close)
+    return fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
+                    "%s: ends inside the tag of its appended data, after %zu bytes",
+                    vti->path, source->size);
+  if (close[-1] == '/')
+    return FG_STATUS_OK;
+  size_t at = (size_t)(close - source->bytes) + 1;
+  *markup = at;
+  while (at < source->size && is_space(source->bytes[at]))
+    ++at;
+  if (at == source->size || source->bytes[at] != '_')
+    return fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
+                    "%s: the appended data do not begin with '_' at byte %zu", vti->path,
+                    at);
+  vti->appended = source->bytes + at + 1;
+  vti->appended_size = source->size - at - 1;
+  vti->appended_size = find_last(vti->appended, vti->appended_size, APPENDED_CLOSE);
+  return FG_STATUS_OK;
+}
+
+/* ---- parsing the markup -------------------------------------------------------------
+ */
+
+/* VTK files have no document type, and without one there are no entities to expand. */
+static void refuse_document_type(void *parser, const xmlChar *name,
+                                 const xmlChar *external, const xmlChar *system)
+{
+  (void)name;
+  (void)external;
+  (void)system;
+  xmlParserCtxt *context = parser;
+  *(bool *)context->_private = true;
+  xmlStopParser(context);
+}
+
+static fg_status parse(fg__vti *vti, const char *markup, size_t size)
+{
+  if (size > INT_MAX)
+    return fg__fail(vti->context, FG_STATUS_UNSUPPORTED,
+                    "%s: %zu bytes of markup; at most %d can be read", vti->path, size,
+                    INT_MAX);
+  xmlParserCtxt *parser = xmlNewParserCtxt();
+  if (!parser)
+    return fg__fail_memory(vti->context, "an XML parser", sizeof *parser);
+  bool has_document_type = false;
+  parser->_private = &has_document_type;
+  parser->sax->internalSubset = refuse_document_type;
+  int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING;
+  /* libxml2 takes a longer text for an attack unless it is told to expect one; inline
+   * data may be one, and the memory it takes is the file's size */
+  if (size > 10000000)
+    options |= XML_PARSE_HUGE;
+  xmlDoc *document = xmlCtxtReadMemory(parser, markup, (int)size, NULL, NULL, options);
+  fg_status status = FG_STATUS_OK;
+  if (has_document_type) {
+    status = fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
+                      "%s: has a document type, which a VTK file has not", vti->path);
+  } else if (!document) {
+    const xmlError *error = xmlCtxtGetLastError(parser);
+    const char *message = error && error->message ? error->message : "no reason given";
+    status = fg__fail(vti->context, FG_STATUS_FILE_FORMAT, "%s: line %d: not XML: %.*s",
+                      vti->path, error ? error->line : 0, (int)strcspn(message, "\n"),
+                      message);
+  }
+  if (status == FG_STATUS_OK)
+    vti->document = document;
+  else
+    xmlFreeDoc(document);
+  xmlFreeParserCtxt(parser);
+  return status;
+}
+
+fg_status fg__vti_parse(fg__vti *vti, const fg__source *source)
+{
+  size_t markup = 0;
+  fg_status status = cut_appended(vti, source, &markup);
+  if (status != FG_STATUS_OK || !vti->appended)
+    return status != FG_STATUS_OK ? status
+                                  : parse(vti, (const char *)source->bytes, markup);
+  char *repaired = fg__allocate(markup + sizeof REPAIR, 1);
+  if (!repaired)
+    return fg__fail_memory(vti->context, "a file's markup", markup);
+  memcpy(repaired, source->bytes, markup);
+  memcpy(repaired + markup, REPAIR, sizeof REPAIR);
+  status = parse(vti, repaired, markup + sizeof REPAIR - 1);
+  free(repaired);
+  return status;
+}
