@@ -1,0 +1,253 @@
+#include "icon/shapes_test.h"
+
+#include "icon/streamline.h"
+
+#include <string.h>
+
+static const double CORE[2] = {9.3, 21.7};
+
+static void vortex(double x, double y, double v[2])
+{
+  v[0] = -3.7 * (y - CORE[1]);
+  v[1] = 3.7 * (x - CORE[0]);
+}
+
+static void saddle(double x, double y, double v[2])
+{
+  v[0] = 0.2 * (x - CORE[0]);
+  v[1] = -0.2 * (y - CORE[1]);
+}
+
+static void uniform(double x, double y, double v[2])
+{
+  (void)x, (void)y;
+  v[0] = -1.2;
+  v[1] = 0.5;
+}
+
+static void sink(double x, double y, double v[2])
+{
+  v[0] = -5 * (x - CORE[0]);
+  v[1] = -5 * (y - CORE[1]);
+}
+
+static void reversal(double x, double y, double v[2])
+{
+  (void)y;
+  v[0] = -2 * (x - CORE[0]);
+  v[1] = 0;
+}
+
+/* Missing right of x = 20. */
+static void half(double x, double y, double v[2])
+{
+  (void)y;
+  v[0] = x > 20.5 ? (double)NAN : 2;
+  v[1] = 0.1;
+}
+
+typedef struct bench {
+  fg_context *context;
+  fg_field *field;
+  fg__window window;
+  fg__streamline line;
+} bench;
+
+static double everywhere(double x, double y)
+{
+  (void)x, (void)y;
+  return 1;
+}
+
+/* To the right of a slanting border: 0.8 x + 0.6 y = 14.2, linear like the window's
+ * cells. */
+static double beyond_line(double x, double y)
+{
+  return 0.8 * x + 0.6 * y - 14.2;
+}
+
+static bench bench_of(velocity_of velocity, depth_of depth)
+{
+  bench bench = {0};
+  assert_int_equal(fg_context_create(&bench.context), FG_STATUS_OK);
+  bench.field = field_of(bench.context, velocity);
+  fg__window *window = &bench.window;
+  *window = (fg__window){.cluster = 1,
+                         .nodes = {SHAPE_NODES_X, SHAPE_NODES_Y},
+                         .origin = {SHAPE_ORIGIN[0], SHAPE_ORIGIN[1]},
+                         .spacing = {SHAPE_SPACING, SHAPE_SPACING},
+                         .at_border = {true, true, true, true}};
+  window->level = calloc((size_t)SHAPE_NODES_X * SHAPE_NODES_Y, sizeof(float));
+  window->active = malloc((size_t)(SHAPE_NODES_X - 1) * (SHAPE_NODES_Y - 1));
+  assert_non_null(window->level);
+  assert_non_null(window->active);
+  memset(window->active, 1, (size_t)(SHAPE_NODES_X - 1) * (SHAPE_NODES_Y - 1));
+  for (int j = 0; j < SHAPE_NODES_Y; j++)
+    for (int i = 0; i < SHAPE_NODES_X; i++)
+      window->level[j * SHAPE_NODES_X + i] = (float)depth(
+          SHAPE_ORIGIN[0] + SHAPE_SPACING * i, SHAPE_ORIGIN[1] + SHAPE_SPACING * j);
+  return bench;
+}
+
+static void end_bench(bench *bench)
+{
+  fg__streamline_clear(&bench->line);
+  free(bench->window.level);
+  free(bench->window.active);
+  fg_field_destroy(bench->field);
+  fg_context_destroy(bench->context);
+}
+
+static void trace(bench *bench, double x, double y, double step)
+{
+  fg__streamline_limits limits = {step, 200, 5.236};
+  double start[2] = {x, y};
+  assert_int_equal(fg__streamline_trace(&bench->line, bench->context, bench->field,
+                                        &bench->window, start, &limits),
+                   FG_STATUS_OK);
+}
+
+/* Largest deviation from the circle, dense output included. */
+static double circle_error(bench *bench, double radius)
+{
+  double worst = 0;
+  int hint = 0;
+  double length = fg__streamline_length(&bench->line);
+  for (int i = 0; i <= 1000; i++) {
+    double p[2], t[2];
+    fg__streamline_at(&bench->line, length * i / 1000, &hint, p, t);
+    worst = fmax(worst, fabs(hypot(p[0] - CORE[0], p[1] - CORE[1]) - radius));
+    /* the tangent is across the radius, anticlockwise */
+    double turn = (p[0] - CORE[0]) * t[1] - (p[1] - CORE[1]) * t[0];
+    assert_true(turn / radius > 0.999);
+  }
+  return worst;
+}
+
+static void follows_a_circle(void **state)
+{
+  (void)state;
+  bench bench = bench_of(vortex, everywhere);
+  trace(&bench, CORE[0] + 4.2, CORE[1], SHAPE_SPACING);
+  const fg__streamline *line = &bench.line;
+  assert_int_equal(line->end[0], FG__STREAMLINE_TURNED);
+  assert_int_equal(line->end[1], FG__STREAMLINE_TURNED);
+  assert_true(circle_error(&bench, 4.2) < 2e-3 * SHAPE_SPACING);
+  const fg__streamline_node *last = &line->node[line->count - 1];
+  /* arc length and turning of a circle */
+  assert_true(fabs(last->turning - line->node[0].turning - last->s / 4.2) < 1e-4);
+  assert_true(fabs(line->node[line->start].position[0] - (CORE[0] + 4.2)) < 1e-12);
+  for (int i = 1; i < line->count; i++)
+    assert_true(line->node[i].s > line->node[i - 1].s);
+  end_bench(&bench);
+}
+
+static void is_of_third_order(void **state)
+{
+  (void)state;
+  bench bench = bench_of(vortex, everywhere);
+  double error[2], radius = 7.9;
+  for (int i = 0; i < 2; i++) {
+    trace(&bench, CORE[0], CORE[1] - radius, 0.7 / (1 << i));
+    error[i] = circle_error(&bench, radius);
+  }
+  assert_true(error[0] < 1e-3);
+  assert_true(log2(error[0] / error[1]) > 2.6);
+  end_bench(&bench);
+}
+
+static void follows_a_hyperbola_to_the_domain_border(void **state)
+{
+  (void)state;
+  bench bench = bench_of(saddle, everywhere);
+  trace(&bench, CORE[0] + 0.9, CORE[1] + 1.3, SHAPE_SPACING);
+  const fg__streamline *line = &bench.line;
+  for (int i = 0; i < line->count; i++) {
+    const double *p = line->node[i].position;
+    double product = (p[0] - CORE[0]) * (p[1] - CORE[1]);
+    /* as a distance: across the curve the product grows by the distance to the saddle */
+    double away = hypot(p[0] - CORE[0], p[1] - CORE[1]);
+    assert_true(fabs(product - 0.9 * 1.3) / away < 2e-3 * SHAPE_SPACING);
+  }
+  /* it comes from the upper border and leaves by the right one */
+  assert_true(35 - line->node[0].position[1] < 0.02 * SHAPE_SPACING);
+  assert_true(30 - line->node[line->count - 1].position[0] < 0.02 * SHAPE_SPACING);
+  end_bench(&bench);
+}
+
+static void ends_on_the_zero_set(void **state)
+{
+  (void)state;
+  bench bench = bench_of(uniform, beyond_line);
+  trace(&bench, 20.1, 12.3, SHAPE_SPACING);
+  const fg__streamline *line = &bench.line;
+  const double *tip = line->node[line->count - 1].position;
+  assert_int_equal(line->end[1], FG__STREAMLINE_LEFT);
+  assert_true(beyond_line(tip[0], tip[1]) > 0);
+  assert_true(beyond_line(tip[0], tip[1]) < 1e-5);
+  /* straight: the cross product with the velocity stays */
+  assert_true(fabs((tip[0] - 20.1) * 0.5 + (tip[1] - 12.3) * 1.2) < 1e-6);
+  end_bench(&bench);
+}
+
+static void ends_where_the_flow_does(void **state)
+{
+  (void)state;
+  velocity_of cases[] = {sink, reversal};
+  for (int i = 0; i < 2; i++) {
+    bench bench = bench_of(cases[i], everywhere);
+    trace(&bench, CORE[0] + 3.1, CORE[1] - 0.4, SHAPE_SPACING);
+    const fg__streamline *line = &bench.line;
+    const double *tip = line->node[line->count - 1].position;
+    assert_int_equal(line->end[1], FG__STREAMLINE_SINGULAR);
+    assert_true(fabs(tip[0] - CORE[0]) < 0.05 * SHAPE_SPACING);
+    assert_true(tip[0] > CORE[0] - 1e-9); /* never back from the other side */
+    end_bench(&bench);
+  }
+}
+
+static void ends_at_missing_data_and_masks(void **state)
+{
+  (void)state;
+  bench bench = bench_of(half, everywhere);
+  trace(&bench, 14.7, 18.2, SHAPE_SPACING);
+  const fg__streamline *line = &bench.line;
+  double x = line->node[line->count - 1].position[0];
+  assert_true(x <= 20 && x > 20 - 0.05 * SHAPE_SPACING);
+
+  /* the cell from 17 to 17.25 of every row is masked */
+  for (int j = 0; j < SHAPE_NODES_Y - 1; j++)
+    bench.window.active[j * (SHAPE_NODES_X - 1) + 108] = 0;
+  trace(&bench, 14.7, 18.2, SHAPE_SPACING);
+  x = line->node[line->count - 1].position[0];
+  assert_true(x <= 17 && x > 17 - 1e-4);
+  end_bench(&bench);
+}
+
+static void gives_nothing_outside_and_at_rest(void **state)
+{
+  (void)state;
+  bench bench = bench_of(uniform, beyond_line);
+  trace(&bench, 2, 8, SHAPE_SPACING);
+  assert_int_equal(bench.line.count, 0);
+  end_bench(&bench);
+  bench = bench_of(vortex, everywhere);
+  bench.line.count = 7; /* of a line traced before */
+  trace(&bench, 300, 20, SHAPE_SPACING);
+  assert_int_equal(bench.line.count, 0);
+  end_bench(&bench);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(follows_a_circle),
+      cmocka_unit_test(is_of_third_order),
+      cmocka_unit_test(follows_a_hyperbola_to_the_domain_border),
+      cmocka_unit_test(ends_on_the_zero_set),
+      cmocka_unit_test(ends_where_the_flow_does),
+      cmocka_unit_test(ends_at_missing_data_and_masks),
+      cmocka_unit_test(gives_nothing_outside_and_at_rest),
+  };
+  return cmocka_run_group_tests_name("icon/streamline", tests, NULL, NULL);
+}
