@@ -97,7 +97,7 @@ static bool set_seed(cli_settings *out, const cli_command *command,
   return true;
 }
 
-/* Appends " (known: a, b, c)"-like lists within the room that is left. */
+/* "a, b, c", as far as there is room. */
 static void list_words(char *text, size_t room, const char *const *words)
 {
   text[0] = '\0';
@@ -171,6 +171,28 @@ static bool set_formats(cli_settings *out, const cli_command *command,
   return true;
 }
 
+static bool is_color(const char *text)
+{
+  return text[0] == '#' && strlen(text) == 7 &&
+         strspn(text + 1, "0123456789abcdefABCDEF") == 6;
+}
+
+static bool set_palette(cli_settings *out, const cli_command *command,
+                        const option_entry *option, const char *text)
+{
+  const char *const *names = fg_picture_palettes();
+  bool known = is_color(text);
+  for (size_t k = 0; !known && names[k]; ++k)
+    known = strcmp(names[k], text) == 0;
+  char words[256];
+  list_words(words, sizeof words, names);
+  if (!known)
+    return wrong(command, "--%s %s: not known; the choice is: %s, or #rrggbb",
+                 option->name, text, words);
+  memcpy((char *)out + option->place, &text, sizeof text);
+  return true;
+}
+
 static bool set_option(cli_settings *out, const cli_command *command,
                        const option_entry *option, const char *text)
 {
@@ -196,6 +218,8 @@ static bool set_option(cli_settings *out, const cli_command *command,
     return set_counts(out, command, option, text);
   case OPTION_FORMATS:
     return set_formats(out, command, option, text);
+  case OPTION_PALETTE:
+    return set_palette(out, command, option, text);
   case OPTION_HELP:
   case OPTION_VERSION:
     break;

@@ -29,6 +29,7 @@ typedef enum option_kind {
   OPTION_CHOICE,  /* int: value of the word's place in `words` */
   OPTION_COUNTS,  /* settings.clusters */
   OPTION_FORMATS, /* settings.formats */
+  OPTION_PALETTE, /* const char *: a palette's name or #rrggbb */
   OPTION_HELP,
   OPTION_VERSION
 } option_kind;

@@ -28,6 +28,16 @@ static int check_name(const char *name)
   return EXIT_USAGE;
 }
 
+static int check_end(const char *path)
+{
+  const char *end = strrchr(path, '.');
+  if (end && (strcmp(end, ".vti") == 0 || strcmp(end, ".nc") == 0))
+    return EXIT_DONE;
+  complain("-o %s: the name's end must be .vti or .nc", path);
+  fputs("Try 'flowgrain synth --help'.\n", stderr);
+  return EXIT_USAGE;
+}
+
 static int write_field(fg_context *context, const cli_settings *settings,
                        const fg_field *field)
 {
@@ -52,6 +62,8 @@ int command_synth(const cli_settings *settings)
   if (strncmp(name, "synth:", 6) == 0)
     name += 6;
   int code = check_name(name);
+  if (!code)
+    code = check_end(settings->output);
   if (code)
     return code;
   fg_context *context;

@@ -1,0 +1,85 @@
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "scales.h"
+
+static void a_list_is_followed(void **state)
+{
+  (void)state;
+  const int list[] = {200, 60, 20};
+  scale_plan plan;
+  scale_plan_start(&plan, list, 3);
+  assert_int_equal(scale_plan_reach(&plan, 0), 0);
+  assert_int_equal(scale_plan_reach(&plan, 201), 0);
+  assert_int_equal(scale_plan_reach(&plan, 200), 1);
+  assert_int_equal(scale_plan_reach(&plan, 200), 0);
+  assert_int_equal(scale_plan_reach(&plan, 61), 0);
+  assert_false(scale_plan_done(&plan));
+  assert_int_equal(scale_plan_reach(&plan, 19), 2); /* one state answers 60 and 20 */
+  assert_true(scale_plan_done(&plan));
+  assert_int_equal(scale_plan_reach(&plan, 3), 0);
+}
+
+static void the_number_may_rise_again(void **state)
+{
+  (void)state;
+  const int list[] = {50, 40};
+  scale_plan plan;
+  scale_plan_start(&plan, list, 2);
+  assert_int_equal(scale_plan_reach(&plan, 50), 1);
+  assert_int_equal(scale_plan_reach(&plan, 52), 0);
+  assert_int_equal(scale_plan_reach(&plan, 50), 0);
+}
+
+/* Whatever the first number: it comes first, each next one is well below the one before
+ * it, and the last is 12 (or the first itself, below that). */
+static void the_default_halves(void **state)
+{
+  (void)state;
+  for (int first = 1; first < 3000; ++first) {
+    scale_plan plan;
+    scale_plan_start(&plan, NULL, 0);
+    assert_int_equal(scale_plan_reach(&plan, 0), 0);
+    assert_false(scale_plan_done(&plan));
+    assert_true(scale_plan_reach(&plan, first) >= 1);
+    assert_int_equal(plan.wanted[0], first);
+    assert_int_equal(plan.wanted[plan.count - 1], first > 12 ? 12 : first);
+    for (int k = 1; k < plan.count; ++k) {
+      double ratio = (double)plan.wanted[k - 1] / plan.wanted[k];
+      assert_true(ratio < 2.0 * sqrt(2.0) + 1e-9);
+      assert_true(k == plan.count - 1 || ratio > sqrt(2.0) - 1e-9);
+    }
+  }
+}
+
+static void time_left_follows_the_power_law(void **state)
+{
+  (void)state;
+  const int list[] = {10};
+  scale_plan plan;
+  scale_plan_start(&plan, list, 1);
+  /* nothing is known at the first moment */
+  assert_true(scale_plan_seconds_left(&plan, 80, 3e-6, 2.0, 3e-6, 2.0) < 0.0);
+  /* with N = t^-0.43 and the same work for every factor of t, half of the way in log N
+   * takes half of the time */
+  double t_80 = 3e-6, t_40 = t_80 * pow(2.0, 1.0 / 0.43);
+  double left = scale_plan_seconds_left(&plan, 40, t_40, 2.0 + 1.5, t_80, 2.0);
+  assert_double_equal(left, 3.0, 1e-9);
+  assert_double_equal(scale_plan_seconds_left(&plan, 9, t_40, 4.0, t_80, 2.0), 0.0, 0.0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_list_is_followed),
+      cmocka_unit_test(the_number_may_rise_again),
+      cmocka_unit_test(the_default_halves),
+      cmocka_unit_test(time_left_follows_the_power_law),
+  };
+  return cmocka_run_group_tests_name("cli/scales", tests, NULL, NULL);
+}

@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# draw, info and synth.
+source "$(dirname "$0")/harness.sh"
+
+try run synth:saddle -o run --nodes 65 --clusters 16,8 --quiet
+expect_code 0
+try draw run -o coarse.pdf
+expect_code 0
+[ "$(head -c 5 coarse.pdf)" = %PDF- ] || fault "no PDF"
+try draw run -o fine.svg --scale-index 0 --width 300 --no-frame
+expect_code 0
+grep -q 'width="300' fine.svg || fault "the width is not 300: $(grep -m1 '<svg' fine.svg)"
+done_with "draw: a scale again"
+
+try draw run -o by-clusters.svg --clusters 9 --no-frame --width 300
+expect_code 0
+try draw run -o last.svg --scale-index 1 --no-frame --width 300
+cmp -s by-clusters.svg last.svg || fault "--clusters 9 and --scale-index 1 differ"
+cmp -s by-clusters.svg fine.svg && fault "the scales do not differ"
+done_with "draw: a scale chosen by its clusters"
+
+try draw run -o x.svg --scale-index 5
+expect_code 1
+expect_one_complaint
+try draw run -o x.svg --clusters 1
+expect_code 1
+expect_one_complaint
+expect_nothing_at x.svg
+done_with "draw: a scale that is not there"
+try draw . -o x.svg
+expect_code 1
+expect_one_complaint
+echo '{"scales": 3}' >run.json
+try draw . -o x.svg
+expect_code 1
+expect_one_complaint
+echo '{"input":{"path":"synth:saddle"},"scales":[{"geojson":"../../etc/passwd"}]}' >run.json
+try draw . -o x.svg
+expect_code 1
+expect_one_complaint
+expect_nothing_at x.svg
+done_with "draw: not the folder of a finished run"
+cp -r run moved
+rm moved/scale-00.geojson
+try draw moved -o x.svg --scale-index 0
+expect_code 1
+expect_one_complaint
+expect_nothing_at x.svg
+done_with "draw: icons are missing"
+
+for end in vti nc; do
+  try synth benard -o field.$end --nodes 33
+  expect_code 0
+  try info field.$end
+  expect_code 0
+  [ "$(grep -c '^vectors: ' out)" = 1 ] || fault "not one line vectors: $(cat out)"
+  grep -q 'grid: 33 x 33' out || fault "$(cat out)"
+  try info field.$end --json
+  expect_code 0
+  expect_json out '(.vectors | length) == 1 and .vectors[0].size == [33, 33]'
+  expect_json out '.vectors[0].bounds == [0, 1, 0, 1]'
+  done_with "synth and info: .$end"
+  try run field.$end -o from-$end --nodes 65 --clusters 12 --quiet
+  expect_code 0
+  expect_json from-$end/run.json '.scales[0].icons > 0'
+  done_with "run: .$end"
+done
+cmp -s from-vti/scale-00.geojson from-nc/scale-00.geojson || fault "icons differ"
+done_with "the same field from two formats gives the same icons"
+
+try info "$root/data/gfs_20140131.nc"
+expect_code 0
+grep -q '^vectors: u10,v10$' out || fault "$(cat out)"
+grep -q 'scale: geo' out || fault "$(cat out)"
+done_with "info: a global wind field"
+try info no-such-file.nc
+expect_code 1
+expect_one_complaint
+expect_error 'no-such-file.nc'
+done_with "info: no such file"
+finish

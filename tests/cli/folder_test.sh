@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# The results' folder: what is refused, what is replaced, what is never touched.
+source "$(dirname "$0")/harness.sh"
+
+quick=(--nodes 65 --clusters 12 --quiet)
+
+try run synth:vortex -o a/b/c "${quick[@]}"
+expect_code 0
+expect_file a/b/c/run.json
+done_with "parents of the folder are made"
+
+before=$(cat a/b/c/* | cksum)
+try run synth:vortex -o a/b/c "${quick[@]}" --seed 3
+expect_code 1
+expect_one_complaint
+expect_error 'finished run'
+expect_error -- '--force'
+[ "$(cat a/b/c/* | cksum)" = "$before" ] || fault "its files have changed"
+done_with "a finished run is not replaced"
+
+echo mine >a/b/c/notes.txt
+echo mine >a/b/c/scale-notes.svg
+echo old >a/b/c/scale-07.svg
+try run synth:vortex -o a/b/c "${quick[@]}" --seed 3 --force
+expect_code 0
+[ "$(cat a/b/c/notes.txt a/b/c/scale-notes.svg)" = "mine
+mine" ] || fault "foreign files have changed"
+expect_nothing_at a/b/c/scale-07.svg
+expect_json a/b/c/run.json '.parameters.seed == 3'
+done_with "--force replaces our files and no others"
+
+before=$(cat a/b/c/* | cksum)
+try run no-such.nc -o a/b/c --force
+expect_code 1
+[ "$(cat a/b/c/* | cksum)" = "$before" ] || fault "its files have changed"
+done_with "a forced run that fails leaves the old results"
+
+echo text >plain
+try run synth:vortex -o plain "${quick[@]}"
+expect_code 1
+expect_one_complaint
+expect_error 'plain.*file'
+[ "$(cat plain)" = text ] || fault "it was overwritten"
+done_with "a file is no folder"
+try run synth:vortex -o plain/sub "${quick[@]}"
+expect_code 1
+expect_one_complaint
+done_with "nor is a folder inside a file"
+
+# root may write anywhere but below /proc
+try run synth:vortex -o /proc/flowgrain-test "${quick[@]}"
+expect_code 1
+expect_one_complaint
+done_with "a folder that cannot be made"
+
+case $(stat -f -c %T /dev/shm 2>/dev/null) in
+  tmpfs)
+    if mkdir full 2>/dev/null && mount -t tmpfs -o size=64k tmpfs full 2>/dev/null; then
+      try run synth:vortex -o full/run "${quick[@]}"
+      expect_code 1
+      expect_one_complaint
+      expect_nothing_at full/run
+      umount full
+      done_with "a full disk leaves nothing"
+    fi
+    ;;
+esac
+
+printf 'CDF\001 rubbish' >broken.nc
+for input in no-such.nc broken.nc plain . /dev/null; do
+  try run "$input" -o x
+  expect_code 1
+  expect_one_complaint
+  expect_error "$input"
+  expect_nothing_at x
+  done_with "unreadable input: $input"
+done
+
+"$program" run synth:vortex3 -o stopped --nodes 513 --clusters 400,2 --quiet >out 2>err &
+pid=$!
+# not a fixed wait: until the first scale is on its way
+for _ in $(seq 600); do
+  ls stopped/.flowgrain-*/scale-00.geojson >/dev/null 2>&1 && break
+  kill -0 "$pid" 2>/dev/null || break
+  sleep 0.05
+done
+kill -INT "$pid"
+wait "$pid"
+code=$?
+expect_code 130
+expect_one_complaint
+expect_error 'interrupted'
+expect_json stopped/run.json '.ended == "interrupted" and (.scales | length) >= 1'
+expect_file stopped/scale-00.svg
+[ "$(ls -A stopped | grep -c flowgrain)" = 0 ] || fault "temporary files are left"
+done_with "an interrupted run writes the scales it has and exits 130"
+
+"$program" run synth:vortex3 -o early --nodes 2049 --threads 1 --quiet >out 2>err &
+pid=$!
+for _ in $(seq 600); do
+  ls -d early/.flowgrain-* >/dev/null 2>&1 && break
+  sleep 0.05
+done
+kill -TERM "$pid"
+wait "$pid"
+code=$?
+expect_code 130
+expect_one_complaint
+expect_nothing_at early
+done_with "terminated before the first scale, it leaves nothing"
+finish

@@ -1,0 +1,132 @@
+#!/usr/bin/env bash
+# What a run leaves in its folder, and that it is the same however it was made.
+source "$(dirname "$0")/harness.sh"
+
+small=(--nodes 97 --clusters "30,15,8" --quiet)
+
+try run synth:vortex3 -o out1 "${small[@]}" --threads 1 --save-field --formats svg,png,pdf
+expect_code 0
+[ ! -s err ] || fault "standard error: $(head -c 200 err)"
+done_with "a run succeeds without a message"
+
+[ "$(ls -A out1 | sed 's/scale-..\./scale./' | sort -u | tr '\n' ' ')" = \
+  "evolution.csv run.json scale.geojson scale.pdf scale.png scale.svg scale.vti " ] ||
+  fault "$(ls -A out1)"
+done_with "the folder holds what is promised and nothing else"
+
+[ "$(wc -l <out)" = 3 ] || fault "not a line a scale: $(cat out)"
+while read -r line; do
+  expect_file "${line##* }"
+done <out
+done_with "standard output names a picture a scale"
+
+report=out1/run.json
+expect_json $report '.version | test("^[0-9.]+$")'
+expect_json $report '.input.path == "synth:vortex3"'
+expect_json $report '.parameters.anisotropy == 0.15 and .parameters.coverage == 0.3'
+expect_json $report '.parameters.seed == 1 and .parameters.gamma > 0'
+expect_json $report '.mesh.cells[0] >= 96 and .mesh.active_cells == .mesh.cells[0] * .mesh.cells[1]'
+expect_json $report '.scales | length == 3'
+expect_json $report '[.scales[].index] == [0, 1, 2]'
+expect_json $report '[.scales[].wanted[]] == [30, 15, 8]'
+expect_json $report '[.scales[] | .clusters <= .wanted[-1] and .icons + .dropped == .clusters] | all'
+expect_json $report '[.scales[].clusters] | . == (sort | reverse)'
+expect_json $report '[.scales[].time] | . == sort'
+expect_json $report '[.scales[].energy] | . == (sort | reverse)'
+expect_json $report '[.scales[] | .area_fraction > 0.2 and .area_fraction < 0.45] | all'
+expect_json $report '.steps.accepted > 10 and .steps.rejected >= 0'
+expect_json $report '.mass_drift >= 0 and .mass_drift < 1e-7'
+expect_json $report '.energy_monotone == true'
+expect_json $report '[.seconds | .read, .evolve, .icons, .pictures, .total] | map(type == "number") | all'
+expect_json $report '.seconds.total >= .seconds.evolve'
+done_with "run.json keeps its promises"
+
+[ "$(head -1 out1/evolution.csv)" = "step,t,tau,energy,mass,area_fraction,clusters,newton,cycles,cells,seconds" ] ||
+  fault "$(head -1 out1/evolution.csv)"
+awk -F, 'NR == 1 { next }
+  NF != 11 { print "line " NR ": " NF " columns"; exit }
+  $1 != NR - 1 { print "line " NR ": step " $1; exit }
+  NR > 2 && $2 <= t { print "line " NR ": time " $2; exit }
+  NR > 2 && $4 > energy { print "line " NR ": energy rises to " $4; exit }
+  NR > 2 && ($5 - mass > 1e-7 || mass - $5 > 1e-7) { print "line " NR ": mass " $5; exit }
+  $3 <= 0 || $6 < 0 || $6 > 1 || $9 < 1 || $10 < 1 { print "line " NR ": " $0; exit }
+  { t = $2; energy = $4; if (NR == 2) mass = $5 }' out1/evolution.csv >fault.txt
+[ ! -s fault.txt ] || fault "$(cat fault.txt)"
+[ "$(($(wc -l <out1/evolution.csv) - 1))" = "$(jq .steps.accepted $report)" ] || fault "rows and steps differ"
+done_with "evolution.csv: a row a step, energy never up, mass held"
+
+for scale in 0 1 2; do
+  file=out1/scale-0$scale.geojson
+  expect_json $file '.type == "FeatureCollection"'
+  expect_json $file "(.features | length) == $(jq ".scales[$scale].icons" $report)"
+  expect_json $file '[.features[] | .geometry.type == "LineString" and (.geometry.coordinates | length) >= 2] | all'
+  expect_json $file '[.features[].properties | .speed > 0 and .width > 0 and .area > 0 and (.center | length) == 2 and (.kind | length) > 0] | all'
+  expect_json $file '[.features[].geometry.coordinates[][] | . >= 0 and . <= 1] | all'
+  expect_json $file '[.features[].properties.cluster] | length == (unique | length)'
+done
+done_with "GeoJSON: a line an icon, in the unit square, with its properties"
+
+for scale in 0 1 2; do
+  xmllint --noout "out1/scale-0$scale.svg" 2>fault.txt || fault "$(head -1 fault.txt)"
+  [ "$(head -c 4 "out1/scale-0$scale.png" | tail -c 3)" = PNG ] || fault "no PNG"
+  [ "$(head -c 5 "out1/scale-0$scale.pdf")" = %PDF- ] || fault "no PDF"
+done
+done_with "pictures are of their formats"
+
+try run synth:vortex3 -o out2 "${small[@]}" --threads 2
+expect_code 0
+for scale in 0 1 2; do
+  cmp -s "out1/scale-0$scale.geojson" "out2/scale-0$scale.geojson" || fault "scale $scale differs"
+  cmp -s "out1/scale-0$scale.svg" "out2/scale-0$scale.svg" || fault "picture $scale differs"
+done
+done_with "one and two threads give identical icons and pictures"
+
+try run synth:vortex3 -o out3 "${small[@]}" --seed 2
+expect_code 0
+cmp -s out1/scale-00.geojson out3/scale-00.geojson && fault "the seed changes nothing"
+done_with "another seed gives other icons"
+
+try run synth:vortex3 -o out4 --nodes 97 --clusters 30,29,28 --quiet
+expect_code 0
+expect_json out4/run.json '[.scales[].wanted[]] == [30, 29, 28]'
+expect_json out4/run.json '[.scales[] | .clusters <= .wanted[-1]] | all'
+done_with "numbers passed in one step are answered by one scale"
+
+try run synth:vortex3 -o out5 --nodes 97 --quiet
+expect_code 0
+expect_json out5/run.json '.scales[-1].clusters <= 12 and .ended == "scales"'
+expect_json out5/run.json '[.scales[].wanted[]] | .[-1] == 12 and (. == (sort | reverse))'
+expect_json out5/run.json '.scales[0].clusters == .scales[0].wanted[0]'
+done_with "the default scales halve down to 12"
+
+steps=$(jq .steps.accepted out5/run.json)
+try run synth:vortex3 -o out6 --nodes 97 --max-steps $((steps - 5)) --clusters 2 --quiet
+expect_code 0
+expect_json out6/run.json '.ended == "steps" and (.scales | length) == 1 and .scales[0].wanted == []'
+expect_json out6/run.json ".steps.accepted == $((steps - 5))"
+done_with "--max-steps ends the run, its last state is a scale"
+
+limit=$(jq '.scales[0].time * 1.5' out5/run.json)
+try run synth:vortex3 -o out7 --nodes 97 --max-time "$limit" --clusters 2 --quiet
+expect_code 0
+expect_json out7/run.json ".ended == \"time\" and .scales[-1].time >= $limit"
+done_with "--max-time ends the run"
+
+try run synth:vortex3 -o out8 --nodes 97 --max-steps 1 --quiet
+expect_code 1
+expect_one_complaint
+expect_error 'no clusters yet after 1 step'
+expect_nothing_at out8
+done_with "a run that ends before there are clusters says so and leaves nothing"
+
+try run synth:vortex3 -o out9 --nodes 97 --energy isotropic --clusters 12 --quiet
+expect_code 0
+expect_json out9/run.json '.parameters.energy == "isotropic"'
+done_with "isotropic energy"
+
+try run "$root/data/gfs_20140131.nc" -o gfs --nodes 129 --clusters 40 --quiet
+expect_code 0
+expect_json gfs/run.json '.field.scale == "geo" and .field.period[0] == 360 and .field.velocity == ["u10", "v10"]'
+expect_json gfs/scale-00.geojson '[.features[].geometry.coordinates[] | .[1] >= -90 and .[1] <= 90] | all'
+done_with "a global wind field, periodic in longitude"
+finish

@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# Wrong usage exits 2 and writes nothing; help and version exit 0.
+source "$(dirname "$0")/harness.sh"
+
+wrong() {
+  local pattern=$1
+  shift
+  try "$@"
+  expect_code 2
+  expect_error "$pattern"
+  expect_one_complaint
+  [ ! -s out ] || fault "standard output is not empty"
+  expect_nothing_at x
+}
+
+wrong 'command is missing'
+done_with "no command"
+wrong "unknown command 'paint'" paint a
+done_with "unknown command"
+wrong "unknown option '--frobnicate'" --frobnicate
+done_with "unknown option before the command"
+wrong 'INPUT is missing' run -o x
+done_with "no operand"
+wrong '-o is missing' run synth:vortex
+done_with "no output"
+wrong "one INPUT.*'b'" run a b -o x
+done_with "two operands"
+wrong 'unknown option --no-such' run a -o x --no-such
+done_with "unknown long option"
+wrong 'unknown option -z' run a -o x -z
+done_with "unknown short option"
+wrong 'unknown option --resume' run a -o x --resume
+done_with "an option of a later version is unknown"
+wrong '--nodes.*missing' run a -o x --nodes
+done_with "missing argument"
+wrong '--force.*no argument' run a -o x --force=yes
+done_with "argument that is not taken"
+for bad in "--nodes 3" "--nodes 100000" "--nodes 1e2" "--nodes= 65" "--anisotropy 0" \
+  "--anisotropy 1.5" "--anisotropy nan" "--coverage 1" "--coverage 0" "--gamma -1" \
+  "--gamma inf" "--seed 0" "--seed -1" "--seed 99999999999999999999" "--max-time 0" \
+  "--max-steps 0" "--threads 0" "--clusters 10,20" "--clusters 20,,10" "--clusters 5,5" \
+  "--clusters 0" "--clusters abc" "--formats gif" "--formats svg," "--scale polar" \
+  "--mesh adaptive" "--energy gradient" "--time -1" "--width 3" "--palette no-such-map" \
+  "--palette #12345" "--vars="; do
+  # shellcheck disable=SC2086
+  wrong "^flowgrain: --" run synth:vortex -o x $bad
+  done_with "run $bad"
+done
+wrong '\.svg, \.pdf or \.png' draw a -o picture.gif
+done_with "draw: unknown picture format"
+wrong 'analytic field' synth nosuch -o x.vti
+done_with "synth: unknown name"
+wrong '\.vti or \.nc' synth vortex -o x.dat
+done_with "synth: unknown format"
+
+try --help
+expect_code 0
+[ "$(grep -c 'flowgrain run' out)" -ge 1 ] || fault "run is not listed"
+done_with "--help"
+try --version
+expect_code 0
+grep -qE '^flowgrain [0-9]+\.[0-9]+\.[0-9]+$' out || fault "$(cat out)"
+done_with "--version"
+for command in run draw info synth; do
+  try "$command" --help
+  expect_code 0
+  grep -q "^Usage: flowgrain $command" out || fault "no usage line"
+  [ "$(awk 'length > 80' out)" = "" ] || fault "a line is longer than 80 columns"
+  done_with "$command --help"
+done
+
+"$program" --help >/dev/full 2>err
+code=$?
+expect_code 1
+expect_error 'standard output'
+done_with "a full disk under standard output is noticed"
+"$program" info --help >&- 2>err
+code=$?
+expect_code 1
+done_with "a closed standard output is noticed"
+finish
