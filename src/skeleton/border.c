@@ -158,7 +158,7 @@ void fg__border_distance(double *distance, const fg__window *window,
 {
   size_t nodes = (size_t)window->nodes[0] * (size_t)window->nodes[1];
   for (size_t k = 0; k < nodes; ++k)
-    distance[k] = INFINITY;
+    distance[k] = HUGE_VAL;
   for (int y = 0; y < window->nodes[1] - 1; ++y) {
     for (int x = 0; x < window->nodes[0] - 1; ++x) {
       if (!cell_active(window, x, y))

@@ -105,7 +105,7 @@ static double arrival(const march *front, int x, int y)
     double value;
     if (terms > 0 && solve(term, terms, &value))
       return value;
-    double best = INFINITY;
+    double best = HUGE_VAL;
     for (int k = 0; order == 1 && k < terms; ++k) {
       if (solve(&term[k], 1, &value))
         best = fmin(best, value);
@@ -113,7 +113,7 @@ static double arrival(const march *front, int x, int y)
     if (order == 1)
       return best;
   }
-  return INFINITY;
+  return HUGE_VAL;
 }
 
 /* Renews the four neighbours of a node that has just become known. */

@@ -1,0 +1,30 @@
+/* Moves a line of nodes to the ridge between them. */
+#ifndef FG__CENTERING_H
+#define FG__CENTERING_H
+
+#include "cluster/raster.h"
+#include "skeleton/polyline.h"
+
+/* The distance to the border, continued outside by its negative for a cell or so, so that
+ * it can be taken between nodes next to the border. */
+typedef struct fg__signed_distance {
+  const fg__window *window;
+  double *value; /* at the window's nodes */
+} fg__signed_distance;
+
+/* MEMORY. */
+fg_status fg__signed_distance_create(fg__signed_distance *out, fg_context *context,
+                                     const fg__window *window, const double *distance);
+void fg__signed_distance_clear(fg__signed_distance *field);
+
+/* Bilinear value at a point in input coordinates; outside the window that of the nearest
+ * point in it. */
+double fg__signed_distance_at(const fg__signed_distance *field, const double position[2]);
+
+/* Moves each point along the normal to where the border is equally far on either side,
+ * and smooths; points stay about as far apart as they are. The first and last point of an
+ * open line move along their normals only. MEMORY. */
+fg_status fg__polyline_center(fg__polyline *line, fg_context *context,
+                              const fg__signed_distance *field, int rounds);
+
+#endif
