@@ -23,9 +23,12 @@ static const double HEAD_SHARE = 0.85;
 
 /* Largest half width in radii of curvature, of the body and of the head, and how far the
  * head may bend (radians): beyond that a head looks like a claw. */
-static const double BODY_BEND = 0.35;
+static const double BODY_BEND = 0.25;
 static const double HEAD_BEND = 0.6;
-static const double HEAD_TURNING = 0.7;
+static const double HEAD_TURNING = 0.5;
+
+/* A turn between neighbouring stations (radians) that is a corner, not a bend. */
+static const double CORNER = 0.35;
 
 /* What a wider arrow is worth: that many times the relative loss of length. */
 static const double WIDTH_WORTH = 0.3;
@@ -115,8 +118,9 @@ static void measure_stations(fg__arrow_workspace *work, const fg__window *window
                          angle_between(station[i - 1].tangent, station[i].tangent);
   for (int i = 0; i < n; i++) {
     int before = i > 0 ? i - 1 : i, after = i < n - 1 ? i + 1 : i;
-    station[i].curvature = fabs(station[after].turning - station[before].turning) /
-                           (delta * (after - before));
+    double turn = fabs(station[after].turning - station[before].turning);
+    station[i].curvature =
+        turn > CORNER * (after - before) ? HUGE_VAL : turn / (delta * (after - before));
     double nx = -station[i].tangent[1], ny = station[i].tangent[0];
     double left = find_clearance(window, station[i].position, nx, ny, spacing / 2, reach);
     double right =
@@ -193,7 +197,7 @@ static bool head_fits(const fg__arrow_workspace *work, int first, int tip, doubl
     double u = station[tip].s - station[i].s;
     double w = head_half_width(width, u);
     if (w > HEAD_SHARE * station[i].clearance || station[i].clearance < 0 ||
-        w * station[i].curvature > HEAD_BEND)
+        station[i].curvature == HUGE_VAL || w * station[i].curvature > HEAD_BEND)
       return false;
     if (u <= length)
       *base = i;

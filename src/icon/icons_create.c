@@ -8,8 +8,8 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-/* An arrow round more than two thirds of a turn is a ring. */
-static const double RING_TURNING = 4.19;
+/* An arrow round more than seven tenths of a turn is a ring, less is a horseshoe. */
+static const double RING_TURNING = 4.4;
 
 /* The outline is tested at its vertices and between them, at least this close (in
  * spacings of the density); an arrow that fails is made narrower this many times before

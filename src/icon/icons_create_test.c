@@ -1,0 +1,550 @@
+#include "icon/shapes_test.h"
+
+#include <string.h>
+
+static const double CORE[2] = {9.3, 21.7};
+static const double PI = 3.141592653589793;
+
+/* ---- flows: linear, so that the samples carry them exactly */
+
+static void uniform(double x, double y, double v[2])
+{
+  (void)x, (void)y;
+  v[0] = 1.3 * cos(0.44);
+  v[1] = 1.3 * sin(0.44);
+}
+
+static void eastward(double x, double y, double v[2])
+{
+  (void)x, (void)y;
+  v[0] = 0.02;
+  v[1] = 0;
+}
+
+static void drifting(double x, double y, double v[2])
+{
+  (void)x, (void)y;
+  v[0] = 11 * cos(0.14);
+  v[1] = 11 * sin(0.14);
+}
+
+static void vortex(double x, double y, double v[2])
+{
+  v[0] = -2 * (y - CORE[1]);
+  v[1] = 2 * (x - CORE[0]);
+}
+
+static void mirrored_vortex(double x, double y, double v[2])
+{
+  vortex(20 - x, y, v);
+  v[0] = -v[0];
+}
+
+static void fast_vortex(double x, double y, double v[2])
+{
+  vortex(x, y, v);
+  v[0] *= 1024;
+  v[1] *= 1024;
+}
+
+static void saddle(double x, double y, double v[2])
+{
+  v[0] = x - CORE[0];
+  v[1] = -(y - CORE[1]);
+}
+
+static void sink(double x, double y, double v[2])
+{
+  v[0] = -(x - CORE[0]);
+  v[1] = -(y - CORE[1]);
+}
+
+static void shear(double x, double y, double v[2])
+{
+  (void)x;
+  v[0] = y - CORE[1];
+  v[1] = 0;
+}
+
+static void convergence(double x, double y, double v[2])
+{
+  (void)y;
+  v[0] = -(x - CORE[0]);
+  v[1] = 0.02;
+}
+
+/* ---- shapes: signed depths */
+
+static double capsule(double x, double y, double ax, double ay, double bx, double by,
+                      double radius)
+{
+  double dx = bx - ax, dy = by - ay;
+  double t = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy);
+  t = fmin(fmax(t, 0), 1);
+  return radius - hypot(x - ax - t * dx, y - ay - t * dy);
+}
+
+/* An ellipse of half axes a and b, tilted; depth to first order. */
+static double ellipse(double x, double y, double cx, double cy, double a, double b,
+                      double tilt)
+{
+  double p = ((x - cx) * cos(tilt) + (y - cy) * sin(tilt)) / a;
+  double q = (-(x - cx) * sin(tilt) + (y - cy) * cos(tilt)) / b;
+  double r = hypot(p, q);
+  double slope = r > 0 ? hypot(p / a, q / b) / r : 1 / a;
+  return (1 - r) / slope;
+}
+
+static double grain(double x, double y)
+{
+  return ellipse(x, y, 11, 19, 6.2, 2.1, 0.44);
+}
+
+static double disc(double x, double y)
+{
+  return 4 - hypot(x - CORE[0], y - CORE[1]);
+}
+
+static double ring(double x, double y)
+{
+  return 1.5 - fabs(hypot(x - CORE[0], y - CORE[1]) - 6.5);
+}
+
+/* 220 degrees of a ring, its ends rounded */
+static double horseshoe(double x, double y)
+{
+  double half = 1.92, radius = 7;
+  double angle = atan2(y - CORE[1], x - CORE[0]);
+  if (fabs(angle) < half)
+    return 1.4 - fabs(hypot(x - CORE[0], y - CORE[1]) - radius);
+  double end = copysign(half, angle);
+  return 1.4 - hypot(x - CORE[0] - radius * cos(end), y - CORE[1] - radius * sin(end));
+}
+
+static double branches(double x, double y)
+{
+  double stem = capsule(x, y, 0, 20, 10, 20, 1.3);
+  double upper = capsule(x, y, 10, 20, 17, 25, 1.3);
+  double lower = capsule(x, y, 10, 20, 16, 15.5, 1.3);
+  return fmax(stem, fmax(upper, lower));
+}
+
+static double stripe(double x, double y)
+{
+  return capsule(x, y, -5, 20, 25, 20, 1.5);
+}
+
+static double border_slivers(double x, double y)
+{
+  double strip = 0.2 - fmax(y - 5, fabs(x - 4) - 2);       /* along the lower border */
+  double corner = (1.1 - (30 - x) - (35 - y)) / sqrt(2.0); /* in the upper right one */
+  double side = capsule(x, y, -10, 20, -10, 24, 0.3);      /* half of it outside */
+  return fmax(strip, fmax(corner, side));
+}
+
+static double border_grain(double x, double y)
+{
+  return fmax(ellipse(x, y, -10, 21, 7, 3, 0.3), ellipse(x, y, 14, 5, 6, 2.5, 0.2));
+}
+
+static double lens(double x, double y)
+{
+  return ellipse(x, y, CORE[0], CORE[1], 8, 3, 0);
+}
+
+static double blob(double x, double y)
+{
+  return 5 - hypot(x - CORE[0] - 0.3, y - CORE[1] + 0.2);
+}
+
+static double family(double x, double y)
+{
+  double d = fmax(horseshoe(x, y), ellipse(x, y, 22, 10, 5, 1.6, 0.9));
+  d = fmax(d, ellipse(x, y, -4, 12, 1.6, 4.4, 0.5));
+  return fmax(d, ellipse(x, y, 10.1, 20.9, 2.6, 2.2, 0));
+}
+
+static double mirrored_family(double x, double y)
+{
+  return family(20 - x, y);
+}
+
+/* ---- the bench */
+
+typedef struct bench {
+  fg_context *context;
+  fg_field *field;
+  fg_density *density;
+  fg_icons *icons;
+} bench;
+
+static bench bench_with(velocity_of velocity, depth_of depth, const unsigned char *active,
+                        int threads)
+{
+  bench bench = {0};
+  assert_int_equal(fg_context_create(&bench.context), FG_STATUS_OK);
+  bench.field = field_of(bench.context, velocity);
+  bench.density = density_of(bench.context, depth, active);
+  fg_icon_options options = {.threads = threads};
+  assert_int_equal(fg_icons_create(&bench.icons, bench.context, bench.field,
+                                   bench.density, threads ? &options : NULL),
+                   FG_STATUS_OK);
+  return bench;
+}
+
+static void end_bench(bench *bench)
+{
+  fg_icons_destroy(bench->icons);
+  fg_density_destroy(bench->density);
+  fg_field_destroy(bench->field);
+  fg_context_destroy(bench->context);
+}
+
+/* What holds for every arrow: simple, inside its cluster and the domain, along the flow,
+ * not wider than its length allows, its centre on it. */
+static void judge(const bench *bench, const fg_icon *icon, depth_of depth)
+{
+  double(*vertex)[2];
+  int count;
+  assert_int_equal(fg_icon_outline(icon, &vertex, &count), FG_STATUS_OK);
+  assert_true(is_simple((const double(*)[2])vertex, count));
+  assert_true(is_within((const double(*)[2])vertex, count, depth));
+  for (int i = 0; i < count; i++) {
+    assert_true(vertex[i][0] > -10 && vertex[i][0] < 30);
+    assert_true(vertex[i][1] > 5 && vertex[i][1] < 35);
+  }
+  free(vertex);
+  assert_true(icon_tangency(icon, bench->field) < 0.5);
+  double length = icon_length(icon);
+  assert_true(length >= 3 * SHAPE_SPACING);
+  assert_true(icon->head_width >= 1.2 * SHAPE_SPACING);
+  assert_true(icon->width < 0.1 * length && icon->tail_width < icon->width);
+  double nearest = HUGE_VAL;
+  for (int i = 0; i < icon->point_count; i++) {
+    nearest = fmin(nearest, hypot(icon->points[i][0] - icon->center[0],
+                                  icon->points[i][1] - icon->center[1]));
+    assert_true(icon->points[i][2] == 0);
+  }
+  assert_true(nearest < SHAPE_SPACING);
+  assert_true(icon->speed > 0 && icon->area > 0);
+}
+
+static bench bench_of(velocity_of velocity, depth_of depth)
+{
+  bench bench = bench_with(velocity, depth, NULL, 0);
+  for (int i = 0; i < fg_icons_count(bench.icons); i++)
+    judge(&bench, fg_icons_at(bench.icons, i), depth);
+  assert_int_equal(fg_icons_clusters(bench.icons),
+                   fg_icons_count(bench.icons) + fg_icons_dropped(bench.icons));
+  return bench;
+}
+
+/* The one arrow of a bench with one cluster. */
+static const fg_icon *only_icon(const bench *bench)
+{
+  assert_int_equal(fg_icons_clusters(bench->icons), 1);
+  assert_int_equal(fg_icons_count(bench->icons), 1);
+  return fg_icons_at(bench->icons, 0);
+}
+
+static double mean_radius(const fg_icon *icon)
+{
+  double sum = 0;
+  for (int i = 0; i < icon->point_count; i++)
+    sum += hypot(icon->points[i][0] - CORE[0], icon->points[i][1] - CORE[1]);
+  return sum / icon->point_count;
+}
+
+/* ---- tests */
+
+static void runs_along_a_grain(void **state)
+{
+  (void)state;
+  bench bench = bench_of(uniform, grain);
+  const fg_icon *icon = only_icon(&bench);
+  assert_int_equal(icon->kind, FG_ICON_ARROW);
+  assert_int_equal(icon->cluster, 1);
+  assert_true(icon_length(icon) > 0.85 * 12.4);
+  assert_true(hypot(icon->center[0] - 11, icon->center[1] - 19) < SHAPE_SPACING);
+  assert_true(fabs(icon->area / (PI * 6.2 * 2.1) - 1) < 0.02);
+  assert_true(fabs(icon->speed - 1.3) < 1e-6);
+  end_bench(&bench);
+}
+
+static void goes_round_a_vortex_core_at_half_radius(void **state)
+{
+  (void)state;
+  bench bench = bench_of(vortex, disc);
+  const fg_icon *icon = only_icon(&bench);
+  assert_int_equal(icon->kind, FG_ICON_RING);
+  double turning = icon_turning(icon); /* anticlockwise, like the vortex */
+  assert_true(turning > 240 * PI / 180 && turning < 302 * PI / 180);
+  assert_true(mean_radius(icon) > 0.4 * 4 && mean_radius(icon) < 0.75 * 4);
+  end_bench(&bench);
+}
+
+static void goes_round_a_ring_but_for_a_gap(void **state)
+{
+  (void)state;
+  bench bench = bench_of(vortex, ring);
+  const fg_icon *icon = only_icon(&bench);
+  assert_int_equal(icon->kind, FG_ICON_RING);
+  double turning = icon_turning(icon);
+  assert_true(turning > 270 * PI / 180 && turning < 302 * PI / 180);
+  assert_true(fabs(mean_radius(icon) - 6.5) < 0.4);
+  end_bench(&bench);
+}
+
+static void follows_a_horseshoe(void **state)
+{
+  (void)state;
+  bench bench = bench_of(vortex, horseshoe);
+  const fg_icon *icon = only_icon(&bench);
+  assert_true(icon_length(icon) > 0.9 * 7 * 2 * 1.92);
+  assert_true(fabs(mean_radius(icon) - 7) < 0.4);
+  end_bench(&bench);
+}
+
+static void takes_one_branch_or_the_stem(void **state)
+{
+  (void)state;
+  bench bench = bench_of(eastward, branches);
+  const fg_icon *icon = only_icon(&bench);
+  assert_true(icon_length(icon) > 10); /* the stem and what lies before it */
+  assert_true(fabs(icon->points[0][1] - 20) < 0.8);
+  end_bench(&bench);
+}
+
+static void takes_the_longest_way_through_a_stripe(void **state)
+{
+  (void)state;
+  bench bench = bench_of(drifting, stripe);
+  const fg_icon *icon = only_icon(&bench);
+  /* the flow crosses the stripe, 3 wide, at 0.14 radians */
+  assert_true(icon_length(icon) > 0.7 * 3 / sin(0.14));
+  const double *tail = icon->points[0], *tip = icon->points[icon->point_count - 1];
+  assert_true(fabs((tail[0] + tip[0]) / 2 - 10) < 3);
+  end_bench(&bench);
+}
+
+static void drops_slivers_and_counts_them(void **state)
+{
+  (void)state;
+  bench bench = bench_of(uniform, border_slivers);
+  assert_int_equal(fg_icons_count(bench.icons), 0);
+  assert_int_equal(fg_icons_clusters(bench.icons), 3);
+  assert_int_equal(fg_icons_dropped(bench.icons), 3);
+  end_bench(&bench);
+}
+
+static void stays_inside_the_domain(void **state)
+{
+  (void)state;
+  bench bench = bench_of(uniform, border_grain);
+  assert_int_equal(fg_icons_count(bench.icons), 2);
+  for (int i = 0; i < 2; i++)
+    assert_true(icon_length(fg_icons_at(bench.icons, i)) > 4);
+  end_bench(&bench);
+}
+
+static void never_enters_a_mask(void **state)
+{
+  (void)state;
+  unsigned char active[(SHAPE_NODES_X - 1) * (SHAPE_NODES_Y - 1)];
+  memset(active, 1, sizeof active);
+  /* the grain is cut between x = 12 and 12.5: cells 88 and 89 of every row */
+  for (int j = 0; j < SHAPE_NODES_Y - 1; j++)
+    active[j * (SHAPE_NODES_X - 1) + 88] = active[j * (SHAPE_NODES_X - 1) + 89] = 0;
+  bench bench = bench_with(uniform, grain, active, 0);
+  assert_true(fg_icons_count(bench.icons) == 2);
+  for (int i = 0; i < 2; i++) {
+    const fg_icon *icon = fg_icons_at(bench.icons, i);
+    judge(&bench, icon, grain);
+    double(*vertex)[2];
+    int count;
+    assert_int_equal(fg_icon_outline(icon, &vertex, &count), FG_STATUS_OK);
+    for (int k = 0; k < count; k++)
+      assert_true((vertex[k][0] < 12) == (icon->center[0] < 12) &&
+                  !(vertex[k][0] >= 12 && vertex[k][0] <= 12.5));
+    free(vertex);
+  }
+  end_bench(&bench);
+}
+
+static void finds_a_way_past_a_stagnation_point(void **state)
+{
+  (void)state;
+  velocity_of flows[] = {saddle, sink, shear, convergence};
+  depth_of shapes[] = {blob, lens};
+  for (int f = 0; f < 4; f++)
+    for (int s = 0; s < 2; s++) {
+      bench bench = bench_of(flows[f], shapes[s]);
+      const fg_icon *icon = only_icon(&bench);
+      assert_true(icon_length(icon) > 3);
+      assert_true(fabs(icon_turning(icon)) < PI / 2 + 0.1);
+      end_bench(&bench);
+    }
+}
+
+static void assert_same_line(const fg_icon *a, const fg_icon *b, bool mirror,
+                             double tolerance)
+{
+  assert_int_equal(a->kind, b->kind);
+  assert_true(fabs(icon_length(a) - icon_length(b)) <= tolerance);
+  assert_true(fabs(a->width - b->width) <= 0.1 * a->width);
+  for (int end = 0; end < 2; end++) {
+    const double *p = a->points[end * (a->point_count - 1)];
+    const double *q = b->points[end * (b->point_count - 1)];
+    double x = mirror ? 20 - q[0] : q[0];
+    assert_true(hypot(p[0] - x, p[1] - q[1]) <= tolerance);
+  }
+}
+
+static void mirrors_with_the_field(void **state)
+{
+  (void)state;
+  bench plain = bench_of(vortex, family);
+  bench mirror = bench_of(mirrored_vortex, mirrored_family);
+  assert_int_equal(fg_icons_count(plain.icons), 4);
+  assert_int_equal(fg_icons_count(mirror.icons), 4);
+  for (int i = 0; i < 4; i++) {
+    const fg_icon *icon = fg_icons_at(plain.icons, i), *image = NULL;
+    for (int k = 0; k < 4; k++) { /* the order of the labels differs */
+      const fg_icon *other = fg_icons_at(mirror.icons, k);
+      if (fabs(other->area - icon->area) < 1e-3)
+        image = other;
+    }
+    assert_non_null(image);
+    assert_same_line(icon, image, true, 3 * SHAPE_SPACING);
+  }
+  end_bench(&plain);
+  end_bench(&mirror);
+}
+
+static void knows_no_unit_of_speed(void **state)
+{
+  (void)state;
+  bench plain = bench_of(vortex, family);
+  bench fast = bench_of(fast_vortex, family);
+  for (int i = 0; i < fg_icons_count(plain.icons); i++) {
+    const fg_icon *a = fg_icons_at(plain.icons, i), *b = fg_icons_at(fast.icons, i);
+    assert_int_equal(a->point_count, b->point_count);
+    assert_memory_equal(a->points, b->points,
+                        (size_t)a->point_count * sizeof a->points[0]);
+    assert_true(fabs(b->speed / a->speed - 1024) < 1e-6);
+  }
+  end_bench(&plain);
+  end_bench(&fast);
+}
+
+static void is_the_same_on_any_number_of_threads(void **state)
+{
+  (void)state;
+  bench one = bench_with(vortex, family, NULL, 1);
+  for (int threads = 2; threads <= 5; threads += 3) {
+    bench more = bench_with(vortex, family, NULL, threads);
+    assert_int_equal(fg_icons_count(one.icons), fg_icons_count(more.icons));
+    for (int i = 0; i < fg_icons_count(one.icons); i++) {
+      fg_icon a = *fg_icons_at(one.icons, i), b = *fg_icons_at(more.icons, i);
+      assert_int_equal(a.point_count, b.point_count);
+      assert_memory_equal(a.points, b.points, (size_t)a.point_count * sizeof a.points[0]);
+      assert_memory_equal(a.center, b.center, sizeof a.center);
+      assert_int_equal(a.cluster, b.cluster);
+      assert_true(a.width == b.width && a.speed == b.speed && a.area == b.area);
+    }
+    end_bench(&more);
+  }
+  end_bench(&one);
+}
+
+/* A grain across the seam of a periodic axis is as long as one in the middle. */
+static void goes_on_across_a_periodic_border(void **state)
+{
+  (void)state;
+  enum { N = 80, M = 40 };
+  static float u[N * M], velocity[2][N * M];
+  static double axis[2][N];
+  for (int i = 0; i < N; i++)
+    axis[0][i] = 3 + 0.5 * i;
+  for (int j = 0; j < M; j++)
+    axis[1][j] = -9 + 0.5 * j;
+  for (int j = 0; j < M; j++)
+    for (int i = 0; i < N; i++) {
+      double x = axis[0][i] > 23 ? axis[0][i] - 40 : axis[0][i];
+      double depth = ellipse(x, axis[1][j], 4, 0.5, 7, 2.5, 0.1);
+      u[j * N + i] = (float)fmax(fmin(depth / 0.5, 1), -1);
+      velocity[0][j * N + i] = -4;
+      velocity[1][j * N + i] = -0.4F;
+    }
+  fg_context *context = NULL;
+  assert_int_equal(fg_context_create(&context), FG_STATUS_OK);
+  fg_field_arrays field_arrays = {.dimension = 2,
+                                  .size = {N, M, 1},
+                                  .axis = {axis[0], axis[1]},
+                                  .period = {40, 0, 0},
+                                  .velocity = {velocity[0], velocity[1]}};
+  fg_density_arrays density_arrays = {.dimension = 2,
+                                      .nodes = {N, M, 1},
+                                      .origin = {3, -9, 0},
+                                      .spacing = {0.5, 0.5, 1},
+                                      .periodic = {true, false, false},
+                                      .u = u};
+  fg_field *field = NULL;
+  fg_density *density = NULL;
+  fg_icons *icons = NULL;
+  assert_int_equal(fg_field_create(&field, context, &field_arrays), FG_STATUS_OK);
+  assert_int_equal(fg_density_create_from_arrays(&density, context, &density_arrays),
+                   FG_STATUS_OK);
+  assert_int_equal(fg_icons_create(&icons, context, field, density, NULL), FG_STATUS_OK);
+  assert_int_equal(fg_icons_count(icons), 1);
+  const fg_icon *icon = fg_icons_at(icons, 0);
+  assert_true(icon_length(icon) > 0.8 * 14);
+  assert_true(icon_length(icon) < 14);
+  const double *tail = icon->points[0], *tip = icon->points[icon->point_count - 1];
+  assert_true(fabs(tail[0] - tip[0] - icon_length(icon) * 4 / hypot(4, 0.4)) < 1e-3);
+  fg_icons_destroy(icons);
+  fg_density_destroy(density);
+  fg_field_destroy(field);
+  fg_context_destroy(context);
+}
+
+static void stops_when_asked(void **state)
+{
+  (void)state;
+  fg_context *context = NULL;
+  assert_int_equal(fg_context_create(&context), FG_STATUS_OK);
+  fg_field *field = field_of(context, vortex);
+  fg_density *density = density_of(context, family, NULL);
+  fg_icons *icons = NULL;
+  fg_context_stop(context);
+  assert_int_equal(fg_icons_create(&icons, context, field, density, NULL),
+                   FG_STATUS_STOPPED);
+  assert_null(icons);
+  assert_int_equal(fg_icons_create(&icons, context, NULL, density, NULL),
+                   FG_STATUS_ARGUMENT);
+  fg_density_destroy(density);
+  fg_field_destroy(field);
+  fg_context_destroy(context);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(runs_along_a_grain),
+      cmocka_unit_test(goes_round_a_vortex_core_at_half_radius),
+      cmocka_unit_test(goes_round_a_ring_but_for_a_gap),
+      cmocka_unit_test(follows_a_horseshoe),
+      cmocka_unit_test(takes_one_branch_or_the_stem),
+      cmocka_unit_test(takes_the_longest_way_through_a_stripe),
+      cmocka_unit_test(drops_slivers_and_counts_them),
+      cmocka_unit_test(stays_inside_the_domain),
+      cmocka_unit_test(never_enters_a_mask),
+      cmocka_unit_test(finds_a_way_past_a_stagnation_point),
+      cmocka_unit_test(mirrors_with_the_field),
+      cmocka_unit_test(knows_no_unit_of_speed),
+      cmocka_unit_test(is_the_same_on_any_number_of_threads),
+      cmocka_unit_test(goes_on_across_a_periodic_border),
+      cmocka_unit_test(stops_when_asked),
+  };
+  return cmocka_run_group_tests_name("icon/icons_create", tests, NULL, NULL);
+}
