@@ -297,11 +297,15 @@ static const unsigned char *mask_of(const fg_evolution *e)
 static fg_status count_clusters(fg_evolution *e)
 {
   const fg__level *level = &e->stepper.multigrid.level[0];
-  fg__level_export(level, level->u, e->plain);
+  fg__level_export(level, e->stepper.current, e->plain);
   size_t count = (size_t)level->columns * (size_t)level->rows;
   double covered = 0.0;
-  for (size_t n = 0; n < count; ++n)
-    covered += e->plain[n] > 0.0F ? (double)e->plain_mass[n] : 0.0;
+  for (size_t row = 0; row < count; row += (size_t)level->columns) {
+    float sum = 0.0F; /* of at most some thousand quarters and ones: exact */
+    for (size_t n = row; n < row + (size_t)level->columns; ++n)
+      sum += e->plain[n] > 0.0F ? e->plain_mass[n] : 0.0F;
+    covered += (double)sum;
+  }
   e->area_fraction = covered / e->stepper.total_mass;
   bool smoothed = e->stepper.time * growth_rate(e) >= 1.0;
   bool covered_enough = e->area_fraction >= nucleated * e->options.coverage;
@@ -356,7 +360,7 @@ fg_status fg_density_create(fg_density **out, const fg_evolution *evolution)
 {
   const fg_evolution *e = evolution;
   const fg__level *level = &e->stepper.multigrid.level[0];
-  fg__level_export(level, level->u, e->plain);
+  fg__level_export(level, e->stepper.current, e->plain);
   fg_density_arrays arrays = {.dimension = 2,
                               .nodes = {level->columns, level->rows, 1},
                               .u = e->plain,

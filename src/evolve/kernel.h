@@ -20,6 +20,11 @@ typedef struct fg__changes {
   double from_b; /* m (u - b)^2 */
 } fg__changes;
 
+typedef struct fg__sums {
+  double energy; /* m (Psi(u) + u K u / 2) */
+  double u;      /* m u */
+} fg__sums;
+
 typedef struct fg__kernel {
   const char *name;
   /* One collective Gauss-Seidel sweep in four colours (even and odd columns of even rows,
@@ -33,18 +38,21 @@ typedef struct fg__kernel {
                                    float tau);
   /* Adds the bilinear interpolation of the coarse u, w to the fine ones. */
   void (*prolong)(const fg__level *coarse, const fg__level *fine);
-  /* Adds the interpolation of one coarse array to one fine array. */
+  /* to := base + the interpolation of one coarse array; to may be base. */
   void (*prolong_array)(const fg__level *coarse, const float *from, const fg__level *fine,
-                        float *to);
-  /* w := Psi'(u) + K u, with ghosts. */
-  void (*chemical_potential)(const fg__level *level, const float *u, float *w);
+                        const float *base, float *to);
   /* out := restriction of p - u - tau L w, a coarse array with ghosts. */
   void (*restrict_defect)(const fg__level *fine, const float *w, const fg__level *coarse,
                           float *out, float tau);
-  /* Sum over nodes of m (Psi(u) + u K u / 2), m the relative mass. */
-  double (*energy)(const fg__level *level, const float *u);
+  /* w := Psi'(u) + K u, with ghosts, and the energy of u in the same pass. */
+  fg__sums (*evaluate)(const fg__level *level, const float *u, float *w);
   fg__changes (*changes)(const fg__level *level, const float *u, const float *a,
                          const float *b);
+  /* out := now + omega (now - before), whole arrays. */
+  void (*extrapolate)(const fg__level *level, const float *now, const float *before,
+                      float omega, float *out);
+  /* Adds an amount to u wherever there is mass. */
+  void (*shift)(const fg__level *level, float *u, float amount);
 } fg__kernel;
 
 extern const fg__kernel fg__kernel_generic;

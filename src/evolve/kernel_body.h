@@ -447,20 +447,22 @@ INLINE void merge(const fg__level *coarse, const float *a, const float *b, float
 }
 
 static void prolong_array(const fg__level *coarse, const float *from,
-                          const fg__level *fine, float *to)
+                          const fg__level *fine, const float *base, float *to)
 {
   float *natural = fine->scratch;
   for (int j = 0; j < fine->rows; ++j) {
     const float *low = from + (ptrdiff_t)(j / 2) * coarse->stride;
     const float *high = j % 2 == 0 ? low : low + coarse->stride;
     merge(coarse, low, high, natural);
+    const float *base_even = base + (ptrdiff_t)j * fine->stride;
+    const float *base_odd = base_even + fine->odd_offset;
     float *even = fg__row(fine, to, j), *odd = even + fine->odd_offset;
     INDEPENDENT
     for (int k = 0; k < fine->even_count; ++k)
-      even[k] += natural[k];
+      even[k] = base_even[k] + natural[k];
     INDEPENDENT
     for (int k = 0; k < fine->odd_count; ++k)
-      odd[k] += 0.5F * (natural[k] + natural[k + 1]);
+      odd[k] = base_odd[k] + 0.5F * (natural[k] + natural[k + 1]);
     fg__fill_ghost_columns(fine, even);
   }
   fg__fill_ghost_row(fine, to, 0);
@@ -469,53 +471,19 @@ static void prolong_array(const fg__level *coarse, const float *from,
 
 static void prolong(const fg__level *coarse, const fg__level *fine)
 {
-  prolong_array(coarse, coarse->u, fine, fine->u);
-  prolong_array(coarse, coarse->w, fine, fine->w);
+  prolong_array(coarse, coarse->u, fine, fine->u, fine->u);
+  prolong_array(coarse, coarse->w, fine, fine->w, fine->w);
 }
 
 /* ---- potential and sums
  * ----------------------------------------------------------------- */
-
-static void chemical_potential(const fg__level *level, const float *u, float *w)
-{
-  for (int j = 0; j < level->rows; ++j) {
-    for (int colour = EVEN; colour <= ODD; ++colour) {
-      ptrdiff_t own =
-          (ptrdiff_t)j * level->stride + (colour == ODD ? level->odd_offset : 0);
-      int count = colour == ODD ? level->odd_count : level->even_count;
-      around x = around_row(level, u, j, colour);
-      couplings c = couplings_row(level, &level->energy, j, colour);
-      const float *inverse = level->mass ? level->mass_inverse + own : NULL;
-      float *out = w + own;
-      INDEPENDENT
-      for (int k = 0; k < count; ++k) {
-        float value = x.center[k];
-        float energy = apply(&c, &x, k);
-        if (inverse)
-          energy *= inverse[k];
-        out[k] = 2.0F * value * (value * value - 1.0F) + energy;
-      }
-    }
-    fg__fill_ghost_columns(level, w + (ptrdiff_t)j * level->stride);
-  }
-  fg__fill_ghost_row(level, w, 0);
-  fg__fill_ghost_row(level, w, 1);
-}
-
-INLINE double total(const double lanes[FG__LANES])
-{
-  double sum = 0.0;
-  for (int n = 0; n < FG__LANES; ++n)
-    sum += lanes[n];
-  return sum;
-}
 
 /* Weights of a row that make sums over nodes integrals: halves at natural borders, and no
  * coupling twice or to a ghost. */
 typedef struct row_weights {
   const float *mass, *east, *west; /* by column */
   const float *masked;             /* relative mass, or NULL */
-  double whole, north;             /* of the row: mass and east; the row above */
+  float whole, north;              /* of the row: mass and east; the row above */
 } row_weights;
 
 INLINE row_weights weights_of(const fg__level *level, int j, int colour, bool masked)
@@ -528,71 +496,92 @@ INLINE row_weights weights_of(const fg__level *level, int j, int colour, bool ma
                        .west = level->column_west + own,
                        .masked = masked ? level->mass + (ptrdiff_t)j * level->stride + own
                                         : NULL,
-                       .whole = border ? 0.5 : 1.0,
-                       .north = top ? 0.0 : 1.0};
+                       .whole = border ? 0.5F : 1.0F,
+                       .north = top ? 0.0F : 1.0F};
 }
 
-/* One node's part of the energy: its well, and the couplings to its east, north and
- * diagonal neighbours as -k (u_a - u_b)^2 / 2, which loses nothing to cancellation. */
-INLINE double energy_at(const row_weights *r, const couplings *c, const around *x, int k,
-                        double mass)
+/* One node's part of the gradient energy: the couplings to its east, north and diagonal
+ * neighbours as -k (u_a - u_b)^2, which loses nothing to cancellation. */
+INLINE float gradient_at(const row_weights *r, const couplings *c, const around *x, int k)
 {
-  double u = (double)x->center[k];
-  double east = (double)x->middle[k + 1] - u;
-  double north = (double)x->north[k] - u;
-  double northeast = (double)x->north_other[k + 1] - u;
-  double northwest = (double)x->north_other[k] - u;
-  double well = u * u - 1.0;
-  double gradient =
-      r->whole * (double)(r->east[k] * c->east[k]) * east * east +
-      r->north * ((double)(r->mass[k] * c->north[k]) * north * north +
-                  (double)(r->east[k] * c->northeast[k]) * northeast * northeast +
-                  (double)(r->west[k] * c->northwest[k]) * northwest * northwest);
-  return 0.5 * (mass * well * well - gradient);
+  float u = x->center[k];
+  float east = x->middle[k + 1] - u, north = x->north[k] - u;
+  float northeast = x->north_other[k + 1] - u, northwest = x->north_other[k] - u;
+  return r->whole * r->east[k] * c->east[k] * (east * east) +
+         r->north * (r->mass[k] * c->north[k] * (north * north) +
+                     r->east[k] * c->northeast[k] * (northeast * northeast) +
+                     r->west[k] * c->northwest[k] * (northwest * northwest));
 }
 
-INLINE double mass_at(const row_weights *r, int k)
+INLINE float mass_at(const row_weights *r, int k)
 {
-  double mass = r->whole * (double)r->mass[k];
-  return r->masked ? mass * (double)r->masked[k] : mass;
+  float mass = r->whole * r->mass[k];
+  return r->masked ? mass * r->masked[k] : mass;
 }
 
-static int nodes_of(const fg__level *level, int colour)
+INLINE double total(const double lanes[FG__LANES])
+{
+  double sum = 0.0;
+  for (int n = 0; n < FG__LANES; ++n)
+    sum += lanes[n];
+  return sum;
+}
+
+INLINE int nodes_of(const fg__level *level, int colour)
 {
   return colour == ODD ? level->columns / 2 : (level->columns + 1) / 2;
 }
 
-/* Adds what nodes start ... start + lanes - 1 of a row give to the lanes' sums. With a
- * constant number of lanes the loop is one straight piece of vector code. */
-INLINE void add_energy(const row_weights *r, const couplings *c, const around *x,
-                       int start, int lanes, double energy[FG__LANES])
+/* What nodes start ... start + lanes - 1 of a row give to the lanes' sums, and their
+ * chemical potential. With a constant number of lanes the loop is one straight piece of
+ * vector code. */
+INLINE void evaluate_nodes(const row_weights *r, const couplings *c, const around *x,
+                           const float *mass_inverse, float *w, int start, int lanes,
+                           double sum[2][FG__LANES])
 {
   INDEPENDENT
   for (int n = 0; n < lanes; ++n) {
-    double mass = mass_at(r, start + n);
-    energy[n] += energy_at(r, c, x, start + n, mass);
+    int k = start + n;
+    float u = x->center[k], mass = mass_at(r, k);
+    float energy = apply(c, x, k);
+    if (mass_inverse)
+      energy *= mass_inverse[k];
+    float well = u * u - 1.0F;
+    w[k] = 2.0F * u * well + energy;
+    sum[0][n] += (double)(mass * (well * well)) - (double)gradient_at(r, c, x, k);
+    sum[1][n] += (double)(mass * u);
   }
 }
 
-INLINE double energy_of(const fg__level *level, const float *u, bool masked)
+INLINE fg__sums evaluate_level(const fg__level *level, const float *u, float *w,
+                               bool masked)
 {
-  double sum[FG__LANES] = {0.0};
-  for (int j = 0; j < level->rows; ++j)
+  double sum[2][FG__LANES] = {{0.0}};
+  for (int j = 0; j < level->rows; ++j) {
+    float *out = w + (ptrdiff_t)j * level->stride;
     for (int colour = EVEN; colour <= ODD; ++colour) {
       int count = nodes_of(level, colour), start = 0;
+      ptrdiff_t own = colour == ODD ? level->odd_offset : 0;
       around x = around_row(level, u, j, colour);
       couplings c = couplings_row(level, &level->energy, j, colour);
       row_weights r = weights_of(level, j, colour, masked);
+      const float *inverse =
+          masked ? level->mass_inverse + (ptrdiff_t)j * level->stride + own : NULL;
       for (; start + FG__LANES <= count; start += FG__LANES)
-        add_energy(&r, &c, &x, start, FG__LANES, sum);
-      add_energy(&r, &c, &x, start, count - start, sum);
+        evaluate_nodes(&r, &c, &x, inverse, out + own, start, FG__LANES, sum);
+      evaluate_nodes(&r, &c, &x, inverse, out + own, start, count - start, sum);
     }
-  return total(sum);
+    fg__fill_ghost_columns(level, out);
+  }
+  fg__fill_ghost_row(level, w, 0);
+  fg__fill_ghost_row(level, w, 1);
+  return (fg__sums){0.5 * total(sum[0]), total(sum[1])};
 }
 
-static double energy(const fg__level *level, const float *u)
+static fg__sums evaluate(const fg__level *level, const float *u, float *w)
 {
-  return level->mass ? energy_of(level, u, true) : energy_of(level, u, false);
+  return level->mass ? evaluate_level(level, u, w, true)
+                     : evaluate_level(level, u, w, false);
 }
 
 INLINE void add_changes(const row_weights *r, const float *u, const float *a,
@@ -601,11 +590,11 @@ INLINE void add_changes(const row_weights *r, const float *u, const float *a,
   INDEPENDENT
   for (int n = 0; n < lanes; ++n) {
     int k = start + n;
-    double mass = mass_at(r, k), value = (double)u[k];
-    double from_a = (double)(u[k] - a[k]), from_b = (double)(u[k] - b[k]);
-    sum[0][n] += mass * value;
-    sum[1][n] += mass * from_a * from_a;
-    sum[2][n] += mass * from_b * from_b;
+    float mass = mass_at(r, k);
+    float from_a = u[k] - a[k], from_b = u[k] - b[k];
+    sum[0][n] += (double)(mass * u[k]);
+    sum[1][n] += (double)(mass * from_a * from_a);
+    sum[2][n] += (double)(mass * from_b * from_b);
   }
 }
 
@@ -633,6 +622,30 @@ static fg__changes changes(const fg__level *level, const float *u, const float *
                      : changes_of(level, u, a, b, false);
 }
 
+static void extrapolate(const fg__level *level, const float *now, const float *before,
+                        float omega, float *out)
+{
+  ptrdiff_t size = (ptrdiff_t)level->array_size - level->first;
+  INDEPENDENT
+  for (ptrdiff_t n = -level->first; n < size; ++n)
+    out[n] = now[n] + omega * (now[n] - before[n]);
+}
+
+static void shift(const fg__level *level, float *u, float amount)
+{
+  ptrdiff_t size = (ptrdiff_t)level->array_size - level->first;
+  const float *mass = level->mass;
+  if (mass) {
+    INDEPENDENT
+    for (ptrdiff_t n = -level->first; n < size; ++n)
+      u[n] += mass[n] > 0.0F ? amount : 0.0F;
+  } else {
+    INDEPENDENT
+    for (ptrdiff_t n = -level->first; n < size; ++n)
+      u[n] += amount;
+  }
+}
+
 const fg__kernel FG__KERNEL = {.name = FG__KERNEL_NAME,
                                .smooth = smooth,
                                .smooth_linear = smooth_linear,
@@ -640,7 +653,8 @@ const fg__kernel FG__KERNEL = {.name = FG__KERNEL_NAME,
                                .restrict_residual_linear = restrict_residual_linear,
                                .prolong = prolong,
                                .prolong_array = prolong_array,
-                               .chemical_potential = chemical_potential,
                                .restrict_defect = restrict_defect,
-                               .energy = energy,
-                               .changes = changes};
+                               .evaluate = evaluate,
+                               .changes = changes,
+                               .extrapolate = extrapolate,
+                               .shift = shift};

@@ -37,13 +37,6 @@ static void copy_array(const fg__level *level, float *to, const float *from)
   memcpy(to - level->first, from - level->first, array_bytes(level));
 }
 
-static void swap(float **a, float **b)
-{
-  float *kept = *a;
-  *a = *b;
-  *b = kept;
-}
-
 static double mean_of(const fg__stepper *s, const float *u)
 {
   const fg__multigrid *m = &s->multigrid;
@@ -60,12 +53,6 @@ static double weigh_domain(const fg__stepper *s)
   return s->multigrid.kernel->changes(level, ones, ones, ones).u;
 }
 
-static double energy_of(const fg__stepper *s)
-{
-  const fg__multigrid *m = &s->multigrid;
-  return s->cell_area * m->kernel->energy(&m->level[0], m->level[0].u);
-}
-
 fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
                              fg__multigrid *multigrid, double first_tau, double accuracy,
                              int cycles)
@@ -79,24 +66,25 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   *multigrid = (fg__multigrid){0};
   const fg__level *finest = &out->multigrid.level[0], *second = finest + 1;
   size_t size = finest->array_size + FG__LANES;
-  size_t count = 4 * size + second->array_size;
+  size_t count = 3 * size + second->array_size;
   float *memory = fg__allocate_aligned(count, sizeof *memory);
   if (!memory) {
     fg__stepper_clear(out);
     return fg__fail_memory(context, "the time steps", count * sizeof *memory);
   }
   out->memory = memory;
-  float **arrays[] = {&out->current, &out->previous, &out->first_iterate,
-                      &out->potential};
-  for (size_t n = 0; n < 4; ++n)
-    *arrays[n] = memory + n * size + finest->first;
-  out->defect = memory + 4 * size + second->first;
+  out->current = memory + finest->first;
+  out->previous = out->current + size;
+  out->first_iterate = out->previous + size;
+  out->defect = memory + 3 * size + second->first;
   out->cell_area = finest->spacing[0] * finest->spacing[1];
   out->total_mass = weigh_domain(out);
   fg__fill_ghosts(finest, finest->u);
-  out->mean = mean_of(out, finest->u);
-  out->multigrid.kernel->chemical_potential(finest, finest->u, finest->w);
-  out->energy = energy_of(out);
+  copy_array(finest, out->current, finest->u);
+  out->mean = mean_of(out, out->current);
+  fg__sums sums = out->multigrid.kernel->evaluate(finest, out->current, finest->w);
+  out->energy = out->cell_area * sums.energy;
+  out->mass = out->cell_area * sums.u;
   return FG_STATUS_OK;
 }
 
@@ -108,39 +96,25 @@ void fg__stepper_clear(fg__stepper *stepper)
 }
 
 /* Right-hand side and first guess. With history: the last step's change continued, and
- * its defect, kept on the next coarser grid, carried forward. */
+ * its defect, kept on the next coarser grid, carried forward. After a reject w is what
+ * the failed attempt left, and starts again from the density. */
 static void prepare(fg__stepper *s, double tau)
 {
   fg__multigrid *m = &s->multigrid;
   fg__level *level = &m->level[0];
-  copy_array(level, level->p, s->current);
-  copy_array(level, level->w, s->potential);
   if (!s->history) {
+    copy_array(level, level->p, s->current);
     copy_array(level, level->u, s->current);
+    m->kernel->evaluate(level, s->current, level->w);
     return;
   }
-  m->kernel->prolong_array(&m->level[1], s->defect, level, level->p);
+  m->kernel->prolong_array(&m->level[1], s->defect, level, s->current, level->p);
   float omega = (float)fmin(tau / s->last_tau, most_extrapolation);
-  float *u = level->u - level->first;
-  const float *now = s->current - level->first, *before = s->previous - level->first;
-  for (size_t n = 0; n < level->array_size; ++n)
-    u[n] = now[n] + omega * (now[n] - before[n]);
-}
-
-static void shift_mean(const fg__level *level, float shift)
-{
-  float *u = level->u - level->first;
-  const float *mass = level->mass ? level->mass - level->first : NULL;
-  if (!mass)
-    for (size_t n = 0; n < level->array_size; ++n)
-      u[n] += shift;
-  else
-    for (size_t n = 0; n < level->array_size; ++n)
-      u[n] += mass[n] > 0.0F ? shift : 0.0F;
+  m->kernel->extrapolate(level, s->current, s->previous, omega, level->u);
 }
 
 typedef struct outcome {
-  double increment, correction, energy;
+  double increment, correction, energy, mean;
   bool accepted;
 } outcome;
 
@@ -156,12 +130,14 @@ static outcome attempt(fg__stepper *s, double tau)
   }
   s->cycles_spent += s->cycles;
   fg__changes sums = m->kernel->changes(level, level->u, s->current, s->first_iterate);
-  shift_mean(level, (float)(s->mean - sums.u / s->total_mass));
+  m->kernel->shift(level, level->u, (float)(s->mean - sums.u / s->total_mass));
   outcome result;
   result.increment = sqrt(sums.from_a / s->total_mass);
   result.correction =
       sqrt(sums.from_b / s->total_mass) / fmax(result.increment, correction_floor);
-  result.energy = energy_of(s);
+  fg__sums shifted = m->kernel->evaluate(level, level->u, s->first_iterate);
+  result.energy = s->cell_area * shifted.energy;
+  result.mean = shifted.u / s->total_mass;
   /* comparisons are false for NaN, which rejects */
   result.accepted = result.correction <= acceptable_correction &&
                     result.increment <= acceptable_increment * s->accuracy &&
@@ -169,18 +145,20 @@ static outcome attempt(fg__stepper *s, double tau)
   return result;
 }
 
-/* The accepted density becomes the current one; its defect is kept for the next step. */
+/* The accepted density becomes the current one; its defect, with the potential that
+ * attempt left in first_iterate, is kept for the next step. */
 static void keep(fg__stepper *s, double tau, const outcome *result)
 {
   fg__multigrid *m = &s->multigrid;
   fg__level *level = &m->level[0];
-  swap(&s->previous, &s->current);
-  copy_array(level, s->current, level->u);
-  copy_array(level, s->potential, level->w);
-  m->kernel->chemical_potential(level, level->u, s->first_iterate);
   m->kernel->restrict_defect(level, s->first_iterate, &m->level[1], s->defect,
                              (float)tau);
+  float *oldest = s->previous;
+  s->previous = s->current;
+  s->current = level->u;
+  level->u = oldest;
   s->energy = result->energy;
+  s->mass = s->cell_area * s->total_mass * result->mean;
   s->increment = result->increment;
   s->history = true;
   s->last_tau = tau;
@@ -203,11 +181,6 @@ static void choose_next_tau(fg__stepper *s, double tau, const outcome *result)
 fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
 {
   fg__stepper *s = stepper;
-  fg__level *level = &s->multigrid.level[0];
-  if (s->accepted == 0) {
-    copy_array(level, s->current, level->u);
-    copy_array(level, s->potential, level->w);
-  }
   double tau = s->tau;
   for (;;) {
     fg_status status = fg__check_stop(context);
@@ -217,7 +190,11 @@ fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
     if (result.accepted) {
       keep(s, tau, &result);
       choose_next_tau(s, tau, &result);
-      break;
+      if (fabs(result.mean - s->mean) <= mass_tolerance)
+        return FG_STATUS_OK;
+      return fg__fail(context, FG_STATUS_NO_CONVERGENCE,
+                      "the mean density drifted by %g (allowed %g) in step %ld",
+                      result.mean - s->mean, mass_tolerance, s->accepted);
     }
     ++s->rejected;
     s->history = false;
@@ -229,13 +206,6 @@ fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
                       "correction %g at tau = %g",
                       s->accepted, s->time, result.increment, result.correction, tau);
   }
-  double mean = mean_of(s, level->u);
-  s->mass = s->cell_area * s->total_mass * mean;
-  if (!(fabs(mean - s->mean) <= mass_tolerance))
-    return fg__fail(context, FG_STATUS_NO_CONVERGENCE,
-                    "the mean density drifted by %g (allowed %g) in step %ld",
-                    mean - s->mean, mass_tolerance, s->accepted);
-  return FG_STATUS_OK;
 }
 
 bool fg__stepper_stationary(const fg__stepper *stepper)

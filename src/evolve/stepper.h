@@ -22,20 +22,21 @@ typedef struct fg__stepper {
   bool history;        /* the last step's predecessor and defect may be used */
   long quiet_steps;    /* steps in a row that changed next to nothing */
 
-  /* arrays in the layout of level[0], besides its own */
-  float *current, *previous, *first_iterate, *potential;
+  /* Arrays in the layout of level[0]. A step is computed in the level's own u, which then
+   * becomes current: the three are passed round, never copied. */
+  float *current, *previous, *first_iterate;
   float *defect; /* in the layout of level[1] */
   void *memory;
 } fg__stepper;
 
-/* Takes over a multigrid hierarchy (cleared with the stepper); the density is what
- * level[0].u holds, whose mean is kept. MEMORY. */
+/* Takes over a multigrid hierarchy (cleared with the stepper); the density starts as what
+ * level[0].u holds, and its mean is kept. MEMORY. */
 fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
                              fg__multigrid *multigrid, double first_tau, double accuracy,
                              int cycles);
 void fg__stepper_clear(fg__stepper *stepper);
 
-/* One accepted step; level[0].u is the new density. NO_CONVERGENCE, STOPPED. */
+/* One accepted step; `current` is the new density. NO_CONVERGENCE, STOPPED. */
 fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context);
 
 /* Many steps in a row changed next to nothing although time went on. */
