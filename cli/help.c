@@ -32,8 +32,7 @@ void print_program_help(FILE *stream)
         "Commands:\n",
         stream);
   for (size_t k = 0; k < command_count; ++k)
-    fprintf(stream, "  flowgrain %-5s %-28s %s\n", command_table[k].name,
-            command_table[k].synopsis, command_table[k].summary);
+    fprintf(stream, "  %-7s %s\n", command_table[k].name, command_table[k].summary);
   fputs("\n'flowgrain COMMAND --help' lists a command's options;\n"
         "'flowgrain --version' prints the version.\n",
         stream);

@@ -16,6 +16,8 @@ double clock_seconds(void)
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+enum { BAR_COLUMNS = 24 };
+
 void progress_start(cli_progress *progress, bool quiet)
 {
   const char *terminal = getenv("TERM");
@@ -49,16 +51,21 @@ static void describe_seconds(char *text, size_t room, double seconds)
     snprintf(text, room, "%.1f h", seconds / 3600.0);
 }
 
-void progress_evolution(cli_progress *progress, double time, int clusters,
+void progress_evolution(cli_progress *progress, double share, double time, int clusters,
                         double seconds_left)
 {
   if (!progress->shown || clock_seconds() - progress->last_drawn < seconds_between)
     return;
-  char text[160], left[32], count[32] = "nucleation";
+  char text[160], left[32], count[32] = "clusters form", bar[BAR_COLUMNS + 1];
   describe_seconds(left, sizeof left, seconds_left);
   if (clusters > 0)
     snprintf(count, sizeof count, "%d clusters", clusters);
-  snprintf(text, sizeof text, "evolving   t = %.2e   %s   %s left", time, count, left);
+  int full = (int)(share * BAR_COLUMNS);
+  for (int k = 0; k < BAR_COLUMNS; ++k)
+    bar[k] = k < full ? '=' : ' ';
+  bar[BAR_COLUMNS] = '\0';
+  snprintf(text, sizeof text, "evolving [%s] t = %.2e  %s  %s left", bar, time, count,
+           left);
   draw(progress, text);
 }
 

@@ -15,9 +15,9 @@ void progress_start(cli_progress *progress, bool quiet);
 /* Shows a stage's line at once. */
 void progress_stage(cli_progress *progress, const char *text);
 
-/* Shows the evolution's state, at most ten times a second. clusters 0: not known yet;
- * seconds_left negative: not known. */
-void progress_evolution(cli_progress *progress, double time, int clusters,
+/* Shows the evolution's state, at most ten times a second. share: of the way, 0 to 1;
+ * clusters 0: not known yet; seconds_left negative: not known. */
+void progress_evolution(cli_progress *progress, double share, double time, int clusters,
                         double seconds_left);
 
 /* Wipes the line, before a message and at the end. */

@@ -222,7 +222,8 @@ static void show_progress(cli_run *run)
   if (first->step)
     left = scale_plan_seconds_left(&run->plan, step->clusters, step->time, step->seconds,
                                    first->time, first->seconds);
-  progress_evolution(&run->progress, step->time, step->clusters, left);
+  double share = scale_plan_share(&run->plan, first->clusters, step->clusters);
+  progress_evolution(&run->progress, share, step->time, step->clusters, left);
 }
 
 static int evolve(cli_run *run)

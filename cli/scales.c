@@ -50,6 +50,16 @@ bool scale_plan_done(const scale_plan *plan)
   return plan->count && plan->next == plan->count;
 }
 
+double scale_plan_share(const scale_plan *plan, int first, int clusters)
+{
+  if (!plan->count || clusters < 1 || first < 1)
+    return 0.0;
+  int last = plan->wanted[plan->count - 1];
+  if (clusters <= last || first <= last)
+    return 1.0;
+  return fmax(0.0, log((double)first / clusters) / log((double)first / last));
+}
+
 double scale_plan_seconds_left(const scale_plan *plan, int clusters, double time,
                                double seconds, double time_0, double seconds_0)
 {

@@ -22,9 +22,13 @@ int scale_plan_reach(scale_plan *plan, int clusters);
 
 bool scale_plan_done(const scale_plan *plan);
 
-/* Share of the way to the plan's end and seconds left, by N ~ t^-0.43; negative when
- * nothing can be said yet. `clusters`, `time` and `seconds` now, and `time_0`,
- * `seconds_0` when the number of clusters was first known. */
+/* Share of the way from `first` clusters, the first number seen, to the plan's last: the
+ * logarithm of the number falls about evenly. 0 when nothing can be said yet. */
+double scale_plan_share(const scale_plan *plan, int first, int clusters);
+
+/* Seconds left, by N ~ t^-0.43; negative when nothing can be said yet. `clusters`, `time`
+ * and `seconds` now, and `time_0`, `seconds_0` when the number of clusters was first
+ * known. */
 double scale_plan_seconds_left(const scale_plan *plan, int clusters, double time,
                                double seconds, double time_0, double seconds_0);
 

@@ -73,12 +73,27 @@ static void time_left_follows_the_power_law(void **state)
   assert_double_equal(scale_plan_seconds_left(&plan, 9, t_40, 4.0, t_80, 2.0), 0.0, 0.0);
 }
 
+static void the_share_of_the_way_is_even_in_the_logarithm(void **state)
+{
+  (void)state;
+  const int list[] = {100, 10};
+  scale_plan plan;
+  scale_plan_start(&plan, list, 2);
+  assert_double_equal(scale_plan_share(&plan, 0, 0), 0.0, 0.0);
+  assert_double_equal(scale_plan_share(&plan, 160, 160), 0.0, 0.0);
+  assert_double_equal(scale_plan_share(&plan, 160, 40), 0.5, 1e-12);
+  assert_double_equal(scale_plan_share(&plan, 160, 170), 0.0, 0.0);
+  assert_double_equal(scale_plan_share(&plan, 160, 7), 1.0, 0.0);
+  assert_double_equal(scale_plan_share(&plan, 9, 9), 1.0, 0.0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_list_is_followed),
       cmocka_unit_test(the_number_may_rise_again),
       cmocka_unit_test(the_default_halves),
+      cmocka_unit_test(the_share_of_the_way_is_even_in_the_logarithm),
       cmocka_unit_test(time_left_follows_the_power_law),
   };
   return cmocka_run_group_tests_name("cli/scales", tests, NULL, NULL);
