@@ -69,8 +69,8 @@ static void time_left_follows_the_power_law(void **state)
    * takes half of the time */
   double t_80 = 3e-6, t_40 = t_80 * pow(2.0, 1.0 / 0.43);
   double left = scale_plan_seconds_left(&plan, 40, t_40, 2.0 + 1.5, t_80, 2.0);
-  assert_double_equal(left, 3.0, 1e-9);
-  assert_double_equal(scale_plan_seconds_left(&plan, 9, t_40, 4.0, t_80, 2.0), 0.0, 0.0);
+  assert_true(fabs(left - 3.0) <= 1e-9);
+  assert_true(scale_plan_seconds_left(&plan, 9, t_40, 4.0, t_80, 2.0) == 0.0);
 }
 
 static void the_share_of_the_way_is_even_in_the_logarithm(void **state)
@@ -79,12 +79,12 @@ static void the_share_of_the_way_is_even_in_the_logarithm(void **state)
   const int list[] = {100, 10};
   scale_plan plan;
   scale_plan_start(&plan, list, 2);
-  assert_double_equal(scale_plan_share(&plan, 0, 0), 0.0, 0.0);
-  assert_double_equal(scale_plan_share(&plan, 160, 160), 0.0, 0.0);
-  assert_double_equal(scale_plan_share(&plan, 160, 40), 0.5, 1e-12);
-  assert_double_equal(scale_plan_share(&plan, 160, 170), 0.0, 0.0);
-  assert_double_equal(scale_plan_share(&plan, 160, 7), 1.0, 0.0);
-  assert_double_equal(scale_plan_share(&plan, 9, 9), 1.0, 0.0);
+  assert_true(scale_plan_share(&plan, 0, 0) == 0.0);
+  assert_true(scale_plan_share(&plan, 160, 160) == 0.0);
+  assert_true(fabs(scale_plan_share(&plan, 160, 40) - 0.5) <= 1e-9);
+  assert_true(scale_plan_share(&plan, 160, 170) == 0.0);
+  assert_true(scale_plan_share(&plan, 160, 7) == 1.0);
+  assert_true(scale_plan_share(&plan, 9, 9) == 1.0);
 }
 
 int main(void)
