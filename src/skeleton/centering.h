@@ -22,9 +22,11 @@ void fg__signed_distance_clear(fg__signed_distance *field);
 double fg__signed_distance_at(const fg__signed_distance *field, const double position[2]);
 
 /* Moves each point along the normal to where the border is equally far on either side,
- * and smooths; points stay about as far apart as they are. The first and last point of an
- * open line move along their normals only. MEMORY. */
+ * and smooths; points stay about as far apart as they are, and in the window. The first
+ * `held[0]` and the last `held[1]` points of an open line are only smoothed, its ends not
+ * even that. MEMORY. */
 fg_status fg__polyline_center(fg__polyline *line, fg_context *context,
-                              const fg__signed_distance *field, int rounds);
+                              const fg__signed_distance *field, int rounds,
+                              const int held[2]);
 
 #endif
