@@ -1,0 +1,207 @@
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "mesh/mesh.h"
+
+/* Exact but for the rounding of a few products. */
+static const double ROUNDING = 1e-12;
+
+static const double SIDES[][2] = {{1.0, 1.0},     {360.0, 180.0}, {1.0, 0.31},
+                                  {0.07, 1.9},    {3.7, 2.9},     {1e-3, 4e-3},
+                                  {2.5e6, 1.1e6}, {1.0, 0.13},    {17.0, 100.0}};
+static const int NODES[] = {9, 10, 17, 33, 65, 100, 129, 257, 300, 1000};
+
+enum {
+  SIDE_COUNT = sizeof SIDES / sizeof *SIDES,
+  NODE_COUNT = sizeof NODES / sizeof *NODES
+};
+
+static int set_up(void **state)
+{
+  return fg_context_create((fg_context **)state) != FG_STATUS_OK;
+}
+
+static int tear_down(void **state)
+{
+  fg_context_destroy(*state);
+  return 0;
+}
+
+typedef void check(const fg__mesh *mesh, const fg__mesh_description *description);
+
+/* Meshes of all shapes, sizes and kinds of borders. */
+static void for_all_meshes(fg_context *context, check *holds)
+{
+  for (int s = 0; s < SIDE_COUNT; ++s)
+    for (int n = 0; n < NODE_COUNT; ++n)
+      for (int borders = 0; borders < 4; ++borders) {
+        fg__mesh_description description = {
+            .origin = {-12.25, 3.5},
+            .side = {SIDES[s][0], SIDES[s][1]},
+            .periodic = {(borders & 1) != 0, (borders & 2) != 0},
+            .nodes = NODES[n]};
+        fg__mesh mesh;
+        assert_int_equal(fg__mesh_create(&mesh, context, &description), FG_STATUS_OK);
+        holds(&mesh, &description);
+        fg__mesh_clear(&mesh);
+        fg__mesh_clear(&mesh);
+      }
+}
+
+static int longest_axis(const fg__mesh_description *description)
+{
+  return description->side[1] > description->side[0];
+}
+
+static void fits_its_box(const fg__mesh *mesh, const fg__mesh_description *description)
+{
+  assert_int_equal(mesh->dimension, 2);
+  for (int k = 0; k < 2; ++k) {
+    double side = mesh->spacing[k] * mesh->length * mesh->cells[k];
+    assert_true(fabs(side / description->side[k] - 1.0) < ROUNDING);
+    assert_true(mesh->origin[k] == description->origin[k]);
+    assert_int_equal(mesh->periodic[k], description->periodic[k]);
+  }
+  assert_true(mesh->length == description->side[longest_axis(description)]);
+}
+
+static void the_mesh_covers_the_box(void **state)
+{
+  for_all_meshes(*state, fits_its_box);
+}
+
+static void is_as_fine_as_asked(const fg__mesh *mesh,
+                                const fg__mesh_description *description)
+{
+  int cells = mesh->cells[longest_axis(description)];
+  assert_true(cells >= description->nodes - 1);
+  assert_true(cells < description->nodes - 1 + 16);
+}
+
+static void the_longest_side_has_the_cells_asked_for(void **state)
+{
+  for_all_meshes(*state, is_as_fine_as_asked);
+}
+
+/* Three coarser grids at least; a periodic axis must stay even to be coloured. */
+static void halves_three_times(const fg__mesh *mesh,
+                               const fg__mesh_description *description)
+{
+  (void)description;
+  for (int k = 0; k < 2; ++k) {
+    assert_true(mesh->cells[k] >= 8);
+    assert_int_equal(mesh->cells[k] % 8, 0);
+    if (mesh->periodic[k])
+      assert_int_equal(mesh->cells[k] % 16, 0);
+  }
+}
+
+static void every_mesh_can_be_coarsened(void **state)
+{
+  for_all_meshes(*state, halves_three_times);
+}
+
+/* The short side's cells come in steps; where it has room for one step the cells are as
+ * square as the steps allow, and a box that divides evenly gets squares. */
+static void is_nearly_square(const fg__mesh *mesh,
+                             const fg__mesh_description *description)
+{
+  int longest = longest_axis(description);
+  double ideal = description->side[!longest] / mesh->length * mesh->cells[longest];
+  int step = mesh->periodic[!longest] ? 16 : 8;
+  double aspect = mesh->spacing[!longest] / mesh->spacing[longest];
+  if (ideal < step) {
+    assert_int_equal(mesh->cells[!longest], step);
+    return;
+  }
+  assert_true(aspect > 0.74 && aspect < 1.51);
+  assert_true(fabs(mesh->cells[!longest] - ideal) <= 0.5 * step + 1e-9);
+}
+
+static void cells_are_as_square_as_can_be(void **state)
+{
+  for_all_meshes(*state, is_nearly_square);
+}
+
+static void squares_stay_squares(void **state)
+{
+  for (int n = 0; n < NODE_COUNT; ++n) {
+    fg__mesh_description description = {.side = {0.3, 0.3}, .nodes = NODES[n]};
+    fg__mesh mesh;
+    assert_int_equal(fg__mesh_create(&mesh, *state, &description), FG_STATUS_OK);
+    assert_int_equal(mesh.cells[0], mesh.cells[1]);
+    assert_true(mesh.spacing[0] == mesh.spacing[1]);
+    fg__mesh_clear(&mesh);
+  }
+}
+
+static void has_each_cell_in_one_tile(const fg__mesh *mesh,
+                                      const fg__mesh_description *description)
+{
+  (void)description;
+  long covered = 0;
+  for (int t = 0; t < mesh->tile_count; ++t) {
+    const fg__tile *tile = &mesh->tile[t];
+    for (int k = 0; k < 2; ++k) {
+      assert_true(tile->first[k] >= 0 && tile->cells[k] > 0);
+      assert_true(tile->first[k] + tile->cells[k] <= mesh->cells[k]);
+      assert_int_equal(tile->first[k] % mesh->patch_cells, 0);
+      assert_int_equal(tile->cells[k] % mesh->patch_cells, 0);
+    }
+    covered += (long)tile->cells[0] * tile->cells[1];
+  }
+  assert_int_equal(covered, (long)mesh->cells[0] * mesh->cells[1]);
+}
+
+static void tiles_of_whole_patches_cover_the_mesh(void **state)
+{
+  for_all_meshes(*state, has_each_cell_in_one_tile);
+}
+
+static void assert_refused(fg_context *context, const fg__mesh_description *description)
+{
+  fg__mesh mesh;
+  assert_int_equal(fg__mesh_create(&mesh, context, description), FG_STATUS_ARGUMENT);
+  assert_string_not_equal(fg_context_message(context), "");
+  fg_context_clear(context);
+  fg__mesh_clear(&mesh);
+}
+
+static void impossible_numbers_of_nodes_are_refused(void **state)
+{
+  const int nodes[] = {8, 1, 0, -1, INT32_MIN, 16386, INT32_MAX};
+  for (size_t n = 0; n < sizeof nodes / sizeof *nodes; ++n)
+    assert_refused(*state,
+                   &(fg__mesh_description){.side = {1.0, 2.0}, .nodes = nodes[n]});
+}
+
+static void impossible_boxes_are_refused(void **state)
+{
+  const double side[] = {0.0, -1.0, NAN, INFINITY, -INFINITY};
+  for (size_t n = 0; n < sizeof side / sizeof *side; ++n) {
+    assert_refused(*state, &(fg__mesh_description){.side = {1.0, side[n]}, .nodes = 33});
+    assert_refused(*state, &(fg__mesh_description){.side = {side[n], 1.0}, .nodes = 33});
+  }
+}
+
+int main(void)
+{
+#define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+  const struct CMUnitTest tests[] = {
+      CASE(the_mesh_covers_the_box),
+      CASE(the_longest_side_has_the_cells_asked_for),
+      CASE(every_mesh_can_be_coarsened),
+      CASE(cells_are_as_square_as_can_be),
+      CASE(squares_stay_squares),
+      CASE(tiles_of_whole_patches_cover_the_mesh),
+      CASE(impossible_numbers_of_nodes_are_refused),
+      CASE(impossible_boxes_are_refused),
+  };
+  return cmocka_run_group_tests_name("mesh/mesh", tests, NULL, NULL);
+}
