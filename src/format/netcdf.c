@@ -155,6 +155,9 @@ static fg_status choose_best(fg__nc_pair *out, fg__nc_grid *grid, const fg__nc_f
   fg__nc_grid first_unusable = {0};
   int count = 0;
   for (size_t i = 0; i < all->count && status == FG_STATUS_OK; ++i) {
+    /* an unusable velocity is said, not silently replaced by another kind of vector */
+    if (all->pair[0].is_velocity && !all->pair[i].is_velocity)
+      break;
     if (count > 0 && all->pair[i].rank > out->rank)
       break;
     fg__nc_grid found;

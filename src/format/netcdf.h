@@ -112,7 +112,8 @@ bool fg__nc_date(double value, const char *units, const char *calendar, char *ou
 typedef struct fg__nc_pair {
   const fg__nc_variable *component[2];
   const char *found_by;
-  int rank; /* the smallest is the best */
+  int rank;         /* the smallest is the best */
+  bool is_velocity; /* not a stress, a flux, or something of unfit units */
 } fg__nc_pair;
 
 /* Lists the pairs, best rank first, in the file's order in each. *out is for free(). */

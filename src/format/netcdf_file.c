@@ -108,7 +108,7 @@ static fg_status list_variables(fg__nc_file *file, int root, int group,
     error = nc_inq_varids(group, &count, ids);
   for (int i = 0; i < count && !error; ++i) {
     fg__nc_variable *v = &file->variables[file->variable_count];
-    *v = (fg__nc_variable){.path = path};
+    *v = (fg__nc_variable){.path = path, .file = file->root_count - 1};
     error = describe_variable(v, file, root, group, ids[i], group_name);
     ++file->variable_count;
   }

@@ -246,12 +246,16 @@ static bool add_standard_reading(reading_list *list, size_t variable, char *name
 {
   static const char *const no_vector[] = {"coordinate", "grid_index", "square_of",
                                           "derivative", "longitude",  "latitude",
-                                          "index_at"};
+                                          "inverse_of", "cell_",      "index_at"};
   static const char *const velocity[] = {"wind", "velocity", "drift"};
-  static const char *const other[] = {"stress",    "shear",   "flux",  "tendency",
-                                      "transport", "product", "mixing"};
+  static const char *const other[] = {
+      "stress",   "shear", "flux",         "tendency", "transport",   "product",
+      "momentum", "force", "acceleration", "gradient", "displacement"};
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
-  if (strpbrk(name, " \t") || contains_any(name, no_vector, COUNT_OF(no_vector)))
+  const bool is_other = contains_any(name, other, COUNT_OF(other));
+  const bool is_velocity = !is_other && contains_any(name, velocity, COUNT_OF(velocity));
+  if (strpbrk(name, " \t") || contains_any(name, no_vector, COUNT_OF(no_vector)) ||
+      !(is_velocity || is_other))
     return true;
   char *location = strstr(name, "_at_u_location");
   location = location ? location : strstr(name, "_at_v_location");
@@ -268,8 +272,7 @@ static bool add_standard_reading(reading_list *list, size_t variable, char *name
       return false;
     reading *added = &list->entry[list->count - 1];
     added->standard = true;
-    added->velocity = contains_any(name, velocity, COUNT_OF(velocity)) &&
-                      !contains_any(name, other, COUNT_OF(other));
+    added->velocity = is_velocity;
     return true;
   }
   return true;
@@ -363,7 +366,8 @@ static bool add_pair(pair_list *pairs, const fg__nc_file *file, const reading *x
   const fg__nc_pair pair = {
       .component = {&file->variables[x->variable], &file->variables[y->variable]},
       .found_by = x->standard ? "standard_name" : "names",
-      .rank = rank};
+      .rank = rank,
+      .is_velocity = rank <= RANK_NAMED_VELOCITY};
   for (size_t i = 0; i < pairs->count; ++i)
     if (pairs->entry[i].component[0] == pair.component[0] &&
         pairs->entry[i].component[1] == pair.component[1]) {

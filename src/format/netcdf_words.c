@@ -119,6 +119,17 @@ void fg__nc_title(const fg__nc_pair *pair, char *out, size_t size)
            pair->component[1]->plain_name);
 }
 
+static const char *kind_of_height(const fg__nc_variable *coordinate)
+{
+  static const char *const known[] = {"depth", "altitude", "height"};
+  char name[FG__NC_TEXT];
+  fg__nc_text(coordinate, "standard_name", name, sizeof name);
+  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
+    if (strstr(name, known[i]) || strstr(coordinate->plain_name, known[i]))
+      return known[i];
+  return coordinate->plain_name;
+}
+
 fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,
                              const char *name, size_t index, char *out, size_t size)
 {
@@ -138,8 +149,12 @@ fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coo
   const fg__nc_quantity quantity = fg__nc_units(units, label, sizeof label);
   if (quantity == FG__NC_DATE && fg__nc_date(value, units, calendar, out, size))
     return FG_STATUS_OK;
-  if (quantity == FG__NC_LENGTH || quantity == FG__NC_PRESSURE)
+  if (quantity == FG__NC_PRESSURE)
     snprintf(out, size, "%g %s", value, label);
+  else if (quantity == FG__NC_LENGTH)
+    snprintf(out, size, "%s %g %s", kind_of_height(coordinate), value, label);
+  else if (strncasecmp(units, "month", 5) == 0)
+    snprintf(out, size, "month %g", value);
   else if (units[0] == '\0' || strcmp(units, "1") == 0)
     snprintf(out, size, "%s %g", coordinate->plain_name, value);
   else
