@@ -199,15 +199,14 @@ static fg_status read_block_layout(block_layout *out, const fg__vti *vti,
   uint64_t room = bytes_available(&out->data) / vti->header_bytes;
   if (out->blocks > room)
     return fail_short(vti, array, out->blocks, room);
-  if (out->block_size > expected || out->last_size > out->block_size)
-    return fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
-                    "%s: array \"%.100s\": blocks of %llu bytes and a last one of %llu, "
-                    "where the extent needs %zu",
-                    vti->path, array->name, (unsigned long long)out->block_size,
-                    (unsigned long long)out->last_size, expected);
-  /* blocks * block_size: both are at most 2^32 or so by now, but be sure */
-  if (out->block_size > 0 && out->blocks > UINT64_MAX / out->block_size)
-    return fail_array(vti, array, "its sizes overflow");
+  if (out->last_size > out->block_size ||
+      (out->block_size > 0 && out->blocks > UINT64_MAX / out->block_size))
+    return fg__fail(
+        vti->context, FG_STATUS_FILE_FORMAT,
+        "%s: array \"%.100s\": %llu blocks of %llu bytes and a last one of %llu",
+        vti->path, array->name, (unsigned long long)out->blocks,
+        (unsigned long long)out->block_size, (unsigned long long)out->last_size);
+  /* the last block alone may be smaller than what the header calls a block */
   uint64_t total = out->blocks * out->block_size;
   if (out->last_size > 0 && out->blocks > 0)
     total -= out->block_size - out->last_size;
