@@ -13,10 +13,6 @@ static const double MARGIN = 0.35;
 static const double SHORTEST = 3.0;
 static const double NARROWEST_HEAD = 1.2;
 
-/* Largest width in lengths: with it the head takes 22 % of the length. Wider ones are
- * stubs; a fat cluster does not make a fat arrow. */
-static const double LARGEST_WIDTH = 0.075;
-
 /* Shares of the free way to the border that a body's and a head's half width may take. */
 static const double BODY_SHARE = 0.5;
 static const double HEAD_SHARE = 0.85;
@@ -31,10 +27,13 @@ static const double HEAD_TURNING = 0.5;
 static const double CORNER = 0.35;
 
 /* What a wider arrow is worth: that many times the relative loss of length. */
-static const double WIDTH_WORTH = 0.3;
+static const double WIDTH_WORTH = 0.4;
+
+/* The distance map is of first order: that many spacings of it are not relied on. */
+static const double DISTANCE_ERROR = 0.75;
 
 /* Widths are tried downwards by this factor. */
-static const double WIDTH_STEP = 0.94;
+static const double WIDTH_STEP = 0.91;
 
 /* Parts closer together than this (in widths, between outlines) seem to touch. */
 static const double SELF_GAP = 1.0;
@@ -43,7 +42,7 @@ static const double SELF_GAP = 1.0;
 static const double SELF_TURNING = 1.5707963267948966;
 
 /* Stations a line: a head of the widest arrow then spans 9 of them. */
-enum { FEWEST_STATIONS = 40, MOST_STATIONS = 400, CLEARANCE_BISECTIONS = 8 };
+enum { FEWEST_STATIONS = 40, MOST_STATIONS = 400, CLEARANCE_BISECTIONS = 6 };
 static const double STATION_SPACING = 0.5; /* in spacings of the density */
 
 /* Turn between two points of the centreline, radians, and their distance in spacings. */
@@ -54,11 +53,31 @@ typedef struct span {
   int first, last; /* stations */
 } span;
 
-/* Free way from a point along a direction, at most `reach`. */
-static double find_clearance(const fg__window *window, const double position[2],
-                             double dx, double dy, double step, double reach)
+double fg__distance_at(const fg__window *window, const double *distance,
+                       const double position[2])
 {
-  double inside = 0, outside = 0;
+  int cell[2];
+  double share[2];
+  for (int a = 0; a < 2; a++) {
+    double x = (position[a] - window->origin[a]) / window->spacing[a];
+    x = fmin(fmax(x, 0), window->nodes[a] - 1);
+    cell[a] = (int)fmin(x, window->nodes[a] - 2);
+    share[a] = x - cell[a];
+  }
+  const double *low = distance + cell[1] * window->nodes[0] + cell[0];
+  const double *high = low + window->nodes[0];
+  double bottom = low[0] + (low[1] - low[0]) * share[0];
+  double top = high[0] + (high[1] - high[0]) * share[0];
+  return bottom + (top - bottom) * share[1];
+}
+
+/* Free way from a point along a direction, at most `reach`; the first `known` of it is.
+ */
+static double find_clearance(const fg__window *window, const double position[2],
+                             double dx, double dy, double step, double known,
+                             double reach)
+{
+  double inside = fmax(known, 0), outside = inside;
   while (inside < reach) {
     outside = inside + step;
     double point[2] = {position[0] + outside * dx, position[1] + outside * dy};
@@ -104,36 +123,45 @@ static double angle_between(const double a[2], const double b[2])
   return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
 }
 
+static void set_limits(fg__arrow_station *station, double clearance, double turn,
+                       double length)
+{
+  station->body_limit = station->head_limit = -1;
+  if (turn > CORNER || clearance < 0)
+    return;
+  double curvature = turn / length;
+  station->body_limit = BODY_SHARE * clearance;
+  station->head_limit = HEAD_SHARE * clearance;
+  if (curvature * station->body_limit > BODY_BEND)
+    station->body_limit = BODY_BEND / curvature;
+  if (curvature * station->head_limit > HEAD_BEND)
+    station->head_limit = HEAD_BEND / curvature;
+}
+
 static void measure_stations(fg__arrow_workspace *work, const fg__window *window,
-                             double spacing)
+                             const double *distance, double spacing)
 {
   fg__arrow_station *station = work->station;
   int n = work->count;
-  double delta = station[1].s - station[0].s;
-  double reach = FG__HEAD_WIDTH / 2 * LARGEST_WIDTH * station[n - 1].s / HEAD_SHARE +
-                 MARGIN * spacing;
+  double margin = MARGIN * spacing, delta = station[1].s - station[0].s;
+  double reach =
+      FG__HEAD_WIDTH / 2 * FG__LARGEST_WIDTH * station[n - 1].s / HEAD_SHARE + margin;
   station[0].turning = 0;
   for (int i = 1; i < n; i++)
     station[i].turning = station[i - 1].turning +
                          angle_between(station[i - 1].tangent, station[i].tangent);
   for (int i = 0; i < n; i++) {
+    const double *position = station[i].position, *tangent = station[i].tangent;
+    double known = fg__distance_at(window, distance, position) - DISTANCE_ERROR * spacing;
+    double left = find_clearance(window, position, -tangent[1], tangent[0], spacing / 2,
+                                 known, reach);
+    double right = find_clearance(window, position, tangent[1], -tangent[0], spacing / 2,
+                                  known, fmin(reach, left));
     int before = i > 0 ? i - 1 : i, after = i < n - 1 ? i + 1 : i;
-    double turn = fabs(station[after].turning - station[before].turning);
-    station[i].curvature =
-        turn > CORNER * (after - before) ? HUGE_VAL : turn / (delta * (after - before));
-    double nx = -station[i].tangent[1], ny = station[i].tangent[0];
-    double left = find_clearance(window, station[i].position, nx, ny, spacing / 2, reach);
-    double right =
-        find_clearance(window, station[i].position, -nx, -ny, spacing / 2, reach);
-    station[i].clearance = fmin(left, right) - MARGIN * spacing;
+    double turn =
+        fabs(station[after].turning - station[before].turning) / (after - before);
+    set_limits(&station[i], right - margin, turn, delta);
   }
-}
-
-/* Half width that an arrow of this width has at distance u from its tip, head only. */
-static double head_half_width(double width, double u)
-{
-  return FG__HEAD_WIDTH * width / 2 * u /
-         (FG__HEAD_LENGTH * width * (1 + FG__HEAD_SWEEP));
 }
 
 /* Distance of two stations less what the outlines there may need. */
@@ -143,7 +171,8 @@ static bool keeps_apart(const fg__arrow_station *a, const fg__arrow_station *b,
   if (fabs(a->turning - b->turning) < SELF_TURNING)
     return true;
   double least = (0.5 + FG__HEAD_WIDTH / 2 + SELF_GAP) * width;
-  return hypot(a->position[0] - b->position[0], a->position[1] - b->position[1]) > least;
+  double dx = a->position[0] - b->position[0], dy = a->position[1] - b->position[1];
+  return dx * dx + dy * dy > least * least;
 }
 
 /* Grows a span from the start to both sides, the shorter side first, until the line ends,
@@ -191,48 +220,46 @@ static bool head_fits(const fg__arrow_workspace *work, int first, int tip, doubl
                       int *base)
 {
   const fg__arrow_station *station = work->station;
-  double length = FG__HEAD_LENGTH * width;
+  double length = FG__HEAD_LENGTH * width, whole = length * (1 + FG__HEAD_SWEEP);
+  double slope = FG__HEAD_WIDTH * width / 2 / whole;
   int i = tip;
   for (; i >= first; i--) {
     double u = station[tip].s - station[i].s;
-    double w = head_half_width(width, u);
-    if (w > HEAD_SHARE * station[i].clearance || station[i].clearance < 0 ||
-        station[i].curvature == HUGE_VAL || w * station[i].curvature > HEAD_BEND)
+    /* the limits of one station past the barbs count too: the barbs are before it */
+    if (u * slope > station[i].head_limit)
       return false;
     if (u <= length)
       *base = i;
-    /* one station past the barbs, so that their own place is between tested ones */
-    if (u > length * (1 + FG__HEAD_SWEEP))
+    if (u > whole)
       break;
   }
   return i >= first &&
          fabs(station[tip].turning - station[*base].turning) <= HEAD_TURNING;
 }
 
-/* Whether the whole taper fits from a tail to the head's base. */
-static bool body_fits(const fg__arrow_workspace *work, int tail, int base, double width)
-{
-  const fg__arrow_station *station = work->station;
-  double length = station[base].s - station[tail].s;
-  for (int i = tail; i <= base; i++) {
-    double t = length > 0 ? (station[i].s - station[tail].s) / length : 1;
-    double w = width / 2 * (FG__TAIL_WIDTH + (1 - FG__TAIL_WIDTH) * t);
-    if (w > BODY_SHARE * station[i].clearance || w * station[i].curvature > BODY_BEND)
-      return false;
-  }
-  return true;
-}
-
-/* The most upstream tail from which the body fits, or base when there is none. */
+/* The most upstream tail from which the body fits, or base when there is none. At a
+ * station whose limit is a share t of the way from the tail's width to the full one, the
+ * taper must not have come further than t: that bounds the tail from upstream. */
 static int find_tail(const fg__arrow_workspace *work, int first, int base, double width)
 {
   const fg__arrow_station *station = work->station;
-  double thinnest = width / 2 * FG__TAIL_WIDTH;
+  double end = station[base].s, bound = station[first].s;
   int tail = base;
-  while (tail > first && station[tail - 1].clearance * BODY_SHARE >= thinnest &&
-         station[tail - 1].curvature * thinnest <= BODY_BEND)
-    tail--;
-  while (tail < base && !body_fits(work, tail, base, width))
+  if (station[base].body_limit < width / 2)
+    return base;
+  for (int i = base - 1; i >= first; i--) {
+    double t =
+        (station[i].body_limit / (width / 2) - FG__TAIL_WIDTH) / (1 - FG__TAIL_WIDTH);
+    if (t < 0)
+      break;
+    if (t < 1)
+      bound = fmax(bound, (station[i].s - t * end) / (1 - t));
+    if (station[i].s < bound)
+      break;
+    tail = i;
+  }
+  /* a bound found late may lie beyond stations already taken */
+  while (tail < base && station[tail].s < bound)
     tail++;
   return tail;
 }
@@ -272,7 +299,8 @@ static double turning_range(const fg__arrow_workspace *work, int first, int last
 
 fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
                         const fg__streamline *streamline, const fg__window *window,
-                        double spacing, fg__arrow_workspace *workspace)
+                        const double *distance, double spacing,
+                        fg__arrow_workspace *workspace)
 {
   *out = (fg__arrow){0};
   double length = fg__streamline_length(streamline);
@@ -281,19 +309,20 @@ fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
   fg_status status = place_stations(workspace, context, streamline, spacing);
   if (status != FG_STATUS_OK)
     return status;
-  measure_stations(workspace, window, spacing);
+  measure_stations(workspace, window, distance, spacing);
 
   const fg__arrow_station *station = workspace->station;
   int start = (int)lround(streamline->node[streamline->start].s / length *
                           (workspace->count - 1));
   double narrowest = NARROWEST_HEAD * spacing / FG__HEAD_WIDTH;
   double best = 0;
-  for (double width = LARGEST_WIDTH * length; width >= narrowest; width *= WIDTH_STEP) {
+  for (double width = FG__LARGEST_WIDTH * length; width >= narrowest;
+       width *= WIDTH_STEP) {
     /* no narrower arrow can be better than this one */
     if (length * pow(width / spacing, WIDTH_WORTH) <= best)
       break;
     span span = grow_span(workspace, start, width, MARGIN * spacing);
-    double shortest = fmax(SHORTEST * spacing, width / LARGEST_WIDTH);
+    double shortest = fmax(SHORTEST * spacing, width / FG__LARGEST_WIDTH);
     int tail = 0, tip = 0;
     if (!find_longest(workspace, span, width, shortest, &tail, &tip))
       continue;

@@ -10,6 +10,10 @@
 #define FG__HEAD_WIDTH 2.6
 #define FG__TAIL_WIDTH 0.3
 
+/* Largest width in lengths: with it the head takes 22 % of the length. Wider ones are
+ * stubs; a fat cluster does not make a fat arrow. */
+#define FG__LARGEST_WIDTH 0.075
+
 /* The head's base is swept back by this share of its length. */
 #define FG__HEAD_SWEEP 0.12
 
@@ -25,8 +29,8 @@ typedef struct fg__arrow {
 
 /* Work arrays of fg__arrow_fit, to be kept between calls; all zero at first. */
 typedef struct fg__arrow_station {
-  double s, position[2], tangent[2], turning, curvature;
-  double clearance; /* free way to both sides, less the margin */
+  double s, position[2], tangent[2], turning;
+  double body_limit, head_limit; /* largest half widths; negative: nothing fits */
 } fg__arrow_station;
 
 typedef struct fg__arrow_workspace {
@@ -35,14 +39,20 @@ typedef struct fg__arrow_workspace {
   int count;
 } fg__arrow_workspace;
 
+/* The distance map at a point, bilinear; the nearest node's side outside the window. */
+double fg__distance_at(const fg__window *window, const double *distance,
+                       const double position[2]);
+
 /* Finds the longest and widest arrow on the streamline whose whole outline lies in the
  * window's cluster and does not meet itself. `spacing` is that of the density, the
  * yardstick of margins and of readability: shorter than 3 or with a head narrower
  * than 1.2 spacings gives width 0. The outline needs no more than the free way to both
- * sides of the centreline, because it bends with it, head included. MEMORY. */
+ * sides of the centreline, because it bends with it, head included. `distance` is the
+ * window's distance map. MEMORY. */
 fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
                         const fg__streamline *streamline, const fg__window *window,
-                        double spacing, fg__arrow_workspace *workspace);
+                        const double *distance, double spacing,
+                        fg__arrow_workspace *workspace);
 void fg__arrow_workspace_clear(fg__arrow_workspace *workspace);
 
 /* The centreline from tail to tip, dense enough to be drawn as straight pieces and to

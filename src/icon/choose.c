@@ -56,24 +56,6 @@ static double step_limit(const fg_field *field, const fg__window *window)
   return step;
 }
 
-static double distance_at(const search *search, const double position[2])
-{
-  const fg__window *window = search->window;
-  int cell[2];
-  double fraction[2];
-  for (int a = 0; a < 2; a++) {
-    double x = (position[a] - window->origin[a]) / window->spacing[a];
-    x = fmin(fmax(x, 0), window->nodes[a] - 1);
-    cell[a] = (int)fmin(floor(x), window->nodes[a] - 2);
-    fraction[a] = x - cell[a];
-  }
-  const double *d = search->distance + cell[1] * window->nodes[0] + cell[0];
-  double lower = d[0] + (d[1] - d[0]) * fraction[0];
-  d += window->nodes[0];
-  double upper = d[0] + (d[1] - d[0]) * fraction[0];
-  return lower + (upper - lower) * fraction[1];
-}
-
 /* Nodes inside the cluster, every stride-th along both axes. */
 static fg_status collect_samples(const search *search)
 {
@@ -102,28 +84,28 @@ static fg_status collect_samples(const search *search)
   return FG_STATUS_OK;
 }
 
-/* Root of the mean square distance from the cluster's points to the arrow on the line
- * just tried, weighed with its width. */
-static double cost_of(const search *search, const fg__arrow *arrow)
+/* Root of the mean square distance from the cluster's points to a part of the line just
+ * tried, weighed with an arrow's width: the less the better. */
+static double cost_of(const search *search, double tail, double tip, double width)
 {
   const fg__chooser *chooser = search->chooser;
   double line[ARROW_SAMPLES][2], tangent[2], sum = 0;
   int hint = 0;
-  for (int k = 0; k < ARROW_SAMPLES; k++) {
-    double s = arrow->tail + (arrow->tip - arrow->tail) * k / (ARROW_SAMPLES - 1);
-    fg__streamline_at(&chooser->tried, s, &hint, line[k], tangent);
-  }
+  for (int k = 0; k < ARROW_SAMPLES; k++)
+    fg__streamline_at(&chooser->tried, tail + (tip - tail) * k / (ARROW_SAMPLES - 1),
+                      &hint, line[k], tangent);
   for (int i = 0; i < chooser->sample_count; i++) {
     double nearest = HUGE_VAL;
     for (int k = 0; k < ARROW_SAMPLES; k++) {
       double dx = line[k][0] - chooser->sample[i][0];
       double dy = line[k][1] - chooser->sample[i][1];
-      nearest = fmin(nearest, dx * dx + dy * dy);
+      double square = dx * dx + dy * dy;
+      nearest = square < nearest ? square : nearest;
     }
     sum += nearest;
   }
   double rms = sqrt(sum / fmax(chooser->sample_count, 1));
-  return rms / pow(arrow->width, WIDTH_WORTH);
+  return rms / pow(width, WIDTH_WORTH);
 }
 
 /* Tries the streamline through a point. */
@@ -135,12 +117,17 @@ static fg_status consider(search *search, double x, double y)
                                           search->window, start, &search->limits);
   if (status != FG_STATUS_OK || chooser->tried.count < 2)
     return status;
+  /* an arrow takes a part of the line: it can only be farther from the cluster's points
+   */
+  double length = fg__streamline_length(&chooser->tried);
+  if (cost_of(search, 0, length, FG__LARGEST_WIDTH * length) >= search->cost)
+    return FG_STATUS_OK;
   fg__arrow arrow;
   status = fg__arrow_fit(&arrow, search->context, &chooser->tried, search->window,
-                         search->spacing, &chooser->workspace);
+                         search->distance, search->spacing, &chooser->workspace);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
     return status;
-  double cost = cost_of(search, &arrow);
+  double cost = cost_of(search, arrow.tail, arrow.tip, arrow.width);
   if (cost < search->cost) {
     fg__streamline line = chooser->best;
     chooser->best = chooser->tried;
@@ -218,7 +205,8 @@ static fg_status refine(search *search, double radius)
     double position[2], tangent[2];
     fg__streamline_at(&search->chooser->best, middle, NULL, position, tangent);
     double normal[2] = {-tangent[1], tangent[0]};
-    double local = fmax(distance_at(search, position), radius / 2);
+    double local =
+        fmax(fg__distance_at(search->window, search->distance, position), radius / 2);
     double both[] = {share, -share};
     status = consider_aside(search, position, normal, local, both, 2);
     share /= 2;
@@ -250,7 +238,7 @@ fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *c
     return status;
 
   const double *center = spine->point[spine->center];
-  double radius = distance_at(&search, center);
+  double radius = fg__distance_at(window, distance, center);
   status = consider_center(&search, center, radius, spine->length < DISC * radius);
   if (status == FG_STATUS_OK)
     status = consider_spine(&search, spine);
