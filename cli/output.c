@@ -20,7 +20,7 @@ static void cut_to_parent(char *path)
   char *slash = strrchr(path, '/');
   if (!slash) {
     if (length)
-      strcpy(path, ".");
+      memcpy(path, ".", 2);
     return;
   }
   while (slash > path && slash[-1] == '/')

@@ -305,7 +305,7 @@ static void print_summary(const cli_run *run)
   static const char *const ends[FORMAT_KINDS] = {"svg", "png", "pdf"};
   unsigned formats = run->settings->formats;
   int kind = 0;
-  while (formats && !(formats & (1U << kind)))
+  while (kind < FORMAT_KINDS - 1 && formats && !(formats & (1U << kind)))
     ++kind;
   for (int k = 0; k < drawing_count(run->drawing); ++k) {
     const scale_result *result = drawing_result(run->drawing, k);

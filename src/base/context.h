@@ -13,6 +13,13 @@ fg_status fg__fail(fg_context *context, fg_status status, const char *format, ..
 /* Records that `bytes` could not be had for `what`; returns FG_STATUS_MEMORY. */
 fg_status fg__fail_memory(fg_context *context, const char *what, size_t bytes);
 
+#if defined(__clang_analyzer__)
+/* What the analyzer can not see across files: these return the status they were given. */
+#define fg__fail(context, status, ...) (fg__fail(context, status, __VA_ARGS__), status)
+#define fg__fail_memory(context, what, bytes)                                            \
+  (fg__fail_memory(context, what, bytes), FG_STATUS_MEMORY)
+#endif
+
 /* Adds the line that says what to do about the failure just recorded. Later hints are
  * dropped like later failures. */
 void fg__hint(fg_context *context, const char *format, ...)
