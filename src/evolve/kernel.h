@@ -31,13 +31,15 @@ typedef struct fg__kernel {
    * then of odd rows), a local Newton step for (u, w) at each node. */
   void (*smooth)(const fg__level *level, float tau);
   void (*smooth_linear)(const fg__level *level, float tau);
-  /* Residuals of both equations, restricted to p and q of the coarse level, and the
-   * curvature likewise; coarse u and w become 0. */
-  void (*restrict_residual)(const fg__level *fine, const fg__level *coarse, float tau);
-  void (*restrict_residual_linear)(const fg__level *fine, const fg__level *coarse,
-                                   float tau);
-  /* Adds the bilinear interpolation of the coarse u, w to the fine ones. */
-  void (*prolong)(const fg__level *coarse, const fg__level *fine);
+  /* A sweep; then the residuals of both equations, restricted to p and q of the coarse
+   * level, and the curvature likewise; coarse u and w become 0. */
+  void (*smooth_restrict)(const fg__level *fine, const fg__level *coarse, float tau);
+  void (*smooth_restrict_linear)(const fg__level *fine, const fg__level *coarse,
+                                 float tau);
+  /* Adds the bilinear interpolation of the coarse u, w to the fine ones; then a sweep. */
+  void (*prolong_smooth)(const fg__level *coarse, const fg__level *fine, float tau);
+  void (*prolong_smooth_linear)(const fg__level *coarse, const fg__level *fine,
+                                float tau);
   /* to := base + the interpolation of one coarse array; to may be base. */
   void (*prolong_array)(const fg__level *coarse, const float *from, const fg__level *fine,
                         const float *base, float *to);

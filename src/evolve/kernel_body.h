@@ -191,25 +191,22 @@ INLINE void smooth_both(const fg__level *level, int j, const laplacian *l, bool 
     }
 }
 
-/* Even rows run one ahead of odd rows, so that a sweep passes memory once and yet every
- * odd row finds both its neighbours done. */
+/* Rows j (even) and j - 1: even rows run one ahead of odd rows, so that a sweep passes
+ * memory once and yet every odd row finds both its neighbours done. */
+INLINE void sweep_rows(const fg__level *level, int j, const laplacian *l, bool linear,
+                       bool masked)
+{
+  if (j < level->rows)
+    smooth_both(level, j, l, linear, masked);
+  if (j > 0 && j - 1 < level->rows)
+    smooth_both(level, j - 1, l, linear, masked);
+}
+
 INLINE void sweep(const fg__level *level, float tau, bool linear, bool masked)
 {
   laplacian l = laplacian_times(level, tau);
-  for (int j = 0; j < level->rows + 2; j += 2) {
-    if (j < level->rows)
-      smooth_both(level, j, &l, linear, masked);
-    if (j > 0 && j - 1 < level->rows)
-      smooth_both(level, j - 1, &l, linear, masked);
-  }
-}
-
-static void smooth(const fg__level *level, float tau)
-{
-  if (level->mass)
-    sweep(level, tau, false, true);
-  else
-    sweep(level, tau, false, false);
+  for (int j = 0; j < level->rows + 2; j += 2)
+    sweep_rows(level, j, &l, linear, masked);
 }
 
 static void smooth_linear(const fg__level *level, float tau)
@@ -218,6 +215,14 @@ static void smooth_linear(const fg__level *level, float tau)
     sweep(level, tau, true, true);
   else
     sweep(level, tau, true, false);
+}
+
+static void smooth(const fg__level *level, float tau)
+{
+  if (level->mass)
+    sweep(level, tau, false, true);
+  else
+    sweep(level, tau, false, false);
 }
 
 /* ---- restriction ------------------------------------------------------------------- */
@@ -357,17 +362,18 @@ INLINE void swap_lines(line *a, line *b)
   *b = kept;
 }
 
-INLINE void restrict_rows(restriction *r, float *const out[], bool linear, bool masked)
+/* Coarse row J from fine rows 2J - 1 (kept from the row before), 2J and 2J + 1. */
+INLINE void restrict_row(restriction *r, int J, float *const out[], bool linear,
+                         bool masked)
 {
   const fg__level *fine = r->fine;
-  gather_row(r, fine->ghost_row_source[0], &r->gathered[0], linear, masked);
-  for (int J = 0; J < r->coarse->rows; ++J) {
-    gather_row(r, 2 * J, &r->gathered[1], linear, masked);
-    int above = 2 * J + 1 < fine->rows ? 2 * J + 1 : fine->ghost_row_source[1];
-    gather_row(r, above, &r->gathered[2], linear, masked);
-    combine_rows(r, J, out, masked);
-    swap_lines(&r->gathered[0], &r->gathered[2]);
-  }
+  if (J == 0)
+    gather_row(r, fine->ghost_row_source[0], &r->gathered[0], linear, masked);
+  gather_row(r, 2 * J, &r->gathered[1], linear, masked);
+  int above = 2 * J + 1 < fine->rows ? 2 * J + 1 : fine->ghost_row_source[1];
+  gather_row(r, above, &r->gathered[2], linear, masked);
+  combine_rows(r, J, out, masked);
+  swap_lines(&r->gathered[0], &r->gathered[2]);
 }
 
 /* Lines cut from the fine level's scratch space. */
@@ -390,29 +396,47 @@ INLINE restriction restriction_of(const fg__level *fine, const fg__level *coarse
   return r;
 }
 
-INLINE void restrict_both(const fg__level *fine, const fg__level *coarse, float tau,
-                          bool linear)
+INLINE void clear(const fg__level *level, float *array)
 {
+  memset(array - level->first, 0, level->array_size * sizeof *array);
+}
+
+/* Once rows up to j = 2J + 2 are smoothed, those up to 2J + 1 have their final residuals,
+ * while they are still near. Not so across a periodic border, where row 0 needs the last.
+ */
+INLINE void descend(const fg__level *fine, const fg__level *coarse, float tau,
+                    bool linear, bool masked)
+{
+  laplacian l = laplacian_times(fine, tau);
   restriction r = restriction_of(fine, coarse, tau, 3);
   float *out[] = {coarse->p, coarse->q, coarse->curvature};
+  bool together = !fine->periodic[1];
+  for (int j = 0; j < fine->rows + 2; j += 2) {
+    sweep_rows(fine, j, &l, linear, masked);
+    if (together && j >= 2)
+      restrict_row(&r, j / 2 - 1, out, linear, masked);
+  }
+  for (int J = 0; !together && J < coarse->rows; ++J)
+    restrict_row(&r, J, out, linear, masked);
+  clear(coarse, coarse->u);
+  clear(coarse, coarse->w);
+}
+
+static void smooth_restrict(const fg__level *fine, const fg__level *coarse, float tau)
+{
   if (fine->mass)
-    restrict_rows(&r, out, linear, true);
+    descend(fine, coarse, tau, false, true);
   else
-    restrict_rows(&r, out, linear, false);
-  size_t bytes = coarse->array_size * sizeof(float);
-  memset(coarse->u - coarse->first, 0, bytes);
-  memset(coarse->w - coarse->first, 0, bytes);
+    descend(fine, coarse, tau, false, false);
 }
 
-static void restrict_residual(const fg__level *fine, const fg__level *coarse, float tau)
+static void smooth_restrict_linear(const fg__level *fine, const fg__level *coarse,
+                                   float tau)
 {
-  restrict_both(fine, coarse, tau, false);
-}
-
-static void restrict_residual_linear(const fg__level *fine, const fg__level *coarse,
-                                     float tau)
-{
-  restrict_both(fine, coarse, tau, true);
+  if (fine->mass)
+    descend(fine, coarse, tau, true, true);
+  else
+    descend(fine, coarse, tau, true, false);
 }
 
 static void restrict_defect(const fg__level *fine, const float *w,
@@ -421,10 +445,11 @@ static void restrict_defect(const fg__level *fine, const float *w,
   restriction r = restriction_of(fine, coarse, tau, 1);
   r.w = w;
   float *outs[] = {out};
-  if (fine->mass)
-    restrict_rows(&r, outs, true, true);
-  else
-    restrict_rows(&r, outs, true, false);
+  for (int J = 0; J < coarse->rows; ++J)
+    if (fine->mass)
+      restrict_row(&r, J, outs, true, true);
+    else
+      restrict_row(&r, J, outs, true, false);
   fg__fill_ghosts(coarse, out);
 }
 
@@ -446,33 +471,77 @@ INLINE void merge(const fg__level *coarse, const float *a, const float *b, float
   natural[coarse->columns] = 0.5F * (a[ghost] + b[ghost]);
 }
 
+/* Row j of base + the interpolation of a coarse array. */
+INLINE void prolong_row(const fg__level *coarse, const float *from, const fg__level *fine,
+                        const float *base, float *to, int j)
+{
+  float *natural = fine->scratch;
+  const float *low = from + (ptrdiff_t)(j / 2) * coarse->stride;
+  const float *high = j % 2 == 0 ? low : low + coarse->stride;
+  merge(coarse, low, high, natural);
+  const float *base_even = base + (ptrdiff_t)j * fine->stride;
+  const float *base_odd = base_even + fine->odd_offset;
+  float *even = fg__row(fine, to, j), *odd = even + fine->odd_offset;
+  INDEPENDENT
+  for (int k = 0; k < fine->even_count; ++k)
+    even[k] = base_even[k] + natural[k];
+  INDEPENDENT
+  for (int k = 0; k < fine->odd_count; ++k)
+    odd[k] = base_odd[k] + 0.5F * (natural[k] + natural[k + 1]);
+  fg__fill_ghost_columns(fine, even);
+  for (int side = 0; side < 2; ++side)
+    if (fine->ghost_row_source[side] == j)
+      fg__fill_ghost_row(fine, to, side);
+}
+
 static void prolong_array(const fg__level *coarse, const float *from,
                           const fg__level *fine, const float *base, float *to)
 {
-  float *natural = fine->scratch;
-  for (int j = 0; j < fine->rows; ++j) {
-    const float *low = from + (ptrdiff_t)(j / 2) * coarse->stride;
-    const float *high = j % 2 == 0 ? low : low + coarse->stride;
-    merge(coarse, low, high, natural);
-    const float *base_even = base + (ptrdiff_t)j * fine->stride;
-    const float *base_odd = base_even + fine->odd_offset;
-    float *even = fg__row(fine, to, j), *odd = even + fine->odd_offset;
-    INDEPENDENT
-    for (int k = 0; k < fine->even_count; ++k)
-      even[k] = base_even[k] + natural[k];
-    INDEPENDENT
-    for (int k = 0; k < fine->odd_count; ++k)
-      odd[k] = base_odd[k] + 0.5F * (natural[k] + natural[k + 1]);
-    fg__fill_ghost_columns(fine, even);
-  }
-  fg__fill_ghost_row(fine, to, 0);
-  fg__fill_ghost_row(fine, to, 1);
+  for (int j = 0; j < fine->rows; ++j)
+    prolong_row(coarse, from, fine, base, to, j);
 }
 
-static void prolong(const fg__level *coarse, const fg__level *fine)
+INLINE void prolong_rows(const fg__level *coarse, const fg__level *fine, int first,
+                         int last)
 {
-  prolong_array(coarse, coarse->u, fine, fine->u, fine->u);
-  prolong_array(coarse, coarse->w, fine, fine->w, fine->w);
+  for (int j = first; j <= last && j < fine->rows; ++j) {
+    prolong_row(coarse, coarse->u, fine, fine->u, fine->u, j);
+    prolong_row(coarse, coarse->w, fine, fine->w, fine->w, j);
+  }
+}
+
+/* Row j is smoothed when rows up to j + 1 are corrected; across a periodic border row 0
+ * needs the last one too. */
+INLINE void ascend(const fg__level *coarse, const fg__level *fine, float tau, bool linear,
+                   bool masked)
+{
+  laplacian l = laplacian_times(fine, tau);
+  int done = fine->periodic[1] ? fine->rows - 1 : 0;
+  prolong_rows(coarse, fine, 0, done);
+  for (int j = 0; j < fine->rows + 2; j += 2) {
+    if (done < j + 1) {
+      prolong_rows(coarse, fine, done + 1, j + 1);
+      done = j + 1;
+    }
+    sweep_rows(fine, j, &l, linear, masked);
+  }
+}
+
+static void prolong_smooth(const fg__level *coarse, const fg__level *fine, float tau)
+{
+  if (fine->mass)
+    ascend(coarse, fine, tau, false, true);
+  else
+    ascend(coarse, fine, tau, false, false);
+}
+
+static void prolong_smooth_linear(const fg__level *coarse, const fg__level *fine,
+                                  float tau)
+{
+  if (fine->mass)
+    ascend(coarse, fine, tau, true, true);
+  else
+    ascend(coarse, fine, tau, true, false);
 }
 
 /* ---- potential and sums
@@ -649,9 +718,10 @@ static void shift(const fg__level *level, float *u, float amount)
 const fg__kernel FG__KERNEL = {.name = FG__KERNEL_NAME,
                                .smooth = smooth,
                                .smooth_linear = smooth_linear,
-                               .restrict_residual = restrict_residual,
-                               .restrict_residual_linear = restrict_residual_linear,
-                               .prolong = prolong,
+                               .smooth_restrict = smooth_restrict,
+                               .smooth_restrict_linear = smooth_restrict_linear,
+                               .prolong_smooth = prolong_smooth,
+                               .prolong_smooth_linear = prolong_smooth_linear,
                                .prolong_array = prolong_array,
                                .restrict_defect = restrict_defect,
                                .evaluate = evaluate,

@@ -55,21 +55,17 @@ void fg__multigrid_cycle(const fg__multigrid *multigrid, double tau)
   const fg__level *level = multigrid->level;
   int last = multigrid->level_count - 1;
   float step = (float)tau;
-  kernel->smooth(&level[0], step);
-  if (last > 0)
-    kernel->restrict_residual(&level[0], &level[1], step);
-  for (int n = 1; n < last; ++n) {
-    kernel->smooth_linear(&level[n], step);
-    kernel->restrict_residual_linear(&level[n], &level[n + 1], step);
-  }
-  if (last > 0)
+  if (last == 0) { /* a mesh too small to coarsen: smoothing alone */
     for (int sweep = 0; sweep < multigrid->coarsest_sweeps; ++sweep)
-      kernel->smooth_linear(&level[last], step);
-  for (int n = last - 1; n > 0; --n) {
-    kernel->prolong(&level[n + 1], &level[n]);
-    kernel->smooth_linear(&level[n], step);
+      kernel->smooth(&level[0], step);
+    return;
   }
-  if (last > 0)
-    kernel->prolong(&level[1], &level[0]);
-  kernel->smooth(&level[0], step);
+  kernel->smooth_restrict(&level[0], &level[1], step);
+  for (int n = 1; n < last; ++n)
+    kernel->smooth_restrict_linear(&level[n], &level[n + 1], step);
+  for (int sweep = 0; sweep < multigrid->coarsest_sweeps; ++sweep)
+    kernel->smooth_linear(&level[last], step);
+  for (int n = last - 1; n > 0; --n)
+    kernel->prolong_smooth_linear(&level[n + 1], &level[n], step);
+  kernel->prolong_smooth(&level[1], &level[0], step);
 }
