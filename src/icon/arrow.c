@@ -13,6 +13,10 @@ static const double MARGIN = 0.35;
 static const double SHORTEST = 3.0;
 static const double NARROWEST_HEAD = 1.2;
 
+/* The narrowest arrow may be wider in lengths than others: its head, a third of it, is
+ * what a reader needs to see which way it points. */
+static const double SMALL_ARROW_WIDTH = 0.11;
+
 /* Shares of the free way to the border that a body's and a head's half width may take. */
 static const double BODY_SHARE = 0.5;
 static const double HEAD_SHARE = 0.85;
@@ -315,14 +319,16 @@ fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
   int start = (int)lround(streamline->node[streamline->start].s / length *
                           (workspace->count - 1));
   double narrowest = NARROWEST_HEAD * spacing / FG__HEAD_WIDTH;
-  double best = 0;
-  for (double width = FG__LARGEST_WIDTH * length; width >= narrowest;
-       width *= WIDTH_STEP) {
+  double widest = fmax(FG__LARGEST_WIDTH * length, narrowest), best = 0;
+  int steps = (int)ceil(log(widest / narrowest) / -log(WIDTH_STEP));
+  for (int i = 0; i <= steps; i++) {
+    double width = fmax(widest * pow(WIDTH_STEP, i), narrowest);
     /* no narrower arrow can be better than this one */
     if (length * pow(width / spacing, WIDTH_WORTH) <= best)
       break;
     span span = grow_span(workspace, start, width, MARGIN * spacing);
-    double shortest = fmax(SHORTEST * spacing, width / FG__LARGEST_WIDTH);
+    double ratio = width > narrowest ? FG__LARGEST_WIDTH : SMALL_ARROW_WIDTH;
+    double shortest = fmax(SHORTEST * spacing, width / ratio);
     int tail = 0, tip = 0;
     if (!find_longest(workspace, span, width, shortest, &tail, &tip))
       continue;
