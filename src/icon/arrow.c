@@ -13,6 +13,10 @@ static const double MARGIN = 0.35;
 static const double SHORTEST = 3.0;
 static const double NARROWEST_HEAD = 1.2;
 
+/* Largest width in lengths: with it the head takes 22 % of the length. Wider ones are
+ * stubs; a fat cluster does not make a fat arrow. */
+static const double LARGEST_WIDTH = 0.075;
+
 /* The narrowest arrow may be wider in lengths than others: its head, a third of it, is
  * what a reader needs to see which way it points. */
 static const double SMALL_ARROW_WIDTH = 0.11;
@@ -73,6 +77,11 @@ double fg__distance_at(const fg__window *window, const double *distance,
   double bottom = low[0] + (low[1] - low[0]) * share[0];
   double top = high[0] + (high[1] - high[0]) * share[0];
   return bottom + (top - bottom) * share[1];
+}
+
+double fg__arrow_widest(double length, double spacing)
+{
+  return fmax(LARGEST_WIDTH * length, NARROWEST_HEAD * spacing / FG__HEAD_WIDTH);
 }
 
 /* Free way from a point along a direction, at most `reach`; the first `known` of it is.
@@ -148,8 +157,8 @@ static void measure_stations(fg__arrow_workspace *work, const fg__window *window
   fg__arrow_station *station = work->station;
   int n = work->count;
   double margin = MARGIN * spacing, delta = station[1].s - station[0].s;
-  double reach =
-      FG__HEAD_WIDTH / 2 * FG__LARGEST_WIDTH * station[n - 1].s / HEAD_SHARE + margin;
+  double widest = fg__arrow_widest(station[n - 1].s, spacing);
+  double reach = FG__HEAD_WIDTH / 2 * widest / HEAD_SHARE + margin;
   station[0].turning = 0;
   for (int i = 1; i < n; i++)
     station[i].turning = station[i - 1].turning +
@@ -319,7 +328,7 @@ fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
   int start = (int)lround(streamline->node[streamline->start].s / length *
                           (workspace->count - 1));
   double narrowest = NARROWEST_HEAD * spacing / FG__HEAD_WIDTH;
-  double widest = fmax(FG__LARGEST_WIDTH * length, narrowest), best = 0;
+  double widest = fg__arrow_widest(length, spacing), best = 0;
   int steps = (int)ceil(log(widest / narrowest) / -log(WIDTH_STEP));
   for (int i = 0; i <= steps; i++) {
     double width = fmax(widest * pow(WIDTH_STEP, i), narrowest);
@@ -327,7 +336,7 @@ fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
     if (length * pow(width / spacing, WIDTH_WORTH) <= best)
       break;
     span span = grow_span(workspace, start, width, MARGIN * spacing);
-    double ratio = width > narrowest ? FG__LARGEST_WIDTH : SMALL_ARROW_WIDTH;
+    double ratio = width > narrowest ? LARGEST_WIDTH : SMALL_ARROW_WIDTH;
     double shortest = fmax(SHORTEST * spacing, width / ratio);
     int tail = 0, tip = 0;
     if (!find_longest(workspace, span, width, shortest, &tail, &tip))

@@ -10,10 +10,6 @@
 #define FG__HEAD_WIDTH 2.6
 #define FG__TAIL_WIDTH 0.3
 
-/* Largest width in lengths: with it the head takes 22 % of the length. Wider ones are
- * stubs; a fat cluster does not make a fat arrow. */
-#define FG__LARGEST_WIDTH 0.075
-
 /* The head's base is swept back by this share of its length. */
 #define FG__HEAD_SWEEP 0.12
 
@@ -38,6 +34,9 @@ typedef struct fg__arrow_workspace {
   size_t capacity;
   int count;
 } fg__arrow_workspace;
+
+/* No arrow on a line of this length is wider. */
+double fg__arrow_widest(double length, double spacing);
 
 /* The distance map at a point, bilinear; the nearest node's side outside the window. */
 double fg__distance_at(const fg__window *window, const double *distance,

@@ -120,7 +120,8 @@ static fg_status consider(search *search, double x, double y)
   /* an arrow takes a part of the line: it can only be farther from the cluster's points
    */
   double length = fg__streamline_length(&chooser->tried);
-  if (cost_of(search, 0, length, FG__LARGEST_WIDTH * length) >= search->cost)
+  if (cost_of(search, 0, length, fg__arrow_widest(length, search->spacing)) >=
+      search->cost)
     return FG_STATUS_OK;
   fg__arrow arrow;
   status = fg__arrow_fit(&arrow, search->context, &chooser->tried, search->window,
