@@ -60,7 +60,7 @@ static int read_icons(fg_icons **out, fg_context *context, const cli_settings *s
     return EXIT_FAILED;
   fg_status status = fg_icons_read(out, context, path);
   free(path);
-  return status ? complain_of(context, status) : EXIT_DONE;
+  return status ? complain_of(context, status, settings->operand) : EXIT_DONE;
 }
 
 static int read_field(fg_field **out, fg_context *context, const cli_settings *settings,
@@ -73,7 +73,7 @@ static int read_field(fg_field **out, fg_context *context, const cli_settings *s
   fg_status status = fg_field_read(out, context, input, &report->reading);
   if (!status)
     return EXIT_DONE;
-  int code = complain_of(context, status);
+  int code = complain_of(context, status, settings->operand);
   if (!*fg_context_hint(context))
     fputs("Say with --input where the field is now.\n", stderr);
   return code;
@@ -92,7 +92,7 @@ static int write_picture(fg_context *context, const cli_settings *settings,
   int code = EXIT_DONE;
   fg_status status = fg_picture_write(context, partial, field, NULL, icons, &options);
   if (status)
-    code = complain_of(context, status);
+    code = complain_of(context, status, settings->output);
   else if (rename(partial, settings->output) != 0)
     code = complain_of_file(settings->output, "cannot be written");
   if (code)

@@ -91,7 +91,7 @@ int command_info(const cli_settings *settings)
   int code = EXIT_DONE;
   fg_status status = fg_inventory_read(&inventory, context, settings->operand);
   if (status)
-    code = complain_of(context, status);
+    code = complain_of(context, status, settings->operand);
   else if (settings->json)
     code = print_json(settings->operand, inventory);
   else {

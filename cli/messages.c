@@ -16,11 +16,15 @@ void complain(const char *format, ...)
   va_end(arguments);
 }
 
-int complain_of(const fg_context *context, fg_status status)
+int complain_of(const fg_context *context, fg_status status, const char *file)
 {
   const char *message = fg_context_message(context);
   const char *hint = fg_context_hint(context);
-  complain("%s", *message ? message : fg_status_name(status));
+  if (!*message)
+    message = fg_status_name(status);
+  bool named = status == FG_STATUS_FILE_ACCESS || status == FG_STATUS_FILE_FORMAT ||
+               strncmp(message, file, strlen(file)) == 0;
+  complain("%s%s%s", named ? "" : file, named ? "" : ": ", message);
   if (*hint)
     fprintf(stderr, "%s\n", hint);
   return status == FG_STATUS_STOPPED ? EXIT_INTERRUPTED : EXIT_FAILED;

@@ -46,8 +46,9 @@ typedef struct cli_settings {
 /* Prints "flowgrain: TEXT" on standard error. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Prints a context's message and its hint; returns the exit code for the failure. */
-int complain_of(const fg_context *context, fg_status status);
+/* Prints a context's message and its hint, after `file` unless the message begins with a
+ * file's name of its own; returns the exit code for the failure. */
+int complain_of(const fg_context *context, fg_status status, const char *file);
 
 /* Prints a file's error from errno, "flowgrain: PATH: No such file ..."; EXIT_FAILED. */
 int complain_of_file(const char *path, const char *what);

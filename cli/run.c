@@ -76,7 +76,7 @@ static int read_field(cli_run *run)
   fg_status status = fg_field_read(&run->field, run->context, said->operand, &reading);
   progress_wipe(&run->progress);
   if (status)
-    return complain_of(run->context, status);
+    return complain_of(run->context, status, run->settings->operand);
   run->facts.field = run->field;
   return EXIT_DONE;
 }
@@ -127,7 +127,7 @@ static int create_evolution(cli_run *run)
   fg_status status =
       fg_evolution_create(&run->evolution, run->context, run->field, &options);
   if (status)
-    return complain_of(run->context, status);
+    return complain_of(run->context, status, run->settings->operand);
   const fg_mesh_info *mesh = fg_evolution_mesh(run->evolution);
   run->facts.mesh = mesh;
   if (run->settings->verbose)
@@ -188,7 +188,7 @@ static int take_scale(cli_run *run, const int *wanted, int wanted_count)
   fg_density *density;
   fg_status status = fg_density_create(&density, run->evolution);
   if (status)
-    return complain_of(run->context, status);
+    return complain_of(run->context, status, run->settings->operand);
   run->last_scale_clusters = run->step.clusters;
   if (run->settings->verbose) {
     progress_wipe(&run->progress);
@@ -238,7 +238,7 @@ static int evolve(cli_run *run)
     }
     if (status) {
       progress_wipe(&run->progress);
-      return complain_of(run->context, status);
+      return complain_of(run->context, status, run->settings->operand);
     }
     record_step(run, &before);
     if (run->step.clusters && !run->first_counted.step)
@@ -266,7 +266,7 @@ static int finish_drawing(cli_run *run)
   fg_status status = drawing_finish(run->drawing);
   progress_wipe(&run->progress);
   if (status)
-    return complain_of(drawing_context(run->drawing), status);
+    return complain_of(drawing_context(run->drawing), status, run->settings->operand);
   if (drawing_count(run->drawing))
     return EXIT_DONE;
   const fg_step *step = &run->step;

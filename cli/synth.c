@@ -47,7 +47,7 @@ static int write_field(fg_context *context, const cli_settings *settings,
   int code = EXIT_DONE;
   fg_status status = fg_field_write(context, partial, field);
   if (status)
-    code = complain_of(context, status);
+    code = complain_of(context, status, settings->output);
   else if (rename(partial, settings->output) != 0)
     code = complain_of_file(settings->output, "cannot be written");
   if (code)
@@ -74,7 +74,8 @@ int command_synth(const cli_settings *settings)
   fg_field *field = NULL;
   int nodes = settings->nodes ? settings->nodes : DEFAULT_NODES;
   fg_status status = fg_field_create_analytic(&field, context, name, nodes);
-  code = status ? complain_of(context, status) : write_field(context, settings, field);
+  code = status ? complain_of(context, status, settings->output)
+                : write_field(context, settings, field);
   fg_field_destroy(field);
   fg_context_destroy(context);
   return code;
