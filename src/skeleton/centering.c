@@ -51,6 +51,22 @@ double fg__signed_distance_at(const fg__signed_distance *field, const double pos
   return (1.0 - share[1]) * bottom + share[1] * top;
 }
 
+bool fg__signed_distance_to_domain(const fg__signed_distance *field,
+                                   const double position[2])
+{
+  const fg__window *window = field->window;
+  double near = fg__signed_distance_at(field, position) +
+                0.5 * fmax(window->spacing[0], window->spacing[1]);
+  for (int side = 0; side < 4; ++side) {
+    int axis = side / 2;
+    int node = side % 2 == 0 ? 0 : window->nodes[axis] - 1;
+    double edge = window->origin[axis] + node * window->spacing[axis];
+    if (window->at_border[side] && fabs(position[axis] - edge) <= near)
+      return true;
+  }
+  return false;
+}
+
 /* Unit tangent of a line at a point, from the points `base` before and after it: one from
  * its next neighbours would follow every wiggle, and the centring then amplify it. */
 static void tangent_at(const fg__polyline *line, int k, int base, double tangent[2])

@@ -21,6 +21,10 @@ void fg__signed_distance_clear(fg__signed_distance *field);
  * point in it. */
 double fg__signed_distance_at(const fg__signed_distance *field, const double position[2]);
 
+/* Whether the border nearest to a point is the domain's, to half a cell. */
+bool fg__signed_distance_to_domain(const fg__signed_distance *field,
+                                   const double position[2]);
+
 /* Moves each point along the normal to where the border is equally far on either side,
  * and smooths; points stay about as far apart as they are, and in the window. The first
  * `held[0]` and the last `held[1]` points of an open line are only smoothed, its ends not

@@ -46,34 +46,18 @@ static bool copy_ridge(fg__polyline *line, const fg__window *window,
   return true;
 }
 
-/* Whether the border nearest to a point is the domain's. */
-static bool is_at_domain_border(const fg__signed_distance *field, const double point[2])
-{
-  const fg__window *window = field->window;
-  double near = fg__signed_distance_at(field, point) + 0.5 * cell_size(window);
-  for (int side = 0; side < 4; ++side) {
-    int axis = side / 2;
-    int node = side % 2 == 0 ? 0 : window->nodes[axis] - 1;
-    double edge = window->origin[axis] + node * window->spacing[axis];
-    if (window->at_border[side] && fabs(point[axis] - edge) <= near)
-      return true;
-  }
-  return false;
-}
-
-/* The last point whose disc covers all points before it, and half its distance to the
- * border further, since a path turns into a corner somewhat before the fork. */
+/* The last point whose disc reaches the line's first point along the line, and half its
+ * distance to the border further, since a path turns into a corner before the fork. */
 static int covered_end(const fg__polyline *line, const fg__signed_distance *field)
 {
   int end = 0;
+  double length = 0.0;
   for (int k = 1; k < line->count; ++k) {
-    double factor = is_at_domain_border(field, line->point[k]) ? reach_at_border : reach;
-    double radius = factor * (fg__signed_distance_at(field, line->point[k]) +
-                              0.5 * cell_size(field->window));
-    bool covers = true;
-    for (int m = 0; m < k && covers; ++m)
-      covers = between(line->point[m], line->point[k]) <= radius;
-    if (covers)
+    length += between(line->point[k - 1], line->point[k]);
+    double factor =
+        fg__signed_distance_to_domain(field, line->point[k]) ? reach_at_border : reach;
+    if (length <= factor * (fg__signed_distance_at(field, line->point[k]) +
+                            0.5 * cell_size(field->window)))
       end = k;
   }
   double further = 0.5 * fg__signed_distance_at(field, line->point[end]);
@@ -108,63 +92,68 @@ static int widest_point(const fg__polyline *line, const fg__signed_distance *fie
   return widest;
 }
 
-/* How many of the last points lie nearest to the domain's border. */
-static int points_at_border(const fg__polyline *line, const fg__signed_distance *field)
-{
-  int count = 0;
-  while (count < line->count &&
-         is_at_domain_border(field, line->point[line->count - 1 - count]))
-    ++count;
-  return count;
-}
-
-/* Centres a line with points `step` apart. With `to_border`, it is an open line from
- * border to border; what lies nearest to the domain's border at its ends is not centred,
- * but for a line that runs along the border all the way. */
+/* Centres a line with points `step` apart, but not the lengths `held` at its ends. */
 static fg_status center(fg__polyline *line, fg_context *context,
-                        const fg__signed_distance *field, double step, bool to_border)
+                        const fg__signed_distance *field, double step,
+                        const double held[2])
 {
   if (!fg__polyline_resample(line, step))
     return fg__fail_memory(context, "a spine", line->capacity * sizeof *line->point);
-  int held[2] = {0, 0};
-  for (int side = 0; to_border && side < 2; ++side) {
-    fg__polyline_reverse(line);
-    held[side] = points_at_border(line, field);
-    double length = step * held[side];
-    double width = 2.0 * fg__signed_distance_at(field, line->point[line->count / 2]);
-    if (length > reach_at_border * width)
-      held[side] = 0;
-  }
-  return fg__polyline_center(line, context, field, ROUNDS, held);
+  int points[2];
+  for (int side = 0; side < 2; ++side)
+    points[side] = (int)fmin(ceil(held[side] / step), line->count);
+  return fg__polyline_center(line, context, field, ROUNDS, points);
+}
+
+static const double nothing_held[2] = {0.0, 0.0};
+
+/* Takes the ends where the ridge runs into corners off a path of nodes. What is left is
+ * shorter than a quarter of the cluster's width when there is no ridge to speak of: then
+ * false.
+ */
+static bool cut_to_core(fg__polyline *line, const fg__signed_distance *field,
+                        double radius)
+{
+  int first = covered_end(line, field);
+  fg__polyline_reverse(line);
+  int last = line->count - 1 - covered_end(line, field);
+  fg__polyline_reverse(line);
+  if (first >= last)
+    return false;
+  cut(line, first, last);
+  return fg__polyline_length(line) >= fmax(0.5 * radius, cell_size(field->window));
 }
 
 /* Makes an open path of nodes into a line from border to border. */
 static fg_status refine_open(fg__polyline *line, fg_context *context,
                              const fg__signed_distance *field)
 {
-  const fg__window *window = field->window;
-  double step = cell_size(window);
+  double step = cell_size(field->window);
   int widest = widest_point(line, field);
   const double middle[2] = {line->point[widest][0], line->point[widest][1]};
   double radius = fg__signed_distance_at(field, middle);
-  int first = covered_end(line, field);
-  fg__polyline_reverse(line);
-  int last = line->count - 1 - covered_end(line, field);
-  fg__polyline_reverse(line);
-  double core = first < last ? between(line->point[first], line->point[last]) : 0.0;
-  if (core < fmax(radius, step)) {
-    if (!fg__polyline_make_chord(line, window, middle))
-      return fg__fail_memory(context, "a spine", sizeof *line->point);
-    return FG_STATUS_OK;
+  /* without the steps of the grid, which make the path up to 8 % too long */
+  fg_status status =
+      fg__polyline_center(line, context, field, ROUNDS, (int[2]){line->count, 0});
+  if (status)
+    return status;
+  bool room = true;
+  double held[2];
+  if (!cut_to_core(line, field, radius)) {
+    room = fg__polyline_make_chord(line, field->window, middle);
+  } else {
+    status = center(line, context, field, fmax(0.5 * radius, step), nothing_held);
+    if (!status)
+      status = center(line, context, field, step, nothing_held);
+    if (!status)
+      status = fg__polyline_extend(line, context, field, true, held);
+    if (!status)
+      status = center(line, context, field, step, held);
+    if (!status)
+      status = fg__polyline_extend(line, context, field, false, NULL);
   }
-  cut(line, first, last);
-  fg_status status = center(line, context, field, fmax(0.5 * radius, step), false);
-  if (!status && !fg__polyline_extend(line, field))
-    status = fg__fail_memory(context, "a spine", sizeof *line->point);
-  if (!status)
-    status = center(line, context, field, step, true);
-  if (!status && !fg__polyline_extend(line, field))
-    status = fg__fail_memory(context, "a spine", sizeof *line->point);
+  if (!status && !room)
+    status = fg__fail_memory(context, "a spine", line->capacity * sizeof *line->point);
   return status;
 }
 
@@ -175,9 +164,9 @@ static fg_status refine(fg__polyline *line, fg_context *context,
   fg_status status = FG_STATUS_OK;
   if (line->closed) {
     double radius = fg__signed_distance_at(field, line->point[widest_point(line, field)]);
-    status = center(line, context, field, fmax(0.5 * radius, step), false);
+    status = center(line, context, field, fmax(0.5 * radius, step), nothing_held);
     if (!status)
-      status = center(line, context, field, step, false);
+      status = center(line, context, field, step, nothing_held);
   } else {
     status = refine_open(line, context, field);
   }
