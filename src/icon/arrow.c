@@ -32,7 +32,7 @@ static const double HEAD_BEND = 0.6;
 static const double HEAD_TURNING = 0.5;
 
 /* A turn between neighbouring stations (radians) that is a corner, not a bend. */
-static const double CORNER = 0.35;
+static const double CORNER = 0.6;
 
 /* What a wider arrow is worth: that many times the relative loss of length. */
 static const double WIDTH_WORTH = 0.4;
@@ -170,9 +170,12 @@ static void measure_stations(fg__arrow_workspace *work, const fg__window *window
                                  known, reach);
     double right = find_clearance(window, position, tangent[1], -tangent[0], spacing / 2,
                                   known, fmin(reach, left));
-    int before = i > 0 ? i - 1 : i, after = i < n - 1 ? i + 1 : i;
-    double turn =
-        fabs(station[after].turning - station[before].turning) / (after - before);
+    /* the sharper of the bends before and after: data cells leave jumps of curvature */
+    double turn = 0;
+    if (i > 0)
+      turn = fabs(station[i].turning - station[i - 1].turning);
+    if (i < n - 1)
+      turn = fmax(turn, fabs(station[i + 1].turning - station[i].turning));
     set_limits(&station[i], right - margin, turn, delta);
   }
 }

@@ -50,8 +50,34 @@ static bool edge_is_inside(const fg__window *window, const double a[2], const do
   return true;
 }
 
-static fg_status outline_is_inside(bool *inside, fg_context *context, const fg_icon *icon,
-                                   const fg__window *window, double spacing)
+static double side_of(const double a[2], const double b[2], const double c[2])
+{
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static bool edges_meet(const double a[2], const double b[2], const double c[2],
+                       const double d[2])
+{
+  for (int k = 0; k < 2; k++)
+    if ((a[k] < c[k] && a[k] < d[k] && b[k] < c[k] && b[k] < d[k]) ||
+        (a[k] > c[k] && a[k] > d[k] && b[k] > c[k] && b[k] > d[k]))
+      return false;
+  return side_of(a, b, c) * side_of(a, b, d) <= 0 &&
+         side_of(c, d, a) * side_of(c, d, b) <= 0;
+}
+
+static bool is_simple(const double (*vertices)[2], int count)
+{
+  for (int i = 0; i < count - 2; i++)
+    for (int j = i + 2; j < count - (i == 0); j++)
+      if (edges_meet(vertices[i], vertices[i + 1], vertices[j],
+                     vertices[j + 1 < count ? j + 1 : 0]))
+        return false;
+  return true;
+}
+
+static fg_status test_outline(bool *sound, fg_context *context, const fg_icon *icon,
+                              const fg__window *window, double spacing)
 {
   double(*vertices)[2];
   int count;
@@ -59,9 +85,9 @@ static fg_status outline_is_inside(bool *inside, fg_context *context, const fg_i
   if (status != FG_STATUS_OK)
     return fg__fail(context, status, "the outline of an arrow of %d points: %s",
                     icon->point_count, fg_status_name(status));
-  *inside = true;
-  for (int i = 0; i < count && *inside; i++)
-    *inside = edge_is_inside(window, vertices[i], vertices[(i + 1) % count], spacing);
+  *sound = is_simple((const double(*)[2])vertices, count);
+  for (int i = 0; i < count && *sound; i++)
+    *sound = edge_is_inside(window, vertices[i], vertices[(i + 1) % count], spacing);
   free(vertices);
   return FG_STATUS_OK;
 }
@@ -112,7 +138,8 @@ static double mean_speed(const fg_field *field, const fg_icon *icon)
   return length > 0 ? sum / length : 0;
 }
 
-/* Turns a chosen arrow into an icon, narrowed until its real outline lies inside. */
+/* Turns a chosen arrow into an icon, narrowed until its real outline lies inside and is
+ * simple. */
 static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *field,
                             const fg__window *window, const fg__streamline *line,
                             const fg__arrow *arrow, const double center[2])
@@ -125,14 +152,14 @@ static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *
     return status;
   icon->points = (const double(*)[3])points;
   icon->kind = arrow->turning >= RING_TURNING ? FG_ICON_RING : FG_ICON_ARROW;
-  bool inside = false;
+  bool sound = false;
   double width = arrow->width;
-  for (int i = 0; i < NARROWINGS && !inside && status == FG_STATUS_OK; i++) {
+  for (int i = 0; i < NARROWINGS && !sound && status == FG_STATUS_OK; i++) {
     set_width(icon, width);
-    status = outline_is_inside(&inside, context, icon, window, spacing);
+    status = test_outline(&sound, context, icon, window, spacing);
     width *= NARROWER;
   }
-  if (!inside || status != FG_STATUS_OK) {
+  if (!sound || status != FG_STATUS_OK) {
     free(points);
     icon->points = NULL;
     return status;
