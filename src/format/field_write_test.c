@@ -1,0 +1,284 @@
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "format/vti.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct fixture {
+  fg_context *context;
+  char folder[64];
+  char path[128];
+} fixture;
+
+static int set_up(void **state)
+{
+  fixture *f = calloc(1, sizeof *f);
+  if (!f || fg_context_create(&f->context) != FG_STATUS_OK)
+    return -1;
+  strcpy(f->folder, "/tmp/flowgrain-write-XXXXXX");
+  if (!mkdtemp(f->folder))
+    return -1;
+  *state = f;
+  return 0;
+}
+
+static int tear_down(void **state)
+{
+  fixture *f = *state;
+  if (f->path[0])
+    unlink(f->path);
+  int left = rmdir(f->folder); /* fails when a temporary file was left behind */
+  fg_context_destroy(f->context);
+  free(f);
+  return left;
+}
+
+static const char *path_of(fixture *f, const char *name)
+{
+  snprintf(f->path, sizeof f->path, "%s/%s", f->folder, name);
+  return f->path;
+}
+
+/* More than one zlib block, and not a whole number of them. */
+enum { NX = 131, NY = 77, COUNT = NX * NY };
+
+typedef struct samples {
+  double x[NX], y[NY];
+  float u[COUNT], v[COUNT];
+} samples;
+
+static fg_field *make_field(fg_context *context, samples *s, fg_field_arrays words)
+{
+  for (size_t i = 0; i < NX; ++i)
+    s->x[i] = -3.0 + 0.25 * (double)i;
+  for (size_t j = 0; j < NY; ++j)
+    s->y[j] = 10.0 + 0.1 * (double)j;
+  for (size_t i = 0; i < COUNT; ++i) {
+    s->u[i] = 1.0f / (float)(i + 1);
+    s->v[i] = (float)i * (i % 2 ? 1e-30f : -1e3f);
+    if (i % 97 > 90)
+      s->u[i] = NAN;
+  }
+  words.dimension = 2;
+  words.size[0] = NX;
+  words.size[1] = NY;
+  words.axis[0] = s->x;
+  words.axis[1] = s->y;
+  words.velocity[0] = s->u;
+  words.velocity[1] = s->v;
+  fg_field *field = NULL;
+  assert_int_equal(fg_field_create(&field, context, &words), FG_STATUS_OK);
+  return field;
+}
+
+static bool is_missing(const fg_field_arrays *a, size_t i)
+{
+  return (a->valid && !a->valid[i]) || isnan(a->velocity[0][i]);
+}
+
+static void assert_same_samples(const fg_field *first, const fg_field *second,
+                                double axis_tolerance)
+{
+  const fg_field_arrays *a = fg_field_contents(first), *b = fg_field_contents(second);
+  for (int k = 0; k < 2; ++k) {
+    assert_int_equal(a->size[k], b->size[k]);
+    for (int i = 0; i < a->size[k]; ++i)
+      assert_true(fabs(a->axis[k][i] - b->axis[k][i]) <= axis_tolerance);
+  }
+  for (size_t i = 0; i < (size_t)a->size[0] * (size_t)a->size[1]; ++i) {
+    assert_int_equal(is_missing(a, i), is_missing(b, i));
+    for (int k = 0; k < 2 && !is_missing(a, i); ++k)
+      assert_true(a->velocity[k][i] == b->velocity[k][i]);
+  }
+}
+
+static void an_image_comes_back_bit_for_bit(void **state)
+{
+  fixture *f = *state;
+  samples s;
+  fg_field *field = make_field(
+      f->context, &s,
+      (fg_field_arrays){.velocity_units = "<mm>/s", .velocity_name = {"a&b_x", "a&b_y"}});
+  fg_field *back = NULL;
+  assert_int_equal(fg_field_write(f->context, path_of(f, "a.vti"), field), FG_STATUS_OK);
+  assert_int_equal(fg_field_read(&back, f->context, f->path, NULL), FG_STATUS_OK);
+  assert_same_samples(field, back, 1e-13);
+  const fg_field_arrays *b = fg_field_contents(back);
+  assert_string_equal(b->velocity_units, "<mm>/s");
+  assert_string_equal(b->velocity_name[0], "a&b_x");
+  assert_string_equal(b->title, "a&b");
+  fg_field_destroy(back);
+  fg_field_destroy(field);
+}
+
+static void netcdf_comes_back_bit_for_bit(void **state)
+{
+  fixture *f = *state;
+  static const fg_scale scales[] = {FG_SCALE_PLAIN, FG_SCALE_MAP, FG_SCALE_GEO};
+  for (size_t i = 0; i < 3; ++i) {
+    samples s;
+    fg_field *field = make_field(f->context, &s,
+                                 (fg_field_arrays){.scale = scales[i],
+                                                   .velocity_units = "m/s",
+                                                   .axis_units = {"m", "m"}});
+    fg_field *back = NULL;
+    assert_int_equal(fg_field_write(f->context, path_of(f, "a.nc"), field), FG_STATUS_OK);
+    assert_int_equal(fg_field_read(&back, f->context, f->path, NULL), FG_STATUS_OK);
+    assert_same_samples(field, back, 0.0);
+    assert_string_equal(fg_field_contents(back)->velocity_units, "m/s");
+    if (scales[i] == FG_SCALE_GEO)
+      assert_true(fg_field_contents(back)->scale == FG_SCALE_GEO);
+    fg_field_destroy(back);
+    fg_field_destroy(field);
+  }
+}
+
+static void analytic_fields_go_through_both_formats(void **state)
+{
+  fixture *f = *state;
+  static const char *const names[] = {"a.vti", "a.nc"};
+  fg_field *field = NULL;
+  assert_int_equal(fg_field_create_analytic(&field, f->context, "benard", 65),
+                   FG_STATUS_OK);
+  for (size_t i = 0; i < 2; ++i) {
+    fg_field *back = NULL;
+    assert_int_equal(fg_field_write(f->context, path_of(f, names[i]), field),
+                     FG_STATUS_OK);
+    assert_int_equal(fg_field_read(&back, f->context, f->path, NULL), FG_STATUS_OK);
+    assert_same_samples(field, back, 1e-15);
+    assert_true(fg_field_contents(back)->scale == FG_SCALE_PLAIN);
+    fg_field_destroy(back);
+    unlink(f->path);
+  }
+  f->path[0] = '\0';
+  fg_field_destroy(field);
+}
+
+static void what_cannot_be_written_leaves_nothing(void **state)
+{
+  fixture *f = *state;
+  samples s;
+  fg_field *field = make_field(f->context, &s, (fg_field_arrays){0}), *uneven = NULL;
+  static const struct {
+    const char *name;
+    fg_status status;
+  } wrong[] = {{"a.vtk", FG_STATUS_UNSUPPORTED},
+               {"a", FG_STATUS_UNSUPPORTED},
+               {"missing/a.vti", FG_STATUS_FILE_ACCESS},
+               {"missing/a.nc", FG_STATUS_FILE_ACCESS}};
+  for (size_t i = 0; i < 4; ++i) {
+    assert_int_equal(fg_field_write(f->context, path_of(f, wrong[i].name), field),
+                     wrong[i].status);
+    fg_context_clear(f->context);
+  }
+  fg_field_arrays words = *fg_field_contents(field);
+  s.y[40] += 0.01;
+  words.axis[1] = s.y;
+  assert_int_equal(fg_field_create(&uneven, f->context, &words), FG_STATUS_OK);
+  assert_int_equal(fg_field_write(f->context, path_of(f, "b.vti"), uneven),
+                   FG_STATUS_UNSUPPORTED);
+  assert_non_null(strstr(fg_context_message(f->context), "sample 40"));
+  assert_int_equal(access(f->path, F_OK), -1);
+  fg_context_clear(f->context);
+  assert_int_equal(fg_field_write(f->context, path_of(f, "b.nc"), uneven), FG_STATUS_OK);
+  fg_field_destroy(uneven);
+  fg_field_destroy(field);
+}
+
+/* ---- densities
+ * -------------------------------------------------------------------------------- */
+
+static fg__vti_values values_of(const fg__vti *vti, fg__vti_place place, const char *name)
+{
+  const fg__vti_array *array = fg__vti_find(vti, 0, place, name);
+  assert_non_null(array);
+  size_t count;
+  fg__vti_values values;
+  assert_true(fg__vti_count(&count, vti->extent, place));
+  assert_int_equal(fg__vti_values_create(&values, vti, array, count), FG_STATUS_OK);
+  return values;
+}
+
+/* 6 x 5 nodes, periodic along x: a cluster across the border, one within, a masked cell.
+ */
+static void a_density_shows_clusters_and_mask(void **state)
+{
+  fixture *f = *state;
+  enum { WIDE = 6, HIGH = 5 };
+  float u[WIDE * HIGH];
+  unsigned char active[WIDE * (HIGH - 1)];
+  memset(active, 1, sizeof active);
+  active[2 * WIDE + 4] = 0;
+  for (size_t i = 0; i < WIDE * HIGH; ++i)
+    u[i] = -0.5f;
+  u[0] = u[5] = u[6] = u[11] = 0.75f;
+  u[3 * WIDE + 2] = u[3 * WIDE + 3] = 0.25f;
+  fg_density *density = NULL;
+  assert_int_equal(
+      fg_density_create_from_arrays(&density, f->context,
+                                    &(fg_density_arrays){.dimension = 2,
+                                                         .nodes = {WIDE, HIGH},
+                                                         .origin = {-1, 2},
+                                                         .spacing = {0.5, 0.25},
+                                                         .periodic = {true, false},
+                                                         .u = u,
+                                                         .active = active,
+                                                         .time = 1e-4}),
+      FG_STATUS_OK);
+  assert_int_equal(fg_density_write(f->context, path_of(f, "u.png"), density),
+                   FG_STATUS_UNSUPPORTED);
+  fg_context_clear(f->context);
+  assert_int_equal(fg_density_write(f->context, path_of(f, "u.vti"), density),
+                   FG_STATUS_OK);
+
+  fg__source source;
+  fg__vti vti;
+  assert_int_equal(fg__source_open(&source, f->context, f->path), FG_STATUS_OK);
+  assert_int_equal(fg__vti_open(&vti, f->context, &source), FG_STATUS_OK);
+  assert_int_equal(vti.extent[1], WIDE); /* the first column again at the end */
+  assert_int_equal(vti.extent[3], HIGH - 1);
+  assert_true(vti.origin[0] == -1.0 && vti.spacing[1] == 0.25);
+  fg__vti_values found = values_of(&vti, FG__VTI_POINTS, "u");
+  fg__vti_values cluster = values_of(&vti, FG__VTI_POINTS, "cluster");
+  fg__vti_values ghost = values_of(&vti, FG__VTI_CELLS, "vtkGhostType");
+  for (size_t y = 0; y < HIGH; ++y)
+    for (size_t x = 0; x <= WIDE; ++x) {
+      size_t at = y * (WIDE + 1) + x, node = y * WIDE + x % WIDE;
+      assert_true(fg__vti_value(&found, at) == (double)u[node]);
+      double label = u[node] < 0.0f ? 0.0 : y < 2 ? 1.0 : 2.0;
+      assert_true(fg__vti_value(&cluster, at) == label);
+    }
+  for (size_t i = 0; i < sizeof active; ++i)
+    assert_true(fg__vti_value(&ghost, i) == (active[i] ? 0.0 : 32.0));
+  const fg__vti_array *time = fg__vti_find(&vti, 0, FG__VTI_FIELD, "TimeValue");
+  assert_non_null(time);
+  assert_non_null(strstr(time->text, "0.0001"));
+  fg__vti_values_clear(&ghost);
+  fg__vti_values_clear(&cluster);
+  fg__vti_values_clear(&found);
+  fg__vti_close(&vti);
+  fg__source_close(&source);
+  fg_density_destroy(density);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+  const struct CMUnitTest tests[] = {
+      TEST(an_image_comes_back_bit_for_bit),
+      TEST(netcdf_comes_back_bit_for_bit),
+      TEST(analytic_fields_go_through_both_formats),
+      TEST(what_cannot_be_written_leaves_nothing),
+      TEST(a_density_shows_clusters_and_mask),
+  };
+  return cmocka_run_group_tests_name("format/field_write", tests, NULL, NULL);
+}
