@@ -1,0 +1,216 @@
+/* What cycles do to the true residual of a step, computed in double precision from the
+ * definitions. docs/design quotes the factors printed here. */
+#include "evolve/reference_test.h"
+
+enum { CYCLES = 5 };
+
+static double turning(double x, double y, const void *data)
+{
+  (void)data;
+  return 2.3 * x - 4.1 * y + 0.7 * sin(5.0 * x * y);
+}
+
+static bool outside_a_notch_and_a_disc(double x, double y)
+{
+  return !(x > 0.3 && x < 0.45 && y < 0.2) && hypot(x - 0.7, y - 0.2) > 0.06;
+}
+
+typedef struct shape {
+  const char *name;
+  int cells[2];
+  double side[2];
+  bool periodic[2];
+  bool masked;
+} shape;
+
+static const shape SHAPES[] = {
+    {"square", {128, 128}, {1.0, 1.0}, {false, false}, false},
+    {"long", {256, 80}, {1.0, 0.3125}, {false, false}, false},
+    {"unequal cells", {256, 80}, {1.0, 0.4}, {false, false}, false},
+    {"periodic", {128, 96}, {1.0, 0.77}, {true, true}, false},
+    {"long, periodic", {256, 80}, {1.0, 0.3125}, {true, false}, false},
+    {"masked", {128, 64}, {1.0, 0.51}, {false, false}, true},
+    {"masked, periodic", {128, 64}, {1.0, 0.51}, {true, true}, true},
+};
+
+/* The default interface of design.md section 2: gamma = (1.1 h)^2 / a. */
+static void create(problem *p, const shape *s)
+{
+  double anisotropy = 0.15;
+  double h = fmax(s->side[0] / s->cells[0], s->side[1] / s->cells[1]);
+  problem_create(
+      p, &(problem_description){.cells = {s->cells[0], s->cells[1]},
+                                .side = {s->side[0], s->side[1]},
+                                .periodic = {s->periodic[0], s->periodic[1]},
+                                .gamma = 1.21 * h * h / anisotropy,
+                                .anisotropy = anisotropy,
+                                .angle = turning,
+                                .inside = s->masked ? outside_a_notch_and_a_disc : NULL});
+}
+
+static double *random_density(const problem *p, double mean, double size)
+{
+  double *u = values_of(p);
+  uint64_t seed = 11;
+  for (size_t n = 0; n < p->nodes; ++n)
+    u[n] = p->mass[n] > 0.0 ? (double)(float)(mean + size * random_value(&seed)) : 0.0;
+  return u;
+}
+
+static double square_of_spacing(const problem *p)
+{
+  double h = fmax(p->spacing[0], p->spacing[1]);
+  return h * h;
+}
+
+static double residual(const problem *p, double tau, const double *rhs)
+{
+  const fg__level *level = &p->multigrid.level[0];
+  double *u = values_of(p), *w = values_of(p), *first = values_of(p);
+  double *second = values_of(p);
+  get(p, level->u, u);
+  get(p, level->w, w);
+  reference_residuals(p, tau, rhs, u, w, first, second);
+  /* what w lacks reaches the first equation through tau L ~ tau / h^2 */
+  double size = hypot(norm(p, first), tau / square_of_spacing(p) * norm(p, second));
+  free(u);
+  free(w);
+  free(first);
+  free(second);
+  return size;
+}
+
+/* Starts a step from a density and returns the mean factor by which each of CYCLES cycles
+ * lowers the residual. tau is given as tau gamma / h^4. */
+static double factor(const problem *p, const double *density, double scaled_tau)
+{
+  const fg__level *level = &p->multigrid.level[0];
+  double h2 = square_of_spacing(p), tau = scaled_tau * h2 * h2 / p->of.gamma;
+  double *w = values_of(p);
+  reference_potential(p, density, w);
+  put(p, level->u, density);
+  put(p, level->w, w);
+  put(p, level->p, density);
+  free(w);
+  double before = residual(p, tau, density);
+  for (int cycle = 0; cycle < CYCLES; ++cycle)
+    fg__multigrid_cycle(&p->multigrid, tau);
+  double after = residual(p, tau, density);
+  return pow(after / before, 1.0 / CYCLES);
+}
+
+/* A density of separated phases: steps of growing size from noise. */
+static double *separated_density(const problem *p)
+{
+  const fg__level *level = &p->multigrid.level[0];
+  double *u = random_density(p, -0.4, 1.0), *w = values_of(p);
+  reference_potential(p, u, w);
+  put(p, level->u, u);
+  put(p, level->w, w);
+  double tau = 0.1 * square_of_spacing(p);
+  for (int step = 0; step < 60; ++step, tau *= 1.1) {
+    put(p, level->p, u);
+    for (int cycle = 0; cycle < 4; ++cycle)
+      fg__multigrid_cycle(&p->multigrid, tau);
+    get(p, level->u, u);
+  }
+  free(w);
+  return u;
+}
+
+/* A density, the sizes of step to take from it, and the factor to stay below. */
+typedef struct demand {
+  double scaled_tau, factor;
+} demand;
+
+static void assert_factors(const char *name, double *(*density_of)(const problem *),
+                           const demand *demands, size_t count)
+{
+  for (size_t s = 0; s < sizeof SHAPES / sizeof *SHAPES; ++s) {
+    problem p;
+    create(&p, &SHAPES[s]);
+    double *density = density_of(&p);
+    for (size_t n = 0; n < count; ++n) {
+      double measured = factor(&p, density, demands[n].scaled_tau);
+      print_message("# %s, %s, tau gamma / h^4 = %g: %.3f a cycle\n", name,
+                    SHAPES[s].name, demands[n].scaled_tau, measured);
+      assert_true(measured < demands[n].factor);
+    }
+    free(density);
+    problem_clear(&p);
+  }
+}
+
+static double *density_near_a_well(const problem *p)
+{
+  return random_density(p, 0.9, 0.2);
+}
+
+/* Where both wells' curvature is positive the solution is unique, and any step will do.
+ */
+static void cycles_converge_near_a_well_for_any_step(void **state)
+{
+  (void)state;
+  const demand demands[] = {{1.0, 0.2}, {1e1, 0.2}, {1e2, 0.2}, {1e3, 0.2}, {1e4, 0.2}};
+  assert_factors("near a well", density_near_a_well, demands, 5);
+}
+
+static double *strong_noise(const problem *p)
+{
+  return random_density(p, -0.4, 1.5);
+}
+
+/* As at the start of a run. Larger steps have several solutions here. */
+static void cycles_converge_on_strong_noise(void **state)
+{
+  (void)state;
+  const demand demands[] = {{0.1, 0.2}, {1.0, 0.2}, {1e1, 0.4}};
+  assert_factors("strong noise", strong_noise, demands, 3);
+}
+
+/* As in the middle of a run. The curvature that is clipped in the interfaces slows long
+ * steps; the step control takes them only after extrapolation has done most of the work.
+ */
+static void cycles_converge_on_separated_phases(void **state)
+{
+  (void)state;
+  const demand demands[] = {{1.0, 0.25}, {1e1, 0.5}, {1e2, 0.9}};
+  assert_factors("separated phases", separated_density, demands, 3);
+}
+
+/* A solved step stays solved: cycles do not wander off at float rounding. */
+static void a_solution_is_a_fixed_point(void **state)
+{
+  (void)state;
+  for (size_t s = 0; s < sizeof SHAPES / sizeof *SHAPES; ++s) {
+    problem p;
+    create(&p, &SHAPES[s]);
+    const fg__level *level = &p.multigrid.level[0];
+    double *density = density_near_a_well(&p), *u = values_of(&p), *v = values_of(&p);
+    factor(&p, density, 30.0);
+    double tau = 30.0 * pow(square_of_spacing(&p), 2.0) / p.of.gamma;
+    for (int cycle = 0; cycle < 15; ++cycle)
+      fg__multigrid_cycle(&p.multigrid, tau);
+    get(&p, level->u, u);
+    for (int cycle = 0; cycle < 10; ++cycle)
+      fg__multigrid_cycle(&p.multigrid, tau);
+    get(&p, level->u, v);
+    for (size_t n = 0; n < p.nodes; ++n)
+      assert_true(fabs(u[n] - v[n]) < 2e-6);
+    free(density);
+    free(u);
+    free(v);
+    problem_clear(&p);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(cycles_converge_near_a_well_for_any_step),
+      cmocka_unit_test(cycles_converge_on_strong_noise),
+      cmocka_unit_test(cycles_converge_on_separated_phases),
+      cmocka_unit_test(a_solution_is_a_fixed_point),
+  };
+  return cmocka_run_group_tests_name("evolve/multigrid", tests, NULL, NULL);
+}
