@@ -350,22 +350,20 @@ static fg_status read_piece(fg__vti *vti, const xmlNode *node)
   return status;
 }
 
-/* Pieces may meet but not overlap, so that their cells add up to the whole's. */
+/* Pieces too small for the whole are refused before anything is allocated for it. They
+ * may overlap: VTK writes the whole in every piece when its source cannot be divided. */
 static fg_status check_pieces(const fg__vti *vti)
 {
   size_t whole, sum = 0;
   if (!fg__vti_count(&whole, vti->extent, FG__VTI_CELLS))
     return FG_STATUS_FILE_FORMAT;
-  for (size_t p = 0; p < vti->piece_count; ++p) {
+  for (size_t p = 0; p < vti->piece_count && sum < whole; ++p) {
     size_t cells;
-    if (!fg__vti_count(&cells, vti->pieces[p].extent, FG__VTI_CELLS) ||
-        cells > whole - sum)
-      return fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
-                      "%s: its %zu pieces have more cells than the whole's %zu",
-                      vti->path, vti->piece_count, whole);
+    if (!fg__vti_count(&cells, vti->pieces[p].extent, FG__VTI_CELLS))
+      return FG_STATUS_FILE_FORMAT;
     sum += cells;
   }
-  if (sum != whole)
+  if (sum < whole)
     return fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
                     "%s: its %zu pieces have %zu cells, the whole %zu", vti->path,
                     vti->piece_count, sum, whole);

@@ -165,7 +165,7 @@ static void pieces_make_the_same_field_as_the_whole(void **state)
 {
   enum { NX = 5, NY = 4 };
   static const int cuts[][6] = {
-      {0, 2, 0, 3, 0, 0}, {2, 4, 0, 1, 0, 0}, {2, 4, 1, 3, 0, 0}};
+      {0, 2, 0, 3, 0, 0}, {2, 4, 0, 1, 0, 0}, {1, 4, 1, 3, 0, 0}}; /* two overlap */
   for (int place = 0; place < 2; ++place) {
     int nx = place == 0 ? NX : NX - 1;
     example_text file = {0}, appended = {0};

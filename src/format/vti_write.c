@@ -150,15 +150,17 @@ fg_status fg__vti_write_array(FILE *stream, fg_context *context,
   fprintf(stream, "<DataArray type=\"%s\"", array->type);
   write_attribute(stream, "Name", array->name);
   fprintf(stream, " NumberOfComponents=\"%d\" format=\"binary\">\n", array->components);
+  write_base64(stream, (const unsigned char *)header,
+               (HEADER_NUMBERS + blocks) * sizeof *header);
+  write_base64(stream, packed, used);
+  fputc('\n', stream);
+  /* VTK looks for the data right behind the tag, so what else there is follows them */
   if (array->units && array->units[0]) {
     fputs("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">", stream);
     write_text(stream, array->units);
     fputs("</InformationKey>\n", stream);
   }
-  write_base64(stream, (const unsigned char *)header,
-               (HEADER_NUMBERS + blocks) * sizeof *header);
-  write_base64(stream, packed, used);
-  fputs("\n</DataArray>\n", stream);
+  fputs("</DataArray>\n", stream);
 
 cleanup:
   free(packed);
