@@ -123,7 +123,9 @@ INLINE row row_of(const fg__level *level, int j, int colour, bool linear, bool m
   return r;
 }
 
-/* Residuals of both equations at node k, and the curvature there. */
+/* Residuals of both equations at node k, and the curvature there. A coarse level's
+ * curvature is clipped where it is used, not where it is restricted: negative values in
+ * the midst of an interface rightly soften the mean, but by themselves overshoot. */
 typedef struct residuals {
   float first, second, curvature;
 } residuals;
@@ -140,9 +142,10 @@ INLINE residuals residuals_at(const row *r, const laplacian *l, int k, bool line
     flux *= r->mass_inverse[k];
   }
   float first = (r->p[k] - u) - flux;
-  if (linear)
-    return (residuals){first, (r->q[k] + r->curvature[k] * u + energy) - w,
-                       r->curvature[k]};
+  if (linear) {
+    float curvature = greater(r->curvature[k], 0.0F);
+    return (residuals){first, (r->q[k] + curvature * u + energy) - w, curvature};
+  }
   float square = u * u;
   return (residuals){first, (2.0F * u * (square - 1.0F) + energy) - w,
                      6.0F * square - 2.0F};
@@ -265,7 +268,7 @@ INLINE void residual_line(const fg__level *fine, int j, const laplacian *l, line
       residuals f = residuals_at(&r, l, k, linear, masked);
       first[k] = f.first;
       second[k] = f.second;
-      curvature[k] = linear ? f.curvature : greater(f.curvature, 0.0F);
+      curvature[k] = linear ? r.curvature[k] : f.curvature;
     }
   }
 }

@@ -40,7 +40,7 @@ typedef struct fg__level {
 
   float *u, *w;       /* density and chemical potential; corrections on coarse levels */
   float *p, *q;       /* right-hand sides of the first and second equation */
-  float *curvature;   /* coarse levels: restricted Psi''(u), not negative */
+  float *curvature;   /* coarse levels: restricted Psi''(u), of either sign */
   fg__stencil energy; /* gamma L_A / (hx hy) */
   /* The Laplacian's couplings; constants where there is no mask (laplacian.center NULL).
    */

@@ -23,7 +23,7 @@ void fg__multigrid_clear(fg__multigrid *multigrid);
 
 /* One V(1,1) cycle for the step tau, from and to u, w of the finest level, whose p holds
  * the right-hand side. Nonlinear (full approximation) on the finest level; the coarse
- * levels solve linear correction equations with the restricted curvature clipped at 0. */
+ * levels solve linear correction equations with the restricted curvature, at least 0. */
 void fg__multigrid_cycle(const fg__multigrid *multigrid, double tau);
 
 #endif
