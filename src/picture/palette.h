@@ -1,0 +1,33 @@
+/* Colour maps for marks on a white page: every colour stands out from it. */
+#ifndef FG__PALETTE_H
+#define FG__PALETTE_H
+
+#include "base/context.h"
+
+typedef struct fg__color {
+  double red, green, blue; /* sRGB, 0 to 1 */
+} fg__color;
+
+/* A colour map's samples; between them colours are mixed linearly in sRGB. */
+enum { FG__PALETTE_SAMPLES = 65 };
+typedef struct fg__palette {
+  fg__color sample[FG__PALETTE_SAMPLES];
+  bool uniform; /* one colour: nothing for a key to explain */
+} fg__palette;
+
+/* Finds a colour map by name (NULL: the default), or makes one of "#rrggbb". ARGUMENT. */
+fg_status fg__palette_create(fg__palette *out, fg_context *context, const char *name);
+
+/* The colour at a share of the way from slow (0) to fast (1); clamped. */
+fg__color fg__palette_color(const fg__palette *palette, double share);
+
+/* Reads "#rrggbb". */
+bool fg__color_read(fg__color *out, const char *text);
+
+/* Relative luminance, 0 to 1 (WCAG 2.1). */
+double fg__color_luminance(fg__color color);
+
+/* Lightness in Oklab, 0 to 1 (Ottosson 2020). */
+double fg__color_lightness(fg__color color);
+
+#endif

@@ -1,0 +1,211 @@
+#include "picture/ticks.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "picture/text.h"
+#include "picture/units.h"
+
+#define MINUS "\xE2\x88\x92"
+#define DEGREE "\xC2\xB0"
+#define TIMES "\xC3\x97"
+
+/* Share of a step by which a tick may lie outside the axis: sums of decimal fractions in
+ * double miss their end by about 1e-10 of a step even for offsets of 1e6 steps. */
+static const double step_slack = 1e-6;
+
+/* More digits than this in a tick label are read one by one, not at a glance. */
+enum { LABEL_DIGITS = 6, MOST_DECIMALS = 12 };
+
+/* Decimals that write a multiple of `step` exactly. */
+static int decimals_of(double step)
+{
+  double scaled = step;
+  for (int decimals = 0; decimals < MOST_DECIMALS; ++decimals) {
+    if (fabs(scaled - round(scaled)) < step_slack * scaled)
+      return decimals;
+    scaled *= 10.0;
+  }
+  return MOST_DECIMALS;
+}
+
+static void write_number(char out[FG__TICK_BYTES], double value, int decimals)
+{
+  char digits[FG__TICK_BYTES];
+  snprintf(digits, sizeof digits, "%.*f", decimals, fabs(value));
+  bool zero = strspn(digits, "0.,") == strlen(digits);
+  snprintf(out, FG__TICK_BYTES, "%s%.32s", value < 0.0 && !zero ? MINUS : "", digits);
+}
+
+static void write_longitude(char out[FG__TICK_BYTES], double value, int decimals)
+{
+  double east = value - 360.0 * round(value / 360.0);
+  double size = fabs(east);
+  bool plain = size < 1e-9 || size > 180.0 - 1e-9;
+  snprintf(out, FG__TICK_BYTES, "%.*f" DEGREE "%s", decimals, size,
+           plain        ? ""
+           : east > 0.0 ? "E"
+                        : "W");
+}
+
+static void write_latitude(char out[FG__TICK_BYTES], double value, int decimals)
+{
+  double size = fabs(value);
+  snprintf(out, FG__TICK_BYTES, "%.*f" DEGREE "%s", decimals, size,
+           size < 1e-9   ? ""
+           : value > 0.0 ? "N"
+                         : "S");
+}
+
+static const struct length_choice {
+  double metres;
+  const char *symbol;
+} length_choices[] = {
+    {1e3, "km"}, {1.0, "m"}, {1e-2, "cm"}, {1e-3, "mm"}, {1e-6, "\xC2\xB5m"}};
+
+/* The unit for a length: km from 10 km on; below a metre the unit that gives numbers
+ * from 1 up; a unit chosen by the file stays unless its numbers grow unhandy. */
+static double suit_length(double metres, double extent, const char **symbol)
+{
+  double largest = extent * metres;
+  size_t count = sizeof length_choices / sizeof *length_choices;
+  for (size_t k = 0; k < count; ++k)
+    if (length_choices[k].metres == metres) /* the file's own unit: exact by table */
+      *symbol = length_choices[k].symbol;
+  if (extent >= 0.5 && extent < 1e4)
+    return 1.0;
+  for (size_t k = 0; k < count; ++k) {
+    double least = k == 0 ? 1e4 : 0.5 * length_choices[k].metres;
+    if (k == 2 || (largest < least && k + 1 < count))
+      continue; /* centimetres only where the file has them */
+    *symbol = length_choices[k].symbol;
+    return metres / length_choices[k].metres;
+  }
+  return 1.0;
+}
+
+/* A power of ten taken out of numbers that are all very large or very small. */
+static int common_exponent(double largest)
+{
+  if (!(largest > 0.0) || (largest < 1e5 && largest >= 1e-2))
+    return 0;
+  return (int)floor(log10(largest) + step_slack);
+}
+
+void fg__axis_of_numbers(fg__axis *out, double low, double high, double extent,
+                         const char *name, const char *units)
+{
+  *out = (fg__axis){FG__TICKS_NUMBER, low, high, 1.0, 0.0, "", ""};
+  char symbol[FG__UNITS_BYTES];
+  fg__units_write(symbol, units);
+  double metres = fg__units_metres(units);
+  if (metres > 0.0) {
+    const char *suited = symbol;
+    out->factor = suit_length(metres, extent, &suited);
+    char kept[FG__UNITS_BYTES];
+    snprintf(kept, sizeof kept, "%s", suited);
+    memcpy(symbol, kept, sizeof kept);
+  }
+  double range = fmax(high - low, extent) * out->factor;
+  double largest = fmax(fabs(low), fabs(high)) * out->factor;
+  char shown_name[FG__UNITS_BYTES + 40];
+  char clean_name[FG__UNITS_BYTES];
+  fg__text_clean(clean_name, sizeof clean_name, name ? name : "");
+  snprintf(shown_name, sizeof shown_name, "%s", clean_name);
+  if (largest > range * pow(10.0, LABEL_DIGITS - 2)) {
+    double grain = pow(10.0, ceil(log10(range))) / out->factor;
+    out->offset = floor(low / grain) * grain;
+    snprintf(shown_name, sizeof shown_name, "%s %s %.12g", clean_name,
+             out->offset < 0.0 ? "+" : MINUS, fabs(out->offset * out->factor));
+    largest = fmax(fabs(low - out->offset), fabs(high - out->offset)) * out->factor;
+  }
+  int exponent = common_exponent(largest);
+  char power[48] = "";
+  if (exponent != 0) {
+    out->factor *= pow(10.0, -exponent);
+    snprintf(power, sizeof power, "10" FG__TEXT_RAISE "%s%d" FG__TEXT_LOWER "%s",
+             exponent < 0 ? MINUS : "", abs(exponent), symbol[0] ? " " : "");
+  }
+  snprintf(out->units, sizeof out->units, "%s%s%s", exponent ? TIMES : "", power, symbol);
+  const char *shown_units =
+      exponent && symbol[0] ? out->units + strlen(TIMES) : out->units;
+  if (shown_name[0] && out->units[0])
+    snprintf(out->label, sizeof out->label, "%s (%s)", shown_name, shown_units);
+  else
+    snprintf(out->label, sizeof out->label, "%s%s", shown_name, shown_units);
+}
+
+void fg__axis_of_degrees(fg__axis *out, double low, double high, fg__tick_style style)
+{
+  *out = (fg__axis){style, low, high, 1.0, 0.0, "", DEGREE};
+}
+
+/* 1, 2, 5 times a power of ten, the smallest at least `least`. */
+static double decimal_step(double least)
+{
+  double power = pow(10.0, floor(log10(least)));
+  static const double digits[] = {1.0, 2.0, 5.0, 10.0};
+  for (int k = 0; k < 4; ++k)
+    if (digits[k] * power >= least * (1.0 - step_slack))
+      return digits[k] * power;
+  return 10.0 * power;
+}
+
+double fg__ticks_step(const fg__axis *axis, double least)
+{
+  if (axis->style == FG__TICKS_NUMBER)
+    return decimal_step(least * axis->factor) / axis->factor;
+  static const double degrees[] = {10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 180.0};
+  if (least <= 5.0 * (1.0 + step_slack))
+    return decimal_step(least);
+  for (size_t k = 0; k < sizeof degrees / sizeof *degrees; ++k)
+    if (degrees[k] >= least * (1.0 - step_slack))
+      return degrees[k];
+  return 360.0 * ceil(least / 360.0);
+}
+
+double fg__ticks_step_below(const fg__axis *axis, double step)
+{
+  /* Neighbours are at most a factor 2.5 apart and at least 4/3. */
+  for (double share = 0.8; share > 0.3; share -= 0.05) {
+    double below = fg__ticks_step(axis, share * step);
+    if (below < step * (1.0 - step_slack))
+      return below;
+  }
+  return 0.4 * step;
+}
+
+void fg__ticks_fill(fg__ticks *out, const fg__axis *axis, double step)
+{
+  out->count = 0;
+  out->step = step;
+  double low = (axis->low - axis->offset) / step;
+  double high = (axis->high - axis->offset) / step;
+  double first = ceil(low - step_slack);
+  double last = floor(high + step_slack);
+  if (!(last - first < FG__TICK_LIMIT))
+    return;
+  int decimals = decimals_of(step * axis->factor);
+  for (double k = first; k <= last; k += 1.0) {
+    int n = out->count++;
+    double value = k * step * axis->factor;
+    out->position[n] = fmin(fmax(axis->offset + k * step, axis->low), axis->high);
+    if (axis->style == FG__TICKS_LONGITUDE)
+      write_longitude(out->text[n], value, decimals);
+    else if (axis->style == FG__TICKS_LATITUDE)
+      write_latitude(out->text[n], value, decimals);
+    else
+      write_number(out->text[n], value, decimals);
+  }
+}
+
+void fg__axis_write_length(char out[FG__AXIS_BYTES], const fg__axis *axis, double length)
+{
+  char number[FG__TICK_BYTES];
+  double value = length * axis->factor;
+  write_number(number, value, decimals_of(value));
+  bool space = axis->units[0] && strcmp(axis->units, DEGREE) != 0;
+  snprintf(out, FG__AXIS_BYTES, "%s%s%.150s", number, space ? " " : "", axis->units);
+}
