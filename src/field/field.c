@@ -145,6 +145,18 @@ static bool sample_is_valid(const fg_field_arrays *arrays, size_t i)
   return !isnan(arrays->velocity[0][i]) && !isnan(arrays->velocity[1][i]);
 }
 
+static fg_status fail_speed(const fg_field *field, fg_context *context, int k,
+                            double value, size_t i)
+{
+  const size_t row = (size_t)field->contents.size[0];
+  fg_status status =
+      fg__fail(context, FG_STATUS_ARGUMENT,
+               "field: %s is %g at sample (%zu, %zu); speeds up to %g are taken",
+               field->contents.velocity_name[k], value, i % row, i / row, LARGEST_SPEED);
+  fg__hint(context, "is it a fill value that is not declared as missing?");
+  return status;
+}
+
 static fg_status copy_samples(fg_field *field, fg_context *context,
                               const fg_field_arrays *arrays)
 {
@@ -167,10 +179,7 @@ static fg_status copy_samples(fg_field *field, fg_context *context,
       const float value = field->valid[i] ? arrays->velocity[k][i] : NAN;
       field->velocity[k][i] = value;
       if (isinf(value) || fabs((double)value) > LARGEST_SPEED)
-        return fg__fail(context, FG_STATUS_ARGUMENT,
-                        "field: %s is %g at sample (%zu, %zu); speeds up to %g are taken",
-                        field->contents.velocity_name[k], (double)value, i % row, i / row,
-                        LARGEST_SPEED);
+        return fail_speed(field, context, k, (double)value, i);
     }
   }
   if (missing == count)

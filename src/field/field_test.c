@@ -121,9 +121,9 @@ static void samples_come_back_bit_for_bit(void **state)
 static void nothing_lies_beyond_the_border(void **state)
 {
   fg_field *field = make(*state);
-  const double beyond[][2] = {{-1.5000001, 3.0}, {3.2500001, 3.0}, {0.0, 1.9999},
-                              {0.0, 4.7500001},  {NAN, 3.0},       {0.0, NAN},
-                              {INFINITY, 3.0},   {0.0, -INFINITY}, {1e300, 3.0}};
+  const double beyond[][2] = {{-1.5000001, 3.0}, {3.2500001, 3.0},   {0.0, 1.9999},
+                              {0.0, 4.7500001},  {(double)NAN, 3.0}, {0.0, (double)NAN},
+                              {HUGE_VAL, 3.0},   {0.0, -HUGE_VAL},   {1e300, 3.0}};
   for (size_t i = 0; i < sizeof beyond / sizeof *beyond; ++i) {
     double velocity[2];
     assert_false(fg_field_velocity(field, beyond[i], velocity));
@@ -198,7 +198,7 @@ static void a_periodic_axis_has_one_more_cell(void **state)
   assert_true(fabs(near[0] - 20.0) < 1e-9);
   assert_true(fg_field_velocity(field, (double[]){-1e300, 3.0}, near));
   assert_true(isfinite(near[0]));
-  assert_false(fg_field_velocity(field, (double[]){INFINITY, 3.0}, near));
+  assert_false(fg_field_velocity(field, (double[]){HUGE_VAL, 3.0}, near));
   fg_field_destroy(field);
 }
 
@@ -361,7 +361,7 @@ static void bad_axes_are_refused(void **state)
   assert_refused(set, "does not ascend");
   set->x[2] = -7.0;
   assert_refused(set, "does not ascend");
-  set->x[2] = NAN;
+  set->x[2] = (double)NAN;
   assert_refused(set, "not a usable number");
   set->x[2] = 0.5;
   set->y[3] = 9.9e36;
@@ -372,7 +372,7 @@ static void bad_axes_are_refused(void **state)
   assert_refused(set, "period");
   set->arrays.period[0] = -6.0;
   assert_refused(set, "period");
-  set->arrays.period[0] = NAN;
+  set->arrays.period[0] = (double)NAN;
   assert_refused(set, "period");
   set->arrays.period[0] = 0.0;
   set->arrays.axis[1] = NULL;

@@ -394,8 +394,11 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__nc_file *file,
       vector.bounds[2 * k + 1] = grid.axis[k].coordinate[grid.axis[k].size - 1];
     }
   }
+  char reason[sizeof grid.unusable + sizeof grid.hint + 2];
+  snprintf(reason, sizeof reason, "%s%s%s", grid.unusable, grid.hint[0] ? "; " : "",
+           grid.hint);
   if (grid.unusable[0])
-    vector.unusable = grid.unusable;
+    vector.unusable = reason;
   else if (status == FG_STATUS_OK)
     status = count_missing(&vector, file, pair, &grid);
   if (status == FG_STATUS_OK)

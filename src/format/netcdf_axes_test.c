@@ -152,7 +152,7 @@ static void axes_out_of_order_are_refused(void **state)
 }
 
 /* Two-dimensional longitude and latitude; the rows and columns may change places. */
-static void make_plane(sample_file *f, double shear, bool transposed)
+static void make_plane(sample_file *f, double shear, bool transposed, bool timed)
 {
   static const double lon[4] = {300.0, 350.0, 5.0, 20.0}; /* jumps */
   double plane[2][4 * ROWS];
@@ -160,11 +160,12 @@ static void make_plane(sample_file *f, double shear, bool transposed)
   sample_begin(f, NC_NETCDF4);
   const int a = sample_dimension(f, "cross", transposed ? 4 : ROWS);
   const int b = sample_dimension(f, "along", transposed ? ROWS : 4);
-  const int all[2] = {a, b};
-  const int u = sample_variable(f, "u", NC_FLOAT, 2, all);
-  const int v = sample_variable(f, "v", NC_FLOAT, 2, all);
-  const int x = sample_variable(f, "nav_lon", NC_DOUBLE, 2, all);
-  const int y = sample_variable(f, "nav_lat", NC_DOUBLE, 2, all);
+  const int all[3] = {timed ? sample_dimension(f, "Time", 1) : a, timed ? a : b, b};
+  const int rank = timed ? 3 : 2;
+  const int u = sample_variable(f, "u", NC_FLOAT, rank, all);
+  const int v = sample_variable(f, "v", NC_FLOAT, rank, all);
+  const int x = sample_variable(f, "nav_lon", NC_DOUBLE, rank, all);
+  const int y = sample_variable(f, "nav_lat", NC_DOUBLE, rank, all);
   sample_text(f, x, "units", "degrees_east");
   sample_text(f, y, "units", "degrees_north");
   for (int j = 0; j < ROWS; ++j)
@@ -184,8 +185,8 @@ static void make_plane(sample_file *f, double shear, bool transposed)
 static void grids_in_disguise_are_recognised(void **state)
 {
   sample_file *f = *state;
-  for (int transposed = 0; transposed < 2; ++transposed) {
-    make_plane(f, 1e-5, transposed); /* rounding of float */
+  for (int way = 0; way < 4; ++way) {
+    make_plane(f, 1e-5, way % 2 == 1, way >= 2); /* rounding of float */
     fg_field *field = read_field(f);
     const fg_field_arrays *a = fg_field_contents(field);
     assert_int_equal(a->scale, FG_SCALE_GEO);
@@ -202,7 +203,7 @@ static void grids_in_disguise_are_recognised(void **state)
 static void curvilinear_grids_are_refused_with_a_way_out(void **state)
 {
   sample_file *f = *state;
-  make_plane(f, 2.0, false);
+  make_plane(f, 2.0, false, false);
   refuse(f, "curvilinear");
   assert_non_null(strstr(fg_context_hint(f->context), "--scale plain"));
   fg_context_clear(f->context);

@@ -26,6 +26,20 @@ static bool is_listed(const char *names, const char *name)
   return false;
 }
 
+static const int *last_dimensions(const fg__nc_variable *v)
+{
+  return v->dimension + v->rank - 2;
+}
+
+/* Time may go before: WRF repeats the coordinates for every time. */
+static bool lies_in_plane(const fg__nc_variable *v, int x, int y)
+{
+  if (v->rank < 2 || v->rank > 3 || v->type == NC_CHAR || v->type > NC_UINT64)
+    return false;
+  const int *last = last_dimensions(v);
+  return (last[0] == x && last[1] == y) || (last[0] == y && last[1] == x);
+}
+
 /* The two-dimensional longitude (x) or latitude (y) of a variable; one that the variable
  * names among its coordinates goes before others. */
 static const fg__nc_variable *find_plane(const fg__nc_grid *grid, const fg__nc_file *file,
@@ -39,10 +53,7 @@ static const fg__nc_variable *find_plane(const fg__nc_grid *grid, const fg__nc_f
   const fg__nc_variable *found = NULL;
   for (size_t i = 0; i < file->variable_count; ++i) {
     const fg__nc_variable *v = &file->variables[i];
-    const bool same_plane = v->rank == 2 && v->type != NC_CHAR && v->type <= NC_UINT64 &&
-                            ((v->dimension[0] == x && v->dimension[1] == y) ||
-                             (v->dimension[0] == y && v->dimension[1] == x));
-    if (!same_plane || fg__nc_geographic(v) != role)
+    if (!lies_in_plane(v, x, y) || fg__nc_geographic(v) != role)
       continue;
     if (is_listed(listed, v->plain_name))
       return v;
@@ -52,16 +63,21 @@ static const fg__nc_variable *find_plane(const fg__nc_grid *grid, const fg__nc_f
   return found;
 }
 
-static fg_status read_plane(plane *out, const fg__nc_file *file, size_t count)
+static fg_status read_plane(plane *out, const fg__nc_file *file)
 {
-  out->value = fg__allocate(count, sizeof *out->value);
+  const fg__nc_variable *v = out->variable;
+  size_t start[FG__NC_RANK] = {0};
+  size_t count[FG__NC_RANK];
+  size_t samples = 1;
+  for (int k = 0; k < v->rank; ++k) {
+    count[k] = k < v->rank - 2 ? 1 : file->dimensions[v->dimension[k]].length;
+    samples *= count[k];
+  }
+  out->value = fg__allocate(samples, sizeof *out->value);
   if (!out->value)
-    return fg__fail_memory(file->context, "a coordinate", count * sizeof *out->value);
-  const int error =
-      nc_get_var_double(out->variable->group, out->variable->id, out->value);
-  return error
-             ? fg__nc_fail(file->context, out->variable->path, out->variable->name, error)
-             : FG_STATUS_OK;
+    return fg__fail_memory(file->context, "a coordinate", samples * sizeof *out->value);
+  const int error = nc_get_vara_double(v->group, v->id, start, count, out->value);
+  return error ? fg__nc_fail(file->context, v->path, v->name, error) : FG_STATUS_OK;
 }
 
 /* The dimension (0 or 1) along which alone the plane varies, or -1. Longitudes are
@@ -100,19 +116,20 @@ fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
   plane latitude = {find_plane(grid, file, variable, FG__NC_Y), NULL};
   if (!longitude.variable || !latitude.variable || grid->scale == FG_SCALE_PLAIN)
     return FG_STATUS_OK;
-  const int *dimension = longitude.variable->dimension;
+  const int *dimension = last_dimensions(longitude.variable);
+  const int *other = last_dimensions(latitude.variable);
   const size_t n0 = file->dimensions[dimension[0]].length;
   const size_t n1 = file->dimensions[dimension[1]].length;
-  fg_status status = read_plane(&longitude, file, n0 * n1);
+  fg_status status = read_plane(&longitude, file);
   if (status == FG_STATUS_OK)
-    status = read_plane(&latitude, file, n0 * n1);
+    status = read_plane(&latitude, file);
   if (status != FG_STATUS_OK)
     goto cleanup;
-  const bool same_order = latitude.variable->dimension[0] == dimension[0];
+  const bool same_order = other[0] == dimension[0];
   const int x = direction_of(&longitude, n0, n1, true);
   const int y = same_order ? direction_of(&latitude, n0, n1, false)
                            : direction_of(&latitude, n1, n0, false);
-  const int y_dimension = y < 0 ? -1 : latitude.variable->dimension[y];
+  const int y_dimension = y < 0 ? -1 : other[y];
   if (x < 0 || y < 0 || dimension[x] == y_dimension) {
     fg__nc_unusable(grid,
                     "a curvilinear grid: '%s' and '%s' vary along both of its dimensions",
