@@ -110,6 +110,12 @@ static fg_status find_in_piece(const fg__vti_array **out, const fg__vti *vti,
     return fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
                     "%s: piece %zu of %zu has no array \"%.100s\" like the first's",
                     vti->path, piece + 1, vti->piece_count, wanted->name);
+  for (int c = 0; c < wanted->components; ++c)
+    if (wanted->component[c] >= array->components)
+      return fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
+                      "%s: two arrays are named \"%.100s\", one of %d component%s",
+                      vti->path, wanted->name, array->components,
+                      array->components == 1 ? "" : "s");
   return FG_STATUS_OK;
 }
 

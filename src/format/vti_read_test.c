@@ -290,6 +290,8 @@ static void what_cannot_be_chosen_is_explained(void **state)
                     "three");
   assert_not_chosen(*state, POINTS(SCALAR("p", ONES)) CELLS(SCALAR("q", "1 1")), "p,q",
                     FG_STATUS_ARGUMENT, "points and cells");
+  assert_not_chosen(*state, POINTS(SCALAR("U", ONES) VECTOR("U", SIX)), NULL,
+                    FG_STATUS_FILE_FORMAT, "two arrays");
 }
 
 static void only_one_moment_is_there(void **state)
