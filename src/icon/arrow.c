@@ -25,14 +25,20 @@ static const double SMALL_ARROW_WIDTH = 0.11;
 static const double BODY_SHARE = 0.5;
 static const double HEAD_SHARE = 0.85;
 
-/* Largest half width in radii of curvature, of the body and of the head, and how far the
- * head may bend (radians): beyond that a head looks like a claw. */
+/* Largest half width in radii of curvature, of the body, of the narrowest body, and of
+ * the head, and how far the head may bend (radians): beyond that a head looks like a
+ * claw. */
 static const double BODY_BEND = 0.25;
+static const double NARROW_BODY_BEND = 0.5;
 static const double HEAD_BEND = 0.6;
 static const double HEAD_TURNING = 0.5;
 
+/* Largest head length in radii of curvature at any of its points: the very tip, where it
+ * is narrow, must not curl either. */
+static const double HEAD_CURL = 1.2;
+
 /* A turn between neighbouring stations (radians) that is a corner, not a bend. */
-static const double CORNER = 0.6;
+static const double CORNER = 0.9;
 
 /* What a wider arrow is worth: that many times the relative loss of length. */
 static const double WIDTH_WORTH = 0.4;
@@ -137,16 +143,20 @@ static double angle_between(const double a[2], const double b[2])
 }
 
 static void set_limits(fg__arrow_station *station, double clearance, double turn,
-                       double length)
+                       double length, double narrowest)
 {
+  station->curvature = turn / length;
   station->body_limit = station->head_limit = -1;
   if (turn > CORNER || clearance < 0)
     return;
-  double curvature = turn / length;
+  double curvature = station->curvature;
   station->body_limit = BODY_SHARE * clearance;
   station->head_limit = HEAD_SHARE * clearance;
-  if (curvature * station->body_limit > BODY_BEND)
-    station->body_limit = BODY_BEND / curvature;
+  if (curvature * station->body_limit > BODY_BEND) {
+    double narrow =
+        fmin(fmin(NARROW_BODY_BEND / curvature, narrowest / 2), station->body_limit);
+    station->body_limit = fmax(BODY_BEND / curvature, narrow);
+  }
   if (curvature * station->head_limit > HEAD_BEND)
     station->head_limit = HEAD_BEND / curvature;
 }
@@ -159,10 +169,12 @@ static void measure_stations(fg__arrow_workspace *work, const fg__window *window
   double margin = MARGIN * spacing, delta = station[1].s - station[0].s;
   double widest = fg__arrow_widest(station[n - 1].s, spacing);
   double reach = FG__HEAD_WIDTH / 2 * widest / HEAD_SHARE + margin;
-  station[0].turning = 0;
-  for (int i = 1; i < n; i++)
-    station[i].turning = station[i - 1].turning +
-                         angle_between(station[i - 1].tangent, station[i].tangent);
+  station[0].turning = station[0].wiggle = 0;
+  for (int i = 1; i < n; i++) {
+    double turn = angle_between(station[i - 1].tangent, station[i].tangent);
+    station[i].turning = station[i - 1].turning + turn;
+    station[i].wiggle = station[i - 1].wiggle + fabs(turn);
+  }
   for (int i = 0; i < n; i++) {
     const double *position = station[i].position, *tangent = station[i].tangent;
     double known = fg__distance_at(window, distance, position) - DISTANCE_ERROR * spacing;
@@ -176,7 +188,8 @@ static void measure_stations(fg__arrow_workspace *work, const fg__window *window
       turn = fabs(station[i].turning - station[i - 1].turning);
     if (i < n - 1)
       turn = fmax(turn, fabs(station[i + 1].turning - station[i].turning));
-    set_limits(&station[i], right - margin, turn, delta);
+    set_limits(&station[i], right - margin, turn, delta,
+               NARROWEST_HEAD * spacing / FG__HEAD_WIDTH);
   }
 }
 
@@ -242,7 +255,7 @@ static bool head_fits(const fg__arrow_workspace *work, int first, int tip, doubl
   for (; i >= first; i--) {
     double u = station[tip].s - station[i].s;
     /* the limits of one station past the barbs count too: the barbs are before it */
-    if (u * slope > station[i].head_limit)
+    if (u * slope > station[i].head_limit || station[i].curvature * length > HEAD_CURL)
       return false;
     if (u <= length)
       *base = i;
@@ -347,8 +360,9 @@ fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
     double worth = (station[tip].s - station[tail].s) * pow(width / spacing, WIDTH_WORTH);
     if (worth > best) {
       best = worth;
-      *out = (fg__arrow){station[tail].s, station[tip].s, width,
-                         turning_range(workspace, tail, tip)};
+      double range = turning_range(workspace, tail, tip);
+      double turned = station[tip].wiggle - station[tail].wiggle;
+      *out = (fg__arrow){station[tail].s, station[tip].s, width, range, turned - range};
     }
   }
   return FG_STATUS_OK;

@@ -21,11 +21,13 @@ typedef struct fg__arrow {
   double tail, tip;
   double width;   /* 0: no arrow fits */
   double turning; /* largest angle between two of its tangents, radians */
+  double wiggle;  /* angle turned to and fro beyond that, radians */
 } fg__arrow;
 
 /* Work arrays of fg__arrow_fit, to be kept between calls; all zero at first. */
 typedef struct fg__arrow_station {
   double s, position[2], tangent[2], turning;
+  double curvature, wiggle; /* wiggle: angle turned so far, to either side, radians */
   double body_limit, head_limit; /* largest half widths; negative: nothing fits */
 } fg__arrow_station;
 

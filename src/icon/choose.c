@@ -22,14 +22,24 @@ static const double HALF_RADIUS = 0.5;
  * no direction worth the name. */
 static const double DISC = 2.0;
 
+/* Where the best arrow is shorter than this share of the spine, the flow leaves the
+ * cluster across it or is rough: then this many points all over the cluster are tried as
+ * well. */
+static const double SHORT = 0.6;
+enum { SPREAD = 24 };
+
 /* The best line so far is shifted sideways by this share of the distance to the border,
  * then by half of it. */
 static const double SHIFT = 0.24;
 enum { SHIFTS = 2 };
 
-/* A choice that keeps 10 % more distance from the cluster's points is as good when its
+/* A choice that keeps 15 % more distance from the cluster's points is as good when its
  * arrow is twice as wide. */
-static const double WIDTH_WORTH = 0.14;
+static const double WIDTH_WORTH = 0.2;
+
+/* What a radian of turning to and fro costs, in shares of the distance: among lines that
+ * lie as well the calmest is taken. */
+static const double WIGGLE_COST = 0.1;
 
 typedef struct search {
   fg__chooser *chooser;
@@ -128,7 +138,8 @@ static fg_status consider(search *search, double x, double y)
                          search->distance, search->spacing, &chooser->workspace);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
     return status;
-  double cost = cost_of(search, arrow.tail, arrow.tip, arrow.width);
+  double cost = cost_of(search, arrow.tail, arrow.tip, arrow.width) *
+                (1 + WIGGLE_COST * arrow.wiggle);
   if (cost < search->cost) {
     fg__streamline line = chooser->best;
     chooser->best = chooser->tried;
@@ -196,6 +207,18 @@ static fg_status consider_center(search *search, const double center[2], double 
   return status;
 }
 
+/* Tries some of the cluster's points, evenly taken from their list. */
+static fg_status consider_everywhere(search *search)
+{
+  const fg__chooser *chooser = search->chooser;
+  int stride = chooser->sample_count > SPREAD ? chooser->sample_count / SPREAD : 1;
+  fg_status status = FG_STATUS_OK;
+  for (int i = stride / 2; i < chooser->sample_count && status == FG_STATUS_OK;
+       i += stride)
+    status = consider(search, chooser->sample[i][0], chooser->sample[i][1]);
+  return status;
+}
+
 /* Shifts the best line to either side of its middle. */
 static fg_status refine(search *search, double radius)
 {
@@ -243,6 +266,9 @@ fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *c
   status = consider_center(&search, center, radius, spine->length < DISC * radius);
   if (status == FG_STATUS_OK)
     status = consider_spine(&search, spine);
+  double length = search.arrow.tip - search.arrow.tail;
+  if (status == FG_STATUS_OK && !(length > SHORT * spine->length))
+    status = consider_everywhere(&search);
   if (status == FG_STATUS_OK)
     status = refine(&search, radius);
   *arrow = search.arrow;
