@@ -55,6 +55,7 @@ typedef struct fg__nc_file {
   fg_context *context;
   int roots[2];
   char *paths[2];
+  size_t sizes[2]; /* bytes */
   int root_count;
   fg__nc_dimension *dimensions;
   size_t dimension_count, dimension_capacity;

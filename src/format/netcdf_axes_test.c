@@ -324,6 +324,26 @@ static void dimensions_that_fit_nothing_are_refused(void **state)
   refuse(f, "only one dimension in space");
 }
 
+/* A file of a few kilobytes that promises gigabytes must cost neither. */
+static void grids_that_no_file_can_hold_are_refused(void **state)
+{
+  sample_file *f = *state;
+  static const size_t side[] = {40000, 2000000000};
+  static const char *const reason[] = {"but the file has only", "are more than the"};
+  for (int k = 0; k < 2; ++k) {
+    sample_begin(f, NC_NETCDF4);
+    const int all[2] = {sample_dimension(f, "y", side[k]),
+                        sample_dimension(f, "x", side[k])};
+    const size_t chunk[2] = {1000, 1000};
+    for (int component = 0; component < 2; ++component) {
+      const int id = sample_variable(f, component == 0 ? "u" : "v", NC_FLOAT, 2, all);
+      nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, chunk));
+    }
+    sample_end(f);
+    refuse(f, reason[k]);
+  }
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
@@ -339,6 +359,7 @@ int main(void)
       CASE(a_rotated_pole_has_a_sphere_of_its_own),
       CASE(bare_arrays_are_read_on_their_indices),
       CASE(dimensions_that_fit_nothing_are_refused),
+      CASE(grids_that_no_file_can_hold_are_refused),
   };
   return cmocka_run_group_tests_name("format/netcdf_axes", tests, NULL, NULL);
 }

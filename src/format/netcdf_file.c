@@ -190,6 +190,7 @@ fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
     return status;
   }
   file->paths[file->root_count] = path;
+  file->sizes[file->root_count] = source->size;
   file->roots[file->root_count++] = root;
   status = list_group(file, root, root, "", path, 0);
   /* the list may have moved while it grew */

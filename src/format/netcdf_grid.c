@@ -12,6 +12,10 @@
 /* 2^31 samples take 24 gigabytes on the way to a field; more cannot be meant. */
 static const size_t MOST_SAMPLES = (size_t)1 << 31;
 
+/* Deflate makes 1032 bytes of one at most (zlib's documentation): a field whose file is
+ * smaller still was never written. */
+static const size_t LARGEST_COMPRESSION = 1032;
+
 void fg__nc_unusable(fg__nc_grid *grid, const char *format, ...)
 {
   if (grid->unusable[0])
@@ -102,6 +106,17 @@ static void check_lengths(fg__nc_grid *grid, const fg__nc_file *file,
   }
 }
 
+static void check_storage(fg__nc_grid *grid, const fg__nc_file *file,
+                          const fg__nc_variable *v)
+{
+  size_t width = 1;
+  if (nc_inq_type(v->group, v->type, NULL, &width) != NC_NOERR)
+    return;
+  if (grid->samples * width / LARGEST_COMPRESSION > file->sizes[v->file])
+    fg__nc_unusable(grid, "'%.120s' has %zu samples, but the file has only %zu bytes",
+                    v->name, grid->samples, file->sizes[v->file]);
+}
+
 static void set_index_axis(const fg__nc_file *file, const fg__nc_variable *v,
                            int position, size_t *count,
                            const fg__nc_variable **coordinate, char *name)
@@ -146,6 +161,7 @@ static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
   if (grid->samples > MOST_SAMPLES)
     fg__nc_unusable(grid, "%zu x %zu samples are more than the %zu that are handled",
                     grid->axis[0].size, grid->axis[1].size, MOST_SAMPLES);
+  check_storage(grid, file, v);
   grid->time = position[FG__NC_TIME];
   grid->level = position[FG__NC_LEVEL];
   set_index_axis(file, v, grid->time, &grid->times, &grid->time_variable,
