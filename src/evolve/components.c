@@ -179,8 +179,9 @@ static inline void add_mixed_cell(struct fg__run *run, const float value[4],
   /* by the set of positive corners: a positive one after one that is not */
   static const unsigned char first_of[16] = {0, 0, 1, 0, 2, 0, 1, 0,
                                              3, 3, 1, 3, 2, 2, 1, 0};
-  unsigned set = (corner[0] != 0) | (corner[1] != 0) << 1 | (corner[2] != 0) << 2 |
-                 (corner[3] != 0) << 3;
+  unsigned set = 0;
+  for (unsigned k = 0; k < 4; ++k)
+    set |= (corner[k] != 0 ? 1U : 0U) << k;
   unsigned first = first_of[set];
   const double v[4] = {(double)value[first], (double)value[(first + 1) & 3],
                        (double)value[(first + 2) & 3], (double)value[(first + 3) & 3]};
