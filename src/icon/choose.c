@@ -10,7 +10,7 @@
 enum { SAMPLES = 200, ARROW_SAMPLES = 48 };
 
 /* Other places on the spine to start from, in parts of its length. */
-static const double PLACES[] = {0.35, 0.65, 0.2, 0.8, 0.1, 0.9};
+static const double PLACES[] = {0.35, 0.65, 0.2, 0.8};
 static const double RING_PLACES[] = {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875};
 
 /* Starts beside the centre, in distances to the border there; at half radius an arrow
@@ -32,6 +32,9 @@ enum { SPREAD = 24 };
  * then by half of it. */
 static const double SHIFT = 0.24;
 enum { SHIFTS = 2 };
+
+/* Two lines nearer than this, in spacings, give the same arrow. */
+static const double SAME_LINE = 0.2;
 
 /* A choice that keeps 15 % more distance from the cluster's points is as good when its
  * arrow is twice as wide. */
@@ -118,11 +121,31 @@ static double cost_of(const search *search, double tail, double tip, double widt
   return rms / pow(width, WIDTH_WORTH);
 }
 
+/* Whether the best line goes through a point, so that it need not be traced again. */
+static bool is_on_best(const search *search, const double point[2])
+{
+  const fg__streamline *line = &search->chooser->best;
+  double reach = search->spacing * search->spacing,
+         tolerance = SAME_LINE * search->spacing;
+  if (!(search->arrow.width > 0))
+    return false;
+  for (int i = 0; i < line->count; i++) {
+    const fg__streamline_node *node = &line->node[i];
+    double dx = point[0] - node->position[0], dy = point[1] - node->position[1];
+    if (dx * dx + dy * dy < reach &&
+        fabs(dx * node->tangent[1] - dy * node->tangent[0]) < tolerance)
+      return true;
+  }
+  return false;
+}
+
 /* Tries the streamline through a point. */
 static fg_status consider(search *search, double x, double y)
 {
   fg__chooser *chooser = search->chooser;
   double start[2] = {x, y};
+  if (is_on_best(search, start))
+    return FG_STATUS_OK;
   fg_status status = fg__streamline_trace(&chooser->tried, search->context, search->field,
                                           search->window, start, &search->limits);
   if (status != FG_STATUS_OK || chooser->tried.count < 2)

@@ -73,6 +73,14 @@ static void convergence(double x, double y, double v[2])
   v[1] = 0.02;
 }
 
+/* Directions that differ by up to 70 degrees from sample to sample. */
+static void rough(double x, double y, double v[2])
+{
+  double angle = 1.2 * sin(12.9898 * x + 78.233 * y + 40 * sin(3.1 * x - 1.7 * y));
+  v[0] = 5 * cos(angle);
+  v[1] = 5 * sin(angle);
+}
+
 /* ---- shapes: signed depths */
 
 static double capsule(double x, double y, double ax, double ay, double bx, double by,
@@ -386,6 +394,20 @@ static void finds_a_way_past_a_stagnation_point(void **state)
     }
 }
 
+/* Bends as tight as a cell of the data: the outlines are judged by bench_of. */
+static void keeps_its_promises_in_a_rough_field(void **state)
+{
+  (void)state;
+  depth_of shapes[] = {blob, lens, stripe, horseshoe, family};
+  int drawn = 0;
+  for (int i = 0; i < 5; i++) {
+    bench bench = bench_of(rough, shapes[i]);
+    drawn += fg_icons_count(bench.icons);
+    end_bench(&bench);
+  }
+  assert_true(drawn >= 6); /* of 8 */
+}
+
 static void assert_same_line(const fg_icon *a, const fg_icon *b, bool mirror,
                              double tolerance)
 {
@@ -540,6 +562,7 @@ int main(void)
       cmocka_unit_test(stays_inside_the_domain),
       cmocka_unit_test(never_enters_a_mask),
       cmocka_unit_test(finds_a_way_past_a_stagnation_point),
+      cmocka_unit_test(keeps_its_promises_in_a_rough_field),
       cmocka_unit_test(mirrors_with_the_field),
       cmocka_unit_test(knows_no_unit_of_speed),
       cmocka_unit_test(is_the_same_on_any_number_of_threads),

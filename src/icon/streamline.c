@@ -40,6 +40,13 @@ static double dot(const double a[2], const double b[2])
   return a[0] * b[0] + a[1] * b[1];
 }
 
+/* Speeds stay below 1e15, coordinates below 1e18: squares are far from overflow, and
+ * hypot took an eighth of the time of all icons. */
+static double length_of(const double a[2])
+{
+  return sqrt(dot(a, a));
+}
+
 /* Unit vector of the way to go; false outside the domain and where the flow stands still.
  */
 static bool find_direction(const tracer *tracer, const double position[2],
@@ -48,7 +55,7 @@ static bool find_direction(const tracer *tracer, const double position[2],
   double tangent[3] = {0};
   if (!fg_field_tangent(tracer->field, position, tangent))
     return false;
-  double speed = hypot(tangent[0], tangent[1]);
+  double speed = length_of(tangent);
   if (!(speed > tracer->standstill))
     return false;
   direction[0] = tracer->sign * tangent[0] / speed;
@@ -79,7 +86,7 @@ static bool try_step(const tracer *tracer, const double from[2], const double k1
   double error[2];
   for (int a = 0; a < 2; a++)
     error[a] = step * (-5 * k1[a] + 6 * k2[a] + 8 * k3[a] - 9 * k4[a]) / 72;
-  out->error = hypot(error[0], error[1]);
+  out->error = length_of(error);
   return true;
 }
 
@@ -96,7 +103,7 @@ static void interpolate(const double p[2], const double d[2], const double q[2],
     slope[a] = 6 * t * u * (q[a] - p[a]) +
                length * (u * (1 - 3 * t) * d[a] + t * (3 * t - 2) * e[a]);
   }
-  double size = hypot(slope[0], slope[1]);
+  double size = length_of(slope);
   if (!(size > 0)) {
     slope[0] = d[0];
     slope[1] = d[1];
@@ -235,7 +242,7 @@ fg_status fg__streamline_trace(fg__streamline *out, fg_context *context,
   double tangent[3] = {0};
   if (!fg_field_tangent(field, start, tangent))
     return FG_STATUS_OK;
-  double speed = hypot(tangent[0], tangent[1]);
+  double speed = length_of(tangent);
   if (!(speed > 0) || !isfinite(speed))
     return FG_STATUS_OK;
 
