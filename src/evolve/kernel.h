@@ -18,6 +18,7 @@ typedef struct fg__changes {
   double u;      /* m u */
   double from_a; /* m (u - a)^2 */
   double from_b; /* m (u - b)^2 */
+  double along;  /* m (u - a) (a - c) */
 } fg__changes;
 
 typedef struct fg__sums {
@@ -49,7 +50,7 @@ typedef struct fg__kernel {
   /* w := Psi'(u) + K u, with ghosts, and the energy of u in the same pass. */
   fg__sums (*evaluate)(const fg__level *level, const float *u, float *w);
   fg__changes (*changes)(const fg__level *level, const float *u, const float *a,
-                         const float *b);
+                         const float *b, const float *c);
   /* out := now + omega (now - before), whole arrays. */
   void (*extrapolate)(const fg__level *level, const float *now, const float *before,
                       float omega, float *out);

@@ -657,7 +657,8 @@ static fg__sums evaluate(const fg__level *level, const float *u, float *w)
 }
 
 INLINE void add_changes(const row_weights *r, const float *u, const float *a,
-                        const float *b, int start, int lanes, double sum[3][FG__LANES])
+                        const float *b, const float *c, int start, int lanes,
+                        double sum[4][FG__LANES])
 {
   INDEPENDENT
   for (int n = 0; n < lanes; ++n) {
@@ -667,13 +668,14 @@ INLINE void add_changes(const row_weights *r, const float *u, const float *a,
     sum[0][n] += (double)(mass * u[k]);
     sum[1][n] += (double)(mass * from_a * from_a);
     sum[2][n] += (double)(mass * from_b * from_b);
+    sum[3][n] += (double)(mass * from_a * (a[k] - c[k]));
   }
 }
 
 INLINE fg__changes changes_of(const fg__level *level, const float *u, const float *a,
-                              const float *b, bool masked)
+                              const float *b, const float *c, bool masked)
 {
-  double sum[3][FG__LANES] = {{0.0}};
+  double sum[4][FG__LANES] = {{0.0}};
   for (int j = 0; j < level->rows; ++j)
     for (int colour = EVEN; colour <= ODD; ++colour) {
       int count = nodes_of(level, colour), start = 0;
@@ -681,17 +683,17 @@ INLINE fg__changes changes_of(const fg__level *level, const float *u, const floa
           (ptrdiff_t)j * level->stride + (colour == ODD ? level->odd_offset : 0);
       row_weights r = weights_of(level, j, colour, masked);
       for (; start + FG__LANES <= count; start += FG__LANES)
-        add_changes(&r, u + own, a + own, b + own, start, FG__LANES, sum);
-      add_changes(&r, u + own, a + own, b + own, start, count - start, sum);
+        add_changes(&r, u + own, a + own, b + own, c + own, start, FG__LANES, sum);
+      add_changes(&r, u + own, a + own, b + own, c + own, start, count - start, sum);
     }
-  return (fg__changes){total(sum[0]), total(sum[1]), total(sum[2])};
+  return (fg__changes){total(sum[0]), total(sum[1]), total(sum[2]), total(sum[3])};
 }
 
 static fg__changes changes(const fg__level *level, const float *u, const float *a,
-                           const float *b)
+                           const float *b, const float *c)
 {
-  return level->mass ? changes_of(level, u, a, b, true)
-                     : changes_of(level, u, a, b, false);
+  return level->mass ? changes_of(level, u, a, b, c, true)
+                     : changes_of(level, u, a, b, c, false);
 }
 
 static void extrapolate(const fg__level *level, const float *now, const float *before,

@@ -10,8 +10,8 @@
  * correction relative to the step's change says how well two cycles solved it. */
 static const double acceptable_correction = 0.5; /* delta above this rejects */
 static const double wanted_correction = 0.2;     /* delta that keeps tau */
-static const double correction_floor = 1e-3;     /* of the increment it is compared to */
-static const double acceptable_increment = 3.0;  /* in units of eta */
+static const double correction_floor = 0.2; /* of eta: least change it is compared to */
+static const double acceptable_increment = 3.0; /* in units of eta */
 static const double most_growth = 2.0, most_shrinkage = 0.4;
 static const double reject_factor = 0.5, after_reject = 0.75, relaxation = 1.3;
 static const double most_extrapolation = 2.0;
@@ -40,7 +40,7 @@ static void copy_array(const fg__level *level, float *to, const float *from)
 static double mean_of(const fg__stepper *s, const float *u)
 {
   const fg__multigrid *m = &s->multigrid;
-  return m->kernel->changes(&m->level[0], u, u, u).u / s->total_mass;
+  return m->kernel->changes(&m->level[0], u, u, u, u).u / s->total_mass;
 }
 
 /* The sum of masses is the sum of u when u is 1 everywhere. */
@@ -50,7 +50,7 @@ static double weigh_domain(const fg__stepper *s)
   float *ones = s->first_iterate;
   for (size_t n = 0; n < level->array_size; ++n)
     (ones - level->first)[n] = 1.0F;
-  return s->multigrid.kernel->changes(level, ones, ones, ones).u;
+  return s->multigrid.kernel->changes(level, ones, ones, ones, ones).u;
 }
 
 fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
@@ -109,12 +109,14 @@ static void prepare(fg__stepper *s, double tau)
     return;
   }
   m->kernel->prolong_array(&m->level[1], s->defect, level, s->current, level->p);
-  float omega = (float)fmin(tau / s->last_tau, most_extrapolation);
-  m->kernel->extrapolate(level, s->current, s->previous, omega, level->u);
+  double omega = fmin(tau / s->last_tau, most_extrapolation);
+  omega *= s->persistence;
+  m->kernel->extrapolate(level, s->current, s->previous, (float)omega, level->u);
 }
 
 typedef struct outcome {
   double increment, correction, energy, mean;
+  double persistence; /* how much of the last step's rate of change went on */
   bool accepted;
 } outcome;
 
@@ -129,12 +131,17 @@ static outcome attempt(fg__stepper *s, double tau)
     fg__multigrid_cycle(m, tau);
   }
   s->cycles_spent += s->cycles;
-  fg__changes sums = m->kernel->changes(level, level->u, s->current, s->first_iterate);
+  fg__changes sums =
+      m->kernel->changes(level, level->u, s->current, s->first_iterate, s->previous);
   m->kernel->shift(level, level->u, (float)(s->mean - sums.u / s->total_mass));
   outcome result;
   result.increment = sqrt(sums.from_a / s->total_mass);
-  result.correction =
-      sqrt(sums.from_b / s->total_mass) / fmax(result.increment, correction_floor);
+  result.correction = sqrt(sums.from_b / s->total_mass) /
+                      fmax(result.increment, correction_floor * s->accuracy);
+  result.persistence = 0.0;
+  if (s->increment > 0.0)
+    result.persistence =
+        sums.along * s->last_tau / (tau * s->increment * s->increment * s->total_mass);
   fg__sums shifted = m->kernel->evaluate(level, level->u, s->first_iterate);
   result.energy = s->cell_area * shifted.energy;
   result.mean = shifted.u / s->total_mass;
@@ -160,6 +167,7 @@ static void keep(fg__stepper *s, double tau, const outcome *result)
   s->energy = result->energy;
   s->mass = s->cell_area * s->total_mass * result->mean;
   s->increment = result->increment;
+  s->persistence = s->accepted > 0 ? fmin(fmax(result->persistence, 0.0), 1.0) : 1.0;
   s->history = true;
   s->last_tau = tau;
   s->time += tau;

@@ -19,6 +19,7 @@ typedef struct fg__stepper {
   double tau_limit;    /* after a reject */
   double energy, mass; /* of the current u, units of the longest side */
   double increment;    /* rms of the last step's change */
+  double persistence;  /* share of the last change that the predictor continues */
   bool history;        /* the last step's predecessor and defect may be used */
   long quiet_steps;    /* steps in a row that changed next to nothing */
 
