@@ -4,7 +4,7 @@
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
 
-.PHONY: all setup demo check install format clean
+.PHONY: all setup demo check bench install format clean
 
 all:
 	@cmake --preset release -DCMAKE_INSTALL_PREFIX=$(PREFIX) >build-log 2>&1 || \
@@ -22,6 +22,11 @@ demo: setup
 
 check: setup
 	@scripts/check
+
+# prints the table of docs/benchmarks.md
+bench: setup all
+	@cmake --build build --target bench_kernels -j $(JOBS) >/dev/null
+	@bench/run build
 
 install: all
 	@cmake --install build
