@@ -63,9 +63,9 @@ static const double STATION_SPACING = 0.5; /* in spacings of the density */
 static const double POINT_TURN = 0.017;
 static const double POINT_SPACING = 1.0;
 
-typedef struct span {
+typedef struct station_span {
   int first, last; /* stations */
-} span;
+} station_span;
 
 double fg__distance_at(const fg__window *window, const double *distance,
                        const double position[2])
@@ -206,12 +206,12 @@ static bool keeps_apart(const fg__arrow_station *a, const fg__arrow_station *b,
 
 /* Grows a span from the start to both sides, the shorter side first, until the line ends,
  * would turn by more than an arrow may, or would come near itself. */
-static span grow_span(const fg__arrow_workspace *work, int start, double width,
-                      double end_gap)
+static station_span grow_span(const fg__arrow_workspace *work, int start, double width,
+                              double end_gap)
 {
   const fg__arrow_station *station = work->station;
   double total = station[work->count - 1].s;
-  span span = {start, start};
+  station_span span = {start, start};
   double lowest = station[start].turning, highest = lowest;
   bool open[2] = {true, true};
   while (open[0] || open[1]) {
@@ -294,7 +294,7 @@ static int find_tail(const fg__arrow_workspace *work, int first, int base, doubl
 }
 
 /* Longest arrow of one width within a span; false when there is none long enough. */
-static bool find_longest(const fg__arrow_workspace *work, span span, double width,
+static bool find_longest(const fg__arrow_workspace *work, station_span span, double width,
                          double shortest, int *tail, int *tip)
 {
   const fg__arrow_station *station = work->station;
@@ -351,7 +351,7 @@ fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
     /* no narrower arrow can be better than this one */
     if (length * pow(width / spacing, WIDTH_WORTH) <= best)
       break;
-    span span = grow_span(workspace, start, width, MARGIN * spacing);
+    station_span span = grow_span(workspace, start, width, MARGIN * spacing);
     double ratio = width > narrowest ? LARGEST_WIDTH : SMALL_ARROW_WIDTH;
     double shortest = fmax(SHORTEST * spacing, width / ratio);
     int tail = 0, tip = 0;

@@ -44,7 +44,7 @@ static const double WIDTH_WORTH = 0.2;
  * lie as well the calmest is taken. */
 static const double WIGGLE_COST = 0.1;
 
-typedef struct search {
+typedef struct candidate_search {
   fg__chooser *chooser;
   fg_context *context;
   const fg_field *field;
@@ -54,7 +54,7 @@ typedef struct search {
   fg__streamline_limits limits;
   fg__arrow arrow; /* best so far */
   double cost;
-} search;
+} candidate_search;
 
 /* Longest step: no longer than a cell of the data, where the bilinear field has its
  * bends. */
@@ -70,7 +70,7 @@ static double step_limit(const fg_field *field, const fg__window *window)
 }
 
 /* Nodes inside the cluster, every stride-th along both axes. */
-static fg_status collect_samples(const search *search)
+static fg_status collect_samples(const candidate_search *search)
 {
   const fg__window *window = search->window;
   fg__chooser *chooser = search->chooser;
@@ -99,7 +99,8 @@ static fg_status collect_samples(const search *search)
 
 /* Root of the mean square distance from the cluster's points to a part of the line just
  * tried, weighed with an arrow's width: the less the better. */
-static double cost_of(const search *search, double tail, double tip, double width)
+static double cost_of(const candidate_search *search, double tail, double tip,
+                      double width)
 {
   const fg__chooser *chooser = search->chooser;
   double line[ARROW_SAMPLES][2], tangent[2], sum = 0;
@@ -122,7 +123,7 @@ static double cost_of(const search *search, double tail, double tip, double widt
 }
 
 /* Whether the best line goes through a point, so that it need not be traced again. */
-static bool is_on_best(const search *search, const double point[2])
+static bool is_on_best(const candidate_search *search, const double point[2])
 {
   const fg__streamline *line = &search->chooser->best;
   double reach = search->spacing * search->spacing,
@@ -140,7 +141,7 @@ static bool is_on_best(const search *search, const double point[2])
 }
 
 /* Tries the streamline through a point. */
-static fg_status consider(search *search, double x, double y)
+static fg_status consider(candidate_search *search, double x, double y)
 {
   fg__chooser *chooser = search->chooser;
   double start[2] = {x, y};
@@ -174,7 +175,7 @@ static fg_status consider(search *search, double x, double y)
 }
 
 /* Tries points at multiples of a radius beside a point, along a direction. */
-static fg_status consider_aside(search *search, const double center[2],
+static fg_status consider_aside(candidate_search *search, const double center[2],
                                 const double direction[2], double radius,
                                 const double *multiple, size_t count)
 {
@@ -186,7 +187,8 @@ static fg_status consider_aside(search *search, const double center[2],
 }
 
 /* Unit normal of the flow; the first axis where there is no flow. */
-static void find_normal(const search *search, const double position[2], double normal[2])
+static void find_normal(const candidate_search *search, const double position[2],
+                        double normal[2])
 {
   double tangent[3] = {0}, size = 0;
   if (fg_field_tangent(search->field, position, tangent))
@@ -195,7 +197,7 @@ static void find_normal(const search *search, const double position[2], double n
   normal[1] = size > 0 ? tangent[0] / size : 0;
 }
 
-static fg_status consider_spine(search *search, const fg__spine *spine)
+static fg_status consider_spine(candidate_search *search, const fg__spine *spine)
 {
   const double *place = spine->closed ? RING_PLACES : PLACES;
   size_t count = spine->closed ? sizeof RING_PLACES / sizeof *RING_PLACES
@@ -210,8 +212,8 @@ static fg_status consider_spine(search *search, const fg__spine *spine)
   return status;
 }
 
-static fg_status consider_center(search *search, const double center[2], double radius,
-                                 bool disc)
+static fg_status consider_center(candidate_search *search, const double center[2],
+                                 double radius, bool disc)
 {
   static const double around[] = {HALF_RADIUS, -HALF_RADIUS};
   fg_status status = consider(search, center[0], center[1]);
@@ -231,7 +233,7 @@ static fg_status consider_center(search *search, const double center[2], double 
 }
 
 /* Tries some of the cluster's points, evenly taken from their list. */
-static fg_status consider_everywhere(search *search)
+static fg_status consider_everywhere(candidate_search *search)
 {
   const fg__chooser *chooser = search->chooser;
   int stride = chooser->sample_count > SPREAD ? chooser->sample_count / SPREAD : 1;
@@ -243,7 +245,7 @@ static fg_status consider_everywhere(search *search)
 }
 
 /* Shifts the best line to either side of its middle. */
-static fg_status refine(search *search, double radius)
+static fg_status refine(candidate_search *search, double radius)
 {
   double share = SHIFT;
   fg_status status = FG_STATUS_OK;
@@ -268,13 +270,13 @@ fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *c
   *arrow = (fg__arrow){0};
   if (spine->count < 1)
     return FG_STATUS_OK;
-  search search = {.chooser = chooser,
-                   .context = context,
-                   .field = field,
-                   .window = window,
-                   .distance = distance,
-                   .spacing = fmin(window->spacing[0], window->spacing[1]),
-                   .cost = HUGE_VAL};
+  candidate_search search = {.chooser = chooser,
+                             .context = context,
+                             .field = field,
+                             .window = window,
+                             .distance = distance,
+                             .spacing = fmin(window->spacing[0], window->spacing[1]),
+                             .cost = HUGE_VAL};
   search.limits =
       (fg__streamline_limits){.step = step_limit(field, window),
                               .length = 4 * (window->nodes[0] * window->spacing[0] +

@@ -19,23 +19,23 @@ static const double NARROWER = 0.9;
 enum { NARROWINGS = 8, MOST_THREADS = 64 };
 
 /* What all threads share; each takes the next cluster until there is none. */
-typedef struct job {
+typedef struct icon_job {
   const fg_field *field;
   const fg_density_arrays *density;
   const fg__labels *labels;
   fg_icon *icon; /* [labels->count]; points owned, NULL where no arrow fits */
   atomic_int next;
   atomic_bool halted; /* a thread failed or the caller wants to stop */
-} job;
+} icon_job;
 
-typedef struct worker {
-  job *job;
+typedef struct icon_worker {
+  icon_job *job;
   fg_context *context; /* its own: a context is for one thread at a time */
   fg_context *caller;  /* the caller's, on the caller's own thread, else NULL */
   fg_status status;
   pthread_t thread;
   bool started;
-} worker;
+} icon_worker;
 
 static bool edge_is_inside(const fg__window *window, const double a[2], const double b[2],
                            double spacing)
@@ -169,7 +169,8 @@ static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *
   return FG_STATUS_OK;
 }
 
-static fg_status make_icon(job *job, fg_context *context, fg__chooser *chooser, int index)
+static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *chooser,
+                           int index)
 {
   fg__window window = {0};
   fg__spine spine = {0};
@@ -208,8 +209,8 @@ cleanup:
 
 static void *work(void *argument)
 {
-  worker *worker = argument;
-  job *job = worker->job;
+  icon_worker *worker = argument;
+  icon_job *job = worker->job;
   fg__chooser chooser = {0};
   while (worker->status == FG_STATUS_OK && !atomic_load(&job->halted)) {
     int index = atomic_fetch_add(&job->next, 1);
@@ -227,13 +228,13 @@ static void *work(void *argument)
 }
 
 /* The caller's thread is the first worker; one that cannot be started is done without. */
-static fg_status run_workers(job *job, fg_context *context, int threads)
+static fg_status run_workers(icon_job *job, fg_context *context, int threads)
 {
-  worker workers[MOST_THREADS] = {0};
-  workers[0] = (worker){.job = job, .context = context, .caller = context};
+  icon_worker workers[MOST_THREADS] = {0};
+  workers[0] = (icon_worker){.job = job, .context = context, .caller = context};
   fg_status status = FG_STATUS_OK;
   for (int i = 1; i < threads; i++) {
-    worker *worker = &workers[i];
+    icon_worker *worker = &workers[i];
     worker->job = job;
     if (fg_context_create(&worker->context) != FG_STATUS_OK)
       continue;
@@ -242,7 +243,7 @@ static fg_status run_workers(job *job, fg_context *context, int threads)
   work(&workers[0]);
   status = workers[0].status;
   for (int i = 1; i < threads; i++) {
-    worker *worker = &workers[i];
+    icon_worker *worker = &workers[i];
     if (worker->started)
       pthread_join(worker->thread, NULL);
     if (worker->status != FG_STATUS_OK && status == FG_STATUS_OK)
@@ -265,7 +266,8 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
   int threads = options && options->threads > 0 ? options->threads : 1;
   fg__labels labels = {0};
   fg_icons *icons = NULL;
-  job job = {.field = field, .density = fg_density_contents(density), .labels = &labels};
+  icon_job job = {
+      .field = field, .density = fg_density_contents(density), .labels = &labels};
   fg_status status = fg__labels_create(&labels, context, job.density);
   if (status != FG_STATUS_OK)
     return status;

@@ -179,17 +179,17 @@ static double mirrored_family(double x, double y)
 
 /* ---- the bench */
 
-typedef struct bench {
+typedef struct test_bench {
   fg_context *context;
   fg_field *field;
   fg_density *density;
   fg_icons *icons;
-} bench;
+} test_bench;
 
-static bench bench_with(velocity_of velocity, depth_of depth, const unsigned char *active,
-                        int threads)
+static test_bench bench_with(velocity_of velocity, depth_of depth,
+                             const unsigned char *active, int threads)
 {
-  bench bench = {0};
+  test_bench bench = {0};
   assert_int_equal(fg_context_create(&bench.context), FG_STATUS_OK);
   bench.field = field_of(bench.context, velocity);
   bench.density = density_of(bench.context, depth, active);
@@ -200,7 +200,7 @@ static bench bench_with(velocity_of velocity, depth_of depth, const unsigned cha
   return bench;
 }
 
-static void end_bench(bench *bench)
+static void end_bench(test_bench *bench)
 {
   fg_icons_destroy(bench->icons);
   fg_density_destroy(bench->density);
@@ -210,7 +210,7 @@ static void end_bench(bench *bench)
 
 /* What holds for every arrow: simple, inside its cluster and the domain, along the flow,
  * not wider than its length allows, its centre on it. */
-static void judge(const bench *bench, const fg_icon *icon, depth_of depth)
+static void judge(const test_bench *bench, const fg_icon *icon, depth_of depth)
 {
   double(*vertex)[2];
   int count;
@@ -237,9 +237,9 @@ static void judge(const bench *bench, const fg_icon *icon, depth_of depth)
   assert_true(icon->speed > 0 && icon->area > 0);
 }
 
-static bench bench_of(velocity_of velocity, depth_of depth)
+static test_bench bench_of(velocity_of velocity, depth_of depth)
 {
-  bench bench = bench_with(velocity, depth, NULL, 0);
+  test_bench bench = bench_with(velocity, depth, NULL, 0);
   for (int i = 0; i < fg_icons_count(bench.icons); i++)
     judge(&bench, fg_icons_at(bench.icons, i), depth);
   assert_int_equal(fg_icons_clusters(bench.icons),
@@ -248,7 +248,7 @@ static bench bench_of(velocity_of velocity, depth_of depth)
 }
 
 /* The one arrow of a bench with one cluster. */
-static const fg_icon *only_icon(const bench *bench)
+static const fg_icon *only_icon(const test_bench *bench)
 {
   assert_int_equal(fg_icons_clusters(bench->icons), 1);
   assert_int_equal(fg_icons_count(bench->icons), 1);
@@ -268,7 +268,7 @@ static double mean_radius(const fg_icon *icon)
 static void runs_along_a_grain(void **state)
 {
   (void)state;
-  bench bench = bench_of(uniform, grain);
+  test_bench bench = bench_of(uniform, grain);
   const fg_icon *icon = only_icon(&bench);
   assert_int_equal(icon->kind, FG_ICON_ARROW);
   assert_int_equal(icon->cluster, 1);
@@ -282,7 +282,7 @@ static void runs_along_a_grain(void **state)
 static void goes_round_a_vortex_core_at_half_radius(void **state)
 {
   (void)state;
-  bench bench = bench_of(vortex, disc);
+  test_bench bench = bench_of(vortex, disc);
   const fg_icon *icon = only_icon(&bench);
   assert_int_equal(icon->kind, FG_ICON_RING);
   double turning = icon_turning(icon); /* anticlockwise, like the vortex */
@@ -294,7 +294,7 @@ static void goes_round_a_vortex_core_at_half_radius(void **state)
 static void goes_round_a_ring_but_for_a_gap(void **state)
 {
   (void)state;
-  bench bench = bench_of(vortex, ring);
+  test_bench bench = bench_of(vortex, ring);
   const fg_icon *icon = only_icon(&bench);
   assert_int_equal(icon->kind, FG_ICON_RING);
   double turning = icon_turning(icon);
@@ -306,7 +306,7 @@ static void goes_round_a_ring_but_for_a_gap(void **state)
 static void follows_a_horseshoe(void **state)
 {
   (void)state;
-  bench bench = bench_of(vortex, horseshoe);
+  test_bench bench = bench_of(vortex, horseshoe);
   const fg_icon *icon = only_icon(&bench);
   assert_true(icon_length(icon) > 0.9 * 7 * 2 * 1.92);
   assert_true(fabs(mean_radius(icon) - 7) < 0.4);
@@ -316,7 +316,7 @@ static void follows_a_horseshoe(void **state)
 static void takes_one_branch_or_the_stem(void **state)
 {
   (void)state;
-  bench bench = bench_of(eastward, branches);
+  test_bench bench = bench_of(eastward, branches);
   const fg_icon *icon = only_icon(&bench);
   assert_true(icon_length(icon) > 10); /* the stem and what lies before it */
   assert_true(fabs(icon->points[0][1] - 20) < 0.8);
@@ -326,7 +326,7 @@ static void takes_one_branch_or_the_stem(void **state)
 static void takes_the_longest_way_through_a_stripe(void **state)
 {
   (void)state;
-  bench bench = bench_of(drifting, stripe);
+  test_bench bench = bench_of(drifting, stripe);
   const fg_icon *icon = only_icon(&bench);
   /* the flow crosses the stripe, 3 wide, at 0.14 radians */
   assert_true(icon_length(icon) > 0.6 * 3 / sin(0.14));
@@ -338,7 +338,7 @@ static void takes_the_longest_way_through_a_stripe(void **state)
 static void drops_slivers_and_counts_them(void **state)
 {
   (void)state;
-  bench bench = bench_of(uniform, border_slivers);
+  test_bench bench = bench_of(uniform, border_slivers);
   assert_int_equal(fg_icons_count(bench.icons), 0);
   assert_int_equal(fg_icons_clusters(bench.icons), 3);
   assert_int_equal(fg_icons_dropped(bench.icons), 3);
@@ -348,7 +348,7 @@ static void drops_slivers_and_counts_them(void **state)
 static void stays_inside_the_domain(void **state)
 {
   (void)state;
-  bench bench = bench_of(uniform, border_grain);
+  test_bench bench = bench_of(uniform, border_grain);
   assert_int_equal(fg_icons_count(bench.icons), 2);
   for (int i = 0; i < 2; i++)
     assert_true(icon_length(fg_icons_at(bench.icons, i)) > 4);
@@ -363,7 +363,7 @@ static void never_enters_a_mask(void **state)
   /* the grain is cut between x = 12 and 12.5: cells 88 and 89 of every row */
   for (int j = 0; j < SHAPE_NODES_Y - 1; j++)
     active[j * (SHAPE_NODES_X - 1) + 88] = active[j * (SHAPE_NODES_X - 1) + 89] = 0;
-  bench bench = bench_with(uniform, grain, active, 0);
+  test_bench bench = bench_with(uniform, grain, active, 0);
   assert_true(fg_icons_count(bench.icons) == 2);
   for (int i = 0; i < 2; i++) {
     const fg_icon *icon = fg_icons_at(bench.icons, i);
@@ -386,7 +386,7 @@ static void finds_a_way_past_a_stagnation_point(void **state)
   depth_of shapes[] = {blob, lens};
   for (int f = 0; f < 4; f++)
     for (int s = 0; s < 2; s++) {
-      bench bench = bench_of(flows[f], shapes[s]);
+      test_bench bench = bench_of(flows[f], shapes[s]);
       const fg_icon *icon = only_icon(&bench);
       assert_true(icon_length(icon) > 3);
       assert_true(fabs(icon_turning(icon)) < PI / 2 + 0.1);
@@ -401,7 +401,7 @@ static void keeps_its_promises_in_a_rough_field(void **state)
   depth_of shapes[] = {blob, lens, stripe, horseshoe, family};
   int drawn = 0;
   for (int i = 0; i < 5; i++) {
-    bench bench = bench_of(rough, shapes[i]);
+    test_bench bench = bench_of(rough, shapes[i]);
     drawn += fg_icons_count(bench.icons);
     end_bench(&bench);
   }
@@ -425,8 +425,8 @@ static void assert_same_line(const fg_icon *a, const fg_icon *b, bool mirror,
 static void mirrors_with_the_field(void **state)
 {
   (void)state;
-  bench plain = bench_of(vortex, family);
-  bench mirror = bench_of(mirrored_vortex, mirrored_family);
+  test_bench plain = bench_of(vortex, family);
+  test_bench mirror = bench_of(mirrored_vortex, mirrored_family);
   assert_int_equal(fg_icons_count(plain.icons), 4);
   assert_int_equal(fg_icons_count(mirror.icons), 4);
   for (int i = 0; i < 4; i++) {
@@ -446,8 +446,8 @@ static void mirrors_with_the_field(void **state)
 static void knows_no_unit_of_speed(void **state)
 {
   (void)state;
-  bench plain = bench_of(vortex, family);
-  bench fast = bench_of(fast_vortex, family);
+  test_bench plain = bench_of(vortex, family);
+  test_bench fast = bench_of(fast_vortex, family);
   for (int i = 0; i < fg_icons_count(plain.icons); i++) {
     const fg_icon *a = fg_icons_at(plain.icons, i), *b = fg_icons_at(fast.icons, i);
     assert_int_equal(a->point_count, b->point_count);
@@ -462,9 +462,9 @@ static void knows_no_unit_of_speed(void **state)
 static void is_the_same_on_any_number_of_threads(void **state)
 {
   (void)state;
-  bench one = bench_with(vortex, family, NULL, 1);
+  test_bench one = bench_with(vortex, family, NULL, 1);
   for (int threads = 2; threads <= 5; threads += 3) {
-    bench more = bench_with(vortex, family, NULL, threads);
+    test_bench more = bench_with(vortex, family, NULL, threads);
     assert_int_equal(fg_icons_count(one.icons), fg_icons_count(more.icons));
     for (int i = 0; i < fg_icons_count(one.icons); i++) {
       fg_icon a = *fg_icons_at(one.icons, i), b = *fg_icons_at(more.icons, i);

@@ -25,11 +25,11 @@ typedef struct centerline {
 } centerline;
 
 /* Polygon under construction: left side forwards, right side to be turned round. */
-typedef struct sides {
+typedef struct outline_sides {
   double (*left)[2];
   double (*right)[2];
   int count;
-} sides;
+} outline_sides;
 
 static void find_arc_lengths(centerline *line)
 {
@@ -90,7 +90,7 @@ static void find_limits(centerline *line)
 }
 
 /* Adds the two vertices at arc length s and half width w; *segment is where to look. */
-static void add_pair(sides *sides, const centerline *line, double s, double w,
+static void add_pair(outline_sides *sides, const centerline *line, double s, double w,
                      int *segment)
 {
   while (*segment > 0 && line->s[*segment] > s)
@@ -121,7 +121,7 @@ static double body_half_width(const fg_icon *icon, double s, double body_length)
   return (icon->tail_width + (icon->width - icon->tail_width) * t) / 2;
 }
 
-static void trace_sides(sides *sides, const centerline *line, const fg_icon *icon)
+static void trace_sides(outline_sides *sides, const centerline *line, const fg_icon *icon)
 {
   double length = line->s[line->count - 1];
   /* a foreign icon may be all head: leave it some body */
@@ -178,7 +178,7 @@ fg_status fg_icon_outline(const fg_icon *icon, double (**vertices)[2], int *coun
   fg_status status = FG_STATUS_MEMORY;
   double(*polygon)[2] = NULL;
   centerline line = {.point = icon->points, .count = icon->point_count};
-  sides sides = {0};
+  outline_sides sides = {0};
   line.s = fg__allocate(n, sizeof *line.s);
   line.normal = fg__allocate(n, sizeof *line.normal);
   line.limit = fg__allocate(n, sizeof *line.limit);

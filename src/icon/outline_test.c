@@ -6,14 +6,14 @@
 
 enum { MOST_POINTS = 200 };
 
-typedef struct drawing {
+typedef struct test_drawing {
   double point[MOST_POINTS][3];
   fg_icon icon;
   double (*vertex)[2];
   int count;
-} drawing;
+} test_drawing;
 
-static void set_numbers(drawing *drawing, int count, double width)
+static void set_numbers(test_drawing *drawing, int count, double width)
 {
   drawing->icon = (fg_icon){.point_count = count,
                             .points = (const double(*)[3])drawing->point,
@@ -23,13 +23,13 @@ static void set_numbers(drawing *drawing, int count, double width)
                             .head_width = 2.7 * width};
 }
 
-static void outline(drawing *drawing)
+static void outline(test_drawing *drawing)
 {
   assert_int_equal(fg_icon_outline(&drawing->icon, &drawing->vertex, &drawing->count),
                    FG_STATUS_OK);
 }
 
-static double area_of(const drawing *drawing)
+static double area_of(const test_drawing *drawing)
 {
   double area = 0;
   for (int i = 0; i < drawing->count; i++) {
@@ -39,7 +39,7 @@ static double area_of(const drawing *drawing)
   return area;
 }
 
-static bool contains(const drawing *drawing, double x, double y)
+static bool contains(const test_drawing *drawing, double x, double y)
 {
   bool inside = false;
   for (int i = 0; i < drawing->count; i++) {
@@ -51,7 +51,7 @@ static bool contains(const drawing *drawing, double x, double y)
 }
 
 /* An arc of a circle about (3, -7), from an angle on, anticlockwise. */
-static void set_arc(drawing *drawing, double radius, double from, double turning,
+static void set_arc(test_drawing *drawing, double radius, double from, double turning,
                     int count, double width)
 {
   for (int i = 0; i < count; i++) {
@@ -65,7 +65,7 @@ static void set_arc(drawing *drawing, double radius, double from, double turning
 static void has_the_sizes_it_says(void **state)
 {
   (void)state;
-  drawing drawing = {0};
+  test_drawing drawing = {0};
   /* along (0.8, 0.6), 20 long */
   for (int i = 0; i < 5; i++) {
     drawing.point[i][0] = 2 + 0.8 * 5 * i;
@@ -108,7 +108,7 @@ static void bends_with_the_line(void **state)
   } cases[] = {
       {30, 0.4, 1.1}, {9, 2.2, 1.1}, {4, 5.2, 0.9}, {4, -5.2, 0.9}, {2.5, 3, 1.4}};
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-    drawing drawing = {0};
+    test_drawing drawing = {0};
     set_arc(&drawing, cases[k].radius, 0.3, cases[k].turning, 120, cases[k].width);
     outline(&drawing);
     assert_true(is_simple((const double(*)[2])drawing.vertex, drawing.count));
@@ -127,7 +127,7 @@ static void bends_with_the_line(void **state)
 static void turns_and_mirrors_with_its_points(void **state)
 {
   (void)state;
-  drawing plain = {0}, turned = {0};
+  test_drawing plain = {0}, turned = {0};
   set_arc(&plain, 6, 0.3, 1.9, 40, 0.8);
   set_numbers(&turned, 40, 0.8);
   for (int i = 0; i < 40; i++) { /* (x, y) to (y, x): a mirror image */
@@ -152,7 +152,7 @@ static void turns_and_mirrors_with_its_points(void **state)
 static void stays_simple_on_foreign_icons(void **state)
 {
   (void)state;
-  drawing drawing = {.point = {{0, 0, 0}, {10, 0, 0}, {12, 7, 0}, {20, 6, 0}}};
+  test_drawing drawing = {.point = {{0, 0, 0}, {10, 0, 0}, {12, 7, 0}, {20, 6, 0}}};
   set_numbers(&drawing, 4, 1.2);
   outline(&drawing);
   assert_true(is_simple((const double(*)[2])drawing.vertex, drawing.count));
@@ -170,7 +170,7 @@ static void stays_simple_on_foreign_icons(void **state)
 static void refuses_what_is_no_arrow(void **state)
 {
   (void)state;
-  drawing drawing = {.point = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}};
+  test_drawing drawing = {.point = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}};
   set_numbers(&drawing, 3, 0.1); /* a point twice */
   assert_int_equal(fg_icon_outline(&drawing.icon, &drawing.vertex, &drawing.count),
                    FG_STATUS_ARGUMENT);

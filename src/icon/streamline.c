@@ -21,13 +21,13 @@ static const double STANDSTILL = 1e-6;
 /* Guards against a line that goes on by shortest steps only. */
 enum { LARGEST_NODE_COUNT = 20000, BISECTIONS = 24 };
 
-typedef struct tracer {
+typedef struct tracing {
   const fg_field *field;
   const fg__window *window;
   const fg__streamline_limits *limits;
   double standstill; /* speed in units of fg_field_tangent */
   double sign;       /* +1 with the flow, -1 against it */
-} tracer;
+} tracing;
 
 typedef struct trial {
   double position[2];
@@ -49,7 +49,7 @@ static double length_of(const double a[2])
 
 /* Unit vector of the way to go; false outside the domain and where the flow stands still.
  */
-static bool find_direction(const tracer *tracer, const double position[2],
+static bool find_direction(const tracing *tracer, const double position[2],
                            double direction[2])
 {
   double tangent[3] = {0};
@@ -65,7 +65,7 @@ static bool find_direction(const tracer *tracer, const double position[2],
 
 /* One step of the 3(2) pair from a position with known direction; false when a stage has
  * no direction or turns too far. */
-static bool try_step(const tracer *tracer, const double from[2], const double k1[2],
+static bool try_step(const tracing *tracer, const double from[2], const double k1[2],
                      double step, trial *out)
 {
   double k2[2], k3[2], point[2];
@@ -113,13 +113,13 @@ static void interpolate(const double p[2], const double d[2], const double q[2],
   tangent[1] = slope[1] / size;
 }
 
-static bool is_inside(const tracer *tracer, const double position[2])
+static bool is_inside(const tracing *tracer, const double position[2])
 {
   return fg__window_level(tracer->window, position) > 0;
 }
 
 /* Largest fraction of the step that is still inside, by bisection on the dense output. */
-static double find_border(const tracer *tracer, const fg__streamline_node *from,
+static double find_border(const tracing *tracer, const fg__streamline_node *from,
                           const trial *to, double step, double outside)
 {
   double inside = 0;
@@ -161,7 +161,7 @@ static fg__streamline_node node_after(const fg__streamline_node *from, const tri
 /* Goes one way from the last node; directions, s and turning are those of the way gone.
  */
 static fg_status trace_one_way(fg__streamline *line, fg_context *context,
-                               const tracer *tracer, fg__streamline_end *end)
+                               const tracing *tracer, fg__streamline_end *end)
 {
   const fg__streamline_limits *limits = tracer->limits;
   fg__streamline_node last = line->node[line->count - 1];
@@ -246,7 +246,7 @@ fg_status fg__streamline_trace(fg__streamline *out, fg_context *context,
   if (!(speed > 0) || !isfinite(speed))
     return FG_STATUS_OK;
 
-  tracer tracer = {field, window, limits, STANDSTILL * speed, -1};
+  tracing tracer = {field, window, limits, STANDSTILL * speed, -1};
   fg__streamline_node first = {.position = {start[0], start[1]},
                                .tangent = {-tangent[0] / speed, -tangent[1] / speed}};
   fg_status status = add_node(out, context, &first);

@@ -46,12 +46,12 @@ static void half(double x, double y, double v[2])
   v[1] = 0.1;
 }
 
-typedef struct bench {
+typedef struct test_bench {
   fg_context *context;
   fg_field *field;
   fg__window window;
   fg__streamline line;
-} bench;
+} test_bench;
 
 static double everywhere(double x, double y)
 {
@@ -66,9 +66,9 @@ static double beyond_line(double x, double y)
   return 0.8 * x + 0.6 * y - 14.2;
 }
 
-static bench bench_of(velocity_of velocity, depth_of depth)
+static test_bench bench_of(velocity_of velocity, depth_of depth)
 {
-  bench bench = {0};
+  test_bench bench = {0};
   assert_int_equal(fg_context_create(&bench.context), FG_STATUS_OK);
   bench.field = field_of(bench.context, velocity);
   fg__window *window = &bench.window;
@@ -89,7 +89,7 @@ static bench bench_of(velocity_of velocity, depth_of depth)
   return bench;
 }
 
-static void end_bench(bench *bench)
+static void end_bench(test_bench *bench)
 {
   fg__streamline_clear(&bench->line);
   free(bench->window.level);
@@ -98,7 +98,7 @@ static void end_bench(bench *bench)
   fg_context_destroy(bench->context);
 }
 
-static void trace(bench *bench, double x, double y, double step)
+static void trace(test_bench *bench, double x, double y, double step)
 {
   fg__streamline_limits limits = {step, 200, 5.236};
   double start[2] = {x, y};
@@ -108,7 +108,7 @@ static void trace(bench *bench, double x, double y, double step)
 }
 
 /* Largest deviation from the circle, dense output included. */
-static double circle_error(bench *bench, double radius)
+static double circle_error(test_bench *bench, double radius)
 {
   double worst = 0;
   int hint = 0;
@@ -127,7 +127,7 @@ static double circle_error(bench *bench, double radius)
 static void follows_a_circle(void **state)
 {
   (void)state;
-  bench bench = bench_of(vortex, everywhere);
+  test_bench bench = bench_of(vortex, everywhere);
   trace(&bench, CORE[0] + 4.2, CORE[1], SHAPE_SPACING);
   const fg__streamline *line = &bench.line;
   assert_int_equal(line->end[0], FG__STREAMLINE_TURNED);
@@ -145,7 +145,7 @@ static void follows_a_circle(void **state)
 static void is_of_third_order(void **state)
 {
   (void)state;
-  bench bench = bench_of(vortex, everywhere);
+  test_bench bench = bench_of(vortex, everywhere);
   double error[2], radius = 7.9;
   for (int i = 0; i < 2; i++) {
     trace(&bench, CORE[0], CORE[1] - radius, 0.7 / (1 << i));
@@ -159,7 +159,7 @@ static void is_of_third_order(void **state)
 static void follows_a_hyperbola_to_the_domain_border(void **state)
 {
   (void)state;
-  bench bench = bench_of(saddle, everywhere);
+  test_bench bench = bench_of(saddle, everywhere);
   trace(&bench, CORE[0] + 0.9, CORE[1] + 1.3, SHAPE_SPACING);
   const fg__streamline *line = &bench.line;
   for (int i = 0; i < line->count; i++) {
@@ -178,7 +178,7 @@ static void follows_a_hyperbola_to_the_domain_border(void **state)
 static void ends_on_the_zero_set(void **state)
 {
   (void)state;
-  bench bench = bench_of(uniform, beyond_line);
+  test_bench bench = bench_of(uniform, beyond_line);
   trace(&bench, 20.1, 12.3, SHAPE_SPACING);
   const fg__streamline *line = &bench.line;
   const double *tip = line->node[line->count - 1].position;
@@ -195,7 +195,7 @@ static void ends_where_the_flow_does(void **state)
   (void)state;
   velocity_of cases[] = {sink, reversal};
   for (int i = 0; i < 2; i++) {
-    bench bench = bench_of(cases[i], everywhere);
+    test_bench bench = bench_of(cases[i], everywhere);
     trace(&bench, CORE[0] + 3.1, CORE[1] - 0.4, SHAPE_SPACING);
     const fg__streamline *line = &bench.line;
     const double *tip = line->node[line->count - 1].position;
@@ -209,7 +209,7 @@ static void ends_where_the_flow_does(void **state)
 static void ends_at_missing_data_and_masks(void **state)
 {
   (void)state;
-  bench bench = bench_of(half, everywhere);
+  test_bench bench = bench_of(half, everywhere);
   trace(&bench, 14.7, 18.2, SHAPE_SPACING);
   const fg__streamline *line = &bench.line;
   double x = line->node[line->count - 1].position[0];
@@ -227,7 +227,7 @@ static void ends_at_missing_data_and_masks(void **state)
 static void gives_nothing_outside_and_at_rest(void **state)
 {
   (void)state;
-  bench bench = bench_of(uniform, beyond_line);
+  test_bench bench = bench_of(uniform, beyond_line);
   trace(&bench, 2, 8, SHAPE_SPACING);
   assert_int_equal(bench.line.count, 0);
   end_bench(&bench);
