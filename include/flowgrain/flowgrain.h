@@ -350,12 +350,15 @@ typedef struct fg_picture_options {
   double width;         /* of the whole picture, in points of 1/72 inch [480] */
   double height;        /* [0: follows from the domain's shape] */
   double pixels_per_point; /* for PNG [2] */
-  const char *palette;  /* name of a colour map, or "#rrggbb" for one colour [viridis-like] */
+  const char *palette;  /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
   double speed_min, speed_max; /* ends of the colour key; equal: from the icons */
   bool no_frame;        /* only mask and arrows */
   bool transparent;     /* no background */
   bool tint;            /* tint the clusters (density needed) */
   const char *title;    /* caption; NULL: from the field; "" none */
+  double font_size;     /* points [0: follows from the size; 9 at 480 points] */
+  bool no_keys;         /* no colour key, no arrow for the size */
+  const char *mask_color, *tint_color; /* "#rrggbb" [light grey, light blue] */
 } fg_picture_options;
 
 /* Names of the colour maps, ended by NULL. */

@@ -94,6 +94,15 @@ static int common_exponent(double largest)
   return (int)floor(log10(largest) + step_slack);
 }
 
+/* A name, an offset and a unit of UNITS_BYTES each always fit. */
+static void append(char out[FG__AXIS_BYTES], const char *text)
+{
+  size_t used = strlen(out);
+  size_t length = strlen(text);
+  if (used + length < FG__AXIS_BYTES)
+    memcpy(out + used, text, length + 1);
+}
+
 void fg__axis_of_numbers(fg__axis *out, double low, double high, double extent,
                          const char *name, const char *units)
 {
@@ -131,10 +140,12 @@ void fg__axis_of_numbers(fg__axis *out, double low, double high, double extent,
   snprintf(out->units, sizeof out->units, "%s%s%s", exponent ? TIMES : "", power, symbol);
   const char *shown_units =
       exponent && symbol[0] ? out->units + strlen(TIMES) : out->units;
+  append(out->label, shown_name);
   if (shown_name[0] && out->units[0])
-    snprintf(out->label, sizeof out->label, "%s (%s)", shown_name, shown_units);
-  else
-    snprintf(out->label, sizeof out->label, "%s%s", shown_name, shown_units);
+    append(out->label, " (");
+  append(out->label, shown_units);
+  if (shown_name[0] && out->units[0])
+    append(out->label, ")");
 }
 
 void fg__axis_of_degrees(fg__axis *out, double low, double high, fg__tick_style style)

@@ -1,0 +1,141 @@
+#include "picture/draw.h"
+
+#include <math.h>
+
+/* Ink for the frame and words: softer than black, so that the arrows come first. */
+static const fg__color ink = {0.15, 0.16, 0.18};
+static const fg__color quiet_ink = {0.40, 0.41, 0.43};
+
+/* Points. Journals ask for lines of at least half a point. */
+static const double frame_width = 0.6;
+static const double coast_width = 0.4;
+
+static void set_color(cairo_t *cairo, fg__color color)
+{
+  cairo_set_source_rgb(cairo, color.red, color.green, color.blue);
+}
+
+static void add_loop(cairo_t *cairo, const fg__polygons *polygons, size_t loop)
+{
+  for (size_t n = polygons->start[loop]; n < polygons->start[loop + 1]; ++n)
+    cairo_line_to(cairo, polygons->point[n][0], polygons->point[n][1]);
+  cairo_close_path(cairo);
+}
+
+static void add_all(cairo_t *cairo, const fg__polygons *polygons)
+{
+  for (size_t loop = 0; loop < polygons->count; ++loop)
+    add_loop(cairo, polygons, loop);
+}
+
+static fg__color darker(fg__color color, double share)
+{
+  return (fg__color){share * color.red, share * color.green, share * color.blue};
+}
+
+static void draw_areas(cairo_t *cairo, const fg__scene *scene, const fg__style *style)
+{
+  if (scene->tint.count) {
+    add_all(cairo, &scene->tint);
+    set_color(cairo, style->tint);
+    cairo_fill(cairo);
+  }
+  if (scene->mask.count) {
+    add_all(cairo, &scene->mask);
+    set_color(cairo, style->mask);
+    cairo_fill_preserve(cairo);
+    cairo_set_line_width(cairo, coast_width);
+    set_color(cairo, darker(style->mask, 0.78));
+    cairo_stroke(cairo);
+  }
+}
+
+static void draw_arrows(cairo_t *cairo, const fg__scene *scene)
+{
+  for (size_t loop = 0; loop < scene->arrows.count; ++loop) {
+    add_loop(cairo, &scene->arrows, loop);
+    set_color(cairo, scene->arrow_color[loop]);
+    cairo_fill(cairo);
+  }
+}
+
+static void add_box(cairo_t *cairo, const fg__box *box)
+{
+  cairo_rectangle(cairo, box->x0, box->y0, box->x1 - box->x0, box->y1 - box->y0);
+}
+
+static void draw_color_key(cairo_t *cairo, const fg__page *page,
+                           const fg__palette *palette)
+{
+  const fg__box *key = &page->color_key;
+  cairo_pattern_t *ramp = page->color_key_upright
+                              ? cairo_pattern_create_linear(0.0, key->y1, 0.0, key->y0)
+                              : cairo_pattern_create_linear(key->x0, 0.0, key->x1, 0.0);
+  for (int k = 0; k < FG__PALETTE_SAMPLES; ++k) {
+    fg__color color = palette->sample[k];
+    cairo_pattern_add_color_stop_rgb(ramp, (double)k / (FG__PALETTE_SAMPLES - 1),
+                                     color.red, color.green, color.blue);
+  }
+  add_box(cairo, key);
+  cairo_set_source(cairo, ramp);
+  cairo_fill_preserve(cairo);
+  cairo_pattern_destroy(ramp);
+  cairo_set_line_width(cairo, frame_width);
+  set_color(cairo, ink);
+  cairo_stroke(cairo);
+}
+
+static void draw_lines(cairo_t *cairo, const fg__page *page)
+{
+  cairo_set_line_width(cairo, frame_width);
+  set_color(cairo, ink);
+  if (page->framed)
+    add_box(cairo, &page->frame);
+  for (int k = 0; k < page->line_count; ++k) {
+    cairo_move_to(cairo, page->line[k].x0, page->line[k].y0);
+    cairo_line_to(cairo, page->line[k].x1, page->line[k].y1);
+  }
+  cairo_stroke(cairo);
+}
+
+static void draw_texts(cairo_t *cairo, const fg__page *page)
+{
+  for (int k = 0; k < page->text_count; ++k) {
+    const fg__page_text *text = &page->text[k];
+    set_color(cairo, text->quiet ? quiet_ink : ink);
+    cairo_save(cairo);
+    cairo_translate(cairo, text->x, text->y);
+    if (text->upwards)
+      cairo_rotate(cairo, -0.5 * acos(-1.0));
+    cairo_move_to(cairo, 0.0, 0.0);
+    fg__text_draw(cairo, text->text, text->size, text->bold);
+    cairo_restore(cairo);
+  }
+}
+
+void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
+              const fg__palette *palette, const fg__style *style)
+{
+  if (!style->transparent) {
+    cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+    cairo_rectangle(cairo, 0.0, 0.0, page->width, page->height);
+    cairo_fill(cairo);
+  }
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+  cairo_save(cairo);
+  add_box(cairo, &page->frame);
+  cairo_clip(cairo);
+  draw_areas(cairo, scene, style);
+  draw_arrows(cairo, scene);
+  cairo_restore(cairo);
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
+  if (page->has_color_key)
+    draw_color_key(cairo, page, palette);
+  draw_lines(cairo, page);
+  if (page->has_size_key && scene->reference.count) {
+    add_all(cairo, &scene->reference);
+    set_color(cairo, quiet_ink);
+    cairo_fill(cairo);
+  }
+  draw_texts(cairo, page);
+}

@@ -1,0 +1,16 @@
+/* Puts a page and its scene on a Cairo surface. */
+#ifndef FG__DRAW_H
+#define FG__DRAW_H
+
+#include "picture/scene.h"
+
+typedef struct fg__style {
+  fg__color mask, tint;
+  bool transparent;
+} fg__style;
+
+/* Draws in points; what went wrong is in the context's status. */
+void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
+              const fg__palette *palette, const fg__style *style);
+
+#endif

@@ -1,0 +1,352 @@
+#include "picture/draw.h"
+#include "picture/output.h"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/memory.h"
+
+/* A0 paper is 3370 points high; a page six times that is a mistake. */
+static const double largest_page = 20000.0;
+static const double usual_pixels_per_point = 2.0;
+
+/* Cairo's image surfaces end at 32767 pixels a side; 2^28 pixels take 1 GiB. */
+static const double most_pixels_a_side = 32767.0;
+static const double most_pixels = 268435456.0;
+
+static const fg__color usual_mask = {0.855, 0.855, 0.845};
+static const fg__color usual_tint = {0.845, 0.895, 0.950};
+
+typedef enum picture_format {
+  PICTURE_SVG,
+  PICTURE_PDF,
+  PICTURE_PNG,
+  PICTURE_UNKNOWN
+} picture_format;
+
+static picture_format format_of(const char *path)
+{
+  static const char *const ends[] = {".svg", ".pdf", ".png"};
+  size_t length = strlen(path);
+  for (int k = 0; k < PICTURE_UNKNOWN; ++k)
+    if (length > 4 && strcasecmp(path + length - 4, ends[k]) == 0)
+      return (picture_format)k;
+  return PICTURE_UNKNOWN;
+}
+
+/* Checked so that NaN fails too. */
+static bool size_usable(double size)
+{
+  return size >= 0.0 && size <= largest_page;
+}
+
+static fg_status check_options(fg_context *context, const fg_picture_options *options)
+{
+  if (!size_usable(options->width) || !size_usable(options->height))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: %g x %g points, each must lie between 0 and %g",
+                    options->width, options->height, largest_page);
+  if (!(options->pixels_per_point >= 0.0) || !isfinite(options->pixels_per_point))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: %g pixels a point, a positive number is needed",
+                    options->pixels_per_point);
+  if (!(options->font_size >= 0.0) || options->font_size > largest_page)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: a font of %g points, it must lie between 0 and %g",
+                    options->font_size, largest_page);
+  if (!isfinite(options->speed_min) || !isfinite(options->speed_max) ||
+      options->speed_max < options->speed_min)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: the colour key cannot run from %g to %g",
+                    options->speed_min, options->speed_max);
+  return FG_STATUS_OK;
+}
+
+static fg_status choose_color(fg__color *out, fg_context *context, const char *text,
+                              fg__color usual)
+{
+  *out = usual;
+  if (!text || fg__color_read(out, text))
+    return FG_STATUS_OK;
+  return fg__fail(context, FG_STATUS_ARGUMENT, "picture: no colour '%.40s'; use #rrggbb",
+                  text);
+}
+
+/* Ends of the colour key: what was asked for, or the icons' speeds, rounded out to ticks.
+ */
+static bool find_speeds(double range[2], const fg_icons *icons,
+                        const fg_picture_options *options)
+{
+  int count = fg_icons_count(icons);
+  range[0] = options->speed_min;
+  range[1] = options->speed_max;
+  if (range[1] > range[0])
+    return true;
+  range[0] = HUGE_VAL;
+  range[1] = -HUGE_VAL;
+  for (int n = 0; n < count; ++n) {
+    double speed = fg_icons_at(icons, n)->speed;
+    if (!isfinite(speed))
+      continue;
+    range[0] = fmin(range[0], speed);
+    range[1] = fmax(range[1], speed);
+  }
+  if (!(range[1] >= range[0])) {
+    range[0] = 0.0;
+    range[1] = 1.0;
+    return false;
+  }
+  /* Speeds that differ by rounding are equal: nothing to tell apart. */
+  if (!(range[1] - range[0] > 1e-6 * range[1])) {
+    range[0] = 0.0;
+    range[1] = range[1] > 0.0 ? range[1] : 1.0;
+  }
+  fg__axis plain = {.style = FG__TICKS_NUMBER, .factor = 1.0};
+  double step = fg__ticks_step(&plain, (range[1] - range[0]) / 6.0);
+  range[0] = floor(range[0] / step * (1.0 + 1e-9)) * step;
+  range[1] = ceil(range[1] / step * (1.0 - 1e-9)) * step;
+  return true;
+}
+
+static void describe_axes(fg__page_plan *plan, const fg_field_arrays *field)
+{
+  double low[2], high[2];
+  fg__scene_box(low, high, field);
+  if (field->scale == FG_SCALE_GEO) {
+    fg__axis_of_degrees(&plan->axis[0], low[0], high[0], FG__TICKS_LONGITUDE);
+    fg__axis_of_degrees(&plan->axis[1], low[1], high[1], FG__TICKS_LATITUDE);
+    return;
+  }
+  bool shared = strcmp(field->axis_units[0], field->axis_units[1]) == 0;
+  double larger = fmax(high[0] - low[0], high[1] - low[1]);
+  for (int k = 0; k < 2; ++k)
+    fg__axis_of_numbers(&plan->axis[k], low[k], high[k],
+                        shared ? larger : high[k] - low[k], field->axis_name[k],
+                        field->axis_units[k]);
+}
+
+/* Adds a part of the subtitle after a middle dot. */
+static void add_part(char text[FG__PAGE_TEXT_BYTES], const char *part)
+{
+  char clean[FG__PAGE_TEXT_BYTES];
+  if (!part || !part[0])
+    return;
+  fg__text_clean(clean, sizeof clean, part);
+  size_t used = strlen(text);
+  if (used + strlen(clean) + 5 < FG__PAGE_TEXT_BYTES)
+    snprintf(text + used, FG__PAGE_TEXT_BYTES - used, "%s%s", used ? " \xC2\xB7 " : "",
+             clean);
+}
+
+static void describe_caption(fg__page_plan *plan, const fg_field_arrays *field,
+                             const fg_icons *icons, const char *title)
+{
+  if (title) {
+    fg__text_clean(plan->title, sizeof plan->title, title);
+    return;
+  }
+  char names[FG__PAGE_TEXT_BYTES];
+  snprintf(names, sizeof names, "%.100s, %.100s", field->velocity_name[0],
+           field->velocity_name[1]);
+  bool telling = strcmp(names, "u, v") != 0 &&
+                 strcmp(field->velocity_name[0], field->velocity_name[1]) != 0;
+  fg__text_clean(plan->title, sizeof plan->title, field->title);
+  if (!plan->title[0] && telling)
+    fg__text_clean(plan->title, sizeof plan->title, names);
+  else if (telling)
+    add_part(plan->subtitle, names);
+  add_part(plan->subtitle, field->time);
+  add_part(plan->subtitle, field->level);
+  char arrows[40];
+  int count = fg_icons_count(icons);
+  snprintf(arrows, sizeof arrows, "%d arrow%s", count, count == 1 ? "" : "s");
+  add_part(plan->subtitle, arrows);
+}
+
+/* Everything that one picture is made from. */
+typedef struct picture {
+  fg__page_plan plan;
+  fg__page page;
+  fg__palette palette;
+  fg__style style;
+  fg__scene scene;
+  double pixels_per_point;
+} picture;
+
+static fg_status plan_picture(picture *out, fg_context *context,
+                              const fg_field_arrays *field, const fg_icons *icons,
+                              const fg_picture_options *options)
+{
+  double range[2];
+  fg__page_plan *plan = &out->plan;
+  plan->width = options->width;
+  plan->height = options->height;
+  plan->font_size = options->font_size;
+  plan->no_frame = options->no_frame;
+  bool has_speeds = find_speeds(range, icons, options);
+  plan->color_key = has_speeds && !out->palette.uniform && !options->no_keys;
+  fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0], "mean speed",
+                      field->velocity_units);
+  describe_axes(plan, field);
+  describe_caption(plan, field, icons, options->title);
+  const fg_icon *typical;
+  fg_status status = fg__scene_typical_icon(&typical, context, icons);
+  if (status)
+    return status;
+  plan->size_key = typical && !options->no_keys;
+  plan->arrow_length = typical ? fg__icon_length(typical) : 0.0;
+  return FG_STATUS_OK;
+}
+
+static fg_status lay_out(picture *out, fg_context *context)
+{
+  cairo_t *ruler = fg__text_ruler();
+  fg__page_layout(&out->page, &out->plan, ruler);
+  cairo_status_t trouble = cairo_status(ruler);
+  cairo_destroy(ruler);
+  if (trouble == CAIRO_STATUS_NO_MEMORY)
+    return fg__fail_memory(context, "a page's layout", sizeof out->page);
+  if (trouble)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED, "picture: no text can be drawn: %s",
+                    cairo_status_to_string(trouble));
+  if (!(out->page.width <= largest_page && out->page.height <= largest_page))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: the domain's shape needs a page of %g x %g points, at most "
+                    "%g are drawn",
+                    out->page.width, out->page.height, largest_page);
+  return FG_STATUS_OK;
+}
+
+static fg_status check_pixels(fg_context *context, const picture *p)
+{
+  double wide = ceil(p->page.width * p->pixels_per_point);
+  double high = ceil(p->page.height * p->pixels_per_point);
+  if (wide <= most_pixels_a_side && high <= most_pixels_a_side &&
+      wide * high <= most_pixels)
+    return FG_STATUS_OK;
+  return fg__fail(context, FG_STATUS_ARGUMENT,
+                  "picture: %g x %g pixels, at most %g a side and %g in all are drawn",
+                  wide, high, most_pixels_a_side, most_pixels);
+}
+
+static cairo_surface_t *create_surface(picture_format format, const picture *p,
+                                       fg__output *output)
+{
+  const fg__page *page = &p->page;
+  if (format == PICTURE_SVG) {
+    cairo_surface_t *surface = cairo_svg_surface_create_for_stream(
+        fg__output_write, output, page->width, page->height);
+    cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PT);
+    return surface;
+  }
+  if (format == PICTURE_PDF) {
+    cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
+        fg__output_write, output, page->width, page->height);
+    /* Two runs shall give the same bytes. */
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, p->plan.title);
+    return surface;
+  }
+  double pixels = p->pixels_per_point;
+  return cairo_image_surface_create(CAIRO_FORMAT_ARGB32,
+                                    (int)fmax(ceil(page->width * pixels), 1.0),
+                                    (int)fmax(ceil(page->height * pixels), 1.0));
+}
+
+static fg_status status_of(fg_context *context, cairo_status_t trouble,
+                           const fg__output *output)
+{
+  if (trouble == CAIRO_STATUS_SUCCESS || output->error)
+    return FG_STATUS_OK; /* closing the output reports its own error */
+  if (trouble == CAIRO_STATUS_NO_MEMORY)
+    return fg__fail_memory(context, "a picture", 0);
+  return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: cannot be drawn: %s", output->path,
+                  cairo_status_to_string(trouble));
+}
+
+static fg_status render(fg_context *context, const char *path, picture_format format,
+                        const picture *p)
+{
+  fg__output output;
+  fg_status status = fg__output_open(&output, context, path);
+  if (status)
+    return status;
+  cairo_surface_t *surface = create_surface(format, p, &output);
+  cairo_t *cairo = cairo_create(surface);
+  if (format == PICTURE_PNG)
+    cairo_scale(cairo, p->pixels_per_point, p->pixels_per_point);
+  fg__draw(cairo, &p->page, &p->scene, &p->palette, &p->style);
+  cairo_show_page(cairo);
+  cairo_status_t trouble = cairo_status(cairo);
+  cairo_destroy(cairo);
+  if (!trouble && format == PICTURE_PNG)
+    trouble = cairo_surface_write_to_png_stream(surface, fg__output_write, &output);
+  cairo_surface_finish(surface);
+  if (!trouble)
+    trouble = cairo_surface_status(surface);
+  cairo_surface_destroy(surface);
+  status = status_of(context, trouble, &output);
+  return fg__output_close(&output, context, status);
+}
+
+static fg_status prepare(picture *p, fg_context *context, const fg_field_arrays *field,
+                         const fg_icons *icons, const fg_picture_options *options)
+{
+  fg_status status = check_options(context, options);
+  if (!status)
+    status = fg__palette_create(&p->palette, context, options->palette);
+  if (!status)
+    status = choose_color(&p->style.mask, context, options->mask_color, usual_mask);
+  if (!status)
+    status = choose_color(&p->style.tint, context, options->tint_color, usual_tint);
+  p->style.transparent = options->transparent;
+  p->pixels_per_point = options->pixels_per_point > 0.0 ? options->pixels_per_point
+                                                        : usual_pixels_per_point;
+  if (!status)
+    status = plan_picture(p, context, field, icons, options);
+  if (!status)
+    status = lay_out(p, context);
+  return status;
+}
+
+fg_status fg_picture_write(fg_context *context, const char *path, const fg_field *field,
+                           const fg_density *density, const fg_icons *icons,
+                           const fg_picture_options *options)
+{
+  static const fg_picture_options usual = {0};
+  if (!path || !field || !icons)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "picture: a NULL argument");
+  if (!options)
+    options = &usual;
+  picture_format format = format_of(path);
+  if (format == PICTURE_UNKNOWN) {
+    fg_status status = fg__fail(context, FG_STATUS_UNSUPPORTED,
+                                "%s: pictures are written as .svg, .pdf or .png", path);
+    return status;
+  }
+  if (options->tint && !density)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: a tint of the clusters needs their density");
+  const fg_field_arrays *contents = fg_field_contents(field);
+  picture *p = fg__allocate(1, sizeof *p);
+  if (!p)
+    return fg__fail_memory(context, "a picture", sizeof *p);
+  fg_status status = prepare(p, context, contents, icons, options);
+  if (!status && format == PICTURE_PNG)
+    status = check_pixels(context, p);
+  const double range[2] = {p->plan.speed.low, p->plan.speed.high};
+  if (!status)
+    status = fg__scene_create(&p->scene, context, &p->page, contents,
+                              options->tint ? fg_density_contents(density) : NULL, icons,
+                              &p->palette, range);
+  if (!status)
+    status = render(context, path, format, p);
+  fg__scene_clear(&p->scene);
+  free(p);
+  return status;
+}

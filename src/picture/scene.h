@@ -1,0 +1,35 @@
+/* What a picture shows inside its frame, as polygons on the page. */
+#ifndef FG__SCENE_H
+#define FG__SCENE_H
+
+#include "picture/contour.h"
+#include "picture/page.h"
+#include "picture/palette.h"
+
+typedef struct fg__scene {
+  fg__polygons mask;   /* masked places */
+  fg__polygons tint;   /* clusters */
+  fg__polygons arrows; /* a loop each */
+  fg__color *arrow_color;
+  fg__polygons reference; /* the arrow of the size key */
+} fg__scene;
+
+/* The field's box in its coordinates, x then y. */
+void fg__scene_box(double low[2], double high[2], const fg_field_arrays *field);
+
+/* Length of an arrow's centreline. */
+double fg__icon_length(const fg_icon *icon);
+
+/* The icon whose length is the median; NULL without icons. MEMORY. */
+fg_status fg__scene_typical_icon(const fg_icon **out, fg_context *context,
+                                 const fg_icons *icons);
+
+/* Makes the polygons. density: NULL for no tint. range: speeds at the palette's ends.
+ * MEMORY. */
+fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *page,
+                           const fg_field_arrays *field, const fg_density_arrays *density,
+                           const fg_icons *icons, const fg__palette *palette,
+                           const double range[2]);
+void fg__scene_clear(fg__scene *scene);
+
+#endif
