@@ -1,7 +1,7 @@
 /* Every vector width gives the same bits. */
 #include "evolve/reference_test.h"
 
-enum { MOST_KERNELS = 3, SUMS = 3 };
+enum { MOST_KERNELS = 3, SUMS = 4 };
 
 static int kernels_of_this_machine(const fg__kernel *kernels[MOST_KERNELS])
 {
@@ -97,10 +97,11 @@ static void changes(const fg__kernel *kernel, const fg__level *fine,
                     const fg__level *coarse, double sums[SUMS])
 {
   (void)coarse;
-  fg__changes result = kernel->changes(fine, fine->u, fine->w, fine->p);
+  fg__changes result = kernel->changes(fine, fine->u, fine->w, fine->p, fine->p);
   sums[0] = result.u;
   sums[1] = result.from_a;
   sums[2] = result.from_b;
+  sums[3] = result.along;
 }
 
 static void extrapolate(const fg__kernel *kernel, const fg__level *fine,

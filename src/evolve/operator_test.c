@@ -221,7 +221,8 @@ static void sums_are_integrals(const problem *p)
   assert_true(fabs(cell * sums.u - mass) < ROUNDING * fabs(mass));
   put(p, level->w, a);
   put(p, level->p, b);
-  fg__changes changes = p->multigrid.kernel->changes(level, level->u, level->w, level->p);
+  fg__changes changes =
+      p->multigrid.kernel->changes(level, level->u, level->w, level->p, level->p);
   for (size_t n = 0; n < p->nodes; ++n) {
     a[n] -= u[n];
     b[n] -= u[n];
@@ -230,6 +231,9 @@ static void sums_are_integrals(const problem *p)
   assert_true(fabs(cell * changes.u - mass) < ROUNDING * fabs(mass));
   assert_true(fabs(cell * changes.from_a - from_a) < ROUNDING * from_a);
   assert_true(fabs(cell * changes.from_b - from_b) < ROUNDING * from_b);
+  /* now a and b are differences to u: (u - a)(a - b) */
+  double along = inner_product(p, a, b) - from_a;
+  assert_true(fabs(cell * changes.along - along) < ROUNDING * (from_a + from_b));
   free(u);
   free(a);
   free(b);
@@ -285,7 +289,7 @@ static void defect_keeps_its_integral(const problem *p)
   put(p, fine->p, rhs);
   p->multigrid.kernel->restrict_defect(fine, fine->w, coarse, coarse->p, (float)tau);
   double restricted =
-      p->multigrid.kernel->changes(coarse, coarse->p, coarse->p, coarse->p).u *
+      p->multigrid.kernel->changes(coarse, coarse->p, coarse->p, coarse->p, coarse->p).u *
       coarse->spacing[0] * coarse->spacing[1];
   double wanted = integral(p, rhs) - integral(p, u);
   assert_true(fabs(restricted - wanted) < ROUNDING * (norm(p, rhs) + norm(p, u)));
