@@ -14,16 +14,19 @@
 fg_status fg__march(double *distance, fg_context *context, const fg__window *window,
                     bool domain_border_counts);
 
-/* A polyline along the ridge of the distance map, through the cluster from end to end. */
+/* A line along the ridge of the distance map, through the cluster from border to border:
+ * the longest way through it, round the largest hole if that is longer. A cluster hardly
+ * longer than wide gets the chord through its middle along its principal axis. */
 typedef struct fg__spine {
-  int count;
+  int count;          /* at least 1 */
   double (*point)[2]; /* input coordinates, evenly spaced by about one cell */
   double *distance;   /* distance to the border at each point */
   bool closed;        /* a ring: point[count - 1] is next to point[0] */
-  double length;      /* input coordinates */
-  int center;         /* index of the middle by arc length */
+  double length;      /* input coordinates; of a ring all round */
+  int center;         /* index of the middle by arc length; of a ring its widest point */
 } fg__spine;
 
+/* MEMORY, ARGUMENT (a window without a positive node). */
 fg_status fg__spine_create(fg__spine *out, fg_context *context, const fg__window *window,
                            const double *distance);
 void fg__spine_clear(fg__spine *spine);
