@@ -17,6 +17,7 @@ static void set_color(cairo_t *cairo, fg__color color)
 
 static void add_loop(cairo_t *cairo, const fg__polygons *polygons, size_t loop)
 {
+  cairo_new_sub_path(cairo);
   for (size_t n = polygons->start[loop]; n < polygons->start[loop + 1]; ++n)
     cairo_line_to(cairo, polygons->point[n][0], polygons->point[n][1]);
   cairo_close_path(cairo);

@@ -86,11 +86,9 @@ double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *tex
                                  double x, double y);
 void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y1);
 
-/* Ticks of an axis of `length` points that lie at least `spacing` apart, so that their
- * labels keep a distance; count is 0 when not even one fits. */
+/* Ticks of an axis of `length` points whose labels keep a distance. */
 void fg__page_choose_ticks(fg__ticks *out, const fg__axis *axis, cairo_t *ruler,
                            double length, double font_size, bool upright);
-double fg__page_widest_label(const fg__ticks *ticks, cairo_t *ruler, double font_size);
 
 /* Which parts a page has. */
 typedef struct fg__page_parts {

@@ -9,18 +9,12 @@ static const double label_gap = 0.3;
 static const double word_gap = 0.8;
 static const double half_digit = 0.36;
 
-/* Distance of ticks in units of the font size that reads easily, and the most ticks. */
-static const double spacing_along = 5.0;
-static const double spacing_upright = 3.6;
-enum { USUAL_TICKS = 12, TRIES = 16 };
-
-double fg__page_widest_label(const fg__ticks *ticks, cairo_t *ruler, double font_size)
-{
-  double widest = 0.0;
-  for (int k = 0; k < ticks->count; ++k)
-    widest = fmax(widest, fg__text_width(ruler, ticks->text[k], font_size, false));
-  return widest;
-}
+/* Distance of ticks in units of the font size that reads easily; what short axes with
+ * fewer than FEW_TICKS ticks may go down to; and the most ticks. */
+static const double usual_spacing = 5.0;
+static const double usual_spacing_upright = 4.2;
+static const double least_spacing_upright = 2.6;
+enum { USUAL_TICKS = 12, FEW_TICKS = 4, TRIES = 16 };
 
 static bool labels_fit(const fg__ticks *ticks, const fg__axis *axis, cairo_t *ruler,
                        double length, double font_size, bool upright)
@@ -44,7 +38,7 @@ void fg__page_choose_ticks(fg__ticks *out, const fg__axis *axis, cairo_t *ruler,
                            double length, double font_size, bool upright)
 {
   double range = axis->high - axis->low;
-  double spacing = (upright ? spacing_upright : spacing_along) * font_size;
+  double spacing = (upright ? usual_spacing_upright : usual_spacing) * font_size;
   double step = fg__ticks_step(axis, fmax(range * spacing / length, range / USUAL_TICKS));
   for (int k = 0; k < TRIES; ++k) {
     fg__ticks_fill(out, axis, step);
@@ -53,12 +47,13 @@ void fg__page_choose_ticks(fg__ticks *out, const fg__axis *axis, cairo_t *ruler,
     step = fg__ticks_step(axis, 1.05 * step);
     out->count = 0;
   }
-  /* A short axis: rather close ticks than one or none. */
-  for (int k = 0; k < TRIES && out->count < 2; ++k) {
+  for (int k = 0; k < TRIES && out->count < FEW_TICKS; ++k) {
     fg__ticks finer;
     step = fg__ticks_step_below(axis, step);
+    bool close = upright && step * length < least_spacing_upright * font_size * range;
     fg__ticks_fill(&finer, axis, step);
-    if (!labels_fit(&finer, axis, ruler, length, font_size, upright))
+    if ((close && out->count >= 2) ||
+        !labels_fit(&finer, axis, ruler, length, font_size, upright))
       break;
     *out = finer;
   }

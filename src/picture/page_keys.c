@@ -11,7 +11,7 @@ static const double half_digit = 0.36;
 static const double line_height = 1.25;
 static const double key_gap = 1.4;      /* between the frame's labels and a key */
 static const double shortest_bar = 6.0; /* two ticks and their labels */
-static const double longest_bar = 30.0; /* longer ones only draw the eye */
+static const double longest_bar = 36.0; /* longer ones only draw the eye */
 static const double widest_arrow = 7.0;
 static const double shortest_arrow = 0.8;
 
