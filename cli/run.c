@@ -275,12 +275,12 @@ static int finish_drawing(cli_run *run)
              run->settings->operand, step->time);
     return EXIT_INTERRUPTED;
   }
-  complain(
-      "%s: no clusters yet after %ld steps at t = %.3g: they cover %.3g of the area, "
-      "and are counted from %.3g on",
-      run->settings->operand, step->step, step->time, step->area_fraction,
-      0.8 * run->facts.mesh->coverage);
-  fputs("Raise --max-steps or --max-time.\n", stderr);
+  bool settled = strcmp(run->facts.ended, "stationary") == 0;
+  complain("%s: no clusters after %ld steps, at t = %.3g: %s", run->settings->operand,
+           step->step, step->time,
+           settled ? "the pattern no longer changes" : "they are still forming");
+  fputs(settled ? "Raise --nodes or --coverage.\n" : "Raise --max-steps or --max-time.\n",
+        stderr);
   return EXIT_FAILED;
 }
 

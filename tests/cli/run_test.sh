@@ -115,7 +115,7 @@ done_with "--max-time ends the run"
 try run synth:vortex3 -o out8 --nodes 97 --max-steps 1 --quiet
 expect_code 1
 expect_one_complaint
-expect_error 'no clusters yet after 1 step'
+expect_error 'no clusters after 1 steps'
 expect_nothing_at out8
 done_with "a run that ends before there are clusters says so and leaves nothing"
 

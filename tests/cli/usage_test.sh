@@ -55,7 +55,7 @@ done_with "synth: unknown format"
 
 try --help
 expect_code 0
-[ "$(grep -c 'flowgrain run' out)" -ge 1 ] || fault "run is not listed"
+[ "$(grep -c '^  run  ' out)" -ge 1 ] || fault "run is not listed"
 done_with "--help"
 try --version
 expect_code 0
