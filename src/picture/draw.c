@@ -119,8 +119,7 @@ void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
 {
   if (!style->transparent) {
     cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
-    cairo_rectangle(cairo, 0.0, 0.0, page->width, page->height);
-    cairo_fill(cairo);
+    cairo_paint(cairo); /* pixels that reach past the page's edge, too */
   }
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
   cairo_save(cairo);

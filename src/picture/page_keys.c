@@ -18,15 +18,15 @@ static const double shortest_arrow = 0.8;
 /* What the size of an arrow stands for: the cluster that it was made from. */
 static const char size_words[] = "region length";
 
-/* The reference arrow: a nice length, no longer than the arrows usually are. Returns its
- * length in coordinates, 0 when it would be too short to see. */
+/* The reference arrow: a nice length near that of a typical arrow, as far as there is
+ * room. Returns its length in coordinates, 0 when it would be too short to see. */
 static double reference_length(const fg__page *page, const fg__page_plan *plan)
 {
   const double em = page->font_size;
-  double most = fmin(plan->arrow_length, widest_arrow * em / page->scale);
-  double length = fg__ticks_step(&plan->axis[0], most);
-  if (length > most * 1.000001)
-    length = fg__ticks_step_below(&plan->axis[0], length);
+  double most = widest_arrow * em / page->scale;
+  /* nice lengths are at most a factor 2.5 apart: from 0.65 to 1.6 of the typical */
+  double length =
+      fg__ticks_step(&plan->axis[0], 0.65 * fmin(plan->arrow_length, most / 1.6));
   return length * page->scale >= shortest_arrow * em ? length : 0.0;
 }
 

@@ -194,12 +194,12 @@ static fg_status plan_picture(picture *out, fg_context *context,
                       field->velocity_units);
   describe_axes(plan, field);
   describe_caption(plan, field, icons, options->title);
-  const fg_icon *typical;
+  fg__typical_icon typical;
   fg_status status = fg__scene_typical_icon(&typical, context, icons);
   if (status)
     return status;
-  plan->size_key = typical && !options->no_keys;
-  plan->arrow_length = typical ? fg__icon_length(typical) : 0.0;
+  plan->size_key = typical.length > 0.0 && !options->no_keys;
+  plan->arrow_length = typical.length;
   return FG_STATUS_OK;
 }
 

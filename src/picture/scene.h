@@ -20,8 +20,15 @@ void fg__scene_box(double low[2], double high[2], const fg_field_arrays *field);
 /* Length of an arrow's centreline. */
 double fg__icon_length(const fg_icon *icon);
 
-/* The icon whose length is the median; NULL without icons. MEMORY. */
-fg_status fg__scene_typical_icon(const fg_icon **out, fg_context *context,
+/* The median length, and an icon whose width is the median in units of its length; 0 and
+ * NULL without icons. */
+typedef struct fg__typical_icon {
+  double length;
+  const fg_icon *shape; /* borrowed */
+} fg__typical_icon;
+
+/* MEMORY. */
+fg_status fg__scene_typical_icon(fg__typical_icon *out, fg_context *context,
                                  const fg_icons *icons);
 
 /* Makes the polygons. density: NULL for no tint. range: speeds at the palette's ends.
