@@ -74,6 +74,48 @@ static fg_status cut_appended(fg__vti *vti, const fg__source *source, size_t *ma
   return FG_STATUS_OK;
 }
 
+/* ---- tags ----------------------------------------------------------------------------
+ */
+
+/* libxml2 compares every attribute of a tag with every other one: a tag of megabytes
+ * would take it hours. Those of VTK take a few hundred bytes. */
+enum { LONGEST_TAG = 8192 };
+
+/* Where the construct that begins at `at` ends; size when it does not. */
+static size_t end_of_tag(const unsigned char *bytes, size_t size, size_t at)
+{
+  static const char *const skipped[][2] = {
+      {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
+  for (size_t i = 0; i < sizeof skipped / sizeof skipped[0]; ++i) {
+    size_t length = strlen(skipped[i][0]);
+    if (size - at >= length && memcmp(bytes + at, skipped[i][0], length) == 0)
+      return at + length +
+             find_first(bytes + at + length, size - at - length, skipped[i][1]);
+  }
+  unsigned char quote = 0;
+  for (; at < size && (quote || bytes[at] != '>'); ++at)
+    if (quote ? bytes[at] == quote : bytes[at] == '"' || bytes[at] == '\'')
+      quote = quote ? 0 : bytes[at];
+  return at;
+}
+
+static fg_status check_tags(const fg__vti *vti, const unsigned char *bytes, size_t size)
+{
+  size_t at = 0;
+  while (at < size) {
+    const unsigned char *tag = memchr(bytes + at, '<', size - at);
+    if (!tag)
+      break;
+    size_t start = (size_t)(tag - bytes);
+    at = end_of_tag(bytes, size, start);
+    if (at - start > LONGEST_TAG && bytes[start + 1] != '!' && bytes[start + 1] != '?')
+      return fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
+                      "%s: a tag of %zu bytes at byte %zu; at most %d can be read",
+                      vti->path, at - start, start, LONGEST_TAG);
+  }
+  return FG_STATUS_OK;
+}
+
 /* ---- parsing the markup -------------------------------------------------------------
  */
 
@@ -130,9 +172,12 @@ fg_status fg__vti_parse(fg__vti *vti, const fg__source *source)
 {
   size_t markup = 0;
   fg_status status = cut_appended(vti, source, &markup);
-  if (status != FG_STATUS_OK || !vti->appended)
-    return status != FG_STATUS_OK ? status
-                                  : parse(vti, (const char *)source->bytes, markup);
+  if (status == FG_STATUS_OK)
+    status = check_tags(vti, source->bytes, markup);
+  if (status != FG_STATUS_OK)
+    return status;
+  if (!vti->appended)
+    return parse(vti, (const char *)source->bytes, markup);
   char *repaired = fg__allocate(markup + sizeof REPAIR, 1);
   if (!repaired)
     return fg__fail_memory(vti->context, "a file's markup", markup);

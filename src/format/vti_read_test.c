@@ -526,6 +526,28 @@ static void compression_that_is_not_known_is_refused(void **state)
   assert_non_null(strstr(fg_context_hint(*state), "zlib"));
 }
 
+/* libxml2 takes time by the square of a tag's attributes. */
+static void endless_tags_are_refused(void **state)
+{
+  static const char *const starts[] = {"<VTKFile", "<?x \" ?><VTKFile a='>'",
+                                       "<!-- ' --><VTKFile a=\">\""};
+  for (size_t s = 0; s < 3; ++s) {
+    example_text file = {0};
+    example_words(&file, starts[s]);
+    for (int i = 0; i < 200000; ++i) {
+      char attribute[32];
+      snprintf(attribute, sizeof attribute, " a%d='>'", i);
+      example_words(&file, attribute);
+    }
+    example_words(&file, "/>");
+    fg_field *field = NULL;
+    assert_int_equal(example_read(&field, *state, file.bytes, file.size, NULL),
+                     FG_STATUS_FILE_FORMAT);
+    assert_non_null(strstr(fg_context_message(*state), "a tag of"));
+    example_free(&file);
+  }
+}
+
 /* Entities that stand for ten others each would fill the memory. */
 static void entities_are_not_expanded(void **state)
 {
@@ -641,6 +663,7 @@ int main(void)
       cmocka_unit_test(wrong_markup_is_refused),
       cmocka_unit_test(lines_and_volumes_are_refused),
       cmocka_unit_test(compression_that_is_not_known_is_refused),
+      cmocka_unit_test(endless_tags_are_refused),
       cmocka_unit_test(entities_are_not_expanded),
       cmocka_unit_test(the_format_is_known_by_its_first_tag),
       cmocka_unit_test(every_vector_is_listed),
