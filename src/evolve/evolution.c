@@ -100,6 +100,15 @@ static fg_status create_mesh(fg_evolution *e, const fg_field *field)
   return fg__mesh_create(&e->mesh, e->context, &description);
 }
 
+static double interface_energy(const fg_evolution *e)
+{
+  double h = fmax(e->mesh.spacing[0], e->mesh.spacing[1]);
+  bool isotropic = e->options.energy == FG_ENERGY_ISOTROPIC;
+  double width = (isotropic ? isotropic_interface_cells : interface_cells) * h;
+  return e->options.gamma > 0.0 ? e->options.gamma
+                                : width * width / e->options.anisotropy;
+}
+
 static fg_status create_tensor(fg_evolution *e, const fg_field *field)
 {
   size_t count = (size_t)e->mesh.cells[0] * (size_t)e->mesh.cells[1];
@@ -115,17 +124,14 @@ static fg_status create_tensor(fg_evolution *e, const fg_field *field)
     cells.origin[k] = e->mesh.origin[k];
     cells.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
   }
-  return fg__tensor_fill(&e->tensor, e->context, field, e->options.energy,
-                         e->options.anisotropy, &cells);
-}
-
-static double interface_energy(const fg_evolution *e)
-{
-  double h = fmax(e->mesh.spacing[0], e->mesh.spacing[1]);
-  bool isotropic = e->options.energy == FG_ENERGY_ISOTROPIC;
-  double width = (isotropic ? isotropic_interface_cells : interface_cells) * h;
-  return e->options.gamma > 0.0 ? e->options.gamma
-                                : width * width / e->options.anisotropy;
+  fg_status status = fg__tensor_fill(&e->tensor, e->context, field, e->options.energy,
+                                     e->options.anisotropy, &cells);
+  if (status || e->options.energy != FG_ENERGY_FLOW)
+    return status;
+  /* an interface across the stream is sqrt(gamma) wide */
+  double width = sqrt(interface_energy(e)) * e->mesh.length;
+  return fg__tensor_smooth(&e->tensor, e->context, e->options.anisotropy, &cells,
+                           e->mesh.periodic, width);
 }
 
 /* The fastest growing mode of linear theory grows at this rate (design.md section 3).

@@ -23,6 +23,14 @@ typedef struct fg__tensor {
 fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_field *field,
                           fg_energy energy, double anisotropy, const fg__cells *cells);
 
+/* Averages the directions that a flow tensor prefers over a Gaussian of standard
+ * deviation `width` (same unit as spacing) within the active cells, so that an interface
+ * of that width meets a tensor that hardly varies across it; rough measured fields ask
+ * for that. Where directions agree at least by half the full anisotropy comes back, where
+ * they cancel the tensor tends to I. MEMORY. */
+fg_status fg__tensor_smooth(fg__tensor *tensor, fg_context *context, double anisotropy,
+                            const fg__cells *cells, const bool periodic[2], double width);
+
 /* One energy: writes xx, xy, yy for a place whose streamline has direction `tangent`. */
 typedef void fg__energy_law(double tensor[3], const double tangent[2], double anisotropy);
 
