@@ -213,4 +213,47 @@ static inline fg_status example_read(fg_field **out, fg_context *context,
   return fg__format_vti.read(out, context, &source, options ? options : &none);
 }
 
+/* ---- files made of words
+ * ------------------------------------------------------------------ */
+
+enum { EXAMPLE_FILE_BYTES = 16384 };
+
+static inline fg_status example_read_words(fg_field **out, fg_context *context,
+                                           const char *words,
+                                           const fg_read_options *options)
+{
+  char *copy = strdup(words); /* its end is where the sanitizer watches */
+  if (!copy)
+    abort();
+  fg_status status = example_read(out, context, copy, strlen(copy), options);
+  free(copy);
+  return status;
+}
+
+/* An image with the given attributes, and what its piece holds. */
+static inline void example_image(char file[EXAMPLE_FILE_BYTES], const char *attributes,
+                                 const char *extent, const char *data)
+{
+  int size = snprintf(file, EXAMPLE_FILE_BYTES,
+                      "<VTKFile type=\"ImageData\" version=\"0.1\">\n<ImageData "
+                      "WholeExtent=\"%s\" %s>\n<Piece Extent=\"%s\">\n%s</Piece>\n"
+                      "</ImageData>\n</VTKFile>\n",
+                      extent, attributes, extent, data);
+  if (size < 1 || size >= EXAMPLE_FILE_BYTES)
+    abort();
+}
+
+#define VECTOR(name, numbers)                                                            \
+  "<DataArray type='Float64' Name='" name "' NumberOfComponents='3'>" numbers            \
+  "</DataArray>\n"
+#define PAIR_OF(name, numbers)                                                           \
+  "<DataArray type='Float64' Name='" name "' NumberOfComponents='2'>" numbers            \
+  "</DataArray>\n"
+#define SCALAR(name, numbers)                                                            \
+  "<DataArray type='Float32' Name='" name "'>" numbers "</DataArray>\n"
+#define BYTES(name, numbers)                                                             \
+  "<DataArray type='UInt8' Name='" name "'>" numbers "</DataArray>\n"
+#define POINTS(data) "<PointData>" data "</PointData>\n"
+#define CELLS(data) "<CellData>" data "</CellData>\n"
+
 #endif
