@@ -114,7 +114,7 @@ const option_entry option_table[] = {
     {"width", 0, "POINTS", PICTURES, OPTION_NUMBER, AT(width), 36, 14400, false, false,
      NULL, "width of the picture in points of 1/72 inch [480]"},
     {"palette", 0, "NAME", PICTURES, OPTION_PALETTE, AT(palette), 0, 0, false, false,
-     NULL, "colour map of the speed, or #rrggbb for one colour [viridis]"},
+     NULL, "colour map of the speed, or #rrggbb for one colour [gale]"},
     {"tint", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
      "tint the clusters behind their arrows"},
     {"no-frame", 0, NULL, PICTURES, OPTION_FLAG, AT(no_frame), 0, 0, false, false, NULL,

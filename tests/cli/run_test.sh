@@ -73,7 +73,7 @@ for scale in 0 1 2; do
 done
 done_with "pictures are of their formats"
 
-try run synth:vortex3 -o out2 "${small[@]}" --threads 2
+try run synth:vortex3 -o out2 "${small[@]}" --threads 2 --formats svg,png,pdf
 expect_code 0
 for scale in 0 1 2; do
   cmp -s "out1/scale-0$scale.geojson" "out2/scale-0$scale.geojson" || fault "scale $scale differs"
