@@ -23,6 +23,9 @@ static const double wide_domain = 1.3;
 /* Of the scale that a bare domain would have, what decorations must leave. */
 static const double least_share = 0.45;
 
+/* A caption cut to a few letters says nothing; in units of the font size. */
+static const double shortest_caption = 8.0;
+
 /* Passes in which the margins may grow until everything fits; three is usual. */
 enum { PASSES = 12 };
 
@@ -129,6 +132,8 @@ static void place_caption(fg__page *page, fg__margins *room, const fg__page_plan
   const double em = page->font_size, pad = 0.6 * em;
   double start = fmin(fmax(page->frame.x0, pad), 0.35 * page->width);
   double width = page->width - pad - start;
+  if (width < shortest_caption * em)
+    return;
   char line[FG__CAPTION_LINES][FG__PAGE_TEXT_BYTES];
   int titles =
       break_lines(line, FG__CAPTION_LINES / 2, ruler, plan->title, 1.1 * em, true, width);

@@ -130,7 +130,7 @@ void fg__axis_of_numbers(fg__axis *out, double low, double high, double extent,
              out->offset < 0.0 ? "+" : MINUS, fabs(out->offset * out->factor));
     largest = fmax(fabs(low - out->offset), fabs(high - out->offset)) * out->factor;
   }
-  int exponent = common_exponent(largest);
+  int exponent = common_exponent(fmax(largest, extent * out->factor));
   char power[48] = "";
   if (exponent != 0) {
     out->factor *= pow(10.0, -exponent);
