@@ -8,6 +8,7 @@
 
 #include "drawing.h"
 #include "json_report.h"
+#include "rehearse.h"
 
 static bool ends_with(const char *text, const char *end)
 {
@@ -70,6 +71,8 @@ static int read_field(fg_field **out, fg_context *context, const cli_settings *s
   if (!settings->input && report->input_absolute &&
       access(report->input_absolute, R_OK) == 0)
     input = report->input_absolute;
+  if (rehearse_reading(input, &report->reading))
+    return EXIT_FAILED;
   fg_status status = fg_field_read(out, context, input, &report->reading);
   if (!status)
     return EXIT_DONE;

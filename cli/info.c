@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "program.h"
+#include "rehearse.h"
 
 static const char *const scale_words[] = {"auto", "geo", "map", "plain"};
 
@@ -82,6 +83,8 @@ static int print_json(const char *file, const fg_inventory *inventory)
 
 int command_info(const cli_settings *settings)
 {
+  if (rehearse_reading(settings->operand, NULL))
+    return EXIT_FAILED;
   fg_context *context;
   if (fg_context_create(&context)) {
     complain("out of memory");

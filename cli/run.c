@@ -11,6 +11,7 @@
 #include "json_report.h"
 #include "output.h"
 #include "progress.h"
+#include "rehearse.h"
 #include "scales.h"
 
 typedef struct cli_run {
@@ -73,6 +74,8 @@ static int read_field(cli_run *run)
   const cli_settings *said = run->settings;
   progress_stage(&run->progress, "reading");
   fg_read_options reading = settings_reading(said);
+  if (rehearse_reading(said->operand, &reading))
+    return EXIT_FAILED;
   fg_status status = fg_field_read(&run->field, run->context, said->operand, &reading);
   progress_wipe(&run->progress);
   if (status)
