@@ -194,7 +194,8 @@ static void assert_promises(fg_context *context, const fg_field *field)
   assert_int_equal(fg_evolution_create(&evolution, context, field, NULL), FG_STATUS_OK);
   const fg_mesh_info *mesh = fg_evolution_mesh(evolution);
   double unit = mesh->length * mesh->length, area = mesh->domain_measure / unit;
-  double mass = (2.0 * mesh->coverage - 1.0) * area, energy = INFINITY, time = 0.0;
+  double mass = (2.0 * mesh->coverage - 1.0) * area, energy = (double)INFINITY,
+         time = 0.0;
   fg_step step;
   do {
     assert_int_equal(fg_evolution_step(evolution, &step), FG_STATUS_OK);

@@ -80,17 +80,17 @@ static void options_out_of_range_are_refused(void **state)
   refuses(f, &(fg_evolution_options){.nodes = 16386}, "16386 nodes");
   refuses(f, &(fg_evolution_options){.anisotropy = -0.125}, "anisotropy -0.125 ");
   refuses(f, &(fg_evolution_options){.anisotropy = 1.25}, "anisotropy 1.25 ");
-  refuses(f, &(fg_evolution_options){.anisotropy = NAN}, "anisotropy");
+  refuses(f, &(fg_evolution_options){.anisotropy = (double)NAN}, "anisotropy");
   refuses(f, &(fg_evolution_options){.coverage = -0.25}, "coverage -0.25 ");
   refuses(f, &(fg_evolution_options){.coverage = 1.0}, "coverage 1 ");
-  refuses(f, &(fg_evolution_options){.coverage = NAN}, "coverage");
+  refuses(f, &(fg_evolution_options){.coverage = (double)NAN}, "coverage");
   refuses(f, &(fg_evolution_options){.gamma = -0.5}, "gamma -0.5 ");
   refuses(f, &(fg_evolution_options){.gamma = 1.5}, "gamma 1.5 ");
-  refuses(f, &(fg_evolution_options){.gamma = NAN}, "gamma");
-  refuses(f, &(fg_evolution_options){.gamma = INFINITY}, "gamma");
+  refuses(f, &(fg_evolution_options){.gamma = (double)NAN}, "gamma");
+  refuses(f, &(fg_evolution_options){.gamma = (double)INFINITY}, "gamma");
   refuses(f, &(fg_evolution_options){.accuracy = -0.05}, "accuracy -0.05 ");
   refuses(f, &(fg_evolution_options){.accuracy = 1.125}, "accuracy 1.125 ");
-  refuses(f, &(fg_evolution_options){.accuracy = NAN}, "accuracy");
+  refuses(f, &(fg_evolution_options){.accuracy = (double)NAN}, "accuracy");
   refuses(f, &(fg_evolution_options){.cycles = -1}, "cycles -1 ");
   refuses(f, &(fg_evolution_options){.cycles = 1001}, "cycles 1001 ");
   refuses(f, &(fg_evolution_options){.energy = (fg_energy)7}, "energy");
@@ -149,7 +149,8 @@ static void runs(fixture *f, int nodes)
   assert_int_equal(fg_evolution_create(&evolution, f->context, field, &options),
                    FG_STATUS_OK);
   const fg_mesh_info *mesh = fg_evolution_mesh(evolution);
-  double area = mesh->domain_measure / (mesh->length * mesh->length), energy = INFINITY;
+  double area = mesh->domain_measure / (mesh->length * mesh->length),
+         energy = (double)INFINITY;
   fg_step step;
   do {
     assert_int_equal(fg_evolution_step(evolution, &step), FG_STATUS_OK);

@@ -183,7 +183,7 @@ static void impossible_numbers_of_nodes_are_refused(void **state)
 
 static void impossible_boxes_are_refused(void **state)
 {
-  const double side[] = {0.0, -1.0, NAN, INFINITY, -INFINITY};
+  const double side[] = {0.0, -1.0, (double)NAN, (double)INFINITY, (double)-INFINITY};
   for (size_t n = 0; n < sizeof side / sizeof *side; ++n) {
     assert_refused(*state, &(fg__mesh_description){.side = {1.0, side[n]}, .nodes = 33});
     assert_refused(*state, &(fg__mesh_description){.side = {side[n], 1.0}, .nodes = 33});

@@ -215,7 +215,7 @@ static void impossible_energies_are_refused(void **state)
   assert_refused(f, FG_ENERGY_FLOW, 0.0, "anisotropy 0 ");
   assert_refused(f, FG_ENERGY_FLOW, -0.25, "anisotropy -0.25 ");
   assert_refused(f, FG_ENERGY_FLOW, 1.0625, "anisotropy 1.0625 ");
-  assert_refused(f, FG_ENERGY_FLOW, NAN, "anisotropy");
+  assert_refused(f, FG_ENERGY_FLOW, (double)NAN, "anisotropy");
   assert_refused(f, (fg_energy)77, 0.5, "77");
 }
 
