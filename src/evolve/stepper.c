@@ -62,7 +62,7 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
                        .cycles = cycles,
                        .first_tau = first_tau,
                        .tau = first_tau,
-                       .tau_limit = INFINITY};
+                       .tau_limit = (double)INFINITY};
   *multigrid = (fg__multigrid){0};
   const fg__level *finest = &out->multigrid.level[0], *second = finest + 1;
   size_t size = finest->array_size + FG__LANES;

@@ -251,7 +251,7 @@ static fg_status expected_count(size_t *count, const fg__vti *vti,
 fg_status fg__vti_values_check(const fg__vti *vti, const fg__vti_array *array,
                                size_t tuples, size_t *stored)
 {
-  size_t count;
+  size_t count = 0;
   fg_status status = expected_count(&count, vti, array, tuples);
   if (status != FG_STATUS_OK)
     return status;
