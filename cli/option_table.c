@@ -60,7 +60,7 @@ const option_entry option_table[] = {
     {"level", 0, "I", COMMAND_RUN, OPTION_WHOLE, AT(level), 0, INT_MAX, false, false,
      NULL, "index along level, from 0 [0]"},
     {"mask", 0, "VAR", COMMAND_RUN, OPTION_TEXT, AT(mask), 0, 0, false, false, NULL,
-     "variable that is zero outside the domain"},
+     "variable that is zero (or negative, or missing) outside the domain"},
     {"scale", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(scale), 0, 0, false, false,
      scale_words,
      "what the axes are: `geo` (degrees, velocity along east and north), `map` (a "

@@ -103,7 +103,7 @@ typedef struct fg_read_options {
   const char *vars_from; /* second file with the other component(s) */
   int time;              /* index along time, from 0 */
   int level;             /* index along level, from 0 */
-  const char *mask;      /* variable that is zero outside the domain */
+  const char *mask;      /* variable that is zero (negative, missing) outside the domain */
   fg_scale scale;
 } fg_read_options;
 

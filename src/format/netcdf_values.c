@@ -266,7 +266,7 @@ static void put_mask(void *target, size_t index, double stored)
   const mask_sink *to = target;
   fg__nc_missing ignored = {0};
   const double value = unpack(to->packing, stored, &ignored);
-  to->out[index] = !isnan(value) && value != 0.0;
+  to->out[index] = value > 0.0; /* false for NaN */
 }
 
 /* The mask's own dimension that matches one of the component's, or -1. */
