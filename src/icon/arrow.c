@@ -5,10 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Space between the outline and the cluster's border, in spacings: the zero set is known
- * to about a tenth of a cell, and a tip on the very border looks as if it poked out. */
-static const double MARGIN = 0.35;
-
 /* Readability (in spacings): shorter or narrower is a speck in print. */
 static const double SHORTEST = 3.0;
 static const double NARROWEST_HEAD = 1.2;
@@ -25,260 +21,126 @@ static const double SMALL_ARROW_WIDTH = 0.11;
 static const double BODY_SHARE = 0.5;
 static const double HEAD_SHARE = 0.85;
 
-/* Largest half width in radii of curvature, of the body, of the narrowest body, and of
- * the head, and how far the head may bend (radians): beyond that a head looks like a
- * claw. */
-static const double BODY_BEND = 0.25;
-static const double NARROW_BODY_BEND = 0.5;
-static const double HEAD_BEND = 0.6;
-static const double HEAD_TURNING = 0.5;
+/* Largest half width in radii of curvature, both over a width to either side, where the
+ * outline's normals smooth the rest; and how far the line may turn within the head. */
+static const double BODY_BEND = 0.3;
+static const double HEAD_TURNING = 0.45;
 
-/* Largest head length in radii of curvature at any of its points: the very tip, where it
- * is narrow, must not curl either. */
-static const double HEAD_CURL = 1.2;
+/* Within a head the line stays within this share of its half width: its triangle is
+ * straight. */
+static const double HEAD_BOW = 0.4;
 
-/* A turn between neighbouring stations (radians) that is a corner, not a bend. */
-static const double CORNER = 0.9;
-
-/* What a wider arrow is worth: that many times the relative loss of length. */
+/* What width is worth beside length: a line's area grows with both, but its length is
+ * what shows the flow. */
 static const double WIDTH_WORTH = 0.4;
 
-/* The distance map is of first order: that many spacings of it are not relied on. */
-static const double DISTANCE_ERROR = 0.75;
+/* What uneven bending costs (see unrest_of): a right angle at once makes the arrow half
+ * as good, a smooth S of 60 degrees to either side costs a twentieth. */
+static const double UNREST_COST = 0.03;
 
-/* Widths are tried downwards by this factor. */
-static const double WIDTH_STEP = 0.91;
+/* Beyond this turning (radians) an arrow must deserve it: each radian more costs. */
+static const double LONG_TURNING = 2.4;
+static const double TURNING_COST = 0.12;
+
+/* What it costs when the arrow lies at one end of its line. */
+static const double ASIDE_COST = 0.15;
+
+/* Parts of one arrow that run against each other are at least this share as far apart as
+ * on a circle of the same turning and length: no hairpins, and rings and horseshoes
+ * pass. It applies from 120 degrees on. */
+static const double ROUNDNESS = 0.55;
+static const double AGAINST = 2.094;
 
 /* Parts closer together than this (in widths, between outlines) seem to touch. */
 static const double SELF_GAP = 1.0;
 
-/* Only parts that differ by a right angle or more can come near each other. */
-static const double SELF_TURNING = 1.5707963267948966;
-
-/* Stations a line: a head of the widest arrow then spans 9 of them. */
-enum { FEWEST_STATIONS = 40, MOST_STATIONS = 400, CLEARANCE_BISECTIONS = 6 };
-static const double STATION_SPACING = 0.5; /* in spacings of the density */
+/* Widths are tried downwards by this factor, tails cut by these shares of the length. */
+static const double WIDTH_STEP = 0.89;
+static const double CUTS[] = {0, 0.1, 0.2, 0.3, 0.45, 0.6};
 
 /* Turn between two points of the centreline, radians, and their distance in spacings. */
 static const double POINT_TURN = 0.017;
 static const double POINT_SPACING = 1.0;
 
-typedef struct station_span {
-  int first, last; /* stations */
-} station_span;
-
-double fg__distance_at(const fg__window *window, const double *distance,
-                       const double position[2])
-{
-  int cell[2];
-  double share[2];
-  for (int a = 0; a < 2; a++) {
-    double x = (position[a] - window->origin[a]) / window->spacing[a];
-    x = fmin(fmax(x, 0), window->nodes[a] - 1);
-    cell[a] = (int)fmin(x, window->nodes[a] - 2);
-    share[a] = x - cell[a];
-  }
-  const double *low = distance + cell[1] * window->nodes[0] + cell[0];
-  const double *high = low + window->nodes[0];
-  double bottom = low[0] + (low[1] - low[0]) * share[0];
-  double top = high[0] + (high[1] - high[0]) * share[0];
-  return bottom + (top - bottom) * share[1];
-}
+/* One streamline's search for its best arrow. */
+typedef struct arrow_search {
+  fg__stations *stations;
+  const fg__room *room;
+  const fg__arrow_rules *rules;
+  double narrowest; /* width */
+  double width;     /* tried now */
+  int start;        /* station next to the streamline's start */
+  fg__arrow best;
+  double worth;
+} arrow_search;
 
 double fg__arrow_widest(double length, double spacing)
 {
   return fmax(LARGEST_WIDTH * length, NARROWEST_HEAD * spacing / FG__HEAD_WIDTH);
 }
 
-/* Free way from a point along a direction, at most `reach`; the first `known` of it is.
- */
-static double find_clearance(const fg__window *window, const double position[2],
-                             double dx, double dy, double step, double known,
-                             double reach)
+/* Whether the straight head fits with its tip at a station; *base is the station where it
+ * begins. */
+static bool head_fits(const arrow_search *search, int first, int tip, int *base)
 {
-  double inside = fmax(known, 0), outside = inside;
-  while (inside < reach) {
-    outside = inside + step;
-    double point[2] = {position[0] + outside * dx, position[1] + outside * dy};
-    if (!(fg__window_level(window, point) > 0))
-      break;
-    inside = outside;
-  }
-  if (inside >= reach)
-    return reach;
-  for (int i = 0; i < CLEARANCE_BISECTIONS; i++) {
-    double middle = (inside + outside) / 2;
-    double point[2] = {position[0] + middle * dx, position[1] + middle * dy};
-    if (fg__window_level(window, point) > 0)
-      inside = middle;
-    else
-      outside = middle;
-  }
-  return inside;
-}
-
-static fg_status place_stations(fg__arrow_workspace *work, fg_context *context,
-                                const fg__streamline *line, double spacing)
-{
-  double length = fg__streamline_length(line);
-  double wanted = ceil(length / (STATION_SPACING * spacing));
-  int intervals = (int)fmin(fmax(wanted, FEWEST_STATIONS), MOST_STATIONS);
-  if (!fg__grow((void **)&work->station, &work->capacity, (size_t)intervals + 1,
-                sizeof *work->station))
-    return fg__fail_memory(context, "an arrow",
-                           ((size_t)intervals + 1) * sizeof *work->station);
-  work->count = intervals + 1;
-  int hint = 0;
-  for (int i = 0; i < work->count; i++) {
-    fg__arrow_station *station = &work->station[i];
-    station->s = length * i / intervals;
-    fg__streamline_at(line, station->s, &hint, station->position, station->tangent);
-  }
-  return FG_STATUS_OK;
-}
-
-static double angle_between(const double a[2], const double b[2])
-{
-  return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
-}
-
-static void set_limits(fg__arrow_station *station, double clearance, double turn,
-                       double length, double narrowest)
-{
-  station->curvature = turn / length;
-  station->body_limit = station->head_limit = -1;
-  if (turn > CORNER || clearance < 0)
-    return;
-  double curvature = station->curvature;
-  station->body_limit = BODY_SHARE * clearance;
-  station->head_limit = HEAD_SHARE * clearance;
-  if (curvature * station->body_limit > BODY_BEND) {
-    double narrow =
-        fmin(fmin(NARROW_BODY_BEND / curvature, narrowest / 2), station->body_limit);
-    station->body_limit = fmax(BODY_BEND / curvature, narrow);
-  }
-  if (curvature * station->head_limit > HEAD_BEND)
-    station->head_limit = HEAD_BEND / curvature;
-}
-
-static void measure_stations(fg__arrow_workspace *work, const fg__window *window,
-                             const double *distance, double spacing)
-{
-  fg__arrow_station *station = work->station;
-  int n = work->count;
-  double margin = MARGIN * spacing, delta = station[1].s - station[0].s;
-  double widest = fg__arrow_widest(station[n - 1].s, spacing);
-  double reach = FG__HEAD_WIDTH / 2 * widest / HEAD_SHARE + margin;
-  station[0].turning = station[0].wiggle = 0;
-  for (int i = 1; i < n; i++) {
-    double turn = angle_between(station[i - 1].tangent, station[i].tangent);
-    station[i].turning = station[i - 1].turning + turn;
-    station[i].wiggle = station[i - 1].wiggle + fabs(turn);
-  }
-  for (int i = 0; i < n; i++) {
-    const double *position = station[i].position, *tangent = station[i].tangent;
-    double known = fg__distance_at(window, distance, position) - DISTANCE_ERROR * spacing;
-    double left = find_clearance(window, position, -tangent[1], tangent[0], spacing / 2,
-                                 known, reach);
-    double right = find_clearance(window, position, tangent[1], -tangent[0], spacing / 2,
-                                  known, fmin(reach, left));
-    /* the sharper of the bends before and after: data cells leave jumps of curvature */
-    double turn = 0;
-    if (i > 0)
-      turn = fabs(station[i].turning - station[i - 1].turning);
-    if (i < n - 1)
-      turn = fmax(turn, fabs(station[i + 1].turning - station[i].turning));
-    set_limits(&station[i], right - margin, turn, delta,
-               NARROWEST_HEAD * spacing / FG__HEAD_WIDTH);
-  }
-}
-
-/* Distance of two stations less what the outlines there may need. */
-static bool keeps_apart(const fg__arrow_station *a, const fg__arrow_station *b,
-                        double width)
-{
-  if (fabs(a->turning - b->turning) < SELF_TURNING)
-    return true;
-  double least = (0.5 + FG__HEAD_WIDTH / 2 + SELF_GAP) * width;
-  double dx = a->position[0] - b->position[0], dy = a->position[1] - b->position[1];
-  return dx * dx + dy * dy > least * least;
-}
-
-/* Grows a span from the start to both sides, the shorter side first, until the line ends,
- * would turn by more than an arrow may, or would come near itself. */
-static station_span grow_span(const fg__arrow_workspace *work, int start, double width,
-                              double end_gap)
-{
-  const fg__arrow_station *station = work->station;
-  double total = station[work->count - 1].s;
-  station_span span = {start, start};
-  double lowest = station[start].turning, highest = lowest;
-  bool open[2] = {true, true};
-  while (open[0] || open[1]) {
-    int upstream = start - span.first, downstream = span.last - start;
-    int side = open[0] && (!open[1] || upstream <= downstream) ? 0 : 1;
-    int next = side == 0 ? span.first - 1 : span.last + 1;
-    open[side] = false;
-    if (next < 0 || next >= work->count || station[next].s < end_gap ||
-        station[next].s > total - end_gap)
-      continue;
-    double low = fmin(lowest, station[next].turning);
-    double high = fmax(highest, station[next].turning);
-    if (high - low > FG__LARGEST_TURNING)
-      continue;
-    bool apart = true;
-    if (high - low > SELF_TURNING)
-      for (int i = span.first; i <= span.last && apart; i++)
-        apart = keeps_apart(&station[i], &station[next], width);
-    if (!apart)
-      continue;
-    lowest = low;
-    highest = high;
-    open[side] = true;
-    if (side == 0)
-      span.first = next;
-    else
-      span.last = next;
-  }
-  return span;
-}
-
-/* Whether the head fits with its tip at a station; *base is the station where it begins.
- */
-static bool head_fits(const fg__arrow_workspace *work, int first, int tip, double width,
-                      int *base)
-{
-  const fg__arrow_station *station = work->station;
-  double length = FG__HEAD_LENGTH * width, whole = length * (1 + FG__HEAD_SWEEP);
-  double slope = FG__HEAD_WIDTH * width / 2 / whole;
-  int i = tip;
-  for (; i >= first; i--) {
-    double u = station[tip].s - station[i].s;
-    /* the limits of one station past the barbs count too: the barbs are before it */
-    if (u * slope > station[i].head_limit || station[i].curvature * length > HEAD_CURL)
+  const fg__station *station = search->stations->station;
+  double width = search->width, length = FG__HEAD_LENGTH * width;
+  int i = tip - (int)lround(length / search->stations->step);
+  if (i < first || i >= tip)
+    return false;
+  const double *p = station[i].position, *q = station[tip].position;
+  double dx = q[0] - p[0], dy = q[1] - p[1], chord = sqrt(dx * dx + dy * dy);
+  if (!(chord > 0.8 * length))
+    return false;
+  dx /= chord;
+  dy /= chord;
+  if (fabs(station[tip].turning - station[i].turning) > HEAD_TURNING)
+    return false;
+  for (int k = i + 1; k < tip; k++) {
+    double x = station[k].position[0] - p[0], y = station[k].position[1] - p[1];
+    double left = 1 - (x * dx + y * dy) / chord;
+    if (fabs(y * dx - x * dy) > HEAD_BOW * FG__HEAD_WIDTH / 2 * width * left)
       return false;
-    if (u <= length)
-      *base = i;
-    if (u > whole)
-      break;
   }
-  return i >= first &&
-         fabs(station[tip].turning - station[*base].turning) <= HEAD_TURNING;
+  const fg__room *room = search->room;
+  double margin = room->margin;
+  if (!fg__room_has(room, q[0] + margin * dx, q[1] + margin * dy))
+    return false;
+  *base = i;
+  for (int k = 0; k <= 2; k++) { /* the barbs, and the sides on the way to the tip */
+    double half = FG__HEAD_WIDTH / 2 * width * (2 - k) / 2 / HEAD_SHARE + margin;
+    double along = k == 0 ? -FG__HEAD_SWEEP * length : chord * k / 2;
+    double x = p[0] + along * dx, y = p[1] + along * dy;
+    if (k < 2 && (!fg__room_has(room, x - half * dy, y + half * dx) ||
+                  !fg__room_has(room, x + half * dy, y - half * dx)))
+      return false;
+  }
+  return true;
+}
+
+/* Largest half width that a station allows. */
+static double limit_at(const arrow_search *search, const fg__station *station)
+{
+  double limit = BODY_SHARE * station->room;
+  double window = search->stations->bend_window;
+  if (station->bend * limit > BODY_BEND * window)
+    limit = BODY_BEND * window / station->bend;
+  return limit;
 }
 
 /* The most upstream tail from which the body fits, or base when there is none. At a
  * station whose limit is a share t of the way from the tail's width to the full one, the
  * taper must not have come further than t: that bounds the tail from upstream. */
-static int find_tail(const fg__arrow_workspace *work, int first, int base, double width)
+static int find_tail(const arrow_search *search, int first, int base)
 {
-  const fg__arrow_station *station = work->station;
-  double end = station[base].s, bound = station[first].s;
+  const fg__station *station = search->stations->station;
+  double end = station[base].s, bound = station[first].s, half = search->width / 2;
   int tail = base;
-  if (station[base].body_limit < width / 2)
+  if (limit_at(search, &station[base]) < half)
     return base;
   for (int i = base - 1; i >= first; i--) {
     double t =
-        (station[i].body_limit / (width / 2) - FG__TAIL_WIDTH) / (1 - FG__TAIL_WIDTH);
+        (limit_at(search, &station[i]) / half - FG__TAIL_WIDTH) / (1 - FG__TAIL_WIDTH);
     if (t < 0)
       break;
     if (t < 1)
@@ -293,85 +155,154 @@ static int find_tail(const fg__arrow_workspace *work, int first, int base, doubl
   return tail;
 }
 
-/* Longest arrow of one width within a span; false when there is none long enough. */
-static bool find_longest(const fg__arrow_workspace *work, station_span span, double width,
-                         double shortest, int *tail, int *tip)
+/* Whether two stations may be on the same arrow. */
+static bool go_together(const fg__station *a, const fg__station *b, double width)
 {
-  const fg__arrow_station *station = work->station;
-  double best = 0;
-  for (int end = span.last; end > span.first; end--) {
-    if (station[end].s - station[span.first].s <= best)
-      break;
-    int base = end;
-    if (!head_fits(work, span.first, end, width, &base))
-      continue;
-    int begin = find_tail(work, span.first, base, width);
-    double length = station[end].s - station[begin].s;
-    if (begin < base && length > best) {
-      best = length;
-      *tail = begin;
-      *tip = end;
-    }
-  }
-  return best >= shortest && best > 0;
+  double turn = fabs(a->turning - b->turning);
+  if (turn < AGAINST)
+    return true;
+  if (turn > FG__LARGEST_TURNING)
+    return false;
+  double dx = a->position[0] - b->position[0], dy = a->position[1] - b->position[1];
+  double circle = (b->s - a->s) * sin(turn / 2) / (turn / 2);
+  double least = fmax((0.5 + FG__HEAD_WIDTH / 2 + SELF_GAP) * width, ROUNDNESS * circle);
+  return dx * dx + dy * dy > least * least;
 }
 
-static double turning_range(const fg__arrow_workspace *work, int first, int last)
+/* Sets the earliest tail for every tip. */
+static void find_earliest(const arrow_search *search)
 {
-  double low = work->station[first].turning, high = low;
-  for (int i = first; i <= last; i++) {
-    low = fmin(low, work->station[i].turning);
-    high = fmax(high, work->station[i].turning);
+  fg__station *station = search->stations->station;
+  int count = search->stations->count;
+  double lowest = 0, highest = 0;
+  for (int i = 0; i < count; i++) {
+    lowest = fmin(lowest, station[i].turning);
+    highest = fmax(highest, station[i].turning);
+    station[i].earliest = i > 0 ? station[i - 1].earliest : 0;
+    if (highest - lowest < AGAINST)
+      continue;
+    for (int k = i - 1; k >= station[i].earliest; k--)
+      if (!go_together(&station[k], &station[i], search->width)) {
+        station[i].earliest = k + 1;
+        break;
+      }
   }
-  return high - low;
+}
+
+/* How unevenly an arrow bends: length times the integral of squared curvature, over
+ * windows of two widths, less the square of all it turns, which is what an even bend has.
+ */
+static double unrest_of(const arrow_search *search, int tail, int tip)
+{
+  const fg__station *station = search->stations->station;
+  double length = station[tip].s - station[tail].s,
+         window = search->stations->bend_window;
+  double turning = station[tip].turning - station[tail].turning;
+  double squares = (station[tip].bend_sum - station[tail].bend_sum) / (window * window);
+  double uneven = length * search->stations->step * squares - turning * turning;
+  return 1 + UNREST_COST * fmax(uneven, 0) +
+         TURNING_COST * fmax(fabs(turning) - LONG_TURNING, 0);
+}
+
+static void consider(arrow_search *search, int tail, int tip)
+{
+  const fg__station *station = search->stations->station;
+  double length = station[tip].s - station[tail].s;
+  double visible = length * pow(search->width / search->room->spacing, WIDTH_WORTH);
+  if (visible <= search->worth)
+    return;
+  double total = station[search->stations->count - 1].s;
+  double aside = fabs(station[tail].s + station[tip].s - total) / total;
+  visible *= 1 - ASIDE_COST * aside;
+  double unrest = unrest_of(search, tail, tip);
+  if (visible / unrest <= search->worth)
+    return;
+  search->worth = visible / unrest;
+  search->best = (fg__arrow){
+      .tail = station[tail].s,
+      .tip = station[tip].s,
+      .width = search->width,
+      .turning = fabs(station[tip].turning - station[tail].turning),
+      .unrest = unrest,
+  };
+}
+
+/* Tries the arrows of one width that end at a station and begin at `tail` or later. */
+static void try_tails(arrow_search *search, int tail, int base, int tip, double least,
+                      double most)
+{
+  const fg__station *station = search->stations->station;
+  while (tail < base && station[tip].s - station[tail].s > most)
+    tail++;
+  double length = station[tip].s - station[tail].s;
+  for (size_t k = 0; k < sizeof CUTS / sizeof *CUTS; k++) {
+    int begin = tail + (int)(CUTS[k] * length / search->stations->step);
+    if (begin >= base || station[tip].s - station[begin].s < least)
+      return;
+    if (search->rules->holds_start && begin > search->start)
+      return;
+    consider(search, begin, tip);
+  }
+}
+
+/* Tries all arrows of one width. */
+static void try_width(arrow_search *search, double width, double end_gap)
+{
+  const fg__station *station = search->stations->station;
+  int count = search->stations->count;
+  double total = station[count - 1].s;
+  double ratio = width > search->narrowest ? LARGEST_WIDTH : SMALL_ARROW_WIDTH;
+  double least = fmax(SHORTEST * search->room->spacing, width / ratio);
+  double most = width / search->rules->slimmest;
+  if (search->rules->longest > 0)
+    most = fmin(most, search->rules->longest);
+  double weight = pow(width / search->room->spacing, WIDTH_WORTH);
+  if (fmin(most, total) * weight <= search->worth)
+    return;
+  search->width = width;
+  fg__stations_bend(search->stations, width);
+  find_earliest(search);
+  int gap = (int)ceil(end_gap / search->stations->step), last = count - 1 - gap;
+  int lowest = search->rules->holds_start ? search->start : gap + 1;
+  for (int tip = last; tip > lowest; tip--) {
+    if (fmin(station[tip].s - station[gap].s, most) * weight <= search->worth)
+      break;
+    int base = tip;
+    if (!head_fits(search, gap, tip, &base))
+      continue;
+    int earliest = station[tip].earliest > gap ? station[tip].earliest : gap;
+    int tail = find_tail(search, earliest < base ? earliest : base, base);
+    try_tails(search, tail, base, tip, least, most);
+  }
 }
 
 fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
-                        const fg__streamline *streamline, const fg__window *window,
-                        const double *distance, double spacing,
-                        fg__arrow_workspace *workspace)
+                        const fg__streamline *streamline, const fg__room *room,
+                        const fg__arrow_rules *rules, fg__stations *stations)
 {
   *out = (fg__arrow){0};
   double length = fg__streamline_length(streamline);
-  if (length < SHORTEST * spacing)
+  if (length < SHORTEST * room->spacing)
     return FG_STATUS_OK;
-  fg_status status = place_stations(workspace, context, streamline, spacing);
+  double widest = fg__arrow_widest(length, room->spacing);
+  if (rules->widest > 0)
+    widest = fmin(widest, rules->widest);
+  fg_status status =
+      fg__stations_place(stations, context, streamline, room, widest / 2 / BODY_SHARE);
   if (status != FG_STATUS_OK)
     return status;
-  measure_stations(workspace, window, distance, spacing);
-
-  const fg__arrow_station *station = workspace->station;
-  int start = (int)lround(streamline->node[streamline->start].s / length *
-                          (workspace->count - 1));
-  double narrowest = NARROWEST_HEAD * spacing / FG__HEAD_WIDTH;
-  double widest = fg__arrow_widest(length, spacing), best = 0;
-  int steps = (int)ceil(log(widest / narrowest) / -log(WIDTH_STEP));
-  for (int i = 0; i <= steps; i++) {
-    double width = fmax(widest * pow(WIDTH_STEP, i), narrowest);
-    /* no narrower arrow can be better than this one */
-    if (length * pow(width / spacing, WIDTH_WORTH) <= best)
-      break;
-    station_span span = grow_span(workspace, start, width, MARGIN * spacing);
-    double ratio = width > narrowest ? LARGEST_WIDTH : SMALL_ARROW_WIDTH;
-    double shortest = fmax(SHORTEST * spacing, width / ratio);
-    int tail = 0, tip = 0;
-    if (!find_longest(workspace, span, width, shortest, &tail, &tip))
-      continue;
-    double worth = (station[tip].s - station[tail].s) * pow(width / spacing, WIDTH_WORTH);
-    if (worth > best) {
-      best = worth;
-      double range = turning_range(workspace, tail, tip);
-      double turned = station[tip].wiggle - station[tail].wiggle;
-      *out = (fg__arrow){station[tail].s, station[tip].s, width, range, turned - range};
-    }
-  }
+  arrow_search search = {.stations = stations,
+                         .room = room,
+                         .rules = rules,
+                         .narrowest = NARROWEST_HEAD * room->spacing / FG__HEAD_WIDTH};
+  search.start =
+      (int)lround(streamline->node[streamline->start].s / length * (stations->count - 1));
+  for (double width = widest; width > search.narrowest * (1 + 1e-9); width *= WIDTH_STEP)
+    try_width(&search, width, room->margin);
+  if (widest >= search.narrowest)
+    try_width(&search, search.narrowest, room->margin);
+  *out = search.best;
   return FG_STATUS_OK;
-}
-
-void fg__arrow_workspace_clear(fg__arrow_workspace *workspace)
-{
-  free(workspace->station);
-  *workspace = (fg__arrow_workspace){0};
 }
 
 /* Number of straight pieces for a part of one segment of the streamline. */

@@ -1,11 +1,11 @@
-/* The shape of an arrow, and the arrow that fits a streamline's part inside a cluster. */
+/* The shape of an arrow, and the arrow that looks best on a part of a streamline. */
 #ifndef FG__ARROW_H
 #define FG__ARROW_H
 
-#include "icon/streamline.h"
+#include "icon/stations.h"
 
-/* Proportions, in body widths, chosen by eye on some thousand arrows from 3 to 150 cells
- * long: the same for all of them, so that they read as one family. */
+/* Proportions, in body widths, the same for all arrows, so that they read as one family;
+ * taken by eye from pictures of winds and of analytic fields with 12 to 300 arrows. */
 #define FG__HEAD_LENGTH 3.0
 #define FG__HEAD_WIDTH 2.6
 #define FG__TAIL_WIDTH 0.3
@@ -20,41 +20,27 @@
 typedef struct fg__arrow {
   double tail, tip;
   double width;   /* 0: no arrow fits */
-  double turning; /* largest angle between two of its tangents, radians */
-  double wiggle;  /* angle turned to and fro beyond that, radians */
+  double turning; /* angle between its first and last tangent, radians */
+  double unrest;  /* 1 for an even bend; more for corners, wiggles and hairpins */
 } fg__arrow;
 
-/* Work arrays of fg__arrow_fit, to be kept between calls; all zero at first. */
-typedef struct fg__arrow_station {
-  double s, position[2], tangent[2], turning;
-  double curvature, wiggle; /* wiggle: angle turned so far, to either side, radians */
-  double body_limit, head_limit; /* largest half widths; negative: nothing fits */
-} fg__arrow_station;
+/* What an arrow may be like. */
+typedef struct fg__arrow_rules {
+  double widest;    /* no wider than this; 0: as wide as its length allows */
+  double slimmest;  /* least width, in lengths */
+  double longest;   /* 0: no limit */
+  bool holds_start; /* the line's start point must be on it */
+} fg__arrow_rules;
 
-typedef struct fg__arrow_workspace {
-  fg__arrow_station *station;
-  size_t capacity;
-  int count;
-} fg__arrow_workspace;
+/* Finds the arrow on the streamline that is seen best, by its length and the root of its
+ * width, and is calm; its outline lies in the room and does not meet itself. Shorter than
+ * 3 or with a head narrower than 1.2 spacings gives width 0. MEMORY. */
+fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
+                        const fg__streamline *streamline, const fg__room *room,
+                        const fg__arrow_rules *rules, fg__stations *stations);
 
 /* No arrow on a line of this length is wider. */
 double fg__arrow_widest(double length, double spacing);
-
-/* The distance map at a point, bilinear; the nearest node's side outside the window. */
-double fg__distance_at(const fg__window *window, const double *distance,
-                       const double position[2]);
-
-/* Finds the longest and widest arrow on the streamline whose whole outline lies in the
- * window's cluster and does not meet itself. `spacing` is that of the density, the
- * yardstick of margins and of readability: shorter than 3 or with a head narrower
- * than 1.2 spacings gives width 0. The outline needs no more than the free way to both
- * sides of the centreline, because it bends with it, head included. `distance` is the
- * window's distance map. MEMORY. */
-fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
-                        const fg__streamline *streamline, const fg__window *window,
-                        const double *distance, double spacing,
-                        fg__arrow_workspace *workspace);
-void fg__arrow_workspace_clear(fg__arrow_workspace *workspace);
 
 /* The centreline from tail to tip, dense enough to be drawn as straight pieces and to
  * follow the flow within half a degree. *points is allocated: free it. MEMORY. */

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Points of the cluster that the arrow is compared with; more change the choice no more.
  */
@@ -22,37 +23,45 @@ static const double HALF_RADIUS = 0.5;
  * no direction worth the name. */
 static const double DISC = 2.0;
 
-/* Where the best arrow is shorter than this share of the spine, the flow leaves the
- * cluster across it or is rough: then this many points all over the cluster are tried as
- * well. */
-static const double SHORT = 0.6;
+/* Where the best arrow is shorter than this share of the spine, restless or slim (in
+ * lengths), the flow leaves the cluster across it or is rough: then points all over the
+ * cluster are tried as well, at most so many. */
+static const double SHORT = 0.65;
+static const double RESTLESS = 1.25;
+static const double SLIM = 0.045;
 enum { SPREAD = 24 };
+
+/* No line is traced from where one has passed already: nearer than this share of the
+ * distance from the centre to the border. */
+static const double PASSED = 0.2;
 
 /* The best line so far is shifted sideways by this share of the distance to the border,
  * then by half of it. */
 static const double SHIFT = 0.24;
 enum { SHIFTS = 2 };
 
-/* Two lines nearer than this, in spacings, give the same arrow. */
-static const double SAME_LINE = 0.2;
+/* Arrows slimmer than this look like threads with a knot: the cluster gets a shorter and
+ * bolder one instead. */
+static const double SLIMMEST = 0.028;
 
-/* A choice that keeps 15 % more distance from the cluster's points is as good when its
+/* An arrow stands for the points of the cluster up to about this share of the spine's
+ * length from it: which ones lie farther away counts less and less. */
+static const double REACH = 0.2;
+
+/* A choice that keeps 20 % more distance from the cluster's points is as good when its
  * arrow is twice as wide. */
-static const double WIDTH_WORTH = 0.2;
-
-/* What a radian of turning to and fro costs, in shares of the distance: among lines that
- * lie as well the calmest is taken. */
-static const double WIGGLE_COST = 0.1;
+static const double WIDTH_WORTH = 0.25;
 
 typedef struct candidate_search {
   fg__chooser *chooser;
   fg_context *context;
   const fg_field *field;
   const fg__window *window;
-  const double *distance;
-  double spacing;
+  const fg__room *room;
   fg__streamline_limits limits;
-  fg__arrow arrow; /* best so far */
+  int passed_reach; /* in nodes */
+  double reach;     /* square of the distance that an arrow stands for */
+  fg__arrow arrow;  /* best so far */
   double cost;
 } candidate_search;
 
@@ -116,54 +125,72 @@ static double cost_of(const candidate_search *search, double tail, double tip,
       double square = dx * dx + dy * dy;
       nearest = square < nearest ? square : nearest;
     }
-    sum += nearest;
+    sum += nearest / (nearest + search->reach);
   }
   double rms = sqrt(sum / fmax(chooser->sample_count, 1));
   return rms / pow(width, WIDTH_WORTH);
 }
 
-/* Whether the best line goes through a point, so that it need not be traced again. */
-static bool is_on_best(const candidate_search *search, const double point[2])
+/* The node next to a point, or -1 outside the window. */
+static int node_at(const fg__window *window, const double point[2], int place[2])
 {
-  const fg__streamline *line = &search->chooser->best;
-  double reach = search->spacing * search->spacing,
-         tolerance = SAME_LINE * search->spacing;
-  if (!(search->arrow.width > 0))
-    return false;
-  for (int i = 0; i < line->count; i++) {
-    const fg__streamline_node *node = &line->node[i];
-    double dx = point[0] - node->position[0], dy = point[1] - node->position[1];
-    if (dx * dx + dy * dy < reach &&
-        fabs(dx * node->tangent[1] - dy * node->tangent[0]) < tolerance)
-      return true;
+  for (int a = 0; a < 2; a++) {
+    double x = (point[a] - window->origin[a]) / window->spacing[a] + 0.5;
+    if (!(x >= 0) || !(x < window->nodes[a]))
+      return -1;
+    place[a] = (int)x;
   }
+  return place[1] * window->nodes[0] + place[0];
+}
+
+static void mark_passed(const candidate_search *search)
+{
+  const fg__streamline *line = &search->chooser->tried;
+  int place[2];
+  for (int i = 0; i < line->count; i++) {
+    int node = node_at(search->window, line->node[i].position, place);
+    if (node >= 0)
+      search->chooser->passed[node] = 1;
+  }
+}
+
+/* Whether a line has passed near a point. */
+static bool was_passed(const candidate_search *search, const double point[2])
+{
+  const fg__window *window = search->window;
+  int place[2], reach = search->passed_reach;
+  if (node_at(window, point, place) < 0)
+    return true;
+  for (int y = place[1] - reach; y <= place[1] + reach; y++)
+    for (int x = place[0] - reach; x <= place[0] + reach; x++)
+      if (x >= 0 && y >= 0 && x < window->nodes[0] && y < window->nodes[1] &&
+          search->chooser->passed[y * window->nodes[0] + x])
+        return true;
   return false;
 }
 
 /* Tries the streamline through a point. */
-static fg_status consider(candidate_search *search, double x, double y)
+static fg_status consider(candidate_search *search, const double start[2])
 {
+  const fg__arrow_rules rules = {.slimmest = SLIMMEST};
   fg__chooser *chooser = search->chooser;
-  double start[2] = {x, y};
-  if (is_on_best(search, start))
-    return FG_STATUS_OK;
   fg_status status = fg__streamline_trace(&chooser->tried, search->context, search->field,
                                           search->window, start, &search->limits);
   if (status != FG_STATUS_OK || chooser->tried.count < 2)
     return status;
+  mark_passed(search);
   /* an arrow takes a part of the line: it can only be farther from the cluster's points
    */
   double length = fg__streamline_length(&chooser->tried);
-  if (cost_of(search, 0, length, fg__arrow_widest(length, search->spacing)) >=
-      search->cost)
+  double widest = fg__arrow_widest(length, search->room->spacing);
+  if (cost_of(search, 0, length, widest) >= search->cost)
     return FG_STATUS_OK;
   fg__arrow arrow;
-  status = fg__arrow_fit(&arrow, search->context, &chooser->tried, search->window,
-                         search->distance, search->spacing, &chooser->workspace);
+  status = fg__arrow_fit(&arrow, search->context, &chooser->tried, search->room, &rules,
+                         &chooser->stations);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
     return status;
-  double cost = cost_of(search, arrow.tail, arrow.tip, arrow.width) *
-                (1 + WIGGLE_COST * arrow.wiggle);
+  double cost = cost_of(search, arrow.tail, arrow.tip, arrow.width) * arrow.unrest;
   if (cost < search->cost) {
     fg__streamline line = chooser->best;
     chooser->best = chooser->tried;
@@ -174,6 +201,13 @@ static fg_status consider(candidate_search *search, double x, double y)
   return FG_STATUS_OK;
 }
 
+/* The same, but for points where a line has passed. */
+static fg_status consider_unpassed(candidate_search *search, double x, double y)
+{
+  double start[2] = {x, y};
+  return was_passed(search, start) ? FG_STATUS_OK : consider(search, start);
+}
+
 /* Tries points at multiples of a radius beside a point, along a direction. */
 static fg_status consider_aside(candidate_search *search, const double center[2],
                                 const double direction[2], double radius,
@@ -181,8 +215,8 @@ static fg_status consider_aside(candidate_search *search, const double center[2]
 {
   fg_status status = FG_STATUS_OK;
   for (size_t i = 0; i < count && status == FG_STATUS_OK; i++)
-    status = consider(search, center[0] + multiple[i] * radius * direction[0],
-                      center[1] + multiple[i] * radius * direction[1]);
+    status = consider_unpassed(search, center[0] + multiple[i] * radius * direction[0],
+                               center[1] + multiple[i] * radius * direction[1]);
   return status;
 }
 
@@ -207,7 +241,7 @@ static fg_status consider_spine(candidate_search *search, const fg__spine *spine
     int index = (int)lround(place[i] * (spine->count - 1));
     if (spine->closed)
       index = (spine->center + index) % spine->count;
-    status = consider(search, spine->point[index][0], spine->point[index][1]);
+    status = consider_unpassed(search, spine->point[index][0], spine->point[index][1]);
   }
   return status;
 }
@@ -216,7 +250,7 @@ static fg_status consider_center(candidate_search *search, const double center[2
                                  double radius, bool disc)
 {
   static const double around[] = {HALF_RADIUS, -HALF_RADIUS};
-  fg_status status = consider(search, center[0], center[1]);
+  fg_status status = consider(search, center);
   if (status != FG_STATUS_OK)
     return status;
   double normal[2];
@@ -240,7 +274,7 @@ static fg_status consider_everywhere(candidate_search *search)
   fg_status status = FG_STATUS_OK;
   for (int i = stride / 2; i < chooser->sample_count && status == FG_STATUS_OK;
        i += stride)
-    status = consider(search, chooser->sample[i][0], chooser->sample[i][1]);
+    status = consider_unpassed(search, chooser->sample[i][0], chooser->sample[i][1]);
   return status;
 }
 
@@ -249,23 +283,52 @@ static fg_status refine(candidate_search *search, double radius)
 {
   double share = SHIFT;
   fg_status status = FG_STATUS_OK;
-  for (int i = 0; i < SHIFTS && status == FG_STATUS_OK && search->arrow.width > 0; i++) {
+  for (int i = 0; i < SHIFTS && search->arrow.width > 0; i++) {
     double middle = (search->arrow.tail + search->arrow.tip) / 2;
     double position[2], tangent[2];
     fg__streamline_at(&search->chooser->best, middle, NULL, position, tangent);
-    double normal[2] = {-tangent[1], tangent[0]};
-    double local =
-        fmax(fg__distance_at(search->window, search->distance, position), radius / 2);
-    double both[] = {share, -share};
-    status = consider_aside(search, position, normal, local, both, 2);
+    double local = fmax(fg__distance_at(search->window, search->room->distance, position),
+                        radius / 2);
+    for (int side = -1; side <= 1 && status == FG_STATUS_OK; side += 2) {
+      double shift = side * share * local;
+      double start[2] = {position[0] - shift * tangent[1],
+                         position[1] + shift * tangent[0]};
+      status = consider(search, start);
+    }
     share /= 2;
   }
   return status;
 }
 
+static fg_status prepare(candidate_search *search, double radius, double reach)
+{
+  const fg__window *window = search->window;
+  fg__chooser *chooser = search->chooser;
+  search->limits =
+      (fg__streamline_limits){.step = step_limit(search->field, window),
+                              .length = 4 * (window->nodes[0] * window->spacing[0] +
+                                             window->nodes[1] * window->spacing[1]),
+                              .turning = FG__LARGEST_TURNING};
+  search->reach = reach * reach;
+  search->passed_reach = (int)(PASSED * radius / search->room->spacing);
+  size_t nodes = (size_t)window->nodes[0] * (size_t)window->nodes[1];
+  if (!fg__grow((void **)&chooser->passed, &chooser->passed_capacity, nodes, 1))
+    return fg__fail_memory(search->context, "the lines of a cluster", nodes);
+  memset(chooser->passed, 0, nodes);
+  return collect_samples(search);
+}
+
+static bool is_poor(const candidate_search *search, const fg__spine *spine)
+{
+  const fg__arrow *arrow = &search->arrow;
+  double length = arrow->tip - arrow->tail;
+  return !(length > SHORT * spine->length) || arrow->unrest > RESTLESS ||
+         arrow->width < SLIM * length;
+}
+
 fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *context,
-                           const fg_field *field, const fg__window *window,
-                           const double *distance, const fg__spine *spine)
+                           const fg_field *field, const fg__room *room,
+                           const fg__spine *spine)
 {
   *arrow = (fg__arrow){0};
   if (spine->count < 1)
@@ -273,26 +336,17 @@ fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *c
   candidate_search search = {.chooser = chooser,
                              .context = context,
                              .field = field,
-                             .window = window,
-                             .distance = distance,
-                             .spacing = fmin(window->spacing[0], window->spacing[1]),
+                             .window = room->window,
+                             .room = room,
                              .cost = HUGE_VAL};
-  search.limits =
-      (fg__streamline_limits){.step = step_limit(field, window),
-                              .length = 4 * (window->nodes[0] * window->spacing[0] +
-                                             window->nodes[1] * window->spacing[1]),
-                              .turning = FG__LARGEST_TURNING};
-  fg_status status = collect_samples(&search);
-  if (status != FG_STATUS_OK)
-    return status;
-
   const double *center = spine->point[spine->center];
-  double radius = fg__distance_at(window, distance, center);
-  status = consider_center(&search, center, radius, spine->length < DISC * radius);
+  double radius = fg__distance_at(room->window, room->distance, center);
+  fg_status status = prepare(&search, radius, REACH * spine->length + radius);
+  if (status == FG_STATUS_OK)
+    status = consider_center(&search, center, radius, spine->length < DISC * radius);
   if (status == FG_STATUS_OK)
     status = consider_spine(&search, spine);
-  double length = search.arrow.tip - search.arrow.tail;
-  if (status == FG_STATUS_OK && !(length > SHORT * spine->length))
+  if (status == FG_STATUS_OK && is_poor(&search, spine))
     status = consider_everywhere(&search);
   if (status == FG_STATUS_OK)
     status = refine(&search, radius);
@@ -304,7 +358,8 @@ void fg__chooser_clear(fg__chooser *chooser)
 {
   fg__streamline_clear(&chooser->best);
   fg__streamline_clear(&chooser->tried);
-  fg__arrow_workspace_clear(&chooser->workspace);
+  fg__stations_clear(&chooser->stations);
+  free(chooser->passed);
   free(chooser->sample);
   *chooser = (fg__chooser){0};
 }

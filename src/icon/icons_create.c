@@ -11,6 +11,10 @@
 /* An arrow round more than seven tenths of a turn is a ring, less is a horseshoe. */
 static const double RING_TURNING = 4.4;
 
+/* Space between the outline and the cluster's border, in spacings: the zero set is known
+ * to about a tenth of a cell, and a tip on the very border looks as if it poked out. */
+static const double MARGIN = 0.35;
+
 /* The outline is tested at its vertices and between them, at least this close (in
  * spacings of the density); an arrow that fails is made narrower this many times before
  * it is given up. */
@@ -190,9 +194,10 @@ static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *choo
   status = fg__march(distance, context, &window, true);
   if (status == FG_STATUS_OK)
     status = fg__spine_create(&spine, context, &window, distance);
+  double spacing = fmin(window.spacing[0], window.spacing[1]);
+  fg__room room = {&window, distance, spacing, MARGIN * spacing};
   if (status == FG_STATUS_OK)
-    status =
-        fg__choose_arrow(&arrow, chooser, context, job->field, &window, distance, &spine);
+    status = fg__choose_arrow(&arrow, chooser, context, job->field, &room, &spine);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
     goto cleanup;
   fg_icon *icon = &job->icon[index];

@@ -10,6 +10,14 @@
  * icons that were read from elsewhere. */
 static const double LARGEST_BEND = 0.9;
 
+/* Normals are those of the chord over this many widths to either side: a body then glides
+ * over bends that are tighter than itself, as a brush does. */
+static const double CHORD_REACH = 0.75;
+
+/* A head is a straight triangle as long as the line stays within this share of its half
+ * width; round a tighter bend it turns with the line. */
+static const double STRAIGHT_HEAD = 0.6;
+
 /* Vertices that round the tail's end, on each side: 18 degrees each. */
 enum { TAIL_VERTICES = 5 };
 
@@ -21,6 +29,7 @@ typedef struct centerline {
   int count;
   double *s;           /* arc length */
   double (*normal)[2]; /* unit, to the left */
+  double (*smooth)[2]; /* the point itself, smoothed as the normals are */
   double *limit;       /* largest half width */
 } centerline;
 
@@ -56,14 +65,69 @@ static void find_slope(const centerline *line, int i, int b, int c, double slope
   }
 }
 
-static void find_normals(centerline *line)
+/* Moves *segment to the segment of arc length s. */
+static void find_segment(const centerline *line, double s, int *segment)
 {
-  int n = line->count;
+  while (*segment > 0 && line->s[*segment] > s)
+    --*segment;
+  while (*segment < line->count - 2 && line->s[*segment + 1] < s)
+    ++*segment;
+}
+
+/* Point of the line at arc length s; *segment is where to look. */
+static void point_at(const centerline *line, double s, int *segment, double point[2])
+{
+  find_segment(line, s, segment);
+  int i = *segment;
+  double t = (s - line->s[i]) / (line->s[i + 1] - line->s[i]);
+  for (int a = 0; a < 2; a++)
+    point[a] = (1 - t) * line->point[i][a] + t * line->point[i + 1][a];
+}
+
+/* Mean of the line from one arc length to another, within the segments given. */
+static void mean_between(const centerline *line, double from, double to, int first,
+                         double mean[2])
+{
+  double before[2], after[2];
+  int segment = first;
+  point_at(line, from, &segment, before);
+  mean[0] = mean[1] = 0;
+  double s = from;
+  while (s < to) {
+    double next = fmin(line->s[segment + 1], to);
+    if (segment == line->count - 2)
+      next = to;
+    int at = segment;
+    point_at(line, next, &at, after);
+    for (int a = 0; a < 2; a++) {
+      mean[a] += (before[a] + after[a]) / 2 * (next - s) / (to - from);
+      before[a] = after[a];
+    }
+    s = next;
+    segment++;
+  }
+}
+
+/* Normals of the chords; at the ends of the line, where there is none, of its slope. */
+static void find_normals(centerline *line, double width)
+{
+  int n = line->count, before = 0, after = 0;
+  double length = line->s[n - 1];
   for (int i = 0; i < n; i++) {
     double slope[2];
+    line->smooth[i][0] = line->point[i][0];
+    line->smooth[i][1] = line->point[i][1];
+    double reach = fmin(CHORD_REACH * width, fmin(line->s[i], length - line->s[i]));
     if (n == 2) {
       slope[0] = line->point[1][0] - line->point[0][0];
       slope[1] = line->point[1][1] - line->point[0][1];
+    } else if (reach > 0 && i > 0 && i < n - 1) {
+      double from[2], to[2];
+      point_at(line, line->s[i] - reach, &before, from);
+      point_at(line, line->s[i] + reach, &after, to);
+      slope[0] = to[0] - from[0];
+      slope[1] = to[1] - from[1];
+      mean_between(line, line->s[i] - reach, line->s[i] + reach, before, line->smooth[i]);
     } else {
       int middle = i == 0 ? 1 : i == n - 1 ? n - 2 : i;
       find_slope(line, i, middle - 1, middle + 1, slope);
@@ -93,10 +157,7 @@ static void find_limits(centerline *line)
 static void add_pair(outline_sides *sides, const centerline *line, double s, double w,
                      int *segment)
 {
-  while (*segment > 0 && line->s[*segment] > s)
-    --*segment;
-  while (*segment < line->count - 2 && line->s[*segment + 1] < s)
-    ++*segment;
+  find_segment(line, s, segment);
   int i = *segment;
   double t = (s - line->s[i]) / (line->s[i + 1] - line->s[i]);
   double normal[2], size;
@@ -107,7 +168,7 @@ static void add_pair(outline_sides *sides, const centerline *line, double s, dou
     size = 1;
   w = fmin(w, fmin(line->limit[i], line->limit[i + 1]));
   for (int a = 0; a < 2; a++) {
-    double center = (1 - t) * line->point[i][a] + t * line->point[i + 1][a];
+    double center = (1 - t) * line->smooth[i][a] + t * line->smooth[i + 1][a];
     sides->left[sides->count][a] = center + w * normal[a] / size;
     sides->right[sides->count][a] = center - w * normal[a] / size;
   }
@@ -119,6 +180,36 @@ static double body_half_width(const fg_icon *icon, double s, double body_length)
 {
   double t = body_length > 0 ? s / body_length : 1;
   return (icon->tail_width + (icon->width - icon->tail_width) * t) / 2;
+}
+
+/* Adds the barbs of a straight head; false when the line bends too much for one. */
+static bool add_straight_head(outline_sides *sides, const centerline *line, double body,
+                              double width)
+{
+  int last = line->count - 1, segment = last - 1;
+  double base[2];
+  point_at(line, body, &segment, base);
+  const double *tip = line->point[last];
+  double axis[2] = {tip[0] - base[0], tip[1] - base[1]};
+  double length = hypot(axis[0], axis[1]);
+  if (!(length > 0))
+    return false;
+  axis[0] /= length;
+  axis[1] /= length;
+  for (int i = segment + 1; i < last; i++) {
+    double dx = line->point[i][0] - base[0], dy = line->point[i][1] - base[1];
+    double along = dx * axis[0] + dy * axis[1], across = dy * axis[0] - dx * axis[1];
+    if (fabs(across) > STRAIGHT_HEAD * width / 2 * (length - along) / length)
+      return false;
+  }
+  for (int a = 0; a < 2; a++) {
+    double normal = a == 0 ? -axis[1] : axis[0];
+    double barb = base[a] - FG__HEAD_SWEEP * length * axis[a];
+    sides->left[sides->count][a] = barb + width / 2 * normal;
+    sides->right[sides->count][a] = barb - width / 2 * normal;
+  }
+  sides->count++;
+  return true;
 }
 
 static void trace_sides(outline_sides *sides, const centerline *line, const fg_icon *icon)
@@ -139,6 +230,8 @@ static void trace_sides(outline_sides *sides, const centerline *line, const fg_i
       add_pair(sides, line, line->s[i], body_half_width(icon, line->s[i], body),
                &segment);
   add_pair(sides, line, body, icon->width / 2, &segment);
+  if (add_straight_head(sides, line, body, icon->head_width))
+    return;
   add_pair(sides, line, barb, icon->head_width / 2, &segment);
   for (int i = 1; i < line->count - 1; i++)
     if (line->s[i] > barb)
@@ -181,15 +274,17 @@ fg_status fg_icon_outline(const fg_icon *icon, double (**vertices)[2], int *coun
   outline_sides sides = {0};
   line.s = fg__allocate(n, sizeof *line.s);
   line.normal = fg__allocate(n, sizeof *line.normal);
+  line.smooth = fg__allocate(n, sizeof *line.smooth);
   line.limit = fg__allocate(n, sizeof *line.limit);
   sides.left = fg__allocate(side, sizeof *sides.left);
   sides.right = fg__allocate(side, sizeof *sides.right);
   polygon = fg__allocate(2 * side + 2, sizeof *polygon);
-  if (!line.s || !line.normal || !line.limit || !sides.left || !sides.right || !polygon)
+  if (!line.s || !line.normal || !line.smooth || !line.limit || !sides.left ||
+      !sides.right || !polygon)
     goto cleanup;
 
   find_arc_lengths(&line);
-  find_normals(&line);
+  find_normals(&line, icon->width);
   find_limits(&line);
   trace_sides(&sides, &line, icon);
 
@@ -213,6 +308,7 @@ fg_status fg_icon_outline(const fg_icon *icon, double (**vertices)[2], int *coun
 cleanup:
   free(line.s);
   free(line.normal);
+  free(line.smooth);
   free(line.limit);
   free(sides.left);
   free(sides.right);
