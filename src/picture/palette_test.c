@@ -53,7 +53,7 @@ static void shares_outside_are_clamped(void **state)
   fg__palette palette;
   assert_int_equal(fg__palette_create(&palette, NULL, NULL), FG_STATUS_OK);
   fg__color low = fg__palette_color(&palette, -7.0);
-  fg__color none = fg__palette_color(&palette, NAN);
+  fg__color none = fg__palette_color(&palette, (double)NAN);
   fg__color high = fg__palette_color(&palette, 1e300);
   assert_memory_equal(&low, &palette.sample[0], sizeof low);
   assert_memory_equal(&none, &palette.sample[0], sizeof none);
