@@ -26,6 +26,9 @@ static const double HEAD_SHARE = 0.85;
 static const double BODY_BEND = 0.3;
 static const double HEAD_TURNING = 0.45;
 
+/* Share of the barbs' room that the line must have where the head begins. */
+static const double ROOM_ENOUGH = 0.8;
+
 /* Within a head the line stays within this share of its half width: its triangle is
  * straight. */
 static const double HEAD_BOW = 0.4;
@@ -69,6 +72,7 @@ typedef struct arrow_search {
   const fg__arrow_rules *rules;
   double narrowest; /* width */
   double width;     /* tried now */
+  double weight;    /* what it makes of a length */
   int start;        /* station next to the streamline's start */
   fg__arrow best;
   double worth;
@@ -88,14 +92,16 @@ static bool head_fits(const arrow_search *search, int first, int tip, int *base)
   int i = tip - (int)lround(length / search->stations->step);
   if (i < first || i >= tip)
     return false;
+  /* the barbs have little more room than the line beside them */
+  if (station[i].room < ROOM_ENOUGH * FG__HEAD_WIDTH / 2 * width / HEAD_SHARE ||
+      fabs(station[tip].turning - station[i].turning) > HEAD_TURNING)
+    return false;
   const double *p = station[i].position, *q = station[tip].position;
   double dx = q[0] - p[0], dy = q[1] - p[1], chord = sqrt(dx * dx + dy * dy);
   if (!(chord > 0.8 * length))
     return false;
   dx /= chord;
   dy /= chord;
-  if (fabs(station[tip].turning - station[i].turning) > HEAD_TURNING)
-    return false;
   for (int k = i + 1; k < tip; k++) {
     double x = station[k].position[0] - p[0], y = station[k].position[1] - p[1];
     double left = 1 - (x * dx + y * dy) / chord;
@@ -118,33 +124,35 @@ static bool head_fits(const arrow_search *search, int first, int tip, int *base)
   return true;
 }
 
-/* Largest half width that a station allows. */
-static double limit_at(const arrow_search *search, const fg__station *station)
+/* Sets how much of the taper fits at each station. */
+static void find_shares(const arrow_search *search)
 {
-  double limit = BODY_SHARE * station->room;
-  double window = search->stations->bend_window;
-  if (station->bend * limit > BODY_BEND * window)
-    limit = BODY_BEND * window / station->bend;
-  return limit;
+  fg__station *station = search->stations->station;
+  double half = search->width / 2, radii = BODY_BEND * search->stations->bend_window;
+  for (int i = 0; i < search->stations->count; i++) {
+    double limit = BODY_SHARE * station[i].room;
+    if (station[i].bend * limit > radii)
+      limit = radii / station[i].bend;
+    station[i].share = (limit / half - FG__TAIL_WIDTH) / (1 - FG__TAIL_WIDTH);
+  }
 }
 
-/* The most upstream tail from which the body fits, or base when there is none. At a
- * station whose limit is a share t of the way from the tail's width to the full one, the
- * taper must not have come further than t: that bounds the tail from upstream. */
+/* The most upstream tail from which the body fits, or base when there is none. Where only
+ * a share of the taper fits, the taper must not have come further: that bounds the tail
+ * from upstream. */
 static int find_tail(const arrow_search *search, int first, int base)
 {
   const fg__station *station = search->stations->station;
-  double end = station[base].s, bound = station[first].s, half = search->width / 2;
+  double end = station[base].s, bound = station[first].s;
   int tail = base;
-  if (limit_at(search, &station[base]) < half)
+  if (station[base].share < 1)
     return base;
   for (int i = base - 1; i >= first; i--) {
-    double t =
-        (limit_at(search, &station[i]) / half - FG__TAIL_WIDTH) / (1 - FG__TAIL_WIDTH);
-    if (t < 0)
+    double share = station[i].share;
+    if (share < 0)
       break;
-    if (t < 1)
-      bound = fmax(bound, (station[i].s - t * end) / (1 - t));
+    if (share < 1)
+      bound = fmax(bound, (station[i].s - share * end) / (1 - share));
     if (station[i].s < bound)
       break;
     tail = i;
@@ -181,7 +189,7 @@ static void find_earliest(const arrow_search *search)
     station[i].earliest = i > 0 ? station[i - 1].earliest : 0;
     if (highest - lowest < AGAINST)
       continue;
-    for (int k = i - 1; k >= station[i].earliest; k--)
+    for (int k = i - 1; k >= station[i].earliest; k -= 2)
       if (!go_together(&station[k], &station[i], search->width)) {
         station[i].earliest = k + 1;
         break;
@@ -208,7 +216,7 @@ static void consider(arrow_search *search, int tail, int tip)
 {
   const fg__station *station = search->stations->station;
   double length = station[tip].s - station[tail].s;
-  double visible = length * pow(search->width / search->room->spacing, WIDTH_WORTH);
+  double visible = length * search->weight;
   if (visible <= search->worth)
     return;
   double total = station[search->stations->count - 1].s;
@@ -260,13 +268,19 @@ static void try_width(arrow_search *search, double width, double end_gap)
   if (fmin(most, total) * weight <= search->worth)
     return;
   search->width = width;
+  search->weight = weight;
   fg__stations_bend(search->stations, width);
+  find_shares(search);
   find_earliest(search);
   int gap = (int)ceil(end_gap / search->stations->step), last = count - 1 - gap;
   int lowest = search->rules->holds_start ? search->start : gap + 1;
   for (int tip = last; tip > lowest; tip--) {
-    if (fmin(station[tip].s - station[gap].s, most) * weight <= search->worth)
+    double length = station[tip].s - station[gap].s;
+    if (fmin(length, most) * weight <= search->worth)
       break;
+    double aside = fabs(station[gap].s + station[tip].s - total) / total;
+    if (length < most && length * weight * (1 - ASIDE_COST * aside) <= search->worth)
+      continue;
     int base = tip;
     if (!head_fits(search, gap, tip, &base))
       continue;
@@ -287,8 +301,8 @@ fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
   double widest = fg__arrow_widest(length, room->spacing);
   if (rules->widest > 0)
     widest = fmin(widest, rules->widest);
-  fg_status status =
-      fg__stations_place(stations, context, streamline, room, widest / 2 / BODY_SHARE);
+  fg_status status = fg__stations_place(stations, context, streamline, room,
+                                        widest * FG__HEAD_WIDTH / 2 / HEAD_SHARE);
   if (status != FG_STATUS_OK)
     return status;
   arrow_search search = {.stations = stations,
@@ -297,6 +311,10 @@ fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
                          .narrowest = NARROWEST_HEAD * room->spacing / FG__HEAD_WIDTH};
   search.start =
       (int)lround(streamline->node[streamline->start].s / length * (stations->count - 1));
+  double room_found = 0;
+  for (int i = 0; i < stations->count; i++)
+    room_found = fmax(room_found, stations->station[i].room);
+  widest = fmin(widest, room_found * HEAD_SHARE / (ROOM_ENOUGH * FG__HEAD_WIDTH / 2));
   for (double width = widest; width > search.narrowest * (1 + 1e-9); width *= WIDTH_STEP)
     try_width(&search, width, room->margin);
   if (widest >= search.narrowest)

@@ -8,7 +8,7 @@
 
 /* Points of the cluster that the arrow is compared with; more change the choice no more.
  */
-enum { SAMPLES = 200, ARROW_SAMPLES = 48 };
+enum { SAMPLES = 150, ARROW_SAMPLES = 32 };
 
 /* Other places on the spine to start from, in parts of its length. */
 static const double PLACES[] = {0.35, 0.65, 0.2, 0.8};
@@ -37,8 +37,8 @@ static const double PASSED = 0.2;
 
 /* The best line so far is shifted sideways by this share of the distance to the border,
  * then by half of it. */
-static const double SHIFT = 0.24;
-enum { SHIFTS = 2 };
+static const double SHIFT = 0.2;
+enum { SHIFTS = 1 };
 
 /* Arrows slimmer than this look like threads with a knot: the cluster gets a shorter and
  * bolder one instead. */

@@ -20,7 +20,7 @@ static const double MARGIN = 0.35;
  * it is given up. */
 static const double TEST_SPACING = 0.25;
 static const double NARROWER = 0.9;
-enum { NARROWINGS = 8, MOST_THREADS = 64 };
+enum { NARROWINGS = 8, EDGE_BLOCK = 12, MOST_THREADS = 64 };
 
 /* What all threads share; each takes the next cluster until there is none. */
 typedef struct icon_job {
@@ -41,14 +41,16 @@ typedef struct icon_worker {
   bool started;
 } icon_worker;
 
-static bool edge_is_inside(const fg__window *window, const double a[2], const double b[2],
-                           double spacing)
+static bool edge_is_inside(const fg__room *room, const double a[2], const double b[2])
 {
-  int pieces = (int)ceil(hypot(b[0] - a[0], b[1] - a[1]) / (TEST_SPACING * spacing)) + 1;
+  double length = hypot(b[0] - a[0], b[1] - a[1]);
+  double free_way = fg__distance_at(room->window, room->distance, a);
+  if (free_way - FG__DISTANCE_ERROR * room->spacing > length)
+    return true;
+  int pieces = (int)ceil(length / (TEST_SPACING * room->spacing)) + 1;
   for (int i = 0; i < pieces; i++) {
     double t = (double)i / pieces;
-    double point[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
-    if (!(fg__window_level(window, point) > 0))
+    if (!fg__room_has(room, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])))
       return false;
   }
   return true;
@@ -70,18 +72,61 @@ static bool edges_meet(const double a[2], const double b[2], const double c[2],
          side_of(c, d, a) * side_of(c, d, b) <= 0;
 }
 
+/* The box of some edges in a row. */
+typedef struct edge_box {
+  double low[2], high[2];
+} edge_box;
+
+static edge_box box_of(const double (*vertices)[2], int count, int first, int beyond)
+{
+  edge_box box = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+  for (int i = first; i <= beyond; i++)
+    for (int k = 0; k < 2; k++) {
+      double x = vertices[i < count ? i : 0][k];
+      box.low[k] = x < box.low[k] ? x : box.low[k];
+      box.high[k] = x > box.high[k] ? x : box.high[k];
+    }
+  return box;
+}
+
+static bool boxes_meet(const edge_box *a, const edge_box *b)
+{
+  return a->low[0] <= b->high[0] && b->low[0] <= a->high[0] && a->low[1] <= b->high[1] &&
+         b->low[1] <= a->high[1];
+}
+
+/* Whether an edge from [i, i_beyond) meets one from [j, j_beyond) that is no neighbour.
+ */
+static bool blocks_meet(const double (*vertices)[2], int count, int i_first, int i_beyond,
+                        int j_first, int j_beyond)
+{
+  for (int i = i_first; i < i_beyond; i++)
+    for (int j = j_first > i + 2 ? j_first : i + 2; j < j_beyond; j++)
+      if ((i > 0 || j < count - 1) &&
+          edges_meet(vertices[i], vertices[i + 1], vertices[j],
+                     vertices[j + 1 < count ? j + 1 : 0]))
+        return true;
+  return false;
+}
+
+/* Compares edges only where the boxes of EDGE_BLOCK of them meet. */
 static bool is_simple(const double (*vertices)[2], int count)
 {
-  for (int i = 0; i < count - 2; i++)
-    for (int j = i + 2; j < count - (i == 0); j++)
-      if (edges_meet(vertices[i], vertices[i + 1], vertices[j],
-                     vertices[j + 1 < count ? j + 1 : 0]))
+  for (int i = 0; i < count; i += EDGE_BLOCK) {
+    int i_beyond = i + EDGE_BLOCK < count ? i + EDGE_BLOCK : count;
+    edge_box a = box_of(vertices, count, i, i_beyond);
+    for (int j = i; j < count; j += EDGE_BLOCK) {
+      int j_beyond = j + EDGE_BLOCK < count ? j + EDGE_BLOCK : count;
+      edge_box b = box_of(vertices, count, j, j_beyond);
+      if (boxes_meet(&a, &b) && blocks_meet(vertices, count, i, i_beyond, j, j_beyond))
         return false;
+    }
+  }
   return true;
 }
 
 static fg_status test_outline(bool *sound, fg_context *context, const fg_icon *icon,
-                              const fg__window *window, double spacing)
+                              const fg__room *room)
 {
   double(*vertices)[2];
   int count;
@@ -91,7 +136,7 @@ static fg_status test_outline(bool *sound, fg_context *context, const fg_icon *i
                     icon->point_count, fg_status_name(status));
   *sound = is_simple((const double(*)[2])vertices, count);
   for (int i = 0; i < count && *sound; i++)
-    *sound = edge_is_inside(window, vertices[i], vertices[(i + 1) % count], spacing);
+    *sound = edge_is_inside(room, vertices[i], vertices[(i + 1) % count]);
   free(vertices);
   return FG_STATUS_OK;
 }
@@ -145,13 +190,12 @@ static double mean_speed(const fg_field *field, const fg_icon *icon)
 /* Turns a chosen arrow into an icon, narrowed until its real outline lies inside and is
  * simple. */
 static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *field,
-                            const fg__window *window, const fg__streamline *line,
+                            const fg__room *room, const fg__streamline *line,
                             const fg__arrow *arrow, const double center[2])
 {
-  double spacing = fmin(window->spacing[0], window->spacing[1]);
   double(*points)[3] = NULL;
-  fg_status status =
-      fg__arrow_centerline(&points, &icon->point_count, context, line, arrow, spacing);
+  fg_status status = fg__arrow_centerline(&points, &icon->point_count, context, line,
+                                          arrow, room->spacing);
   if (status != FG_STATUS_OK || icon->point_count < 2)
     return status;
   icon->points = (const double(*)[3])points;
@@ -160,7 +204,7 @@ static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *
   double width = arrow->width;
   for (int i = 0; i < NARROWINGS && !sound && status == FG_STATUS_OK; i++) {
     set_width(icon, width);
-    status = test_outline(&sound, context, icon, window, spacing);
+    status = test_outline(&sound, context, icon, room);
     width *= NARROWER;
   }
   if (!sound || status != FG_STATUS_OK) {
@@ -203,7 +247,7 @@ static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *choo
   fg_icon *icon = &job->icon[index];
   icon->cluster = index + 1;
   icon->area = job->labels->area[index];
-  status = build_icon(icon, context, job->field, &window, &chooser->best, &arrow,
+  status = build_icon(icon, context, job->field, &room, &chooser->best, &arrow,
                       spine.point[spine.center]);
 cleanup:
   free(distance);

@@ -10,9 +10,6 @@
 enum { FEWEST_STATIONS = 40, MOST_STATIONS = 160, CLEARANCE_BISECTIONS = 4 };
 static const double STATION_SPACING = 0.5; /* in spacings of the density */
 
-/* The distance map is of first order: that many spacings of it are not relied on. */
-static const double DISTANCE_ERROR = 0.75;
-
 double fg__distance_at(const fg__window *window, const double *distance,
                        const double position[2])
 {
@@ -90,7 +87,7 @@ fg_status fg__stations_place(fg__stations *stations, fg_context *context,
         i > 0 ? station[-1].turning + angle_between(station[-1].tangent, station->tangent)
               : 0;
     double known = fg__distance_at(room->window, room->distance, station->position) -
-                   DISTANCE_ERROR * room->spacing;
+                   FG__DISTANCE_ERROR * room->spacing;
     double free_way = reach;
     if (known < reach) {
       double dx = -station->tangent[1], dy = station->tangent[0];

@@ -11,6 +11,7 @@ typedef struct fg__station {
   double room;     /* free way to the nearer side, less the margin; negative: none */
   double bend;     /* angle turned within a width to either side (fg__stations_bend) */
   double bend_sum; /* of squared bends before this station */
+  double share;    /* of the way from the tail's width to the full one that fits here */
   int earliest;    /* no arrow ending here begins before this one */
 } fg__station;
 
@@ -30,6 +31,10 @@ typedef struct fg__room {
   double spacing;         /* of the density: the yardstick of readability */
   double margin;          /* between the outline and the window's zero set */
 } fg__room;
+
+/* The distance map is of first order near corners: that many spacings of it are not
+ * relied on. */
+#define FG__DISTANCE_ERROR 0.75
 
 /* The distance map at a point, bilinear; the nearest node's value outside the window. */
 double fg__distance_at(const fg__window *window, const double *distance,

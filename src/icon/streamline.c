@@ -178,9 +178,10 @@ static fg_status trace_one_way(fg__streamline *line, fg_context *context,
       }
       step = fmax(step / 2, SHORTEST_STEP * limits->step);
     }
-    fg__streamline_node middle = node_after(&last, &next, step, 0.5);
-    double fraction = 1;
-    if (!is_inside(tracer, middle.position))
+    double fraction = 1, middle[2], direction[2];
+    interpolate(last.position, last.tangent, next.position, next.direction, step, 0.5,
+                middle, direction);
+    if (!is_inside(tracer, middle))
       fraction = find_border(tracer, &last, &next, step, 0.5);
     else if (!is_inside(tracer, next.position))
       fraction = find_border(tracer, &last, &next, step, 1);
