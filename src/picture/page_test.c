@@ -62,8 +62,8 @@ static void check_page(const fg__page *page, const fg__page_plan *plan)
 
 static const char *const titles[] = {
     "", "Wind", "Monthly mean of the sea surface wind over the oceans, from ships",
-    "An even longer title, which says where the data come from, who measured them with "
-    "which instrument, and when, and which hence has no room on two lines of a page",
+    ("An even longer title, which says where the data come from, who measured them with "
+     "which instrument, and when, and which hence has no room on two lines of a page"),
     "Donaudampfschifffahrtselektrizitaetenhauptbetriebswerkbauunterbeamtengesellschaft"};
 
 static fg__page_plan plan_of(double width, double height, double x, double y, int style,

@@ -125,7 +125,9 @@ static int tear_down(void **state)
 {
   example *e = *state;
   DIR *listing = opendir(e->folder);
-  for (struct dirent *entry; listing && (entry = readdir(listing));) {
+  if (!listing)
+    return -1;
+  for (struct dirent *entry; (entry = readdir(listing));) {
     char path[400];
     snprintf(path, sizeof path, "%s/%s", e->folder, entry->d_name);
     unlink(path);
@@ -287,7 +289,7 @@ static void an_svg_has_one_path_an_arrow_in_its_colour(void **state)
     fg__color color = fg__palette_color(&palette, (speeds[n] - 1.0) / 11.0);
     int found = 0;
     for (const char *path = text; (path = strstr(path, "<path")); ++path) {
-      double rgb[3], box[4];
+      double rgb[3] = {0}, box[4] = {0};
       if (!fill_of(path, rgb) || fabs(rgb[0] - 100.0 * color.red) > 0.01 ||
           fabs(rgb[1] - 100.0 * color.green) > 0.01 ||
           fabs(rgb[2] - 100.0 * color.blue) > 0.01)
@@ -312,7 +314,7 @@ static void framed_svgs_are_well_formed(void **state)
   write_picture(e, "a.svg", &options);
   size_t size;
   char *text = read_file(e, "a.svg", &size);
-  const char *open[64];
+  const char *open[64] = {NULL};
   int depth = 0, texts = 0;
   for (char *at = text; (at = strchr(at, '<')); ++at) {
     char *end = strchr(at, '>');
@@ -391,7 +393,7 @@ static void bad_options_are_refused(void **state)
     const char *words;
   } cases[] = {{{.width = -3.0}, "-3"},
                {{.width = 20001.0}, "20001"},
-               {{.height = NAN}, "nan"},
+               {{.height = (double)NAN}, "nan"},
                {{.pixels_per_point = -1.0}, "-1 pixels"},
                {{.pixels_per_point = HUGE_VAL}, "inf pixels"},
                {{.pixels_per_point = 1e5}, "pixels, at most"},

@@ -248,7 +248,7 @@ static fg_status make_reference(fg__polygons *out, fg_context *context,
   enum { POINTS = 9 };
   fg__typical_icon median;
   fg_status status = fg__scene_typical_icon(&median, context, icons);
-  if (status || !(median.length > 0.0) || !page->has_size_key)
+  if (status || !median.shape || !(median.length > 0.0) || !page->has_size_key)
     return status;
   const fg_icon *typical = median.shape;
   double share = page->size_key_length / fg__icon_length(typical);

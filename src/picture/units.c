@@ -161,7 +161,7 @@ static bool write_product(char out[FG__UNITS_BYTES], const char *text)
       ++text;
       continue;
     }
-    char name[NAME_BYTES];
+    char name[NAME_BYTES] = "";
     int power;
     text = read_name(text, name);
     if (text)
