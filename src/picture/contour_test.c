@@ -215,6 +215,27 @@ static void loops_of_random_densities_close(void **state)
   }
 }
 
+/* u = u0 (1-x)(1-y) + ...: at its saddle point (u0 u2 - u1 u3) / (u0 - u1 + u2 - u3). */
+static void saddles_join_as_the_bilinear_density_does(void **state)
+{
+  (void)state;
+  static const struct {
+    float u[4]; /* lower left, lower right, upper left, upper right */
+    size_t loops;
+  } cases[] = {{{3.0F, -1.0F, -1.0F, 1.0F}, 1}, /* + 1/3 at the saddle */
+               {{1.0F, -3.0F, -1.0F, 1.0F}, 2}, /* - 1/3 */
+               {{-1.0F, 2.0F, 4.0F, -1.5F}, 1}, /* + 0.76 */
+               {{-4.0F, 1.0F, 2.0F, -1.5F}, 2}};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+    fg_density_arrays arrays = {
+        .dimension = 2, .nodes = {2, 2, 1}, .spacing = {1.5, 0.7, 0.0}, .u = cases[k].u};
+    fg__polygons polygons;
+    assert_int_equal(fg__contour_positive(&polygons, NULL, &arrays), FG_STATUS_OK);
+    assert_int_equal(polygons.count, cases[k].loops);
+    fg__polygons_clear(&polygons);
+  }
+}
+
 static void simplifying_keeps_the_shape(void **state)
 {
   (void)state;
@@ -366,6 +387,7 @@ int main(void)
       cmocka_unit_test(debris_is_left_out),
       cmocka_unit_test(masked_places_are_outside),
       cmocka_unit_test(loops_of_random_densities_close),
+      cmocka_unit_test(saddles_join_as_the_bilinear_density_does),
       cmocka_unit_test(simplifying_keeps_the_shape),
       cmocka_unit_test(masks_keep_their_area),
       cmocka_unit_test(a_staircase_becomes_a_slope),
