@@ -34,7 +34,7 @@ int fg__grow(void **array, size_t *capacity, size_t needed, size_t size)
     wanted = FIRST_CAPACITY;
   if (wanted < needed)
     wanted = needed;
-  if (size != 0 && wanted > SIZE_MAX / size)
+  if (size == 0 || wanted > SIZE_MAX / size)
     return 0;
   void *grown = realloc(*array, wanted * size);
   if (!grown)

@@ -85,7 +85,7 @@ static void rows_sum_to_zero(const problem *p)
     for (int s = 0; s < (level->mass ? 2 : 1); ++s)
       for (int j = 0; j < level->rows; ++j)
         for (int i = 0; i < level->columns; ++i) {
-#define AT(direction, i, j) (double)*fg__node(level, stencil[s]->direction, i, j)
+#define AT(direction, i, j) ((double)*fg__node(level, stencil[s]->direction, i, j))
           int west = i > 0 ? i - 1 : level->periodic[0] ? level->columns - 1 : -1;
           int east = i + 1 < level->columns ? i + 1 : 0;
           int south = j > 0 ? j - 1 : level->rows - 1;

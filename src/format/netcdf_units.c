@@ -147,7 +147,7 @@ fg__nc_quantity fg__nc_units(const char *units, char *label, size_t size)
 {
   char lower[FG__NC_TEXT];
   size_t n = 0;
-  for (; units[n] && n < sizeof lower - 1; ++n)
+  for (; n < sizeof lower - 1 && units[n]; ++n)
     lower[n] = (char)tolower((unsigned char)units[n]);
   lower[n] = '\0';
   snprintf(label, size, "%s", units);
