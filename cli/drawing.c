@@ -95,8 +95,9 @@ static fg_status draw(cli_drawing *drawing, int index, const fg_density *density
   scale_result *result = &drawing->results[index];
   fg_icons *icons = NULL;
   double start = clock_seconds();
+  fg_icon_options options = {.extent = (fg_icon_extent)drawing->settings->extent};
   fg_status status =
-      fg_icons_create(&icons, drawing->context, drawing->field, density, NULL);
+      fg_icons_create(&icons, drawing->context, drawing->field, density, &options);
   if (!status)
     status = write_icons(drawing, index, icons);
   double between = clock_seconds();

@@ -8,6 +8,7 @@
 
 static const char *const scale_words[] = {"auto", "geo", "map", "plain"};
 static const char *const energy_words[] = {"flow", "isotropic"};
+static const char *const extent_words[] = {"cluster", "territory"};
 
 static void add_text(cJSON *object, const char *name, const char *text)
 {
@@ -83,6 +84,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   cJSON_AddStringToObject(object, "mesh", "uniform");
   cJSON_AddStringToObject(object, "scheme", "euler");
   add_text(object, "energy", energy_words[said->energy]);
+  add_text(object, "extent", extent_words[said->extent]);
   cJSON_AddNumberToObject(object, "anisotropy", mesh->anisotropy);
   cJSON_AddNumberToObject(object, "coverage", mesh->coverage);
   cJSON_AddNumberToObject(object, "gamma", mesh->gamma);

@@ -7,6 +7,7 @@
 static const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
 static const char *const mesh_words[] = {"uniform", NULL};
 static const char *const energy_words[] = {"flow", "isotropic", NULL};
+static const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
   EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH,
@@ -89,6 +90,10 @@ const option_entry option_table[] = {
      "numbers of clusters at which to write a scale, descending, as 200,50,12; a scale "
      "is the first moment at or below the number [the first number seen, then "
      "..., 96, 48, 24, 12]"},
+    {"extent", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(extent), 0, 0, false, false,
+     extent_words,
+     "how far an arrow reaches: to the border of its `cluster`, or through its "
+     "`territory`, all that is nearer to this cluster than to any other [cluster]"},
     {"seed", 0, "S", COMMAND_RUN, OPTION_SEED, AT(seed), 1, 0, false, false, NULL,
      "seed of the initial noise, from 1 [1]"},
     {"max-time", 0, "T", COMMAND_RUN, OPTION_NUMBER, AT(max_time), 0, 1e300, true, false,

@@ -31,6 +31,7 @@ typedef struct cli_settings {
   int threads;
   int clusters[MAX_SCALES]; /* descending */
   int cluster_count;
+  int extent; /* fg_icon_extent */
 
   unsigned formats; /* 0: the default, SVG and PNG */
   double width;

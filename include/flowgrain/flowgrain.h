@@ -317,8 +317,16 @@ typedef struct fg_icon {
   double speed;            /* mean |v| along the centreline, input units */
 } fg_icon;
 
+typedef enum fg_icon_extent {
+  FG_ICON_EXTENT_CLUSTER = 0, /* an arrow stays in its cluster */
+  FG_ICON_EXTENT_TERRITORY /* it goes on to the border with the next cluster's territory
+                              (what lies nearest to it, round masks), and is at most
+                              2 sqrt(domain area / clusters) long */
+} fg_icon_extent;
+
 typedef struct fg_icon_options {
-  int threads; /* [1] */
+  int threads;           /* [1] */
+  fg_icon_extent extent; /* [cluster] */
 } fg_icon_options;
 
 typedef struct fg_icons fg_icons;

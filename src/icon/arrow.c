@@ -24,14 +24,14 @@ static const double HEAD_SHARE = 0.85;
 /* Largest half width in radii of curvature, both over a width to either side, where the
  * outline's normals smooth the rest; and how far the line may turn within the head. */
 static const double BODY_BEND = 0.3;
-static const double HEAD_TURNING = 0.45;
+static const double HEAD_TURNING = 0.5;
 
 /* Share of the barbs' room that the line must have where the head begins. */
 static const double ROOM_ENOUGH = 0.8;
 
 /* Within a head the line stays within this share of its half width: its triangle is
  * straight. */
-static const double HEAD_BOW = 0.4;
+static const double HEAD_BOW = 0.55;
 
 /* What width is worth beside length: a line's area grows with both, but its length is
  * what shows the flow. */
@@ -43,7 +43,11 @@ static const double UNREST_COST = 0.03;
 
 /* Beyond this turning (radians) an arrow must deserve it: each radian more costs. */
 static const double LONG_TURNING = 2.4;
-static const double TURNING_COST = 0.12;
+static const double TURNING_COST = 0.06;
+
+/* A bent arrow looks less long: rings and horseshoes may be slimmer, by this share a
+ * radian, so that a ring of 300 degrees is judged by a little more than half its way. */
+static const double ROLLED_UP = 0.08;
 
 /* What it costs when the arrow lies at one end of its line. */
 static const double ASIDE_COST = 0.15;
@@ -58,7 +62,7 @@ static const double AGAINST = 2.094;
 static const double SELF_GAP = 1.0;
 
 /* Widths are tried downwards by this factor, tails cut by these shares of the length. */
-static const double WIDTH_STEP = 0.89;
+static const double WIDTH_STEP = 0.92;
 static const double CUTS[] = {0, 0.1, 0.2, 0.3, 0.45, 0.6};
 
 /* Turn between two points of the centreline, radians, and their distance in spacings. */
@@ -71,6 +75,7 @@ typedef struct arrow_search {
   const fg__room *room;
   const fg__arrow_rules *rules;
   double narrowest; /* width */
+  double rolled_up; /* the most that any part of the line may be longer, see below */
   double width;     /* tried now */
   double weight;    /* what it makes of a length */
   int start;        /* station next to the streamline's start */
@@ -235,12 +240,27 @@ static void consider(arrow_search *search, int tail, int tip)
   };
 }
 
-/* Tries the arrows of one width that end at a station and begin at `tail` or later. */
-static void try_tails(arrow_search *search, int tail, int base, int tip, double least,
-                      double most)
+/* How much longer than a straight arrow of the same look one may be that turns. */
+static double rolled_up(double turning)
+{
+  return 1 + ROLLED_UP * turning;
+}
+
+static bool is_too_long(const arrow_search *search, int tail, int tip, double slim)
 {
   const fg__station *station = search->stations->station;
-  while (tail < base && station[tip].s - station[tail].s > most)
+  double length = station[tip].s - station[tail].s, longest = search->rules->longest;
+  double turning = fabs(station[tip].turning - station[tail].turning);
+  return (longest > 0 && length > longest) || length > slim * rolled_up(turning) ||
+         turning > FG__LARGEST_TURNING;
+}
+
+/* Tries the arrows of one width that end at a station and begin at `tail` or later. */
+static void try_tails(arrow_search *search, int tail, int base, int tip, double least,
+                      double slim)
+{
+  const fg__station *station = search->stations->station;
+  while (tail < base && is_too_long(search, tail, tip, slim))
     tail++;
   double length = station[tip].s - station[tail].s;
   for (size_t k = 0; k < sizeof CUTS / sizeof *CUTS; k++) {
@@ -261,9 +281,7 @@ static void try_width(arrow_search *search, double width, double end_gap)
   double total = station[count - 1].s;
   double ratio = width > search->narrowest ? LARGEST_WIDTH : SMALL_ARROW_WIDTH;
   double least = fmax(SHORTEST * search->room->spacing, width / ratio);
-  double most = width / search->rules->slimmest;
-  if (search->rules->longest > 0)
-    most = fmin(most, search->rules->longest);
+  double slim = width / search->rules->slimmest, most = slim * search->rolled_up;
   double weight = pow(width / search->room->spacing, WIDTH_WORTH);
   if (fmin(most, total) * weight <= search->worth)
     return;
@@ -286,7 +304,7 @@ static void try_width(arrow_search *search, double width, double end_gap)
       continue;
     int earliest = station[tip].earliest > gap ? station[tip].earliest : gap;
     int tail = find_tail(search, earliest < base ? earliest : base, base);
-    try_tails(search, tail, base, tip, least, most);
+    try_tails(search, tail, base, tip, least, slim);
   }
 }
 
@@ -311,9 +329,14 @@ fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
                          .narrowest = NARROWEST_HEAD * room->spacing / FG__HEAD_WIDTH};
   search.start =
       (int)lround(streamline->node[streamline->start].s / length * (stations->count - 1));
-  double room_found = 0;
-  for (int i = 0; i < stations->count; i++)
-    room_found = fmax(room_found, stations->station[i].room);
+  double room_found = 0, lowest = 0, highest = 0;
+  for (int i = 0; i < stations->count; i++) {
+    const fg__station *station = &stations->station[i];
+    room_found = fmax(room_found, station->room);
+    lowest = fmin(lowest, station->turning);
+    highest = fmax(highest, station->turning);
+  }
+  search.rolled_up = rolled_up(fmin(highest - lowest, FG__LARGEST_TURNING));
   widest = fmin(widest, room_found * HEAD_SHARE / (ROOM_ENOUGH * FG__HEAD_WIDTH / 2));
   for (double width = widest; width > search.narrowest * (1 + 1e-9); width *= WIDTH_STEP)
     try_width(&search, width, room->margin);

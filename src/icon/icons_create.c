@@ -1,5 +1,6 @@
 #include "icon/choose.h"
 #include "icon/icons.h"
+#include "icon/territory.h"
 
 #include "base/memory.h"
 
@@ -15,6 +16,11 @@ static const double RING_TURNING = 4.4;
  * to about a tenth of a cell, and a tip on the very border looks as if it poked out. */
 static const double MARGIN = 0.35;
 
+/* An arrow in its territory keeps that many of its widths from the border, so that
+ * neighbours do not seem to touch, and is at most that many fair shares long. */
+static const double BORDER_GAP = 0.75;
+static const double LONGEST_EXTENDED = 2.0;
+
 /* The outline is tested at its vertices and between them, at least this close (in
  * spacings of the density); an arrow that fails is made narrower this many times before
  * it is given up. */
@@ -27,6 +33,7 @@ typedef struct icon_job {
   const fg_field *field;
   const fg_density_arrays *density;
   const fg__labels *labels;
+  const fg__territories *territories; /* NULL: arrows stay in their clusters */
   fg_icon *icon; /* [labels->count]; points owned, NULL where no arrow fits */
   atomic_int next;
   atomic_bool halted; /* a thread failed or the caller wants to stop */
@@ -217,42 +224,81 @@ static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *
   return FG_STATUS_OK;
 }
 
+/* What is known of one cluster while its icon is made. */
+typedef struct icon_place {
+  fg__window window;
+  double *distance;
+  fg__room room;
+} icon_place;
+
+static void clear_place(icon_place *place)
+{
+  free(place->distance);
+  fg__window_clear(&place->window);
+}
+
+/* Measures the window's distances and makes it a room. The domain's border counts: an
+ * arrow there needs room for its head like elsewhere. */
+static fg_status measure_place(icon_place *place, fg_context *context, double margin)
+{
+  const fg__window *window = &place->window;
+  size_t nodes = (size_t)window->nodes[0] * (size_t)window->nodes[1];
+  place->distance = fg__allocate(nodes, sizeof *place->distance);
+  if (!place->distance)
+    return fg__fail_memory(context, "a distance map", nodes * sizeof *place->distance);
+  double spacing = fmin(window->spacing[0], window->spacing[1]);
+  place->room =
+      (fg__room){window, place->distance, spacing, fmax(MARGIN * spacing, margin)};
+  return fg__march(place->distance, context, window, true);
+}
+
+/* Lets the chosen arrow go on through the cluster's territory; *extended when it did. */
+static fg_status extend(icon_place *land, fg__arrow *arrow, bool *extended,
+                        const icon_job *job, fg_context *context, fg__chooser *chooser,
+                        int cluster, const double center[2])
+{
+  double longest = LONGEST_EXTENDED * job->territories->fair_share;
+  *extended = false;
+  fg_status status = fg__territory_window(&land->window, context, job->territories,
+                                          cluster, center, longest);
+  if (status == FG_STATUS_OK)
+    status = measure_place(land, context, BORDER_GAP * arrow->width);
+  if (status == FG_STATUS_OK)
+    status = fg__extend_arrow(arrow, extended, chooser, context, job->field, &land->room,
+                              center, longest);
+  return status;
+}
+
 static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *chooser,
                            int index)
 {
-  fg__window window = {0};
+  icon_place place = {0}, land = {0};
   fg__spine spine = {0};
-  fg__arrow arrow;
-  double *distance = NULL;
+  fg__arrow arrow = {0};
+  bool extended = false;
   fg_status status =
-      fg__window_create(&window, context, job->density, job->labels, index + 1);
+      fg__window_create(&place.window, context, job->density, job->labels, index + 1);
+  if (status == FG_STATUS_OK)
+    status = measure_place(&place, context, 0);
+  if (status == FG_STATUS_OK)
+    status = fg__spine_create(&spine, context, &place.window, place.distance);
   if (status != FG_STATUS_OK)
     goto cleanup;
-  size_t nodes = (size_t)window.nodes[0] * (size_t)window.nodes[1];
-  distance = fg__allocate(nodes, sizeof *distance);
-  if (!distance) {
-    status = fg__fail_memory(context, "a distance map", nodes * sizeof *distance);
-    goto cleanup;
-  }
-  /* the domain's border counts: an arrow there needs room for its head like elsewhere */
-  status = fg__march(distance, context, &window, true);
-  if (status == FG_STATUS_OK)
-    status = fg__spine_create(&spine, context, &window, distance);
-  double spacing = fmin(window.spacing[0], window.spacing[1]);
-  fg__room room = {&window, distance, spacing, MARGIN * spacing};
-  if (status == FG_STATUS_OK)
-    status = fg__choose_arrow(&arrow, chooser, context, job->field, &room, &spine);
+  const double *center = spine.point[spine.center];
+  status = fg__choose_arrow(&arrow, chooser, context, job->field, &place.room, &spine);
+  if (status == FG_STATUS_OK && job->territories)
+    status = extend(&land, &arrow, &extended, job, context, chooser, index + 1, center);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
     goto cleanup;
   fg_icon *icon = &job->icon[index];
   icon->cluster = index + 1;
   icon->area = job->labels->area[index];
-  status = build_icon(icon, context, job->field, &room, &chooser->best, &arrow,
-                      spine.point[spine.center]);
+  status = build_icon(icon, context, job->field, extended ? &land.room : &place.room,
+                      &chooser->best, &arrow, center);
 cleanup:
-  free(distance);
+  clear_place(&place);
+  clear_place(&land);
   fg__spine_clear(&spine);
-  fg__window_clear(&window);
   return status;
 }
 
@@ -314,12 +360,19 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
   *out = NULL;
   int threads = options && options->threads > 0 ? options->threads : 1;
   fg__labels labels = {0};
+  fg__territories territories = {0};
   fg_icons *icons = NULL;
   icon_job job = {
       .field = field, .density = fg_density_contents(density), .labels = &labels};
   fg_status status = fg__labels_create(&labels, context, job.density);
   if (status != FG_STATUS_OK)
     return status;
+  if (options && options->extent == FG_ICON_EXTENT_TERRITORY) {
+    status = fg__territories_create(&territories, context, job.density, &labels);
+    if (status != FG_STATUS_OK)
+      goto cleanup;
+    job.territories = &territories;
+  }
   job.icon = fg__allocate((size_t)labels.count, sizeof *job.icon);
   if (!job.icon) {
     status =
@@ -350,6 +403,7 @@ cleanup:
       free((void *)(uintptr_t)job.icon[i].points);
   free(job.icon);
   fg_icons_destroy(icons);
+  fg__territories_clear(&territories);
   fg__labels_clear(&labels);
   return status;
 }

@@ -124,6 +124,17 @@ expect_code 0
 expect_json out9/run.json '.parameters.energy == "isotropic"'
 done_with "isotropic energy"
 
+try run synth:vortex3 -o out10 "${small[@]}" --extent territory
+expect_code 0
+expect_json out1/run.json '.parameters.extent == "cluster"'
+expect_json out10/run.json '.parameters.extent == "territory"'
+# territories are longer than the clusters within them
+points='[.features[].geometry.coordinates | [.[1:], .[:-1]] | transpose[] |
+  ((.[0][0] - .[1][0]) * (.[0][0] - .[1][0]) + (.[0][1] - .[1][1]) * (.[0][1] - .[1][1])) | sqrt] | add'
+expect_json out10/scale-01.geojson "($points) > 1.2 * $(jq "$points" out1/scale-01.geojson)"
+expect_json out10/scale-01.geojson '[.features[].geometry.coordinates[][] | . >= 0 and . <= 1] | all'
+done_with "--extent territory draws longer arrows"
+
 try run "$root/data/gfs_20140131.nc" -o gfs --nodes 129 --clusters 40 --quiet
 expect_code 0
 expect_json gfs/run.json '.field.scale == "geo" and .field.period[0] == 360 and .field.velocity == ["u10", "v10"]'
