@@ -14,6 +14,11 @@ static const double default_accuracy = 0.05;
 /* Half-width of an interface along the stream in cells; at 1 an isotropic pattern pins.
  */
 static const double interface_cells = 1.1, isotropic_interface_cells = 1.5;
+/* A thinner one lies between two nodes and can not move. */
+static const double least_interface_cells = 0.3;
+
+/* The wells are at -1 and 1; an initial density far beyond them is a mistake. */
+static const double most_initial = 10.0;
 
 /* Nucleation is over, and clusters are counted, once this share of the wanted area is
  * covered; the noise covers it too, but has smoothed away after one growth time of linear
@@ -26,6 +31,9 @@ static const double debris_squares = 10.0;
 
 /* The first step, as a share of the fastest growth time of linear theory. */
 static const double first_step_share = 1e-3;
+
+/* tau gamma / h^4 above which cycles stall (measured, docs/design/evolution.md). */
+static const double most_stiffness = 4e3;
 
 struct fg_evolution {
   fg_context *context;
@@ -79,6 +87,8 @@ static fg_status settle_options(fg_evolution_options *o, fg_context *context)
     status = check_range(context, "cycles", o->cycles, 1, 1000, true);
   if (!status && o->gamma != 0.0)
     status = check_range(context, "gamma", o->gamma, 0.0, 1.0, false);
+  if (!status && o->threads < 0)
+    status = fg__fail(context, FG_STATUS_ARGUMENT, "%d threads", o->threads);
   return status;
 }
 
@@ -134,6 +144,31 @@ static fg_status create_tensor(fg_evolution *e, const fg_field *field)
                            e->mesh.periodic, width);
 }
 
+static fg_status check_interface(const fg_evolution *e)
+{
+  double h = fmax(e->mesh.spacing[0], e->mesh.spacing[1]);
+  double cells = sqrt(e->info.gamma * e->options.anisotropy) / h;
+  if (cells >= least_interface_cells)
+    return FG_STATUS_OK;
+  fg__fail(e->context, FG_STATUS_ARGUMENT,
+           "gamma %g makes interfaces %.3g cells wide; at least %g are needed",
+           e->info.gamma, cells, least_interface_cells);
+  fg__hint(e->context, "Take a larger gamma or more nodes.");
+  return FG_STATUS_ARGUMENT;
+}
+
+static fg_status check_initial(const fg_evolution *e, const fg__level *level)
+{
+  const float *u = e->options.initial;
+  size_t count = (size_t)level->columns * (size_t)level->rows;
+  for (size_t n = 0; u && n < count; ++n)
+    if (!(fabs((double)u[n]) <= most_initial))
+      return fg__fail(e->context, FG_STATUS_ARGUMENT,
+                      "initial density %g at node %zu; at most %g in size is possible",
+                      (double)u[n], n, most_initial);
+  return FG_STATUS_OK;
+}
+
 /* The fastest growing mode of linear theory grows at this rate (design.md section 3).
  * Where the mean itself is stable the wells' own curvature sets the pace. */
 static double growth_rate(const fg_evolution *e)
@@ -141,6 +176,16 @@ static double growth_rate(const fg_evolution *e)
   double mean = 2.0 * e->options.coverage - 1.0;
   double curvature = fmax(fabs(6.0 * mean * mean - 2.0), 1.0);
   return curvature * curvature / (4.0 * e->options.anisotropy * e->info.gamma);
+}
+
+/* The step at which the cycle ceases to converge in separated phases. Beyond it the
+ * change of a step is what two cycles manage, not what the equation asks: time runs on
+ * and the pattern does not. */
+static double most_step(const fg_evolution *e)
+{
+  double cell_area = e->mesh.spacing[0] * e->mesh.spacing[1];
+  double first = first_step_share / growth_rate(e);
+  return fmax(most_stiffness * cell_area * cell_area / e->info.gamma, first);
 }
 
 static void describe(fg_evolution *e)
@@ -230,12 +275,14 @@ static fg_status create_stepper(fg_evolution *e)
   if (status)
     return status;
   e->info.kernel = multigrid.kernel->name;
-  status = take_plain_arrays(e, &multigrid.level[0]);
+  status = check_initial(e, &multigrid.level[0]);
+  if (!status)
+    status = take_plain_arrays(e, &multigrid.level[0]);
   if (!status) {
     set_initial_density(e, &multigrid);
     status = fg__stepper_create(&e->stepper, e->context, &multigrid,
-                                first_step_share / growth_rate(e), e->options.accuracy,
-                                e->options.cycles);
+                                first_step_share / growth_rate(e), most_step(e),
+                                e->options.accuracy, e->options.cycles);
   }
   if (status)
     fg__multigrid_clear(&multigrid);
@@ -262,8 +309,10 @@ fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
     status = create_tensor(e, field);
   if (!status) {
     describe(e);
-    status = create_stepper(e);
+    status = check_interface(e);
   }
+  if (!status)
+    status = create_stepper(e);
   e->options.initial = NULL; /* the caller's, and used up */
   if (status) {
     fg_evolution_destroy(e);

@@ -54,7 +54,7 @@ typedef struct fg__kernel {
   /* out := now + omega (now - before), whole arrays. */
   void (*extrapolate)(const fg__level *level, const float *now, const float *before,
                       float omega, float *out);
-  /* Adds an amount to u wherever there is mass. */
+  /* Adds an amount to u wherever there is mass; elsewhere u becomes 0. */
   void (*shift)(const fg__level *level, float *u, float amount);
 } fg__kernel;
 

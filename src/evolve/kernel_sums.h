@@ -169,7 +169,7 @@ static void shift(const fg__level *level, float *u, float amount)
   if (mass) {
     INDEPENDENT
     for (ptrdiff_t n = -level->first; n < size; ++n)
-      u[n] += mass[n] > 0.0F ? amount : 0.0F;
+      u[n] = mass[n] > 0.0F ? u[n] + amount : 0.0F;
   } else {
     INDEPENDENT
     for (ptrdiff_t n = -level->first; n < size; ++n)

@@ -22,10 +22,17 @@ static const double least_tau_share = 1e-9;
 /* Mass is held to the rounding of the stored precision. */
 static const double mass_tolerance = 1e-7;
 
-/* A pattern at rest: this many steps, each as long as a tenth of all time so far, that
- * change u by less than this (rms); a coarsening pattern changes it by about eta. */
+/* Rounding of floats moves the energy of a pattern at rest by less than this share, and
+ * its density by less than this; such a step leaves the density as it is, for else the
+ * energy could rise by rounding. */
+static const double energy_rounding = 1e-6, rest_increment = 1e-5;
+
+/* A pattern at rest: so many steps in a row at whose rate u would change by less than
+ * this (rms) while time doubles; coarsening changes it by some tenths. Not before this
+ * many first steps, twenty growth times of linear theory, in which a weak perturbation
+ * may still be growing unseen. */
 enum { QUIET_STEPS = 12 };
-static const double quiet_increment = 1e-4, quiet_tau_share = 0.1;
+static const double quiet_change = 1e-3, quiet_after = 2e4;
 
 static size_t array_bytes(const fg__level *level)
 {
@@ -54,13 +61,14 @@ static double weigh_domain(const fg__stepper *s)
 }
 
 fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
-                             fg__multigrid *multigrid, double first_tau, double accuracy,
-                             int cycles)
+                             fg__multigrid *multigrid, double first_tau, double most_tau,
+                             double accuracy, int cycles)
 {
   *out = (fg__stepper){.multigrid = *multigrid,
                        .accuracy = accuracy,
                        .cycles = cycles,
                        .first_tau = first_tau,
+                       .most_tau = most_tau,
                        .tau = first_tau,
                        .tau_limit = (double)INFINITY};
   *multigrid = (fg__multigrid){0};
@@ -82,6 +90,11 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   fg__fill_ghosts(finest, finest->u);
   copy_array(finest, out->current, finest->u);
   out->mean = mean_of(out, out->current);
+  fg_status status = fg__parts_create(&out->parts, context, finest, out->current);
+  if (status) {
+    fg__stepper_clear(out);
+    return status;
+  }
   fg__sums sums = out->multigrid.kernel->evaluate(finest, out->current, finest->w);
   out->energy = out->cell_area * sums.energy;
   out->mass = out->cell_area * sums.u;
@@ -91,6 +104,7 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
 void fg__stepper_clear(fg__stepper *stepper)
 {
   fg__multigrid_clear(&stepper->multigrid);
+  fg__parts_clear(&stepper->parts);
   free(stepper->memory);
   *stepper = (fg__stepper){0};
 }
@@ -118,6 +132,7 @@ typedef struct outcome {
   double increment, correction, energy, mean;
   double persistence; /* how much of the last step's rate of change went on */
   bool accepted;
+  bool at_rest; /* the change is within the rounding of the stored density */
 } outcome;
 
 static outcome attempt(fg__stepper *s, double tau)
@@ -134,6 +149,7 @@ static outcome attempt(fg__stepper *s, double tau)
   fg__changes sums =
       m->kernel->changes(level, level->u, s->current, s->first_iterate, s->previous);
   m->kernel->shift(level, level->u, (float)(s->mean - sums.u / s->total_mass));
+  fg__parts_restore_means(&s->parts, level, level->u);
   outcome result;
   result.increment = sqrt(sums.from_a / s->total_mass);
   result.correction = sqrt(sums.from_b / s->total_mass) /
@@ -145,6 +161,8 @@ static outcome attempt(fg__stepper *s, double tau)
   fg__sums shifted = m->kernel->evaluate(level, level->u, s->first_iterate);
   result.energy = s->cell_area * shifted.energy;
   result.mean = shifted.u / s->total_mass;
+  result.at_rest = result.increment < rest_increment && result.energy >= s->energy &&
+                   result.energy - s->energy <= energy_rounding * s->energy;
   /* comparisons are false for NaN, which rejects */
   result.accepted = result.correction <= acceptable_correction &&
                     result.increment <= acceptable_increment * s->accuracy &&
@@ -181,9 +199,22 @@ static void choose_next_tau(fg__stepper *s, double tau, const outcome *result)
   double factor = fmin(by_increment, by_correction);
   factor = fmin(fmax(factor, most_shrinkage), most_growth);
   s->tau_limit *= relaxation;
-  s->tau = fmin(tau * factor, s->tau_limit);
-  bool quiet = result->increment < quiet_increment && tau > quiet_tau_share * s->time;
+  s->tau = fmin(tau * factor, fmin(s->tau_limit, s->most_tau));
+  bool quiet = result->increment * s->time < quiet_change * tau &&
+               s->time > quiet_after * s->first_tau;
   s->quiet_steps = quiet ? s->quiet_steps + 1 : 0;
+}
+
+/* A step in which nothing moves: time alone goes on. */
+static void pass_time(fg__stepper *s, double tau)
+{
+  s->history = false;
+  s->last_tau = tau;
+  s->time += tau;
+  ++s->accepted;
+  outcome nothing = {.correction = 0.0};
+  choose_next_tau(s, tau, &nothing);
+  s->increment = 0.0;
 }
 
 fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
@@ -195,6 +226,10 @@ fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
     if (status)
       return status;
     outcome result = attempt(s, tau);
+    if (result.at_rest) {
+      pass_time(s, tau);
+      return FG_STATUS_OK;
+    }
     if (result.accepted) {
       keep(s, tau, &result);
       choose_next_tau(s, tau, &result);

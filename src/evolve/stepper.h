@@ -3,6 +3,7 @@
 #define FG__STEPPER_H
 
 #include "evolve/multigrid.h"
+#include "evolve/parts.h"
 
 typedef struct fg__stepper {
   fg__multigrid multigrid;
@@ -11,7 +12,8 @@ typedef struct fg__stepper {
   double cell_area;  /* hx hy, units of the longest side squared */
   double total_mass; /* sum of the nodes' relative masses */
   double mean;       /* of u, held */
-  double first_tau;
+  fg__parts parts;   /* each of which holds its own mean */
+  double first_tau, most_tau;
 
   long accepted, rejected, cycles_spent;
   double time, tau;    /* tau: the next step to try */
@@ -31,10 +33,11 @@ typedef struct fg__stepper {
 } fg__stepper;
 
 /* Takes over a multigrid hierarchy (cleared with the stepper); the density starts as what
- * level[0].u holds, and its mean is kept. MEMORY. */
+ * level[0].u holds, and its mean is kept. Steps start at first_tau and never exceed
+ * most_tau. MEMORY. */
 fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
-                             fg__multigrid *multigrid, double first_tau, double accuracy,
-                             int cycles);
+                             fg__multigrid *multigrid, double first_tau, double most_tau,
+                             double accuracy, int cycles);
 void fg__stepper_clear(fg__stepper *stepper);
 
 /* One accepted step; `current` is the new density. NO_CONVERGENCE, STOPPED. */

@@ -8,6 +8,10 @@
 #include "base/memory.h"
 #include "mesh/message_passing.h"
 
+/* Cells longer than twice their width resolve an interface in one direction only: a thin
+ * domain gets more nodes along it than asked for. */
+static const double most_cell_ratio = 2.0;
+
 /* 4097 nodes a side need 1.7 GB; a typing error should not ask for more. */
 enum { LEAST_NODES = 9, MOST_NODES = 16385, COARSENING = 16, SHORT_SIDE_COARSENING = 8 };
 
@@ -42,9 +46,19 @@ static fg_status choose_cells(fg__mesh *mesh, fg_context *context,
                       "the domain's side along axis %d is %g", k, description->side[k]);
   int longest = description->side[1] > description->side[0];
   mesh->length = description->side[longest];
-  mesh->cells[longest] = round_up(description->nodes - 1, COARSENING);
   double ratio = description->side[!longest] / mesh->length;
   int multiple = description->periodic[!longest] ? COARSENING : SHORT_SIDE_COARSENING;
+  double least_cells = multiple / ratio / most_cell_ratio;
+  if (least_cells > MOST_NODES - 1)
+    return fg__fail(
+        context, FG_STATUS_ARGUMENT,
+        "the domain is %g times as long as wide: it would take %.0f nodes along it, "
+        "at most %d are possible",
+        1.0 / ratio, least_cells + 1.0, MOST_NODES);
+  int wanted = description->nodes - 1;
+  if (least_cells > wanted)
+    wanted = (int)ceil(least_cells);
+  mesh->cells[longest] = round_up(wanted, COARSENING);
   int parts = (int)lround(ratio * mesh->cells[longest] / multiple);
   mesh->cells[!longest] = multiple * (parts > 0 ? parts : 1);
   for (int k = 0; k < 2; ++k) {

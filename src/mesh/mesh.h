@@ -39,8 +39,10 @@ typedef struct fg__mesh_description {
 
 /* Builds a uniform mesh. The cells along the longest side are nodes - 1 rounded up to a
  * multiple of 16, the other side gets the multiple of 8 (16 when periodic) that makes
- * cells most nearly square; so both can be halved at least three times. Collective over
- * the communicator. ARGUMENT (fewer than 9 or too many nodes, an empty box), MEMORY, MPI.
+ * cells most nearly square; so both can be halved at least three times; a domain so thin
+ * that this makes cells more than twice as wide as long gets more cells along it.
+ * Collective over the communicator. ARGUMENT (fewer than 9 or too many nodes, an empty
+ * box), MEMORY, MPI.
  */
 fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
                           const fg__mesh_description *description);
