@@ -320,7 +320,7 @@ static fg_status apply_marks(float *velocity[2], const fg__vti *vti,
   if (status == FG_STATUS_OK)
     for (size_t i = 0; i < plane->points[0] * plane->points[1]; ++i)
       if (isnan(marks[i]))
-        velocity[0][i] = velocity[1][i] = NAN;
+        velocity[0][i] = velocity[1][i] = NAN; /* both are there: NOLINT */
   free(marks);
   return status;
 }

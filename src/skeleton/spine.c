@@ -130,6 +130,7 @@ static fg_status refine_open(fg__polyline *line, fg_context *context,
 {
   double step = cell_size(field->window);
   int widest = widest_point(line, field);
+  /* a path has points: NOLINTNEXTLINE */
   const double middle[2] = {line->point[widest][0], line->point[widest][1]};
   double radius = fg__signed_distance_at(field, middle);
   /* without the steps of the grid, which make the path up to 8 % too long */
