@@ -2,24 +2,27 @@
  *
  * A field is read (fg_field), a density evolves on it by an anisotropic Cahn-Hilliard
  * equation (fg_evolution), the set {u > 0} of a moment (fg_density) falls into clusters,
- * each cluster becomes one curved arrow (fg_icons), and arrows become pictures and tables.
- * Method: Garcke, Preusser, Rumpf, Telea, Weikard and van Wijk, "A Continuous Clustering
- * Method for Vector Fields", IEEE Visualization 2000.
+ * each cluster becomes one curved arrow (fg_icons), and arrows become pictures and
+ * tables. Method: Garcke, Preusser, Rumpf, Telea, Weikard and van Wijk, "A Continuous
+ * Clustering Method for Vector Fields", IEEE Visualization 2000.
  *
  *     fg_context *ctx;  fg_field *field;  fg_evolution *evolution;
  *     fg_density *density;  fg_icons *icons;
  *     fg_context_create(&ctx);
  *     fg_field_read(&field, ctx, "wind.nc", NULL);
  *     fg_evolution_create(&evolution, ctx, field, NULL);
- *     do fg_evolution_step(evolution, &step); while (step.clusters > 40 || !step.clusters);
+ *     do
+ *       fg_evolution_step(evolution, &step);
+ *     while (step.clusters > 40 || !step.clusters);
  *     fg_density_create(&density, evolution);
  *     fg_icons_create(&icons, ctx, field, density, NULL);
  *     fg_picture_write(ctx, "wind.svg", field, density, icons, NULL);
  *
  * Conventions
- * - A function that can fail returns fg_status; its result comes first, through `out`, and
- *   belongs to the caller, who ends it with the matching destroy. Destroys accept NULL.
- * - Pointers returned to const are borrowed: they live as long as the thing they came from.
+ * - A function that can fail returns fg_status; its result comes first, through `out`,
+ *   and belongs to the caller, who ends it with the matching destroy. Destroys accept
+ *   NULL.
+ * - Pointers returned to const are borrowed: they live as long as what they came from.
  * - Option structs: a zero field means the default; a NULL pointer means all defaults.
  * - On failure the context keeps one message (the first), with the numbers that show it.
  * - Arrays of samples run x fastest, then y, then z. Coordinates are the input's own.
@@ -47,7 +50,7 @@ extern "C" {
 #define FG_API
 #endif
 
-/* ---- statuses and the context ---------------------------------------------------- */
+/* ---- statuses and the context ----------------------------------------------------- */
 
 typedef enum fg_status {
   FG_STATUS_OK = 0,
@@ -103,7 +106,7 @@ typedef struct fg_read_options {
   const char *vars_from; /* second file with the other component(s) */
   int time;              /* index along time, from 0 */
   int level;             /* index along level, from 0 */
-  const char *mask;      /* variable that is zero (negative, missing) outside the domain */
+  const char *mask; /* variable that is zero (negative, missing) outside the domain */
   fg_scale scale;
 } fg_read_options;
 
@@ -122,14 +125,14 @@ FG_API fg_status fg_field_create_analytic(fg_field **out, fg_context *context,
 FG_API const char *const *fg_field_analytic_names(void);
 
 typedef struct fg_field_arrays {
-  int dimension;             /* 2 */
-  int size[3];               /* samples along x, y(, z); at least 2 each */
-  const double *axis[3];     /* size[k] ascending coordinates each */
-  double period[3];          /* 0, or the length after which that axis repeats; then the
-                                last sample must lie before axis[0] + period */
-  const float *velocity[3];  /* size[0] * size[1] samples a component; NaN: missing */
+  int dimension;              /* 2 */
+  int size[3];                /* samples along x, y(, z); at least 2 each */
+  const double *axis[3];      /* size[k] ascending coordinates each */
+  double period[3];           /* 0, or the length after which that axis repeats; then the
+                                 last sample must lie before axis[0] + period */
+  const float *velocity[3];   /* size[0] * size[1] samples a component; NaN: missing */
   const unsigned char *valid; /* a byte a sample, 0 = missing; NULL: all but NaN */
-  fg_scale scale;            /* AUTO means PLAIN */
+  fg_scale scale;             /* AUTO means PLAIN */
   const char *velocity_name[3]; /* NULL: "u", "v", "w" */
   const char *velocity_units;   /* NULL: "" */
   const char *axis_name[3];     /* NULL: "x", "y", "z" */
@@ -149,8 +152,8 @@ FG_API void fg_field_destroy(fg_field *field);
  * every sample counts), `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen). */
 FG_API const fg_field_arrays *fg_field_contents(const fg_field *field);
 
-/* Velocity at a point in the input's units, bilinear; false outside the domain: beyond the
- * border, or in a data cell with a missing corner. position and velocity: dimension
+/* Velocity at a point in the input's units, bilinear; false outside the domain: beyond
+ * the border, or in a data cell with a missing corner. position and velocity: dimension
  * numbers. */
 FG_API bool fg_field_velocity(const fg_field *field, const double position[],
                               double velocity[]);
@@ -165,23 +168,23 @@ FG_API bool fg_field_tangent(const fg_field *field, const double position[],
 FG_API fg_status fg_field_write(fg_context *context, const char *path,
                                 const fg_field *field);
 
-/* ---- what a file holds -------------------------------------------------------------- */
+/* ---- what a file holds ------------------------------------------------------------ */
 
 typedef struct fg_inventory fg_inventory;
 
 typedef struct fg_inventory_vector {
-  int components;         /* 2 or 3 */
-  const char *name[3];    /* variables; for one vector variable name[0] only */
-  const char *units;      /* "" unknown */
-  const char *found_by;   /* "standard_name", "names", "vector variable", ... */
-  int dimension;          /* of the field it would give */
-  int size[3];            /* samples along x, y(, z) */
-  int times, levels;      /* 1 when there is no such axis */
-  double missing_share;   /* share of missing samples at the first time and level */
-  fg_scale scale;         /* what AUTO would choose */
-  double bounds[6];       /* xmin, xmax, ymin, ymax, zmin, zmax */
-  bool periodic;          /* longitude closes */
-  const char *unusable;   /* NULL, or why this pair can not be read yet */
+  int components;       /* 2 or 3 */
+  const char *name[3];  /* variables; for one vector variable name[0] only */
+  const char *units;    /* "" unknown */
+  const char *found_by; /* "standard_name", "names", "vector variable", ... */
+  int dimension;        /* of the field it would give */
+  int size[3];          /* samples along x, y(, z) */
+  int times, levels;    /* 1 when there is no such axis */
+  double missing_share; /* share of missing samples at the first time and level */
+  fg_scale scale;       /* what AUTO would choose */
+  double bounds[6];     /* xmin, xmax, ymin, ymax, zmin, zmax */
+  bool periodic;        /* longitude closes */
+  const char *unusable; /* NULL, or why this pair can not be read yet */
 } fg_inventory_vector;
 
 /* Says what a file holds, without reading a whole field where that can be avoided.
@@ -194,7 +197,7 @@ FG_API int fg_inventory_vector_count(const fg_inventory *inventory);
 FG_API const fg_inventory_vector *fg_inventory_vector_at(const fg_inventory *inventory,
                                                          int index);
 
-/* ---- the evolution -------------------------------------------------------------------- */
+/* ---- the evolution ---------------------------------------------------------------- */
 
 typedef struct fg_evolution fg_evolution;
 
@@ -204,16 +207,16 @@ typedef enum fg_energy {
 } fg_energy;
 
 typedef struct fg_evolution_options {
-  int nodes;         /* nodes along the longest side of the mesh [257] */
-  fg_energy energy;  /* [flow] */
-  double anisotropy; /* a, in (0, 1] [0.15] */
-  double coverage;   /* share of the area clusters shall cover, in (0, 1) [0.3] */
-  double gamma;      /* interface energy, in units of the longest side squared
-                        [(1.1 h)^2 / a; isotropic (1.5 h)^2] */
-  uint64_t seed;     /* of the initial noise [1] */
-  double accuracy;   /* eta: rms change of u allowed in a step [0.05] */
-  int cycles;        /* multigrid cycles a step [2] */
-  int threads;       /* [all cores] */
+  int nodes;            /* nodes along the longest side of the mesh [257] */
+  fg_energy energy;     /* [flow] */
+  double anisotropy;    /* a, in (0, 1] [0.15] */
+  double coverage;      /* share of the area clusters shall cover, in (0, 1) [0.3] */
+  double gamma;         /* interface energy, in units of the longest side squared
+                           [(1.1 h)^2 / a; isotropic (1.5 h)^2] */
+  uint64_t seed;        /* of the initial noise [1] */
+  double accuracy;      /* eta: rms change of u allowed in a step [0.05] */
+  int cycles;           /* multigrid cycles a step [2] */
+  int threads;          /* [all cores] */
   const float *initial; /* NULL: noise; else u at the nodes of the mesh, as fg_density has
                            it: copied, then shifted nowhere: its mean is kept */
 } fg_evolution_options;
@@ -249,19 +252,19 @@ FG_API fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step);
 
 typedef struct fg_mesh_info {
   int dimension;
-  int cells[3];          /* along each axis */
-  double spacing[3];     /* in the input's coordinates */
-  double gamma;          /* as used, in units of the longest side squared */
+  int cells[3];      /* along each axis */
+  double spacing[3]; /* in the input's coordinates */
+  double gamma;      /* as used, in units of the longest side squared */
   double anisotropy, coverage;
   double length;         /* the longest side in the input's coordinates */
   double domain_measure; /* area (volume) of the active cells, units of length squared */
   long active_cells;
-  const char *kernel;    /* which vector instructions run: "avx512", "avx2", "generic" */
+  const char *kernel; /* which vector instructions run: "avx512", "avx2", "generic" */
 } fg_mesh_info;
 
 FG_API const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution);
 
-/* ---- a moment of the evolution ----------------------------------------------------- */
+/* ---- a moment of the evolution ---------------------------------------------------- */
 
 /* The density at the nodes of a uniform grid over the field's box; a snapshot that stays
  * as it is while the evolution goes on. */
@@ -269,11 +272,11 @@ typedef struct fg_density fg_density;
 
 typedef struct fg_density_arrays {
   int dimension;
-  int nodes[3];       /* along a periodic axis the repeated last node is left out */
-  double origin[3];   /* node (0, 0), input coordinates */
-  double spacing[3];  /* input coordinates */
+  int nodes[3];      /* along a periodic axis the repeated last node is left out */
+  double origin[3];  /* node (0, 0), input coordinates */
+  double spacing[3]; /* input coordinates */
   bool periodic[3];
-  const float *u;     /* nodes[0] * nodes[1] values; inside a cluster u > 0 */
+  const float *u;              /* nodes[0] * nodes[1] values; inside a cluster u > 0 */
   const unsigned char *active; /* a byte a cell, 0 = masked; nodes[k] - 1 cells along an
                                   axis, nodes[k] when periodic; NULL: all active */
   double debris_area; /* components smaller than this are not clusters, input coords^2 */
@@ -294,7 +297,7 @@ FG_API const fg_density_arrays *fg_density_contents(const fg_density *density);
 FG_API fg_status fg_density_write(fg_context *context, const char *path,
                                   const fg_density *density);
 
-/* ---- icons --------------------------------------------------------------------------- */
+/* ---- icons ------------------------------------------------------------------------ */
 
 typedef enum fg_icon_kind {
   FG_ICON_ARROW = 0, /* a curved arrow along one streamline */
@@ -303,18 +306,18 @@ typedef enum fg_icon_kind {
 
 /* A curved arrow: a tapering body round the centreline and a triangular head. */
 typedef struct fg_icon {
-  int cluster;             /* label in the density, from 1 */
+  int cluster; /* label in the density, from 1 */
   fg_icon_kind kind;
-  int point_count;         /* of the centreline, at least 2 */
+  int point_count;           /* of the centreline, at least 2 */
   const double (*points)[3]; /* from tail to the tip of the head; z = 0 in 2D; across a
                                 periodic border the coordinate goes on past it */
-  double width;            /* body's full width where the head begins */
-  double tail_width;       /* body's full width at the tail */
-  double head_length;      /* along the centreline */
-  double head_width;       /* full width of the head's base */
-  double center[3];        /* centre of the cluster's spine, on the centreline */
-  double area;             /* of the cluster (volume in 3D) */
-  double speed;            /* mean |v| along the centreline, input units */
+  double width;              /* body's full width where the head begins */
+  double tail_width;         /* body's full width at the tail */
+  double head_length;        /* along the centreline */
+  double head_width;         /* full width of the head's base */
+  double center[3];          /* centre of the cluster's spine, on the centreline */
+  double area;               /* of the cluster (volume in 3D) */
+  double speed;              /* mean |v| along the centreline, input units */
 } fg_icon;
 
 typedef enum fg_icon_extent {
@@ -331,8 +334,8 @@ typedef struct fg_icon_options {
 
 typedef struct fg_icons fg_icons;
 
-/* Makes the icons of a density: label, march, spine, streamline, arrow. Clusters too small
- * for a readable arrow give none; fg_icons_dropped counts them. MEMORY, STOPPED. */
+/* Makes the icons of a density: label, march, spine, streamline, arrow. Clusters too
+ * small for a readable arrow give none; fg_icons_dropped counts them. MEMORY, STOPPED. */
 FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
                                  const fg_field *field, const fg_density *density,
                                  const fg_icon_options *options);
@@ -352,20 +355,20 @@ FG_API fg_status fg_icons_write(fg_context *context, const char *path,
                                 const fg_icons *icons);
 FG_API fg_status fg_icons_read(fg_icons **out, fg_context *context, const char *path);
 
-/* ---- pictures ----------------------------------------------------------------------- */
+/* ---- pictures --------------------------------------------------------------------- */
 
 typedef struct fg_picture_options {
-  double width;         /* of the whole picture, in points of 1/72 inch [480] */
-  double height;        /* [0: follows from the domain's shape] */
+  double width;            /* of the whole picture, in points of 1/72 inch [480] */
+  double height;           /* [0: follows from the domain's shape] */
   double pixels_per_point; /* for PNG [2] */
-  const char *palette;  /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
+  const char *palette; /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
   double speed_min, speed_max; /* ends of the colour key; equal: from the icons */
-  bool no_frame;        /* only mask and arrows */
-  bool transparent;     /* no background */
-  bool tint;            /* tint the clusters (density needed) */
-  const char *title;    /* caption; NULL: from the field; "" none */
-  double font_size;     /* points [0: follows from the size; 9 at 480 points] */
-  bool no_keys;         /* no colour key, no arrow for the size */
+  bool no_frame;               /* only mask and arrows */
+  bool transparent;            /* no background */
+  bool tint;                   /* tint the clusters (density needed) */
+  const char *title;           /* caption; NULL: from the field; "" none */
+  double font_size;            /* points [0: follows from the size; 9 at 480 points] */
+  bool no_keys;                /* no colour key, no arrow for the size */
   const char *mask_color, *tint_color; /* "#rrggbb" [light grey, light blue] */
 } fg_picture_options;
 
@@ -373,7 +376,7 @@ typedef struct fg_picture_options {
 FG_API const char *const *fg_picture_palettes(void);
 
 /* Draws icons; the format follows the name's end: .svg, .pdf or .png. density may be NULL
- * when there is no tint; options may be NULL. FILE_ACCESS, UNSUPPORTED, ARGUMENT, MEMORY. */
+ * without tint; options may be NULL. FILE_ACCESS, UNSUPPORTED, ARGUMENT, MEMORY. */
 FG_API fg_status fg_picture_write(fg_context *context, const char *path,
                                   const fg_field *field, const fg_density *density,
                                   const fg_icons *icons,
