@@ -26,6 +26,10 @@ static const double HEAD_SHARE = 0.85;
 static const double BODY_BEND = 0.3;
 static const double HEAD_TURNING = 0.5;
 
+/* Places where a head's sides are looked at; the finished outline is tested everywhere.
+ */
+enum { HEAD_CHECKS = 3 };
+
 /* Share of the barbs' room that the line must have where the head begins. */
 static const double ROOM_ENOUGH = 0.8;
 
@@ -118,12 +122,13 @@ static bool head_fits(const arrow_search *search, int first, int tip, int *base)
   if (!fg__room_has(room, q[0] + margin * dx, q[1] + margin * dy))
     return false;
   *base = i;
-  for (int k = 0; k <= 2; k++) { /* the barbs, and the sides on the way to the tip */
-    double half = FG__HEAD_WIDTH / 2 * width * (2 - k) / 2 / HEAD_SHARE + margin;
-    double along = k == 0 ? -FG__HEAD_SWEEP * length : chord * k / 2;
+  for (int k = 0; k <= HEAD_CHECKS; k++) { /* from the barbs to the tip */
+    double left = 1 - (double)k / HEAD_CHECKS;
+    double half = FG__HEAD_WIDTH / 2 * width * left / HEAD_SHARE + margin;
+    double along = k == 0 ? -FG__HEAD_SWEEP * length : chord * (1 - left);
     double x = p[0] + along * dx, y = p[1] + along * dy;
-    if (k < 2 && (!fg__room_has(room, x - half * dy, y + half * dx) ||
-                  !fg__room_has(room, x + half * dy, y - half * dx)))
+    if (!fg__room_has(room, x - half * dy, y + half * dx) ||
+        !fg__room_has(room, x + half * dy, y - half * dx))
       return false;
   }
   return true;

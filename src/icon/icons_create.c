@@ -22,11 +22,11 @@ static const double BORDER_GAP = 0.75;
 static const double LONGEST_EXTENDED = 2.0;
 
 /* The outline is tested at its vertices and between them, at least this close (in
- * spacings of the density); an arrow that fails is made narrower this many times before
- * it is given up. */
+ * spacings of the density); an arrow that fails is made smaller this many times before it
+ * is given up. */
 static const double TEST_SPACING = 0.25;
-static const double NARROWER = 0.9;
-enum { NARROWINGS = 8, EDGE_BLOCK = 12, MOST_THREADS = 64 };
+static const double SMALLER = 0.9;
+enum { ATTEMPTS = 8, EDGE_BLOCK = 12, MOST_THREADS = 64 };
 
 /* What all threads share; each takes the next cluster until there is none. */
 typedef struct icon_job {
@@ -194,29 +194,39 @@ static double mean_speed(const fg_field *field, const fg_icon *icon)
   return length > 0 ? sum / length : 0;
 }
 
-/* Turns a chosen arrow into an icon, narrowed until its real outline lies inside and is
- * simple. */
+static void free_points(fg_icon *icon)
+{
+  free((void *)(uintptr_t)icon->points);
+  icon->points = NULL;
+}
+
+/* Turns a chosen arrow into an icon, made smaller until its real outline lies inside and
+ * is simple: it was chosen by samples of its sides. */
 static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *field,
                             const fg__room *room, const fg__streamline *line,
-                            const fg__arrow *arrow, const double center[2])
+                            const fg__arrow *chosen, const double center[2])
 {
-  double(*points)[3] = NULL;
-  fg_status status = fg__arrow_centerline(&points, &icon->point_count, context, line,
-                                          arrow, room->spacing);
-  if (status != FG_STATUS_OK || icon->point_count < 2)
-    return status;
-  icon->points = (const double(*)[3])points;
-  icon->kind = arrow->turning >= RING_TURNING ? FG_ICON_RING : FG_ICON_ARROW;
+  fg__arrow arrow = *chosen;
+  icon->kind = arrow.turning >= RING_TURNING ? FG_ICON_RING : FG_ICON_ARROW;
   bool sound = false;
-  double width = arrow->width;
-  for (int i = 0; i < NARROWINGS && !sound && status == FG_STATUS_OK; i++) {
-    set_width(icon, width);
+  fg_status status = FG_STATUS_OK;
+  for (int i = 0; i < ATTEMPTS && !sound && status == FG_STATUS_OK; i++) {
+    double(*points)[3] = NULL;
+    free_points(icon);
+    status = fg__arrow_centerline(&points, &icon->point_count, context, line, &arrow,
+                                  room->spacing);
+    icon->points = (const double(*)[3])points;
+    if (status != FG_STATUS_OK || icon->point_count < 2)
+      break;
+    set_width(icon, arrow.width);
     status = test_outline(&sound, context, icon, room);
-    width *= NARROWER;
+    double less = (1 - SMALLER) / 2 * (arrow.tip - arrow.tail);
+    arrow.width *= SMALLER;
+    arrow.tail += less;
+    arrow.tip -= less;
   }
   if (!sound || status != FG_STATUS_OK) {
-    free(points);
-    icon->points = NULL;
+    free_points(icon);
     return status;
   }
   set_center(icon, center);
@@ -400,7 +410,7 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
 cleanup:
   if (job.icon)
     for (int i = 0; i < labels.count; i++)
-      free((void *)(uintptr_t)job.icon[i].points);
+      free_points(&job.icon[i]);
   free(job.icon);
   fg_icons_destroy(icons);
   fg__territories_clear(&territories);
