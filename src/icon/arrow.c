@@ -41,8 +41,8 @@ static const double HEAD_BOW = 0.55;
  * what shows the flow. */
 static const double WIDTH_WORTH = 0.4;
 
-/* What uneven bending costs (see unrest_of): a right angle at once makes the arrow half
- * as good, a smooth S of 60 degrees to either side costs a twentieth. */
+/* What uneven bending costs (see unrest_of): a right angle within a tenth of the arrow
+ * costs 40 % of its worth, a smooth S of 60 degrees to either side a tenth. */
 static const double UNREST_COST = 0.03;
 
 /* Beyond this turning (radians) an arrow must deserve it: each radian more costs. */
@@ -50,7 +50,7 @@ static const double LONG_TURNING = 2.4;
 static const double TURNING_COST = 0.06;
 
 /* A bent arrow looks less long: rings and horseshoes may be slimmer, by this share a
- * radian, so that a ring of 300 degrees is judged by a little more than half its way. */
+ * radian, so that a ring of 300 degrees is judged by 0.7 of its way. */
 static const double ROLLED_UP = 0.08;
 
 /* What it costs when the arrow lies at one end of its line. */

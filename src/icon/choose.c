@@ -46,7 +46,7 @@ static const double SLIMMEST = 0.03;
 
 /* An arrow that goes on beyond its cluster is thinner for its length: it is as wide as
  * the cluster allows, and its length says more than its weight. */
-static const double SLIMMEST_EXTENDED = 0.02;
+static const double SLIMMEST_EXTENDED = 0.024;
 
 /* An arrow stands for the points of the cluster up to about this share of the spine's
  * length from it: which ones lie farther away counts less and less. */

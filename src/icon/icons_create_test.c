@@ -66,6 +66,13 @@ static void shear(double x, double y, double v[2])
   v[1] = 0;
 }
 
+/* Its streamlines are ellipses, six times as long as wide. */
+static void narrow_vortex(double x, double y, double v[2])
+{
+  v[0] = -36 * (y - CORE[1]);
+  v[1] = x - CORE[0];
+}
+
 static void convergence(double x, double y, double v[2])
 {
   (void)y;
@@ -244,6 +251,7 @@ static void judge(const test_bench *bench, const fg_icon *icon, depth_of depth)
   assert_true(length >= 3 * SHAPE_SPACING);
   assert_true(icon->head_width >= 1.2 * SHAPE_SPACING);
   assert_true(icon->width < 0.1 * length && icon->tail_width < icon->width);
+  assert_true(icon->width > 0.016 * length); /* no thread, rings and long ones included */
   double nearest = HUGE_VAL;
   for (int i = 0; i < icon->point_count; i++) {
     nearest = fmin(nearest, hypot(icon->points[i][0] - icon->center[0],
@@ -409,6 +417,33 @@ static void finds_a_way_past_a_stagnation_point(void **state)
       assert_true(fabs(icon_turning(icon)) < PI / 2 + 0.1);
       end_bench(&bench);
     }
+}
+
+/* Parts that run against each other are well apart for the way between them: on a circle
+ * by 0.6 of it, on this flow's streamlines, six times as long as wide, by 0.1. */
+static void makes_no_hairpins(void **state)
+{
+  (void)state;
+  depth_of shapes[] = {lens, blob, disc};
+  for (int s = 0; s < 3; s++) {
+    test_bench bench = bench_of(narrow_vortex, shapes[s]);
+    const fg_icon *icon = only_icon(&bench);
+    const double(*p)[3] = icon->points;
+    for (int i = 0; i + 1 < icon->point_count; i++) {
+      double way = 0;
+      for (int k = i + 1; k + 1 < icon->point_count; k++) {
+        way += hypot(p[k][0] - p[k - 1][0], p[k][1] - p[k - 1][1]);
+        double a[2] = {p[i + 1][0] - p[i][0], p[i + 1][1] - p[i][1]};
+        double b[2] = {p[k + 1][0] - p[k][0], p[k + 1][1] - p[k][1]};
+        double cosine =
+            (a[0] * b[0] + a[1] * b[1]) / hypot(a[0], a[1]) / hypot(b[0], b[1]);
+        if (cosine < -0.8)
+          assert_true(hypot(p[k][0] - p[i][0], p[k][1] - p[i][1]) > 0.28 * way);
+      }
+    }
+    assert_true(icon_length(icon) > 3);
+    end_bench(&bench);
+  }
 }
 
 /* Bends as tight as a cell of the data: the outlines are judged by bench_of. */
@@ -668,6 +703,7 @@ int main(void)
       cmocka_unit_test(stays_inside_the_domain),
       cmocka_unit_test(never_enters_a_mask),
       cmocka_unit_test(finds_a_way_past_a_stagnation_point),
+      cmocka_unit_test(makes_no_hairpins),
       cmocka_unit_test(keeps_its_promises_in_a_rough_field),
       cmocka_unit_test(mirrors_with_the_field),
       cmocka_unit_test(knows_no_unit_of_speed),
