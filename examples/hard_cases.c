@@ -24,8 +24,6 @@ typedef struct hard_case {
   bool (*masked)(point p); /* NULL: no mask */
 } hard_case;
 
-/* ---- shapes ------------------------------------------------------------------------ */
-
 static double disc(point p, double x, double y, double radius)
 {
   return radius - hypot(p.x - x, p.y - y);
@@ -90,9 +88,6 @@ static double border_half(point p)
               capsule(p, (point){0.75, 0.0}, (point){0.75, 0.45}, 0.08));
 }
 
-/* ---- velocities ----------------------------------------------------------------------
- */
-
 static point round_centre(point p)
 {
   return (point){-(p.y - 0.5), p.x - 0.5};
@@ -142,9 +137,6 @@ static const hard_case CASES[] = {
     {"mask", masked_stripe, eastward, island},
     {"border", border_half, past_the_border, NULL},
 };
-
-/* ---- from a case to its picture ------------------------------------------------------
- */
 
 static fg_status make_field(fg_field **out, fg_context *context, const hard_case *c)
 {

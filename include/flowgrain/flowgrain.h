@@ -28,6 +28,8 @@
  * - Arrays of samples run x fastest, then y, then z. Coordinates are the input's own.
  * - A context, and what was made with it, is used by one thread at a time; a finished
  *   fg_field or fg_density may be read by several threads that hold a context each.
+ *   Files are read by one thread at a time: the NetCDF and HDF5 libraries are not made for
+ *   more.
  */
 #ifndef FLOWGRAIN_H
 #define FLOWGRAIN_H
@@ -50,7 +52,7 @@ extern "C" {
 #define FG_API
 #endif
 
-/* ---- statuses and the context ----------------------------------------------------- */
+/* Statuses and the context. */
 
 typedef enum fg_status {
   FG_STATUS_OK = 0,
@@ -90,7 +92,7 @@ FG_API void fg_context_clear(fg_context *context);
  * point. The only function that may be called from a signal handler or another thread. */
 FG_API void fg_context_stop(fg_context *context);
 
-/* ---- fields ----------------------------------------------------------------------- */
+/* Fields. */
 
 typedef struct fg_field fg_field;
 
@@ -168,7 +170,7 @@ FG_API bool fg_field_tangent(const fg_field *field, const double position[],
 FG_API fg_status fg_field_write(fg_context *context, const char *path,
                                 const fg_field *field);
 
-/* ---- what a file holds ------------------------------------------------------------ */
+/* What a file holds. */
 
 typedef struct fg_inventory fg_inventory;
 
@@ -197,7 +199,7 @@ FG_API int fg_inventory_vector_count(const fg_inventory *inventory);
 FG_API const fg_inventory_vector *fg_inventory_vector_at(const fg_inventory *inventory,
                                                          int index);
 
-/* ---- the evolution ---------------------------------------------------------------- */
+/* The evolution. */
 
 typedef struct fg_evolution fg_evolution;
 
@@ -264,7 +266,7 @@ typedef struct fg_mesh_info {
 
 FG_API const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution);
 
-/* ---- a moment of the evolution ---------------------------------------------------- */
+/* Amoment of the evolution. */
 
 /* The density at the nodes of a uniform grid over the field's box; a snapshot that stays
  * as it is while the evolution goes on. */
@@ -297,7 +299,7 @@ FG_API const fg_density_arrays *fg_density_contents(const fg_density *density);
 FG_API fg_status fg_density_write(fg_context *context, const char *path,
                                   const fg_density *density);
 
-/* ---- icons ------------------------------------------------------------------------ */
+/* Icons. */
 
 typedef enum fg_icon_kind {
   FG_ICON_ARROW = 0, /* a curved arrow along one streamline */
@@ -355,7 +357,7 @@ FG_API fg_status fg_icons_write(fg_context *context, const char *path,
                                 const fg_icons *icons);
 FG_API fg_status fg_icons_read(fg_icons **out, fg_context *context, const char *path);
 
-/* ---- pictures --------------------------------------------------------------------- */
+/* Pictures. */
 
 typedef struct fg_picture_options {
   double width;            /* of the whole picture, in points of 1/72 inch [480] */

@@ -23,9 +23,6 @@ static int tear_down(void **state)
   return 0;
 }
 
-/* ---- fields --------------------------------------------------------------------------
- */
-
 /* Samples of a velocity on a box: side + 1 of them along natural axes, side along
  * periodic ones, whose period is their length. */
 typedef struct box {
@@ -120,9 +117,6 @@ static void channel_with_islands(const box *b, double x, double y, float v[2])
 static const box UNIT = {{96, 96}, {0.0, 0.0}, {1.0, 1.0}, {false, false}};
 static const box CHANNEL = {{120, 60}, {-30.0, 12.0}, {360.0, 170.0}, {true, false}};
 
-/* ---- runs ----------------------------------------------------------------------------
- */
-
 /* Steps until some time, or until some clusters are left, whatever is first. */
 static fg_density *run(fg_context *context, const fg_field *field,
                        const fg_evolution_options *options, double end, int clusters,
@@ -166,9 +160,6 @@ static double distance_of(const fg_density *a, const fg_density *b)
   assert_int_equal(count_of(a), count_of(b));
   return distance(fg_density_contents(a)->u, fg_density_contents(b)->u, count_of(a));
 }
-
-/* ---- promises ------------------------------------------------------------------------
- */
 
 /* The measure of nodes in the sum that gives the mass: what adjoins active cells. */
 static double integral_of(const fg_density_arrays *d)
@@ -260,9 +251,6 @@ static void the_mesh_is_the_fields(void **state)
   fg_density_destroy(density);
   fg_field_destroy(field);
 }
-
-/* ---- what must and must not matter ---------------------------------------------------
- */
 
 static void a_seed_gives_the_same_bits_again(void **state)
 {

@@ -26,8 +26,6 @@ static fg_status add_second_file(fg__nc_file *file, fg_context *context, const c
   return status;
 }
 
-/* ---- the choice of a pair ---- */
-
 typedef struct candidates {
   fg__nc_pair *pair;
   size_t count;
@@ -198,8 +196,6 @@ static fg_status choose(fg__nc_pair *pair, fg__nc_grid *grid, const fg__nc_file 
   return status;
 }
 
-/* ---- reading ---- */
-
 static fg_status check_index(const fg__nc_file *file, const char *what, int index,
                              int position, size_t count, const char *name)
 {
@@ -339,8 +335,6 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
   fg__nc_file_close(&file);
   return status;
 }
-
-/* ---- what a file holds ---- */
 
 static fg_status count_missing(fg_inventory_vector *vector, const fg__nc_file *file,
                                const fg__nc_pair *pair, const fg__nc_grid *grid)

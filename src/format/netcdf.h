@@ -7,8 +7,6 @@
 
 #include <netcdf.h>
 
-/* ---- netcdf_size.c: is the file whole? ---- */
-
 typedef enum fg__nc_kind {
   FG__NC_NONE = 0,
   FG__NC_CLASSIC,
@@ -21,8 +19,6 @@ fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size);
 
 /* Compares the size of a file with what its header promises. FILE_FORMAT. */
 fg_status fg__nc_check_size(fg_context *context, const fg__source *source);
-
-/* ---- netcdf_file.c: what the file holds ---- */
 
 enum {
   FG__NC_RANK = 8,                  /* more dimensions than any field has */
@@ -84,8 +80,6 @@ bool fg__nc_text(const fg__nc_variable *variable, const char *attribute, char *o
 int fg__nc_numbers(const fg__nc_variable *variable, const char *attribute, double *out,
                    int capacity, nc_type *type);
 
-/* ---- netcdf_units.c: words for units ---- */
-
 typedef enum fg__nc_quantity {
   FG__NC_UNKNOWN = 0, /* no units, or none that is known here */
   FG__NC_SPEED,
@@ -101,14 +95,10 @@ typedef enum fg__nc_quantity {
 /* Classifies units and writes them as an axis label has them: "m s**-1" as "m/s". */
 fg__nc_quantity fg__nc_units(const char *units, char *label, size_t size);
 
-/* ---- netcdf_time.c ---- */
-
 /* Writes a time as a date, "2014-01-31 03:00"; false when units or calendar are not
  * known. */
 bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
                  size_t size);
-
-/* ---- netcdf_pairs.c: which variables are vectors ---- */
 
 typedef struct fg__nc_pair {
   const fg__nc_variable *component[2];
@@ -119,8 +109,6 @@ typedef struct fg__nc_pair {
 
 /* Lists the pairs, best rank first, in the file's order in each. *out is for free(). */
 fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file);
-
-/* ---- netcdf_roles.c: which dimension is which ---- */
 
 typedef enum fg__nc_role {
   FG__NC_NO_ROLE = -1,
@@ -147,8 +135,6 @@ bool fg__nc_counts(const fg__nc_variable *coordinate);
  * Returns the position of a dimension longer than 1 that fits no role, or -1. */
 int fg__nc_roles(int position[FG__NC_ROLES], const fg__nc_file *file,
                  const fg__nc_variable *variable);
-
-/* ---- netcdf_grid.c: where the samples lie ---- */
 
 typedef struct fg__nc_axis {
   int dimension;      /* index into the file's dimensions */
@@ -200,8 +186,6 @@ fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_pair *pair, fg_scale scale);
 void fg__nc_grid_clear(fg__nc_grid *grid);
 
-/* ---- netcdf_values.c: the samples ---- */
-
 typedef struct fg__nc_missing {
   size_t fill, range, not_a_number; /* samples that are missing, by reason */
 } fg__nc_missing;
@@ -217,8 +201,6 @@ fg_status fg__nc_values(float *out, fg__nc_missing *missing, const fg__nc_file *
 fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
                       const fg__nc_variable *variable, const fg__nc_grid *grid,
                       const fg__nc_variable *component, size_t time, size_t level);
-
-/* ---- netcdf_words.c: words for captions ---- */
 
 void fg__nc_title(const fg__nc_pair *pair, char *out, size_t size);
 

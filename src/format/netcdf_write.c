@@ -1,7 +1,7 @@
 #include "format/netcdf_write.h"
 
 #include "base/memory.h"
-#include "format/whole_file.h"
+#include "base/whole_file.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -13,9 +13,6 @@
 /* More arrays in a piece than any program writes; names are compared each with each. */
 enum { ARRAYS_MAX = 1000 };
 
-/* ---- elements and attributes --------------------------------------------------------
- */
-
 static bool is_element(const xmlNode *node, const char *name)
 {
   return node->type == XML_ELEMENT_NODE && strcmp((const char *)node->name, name) == 0;
@@ -156,9 +153,6 @@ static fg_status read_geometry(fg__vti *vti, const xmlNode *image)
       return bad_attribute(vti, image, "Spacing");
   return check_direction(vti, image);
 }
-
-/* ---- arrays --------------------------------------------------------------------------
- */
 
 static fg__vti_type type_of(const char *name)
 {
@@ -308,9 +302,6 @@ static fg_status read_arrays(fg__vti *vti, const xmlNode *parent, const char *na
   return FG_STATUS_OK;
 }
 
-/* ---- pieces --------------------------------------------------------------------------
- */
-
 static bool is_within(const int inner[6], const int outer[6])
 {
   for (int k = 0; k < 3; ++k)
@@ -369,9 +360,6 @@ static fg_status check_pieces(const fg__vti *vti)
                     vti->piece_count, sum, whole);
   return FG_STATUS_OK;
 }
-
-/* ---- the whole -----------------------------------------------------------------------
- */
 
 static fg_status read_document(fg__vti *vti)
 {

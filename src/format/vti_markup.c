@@ -13,9 +13,6 @@ static const char APPENDED_OPEN[] = "<AppendedData";
 static const char APPENDED_CLOSE[] = "</AppendedData";
 static const char REPAIR[] = "</AppendedData></VTKFile>";
 
-/* ---- finding the appended data ------------------------------------------------------
- */
-
 static size_t find_first(const unsigned char *bytes, size_t size, const char *text)
 {
   size_t length = strlen(text), at = 0;
@@ -74,9 +71,6 @@ static fg_status cut_appended(fg__vti *vti, const fg__source *source, size_t *ma
   return FG_STATUS_OK;
 }
 
-/* ---- tags ----------------------------------------------------------------------------
- */
-
 /* libxml2 compares every attribute of a tag with every other one: a tag of megabytes
  * would take it hours. Those of VTK take a few hundred bytes. */
 enum { LONGEST_TAG = 8192 };
@@ -115,9 +109,6 @@ static fg_status check_tags(const fg__vti *vti, const unsigned char *bytes, size
   }
   return FG_STATUS_OK;
 }
-
-/* ---- parsing the markup -------------------------------------------------------------
- */
 
 /* VTK files have no document type, and without one there are no entities to expand. */
 static void refuse_document_type(void *parser, const xmlChar *name,

@@ -37,9 +37,6 @@ static size_t size_of_type(fg__vti_type type)
   return 0;
 }
 
-/* ---- bytes, whatever they are encoded as ----------------------------------------------
- */
-
 typedef struct byte_stream {
   fg__base64 base64; /* used for its text and its position when not encoded, too */
   bool encoded;

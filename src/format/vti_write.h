@@ -4,7 +4,7 @@
 #define FG__VTI_WRITE_H
 
 #include "base/context.h"
-#include "format/whole_file.h"
+#include "base/whole_file.h"
 
 /* The box of an image in the plane z = 0. Nothing of it may be infinite or NaN. */
 typedef struct fg__vti_image {

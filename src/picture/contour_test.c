@@ -255,8 +255,6 @@ static void simplifying_keeps_the_shape(void **state)
   free(s.u);
 }
 
-/* ---- masks ------------------------------------------------------------------------- */
-
 enum { MX = 40, MY = 30 };
 
 typedef struct mask_grid {

@@ -68,8 +68,6 @@ typedef struct fg__page_plan {
  * needed first; no two texts touch, and none leaves the page. `ruler` measures. */
 void fg__page_layout(fg__page *out, const fg__page_plan *plan, cairo_t *ruler);
 
-/* ---- shared by the files that lay out ---------------------------------------------- */
-
 typedef enum fg__align { FG__ALIGN_START, FG__ALIGN_MIDDLE, FG__ALIGN_END } fg__align;
 
 /* Room round the frame, points. */

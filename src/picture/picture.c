@@ -1,8 +1,8 @@
 #include "picture/draw.h"
-#include "picture/output.h"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +10,7 @@
 #include <strings.h>
 
 #include "base/memory.h"
+#include "base/whole_file.h"
 
 /* A0 paper is 3370 points high; a page six times that is a mistake. */
 static const double largest_page = 20000.0;
@@ -234,19 +235,32 @@ static fg_status check_pixels(fg_context *context, const picture *p)
                   wide, high, most_pixels_a_side, most_pixels);
 }
 
+/* What Cairo's streams call, with the file as their closure. */
+static cairo_status_t write_bytes(void *closure, const unsigned char *bytes,
+                                  unsigned int count)
+{
+  fg__whole_file *file = closure;
+  if (file->error)
+    return CAIRO_STATUS_WRITE_ERROR;
+  if (fwrite(bytes, 1, count, file->stream) == count)
+    return CAIRO_STATUS_SUCCESS;
+  file->error = errno ? errno : EIO;
+  return CAIRO_STATUS_WRITE_ERROR;
+}
+
 static cairo_surface_t *create_surface(picture_format format, const picture *p,
-                                       fg__output *output)
+                                       fg__whole_file *output)
 {
   const fg__page *page = &p->page;
   if (format == PICTURE_SVG) {
     cairo_surface_t *surface = cairo_svg_surface_create_for_stream(
-        fg__output_write, output, page->width, page->height);
+        write_bytes, output, page->width, page->height);
     cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PT);
     return surface;
   }
   if (format == PICTURE_PDF) {
     cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
-        fg__output_write, output, page->width, page->height);
+        write_bytes, output, page->width, page->height);
     /* Two runs shall give the same bytes. */
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, p->plan.title);
@@ -259,7 +273,7 @@ static cairo_surface_t *create_surface(picture_format format, const picture *p,
 }
 
 static fg_status status_of(fg_context *context, cairo_status_t trouble,
-                           const fg__output *output)
+                           const fg__whole_file *output)
 {
   if (trouble == CAIRO_STATUS_SUCCESS || output->error)
     return FG_STATUS_OK; /* closing the output reports its own error */
@@ -272,8 +286,8 @@ static fg_status status_of(fg_context *context, cairo_status_t trouble,
 static fg_status render(fg_context *context, const char *path, picture_format format,
                         const picture *p)
 {
-  fg__output output;
-  fg_status status = fg__output_open(&output, context, path);
+  fg__whole_file output;
+  fg_status status = fg__whole_file_open(&output, context, path);
   if (status)
     return status;
   cairo_surface_t *surface = create_surface(format, p, &output);
@@ -285,13 +299,13 @@ static fg_status render(fg_context *context, const char *path, picture_format fo
   cairo_status_t trouble = cairo_status(cairo);
   cairo_destroy(cairo);
   if (!trouble && format == PICTURE_PNG)
-    trouble = cairo_surface_write_to_png_stream(surface, fg__output_write, &output);
+    trouble = cairo_surface_write_to_png_stream(surface, write_bytes, &output);
   cairo_surface_finish(surface);
   if (!trouble)
     trouble = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
   status = status_of(context, trouble, &output);
-  return fg__output_close(&output, context, status);
+  return fg__whole_file_close(&output, context, status);
 }
 
 static fg_status prepare(picture *p, fg_context *context, const fg_field_arrays *field,

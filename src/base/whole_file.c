@@ -1,4 +1,4 @@
-#include "format/whole_file.h"
+#include "base/whole_file.h"
 
 #include "base/memory.h"
 
@@ -70,8 +70,8 @@ fg_status fg__whole_file_close(fg__whole_file *file, fg_context *context,
 {
   if (!file->stream)
     return status;
-  bool failed = ferror(file->stream) != 0;
-  int first_error = errno;
+  bool failed = file->error || ferror(file->stream) != 0;
+  int first_error = file->error ? file->error : errno;
   if (fclose(file->stream) != 0 && !failed) {
     failed = true;
     first_error = errno;

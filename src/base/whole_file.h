@@ -10,6 +10,7 @@ typedef struct fg__whole_file {
   const char *path; /* borrowed */
   char *temporary;  /* NULL: a device or pipe, written directly */
   FILE *stream;
+  int error; /* errno of the first failed write, where the writer noted it */
 } fg__whole_file;
 
 /* Opens a stream whose bytes become the file at `path` on close. FILE_ACCESS, MEMORY. */
