@@ -266,7 +266,7 @@ typedef struct fg_mesh_info {
 
 FG_API const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution);
 
-/* Amoment of the evolution. */
+/* A moment of the evolution. */
 
 /* The density at the nodes of a uniform grid over the field's box; a snapshot that stays
  * as it is while the evolution goes on. */
