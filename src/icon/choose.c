@@ -16,7 +16,7 @@ static const double RING_PLACES[] = {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875
 
 /* Starts beside the centre, in distances to the border there; at half radius an arrow
  * round the core of a vortex has as much room inside as outside. */
-static const double ASIDE[] = {0.35, -0.35, 0.6, -0.6};
+static const double ASIDE[] = {0.45, -0.45};
 static const double HALF_RADIUS = 0.5;
 
 /* A cluster whose spine is shorter than this many of its radii is a disc: the spine has
@@ -29,7 +29,7 @@ static const double DISC = 2.0;
 static const double SHORT = 0.65;
 static const double RESTLESS = 1.25;
 static const double SLIM = 0.045;
-enum { SPREAD = 24 };
+enum { SPREAD = 16 };
 
 /* No line is traced from where one has passed already: nearer than this share of the
  * distance from the centre to the border. */
