@@ -1,6 +1,7 @@
 # A thin front of CMake (CMakePresets.json). `make demo` and `make check` also install
 # what is missing, with apt.
 
+MAKEFLAGS += --no-print-directory
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
 
