@@ -83,12 +83,13 @@ static int read_field(fg_field **out, fg_context *context, const cli_settings *s
 }
 
 static int write_picture(fg_context *context, const cli_settings *settings,
-                         const cli_report *report, const fg_field *field,
+                         const cli_report *report, int index, const fg_field *field,
                          const fg_icons *icons)
 {
   fg_picture_options options = settings_picture(settings);
   options.speed_min = report->speeds[0];
   options.speed_max = report->speeds[1];
+  options.scale_time = report_scale_time(report, index);
   char *partial = temporary_name(settings->output);
   if (!partial)
     return EXIT_FAILED;
@@ -124,7 +125,7 @@ int command_draw(const cli_settings *settings)
   if (!code)
     code = read_field(&field, context, settings, &report);
   if (!code)
-    code = write_picture(context, settings, &report, field, icons);
+    code = write_picture(context, settings, &report, index, field, icons);
 cleanup:
   fg_field_destroy(field);
   fg_icons_destroy(icons);

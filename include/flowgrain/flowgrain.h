@@ -372,6 +372,7 @@ typedef struct fg_picture_options {
   double font_size;            /* points [0: follows from the size; 9 at 480 points] */
   bool no_keys;                /* no colour key, no arrow for the size */
   const char *mask_color, *tint_color; /* "#rrggbb" [light grey, light blue] */
+  double scale_time; /* t of the scale, for the caption [the density's; none without it] */
 } fg_picture_options;
 
 /* Names of the colour maps, ended by NULL. */

@@ -145,8 +145,9 @@ static void add_part(char text[FG__PAGE_TEXT_BYTES], const char *part)
 }
 
 static void describe_caption(fg__page_plan *plan, const fg_field_arrays *field,
-                             const fg_icons *icons, const char *title)
+                             const fg_icons *icons, const fg_picture_options *options)
 {
+  const char *title = options->title;
   if (title) {
     fg__text_clean(plan->title, sizeof plan->title, title);
     return;
@@ -163,10 +164,14 @@ static void describe_caption(fg__page_plan *plan, const fg_field_arrays *field,
     add_part(plan->subtitle, names);
   add_part(plan->subtitle, field->time);
   add_part(plan->subtitle, field->level);
-  char arrows[40];
+  char words[64];
   int count = fg_icons_count(icons);
-  snprintf(arrows, sizeof arrows, "%d arrow%s", count, count == 1 ? "" : "s");
-  add_part(plan->subtitle, arrows);
+  snprintf(words, sizeof words, "%d arrow%s", count, count == 1 ? "" : "s");
+  add_part(plan->subtitle, words);
+  if (options->scale_time > 0.0) {
+    snprintf(words, sizeof words, "scale t = %.3g", options->scale_time);
+    add_part(plan->subtitle, words);
+  }
 }
 
 /* Everything that one picture is made from. */
@@ -194,7 +199,7 @@ static fg_status plan_picture(picture *out, fg_context *context,
   fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0], "mean speed",
                       field->velocity_units);
   describe_axes(plan, field);
-  describe_caption(plan, field, icons, options->title);
+  describe_caption(plan, field, icons, options);
   fg__typical_icon typical;
   fg_status status = fg__scene_typical_icon(&typical, context, icons);
   if (status)
@@ -332,11 +337,14 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
                            const fg_density *density, const fg_icons *icons,
                            const fg_picture_options *options)
 {
-  static const fg_picture_options usual = {0};
   if (!path || !field || !icons)
     return fg__fail(context, FG_STATUS_ARGUMENT, "picture: a NULL argument");
-  if (!options)
-    options = &usual;
+  fg_picture_options settled = {0};
+  if (options)
+    settled = *options;
+  if (density && settled.scale_time == 0.0)
+    settled.scale_time = fg_density_contents(density)->time;
+  options = &settled;
   picture_format format = format_of(path);
   if (format == PICTURE_UNKNOWN) {
     fg_status status = fg__fail(context, FG_STATUS_UNSUPPORTED,
