@@ -28,8 +28,8 @@
  * - Arrays of samples run x fastest, then y, then z. Coordinates are the input's own.
  * - A context, and what was made with it, is used by one thread at a time; a finished
  *   fg_field or fg_density may be read by several threads that hold a context each.
- *   Files are read by one thread at a time: the NetCDF and HDF5 libraries are not made for
- *   more.
+ *   Files are read by one thread at a time: the NetCDF and HDF5 libraries are not made
+ * for more.
  */
 #ifndef FLOWGRAIN_H
 #define FLOWGRAIN_H
@@ -372,7 +372,8 @@ typedef struct fg_picture_options {
   double font_size;            /* points [0: follows from the size; 9 at 480 points] */
   bool no_keys;                /* no colour key, no arrow for the size */
   const char *mask_color, *tint_color; /* "#rrggbb" [light grey, light blue] */
-  double scale_time; /* t of the scale, for the caption [the density's; none without it] */
+  double
+      scale_time; /* t of the scale, for the caption [the density's; none without it] */
 } fg_picture_options;
 
 /* Names of the colour maps, ended by NULL. */
