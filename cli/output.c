@@ -66,7 +66,7 @@ int output_check(const char *folder, bool force)
   if (!report)
     return out_of_memory();
   if (!force && stat(report, &found) == 0) {
-    complain("%s: holds a finished run", folder);
+    complain("%s: holds the results of a run", folder);
     fputs("Choose another folder with -o, or replace its results with --force.\n",
           stderr);
     code = EXIT_FAILED;

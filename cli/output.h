@@ -12,7 +12,7 @@ typedef struct cli_output {
 } cli_output;
 
 /* Refuses early, with nothing written, a DIR that is no folder, can not be written to, or
- * holds a finished run (unless `force`). Returns an exit code. */
+ * holds the results of a run (unless `force`). Returns an exit code. */
 int output_check(const char *folder, bool force);
 
 /* Makes DIR, with its parents, and the temporary folder in it. Returns an exit code. */

@@ -179,9 +179,9 @@ static void record_step(cli_run *run, const fg_step *before)
   run->facts.rejected += step->rejected;
   if (before->step && step->energy > before->energy)
     run->facts.energy_monotone = false;
-  /* the initial density has this mass by construction */
-  double mass_0 = (2.0 * mesh->coverage - 1.0) * mesh->domain_measure;
-  double drift = fabs(step->mass - mass_0) / mesh->domain_measure;
+  /* masses are in units of the longest side; the initial one is known by construction */
+  double measure = mesh->domain_measure / (mesh->length * mesh->length);
+  double drift = fabs(step->mass / measure - (2.0 * mesh->coverage - 1.0));
   if (drift > run->facts.mass_drift)
     run->facts.mass_drift = drift;
 }
@@ -348,6 +348,10 @@ static int work(cli_run *run)
   if (code)
     return code;
   print_summary(run);
+  if (strcmp(run->facts.ended, "stationary") == 0 && !scale_plan_done(&run->plan))
+    complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
+             run->settings->operand, run->plan.wanted[run->plan.next],
+             run->step.clusters);
   if (strcmp(run->facts.ended, "interrupted") != 0)
     return EXIT_DONE;
   complain(

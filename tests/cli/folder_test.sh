@@ -13,7 +13,7 @@ before=$(cat a/b/c/* | cksum)
 try run synth:vortex -o a/b/c "${quick[@]}" --seed 3
 expect_code 1
 expect_one_complaint
-expect_error 'finished run'
+expect_error 'holds the results of a run'
 expect_error -- '--force'
 [ "$(cat a/b/c/* | cksum)" = "$before" ] || fault "its files have changed"
 done_with "a finished run is not replaced"

@@ -139,5 +139,15 @@ try run "$root/data/gfs_20140131.nc" -o gfs --nodes 129 --clusters 40 --quiet
 expect_code 0
 expect_json gfs/run.json '.field.scale == "geo" and .field.period[0] == 360 and .field.velocity == ["u10", "v10"]'
 expect_json gfs/scale-00.geojson '[.features[].geometry.coordinates[] | .[1] >= -90 and .[1] <= 90] | all'
+expect_json gfs/run.json '.mass_drift >= 0 and .mass_drift < 1e-7'
 done_with "a global wind field, periodic in longitude"
+
+try run synth:vortex3 -o rest --nodes 129 --clusters 1 --quiet
+expect_code 0
+if [ "$(jq -r .ended rest/run.json)" = stationary ]; then
+  expect_error 'no scale of 1 or fewer clusters: the pattern came to rest with'
+else
+  [ "$(jq -r .ended rest/run.json)" = scales ] || fault "ended: $(jq -c .ended rest/run.json)"
+fi
+done_with "what the pattern does not reach is said"
 finish
