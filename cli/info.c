@@ -25,6 +25,10 @@ static void print_vector(const fg_inventory_vector *vector)
   printf("\n  found by: %s\n", vector->found_by);
   if (*vector->units)
     printf("  units: %s\n", vector->units);
+  if (vector->unusable) { /* its grid is not known */
+    printf("  cannot be read: %s\n", vector->unusable);
+    return;
+  }
   printf("  grid:");
   for (int k = 0; k < vector->dimension; ++k)
     printf("%s %d", k ? " x" : "", vector->size[k]);
@@ -35,8 +39,6 @@ static void print_vector(const fg_inventory_vector *vector)
   printf("  times: %d\n  levels: %d\n", vector->times, vector->levels);
   printf("  missing: %.1f %%\n", 100.0 * vector->missing_share);
   printf("  scale: %s\n", scale_words[vector->scale]);
-  if (vector->unusable)
-    printf("  cannot be read: %s\n", vector->unusable);
 }
 
 static void add_vector(cJSON *array, const fg_inventory_vector *vector)
@@ -48,6 +50,11 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
   cJSON_AddNumberToObject(object, "components", vector->components);
   cJSON_AddStringToObject(object, "units", vector->units);
   cJSON_AddStringToObject(object, "found_by", vector->found_by);
+  cJSON_AddItemToArray(array, object);
+  if (vector->unusable) { /* its grid is not known */
+    cJSON_AddStringToObject(object, "unusable", vector->unusable);
+    return;
+  }
   cJSON_AddItemToObject(object, "size",
                         cJSON_CreateIntArray(vector->size, vector->dimension));
   cJSON_AddItemToObject(object, "bounds",
@@ -57,9 +64,6 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
   cJSON_AddNumberToObject(object, "levels", vector->levels);
   cJSON_AddNumberToObject(object, "missing_share", vector->missing_share);
   cJSON_AddStringToObject(object, "scale", scale_words[vector->scale]);
-  if (vector->unusable)
-    cJSON_AddStringToObject(object, "unusable", vector->unusable);
-  cJSON_AddItemToArray(array, object);
 }
 
 static int print_json(const char *file, const fg_inventory *inventory)

@@ -122,6 +122,20 @@ static fg_status name_the_file(fg_context *context, fg_status status, const char
   return status;
 }
 
+/* An analytic field has one vector and no axes to choose from. */
+static fg_status read_analytic(fg_field **out, fg_context *context, const char *input,
+                               const fg_read_options *options)
+{
+  if (options && (options->vars || options->vars_from || options->mask || options->time ||
+                  options->level))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: an analytic field has no variables, masks, times or levels to "
+                    "choose from",
+                    input);
+  return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1,
+                                  SYNTHETIC_NODES);
+}
+
 fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
                         const fg_read_options *options)
 {
@@ -129,8 +143,7 @@ fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
     return fg__fail(context, FG_STATUS_ARGUMENT, "no input to read a field from");
   *out = NULL;
   if (is_synthetic(input))
-    return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1,
-                                    SYNTHETIC_NODES);
+    return read_analytic(out, context, input, options);
   static const fg_read_options defaults = {0};
   fg__source source;
   const fg__format *format = NULL;

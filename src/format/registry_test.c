@@ -158,6 +158,21 @@ static void inventories_own_their_words(void **state)
   fg_inventory_destroy(inventory);
 }
 
+static void analytic_fields_offer_no_choice(void **state)
+{
+  place *p = *state;
+  const fg_read_options choices[] = {
+      {.vars = "a,b"}, {.vars_from = "x"}, {.mask = "m"}, {.time = 3}, {.level = 1}};
+  for (size_t k = 0; k < sizeof choices / sizeof *choices; ++k) {
+    fg_field *field = NULL;
+    fg_context_clear(p->context);
+    assert_int_equal(fg_field_read(&field, p->context, "synth:vortex", &choices[k]),
+                     FG_STATUS_ARGUMENT);
+    assert_null(field);
+    assert_non_null(strstr(fg_context_message(p->context), "synth:vortex: "));
+  }
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
@@ -168,6 +183,7 @@ int main(void)
       CASE(impossible_calls_are_refused),
       CASE(analytic_fields_are_inputs_too),
       CASE(inventories_own_their_words),
+      CASE(analytic_fields_offer_no_choice),
   };
   return cmocka_run_group_tests_name("format/registry", tests, NULL, NULL);
 }
