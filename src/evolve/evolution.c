@@ -99,7 +99,8 @@ static fg_status create_mesh(fg_evolution *e, const fg_field *field)
     return fg__fail(e->context, FG_STATUS_UNSUPPORTED,
                     "the field has %d dimensions; this version evolves 2",
                     arrays->dimension);
-  fg__mesh_description description = {.nodes = e->options.nodes};
+  fg__mesh_description description = {.dimension = arrays->dimension,
+                                      .nodes = e->options.nodes};
   for (int k = 0; k < 2; ++k) {
     description.origin[k] = arrays->axis[k][0];
     description.periodic[k] = arrays->period[k] > 0.0;

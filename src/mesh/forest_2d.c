@@ -1,0 +1,1 @@
+#include "mesh/forest_body.h"
