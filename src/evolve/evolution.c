@@ -129,7 +129,8 @@ static fg_status create_tensor(fg_evolution *e, const fg_field *field)
   e->tensor.active = fg__allocate(count, 1);
   if (!e->tensor.xx || !e->tensor.xy || !e->tensor.yy || !e->tensor.active)
     return fg__fail_memory(e->context, "the tensor", count * (3 * sizeof(float) + 1));
-  fg__cells cells;
+  fg__cells cells = {.dimension = 2};
+  bool periodic[3] = {e->mesh.periodic[0], e->mesh.periodic[1], false};
   for (int k = 0; k < 2; ++k) {
     cells.count[k] = e->mesh.cells[k];
     cells.origin[k] = e->mesh.origin[k];
@@ -142,7 +143,7 @@ static fg_status create_tensor(fg_evolution *e, const fg_field *field)
   /* an interface across the stream is sqrt(gamma) wide */
   double width = sqrt(interface_energy(e)) * e->mesh.length;
   return fg__tensor_smooth(&e->tensor, e->context, e->options.anisotropy, &cells,
-                           e->mesh.periodic, width);
+                           periodic, width);
 }
 
 static fg_status check_interface(const fg_evolution *e)

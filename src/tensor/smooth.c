@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "tensor/eigenvalues.h"
 #include "tensor/tensor.h"
 
 /* Beyond three standard deviations a Gaussian holds 0.3 % of its weight. */
@@ -19,13 +20,20 @@ typedef struct gaussian {
   float *weights;
 } gaussian;
 
-static bool gaussian_create(gaussian *out, double width_in_cells, int most)
+int fg__smoothing_radius(const fg__cells *cells, int k, double width)
 {
-  double radius = ceil(reach * width_in_cells);
-  out->radius = radius < most ? (int)radius : most;
+  double radius = ceil(reach * (width / cells->spacing[k]));
+  int most = fg__domain_count(cells, k) / 2;
+  return radius < most ? (int)radius : most;
+}
+
+static bool gaussian_create(gaussian *out, const fg__cells *cells, int k, double width)
+{
+  double width_in_cells = width / cells->spacing[k];
+  out->radius = fg__smoothing_radius(cells, k, width);
   out->weights = fg__allocate((size_t)out->radius + 1, sizeof *out->weights);
-  for (int k = 0; out->weights && k <= out->radius; ++k)
-    out->weights[k] = (float)exp(-0.5 * k * k / (width_in_cells * width_in_cells));
+  for (int n = 0; out->weights && n <= out->radius; ++n)
+    out->weights[n] = (float)exp(-0.5 * n * n / (width_in_cells * width_in_cells));
   return out->weights != NULL;
 }
 
@@ -37,96 +45,189 @@ static int neighbour(int index, int count, bool periodic)
   return periodic ? (index % count + count) % count : -1;
 }
 
-/* The two axes of the separable sum; in both the inner loop is contiguous. */
-static void sum_rows(const float *from, float *to, const int count[2],
-                     const gaussian *kernel, bool periodic)
+/* The axes of the separable sum, in place; in each the inner loop is contiguous. A cell's
+ * terms are added in the order of their offsets whatever the box, so that boxes agree. */
+static void sum_along_x(float *values, const fg__cells *cells, const gaussian *kernel,
+                        bool periodic, float *scratch)
 {
-  size_t columns = (size_t)count[0];
-  memset(to, 0, columns * (size_t)count[1] * sizeof *to);
-  for (int j = 0; j < count[1]; ++j)
-    for (int k = -kernel->radius; k <= kernel->radius; ++k) {
-      int source = neighbour(j + k, count[1], periodic);
-      if (source < 0)
-        continue;
-      float weight = kernel->weights[k < 0 ? -k : k];
-      const float *row = from + (size_t)source * columns;
-      float *out = to + (size_t)j * columns;
-      for (size_t i = 0; i < columns; ++i)
-        out[i] += weight * row[i];
-    }
-}
-
-static void sum_columns(const float *from, float *to, const int count[2],
-                        const gaussian *kernel, bool periodic)
-{
-  size_t columns = (size_t)count[0];
-  memset(to, 0, columns * (size_t)count[1] * sizeof *to);
-  for (int j = 0; j < count[1]; ++j) {
-    const float *row = from + (size_t)j * columns;
-    float *out = to + (size_t)j * columns;
+  int columns = cells->count[0];
+  size_t rows = (size_t)cells->count[1] * (size_t)fg__layers(cells);
+  for (size_t j = 0; j < rows; ++j) {
+    float *out = values + j * (size_t)columns;
+    memcpy(scratch, out, (size_t)columns * sizeof *out);
+    memset(out, 0, (size_t)columns * sizeof *out);
     for (int k = -kernel->radius; k <= kernel->radius; ++k) {
       float weight = kernel->weights[k < 0 ? -k : k];
-      int first = k < 0 ? -k : 0, last = k > 0 ? count[0] - k : count[0];
+      int first = k < 0 ? -k : 0, last = k > 0 ? columns - k : columns;
       for (int i = first; i < last; ++i)
-        out[i] += weight * row[i + k];
-      for (int i = 0; periodic && i < count[0]; ++i)
+        out[i] += weight * scratch[i + k];
+      for (int i = 0; periodic && i < columns; ++i)
         if (i < first || i >= last)
-          out[i] += weight * row[neighbour(i + k, count[0], true)];
+          out[i] += weight * scratch[neighbour(i + k, columns, true)];
     }
   }
 }
 
-/* The tensor whose double-angle vector (xx - yy, 2 xy) is the mean one, brought back to
- * full length where it is coherent; its smaller eigenvalue is that of the cross
- * direction. */
-static void rebuild(fg__tensor *tensor, size_t cell, double anisotropy, double x,
-                    double y)
+/* Over `rows` rows that lie `stride` apart: a plane of y or of z. */
+static void sum_rows(float *values, size_t columns, int rows, size_t stride,
+                     const gaussian *kernel, bool periodic, float *scratch)
 {
+  for (size_t j = 0; j < (size_t)rows; ++j)
+    memcpy(scratch + j * columns, values + j * stride, columns * sizeof *values);
+  for (int j = 0; j < rows; ++j) {
+    float *out = values + (size_t)j * stride;
+    memset(out, 0, columns * sizeof *out);
+    for (int k = -kernel->radius; k <= kernel->radius; ++k) {
+      int source = neighbour(j + k, rows, periodic);
+      if (source < 0)
+        continue;
+      float weight = kernel->weights[k < 0 ? -k : k];
+      const float *row = scratch + (size_t)source * columns;
+      for (size_t i = 0; i < columns; ++i)
+        out[i] += weight * row[i];
+    }
+  }
+}
+
+static void sum_along_axes(float *values, const fg__cells *cells,
+                           const gaussian kernel[3], const bool wraps[3], float *scratch)
+{
+  size_t columns = (size_t)cells->count[0];
+  size_t plane = columns * (size_t)cells->count[1];
+  sum_along_x(values, cells, &kernel[0], wraps[0], scratch);
+  for (int k = 0; k < fg__layers(cells); ++k)
+    sum_rows(values + (size_t)k * plane, columns, cells->count[1], columns, &kernel[1],
+             wraps[1], scratch);
+  if (cells->dimension == 3)
+    for (int j = 0; j < cells->count[1]; ++j)
+      sum_rows(values + (size_t)j * columns, columns, cells->count[2], plane, &kernel[2],
+               wraps[2], scratch);
+}
+
+/* The double-angle vector (xx - yy, 2 xy) takes the place of xx and xy, the cell's weight
+ * that of yy. */
+static void take_apart_2d(fg__tensor *tensor, size_t n)
+{
+  float active = tensor->active[n] ? 1.0F : 0.0F;
+  tensor->xx[n] = active > 0.0F ? tensor->xx[n] - tensor->yy[n] : 0.0F;
+  tensor->xy[n] = active > 0.0F ? 2.0F * tensor->xy[n] : 0.0F;
+  tensor->yy[n] = active;
+}
+
+/* The tensor whose double-angle vector is the mean one, brought back to full length where
+ * it is coherent; its smaller eigenvalue is that of the cross direction. */
+static void rebuild_2d(fg__tensor *tensor, size_t n, double anisotropy)
+{
+  double x = (double)(tensor->xx[n] / tensor->yy[n]);
+  double y = (double)(tensor->xy[n] / tensor->yy[n]);
   double length = hypot(x, y) / (1.0 - anisotropy);
   double share = fmin(length / full_coherence, 1.0);
   double contrast = (1.0 - anisotropy) * share;
   double cosine = length > 0.0 ? x / hypot(x, y) : 0.0;
   double sine = length > 0.0 ? y / hypot(x, y) : 0.0;
-  tensor->xx[cell] = (float)(1.0 - 0.5 * contrast * (1.0 - cosine));
-  tensor->yy[cell] = (float)(1.0 - 0.5 * contrast * (1.0 + cosine));
-  tensor->xy[cell] = (float)(0.5 * contrast * sine);
+  tensor->xx[n] = (float)(1.0 - 0.5 * contrast * (1.0 - cosine));
+  tensor->yy[n] = (float)(1.0 - 0.5 * contrast * (1.0 + cosine));
+  tensor->xy[n] = (float)(0.5 * contrast * sine);
+}
+
+/* The part of A without trace, (1 - a)(e e^T - I / 3), and the cell's weight in place of
+ * zz. */
+static void take_apart_3d(fg__tensor *tensor, size_t n)
+{
+  float active = tensor->active[n] ? 1.0F : 0.0F;
+  float mean = active * (tensor->xx[n] + tensor->yy[n] + tensor->zz[n]) / 3.0F;
+  tensor->xx[n] = active * tensor->xx[n] - mean;
+  tensor->yy[n] = active * tensor->yy[n] - mean;
+  tensor->xy[n] *= active;
+  tensor->xz[n] *= active;
+  tensor->yz[n] *= active;
+  tensor->zz[n] = active;
+}
+
+/* With M the mean of e e^T, p its largest eigenvalue and P = p I - M: each eigenvalue q
+ * of P becomes 1 - (1 - a) min(q / full_coherence, 1), and its direction stays. In a
+ * plane, where q is 0 and the coherence, that is the rule of 2D. The minimum is written
+ * as the quadratic linear P + square P^2 through its three values, the first of them 0 at
+ * the main direction: no eigenvectors, nothing to choose where eigenvalues meet. */
+static void rebuild_3d(fg__tensor *tensor, size_t n, double anisotropy)
+{
+  double scale = 1.0 / ((1.0 - anisotropy) * (double)tensor->zz[n]);
+  double m[6] = {scale * (double)tensor->xx[n], scale * (double)tensor->xy[n],
+                 scale * (double)tensor->yy[n], 0.0,
+                 scale * (double)tensor->xz[n], scale * (double)tensor->yz[n]};
+  m[3] = -m[0] - m[2];
+  double e[3];
+  fg__eigenvalues(e, m);
+  double near = e[0] - e[1], far = e[0] - e[2];
+  double linear = 1.0 / full_coherence, square = 0.0;
+  if (near >= full_coherence) {
+    linear = (near + far) / (near * far);
+    square = -1.0 / (near * far);
+  } else if (far > full_coherence) {
+    square = -(far / full_coherence - 1.0) / (far * (far - near));
+    linear -= square * near;
+  }
+  linear *= 1.0 - anisotropy;
+  square *= 1.0 - anisotropy;
+  double xx = e[0] - m[0], yy = e[0] - m[2], zz = e[0] - m[3];
+  double xy = -m[1], xz = -m[4], yz = -m[5];
+  tensor->xx[n] = (float)(1.0 - linear * xx - square * (xx * xx + xy * xy + xz * xz));
+  tensor->yy[n] = (float)(1.0 - linear * yy - square * (xy * xy + yy * yy + yz * yz));
+  tensor->zz[n] = (float)(1.0 - linear * zz - square * (xz * xz + yz * yz + zz * zz));
+  tensor->xy[n] = (float)(-linear * xy - square * (xx * xy + xy * yy + xz * yz));
+  tensor->xz[n] = (float)(-linear * xz - square * (xx * xz + xy * yz + xz * zz));
+  tensor->yz[n] = (float)(-linear * yz - square * (xy * xz + yy * yz + yz * zz));
+}
+
+static void rebuild(fg__tensor *tensor, size_t n, double anisotropy, int dimension)
+{
+  if (!tensor->active[n]) {
+    tensor->xx[n] = tensor->xy[n] = tensor->yy[n] = 0.0F;
+    if (dimension == 3)
+      tensor->zz[n] = tensor->xz[n] = tensor->yz[n] = 0.0F;
+  } else if (dimension == 3) {
+    rebuild_3d(tensor, n, anisotropy);
+  } else {
+    rebuild_2d(tensor, n, anisotropy);
+  }
 }
 
 fg_status fg__tensor_smooth(fg__tensor *tensor, fg_context *context, double anisotropy,
-                            const fg__cells *cells, const bool periodic[2], double width)
+                            const fg__cells *cells, const bool periodic[3], double width)
 {
   if (!(anisotropy < 1.0))
     return FG_STATUS_OK; /* nothing is preferred */
-  size_t count = (size_t)cells->count[0] * (size_t)cells->count[1];
-  float *memory = fg__allocate(4 * count, sizeof *memory);
-  gaussian kernel[2] = {{0}};
+  size_t count = fg__cell_count(cells);
+  size_t rows =
+      (size_t)(cells->count[1] > fg__layers(cells) ? cells->count[1] : fg__layers(cells));
+  size_t plane = (size_t)cells->count[0] * rows;
+  float *scratch = fg__allocate(plane, sizeof *scratch);
+  gaussian kernel[3] = {{0}};
+  bool wraps[3] = {false};
   fg_status status = FG_STATUS_OK;
-  for (int k = 0; k < 2; ++k)
-    if (!gaussian_create(&kernel[k], width / cells->spacing[k], cells->count[k] / 2))
+  for (int k = 0; k < cells->dimension; ++k) {
+    wraps[k] = periodic[k] && cells->count[k] == fg__domain_count(cells, k);
+    if (!gaussian_create(&kernel[k], cells, k, width))
       status = FG_STATUS_MEMORY;
-  if (status || !memory) {
-    status = fg__fail_memory(context, "the smoothed tensor", 4 * count * sizeof *memory);
+  }
+  if (status || !scratch) {
+    status = fg__fail_memory(context, "the smoothed tensor", plane * sizeof *scratch);
     goto cleanup;
   }
-  float *sums[3] = {memory, memory + count, memory + 2 * count};
-  float *scratch = memory + 3 * count;
   for (size_t n = 0; n < count; ++n)
-    if (tensor->active[n]) {
-      sums[0][n] = tensor->xx[n] - tensor->yy[n];
-      sums[1][n] = 2.0F * tensor->xy[n];
-      sums[2][n] = 1.0F;
-    }
-  for (int n = 0; n < 3; ++n) {
-    sum_columns(sums[n], scratch, cells->count, &kernel[0], periodic[0]);
-    sum_rows(scratch, sums[n], cells->count, &kernel[1], periodic[1]);
-  }
+    if (cells->dimension == 3)
+      take_apart_3d(tensor, n);
+    else
+      take_apart_2d(tensor, n);
+  float *parts[6] = {tensor->xx, tensor->xy, tensor->yy,
+                     tensor->zz, tensor->xz, tensor->yz};
+  for (int part = 0; part < (cells->dimension == 3 ? 6 : 3); ++part)
+    sum_along_axes(parts[part], cells, kernel, wraps, scratch);
   for (size_t n = 0; n < count; ++n)
-    if (tensor->active[n])
-      rebuild(tensor, n, anisotropy, (double)(sums[0][n] / sums[2][n]),
-              (double)(sums[1][n] / sums[2][n]));
+    rebuild(tensor, n, anisotropy, cells->dimension);
 cleanup:
-  free(memory);
-  free(kernel[0].weights);
-  free(kernel[1].weights);
+  free(scratch);
+  for (int k = 0; k < 3; ++k)
+    free(kernel[k].weights);
   return status;
 }

@@ -28,7 +28,7 @@ static size_t at(int i, int j)
 
 static void set_angle(grid *g, int i, int j, double angle)
 {
-  double tensor[3], tangent[2] = {3.0 * cos(angle), 3.0 * sin(angle)};
+  double tensor[6], tangent[3] = {3.0 * cos(angle), 3.0 * sin(angle), 0.0};
   fg__energy_flow(tensor, tangent, ANISOTROPY);
   g->xx[at(i, j)] = (float)tensor[0];
   g->xy[at(i, j)] = (float)tensor[1];
@@ -40,8 +40,11 @@ static grid *grid_of(double (*angle)(int i, int j))
 {
   grid *g = calloc(1, sizeof *g);
   assert_non_null(g);
-  g->cells = (fg__cells){{COLUMNS, ROWS}, {2.0, -1.0}, {0.5, 0.4}};
-  g->tensor = (fg__tensor){g->xx, g->xy, g->yy, g->active};
+  g->cells = (fg__cells){.dimension = 2,
+                         .count = {COLUMNS, ROWS},
+                         .origin = {2.0, -1.0},
+                         .spacing = {0.5, 0.4}};
+  g->tensor = (fg__tensor){.xx = g->xx, .xy = g->xy, .yy = g->yy, .active = g->active};
   for (int j = 0; j < ROWS; ++j)
     for (int i = 0; i < COLUMNS; ++i)
       set_angle(g, i, j, angle(i, j));
@@ -50,7 +53,7 @@ static grid *grid_of(double (*angle)(int i, int j))
 
 static void smooth(grid *g, bool x_periodic, double width)
 {
-  bool periodic[2] = {x_periodic, false};
+  bool periodic[3] = {x_periodic, false, false};
   assert_int_equal(
       fg__tensor_smooth(&g->tensor, NULL, ANISOTROPY, &g->cells, periodic, width), 0);
 }
@@ -158,7 +161,7 @@ static void tensors_stay_between_the_two_costs(void **state)
   free(g);
 }
 
-static void a_mask_separates_and_keeps_its_values(void **state)
+static void a_mask_separates(void **state)
 {
   (void)state;
   grid *g = grid_of(left_and_right_angle);
@@ -169,13 +172,12 @@ static void a_mask_separates_and_keeps_its_values(void **state)
       g->active[at(i, j)] = 0;
     }
   }
-  float before = g->xy[at(COLUMNS / 2, 3)];
   smooth(g, false, 2.0);
   for (int j = 0; j < ROWS; ++j)
     for (int i = 0; i < COLUMNS; ++i)
       if (g->active[at(i, j)])
         assert_true(fabs(axes_at(g, i, j).angle - left_and_right_angle(i, j)) < 1e-4);
-  assert_true(g->xy[at(COLUMNS / 2, 3)] == before);
+  assert_true(g->xx[at(COLUMNS / 2, 3)] == 0.0F);
   free(g);
 }
 
@@ -202,7 +204,7 @@ int main(void)
       cmocka_unit_test(slow_turns_are_followed),
       cmocka_unit_test(directions_that_cancel_leave_no_preference),
       cmocka_unit_test(tensors_stay_between_the_two_costs),
-      cmocka_unit_test(a_mask_separates_and_keeps_its_values),
+      cmocka_unit_test(a_mask_separates),
       cmocka_unit_test(a_periodic_seam_is_no_border),
   };
   return cmocka_run_group_tests_name("tensor/smooth", tests, NULL, NULL);

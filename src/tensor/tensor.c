@@ -3,6 +3,62 @@
 /* in the order of fg_energy */
 static fg__energy_law *const laws[] = {fg__energy_flow, fg__energy_isotropic};
 
+int fg__layers(const fg__cells *cells)
+{
+  return cells->dimension == 3 ? cells->count[2] : 1;
+}
+
+size_t fg__cell_count(const fg__cells *cells)
+{
+  return (size_t)cells->count[0] * (size_t)cells->count[1] * (size_t)fg__layers(cells);
+}
+
+int fg__domain_count(const fg__cells *cells, int k)
+{
+  return cells->domain_count[k] > 0 ? cells->domain_count[k] : cells->count[k];
+}
+
+/* Centre of the box's n-th cell along axis k; beyond the ends, which a box only is on a
+ * periodic axis, the cell it repeats. */
+static double center_of(const fg__cells *cells, int k, int n)
+{
+  int all = fg__domain_count(cells, k), index = (cells->first[k] + n) % all;
+  return cells->origin[k] + ((index < 0 ? index + all : index) + 0.5) * cells->spacing[k];
+}
+
+/* Fills one row of cells along x, from cell on; returns how many are active. */
+static long fill_row(fg__tensor *tensor, const fg_field *field, fg__energy_law *law,
+                     double anisotropy, const fg__cells *cells, double center[3],
+                     size_t cell)
+{
+  long active = 0;
+  for (int i = 0; i < cells->count[0]; ++i, ++cell) {
+    double tangent[3] = {0.0, 0.0, 0.0}, a[6] = {0.0};
+    center[0] = center_of(cells, 0, i);
+    tensor->active[cell] = fg_field_tangent(field, center, tangent);
+    if (tensor->active[cell])
+      law(a, tangent, anisotropy);
+    active += tensor->active[cell];
+    tensor->xx[cell] = (float)a[0];
+    tensor->xy[cell] = (float)a[1];
+    tensor->yy[cell] = (float)a[2];
+    if (cells->dimension == 3) {
+      tensor->zz[cell] = (float)a[3];
+      tensor->xz[cell] = (float)a[4];
+      tensor->yz[cell] = (float)a[5];
+    }
+  }
+  return active;
+}
+
+static bool is_whole(const fg__cells *cells)
+{
+  for (int k = 0; k < cells->dimension; ++k)
+    if (cells->count[k] < fg__domain_count(cells, k))
+      return false;
+  return true;
+}
+
 fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_field *field,
                           fg_energy energy, double anisotropy, const fg__cells *cells)
 {
@@ -12,24 +68,22 @@ fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_fiel
   if (!(anisotropy > 0.0 && anisotropy <= 1.0))
     return fg__fail(context, FG_STATUS_ARGUMENT, "anisotropy %g is not in (0, 1]",
                     anisotropy);
+  const int *count = cells->count;
   long active = 0;
-  for (int j = 0; j < cells->count[1]; ++j)
-    for (int i = 0; i < cells->count[0]; ++i) {
-      double center[2] = {cells->origin[0] + (i + 0.5) * cells->spacing[0],
-                          cells->origin[1] + (j + 0.5) * cells->spacing[1]};
-      double tangent[3] = {0.0, 0.0, 0.0}, a[3] = {0.0, 0.0, 0.0};
-      size_t cell = (size_t)j * (size_t)cells->count[0] + (size_t)i;
-      tensor->active[cell] = fg_field_tangent(field, center, tangent);
-      if (tensor->active[cell])
-        laws[energy](a, tangent, anisotropy);
-      active += tensor->active[cell];
-      tensor->xx[cell] = (float)a[0];
-      tensor->xy[cell] = (float)a[1];
-      tensor->yy[cell] = (float)a[2];
+  size_t cell = 0;
+  for (int k = 0; k < fg__layers(cells); ++k)
+    for (int j = 0; j < count[1]; ++j, cell += (size_t)count[0]) {
+      double center[3] = {0.0, center_of(cells, 1, j), 0.0};
+      if (cells->dimension == 3)
+        center[2] = center_of(cells, 2, k);
+      active += fill_row(tensor, field, laws[energy], anisotropy, cells, center, cell);
     }
-  if (active == 0)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "no cell of the mesh, %d x %d, has its centre in the field's domain",
-                    cells->count[0], cells->count[1]);
-  return FG_STATUS_OK;
+  if (active > 0 || !is_whole(cells))
+    return FG_STATUS_OK;
+  static const char what[] = "has its centre in the field's domain";
+  if (cells->dimension == 3)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "no cell of the mesh, %d x %d x %d, %s",
+                    count[0], count[1], count[2], what);
+  return fg__fail(context, FG_STATUS_ARGUMENT, "no cell of the mesh, %d x %d, %s",
+                  count[0], count[1], what);
 }

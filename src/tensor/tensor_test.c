@@ -49,8 +49,9 @@ static int set_up(void **state)
     }
   f.arrays = (fg_field_arrays){
       .dimension = 2, .size = {NX, NY, 1}, .axis = {X, Y}, .velocity = {f.u, f.v}};
-  f.tensor = (fg__tensor){f.xx, f.xy, f.yy, f.active};
+  f.tensor = (fg__tensor){.xx = f.xx, .xy = f.xy, .yy = f.yy, .active = f.active};
   f.cells = (fg__cells){
+      .dimension = 2,
       .count = {CELLS_X, CELLS_Y},
       .origin = {X[0], Y[0]},
       .spacing = {(X[NX - 1] - X[0]) / CELLS_X, (Y[NY - 1] - Y[0]) / CELLS_Y}};
@@ -190,11 +191,11 @@ static void only_the_direction_counts(void **state)
 {
   (void)state;
   const double speed[] = {1e-40, 1e-30, 1e-8, 1.0, 3e7, 1e38};
-  double reference[3];
-  fg__energy_flow(reference, (double[2]){-0.8, 0.6}, 0.3);
+  double reference[6];
+  fg__energy_flow(reference, (double[3]){-0.8, 0.6}, 0.3);
   for (size_t n = 0; n < sizeof speed / sizeof *speed; ++n)
     for (int sign = -1; sign <= 1; sign += 2) {
-      double a[3], v[2] = {sign * speed[n] * -0.8, sign * speed[n] * 0.6};
+      double a[6], v[3] = {sign * speed[n] * -0.8, sign * speed[n] * 0.6};
       fg__energy_flow(a, v, 0.3);
       for (int k = 0; k < 3; ++k)
         assert_true(fabs(a[k] - reference[k]) < 1e-14);
