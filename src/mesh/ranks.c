@@ -1,7 +1,9 @@
 #include "mesh/ranks.h"
 
+#include <limits.h>
 #include <p4est_base.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "mesh/communicator.h"
@@ -50,6 +52,7 @@ static void start(void)
   start_error = MPI_Comm_dup(MPI_COMM_WORLD, &communicator_of_all);
   if (start_error != MPI_SUCCESS)
     return;
+  MPI_Comm_set_errhandler(communicator_of_all, MPI_ERRORS_ARE_FATAL);
   MPI_Comm_rank(communicator_of_all, &all.rank);
   MPI_Comm_size(communicator_of_all, &all.count);
   alone.count = 1;
@@ -80,4 +83,50 @@ fg_status fg__ranks_alone(const fg__ranks **out, fg_context *context)
 MPI_Comm fg__communicator(const fg__ranks *ranks)
 {
   return ranks == &all ? communicator_of_all : MPI_COMM_SELF;
+}
+
+void fg__ranks_add(const fg__ranks *ranks, uint64_t *sum, int count)
+{
+  if (ranks->count > 1) /* unsigned: wraps round as the sums are meant to */
+    MPI_Allreduce(MPI_IN_PLACE, sum, count, MPI_UINT64_T, MPI_SUM,
+                  fg__communicator(ranks));
+}
+
+void fg__ranks_greatest(const fg__ranks *ranks, double *value, int count)
+{
+  if (ranks->count > 1)
+    MPI_Allreduce(MPI_IN_PLACE, value, count, MPI_DOUBLE, MPI_MAX,
+                  fg__communicator(ranks));
+}
+
+/* Replaces what the context holds by what it holds on rank `from`. */
+static void spread_message(const fg__ranks *ranks, fg_context *context, fg_status status,
+                           int from)
+{
+  enum { TEXT_BYTES = 2048 };
+  char text[2][TEXT_BYTES] = {{0}};
+  if (ranks->rank == from) {
+    snprintf(text[0], TEXT_BYTES, "%s", fg_context_message(context));
+    snprintf(text[1], TEXT_BYTES, "%s", fg_context_hint(context));
+  }
+  MPI_Bcast(text, sizeof text, MPI_CHAR, from, fg__communicator(ranks));
+  fg_context_clear(context);
+  fg__fail(context, status, "%s", text[0]);
+  if (text[1][0])
+    fg__hint(context, "%s", text[1]);
+}
+
+fg_status fg__ranks_agree(const fg__ranks *ranks, fg_context *context, fg_status status)
+{
+  if (ranks->count == 1)
+    return status;
+  int order = status == FG_STATUS_OK        ? INT_MAX
+              : status == FG_STATUS_STOPPED ? ranks->count + ranks->rank
+                                            : ranks->rank;
+  int first[2] = {order, (int)status}; /* MPI_2INT: the least order and its status */
+  MPI_Allreduce(MPI_IN_PLACE, first, 1, MPI_2INT, MPI_MINLOC, fg__communicator(ranks));
+  if (first[0] == INT_MAX)
+    return FG_STATUS_OK;
+  spread_message(ranks, context, (fg_status)first[1], first[0] % ranks->count);
+  return (fg_status)first[1];
 }

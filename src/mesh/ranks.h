@@ -1,4 +1,7 @@
-/* The processes that work together on one field. */
+/* The processes that work together on one field.
+ *
+ * An error of MPI itself ends the program, on all ranks: there is no telling in which
+ * state the others are. */
 #ifndef FG__RANKS_H
 #define FG__RANKS_H
 
@@ -16,5 +19,19 @@ fg_status fg__ranks_all(const fg__ranks **out, fg_context *context);
 
 /* This process on its own, whatever the others do: MPI and p4est are started likewise. */
 fg_status fg__ranks_alone(const fg__ranks **out, fg_context *context);
+
+/* Adds up what fg__quanta gave on all ranks (base/sum.h), modulo 2^64, in place.
+ * Collective. */
+void fg__ranks_add(const fg__ranks *ranks, uint64_t *sum, int count);
+
+/* Greatest of each value over all ranks, in place; none may be NaN. Collective. */
+void fg__ranks_greatest(const fg__ranks *ranks, double *value, int count);
+
+/* Makes one failure of many: when `status` is a failure on some rank, all ranks return
+ * the status of the lowest such rank, and every context holds that rank's message and
+ * hint in place of its own; the program prints it on rank 0. A stop (FG_STATUS_STOPPED)
+ * gives way to any other failure. Collective: a rank that fails must come here before its
+ * next message, or the others wait for ever. */
+fg_status fg__ranks_agree(const fg__ranks *ranks, fg_context *context, fg_status status);
 
 #endif

@@ -1,0 +1,122 @@
+#include "mesh/together_test.h"
+
+#include <string.h>
+
+#include "base/sum.h"
+
+static double term_at(int n)
+{
+  return 1.7 * ((double)((n * 7919 + 13) % 10007) / 10007.0 - 0.45) / (1 + n % 97);
+}
+
+/* However the terms are dealt out. */
+static void sums_are_the_same_as_one_rank_alone_gives(void **state)
+{
+  (void)state;
+  enum { TERMS = 5000 };
+  fg__quantum q = fg__quantum_for(1.0, TERMS);
+  uint64_t alone[2] = {0}, mine[2] = {0};
+  for (int n = 0; n < TERMS; ++n) {
+    alone[0] += fg__quanta(&q, term_at(n));
+    alone[1] += fg__quanta(&q, -0.25 * term_at(n));
+    if (n * n % 11 % us.ranks->count != us.ranks->rank)
+      continue;
+    mine[0] += fg__quanta(&q, term_at(n));
+    mine[1] += fg__quanta(&q, -0.25 * term_at(n));
+  }
+  fg__ranks_add(us.ranks, mine, 2);
+  expect(mine[0] == alone[0] && mine[1] == alone[1]);
+  expect(fg__sum_value(&q, mine[1]) < 0.0);
+  end_together();
+}
+
+static void the_greatest_is_found_wherever_it_is(void **state)
+{
+  (void)state;
+  for (int at = 0; at < us.ranks->count; ++at) {
+    double value[2] = {us.ranks->rank == at ? -0.5 : -0.75 - us.ranks->rank,
+                       us.ranks->rank == at ? 1e300 : -1e300};
+    fg__ranks_greatest(us.ranks, value, 2);
+    expect(value[0] == -0.5 && value[1] == 1e300);
+  }
+  end_together();
+}
+
+static void no_failure_is_none(void **state)
+{
+  (void)state;
+  expect(fg__ranks_agree(us.ranks, us.context, FG_STATUS_OK) == FG_STATUS_OK);
+  expect(strcmp(fg_context_message(us.context), "") == 0);
+  end_together();
+}
+
+/* Every set of failing ranks; each says something of its own. */
+static void all_end_with_the_lowest_rank_s_failure(void **state)
+{
+  (void)state;
+  for (int failing = 1; failing < 1 << us.ranks->count; ++failing) {
+    int lowest = 0;
+    while (!(failing >> lowest & 1))
+      ++lowest;
+    fg_status status = FG_STATUS_OK;
+    if (failing >> us.ranks->rank & 1) {
+      status = us.ranks->rank % 2 ? FG_STATUS_FILE_ACCESS : FG_STATUS_FILE_FORMAT;
+      fg__fail(us.context, status, "rank %d saw no file", us.ranks->rank);
+      fg__hint(us.context, "Ask rank %d.", us.ranks->rank);
+    }
+    status = fg__ranks_agree(us.ranks, us.context, status);
+    char message[64], hint[64];
+    snprintf(message, sizeof message, "rank %d saw no file", lowest);
+    snprintf(hint, sizeof hint, "Ask rank %d.", lowest);
+    expect(status == (lowest % 2 ? FG_STATUS_FILE_ACCESS : FG_STATUS_FILE_FORMAT));
+    expect(strcmp(fg_context_message(us.context), message) == 0);
+    expect(strcmp(fg_context_hint(us.context), hint) == 0);
+    fg_context_clear(us.context);
+  }
+  end_together();
+}
+
+/* Ctrl-C reaches some ranks; the last of the others has something better to say. */
+static void a_stop_gives_way_to_a_failure(void **state)
+{
+  (void)state;
+  bool last = us.ranks->rank == us.ranks->count - 1;
+  fg_status status =
+      last ? fg__fail(us.context, FG_STATUS_MEMORY, "no memory on the last rank")
+           : fg__fail(us.context, FG_STATUS_STOPPED, "stopped on request");
+  expect(fg__ranks_agree(us.ranks, us.context, status) == FG_STATUS_MEMORY);
+  expect(strcmp(fg_context_message(us.context), "no memory on the last rank") == 0);
+  fg_context_clear(us.context);
+  status = last ? FG_STATUS_STOPPED : FG_STATUS_OK;
+  expect(fg__ranks_agree(us.ranks, us.context, status) == FG_STATUS_STOPPED);
+  end_together();
+}
+
+static void a_rank_alone_asks_nobody(void **state)
+{
+  (void)state;
+  const fg__ranks *alone;
+  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
+  expect(alone->rank == 0 && alone->count == 1);
+  if (us.ranks->rank == 0) { /* would hang if it waited for the others */
+    uint64_t sum = 3;
+    fg__ranks_add(alone, &sum, 1);
+    expect(sum == 3);
+    expect(fg__ranks_agree(alone, us.context, FG_STATUS_MPI) == FG_STATUS_MPI);
+  }
+  end_together();
+}
+
+int main(void)
+{
+  start_together();
+  const struct CMUnitTest tests[] = {
+      TOGETHER(sums_are_the_same_as_one_rank_alone_gives),
+      TOGETHER(the_greatest_is_found_wherever_it_is),
+      TOGETHER(no_failure_is_none),
+      TOGETHER(all_end_with_the_lowest_rank_s_failure),
+      TOGETHER(a_stop_gives_way_to_a_failure),
+      TOGETHER(a_rank_alone_asks_nobody),
+  };
+  return cmocka_run_group_tests_name("mesh/ranks", tests, NULL, NULL);
+}
