@@ -1,11 +1,11 @@
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "base/memory.h"
-#include "evolve/components.h"
+#include "base/mix.h"
+#include "evolve/evolution.h"
 #include "evolve/noise.h"
-#include "evolve/stepper.h"
+#include "field/fingerprint.h"
 
 /* Defaults that give the paper's pictures (design.md section 2). */
 enum { DEFAULT_NODES = 257, DEFAULT_SEED = 1, DEFAULT_CYCLES = 2 };
@@ -34,23 +34,6 @@ static const double first_step_share = 1e-3;
 
 /* tau gamma / h^4 above which cycles stall (measured, docs/design/evolution.md). */
 static const double most_stiffness = 4e3;
-
-struct fg_evolution {
-  fg_context *context;
-  fg_evolution_options options;
-  fg_mesh_info info;
-  fg__mesh mesh;
-  fg__tensor tensor;
-  fg__stepper stepper;
-  fg__components components;
-  float *plain;       /* u without ghosts, x fastest */
-  float *plain_mass;  /* relative mass of each node, halved at borders */
-  double debris_area; /* in cells */
-  double area_fraction;
-  int clusters;
-  bool counting; /* nucleation is over */
-  struct timespec start;
-};
 
 static fg_status check_range(fg_context *context, const char *name, double value,
                              double low, double high, bool low_included)
@@ -228,6 +211,8 @@ static void set_initial_density(fg_evolution *e, const fg__multigrid *multigrid)
   const fg__level *level = &multigrid->level[0];
   if (e->options.initial) {
     fg__level_import(level, level->u, e->options.initial);
+    e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial,
+                                            (size_t)level->columns * (size_t)level->rows);
   } else {
     double mean = 2.0 * e->options.coverage - 1.0;
     double correlation = sqrt(e->info.gamma * e->options.anisotropy);
@@ -311,6 +296,7 @@ fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
     status = create_tensor(e, field);
   if (!status) {
     describe(e);
+    e->field_fingerprint = fg__field_fingerprint(field);
     status = check_interface(e);
   }
   if (!status)
@@ -379,12 +365,32 @@ static fg_status count_clusters(fg_evolution *e)
   return status;
 }
 
-static double seconds_since(const struct timespec *start)
+double fg__evolution_seconds(const fg_evolution *evolution)
 {
+  const struct timespec *start = &evolution->start;
   struct timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)(now.tv_sec - start->tv_sec) +
+  return evolution->earlier_seconds + (double)(now.tv_sec - start->tv_sec) +
          1e-9 * (double)(now.tv_nsec - start->tv_nsec);
+}
+
+fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int rejected)
+{
+  const fg_evolution *e = evolution;
+  const fg__stepper *s = &e->stepper;
+  return (fg_step){.step = s->accepted,
+                   .time = s->time,
+                   .tau = s->last_tau,
+                   .energy = s->energy,
+                   .mass = s->mass,
+                   .area_fraction = e->area_fraction,
+                   .clusters = e->clusters,
+                   .cycles = cycles,
+                   .rejected = rejected,
+                   .cells = e->info.active_cells,
+                   .increment = s->increment,
+                   .seconds = fg__evolution_seconds(e),
+                   .stationary = fg__stepper_stationary(s)};
 }
 
 fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
@@ -394,23 +400,10 @@ fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
   fg_status status = fg__stepper_advance(&e->stepper, e->context);
   if (!status)
     status = count_clusters(e);
-  if (status)
-    return status;
-  const fg__stepper *s = &e->stepper;
-  *step = (fg_step){.step = s->accepted,
-                    .time = s->time,
-                    .tau = s->last_tau,
-                    .energy = s->energy,
-                    .mass = s->mass,
-                    .area_fraction = e->area_fraction,
-                    .clusters = e->clusters,
-                    .cycles = (int)(s->cycles_spent - cycles),
-                    .rejected = (int)(s->rejected - rejected),
-                    .cells = e->info.active_cells,
-                    .increment = s->increment,
-                    .seconds = seconds_since(&e->start),
-                    .stationary = fg__stepper_stationary(s)};
-  return FG_STATUS_OK;
+  if (!status)
+    *step = fg__evolution_describe(e, (int)(e->stepper.cycles_spent - cycles),
+                                   (int)(e->stepper.rejected - rejected));
+  return status;
 }
 
 fg_status fg_density_create(fg_density **out, const fg_evolution *evolution)

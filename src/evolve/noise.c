@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/mix.h"
+
 /* Strong noise gives separate grains, weak noise stripes along whole streamlines
  * (design.md section 2): uniform values of this amplitude, cell by cell. */
 static const double amplitude = 1.5;
@@ -10,19 +12,10 @@ static const double amplitude = 1.5;
  * root smoothing lowers the standard deviation along each axis. */
 static const double spline_square_sum = 0.55;
 
-/* The finaliser of SplitMix64 (Steele, Lea and Flood 2014). */
-static uint64_t mix(uint64_t x)
-{
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
-
 /* A number in [-1, 1) of the lattice point i of a row. */
 static double lattice_value(uint64_t row_key, int64_t i)
 {
-  return (double)(int64_t)mix(row_key ^ (uint64_t)i) * 0x1p-63;
+  return (double)(int64_t)fg__mix(row_key ^ (uint64_t)i) * 0x1p-63;
 }
 
 /* One axis of the lattice: an integer number of intervals on a periodic domain. */
@@ -74,7 +67,7 @@ fg__noise fg__noise_of(int dimension, const int cells[3], const double spacing[3
   fg__noise out = {.dimension = dimension,
                    .mean = mean,
                    .scale = amplitude / spline_square_sum,
-                   .key = mix(seed)};
+                   .key = fg__mix(seed)};
   if (dimension == 3)
     out.scale /= sqrt(spline_square_sum);
   for (int k = 0; k < dimension; ++k)
@@ -116,8 +109,8 @@ static lattice_rows rows_round(const fg__noise *noise, int j, int k)
   for (int n = 0; n < out.count; ++n) {
     uint64_t key = noise->key;
     if (noise->dimension == 3)
-      key = mix(key ^ (uint64_t)closed(&noise->axis[2], z + n / 3));
-    out.key[n] = mix(key ^ (uint64_t)closed(&noise->axis[1], y + n % 3));
+      key = fg__mix(key ^ (uint64_t)closed(&noise->axis[2], z + n / 3));
+    out.key[n] = fg__mix(key ^ (uint64_t)closed(&noise->axis[1], y + n % 3));
     out.weight[n] = noise->dimension == 3 ? wz[n / 3] * wy[n % 3] : wy[n];
   }
   return out;
@@ -159,7 +152,7 @@ void fg__noise_fill(const fg__level *level, const int first[2], const int domain
     int64_t jy = spline(&y, (first[1] + j) * level->spacing[1], wy);
     uint64_t row_key[3];
     for (int b = 0; b < 3; ++b)
-      row_key[b] = mix(mix(seed) ^ (uint64_t)wrap(&y, jy + b));
+      row_key[b] = fg__mix(fg__mix(seed) ^ (uint64_t)wrap(&y, jy + b));
     for (int i = 0; i < level->columns; ++i) {
       int64_t ix = spline(&x, (first[0] + i) * level->spacing[0], wx);
       double sum = 0.0;
