@@ -59,9 +59,10 @@ static void test_bounds_and_rim(void **state)
   assert_int_equal(labels.label[1 * W + 15], 1);
   const int expected[4] = {15, 22, 1, 2};
   assert_memory_equal(labels.bounds[0], expected, sizeof expected);
-  /* 7 x 1 cells; 2/3 and 4/5 of a cell's edge from node to border: 0.25 : 1, 0.5 : 1 */
+  /* 7 x 1 cells; a fifth of each cell beside them, 0.25 : 1; a thirteenth of each at a
+   * corner, 0.25 : 3 */
   double straight = 2 * (7 + 1) * 0.2;
-  assert_near(labels.area[0], (7 + straight + 4 * 0.5 * 0.04) * 0.125, 1e-6);
+  assert_near(labels.area[0], (7 + straight + 4 / 13.0) * 0.125, 1e-6);
   fg__window window;
   assert_int_equal(fg__window_create(&window, NULL, &density, &labels, 1), FG_STATUS_OK);
   assert_int_equal(window.nodes[0], 11); /* 13 ... 23, the domain's end */
