@@ -1,0 +1,83 @@
+#include "mesh/exchange_plan.h"
+
+enum { TAG = 1 };
+
+static void post_receives(fg__exchange *e)
+{
+  for (int n = 0; n < e->receivers.count; ++n) {
+    const fg__neighbour *l = &e->receivers.neighbour[n];
+    long nodes = fg__neighbour_nodes(l, e->colours) * e->arrays;
+    e->receivers.request[n] = MPI_REQUEST_NULL;
+    if (nodes > 0)
+      MPI_Irecv(l->buffer, (int)nodes, MPI_FLOAT, l->rank, TAG, e->communicator,
+                &e->receivers.request[n]);
+  }
+}
+
+static void post_sends(fg__exchange *e)
+{
+  for (int n = 0; n < e->senders.count; ++n) {
+    const fg__neighbour *l = &e->senders.neighbour[n];
+    float *end = l->buffer;
+    for (int a = 0; a < e->arrays; ++a)
+      for (size_t p = l->first; p < l->end; ++p) {
+        const fg__brick *from = &e->sent.piece[p].from;
+        end = fg__brick_pack(from, &e->layout[from->box], e->array[a][from->box],
+                             e->colours, end);
+      }
+    ptrdiff_t nodes = end - l->buffer;
+    e->senders.request[n] = MPI_REQUEST_NULL;
+    if (nodes == 0)
+      continue;
+    MPI_Isend(l->buffer, (int)nodes, MPI_FLOAT, l->rank, TAG, e->communicator,
+              &e->senders.request[n]);
+    ++e->traffic.messages;
+    e->traffic.bytes += (double)nodes * sizeof(float);
+  }
+}
+
+void fg__exchange_begin(fg__exchange *exchange, int count, float *const *const array[],
+                        unsigned colours)
+{
+  fg__exchange *e = exchange;
+  e->arrays = count;
+  e->array = array;
+  e->colours = colours;
+  ++e->traffic.exchanges;
+  post_receives(e);
+  post_sends(e);
+  for (size_t n = 0; n < e->copied.count; ++n) {
+    const fg__brick *to = &e->copied.piece[n].to, *from = &e->copied.piece[n].from;
+    for (int a = 0; a < count; ++a)
+      fg__brick_copy(to, &e->layout[to->box], array[a][to->box], from,
+                     &e->layout[from->box], array[a][from->box], colours);
+  }
+}
+
+void fg__exchange_finish(fg__exchange *exchange)
+{
+  fg__exchange *e = exchange;
+  MPI_Waitall(e->receivers.count, e->receivers.request, MPI_STATUSES_IGNORE);
+  for (int n = 0; n < e->receivers.count; ++n) {
+    const fg__neighbour *l = &e->receivers.neighbour[n];
+    const float *next = l->buffer;
+    for (int a = 0; a < e->arrays; ++a)
+      for (size_t p = l->first; p < l->end; ++p) {
+        const fg__brick *to = &e->received.piece[p].to;
+        next = fg__brick_unpack(to, &e->layout[to->box], e->array[a][to->box], e->colours,
+                                next);
+      }
+  }
+  MPI_Waitall(e->senders.count, e->senders.request, MPI_STATUSES_IGNORE);
+}
+
+const fg__uncovered *fg__exchange_uncovered(const fg__exchange *exchange, int *count)
+{
+  *count = (int)exchange->uncovered_count;
+  return exchange->uncovered;
+}
+
+const fg__traffic *fg__exchange_traffic(const fg__exchange *exchange)
+{
+  return &exchange->traffic;
+}

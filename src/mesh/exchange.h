@@ -1,0 +1,77 @@
+/* Filling the ghosts of all boxes of a level, from whoever owns what they stand for.
+ *
+ * A ghost at index -1 or n of an axis stands for the next node of the whole grid; beyond
+ * a natural border for its mirror image (-1 for 1, n for n - 2 of the grid), beyond a
+ * periodic one for the node at the other end. Ghosts at edges and corners of a box stand
+ * for what all their axes say together. Every ghost is copied straight from its owner:
+ * within the rank by memory, between ranks in one message per neighbouring rank and
+ * exchange, whatever the number of boxes and arrays. A ghost's column, row and plane are
+ * even or odd as its source's are, so an exchange can be confined to some colours of
+ * nodes: after a Gauss-Seidel sweep has changed one colour, that is all there is to send.
+ *
+ *     float *const *arrays[] = {u, w};  // u[b]: node (0, 0, 0) of own box b, layout.h
+ *     fg__exchange_fill(exchange, 2, arrays, FG__ALL_COLOURS);
+ *
+ * All ranks exchange in the same order. Between begin and finish the plan may not be used
+ * again, nodes of the colours sent must keep their values and ghosts of these colours are
+ * undefined; others may be read and written. Not thread-safe: one thread exchanges. */
+#ifndef FG__EXCHANGE_H
+#define FG__EXCHANGE_H
+
+#include "mesh/layout.h"
+#include "mesh/partition.h"
+
+/* A node's colour is 1 for odd columns + 2 for odd rows + 4 for odd planes (global
+ * indices); sets of colours have bit 1 << colour. */
+enum {
+  FG__EVEN_COLUMNS = 0x55,
+  FG__ODD_COLUMNS = 0xaa,
+  FG__EVEN_ROWS = 0x33,
+  FG__ODD_ROWS = 0xcc,
+  FG__EVEN_PLANES = 0x0f,
+  FG__ODD_PLANES = 0xf0,
+  FG__ALL_COLOURS = 0xff
+};
+
+/* Ghosts that no box of the level owns a source for: local indices of own box `box`. */
+typedef struct fg__uncovered {
+  int box;
+  fg__box ghosts;
+} fg__uncovered;
+
+/* What this rank has sent since the plan was made. */
+typedef struct fg__traffic {
+  long exchanges, messages;
+  double bytes;
+} fg__traffic;
+
+typedef struct fg__exchange fg__exchange;
+
+/* Makes the plan for a level, for up to `most_arrays` arrays at a time; the partition may
+ * go afterwards. A rank without a box takes part as well. Collective. MEMORY. */
+fg_status fg__exchange_create(fg__exchange **out, fg_context *context,
+                              const fg__partition *partition, int most_arrays);
+void fg__exchange_destroy(fg__exchange *exchange); /* NULL-safe */
+
+/* Begins to fill the ghosts of the given colours in `count` arrays; array[a][b] points to
+ * node (0, 0, 0) of array a in own box b, and stays valid until finish. Copies within the
+ * rank are made here. */
+void fg__exchange_begin(fg__exchange *exchange, int count, float *const *const array[],
+                        unsigned colours);
+
+/* Waits for the others' values and puts them into the ghosts. */
+void fg__exchange_finish(fg__exchange *exchange);
+
+static inline void fg__exchange_fill(fg__exchange *exchange, int count,
+                                     float *const *const array[], unsigned colours)
+{
+  fg__exchange_begin(exchange, count, array, colours);
+  fg__exchange_finish(exchange);
+}
+
+/* The ghosts that exchanges leave alone, and their number of regions; borrowed. */
+const fg__uncovered *fg__exchange_uncovered(const fg__exchange *exchange, int *count);
+
+const fg__traffic *fg__exchange_traffic(const fg__exchange *exchange);
+
+#endif

@@ -1,0 +1,53 @@
+/* What a plan to fill ghosts consists of (exchange.h). */
+#ifndef FG__EXCHANGE_PLAN_H
+#define FG__EXCHANGE_PLAN_H
+
+#include "mesh/brick.h"
+#include "mesh/communicator.h"
+#include "mesh/exchange.h"
+
+/* One piece of ghosts and where it comes from; without a box when that is elsewhere. */
+typedef struct fg__piece {
+  fg__brick to, from;
+  int rank; /* of the other side */
+} fg__piece;
+
+typedef struct fg__pieces {
+  fg__piece *piece;
+  size_t count, capacity;
+} fg__pieces;
+
+typedef struct fg__neighbour {
+  int rank;
+  size_t first, end; /* of pieces, sent or received */
+  long count[8];     /* nodes of each colour */
+  float *buffer;
+} fg__neighbour;
+
+typedef struct fg__neighbours {
+  fg__neighbour *neighbour;
+  int count;
+  MPI_Request *request;
+} fg__neighbours;
+
+struct fg__exchange {
+  MPI_Comm communicator;
+  int own_count;
+  fg__layout *layout; /* of own boxes */
+  fg__pieces copied, sent, received;
+  fg__neighbours senders, receivers;
+  fg__uncovered *uncovered;
+  size_t uncovered_count, uncovered_capacity;
+  int most_arrays;
+  float *buffers;
+  fg__traffic traffic;
+  /* of the exchange under way */
+  int arrays;
+  float *const *const *array;
+  unsigned colours;
+};
+
+/* Nodes whose values go to or come from a neighbour. */
+long fg__neighbour_nodes(const fg__neighbour *neighbour, unsigned colours);
+
+#endif

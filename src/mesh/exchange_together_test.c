@@ -1,0 +1,207 @@
+#include "mesh/exchange.h"
+
+#include "mesh/shares_test.h"
+
+static int colour_of(const int node[3])
+{
+  return (node[0] & 1) + 2 * (node[1] & 1) + 4 * (node[2] & 1);
+}
+
+/* What a ghost of own box `box` should hold, and whether it is covered at all. */
+typedef struct ghost {
+  int at[3], node[3];
+  int owner;
+} ghost;
+
+typedef void on_ghost(const ghost *g, int box, const fg__layout *layout, void *data);
+
+static void for_all_ghosts(const grid *g, const shares *s, on_ghost *act, void *data)
+{
+  fg__box own[MOST_SHARES];
+  int count = own_shares(s, own), depth = g->dimension == 3;
+  for (int b = 0; b < count; ++b) {
+    fg__layout layout = fg__layout_of(g->dimension, own[b].nodes);
+    for (int k = -depth; k < own[b].nodes[2] + depth; ++k)
+      for (int j = -1; j <= own[b].nodes[1]; ++j)
+        for (int i = -1; i <= own[b].nodes[0]; ++i) {
+          ghost here = {.at = {i, j, k}};
+          bool inside = true;
+          for (int axis = 0; axis < 3; ++axis) {
+            here.node[axis] = image_along(g, axis, own[b].first[axis] + here.at[axis]);
+            inside = inside && here.at[axis] >= 0 && here.at[axis] < own[b].nodes[axis];
+          }
+          here.owner = owner_of(s, here.node);
+          if (!inside)
+            act(&here, b, &layout, data);
+        }
+  }
+}
+
+typedef struct check {
+  const fields *fields;
+  unsigned colours;
+  const fg__uncovered *uncovered;
+  int uncovered_count;
+} check;
+
+static void holds_its_source(const ghost *g, int box, const fg__layout *layout,
+                             void *data)
+{
+  const check *c = data;
+  ptrdiff_t at = fg__node_at(layout, g->at[0], g->at[1], g->at[2]);
+  bool filled = g->owner >= 0 && (c->colours >> colour_of(g->node) & 1U);
+  for (int a = 0; a < c->fields->count; ++a)
+    expect(c->fields->node[a][box][at] == (filled ? value_at(a, g->node) : UNTOUCHED));
+}
+
+static void is_listed_when_uncovered(const ghost *g, int box, const fg__layout *layout,
+                                     void *data)
+{
+  const check *c = data;
+  (void)layout;
+  int times = 0;
+  for (int n = 0; n < c->uncovered_count; ++n)
+    times += c->uncovered[n].box == box && has_node(&c->uncovered[n].ghosts, g->at);
+  expect(times == (g->owner < 0));
+}
+
+static void count_remote(const ghost *g, int box, const fg__layout *layout, void *data)
+{
+  (void)box;
+  (void)layout;
+  *(uint64_t *)data += g->owner >= 0 && g->owner != us.ranks->rank;
+}
+
+static const unsigned COLOURS[] = {FG__ALL_COLOURS, 1U << 0,         1U << 3, 1U << 6,
+                                   FG__EVEN_ROWS,   FG__ODD_COLUMNS, 0x81,    0};
+enum { COLOUR_SETS = sizeof COLOURS / sizeof *COLOURS, SEEDS = 12 };
+
+static void check_exchange(const grid *g, const shares *s, unsigned colours)
+{
+  fg__partition partition = partition_of(g, s);
+  fg__exchange *exchange;
+  expect(fg__exchange_create(&exchange, us.context, &partition, 3) == FG_STATUS_OK);
+  for (int arrays = 1; arrays <= 3; ++arrays) {
+    fields f = fields_of(&partition, arrays);
+    fg__exchange_fill(exchange, arrays, arrays_of(&f), colours);
+    check c = {.fields = &f, .colours = colours};
+    for_all_ghosts(g, s, holds_its_source, &c);
+    fields_clear(&f);
+  }
+  fg__exchange_destroy(exchange);
+  fg__partition_clear(&partition);
+}
+
+static void ghosts_hold_what_they_stand_for(void **state)
+{
+  (void)state;
+  for (int g = 0; g < GRID_COUNT; ++g)
+    for (uint64_t seed = 0; seed < SEEDS; ++seed) {
+      shares s = cut_at_random(&GRIDS[g], seed, 2, seed % 3 == 2);
+      check_exchange(&GRIDS[g], &s, COLOURS[seed % COLOUR_SETS]);
+    }
+  end_together();
+}
+
+/* Coarse levels that are shared only to be gathered begin anywhere. */
+static void boxes_may_begin_at_odd_indices(void **state)
+{
+  (void)state;
+  for (int g = 0; g < GRID_COUNT; ++g)
+    for (uint64_t seed = 100; seed < 100 + SEEDS; ++seed) {
+      shares s = cut_at_random(&GRIDS[g], seed, 1, false);
+      check_exchange(&GRIDS[g], &s, COLOURS[seed % COLOUR_SETS]);
+    }
+  end_together();
+}
+
+static void ghosts_without_an_owner_are_listed(void **state)
+{
+  (void)state;
+  for (int g = 0; g < GRID_COUNT; ++g)
+    for (uint64_t seed = 200; seed < 200 + SEEDS; ++seed) {
+      shares s = cut_at_random(&GRIDS[g], seed, 2, seed % 4 != 0);
+      fg__partition partition = partition_of(&GRIDS[g], &s);
+      fg__exchange *exchange;
+      expect(fg__exchange_create(&exchange, us.context, &partition, 1) == FG_STATUS_OK);
+      check c = {0};
+      c.uncovered = fg__exchange_uncovered(exchange, &c.uncovered_count);
+      for_all_ghosts(&GRIDS[g], &s, is_listed_when_uncovered, &c);
+      expect(seed % 4 != 0 || c.uncovered_count == 0);
+      fg__exchange_destroy(exchange);
+      fg__partition_clear(&partition);
+    }
+  end_together();
+}
+
+/* Nodes of the other colours may change meanwhile, and a second plan be under way. */
+static void work_goes_on_between_begin_and_finish(void **state)
+{
+  (void)state;
+  const grid *g = &GRIDS[5];
+  shares s = cut_at_random(g, 17, 2, false), t = cut_at_random(g, 18, 2, false);
+  fg__partition one = partition_of(g, &s), two = partition_of(g, &t);
+  fg__exchange *first, *second;
+  expect(fg__exchange_create(&first, us.context, &one, 2) == FG_STATUS_OK);
+  expect(fg__exchange_create(&second, us.context, &two, 1) == FG_STATUS_OK);
+  fields f = fields_of(&one, 2), h = fields_of(&two, 1);
+  fg__exchange_begin(first, 2, arrays_of(&f), FG__EVEN_ROWS);
+  fg__exchange_begin(second, 1, arrays_of(&h), FG__ALL_COLOURS);
+  for (int b = 0; b < f.boxes; ++b)
+    for (int i = 0; i < f.layout[b].nodes[0]; ++i)
+      f.node[0][b][fg__node_at(&f.layout[b], i, 1, 0)] = 1e9F;
+  fg__exchange_finish(first);
+  fg__exchange_finish(second);
+  check c = {.fields = &f, .colours = FG__EVEN_ROWS};
+  for_all_ghosts(g, &s, holds_its_source, &c);
+  c = (check){.fields = &h, .colours = FG__ALL_COLOURS};
+  for_all_ghosts(g, &t, holds_its_source, &c);
+  fields_clear(&f);
+  fields_clear(&h);
+  fg__exchange_destroy(first);
+  fg__exchange_destroy(second);
+  fg__partition_clear(&one);
+  fg__partition_clear(&two);
+  end_together();
+}
+
+/* Every remote ghost is sent once, and a neighbour gets one message a time. */
+static void traffic_is_counted(void **state)
+{
+  (void)state;
+  enum { TIMES = 3, ARRAYS = 2 };
+  for (int g = 0; g < GRID_COUNT; ++g) {
+    shares s = cut_at_random(&GRIDS[g], 31, 2, false);
+    fg__partition partition = partition_of(&GRIDS[g], &s);
+    fg__exchange *exchange;
+    expect(fg__exchange_create(&exchange, us.context, &partition, ARRAYS) ==
+           FG_STATUS_OK);
+    fields f = fields_of(&partition, ARRAYS);
+    for (int time = 0; time < TIMES; ++time)
+      fg__exchange_fill(exchange, ARRAYS, arrays_of(&f), FG__ALL_COLOURS);
+    const fg__traffic *traffic = fg__exchange_traffic(exchange);
+    uint64_t sums[2] = {(uint64_t)traffic->bytes, 0};
+    for_all_ghosts(&GRIDS[g], &s, count_remote, &sums[1]);
+    fg__ranks_add(us.ranks, sums, 2);
+    expect(sums[0] == sums[1] * ARRAYS * sizeof(float) * TIMES);
+    expect(traffic->exchanges == TIMES);
+    expect(traffic->messages <= (long)TIMES * (us.ranks->count - 1));
+    fields_clear(&f);
+    fg__exchange_destroy(exchange);
+    fg__partition_clear(&partition);
+  }
+  end_together();
+}
+
+int main(void)
+{
+  start_together();
+  const struct CMUnitTest tests[] = {
+      TOGETHER(ghosts_hold_what_they_stand_for),
+      TOGETHER(boxes_may_begin_at_odd_indices),
+      TOGETHER(ghosts_without_an_owner_are_listed),
+      TOGETHER(work_goes_on_between_begin_and_finish),
+      TOGETHER(traffic_is_counted),
+  };
+  return cmocka_run_group_tests_name("mesh/exchange", tests, NULL, NULL);
+}
