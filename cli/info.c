@@ -35,7 +35,7 @@ static void print_vector(const fg_inventory_vector *vector)
   putchar('\n');
   for (int k = 0; k < vector->dimension; ++k)
     printf("  %c: %.6g to %.6g%s\n", axis[k], vector->bounds[2 * k],
-           vector->bounds[2 * k + 1], k == 0 && vector->periodic ? ", periodic" : "");
+           vector->bounds[2 * k + 1], vector->periodic[k] ? ", periodic" : "");
   printf("  times: %d\n  levels: %d\n", vector->times, vector->levels);
   printf("  missing: %.1f %%\n", 100.0 * vector->missing_share);
   printf("  scale: %s\n", scale_words[vector->scale]);
@@ -59,7 +59,12 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
                         cJSON_CreateIntArray(vector->size, vector->dimension));
   cJSON_AddItemToObject(object, "bounds",
                         cJSON_CreateDoubleArray(vector->bounds, 2 * vector->dimension));
-  cJSON_AddBoolToObject(object, "periodic", vector->periodic);
+  cJSON_AddBoolToObject(object, "periodic",
+                        vector->periodic[0] || vector->periodic[1] ||
+                            vector->periodic[2]);
+  cJSON *axes = cJSON_AddArrayToObject(object, "periodic_axes");
+  for (int k = 0; k < vector->dimension; ++k)
+    cJSON_AddItemToArray(axes, cJSON_CreateBool(vector->periodic[k]));
   cJSON_AddNumberToObject(object, "times", vector->times);
   cJSON_AddNumberToObject(object, "levels", vector->levels);
   cJSON_AddNumberToObject(object, "missing_share", vector->missing_share);

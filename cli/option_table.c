@@ -35,8 +35,8 @@ const cli_command command_table[] = {
      false, command_info},
     {COMMAND_SYNTH, "synth", "NAME", "NAME -o FILE [--nodes N]",
      "write an analytic field as .vti or .nc",
-     "Writes the analytic field NAME, sampled on the unit square, as VTK image data "
-     "(FILE ends in .vti) or NetCDF (.nc).",
+     "Writes the analytic field NAME, sampled on the unit square or cube, as VTK image "
+     "data (FILE ends in .vti) or NetCDF (.nc).",
      true, command_synth},
 };
 const size_t command_count = sizeof command_table / sizeof command_table[0];
@@ -70,7 +70,7 @@ const option_entry option_table[] = {
     {"nodes", 0, "N", COMMAND_RUN, OPTION_WHOLE, AT(nodes), 17, 16385, false, false, NULL,
      "nodes of the mesh along its longest side [257]"},
     {"nodes", 0, "N", COMMAND_SYNTH, OPTION_WHOLE, AT(nodes), 2, 16385, false, false,
-     NULL, "samples a side [257]"},
+     NULL, "samples a side [257 in 2D, 65 in 3D]"},
     {"mesh", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(mesh), 0, 0, false, false,
      mesh_words, "kind of mesh [uniform, the only one so far]"},
     {"energy", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(energy), 0, 0, false, false,

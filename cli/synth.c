@@ -6,8 +6,6 @@
 
 #include "output.h"
 
-enum { DEFAULT_NODES = 257 };
-
 static bool name_is_known(const char *name)
 {
   for (const char *const *known = fg_field_analytic_names(); *known; ++known)
@@ -72,8 +70,7 @@ int command_synth(const cli_settings *settings)
     return EXIT_FAILED;
   }
   fg_field *field = NULL;
-  int nodes = settings->nodes ? settings->nodes : DEFAULT_NODES;
-  fg_status status = fg_field_create_analytic(&field, context, name, nodes);
+  fg_status status = fg_field_create_analytic(&field, context, name, settings->nodes);
   code = status ? complain_of(context, status, settings->output)
                 : write_field(context, settings, field);
   fg_field_destroy(field);

@@ -113,13 +113,15 @@ typedef struct fg_read_options {
 } fg_read_options;
 
 /* Reads a field from a file, or makes an analytic one from "synth:NAME" (sampled at 257
- * nodes a side in 2D). The format is found from the content, not the name. options may be
- * NULL. FILE_ACCESS, FILE_FORMAT, UNSUPPORTED, ARGUMENT (names, indices), MEMORY. */
+ * nodes a side in 2D, at 65 in 3D). The format is found from the content, not the name.
+ * options may be NULL. FILE_ACCESS, FILE_FORMAT, UNSUPPORTED, ARGUMENT (names, indices),
+ * MEMORY. */
 FG_API fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
                                const fg_read_options *options);
 
-/* Makes the analytic field NAME with `nodes` samples a side on the unit square
- * (at least 2). ARGUMENT, MEMORY. */
+/* Makes the analytic field NAME on the unit square or cube, with `nodes` samples a side,
+ * both ends included (0: 257 in 2D, 65 in 3D; at least 2; 3 for the periodic field abc,
+ * which leaves the repeated end out). ARGUMENT, MEMORY. */
 FG_API fg_status fg_field_create_analytic(fg_field **out, fg_context *context,
                                           const char *name, int nodes);
 
@@ -127,12 +129,13 @@ FG_API fg_status fg_field_create_analytic(fg_field **out, fg_context *context,
 FG_API const char *const *fg_field_analytic_names(void);
 
 typedef struct fg_field_arrays {
-  int dimension;              /* 2 */
+  int dimension;              /* 2 or 3 */
   int size[3];                /* samples along x, y(, z); at least 2 each */
   const double *axis[3];      /* size[k] ascending coordinates each */
   double period[3];           /* 0, or the length after which that axis repeats; then the
                                  last sample must lie before axis[0] + period */
-  const float *velocity[3];   /* size[0] * size[1] samples a component; NaN: missing */
+  const float *velocity[3];   /* size[0] * size[1] (* size[2]) samples a component, x
+                                 fastest; NaN: missing */
   const unsigned char *valid; /* a byte a sample, 0 = missing; NULL: all but NaN */
   fg_scale scale;             /* AUTO means PLAIN */
   const char *velocity_name[3]; /* NULL: "u", "v", "w" */
@@ -145,23 +148,24 @@ typedef struct fg_field_arrays {
 } fg_field_arrays;
 
 /* Copies arrays into a new field. ARGUMENT (sizes, order of axes, no valid cell, infinite
- * values, a field that is zero everywhere), MEMORY. */
+ * values, a field that is zero everywhere), UNSUPPORTED (3D with scale GEO), MEMORY. */
 FG_API fg_status fg_field_create(fg_field **out, fg_context *context,
                                  const fg_field_arrays *arrays);
 FG_API void fg_field_destroy(fg_field *field);
 
 /* The field's own arrays and words, borrowed; no pointer in it is NULL but `valid` (then
- * every sample counts), `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen). */
+ * every sample counts), in 2D `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen).
+ */
 FG_API const fg_field_arrays *fg_field_contents(const fg_field *field);
 
-/* Velocity at a point in the input's units, bilinear; false outside the domain: beyond
- * the border, or in a data cell with a missing corner. position and velocity: dimension
- * numbers. */
+/* Velocity at a point in the input's units, bilinear or trilinear; false outside the
+ * domain: beyond the border, or in a data cell with a missing corner. position and
+ * velocity: dimension numbers. */
 FG_API bool fg_field_velocity(const fg_field *field, const double position[],
                               double velocity[]);
 
-/* The direction of the streamline in the axes' coordinates, not normalised: (u, v), but
- * (u / cos latitude, v) on a longitude-latitude grid. False as above. */
+/* The direction of the streamline in the axes' coordinates, not normalised: (u, v(, w)),
+ * but (u / cos latitude, v) on a longitude-latitude grid. False as above. */
 FG_API bool fg_field_tangent(const fg_field *field, const double position[],
                              double tangent[]);
 
@@ -185,7 +189,7 @@ typedef struct fg_inventory_vector {
   double missing_share; /* share of missing samples at the first time and level */
   fg_scale scale;       /* what AUTO would choose */
   double bounds[6];     /* xmin, xmax, ymin, ymax, zmin, zmax */
-  bool periodic;        /* longitude closes */
+  bool periodic[3];     /* whether each axis closes (longitude, say) */
   const char *unusable; /* NULL, or why this pair can not be read yet */
 } fg_inventory_vector;
 

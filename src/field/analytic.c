@@ -1,4 +1,4 @@
-/* Analytic fields: closed formulas sampled on the unit square. */
+/* Analytic fields: closed formulas sampled on the unit square or cube. */
 #include "base/context.h"
 #include "base/memory.h"
 
@@ -10,9 +10,12 @@
 static const double PI = 3.14159265358979323846;
 
 /* Samples a side above which their number no longer fits an int. */
-enum { NODES_MIN = 2, NODES_MAX = 46340 };
+enum { NODES_MIN = 2, NODES_MAX_2D = 46340, NODES_MAX_3D = 1290 };
 
-typedef void analytic_velocity(double x, double y, double velocity[2]);
+/* As many as the mesh has nodes by default. */
+enum { NODES_DEFAULT_2D = 257, NODES_DEFAULT_3D = 65 };
+
+typedef void analytic_velocity(const double position[], double velocity[]);
 
 /* sin(pi t) that is exactly 0 at whole t, so that a wall lets nothing through. */
 static double sin_pi(double t)
@@ -34,29 +37,28 @@ static double cos_pi(double t)
   return sin_pi(t + 0.5);
 }
 
-static void uniform(double x, double y, double velocity[2])
+static void uniform(const double position[], double velocity[])
 {
-  (void)x;
-  (void)y;
+  (void)position;
   double angle = 25.0 / 180.0 * PI;
   velocity[0] = cos(angle);
   velocity[1] = sin(angle);
 }
 
-static void vortex(double x, double y, double velocity[2])
+static void vortex(const double position[], double velocity[])
 {
-  velocity[0] = -(y - 0.5);
-  velocity[1] = x - 0.5;
+  velocity[0] = -(position[1] - 0.5);
+  velocity[1] = position[0] - 0.5;
 }
 
-static void saddle(double x, double y, double velocity[2])
+static void saddle(const double position[], double velocity[])
 {
-  velocity[0] = x - 0.5;
-  velocity[1] = -(y - 0.5);
+  velocity[0] = position[0] - 0.5;
+  velocity[1] = -(position[1] - 0.5);
 }
 
 /* Three vortices with smooth cores of radius 0.08, one of them turning the other way. */
-static void vortex3(double x, double y, double velocity[2])
+static void vortex3(const double position[], double velocity[])
 {
   static const struct {
     double x, y, circulation;
@@ -64,7 +66,7 @@ static void vortex3(double x, double y, double velocity[2])
   const double radius = 0.08;
   velocity[0] = velocity[1] = 0.0;
   for (size_t i = 0; i < sizeof cores / sizeof cores[0]; ++i) {
-    double dx = x - cores[i].x, dy = y - cores[i].y;
+    double dx = position[0] - cores[i].x, dy = position[1] - cores[i].y;
     double strength = cores[i].circulation / (dx * dx + dy * dy + radius * radius);
     velocity[0] -= strength * dy;
     velocity[1] += strength * dx;
@@ -73,65 +75,96 @@ static void vortex3(double x, double y, double velocity[2])
 
 /* Convection rolls: psi = sin 3 pi x sin pi y + sin 2 pi x sin 2 pi y / 4,
  * v = (d psi / d y, -d psi / d x). */
-static void benard(double x, double y, double velocity[2])
+static void benard(const double position[], double velocity[])
 {
+  double x = position[0], y = position[1];
   velocity[0] =
       PI * (sin_pi(3.0 * x) * cos_pi(y) + 0.5 * sin_pi(2.0 * x) * cos_pi(2.0 * y));
   velocity[1] =
       -PI * (3.0 * cos_pi(3.0 * x) * sin_pi(y) + 0.5 * cos_pi(2.0 * x) * sin_pi(2.0 * y));
 }
 
-static const char *const NAMES[] = {"uniform", "vortex", "saddle",
-                                    "vortex3", "benard", NULL};
-static analytic_velocity *const VELOCITIES[] = {uniform, vortex, saddle, vortex3, benard};
-static const char *const NAMES_3D[] = {"vortex3d", "abc", NULL};
+/* A swirl about the vertical axis through the middle that rises in its core. */
+static void vortex3d(const double position[], double velocity[])
+{
+  double x = position[0] - 0.5, y = position[1] - 0.5;
+  velocity[0] = -y;
+  velocity[1] = x;
+  velocity[2] = 0.6 * exp(-12.0 * (x * x + y * y));
+}
+
+/* The flow of Arnold, Beltrami and Childress with A = B = C = 1. */
+static void abc(const double position[], double velocity[])
+{
+  for (int k = 0; k < 3; ++k)
+    velocity[k] =
+        sin_pi(2.0 * position[(k + 2) % 3]) + cos_pi(2.0 * position[(k + 1) % 3]);
+}
+
+typedef struct analytic_field {
+  const char *name;
+  int dimension;
+  bool periodic; /* along each axis, with period 1 */
+  analytic_velocity *velocity;
+} analytic_field;
+
+static const analytic_field FIELDS[] = {
+    {"uniform", 2, false, uniform}, {"vortex", 2, false, vortex},
+    {"saddle", 2, false, saddle},   {"vortex3", 2, false, vortex3},
+    {"benard", 2, false, benard},   {"vortex3d", 3, false, vortex3d},
+    {"abc", 3, true, abc}};
+
+enum { FIELD_COUNT = sizeof FIELDS / sizeof *FIELDS };
 
 const char *const *fg_field_analytic_names(void)
 {
-  return NAMES;
+  static const char *const names[] = {"uniform", "vortex",   "saddle", "vortex3",
+                                      "benard",  "vortex3d", "abc",    NULL};
+  return names;
 }
 
-static int index_of(const char *const *names, const char *name)
+static fg_status find(const analytic_field **out, fg_context *context, const char *name)
 {
-  for (int i = 0; names[i]; ++i)
-    if (strcmp(names[i], name) == 0)
-      return i;
-  return -1;
-}
-
-static fg_status find(analytic_velocity **velocity, fg_context *context, const char *name)
-{
-  int index = index_of(NAMES, name);
-  if (index >= 0) {
-    *velocity = VELOCITIES[index];
-    return FG_STATUS_OK;
-  }
-  if (index_of(NAMES_3D, name) >= 0)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "synth:%s: a field in 3D; only fields in 2D can be used so far",
-                    name);
+  for (int i = 0; i < FIELD_COUNT; ++i)
+    if (strcmp(FIELDS[i].name, name) == 0) {
+      *out = &FIELDS[i];
+      return FG_STATUS_OK;
+    }
   fg_status status =
       fg__fail(context, FG_STATUS_ARGUMENT,
                "synth:%.100s: there is no analytic field of this name", name);
   char known[256] = "";
-  for (int i = 0; NAMES[i]; ++i) {
+  for (int i = 0; i < FIELD_COUNT; ++i) {
     size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", NAMES[i]);
+    snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", FIELDS[i].name);
   }
   fg__hint(context, "the names are: %s", known);
   return status;
 }
 
-static void sample(float *u, float *v, const double *axis, size_t nodes,
-                   analytic_velocity *velocity_at)
+static void sample(float *const component[3], const double *axis, size_t side,
+                   const analytic_field *field)
 {
-  for (size_t j = 0; j < nodes; ++j)
-    for (size_t i = 0; i < nodes; ++i) {
-      double velocity[2];
-      velocity_at(axis[i], axis[j], velocity);
-      u[j * nodes + i] = (float)velocity[0];
-      v[j * nodes + i] = (float)velocity[1];
-    }
+  size_t layers = field->dimension == 3 ? side : 1, n = 0;
+  for (size_t k = 0; k < layers; ++k)
+    for (size_t j = 0; j < side; ++j)
+      for (size_t i = 0; i < side; ++i, ++n) {
+        double velocity[3];
+        field->velocity((const double[]){axis[i], axis[j], axis[k]}, velocity);
+        for (int c = 0; c < field->dimension; ++c)
+          component[c][n] = (float)velocity[c];
+      }
+}
+
+static fg_status check_nodes(fg_context *context, const analytic_field *field, int nodes)
+{
+  int least = field->periodic ? NODES_MIN + 1 : NODES_MIN;
+  int most = field->dimension == 3 ? NODES_MAX_3D : NODES_MAX_2D;
+  if (nodes >= least && nodes <= most)
+    return FG_STATUS_OK;
+  return fg__fail(context, FG_STATUS_ARGUMENT,
+                  "synth:%s: %d nodes a side; %d to %d are possible", field->name, nodes,
+                  least, most);
 }
 
 fg_status fg_field_create_analytic(fg_field **out, fg_context *context, const char *name,
@@ -142,41 +175,50 @@ fg_status fg_field_create_analytic(fg_field **out, fg_context *context, const ch
   if (!out || !name)
     return fg__fail(context, FG_STATUS_ARGUMENT, "analytic field: %s is missing",
                     out ? "the name" : "the place for the result");
-  analytic_velocity *velocity_at = NULL;
-  fg_status status = find(&velocity_at, context, name);
+  const analytic_field *field = NULL;
+  fg_status status = find(&field, context, name);
+  if (status == FG_STATUS_OK && nodes == 0)
+    nodes = field->dimension == 3 ? NODES_DEFAULT_3D : NODES_DEFAULT_2D;
+  if (status == FG_STATUS_OK)
+    status = check_nodes(context, field, nodes);
   if (status != FG_STATUS_OK)
     return status;
-  if (nodes < NODES_MIN || nodes > NODES_MAX)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "synth:%s: %d nodes a side; %d to %d are possible", name, nodes,
-                    NODES_MIN, NODES_MAX);
 
-  size_t side = (size_t)nodes;
+  size_t side = (size_t)nodes - (field->periodic ? 1 : 0), count = 1;
+  for (int k = 0; k < field->dimension; ++k)
+    count *= side;
   double *axis = fg__allocate(side, sizeof *axis);
-  float *u = fg__allocate(side * side, sizeof *u);
-  float *v = fg__allocate(side * side, sizeof *v);
-  if (!axis || !u || !v) {
+  float *velocity[3] = {NULL};
+  bool allocated = axis != NULL;
+  for (int k = 0; k < field->dimension; ++k) {
+    velocity[k] = fg__allocate(count, sizeof(float));
+    allocated = allocated && velocity[k];
+  }
+  if (!allocated) {
     status = fg__fail_memory(context, "an analytic field",
-                             side * sizeof *axis + 2 * side * side * sizeof *u);
+                             side * sizeof *axis +
+                                 (size_t)field->dimension * count * sizeof *velocity[0]);
     goto cleanup;
   }
   for (size_t i = 0; i < side; ++i)
-    axis[i] = (double)i / (double)(side - 1);
-  sample(u, v, axis, side, velocity_at);
+    axis[i] = (double)i / (double)(nodes - 1);
+  sample(velocity, axis, side, field);
 
   char title[64];
   snprintf(title, sizeof title, "%s (analytic)", name);
-  status = fg_field_create(out, context,
-                           &(fg_field_arrays){.dimension = 2,
-                                              .size = {nodes, nodes},
-                                              .axis = {axis, axis},
-                                              .velocity = {u, v},
-                                              .scale = FG_SCALE_PLAIN,
-                                              .title = title});
+  fg_field_arrays arrays = {
+      .dimension = field->dimension, .scale = FG_SCALE_PLAIN, .title = title};
+  for (int k = 0; k < field->dimension; ++k) {
+    arrays.size[k] = (int)side;
+    arrays.axis[k] = axis;
+    arrays.period[k] = field->periodic ? 1.0 : 0.0;
+    arrays.velocity[k] = velocity[k];
+  }
+  status = fg_field_create(out, context, &arrays);
 
 cleanup:
-  free(v);
-  free(u);
+  for (int k = 0; k < 3; ++k)
+    free(velocity[k]);
   free(axis);
   return status;
 }

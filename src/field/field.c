@@ -1,13 +1,11 @@
-#include "base/context.h"
+#include "field/field.h"
 #include "base/memory.h"
 
-#include <float.h>
 #include <limits.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { COMPONENTS = 2, CORNERS = 4, WORDS = 13 };
 
 /* Larger speeds are refused: light makes 3e8 m/s (3e14 um/s), so they are fill values
  * that the file did not declare; and up to here (v / cos latitude)^2 is finite in float.
@@ -18,37 +16,8 @@ static const double LARGEST_SPEED = 1e15;
  * squares of those up to here are far from overflow in double. */
 static const double LARGEST_COORDINATE = 1e18;
 
-/* cos(latitude) is kept above that of a hundredth of a degree off the pole, nearer than
- * the rows of any grid in use: the direction there is east or west, its limit, and
- * finite. */
-static const double SMALLEST_COSINE = 1.745e-4;
-
 /* Rows a rounding error beyond the pole are taken (90.00001 in float), none farther. */
 static const double LARGEST_LATITUDE = 90.001;
-
-static const double RADIANS_PER_DEGREE = 0.017453292519943295;
-
-/* One axis as the lookup sees it: `cells` intervals between cells + 1 coordinates; on a
- * periodic axis the last interval ends at the first sample's repetition. */
-typedef struct axis_lookup {
-  double *coordinate;
-  double *inverse_width;
-  int cells;
-  int samples;
-  double period;
-  bool even; /* every sample within a quarter of a cell of the even spacing */
-  double inverse_spacing;
-} axis_lookup;
-
-struct fg_field {
-  fg_field_arrays contents;
-  axis_lookup axis[COMPONENTS];
-  float *velocity[COMPONENTS];
-  unsigned char *valid;      /* NULL: all */
-  unsigned char *valid_cell; /* NULL: all */
-  char *word[WORDS];         /* owned copies of the texts */
-  int words;
-};
 
 static fg_status check_axis(fg_context *context, const fg_field_arrays *arrays, int k)
 {
@@ -78,42 +47,71 @@ static fg_status check_axis(fg_context *context, const fg_field_arrays *arrays, 
   return FG_STATUS_OK;
 }
 
+static fg_status check_size(fg_context *context, const fg_field_arrays *arrays)
+{
+  const int *size = arrays->size;
+  const int dimension = arrays->dimension;
+  if (dimension != 2 && dimension != 3)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "field: %d dimensions; fields have 2 or 3", dimension);
+  bool possible = true;
+  size_t samples = 1;
+  for (int k = 0; k < dimension && possible; ++k) {
+    possible = size[k] >= 2 && size[k] < INT_MAX &&
+               (size_t)size[k] <= PTRDIFF_MAX / sizeof(float) / samples;
+    samples *= (size_t)size[k];
+  }
+  if (possible)
+    return FG_STATUS_OK;
+  if (dimension == 3)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "field: a grid of %d x %d x %d samples; at least 2 x 2 x 2 are "
+                    "needed, and fewer than memory can address",
+                    size[0], size[1], size[2]);
+  return fg__fail(context, FG_STATUS_ARGUMENT,
+                  "field: a grid of %d x %d samples; at least 2 x 2 are needed", size[0],
+                  size[1]);
+}
+
+static fg_status check_latitudes(fg_context *context, const fg_field_arrays *arrays)
+{
+  const double south = arrays->axis[1][0];
+  const double north = arrays->axis[1][arrays->size[1] - 1];
+  if (south < -LARGEST_LATITUDE || north > LARGEST_LATITUDE)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "field: latitudes from %g to %g go beyond the poles", south, north);
+  if (arrays->dimension == 2)
+    return FG_STATUS_OK;
+  fg__fail(context, FG_STATUS_UNSUPPORTED,
+           "field: longitude, latitude and height together cannot be handled yet");
+  fg__hint(context, "--scale plain takes the velocity as if it were along the axes, in "
+                    "their units");
+  return FG_STATUS_UNSUPPORTED;
+}
+
 static fg_status check_arrays(fg_context *context, const fg_field_arrays *arrays)
 {
-  if (arrays->dimension != COMPONENTS)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "field: %d dimensions; only fields in 2 dimensions are handled yet",
-                    arrays->dimension);
-  for (int k = 0; k < COMPONENTS; ++k)
-    if (arrays->size[k] < 2 || arrays->size[k] == INT_MAX)
-      return fg__fail(context, FG_STATUS_ARGUMENT,
-                      "field: a grid of %d x %d samples; at least 2 x 2 are needed",
-                      arrays->size[0], arrays->size[1]);
-  for (int k = 0; k < COMPONENTS; ++k) {
+  fg_status status = check_size(context, arrays);
+  if (status != FG_STATUS_OK)
+    return status;
+  for (int k = 0; k < arrays->dimension; ++k) {
     if (!arrays->velocity[k])
       return fg__fail(context, FG_STATUS_ARGUMENT,
                       "field: velocity component %d is missing", k);
-    fg_status status = check_axis(context, arrays, k);
+    status = check_axis(context, arrays, k);
     if (status != FG_STATUS_OK)
       return status;
   }
   if ((int)arrays->scale < FG_SCALE_AUTO || (int)arrays->scale > FG_SCALE_PLAIN)
     return fg__fail(context, FG_STATUS_ARGUMENT, "field: unknown scale %d",
                     (int)arrays->scale);
-  if (arrays->scale == FG_SCALE_GEO) {
-    const double south = arrays->axis[1][0];
-    const double north = arrays->axis[1][arrays->size[1] - 1];
-    if (south < -LARGEST_LATITUDE || north > LARGEST_LATITUDE)
-      return fg__fail(context, FG_STATUS_ARGUMENT,
-                      "field: latitudes from %g to %g go beyond the poles", south, north);
-  }
-  return FG_STATUS_OK;
+  return arrays->scale == FG_SCALE_GEO ? check_latitudes(context, arrays) : FG_STATUS_OK;
 }
 
 static fg_status copy_axis(fg_field *field, fg_context *context,
                            const fg_field_arrays *arrays, int k)
 {
-  axis_lookup *axis = &field->axis[k];
+  fg__axis *axis = &field->axis[k];
   const int n = arrays->size[k];
   axis->samples = n;
   axis->period = arrays->period[k];
@@ -142,17 +140,28 @@ static bool sample_is_valid(const fg_field_arrays *arrays, size_t i)
 {
   if (arrays->valid && !arrays->valid[i])
     return false;
-  return !isnan(arrays->velocity[0][i]) && !isnan(arrays->velocity[1][i]);
+  for (int k = 0; k < arrays->dimension; ++k)
+    if (isnan(arrays->velocity[k][i]))
+      return false;
+  return true;
 }
 
 static fg_status fail_speed(const fg_field *field, fg_context *context, int k,
                             double value, size_t i)
 {
   const size_t row = (size_t)field->contents.size[0];
-  fg_status status =
-      fg__fail(context, FG_STATUS_ARGUMENT,
-               "field: %s is %g at sample (%zu, %zu); speeds up to %g are taken",
-               field->contents.velocity_name[k], value, i % row, i / row, LARGEST_SPEED);
+  const size_t rows = (size_t)field->contents.size[1];
+  const char *name = field->contents.velocity_name[k];
+  fg_status status;
+  if (field->contents.dimension == 3)
+    status =
+        fg__fail(context, FG_STATUS_ARGUMENT,
+                 "field: %s is %g at sample (%zu, %zu, %zu); speeds up to %g are taken",
+                 name, value, i % row, i / row % rows, i / row / rows, LARGEST_SPEED);
+  else
+    status = fg__fail(context, FG_STATUS_ARGUMENT,
+                      "field: %s is %g at sample (%zu, %zu); speeds up to %g are taken",
+                      name, value, i % row, i / row, LARGEST_SPEED);
   fg__hint(context, "is it a fill value that is not declared as missing?");
   return status;
 }
@@ -160,9 +169,10 @@ static fg_status fail_speed(const fg_field *field, fg_context *context, int k,
 static fg_status copy_samples(fg_field *field, fg_context *context,
                               const fg_field_arrays *arrays)
 {
-  const size_t row = (size_t)arrays->size[0];
-  const size_t count = row * (size_t)arrays->size[1]; /* below 2^62: no overflow */
-  for (int k = 0; k < COMPONENTS; ++k) {
+  size_t count = 1;
+  for (int k = 0; k < arrays->dimension; ++k)
+    count *= (size_t)arrays->size[k]; /* check_size: no overflow */
+  for (int k = 0; k < arrays->dimension; ++k) {
     field->velocity[k] = fg__allocate(count, sizeof(float));
     if (!field->velocity[k])
       return fg__fail_memory(context, "the velocity", count * sizeof(float));
@@ -175,7 +185,7 @@ static fg_status copy_samples(fg_field *field, fg_context *context,
   for (size_t i = 0; i < count; ++i) {
     field->valid[i] = sample_is_valid(arrays, i);
     missing += !field->valid[i];
-    for (int k = 0; k < COMPONENTS; ++k) {
+    for (int k = 0; k < arrays->dimension; ++k) {
       const float value = field->valid[i] ? arrays->velocity[k][i] : NAN;
       field->velocity[k][i] = value;
       if (isinf(value) || fabs((double)value) > LARGEST_SPEED)
@@ -193,21 +203,33 @@ static fg_status copy_samples(fg_field *field, fg_context *context,
   return FG_STATUS_OK;
 }
 
-/* Sample indices of a cell's corners: (0,0), (1,0), (0,1), (1,1). */
-static void corners_of(const fg_field *field, int i, int j, size_t corner[CORNERS])
-{
-  const int right = i + 1 == field->axis[0].samples ? 0 : i + 1;
-  const int upper = j + 1 == field->axis[1].samples ? 0 : j + 1;
-  const size_t row = (size_t)field->axis[0].samples;
-  corner[0] = (size_t)j * row + (size_t)i;
-  corner[1] = (size_t)j * row + (size_t)right;
-  corner[2] = (size_t)upper * row + (size_t)i;
-  corner[3] = (size_t)upper * row + (size_t)right;
-}
-
 static bool moves(const fg_field *field, size_t i)
 {
-  return field->velocity[0][i] != 0.0f || field->velocity[1][i] != 0.0f;
+  for (int k = 0; k < field->contents.dimension; ++k)
+    if (field->velocity[k][i] != 0.0f)
+      return true;
+  return false;
+}
+
+/* Marks a row of cells; returns how many are valid, and sets *moving when one moves. */
+static size_t find_row(fg_field *field, int j, int k, unsigned char *valid_cell,
+                       bool *moving)
+{
+  size_t valid_cells = 0;
+  for (int i = 0; i < field->axis[0].cells; ++i) {
+    size_t corner[FG__FIELD_CORNERS];
+    fg__field_corners_of(field, i, j, k, corner);
+    bool valid = true;
+    bool corner_moves = false;
+    for (int c = 0; c < fg__field_corners(field); ++c) {
+      valid = valid && (!field->valid || field->valid[corner[c]]);
+      corner_moves = corner_moves || moves(field, corner[c]);
+    }
+    valid_cell[i] = valid;
+    valid_cells += valid;
+    *moving = *moving || (valid && corner_moves);
+  }
+  return valid_cells;
 }
 
 /* A cell counts when all its corners do; at least one must, and the velocity must not be
@@ -216,27 +238,17 @@ static fg_status find_cells(fg_field *field, fg_context *context)
 {
   const int columns = field->axis[0].cells;
   const int rows = field->axis[1].cells;
-  const size_t count = (size_t)columns * (size_t)rows;
+  const int layers = field->contents.dimension == 3 ? field->axis[2].cells : 1;
+  const size_t count = (size_t)columns * (size_t)rows * (size_t)layers;
   field->valid_cell = fg__allocate(count, 1);
   if (!field->valid_cell)
     return fg__fail_memory(context, "the cells", count);
   size_t valid_cells = 0;
   bool moving = false;
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) {
-      size_t corner[CORNERS];
-      corners_of(field, i, j, corner);
-      bool valid = true;
-      bool corner_moves = false;
-      for (int c = 0; c < CORNERS; ++c) {
-        valid = valid && (!field->valid || field->valid[corner[c]]);
-        corner_moves = corner_moves || moves(field, corner[c]);
-      }
-      field->valid_cell[(size_t)j * (size_t)columns + (size_t)i] = valid;
-      valid_cells += valid;
-      moving = moving || (valid && corner_moves);
-    }
-  }
+  unsigned char *row = field->valid_cell;
+  for (int k = 0; k < layers; ++k)
+    for (int j = 0; j < rows; ++j, row += columns)
+      valid_cells += find_row(field, j, k, row, &moving);
   if (valid_cells == 0)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "field: none of its %zu cells has a value at every corner", count);
@@ -302,12 +314,13 @@ fg_status fg_field_create(fg_field **out, fg_context *context,
   field->contents.dimension = arrays->dimension;
   field->contents.scale = arrays->scale == FG_SCALE_AUTO ? FG_SCALE_PLAIN : arrays->scale;
   status = copy_words(field, context, arrays);
-  for (int k = 0; k < COMPONENTS && status == FG_STATUS_OK; ++k) {
+  for (int k = 0; k < arrays->dimension && status == FG_STATUS_OK; ++k) {
     field->contents.size[k] = arrays->size[k];
     field->contents.period[k] = arrays->period[k];
     status = copy_axis(field, context, arrays, k);
   }
-  field->contents.size[2] = 1;
+  if (arrays->dimension == 2)
+    field->contents.size[2] = 1;
   if (status == FG_STATUS_OK)
     status = copy_samples(field, context, arrays);
   if (status == FG_STATUS_OK)
@@ -324,7 +337,7 @@ void fg_field_destroy(fg_field *field)
 {
   if (!field)
     return;
-  for (int k = 0; k < COMPONENTS; ++k) {
+  for (int k = 0; k < 3; ++k) {
     free(field->axis[k].coordinate);
     free(field->axis[k].inverse_width);
     free(field->velocity[k]);
@@ -339,88 +352,4 @@ void fg_field_destroy(fg_field *field)
 const fg_field_arrays *fg_field_contents(const fg_field *field)
 {
   return field ? &field->contents : NULL;
-}
-
-/* Brings x into [first, first + period); fmod is exact, so that any x is wrapped without
- * drift. */
-static double wrap(const axis_lookup *axis, double x)
-{
-  const double first = axis->coordinate[0];
-  if (x >= first && x < axis->coordinate[axis->cells])
-    return x;
-  double offset = fmod(x - first, axis->period);
-  if (offset < 0.0)
-    offset += axis->period;
-  x = first + offset;
-  return x < axis->coordinate[axis->cells] ? x : first;
-}
-
-/* The cell that holds x, or -1 outside the axis, and where in it x lies, in [0, 1]. */
-static int find_cell(const axis_lookup *axis, double x, double *fraction)
-{
-  const double *coordinate = axis->coordinate;
-  if (axis->period > 0.0 && isfinite(x))
-    x = wrap(axis, x);
-  if (!(x >= coordinate[0] && x <= coordinate[axis->cells]))
-    return -1;
-  int cell;
-  if (axis->even) {
-    cell = (int)((x - coordinate[0]) * axis->inverse_spacing);
-    cell = cell < axis->cells ? cell : axis->cells - 1;
-    while (cell > 0 && x < coordinate[cell])
-      --cell;
-    while (cell < axis->cells - 1 && x >= coordinate[cell + 1])
-      ++cell;
-  } else {
-    cell = 0;
-    int beyond = axis->cells;
-    while (beyond - cell > 1) {
-      const int middle = cell + (beyond - cell) / 2;
-      if (x >= coordinate[middle])
-        cell = middle;
-      else
-        beyond = middle;
-    }
-  }
-  const double inside = (x - coordinate[cell]) * axis->inverse_width[cell];
-  *fraction = inside < 1.0 ? inside : 1.0;
-  return cell;
-}
-
-bool fg_field_velocity(const fg_field *field, const double position[], double velocity[])
-{
-  double s;
-  double t;
-  const int i = find_cell(&field->axis[0], position[0], &s);
-  if (i < 0)
-    return false;
-  const int j = find_cell(&field->axis[1], position[1], &t);
-  if (j < 0)
-    return false;
-  const size_t cell = (size_t)j * (size_t)field->axis[0].cells + (size_t)i;
-  if (field->valid_cell && !field->valid_cell[cell])
-    return false;
-  size_t corner[CORNERS];
-  corners_of(field, i, j, corner);
-  for (int k = 0; k < COMPONENTS; ++k) {
-    const float *sample = field->velocity[k];
-    const double lower =
-        (1.0 - s) * (double)sample[corner[0]] + s * (double)sample[corner[1]];
-    const double upper =
-        (1.0 - s) * (double)sample[corner[2]] + s * (double)sample[corner[3]];
-    velocity[k] = (1.0 - t) * lower + t * upper;
-  }
-  return true;
-}
-
-bool fg_field_tangent(const fg_field *field, const double position[], double tangent[])
-{
-  if (!fg_field_velocity(field, position, tangent))
-    return false;
-  if (field->contents.scale == FG_SCALE_GEO) {
-    /* dlon/dt = u / (R cos latitude), dlat/dt = v / R */
-    const double cosine = cos(position[1] * RADIANS_PER_DEGREE);
-    tangent[0] /= cosine > SMALLEST_COSINE ? cosine : SMALLEST_COSINE;
-  }
-  return true;
 }

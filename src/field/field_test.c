@@ -389,8 +389,10 @@ static void bad_sizes_are_refused(void **state)
   set->arrays.size[1] = INT32_MAX;
   assert_refused(set, "2147483647");
   set->arrays.size[1] = NY;
+  set->arrays.dimension = 4;
+  assert_refused(set, "4 dimensions");
   set->arrays.dimension = 3;
-  assert_refused(set, "3 dimensions");
+  assert_refused(set, "5 x 4 x 1 samples");
 }
 
 static void bad_values_are_refused(void **state)

@@ -1,5 +1,6 @@
 /* Fields as VTK XML image data or as NetCDF. */
 #include "base/memory.h"
+#include "format/field_close.h"
 #include "format/netcdf_write.h"
 #include "format/number_text.h"
 #include "format/vti_write.h"
@@ -44,27 +45,26 @@ static fg_status describe_axis(fg__vti_image *image, fg_context *context,
   return FG_STATUS_OK;
 }
 
-/* "U" for components U_x and U_y, as a reader of images made them; else "velocity". */
+/* "U" for components U_x, U_y and U_z, as a reader of images made them; else "velocity".
+ */
 static void name_vector(char name[NAME_BYTES], const fg_field_arrays *field)
 {
-  const char *u = field->velocity_name[0], *v = field->velocity_name[1];
+  const char *u = field->velocity_name[0];
   size_t length = strlen(u);
   snprintf(name, NAME_BYTES, "velocity");
-  if (length > 2 && length < NAME_BYTES && length == strlen(v) && u[length - 2] == '_' &&
-      strncmp(u, v, length - 1) == 0)
-    snprintf(name, NAME_BYTES, "%.*s", (int)(length - 2), u);
-}
-
-static bool is_missing(const fg_field_arrays *field, size_t i)
-{
-  return (field->valid && !field->valid[i]) || isnan(field->velocity[0][i]) ||
-         isnan(field->velocity[1][i]);
+  if (length <= 2 || length >= NAME_BYTES || u[length - 2] != '_')
+    return;
+  for (int k = 1; k < field->dimension; ++k)
+    if (strlen(field->velocity_name[k]) != length ||
+        strncmp(u, field->velocity_name[k], length - 1) != 0)
+      return;
+  snprintf(name, NAME_BYTES, "%.*s", (int)(length - 2), u);
 }
 
 static fg_status write_samples(FILE *stream, fg_context *context,
                                const fg_field_arrays *field, const char *name)
 {
-  size_t count = (size_t)field->size[0] * (size_t)field->size[1];
+  size_t count = fg__field_samples(field);
   float *vectors = fg__allocate(count, 3 * sizeof *vectors);
   unsigned char *ghost = fg__allocate(count, 1);
   bool some_missing = false;
@@ -74,10 +74,9 @@ static fg_status write_samples(FILE *stream, fg_context *context,
     goto cleanup;
   }
   for (size_t i = 0; i < count; ++i) {
-    bool missing = is_missing(field, i);
-    for (size_t k = 0; k < 2; ++k)
+    bool missing = fg__field_is_missing(field, i);
+    for (size_t k = 0; k < (size_t)field->dimension; ++k)
       vectors[3 * i + k] = missing ? NAN : field->velocity[k][i];
-    vectors[3 * i + 2] = 0.0f;
     ghost[i] = missing ? HIDDEN_POINT : 0;
     some_missing = some_missing || missing;
   }
@@ -106,7 +105,7 @@ static fg_status write_image(fg_context *context, const char *path,
                              const fg_field_arrays *field)
 {
   fg__vti_image image = {0};
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < field->dimension; ++k) {
     fg_status status = describe_axis(&image, context, path, field, k);
     if (status != FG_STATUS_OK)
       return status;
@@ -134,11 +133,17 @@ fg_status fg_field_write(fg_context *context, const char *path, const fg_field *
   if (!path || !field)
     return fg__fail(context, FG_STATUS_ARGUMENT, "field: %s to write",
                     path ? "none" : "no file name");
-  const fg_field_arrays *contents = fg_field_contents(field);
-  if (ends_with(path, ".vti"))
-    return write_image(context, path, contents);
-  if (ends_with(path, ".nc"))
-    return fg__netcdf_write(context, path, contents);
+  bool image = ends_with(path, ".vti");
+  if (image || ends_with(path, ".nc")) {
+    fg__closed_field closed;
+    fg_status status =
+        fg__closed_field_create(&closed, context, fg_field_contents(field));
+    if (status == FG_STATUS_OK)
+      status = image ? write_image(context, path, &closed.arrays)
+                     : fg__netcdf_write(context, path, &closed.arrays);
+    fg__closed_field_clear(&closed);
+    return status;
+  }
   fg_status status =
       fg__fail(context, FG_STATUS_UNSUPPORTED,
                "%s: fields are not written in a format of this name", path);

@@ -380,7 +380,7 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__nc_file *file,
       .times = (int)grid.times,
       .levels = (int)grid.levels,
       .scale = grid.scale,
-      .periodic = grid.axis[0].period > 0.0};
+      .periodic = {grid.axis[0].period > 0.0}};
   for (int k = 0; k < 2; ++k) {
     vector.size[k] = (int)grid.axis[k].size;
     if (grid.axis[k].coordinate) {

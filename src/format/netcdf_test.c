@@ -537,7 +537,7 @@ static void inventories_tell_what_reading_gives(void **state)
   assert_int_equal(v->scale, FG_SCALE_MAP);
   assert_true(v->bounds[0] == 1.5 && v->bounds[1] == 7.0);
   assert_true(v->bounds[2] == -3.0 && v->bounds[3] == 0.75);
-  assert_false(v->periodic);
+  assert_false(v->periodic[0]);
   assert_null(v->unusable);
   assert_null(fg_inventory_vector_at(inventory, 1));
   fg_inventory_destroy(inventory);

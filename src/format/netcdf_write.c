@@ -2,8 +2,8 @@
 
 #include "base/memory.h"
 #include "base/whole_file.h"
+#include "format/field_close.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,11 +46,14 @@ typedef struct axis_words {
 
 static axis_words words_of_axis(const fg_field_arrays *field, int k)
 {
-  static const axis_words geo[2] = {{"lon", "longitude", "degrees_east", "X"},
-                                    {"lat", "latitude", "degrees_north", "Y"}};
-  static const axis_words map[2] = {{"x", "projection_x_coordinate", NULL, "X"},
-                                    {"y", "projection_y_coordinate", NULL, "Y"}};
-  static const axis_words plain[2] = {{"x", NULL, NULL, "X"}, {"y", NULL, NULL, "Y"}};
+  static const axis_words geo[3] = {{"lon", "longitude", "degrees_east", "X"},
+                                    {"lat", "latitude", "degrees_north", "Y"},
+                                    {"height", "height", NULL, "Z"}};
+  static const axis_words map[3] = {{"x", "projection_x_coordinate", NULL, "X"},
+                                    {"y", "projection_y_coordinate", NULL, "Y"},
+                                    {"z", NULL, NULL, "Z"}};
+  static const axis_words plain[3] = {
+      {"x", NULL, NULL, "X"}, {"y", NULL, NULL, "Y"}, {"z", NULL, NULL, "Z"}};
   axis_words words = plain[k];
   if (field->scale == FG_SCALE_GEO)
     words = geo[k];
@@ -75,34 +78,37 @@ static void define_axis(writing *w, int *dimension, int *variable,
   put_text(w, *variable, "axis", words.letter);
 }
 
-/* Usual names are kept, so that a reader finds the pair; two of one name could not be. */
-static void name_components(char name[2][NAME_BYTES], const fg_field_arrays *field)
+/* Usual names are kept, so that a reader finds them; two of one name could not be. */
+static void name_components(char name[3][NAME_BYTES], const fg_field_arrays *field)
 {
-  static const char *const taken[] = {"lon", "lat", "x", "y"};
-  static const char *const otherwise[2] = {"u", "v"};
-  bool clash = strcmp(field->velocity_name[0], field->velocity_name[1]) == 0;
-  for (int k = 0; k < 2; ++k) {
+  static const char *const taken[] = {"lon", "lat", "x", "y", "z"};
+  static const char *const otherwise[3] = {"u", "v", "w"};
+  bool clash = false;
+  for (int k = 0; k < field->dimension; ++k) {
     make_name(name[k], field->velocity_name[k], "");
-    clash = clash || !name[k][0];
+    clash = clash || !name[k][0] ||
+            strcmp(field->velocity_name[k],
+                   field->velocity_name[(k + 1) % field->dimension]) == 0;
     for (size_t i = 0; i < sizeof taken / sizeof taken[0]; ++i)
       clash = clash || strcmp(name[k], taken[i]) == 0;
   }
-  for (int k = 0; clash && k < 2; ++k)
+  for (int k = 0; clash && k < field->dimension; ++k)
     strcpy(name[k], otherwise[k]);
 }
 
-static void define(writing *w, int axis[2], int component[2],
+static void define(writing *w, int axis[3], int component[3],
                    const fg_field_arrays *field)
 {
-  int dimensions[2] = {0, 0}; /* y, x */
-  define_axis(w, &dimensions[1], &axis[0], field, 0);
-  define_axis(w, &dimensions[0], &axis[1], field, 1);
-  char name[2][NAME_BYTES];
+  int dimensions[3] = {0, 0, 0}; /* (z,) y, x */
+  for (int k = 0; k < field->dimension; ++k)
+    define_axis(w, &dimensions[field->dimension - 1 - k], &axis[k], field, k);
+  char name[3][NAME_BYTES];
   name_components(name, field);
   const float fill = NC_FILL_FLOAT;
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < field->dimension; ++k) {
     if (w->error == NC_NOERR)
-      keep(w, nc_def_var(w->file, name[k], NC_FLOAT, 2, dimensions, &component[k]));
+      keep(w, nc_def_var(w->file, name[k], NC_FLOAT, field->dimension, dimensions,
+                         &component[k]));
     put_text(w, component[k], "long_name", field->velocity_name[k]);
     put_text(w, component[k], "units", field->velocity_units);
     if (w->error == NC_NOERR)
@@ -120,12 +126,9 @@ static void define(writing *w, int axis[2], int component[2],
 static void put_component(writing *w, int variable, const fg_field_arrays *field, int k,
                           float *samples)
 {
-  size_t count = (size_t)field->size[0] * (size_t)field->size[1];
-  for (size_t i = 0; i < count; ++i) {
-    bool missing = (field->valid && !field->valid[i]) || isnan(field->velocity[0][i]) ||
-                   isnan(field->velocity[1][i]);
-    samples[i] = missing ? NC_FILL_FLOAT : field->velocity[k][i];
-  }
+  size_t count = fg__field_samples(field);
+  for (size_t i = 0; i < count; ++i)
+    samples[i] = fg__field_is_missing(field, i) ? NC_FILL_FLOAT : field->velocity[k][i];
   if (w->error == NC_NOERR)
     keep(w, nc_put_var_float(w->file, variable, samples));
 }
@@ -133,12 +136,12 @@ static void put_component(writing *w, int variable, const fg_field_arrays *field
 static void write_file(writing *w, const char *name, const fg_field_arrays *field,
                        float *samples)
 {
-  int axis[2] = {0, 0}, component[2] = {0, 0};
+  int axis[3] = {0, 0, 0}, component[3] = {0, 0, 0};
   w->error = nc_create(name, NC_CLOBBER | NC_64BIT_OFFSET, &w->file);
   if (w->error != NC_NOERR)
     return;
   define(w, axis, component, field);
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < field->dimension; ++k) {
     if (w->error == NC_NOERR)
       keep(w, nc_put_var_double(w->file, axis[k], field->axis[k]));
     put_component(w, component[k], field, k, samples);
@@ -149,7 +152,7 @@ static void write_file(writing *w, const char *name, const fg_field_arrays *fiel
 fg_status fg__netcdf_write(fg_context *context, const char *path,
                            const fg_field_arrays *field)
 {
-  size_t count = (size_t)field->size[0] * (size_t)field->size[1];
+  size_t count = fg__field_samples(field);
   float *samples = fg__allocate(count, sizeof *samples);
   if (!samples)
     return fg__fail_memory(context, "a field to write", count * sizeof *samples);

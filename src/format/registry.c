@@ -13,7 +13,7 @@ static const char KNOWN_FORMATS[] =
     "NetCDF (classic, 64-bit offset, CDF-5, NetCDF-4) and "
     "VTK XML image data (.vti)";
 static const char SYNTHETIC[] = "synth:";
-enum { SYNTHETIC_NODES = 257, MESSAGE_BYTES = 2048 };
+enum { MESSAGE_BYTES = 2048 };
 
 const fg__format *fg__format_find(const unsigned char *bytes, size_t size)
 {
@@ -108,7 +108,7 @@ static fg_status name_the_file(fg_context *context, fg_status status, const char
 {
   static const char prefix[] = "field: ";
   const char *message = fg_context_message(context);
-  if (status != FG_STATUS_ARGUMENT || strncmp(message, prefix, sizeof prefix - 1) != 0)
+  if (status == FG_STATUS_OK || strncmp(message, prefix, sizeof prefix - 1) != 0)
     return status;
   char words[MESSAGE_BYTES];
   char hint[MESSAGE_BYTES];
@@ -116,7 +116,9 @@ static fg_status name_the_file(fg_context *context, fg_status status, const char
   strncpy(hint, fg_context_hint(context), sizeof hint - 1);
   words[sizeof words - 1] = hint[sizeof hint - 1] = '\0';
   fg_context_clear(context);
-  status = fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: %s", input, words);
+  if (status == FG_STATUS_ARGUMENT)
+    status = FG_STATUS_FILE_FORMAT;
+  fg__fail(context, status, "%s: %s", input, words);
   if (hint[0])
     fg__hint(context, "%s", hint);
   return status;
@@ -132,8 +134,7 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
                     "%s: an analytic field has no variables, masks, times or levels to "
                     "choose from",
                     input);
-  return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1,
-                                  SYNTHETIC_NODES);
+  return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
 }
 
 fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
@@ -162,7 +163,7 @@ static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,
                                    const char *name)
 {
   fg_field *field = NULL;
-  fg_status status = fg_field_create_analytic(&field, context, name, SYNTHETIC_NODES);
+  fg_status status = fg_field_create_analytic(&field, context, name, 0);
   if (status != FG_STATUS_OK)
     return status;
   const fg_field_arrays *arrays = fg_field_contents(field);
@@ -178,6 +179,7 @@ static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,
     vector.size[k] = arrays->size[k];
     vector.bounds[2 * k] = arrays->axis[k][0];
     vector.bounds[2 * k + 1] = arrays->axis[k][arrays->size[k] - 1];
+    vector.periodic[k] = arrays->period[k] > 0.0;
   }
   status = fg__inventory_add(inventory, context, &vector);
   fg_field_destroy(field);

@@ -52,27 +52,30 @@ static void write_attribute(FILE *stream, const char *name, const char *value)
   fputc('"', stream);
 }
 
-static void write_triple(FILE *stream, const char *name, const double pair[2],
-                         double third)
+static void write_triple(FILE *stream, const char *name, const double triple[3])
 {
   char number[3][FG__NUMBER_BYTES];
-  fg__number_write(number[0], pair[0]);
-  fg__number_write(number[1], pair[1]);
-  fg__number_write(number[2], third);
+  for (int k = 0; k < 3; ++k)
+    fg__number_write(number[k], triple[k]);
   fprintf(stream, " %s=\"%s %s %s\"", name, number[0], number[1], number[2]);
 }
 
 void fg__vti_write_open(FILE *stream, const fg__vti_image *image, const char *vectors,
                         const char *scalars)
 {
+  const bool flat = image->points[2] == 0;
+  const int last[3] = {image->points[0] - 1, image->points[1] - 1,
+                       flat ? 0 : image->points[2] - 1};
   fprintf(
       stream,
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
       "byte_order=\"%s\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
-      "<ImageData WholeExtent=\"0 %d 0 %d 0 0\"",
-      byte_order(), image->points[0] - 1, image->points[1] - 1);
-  write_triple(stream, "Origin", image->origin, 0.0);
-  write_triple(stream, "Spacing", image->spacing, 1.0);
+      "<ImageData WholeExtent=\"0 %d 0 %d 0 %d\"",
+      byte_order(), last[0], last[1], last[2]);
+  write_triple(stream, "Origin", image->origin);
+  write_triple(stream, "Spacing",
+               (const double[]){image->spacing[0], image->spacing[1],
+                                flat ? 1.0 : image->spacing[2]});
   fputs(">\n", stream);
   if (image->time) {
     char number[FG__NUMBER_BYTES];
@@ -82,8 +85,8 @@ void fg__vti_write_open(FILE *stream, const fg__vti_image *image, const char *ve
             "NumberOfTuples=\"1\" format=\"ascii\">\n%s\n</DataArray>\n</FieldData>\n",
             number);
   }
-  fprintf(stream, "<Piece Extent=\"0 %d 0 %d 0 0\">\n<PointData", image->points[0] - 1,
-          image->points[1] - 1);
+  fprintf(stream, "<Piece Extent=\"0 %d 0 %d 0 %d\">\n<PointData", last[0], last[1],
+          last[2]);
   write_attribute(stream, "Vectors", vectors);
   write_attribute(stream, "Scalars", scalars);
   fputs(">\n", stream);

@@ -6,10 +6,11 @@
 #include "base/context.h"
 #include "base/whole_file.h"
 
-/* The box of an image in the plane z = 0. Nothing of it may be infinite or NaN. */
+/* The box of an image; points[2] is 0 in 2D, an image in the plane z = 0. Nothing of it
+ * may be infinite or NaN. */
 typedef struct fg__vti_image {
-  int points[2];
-  double origin[2], spacing[2];
+  int points[3];
+  double origin[3], spacing[3];
   const double *time; /* TimeValue; NULL: none */
 } fg__vti_image;
 

@@ -1,0 +1,132 @@
+/* Velocity and direction between the samples. */
+#include "field/field.h"
+
+#include <math.h>
+
+/* cos(latitude) is kept above that of a hundredth of a degree off the pole, nearer than
+ * the rows of any grid in use: the direction there is east or west, its limit, and
+ * finite. */
+static const double SMALLEST_COSINE = 1.745e-4;
+
+static const double RADIANS_PER_DEGREE = 0.017453292519943295;
+
+/* The sample after n, round a periodic axis. */
+static size_t next_sample(const fg__axis *axis, int n)
+{
+  return n + 1 == axis->samples ? 0 : (size_t)n + 1;
+}
+
+void fg__field_corners_of(const fg_field *field, int i, int j, int k,
+                          size_t corner[FG__FIELD_CORNERS])
+{
+  const size_t right = next_sample(&field->axis[0], i);
+  const size_t upper = next_sample(&field->axis[1], j);
+  const size_t row = (size_t)field->axis[0].samples;
+  corner[0] = (size_t)j * row + (size_t)i;
+  corner[1] = (size_t)j * row + right;
+  corner[2] = upper * row + (size_t)i;
+  corner[3] = upper * row + right;
+  if (field->contents.dimension == 2)
+    return;
+  const size_t plane = row * (size_t)field->axis[1].samples;
+  for (int c = 0; c < 4; ++c) {
+    corner[4 + c] = corner[c] + next_sample(&field->axis[2], k) * plane;
+    corner[c] += (size_t)k * plane;
+  }
+}
+
+/* Brings x into [first, first + period); fmod is exact, so that any x is wrapped without
+ * drift. */
+static double wrap(const fg__axis *axis, double x)
+{
+  const double first = axis->coordinate[0];
+  if (x >= first && x < axis->coordinate[axis->cells])
+    return x;
+  double offset = fmod(x - first, axis->period);
+  if (offset < 0.0)
+    offset += axis->period;
+  x = first + offset;
+  return x < axis->coordinate[axis->cells] ? x : first;
+}
+
+/* The cell that holds x, or -1 outside the axis, and where in it x lies, in [0, 1]. */
+static int find_cell(const fg__axis *axis, double x, double *fraction)
+{
+  const double *coordinate = axis->coordinate;
+  if (axis->period > 0.0 && isfinite(x))
+    x = wrap(axis, x);
+  if (!(x >= coordinate[0] && x <= coordinate[axis->cells]))
+    return -1;
+  int cell;
+  if (axis->even) {
+    cell = (int)((x - coordinate[0]) * axis->inverse_spacing);
+    cell = cell < axis->cells ? cell : axis->cells - 1;
+    while (cell > 0 && x < coordinate[cell])
+      --cell;
+    while (cell < axis->cells - 1 && x >= coordinate[cell + 1])
+      ++cell;
+  } else {
+    cell = 0;
+    int beyond = axis->cells;
+    while (beyond - cell > 1) {
+      const int middle = cell + (beyond - cell) / 2;
+      if (x >= coordinate[middle])
+        cell = middle;
+      else
+        beyond = middle;
+    }
+  }
+  const double inside = (x - coordinate[cell]) * axis->inverse_width[cell];
+  *fraction = inside < 1.0 ? inside : 1.0;
+  return cell;
+}
+
+/* Between the four corners of a face across z; s along x, t along y. */
+static double bilinear(const float *sample, const size_t corner[4], double s, double t)
+{
+  const double lower =
+      (1.0 - s) * (double)sample[corner[0]] + s * (double)sample[corner[1]];
+  const double upper =
+      (1.0 - s) * (double)sample[corner[2]] + s * (double)sample[corner[3]];
+  return (1.0 - t) * lower + t * upper;
+}
+
+bool fg_field_velocity(const fg_field *field, const double position[], double velocity[])
+{
+  const int dimension = field->contents.dimension;
+  double inside[3];
+  int at[3] = {0};
+  size_t cell = 0;
+  for (int k = 0; k < dimension; ++k) {
+    at[k] = find_cell(&field->axis[k], position[k], &inside[k]);
+    if (at[k] < 0)
+      return false;
+  }
+  for (int k = dimension - 1; k >= 0; --k)
+    cell = cell * (size_t)field->axis[k].cells + (size_t)at[k];
+  if (field->valid_cell && !field->valid_cell[cell])
+    return false;
+  size_t corner[FG__FIELD_CORNERS];
+  fg__field_corners_of(field, at[0], at[1], at[2], corner);
+  for (int k = 0; k < dimension; ++k) {
+    const float *sample = field->velocity[k];
+    velocity[k] = bilinear(sample, corner, inside[0], inside[1]);
+    if (dimension == 3) {
+      const double above = bilinear(sample, corner + 4, inside[0], inside[1]);
+      velocity[k] = (1.0 - inside[2]) * velocity[k] + inside[2] * above;
+    }
+  }
+  return true;
+}
+
+bool fg_field_tangent(const fg_field *field, const double position[], double tangent[])
+{
+  if (!fg_field_velocity(field, position, tangent))
+    return false;
+  if (field->contents.scale == FG_SCALE_GEO) {
+    /* dlon/dt = u / (R cos latitude), dlat/dt = v / R */
+    const double cosine = cos(position[1] * RADIANS_PER_DEGREE);
+    tangent[0] /= cosine > SMALLEST_COSINE ? cosine : SMALLEST_COSINE;
+  }
+  return true;
+}

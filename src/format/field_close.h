@@ -1,0 +1,27 @@
+/* Fields as files hold them: an axis without end gets one. */
+#ifndef FG__FIELD_CLOSE_H
+#define FG__FIELD_CLOSE_H
+
+#include "base/context.h"
+
+/* How many samples a field has. */
+size_t fg__field_samples(const fg_field_arrays *field);
+
+/* Whether sample i is missing, by the mask or by any of its components. */
+bool fg__field_is_missing(const fg_field_arrays *field, size_t i);
+
+/* A field's arrays, or owned copies that end where they began. */
+typedef struct fg__closed_field {
+  fg_field_arrays arrays;
+  double *axis[3];
+  float *velocity[3];
+} fg__closed_field;
+
+/* Copies a field so that each periodic axis shows its first sample again at its end; but
+ * a circle of longitude stays as it is, for readers close it. Without such an axis all is
+ * borrowed, with one the words are. To be cleared even after a failure. MEMORY. */
+fg_status fg__closed_field_create(fg__closed_field *out, fg_context *context,
+                                  const fg_field_arrays *field);
+void fg__closed_field_clear(fg__closed_field *closed);
+
+#endif
