@@ -91,7 +91,12 @@ static fg_status create_mesh(fg_evolution *e, const fg_field *field)
                               ? arrays->period[k]
                               : arrays->axis[k][arrays->size[k] - 1] - arrays->axis[k][0];
   }
-  return fg__mesh_create(&e->mesh, e->context, &description);
+  fg_status status = fg__mesh_create(&e->mesh, e->context, &description);
+  if (!status && e->mesh.ranks->count != 1)
+    status =
+        fg__fail(e->context, FG_STATUS_UNSUPPORTED,
+                 "started on %d ranks; this version runs on one", e->mesh.ranks->count);
+  return status;
 }
 
 static double interface_energy(const fg_evolution *e)

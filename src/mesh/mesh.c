@@ -14,6 +14,10 @@ enum { LEAST_NODES = 9, MOST_NODES_2D = 16385, MOST_NODES_3D = 2049 };
 
 enum { COARSENING = 16, SHORT_SIDE_COARSENING = 8 };
 
+/* Boxes of smaller patches could not be halved often before they are replicated. */
+enum { LEAST_PATCH_2D = 16, LEAST_PATCH_3D = 8 };
+static const double most_imbalance = 1.05;
+
 static int round_up(int value, int multiple)
 {
   return (value + multiple - 1) / multiple * multiple;
@@ -85,57 +89,80 @@ static fg_status choose_cells(fg__mesh *mesh, fg_context *context,
   return FG_STATUS_OK;
 }
 
-static fg_status grow_forest(fg__mesh *mesh, fg_context *context)
+/* The most that a rank gets over the mean, when `patch` cells make a side of a leaf. */
+static double imbalance(const fg__mesh *mesh, int patch)
 {
-  fg_status status = fg__ranks_all(&mesh->ranks, context);
-  if (status)
-    return status;
-  if (mesh->ranks->count != 1)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "started on %d ranks; this version runs on one", mesh->ranks->count);
-  mesh->patch_cells = greatest_power_of_two_in(mesh->dimension, mesh->cells);
-  int trees[3] = {1, 1, 1};
+  double leaves = 1.0;
   for (int k = 0; k < mesh->dimension; ++k)
-    trees[k] = mesh->cells[k] / mesh->patch_cells;
-  return mesh->kind->create(&mesh->forest, context, mesh->ranks, trees, mesh->periodic, 0,
-                            0);
+    leaves *= mesh->cells[k] / patch;
+  double mean = leaves / mesh->ranks->count;
+  return ceil(mean) / mean;
 }
 
-/* The leaves of a uniform forest on one rank fill the box: one tile. The cell range comes
- * from the leaves themselves, so that a hole would show. */
+static fg_status grow_forest(fg__mesh *mesh, fg_context *context)
+{
+  int tree = greatest_power_of_two_in(mesh->dimension, mesh->cells);
+  int least = mesh->dimension == 3 ? LEAST_PATCH_3D : LEAST_PATCH_2D;
+  int trees[3] = {1, 1, 1}, refinements = 0;
+  for (int k = 0; k < mesh->dimension; ++k)
+    trees[k] = mesh->cells[k] / tree;
+  mesh->patch_cells = tree;
+  while (mesh->patch_cells > least &&
+         imbalance(mesh, mesh->patch_cells) > most_imbalance) {
+    mesh->patch_cells /= 2;
+    ++refinements;
+  }
+  return mesh->kind->create(&mesh->forest, context, mesh->ranks, trees, mesh->periodic,
+                            refinements, refinements);
+}
+
+/* The nodes that a leaf of a uniform mesh owns. */
+static fg__box nodes_of(const fg__mesh *mesh, const fg__leaf *leaf)
+{
+  fg__box box = {{0, 0, 0}, {1, 1, 1}};
+  for (int k = 0; k < mesh->dimension; ++k) {
+    box.first[k] = leaf->first[k] * mesh->patch_cells;
+    box.nodes[k] = leaf->side * mesh->patch_cells;
+    box.nodes[k] += !mesh->periodic[k] && box.first[k] + box.nodes[k] == mesh->cells[k];
+  }
+  return box;
+}
+
+static fg__tile tile_of(const fg__mesh *mesh, const fg__box *box)
+{
+  fg__tile tile = {{0, 0, 0}, {1, 1, 1}};
+  for (int k = 0; k < mesh->dimension; ++k) {
+    int over = box->first[k] + box->nodes[k] - mesh->cells[k];
+    tile.first[k] = box->first[k];
+    tile.cells[k] = box->nodes[k] - (over > 0 ? over : 0);
+  }
+  return tile;
+}
+
 static fg_status merge_leaves(fg__mesh *mesh, fg_context *context)
 {
-  int count = mesh->kind->leaf_count(mesh->forest), dimension = mesh->dimension;
+  int count = mesh->kind->leaf_count(mesh->forest);
   fg__leaf *leaf = fg__allocate((size_t)count, sizeof *leaf);
-  mesh->tile = fg__allocate(1, sizeof *mesh->tile);
-  if (!leaf || !mesh->tile) {
-    free(leaf);
-    return fg__fail_memory(context, "the tiles", (size_t)count * sizeof *leaf);
+  fg__box *box = fg__allocate((size_t)count, sizeof *box);
+  mesh->tile = fg__allocate((size_t)count, sizeof *mesh->tile);
+  fg_status status = FG_STATUS_OK;
+  if (leaf && box && mesh->tile) {
+    mesh->kind->leaves(mesh->forest, leaf);
+    for (int n = 0; n < count; ++n)
+      box[n] = nodes_of(mesh, &leaf[n]);
+    count = mesh->tile_count = fg__boxes_merge(box, count);
+    for (int n = 0; n < count; ++n)
+      mesh->tile[n] = tile_of(mesh, &box[n]);
+  } else {
+    status = fg__fail_memory(context, "the leaves", (size_t)count * sizeof *leaf);
   }
-  mesh->kind->leaves(mesh->forest, leaf);
-  int low[3] = {leaf[0].first[0], leaf[0].first[1], leaf[0].first[2]};
-  int high[3] = {low[0] + 1, low[1] + 1, low[2] + 1};
-  double covered = 0.0;
-  for (int n = 0; n < count; ++n) {
-    for (int k = 0; k < dimension; ++k) {
-      int first = leaf[n].first[k], end = first + leaf[n].side;
-      low[k] = first < low[k] ? first : low[k];
-      high[k] = end > high[k] ? end : high[k];
-    }
-    covered += pow(leaf[n].side, dimension);
-  }
+  status = fg__ranks_agree(mesh->ranks, context, status);
+  if (!status)
+    status = fg__partition_create(&mesh->partition, context, mesh->ranks, mesh->dimension,
+                                  mesh->cells, mesh->periodic, box, count);
   free(leaf);
-  double wanted = 1.0;
-  for (int k = 0; k < 3; ++k) {
-    int scale = k < dimension ? mesh->patch_cells : 1;
-    mesh->tile[0].first[k] = low[k] * scale;
-    mesh->tile[0].cells[k] = (high[k] - low[k]) * scale;
-    wanted *= high[k] - low[k];
-  }
-  mesh->tile_count = 1;
-  if (covered != wanted)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED, "the leaves do not fill a brick");
-  return FG_STATUS_OK;
+  free(box);
+  return status;
 }
 
 fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
@@ -150,6 +177,9 @@ fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
   fg_status status = check_description(context, description);
   if (!status)
     status = choose_cells(out, context, description);
+  out->ranks = description->ranks;
+  if (!status && !out->ranks)
+    status = fg__ranks_all(&out->ranks, context);
   if (!status)
     status = grow_forest(out, context);
   if (!status)
@@ -163,6 +193,7 @@ void fg__mesh_clear(fg__mesh *mesh)
 {
   if (mesh->kind)
     mesh->kind->destroy(mesh->forest);
+  fg__partition_clear(&mesh->partition);
   free(mesh->tile);
   *mesh = (fg__mesh){0};
 }
