@@ -308,15 +308,16 @@ FG_API fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
 typedef struct fg_density fg_density;
 
 typedef struct fg_density_arrays {
-  int dimension;
+  int dimension;     /* 2 or 3; without a third axis nodes[2] reads 1 */
   int nodes[3];      /* along a periodic axis the repeated last node is left out */
-  double origin[3];  /* node (0, 0), input coordinates */
+  double origin[3];  /* node (0, 0, 0), input coordinates */
   double spacing[3]; /* input coordinates */
   bool periodic[3];
-  const float *u;              /* nodes[0] * nodes[1] values; inside a cluster u > 0 */
+  const float *u;              /* a value a node; inside a cluster u > 0 */
   const unsigned char *active; /* a byte a cell, 0 = masked; nodes[k] - 1 cells along an
                                   axis, nodes[k] when periodic; NULL: all active */
-  double debris_area; /* components smaller than this are not clusters, input coords^2 */
+  double debris_area; /* components of less area (volume) than this are not clusters, in
+                         input coordinates squared (cubed) */
   double time, energy, area_fraction;
   int clusters;
 } fg_density_arrays;
@@ -330,7 +331,8 @@ FG_API fg_status fg_density_create_from_arrays(fg_density **out, fg_context *con
 FG_API void fg_density_destroy(fg_density *density);
 FG_API const fg_density_arrays *fg_density_contents(const fg_density *density);
 
-/* Writes u, labels and mask as .vti. FILE_ACCESS, UNSUPPORTED, MEMORY. */
+/* Writes u, the number of each node's cluster (0 outside, -1 in components too small to
+ * be clusters) and the mask as .vti. FILE_ACCESS, UNSUPPORTED, MEMORY. */
 FG_API fg_status fg_density_write(fg_context *context, const char *path,
                                   const fg_density *density);
 
@@ -372,7 +374,8 @@ typedef struct fg_icon_options {
 typedef struct fg_icons fg_icons;
 
 /* Makes the icons of a density: label, march, spine, streamline, arrow. Clusters too
- * small for a readable arrow give none; fg_icons_dropped counts them. MEMORY, STOPPED. */
+ * small for a readable arrow give none; fg_icons_dropped counts them. UNSUPPORTED (3D),
+ * MEMORY, STOPPED. */
 FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
                                  const fg_field *field, const fg_density *density,
                                  const fg_icon_options *options);

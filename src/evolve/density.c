@@ -31,8 +31,8 @@ static size_t node_count(const fg_density_arrays *arrays)
 
 static fg_status check(fg_context *context, const fg_density_arrays *arrays)
 {
-  if (arrays->dimension != 2)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "density: dimension %d, only 2 is known",
+  if (arrays->dimension != 2 && arrays->dimension != 3)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "density: dimension %d, not 2 or 3",
                     arrays->dimension);
   if (!arrays->u)
     return fg__fail(context, FG_STATUS_ARGUMENT, "density: no values");
@@ -69,6 +69,11 @@ fg_status fg_density_create_from_arrays(fg_density **out, fg_context *context,
   if (!density)
     return fg__fail_memory(context, "a density", sizeof *density);
   density->arrays = *arrays;
+  for (int k = arrays->dimension; k < 3; ++k) {
+    density->arrays.nodes[k] = 1;
+    density->arrays.origin[k] = density->arrays.spacing[k] = 0.0;
+    density->arrays.periodic[k] = false;
+  }
   density->u = fg__allocate(nodes, sizeof *density->u);
   density->active = arrays->active ? fg__allocate(cells, 1) : NULL;
   if (!density->u || (arrays->active && !density->active)) {

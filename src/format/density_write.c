@@ -1,6 +1,6 @@
 /* A density, its clusters and its mask as VTK XML image data. */
 #include "base/memory.h"
-#include "cluster/raster.h"
+#include "evolve/components.h"
 #include "format/number_text.h"
 #include "format/vti_write.h"
 
@@ -11,69 +11,70 @@
 /* vtkDataSetAttributes::HIDDENCELL */
 enum { HIDDEN_CELL = 32 };
 
-/* The grid as VTK sees it: a periodic axis shows its first node again at its end. */
-typedef struct drawn_grid {
-  const fg_density_arrays *density;
-  const fg__labels *labels;
-  fg__vti_image image;
-} drawn_grid;
-
-static size_t node_of_point(const drawn_grid *grid, size_t x, size_t y)
+static size_t along(int points)
 {
-  size_t columns = (size_t)grid->density->nodes[0],
-         rows = (size_t)grid->density->nodes[1];
-  return y % rows * columns + x % columns;
+  return points > 0 ? (size_t)points : 1; /* an image in the plane has none along z */
 }
 
-static fg_status write_points(FILE *stream, fg_context *context, const drawn_grid *grid)
+static size_t point_count(const fg__vti_image *image)
 {
-  size_t columns = (size_t)grid->image.points[0], rows = (size_t)grid->image.points[1];
-  float *u = fg__allocate(columns * rows, sizeof *u);
-  int32_t *cluster = fg__allocate(columns * rows, sizeof *cluster);
-  fg_status status;
-  if (!u || !cluster) {
-    status = fg__fail_memory(context, "a density to write", columns * rows * sizeof *u);
-    goto cleanup;
-  }
-  for (size_t y = 0; y < rows; ++y)
-    for (size_t x = 0; x < columns; ++x) {
-      size_t node = node_of_point(grid, x, y);
-      u[y * columns + x] = grid->density->u[node];
-      cluster[y * columns + x] = grid->labels->label[node];
-    }
-  status = fg__vti_write_array(stream, context,
-                               &(fg__vti_output){.name = "u",
-                                                 .type = "Float32",
-                                                 .data = u,
-                                                 .bytes = columns * rows * sizeof *u,
-                                                 .components = 1});
-  if (status == FG_STATUS_OK)
-    status =
-        fg__vti_write_array(stream, context,
-                            &(fg__vti_output){.name = "cluster",
-                                              .type = "Int32",
-                                              .data = cluster,
-                                              .bytes = columns * rows * sizeof *cluster,
-                                              .components = 1});
+  return along(image->points[0]) * along(image->points[1]) * along(image->points[2]);
+}
 
-cleanup:
-  free(cluster);
-  free(u);
+/* The grid as VTK sees it: a periodic axis shows its first node again at its end. Copies
+ * a number of 4 bytes a node to one a point. */
+static void spread(const fg_density_arrays *density, const fg__vti_image *image,
+                   const void *of_node, void *of_point)
+{
+  enum { BYTES = 4 };
+  size_t columns = (size_t)density->nodes[0], rows = (size_t)density->nodes[1];
+  size_t planes = (size_t)density->nodes[2];
+  size_t width = along(image->points[0]);
+  unsigned char *out = of_point;
+  for (size_t z = 0; z < along(image->points[2]); ++z)
+    for (size_t y = 0; y < along(image->points[1]); ++y) {
+      const unsigned char *row = (const unsigned char *)of_node +
+                                 (z % planes * rows + y % rows) * columns * BYTES;
+      memcpy(out, row, columns * BYTES);
+      if (width > columns)
+        memcpy(out + columns * BYTES, row, BYTES);
+      out += width * BYTES;
+    }
+}
+
+static fg_status write_nodes(FILE *stream, fg_context *context,
+                             const fg_density_arrays *density, const fg__vti_image *image,
+                             const char *name, const char *type, const void *of_node)
+{
+  size_t bytes = point_count(image) * sizeof(float);
+  fg__vti_output array = {
+      .name = name, .type = type, .data = of_node, .bytes = bytes, .components = 1};
+  void *of_point = NULL;
+  if (density->periodic[0] || density->periodic[1] || density->periodic[2]) {
+    of_point = fg__allocate(bytes, 1);
+    if (!of_point)
+      return fg__fail_memory(context, "a density to write", bytes);
+    spread(density, image, of_node, of_point);
+    array.data = of_point;
+  }
+  fg_status status = fg__vti_write_array(stream, context, &array);
+  free(of_point);
   return status;
 }
 
-static fg_status write_cells(FILE *stream, fg_context *context, const drawn_grid *grid)
+static fg_status write_mask(FILE *stream, fg_context *context,
+                            const fg_density_arrays *density, const fg__vti_image *image)
 {
-  const unsigned char *active = grid->density->active;
-  if (!active)
+  if (!density->active)
     return FG_STATUS_OK;
-  size_t cells =
-      ((size_t)grid->image.points[0] - 1) * ((size_t)grid->image.points[1] - 1);
+  size_t cells = 1;
+  for (int k = 0; k < density->dimension; ++k)
+    cells *= (size_t)image->points[k] - 1;
   unsigned char *ghost = fg__allocate(cells, 1);
   if (!ghost)
     return fg__fail_memory(context, "a mask to write", cells);
   for (size_t i = 0; i < cells; ++i)
-    ghost[i] = active[i] ? 0 : HIDDEN_CELL;
+    ghost[i] = density->active[i] ? 0 : HIDDEN_CELL;
   fg_status status = fg__vti_write_array(stream, context,
                                          &(fg__vti_output){.name = "vtkGhostType",
                                                            .type = "UInt8",
@@ -84,13 +85,18 @@ static fg_status write_cells(FILE *stream, fg_context *context, const drawn_grid
   return status;
 }
 
-static fg_status write_image(FILE *stream, fg_context *context, const drawn_grid *grid)
+static fg_status write_image(FILE *stream, fg_context *context,
+                             const fg_density_arrays *density, const fg__vti_image *image,
+                             const int *label)
 {
-  fg__vti_write_open(stream, &grid->image, NULL, "u");
-  fg_status status = write_points(stream, context, grid);
+  fg__vti_write_open(stream, image, NULL, "u");
+  fg_status status =
+      write_nodes(stream, context, density, image, "u", "Float32", density->u);
+  if (status == FG_STATUS_OK)
+    status = write_nodes(stream, context, density, image, "cluster", "Int32", label);
   fg__vti_write_cells(stream);
   if (status == FG_STATUS_OK)
-    status = write_cells(stream, context, grid);
+    status = write_mask(stream, context, density, image);
   fg__vti_write_close(stream);
   return status;
 }
@@ -99,6 +105,34 @@ static bool ends_with(const char *path, const char *end)
 {
   size_t length = strlen(path), wanted = strlen(end);
   return length > wanted && strcmp(path + length - wanted, end) == 0;
+}
+
+static fg_status describe(fg__vti_image *image, fg_context *context, const char *path,
+                          const fg_density_arrays *density)
+{
+  image->time = &density->time;
+  for (int k = 0; k < density->dimension; ++k) {
+    if (density->nodes[k] == INT_MAX)
+      return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: too many nodes", path);
+    image->points[k] = density->nodes[k] + (density->periodic[k] ? 1 : 0);
+    image->origin[k] = density->origin[k];
+    image->spacing[k] = density->spacing[k];
+  }
+  return FG_STATUS_OK;
+}
+
+static fg_status label_nodes(fg__components *out, fg_context *context,
+                             const fg_density_arrays *density)
+{
+  fg__component_grid grid = {.u = density->u, .active = density->active};
+  double cell = 1.0;
+  for (int k = 0; k < density->dimension; ++k) {
+    grid.nodes[k] = density->nodes[k];
+    grid.periodic[k] = density->periodic[k];
+    cell *= density->spacing[k];
+  }
+  grid.debris_area = density->debris_area / cell;
+  return fg__components_find(out, context, &grid);
 }
 
 fg_status fg_density_write(fg_context *context, const char *path,
@@ -111,30 +145,26 @@ fg_status fg_density_write(fg_context *context, const char *path,
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "%s: a density is written as .vti only", path);
   const fg_density_arrays *arrays = fg_density_contents(density);
-  fg__labels labels = {0};
-  drawn_grid grid = {
-      .density = arrays, .labels = &labels, .image = {.time = &arrays->time}};
-  for (int k = 0; k < 2; ++k) {
-    if (arrays->nodes[k] == INT_MAX)
-      return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: too many nodes", path);
-    grid.image.points[k] = arrays->nodes[k] + (arrays->periodic[k] ? 1 : 0);
-    grid.image.origin[k] = arrays->origin[k];
-    grid.image.spacing[k] = arrays->spacing[k];
-  }
+  fg__vti_image image = {0};
+  fg__components components = {0};
   fg__number_locale locale;
-  fg_status status = fg__labels_create(&labels, context, arrays);
-  if (status != FG_STATUS_OK)
-    return status;
   fg__whole_file file = {0};
+  fg_status status = describe(&image, context, path, arrays);
+  if (status == FG_STATUS_OK)
+    status = label_nodes(&components, context, arrays);
+  if (status != FG_STATUS_OK)
+    goto cleanup;
   if (!fg__number_locale_begin(&locale)) {
-    fg__labels_clear(&labels);
-    return fg__fail_memory(context, "a locale", sizeof locale);
+    status = fg__fail_memory(context, "a locale", sizeof locale);
+    goto cleanup;
   }
   status = fg__whole_file_open(&file, context, path);
   if (status == FG_STATUS_OK)
-    status = write_image(file.stream, context, &grid);
+    status = write_image(file.stream, context, arrays, &image, components.label);
   status = fg__whole_file_close(&file, context, status);
   fg__number_locale_end(&locale);
-  fg__labels_clear(&labels);
+
+cleanup:
+  fg__components_clear(&components);
   return status;
 }

@@ -208,82 +208,6 @@ static void what_cannot_be_written_leaves_nothing(void **state)
   fg_field_destroy(field);
 }
 
-/* ---- densities
- * -------------------------------------------------------------------------------- */
-
-static fg__vti_values values_of(const fg__vti *vti, fg__vti_place place, const char *name)
-{
-  const fg__vti_array *array = fg__vti_find(vti, 0, place, name);
-  assert_non_null(array);
-  size_t count;
-  fg__vti_values values;
-  assert_true(fg__vti_count(&count, vti->extent, place));
-  assert_int_equal(fg__vti_values_create(&values, vti, array, count), FG_STATUS_OK);
-  return values;
-}
-
-/* 6 x 5 nodes, periodic along x: a cluster across the border, one within, a masked cell.
- */
-static void a_density_shows_clusters_and_mask(void **state)
-{
-  fixture *f = *state;
-  enum { WIDE = 6, HIGH = 5 };
-  float u[WIDE * HIGH];
-  unsigned char active[WIDE * (HIGH - 1)];
-  memset(active, 1, sizeof active);
-  active[2 * WIDE + 4] = 0;
-  for (size_t i = 0; i < WIDE * HIGH; ++i)
-    u[i] = -0.5f;
-  u[0] = u[5] = u[6] = u[11] = 0.75f;
-  u[3 * WIDE + 2] = u[3 * WIDE + 3] = 0.25f;
-  fg_density *density = NULL;
-  assert_int_equal(
-      fg_density_create_from_arrays(&density, f->context,
-                                    &(fg_density_arrays){.dimension = 2,
-                                                         .nodes = {WIDE, HIGH},
-                                                         .origin = {-1, 2},
-                                                         .spacing = {0.5, 0.25},
-                                                         .periodic = {true, false},
-                                                         .u = u,
-                                                         .active = active,
-                                                         .time = 1e-4}),
-      FG_STATUS_OK);
-  assert_int_equal(fg_density_write(f->context, path_of(f, "u.png"), density),
-                   FG_STATUS_UNSUPPORTED);
-  fg_context_clear(f->context);
-  assert_int_equal(fg_density_write(f->context, path_of(f, "u.vti"), density),
-                   FG_STATUS_OK);
-
-  fg__source source;
-  fg__vti vti;
-  assert_int_equal(fg__source_open(&source, f->context, f->path), FG_STATUS_OK);
-  assert_int_equal(fg__vti_open(&vti, f->context, &source), FG_STATUS_OK);
-  assert_int_equal(vti.extent[1], WIDE); /* the first column again at the end */
-  assert_int_equal(vti.extent[3], HIGH - 1);
-  assert_true(vti.origin[0] == -1.0 && vti.spacing[1] == 0.25);
-  fg__vti_values found = values_of(&vti, FG__VTI_POINTS, "u");
-  fg__vti_values cluster = values_of(&vti, FG__VTI_POINTS, "cluster");
-  fg__vti_values ghost = values_of(&vti, FG__VTI_CELLS, "vtkGhostType");
-  for (size_t y = 0; y < HIGH; ++y)
-    for (size_t x = 0; x <= WIDE; ++x) {
-      size_t at = y * (WIDE + 1) + x, node = y * WIDE + x % WIDE;
-      assert_true(fg__vti_value(&found, at) == (double)u[node]);
-      double label = u[node] < 0.0f ? 0.0 : y < 2 ? 1.0 : 2.0;
-      assert_true(fg__vti_value(&cluster, at) == label);
-    }
-  for (size_t i = 0; i < sizeof active; ++i)
-    assert_true(fg__vti_value(&ghost, i) == (active[i] ? 0.0 : 32.0));
-  const fg__vti_array *time = fg__vti_find(&vti, 0, FG__VTI_FIELD, "TimeValue");
-  assert_non_null(time);
-  assert_non_null(strstr(time->text, "0.0001"));
-  fg__vti_values_clear(&ghost);
-  fg__vti_values_clear(&cluster);
-  fg__vti_values_clear(&found);
-  fg__vti_close(&vti);
-  fg__source_close(&source);
-  fg_density_destroy(density);
-}
-
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
@@ -292,7 +216,6 @@ int main(void)
       TEST(netcdf_comes_back_bit_for_bit),
       TEST(analytic_fields_go_through_both_formats),
       TEST(what_cannot_be_written_leaves_nothing),
-      TEST(a_density_shows_clusters_and_mask),
   };
   return cmocka_run_group_tests_name("format/field_write", tests, NULL, NULL);
 }

@@ -368,6 +368,10 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
                     : !field ? "field"
                              : "density");
   *out = NULL;
+  if (fg_density_contents(density)->dimension != 2)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "icons: this version makes none for a density in %d dimensions",
+                    fg_density_contents(density)->dimension);
   int threads = options && options->threads > 0 ? options->threads : 1;
   fg__labels labels = {0};
   fg__territories territories = {0};

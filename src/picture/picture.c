@@ -355,6 +355,10 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "picture: a tint of the clusters needs their density");
   const fg_field_arrays *contents = fg_field_contents(field);
+  if (contents->dimension != 2 ||
+      (density && fg_density_contents(density)->dimension != 2))
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "%s: this version draws no fields in 3 dimensions", path);
   picture *p = fg__allocate(1, sizeof *p);
   if (!p)
     return fg__fail_memory(context, "a picture", sizeof *p);

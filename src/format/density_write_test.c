@@ -1,0 +1,227 @@
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "format/vti.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct fixture {
+  fg_context *context;
+  char folder[64];
+  char path[128];
+} fixture;
+
+static int set_up(void **state)
+{
+  fixture *f = calloc(1, sizeof *f);
+  if (!f || fg_context_create(&f->context) != FG_STATUS_OK)
+    return -1;
+  strcpy(f->folder, "/tmp/flowgrain-write-XXXXXX");
+  if (!mkdtemp(f->folder))
+    return -1;
+  *state = f;
+  return 0;
+}
+
+static int tear_down(void **state)
+{
+  fixture *f = *state;
+  if (f->path[0])
+    unlink(f->path);
+  int left = rmdir(f->folder); /* fails when a temporary file was left behind */
+  fg_context_destroy(f->context);
+  free(f);
+  return left;
+}
+
+static const char *path_of(fixture *f, const char *name)
+{
+  snprintf(f->path, sizeof f->path, "%s/%s", f->folder, name);
+  return f->path;
+}
+
+static fg__vti_values values_of(const fg__vti *vti, fg__vti_place place, const char *name)
+{
+  const fg__vti_array *array = fg__vti_find(vti, 0, place, name);
+  assert_non_null(array);
+  size_t count;
+  fg__vti_values values;
+  assert_true(fg__vti_count(&count, vti->extent, place));
+  assert_int_equal(fg__vti_values_create(&values, vti, array, count), FG_STATUS_OK);
+  return values;
+}
+
+/* 6 x 5 nodes, periodic along x: a cluster across the border, one within, a masked cell.
+ */
+static void a_density_shows_clusters_and_mask(void **state)
+{
+  fixture *f = *state;
+  enum { WIDE = 6, HIGH = 5 };
+  float u[WIDE * HIGH];
+  unsigned char active[WIDE * (HIGH - 1)];
+  memset(active, 1, sizeof active);
+  active[2 * WIDE + 4] = 0;
+  for (size_t i = 0; i < WIDE * HIGH; ++i)
+    u[i] = -0.5f;
+  u[0] = u[5] = u[6] = u[11] = 0.75f;
+  u[3 * WIDE + 2] = u[3 * WIDE + 3] = 0.25f;
+  fg_density *density = NULL;
+  assert_int_equal(
+      fg_density_create_from_arrays(&density, f->context,
+                                    &(fg_density_arrays){.dimension = 2,
+                                                         .nodes = {WIDE, HIGH},
+                                                         .origin = {-1, 2},
+                                                         .spacing = {0.5, 0.25},
+                                                         .periodic = {true, false},
+                                                         .u = u,
+                                                         .active = active,
+                                                         .time = 1e-4}),
+      FG_STATUS_OK);
+  assert_int_equal(fg_density_write(f->context, path_of(f, "u.png"), density),
+                   FG_STATUS_UNSUPPORTED);
+  fg_context_clear(f->context);
+  assert_int_equal(fg_density_write(f->context, path_of(f, "u.vti"), density),
+                   FG_STATUS_OK);
+
+  fg__source source;
+  fg__vti vti;
+  assert_int_equal(fg__source_open(&source, f->context, f->path), FG_STATUS_OK);
+  assert_int_equal(fg__vti_open(&vti, f->context, &source), FG_STATUS_OK);
+  assert_int_equal(vti.extent[1], WIDE); /* the first column again at the end */
+  assert_int_equal(vti.extent[3], HIGH - 1);
+  assert_true(vti.origin[0] == -1.0 && vti.spacing[1] == 0.25);
+  fg__vti_values found = values_of(&vti, FG__VTI_POINTS, "u");
+  fg__vti_values cluster = values_of(&vti, FG__VTI_POINTS, "cluster");
+  fg__vti_values ghost = values_of(&vti, FG__VTI_CELLS, "vtkGhostType");
+  for (size_t y = 0; y < HIGH; ++y)
+    for (size_t x = 0; x <= WIDE; ++x) {
+      size_t at = y * (WIDE + 1) + x, node = y * WIDE + x % WIDE;
+      assert_true(fg__vti_value(&found, at) == (double)u[node]);
+      double label = u[node] < 0.0f ? 0.0 : y < 2 ? 1.0 : 2.0;
+      assert_true(fg__vti_value(&cluster, at) == label);
+    }
+  for (size_t i = 0; i < sizeof active; ++i)
+    assert_true(fg__vti_value(&ghost, i) == (active[i] ? 0.0 : 32.0));
+  const fg__vti_array *time = fg__vti_find(&vti, 0, FG__VTI_FIELD, "TimeValue");
+  assert_non_null(time);
+  assert_non_null(strstr(time->text, "0.0001"));
+  fg__vti_values_clear(&ghost);
+  fg__vti_values_clear(&cluster);
+  fg__vti_values_clear(&found);
+  fg__vti_close(&vti);
+  fg__source_close(&source);
+  fg_density_destroy(density);
+}
+
+/* Three drops in 7 x 4 x 6 nodes, periodic along z: one across that border, one within,
+ * one that is debris; a masked cell. */
+static void a_density_in_space_comes_back(void **state)
+{
+  fixture *f = *state;
+  enum { WIDE = 7, HIGH = 4, DEEP = 6, CELLS = (WIDE - 1) * (HIGH - 1) * DEEP };
+  float u[WIDE * HIGH * DEEP];
+  unsigned char active[CELLS];
+  memset(active, 1, sizeof active);
+  active[(2 * 3 + 1) * 6 + 5] = 0;
+  for (size_t i = 0; i < WIDE * HIGH * DEEP; ++i)
+    u[i] = -0.5f - 0.001f * (float)i;
+#define AT(x, y, z) (((z)*HIGH + (y)) * WIDE + (x))
+  u[AT(1, 1, 0)] = u[AT(1, 1, 5)] = u[AT(1, 2, 5)] = 0.75f;
+  u[AT(4, 1, 2)] = u[AT(4, 1, 3)] = u[AT(4, 2, 3)] = 0.5f;
+  u[AT(6, 3, 1)] = 0.001f;
+  fg_density *density = NULL;
+  const fg_density_arrays arrays = {.dimension = 3,
+                                    .nodes = {WIDE, HIGH, DEEP},
+                                    .origin = {-1, 2, 30},
+                                    .spacing = {0.5, 0.25, 2.0},
+                                    .periodic = {false, false, true},
+                                    .u = u,
+                                    .active = active,
+                                    .debris_area = 0.1 * 0.25,
+                                    .time = 3e-5};
+  assert_int_equal(fg_density_create_from_arrays(&density, f->context, &arrays),
+                   FG_STATUS_OK);
+  assert_int_equal(fg_density_write(f->context, path_of(f, "u.vti"), density),
+                   FG_STATUS_OK);
+  fg__source source;
+  fg__vti vti;
+  assert_int_equal(fg__source_open(&source, f->context, f->path), FG_STATUS_OK);
+  assert_int_equal(fg__vti_open(&vti, f->context, &source), FG_STATUS_OK);
+  const int extent[6] = {0, WIDE - 1, 0, HIGH - 1, 0, DEEP};
+  assert_memory_equal(vti.extent, extent, sizeof extent);
+  assert_true(vti.origin[2] == 30.0 && vti.spacing[2] == 2.0);
+  fg__vti_values found = values_of(&vti, FG__VTI_POINTS, "u");
+  fg__vti_values cluster = values_of(&vti, FG__VTI_POINTS, "cluster");
+  fg__vti_values ghost = values_of(&vti, FG__VTI_CELLS, "vtkGhostType");
+  for (size_t z = 0; z <= DEEP; ++z)
+    for (size_t y = 0; y < HIGH; ++y)
+      for (size_t x = 0; x < WIDE; ++x) {
+        size_t at = AT(x, y, z), node = AT(x, y, z % DEEP);
+        double label = u[node] < 0.0f ? 0.0 : x == 1 ? 1.0 : x == 4 ? 2.0 : -1.0;
+        assert_true(fg__vti_value(&found, at) == (double)u[node]);
+        assert_true(fg__vti_value(&cluster, at) == label);
+      }
+#undef AT
+  for (size_t i = 0; i < CELLS; ++i)
+    assert_true(fg__vti_value(&ghost, i) == (active[i] ? 0.0 : 32.0));
+  fg__vti_values_clear(&ghost);
+  fg__vti_values_clear(&cluster);
+  fg__vti_values_clear(&found);
+  fg__vti_close(&vti);
+  fg__source_close(&source);
+  fg_density_destroy(density);
+}
+
+/* Stages that know two dimensions only say so. */
+static void icons_and_pictures_in_space_are_refused(void **state)
+{
+  fixture *f = *state;
+  float u[8] = {1, 1, -1, -1, -1, -1, -1, -1};
+  fg_density *density = NULL;
+  const fg_density_arrays arrays = {
+      .dimension = 3, .nodes = {2, 2, 2}, .spacing = {1, 1, 1}, .u = u};
+  assert_int_equal(fg_density_create_from_arrays(&density, f->context, &arrays),
+                   FG_STATUS_OK);
+  fg_field *field = NULL;
+  assert_int_equal(fg_field_create_analytic(&field, f->context, "vortex", 9),
+                   FG_STATUS_OK);
+  fg_icons *icons = NULL;
+  assert_int_equal(fg_icons_create(&icons, f->context, field, density, NULL),
+                   FG_STATUS_UNSUPPORTED);
+  assert_null(icons);
+  assert_non_null(strstr(fg_context_message(f->context), "3 dimensions"));
+  fg_context_clear(f->context);
+  fg_density *flat = NULL;
+  fg_density_arrays plane = arrays;
+  plane.dimension = 2;
+  assert_int_equal(fg_density_create_from_arrays(&flat, f->context, &plane),
+                   FG_STATUS_OK);
+  assert_int_equal(fg_icons_create(&icons, f->context, field, flat, NULL), FG_STATUS_OK);
+  assert_int_equal(
+      fg_picture_write(f->context, path_of(f, "a.svg"), field, density, icons, NULL),
+      FG_STATUS_UNSUPPORTED);
+  assert_non_null(strstr(fg_context_message(f->context), "3 dimensions"));
+  assert_int_equal(access(f->path, F_OK), -1);
+  fg_icons_destroy(icons);
+  fg_field_destroy(field);
+  fg_density_destroy(flat);
+  fg_density_destroy(density);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+  const struct CMUnitTest tests[] = {
+      TEST(a_density_shows_clusters_and_mask),
+      TEST(a_density_in_space_comes_back),
+      TEST(icons_and_pictures_in_space_are_refused),
+  };
+  return cmocka_run_group_tests_name("format/density_write", tests, NULL, NULL);
+}
