@@ -116,6 +116,13 @@ int command_draw(const cli_settings *settings)
     code = report_read(&report, settings->operand);
   if (code)
     goto cleanup;
+  if (report.dimension == 3) {
+    complain("%s: is a run in 3D, which has no icons to draw; its scale-NN.vti hold the "
+             "density and the clusters",
+             settings->operand);
+    code = EXIT_FAILED;
+    goto cleanup;
+  }
   int index = choose_scale(settings, &report);
   if (index < 0 || fg_context_create(&context)) {
     code = EXIT_FAILED;

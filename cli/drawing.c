@@ -89,9 +89,8 @@ static fg_status write_pictures(cli_drawing *drawing, int index,
   return status;
 }
 
-static fg_status draw(cli_drawing *drawing, int index, const fg_density *density)
+static fg_status draw_icons(cli_drawing *drawing, int index, const fg_density *density)
 {
-  const fg_density_arrays *moment = fg_density_contents(density);
   scale_result *result = &drawing->results[index];
   fg_icons *icons = NULL;
   double start = clock_seconds();
@@ -106,18 +105,31 @@ static fg_status draw(cli_drawing *drawing, int index, const fg_density *density
     speed_range(icons, drawing->speeds);
   if (!status)
     status = write_pictures(drawing, index, density, icons);
-  if (!status && drawing->settings->save_field)
-    status = write_density(drawing, index, density);
   drawing->picture_seconds += clock_seconds() - between;
   if (!status) {
     result->clusters = fg_icons_clusters(icons);
     result->icons = fg_icons_count(icons);
     result->dropped = fg_icons_dropped(icons);
-    result->time = moment->time;
-    result->energy = moment->energy;
-    result->area_fraction = moment->area_fraction;
   }
   fg_icons_destroy(icons);
+  return status;
+}
+
+static fg_status draw(cli_drawing *drawing, int index, const fg_density *density)
+{
+  const fg_density_arrays *moment = fg_density_contents(density);
+  scale_result *result = &drawing->results[index];
+  fg_status status = FG_STATUS_OK;
+  result->clusters = moment->clusters;
+  result->time = moment->time;
+  result->energy = moment->energy;
+  result->area_fraction = moment->area_fraction;
+  if (drawing_makes_icons(drawing))
+    status = draw_icons(drawing, index, density);
+  double start = clock_seconds();
+  if (!status && drawing_saves_field(drawing))
+    status = write_density(drawing, index, density);
+  drawing->picture_seconds += clock_seconds() - start;
   return status;
 }
 
@@ -203,6 +215,16 @@ fg_status drawing_finish(cli_drawing *drawing)
     drawing->threaded = false;
   }
   return drawing->status;
+}
+
+bool drawing_makes_icons(const cli_drawing *drawing)
+{
+  return fg_field_contents(drawing->field)->dimension == 2;
+}
+
+bool drawing_saves_field(const cli_drawing *drawing)
+{
+  return drawing->settings->save_field || !drawing_makes_icons(drawing);
 }
 
 int drawing_count(const cli_drawing *drawing)

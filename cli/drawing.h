@@ -1,4 +1,5 @@
-/* Icons, tables and pictures of the scales, made while the evolution goes on. */
+/* Icons, tables and pictures of the scales, made while the evolution goes on. In 3D a
+ * scale is the density and its clusters alone. */
 #ifndef DRAWING_H
 #define DRAWING_H
 
@@ -25,6 +26,10 @@ bool drawing_add(cli_drawing *drawing, fg_density *density, const int *wanted,
 
 /* Waits until all is drawn; the failure, if there was one, is in the context. */
 fg_status drawing_finish(cli_drawing *drawing);
+
+/* Whether scales have icons and pictures, and whether they have a file of the density. */
+bool drawing_makes_icons(const cli_drawing *drawing);
+bool drawing_saves_field(const cli_drawing *drawing);
 
 int drawing_count(const cli_drawing *drawing); /* scales added */
 int drawing_ready(cli_drawing *drawing);       /* scales drawn */

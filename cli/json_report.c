@@ -84,7 +84,8 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   cJSON_AddStringToObject(object, "mesh", "uniform");
   cJSON_AddStringToObject(object, "scheme", "euler");
   add_text(object, "energy", energy_words[said->energy]);
-  add_text(object, "extent", extent_words[said->extent]);
+  if (drawing_makes_icons(facts->drawing))
+    add_text(object, "extent", extent_words[said->extent]);
   cJSON_AddNumberToObject(object, "anisotropy", mesh->anisotropy);
   cJSON_AddNumberToObject(object, "coverage", mesh->coverage);
   cJSON_AddNumberToObject(object, "gamma", mesh->gamma);
@@ -103,6 +104,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
     cJSON_AddNumberToObject(object, "threads", said->threads);
 
   cJSON *made = cJSON_AddObjectToObject(root, "mesh");
+  cJSON_AddNumberToObject(made, "dimension", mesh->dimension);
   cJSON_AddItemToObject(made, "cells",
                         cJSON_CreateIntArray(mesh->cells, mesh->dimension));
   add_numbers(made, "spacing", mesh->spacing, mesh->dimension);
@@ -112,35 +114,40 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   add_text(made, "kernel", mesh->kernel);
 }
 
+static void add_file(cJSON *scale, int index, const char *end)
+{
+  char name[32];
+  snprintf(name, sizeof name, "scale-%02d.%s", index, end);
+  cJSON_AddStringToObject(scale, end, name);
+}
+
 static void add_scale(cJSON *scales, const run_facts *facts, int index)
 {
   static const char *const ends[FORMAT_KINDS] = {"svg", "png", "pdf"};
   const scale_result *result = drawing_result(facts->drawing, index);
+  bool icons = drawing_makes_icons(facts->drawing);
   unsigned formats = facts->settings->formats;
   if (!formats)
     formats = FORMAT_SVG | FORMAT_PNG;
-  char name[32];
   cJSON *scale = cJSON_CreateObject();
   cJSON_AddNumberToObject(scale, "index", index);
   cJSON_AddNumberToObject(scale, "clusters", result->clusters);
-  cJSON_AddNumberToObject(scale, "icons", result->icons);
-  cJSON_AddNumberToObject(scale, "dropped", result->dropped);
+  if (icons) {
+    cJSON_AddNumberToObject(scale, "icons", result->icons);
+    cJSON_AddNumberToObject(scale, "dropped", result->dropped);
+  }
   cJSON_AddItemToObject(scale, "wanted",
                         cJSON_CreateIntArray(result->wanted, result->wanted_count));
   cJSON_AddNumberToObject(scale, "time", result->time);
   cJSON_AddNumberToObject(scale, "energy", result->energy);
   cJSON_AddNumberToObject(scale, "area_fraction", result->area_fraction);
-  snprintf(name, sizeof name, "scale-%02d.geojson", index);
-  cJSON_AddStringToObject(scale, "geojson", name);
-  for (int kind = 0; kind < FORMAT_KINDS; ++kind)
-    if (formats & (1U << kind)) {
-      snprintf(name, sizeof name, "scale-%02d.%s", index, ends[kind]);
-      cJSON_AddStringToObject(scale, ends[kind], name);
-    }
-  if (facts->settings->save_field) {
-    snprintf(name, sizeof name, "scale-%02d.vti", index);
-    cJSON_AddStringToObject(scale, "vti", name);
-  }
+  if (icons)
+    add_file(scale, index, "geojson");
+  for (int kind = 0; icons && kind < FORMAT_KINDS; ++kind)
+    if (formats & (1U << kind))
+      add_file(scale, index, ends[kind]);
+  if (drawing_saves_field(facts->drawing))
+    add_file(scale, index, "vti");
   cJSON_AddItemToArray(scales, scale);
 }
 
@@ -149,7 +156,8 @@ static void add_outcome(cJSON *root, const run_facts *facts)
   cJSON *scales = cJSON_AddArrayToObject(root, "scales");
   for (int k = 0; k < drawing_count(facts->drawing); ++k)
     add_scale(scales, facts, k);
-  add_numbers(root, "speed_range", drawing_speeds(facts->drawing), 2);
+  if (drawing_makes_icons(facts->drawing))
+    add_numbers(root, "speed_range", drawing_speeds(facts->drawing), 2);
   cJSON_AddStringToObject(root, "ended", facts->ended);
   cJSON *steps = cJSON_AddObjectToObject(root, "steps");
   cJSON_AddNumberToObject(steps, "accepted", (double)facts->accepted);
@@ -274,6 +282,8 @@ int report_read(cli_report *out, const char *folder)
     goto cleanup;
   out->tree = cJSON_Parse(text);
   fill_reading(out, cJSON_GetObjectItemCaseSensitive(out->tree, "input"));
+  const cJSON *mesh = cJSON_GetObjectItemCaseSensitive(out->tree, "mesh");
+  out->dimension = (int)number_of(mesh, "dimension", 2.0, 3.0, 2.0);
   const cJSON *scales = cJSON_GetObjectItemCaseSensitive(out->tree, "scales");
   out->scale_count = cJSON_GetArraySize(scales);
   const cJSON *range = cJSON_GetObjectItemCaseSensitive(out->tree, "speed_range");

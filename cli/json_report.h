@@ -26,6 +26,7 @@ typedef struct cli_report {
   fg_read_options reading;
   const char *input;          /* as it was given */
   const char *input_absolute; /* NULL: an analytic field */
+  int dimension;
   int scale_count;
   double speeds[2];
 } cli_report;

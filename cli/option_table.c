@@ -21,7 +21,9 @@ const cli_command command_table[] = {
      "every wanted number of clusters one scale into DIR: the icons as GeoJSON and their "
      "picture. DIR also gets run.json, which says all that was done, and evolution.csv, "
      "with a row for every time step. INPUT is a NetCDF file, VTK image data (.vti), or "
-     "synth:NAME for an analytic field (see flowgrain synth --help).",
+     "synth:NAME for an analytic field (see flowgrain synth --help). In 3D a scale is "
+     "the "
+     "density u and its clusters, without icons and pictures.",
      true, command_run},
     {COMMAND_DRAW, "draw", "DIR", "DIR -o PICTURE [options]",
      "draw one scale of a finished run again, in another style",
@@ -68,7 +70,7 @@ const option_entry option_table[] = {
      "projected plane) or `plain` [auto: from units and axes]"},
 
     {"nodes", 0, "N", COMMAND_RUN, OPTION_WHOLE, AT(nodes), 17, 16385, false, false, NULL,
-     "nodes of the mesh along its longest side [257]"},
+     "nodes of the mesh along its longest side [257 in 2D, 65 in 3D]"},
     {"nodes", 0, "N", COMMAND_SYNTH, OPTION_WHOLE, AT(nodes), 2, 16385, false, false,
      NULL, "samples a side [257 in 2D, 65 in 3D]"},
     {"mesh", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(mesh), 0, 0, false, false,
@@ -82,7 +84,7 @@ const option_entry option_table[] = {
      "cost of an interface along the flow against one across it, in (0,1]; clusters "
      "become about 1/sqrt(A) times as long as wide [0.15]"},
     {"coverage", 0, "C", COMMAND_RUN, OPTION_NUMBER, AT(coverage), 0, 1, true, true, NULL,
-     "share of the area that clusters shall cover, in (0,1) [0.3]"},
+     "share of the area (volume) that clusters shall cover, in (0,1) [0.3]"},
     {"gamma", 0, "G", COMMAND_RUN, OPTION_NUMBER, AT(gamma), 0, 1, true, false, NULL,
      "interface energy, in units of the longest side squared [(1.1 h)^2 / A for cells of "
      "size h; isotropic (1.5 h)^2]"},
@@ -103,7 +105,9 @@ const option_entry option_table[] = {
     {"threads", 0, "N", COMMAND_RUN, OPTION_WHOLE, AT(threads), 1, 4096, false, false,
      NULL, "threads to use; the result does not depend on it [all cores]"},
     {"save-field", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(save_field), 0, 0, false, false,
-     NULL, "also write the density u of every scale (scale-NN.vti)"},
+     NULL,
+     "also write the density u and the clusters of every scale (scale-NN.vti); always "
+     "done in 3D"},
 
     {"scale-index", 0, "I", COMMAND_DRAW, OPTION_WHOLE, AT(scale_index), 0,
      MAX_SCALES - 1, false, false, NULL,

@@ -124,6 +124,26 @@ static void say_choices(const cli_run *run)
   say_choice(said->operand, "level", said->level, run->facts.level_count, field->level);
 }
 
+static void print_mesh(const fg_mesh_info *mesh)
+{
+  fprintf(stderr, "flowgrain: mesh %d x %d", mesh->cells[0], mesh->cells[1]);
+  if (mesh->dimension == 3)
+    fprintf(stderr, " x %d", mesh->cells[2]);
+  fprintf(stderr, " cells (%ld active), a = %g, coverage %g, gamma %g, %s kernel\n",
+          mesh->active_cells, mesh->anisotropy, mesh->coverage, mesh->gamma,
+          mesh->kernel);
+}
+
+/* What of this version's results a field in 3D does not get. */
+static void say_what_is_left_out(const cli_run *run)
+{
+  if (fg_field_contents(run->field)->dimension == 3)
+    fprintf(stderr,
+            "flowgrain: %s: in 3D, so a scale is the density u and its clusters "
+            "(scale-NN.vti), without icons and pictures\n",
+            run->settings->operand);
+}
+
 static int create_evolution(cli_run *run)
 {
   fg_evolution_options options = settings_evolution(run->settings);
@@ -134,11 +154,7 @@ static int create_evolution(cli_run *run)
   const fg_mesh_info *mesh = fg_evolution_mesh(run->evolution);
   run->facts.mesh = mesh;
   if (run->settings->verbose)
-    fprintf(stderr,
-            "flowgrain: mesh %d x %d cells (%ld active), a = %g, coverage %g, gamma %g, "
-            "%s kernel\n",
-            mesh->cells[0], mesh->cells[1], mesh->active_cells, mesh->anisotropy,
-            mesh->coverage, mesh->gamma, mesh->kernel);
+    print_mesh(mesh);
   return EXIT_DONE;
 }
 
@@ -180,7 +196,7 @@ static void record_step(cli_run *run, const fg_step *before)
   if (before->step && step->energy > before->energy)
     run->facts.energy_monotone = false;
   /* masses are in units of the longest side; the initial one is known by construction */
-  double measure = mesh->domain_measure / (mesh->length * mesh->length);
+  double measure = mesh->domain_measure / pow(mesh->length, mesh->dimension);
   double drift = fabs(step->mass / measure - (2.0 * mesh->coverage - 1.0));
   if (drift > run->facts.mass_drift)
     run->facts.mass_drift = drift;
@@ -306,6 +322,7 @@ static int write_results(cli_run *run)
 static void print_summary(const cli_run *run)
 {
   static const char *const ends[FORMAT_KINDS] = {"svg", "png", "pdf"};
+  bool icons = drawing_makes_icons(run->drawing);
   unsigned formats = run->settings->formats;
   int kind = 0;
   while (kind < FORMAT_KINDS - 1 && formats && !(formats & (1U << kind)))
@@ -313,10 +330,13 @@ static void print_summary(const cli_run *run)
   for (int k = 0; k < drawing_count(run->drawing); ++k) {
     const scale_result *result = drawing_result(run->drawing, k);
     char name[32];
-    snprintf(name, sizeof name, "scale-%02d.%s", k, ends[kind]);
+    snprintf(name, sizeof name, "scale-%02d.%s", k, icons ? ends[kind] : "vti");
     char *path = join_path(run->settings->output, name);
-    printf("%4d clusters %4d icons  %s\n", result->clusters, result->icons,
-           path ? path : name);
+    if (icons)
+      printf("%4d clusters %4d icons  %s\n", result->clusters, result->icons,
+             path ? path : name);
+    else
+      printf("%4d clusters  %s\n", result->clusters, path ? path : name);
     free(path);
   }
 }
@@ -330,6 +350,7 @@ static int work(cli_run *run)
     return code;
   count_choices(run);
   say_choices(run);
+  say_what_is_left_out(run);
   run->facts.seconds_read = clock_seconds() - run->start;
   code = create_evolution(run);
   if (!code)

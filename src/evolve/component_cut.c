@@ -49,19 +49,20 @@ static void mark(cutter *c, int j, int k)
   const fg__shape *s = &c->shape;
   const float *u = fg__shape_row(s, j, k);
   int width = s->nodes[0];
+  unsigned char *marks = c->marks, *cells = c->cells;
   for (int x = 0; x < width; ++x)
-    c->marks[x] = u[x] > 0.0F;
+    marks[x] = u[x] > 0.0F;
   if (!s->active)
     return;
   fg__gate gate = fg__gate_of(s, j - 1, j, k - 1, k);
   for (int x = -1; x < width; ++x) {
     int cell = fg__shape_cell(s, 0, x);
-    c->cells[x] = 0;
+    cells[x] = 0;
     for (int n = 0; n < gate.count && cell != FG__NOWHERE; ++n)
-      c->cells[x] = (unsigned char)(c->cells[x] + (gate.row[n][cell] != 0));
+      cells[x] = (unsigned char)(cells[x] + (gate.row[n][cell] != 0));
   }
   for (int x = 0; x < width; ++x)
-    c->marks[x] = c->marks[x] && (c->cells[x - 1] || c->cells[x]);
+    marks[x] = marks[x] && (cells[x - 1] || cells[x]);
 }
 
 /* Eight marks, the first in the lowest byte. */
@@ -150,11 +151,12 @@ static void count_steps(const float *u, const float *before, const float *after,
 
 static void add_run(cutter *c, int first, int last, const int *steps)
 {
-  struct fg__run *run = &c->components->run[c->run_count];
-  *run = (struct fg__run){.parent = c->run_count, .first = first, .last = last};
+  int64_t size = 0;
   for (int x = first; x <= last; ++x)
-    run->size += steps[x];
-  ++c->run_count;
+    size += steps[x];
+  int number = c->run_count++;
+  c->components->run[number] =
+      (struct fg__run){.parent = number, .first = first, .last = last, .size = size};
 }
 
 /* Cuts row (j, k) into runs; returns what they cover. */
