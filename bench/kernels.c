@@ -1,14 +1,18 @@
 /* Times the evolution's inner loops, one line each: microseconds and nanoseconds a node.
- * Usage: bench_kernels [CELLS ...]; least of 30 repetitions, one thread. */
+ * Usage: bench_kernels [CELLS[x3] ...], x3 for a cube; least of 30 repetitions, one
+ * thread. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "base/memory.h"
-#include "evolve/multigrid.h"
+#include "evolve/passes.h"
 
 enum { REPETITIONS = 30, CALLS = 5 };
+
+static const fg__share ALONE = {.members = 1};
 
 typedef struct subject {
   fg__multigrid multigrid;
@@ -20,36 +24,37 @@ typedef void operation(const subject *s);
 
 static void smooth(const subject *s)
 {
-  s->multigrid.kernel->smooth(&s->multigrid.level[0], s->tau);
+  s->multigrid.kernel->smooth(&s->multigrid.level[0], s->tau, &ALONE);
 }
 
 static void descend(const subject *s)
 {
   s->multigrid.kernel->smooth_restrict(&s->multigrid.level[0], &s->multigrid.level[1],
-                                       s->tau);
+                                       s->tau, &ALONE);
 }
 
 static void ascend(const subject *s)
 {
   s->multigrid.kernel->prolong_smooth(&s->multigrid.level[1], &s->multigrid.level[0],
-                                      s->tau);
+                                      s->tau, &ALONE);
 }
 
 static void cycle(const subject *s)
 {
-  fg__multigrid_cycle(&s->multigrid, (double)s->tau);
+  fg__pass_cycle(&s->multigrid, (double)s->tau, NULL);
 }
 
 static void evaluate(const subject *s)
 {
   const fg__level *level = &s->multigrid.level[0];
-  s->multigrid.kernel->evaluate(level, level->u, s->potential);
+  s->multigrid.kernel->evaluate(level, level->u, s->potential, &ALONE);
 }
 
 static void changes(const subject *s)
 {
   const fg__level *level = &s->multigrid.level[0];
-  s->multigrid.kernel->changes(level, level->u, s->previous, s->potential, level->p);
+  s->multigrid.kernel->changes(level, level->u, s->previous, s->potential, level->p,
+                               &ALONE);
 }
 
 static double now(void)
@@ -72,49 +77,71 @@ static double least_seconds(operation *run, const subject *s)
 }
 
 /* A turning field with the default anisotropy and interface width. */
-static fg_status prepare(subject *s, fg_context *context, int cells)
+static void fill_tensor(const fg__tensor *tensor, size_t count, int cells, double a)
 {
-  const double anisotropy = 0.15, interface_cells = 1.1;
-  size_t count = (size_t)cells * (size_t)cells;
-  fg__tensor tensor = {fg__allocate(count, sizeof(float)),
-                       fg__allocate(count, sizeof(float)),
-                       fg__allocate(count, sizeof(float)), fg__allocate(count, 1)};
-  if (!tensor.xx || !tensor.xy || !tensor.yy || !tensor.active)
-    return FG_STATUS_MEMORY;
   for (size_t n = 0; n < count; ++n) {
     double angle =
         3.0 * (double)(n % (size_t)cells) / cells + 2.0 * (double)n / (double)count;
     double x = cos(angle), y = sin(angle);
-    tensor.xx[n] = (float)(x * x + anisotropy * y * y);
-    tensor.xy[n] = (float)((1.0 - anisotropy) * x * y);
-    tensor.yy[n] = (float)(y * y + anisotropy * x * x);
-    tensor.active[n] = 1;
+    tensor->xx[n] = (float)(x * x + a * y * y);
+    tensor->xy[n] = (float)((1.0 - a) * x * y);
+    tensor->yy[n] = (float)(y * y + a * x * x);
+    tensor->active[n] = 1;
+    if (tensor->zz)
+      tensor->zz[n] = (float)a;
   }
-  double h = 1.0 / cells, width = interface_cells * h;
-  fg__mesh mesh = {.cells = {cells, cells}, .spacing = {h, h}};
-  fg__tile tile = {.cells = {cells, cells}};
-  fg_status status = fg__multigrid_create(&s->multigrid, context, &mesh, &tile, &tensor,
-                                          width * width / anisotropy);
-  free(tensor.xx);
-  free(tensor.xy);
-  free(tensor.yy);
+}
+
+static fg_status create_multigrid(subject *s, fg_context *context, int cells,
+                                  int dimension)
+{
+  const double anisotropy = 0.15, interface_cells = 1.1;
+  size_t count = (size_t)pow(cells, dimension);
+  fg__tensor tensor = {.active = fg__allocate(count, 1)};
+  float **components[6] = {&tensor.xx, &tensor.xy, &tensor.yy,
+                           &tensor.zz, &tensor.xz, &tensor.yz};
+  bool whole = tensor.active;
+  for (int n = 0; n < (dimension == 3 ? 6 : 3); ++n) {
+    *components[n] = fg__allocate(count, sizeof(float));
+    whole = whole && *components[n];
+  }
+  fg_status status = FG_STATUS_MEMORY;
+  double h = 1.0 / cells, width = interface_cells * h, gamma = width * width / anisotropy;
+  if (whole) {
+    fill_tensor(&tensor, count, cells, anisotropy);
+    fg__mesh mesh = {.dimension = dimension, .spacing = {h, h, h}};
+    fg__tile tile = {.cells = {cells, cells, dimension == 3 ? cells : 1}};
+    status =
+        fg__multigrid_create(&s->multigrid, context, &mesh, &tile, &tensor, gamma, 1);
+  }
+  for (int n = 0; n < 6; ++n)
+    free(*components[n]);
   free(tensor.active);
+  s->tau = (float)(100.0 * pow(h, 4.0) / gamma);
+  return status;
+}
+
+static fg_status prepare(subject *s, fg_context *context, int cells, int dimension)
+{
+  fg_status status = create_multigrid(s, context, cells, dimension);
   if (status)
     return status;
   fg__level *level = &s->multigrid.level[0];
-  s->previous = fg__allocate_aligned(2 * level->array_size, sizeof(float));
+  const fg__layout *at = &level->layout;
+  s->previous = fg__allocate_aligned(2 * at->array_size, sizeof(float));
   if (!s->previous)
     return FG_STATUS_MEMORY;
-  s->previous += level->first;
-  s->potential = s->previous + level->array_size;
-  for (int j = 0; j < level->rows; ++j)
-    for (int i = 0; i < level->columns; ++i) {
-      *fg__node(level, level->u, i, j) = (float)(sin(0.11 * i) * cos(0.07 * j));
-      *fg__node(level, level->p, i, j) = *fg__node(level, level->u, i, j);
-    }
+  s->previous += at->first;
+  s->potential = s->previous + at->array_size;
+  for (int k = 0; k < at->nodes[2]; ++k)
+    for (int j = 0; j < at->nodes[1]; ++j)
+      for (int i = 0; i < at->nodes[0]; ++i) {
+        float value = (float)(sin(0.11 * i) * cos(0.07 * j + 0.13 * k));
+        *fg__node(level, level->u, i, j, k) = value;
+        *fg__node(level, level->p, i, j, k) = value;
+      }
   fg__fill_ghosts(level, level->u);
-  s->multigrid.kernel->evaluate(level, level->u, level->w);
-  s->tau = (float)(100.0 * pow(h, 4.0) / (width * width / anisotropy));
+  s->multigrid.kernel->evaluate(level, level->u, level->w, &ALONE);
   return FG_STATUS_OK;
 }
 
@@ -127,25 +154,26 @@ static const struct {
 
 int main(int argc, char **argv)
 {
-  int sizes[] = {128, 256, 512, 1024};
-  int count = argc > 1 ? argc - 1 : 4;
+  const char *standard[] = {"128", "256", "512", "1024", "64x3", "128x3"};
+  int count = argc > 1 ? argc - 1 : 6;
   for (int n = 0; n < count; ++n) {
-    int cells = argc > 1 ? atoi(argv[n + 1]) : sizes[n];
+    const char *size = argc > 1 ? argv[n + 1] : standard[n];
+    int cells = atoi(size), dimension = strstr(size, "x3") ? 3 : 2;
     fg_context *context;
     subject s = {0};
     if (cells < 16 || cells % 8 || fg_context_create(&context) ||
-        prepare(&s, context, cells)) {
-      fprintf(stderr, "bench_kernels: %d cells a side: not possible\n", cells);
+        prepare(&s, context, cells, dimension)) {
+      fprintf(stderr, "bench_kernels: %s cells a side: not possible\n", size);
       return 1;
     }
     const fg__level *level = &s.multigrid.level[0];
-    double nodes = (double)level->columns * (double)level->rows;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; ++k) {
       double seconds = least_seconds(table[k].run, &s);
-      printf("%-8s %5d^2  %-24s %10.1f us %8.3f ns/node\n", s.multigrid.kernel->name,
-             cells + 1, table[k].name, 1e6 * seconds, 1e9 * seconds / nodes);
+      printf("%-8s %5d^%d  %-24s %10.1f us %8.3f ns/node\n", s.multigrid.kernel->name,
+             cells + 1, dimension, table[k].name, 1e6 * seconds,
+             1e9 * seconds / level->nodes);
     }
-    free(s.previous - level->first);
+    free(s.previous - level->layout.first);
     fg__multigrid_clear(&s.multigrid);
     fg_context_destroy(context);
   }

@@ -99,7 +99,8 @@ static char *describe(const fg_evolution *e, const char *note)
 
 static size_t node_count(const fg__level *level)
 {
-  return (size_t)level->columns * (size_t)level->rows;
+  const int *nodes = level->layout.nodes;
+  return (size_t)nodes[0] * (size_t)nodes[1] * (size_t)nodes[2];
 }
 
 /* The part of a grid that a level covers. */
@@ -108,10 +109,10 @@ static void set_box(fg__box_record *record, const fg_evolution *e,
 {
   *record = (fg__box_record){.grid = array->grid, .nodes = {1, 1, 1}};
   snprintf(record->array, sizeof record->array, "%s", array->name);
-  for (int k = 0; k < 2; ++k)
+  for (int k = 0; k < e->mesh.dimension; ++k) {
     record->first[k] = e->mesh.tile[0].first[k] >> array->grid;
-  record->nodes[0] = array->level->columns;
-  record->nodes[1] = array->level->rows;
+    record->nodes[k] = array->level->layout.nodes[k];
+  }
 }
 
 fg_status fg_evolution_save(const fg_evolution *evolution, const char *path,

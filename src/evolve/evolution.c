@@ -8,7 +8,7 @@
 #include "field/fingerprint.h"
 
 /* Defaults that give the paper's pictures (design.md section 2). */
-enum { DEFAULT_NODES = 257, DEFAULT_SEED = 1, DEFAULT_CYCLES = 2 };
+enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1, DEFAULT_CYCLES = 2 };
 static const double default_anisotropy = 0.15, default_coverage = 0.3;
 static const double default_accuracy = 0.05;
 /* Half-width of an interface along the stream in cells; at 1 an isotropic pattern pins.
@@ -25,9 +25,10 @@ static const double most_initial = 10.0;
  * theory. */
 static const double nucleated = 0.8;
 
-/* Debris: less than this many squares of the interface width across the stream,
- * sqrt(gamma a); about a dozen cells by default. Such a drop is all interface. */
-static const double debris_squares = 10.0;
+/* Debris: less than this many squares (in 3D cubes) of the interface width across the
+ * stream, sqrt(gamma a); about a dozen cells by default, balls of the same radius in 3D.
+ * Such a drop is all interface. */
+static const double debris_squares = 10.0, debris_cubes = 24.0;
 
 /* The first step, as a share of the fastest growth time of linear theory. */
 static const double first_step_share = 1e-3;
@@ -44,10 +45,11 @@ static fg_status check_range(fg_context *context, const char *name, double value
                   low_included ? '[' : '(', low, high);
 }
 
-static fg_status settle_options(fg_evolution_options *o, fg_context *context)
+static fg_status settle_options(fg_evolution_options *o, fg_context *context,
+                                int dimension)
 {
   if (o->nodes == 0)
-    o->nodes = DEFAULT_NODES;
+    o->nodes = dimension == 3 ? DEFAULT_NODES_3D : DEFAULT_NODES;
   if (o->energy == FG_ENERGY_ISOTROPIC)
     o->anisotropy = 1.0;
   else if (o->anisotropy == 0.0)
@@ -78,13 +80,9 @@ static fg_status settle_options(fg_evolution_options *o, fg_context *context)
 static fg_status create_mesh(fg_evolution *e, const fg_field *field)
 {
   const fg_field_arrays *arrays = fg_field_contents(field);
-  if (arrays->dimension != 2)
-    return fg__fail(e->context, FG_STATUS_UNSUPPORTED,
-                    "the field has %d dimensions; this version evolves 2",
-                    arrays->dimension);
   fg__mesh_description description = {.dimension = arrays->dimension,
                                       .nodes = e->options.nodes};
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < arrays->dimension; ++k) {
     description.origin[k] = arrays->axis[k][0];
     description.periodic[k] = arrays->period[k] > 0.0;
     description.side[k] = description.periodic[k]
@@ -99,44 +97,82 @@ static fg_status create_mesh(fg_evolution *e, const fg_field *field)
   return status;
 }
 
+static double largest_spacing(const fg_evolution *e)
+{
+  double h = 0.0;
+  for (int k = 0; k < e->mesh.dimension; ++k)
+    h = fmax(h, e->mesh.spacing[k]);
+  return h;
+}
+
+static double cell_volume(const fg_evolution *e)
+{
+  double volume = 1.0;
+  for (int k = 0; k < e->mesh.dimension; ++k)
+    volume *= e->mesh.spacing[k];
+  return volume;
+}
+
 static double interface_energy(const fg_evolution *e)
 {
-  double h = fmax(e->mesh.spacing[0], e->mesh.spacing[1]);
+  double h = largest_spacing(e);
   bool isotropic = e->options.energy == FG_ENERGY_ISOTROPIC;
   double width = (isotropic ? isotropic_interface_cells : interface_cells) * h;
   return e->options.gamma > 0.0 ? e->options.gamma
                                 : width * width / e->options.anisotropy;
 }
 
+static fg_status allocate_tensor(fg_evolution *e)
+{
+  float **arrays[] = {&e->tensor.xx, &e->tensor.xy, &e->tensor.yy,
+                      &e->tensor.zz, &e->tensor.xz, &e->tensor.yz};
+  int count = e->mesh.dimension == 3 ? 6 : 3;
+  bool whole = true;
+  for (int n = 0; n < count; ++n) {
+    *arrays[n] = fg__allocate(e->cells, sizeof **arrays[n]);
+    whole = whole && *arrays[n];
+  }
+  e->tensor.active = fg__allocate(e->cells, 1);
+  if (whole && e->tensor.active)
+    return FG_STATUS_OK;
+  return fg__fail_memory(e->context, "the tensor",
+                         e->cells * ((size_t)count * sizeof(float) + 1));
+}
+
+static void free_tensor(fg_evolution *e)
+{
+  float **arrays[] = {&e->tensor.xx, &e->tensor.xy, &e->tensor.yy,
+                      &e->tensor.zz, &e->tensor.xz, &e->tensor.yz};
+  for (int n = 0; n < 6; ++n) {
+    free(*arrays[n]);
+    *arrays[n] = NULL;
+  }
+}
+
 static fg_status create_tensor(fg_evolution *e, const fg_field *field)
 {
-  size_t count = (size_t)e->mesh.cells[0] * (size_t)e->mesh.cells[1];
-  e->tensor.xx = fg__allocate(count, sizeof(float));
-  e->tensor.xy = fg__allocate(count, sizeof(float));
-  e->tensor.yy = fg__allocate(count, sizeof(float));
-  e->tensor.active = fg__allocate(count, 1);
-  if (!e->tensor.xx || !e->tensor.xy || !e->tensor.yy || !e->tensor.active)
-    return fg__fail_memory(e->context, "the tensor", count * (3 * sizeof(float) + 1));
-  fg__cells cells = {.dimension = 2};
-  bool periodic[3] = {e->mesh.periodic[0], e->mesh.periodic[1], false};
-  for (int k = 0; k < 2; ++k) {
+  fg_status status = allocate_tensor(e);
+  if (status)
+    return status;
+  fg__cells cells = {.dimension = e->mesh.dimension};
+  for (int k = 0; k < e->mesh.dimension; ++k) {
     cells.count[k] = e->mesh.cells[k];
     cells.origin[k] = e->mesh.origin[k];
     cells.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
   }
-  fg_status status = fg__tensor_fill(&e->tensor, e->context, field, e->options.energy,
-                                     e->options.anisotropy, &cells);
+  status = fg__tensor_fill(&e->tensor, e->context, field, e->options.energy,
+                           e->options.anisotropy, &cells);
   if (status || e->options.energy != FG_ENERGY_FLOW)
     return status;
   /* an interface across the stream is sqrt(gamma) wide */
   double width = sqrt(interface_energy(e)) * e->mesh.length;
   return fg__tensor_smooth(&e->tensor, e->context, e->options.anisotropy, &cells,
-                           periodic, width);
+                           e->mesh.periodic, width);
 }
 
 static fg_status check_interface(const fg_evolution *e)
 {
-  double h = fmax(e->mesh.spacing[0], e->mesh.spacing[1]);
+  double h = largest_spacing(e);
   double cells = sqrt(e->info.gamma * e->options.anisotropy) / h;
   if (cells >= least_interface_cells)
     return FG_STATUS_OK;
@@ -147,11 +183,10 @@ static fg_status check_interface(const fg_evolution *e)
   return FG_STATUS_ARGUMENT;
 }
 
-static fg_status check_initial(const fg_evolution *e, const fg__level *level)
+static fg_status check_initial(const fg_evolution *e)
 {
   const float *u = e->options.initial;
-  size_t count = (size_t)level->columns * (size_t)level->rows;
-  for (size_t n = 0; u && n < count; ++n)
+  for (size_t n = 0; u && n < e->nodes; ++n)
     if (!(fabs((double)u[n]) <= most_initial))
       return fg__fail(e->context, FG_STATUS_ARGUMENT,
                       "initial density %g at node %zu; at most %g in size is possible",
@@ -173,101 +208,124 @@ static double growth_rate(const fg_evolution *e)
  * and the pattern does not. */
 static double most_step(const fg_evolution *e)
 {
-  double cell_area = e->mesh.spacing[0] * e->mesh.spacing[1];
+  double h = pow(cell_volume(e), 1.0 / e->mesh.dimension);
   double first = first_step_share / growth_rate(e);
-  return fmax(most_stiffness * cell_area * cell_area / e->info.gamma, first);
+  return fmax(most_stiffness * h * h * h * h / e->info.gamma, first);
+}
+
+/* Nodes along an axis; the repeated last one of a periodic axis is left out. */
+static int nodes_along(const fg__mesh *mesh, int axis)
+{
+  if (axis >= mesh->dimension)
+    return 1;
+  return mesh->periodic[axis] ? mesh->cells[axis] : mesh->cells[axis] + 1;
+}
+
+static void count_cells(fg_evolution *e)
+{
+  e->nodes = e->cells = 1;
+  for (int k = 0; k < e->mesh.dimension; ++k) {
+    e->nodes *= (size_t)nodes_along(&e->mesh, k);
+    e->cells *= (size_t)e->mesh.cells[k];
+  }
 }
 
 static void describe(fg_evolution *e)
 {
-  e->info = (fg_mesh_info){.dimension = 2,
+  int dimension = e->mesh.dimension;
+  e->info = (fg_mesh_info){.dimension = dimension,
+                           .cells = {1, 1, 1},
                            .gamma = interface_energy(e),
                            .anisotropy = e->options.anisotropy,
                            .coverage = e->options.coverage,
                            .length = e->mesh.length};
-  long count = 1;
   double cell = 1.0;
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < dimension; ++k) {
     e->info.cells[k] = e->mesh.cells[k];
     e->info.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
     cell *= e->info.spacing[k];
-    count *= e->mesh.cells[k];
   }
-  e->info.cells[2] = 1;
-  for (long n = 0; n < count; ++n)
+  for (size_t n = 0; n < e->cells; ++n)
     e->info.active_cells += e->tensor.active[n];
   e->info.domain_measure = cell * (double)e->info.active_cells;
-  e->debris_area = debris_squares * e->info.gamma * e->info.anisotropy /
-                   (e->mesh.spacing[0] * e->mesh.spacing[1]);
+  double width = sqrt(e->info.gamma * e->info.anisotropy);
+  double debris = dimension == 3 ? debris_cubes * width * width * width
+                                 : debris_squares * width * width;
+  e->debris_area = debris / cell_volume(e);
 }
 
 static void clear_dead_nodes(const fg__level *level, float *u)
 {
   if (!level->mass)
     return;
-  for (size_t n = 0; n < level->array_size; ++n)
-    if ((level->mass - level->first)[n] == 0.0F)
-      (u - level->first)[n] = 0.0F;
+  for (size_t n = 0; n < level->layout.array_size; ++n)
+    if ((level->mass - level->layout.first)[n] == 0.0F)
+      (u - level->layout.first)[n] = 0.0F;
 }
 
 /* Noise about the mean, then shifted so that the mean is met exactly. */
+static void fill_with_noise(fg_evolution *e, const fg__level *level)
+{
+  double mean = 2.0 * e->options.coverage - 1.0;
+  double correlation = sqrt(e->info.gamma * e->options.anisotropy);
+  const int *nodes = level->layout.nodes;
+  fg__noise noise = fg__noise_of(e->mesh.dimension, e->mesh.cells, e->mesh.spacing,
+                                 e->mesh.periodic, mean, correlation, e->options.seed);
+  float *row = e->plain;
+  for (int k = 0; k < nodes[2]; ++k)
+    for (int j = 0; j < nodes[1]; ++j, row += nodes[0])
+      fg__noise_row(&noise, j, k, 0, nodes[0], row);
+  double sum = 0.0, weight = 0.0;
+  for (size_t n = 0; n < e->nodes; ++n) {
+    sum += (double)e->plain_mass[n] * (double)e->plain[n];
+    weight += (double)e->plain_mass[n];
+  }
+  float shift = (float)(mean - sum / weight);
+  for (size_t n = 0; n < e->nodes; ++n)
+    e->plain[n] += shift;
+}
+
 static void set_initial_density(fg_evolution *e, const fg__multigrid *multigrid)
 {
   const fg__level *level = &multigrid->level[0];
-  if (e->options.initial) {
-    fg__level_import(level, level->u, e->options.initial);
-    e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial,
-                                            (size_t)level->columns * (size_t)level->rows);
-  } else {
-    double mean = 2.0 * e->options.coverage - 1.0;
-    double correlation = sqrt(e->info.gamma * e->options.anisotropy);
-    fg__noise_fill(level, e->mesh.tile[0].first, e->mesh.cells, mean, correlation,
-                   e->options.seed, level->u);
-    double sum = 0.0, weight = 0.0;
-    for (int j = 0; j < level->rows; ++j)
-      for (int i = 0; i < level->columns; ++i) {
-        double mass =
-            (double)e->plain_mass[(size_t)j * (size_t)level->columns + (size_t)i];
-        sum += mass * (double)*fg__node(level, level->u, i, j);
-        weight += mass;
-      }
-    float shift = (float)(mean - sum / weight);
-    for (int j = 0; j < level->rows; ++j)
-      for (int i = 0; i < level->columns; ++i)
-        *fg__node(level, level->u, i, j) += shift;
-    fg__fill_ghosts(level, level->u);
-  }
+  if (!e->options.initial)
+    fill_with_noise(e, level);
+  else
+    e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial, e->nodes);
+  fg__level_import(level, level->u, e->options.initial ? e->options.initial : e->plain);
   clear_dead_nodes(level, level->u);
 }
 
 static fg_status take_plain_arrays(fg_evolution *e, const fg__level *level)
 {
-  size_t count = (size_t)level->columns * (size_t)level->rows;
-  e->plain = fg__allocate(count, sizeof *e->plain);
-  e->plain_mass = fg__allocate(count, sizeof *e->plain_mass);
+  e->plain = fg__allocate(e->nodes, sizeof *e->plain);
+  e->plain_mass = fg__allocate(e->nodes, sizeof *e->plain_mass);
   if (!e->plain || !e->plain_mass)
-    return fg__fail_memory(e->context, "the density", 2 * count * sizeof *e->plain);
-  for (int j = 0; j < level->rows; ++j)
-    for (int i = 0; i < level->columns; ++i) {
-      bool x_border = !level->periodic[0] && (i == 0 || i == level->columns - 1);
-      bool y_border = !level->periodic[1] && (j == 0 || j == level->rows - 1);
-      float mass = (x_border ? 0.5F : 1.0F) * (y_border ? 0.5F : 1.0F);
-      if (level->mass)
-        mass *= *fg__node(level, level->mass, i, j);
-      e->plain_mass[(size_t)j * (size_t)level->columns + (size_t)i] = mass;
-    }
+    return fg__fail_memory(e->context, "the density", 2 * e->nodes * sizeof *e->plain);
+  float *mass = e->plain_mass;
+  int at[3];
+  for (at[2] = 0; at[2] < level->layout.nodes[2]; ++at[2])
+    for (at[1] = 0; at[1] < level->layout.nodes[1]; ++at[1])
+      for (at[0] = 0; at[0] < level->layout.nodes[0]; ++at[0], ++mass) {
+        *mass = level->mass ? *fg__node(level, level->mass, at[0], at[1], at[2]) : 1.0F;
+        for (int k = 0; k < e->mesh.dimension; ++k)
+          if (!level->periodic[k] && (at[k] == 0 || at[k] == level->layout.nodes[k] - 1))
+            *mass *= 0.5F;
+      }
   return FG_STATUS_OK;
 }
 
 static fg_status create_stepper(fg_evolution *e)
 {
   fg__multigrid multigrid;
-  fg_status status = fg__multigrid_create(&multigrid, e->context, &e->mesh,
-                                          &e->mesh.tile[0], &e->tensor, e->info.gamma);
+  fg_status status = fg__multigrid_create(
+      &multigrid, e->context, &e->mesh, &e->mesh.tile[0], &e->tensor, e->info.gamma,
+      e->options.threads > 0 ? e->options.threads : 1);
+  free_tensor(e);
   if (status)
     return status;
   e->info.kernel = multigrid.kernel->name;
-  status = check_initial(e, &multigrid.level[0]);
+  status = check_initial(e);
   if (!status)
     status = take_plain_arrays(e, &multigrid.level[0]);
   if (!status) {
@@ -294,11 +352,14 @@ fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
   clock_gettime(CLOCK_MONOTONIC, &e->start);
   if (options)
     e->options = *options;
-  fg_status status = settle_options(&e->options, context);
+  fg_status status =
+      settle_options(&e->options, context, fg_field_contents(field)->dimension);
   if (!status)
     status = create_mesh(e, field);
-  if (!status)
+  if (!status) {
+    count_cells(e);
     status = create_tensor(e, field);
+  }
   if (!status) {
     describe(e);
     e->field_fingerprint = fg__field_fingerprint(field);
@@ -322,9 +383,7 @@ void fg_evolution_destroy(fg_evolution *evolution)
   fg__stepper_clear(&evolution->stepper);
   fg__components_clear(&evolution->components);
   fg__mesh_clear(&evolution->mesh);
-  free(evolution->tensor.xx);
-  free(evolution->tensor.xy);
-  free(evolution->tensor.yy);
+  free_tensor(evolution);
   free(evolution->tensor.active);
   free(evolution->plain);
   free(evolution->plain_mass);
@@ -338,19 +397,18 @@ const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution)
 
 static const unsigned char *mask_of(const fg_evolution *e)
 {
-  long count = (long)e->mesh.cells[0] * e->mesh.cells[1];
-  return e->info.active_cells < count ? e->tensor.active : NULL;
+  return e->info.active_cells < (long)e->cells ? e->tensor.active : NULL;
 }
 
 static fg_status count_clusters(fg_evolution *e)
 {
   const fg__level *level = &e->stepper.multigrid.level[0];
   fg__level_export(level, e->stepper.current, e->plain);
-  size_t count = (size_t)level->columns * (size_t)level->rows;
+  size_t columns = (size_t)level->layout.nodes[0];
   double covered = 0.0;
-  for (size_t row = 0; row < count; row += (size_t)level->columns) {
-    float sum = 0.0F; /* of at most some thousand quarters and ones: exact */
-    for (size_t n = row; n < row + (size_t)level->columns; ++n)
+  for (size_t row = 0; row < e->nodes; row += columns) {
+    float sum = 0.0F; /* of at most some thousand eighths and ones: exact */
+    for (size_t n = row; n < row + columns; ++n)
       sum += e->plain[n] > 0.0F ? e->plain_mass[n] : 0.0F;
     covered += (double)sum;
   }
@@ -360,11 +418,12 @@ static fg_status count_clusters(fg_evolution *e)
   e->counting = e->counting || (smoothed && covered_enough);
   if (!e->counting)
     return FG_STATUS_OK;
-  fg__component_grid grid = {.nodes = {level->columns, level->rows},
-                             .periodic = {level->periodic[0], level->periodic[1]},
-                             .u = e->plain,
-                             .active = mask_of(e),
-                             .debris_area = e->debris_area};
+  fg__component_grid grid = {
+      .u = e->plain, .active = mask_of(e), .debris_area = e->debris_area};
+  for (int k = 0; k < e->mesh.dimension; ++k) {
+    grid.nodes[k] = level->layout.nodes[k];
+    grid.periodic[k] = level->periodic[k];
+  }
   fg_status status = fg__components_count(&e->components, e->context, &grid);
   e->clusters = e->components.count;
   return status;
@@ -416,17 +475,18 @@ fg_status fg_density_create(fg_density **out, const fg_evolution *evolution)
   const fg_evolution *e = evolution;
   const fg__level *level = &e->stepper.multigrid.level[0];
   fg__level_export(level, e->stepper.current, e->plain);
-  fg_density_arrays arrays = {.dimension = 2,
-                              .nodes = {level->columns, level->rows, 1},
+  fg_density_arrays arrays = {.dimension = e->mesh.dimension,
+                              .nodes = {1, 1, 1},
                               .u = e->plain,
                               .active = mask_of(e),
-                              .debris_area = e->debris_area * e->info.spacing[0] *
-                                             e->info.spacing[1],
+                              .debris_area = e->debris_area * cell_volume(e) *
+                                             pow(e->mesh.length, e->mesh.dimension),
                               .time = e->stepper.time,
                               .energy = e->stepper.energy,
                               .area_fraction = e->area_fraction,
                               .clusters = e->clusters};
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < e->mesh.dimension; ++k) {
+    arrays.nodes[k] = level->layout.nodes[k];
     arrays.origin[k] = e->mesh.origin[k];
     arrays.spacing[k] = e->info.spacing[k];
     arrays.periodic[k] = e->mesh.periodic[k];

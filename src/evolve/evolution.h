@@ -15,6 +15,7 @@ struct fg_evolution {
   fg__tensor tensor;
   fg__stepper stepper;
   fg__components components;
+  size_t nodes, cells;
   float *plain;       /* u without ghosts, x fastest */
   float *plain_mass;  /* relative mass of each node, halved at borders */
   double debris_area; /* in cells */

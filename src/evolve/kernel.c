@@ -3,16 +3,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-const fg__kernel *fg__kernel_choose(void)
+const fg__kernel *fg__kernel_choose(int dimension)
 {
+  bool solid = dimension == 3;
 #if defined(__x86_64__)
   const char *wanted = getenv("FLOWGRAIN_KERNEL");
   bool any = !wanted || strcmp(wanted, "avx512") == 0;
   if (any && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
-    return &fg__kernel_avx512;
+    return solid ? &fg__kernel_3d_avx512 : &fg__kernel_2d_avx512;
   if ((any || strcmp(wanted, "avx2") == 0) && __builtin_cpu_supports("avx2"))
-    return &fg__kernel_avx2;
+    return solid ? &fg__kernel_3d_avx2 : &fg__kernel_2d_avx2;
 #endif
-  return &fg__kernel_generic;
+  return solid ? &fg__kernel_3d_generic : &fg__kernel_2d_generic;
 }

@@ -1,8 +1,8 @@
 /* The inner loops of the evolution, on the arrays of a level. kernel_body.h is their one
- * source; it is compiled once for each vector width, and fg__kernel_choose takes the
- * widest that the machine has. No width changes a bit of the results: every node's
- * arithmetic is the same, sums run in FG__LANES fixed lanes, and products and sums are
- * not fused. */
+ * source; it is compiled for two and three dimensions and once for each vector width, and
+ * fg__kernel_choose takes the widest that the machine has. Neither widths nor threads
+ * change a bit of the results: every node's arithmetic is the same, a sweep keeps its
+ * order of colours, products and sums are not fused, and sums over nodes are exact. */
 #ifndef FG__KERNEL_H
 #define FG__KERNEL_H
 
@@ -26,45 +26,54 @@ typedef struct fg__sums {
   double u;      /* m u */
 } fg__sums;
 
+/* Every operation is called by all members of a team, each with its share of the slices,
+ * and returns when all are done with their parts; sums are those of the member's part. */
 typedef struct fg__kernel {
   const char *name;
-  /* One collective Gauss-Seidel sweep in four colours (even and odd columns of even rows,
-   * then of odd rows), a local Newton step for (u, w) at each node. */
-  void (*smooth)(const fg__level *level, float tau);
-  void (*smooth_linear)(const fg__level *level, float tau);
+  int dimension;
+  /* One collective Gauss-Seidel sweep by colours, a local Newton step for (u, w) at each
+   * node. Even planes come before odd ones, in a plane even rows before odd ones, in a
+   * row even columns before odd ones. */
+  void (*smooth)(const fg__level *level, float tau, const fg__share *share);
+  void (*smooth_linear)(const fg__level *level, float tau, const fg__share *share);
   /* A sweep; then the residuals of both equations, restricted to p and q of the coarse
    * level, and the curvature likewise; coarse u and w become 0. */
-  void (*smooth_restrict)(const fg__level *fine, const fg__level *coarse, float tau);
+  void (*smooth_restrict)(const fg__level *fine, const fg__level *coarse, float tau,
+                          const fg__share *share);
   void (*smooth_restrict_linear)(const fg__level *fine, const fg__level *coarse,
-                                 float tau);
-  /* Adds the bilinear interpolation of the coarse u, w to the fine ones; then a sweep. */
-  void (*prolong_smooth)(const fg__level *coarse, const fg__level *fine, float tau);
-  void (*prolong_smooth_linear)(const fg__level *coarse, const fg__level *fine,
-                                float tau);
+                                 float tau, const fg__share *share);
+  /* Adds the multilinear interpolation of the coarse u, w to the fine ones; then a sweep.
+   */
+  void (*prolong_smooth)(const fg__level *coarse, const fg__level *fine, float tau,
+                         const fg__share *share);
+  void (*prolong_smooth_linear)(const fg__level *coarse, const fg__level *fine, float tau,
+                                const fg__share *share);
   /* to := base + the interpolation of one coarse array; to may be base. */
   void (*prolong_array)(const fg__level *coarse, const float *from, const fg__level *fine,
-                        const float *base, float *to);
+                        const float *base, float *to, const fg__share *share);
   /* out := restriction of p - u - tau L w, a coarse array with ghosts. */
   void (*restrict_defect)(const fg__level *fine, const float *w, const fg__level *coarse,
-                          float *out, float tau);
+                          float *out, float tau, const fg__share *share);
   /* w := Psi'(u) + K u, with ghosts, and the energy of u in the same pass. */
-  fg__sums (*evaluate)(const fg__level *level, const float *u, float *w);
+  fg__sums (*evaluate)(const fg__level *level, const float *u, float *w,
+                       const fg__share *share);
   fg__changes (*changes)(const fg__level *level, const float *u, const float *a,
-                         const float *b, const float *c);
+                         const float *b, const float *c, const fg__share *share);
   /* out := now + omega (now - before), whole arrays. */
   void (*extrapolate)(const fg__level *level, const float *now, const float *before,
-                      float omega, float *out);
+                      float omega, float *out, const fg__share *share);
   /* Adds an amount to u wherever there is mass; elsewhere u becomes 0. */
-  void (*shift)(const fg__level *level, float *u, float amount);
+  void (*shift)(const fg__level *level, float *u, float amount, const fg__share *share);
 } fg__kernel;
 
-extern const fg__kernel fg__kernel_generic;
+extern const fg__kernel fg__kernel_2d_generic, fg__kernel_3d_generic;
 #if defined(__x86_64__)
-extern const fg__kernel fg__kernel_avx2, fg__kernel_avx512;
+extern const fg__kernel fg__kernel_2d_avx2, fg__kernel_2d_avx512;
+extern const fg__kernel fg__kernel_3d_avx2, fg__kernel_3d_avx512;
 #endif
 
 /* The fastest kernel that runs here; the environment variable FLOWGRAIN_KERNEL (generic,
  * avx2, avx512) may ask for a narrower one. */
-const fg__kernel *fg__kernel_choose(void);
+const fg__kernel *fg__kernel_choose(int dimension);
 
 #endif

@@ -5,6 +5,7 @@
 #include "evolve/kernel_transfer.h"
 
 const fg__kernel FG__KERNEL = {.name = FG__KERNEL_NAME,
+                               .dimension = FG__DIMENSION,
                                .smooth = smooth,
                                .smooth_linear = smooth_linear,
                                .smooth_restrict = smooth_restrict,

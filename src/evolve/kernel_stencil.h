@@ -6,10 +6,20 @@
 
 #if defined(__clang__)
 #define INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#define UNROLLED _Pragma("clang loop unroll(full)")
 #else
 #define INDEPENDENT _Pragma("GCC ivdep")
+#define UNROLLED _Pragma("GCC unroll 4")
 #endif
 #define INLINE static inline __attribute__((always_inline))
+/* Loops over one row, a function each, so that each is compiled once. */
+#define ROW_LOOP static __attribute__((noinline))
+
+#if FG__DIMENSION == 3
+enum { UPPER_ROWS = 4 };
+#else
+enum { UPPER_ROWS = 1 };
+#endif
 
 /* Colours of columns. */
 enum { EVEN = 0, ODD = 1 };
@@ -19,105 +29,153 @@ INLINE float greater(float a, float b)
   return a > b ? a : b;
 }
 
-/* Nine neighbours of the nodes of one colour in row j: index k is the k-th node of the
+/* From a row to its upper row r. */
+INLINE ptrdiff_t upper_row(const fg__level *level, int r)
+{
+  return r == 0 ? level->layout.stride
+                : level->layout.plane + (r - 2) * level->layout.stride;
+}
+
+/* Where the nodes of a colour begin in a row. */
+INLINE ptrdiff_t begin_of(const fg__level *level, int colour)
+{
+  return colour == ODD ? level->layout.odd_offset : 0;
+}
+
+/* The neighbours of the nodes of one colour in a row: index k is the k-th node of the
  * colour; `other` pointers are shifted so that [k] is the western, [k + 1] the eastern
  * column. */
 typedef struct around {
   const float *center, *middle; /* this row: own colour, other colour */
-  const float *south, *south_other;
-  const float *north, *north_other;
+  const float *upper[UPPER_ROWS], *upper_other[UPPER_ROWS];
+  const float *lower[UPPER_ROWS], *lower_other[UPPER_ROWS];
 } around;
 
-INLINE around around_row(const fg__level *level, const float *array, int j, int colour)
+INLINE around around_row(const fg__level *level, const float *array, ptrdiff_t row,
+                         int colour)
 {
-  const float *row = array + (ptrdiff_t)j * level->stride;
-  ptrdiff_t own = colour == ODD ? level->odd_offset : 0;
-  ptrdiff_t other = colour == ODD ? 0 : level->odd_offset - 1;
-  return (around){row + own,
-                  row + other,
-                  row - level->stride + own,
-                  row - level->stride + other,
-                  row + level->stride + own,
-                  row + level->stride + other};
+  ptrdiff_t own = row + begin_of(level, colour);
+  ptrdiff_t other = row + (colour == ODD ? 0 : level->layout.odd_offset - 1);
+  around x = {.center = array + own, .middle = array + other};
+  UNROLLED
+  for (int r = 0; r < UPPER_ROWS; ++r) {
+    ptrdiff_t up = upper_row(level, r);
+    x.upper[r] = array + own + up;
+    x.upper_other[r] = array + other + up;
+    x.lower[r] = array + own - up;
+    x.lower_other[r] = array + other - up;
+  }
+  return x;
 }
 
-/* Rows of a symmetric stencil: couplings of the nodes of one colour, and of the western
- * and southern neighbours that hold the other half. */
+/* Rows of a symmetric stencil: couplings of the nodes of one colour, and of the
+ * neighbours that hold the other half. */
 typedef struct couplings {
-  const float *center, *east, *west, *north, *south;
-  const float *northeast, *southwest, *northwest, *southeast;
+  const float *center, *east, *west;
+  const float *upper[UPPER_ROWS], *upper_east[UPPER_ROWS], *upper_west[UPPER_ROWS];
+  const float *lower[UPPER_ROWS], *lower_east[UPPER_ROWS], *lower_west[UPPER_ROWS];
 } couplings;
 
-INLINE couplings couplings_row(const fg__level *level, const fg__stencil *stencil, int j,
-                               int colour)
+INLINE couplings couplings_row(const fg__level *level, const fg__stencil *stencil,
+                               ptrdiff_t row, int colour)
 {
-  ptrdiff_t row = (ptrdiff_t)j * level->stride;
-  ptrdiff_t own = row + (colour == ODD ? level->odd_offset : 0);
-  ptrdiff_t other = row + (colour == ODD ? 0 : level->odd_offset - 1);
-  return (couplings){.center = stencil->center + own,
-                     .east = stencil->east + own,
-                     .west = stencil->east + other,
-                     .north = stencil->north + own,
-                     .south = stencil->north + own - level->stride,
-                     .northeast = stencil->northeast + own,
-                     .southwest = stencil->northeast + other - level->stride,
-                     .northwest = stencil->northwest + own,
-                     .southeast = stencil->northwest + other - level->stride + 1};
+  ptrdiff_t own = row + begin_of(level, colour);
+  ptrdiff_t other = row + (colour == ODD ? 0 : level->layout.odd_offset - 1);
+  couplings c = {.center = stencil->center + own,
+                 .east = stencil->to[0] + own,
+                 .west = stencil->to[0] + other};
+  UNROLLED
+  for (int r = 0; r < UPPER_ROWS; ++r) {
+    ptrdiff_t up = upper_row(level, r);
+    c.upper_west[r] = stencil->to[1 + 3 * r] + own;
+    c.upper[r] = stencil->to[2 + 3 * r] + own;
+    c.upper_east[r] = stencil->to[3 + 3 * r] + own;
+    c.lower_east[r] = stencil->to[1 + 3 * r] + other + 1 - up;
+    c.lower[r] = stencil->to[2 + 3 * r] + own - up;
+    c.lower_west[r] = stencil->to[3 + 3 * r] + other - up;
+  }
+  return c;
+}
+
+INLINE float apply_pair(const couplings *c, const around *x, int r, int k)
+{
+  return (c->upper[r][k] * x->upper[r][k] + c->lower[r][k] * x->lower[r][k]) +
+         ((c->upper_east[r][k] * x->upper_other[r][k + 1] +
+           c->lower_west[r][k] * x->lower_other[r][k]) +
+          (c->upper_west[r][k] * x->upper_other[r][k] +
+           c->lower_east[r][k] * x->lower_other[r][k + 1]));
 }
 
 INLINE float apply(const couplings *c, const around *x, int k)
 {
-  return (c->center[k] * x->center[k] +
-          (c->east[k] * x->middle[k + 1] + c->west[k] * x->middle[k])) +
-         ((c->north[k] * x->north[k] + c->south[k] * x->south[k]) +
-          ((c->northeast[k] * x->north_other[k + 1] +
-            c->southwest[k] * x->south_other[k]) +
-           (c->northwest[k] * x->north_other[k] +
-            c->southeast[k] * x->south_other[k + 1])));
+  float sum = (c->center[k] * x->center[k] +
+               (c->east[k] * x->middle[k + 1] + c->west[k] * x->middle[k])) +
+              apply_pair(c, x, 0, k);
+#if FG__DIMENSION == 3
+  sum += (apply_pair(c, x, 1, k) + apply_pair(c, x, 3, k)) + apply_pair(c, x, 2, k);
+#endif
+  return sum;
 }
 
 /* The Laplacian's constants times tau, kept in registers. */
 typedef struct laplacian {
-  float center, east, north, diagonal, tau;
+  float center, east, middle[UPPER_ROWS], side[UPPER_ROWS], tau;
 } laplacian;
 
 INLINE laplacian laplacian_times(const fg__level *level, float tau)
 {
-  return (laplacian){tau * level->laplacian_center, tau * level->laplacian_east,
-                     tau * level->laplacian_north, tau * level->laplacian_diagonal, tau};
+  laplacian l = {.center = tau * level->laplacian_center,
+                 .east = tau * level->laplacian_east,
+                 .tau = tau};
+  for (int r = 0; r < UPPER_ROWS; ++r) {
+    l.middle[r] = tau * level->laplacian_middle[r];
+    l.side[r] = tau * level->laplacian_side[r];
+  }
+  return l;
+}
+
+INLINE float apply_constant_pair(const laplacian *l, const around *x, int r, int k)
+{
+  return l->middle[r] * (x->upper[r][k] + x->lower[r][k]) +
+         l->side[r] * ((x->upper_other[r][k + 1] + x->lower_other[r][k]) +
+                       (x->upper_other[r][k] + x->lower_other[r][k + 1]));
 }
 
 INLINE float apply_constant(const laplacian *l, const around *x, int k)
 {
-  return (l->center * x->center[k] + l->east * (x->middle[k + 1] + x->middle[k])) +
-         (l->north * (x->north[k] + x->south[k]) +
-          l->diagonal * ((x->north_other[k + 1] + x->south_other[k]) +
-                         (x->north_other[k] + x->south_other[k + 1])));
+  float sum = (l->center * x->center[k] + l->east * (x->middle[k + 1] + x->middle[k])) +
+              apply_constant_pair(l, x, 0, k);
+#if FG__DIMENSION == 3
+  sum += (apply_constant_pair(l, x, 1, k) + apply_constant_pair(l, x, 3, k)) +
+         apply_constant_pair(l, x, 2, k);
+#endif
+  return sum;
 }
 
 /* Everything about the nodes of one colour in one row. The masked versions multiply rows
  * by the inverse of the relative mass. */
-typedef struct row {
+typedef struct row_view {
   int count;
   around u, w;
   couplings energy, laplacian;
   const float *p, *q, *curvature, *mass_inverse;
-} row;
+} row_view;
 
-INLINE row row_of(const fg__level *level, int j, int colour, bool linear, bool masked)
+INLINE row_view row_of(const fg__level *level, ptrdiff_t at, int colour, bool linear,
+                       bool masked)
 {
-  ptrdiff_t own = (ptrdiff_t)j * level->stride + (colour == ODD ? level->odd_offset : 0);
-  row r = {.count = colour == ODD ? level->odd_count : level->even_count,
-           .u = around_row(level, level->u, j, colour),
-           .w = around_row(level, level->w, j, colour),
-           .energy = couplings_row(level, &level->energy, j, colour),
-           .p = level->p + own};
+  ptrdiff_t own = at + begin_of(level, colour);
+  row_view r = {.count = colour == ODD ? level->odd_count : level->even_count,
+                .u = around_row(level, level->u, at, colour),
+                .w = around_row(level, level->w, at, colour),
+                .energy = couplings_row(level, &level->energy, at, colour),
+                .p = level->p + own};
   if (linear) {
     r.q = level->q + own;
     r.curvature = level->curvature + own;
   }
   if (masked) {
-    r.laplacian = couplings_row(level, &level->laplacian, j, colour);
+    r.laplacian = couplings_row(level, &level->laplacian, at, colour);
     r.mass_inverse = level->mass_inverse + own;
   }
   return r;
@@ -130,7 +188,7 @@ typedef struct residuals {
   float first, second, curvature;
 } residuals;
 
-INLINE residuals residuals_at(const row *r, const laplacian *l, int k, bool linear,
+INLINE residuals residuals_at(const row_view *r, const laplacian *l, int k, bool linear,
                               bool masked)
 {
   float u = r->u.center[k], w = r->w.center[k];

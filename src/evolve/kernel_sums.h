@@ -2,50 +2,84 @@
 #ifndef FG__KERNEL_SUMS_H
 #define FG__KERNEL_SUMS_H
 
-#include "evolve/kernel_stencil.h"
-
-/* ---- potential and sums
- * ----------------------------------------------------------------- */
+#include "evolve/kernel_sweep.h"
 
 /* Weights of a row that make sums over nodes integrals: halves at natural borders, and no
  * coupling twice or to a ghost. */
 typedef struct row_weights {
   const float *mass, *east, *west; /* by column */
   const float *masked;             /* relative mass, or NULL */
-  float whole, north;              /* of the row: mass and east; the row above */
+  float whole, upper[UPPER_ROWS];  /* of the row; of its couplings to upper rows */
 } row_weights;
 
-INLINE row_weights weights_of(const fg__level *level, int j, int colour, bool masked)
+/* Along one axis, for couplings by d = -1, 0 or 1. */
+INLINE float axis_weight(const fg__level *level, int axis, int at, int d)
 {
-  ptrdiff_t own = colour == ODD ? level->odd_offset : 0;
-  bool border = !level->periodic[1] && (j == 0 || j == level->rows - 1);
-  bool top = !level->periodic[1] && j == level->rows - 1;
-  return (row_weights){.mass = level->column_mass + own,
-                       .east = level->column_east + own,
-                       .west = level->column_west + own,
-                       .masked = masked ? level->mass + (ptrdiff_t)j * level->stride + own
-                                        : NULL,
-                       .whole = border ? 0.5F : 1.0F,
-                       .north = top ? 0.0F : 1.0F};
+  if (level->periodic[axis])
+    return 1.0F;
+  int last = level->layout.nodes[axis] - 1;
+  if (d == 0)
+    return at == 0 || at == last ? 0.5F : 1.0F;
+  return at + d < 0 || at + d > last ? 0.0F : 1.0F;
 }
 
-/* One node's part of the gradient energy: the couplings to its east, north and diagonal
- * neighbours as -k (u_a - u_b)^2, which loses nothing to cancellation. */
+INLINE row_weights weights_of(const fg__level *level, int j, int k, int colour,
+                              bool masked)
+{
+  ptrdiff_t own = begin_of(level, colour);
+  row_weights r = {.mass = level->column_mass + own,
+                   .east = level->column_east + own,
+                   .west = level->column_west + own};
+  if (masked)
+    r.masked = level->mass + fg__row_at(&level->layout, j, k) + own;
+#if FG__DIMENSION == 3
+  r.whole = axis_weight(level, 1, j, 0) * axis_weight(level, 2, k, 0);
+  for (int n = 0; n < UPPER_ROWS; ++n) {
+    int dy, dz;
+    fg__upper_row(n, &dy, &dz);
+    r.upper[n] = axis_weight(level, 1, j, dy) * axis_weight(level, 2, k, dz);
+  }
+#else
+  r.whole = axis_weight(level, 1, j, 0);
+  r.upper[0] = axis_weight(level, 1, j, 1);
+#endif
+  return r;
+}
+
+/* One node's part of the gradient energy: the couplings to its neighbours as
+ * -k (u_a - u_b)^2, which loses nothing to cancellation. */
+INLINE float upper_gradient(const row_weights *r, const couplings *c, const around *x,
+                            float u, int n, int k)
+{
+  float middle = x->upper[n][k] - u;
+  float east = x->upper_other[n][k + 1] - u, west = x->upper_other[n][k] - u;
+  return r->upper[n] * (r->mass[k] * c->upper[n][k] * (middle * middle) +
+                        r->east[k] * c->upper_east[n][k] * (east * east) +
+                        r->west[k] * c->upper_west[n][k] * (west * west));
+}
+
 INLINE float gradient_at(const row_weights *r, const couplings *c, const around *x, int k)
 {
-  float u = x->center[k];
-  float east = x->middle[k + 1] - u, north = x->north[k] - u;
-  float northeast = x->north_other[k + 1] - u, northwest = x->north_other[k] - u;
-  return r->whole * r->east[k] * c->east[k] * (east * east) +
-         r->north * (r->mass[k] * c->north[k] * (north * north) +
-                     r->east[k] * c->northeast[k] * (northeast * northeast) +
-                     r->west[k] * c->northwest[k] * (northwest * northwest));
+  float u = x->center[k], east = x->middle[k + 1] - u;
+  float sum = r->whole * r->east[k] * c->east[k] * (east * east) +
+              upper_gradient(r, c, x, u, 0, k);
+#if FG__DIMENSION == 3
+  sum += (upper_gradient(r, c, x, u, 1, k) + upper_gradient(r, c, x, u, 3, k)) +
+         upper_gradient(r, c, x, u, 2, k);
+#endif
+  return sum;
 }
 
 INLINE float mass_at(const row_weights *r, int k)
 {
   float mass = r->whole * r->mass[k];
   return r->masked ? mass * r->masked[k] : mass;
+}
+
+/* A multiple of the level's smallest number: sums of such are exact (level.h). */
+INLINE double rounded(double term, double rounding)
+{
+  return (term + rounding) - rounding;
 }
 
 INLINE double total(const double lanes[FG__LANES])
@@ -58,15 +92,16 @@ INLINE double total(const double lanes[FG__LANES])
 
 INLINE int nodes_of(const fg__level *level, int colour)
 {
-  return colour == ODD ? level->columns / 2 : (level->columns + 1) / 2;
+  int columns = level->layout.nodes[0];
+  return colour == ODD ? columns / 2 : (columns + 1) / 2;
 }
 
 /* What nodes start ... start + lanes - 1 of a row give to the lanes' sums, and their
  * chemical potential. With a constant number of lanes the loop is one straight piece of
  * vector code. */
 INLINE void evaluate_nodes(const row_weights *r, const couplings *c, const around *x,
-                           const float *mass_inverse, float *w, int start, int lanes,
-                           double sum[2][FG__LANES])
+                           const float *mass_inverse, double rounding, float *w,
+                           int start, int lanes, double sum[2][FG__LANES])
 {
   INDEPENDENT
   for (int n = 0; n < lanes; ++n) {
@@ -77,104 +112,187 @@ INLINE void evaluate_nodes(const row_weights *r, const couplings *c, const aroun
       energy *= mass_inverse[k];
     float well = u * u - 1.0F;
     w[k] = 2.0F * u * well + energy;
-    sum[0][n] += (double)(mass * (well * well)) - (double)gradient_at(r, c, x, k);
-    sum[1][n] += (double)(mass * u);
+    double terms = (double)(mass * (well * well)) - (double)gradient_at(r, c, x, k);
+    sum[0][n] += rounded(terms, rounding);
+    sum[1][n] += rounded((double)(mass * u), rounding);
   }
 }
 
-INLINE fg__sums evaluate_level(const fg__level *level, const float *u, float *w,
-                               bool masked)
+INLINE void evaluate_nodes_of_row(const fg__level *level, const float *u, float *w, int j,
+                                  int k, bool masked, double sum[2][FG__LANES])
+{
+  ptrdiff_t at = fg__row_at(&level->layout, j, k);
+  for (int colour = EVEN; colour <= ODD; ++colour) {
+    int count = nodes_of(level, colour), start = 0;
+    ptrdiff_t own = at + begin_of(level, colour);
+    around x = around_row(level, u, at, colour);
+    couplings c = couplings_row(level, &level->energy, at, colour);
+    row_weights r = weights_of(level, j, k, colour, masked);
+    const float *inverse = masked ? level->mass_inverse + own : NULL;
+    for (; start + FG__LANES <= count; start += FG__LANES)
+      evaluate_nodes(&r, &c, &x, inverse, level->rounding, w + own, start, FG__LANES,
+                     sum);
+    evaluate_nodes(&r, &c, &x, inverse, level->rounding, w + own, start, count - start,
+                   sum);
+  }
+  fg__fill_ghost_columns(level, w + at);
+}
+
+ROW_LOOP void evaluate_plain(const fg__level *level, const float *u, float *w, int j,
+                             int k, double sum[2][FG__LANES])
+{
+  evaluate_nodes_of_row(level, u, w, j, k, false, sum);
+}
+
+ROW_LOOP void evaluate_masked(const fg__level *level, const float *u, float *w, int j,
+                              int k, double sum[2][FG__LANES])
+{
+  evaluate_nodes_of_row(level, u, w, j, k, true, sum);
+}
+
+/* The rows of slice s: one in 2D, a plane in 3D. */
+INLINE int rows_of_slice(const fg__level *level)
+{
+  return FG__DIMENSION == 3 ? level->layout.nodes[1] : 1;
+}
+
+INLINE int row_index(int slice, int n)
+{
+  return FG__DIMENSION == 3 ? n : slice;
+}
+
+INLINE int plane_index(int slice)
+{
+  return FG__DIMENSION == 3 ? slice : 0;
+}
+
+static void fill_ghosts_of_slice(const fg__level *level, float *array, int s)
+{
+  for (int side = 0; side < 2; ++side) {
+#if FG__DIMENSION == 3
+    fg__fill_ghost_row(level, array, s, side);
+#else
+    if (level->ghost_row_source[side] == s)
+      fg__fill_ghost_row(level, array, 0, side);
+#endif
+  }
+#if FG__DIMENSION == 3
+  for (int side = 0; side < 2; ++side)
+    if (level->ghost_plane_source[side] == s)
+      fg__fill_ghost_plane(level, array, side);
+#endif
+}
+
+static fg__sums evaluate(const fg__level *level, const float *u, float *w,
+                         const fg__share *share)
 {
   double sum[2][FG__LANES] = {{0.0}};
-  for (int j = 0; j < level->rows; ++j) {
-    float *out = w + (ptrdiff_t)j * level->stride;
-    for (int colour = EVEN; colour <= ODD; ++colour) {
-      int count = nodes_of(level, colour), start = 0;
-      ptrdiff_t own = colour == ODD ? level->odd_offset : 0;
-      around x = around_row(level, u, j, colour);
-      couplings c = couplings_row(level, &level->energy, j, colour);
-      row_weights r = weights_of(level, j, colour, masked);
-      const float *inverse =
-          masked ? level->mass_inverse + (ptrdiff_t)j * level->stride + own : NULL;
-      for (; start + FG__LANES <= count; start += FG__LANES)
-        evaluate_nodes(&r, &c, &x, inverse, out + own, start, FG__LANES, sum);
-      evaluate_nodes(&r, &c, &x, inverse, out + own, start, count - start, sum);
-    }
-    fg__fill_ghost_columns(level, out);
+  part mine = part_of(level, share);
+  for (int s = mine.begin; s < mine.end; ++s) {
+    for (int n = 0; n < rows_of_slice(level); ++n)
+      (level->mass ? evaluate_masked : evaluate_plain)(level, u, w, row_index(s, n),
+                                                       plane_index(s), sum);
+    fill_ghosts_of_slice(level, w, s);
   }
-  fg__fill_ghost_row(level, w, 0);
-  fg__fill_ghost_row(level, w, 1);
+  fg__team_barrier(share);
   return (fg__sums){0.5 * total(sum[0]), total(sum[1])};
 }
 
-static fg__sums evaluate(const fg__level *level, const float *u, float *w)
-{
-  return level->mass ? evaluate_level(level, u, w, true)
-                     : evaluate_level(level, u, w, false);
-}
-
 INLINE void add_changes(const row_weights *r, const float *u, const float *a,
-                        const float *b, const float *c, int start, int lanes,
-                        double sum[4][FG__LANES])
+                        const float *b, const float *c, const fg__level *level, int start,
+                        int lanes, double sum[4][FG__LANES])
 {
+  double rounding = level->rounding, fine = level->change_rounding;
   INDEPENDENT
   for (int n = 0; n < lanes; ++n) {
     int k = start + n;
     float mass = mass_at(r, k);
     float from_a = u[k] - a[k], from_b = u[k] - b[k];
-    sum[0][n] += (double)(mass * u[k]);
-    sum[1][n] += (double)(mass * from_a * from_a);
-    sum[2][n] += (double)(mass * from_b * from_b);
-    sum[3][n] += (double)(mass * from_a * (a[k] - c[k]));
+    sum[0][n] += rounded((double)(mass * u[k]), rounding);
+    sum[1][n] += rounded((double)(mass * from_a * from_a), fine);
+    sum[2][n] += rounded((double)(mass * from_b * from_b), fine);
+    sum[3][n] += rounded((double)(mass * from_a * (a[k] - c[k])), fine);
   }
 }
 
-INLINE fg__changes changes_of(const fg__level *level, const float *u, const float *a,
-                              const float *b, const float *c, bool masked)
+INLINE void change_nodes_of_row(const fg__level *level, const float *u, const float *a,
+                                const float *b, const float *c, int j, int k, bool masked,
+                                double sum[4][FG__LANES])
 {
-  double sum[4][FG__LANES] = {{0.0}};
-  for (int j = 0; j < level->rows; ++j)
-    for (int colour = EVEN; colour <= ODD; ++colour) {
-      int count = nodes_of(level, colour), start = 0;
-      ptrdiff_t own =
-          (ptrdiff_t)j * level->stride + (colour == ODD ? level->odd_offset : 0);
-      row_weights r = weights_of(level, j, colour, masked);
-      for (; start + FG__LANES <= count; start += FG__LANES)
-        add_changes(&r, u + own, a + own, b + own, c + own, start, FG__LANES, sum);
-      add_changes(&r, u + own, a + own, b + own, c + own, start, count - start, sum);
-    }
-  return (fg__changes){total(sum[0]), total(sum[1]), total(sum[2]), total(sum[3])};
+  for (int colour = EVEN; colour <= ODD; ++colour) {
+    int count = nodes_of(level, colour), start = 0;
+    ptrdiff_t own = fg__row_at(&level->layout, j, k) + begin_of(level, colour);
+    row_weights r = weights_of(level, j, k, colour, masked);
+    for (; start + FG__LANES <= count; start += FG__LANES)
+      add_changes(&r, u + own, a + own, b + own, c + own, level, start, FG__LANES, sum);
+    add_changes(&r, u + own, a + own, b + own, c + own, level, start, count - start, sum);
+  }
+}
+
+ROW_LOOP void changes_plain(const fg__level *level, const float *u, const float *a,
+                            const float *b, const float *c, int j, int k,
+                            double sum[4][FG__LANES])
+{
+  change_nodes_of_row(level, u, a, b, c, j, k, false, sum);
+}
+
+ROW_LOOP void changes_masked(const fg__level *level, const float *u, const float *a,
+                             const float *b, const float *c, int j, int k,
+                             double sum[4][FG__LANES])
+{
+  change_nodes_of_row(level, u, a, b, c, j, k, true, sum);
 }
 
 static fg__changes changes(const fg__level *level, const float *u, const float *a,
-                           const float *b, const float *c)
+                           const float *b, const float *c, const fg__share *share)
 {
-  return level->mass ? changes_of(level, u, a, b, c, true)
-                     : changes_of(level, u, a, b, c, false);
+  double sum[4][FG__LANES] = {{0.0}};
+  part mine = part_of(level, share);
+  for (int s = mine.begin; s < mine.end; ++s)
+    for (int n = 0; n < rows_of_slice(level); ++n)
+      (level->mass ? changes_masked : changes_plain)(level, u, a, b, c, row_index(s, n),
+                                                     plane_index(s), sum);
+  fg__team_barrier(share);
+  return (fg__changes){total(sum[0]), total(sum[1]), total(sum[2]), total(sum[3])};
+}
+
+/* A member's floats of an array, ghosts and all, from its first one. */
+INLINE void floats_of(const fg__level *level, const fg__share *share, ptrdiff_t *begin,
+                      ptrdiff_t *end)
+{
+  ptrdiff_t rows = (ptrdiff_t)level->layout.array_size / level->layout.stride;
+  *begin =
+      rows * share->member / share->members * level->layout.stride - level->layout.first;
+  *end = rows * (share->member + 1) / share->members * level->layout.stride -
+         level->layout.first;
 }
 
 static void extrapolate(const fg__level *level, const float *now, const float *before,
-                        float omega, float *out)
+                        float omega, float *out, const fg__share *share)
 {
-  ptrdiff_t size = (ptrdiff_t)level->array_size - level->first;
+  ptrdiff_t begin, end;
+  floats_of(level, share, &begin, &end);
   INDEPENDENT
-  for (ptrdiff_t n = -level->first; n < size; ++n)
+  for (ptrdiff_t n = begin; n < end; ++n)
     out[n] = now[n] + omega * (now[n] - before[n]);
+  fg__team_barrier(share);
 }
 
-static void shift(const fg__level *level, float *u, float amount)
+static void shift(const fg__level *level, float *u, float amount, const fg__share *share)
 {
-  ptrdiff_t size = (ptrdiff_t)level->array_size - level->first;
+  ptrdiff_t begin, end;
+  floats_of(level, share, &begin, &end);
   const float *mass = level->mass;
   if (mass) {
     INDEPENDENT
-    for (ptrdiff_t n = -level->first; n < size; ++n)
+    for (ptrdiff_t n = begin; n < end; ++n)
       u[n] = mass[n] > 0.0F ? u[n] + amount : 0.0F;
   } else {
     INDEPENDENT
-    for (ptrdiff_t n = -level->first; n < size; ++n)
+    for (ptrdiff_t n = begin; n < end; ++n)
       u[n] += amount;
   }
+  fg__team_barrier(share);
 }
 
 #endif

@@ -1,25 +1,27 @@
-/* Every vector width gives the same bits. */
+/* Every vector width and number of threads gives the same bits. */
 #include "evolve/reference_test.h"
 
-enum { MOST_KERNELS = 3, SUMS = 4 };
+enum { MOST_KERNELS = 3, SUMS = 4, MEMBERS = MOST_THREADS };
 
-static int kernels_of_this_machine(const fg__kernel *kernels[MOST_KERNELS])
+static int kernels_of_this_machine(int dimension, const fg__kernel *kernels[MOST_KERNELS])
 {
+  bool solid = dimension == 3;
   int count = 0;
-  kernels[count++] = &fg__kernel_generic;
+  kernels[count++] = solid ? &fg__kernel_3d_generic : &fg__kernel_2d_generic;
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2"))
-    kernels[count++] = &fg__kernel_avx2;
+    kernels[count++] = solid ? &fg__kernel_3d_avx2 : &fg__kernel_2d_avx2;
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
-    kernels[count++] = &fg__kernel_avx512;
+    kernels[count++] = solid ? &fg__kernel_3d_avx512 : &fg__kernel_2d_avx512;
 #endif
   return count;
 }
 
 /* An entry of the table put to use on two levels, the finest or the two after it. */
 typedef void operation(const fg__kernel *kernel, const fg__level *fine,
-                       const fg__level *coarse, double sums[SUMS]);
+                       const fg__level *coarse, const fg__share *share,
+                       double sums[SUMS]);
 
 /* Of the order of the diffusion time of a cell. */
 static float step_of(const fg__level *level)
@@ -28,76 +30,85 @@ static float step_of(const fg__level *level)
 }
 
 static void smooth(const fg__kernel *kernel, const fg__level *fine,
-                   const fg__level *coarse, double sums[SUMS])
+                   const fg__level *coarse, const fg__share *share, double sums[SUMS])
 {
   (void)coarse, (void)sums;
-  kernel->smooth(fine, step_of(fine));
+  kernel->smooth(fine, step_of(fine), share);
 }
 
 static void smooth_linear(const fg__kernel *kernel, const fg__level *fine,
-                          const fg__level *coarse, double sums[SUMS])
+                          const fg__level *coarse, const fg__share *share,
+                          double sums[SUMS])
 {
   (void)coarse, (void)sums;
-  kernel->smooth_linear(fine, step_of(fine));
+  kernel->smooth_linear(fine, step_of(fine), share);
 }
 
 static void smooth_restrict(const fg__kernel *kernel, const fg__level *fine,
-                            const fg__level *coarse, double sums[SUMS])
+                            const fg__level *coarse, const fg__share *share,
+                            double sums[SUMS])
 {
   (void)sums;
-  kernel->smooth_restrict(fine, coarse, step_of(fine));
+  kernel->smooth_restrict(fine, coarse, step_of(fine), share);
 }
 
 static void smooth_restrict_linear(const fg__kernel *kernel, const fg__level *fine,
-                                   const fg__level *coarse, double sums[SUMS])
+                                   const fg__level *coarse, const fg__share *share,
+                                   double sums[SUMS])
 {
   (void)sums;
-  kernel->smooth_restrict_linear(fine, coarse, step_of(fine));
+  kernel->smooth_restrict_linear(fine, coarse, step_of(fine), share);
 }
 
 static void prolong_smooth(const fg__kernel *kernel, const fg__level *fine,
-                           const fg__level *coarse, double sums[SUMS])
+                           const fg__level *coarse, const fg__share *share,
+                           double sums[SUMS])
 {
   (void)sums;
-  kernel->prolong_smooth(coarse, fine, step_of(fine));
+  kernel->prolong_smooth(coarse, fine, step_of(fine), share);
 }
 
 static void prolong_smooth_linear(const fg__kernel *kernel, const fg__level *fine,
-                                  const fg__level *coarse, double sums[SUMS])
+                                  const fg__level *coarse, const fg__share *share,
+                                  double sums[SUMS])
 {
   (void)sums;
-  kernel->prolong_smooth_linear(coarse, fine, step_of(fine));
+  kernel->prolong_smooth_linear(coarse, fine, step_of(fine), share);
 }
 
 static void prolong_array(const fg__kernel *kernel, const fg__level *fine,
-                          const fg__level *coarse, double sums[SUMS])
+                          const fg__level *coarse, const fg__share *share,
+                          double sums[SUMS])
 {
   (void)sums;
-  kernel->prolong_array(coarse, coarse->p, fine, fine->p, fine->u);
-  kernel->prolong_array(coarse, coarse->u, fine, fine->w, fine->w);
+  kernel->prolong_array(coarse, coarse->p, fine, fine->p, fine->u, share);
+  kernel->prolong_array(coarse, coarse->u, fine, fine->w, fine->w, share);
 }
 
 static void restrict_defect(const fg__kernel *kernel, const fg__level *fine,
-                            const fg__level *coarse, double sums[SUMS])
+                            const fg__level *coarse, const fg__share *share,
+                            double sums[SUMS])
 {
   (void)sums;
-  kernel->restrict_defect(fine, fine->w, coarse, coarse->q, step_of(fine));
+  kernel->restrict_defect(fine, fine->w, coarse, coarse->q, step_of(fine), share);
 }
 
 static void evaluate(const fg__kernel *kernel, const fg__level *fine,
-                     const fg__level *coarse, double sums[SUMS])
+                     const fg__level *coarse, const fg__share *share, double sums[SUMS])
 {
   (void)coarse;
-  fg__sums result = kernel->evaluate(fine, fine->u, fine->w);
+  fg__sums result = kernel->evaluate(fine, fine->u, fine->w, share);
   sums[0] = result.energy;
   sums[1] = result.u;
 }
 
 static void changes(const fg__kernel *kernel, const fg__level *fine,
-                    const fg__level *coarse, double sums[SUMS])
+                    const fg__level *coarse, const fg__share *share, double sums[SUMS])
 {
   (void)coarse;
-  fg__changes result = kernel->changes(fine, fine->u, fine->w, fine->p, fine->p);
+  /* changes of a tenth, as steps have them */
+  kernel->extrapolate(fine, fine->u, fine->w, 0.1F, fine->p, share);
+  fg__changes result = kernel->changes(fine, fine->u, fine->p, fine->p, fine->u, share);
   sums[0] = result.u;
   sums[1] = result.from_a;
   sums[2] = result.from_b;
@@ -105,17 +116,18 @@ static void changes(const fg__kernel *kernel, const fg__level *fine,
 }
 
 static void extrapolate(const fg__kernel *kernel, const fg__level *fine,
-                        const fg__level *coarse, double sums[SUMS])
+                        const fg__level *coarse, const fg__share *share,
+                        double sums[SUMS])
 {
   (void)coarse, (void)sums;
-  kernel->extrapolate(fine, fine->w, fine->p, 1.37F, fine->u);
+  kernel->extrapolate(fine, fine->w, fine->p, 1.37F, fine->u, share);
 }
 
 static void shift(const fg__kernel *kernel, const fg__level *fine,
-                  const fg__level *coarse, double sums[SUMS])
+                  const fg__level *coarse, const fg__share *share, double sums[SUMS])
 {
   (void)coarse, (void)sums;
-  kernel->shift(fine, fine->u, -0.0321F);
+  kernel->shift(fine, fine->u, -0.0321F, share);
 }
 
 static const struct {
@@ -169,11 +181,14 @@ static void load(const problem *p)
     float *arrays[ARRAYS];
     arrays_of(level, n == 0, arrays);
     for (int a = 0; a < ARRAYS && arrays[a]; ++a) {
-      for (int j = 0; j < level->rows; ++j)
-        for (int i = 0; i < level->columns; ++i) {
-          double value = 1.2 * random_value(&seed) - 0.1;
-          *fg__node(level, arrays[a], i, j) = (float)(a == 4 ? 2.0 * fabs(value) : value);
-        }
+      const int *nodes = level->layout.nodes;
+      for (int k = 0; k < nodes[2]; ++k)
+        for (int j = 0; j < nodes[1]; ++j)
+          for (int i = 0; i < nodes[0]; ++i) {
+            double value = 1.2 * random_value(&seed) - 0.1;
+            *fg__node(level, arrays[a], i, j, k) =
+                (float)(a == 4 ? 2.0 * fabs(value) : value);
+          }
       fg__fill_ghosts(level, arrays[a]);
     }
   }
@@ -187,38 +202,58 @@ static size_t save(const problem *p, float *to)
     const fg__level *level = &p->multigrid.level[n];
     float *arrays[ARRAYS];
     arrays_of(level, n == 0, arrays);
-    for (int a = 0; a < ARRAYS && arrays[a]; ++a)
-      for (int j = 0; j < level->rows; ++j)
-        for (int i = 0; i < level->columns; ++i)
-          to[count++] = *fg__node(level, arrays[a], i, j);
-    for (int a = 0; a < 2; ++a)
-      for (int side = 0; side < 2; ++side) {
-        for (int j = 0; j < level->rows; ++j)
-          to[count++] = fg__row(level, arrays[a], j)[level->ghost_column[side]];
-        for (int i = 0; i < level->columns; ++i)
-          to[count++] = *fg__node(level, arrays[a], i, side ? level->rows : -1);
-      }
+    /* u and w with their ghosts, the others without */
+    for (int a = 0; a < ARRAYS && arrays[a]; ++a) {
+      int ring = a < 2, solid = ring && p->dimension == 3;
+      const int *nodes = level->layout.nodes;
+      for (int k = -solid; k < nodes[2] + solid; ++k)
+        for (int j = -ring; j < nodes[1] + ring; ++j)
+          for (int i = -ring; i < nodes[0] + ring; ++i)
+            to[count++] = *fg__node(level, arrays[a], i, j, k);
+    }
   }
   return count;
 }
 
+/* One operation, as a team's work. */
+typedef struct call {
+  operation *run;
+  const fg__kernel *kernel;
+  const fg__level *fine;
+  double sums[MEMBERS][SUMS];
+} call;
+
+static void run_share(void *argument, const fg__share *share)
+{
+  call *c = argument;
+  c->run(c->kernel, c->fine, c->fine + 1, share, c->sums[share->member]);
+}
+
 /* Results of one operation with one kernel; the length of what was saved. */
 static size_t result_of(const problem *p, size_t operation_index,
-                        const fg__kernel *kernel, float *values, double sums[SUMS])
+                        const fg__kernel *kernel, fg__team *team, float *values,
+                        double sums[SUMS])
 {
-  const fg__level *fine = &p->multigrid.level[OPERATIONS[operation_index].linear];
+  call c = {OPERATIONS[operation_index].run,
+            kernel,
+            &p->multigrid.level[OPERATIONS[operation_index].linear],
+            {{0.0}}};
   load(p);
-  for (int n = 0; n < SUMS; ++n)
+  fg__team_run(team, run_share, &c);
+  for (int n = 0; n < SUMS; ++n) {
     sums[n] = 0.0;
-  OPERATIONS[operation_index].run(kernel, fine, fine + 1, sums);
+    for (int m = 0; m < MEMBERS; ++m)
+      sums[n] += c.sums[m][n];
+  }
   return save(p, values);
 }
 
-static void compare_kernels(const problem *p)
+/* Every kernel, by one thread and by a team, gives what the first does by one. */
+static void compare_kernels(const problem *p, fg__team *team)
 {
   const fg__kernel *kernels[MOST_KERNELS];
-  int kernel_count = kernels_of_this_machine(kernels);
-  size_t room = 20 * p->nodes + 10000;
+  int kernel_count = kernels_of_this_machine(p->dimension, kernels);
+  size_t room = 60 * p->nodes + 10000;
   float *before = allocate_or_fail(room, sizeof *before);
   float *expected = allocate_or_fail(room, sizeof *expected);
   float *values = allocate_or_fail(room, sizeof *values);
@@ -228,16 +263,18 @@ static void compare_kernels(const problem *p)
     double expected_sums[SUMS], sums[SUMS];
     load(p);
     save(p, before);
-    size_t count = result_of(p, n, kernels[0], expected, expected_sums);
+    size_t count = result_of(p, n, kernels[0], NULL, expected, expected_sums);
     assert_true(count <= room);
     assert_true(memcmp(before, expected, count * sizeof *before) != 0 ||
                 expected_sums[0] != 0.0);
-    for (int k = 1; k < kernel_count; ++k) {
-      result_of(p, n, kernels[k], values, sums);
+    for (int k = 0; k < 2 * kernel_count; ++k) {
+      const fg__kernel *kernel = kernels[k / 2];
+      result_of(p, n, kernel, k % 2 ? team : NULL, values, sums);
       if (memcmp(values, expected, count * sizeof *values) != 0 ||
           memcmp(sums, expected_sums, sizeof sums) != 0)
-        fail_msg("%s of %s differs from that of %s on %d x %d cells", OPERATIONS[n].name,
-                 kernels[k]->name, kernels[0]->name, p->of.cells[0], p->of.cells[1]);
+        fail_msg("%s of %s by %s differs on %d x %d x %d cells", OPERATIONS[n].name,
+                 kernel->name, k % 2 ? "a team" : "one thread", p->of.cells[0],
+                 p->of.cells[1], p->of.cells[2]);
     }
   }
   free(before);
@@ -245,42 +282,43 @@ static void compare_kernels(const problem *p)
   free(values);
 }
 
-static const int SIZES[][2] = {{8, 8},   {16, 24}, {30, 14}, {34, 18},  {33, 21},
-                               {62, 44}, {66, 50}, {95, 17}, {128, 40}, {260, 12}};
+static const int SIZES[][3] = {{8, 8},       {16, 24},     {30, 14},    {34, 18},
+                               {33, 21},     {62, 44},     {66, 50},    {95, 17},
+                               {128, 40},    {260, 12},    {8, 8, 8},   {16, 12, 20},
+                               {34, 10, 14}, {66, 18, 12}, {21, 15, 11}};
 
 static void compare_on_all_sizes(bool (*inside)(double, double))
 {
+  fg__team *team;
+  assert_int_equal(fg__team_create(&team, NULL, MEMBERS), FG_STATUS_OK);
   for (size_t n = 0; n < sizeof SIZES / sizeof *SIZES; ++n)
-    for (int borders = 0; borders < 4; ++borders) {
+    for (int borders = 0; borders < (SIZES[n][2] > 0 ? 8 : 4); ++borders) {
       problem p;
-      problem_create(
-          &p, &(problem_description){.cells = {SIZES[n][0], SIZES[n][1]},
-                                     .side = {1.0, 0.93 * SIZES[n][1] / SIZES[n][0]},
-                                     .periodic = {(borders & 1) != 0, (borders & 2) != 0},
-                                     .gamma = 8.0 / SIZES[n][0] / SIZES[n][0],
-                                     .anisotropy = 0.17,
-                                     .angle = turning,
-                                     .inside = inside});
-      compare_kernels(&p);
+      problem_description of = {.cells = {SIZES[n][0], SIZES[n][1], SIZES[n][2]},
+                                .side = {1.0, 0.93 * SIZES[n][1] / SIZES[n][0],
+                                         1.1 * SIZES[n][2] / SIZES[n][0]},
+                                .gamma = 8.0 / SIZES[n][0] / SIZES[n][0],
+                                .anisotropy = 0.17,
+                                .angle = turning,
+                                .inside = inside};
+      for (int k = 0; k < 3; ++k)
+        of.periodic[k] = borders >> k & 1;
+      problem_create(&p, &of);
+      compare_kernels(&p, team);
       problem_clear(&p);
     }
+  fg__team_destroy(team);
 }
 
-static void all_widths_give_the_same_bits(void **state)
+static void all_widths_and_teams_give_the_same_bits(void **state)
 {
   (void)state;
-  const fg__kernel *kernels[MOST_KERNELS];
-  if (kernels_of_this_machine(kernels) == 1)
-    skip();
   compare_on_all_sizes(NULL);
 }
 
-static void all_widths_give_the_same_bits_with_a_mask(void **state)
+static void all_widths_and_teams_give_the_same_bits_with_a_mask(void **state)
 {
   (void)state;
-  const fg__kernel *kernels[MOST_KERNELS];
-  if (kernels_of_this_machine(kernels) == 1)
-    skip();
   compare_on_all_sizes(outside_holes);
 }
 
@@ -288,22 +326,24 @@ static void all_widths_give_the_same_bits_with_a_mask(void **state)
 static void the_environment_narrows_the_choice(void **state)
 {
   (void)state;
-  const fg__kernel *kernels[MOST_KERNELS];
-  int count = kernels_of_this_machine(kernels);
-  assert_int_equal(unsetenv("FLOWGRAIN_KERNEL"), 0);
-  assert_ptr_equal(fg__kernel_choose(), kernels[count - 1]);
-  for (int k = 0; k < count; ++k) {
-    assert_int_equal(setenv("FLOWGRAIN_KERNEL", kernels[k]->name, 1), 0);
-    assert_ptr_equal(fg__kernel_choose(), kernels[k]);
+  for (int dimension = 2; dimension <= 3; ++dimension) {
+    const fg__kernel *kernels[MOST_KERNELS];
+    int count = kernels_of_this_machine(dimension, kernels);
+    assert_int_equal(unsetenv("FLOWGRAIN_KERNEL"), 0);
+    assert_ptr_equal(fg__kernel_choose(dimension), kernels[count - 1]);
+    for (int k = 0; k < count; ++k) {
+      assert_int_equal(setenv("FLOWGRAIN_KERNEL", kernels[k]->name, 1), 0);
+      assert_ptr_equal(fg__kernel_choose(dimension), kernels[k]);
+    }
+    assert_int_equal(unsetenv("FLOWGRAIN_KERNEL"), 0);
   }
-  assert_int_equal(unsetenv("FLOWGRAIN_KERNEL"), 0);
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(all_widths_give_the_same_bits),
-      cmocka_unit_test(all_widths_give_the_same_bits_with_a_mask),
+      cmocka_unit_test(all_widths_and_teams_give_the_same_bits),
+      cmocka_unit_test(all_widths_and_teams_give_the_same_bits_with_a_mask),
       cmocka_unit_test(the_environment_narrows_the_choice),
   };
   return cmocka_run_group_tests_name("evolve/kernel", tests, NULL, NULL);

@@ -7,318 +7,455 @@
 
 #include "evolve/kernel_sweep.h"
 
-/* A row in the level's own layout, for what is restricted: three quantities at most. */
+/* What is restricted: three quantities at most, each a line in the level's own layout, or
+ * a slice of lines gathered to coarse columns (and in 3D to coarse rows). */
 enum { MOST_QUANTITIES = 3 };
 
-typedef struct line {
+typedef struct lines {
   float *value[MOST_QUANTITIES];
-} line;
+} lines;
 
-/* The coarse row that gathers 1/4, 1/2, 1/4 of a fine row, in natural order, which is the
- * order of the fine row's even columns. */
-INLINE void gather_columns(const fg__level *fine, const float *from, float *to)
-{
-  const float *even = from, *odd = from + fine->odd_offset;
-  INDEPENDENT
-  for (int k = 0; k < fine->even_count; ++k)
-    to[k] = 0.5F * even[k] + 0.25F * (odd[k - 1] + odd[k]);
-}
-
-INLINE void weigh(const fg__level *fine, int j, float *line_values)
-{
-  const float *mass = fine->mass + (ptrdiff_t)j * fine->stride;
-  INDEPENDENT
-  for (int k = -FG__LANES; k < (int)fine->stride - FG__LANES; ++k)
-    line_values[k] *= mass[k];
-}
-
-INLINE void residual_line(const fg__level *fine, int j, const laplacian *l, line *out,
-                          bool linear, bool masked)
-{
-  for (int colour = EVEN; colour <= ODD; ++colour) {
-    row r = row_of(fine, j, colour, linear, masked);
-    ptrdiff_t own = colour == ODD ? fine->odd_offset : 0;
-    float *first = out->value[0] + own, *second = out->value[1] + own;
-    float *curvature = out->value[2] + own;
-    INDEPENDENT
-    for (int k = 0; k < r.count; ++k) {
-      residuals f = residuals_at(&r, l, k, linear, masked);
-      first[k] = f.first;
-      second[k] = f.second;
-      curvature[k] = linear ? r.curvature[k] : f.curvature;
-    }
-  }
-}
-
-INLINE void defect_line(const fg__level *fine, const float *w, int j, const laplacian *l,
-                        line *out, bool masked)
-{
-  for (int colour = EVEN; colour <= ODD; ++colour) {
-    ptrdiff_t own = colour == ODD ? fine->odd_offset : 0;
-    ptrdiff_t at = (ptrdiff_t)j * fine->stride + own;
-    int count = colour == ODD ? fine->odd_count : fine->even_count;
-    around x = around_row(fine, w, j, colour);
-    couplings c = {0};
-    if (masked)
-      c = couplings_row(fine, &fine->laplacian, j, colour);
-    const float *u = fine->u + at, *p = fine->p + at;
-    const float *inverse = masked ? fine->mass_inverse + at : NULL;
-    float *out_values = out->value[0] + own;
-    INDEPENDENT
-    for (int k = 0; k < count; ++k) {
-      float flux =
-          masked ? l->tau * apply(&c, &x, k) * inverse[k] : apply_constant(l, &x, k);
-      out_values[k] = (p[k] - u[k]) - flux;
-    }
-  }
-}
-
-/* Writes a coarse row given in natural order into the split layout. */
-INLINE void split(const fg__level *coarse, const float *natural, float *to)
-{
-  float *even = to, *odd = to + coarse->odd_offset;
-  int even_nodes = (coarse->columns + 1) / 2, odd_nodes = coarse->columns / 2;
-  INDEPENDENT
-  for (int k = 0; k < even_nodes; ++k)
-    even[k] = natural[2 * k];
-  INDEPENDENT
-  for (int k = 0; k < odd_nodes; ++k)
-    odd[k] = natural[2 * k + 1];
-  fg__fill_ghost_columns(coarse, to);
-}
-
-/* What a restriction needs: the fine rows, one after the other, gathered to coarse
- * columns. */
+/* What a restriction needs: the fine slices, one after the other, gathered. */
 typedef struct restriction {
   const fg__level *fine, *coarse;
   const float *w; /* of a defect; NULL: full residuals */
   laplacian l;
   int quantities;
-  line fine_line;
-  line gathered[3]; /* rows 2J - 1, 2J, 2J + 1 */
+  ptrdiff_t line; /* floats of a gathered line */
+  lines fine_line;
+  lines row[3];   /* 3D: gathered rows 2 J - 1, 2 J, 2 J + 1 */
+  lines slice[3]; /* gathered slices 2 S - 1, 2 S, 2 S + 1 */
 } restriction;
 
-INLINE void gather_row(restriction *r, int j, const line *to, bool linear, bool masked)
+/* The coarse columns' values, 1/4, 1/2, 1/4 of a fine line, in natural order, which is
+ * the order of the fine line's even columns. */
+ROW_LOOP void gather_columns(const fg__level *fine, const float *from, float *to)
+{
+  const float *even = from, *odd = from + fine->layout.odd_offset;
+  INDEPENDENT
+  for (int k = 0; k < fine->even_count; ++k)
+    to[k] = 0.5F * even[k] + 0.25F * (odd[k - 1] + odd[k]);
+}
+
+ROW_LOOP void combine_lines(const float *low, const float *middle, const float *high,
+                            int count, float *to)
+{
+  INDEPENDENT
+  for (int k = 0; k < count; ++k)
+    to[k] = 0.5F * middle[k] + 0.25F * (low[k] + high[k]);
+}
+
+ROW_LOOP void multiply(const float *by, float *values, ptrdiff_t count)
+{
+  INDEPENDENT
+  for (ptrdiff_t k = 0; k < count; ++k)
+    values[k] *= by[k];
+}
+
+INLINE void residual_nodes(const fg__level *fine, ptrdiff_t at, int colour,
+                           const laplacian *constants, const lines *out, bool linear,
+                           bool masked)
+{
+  const laplacian copy = *constants, *l = &copy;
+  row_view r = row_of(fine, at, colour, linear, masked);
+  ptrdiff_t own = begin_of(fine, colour);
+  float *first = out->value[0] + own, *second = out->value[1] + own;
+  float *curvature = out->value[2] + own;
+  INDEPENDENT
+  for (int k = 0; k < r.count; ++k) {
+    residuals f = residuals_at(&r, l, k, linear, masked);
+    first[k] = f.first;
+    second[k] = f.second;
+    curvature[k] = linear ? r.curvature[k] : f.curvature;
+  }
+}
+
+ROW_LOOP void residual_plain(const fg__level *fine, ptrdiff_t at, int colour,
+                             const laplacian *l, const lines *out)
+{
+  residual_nodes(fine, at, colour, l, out, false, false);
+}
+
+ROW_LOOP void residual_masked(const fg__level *fine, ptrdiff_t at, int colour,
+                              const laplacian *l, const lines *out)
+{
+  residual_nodes(fine, at, colour, l, out, false, true);
+}
+
+ROW_LOOP void residual_linear_plain(const fg__level *fine, ptrdiff_t at, int colour,
+                                    const laplacian *l, const lines *out)
+{
+  residual_nodes(fine, at, colour, l, out, true, false);
+}
+
+ROW_LOOP void residual_linear_masked(const fg__level *fine, ptrdiff_t at, int colour,
+                                     const laplacian *l, const lines *out)
+{
+  residual_nodes(fine, at, colour, l, out, true, true);
+}
+
+static void residual_line(const fg__level *fine, ptrdiff_t at, const laplacian *l,
+                          const lines *out, bool linear)
+{
+  for (int colour = EVEN; colour <= ODD; ++colour)
+    if (fine->mass)
+      (linear ? residual_linear_masked : residual_masked)(fine, at, colour, l, out);
+    else
+      (linear ? residual_linear_plain : residual_plain)(fine, at, colour, l, out);
+}
+
+INLINE void defect_nodes(const fg__level *fine, const float *w, ptrdiff_t row, int colour,
+                         const laplacian *constants, float *out, bool masked)
+{
+  const laplacian copy = *constants, *l = &copy;
+  ptrdiff_t own = begin_of(fine, colour), at = row + own;
+  int count = colour == ODD ? fine->odd_count : fine->even_count;
+  around x = around_row(fine, w, row, colour);
+  couplings c = {0};
+  if (masked)
+    c = couplings_row(fine, &fine->laplacian, row, colour);
+  const float *u = fine->u + at, *p = fine->p + at;
+  const float *inverse = masked ? fine->mass_inverse + at : NULL;
+  INDEPENDENT
+  for (int k = 0; k < count; ++k) {
+    float flux =
+        masked ? l->tau * apply(&c, &x, k) * inverse[k] : apply_constant(l, &x, k);
+    out[own + k] = (p[k] - u[k]) - flux;
+  }
+}
+
+ROW_LOOP void defect_plain(const fg__level *fine, const float *w, ptrdiff_t row,
+                           int colour, const laplacian *l, float *out)
+{
+  defect_nodes(fine, w, row, colour, l, out, false);
+}
+
+ROW_LOOP void defect_masked(const fg__level *fine, const float *w, ptrdiff_t row,
+                            int colour, const laplacian *l, float *out)
+{
+  defect_nodes(fine, w, row, colour, l, out, true);
+}
+
+static void defect_line(const fg__level *fine, const float *w, ptrdiff_t row,
+                        const laplacian *l, const lines *out)
+{
+  for (int colour = EVEN; colour <= ODD; ++colour)
+    (fine->mass ? defect_masked : defect_plain)(fine, w, row, colour, l, out->value[0]);
+}
+
+static void gather_row(restriction *r, int j, int k, const lines *to, bool linear)
 {
   const fg__level *fine = r->fine;
+  ptrdiff_t at = fg__row_at(&fine->layout, j, k);
   if (r->w)
-    defect_line(fine, r->w, j, &r->l, &r->fine_line, masked);
+    defect_line(fine, r->w, at, &r->l, &r->fine_line);
   else
-    residual_line(fine, j, &r->l, &r->fine_line, linear, masked);
+    residual_line(fine, at, &r->l, &r->fine_line, linear);
   for (int n = 0; n < r->quantities; ++n) {
     float *values = r->fine_line.value[n];
     fg__fill_ghost_columns(fine, values);
-    if (masked)
-      weigh(fine, j, values);
+    if (fine->mass)
+      multiply(fine->mass + at, values, fine->layout.stride);
     gather_columns(fine, values, to->value[n]);
   }
 }
 
-INLINE void combine_rows(restriction *r, int J, float *const out[], bool masked)
+static void swap_lines(lines *a, lines *b)
 {
-  const fg__level *coarse = r->coarse;
-  float *sum = r->fine_line.value[0];
-  for (int n = 0; n < r->quantities; ++n) {
-    const float *low = r->gathered[0].value[n], *middle = r->gathered[1].value[n];
-    const float *high = r->gathered[2].value[n];
-    INDEPENDENT
-    for (int k = 0; k < r->fine->even_count; ++k)
-      sum[k] = 0.5F * middle[k] + 0.25F * (low[k] + high[k]);
-    float *to = fg__row(coarse, out[n], J);
-    split(coarse, sum, to);
-    if (masked) {
-      const float *inverse = coarse->mass_inverse + (ptrdiff_t)J * coarse->stride;
-      INDEPENDENT
-      for (int k = -FG__LANES; k < (int)coarse->stride - FG__LANES; ++k)
-        to[k] *= inverse[k];
-    }
-  }
-}
-
-INLINE void swap_lines(line *a, line *b)
-{
-  line kept = *a;
+  lines kept = *a;
   *a = *b;
   *b = kept;
 }
 
-/* Coarse row J from fine rows 2J - 1 (kept from the row before), 2J and 2J + 1. */
-INLINE void restrict_row(restriction *r, int J, float *const out[], bool linear,
-                         bool masked)
+#if FG__DIMENSION == 3
+static void gather_slice(restriction *r, int k, const lines *to, bool linear)
 {
   const fg__level *fine = r->fine;
-  if (J == 0)
-    gather_row(r, fine->ghost_row_source[0], &r->gathered[0], linear, masked);
-  gather_row(r, 2 * J, &r->gathered[1], linear, masked);
-  int above = 2 * J + 1 < fine->rows ? 2 * J + 1 : fine->ghost_row_source[1];
-  gather_row(r, above, &r->gathered[2], linear, masked);
-  combine_rows(r, J, out, masked);
-  swap_lines(&r->gathered[0], &r->gathered[2]);
+  gather_row(r, fine->ghost_row_source[0], k, &r->row[0], linear);
+  for (int J = 0; J < r->coarse->layout.nodes[1]; ++J) {
+    int above = 2 * J + 1;
+    if (above >= fine->layout.nodes[1])
+      above = fine->ghost_row_source[1];
+    gather_row(r, 2 * J, k, &r->row[1], linear);
+    gather_row(r, above, k, &r->row[2], linear);
+    for (int n = 0; n < r->quantities; ++n)
+      combine_lines(r->row[0].value[n], r->row[1].value[n], r->row[2].value[n],
+                    fine->even_count, to->value[n] + J * r->line);
+    swap_lines(&r->row[0], &r->row[2]);
+  }
+}
+#else
+static void gather_slice(restriction *r, int j, const lines *to, bool linear)
+{
+  gather_row(r, j, 0, to, linear);
+}
+#endif
+
+/* The slice whose values stand for slice s, which may lie one beyond the level. */
+static int slice_source(const fg__level *level, int s)
+{
+  const int *source =
+      FG__DIMENSION == 3 ? level->ghost_plane_source : level->ghost_row_source;
+  if (s < 0)
+    return source[0];
+  return s < fg__slices(level) ? s : source[1];
 }
 
-/* Lines cut from the fine level's scratch space. */
-INLINE restriction restriction_of(const fg__level *fine, const fg__level *coarse,
-                                  float tau, int quantities)
+/* Writes a coarse row given in natural order into the split layout. */
+ROW_LOOP void split(const fg__level *coarse, const float *natural, float *to)
+{
+  int columns = coarse->layout.nodes[0];
+  float *even = to, *odd = to + coarse->layout.odd_offset;
+  INDEPENDENT
+  for (int k = 0; k < (columns + 1) / 2; ++k)
+    even[k] = natural[2 * k];
+  INDEPENDENT
+  for (int k = 0; k < columns / 2; ++k)
+    odd[k] = natural[2 * k + 1];
+  fg__fill_ghost_columns(coarse, to);
+}
+
+static void combine_slices(restriction *r, int S, float *const out[])
+{
+  const fg__level *coarse = r->coarse;
+  float *sum = r->fine_line.value[0];
+  int rows = FG__DIMENSION == 3 ? coarse->layout.nodes[1] : 1;
+  for (int n = 0; n < r->quantities; ++n)
+    for (int J = 0; J < rows; ++J) {
+      ptrdiff_t line = J * r->line;
+      ptrdiff_t at = FG__DIMENSION == 3 ? fg__row_at(&coarse->layout, J, S)
+                                        : fg__row_at(&coarse->layout, S, 0);
+      combine_lines(r->slice[0].value[n] + line, r->slice[1].value[n] + line,
+                    r->slice[2].value[n] + line, r->fine->even_count, sum);
+      split(coarse, sum, out[n] + at);
+      if (coarse->mass)
+        multiply(coarse->mass_inverse + at, out[n] + at, coarse->layout.stride);
+    }
+}
+
+/* Coarse slice S from fine slices 2 S - 1 (kept from the slice before, unless it is the
+ * first of a part), 2 S and 2 S + 1. */
+static void restrict_slice(restriction *r, int S, bool first, float *const out[],
+                           bool linear)
+{
+  if (first)
+    gather_slice(r, slice_source(r->fine, 2 * S - 1), &r->slice[0], linear);
+  gather_slice(r, 2 * S, &r->slice[1], linear);
+  gather_slice(r, slice_source(r->fine, 2 * S + 1), &r->slice[2], linear);
+  combine_slices(r, S, out);
+  swap_lines(&r->slice[0], &r->slice[2]);
+}
+
+/* Cuts all lines from the member's piece of the fine level's scratch space. */
+static restriction restriction_of(const fg__level *fine, const fg__level *coarse,
+                                  float tau, int quantities, const fg__share *share)
 {
   restriction r = {.fine = fine,
                    .coarse = coarse,
                    .l = laplacian_times(fine, tau),
-                   .quantities = quantities};
-  float *space = fine->scratch;
+                   .quantities = quantities,
+                   .line = fine->layout.odd_offset};
+  ptrdiff_t stride = fine->layout.stride;
+  ptrdiff_t slice = FG__DIMENSION == 3 ? r.line * coarse->layout.nodes[1] : stride;
+  float *space = fine->scratch + (size_t)share->member * fine->scratch_size;
   for (int n = 0; n < quantities; ++n) {
-    r.fine_line.value[n] = space + FG__LANES;
-    space += fine->stride;
+    r.fine_line.value[n] = space;
+    space += stride;
     for (int m = 0; m < 3; ++m) {
-      r.gathered[m].value[n] = space + FG__LANES;
-      space += fine->stride;
+      r.row[m].value[n] = space;
+      space += stride;
+    }
+    for (int m = 0; m < 3; ++m) {
+      r.slice[m].value[n] = space;
+      space += slice;
     }
   }
   return r;
 }
 
-INLINE void clear(const fg__level *level, float *array)
+static void clear(const fg__level *level, float *array)
 {
-  memset(array - level->first, 0, level->array_size * sizeof *array);
+  memset(array - level->layout.first, 0, level->layout.array_size * sizeof *array);
 }
 
-/* Once rows up to j = 2J + 2 are smoothed, those up to 2J + 1 have their final residuals,
- * while they are still near. Not so across a periodic border, where row 0 needs the last.
- */
-INLINE void descend(const fg__level *fine, const fg__level *coarse, float tau,
-                    bool linear, bool masked)
+/* Once slices up to s = 2 S + 2 are smoothed, those up to 2 S + 1 have their final
+ * residuals, while they are still near. Not so at the start of a part, whose neighbour
+ * may be at work still, nor across a periodic border, where slice 0 needs the last. */
+static void descend(const fg__level *fine, const fg__level *coarse, float tau,
+                    bool linear, const fg__share *share)
 {
   laplacian l = laplacian_times(fine, tau);
-  restriction r = restriction_of(fine, coarse, tau, 3);
+  restriction r = restriction_of(fine, coarse, tau, 3, share);
   float *out[] = {coarse->p, coarse->q, coarse->curvature};
-  bool together = !fine->periodic[1];
-  for (int j = 0; j < fine->rows + 2; j += 2) {
-    sweep_rows(fine, j, &l, linear, masked);
-    if (together && j >= 2)
-      restrict_row(&r, j / 2 - 1, out, linear, masked);
+  bool together = !fine->periodic[FG__DIMENSION - 1];
+  part mine = part_of(fine, share);
+  int first = mine.begin / 2, last = (mine.end + 1) / 2; /* coarse slices */
+  int started = together && mine.begin == 0 ? first : first + 1;
+  begin_sweep(fine, mine, &l, linear, share);
+  for (int s = mine.begin + 2; s <= mine.end + 1; s += 2) {
+    int S = s / 2 - 1;
+    continue_sweep(fine, s, mine, &l, linear);
+    if (together && S >= started)
+      restrict_slice(&r, S, S == started, out, linear);
   }
-  for (int J = 0; !together && J < coarse->rows; ++J)
-    restrict_row(&r, J, out, linear, masked);
-  clear(coarse, coarse->u);
-  clear(coarse, coarse->w);
+  fg__team_barrier(share);
+  int end = together ? started : last;
+  for (int S = first; S < end && S < last; ++S)
+    restrict_slice(&r, S, S == first, out, linear);
+  if (share->member == 0)
+    clear(coarse, coarse->u);
+  if (share->member == share->members - 1)
+    clear(coarse, coarse->w);
+  fg__team_barrier(share);
 }
 
-static void smooth_restrict(const fg__level *fine, const fg__level *coarse, float tau)
+static void smooth_restrict(const fg__level *fine, const fg__level *coarse, float tau,
+                            const fg__share *share)
 {
-  if (fine->mass)
-    descend(fine, coarse, tau, false, true);
-  else
-    descend(fine, coarse, tau, false, false);
+  descend(fine, coarse, tau, false, share);
 }
 
 static void smooth_restrict_linear(const fg__level *fine, const fg__level *coarse,
-                                   float tau)
+                                   float tau, const fg__share *share)
 {
-  if (fine->mass)
-    descend(fine, coarse, tau, true, true);
-  else
-    descend(fine, coarse, tau, true, false);
+  descend(fine, coarse, tau, true, share);
 }
 
 static void restrict_defect(const fg__level *fine, const float *w,
-                            const fg__level *coarse, float *out, float tau)
+                            const fg__level *coarse, float *out, float tau,
+                            const fg__share *share)
 {
-  restriction r = restriction_of(fine, coarse, tau, 1);
+  restriction r = restriction_of(fine, coarse, tau, 1, share);
   r.w = w;
   float *outs[] = {out};
-  for (int J = 0; J < coarse->rows; ++J)
-    if (fine->mass)
-      restrict_row(&r, J, outs, true, true);
-    else
-      restrict_row(&r, J, outs, true, false);
-  fg__fill_ghosts(coarse, out);
+  part mine;
+  fg__team_part(share, fg__slices(coarse), 1, &mine.begin, &mine.end);
+  for (int S = mine.begin; S < mine.end; ++S)
+    restrict_slice(&r, S, S == mine.begin, outs, true);
+  fg__team_barrier(share);
+  if (share->member == 0)
+    fg__fill_ghosts(coarse, out);
+  fg__team_barrier(share);
 }
 
-/* A coarse row, or the mean of two, in natural order with one ghost at its end. */
-INLINE void merge(const fg__level *coarse, const float *a, const float *b, float *natural)
+/* The mean of coarse rows in natural order, with one ghost at its end: of the two (in 3D
+ * four) rows round a fine row, which are the same where it lies on one. */
+ROW_LOOP void merge(const fg__level *coarse, const float *const from[4], float *natural)
 {
-  int even_nodes = (coarse->columns + 1) / 2, odd_nodes = coarse->columns / 2;
+  int columns = coarse->layout.nodes[0];
+  ptrdiff_t odd = coarse->layout.odd_offset, ghost = coarse->ghost_column[1];
+  const float *a = from[0], *b = from[1];
+#if FG__DIMENSION == 3
+  const float *c = from[2], *d = from[3];
+#define MEAN(n) (0.25F * ((a[n] + b[n]) + (c[n] + d[n])))
+#else
+#define MEAN(n) (0.5F * (a[n] + b[n]))
+#endif
   INDEPENDENT
-  for (int k = 0; k < even_nodes; ++k)
-    natural[2 * k] = 0.5F * (a[k] + b[k]);
-  const float *a_odd = a + coarse->odd_offset, *b_odd = b + coarse->odd_offset;
+  for (int k = 0; k < (columns + 1) / 2; ++k)
+    natural[2 * k] = MEAN(k);
   INDEPENDENT
-  for (int k = 0; k < odd_nodes; ++k)
-    natural[2 * k + 1] = 0.5F * (a_odd[k] + b_odd[k]);
-  ptrdiff_t ghost = coarse->ghost_column[1];
-  natural[coarse->columns] = 0.5F * (a[ghost] + b[ghost]);
+  for (int k = 0; k < columns / 2; ++k)
+    natural[2 * k + 1] = MEAN(odd + k);
+  natural[columns] = MEAN(ghost);
+#undef MEAN
 }
 
-/* Row j of base + the interpolation of a coarse array. */
-INLINE void prolong_row(const fg__level *coarse, const float *from, const fg__level *fine,
-                        const float *base, float *to, int j)
+/* Row j of plane k of base + the interpolation of a coarse array. */
+static void prolong_row(const fg__level *coarse, const float *from, const fg__level *fine,
+                        const float *base, float *to, int j, int k, float *natural)
 {
-  float *natural = fine->scratch;
-  const float *low = from + (ptrdiff_t)(j / 2) * coarse->stride;
-  const float *high = j % 2 == 0 ? low : low + coarse->stride;
-  merge(coarse, low, high, natural);
-  const float *base_even = base + (ptrdiff_t)j * fine->stride;
-  const float *base_odd = base_even + fine->odd_offset;
-  float *even = fg__row(fine, to, j), *odd = even + fine->odd_offset;
+  const float *rows[4];
+  rows[0] = from + fg__row_at(&coarse->layout, j / 2, k / 2);
+  rows[1] = rows[0] + j % 2 * coarse->layout.stride;
+  rows[2] = rows[0] + k % 2 * coarse->layout.plane;
+  rows[3] = rows[1] + k % 2 * coarse->layout.plane;
+  merge(coarse, rows, natural);
+  ptrdiff_t at = fg__row_at(&fine->layout, j, k);
+  const float *base_even = base + at, *base_odd = base_even + fine->layout.odd_offset;
+  float *even = to + at, *odd = even + fine->layout.odd_offset;
   INDEPENDENT
-  for (int k = 0; k < fine->even_count; ++k)
-    even[k] = base_even[k] + natural[k];
+  for (int n = 0; n < fine->even_count; ++n)
+    even[n] = base_even[n] + natural[n];
   INDEPENDENT
-  for (int k = 0; k < fine->odd_count; ++k)
-    odd[k] = base_odd[k] + 0.5F * (natural[k] + natural[k + 1]);
+  for (int n = 0; n < fine->odd_count; ++n)
+    odd[n] = base_odd[n] + 0.5F * (natural[n] + natural[n + 1]);
   fg__fill_ghost_columns(fine, even);
   for (int side = 0; side < 2; ++side)
     if (fine->ghost_row_source[side] == j)
-      fg__fill_ghost_row(fine, to, side);
+      fg__fill_ghost_row(fine, to, k, side);
+}
+
+static void prolong_slice(const fg__level *coarse, const float *from,
+                          const fg__level *fine, const float *base, float *to, int s,
+                          float *natural)
+{
+#if FG__DIMENSION == 3
+  for (int j = 0; j < fine->layout.nodes[1]; ++j)
+    prolong_row(coarse, from, fine, base, to, j, s, natural);
+  for (int side = 0; side < 2; ++side)
+    if (fine->ghost_plane_source[side] == s)
+      fg__fill_ghost_plane(fine, to, side);
+#else
+  prolong_row(coarse, from, fine, base, to, s, 0, natural);
+#endif
+}
+
+static float *natural_line(const fg__level *fine, const fg__share *share)
+{
+  return fine->scratch + (size_t)share->member * fine->scratch_size;
 }
 
 static void prolong_array(const fg__level *coarse, const float *from,
-                          const fg__level *fine, const float *base, float *to)
+                          const fg__level *fine, const float *base, float *to,
+                          const fg__share *share)
 {
-  for (int j = 0; j < fine->rows; ++j)
-    prolong_row(coarse, from, fine, base, to, j);
+  part mine = part_of(fine, share);
+  for (int s = mine.begin; s < mine.end; ++s)
+    prolong_slice(coarse, from, fine, base, to, s, natural_line(fine, share));
+  fg__team_barrier(share);
 }
 
-INLINE void prolong_rows(const fg__level *coarse, const fg__level *fine, int first,
-                         int last)
+static void correct_slice(const fg__level *coarse, const fg__level *fine, int s,
+                          const fg__share *share)
 {
-  for (int j = first; j <= last && j < fine->rows; ++j) {
-    prolong_row(coarse, coarse->u, fine, fine->u, fine->u, j);
-    prolong_row(coarse, coarse->w, fine, fine->w, fine->w, j);
-  }
+  float *natural = natural_line(fine, share);
+  prolong_slice(coarse, coarse->u, fine, fine->u, fine->u, s, natural);
+  prolong_slice(coarse, coarse->w, fine, fine->w, fine->w, s, natural);
 }
 
-/* Row j is smoothed when rows up to j + 1 are corrected; across a periodic border row 0
- * needs the last one too. */
-INLINE void ascend(const fg__level *coarse, const fg__level *fine, float tau, bool linear,
-                   bool masked)
+/* Slice s is smoothed when those up to s + 1 are corrected; the slices at either end of a
+ * part are corrected before all others, because the neighbours' need them. */
+static void ascend(const fg__level *coarse, const fg__level *fine, float tau, bool linear,
+                   const fg__share *share)
 {
   laplacian l = laplacian_times(fine, tau);
-  int done = fine->periodic[1] ? fine->rows - 1 : 0;
-  prolong_rows(coarse, fine, 0, done);
-  for (int j = 0; j < fine->rows + 2; j += 2) {
-    if (done < j + 1) {
-      prolong_rows(coarse, fine, done + 1, j + 1);
-      done = j + 1;
-    }
-    sweep_rows(fine, j, &l, linear, masked);
+  part mine = part_of(fine, share);
+  int last = mine.end - 1;
+  for (int s = mine.begin; s < mine.end && s < mine.begin + 2; ++s)
+    correct_slice(coarse, fine, s, share);
+  if (last >= mine.begin + 2)
+    correct_slice(coarse, fine, last, share);
+  fg__team_barrier(share);
+  begin_sweep(fine, mine, &l, linear, share);
+  for (int s = mine.begin + 2; s <= mine.end + 1; s += 2) {
+    for (int next = s; next <= s + 1 && next < last; ++next)
+      correct_slice(coarse, fine, next, share);
+    continue_sweep(fine, s, mine, &l, linear);
   }
+  fg__team_barrier(share);
 }
 
-static void prolong_smooth(const fg__level *coarse, const fg__level *fine, float tau)
+static void prolong_smooth(const fg__level *coarse, const fg__level *fine, float tau,
+                           const fg__share *share)
 {
-  if (fine->mass)
-    ascend(coarse, fine, tau, false, true);
-  else
-    ascend(coarse, fine, tau, false, false);
+  ascend(coarse, fine, tau, false, share);
 }
 
 static void prolong_smooth_linear(const fg__level *coarse, const fg__level *fine,
-                                  float tau)
+                                  float tau, const fg__share *share)
 {
-  if (fine->mass)
-    ascend(coarse, fine, tau, true, true);
-  else
-    ascend(coarse, fine, tau, true, false);
+  ascend(coarse, fine, tau, true, share);
 }
 
 #endif

@@ -1,9 +1,14 @@
 #include "evolve/level.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+
+/* What kernels keep of slices for themselves: one line and three gathered slices of three
+ * quantities; in 3D three lines more that become a gathered one. */
+enum { SCRATCH_QUANTITIES = 3, SCRATCH_SLICES = 3, SCRATCH_LINES = 4 };
 
 static int round_to_lanes(int count)
 {
@@ -15,212 +20,297 @@ static int round_to_lanes(int count)
 static fg_status take_arrays(fg__level *level, fg_context *context, float **const out[],
                              int count)
 {
-  size_t apart = level->array_size + FG__LANES;
+  size_t apart = level->layout.array_size + FG__LANES;
   float *memory = fg__allocate_aligned(apart * (size_t)count, sizeof *memory);
   if (!memory)
     return fg__fail_memory(context, "a multigrid level",
                            apart * (size_t)count * sizeof *memory);
   level->memory[level->memory_count++] = memory;
   for (int n = 0; n < count; ++n)
-    *out[n] = memory + (size_t)n * apart + level->first;
+    *out[n] = memory + (size_t)n * apart + level->layout.first;
   return FG_STATUS_OK;
+}
+
+/* Sums of terms up to 8 on average stay below 2^53 multiples of the smallest number, so
+ * that they are exact; the constant adds 52 bits to it (Demmel and Nguyen, Fast
+ * reproducible floating-point summation, 2013, use the same device). */
+static double rounding_for(double nodes, double most_mean)
+{
+  double quantum = ldexp(exp2(ceil(log2(nodes))) * most_mean, -52);
+  return 1.5 * ldexp(quantum, 52);
 }
 
 static void lay_out(fg__level *level)
 {
-  for (int k = 0; k < 2; ++k) {
-    int nodes = level->periodic[k] ? level->cells[k] : level->cells[k] + 1;
-    *(k == 0 ? &level->columns : &level->rows) = nodes;
+  int nodes[3] = {1, 1, 1}, dimension = level->layout.dimension;
+  level->nodes = 1.0;
+  level->cell_volume = 1.0;
+  for (int k = 0; k < dimension; ++k) {
+    nodes[k] = level->periodic[k] ? level->cells[k] : level->cells[k] + 1;
+    level->nodes *= nodes[k];
+    level->cell_volume *= level->spacing[k];
   }
-  int columns = level->columns;
-  level->even_count = round_to_lanes((columns + 1) / 2);
-  level->odd_count = round_to_lanes(columns / 2);
-  /* each part has a pad of one vector before it and at least one ghost after it */
-  int even_part = round_to_lanes((columns + 1) / 2 + 1);
-  int odd_part = round_to_lanes(columns / 2 + 1);
-  level->odd_offset = even_part + FG__LANES;
-  level->stride = even_part + odd_part + 2 * FG__LANES;
-  level->array_size = (size_t)level->stride * (size_t)(level->rows + 2) + FG__LANES;
-  level->first = level->stride + FG__LANES;
-  int last = columns - 1;
-  level->ghost_column[0] = level->odd_offset - 1;
-  level->ghost_column[1] = fg__column(level, columns);
-  level->ghost_column_source[0] = fg__column(level, level->periodic[0] ? last : 1);
-  level->ghost_column_source[1] = fg__column(level, level->periodic[0] ? 0 : last - 1);
-  level->ghost_row_source[0] = level->periodic[1] ? level->rows - 1 : 1;
-  level->ghost_row_source[1] = level->periodic[1] ? 0 : level->rows - 2;
+  level->layout = fg__layout_of(dimension, nodes);
+  level->even_count = round_to_lanes((nodes[0] + 1) / 2);
+  level->odd_count = round_to_lanes(nodes[0] / 2);
+  level->rounding = rounding_for(level->nodes, 8.0);
+  level->change_rounding = rounding_for(level->nodes, 0.125);
+  const fg__layout *at = &level->layout;
+  bool round_x = level->periodic[0], round_y = level->periodic[1];
+  level->ghost_column[0] = at->odd_offset - 1;
+  level->ghost_column[1] = fg__column(at, nodes[0]);
+  level->ghost_column_source[0] = fg__column(at, round_x ? nodes[0] - 1 : 1);
+  level->ghost_column_source[1] = fg__column(at, round_x ? 0 : nodes[0] - 2);
+  level->ghost_row_source[0] = round_y ? nodes[1] - 1 : 1;
+  level->ghost_row_source[1] = round_y ? 0 : nodes[1] - 2;
+  level->ghost_plane_source[0] = level->periodic[2] ? nodes[2] - 1 : 1;
+  level->ghost_plane_source[1] = level->periodic[2] ? 0 : nodes[2] - 2;
 }
 
-void fg__fill_ghost_row(const fg__level *level, float *array, int side)
+void fg__fill_ghost_row(const fg__level *level, float *array, int k, int side)
 {
-  float *ghost = fg__row(level, array, side == 0 ? -1 : level->rows);
-  const float *source = fg__row(level, array, level->ghost_row_source[side]);
-  memcpy(ghost - FG__LANES, source - FG__LANES, (size_t)level->stride * sizeof *ghost);
+  int ghost = side == 0 ? -1 : level->layout.nodes[1];
+  memcpy(fg__row(level, array, ghost, k),
+         fg__row(level, array, level->ghost_row_source[side], k),
+         (size_t)level->layout.stride * sizeof *array);
+}
+
+void fg__fill_ghost_plane(const fg__level *level, float *array, int side)
+{
+  int ghost = side == 0 ? -1 : level->layout.nodes[2];
+  memcpy(fg__row(level, array, -1, ghost),
+         fg__row(level, array, -1, level->ghost_plane_source[side]),
+         (size_t)level->layout.plane * sizeof *array);
 }
 
 void fg__fill_ghosts(const fg__level *level, float *array)
 {
-  for (int j = 0; j < level->rows; ++j)
-    fg__fill_ghost_columns(level, fg__row(level, array, j));
-  fg__fill_ghost_row(level, array, 0);
-  fg__fill_ghost_row(level, array, 1);
+  for (int k = 0; k < level->layout.nodes[2]; ++k) {
+    for (int j = 0; j < level->layout.nodes[1]; ++j)
+      fg__fill_ghost_columns(level, fg__row(level, array, j, k));
+    fg__fill_ghost_row(level, array, k, 0);
+    fg__fill_ghost_row(level, array, k, 1);
+  }
+  for (int side = 0; side < 2 && level->layout.dimension == 3; ++side)
+    fg__fill_ghost_plane(level, array, side);
 }
 
 void fg__level_import(const fg__level *level, float *array, const float *plain)
 {
-  for (int j = 0; j < level->rows; ++j)
-    for (int i = 0; i < level->columns; ++i)
-      *fg__node(level, array, i, j) =
-          plain[(size_t)j * (size_t)level->columns + (size_t)i];
+  const int *nodes = level->layout.nodes;
+  for (int k = 0; k < nodes[2]; ++k)
+    for (int j = 0; j < nodes[1]; ++j) {
+      float *row = fg__row(level, array, j, k);
+      for (int i = 0; i < nodes[0]; ++i)
+        row[fg__column(&level->layout, i)] = *plain++;
+    }
   fg__fill_ghosts(level, array);
 }
 
 void fg__level_export(const fg__level *level, const float *array, float *plain)
 {
-  for (int j = 0; j < level->rows; ++j) {
-    const float *even = array + (ptrdiff_t)j * level->stride;
-    const float *odd = even + level->odd_offset;
-    float *row = plain + (size_t)j * (size_t)level->columns;
-    for (int k = 0; k < (level->columns + 1) / 2; ++k)
-      row[2 * k] = even[k];
-    for (int k = 0; k < level->columns / 2; ++k)
-      row[2 * k + 1] = odd[k];
-  }
-}
-
-/* A cell of the extended mesh: beyond natural borders its mirror image, whose
- * off-diagonal tensor entry has the other sign for each axis mirrored. */
-typedef struct cell {
-  double xx, xy, yy, weight;
-} cell;
-
-static cell extended_cell(const fg__level *level, int i, int j)
-{
-  int index[2] = {i, j};
-  double sign = 1.0;
-  for (int k = 0; k < 2; ++k) {
-    int count = level->cells[k];
-    if (index[k] >= 0 && index[k] < count)
-      continue;
-    if (level->periodic[k]) {
-      index[k] = (index[k] + count) % count;
-    } else {
-      index[k] = index[k] < 0 ? -1 - index[k] : 2 * count - 1 - index[k];
-      sign = -sign;
+  const int *nodes = level->layout.nodes;
+  for (int k = 0; k < nodes[2]; ++k)
+    for (int j = 0; j < nodes[1]; ++j, plain += nodes[0]) {
+      const float *even = array + fg__row_at(&level->layout, j, k);
+      const float *odd = even + level->layout.odd_offset;
+      for (int n = 0; n < (nodes[0] + 1) / 2; ++n)
+        plain[2 * n] = even[n];
+      for (int n = 0; n < nodes[0] / 2; ++n)
+        plain[2 * n + 1] = odd[n];
     }
+}
+
+/* The exact Q1 stiffness of a box of cells hx x hy (x hz) with constant tensor, over its
+ * volume. Corners a and b of a cell couple by the sum of weight[c] A_c over the tensor's
+ * components; with s the signs of a corner's place, 1D integrals over the unit interval
+ * give per axis: both functions 1/3 (s alike) or 1/6, one derivative s/2, both s_a s_b.
+ */
+typedef struct coupling {
+  int cell[3]; /* of the node with the lesser index */
+  double weight[FG__TENSOR_COMPONENTS];
+} coupling;
+
+enum { MOST_CELLS = 4 }; /* that share an edge */
+
+static double integral(const int a[3], const int b[3], int dimension, int p, int q)
+{
+  double product = 1.0;
+  for (int k = 0; k < dimension; ++k) {
+    if (k == p && k == q)
+      product *= a[k] * b[k];
+    else if (k == p)
+      product *= 0.5 * a[k];
+    else if (k == q)
+      product *= 0.5 * b[k];
+    else
+      product *= a[k] == b[k] ? 1.0 / 3.0 : 1.0 / 6.0;
   }
-  size_t n = (size_t)index[1] * (size_t)level->cells[0] + (size_t)index[0];
-  return (cell){.xx = (double)level->cell_xx[n],
-                .xy = sign * (double)level->cell_xy[n],
-                .yy = (double)level->cell_yy[n],
-                .weight = (double)level->cell_weight[n]};
+  return product;
 }
 
-/* Entries of the exact Q1 stiffness of a rectangle hx x hy with constant tensor, divided
- * by hx hy. With corner differences x, y, q of the Haar basis the energy is
- * (a x^2 + 2 b x y + c y^2 + (a + c) q^2 / 12) / 2, a = Axx / hx^2, b = Axy / (hx hy),
- * c = Ayy / hy^2. */
-typedef struct entries {
-  double horizontal, vertical, northeast, northwest;
-} entries;
-
-static entries stiffness(double xx, double xy, double yy, const double spacing[2])
+/* The cells that hold both a node and its neighbour at `offset`, and what each gives. */
+static int couplings_to(const int offset[3], int dimension, const double spacing[3],
+                        coupling out[MOST_CELLS])
 {
-  double a = xx / (spacing[0] * spacing[0]);
-  double b = xy / (spacing[0] * spacing[1]);
-  double c = yy / (spacing[1] * spacing[1]);
-  return (entries){.horizontal = c / 6.0 - a / 3.0,
-                   .vertical = a / 6.0 - c / 3.0,
-                   .northeast = -(a + c) / 6.0 - b / 2.0,
-                   .northwest = -(a + c) / 6.0 + b / 2.0};
+  static const int axes[FG__TENSOR_COMPONENTS][2] = {{0, 0}, {0, 1}, {1, 1},
+                                                     {2, 2}, {0, 2}, {1, 2}};
+  int count = 0;
+  for (int corner = 0; corner < 1 << dimension; ++corner) {
+    int a[3] = {-1, -1, -1}, b[3] = {-1, -1, -1};
+    coupling c = {.cell = {0, 0, 0}};
+    bool holds = true;
+    for (int k = 0; k < dimension; ++k) {
+      a[k] = corner >> k & 1 ? 1 : -1; /* place of the node in the cell */
+      b[k] = a[k] + 2 * offset[k];
+      holds = holds && (b[k] == -1 || b[k] == 1);
+      c.cell[k] = a[k] == 1 ? -1 : 0;
+    }
+    if (!holds)
+      continue;
+    for (int n = 0; n < FG__TENSOR_COMPONENTS; ++n) {
+      int p = axes[n][0], q = axes[n][1];
+      if (p >= dimension || q >= dimension)
+        continue;
+      double both = integral(a, b, dimension, p, q);
+      if (p != q)
+        both += integral(a, b, dimension, q, p);
+      c.weight[n] = both / (spacing[p] * spacing[q]);
+    }
+    out[count++] = c;
+  }
+  return count;
 }
 
-static entries cell_entries(const fg__level *level, int i, int j, double gamma)
+/* Offset of the neighbour that entry n of a stencil couples to. */
+static void offset_of(int n, int offset[3])
 {
-  cell c = extended_cell(level, i, j);
-  return stiffness(gamma * c.xx, gamma * c.xy, gamma * c.yy, level->spacing);
+  offset[0] = n == 0 ? 1 : (n - 1) % 3 - 1;
+  offset[1] = offset[2] = 0;
+  if (n > 0)
+    fg__upper_row((n - 1) / 3, &offset[1], &offset[2]);
 }
 
-static entries cell_laplacian(const fg__level *level, int i, int j)
+static int coupling_count(const fg__level *level)
 {
-  double weight = extended_cell(level, i, j).weight;
-  return stiffness(weight, 0.0, weight, level->spacing);
+  return 1 + 3 * fg__upper_rows(level->layout.dimension);
 }
 
-/* Assembles couplings from cells at nodes -1 ... columns and -1 ... rows (the ghosts'
- * couplings to real nodes are read from them), then diagonals: rows sum to zero. */
+/* One node's coupling from the cells round it. */
+static double couple(const fg__cells_of_box *tensor, const coupling *c, int cells, int i,
+                     int j, int k, double gamma, bool laplacian)
+{
+  double sum = 0.0;
+  for (int n = 0; n < cells; ++n) {
+    ptrdiff_t at =
+        fg__cell_at(tensor, i + c[n].cell[0], j + c[n].cell[1], k + c[n].cell[2]);
+    double entry = 0.0;
+    if (laplacian) {
+      double diagonal = c[n].weight[0] + c[n].weight[2] + c[n].weight[3];
+      entry = (double)tensor->weight[at] * diagonal;
+    } else {
+      for (int m = 0; m < FG__TENSOR_COMPONENTS && tensor->component[m]; ++m)
+        entry += gamma * (double)tensor->component[m][at] * c[n].weight[m];
+    }
+    sum += entry;
+  }
+  return sum;
+}
+
+/* Couplings from the cells, also of the ghosts before and after the box along axes where
+ * a true node reads them; then diagonals: rows sum to zero. */
 static void assemble(const fg__level *level, const fg__stencil *out, double gamma,
                      bool laplacian)
 {
-#define ENTRIES(i, j)                                                                    \
-  (laplacian ? cell_laplacian(level, i, j) : cell_entries(level, i, j, gamma))
-  for (int j = -1; j <= level->rows; ++j)
-    for (int i = -1; i <= level->columns; ++i) {
-      entries northeast = ENTRIES(i, j), southeast = ENTRIES(i, j - 1);
-      entries northwest = ENTRIES(i - 1, j);
-      ptrdiff_t n = (ptrdiff_t)j * level->stride +
-                    (i == -1 ? level->ghost_column[0] : fg__column(level, i));
-      out->east[n] = (float)(northeast.horizontal + southeast.horizontal);
-      out->north[n] = (float)(northeast.vertical + northwest.vertical);
-      out->northeast[n] = (float)northeast.northeast;
-      out->northwest[n] = (float)northwest.northwest;
+  const fg__layout *at = &level->layout;
+  const int *nodes = at->nodes;
+  for (int n = 0; n < coupling_count(level); ++n) {
+    int offset[3];
+    offset_of(n, offset);
+    coupling c[MOST_CELLS];
+    int cells = couplings_to(offset, at->dimension, level->spacing, c);
+    /* nodes whose neighbour at `offset` or who themselves are true */
+    int low[3], high[3];
+    for (int k = 0; k < 3; ++k) {
+      low[k] = offset[k] > 0 ? -1 : 0;
+      high[k] = nodes[k] - 1 + (offset[k] < 0);
     }
-#undef ENTRIES
-  for (int j = 0; j < level->rows; ++j)
-    for (int i = 0; i < level->columns; ++i) {
-      ptrdiff_t n = (ptrdiff_t)j * level->stride + fg__column(level, i);
-      ptrdiff_t west = (ptrdiff_t)j * level->stride +
-                       (i == 0 ? level->ghost_column[0] : fg__column(level, i - 1));
-      ptrdiff_t east = (ptrdiff_t)j * level->stride + fg__column(level, i + 1);
-      float sum = out->east[n] + out->east[west] + out->north[n] +
-                  out->north[n - level->stride] + out->northeast[n] +
-                  out->northeast[west - level->stride] + out->northwest[n] +
-                  out->northwest[east - level->stride];
-      out->center[n] = -sum;
-    }
+    for (int k = low[2]; k <= high[2]; ++k)
+      for (int j = low[1]; j <= high[1]; ++j)
+        for (int i = low[0]; i <= high[0]; ++i)
+          out->to[n][fg__node_at(at, i, j, k)] =
+              (float)couple(&level->tensor, c, cells, i, j, k, gamma, laplacian);
+  }
+  for (int k = 0; k < nodes[2]; ++k)
+    for (int j = 0; j < nodes[1]; ++j)
+      for (int i = 0; i < nodes[0]; ++i) {
+        float sum = 0.0F;
+        ptrdiff_t here = fg__node_at(at, i, j, k);
+        for (int n = 0; n < coupling_count(level); ++n) {
+          int d[3];
+          offset_of(n, d);
+          sum += out->to[n][here] +
+                 out->to[n][fg__node_at(at, i - d[0], j - d[1], k - d[2])];
+        }
+        out->center[here] = -sum;
+      }
 }
 
 static bool has_mask(const fg__level *level)
 {
-  size_t count = (size_t)level->cells[0] * (size_t)level->cells[1];
-  for (size_t n = 0; n < count; ++n)
-    if (level->cell_weight[n] < 1.0F)
-      return true;
+  const fg__cells_of_box *tensor = &level->tensor;
+  for (int k = 0; k < (level->layout.dimension == 3 ? level->cells[2] : 1); ++k)
+    for (int j = 0; j < level->cells[1]; ++j)
+      for (int i = 0; i < level->cells[0]; ++i)
+        if (tensor->weight[fg__cell_at(tensor, i, j, k)] < 1.0F)
+          return true;
   return false;
 }
 
 /* Relative mass of a node from the cells round it. */
 static void weigh_nodes(const fg__level *level)
 {
-  for (int j = 0; j < level->rows; ++j)
-    for (int i = 0; i < level->columns; ++i) {
-      double mass = 0.25 * (extended_cell(level, i, j).weight +
-                            extended_cell(level, i - 1, j).weight +
-                            extended_cell(level, i, j - 1).weight +
-                            extended_cell(level, i - 1, j - 1).weight);
-      *fg__node(level, level->mass, i, j) = (float)mass;
-      *fg__node(level, level->mass_inverse, i, j) =
-          mass > 0.0 ? (float)(1.0 / mass) : 0.0F;
-    }
+  const fg__layout *at = &level->layout;
+  const fg__cells_of_box *tensor = &level->tensor;
+  int corners = 1 << at->dimension;
+  for (int k = 0; k < at->nodes[2]; ++k)
+    for (int j = 0; j < at->nodes[1]; ++j)
+      for (int i = 0; i < at->nodes[0]; ++i) {
+        double mass = 0.0;
+        for (int c = 0; c < corners; ++c)
+          mass += (double)tensor->weight[fg__cell_at(tensor, i - (c & 1),
+                                                     j - (c >> 1 & 1), k - (c >> 2))];
+        mass /= corners;
+        *fg__node(level, level->mass, i, j, k) = (float)mass;
+        *fg__node(level, level->mass_inverse, i, j, k) =
+            mass > 0.0 ? (float)(1.0 / mass) : 0.0F;
+      }
   fg__fill_ghosts(level, level->mass);
   fg__fill_ghosts(level, level->mass_inverse);
 }
 
-static fg_status take_rows(fg__level *level, fg_context *context)
+static fg_status take_rows(fg__level *level, fg_context *context, int members)
 {
-  size_t stride = (size_t)level->stride, count = (3 + FG__SCRATCH_ROWS) * stride;
+  size_t stride = (size_t)level->layout.stride;
+  size_t slice = stride; /* of the next coarser level, and room to spare */
+  if (level->layout.dimension == 3)
+    slice *= (size_t)level->layout.nodes[1] / 2 + 1;
+  level->scratch_size =
+      SCRATCH_QUANTITIES * (SCRATCH_SLICES * slice + SCRATCH_LINES * stride);
+  size_t count = 3 * stride + (size_t)members * level->scratch_size;
   float *memory = fg__allocate_aligned(count, sizeof *memory);
   if (!memory)
     return fg__fail_memory(context, "a multigrid level", count * sizeof *memory);
   level->memory[level->memory_count++] = memory;
-  level->column_mass = memory + FG__LANES;
+  level->column_mass = memory;
   level->column_east = level->column_mass + stride;
   level->column_west = level->column_east + stride;
   level->scratch = memory + 3 * stride;
-  for (int i = 0; i < level->columns; ++i) {
+  int columns = level->layout.nodes[0];
+  for (int i = 0; i < columns; ++i) {
     bool first = !level->periodic[0] && i == 0;
-    bool last = !level->periodic[0] && i == level->columns - 1;
-    ptrdiff_t n = fg__column(level, i);
+    bool last = !level->periodic[0] && i == columns - 1;
+    ptrdiff_t n = fg__column(&level->layout, i);
     level->column_mass[n] = first || last ? 0.5F : 1.0F;
     level->column_east[n] = last ? 0.0F : 1.0F;
     level->column_west[n] = first ? 0.0F : 1.0F;
@@ -228,110 +318,111 @@ static fg_status take_rows(fg__level *level, fg_context *context)
   return FG_STATUS_OK;
 }
 
-static fg_status copy_cells(fg__level *level, fg_context *context, const float *xx,
-                            const float *xy, const float *yy, const float *weight)
+static fg_status take_stencil(fg__level *level, fg_context *context, fg__stencil *out)
 {
-  size_t count = (size_t)level->cells[0] * (size_t)level->cells[1];
-  float *memory = fg__allocate(4 * count, sizeof *memory);
-  if (!memory)
-    return fg__fail_memory(context, "the tensor", 4 * count * sizeof *memory);
-  level->memory[level->memory_count++] = memory;
-  const float *source[4] = {xx, xy, yy, weight};
-  float **target[4] = {&level->cell_xx, &level->cell_xy, &level->cell_yy,
-                       &level->cell_weight};
-  for (int n = 0; n < 4; ++n) {
-    *target[n] = memory + (size_t)n * count;
-    memcpy(*target[n], source[n], count * sizeof *memory);
+  float **arrays[1 + FG__MOST_COUPLINGS];
+  int count = coupling_count(level);
+  for (int n = 0; n < count; ++n)
+    arrays[n] = &out->to[n];
+  arrays[count] = &out->center;
+  return take_arrays(level, context, arrays, count + 1);
+}
+
+static void set_constant_laplacian(fg__level *level)
+{
+  int dimension = level->layout.dimension;
+  float sum = 0.0F;
+  for (int n = 0; n < coupling_count(level); ++n) {
+    int offset[3];
+    offset_of(n, offset);
+    coupling c[MOST_CELLS];
+    double entry = 0.0;
+    int cells = couplings_to(offset, dimension, level->spacing, c);
+    for (int m = 0; m < cells; ++m)
+      entry += c[m].weight[0] + c[m].weight[2] + c[m].weight[3];
+    float value = (float)entry;
+    sum += 2.0F * value;
+    if (n == 0)
+      level->laplacian_east = value;
+    else if ((n - 1) % 3 == 1)
+      level->laplacian_middle[(n - 1) / 3] = value;
+    else
+      level->laplacian_side[(n - 1) / 3] = value;
   }
+  level->laplacian_center = -sum;
+}
+
+static fg_status take_mask(fg__level *level, fg_context *context)
+{
+  if (!has_mask(level))
+    return FG_STATUS_OK;
+  float **const arrays[] = {&level->mass, &level->mass_inverse};
+  fg_status status = take_arrays(level, context, arrays, 2);
+  if (!status)
+    status = take_stencil(level, context, &level->laplacian);
+  if (status)
+    return status;
+  assemble(level, &level->laplacian, 1.0, true);
+  weigh_nodes(level);
   return FG_STATUS_OK;
 }
 
-fg_status fg__level_create(fg__level *out, fg_context *context, const int cells[2],
-                           const bool periodic[2], const double spacing[2], double gamma,
-                           const float *xx, const float *xy, const float *yy,
-                           const float *weight, bool finest)
+fg_status fg__level_create(fg__level *out, fg_context *context,
+                           const fg__level_description *description,
+                           fg__cells_of_box *tensor)
 {
-  *out = (fg__level){0};
-  for (int k = 0; k < 2; ++k) {
-    out->cells[k] = cells[k];
-    out->periodic[k] = periodic[k];
-    out->spacing[k] = spacing[k];
+  *out = (fg__level){.layout.dimension = description->dimension, .tensor = *tensor};
+  *tensor = (fg__cells_of_box){0};
+  for (int k = 0; k < 3; ++k) {
+    bool used = k < description->dimension;
+    out->cells[k] = used ? description->cells[k] : 1;
+    out->periodic[k] = used && description->periodic[k];
+    out->spacing[k] = used ? description->spacing[k] : 1.0;
   }
   lay_out(out);
-  fg_status status = copy_cells(out, context, xx, xy, yy, weight);
-  float **const arrays[] = {&out->u,
-                            &out->w,
-                            &out->p,
-                            &out->energy.center,
-                            &out->energy.east,
-                            &out->energy.north,
-                            &out->energy.northeast,
-                            &out->energy.northwest,
-                            &out->q,
-                            &out->curvature};
+  float **const arrays[] = {&out->u, &out->w, &out->p, &out->q, &out->curvature};
+  fg_status status = take_rows(out, context, description->members);
   if (!status)
-    status = take_rows(out, context);
+    status = take_arrays(out, context, arrays, description->finest ? 3 : 5);
   if (!status)
-    status = take_arrays(out, context, arrays, finest ? 8 : 10);
+    status = take_stencil(out, context, &out->energy);
   if (status)
     return status;
-  assemble(out, &out->energy, gamma, false);
-  entries inner = stiffness(1.0, 0.0, 1.0, spacing);
-  out->laplacian_east = (float)(2.0 * inner.horizontal);
-  out->laplacian_north = (float)(2.0 * inner.vertical);
-  out->laplacian_diagonal = (float)inner.northeast;
-  out->laplacian_center = -2.0F * (out->laplacian_east + out->laplacian_north) -
-                          4.0F * out->laplacian_diagonal;
-  if (!has_mask(out))
-    return FG_STATUS_OK;
-  float **const masked[] = {&out->laplacian.center,    &out->laplacian.east,
-                            &out->laplacian.north,     &out->laplacian.northeast,
-                            &out->laplacian.northwest, &out->mass,
-                            &out->mass_inverse};
-  status = take_arrays(out, context, masked, 7);
-  if (status)
-    return status;
-  assemble(out, &out->laplacian, 1.0, true);
-  weigh_nodes(out);
-  return FG_STATUS_OK;
+  assemble(out, &out->energy, description->gamma, false);
+  set_constant_laplacian(out);
+  return take_mask(out, context);
 }
 
 bool fg__level_can_coarsen(const fg__level *level)
 {
-  for (int k = 0; k < 2; ++k)
+  for (int k = 0; k < level->layout.dimension; ++k)
     if (level->cells[k] % 2 != 0 || level->cells[k] < 4)
       return false;
   return true;
 }
 
 fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
-                                   const fg__level *fine, double gamma)
+                                   const fg__level *fine, double gamma, int members)
 {
-  int cells[2] = {fine->cells[0] / 2, fine->cells[1] / 2};
-  size_t count = (size_t)cells[0] * (size_t)cells[1];
-  float *average = fg__allocate(4 * count, sizeof *average);
-  if (!average)
-    return fg__fail_memory(context, "the coarse tensor", 4 * count * sizeof *average);
-  const float *source[4] = {fine->cell_xx, fine->cell_xy, fine->cell_yy,
-                            fine->cell_weight};
-  for (int n = 0; n < 4; ++n)
-    for (int j = 0; j < cells[1]; ++j)
-      for (int i = 0; i < cells[0]; ++i) {
-        const float *low = source[n] + (size_t)(2 * j) * (size_t)fine->cells[0] + 2 * i;
-        const float *high = low + fine->cells[0];
-        average[(size_t)n * count + (size_t)j * (size_t)cells[0] + (size_t)i] =
-            0.25F * (low[0] + low[1] + high[0] + high[1]);
-      }
-  double spacing[2] = {2.0 * fine->spacing[0], 2.0 * fine->spacing[1]};
+  fg__level_description description = {
+      .dimension = fine->layout.dimension, .gamma = gamma, .members = members};
+  for (int k = 0; k < 3; ++k) {
+    description.cells[k] = fine->cells[k] / 2;
+    description.periodic[k] = fine->periodic[k];
+    description.spacing[k] = 2.0 * fine->spacing[k];
+  }
+  *out = (fg__level){0};
+  fg__cells_of_box tensor;
   fg_status status =
-      fg__level_create(out, context, cells, fine->periodic, spacing, gamma, average,
-                       average + count, average + 2 * count, average + 3 * count, false);
-  free(average);
-  return status;
+      fg__cells_coarsen(&tensor, context, &fine->tensor, fine->cells, fine->periodic);
+  if (status)
+    return status;
+  return fg__level_create(out, context, &description, &tensor);
 }
 
 void fg__level_clear(fg__level *level)
 {
+  fg__cells_clear(&level->tensor);
   for (int n = 0; n < level->memory_count; ++n)
     free(level->memory[n]);
   *level = (fg__level){0};

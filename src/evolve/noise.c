@@ -18,40 +18,6 @@ static double lattice_value(uint64_t row_key, int64_t i)
   return (double)(int64_t)fg__mix(row_key ^ (uint64_t)i) * 0x1p-63;
 }
 
-/* One axis of the lattice: an integer number of intervals on a periodic domain. */
-typedef struct lattice {
-  double spacing;
-  int64_t period; /* 0: none */
-} lattice;
-
-static lattice lattice_along(const fg__level *level, int axis, int domain_cells,
-                             double length)
-{
-  if (!level->periodic[axis])
-    return (lattice){length, 0};
-  double side = level->spacing[axis] * domain_cells;
-  int64_t intervals = (int64_t)fmax(1.0, round(side / length));
-  return (lattice){side / (double)intervals, intervals};
-}
-
-/* Quadratic B-spline weights of the three lattice points round a place; returns the index
- * of the first. */
-static int64_t spline(const lattice *l, double place, double weight[3])
-{
-  double scaled = place / l->spacing;
-  double nearest = floor(scaled + 0.5);
-  double t = scaled - nearest;
-  weight[0] = 0.5 * (0.5 - t) * (0.5 - t);
-  weight[1] = 0.75 - t * t;
-  weight[2] = 0.5 * (0.5 + t) * (0.5 + t);
-  return (int64_t)nearest - 1;
-}
-
-static int64_t wrap(const lattice *l, int64_t index)
-{
-  return l->period ? (index % l->period + l->period) % l->period : index;
-}
-
 static fg__noise_axis axis_of(int cells, double spacing, bool periodic, double length)
 {
   if (!periodic)
@@ -138,28 +104,5 @@ void fg__noise_row(const fg__noise *noise, int j, int k, int first, int count, f
       for (int a = 0; a < 3; ++a)
         sum += rows.weight[r] * wx[a] * value[r][a];
     out[n] = (float)(noise->mean + noise->scale * sum);
-  }
-}
-
-void fg__noise_fill(const fg__level *level, const int first[2], const int domain_cells[2],
-                    double mean, double length, uint64_t seed, float *u)
-{
-  lattice x = lattice_along(level, 0, domain_cells[0], length);
-  lattice y = lattice_along(level, 1, domain_cells[1], length);
-  double scale = amplitude / spline_square_sum;
-  for (int j = 0; j < level->rows; ++j) {
-    double wy[3], wx[3];
-    int64_t jy = spline(&y, (first[1] + j) * level->spacing[1], wy);
-    uint64_t row_key[3];
-    for (int b = 0; b < 3; ++b)
-      row_key[b] = fg__mix(fg__mix(seed) ^ (uint64_t)wrap(&y, jy + b));
-    for (int i = 0; i < level->columns; ++i) {
-      int64_t ix = spline(&x, (first[0] + i) * level->spacing[0], wx);
-      double sum = 0.0;
-      for (int b = 0; b < 3; ++b)
-        for (int a = 0; a < 3; ++a)
-          sum += wy[b] * wx[a] * lattice_value(row_key[b], wrap(&x, ix + a));
-      *fg__node(level, u, i, j) = (float)(mean + scale * sum);
-    }
   }
 }

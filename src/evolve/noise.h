@@ -2,7 +2,8 @@
 #ifndef FG__NOISE_H
 #define FG__NOISE_H
 
-#include "evolve/level.h"
+#include <stdbool.h>
+#include <stdint.h>
 
 /* One axis of the lattice of random numbers that the noise is a smooth surface over. */
 typedef struct fg__noise_axis {
@@ -29,12 +30,5 @@ fg__noise fg__noise_of(int dimension, const int cells[3], const double spacing[3
  * out[n]; k is 0 in 2D. */
 void fg__noise_row(const fg__noise *noise, int j, int k, int first, int count,
                    float *out);
-
-/* Fills u at the nodes of the level with mean + smooth noise, whose correlation length is
- * `length` (units of the longest side, like the level's spacing; `first` gives the global
- * index of node (0, 0)). The noise at a place depends only on the place, the seed, the
- * length and the domain's size: neither on the mesh nor on who computes it. */
-void fg__noise_fill(const fg__level *level, const int first[2], const int domain_cells[2],
-                    double mean, double length, uint64_t seed, float *u);
 
 #endif

@@ -9,38 +9,6 @@
 
 #include "evolve/noise.h"
 
-/* The former noise of a level, until it goes. */
-static void test_2d_is_what_it_was(void **state)
-{
-  (void)state;
-  const int cells[3] = {48, 32, 1}, first[2] = {0, 0};
-  const double spacing[3] = {1.0 / 48, 1.1 / 48, 0.0};
-  float *one = malloc(48 * 32 * sizeof *one), *zero = calloc(48 * 32, sizeof *zero);
-  for (int n = 0; n < 48 * 32; ++n)
-    one[n] = 1.0F;
-  for (int periodic = 0; periodic < 4; ++periodic) {
-    const bool wraps[3] = {periodic % 2, periodic / 2, false};
-    fg__level level;
-    assert_int_equal(fg__level_create(&level, NULL, cells, wraps, spacing, 1e-3, one,
-                                      zero, one, one, true),
-                     FG_STATUS_OK);
-    for (int round = 0; round < 3; ++round) {
-      double length = (0.3 + 1.4 * round) / 48;
-      fg__noise_fill(&level, first, cells, -0.4, length, 5, level.u);
-      fg__noise noise = fg__noise_of(2, cells, spacing, wraps, -0.4, length, 5);
-      float row[49];
-      for (int j = 0; j < level.rows; ++j) {
-        fg__noise_row(&noise, j, 0, 0, level.columns, row);
-        for (int i = 0; i < level.columns; ++i)
-          assert_true(row[i] == *fg__node(&level, level.u, i, j));
-      }
-    }
-    fg__level_clear(&level);
-  }
-  free(one);
-  free(zero);
-}
-
 static void test_a_row_in_pieces_is_the_row(void **state)
 {
   (void)state;
@@ -165,7 +133,6 @@ static void test_another_seed_is_another_noise(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_2d_is_what_it_was),
       cmocka_unit_test(test_a_row_in_pieces_is_the_row),
       cmocka_unit_test(test_belongs_to_the_place),
       cmocka_unit_test(test_closes_on_a_periodic_axis),

@@ -7,7 +7,7 @@
 /* Two nodes are of one part when a chain of active cells joins them. */
 typedef struct fg__parts {
   int count;    /* 1 without a mask, or when it separates nothing */
-  int *of_node; /* [columns * rows], x fastest: 0 ... count - 1, -1 where there is no
+  int *of_node; /* [nodes], x fastest: 0 ... count - 1, -1 where there is no
                    mass; NULL when count is 1 */
   double *mass; /* [count] sum of relative masses */
   double *mean; /* [count] of u, held */

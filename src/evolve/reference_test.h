@@ -19,12 +19,15 @@
 
 static const double PI = 3.14159265358979323846;
 
+/* Members of the largest team that may work on a problem. */
+enum { MOST_THREADS = 3 };
+
 typedef struct problem_description {
-  int cells[2];
-  double side[2];
-  bool periodic[2];
+  int cells[3]; /* cells[2] = 0: in 2D */
+  double side[3];
+  bool periodic[3];
   double gamma, anisotropy;
-  /* of A's eigenvector of value 1; NULL: 0.6 */
+  /* of A's eigenvector of value 1; NULL: 0.6; in 3D it also rises out of the plane */
   double (*angle)(double x, double y, const void *data);
   const void *angle_data;
   bool (*inside)(double x, double y); /* by the cells' centres; NULL: everywhere */
@@ -33,12 +36,14 @@ typedef struct problem_description {
 typedef struct problem {
   problem_description of;
   fg_context *context;
-  double spacing[2];
-  int columns, rows; /* nodes; the repeated last one of a periodic axis is left out */
+  int dimension, corners;
+  double spacing[3];
+  int count[3];              /* of cells, 1 along z in 2D */
+  int columns, rows, planes; /* of nodes, without the last one of a periodic axis */
   size_t nodes, cells;
   fg__tensor tensor;
   double *mass;                 /* lumped: the integral of each node's basis function */
-  double stiffness[4][4][2][2]; /* integral of d_i phi_a d_j phi_b over a cell */
+  double stiffness[8][8][3][3]; /* integral of d_i phi_a d_j phi_b over a cell */
   fg__mesh mesh;
   fg__tile tile;
   fg__multigrid multigrid;
@@ -66,76 +71,115 @@ static inline double *values_of(const problem *p)
 }
 
 /* Index of corner a (x fastest) of a cell. */
-static inline size_t corner(const problem *p, int i, int j, int a)
+static inline size_t corner(const problem *p, int i, int j, int k, int a)
 {
-  return (size_t)((j + a / 2) % p->rows) * (size_t)p->columns +
-         (size_t)((i + a % 2) % p->columns);
+  size_t x = (size_t)((i + (a & 1)) % p->columns);
+  size_t y = (size_t)((j + (a >> 1 & 1)) % p->rows);
+  size_t z = (size_t)((k + (a >> 2)) % p->planes);
+  return (z * (size_t)p->rows + y) * (size_t)p->columns + x;
 }
 
-/* Two Gauss points an axis integrate products of bilinear functions' gradients exactly.
- */
+static inline size_t cell(const problem *p, int i, int j, int k)
+{
+  return ((size_t)k * (size_t)p->count[1] + (size_t)j) * (size_t)p->count[0] + (size_t)i;
+}
+
+static inline double volume_of(const problem *p)
+{
+  double volume = 1.0;
+  for (int k = 0; k < p->dimension; ++k)
+    volume *= p->spacing[k];
+  return volume;
+}
+
+/* Two Gauss points an axis integrate products of multilinear functions' gradients
+ * exactly. */
 static inline void integrate_cell(problem *p)
 {
-  double hx = p->spacing[0], hy = p->spacing[1];
-  for (int g = 0; g < 4; ++g) {
-    double point[2] = {0.5 + (g % 2 ? 0.5 : -0.5) / sqrt(3.0),
-                       0.5 + (g / 2 ? 0.5 : -0.5) / sqrt(3.0)};
-    double gradient[4][2];
-    for (int a = 0; a < 4; ++a) {
-      double x = a % 2 ? point[0] : 1.0 - point[0];
-      double y = a / 2 ? point[1] : 1.0 - point[1];
-      gradient[a][0] = (a % 2 ? 1.0 : -1.0) / hx * y;
-      gradient[a][1] = (a / 2 ? 1.0 : -1.0) / hy * x;
-    }
-    for (int n = 0; n < 64; ++n)
-      p->stiffness[n / 16][n / 4 % 4][n / 2 % 2][n % 2] +=
-          0.25 * hx * hy * gradient[n / 16][n / 2 % 2] * gradient[n / 4 % 4][n % 2];
+  for (int g = 0; g < p->corners; ++g) {
+    double gradient[8][3];
+    for (int a = 0; a < p->corners; ++a)
+      for (int m = 0; m < p->dimension; ++m) {
+        gradient[a][m] = (a >> m & 1 ? 1.0 : -1.0) / p->spacing[m];
+        for (int k = 0; k < p->dimension; ++k) {
+          double point = 0.5 + (g >> k & 1 ? 0.5 : -0.5) / sqrt(3.0);
+          if (k != m)
+            gradient[a][m] *= a >> k & 1 ? point : 1.0 - point;
+        }
+      }
+    for (int a = 0; a < p->corners; ++a)
+      for (int b = 0; b < p->corners; ++b)
+        for (int m = 0; m < p->dimension; ++m)
+          for (int n = 0; n < p->dimension; ++n)
+            p->stiffness[a][b][m][n] +=
+                volume_of(p) / p->corners * gradient[a][m] * gradient[b][n];
   }
+}
+
+static inline void set_tensor(problem *p, size_t n, double x, double y, double z)
+{
+  const problem_description *of = &p->of;
+  double angle = of->angle ? of->angle(x, y, of->angle_data) : 0.6;
+  double rise = p->dimension < 3 ? 0.0 : of->angle ? 0.4 + 1.3 * z - x : 0.4;
+  double e[3] = {cos(angle) * cos(rise), sin(angle) * cos(rise), sin(rise)};
+  float *to[3][3] = {{p->tensor.xx, p->tensor.xy, p->tensor.xz},
+                     {p->tensor.xy, p->tensor.yy, p->tensor.yz},
+                     {p->tensor.xz, p->tensor.yz, p->tensor.zz}};
+  for (int m = 0; m < p->dimension; ++m)
+    for (int k = m; k < p->dimension; ++k)
+      to[m][k][n] =
+          (float)((1.0 - of->anisotropy) * e[m] * e[k] + (m == k ? of->anisotropy : 0.0));
 }
 
 static inline void fill_tensor(problem *p)
 {
   const problem_description *of = &p->of;
-  for (int j = 0; j < of->cells[1]; ++j)
-    for (int i = 0; i < of->cells[0]; ++i) {
-      double x = (i + 0.5) * p->spacing[0], y = (j + 0.5) * p->spacing[1];
-      size_t n = (size_t)j * (size_t)of->cells[0] + (size_t)i;
-      p->tensor.active[n] = !of->inside || of->inside(x, y);
-      if (!p->tensor.active[n])
-        continue;
-      double angle = of->angle ? of->angle(x, y, of->angle_data) : 0.6;
-      double c = cos(angle), s = sin(angle);
-      p->tensor.xx[n] = (float)(c * c + of->anisotropy * s * s);
-      p->tensor.xy[n] = (float)((1.0 - of->anisotropy) * c * s);
-      p->tensor.yy[n] = (float)(s * s + of->anisotropy * c * c);
-      for (int a = 0; a < 4; ++a)
-        p->mass[corner(p, i, j, a)] += 0.25 * p->spacing[0] * p->spacing[1];
-    }
+  for (int k = 0; k < p->count[2]; ++k)
+    for (int j = 0; j < p->count[1]; ++j)
+      for (int i = 0; i < p->count[0]; ++i) {
+        double x = (i + 0.5) * p->spacing[0], y = (j + 0.5) * p->spacing[1];
+        size_t n = cell(p, i, j, k);
+        p->tensor.active[n] = !of->inside || of->inside(x, y);
+        if (!p->tensor.active[n])
+          continue;
+        set_tensor(p, n, x, y, (k + 0.5) * p->spacing[2]);
+        for (int a = 0; a < p->corners; ++a)
+          p->mass[corner(p, i, j, k, a)] += volume_of(p) / p->corners;
+      }
 }
 
 static inline void problem_create(problem *p, const problem_description *of)
 {
-  *p = (problem){.of = *of};
+  *p = (problem){.of = *of, .dimension = of->cells[2] > 0 ? 3 : 2};
+  p->corners = 1 << p->dimension;
   assert_int_equal(fg_context_create(&p->context), FG_STATUS_OK);
-  for (int k = 0; k < 2; ++k) {
-    p->spacing[k] = of->side[k] / of->cells[k];
-    p->mesh.cells[k] = p->tile.cells[k] = of->cells[k];
-    p->mesh.periodic[k] = of->periodic[k];
+  p->mesh.dimension = p->dimension;
+  int nodes[3] = {1, 1, 1};
+  p->cells = p->nodes = 1;
+  for (int k = 0; k < 3; ++k) {
+    bool used = k < p->dimension;
+    p->count[k] = used ? of->cells[k] : 1;
+    p->spacing[k] = used ? of->side[k] / of->cells[k] : 1.0;
+    p->mesh.cells[k] = p->tile.cells[k] = p->count[k];
+    p->mesh.periodic[k] = used && of->periodic[k];
     p->mesh.spacing[k] = p->spacing[k];
+    nodes[k] = used ? of->cells[k] + !of->periodic[k] : 1;
+    p->cells *= (size_t)p->count[k];
+    p->nodes *= (size_t)nodes[k];
   }
-  p->columns = of->cells[0] + !of->periodic[0];
-  p->rows = of->cells[1] + !of->periodic[1];
-  p->nodes = (size_t)p->columns * (size_t)p->rows;
-  p->cells = (size_t)of->cells[0] * (size_t)of->cells[1];
-  p->tensor.xx = allocate_or_fail(p->cells, sizeof(float));
-  p->tensor.xy = allocate_or_fail(p->cells, sizeof(float));
-  p->tensor.yy = allocate_or_fail(p->cells, sizeof(float));
+  p->columns = nodes[0];
+  p->rows = nodes[1];
+  p->planes = nodes[2];
+  float **components[6] = {&p->tensor.xx, &p->tensor.xy, &p->tensor.yy,
+                           &p->tensor.zz, &p->tensor.xz, &p->tensor.yz};
+  for (int n = 0; n < (p->dimension == 3 ? 6 : 3); ++n)
+    *components[n] = allocate_or_fail(p->cells, sizeof(float));
   p->tensor.active = allocate_or_fail(p->cells, 1);
   p->mass = values_of(p);
   integrate_cell(p);
   fill_tensor(p);
   assert_int_equal(fg__multigrid_create(&p->multigrid, p->context, &p->mesh, &p->tile,
-                                        &p->tensor, of->gamma),
+                                        &p->tensor, of->gamma, MOST_THREADS),
                    FG_STATUS_OK);
 }
 
@@ -145,6 +189,9 @@ static inline void problem_clear(problem *p)
   free(p->tensor.xx);
   free(p->tensor.xy);
   free(p->tensor.yy);
+  free(p->tensor.zz);
+  free(p->tensor.xz);
+  free(p->tensor.yz);
   free(p->tensor.active);
   free(p->mass);
   fg_context_destroy(p->context);
@@ -173,23 +220,27 @@ static inline void get(const problem *p, const float *array, double *values)
 static inline void apply_stiffness(const problem *p, bool laplacian, const double *u,
                                    double *out)
 {
+  const float *from[3][3] = {{p->tensor.xx, p->tensor.xy, p->tensor.xz},
+                             {p->tensor.xy, p->tensor.yy, p->tensor.yz},
+                             {p->tensor.xz, p->tensor.yz, p->tensor.zz}};
   memset(out, 0, p->nodes * sizeof *out);
-  for (int j = 0; j < p->of.cells[1]; ++j)
-    for (int i = 0; i < p->of.cells[0]; ++i) {
-      size_t n = (size_t)j * (size_t)p->of.cells[0] + (size_t)i;
-      if (!p->tensor.active[n])
-        continue;
-      double xx = laplacian ? 1.0 : (double)p->tensor.xx[n];
-      double xy = laplacian ? 0.0 : (double)p->tensor.xy[n];
-      double yy = laplacian ? 1.0 : (double)p->tensor.yy[n];
-      for (int a = 0; a < 4; ++a)
-        for (int b = 0; b < 4; ++b) {
-          const double(*s)[2] = p->stiffness[a][b];
-          out[corner(p, i, j, a)] +=
-              (xx * s[0][0] + xy * (s[0][1] + s[1][0]) + yy * s[1][1]) *
-              u[corner(p, i, j, b)];
-        }
-    }
+  for (int k = 0; k < p->count[2]; ++k)
+    for (int j = 0; j < p->count[1]; ++j)
+      for (int i = 0; i < p->count[0]; ++i) {
+        size_t at = cell(p, i, j, k);
+        if (!p->tensor.active[at])
+          continue;
+        for (int a = 0; a < p->corners; ++a)
+          for (int b = 0; b < p->corners; ++b) {
+            double entry = 0.0;
+            for (int m = 0; m < p->dimension; ++m)
+              for (int n = 0; n < p->dimension; ++n) {
+                double A = laplacian ? (m == n) : (double)from[m][n][at];
+                entry += A * p->stiffness[a][b][m][n];
+              }
+            out[corner(p, i, j, k, a)] += entry * u[corner(p, i, j, k, b)];
+          }
+      }
 }
 
 static inline double inner_product(const problem *p, const double *a, const double *b)

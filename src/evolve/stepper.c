@@ -34,20 +34,9 @@ static const double energy_rounding = 1e-6, rest_increment = 1e-5;
 enum { QUIET_STEPS = 12 };
 static const double quiet_change = 1e-3, quiet_after = 2e4;
 
-static size_t array_bytes(const fg__level *level)
-{
-  return level->array_size * sizeof(float);
-}
-
-static void copy_array(const fg__level *level, float *to, const float *from)
-{
-  memcpy(to - level->first, from - level->first, array_bytes(level));
-}
-
 static double mean_of(const fg__stepper *s, const float *u)
 {
-  const fg__multigrid *m = &s->multigrid;
-  return m->kernel->changes(&m->level[0], u, u, u, u).u / s->total_mass;
+  return fg__pass_changes(&s->multigrid, u, u, u, u).u / s->total_mass;
 }
 
 /* The sum of masses is the sum of u when u is 1 everywhere. */
@@ -55,9 +44,9 @@ static double weigh_domain(const fg__stepper *s)
 {
   const fg__level *level = &s->multigrid.level[0];
   float *ones = s->first_iterate;
-  for (size_t n = 0; n < level->array_size; ++n)
-    (ones - level->first)[n] = 1.0F;
-  return s->multigrid.kernel->changes(level, ones, ones, ones, ones).u;
+  for (size_t n = 0; n < level->layout.array_size; ++n)
+    (ones - level->layout.first)[n] = 1.0F;
+  return fg__pass_changes(&s->multigrid, ones, ones, ones, ones).u;
 }
 
 fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
@@ -73,31 +62,31 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
                        .tau_limit = (double)INFINITY};
   *multigrid = (fg__multigrid){0};
   const fg__level *finest = &out->multigrid.level[0], *second = finest + 1;
-  size_t size = finest->array_size + FG__LANES;
-  size_t count = 3 * size + second->array_size;
+  size_t size = finest->layout.array_size + FG__LANES;
+  size_t count = 3 * size + second->layout.array_size;
   float *memory = fg__allocate_aligned(count, sizeof *memory);
   if (!memory) {
     fg__stepper_clear(out);
     return fg__fail_memory(context, "the time steps", count * sizeof *memory);
   }
   out->memory = memory;
-  out->current = memory + finest->first;
+  out->current = memory + finest->layout.first;
   out->previous = out->current + size;
   out->first_iterate = out->previous + size;
-  out->defect = memory + 3 * size + second->first;
-  out->cell_area = finest->spacing[0] * finest->spacing[1];
+  out->defect = memory + 3 * size + second->layout.first;
+  out->cell_volume = finest->cell_volume;
   out->total_mass = weigh_domain(out);
   fg__fill_ghosts(finest, finest->u);
-  copy_array(finest, out->current, finest->u);
+  fg__pass_copy(&out->multigrid, finest->u, out->current);
   out->mean = mean_of(out, out->current);
   fg_status status = fg__parts_create(&out->parts, context, finest, out->current);
   if (status) {
     fg__stepper_clear(out);
     return status;
   }
-  fg__sums sums = out->multigrid.kernel->evaluate(finest, out->current, finest->w);
-  out->energy = out->cell_area * sums.energy;
-  out->mass = out->cell_area * sums.u;
+  fg__sums sums = fg__pass_evaluate(&out->multigrid, out->current, finest->w);
+  out->energy = out->cell_volume * sums.energy;
+  out->mass = out->cell_volume * sums.u;
   return FG_STATUS_OK;
 }
 
@@ -117,15 +106,15 @@ static void prepare(fg__stepper *s, double tau)
   fg__multigrid *m = &s->multigrid;
   fg__level *level = &m->level[0];
   if (!s->history) {
-    copy_array(level, level->p, s->current);
-    copy_array(level, level->u, s->current);
-    m->kernel->evaluate(level, s->current, level->w);
+    fg__pass_copy(m, s->current, level->p);
+    fg__pass_copy(m, s->current, level->u);
+    fg__pass_evaluate(m, s->current, level->w);
     return;
   }
-  m->kernel->prolong_array(&m->level[1], s->defect, level, s->current, level->p);
+  fg__pass_prolong(m, s->defect, s->current, level->p);
   double omega = fmin(tau / s->last_tau, most_extrapolation);
   omega *= s->persistence;
-  m->kernel->extrapolate(level, s->current, s->previous, (float)omega, level->u);
+  fg__pass_extrapolate(m, s->current, s->previous, omega, level->u);
 }
 
 typedef struct outcome {
@@ -140,15 +129,12 @@ static outcome attempt(fg__stepper *s, double tau)
   fg__multigrid *m = &s->multigrid;
   fg__level *level = &m->level[0];
   prepare(s, tau);
-  for (int n = 0; n < s->cycles; ++n) {
-    if (n == s->cycles - 1)
-      copy_array(level, s->first_iterate, level->u);
-    fg__multigrid_cycle(m, tau);
-  }
+  for (int n = 0; n < s->cycles; ++n)
+    fg__pass_cycle(m, tau, n == s->cycles - 1 ? s->first_iterate : NULL);
   s->cycles_spent += s->cycles;
   fg__changes sums =
-      m->kernel->changes(level, level->u, s->current, s->first_iterate, s->previous);
-  m->kernel->shift(level, level->u, (float)(s->mean - sums.u / s->total_mass));
+      fg__pass_changes(m, level->u, s->current, s->first_iterate, s->previous);
+  fg__pass_shift(m, level->u, s->mean - sums.u / s->total_mass);
   fg__parts_restore_means(&s->parts, level, level->u);
   outcome result;
   result.increment = sqrt(sums.from_a / s->total_mass);
@@ -158,8 +144,8 @@ static outcome attempt(fg__stepper *s, double tau)
   if (s->increment > 0.0)
     result.persistence =
         sums.along * s->last_tau / (tau * s->increment * s->increment * s->total_mass);
-  fg__sums shifted = m->kernel->evaluate(level, level->u, s->first_iterate);
-  result.energy = s->cell_area * shifted.energy;
+  fg__sums shifted = fg__pass_evaluate(m, level->u, s->first_iterate);
+  result.energy = s->cell_volume * shifted.energy;
   result.mean = shifted.u / s->total_mass;
   result.at_rest = result.increment < rest_increment && result.energy >= s->energy &&
                    result.energy - s->energy <= energy_rounding * s->energy;
@@ -176,14 +162,13 @@ static void keep(fg__stepper *s, double tau, const outcome *result)
 {
   fg__multigrid *m = &s->multigrid;
   fg__level *level = &m->level[0];
-  m->kernel->restrict_defect(level, s->first_iterate, &m->level[1], s->defect,
-                             (float)tau);
+  fg__pass_restrict_defect(m, s->first_iterate, s->defect, tau);
   float *oldest = s->previous;
   s->previous = s->current;
   s->current = level->u;
   level->u = oldest;
   s->energy = result->energy;
-  s->mass = s->cell_area * s->total_mass * result->mean;
+  s->mass = s->cell_volume * s->total_mass * result->mean;
   s->increment = result->increment;
   s->persistence = s->accepted > 0 ? fmin(fmax(result->persistence, 0.0), 1.0) : 1.0;
   s->history = true;

@@ -2,17 +2,17 @@
 #ifndef FG__STEPPER_H
 #define FG__STEPPER_H
 
-#include "evolve/multigrid.h"
 #include "evolve/parts.h"
+#include "evolve/passes.h"
 
 typedef struct fg__stepper {
   fg__multigrid multigrid;
-  double accuracy;   /* eta */
-  int cycles;        /* a step */
-  double cell_area;  /* hx hy, units of the longest side squared */
-  double total_mass; /* sum of the nodes' relative masses */
-  double mean;       /* of u, held */
-  fg__parts parts;   /* each of which holds its own mean */
+  double accuracy;    /* eta */
+  int cycles;         /* a step */
+  double cell_volume; /* hx hy (hz), units of the longest side */
+  double total_mass;  /* sum of the nodes' relative masses */
+  double mean;        /* of u, held */
+  fg__parts parts;    /* each of which holds its own mean */
   double first_tau, most_tau;
 
   long accepted, rejected, cycles_spent;

@@ -1,0 +1,41 @@
+/* The tensor of the cells round a box of nodes, those beyond its sides included. */
+#ifndef FG__CELLS_H
+#define FG__CELLS_H
+
+#include "base/context.h"
+#include "tensor/tensor.h"
+
+enum { FG__TENSOR_COMPONENTS = 6 }; /* xx, xy, yy, zz, xz, yz; three in 2D */
+
+/* Cell (i, j, k) lies between nodes (i, j, k) and (i + 1, j + 1, k + 1); indices run from
+ * -1 to count - 1 along each axis (from 0 to 0 along z in 2D), count the number of
+ * nodes. */
+typedef struct fg__cells_of_box {
+  int dimension;
+  int nodes[3];
+  ptrdiff_t row, plane;                    /* from a cell to the next along y and z */
+  float *component[FG__TENSOR_COMPONENTS]; /* times weight; points to cell (0, 0, 0) */
+  float *weight;                           /* the cell's active share */
+  void *memory;
+} fg__cells_of_box;
+
+static inline ptrdiff_t fg__cell_at(const fg__cells_of_box *cells, int i, int j, int k)
+{
+  return (ptrdiff_t)i + (ptrdiff_t)j * cells->row + (ptrdiff_t)k * cells->plane;
+}
+
+/* The cells of the whole domain, with their images beyond its sides: mirrored at natural
+ * borders, where off-diagonal components change sign for each axis mirrored, or wrapped
+ * round. `cells` counts along each axis. MEMORY. */
+fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
+                                const fg__tensor *tensor, int dimension,
+                                const int cells[3], const bool periodic[3]);
+
+/* The means over 2 x 2 (x 2) cells. MEMORY. */
+fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
+                            const fg__cells_of_box *fine, const int fine_cells[3],
+                            const bool periodic[3]);
+
+void fg__cells_clear(fg__cells_of_box *cells);
+
+#endif

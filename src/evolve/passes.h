@@ -1,0 +1,26 @@
+/* Passes over the finest level by all members of a multigrid's team; see kernel.h for
+ * what each computes. Arrays are in the layout of level[0] unless said otherwise. */
+#ifndef FG__PASSES_H
+#define FG__PASSES_H
+
+#include "evolve/multigrid.h"
+
+/* One V(1,1) cycle; `before`, unless NULL, first takes a copy of u. */
+void fg__pass_cycle(const fg__multigrid *multigrid, double tau, float *before);
+fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float *w);
+fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
+                             const float *a, const float *b, const float *c);
+void fg__pass_shift(const fg__multigrid *multigrid, float *u, double amount);
+void fg__pass_extrapolate(const fg__multigrid *multigrid, const float *now,
+                          const float *before, double omega, float *out);
+void fg__pass_copy(const fg__multigrid *multigrid, const float *from, float *to);
+
+/* to := base + the interpolation of `coarse`, an array of level[1]. */
+void fg__pass_prolong(const fg__multigrid *multigrid, const float *coarse,
+                      const float *base, float *to);
+
+/* coarse := restriction of p - u - tau L w to level[1]. */
+void fg__pass_restrict_defect(const fg__multigrid *multigrid, const float *w,
+                              float *coarse, double tau);
+
+#endif
