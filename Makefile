@@ -26,7 +26,7 @@ check: setup
 
 # prints the table of docs/benchmarks.md
 bench: setup all
-	@cmake --build build --target bench_kernels -j $(JOBS) >/dev/null
+	@cmake --build build --target bench_kernels bench_components -j $(JOBS) >/dev/null
 	@bench/run build
 
 install: all

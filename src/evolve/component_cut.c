@@ -30,6 +30,16 @@ static inline void join(struct fg__run *run, int a, int b)
     run[a].parent = b;
 }
 
+static inline int later(int a, int b)
+{
+  return a > b ? a : b;
+}
+
+static inline int earlier(int a, int b)
+{
+  return a < b ? a : b;
+}
+
 /* What one row of nodes is cut with. */
 typedef struct cutter {
   fg__components *components;
@@ -219,22 +229,21 @@ static void join_rows(cutter *c, const int a[2], const int b[2], const fg__gate 
         face_joins(s, row_b, row_a, end, gate))
       join(run, n_end - 1, m);
   }
-  while (m < m_end && n < n_end) {
-    const struct fg__run *p = &run[m], *q = &run[n];
-    int low = p->first > q->first ? p->first : q->first;
-    int high = p->last < q->last ? p->last : q->last;
+  const struct fg__run *p = run + m, *p_end = run + m_end;
+  const struct fg__run *q = run + n, *q_end = run + n_end;
+  while (p < p_end && q < q_end) {
+    int low = later(p->first, q->first), high = earlier(p->last, q->last);
     if (low <= high) {
       if (p->parent != q->parent && fg__gate_open(gate, s, low - 1, high))
-        join(run, m, n);
+        join(run, (int)(p - run), (int)(q - run));
     } else if (low == high + 1) {
       bool forward = p->last == high;
       if (face_joins(s, forward ? row_a : row_b, forward ? row_b : row_a, high, gate))
-        join(run, m, n);
+        join(run, (int)(p - run), (int)(q - run));
     }
-    if (p->last < q->last)
-      ++m;
-    else
-      ++n;
+    bool p_ends_first = p->last < q->last; /* no branch: neither way is likelier */
+    p += p_ends_first;
+    q += !p_ends_first;
   }
 }
 
@@ -250,23 +259,24 @@ static void join_across(cutter *c, const int a[2], const int d[2], const fg__gat
   const float *row_c = fg__shape_row(s, d[0], a[1]);
   const float *row_d = fg__shape_row(s, d[0], d[1]);
   int number_a = fg__row_number(s, a[0], a[1]), number_d = fg__row_number(s, d[0], d[1]);
-  int m = run_of_row[number_a], m_end = run_of_row[number_a + 1];
-  int n = run_of_row[number_d], n_end = run_of_row[number_d + 1];
-  while (m < m_end && n < n_end) {
-    const struct fg__run *p = &run[m], *q = &run[n];
-    int low = p->first > q->first ? p->first : q->first;
-    int high = p->last < q->last ? p->last : q->last;
-    bool apart = low <= high && p->parent != q->parent && find(run, m) != find(run, n);
-    for (int x = low; apart && x <= high; ++x)
+  const struct fg__run *p = run + run_of_row[number_a];
+  const struct fg__run *p_end = run + run_of_row[number_a + 1];
+  const struct fg__run *q = run + run_of_row[number_d];
+  const struct fg__run *q_end = run + run_of_row[number_d + 1];
+  while (p < p_end && q < q_end) {
+    int low = later(p->first, q->first), high = earlier(p->last, q->last);
+    int m = (int)(p - run), n = (int)(q - run);
+    bool p_ends_first = p->last < q->last;
+    p += p_ends_first;
+    q += !p_ends_first;
+    if (low > high || run[m].parent == run[n].parent || find(run, m) == find(run, n))
+      continue;
+    for (int x = low; x <= high; ++x)
       if (fg__components_saddle_joins(row_a[x], row_b[x], row_c[x], row_d[x]) &&
           fg__gate_open(gate, s, x - 1, x)) {
         join(run, m, n);
-        apart = false;
+        break;
       }
-    if (p->last < q->last)
-      ++m;
-    else
-      ++n;
   }
 }
 
