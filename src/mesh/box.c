@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "base/memory.h"
+
 fg__box fg__box_intersection(const fg__box *a, const fg__box *b)
 {
   fg__box out;
@@ -99,4 +101,34 @@ int fg__boxes_merge(fg__box *box, int count)
   }
   qsort(box, (size_t)count, sizeof *box, compare_places);
   return count;
+}
+
+bool fg__box_list_add(fg__box_list *list, const fg__box *box)
+{
+  void *memory = list->box;
+  bool grown = fg__grow(&memory, &list->capacity, list->count + 1, sizeof *list->box);
+  list->box = memory;
+  if (grown)
+    list->box[list->count++] = *box;
+  return grown;
+}
+
+bool fg__box_list_take_out(fg__box_list *list, const fg__box *hole)
+{
+  size_t before = list->count, kept = 0;
+  for (size_t n = 0; n < before; ++n) {
+    fg__box common = fg__box_intersection(&list->box[n], hole), rest[6];
+    if (fg__box_is_empty(&common))
+      continue;
+    int parts = fg__box_without(rest, &list->box[n], &common);
+    list->box[n].nodes[0] = 0; /* empty: dropped below */
+    for (int p = 0; p < parts; ++p)
+      if (!fg__box_list_add(list, &rest[p]))
+        return false;
+  }
+  for (size_t n = 0; n < list->count; ++n)
+    if (!fg__box_is_empty(&list->box[n]))
+      list->box[kept++] = list->box[n];
+  list->count = kept;
+  return true;
 }

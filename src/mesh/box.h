@@ -3,6 +3,7 @@
 #define FG__BOX_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 /* Nodes [first, first + nodes) along each axis, in global indices of the level; [0, 1)
  * along z in 2D. */
@@ -32,5 +33,17 @@ int fg__box_without(fg__box out[6], const fg__box *box, const fg__box *hole);
  * sorts what comes out by plane, row and column, and returns its number. The result does
  * not depend on the order of the boxes given. */
 int fg__boxes_merge(fg__box *box, int count);
+
+/* Boxes that come one by one; starts as zeroes, its box is freed by the caller. Both
+ * return false when there is no memory. */
+typedef struct fg__box_list {
+  fg__box *box;
+  size_t count, capacity;
+} fg__box_list;
+
+bool fg__box_list_add(fg__box_list *list, const fg__box *box);
+
+/* Takes the nodes of `hole` out of every box of the list. */
+bool fg__box_list_take_out(fg__box_list *list, const fg__box *hole);
 
 #endif

@@ -61,110 +61,132 @@ static bool add_uncovered(fg__exchange *e, int box, const fg__box *ghosts)
   return grown;
 }
 
-typedef struct box_list {
-  fg__box *box;
-  size_t count, capacity;
-} box_list;
-
-/* Takes `hole` out of every box of the list. */
-static bool take_out(box_list *list, const fg__box *hole)
-{
-  size_t count = list->count;
-  for (size_t n = 0; n < count; ++n) {
-    fg__box common = fg__box_intersection(&list->box[n], hole), rest[6];
-    if (fg__box_is_empty(&common))
-      continue;
-    int parts = fg__box_without(rest, &list->box[n], &common);
-    void *memory = list->box;
-    if (!fg__grow(&memory, &list->capacity, list->count + 6, sizeof *list->box))
-      return false;
-    list->box = memory;
-    list->box[n].nodes[0] = 0; /* empty: dropped below */
-    for (int p = 0; p < parts; ++p)
-      list->box[list->count++] = rest[p];
-  }
-  size_t kept = 0;
-  for (size_t n = 0; n < list->count; ++n)
-    if (!fg__box_is_empty(&list->box[n]))
-      list->box[kept++] = list->box[n];
-  list->count = kept;
-  return true;
-}
-
-/* A box whose ghosts are filled: of this rank, or of another that may ask this one. */
+/* A box to fill: of this rank, or of another that may ask this one. */
 typedef struct target {
   const fg__box *box;
   int rank, own; /* own: index among this rank's boxes, or -1 */
 } target;
 
-/* Pieces of one side of a target that the boxes of `rank` own. */
-static bool add_sources(fg__exchange *e, const fg__partition *level, const target *to,
-                        int rank, const fg__box *ghosts, const fg__box *sources,
-                        box_list *left)
+/* A box that may have what a target needs. */
+typedef struct source {
+  const fg__box *box;
+  int rank, index; /* among the rank's boxes */
+} source;
+
+typedef struct search {
+  const fg__partition *from, *to;
+  fg__part part;
+  source *source;
+  size_t source_count, source_capacity;
+  fg__box_list left;
+} search;
+
+/* Mirror images lie within one node of a box as well as neighbours do. */
+static bool reaches(const fg__partition *level, const fg__box *filled, const fg__box *box)
 {
-  int here = level->ranks->rank;
-  for (int n = level->first_of_rank[rank]; n < level->first_of_rank[rank + 1]; ++n) {
-    fg__box common = fg__box_intersection(sources, &level->box[n]);
-    if (fg__box_is_empty(&common))
-      continue;
-    fg__box filled = ghosts_of(&common, sources, ghosts), read = common;
-    for (int k = 0; k < 3; ++k)
-      read.first[k] -= level->box[n].first[k];
-    fg__piece found = {.to = brick_of(to->own, &filled, &common),
-                       .from = brick_of(n - level->first_of_rank[rank], &read, &common),
-                       .rank = to->own < 0 ? to->rank : rank};
-    fg__pieces *list = to->own < 0 ? &e->sent : rank == here ? &e->copied : &e->received;
-    if (!add_piece(list, &found) || (to->own >= 0 && !take_out(left, &common)))
+  for (int k = 0; k < level->dimension; ++k) {
+    int first = filled->first[k] - 1, end = filled->first[k] + filled->nodes[k] + 1;
+    int box_end = box->first[k] + box->nodes[k], nodes = level->nodes[k];
+    bool near = box->first[k] < end && box_end > first;
+    bool round = level->periodic[k] &&
+                 ((first < 0 && box_end == nodes) || (end > nodes && box->first[k] == 0));
+    if (!near && !round)
       return false;
   }
   return true;
 }
 
-static bool add_target(fg__exchange *e, const fg__partition *level, const target *to,
-                       box_list *left)
+/* Boxes of ranks first_rank ... last_rank near a target, in order. */
+static bool find_near(search *s, const fg__box *box, int first_rank, int last_rank)
 {
-  int depth = level->dimension == 3 ? 1 : 0, here = level->ranks->rank;
+  s->source_count = 0;
+  for (int rank = first_rank; rank <= last_rank; ++rank) {
+    int first = s->from->first_of_rank[rank], end = s->from->first_of_rank[rank + 1];
+    for (int n = first; n < end; ++n) {
+      if (!reaches(s->from, box, &s->from->box[n]))
+        continue;
+      void *memory = s->source;
+      if (!fg__grow(&memory, &s->source_capacity, s->source_count + 1, sizeof *s->source))
+        return false;
+      s->source = memory;
+      s->source[s->source_count++] = (source){&s->from->box[n], rank, n - first};
+    }
+  }
+  return true;
+}
+
+/* Pieces of one side of a target, found among the sources near it. */
+static bool add_pieces(fg__exchange *e, search *s, const target *to,
+                       const fg__box *ghosts, const fg__box *sources)
+{
+  for (size_t n = 0; n < s->source_count; ++n) {
+    const source *from = &s->source[n];
+    fg__box common = fg__box_intersection(sources, from->box);
+    if (fg__box_is_empty(&common))
+      continue;
+    fg__box filled = ghosts_of(&common, sources, ghosts), read = common;
+    for (int k = 0; k < 3; ++k)
+      read.first[k] -= from->box->first[k];
+    fg__piece found = {.to = brick_of(to->own, &filled, &common),
+                       .from = brick_of(from->index, &read, &common),
+                       .rank = to->own < 0 ? to->rank : from->rank};
+    fg__pieces *list = to->own < 0                          ? &e->sent
+                       : from->rank == s->from->ranks->rank ? &e->copied
+                                                            : &e->received;
+    if (!add_piece(list, &found) ||
+        (to->own >= 0 && !fg__box_list_take_out(&s->left, &common)))
+      return false;
+  }
+  return true;
+}
+
+static bool add_side(fg__exchange *e, search *s, const target *to, const int side[3])
+{
+  fg__box ghosts, sources;
+  find_sources(s->to, to->box, side, &ghosts, &sources);
+  s->left.count = 0;
+  if (to->own >= 0 && !fg__box_list_add(&s->left, &sources))
+    return false;
+  if (!add_pieces(e, s, to, &ghosts, &sources))
+    return false;
+  for (size_t n = 0; n < s->left.count; ++n) {
+    fg__box uncovered = ghosts_of(&s->left.box[n], &sources, &ghosts);
+    if (!add_uncovered(e, to->own, &uncovered))
+      return false;
+  }
+  return true;
+}
+
+static bool add_target(fg__exchange *e, search *s, const target *to)
+{
+  int depth = s->to->dimension == 3 ? 1 : 0, here = s->to->ranks->rank;
+  int last = s->to->ranks->count - 1;
+  if (!find_near(s, to->box, to->own < 0 ? here : 0, to->own < 0 ? here : last))
+    return false;
   for (int z = -depth; z <= depth; ++z)
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x) {
-        if (x == 0 && y == 0 && z == 0)
-          continue;
-        fg__box ghosts, sources;
-        find_sources(level, to->box, (int[3]){x, y, z}, &ghosts, &sources);
-        left->count = 0;
-        if (to->own < 0) {
-          if (!add_sources(e, level, to, here, &ghosts, &sources, left))
-            return false;
-          continue;
-        }
-        left->box[left->count++] = sources;
-        for (int rank = 0; rank < level->ranks->count && left->count > 0; ++rank)
-          if (!add_sources(e, level, to, rank, &ghosts, &sources, left))
-            return false;
-        for (size_t n = 0; n < left->count; ++n) {
-          fg__box uncovered = ghosts_of(&left->box[n], &sources, &ghosts);
-          if (!add_uncovered(e, to->own, &uncovered))
-            return false;
-        }
+        bool inner = x == 0 && y == 0 && z == 0;
+        if ((s->part & (inner ? FG__NODES : FG__GHOSTS)) != 0 &&
+            !add_side(e, s, to, (int[3]){x, y, z}))
+          return false;
       }
   return true;
 }
 
 /* Both sides of a message list its pieces by target, then side, then owner's box. */
-static bool find_pieces(fg__exchange *e, const fg__partition *level)
+static bool find_pieces(fg__exchange *e, search *s)
 {
-  box_list left = {0};
-  void *memory = NULL;
-  bool done = fg__grow(&memory, &left.capacity, 8, sizeof *left.box);
-  left.box = memory;
-  for (int rank = 0; rank < level->ranks->count; ++rank) {
-    int first = level->first_of_rank[rank], end = level->first_of_rank[rank + 1];
+  bool done = true;
+  for (int rank = 0; rank < s->to->ranks->count; ++rank) {
+    int first = s->to->first_of_rank[rank], end = s->to->first_of_rank[rank + 1];
     for (int n = first; done && n < end; ++n) {
-      target to = {&level->box[n], rank, rank == level->ranks->rank ? n - first : -1};
-      done = add_target(e, level, &to, &left);
+      target to = {&s->to->box[n], rank, rank == s->to->ranks->rank ? n - first : -1};
+      done = add_target(e, s, &to);
     }
   }
-  free(left.box);
+  free(s->left.box);
+  free(s->source);
   return done;
 }
 
@@ -242,33 +264,42 @@ static bool take_buffers(fg__exchange *e)
   return true;
 }
 
-static bool make_plan(fg__exchange *e, const fg__partition *level)
+static fg__layout *layouts_of(const fg__partition *level)
 {
-  const fg__box *own = fg__own_boxes(level, &e->own_count);
-  e->layout = fg__allocate((size_t)e->own_count, sizeof *e->layout);
-  if (!e->layout)
-    return false;
-  for (int n = 0; n < e->own_count; ++n)
-    e->layout[n] = fg__layout_of(level->dimension, own[n].nodes);
-  int ranks = level->ranks->count;
-  return find_pieces(e, level) && sort_by_rank(&e->sent, ranks) &&
-         sort_by_rank(&e->received, ranks) &&
+  int count;
+  const fg__box *own = fg__own_boxes(level, &count);
+  fg__layout *out = fg__allocate((size_t)count, sizeof *out);
+  for (int n = 0; out && n < count; ++n)
+    out[n] = fg__layout_of(level->dimension, own[n].nodes);
+  return out;
+}
+
+static bool make_plan(fg__exchange *e, const fg__partition *from, const fg__partition *to,
+                      fg__part part)
+{
+  int ranks = from->ranks->count;
+  search s = {.from = from, .to = to, .part = part};
+  e->from_layout = layouts_of(from);
+  e->to_layout = layouts_of(to);
+  return e->from_layout && e->to_layout && find_pieces(e, &s) &&
+         sort_by_rank(&e->sent, ranks) && sort_by_rank(&e->received, ranks) &&
          add_neighbours(&e->senders, &e->sent, true) &&
          add_neighbours(&e->receivers, &e->received, false) && take_buffers(e);
 }
 
-fg_status fg__exchange_create(fg__exchange **out, fg_context *context,
-                              const fg__partition *partition, int most_arrays)
+fg_status fg__exchange_create_between(fg__exchange **out, fg_context *context,
+                                      const fg__partition *from, const fg__partition *to,
+                                      fg__part part, int most_arrays)
 {
   fg__exchange *e = *out = fg__allocate(1, sizeof *e);
   fg_status status = FG_STATUS_OK;
   if (e) {
-    e->communicator = fg__communicator(partition->ranks);
+    e->communicator = fg__communicator(from->ranks);
     e->most_arrays = most_arrays;
   }
-  if (!e || !make_plan(e, partition))
-    status = fg__fail_memory(context, "an exchange of ghosts", sizeof *e);
-  status = fg__ranks_agree(partition->ranks, context, status);
+  if (!e || !make_plan(e, from, to, part))
+    status = fg__fail_memory(context, "an exchange of nodes", sizeof *e);
+  status = fg__ranks_agree(from->ranks, context, status);
   if (status) {
     fg__exchange_destroy(e);
     *out = NULL;
@@ -276,11 +307,19 @@ fg_status fg__exchange_create(fg__exchange **out, fg_context *context,
   return status;
 }
 
+fg_status fg__exchange_create(fg__exchange **out, fg_context *context,
+                              const fg__partition *partition, int most_arrays)
+{
+  return fg__exchange_create_between(out, context, partition, partition, FG__GHOSTS,
+                                     most_arrays);
+}
+
 void fg__exchange_destroy(fg__exchange *exchange)
 {
   if (!exchange)
     return;
-  free(exchange->layout);
+  free(exchange->to_layout);
+  free(exchange->from_layout);
   free(exchange->copied.piece);
   free(exchange->sent.piece);
   free(exchange->received.piece);

@@ -1,4 +1,4 @@
-/* What a plan to fill ghosts consists of (exchange.h). */
+/* What a plan of an exchange consists of (exchange.h). */
 #ifndef FG__EXCHANGE_PLAN_H
 #define FG__EXCHANGE_PLAN_H
 
@@ -6,7 +6,7 @@
 #include "mesh/communicator.h"
 #include "mesh/exchange.h"
 
-/* One piece of ghosts and where it comes from; without a box when that is elsewhere. */
+/* Nodes to fill and where they come from; box -1 where that is another rank. */
 typedef struct fg__piece {
   fg__brick to, from;
   int rank; /* of the other side */
@@ -32,8 +32,7 @@ typedef struct fg__neighbours {
 
 struct fg__exchange {
   MPI_Comm communicator;
-  int own_count;
-  fg__layout *layout; /* of own boxes */
+  fg__layout *to_layout, *from_layout; /* of own boxes */
   fg__pieces copied, sent, received;
   fg__neighbours senders, receivers;
   fg__uncovered *uncovered;
@@ -43,7 +42,7 @@ struct fg__exchange {
   fg__traffic traffic;
   /* of the exchange under way */
   int arrays;
-  float *const *const *array;
+  float *const *const *to;
   unsigned colours;
 };
 

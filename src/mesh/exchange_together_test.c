@@ -61,7 +61,7 @@ static void is_listed_when_uncovered(const ghost *g, int box, const fg__layout *
   (void)layout;
   int times = 0;
   for (int n = 0; n < c->uncovered_count; ++n)
-    times += c->uncovered[n].box == box && has_node(&c->uncovered[n].ghosts, g->at);
+    times += c->uncovered[n].box == box && has_node(&c->uncovered[n].nodes, g->at);
   expect(times == (g->owner < 0));
 }
 
@@ -165,6 +165,77 @@ static void work_goes_on_between_begin_and_finish(void **state)
   end_together();
 }
 
+typedef struct filling {
+  const grid *grid;
+  const shares *from, *to;
+  const fields *filled;
+  const fg__exchange *exchange;
+  fg__part part;
+} filling;
+
+/* A node or ghost `at` of own box `b`. */
+static void check_filled(const filling *c, const fg__box *box, int b, const int at[3])
+{
+  fg__box inner = {{0, 0, 0}, {box->nodes[0], box->nodes[1], box->nodes[2]}};
+  int node[3], uncovered_count, times = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    node[axis] = image_along(c->grid, axis, box->first[axis] + at[axis]);
+  bool asked = (c->part & (has_node(&inner, at) ? FG__NODES : FG__GHOSTS)) != 0;
+  bool there = owner_of(c->from, node) >= 0;
+  ptrdiff_t offset = fg__node_at(&c->filled->layout[b], at[0], at[1], at[2]);
+  for (int a = 0; a < c->filled->count; ++a)
+    expect(c->filled->node[a][b][offset] ==
+           (asked && there ? value_at(a, node) : UNTOUCHED));
+  const fg__uncovered *uncovered = fg__exchange_uncovered(c->exchange, &uncovered_count);
+  for (int n = 0; n < uncovered_count; ++n)
+    times += uncovered[n].box == b && has_node(&uncovered[n].nodes, at);
+  expect(times == (asked && !there));
+}
+
+static void check_filling(const filling *c)
+{
+  fg__box own[MOST_SHARES];
+  int count = own_shares(c->to, own), depth = c->grid->dimension == 3;
+  for (int b = 0; b < count; ++b)
+    for (int k = -depth; k < own[b].nodes[2] + depth; ++k)
+      for (int j = -1; j <= own[b].nodes[1]; ++j)
+        for (int i = -1; i <= own[b].nodes[0]; ++i)
+          check_filled(c, &own[b], b, (int[3]){i, j, k});
+}
+
+/* From one partition into another: nodes, ghosts or both, where the first has them. */
+static void any_partition_can_be_filled_from_another(void **state)
+{
+  (void)state;
+  static const fg__part PARTS[] = {FG__GHOSTS, FG__NODES, FG__NODES_AND_GHOSTS};
+  for (int g = 0; g < GRID_COUNT; ++g)
+    for (uint64_t seed = 0; seed < SEEDS; ++seed) {
+      const grid *of = &GRIDS[g];
+      fg__part part = PARTS[seed % 3];
+      shares s = cut_at_random(of, seed, 1, seed % 2 == 1);
+      shares t = cut_at_random(of, seed + 50, 1, seed % 5 == 4);
+      fg__partition from = partition_of(of, &s), to = partition_of(of, &t);
+      fg__exchange *exchange;
+      expect(fg__exchange_create_between(&exchange, us.context, &from, &to, part, 2) ==
+             FG_STATUS_OK);
+      fields f = fields_of(&from, 2), h = fields_of(&to, 2);
+      for (int b = 0; b < h.boxes; ++b)
+        for (int a = 0; a < 2; ++a)
+          for (size_t n = 0; n < h.layout[b].array_size; ++n)
+            (h.node[a][b] - h.layout[b].first)[n] = UNTOUCHED;
+      fg__exchange_fill_between(exchange, 2, arrays_of(&f), arrays_of(&h),
+                                FG__ALL_COLOURS);
+      filling c = {of, &s, &t, &h, exchange, part};
+      check_filling(&c);
+      fields_clear(&f);
+      fields_clear(&h);
+      fg__exchange_destroy(exchange);
+      fg__partition_clear(&from);
+      fg__partition_clear(&to);
+    }
+  end_together();
+}
+
 /* Every remote ghost is sent once, and a neighbour gets one message a time. */
 static void traffic_is_counted(void **state)
 {
@@ -201,6 +272,7 @@ int main(void)
       TOGETHER(boxes_may_begin_at_odd_indices),
       TOGETHER(ghosts_without_an_owner_are_listed),
       TOGETHER(work_goes_on_between_begin_and_finish),
+      TOGETHER(any_partition_can_be_filled_from_another),
       TOGETHER(traffic_is_counted),
   };
   return cmocka_run_group_tests_name("mesh/exchange", tests, NULL, NULL);
