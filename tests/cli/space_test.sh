@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# What a run of a field in 3D leaves: the density and its clusters, no icons.
+source "$(dirname "$0")/harness.sh"
+
+small=(--nodes 49 --clusters "16,8" --quiet)
+
+try run synth:vortex3d -o out1 "${small[@]}" --threads 1
+expect_code 0
+expect_one_complaint
+expect_error 'synth:vortex3d: in 3D, .*without icons and pictures'
+[ "$(ls -A out1 | tr '\n' ' ')" = "evolution.csv run.json scale-00.vti scale-01.vti " ] ||
+  fault "$(ls -A out1)"
+done_with "a run in 3D says in one line what it leaves, and leaves it"
+
+[ "$(wc -l <out)" = 2 ] || fault "not a line a scale: $(cat out)"
+while read -r line; do
+  [[ $line =~ ^[0-9]+\ clusters ]] || fault "$line"
+  [[ $line =~ icons ]] && fault "$line"
+  expect_file "${line##* }"
+done <out
+done_with "standard output names a file a scale"
+
+report=out1/run.json
+expect_json $report '.mesh.dimension == 3 and .mesh.cells == [48, 48, 48] and .mesh.active_cells == 110592'
+expect_json $report '(.mesh.spacing | length) == 3 and .mesh.domain_measure > 0.999 and .mesh.domain_measure < 1.001'
+expect_json $report '(.field.size | length) == 3 and (.field.bounds | length) == 6 and (.field.velocity | length) == 3'
+expect_json $report '[.scales[].wanted[]] == [16, 8] and ([.scales[] | .clusters <= .wanted[-1]] | all)'
+expect_json $report '[.scales[].vti] == ["scale-00.vti", "scale-01.vti"]'
+expect_json $report '[.scales[] | has("icons") or has("geojson") or has("svg") or has("png")] | any | not'
+expect_json $report '.mass_drift >= 0 and .mass_drift < 1e-7 and .energy_monotone == true'
+done_with "run.json: the mesh in 3D, scales without pictures"
+
+awk -F, 'NR == 1 { next }
+  NF != 11 || $1 != NR - 1 || $10 != 110592 { print "line " NR ": " $0; exit }
+  NR > 2 && ($2 <= t || $4 > energy) { print "line " NR ": " $0; exit }
+  NR > 2 && ($5 - mass > 1e-7 || mass - $5 > 1e-7) { print "line " NR ": mass " $5; exit }
+  { t = $2; energy = $4; if (NR == 2) mass = $5 }' out1/evolution.csv >fault.txt
+[ ! -s fault.txt ] || fault "$(cat fault.txt)"
+done_with "evolution.csv: energy never up, mass held"
+
+for scale in 0 1; do
+  file=out1/scale-0$scale.vti
+  xmllint --noout $file 2>fault.txt || fault "$(head -1 fault.txt)"
+  [ "$(xmllint --xpath 'string(/VTKFile/ImageData/@WholeExtent)' $file)" = "0 48 0 48 0 48" ] ||
+    fault "extent $(xmllint --xpath 'string(/VTKFile/ImageData/@WholeExtent)' $file)"
+  for name in u cluster; do
+    xmllint --xpath "//PointData/DataArray[@Name='$name']/@type" $file >/dev/null 2>&1 || fault "no $name"
+  done
+done
+done_with "a scale is VTK image data with u and cluster"
+
+# a reader of its own, where there is one: every cluster is where u is positive
+cat >check.py <<'END'
+import sys
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+reader = vtk.vtkXMLImageDataReader()
+reader.SetFileName(sys.argv[1])
+reader.Update()
+points = reader.GetOutput().GetPointData()
+u, cluster = (vtk_to_numpy(points.GetArray(name)) for name in ("u", "cluster"))
+assert u.size == 49 ** 3 and ((cluster != 0) == (u > 0)).all()
+assert set(range(1, int(sys.argv[2]) + 1)) == set(cluster[cluster > 0])
+END
+if /usr/bin/python3 -c 'import vtk' 2>/dev/null; then
+  for scale in 0 1; do
+    /usr/bin/python3 check.py out1/scale-0$scale.vti "$(jq ".scales[$scale].clusters" $report)" 2>fault.txt ||
+      fault "$(tail -1 fault.txt)"
+  done
+  done_with "VTK reads the scales, and their clusters are those counted"
+else
+  done_with "VTK reads the scales # SKIP no Python package vtk"
+fi
+
+try run synth:vortex3d -o out2 "${small[@]}" --threads 2
+expect_code 0
+for scale in 0 1; do
+  cmp -s "out1/scale-0$scale.vti" "out2/scale-0$scale.vti" || fault "scale $scale differs"
+done
+done_with "one and two threads give identical scales"
+
+try run synth:vortex3d -o out3 "${small[@]}" --seed 2
+expect_code 0
+cmp -s out1/scale-00.vti out3/scale-00.vti && fault "the seed changes nothing"
+done_with "another seed gives another pattern"
+
+try draw out1 -o x.svg
+expect_code 1
+expect_one_complaint
+expect_error '^flowgrain: out1: .*3D'
+expect_nothing_at x.svg
+done_with "draw refuses a run in 3D"
+
+try run synth:vortex3d -o out4 --max-steps 1 --nodes 17 --quiet
+expect_code 1
+expect_error 'no clusters after 1 steps'
+expect_nothing_at out4
+done_with "a run that ends before there are clusters leaves nothing"
+finish
