@@ -159,8 +159,9 @@ static void gather(const part *p, const world *w, int *of_grid, bool scatter)
 static void merge_parts(part *list, int count, const world *w, double debris_area,
                         bool all, fg__components *merged)
 {
-  fg__component_piece *piece = NULL;
-  fg__component_pair *pair = NULL;
+  /* a piece takes a node at least, and a node meets at most 18 others */
+  fg__component_piece *piece = malloc(node_count(w) * sizeof *piece);
+  fg__component_pair *pair = malloc(18 * node_count(w) * sizeof *pair);
   size_t pairs = 0;
   int pieces = 0;
   int *numbers = calloc(node_count(w), sizeof *numbers);
@@ -170,7 +171,6 @@ static void merge_parts(part *list, int count, const world *w, double debris_are
     p->before = pieces;
     assert_int_equal(fg__components_cut(c, NULL, &p->box), FG_STATUS_OK);
     fg__components_number(c, &p->box, p->before, all, p->number + p->origin);
-    piece = realloc(piece, (size_t)(pieces + c->piece_count + 1) * sizeof *piece);
     if (c->piece_count > 0)
       memcpy(piece + pieces, c->piece, (size_t)c->piece_count * sizeof *piece);
     pieces += c->piece_count;
@@ -182,7 +182,6 @@ static void merge_parts(part *list, int count, const world *w, double debris_are
     gather(p, w, numbers, true);
     assert_int_equal(fg__components_pairs(c, NULL, &p->box, p->number + p->origin),
                      FG_STATUS_OK);
-    pair = realloc(pair, (pairs + c->pair_count + 1) * sizeof *pair);
     if (c->pair_count > 0)
       memcpy(pair + pairs, c->pair, c->pair_count * sizeof *pair);
     pairs += c->pair_count;

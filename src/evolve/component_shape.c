@@ -93,17 +93,17 @@ static inline float reciprocal(float sum)
 }
 
 /* One over the sum of |u| at the corners of each cell of a row, 0 where there is none:
- * inverse[-1 ... nodes - 1]. */
+ * inverse[-1 ... nodes - 1]. In 2D `high` is not looked at. */
 static void invert(const fg__shape *shape, int j, int k, const float *low,
                    const float *high, float *inverse)
 {
   int nodes = shape->nodes[0];
-  if (high)
-    for (int x = -1; x < nodes; ++x)
-      inverse[x] = reciprocal((low[x] + low[x + 1]) + (high[x] + high[x + 1]));
-  else
+  if (shape->high[1] == FG__SIDE_FLAT)
     for (int x = -1; x < nodes; ++x)
       inverse[x] = reciprocal(low[x] + low[x + 1]);
+  else
+    for (int x = -1; x < nodes; ++x)
+      inverse[x] = reciprocal((low[x] + low[x + 1]) + (high[x] + high[x + 1]));
   if (fg__shape_cell(shape, 0, -1) == FG__NOWHERE)
     inverse[-1] = 0.0F;
   if (fg__shape_cell(shape, 0, nodes - 1) == FG__NOWHERE)
@@ -130,7 +130,7 @@ void fg__share_plane(const fg__shape *shape, int k, float *space, float *shares)
   for (; j < height && fg__shape_cell(shape, 1, j) != FG__NOWHERE; ++j) {
     if (!flat)
       add_rows(shape, fg__shape_node(shape, 1, j + 1), k, sum[1]);
-    invert(shape, j, k, sum[0], flat ? NULL : sum[1], inverse);
+    invert(shape, j, k, sum[0], sum[1], inverse);
     for (int row = j; row <= j + 1; ++row) {
       if (row < 0 || row >= height)
         continue;
