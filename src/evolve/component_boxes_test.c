@@ -52,7 +52,7 @@ static world make_world(int dimension)
   w.u = rand() % 6 ? malloc(node_count(&w) * sizeof *w.u) : NULL;
   for (size_t n = 0; n < node_count(&w) && w.u; ++n)
     w.u[n] = (float)(rand() % 2000 - 1150) / 1000.0F;
-  w.active = rand() % 2 ? malloc(cells) : NULL;
+  w.active = rand() % 2 ? malloc(cells + 1) : NULL;
   for (size_t n = 0; n < cells && w.active; ++n)
     w.active[n] = rand() % 10 >= 3;
   return w;
@@ -160,8 +160,8 @@ static void merge_parts(part *list, int count, const world *w, double debris_are
                         bool all, fg__components *merged)
 {
   /* a piece takes a node at least, and a node meets at most 18 others */
-  fg__component_piece *piece = malloc(node_count(w) * sizeof *piece);
-  fg__component_pair *pair = malloc(18 * node_count(w) * sizeof *pair);
+  fg__component_piece *piece = calloc(node_count(w), sizeof *piece);
+  fg__component_pair *pair = calloc(18 * node_count(w), sizeof *pair);
   size_t pairs = 0;
   int pieces = 0;
   int *numbers = calloc(node_count(w), sizeof *numbers);
