@@ -52,7 +52,7 @@ static world make_world(int dimension)
   w.u = rand() % 6 ? malloc(node_count(&w) * sizeof *w.u) : NULL;
   for (size_t n = 0; n < node_count(&w) && w.u; ++n)
     w.u[n] = (float)(rand() % 2000 - 1150) / 1000.0F;
-  w.active = rand() % 2 ? calloc(cells, 1) : NULL;
+  w.active = rand() % 2 ? calloc(cells + 1, 1) : NULL;
   for (size_t n = 0; n < cells && w.active; ++n)
     w.active[n] = rand() % 10 >= 3;
   return w;
