@@ -5,7 +5,7 @@
 
 #include <cmocka.h>
 
-#include "format/vti.h"
+#include "format/vtk.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,14 +47,14 @@ static const char *path_of(fixture *f, const char *name)
   return f->path;
 }
 
-static fg__vti_values values_of(const fg__vti *vti, fg__vti_place place, const char *name)
+static fg__vtk_values values_of(const fg__vtk *vti, fg__vtk_place place, const char *name)
 {
-  const fg__vti_array *array = fg__vti_find(vti, 0, place, name);
+  const fg__vtk_array *array = fg__vtk_find(vti, 0, place, name);
   assert_non_null(array);
   size_t count;
-  fg__vti_values values;
-  assert_true(fg__vti_count(&count, vti->extent, place));
-  assert_int_equal(fg__vti_values_create(&values, vti, array, count), FG_STATUS_OK);
+  fg__vtk_values values;
+  assert_true(fg__vtk_count(&count, vti->extent, place));
+  assert_int_equal(fg__vtk_values_create(&values, vti, array, count), FG_STATUS_OK);
   return values;
 }
 
@@ -91,31 +91,31 @@ static void a_density_shows_clusters_and_mask(void **state)
                    FG_STATUS_OK);
 
   fg__source source;
-  fg__vti vti;
+  fg__vtk vti;
   assert_int_equal(fg__source_open(&source, f->context, f->path), FG_STATUS_OK);
-  assert_int_equal(fg__vti_open(&vti, f->context, &source), FG_STATUS_OK);
+  assert_int_equal(fg__vtk_open_xml(&vti, f->context, &source), FG_STATUS_OK);
   assert_int_equal(vti.extent[1], WIDE); /* the first column again at the end */
   assert_int_equal(vti.extent[3], HIGH - 1);
   assert_true(vti.origin[0] == -1.0 && vti.spacing[1] == 0.25);
-  fg__vti_values found = values_of(&vti, FG__VTI_POINTS, "u");
-  fg__vti_values cluster = values_of(&vti, FG__VTI_POINTS, "cluster");
-  fg__vti_values ghost = values_of(&vti, FG__VTI_CELLS, "vtkGhostType");
+  fg__vtk_values found = values_of(&vti, FG__VTK_POINTS, "u");
+  fg__vtk_values cluster = values_of(&vti, FG__VTK_POINTS, "cluster");
+  fg__vtk_values ghost = values_of(&vti, FG__VTK_CELLS, "vtkGhostType");
   for (size_t y = 0; y < HIGH; ++y)
     for (size_t x = 0; x <= WIDE; ++x) {
       size_t at = y * (WIDE + 1) + x, node = y * WIDE + x % WIDE;
-      assert_true(fg__vti_value(&found, at) == (double)u[node]);
+      assert_true(fg__vtk_value(&found, at) == (double)u[node]);
       double label = u[node] < 0.0f ? 0.0 : y < 2 ? 1.0 : 2.0;
-      assert_true(fg__vti_value(&cluster, at) == label);
+      assert_true(fg__vtk_value(&cluster, at) == label);
     }
   for (size_t i = 0; i < sizeof active; ++i)
-    assert_true(fg__vti_value(&ghost, i) == (active[i] ? 0.0 : 32.0));
-  const fg__vti_array *time = fg__vti_find(&vti, 0, FG__VTI_FIELD, "TimeValue");
+    assert_true(fg__vtk_value(&ghost, i) == (active[i] ? 0.0 : 32.0));
+  const fg__vtk_array *time = fg__vtk_find(&vti, 0, FG__VTK_FIELD, "TimeValue");
   assert_non_null(time);
   assert_non_null(strstr(time->text, "0.0001"));
-  fg__vti_values_clear(&ghost);
-  fg__vti_values_clear(&cluster);
-  fg__vti_values_clear(&found);
-  fg__vti_close(&vti);
+  fg__vtk_values_clear(&ghost);
+  fg__vtk_values_clear(&cluster);
+  fg__vtk_values_clear(&found);
+  fg__vtk_close(&vti);
   fg__source_close(&source);
   fg_density_destroy(density);
 }
@@ -151,30 +151,30 @@ static void a_density_in_space_comes_back(void **state)
   assert_int_equal(fg_density_write(f->context, path_of(f, "u.vti"), density),
                    FG_STATUS_OK);
   fg__source source;
-  fg__vti vti;
+  fg__vtk vti;
   assert_int_equal(fg__source_open(&source, f->context, f->path), FG_STATUS_OK);
-  assert_int_equal(fg__vti_open(&vti, f->context, &source), FG_STATUS_OK);
+  assert_int_equal(fg__vtk_open_xml(&vti, f->context, &source), FG_STATUS_OK);
   const int extent[6] = {0, WIDE - 1, 0, HIGH - 1, 0, DEEP};
   assert_memory_equal(vti.extent, extent, sizeof extent);
   assert_true(vti.origin[2] == 30.0 && vti.spacing[2] == 2.0);
-  fg__vti_values found = values_of(&vti, FG__VTI_POINTS, "u");
-  fg__vti_values cluster = values_of(&vti, FG__VTI_POINTS, "cluster");
-  fg__vti_values ghost = values_of(&vti, FG__VTI_CELLS, "vtkGhostType");
+  fg__vtk_values found = values_of(&vti, FG__VTK_POINTS, "u");
+  fg__vtk_values cluster = values_of(&vti, FG__VTK_POINTS, "cluster");
+  fg__vtk_values ghost = values_of(&vti, FG__VTK_CELLS, "vtkGhostType");
   for (size_t z = 0; z <= DEEP; ++z)
     for (size_t y = 0; y < HIGH; ++y)
       for (size_t x = 0; x < WIDE; ++x) {
         size_t at = AT(x, y, z), node = AT(x, y, z % DEEP);
         double label = u[node] < 0.0f ? 0.0 : x == 1 ? 1.0 : x == 4 ? 2.0 : -1.0;
-        assert_true(fg__vti_value(&found, at) == (double)u[node]);
-        assert_true(fg__vti_value(&cluster, at) == label);
+        assert_true(fg__vtk_value(&found, at) == (double)u[node]);
+        assert_true(fg__vtk_value(&cluster, at) == label);
       }
 #undef AT
   for (size_t i = 0; i < CELLS; ++i)
-    assert_true(fg__vti_value(&ghost, i) == (active[i] ? 0.0 : 32.0));
-  fg__vti_values_clear(&ghost);
-  fg__vti_values_clear(&cluster);
-  fg__vti_values_clear(&found);
-  fg__vti_close(&vti);
+    assert_true(fg__vtk_value(&ghost, i) == (active[i] ? 0.0 : 32.0));
+  fg__vtk_values_clear(&ghost);
+  fg__vtk_values_clear(&cluster);
+  fg__vtk_values_clear(&found);
+  fg__vtk_close(&vti);
   fg__source_close(&source);
   fg_density_destroy(density);
 }

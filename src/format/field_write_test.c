@@ -5,7 +5,7 @@
 
 #include <cmocka.h>
 
-#include "format/vti.h"
+#include "format/vtk.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -89,14 +89,17 @@ static void assert_same_samples(const fg_field *first, const fg_field *second,
                                 double axis_tolerance)
 {
   const fg_field_arrays *a = fg_field_contents(first), *b = fg_field_contents(second);
-  for (int k = 0; k < 2; ++k) {
+  assert_int_equal(a->dimension, b->dimension);
+  size_t count = 1;
+  for (int k = 0; k < a->dimension; ++k) {
     assert_int_equal(a->size[k], b->size[k]);
+    count *= (size_t)a->size[k];
     for (int i = 0; i < a->size[k]; ++i)
       assert_true(fabs(a->axis[k][i] - b->axis[k][i]) <= axis_tolerance);
   }
-  for (size_t i = 0; i < (size_t)a->size[0] * (size_t)a->size[1]; ++i) {
+  for (size_t i = 0; i < count; ++i) {
     assert_int_equal(is_missing(a, i), is_missing(b, i));
-    for (int k = 0; k < 2 && !is_missing(a, i); ++k)
+    for (int k = 0; k < a->dimension && !is_missing(a, i); ++k)
       assert_true(a->velocity[k][i] == b->velocity[k][i]);
   }
 }
@@ -177,6 +180,68 @@ static void analytic_fields_go_through_both_formats(void **state)
   fg_field_destroy(field);
 }
 
+/* Axes of three lengths, and a hole. */
+static fg_field *make_volume(fg_context *context)
+{
+  enum { SX = 7, SY = 5, SZ = 4, SAMPLES = SX * SY * SZ };
+  double axis[3][SX];
+  float velocity[3][SAMPLES];
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < SX; ++i)
+      axis[k][i] = 1.0 + k + 0.25 * (k + 1) * i;
+  for (int c = 0; c < 3; ++c)
+    for (int n = 0; n < SAMPLES; ++n)
+      velocity[c][n] = n == 71 && c == 2 ? NAN : (float)(n - 20) / (float)(c + 3);
+  fg_field *field = NULL;
+  assert_int_equal(
+      fg_field_create(
+          &field, context,
+          &(fg_field_arrays){.dimension = 3,
+                             .size = {SX, SY, SZ},
+                             .axis = {axis[0], axis[1], axis[2]},
+                             .velocity = {velocity[0], velocity[1], velocity[2]},
+                             .velocity_units = "m/s"}),
+      FG_STATUS_OK);
+  return field;
+}
+
+static void volumes_come_back_bit_for_bit(void **state)
+{
+  fixture *f = *state;
+  fg_field *field = make_volume(f->context), *back = NULL;
+  assert_int_equal(fg_field_write(f->context, path_of(f, "a.vti"), field), FG_STATUS_OK);
+  assert_int_equal(fg_field_read(&back, f->context, f->path, NULL), FG_STATUS_OK);
+  assert_same_samples(field, back, 1e-13);
+  assert_int_equal(fg_field_contents(back)->valid[71], 0);
+  assert_string_equal(fg_field_contents(back)->velocity_units, "m/s");
+  fg_field_destroy(back);
+  fg_field_destroy(field);
+}
+
+/* In a file a period has an end: the first samples again. */
+static void periodic_axes_are_closed(void **state)
+{
+  fixture *f = *state;
+  fg_field *field = NULL, *back = NULL;
+  assert_int_equal(fg_field_create_analytic(&field, f->context, "abc", 9), FG_STATUS_OK);
+  assert_int_equal(fg_field_write(f->context, path_of(f, "a.vti"), field), FG_STATUS_OK);
+  assert_int_equal(fg_field_read(&back, f->context, f->path, NULL), FG_STATUS_OK);
+  const fg_field_arrays *a = fg_field_contents(back);
+  for (int k = 0; k < 3; ++k) {
+    assert_int_equal(a->size[k], 9);
+    assert_true(a->period[k] == 0.0 && a->axis[k][8] == 1.0);
+  }
+  for (int n = 0; n < 50; ++n) {
+    const double at[3] = {fmod(0.37 * n, 1.0), fmod(0.53 * n, 1.0), 1.0};
+    double v[3], w[3];
+    assert_true(fg_field_velocity(field, at, v) && fg_field_velocity(back, at, w));
+    for (int k = 0; k < 3; ++k)
+      assert_true(fabs(v[k] - w[k]) < 1e-6);
+  }
+  fg_field_destroy(back);
+  fg_field_destroy(field);
+}
+
 static void what_cannot_be_written_leaves_nothing(void **state)
 {
   fixture *f = *state;
@@ -215,6 +280,8 @@ int main(void)
       TEST(an_image_comes_back_bit_for_bit),
       TEST(netcdf_comes_back_bit_for_bit),
       TEST(analytic_fields_go_through_both_formats),
+      TEST(volumes_come_back_bit_for_bit),
+      TEST(periodic_axes_are_closed),
       TEST(what_cannot_be_written_leaves_nothing),
   };
   return cmocka_run_group_tests_name("format/field_write", tests, NULL, NULL);

@@ -24,6 +24,7 @@ typedef struct fg__format {
 
 extern const fg__format fg__format_netcdf;
 extern const fg__format fg__format_vti;
+extern const fg__format fg__format_vtk_legacy;
 
 /* Maps a regular file that can be read and is not empty. FILE_ACCESS, FILE_FORMAT
  * (empty). */

@@ -413,19 +413,6 @@ static void every_vector_is_listed(void **state)
   fg_inventory_destroy(inventory);
 }
 
-static void a_volume_is_listed_as_unusable(void **state)
-{
-  char file[EXAMPLE_FILE_BYTES];
-  example_image(file, "", "0 4 0 3 0 2", POINTS(VECTOR("U", SIX)));
-  fg_inventory *inventory = inventory_of(*state, file);
-  const fg_inventory_vector *u = fg_inventory_vector_at(inventory, 0);
-  assert_int_equal(u->dimension, 3);
-  assert_int_equal(u->size[2], 3);
-  assert_non_null(strstr(u->unusable, "volume"));
-  assert_string_equal(fg_context_message(*state), "");
-  fg_inventory_destroy(inventory);
-}
-
 static int set_up(void **state)
 {
   return fg_context_create((fg_context **)state) == FG_STATUS_OK ? 0 : -1;
@@ -451,7 +438,6 @@ int main(void)
       cmocka_unit_test(missing_samples_are_known),
       cmocka_unit_test(a_mask_is_zero_outside),
       cmocka_unit_test(every_vector_is_listed),
-      cmocka_unit_test(a_volume_is_listed_as_unusable),
   };
   return cmocka_run_group_tests_name("format/vti_read", tests, set_up, tear_down);
 }

@@ -1,6 +1,6 @@
 /* The markup of a VTK XML file, by libxml2, and where its appended data lie. */
 #include "base/memory.h"
-#include "format/vti.h"
+#include "format/vtk.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -44,7 +44,7 @@ static bool is_space(unsigned char c)
 
 /* Appended data may be raw bytes, which are no XML: the markup is cut before them.
  * *markup becomes the size of what remains; without appended data, all. */
-static fg_status cut_appended(fg__vti *vti, const fg__source *source, size_t *markup)
+static fg_status cut_appended(fg__vtk *vtk, const fg__source *source, size_t *markup)
 {
   *markup = source->size;
   size_t open = find_first(source->bytes, source->size, APPENDED_OPEN);
@@ -52,9 +52,9 @@ static fg_status cut_appended(fg__vti *vti, const fg__source *source, size_t *ma
     return FG_STATUS_OK;
   const unsigned char *close = memchr(source->bytes + open, '>', source->size - open);
   if (!close)
-    return fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
+    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                     "%s: ends inside the tag of its appended data, after %zu bytes",
-                    vti->path, source->size);
+                    vtk->path, source->size);
   if (close[-1] == '/')
     return FG_STATUS_OK;
   size_t at = (size_t)(close - source->bytes) + 1;
@@ -62,12 +62,12 @@ static fg_status cut_appended(fg__vti *vti, const fg__source *source, size_t *ma
   while (at < source->size && is_space(source->bytes[at]))
     ++at;
   if (at == source->size || source->bytes[at] != '_')
-    return fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
-                    "%s: the appended data do not begin with '_' at byte %zu", vti->path,
+    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                    "%s: the appended data do not begin with '_' at byte %zu", vtk->path,
                     at);
-  vti->appended = source->bytes + at + 1;
-  vti->appended_size = source->size - at - 1;
-  vti->appended_size = find_last(vti->appended, vti->appended_size, APPENDED_CLOSE);
+  vtk->appended = source->bytes + at + 1;
+  vtk->appended_size = source->size - at - 1;
+  vtk->appended_size = find_last(vtk->appended, vtk->appended_size, APPENDED_CLOSE);
   return FG_STATUS_OK;
 }
 
@@ -93,7 +93,7 @@ static size_t end_of_tag(const unsigned char *bytes, size_t size, size_t at)
   return at;
 }
 
-static fg_status check_tags(const fg__vti *vti, const unsigned char *bytes, size_t size)
+static fg_status check_tags(const fg__vtk *vtk, const unsigned char *bytes, size_t size)
 {
   size_t at = 0;
   while (at < size) {
@@ -103,9 +103,9 @@ static fg_status check_tags(const fg__vti *vti, const unsigned char *bytes, size
     size_t start = (size_t)(tag - bytes);
     at = end_of_tag(bytes, size, start);
     if (at - start > LONGEST_TAG && bytes[start + 1] != '!' && bytes[start + 1] != '?')
-      return fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
+      return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                       "%s: a tag of %zu bytes at byte %zu; at most %d can be read",
-                      vti->path, at - start, start, LONGEST_TAG);
+                      vtk->path, at - start, start, LONGEST_TAG);
   }
   return FG_STATUS_OK;
 }
@@ -122,15 +122,15 @@ static void refuse_document_type(void *parser, const xmlChar *name,
   xmlStopParser(context);
 }
 
-static fg_status parse(fg__vti *vti, const char *markup, size_t size)
+static fg_status parse(fg__vtk *vtk, const char *markup, size_t size)
 {
   if (size > INT_MAX)
-    return fg__fail(vti->context, FG_STATUS_UNSUPPORTED,
-                    "%s: %zu bytes of markup; at most %d can be read", vti->path, size,
+    return fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
+                    "%s: %zu bytes of markup; at most %d can be read", vtk->path, size,
                     INT_MAX);
   xmlParserCtxt *parser = xmlNewParserCtxt();
   if (!parser)
-    return fg__fail_memory(vti->context, "an XML parser", sizeof *parser);
+    return fg__fail_memory(vtk->context, "an XML parser", sizeof *parser);
   bool has_document_type = false;
   parser->_private = &has_document_type;
   parser->sax->internalSubset = refuse_document_type;
@@ -142,39 +142,39 @@ static fg_status parse(fg__vti *vti, const char *markup, size_t size)
   xmlDoc *document = xmlCtxtReadMemory(parser, markup, (int)size, NULL, NULL, options);
   fg_status status = FG_STATUS_OK;
   if (has_document_type) {
-    status = fg__fail(vti->context, FG_STATUS_FILE_FORMAT,
-                      "%s: has a document type, which a VTK file has not", vti->path);
+    status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                      "%s: has a document type, which a VTK file has not", vtk->path);
   } else if (!document) {
     const xmlError *error = xmlCtxtGetLastError(parser);
     const char *message = error && error->message ? error->message : "no reason given";
-    status = fg__fail(vti->context, FG_STATUS_FILE_FORMAT, "%s: line %d: not XML: %.*s",
-                      vti->path, error ? error->line : 0, (int)strcspn(message, "\n"),
+    status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: line %d: not XML: %.*s",
+                      vtk->path, error ? error->line : 0, (int)strcspn(message, "\n"),
                       message);
   }
   if (status == FG_STATUS_OK)
-    vti->document = document;
+    vtk->document = document;
   else
     xmlFreeDoc(document);
   xmlFreeParserCtxt(parser);
   return status;
 }
 
-fg_status fg__vti_parse(fg__vti *vti, const fg__source *source)
+fg_status fg__vtk_parse(fg__vtk *vtk, const fg__source *source)
 {
   size_t markup = 0;
-  fg_status status = cut_appended(vti, source, &markup);
+  fg_status status = cut_appended(vtk, source, &markup);
   if (status == FG_STATUS_OK)
-    status = check_tags(vti, source->bytes, markup);
+    status = check_tags(vtk, source->bytes, markup);
   if (status != FG_STATUS_OK)
     return status;
-  if (!vti->appended)
-    return parse(vti, (const char *)source->bytes, markup);
+  if (!vtk->appended)
+    return parse(vtk, (const char *)source->bytes, markup);
   char *repaired = fg__allocate(markup + sizeof REPAIR, 1);
   if (!repaired)
-    return fg__fail_memory(vti->context, "a file's markup", markup);
+    return fg__fail_memory(vtk->context, "a file's markup", markup);
   memcpy(repaired, source->bytes, markup);
   memcpy(repaired + markup, REPAIR, sizeof REPAIR);
-  status = parse(vti, repaired, markup + sizeof REPAIR - 1);
+  status = parse(vtk, repaired, markup + sizeof REPAIR - 1);
   free(repaired);
   return status;
 }
