@@ -2,8 +2,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "base/memory.h"
+#include "mesh/merge.h"
 
 /* Cells longer than twice their width resolve an interface in one direction only: a thin
  * domain gets more nodes along it than asked for. */
@@ -16,6 +17,9 @@ enum { COARSENING = 16, SHORT_SIDE_COARSENING = 8 };
 
 /* Boxes of smaller patches could not be halved often before they are replicated. */
 enum { LEAST_PATCH_2D = 16, LEAST_PATCH_3D = 8 };
+
+/* Smaller ones would be all ghosts and pads. */
+enum { LEAST_COARSENED_PATCH = 4 };
 static const double most_imbalance = 1.05;
 
 static int round_up(int value, int multiple)
@@ -33,6 +37,8 @@ static int greatest_power_of_two_in(int dimension, const int counts[])
 
 static int step_of_cells(const fg__mesh_description *description, int axis)
 {
+  if (description->patch_cells > 0)
+    return description->patch_cells << description->refinements;
   return description->periodic[axis] ? COARSENING : SHORT_SIDE_COARSENING;
 }
 
@@ -48,6 +54,14 @@ static fg_status check_description(fg_context *context,
     if (!(description->side[k] > 0.0) || !isfinite(description->side[k]))
       return fg__fail(context, FG_STATUS_ARGUMENT,
                       "the domain's side along axis %d is %g", k, description->side[k]);
+  int patch = description->patch_cells;
+  if (patch != 0 &&
+      (patch < LEAST_COARSENED_PATCH || patch > most || (patch & (patch - 1)) != 0 ||
+       description->refinements < 0 || description->refinements > FG__MOST_REFINEMENTS ||
+       patch << description->refinements > most))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "patches of %d cells refined %d times are not possible", patch,
+                    description->refinements);
   return FG_STATUS_OK;
 }
 
@@ -74,7 +88,9 @@ static fg_status choose_cells(fg__mesh *mesh, fg_context *context,
     if (least_cells > wanted)
       wanted = (int)ceil(least_cells);
   }
-  mesh->cells[longest] = round_up(wanted, COARSENING);
+  mesh->cells[longest] =
+      round_up(wanted, description->patch_cells > 0 ? step_of_cells(description, longest)
+                                                    : COARSENING);
   for (int k = 0; k < mesh->dimension; ++k) {
     if (k != longest) {
       int step = step_of_cells(description, k);
@@ -99,70 +115,29 @@ static double imbalance(const fg__mesh *mesh, int patch)
   return ceil(mean) / mean;
 }
 
-static fg_status grow_forest(fg__mesh *mesh, fg_context *context)
+static fg_status grow_forest(fg__mesh *mesh, fg_context *context,
+                             const fg__mesh_description *description)
 {
   int tree = greatest_power_of_two_in(mesh->dimension, mesh->cells);
   int least = mesh->dimension == 3 ? LEAST_PATCH_3D : LEAST_PATCH_2D;
-  int trees[3] = {1, 1, 1}, refinements = 0;
+  bool adaptive = description->patch_cells > 0;
+  if (adaptive) {
+    mesh->patch_cells = description->patch_cells;
+    mesh->refinements = description->refinements;
+    tree = mesh->patch_cells << mesh->refinements;
+  } else {
+    mesh->patch_cells = tree;
+    while (mesh->patch_cells > least &&
+           imbalance(mesh, mesh->patch_cells) > most_imbalance) {
+      mesh->patch_cells /= 2;
+      ++mesh->refinements;
+    }
+  }
+  int trees[3] = {1, 1, 1};
   for (int k = 0; k < mesh->dimension; ++k)
     trees[k] = mesh->cells[k] / tree;
-  mesh->patch_cells = tree;
-  while (mesh->patch_cells > least &&
-         imbalance(mesh, mesh->patch_cells) > most_imbalance) {
-    mesh->patch_cells /= 2;
-    ++refinements;
-  }
   return mesh->kind->create(&mesh->forest, context, mesh->ranks, trees, mesh->periodic,
-                            refinements, refinements);
-}
-
-/* The nodes that a leaf of a uniform mesh owns. */
-static fg__box nodes_of(const fg__mesh *mesh, const fg__leaf *leaf)
-{
-  fg__box box = {{0, 0, 0}, {1, 1, 1}};
-  for (int k = 0; k < mesh->dimension; ++k) {
-    box.first[k] = leaf->first[k] * mesh->patch_cells;
-    box.nodes[k] = leaf->side * mesh->patch_cells;
-    box.nodes[k] += !mesh->periodic[k] && box.first[k] + box.nodes[k] == mesh->cells[k];
-  }
-  return box;
-}
-
-static fg__tile tile_of(const fg__mesh *mesh, const fg__box *box)
-{
-  fg__tile tile = {{0, 0, 0}, {1, 1, 1}};
-  for (int k = 0; k < mesh->dimension; ++k) {
-    int over = box->first[k] + box->nodes[k] - mesh->cells[k];
-    tile.first[k] = box->first[k];
-    tile.cells[k] = box->nodes[k] - (over > 0 ? over : 0);
-  }
-  return tile;
-}
-
-static fg_status merge_leaves(fg__mesh *mesh, fg_context *context)
-{
-  int count = mesh->kind->leaf_count(mesh->forest);
-  fg__leaf *leaf = fg__allocate((size_t)count, sizeof *leaf);
-  fg__box *box = fg__allocate((size_t)count, sizeof *box);
-  mesh->tile = fg__allocate((size_t)count, sizeof *mesh->tile);
-  fg_status status = FG_STATUS_OK;
-  if (leaf && box && mesh->tile) {
-    mesh->kind->leaves(mesh->forest, leaf);
-    for (int n = 0; n < count; ++n)
-      box[n] = nodes_of(mesh, &leaf[n]);
-    count = mesh->tile_count = fg__boxes_merge(box, count);
-    for (int n = 0; n < count; ++n)
-      mesh->tile[n] = tile_of(mesh, &box[n]);
-  } else {
-    status = fg__fail_memory(context, "the leaves", (size_t)count * sizeof *leaf);
-  }
-  status = fg__ranks_agree(mesh->ranks, context, status);
-  if (!status)
-    status = fg__partition_create(&mesh->partition, context, mesh->ranks, mesh->dimension,
-                                  mesh->cells, mesh->periodic, box, count);
-  free(leaf);
-  free(box);
-  return status;
+                            mesh->refinements, adaptive);
 }
 
 fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
@@ -181,9 +156,25 @@ fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
   if (!status && !out->ranks)
     status = fg__ranks_all(&out->ranks, context);
   if (!status)
-    status = grow_forest(out, context);
+    status = grow_forest(out, context, description);
   if (!status)
-    status = merge_leaves(out, context);
+    status = fg__mesh_merge_leaves(out, context);
+  if (status)
+    fg__mesh_clear(out);
+  return status;
+}
+
+fg_status fg__mesh_adapt(fg__mesh *out, fg_context *context, const fg__mesh *mesh,
+                         const signed char *wanted)
+{
+  *out = *mesh;
+  out->level_count = out->leaf_count = out->tile_count = 0;
+  out->leaf = NULL;
+  out->tile = NULL;
+  memset(out->level, 0, sizeof out->level);
+  fg_status status = mesh->kind->adapt(&out->forest, context, mesh->forest, wanted);
+  if (!status)
+    status = fg__mesh_merge_leaves(out, context);
   if (status)
     fg__mesh_clear(out);
   return status;
@@ -193,7 +184,9 @@ void fg__mesh_clear(fg__mesh *mesh)
 {
   if (mesh->kind)
     mesh->kind->destroy(mesh->forest);
-  fg__partition_clear(&mesh->partition);
+  for (int n = 0; n < mesh->level_count; ++n)
+    fg__partition_clear(&mesh->level[n]);
+  free(mesh->leaf);
   free(mesh->tile);
   *mesh = (fg__mesh){0};
 }

@@ -138,6 +138,15 @@ fg_status fg__partition_replicate(fg__partition *out, fg_context *context,
   return FG_STATUS_OK;
 }
 
+fg__box fg__box_cells(const fg__partition *partition, const fg__box *box)
+{
+  fg__box out = *box;
+  for (int k = 0; k < partition->dimension; ++k)
+    if (out.first[k] + out.nodes[k] > partition->cells[k])
+      out.nodes[k] = partition->cells[k] - out.first[k];
+  return out;
+}
+
 void fg__partition_clear(fg__partition *partition)
 {
   free(partition->box);

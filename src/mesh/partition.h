@@ -52,6 +52,9 @@ fg_status fg__partition_replicate(fg__partition *out, fg_context *context,
                                   const fg__partition *partition);
 void fg__partition_clear(fg__partition *partition);
 
+/* The cells whose lower corners a box owns, as if they were nodes. */
+fg__box fg__box_cells(const fg__partition *partition, const fg__box *box);
+
 /* The boxes of this rank, borrowed. */
 static inline const fg__box *fg__own_boxes(const fg__partition *partition, int *count)
 {
