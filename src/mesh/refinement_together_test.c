@@ -288,9 +288,9 @@ static int cell_image(const fg__partition *level, int k, int index)
 static bool has_cell(const fg__partition *level, const unsigned char *owners,
                      const int cell[3])
 {
-  int image[3] = {0, 0, 0};
-  for (int k = 0; k < level->dimension; ++k)
-    image[k] = cell_image(level, k, cell[k]);
+  int image[3];
+  for (int k = 0; k < 3; ++k)
+    image[k] = k < level->dimension ? cell_image(level, k, cell[k]) : 0;
   return owners[place_of(level, image[0], image[1], image[2])] > 0;
 }
 
@@ -299,8 +299,8 @@ static bool is_on_border(const fg__partition *level, const unsigned char *owners
 {
   for (int corner = 0; corner < 1 << level->dimension; ++corner) {
     int cell[3] = {node[0], node[1], node[2]};
-    for (int k = 0; k < level->dimension; ++k)
-      cell[k] -= corner >> k & 1;
+    for (int k = 0; k < 3; ++k)
+      cell[k] -= corner >> k & 1; /* in 2D corner has no bit 2 */
     if (!has_cell(level, owners, cell))
       return true;
   }
@@ -367,7 +367,7 @@ static void knows_its_cells(const fg__mesh *mesh, const scene *s, int round)
     unsigned char *finer = n > 0 ? owners_of(&mesh->level[n - 1]) : NULL;
     for (int b = 0; b < level->count; ++b) {
       const fg__box *box = &level->box[b];
-      int size[3], first[3];
+      int size[3] = {1, 1, 1}, first[3] = {0};
       for (int k = 0; k < 3; ++k) {
         size[k] = k < mesh->dimension ? box->nodes[k] + 1 : 1;
         first[k] = box->first[k] - (k < mesh->dimension);
@@ -378,7 +378,7 @@ static void knows_its_cells(const fg__mesh *mesh, const scene *s, int round)
       for (size_t c = 0; c < count; ++c) {
         int x = (int)(c % (size_t)size[0]), y = (int)(c / (size_t)size[0]) % size[1];
         int z = (int)(c / (size_t)size[0]) / size[1];
-        int cell[3] = {first[0] + x, first[1] + y, first[2] + z}, fine[3];
+        int cell[3] = {first[0] + x, first[1] + y, first[2] + z}, fine[3] = {0};
         for (int k = 0; k < 3; ++k)
           fine[k] = k < mesh->dimension ? 2 * cell_image(level, k, cell[k]) : 0;
         bool refined = finer && has_cell(&mesh->level[n - 1], finer, fine);
