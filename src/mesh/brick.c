@@ -44,23 +44,55 @@ long fg__brick_count(const fg__brick *brick, unsigned colours)
   return sum;
 }
 
-/* All three go through rows and their runs in this order. */
+/* A column of nodes: one from each row of a plane that has the colour. */
+typedef struct column {
+  int start, step, end; /* rows */
+} column;
+
+static column column_of(const fg__brick *brick, unsigned colours, int k)
+{
+  unsigned plane = colours >> (4 * ((brick->odd[2] + k) & 1) + (brick->odd[0] & 1));
+  bool even = plane & 1U, odd = plane >> 2 & 1U;
+  bool first = brick->odd[1] ? odd : even, both = even && odd;
+  return (column){.start = first ? 0 : 1,
+                  .step = both ? 1 : 2,
+                  .end = even || odd ? brick->nodes.nodes[1] : 0};
+}
+
+/* Where a column begins, counting from row 0 of the brick. */
+static ptrdiff_t column_offset(const fg__brick *brick, const fg__layout *layout, int k)
+{
+  const int *first = brick->nodes.first;
+  return fg__node_at(layout, first[0], first[1], first[2] + k);
+}
+
+#define FOR_PLANES(brick) for (int k = 0; k < (brick)->nodes.nodes[2]; ++k)
+
 #define FOR_RUNS(brick, colours)                                                         \
-  for (int k = 0; k < (brick)->nodes.nodes[2]; ++k)                                      \
-    for (int j = 0; j < (brick)->nodes.nodes[1]; ++j)                                    \
-      for (int parity = 0; parity < 2; ++parity)                                         \
-        if (columns_of(brick, colours, j, k) >> parity & 1U)
+  for (int j = 0; j < (brick)->nodes.nodes[1]; ++j)                                      \
+    for (int parity = 0; parity < 2; ++parity)                                           \
+      if (columns_of(brick, colours, j, k) >> parity & 1U)
 
 float *fg__brick_pack(const fg__brick *brick, const fg__layout *layout,
                       const float *array, unsigned colours, float *out)
 {
-  FOR_RUNS(brick, colours)
+  FOR_PLANES(brick)
   {
-    run r = run_of(brick, parity);
-    const float *in = array + offset_of(brick, layout, r, j, k);
-    for (int n = 0; n < r.count; ++n)
-      out[n] = in[n];
-    out += r.count;
+    if (brick->nodes.nodes[0] == 1) {
+      column c = column_of(brick, colours, k);
+      const float *in = array + column_offset(brick, layout, k);
+      for (int j = c.start; j < c.end; j += c.step)
+        *out++ = in[j * layout->stride];
+      continue;
+    }
+    FOR_RUNS(brick, colours)
+    {
+      run r = run_of(brick, parity);
+      const float *in = array + offset_of(brick, layout, r, j, k);
+      for (int n = 0; n < r.count; ++n)
+        out[n] = in[n];
+      out += r.count;
+    }
   }
   return out;
 }
@@ -68,13 +100,23 @@ float *fg__brick_pack(const fg__brick *brick, const fg__layout *layout,
 const float *fg__brick_unpack(const fg__brick *brick, const fg__layout *layout,
                               float *array, unsigned colours, const float *in)
 {
-  FOR_RUNS(brick, colours)
+  FOR_PLANES(brick)
   {
-    run r = run_of(brick, parity);
-    float *out = array + offset_of(brick, layout, r, j, k);
-    for (int n = 0; n < r.count; ++n)
-      out[n] = in[n];
-    in += r.count;
+    if (brick->nodes.nodes[0] == 1) {
+      column c = column_of(brick, colours, k);
+      float *out = array + column_offset(brick, layout, k);
+      for (int j = c.start; j < c.end; j += c.step)
+        out[j * layout->stride] = *in++;
+      continue;
+    }
+    FOR_RUNS(brick, colours)
+    {
+      run r = run_of(brick, parity);
+      float *out = array + offset_of(brick, layout, r, j, k);
+      for (int n = 0; n < r.count; ++n)
+        out[n] = in[n];
+      in += r.count;
+    }
   }
   return in;
 }
@@ -83,12 +125,23 @@ void fg__brick_copy(const fg__brick *to, const fg__layout *to_layout, float *to_
                     const fg__brick *from, const fg__layout *from_layout,
                     const float *from_array, unsigned colours)
 {
-  FOR_RUNS(to, colours)
+  FOR_PLANES(to)
   {
-    run r = run_of(to, parity);
-    float *out = to_array + offset_of(to, to_layout, r, j, k);
-    const float *in = from_array + offset_of(from, from_layout, r, j, k);
-    for (int n = 0; n < r.count; ++n)
-      out[n] = in[n];
+    if (to->nodes.nodes[0] == 1) {
+      column c = column_of(to, colours, k);
+      float *out = to_array + column_offset(to, to_layout, k);
+      const float *in = from_array + column_offset(from, from_layout, k);
+      for (int j = c.start; j < c.end; j += c.step)
+        out[j * to_layout->stride] = in[j * from_layout->stride];
+      continue;
+    }
+    FOR_RUNS(to, colours)
+    {
+      run r = run_of(to, parity);
+      float *out = to_array + offset_of(to, to_layout, r, j, k);
+      const float *in = from_array + offset_of(from, from_layout, r, j, k);
+      for (int n = 0; n < r.count; ++n)
+        out[n] = in[n];
+    }
   }
 }
