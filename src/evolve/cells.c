@@ -14,11 +14,11 @@ static int component_count(int dimension)
 }
 
 static fg_status allocate(fg__cells_of_box *out, fg_context *context, int dimension,
-                          const int cells[3], const bool periodic[3])
+                          const int nodes[3])
 {
   *out = (fg__cells_of_box){.dimension = dimension, .nodes = {1, 1, 1}};
   for (int k = 0; k < dimension; ++k)
-    out->nodes[k] = periodic[k] ? cells[k] : cells[k] + 1;
+    out->nodes[k] = nodes[k];
   out->row = out->nodes[0] + 1;
   out->plane = out->row * (out->nodes[1] + 1);
   size_t planes = dimension == 3 ? (size_t)out->nodes[2] + 1 : 1;
@@ -33,6 +33,15 @@ static fg_status allocate(fg__cells_of_box *out, fg_context *context, int dimens
     out->component[n] = origin + n * size;
   out->weight = origin + (arrays - 1) * size;
   return FG_STATUS_OK;
+}
+
+static fg_status allocate_whole(fg__cells_of_box *out, fg_context *context, int dimension,
+                                const int cells[3], const bool periodic[3])
+{
+  int nodes[3];
+  for (int k = 0; k < 3; ++k)
+    nodes[k] = cells[k] + !periodic[k];
+  return allocate(out, context, dimension, nodes);
 }
 
 /* A row of cells beyond a side (or a cell, a plane) from its image; `step` to the next of
@@ -84,7 +93,7 @@ fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
                                 const fg__tensor *tensor, int dimension,
                                 const int cells[3], const bool periodic[3])
 {
-  fg_status status = allocate(out, context, dimension, cells, periodic);
+  fg_status status = allocate_whole(out, context, dimension, cells, periodic);
   if (status)
     return status;
   const float *source[FG__TENSOR_COMPONENTS] = {tensor->xx, tensor->xy, tensor->yy,
@@ -104,17 +113,43 @@ fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
   return FG_STATUS_OK;
 }
 
+fg_status fg__cells_from_arrays(fg__cells_of_box *out, fg_context *context,
+                                const float *const values[], int dimension,
+                                const int cells[3], const bool periodic[3])
+{
+  fg_status status = allocate_whole(out, context, dimension, cells, periodic);
+  if (status)
+    return status;
+  int count[3] = {cells[0], cells[1], dimension == 3 ? cells[2] : 1};
+  size_t n = 0;
+  for (int k = 0; k < count[2]; ++k)
+    for (int j = 0; j < count[1]; ++j)
+      for (int i = 0; i < count[0]; ++i, ++n) {
+        ptrdiff_t at = fg__cell_at(out, i, j, k);
+        for (int c = 0; c < component_count(dimension); ++c)
+          out->component[c][at] = values[c][n];
+        out->weight[at] = values[component_count(dimension)][n];
+      }
+  fill_all_images(out, count, periodic);
+  return FG_STATUS_OK;
+}
+
+/* The mean of 2 x 2 (x 2) cells from the lowest one on. */
+static float mean_of_corners(const float *low, ptrdiff_t row, ptrdiff_t plane,
+                             int dimension)
+{
+  float sum = low[0] + low[1] + low[row] + low[row + 1];
+  if (dimension == 2)
+    return 0.25F * sum;
+  low += plane;
+  return 0.125F * (sum + (low[0] + low[1] + low[row] + low[row + 1]));
+}
+
 static float mean_of_cells(const fg__cells_of_box *fine, const float *values, int i,
                            int j, int k)
 {
-  const float *low = values + fg__cell_at(fine, 2 * i, 2 * j, 2 * k);
-  const float *high = low + fine->row;
-  float plane = low[0] + low[1] + high[0] + high[1];
-  if (fine->dimension == 2)
-    return 0.25F * plane;
-  low += fine->plane;
-  high += fine->plane;
-  return 0.125F * (plane + (low[0] + low[1] + high[0] + high[1]));
+  return mean_of_corners(values + fg__cell_at(fine, 2 * i, 2 * j, 2 * k), fine->row,
+                         fine->plane, fine->dimension);
 }
 
 fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
@@ -124,7 +159,7 @@ fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
   int dimension = fine->dimension;
   int count[3] = {fine_cells[0] / 2, fine_cells[1] / 2,
                   dimension == 3 ? fine_cells[2] / 2 : 1};
-  fg_status status = allocate(out, context, dimension, count, periodic);
+  fg_status status = allocate_whole(out, context, dimension, count, periodic);
   if (status)
     return status;
   for (int k = 0; k < count[2]; ++k)
@@ -137,6 +172,151 @@ fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
       }
   fill_all_images(out, count, periodic);
   return FG_STATUS_OK;
+}
+
+/* True cells [low, low + count) of a level along each axis, those of a box and one
+ * beyond; beyond natural borders there are none. */
+typedef struct range {
+  int low[3], count[3];
+} range;
+
+static range range_of(const fg__tensor_recipe *recipe, const fg__box *box,
+                      const int level_cells[3])
+{
+  range r = {{0, 0, 0}, {1, 1, 1}};
+  for (int k = 0; k < recipe->dimension; ++k) {
+    int low = box->first[k] - 1, high = box->first[k] + box->nodes[k];
+    if (!recipe->periodic[k] && low < 0)
+      low = 0;
+    if (!recipe->periodic[k] && high > level_cells[k])
+      high = level_cells[k];
+    r.low[k] = low;
+    r.count[k] = high - low;
+  }
+  return r;
+}
+
+/* Halves the cells along all axes, in place: means over 2 x 2 (x 2). */
+static void halve(float *values, const int fine[3], int dimension)
+{
+  size_t n = 0, row = (size_t)fine[0], plane = row * (size_t)fine[1];
+  for (int k = 0; k < (dimension == 3 ? fine[2] / 2 : 1); ++k)
+    for (int j = 0; j < fine[1] / 2; ++j)
+      for (int i = 0; i < fine[0] / 2; ++i, ++n) {
+        const float *low = values + (size_t)(2 * k) * plane + (size_t)(2 * j) * row;
+        low += 2 * i;
+        values[n] = mean_of_corners(low, (ptrdiff_t)row, (ptrdiff_t)plane, dimension);
+      }
+}
+
+/* The finest cells of a range of coarse ones, tensor (0 where inactive) and weight, then
+ * averaged. `values` has room for the finest. */
+static fg_status fill_range(float *const values[], fg_context *context,
+                            const fg__tensor_recipe *recipe, const range *r, int halvings)
+{
+  fg__cells cells = {.dimension = recipe->dimension};
+  size_t count = 1;
+  int fine[3] = {1, 1, 1};
+  for (int k = 0; k < recipe->dimension; ++k) {
+    fine[k] = cells.count[k] = r->count[k] << halvings;
+    cells.first[k] = r->low[k] * (1 << halvings);
+    cells.domain_count[k] = recipe->cells[k];
+    cells.origin[k] = recipe->origin[k];
+    cells.spacing[k] = recipe->spacing[k];
+    count *= (size_t)fine[k];
+  }
+  int components = component_count(recipe->dimension);
+  fg__tensor tensor = {.xx = values[0], .xy = values[1], .yy = values[2]};
+  if (recipe->dimension == 3) {
+    tensor.zz = values[3];
+    tensor.xz = values[4];
+    tensor.yz = values[5];
+  }
+  tensor.active = fg__allocate(count, 1);
+  if (!tensor.active)
+    return fg__fail_memory(context, "the tensor", count);
+  fg_status status =
+      fg__tensor_fill_box(&tensor, context, recipe->field, recipe->energy,
+                          recipe->anisotropy, &cells, recipe->periodic, recipe->width);
+  for (size_t n = 0; n < count && !status; ++n) {
+    values[components][n] = tensor.active[n] ? 1.0F : 0.0F;
+    for (int c = 0; c < components && !tensor.active[n]; ++c)
+      values[c][n] = 0.0F;
+  }
+  free(tensor.active);
+  for (int h = 0; h < halvings && !status; ++h) {
+    for (int c = 0; c <= components; ++c)
+      halve(values[c], fine, recipe->dimension);
+    for (int k = 0; k < recipe->dimension; ++k)
+      fine[k] /= 2;
+  }
+  return status;
+}
+
+/* Mirror images for the sides of a box that lie on a natural border. */
+static void mirror_sides(const fg__cells_of_box *cells, const range *r,
+                         const fg__box *box)
+{
+  int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+  for (int k = 0; k < cells->dimension; ++k) {
+    low[k] = r->low[k] - box->first[k];
+    high[k] = low[k] + r->count[k] - 1;
+  }
+  for (int axis = 0; axis < cells->dimension; ++axis) {
+    ptrdiff_t step = axis == 0 ? 1 : axis == 1 ? cells->row : cells->plane;
+    int begin[3] = {low[0], low[1], low[2]}, end[3] = {high[0], high[1], high[2]};
+    bool below = low[axis] == 0, above = high[axis] < cells->nodes[axis] - 1;
+    begin[axis] = end[axis] = 0;
+    for (int k = begin[2]; k <= end[2]; ++k)
+      for (int j = begin[1]; j <= end[1]; ++j)
+        for (int i = begin[0]; i <= end[0]; ++i) {
+          ptrdiff_t n = fg__cell_at(cells, i, j, k);
+          if (below)
+            copy_image(cells, n - step, n, axis, true);
+          if (above)
+            copy_image(cells, n + (high[axis] + 1) * step, n + high[axis] * step, axis,
+                       true);
+        }
+    low[axis] = -1;
+    high[axis] = cells->nodes[axis] - 1;
+  }
+}
+
+fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
+                            const fg__tensor_recipe *recipe, const fg__box *box,
+                            int halvings, const int level_cells[3])
+{
+  int dimension = recipe->dimension, components = component_count(dimension);
+  range r = range_of(recipe, box, level_cells);
+  size_t fine = 1;
+  for (int k = 0; k < dimension; ++k)
+    fine *= (size_t)r.count[k] << halvings;
+  float *memory = fg__allocate(fine * (size_t)(components + 1), sizeof *memory);
+  *out = (fg__cells_of_box){0};
+  if (!memory)
+    return fg__fail_memory(context, "the tensor",
+                           fine * (size_t)(components + 1) * sizeof *memory);
+  float *values[FG__TENSOR_COMPONENTS + 1];
+  for (int c = 0; c <= components; ++c)
+    values[c] = memory + (size_t)c * fine;
+  fg_status status = fill_range(values, context, recipe, &r, halvings);
+  if (!status)
+    status = allocate(out, context, dimension, box->nodes);
+  size_t n = 0;
+  for (int k = 0; k < r.count[2] && !status; ++k)
+    for (int j = 0; j < r.count[1]; ++j)
+      for (int i = 0; i < r.count[0]; ++i, ++n) {
+        ptrdiff_t at =
+            fg__cell_at(out, r.low[0] - box->first[0] + i, r.low[1] - box->first[1] + j,
+                        dimension == 3 ? r.low[2] - box->first[2] + k : 0);
+        for (int c = 0; c < components; ++c)
+          out->component[c][at] = values[c][n];
+        out->weight[at] = values[components][n];
+      }
+  free(memory);
+  if (!status)
+    mirror_sides(out, &r, box);
+  return status;
 }
 
 void fg__cells_clear(fg__cells_of_box *cells)

@@ -3,6 +3,7 @@
 #define FG__CELLS_H
 
 #include "base/context.h"
+#include "mesh/box.h"
 #include "tensor/tensor.h"
 
 enum { FG__TENSOR_COMPONENTS = 6 }; /* xx, xy, yy, zz, xz, yz; three in 2D */
@@ -29,6 +30,30 @@ static inline ptrdiff_t fg__cell_at(const fg__cells_of_box *cells, int i, int j,
  * round. `cells` counts along each axis. MEMORY. */
 fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
                                 const fg__tensor *tensor, int dimension,
+                                const int cells[3], const bool periodic[3]);
+
+/* How to find the tensor of any cells of the domain. */
+typedef struct fg__tensor_recipe {
+  const fg_field *field;
+  fg_energy energy;
+  double anisotropy, width; /* see fg__tensor_fill_box */
+  int dimension;
+  int cells[3]; /* of the domain */
+  bool periodic[3];
+  double origin[3], spacing[3]; /* input coordinates */
+  bool masked;                  /* some cell is inactive */
+} fg__tensor_recipe;
+
+/* The cells round a box of nodes of a level with `level_cells` cells, each 2^halvings of
+ * the domain's. MEMORY. */
+fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
+                            const fg__tensor_recipe *recipe, const fg__box *box,
+                            int halvings, const int level_cells[3]);
+
+/* An array of all cells of a level, x fastest, as fg__cells_of_box with images: values[n]
+ * are the components, the last the weight. MEMORY. */
+fg_status fg__cells_from_arrays(fg__cells_of_box *out, fg_context *context,
+                                const float *const values[], int dimension,
                                 const int cells[3], const bool periodic[3]);
 
 /* The means over 2 x 2 (x 2) cells. MEMORY. */

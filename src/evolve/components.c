@@ -94,7 +94,7 @@ void fg__components_label(const fg__components *components, const fg__component_
                 label + j * s.stride[1] + k * s.stride[2]);
 }
 
-static fg__component_box whole(const fg__component_grid *grid)
+fg__component_box fg__component_box_of(const fg__component_grid *grid)
 {
   ptrdiff_t width = grid->nodes[0], height = grid->nodes[1];
   fg__component_box out = {.u = grid->u,
@@ -113,7 +113,7 @@ static fg__component_box whole(const fg__component_grid *grid)
 fg_status fg__components_count(fg__components *components, fg_context *context,
                                const fg__component_grid *grid)
 {
-  fg__component_box box = whole(grid);
+  fg__component_box box = fg__component_box_of(grid);
   fg_status status = fg__components_cut(components, context, &box);
   if (status)
     return status;
@@ -127,7 +127,7 @@ fg_status fg__components_find(fg__components *components, fg_context *context,
   fg_status status = fg__components_count(components, context, grid);
   if (status)
     return status;
-  fg__component_box box = whole(grid);
+  fg__component_box box = fg__component_box_of(grid);
   size_t nodes = (size_t)grid->nodes[0] * (size_t)grid->nodes[1];
   if (grid->nodes[2] > 1)
     nodes *= (size_t)grid->nodes[2];

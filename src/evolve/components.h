@@ -93,6 +93,9 @@ typedef struct fg__components {
       root_capacity, group_capacity, marks_capacity, cells_capacity, shares_capacity;
 } fg__components;
 
+/* A whole grid as its one box. */
+fg__component_box fg__component_box_of(const fg__component_grid *grid);
+
 /* Labels the components of a whole grid. MEMORY, ARGUMENT (a grid too large for int
  * labels). */
 fg_status fg__components_find(fg__components *components, fg_context *context,

@@ -2,9 +2,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "base/mix.h"
 #include "evolve/evolution.h"
-#include "evolve/noise.h"
 #include "field/fingerprint.h"
 
 /* Defaults that give the paper's pictures (design.md section 2). */
@@ -19,11 +17,6 @@ static const double least_interface_cells = 0.3;
 
 /* The wells are at -1 and 1; an initial density far beyond them is a mistake. */
 static const double most_initial = 10.0;
-
-/* Nucleation is over, and clusters are counted, once this share of the wanted area is
- * covered; the noise covers it too, but has smoothed away after one growth time of linear
- * theory. */
-static const double nucleated = 0.8;
 
 /* Debris: less than this many squares (in 3D cubes) of the interface width across the
  * stream, sqrt(gamma a); about a dozen cells by default, balls of the same radius in 3D.
@@ -89,12 +82,7 @@ static fg_status create_mesh(fg_evolution *e, const fg_field *field)
                               ? arrays->period[k]
                               : arrays->axis[k][arrays->size[k] - 1] - arrays->axis[k][0];
   }
-  fg_status status = fg__mesh_create(&e->mesh, e->context, &description);
-  if (!status && e->mesh.ranks->count != 1)
-    status =
-        fg__fail(e->context, FG_STATUS_UNSUPPORTED,
-                 "started on %d ranks; this version runs on one", e->mesh.ranks->count);
-  return status;
+  return fg__mesh_create(&e->mesh, e->context, &description);
 }
 
 static double largest_spacing(const fg_evolution *e)
@@ -105,7 +93,7 @@ static double largest_spacing(const fg_evolution *e)
   return h;
 }
 
-static double cell_volume(const fg_evolution *e)
+double fg__evolution_cell_volume(const fg_evolution *e)
 {
   double volume = 1.0;
   for (int k = 0; k < e->mesh.dimension; ++k)
@@ -149,8 +137,75 @@ static void free_tensor(fg_evolution *e)
   }
 }
 
+static fg__tensor_recipe recipe_of(const fg_evolution *e, const fg_field *field)
+{
+  fg__tensor_recipe r = {.field = field,
+                         .energy = e->options.energy,
+                         .anisotropy = e->options.anisotropy,
+                         .dimension = e->mesh.dimension,
+                         .cells = {1, 1, 1},
+                         .masked = e->active_cells < (long)e->cells};
+  /* an interface across the stream is sqrt(gamma) wide */
+  if (e->options.energy == FG_ENERGY_FLOW)
+    r.width = sqrt(interface_energy(e)) * e->mesh.length;
+  for (int k = 0; k < r.dimension; ++k) {
+    r.cells[k] = e->mesh.cells[k];
+    r.periodic[k] = e->mesh.periodic[k];
+    r.origin[k] = e->mesh.origin[k];
+    r.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
+  }
+  return r;
+}
+
+/* The active cells of this rank's own boxes. */
+static fg_status count_own_cells(fg_evolution *e, const fg_field *field, uint64_t *active)
+{
+  fg__tensor_recipe recipe = recipe_of(e, field);
+  recipe.width = 0.0; /* directions do not matter */
+  recipe.energy = FG_ENERGY_ISOTROPIC;
+  *active = 0;
+  for (int n = 0; n < e->mesh.tile_count; ++n) {
+    const fg__tile *tile = &e->mesh.tile[n];
+    fg__box box = {{0, 0, 0}, {1, 1, 1}};
+    for (int k = 0; k < e->mesh.dimension; ++k) {
+      box.first[k] = tile->first[k];
+      box.nodes[k] = tile->cells[k];
+    }
+    fg__cells_of_box cells;
+    fg_status status =
+        fg__cells_for_box(&cells, e->context, &recipe, &box, 0, e->mesh.cells);
+    for (int k = 0; k < box.nodes[2] && !status; ++k)
+      for (int j = 0; j < box.nodes[1]; ++j)
+        for (int i = 0; i < box.nodes[0]; ++i)
+          *active += cells.weight[fg__cell_at(&cells, i, j, k)] > 0.0F;
+    fg__cells_clear(&cells);
+    if (status)
+      return status;
+  }
+  return FG_STATUS_OK;
+}
+
+static fg_status count_active_cells(fg_evolution *e, const fg_field *field)
+{
+  uint64_t active = 0;
+  fg_status status = count_own_cells(e, field, &active);
+  status = fg__ranks_agree(e->mesh.ranks, e->context, status);
+  if (status)
+    return status;
+  fg__ranks_add(e->mesh.ranks, &active, 1);
+  e->active_cells = (long)active;
+  if (active == 0)
+    return fg__fail(e->context, FG_STATUS_ARGUMENT, "the field is missing everywhere");
+  if (active < e->cells)
+    return fg__fail(e->context, FG_STATUS_UNSUPPORTED,
+                    "a field with missing parts; this version evolves such on one rank");
+  return FG_STATUS_OK;
+}
+
 static fg_status create_tensor(fg_evolution *e, const fg_field *field)
 {
+  if (e->spread)
+    return count_active_cells(e, field);
   fg_status status = allocate_tensor(e);
   if (status)
     return status;
@@ -162,10 +217,11 @@ static fg_status create_tensor(fg_evolution *e, const fg_field *field)
   }
   status = fg__tensor_fill(&e->tensor, e->context, field, e->options.energy,
                            e->options.anisotropy, &cells);
-  if (status || e->options.energy != FG_ENERGY_FLOW)
+  for (size_t n = 0; n < e->cells && !status; ++n)
+    e->active_cells += e->tensor.active[n];
+  double width = recipe_of(e, field).width;
+  if (status || !(width > 0.0))
     return status;
-  /* an interface across the stream is sqrt(gamma) wide */
-  double width = sqrt(interface_energy(e)) * e->mesh.length;
   return fg__tensor_smooth(&e->tensor, e->context, e->options.anisotropy, &cells,
                            e->mesh.periodic, width);
 }
@@ -196,7 +252,7 @@ static fg_status check_initial(const fg_evolution *e)
 
 /* The fastest growing mode of linear theory grows at this rate (design.md section 3).
  * Where the mean itself is stable the wells' own curvature sets the pace. */
-static double growth_rate(const fg_evolution *e)
+double fg__evolution_growth_rate(const fg_evolution *e)
 {
   double mean = 2.0 * e->options.coverage - 1.0;
   double curvature = fmax(fabs(6.0 * mean * mean - 2.0), 1.0);
@@ -208,8 +264,8 @@ static double growth_rate(const fg_evolution *e)
  * and the pattern does not. */
 static double most_step(const fg_evolution *e)
 {
-  double h = pow(cell_volume(e), 1.0 / e->mesh.dimension);
-  double first = first_step_share / growth_rate(e);
+  double h = pow(fg__evolution_cell_volume(e), 1.0 / e->mesh.dimension);
+  double first = first_step_share / fg__evolution_growth_rate(e);
   return fmax(most_stiffness * h * h * h * h / e->info.gamma, first);
 }
 
@@ -245,95 +301,43 @@ static void describe(fg_evolution *e)
     e->info.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
     cell *= e->info.spacing[k];
   }
-  for (size_t n = 0; n < e->cells; ++n)
-    e->info.active_cells += e->tensor.active[n];
+  e->info.active_cells = e->active_cells;
   e->info.domain_measure = cell * (double)e->info.active_cells;
   double width = sqrt(e->info.gamma * e->info.anisotropy);
   double debris = dimension == 3 ? debris_cubes * width * width * width
                                  : debris_squares * width * width;
-  e->debris_area = debris / cell_volume(e);
+  e->debris_area = debris / fg__evolution_cell_volume(e);
 }
 
-static void clear_dead_nodes(const fg__level *level, float *u)
+static fg_status create_multigrid(fg_evolution *e, const fg_field *field,
+                                  fg__multigrid *out)
 {
-  if (!level->mass)
-    return;
-  for (size_t n = 0; n < level->layout.array_size; ++n)
-    if ((level->mass - level->layout.first)[n] == 0.0F)
-      (u - level->layout.first)[n] = 0.0F;
-}
-
-/* Noise about the mean, then shifted so that the mean is met exactly. */
-static void fill_with_noise(fg_evolution *e, const fg__level *level)
-{
-  double mean = 2.0 * e->options.coverage - 1.0;
-  double correlation = sqrt(e->info.gamma * e->options.anisotropy);
-  const int *nodes = level->layout.nodes;
-  fg__noise noise = fg__noise_of(e->mesh.dimension, e->mesh.cells, e->mesh.spacing,
-                                 e->mesh.periodic, mean, correlation, e->options.seed);
-  float *row = e->plain;
-  for (int k = 0; k < nodes[2]; ++k)
-    for (int j = 0; j < nodes[1]; ++j, row += nodes[0])
-      fg__noise_row(&noise, j, k, 0, nodes[0], row);
-  double sum = 0.0, weight = 0.0;
-  for (size_t n = 0; n < e->nodes; ++n) {
-    sum += (double)e->plain_mass[n] * (double)e->plain[n];
-    weight += (double)e->plain_mass[n];
+  if (e->spread) {
+    fg__tensor_recipe recipe = recipe_of(e, field);
+    return fg__multigrid_create_spread(out, e->context, &e->mesh, &recipe, e->info.gamma);
   }
-  float shift = (float)(mean - sum / weight);
-  for (size_t n = 0; n < e->nodes; ++n)
-    e->plain[n] += shift;
-}
-
-static void set_initial_density(fg_evolution *e, const fg__multigrid *multigrid)
-{
-  const fg__level *level = &multigrid->level[0];
-  if (!e->options.initial)
-    fill_with_noise(e, level);
-  else
-    e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial, e->nodes);
-  fg__level_import(level, level->u, e->options.initial ? e->options.initial : e->plain);
-  clear_dead_nodes(level, level->u);
-}
-
-static fg_status take_plain_arrays(fg_evolution *e, const fg__level *level)
-{
-  e->plain = fg__allocate(e->nodes, sizeof *e->plain);
-  e->plain_mass = fg__allocate(e->nodes, sizeof *e->plain_mass);
-  if (!e->plain || !e->plain_mass)
-    return fg__fail_memory(e->context, "the density", 2 * e->nodes * sizeof *e->plain);
-  float *mass = e->plain_mass;
-  int at[3];
-  for (at[2] = 0; at[2] < level->layout.nodes[2]; ++at[2])
-    for (at[1] = 0; at[1] < level->layout.nodes[1]; ++at[1])
-      for (at[0] = 0; at[0] < level->layout.nodes[0]; ++at[0], ++mass) {
-        *mass = level->mass ? *fg__node(level, level->mass, at[0], at[1], at[2]) : 1.0F;
-        for (int k = 0; k < e->mesh.dimension; ++k)
-          if (!level->periodic[k] && (at[k] == 0 || at[k] == level->layout.nodes[k] - 1))
-            *mass *= 0.5F;
-      }
-  return FG_STATUS_OK;
-}
-
-static fg_status create_stepper(fg_evolution *e)
-{
-  fg__multigrid multigrid;
   fg_status status = fg__multigrid_create(
-      &multigrid, e->context, &e->mesh, &e->mesh.tile[0], &e->tensor, e->info.gamma,
+      out, e->context, &e->mesh, &e->mesh.tile[0], &e->tensor, e->info.gamma,
       e->options.threads > 0 ? e->options.threads : 1);
   free_tensor(e);
+  return status;
+}
+
+static fg_status create_stepper(fg_evolution *e, const fg_field *field)
+{
+  fg__multigrid multigrid = {0};
+  fg_status status = check_initial(e);
+  if (!status)
+    status = create_multigrid(e, field, &multigrid);
   if (status)
     return status;
   e->info.kernel = multigrid.kernel->name;
-  status = check_initial(e);
+  status = fg__evolution_fill(e, &multigrid);
   if (!status)
-    status = take_plain_arrays(e, &multigrid.level[0]);
-  if (!status) {
-    set_initial_density(e, &multigrid);
     status = fg__stepper_create(&e->stepper, e->context, &multigrid,
-                                first_step_share / growth_rate(e), most_step(e),
-                                e->options.accuracy, e->options.cycles);
-  }
+                                fg__evolution_cell_volume(e),
+                                first_step_share / fg__evolution_growth_rate(e),
+                                most_step(e), e->options.accuracy, e->options.cycles);
   if (status)
     fg__multigrid_clear(&multigrid);
   return status;
@@ -358,6 +362,7 @@ fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
     status = create_mesh(e, field);
   if (!status) {
     count_cells(e);
+    e->spread = e->mesh.level[0].count != 1;
     status = create_tensor(e, field);
   }
   if (!status) {
@@ -366,7 +371,7 @@ fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
     status = check_interface(e);
   }
   if (!status)
-    status = create_stepper(e);
+    status = create_stepper(e, field);
   e->options.initial = NULL; /* the caller's, and used up */
   if (status) {
     fg_evolution_destroy(e);
@@ -382,51 +387,17 @@ void fg_evolution_destroy(fg_evolution *evolution)
     return;
   fg__stepper_clear(&evolution->stepper);
   fg__components_clear(&evolution->components);
+  fg__spread_clusters_clear(&evolution->spread_clusters);
   fg__mesh_clear(&evolution->mesh);
   free_tensor(evolution);
   free(evolution->tensor.active);
   free(evolution->plain);
-  free(evolution->plain_mass);
   free(evolution);
 }
 
 const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution)
 {
   return &evolution->info;
-}
-
-static const unsigned char *mask_of(const fg_evolution *e)
-{
-  return e->info.active_cells < (long)e->cells ? e->tensor.active : NULL;
-}
-
-static fg_status count_clusters(fg_evolution *e)
-{
-  const fg__level *level = &e->stepper.multigrid.level[0];
-  fg__level_export(level, e->stepper.current, e->plain);
-  size_t columns = (size_t)level->layout.nodes[0];
-  double covered = 0.0;
-  for (size_t row = 0; row < e->nodes; row += columns) {
-    float sum = 0.0F; /* of at most some thousand eighths and ones: exact */
-    for (size_t n = row; n < row + columns; ++n)
-      sum += e->plain[n] > 0.0F ? e->plain_mass[n] : 0.0F;
-    covered += (double)sum;
-  }
-  e->area_fraction = covered / e->stepper.total_mass;
-  bool smoothed = e->stepper.time * growth_rate(e) >= 1.0;
-  bool covered_enough = e->area_fraction >= nucleated * e->options.coverage;
-  e->counting = e->counting || (smoothed && covered_enough);
-  if (!e->counting)
-    return FG_STATUS_OK;
-  fg__component_grid grid = {
-      .u = e->plain, .active = mask_of(e), .debris_area = e->debris_area};
-  for (int k = 0; k < e->mesh.dimension; ++k) {
-    grid.nodes[k] = level->layout.nodes[k];
-    grid.periodic[k] = level->periodic[k];
-  }
-  fg_status status = fg__components_count(&e->components, e->context, &grid);
-  e->clusters = e->components.count;
-  return status;
 }
 
 double fg__evolution_seconds(const fg_evolution *evolution)
@@ -463,33 +434,9 @@ fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
   long cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
   fg_status status = fg__stepper_advance(&e->stepper, e->context);
   if (!status)
-    status = count_clusters(e);
+    status = fg__evolution_count(e);
   if (!status)
     *step = fg__evolution_describe(e, (int)(e->stepper.cycles_spent - cycles),
                                    (int)(e->stepper.rejected - rejected));
   return status;
-}
-
-fg_status fg_density_create(fg_density **out, const fg_evolution *evolution)
-{
-  const fg_evolution *e = evolution;
-  const fg__level *level = &e->stepper.multigrid.level[0];
-  fg__level_export(level, e->stepper.current, e->plain);
-  fg_density_arrays arrays = {.dimension = e->mesh.dimension,
-                              .nodes = {1, 1, 1},
-                              .u = e->plain,
-                              .active = mask_of(e),
-                              .debris_area = e->debris_area * cell_volume(e) *
-                                             pow(e->mesh.length, e->mesh.dimension),
-                              .time = e->stepper.time,
-                              .energy = e->stepper.energy,
-                              .area_fraction = e->area_fraction,
-                              .clusters = e->clusters};
-  for (int k = 0; k < e->mesh.dimension; ++k) {
-    arrays.nodes[k] = level->layout.nodes[k];
-    arrays.origin[k] = e->mesh.origin[k];
-    arrays.spacing[k] = e->info.spacing[k];
-    arrays.periodic[k] = e->mesh.periodic[k];
-  }
-  return fg_density_create_from_arrays(out, e->context, &arrays);
 }

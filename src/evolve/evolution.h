@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "evolve/components.h"
+#include "evolve/spread_clusters.h"
 #include "evolve/stepper.h"
 
 struct fg_evolution {
@@ -15,9 +16,11 @@ struct fg_evolution {
   fg__tensor tensor;
   fg__stepper stepper;
   fg__components components;
-  size_t nodes, cells;
+  size_t nodes, cells; /* of the whole mesh */
+  long active_cells;
+  bool spread; /* over several ranks or boxes */
+  fg__spread_clusters spread_clusters;
   float *plain;       /* u without ghosts, x fastest */
-  float *plain_mass;  /* relative mass of each node, halved at borders */
   double debris_area; /* in cells */
   double area_fraction;
   int clusters;
@@ -27,6 +30,17 @@ struct fg_evolution {
   /* Of the field, and of the initial density when one was given (else 0). */
   uint64_t field_fingerprint, initial_fingerprint;
 };
+
+/* Cell volume in units of the longest side; rate at which the fastest mode grows. */
+double fg__evolution_cell_volume(const fg_evolution *evolution);
+double fg__evolution_growth_rate(const fg_evolution *evolution);
+
+/* Puts noise or the caller's density into the finest u. Collective. MEMORY. */
+fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multigrid);
+
+/* Finds the share covered and, once nucleation is over, the number of clusters.
+ * Collective. MEMORY. */
+fg_status fg__evolution_count(fg_evolution *evolution);
 
 double fg__evolution_seconds(const fg_evolution *evolution);
 

@@ -64,6 +64,19 @@ typedef struct fg__kernel {
                       float omega, float *out, const fg__share *share);
   /* Adds an amount to u wherever there is mass; elsewhere u becomes 0. */
   void (*shift)(const fg__level *level, float *u, float amount, const fg__share *share);
+
+  /* Where several boxes share a level, the same in pieces between which ghosts are
+   * exchanged, by one thread. The nodes of one colour (1 odd column + 2 odd row + 4 odd
+   * plane) of a sweep. */
+  void (*smooth_one_colour)(const fg__level *level, float tau, bool linear, int colour);
+  /* The residuals of both equations and the curvature. */
+  void (*find_residuals)(const fg__level *level, float tau, bool linear,
+                         float *const out[3]);
+  /* out := p - u - tau L w. */
+  void (*find_defect)(const fg__level *level, const float *w, float tau, float *out);
+  /* The restriction of arrays with ghosts. */
+  void (*restrict_arrays)(const fg__level *fine, int count, const float *const from[],
+                          const fg__level *coarse, float *const to[]);
 } fg__kernel;
 
 extern const fg__kernel fg__kernel_2d_generic, fg__kernel_3d_generic;

@@ -1,5 +1,6 @@
 /* The one source of the inner loops; see kernel.h. Included by kernel_*.c only, each of
  * which is compiled for one vector width. */
+#include "evolve/kernel_boxes.h"
 #include "evolve/kernel_sums.h"
 #include "evolve/kernel_sweep.h"
 #include "evolve/kernel_transfer.h"
@@ -17,4 +18,8 @@ const fg__kernel FG__KERNEL = {.name = FG__KERNEL_NAME,
                                .evaluate = evaluate,
                                .changes = changes,
                                .extrapolate = extrapolate,
-                               .shift = shift};
+                               .shift = shift,
+                               .smooth_one_colour = smooth_one_colour,
+                               .find_residuals = find_residuals,
+                               .find_defect = find_defect,
+                               .restrict_arrays = restrict_arrays};

@@ -15,12 +15,11 @@ typedef struct row_weights {
 /* Along one axis, for couplings by d = -1, 0 or 1. */
 INLINE float axis_weight(const fg__level *level, int axis, int at, int d)
 {
-  if (level->periodic[axis])
-    return 1.0F;
-  int last = level->layout.nodes[axis] - 1;
+  bool low = level->border[axis][0] && at == 0;
+  bool high = level->border[axis][1] && at == level->layout.nodes[axis] - 1;
   if (d == 0)
-    return at == 0 || at == last ? 0.5F : 1.0F;
-  return at + d < 0 || at + d > last ? 0.0F : 1.0F;
+    return low || high ? 0.5F : 1.0F;
+  return (d < 0 && low) || (d > 0 && high) ? 0.0F : 1.0F;
 }
 
 INLINE row_weights weights_of(const fg__level *level, int j, int k, int colour,
@@ -168,6 +167,8 @@ INLINE int plane_index(int slice)
 
 static void fill_ghosts_of_slice(const fg__level *level, float *array, int s)
 {
+  if (level->boxed)
+    return;
   for (int side = 0; side < 2; ++side) {
 #if FG__DIMENSION == 3
     fg__fill_ghost_row(level, array, s, side);

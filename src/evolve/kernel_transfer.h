@@ -18,7 +18,8 @@ typedef struct lines {
 /* What a restriction needs: the fine slices, one after the other, gathered. */
 typedef struct restriction {
   const fg__level *fine, *coarse;
-  const float *w; /* of a defect; NULL: full residuals */
+  const float *w;            /* of a defect; NULL: full residuals */
+  const float *const *given; /* or arrays with ghosts that hold the quantities */
   laplacian l;
   int quantities;
   ptrdiff_t line; /* floats of a gathered line */
@@ -147,7 +148,11 @@ static void gather_row(restriction *r, int j, int k, const lines *to, bool linea
 {
   const fg__level *fine = r->fine;
   ptrdiff_t at = fg__row_at(&fine->layout, j, k);
-  if (r->w)
+  if (r->given)
+    for (int n = 0; n < r->quantities; ++n)
+      memcpy(r->fine_line.value[n], r->given[n] + at,
+             (size_t)fine->layout.stride * sizeof(float));
+  else if (r->w)
     defect_line(fine, r->w, at, &r->l, &r->fine_line);
   else
     residual_line(fine, at, &r->l, &r->fine_line, linear);

@@ -40,31 +40,70 @@ static double rounding_for(double nodes, double most_mean)
   return 1.5 * ldexp(quantum, 52);
 }
 
-static void lay_out(fg__level *level)
+double fg__level_rounding(double nodes)
 {
-  int nodes[3] = {1, 1, 1}, dimension = level->layout.dimension;
-  level->nodes = 1.0;
-  level->cell_volume = 1.0;
-  for (int k = 0; k < dimension; ++k) {
-    nodes[k] = level->periodic[k] ? level->cells[k] : level->cells[k] + 1;
-    level->nodes *= nodes[k];
-    level->cell_volume *= level->spacing[k];
-  }
-  level->layout = fg__layout_of(dimension, nodes);
-  level->even_count = round_to_lanes((nodes[0] + 1) / 2);
-  level->odd_count = round_to_lanes(nodes[0] / 2);
-  level->rounding = rounding_for(level->nodes, 8.0);
-  level->change_rounding = rounding_for(level->nodes, 0.125);
+  return rounding_for(nodes, 8.0);
+}
+
+double fg__level_change_rounding(double nodes)
+{
+  return rounding_for(nodes, 0.125);
+}
+
+/* Ghosts of the whole level are copies of its own nodes. */
+static void find_ghost_sources(fg__level *level)
+{
   const fg__layout *at = &level->layout;
+  const int *nodes = at->nodes;
   bool round_x = level->periodic[0], round_y = level->periodic[1];
-  level->ghost_column[0] = at->odd_offset - 1;
-  level->ghost_column[1] = fg__column(at, nodes[0]);
   level->ghost_column_source[0] = fg__column(at, round_x ? nodes[0] - 1 : 1);
   level->ghost_column_source[1] = fg__column(at, round_x ? 0 : nodes[0] - 2);
   level->ghost_row_source[0] = round_y ? nodes[1] - 1 : 1;
   level->ghost_row_source[1] = round_y ? 0 : nodes[1] - 2;
   level->ghost_plane_source[0] = level->periodic[2] ? nodes[2] - 1 : 1;
   level->ghost_plane_source[1] = level->periodic[2] ? 0 : nodes[2] - 2;
+}
+
+/* Those of one box among several are their own source: filling them changes nothing. */
+static void leave_ghosts(fg__level *level)
+{
+  for (int side = 0; side < 2; ++side) {
+    level->ghost_column_source[side] = level->ghost_column[side];
+    level->ghost_row_source[side] = side == 0 ? -1 : level->layout.nodes[1];
+    level->ghost_plane_source[side] = side == 0 ? -1 : level->layout.nodes[2];
+  }
+}
+
+static void lay_out(fg__level *level, const fg__box *box)
+{
+  int whole[3] = {1, 1, 1}, dimension = level->layout.dimension;
+  level->nodes = 1.0;
+  level->cell_volume = 1.0;
+  level->boxed = box;
+  for (int k = 0; k < dimension; ++k) {
+    whole[k] = level->periodic[k] ? level->cells[k] : level->cells[k] + 1;
+    level->nodes *= whole[k];
+    level->cell_volume *= level->spacing[k];
+    level->border[k][0] = !level->periodic[k] && (!box || box->first[k] == 0);
+    level->border[k][1] =
+        !level->periodic[k] && (!box || box->first[k] + box->nodes[k] == whole[k]);
+  }
+  const int *nodes = box ? box->nodes : whole;
+  level->layout = fg__layout_of(dimension, nodes);
+  level->even_count = (nodes[0] + 1) / 2;
+  level->odd_count = nodes[0] / 2;
+  if (!box) { /* whole vectors are faster; ghosts are filled after them */
+    level->even_count = round_to_lanes(level->even_count);
+    level->odd_count = round_to_lanes(level->odd_count);
+  }
+  level->rounding = fg__level_rounding(level->nodes);
+  level->change_rounding = fg__level_change_rounding(level->nodes);
+  level->ghost_column[0] = level->layout.odd_offset - 1;
+  level->ghost_column[1] = fg__column(&level->layout, nodes[0]);
+  if (box)
+    leave_ghosts(level);
+  else
+    find_ghost_sources(level);
 }
 
 void fg__fill_ghost_row(const fg__level *level, float *array, int k, int side)
@@ -256,12 +295,12 @@ static void assemble(const fg__level *level, const fg__stencil *out, double gamm
       }
 }
 
-static bool has_mask(const fg__level *level)
+static bool has_mask(const fg__cells_of_box *tensor)
 {
-  const fg__cells_of_box *tensor = &level->tensor;
-  for (int k = 0; k < (level->layout.dimension == 3 ? level->cells[2] : 1); ++k)
-    for (int j = 0; j < level->cells[1]; ++j)
-      for (int i = 0; i < level->cells[0]; ++i)
+  int solid = tensor->dimension == 3;
+  for (int k = -solid; k < tensor->nodes[2]; ++k)
+    for (int j = -1; j < tensor->nodes[1]; ++j)
+      for (int i = -1; i < tensor->nodes[0]; ++i)
         if (tensor->weight[fg__cell_at(tensor, i, j, k)] < 1.0F)
           return true;
   return false;
@@ -308,8 +347,8 @@ static fg_status take_rows(fg__level *level, fg_context *context, int members)
   level->scratch = memory + 3 * stride;
   int columns = level->layout.nodes[0];
   for (int i = 0; i < columns; ++i) {
-    bool first = !level->periodic[0] && i == 0;
-    bool last = !level->periodic[0] && i == columns - 1;
+    bool first = level->border[0][0] && i == 0;
+    bool last = level->border[0][1] && i == columns - 1;
     ptrdiff_t n = fg__column(&level->layout, i);
     level->column_mass[n] = first || last ? 0.5F : 1.0F;
     level->column_east[n] = last ? 0.0F : 1.0F;
@@ -352,9 +391,9 @@ static void set_constant_laplacian(fg__level *level)
   level->laplacian_center = -sum;
 }
 
-static fg_status take_mask(fg__level *level, fg_context *context)
+static fg_status take_mask(fg__level *level, fg_context *context, bool masked)
 {
-  if (!has_mask(level))
+  if (!masked)
     return FG_STATUS_OK;
   float **const arrays[] = {&level->mass, &level->mass_inverse};
   fg_status status = take_arrays(level, context, arrays, 2);
@@ -379,10 +418,10 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
     out->periodic[k] = used && description->periodic[k];
     out->spacing[k] = used ? description->spacing[k] : 1.0;
   }
-  lay_out(out);
+  lay_out(out, description->box);
   float **const arrays[] = {&out->u, &out->w, &out->p, &out->q, &out->curvature};
   fg_status status = take_rows(out, context, description->members);
-  if (!status)
+  if (!status && !description->box)
     status = take_arrays(out, context, arrays, description->finest ? 3 : 5);
   if (!status)
     status = take_stencil(out, context, &out->energy);
@@ -390,7 +429,7 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
     return status;
   assemble(out, &out->energy, description->gamma, false);
   set_constant_laplacian(out);
-  return take_mask(out, context);
+  return take_mask(out, context, description->masked || has_mask(&out->tensor));
 }
 
 bool fg__level_can_coarsen(const fg__level *level)

@@ -1,5 +1,6 @@
 /* One level of the multigrid hierarchy: the arrays of a box of nodes (mesh/layout.h) and
- * the equations' coefficients there.
+ * the equations' coefficients there. The box is the whole level, a plain array at full
+ * speed, or one of several that share it (spread.h).
  *
  * Scaling. Rows of the equations are divided by the lumped mass; the cell's volume is
  * divided out of everything, so a node's relative mass is 1 inside, and with a mask the
@@ -12,6 +13,7 @@
 #include "base/context.h"
 #include "base/team.h"
 #include "evolve/cells.h"
+#include "mesh/box.h"
 #include "mesh/layout.h"
 
 /* Rows of neighbours "above" a row, each with couplings to the west, middle and east: one
@@ -48,6 +50,8 @@ typedef struct fg__level {
   ptrdiff_t ghost_column[2], ghost_column_source[2]; /* offsets in a row */
   int ghost_row_source[2];   /* rows that rows -1 and nodes[1] are copies of */
   int ghost_plane_source[2]; /* the same for planes */
+  bool boxed;                /* one box of several: its ghosts are filled from outside */
+  bool border[3][2];         /* a natural border at the low, the high end of an axis */
   /* Terms are rounded to multiples of a fixed small number before they are added, so that
    * a sum does not depend on its order: (x + rounding) - rounding. The first for terms
    * whose mean is at most 8, the other for squares of changes, at most 1/8. */
@@ -81,9 +85,15 @@ typedef struct fg__level_description {
   bool periodic[3];
   double spacing[3];
   double gamma;
-  bool finest; /* no curvature and second right-hand side */
-  int members; /* of the team that will work on it */
+  bool finest;        /* no curvature and second right-hand side */
+  bool masked;        /* somewhere on the level, if not here */
+  int members;        /* of the team that will work on it */
+  const fg__box *box; /* of nodes, when there are several; NULL: all */
 } fg__level_description;
+
+/* Both roundings for a level of so many nodes. */
+double fg__level_rounding(double nodes);
+double fg__level_change_rounding(double nodes);
 
 /* Slices are what a team shares out: rows in 2D, planes in 3D. */
 static inline int fg__slices(const fg__level *level)
@@ -102,7 +112,8 @@ static inline float *fg__node(const fg__level *level, float *array, int i, int j
 }
 
 /* Lays out a level and computes its stencils from the cells' tensor times weight, which
- * it takes over. MEMORY. */
+ * it takes over. One of several boxes gets no u, w, p, q and curvature of its own, and
+ * its masses lack ghosts (spread.h). MEMORY. */
 fg_status fg__level_create(fg__level *out, fg_context *context,
                            const fg__level_description *description,
                            fg__cells_of_box *tensor);

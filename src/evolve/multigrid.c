@@ -1,6 +1,7 @@
 #include "evolve/multigrid.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 
@@ -63,7 +64,9 @@ fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, const fg__tile *tile,
                                const fg__tensor *tensor, double gamma, int threads)
 {
-  *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension), .level_count = 1};
+  static const fg__ranks one = {0, 1};
+  *out = (fg__multigrid){
+      .kernel = fg__kernel_choose(mesh->dimension), .ranks = &one, .level_count = 1};
   fg_status status = create_finest(out, context, mesh, tile, tensor, gamma, threads);
   if (!status)
     status = create_coarser(out, context, gamma, threads);
@@ -80,57 +83,261 @@ fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
   return FG_STATUS_OK;
 }
 
+/* A level's boxes are worked on while they have this many nodes a side. */
+enum { LEAST_NODES = 4 };
+
+static fg_status spread_levels(fg__multigrid *out, fg_context *context,
+                               const fg__mesh *mesh, const fg__tensor_recipe *recipe,
+                               double gamma)
+{
+  fg__partition partition;
+  int own_count;
+  const fg__box *own = fg__own_boxes(&mesh->level[0], &own_count);
+  fg_status status =
+      fg__partition_create(&partition, context, mesh->ranks, mesh->dimension, mesh->cells,
+                           mesh->periodic, own, own_count);
+  for (int halvings = 0; !status; ++halvings) {
+    bool workable = fg__partition_is_workable(&partition, LEAST_NODES) &&
+                    halvings + 1 < FG__MOST_LEVELS;
+    fg__spread *spread = &out->spread[halvings];
+    fg__spread_description description = {halvings, gamma, halvings == 0};
+    status = fg__spread_create(spread, context, mesh, recipe, &partition, &description);
+    if (status || !workable)
+      break;
+    ++out->spread_count;
+    status = fg__partition_coarsen(&partition, context, &spread->partition);
+  }
+  return status;
+}
+
+/* The tensor of the first whole level from all ranks' boxes: a cell's values travel as
+ * those of its lowest corner. */
+static fg_status gather_cells(fg__cells_of_box *out, fg_context *context,
+                              const fg__multigrid *multigrid, const fg__spread *image)
+{
+  int dimension = image->partition.dimension, arrays = dimension == 3 ? 7 : 4;
+  const int *cells = image->partition.cells;
+  fg__layout whole = fg__layout_of(dimension, image->partition.nodes);
+  size_t count = (size_t)cells[0] * (size_t)cells[1] * (size_t)cells[2];
+  float *nodal = fg__allocate(whole.array_size, sizeof *nodal);
+  float *plain = fg__allocate(count * (size_t)arrays, sizeof *plain);
+  if (!nodal || !plain) {
+    free(nodal);
+    free(plain);
+    return fg__fail_memory(context, "the coarse tensor", count * sizeof *plain);
+  }
+  float *place = nodal + whole.first, *carrier = image->residual[0];
+  const float *values[FG__TENSOR_COMPONENTS + 1];
+  for (int a = 0; a < arrays; ++a) {
+    for (int b = 0; b < image->count; ++b) {
+      const fg__level *box = &image->box[b];
+      const fg__cells_of_box *own = &box->tensor;
+      const float *from = a + 1 < arrays ? own->component[a] : own->weight;
+      float *to = carrier + image->offset[b];
+      for (int k = 0; k < box->layout.nodes[2]; ++k)
+        for (int j = 0; j < box->layout.nodes[1]; ++j)
+          for (int i = 0; i < box->layout.nodes[0]; ++i)
+            to[fg__node_at(&box->layout, i, j, k)] = from[fg__cell_at(own, i, j, k)];
+    }
+    float *const *boxes[1];
+    fg__spread_pointers(image, 1, &carrier, boxes);
+    fg__gather_fill(multigrid->gather, 1, boxes, &place);
+    float *to = plain + (size_t)a * count;
+    values[a] = to;
+    for (int k = 0; k < cells[2]; ++k)
+      for (int j = 0; j < cells[1]; ++j)
+        for (int i = 0; i < cells[0]; ++i)
+          *to++ = place[fg__node_at(&whole, i, j, k)];
+  }
+  fg_status status = fg__cells_from_arrays(out, context, values, dimension, cells,
+                                           image->partition.periodic);
+  free(nodal);
+  free(plain);
+  return status;
+}
+
+static fg_status create_first_whole(fg__multigrid *out, fg_context *context,
+                                    const fg__mesh *mesh, double gamma)
+{
+  const fg__spread *image = &out->spread[out->spread_count];
+  fg_status status =
+      fg__gather_create(&out->gather, context, &image->partition, FG__MOST_EXCHANGED);
+  if (status)
+    return status;
+  fg__cells_of_box cells;
+  status = gather_cells(&cells, context, out, image);
+  if (status)
+    return status;
+  fg__level_description description = {
+      .dimension = mesh->dimension, .gamma = gamma, .members = 1};
+  for (int k = 0; k < 3; ++k) {
+    description.cells[k] = image->partition.cells[k];
+    description.periodic[k] = mesh->periodic[k];
+    description.spacing[k] =
+        mesh->spacing[k] * (k < mesh->dimension ? 1 << out->spread_count : 1);
+  }
+  out->level_count = 1;
+  return fg__level_create(&out->level[0], context, &description, &cells);
+}
+
+fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
+                                      const fg__mesh *mesh,
+                                      const fg__tensor_recipe *recipe, double gamma)
+{
+  *out =
+      (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension), .ranks = mesh->ranks};
+  fg_status status = spread_levels(out, context, mesh, recipe, gamma);
+  if (!status)
+    status = create_first_whole(out, context, mesh, gamma);
+  if (!status)
+    status = create_coarser(out, context, gamma, 1);
+  status = fg__ranks_agree(mesh->ranks, context, status);
+  if (status) {
+    fg__multigrid_clear(out);
+    return status;
+  }
+  choose_coarsest_sweeps(out);
+  return FG_STATUS_OK;
+}
+
 void fg__multigrid_clear(fg__multigrid *multigrid)
 {
   fg__team_destroy(multigrid->team);
   for (int n = 0; n < multigrid->level_count; ++n)
     fg__level_clear(&multigrid->level[n]);
+  for (int n = 0; n < FG__MOST_LEVELS; ++n)
+    fg__spread_clear(&multigrid->spread[n]);
+  fg__gather_destroy(multigrid->gather);
   *multigrid = (fg__multigrid){0};
+}
+
+fg__array_shape fg__multigrid_shape(const fg__multigrid *multigrid, int depth)
+{
+  if (multigrid->spread_count > 0)
+    return (fg__array_shape){.size = multigrid->spread[depth].size};
+  const fg__layout *layout = &multigrid->level[depth].layout;
+  return (fg__array_shape){layout->array_size, layout->first};
+}
+
+float *fg__multigrid_u(const fg__multigrid *multigrid)
+{
+  return multigrid->spread_count > 0 ? multigrid->spread[0].u : multigrid->level[0].u;
+}
+
+float *fg__multigrid_w(const fg__multigrid *multigrid)
+{
+  return multigrid->spread_count > 0 ? multigrid->spread[0].w : multigrid->level[0].w;
+}
+
+float *fg__multigrid_p(const fg__multigrid *multigrid)
+{
+  return multigrid->spread_count > 0 ? multigrid->spread[0].p : multigrid->level[0].p;
+}
+
+void fg__multigrid_use(fg__multigrid *multigrid, float *u)
+{
+  fg__spread *finest = &multigrid->spread[0];
+  if (multigrid->spread_count > 0)
+    fg__spread_use(finest, u, finest->w, finest->p);
+  else
+    multigrid->level[0].u = u;
+}
+
+const fg__level *fg__multigrid_boxes(const fg__multigrid *multigrid, int *count,
+                                     const ptrdiff_t **offset)
+{
+  static const ptrdiff_t none = 0;
+  bool spread = multigrid->spread_count > 0;
+  *count = spread ? multigrid->spread[0].count : 1;
+  *offset = spread ? multigrid->spread[0].offset : &none;
+  return spread ? multigrid->spread[0].box : multigrid->level;
+}
+
+static void descend(const fg__multigrid *multigrid, int n, float tau,
+                    const fg__share *share)
+{
+  const fg__level *level = multigrid->level;
+  if (n == 0 && multigrid->spread_count == 0)
+    multigrid->kernel->smooth_restrict(&level[0], &level[1], tau, share);
+  else
+    multigrid->kernel->smooth_restrict_linear(&level[n], &level[n + 1], tau, share);
+}
+
+static void ascend(const fg__multigrid *multigrid, int n, float tau,
+                   const fg__share *share)
+{
+  const fg__level *level = multigrid->level;
+  if (n == 0 && multigrid->spread_count == 0)
+    multigrid->kernel->prolong_smooth(&level[1], &level[0], tau, share);
+  else
+    multigrid->kernel->prolong_smooth_linear(&level[n + 1], &level[n], tau, share);
 }
 
 /* The levels below the shared ones, from and back to level n. */
 static void cycle_alone(const fg__multigrid *multigrid, int n, float tau)
 {
   const fg__kernel *kernel = multigrid->kernel;
-  const fg__level *level = multigrid->level;
   int last = multigrid->level_count - 1;
   fg__share alone = fg__alone();
   for (int m = n; m < last; ++m)
-    if (m == 0)
-      kernel->smooth_restrict(&level[0], &level[1], tau, &alone);
-    else
-      kernel->smooth_restrict_linear(&level[m], &level[m + 1], tau, &alone);
+    descend(multigrid, m, tau, &alone);
   for (int sweep = 0; sweep < multigrid->coarsest_sweeps; ++sweep)
-    if (last == 0) /* a mesh too small to coarsen: smoothing alone */
-      kernel->smooth(&level[0], tau, &alone);
+    if (last == 0 && multigrid->spread_count == 0) /* too small a mesh to coarsen */
+      kernel->smooth(&multigrid->level[0], tau, &alone);
     else
-      kernel->smooth_linear(&level[last], tau, &alone);
+      kernel->smooth_linear(&multigrid->level[last], tau, &alone);
   for (int m = last - 1; m >= n; --m)
-    if (m == 0)
-      kernel->prolong_smooth(&level[1], &level[0], tau, &alone);
-    else
-      kernel->prolong_smooth_linear(&level[m + 1], &level[m], tau, &alone);
+    ascend(multigrid, m, tau, &alone);
+}
+
+/* The whole levels, alike on all ranks. */
+static void cycle_whole(const fg__multigrid *multigrid, float tau, const fg__share *share)
+{
+  int last = multigrid->level_count - 1;
+  int shared = multigrid->shared_levels < last ? multigrid->shared_levels : last;
+  for (int n = 0; n < shared; ++n)
+    descend(multigrid, n, tau, share);
+  if (share->member == 0)
+    cycle_alone(multigrid, shared, tau);
+  fg__team_barrier(share);
+  for (int n = shared - 1; n >= 0; --n)
+    ascend(multigrid, n, tau, share);
+}
+
+/* From what the ranks share to level[0] and back. */
+static void cycle_gathered(const fg__multigrid *multigrid, float tau)
+{
+  const fg__spread *image = &multigrid->spread[multigrid->spread_count];
+  const fg__level *whole = &multigrid->level[0];
+  float *const sent[] = {image->p, image->q, image->curvature};
+  float *const received[] = {whole->p, whole->q, whole->curvature};
+  float *const *boxes[FG__MOST_EXCHANGED];
+  fg__spread_pointers(image, 3, sent, boxes);
+  fg__gather_fill(multigrid->gather, 3, boxes, received);
+  float *const solution[] = {whole->u, whole->w};
+  for (int n = 0; n < 2; ++n)
+    memset(solution[n] - whole->layout.first, 0,
+           whole->layout.array_size * sizeof(float));
+  fg__share alone = fg__alone();
+  cycle_whole(multigrid, tau, &alone);
+  float *const places[] = {image->u, image->w};
+  fg__spread_pointers(image, 2, places, boxes);
+  fg__gather_return(multigrid->gather, 2, solution, boxes);
 }
 
 void fg__multigrid_cycle(const fg__multigrid *multigrid, double tau,
                          const fg__share *share)
 {
-  const fg__kernel *kernel = multigrid->kernel;
-  const fg__level *level = multigrid->level;
-  int last = multigrid->level_count - 1;
-  int shared = multigrid->shared_levels < last ? multigrid->shared_levels : last;
   float step = (float)tau;
-  for (int n = 0; n < shared; ++n)
-    if (n == 0)
-      kernel->smooth_restrict(&level[0], &level[1], step, share);
-    else
-      kernel->smooth_restrict_linear(&level[n], &level[n + 1], step, share);
-  if (share->member == 0)
-    cycle_alone(multigrid, shared, step);
-  fg__team_barrier(share);
-  for (int n = shared - 1; n >= 0; --n)
-    if (n == 0)
-      kernel->prolong_smooth(&level[1], &level[0], step, share);
-    else
-      kernel->prolong_smooth_linear(&level[n + 1], &level[n], step, share);
+  int count = multigrid->spread_count;
+  const fg__spread *spread = multigrid->spread;
+  if (count == 0) {
+    cycle_whole(multigrid, step, share);
+    return;
+  }
+  for (int n = 0; n < count; ++n)
+    fg__spread_descend(&spread[n], &spread[n + 1], multigrid->kernel, step, n > 0);
+  cycle_gathered(multigrid, step);
+  for (int n = count - 1; n >= 0; --n)
+    fg__spread_ascend(&spread[n + 1], &spread[n], multigrid->kernel, step, n > 0);
 }

@@ -2,31 +2,68 @@
 #ifndef FG__MULTIGRID_H
 #define FG__MULTIGRID_H
 
-#include "evolve/kernel.h"
-#include "mesh/mesh.h"
-#include "tensor/tensor.h"
+#include "evolve/spread.h"
+#include "mesh/gather.h"
 
 enum { FG__MOST_LEVELS = 16 };
 
+/* The levels from fine to coarse: spread[0] ... spread[spread_count - 1] are shared by
+ * several ranks or boxes; spread[spread_count] is the next one as they share it, and
+ * level[0] the same whole on every rank, which all ranks cycle on alike. Where one rank
+ * has it all in one box there is nothing spread, and level[0] is the finest. */
 typedef struct fg__multigrid {
   const fg__kernel *kernel;
-  fg__team *team;    /* NULL: one thread */
-  int level_count;   /* level[0] is the finest */
+  const fg__ranks *ranks;
+  int spread_count;
+  fg__spread spread[FG__MOST_LEVELS];
+  fg__gather
+      *gather; /* between spread[spread_count] and level[0]; NULL: nothing spread */
+
+  fg__team *team; /* NULL: one thread */
+  int level_count;
   int shared_levels; /* large enough for the team; the others are left to one member */
   fg__level level[FG__MOST_LEVELS];
   int coarsest_sweeps;
 } fg__multigrid;
 
-/* Builds all levels over a tile, to be worked on by as many threads. MEMORY. */
+/* Builds all levels over a mesh of one box, to be worked on by as many threads. MEMORY.
+ */
 fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, const fg__tile *tile,
                                const fg__tensor *tensor, double gamma, int threads);
+
+/* Builds all levels over a mesh of any boxes on any ranks. Collective. MEMORY, and what
+ * the recipe meets. */
+fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
+                                      const fg__mesh *mesh,
+                                      const fg__tensor_recipe *recipe, double gamma);
 void fg__multigrid_clear(fg__multigrid *multigrid);
+
+/* Nodal arrays of the finest (depth 0) and the next level (depth 1). Arrays are handled
+ * by the place `first` floats behind their start: node (0, 0, 0) where the level is one
+ * box, the start where it is several. */
+typedef struct fg__array_shape {
+  size_t size;
+  ptrdiff_t first;
+} fg__array_shape;
+fg__array_shape fg__multigrid_shape(const fg__multigrid *multigrid, int depth);
+
+/* The finest level's own density, potential and right-hand side. */
+float *fg__multigrid_u(const fg__multigrid *multigrid);
+float *fg__multigrid_w(const fg__multigrid *multigrid);
+float *fg__multigrid_p(const fg__multigrid *multigrid);
+
+/* Makes another array the finest level's density; the former one is the caller's. */
+void fg__multigrid_use(fg__multigrid *multigrid, float *u);
+
+/* The boxes of the finest level and their offsets in arrays (none for one box). */
+const fg__level *fg__multigrid_boxes(const fg__multigrid *multigrid, int *count,
+                                     const ptrdiff_t **offset);
 
 /* One V(1,1) cycle for the step tau, from and to u, w of the finest level, whose p holds
  * the right-hand side. Nonlinear (full approximation) on the finest level; the coarse
  * levels solve linear correction equations with the restricted curvature, at least 0.
- * To be called by every member of the multigrid's team. */
+ * To be called by every member of the multigrid's team. Collective. */
 void fg__multigrid_cycle(const fg__multigrid *multigrid, double tau,
                          const fg__share *share);
 

@@ -1,5 +1,7 @@
 #include "evolve/passes.h"
 
+#include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 /* What a pass works on; each uses what it needs. */
@@ -22,6 +24,36 @@ static void run(pass *p, fg__team_work *work)
   fg__team_run(p->multigrid->shared_levels > 0 ? p->multigrid->team : NULL, work, p);
 }
 
+/* What several boxes share is worked on box by box, and sums are added up over ranks. */
+static bool is_spread(const fg__multigrid *multigrid)
+{
+  return multigrid->spread_count > 0;
+}
+
+/* Exact sums (level.h) as numbers of their smallest unit, which add up in any order;
+ * what is no number becomes larger than any sum can be. */
+static void add_over_ranks(const fg__multigrid *multigrid, double *const sums[],
+                           const double rounding[], int count)
+{
+  enum { MOST_SUMS = 4 };
+  const double beyond = 0x1p60 / multigrid->ranks->count;
+  uint64_t units[MOST_SUMS];
+  for (int n = 0; n < count; ++n) {
+    double number = *sums[n] / ldexp(rounding[n] / 1.5, -52);
+    number = fabs(number) < beyond ? number : beyond;
+    units[n] = (uint64_t)(int64_t)number;
+  }
+  fg__ranks_add(multigrid->ranks, units, count);
+  for (int n = 0; n < count; ++n)
+    *sums[n] = (double)(int64_t)units[n] * ldexp(rounding[n] / 1.5, -52);
+}
+
+static double node_count(const fg__spread *spread)
+{
+  const int *nodes = spread->partition.nodes;
+  return (double)nodes[0] * nodes[1] * nodes[2];
+}
+
 static void copy_part(const fg__level *level, const float *from, float *to,
                       const fg__share *share)
 {
@@ -41,6 +73,10 @@ static void copy(void *argument, const fg__share *share)
 
 void fg__pass_copy(const fg__multigrid *multigrid, const float *from, float *to)
 {
+  if (is_spread(multigrid)) {
+    memcpy(to, from, multigrid->spread[0].size * sizeof *to);
+    return;
+  }
   pass p = {.multigrid = multigrid, .from = from, .to = to};
   run(&p, copy);
 }
@@ -57,6 +93,13 @@ static void cycle(void *argument, const fg__share *share)
 
 void fg__pass_cycle(const fg__multigrid *multigrid, double tau, float *before)
 {
+  if (is_spread(multigrid)) {
+    fg__share alone = fg__alone();
+    if (before)
+      fg__pass_copy(multigrid, fg__multigrid_u(multigrid), before);
+    fg__multigrid_cycle(multigrid, tau, &alone);
+    return;
+  }
   pass p = {.multigrid = multigrid, .to = before, .number = tau};
   run(&p, cycle);
 }
@@ -68,8 +111,29 @@ static void evaluate(void *argument, const fg__share *share)
       p->multigrid->kernel->evaluate(finest(p), p->from, p->to, share);
 }
 
+static fg__sums evaluate_spread(const fg__multigrid *multigrid, const float *u, float *w)
+{
+  const fg__spread *spread = &multigrid->spread[0];
+  fg__share alone = fg__alone();
+  fg__sums total = {0.0, 0.0};
+  double rounding = fg__level_rounding(node_count(spread));
+  for (int b = 0; b < spread->count; ++b) {
+    ptrdiff_t at = spread->offset[b];
+    fg__sums sums = multigrid->kernel->evaluate(&spread->box[b], u + at, w + at, &alone);
+    total.energy += sums.energy;
+    total.u += sums.u;
+  }
+  fg__spread_exchange(spread, 1, &w, FG__ALL_COLOURS);
+  /* halves of exact sums */
+  add_over_ranks(multigrid, (double *const[]){&total.energy, &total.u},
+                 (const double[]){0.5 * rounding, rounding}, 2);
+  return total;
+}
+
 fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float *w)
 {
+  if (is_spread(multigrid))
+    return evaluate_spread(multigrid, u, w);
   pass p = {.multigrid = multigrid, .from = u, .to = w};
   run(&p, evaluate);
   fg__sums total = {0.0, 0.0};
@@ -87,9 +151,34 @@ static void changes(void *argument, const fg__share *share)
       p->multigrid->kernel->changes(finest(p), p->from, p->a, p->b, p->c, share);
 }
 
+static fg__changes changes_spread(const fg__multigrid *multigrid, const float *u,
+                                  const float *a, const float *b, const float *c)
+{
+  const fg__spread *spread = &multigrid->spread[0];
+  fg__share alone = fg__alone();
+  fg__changes total = {0.0, 0.0, 0.0, 0.0};
+  double rounding = fg__level_rounding(node_count(spread));
+  double fine = fg__level_change_rounding(node_count(spread));
+  for (int n = 0; n < spread->count; ++n) {
+    ptrdiff_t at = spread->offset[n];
+    fg__changes part = multigrid->kernel->changes(&spread->box[n], u + at, a + at, b + at,
+                                                  c + at, &alone);
+    total.u += part.u;
+    total.from_a += part.from_a;
+    total.from_b += part.from_b;
+    total.along += part.along;
+  }
+  add_over_ranks(multigrid,
+                 (double *const[]){&total.u, &total.from_a, &total.from_b, &total.along},
+                 (const double[]){rounding, fine, fine, fine}, 4);
+  return total;
+}
+
 fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
                              const float *a, const float *b, const float *c)
 {
+  if (is_spread(multigrid))
+    return changes_spread(multigrid, u, a, b, c);
   pass p = {.multigrid = multigrid, .from = u, .a = a, .b = b, .c = c};
   run(&p, changes);
   fg__changes total = {0.0, 0.0, 0.0, 0.0};
@@ -110,6 +199,14 @@ static void shift(void *argument, const fg__share *share)
 
 void fg__pass_shift(const fg__multigrid *multigrid, float *u, double amount)
 {
+  if (is_spread(multigrid)) {
+    const fg__spread *spread = &multigrid->spread[0];
+    fg__share alone = fg__alone();
+    for (int b = 0; b < spread->count; ++b)
+      multigrid->kernel->shift(&spread->box[b], u + spread->offset[b], (float)amount,
+                               &alone);
+    return;
+  }
   pass p = {.multigrid = multigrid, .to = u, .number = amount};
   run(&p, shift);
 }
@@ -124,6 +221,16 @@ static void extrapolate(void *argument, const fg__share *share)
 void fg__pass_extrapolate(const fg__multigrid *multigrid, const float *now,
                           const float *before, double omega, float *out)
 {
+  if (is_spread(multigrid)) {
+    const fg__spread *spread = &multigrid->spread[0];
+    fg__share alone = fg__alone();
+    for (int b = 0; b < spread->count; ++b) {
+      ptrdiff_t at = spread->offset[b];
+      multigrid->kernel->extrapolate(&spread->box[b], now + at, before + at, (float)omega,
+                                     out + at, &alone);
+    }
+    return;
+  }
   pass p = {.multigrid = multigrid, .from = now, .a = before, .number = omega, .to = out};
   run(&p, extrapolate);
 }
@@ -138,6 +245,11 @@ static void prolong(void *argument, const fg__share *share)
 void fg__pass_prolong(const fg__multigrid *multigrid, const float *coarse,
                       const float *base, float *to)
 {
+  if (is_spread(multigrid)) {
+    fg__spread_prolong(&multigrid->spread[1], coarse, &multigrid->spread[0], base, to,
+                       multigrid->kernel);
+    return;
+  }
   pass p = {.multigrid = multigrid, .from = coarse, .a = base, .to = to};
   run(&p, prolong);
 }
@@ -152,6 +264,11 @@ static void restrict_defect(void *argument, const fg__share *share)
 void fg__pass_restrict_defect(const fg__multigrid *multigrid, const float *w,
                               float *coarse, double tau)
 {
+  if (is_spread(multigrid)) {
+    fg__spread_restrict_defect(&multigrid->spread[0], w, &multigrid->spread[1], coarse,
+                               (float)tau, multigrid->kernel);
+    return;
+  }
   pass p = {.multigrid = multigrid, .from = w, .to = coarse, .number = tau};
   run(&p, restrict_defect);
 }

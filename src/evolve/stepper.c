@@ -42,16 +42,17 @@ static double mean_of(const fg__stepper *s, const float *u)
 /* The sum of masses is the sum of u when u is 1 everywhere. */
 static double weigh_domain(const fg__stepper *s)
 {
-  const fg__level *level = &s->multigrid.level[0];
+  fg__array_shape shape = fg__multigrid_shape(&s->multigrid, 0);
   float *ones = s->first_iterate;
-  for (size_t n = 0; n < level->layout.array_size; ++n)
-    (ones - level->layout.first)[n] = 1.0F;
+  for (size_t n = 0; n < shape.size; ++n)
+    (ones - shape.first)[n] = 1.0F;
   return fg__pass_changes(&s->multigrid, ones, ones, ones, ones).u;
 }
 
 fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
-                             fg__multigrid *multigrid, double first_tau, double most_tau,
-                             double accuracy, int cycles)
+                             fg__multigrid *multigrid, double cell_volume,
+                             double first_tau, double most_tau, double accuracy,
+                             int cycles)
 {
   *out = (fg__stepper){.multigrid = *multigrid,
                        .accuracy = accuracy,
@@ -61,30 +62,35 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
                        .tau = first_tau,
                        .tau_limit = (double)INFINITY};
   *multigrid = (fg__multigrid){0};
-  const fg__level *finest = &out->multigrid.level[0], *second = finest + 1;
-  size_t size = finest->layout.array_size + FG__LANES;
-  size_t count = 3 * size + second->layout.array_size;
+  fg__multigrid *m = &out->multigrid;
+  fg__array_shape finest = fg__multigrid_shape(m, 0), second = fg__multigrid_shape(m, 1);
+  size_t size = finest.size + FG__LANES, count = 3 * size + second.size;
   float *memory = fg__allocate_aligned(count, sizeof *memory);
-  if (!memory) {
-    fg__stepper_clear(out);
-    return fg__fail_memory(context, "the time steps", count * sizeof *memory);
-  }
+  fg_status status = FG_STATUS_OK;
+  if (!memory)
+    status = fg__fail_memory(context, "the time steps", count * sizeof *memory);
+  status = fg__ranks_agree(m->ranks, context, status);
   out->memory = memory;
-  out->current = memory + finest->layout.first;
-  out->previous = out->current + size;
-  out->first_iterate = out->previous + size;
-  out->defect = memory + 3 * size + second->layout.first;
-  out->cell_volume = finest->cell_volume;
-  out->total_mass = weigh_domain(out);
-  fg__fill_ghosts(finest, finest->u);
-  fg__pass_copy(&out->multigrid, finest->u, out->current);
-  out->mean = mean_of(out, out->current);
-  fg_status status = fg__parts_create(&out->parts, context, finest, out->current);
   if (status) {
     fg__stepper_clear(out);
     return status;
   }
-  fg__sums sums = fg__pass_evaluate(&out->multigrid, out->current, finest->w);
+  out->current = memory + finest.first;
+  out->previous = out->current + size;
+  out->first_iterate = out->previous + size;
+  out->defect = memory + 3 * size + second.first;
+  out->cell_volume = cell_volume;
+  out->total_mass = weigh_domain(out);
+  fg__pass_copy(m, fg__multigrid_u(m), out->current);
+  out->mean = mean_of(out, out->current);
+  out->parts.count = 1;
+  if (m->spread_count == 0)
+    status = fg__parts_create(&out->parts, context, &m->level[0], out->current);
+  if (status) {
+    fg__stepper_clear(out);
+    return status;
+  }
+  fg__sums sums = fg__pass_evaluate(m, out->current, fg__multigrid_w(m));
   out->energy = out->cell_volume * sums.energy;
   out->mass = out->cell_volume * sums.u;
   return FG_STATUS_OK;
@@ -104,17 +110,17 @@ void fg__stepper_clear(fg__stepper *stepper)
 static void prepare(fg__stepper *s, double tau)
 {
   fg__multigrid *m = &s->multigrid;
-  fg__level *level = &m->level[0];
+  float *p = fg__multigrid_p(m), *u = fg__multigrid_u(m);
   if (!s->history) {
-    fg__pass_copy(m, s->current, level->p);
-    fg__pass_copy(m, s->current, level->u);
-    fg__pass_evaluate(m, s->current, level->w);
+    fg__pass_copy(m, s->current, p);
+    fg__pass_copy(m, s->current, u);
+    fg__pass_evaluate(m, s->current, fg__multigrid_w(m));
     return;
   }
-  fg__pass_prolong(m, s->defect, s->current, level->p);
+  fg__pass_prolong(m, s->defect, s->current, p);
   double omega = fmin(tau / s->last_tau, most_extrapolation);
   omega *= s->persistence;
-  fg__pass_extrapolate(m, s->current, s->previous, omega, level->u);
+  fg__pass_extrapolate(m, s->current, s->previous, omega, u);
 }
 
 typedef struct outcome {
@@ -127,15 +133,14 @@ typedef struct outcome {
 static outcome attempt(fg__stepper *s, double tau)
 {
   fg__multigrid *m = &s->multigrid;
-  fg__level *level = &m->level[0];
+  float *u = fg__multigrid_u(m);
   prepare(s, tau);
   for (int n = 0; n < s->cycles; ++n)
     fg__pass_cycle(m, tau, n == s->cycles - 1 ? s->first_iterate : NULL);
   s->cycles_spent += s->cycles;
-  fg__changes sums =
-      fg__pass_changes(m, level->u, s->current, s->first_iterate, s->previous);
-  fg__pass_shift(m, level->u, s->mean - sums.u / s->total_mass);
-  fg__parts_restore_means(&s->parts, level, level->u);
+  fg__changes sums = fg__pass_changes(m, u, s->current, s->first_iterate, s->previous);
+  fg__pass_shift(m, u, s->mean - sums.u / s->total_mass);
+  fg__parts_restore_means(&s->parts, &m->level[0], u);
   outcome result;
   result.increment = sqrt(sums.from_a / s->total_mass);
   result.correction = sqrt(sums.from_b / s->total_mass) /
@@ -144,7 +149,7 @@ static outcome attempt(fg__stepper *s, double tau)
   if (s->increment > 0.0)
     result.persistence =
         sums.along * s->last_tau / (tau * s->increment * s->increment * s->total_mass);
-  fg__sums shifted = fg__pass_evaluate(m, level->u, s->first_iterate);
+  fg__sums shifted = fg__pass_evaluate(m, u, s->first_iterate);
   result.energy = s->cell_volume * shifted.energy;
   result.mean = shifted.u / s->total_mass;
   result.at_rest = result.increment < rest_increment && result.energy >= s->energy &&
@@ -161,12 +166,11 @@ static outcome attempt(fg__stepper *s, double tau)
 static void keep(fg__stepper *s, double tau, const outcome *result)
 {
   fg__multigrid *m = &s->multigrid;
-  fg__level *level = &m->level[0];
   fg__pass_restrict_defect(m, s->first_iterate, s->defect, tau);
   float *oldest = s->previous;
   s->previous = s->current;
-  s->current = level->u;
-  level->u = oldest;
+  s->current = fg__multigrid_u(m);
+  fg__multigrid_use(m, oldest);
   s->energy = result->energy;
   s->mass = s->cell_volume * s->total_mass * result->mean;
   s->increment = result->increment;

@@ -25,19 +25,21 @@ typedef struct fg__stepper {
   bool history;        /* the last step's predecessor and defect may be used */
   long quiet_steps;    /* steps in a row that changed next to nothing */
 
-  /* Arrays in the layout of level[0]. A step is computed in the level's own u, which then
+  /* Arrays of the finest level. A step is computed in the level's own u, which then
    * becomes current: the three are passed round, never copied. */
   float *current, *previous, *first_iterate;
-  float *defect; /* in the layout of level[1] */
+  float *defect; /* of the next level */
   void *memory;
 } fg__stepper;
 
 /* Takes over a multigrid hierarchy (cleared with the stepper); the density starts as what
- * level[0].u holds, and its mean is kept. Steps start at first_tau and never exceed
+ * the finest u holds, with ghosts, and its mean is kept. `cell_volume` in units of
+ * the longest side. Steps start at first_tau and never exceed
  * most_tau. MEMORY. */
 fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
-                             fg__multigrid *multigrid, double first_tau, double most_tau,
-                             double accuracy, int cycles);
+                             fg__multigrid *multigrid, double cell_volume,
+                             double first_tau, double most_tau, double accuracy,
+                             int cycles);
 void fg__stepper_clear(fg__stepper *stepper);
 
 /* One accepted step; `current` is the new density. NO_CONVERGENCE, STOPPED. */

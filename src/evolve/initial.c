@@ -1,0 +1,83 @@
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "base/mix.h"
+#include "evolve/evolution.h"
+#include "evolve/noise.h"
+
+/* The nodes of a box: noise, or the caller's density. */
+static fg_status fill_box(const fg_evolution *e, const fg__level *level,
+                          const fg__box *box, const fg__noise *noise, float *u)
+{
+  const int *nodes = level->layout.nodes;
+  float *row = fg__allocate((size_t)nodes[0], sizeof *row);
+  if (!row)
+    return fg__fail_memory(e->context, "the noise", (size_t)nodes[0] * sizeof *row);
+  size_t columns = (size_t)(e->mesh.cells[0] + !e->mesh.periodic[0]);
+  size_t rows = (size_t)(e->mesh.cells[1] + !e->mesh.periodic[1]);
+  for (int k = 0; k < nodes[2]; ++k)
+    for (int j = 0; j < nodes[1]; ++j) {
+      int y = box->first[1] + j, z = box->first[2] + k;
+      const float *values = row;
+      if (e->options.initial)
+        values =
+            e->options.initial + ((size_t)z * rows + (size_t)y) * columns + box->first[0];
+      else
+        fg__noise_row(noise, y, z, box->first[0], nodes[0], row);
+      float *to = fg__row(level, u, j, k);
+      for (int i = 0; i < nodes[0]; ++i)
+        to[fg__column(&level->layout, i)] = values[i];
+    }
+  free(row);
+  return FG_STATUS_OK;
+}
+
+static void fill_ghosts(const fg__multigrid *multigrid, float *u)
+{
+  if (multigrid->spread_count > 0)
+    fg__spread_exchange(&multigrid->spread[0], 1, &u, FG__ALL_COLOURS);
+  else
+    fg__fill_ghosts(&multigrid->level[0], u);
+}
+
+/* Shifts the noise so that its mean is met exactly. Sums are exact: it does not matter
+ * who holds which nodes. Nodes without mass become 0. */
+static void settle_mean(const fg__multigrid *multigrid, double mean)
+{
+  fg__array_shape shape = fg__multigrid_shape(multigrid, 0);
+  float *u = fg__multigrid_u(multigrid), *ones = fg__multigrid_p(multigrid);
+  for (size_t n = 0; n < shape.size; ++n)
+    (ones - shape.first)[n] = 1.0F;
+  double weight = fg__pass_changes(multigrid, ones, ones, ones, ones).u;
+  double sum = fg__pass_changes(multigrid, u, u, u, u).u;
+  fg__pass_shift(multigrid, u, mean - sum / weight);
+}
+
+fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multigrid)
+{
+  fg_evolution *e = evolution;
+  double mean = 2.0 * e->options.coverage - 1.0;
+  double correlation = sqrt(e->info.gamma * e->options.anisotropy);
+  fg__noise noise = fg__noise_of(e->mesh.dimension, e->mesh.cells, e->mesh.spacing,
+                                 e->mesh.periodic, mean, correlation, e->options.seed);
+  int count;
+  const ptrdiff_t *offset;
+  const fg__level *box = fg__multigrid_boxes(multigrid, &count, &offset);
+  const fg__box *place = fg__own_boxes(&e->mesh.level[0], &(int){0});
+  float *u = fg__multigrid_u(multigrid);
+  fg_status status = FG_STATUS_OK;
+  for (int b = 0; b < count && !status; ++b)
+    status = fill_box(e, &box[b], &place[b], &noise, u + offset[b]);
+  status = fg__ranks_agree(e->mesh.ranks, e->context, status);
+  if (status)
+    return status;
+  fill_ghosts(multigrid, u);
+  if (e->options.initial) {
+    e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial, e->nodes);
+    fg__pass_shift(multigrid, u, 0.0);
+  } else {
+    settle_mean(multigrid, mean);
+  }
+  return FG_STATUS_OK;
+}

@@ -1,0 +1,53 @@
+/* Operations on one of several boxes that share a level, between which ghosts are
+ * exchanged. Part of kernel_body.h. */
+#ifndef FG__KERNEL_BOXES_H
+#define FG__KERNEL_BOXES_H
+
+#include "evolve/kernel_transfer.h"
+
+/* The nodes of one colour, in the order of their rows. */
+static void smooth_one_colour(const fg__level *level, float tau, bool linear, int colour)
+{
+  laplacian l = laplacian_times(level, tau);
+  const int *nodes = level->layout.nodes;
+  for (int k = colour >> 2; k < nodes[2]; k += 2)
+    for (int j = colour >> 1 & 1; j < nodes[1]; j += 2)
+      smooth_colour(level, fg__row_at(&level->layout, j, k), colour & 1, &l, linear);
+}
+
+static void find_residuals(const fg__level *level, float tau, bool linear,
+                           float *const out[3])
+{
+  laplacian l = laplacian_times(level, tau);
+  const int *nodes = level->layout.nodes;
+  for (int k = 0; k < nodes[2]; ++k)
+    for (int j = 0; j < nodes[1]; ++j) {
+      ptrdiff_t at = fg__row_at(&level->layout, j, k);
+      lines rows = {{out[0] + at, out[1] + at, out[2] + at}};
+      residual_line(level, at, &l, &rows, linear);
+    }
+}
+
+static void find_defect(const fg__level *level, const float *w, float tau, float *out)
+{
+  laplacian l = laplacian_times(level, tau);
+  const int *nodes = level->layout.nodes;
+  for (int k = 0; k < nodes[2]; ++k)
+    for (int j = 0; j < nodes[1]; ++j) {
+      ptrdiff_t at = fg__row_at(&level->layout, j, k);
+      lines rows = {{out + at, NULL, NULL}};
+      defect_line(level, w, at, &l, &rows);
+    }
+}
+
+static void restrict_arrays(const fg__level *fine, int count, const float *const from[],
+                            const fg__level *coarse, float *const to[])
+{
+  fg__share alone = fg__alone();
+  restriction r = restriction_of(fine, coarse, 0.0F, count, &alone);
+  r.given = from;
+  for (int S = 0; S < fg__slices(coarse); ++S)
+    restrict_slice(&r, S, S == 0, to, true);
+}
+
+#endif

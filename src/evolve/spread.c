@@ -1,0 +1,212 @@
+#include "evolve/spread.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static fg_status take_arrays(fg__spread *spread, fg_context *context, bool finest)
+{
+  size_t count = (size_t)spread->count;
+  size_t arrays = (finest ? 3 : 5) + FG__RESIDUALS;
+  float *memory = fg__allocate_aligned(arrays * spread->size, sizeof *memory);
+  spread->pointer = fg__allocate(FG__MOST_EXCHANGED * count, sizeof *spread->pointer);
+  spread->memory = memory;
+  if (!memory || !spread->pointer)
+    return fg__fail_memory(context, "a multigrid level",
+                           arrays * spread->size * sizeof *memory);
+  float **own[] = {&spread->u, &spread->w, &spread->p, &spread->q, &spread->curvature};
+  for (size_t n = 0; n < arrays; ++n, memory += spread->size)
+    if (n < FG__RESIDUALS)
+      spread->residual[n] = memory;
+    else
+      *own[n - FG__RESIDUALS] = memory;
+  fg__spread_use(spread, spread->u, spread->w, spread->p);
+  for (int b = 0; b < spread->count && !finest; ++b) {
+    spread->box[b].q = spread->q + spread->offset[b];
+    spread->box[b].curvature = spread->curvature + spread->offset[b];
+  }
+  return FG_STATUS_OK;
+}
+
+void fg__spread_use(fg__spread *spread, float *u, float *w, float *p)
+{
+  spread->u = u;
+  spread->w = w;
+  spread->p = p;
+  for (int b = 0; b < spread->count; ++b) {
+    fg__level *box = &spread->box[b];
+    box->u = u + spread->offset[b];
+    box->w = w + spread->offset[b];
+    box->p = p + spread->offset[b];
+  }
+}
+
+static fg_status create_box(fg__spread *spread, fg_context *context, const fg__mesh *mesh,
+                            const fg__tensor_recipe *recipe,
+                            const fg__spread_description *description, int b, bool masked)
+{
+  const fg__box *place = &fg__own_boxes(&spread->partition, &(int){0})[b];
+  fg__cells_of_box cells;
+  fg_status status = fg__cells_for_box(&cells, context, recipe, place,
+                                       description->halvings, spread->partition.cells);
+  if (status)
+    return status;
+  fg__level_description level = {.dimension = mesh->dimension,
+                                 .gamma = description->gamma,
+                                 .finest = description->finest,
+                                 .members = 1,
+                                 .masked = masked,
+                                 .box = place};
+  for (int k = 0; k < 3; ++k) {
+    level.cells[k] = spread->partition.cells[k];
+    level.periodic[k] = mesh->periodic[k];
+    level.spacing[k] =
+        mesh->spacing[k] * (k < mesh->dimension ? 1 << description->halvings : 1);
+  }
+  return fg__level_create(&spread->box[b], context, &level, &cells);
+}
+
+/* Relative masses beyond a box come from their owners. */
+static void exchange_masses(const fg__spread *spread)
+{
+  float *const *arrays[2];
+  for (int b = 0; b < spread->count; ++b) {
+    spread->pointer[b] = spread->box[b].mass;
+    spread->pointer[spread->count + b] = spread->box[b].mass_inverse;
+  }
+  arrays[0] = spread->pointer;
+  arrays[1] = spread->pointer + spread->count;
+  fg__exchange_fill(spread->exchange, 2, arrays, FG__ALL_COLOURS);
+}
+
+fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh *mesh,
+                            const fg__tensor_recipe *recipe, fg__partition *partition,
+                            const fg__spread_description *description)
+{
+  *out = (fg__spread){.partition = *partition};
+  *partition = (fg__partition){0};
+  fg__own_boxes(&out->partition, &out->count);
+  size_t count = (size_t)out->count;
+  out->box = fg__allocate(count, sizeof *out->box);
+  out->offset = fg__allocate(count, sizeof *out->offset);
+  fg_status status = FG_STATUS_OK;
+  if (!out->box || !out->offset)
+    status = fg__fail_memory(context, "a multigrid level", count * sizeof *out->box);
+  for (int b = 0; b < out->count && !status; ++b) {
+    status = create_box(out, context, mesh, recipe, description, b, recipe->masked);
+    out->offset[b] = (ptrdiff_t)out->size + out->box[b].layout.first;
+    out->size += out->box[b].layout.array_size + FG__LANES;
+  }
+  if (!status)
+    status = take_arrays(out, context, description->finest);
+  status = fg__ranks_agree(mesh->ranks, context, status);
+  if (!status)
+    status =
+        fg__exchange_create(&out->exchange, context, &out->partition, FG__MOST_EXCHANGED);
+  if (!status && recipe->masked)
+    exchange_masses(out);
+  return status;
+}
+
+void fg__spread_clear(fg__spread *spread)
+{
+  for (int b = 0; b < spread->count && spread->box; ++b)
+    fg__level_clear(&spread->box[b]);
+  fg__exchange_destroy(spread->exchange);
+  fg__partition_clear(&spread->partition);
+  free(spread->box);
+  free(spread->offset);
+  free(spread->pointer);
+  free(spread->memory);
+  *spread = (fg__spread){0};
+}
+
+void fg__spread_pointers(const fg__spread *spread, int count, float *const array[],
+                         float *const *out[])
+{
+  for (int a = 0; a < count; ++a) {
+    float **to = spread->pointer + a * spread->count;
+    for (int b = 0; b < spread->count; ++b)
+      to[b] = array[a] + spread->offset[b];
+    out[a] = to;
+  }
+}
+
+void fg__spread_exchange(const fg__spread *spread, int count, float *const array[],
+                         unsigned colours)
+{
+  float *const *places[FG__MOST_EXCHANGED];
+  fg__spread_pointers(spread, count, array, places);
+  fg__exchange_fill(spread->exchange, count, places, colours);
+}
+
+void fg__spread_smooth(const fg__spread *spread, const fg__kernel *kernel, float tau,
+                       bool linear)
+{
+  float *const both[] = {spread->u, spread->w};
+  for (int colour = 0; colour < 1 << kernel->dimension; ++colour) {
+    for (int b = 0; b < spread->count; ++b)
+      kernel->smooth_one_colour(&spread->box[b], tau, linear, colour);
+    fg__spread_exchange(spread, 2, both, 1U << colour);
+  }
+}
+
+void fg__spread_descend(const fg__spread *fine, const fg__spread *coarse,
+                        const fg__kernel *kernel, float tau, bool linear)
+{
+  fg__spread_smooth(fine, kernel, tau, linear);
+  for (int b = 0; b < fine->count; ++b) {
+    float *out[FG__RESIDUALS];
+    for (int n = 0; n < FG__RESIDUALS; ++n)
+      out[n] = fine->residual[n] + fine->offset[b];
+    kernel->find_residuals(&fine->box[b], tau, linear, out);
+  }
+  fg__spread_exchange(fine, FG__RESIDUALS, fine->residual, FG__ALL_COLOURS);
+  for (int b = 0; b < fine->count; ++b) {
+    const fg__level *to = &coarse->box[b];
+    const float *from[FG__RESIDUALS];
+    for (int n = 0; n < FG__RESIDUALS; ++n)
+      from[n] = fine->residual[n] + fine->offset[b];
+    float *out[] = {to->p, to->q, to->curvature};
+    kernel->restrict_arrays(&fine->box[b], FG__RESIDUALS, from, to, out);
+  }
+  memset(coarse->u, 0, coarse->size * sizeof *coarse->u);
+  memset(coarse->w, 0, coarse->size * sizeof *coarse->w);
+}
+
+void fg__spread_prolong(const fg__spread *coarse, const float *from,
+                        const fg__spread *fine, const float *base, float *to,
+                        const fg__kernel *kernel)
+{
+  fg__share alone = fg__alone();
+  for (int b = 0; b < fine->count; ++b)
+    kernel->prolong_array(&coarse->box[b], from + coarse->offset[b], &fine->box[b],
+                          base + fine->offset[b], to + fine->offset[b], &alone);
+  fg__spread_exchange(fine, 1, &to, FG__ALL_COLOURS);
+}
+
+void fg__spread_ascend(const fg__spread *coarse, const fg__spread *fine,
+                       const fg__kernel *kernel, float tau, bool linear)
+{
+  fg__spread_prolong(coarse, coarse->u, fine, fine->u, fine->u, kernel);
+  fg__spread_prolong(coarse, coarse->w, fine, fine->w, fine->w, kernel);
+  fg__spread_smooth(fine, kernel, tau, linear);
+}
+
+void fg__spread_restrict_defect(const fg__spread *fine, const float *w,
+                                const fg__spread *coarse, float *out, float tau,
+                                const fg__kernel *kernel)
+{
+  float *defect = fine->residual[0];
+  for (int b = 0; b < fine->count; ++b)
+    kernel->find_defect(&fine->box[b], w + fine->offset[b], tau,
+                        defect + fine->offset[b]);
+  fg__spread_exchange(fine, 1, &defect, FG__ALL_COLOURS);
+  for (int b = 0; b < fine->count; ++b) {
+    const float *from[] = {defect + fine->offset[b]};
+    float *to[] = {out + coarse->offset[b]};
+    kernel->restrict_arrays(&fine->box[b], 1, from, &coarse->box[b], to);
+  }
+  fg__spread_exchange(coarse, 1, &out, FG__ALL_COLOURS);
+}

@@ -1,0 +1,73 @@
+/* A level that several ranks or boxes share: the arrays of this rank's boxes, one behind
+ * the other, and the exchange of their ghosts. */
+#ifndef FG__SPREAD_H
+#define FG__SPREAD_H
+
+#include "evolve/kernel.h"
+#include "mesh/exchange.h"
+#include "mesh/mesh.h"
+
+enum { FG__RESIDUALS = 3, FG__MOST_EXCHANGED = 3 };
+
+typedef struct fg__spread {
+  fg__partition partition;
+  fg__exchange *exchange;
+  int count;         /* boxes of this rank */
+  fg__level *box;    /* [count] */
+  ptrdiff_t *offset; /* [count] from an array's start to the box's node (0, 0, 0) */
+  size_t size;       /* floats of an array: of all boxes, ghosts and pads included */
+  float *u, *w, *p, *q, *curvature; /* as in level.h, from their start */
+  float *residual[FG__RESIDUALS];
+  float **pointer; /* [FG__MOST_EXCHANGED * count] */
+  void *memory;
+} fg__spread;
+
+typedef struct fg__spread_description {
+  int halvings; /* from the mesh's cells to this level's */
+  double gamma;
+  bool finest;
+} fg__spread_description;
+
+/* Makes a level of the mesh's grid, takes over its partition, and computes stencils from
+ * the tensor that `recipe` gives for each box. Collective. MEMORY, and what the recipe
+ * meets. */
+fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh *mesh,
+                            const fg__tensor_recipe *recipe, fg__partition *partition,
+                            const fg__spread_description *description);
+void fg__spread_clear(fg__spread *spread);
+
+/* Makes boxes take their u (or w, p) from another array. */
+void fg__spread_use(fg__spread *spread, float *u, float *w, float *p);
+
+/* Fills the ghosts of the given colours of up to FG__MOST_EXCHANGED arrays. */
+void fg__spread_exchange(const fg__spread *spread, int count, float *const array[],
+                         unsigned colours);
+
+/* The boxes' places in up to FG__MOST_EXCHANGED arrays, as exchange.h and gather.h take
+ * them; valid until the next call. */
+void fg__spread_pointers(const fg__spread *spread, int count, float *const array[],
+                         float *const *out[]);
+
+/* A sweep over all boxes, with its exchanges. */
+void fg__spread_smooth(const fg__spread *spread, const fg__kernel *kernel, float tau,
+                       bool linear);
+
+/* A sweep; then the residuals restricted to the coarse level, whose u and w become 0. */
+void fg__spread_descend(const fg__spread *fine, const fg__spread *coarse,
+                        const fg__kernel *kernel, float tau, bool linear);
+
+/* The coarse level's correction; then a sweep. */
+void fg__spread_ascend(const fg__spread *coarse, const fg__spread *fine,
+                       const fg__kernel *kernel, float tau, bool linear);
+
+/* to := base + the interpolation of a coarse array, ghosts exchanged. */
+void fg__spread_prolong(const fg__spread *coarse, const float *from,
+                        const fg__spread *fine, const float *base, float *to,
+                        const fg__kernel *kernel);
+
+/* out := restriction of p - u - tau L w, a coarse array with ghosts. */
+void fg__spread_restrict_defect(const fg__spread *fine, const float *w,
+                                const fg__spread *coarse, float *out, float tau,
+                                const fg__kernel *kernel);
+
+#endif

@@ -1,0 +1,250 @@
+#include "evolve/spread_clusters.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* Floats of a box with its ring. */
+static size_t ring_size(const fg__level *box)
+{
+  const int *nodes = box->layout.nodes;
+  size_t size = (size_t)(nodes[0] + 2) * (size_t)(nodes[1] + 2);
+  return box->layout.dimension == 3 ? size * (size_t)(nodes[2] + 2) : size;
+}
+
+static void describe(fg__component_box *out, const fg__spread *spread, int b)
+{
+  const fg__box *place = &fg__own_boxes(&spread->partition, &(int){0})[b];
+  const fg__cells_of_box *cells = &spread->box[b].tensor;
+  *out = (fg__component_box){
+      .row = place->nodes[0] + 2, .cell_row = cells->row, .cell_plane = cells->plane};
+  out->plane = out->row * (place->nodes[1] + 2);
+  for (int k = 0; k < 3; ++k) {
+    out->grid_nodes[k] = spread->partition.nodes[k];
+    out->periodic[k] = spread->partition.periodic[k];
+    out->first[k] = place->first[k];
+    out->nodes[k] = place->nodes[k];
+  }
+}
+
+/* Where node (0, 0, 0) lies in a box with its ring. */
+static ptrdiff_t origin_of(const fg__component_box *grid, int dimension)
+{
+  return 1 + grid->row + (dimension == 3 ? grid->plane : 0);
+}
+
+static bool copy_mask(fg__spread_clusters *c, const fg__spread *spread, int b)
+{
+  const fg__cells_of_box *cells = &spread->box[b].tensor;
+  if (!spread->box[b].mass)
+    return true;
+  bool solid = cells->dimension == 3;
+  size_t size = (size_t)cells->plane * (size_t)(solid ? cells->nodes[2] + 1 : 1);
+  c->active[b] = fg__allocate(size, 1);
+  if (!c->active[b])
+    return false;
+  ptrdiff_t origin = 1 + cells->row + (solid ? cells->plane : 0);
+  for (size_t n = 0; n < size; ++n)
+    c->active[b][n] = cells->weight[(ptrdiff_t)n - origin] > 0.0F;
+  c->grid[b].active = c->active[b] + origin;
+  return true;
+}
+
+static fg_status prepare(fg__spread_clusters *c, fg_context *context,
+                         const fg__spread *spread)
+{
+  size_t count = (size_t)spread->count;
+  c->count = spread->count;
+  c->box = fg__allocate(count, sizeof *c->box);
+  c->u = fg__allocate(count, sizeof *c->u);
+  c->number = fg__allocate(count, sizeof *c->number);
+  c->active = fg__allocate(count, sizeof *c->active);
+  c->grid = fg__allocate(count, sizeof *c->grid);
+  bool whole = c->box && c->u && c->number && c->active && c->grid;
+  for (int b = 0; b < c->count && whole; ++b) {
+    size_t size = ring_size(&spread->box[b]);
+    c->u[b] = fg__allocate(size, sizeof *c->u[b]);
+    c->number[b] = fg__allocate(size, sizeof *c->number[b]);
+    describe(&c->grid[b], spread, b);
+    whole = c->u[b] && c->number[b] && copy_mask(c, spread, b);
+    if (whole)
+      c->grid[b].u = c->u[b] + origin_of(&c->grid[b], spread->box[b].layout.dimension);
+  }
+  return whole ? FG_STATUS_OK : fg__fail_memory(context, "the clusters", count);
+}
+
+/* A box's array, 4 bytes a node, from or to one with a ring. */
+static void copy_ring(const fg__level *box, void *in_layout, void *in_ring, bool to_ring)
+{
+  const int *nodes = box->layout.nodes;
+  int solid = box->layout.dimension == 3;
+  size_t n = 0;
+  for (int k = -solid; k < nodes[2] + solid; ++k)
+    for (int j = -1; j <= nodes[1]; ++j)
+      for (int i = -1; i <= nodes[0]; ++i, ++n) {
+        float *a = (float *)in_layout + fg__node_at(&box->layout, i, j, k);
+        float *b = (float *)in_ring + n;
+        if (to_ring)
+          memcpy(b, a, sizeof *b);
+        else
+          memcpy(a, b, sizeof *a);
+      }
+}
+
+/* Shares that ranks have of a table, brought together: each fills its own places, the
+ * others add nothing. */
+static uint64_t *table_of(fg_context *context, const fg__ranks *ranks, uint64_t own,
+                          uint64_t *before, uint64_t *total)
+{
+  uint64_t *counts = fg__allocate((size_t)ranks->count, sizeof *counts);
+  fg_status status = counts ? FG_STATUS_OK : fg__fail_memory(context, "the clusters", 8);
+  if (fg__ranks_agree(ranks, context, status)) {
+    free(counts);
+    return NULL;
+  }
+  counts[ranks->rank] = own;
+  fg__ranks_add(ranks, counts, ranks->count);
+  *before = *total = 0;
+  for (int r = 0; r < ranks->count; ++r) {
+    *before += r < ranks->rank ? counts[r] : 0;
+    *total += counts[r];
+  }
+  return counts;
+}
+
+static fg_status join(fg__spread_clusters *c, fg_context *context,
+                      const fg__spread *spread, const uint64_t *pieces,
+                      uint64_t piece_count, uint64_t before_pairs, uint64_t pair_count,
+                      double debris_area)
+{
+  const fg__ranks *ranks = spread->partition.ranks;
+  uint64_t *words = fg__allocate(pair_count, sizeof *words);
+  fg__component_piece *piece = fg__allocate(piece_count, sizeof *piece);
+  fg__component_pair *pair = fg__allocate(pair_count, sizeof *pair);
+  fg_status status = FG_STATUS_OK;
+  if (!words || !piece || !pair)
+    status = fg__fail_memory(context, "the clusters", pair_count * sizeof *words);
+  status = fg__ranks_agree(ranks, context, status);
+  if (!status) {
+    uint64_t at = before_pairs;
+    for (int b = 0; b < c->count; ++b)
+      for (size_t n = 0; n < c->box[b].pair_count; ++n)
+        words[at++] = (uint64_t)c->box[b].pair[n].low << 32 |
+                      (uint64_t)(uint32_t)c->box[b].pair[n].high;
+    fg__ranks_add(ranks, words, (int)pair_count);
+    for (uint64_t n = 0; n < pair_count; ++n)
+      pair[n] = (fg__component_pair){(int)(words[n] >> 32), (int)(uint32_t)words[n]};
+    for (uint64_t n = 0; n < piece_count; ++n)
+      piece[n] =
+          (fg__component_piece){(int64_t)pieces[2 * n], (int64_t)pieces[2 * n + 1]};
+    status = fg__components_merge(&c->whole, context, piece, (int)piece_count, pair,
+                                  pair_count, debris_area);
+    status = fg__ranks_agree(ranks, context, status);
+  }
+  free(words);
+  free(piece);
+  free(pair);
+  return status;
+}
+
+/* Steps 2 to 5 of components.h. */
+static fg_status number_and_join(fg__spread_clusters *c, fg_context *context,
+                                 const fg__spread *spread, float *scratch,
+                                 double debris_area)
+{
+  const fg__ranks *ranks = spread->partition.ranks;
+  uint64_t own = 0, before, total, before_pairs, pair_count, *pieces = NULL;
+  for (int b = 0; b < c->count; ++b)
+    own += (uint64_t)c->box[b].piece_count;
+  uint64_t *counts = table_of(context, ranks, own, &before, &total);
+  if (!counts)
+    return FG_STATUS_MEMORY;
+  free(counts);
+  uint64_t at = before;
+  for (int b = 0; b < c->count; ++b) {
+    ptrdiff_t origin = origin_of(&c->grid[b], spread->box[b].layout.dimension);
+    fg__components_number(&c->box[b], &c->grid[b], (int)at, false, c->number[b] + origin);
+    copy_ring(&spread->box[b], scratch + spread->offset[b], c->number[b], false);
+    at += (uint64_t)c->box[b].piece_count;
+  }
+  fg__spread_exchange(spread, 1, &scratch, FG__ALL_COLOURS);
+  fg_status status = FG_STATUS_OK;
+  uint64_t pairs = 0;
+  for (int b = 0; b < c->count && !status; ++b) {
+    ptrdiff_t origin = origin_of(&c->grid[b], spread->box[b].layout.dimension);
+    copy_ring(&spread->box[b], scratch + spread->offset[b], c->number[b], true);
+    status =
+        fg__components_pairs(&c->box[b], context, &c->grid[b], c->number[b] + origin);
+    pairs += c->box[b].pair_count;
+  }
+  pieces = fg__allocate(2 * total, sizeof *pieces);
+  if (!status && !pieces)
+    status = fg__fail_memory(context, "the clusters", 2 * total * sizeof *pieces);
+  status = fg__ranks_agree(ranks, context, status);
+  if (!status) {
+    counts = table_of(context, ranks, pairs, &before_pairs, &pair_count);
+    status = counts ? FG_STATUS_OK : FG_STATUS_MEMORY;
+    free(counts);
+  }
+  if (!status) {
+    at = 2 * before;
+    for (int b = 0; b < c->count; ++b)
+      for (int n = 0; n < c->box[b].piece_count; ++n) {
+        pieces[at++] = (uint64_t)c->box[b].piece[n].first;
+        pieces[at++] = (uint64_t)c->box[b].piece[n].size;
+      }
+    fg__ranks_add(ranks, pieces, (int)(2 * total));
+    status =
+        join(c, context, spread, pieces, total, before_pairs, pair_count, debris_area);
+  }
+  free(pieces);
+  return status;
+}
+
+fg_status fg__spread_clusters_find(fg__spread_clusters *clusters, fg_context *context,
+                                   const fg__spread *spread, const float *u,
+                                   float *scratch, double debris_area, bool counting)
+{
+  fg__spread_clusters *c = clusters;
+  const fg__ranks *ranks = spread->partition.ranks;
+  fg_status status = c->grid ? FG_STATUS_OK : prepare(c, context, spread);
+  double covered = 0.0;
+  for (int b = 0; b < c->count && !status; ++b) {
+    copy_ring(&spread->box[b], (void *)(uintptr_t)(u + spread->offset[b]), c->u[b], true);
+    status = counting ? fg__components_cut(&c->box[b], context, &c->grid[b])
+                      : fg__components_cover(&c->box[b], context, &c->grid[b]);
+    covered += c->box[b].covered;
+  }
+  status = fg__ranks_agree(ranks, context, status);
+  if (status)
+    return status;
+  /* multiples of 1/8 */
+  uint64_t eighths = (uint64_t)(8.0 * covered);
+  fg__ranks_add(ranks, &eighths, 1);
+  c->covered = (double)eighths / 8.0;
+  return counting ? number_and_join(c, context, spread, scratch, debris_area)
+                  : FG_STATUS_OK;
+}
+
+void fg__spread_clusters_clear(fg__spread_clusters *clusters)
+{
+  fg__spread_clusters *c = clusters;
+  for (int b = 0; b < c->count; ++b) {
+    if (c->box)
+      fg__components_clear(&c->box[b]);
+    if (c->u)
+      free(c->u[b]);
+    if (c->number)
+      free(c->number[b]);
+    if (c->active)
+      free(c->active[b]);
+  }
+  fg__components_clear(&c->whole);
+  free(c->box);
+  free(c->u);
+  free(c->number);
+  free(c->active);
+  free(c->grid);
+  *c = (fg__spread_clusters){0};
+}

@@ -1,0 +1,28 @@
+/* Clusters of a density that several ranks or boxes share: components.h on every box,
+ * then joined over their borders, alike on all ranks. */
+#ifndef FG__SPREAD_CLUSTERS_H
+#define FG__SPREAD_CLUSTERS_H
+
+#include "evolve/components.h"
+#include "evolve/spread.h"
+
+/* Working memory; zero it before the first use. */
+typedef struct fg__spread_clusters {
+  int count;               /* boxes */
+  fg__components *box;     /* [count] */
+  float **u;               /* [count] each with its ring, x fastest */
+  int **number;            /* [count] like u */
+  unsigned char **active;  /* [count] cells, those one beyond included; NULL: all */
+  fg__component_box *grid; /* [count] */
+  fg__components whole;    /* the result on every rank: count, debris, area */
+  double covered;          /* cells, of all ranks */
+} fg__spread_clusters;
+
+/* Finds the share covered and, when `counting`, the clusters of u, an array of the level
+ * with ghosts; `scratch` is an array of it. Collective. MEMORY. */
+fg_status fg__spread_clusters_find(fg__spread_clusters *clusters, fg_context *context,
+                                   const fg__spread *spread, const float *u,
+                                   float *scratch, double debris_area, bool counting);
+void fg__spread_clusters_clear(fg__spread_clusters *clusters);
+
+#endif

@@ -1,0 +1,232 @@
+/* Steps taken by several ranks together are those of one rank, to the bit. */
+#include "mesh/together_test.h"
+
+#include <string.h>
+
+#include "evolve/noise.h"
+#include "evolve/spread_clusters.h"
+#include "evolve/stepper.h"
+
+enum { STEPS = 12, CYCLES = 2 };
+
+typedef struct subject {
+  const char *field;
+  int dimension, nodes;
+} subject;
+
+/* What is compared, of the whole grid on every rank. */
+typedef struct outcome {
+  size_t nodes;
+  float *u;
+  double energy[STEPS], tau[STEPS], mass[STEPS];
+  int clusters;
+  double covered;
+} outcome;
+
+typedef struct run {
+  fg_field *field;
+  fg__mesh mesh;
+  fg__tensor_recipe recipe;
+  fg__stepper stepper;
+  double gamma;
+} run;
+
+static double volume_of(const fg__mesh *mesh)
+{
+  double volume = 1.0;
+  for (int k = 0; k < mesh->dimension; ++k)
+    volume *= mesh->spacing[k];
+  return volume;
+}
+
+static void describe(run *r, const subject *s, const fg__ranks *ranks)
+{
+  expect(fg_field_create_analytic(&r->field, us.context, s->field, 33) == FG_STATUS_OK);
+  fg__mesh_description description = {
+      .dimension = s->dimension, .nodes = s->nodes, .ranks = ranks};
+  const fg_field_arrays *arrays = fg_field_contents(r->field);
+  for (int k = 0; k < s->dimension; ++k) {
+    description.side[k] = 1.0;
+    description.periodic[k] = arrays->period[k] > 0.0;
+  }
+  expect(fg__mesh_create(&r->mesh, us.context, &description) == FG_STATUS_OK);
+  double h = r->mesh.spacing[0];
+  r->gamma = 1.21 * h * h / 0.15;
+  r->recipe = (fg__tensor_recipe){.field = r->field,
+                                  .energy = FG_ENERGY_FLOW,
+                                  .anisotropy = 0.15,
+                                  .width = 2.0 * h,
+                                  .dimension = s->dimension,
+                                  .cells = {1, 1, 1}};
+  for (int k = 0; k < s->dimension; ++k) {
+    r->recipe.cells[k] = r->mesh.cells[k];
+    r->recipe.periodic[k] = r->mesh.periodic[k];
+    r->recipe.spacing[k] = r->mesh.spacing[k];
+  }
+}
+
+static void fill(run *r, fg__multigrid *multigrid)
+{
+  fg__noise noise = fg__noise_of(r->mesh.dimension, r->mesh.cells, r->mesh.spacing,
+                                 r->mesh.periodic, -0.4, r->mesh.spacing[0], 3);
+  int count;
+  const ptrdiff_t *offset;
+  const fg__level *box = fg__multigrid_boxes(multigrid, &count, &offset);
+  const fg__box *place = fg__own_boxes(&r->mesh.level[0], &(int){0});
+  float *u = fg__multigrid_u(multigrid);
+  for (int b = 0; b < count; ++b) {
+    const fg__layout *at = &box[b].layout;
+    float *row = allocate_or_end((size_t)at->nodes[0], sizeof *row);
+    for (int k = 0; k < at->nodes[2]; ++k)
+      for (int j = 0; j < at->nodes[1]; ++j) {
+        fg__noise_row(&noise, place[b].first[1] + j, place[b].first[2] + k,
+                      place[b].first[0], at->nodes[0], row);
+        for (int i = 0; i < at->nodes[0]; ++i)
+          u[offset[b] + fg__node_at(at, i, j, k)] = row[i];
+      }
+    free(row);
+  }
+  if (multigrid->spread_count > 0)
+    fg__spread_exchange(&multigrid->spread[0], 1, &u, FG__ALL_COLOURS);
+  else
+    fg__fill_ghosts(&multigrid->level[0], u);
+}
+
+/* One box: everything by the plain engine. */
+static void create_whole(run *r, fg__multigrid *multigrid)
+{
+  size_t cells = 1;
+  fg__cells all = {.dimension = r->mesh.dimension};
+  for (int k = 0; k < r->mesh.dimension; ++k) {
+    cells *= (size_t)r->mesh.cells[k];
+    all.count[k] = r->mesh.cells[k];
+    all.spacing[k] = r->mesh.spacing[k];
+  }
+  fg__tensor t = {.active = allocate_or_end(cells, 1)};
+  float **components[] = {&t.xx, &t.xy, &t.yy, &t.zz, &t.xz, &t.yz};
+  for (int n = 0; n < (r->mesh.dimension == 3 ? 6 : 3); ++n)
+    *components[n] = allocate_or_end(cells, sizeof(float));
+  expect(fg__tensor_fill(&t, us.context, r->field, FG_ENERGY_FLOW, 0.15, &all) ==
+         FG_STATUS_OK);
+  expect(fg__tensor_smooth(&t, us.context, 0.15, &all, r->mesh.periodic,
+                           r->recipe.width) == FG_STATUS_OK);
+  expect(fg__multigrid_create(multigrid, us.context, &r->mesh, &r->mesh.tile[0], &t,
+                              r->gamma, 1) == FG_STATUS_OK);
+  for (int n = 0; n < 6; ++n)
+    free(*components[n]);
+  free(t.active);
+}
+
+static void gather(const run *r, outcome *out)
+{
+  const fg__multigrid *m = &r->stepper.multigrid;
+  float *plain = allocate_or_end(out->nodes, sizeof *plain);
+  out->u = plain;
+  if (m->spread_count == 0) {
+    fg__level_export(&m->level[0], r->stepper.current, plain);
+    return;
+  }
+  fg__layout layout = fg__layout_of(r->mesh.dimension, r->mesh.level[0].nodes);
+  float *whole = allocate_or_end(layout.array_size, sizeof *whole);
+  fg__gather *plan;
+  expect(fg__gather_create(&plan, us.context, &m->spread[0].partition, 1) ==
+         FG_STATUS_OK);
+  float *const *boxes[1];
+  float *const from = r->stepper.current, *const to = whole + layout.first;
+  fg__spread_pointers(&m->spread[0], 1, &from, boxes);
+  fg__gather_fill(plan, 1, boxes, &to);
+  for (int k = 0; k < layout.nodes[2]; ++k)
+    for (int j = 0; j < layout.nodes[1]; ++j)
+      for (int i = 0; i < layout.nodes[0]; ++i)
+        *plain++ = to[fg__node_at(&layout, i, j, k)];
+  fg__gather_destroy(plan);
+  free(whole);
+}
+
+static void count(const run *r, outcome *out)
+{
+  const fg__multigrid *m = &r->stepper.multigrid;
+  if (m->spread_count > 0) {
+    fg__spread_clusters c = {0};
+    expect(fg__spread_clusters_find(&c, us.context, &m->spread[0], r->stepper.current,
+                                    m->spread[0].residual[0], 3.0, true) == FG_STATUS_OK);
+    out->clusters = c.whole.count;
+    out->covered = c.covered;
+    fg__spread_clusters_clear(&c);
+    return;
+  }
+  fg__components c = {0};
+  fg__component_grid grid = {.u = out->u, .debris_area = 3.0};
+  for (int k = 0; k < 3; ++k) {
+    grid.nodes[k] = r->mesh.level[0].nodes[k];
+    grid.periodic[k] = r->mesh.periodic[k];
+  }
+  expect(fg__components_count(&c, us.context, &grid) == FG_STATUS_OK);
+  out->clusters = c.count;
+  out->covered = c.covered;
+  fg__components_clear(&c);
+}
+
+static outcome outcome_of(const subject *s, const fg__ranks *ranks)
+{
+  run r;
+  outcome out = {.nodes = 1};
+  fg__multigrid multigrid;
+  describe(&r, s, ranks);
+  for (int k = 0; k < 3; ++k)
+    out.nodes *= (size_t)r.mesh.level[0].nodes[k];
+  if (r.mesh.level[0].count == 1)
+    create_whole(&r, &multigrid);
+  else
+    expect(fg__multigrid_create_spread(&multigrid, us.context, &r.mesh, &r.recipe,
+                                       r.gamma) == FG_STATUS_OK);
+  fill(&r, &multigrid);
+  double h = r.mesh.spacing[0];
+  expect(fg__stepper_create(&r.stepper, us.context, &multigrid, volume_of(&r.mesh),
+                            0.05 * h * h, 1e3 * h * h, 0.05, CYCLES) == FG_STATUS_OK);
+  for (int n = 0; n < STEPS; ++n) {
+    expect(fg__stepper_advance(&r.stepper, us.context) == FG_STATUS_OK);
+    out.energy[n] = r.stepper.energy;
+    out.tau[n] = r.stepper.last_tau;
+    out.mass[n] = r.stepper.mass;
+  }
+  gather(&r, &out);
+  count(&r, &out);
+  fg__stepper_clear(&r.stepper);
+  fg__mesh_clear(&r.mesh);
+  fg_field_destroy(r.field);
+  return out;
+}
+
+static const subject SUBJECTS[] = {
+    {"vortex3", 2, 65}, {"benard", 2, 129}, {"vortex3d", 3, 33}, {"abc", 3, 33}};
+
+static void many_ranks_do_what_one_does(void **state)
+{
+  (void)state;
+  const fg__ranks *alone;
+  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
+  for (size_t n = 0; n < sizeof SUBJECTS / sizeof *SUBJECTS; ++n) {
+    outcome one = outcome_of(&SUBJECTS[n], alone);
+    outcome all = outcome_of(&SUBJECTS[n], us.ranks);
+    expect(memcmp(one.energy, all.energy, sizeof one.energy) == 0);
+    expect(memcmp(one.tau, all.tau, sizeof one.tau) == 0);
+    expect(memcmp(one.mass, all.mass, sizeof one.mass) == 0);
+    expect(memcmp(one.u, all.u, one.nodes * sizeof *one.u) == 0);
+    expect(one.clusters > 0 && one.clusters == all.clusters);
+    expect(one.covered == all.covered);
+    expect(one.energy[STEPS - 1] < one.energy[0]);
+    free(one.u);
+    free(all.u);
+  }
+  end_together();
+}
+
+int main(void)
+{
+  start_together();
+  const struct CMUnitTest tests[] = {
+      TOGETHER(many_ranks_do_what_one_does),
+  };
+  return cmocka_run_group_tests_name("evolve/spread", tests, NULL, NULL);
+}

@@ -1,0 +1,153 @@
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "evolve/evolution.h"
+
+/* Nucleation is over, and clusters are counted, once this share of the wanted area is
+ * covered; the noise covers it too, but has smoothed away after one growth time of linear
+ * theory. */
+static const double nucleated = 0.8;
+
+static const unsigned char *mask_of(const fg_evolution *e)
+{
+  return e->active_cells < (long)e->cells ? e->tensor.active : NULL;
+}
+
+static int nodes_along(const fg_evolution *e, int axis)
+{
+  return e->mesh.level[0].nodes[axis];
+}
+
+/* The whole density in one plain array, which is made when it is first asked for. */
+static fg_status export_whole(fg_evolution *e)
+{
+  if (!e->plain)
+    e->plain = fg__allocate(e->nodes, sizeof *e->plain);
+  if (!e->plain)
+    return fg__fail_memory(e->context, "the density", e->nodes * sizeof *e->plain);
+  fg__level_export(&e->stepper.multigrid.level[0], e->stepper.current, e->plain);
+  return FG_STATUS_OK;
+}
+
+static fg_status count_whole(fg_evolution *e, bool counting, double *covered)
+{
+  fg_status status = export_whole(e);
+  fg__component_grid grid = {
+      .u = e->plain, .active = mask_of(e), .debris_area = e->debris_area};
+  for (int k = 0; k < 3; ++k) {
+    grid.nodes[k] = nodes_along(e, k);
+    grid.periodic[k] = e->mesh.periodic[k];
+  }
+  if (!status && counting) {
+    status = fg__components_count(&e->components, e->context, &grid);
+  } else if (!status) {
+    fg__component_box box = fg__component_box_of(&grid);
+    status = fg__components_cover(&e->components, e->context, &box);
+  }
+  *covered = e->components.covered;
+  e->clusters = e->components.count;
+  return status;
+}
+
+static fg_status count_spread(fg_evolution *e, bool counting, double *covered)
+{
+  fg__spread_clusters *c = &e->spread_clusters;
+  const fg__spread *finest = &e->stepper.multigrid.spread[0];
+  fg_status status =
+      fg__spread_clusters_find(c, e->context, finest, e->stepper.current,
+                               finest->residual[0], e->debris_area, counting);
+  *covered = c->covered;
+  e->clusters = c->whole.count;
+  return status;
+}
+
+static fg_status count(fg_evolution *e, bool counting)
+{
+  double covered = 0.0;
+  fg_status status = e->spread ? count_spread(e, counting, &covered)
+                               : count_whole(e, counting, &covered);
+  e->area_fraction = covered / (double)e->active_cells;
+  return status;
+}
+
+fg_status fg__evolution_count(fg_evolution *evolution)
+{
+  fg_evolution *e = evolution;
+  fg_status status = count(e, e->counting);
+  if (status || e->counting)
+    return status;
+  e->clusters = 0;
+  bool smoothed = e->stepper.time * fg__evolution_growth_rate(e) >= 1.0;
+  bool covered_enough = e->area_fraction >= nucleated * e->options.coverage;
+  e->counting = smoothed && covered_enough;
+  return e->counting ? count(e, true) : FG_STATUS_OK;
+}
+
+/* All ranks' boxes in one plain array on every rank. */
+static fg_status gather_whole(const fg_evolution *e, float *plain)
+{
+  const fg__spread *finest = &e->stepper.multigrid.spread[0];
+  fg__layout layout = fg__layout_of(e->mesh.dimension, finest->partition.nodes);
+  float *whole = fg__allocate(layout.array_size, sizeof *whole);
+  fg_status status = FG_STATUS_OK;
+  if (!whole || !plain)
+    status = fg__fail_memory(e->context, "the density", e->nodes * sizeof *whole);
+  status = fg__ranks_agree(e->mesh.ranks, e->context, status);
+  fg__gather *gather = NULL;
+  if (!status)
+    status = fg__gather_create(&gather, e->context, &finest->partition, 1);
+  if (!status) {
+    float *const *boxes[1];
+    float *const from = e->stepper.current, *const to = whole + layout.first;
+    fg__spread_pointers(finest, 1, &from, boxes);
+    fg__gather_fill(gather, 1, boxes, &to);
+    for (int k = 0; k < layout.nodes[2]; ++k)
+      for (int j = 0; j < layout.nodes[1]; ++j)
+        for (int i = 0; i < layout.nodes[0]; ++i)
+          *plain++ = to[fg__node_at(&layout, i, j, k)];
+  }
+  fg__gather_destroy(gather);
+  free(whole);
+  return status;
+}
+
+static fg_status create_density(fg_density **out, const fg_evolution *e, const float *u)
+{
+  fg_density_arrays arrays = {.dimension = e->mesh.dimension,
+                              .u = u,
+                              .active = mask_of(e),
+                              .debris_area = e->debris_area *
+                                             fg__evolution_cell_volume(e) *
+                                             pow(e->mesh.length, e->mesh.dimension),
+                              .time = e->stepper.time,
+                              .energy = e->stepper.energy,
+                              .area_fraction = e->area_fraction,
+                              .clusters = e->clusters};
+  for (int k = 0; k < 3; ++k) {
+    arrays.nodes[k] = nodes_along(e, k);
+    arrays.origin[k] = e->mesh.origin[k];
+    arrays.spacing[k] = e->info.spacing[k];
+    arrays.periodic[k] = e->mesh.periodic[k];
+  }
+  return fg_density_create_from_arrays(out, e->context, &arrays);
+}
+
+fg_status fg_density_create(fg_density **out, const fg_evolution *evolution)
+{
+  const fg_evolution *e = evolution;
+  *out = NULL;
+  float *plain = fg__allocate(e->nodes, sizeof *plain);
+  fg_status status = FG_STATUS_OK;
+  if (e->spread) {
+    status = gather_whole(e, plain);
+  } else if (plain) {
+    fg__level_export(&e->stepper.multigrid.level[0], e->stepper.current, plain);
+  } else {
+    status = fg__fail_memory(e->context, "the density", e->nodes * sizeof *plain);
+  }
+  if (!status && e->mesh.ranks->rank == 0)
+    status = create_density(out, e, plain);
+  free(plain);
+  return fg__ranks_agree(e->mesh.ranks, e->context, status);
+}
