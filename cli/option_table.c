@@ -53,8 +53,9 @@ const option_entry option_table[] = {
     {"output", 'o', "FILE", COMMAND_SYNTH, OPTION_TEXT, AT(output), 0, 0, false, false,
      NULL, "file to write, .vti or .nc"},
 
-    {"vars", 0, "U,V", COMMAND_RUN, OPTION_TEXT, AT(vars), 0, 0, false, false, NULL,
-     "the two variables, or one vector variable [found by their standard or usual names; "
+    {"vars", 0, "U,V[,W]", COMMAND_RUN, OPTION_TEXT, AT(vars), 0, 0, false, false, NULL,
+     "the two or three variables, or one vector variable [found by their standard or "
+     "usual names; "
      "an ambiguous choice is an error that lists the choices]"},
     {"vars-from", 0, "FILE", COMMAND_RUN, OPTION_TEXT, AT(vars_from), 0, 0, false, false,
      NULL, "second file, which holds the other component"},

@@ -104,7 +104,7 @@ typedef enum fg_scale {
 } fg_scale;
 
 typedef struct fg_read_options {
-  const char *vars;      /* "U,V" or one vector variable; NULL: found */
+  const char *vars;      /* "U,V", "U,V,W" or one vector variable; NULL: found */
   const char *vars_from; /* second file with the other component(s) */
   int time;              /* index along time, from 0 */
   int level;             /* index along level, from 0 */

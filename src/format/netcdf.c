@@ -31,22 +31,36 @@ typedef struct candidates {
   size_t count;
 } candidates;
 
-/* Lists pairs as "u,v; u10,v10", as many as fit. */
-static void list_pairs(const candidates *all, const bool *chosen, char *out, size_t size)
+/* Writes "u,v", or "u,v,w" of a volume. */
+static int write_names(char *out, size_t size, const fg__nc_pair *pair, bool volume)
+{
+  return snprintf(out, size, "%s,%s%s%s", pair->component[0]->name,
+                  pair->component[1]->name, volume ? "," : "",
+                  volume ? pair->component[2]->name : "");
+}
+
+/* Lists pairs as "u,v; u10,v10", as many as fit: all, or those whose dimension is not 0.
+ */
+static void list_pairs(const candidates *all, const int *dimension, char *out,
+                       size_t size)
 {
   size_t n = 0;
   out[0] = '\0';
   for (size_t i = 0; i < all->count; ++i) {
-    if (chosen && !chosen[i])
+    if (dimension && dimension[i] == 0)
       continue;
-    const int written =
-        snprintf(out + n, size - n, "%s%s,%s", n > 0 ? "; " : "",
-                 all->pair[i].component[0]->name, all->pair[i].component[1]->name);
-    if (written < 0 || (size_t)written >= size - n) {
+    const char *between = n > 0 ? "; " : "";
+    if (n + strlen(between) >= size)
+      return;
+    strcpy(out + n, between);
+    const size_t start = n + strlen(between);
+    const int written = write_names(out + start, size - start, &all->pair[i],
+                                    dimension && dimension[i] == 3);
+    if (written < 0 || (size_t)written >= size - start) {
       out[n] = '\0';
       return;
     }
-    n += (size_t)written;
+    n = start + (size_t)written;
   }
 }
 
@@ -75,39 +89,58 @@ static fg_status fail_unknown_name(const fg__nc_file *file, const candidates *al
   return status;
 }
 
+static fg_status fail_names(const fg__nc_file *file, const char *vars)
+{
+  fg__fail(file->context, FG_STATUS_ARGUMENT,
+           "%s: '%s' are not the names of two or three components", file->paths[0], vars);
+  fg__hint(file->context, "name two variables: --vars U,V; or three: --vars U,V,W");
+  return FG_STATUS_ARGUMENT;
+}
+
+/* Parts "u,v" or "u,v,w"; returns how many, 0 for anything else. */
+static int split_names(char name[3][FG__NC_NAME], const char *vars)
+{
+  int count = 0;
+  while (count < 3) {
+    const size_t length = strcspn(vars, ",");
+    if (length == 0 || length >= FG__NC_NAME)
+      return 0;
+    memcpy(name[count], vars, length);
+    name[count++][length] = '\0';
+    if (!vars[length])
+      return count > 1 ? count : 0;
+    vars += length + 1;
+  }
+  return 0;
+}
+
 static fg_status choose_named(fg__nc_pair *out, const fg__nc_file *file,
                               const candidates *all, const char *vars)
 {
-  char name[2][FG__NC_NAME] = {"", ""};
-  const char *comma = strchr(vars, ',');
-  if (!comma || strchr(comma + 1, ',') || comma == vars || !comma[1]) {
-    fg_status status =
-        fg__fail(file->context, FG_STATUS_ARGUMENT,
-                 "%s: '%s' are not the names of two components", file->paths[0], vars);
-    fg__hint(file->context, "name two variables: --vars U,V");
-    return status;
-  }
-  snprintf(name[0], sizeof name[0], "%.*s",
-           (int)(comma - vars < FG__NC_NAME ? comma - vars : FG__NC_NAME - 1), vars);
-  snprintf(name[1], sizeof name[1], "%s", comma + 1);
-  *out = (fg__nc_pair){.found_by = "request"};
-  for (int k = 0; k < 2; ++k) {
-    out->component[k] = find_named(file, name[k], k == 1 ? file->root_count - 1 : 0);
+  char name[3][FG__NC_NAME];
+  const int count = split_names(name, vars);
+  if (count == 0)
+    return fail_names(file, vars);
+  *out = (fg__nc_pair){.found_by = "request", .volume = count == 3};
+  for (int k = 0; k < count; ++k) {
+    out->component[k] = find_named(file, name[k], k > 0 ? file->root_count - 1 : 0);
     if (!out->component[k])
       return fail_unknown_name(file, all, name[k]);
   }
-  if (out->component[0] == out->component[1])
-    return fg__fail(file->context, FG_STATUS_ARGUMENT, "%s: both components are '%s'",
-                    file->paths[0], name[0]);
+  for (int k = 0; k < count; ++k)
+    if (out->component[k] == out->component[(k + 1) % count])
+      return fg__fail(file->context, FG_STATUS_ARGUMENT, "%s: %s components are '%s'",
+                      file->paths[0], count == 2 ? "both" : "two", name[k]);
   return FG_STATUS_OK;
 }
 
 static fg_status fail_unusable(const fg__nc_file *file, const fg__nc_pair *pair,
                                const fg__nc_grid *grid)
 {
-  fg_status status =
-      fg__fail(file->context, FG_STATUS_UNSUPPORTED, "%s: %s,%s: %s", file->paths[0],
-               pair->component[0]->name, pair->component[1]->name, grid->unusable);
+  char names[3 * FG__NC_NAME];
+  write_names(names, sizeof names, pair, pair->volume);
+  fg_status status = fg__fail(file->context, FG_STATUS_UNSUPPORTED, "%s: %s: %s",
+                              file->paths[0], names, grid->unusable);
   if (grid->hint[0])
     fg__hint(file->context, "%s", grid->hint);
   return status;
@@ -127,7 +160,7 @@ static fg_status fail_no_vectors(const fg__nc_file *file)
 }
 
 static fg_status fail_ambiguous(const fg__nc_file *file, const candidates *all,
-                                const bool *usable, int count)
+                                const int *usable, int count)
 {
   char list[1024];
   list_pairs(all, usable, list, sizeof list);
@@ -146,7 +179,7 @@ static fg_status choose_best(fg__nc_pair *out, fg__nc_grid *grid, const fg__nc_f
 {
   if (all->count == 0)
     return fail_no_vectors(file);
-  bool *usable = fg__allocate(all->count, sizeof *usable);
+  int *usable = fg__allocate(all->count, sizeof *usable);
   if (!usable)
     return fg__fail_memory(file->context, "a choice", all->count * sizeof *usable);
   fg_status status = FG_STATUS_OK;
@@ -160,10 +193,10 @@ static fg_status choose_best(fg__nc_pair *out, fg__nc_grid *grid, const fg__nc_f
       break;
     fg__nc_grid found;
     status = fg__nc_grid_find(&found, file, &all->pair[i], scale);
-    usable[i] = status == FG_STATUS_OK && !found.unusable[0];
+    usable[i] = status == FG_STATUS_OK && !found.unusable[0] ? found.dimension : 0;
     if (i == 0)
       memcpy(&first_unusable, &found, sizeof found);
-    if (usable[i] && count++ == 0) {
+    if (usable[i] > 0 && count++ == 0) {
       *out = all->pair[i];
       *grid = found;
     } else {
@@ -222,49 +255,6 @@ static fg_status check_missing(const fg__nc_file *file, const fg__nc_variable *v
                   missing->not_a_number);
 }
 
-typedef struct samples {
-  float *velocity[2];
-  unsigned char *valid;
-} samples;
-
-static void free_samples(samples *s)
-{
-  free(s->velocity[0]);
-  free(s->velocity[1]);
-  free(s->valid);
-}
-
-static fg_status read_samples(samples *out, const fg__nc_file *file,
-                              const fg__nc_pair *pair, const fg__nc_grid *grid,
-                              const fg_read_options *options)
-{
-  fg_status status = FG_STATUS_OK;
-  const size_t time = (size_t)options->time;
-  const size_t level = (size_t)options->level;
-  for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k) {
-    fg__nc_missing missing;
-    out->velocity[k] = fg__allocate(grid->samples, sizeof *out->velocity[k]);
-    if (!out->velocity[k])
-      return fg__fail_memory(file->context, "the velocity",
-                             grid->samples * sizeof *out->velocity[k]);
-    status = fg__nc_values(out->velocity[k], &missing, file, pair->component[k], grid,
-                           time, level);
-    if (status == FG_STATUS_OK)
-      status = check_missing(file, pair->component[k], &missing, grid->samples);
-  }
-  if (status != FG_STATUS_OK || !options->mask)
-    return status;
-  const fg__nc_variable *mask = fg__nc_find(file, options->mask);
-  if (!mask)
-    return fg__fail(file->context, FG_STATUS_ARGUMENT,
-                    "%s: has no variable '%s' for the mask", file->paths[0],
-                    options->mask);
-  out->valid = fg__allocate(grid->samples, 1);
-  if (!out->valid)
-    return fg__fail_memory(file->context, "the mask", grid->samples);
-  return fg__nc_mask(out->valid, file, mask, grid, pair->component[0], time, level);
-}
-
 static fg_status make_field(fg_field **out, const fg__nc_file *file,
                             const fg__nc_pair *pair, const fg__nc_grid *grid,
                             const fg_read_options *options)
@@ -275,30 +265,32 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
   char time[FG__NC_TEXT] = "";
   char level[FG__NC_TEXT] = "";
   fg_status status = FG_STATUS_OK;
-  samples read = {0};
+  fg__nc_samples read = {0};
   if (grid->time >= 0)
     status = fg__nc_index_words(file, grid->time_variable, grid->time_name,
                                 (size_t)options->time, time, sizeof time);
-  if (grid->level >= 0 && status == FG_STATUS_OK)
+  if (grid->level >= 0 && grid->dimension == 2 && status == FG_STATUS_OK)
     status = fg__nc_index_words(file, grid->level_variable, grid->level_name,
                                 (size_t)options->level, level, sizeof level);
   if (status == FG_STATUS_OK)
-    status = read_samples(&read, file, pair, grid, options);
+    status = fg__nc_samples_read(&read, file, pair, grid, (size_t)options->time,
+                                 (size_t)options->level, options->mask);
+  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k)
+    status = check_missing(file, pair->component[k], &read.missing[k], grid->samples);
   if (status == FG_STATUS_OK) {
-    fg__nc_title(pair, title, sizeof title);
+    fg__nc_title(pair, grid->dimension, title, sizeof title);
     if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
       fg__nc_text(pair->component[1], "units", text, sizeof text);
     fg__nc_units(text, units, sizeof units);
-    fg_field_arrays arrays = {
-        .dimension = 2,
-        .size = {(int)grid->axis[0].size, (int)grid->axis[1].size, 1},
-        .valid = read.valid,
-        .scale = grid->scale,
-        .velocity_units = units,
-        .title = title,
-        .time = time[0] ? time : NULL,
-        .level = level[0] ? level : NULL};
-    for (int k = 0; k < 2; ++k) {
+    fg_field_arrays arrays = {.dimension = grid->dimension,
+                              .valid = read.valid,
+                              .scale = grid->scale,
+                              .velocity_units = units,
+                              .title = title,
+                              .time = time[0] ? time : NULL,
+                              .level = level[0] ? level : NULL};
+    for (int k = 0; k < grid->dimension; ++k) {
+      arrays.size[k] = (int)grid->axis[k].size;
       arrays.axis[k] = grid->axis[k].coordinate;
       arrays.period[k] = grid->axis[k].period;
       arrays.velocity[k] = read.velocity[k];
@@ -308,8 +300,22 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
     }
     status = fg_field_create(out, file->context, &arrays);
   }
-  free_samples(&read);
+  fg__nc_samples_clear(&read);
   return status;
+}
+
+static fg_status check_level(const fg__nc_file *file, const fg__nc_grid *grid, int level)
+{
+  if (grid->dimension == 2)
+    return check_index(file, "level", level, grid->level, grid->levels, grid->level_name);
+  if (level == 0)
+    return FG_STATUS_OK;
+  fg__fail(
+      file->context, FG_STATUS_ARGUMENT,
+      "%s: level %d asked for, but the field has three components and all %zu levels",
+      file->paths[0], level, grid->levels);
+  fg__hint(file->context, "name two components, --vars U,V, for the plane of one level");
+  return FG_STATUS_ARGUMENT;
 }
 
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
@@ -327,8 +333,7 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
     status =
         check_index(&file, "time", options->time, grid.time, grid.times, grid.time_name);
   if (status == FG_STATUS_OK)
-    status = check_index(&file, "level", options->level, grid.level, grid.levels,
-                         grid.level_name);
+    status = check_level(&file, &grid, options->level);
   if (status == FG_STATUS_OK)
     status = make_field(out, &file, &pair, &grid, options);
   fg__nc_grid_clear(&grid);
@@ -339,24 +344,18 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
 static fg_status count_missing(fg_inventory_vector *vector, const fg__nc_file *file,
                                const fg__nc_pair *pair, const fg__nc_grid *grid)
 {
-  samples read = {0};
-  fg_status status = FG_STATUS_OK;
-  for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k) {
-    fg__nc_missing missing;
-    read.velocity[k] = fg__allocate(grid->samples, sizeof *read.velocity[k]);
-    if (read.velocity[k])
-      status =
-          fg__nc_values(read.velocity[k], &missing, file, pair->component[k], grid, 0, 0);
-    else
-      status = fg__fail_memory(file->context, "the velocity",
-                               grid->samples * sizeof *read.velocity[k]);
-  }
+  fg__nc_samples read = {0};
+  fg_status status = fg__nc_samples_read(&read, file, pair, grid, 0, 0, NULL);
   size_t count = 0;
-  for (size_t i = 0; i < grid->samples && status == FG_STATUS_OK; ++i)
-    count += isnan(read.velocity[0][i]) || isnan(read.velocity[1][i]);
+  for (size_t i = 0; i < grid->samples && status == FG_STATUS_OK; ++i) {
+    bool missing = false;
+    for (int k = 0; k < grid->dimension; ++k)
+      missing = missing || isnan(read.velocity[k][i]);
+    count += missing;
+  }
   if (status == FG_STATUS_OK)
     vector->missing_share = (double)count / (double)grid->samples;
-  free_samples(&read);
+  fg__nc_samples_clear(&read);
   return status;
 }
 
@@ -371,17 +370,18 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__nc_file *file,
     fg__nc_text(pair->component[1], "units", text, sizeof text);
   fg__nc_units(text, units, sizeof units);
   fg_inventory_vector vector = {
-      .components = 2,
-      .name = {pair->component[0]->name, pair->component[1]->name, NULL},
+      .components = grid.dimension,
+      .name = {pair->component[0]->name, pair->component[1]->name,
+               grid.dimension == 3 ? pair->component[2]->name : NULL},
       .units = units,
       .found_by = pair->found_by,
-      .dimension = 2,
+      .dimension = grid.dimension,
       .size = {0, 0, 1},
       .times = (int)grid.times,
-      .levels = (int)grid.levels,
+      .levels = grid.dimension == 3 ? 1 : (int)grid.levels,
       .scale = grid.scale,
       .periodic = {grid.axis[0].period > 0.0}};
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < grid.dimension; ++k) {
     vector.size[k] = (int)grid.axis[k].size;
     if (grid.axis[k].coordinate) {
       vector.bounds[2 * k] = grid.axis[k].coordinate[0];

@@ -101,7 +101,8 @@ bool fg__nc_date(double value, const char *units, const char *calendar, char *ou
                  size_t size);
 
 typedef struct fg__nc_pair {
-  const fg__nc_variable *component[2];
+  const fg__nc_variable *component[3]; /* the third NULL when there is none */
+  bool volume;                         /* the third is asked for, not only found */
   const char *found_by;
   int rank;         /* the smallest is the best */
   bool is_velocity; /* not a stress, a flux, or something of unfit units */
@@ -109,6 +110,10 @@ typedef struct fg__nc_pair {
 
 /* Lists the pairs, best rank first, in the file's order in each. *out is for free(). */
 fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file);
+
+/* The variable that goes with a pair as the third component: same dimensions and units,
+ * and named like them; NULL for none. */
+const fg__nc_variable *fg__nc_third(const fg__nc_file *file, const fg__nc_pair *pair);
 
 typedef enum fg__nc_role {
   FG__NC_NO_ROLE = -1,
@@ -150,14 +155,14 @@ typedef struct fg__nc_axis {
 } fg__nc_axis;
 
 typedef struct fg__nc_grid {
-  int rank;
-  fg__nc_axis axis[2];  /* x, y */
+  int dimension;        /* 2: a plane at one level; 3 */
+  fg__nc_axis axis[3];  /* x, y; the levels as z in 3D */
   int time, level;      /* positions among the dimensions, or -1 */
   size_t times, levels; /* 1 when there is none */
   const fg__nc_variable *time_variable, *level_variable; /* or NULL */
   char time_name[NC_MAX_NAME + 1], level_name[NC_MAX_NAME + 1];
   fg_scale scale;
-  size_t samples;                 /* of the two axes together */
+  size_t samples;                 /* of the axes together */
   char unusable[2 * FG__NC_TEXT]; /* "" or why the pair cannot be read */
   char hint[FG__NC_TEXT];
 } fg__nc_grid;
@@ -180,6 +185,23 @@ fg_status fg__nc_axis_count(fg__nc_grid *grid, const fg__nc_file *file, int k);
 fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
                             const fg__nc_variable *variable, bool *found);
 
+/* netcdf_volume.c. Makes a grid found for the first two components one in 3D when there
+ * is a third, all levels are one axis in space, and space has one measure; when the third
+ * is asked for, what is in the way makes the pair unusable. */
+fg_status fg__nc_volume_find(fg__nc_grid *grid, const fg__nc_file *file,
+                             const fg__nc_pair *pair);
+
+/* Compares the components' dimensions; staggered grids (Arakawa's C grid) keep them at
+ * different places, which makes the pair unusable. */
+void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
+                         const fg__nc_variable *u, const fg__nc_variable *v);
+
+/* A variable that is no field of numbers makes the pair unusable, or one larger than the
+ * file can hold. */
+void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v);
+void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
+                          const fg__nc_variable *v);
+
 /* Finds the grid of a pair. What makes it unusable goes to `unusable`; only failures to
  * read or a lack of memory are statuses. */
 fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
@@ -191,7 +213,7 @@ typedef struct fg__nc_missing {
 } fg__nc_missing;
 
 /* Reads a component at one time and level into out, x fastest, both axes ascending; NaN
- * where a value is missing. */
+ * where a value is missing. missing is added to. */
 fg_status fg__nc_values(float *out, fg__nc_missing *missing, const fg__nc_file *file,
                         const fg__nc_variable *variable, const fg__nc_grid *grid,
                         size_t time, size_t level);
@@ -202,7 +224,22 @@ fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
                       const fg__nc_variable *variable, const fg__nc_grid *grid,
                       const fg__nc_variable *component, size_t time, size_t level);
 
-void fg__nc_title(const fg__nc_pair *pair, char *out, size_t size);
+/* A field's samples, as many as the grid has. */
+typedef struct fg__nc_samples {
+  float *velocity[3];
+  fg__nc_missing missing[3];
+  unsigned char *valid; /* NULL: all */
+} fg__nc_samples;
+
+/* Reads a pair at one time and, in 2D, level; mask may be NULL. To be cleared even after
+ * a failure. FILE_ACCESS, ARGUMENT (mask), MEMORY. */
+fg_status fg__nc_samples_read(fg__nc_samples *out, const fg__nc_file *file,
+                              const fg__nc_pair *pair, const fg__nc_grid *grid,
+                              size_t time, size_t level, const char *mask);
+void fg__nc_samples_clear(fg__nc_samples *samples);
+
+/* What the components are together; `components` of them. */
+void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t size);
 
 /* Describes an index along time or level; name is the dimension's. */
 fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,

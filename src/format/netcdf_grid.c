@@ -41,7 +41,7 @@ static void write_shape(char *out, size_t size, const fg__nc_file *file,
                           file->dimensions[v->dimension[k]].length);
 }
 
-static void check_variable(fg__nc_grid *grid, const fg__nc_variable *v)
+void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v)
 {
   if (v->type == NC_CHAR || v->type == NC_STRING)
     fg__nc_unusable(grid, "'%s' holds text, not numbers", v->name);
@@ -72,8 +72,7 @@ static bool same_coordinates(const fg__nc_file *file, const fg__nc_variable *a,
   return same;
 }
 
-/* Staggered grids (Arakawa's C grid) keep u and v at different places. */
-static void check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
+void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
                          const fg__nc_variable *u, const fg__nc_variable *v)
 {
   char of_u[FG__NC_TEXT / 2];
@@ -106,7 +105,7 @@ static void check_lengths(fg__nc_grid *grid, const fg__nc_file *file,
   }
 }
 
-static void check_storage(fg__nc_grid *grid, const fg__nc_file *file,
+void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
                           const fg__nc_variable *v)
 {
   size_t width = 1;
@@ -161,7 +160,7 @@ static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
   if (grid->samples > MOST_SAMPLES)
     fg__nc_unusable(grid, "%zu x %zu samples are more than the %zu that are handled",
                     grid->axis[0].size, grid->axis[1].size, MOST_SAMPLES);
-  check_storage(grid, file, v);
+  fg__nc_check_storage(grid, file, v);
   grid->time = position[FG__NC_TIME];
   grid->level = position[FG__NC_LEVEL];
   set_index_axis(file, v, grid->time, &grid->times, &grid->time_variable,
@@ -298,11 +297,12 @@ fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
 {
   const fg__nc_variable *u = pair->component[0];
   const fg__nc_variable *v = pair->component[1];
-  *grid = (fg__nc_grid){.time = -1, .level = -1, .times = 1, .levels = 1, .scale = scale};
-  check_variable(grid, u);
-  check_variable(grid, v);
+  *grid = (fg__nc_grid){
+      .dimension = 2, .time = -1, .level = -1, .times = 1, .levels = 1, .scale = scale};
+  fg__nc_check_variable(grid, u);
+  fg__nc_check_variable(grid, v);
   if (is_usable(grid))
-    check_shapes(grid, file, u, v);
+    fg__nc_check_shapes(grid, file, u, v);
   if (is_usable(grid))
     check_lengths(grid, file, u);
   if (is_usable(grid))
@@ -318,12 +318,13 @@ fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
   check_units(grid, pair, &velocity);
   if (is_usable(grid))
     settle_scale(grid, file, pair, velocity, scale);
-  return FG_STATUS_OK;
+  return is_usable(grid) && pair->component[2] ? fg__nc_volume_find(grid, file, pair)
+                                               : FG_STATUS_OK;
 }
 
 void fg__nc_grid_clear(fg__nc_grid *grid)
 {
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < 3; ++k) {
     free(grid->axis[k].coordinate);
     grid->axis[k].coordinate = NULL;
   }

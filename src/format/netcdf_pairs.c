@@ -440,6 +440,8 @@ fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file
     free(pairs.entry);
     return fg__fail_memory(file->context, "pairs of variables", 0);
   }
+  for (size_t i = 0; i < pairs.count; ++i)
+    pairs.entry[i].component[2] = fg__nc_third(file, &pairs.entry[i]);
   if (pairs.count > 0)
     qsort(pairs.entry, pairs.count, sizeof *pairs.entry, compare_pairs);
   *out = pairs.entry;

@@ -480,8 +480,9 @@ static void only_possible_requests_are_met(void **state)
   const int slow = sample_variable(f, "slow", NC_FLOAT, 2, dimension);
   sample_text(f, slow, "units", "cm/s");
   sample_end(f);
-  refuse_with(f, &(fg_read_options){.vars = "u"}, FG_STATUS_ARGUMENT, "two components");
-  refuse_with(f, &(fg_read_options){.vars = "u,v,w"}, FG_STATUS_ARGUMENT, "two");
+  refuse_with(f, &(fg_read_options){.vars = "u"}, FG_STATUS_ARGUMENT,
+              "two or three components");
+  refuse_with(f, &(fg_read_options){.vars = "u,v,w"}, FG_STATUS_ARGUMENT, "'w'");
   refuse_with(f, &(fg_read_options){.vars = ",v"}, FG_STATUS_ARGUMENT, "two");
   refuse_with(f, &(fg_read_options){.vars = "u,u"}, FG_STATUS_ARGUMENT, "both");
   refuse_with(f, &(fg_read_options){.vars = "u,w"}, FG_STATUS_ARGUMENT, "'w'");

@@ -250,7 +250,6 @@ fg_status fg__nc_values(float *out, fg__nc_missing *missing, const fg__nc_file *
   const int position[FG__NC_ROLES] = {grid->axis[0].position, grid->axis[1].position,
                                       grid->time, grid->level};
   slab s;
-  *missing = (fg__nc_missing){0};
   set_slab(&s, variable, grid, position, time, level);
   value_sink to = {&p, missing, out};
   return read_slab(&s, file, variable, put_value, &to);

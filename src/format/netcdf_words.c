@@ -102,7 +102,7 @@ static void cut_location(char *standard_name)
     *at = '\0';
 }
 
-void fg__nc_title(const fg__nc_pair *pair, char *out, size_t size)
+void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t size)
 {
   static const char *const attribute[] = {"long_name", "standard_name"};
   for (int a = 0; a < 2; ++a) {
@@ -115,8 +115,12 @@ void fg__nc_title(const fg__nc_pair *pair, char *out, size_t size)
     if (join_shared(of_u, of_v, out, size))
       return;
   }
-  snprintf(out, size, "%.120s, %.120s", pair->component[0]->plain_name,
-           pair->component[1]->plain_name);
+  if (components == 3)
+    snprintf(out, size, "%.80s, %.80s, %.80s", pair->component[0]->plain_name,
+             pair->component[1]->plain_name, pair->component[2]->plain_name);
+  else
+    snprintf(out, size, "%.120s, %.120s", pair->component[0]->plain_name,
+             pair->component[1]->plain_name);
 }
 
 static const char *kind_of_height(const fg__nc_variable *coordinate)
