@@ -151,6 +151,7 @@ static void *work(void *argument)
     drawing->waiting[index] = NULL;
     drawing->status = status;
     ++drawing->drawn;
+    pthread_cond_broadcast(&drawing->changed);
   }
   pthread_mutex_unlock(&drawing->lock);
   return NULL;
@@ -190,7 +191,7 @@ bool drawing_add(cli_drawing *drawing, fg_density *density, const int *wanted,
       result->wanted[k] = wanted[k];
     drawing->waiting[drawing->added] = density;
     ++drawing->added;
-    pthread_cond_signal(&drawing->changed);
+    pthread_cond_broadcast(&drawing->changed);
   }
   pthread_mutex_unlock(&drawing->lock);
   if (!accepted) {
@@ -204,11 +205,35 @@ bool drawing_add(cli_drawing *drawing, fg_density *density, const int *wanted,
   return !drawing->status;
 }
 
+bool drawing_wait(cli_drawing *drawing)
+{
+  pthread_mutex_lock(&drawing->lock);
+  while (drawing->drawn < drawing->added && !drawing->status)
+    pthread_cond_wait(&drawing->changed, &drawing->lock);
+  bool whole = !drawing->status;
+  pthread_mutex_unlock(&drawing->lock);
+  return whole;
+}
+
+void drawing_restore(cli_drawing *drawing, const scale_result *results, int count,
+                     const double speeds[2], double icon_seconds, double picture_seconds)
+{
+  pthread_mutex_lock(&drawing->lock);
+  for (int k = 0; k < count; ++k)
+    drawing->results[k] = results[k];
+  drawing->added = drawing->drawn = count;
+  for (int k = 0; k < 2; ++k)
+    drawing->speeds[k] = speeds[k];
+  drawing->icon_seconds = icon_seconds;
+  drawing->picture_seconds = picture_seconds;
+  pthread_mutex_unlock(&drawing->lock);
+}
+
 fg_status drawing_finish(cli_drawing *drawing)
 {
   pthread_mutex_lock(&drawing->lock);
   drawing->closed = true;
-  pthread_cond_signal(&drawing->changed);
+  pthread_cond_broadcast(&drawing->changed);
   pthread_mutex_unlock(&drawing->lock);
   if (drawing->threaded) {
     pthread_join(drawing->thread, NULL);

@@ -24,6 +24,14 @@ int drawing_start(cli_drawing **out, const cli_settings *settings, const fg_fiel
 bool drawing_add(cli_drawing *drawing, fg_density *density, const int *wanted,
                  int wanted_count);
 
+/* Waits until all that was added is drawn. False: it has failed. */
+bool drawing_wait(cli_drawing *drawing);
+
+/* Takes over what was drawn before: `count` scales, their range of speeds, and the
+ * seconds it took. Before anything is added. */
+void drawing_restore(cli_drawing *drawing, const scale_result *results, int count,
+                     const double speeds[2], double icon_seconds, double picture_seconds);
+
 /* Waits until all is drawn; the failure, if there was one, is in the context. */
 fg_status drawing_finish(cli_drawing *drawing);
 

@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "folder.h"
+#include "said.h"
+
 static const char *const scale_words[] = {"auto", "geo", "map", "plain"};
 static const char *const energy_words[] = {"flow", "isotropic"};
 static const char *const extent_words[] = {"cluster", "territory"};
@@ -102,6 +105,9 @@ static void add_parameters(cJSON *root, const run_facts *facts)
     cJSON_AddNumberToObject(object, "max_steps", said->max_steps);
   if (said->threads)
     cJSON_AddNumberToObject(object, "threads", said->threads);
+
+  /* as they were said, so that --resume can tell whether this is its run */
+  cJSON_AddItemToObject(root, "options", said_options(said));
 
   cJSON *made = cJSON_AddObjectToObject(root, "mesh");
   cJSON_AddNumberToObject(made, "dimension", mesh->dimension);
@@ -251,6 +257,57 @@ static double number_of(const cJSON *object, const char *name, double least, dou
   return item->valuedouble;
 }
 
+run_ending report_ending(const char *folder)
+{
+  if (!file_is_there(folder, REPORT_NAME))
+    return ENDING_NONE;
+  char *path = join_path(folder, REPORT_NAME);
+  char *text = path ? read_text(path) : NULL;
+  cJSON *tree = text ? cJSON_Parse(text) : NULL;
+  const char *ended = text_of(tree, "ended");
+  run_ending ending = ENDING_COMPLETE;
+  if (ended && strcmp(ended, "interrupted") == 0)
+    ending = ENDING_INTERRUPTED;
+  if (ended && (strcmp(ended, "time") == 0 || strcmp(ended, "steps") == 0))
+    ending = ENDING_LIMIT;
+  cJSON_Delete(tree);
+  free(text);
+  free(path);
+  return ending;
+}
+
+/* Paths of one file may differ; synth:NAME has no path. */
+static bool same_input(const cJSON *input, const char *operand)
+{
+  char *absolute = realpath(operand, NULL);
+  const char *earlier = text_of(input, "absolute");
+  const char *name = text_of(input, "path");
+  bool same = absolute && earlier ? strcmp(absolute, earlier) == 0
+                                  : name && strcmp(name, operand) == 0;
+  free(absolute);
+  return same;
+}
+
+bool report_is_of(const char *folder, const cli_settings *settings)
+{
+  cli_report report;
+  bool same = !report_read(&report, folder);
+  if (same) {
+    const cJSON *input = cJSON_GetObjectItemCaseSensitive(report.tree, "input");
+    same = same_input(input, settings->operand);
+    if (!same) {
+      complain("%s: holds the results of a run on %s", folder, report.input);
+      fputs("Choose another folder with -o, or replace its results with --force.\n",
+            stderr);
+    }
+  }
+  if (same)
+    same =
+        said_the_same(cJSON_GetObjectItemCaseSensitive(report.tree, "options"), settings);
+  report_clear(&report);
+  return same;
+}
+
 static const cJSON *scale_at(const cli_report *report, int index)
 {
   return cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(report->tree, "scales"),
@@ -275,7 +332,7 @@ static void fill_reading(cli_report *out, const cJSON *input)
 int report_read(cli_report *out, const char *folder)
 {
   memset(out, 0, sizeof *out);
-  char *path = join_path(folder, "run.json");
+  char *path = join_path(folder, REPORT_NAME);
   char *text = path ? read_text(path) : NULL;
   int code = EXIT_FAILED;
   if (!text)

@@ -17,6 +17,20 @@ typedef struct run_facts {
   double seconds_read, seconds_evolve, seconds_total;
 } run_facts;
 
+/* How the run ended that a folder's run.json tells of. */
+typedef enum run_ending {
+  ENDING_NONE, /* there is no run.json */
+  ENDING_INTERRUPTED,
+  ENDING_LIMIT,   /* by --max-time or --max-steps */
+  ENDING_COMPLETE /* or in a way that is not known here */
+} run_ending;
+
+run_ending report_ending(const char *folder);
+
+/* Whether the finished run in a folder is the one that is asked for now: the same input
+ * and options. Else complains. */
+bool report_is_of(const char *folder, const cli_settings *settings);
+
 /* Writes run.json. Returns an exit code. */
 int report_write(const char *path, const run_facts *facts);
 

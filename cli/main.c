@@ -1,5 +1,6 @@
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,12 @@ static void hold_standard_streams(void)
       if (opened > stream)
         close(opened);
     }
+}
+
+/* A limit on the size of files is then an error like a full disk, not the end. */
+static void take_file_limits_as_errors(void)
+{
+  signal(SIGXFSZ, SIG_IGN);
 }
 
 static int finish(int code)
@@ -69,5 +76,6 @@ static int work(int argc, char **argv)
 int main(int argc, char **argv)
 {
   hold_standard_streams();
+  take_file_limits_as_errors();
   return finish(work(argc, argv));
 }

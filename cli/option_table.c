@@ -110,6 +110,16 @@ const option_entry option_table[] = {
      "also write the density u and the clusters of every scale (scale-NN.vti); always "
      "done in 3D"},
 
+    /* 1e9 seconds are 32 years: never */
+    {"checkpoint", 0, "S", COMMAND_RUN, OPTION_NUMBER, AT(checkpoint), 0, 1e9, false,
+     false, NULL,
+     "seconds between checkpoints, from which the run can go on when it is killed; 0: "
+     "after every step [60]"},
+    {"resume", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(resume), 0, 0, false, false, NULL,
+     "go on from the checkpoint in DIR with the same options, to the same results; "
+     "--max-time, --max-steps and --threads may differ; without a checkpoint start from "
+     "the beginning, and leave a finished run as it is"},
+
     {"scale-index", 0, "I", COMMAND_DRAW, OPTION_WHOLE, AT(scale_index), 0,
      MAX_SCALES - 1, false, false, NULL,
      "which scale, 0 being the finest [the coarsest]"},

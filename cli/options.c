@@ -13,7 +13,7 @@
  * every letter. */
 enum { LONG_BASE = 256, MAX_OPTIONS = 64 };
 
-static const char *const format_words[FORMAT_KINDS] = {"svg", "png", "pdf"};
+const char *const format_words[FORMAT_KINDS] = {"svg", "png", "pdf"};
 
 const cli_command *command_find(const char *name)
 {
@@ -275,6 +275,8 @@ static bool check_operands(cli_settings *out, const cli_command *command, int co
     return wrong(command, "%s: %s is empty", command->name, command->operand);
   if (command->needs_output && !out->output)
     return wrong(command, "%s: -o is missing", command->name);
+  if (out->resume && out->force)
+    return wrong(command, "--resume goes on with what --force would replace: say one");
   out->operand = operands[0];
   return true;
 }
@@ -286,6 +288,7 @@ parse_result options_parse(cli_settings *out, const cli_command *command, int ar
   fill_tables(&tables, command);
   memset(out, 0, sizeof *out);
   out->scale_index = -1;
+  out->checkpoint = 60.0;
   opterr = 0;
   optind = 0; /* the C library's way to start afresh */
   for (;;) {

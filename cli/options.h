@@ -52,6 +52,9 @@ extern const size_t command_count;
 extern const option_entry option_table[];
 extern const size_t option_count;
 
+/* Names of the picture formats, in the order of their bits. */
+extern const char *const format_words[FORMAT_KINDS];
+
 /* Finds a command by its name; NULL when there is none. */
 const cli_command *command_find(const char *name);
 

@@ -1,32 +1,19 @@
 #include "output.h"
 
-#include <dirent.h>
 #include <errno.h>
-#include <limits.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char *const report_name = "run.json";
+#include "folder.h"
+#include "json_report.h"
 
-/* Cuts the last part off a path: "a/b" becomes "a", "a" becomes ".", "/" stays. */
-static void cut_to_parent(char *path)
-{
-  size_t length = strlen(path);
-  while (length > 1 && path[length - 1] == '/')
-    path[--length] = '\0';
-  char *slash = strrchr(path, '/');
-  if (!slash) {
-    if (length)
-      memcpy(path, ".", 2);
-    return;
-  }
-  while (slash > path && slash[-1] == '/')
-    --slash;
-  slash[slash == path ? 1 : 0] = '\0';
-}
+#define WORK_NAME ".flowgrain"
+#define LOCK_NAME "lock"
+#define PREVIOUS_NAME CHECKPOINT_NAME ".previous"
 
 static int out_of_memory(void)
 {
@@ -34,18 +21,13 @@ static int out_of_memory(void)
   return EXIT_FAILED;
 }
 
-/* The nearest folder at or above `path` that is there. NULL without memory. */
-static char *nearest_existing(const char *path)
+static int complain_of_rival(const char *folder, const struct flock *rival)
 {
-  char *nearest = join_texts(path, "");
-  struct stat found;
-  while (nearest && stat(nearest, &found) != 0 && errno == ENOENT &&
-         strcmp(nearest, ".") != 0 && strcmp(nearest, "/") != 0)
-    cut_to_parent(nearest);
-  return nearest;
+  complain("%s: another run is writing to it, process %ld", folder, (long)rival->l_pid);
+  return EXIT_FAILED;
 }
 
-int output_check(const char *folder, bool force)
+static int check_folder(const char *folder)
 {
   struct stat found;
   char *nearest = nearest_existing(folder);
@@ -60,180 +42,243 @@ int output_check(const char *folder, bool force)
   } else if (access(nearest, W_OK | X_OK) != 0)
     code = complain_of_file(nearest, "cannot be written to");
   free(nearest);
-  if (code)
-    return code;
-  char *report = join_path(folder, report_name);
-  if (!report)
-    return out_of_memory();
-  if (!force && stat(report, &found) == 0) {
-    complain("%s: holds the results of a run", folder);
-    fputs("Choose another folder with -o, or replace its results with --force.\n",
-          stderr);
-    code = EXIT_FAILED;
-  }
-  free(report);
   return code;
 }
 
-/* Makes a folder and those above it; *topmost becomes the first that was not there. */
-static int make_folders(const char *folder, char **topmost)
+/* A run that is killed loses its lock. A file system without locks lets all pass. */
+static int check_lock(const char *folder, const char *work)
 {
-  char *path = join_texts(folder, "");
+  char *path = join_path(work, LOCK_NAME);
+  if (!path)
+    return out_of_memory();
+  int code = EXIT_DONE, file = open(path, O_RDWR | O_CLOEXEC);
+  free(path);
+  if (file < 0)
+    return EXIT_DONE;
+  struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+  if (fcntl(file, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK)
+    code = complain_of_rival(folder, &lock);
+  close(file);
+  return code;
+}
+
+static bool has_checkpoint(const char *work)
+{
+  return file_is_there(work, CHECKPOINT_NAME) || file_is_there(work, PREVIOUS_NAME);
+}
+
+/* Whether a run had published its report, and was killed in tidying up. */
+static bool report_is_published(const char *folder, const char *work)
+{
+  bool same = false;
+  if (file_is_there(folder, REPORT_NAME) && file_is_there(work, REPORT_NAME)) {
+    char *one_path = join_path(folder, REPORT_NAME);
+    char *other_path = join_path(work, REPORT_NAME);
+    char *one = one_path ? read_text(one_path) : NULL;
+    char *other = other_path ? read_text(other_path) : NULL;
+    same = one && other && strcmp(one, other) == 0;
+    free(one);
+    free(other);
+    free(one_path);
+    free(other_path);
+  }
+  return same;
+}
+
+int output_check(const char *folder)
+{
+  int code = check_folder(folder);
+  char *work = join_path(folder, WORK_NAME);
+  if (!work)
+    return out_of_memory();
+  if (!code)
+    code = check_lock(folder, work);
+  free(work);
+  return code;
+}
+
+int output_look(output_state *state, const char *folder)
+{
+  *state = OUTPUT_EMPTY;
+  char *work = join_path(folder, WORK_NAME);
+  if (!work)
+    return out_of_memory();
+  run_ending ending = report_ending(folder);
+  bool complete = ending == ENDING_COMPLETE && report_is_published(folder, work);
+  if (has_checkpoint(work) && !complete)
+    *state = OUTPUT_UNFINISHED;
+  else if (ending == ENDING_INTERRUPTED)
+    *state = OUTPUT_INTERRUPTED;
+  else if (ending != ENDING_NONE)
+    *state = OUTPUT_FINISHED;
+  free(work);
+  return EXIT_DONE;
+}
+
+/* Takes the lock of the folder of the work. Its last owner may be about to remove file
+ * and folder: a lock on what has no name any more is none, and *again says so. */
+static int take_lock(cli_output *out, bool *again)
+{
+  *again = false;
+  char *path = join_path(out->work, LOCK_NAME);
   if (!path)
     return out_of_memory();
   int code = EXIT_DONE;
-  for (char *end = path + 1; !code; ++end) {
-    if (*end && *end != '/')
-      continue;
-    char kept = *end;
-    *end = '\0';
-    if (mkdir(path, 0777) == 0) {
-      if (!*topmost)
-        *topmost = join_texts(path, "");
-    } else if (errno != EEXIST)
-      code = complain_of_file(path, "cannot be made");
-    *end = kept;
-    if (!kept)
-      break;
-  }
+  out->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+  struct stat held, named;
+  if (out->lock < 0 && errno == ENOENT)
+    *again = true;
+  else if (out->lock < 0)
+    code = complain_of_file(out->folder, "cannot be written to");
+  else if (fcntl(out->lock, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN))
+    code = fcntl(out->lock, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK
+               ? complain_of_rival(out->folder, &lock)
+               : complain_of_file(out->folder, "another run is writing to it");
+  else
+    *again = fstat(out->lock, &held) != 0 || stat(path, &named) != 0 ||
+             held.st_ino != named.st_ino || held.st_dev != named.st_dev;
   free(path);
+  if ((code || *again) && out->lock >= 0) {
+    close(out->lock);
+    out->lock = -1;
+  }
   return code;
 }
 
 int output_open(cli_output *out, const char *folder)
 {
-  memset(out, 0, sizeof *out);
+  *out = (cli_output){.lock = -1};
   out->folder = join_texts(folder, "");
-  if (!out->folder)
+  out->work = join_path(folder, WORK_NAME);
+  if (!out->folder || !out->work)
     return out_of_memory();
-  int code = make_folders(folder, &out->made_from);
-  if (code)
-    return code;
-  out->partial = join_path(folder, ".flowgrain-XXXXXX");
-  if (!out->partial)
-    return out_of_memory();
-  if (!mkdtemp(out->partial)) {
-    free(out->partial);
-    out->partial = NULL;
-    return complain_of_file(folder, "cannot be written to");
-  }
-  return EXIT_DONE;
+  int code;
+  bool again;
+  do {
+    code = make_folders(folder, &out->made_from);
+    if (!code && mkdir(out->work, 0777) != 0 && errno != EEXIST && errno != ENOENT)
+      code = complain_of_file(folder, "cannot be written to");
+    again = false;
+    if (!code)
+      code = take_lock(out, &again);
+  } while (again);
+  return code;
 }
 
 char *output_path(const cli_output *out, const char *name)
 {
-  return join_path(out->partial, name);
+  return join_path(out->work, name);
 }
 
-static bool digits(const char *text, size_t count)
+static int remove_one(const char *folder, const char *name, const void *data)
 {
-  for (size_t k = 0; k < count; ++k)
-    if (text[k] < '0' || text[k] > '9')
-      return false;
-  return true;
+  (void)data;
+  return remove_file(folder, name);
 }
 
-/* A name that a run of ours leaves in DIR: nothing else is ever removed there. */
-static bool is_ours(const char *name)
+static bool is_result_or_partial(const char *name)
 {
-  static const char *const ends[] = {".geojson", ".svg", ".png", ".pdf", ".vti"};
-  if (strcmp(name, report_name) == 0 || strcmp(name, "evolution.csv") == 0)
-    return true;
-  if (strncmp(name, "scale-", 6) != 0 || !digits(name + 6, 2))
-    return false;
-  for (size_t k = 0; k < sizeof ends / sizeof ends[0]; ++k)
-    if (strcmp(name + 8, ends[k]) == 0)
-      return true;
-  return false;
+  return is_result(name) || is_partial(name);
 }
 
-/* Calls `act` for every one of our files in a folder, run.json not among them. */
-static int for_our_files(const char *folder, const cli_output *out,
-                         int (*act)(const cli_output *out, const char *name))
+static int clear_work(const cli_output *out)
 {
-  DIR *stream = opendir(folder);
-  if (!stream)
-    return complain_of_file(folder, "cannot be read");
-  int code = EXIT_DONE;
-  for (struct dirent *entry; !code && (entry = readdir(stream));)
-    if (is_ours(entry->d_name) && strcmp(entry->d_name, report_name) != 0)
-      code = act(out, entry->d_name);
-  closedir(stream);
+  int code = remove_file(out->work, CHECKPOINT_NAME);
+  if (!code)
+    code = remove_file(out->work, PREVIOUS_NAME);
+  if (!code)
+    code = for_names(out->work, is_result_or_partial, remove_one, NULL);
   return code;
 }
 
-static int remove_named(const char *folder, const char *name)
+int output_start_anew(const cli_output *out)
 {
-  char *path = join_path(folder, name);
-  if (!path)
-    return out_of_memory();
-  int code = EXIT_DONE;
-  if (unlink(path) != 0 && errno != ENOENT)
-    code = complain_of_file(path, "cannot be replaced");
-  free(path);
-  return code;
+  return clear_work(out);
 }
 
-static int remove_final(const cli_output *out, const char *name)
+static int remove_later(const char *folder, const char *name, const void *data)
 {
-  return remove_named(out->folder, name);
+  const int *scales = data;
+  bool kept = strcmp(name, TABLE_NAME) == 0;
+  if (scale_of(name) >= 0)
+    kept = scale_of(name) < *scales;
+  return kept ? EXIT_DONE : remove_file(folder, name);
 }
 
-static int remove_partial(const cli_output *out, const char *name)
+int output_go_on(const cli_output *out, int scales)
 {
-  return remove_named(out->partial, name);
+  return for_names(out->work, is_result_or_partial, remove_later, &scales);
 }
 
-static int rename_partial(const cli_output *out, const char *name)
+static bool is_scale(const char *name)
 {
-  char *from = join_path(out->partial, name);
-  char *to = join_path(out->folder, name);
-  int code = from && to ? EXIT_DONE : out_of_memory();
-  if (!code && rename(from, to) != 0)
-    code = complain_of_file(to, "cannot be written");
-  free(from);
-  free(to);
-  return code;
+  return scale_of(name) >= 0;
 }
 
-int output_commit(cli_output *out)
+static int synchronise_one(const char *folder, const char *name, const void *data)
 {
-  int code = remove_named(out->folder, report_name);
+  (void)data;
+  return synchronise_file(folder, name);
+}
+
+int output_synchronise(const cli_output *out)
+{
+  return for_names(out->work, is_scale, synchronise_one, NULL);
+}
+
+static bool is_result_but_report(const char *name)
+{
+  return is_result(name) && strcmp(name, REPORT_NAME) != 0;
+}
+
+static int duplicate_one(const char *work, const char *name, const void *data)
+{
+  return duplicate_file(data, name, work);
+}
+
+int output_publish(const cli_output *out)
+{
+  int code = remove_file(out->folder, REPORT_NAME);
   if (!code)
-    code = for_our_files(out->folder, out, remove_final);
+    code = for_names(out->folder, is_result_or_partial, remove_one, NULL);
   if (!code)
-    code = for_our_files(out->partial, out, rename_partial);
+    code = for_names(out->work, is_result_but_report, duplicate_one, out->folder);
   if (!code)
-    code = rename_partial(out, report_name);
+    code = duplicate_file(out->folder, REPORT_NAME, out->work);
   if (code)
     /* a failed run leaves no picture, not even half of its own */
-    for_our_files(out->folder, out, remove_final);
-  else {
-    free(out->made_from);
-    out->made_from = NULL;
-  }
+    for_names(out->folder, is_result_or_partial, remove_one, NULL);
   return code;
 }
 
-void output_close(cli_output *out)
+bool output_close(cli_output *out, bool finished)
 {
-  if (out->partial) {
-    for_our_files(out->partial, out, remove_partial);
-    remove_named(out->partial, report_name);
-    rmdir(out->partial);
+  bool can_go_on = false;
+  if (out->lock >= 0) {
+    can_go_on = !finished && has_checkpoint(out->work);
+    if (can_go_on)
+      for_names(out->work, is_partial, remove_one, NULL);
+    else {
+      /* results must be on the disk before what they could be made from goes */
+      if (finished && has_checkpoint(out->work)) {
+        for_names(out->folder, is_result, synchronise_one, NULL);
+        synchronise_folder(out->folder);
+      }
+      clear_work(out);
+    }
+    remove_file(out->work, LOCK_NAME);
+    if (!can_go_on)
+      rmdir(out->work);
+    close(out->lock);
   }
-  if (out->made_from && out->folder) {
-    /* rmdir leaves alone what is not empty */
-    char *path = join_texts(out->folder, "");
-    size_t shortest = strlen(out->made_from);
-    while (path && strlen(path) >= shortest && rmdir(path) == 0)
-      cut_to_parent(path);
-    free(path);
-  }
+  if (out->made_from && out->folder)
+    remove_empty_folders(out->folder, out->made_from);
   free(out->folder);
-  free(out->partial);
+  free(out->work);
   free(out->made_from);
-  memset(out, 0, sizeof *out);
+  *out = (cli_output){.lock = -1};
+  return can_go_on;
 }
 
 char *temporary_name(const char *path)

@@ -1,5 +1,6 @@
-/* The folder of a run's results: everything is written under a temporary name in it, and
- * takes its final name when the whole run is there. */
+/* The folder of a run's results. Everything is written to DIR/.flowgrain first, together
+ * with the checkpoint, and takes its place in DIR when the run ends. Whatever the moment
+ * at which a run is killed, DIR/.flowgrain then has all to go on from the checkpoint. */
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
@@ -7,26 +8,53 @@
 
 typedef struct cli_output {
   char *folder;    /* DIR */
-  char *partial;   /* DIR/.flowgrain-XXXXXX, NULL while there is none */
+  char *work;      /* DIR/.flowgrain */
   char *made_from; /* the topmost folder that output_open made, NULL: none */
+  int lock;        /* held while the run lasts; -1: not held */
 } cli_output;
 
-/* Refuses early, with nothing written, a DIR that is no folder, can not be written to, or
- * holds the results of a run (unless `force`). Returns an exit code. */
-int output_check(const char *folder, bool force);
+/* What an earlier run left. */
+typedef enum output_state {
+  OUTPUT_EMPTY,       /* nothing that counts */
+  OUTPUT_UNFINISHED,  /* a checkpoint to go on from */
+  OUTPUT_INTERRUPTED, /* results of an interrupted run, and no checkpoint */
+  OUTPUT_FINISHED
+} output_state;
 
-/* Makes DIR, with its parents, and the temporary folder in it. Returns an exit code. */
+/* Refuses, with nothing written, a DIR that is no folder or can not be written to, and
+ * one that another run is writing to. Not to be asked by the run that does (a process
+ * that closes a file loses its lock). Returns an exit code. */
+int output_check(const char *folder);
+
+/* Says what DIR holds. Returns an exit code. */
+int output_look(output_state *state, const char *folder);
+
+/* Makes DIR, with its parents, and the folder of the work in it, for this run alone.
+ * Returns an exit code. */
 int output_open(cli_output *out, const char *folder);
+
+/* Forgets what an earlier run left in the folder of the work. Returns an exit code. */
+int output_start_anew(const cli_output *out);
+
+/* Keeps, of what an earlier run left there, the checkpoint, the table and the first
+ * `scales` scales. Returns an exit code. */
+int output_go_on(const cli_output *out, int scales);
 
 /* Where to write the file that shall be DIR/name. NULL without memory. End with free. */
 char *output_path(const cli_output *out, const char *name);
 
-/* Gives every file its final name, in place of those of an earlier run; run.json is the
- * last, so that a folder with it is whole. Returns an exit code. */
-int output_commit(cli_output *out);
+/* Brings the scales written so far to the disk. Returns an exit code. */
+int output_synchronise(const cli_output *out);
 
-/* Removes what is still temporary, and folders made for it that are empty. */
-void output_close(cli_output *out);
+/* Gives every file its place in DIR, instead of those of an earlier run; run.json is the
+ * last, so that a folder with it is whole. The folder of the work keeps them too, until
+ * output_close. Returns an exit code. */
+int output_publish(const cli_output *out);
+
+/* Ends the work. Where there is a checkpoint, and the run is not `finished`, all that is
+ * needed to go on from it stays; else nothing but the results, and no folder that was
+ * made for nothing. Returns whether the run can go on. */
+bool output_close(cli_output *out, bool finished);
 
 /* A name beside `path`, with the same end, to write it under until it is whole. NULL
  * without memory. End with free. */

@@ -31,7 +31,8 @@ typedef struct cli_settings {
   int threads;
   int clusters[MAX_SCALES]; /* descending */
   int cluster_count;
-  int extent; /* fg_icon_extent */
+  int extent;        /* fg_icon_extent */
+  double checkpoint; /* seconds between checkpoints; 0: after every step */
 
   unsigned formats; /* 0: the default, SVG and PNG */
   double width;
@@ -41,7 +42,7 @@ typedef struct cli_settings {
   const char *input; /* draw: the field, where it is now */
   int scale_index;   /* draw: -1 when not said */
 
-  bool save_field, force, quiet, verbose, json;
+  bool save_field, resume, force, quiet, verbose, json;
 } cli_settings;
 
 /* Prints "flowgrain: TEXT" on standard error. */

@@ -1,73 +1,14 @@
 /* The main job: read, evolve, take scales, draw them, and leave a folder of results. */
-#include <errno.h>
 #include <math.h>
-#include <signal.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "drawing.h"
-#include "json_report.h"
-#include "output.h"
-#include "progress.h"
+#include "checkpoint.h"
+#include "folder.h"
+#include "interrupt.h"
+#include "options.h"
 #include "rehearse.h"
-#include "scales.h"
-
-typedef struct cli_run {
-  const cli_settings *settings;
-  fg_context *context;
-  fg_field *field;
-  fg_evolution *evolution;
-  cli_drawing *drawing;
-  cli_output output;
-  FILE *table; /* evolution.csv */
-  cli_progress progress;
-  scale_plan plan;
-  run_facts facts;
-  fg_step step;          /* the last accepted one */
-  fg_step first_counted; /* the first with a number of clusters; step 0: none yet */
-  int last_scale_clusters;
-  double start;
-} cli_run;
-
-/* What a signal has to stop: the evolution first; at the second signal also the drawing.
- * A handler can not be given an argument, hence the two globals. */
-static _Atomic(fg_context *) stop_first;
-static _Atomic(fg_context *) stop_second;
-static volatile sig_atomic_t interrupts;
-
-static void handle_signal(int number)
-{
-  (void)number;
-  ++interrupts;
-  fg_context *first = atomic_load(&stop_first);
-  fg_context *second = atomic_load(&stop_second);
-  if (first)
-    fg_context_stop(first);
-  if (interrupts > 1 && second)
-    fg_context_stop(second);
-}
-
-static void install_signals(const cli_run *run)
-{
-  atomic_store(&stop_first, run->context);
-  struct sigaction action = {.sa_handler = handle_signal, .sa_flags = SA_RESTART};
-  sigemptyset(&action.sa_mask);
-  const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-  for (int k = 0; k < 3; ++k) {
-    struct sigaction before;
-    /* nohup and shells that run jobs in the background ignore signals for us */
-    if (sigaction(numbers[k], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-      sigaction(numbers[k], &action, NULL);
-  }
-}
-
-static void release_signals(void)
-{
-  atomic_store(&stop_first, NULL);
-  atomic_store(&stop_second, NULL);
-}
 
 static int read_field(cli_run *run)
 {
@@ -158,39 +99,79 @@ static int create_evolution(cli_run *run)
   return EXIT_DONE;
 }
 
-static int open_results(cli_run *run)
+/* Whether there is anything to do, and whether it may be done. `state` is what the
+ * folder holds; *done: a finished run, which --resume leaves as it is. */
+static int decide(const cli_run *run, output_state state, bool *done)
+{
+  const cli_settings *said = run->settings;
+  *done = false;
+  if (said->force || state == OUTPUT_EMPTY)
+    return EXIT_DONE;
+  if (said->resume && state == OUTPUT_FINISHED) {
+    *done = true;
+    return report_is_of(said->output, said) ? EXIT_DONE : EXIT_FAILED;
+  }
+  if (said->resume)
+    return EXIT_DONE;
+  complain("%s: holds %s", said->output,
+           state == OUTPUT_UNFINISHED ? "a run that can go on" : "the results of a run");
+  fprintf(stderr,
+          "Choose another folder with -o, or replace its results with --force%s.\n",
+          state == OUTPUT_UNFINISHED ? ", or go on with --resume" : "");
+  return EXIT_FAILED;
+}
+
+static int look(const cli_run *run, output_state *state, bool *done)
+{
+  int code = output_look(state, run->settings->output);
+  return code ? code : decide(run, *state, done);
+}
+
+static int start_anew(cli_run *run)
+{
+  const cli_settings *said = run->settings;
+  if (said->resume && !said->quiet)
+    fprintf(stderr, "flowgrain: %s: no checkpoint: the run starts from the beginning\n",
+            said->output);
+  int code = output_start_anew(&run->output);
+  return code ? code : table_start(&run->table, output_path(&run->output, TABLE_NAME));
+}
+
+static int go_on(cli_run *run)
+{
+  int code = checkpoint_resume(run);
+  if (code)
+    return code;
+  run->saved_step = run->step.step;
+  if (!run->settings->quiet)
+    fprintf(stderr, "flowgrain: %s: goes on from step %ld, t = %.3g, after %.0f s\n",
+            run->settings->output, run->step.step, run->step.time, run->earlier_total);
+  return EXIT_DONE;
+}
+
+static int open_results(cli_run *run, bool *done)
 {
   int code = output_open(&run->output, run->settings->output);
   if (code)
     return code;
-  char *path = output_path(&run->output, "evolution.csv");
-  if (!path)
-    return EXIT_FAILED;
-  run->table = fopen(path, "w");
-  if (!run->table)
-    code = complain_of_file(path, "cannot be written");
-  else
-    fputs("step,t,tau,energy,mass,area_fraction,clusters,newton,cycles,cells,seconds\n",
-          run->table);
-  free(path);
-  if (code)
+  /* once more, as another run may have ended here since */
+  output_state state;
+  code = look(run, &state, done);
+  if (code || *done)
     return code;
   code = drawing_start(&run->drawing, run->settings, run->field, &run->output);
   run->facts.drawing = run->drawing;
-  if (!code)
-    atomic_store(&stop_second, drawing_context(run->drawing));
-  return code;
+  if (code)
+    return code;
+  interrupt_second(drawing_context(run->drawing));
+  return run->settings->resume && state == OUTPUT_UNFINISHED ? go_on(run)
+                                                             : start_anew(run);
 }
 
-/* A row per accepted step. The scheme smooths the nonlinear system directly, so there are
- * no Newton iterations to count: that column stays 0. */
-static void record_step(cli_run *run, const fg_step *before)
+static int record_step(cli_run *run, const fg_step *before)
 {
   const fg_step *step = &run->step;
   const fg_mesh_info *mesh = run->facts.mesh;
-  fprintf(run->table, "%ld,%.9g,%.9g,%.12g,%.12g,%.6g,%d,0,%d,%ld,%.6f\n", step->step,
-          step->time, step->tau, step->energy, step->mass, step->area_fraction,
-          step->clusters, step->cycles, step->cells, step->seconds);
   run->facts.accepted = step->step;
   run->facts.rejected += step->rejected;
   if (before->step && step->energy > before->energy)
@@ -200,6 +181,9 @@ static void record_step(cli_run *run, const fg_step *before)
   double drift = fabs(step->mass / measure - (2.0 * mesh->coverage - 1.0));
   if (drift > run->facts.mass_drift)
     run->facts.mass_drift = drift;
+  if (step->clusters && !run->first_counted.step)
+    run->first_counted = *step;
+  return table_add(&run->table, step);
 }
 
 static int take_scale(cli_run *run, const int *wanted, int wanted_count)
@@ -245,37 +229,74 @@ static void show_progress(cli_run *run)
   progress_evolution(&run->progress, share, step->time, step->clusters, left);
 }
 
+static int advance(cli_run *run)
+{
+  fg_step before = run->step;
+  fg_status status = fg_evolution_step(run->evolution, &run->step);
+  if (status == FG_STATUS_STOPPED) {
+    fg_context_clear(run->context);
+    run->step = before;
+    run->facts.ended = "interrupted";
+    return EXIT_DONE;
+  }
+  if (status) {
+    progress_wipe(&run->progress);
+    return complain_of(run->context, status, run->settings->operand);
+  }
+  int code = record_step(run, &before);
+  int reached = scale_plan_reach(&run->plan, run->step.clusters);
+  if (!code && reached)
+    code = take_scale(run, &run->plan.wanted[run->plan.next - reached], reached);
+  run->facts.ended = reason_to_stop(run);
+  return code;
+}
+
+/* A run that did not come to the end of its scales can go on later. */
+static bool can_go_on(const cli_run *run)
+{
+  const char *ended = run->facts.ended;
+  return strcmp(ended, "scales") != 0 && strcmp(ended, "stationary") != 0;
+}
+
 static int evolve(cli_run *run)
 {
-  while (!run->facts.ended) {
-    fg_step before = run->step;
-    fg_status status = fg_evolution_step(run->evolution, &run->step);
-    if (status == FG_STATUS_STOPPED) {
-      run->step = before;
-      run->facts.ended = "interrupted";
-      return EXIT_DONE;
-    }
-    if (status) {
-      progress_wipe(&run->progress);
-      return complain_of(run->context, status, run->settings->operand);
-    }
-    record_step(run, &before);
-    if (run->step.clusters && !run->first_counted.step)
-      run->first_counted = run->step;
-    int reached = scale_plan_reach(&run->plan, run->step.clusters);
-    if (reached) {
-      int code = take_scale(run, &run->plan.wanted[run->plan.next - reached], reached);
-      if (code)
-        return code;
-    }
+  int code = EXIT_DONE;
+  run->evolving_since = run->save_tried = clock_seconds();
+  if (run->step.step) /* resumed, perhaps at its end */
     run->facts.ended = reason_to_stop(run);
+  while (!code && !run->facts.ended) {
+    code = advance(run);
+    if (!code && !run->facts.ended && checkpoint_is_due(run))
+      code = checkpoint_save(run);
     show_progress(run);
   }
+  bool interrupted = !code && strcmp(run->facts.ended, "interrupted") == 0;
+  if (!code && run->step.step && can_go_on(run) && (interrupted || run->step.clusters))
+    code = checkpoint_save(run);
   /* a run that ends before its last scale still shows how far it came */
   bool shown = run->last_scale_clusters == run->step.clusters;
-  if (!scale_plan_done(&run->plan) && run->step.clusters && !shown)
-    return take_scale(run, NULL, 0);
-  return EXIT_DONE;
+  if (!code && !scale_plan_done(&run->plan) && run->step.clusters && !shown)
+    code = take_scale(run, NULL, 0);
+  run->facts.seconds_evolve = run->earlier_evolve + clock_seconds() - run->evolving_since;
+  return code;
+}
+
+static int complain_of_no_scale(const cli_run *run)
+{
+  const char *operand = run->settings->operand;
+  const fg_step *step = &run->step;
+  if (strcmp(run->facts.ended, "interrupted") == 0) {
+    complain("%s: interrupted at t = %.3g, before the first scale%s", operand, step->time,
+             step->step ? "" : ": nothing was written");
+    return EXIT_INTERRUPTED;
+  }
+  bool settled = strcmp(run->facts.ended, "stationary") == 0;
+  complain("%s: no clusters after %ld steps, at t = %.3g: %s", operand, step->step,
+           step->time,
+           settled ? "the pattern no longer changes" : "they are still forming");
+  fputs(settled ? "Raise --nodes or --coverage.\n" : "Raise --max-steps or --max-time.\n",
+        stderr);
+  return EXIT_FAILED;
 }
 
 static int finish_drawing(cli_run *run)
@@ -286,42 +307,24 @@ static int finish_drawing(cli_run *run)
   progress_wipe(&run->progress);
   if (status)
     return complain_of(drawing_context(run->drawing), status, run->settings->operand);
-  if (drawing_count(run->drawing))
-    return EXIT_DONE;
-  const fg_step *step = &run->step;
-  if (strcmp(run->facts.ended, "interrupted") == 0) {
-    complain("%s: interrupted at t = %.3g, before the first scale: nothing was written",
-             run->settings->operand, step->time);
-    return EXIT_INTERRUPTED;
-  }
-  bool settled = strcmp(run->facts.ended, "stationary") == 0;
-  complain("%s: no clusters after %ld steps, at t = %.3g: %s", run->settings->operand,
-           step->step, step->time,
-           settled ? "the pattern no longer changes" : "they are still forming");
-  fputs(settled ? "Raise --nodes or --coverage.\n" : "Raise --max-steps or --max-time.\n",
-        stderr);
-  return EXIT_FAILED;
+  return drawing_count(run->drawing) ? EXIT_DONE : complain_of_no_scale(run);
 }
 
 static int write_results(cli_run *run)
 {
-  bool failed = ferror(run->table) != 0;
-  failed = fclose(run->table) != 0 || failed;
-  run->table = NULL;
-  if (failed)
+  if (!table_flush(&run->table, false))
     return complain_of_file(run->settings->output, "evolution.csv cannot be written");
-  char *path = output_path(&run->output, "run.json");
+  char *path = output_path(&run->output, REPORT_NAME);
   if (!path)
     return EXIT_FAILED;
-  run->facts.seconds_total = clock_seconds() - run->start;
+  run->facts.seconds_total = run->earlier_total + clock_seconds() - run->start;
   int code = report_write(path, &run->facts);
   free(path);
-  return code ? code : output_commit(&run->output);
+  return code ? code : output_publish(&run->output);
 }
 
 static void print_summary(const cli_run *run)
 {
-  static const char *const ends[FORMAT_KINDS] = {"svg", "png", "pdf"};
   bool icons = drawing_makes_icons(run->drawing);
   unsigned formats = run->settings->formats;
   int kind = 0;
@@ -330,7 +333,7 @@ static void print_summary(const cli_run *run)
   for (int k = 0; k < drawing_count(run->drawing); ++k) {
     const scale_result *result = drawing_result(run->drawing, k);
     char name[32];
-    snprintf(name, sizeof name, "scale-%02d.%s", k, icons ? ends[kind] : "vti");
+    snprintf(name, sizeof name, "scale-%02d.%s", k, icons ? format_words[kind] : "vti");
     char *path = join_path(run->settings->output, name);
     if (icons)
       printf("%4d clusters %4d icons  %s\n", result->clusters, result->icons,
@@ -341,52 +344,78 @@ static void print_summary(const cli_run *run)
   }
 }
 
+/* What is said where a run ends early, or reached less than was wanted. */
+static int say_ending(const cli_run *run)
+{
+  const cli_settings *said = run->settings;
+  if (strcmp(run->facts.ended, "stationary") == 0 && !scale_plan_done(&run->plan))
+    complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
+             said->operand, run->plan.wanted[run->plan.next], run->step.clusters);
+  if (strcmp(run->facts.ended, "interrupted") != 0)
+    return EXIT_DONE;
+  int count = drawing_count(run->drawing);
+  complain("%s: interrupted at t = %.3g with %d clusters; the %d scale%s until then %s "
+           "in %s",
+           said->operand, run->step.time, run->step.clusters, count,
+           count == 1 ? "" : "s", count == 1 ? "is" : "are", said->output);
+  return EXIT_INTERRUPTED;
+}
+
 static int work(cli_run *run)
 {
-  int code = output_check(run->settings->output, run->settings->force);
+  output_state state;
+  bool done = false;
+  int code = output_check(run->settings->output);
   if (!code)
+    code = look(run, &state, &done);
+  if (!code && !done)
     code = read_field(run);
-  if (code)
-    return code;
-  count_choices(run);
-  say_choices(run);
-  say_what_is_left_out(run);
-  run->facts.seconds_read = clock_seconds() - run->start;
-  code = create_evolution(run);
+  if (!code && !done) {
+    count_choices(run);
+    say_choices(run);
+    say_what_is_left_out(run);
+    run->facts.seconds_read = clock_seconds() - run->start;
+    code = create_evolution(run);
+  }
   if (!code)
-    code = open_results(run);
+    code = done ? output_open(&run->output, run->settings->output)
+                : open_results(run, &done);
+  if (!code && done) {
+    run->finished = true; /* what its end left undone is done where this one ends */
+    fprintf(stderr, "flowgrain: %s: the run is finished\n", run->settings->output);
+    return EXIT_DONE;
+  }
   if (code)
     return code;
-  double before = clock_seconds();
   code = evolve(run);
-  run->facts.seconds_evolve = clock_seconds() - before;
-  if (code && run->drawing && drawing_failed(run->drawing))
-    return finish_drawing(run);
-  if (!code)
+  if (!code || (run->drawing && drawing_failed(run->drawing)))
     code = finish_drawing(run);
   if (!code)
     code = write_results(run);
   if (code)
     return code;
+  run->finished = !can_go_on(run);
   print_summary(run);
-  if (strcmp(run->facts.ended, "stationary") == 0 && !scale_plan_done(&run->plan))
-    complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
-             run->settings->operand, run->plan.wanted[run->plan.next],
-             run->step.clusters);
-  if (strcmp(run->facts.ended, "interrupted") != 0)
-    return EXIT_DONE;
-  complain(
-      "%s: interrupted at t = %.3g with %d clusters; the %d scale%s until then %s in "
-      "%s",
-      run->settings->operand, run->step.time, run->step.clusters,
-      drawing_count(run->drawing), drawing_count(run->drawing) == 1 ? "" : "s",
-      drawing_count(run->drawing) == 1 ? "is" : "are", run->settings->output);
-  return EXIT_INTERRUPTED;
+  return say_ending(run);
+}
+
+/* The second line of a complaint, where a checkpoint makes it worth while and nothing
+ * else was advised. The drawing's own context is gone; its failures advise nothing. */
+static void say_how_to_go_on(const cli_run *run, int code, bool resumable)
+{
+  bool ended_here = run->saved_step && (code == EXIT_FAILED || code == EXIT_INTERRUPTED);
+  if (!resumable || !ended_here || *fg_context_hint(run->context))
+    return;
+  fprintf(stderr, "The same command with --resume goes on from step %ld.\n",
+          run->saved_step);
 }
 
 int command_run(const cli_settings *settings)
 {
-  cli_run run = {.settings = settings, .start = clock_seconds()};
+  cli_run run = {.settings = settings,
+                 .start = clock_seconds(),
+                 .output = {.lock = -1},
+                 .table = {.file = -1}};
   run.facts.settings = settings;
   run.facts.energy_monotone = true;
   scale_plan_start(&run.plan, settings->clusters, settings->cluster_count);
@@ -395,14 +424,14 @@ int command_run(const cli_settings *settings)
     complain("out of memory");
     return EXIT_FAILED;
   }
-  install_signals(&run);
+  interrupt_start(run.context);
   int code = work(&run);
-  release_signals();
+  interrupt_end();
   progress_wipe(&run.progress);
-  if (run.table)
-    fclose(run.table);
   drawing_destroy(run.drawing);
-  output_close(&run.output);
+  table_close(&run.table);
+  bool resumable = output_close(&run.output, run.finished);
+  say_how_to_go_on(&run, code, resumable);
   fg_evolution_destroy(run.evolution);
   fg_field_destroy(run.field);
   fg_context_destroy(run.context);

@@ -29,7 +29,7 @@ static const fg__named_value parameter_values[] = {
     {"energy", FG__VALUE_INTEGER, offsetof(parameters, energy)},
     {"anisotropy", FG__VALUE_REAL, offsetof(parameters, anisotropy)},
     {"coverage", FG__VALUE_REAL, offsetof(parameters, coverage)},
-    {"seed", FG__VALUE_BITS, offsetof(parameters, seed)},
+    {"seed", FG__VALUE_COUNT, offsetof(parameters, seed)},
     {"accuracy", FG__VALUE_REAL, offsetof(parameters, accuracy)},
     {"cycles", FG__VALUE_INTEGER, offsetof(parameters, cycles)},
     {"field", FG__VALUE_BITS, offsetof(parameters, field)},
@@ -249,8 +249,9 @@ static fg_status check_parameters(const fg_evolution *e, const fg__checkpoint_fi
   char one[FG__VALUE_TEXT_BYTES], other[FG__VALUE_TEXT_BYTES];
   fg__value_describe(one, differs, &theirs);
   fg__value_describe(other, differs, &own);
-  fg__fail(e->context, FG_STATUS_ARGUMENT, "%s: belongs to a run with %s %s, not %s",
-           file->path, differs->name, one, other);
+  const char *kind = differs->kind == FG__VALUE_BITS ? "another " : "";
+  fg__fail(e->context, FG_STATUS_ARGUMENT, "%s: belongs to a run with %s%s: %s, not %s",
+           file->path, kind, differs->name, one, other);
   fg__hint(e->context, "Take the same field and options, or start anew.");
   return FG_STATUS_ARGUMENT;
 }

@@ -109,10 +109,10 @@ static void same_density(const fg_evolution *one, const fg_evolution *other)
 
 /* Saves after each of the given numbers of further steps and resumes: `more` steps of the
  * resumed evolution are those of one that was never saved. */
-static void goes_on(fixture *f, const fg_evolution_options *options, const int *steps,
-                    int count, int more)
+static void goes_on_over(fixture *f, const fg_field *field,
+                         const fg_evolution_options *options, const int *steps, int count,
+                         int more)
 {
-  fg_field *field = make(f);
   fg_evolution *saved = begin(f, field, options), *plain = begin(f, field, options);
   for (int n = 0; n < count; ++n) {
     fg_step expected = advance(f, plain, steps[n]), step;
@@ -135,6 +135,13 @@ static void goes_on(fixture *f, const fg_evolution_options *options, const int *
   }
   fg_evolution_destroy(saved);
   fg_evolution_destroy(plain);
+}
+
+static void goes_on(fixture *f, const fg_evolution_options *options, const int *steps,
+                    int count, int more)
+{
+  fg_field *field = make(f);
+  goes_on_over(f, field, options, steps, count, more);
   fg_field_destroy(field);
 }
 
@@ -143,6 +150,17 @@ static void goes_on_bit_for_bit(void **state)
   static const int steps[] = {0, 1, 1, 7, 40};
   fg_evolution_options options = {.nodes = NODES, .seed = 3};
   goes_on(*state, &options, steps, 5, 5);
+}
+
+static void goes_on_in_3d(void **state)
+{
+  fixture *f = *state;
+  static const int steps[] = {2, 20};
+  fg_evolution_options options = {.nodes = 17};
+  fg_field *field;
+  assert_int_equal(fg_field_create_analytic(&field, f->context, "abc", 9), FG_STATUS_OK);
+  goes_on_over(f, field, &options, steps, 2, 5);
+  fg_field_destroy(field);
 }
 
 static void goes_on_with_a_mask(void **state)
@@ -285,36 +303,36 @@ static void another_run_is_refused(void **state)
   fg_evolution_destroy(e);
   fg_evolution_options other = options;
   other.nodes = 17;
-  differs(f, field, &other, "nodes 33, not 17");
+  differs(f, field, &other, "nodes: 33, not 17");
   other = options;
   other.seed = 6;
-  differs(f, field, &other, "seed 0000000000000005, not 0000000000000006");
+  differs(f, field, &other, "seed: 5, not 6");
   other = options;
   other.coverage = 0.25;
-  differs(f, field, &other, "coverage 0.3, not 0.25");
+  differs(f, field, &other, "coverage: 0.3, not 0.25");
   other = options;
   other.anisotropy = nextafter(0.15, 1.0);
-  differs(f, field, &other, "anisotropy 0.15, not 0.15000000000000002");
+  differs(f, field, &other, "anisotropy: 0.15, not 0.15000000000000002");
   other = options;
   other.energy = FG_ENERGY_ISOTROPIC;
-  differs(f, field, &other, "energy 0, not 1");
+  differs(f, field, &other, "energy: 0, not 1");
   other = options;
   other.accuracy = 0.03;
-  differs(f, field, &other, "accuracy 0.05, not 0.03");
+  differs(f, field, &other, "accuracy: 0.05, not 0.03");
   other = options;
   other.cycles = 3;
-  differs(f, field, &other, "cycles 2, not 3");
+  differs(f, field, &other, "cycles: 2, not 3");
   other = options;
   other.gamma = 0.01;
-  differs(f, field, &other, "gamma ");
+  differs(f, field, &other, "gamma: ");
   other = options;
   u[500] = -0.0F; /* equal, but other bits */
-  differs(f, field, &other, "initial ");
+  differs(f, field, &other, "another initial: ");
   u[500] = 0.0F;
   fg_field_destroy(field);
   f->v[77] = nextafterf(f->v[77], 2.0F);
   field = make(f);
-  differs(f, field, &options, "field ");
+  differs(f, field, &options, "another field: ");
   fg_field_destroy(field);
 }
 
@@ -418,6 +436,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       CASE(goes_on_bit_for_bit),
+      CASE(goes_on_in_3d),
       CASE(goes_on_with_a_mask),
       CASE(goes_on_round_a_period),
       CASE(goes_on_after_rejected_steps),

@@ -17,6 +17,7 @@ static size_t size_of(fg__value_kind kind)
     return sizeof(long);
   case FG__VALUE_FLAG:
     return sizeof(bool);
+  case FG__VALUE_COUNT:
   case FG__VALUE_BITS:
     break;
   }
@@ -39,6 +40,10 @@ static void print(char text[FG__VALUE_TEXT_BYTES], const fg__named_value *value,
   case FG__VALUE_BITS:
     memcpy(&bits, source, sizeof bits);
     snprintf(text, FG__VALUE_TEXT_BYTES, "%016" PRIx64, bits);
+    return;
+  case FG__VALUE_COUNT:
+    memcpy(&bits, source, sizeof bits);
+    snprintf(text, FG__VALUE_TEXT_BYTES, "%" PRIu64, bits);
     return;
   case FG__VALUE_INTEGER:
     number = *(const int *)source;
@@ -85,6 +90,16 @@ static bool scan_bits(uint64_t *bits, const char *text)
   return strspn(text, "0123456789abcdef") == 16 && !*end;
 }
 
+static bool scan_count(uint64_t *count, const char *text)
+{
+  char *end;
+  errno = 0;
+  uintmax_t value = strtoumax(text, &end, 10);
+  *count = (uint64_t)value;
+  return strspn(text, "0123456789") == strlen(text) && end != text && !errno &&
+         value <= UINT64_MAX;
+}
+
 static bool scan_number(long *number, long least, long most, const char *text)
 {
   char *end;
@@ -102,6 +117,11 @@ static bool scan(const char *text, const fg__named_value *value, void *to)
   case FG__VALUE_REAL:
   case FG__VALUE_BITS:
     if (!scan_bits(&bits, text))
+      return false;
+    memcpy(target, &bits, sizeof bits);
+    return true;
+  case FG__VALUE_COUNT:
+    if (!scan_count(&bits, text))
       return false;
     memcpy(target, &bits, sizeof bits);
     return true;

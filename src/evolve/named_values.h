@@ -11,8 +11,9 @@ typedef enum fg__value_kind {
   FG__VALUE_REAL,    /* double: the 16 hexadecimal digits of its bits */
   FG__VALUE_INTEGER, /* int, in decimals */
   FG__VALUE_LONG,    /* long, in decimals */
+  FG__VALUE_COUNT,   /* uint64_t, in decimals */
   FG__VALUE_FLAG,    /* bool: 0 or 1 */
-  FG__VALUE_BITS     /* uint64_t, 16 hexadecimal digits */
+  FG__VALUE_BITS     /* uint64_t that means nothing to people, 16 hexadecimal digits */
 } fg__value_kind;
 
 typedef struct fg__named_value {

@@ -333,6 +333,19 @@ static fg_status prepare(picture *p, fg_context *context, const fg_field_arrays 
   return status;
 }
 
+/* Fontconfig crashes where memory runs out while it loads fonts, which with cairo took 40
+ * MB of address space. So there must be more than that before it begins. */
+enum { ROOM_BYTES = 48 << 20 };
+
+static fg_status check_room(fg_context *context)
+{
+  void *room = fg__allocate(ROOM_BYTES, 1); /* never touched */
+  if (!room)
+    return fg__fail_memory(context, "a picture", ROOM_BYTES);
+  free(room);
+  return FG_STATUS_OK;
+}
+
 fg_status fg_picture_write(fg_context *context, const char *path, const fg_field *field,
                            const fg_density *density, const fg_icons *icons,
                            const fg_picture_options *options)
@@ -362,7 +375,9 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
   picture *p = fg__allocate(1, sizeof *p);
   if (!p)
     return fg__fail_memory(context, "a picture", sizeof *p);
-  fg_status status = prepare(p, context, contents, icons, options);
+  fg_status status = check_room(context);
+  if (!status)
+    status = prepare(p, context, contents, icons, options);
   if (!status && format == PICTURE_PNG)
     status = check_pixels(context, p);
   const double range[2] = {p->plan.speed.low, p->plan.speed.high};

@@ -76,37 +76,4 @@ for input in no-such.nc broken.nc plain . /dev/null; do
   done_with "unreadable input: $input"
 done
 
-# a shell lets its background jobs ignore the interrupt
-env --default-signal=INT "$program" run synth:vortex3 -o stopped --nodes 513 --clusters 400,2 --quiet >out 2>err &
-pid=$!
-# not a fixed wait: until the first scale is on its way
-for _ in $(seq 600); do
-  ls stopped/.flowgrain-*/scale-00.geojson >/dev/null 2>&1 && break
-  kill -0 "$pid" 2>/dev/null || break
-  sleep 0.05
-done
-kill -INT "$pid"
-wait "$pid"
-code=$?
-expect_code 130
-expect_one_complaint
-expect_error 'interrupted'
-expect_json stopped/run.json '.ended == "interrupted" and (.scales | length) >= 1'
-expect_file stopped/scale-00.svg
-[ "$(ls -A stopped | grep -c flowgrain)" = 0 ] || fault "temporary files are left"
-done_with "an interrupted run writes the scales it has and exits 130"
-
-"$program" run synth:vortex3 -o early --nodes 2049 --threads 1 --quiet >out 2>err &
-pid=$!
-for _ in $(seq 600); do
-  ls -d early/.flowgrain-* >/dev/null 2>&1 && break
-  sleep 0.05
-done
-kill -TERM "$pid"
-wait "$pid"
-code=$?
-expect_code 130
-expect_one_complaint
-expect_nothing_at early
-done_with "terminated before the first scale, it leaves nothing"
 finish

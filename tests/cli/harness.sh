@@ -48,6 +48,44 @@ expect_json() {
   [ "$(jq -r "$2" "$1" 2>&1)" = true ] || fault "$1: not true: $2 ($(jq -c "$2" "$1" 2>&1 | head -c 200))"
 }
 
+# Cairo numbers the surfaces that a process has made.
+without_numbers() {
+  sed -E 's/surface[0-9]+/surface/g' "$1"
+}
+
+# The results of two runs are the same but for the time they took.
+expect_same_results() {
+  local name
+  for name in $(ls "$1" "$2" | grep -E '^scale-' | sort -u); do
+    cmp -s <(without_numbers "$1/$name") <(without_numbers "$2/$name") ||
+      fault "$name differs between $1 and $2"
+  done
+  cmp -s <(cut -d, -f1-10 "$1/evolution.csv") <(cut -d, -f1-10 "$2/evolution.csv") ||
+    fault "evolution.csv differs between $1 and $2"
+  cmp -s <(jq 'del(.seconds)' "$1/run.json") <(jq 'del(.seconds)' "$2/run.json") ||
+    fault "run.json differs between $1 and $2"
+}
+
+# Nothing is left in a folder but results.
+expect_only_results() {
+  local rest
+  rest=$(ls -A "$1" | grep -vE '^(scale-[0-9]{2}\.(geojson|svg|png|pdf|vti)|run\.json|evolution\.csv)$')
+  [ -z "$rest" ] || fault "left in $1: $rest"
+}
+
+# with_calls KILL-OR-FULL NUMBER ARGUMENTS...: as try, and at that call of those that change
+# files the program is killed, or from it on the disk is full (file_calls.c).
+with_calls() {
+  local what=$1 number=$2
+  shift 2
+  : "${FILE_CALLS:?is to name libfile_calls.so, as ctest does}"
+  # a sanitizer would insist on being loaded first
+  { FILE_CALLS_DO=$what FILE_CALLS_AT=$number FILE_CALLS_LOG=$PWD/calls \
+    ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0 \
+    LD_PRELOAD=$FILE_CALLS "$program" "$@" >out 2>err; } 2>/dev/null
+  code=$?
+}
+
 # done_with NAME: ends a case.
 done_with() {
   case_number=$((case_number + 1))

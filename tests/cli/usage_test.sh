@@ -29,8 +29,12 @@ wrong 'unknown option --no-such' run a -o x --no-such
 done_with "unknown long option"
 wrong 'unknown option -z' run a -o x -z
 done_with "unknown short option"
-wrong 'unknown option --resume' run a -o x --resume
+wrong 'unknown option --scheme' run a -o x --scheme theta
 done_with "an option of a later version is unknown"
+wrong 'say one' run a -o x --resume --force
+done_with "--resume and --force exclude each other"
+wrong 'checkpoint -1: a number in .0, 1e.09.' run a -o x --checkpoint -1
+done_with "seconds between checkpoints are not negative"
 wrong '--nodes.*missing' run a -o x --nodes
 done_with "missing argument"
 wrong '--force.*no argument' run a -o x --force=yes

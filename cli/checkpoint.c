@@ -1,0 +1,284 @@
+#include "checkpoint.h"
+
+#include <cjson/cJSON.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "folder.h"
+#include "options.h"
+#include "said.h"
+
+/* cJSON rounds to 15 digits where it thinks that near enough. */
+static void add_exact(cJSON *object, const char *name, double value)
+{
+  char text[32];
+  snprintf(text, sizeof text, "%.17g", value);
+  cJSON_AddItemToObject(object, name, cJSON_CreateRaw(text));
+}
+
+static void add_whole(cJSON *object, const char *name, long value)
+{
+  cJSON_AddNumberToObject(object, name, (double)value);
+}
+
+static void add_scale(cJSON *scales, const scale_result *result)
+{
+  cJSON *scale = cJSON_CreateObject();
+  cJSON_AddItemToObject(scale, "wanted",
+                        cJSON_CreateIntArray(result->wanted, result->wanted_count));
+  add_whole(scale, "clusters", result->clusters);
+  add_whole(scale, "icons", result->icons);
+  add_whole(scale, "dropped", result->dropped);
+  add_exact(scale, "time", result->time);
+  add_exact(scale, "energy", result->energy);
+  add_exact(scale, "area_fraction", result->area_fraction);
+  cJSON_AddItemToArray(scales, scale);
+}
+
+/* All that the program needs to go on, as JSON. NULL without memory; end with
+ * cJSON_free. */
+static char *describe(const cli_run *run)
+{
+  const run_facts *facts = &run->facts;
+  const fg_step *first = &run->first_counted;
+  double now = clock_seconds();
+  cJSON *root = cJSON_CreateObject();
+  cJSON_AddItemToObject(root, "options", said_options(run->settings));
+  add_whole(root, "table_bytes", (long)run->table.bytes);
+  cJSON_AddItemToObject(root, "wanted",
+                        cJSON_CreateIntArray(run->plan.wanted, run->plan.count));
+  add_whole(root, "next", run->plan.next);
+  add_whole(root, "last_scale_clusters", run->last_scale_clusters);
+  add_whole(root, "rejected", facts->rejected);
+  add_exact(root, "mass_drift", facts->mass_drift);
+  cJSON_AddBoolToObject(root, "energy_monotone", facts->energy_monotone);
+  add_whole(root, "first_step", first->step);
+  add_whole(root, "first_clusters", first->clusters);
+  add_exact(root, "first_time", first->time);
+  add_exact(root, "first_seconds", first->seconds);
+  cJSON *scales = cJSON_AddArrayToObject(root, "scales");
+  for (int k = 0; k < drawing_count(run->drawing); ++k)
+    add_scale(scales, drawing_result(run->drawing, k));
+  add_exact(root, "slowest", drawing_speeds(run->drawing)[0]);
+  add_exact(root, "fastest", drawing_speeds(run->drawing)[1]);
+  add_exact(root, "seconds_read", facts->seconds_read);
+  add_exact(root, "seconds_evolve", run->earlier_evolve + now - run->evolving_since);
+  add_exact(root, "seconds_icons", drawing_icon_seconds(run->drawing));
+  add_exact(root, "seconds_pictures", drawing_picture_seconds(run->drawing));
+  add_exact(root, "seconds_total", run->earlier_total + now - run->start);
+  char *text = cJSON_Print(root);
+  cJSON_Delete(root);
+  return text;
+}
+
+static void warn(cli_run *run, const char *what)
+{
+  if (!run->save_failed) {
+    progress_wipe(&run->progress);
+    if (run->saved_step)
+      complain("%s; the checkpoint of step %ld stays, and the run goes on", what,
+               run->saved_step);
+    else
+      complain("%s; the run goes on without a checkpoint", what);
+  }
+  run->save_failed = true;
+}
+
+static void warn_of_file(cli_run *run, const char *path)
+{
+  char text[1024];
+  snprintf(text, sizeof text, "%s: cannot be written: %s", path, strerror(errno));
+  warn(run, text);
+}
+
+static bool save(cli_run *run)
+{
+  if (!table_flush(&run->table, true)) {
+    warn_of_file(run, run->table.path);
+    return false;
+  }
+  if (output_synchronise(&run->output))
+    return false; /* it has complained */
+  char *path = output_path(&run->output, CHECKPOINT_NAME), *note = describe(run);
+  bool saved = false;
+  if (!path || !note)
+    warn(run, "out of memory for a checkpoint");
+  else if (fg_evolution_save(run->evolution, path, note)) {
+    warn(run, fg_context_message(run->context));
+    fg_context_clear(run->context);
+  } else
+    saved = true;
+  cJSON_free(note);
+  free(path);
+  return saved;
+}
+
+int checkpoint_save(cli_run *run)
+{
+  if (run->step.step == run->saved_step)
+    return EXIT_DONE;
+  if (!drawing_wait(run->drawing))
+    return EXIT_FAILED; /* complained of where the run ends */
+  double before = clock_seconds();
+  bool saved = save(run);
+  run->save_tried = clock_seconds();
+  if (!saved)
+    return EXIT_DONE;
+  run->saved_step = run->step.step;
+  run->save_failed = false;
+  if (run->settings->verbose) {
+    progress_wipe(&run->progress);
+    fprintf(stderr, "flowgrain: checkpoint: step %ld, t = %.3e, %.3f s to write\n",
+            run->step.step, run->step.time, run->save_tried - before);
+  }
+  return EXIT_DONE;
+}
+
+bool checkpoint_is_due(const cli_run *run)
+{
+  return clock_seconds() - run->save_tried >= run->settings->checkpoint;
+}
+
+static const cJSON *item_of(const cJSON *object, const char *name)
+{
+  return cJSON_GetObjectItemCaseSensitive(object, name);
+}
+
+static double real_of(const cJSON *object, const char *name)
+{
+  return cJSON_GetNumberValue(item_of(object, name));
+}
+
+static long whole_of(const cJSON *object, const char *name)
+{
+  double value = real_of(object, name);
+  return value >= 0.0 && value <= 0x1p53 ? (long)value : 0;
+}
+
+static int list_of(int *out, int most, const cJSON *object, const char *name)
+{
+  int count = 0;
+  const cJSON *item;
+  cJSON_ArrayForEach(item, item_of(object, name)) if (count < most) out[count++] =
+      item->valueint;
+  return count;
+}
+
+/* A file that the checkpoint counts on, and that is not there any more. */
+static bool lacks(const cli_run *run, int index, const char *end)
+{
+  char name[32];
+  snprintf(name, sizeof name, "scale-%02d.%s", index, end);
+  if (file_is_there(run->output.work, name))
+    return false;
+  complain("%s: damaged: %s, which its checkpoint counts on, is not there",
+           run->output.work, name);
+  fputs("Start anew with --force.\n", stderr);
+  return true;
+}
+
+static bool scales_are_there(const cli_run *run, int count)
+{
+  bool icons = drawing_makes_icons(run->drawing);
+  unsigned formats = run->settings->formats;
+  if (!formats)
+    formats = FORMAT_SVG | FORMAT_PNG;
+  for (int k = 0; k < count; ++k) {
+    if ((drawing_saves_field(run->drawing) && lacks(run, k, "vti")) ||
+        (icons && lacks(run, k, "geojson")))
+      return false;
+    for (int kind = 0; icons && kind < FORMAT_KINDS; ++kind)
+      if ((formats & (1U << kind)) && lacks(run, k, format_words[kind]))
+        return false;
+  }
+  return true;
+}
+
+static int restore_scales(cli_run *run, const cJSON *note)
+{
+  scale_result results[MAX_SCALES + 1] = {{.wanted_count = 0}};
+  int count = 0;
+  const cJSON *scale;
+  cJSON_ArrayForEach(scale, item_of(note, "scales"))
+  {
+    if (count > MAX_SCALES)
+      break;
+    scale_result *result = &results[count++];
+    result->wanted_count = list_of(result->wanted, MAX_SCALES, scale, "wanted");
+    result->clusters = (int)whole_of(scale, "clusters");
+    result->icons = (int)whole_of(scale, "icons");
+    result->dropped = (int)whole_of(scale, "dropped");
+    result->time = real_of(scale, "time");
+    result->energy = real_of(scale, "energy");
+    result->area_fraction = real_of(scale, "area_fraction");
+  }
+  if (!scales_are_there(run, count))
+    return EXIT_FAILED;
+  const double speeds[2] = {real_of(note, "slowest"), real_of(note, "fastest")};
+  drawing_restore(run->drawing, results, count, speeds, real_of(note, "seconds_icons"),
+                  real_of(note, "seconds_pictures"));
+  return output_go_on(&run->output, count);
+}
+
+static int restore(cli_run *run, const cJSON *note)
+{
+  run->plan.count = list_of(run->plan.wanted, MAX_SCALES, note, "wanted");
+  run->plan.next = (int)whole_of(note, "next");
+  if (run->plan.next > run->plan.count)
+    run->plan.next = run->plan.count;
+  run->last_scale_clusters = (int)whole_of(note, "last_scale_clusters");
+  run->facts.accepted = run->step.step;
+  run->facts.rejected = whole_of(note, "rejected");
+  run->facts.mass_drift = real_of(note, "mass_drift");
+  run->facts.energy_monotone = cJSON_IsTrue(item_of(note, "energy_monotone"));
+  run->first_counted = (fg_step){.step = whole_of(note, "first_step"),
+                                 .clusters = (int)whole_of(note, "first_clusters"),
+                                 .time = real_of(note, "first_time"),
+                                 .seconds = real_of(note, "first_seconds")};
+  run->facts.seconds_read += real_of(note, "seconds_read");
+  run->earlier_evolve = real_of(note, "seconds_evolve");
+  run->earlier_total = real_of(note, "seconds_total");
+  int code = table_resume(&run->table, output_path(&run->output, TABLE_NAME),
+                          whole_of(note, "table_bytes"));
+  return code ? code : restore_scales(run, note);
+}
+
+static int resume(cli_run *run, const fg_checkpoint *checkpoint)
+{
+  const char *folder = run->settings->output;
+  if (*fg_checkpoint_damage(checkpoint))
+    complain("%s; the previous checkpoint is used", fg_checkpoint_damage(checkpoint));
+  cJSON *note = cJSON_Parse(fg_checkpoint_note(checkpoint));
+  int code = EXIT_FAILED;
+  if (!note)
+    complain("%s: its checkpoint is not one of this program", folder);
+  else if (said_the_same(item_of(note, "options"), run->settings)) {
+    fg_status status = fg_evolution_resume(run->evolution, &run->step, checkpoint);
+    code = status ? complain_of(run->context, status, folder) : restore(run, note);
+  }
+  cJSON_Delete(note);
+  return code;
+}
+
+int checkpoint_resume(cli_run *run)
+{
+  char *path = output_path(&run->output, CHECKPOINT_NAME);
+  if (!path) {
+    complain("out of memory for a file's name");
+    return EXIT_FAILED;
+  }
+  fg_checkpoint *checkpoint;
+  fg_status status = fg_checkpoint_open(&checkpoint, run->context, path);
+  int code;
+  if (status) {
+    code = complain_of(run->context, status, run->settings->output);
+    fputs("Start anew with --force.\n", stderr);
+  } else {
+    code = resume(run, checkpoint);
+    fg_checkpoint_destroy(checkpoint);
+  }
+  free(path);
+  return code;
+}

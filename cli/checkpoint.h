@@ -1,0 +1,19 @@
+/* Checkpoints of a run: the evolution's state, and the program's own beside it. */
+#ifndef CHECKPOINT_H
+#define CHECKPOINT_H
+
+#include "run.h"
+
+/* Writes a checkpoint of the last step, unless there is one, after the scales so far are
+ * drawn. One that can not be written is a warning, at the first of several in a row.
+ * Returns an exit code: failed only when the drawing has. */
+int checkpoint_save(cli_run *run);
+
+/* Says whether the next one is due: --checkpoint seconds after the last. */
+bool checkpoint_is_due(const cli_run *run);
+
+/* Puts a run that has a folder, a drawing and a new evolution into the state of the
+ * checkpoint in its folder. Returns an exit code. */
+int checkpoint_resume(cli_run *run);
+
+#endif

@@ -1,0 +1,46 @@
+#include "interrupt.h"
+
+#include <signal.h>
+#include <stdatomic.h>
+
+/* A handler can not be given an argument, hence the globals. */
+static _Atomic(fg_context *) stop_first;
+static _Atomic(fg_context *) stop_second;
+static volatile sig_atomic_t interrupts;
+
+static void handle_signal(int number)
+{
+  (void)number;
+  ++interrupts;
+  fg_context *first = atomic_load(&stop_first);
+  fg_context *second = atomic_load(&stop_second);
+  if (first)
+    fg_context_stop(first);
+  if (interrupts > 1 && second)
+    fg_context_stop(second);
+}
+
+void interrupt_start(fg_context *first)
+{
+  atomic_store(&stop_first, first);
+  struct sigaction action = {.sa_handler = handle_signal, .sa_flags = SA_RESTART};
+  sigemptyset(&action.sa_mask);
+  const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+  for (int k = 0; k < 3; ++k) {
+    struct sigaction before;
+    /* nohup and shells that run jobs in the background ignore signals for us */
+    if (sigaction(numbers[k], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+      sigaction(numbers[k], &action, NULL);
+  }
+}
+
+void interrupt_second(fg_context *second)
+{
+  atomic_store(&stop_second, second);
+}
+
+void interrupt_end(void)
+{
+  atomic_store(&stop_first, NULL);
+  atomic_store(&stop_second, NULL);
+}

@@ -1,0 +1,36 @@
+/* A run of the main job while it goes on, for the files that do it. */
+#ifndef RUN_H
+#define RUN_H
+
+#include "drawing.h"
+#include "json_report.h"
+#include "output.h"
+#include "progress.h"
+#include "scales.h"
+#include "table.h"
+
+typedef struct cli_run {
+  const cli_settings *settings;
+  fg_context *context;
+  fg_field *field;
+  fg_evolution *evolution;
+  cli_drawing *drawing;
+  cli_output output;
+  cli_table table; /* evolution.csv */
+  cli_progress progress;
+  scale_plan plan;
+  run_facts facts;
+  fg_step step;          /* the last accepted one */
+  fg_step first_counted; /* the first with a number of clusters; step 0: none yet */
+  int last_scale_clusters;
+  double start;          /* of the process */
+  double evolving_since; /* clock of the process */
+  double earlier_evolve; /* seconds of the runs that this one goes on from */
+  double earlier_total;
+  double save_tried; /* clock when a checkpoint was last tried */
+  long saved_step;   /* of the last checkpoint; 0: none */
+  bool finished;     /* nothing is left to go on from */
+  bool save_failed;  /* the last try failed, and the user was told */
+} cli_run;
+
+#endif

@@ -1,0 +1,184 @@
+#!/usr/bin/env bash
+# Ends before the end: signals, a full disk, limits on files and memory. One message, the
+# right exit code, the last checkpoint good, and nothing else left.
+source "$(dirname "$0")/harness.sh"
+
+run=(run synth:vortex3 --nodes 129 --quiet)
+scales=(--clusters 60,12)
+try "${run[@]}" "${scales[@]}" -o whole
+expect_code 0
+
+# in_background ARGUMENTS...: a shell lets its background jobs ignore the interrupt.
+in_background() {
+  env --default-signal=INT "$program" "$@" >out 2>err &
+  pid=$!
+}
+# until FILE: waits until it is there, or the run has ended.
+until_there() {
+  for _ in $(seq 1200); do
+    [ -e "$1" ] && return
+    kill -0 "$pid" 2>/dev/null || return
+    sleep 0.02
+  done
+}
+# ends_by SIGNAL: the background run gets it.
+ends_by() {
+  kill "-$1" "$pid"
+  wait "$pid"
+  code=$?
+}
+expect_only_work() {
+  [ "$(ls -A "$1")" = .flowgrain ] || fault "in $1: $(ls -A "$1")"
+  local rest
+  rest=$(ls -A "$1/.flowgrain" |
+    grep -vE '^(scale-[0-9]{2}\.(geojson|svg|png)|evolution\.csv|run\.json|checkpoint(\.previous)?)$')
+  [ -z "$rest" ] || fault "left in $1/.flowgrain: $rest"
+}
+
+for signal in INT TERM HUP; do
+  in_background "${run[@]}" "${scales[@]}" -o "early-$signal" --checkpoint 0
+  until_there "early-$signal/.flowgrain/checkpoint"
+  ends_by "$signal"
+  expect_code 130
+  expect_one_complaint
+  expect_error 'interrupted at t = .*, before the first scale$'
+  expect_error 'The same command with --resume goes on from step [1-9]'
+  expect_only_work "early-$signal"
+  try "${run[@]}" "${scales[@]}" -o "early-$signal" --resume
+  expect_code 0
+  expect_same_results whole "early-$signal"
+  expect_only_results "early-$signal"
+  done_with "SIG$signal before the first scale: a checkpoint, and --resume goes on"
+done
+
+wide=(run synth:vortex3 --nodes 257 --clusters 100,12 --quiet)
+try "${wide[@]}" -o whole2
+expect_code 0
+in_background "${wide[@]}" -o stopped --checkpoint 0
+until_there stopped/.flowgrain/scale-00.geojson
+ends_by INT
+expect_code 130
+expect_one_complaint
+expect_error 'interrupted at t = .* with [0-9]+ clusters; the [12] scales? until then'
+expect_error '--resume goes on from step'
+expect_json stopped/run.json '.ended == "interrupted" and (.scales | length) >= 1'
+expect_file stopped/scale-00.svg
+cmp -s whole2/scale-00.geojson stopped/scale-00.geojson || fault "scale 0 differs"
+before=$(cat stopped/* | cksum)
+with_calls kill 60 "${wide[@]}" -o stopped --resume --checkpoint 0
+[ "$code" = 137 ] || fault "not killed: code $code"
+[ "$(cat stopped/* | cksum)" = "$before" ] || fault "what it had is not kept while it goes on"
+try "${wide[@]}" -o stopped --resume
+expect_code 0
+expect_same_results whole2 stopped
+expect_only_results stopped
+done_with "an interrupted run writes the scales it has, and goes on from there"
+
+in_background "${wide[@]}" -o never
+until_there never/.flowgrain/scale-00.geojson
+ends_by TERM
+expect_code 130
+expect_file never/.flowgrain/checkpoint
+try "${wide[@]}" -o never --resume
+expect_code 0
+expect_same_results whole2 never
+done_with "its first checkpoint may be that of the interruption"
+
+# checkpoints have 3 arrays of 129 x 129 floats and more; results are smaller
+limit_kib=150
+[ -z "$(find whole -size +${limit_kib}k)" ] || fault "too large: $(find whole -size +${limit_kib}k)"
+(
+  ulimit -f "$limit_kib"
+  try "${run[@]}" "${scales[@]}" -o limited --checkpoint 0
+  echo "$code" >code
+)
+code=$(cat code)
+expect_code 0
+expect_one_complaint
+expect_error 'limited/.flowgrain/checkpoint: cannot be written: File too large; the run goes on without'
+expect_same_results whole limited
+expect_only_results limited
+done_with "a checkpoint that can not be written is one warning"
+
+with_calls kill 600 "${run[@]}" "${scales[@]}" -o kept --checkpoint 0
+[ "$code" = 137 ] || fault "not killed: code $code"
+step=$(grep -a -oP '^stepper.accepted \K[0-9]+' kept/.flowgrain/checkpoint)
+(
+  ulimit -f "$limit_kib"
+  try "${run[@]}" "${scales[@]}" -o kept --checkpoint 0 --resume --max-steps $((step + 20))
+  echo "$code" >code
+)
+code=$(cat code)
+expect_code 0
+expect_error "the checkpoint of step $step stays, and the run goes on"
+expect_json kept/run.json ".ended == \"steps\" and .steps.accepted == $((step + 20))"
+try "${run[@]}" "${scales[@]}" -o kept --resume
+expect_code 0
+expect_same_results whole kept
+done_with "the last one stays good, and serves"
+
+for at in 1 2 3 4 5 9 40 150 400 600 700; do
+  rm -rf full
+  with_calls full "$at" "${run[@]}" "${scales[@]}" -o full --checkpoint 0
+  [ "$code" = 1 ] || fault "full at $at: code $code"
+  tail -2 err | grep -q 'No space left on device' || fault "full at $at: $(head -c 300 err)"
+  [ "$(grep -c '^flowgrain: ' err)" -le 2 ] || fault "full at $at: $(head -c 300 err)"
+  [ ! -e full ] || expect_only_work full
+  try "${run[@]}" "${scales[@]}" -o full --resume
+  [ "$code" = 0 ] || fault "full at $at: resumed: code $code: $(head -c 300 err)"
+  expect_same_results whole full
+  expect_only_results full
+done
+done_with "on a disk that is full from some moment on, nothing is lost"
+
+# Address space: the least in which a tiny run works is what libraries take.
+if ldd "$program" | grep -q libasan; then
+  echo "# limits on memory are not tried with the address sanitizer, which reserves it all"
+else
+  least=50000
+  most=1000000
+  while [ $((most - least)) -gt 4000 ]; do
+    middle=$(((least + most) / 2))
+    if (ulimit -v "$middle" && "$program" run synth:vortex -o tiny --nodes 33 \
+      --clusters 9 --quiet --force --threads 1) >/dev/null 2>&1; then
+      most=$middle
+    else
+      least=$middle
+    fi
+  done
+  for more in 0 4 16 40 80; do
+    rm -rf small
+    (
+      ulimit -v $((most + 1024 * more))
+      try run synth:vortex3 -o small --nodes 1025 --quiet
+      echo "$code" >code
+    )
+    code=$(cat code)
+    expect_code 1
+    expect_one_complaint
+    expect_error 'out of memory: [0-9]+ bytes'
+    expect_nothing_at small
+  done
+  done_with "out of memory: one message, and nothing is left"
+
+  with_calls kill 60 "${wide[@]}" -o tight --checkpoint 0
+  [ "$code" = 137 ] || fault "not killed: code $code"
+  for more in 4 8 12; do
+    (
+      ulimit -v $((most + 1024 * more))
+      try "${wide[@]}" -o tight --resume
+      echo "$code" >code
+    )
+    code=$(cat code)
+    [ "$code" = 0 ] && break
+    expect_code 1
+    expect_one_complaint
+    expect_error 'out of memory'
+  done
+  try "${wide[@]}" -o tight --resume
+  expect_code 0
+  expect_same_results whole2 tight
+  expect_only_results tight
+  done_with "out of memory when resumed: the checkpoint stays good"
+fi
+finish

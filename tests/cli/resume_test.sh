@@ -1,0 +1,224 @@
+#!/usr/bin/env bash
+# What --resume goes on from, and what it refuses.
+source "$(dirname "$0")/harness.sh"
+
+input=(run synth:vortex3)
+options=(--nodes 65 --clusters 20,8 --quiet --checkpoint 0)
+
+# begin FOLDER ARGUMENTS...: a run that is killed a good way on, after a scale.
+begin() {
+  rm -rf "$1"
+  with_calls kill 550 "${input[@]}" "${options[@]}" "${@:2}" -o "$1"
+  [ "$code" = 137 ] || fault "not killed: code $code"
+  expect_file "$1/.flowgrain/checkpoint"
+  expect_file "$1/.flowgrain/scale-00.svg"
+}
+sum_of() {
+  (cd "$1" && find . -type f ! -name lock ! -name '*.part' -exec cksum {} + | sort | cksum)
+}
+
+try "${input[@]}" "${options[@]}" -o whole
+expect_code 0
+try "${input[@]}" --nodes 65 --clusters 20,8 -o none --resume
+expect_code 0
+expect_error 'none: no checkpoint: the run starts from the beginning'
+expect_same_results whole none
+done_with "without a checkpoint it starts from the beginning, with a note"
+
+before=$(sum_of none)
+try "${input[@]}" "${options[@]}" -o none --resume
+expect_code 0
+expect_error 'the run is finished'
+[ "$(sum_of none)" = "$before" ] || fault "it has changed"
+expect_only_results none
+done_with "a finished run is left as it is"
+try "${input[@]}" "${options[@]}" -o none --resume --seed 4
+expect_code 1
+expect_one_complaint
+expect_error 'begun without --seed; this command goes with --seed 4'
+try run synth:vortex "${options[@]}" -o none --resume
+expect_code 1
+expect_error 'results of a run on synth:vortex3'
+[ "$(sum_of none)" = "$before" ] || fault "it has changed"
+done_with "a finished run of another kind is refused"
+
+begin part
+before=$(sum_of part)
+try "${input[@]}" "${options[@]}" -o part
+expect_code 1
+expect_one_complaint
+expect_error 'holds a run that can go on'
+expect_error '--resume'
+[ "$(sum_of part)" = "$before" ] || fault "it has changed"
+done_with "without --resume or --force it is not touched"
+
+refused() {
+  try "${input[@]}" "${options[@]}" -o part --resume "${@:2}"
+  expect_code 1
+  expect_one_complaint
+  expect_error "$1"
+  [ "$(sum_of part)" = "$before" ] || fault "$*: it has changed"
+}
+refused 'with --nodes 65; this command goes with --nodes 97' --nodes 97
+refused 'with --clusters 20,8; this command goes with --clusters 20,6' --clusters 20,6
+refused 'without --coverage; this command goes with --coverage 0.25' --coverage 0.25
+refused 'without --energy; this command goes with --energy isotropic' --energy isotropic
+refused 'without --extent' --extent territory
+refused 'without --palette' --palette '#102030'
+refused 'without --tint; this command goes with --tint$' --tint
+refused 'without --save-field' --save-field
+refused 'without --formats; this command goes with --formats png,pdf' --formats pdf,png
+done_with "other options are refused, with both values"
+
+try run synth:vortex "${options[@]}" -o part --resume
+expect_code 1
+expect_one_complaint
+expect_error 'another field'
+[ "$(sum_of part)" = "$before" ] || fault "it has changed"
+done_with "another field is refused"
+
+try "${input[@]}" --nodes 65 --clusters 20,8 --threads 1 --max-steps 5000 -o part --resume
+expect_code 0
+expect_error 'part: goes on from step [0-9]+, t = '
+expect_only_results part
+for name in scale-00.geojson scale-01.geojson scale-01.png; do
+  cmp -s "whole/$name" "part/$name" || fault "$name differs"
+done
+done_with "threads, limits and seconds between checkpoints may differ"
+
+begin part
+try "${input[@]}" "${options[@]}" -o part --force --seed 3
+expect_code 0
+expect_json part/run.json '.parameters.seed == 3'
+expect_only_results part
+done_with "--force starts anew"
+
+begin part
+cp -r part/.flowgrain kept
+restore() {
+  rm -rf part
+  mkdir part
+  cp -r kept part/.flowgrain
+}
+size=$(stat -c %s kept/checkpoint)
+[ "$size" -gt 50000 ] || fault "$size bytes"
+for at in 3 10 50 64 $((size / 2)) $((size - 400)) $((size - 1)); do
+  restore
+  printf '\252' | dd of=part/.flowgrain/checkpoint bs=1 seek="$at" conv=notrunc 2>/dev/null
+  cmp -s kept/checkpoint part/.flowgrain/checkpoint && fault "byte $at is the same"
+  try "${input[@]}" "${options[@]}" -o part --resume
+  [ "$code" = 0 ] || fault "byte $at: code $code"
+  expect_error 'checkpoint: (damaged|is no checkpoint).*the previous checkpoint is used'
+  expect_same_results whole part
+done
+for length in 0 63 64 $((size / 2)) $((size - 1)); do
+  restore
+  truncate -s "$length" part/.flowgrain/checkpoint
+  try "${input[@]}" "${options[@]}" -o part --resume
+  [ "$code" = 0 ] || fault "length $length: code $code"
+  expect_error 'checkpoint: damaged.*the previous checkpoint is used'
+  expect_same_results whole part
+done
+done_with "a damaged checkpoint is refused, and the previous one used"
+
+restore
+truncate -s 3000 part/.flowgrain/checkpoint part/.flowgrain/checkpoint.previous
+before=$(sum_of part)
+try "${input[@]}" "${options[@]}" -o part --resume
+expect_code 1
+expect_one_complaint
+expect_error 'damaged: it has 3000 bytes, not'
+expect_error -- '--force'
+[ "$(sum_of part)" = "$before" ] || fault "it has changed"
+done_with "when both are damaged, that is an error"
+
+restore
+rm part/.flowgrain/scale-00.png
+try "${input[@]}" "${options[@]}" -o part --resume
+expect_code 1
+expect_one_complaint
+expect_error 'scale-00.png, which its checkpoint counts on, is not there'
+restore
+truncate -s 100 part/.flowgrain/evolution.csv
+try "${input[@]}" "${options[@]}" -o part --resume
+expect_code 1
+expect_one_complaint
+expect_error 'evolution.csv: damaged'
+done_with "files that a checkpoint counts on must be there"
+
+"$program" synth vortex3 -o field.nc --nodes 40
+input=(run field.nc)
+try "${input[@]}" "${options[@]}" -o whole2
+begin part
+cp field.nc same.nc
+try run same.nc "${options[@]}" -o part --resume
+expect_code 0
+expect_only_results part
+cmp -s whole2/scale-01.geojson part/scale-01.geojson || fault "icons differ"
+done_with "the input may have moved"
+begin part
+"$program" synth vortex -o field.nc --nodes 40
+before=$(sum_of part)
+try "${input[@]}" "${options[@]}" -o part --resume
+expect_code 1
+expect_one_complaint
+expect_error 'another field'
+[ "$(sum_of part)" = "$before" ] || fault "it has changed"
+done_with "but not changed"
+
+input=(run synth:vortex3)
+try "${input[@]}" "${options[@]}" -o old --seed 9
+before=$(sum_of old)
+with_calls kill 550 "${input[@]}" "${options[@]}" -o old --force
+[ "$code" = 137 ] || fault "not killed: code $code"
+mv old/.flowgrain aside
+[ "$(sum_of old)" = "$before" ] || fault "the old results have changed"
+mv aside old/.flowgrain
+try "${input[@]}" "${options[@]}" -o old --resume
+expect_code 0
+expect_same_results whole old
+expect_only_results old
+done_with "a run killed while it replaces old results leaves them, and goes on"
+
+try "${input[@]}" --nodes 65 --clusters 20,8 --quiet -o limit --max-steps 40
+expect_code 0
+expect_json limit/run.json '.ended == "steps" and .steps.accepted == 40'
+try "${input[@]}" --nodes 65 --clusters 20,8 --quiet -o limit --resume
+expect_code 0
+expect_same_results whole limit
+expect_only_results limit
+done_with "a run that ended at its limit goes on without it"
+
+cube=(run synth:vortex3d --nodes 33 --clusters 9,5 --quiet --checkpoint 0)
+try "${cube[@]}" -o cube
+expect_code 0
+for at in 100 400 800; do
+  rm -rf part
+  with_calls kill "$at" "${cube[@]}" -o part
+  [ "$code" = 137 ] || fault "not killed: code $code"
+  try "${cube[@]}" -o part --resume
+  expect_code 0
+  expect_same_results cube part
+  expect_only_results part
+done
+done_with "a run in 3D goes on"
+
+"$program" run synth:vortex3 -o busy --nodes 1025 --quiet --checkpoint 0 >/dev/null 2>&1 &
+pid=$!
+for _ in $(seq 600); do
+  [ -e busy/.flowgrain/checkpoint ] && break
+  sleep 0.05
+done
+for how in --resume --force --quiet; do
+  try run synth:vortex3 -o busy --nodes 1025 "$how"
+  expect_code 1
+  expect_one_complaint
+  expect_error "busy: another run is writing to it, process $pid"
+done
+kill -KILL "$pid"
+wait "$pid" 2>/dev/null
+try run synth:vortex3 -o busy --nodes 65 --quiet --force
+expect_code 0
+expect_only_results busy
+done_with "two runs in one folder at the same time are refused"
+finish
