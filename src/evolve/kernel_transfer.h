@@ -211,12 +211,13 @@ ROW_LOOP void split(const fg__level *coarse, const float *natural, float *to)
 {
   int columns = coarse->layout.nodes[0];
   float *even = to, *odd = to + coarse->layout.odd_offset;
+  /* both in one loop, which becomes loads and shuffles of whole vectors; the last odd
+   * column may be a ghost */
   INDEPENDENT
-  for (int k = 0; k < (columns + 1) / 2; ++k)
+  for (int k = 0; k < (columns + 1) / 2; ++k) {
     even[k] = natural[2 * k];
-  INDEPENDENT
-  for (int k = 0; k < columns / 2; ++k)
     odd[k] = natural[2 * k + 1];
+  }
   fg__fill_ghost_columns(coarse, to);
 }
 
@@ -357,11 +358,10 @@ ROW_LOOP void merge(const fg__level *coarse, const float *const from[4], float *
 #define MEAN(n) (0.5F * (a[n] + b[n]))
 #endif
   INDEPENDENT
-  for (int k = 0; k < (columns + 1) / 2; ++k)
+  for (int k = 0; k < (columns + 1) / 2; ++k) {
     natural[2 * k] = MEAN(k);
-  INDEPENDENT
-  for (int k = 0; k < columns / 2; ++k)
     natural[2 * k + 1] = MEAN(odd + k);
+  }
   natural[columns] = MEAN(ghost);
 #undef MEAN
 }
