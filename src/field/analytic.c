@@ -145,13 +145,14 @@ static fg_status find(const analytic_field **out, fg_context *context, const cha
 static void sample(float *const component[3], const double *axis, size_t side,
                    const analytic_field *field)
 {
-  size_t layers = field->dimension == 3 ? side : 1, n = 0;
+  const int dimension = field->dimension;
+  size_t layers = dimension == 3 ? side : 1, n = 0;
   for (size_t k = 0; k < layers; ++k)
     for (size_t j = 0; j < side; ++j)
       for (size_t i = 0; i < side; ++i, ++n) {
         double velocity[3];
         field->velocity((const double[]){axis[i], axis[j], axis[k]}, velocity);
-        for (int c = 0; c < field->dimension; ++c)
+        for (int c = 0; c < dimension; ++c)
           component[c][n] = (float)velocity[c];
       }
 }

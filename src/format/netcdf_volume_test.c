@@ -91,7 +91,7 @@ static void write_file(sample_file *f, const description *d, int variables[3])
 
 static void make_file(sample_file *f, const description *d)
 {
-  int variables[3];
+  int variables[3] = {0};
   write_file(f, d, variables);
   sample_end(f);
 }
@@ -183,7 +183,7 @@ static void an_upward_velocity_is_the_third(void **state)
 {
   sample_file *f = *state;
   description d = PLAIN;
-  int variables[3];
+  int variables[3] = {0};
   d.names[2] = "lift";
   write_file(f, &d, variables);
   sample_text(f, variables[2], "standard_name", "upward_air_velocity");
@@ -228,7 +228,7 @@ static void what_leaves_a_doubt_stays_a_plane(void **state)
 static void a_map_is_read_by_levels(void **state)
 {
   sample_file *f = *state;
-  int variables[3], id;
+  int variables[3] = {0}, id;
   write_file(f, &PLAIN, variables);
   nc_must(nc_inq_varid(f->id, "x", &id));
   sample_text(f, id, "standard_name", "projection_x_coordinate");
@@ -243,7 +243,7 @@ static void a_third_of_other_units_or_places_is_none(void **state)
 {
   sample_file *f = *state;
   description d = PLAIN;
-  int variables[3], dimension[4];
+  int variables[3] = {0}, dimension[4] = {0};
   write_file(f, &d, variables);
   sample_text(f, variables[2], "units", "Pa/s");
   sample_end(f);
@@ -300,7 +300,7 @@ static void spheres_have_no_volume_yet(void **state)
 static void holes_and_masks_cut_the_volume(void **state)
 {
   sample_file *f = *state;
-  int variables[3], dimension[4];
+  int variables[3] = {0}, dimension[4] = {0};
   write_file(f, &PLAIN, variables);
   sample_write(f);
   const size_t at[4] = {0, 1, 2, 3};
@@ -354,7 +354,7 @@ static void what_is_written_comes_back(void **state)
     assert_int_equal(fg_field_contents(back)->size[2], 9);
     for (int n = 0; n < 60; ++n) {
       const double at[3] = {fmod(0.37 * n, 1.0), fmod(0.53 * n, 1.0), n / 59.0};
-      double v[3], w[3];
+      double v[3] = {0.0}, w[3] = {0.0};
       assert_true(fg_field_velocity(field, at, v) && fg_field_velocity(back, at, w));
       for (int k = 0; k < 3; ++k)
         assert_true(fabs(v[k] - w[k]) < 1e-6);

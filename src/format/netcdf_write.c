@@ -99,16 +99,16 @@ static void name_components(char name[3][NAME_BYTES], const fg_field_arrays *fie
 static void define(writing *w, int axis[3], int component[3],
                    const fg_field_arrays *field)
 {
+  const int rank = field->dimension == 3 ? 3 : 2;
   int dimensions[3] = {0, 0, 0}; /* (z,) y, x */
-  for (int k = 0; k < field->dimension; ++k)
-    define_axis(w, &dimensions[field->dimension - 1 - k], &axis[k], field, k);
+  for (int k = 0; k < rank; ++k)
+    define_axis(w, &dimensions[rank - 1 - k], &axis[k], field, k);
   char name[3][NAME_BYTES];
   name_components(name, field);
   const float fill = NC_FILL_FLOAT;
-  for (int k = 0; k < field->dimension; ++k) {
+  for (int k = 0; k < rank; ++k) {
     if (w->error == NC_NOERR)
-      keep(w, nc_def_var(w->file, name[k], NC_FLOAT, field->dimension, dimensions,
-                         &component[k]));
+      keep(w, nc_def_var(w->file, name[k], NC_FLOAT, rank, dimensions, &component[k]));
     put_text(w, component[k], "long_name", field->velocity_name[k]);
     put_text(w, component[k], "units", field->velocity_units);
     if (w->error == NC_NOERR)
