@@ -372,6 +372,10 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "icons: this version makes none for a density in %d dimensions",
                     fg_density_contents(density)->dimension);
+  if (fg_field_contents(field)->dimension != 2)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "icons: a density in 2 dimensions of a field in %d",
+                    fg_field_contents(field)->dimension);
   int threads = options && options->threads > 0 ? options->threads : 1;
   fg__labels labels = {0};
   fg__territories territories = {0};
