@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "mesh/closure.h"
 
 /* The nodes of level n that a patch owns: the leaf, or the part of the mesh that begins
  * where the leaf does and has the side of level n. */
@@ -47,8 +48,12 @@ static fg_status create_level(fg__mesh *mesh, fg_context *context, int level,
   count = fg__boxes_merge(box, count);
   for (int k = 0; k < 3; ++k)
     cells[k] = mesh->cells[k] >> (k < mesh->dimension ? level : 0);
-  return fg__partition_create(&mesh->level[level], context, mesh->ranks, mesh->dimension,
-                              cells, mesh->periodic, box, count);
+  fg_status status =
+      fg__partition_create(&mesh->cover[level], context, mesh->ranks, mesh->dimension,
+                           cells, mesh->periodic, box, count);
+  if (!status)
+    status = fg__partition_close(&mesh->level[level], context, &mesh->cover[level]);
+  return status;
 }
 
 static int count_levels(const fg__mesh *mesh)

@@ -172,6 +172,7 @@ fg_status fg__mesh_adapt(fg__mesh *out, fg_context *context, const fg__mesh *mes
   out->leaf = NULL;
   out->tile = NULL;
   memset(out->level, 0, sizeof out->level);
+  memset(out->cover, 0, sizeof out->cover);
   fg_status status = mesh->kind->adapt(&out->forest, context, mesh->forest, wanted);
   if (!status)
     status = fg__mesh_merge_leaves(out, context);
@@ -184,8 +185,10 @@ void fg__mesh_clear(fg__mesh *mesh)
 {
   if (mesh->kind)
     mesh->kind->destroy(mesh->forest);
-  for (int n = 0; n < mesh->level_count; ++n)
+  for (int n = 0; n < mesh->level_count; ++n) {
     fg__partition_clear(&mesh->level[n]);
+    fg__partition_clear(&mesh->cover[n]);
+  }
   free(mesh->leaf);
   free(mesh->tile);
   *mesh = (fg__mesh){0};

@@ -8,12 +8,12 @@
  * domain. Leaves that touch differ by one level at most: each level covers the next finer
  * one and a ring of a patch round it.
  *
- * Boxes. A patch owns the nodes of its cells' lower corners, and at the upper end of a
- * natural axis those that close it; it belongs to the rank of the first leaf in it. The
- * nodes that a rank owns on a level are merged into few boxes (partition.h); everything
- * that computes works on boxes as plain arrays (layout.h) with a ring of ghosts: mirror
- * images, the other end of a periodic axis, nodes of other boxes and ranks (exchange.h),
- * nodes that nobody owns since the level ends there (refinement.h). A uniform mesh on one
+ * Boxes. A patch owns the nodes of its cells' lower corners, and those that close the
+ * level at upper ends: of natural axes, and where a level ends inside the domain
+ * (closure.h); it belongs to the rank of the first leaf in it. The nodes that a rank owns
+ * on a level are merged into few boxes (partition.h); everything that computes works on
+ * boxes as plain arrays (layout.h) with a ring of ghosts: mirror images, the other end of
+ * a periodic axis, nodes of other boxes and ranks (exchange.h). A uniform mesh on one
  * rank is one box: a plain array at full speed (docs/design/mesh.md has the measurement).
  */
 #ifndef FG__MESH_H
@@ -41,7 +41,10 @@ typedef struct fg__mesh {
   int refinements;   /* the largest leaves there may be are of this level */
   const fg__ranks *ranks;
   int level_count; /* levels that have leaves, the finest first */
-  fg__partition level[FG__MOST_REFINEMENTS + 1];
+  fg__partition level[FG__MOST_REFINEMENTS + 1]; /* of the nodes of a level's cells */
+  fg__partition
+      cover[FG__MOST_REFINEMENTS + 1]; /* of its cells, by their lower corners:
+                                          a cell is covered when that is owned */
   int leaf_count;
   fg__leaf *leaf; /* [leaf_count] of this rank, in Morton order */
   int tile_count;
@@ -91,7 +94,7 @@ typedef struct fg__leaf_place {
 } fg__leaf_place;
 
 /* Its nodes are first ... first + patch_cells along each axis; the last of these may be
- * ghosts. */
+ * another box's, and so ghosts. */
 fg__leaf_place fg__mesh_place(const fg__mesh *mesh, const fg__leaf *leaf);
 
 #endif

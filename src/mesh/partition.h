@@ -30,9 +30,10 @@ typedef struct fg__partition {
   int *first_of_rank;     /* [ranks->count + 1]: where a rank's boxes begin in box */
 } fg__partition;
 
-/* Makes the partition of a level with the boxes that this rank owns, which must not
- * overlap each other or those of others; they are copied, in their order. Nodes that
- * nobody owns are not part of the level (adaptive meshes). Collective. MEMORY. */
+/* Makes the partition of a level with the boxes that this rank owns; they are copied, in
+ * their order. A node belongs to one box, but for those that close a level (closure.h):
+ * these must have the same value in all. Nodes that nobody owns are not part of the level
+ * (adaptive meshes). Collective. MEMORY. */
 fg_status fg__partition_create(fg__partition *out, fg_context *context,
                                const fg__ranks *ranks, int dimension, const int cells[3],
                                const bool periodic[3], const fg__box *own, int own_count);

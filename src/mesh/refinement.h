@@ -2,28 +2,26 @@
  *
  * A level that does not cover the domain ends at nodes whose values are not its own: they
  * follow from the next coarser level by multilinear interpolation (hanging nodes, and
- * nodes that both levels have). Its boxes own some of these nodes, those at their lower
- * sides; others are ghosts without an owner (fg__exchange_uncovered). What a box has to
- * interpolate is found among the nodes and ghosts of the box of half as many nodes:
+ * nodes that both levels have). Its boxes own them (closure.h), so kernels compute
+ * something there as everywhere, with cells outside of weight 0; a border brings the
+ * right values, and brings them back after a sweep. Ghosts beyond (those that
+ * fg__exchange_uncovered lists) take part in nothing but products with 0: they must be
+ * finite, and 0 in a residual that is restricted.
+ *
+ * What a box interpolates is found among the nodes and ghosts of its half, the box of
+ * every other node: node i of a box is node i / 2 of its half.
  *
  *     fg__partition_coarsen(&half, context, &mesh->level[n]);
  *     fg__exchange_create_between(&coarse_values, context, &mesh->level[n + 1], &half,
  *                                 FG__NODES_AND_GHOSTS, 2);
  *
- * has no uncovered nodes, since level n + 1 covers level n and a ring round it; node i of
- * a box is at node i / 2 of its half. */
+ * leaves no half's node or ghost uncovered, since level n + 1 covers level n and a ring
+ * of a patch round it. */
 #ifndef FG__REFINEMENT_H
 #define FG__REFINEMENT_H
 
 #include "mesh/exchange.h"
 #include "mesh/mesh.h"
-
-/* Nodes on the border of the level that own boxes own, given the level's ghosts without
- * an owner: nodes with a cell beside them that the level does not cover. Disjoint bricks
- * in local indices, to be freed by the caller. MEMORY. */
-fg_status fg__border_nodes(fg__uncovered **out, int *count, fg_context *context,
-                           const fg__partition *level, const fg__uncovered *uncovered,
-                           int uncovered_count);
 
 typedef enum fg__cell_kind {
   FG__CELL_OUTSIDE = 0, /* the level does not cover it */
@@ -37,5 +35,23 @@ typedef enum fg__cell_kind {
  * end's. */
 void fg__cell_kinds(unsigned char *out, const fg__mesh *mesh, int level,
                     const fg__box *box);
+
+/* The border of a level: nodes of own boxes with a cell outside beside them. */
+typedef struct fg__border fg__border;
+
+/* MEMORY. Not collective. */
+fg_status fg__border_create(fg__border **out, fg_context *context, const fg__mesh *mesh,
+                            int level, int most_arrays);
+void fg__border_destroy(fg__border *border); /* NULL-safe */
+long fg__border_count(const fg__border *border);
+
+/* Gives the border nodes of `count` arrays the values interpolated from the halves'
+ * arrays (half[a][b]: of own box b), and remembers them. */
+void fg__border_interpolate(fg__border *border, int count, float *const *const half[],
+                            float *const *const array[]);
+
+/* Gives border nodes of the colours (exchange.h) the remembered values again. */
+void fg__border_restore(const fg__border *border, int count, float *const *const array[],
+                        unsigned colours);
 
 #endif

@@ -126,7 +126,7 @@ static void fill_the_domain(const fg__mesh *mesh, const scene *s, int round)
          (uint64_t)mesh->cells[0] * (uint64_t)mesh->cells[1] * (uint64_t)mesh->cells[2]);
   /* the scenes are such that there is something to test */
   expect(round == 0 || mesh->level_count > 1);
-  const fg__partition *last = &mesh->level[mesh->level_count - 1];
+  const fg__partition *last = &mesh->cover[mesh->level_count - 1];
   unsigned char *owners = owners_of(last);
   for (size_t n = 0; n < count_nodes(last); ++n)
     expect(owners[n] == 1);
@@ -167,7 +167,7 @@ static void leaves_lie_in_own_boxes(void **state)
   end_together();
 }
 
-/* Which nodes there are on a level does not depend on the number of ranks. */
+/* Which cells there are on a level does not depend on the number of ranks. */
 static void are_those_of_one_rank(const fg__mesh *mesh, const scene *s, int round)
 {
   const fg__ranks *alone;
@@ -175,8 +175,8 @@ static void are_those_of_one_rank(const fg__mesh *mesh, const scene *s, int roun
   fg__mesh own = mesh_after(s, round, alone);
   expect(own.level_count == mesh->level_count);
   for (int n = 0; n < mesh->level_count && n < own.level_count; ++n) {
-    unsigned char *shared = owners_of(&mesh->level[n]);
-    unsigned char *single = owners_of(&own.level[n]);
+    unsigned char *shared = owners_of(&mesh->cover[n]);
+    unsigned char *single = owners_of(&own.cover[n]);
     expect(memcmp(shared, single, count_nodes(&mesh->level[n])) == 0);
     free(shared);
     free(single);
@@ -285,6 +285,7 @@ static int cell_image(const fg__partition *level, int k, int index)
   return index < 0 ? -1 - index : index >= cells ? 2 * cells - 1 - index : index;
 }
 
+/* owners: of the lower corners of cells, mesh->cover. */
 static bool has_cell(const fg__partition *level, const unsigned char *owners,
                      const int cell[3])
 {
@@ -307,53 +308,202 @@ static bool is_on_border(const fg__partition *level, const unsigned char *owners
   return false;
 }
 
-static int times_listed(const fg__uncovered *list, int count, int box, const int at[3])
+/* Whether a node of the grid has a cell of the level beside it. */
+static bool is_of_level(const fg__partition *level, const unsigned char *cover,
+                        const int node[3])
 {
-  int times = 0;
-  for (int n = 0; n < count; ++n) {
-    const fg__box *b = &list[n].nodes;
-    bool inside = list[n].box == box;
+  for (int corner = 0; corner < 1 << level->dimension; ++corner) {
+    int cell[3] = {node[0], node[1], node[2]};
     for (int k = 0; k < 3; ++k)
-      inside = inside && at[k] >= b->first[k] && at[k] < b->first[k] + b->nodes[k];
-    times += inside;
+      cell[k] -= corner >> k & 1;
+    if (has_cell(level, cover, cell))
+      return true;
   }
-  return times;
+  return false;
 }
 
-static void knows_its_border(const fg__mesh *mesh, const scene *s, int round)
+/* Once where the cell at the upper corner is covered, else perhaps more often. */
+static void owns_the_nodes_of_its_cells(const fg__mesh *mesh, const scene *s, int round)
 {
   (void)s;
   (void)round;
   for (int n = 0; n < mesh->level_count; ++n) {
     const fg__partition *level = &mesh->level[n];
-    fg__exchange *exchange;
-    int uncovered_count = 0, border_count = 0, own_count;
-    fg__uncovered *border = NULL;
-    expect(fg__exchange_create(&exchange, us.context, level, 1) == FG_STATUS_OK);
-    const fg__uncovered *uncovered = fg__exchange_uncovered(exchange, &uncovered_count);
-    expect(fg__border_nodes(&border, &border_count, us.context, level, uncovered,
-                            uncovered_count) == FG_STATUS_OK);
-    unsigned char *owners = owners_of(level);
-    const fg__box *own = fg__own_boxes(level, &own_count);
-    for (int b = 0; b < own_count; ++b)
-      for (int k = 0; k < own[b].nodes[2]; ++k)
-        for (int j = 0; j < own[b].nodes[1]; ++j)
-          for (int i = 0; i < own[b].nodes[0]; ++i) {
-            int at[3] = {i, j, k};
-            int node[3] = {own[b].first[0] + i, own[b].first[1] + j, own[b].first[2] + k};
-            expect(times_listed(border, border_count, b, at) ==
-                   is_on_border(level, owners, node));
-          }
+    unsigned char *owners = owners_of(level), *cover = owners_of(&mesh->cover[n]);
+    for (int k = 0; k < level->nodes[2]; ++k)
+      for (int j = 0; j < level->nodes[1]; ++j)
+        for (int i = 0; i < level->nodes[0]; ++i) {
+          int times = owners[place_of(level, i, j, k)];
+          bool here = is_of_level(level, cover, (int[3]){i, j, k});
+          expect((times > 0) == here);
+          expect(times <= 1 || cover[place_of(level, i, j, k)] == 0);
+        }
+    expect(fg__partition_is_workable(level, 1));
     free(owners);
-    free(border);
-    fg__exchange_destroy(exchange);
+    free(cover);
   }
 }
 
-static void border_nodes_are_those_with_a_cell_outside(void **state)
+static void nodes_of_a_level_s_cells_have_owners(void **state)
 {
   (void)state;
-  for_all_meshes(knows_its_border);
+  for_all_meshes(owns_the_nodes_of_its_cells);
+  end_together();
+}
+
+/* Whole numbers, so that means of eight are exact. */
+static float coarse_at(const fg__partition *level, int array, const int node[3])
+{
+  (void)level;
+  int index = 0;
+  for (int k = 0; k < 3; ++k)
+    index = 37 * index + node[k];
+  return (float)((index * 7919 + 101 * array) % 4093);
+}
+
+typedef struct values {
+  float **node[2]; /* [array][own box] */
+  float *const *array[2];
+  fg__layout *layout;
+  int boxes;
+} values;
+
+static values values_of(const fg__partition *level)
+{
+  values out;
+  const fg__box *own = fg__own_boxes(level, &out.boxes);
+  out.layout = allocate_or_end((size_t)out.boxes, sizeof *out.layout);
+  for (int a = 0; a < 2; ++a) {
+    out.array[a] = out.node[a] = allocate_or_end((size_t)out.boxes, sizeof(float *));
+    for (int b = 0; b < out.boxes; ++b) {
+      out.layout[b] = fg__layout_of(level->dimension, own[b].nodes);
+      float *memory = allocate_or_end(out.layout[b].array_size, sizeof *memory);
+      out.node[a][b] = memory + out.layout[b].first;
+    }
+  }
+  return out;
+}
+
+static void values_clear(values *v)
+{
+  for (int a = 0; a < 2; ++a) {
+    for (int b = 0; b < v->boxes; ++b)
+      free(v->node[a][b] - v->layout[b].first);
+    free(v->node[a]);
+  }
+  free(v->layout);
+}
+
+typedef float value_of(const fg__partition *level, int array, const int node[3]);
+
+static float nothing_at(const fg__partition *level, int array, const int node[3])
+{
+  (void)level;
+  (void)node;
+  return -1.0F - (float)array;
+}
+
+static void set_values(values *v, const fg__partition *level, value_of *value)
+{
+  int count;
+  const fg__box *own = fg__own_boxes(level, &count);
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b < v->boxes; ++b)
+      for (int k = 0; k < own[b].nodes[2]; ++k)
+        for (int j = 0; j < own[b].nodes[1]; ++j)
+          for (int i = 0; i < own[b].nodes[0]; ++i)
+            v->node[a][b][fg__node_at(&v->layout[b], i, j, k)] = value(
+                level, a,
+                (int[3]){own[b].first[0] + i, own[b].first[1] + j, own[b].first[2] + k});
+}
+
+/* The mean of the coarse nodes round a node. */
+static float mean_at(const fg__partition *coarser, int array, const int node[3])
+{
+  float sum = 0.0F;
+  for (int corner = 0; corner < 8; ++corner) {
+    int coarse[3] = {0, 0, 0};
+    for (int k = 0; k < 3; ++k) {
+      if (k < coarser->dimension)
+        coarse[k] = (node[k] + (corner >> k & 1)) / 2;
+      if (coarser->periodic[k])
+        coarse[k] %= coarser->nodes[k];
+    }
+    sum += coarse_at(coarser, array, coarse);
+  }
+  return 0.125F * sum;
+}
+
+/* Border nodes of the colours have the mean of what lies round them on the coarser level,
+ * all others what they had. */
+static void check_values(const values *v, const fg__mesh *mesh, int n,
+                         const unsigned char *cover, unsigned colours)
+{
+  int count;
+  const fg__partition *level = &mesh->level[n];
+  const fg__box *own = fg__own_boxes(level, &count);
+  for (int b = 0; b < v->boxes; ++b)
+    for (int k = 0; k < own[b].nodes[2]; ++k)
+      for (int j = 0; j < own[b].nodes[1]; ++j)
+        for (int i = 0; i < own[b].nodes[0]; ++i) {
+          int node[3] = {own[b].first[0] + i, own[b].first[1] + j, own[b].first[2] + k};
+          int colour = (node[0] & 1) + 2 * (node[1] & 1) + 4 * (node[2] & 1);
+          bool set = is_on_border(level, cover, node) && (colours >> colour & 1U);
+          for (int a = 0; a < 2; ++a)
+            expect(v->node[a][b][fg__node_at(&v->layout[b], i, j, k)] ==
+                   (set ? mean_at(&mesh->level[n + 1], a, node)
+                        : nothing_at(level, a, node)));
+        }
+}
+
+static void check_border(const fg__mesh *mesh, int n)
+{
+  const fg__partition *level = &mesh->level[n];
+  fg__partition half;
+  fg__exchange *exchange;
+  fg__border *border;
+  expect(fg__border_create(&border, us.context, mesh, n, 2) == FG_STATUS_OK);
+  expect(fg__partition_coarsen(&half, us.context, level) == FG_STATUS_OK);
+  expect(fg__exchange_create_between(&exchange, us.context, &mesh->level[n + 1], &half,
+                                     FG__NODES_AND_GHOSTS, 2) == FG_STATUS_OK);
+  values coarse = values_of(&mesh->level[n + 1]), halves = values_of(&half);
+  values fine = values_of(level);
+  unsigned char *cover = owners_of(&mesh->cover[n]);
+  set_values(&coarse, &mesh->level[n + 1], coarse_at);
+  fg__exchange_fill_between(exchange, 2, coarse.array, halves.array, FG__ALL_COLOURS);
+  set_values(&fine, level, nothing_at);
+  fg__border_interpolate(border, 2, halves.array, fine.array);
+  check_values(&fine, mesh, n, cover, FG__ALL_COLOURS);
+  static const unsigned COLOURS[] = {1U << 0, 1U << 1, 1U << 7, FG__ODD_ROWS, 0x5a};
+  for (int c = 0; c < 5; ++c) {
+    set_values(&fine, level, nothing_at);
+    fg__border_restore(border, 2, fine.array, COLOURS[c]);
+    check_values(&fine, mesh, n, cover, COLOURS[c]);
+  }
+  uint64_t nodes = (uint64_t)fg__border_count(border);
+  fg__ranks_add(us.ranks, &nodes, 1);
+  expect(nodes > 0 || level->count == 0);
+  free(cover);
+  values_clear(&coarse);
+  values_clear(&halves);
+  values_clear(&fine);
+  fg__exchange_destroy(exchange);
+  fg__border_destroy(border);
+  fg__partition_clear(&half);
+}
+
+static void interpolates_its_border(const fg__mesh *mesh, const scene *s, int round)
+{
+  (void)s;
+  (void)round;
+  for (int n = 0; n + 1 < mesh->level_count; ++n)
+    check_border(mesh, n);
+}
+
+static void borders_are_interpolated_and_restored(void **state)
+{
+  (void)state;
+  for_all_meshes(interpolates_its_border);
   end_together();
 }
 
@@ -363,8 +513,8 @@ static void knows_its_cells(const fg__mesh *mesh, const scene *s, int round)
   (void)round;
   for (int n = 0; n < mesh->level_count; ++n) {
     const fg__partition *level = &mesh->level[n];
-    unsigned char *owners = owners_of(level);
-    unsigned char *finer = n > 0 ? owners_of(&mesh->level[n - 1]) : NULL;
+    unsigned char *owners = owners_of(&mesh->cover[n]);
+    unsigned char *finer = n > 0 ? owners_of(&mesh->cover[n - 1]) : NULL;
     for (int b = 0; b < level->count; ++b) {
       const fg__box *box = &level->box[b];
       int size[3] = {1, 1, 1}, first[3] = {0};
@@ -381,7 +531,7 @@ static void knows_its_cells(const fg__mesh *mesh, const scene *s, int round)
         int cell[3] = {first[0] + x, first[1] + y, first[2] + z}, fine[3] = {0};
         for (int k = 0; k < 3; ++k)
           fine[k] = k < mesh->dimension ? 2 * cell_image(level, k, cell[k]) : 0;
-        bool refined = finer && has_cell(&mesh->level[n - 1], finer, fine);
+        bool refined = finer && has_cell(&mesh->cover[n - 1], finer, fine);
         fg__cell_kind expected = !has_cell(level, owners, cell) ? FG__CELL_OUTSIDE
                                  : refined                      ? FG__CELL_REFINED
                                                                 : FG__CELL_LEAF;
@@ -428,7 +578,8 @@ int main(void)
       TOGETHER(each_level_covers_the_finer_and_a_ring),
       TOGETHER(leaves_become_as_fine_as_wanted),
       TOGETHER(all_coarse_and_all_fine_are_reached),
-      TOGETHER(border_nodes_are_those_with_a_cell_outside),
+      TOGETHER(nodes_of_a_level_s_cells_have_owners),
+      TOGETHER(borders_are_interpolated_and_restored),
       TOGETHER(cells_are_outside_or_leaves_or_refined),
       TOGETHER(impossible_patches_are_refused),
   };
