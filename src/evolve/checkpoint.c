@@ -18,7 +18,7 @@ struct fg_checkpoint {
 /* What has to agree between an evolution and a checkpoint. */
 typedef struct parameters {
   uint64_t field, initial, seed;
-  int energy, nodes, cells[3], cycles;
+  int energy, nodes, cells[3], cycles, scheme;
   double anisotropy, coverage, gamma, accuracy;
 } parameters;
 
@@ -32,6 +32,7 @@ static const fg__named_value parameter_values[] = {
     {"seed", FG__VALUE_COUNT, offsetof(parameters, seed)},
     {"accuracy", FG__VALUE_REAL, offsetof(parameters, accuracy)},
     {"cycles", FG__VALUE_INTEGER, offsetof(parameters, cycles)},
+    {"scheme", FG__VALUE_INTEGER, offsetof(parameters, scheme)},
     {"field", FG__VALUE_BITS, offsetof(parameters, field)},
     {"initial", FG__VALUE_BITS, offsetof(parameters, initial)},
     {"gamma", FG__VALUE_REAL, offsetof(parameters, gamma)},
@@ -65,6 +66,7 @@ static parameters parameters_of(const fg_evolution *e)
                       .nodes = e->options.nodes,
                       .cells = {e->info.cells[0], e->info.cells[1], e->info.cells[2]},
                       .cycles = e->options.cycles,
+                      .scheme = (int)e->options.scheme,
                       .anisotropy = e->options.anisotropy,
                       .coverage = e->options.coverage,
                       .gamma = e->info.gamma,

@@ -163,6 +163,13 @@ static void goes_on_in_3d(void **state)
   fg_field_destroy(field);
 }
 
+static void goes_on_by_theta(void **state)
+{
+  static const int steps[] = {0, 1, 1, 7, 40};
+  fg_evolution_options options = {.nodes = NODES, .scheme = FG_SCHEME_THETA};
+  goes_on(*state, &options, steps, 5, 5);
+}
+
 static void goes_on_with_a_mask(void **state)
 {
   fixture *f = *state;
@@ -323,6 +330,9 @@ static void another_run_is_refused(void **state)
   other.cycles = 3;
   differs(f, field, &other, "cycles: 2, not 3");
   other = options;
+  other.scheme = FG_SCHEME_THETA;
+  differs(f, field, &other, "scheme: 0, not 1");
+  other = options;
   other.gamma = 0.01;
   differs(f, field, &other, "gamma: ");
   other = options;
@@ -437,6 +447,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(goes_on_bit_for_bit),
       CASE(goes_on_in_3d),
+      CASE(goes_on_by_theta),
       CASE(goes_on_with_a_mask),
       CASE(goes_on_round_a_period),
       CASE(goes_on_after_rejected_steps),

@@ -63,6 +63,8 @@ static fg_status settle_options(fg_evolution_options *o, fg_context *context,
     status = check_range(context, "accuracy", o->accuracy, 0.0, 1.0, false);
   if (!status)
     status = check_range(context, "cycles", o->cycles, 1, 1000, true);
+  if (!status)
+    status = check_range(context, "scheme", o->scheme, 0, FG_SCHEME_THETA, true);
   if (!status && o->gamma != 0.0)
     status = check_range(context, "gamma", o->gamma, 0.0, 1.0, false);
   if (!status && o->threads < 0)
@@ -264,6 +266,8 @@ double fg__evolution_growth_rate(const fg_evolution *e)
  * and the pattern does not. */
 static double most_step(const fg_evolution *e)
 {
+  if (e->options.scheme == FG_SCHEME_THETA)
+    return fg__theta_stable * e->options.anisotropy * e->info.gamma;
   double h = pow(fg__evolution_cell_volume(e), 1.0 / e->mesh.dimension);
   double first = first_step_share / fg__evolution_growth_rate(e);
   return fmax(most_stiffness * h * h * h * h / e->info.gamma, first);
@@ -309,16 +313,23 @@ static void describe(fg_evolution *e)
   e->debris_area = debris / fg__evolution_cell_volume(e);
 }
 
+/* Of the theta scheme; 0: implicit Euler. */
+static double alpha_of(const fg_evolution *e)
+{
+  return e->options.scheme == FG_SCHEME_THETA ? fg__theta_alpha : 0.0;
+}
+
 static fg_status create_multigrid(fg_evolution *e, const fg_field *field,
                                   fg__multigrid *out)
 {
+  double gamma = (1.0 - alpha_of(e)) * e->info.gamma;
   if (e->spread) {
     fg__tensor_recipe recipe = recipe_of(e, field);
-    return fg__multigrid_create_spread(out, e->context, &e->mesh, &recipe, e->info.gamma);
+    return fg__multigrid_create_spread(out, e->context, &e->mesh, &recipe, gamma);
   }
-  fg_status status = fg__multigrid_create(
-      out, e->context, &e->mesh, &e->mesh.tile[0], &e->tensor, e->info.gamma,
-      e->options.threads > 0 ? e->options.threads : 1);
+  fg_status status =
+      fg__multigrid_create(out, e->context, &e->mesh, &e->mesh.tile[0], &e->tensor, gamma,
+                           e->options.threads > 0 ? e->options.threads : 1);
   free_tensor(e);
   return status;
 }
@@ -326,6 +337,13 @@ static fg_status create_multigrid(fg_evolution *e, const fg_field *field,
 static fg_status create_stepper(fg_evolution *e, const fg_field *field)
 {
   fg__multigrid multigrid = {0};
+  fg__stepper_description description = {.cell_volume = fg__evolution_cell_volume(e),
+                                         .first_tau = first_step_share /
+                                                      fg__evolution_growth_rate(e),
+                                         .most_tau = most_step(e),
+                                         .accuracy = e->options.accuracy,
+                                         .cycles = e->options.cycles,
+                                         .alpha = alpha_of(e)};
   fg_status status = check_initial(e);
   if (!status)
     status = create_multigrid(e, field, &multigrid);
@@ -334,10 +352,7 @@ static fg_status create_stepper(fg_evolution *e, const fg_field *field)
   e->info.kernel = multigrid.kernel->name;
   status = fg__evolution_fill(e, &multigrid);
   if (!status)
-    status = fg__stepper_create(&e->stepper, e->context, &multigrid,
-                                fg__evolution_cell_volume(e),
-                                first_step_share / fg__evolution_growth_rate(e),
-                                most_step(e), e->options.accuracy, e->options.cycles);
+    status = fg__stepper_create(&e->stepper, e->context, &multigrid, &description);
   if (status)
     fg__multigrid_clear(&multigrid);
   return status;

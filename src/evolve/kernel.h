@@ -22,7 +22,7 @@ typedef struct fg__changes {
 } fg__changes;
 
 typedef struct fg__sums {
-  double energy; /* m (Psi(u) + u K u / 2) */
+  double energy; /* m (Psi(u) + u K u / 2), the last times the level's gradient_weight */
   double u;      /* m u */
 } fg__sums;
 
@@ -57,6 +57,12 @@ typedef struct fg__kernel {
   /* w := Psi'(u) + K u, with ghosts, and the energy of u in the same pass. */
   fg__sums (*evaluate)(const fg__level *level, const float *u, float *w,
                        const fg__share *share);
+  /* p := u - tau L w, without ghosts. */
+  void (*explicit_part)(const fg__level *level, const float *u, const float *w, float tau,
+                        float *p, const fg__share *share);
+  /* Subtracts Psi'(u) from w, whole arrays. */
+  void (*subtract_wells)(const fg__level *level, const float *u, float *w,
+                         const fg__share *share);
   fg__changes (*changes)(const fg__level *level, const float *u, const float *a,
                          const float *b, const float *c, const fg__share *share);
   /* out := now + omega (now - before), whole arrays. */

@@ -99,9 +99,10 @@ INLINE int nodes_of(const fg__level *level, int colour)
  * chemical potential. With a constant number of lanes the loop is one straight piece of
  * vector code. */
 INLINE void evaluate_nodes(const row_weights *r, const couplings *c, const around *x,
-                           const float *mass_inverse, double rounding, float *w,
+                           const float *mass_inverse, const fg__level *level, float *w,
                            int start, int lanes, double sum[2][FG__LANES])
 {
+  double rounding = level->rounding, weight = level->gradient_weight;
   INDEPENDENT
   for (int n = 0; n < lanes; ++n) {
     int k = start + n;
@@ -111,7 +112,8 @@ INLINE void evaluate_nodes(const row_weights *r, const couplings *c, const aroun
       energy *= mass_inverse[k];
     float well = u * u - 1.0F;
     w[k] = 2.0F * u * well + energy;
-    double terms = (double)(mass * (well * well)) - (double)gradient_at(r, c, x, k);
+    double terms =
+        (double)(mass * (well * well)) - weight * (double)gradient_at(r, c, x, k);
     sum[0][n] += rounded(terms, rounding);
     sum[1][n] += rounded((double)(mass * u), rounding);
   }
@@ -129,10 +131,8 @@ INLINE void evaluate_nodes_of_row(const fg__level *level, const float *u, float 
     row_weights r = weights_of(level, j, k, colour, masked);
     const float *inverse = masked ? level->mass_inverse + own : NULL;
     for (; start + FG__LANES <= count; start += FG__LANES)
-      evaluate_nodes(&r, &c, &x, inverse, level->rounding, w + own, start, FG__LANES,
-                     sum);
-    evaluate_nodes(&r, &c, &x, inverse, level->rounding, w + own, start, count - start,
-                   sum);
+      evaluate_nodes(&r, &c, &x, inverse, level, w + own, start, FG__LANES, sum);
+    evaluate_nodes(&r, &c, &x, inverse, level, w + own, start, count - start, sum);
   }
   fg__fill_ghost_columns(level, w + at);
 }
@@ -197,6 +197,52 @@ static fg__sums evaluate(const fg__level *level, const float *u, float *w,
   }
   fg__team_barrier(share);
   return (fg__sums){0.5 * total(sum[0]), total(sum[1])};
+}
+
+INLINE void explicit_nodes(const fg__level *level, const float *u, const float *w,
+                           ptrdiff_t row, int colour, const laplacian *constants,
+                           float *p, bool masked)
+{
+  const laplacian copy = *constants, *l = &copy;
+  ptrdiff_t own = row + begin_of(level, colour);
+  int count = colour == ODD ? level->odd_count : level->even_count;
+  around x = around_row(level, w, row, colour);
+  couplings c = {0};
+  if (masked)
+    c = couplings_row(level, &level->laplacian, row, colour);
+  const float *inverse = masked ? level->mass_inverse + own : NULL;
+  INDEPENDENT
+  for (int k = 0; k < count; ++k) {
+    float flux =
+        masked ? l->tau * apply(&c, &x, k) * inverse[k] : apply_constant(l, &x, k);
+    p[own + k] = u[own + k] - flux;
+  }
+}
+
+ROW_LOOP void explicit_plain(const fg__level *level, const float *u, const float *w,
+                             ptrdiff_t row, int colour, const laplacian *l, float *p)
+{
+  explicit_nodes(level, u, w, row, colour, l, p, false);
+}
+
+ROW_LOOP void explicit_masked(const fg__level *level, const float *u, const float *w,
+                              ptrdiff_t row, int colour, const laplacian *l, float *p)
+{
+  explicit_nodes(level, u, w, row, colour, l, p, true);
+}
+
+static void explicit_part(const fg__level *level, const float *u, const float *w,
+                          float tau, float *p, const fg__share *share)
+{
+  laplacian l = laplacian_times(level, tau);
+  part mine = part_of(level, share);
+  for (int s = mine.begin; s < mine.end; ++s)
+    for (int n = 0; n < rows_of_slice(level); ++n)
+      for (int colour = EVEN; colour <= ODD; ++colour)
+        (level->mass ? explicit_masked : explicit_plain)(
+            level, u, w, fg__row_at(&level->layout, row_index(s, n), plane_index(s)),
+            colour, &l, p);
+  fg__team_barrier(share);
 }
 
 INLINE void add_changes(const row_weights *r, const float *u, const float *a,
@@ -276,6 +322,17 @@ static void extrapolate(const fg__level *level, const float *now, const float *b
   INDEPENDENT
   for (ptrdiff_t n = begin; n < end; ++n)
     out[n] = now[n] + omega * (now[n] - before[n]);
+  fg__team_barrier(share);
+}
+
+static void subtract_wells(const fg__level *level, const float *u, float *w,
+                           const fg__share *share)
+{
+  ptrdiff_t begin, end;
+  floats_of(level, share, &begin, &end);
+  INDEPENDENT
+  for (ptrdiff_t n = begin; n < end; ++n)
+    w[n] -= 2.0F * u[n] * (u[n] * u[n] - 1.0F);
   fg__team_barrier(share);
 }
 

@@ -102,6 +102,22 @@ static void evaluate(const fg__kernel *kernel, const fg__level *fine,
   sums[1] = result.u;
 }
 
+static void explicit_part(const fg__kernel *kernel, const fg__level *fine,
+                          const fg__level *coarse, const fg__share *share,
+                          double sums[SUMS])
+{
+  (void)coarse, (void)sums;
+  kernel->explicit_part(fine, fine->u, fine->w, step_of(fine), fine->p, share);
+}
+
+static void subtract_wells(const fg__kernel *kernel, const fg__level *fine,
+                           const fg__level *coarse, const fg__share *share,
+                           double sums[SUMS])
+{
+  (void)coarse, (void)sums;
+  kernel->subtract_wells(fine, fine->u, fine->w, share);
+}
+
 static void changes(const fg__kernel *kernel, const fg__level *fine,
                     const fg__level *coarse, const fg__share *share, double sums[SUMS])
 {
@@ -145,6 +161,8 @@ static const struct {
     {"prolong_array", prolong_array, true, false},
     {"restrict_defect", restrict_defect, true, false},
     {"evaluate", evaluate, false, false},
+    {"explicit_part", explicit_part, false, false},
+    {"subtract_wells", subtract_wells, false, false},
     {"changes", changes, false, false},
     {"extrapolate", extrapolate, false, false},
     {"shift", shift, false, false},

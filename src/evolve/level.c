@@ -98,6 +98,7 @@ static void lay_out(fg__level *level, const fg__box *box)
   }
   level->rounding = fg__level_rounding(level->nodes);
   level->change_rounding = fg__level_change_rounding(level->nodes);
+  level->gradient_weight = 1.0;
   level->ghost_column[0] = level->layout.odd_offset - 1;
   level->ghost_column[1] = fg__column(&level->layout, nodes[0]);
   if (box)

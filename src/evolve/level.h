@@ -61,6 +61,7 @@ typedef struct fg__level {
   float *p, *q;       /* right-hand sides of the first and second equation */
   float *curvature;   /* coarse levels: restricted Psi''(u), of either sign */
   fg__stencil energy; /* gamma L_A / volume */
+  double gradient_weight; /* of that energy in sums: 1 when the stencil holds all of it */
   /* The Laplacian: constants where there is no mask (laplacian.center NULL): of the node
    * itself, its eastern neighbour, the middle and the sides of the upper rows. */
   float laplacian_center, laplacian_east;

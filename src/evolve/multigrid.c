@@ -253,11 +253,43 @@ const fg__level *fg__multigrid_boxes(const fg__multigrid *multigrid, int *count,
   return spread ? multigrid->spread[0].box : multigrid->level;
 }
 
+static fg__level *boxes_of(fg__multigrid *multigrid, int *count)
+{
+  bool spread = multigrid->spread_count > 0;
+  *count = spread ? multigrid->spread[0].count : 1;
+  return spread ? multigrid->spread[0].box : multigrid->level;
+}
+
+void fg__multigrid_leave_wells(fg__multigrid *multigrid, float *zeros)
+{
+  int count;
+  fg__level *box = boxes_of(multigrid, &count);
+  multigrid->linear = zeros;
+  for (int b = 0; b < count; ++b) {
+    ptrdiff_t offset = multigrid->spread_count > 0 ? multigrid->spread[0].offset[b] : 0;
+    box[b].q = box[b].curvature = zeros ? zeros + offset : NULL;
+  }
+}
+
+void fg__multigrid_weigh_gradient(fg__multigrid *multigrid, double weight)
+{
+  int count;
+  fg__level *box = boxes_of(multigrid, &count);
+  for (int b = 0; b < count; ++b)
+    box[b].gradient_weight = weight;
+}
+
+/* Whether whole level n is the finest, with its wells. */
+static bool nonlinear(const fg__multigrid *multigrid, int n)
+{
+  return n == 0 && multigrid->spread_count == 0 && !multigrid->linear;
+}
+
 static void descend(const fg__multigrid *multigrid, int n, float tau,
                     const fg__share *share)
 {
   const fg__level *level = multigrid->level;
-  if (n == 0 && multigrid->spread_count == 0)
+  if (nonlinear(multigrid, n))
     multigrid->kernel->smooth_restrict(&level[0], &level[1], tau, share);
   else
     multigrid->kernel->smooth_restrict_linear(&level[n], &level[n + 1], tau, share);
@@ -267,7 +299,7 @@ static void ascend(const fg__multigrid *multigrid, int n, float tau,
                    const fg__share *share)
 {
   const fg__level *level = multigrid->level;
-  if (n == 0 && multigrid->spread_count == 0)
+  if (nonlinear(multigrid, n))
     multigrid->kernel->prolong_smooth(&level[1], &level[0], tau, share);
   else
     multigrid->kernel->prolong_smooth_linear(&level[n + 1], &level[n], tau, share);
@@ -282,7 +314,7 @@ static void cycle_alone(const fg__multigrid *multigrid, int n, float tau)
   for (int m = n; m < last; ++m)
     descend(multigrid, m, tau, &alone);
   for (int sweep = 0; sweep < multigrid->coarsest_sweeps; ++sweep)
-    if (last == 0 && multigrid->spread_count == 0) /* too small a mesh to coarsen */
+    if (nonlinear(multigrid, last)) /* too small a mesh to coarsen */
       kernel->smooth(&multigrid->level[0], tau, &alone);
     else
       kernel->smooth_linear(&multigrid->level[last], tau, &alone);
@@ -336,8 +368,10 @@ void fg__multigrid_cycle(const fg__multigrid *multigrid, double tau,
     return;
   }
   for (int n = 0; n < count; ++n)
-    fg__spread_descend(&spread[n], &spread[n + 1], multigrid->kernel, step, n > 0);
+    fg__spread_descend(&spread[n], &spread[n + 1], multigrid->kernel, step,
+                       n > 0 || multigrid->linear);
   cycle_gathered(multigrid, step);
   for (int n = count - 1; n >= 0; --n)
-    fg__spread_ascend(&spread[n + 1], &spread[n], multigrid->kernel, step, n > 0);
+    fg__spread_ascend(&spread[n + 1], &spread[n], multigrid->kernel, step,
+                      n > 0 || multigrid->linear);
 }

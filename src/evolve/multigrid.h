@@ -24,6 +24,7 @@ typedef struct fg__multigrid {
   int shared_levels; /* large enough for the team; the others are left to one member */
   fg__level level[FG__MOST_LEVELS];
   int coarsest_sweeps;
+  bool linear; /* the finest level too */
 } fg__multigrid;
 
 /* Builds all levels over a mesh of one box, to be worked on by as many threads. MEMORY.
@@ -59,6 +60,13 @@ void fg__multigrid_use(fg__multigrid *multigrid, float *u);
 /* The boxes of the finest level and their offsets in arrays (none for one box). */
 const fg__level *fg__multigrid_boxes(const fg__multigrid *multigrid, int *count,
                                      const ptrdiff_t **offset);
+
+/* Makes the finest level linear too, with `zeros`, an array of its shape that holds
+ * nothing else, as curvature and q in place of the wells; NULL: nonlinear again. */
+void fg__multigrid_leave_wells(fg__multigrid *multigrid, float *zeros);
+
+/* What the gradient part of the finest level's energies is multiplied by. */
+void fg__multigrid_weigh_gradient(fg__multigrid *multigrid, double weight);
 
 /* One V(1,1) cycle for the step tau, from and to u, w of the finest level, whose p holds
  * the right-hand side. Nonlinear (full approximation) on the finest level; the coarse

@@ -144,6 +144,50 @@ fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float
   return total;
 }
 
+static void explicit_part(void *argument, const fg__share *share)
+{
+  const pass *p = argument;
+  p->multigrid->kernel->explicit_part(finest(p), p->from, p->a, (float)p->number,
+                                      finest(p)->p, share);
+}
+
+void fg__pass_explicit_part(const fg__multigrid *multigrid, const float *u,
+                            const float *w, double tau)
+{
+  if (is_spread(multigrid)) {
+    const fg__spread *spread = &multigrid->spread[0];
+    fg__share alone = fg__alone();
+    for (int b = 0; b < spread->count; ++b) {
+      ptrdiff_t at = spread->offset[b];
+      multigrid->kernel->explicit_part(&spread->box[b], u + at, w + at, (float)tau,
+                                       spread->p + at, &alone);
+    }
+    return;
+  }
+  pass p = {.multigrid = multigrid, .from = u, .a = w, .number = tau};
+  run(&p, explicit_part);
+}
+
+static void subtract_wells(void *argument, const fg__share *share)
+{
+  const pass *p = argument;
+  p->multigrid->kernel->subtract_wells(finest(p), p->from, p->to, share);
+}
+
+void fg__pass_subtract_wells(const fg__multigrid *multigrid, const float *u, float *w)
+{
+  if (is_spread(multigrid)) {
+    const fg__spread *spread = &multigrid->spread[0];
+    fg__share alone = fg__alone();
+    for (int b = 0; b < spread->count; ++b)
+      multigrid->kernel->subtract_wells(&spread->box[b], u + spread->offset[b],
+                                        w + spread->offset[b], &alone);
+    return;
+  }
+  pass p = {.multigrid = multigrid, .from = u, .to = w};
+  run(&p, subtract_wells);
+}
+
 static void changes(void *argument, const fg__share *share)
 {
   pass *p = argument;

@@ -8,6 +8,13 @@
 /* One V(1,1) cycle; `before`, unless NULL, first takes a copy of u. */
 void fg__pass_cycle(const fg__multigrid *multigrid, double tau, float *before);
 fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float *w);
+
+/* p of the finest level := u - tau L w. */
+void fg__pass_explicit_part(const fg__multigrid *multigrid, const float *u,
+                            const float *w, double tau);
+
+/* w := w - Psi'(u). */
+void fg__pass_subtract_wells(const fg__multigrid *multigrid, const float *u, float *w);
 fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
                              const float *a, const float *b, const float *c);
 void fg__pass_shift(const fg__multigrid *multigrid, float *u, double amount);

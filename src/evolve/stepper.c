@@ -50,16 +50,16 @@ static double weigh_domain(const fg__stepper *s)
 }
 
 fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
-                             fg__multigrid *multigrid, double cell_volume,
-                             double first_tau, double most_tau, double accuracy,
-                             int cycles)
+                             fg__multigrid *multigrid,
+                             const fg__stepper_description *description)
 {
   *out = (fg__stepper){.multigrid = *multigrid,
-                       .accuracy = accuracy,
-                       .cycles = cycles,
-                       .first_tau = first_tau,
-                       .most_tau = most_tau,
-                       .tau = first_tau,
+                       .cell_volume = description->cell_volume,
+                       .accuracy = description->accuracy,
+                       .cycles = description->cycles,
+                       .first_tau = description->first_tau,
+                       .most_tau = description->most_tau,
+                       .tau = description->first_tau,
                        .tau_limit = (double)INFINITY};
   *multigrid = (fg__multigrid){0};
   fg__multigrid *m = &out->multigrid;
@@ -71,6 +71,8 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
     status = fg__fail_memory(context, "the time steps", count * sizeof *memory);
   status = fg__ranks_agree(m->ranks, context, status);
   out->memory = memory;
+  if (!status && description->alpha > 0.0)
+    status = fg__theta_create(&out->theta, context, m, description->alpha);
   if (status) {
     fg__stepper_clear(out);
     return status;
@@ -79,7 +81,6 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   out->previous = out->current + size;
   out->first_iterate = out->previous + size;
   out->defect = memory + 3 * size + second.first;
-  out->cell_volume = cell_volume;
   out->total_mass = weigh_domain(out);
   fg__pass_copy(m, fg__multigrid_u(m), out->current);
   out->mean = mean_of(out, out->current);
@@ -100,27 +101,63 @@ void fg__stepper_clear(fg__stepper *stepper)
 {
   fg__multigrid_clear(&stepper->multigrid);
   fg__parts_clear(&stepper->parts);
+  fg__theta_clear(&stepper->theta);
   free(stepper->memory);
   *stepper = (fg__stepper){0};
 }
 
-/* Right-hand side and first guess. With history: the last step's change continued, and
- * its defect, kept on the next coarser grid, carried forward. After a reject w is what
- * the failed attempt left, and starts again from the density. */
-static void prepare(fg__stepper *s, double tau)
+/* The first guess of u after a share of the step: with history, the last step's change
+ * continued. */
+static void guess(fg__stepper *s, double tau, double share)
 {
   fg__multigrid *m = &s->multigrid;
-  float *p = fg__multigrid_p(m), *u = fg__multigrid_u(m);
+  float *u = fg__multigrid_u(m);
   if (!s->history) {
-    fg__pass_copy(m, s->current, p);
     fg__pass_copy(m, s->current, u);
-    fg__pass_evaluate(m, s->current, fg__multigrid_w(m));
     return;
   }
-  fg__pass_prolong(m, s->defect, s->current, p);
   double omega = fmin(tau / s->last_tau, most_extrapolation);
-  omega *= s->persistence;
+  omega *= share * s->persistence;
   fg__pass_extrapolate(m, s->current, s->previous, omega, u);
+}
+
+/* Keeps what the last cycle starts from. */
+static fg__changes cycle(fg__stepper *s, double tau)
+{
+  fg__multigrid *m = &s->multigrid;
+  for (int n = 0; n < s->cycles; ++n)
+    fg__pass_cycle(m, tau, n == s->cycles - 1 ? s->first_iterate : NULL);
+  s->cycles_spent += s->cycles;
+  return fg__pass_changes(m, fg__multigrid_u(m), s->current, s->first_iterate,
+                          s->previous);
+}
+
+/* With history the last step's defect, kept on the next coarser grid, is carried forward.
+ * After a reject w is what the failed attempt left, and starts again from the density. */
+static fg__changes step_by_euler(fg__stepper *s, double tau)
+{
+  fg__multigrid *m = &s->multigrid;
+  guess(s, tau, 1.0);
+  if (s->history) {
+    fg__pass_prolong(m, s->defect, s->current, fg__multigrid_p(m));
+  } else {
+    fg__pass_copy(m, s->current, fg__multigrid_p(m));
+    fg__pass_evaluate(m, s->current, fg__multigrid_w(m));
+  }
+  return cycle(s, tau);
+}
+
+/* Its correction is that of the substep solved worst. */
+static fg__changes step_by_theta(fg__stepper *s, double tau)
+{
+  fg__changes sums = {0};
+  guess(s, tau, fg__theta_share(0));
+  for (int n = 0; n < FG__THETA_SUBSTEPS; ++n) {
+    double worst = sums.from_b;
+    sums = cycle(s, fg__theta_prepare(&s->theta, &s->multigrid, n, tau, s->current));
+    sums.from_b = fmax(sums.from_b, worst);
+  }
+  return sums;
 }
 
 typedef struct outcome {
@@ -134,11 +171,7 @@ static outcome attempt(fg__stepper *s, double tau)
 {
   fg__multigrid *m = &s->multigrid;
   float *u = fg__multigrid_u(m);
-  prepare(s, tau);
-  for (int n = 0; n < s->cycles; ++n)
-    fg__pass_cycle(m, tau, n == s->cycles - 1 ? s->first_iterate : NULL);
-  s->cycles_spent += s->cycles;
-  fg__changes sums = fg__pass_changes(m, u, s->current, s->first_iterate, s->previous);
+  fg__changes sums = (s->theta.alpha > 0.0 ? step_by_theta : step_by_euler)(s, tau);
   fg__pass_shift(m, u, s->mean - sums.u / s->total_mass);
   fg__parts_restore_means(&s->parts, &m->level[0], u);
   outcome result;
@@ -166,7 +199,8 @@ static outcome attempt(fg__stepper *s, double tau)
 static void keep(fg__stepper *s, double tau, const outcome *result)
 {
   fg__multigrid *m = &s->multigrid;
-  fg__pass_restrict_defect(m, s->first_iterate, s->defect, tau);
+  if (s->theta.alpha == 0.0)
+    fg__pass_restrict_defect(m, s->first_iterate, s->defect, tau);
   float *oldest = s->previous;
   s->previous = s->current;
   s->current = fg__multigrid_u(m);

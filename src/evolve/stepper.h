@@ -1,14 +1,16 @@
-/* Implicit Euler steps of the density, and how large they may be. */
+/* Time steps of the density, and how large they may be. */
 #ifndef FG__STEPPER_H
 #define FG__STEPPER_H
 
 #include "evolve/parts.h"
 #include "evolve/passes.h"
+#include "evolve/theta.h"
 
 typedef struct fg__stepper {
   fg__multigrid multigrid;
+  fg__theta theta;    /* alpha 0: implicit Euler */
   double accuracy;    /* eta */
-  int cycles;         /* a step */
+  int cycles;         /* a step, or a substep of the theta scheme */
   double cell_volume; /* hx hy (hz), units of the longest side */
   double total_mass;  /* sum of the nodes' relative masses */
   double mean;        /* of u, held */
@@ -32,14 +34,20 @@ typedef struct fg__stepper {
   void *memory;
 } fg__stepper;
 
-/* Takes over a multigrid hierarchy (cleared with the stepper); the density starts as what
- * the finest u holds, with ghosts, and its mean is kept. `cell_volume` in units of
- * the longest side. Steps start at first_tau and never exceed
- * most_tau. MEMORY. */
+typedef struct fg__stepper_description {
+  double cell_volume;         /* units of the longest side */
+  double first_tau, most_tau; /* steps start with one and never exceed the other */
+  double accuracy;
+  int cycles;
+  double alpha; /* of the theta scheme; 0: implicit Euler */
+} fg__stepper_description;
+
+/* Takes over a multigrid hierarchy (cleared with the stepper), for the theta scheme as
+ * theta.h wants it; the density starts as what the finest u holds, with ghosts, and its
+ * mean is kept. MEMORY. */
 fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
-                             fg__multigrid *multigrid, double cell_volume,
-                             double first_tau, double most_tau, double accuracy,
-                             int cycles);
+                             fg__multigrid *multigrid,
+                             const fg__stepper_description *description);
 void fg__stepper_clear(fg__stepper *stepper);
 
 /* One accepted step; `current` is the new density. NO_CONVERGENCE, STOPPED. */
