@@ -11,7 +11,7 @@ enum { COARSEST_SWEEPS = 12, COARSEST_CELLS = 4 };
 
 /* A level of fewer nodes is done sooner by one thread than by several that wait for each
  * other (docs/design/evolution.md). */
-static const double least_shared_nodes = 60000.0;
+static const double least_shared_nodes = 200000.0;
 
 static fg_status create_finest(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, const fg__tile *tile,
