@@ -17,7 +17,7 @@ static fg_status allocate(fg__cells_of_box *out, fg_context *context, int dimens
                           const int nodes[3])
 {
   *out = (fg__cells_of_box){.dimension = dimension, .nodes = {1, 1, 1}};
-  for (int k = 0; k < dimension; ++k)
+  for (int k = 0; k < 3 && k < dimension; ++k)
     out->nodes[k] = nodes[k];
   out->row = out->nodes[0] + 1;
   out->plane = out->row * (out->nodes[1] + 1);

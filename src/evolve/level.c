@@ -200,7 +200,7 @@ static int couplings_to(const int offset[3], int dimension, const double spacing
     int a[3] = {-1, -1, -1}, b[3] = {-1, -1, -1};
     coupling c = {.cell = {0, 0, 0}};
     bool holds = true;
-    for (int k = 0; k < dimension; ++k) {
+    for (int k = 0; k < 3 && k < dimension; ++k) {
       a[k] = corner >> k & 1 ? 1 : -1; /* place of the node in the cell */
       b[k] = a[k] + 2 * offset[k];
       holds = holds && (b[k] == -1 || b[k] == 1);

@@ -125,8 +125,8 @@ static inline void set_tensor(problem *p, size_t n, double x, double y, double z
   float *to[3][3] = {{p->tensor.xx, p->tensor.xy, p->tensor.xz},
                      {p->tensor.xy, p->tensor.yy, p->tensor.yz},
                      {p->tensor.xz, p->tensor.yz, p->tensor.zz}};
-  for (int m = 0; m < p->dimension; ++m)
-    for (int k = m; k < p->dimension; ++k)
+  for (int m = 0; m < 3 && m < p->dimension; ++m)
+    for (int k = m; k < 3 && k < p->dimension; ++k)
       to[m][k][n] =
           (float)((1.0 - of->anisotropy) * e[m] * e[k] + (m == k ? of->anisotropy : 0.0));
 }
