@@ -170,7 +170,7 @@ static double from_interface(int dimension, const double place[3])
 static signed char wanted_level(const fg__mesh *mesh, const fg__leaf *leaf)
 {
   int level = 0;
-  for (; level < mesh->refinements; ++level) {
+  for (; level + 1 < mesh->level_count; ++level) {
     double place[3] = {0.0}, side = 2 << level;
     for (int k = 0; k < mesh->dimension; ++k)
       place[k] = (floor(leaf->first[k] / side) + 0.5) * side * mesh->patch_cells /

@@ -141,8 +141,8 @@ long fg__border_count(const fg__border *border)
   return border->nodes;
 }
 
-/* The mean of the 1, 2, 4 or 8 coarse nodes round a node, summed along x, y, z. */
-static float interpolated(const fg__layout *half, const float *array, const int node[3])
+float fg__interpolated(const fg__layout *half_layout, const float *half,
+                       const int node[3])
 {
   int low[3], odd[3];
   for (int k = 0; k < 3; ++k) {
@@ -153,7 +153,7 @@ static float interpolated(const fg__layout *half, const float *array, const int 
   for (int z = 0; z <= odd[2]; ++z)
     for (int y = 0; y <= odd[1]; ++y)
       for (int x = 0; x <= odd[0]; ++x)
-        sum += array[fg__node_at(half, low[0] + x, low[1] + y, low[2] + z)];
+        sum += half[fg__node_at(half_layout, low[0] + x, low[1] + y, low[2] + z)];
   return sum / (float)(1 << (odd[0] + odd[1] + odd[2]));
 }
 
@@ -165,7 +165,7 @@ static void interpolate(const fg__brick *brick, const fg__layout *half_layout,
     for (int j = first[1]; j < first[1] + nodes[1]; ++j)
       for (int i = first[0]; i < first[0] + nodes[0]; ++i)
         array[fg__node_at(layout, i, j, k)] =
-            interpolated(half_layout, half, (int[3]){i, j, k});
+            fg__interpolated(half_layout, half, (int[3]){i, j, k});
 }
 
 void fg__border_interpolate(fg__border *border, int count, float *const *const half[],

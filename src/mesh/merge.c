@@ -31,7 +31,7 @@ static int level_of(const fg__leaf *leaf)
 static int last_level_of(const fg__mesh *mesh, const fg__leaf *leaf)
 {
   int level = level_of(leaf);
-  for (; level < mesh->refinements; ++level)
+  for (; level + 1 < mesh->level_count; ++level)
     for (int k = 0; k < mesh->dimension; ++k)
       if (leaf->first[k] % (2 << level) != 0)
         return level;
@@ -54,16 +54,6 @@ static fg_status create_level(fg__mesh *mesh, fg_context *context, int level,
   if (!status)
     status = fg__partition_close(&mesh->level[level], context, &mesh->cover[level]);
   return status;
-}
-
-static int count_levels(const fg__mesh *mesh)
-{
-  double last = 0.0;
-  for (int n = 0; n < mesh->leaf_count; ++n)
-    if (level_of(&mesh->leaf[n]) > last)
-      last = level_of(&mesh->leaf[n]);
-  fg__ranks_greatest(mesh->ranks, &last, 1);
-  return (int)last + 1;
 }
 
 static fg_status set_tiles(fg__mesh *mesh, fg_context *context)
@@ -96,11 +86,12 @@ fg_status fg__mesh_merge_leaves(fg__mesh *mesh, fg_context *context)
     status = fg__fail_memory(context, "the leaves", count * sizeof *mesh->leaf);
   }
   status = fg__ranks_agree(mesh->ranks, context, status);
-  int levels = status ? 0 : count_levels(mesh);
-  for (; !status && mesh->level_count < levels; ++mesh->level_count)
-    status = create_level(mesh, context, mesh->level_count, box);
-  if (!status)
-    status = fg__ranks_agree(mesh->ranks, context, set_tiles(mesh, context));
+  for (int n = 0; !status && n < mesh->level_count; ++n)
+    status = create_level(mesh, context, n, box);
+  if (!status) {
+    status = set_tiles(mesh, context);
+    status = fg__ranks_agree(mesh->ranks, context, status);
+  }
   free(box);
   return status;
 }

@@ -118,26 +118,28 @@ static double imbalance(const fg__mesh *mesh, int patch)
 static fg_status grow_forest(fg__mesh *mesh, fg_context *context,
                              const fg__mesh_description *description)
 {
-  int tree = greatest_power_of_two_in(mesh->dimension, mesh->cells);
+  int tree = greatest_power_of_two_in(mesh->dimension, mesh->cells), depth = 0;
   int least = mesh->dimension == 3 ? LEAST_PATCH_3D : LEAST_PATCH_2D;
   bool adaptive = description->patch_cells > 0;
+  mesh->level_count = 1;
   if (adaptive) {
+    depth = description->refinements;
+    mesh->level_count += depth;
     mesh->patch_cells = description->patch_cells;
-    mesh->refinements = description->refinements;
-    tree = mesh->patch_cells << mesh->refinements;
+    tree = mesh->patch_cells << depth;
   } else {
     mesh->patch_cells = tree;
     while (mesh->patch_cells > least &&
            imbalance(mesh, mesh->patch_cells) > most_imbalance) {
       mesh->patch_cells /= 2;
-      ++mesh->refinements;
+      ++depth;
     }
   }
   int trees[3] = {1, 1, 1};
   for (int k = 0; k < mesh->dimension; ++k)
     trees[k] = mesh->cells[k] / tree;
   return mesh->kind->create(&mesh->forest, context, mesh->ranks, trees, mesh->periodic,
-                            mesh->refinements, adaptive);
+                            depth, adaptive);
 }
 
 fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
@@ -168,7 +170,7 @@ fg_status fg__mesh_adapt(fg__mesh *out, fg_context *context, const fg__mesh *mes
                          const signed char *wanted)
 {
   *out = *mesh;
-  out->level_count = out->leaf_count = out->tile_count = 0;
+  out->leaf_count = out->tile_count = 0;
   out->leaf = NULL;
   out->tile = NULL;
   memset(out->level, 0, sizeof out->level);

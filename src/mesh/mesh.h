@@ -38,9 +38,8 @@ typedef struct fg__mesh {
   double length;     /* the longest side in the input's coordinates */
   double origin[3];  /* lower corner, input coordinates; 0 along z in 2D */
   int patch_cells;   /* along each side of a leaf */
-  int refinements;   /* the largest leaves there may be are of this level */
   const fg__ranks *ranks;
-  int level_count; /* levels that have leaves, the finest first */
+  int level_count; /* the largest leaves there may be are of the last level */
   fg__partition level[FG__MOST_REFINEMENTS + 1]; /* of the nodes of a level's cells */
   fg__partition
       cover[FG__MOST_REFINEMENTS + 1]; /* of its cells, by their lower corners:

@@ -36,6 +36,12 @@ typedef enum fg__cell_kind {
 void fg__cell_kinds(unsigned char *out, const fg__mesh *mesh, int level,
                     const fg__box *box);
 
+/* The value of a node by multilinear interpolation: the mean of the 1, 2, 4 or 8 nodes
+ * round it on the next coarser level, summed along x, then y, then z. `half` points to
+ * node (0, 0, 0) of the half, `node` are local indices of the box, at least 0. */
+float fg__interpolated(const fg__layout *half_layout, const float *half,
+                       const int node[3]);
+
 /* The border of a level: nodes of own boxes with a cell outside beside them. */
 typedef struct fg__border fg__border;
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "mesh/carry.h"
 #include "mesh/together_test.h"
 
 typedef struct scene {
@@ -47,9 +48,9 @@ static signed char wanted_level(const scene *s, const fg__mesh *mesh,
   }
   double from_sphere = fabs(sqrt(square) - (4.0 + 6.0 * round));
   double level = (from_sphere - side) / 4.0;
-  return (signed char)(level < 0.0                 ? 0
-                       : level > mesh->refinements ? mesh->refinements
-                                                   : (int)level);
+  return (signed char)(level < 0.0                     ? 0
+                       : level > mesh->level_count - 1 ? mesh->level_count - 1
+                                                       : (int)level);
 }
 
 /* The mesh after some rounds, of all ranks or of this one alone. */
@@ -125,7 +126,11 @@ static void fill_the_domain(const fg__mesh *mesh, const scene *s, int round)
   expect(covered ==
          (uint64_t)mesh->cells[0] * (uint64_t)mesh->cells[1] * (uint64_t)mesh->cells[2]);
   /* the scenes are such that there is something to test */
-  expect(round == 0 || mesh->level_count > 1);
+  uint64_t largest = 0;
+  for (int n = 0; n < mesh->leaf_count; ++n)
+    largest += mesh->leaf[n].side > 1;
+  fg__ranks_add(us.ranks, &largest, 1);
+  expect(round == 0 ? largest == 0 : largest > 0);
   const fg__partition *last = &mesh->cover[mesh->level_count - 1];
   unsigned char *owners = owners_of(last);
   for (size_t n = 0; n < count_nodes(last); ++n)
@@ -228,7 +233,7 @@ static void leaves_become_as_fine_as_wanted(void **state)
     expect(fg__mesh_adapt(&adapted, us.context, &mesh, wanted) == FG_STATUS_OK);
     for (int l = 0; l < mesh.leaf_count; ++l) {
       const fg__partition *level = &adapted.level[wanted[l]];
-      if (wanted[l] >= adapted.level_count || mesh.leaf[l].side < 1 << wanted[l])
+      if (mesh.leaf[l].side < 1 << wanted[l])
         continue; /* coarser, if its sisters agree */
       unsigned char *owners = owners_of(level);
       int first[3] = {0, 0, 0};
@@ -260,16 +265,19 @@ static void all_coarse_and_all_fine_are_reached(void **state)
   (void)state;
   for (int n = 0; n < SCENE_COUNT; ++n) {
     fg__mesh mesh = mesh_after(&SCENES[n], 2, NULL);
-    for (int round = 0; round < mesh.refinements; ++round) {
-      fg__mesh coarser = adapted_to(&mesh, mesh.refinements);
+    int last = mesh.level_count - 1;
+    for (int round = 0; round < last; ++round) {
+      fg__mesh coarser = adapted_to(&mesh, last);
       fg__mesh_clear(&mesh);
       mesh = coarser;
     }
-    expect(mesh.level_count == mesh.refinements + 1);
-    for (int level = 0; level < mesh.refinements; ++level)
+    for (int l = 0; l < mesh.leaf_count; ++l)
+      expect(mesh.leaf[l].side == 1 << last);
+    for (int level = 0; level < last; ++level)
       expect(mesh.level[level].count == 0);
     fg__mesh fine = adapted_to(&mesh, 0); /* at once */
-    expect(fine.level_count == 1);
+    for (int l = 0; l < fine.leaf_count; ++l)
+      expect(fine.leaf[l].side == 1);
     fg__mesh_clear(&mesh);
     fg__mesh_clear(&fine);
   }
@@ -482,7 +490,15 @@ static void check_border(const fg__mesh *mesh, int n)
   }
   uint64_t nodes = (uint64_t)fg__border_count(border);
   fg__ranks_add(us.ranks, &nodes, 1);
-  expect(nodes > 0 || level->count == 0);
+  bool any = false;
+  for (int k = 0; k < level->nodes[2]; ++k)
+    for (int j = 0; j < level->nodes[1]; ++j)
+      for (int i = 0; i < level->nodes[0]; ++i) {
+        int node[3] = {i, j, k};
+        any =
+            any || (is_of_level(level, cover, node) && is_on_border(level, cover, node));
+      }
+  expect((nodes > 0) == any);
   free(cover);
   values_clear(&coarse);
   values_clear(&halves);
@@ -504,6 +520,85 @@ static void borders_are_interpolated_and_restored(void **state)
 {
   (void)state;
   for_all_meshes(interpolates_its_border);
+  end_together();
+}
+
+/* What carrying should give a node: what the old level has there, else the mean round it
+ * on the coarser level. */
+static float carried_at(const fg__mesh *from, unsigned char *const cover[], int n,
+                        int array, const int node[3])
+{
+  const fg__partition *level = &from->level[n];
+  if (is_of_level(level, cover[n], node))
+    return coarse_at(level, array, node);
+  float sum = 0.0F;
+  for (int corner = 0; corner < 8; ++corner) {
+    int coarse[3] = {0, 0, 0};
+    for (int k = 0; k < 3; ++k) {
+      if (k < level->dimension)
+        coarse[k] = (node[k] + (corner >> k & 1)) / 2;
+      if (level->periodic[k])
+        coarse[k] %= level->nodes[k] / 2;
+    }
+    sum += carried_at(from, cover, n + 1, array, coarse);
+  }
+  return 0.125F * sum;
+}
+
+static void check_carried(const values *v, const fg__mesh *from, const fg__mesh *to,
+                          unsigned char *const cover[], int n)
+{
+  int count;
+  const fg__box *own = fg__own_boxes(&to->level[n], &count);
+  for (int b = 0; b < v->boxes; ++b)
+    for (int k = 0; k < own[b].nodes[2]; ++k)
+      for (int j = 0; j < own[b].nodes[1]; ++j)
+        for (int i = 0; i < own[b].nodes[0]; ++i)
+          for (int a = 0; a < 2; ++a) {
+            int node[3] = {own[b].first[0] + i, own[b].first[1] + j, own[b].first[2] + k};
+            expect(v->node[a][b][fg__node_at(&v->layout[b], i, j, k)] ==
+                   carried_at(from, cover, n, a, node));
+          }
+}
+
+static void check_carrying(const fg__mesh *from, const fg__mesh *to)
+{
+  enum { MOST = FG__MOST_REFINEMENTS + 1 };
+  values old[MOST], carried[MOST];
+  float *const *const *source[MOST];
+  float *const *const *target[MOST];
+  unsigned char *cover[MOST];
+  for (int n = 0; n < from->level_count; ++n) {
+    old[n] = values_of(&from->level[n]);
+    carried[n] = values_of(&to->level[n]);
+    cover[n] = owners_of(&from->cover[n]);
+    set_values(&old[n], &from->level[n], coarse_at);
+    source[n] = old[n].array;
+    target[n] = carried[n].array;
+  }
+  expect(fg__mesh_carry(us.context, from, to, 2, source, target) == FG_STATUS_OK);
+  for (int n = 0; n < from->level_count; ++n)
+    check_carried(&carried[n], from, to, cover, n);
+  for (int n = 0; n < from->level_count; ++n) {
+    values_clear(&old[n]);
+    values_clear(&carried[n]);
+    free(cover[n]);
+  }
+}
+
+/* Forwards and back again: refinement here, coarsening there. */
+static void values_are_carried_to_another_mesh(void **state)
+{
+  (void)state;
+  for (int n = 0; n < SCENE_COUNT; ++n)
+    for (int round = 0; round < ROUNDS; ++round) {
+      fg__mesh one = mesh_after(&SCENES[n], round, NULL);
+      fg__mesh two = mesh_after(&SCENES[n], round + 1, NULL);
+      check_carrying(&one, &two);
+      check_carrying(&two, &one);
+      fg__mesh_clear(&one);
+      fg__mesh_clear(&two);
+    }
   end_together();
 }
 
@@ -580,6 +675,7 @@ int main(void)
       TOGETHER(all_coarse_and_all_fine_are_reached),
       TOGETHER(nodes_of_a_level_s_cells_have_owners),
       TOGETHER(borders_are_interpolated_and_restored),
+      TOGETHER(values_are_carried_to_another_mesh),
       TOGETHER(cells_are_outside_or_leaves_or_refined),
       TOGETHER(impossible_patches_are_refused),
   };
