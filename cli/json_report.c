@@ -10,6 +10,7 @@
 #include "said.h"
 
 static const char *const scale_words[] = {"auto", "geo", "map", "plain"};
+static const char *const scheme_words[] = {"euler", "theta"};
 static const char *const energy_words[] = {"flow", "isotropic"};
 static const char *const extent_words[] = {"cluster", "territory"};
 
@@ -85,7 +86,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   if (said->nodes)
     cJSON_AddNumberToObject(object, "nodes", said->nodes);
   cJSON_AddStringToObject(object, "mesh", "uniform");
-  cJSON_AddStringToObject(object, "scheme", "euler");
+  add_text(object, "scheme", scheme_words[said->scheme]);
   add_text(object, "energy", energy_words[said->energy]);
   if (drawing_makes_icons(facts->drawing))
     add_text(object, "extent", extent_words[said->extent]);

@@ -339,6 +339,7 @@ fg_evolution_options settings_evolution(const cli_settings *settings)
 {
   return (fg_evolution_options){
       .nodes = settings->nodes,
+      .scheme = (fg_scheme)settings->scheme,
       .energy = (fg_energy)settings->energy,
       .anisotropy = settings->anisotropy,
       .coverage = settings->coverage,

@@ -23,6 +23,7 @@ typedef struct cli_settings {
 
   int nodes;
   int mesh;   /* only uniform (0) is known */
+  int scheme; /* fg_scheme */
   int energy; /* fg_energy */
   double anisotropy, coverage, gamma;
   uint64_t seed;

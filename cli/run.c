@@ -65,14 +65,15 @@ static void say_choices(const cli_run *run)
   say_choice(said->operand, "level", said->level, run->facts.level_count, field->level);
 }
 
-static void print_mesh(const fg_mesh_info *mesh)
+static void print_mesh(const fg_mesh_info *mesh, int scheme)
 {
   fprintf(stderr, "flowgrain: mesh %d x %d", mesh->cells[0], mesh->cells[1]);
   if (mesh->dimension == 3)
     fprintf(stderr, " x %d", mesh->cells[2]);
-  fprintf(stderr, " cells (%ld active), a = %g, coverage %g, gamma %g, %s kernel\n",
+  fprintf(stderr,
+          " cells (%ld active), a = %g, coverage %g, gamma %g, %s scheme, %s kernel\n",
           mesh->active_cells, mesh->anisotropy, mesh->coverage, mesh->gamma,
-          mesh->kernel);
+          scheme == FG_SCHEME_THETA ? "theta" : "implicit Euler", mesh->kernel);
 }
 
 /* What of this version's results a field in 3D does not get. */
@@ -95,7 +96,7 @@ static int create_evolution(cli_run *run)
   const fg_mesh_info *mesh = fg_evolution_mesh(run->evolution);
   run->facts.mesh = mesh;
   if (run->settings->verbose)
-    print_mesh(mesh);
+    print_mesh(mesh, run->settings->scheme);
   return EXIT_DONE;
 }
 

@@ -29,8 +29,8 @@ wrong 'unknown option --no-such' run a -o x --no-such
 done_with "unknown long option"
 wrong 'unknown option -z' run a -o x -z
 done_with "unknown short option"
-wrong 'unknown option --scheme' run a -o x --scheme theta
-done_with "an option of a later version is unknown"
+wrong 'scheme thta: not known; the choice is: euler, theta' run a -o x --scheme thta
+done_with "a word that is no choice"
 wrong 'say one' run a -o x --resume --force
 done_with "--resume and --force exclude each other"
 wrong 'checkpoint -1: a number in .0, 1e.09.' run a -o x --checkpoint -1
