@@ -45,21 +45,58 @@ __attribute__((destructor)) static void log_calls(void)
   fclose(stream);
 }
 
-#define CALL(result, name, path, space, parameters, arguments)                           \
-  __attribute__((visibility("default"))) result name parameters;                         \
-  result name parameters                                                                 \
-  {                                                                                      \
-    result(*next) parameters;                                                            \
-    void *found = dlsym(RTLD_NEXT, #name);                                               \
-    memcpy(&next, &found, sizeof next);                                                  \
-    return comes(path, space) ? -1 : next arguments;                                     \
-  }
+/* Sets a function's pointer to what the program would have called. */
+static void find(void *next, const char *name)
+{
+  void *found = dlsym(RTLD_NEXT, name);
+  memcpy(next, &found, sizeof found);
+}
 
-CALL(int, rename, to, 0, (const char *from, const char *to), (from, to))
-CALL(int, link, to, 1, (const char *from, const char *to), (from, to))
-CALL(int, unlink, path, 0, (const char *path), (path))
-CALL(int, mkdir, path, 1, (const char *path, mode_t mode), (path, mode))
-CALL(int, rmdir, path, 0, (const char *path), (path))
-CALL(int, fsync, NULL, 0, (int file), (file))
-CALL(ssize_t, pwrite, NULL, 1, (int file, const void *from, size_t count, off_t at),
-     (file, from, count, at))
+int rename(const char *from, const char *to)
+{
+  int (*next)(const char *, const char *);
+  find(&next, "rename");
+  return comes(to, 0) ? -1 : next(from, to);
+}
+
+int link(const char *from, const char *to)
+{
+  int (*next)(const char *, const char *);
+  find(&next, "link");
+  return comes(to, 1) ? -1 : next(from, to);
+}
+
+int unlink(const char *path)
+{
+  int (*next)(const char *);
+  find(&next, "unlink");
+  return comes(path, 0) ? -1 : next(path);
+}
+
+int mkdir(const char *path, mode_t mode)
+{
+  int (*next)(const char *, mode_t);
+  find(&next, "mkdir");
+  return comes(path, 1) ? -1 : next(path, mode);
+}
+
+int rmdir(const char *path)
+{
+  int (*next)(const char *);
+  find(&next, "rmdir");
+  return comes(path, 0) ? -1 : next(path);
+}
+
+int fsync(int file)
+{
+  int (*next)(int);
+  find(&next, "fsync");
+  return comes(NULL, 0) ? -1 : next(file);
+}
+
+ssize_t pwrite(int file, const void *from, size_t count, off_t at)
+{
+  ssize_t (*next)(int, const void *, size_t, off_t);
+  find(&next, "pwrite");
+  return comes(NULL, 1) ? -1 : next(file, from, count, at);
+}
