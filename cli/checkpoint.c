@@ -175,7 +175,7 @@ static bool lacks(const cli_run *run, int index, const char *end)
     return false;
   complain("%s: damaged: %s, which its checkpoint counts on, is not there",
            run->output.work, name);
-  fputs("Start anew with --force.\n", stderr);
+  advise("Start anew with --force.");
   return true;
 }
 
@@ -274,7 +274,7 @@ int checkpoint_resume(cli_run *run)
   int code;
   if (status) {
     code = complain_of(run->context, status, run->settings->output);
-    fputs("Start anew with --force.\n", stderr);
+    advise("Start anew with --force.");
   } else {
     code = resume(run, checkpoint);
     fg_checkpoint_destroy(checkpoint);

@@ -298,8 +298,7 @@ bool report_is_of(const char *folder, const cli_settings *settings)
     same = same_input(input, settings->operand);
     if (!same) {
       complain("%s: holds the results of a run on %s", folder, report.input);
-      fputs("Choose another folder with -o, or replace its results with --force.\n",
-            stderr);
+      advise("Choose another folder with -o, or replace its results with --force.");
     }
   }
   if (same)

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "options.h"
+#include "ranks.h"
 
 /* A standard stream that the caller closed must not become the number of a file we open:
  * a picture would end up with messages in it. Output then fails, and is reported. */
@@ -34,13 +35,14 @@ static int finish(int code)
   return code;
 }
 
-static int usage(void)
+static parse_result usage(void)
 {
-  fputs("Try 'flowgrain --help'.\n", stderr);
-  return EXIT_USAGE;
+  advise("Try 'flowgrain --help'.");
+  return PARSE_WRONG;
 }
 
-static int work(int argc, char **argv)
+static parse_result parse(const cli_command **command, cli_settings *settings, int argc,
+                          char **argv)
 {
   if (argc < 2) {
     complain("a command is missing");
@@ -50,26 +52,30 @@ static int work(int argc, char **argv)
   if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 ||
       strcmp(word, "help") == 0) {
     print_program_help(stdout);
-    return EXIT_DONE;
+    return PARSE_DONE;
   }
   if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
     printf("flowgrain %s\n", fg_version());
-    return EXIT_DONE;
+    return PARSE_DONE;
   }
-  const cli_command *command = command_find(word);
-  if (!command) {
+  *command = command_find(word);
+  if (!*command) {
     complain("unknown %s '%s'", word[0] == '-' ? "option" : "command", word);
     return usage();
   }
+  return options_parse(settings, *command, argc - 1, argv + 1);
+}
+
+static int work(int argc, char **argv)
+{
+  const cli_command *command = NULL;
   cli_settings settings;
-  switch (options_parse(&settings, command, argc - 1, argv + 1)) {
-  case PARSE_DONE:
-    return EXIT_DONE;
-  case PARSE_WRONG:
-    return EXIT_USAGE;
-  case PARSE_GO:
-    break;
-  }
+  parse_result parsed = parse(&command, &settings, argc, argv);
+  int code = ranks_agree(parsed == PARSE_WRONG ? EXIT_USAGE : EXIT_DONE);
+  if (code || ranks_any(parsed == PARSE_DONE))
+    return code;
+  if (command->work != command_run && !ranks_leader())
+    return EXIT_DONE; /* work for one */
   return command->work(&settings);
 }
 
@@ -77,5 +83,6 @@ int main(int argc, char **argv)
 {
   hold_standard_streams();
   take_file_limits_as_errors();
-  return finish(work(argc, argv));
+  int code = ranks_start();
+  return finish(code ? code : work(argc, argv));
 }

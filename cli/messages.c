@@ -5,15 +5,40 @@
 #include <string.h>
 
 #include "program.h"
+#include "ranks.h"
+
+enum { TEXT_BYTES = 2048 }; /* of a context's message */
+static char complaint[TEXT_BYTES], advice[TEXT_BYTES];
 
 void complain(const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
-  fputs("flowgrain: ", stderr);
-  vfprintf(stderr, format, arguments);
-  fputc('\n', stderr);
+  vsnprintf(complaint, sizeof complaint, format, arguments);
   va_end(arguments);
+  advice[0] = '\0';
+  if (ranks_leader())
+    fprintf(stderr, "flowgrain: %s\n", complaint);
+}
+
+void advise(const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(advice, sizeof advice, format, arguments);
+  va_end(arguments);
+  if (ranks_leader())
+    fprintf(stderr, "%s\n", advice);
+}
+
+const char *last_complaint(void)
+{
+  return complaint;
+}
+
+const char *last_advice(void)
+{
+  return advice;
 }
 
 int complain_of(const fg_context *context, fg_status status, const char *file)
@@ -26,7 +51,7 @@ int complain_of(const fg_context *context, fg_status status, const char *file)
                strncmp(message, file, strlen(file)) == 0;
   complain("%s%s%s", named ? "" : file, named ? "" : ": ", message);
   if (*hint)
-    fprintf(stderr, "%s\n", hint);
+    advise("%s", hint);
   return status == FG_STATUS_STOPPED ? EXIT_INTERRUPTED : EXIT_FAILED;
 }
 

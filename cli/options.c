@@ -34,7 +34,7 @@ static bool wrong(const cli_command *command, const char *format, ...)
   vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
   complain("%s", text);
-  fprintf(stderr, "Try 'flowgrain %s --help'.\n", command->name);
+  advise("Try 'flowgrain %s --help'.", command->name);
   return false;
 }
 

@@ -46,8 +46,16 @@ typedef struct cli_settings {
   bool save_field, resume, force, quiet, verbose, json;
 } cli_settings;
 
-/* Prints "flowgrain: TEXT" on standard error. */
+/* Prints "flowgrain: TEXT" on standard error; on ranks other than 0 it is kept for them
+ * to agree on (ranks.h). */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Prints a second line, which says what to do about the complaint. */
+void advise(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* What was last complained of, and advised on it; "" before. */
+const char *last_complaint(void);
+const char *last_advice(void);
 
 /* Prints a context's message and its hint, after `file` unless the message begins with a
  * file's name of its own; returns the exit code for the failure. */

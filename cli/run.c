@@ -8,6 +8,7 @@
 #include "folder.h"
 #include "interrupt.h"
 #include "options.h"
+#include "ranks.h"
 #include "rehearse.h"
 
 static int read_field(cli_run *run)
@@ -95,7 +96,7 @@ static int create_evolution(cli_run *run)
     return complain_of(run->context, status, run->settings->operand);
   const fg_mesh_info *mesh = fg_evolution_mesh(run->evolution);
   run->facts.mesh = mesh;
-  if (run->settings->verbose)
+  if (run->settings->verbose && ranks_leader())
     print_mesh(mesh, run->settings->scheme);
   return EXIT_DONE;
 }
@@ -112,13 +113,17 @@ static int decide(const cli_run *run, output_state state, bool *done)
     *done = true;
     return report_is_of(said->output, said) ? EXIT_DONE : EXIT_FAILED;
   }
+  if (said->resume && ranks_count() > 1) {
+    complain("%s: holds a run that can go on, but only on one rank in this version",
+             said->output);
+    return EXIT_FAILED;
+  }
   if (said->resume)
     return EXIT_DONE;
   complain("%s: holds %s", said->output,
            state == OUTPUT_UNFINISHED ? "a run that can go on" : "the results of a run");
-  fprintf(stderr,
-          "Choose another folder with -o, or replace its results with --force%s.\n",
-          state == OUTPUT_UNFINISHED ? ", or go on with --resume" : "");
+  advise("Choose another folder with -o, or replace its results with --force%s.",
+         state == OUTPUT_UNFINISHED ? ", or go on with --resume" : "");
   return EXIT_FAILED;
 }
 
@@ -184,9 +189,10 @@ static int record_step(cli_run *run, const fg_step *before)
     run->facts.mass_drift = drift;
   if (step->clusters && !run->first_counted.step)
     run->first_counted = *step;
-  return table_add(&run->table, step);
+  return ranks_leader() ? table_add(&run->table, step) : EXIT_DONE;
 }
 
+/* Collective; rank 0 gets the density, and draws it. */
 static int take_scale(cli_run *run, const int *wanted, int wanted_count)
 {
   fg_density *density;
@@ -194,6 +200,8 @@ static int take_scale(cli_run *run, const int *wanted, int wanted_count)
   if (status)
     return complain_of(run->context, status, run->settings->operand);
   run->last_scale_clusters = run->step.clusters;
+  if (!ranks_leader())
+    return ranks_agree(EXIT_DONE);
   if (run->settings->verbose) {
     progress_wipe(&run->progress);
     fprintf(stderr, "flowgrain: scale %02d: step %ld, t = %.3e, %d clusters, %.2f s\n",
@@ -201,8 +209,8 @@ static int take_scale(cli_run *run, const int *wanted, int wanted_count)
             run->step.clusters, run->step.seconds);
   }
   /* a failure of the drawing is complained of where the run ends */
-  return drawing_add(run->drawing, density, wanted, wanted_count) ? EXIT_DONE
-                                                                  : EXIT_FAILED;
+  bool added = drawing_add(run->drawing, density, wanted, wanted_count);
+  return ranks_agree(added ? EXIT_DONE : EXIT_FAILED);
 }
 
 static const char *reason_to_stop(const cli_run *run)
@@ -244,7 +252,7 @@ static int advance(cli_run *run)
     progress_wipe(&run->progress);
     return complain_of(run->context, status, run->settings->operand);
   }
-  int code = record_step(run, &before);
+  int code = ranks_agree(record_step(run, &before));
   int reached = scale_plan_reach(&run->plan, run->step.clusters);
   if (!code && reached)
     code = take_scale(run, &run->plan.wanted[run->plan.next - reached], reached);
@@ -267,12 +275,13 @@ static int evolve(cli_run *run)
     run->facts.ended = reason_to_stop(run);
   while (!code && !run->facts.ended) {
     code = advance(run);
-    if (!code && !run->facts.ended && checkpoint_is_due(run))
+    if (!code && !run->facts.ended && ranks_count() == 1 && checkpoint_is_due(run))
       code = checkpoint_save(run);
     show_progress(run);
   }
   bool interrupted = !code && strcmp(run->facts.ended, "interrupted") == 0;
-  if (!code && run->step.step && can_go_on(run) && (interrupted || run->step.clusters))
+  if (!code && ranks_count() == 1 && run->step.step && can_go_on(run) &&
+      (interrupted || run->step.clusters))
     code = checkpoint_save(run);
   /* a run that ends before its last scale still shows how far it came */
   bool shown = run->last_scale_clusters == run->step.clusters;
@@ -295,8 +304,8 @@ static int complain_of_no_scale(const cli_run *run)
   complain("%s: no clusters after %ld steps, at t = %.3g: %s", operand, step->step,
            step->time,
            settled ? "the pattern no longer changes" : "they are still forming");
-  fputs(settled ? "Raise --nodes or --coverage.\n" : "Raise --max-steps or --max-time.\n",
-        stderr);
+  advise("%s",
+         settled ? "Raise --nodes or --coverage." : "Raise --max-steps or --max-time.");
   return EXIT_FAILED;
 }
 
@@ -362,35 +371,35 @@ static int say_ending(const cli_run *run)
   return EXIT_INTERRUPTED;
 }
 
-static int work(cli_run *run)
+/* All ranks read; rank 0 sees to the results' folder. *done: nothing is left to do. */
+static int prepare(cli_run *run, bool *done)
 {
   output_state state;
-  bool done = false;
-  int code = output_check(run->settings->output);
-  if (!code)
-    code = look(run, &state, &done);
-  if (!code && !done)
+  int code = EXIT_DONE;
+  if (ranks_leader()) {
+    code = output_check(run->settings->output);
+    if (!code)
+      code = look(run, &state, done);
+  }
+  if (!code && !*done)
     code = read_field(run);
-  if (!code && !done) {
+  code = ranks_agree(code);
+  *done = ranks_any(*done);
+  if (code || *done)
+    return code;
+  if (ranks_leader()) {
     count_choices(run);
     say_choices(run);
     say_what_is_left_out(run);
-    run->facts.seconds_read = clock_seconds() - run->start;
-    code = create_evolution(run);
   }
-  if (!code)
-    code = done ? output_open(&run->output, run->settings->output)
-                : open_results(run, &done);
-  if (!code && done) {
-    run->finished = true; /* what its end left undone is done where this one ends */
-    fprintf(stderr, "flowgrain: %s: the run is finished\n", run->settings->output);
-    return EXIT_DONE;
-  }
-  if (code)
-    return code;
-  code = evolve(run);
-  if (!code || (run->drawing && drawing_failed(run->drawing)))
-    code = finish_drawing(run);
+  run->facts.seconds_read = clock_seconds() - run->start;
+  return create_evolution(run);
+}
+
+/* Of rank 0, after the evolution. */
+static int finish(cli_run *run)
+{
+  int code = finish_drawing(run);
   if (!code)
     code = write_results(run);
   if (code)
@@ -400,6 +409,33 @@ static int work(cli_run *run)
   return say_ending(run);
 }
 
+static int work(cli_run *run)
+{
+  bool done = false;
+  int code = prepare(run, &done);
+  if (code)
+    return code;
+  if (ranks_leader())
+    code = done ? output_open(&run->output, run->settings->output)
+                : open_results(run, &done);
+  code = ranks_agree(code);
+  done = ranks_any(done);
+  if (!code && done) {
+    run->finished = true; /* what its end left undone is done where this one ends */
+    if (ranks_leader())
+      fprintf(stderr, "flowgrain: %s: the run is finished\n", run->settings->output);
+    return EXIT_DONE;
+  }
+  if (code)
+    return code;
+  code = evolve(run);
+  if (code && ranks_leader() && drawing_failed(run->drawing))
+    return finish_drawing(run);
+  if (code)
+    return code;
+  return ranks_agree(ranks_leader() ? finish(run) : EXIT_DONE);
+}
+
 /* The second line of a complaint, where a checkpoint makes it worth while and nothing
  * else was advised. The drawing's own context is gone; its failures advise nothing. */
 static void say_how_to_go_on(const cli_run *run, int code, bool resumable)
@@ -407,8 +443,7 @@ static void say_how_to_go_on(const cli_run *run, int code, bool resumable)
   bool ended_here = run->saved_step && (code == EXIT_FAILED || code == EXIT_INTERRUPTED);
   if (!resumable || !ended_here || *fg_context_hint(run->context))
     return;
-  fprintf(stderr, "The same command with --resume goes on from step %ld.\n",
-          run->saved_step);
+  advise("The same command with --resume goes on from step %ld.", run->saved_step);
 }
 
 int command_run(const cli_settings *settings)
@@ -420,7 +455,7 @@ int command_run(const cli_settings *settings)
   run.facts.settings = settings;
   run.facts.energy_monotone = true;
   scale_plan_start(&run.plan, settings->clusters, settings->cluster_count);
-  progress_start(&run.progress, settings->quiet);
+  progress_start(&run.progress, settings->quiet || !ranks_leader());
   if (fg_context_create(&run.context)) {
     complain("out of memory");
     return EXIT_FAILED;

@@ -144,7 +144,7 @@ bool said_the_same(const cJSON *earlier, const cli_settings *settings)
     print_phrase(other, option, now);
     complain("%s: its run was begun %s; this command goes %s", settings->output, one,
              other);
-    fputs("Say the same options to go on, or start anew with --force.\n", stderr);
+    advise("Say the same options to go on, or start anew with --force.");
     return false;
   }
   return true;

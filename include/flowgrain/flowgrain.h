@@ -92,6 +92,27 @@ FG_API void fg_context_clear(fg_context *context);
  * point. The only function that may be called from a signal handler or another thread. */
 FG_API void fg_context_stop(fg_context *context);
 
+/* Ranks: processes that a launcher such as mpirun started together share one evolution.
+ *
+ * fg_evolution_create and the calls that take an evolution are collective: every rank
+ * makes them in the same order, with the same field (each has it whole, for now) and
+ * options, and all get the same status; when one fails, every context holds its message.
+ * Rank 0 alone gets densities. All else is the business of the rank that calls it. A
+ * program that MPI does not know of has one rank and need not care. */
+
+/* This rank's number, from 0, and how many there are. Starts MPI when a launcher started
+ * this process, and ends it when the process exits; a program that uses MPI itself starts
+ * and ends it itself. Collective in the first call. MPI. */
+FG_API fg_status fg_ranks(fg_context *context, int *rank, int *count);
+
+/* Makes one failure of many, for what ranks do each on its own: when `status` is one on
+ * some rank, all return that of the lowest such rank, and every context holds that rank's
+ * message and hint in place of its own. FG_STATUS_STOPPED gives way to other failures.
+ * message: what to tell of this rank's failure instead of what the context holds (hint:
+ * NULL, none), or NULL. Collective. */
+FG_API fg_status fg_ranks_agree(fg_context *context, fg_status status,
+                                const char *message, const char *hint);
+
 /* Fields. */
 
 typedef struct fg_field fg_field;
@@ -254,7 +275,7 @@ typedef struct fg_step {
 
 /* Builds mesh, tensor and initial density. nodes is rounded up so that the mesh can be
  * coarsened; fg_evolution_mesh says what it became. ARGUMENT (options out of range, a
- * field in 3D), MEMORY. */
+ * field in 3D, ranks that disagree on field or options), MEMORY, MPI. */
 FG_API fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
                                      const fg_field *field,
                                      const fg_evolution_options *options);
@@ -330,7 +351,7 @@ typedef struct fg_density_arrays {
   int clusters;
 } fg_density_arrays;
 
-/* Takes a snapshot. MEMORY. */
+/* Takes a snapshot; on other ranks than 0 *out becomes NULL. MEMORY. */
 FG_API fg_status fg_density_create(fg_density **out, const fg_evolution *evolution);
 
 /* Copies arrays into a density of its own, for icons from elsewhere. ARGUMENT, MEMORY. */

@@ -1,7 +1,9 @@
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
+#include "base/mix.h"
 #include "evolve/evolution.h"
 #include "field/fingerprint.h"
 
@@ -344,7 +346,7 @@ static fg_status create_stepper(fg_evolution *e, const fg_field *field)
                                          .accuracy = e->options.accuracy,
                                          .cycles = e->options.cycles,
                                          .alpha = alpha_of(e)};
-  fg_status status = check_initial(e);
+  fg_status status = fg__ranks_agree(e->ranks, e->context, check_initial(e));
   if (!status)
     status = create_multigrid(e, field, &multigrid);
   if (status)
@@ -358,31 +360,70 @@ static fg_status create_stepper(fg_evolution *e, const fg_field *field)
   return status;
 }
 
+static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ranks,
+                       const fg_field *field, const fg_evolution_options *options)
+{
+  e->context = context;
+  e->ranks = ranks;
+  clock_gettime(CLOCK_MONOTONIC, &e->start);
+  if (options)
+    e->options = *options;
+  e->field_fingerprint = fg__field_fingerprint(field);
+  return settle_options(&e->options, context, fg_field_contents(field)->dimension);
+}
+
+/* Ranks with different meshes would wait for messages that never come. */
+static fg_status check_alike(const fg_evolution *e)
+{
+  const fg_evolution_options *o = &e->options;
+  const double numbers[] = {o->anisotropy, o->coverage, o->gamma, o->accuracy};
+  const int words[] = {o->nodes, o->cycles, (int)o->energy, (int)o->scheme,
+                       o->initial != NULL};
+  uint64_t key = fg__mix(e->field_fingerprint ^ fg__mix(o->seed));
+  for (int n = 0; n < 5; ++n)
+    key = fg__mix(key ^ (uint64_t)words[n]);
+  for (int n = 0; n < 4; ++n) {
+    uint64_t bits;
+    memcpy(&bits, &numbers[n], sizeof bits);
+    key = fg__mix(key ^ bits);
+  }
+  /* halves are whole numbers in a double; the greatest of -x is the least of x */
+  double high = (double)(key >> 32), low = (double)(uint32_t)key;
+  double greatest[] = {high, -high, low, -low};
+  fg__ranks_greatest(e->ranks, greatest, 4);
+  if (greatest[0] == -greatest[1] && greatest[2] == -greatest[3])
+    return FG_STATUS_OK;
+  return fg__fail(e->context, FG_STATUS_ARGUMENT,
+                  "the %d ranks have different fields or options", e->ranks->count);
+}
+
 fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
                               const fg_field *field, const fg_evolution_options *options)
 {
   if (!out || !field)
     return fg__fail(context, FG_STATUS_ARGUMENT, "evolution: a NULL argument");
   *out = NULL;
+  const fg__ranks *ranks;
+  fg_status status = fg__ranks_all(&ranks, context);
+  if (status)
+    return status;
   fg_evolution *e = fg__allocate(1, sizeof *e);
-  if (!e)
-    return fg__fail_memory(context, "an evolution", sizeof *e);
-  e->context = context;
-  clock_gettime(CLOCK_MONOTONIC, &e->start);
-  if (options)
-    e->options = *options;
-  fg_status status =
-      settle_options(&e->options, context, fg_field_contents(field)->dimension);
+  if (e)
+    status = begin(e, context, ranks, field, options);
+  else
+    status = fg__fail_memory(context, "an evolution", sizeof *e);
+  status = fg__ranks_agree(ranks, context, status);
+  if (!status)
+    status = check_alike(e);
   if (!status)
     status = create_mesh(e, field);
   if (!status) {
     count_cells(e);
-    e->spread = e->mesh.level[0].count != 1;
+    e->spread = ranks->count > 1 || e->mesh.level[0].count != 1;
     status = create_tensor(e, field);
   }
   if (!status) {
     describe(e);
-    e->field_fingerprint = fg__field_fingerprint(field);
     status = check_interface(e);
   }
   if (!status)
@@ -447,7 +488,10 @@ fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
 {
   fg_evolution *e = evolution;
   long cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
-  fg_status status = fg__stepper_advance(&e->stepper, e->context);
+  /* asked once only: a step that has begun ends, so that it is the same when resumed */
+  fg_status status = fg__ranks_agree(e->ranks, e->context, fg__check_stop(e->context));
+  if (!status)
+    status = fg__stepper_advance(&e->stepper, e->context);
   if (!status)
     status = fg__evolution_count(e);
   if (!status)

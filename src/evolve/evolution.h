@@ -12,6 +12,7 @@ struct fg_evolution {
   fg_context *context;
   fg_evolution_options options; /* with the defaults filled in */
   fg_mesh_info info;
+  const fg__ranks *ranks; /* all; fewer may share the mesh */
   fg__mesh mesh;
   fg__tensor tensor;
   fg__stepper stepper;

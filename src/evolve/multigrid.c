@@ -106,6 +106,7 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
       break;
     ++out->spread_count;
     status = fg__partition_coarsen(&partition, context, &spread->partition);
+    status = fg__ranks_agree(mesh->ranks, context, status);
   }
   return status;
 }
@@ -121,10 +122,14 @@ static fg_status gather_cells(fg__cells_of_box *out, fg_context *context,
   size_t count = (size_t)cells[0] * (size_t)cells[1] * (size_t)cells[2];
   float *nodal = fg__allocate(whole.array_size, sizeof *nodal);
   float *plain = fg__allocate(count * (size_t)arrays, sizeof *plain);
-  if (!nodal || !plain) {
+  fg_status status = FG_STATUS_OK;
+  if (!nodal || !plain)
+    status = fg__fail_memory(context, "the coarse tensor", count * sizeof *plain);
+  status = fg__ranks_agree(multigrid->ranks, context, status);
+  if (status) {
     free(nodal);
     free(plain);
-    return fg__fail_memory(context, "the coarse tensor", count * sizeof *plain);
+    return status;
   }
   float *place = nodal + whole.first, *carrier = image->residual[0];
   const float *values[FG__TENSOR_COMPONENTS + 1];
@@ -149,8 +154,8 @@ static fg_status gather_cells(fg__cells_of_box *out, fg_context *context,
         for (int i = 0; i < cells[0]; ++i)
           *to++ = place[fg__node_at(&whole, i, j, k)];
   }
-  fg_status status = fg__cells_from_arrays(out, context, values, dimension, cells,
-                                           image->partition.periodic);
+  status = fg__cells_from_arrays(out, context, values, dimension, cells,
+                                 image->partition.periodic);
   free(nodal);
   free(plain);
   return status;

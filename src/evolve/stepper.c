@@ -244,10 +244,6 @@ fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
 {
   fg__stepper *s = stepper;
   double tau = s->tau;
-  /* asked once only: a step that has begun ends, so that it is the same when resumed */
-  fg_status status = fg__check_stop(context);
-  if (status)
-    return status;
   for (;;) {
     outcome result = attempt(s, tau);
     if (result.at_rest) {

@@ -50,7 +50,7 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
                              const fg__stepper_description *description);
 void fg__stepper_clear(fg__stepper *stepper);
 
-/* One accepted step; `current` is the new density. NO_CONVERGENCE, STOPPED. */
+/* One accepted step; `current` is the new density. Collective. NO_CONVERGENCE. */
 fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context);
 
 /* Many steps in a row changed next to nothing although time went on. */

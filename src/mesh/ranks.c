@@ -25,12 +25,17 @@ static void finalise(void)
   MPI_Finalize();
 }
 
+/* A launcher announces itself in the environment. */
+static bool is_launched(void)
+{
+  return getenv("OMPI_COMM_WORLD_SIZE") || getenv("PMI_SIZE") || getenv("PMIX_RANK");
+}
+
 /* A process on its own needs no network: these settings of Open MPI cut MPI_Init from 0.3
- * to 0.03 s. What the user has set stays. A launcher announces itself in the environment.
- */
+ * to 0.03 s. What the user has set stays. */
 static void settle_for_one_process(void)
 {
-  if (getenv("OMPI_COMM_WORLD_SIZE") || getenv("PMI_SIZE") || getenv("PMIX_RANK"))
+  if (is_launched())
     return;
   setenv("OMPI_MCA_btl", "self", 0);
   setenv("OMPI_MCA_pml", "ob1", 0);
@@ -131,4 +136,43 @@ fg_status fg__ranks_agree(const fg__ranks *ranks, fg_context *context, fg_status
     return FG_STATUS_OK;
   spread_message(ranks, context, (fg_status)first[1], first[0] % ranks->count);
   return (fg_status)first[1];
+}
+
+/* Whether there can be more than this rank. MPI may have been started by the program. */
+static bool may_have_company(void)
+{
+  int running = 0;
+  MPI_Initialized(&running);
+  return running || is_launched();
+}
+
+fg_status fg_ranks(fg_context *context, int *rank, int *count)
+{
+  *rank = 0;
+  *count = 1;
+  if (!may_have_company())
+    return FG_STATUS_OK;
+  const fg__ranks *ranks;
+  fg_status status = fg__ranks_all(&ranks, context);
+  if (!status) {
+    *rank = ranks->rank;
+    *count = ranks->count;
+  }
+  return status;
+}
+
+fg_status fg_ranks_agree(fg_context *context, fg_status status, const char *message,
+                         const char *hint)
+{
+  if (status && message) {
+    fg_context_clear(context);
+    fg__fail(context, status, "%s", message);
+    if (hint)
+      fg__hint(context, "%s", hint);
+  }
+  if (!may_have_company())
+    return status;
+  const fg__ranks *ranks;
+  fg_status started_status = fg__ranks_all(&ranks, context);
+  return started_status ? started_status : fg__ranks_agree(ranks, context, status);
 }

@@ -1,0 +1,24 @@
+/* Ranks: several processes that a launcher such as mpirun started with the same command
+ * line. Rank 0 alone prints, draws and writes; the others keep their complaints until all
+ * agree on a failure, which rank 0 then tells. */
+#ifndef RANKS_H
+#define RANKS_H
+
+#include <stdbool.h>
+
+/* Finds out which rank this is. Returns an exit code. */
+int ranks_start(void);
+
+bool ranks_leader(void); /* this is rank 0, maybe the only one */
+int ranks_count(void);
+
+/* Makes one exit code of all ranks': that of the lowest rank that failed;
+ * EXIT_INTERRUPTED gives way to failures. Rank 0 tells what that rank complained of,
+ * unless it has told of a failure of its own. Every rank must come here, or the others
+ * wait for ever. */
+int ranks_agree(int code);
+
+/* Whether any rank says so; collective likewise. */
+bool ranks_any(bool said);
+
+#endif

@@ -1,0 +1,172 @@
+#!/usr/bin/env bash
+# The program on several ranks: the results of one, and one message when something fails.
+source "$(dirname "$0")/harness.sh"
+
+# tests may run as root (a container), on fewer cores than ranks, without ptrace
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
+export OMPI_MCA_btl_vader_single_copy_mechanism=none
+if ! command -v mpirun >/dev/null; then
+  echo "1..0 # SKIP there is no mpirun"
+  exit 0
+fi
+
+# on RANKS ARGUMENTS...: a run that hangs ends with code 124.
+on() {
+  local ranks=$1
+  shift
+  timeout 60 mpirun -n "$ranks" "$program" "$@" >out 2>err
+  code=$?
+}
+
+# mpirun says more when a rank fails; ours are the lines from the program's name on.
+expect_one_message() {
+  [ "$(grep -c '^flowgrain: ' err)" = 1 ] || fault "not one message: $(head -c 400 err)"
+}
+
+# All but what a run took of time.
+expect_same_results() {
+  local name
+  [ "$(ls -A "$1")" = "$(ls -A "$2")" ] || fault "$2 holds $(ls -A "$2" | tr '\n' ' ')"
+  for name in $(ls -A "$1"); do
+    case $name in
+    evolution.csv) cmp -s <(cut -d, -f1-10 "$1/$name") <(cut -d, -f1-10 "$2/$name") ;;
+    run.json) cmp -s <(jq 'del(.seconds)' "$1/$name") <(jq 'del(.seconds)' "$2/$name") ;;
+    *) cmp -s "$1/$name" "$2/$name" ;;
+    esac || fault "$2/$name differs"
+  done
+}
+
+wind=$root/data/gfs_20140131.nc
+compare() {
+  local name=$1
+  shift
+  try run "$@" -o "$name-1" --quiet
+  expect_code 0
+  mv out out-1
+  mv err err-1
+  for ranks in 2 3 4; do
+    on $ranks run "$@" -o "$name-$ranks" --quiet
+    expect_code 0
+    cmp -s err err-1 || fault "$ranks ranks say: $(head -c 200 err)"
+    [ "$(wc -l <out)" = "$(wc -l <out-1)" ] || fault "standard output: $(head -c 200 out)"
+    expect_same_results "$name-1" "$name-$ranks"
+  done
+  done_with "1 to 4 ranks agree: $name"
+}
+compare wind "$wind" --nodes 65 --clusters 40,20 --formats svg
+compare vortex3 synth:vortex3 --nodes 65 --clusters 20,10 --formats svg --save-field
+compare vortex3d synth:vortex3d --nodes 33 --clusters 8
+compare tiny synth:vortex3 --nodes 17 --clusters 3 --max-steps 60 --formats svg
+
+on 3 run no-such.nc -o none
+expect_code 1
+expect_one_message
+expect_error 'no-such.nc'
+expect_nothing_at none
+done_with "an input that no rank can read"
+
+# one_differs RANK1_ARGUMENTS...: rank 1 of 3 has a command line of its own.
+good=(synth:vortex3 -o none --nodes 33 --quiet)
+one_differs() {
+  timeout 60 mpirun -n 1 "$program" run "${good[@]}" : -n 1 "$program" "$@" : \
+    -n 1 "$program" run "${good[@]}" >out 2>err
+  code=$?
+  expect_code "$expected"
+  expect_one_message
+  expect_nothing_at none
+}
+expected=1
+one_differs run no-such.nc -o none
+expect_error 'no-such.nc'
+done_with "an input that one rank can not read"
+
+one_differs run synth:vortex3 -o none --nodes 65
+expect_error 'ranks have different'
+one_differs run synth:vortex -o none --nodes 33
+expect_error 'ranks have different'
+done_with "ranks with different options or fields"
+
+expected=2
+one_differs run synth:vortex3 -o none --bogus
+expect_error 'bogus'
+done_with "an option that one rank does not know"
+
+on 3 run synth:vortex3 -o none --nodes many
+expect_code 2
+expect_one_message
+expect_error 'nodes many'
+[ "$(grep -c "^Try " err)" = 1 ] || fault "advice: $(head -c 400 err)"
+done_with "an option that none knows"
+
+on 3 run --help
+expect_code 0
+"$program" run --help | cmp -s - out || fault "help differs"
+on 2 synth vortex3 -o field.nc --nodes 17
+expect_code 0
+expect_file field.nc
+done_with "what needs one rank is done by one"
+
+# a limit on the size of files makes writes fail as a full disk does
+timeout 60 mpirun -n 2 bash -c 'trap "" XFSZ; ulimit -f 4; exec "$@"' limited \
+  "$program" run synth:vortex3 -o full/run --nodes 65 --clusters 12,11 --quiet >out 2>err
+code=$?
+expect_code 1
+expect_one_message
+expect_nothing_at full
+done_with "rank 0 can not write"
+
+mkdir held
+echo '{}' >held/run.json
+on 2 run synth:vortex3 -o held --nodes 33 --quiet
+expect_code 1
+expect_one_message
+expect_error 'holds the results'
+done_with "rank 0 must not write"
+
+# Memory for the libraries and a small mesh, not for a large one.
+timeout 60 mpirun -n 1 "$program" run synth:vortex3 -o none --nodes 2049 --max-steps 1 --quiet : \
+  -n 1 bash -c 'ulimit -v 500000; exec "$@"' limited \
+  "$program" run synth:vortex3 -o none --nodes 2049 --max-steps 1 --quiet >out 2>err
+code=$?
+expect_code 1
+expect_one_message
+expect_error 'memory'
+expect_nothing_at none
+done_with "one rank is out of memory"
+
+# interrupt WHOM FOLDER: to a rank or to mpirun, once the first scale is on its way.
+interrupt() {
+  env --default-signal=INT mpirun -n 2 --mca odls_base_sigkill_timeout 20 \
+    "$program" run synth:vortex3 -o "$2" --nodes 513 --clusters 400,2 --quiet >out 2>err &
+  local mpirun=$! target=$! pid
+  for _ in $(seq 600); do
+    ls "$2"/.flowgrain-*/scale-00.geojson >/dev/null 2>&1 && break
+    kill -0 $mpirun 2>/dev/null || break
+    sleep 0.05
+  done
+  if [ "$1" = rank ]; then
+    for pid in $(pgrep -P $mpirun); do
+      tr '\0' '\n' <"/proc/$pid/environ" | grep -qx 'OMPI_COMM_WORLD_RANK=1' && target=$pid
+    done
+    [ "$target" != $mpirun ] || fault "rank 1 is not found"
+  fi
+  kill -INT "$target"
+  wait $mpirun
+  code=$?
+}
+interrupt rank stopped
+expect_code 130
+expect_one_message
+expect_error 'interrupted'
+expect_json stopped/run.json '.ended == "interrupted" and (.scales | length) >= 1'
+expect_file stopped/scale-00.svg
+[ "$(ls -A stopped | grep -c flowgrain)" = 0 ] || fault "temporary files are left"
+done_with "an interrupt of one rank stops all"
+
+interrupt launcher ended
+[ "$code" != 0 ] || fault "exit code 0"
+expect_json ended/run.json '.ended == "interrupted" and (.scales | length) >= 1'
+[ "$(ls -A ended | grep -c flowgrain)" = 0 ] || fault "temporary files are left"
+done_with "an interrupt of mpirun stops all"
+finish
