@@ -24,10 +24,12 @@ demo: setup
 check: setup
 	@scripts/check
 
-# prints the table of docs/benchmarks.md
+# prints the tables of docs/benchmarks.md; WHOLE=1: the long ones, too
 bench: setup all
-	@cmake --build build --target bench_kernels bench_components -j $(JOBS) >/dev/null
+	@cmake --build build --target bench_all -j $(JOBS) >/dev/null
 	@bench/run build
+	@echo
+	@bench/rivals build $(if $(WHOLE),--whole)
 
 install: all
 	@cmake --install build
