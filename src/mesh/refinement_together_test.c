@@ -33,7 +33,7 @@ static const scene SCENES[] = {
       .refinements = 2},
      {32.0, 3.0, 10.0}},
 };
-enum { SCENE_COUNT = sizeof SCENES / sizeof *SCENES, ROUNDS = 5 };
+enum { SCENE_COUNT = sizeof SCENES / sizeof *SCENES, ROUNDS = 3 };
 
 /* Fine where a sphere, growing round by round, passes through a leaf or near it. */
 static signed char wanted_level(const scene *s, const fg__mesh *mesh,
@@ -46,7 +46,7 @@ static signed char wanted_level(const scene *s, const fg__mesh *mesh,
       d = fmin(d, mesh->cells[k] - d);
     square += d * d;
   }
-  double from_sphere = fabs(sqrt(square) - (4.0 + 6.0 * round));
+  double from_sphere = fabs(sqrt(square) - (4.0 + 8.0 * round));
   double level = (from_sphere - side) / 4.0;
   return (signed char)(level < 0.0                     ? 0
                        : level > mesh->level_count - 1 ? mesh->level_count - 1
