@@ -121,6 +121,10 @@ fg_status fg_evolution_save(const fg_evolution *evolution, const char *path,
                             const char *note)
 {
   const fg_evolution *e = evolution;
+  if (e->spread)
+    return fg__fail(e->context, FG_STATUS_UNSUPPORTED,
+                    "checkpoints are kept by a run on one rank only, not on %d",
+                    e->mesh.ranks->count);
   fg__state_array arrays[FG__STATE_ARRAYS];
   fg__box_record records[FG__STATE_ARRAYS];
   fg__stepper stepper = e->stepper; /* its arrays are only read */
@@ -285,6 +289,10 @@ fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
   fg_evolution *e = evolution;
   const fg__checkpoint_file *file = &checkpoint->file;
   counts counted;
+  if (e->spread)
+    return fg__fail(e->context, FG_STATUS_UNSUPPORTED,
+                    "%s: a run is resumed on one rank only, not on %d", file->path,
+                    e->mesh.ranks->count);
   fg_status status = check_version(file, e->context);
   if (!status)
     status = check_parameters(e, file);
