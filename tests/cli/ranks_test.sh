@@ -141,7 +141,7 @@ interrupt() {
     "$program" run synth:vortex3 -o "$2" --nodes 513 --clusters 400,2 --quiet >out 2>err &
   local mpirun=$! target=$! pid
   for _ in $(seq 600); do
-    ls "$2"/.flowgrain-*/scale-00.geojson >/dev/null 2>&1 && break
+    ls "$2"/.flowgrain/scale-00.geojson >/dev/null 2>&1 && break
     kill -0 $mpirun 2>/dev/null || break
     sleep 0.05
   done
