@@ -20,7 +20,7 @@ static void paint(const canvas *on, const fg__box *cells, fg__cell_kind kind)
                    (size_t)(part.first[1] - on->cells.first[1] + j);
       if (part.nodes[0] > 0)
         memset(on->kind + row * (size_t)size[0] + (part.first[0] - on->cells.first[0]),
-               kind, (size_t)part.nodes[0]);
+               (int)kind, (size_t)part.nodes[0]);
     }
 }
 
