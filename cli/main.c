@@ -74,6 +74,8 @@ static int work(int argc, char **argv)
   int code = ranks_agree(parsed == PARSE_WRONG ? EXIT_USAGE : EXIT_DONE);
   if (code || ranks_any(parsed == PARSE_DONE))
     return code;
+  if (!command)
+    return EXIT_USAGE;
   if (command->work != command_run && !ranks_leader())
     return EXIT_DONE; /* work for one */
   return command->work(&settings);

@@ -413,6 +413,8 @@ fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
   else
     status = fg__fail_memory(context, "an evolution", sizeof *e);
   status = fg__ranks_agree(ranks, context, status);
+  if (!e)
+    return status;
   if (!status)
     status = check_alike(e);
   if (!status)

@@ -176,7 +176,7 @@ enum { MOST_CELLS = 4 }; /* that share an edge */
 static double integral(const int a[3], const int b[3], int dimension, int p, int q)
 {
   double product = 1.0;
-  for (int k = 0; k < dimension; ++k) {
+  for (int k = 0; k < 3 && k < dimension; ++k) {
     if (k == p && k == q)
       product *= a[k] * b[k];
     else if (k == p)

@@ -233,7 +233,7 @@ static void periodic_axes_are_closed(void **state)
   }
   for (int n = 0; n < 50; ++n) {
     const double at[3] = {fmod(0.37 * n, 1.0), fmod(0.53 * n, 1.0), 1.0};
-    double v[3], w[3];
+    double v[3] = {0.0}, w[3] = {0.0};
     assert_true(fg_field_velocity(field, at, v) && fg_field_velocity(back, at, w));
     for (int k = 0; k < 3; ++k)
       assert_true(fabs(v[k] - w[k]) < 1e-6);
