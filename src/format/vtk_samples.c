@@ -362,7 +362,7 @@ static fg_status apply_marks(float *velocity[3], const fg__vtk *vtk,
   if (status == FG_STATUS_OK)
     for (int k = 0; k < grid->dimension; ++k)
       for (size_t i = 0; i < fg__vtk_grid_points(grid); ++i)
-        if (isnan(marks[i]))
+        if (velocity[k] && isnan(marks[i]))
           velocity[k][i] = NAN;
   free(marks);
   return status;

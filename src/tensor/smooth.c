@@ -52,6 +52,8 @@ static void sum_along_x(float *values, const fg__cells *cells, const gaussian *k
 {
   int columns = cells->count[0];
   size_t rows = (size_t)cells->count[1] * (size_t)fg__layers(cells);
+  if (!kernel->weights)
+    return; /* an axis without a Gaussian stays as it is */
   for (size_t j = 0; j < rows; ++j) {
     float *out = values + j * (size_t)columns;
     memcpy(scratch, out, (size_t)columns * sizeof *out);
@@ -72,6 +74,8 @@ static void sum_along_x(float *values, const fg__cells *cells, const gaussian *k
 static void sum_rows(float *values, size_t columns, int rows, size_t stride,
                      const gaussian *kernel, bool periodic, float *scratch)
 {
+  if (!kernel->weights)
+    return;
   for (size_t j = 0; j < (size_t)rows; ++j)
     memcpy(scratch + j * columns, values + j * stride, columns * sizeof *values);
   for (int j = 0; j < rows; ++j) {
