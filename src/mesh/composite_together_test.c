@@ -135,7 +135,7 @@ static void level_clear(level *l)
  * times 6 in 2D and 12 in 3D, where it grows with the width of the cells. */
 static float stiffness(int dimension, int n, int axes)
 {
-  static const float SQUARE[3] = {4.0F, -1.0F, -2.0F};
+  static const float SQUARE[4] = {4.0F, -1.0F, -2.0F, 0.0F};
   static const float CUBE[4] = {4.0F, 0.0F, -1.0F, -1.0F};
   return dimension == 2 ? SQUARE[axes] : CUBE[axes] * (float)(1 << n);
 }
