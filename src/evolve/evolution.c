@@ -97,6 +97,14 @@ static double largest_spacing(const fg_evolution *e)
   return h;
 }
 
+static double least_spacing(const fg_evolution *e)
+{
+  double h = (double)INFINITY;
+  for (int k = 0; k < e->mesh.dimension; ++k)
+    h = fmin(h, e->mesh.spacing[k]);
+  return h;
+}
+
 double fg__evolution_cell_volume(const fg_evolution *e)
 {
   double volume = 1.0;
@@ -268,8 +276,11 @@ double fg__evolution_growth_rate(const fg_evolution *e)
  * and the pattern does not. */
 static double most_step(const fg_evolution *e)
 {
-  if (e->options.scheme == FG_SCHEME_THETA)
-    return fg__theta_stable * e->options.anisotropy * e->info.gamma;
+  if (e->options.scheme == FG_SCHEME_THETA) {
+    double least = least_spacing(e), gamma = e->info.gamma;
+    return fg__theta_stable_step(fg__theta_alpha, e->options.anisotropy * gamma, gamma,
+                                 4.0 / (least * least));
+  }
   double h = pow(fg__evolution_cell_volume(e), 1.0 / e->mesh.dimension);
   double first = first_step_share / fg__evolution_growth_rate(e);
   return fmax(most_stiffness * h * h * h * h / e->info.gamma, first);

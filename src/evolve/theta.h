@@ -16,9 +16,11 @@ enum { FG__THETA_SUBSTEPS = 3 };
 /* 2 - sqrt 2, which gives all substeps the same alpha theta = beta (1 - 2 theta). */
 extern const double fg__theta_alpha;
 
-/* Steps beyond this many times the least interface energy, a gamma, let ripples grow in
- * the separated phases (the linear analysis of docs/method/schemes.md). */
-extern const double fg__theta_stable;
+/* The longest step in which linear theory lets no ripple grow in the separated phases
+ * (docs/method/schemes.md), to 0.1 %: for all waves whose eigenvalue of L is at most
+ * `stiffest`, 4 / h^2 on a mesh, and whose K is that times an interface energy gamma
+ * from `least` to `most`. */
+double fg__theta_stable_step(double alpha, double least, double most, double stiffest);
 
 typedef struct fg__theta {
   double alpha; /* in (1/2, 1) */
@@ -34,7 +36,7 @@ void fg__theta_clear(fg__theta *theta);
 
 /* Right-hand side and first guess of a substep, 0 to 2, of a step from the density
  * `start`; then cycles for the returned tau solve it. The finest level's u holds the
- * first substep's guess, and then, with p, what the substep before has left. */
+ * first substep's guess, and then, with w, what the substep before has left. */
 double fg__theta_prepare(const fg__theta *theta, fg__multigrid *multigrid, int substep,
                          double tau, const float *start);
 

@@ -209,16 +209,28 @@ static void ripples_grow_as_linear_theory_says(void **state)
   setting_clear(&s);
 }
 
-/* No wave grows in a step of fg__theta_stable gamma; a slightly longer one lets some. */
+/* No wave of a mesh grows in the stable step; a slightly longer one lets some. */
 static void the_stable_step_is_the_longest(void **state)
 {
   (void)state;
-  for (int longer = 0; longer < 2; ++longer) {
-    double most = 0.0, tau = fg__theta_stable * (longer ? 1.01 : 1.0);
-    for (double lambda = 1e-3; lambda < 1e5; lambda *= 1.001)
-      most = fmax(most, fabs(amplification(fg__theta_alpha, 1.0, lambda, tau)));
-    assert_int_equal(most > 1.0, longer);
-  }
+  static const struct {
+    double alpha, least, most, stiffest;
+  } of[] = {{0.5858, 1.21, 8.07, 4.0},
+            {0.5858, 2.25, 2.25, 4.0},
+            {0.7, 1.21, 8.07, 4.0},
+            {0.5858, 1e-2, 1e-1, 1e7},
+            {0.51, 3.0, 4.0, 4.0}};
+  for (size_t n = 0; n < sizeof of / sizeof *of; ++n)
+    for (int longer = 0; longer < 2; ++longer) {
+      double tau =
+          (longer ? 1.01 : 0.999) *
+          fg__theta_stable_step(of[n].alpha, of[n].least, of[n].most, of[n].stiffest);
+      double most = 0.0;
+      for (double lambda = of[n].stiffest; lambda > 1e-7 * of[n].stiffest; lambda *= 0.99)
+        for (double gamma = of[n].least; gamma <= of[n].most; gamma *= 1.02)
+          most = fmax(most, fabs(amplification(of[n].alpha, gamma, lambda, tau)));
+      assert_int_equal(most > 1.0, longer);
+    }
 }
 
 int main(void)
