@@ -8,6 +8,7 @@
 
 #include "folder.h"
 #include "said.h"
+#include "traffic.h"
 
 static const char *const scale_words[] = {"auto", "geo", "map", "plain"};
 static const char *const scheme_words[] = {"euler", "theta"};
@@ -171,6 +172,7 @@ static void add_outcome(cJSON *root, const run_facts *facts)
   cJSON_AddNumberToObject(steps, "rejected", (double)facts->rejected);
   cJSON_AddNumberToObject(root, "mass_drift", facts->mass_drift);
   cJSON_AddBoolToObject(root, "energy_monotone", facts->energy_monotone);
+  traffic_add(root, facts);
   cJSON *seconds = cJSON_AddObjectToObject(root, "seconds");
   cJSON_AddNumberToObject(seconds, "read", facts->seconds_read);
   cJSON_AddNumberToObject(seconds, "evolve", facts->seconds_evolve);

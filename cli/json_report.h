@@ -15,6 +15,8 @@ typedef struct run_facts {
   double mass_drift;
   bool energy_monotone;
   double seconds_read, seconds_evolve, seconds_total;
+  int ranks;
+  fg_traffic traffic[FG_ACTIVITIES], most_traffic[FG_ACTIVITIES];
 } run_facts;
 
 /* How the run ended that a folder's run.json tells of. */

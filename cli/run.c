@@ -10,6 +10,7 @@
 #include "options.h"
 #include "ranks.h"
 #include "rehearse.h"
+#include "traffic.h"
 
 static int read_field(cli_run *run)
 {
@@ -433,6 +434,11 @@ static int work(cli_run *run)
     return finish_drawing(run);
   if (code)
     return code;
+  traffic_collect(&run->facts, run->evolution);
+  if (run->settings->verbose && ranks_leader()) {
+    progress_wipe(&run->progress);
+    traffic_print(&run->facts);
+  }
   return ranks_agree(ranks_leader() ? finish(run) : EXIT_DONE);
 }
 

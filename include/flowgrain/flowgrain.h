@@ -299,6 +299,34 @@ typedef struct fg_mesh_info {
 
 FG_API const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution);
 
+/* What ranks tell each other, by what it is for. */
+typedef enum fg_activity {
+  FG_ACTIVITY_OTHER = 0, /* agreements and whatever else is outside of these: */
+  FG_ACTIVITY_SETUP,     /* fg_evolution_create */
+  FG_ACTIVITY_STEPS,     /* fg_evolution_step, apart from its cycles and the counting */
+  FG_ACTIVITY_CYCLES,    /* multigrid cycles */
+  FG_ACTIVITY_COUNTING,  /* clusters and the area covered, at every step */
+  FG_ACTIVITY_SNAPSHOTS  /* fg_density_create */
+} fg_activity;
+
+enum { FG_ACTIVITIES = FG_ACTIVITY_SNAPSHOTS + 1 };
+
+/* Numbers of one rank. An exchange is a round of messages, one to each neighbour that
+ * needs anything, which wait for each other only at its end. */
+typedef struct fg_traffic {
+  double times; /* that the activity was begun; 0 for OTHER */
+  double exchanges;
+  double messages, bytes;     /* sent to single ranks */
+  double gathers, gathered;   /* all ranks' pieces on each; bytes received from others */
+  double reductions, reduced; /* sums and the like over all ranks; bytes given */
+} fg_traffic;
+
+/* What the ranks of an evolution told each other since the program began, exact: the mean
+ * over ranks and the greatest of each number, all 0 with one rank. What p4est sends is
+ * not in it. Collective. */
+FG_API void fg_evolution_traffic(const fg_evolution *evolution, fg_traffic mean[],
+                                 fg_traffic greatest[]);
+
 /* Checkpoints: an evolution goes on in another process as if it had never ended. */
 
 typedef struct fg_checkpoint fg_checkpoint;

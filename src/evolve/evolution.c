@@ -408,6 +408,23 @@ static fg_status check_alike(const fg_evolution *e)
                   "the %d ranks have different fields or options", e->ranks->count);
 }
 
+static fg_status build(fg_evolution *e, const fg_field *field)
+{
+  fg_status status = check_alike(e);
+  if (!status)
+    status = create_mesh(e, field);
+  if (!status) {
+    count_cells(e);
+    e->spread = e->ranks->count > 1 || e->mesh.level[0].count != 1;
+    status = create_tensor(e, field);
+  }
+  if (!status) {
+    describe(e);
+    status = check_interface(e);
+  }
+  return status ? status : create_stepper(e, field);
+}
+
 fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
                               const fg_field *field, const fg_evolution_options *options)
 {
@@ -418,30 +435,18 @@ fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
   fg_status status = fg__ranks_all(&ranks, context);
   if (status)
     return status;
+  fg_activity before = fg__traffic_begin(ranks->book, FG_ACTIVITY_SETUP);
   fg_evolution *e = fg__allocate(1, sizeof *e);
   if (e)
     status = begin(e, context, ranks, field, options);
   else
     status = fg__fail_memory(context, "an evolution", sizeof *e);
   status = fg__ranks_agree(ranks, context, status);
-  if (!e)
-    return status;
-  if (!status)
-    status = check_alike(e);
-  if (!status)
-    status = create_mesh(e, field);
-  if (!status) {
-    count_cells(e);
-    e->spread = ranks->count > 1 || e->mesh.level[0].count != 1;
-    status = create_tensor(e, field);
-  }
-  if (!status) {
-    describe(e);
-    status = check_interface(e);
-  }
-  if (!status)
-    status = create_stepper(e, field);
-  e->options.initial = NULL; /* the caller's, and used up */
+  if (e && !status)
+    status = build(e, field);
+  fg__traffic_return(ranks->book, before);
+  if (e)
+    e->options.initial = NULL; /* the caller's, and used up */
   if (status) {
     fg_evolution_destroy(e);
     return status;
@@ -501,12 +506,14 @@ fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
 {
   fg_evolution *e = evolution;
   long cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
+  fg_activity before = fg__traffic_begin(e->ranks->book, FG_ACTIVITY_STEPS);
   /* asked once only: a step that has begun ends, so that it is the same when resumed */
   fg_status status = fg__ranks_agree(e->ranks, e->context, fg__check_stop(e->context));
   if (!status)
     status = fg__stepper_advance(&e->stepper, e->context);
   if (!status)
     status = fg__evolution_count(e);
+  fg__traffic_return(e->ranks->book, before);
   if (!status)
     *step = fg__evolution_describe(e, (int)(e->stepper.cycles_spent - cycles),
                                    (int)(e->stepper.rejected - rejected));

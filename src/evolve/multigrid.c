@@ -64,7 +64,7 @@ fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, const fg__tile *tile,
                                const fg__tensor *tensor, double gamma, int threads)
 {
-  static const fg__ranks one = {0, 1};
+  static const fg__ranks one = {.count = 1};
   *out = (fg__multigrid){
       .kernel = fg__kernel_choose(mesh->dimension), .ranks = &one, .level_count = 1};
   fg_status status = create_finest(out, context, mesh, tile, tensor, gamma, threads);

@@ -95,9 +95,12 @@ void fg__pass_cycle(const fg__multigrid *multigrid, double tau, float *before)
 {
   if (is_spread(multigrid)) {
     fg__share alone = fg__alone();
+    fg__traffic_book *book = multigrid->ranks->book;
     if (before)
       fg__pass_copy(multigrid, fg__multigrid_u(multigrid), before);
+    fg_activity activity = fg__traffic_begin(book, FG_ACTIVITY_CYCLES);
     fg__multigrid_cycle(multigrid, tau, &alone);
+    fg__traffic_return(book, activity);
     return;
   }
   pass p = {.multigrid = multigrid, .to = before, .number = tau};

@@ -71,9 +71,8 @@ static fg_status count(fg_evolution *e, bool counting)
   return status;
 }
 
-fg_status fg__evolution_count(fg_evolution *evolution)
+static fg_status watch(fg_evolution *e)
 {
-  fg_evolution *e = evolution;
   fg_status status = count(e, e->counting);
   if (status || e->counting)
     return status;
@@ -82,6 +81,15 @@ fg_status fg__evolution_count(fg_evolution *evolution)
   bool covered_enough = e->area_fraction >= nucleated * e->options.coverage;
   e->counting = smoothed && covered_enough;
   return e->counting ? count(e, true) : FG_STATUS_OK;
+}
+
+fg_status fg__evolution_count(fg_evolution *evolution)
+{
+  fg__traffic_book *book = evolution->ranks->book;
+  fg_activity before = fg__traffic_begin(book, FG_ACTIVITY_COUNTING);
+  fg_status status = watch(evolution);
+  fg__traffic_return(book, before);
+  return status;
 }
 
 /* All ranks' boxes in one plain array on every rank. */
@@ -137,6 +145,7 @@ fg_status fg_density_create(fg_density **out, const fg_evolution *evolution)
 {
   const fg_evolution *e = evolution;
   *out = NULL;
+  fg_activity before = fg__traffic_begin(e->ranks->book, FG_ACTIVITY_SNAPSHOTS);
   float *plain = fg__allocate(e->nodes, sizeof *plain);
   fg_status status = FG_STATUS_OK;
   if (e->spread) {
@@ -149,5 +158,7 @@ fg_status fg_density_create(fg_density **out, const fg_evolution *evolution)
   if (!status && e->mesh.ranks->rank == 0)
     status = create_density(out, e, plain);
   free(plain);
-  return fg__ranks_agree(e->mesh.ranks, e->context, status);
+  status = fg__ranks_agree(e->mesh.ranks, e->context, status);
+  fg__traffic_return(e->ranks->book, before);
+  return status;
 }

@@ -4,18 +4,20 @@ enum { TAG = 1 };
 
 static void post_receives(fg__exchange *e)
 {
+  MPI_Comm communicator = fg__communicator(e->ranks);
   for (int n = 0; n < e->receivers.count; ++n) {
     const fg__neighbour *l = &e->receivers.neighbour[n];
     long nodes = fg__neighbour_nodes(l, e->colours) * e->arrays;
     e->receivers.request[n] = MPI_REQUEST_NULL;
     if (nodes > 0)
-      MPI_Irecv(l->buffer, (int)nodes, MPI_FLOAT, l->rank, TAG, e->communicator,
+      MPI_Irecv(l->buffer, (int)nodes, MPI_FLOAT, l->rank, TAG, communicator,
                 &e->receivers.request[n]);
   }
 }
 
 static void post_sends(fg__exchange *e, float *const *const from_array[])
 {
+  MPI_Comm communicator = fg__communicator(e->ranks);
   for (int n = 0; n < e->senders.count; ++n) {
     const fg__neighbour *l = &e->senders.neighbour[n];
     float *end = l->buffer;
@@ -29,10 +31,9 @@ static void post_sends(fg__exchange *e, float *const *const from_array[])
     e->senders.request[n] = MPI_REQUEST_NULL;
     if (nodes == 0)
       continue;
-    MPI_Isend(l->buffer, (int)nodes, MPI_FLOAT, l->rank, TAG, e->communicator,
+    MPI_Isend(l->buffer, (int)nodes, MPI_FLOAT, l->rank, TAG, communicator,
               &e->senders.request[n]);
-    ++e->traffic.messages;
-    e->traffic.bytes += (double)nodes * sizeof(float);
+    fg__traffic_add_message(e->ranks->book, (size_t)nodes * sizeof(float));
   }
 }
 
@@ -44,7 +45,7 @@ void fg__exchange_begin_between(fg__exchange *exchange, int count,
   e->arrays = count;
   e->to = to;
   e->colours = colours;
-  ++e->traffic.exchanges;
+  fg__traffic_add_exchange(e->ranks->book);
   post_receives(e);
   post_sends(e, from);
   for (size_t n = 0; n < e->copied.count; ++n) {
@@ -82,9 +83,4 @@ const fg__uncovered *fg__exchange_uncovered(const fg__exchange *exchange, int *c
 {
   *count = (int)exchange->uncovered_count;
   return exchange->uncovered;
-}
-
-const fg__traffic *fg__exchange_traffic(const fg__exchange *exchange)
-{
-  return &exchange->traffic;
 }

@@ -47,12 +47,6 @@ typedef struct fg__uncovered {
   fg__box nodes;
 } fg__uncovered;
 
-/* What this rank has sent since the plan was made. */
-typedef struct fg__traffic {
-  long exchanges, messages;
-  double bytes;
-} fg__traffic;
-
 typedef struct fg__exchange fg__exchange;
 
 /* Makes the plan for a level, for up to `most_arrays` arrays at a time; the partition may
@@ -99,7 +93,5 @@ static inline void fg__exchange_fill_between(fg__exchange *exchange, int count,
 
 /* The nodes that exchanges leave alone, disjoint, and their number; borrowed. */
 const fg__uncovered *fg__exchange_uncovered(const fg__exchange *exchange, int *count);
-
-const fg__traffic *fg__exchange_traffic(const fg__exchange *exchange);
 
 #endif

@@ -294,7 +294,7 @@ fg_status fg__exchange_create_between(fg__exchange **out, fg_context *context,
   fg__exchange *e = *out = fg__allocate(1, sizeof *e);
   fg_status status = FG_STATUS_OK;
   if (e) {
-    e->communicator = fg__communicator(from->ranks);
+    e->ranks = from->ranks;
     e->most_arrays = most_arrays;
   }
   if (!e || !make_plan(e, from, to, part))

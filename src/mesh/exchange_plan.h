@@ -31,7 +31,7 @@ typedef struct fg__neighbours {
 } fg__neighbours;
 
 struct fg__exchange {
-  MPI_Comm communicator;
+  const fg__ranks *ranks;
   fg__layout *to_layout, *from_layout; /* of own boxes */
   fg__pieces copied, sent, received;
   fg__neighbours senders, receivers;
@@ -39,7 +39,6 @@ struct fg__exchange {
   size_t uncovered_count, uncovered_capacity;
   int most_arrays;
   float *buffers;
-  fg__traffic traffic;
   /* of the exchange under way */
   int arrays;
   float *const *const *to;

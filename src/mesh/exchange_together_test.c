@@ -65,13 +65,6 @@ static void is_listed_when_uncovered(const ghost *g, int box, const fg__layout *
   expect(times == (g->owner < 0));
 }
 
-static void count_remote(const ghost *g, int box, const fg__layout *layout, void *data)
-{
-  (void)box;
-  (void)layout;
-  *(uint64_t *)data += g->owner >= 0 && g->owner != us.ranks->rank;
-}
-
 static const unsigned COLOURS[] = {FG__ALL_COLOURS, 1U << 0,         1U << 3, 1U << 6,
                                    FG__EVEN_ROWS,   FG__ODD_COLUMNS, 0x81,    0};
 enum { COLOUR_SETS = sizeof COLOURS / sizeof *COLOURS, SEEDS = 12 };
@@ -236,34 +229,6 @@ static void any_partition_can_be_filled_from_another(void **state)
   end_together();
 }
 
-/* Every remote ghost is sent once, and a neighbour gets one message a time. */
-static void traffic_is_counted(void **state)
-{
-  (void)state;
-  enum { TIMES = 3, ARRAYS = 2 };
-  for (int g = 0; g < GRID_COUNT; ++g) {
-    shares s = cut_at_random(&GRIDS[g], 31, 2, false);
-    fg__partition partition = partition_of(&GRIDS[g], &s);
-    fg__exchange *exchange;
-    expect(fg__exchange_create(&exchange, us.context, &partition, ARRAYS) ==
-           FG_STATUS_OK);
-    fields f = fields_of(&partition, ARRAYS);
-    for (int time = 0; time < TIMES; ++time)
-      fg__exchange_fill(exchange, ARRAYS, arrays_of(&f), FG__ALL_COLOURS);
-    const fg__traffic *traffic = fg__exchange_traffic(exchange);
-    uint64_t sums[2] = {(uint64_t)traffic->bytes, 0};
-    for_all_ghosts(&GRIDS[g], &s, count_remote, &sums[1]);
-    fg__ranks_add(us.ranks, sums, 2);
-    expect(sums[0] == sums[1] * ARRAYS * sizeof(float) * TIMES);
-    expect(traffic->exchanges == TIMES);
-    expect(traffic->messages <= (long)TIMES * (us.ranks->count - 1));
-    fields_clear(&f);
-    fg__exchange_destroy(exchange);
-    fg__partition_clear(&partition);
-  }
-  end_together();
-}
-
 int main(void)
 {
   start_together();
@@ -273,7 +238,6 @@ int main(void)
       TOGETHER(ghosts_without_an_owner_are_listed),
       TOGETHER(work_goes_on_between_begin_and_finish),
       TOGETHER(any_partition_can_be_filled_from_another),
-      TOGETHER(traffic_is_counted),
   };
   return cmocka_run_group_tests_name("mesh/exchange", tests, NULL, NULL);
 }

@@ -118,6 +118,8 @@ void fg__gather_fill(fg__gather *gather, int count, float *const *const array[],
     g->count[rank] = g->nodes[rank] * count;
     offset += g->count[rank];
   }
+  fg__traffic_add_gather(g->ranks->book, (size_t)(offset - g->count[g->ranks->rank]) *
+                                             sizeof *g->received);
   MPI_Allgatherv(g->sent, g->count[g->ranks->rank], MPI_FLOAT, g->received, g->count,
                  g->offset, MPI_FLOAT, fg__communicator(g->ranks));
   const float *next = g->received;

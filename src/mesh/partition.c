@@ -60,6 +60,7 @@ fg_status fg__partition_create(fg__partition *out, fg_context *context,
     return status;
   }
   MPI_Comm communicator = fg__communicator(ranks);
+  fg__traffic_add_gather(ranks->book, (size_t)(ranks->count - 1) * sizeof own_count);
   MPI_Allgather(&own_count, 1, MPI_INT, first, 1, MPI_INT, communicator);
   sum_up_counts(first, ranks->count);
   int *count = fg__allocate((size_t)ranks->count, sizeof *count);
@@ -74,6 +75,8 @@ fg_status fg__partition_create(fg__partition *out, fg_context *context,
     MPI_Type_commit(&type);
     for (int r = 0; r < ranks->count; ++r)
       count[r] = first[r + 1] - first[r];
+    fg__traffic_add_gather(ranks->book,
+                           (size_t)(first[ranks->count] - own_count) * sizeof *own);
     MPI_Allgatherv(own, own_count, type, out->box, count, first, type, communicator);
     MPI_Type_free(&type);
     set_grid(out, dimension, cells, periodic);

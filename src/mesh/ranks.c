@@ -13,6 +13,7 @@
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static int start_error;
 static fg__ranks all, alone;
+static fg__traffic_book book_of_all;
 static MPI_Comm communicator_of_all = MPI_COMM_NULL;
 
 static void finalise(void)
@@ -62,6 +63,8 @@ static void start(void)
   MPI_Comm_set_errhandler(communicator_of_all, MPI_ERRORS_ARE_FATAL);
   MPI_Comm_rank(communicator_of_all, &all.rank);
   MPI_Comm_size(communicator_of_all, &all.count);
+  if (all.count > 1)
+    all.book = &book_of_all;
   alone.count = 1;
 }
 
@@ -94,16 +97,19 @@ MPI_Comm fg__communicator(const fg__ranks *ranks)
 
 void fg__ranks_add(const fg__ranks *ranks, uint64_t *sum, int count)
 {
-  if (ranks->count > 1) /* unsigned: wraps round as the sums are meant to */
-    MPI_Allreduce(MPI_IN_PLACE, sum, count, MPI_UINT64_T, MPI_SUM,
-                  fg__communicator(ranks));
+  if (ranks->count == 1)
+    return;
+  fg__traffic_add_reduction(ranks->book, (size_t)count * sizeof *sum);
+  /* unsigned: wraps round as the sums are meant to */
+  MPI_Allreduce(MPI_IN_PLACE, sum, count, MPI_UINT64_T, MPI_SUM, fg__communicator(ranks));
 }
 
 void fg__ranks_greatest(const fg__ranks *ranks, double *value, int count)
 {
-  if (ranks->count > 1)
-    MPI_Allreduce(MPI_IN_PLACE, value, count, MPI_DOUBLE, MPI_MAX,
-                  fg__communicator(ranks));
+  if (ranks->count == 1)
+    return;
+  fg__traffic_add_reduction(ranks->book, (size_t)count * sizeof *value);
+  MPI_Allreduce(MPI_IN_PLACE, value, count, MPI_DOUBLE, MPI_MAX, fg__communicator(ranks));
 }
 
 /* Replaces what the context holds by what it holds on rank `from`. */
@@ -131,6 +137,7 @@ fg_status fg__ranks_agree(const fg__ranks *ranks, fg_context *context, fg_status
               : status == FG_STATUS_STOPPED ? ranks->count + ranks->rank
                                             : ranks->rank;
   int first[2] = {order, (int)status}; /* MPI_2INT: the least order and its status */
+  fg__traffic_add_reduction(ranks->book, sizeof first);
   MPI_Allreduce(MPI_IN_PLACE, first, 1, MPI_2INT, MPI_MINLOC, fg__communicator(ranks));
   if (first[0] == INT_MAX)
     return FG_STATUS_OK;

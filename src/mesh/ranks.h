@@ -6,10 +6,12 @@
 #define FG__RANKS_H
 
 #include "base/context.h"
+#include "mesh/traffic.h"
 
 /* A group of ranks; a rank's number goes from 0 to count - 1. */
 typedef struct fg__ranks {
   int rank, count;
+  fg__traffic_book *book; /* of what this rank tells the others; NULL: not kept */
 } fg__ranks;
 
 /* All processes that were started together. Starts MPI, unless it runs: quietly, and so

@@ -31,7 +31,9 @@ expect_same_results() {
   for name in $(ls -A "$1"); do
     case $name in
     evolution.csv) cmp -s <(cut -d, -f1-10 "$1/$name") <(cut -d, -f1-10 "$2/$name") ;;
-    run.json) cmp -s <(jq 'del(.seconds)' "$1/$name") <(jq 'del(.seconds)' "$2/$name") ;;
+    run.json)
+      cmp -s <(jq 'del(.seconds, .traffic)' "$1/$name") <(jq 'del(.seconds, .traffic)' "$2/$name")
+      ;;
     *) cmp -s "$1/$name" "$2/$name" ;;
     esac || fault "$2/$name differs"
   done
@@ -58,6 +60,16 @@ compare wind "$wind" --nodes 65 --clusters 40,20 --formats svg
 compare vortex3 synth:vortex3 --nodes 65 --clusters 20,10 --formats svg --save-field
 compare vortex3d synth:vortex3d --nodes 33 --clusters 8
 compare tiny synth:vortex3 --nodes 17 --clusters 3 --max-steps 60 --formats svg
+
+expect_json vortex3-1/run.json '.traffic.ranks == 1 and .traffic.cycle.messages.most == 0'
+expect_json vortex3-3/run.json '.traffic.ranks == 3 and
+  .traffic.cycle.messages.mean > 1 and .traffic.cycle.bytes.most > 100 and
+  .traffic.step.reductions.mean > 0 and .traffic.snapshot.times == (.scales | length)'
+on 2 run synth:vortex3 --nodes 33 --clusters 8 --formats svg -o told -v
+expect_code 0
+grep -q '^flowgrain: cycle ([0-9]*): exchanges [0-9.]* ([0-9.]*) messages' err ||
+  fault "nothing said of cycles: $(head -c 600 err)"
+done_with "what ranks told each other is counted"
 
 on 3 run no-such.nc -o none
 expect_code 1
