@@ -1,0 +1,62 @@
+/* Steps of implicit Euler and of the theta scheme compared, for docs/method/schemes.md:
+ * vortex3, 257 nodes, from the densities of one tight run at 150, 40 and 12 clusters. */
+#ifndef BENCH_SCHEMES_H
+#define BENCH_SCHEMES_H
+
+#include "evolve/stepper.h"
+
+enum { NODES = 257, COUNT = NODES * NODES, MOMENTS = 3 };
+
+/* Ends the program, with a message, when something is not good. */
+void check(bool good, const char *what);
+
+typedef struct moment {
+  const char *name;
+  double time;
+  int clusters;
+  float *u; /* COUNT values, x fastest */
+} moment;
+
+/* Of one run with eta = 0.01 and six cycles a step. */
+void take_moments(moment moments[MOMENTS], fg_field *field);
+
+/* The equation, as fg_evolution_create sets it up; lengths in units of the side. */
+typedef struct domain {
+  fg__mesh mesh;
+  fg__tensor tensor;
+  double h, gamma, volume; /* volume: of a cell */
+} domain;
+
+void domain_create(domain *out, fg_field *field);
+void domain_clear(domain *d);
+
+/* alpha 0: implicit Euler. */
+void create_multigrid(fg__multigrid *out, const domain *d, double alpha);
+
+/* The theta scheme's longest by linear theory, for any alpha. */
+double stable_step(const domain *d, double alpha);
+
+/* The program's own stepper, for steps of one length. */
+void create_stepper(fg__stepper *out, const domain *d, const float *u, double alpha,
+                    int cycles, double most_tau);
+
+/* Steps of at most tau for a time; what is rejected is taken in shorter ones. */
+void advance(fg__stepper *s, double time, double tau);
+void export_current(const fg__stepper *s, float *u);
+
+/* What is taken as exact: the theta scheme in a tenth of its stable step. */
+void create_exact(fg__stepper *out, const domain *d, const float *u);
+double exact_step(const domain *d);
+
+float *plain_array(void);
+
+/* Shares of the rms of u about its mean, and of the rms of the change since start. */
+typedef struct error {
+  double of_u, of_change;
+} error;
+error error_of(const float *u, const float *exact, const float *start);
+
+/* Prints how long steps can be. */
+void compare_lengths(const domain *d, const moment moments[MOMENTS]);
+
+#endif
