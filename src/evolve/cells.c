@@ -319,6 +319,17 @@ fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
   return status;
 }
 
+unsigned char *fg__cells_mask(const fg__cells_of_box *cells, ptrdiff_t *origin)
+{
+  bool solid = cells->dimension == 3;
+  size_t size = (size_t)cells->plane * (size_t)(solid ? cells->nodes[2] + 1 : 1);
+  *origin = 1 + cells->row + (solid ? cells->plane : 0);
+  unsigned char *active = fg__allocate(size, 1);
+  for (size_t n = 0; n < size && active; ++n)
+    active[n] = cells->weight[(ptrdiff_t)n - *origin] > 0.0F;
+  return active;
+}
+
 void fg__cells_clear(fg__cells_of_box *cells)
 {
   free(cells->memory);

@@ -61,6 +61,10 @@ fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
                             const fg__cells_of_box *fine, const int fine_cells[3],
                             const bool periodic[3]);
 
+/* Which cells are active at all: a byte each, laid out like the cells, `origin` bytes
+ * from the start to cell (0, 0, 0). To be freed; NULL when there is no memory. */
+unsigned char *fg__cells_mask(const fg__cells_of_box *cells, ptrdiff_t *origin);
+
 void fg__cells_clear(fg__cells_of_box *cells);
 
 #endif

@@ -208,9 +208,6 @@ static fg_status count_active_cells(fg_evolution *e, const fg_field *field)
   e->active_cells = (long)active;
   if (active == 0)
     return fg__fail(e->context, FG_STATUS_ARGUMENT, "the field is missing everywhere");
-  if (active < e->cells)
-    return fg__fail(e->context, FG_STATUS_UNSUPPORTED,
-                    "a field with missing parts; this version evolves such on one rank");
   return FG_STATUS_OK;
 }
 
@@ -422,7 +419,9 @@ static fg_status build(fg_evolution *e, const fg_field *field)
     describe(e);
     status = check_interface(e);
   }
-  return status ? status : create_stepper(e, field);
+  if (!status)
+    status = create_stepper(e, field);
+  return status ? status : fg__evolution_gather_mask(e);
 }
 
 fg_status fg_evolution_create(fg_evolution **out, fg_context *context,

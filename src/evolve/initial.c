@@ -33,14 +33,6 @@ static fg_status fill_box(const fg_evolution *e, const fg__level *level,
   return FG_STATUS_OK;
 }
 
-static void fill_ghosts(const fg__multigrid *multigrid, float *u)
-{
-  if (multigrid->spread_count > 0)
-    fg__spread_exchange(&multigrid->spread[0], 1, &u, FG__ALL_COLOURS);
-  else
-    fg__fill_ghosts(&multigrid->level[0], u);
-}
-
 /* Shifts the noise so that its mean is met exactly. Sums are exact: it does not matter
  * who holds which nodes. Nodes without mass become 0. */
 static void settle_mean(const fg__multigrid *multigrid, double mean)
@@ -72,7 +64,7 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
   status = fg__ranks_agree(e->mesh.ranks, e->context, status);
   if (status)
     return status;
-  fill_ghosts(multigrid, u);
+  fg__pass_fill_ghosts(multigrid, u);
   if (e->options.initial) {
     e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial, e->nodes);
     fg__pass_shift(multigrid, u, 0.0);

@@ -50,6 +50,24 @@ double fg__level_change_rounding(double nodes)
   return rounding_for(nodes, 0.125);
 }
 
+static double unit_of(double rounding)
+{
+  return ldexp(rounding / 1.5, -52);
+}
+
+uint64_t fg__level_units(double sum, double rounding, int ranks)
+{
+  const double beyond = 0x1p60 / ranks;
+  double number = sum / unit_of(rounding);
+  number = fabs(number) < beyond ? number : beyond;
+  return (uint64_t)(int64_t)number;
+}
+
+double fg__level_sum(uint64_t units, double rounding)
+{
+  return (double)(int64_t)units * unit_of(rounding);
+}
+
 /* Ghosts of the whole level are copies of its own nodes. */
 static void find_ghost_sources(fg__level *level)
 {

@@ -96,6 +96,11 @@ typedef struct fg__level_description {
 double fg__level_rounding(double nodes);
 double fg__level_change_rounding(double nodes);
 
+/* A sum of such terms as a number of its smallest unit, as which those of several ranks
+ * are added (fg__ranks_add); what is no number becomes larger than any sum can be. */
+uint64_t fg__level_units(double sum, double rounding, int ranks);
+double fg__level_sum(uint64_t units, double rounding);
+
 /* Slices are what a team shares out: rows in 2D, planes in 3D. */
 static inline int fg__slices(const fg__level *level)
 {

@@ -30,22 +30,16 @@ static bool is_spread(const fg__multigrid *multigrid)
   return multigrid->spread_count > 0;
 }
 
-/* Exact sums (level.h) as numbers of their smallest unit, which add up in any order;
- * what is no number becomes larger than any sum can be. */
 static void add_over_ranks(const fg__multigrid *multigrid, double *const sums[],
                            const double rounding[], int count)
 {
   enum { MOST_SUMS = 4 };
-  const double beyond = 0x1p60 / multigrid->ranks->count;
   uint64_t units[MOST_SUMS];
-  for (int n = 0; n < count; ++n) {
-    double number = *sums[n] / ldexp(rounding[n] / 1.5, -52);
-    number = fabs(number) < beyond ? number : beyond;
-    units[n] = (uint64_t)(int64_t)number;
-  }
+  for (int n = 0; n < count; ++n)
+    units[n] = fg__level_units(*sums[n], rounding[n], multigrid->ranks->count);
   fg__ranks_add(multigrid->ranks, units, count);
   for (int n = 0; n < count; ++n)
-    *sums[n] = (double)(int64_t)units[n] * ldexp(rounding[n] / 1.5, -52);
+    *sums[n] = fg__level_sum(units[n], rounding[n]);
 }
 
 static double node_count(const fg__spread *spread)
@@ -69,6 +63,14 @@ static void copy(void *argument, const fg__share *share)
 {
   const pass *p = argument;
   copy_part(finest(p), p->from, p->to, share);
+}
+
+void fg__pass_fill_ghosts(const fg__multigrid *multigrid, float *u)
+{
+  if (is_spread(multigrid))
+    fg__spread_exchange(&multigrid->spread[0], 1, &u, FG__ALL_COLOURS);
+  else
+    fg__fill_ghosts(&multigrid->level[0], u);
 }
 
 void fg__pass_copy(const fg__multigrid *multigrid, const float *from, float *to)

@@ -20,6 +20,7 @@ fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
 void fg__pass_shift(const fg__multigrid *multigrid, float *u, double amount);
 void fg__pass_extrapolate(const fg__multigrid *multigrid, const float *now,
                           const float *before, double omega, float *out);
+void fg__pass_fill_ghosts(const fg__multigrid *multigrid, float *u);
 void fg__pass_copy(const fg__multigrid *multigrid, const float *from, float *to);
 
 /* to := base + the interpolation of `coarse`, an array of level[1]. */

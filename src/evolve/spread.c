@@ -84,7 +84,7 @@ fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh
                             const fg__tensor_recipe *recipe, fg__partition *partition,
                             const fg__spread_description *description)
 {
-  *out = (fg__spread){.partition = *partition};
+  *out = (fg__spread){.partition = *partition, .masked = recipe->masked};
   *partition = (fg__partition){0};
   fg__own_boxes(&out->partition, &out->count);
   size_t count = (size_t)out->count;

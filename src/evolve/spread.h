@@ -12,6 +12,7 @@ enum { FG__RESIDUALS = 3, FG__MOST_EXCHANGED = 3 };
 typedef struct fg__spread {
   fg__partition partition;
   fg__exchange *exchange;
+  bool masked;       /* somewhere, if not here */
   int count;         /* boxes of this rank */
   fg__level *box;    /* [count] */
   ptrdiff_t *offset; /* [count] from an array's start to the box's node (0, 0, 0) */

@@ -36,19 +36,13 @@ static ptrdiff_t origin_of(const fg__component_box *grid, int dimension)
 
 static bool copy_mask(fg__spread_clusters *c, const fg__spread *spread, int b)
 {
-  const fg__cells_of_box *cells = &spread->box[b].tensor;
-  if (!spread->box[b].mass)
+  if (!spread->masked)
     return true;
-  bool solid = cells->dimension == 3;
-  size_t size = (size_t)cells->plane * (size_t)(solid ? cells->nodes[2] + 1 : 1);
-  c->active[b] = fg__allocate(size, 1);
-  if (!c->active[b])
-    return false;
-  ptrdiff_t origin = 1 + cells->row + (solid ? cells->plane : 0);
-  for (size_t n = 0; n < size; ++n)
-    c->active[b][n] = cells->weight[(ptrdiff_t)n - origin] > 0.0F;
-  c->grid[b].active = c->active[b] + origin;
-  return true;
+  ptrdiff_t origin;
+  c->active[b] = fg__cells_mask(&spread->box[b].tensor, &origin);
+  if (c->active[b])
+    c->grid[b].active = c->active[b] + origin;
+  return c->active[b];
 }
 
 static fg_status prepare(fg__spread_clusters *c, fg_context *context,
@@ -68,8 +62,6 @@ static fg_status prepare(fg__spread_clusters *c, fg_context *context,
     c->number[b] = fg__allocate(size, sizeof *c->number[b]);
     describe(&c->grid[b], spread, b);
     whole = c->u[b] && c->number[b] && copy_mask(c, spread, b);
-    if (whole)
-      c->grid[b].u = c->u[b] + origin_of(&c->grid[b], spread->box[b].layout.dimension);
   }
   return whole ? FG_STATUS_OK : fg__fail_memory(context, "the clusters", count);
 }
@@ -161,6 +153,7 @@ static fg_status number_and_join(fg__spread_clusters *c, fg_context *context,
   if (!counts)
     return FG_STATUS_MEMORY;
   free(counts);
+  c->before = (int)before;
   uint64_t at = before;
   for (int b = 0; b < c->count; ++b) {
     ptrdiff_t origin = origin_of(&c->grid[b], spread->box[b].layout.dimension);
@@ -211,7 +204,12 @@ fg_status fg__spread_clusters_find(fg__spread_clusters *clusters, fg_context *co
   fg_status status = c->grid ? FG_STATUS_OK : prepare(c, context, spread);
   double covered = 0.0;
   for (int b = 0; b < c->count && !status; ++b) {
-    copy_ring(&spread->box[b], (void *)(uintptr_t)(u + spread->offset[b]), c->u[b], true);
+    c->grid[b].u = NULL;
+    if (u) {
+      copy_ring(&spread->box[b], (void *)(uintptr_t)(u + spread->offset[b]), c->u[b],
+                true);
+      c->grid[b].u = c->u[b] + origin_of(&c->grid[b], spread->box[b].layout.dimension);
+    }
     status = counting ? fg__components_cut(&c->box[b], context, &c->grid[b])
                       : fg__components_cover(&c->box[b], context, &c->grid[b]);
     covered += c->box[b].covered;
@@ -225,6 +223,18 @@ fg_status fg__spread_clusters_find(fg__spread_clusters *clusters, fg_context *co
   c->covered = (double)eighths / 8.0;
   return counting ? number_and_join(c, context, spread, scratch, debris_area)
                   : FG_STATUS_OK;
+}
+
+void fg__spread_clusters_label(const fg__spread_clusters *clusters, int b, int *label)
+{
+  const fg__spread_clusters *c = clusters;
+  fg__component_box plain = c->grid[b];
+  plain.row = plain.nodes[0];
+  plain.plane = plain.row * plain.nodes[1];
+  int before = c->before;
+  for (int n = 0; n < b; ++n)
+    before += c->box[n].piece_count;
+  fg__components_label(&c->box[b], &plain, c->whole.piece_label, before, label);
 }
 
 void fg__spread_clusters_clear(fg__spread_clusters *clusters)

@@ -16,13 +16,18 @@ typedef struct fg__spread_clusters {
   fg__component_box *grid; /* [count] */
   fg__components whole;    /* the result on every rank: count, debris, area */
   double covered;          /* cells, of all ranks */
+  int before;              /* pieces of the ranks before this one */
 } fg__spread_clusters;
 
 /* Finds the share covered and, when `counting`, the clusters of u, an array of the level
- * with ghosts; `scratch` is an array of it. Collective. MEMORY. */
+ * with ghosts (NULL: 1 everywhere); `scratch` is an array of it. Collective. MEMORY. */
 fg_status fg__spread_clusters_find(fg__spread_clusters *clusters, fg_context *context,
                                    const fg__spread *spread, const float *u,
                                    float *scratch, double debris_area, bool counting);
+
+/* Writes the labels (components.h) of the nodes of box b to a plain array, x fastest,
+ * once clusters were counted. */
+void fg__spread_clusters_label(const fg__spread_clusters *clusters, int b, int *label);
 void fg__spread_clusters_clear(fg__spread_clusters *clusters);
 
 #endif

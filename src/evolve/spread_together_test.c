@@ -1,18 +1,21 @@
 /* Steps taken by several ranks together are those of one rank, to the bit. */
 #include "mesh/together_test.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "evolve/noise.h"
 #include "evolve/spread_clusters.h"
 #include "evolve/stepper.h"
 
-enum { STEPS = 12, CYCLES = 2 };
+enum { STEPS = 12, CYCLES = 2, SAMPLES = 33, MOST_PARTS = 8 };
 
 typedef struct subject {
   const char *field;
   int dimension, nodes;
-  bool theta; /* the scheme */
+  bool theta;                                    /* the scheme */
+  bool (*missing)(double x, double y, double z); /* on the unit square or cube, or NULL */
+  int parts;                                     /* of what is left */
 } subject;
 
 /* What is compared, of the whole grid on every rank. */
@@ -22,6 +25,8 @@ typedef struct outcome {
   double energy[STEPS], tau[STEPS], mass[STEPS];
   int clusters;
   double covered;
+  int parts;
+  double mean[MOST_PARTS]; /* of u in each part, held */
 } outcome;
 
 typedef struct run {
@@ -30,7 +35,63 @@ typedef struct run {
   fg__tensor_recipe recipe;
   fg__stepper stepper;
   double gamma;
+  unsigned char *active; /* of one box */
 } run;
+
+/* A wall across the domain, thinner than a coarse cell, and a moat round an island. */
+static bool wall_and_moat(double x, double y, double z)
+{
+  (void)z;
+  double r = hypot(x - 0.7, y - 0.45);
+  return fabs(x - 0.4 - 0.1 * y) < 0.025 || (r > 0.1 && r < 0.16) || y > 0.94;
+}
+
+/* Columns: most ranks' borders are crossed by each part. */
+static bool slats(double x, double y, double z)
+{
+  (void)y;
+  (void)z;
+  return fmod(x, 0.25) > 0.19;
+}
+
+/* A floor with a wall on it that is open at no side. */
+static bool rooms(double x, double y, double z)
+{
+  return fabs(z - 0.46) < 0.04 || (z > 0.46 && fabs(x - 0.55) < 0.04) ||
+         hypot(x - 0.2, y - 0.3) < 0.1;
+}
+
+/* Round the corner of a periodic cube, and so in eight pieces. */
+static bool shell(double x, double y, double z)
+{
+  double r = sqrt(pow(fmin(x, 1.0 - x), 2.0) + pow(fmin(y, 1.0 - y), 2.0) +
+                  pow(fmin(z, 1.0 - z), 2.0));
+  return r > 0.27 && r < 0.36;
+}
+
+static fg_field *field_of(const subject *s)
+{
+  fg_field *whole, *field;
+  expect(fg_field_create_analytic(&whole, us.context, s->field, SAMPLES) == FG_STATUS_OK);
+  if (!s->missing)
+    return whole;
+  fg_field_arrays arrays = *fg_field_contents(whole);
+  size_t count = (size_t)arrays.size[0] * (size_t)arrays.size[1];
+  if (s->dimension == 3)
+    count *= (size_t)arrays.size[2];
+  unsigned char *valid = allocate_or_end(count, 1);
+  for (size_t n = 0; n < count; ++n) {
+    size_t row = n / (size_t)arrays.size[0];
+    size_t i = n % (size_t)arrays.size[0], j = row % (size_t)arrays.size[1];
+    double z = s->dimension == 3 ? arrays.axis[2][row / (size_t)arrays.size[1]] : 0.0;
+    valid[n] = !s->missing(arrays.axis[0][i], arrays.axis[1][j], z);
+  }
+  arrays.valid = valid;
+  expect(fg_field_create(&field, us.context, &arrays) == FG_STATUS_OK);
+  fg_field_destroy(whole);
+  free(valid);
+  return field;
+}
 
 static double volume_of(const fg__mesh *mesh)
 {
@@ -42,7 +103,7 @@ static double volume_of(const fg__mesh *mesh)
 
 static void describe(run *r, const subject *s, const fg__ranks *ranks)
 {
-  expect(fg_field_create_analytic(&r->field, us.context, s->field, 33) == FG_STATUS_OK);
+  r->field = field_of(s);
   fg__mesh_description description = {
       .dimension = s->dimension, .nodes = s->nodes, .ranks = ranks};
   const fg_field_arrays *arrays = fg_field_contents(r->field);
@@ -58,7 +119,8 @@ static void describe(run *r, const subject *s, const fg__ranks *ranks)
                                   .anisotropy = 0.15,
                                   .width = 2.0 * h,
                                   .dimension = s->dimension,
-                                  .cells = {1, 1, 1}};
+                                  .cells = {1, 1, 1},
+                                  .masked = s->missing};
   for (int k = 0; k < s->dimension; ++k) {
     r->recipe.cells[k] = r->mesh.cells[k];
     r->recipe.periodic[k] = r->mesh.periodic[k];
@@ -87,10 +149,8 @@ static void fill(run *r, fg__multigrid *multigrid)
       }
     free(row);
   }
-  if (multigrid->spread_count > 0)
-    fg__spread_exchange(&multigrid->spread[0], 1, &u, FG__ALL_COLOURS);
-  else
-    fg__fill_ghosts(&multigrid->level[0], u);
+  fg__pass_shift(multigrid, u, 0.0); /* 0 where there is no mass */
+  fg__pass_fill_ghosts(multigrid, u);
 }
 
 /* One box: everything by the plain engine. */
@@ -115,7 +175,7 @@ static void create_whole(run *r, fg__multigrid *multigrid)
                               r->gamma, 1) == FG_STATUS_OK);
   for (int n = 0; n < 6; ++n)
     free(*components[n]);
-  free(t.active);
+  r->active = t.active;
 }
 
 static void gather(const run *r, outcome *out)
@@ -157,7 +217,7 @@ static void count(const run *r, outcome *out)
     return;
   }
   fg__components c = {0};
-  fg__component_grid grid = {.u = out->u, .debris_area = 3.0};
+  fg__component_grid grid = {.u = out->u, .active = r->active, .debris_area = 3.0};
   for (int k = 0; k < 3; ++k) {
     grid.nodes[k] = r->mesh.level[0].nodes[k];
     grid.periodic[k] = r->mesh.periodic[k];
@@ -170,7 +230,7 @@ static void count(const run *r, outcome *out)
 
 static outcome outcome_of(const subject *s, const fg__ranks *ranks)
 {
-  run r;
+  run r = {0};
   outcome out = {.nodes = 1};
   fg__multigrid multigrid;
   describe(&r, s, ranks);
@@ -191,6 +251,11 @@ static outcome outcome_of(const subject *s, const fg__ranks *ranks)
                                          .alpha = s->theta ? fg__theta_alpha : 0.0};
   expect(fg__stepper_create(&r.stepper, us.context, &multigrid, &description) ==
          FG_STATUS_OK);
+  const fg__means *means = &r.stepper.means;
+  out.parts = means->count;
+  expect(out.parts <= MOST_PARTS);
+  for (int n = 0; n < MOST_PARTS && out.parts > 1 && n < out.parts; ++n)
+    out.mean[n] = means->mean[n];
   for (int n = 0; n < STEPS; ++n) {
     expect(fg__stepper_advance(&r.stepper, us.context) == FG_STATUS_OK);
     out.energy[n] = r.stepper.energy;
@@ -202,12 +267,22 @@ static outcome outcome_of(const subject *s, const fg__ranks *ranks)
   fg__stepper_clear(&r.stepper);
   fg__mesh_clear(&r.mesh);
   fg_field_destroy(r.field);
+  free(r.active);
   return out;
 }
 
-static const subject SUBJECTS[] = {{"vortex3", 2, 65, false},  {"benard", 2, 129, false},
-                                   {"vortex3d", 3, 33, false}, {"abc", 3, 33, false},
-                                   {"benard", 2, 65, true},    {"abc", 3, 33, true}};
+static const subject SUBJECTS[] = {{"vortex3", 2, 65, false, NULL, 1},
+                                   {"benard", 2, 129, false, NULL, 1},
+                                   {"vortex3d", 3, 33, false, NULL, 1},
+                                   {"abc", 3, 33, false, NULL, 1},
+                                   {"benard", 2, 65, true, NULL, 1},
+                                   {"abc", 3, 33, true, NULL, 1},
+                                   {"vortex3", 2, 65, false, wall_and_moat, 3},
+                                   {"vortex", 2, 129, false, slats, 4},
+                                   {"vortex3", 2, 65, true, slats, 4},
+                                   {"vortex3d", 3, 33, false, rooms, 3},
+                                   {"abc", 3, 33, false, shell, 2},
+                                   {"vortex3d", 3, 33, true, rooms, 3}};
 
 static void many_ranks_do_what_one_does(void **state)
 {
@@ -223,6 +298,8 @@ static void many_ranks_do_what_one_does(void **state)
     expect(memcmp(one.u, all.u, one.nodes * sizeof *one.u) == 0);
     expect(one.clusters > 0 && one.clusters == all.clusters);
     expect(one.covered == all.covered);
+    expect(one.parts == SUBJECTS[n].parts && all.parts == SUBJECTS[n].parts);
+    expect(memcmp(one.mean, all.mean, sizeof one.mean) == 0);
     expect(one.energy[STEPS - 1] < one.energy[0]);
     free(one.u);
     free(all.u);

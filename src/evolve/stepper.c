@@ -84,9 +84,7 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   out->total_mass = weigh_domain(out);
   fg__pass_copy(m, fg__multigrid_u(m), out->current);
   out->mean = mean_of(out, out->current);
-  out->parts.count = 1;
-  if (m->spread_count == 0)
-    status = fg__parts_create(&out->parts, context, &m->level[0], out->current);
+  status = fg__means_create(&out->means, context, m, out->current);
   if (status) {
     fg__stepper_clear(out);
     return status;
@@ -100,7 +98,7 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
 void fg__stepper_clear(fg__stepper *stepper)
 {
   fg__multigrid_clear(&stepper->multigrid);
-  fg__parts_clear(&stepper->parts);
+  fg__means_clear(&stepper->means);
   fg__theta_clear(&stepper->theta);
   free(stepper->memory);
   *stepper = (fg__stepper){0};
@@ -173,7 +171,7 @@ static outcome attempt(fg__stepper *s, double tau)
   float *u = fg__multigrid_u(m);
   fg__changes sums = (s->theta.alpha > 0.0 ? step_by_theta : step_by_euler)(s, tau);
   fg__pass_shift(m, u, s->mean - sums.u / s->total_mass);
-  fg__parts_restore_means(&s->parts, &m->level[0], u);
+  fg__means_restore(&s->means, m, u);
   outcome result;
   result.increment = sqrt(sums.from_a / s->total_mass);
   result.correction = sqrt(sums.from_b / s->total_mass) /

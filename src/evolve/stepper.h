@@ -2,7 +2,7 @@
 #ifndef FG__STEPPER_H
 #define FG__STEPPER_H
 
-#include "evolve/parts.h"
+#include "evolve/means.h"
 #include "evolve/passes.h"
 #include "evolve/theta.h"
 
@@ -14,7 +14,7 @@ typedef struct fg__stepper {
   double cell_volume; /* hx hy (hz), units of the longest side */
   double total_mass;  /* sum of the nodes' relative masses */
   double mean;        /* of u, held */
-  fg__parts parts;    /* each of which holds its own mean */
+  fg__means means;    /* of the parts of the domain, each held too */
   double first_tau, most_tau;
 
   long accepted, rejected, cycles_spent;

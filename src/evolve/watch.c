@@ -92,8 +92,8 @@ fg_status fg__evolution_count(fg_evolution *evolution)
   return status;
 }
 
-/* All ranks' boxes in one plain array on every rank. */
-static fg_status gather_whole(const fg_evolution *e, float *plain)
+/* An array of all ranks' boxes as a plain one on every rank. */
+static fg_status gather_whole(const fg_evolution *e, float *array, float *plain)
 {
   const fg__spread *finest = &e->stepper.multigrid.spread[0];
   fg__layout layout = fg__layout_of(e->mesh.dimension, finest->partition.nodes);
@@ -107,8 +107,8 @@ static fg_status gather_whole(const fg_evolution *e, float *plain)
     status = fg__gather_create(&gather, e->context, &finest->partition, 1);
   if (!status) {
     float *const *boxes[1];
-    float *const from = e->stepper.current, *const to = whole + layout.first;
-    fg__spread_pointers(finest, 1, &from, boxes);
+    float *const to = whole + layout.first;
+    fg__spread_pointers(finest, 1, &array, boxes);
     fg__gather_fill(gather, 1, boxes, &to);
     for (int k = 0; k < layout.nodes[2]; ++k)
       for (int j = 0; j < layout.nodes[1]; ++j)
@@ -117,6 +117,51 @@ static fg_status gather_whole(const fg_evolution *e, float *plain)
   }
   fg__gather_destroy(gather);
   free(whole);
+  return status;
+}
+
+/* Whether cells are active, as nodal values of their lowest corners. */
+static void mark_cells(const fg__spread *spread, float *out)
+{
+  for (int b = 0; b < spread->count; ++b) {
+    const fg__level *box = &spread->box[b];
+    const int *nodes = box->layout.nodes;
+    for (int k = 0; k < nodes[2]; ++k)
+      for (int j = 0; j < nodes[1]; ++j)
+        for (int i = 0; i < nodes[0]; ++i)
+          out[spread->offset[b] + fg__node_at(&box->layout, i, j, k)] =
+              box->tensor.weight[fg__cell_at(&box->tensor, i, j, k)];
+  }
+}
+
+fg_status fg__evolution_gather_mask(fg_evolution *evolution)
+{
+  fg_evolution *e = evolution;
+  if (!e->spread || e->active_cells == (long)e->cells)
+    return FG_STATUS_OK;
+  const fg__spread *finest = &e->stepper.multigrid.spread[0];
+  float *plain = fg__allocate(e->nodes, sizeof *plain), *marks = finest->residual[0];
+  bool first = e->mesh.ranks->rank == 0;
+  if (first)
+    e->tensor.active = fg__allocate(e->cells, 1);
+  fg_status status = FG_STATUS_OK;
+  if (first && !e->tensor.active)
+    status = fg__fail_memory(e->context, "the mask", e->cells);
+  status = fg__ranks_agree(e->mesh.ranks, e->context, status);
+  mark_cells(finest, marks);
+  if (!status)
+    status = gather_whole(e, marks, plain);
+  if (!status && first) {
+    unsigned char *active = e->tensor.active;
+    const int *cells = e->mesh.cells, *nodes = e->mesh.level[0].nodes;
+    for (int k = 0; k < cells[2]; ++k)
+      for (int j = 0; j < cells[1]; ++j) {
+        const float *row = plain + ((ptrdiff_t)k * nodes[1] + j) * nodes[0];
+        for (int i = 0; i < cells[0]; ++i)
+          *active++ = row[i] > 0.0F;
+      }
+  }
+  free(plain);
   return status;
 }
 
@@ -149,7 +194,7 @@ fg_status fg_density_create(fg_density **out, const fg_evolution *evolution)
   float *plain = fg__allocate(e->nodes, sizeof *plain);
   fg_status status = FG_STATUS_OK;
   if (e->spread) {
-    status = gather_whole(e, plain);
+    status = gather_whole(e, e->stepper.current, plain);
   } else if (plain) {
     fg__level_export(&e->stepper.multigrid.level[0], e->stepper.current, plain);
   } else {

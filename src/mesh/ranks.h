@@ -22,8 +22,8 @@ fg_status fg__ranks_all(const fg__ranks **out, fg_context *context);
 /* This process on its own, whatever the others do: MPI and p4est are started likewise. */
 fg_status fg__ranks_alone(const fg__ranks **out, fg_context *context);
 
-/* Adds up what fg__quanta gave on all ranks (base/sum.h), modulo 2^64, in place.
- * Collective. */
+/* Adds up whole numbers over all ranks, modulo 2^64, in place: the same bits in any
+ * order. Collective. */
 void fg__ranks_add(const fg__ranks *ranks, uint64_t *sum, int count);
 
 /* Greatest of each value over all ranks, in place; none may be NaN. Collective. */
