@@ -169,6 +169,11 @@ void fg__team_destroy(fg__team *team)
   free(team);
 }
 
+int fg__team_members(const fg__team *team)
+{
+  return team ? team->members : 1;
+}
+
 void fg__team_part(const fg__share *share, int count, int multiple, int *begin, int *end)
 {
   long units = (count + multiple - 1) / multiple;

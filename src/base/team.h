@@ -26,6 +26,9 @@ static inline fg__share fg__alone(void)
 fg_status fg__team_create(fg__team **out, fg_context *context, int members);
 void fg__team_destroy(fg__team *team);
 
+/* 1 for NULL. */
+int fg__team_members(const fg__team *team);
+
 /* Runs work(argument, share) in every member and returns when all are done. A NULL team
  * is the caller alone. */
 typedef void fg__team_work(void *argument, const fg__share *share);

@@ -459,12 +459,11 @@ void fg_evolution_destroy(fg_evolution *evolution)
   if (!evolution)
     return;
   fg__stepper_clear(&evolution->stepper);
-  fg__components_clear(&evolution->components);
+  fg__team_clusters_clear(&evolution->clusters_found);
   fg__spread_clusters_clear(&evolution->spread_clusters);
   fg__mesh_clear(&evolution->mesh);
   free_tensor(evolution);
   free(evolution->tensor.active);
-  free(evolution->plain);
   free(evolution);
 }
 

@@ -4,9 +4,9 @@
 
 #include <time.h>
 
-#include "evolve/components.h"
 #include "evolve/spread_clusters.h"
 #include "evolve/stepper.h"
+#include "evolve/team_clusters.h"
 
 struct fg_evolution {
   fg_context *context;
@@ -16,12 +16,11 @@ struct fg_evolution {
   fg__mesh mesh;
   fg__tensor tensor;
   fg__stepper stepper;
-  fg__components components;
-  size_t nodes, cells; /* of the whole mesh */
+  fg__team_clusters clusters_found; /* unless spread */
+  size_t nodes, cells;              /* of the whole mesh */
   long active_cells;
   bool spread; /* over several ranks or boxes */
   fg__spread_clusters spread_clusters;
-  float *plain;       /* u without ghosts, x fastest */
   double debris_area; /* in cells */
   double area_fraction;
   int clusters;

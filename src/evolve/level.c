@@ -169,14 +169,8 @@ void fg__level_export(const fg__level *level, const float *array, float *plain)
 {
   const int *nodes = level->layout.nodes;
   for (int k = 0; k < nodes[2]; ++k)
-    for (int j = 0; j < nodes[1]; ++j, plain += nodes[0]) {
-      const float *even = array + fg__row_at(&level->layout, j, k);
-      const float *odd = even + level->layout.odd_offset;
-      for (int n = 0; n < (nodes[0] + 1) / 2; ++n)
-        plain[2 * n] = even[n];
-      for (int n = 0; n < nodes[0] / 2; ++n)
-        plain[2 * n + 1] = odd[n];
-    }
+    for (int j = 0; j < nodes[1]; ++j, plain += nodes[0])
+      fg__row_export(&level->layout, array, j, k, plain);
 }
 
 /* The exact Q1 stiffness of a box of cells hx x hy (x hz) with constant tensor, over its

@@ -19,34 +19,16 @@ static int nodes_along(const fg_evolution *e, int axis)
   return e->mesh.level[0].nodes[axis];
 }
 
-/* The whole density in one plain array, which is made when it is first asked for. */
-static fg_status export_whole(fg_evolution *e)
-{
-  if (!e->plain)
-    e->plain = fg__allocate(e->nodes, sizeof *e->plain);
-  if (!e->plain)
-    return fg__fail_memory(e->context, "the density", e->nodes * sizeof *e->plain);
-  fg__level_export(&e->stepper.multigrid.level[0], e->stepper.current, e->plain);
-  return FG_STATUS_OK;
-}
-
 static fg_status count_whole(fg_evolution *e, bool counting, double *covered)
 {
-  fg_status status = export_whole(e);
-  fg__component_grid grid = {
-      .u = e->plain, .active = mask_of(e), .debris_area = e->debris_area};
-  for (int k = 0; k < 3; ++k) {
-    grid.nodes[k] = nodes_along(e, k);
-    grid.periodic[k] = e->mesh.periodic[k];
-  }
-  if (!status && counting) {
-    status = fg__components_count(&e->components, e->context, &grid);
-  } else if (!status) {
-    fg__component_box box = fg__component_box_of(&grid);
-    status = fg__components_cover(&e->components, e->context, &box);
-  }
-  *covered = e->components.covered;
-  e->clusters = e->components.count;
+  fg__team_clusters *c = &e->clusters_found;
+  const fg__multigrid *m = &e->stepper.multigrid;
+  fg__team *team = m->shared_levels > 0 ? m->team : NULL;
+  fg_status status =
+      fg__team_clusters_find(c, e->context, team, &m->level[0].layout, e->mesh.periodic,
+                             e->stepper.current, mask_of(e), e->debris_area, counting);
+  *covered = c->covered;
+  e->clusters = c->whole.count;
   return status;
 }
 

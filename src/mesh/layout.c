@@ -23,3 +23,17 @@ fg__layout fg__layout_of(int dimension, const int nodes[3])
   out.array_size = (size_t)(rows * planes * out.stride);
   return out;
 }
+
+void fg__row_export(const fg__layout *layout, const float *array, int j, int k,
+                    float *plain)
+{
+  const float *even = array + fg__row_at(layout, j, k);
+  const float *odd = even + layout->odd_offset;
+  int columns = layout->nodes[0];
+  for (int n = 0; n < columns / 2; ++n) {
+    plain[2 * n] = even[n];
+    plain[2 * n + 1] = odd[n];
+  }
+  if (columns % 2)
+    plain[columns - 1] = even[columns / 2];
+}

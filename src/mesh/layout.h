@@ -43,4 +43,8 @@ static inline ptrdiff_t fg__node_at(const fg__layout *layout, int i, int j, int 
   return fg__row_at(layout, j, k) + fg__column(layout, i);
 }
 
+/* Copies the nodes of row (j, k) of an array to a plain row. */
+void fg__row_export(const fg__layout *layout, const float *array, int j, int k,
+                    float *plain);
+
 #endif
