@@ -1,14 +1,6 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
-#include <string.h>
 
-#include "flowgrain/flowgrain.h"
+#include "field/made_test.h"
 
 enum { NX = 5, NY = 4, NZ = 3, COUNT = NX * NY * NZ };
 
@@ -69,23 +61,9 @@ static int tear_down(void **state)
   return 0;
 }
 
-static fg_field *make(sample_set *set)
+static fg_field *make(const sample_set *set)
 {
-  fg_field *field = NULL;
-  assert_int_equal(fg_field_create(&field, set->context, &set->arrays), FG_STATUS_OK);
-  assert_non_null(field);
-  return field;
-}
-
-static void assert_refused(sample_set *set, fg_status expected,
-                           const char *part_of_message)
-{
-  fg_field *field = NULL;
-  assert_int_equal(fg_field_create(&field, set->context, &set->arrays), expected);
-  assert_null(field);
-  if (!strstr(fg_context_message(set->context), part_of_message))
-    fail_msg("\"%s\" lacks \"%s\"", fg_context_message(set->context), part_of_message);
-  fg_context_clear(set->context);
+  return field_made(set->context, &set->arrays);
 }
 
 static void trilinear_functions_come_back(void **state)
@@ -214,23 +192,28 @@ static void impossible_volumes_are_refused(void **state)
 {
   sample_set *set = *state;
   set->axis[2][2] = set->axis[2][1];
-  assert_refused(set, FG_STATUS_ARGUMENT, "the z axis does not ascend");
+  assert_field_refused(set->context, &set->arrays, FG_STATUS_ARGUMENT,
+                       "the z axis does not ascend");
   set->axis[2][2] = -0.5;
   set->arrays.velocity[2] = NULL;
-  assert_refused(set, FG_STATUS_ARGUMENT, "component 2 is missing");
+  assert_field_refused(set->context, &set->arrays, FG_STATUS_ARGUMENT,
+                       "component 2 is missing");
   set->arrays.velocity[2] = set->velocity[2];
   set->arrays.size[2] = 1;
-  assert_refused(set, FG_STATUS_ARGUMENT, "5 x 4 x 1");
+  assert_field_refused(set->context, &set->arrays, FG_STATUS_ARGUMENT, "5 x 4 x 1");
   for (int k = 0; k < 3; ++k)
     set->arrays.size[k] = INT32_MAX - 1;
-  assert_refused(set, FG_STATUS_ARGUMENT, "than memory can address");
+  assert_field_refused(set->context, &set->arrays, FG_STATUS_ARGUMENT,
+                       "than memory can address");
   for (int k = 0; k < 3; ++k)
     set->arrays.size[k] = SIZE[k];
   set->velocity[2][sample_index(3, 2, 1)] = INFINITY;
-  assert_refused(set, FG_STATUS_ARGUMENT, "w is inf at sample (3, 2, 1)");
+  assert_field_refused(set->context, &set->arrays, FG_STATUS_ARGUMENT,
+                       "w is inf at sample (3, 2, 1)");
   set->velocity[2][sample_index(3, 2, 1)] = 0.0f;
   set->arrays.scale = FG_SCALE_GEO;
-  assert_refused(set, FG_STATUS_UNSUPPORTED, "longitude, latitude and height");
+  assert_field_refused(set->context, &set->arrays, FG_STATUS_UNSUPPORTED,
+                       "longitude, latitude and height");
 }
 
 /* Motion along z alone is motion. */
@@ -239,7 +222,8 @@ static void one_component_moves_enough(void **state)
   sample_set *set = *state;
   for (int c = 0; c < 3; ++c)
     memset(set->velocity[c], 0, sizeof set->velocity[c]);
-  assert_refused(set, FG_STATUS_ARGUMENT, "zero everywhere (24 cells)");
+  assert_field_refused(set->context, &set->arrays, FG_STATUS_ARGUMENT,
+                       "zero everywhere (24 cells)");
   set->velocity[2][7] = 1e-30f;
   fg_field_destroy(make(set));
 }

@@ -1,14 +1,6 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
-#include <string.h>
 
-#include "flowgrain/flowgrain.h"
+#include "field/made_test.h"
 
 enum { NX = 5, NY = 4, COUNT = NX * NY };
 
@@ -67,23 +59,14 @@ static int tear_down(void **state)
   return 0;
 }
 
-static fg_field *make(sample_set *set)
+static fg_field *make(const sample_set *set)
 {
-  fg_field *field = NULL;
-  assert_int_equal(fg_field_create(&field, set->context, &set->arrays), FG_STATUS_OK);
-  assert_non_null(field);
-  return field;
+  return field_made(set->context, &set->arrays);
 }
 
-static void assert_refused(sample_set *set, const char *part_of_message)
+static void assert_refused(const sample_set *set, const char *part_of_message)
 {
-  fg_field *field = NULL;
-  assert_int_equal(fg_field_create(&field, set->context, &set->arrays),
-                   FG_STATUS_ARGUMENT);
-  assert_null(field);
-  if (!strstr(fg_context_message(set->context), part_of_message))
-    fail_msg("\"%s\" lacks \"%s\"", fg_context_message(set->context), part_of_message);
-  fg_context_clear(set->context);
+  assert_field_refused(set->context, &set->arrays, FG_STATUS_ARGUMENT, part_of_message);
 }
 
 static void bilinear_functions_come_back(void **state)

@@ -1,51 +1,5 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "format/folder_test.h"
 #include "format/vtk.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-typedef struct fixture {
-  fg_context *context;
-  char folder[64];
-  char path[128];
-} fixture;
-
-static int set_up(void **state)
-{
-  fixture *f = calloc(1, sizeof *f);
-  if (!f || fg_context_create(&f->context) != FG_STATUS_OK)
-    return -1;
-  strcpy(f->folder, "/tmp/flowgrain-write-XXXXXX");
-  if (!mkdtemp(f->folder))
-    return -1;
-  *state = f;
-  return 0;
-}
-
-static int tear_down(void **state)
-{
-  fixture *f = *state;
-  if (f->path[0])
-    unlink(f->path);
-  int left = rmdir(f->folder); /* fails when a temporary file was left behind */
-  fg_context_destroy(f->context);
-  free(f);
-  return left;
-}
-
-static const char *path_of(fixture *f, const char *name)
-{
-  snprintf(f->path, sizeof f->path, "%s/%s", f->folder, name);
-  return f->path;
-}
 
 static fg__vtk_values values_of(const fg__vtk *vti, fg__vtk_place place, const char *name)
 {
@@ -58,11 +12,38 @@ static fg__vtk_values values_of(const fg__vtk *vti, fg__vtk_place place, const c
   return values;
 }
 
+/* What a file has of a density. */
+typedef struct written {
+  fg__source source;
+  fg__vtk vti;
+  fg__vtk_values u, cluster, ghost;
+} written;
+
+static void write_and_open(written *out, folder *f, const fg_density *density)
+{
+  assert_int_equal(fg_density_write(f->context, path_of(f, "u.vti"), density),
+                   FG_STATUS_OK);
+  assert_int_equal(fg__source_open(&out->source, f->context, f->path), FG_STATUS_OK);
+  assert_int_equal(fg__vtk_open_xml(&out->vti, f->context, &out->source), FG_STATUS_OK);
+  out->u = values_of(&out->vti, FG__VTK_POINTS, "u");
+  out->cluster = values_of(&out->vti, FG__VTK_POINTS, "cluster");
+  out->ghost = values_of(&out->vti, FG__VTK_CELLS, "vtkGhostType");
+}
+
+static void close_written(written *w)
+{
+  fg__vtk_values_clear(&w->ghost);
+  fg__vtk_values_clear(&w->cluster);
+  fg__vtk_values_clear(&w->u);
+  fg__vtk_close(&w->vti);
+  fg__source_close(&w->source);
+}
+
 /* 6 x 5 nodes, periodic along x: a cluster across the border, one within, a masked cell.
  */
 static void a_density_shows_clusters_and_mask(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   enum { WIDE = 6, HIGH = 5 };
   float u[WIDE * HIGH];
   unsigned char active[WIDE * (HIGH - 1)];
@@ -87,36 +68,24 @@ static void a_density_shows_clusters_and_mask(void **state)
   assert_int_equal(fg_density_write(f->context, path_of(f, "u.png"), density),
                    FG_STATUS_UNSUPPORTED);
   fg_context_clear(f->context);
-  assert_int_equal(fg_density_write(f->context, path_of(f, "u.vti"), density),
-                   FG_STATUS_OK);
-
-  fg__source source;
-  fg__vtk vti;
-  assert_int_equal(fg__source_open(&source, f->context, f->path), FG_STATUS_OK);
-  assert_int_equal(fg__vtk_open_xml(&vti, f->context, &source), FG_STATUS_OK);
-  assert_int_equal(vti.extent[1], WIDE); /* the first column again at the end */
-  assert_int_equal(vti.extent[3], HIGH - 1);
-  assert_true(vti.origin[0] == -1.0 && vti.spacing[1] == 0.25);
-  fg__vtk_values found = values_of(&vti, FG__VTK_POINTS, "u");
-  fg__vtk_values cluster = values_of(&vti, FG__VTK_POINTS, "cluster");
-  fg__vtk_values ghost = values_of(&vti, FG__VTK_CELLS, "vtkGhostType");
+  written w;
+  write_and_open(&w, f, density);
+  assert_int_equal(w.vti.extent[1], WIDE); /* the first column again at the end */
+  assert_int_equal(w.vti.extent[3], HIGH - 1);
+  assert_true(w.vti.origin[0] == -1.0 && w.vti.spacing[1] == 0.25);
   for (size_t y = 0; y < HIGH; ++y)
     for (size_t x = 0; x <= WIDE; ++x) {
       size_t at = y * (WIDE + 1) + x, node = y * WIDE + x % WIDE;
-      assert_true(fg__vtk_value(&found, at) == (double)u[node]);
+      assert_true(fg__vtk_value(&w.u, at) == (double)u[node]);
       double label = u[node] < 0.0f ? 0.0 : y < 2 ? 1.0 : 2.0;
-      assert_true(fg__vtk_value(&cluster, at) == label);
+      assert_true(fg__vtk_value(&w.cluster, at) == label);
     }
   for (size_t i = 0; i < sizeof active; ++i)
-    assert_true(fg__vtk_value(&ghost, i) == (active[i] ? 0.0 : 32.0));
-  const fg__vtk_array *time = fg__vtk_find(&vti, 0, FG__VTK_FIELD, "TimeValue");
+    assert_true(fg__vtk_value(&w.ghost, i) == (active[i] ? 0.0 : 32.0));
+  const fg__vtk_array *time = fg__vtk_find(&w.vti, 0, FG__VTK_FIELD, "TimeValue");
   assert_non_null(time);
   assert_non_null(strstr(time->text, "0.0001"));
-  fg__vtk_values_clear(&ghost);
-  fg__vtk_values_clear(&cluster);
-  fg__vtk_values_clear(&found);
-  fg__vtk_close(&vti);
-  fg__source_close(&source);
+  close_written(&w);
   fg_density_destroy(density);
 }
 
@@ -124,7 +93,7 @@ static void a_density_shows_clusters_and_mask(void **state)
  * one that is debris; a masked cell. */
 static void a_density_in_space_comes_back(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   enum { WIDE = 7, HIGH = 4, DEEP = 6, CELLS = (WIDE - 1) * (HIGH - 1) * DEEP };
   float u[WIDE * HIGH * DEEP];
   unsigned char active[CELLS];
@@ -148,41 +117,30 @@ static void a_density_in_space_comes_back(void **state)
                                     .time = 3e-5};
   assert_int_equal(fg_density_create_from_arrays(&density, f->context, &arrays),
                    FG_STATUS_OK);
-  assert_int_equal(fg_density_write(f->context, path_of(f, "u.vti"), density),
-                   FG_STATUS_OK);
-  fg__source source;
-  fg__vtk vti;
-  assert_int_equal(fg__source_open(&source, f->context, f->path), FG_STATUS_OK);
-  assert_int_equal(fg__vtk_open_xml(&vti, f->context, &source), FG_STATUS_OK);
+  written w;
+  write_and_open(&w, f, density);
   const int extent[6] = {0, WIDE - 1, 0, HIGH - 1, 0, DEEP};
-  assert_memory_equal(vti.extent, extent, sizeof extent);
-  assert_true(vti.origin[2] == 30.0 && vti.spacing[2] == 2.0);
-  fg__vtk_values found = values_of(&vti, FG__VTK_POINTS, "u");
-  fg__vtk_values cluster = values_of(&vti, FG__VTK_POINTS, "cluster");
-  fg__vtk_values ghost = values_of(&vti, FG__VTK_CELLS, "vtkGhostType");
+  assert_memory_equal(w.vti.extent, extent, sizeof extent);
+  assert_true(w.vti.origin[2] == 30.0 && w.vti.spacing[2] == 2.0);
   for (size_t z = 0; z <= DEEP; ++z)
     for (size_t y = 0; y < HIGH; ++y)
       for (size_t x = 0; x < WIDE; ++x) {
         size_t at = AT(x, y, z), node = AT(x, y, z % DEEP);
         double label = u[node] < 0.0f ? 0.0 : x == 1 ? 1.0 : x == 4 ? 2.0 : -1.0;
-        assert_true(fg__vtk_value(&found, at) == (double)u[node]);
-        assert_true(fg__vtk_value(&cluster, at) == label);
+        assert_true(fg__vtk_value(&w.u, at) == (double)u[node]);
+        assert_true(fg__vtk_value(&w.cluster, at) == label);
       }
 #undef AT
   for (size_t i = 0; i < CELLS; ++i)
-    assert_true(fg__vtk_value(&ghost, i) == (active[i] ? 0.0 : 32.0));
-  fg__vtk_values_clear(&ghost);
-  fg__vtk_values_clear(&cluster);
-  fg__vtk_values_clear(&found);
-  fg__vtk_close(&vti);
-  fg__source_close(&source);
+    assert_true(fg__vtk_value(&w.ghost, i) == (active[i] ? 0.0 : 32.0));
+  close_written(&w);
   fg_density_destroy(density);
 }
 
 /* Stages that know two dimensions only say so. */
 static void icons_and_pictures_in_space_are_refused(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   float u[8] = {1, 1, -1, -1, -1, -1, -1, -1};
   fg_density *density = NULL;
   const fg_density_arrays arrays = {
@@ -217,7 +175,7 @@ static void icons_and_pictures_in_space_are_refused(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, folder_set_up, folder_tear_down)
   const struct CMUnitTest tests[] = {
       TEST(a_density_shows_clusters_and_mask),
       TEST(a_density_in_space_comes_back),

@@ -1,52 +1,6 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
-#include "format/vtk.h"
-
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-typedef struct fixture {
-  fg_context *context;
-  char folder[64];
-  char path[128];
-} fixture;
-
-static int set_up(void **state)
-{
-  fixture *f = calloc(1, sizeof *f);
-  if (!f || fg_context_create(&f->context) != FG_STATUS_OK)
-    return -1;
-  strcpy(f->folder, "/tmp/flowgrain-write-XXXXXX");
-  if (!mkdtemp(f->folder))
-    return -1;
-  *state = f;
-  return 0;
-}
-
-static int tear_down(void **state)
-{
-  fixture *f = *state;
-  if (f->path[0])
-    unlink(f->path);
-  int left = rmdir(f->folder); /* fails when a temporary file was left behind */
-  fg_context_destroy(f->context);
-  free(f);
-  return left;
-}
-
-static const char *path_of(fixture *f, const char *name)
-{
-  snprintf(f->path, sizeof f->path, "%s/%s", f->folder, name);
-  return f->path;
-}
+#include "format/folder_test.h"
 
 /* More than one zlib block, and not a whole number of them. */
 enum { NX = 131, NY = 77, COUNT = NX * NY };
@@ -119,7 +73,7 @@ static void assert_data_follow_their_tag(const char *path)
 
 static void an_image_comes_back_bit_for_bit(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   samples s;
   fg_field *field = make_field(
       f->context, &s,
@@ -139,7 +93,7 @@ static void an_image_comes_back_bit_for_bit(void **state)
 
 static void netcdf_comes_back_bit_for_bit(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   static const fg_scale scales[] = {FG_SCALE_PLAIN, FG_SCALE_MAP, FG_SCALE_GEO};
   for (size_t i = 0; i < 3; ++i) {
     samples s;
@@ -161,7 +115,7 @@ static void netcdf_comes_back_bit_for_bit(void **state)
 
 static void analytic_fields_go_through_both_formats(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   static const char *const names[] = {"a.vti", "a.nc"};
   fg_field *field = NULL;
   assert_int_equal(fg_field_create_analytic(&field, f->context, "benard", 65),
@@ -207,7 +161,7 @@ static fg_field *make_volume(fg_context *context)
 
 static void volumes_come_back_bit_for_bit(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   fg_field *field = make_volume(f->context), *back = NULL;
   assert_int_equal(fg_field_write(f->context, path_of(f, "a.vti"), field), FG_STATUS_OK);
   assert_int_equal(fg_field_read(&back, f->context, f->path, NULL), FG_STATUS_OK);
@@ -221,7 +175,7 @@ static void volumes_come_back_bit_for_bit(void **state)
 /* In a file a period has an end: the first samples again. */
 static void periodic_axes_are_closed(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   fg_field *field = NULL, *back = NULL;
   assert_int_equal(fg_field_create_analytic(&field, f->context, "abc", 9), FG_STATUS_OK);
   assert_int_equal(fg_field_write(f->context, path_of(f, "a.vti"), field), FG_STATUS_OK);
@@ -244,7 +198,7 @@ static void periodic_axes_are_closed(void **state)
 
 static void what_cannot_be_written_leaves_nothing(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   samples s;
   fg_field *field = make_field(f->context, &s, (fg_field_arrays){0}), *uneven = NULL;
   static const struct {
@@ -275,7 +229,7 @@ static void what_cannot_be_written_leaves_nothing(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, folder_set_up, folder_tear_down)
   const struct CMUnitTest tests[] = {
       TEST(an_image_comes_back_bit_for_bit),
       TEST(netcdf_comes_back_bit_for_bit),

@@ -1,46 +1,15 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
-#include "icon/icons.h"
-
 #include <dirent.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-typedef struct fixture {
-  fg_context *context;
-  char folder[64];
-  char path[96];
-} fixture;
+#include "format/folder_test.h"
+#include "icon/icons.h"
 
 static int set_up(void **state)
 {
-  fixture *f = calloc(1, sizeof *f);
-  if (!f || fg_context_create(&f->context) != FG_STATUS_OK)
-    return -1;
-  strcpy(f->folder, "/tmp/flowgrain-geojson-XXXXXX");
-  if (!mkdtemp(f->folder))
-    return -1;
-  snprintf(f->path, sizeof f->path, "%s/icons.geojson", f->folder);
-  *state = f;
-  return 0;
-}
-
-static int tear_down(void **state)
-{
-  fixture *f = *state;
-  unlink(f->path);
-  int left = rmdir(f->folder); /* fails when a temporary file was left behind */
-  fg_context_destroy(f->context);
-  free(f);
-  return left;
+  int failed = folder_set_up(state);
+  if (!failed)
+    path_of(*state, "icons.geojson");
+  return failed;
 }
 
 static const double SPIRAL[4][3] = {{-179.25, 0.1, 0.0},
@@ -112,7 +81,7 @@ static void write_text(const char *path, const char *text, size_t size)
 
 static void icons_come_back_bit_for_bit(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   fg_icons *icons = make_icons(f->context), *back = NULL;
   assert_int_equal(fg_icons_write(f->context, f->path, icons), FG_STATUS_OK);
   assert_int_equal(fg_icons_read(&back, f->context, f->path), FG_STATUS_OK);
@@ -125,7 +94,7 @@ static void icons_come_back_bit_for_bit(void **state)
 
 static void numbers_are_short_and_icons_have_lines_of_their_own(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   fg_icons *icons = make_icons(f->context);
   assert_int_equal(fg_icons_write(f->context, f->path, icons), FG_STATUS_OK);
   char *text = read_text(f->path);
@@ -142,7 +111,7 @@ static void numbers_are_short_and_icons_have_lines_of_their_own(void **state)
 
 static void no_icons_are_a_collection_too(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   fg_icons *icons = NULL, *back = NULL;
   assert_int_equal(fg__icons_create_empty(&icons, f->context), FG_STATUS_OK);
   assert_int_equal(fg_icons_write(f->context, f->path, icons), FG_STATUS_OK);
@@ -154,7 +123,7 @@ static void no_icons_are_a_collection_too(void **state)
 
 static void lines_of_other_programs_are_read(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   static const char text[] =
       "\n{\"bbox\":[0,0,1,1], \"features\":[{\"geometry\":{\"coordinates\":"
       "[[1,2],[3,4,5],[6,7]],\"type\":\"LineString\"},\"type\":\"Feature\","
@@ -172,7 +141,7 @@ static void lines_of_other_programs_are_read(void **state)
   fg_icons_destroy(icons);
 }
 
-static void assert_refused(fixture *f, const char *text, size_t size)
+static void assert_refused(folder *f, const char *text, size_t size)
 {
   fg_icons *icons = NULL;
   write_text(f->path, text, size);
@@ -184,7 +153,7 @@ static void assert_refused(fixture *f, const char *text, size_t size)
 
 static void every_wrong_value_is_refused(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   static const char *const swaps[][2] = {
       {"\"FeatureCollection\"", "\"Feature\""},
       {"\"FeatureCollection\"", "7"},
@@ -234,7 +203,7 @@ static void every_wrong_value_is_refused(void **state)
 
 static void every_truncation_is_refused(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   fg_icons *icons = make_icons(f->context);
   assert_int_equal(fg_icons_write(f->context, f->path, icons), FG_STATUS_OK);
   fg_icons_destroy(icons);
@@ -247,7 +216,7 @@ static void every_truncation_is_refused(void **state)
 
 static void a_failed_write_leaves_the_old_file_and_nothing_else(void **state)
 {
-  fixture *f = *state;
+  folder *f = *state;
   write_text(f->path, "old", 3);
   const double points[2][3] = {{0, 1}, {(double)NAN, 2}};
   fg_icon icon = {.cluster = 1, .point_count = 2, .points = points};
@@ -262,10 +231,10 @@ static void a_failed_write_leaves_the_old_file_and_nothing_else(void **state)
 
   icons = make_icons(f->context);
   char nowhere[128];
-  snprintf(nowhere, sizeof nowhere, "%s/missing/icons.geojson", f->folder);
+  snprintf(nowhere, sizeof nowhere, "%s/missing/icons.geojson", f->name);
   assert_int_equal(fg_icons_write(f->context, nowhere, icons), FG_STATUS_FILE_ACCESS);
   fg_context_clear(f->context);
-  assert_int_equal(fg_icons_write(f->context, f->folder, icons), FG_STATUS_FILE_ACCESS);
+  assert_int_equal(fg_icons_write(f->context, f->name, icons), FG_STATUS_FILE_ACCESS);
   fg_context_clear(f->context);
   if (access("/dev/full", W_OK) == 0) {
     assert_int_equal(fg_icons_write(f->context, "/dev/full", icons),
@@ -278,7 +247,7 @@ static void a_failed_write_leaves_the_old_file_and_nothing_else(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, folder_tear_down)
   const struct CMUnitTest tests[] = {
       TEST(icons_come_back_bit_for_bit),
       TEST(numbers_are_short_and_icons_have_lines_of_their_own),

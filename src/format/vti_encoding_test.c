@@ -1,10 +1,3 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "format/vti_example.h"
 
 /* 4 x 3 points, an origin and a spacing that differ along the axes, three components of
@@ -192,17 +185,6 @@ static void no_mutation_does_harm(void **state)
   assert_true(accepted > 1000 && refused > 1000);
 }
 
-static int set_up(void **state)
-{
-  return fg_context_create((fg_context **)state) == FG_STATUS_OK ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-  fg_context_destroy(*state);
-  return 0;
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -210,5 +192,6 @@ int main(void)
       cmocka_unit_test(every_truncation_is_refused_or_equal),
       cmocka_unit_test(no_mutation_does_harm),
   };
-  return cmocka_run_group_tests_name("format/vti_encoding", tests, set_up, tear_down);
+  return cmocka_run_group_tests_name("format/vti_encoding", tests, context_set_up,
+                                     context_tear_down);
 }

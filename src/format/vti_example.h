@@ -2,6 +2,7 @@
 #ifndef FG__VTI_EXAMPLE_H
 #define FG__VTI_EXAMPLE_H
 
+#include "base/context_test.h"
 #include "format/base64.h"
 #include "format/format.h"
 
@@ -228,6 +229,45 @@ static inline fg_status example_read_words(fg_field **out, fg_context *context,
   fg_status status = example_read(out, context, copy, strlen(copy), options);
   free(copy);
   return status;
+}
+
+/* The field of a file that must be sound. */
+static inline fg_field *example_field(fg_context *context, const char *words,
+                                      const fg_read_options *options)
+{
+  fg_field *field = NULL;
+  fg_status status = example_read_words(&field, context, words, options);
+  if (status != FG_STATUS_OK)
+    print_error("%s\n", fg_context_message(context));
+  assert_int_equal(status, FG_STATUS_OK);
+  return field;
+}
+
+/* A sound file with one place of it changed, the first of `before`. */
+typedef struct example_change {
+  const char *before, *after;
+  fg_status status;  /* of reading it */
+  const char *words; /* in the message */
+} example_change;
+
+static inline void example_changed(char file[EXAMPLE_FILE_BYTES], const char *sound,
+                                   const example_change *change)
+{
+  const char *at = strstr(sound, change->before);
+  assert_non_null(at);
+  int size = snprintf(file, EXAMPLE_FILE_BYTES, "%.*s%s%s", (int)(at - sound), sound,
+                      change->after, at + strlen(change->before));
+  assert_true(size > 0 && size < EXAMPLE_FILE_BYTES);
+}
+
+/* What reading a changed file has come to. */
+static inline void assert_as_said(const example_change *change, fg_status status,
+                                  const fg_context *context, const fg_field *field)
+{
+  const char *message = fg_context_message(context);
+  if (status != change->status || !strstr(message, change->words))
+    fail_msg("%s -> %s: %s", change->before, change->after, message);
+  assert_true((field != NULL) == (status == FG_STATUS_OK));
 }
 
 /* An image with the given attributes, and what its piece holds. */

@@ -1,26 +1,8 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "format/vti_example.h"
 
 #include <math.h>
 
 static const example_encoding ASCII = {.type = EXAMPLE_FLOAT64};
-
-static fg_field *field_of(fg_context *context, const char *words,
-                          const fg_read_options *options)
-{
-  fg_field *field = NULL;
-  fg_status status = example_read_words(&field, context, words, options);
-  if (status != FG_STATUS_OK)
-    print_error("%s\n", fg_context_message(context));
-  assert_int_equal(status, FG_STATUS_OK);
-  return field;
-}
 
 static bool is_missing(const fg_field *field, size_t i)
 {
@@ -59,7 +41,7 @@ static void cells_are_averaged_onto_the_points(void **state)
   char file[EXAMPLE_FILE_BYTES];
   example_image(file, "Spacing='2 1 1'", "0 2 0 2 0 1",
                 CELLS(VECTOR("U", "1 -1 9 2 -2 9 3 -3 9 5 -5 9")));
-  fg_field *field = field_of(*state, file, NULL);
+  fg_field *field = example_field(*state, file, NULL);
   const fg_field_arrays *a = fg_field_contents(field);
   assert_int_equal(a->size[0], 3);
   assert_int_equal(a->size[1], 3);
@@ -90,7 +72,7 @@ static void a_layer_along_any_axis_is_a_plane(void **state)
     example_image(
         file, "", cases[c].extent,
         POINTS(VECTOR("U", "1 10 100 2 20 200 3 30 300 4 40 400 5 50 500 6 60 600")));
-    fg_field *field = field_of(*state, file, NULL);
+    fg_field *field = example_field(*state, file, NULL);
     const fg_field_arrays *a = fg_field_contents(field);
     for (size_t k = 0; k < 2; ++k) {
       assert_int_equal(a->size[k], cases[c].size[k]);
@@ -113,7 +95,7 @@ static void two_layers_of_points_are_their_mean(void **state)
   /* two points along y: the plane is x, z, the mean of rows that lie one after another */
   static const double u[9] = {3, 4, 6, 15, 16, 17, 1, 2, 3};
   static const double w[9] = {5, 5, 5, 3, 3, 3, 1, 2, 3};
-  fg_field *field = field_of(*state, file, NULL);
+  fg_field *field = example_field(*state, file, NULL);
   const fg_field_arrays *a = fg_field_contents(field);
   assert_int_equal(a->size[0], 3);
   assert_int_equal(a->size[1], 3);
@@ -178,7 +160,7 @@ static void assert_chosen(fg_context *context, const char *data, const char *var
   char file[EXAMPLE_FILE_BYTES];
   example_image(file, "", "0 2 0 1 0 0", data);
   fg_read_options options = {.vars = vars};
-  fg_field *field = field_of(context, file, &options);
+  fg_field *field = example_field(context, file, &options);
   const fg_field_arrays *a = fg_field_contents(field);
   assert_string_equal(a->velocity_name[0], u_name);
   assert_true(a->velocity[0][0] == first);
@@ -267,7 +249,7 @@ static void only_one_moment_is_there(void **state)
   assert_int_equal(example_read_words(&field, *state, file, &from),
                    FG_STATUS_UNSUPPORTED);
   fg_read_options geo = {.scale = FG_SCALE_GEO};
-  field = field_of(*state, file, &geo);
+  field = example_field(*state, file, &geo);
   assert_true(fg_field_contents(field)->scale == FG_SCALE_GEO);
   fg_field_destroy(field);
 }
@@ -288,7 +270,7 @@ static void words_are_taken_from_the_file(void **state)
       "location='vtkDataArray'>"
       " mm/s\n</InformationKey>" SIX2 "</DataArray></PointData></Piece></ImageData>"
       "</VTKFile>";
-  fg_field *field = field_of(*state, file, NULL);
+  fg_field *field = example_field(*state, file, NULL);
   const fg_field_arrays *a = fg_field_contents(field);
   assert_string_equal(a->time, "t = 0.03");
   assert_string_equal(a->velocity_units, "mm/s");
@@ -310,7 +292,7 @@ static void assert_mask(fg_context *context, const char *data, const char *mask,
   char file[EXAMPLE_FILE_BYTES];
   example_image(file, "", "0 3 0 2 0 0", data);
   fg_read_options options = {.mask = mask};
-  fg_field *field = field_of(context, file, &options);
+  fg_field *field = example_field(context, file, &options);
   assert_missing(field, there);
   fg_field_destroy(field);
 }
@@ -413,17 +395,6 @@ static void every_vector_is_listed(void **state)
   fg_inventory_destroy(inventory);
 }
 
-static int set_up(void **state)
-{
-  return fg_context_create((fg_context **)state) == FG_STATUS_OK ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-  fg_context_destroy(*state);
-  return 0;
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -439,5 +410,6 @@ int main(void)
       cmocka_unit_test(a_mask_is_zero_outside),
       cmocka_unit_test(every_vector_is_listed),
   };
-  return cmocka_run_group_tests_name("format/vti_read", tests, set_up, tear_down);
+  return cmocka_run_group_tests_name("format/vti_read", tests, context_set_up,
+                                     context_tear_down);
 }

@@ -1,26 +1,8 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "format/vti_example.h"
 
 /* 3 x 2 points */
 #define SIX "1 10 0 2 20 0 3 30 0\n4 40 0 5 50 0 6 60 0"
 #define SIX2 "7 1 7 1 7 1 7 1 7 1 7 1"
-
-static fg_field *field_of(fg_context *context, const char *words,
-                          const fg_read_options *options)
-{
-  fg_field *field = NULL;
-  fg_status status = example_read_words(&field, context, words, options);
-  if (status != FG_STATUS_OK)
-    print_error("%s\n", fg_context_message(context));
-  assert_int_equal(status, FG_STATUS_OK);
-  return field;
-}
 
 static const char GOOD[] =
     "<VTKFile type='ImageData' byte_order='LittleEndian' header_type='UInt32'>"
@@ -29,30 +11,9 @@ static const char GOOD[] =
     "<DataArray type='Float64' Name='U' NumberOfComponents='2' format='ascii'>" SIX2
     "</DataArray></PointData></Piece></ImageData></VTKFile>";
 
-static void assert_refused(fg_context *context, const char *before, const char *after,
-                           fg_status expected, const char *words)
-{
-  const char *at = strstr(GOOD, before);
-  assert_non_null(at);
-  char file[EXAMPLE_FILE_BYTES];
-  snprintf(file, sizeof file, "%.*s%s%s", (int)(at - GOOD), GOOD, after,
-           at + strlen(before));
-  fg_field *field = NULL;
-  fg_status status = example_read_words(&field, context, file, NULL);
-  if (status != expected || !strstr(fg_context_message(context), words))
-    print_error("%s -> %s: %s\n", before, after, fg_context_message(context));
-  assert_int_equal(status, expected);
-  assert_non_null(strstr(fg_context_message(context), words));
-  assert_null(field);
-}
-
 static void wrong_markup_is_refused(void **state)
 {
-  static const struct {
-    const char *before, *after;
-    fg_status status;
-    const char *words;
-  } cases[] = {
+  static const example_change cases[] = {
       {"<VTKFile", "<VTKfile", FG_STATUS_FILE_FORMAT, "not XML"},
       {"type='ImageData'", "type='PolyData'", FG_STATUS_UNSUPPORTED, "PolyData"},
       {"type='ImageData'", "type='RectilinearGrid'", FG_STATUS_FILE_FORMAT,
@@ -106,9 +67,13 @@ static void wrong_markup_is_refused(void **state)
       {"7 1 7", "7 1e99 7", FG_STATUS_FILE_FORMAT, "infinite"},
       {"7 1 7", "7 &x; 7", FG_STATUS_FILE_FORMAT, "not XML"},
   };
-  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i)
-    assert_refused(*state, cases[i].before, cases[i].after, cases[i].status,
-                   cases[i].words);
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+    char file[EXAMPLE_FILE_BYTES];
+    fg_field *field = NULL;
+    example_changed(file, GOOD, &cases[i]);
+    fg_status status = example_read_words(&field, *state, file, NULL);
+    assert_as_said(&cases[i], status, *state, field);
+  }
 }
 
 static void lines_are_refused(void **state)
@@ -126,7 +91,8 @@ static void compression_that_is_not_known_is_refused(void **state)
   const char *at = strstr(GOOD, "header_type");
   snprintf(file, sizeof file, "%.*scompressor='vtkLZ4DataCompressor' %s",
            (int)(at - GOOD), GOOD, at);
-  fg_field_destroy(field_of(*state, file, NULL)); /* what is not compressed can be read */
+  fg_field_destroy(
+      example_field(*state, file, NULL)); /* what is not compressed can be read */
   char *format = strstr(file, "'ascii'");
   assert_non_null(format);
   memcpy(format, "'binary", 7);
@@ -192,17 +158,6 @@ static void the_format_is_known_by_its_first_tag(void **state)
   assert_false(fg__format_vti.is_mine((const unsigned char *)"", 0));
 }
 
-static int set_up(void **state)
-{
-  return fg_context_create((fg_context **)state) == FG_STATUS_OK ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-  fg_context_destroy(*state);
-  return 0;
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -213,5 +168,6 @@ int main(void)
       cmocka_unit_test(entities_are_not_expanded),
       cmocka_unit_test(the_format_is_known_by_its_first_tag),
   };
-  return cmocka_run_group_tests_name("format/vti_refusal", tests, set_up, tear_down);
+  return cmocka_run_group_tests_name("format/vti_refusal", tests, context_set_up,
+                                     context_tear_down);
 }

@@ -59,12 +59,28 @@ static fg_status add_array(legacy_file *file, fg__vtk_array **out, char *name,
   return fg__legacy_take(&file->cursor, *out, type, tuples * (size_t)components);
 }
 
+static fg_status read_name_and_type(fg__legacy_cursor *c, char name[FG__LEGACY_WORD],
+                                    char type[FG__LEGACY_WORD])
+{
+  return fg__legacy_word(c, name) && fg__legacy_word(c, type)
+             ? FG_STATUS_OK
+             : fg__legacy_fail(c, "no name and type of an array after", name);
+}
+
+static fg_status read_name_and_count(fg__legacy_cursor *c, char name[FG__LEGACY_WORD],
+                                     int *count, int least, const char *what)
+{
+  return fg__legacy_word(c, name) ? fg__legacy_whole(c, count, least, what)
+                                  : fg__legacy_fail(c, "no name after", name);
+}
+
 /* NAME TYPE, and so many components. */
 static fg_status read_plain(legacy_file *file, fg__vtk_array **out, int components)
 {
   char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
-  if (!fg__legacy_word(&file->cursor, name) || !fg__legacy_word(&file->cursor, type))
-    return fg__legacy_fail(&file->cursor, "no name and type of an array after", name);
+  fg_status status = read_name_and_type(&file->cursor, name, type);
+  if (status != FG_STATUS_OK)
+    return status;
   return add_array(file, out, name, type, components, file->tuples);
 }
 
@@ -87,11 +103,12 @@ static fg_status read_scalars(legacy_file *file)
   fg__legacy_cursor *c = &file->cursor;
   char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD], word[FG__LEGACY_WORD];
   int components = 1;
-  if (!fg__legacy_word(c, name) || !fg__legacy_word(c, type))
-    return fg__legacy_fail(c, "no name and type of an array after", name);
+  fg_status status = read_name_and_type(c, name, type);
+  if (status != FG_STATUS_OK)
+    return status;
   if (fg__legacy_word_of_line(c, word)) {
     c->at -= strlen(word);
-    fg_status status = fg__legacy_whole(c, &components, 1, "a number of components");
+    status = fg__legacy_whole(c, &components, 1, "a number of components");
     if (status != FG_STATUS_OK)
       return status;
   }
@@ -110,9 +127,7 @@ static fg_status read_colors(legacy_file *file, bool table)
   fg__legacy_cursor *c = &file->cursor;
   char name[FG__LEGACY_WORD];
   int count = 0;
-  if (!fg__legacy_word(c, name))
-    return fg__legacy_fail(c, "no name after", name);
-  fg_status status = fg__legacy_whole(c, &count, 1, "a number of colours");
+  fg_status status = read_name_and_count(c, name, &count, 1, "a number of colours");
   if (status != FG_STATUS_OK)
     return status;
   fg__vtk_array *array;
@@ -129,9 +144,8 @@ static fg_status read_texture(legacy_file *file)
   fg__legacy_cursor *c = &file->cursor;
   char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
   int components = 0;
-  if (!fg__legacy_word(c, name))
-    return fg__legacy_fail(c, "no name after", name);
-  fg_status status = fg__legacy_whole(c, &components, 1, "a number of components");
+  fg_status status =
+      read_name_and_count(c, name, &components, 1, "a number of components");
   if (status != FG_STATUS_OK)
     return status;
   if (!fg__legacy_word(c, type))
@@ -158,9 +172,7 @@ static fg_status read_field_block(legacy_file *file)
   fg__legacy_cursor *c = &file->cursor;
   char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
   int arrays = 0;
-  if (!fg__legacy_word(c, name))
-    return fg__legacy_fail(c, "no name after", name);
-  fg_status status = fg__legacy_whole(c, &arrays, 0, "a number of arrays");
+  fg_status status = read_name_and_count(c, name, &arrays, 0, "a number of arrays");
   for (int i = 0; i < arrays && status == FG_STATUS_OK; ++i) {
     int components = 0, tuples = 0;
     if (!fg__legacy_word(c, name))

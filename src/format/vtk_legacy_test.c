@@ -1,10 +1,4 @@
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "format/vti_example.h"
 
@@ -227,11 +221,7 @@ static void an_image_one_point_thick_is_a_plane(void **state)
 
 static void wrong_words_are_refused(void **state)
 {
-  static const struct {
-    const char *before, *after;
-    fg_status status;
-    const char *words;
-  } cases[] = {
+  static const example_change cases[] = {
       {"ASCII", "TEXT", FG_STATUS_FILE_FORMAT, "neither ASCII nor BINARY but \"TEXT\""},
       {"DATASET", "DATASAT", FG_STATUS_FILE_FORMAT, "no DATASET but \"DATASAT\""},
       {"STRUCTURED_POINTS", "UNSTRUCTURED_GRID", FG_STATUS_UNSUPPORTED,
@@ -281,17 +271,11 @@ static void wrong_words_are_refused(void **state)
       {"5 0 0 6 0 0\n", "5 0 0 6 0", FG_STATUS_FILE_FORMAT, "18 numbers promised"},
   };
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-    char file[1024];
-    const char *at = strstr(GOOD, cases[i].before);
-    assert_non_null(at);
-    snprintf(file, sizeof file, "%.*s%s%s", (int)(at - GOOD), GOOD, cases[i].after,
-             at + strlen(cases[i].before));
+    char file[EXAMPLE_FILE_BYTES];
     fg_field *field = NULL;
+    example_changed(file, GOOD, &cases[i]);
     fg_status status = read_bytes(&field, *state, file, strlen(file), NULL);
-    if (status != cases[i].status || !strstr(fg_context_message(*state), cases[i].words))
-      fail_msg("%s -> %s: %s", cases[i].before, cases[i].after,
-               fg_context_message(*state));
-    assert_true((field != NULL) == (status == FG_STATUS_OK));
+    assert_as_said(&cases[i], status, *state, field);
     fg_field_destroy(field);
   }
 }
@@ -366,17 +350,6 @@ static void the_format_is_known_by_its_first_line(void **state)
   assert_null(fg__format_find((const unsigned char *)GOOD, 12));
 }
 
-static int set_up(void **state)
-{
-  return fg_context_create((fg_context **)state) == FG_STATUS_OK ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-  fg_context_destroy(*state);
-  return 0;
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -390,5 +363,6 @@ int main(void)
       cmocka_unit_test(damaged_files_do_no_harm),
       cmocka_unit_test(the_format_is_known_by_its_first_line),
   };
-  return cmocka_run_group_tests_name("format/vtk_legacy", tests, set_up, tear_down);
+  return cmocka_run_group_tests_name("format/vtk_legacy", tests, context_set_up,
+                                     context_tear_down);
 }

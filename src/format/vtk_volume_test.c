@@ -1,11 +1,5 @@
 /* Volumes in VTK XML files, and rectilinear grids. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "format/vti_example.h"
 
@@ -336,17 +330,6 @@ static void wrong_coordinates_are_refused(void **state)
   }
 }
 
-static int set_up(void **state)
-{
-  return fg_context_create((fg_context **)state) == FG_STATUS_OK ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-  fg_context_destroy(*state);
-  return 0;
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -362,5 +345,6 @@ int main(void)
       cmocka_unit_test(rectilinear_grids_have_their_own_axes),
       cmocka_unit_test(wrong_coordinates_are_refused),
   };
-  return cmocka_run_group_tests_name("format/vtk_volume", tests, set_up, tear_down);
+  return cmocka_run_group_tests_name("format/vtk_volume", tests, context_set_up,
+                                     context_tear_down);
 }

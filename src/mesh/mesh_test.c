@@ -1,12 +1,6 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 
+#include "base/context_test.h"
 #include "mesh/mesh.h"
 
 /* Exact but for the rounding of a few products. */
@@ -29,17 +23,6 @@ enum {
   BRICK_COUNT = sizeof BRICKS / sizeof *BRICKS,
   BRICK_NODE_COUNT = sizeof BRICK_NODES / sizeof *BRICK_NODES
 };
-
-static int set_up(void **state)
-{
-  return fg_context_create((fg_context **)state) != FG_STATUS_OK;
-}
-
-static int tear_down(void **state)
-{
-  fg_context_destroy(*state);
-  return 0;
-}
 
 typedef void check(const fg__mesh *mesh, const fg__mesh_description *description);
 
@@ -257,7 +240,8 @@ static void impossible_boxes_are_refused(void **state)
 
 int main(void)
 {
-#define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define CASE(name)                                                                       \
+  cmocka_unit_test_setup_teardown(name, context_set_up, context_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(the_mesh_covers_the_box),
       CASE(the_longest_side_has_the_cells_asked_for),
