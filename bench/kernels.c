@@ -112,7 +112,7 @@ static fg_status create_multigrid(subject *s, fg_context *context, int cells,
     fg__mesh mesh = {.dimension = dimension, .spacing = {h, h, h}};
     fg__tile tile = {.cells = {cells, cells, dimension == 3 ? cells : 1}};
     status =
-        fg__multigrid_create(&s->multigrid, context, &mesh, &tile, &tensor, gamma, 1);
+        fg__multigrid_create(&s->multigrid, context, &mesh, &tile, &tensor, gamma, NULL);
   }
   for (int n = 0; n < 6; ++n)
     free(*components[n]);

@@ -37,7 +37,7 @@ static fg_status create(fg__multigrid *out, fg_context *context, const problem *
     fg__tile tile = {.cells = {p->cells[0], p->cells[1], p->cells[2]}};
     for (int k = 0; k < 3; ++k)
       mesh.spacing[k] = p->spacing[k];
-    status = fg__multigrid_create(out, context, &mesh, &tile, &tensor, p->gamma, 1);
+    status = fg__multigrid_create(out, context, &mesh, &tile, &tensor, p->gamma, NULL);
   }
   free(memory);
   free(active);

@@ -25,6 +25,15 @@ void *fg__allocate_aligned(size_t count, size_t size)
   return memory;
 }
 
+void *fg__allocate_untouched(void **base, size_t count, size_t size)
+{
+  *base = NULL;
+  if (size == 0 || count > (SIZE_MAX - VECTOR_BYTES) / size)
+    return NULL;
+  unsigned char *memory = *base = calloc(count * size + VECTOR_BYTES, 1);
+  return memory ? memory + VECTOR_BYTES - (uintptr_t)memory % VECTOR_BYTES : NULL;
+}
+
 int fg__grow(void **array, size_t *capacity, size_t needed, size_t size)
 {
   if (needed <= *capacity)

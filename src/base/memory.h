@@ -11,6 +11,10 @@ void *fg__allocate(size_t count, size_t size);
 /* The same on a 64-byte border, for vector code. End with free. */
 void *fg__allocate_aligned(size_t count, size_t size);
 
+/* The same without touching large pieces: a page comes in with whoever first uses it, so
+ * that threads can share that work. End with free of *base. */
+void *fg__allocate_untouched(void **base, size_t count, size_t size);
+
 /* Makes *array at least `needed` elements long, growing by half; *capacity follows.
  * Returns 0 when there is no memory: *array then stays as it was. */
 int fg__grow(void **array, size_t *capacity, size_t needed, size_t size);

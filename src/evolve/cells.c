@@ -89,27 +89,58 @@ static void fill_all_images(const fg__cells_of_box *cells, const int count[3],
     fill_images(cells, count, axis, periodic[axis]);
 }
 
+/* Cells to be filled, of which members take slices along the outermost axis. */
+typedef struct filling {
+  const fg__cells_of_box *out;
+  int count[3];
+  const fg__tensor *tensor;     /* from this, */
+  const fg__cells_of_box *fine; /* or by means over these */
+} filling;
+
+static void part_of(const filling *f, const fg__share *share, int begin[3], int end[3])
+{
+  int axis = f->out->dimension - 1;
+  for (int k = 0; k < 3; ++k) {
+    begin[k] = 0;
+    end[k] = f->count[k];
+  }
+  fg__team_part(share, f->count[axis], 1, &begin[axis], &end[axis]);
+}
+
+static void fill_from_tensor(void *argument, const fg__share *share)
+{
+  const filling *f = argument;
+  const fg__cells_of_box *out = f->out;
+  const fg__tensor *t = f->tensor;
+  const float *source[FG__TENSOR_COMPONENTS] = {t->xx, t->xy, t->yy, t->zz, t->xz, t->yz};
+  int begin[3], end[3];
+  part_of(f, share, begin, end);
+  for (int k = begin[2]; k < end[2]; ++k)
+    for (int j = begin[1]; j < end[1]; ++j) {
+      size_t n = ((size_t)k * (size_t)f->count[1] + (size_t)j) * (size_t)f->count[0];
+      ptrdiff_t at = fg__cell_at(out, 0, j, k);
+      for (int i = 0; i < f->count[0]; ++i, ++n, ++at) {
+        bool active = t->active[n];
+        for (int c = 0; c < component_count(out->dimension); ++c)
+          out->component[c][at] = active ? source[c][n] : 0.0F;
+        out->weight[at] = active ? 1.0F : 0.0F;
+      }
+    }
+}
+
 fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
                                 const fg__tensor *tensor, int dimension,
-                                const int cells[3], const bool periodic[3])
+                                const int cells[3], const bool periodic[3],
+                                fg__team *team)
 {
   fg_status status = allocate_whole(out, context, dimension, cells, periodic);
   if (status)
     return status;
-  const float *source[FG__TENSOR_COMPONENTS] = {tensor->xx, tensor->xy, tensor->yy,
-                                                tensor->zz, tensor->xz, tensor->yz};
-  int count[3] = {cells[0], cells[1], dimension == 3 ? cells[2] : 1};
-  size_t n = 0;
-  for (int k = 0; k < count[2]; ++k)
-    for (int j = 0; j < count[1]; ++j)
-      for (int i = 0; i < count[0]; ++i, ++n) {
-        ptrdiff_t at = fg__cell_at(out, i, j, k);
-        bool active = tensor->active[n];
-        for (int c = 0; c < component_count(dimension); ++c)
-          out->component[c][at] = active ? source[c][n] : 0.0F;
-        out->weight[at] = active ? 1.0F : 0.0F;
-      }
-  fill_all_images(out, count, periodic);
+  filling f = {.out = out,
+               .count = {cells[0], cells[1], dimension == 3 ? cells[2] : 1},
+               .tensor = tensor};
+  fg__team_run(team, fill_from_tensor, &f);
+  fill_all_images(out, f.count, periodic);
   return FG_STATUS_OK;
 }
 
@@ -152,25 +183,36 @@ static float mean_of_cells(const fg__cells_of_box *fine, const float *values, in
                          fine->plane, fine->dimension);
 }
 
-fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
-                            const fg__cells_of_box *fine, const int fine_cells[3],
-                            const bool periodic[3])
+static void fill_with_means(void *argument, const fg__share *share)
 {
-  int dimension = fine->dimension;
-  int count[3] = {fine_cells[0] / 2, fine_cells[1] / 2,
-                  dimension == 3 ? fine_cells[2] / 2 : 1};
-  fg_status status = allocate_whole(out, context, dimension, count, periodic);
-  if (status)
-    return status;
-  for (int k = 0; k < count[2]; ++k)
-    for (int j = 0; j < count[1]; ++j)
-      for (int i = 0; i < count[0]; ++i) {
+  const filling *f = argument;
+  const fg__cells_of_box *out = f->out, *fine = f->fine;
+  int begin[3], end[3];
+  part_of(f, share, begin, end);
+  for (int k = begin[2]; k < end[2]; ++k)
+    for (int j = begin[1]; j < end[1]; ++j)
+      for (int i = 0; i < end[0]; ++i) {
         ptrdiff_t at = fg__cell_at(out, i, j, k);
-        for (int c = 0; c < component_count(dimension); ++c)
+        for (int c = 0; c < component_count(out->dimension); ++c)
           out->component[c][at] = mean_of_cells(fine, fine->component[c], i, j, k);
         out->weight[at] = mean_of_cells(fine, fine->weight, i, j, k);
       }
-  fill_all_images(out, count, periodic);
+}
+
+fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
+                            const fg__cells_of_box *fine, const int fine_cells[3],
+                            const bool periodic[3], fg__team *team)
+{
+  int dimension = fine->dimension;
+  filling f = {.out = out,
+               .count = {fine_cells[0] / 2, fine_cells[1] / 2,
+                         dimension == 3 ? fine_cells[2] / 2 : 1},
+               .fine = fine};
+  fg_status status = allocate_whole(out, context, dimension, f.count, periodic);
+  if (status)
+    return status;
+  fg__team_run(team, fill_with_means, &f);
+  fill_all_images(out, f.count, periodic);
   return FG_STATUS_OK;
 }
 

@@ -3,6 +3,7 @@
 #define FG__CELLS_H
 
 #include "base/context.h"
+#include "base/team.h"
 #include "mesh/box.h"
 #include "tensor/tensor.h"
 
@@ -25,12 +26,15 @@ static inline ptrdiff_t fg__cell_at(const fg__cells_of_box *cells, int i, int j,
   return (ptrdiff_t)i + (ptrdiff_t)j * cells->row + (ptrdiff_t)k * cells->plane;
 }
 
+/* Whatever takes a team (NULL: one thread) gives the same with any. */
+
 /* The cells of the whole domain, with their images beyond its sides: mirrored at natural
  * borders, where off-diagonal components change sign for each axis mirrored, or wrapped
  * round. `cells` counts along each axis. MEMORY. */
 fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
                                 const fg__tensor *tensor, int dimension,
-                                const int cells[3], const bool periodic[3]);
+                                const int cells[3], const bool periodic[3],
+                                fg__team *team);
 
 /* How to find the tensor of any cells of the domain. */
 typedef struct fg__tensor_recipe {
@@ -59,7 +63,7 @@ fg_status fg__cells_from_arrays(fg__cells_of_box *out, fg_context *context,
 /* The means over 2 x 2 (x 2) cells. MEMORY. */
 fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
                             const fg__cells_of_box *fine, const int fine_cells[3],
-                            const bool periodic[3]);
+                            const bool periodic[3], fg__team *team);
 
 /* Which cells are active at all: a byte each, laid out like the cells, `origin` bytes
  * from the start to cell (0, 0, 0). To be freed; NULL when there is no memory. */

@@ -225,14 +225,14 @@ static fg_status create_tensor(fg_evolution *e, const fg_field *field)
     cells.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
   }
   status = fg__tensor_fill(&e->tensor, e->context, field, e->options.energy,
-                           e->options.anisotropy, &cells);
+                           e->options.anisotropy, &cells, e->team);
   for (size_t n = 0; n < e->cells && !status; ++n)
     e->active_cells += e->tensor.active[n];
   double width = recipe_of(e, field).width;
   if (status || !(width > 0.0))
     return status;
   return fg__tensor_smooth(&e->tensor, e->context, e->options.anisotropy, &cells,
-                           e->mesh.periodic, width);
+                           e->mesh.periodic, width, e->team);
 }
 
 static fg_status check_interface(const fg_evolution *e)
@@ -337,9 +337,8 @@ static fg_status create_multigrid(fg_evolution *e, const fg_field *field,
     fg__tensor_recipe recipe = recipe_of(e, field);
     return fg__multigrid_create_spread(out, e->context, &e->mesh, &recipe, gamma);
   }
-  fg_status status =
-      fg__multigrid_create(out, e->context, &e->mesh, &e->mesh.tile[0], &e->tensor, gamma,
-                           e->options.threads > 0 ? e->options.threads : 1);
+  fg_status status = fg__multigrid_create(out, e->context, &e->mesh, &e->mesh.tile[0],
+                                          &e->tensor, gamma, e->team);
   free_tensor(e);
   return status;
 }
@@ -413,8 +412,11 @@ static fg_status build(fg_evolution *e, const fg_field *field)
   if (!status) {
     count_cells(e);
     e->spread = e->ranks->count > 1 || e->mesh.level[0].count != 1;
-    status = create_tensor(e, field);
+    if (!e->spread && (double)e->nodes >= fg__least_shared_nodes)
+      status = fg__team_create(&e->team, e->context, e->options.threads);
   }
+  if (!status)
+    status = create_tensor(e, field);
   if (!status) {
     describe(e);
     status = check_interface(e);
@@ -459,6 +461,7 @@ void fg_evolution_destroy(fg_evolution *evolution)
   if (!evolution)
     return;
   fg__stepper_clear(&evolution->stepper);
+  fg__team_destroy(evolution->team);
   fg__team_clusters_clear(&evolution->clusters_found);
   fg__spread_clusters_clear(&evolution->spread_clusters);
   fg__mesh_clear(&evolution->mesh);

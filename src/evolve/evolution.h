@@ -14,6 +14,7 @@ struct fg_evolution {
   fg_mesh_info info;
   const fg__ranks *ranks; /* all; fewer may share the mesh */
   fg__mesh mesh;
+  fg__team *team; /* NULL: one thread */
   fg__tensor tensor;
   fg__stepper stepper;
   fg__team_clusters clusters_found; /* unless spread */

@@ -6,30 +6,53 @@
 #include "evolve/evolution.h"
 #include "evolve/noise.h"
 
-/* The nodes of a box: noise, or the caller's density. */
+/* The nodes of a box to be filled, of which members of a team take rows: with noise, or
+ * the caller's density. */
+typedef struct filling {
+  const fg_evolution *e;
+  const fg__level *level;
+  const fg__box *box;
+  const fg__noise *noise;
+  float *row; /* one a member */
+  float *u;
+} filling;
+
+static void fill_part(void *argument, const fg__share *share)
+{
+  const filling *f = argument;
+  const fg_evolution *e = f->e;
+  const fg__layout *layout = &f->level->layout;
+  const int *nodes = layout->nodes;
+  size_t columns = (size_t)(e->mesh.cells[0] + !e->mesh.periodic[0]);
+  size_t rows = (size_t)(e->mesh.cells[1] + !e->mesh.periodic[1]);
+  float *row = f->row + (size_t)share->member * (size_t)nodes[0];
+  int begin, end;
+  fg__team_part(share, nodes[1] * nodes[2], 1, &begin, &end);
+  for (int n = begin; n < end; ++n) {
+    int j = n % nodes[1], k = n / nodes[1];
+    int y = f->box->first[1] + j, z = f->box->first[2] + k;
+    const float *values = row;
+    if (e->options.initial)
+      values = e->options.initial + ((size_t)z * rows + (size_t)y) * columns +
+               f->box->first[0];
+    else
+      fg__noise_row(f->noise, y, z, f->box->first[0], nodes[0], row);
+    float *to = fg__row(f->level, f->u, j, k);
+    for (int i = 0; i < nodes[0]; ++i)
+      to[fg__column(layout, i)] = values[i];
+  }
+}
+
 static fg_status fill_box(const fg_evolution *e, const fg__level *level,
                           const fg__box *box, const fg__noise *noise, float *u)
 {
-  const int *nodes = level->layout.nodes;
-  float *row = fg__allocate((size_t)nodes[0], sizeof *row);
-  if (!row)
-    return fg__fail_memory(e->context, "the noise", (size_t)nodes[0] * sizeof *row);
-  size_t columns = (size_t)(e->mesh.cells[0] + !e->mesh.periodic[0]);
-  size_t rows = (size_t)(e->mesh.cells[1] + !e->mesh.periodic[1]);
-  for (int k = 0; k < nodes[2]; ++k)
-    for (int j = 0; j < nodes[1]; ++j) {
-      int y = box->first[1] + j, z = box->first[2] + k;
-      const float *values = row;
-      if (e->options.initial)
-        values =
-            e->options.initial + ((size_t)z * rows + (size_t)y) * columns + box->first[0];
-      else
-        fg__noise_row(noise, y, z, box->first[0], nodes[0], row);
-      float *to = fg__row(level, u, j, k);
-      for (int i = 0; i < nodes[0]; ++i)
-        to[fg__column(&level->layout, i)] = values[i];
-    }
-  free(row);
+  size_t count = (size_t)fg__team_members(e->team) * (size_t)level->layout.nodes[0];
+  filling f = {.e = e, .level = level, .box = box, .noise = noise, .u = u};
+  f.row = fg__allocate(count, sizeof *f.row);
+  if (!f.row)
+    return fg__fail_memory(e->context, "the noise", count * sizeof *f.row);
+  fg__team_run(e->team, fill_part, &f);
+  free(f.row);
   return FG_STATUS_OK;
 }
 

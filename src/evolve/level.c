@@ -21,11 +21,12 @@ static fg_status take_arrays(fg__level *level, fg_context *context, float **cons
                              int count)
 {
   size_t apart = level->layout.array_size + FG__LANES;
-  float *memory = fg__allocate_aligned(apart * (size_t)count, sizeof *memory);
+  void *base;
+  float *memory = fg__allocate_untouched(&base, apart * (size_t)count, sizeof *memory);
   if (!memory)
     return fg__fail_memory(context, "a multigrid level",
                            apart * (size_t)count * sizeof *memory);
-  level->memory[level->memory_count++] = memory;
+  level->memory[level->memory_count++] = base;
   for (int n = 0; n < count; ++n)
     *out[n] = memory + (size_t)n * apart + level->layout.first;
   return FG_STATUS_OK;
@@ -248,64 +249,125 @@ static int coupling_count(const fg__level *level)
   return 1 + 3 * fg__upper_rows(level->layout.dimension);
 }
 
-/* One node's coupling from the cells round it. */
-static double couple(const fg__cells_of_box *tensor, const coupling *c, int cells, int i,
-                     int j, int k, double gamma, bool laplacian)
+/* Stencils to be computed, slice by slice. */
+typedef struct assembly {
+  const fg__level *level;
+  const fg__stencil *out;
+  double gamma;
+  bool laplacian;
+} assembly;
+
+/* Couplings of nodes low ... high of a row from the cells round them, which their cells
+ * each add in order. */
+static void couple_row(const assembly *a, const coupling *c, int cells, int low, int high,
+                       int j, int k, double *out)
 {
-  double sum = 0.0;
+  const fg__cells_of_box *tensor = &a->level->tensor;
+  int count = high - low + 1, components = a->level->layout.dimension == 3 ? 6 : 3;
+  for (int i = 0; i < count; ++i)
+    out[i] = 0.0;
   for (int n = 0; n < cells; ++n) {
+    const double *weight = c[n].weight;
     ptrdiff_t at =
-        fg__cell_at(tensor, i + c[n].cell[0], j + c[n].cell[1], k + c[n].cell[2]);
-    double entry = 0.0;
-    if (laplacian) {
-      double diagonal = c[n].weight[0] + c[n].weight[2] + c[n].weight[3];
-      entry = (double)tensor->weight[at] * diagonal;
-    } else {
-      for (int m = 0; m < FG__TENSOR_COMPONENTS && tensor->component[m]; ++m)
-        entry += gamma * (double)tensor->component[m][at] * c[n].weight[m];
+        fg__cell_at(tensor, low + c[n].cell[0], j + c[n].cell[1], k + c[n].cell[2]);
+    if (a->laplacian) {
+      double diagonal = weight[0] + weight[2] + weight[3];
+      for (int i = 0; i < count; ++i)
+        out[i] += (double)tensor->weight[at + i] * diagonal;
+      continue;
     }
-    sum += entry;
+    const float *of[FG__TENSOR_COMPONENTS];
+    for (int m = 0; m < components; ++m)
+      of[m] = tensor->component[m] + at;
+    for (int i = 0; i < count; ++i) {
+      double entry = a->gamma * (double)of[0][i] * weight[0];
+      for (int m = 1; m < components; ++m)
+        entry += a->gamma * (double)of[m][i] * weight[m];
+      out[i] += entry;
+    }
   }
-  return sum;
+}
+
+/* A member's slices of those from low to high along the outermost axis. */
+static void part_of(const fg__share *share, int axis, int low[3], int high[3])
+{
+  int begin, end;
+  fg__team_part(share, high[axis] - low[axis] + 1, 1, &begin, &end);
+  high[axis] = low[axis] + end - 1;
+  low[axis] += begin;
 }
 
 /* Couplings from the cells, also of the ghosts before and after the box along axes where
- * a true node reads them; then diagonals: rows sum to zero. */
-static void assemble(const fg__level *level, const fg__stencil *out, double gamma,
-                     bool laplacian)
+ * a true node reads them. */
+static void assemble_coupling(const assembly *a, int n, const fg__share *share)
 {
+  const fg__level *level = a->level;
   const fg__layout *at = &level->layout;
-  const int *nodes = at->nodes;
-  for (int n = 0; n < coupling_count(level); ++n) {
-    int offset[3];
-    offset_of(n, offset);
-    coupling c[MOST_CELLS];
-    int cells = couplings_to(offset, at->dimension, level->spacing, c);
-    /* nodes whose neighbour at `offset` or who themselves are true */
-    int low[3], high[3];
-    for (int k = 0; k < 3; ++k) {
-      low[k] = offset[k] > 0 ? -1 : 0;
-      high[k] = nodes[k] - 1 + (offset[k] < 0);
-    }
-    for (int k = low[2]; k <= high[2]; ++k)
-      for (int j = low[1]; j <= high[1]; ++j)
-        for (int i = low[0]; i <= high[0]; ++i)
-          out->to[n][fg__node_at(at, i, j, k)] =
-              (float)couple(&level->tensor, c, cells, i, j, k, gamma, laplacian);
+  int offset[3];
+  offset_of(n, offset);
+  coupling c[MOST_CELLS];
+  int cells = couplings_to(offset, at->dimension, level->spacing, c);
+  /* nodes whose neighbour at `offset` or who themselves are true */
+  int low[3], high[3];
+  for (int k = 0; k < 3; ++k) {
+    low[k] = offset[k] > 0 ? -1 : 0;
+    high[k] = at->nodes[k] - 1 + (offset[k] < 0);
   }
-  for (int k = 0; k < nodes[2]; ++k)
-    for (int j = 0; j < nodes[1]; ++j)
-      for (int i = 0; i < nodes[0]; ++i) {
+  part_of(share, at->dimension - 1, low, high);
+  void *scratch = level->scratch + (size_t)share->member * level->scratch_size;
+  double *row = scratch;
+  for (int k = low[2]; k <= high[2]; ++k)
+    for (int j = low[1]; j <= high[1]; ++j) {
+      couple_row(a, c, cells, low[0], high[0], j, k, row);
+      float *to = a->out->to[n] + fg__row_at(at, j, k);
+      for (int i = low[0]; i <= high[0]; ++i)
+        to[fg__column(at, i)] = (float)row[i - low[0]];
+    }
+  memset(row, 0, (size_t)(high[0] - low[0] + 1) * sizeof *row);
+}
+
+/* Rows sum to zero. */
+static void assemble_diagonals(const assembly *a, const fg__share *share)
+{
+  const fg__layout *at = &a->level->layout;
+  int low[3] = {0, 0, 0};
+  int high[3] = {at->nodes[0] - 1, at->nodes[1] - 1, at->nodes[2] - 1};
+  part_of(share, at->dimension - 1, low, high);
+  int couplings = coupling_count(a->level);
+  ptrdiff_t back[FG__MOST_COUPLINGS]
+                [2]; /* to the other node, from even and odd columns */
+  for (int n = 0; n < couplings; ++n)
+    for (int odd = 0; odd < 2; ++odd) {
+      int d[3];
+      offset_of(n, d);
+      back[n][odd] =
+          fg__node_at(at, odd - d[0], -d[1], -d[2]) - fg__node_at(at, odd, 0, 0);
+    }
+  for (int k = low[2]; k <= high[2]; ++k)
+    for (int j = low[1]; j <= high[1]; ++j)
+      for (int i = 0; i <= high[0]; ++i) {
         float sum = 0.0F;
         ptrdiff_t here = fg__node_at(at, i, j, k);
-        for (int n = 0; n < coupling_count(level); ++n) {
-          int d[3];
-          offset_of(n, d);
-          sum += out->to[n][here] +
-                 out->to[n][fg__node_at(at, i - d[0], j - d[1], k - d[2])];
-        }
-        out->center[here] = -sum;
+        for (int n = 0; n < couplings; ++n)
+          sum += a->out->to[n][here] + a->out->to[n][here + back[n][i & 1]];
+        a->out->center[here] = -sum;
       }
+}
+
+static void assemble_part(void *argument, const fg__share *share)
+{
+  const assembly *a = argument;
+  for (int n = 0; n < coupling_count(a->level); ++n)
+    assemble_coupling(a, n, share);
+  fg__team_barrier(share); /* diagonals read couplings of the slices before */
+  assemble_diagonals(a, share);
+}
+
+static void assemble(const fg__level *level, const fg__stencil *out, double gamma,
+                     bool laplacian, fg__team *team)
+{
+  assembly a = {level, out, gamma, laplacian};
+  fg__team_run(team, assemble_part, &a);
 }
 
 static bool has_mask(const fg__cells_of_box *tensor)
@@ -341,7 +403,7 @@ static void weigh_nodes(const fg__level *level)
   fg__fill_ghosts(level, level->mass_inverse);
 }
 
-static fg_status take_rows(fg__level *level, fg_context *context, int members)
+static fg_status take_rows(fg__level *level, fg_context *context, const fg__team *team)
 {
   size_t stride = (size_t)level->layout.stride;
   size_t slice = stride; /* of the next coarser level, and room to spare */
@@ -349,7 +411,7 @@ static fg_status take_rows(fg__level *level, fg_context *context, int members)
     slice *= (size_t)level->layout.nodes[1] / 2 + 1;
   level->scratch_size =
       SCRATCH_QUANTITIES * (SCRATCH_SLICES * slice + SCRATCH_LINES * stride);
-  size_t count = 3 * stride + (size_t)members * level->scratch_size;
+  size_t count = 3 * stride + (size_t)fg__team_members(team) * level->scratch_size;
   float *memory = fg__allocate_aligned(count, sizeof *memory);
   if (!memory)
     return fg__fail_memory(context, "a multigrid level", count * sizeof *memory);
@@ -404,7 +466,8 @@ static void set_constant_laplacian(fg__level *level)
   level->laplacian_center = -sum;
 }
 
-static fg_status take_mask(fg__level *level, fg_context *context, bool masked)
+static fg_status take_mask(fg__level *level, fg_context *context, bool masked,
+                           fg__team *team)
 {
   if (!masked)
     return FG_STATUS_OK;
@@ -414,7 +477,7 @@ static fg_status take_mask(fg__level *level, fg_context *context, bool masked)
     status = take_stencil(level, context, &level->laplacian);
   if (status)
     return status;
-  assemble(level, &level->laplacian, 1.0, true);
+  assemble(level, &level->laplacian, 1.0, true, team);
   weigh_nodes(level);
   return FG_STATUS_OK;
 }
@@ -433,16 +496,17 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
   }
   lay_out(out, description->box);
   float **const arrays[] = {&out->u, &out->w, &out->p, &out->q, &out->curvature};
-  fg_status status = take_rows(out, context, description->members);
+  fg_status status = take_rows(out, context, description->team);
   if (!status && !description->box)
     status = take_arrays(out, context, arrays, description->finest ? 3 : 5);
   if (!status)
     status = take_stencil(out, context, &out->energy);
   if (status)
     return status;
-  assemble(out, &out->energy, description->gamma, false);
+  assemble(out, &out->energy, description->gamma, false, description->team);
   set_constant_laplacian(out);
-  return take_mask(out, context, description->masked || has_mask(&out->tensor));
+  return take_mask(out, context, description->masked || has_mask(&out->tensor),
+                   description->team);
 }
 
 bool fg__level_can_coarsen(const fg__level *level)
@@ -454,10 +518,10 @@ bool fg__level_can_coarsen(const fg__level *level)
 }
 
 fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
-                                   const fg__level *fine, double gamma, int members)
+                                   const fg__level *fine, double gamma, fg__team *team)
 {
   fg__level_description description = {
-      .dimension = fine->layout.dimension, .gamma = gamma, .members = members};
+      .dimension = fine->layout.dimension, .gamma = gamma, .team = team};
   for (int k = 0; k < 3; ++k) {
     description.cells[k] = fine->cells[k] / 2;
     description.periodic[k] = fine->periodic[k];
@@ -465,8 +529,8 @@ fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
   }
   *out = (fg__level){0};
   fg__cells_of_box tensor;
-  fg_status status =
-      fg__cells_coarsen(&tensor, context, &fine->tensor, fine->cells, fine->periodic);
+  fg_status status = fg__cells_coarsen(&tensor, context, &fine->tensor, fine->cells,
+                                       fine->periodic, team);
   if (status)
     return status;
   return fg__level_create(out, context, &description, &tensor);

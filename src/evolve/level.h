@@ -88,7 +88,7 @@ typedef struct fg__level_description {
   double gamma;
   bool finest;        /* no curvature and second right-hand side */
   bool masked;        /* somewhere on the level, if not here */
-  int members;        /* of the team that will work on it */
+  fg__team *team;     /* that builds it and will work on it; NULL: one thread */
   const fg__box *box; /* of nodes, when there are several; NULL: all */
 } fg__level_description;
 
@@ -126,7 +126,7 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
 
 /* The next coarser level: half the cells, tensor and weight averaged. */
 fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
-                                   const fg__level *fine, double gamma, int members);
+                                   const fg__level *fine, double gamma, fg__team *team);
 
 /* True when all sides can be halved and something is left. */
 bool fg__level_can_coarsen(const fg__level *level);

@@ -73,7 +73,7 @@ static void create(subject *s, mask *inside)
       s->mass[node_of((x + corner % 2) % W, y + corner / 2 % 2, z + corner / 4)] += 0.125;
   }
   assert_int_equal(
-      fg__multigrid_create(&s->multigrid, NULL, &mesh, &tile, &tensor, 1.0, 1),
+      fg__multigrid_create(&s->multigrid, NULL, &mesh, &tile, &tensor, 1.0, NULL),
       FG_STATUS_OK);
   free(values);
   free(active);

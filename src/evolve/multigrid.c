@@ -9,21 +9,19 @@
  * 9); a side that cannot be halved further needs more, in proportion. */
 enum { COARSEST_SWEEPS = 12, COARSEST_CELLS = 4 };
 
-/* A level of fewer nodes is done sooner by one thread than by several that wait for each
- * other (docs/design/evolution.md). */
-static const double least_shared_nodes = 200000.0;
+const double fg__least_shared_nodes = 200000.0;
 
 static fg_status create_finest(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, const fg__tile *tile,
-                               const fg__tensor *tensor, double gamma, int threads)
+                               const fg__tensor *tensor, double gamma, fg__team *team)
 {
   fg__cells_of_box cells;
   fg_status status = fg__cells_from_tensor(&cells, context, tensor, mesh->dimension,
-                                           tile->cells, mesh->periodic);
+                                           tile->cells, mesh->periodic, team);
   if (status)
     return status;
   fg__level_description description = {
-      .dimension = mesh->dimension, .gamma = gamma, .finest = true, .members = threads};
+      .dimension = mesh->dimension, .gamma = gamma, .finest = true, .team = team};
   for (int k = 0; k < 3; ++k) {
     description.cells[k] = tile->cells[k];
     description.periodic[k] = mesh->periodic[k];
@@ -44,14 +42,14 @@ static void choose_coarsest_sweeps(fg__multigrid *multigrid)
 
 /* The tensor of a level has done its service once the next level has its own; the finest
  * level's weights still tell the parts of the domain. */
-static fg_status create_coarser(fg__multigrid *out, fg_context *context, double gamma,
-                                int threads)
+static fg_status create_coarser(fg__multigrid *out, fg_context *context, double gamma)
 {
   while (out->level_count < FG__MOST_LEVELS &&
          fg__level_can_coarsen(&out->level[out->level_count - 1])) {
     fg__level *fine = &out->level[out->level_count - 1];
     ++out->level_count;
-    fg_status status = fg__level_create_coarser(fine + 1, context, fine, gamma, threads);
+    fg_status status =
+        fg__level_create_coarser(fine + 1, context, fine, gamma, out->team);
     if (status)
       return status;
     if (out->level_count > 2 || !fine->mass)
@@ -62,22 +60,22 @@ static fg_status create_coarser(fg__multigrid *out, fg_context *context, double 
 
 fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, const fg__tile *tile,
-                               const fg__tensor *tensor, double gamma, int threads)
+                               const fg__tensor *tensor, double gamma, fg__team *team)
 {
   static const fg__ranks one = {.count = 1};
-  *out = (fg__multigrid){
-      .kernel = fg__kernel_choose(mesh->dimension), .ranks = &one, .level_count = 1};
-  fg_status status = create_finest(out, context, mesh, tile, tensor, gamma, threads);
+  *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension),
+                         .ranks = &one,
+                         .team = team,
+                         .level_count = 1};
+  fg_status status = create_finest(out, context, mesh, tile, tensor, gamma, team);
   if (!status)
-    status = create_coarser(out, context, gamma, threads);
-  if (!status && out->level[0].nodes >= least_shared_nodes)
-    status = fg__team_create(&out->team, context, threads);
+    status = create_coarser(out, context, gamma);
   if (status) {
     fg__multigrid_clear(out);
     return status;
   }
   while (out->team && out->shared_levels < out->level_count &&
-         out->level[out->shared_levels].nodes >= least_shared_nodes)
+         out->level[out->shared_levels].nodes >= fg__least_shared_nodes)
     ++out->shared_levels;
   choose_coarsest_sweeps(out);
   return FG_STATUS_OK;
@@ -173,8 +171,7 @@ static fg_status create_first_whole(fg__multigrid *out, fg_context *context,
   status = gather_cells(&cells, context, out, image);
   if (status)
     return status;
-  fg__level_description description = {
-      .dimension = mesh->dimension, .gamma = gamma, .members = 1};
+  fg__level_description description = {.dimension = mesh->dimension, .gamma = gamma};
   for (int k = 0; k < 3; ++k) {
     description.cells[k] = image->partition.cells[k];
     description.periodic[k] = mesh->periodic[k];
@@ -195,7 +192,7 @@ fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
   if (!status)
     status = create_first_whole(out, context, mesh, gamma);
   if (!status)
-    status = create_coarser(out, context, gamma, 1);
+    status = create_coarser(out, context, gamma);
   status = fg__ranks_agree(mesh->ranks, context, status);
   if (status) {
     fg__multigrid_clear(out);
@@ -207,7 +204,6 @@ fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
 
 void fg__multigrid_clear(fg__multigrid *multigrid)
 {
-  fg__team_destroy(multigrid->team);
   for (int n = 0; n < multigrid->level_count; ++n)
     fg__level_clear(&multigrid->level[n]);
   for (int n = 0; n < FG__MOST_LEVELS; ++n)

@@ -19,7 +19,7 @@ typedef struct fg__multigrid {
   fg__gather
       *gather; /* between spread[spread_count] and level[0]; NULL: nothing spread */
 
-  fg__team *team; /* NULL: one thread */
+  fg__team *team; /* the caller's; NULL: one thread */
   int level_count;
   int shared_levels; /* large enough for the team; the others are left to one member */
   fg__level level[FG__MOST_LEVELS];
@@ -27,11 +27,15 @@ typedef struct fg__multigrid {
   bool linear; /* the finest level too */
 } fg__multigrid;
 
-/* Builds all levels over a mesh of one box, to be worked on by as many threads. MEMORY.
- */
+/* A level of fewer nodes is done sooner by one thread than by several that wait for each
+ * other (docs/design/evolution.md). */
+extern const double fg__least_shared_nodes;
+
+/* Builds all levels over a mesh of one box, with a team that will also work on them
+ * (borrowed; NULL: one thread). MEMORY. */
 fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, const fg__tile *tile,
-                               const fg__tensor *tensor, double gamma, int threads);
+                               const fg__tensor *tensor, double gamma, fg__team *team);
 
 /* Builds all levels over a mesh of any boxes on any ranks. Collective. MEMORY, and what
  * the recipe meets. */

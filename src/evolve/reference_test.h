@@ -46,6 +46,7 @@ typedef struct problem {
   double stiffness[8][8][3][3]; /* integral of d_i phi_a d_j phi_b over a cell */
   fg__mesh mesh;
   fg__tile tile;
+  fg__team *team; /* of MOST_THREADS */
   fg__multigrid multigrid;
 } problem;
 
@@ -178,14 +179,16 @@ static inline void problem_create(problem *p, const problem_description *of)
   p->mass = values_of(p);
   integrate_cell(p);
   fill_tensor(p);
+  assert_int_equal(fg__team_create(&p->team, p->context, MOST_THREADS), FG_STATUS_OK);
   assert_int_equal(fg__multigrid_create(&p->multigrid, p->context, &p->mesh, &p->tile,
-                                        &p->tensor, of->gamma, MOST_THREADS),
+                                        &p->tensor, of->gamma, p->team),
                    FG_STATUS_OK);
 }
 
 static inline void problem_clear(problem *p)
 {
   fg__multigrid_clear(&p->multigrid);
+  fg__team_destroy(p->team);
   free(p->tensor.xx);
   free(p->tensor.xy);
   free(p->tensor.yy);

@@ -55,7 +55,6 @@ static fg_status create_box(fg__spread *spread, fg_context *context, const fg__m
   fg__level_description level = {.dimension = mesh->dimension,
                                  .gamma = description->gamma,
                                  .finest = description->finest,
-                                 .members = 1,
                                  .masked = masked,
                                  .box = place};
   for (int k = 0; k < 3; ++k) {

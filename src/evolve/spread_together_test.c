@@ -167,12 +167,12 @@ static void create_whole(run *r, fg__multigrid *multigrid)
   float **components[] = {&t.xx, &t.xy, &t.yy, &t.zz, &t.xz, &t.yz};
   for (int n = 0; n < (r->mesh.dimension == 3 ? 6 : 3); ++n)
     *components[n] = allocate_or_end(cells, sizeof(float));
-  expect(fg__tensor_fill(&t, us.context, r->field, FG_ENERGY_FLOW, 0.15, &all) ==
+  expect(fg__tensor_fill(&t, us.context, r->field, FG_ENERGY_FLOW, 0.15, &all, NULL) ==
          FG_STATUS_OK);
-  expect(fg__tensor_smooth(&t, us.context, 0.15, &all, r->mesh.periodic,
-                           r->recipe.width) == FG_STATUS_OK);
+  expect(fg__tensor_smooth(&t, us.context, 0.15, &all, r->mesh.periodic, r->recipe.width,
+                           NULL) == FG_STATUS_OK);
   expect(fg__multigrid_create(multigrid, us.context, &r->mesh, &r->mesh.tile[0], &t,
-                              r->gamma, 1) == FG_STATUS_OK);
+                              r->gamma, NULL) == FG_STATUS_OK);
   for (int n = 0; n < 6; ++n)
     free(*components[n]);
   r->active = t.active;

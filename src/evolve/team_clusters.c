@@ -153,7 +153,8 @@ static int slab_count(const task *t, fg__team *team)
   if (t->grid.active && t->grid.periodic[t->axis])
     return 1;
   int members = fg__team_members(team), most = t->slices / LEAST_SLICES;
-  return members < most ? members : most < 1 ? 1 : most;
+  int slabs = members < most ? members : most;
+  return slabs < 1 ? 1 : slabs;
 }
 
 static fg_status prepare(const task *t, fg_context *context, int slabs)

@@ -64,9 +64,10 @@ static fg_status fill_and_smooth(fg__tensor *tensor, fg_context *context,
                                  double width)
 {
   fg_status status =
-      fg__tensor_fill(tensor, context, field, FG_ENERGY_FLOW, anisotropy, cells);
+      fg__tensor_fill(tensor, context, field, FG_ENERGY_FLOW, anisotropy, cells, NULL);
   return status ? status
-                : fg__tensor_smooth(tensor, context, anisotropy, cells, periodic, width);
+                : fg__tensor_smooth(tensor, context, anisotropy, cells, periodic, width,
+                                    NULL);
 }
 
 fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
@@ -75,7 +76,7 @@ fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
                               double width)
 {
   if (energy != FG_ENERGY_FLOW || !(width > 0.0))
-    return fg__tensor_fill(tensor, context, field, energy, anisotropy, cells);
+    return fg__tensor_fill(tensor, context, field, energy, anisotropy, cells, NULL);
   fg__cells wide = widened(cells, periodic, width);
   if (is_same(cells, &wide))
     return fill_and_smooth(tensor, context, field, anisotropy, cells, periodic, width);

@@ -45,17 +45,30 @@ static int neighbour(int index, int count, bool periodic)
   return periodic ? (index % count + count) % count : -1;
 }
 
+/* A tensor to be smoothed. Members take rows along x, then columns of all rows and
+ * layers; a whole plane of scratch is shared out likewise. */
+typedef struct smoothing {
+  fg__tensor *tensor;
+  double anisotropy;
+  const fg__cells *cells;
+  gaussian kernel[3];
+  bool wraps[3];
+  float *scratch; /* a plane */
+  float *row;     /* one a member */
+} smoothing;
+
 /* The axes of the separable sum, in place; in each the inner loop is contiguous. A cell's
  * terms are added in the order of their offsets whatever the box, so that boxes agree. */
-static void sum_along_x(float *values, const fg__cells *cells, const gaussian *kernel,
-                        bool periodic, float *scratch)
+static void sum_along_x(float *values, const smoothing *s, int first_row, int end_row,
+                        float *scratch)
 {
-  int columns = cells->count[0];
-  size_t rows = (size_t)cells->count[1] * (size_t)fg__layers(cells);
+  const gaussian *kernel = &s->kernel[0];
+  bool periodic = s->wraps[0];
+  int columns = s->cells->count[0];
   if (!kernel->weights)
     return; /* an axis without a Gaussian stays as it is */
-  for (size_t j = 0; j < rows; ++j) {
-    float *out = values + j * (size_t)columns;
+  for (int j = first_row; j < end_row; ++j) {
+    float *out = values + (size_t)j * (size_t)columns;
     memcpy(scratch, out, (size_t)columns * sizeof *out);
     memset(out, 0, (size_t)columns * sizeof *out);
     for (int k = -kernel->radius; k <= kernel->radius; ++k) {
@@ -70,7 +83,7 @@ static void sum_along_x(float *values, const fg__cells *cells, const gaussian *k
   }
 }
 
-/* Over `rows` rows that lie `stride` apart: a plane of y or of z. */
+/* Over `rows` pieces of `columns` values that lie `stride` apart: along y or z. */
 static void sum_rows(float *values, size_t columns, int rows, size_t stride,
                      const gaussian *kernel, bool periodic, float *scratch)
 {
@@ -93,19 +106,22 @@ static void sum_rows(float *values, size_t columns, int rows, size_t stride,
   }
 }
 
-static void sum_along_axes(float *values, const fg__cells *cells,
-                           const gaussian kernel[3], const bool wraps[3], float *scratch)
+static void sum_along_axes(float *values, const smoothing *s, const fg__share *share)
 {
-  size_t columns = (size_t)cells->count[0];
-  size_t plane = columns * (size_t)cells->count[1];
-  sum_along_x(values, cells, &kernel[0], wraps[0], scratch);
-  for (int k = 0; k < fg__layers(cells); ++k)
-    sum_rows(values + (size_t)k * plane, columns, cells->count[1], columns, &kernel[1],
-             wraps[1], scratch);
-  if (cells->dimension == 3)
-    for (int j = 0; j < cells->count[1]; ++j)
-      sum_rows(values + (size_t)j * columns, columns, cells->count[2], plane, &kernel[2],
-               wraps[2], scratch);
+  const fg__cells *cells = s->cells;
+  int height = cells->count[1], layers = fg__layers(cells);
+  size_t width = (size_t)cells->count[0], plane = width * (size_t)height;
+  int begin, end;
+  fg__team_part(share, cells->count[0], 1, &begin, &end);
+  int tallest = height > layers ? height : layers;
+  float *scratch = s->scratch + (size_t)begin * (size_t)tallest;
+  size_t columns = (size_t)(end - begin);
+  for (int k = 0; k < layers; ++k)
+    sum_rows(values + (size_t)k * plane + begin, columns, height, width, &s->kernel[1],
+             s->wraps[1], scratch);
+  for (int j = 0; j < height && cells->dimension == 3; ++j)
+    sum_rows(values + (size_t)j * width + begin, columns, layers, plane, &s->kernel[2],
+             s->wraps[2], scratch);
 }
 
 /* The double-angle vector (xx - yy, 2 xy) takes the place of xx and xy, the cell's weight
@@ -196,42 +212,57 @@ static void rebuild(fg__tensor *tensor, size_t n, double anisotropy, int dimensi
   }
 }
 
+static void smooth_part(void *argument, const fg__share *share)
+{
+  const smoothing *s = argument;
+  const fg__cells *cells = s->cells;
+  fg__tensor *t = s->tensor;
+  float *parts[6] = {t->xx, t->xy, t->yy, t->zz, t->xz, t->yz};
+  int count = cells->dimension == 3 ? 6 : 3, begin, end;
+  fg__team_part(share, cells->count[1] * fg__layers(cells), 1, &begin, &end);
+  size_t width = (size_t)cells->count[0];
+  size_t first = (size_t)begin * width, last = (size_t)end * width;
+  for (size_t n = first; n < last; ++n)
+    if (cells->dimension == 3)
+      take_apart_3d(t, n);
+    else
+      take_apart_2d(t, n);
+  for (int part = 0; part < count; ++part)
+    sum_along_x(parts[part], s, begin, end, s->row + (size_t)share->member * width);
+  fg__team_barrier(share);
+  for (int part = 0; part < count; ++part)
+    sum_along_axes(parts[part], s, share);
+  fg__team_barrier(share);
+  for (size_t n = first; n < last; ++n)
+    rebuild(t, n, s->anisotropy, cells->dimension);
+}
+
 fg_status fg__tensor_smooth(fg__tensor *tensor, fg_context *context, double anisotropy,
-                            const fg__cells *cells, const bool periodic[3], double width)
+                            const fg__cells *cells, const bool periodic[3], double width,
+                            fg__team *team)
 {
   if (!(anisotropy < 1.0))
     return FG_STATUS_OK; /* nothing is preferred */
-  size_t count = fg__cell_count(cells);
-  size_t rows =
-      (size_t)(cells->count[1] > fg__layers(cells) ? cells->count[1] : fg__layers(cells));
-  size_t plane = (size_t)cells->count[0] * rows;
-  float *scratch = fg__allocate(plane, sizeof *scratch);
-  gaussian kernel[3] = {{0}};
-  bool wraps[3] = {false};
+  int layers = fg__layers(cells);
+  size_t rows = (size_t)(cells->count[1] > layers ? cells->count[1] : layers);
+  size_t members = (size_t)fg__team_members(team);
+  size_t scratch = (size_t)cells->count[0] * (rows + members);
+  smoothing s = {.tensor = tensor, .anisotropy = anisotropy, .cells = cells};
+  s.scratch = fg__allocate(scratch, sizeof *s.scratch);
   fg_status status = FG_STATUS_OK;
   for (int k = 0; k < cells->dimension; ++k) {
-    wraps[k] = periodic[k] && cells->count[k] == fg__domain_count(cells, k);
-    if (!gaussian_create(&kernel[k], cells, k, width))
+    s.wraps[k] = periodic[k] && cells->count[k] == fg__domain_count(cells, k);
+    if (!gaussian_create(&s.kernel[k], cells, k, width))
       status = FG_STATUS_MEMORY;
   }
-  if (status || !scratch) {
-    status = fg__fail_memory(context, "the smoothed tensor", plane * sizeof *scratch);
-    goto cleanup;
+  if (status || !s.scratch) {
+    status = fg__fail_memory(context, "the smoothed tensor", scratch * sizeof(float));
+  } else {
+    s.row = s.scratch + (size_t)cells->count[0] * rows;
+    fg__team_run(team, smooth_part, &s);
   }
-  for (size_t n = 0; n < count; ++n)
-    if (cells->dimension == 3)
-      take_apart_3d(tensor, n);
-    else
-      take_apart_2d(tensor, n);
-  float *parts[6] = {tensor->xx, tensor->xy, tensor->yy,
-                     tensor->zz, tensor->xz, tensor->yz};
-  for (int part = 0; part < (cells->dimension == 3 ? 6 : 3); ++part)
-    sum_along_axes(parts[part], cells, kernel, wraps, scratch);
-  for (size_t n = 0; n < count; ++n)
-    rebuild(tensor, n, anisotropy, cells->dimension);
-cleanup:
-  free(scratch);
+  free(s.scratch);
   for (int k = 0; k < 3; ++k)
-    free(kernel[k].weights);
+    free(s.kernel[k].weights);
   return status;
 }

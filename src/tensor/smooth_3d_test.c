@@ -86,7 +86,8 @@ static void grid_free(grid *g)
 static void smooth(grid *g, const bool periodic[3], double width)
 {
   assert_int_equal(
-      fg__tensor_smooth(&g->tensor, NULL, ANISOTROPY, &g->cells, periodic, width), 0);
+      fg__tensor_smooth(&g->tensor, NULL, ANISOTROPY, &g->cells, periodic, width, NULL),
+      0);
 }
 
 static const bool open_box[3] = {false, false, false};

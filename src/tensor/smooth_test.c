@@ -55,7 +55,8 @@ static void smooth(grid *g, bool x_periodic, double width)
 {
   bool periodic[3] = {x_periodic, false, false};
   assert_int_equal(
-      fg__tensor_smooth(&g->tensor, NULL, ANISOTROPY, &g->cells, periodic, width), 0);
+      fg__tensor_smooth(&g->tensor, NULL, ANISOTROPY, &g->cells, periodic, width, NULL),
+      0);
 }
 
 /* Eigenvalues and the angle of the larger one's direction, in [0, pi). */

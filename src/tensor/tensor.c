@@ -59,8 +59,36 @@ static bool is_whole(const fg__cells *cells)
   return true;
 }
 
+/* A tensor to be filled, of which members take rows. */
+typedef struct filling {
+  fg__tensor *tensor;
+  const fg_field *field;
+  fg__energy_law *law;
+  double anisotropy;
+  const fg__cells *cells;
+  long active[FG__MOST_MEMBERS];
+} filling;
+
+static void fill_part(void *argument, const fg__share *share)
+{
+  filling *f = argument;
+  const fg__cells *cells = f->cells;
+  int begin, end, height = cells->count[1];
+  long active = 0;
+  fg__team_part(share, height * fg__layers(cells), 1, &begin, &end);
+  for (int row = begin; row < end; ++row) {
+    double center[3] = {0.0, center_of(cells, 1, row % height), 0.0};
+    if (cells->dimension == 3)
+      center[2] = center_of(cells, 2, row / height);
+    active += fill_row(f->tensor, f->field, f->law, f->anisotropy, cells, center,
+                       (size_t)row * (size_t)cells->count[0]);
+  }
+  f->active[share->member] = active;
+}
+
 fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_field *field,
-                          fg_energy energy, double anisotropy, const fg__cells *cells)
+                          fg_energy energy, double anisotropy, const fg__cells *cells,
+                          fg__team *team)
 {
   if ((size_t)energy >= sizeof laws / sizeof laws[0])
     return fg__fail(context, FG_STATUS_ARGUMENT, "there is no energy number %d",
@@ -69,15 +97,15 @@ fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_fiel
     return fg__fail(context, FG_STATUS_ARGUMENT, "anisotropy %g is not in (0, 1]",
                     anisotropy);
   const int *count = cells->count;
+  filling f = {.tensor = tensor,
+               .field = field,
+               .law = laws[energy],
+               .anisotropy = anisotropy,
+               .cells = cells};
+  fg__team_run(team, fill_part, &f);
   long active = 0;
-  size_t cell = 0;
-  for (int k = 0; k < fg__layers(cells); ++k)
-    for (int j = 0; j < count[1]; ++j, cell += (size_t)count[0]) {
-      double center[3] = {0.0, center_of(cells, 1, j), 0.0};
-      if (cells->dimension == 3)
-        center[2] = center_of(cells, 2, k);
-      active += fill_row(tensor, field, laws[energy], anisotropy, cells, center, cell);
-    }
+  for (int n = 0; n < FG__MOST_MEMBERS; ++n)
+    active += f.active[n];
   if (active > 0 || !is_whole(cells))
     return FG_STATUS_OK;
   static const char what[] = "has its centre in the field's domain";

@@ -3,6 +3,7 @@
 #define FG__TENSOR_H
 
 #include "base/context.h"
+#include "base/team.h"
 
 /* The cells to give a tensor to: a box of cells of a uniform grid that fills the domain,
  * in the input's coordinates. What a cell gets does not depend, to the bit, on the box it
@@ -25,10 +26,11 @@ typedef struct fg__tensor {
 } fg__tensor;
 
 /* Fills the arrays, which the caller has allocated with one element a cell of the box,
- * for the energy asked for. ARGUMENT (anisotropy outside (0, 1]; no active cell in a box
- * that is the whole domain). */
+ * for the energy asked for; the same with any team (NULL: one thread). ARGUMENT
+ * (anisotropy outside (0, 1]; no active cell in a box that is the whole domain). */
 fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_field *field,
-                          fg_energy energy, double anisotropy, const fg__cells *cells);
+                          fg_energy energy, double anisotropy, const fg__cells *cells,
+                          fg__team *team);
 
 /* Averages the directions that a flow tensor prefers over a Gaussian of standard
  * deviation `width` (same unit as spacing) within the active cells, in place, so that an
@@ -39,7 +41,8 @@ fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_fiel
  * MEMORY.
  */
 fg_status fg__tensor_smooth(fg__tensor *tensor, fg_context *context, double anisotropy,
-                            const fg__cells *cells, const bool periodic[3], double width);
+                            const fg__cells *cells, const bool periodic[3], double width,
+                            fg__team *team);
 
 /* Both for any box of the domain, which may go on beyond the ends of a periodic axis:
  * fills and, for the flow energy and a width above 0, smooths; what lies round the box

@@ -71,7 +71,8 @@ static fg_status fill(fixture *f, fg_energy energy, double anisotropy)
 {
   if (!f->field)
     assert_int_equal(fg_field_create(&f->field, f->context, &f->arrays), FG_STATUS_OK);
-  return fg__tensor_fill(&f->tensor, f->context, f->field, energy, anisotropy, &f->cells);
+  return fg__tensor_fill(&f->tensor, f->context, f->field, energy, anisotropy, &f->cells,
+                         NULL);
 }
 
 static void center_of(int i, int j, double center[2])
