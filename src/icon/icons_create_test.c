@@ -1,24 +1,12 @@
-#include "icon/shapes_test.h"
+#include "icon/bench_test.h"
 
 #include <string.h>
-
-static const double CORE[2] = {9.3, 21.7};
-static const double PI = 3.141592653589793;
-
-/* ---- flows: linear, so that the samples carry them exactly */
 
 static void uniform(double x, double y, double v[2])
 {
   (void)x, (void)y;
   v[0] = 1.3 * cos(0.44);
   v[1] = 1.3 * sin(0.44);
-}
-
-static void eastward(double x, double y, double v[2])
-{
-  (void)x, (void)y;
-  v[0] = 0.02;
-  v[1] = 0;
 }
 
 static void drifting(double x, double y, double v[2])
@@ -28,42 +16,10 @@ static void drifting(double x, double y, double v[2])
   v[1] = 11 * sin(0.14);
 }
 
-static void vortex(double x, double y, double v[2])
-{
-  v[0] = -2 * (y - CORE[1]);
-  v[1] = 2 * (x - CORE[0]);
-}
-
-static void mirrored_vortex(double x, double y, double v[2])
-{
-  vortex(20 - x, y, v);
-  v[0] = -v[0];
-}
-
-static void fast_vortex(double x, double y, double v[2])
-{
-  vortex(x, y, v);
-  v[0] *= 1024;
-  v[1] *= 1024;
-}
-
-static void saddle(double x, double y, double v[2])
-{
-  v[0] = x - CORE[0];
-  v[1] = -(y - CORE[1]);
-}
-
 static void sink(double x, double y, double v[2])
 {
   v[0] = -(x - CORE[0]);
   v[1] = -(y - CORE[1]);
-}
-
-static void shear(double x, double y, double v[2])
-{
-  (void)x;
-  v[0] = y - CORE[1];
-  v[1] = 0;
 }
 
 /* Its streamlines are ellipses, six times as long as wide. */
@@ -80,16 +36,6 @@ static void convergence(double x, double y, double v[2])
   v[1] = 0.02;
 }
 
-/* Directions that differ by up to 70 degrees from sample to sample. */
-static void rough(double x, double y, double v[2])
-{
-  double angle = 1.2 * sin(12.9898 * x + 78.233 * y + 40 * sin(3.1 * x - 1.7 * y));
-  v[0] = 5 * cos(angle);
-  v[1] = 5 * sin(angle);
-}
-
-/* ---- shapes: signed depths */
-
 static double capsule(double x, double y, double ax, double ay, double bx, double by,
                       double radius)
 {
@@ -97,17 +43,6 @@ static double capsule(double x, double y, double ax, double ay, double bx, doubl
   double t = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy);
   t = fmin(fmax(t, 0), 1);
   return radius - hypot(x - ax - t * dx, y - ay - t * dy);
-}
-
-/* An ellipse of half axes a and b, tilted; depth to first order. */
-static double ellipse(double x, double y, double cx, double cy, double a, double b,
-                      double tilt)
-{
-  double p = ((x - cx) * cos(tilt) + (y - cy) * sin(tilt)) / a;
-  double q = (-(x - cx) * sin(tilt) + (y - cy) * cos(tilt)) / b;
-  double r = hypot(p, q);
-  double slope = r > 0 ? hypot(p / a, q / b) / r : 1 / a;
-  return (1 - r) / slope;
 }
 
 static double grain(double x, double y)
@@ -123,17 +58,6 @@ static double disc(double x, double y)
 static double ring(double x, double y)
 {
   return 1.5 - fabs(hypot(x - CORE[0], y - CORE[1]) - 6.5);
-}
-
-/* 220 degrees of a ring, its ends rounded */
-static double horseshoe(double x, double y)
-{
-  double half = 1.92, radius = 7;
-  double angle = atan2(y - CORE[1], x - CORE[0]);
-  if (fabs(angle) < half)
-    return 1.4 - fabs(hypot(x - CORE[0], y - CORE[1]) - radius);
-  double end = copysign(half, angle);
-  return 1.4 - hypot(x - CORE[0] - radius * cos(end), y - CORE[1] - radius * sin(end));
 }
 
 static double branches(double x, double y)
@@ -172,106 +96,6 @@ static double blob(double x, double y)
   return 5 - hypot(x - CORE[0] - 0.3, y - CORE[1] + 0.2);
 }
 
-static double family(double x, double y)
-{
-  double d = fmax(horseshoe(x, y), ellipse(x, y, 22, 10, 5, 1.6, 0.9));
-  d = fmax(d, ellipse(x, y, -4, 12, 1.6, 4.4, 0.5));
-  return fmax(d, ellipse(x, y, 10.1, 20.9, 2.6, 2.2, 0));
-}
-
-static double grains_in_line(double x, double y)
-{
-  return fmax(ellipse(x, y, -3, 20, 5, 1.8, 0), ellipse(x, y, 16, 20.3, 5, 1.8, 0));
-}
-
-static double everywhere(double x, double y)
-{
-  return fmin(fmin(x + 10, 30 - x), fmin(y - 5, 35 - y));
-}
-
-static double mirrored_family(double x, double y)
-{
-  return family(20 - x, y);
-}
-
-/* ---- the bench */
-
-typedef struct test_bench {
-  fg_context *context;
-  fg_field *field;
-  fg_density *density;
-  fg_icons *icons;
-} test_bench;
-
-static test_bench bench_reaching(velocity_of velocity, depth_of depth,
-                                 const unsigned char *active, int threads,
-                                 fg_icon_extent extent)
-{
-  test_bench bench = {0};
-  assert_int_equal(fg_context_create(&bench.context), FG_STATUS_OK);
-  bench.field = field_of(bench.context, velocity);
-  bench.density = density_of(bench.context, depth, active);
-  fg_icon_options options = {.threads = threads, .extent = extent};
-  assert_int_equal(fg_icons_create(&bench.icons, bench.context, bench.field,
-                                   bench.density, threads || extent ? &options : NULL),
-                   FG_STATUS_OK);
-  return bench;
-}
-
-static test_bench bench_with(velocity_of velocity, depth_of depth,
-                             const unsigned char *active, int threads)
-{
-  return bench_reaching(velocity, depth, active, threads, FG_ICON_EXTENT_CLUSTER);
-}
-
-static void end_bench(test_bench *bench)
-{
-  fg_icons_destroy(bench->icons);
-  fg_density_destroy(bench->density);
-  fg_field_destroy(bench->field);
-  fg_context_destroy(bench->context);
-}
-
-/* What holds for every arrow: simple, inside its cluster and the domain, along the flow,
- * not wider than its length allows, its centre on it. */
-static void judge(const test_bench *bench, const fg_icon *icon, depth_of depth)
-{
-  double(*vertex)[2];
-  int count;
-  assert_int_equal(fg_icon_outline(icon, &vertex, &count), FG_STATUS_OK);
-  assert_true(is_simple((const double(*)[2])vertex, count));
-  assert_true(is_within((const double(*)[2])vertex, count, depth));
-  for (int i = 0; i < count; i++) {
-    assert_true(vertex[i][0] > -10 && vertex[i][0] < 30);
-    assert_true(vertex[i][1] > 5 && vertex[i][1] < 35);
-  }
-  free(vertex);
-  assert_true(icon_tangency(icon, bench->field) < 0.5);
-  double length = icon_length(icon);
-  assert_true(length >= 3 * SHAPE_SPACING);
-  assert_true(icon->head_width >= 1.2 * SHAPE_SPACING);
-  assert_true(icon->width < 0.1 * length && icon->tail_width < icon->width);
-  assert_true(icon->width > 0.016 * length); /* no thread, rings and long ones included */
-  double nearest = HUGE_VAL;
-  for (int i = 0; i < icon->point_count; i++) {
-    nearest = fmin(nearest, hypot(icon->points[i][0] - icon->center[0],
-                                  icon->points[i][1] - icon->center[1]));
-    assert_true(icon->points[i][2] == 0);
-  }
-  assert_true(nearest < SHAPE_SPACING);
-  assert_true(icon->speed > 0 && icon->area > 0);
-}
-
-static test_bench bench_of(velocity_of velocity, depth_of depth)
-{
-  test_bench bench = bench_with(velocity, depth, NULL, 0);
-  for (int i = 0; i < fg_icons_count(bench.icons); i++)
-    judge(&bench, fg_icons_at(bench.icons, i), depth);
-  assert_int_equal(fg_icons_clusters(bench.icons),
-                   fg_icons_count(bench.icons) + fg_icons_dropped(bench.icons));
-  return bench;
-}
-
 /* The one arrow of a bench with one cluster. */
 static const fg_icon *only_icon(const test_bench *bench)
 {
@@ -287,8 +111,6 @@ static double mean_radius(const fg_icon *icon)
     sum += hypot(icon->points[i][0] - CORE[0], icon->points[i][1] - CORE[1]);
   return sum / icon->point_count;
 }
-
-/* ---- tests */
 
 static void runs_along_a_grain(void **state)
 {
@@ -460,78 +282,6 @@ static void keeps_its_promises_in_a_rough_field(void **state)
   assert_true(drawn >= 6); /* of 8 */
 }
 
-static void assert_same_line(const fg_icon *a, const fg_icon *b, bool mirror,
-                             double tolerance)
-{
-  assert_int_equal(a->kind, b->kind);
-  assert_true(fabs(icon_length(a) - icon_length(b)) <= tolerance);
-  /* a head's room changes at once where a barb meets the border */
-  assert_true(fabs(a->width - b->width) <= 0.2 * a->width);
-  for (int end = 0; end < 2; end++) {
-    const double *p = a->points[end * (a->point_count - 1)];
-    const double *q = b->points[end * (b->point_count - 1)];
-    double x = mirror ? 20 - q[0] : q[0];
-    assert_true(hypot(p[0] - x, p[1] - q[1]) <= tolerance);
-  }
-}
-
-static void mirrors_with_the_field(void **state)
-{
-  (void)state;
-  test_bench plain = bench_of(vortex, family);
-  test_bench mirror = bench_of(mirrored_vortex, mirrored_family);
-  assert_int_equal(fg_icons_count(plain.icons), 4);
-  assert_int_equal(fg_icons_count(mirror.icons), 4);
-  for (int i = 0; i < 4; i++) {
-    const fg_icon *icon = fg_icons_at(plain.icons, i), *image = NULL;
-    for (int k = 0; k < 4; k++) { /* the order of the labels differs */
-      const fg_icon *other = fg_icons_at(mirror.icons, k);
-      if (fabs(other->area - icon->area) < 1e-3)
-        image = other;
-    }
-    assert_non_null(image);
-    assert_same_line(icon, image, true, 3 * SHAPE_SPACING);
-  }
-  end_bench(&plain);
-  end_bench(&mirror);
-}
-
-static void knows_no_unit_of_speed(void **state)
-{
-  (void)state;
-  test_bench plain = bench_of(vortex, family);
-  test_bench fast = bench_of(fast_vortex, family);
-  for (int i = 0; i < fg_icons_count(plain.icons); i++) {
-    const fg_icon *a = fg_icons_at(plain.icons, i), *b = fg_icons_at(fast.icons, i);
-    assert_int_equal(a->point_count, b->point_count);
-    assert_memory_equal(a->points, b->points,
-                        (size_t)a->point_count * sizeof a->points[0]);
-    assert_true(fabs(b->speed / a->speed - 1024) < 1e-6);
-  }
-  end_bench(&plain);
-  end_bench(&fast);
-}
-
-static void is_the_same_on_any_number_of_threads(void **state)
-{
-  (void)state;
-  test_bench one = bench_with(vortex, family, NULL, 1);
-  for (int threads = 2; threads <= 5; threads += 3) {
-    test_bench more = bench_with(vortex, family, NULL, threads);
-    assert_int_equal(fg_icons_count(one.icons), fg_icons_count(more.icons));
-    for (int i = 0; i < fg_icons_count(one.icons); i++) {
-      fg_icon a = *fg_icons_at(one.icons, i), b = *fg_icons_at(more.icons, i);
-      assert_int_equal(a.point_count, b.point_count);
-      assert_memory_equal(a.points, b.points, (size_t)a.point_count * sizeof a.points[0]);
-      assert_memory_equal(a.center, b.center, sizeof a.center);
-      assert_int_equal(a.cluster, b.cluster);
-      assert_true(a.width == b.width && a.speed == b.speed && a.area == b.area);
-    }
-    end_bench(&more);
-  }
-  end_bench(&one);
-}
-
 /* A grain across the seam of a periodic axis is as long as one in the middle. */
 static void goes_on_across_a_periodic_border(void **state)
 {
@@ -583,113 +333,6 @@ static void goes_on_across_a_periodic_border(void **state)
   fg_context_destroy(context);
 }
 
-/* Two grains in line with the flow: their arrows go on until half way between them, are
- * not wider, and keep the other promises. */
-static void goes_on_through_its_territory(void **state)
-{
-  (void)state;
-  test_bench cluster = bench_with(eastward, grains_in_line, NULL, 0);
-  test_bench wide =
-      bench_reaching(eastward, grains_in_line, NULL, 0, FG_ICON_EXTENT_TERRITORY);
-  assert_int_equal(fg_icons_count(cluster.icons), 2);
-  assert_int_equal(fg_icons_count(wide.icons), 2);
-  double fair_share = sqrt(40.0 * 30.0 / 2);
-  for (int i = 0; i < 2; i++) {
-    const fg_icon *a = fg_icons_at(cluster.icons, i), *b = fg_icons_at(wide.icons, i);
-    judge(&wide, b, everywhere);
-    assert_true(icon_length(b) > 1.3 * icon_length(a));
-    assert_true(icon_length(b) <= 2 * fair_share);
-    assert_true(b->width <= a->width);
-    assert_true(fabs(b->center[1] - a->center[1]) < SHAPE_SPACING);
-    /* the grains end at 2 and 11: the border is at 6.5 */
-    bool left = a->center[0] < 6.5;
-    for (int k = 0; k < b->point_count; k++)
-      assert_true((b->points[k][0] < 6.5) == left);
-  }
-  end_bench(&cluster);
-  end_bench(&wide);
-}
-
-static void never_leaves_its_side_of_a_mask(void **state)
-{
-  (void)state;
-  static unsigned char active[(SHAPE_NODES_X - 1) * (SHAPE_NODES_Y - 1)];
-  memset(active, 1, sizeof active);
-  /* x from 3.5 to 3.75, all the way: nearer to the left grain than to the right one */
-  for (int j = 0; j < SHAPE_NODES_Y - 1; j++)
-    active[j * (SHAPE_NODES_X - 1) + 54] = 0;
-  test_bench bench =
-      bench_reaching(eastward, grains_in_line, active, 0, FG_ICON_EXTENT_TERRITORY);
-  assert_int_equal(fg_icons_count(bench.icons), 2);
-  for (int i = 0; i < 2; i++) {
-    const fg_icon *icon = fg_icons_at(bench.icons, i);
-    bool left = icon->center[0] < 3.5;
-    double(*vertex)[2];
-    int count;
-    assert_int_equal(fg_icon_outline(icon, &vertex, &count), FG_STATUS_OK);
-    double reach = left ? -HUGE_VAL : HUGE_VAL;
-    for (int k = 0; k < count; k++)
-      reach = left ? fmax(reach, vertex[k][0]) : fmin(reach, vertex[k][0]);
-    free(vertex);
-    /* close to the mask, and not in it */
-    assert_true(left ? reach <= 3.5 && reach > 2.5 : reach >= 3.75 && reach < 5);
-  }
-  end_bench(&bench);
-}
-
-static bool outlines_meet(const fg_icon *a, const fg_icon *b)
-{
-  double(*p)[2], (*q)[2];
-  int m, n;
-  assert_int_equal(fg_icon_outline(a, &p, &m), FG_STATUS_OK);
-  assert_int_equal(fg_icon_outline(b, &q, &n), FG_STATUS_OK);
-  bool meet = false;
-  for (int i = 0; i < m; i++)
-    for (int k = 0; k < n; k++)
-      meet = meet || edges_cross(p[i], p[(i + 1) % m], q[k], q[(k + 1) % n]);
-  free(p);
-  free(q);
-  return meet;
-}
-
-static void keeps_its_promises_in_territories(void **state)
-{
-  (void)state;
-  velocity_of flows[] = {vortex, saddle, shear, rough};
-  for (int f = 0; f < 4; f++) {
-    test_bench bench =
-        bench_reaching(flows[f], family, NULL, 2, FG_ICON_EXTENT_TERRITORY);
-    int count = fg_icons_count(bench.icons);
-    assert_true(count >= 3);
-    for (int i = 0; i < count; i++) {
-      judge(&bench, fg_icons_at(bench.icons, i), everywhere);
-      for (int k = 0; k < i; k++)
-        assert_false(
-            outlines_meet(fg_icons_at(bench.icons, i), fg_icons_at(bench.icons, k)));
-    }
-    end_bench(&bench);
-  }
-}
-
-static void stops_when_asked(void **state)
-{
-  (void)state;
-  fg_context *context = NULL;
-  assert_int_equal(fg_context_create(&context), FG_STATUS_OK);
-  fg_field *field = field_of(context, vortex);
-  fg_density *density = density_of(context, family, NULL);
-  fg_icons *icons = NULL;
-  fg_context_stop(context);
-  assert_int_equal(fg_icons_create(&icons, context, field, density, NULL),
-                   FG_STATUS_STOPPED);
-  assert_null(icons);
-  assert_int_equal(fg_icons_create(&icons, context, NULL, density, NULL),
-                   FG_STATUS_ARGUMENT);
-  fg_density_destroy(density);
-  fg_field_destroy(field);
-  fg_context_destroy(context);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -705,14 +348,7 @@ int main(void)
       cmocka_unit_test(finds_a_way_past_a_stagnation_point),
       cmocka_unit_test(makes_no_hairpins),
       cmocka_unit_test(keeps_its_promises_in_a_rough_field),
-      cmocka_unit_test(mirrors_with_the_field),
-      cmocka_unit_test(knows_no_unit_of_speed),
-      cmocka_unit_test(is_the_same_on_any_number_of_threads),
       cmocka_unit_test(goes_on_across_a_periodic_border),
-      cmocka_unit_test(goes_on_through_its_territory),
-      cmocka_unit_test(never_leaves_its_side_of_a_mask),
-      cmocka_unit_test(keeps_its_promises_in_territories),
-      cmocka_unit_test(stops_when_asked),
   };
   return cmocka_run_group_tests_name("icon/icons_create", tests, NULL, NULL);
 }
