@@ -363,11 +363,17 @@ static void assemble_part(void *argument, const fg__share *share)
   assemble_diagonals(a, share);
 }
 
+/* The team, where there is more than a millisecond of work (some 60 ns a node). */
+static fg__team *worth_while(const fg__level *level, fg__team *team)
+{
+  return level->nodes >= 20000.0 ? team : NULL;
+}
+
 static void assemble(const fg__level *level, const fg__stencil *out, double gamma,
                      bool laplacian, fg__team *team)
 {
   assembly a = {level, out, gamma, laplacian};
-  fg__team_run(team, assemble_part, &a);
+  fg__team_run(worth_while(level, team), assemble_part, &a);
 }
 
 static bool has_mask(const fg__cells_of_box *tensor)
@@ -530,7 +536,7 @@ fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
   *out = (fg__level){0};
   fg__cells_of_box tensor;
   fg_status status = fg__cells_coarsen(&tensor, context, &fine->tensor, fine->cells,
-                                       fine->periodic, team);
+                                       fine->periodic, worth_while(fine, team));
   if (status)
     return status;
   return fg__level_create(out, context, &description, &tensor);
