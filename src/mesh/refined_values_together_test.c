@@ -167,12 +167,12 @@ static void borders_are_interpolated_and_restored(void **state)
 }
 
 /* What carrying should give a node: what the old level has there, else the mean round it
- * on the coarser level. */
+ * on the coarser level; the last has all nodes. */
 static float carried_at(const fg__mesh *from, unsigned char *const cover[], int n,
                         int array, const int node[3])
 {
   const fg__partition *level = &from->level[n];
-  if (is_of_level(level, cover[n], node))
+  if (n == from->level_count - 1 || is_of_level(level, cover[n], node))
     return coarse_at(level, array, node);
   float sum = 0.0F;
   for (int corner = 0; corner < 8; ++corner) {
