@@ -207,11 +207,12 @@ static void check_carried(const values *v, const fg__mesh *from, const fg__mesh 
 static void check_carrying(const fg__mesh *from, const fg__mesh *to)
 {
   enum { MOST = FG__MOST_REFINEMENTS + 1 };
+  const int levels = from->level_count;
   values old[MOST], carried[MOST];
-  float *const *const *source[MOST];
-  float *const *const *target[MOST];
+  float *const *const *source[MOST] = {NULL};
+  float *const *const *target[MOST] = {NULL};
   unsigned char *cover[MOST];
-  for (int n = 0; n < from->level_count; ++n) {
+  for (int n = 0; n < levels; ++n) {
     old[n] = values_of(&from->level[n]);
     carried[n] = values_of(&to->level[n]);
     cover[n] = owners_of(&from->cover[n]);
@@ -220,9 +221,9 @@ static void check_carrying(const fg__mesh *from, const fg__mesh *to)
     target[n] = carried[n].array;
   }
   expect(fg__mesh_carry(us.context, from, to, 2, source, target) == FG_STATUS_OK);
-  for (int n = 0; n < from->level_count; ++n)
+  for (int n = 0; n < levels; ++n)
     check_carried(&carried[n], from, to, cover, n);
-  for (int n = 0; n < from->level_count; ++n) {
+  for (int n = 0; n < levels; ++n) {
     values_clear(&old[n]);
     values_clear(&carried[n]);
     free(cover[n]);
