@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "flowgrain/flowgrain.h"
+#include "base/context_test.h"
 
 typedef struct sample_file {
   char folder[64];
@@ -121,6 +121,27 @@ static inline void sample_put(const sample_file *f, int variable, const double *
 {
   sample_write(f);
   nc_must(nc_put_var_double(f->id, variable, values));
+}
+
+static inline fg_field *read_with(sample_file *f, const fg_read_options *options)
+{
+  fg_field *field = NULL;
+  const fg_status status = fg_field_read(&field, f->context, f->path, options);
+  if (status != FG_STATUS_OK)
+    fail_msg("%s", fg_context_message(f->context));
+  return field;
+}
+
+static inline void refuse_with(sample_file *f, const fg_read_options *options,
+                               fg_status status, const char *words)
+{
+  fg_field *field = NULL;
+  fg_context_clear(f->context);
+  assert_int_equal(fg_field_read(&field, f->context, f->path, options), status);
+  assert_null(field);
+  const char *message = fg_context_message(f->context);
+  if (!strstr(message, words) || strncmp(message, f->path, strlen(f->path)) != 0)
+    fail_msg("\"%s\" lacks \"%s\" or the file's name", message, words);
 }
 
 #endif

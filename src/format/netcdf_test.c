@@ -1,50 +1,8 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 
-#include "format/netcdf_sample.h"
+#include "format/netcdf_plain_test.h"
 
-enum { NX = 5, NY = 4, NT = 3, NZ = 2, COUNT = NX * NY };
-
-static const double X[NX] = {1.5, 2.0, 4.0, 4.5, 7.0};
-static const double Y[NY] = {-3.0, -1.0, 0.5, 0.75};
-
-/* Unlike in every index, so that any mix-up shows. */
-static double u_of(double x, double y, int t, int z)
-{
-  return 1.0 + 0.5 * x - 0.25 * y + 10.0 * t + 100.0 * z;
-}
-
-static double v_of(double x, double y, int t, int z)
-{
-  return -2.0 + 0.125 * x + 2.0 * y - 16.0 * t + 200.0 * z;
-}
-
-static fg_field *read_with(sample_file *f, const fg_read_options *options)
-{
-  fg_field *field = NULL;
-  const fg_status status = fg_field_read(&field, f->context, f->path, options);
-  if (status != FG_STATUS_OK)
-    fail_msg("%s", fg_context_message(f->context));
-  return field;
-}
-
-static void refuse_with(sample_file *f, const fg_read_options *options, fg_status status,
-                        const char *words)
-{
-  fg_field *field = NULL;
-  fg_context_clear(f->context);
-  assert_int_equal(fg_field_read(&field, f->context, f->path, options), status);
-  assert_null(field);
-  const char *message = fg_context_message(f->context);
-  if (!strstr(message, words) || strncmp(message, f->path, strlen(f->path)) != 0)
-    fail_msg("\"%s\" lacks \"%s\" or the file's name", message, words);
-}
+enum { NT = 3, NZ = 2 };
 
 static void assert_samples(const fg_field *field, int t, int z)
 {
@@ -86,24 +44,6 @@ static void put_ordered(const sample_file *f, int u, int v, const char *order,
   sample_write(f);
   nc_must(nc_put_var_double(f->id, u, values[0]));
   nc_must(nc_put_var_double(f->id, v, values[1]));
-}
-
-/* A file with the pair u, v along x, y. Returns the dimensions y, x. */
-static void make_plain(sample_file *f, int mode, nc_type type, int id[2])
-{
-  double values[2][COUNT];
-  sample_begin(f, mode);
-  const int y = sample_axis(f, "y", NY, Y, "km");
-  const int x = sample_axis(f, "x", NX, X, "km");
-  const int all[2] = {y, x};
-  for (int k = 0; k < 2; ++k)
-    id[k] = sample_variable(f, k == 0 ? "u" : "v", type, 2, all);
-  for (int i = 0; i < COUNT; ++i) {
-    values[0][i] = u_of(X[i % NX], Y[i / NX], 0, 0);
-    values[1][i] = v_of(X[i % NX], Y[i / NX], 0, 0);
-  }
-  for (int k = 0; k < 2; ++k)
-    sample_put(f, id[k], values[k]);
 }
 
 static void every_kind_of_file_reads_the_same(void **state)
@@ -225,186 +165,6 @@ static void winds_on_the_sphere_are_recognised(void **state)
   assert_true(fg_field_tangent(field, (double[]){1.3, 60.0}, tangent));
   assert_true(fabs(tangent[0] - 3.0) < 1e-9);
   fg_field_destroy(field);
-}
-
-static void packed_values_are_unpacked(void **state)
-{
-  sample_file *f = *state;
-  static const nc_type type[] = {NC_SHORT, NC_FLOAT, NC_DOUBLE, NC_INT, NC_BYTE};
-  for (size_t k = 0; k < sizeof type / sizeof *type; ++k) {
-    int id[2];
-    make_plain(f, 0, type[k], id);
-    double stored[COUNT];
-    for (int i = 0; i < COUNT; ++i)
-      stored[i] = 3 * i - 20;
-    sample_number(f, id[0], "scale_factor", NC_FLOAT, 0.5);
-    sample_number(f, id[0], "add_offset", NC_DOUBLE, -7.0);
-    sample_put(f, id[0], stored);
-    sample_end(f);
-    fg_field *field = read_with(f, NULL);
-    for (int i = 0; i < COUNT; ++i)
-      assert_true(fg_field_contents(field)->velocity[0][i] ==
-                  (float)(0.5 * stored[i] - 7.0));
-    fg_field_destroy(field);
-  }
-}
-
-static void assert_missing(sample_file *f, const int *where, int count)
-{
-  fg_field *field = read_with(f, NULL);
-  const fg_field_arrays *a = fg_field_contents(field);
-  for (int i = 0; i < COUNT; ++i) {
-    bool wanted = false;
-    for (int k = 0; k < count; ++k)
-      wanted = wanted || where[k] == i;
-    const bool missing = a->valid && !a->valid[i];
-    if (missing != wanted)
-      fail_msg("sample %d is %s", i, missing ? "missing" : "there");
-  }
-  fg_field_destroy(field);
-}
-
-static void missing_values_are_found(void **state)
-{
-  sample_file *f = *state;
-  static const nc_type type[] = {NC_SHORT, NC_INT, NC_FLOAT, NC_DOUBLE};
-  for (size_t k = 0; k < sizeof type / sizeof *type; ++k) {
-    const double fill = type[k] == NC_SHORT   ? NC_FILL_SHORT
-                        : type[k] == NC_INT   ? NC_FILL_INT
-                        : type[k] == NC_FLOAT ? (double)NC_FILL_FLOAT
-                                              : NC_FILL_DOUBLE;
-    double stored[COUNT];
-    int id[2];
-    for (int i = 0; i < COUNT; ++i)
-      stored[i] = i + 1;
-
-    make_plain(f, 0, type[k], id); /* what was never written */
-    stored[3] = fill;
-    sample_put(f, id[1], stored);
-    sample_end(f);
-    assert_missing(f, (int[]){3}, 1);
-
-    make_plain(f, 0, type[k], id); /* two kinds at once; the range is of stored values */
-    stored[3] = -999.0;
-    stored[4] = -777.0;
-    stored[19] = 300.0;
-    nc_must(nc_redef(f->id));
-    nc_must(nc_put_att_double(f->id, id[0], "_FillValue", type[k], 1, &stored[3]));
-    sample_number(f, id[0], "missing_value", type[k], -777.0);
-    sample_number(f, id[0], "valid_max", type[k], 299.0);
-    sample_number(f, id[0], "scale_factor", NC_DOUBLE, 0.01);
-    sample_put(f, id[0], stored);
-    sample_end(f);
-    assert_missing(f, (int[]){3, 4, 19}, 3);
-    stored[19] = 20.0;
-  }
-}
-
-static void not_a_number_is_missing(void **state)
-{
-  sample_file *f = *state;
-  int id[2];
-  double stored[COUNT] = {1.0, 2.0, 3.0};
-  stored[2] = (double)NAN;
-  stored[17] = -1e34;
-  make_plain(f, 0, NC_FLOAT, id);
-  sample_number(f, id[0], "missing_value", NC_DOUBLE, -1e34); /* not exact in float */
-  sample_put(f, id[0], stored);
-  sample_end(f);
-  assert_missing(f, (int[]){2, 17}, 2);
-}
-
-/* A range of the unpacked type is one of unpacked values. */
-static void unpacked_ranges_are_understood(void **state)
-{
-  sample_file *f = *state;
-  int id[2];
-  double stored[COUNT];
-  const double range[2] = {-1.0, 1.5};
-  for (int i = 0; i < COUNT; ++i)
-    stored[i] = i < 2 ? 400.0 * i - 200.0 : i;
-  make_plain(f, 0, NC_SHORT, id);
-  sample_number(f, id[0], "scale_factor", NC_DOUBLE, 0.01);
-  sample_define(f);
-  nc_must(nc_put_att_double(f->id, id[0], "valid_range", NC_DOUBLE, 2, range));
-  sample_put(f, id[0], stored);
-  sample_end(f);
-  assert_missing(f, (int[]){0, 1}, 2);
-}
-
-static void unsigned_bytes_are_understood(void **state)
-{
-  sample_file *f = *state;
-  int id[2];
-  double stored[COUNT] = {5.0, -1.0, -128.0, 127.0};
-  make_plain(f, 0, NC_BYTE, id);
-  sample_text(f, id[0], "_Unsigned", "true");
-  sample_put(f, id[0], stored);
-  sample_end(f);
-  fg_field *field = read_with(f, NULL);
-  const float *u = fg_field_contents(field)->velocity[0];
-  assert_true(u[0] == 5.0f && u[1] == 255.0f && u[2] == 128.0f && u[3] == 127.0f);
-  fg_field_destroy(field);
-}
-
-static void bad_values_are_refused(void **state)
-{
-  sample_file *f = *state;
-  int id[2];
-  double stored[COUNT] = {1.0};
-  make_plain(f, 0, NC_DOUBLE, id);
-  stored[7] = HUGE_VAL;
-  sample_put(f, id[1], stored);
-  sample_end(f);
-  refuse_with(f, NULL, FG_STATUS_FILE_FORMAT, "v is inf at sample (2, 1)");
-
-  make_plain(f, 0, NC_DOUBLE, id);
-  stored[7] = 1e300;
-  sample_put(f, id[1], stored);
-  sample_end(f);
-  refuse_with(f, NULL, FG_STATUS_FILE_FORMAT, "sample (2, 1)");
-
-  make_plain(f, 0, NC_DOUBLE, id);
-  memset(stored, 0, sizeof stored);
-  sample_put(f, id[0], stored);
-  sample_put(f, id[1], stored);
-  sample_end(f);
-  refuse_with(f, NULL, FG_STATUS_FILE_FORMAT, "zero everywhere");
-
-  make_plain(f, 0, NC_DOUBLE, id);
-  for (int i = 0; i < COUNT; ++i)
-    stored[i] = i < 5 ? NC_FILL_DOUBLE : (double)NAN;
-  sample_put(f, id[1], stored);
-  sample_end(f);
-  refuse_with(f, NULL, FG_STATUS_FILE_FORMAT,
-              "all 20 samples of 'v' are missing (5 fill values, 0 outside the valid "
-              "range, 15 not a number)");
-}
-
-static void masks_cut_the_domain(void **state)
-{
-  sample_file *f = *state;
-  int id[2];
-  int dimension[2];
-  double stored[COUNT];
-  make_plain(f, 0, NC_FLOAT, id);
-  nc_must(nc_inq_dimid(f->id, "x", &dimension[0]));
-  nc_must(nc_inq_dimid(f->id, "y", &dimension[1]));
-  const int mask = sample_variable(f, "sea", NC_BYTE, 2, dimension); /* (x, y)! */
-  for (int i = 0; i < COUNT; ++i)
-    stored[i] = i == 2 * NY + 3 ? 0.0 : 1.0; /* x 2, y 3 */
-  sample_put(f, mask, stored);
-  const int line = sample_variable(f, "line", NC_BYTE, 1, dimension);
-  sample_put(f, line, stored);
-  sample_end(f);
-  const fg_read_options options = {.mask = "sea"};
-  fg_field *field = read_with(f, &options);
-  const fg_field_arrays *a = fg_field_contents(field);
-  for (int i = 0; i < COUNT; ++i)
-    assert_int_equal(a->valid[i], i != 3 * NX + 2);
-  fg_field_destroy(field);
-  refuse_with(f, &(fg_read_options){.mask = "land"}, FG_STATUS_ARGUMENT, "'land'");
-  refuse_with(f, &(fg_read_options){.mask = "line"}, FG_STATUS_ARGUMENT, "'line'");
 }
 
 static void the_other_component_may_lie_in_a_second_file(void **state)
@@ -571,13 +331,6 @@ int main(void)
       CASE(every_kind_of_file_reads_the_same),
       CASE(any_order_of_dimensions_is_read),
       CASE(winds_on_the_sphere_are_recognised),
-      CASE(packed_values_are_unpacked),
-      CASE(missing_values_are_found),
-      CASE(not_a_number_is_missing),
-      CASE(unpacked_ranges_are_understood),
-      CASE(unsigned_bytes_are_understood),
-      CASE(bad_values_are_refused),
-      CASE(masks_cut_the_domain),
       CASE(the_other_component_may_lie_in_a_second_file),
       CASE(groups_are_searched),
       CASE(only_possible_requests_are_met),

@@ -1,11 +1,4 @@
 /* Fields in 3D from NetCDF, and what stays a plane. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 
 #include "format/netcdf_sample.h"
@@ -94,25 +87,6 @@ static void make_file(sample_file *f, const description *d)
   int variables[3] = {0};
   write_file(f, d, variables);
   sample_end(f);
-}
-
-static fg_field *read_with(sample_file *f, const fg_read_options *options)
-{
-  fg_field *field = NULL;
-  if (fg_field_read(&field, f->context, f->path, options) != FG_STATUS_OK)
-    fail_msg("%s", fg_context_message(f->context));
-  return field;
-}
-
-static void refuse_with(sample_file *f, const fg_read_options *options, fg_status status,
-                        const char *words)
-{
-  fg_field *field = NULL;
-  fg_context_clear(f->context);
-  assert_int_equal(fg_field_read(&field, f->context, f->path, options), status);
-  assert_null(field);
-  if (!strstr(fg_context_message(f->context), words))
-    fail_msg("\"%s\" lacks \"%s\"", fg_context_message(f->context), words);
 }
 
 static void assert_volume(const fg_field *field, int t)
