@@ -6,6 +6,8 @@ source "$(dirname "$0")/harness.sh"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
 export OMPI_MCA_btl_vader_single_copy_mechanism=none
+# two ranks would be bound to the first two cores, whatever else runs there
+export OMPI_MCA_hwloc_base_binding_policy=none
 if ! command -v mpirun >/dev/null; then
   echo "1..0 # SKIP there is no mpirun"
   exit 0
@@ -40,26 +42,31 @@ expect_same_results() {
 }
 
 wind=$root/data/gfs_20140131.nc
+# compare NAME RANKS ARGUMENTS...: one rank on its own, and each number in RANKS.
 compare() {
-  local name=$1
-  shift
+  local name=$1 counts=$2
+  shift 2
   try run "$@" -o "$name-1" --quiet
   expect_code 0
   mv out out-1
   mv err err-1
-  for ranks in 2 3 4; do
+  for ranks in $counts; do
     on $ranks run "$@" -o "$name-$ranks" --quiet
     expect_code 0
     cmp -s err err-1 || fault "$ranks ranks say: $(head -c 200 err)"
     [ "$(wc -l <out)" = "$(wc -l <out-1)" ] || fault "standard output: $(head -c 200 out)"
     expect_same_results "$name-1" "$name-$ranks"
   done
-  done_with "1 to 4 ranks agree: $name"
+  done_with "ranks agree, 1 $counts: $name"
 }
-compare wind "$wind" --nodes 65 --clusters 40,20 --formats svg
-compare vortex3 synth:vortex3 --nodes 65 --clusters 20,10 --formats svg --save-field
-compare vortex3d synth:vortex3d --nodes 33 --clusters 8
-compare tiny synth:vortex3 --nodes 17 --clusters 3 --max-steps 60 --formats svg
+compare wind "2 3 4" "$wind" --nodes 65 --clusters 40,20 --formats svg
+# where the wind blows from the west: in many parts, and round the globe
+compare masked "2 3 4" "$wind" --mask u10 --nodes 97 --clusters 60 --formats svg
+expect_json masked-1/run.json '.mesh | .active_cells < 0.4 * .cells[0] * .cells[1]'
+done_with "less than 40 % of the globe is in the mask"
+compare vortex3 "3" synth:vortex3 --nodes 65 --clusters 20,10 --formats svg --save-field
+compare vortex3d "2 4" synth:vortex3d --nodes 33 --clusters 30
+compare tiny "4" synth:vortex3 --nodes 17 --clusters 3 --max-steps 60 --formats svg
 
 expect_json vortex3-1/run.json '.traffic.ranks == 1 and .traffic.cycle.messages.most == 0'
 expect_json vortex3-3/run.json '.traffic.ranks == 3 and
@@ -119,8 +126,8 @@ expect_code 0
 expect_file field.nc
 done_with "what needs one rank is done by one"
 
-# a limit on the size of files makes writes fail as a full disk does
-timeout 60 mpirun -n 2 bash -c 'trap "" XFSZ; ulimit -f 4; exec "$@"' limited \
+# a limit on the size of files makes writes fail as a full disk does, and shared memory
+timeout 60 mpirun -n 2 --mca btl self,tcp bash -c 'trap "" XFSZ; ulimit -f 4; exec "$@"' limited \
   "$program" run synth:vortex3 -o full/run --nodes 65 --clusters 12,11 --quiet >out 2>err
 code=$?
 expect_code 1
@@ -147,10 +154,12 @@ expect_error 'memory'
 expect_nothing_at none
 done_with "one rank is out of memory"
 
-# interrupt WHOM FOLDER: to a rank or to mpirun, once the first scale is on its way.
+# interrupt WHOM FOLDER GRACE: to a rank or to mpirun, once the first scale is on its way.
+# mpirun passes on its end after GRACE seconds, and waits as long again before it kills.
 interrupt() {
-  env --default-signal=INT mpirun -n 2 --mca odls_base_sigkill_timeout 20 \
-    "$program" run synth:vortex3 -o "$2" --nodes 513 --clusters 400,2 --quiet >out 2>err &
+  env --default-signal=INT mpirun -n 2 --mca odls_base_sigkill_timeout "$3" \
+    "$program" run synth:vortex3 -o "$2" --nodes 97 --scheme theta --clusters 1000,2 \
+    --quiet >out 2>err &
   local mpirun=$! target=$! pid
   for _ in $(seq 600); do
     ls "$2"/.flowgrain/scale-00.geojson >/dev/null 2>&1 && break
@@ -167,7 +176,7 @@ interrupt() {
   wait $mpirun
   code=$?
 }
-interrupt rank stopped
+interrupt rank stopped 1
 expect_code 130
 expect_one_message
 expect_error 'interrupted'
@@ -176,7 +185,7 @@ expect_file stopped/scale-00.svg
 [ "$(ls -A stopped | grep -c flowgrain)" = 0 ] || fault "temporary files are left"
 done_with "an interrupt of one rank stops all"
 
-interrupt launcher ended
+interrupt launcher ended 3
 [ "$code" != 0 ] || fault "exit code 0"
 expect_json ended/run.json '.ended == "interrupted" and (.scales | length) >= 1'
 [ "$(ls -A ended | grep -c flowgrain)" = 0 ] || fault "temporary files are left"
