@@ -276,7 +276,7 @@ static void couple_row(const assembly *a, const coupling *c, int cells, int low,
         out[i] += (double)tensor->weight[at + i] * diagonal;
       continue;
     }
-    const float *of[FG__TENSOR_COMPONENTS];
+    const float *of[FG__TENSOR_COMPONENTS] = {NULL};
     for (int m = 0; m < components; ++m)
       of[m] = tensor->component[m] + at;
     for (int i = 0; i < count; ++i) {

@@ -9,7 +9,7 @@ void fg_evolution_traffic(const fg_evolution *evolution, fg_traffic mean[],
                           fg_traffic greatest[])
 {
   const fg__ranks *ranks = evolution->ranks;
-  double most[ALL] = {0.0}, number[ALL];
+  double most[ALL] = {0.0}, number[ALL] = {0.0};
   uint64_t sum[ALL];
   /* a copy: the calls below are counted too */
   if (ranks->book)

@@ -10,7 +10,7 @@ typedef struct report {
 
 static report report_of(const fg_evolution *evolution)
 {
-  report out;
+  report out = {0};
   fg_evolution_traffic(evolution, out.mean, out.most);
   return out;
 }
