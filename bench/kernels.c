@@ -29,19 +29,28 @@ static void smooth(const subject *s)
 
 static void descend(const subject *s)
 {
-  s->multigrid.kernel->smooth_restrict(&s->multigrid.level[0], &s->multigrid.level[1],
-                                       s->tau, &ALONE);
+  const fg__kernel *kernel = s->multigrid.kernel;
+  const fg__level *level = s->multigrid.level;
+  kernel->restrict_residuals(&level[0], &level[1], s->tau, &ALONE);
+  kernel->find_scale(&level[1], &ALONE);
+  kernel->find_curvature(&level[1], &ALONE);
 }
 
 static void ascend(const subject *s)
 {
-  s->multigrid.kernel->prolong_smooth(&s->multigrid.level[1], &s->multigrid.level[0],
-                                      s->tau, &ALONE);
+  const fg__level *level = s->multigrid.level;
+  s->multigrid.kernel->correct_smooth(&level[1], &level[0], s->tau, &ALONE);
 }
 
-static void cycle(const subject *s)
+static void ascend_and_descend(const subject *s)
 {
-  fg__pass_cycle(&s->multigrid, (double)s->tau, NULL);
+  const fg__level *level = s->multigrid.level;
+  s->multigrid.kernel->correct_smooth_restrict(&level[1], &level[0], s->tau, &ALONE);
+}
+
+static void step(const subject *s)
+{
+  fg__pass_solve(&s->multigrid, (double)s->tau, 3, s->potential);
 }
 
 static void evaluate(const subject *s)
@@ -148,9 +157,13 @@ static fg_status prepare(subject *s, fg_context *context, int cells, int dimensi
 static const struct {
   const char *name;
   operation *run;
-} table[] = {{"smoothing sweep", smooth},        {"sweep and restriction", descend},
-             {"prolongation and sweep", ascend}, {"V(1,1) cycle", cycle},
-             {"energy and potential", evaluate}, {"norms of changes", changes}};
+} table[] = {{"smoothing sweep", smooth},
+             {"restriction", descend},
+             {"correction and sweep", ascend},
+             {"correction, sweep and restriction", ascend_and_descend},
+             {"three cycles", step},
+             {"energy and potential", evaluate},
+             {"norms of changes", changes}};
 
 int main(int argc, char **argv)
 {

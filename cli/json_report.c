@@ -11,7 +11,7 @@
 #include "traffic.h"
 
 static const char *const scale_words[] = {"auto", "geo", "map", "plain"};
-static const char *const scheme_words[] = {"euler", "theta"};
+static const char *const scheme_words[] = {"bdf2", "euler", "theta"};
 static const char *const energy_words[] = {"flow", "isotropic"};
 static const char *const extent_words[] = {"cluster", "territory"};
 

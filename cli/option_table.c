@@ -7,7 +7,7 @@
 static const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
 static const char *const mesh_words[] = {"uniform", NULL};
 static const char *const energy_words[] = {"flow", "isotropic", NULL};
-static const char *const scheme_words[] = {"euler", "theta", NULL};
+static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
 static const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
@@ -79,8 +79,8 @@ const option_entry option_table[] = {
      mesh_words, "kind of mesh [uniform, the only one so far]"},
     {"scheme", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(scheme), 0, 0, false, false,
      scheme_words,
-     "time steps: implicit `euler`, or the `theta` splitting, of second order but stable "
-     "in far shorter steps only [euler]"},
+     "time steps: backward differences of second order, implicit `euler`, or the `theta` "
+     "splitting, stable in far shorter steps only [bdf2]"},
     {"energy", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(energy), 0, 0, false, false,
      energy_words,
      "interfacial energy: `flow` draws clusters out along the streamlines, `isotropic` "

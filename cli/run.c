@@ -67,6 +67,8 @@ static void say_choices(const cli_run *run)
   say_choice(said->operand, "level", said->level, run->facts.level_count, field->level);
 }
 
+static const char *const scheme_names[] = {"BDF2", "implicit Euler", "theta"};
+
 static void print_mesh(const fg_mesh_info *mesh, int scheme)
 {
   fprintf(stderr, "flowgrain: mesh %d x %d", mesh->cells[0], mesh->cells[1]);
@@ -75,7 +77,7 @@ static void print_mesh(const fg_mesh_info *mesh, int scheme)
   fprintf(stderr,
           " cells (%ld active), a = %g, coverage %g, gamma %g, %s scheme, %s kernel\n",
           mesh->active_cells, mesh->anisotropy, mesh->coverage, mesh->gamma,
-          scheme == FG_SCHEME_THETA ? "theta" : "implicit Euler", mesh->kernel);
+          scheme_names[scheme], mesh->kernel);
 }
 
 /* What of this version's results a field in 3D does not get. */

@@ -233,11 +233,12 @@ typedef enum fg_energy {
   FG_ENERGY_ISOTROPIC /* the original Cahn-Hilliard model */
 } fg_energy;
 
-/* Both solve the same equation, docs/method/schemes.md compares them. */
+/* All solve the same equation, docs/method/schemes.md compares them. */
 typedef enum fg_scheme {
-  FG_SCHEME_EULER = 0, /* implicit Euler: first order, steps as large as the change of u
-                          allows */
-  FG_SCHEME_THETA      /* theta-splitting in three substeps: second order, small steps */
+  FG_SCHEME_BDF2 = 0, /* backward differences of second order: steps as large as the
+                         change of u allows */
+  FG_SCHEME_EULER,    /* implicit Euler: the same of first order */
+  FG_SCHEME_THETA     /* theta-splitting in three substeps: second order, small steps */
 } fg_scheme;
 
 typedef struct fg_evolution_options {
@@ -248,9 +249,9 @@ typedef struct fg_evolution_options {
   double gamma;         /* interface energy, in units of the longest side squared
                            [(1.1 h)^2 / a; isotropic (1.5 h)^2] */
   uint64_t seed;        /* of the initial noise [1] */
-  double accuracy;      /* eta: rms change of u allowed in a step [0.05] */
-  int cycles;           /* multigrid cycles a step, or a substep [2] */
-  fg_scheme scheme;     /* of the time steps [implicit Euler] */
+  double accuracy;      /* eta: rms change of u allowed in a step [0.07; else 0.05] */
+  int cycles;           /* multigrid cycles a step, or a substep [3; theta 2] */
+  fg_scheme scheme;     /* of the time steps [BDF2] */
   int threads;          /* [all cores] */
   const float *initial; /* NULL: noise; else u at the nodes of the mesh, as fg_density has
                            it: copied, then shifted nowhere: its mean is kept */

@@ -8,9 +8,12 @@
 #include "field/fingerprint.h"
 
 /* Defaults that give the paper's pictures (design.md section 2). */
-enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1, DEFAULT_CYCLES = 2 };
+enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1 };
 static const double default_anisotropy = 0.15, default_coverage = 0.3;
-static const double default_accuracy = 0.05;
+/* By scheme: chosen by the time they take for the same error (docs/design/interfaces.md,
+ * docs/method/schemes.md). */
+static const double default_accuracy[] = {0.07, 0.05, 0.05};
+static const int default_cycles[] = {3, 3, 2};
 /* Half-width of an interface along the stream in cells; at 1 an isotropic pattern pins.
  */
 static const double interface_cells = 1.1, isotropic_interface_cells = 1.5;
@@ -28,9 +31,6 @@ static const double debris_squares = 10.0, debris_cubes = 24.0;
 /* The first step, as a share of the fastest growth time of linear theory. */
 static const double first_step_share = 1e-3;
 
-/* tau gamma / h^4 above which cycles stall (measured, docs/design/evolution.md). */
-static const double most_stiffness = 4e3;
-
 static fg_status check_range(fg_context *context, const char *name, double value,
                              double low, double high, bool low_included)
 {
@@ -43,6 +43,9 @@ static fg_status check_range(fg_context *context, const char *name, double value
 static fg_status settle_options(fg_evolution_options *o, fg_context *context,
                                 int dimension)
 {
+  fg_status status = check_range(context, "scheme", o->scheme, 0, FG_SCHEME_THETA, true);
+  if (status)
+    return status;
   if (o->nodes == 0)
     o->nodes = dimension == 3 ? DEFAULT_NODES_3D : DEFAULT_NODES;
   if (o->energy == FG_ENERGY_ISOTROPIC)
@@ -54,10 +57,10 @@ static fg_status settle_options(fg_evolution_options *o, fg_context *context,
   if (o->seed == 0)
     o->seed = DEFAULT_SEED;
   if (o->accuracy == 0.0)
-    o->accuracy = default_accuracy;
+    o->accuracy = default_accuracy[o->scheme];
   if (o->cycles == 0)
-    o->cycles = DEFAULT_CYCLES;
-  fg_status status = check_range(context, "anisotropy", o->anisotropy, 0.0, 1.0, false);
+    o->cycles = default_cycles[o->scheme];
+  status = check_range(context, "anisotropy", o->anisotropy, 0.0, 1.0, false);
   if (!status && !(o->coverage > 0.0 && o->coverage < 1.0))
     status = fg__fail(context, FG_STATUS_ARGUMENT, "coverage %g is not in (0, 1)",
                       o->coverage);
@@ -65,8 +68,6 @@ static fg_status settle_options(fg_evolution_options *o, fg_context *context,
     status = check_range(context, "accuracy", o->accuracy, 0.0, 1.0, false);
   if (!status)
     status = check_range(context, "cycles", o->cycles, 1, 1000, true);
-  if (!status)
-    status = check_range(context, "scheme", o->scheme, 0, FG_SCHEME_THETA, true);
   if (!status && o->gamma != 0.0)
     status = check_range(context, "gamma", o->gamma, 0.0, 1.0, false);
   if (!status && o->threads < 0)
@@ -268,19 +269,14 @@ double fg__evolution_growth_rate(const fg_evolution *e)
   return curvature * curvature / (4.0 * e->options.anisotropy * e->info.gamma);
 }
 
-/* The step at which the cycle ceases to converge in separated phases. Beyond it the
- * change of a step is what two cycles manage, not what the equation asks: time runs on
- * and the pattern does not. */
+/* Beyond it the theta scheme is not stable; implicit steps always are. */
 static double most_step(const fg_evolution *e)
 {
-  if (e->options.scheme == FG_SCHEME_THETA) {
-    double least = least_spacing(e), gamma = e->info.gamma;
-    return fg__theta_stable_step(fg__theta_alpha, e->options.anisotropy * gamma, gamma,
-                                 4.0 / (least * least));
-  }
-  double h = pow(fg__evolution_cell_volume(e), 1.0 / e->mesh.dimension);
-  double first = first_step_share / fg__evolution_growth_rate(e);
-  return fmax(most_stiffness * h * h * h * h / e->info.gamma, first);
+  if (e->options.scheme != FG_SCHEME_THETA)
+    return (double)INFINITY;
+  double least = least_spacing(e), gamma = e->info.gamma;
+  return fg__theta_stable_step(fg__theta_alpha, e->options.anisotropy * gamma, gamma,
+                               4.0 / (least * least));
 }
 
 /* Nodes along an axis; the repeated last one of a periodic axis is left out. */
@@ -323,7 +319,7 @@ static void describe(fg_evolution *e)
   e->debris_area = debris / fg__evolution_cell_volume(e);
 }
 
-/* Of the theta scheme; 0: implicit Euler. */
+/* Of the theta scheme; 0: an implicit one. */
 static double alpha_of(const fg_evolution *e)
 {
   return e->options.scheme == FG_SCHEME_THETA ? fg__theta_alpha : 0.0;
@@ -346,13 +342,14 @@ static fg_status create_multigrid(fg_evolution *e, const fg_field *field,
 static fg_status create_stepper(fg_evolution *e, const fg_field *field)
 {
   fg__multigrid multigrid = {0};
-  fg__stepper_description description = {.cell_volume = fg__evolution_cell_volume(e),
-                                         .first_tau = first_step_share /
-                                                      fg__evolution_growth_rate(e),
-                                         .most_tau = most_step(e),
-                                         .accuracy = e->options.accuracy,
-                                         .cycles = e->options.cycles,
-                                         .alpha = alpha_of(e)};
+  fg__stepper_description description = {
+      .cell_volume = fg__evolution_cell_volume(e),
+      .first_tau = first_step_share / fg__evolution_growth_rate(e),
+      .most_tau = most_step(e),
+      .accuracy = e->options.accuracy,
+      .cycles = e->options.cycles,
+      .second_order = e->options.scheme == FG_SCHEME_BDF2,
+      .alpha = alpha_of(e)};
   fg_status status = fg__ranks_agree(e->ranks, e->context, check_initial(e));
   if (!status)
     status = create_multigrid(e, field, &multigrid);

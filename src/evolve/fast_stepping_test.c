@@ -1,4 +1,4 @@
-/* Fast stepping against a tight reference: two cycles a step and an accuracy of 0.05
+/* Fast stepping against a tight reference: the default accuracy and cycles a step
  * against six cycles and 0.01. What separates them must be far less than what separates
  * runs of different noise. docs/design quotes the table printed here. */
 #include "evolve/curve_test.h"

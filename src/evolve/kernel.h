@@ -8,10 +8,15 @@
 
 #include "evolve/level.h"
 
-/* The system of one implicit Euler step, rows divided by the mass (design.md section 3):
+/* The system of one time step, rows divided by the mass (design.md section 3):
  *     u + tau L w = p,      w - Psi'(u) - K u = q,
  * L the Laplacian, K = gamma L_A, Psi'(u) = 2 u (u^2 - 1); q = 0 on the finest level.
- * On coarse levels u, w are corrections and Psi'(u) is curvature * u. */
+ * Coarse levels correct it: u += d P v, w += P w, P multilinear and d the shape of a
+ * moving interface (kernel_space.h). In scale * v, written u there, their system is
+ *     m u + tau L w = p,      m w - (curvature + K) u = q,      m the coupling. */
+
+/* What is restricted: residuals of both equations, the second times d; d; and d J d. */
+enum { FG__RESTRICTED = 4 };
 
 /* Sums over nodes, m the relative mass. */
 typedef struct fg__changes {
@@ -36,24 +41,25 @@ typedef struct fg__kernel {
    * row even columns before odd ones. */
   void (*smooth)(const fg__level *level, float tau, const fg__share *share);
   void (*smooth_linear)(const fg__level *level, float tau, const fg__share *share);
-  /* A sweep; then the residuals of both equations, restricted to p and q of the coarse
-   * level, and the curvature likewise; coarse u and w become 0. */
-  void (*smooth_restrict)(const fg__level *fine, const fg__level *coarse, float tau,
-                          const fg__share *share);
+  /* Restricts what is restricted to a coarse level's p, q, coupling and shape_curvature;
+   * its u and w become 0. find_scale and find_curvature then make the level's system of
+   * these. The linear one sweeps first. */
+  void (*restrict_residuals)(const fg__level *fine, const fg__level *coarse, float tau,
+                             const fg__share *share);
   void (*smooth_restrict_linear)(const fg__level *fine, const fg__level *coarse,
                                  float tau, const fg__share *share);
-  /* Adds the multilinear interpolation of the coarse u, w to the fine ones; then a sweep.
-   */
-  void (*prolong_smooth)(const fg__level *coarse, const fg__level *fine, float tau,
+  void (*find_scale)(const fg__level *coarse, const fg__share *share);
+  void (*find_curvature)(const fg__level *coarse, const fg__share *share);
+  /* From scale * v to v, ghosts and all: a coarse level's u, before it corrects. */
+  void (*unscale)(const fg__level *coarse, const fg__share *share);
+  /* Adds the coarse level's corrections to the fine u, w; then a sweep; then, where it is
+   * named so, the restriction for the next cycle. */
+  void (*correct_smooth)(const fg__level *coarse, const fg__level *fine, float tau,
                          const fg__share *share);
-  void (*prolong_smooth_linear)(const fg__level *coarse, const fg__level *fine, float tau,
+  void (*correct_smooth_linear)(const fg__level *coarse, const fg__level *fine, float tau,
                                 const fg__share *share);
-  /* to := base + the interpolation of one coarse array; to may be base. */
-  void (*prolong_array)(const fg__level *coarse, const float *from, const fg__level *fine,
-                        const float *base, float *to, const fg__share *share);
-  /* out := restriction of p - u - tau L w, a coarse array with ghosts. */
-  void (*restrict_defect)(const fg__level *fine, const float *w, const fg__level *coarse,
-                          float *out, float tau, const fg__share *share);
+  void (*correct_smooth_restrict)(const fg__level *coarse, const fg__level *fine,
+                                  float tau, const fg__share *share);
   /* w := Psi'(u) + K u, with ghosts, and the energy of u in the same pass. */
   fg__sums (*evaluate)(const fg__level *level, const float *u, float *w,
                        const fg__share *share);
@@ -68,6 +74,9 @@ typedef struct fg__kernel {
   /* out := now + omega (now - before), whole arrays. */
   void (*extrapolate)(const fg__level *level, const float *now, const float *before,
                       float omega, float *out, const fg__share *share);
+  /* The same, but between the wells where now is between them. */
+  void (*predict)(const fg__level *level, const float *now, const float *before,
+                  float omega, float *out, const fg__share *share);
   /* Adds an amount to u wherever there is mass; elsewhere u becomes 0. */
   void (*shift)(const fg__level *level, float *u, float amount, const fg__share *share);
 
@@ -75,14 +84,13 @@ typedef struct fg__kernel {
    * exchanged, by one thread. The nodes of one colour (1 odd column + 2 odd row + 4 odd
    * plane) of a sweep. */
   void (*smooth_one_colour)(const fg__level *level, float tau, bool linear, int colour);
-  /* The residuals of both equations and the curvature. */
+  /* What is to be restricted; and its restriction, once it has ghosts. */
   void (*find_residuals)(const fg__level *level, float tau, bool linear,
-                         float *const out[3]);
-  /* out := p - u - tau L w. */
-  void (*find_defect)(const fg__level *level, const float *w, float tau, float *out);
-  /* The restriction of arrays with ghosts. */
-  void (*restrict_arrays)(const fg__level *fine, int count, const float *const from[],
-                          const fg__level *coarse, float *const to[]);
+                         float *const out[FG__RESTRICTED]);
+  void (*restrict_arrays)(const fg__level *fine, const float *const from[FG__RESTRICTED],
+                          const fg__level *coarse);
+  /* Adds the coarse level's corrections. */
+  void (*correct)(const fg__level *coarse, const fg__level *fine, bool linear);
 } fg__kernel;
 
 extern const fg__kernel fg__kernel_2d_generic, fg__kernel_3d_generic;

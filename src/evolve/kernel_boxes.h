@@ -16,38 +16,34 @@ static void smooth_one_colour(const fg__level *level, float tau, bool linear, in
 }
 
 static void find_residuals(const fg__level *level, float tau, bool linear,
-                           float *const out[3])
+                           float *const out[FG__RESTRICTED])
 {
   laplacian l = laplacian_times(level, tau);
   const int *nodes = level->layout.nodes;
   for (int k = 0; k < nodes[2]; ++k)
     for (int j = 0; j < nodes[1]; ++j) {
       ptrdiff_t at = fg__row_at(&level->layout, j, k);
-      lines rows = {{out[0] + at, out[1] + at, out[2] + at}};
+      lines rows = {{out[0] + at, out[1] + at, out[2] + at, out[3] + at}};
       residual_line(level, at, &l, &rows, linear);
     }
 }
 
-static void find_defect(const fg__level *level, const float *w, float tau, float *out)
-{
-  laplacian l = laplacian_times(level, tau);
-  const int *nodes = level->layout.nodes;
-  for (int k = 0; k < nodes[2]; ++k)
-    for (int j = 0; j < nodes[1]; ++j) {
-      ptrdiff_t at = fg__row_at(&level->layout, j, k);
-      lines rows = {{out + at, NULL, NULL}};
-      defect_line(level, w, at, &l, &rows);
-    }
-}
-
-static void restrict_arrays(const fg__level *fine, int count, const float *const from[],
-                            const fg__level *coarse, float *const to[])
+static void restrict_arrays(const fg__level *fine, const float *const from[],
+                            const fg__level *coarse)
 {
   fg__share alone = fg__alone();
-  restriction r = restriction_of(fine, coarse, 0.0F, count, &alone);
+  restriction r = restriction_of(fine, coarse, 0.0F, &alone);
+  float *const out[] = {coarse->p, coarse->q, coarse->coupling, coarse->shape_curvature};
   r.given = from;
   for (int S = 0; S < fg__slices(coarse); ++S)
-    restrict_slice(&r, S, S == 0, to, true);
+    restrict_slice(&r, S, S == 0, out, true);
+}
+
+static void correct(const fg__level *coarse, const fg__level *fine, bool linear)
+{
+  fg__share alone = fg__alone();
+  for (int s = 0; s < fg__slices(fine); ++s)
+    correct_slice(coarse, fine, s, linear, &alone);
 }
 
 #endif

@@ -99,24 +99,47 @@ INLINE couplings couplings_row(const fg__level *level, const fg__stencil *stenci
   return c;
 }
 
-INLINE float apply_pair(const couplings *c, const around *x, int r, int k)
+/* The shape in which an interface's motion changes u: u' of a resting interface is in
+ * proportion to 1 - u^2. */
+INLINE float interface_shape(float u)
 {
-  return (c->upper[r][k] * x->upper[r][k] + c->lower[r][k] * x->lower[r][k]) +
-         ((c->upper_east[r][k] * x->upper_other[r][k + 1] +
-           c->lower_west[r][k] * x->lower_other[r][k]) +
-          (c->upper_west[r][k] * x->upper_other[r][k] +
-           c->lower_east[r][k] * x->lower_other[r][k + 1]));
+  return greater(1.0F - u * u, 0.0F);
+}
+
+/* What a stencil is applied to. */
+typedef enum operand { VALUES, SHAPES } operand;
+
+INLINE float operand_of(float value, operand of)
+{
+  return of == SHAPES ? interface_shape(value) : value;
+}
+
+INLINE float apply_pair(const couplings *c, const around *x, int r, int k, operand of)
+{
+  return (c->upper[r][k] * operand_of(x->upper[r][k], of) +
+          c->lower[r][k] * operand_of(x->lower[r][k], of)) +
+         ((c->upper_east[r][k] * operand_of(x->upper_other[r][k + 1], of) +
+           c->lower_west[r][k] * operand_of(x->lower_other[r][k], of)) +
+          (c->upper_west[r][k] * operand_of(x->upper_other[r][k], of) +
+           c->lower_east[r][k] * operand_of(x->lower_other[r][k + 1], of)));
+}
+
+INLINE float apply_to(const couplings *c, const around *x, int k, operand of)
+{
+  float sum = (c->center[k] * operand_of(x->center[k], of) +
+               (c->east[k] * operand_of(x->middle[k + 1], of) +
+                c->west[k] * operand_of(x->middle[k], of))) +
+              apply_pair(c, x, 0, k, of);
+#if FG__DIMENSION == 3
+  sum += (apply_pair(c, x, 1, k, of) + apply_pair(c, x, 3, k, of)) +
+         apply_pair(c, x, 2, k, of);
+#endif
+  return sum;
 }
 
 INLINE float apply(const couplings *c, const around *x, int k)
 {
-  float sum = (c->center[k] * x->center[k] +
-               (c->east[k] * x->middle[k + 1] + c->west[k] * x->middle[k])) +
-              apply_pair(c, x, 0, k);
-#if FG__DIMENSION == 3
-  sum += (apply_pair(c, x, 1, k) + apply_pair(c, x, 3, k)) + apply_pair(c, x, 2, k);
-#endif
-  return sum;
+  return apply_to(c, x, k, VALUES);
 }
 
 /* The Laplacian's constants times tau, kept in registers. */
@@ -160,7 +183,7 @@ typedef struct row_view {
   int count;
   around u, w;
   couplings energy, laplacian;
-  const float *p, *q, *curvature, *mass_inverse;
+  const float *p, *q, *curvature, *coupling, *mass_inverse;
 } row_view;
 
 INLINE row_view row_of(const fg__level *level, ptrdiff_t at, int colour, bool linear,
@@ -175,6 +198,7 @@ INLINE row_view row_of(const fg__level *level, ptrdiff_t at, int colour, bool li
   if (linear) {
     r.q = level->q + own;
     r.curvature = level->curvature + own;
+    r.coupling = level->coupling + own;
   }
   if (masked) {
     r.laplacian = couplings_row(level, &level->laplacian, at, colour);
@@ -183,9 +207,7 @@ INLINE row_view row_of(const fg__level *level, ptrdiff_t at, int colour, bool li
   return r;
 }
 
-/* Residuals of both equations at node k, and the curvature there. A coarse level's
- * curvature is clipped where it is used, not where it is restricted: negative values in
- * the midst of an interface rightly soften the mean, but by themselves overshoot. */
+/* Residuals of both equations at node k, and the curvature there. */
 typedef struct residuals {
   float first, second, curvature;
 } residuals;
@@ -201,11 +223,12 @@ INLINE residuals residuals_at(const row_view *r, const laplacian *l, int k, bool
     energy *= r->mass_inverse[k];
     flux *= r->mass_inverse[k];
   }
-  float first = (r->p[k] - u) - flux;
   if (linear) {
-    float curvature = greater(r->curvature[k], 0.0F);
-    return (residuals){first, (r->q[k] + curvature * u + energy) - w, curvature};
+    float curvature = r->curvature[k], coupling = r->coupling[k];
+    return (residuals){(r->p[k] - coupling * u) - flux,
+                       (r->q[k] + curvature * u + energy) - coupling * w, curvature};
   }
+  float first = (r->p[k] - u) - flux;
   float square = u * u;
   return (residuals){first, (2.0F * u * (square - 1.0F) + energy) - w,
                      6.0F * square - 2.0F};

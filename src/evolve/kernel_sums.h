@@ -325,6 +325,22 @@ static void extrapolate(const fg__level *level, const float *now, const float *b
   fg__team_barrier(share);
 }
 
+/* As it is extrapolated no node passes a well, unless it is there already: what follows
+ * an interface, or a droplet that has just vanished, is pure phase. */
+static void predict(const fg__level *level, const float *now, const float *before,
+                    float omega, float *out, const fg__share *share)
+{
+  ptrdiff_t begin, end;
+  floats_of(level, share, &begin, &end);
+  INDEPENDENT
+  for (ptrdiff_t n = begin; n < end; ++n) {
+    float u = now[n], high = greater(u, 1.0F), low = -greater(-u, 1.0F);
+    float x = u + omega * (u - before[n]);
+    out[n] = greater(x < high ? x : high, low);
+  }
+  fg__team_barrier(share);
+}
+
 static void subtract_wells(const fg__level *level, const float *u, float *w,
                            const fg__share *share)
 {

@@ -2,12 +2,15 @@
 #ifndef FG__KERNEL_SWEEP_H
 #define FG__KERNEL_SWEEP_H
 
+#include <float.h>
+
 #include "evolve/kernel_stencil.h"
 
 /* One colour of one row. Eliminating dw from
- *     du + tau l0 dw = first,   dw - g du = second,   g = Psi''(u) + k0
- * leaves a denominator 1 + tau l0 g, which in the spinodal region may vanish: it is kept
- * above a quarter of its value without Psi''. */
+ *     m du + tau l0 dw = first,   m dw - g du = second,   g = Psi''(u) + k0
+ * (m = 1 on the finest level) leaves a denominator m^2 + tau l0 g, which in the spinodal
+ * region may vanish: it (on coarse levels g) is kept above a quarter of its value without
+ * Psi''. Nodes without mass have m = l0 = 0 and nothing to solve. */
 INLINE void smooth_nodes(const fg__level *level, ptrdiff_t at, int colour,
                          const laplacian *constants, bool linear, bool masked)
 {
@@ -25,9 +28,15 @@ INLINE void smooth_nodes(const fg__level *level, ptrdiff_t at, int colour,
       l0 *= r.mass_inverse[k];
     }
     float g = f.curvature + k0;
-    float denominator = 1.0F + l0 * g;
-    if (!linear)
-      denominator = greater(denominator, 0.25F + 0.25F * l0 * k0);
+    if (linear) {
+      float m = r.coupling[k];
+      g = greater(g, 0.25F * k0);
+      float inverse = 1.0F / (m * m + l0 * g + FLT_MIN);
+      u[k] += (m * f.first - l0 * f.second) * inverse;
+      w[k] += (m * f.second + g * f.first) * inverse;
+      continue;
+    }
+    float denominator = greater(1.0F + l0 * g, 0.25F + 0.25F * l0 * k0);
     float du = (f.first - l0 * f.second) / denominator;
     u[k] += du;
     w[k] += f.second + g * du;

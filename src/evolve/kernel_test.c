@@ -44,12 +44,12 @@ static void smooth_linear(const fg__kernel *kernel, const fg__level *fine,
   kernel->smooth_linear(fine, step_of(fine), share);
 }
 
-static void smooth_restrict(const fg__kernel *kernel, const fg__level *fine,
-                            const fg__level *coarse, const fg__share *share,
-                            double sums[SUMS])
+static void restrict_residuals(const fg__kernel *kernel, const fg__level *fine,
+                               const fg__level *coarse, const fg__share *share,
+                               double sums[SUMS])
 {
   (void)sums;
-  kernel->smooth_restrict(fine, coarse, step_of(fine), share);
+  kernel->restrict_residuals(fine, coarse, step_of(fine), share);
 }
 
 static void smooth_restrict_linear(const fg__kernel *kernel, const fg__level *fine,
@@ -60,37 +60,50 @@ static void smooth_restrict_linear(const fg__kernel *kernel, const fg__level *fi
   kernel->smooth_restrict_linear(fine, coarse, step_of(fine), share);
 }
 
-static void prolong_smooth(const fg__kernel *kernel, const fg__level *fine,
+static void find_scale(const fg__kernel *kernel, const fg__level *fine,
+                       const fg__level *coarse, const fg__share *share, double sums[SUMS])
+{
+  (void)fine, (void)sums;
+  kernel->find_scale(coarse, share);
+}
+
+static void find_curvature(const fg__kernel *kernel, const fg__level *fine,
+                           const fg__level *coarse, const fg__share *share,
+                           double sums[SUMS])
+{
+  (void)fine, (void)sums;
+  kernel->find_curvature(coarse, share);
+}
+
+static void unscale(const fg__kernel *kernel, const fg__level *fine,
+                    const fg__level *coarse, const fg__share *share, double sums[SUMS])
+{
+  (void)fine, (void)sums;
+  kernel->unscale(coarse, share);
+}
+
+static void correct_smooth(const fg__kernel *kernel, const fg__level *fine,
                            const fg__level *coarse, const fg__share *share,
                            double sums[SUMS])
 {
   (void)sums;
-  kernel->prolong_smooth(coarse, fine, step_of(fine), share);
+  kernel->correct_smooth(coarse, fine, step_of(fine), share);
 }
 
-static void prolong_smooth_linear(const fg__kernel *kernel, const fg__level *fine,
+static void correct_smooth_linear(const fg__kernel *kernel, const fg__level *fine,
                                   const fg__level *coarse, const fg__share *share,
                                   double sums[SUMS])
 {
   (void)sums;
-  kernel->prolong_smooth_linear(coarse, fine, step_of(fine), share);
+  kernel->correct_smooth_linear(coarse, fine, step_of(fine), share);
 }
 
-static void prolong_array(const fg__kernel *kernel, const fg__level *fine,
-                          const fg__level *coarse, const fg__share *share,
-                          double sums[SUMS])
+static void correct_smooth_restrict(const fg__kernel *kernel, const fg__level *fine,
+                                    const fg__level *coarse, const fg__share *share,
+                                    double sums[SUMS])
 {
   (void)sums;
-  kernel->prolong_array(coarse, coarse->p, fine, fine->p, fine->u, share);
-  kernel->prolong_array(coarse, coarse->u, fine, fine->w, fine->w, share);
-}
-
-static void restrict_defect(const fg__kernel *kernel, const fg__level *fine,
-                            const fg__level *coarse, const fg__share *share,
-                            double sums[SUMS])
-{
-  (void)sums;
-  kernel->restrict_defect(fine, fine->w, coarse, coarse->q, step_of(fine), share);
+  kernel->correct_smooth_restrict(coarse, fine, step_of(fine), share);
 }
 
 static void evaluate(const fg__kernel *kernel, const fg__level *fine,
@@ -139,6 +152,13 @@ static void extrapolate(const fg__kernel *kernel, const fg__level *fine,
   kernel->extrapolate(fine, fine->w, fine->p, 1.37F, fine->u, share);
 }
 
+static void predict(const fg__kernel *kernel, const fg__level *fine,
+                    const fg__level *coarse, const fg__share *share, double sums[SUMS])
+{
+  (void)coarse, (void)sums;
+  kernel->predict(fine, fine->w, fine->p, 1.37F, fine->u, share);
+}
+
 static void shift(const fg__kernel *kernel, const fg__level *fine,
                   const fg__level *coarse, const fg__share *share, double sums[SUMS])
 {
@@ -154,17 +174,20 @@ static const struct {
 } OPERATIONS[] = {
     {"smooth", smooth, false, false},
     {"smooth_linear", smooth_linear, false, true},
-    {"smooth_restrict", smooth_restrict, true, false},
+    {"restrict_residuals", restrict_residuals, true, false},
     {"smooth_restrict_linear", smooth_restrict_linear, true, true},
-    {"prolong_smooth", prolong_smooth, true, false},
-    {"prolong_smooth_linear", prolong_smooth_linear, true, true},
-    {"prolong_array", prolong_array, true, false},
-    {"restrict_defect", restrict_defect, true, false},
+    {"find_scale", find_scale, true, false},
+    {"find_curvature", find_curvature, true, false},
+    {"unscale", unscale, true, false},
+    {"correct_smooth", correct_smooth, true, false},
+    {"correct_smooth_linear", correct_smooth_linear, true, true},
+    {"correct_smooth_restrict", correct_smooth_restrict, true, false},
     {"evaluate", evaluate, false, false},
     {"explicit_part", explicit_part, false, false},
     {"subtract_wells", subtract_wells, false, false},
     {"changes", changes, false, false},
     {"extrapolate", extrapolate, false, false},
+    {"predict", predict, false, false},
     {"shift", shift, false, false},
 };
 
@@ -180,15 +203,15 @@ static bool outside_holes(double x, double y)
 }
 
 /* The arrays of a level that an operation may write; absent ones are NULL. */
-enum { ARRAYS = 5 };
+enum { ARRAYS = 8, FIRST_POSITIVE = 4, SCALE = 5 };
 
 static void arrays_of(const fg__level *level, bool finest, float *arrays[ARRAYS])
 {
-  arrays[0] = level->u;
-  arrays[1] = level->w;
-  arrays[2] = level->p;
-  arrays[3] = finest ? NULL : level->q;
-  arrays[4] = finest ? NULL : level->curvature;
+  float *all[ARRAYS] = {
+      level->u,        level->w,     level->p,         level->q,
+      level->coupling, level->scale, level->curvature, level->shape_curvature};
+  for (int a = 0; a < ARRAYS; ++a)
+    arrays[a] = finest && a > 2 ? NULL : all[a];
 }
 
 static void load(const problem *p)
@@ -205,7 +228,7 @@ static void load(const problem *p)
           for (int i = 0; i < nodes[0]; ++i) {
             double value = 1.2 * random_value(&seed) - 0.1;
             *fg__node(level, arrays[a], i, j, k) =
-                (float)(a == 4 ? 2.0 * fabs(value) : value);
+                (float)(a < FIRST_POSITIVE ? value : 0.2 + fabs(value));
           }
       fg__fill_ghosts(level, arrays[a]);
     }
@@ -220,9 +243,9 @@ static size_t save(const problem *p, float *to)
     const fg__level *level = &p->multigrid.level[n];
     float *arrays[ARRAYS];
     arrays_of(level, n == 0, arrays);
-    /* u and w with their ghosts, the others without */
+    /* u, w and scale with their ghosts, the others without */
     for (int a = 0; a < ARRAYS && arrays[a]; ++a) {
-      int ring = a < 2, solid = ring && p->dimension == 3;
+      int ring = a < 2 || a == SCALE, solid = ring && p->dimension == 3;
       const int *nodes = level->layout.nodes;
       for (int k = -solid; k < nodes[2] + solid; ++k)
         for (int j = -ring; j < nodes[1] + ring; ++j)
@@ -264,6 +287,33 @@ static size_t result_of(const problem *p, size_t operation_index,
       sums[n] += c.sums[m][n];
   }
   return save(p, values);
+}
+
+/* Sweep and restriction in one pass give what they give one after the other. */
+static void compare_passes(const problem *p, fg__team *team)
+{
+  size_t room = 60 * p->nodes + 10000;
+  float *expected = allocate_or_fail(room, sizeof *expected);
+  float *values = allocate_or_fail(room, sizeof *values);
+  fg__share alone = fg__alone();
+  const fg__level *level = p->multigrid.level;
+  const fg__kernel *kernel = p->multigrid.kernel;
+  double sums[SUMS];
+  size_t fused = 0;
+  while (OPERATIONS[fused].run != correct_smooth_restrict)
+    ++fused;
+  load(p);
+  kernel->correct_smooth(level + 1, level, step_of(level), &alone);
+  kernel->restrict_residuals(level, level + 1, step_of(level), &alone);
+  size_t count = save(p, expected);
+  for (int n = 0; n < 2; ++n) {
+    result_of(p, fused, kernel, n ? team : NULL, values, sums);
+    if (memcmp(values, expected, count * sizeof *values) != 0)
+      fail_msg("one pass is not two on %d x %d x %d cells", p->of.cells[0],
+               p->of.cells[1], p->of.cells[2]);
+  }
+  free(expected);
+  free(values);
 }
 
 /* Every kernel, by one thread and by a team, gives what the first does by one. */
@@ -323,6 +373,8 @@ static void compare_on_all_sizes(bool (*inside)(double, double))
         of.periodic[k] = borders >> k & 1;
       problem_create(&p, &of);
       compare_kernels(&p, team);
+      if (p.multigrid.level_count > 1)
+        compare_passes(&p, team);
       problem_clear(&p);
     }
   fg__team_destroy(team);

@@ -5,23 +5,19 @@
 
 #include <string.h>
 
-#include "evolve/kernel_sweep.h"
+#include "evolve/kernel_space.h"
 
-/* What is restricted: three quantities at most, each a line in the level's own layout, or
- * a slice of lines gathered to coarse columns (and in 3D to coarse rows). */
-enum { MOST_QUANTITIES = 3 };
-
+/* What is restricted, each a line in the level's own layout, or a slice of lines gathered
+ * to coarse columns (and in 3D to coarse rows). */
 typedef struct lines {
-  float *value[MOST_QUANTITIES];
+  float *value[FG__RESTRICTED];
 } lines;
 
 /* What a restriction needs: the fine slices, one after the other, gathered. */
 typedef struct restriction {
   const fg__level *fine, *coarse;
-  const float *w;            /* of a defect; NULL: full residuals */
-  const float *const *given; /* or arrays with ghosts that hold the quantities */
+  const float *const *given; /* arrays with ghosts that hold all; NULL: to be found */
   laplacian l;
-  int quantities;
   ptrdiff_t line; /* floats of a gathered line */
   lines fine_line;
   lines row[3];   /* 3D: gathered rows 2 J - 1, 2 J, 2 J + 1 */
@@ -61,13 +57,27 @@ INLINE void residual_nodes(const fg__level *fine, ptrdiff_t at, int colour,
   row_view r = row_of(fine, at, colour, linear, masked);
   ptrdiff_t own = begin_of(fine, colour);
   float *first = out->value[0] + own, *second = out->value[1] + own;
-  float *curvature = out->value[2] + own;
+  float *shape = out->value[2] + own, *curvature = out->value[3] + own;
+  const float *scale = linear ? fine->scale + at + own : NULL;
+  const float *coupling = linear ? fine->coupling + at + own : NULL;
+  const float *shape_curvature = linear ? fine->shape_curvature + at + own : NULL;
   INDEPENDENT
   for (int k = 0; k < r.count; ++k) {
     residuals f = residuals_at(&r, l, k, linear, masked);
     first[k] = f.first;
-    second[k] = f.second;
-    curvature[k] = linear ? r.curvature[k] : f.curvature;
+    if (linear) {
+      second[k] = f.second * scale[k];
+      shape[k] = coupling[k] * scale[k];
+      curvature[k] = shape_curvature[k];
+      continue;
+    }
+    float d = bulk + interface_shape(r.u.center[k]);
+    float energy = apply_to(&r.energy, &r.u, k, SHAPES);
+    if (masked)
+      energy *= r.mass_inverse[k];
+    second[k] = f.second * d;
+    shape[k] = d;
+    curvature[k] = d * (f.curvature * d + energy);
   }
 }
 
@@ -105,58 +115,17 @@ static void residual_line(const fg__level *fine, ptrdiff_t at, const laplacian *
       (linear ? residual_linear_plain : residual_plain)(fine, at, colour, l, out);
 }
 
-INLINE void defect_nodes(const fg__level *fine, const float *w, ptrdiff_t row, int colour,
-                         const laplacian *constants, float *out, bool masked)
-{
-  const laplacian copy = *constants, *l = &copy;
-  ptrdiff_t own = begin_of(fine, colour), at = row + own;
-  int count = colour == ODD ? fine->odd_count : fine->even_count;
-  around x = around_row(fine, w, row, colour);
-  couplings c = {0};
-  if (masked)
-    c = couplings_row(fine, &fine->laplacian, row, colour);
-  const float *u = fine->u + at, *p = fine->p + at;
-  const float *inverse = masked ? fine->mass_inverse + at : NULL;
-  INDEPENDENT
-  for (int k = 0; k < count; ++k) {
-    float flux =
-        masked ? l->tau * apply(&c, &x, k) * inverse[k] : apply_constant(l, &x, k);
-    out[own + k] = (p[k] - u[k]) - flux;
-  }
-}
-
-ROW_LOOP void defect_plain(const fg__level *fine, const float *w, ptrdiff_t row,
-                           int colour, const laplacian *l, float *out)
-{
-  defect_nodes(fine, w, row, colour, l, out, false);
-}
-
-ROW_LOOP void defect_masked(const fg__level *fine, const float *w, ptrdiff_t row,
-                            int colour, const laplacian *l, float *out)
-{
-  defect_nodes(fine, w, row, colour, l, out, true);
-}
-
-static void defect_line(const fg__level *fine, const float *w, ptrdiff_t row,
-                        const laplacian *l, const lines *out)
-{
-  for (int colour = EVEN; colour <= ODD; ++colour)
-    (fine->mass ? defect_masked : defect_plain)(fine, w, row, colour, l, out->value[0]);
-}
-
 static void gather_row(restriction *r, int j, int k, const lines *to, bool linear)
 {
   const fg__level *fine = r->fine;
   ptrdiff_t at = fg__row_at(&fine->layout, j, k);
   if (r->given)
-    for (int n = 0; n < r->quantities; ++n)
+    for (int n = 0; n < FG__RESTRICTED; ++n)
       memcpy(r->fine_line.value[n], r->given[n] + at,
              (size_t)fine->layout.stride * sizeof(float));
-  else if (r->w)
-    defect_line(fine, r->w, at, &r->l, &r->fine_line);
   else
     residual_line(fine, at, &r->l, &r->fine_line, linear);
-  for (int n = 0; n < r->quantities; ++n) {
+  for (int n = 0; n < FG__RESTRICTED; ++n) {
     float *values = r->fine_line.value[n];
     fg__fill_ghost_columns(fine, values);
     if (fine->mass)
@@ -183,7 +152,7 @@ static void gather_slice(restriction *r, int k, const lines *to, bool linear)
       above = fine->ghost_row_source[1];
     gather_row(r, 2 * J, k, &r->row[1], linear);
     gather_row(r, above, k, &r->row[2], linear);
-    for (int n = 0; n < r->quantities; ++n)
+    for (int n = 0; n < FG__RESTRICTED; ++n)
       combine_lines(r->row[0].value[n], r->row[1].value[n], r->row[2].value[n],
                     fine->even_count, to->value[n] + J * r->line);
     swap_lines(&r->row[0], &r->row[2]);
@@ -226,7 +195,7 @@ static void combine_slices(restriction *r, int S, float *const out[])
   const fg__level *coarse = r->coarse;
   float *sum = r->fine_line.value[0];
   int rows = FG__DIMENSION == 3 ? coarse->layout.nodes[1] : 1;
-  for (int n = 0; n < r->quantities; ++n)
+  for (int n = 0; n < FG__RESTRICTED; ++n)
     for (int J = 0; J < rows; ++J) {
       ptrdiff_t line = J * r->line;
       ptrdiff_t at = FG__DIMENSION == 3 ? fg__row_at(&coarse->layout, J, S)
@@ -254,17 +223,16 @@ static void restrict_slice(restriction *r, int S, bool first, float *const out[]
 
 /* Cuts all lines from the member's piece of the fine level's scratch space. */
 static restriction restriction_of(const fg__level *fine, const fg__level *coarse,
-                                  float tau, int quantities, const fg__share *share)
+                                  float tau, const fg__share *share)
 {
   restriction r = {.fine = fine,
                    .coarse = coarse,
                    .l = laplacian_times(fine, tau),
-                   .quantities = quantities,
                    .line = fine->layout.odd_offset};
   ptrdiff_t stride = fine->layout.stride;
   ptrdiff_t slice = FG__DIMENSION == 3 ? r.line * coarse->layout.nodes[1] : stride;
   float *space = fine->scratch + (size_t)share->member * fine->scratch_size;
-  for (int n = 0; n < quantities; ++n) {
+  for (int n = 0; n < FG__RESTRICTED; ++n) {
     r.fine_line.value[n] = space;
     space += stride;
     for (int m = 0; m < 3; ++m) {
@@ -277,71 +245,6 @@ static restriction restriction_of(const fg__level *fine, const fg__level *coarse
     }
   }
   return r;
-}
-
-static void clear(const fg__level *level, float *array)
-{
-  memset(array - level->layout.first, 0, level->layout.array_size * sizeof *array);
-}
-
-/* Once slices up to s = 2 S + 2 are smoothed, those up to 2 S + 1 have their final
- * residuals, while they are still near. Not so at the start of a part, whose neighbour
- * may be at work still, nor across a periodic border, where slice 0 needs the last. */
-static void descend(const fg__level *fine, const fg__level *coarse, float tau,
-                    bool linear, const fg__share *share)
-{
-  laplacian l = laplacian_times(fine, tau);
-  restriction r = restriction_of(fine, coarse, tau, 3, share);
-  float *out[] = {coarse->p, coarse->q, coarse->curvature};
-  bool together = !fine->periodic[FG__DIMENSION - 1];
-  part mine = part_of(fine, share);
-  int first = mine.begin / 2, last = (mine.end + 1) / 2; /* coarse slices */
-  int started = together && mine.begin == 0 ? first : first + 1;
-  begin_sweep(fine, mine, &l, linear, share);
-  for (int s = mine.begin + 2; s <= mine.end + 1; s += 2) {
-    int S = s / 2 - 1;
-    continue_sweep(fine, s, mine, &l, linear);
-    if (together && S >= started)
-      restrict_slice(&r, S, S == started, out, linear);
-  }
-  fg__team_barrier(share);
-  int end = together ? started : last;
-  for (int S = first; S < end && S < last; ++S)
-    restrict_slice(&r, S, S == first, out, linear);
-  if (share->member == 0)
-    clear(coarse, coarse->u);
-  if (share->member == share->members - 1)
-    clear(coarse, coarse->w);
-  fg__team_barrier(share);
-}
-
-static void smooth_restrict(const fg__level *fine, const fg__level *coarse, float tau,
-                            const fg__share *share)
-{
-  descend(fine, coarse, tau, false, share);
-}
-
-static void smooth_restrict_linear(const fg__level *fine, const fg__level *coarse,
-                                   float tau, const fg__share *share)
-{
-  descend(fine, coarse, tau, true, share);
-}
-
-static void restrict_defect(const fg__level *fine, const float *w,
-                            const fg__level *coarse, float *out, float tau,
-                            const fg__share *share)
-{
-  restriction r = restriction_of(fine, coarse, tau, 1, share);
-  r.w = w;
-  float *outs[] = {out};
-  part mine;
-  fg__team_part(share, fg__slices(coarse), 1, &mine.begin, &mine.end);
-  for (int S = mine.begin; S < mine.end; ++S)
-    restrict_slice(&r, S, S == mine.begin, outs, true);
-  fg__team_barrier(share);
-  if (share->member == 0)
-    fg__fill_ghosts(coarse, out);
-  fg__team_barrier(share);
 }
 
 /* The mean of coarse rows in natural order, with one ghost at its end: of the two (in 3D
@@ -366,9 +269,57 @@ ROW_LOOP void merge(const fg__level *coarse, const float *const from[4], float *
 #undef MEAN
 }
 
-/* Row j of plane k of base + the interpolation of a coarse array. */
-static void prolong_row(const fg__level *coarse, const float *from, const fg__level *fine,
-                        const float *base, float *to, int j, int k, float *natural)
+/* What a correction is multiplied by: d of the density that it changes, the scale of a
+ * linear level, or nothing. */
+typedef enum factor { ONE, SHAPE, SCALE } factor;
+
+INLINE void correct_nodes(const fg__level *fine, const float *natural, ptrdiff_t at,
+                          float *array, factor by)
+{
+  ptrdiff_t odd_offset = fine->layout.odd_offset;
+  float *even = array + at, *odd = even + odd_offset;
+  const float *scale = by == SCALE ? fine->scale + at : NULL;
+  INDEPENDENT
+  for (int n = 0; n < fine->even_count; ++n) {
+    float change = natural[n];
+    if (by == SHAPE)
+      change *= bulk + interface_shape(even[n]);
+    else if (by == SCALE)
+      change *= scale[n];
+    even[n] += change;
+  }
+  INDEPENDENT
+  for (int n = 0; n < fine->odd_count; ++n) {
+    float change = 0.5F * (natural[n] + natural[n + 1]);
+    if (by == SHAPE)
+      change *= bulk + interface_shape(odd[n]);
+    else if (by == SCALE)
+      change *= scale[odd_offset + n];
+    odd[n] += change;
+  }
+}
+
+ROW_LOOP void correct_by_one(const fg__level *fine, const float *natural, ptrdiff_t at,
+                             float *array)
+{
+  correct_nodes(fine, natural, at, array, ONE);
+}
+
+ROW_LOOP void correct_by_shape(const fg__level *fine, const float *natural, ptrdiff_t at,
+                               float *array)
+{
+  correct_nodes(fine, natural, at, array, SHAPE);
+}
+
+ROW_LOOP void correct_by_scale(const fg__level *fine, const float *natural, ptrdiff_t at,
+                               float *array)
+{
+  correct_nodes(fine, natural, at, array, SCALE);
+}
+
+/* Row j of plane k. */
+static void correct_row(const fg__level *coarse, const float *from, const fg__level *fine,
+                        float *array, int j, int k, factor by, float *natural)
 {
   const float *rows[4];
   rows[0] = from + fg__row_at(&coarse->layout, j / 2, k / 2);
@@ -377,90 +328,130 @@ static void prolong_row(const fg__level *coarse, const float *from, const fg__le
   rows[3] = rows[1] + k % 2 * coarse->layout.plane;
   merge(coarse, rows, natural);
   ptrdiff_t at = fg__row_at(&fine->layout, j, k);
-  const float *base_even = base + at, *base_odd = base_even + fine->layout.odd_offset;
-  float *even = to + at, *odd = even + fine->layout.odd_offset;
-  INDEPENDENT
-  for (int n = 0; n < fine->even_count; ++n)
-    even[n] = base_even[n] + natural[n];
-  INDEPENDENT
-  for (int n = 0; n < fine->odd_count; ++n)
-    odd[n] = base_odd[n] + 0.5F * (natural[n] + natural[n + 1]);
-  fg__fill_ghost_columns(fine, even);
+  if (by == ONE)
+    correct_by_one(fine, natural, at, array);
+  else
+    (by == SHAPE ? correct_by_shape : correct_by_scale)(fine, natural, at, array);
+  fg__fill_ghost_columns(fine, array + at);
   for (int side = 0; side < 2; ++side)
     if (fine->ghost_row_source[side] == j)
-      fg__fill_ghost_row(fine, to, k, side);
+      fg__fill_ghost_row(fine, array, k, side);
 }
 
-static void prolong_slice(const fg__level *coarse, const float *from,
-                          const fg__level *fine, const float *base, float *to, int s,
+static void correct_array(const fg__level *coarse, const float *from,
+                          const fg__level *fine, float *array, int s, factor by,
                           float *natural)
 {
 #if FG__DIMENSION == 3
   for (int j = 0; j < fine->layout.nodes[1]; ++j)
-    prolong_row(coarse, from, fine, base, to, j, s, natural);
+    correct_row(coarse, from, fine, array, j, s, by, natural);
   for (int side = 0; side < 2; ++side)
     if (fine->ghost_plane_source[side] == s)
-      fg__fill_ghost_plane(fine, to, side);
+      fg__fill_ghost_plane(fine, array, side);
 #else
-  prolong_row(coarse, from, fine, base, to, s, 0, natural);
+  correct_row(coarse, from, fine, array, s, 0, by, natural);
 #endif
 }
 
-static float *natural_line(const fg__level *fine, const fg__share *share)
-{
-  return fine->scratch + (size_t)share->member * fine->scratch_size;
-}
-
-static void prolong_array(const fg__level *coarse, const float *from,
-                          const fg__level *fine, const float *base, float *to,
-                          const fg__share *share)
-{
-  part mine = part_of(fine, share);
-  for (int s = mine.begin; s < mine.end; ++s)
-    prolong_slice(coarse, from, fine, base, to, s, natural_line(fine, share));
-  fg__team_barrier(share);
-}
-
 static void correct_slice(const fg__level *coarse, const fg__level *fine, int s,
-                          const fg__share *share)
+                          bool linear, const fg__share *share)
 {
-  float *natural = natural_line(fine, share);
-  prolong_slice(coarse, coarse->u, fine, fine->u, fine->u, s, natural);
-  prolong_slice(coarse, coarse->w, fine, fine->w, fine->w, s, natural);
+  float *natural = fine->scratch + (size_t)(share->member + 1) * fine->scratch_size -
+                   fine->layout.stride;
+  correct_array(coarse, coarse->u, fine, fine->u, s, linear ? SCALE : SHAPE, natural);
+  correct_array(coarse, coarse->w, fine, fine->w, s, ONE, natural);
 }
 
-/* Slice s is smoothed when those up to s + 1 are corrected; the slices at either end of a
- * part are corrected before all others, because the neighbours' need them. */
-static void ascend(const fg__level *coarse, const fg__level *fine, float tau, bool linear,
-                   const fg__share *share)
+/* The slices at either end of a part are corrected before all others, because the
+ * neighbours' sweeps need them. */
+static void correct_ends(const fg__level *coarse, const fg__level *fine, part mine,
+                         bool linear, const fg__share *share)
 {
-  laplacian l = laplacian_times(fine, tau);
-  part mine = part_of(fine, share);
   int last = mine.end - 1;
   for (int s = mine.begin; s < mine.end && s < mine.begin + 2; ++s)
-    correct_slice(coarse, fine, s, share);
+    correct_slice(coarse, fine, s, linear, share);
   if (last >= mine.begin + 2)
-    correct_slice(coarse, fine, last, share);
+    correct_slice(coarse, fine, last, linear, share);
   fg__team_barrier(share);
-  begin_sweep(fine, mine, &l, linear, share);
-  for (int s = mine.begin + 2; s <= mine.end + 1; s += 2) {
-    for (int next = s; next <= s + 1 && next < last; ++next)
-      correct_slice(coarse, fine, next, share);
+}
+
+static void clear(const fg__level *level, float *array)
+{
+  memset(array - level->layout.first, 0, level->layout.array_size * sizeof *array);
+}
+
+/* What is done to a fine level, in this order, in one pass over its memory. */
+typedef struct work {
+  bool correct, sweep, restriction;
+} work;
+
+/* Slice s is smoothed when those up to s + 1 are corrected. Once slices up to s = 2 S + 2
+ * are smoothed, those up to 2 S + 1 have their final residuals, while they are still
+ * near. Not so at the start of a part, whose neighbour may be at work still, nor across a
+ * periodic border, where slice 0 needs the last. */
+static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool linear,
+                 work todo, const fg__share *share)
+{
+  laplacian l = laplacian_times(fine, tau);
+  restriction r = restriction_of(fine, coarse, tau, share);
+  float *const out[] = {coarse->p, coarse->q, coarse->coupling, coarse->shape_curvature};
+  part mine = part_of(fine, share);
+  int first = mine.begin / 2, last = (mine.end + 1) / 2; /* coarse slices */
+  bool together = todo.sweep && todo.restriction && !fine->periodic[FG__DIMENSION - 1];
+  int started = together && mine.begin == 0 ? first : first + 1;
+  if (todo.correct)
+    correct_ends(coarse, fine, mine, linear, share);
+  if (todo.sweep)
+    begin_sweep(fine, mine, &l, linear, share);
+  for (int s = mine.begin + 2; todo.sweep && s <= mine.end + 1; s += 2) {
+    int S = s / 2 - 1;
+    for (int next = s; todo.correct && next <= s + 1 && next < mine.end - 1; ++next)
+      correct_slice(coarse, fine, next, linear, share);
     continue_sweep(fine, s, mine, &l, linear);
+    if (together && S >= started)
+      restrict_slice(&r, S, S == started, out, linear);
   }
   fg__team_barrier(share);
+  if (!todo.restriction)
+    return;
+  int end = together ? started : last;
+  for (int S = first; S < end && S < last; ++S)
+    restrict_slice(&r, S, S == first, out, linear);
+  if (share->member == 0)
+    clear(coarse, coarse->u);
+  if (share->member == share->members - 1)
+    clear(coarse, coarse->w);
+  fg__team_barrier(share);
 }
 
-static void prolong_smooth(const fg__level *coarse, const fg__level *fine, float tau,
+static void restrict_residuals(const fg__level *fine, const fg__level *coarse, float tau,
+                               const fg__share *share)
+{
+  pass(fine, coarse, tau, false, (work){.restriction = true}, share);
+}
+
+static void smooth_restrict_linear(const fg__level *fine, const fg__level *coarse,
+                                   float tau, const fg__share *share)
+{
+  pass(fine, coarse, tau, true, (work){.sweep = true, .restriction = true}, share);
+}
+
+static void correct_smooth(const fg__level *coarse, const fg__level *fine, float tau,
                            const fg__share *share)
 {
-  ascend(coarse, fine, tau, false, share);
+  pass(fine, coarse, tau, false, (work){.correct = true, .sweep = true}, share);
 }
 
-static void prolong_smooth_linear(const fg__level *coarse, const fg__level *fine,
+static void correct_smooth_linear(const fg__level *coarse, const fg__level *fine,
                                   float tau, const fg__share *share)
 {
-  ascend(coarse, fine, tau, true, share);
+  pass(fine, coarse, tau, true, (work){.correct = true, .sweep = true}, share);
+}
+
+static void correct_smooth_restrict(const fg__level *coarse, const fg__level *fine,
+                                    float tau, const fg__share *share)
+{
+  pass(fine, coarse, tau, false, (work){true, true, true}, share);
 }
 
 #endif

@@ -6,9 +6,10 @@
 
 #include "base/memory.h"
 
-/* What kernels keep of slices for themselves: one line and three gathered slices of three
- * quantities; in 3D three lines more that become a gathered one. */
-enum { SCRATCH_QUANTITIES = 3, SCRATCH_SLICES = 3, SCRATCH_LINES = 4 };
+/* What kernels keep of slices for themselves: one line and three gathered slices of four
+ * quantities; in 3D three lines more that become a gathered one; and a line of its own.
+ */
+enum { SCRATCH_QUANTITIES = 4, SCRATCH_SLICES = 3, SCRATCH_LINES = 4 };
 
 static int round_to_lanes(int count)
 {
@@ -416,7 +417,7 @@ static fg_status take_rows(fg__level *level, fg_context *context, const fg__team
   if (level->layout.dimension == 3)
     slice *= (size_t)level->layout.nodes[1] / 2 + 1;
   level->scratch_size =
-      SCRATCH_QUANTITIES * (SCRATCH_SLICES * slice + SCRATCH_LINES * stride);
+      SCRATCH_QUANTITIES * (SCRATCH_SLICES * slice + SCRATCH_LINES * stride) + stride;
   size_t count = 3 * stride + (size_t)fg__team_members(team) * level->scratch_size;
   float *memory = fg__allocate_aligned(count, sizeof *memory);
   if (!memory)
@@ -501,10 +502,12 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
     out->spacing[k] = used ? description->spacing[k] : 1.0;
   }
   lay_out(out, description->box);
-  float **const arrays[] = {&out->u, &out->w, &out->p, &out->q, &out->curvature};
+  float **const arrays[] = {&out->u,     &out->w,        &out->p,
+                            &out->q,     &out->coupling, &out->shape_curvature,
+                            &out->scale, &out->curvature};
   fg_status status = take_rows(out, context, description->team);
   if (!status && !description->box)
-    status = take_arrays(out, context, arrays, description->finest ? 3 : 5);
+    status = take_arrays(out, context, arrays, description->finest ? 3 : 8);
   if (!status)
     status = take_stencil(out, context, &out->energy);
   if (status)

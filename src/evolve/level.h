@@ -57,10 +57,13 @@ typedef struct fg__level {
    * whose mean is at most 8, the other for squares of changes, at most 1/8. */
   double rounding, change_rounding;
 
-  float *u, *w;       /* density and chemical potential; corrections on coarse levels */
-  float *p, *q;       /* right-hand sides of the first and second equation */
-  float *curvature;   /* coarse levels: restricted Psi''(u), of either sign */
-  fg__stencil energy; /* gamma L_A / volume */
+  float *u, *w; /* density and chemical potential; corrections on coarse levels */
+  float *p, *q; /* right-hand sides of the first and second equation */
+  /* The space of a coarse level's corrections, and Psi'' in it (kernel_space.h). Between
+   * restriction and find_scale the coupling holds the restricted d. */
+  float *coupling, *shape_curvature, *scale, *curvature;
+  float bulk;             /* d in the pure phases */
+  fg__stencil energy;     /* gamma L_A / volume */
   double gradient_weight; /* of that energy in sums: 1 when the stencil holds all of it */
   /* The Laplacian: constants where there is no mask (laplacian.center NULL): of the node
    * itself, its eastern neighbour, the middle and the sides of the upper rows. */
@@ -86,7 +89,7 @@ typedef struct fg__level_description {
   bool periodic[3];
   double spacing[3];
   double gamma;
-  bool finest;        /* no curvature and second right-hand side */
+  bool finest;        /* no second right-hand side and space of corrections */
   bool masked;        /* somewhere on the level, if not here */
   fg__team *team;     /* that builds it and will work on it; NULL: one thread */
   const fg__box *box; /* of nodes, when there are several; NULL: all */
@@ -118,7 +121,7 @@ static inline float *fg__node(const fg__level *level, float *array, int i, int j
 }
 
 /* Lays out a level and computes its stencils from the cells' tensor times weight, which
- * it takes over. One of several boxes gets no u, w, p, q and curvature of its own, and
+ * it takes over. One of several boxes gets no such arrays of its own, and
  * its masses lack ghosts (spread.h). MEMORY. */
 fg_status fg__level_create(fg__level *out, fg_context *context,
                            const fg__level_description *description,

@@ -23,7 +23,7 @@ static void options_out_of_range_are_refused(void **state)
   refuses(f, &(fg_evolution_options){.cycles = -1}, "cycles -1 ");
   refuses(f, &(fg_evolution_options){.cycles = 1001}, "cycles 1001 ");
   refuses(f, &(fg_evolution_options){.energy = (fg_energy)7}, "energy");
-  refuses(f, &(fg_evolution_options){.scheme = (fg_scheme)2}, "scheme 2 ");
+  refuses(f, &(fg_evolution_options){.scheme = (fg_scheme)3}, "scheme 3 ");
 }
 
 static void null_arguments_are_refused(void **state)

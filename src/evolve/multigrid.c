@@ -261,14 +261,16 @@ static fg__level *boxes_of(fg__multigrid *multigrid, int *count)
   return spread ? multigrid->spread[0].box : multigrid->level;
 }
 
-void fg__multigrid_leave_wells(fg__multigrid *multigrid, float *zeros)
+void fg__multigrid_leave_wells(fg__multigrid *multigrid, float *zeros, float *ones)
 {
   int count;
   fg__level *box = boxes_of(multigrid, &count);
   multigrid->linear = zeros;
   for (int b = 0; b < count; ++b) {
     ptrdiff_t offset = multigrid->spread_count > 0 ? multigrid->spread[0].offset[b] : 0;
-    box[b].q = box[b].curvature = zeros ? zeros + offset : NULL;
+    float *zero = zeros ? zeros + offset : NULL, *one = ones ? ones + offset : NULL;
+    box[b].q = box[b].curvature = box[b].shape_curvature = zero;
+    box[b].coupling = box[b].scale = one;
   }
 }
 
@@ -286,93 +288,156 @@ static bool nonlinear(const fg__multigrid *multigrid, int n)
   return n == 0 && multigrid->spread_count == 0 && !multigrid->linear;
 }
 
-static void descend(const fg__multigrid *multigrid, int n, float tau,
+/* One of several cycles: what the last one has done for it, and whether it shall do so
+ * for a next. */
+typedef struct turn {
+  float tau;
+  bool restricted, more;
+} turn;
+
+static void find_space(const fg__multigrid *multigrid, int n, const fg__share *share)
+{
+  multigrid->kernel->find_scale(&multigrid->level[n], share);
+  multigrid->kernel->find_curvature(&multigrid->level[n], share);
+}
+
+static void descend(const fg__multigrid *multigrid, int n, const turn *now,
                     const fg__share *share)
 {
-  const fg__level *level = multigrid->level;
-  if (nonlinear(multigrid, n))
-    multigrid->kernel->smooth_restrict(&level[0], &level[1], tau, share);
-  else
-    multigrid->kernel->smooth_restrict_linear(&level[n], &level[n + 1], tau, share);
+  const fg__level *level = &multigrid->level[n];
+  if (!nonlinear(multigrid, n))
+    multigrid->kernel->smooth_restrict_linear(level, level + 1, now->tau, share);
+  else if (!now->restricted)
+    multigrid->kernel->restrict_residuals(level, level + 1, now->tau, share);
+  find_space(multigrid, n + 1, share);
 }
 
-static void ascend(const fg__multigrid *multigrid, int n, float tau,
+static void ascend(const fg__multigrid *multigrid, int n, const turn *now,
                    const fg__share *share)
 {
-  const fg__level *level = multigrid->level;
-  if (nonlinear(multigrid, n))
-    multigrid->kernel->prolong_smooth(&level[1], &level[0], tau, share);
+  const fg__kernel *kernel = multigrid->kernel;
+  const fg__level *level = &multigrid->level[n];
+  kernel->unscale(level + 1, share);
+  if (!nonlinear(multigrid, n))
+    kernel->correct_smooth_linear(level + 1, level, now->tau, share);
+  else if (now->more)
+    kernel->correct_smooth_restrict(level + 1, level, now->tau, share);
   else
-    multigrid->kernel->prolong_smooth_linear(&level[n + 1], &level[n], tau, share);
+    kernel->correct_smooth(level + 1, level, now->tau, share);
 }
 
-/* The levels below the shared ones, from and back to level n. */
-static void cycle_alone(const fg__multigrid *multigrid, int n, float tau)
+/* Levels n and coarser, by one thread. */
+static void cycle_alone(const fg__multigrid *multigrid, int n, const turn *now)
 {
   const fg__kernel *kernel = multigrid->kernel;
   int last = multigrid->level_count - 1;
   fg__share alone = fg__alone();
   for (int m = n; m < last; ++m)
-    descend(multigrid, m, tau, &alone);
+    descend(multigrid, m, now, &alone);
   for (int sweep = 0; sweep < multigrid->coarsest_sweeps; ++sweep)
     if (nonlinear(multigrid, last)) /* too small a mesh to coarsen */
-      kernel->smooth(&multigrid->level[0], tau, &alone);
+      kernel->smooth(&multigrid->level[0], now->tau, &alone);
     else
-      kernel->smooth_linear(&multigrid->level[last], tau, &alone);
+      kernel->smooth_linear(&multigrid->level[last], now->tau, &alone);
   for (int m = last - 1; m >= n; --m)
-    ascend(multigrid, m, tau, &alone);
+    ascend(multigrid, m, now, &alone);
 }
 
 /* The whole levels, alike on all ranks. */
-static void cycle_whole(const fg__multigrid *multigrid, float tau, const fg__share *share)
+static void cycle_whole(const fg__multigrid *multigrid, const turn *now,
+                        const fg__share *share)
 {
   int last = multigrid->level_count - 1;
   int shared = multigrid->shared_levels < last ? multigrid->shared_levels : last;
   for (int n = 0; n < shared; ++n)
-    descend(multigrid, n, tau, share);
+    descend(multigrid, n, now, share);
   if (share->member == 0)
-    cycle_alone(multigrid, shared, tau);
+    cycle_alone(multigrid, shared, now);
   fg__team_barrier(share);
   for (int n = shared - 1; n >= 0; --n)
-    ascend(multigrid, n, tau, share);
+    ascend(multigrid, n, now, share);
 }
 
 /* From what the ranks share to level[0] and back. */
-static void cycle_gathered(const fg__multigrid *multigrid, float tau)
+static void cycle_gathered(const fg__multigrid *multigrid, const turn *now)
 {
   const fg__spread *image = &multigrid->spread[multigrid->spread_count];
   const fg__level *whole = &multigrid->level[0];
-  float *const sent[] = {image->p, image->q, image->curvature};
-  float *const received[] = {whole->p, whole->q, whole->curvature};
+  fg__share alone = fg__alone();
+  float *const sent[] = {image->p, image->q, image->coupling, image->shape_curvature};
+  float *const received[] = {whole->p, whole->q, whole->coupling, whole->shape_curvature};
   float *const *boxes[FG__MOST_EXCHANGED];
-  fg__spread_pointers(image, 3, sent, boxes);
-  fg__gather_fill(multigrid->gather, 3, boxes, received);
+  fg__spread_pointers(image, FG__RESTRICTED, sent, boxes);
+  fg__gather_fill(multigrid->gather, FG__RESTRICTED, boxes, received);
   float *const solution[] = {whole->u, whole->w};
   for (int n = 0; n < 2; ++n)
     memset(solution[n] - whole->layout.first, 0,
            whole->layout.array_size * sizeof(float));
-  fg__share alone = fg__alone();
-  cycle_whole(multigrid, tau, &alone);
+  find_space(multigrid, 0, &alone);
+  cycle_whole(multigrid, now, &alone);
+  multigrid->kernel->unscale(whole, &alone);
   float *const places[] = {image->u, image->w};
   fg__spread_pointers(image, 2, places, boxes);
   fg__gather_return(multigrid->gather, 2, solution, boxes);
 }
 
-void fg__multigrid_cycle(const fg__multigrid *multigrid, double tau,
-                         const fg__share *share)
+static void cycle_spread(const fg__multigrid *multigrid, const turn *now)
 {
-  float step = (float)tau;
-  int count = multigrid->spread_count;
+  const fg__kernel *kernel = multigrid->kernel;
   const fg__spread *spread = multigrid->spread;
-  if (count == 0) {
-    cycle_whole(multigrid, step, share);
-    return;
-  }
-  for (int n = 0; n < count; ++n)
-    fg__spread_descend(&spread[n], &spread[n + 1], multigrid->kernel, step,
+  int count = multigrid->spread_count;
+  for (int n = 0; n < count; ++n) {
+    fg__spread_descend(&spread[n], &spread[n + 1], kernel, now->tau,
                        n > 0 || multigrid->linear);
-  cycle_gathered(multigrid, step);
-  for (int n = count - 1; n >= 0; --n)
-    fg__spread_ascend(&spread[n + 1], &spread[n], multigrid->kernel, step,
+    if (n + 1 < count)
+      fg__spread_find_space(&spread[n + 1], kernel);
+  }
+  cycle_gathered(multigrid, now);
+  for (int n = count - 1; n >= 0; --n) {
+    if (n + 1 < count)
+      fg__spread_unscale(&spread[n + 1], kernel);
+    fg__spread_ascend(&spread[n + 1], &spread[n], kernel, now->tau,
                       n > 0 || multigrid->linear);
+  }
+}
+
+/* A member's share of an array's rows. */
+static void copy_rows(const fg__level *level, const float *from, float *to,
+                      const fg__share *share)
+{
+  int rows = (int)((ptrdiff_t)level->layout.array_size / level->layout.stride);
+  int begin, end;
+  fg__team_part(share, rows, 1, &begin, &end);
+  ptrdiff_t at = begin * level->layout.stride - level->layout.first;
+  memcpy(to + at, from + at,
+         (size_t)(end - begin) * (size_t)level->layout.stride * sizeof *to);
+}
+
+void fg__multigrid_copy(const fg__multigrid *multigrid, const float *from, float *to,
+                        const fg__share *share)
+{
+  if (multigrid->spread_count > 0)
+    memcpy(to, from, multigrid->spread[0].size * sizeof *to);
+  else
+    copy_rows(&multigrid->level[0], from, to, share);
+  fg__team_barrier(share);
+}
+
+void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
+                         float *before, const fg__share *share)
+{
+  turn now = {.tau = (float)tau};
+  for (int n = 1; n <= cycles; ++n) {
+    now.more = n < cycles;
+    if (before && n == cycles)
+      fg__multigrid_copy(multigrid, fg__multigrid_u(multigrid), before, share);
+    if (multigrid->spread_count > 0) {
+      fg__traffic_book *book = multigrid->ranks->book;
+      fg_activity activity = fg__traffic_begin(book, FG_ACTIVITY_CYCLES);
+      cycle_spread(multigrid, &now);
+      fg__traffic_return(book, activity);
+    } else
+      cycle_whole(multigrid, &now, share);
+    now.restricted = now.more;
+  }
 }

@@ -65,18 +65,25 @@ void fg__multigrid_use(fg__multigrid *multigrid, float *u);
 const fg__level *fg__multigrid_boxes(const fg__multigrid *multigrid, int *count,
                                      const ptrdiff_t **offset);
 
-/* Makes the finest level linear too, with `zeros`, an array of its shape that holds
- * nothing else, as curvature and q in place of the wells; NULL: nonlinear again. */
-void fg__multigrid_leave_wells(fg__multigrid *multigrid, float *zeros);
+/* Makes the finest level linear too, its q and curvature the given zeros and its coupling
+ * and scale the ones, arrays of its shape that hold nothing else; NULL: nonlinear again.
+ */
+void fg__multigrid_leave_wells(fg__multigrid *multigrid, float *zeros, float *ones);
+
+/* Copies an array of the finest level; by all members of the team. */
+void fg__multigrid_copy(const fg__multigrid *multigrid, const float *from, float *to,
+                        const fg__share *share);
 
 /* What the gradient part of the finest level's energies is multiplied by. */
 void fg__multigrid_weigh_gradient(fg__multigrid *multigrid, double weight);
 
-/* One V(1,1) cycle for the step tau, from and to u, w of the finest level, whose p holds
- * the right-hand side. Nonlinear (full approximation) on the finest level; the coarse
- * levels solve linear correction equations with the restricted curvature, at least 0.
- * To be called by every member of the multigrid's team. Collective. */
-void fg__multigrid_cycle(const fg__multigrid *multigrid, double tau,
-                         const fg__share *share);
+/* So many cycles for the step tau, from and to u, w of the finest level, whose p holds
+ * the right-hand side; `before`, unless NULL, takes a copy of u before the last. The
+ * finest level is nonlinear (full approximation) and smoothed after the correction only:
+ * the sweep at the end of one cycle prepares the next. Coarse levels are linear, V(1,1),
+ * in the space that is found in every cycle (kernel_space.h). To be called by every
+ * member of the multigrid's team. Collective. */
+void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
+                         float *before, const fg__share *share);
 
 #endif

@@ -302,9 +302,9 @@ static void the_potential_is_the_energys_derivative(void **state)
   for_all_problems(derives_from_the_energy);
 }
 
-/* Full weighting keeps the integral of what it restricts: here of p - u - tau L w, and
- * the flux has none. */
-static void defect_keeps_its_integral(const problem *p)
+/* Full weighting keeps the integral of what it restricts: here of the first equation's
+ * residual, whose flux has none. */
+static void residual_keeps_its_integral(const problem *p)
 {
   const fg__level *fine = &p->multigrid.level[0], *coarse = fine + 1;
   double *u = random_values(p, 31, 0.2, 0.9), *w = random_values(p, 32, -0.4, 1.0);
@@ -313,8 +313,7 @@ static void defect_keeps_its_integral(const problem *p)
   put(p, fine->u, u);
   put(p, fine->w, w);
   put(p, fine->p, rhs);
-  p->multigrid.kernel->restrict_defect(fine, fine->w, coarse, coarse->p, (float)tau,
-                                       &ALONE);
+  p->multigrid.kernel->restrict_residuals(fine, coarse, (float)tau, &ALONE);
   double restricted =
       p->multigrid.kernel
           ->changes(coarse, coarse->p, coarse->p, coarse->p, coarse->p, &ALONE)
@@ -327,10 +326,10 @@ static void defect_keeps_its_integral(const problem *p)
   free(rhs);
 }
 
-static void restricting_a_defect_keeps_its_integral(void **state)
+static void restricting_a_residual_keeps_its_integral(void **state)
 {
   (void)state;
-  for_all_problems(defect_keeps_its_integral);
+  for_all_problems(residual_keeps_its_integral);
 }
 
 int main(void)
@@ -343,7 +342,7 @@ int main(void)
       cmocka_unit_test(the_operator_is_symmetric_and_positive),
       cmocka_unit_test(energy_mass_and_changes_are_integrals),
       cmocka_unit_test(the_potential_is_the_energys_derivative),
-      cmocka_unit_test(restricting_a_defect_keeps_its_integral),
+      cmocka_unit_test(restricting_a_residual_keeps_its_integral),
   };
   return cmocka_run_group_tests_name("evolve/operator", tests, NULL, NULL);
 }

@@ -2,7 +2,7 @@
 #include "base/memory.h"
 #include "evolve/passes.h"
 #include "evolve/reference_test.h"
-#include "evolve/theta.h"
+#include "evolve/stepper.h"
 
 /* Enough for every step to be solved to float rounding: a cycle gains a factor of 3 to 10
  * (multigrid_test), the first guess is the last step. */
@@ -217,8 +217,7 @@ static void add_source(const setting *s, source_term *f, double t, double tau,
 
 static void solve(const setting *s, double tau)
 {
-  for (int cycle = 0; cycle < CYCLES; ++cycle)
-    fg__pass_cycle(&s->p.multigrid, tau, NULL);
+  fg__pass_solve(&s->p.multigrid, tau, CYCLES, NULL);
 }
 
 /* One step from u at time t. */
@@ -342,6 +341,71 @@ static void theta_has_order_two(void **state)
   assert_order_in_time(false, 0.7, 600.0, 0.02, 32, 2.0);
 }
 
+/* The stepper's own steps, held at one length, from a density that decays; its
+ * differences of the second order begin with a step of the first. */
+static double *end_of_steps(bool second_order, int steps)
+{
+  const double end = 4e-3;
+  setting s;
+  create_setting(&s, (bool[]){true, false}, 48, 0.9, 0.4, 0.0, 0.0);
+  problem *p = &s.p;
+  double *u = values_of(p);
+  exact(&s, 0.0, u);
+  put(p, p->multigrid.level[0].u, u);
+  fg__stepper_description description = {.cell_volume = volume_of(p),
+                                         .first_tau = end / steps,
+                                         .most_tau = end / steps,
+                                         .accuracy = 0.9,
+                                         .cycles = CYCLES,
+                                         .second_order = second_order};
+  fg__stepper stepper;
+  assert_int_equal(fg__stepper_create(&stepper, p->context, &p->multigrid, &description),
+                   FG_STATUS_OK);
+  for (int n = 0; n < steps; ++n) {
+    assert_int_equal(fg__stepper_advance(&stepper, p->context), FG_STATUS_OK);
+    assert_true(stepper.last_tau == end / steps);
+  }
+  p->multigrid = stepper.multigrid;
+  get(p, stepper.current, u);
+  stepper.multigrid = (fg__multigrid){0};
+  fg__stepper_clear(&stepper);
+  clear_setting(&s);
+  return u;
+}
+
+static void assert_order_of_steps(bool second_order, int first, double order)
+{
+  enum { HALVINGS = 5 };
+  setting s;
+  create_setting(&s, (bool[]){true, false}, 48, 0.9, 0.4, 0.0, 0.0);
+  double *u[HALVINGS], before = 0.0;
+  for (int n = 0; n < HALVINGS; ++n) {
+    u[n] = end_of_steps(second_order, first << n);
+    if (n == 0)
+      continue;
+    for (size_t k = 0; k < s.p.nodes; ++k)
+      u[n - 1][k] -= u[n][k];
+    double change = norm(&s.p, u[n - 1]);
+    if (n > 1) {
+      print_message("# %d to %d steps: %.3g to %.3g, order %.3f\n", first << (n - 1),
+                    first << n, before, change, log2(before / change));
+      if (n > 2)
+        assert_true(fabs(log2(before / change) - order) < 0.2);
+    }
+    before = change;
+  }
+  for (int n = 0; n < HALVINGS; ++n)
+    free(u[n]);
+  clear_setting(&s);
+}
+
+static void steps_have_the_order_of_their_scheme(void **state)
+{
+  (void)state;
+  assert_order_of_steps(false, 8, 1.0);
+  assert_order_of_steps(true, 8, 2.0);
+}
+
 static bool outside_a_notch(double x, double y)
 {
   return !(x > 0.4 && x < 0.6 && y < 0.45) && hypot(x - 0.8, y - 0.5) > 0.07;
@@ -371,8 +435,7 @@ static void a_notched_domain_loses_energy_and_keeps_mass(void **state)
     area += p.mass[n];
   for (int step = 0; step < 45; ++step, tau *= 1.15) {
     put(&p, level->p, u);
-    for (int cycle = 0; cycle < CYCLES; ++cycle)
-      fg__pass_cycle(&p.multigrid, tau, NULL);
+    fg__pass_solve(&p.multigrid, tau, CYCLES, NULL);
     get(&p, level->u, u);
     double now = reference_energy(&p, u);
     assert_true(now < energy);
@@ -392,6 +455,7 @@ int main(void)
       cmocka_unit_test(periodic_borders_have_order_two),
       cmocka_unit_test(implicit_euler_has_order_one),
       cmocka_unit_test(theta_has_order_two),
+      cmocka_unit_test(steps_have_the_order_of_their_scheme),
       cmocka_unit_test(a_notched_domain_loses_energy_and_keeps_mass),
   };
   return cmocka_run_group_tests_name("evolve/order", tests, NULL, NULL);

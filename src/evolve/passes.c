@@ -10,6 +10,7 @@ typedef struct pass {
   const float *from, *a, *b, *c;
   float *to;
   double number;
+  int cycles;
   fg__sums sums[FG__MOST_MEMBERS];
   fg__changes changes[FG__MOST_MEMBERS];
 } pass;
@@ -48,21 +49,10 @@ static double node_count(const fg__spread *spread)
   return (double)nodes[0] * nodes[1] * nodes[2];
 }
 
-static void copy_part(const fg__level *level, const float *from, float *to,
-                      const fg__share *share)
-{
-  int rows = (int)((ptrdiff_t)level->layout.array_size / level->layout.stride);
-  int begin, end;
-  fg__team_part(share, rows, 1, &begin, &end);
-  ptrdiff_t at = begin * level->layout.stride - level->layout.first;
-  memcpy(to + at, from + at,
-         (size_t)(end - begin) * (size_t)level->layout.stride * sizeof *to);
-}
-
 static void copy(void *argument, const fg__share *share)
 {
   const pass *p = argument;
-  copy_part(finest(p), p->from, p->to, share);
+  fg__multigrid_copy(p->multigrid, p->from, p->to, share);
 }
 
 void fg__pass_fill_ghosts(const fg__multigrid *multigrid, float *u)
@@ -75,38 +65,20 @@ void fg__pass_fill_ghosts(const fg__multigrid *multigrid, float *u)
 
 void fg__pass_copy(const fg__multigrid *multigrid, const float *from, float *to)
 {
-  if (is_spread(multigrid)) {
-    memcpy(to, from, multigrid->spread[0].size * sizeof *to);
-    return;
-  }
   pass p = {.multigrid = multigrid, .from = from, .to = to};
   run(&p, copy);
 }
 
-static void cycle(void *argument, const fg__share *share)
+static void solve(void *argument, const fg__share *share)
 {
   const pass *p = argument;
-  if (p->to) {
-    copy_part(finest(p), finest(p)->u, p->to, share);
-    fg__team_barrier(share);
-  }
-  fg__multigrid_cycle(p->multigrid, p->number, share);
+  fg__multigrid_solve(p->multigrid, p->number, p->cycles, p->to, share);
 }
 
-void fg__pass_cycle(const fg__multigrid *multigrid, double tau, float *before)
+void fg__pass_solve(const fg__multigrid *multigrid, double tau, int cycles, float *before)
 {
-  if (is_spread(multigrid)) {
-    fg__share alone = fg__alone();
-    fg__traffic_book *book = multigrid->ranks->book;
-    if (before)
-      fg__pass_copy(multigrid, fg__multigrid_u(multigrid), before);
-    fg_activity activity = fg__traffic_begin(book, FG_ACTIVITY_CYCLES);
-    fg__multigrid_cycle(multigrid, tau, &alone);
-    fg__traffic_return(book, activity);
-    return;
-  }
-  pass p = {.multigrid = multigrid, .to = before, .number = tau};
-  run(&p, cycle);
+  pass p = {.multigrid = multigrid, .to = before, .number = tau, .cycles = cycles};
+  run(&p, solve);
 }
 
 static void evaluate(void *argument, const fg__share *share)
@@ -284,40 +256,25 @@ void fg__pass_extrapolate(const fg__multigrid *multigrid, const float *now,
   run(&p, extrapolate);
 }
 
-static void prolong(void *argument, const fg__share *share)
+static void predict(void *argument, const fg__share *share)
 {
   const pass *p = argument;
-  p->multigrid->kernel->prolong_array(finest(p) + 1, p->from, finest(p), p->a, p->to,
-                                      share);
+  p->multigrid->kernel->predict(finest(p), p->from, p->a, (float)p->number, p->to, share);
 }
 
-void fg__pass_prolong(const fg__multigrid *multigrid, const float *coarse,
-                      const float *base, float *to)
+void fg__pass_predict(const fg__multigrid *multigrid, const float *now,
+                      const float *before, double omega, float *out)
 {
   if (is_spread(multigrid)) {
-    fg__spread_prolong(&multigrid->spread[1], coarse, &multigrid->spread[0], base, to,
-                       multigrid->kernel);
+    const fg__spread *spread = &multigrid->spread[0];
+    fg__share alone = fg__alone();
+    for (int b = 0; b < spread->count; ++b) {
+      ptrdiff_t at = spread->offset[b];
+      multigrid->kernel->predict(&spread->box[b], now + at, before + at, (float)omega,
+                                 out + at, &alone);
+    }
     return;
   }
-  pass p = {.multigrid = multigrid, .from = coarse, .a = base, .to = to};
-  run(&p, prolong);
-}
-
-static void restrict_defect(void *argument, const fg__share *share)
-{
-  const pass *p = argument;
-  p->multigrid->kernel->restrict_defect(finest(p), p->from, finest(p) + 1, p->to,
-                                        (float)p->number, share);
-}
-
-void fg__pass_restrict_defect(const fg__multigrid *multigrid, const float *w,
-                              float *coarse, double tau)
-{
-  if (is_spread(multigrid)) {
-    fg__spread_restrict_defect(&multigrid->spread[0], w, &multigrid->spread[1], coarse,
-                               (float)tau, multigrid->kernel);
-    return;
-  }
-  pass p = {.multigrid = multigrid, .from = w, .to = coarse, .number = tau};
-  run(&p, restrict_defect);
+  pass p = {.multigrid = multigrid, .from = now, .a = before, .number = omega, .to = out};
+  run(&p, predict);
 }

@@ -5,8 +5,9 @@
 
 #include "evolve/multigrid.h"
 
-/* One V(1,1) cycle; `before`, unless NULL, first takes a copy of u. */
-void fg__pass_cycle(const fg__multigrid *multigrid, double tau, float *before);
+/* Cycles; `before`, unless NULL, takes a copy of u before the last. */
+void fg__pass_solve(const fg__multigrid *multigrid, double tau, int cycles,
+                    float *before);
 fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float *w);
 
 /* p of the finest level := u - tau L w. */
@@ -21,14 +22,8 @@ void fg__pass_shift(const fg__multigrid *multigrid, float *u, double amount);
 void fg__pass_extrapolate(const fg__multigrid *multigrid, const float *now,
                           const float *before, double omega, float *out);
 void fg__pass_fill_ghosts(const fg__multigrid *multigrid, float *u);
+void fg__pass_predict(const fg__multigrid *multigrid, const float *now,
+                      const float *before, double omega, float *out);
 void fg__pass_copy(const fg__multigrid *multigrid, const float *from, float *to);
-
-/* to := base + the interpolation of `coarse`, an array of level[1]. */
-void fg__pass_prolong(const fg__multigrid *multigrid, const float *coarse,
-                      const float *base, float *to);
-
-/* coarse := restriction of p - u - tau L w to level[1]. */
-void fg__pass_restrict_defect(const fg__multigrid *multigrid, const float *w,
-                              float *coarse, double tau);
 
 #endif

@@ -8,23 +8,30 @@
 static fg_status take_arrays(fg__spread *spread, fg_context *context, bool finest)
 {
   size_t count = (size_t)spread->count;
-  size_t arrays = (finest ? 3 : 5) + FG__RESIDUALS;
+  size_t arrays = (finest ? 3 : 8) + FG__RESTRICTED;
   float *memory = fg__allocate_aligned(arrays * spread->size, sizeof *memory);
   spread->pointer = fg__allocate(FG__MOST_EXCHANGED * count, sizeof *spread->pointer);
   spread->memory = memory;
   if (!memory || !spread->pointer)
     return fg__fail_memory(context, "a multigrid level",
                            arrays * spread->size * sizeof *memory);
-  float **own[] = {&spread->u, &spread->w, &spread->p, &spread->q, &spread->curvature};
+  float **own[] = {&spread->u,     &spread->w,        &spread->p,
+                   &spread->q,     &spread->coupling, &spread->shape_curvature,
+                   &spread->scale, &spread->curvature};
   for (size_t n = 0; n < arrays; ++n, memory += spread->size)
-    if (n < FG__RESIDUALS)
+    if (n < FG__RESTRICTED)
       spread->residual[n] = memory;
     else
-      *own[n - FG__RESIDUALS] = memory;
+      *own[n - FG__RESTRICTED] = memory;
   fg__spread_use(spread, spread->u, spread->w, spread->p);
   for (int b = 0; b < spread->count && !finest; ++b) {
-    spread->box[b].q = spread->q + spread->offset[b];
-    spread->box[b].curvature = spread->curvature + spread->offset[b];
+    fg__level *box = &spread->box[b];
+    ptrdiff_t offset = spread->offset[b];
+    box->q = spread->q + offset;
+    box->coupling = spread->coupling + offset;
+    box->shape_curvature = spread->shape_curvature + offset;
+    box->scale = spread->scale + offset;
+    box->curvature = spread->curvature + offset;
   }
   return FG_STATUS_OK;
 }
@@ -154,58 +161,48 @@ void fg__spread_smooth(const fg__spread *spread, const fg__kernel *kernel, float
 void fg__spread_descend(const fg__spread *fine, const fg__spread *coarse,
                         const fg__kernel *kernel, float tau, bool linear)
 {
-  fg__spread_smooth(fine, kernel, tau, linear);
+  if (linear)
+    fg__spread_smooth(fine, kernel, tau, true);
   for (int b = 0; b < fine->count; ++b) {
-    float *out[FG__RESIDUALS];
-    for (int n = 0; n < FG__RESIDUALS; ++n)
+    float *out[FG__RESTRICTED];
+    for (int n = 0; n < FG__RESTRICTED; ++n)
       out[n] = fine->residual[n] + fine->offset[b];
     kernel->find_residuals(&fine->box[b], tau, linear, out);
   }
-  fg__spread_exchange(fine, FG__RESIDUALS, fine->residual, FG__ALL_COLOURS);
+  fg__spread_exchange(fine, FG__RESTRICTED, fine->residual, FG__ALL_COLOURS);
   for (int b = 0; b < fine->count; ++b) {
-    const fg__level *to = &coarse->box[b];
-    const float *from[FG__RESIDUALS];
-    for (int n = 0; n < FG__RESIDUALS; ++n)
+    const float *from[FG__RESTRICTED];
+    for (int n = 0; n < FG__RESTRICTED; ++n)
       from[n] = fine->residual[n] + fine->offset[b];
-    float *out[] = {to->p, to->q, to->curvature};
-    kernel->restrict_arrays(&fine->box[b], FG__RESIDUALS, from, to, out);
+    kernel->restrict_arrays(&fine->box[b], from, &coarse->box[b]);
   }
   memset(coarse->u, 0, coarse->size * sizeof *coarse->u);
   memset(coarse->w, 0, coarse->size * sizeof *coarse->w);
 }
 
-void fg__spread_prolong(const fg__spread *coarse, const float *from,
-                        const fg__spread *fine, const float *base, float *to,
-                        const fg__kernel *kernel)
+void fg__spread_find_space(const fg__spread *coarse, const fg__kernel *kernel)
 {
   fg__share alone = fg__alone();
-  for (int b = 0; b < fine->count; ++b)
-    kernel->prolong_array(&coarse->box[b], from + coarse->offset[b], &fine->box[b],
-                          base + fine->offset[b], to + fine->offset[b], &alone);
-  fg__spread_exchange(fine, 1, &to, FG__ALL_COLOURS);
+  for (int b = 0; b < coarse->count; ++b)
+    kernel->find_scale(&coarse->box[b], &alone);
+  fg__spread_exchange(coarse, 1, &coarse->scale, FG__ALL_COLOURS);
+  for (int b = 0; b < coarse->count; ++b)
+    kernel->find_curvature(&coarse->box[b], &alone);
+}
+
+void fg__spread_unscale(const fg__spread *coarse, const fg__kernel *kernel)
+{
+  fg__share alone = fg__alone();
+  for (int b = 0; b < coarse->count; ++b)
+    kernel->unscale(&coarse->box[b], &alone);
 }
 
 void fg__spread_ascend(const fg__spread *coarse, const fg__spread *fine,
                        const fg__kernel *kernel, float tau, bool linear)
 {
-  fg__spread_prolong(coarse, coarse->u, fine, fine->u, fine->u, kernel);
-  fg__spread_prolong(coarse, coarse->w, fine, fine->w, fine->w, kernel);
-  fg__spread_smooth(fine, kernel, tau, linear);
-}
-
-void fg__spread_restrict_defect(const fg__spread *fine, const float *w,
-                                const fg__spread *coarse, float *out, float tau,
-                                const fg__kernel *kernel)
-{
-  float *defect = fine->residual[0];
+  float *const both[] = {fine->u, fine->w};
   for (int b = 0; b < fine->count; ++b)
-    kernel->find_defect(&fine->box[b], w + fine->offset[b], tau,
-                        defect + fine->offset[b]);
-  fg__spread_exchange(fine, 1, &defect, FG__ALL_COLOURS);
-  for (int b = 0; b < fine->count; ++b) {
-    const float *from[] = {defect + fine->offset[b]};
-    float *to[] = {out + coarse->offset[b]};
-    kernel->restrict_arrays(&fine->box[b], 1, from, &coarse->box[b], to);
-  }
-  fg__spread_exchange(coarse, 1, &out, FG__ALL_COLOURS);
+    kernel->correct(&coarse->box[b], &fine->box[b], linear);
+  fg__spread_exchange(fine, 2, both, FG__ALL_COLOURS);
+  fg__spread_smooth(fine, kernel, tau, linear);
 }

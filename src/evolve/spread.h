@@ -7,18 +7,19 @@
 #include "mesh/exchange.h"
 #include "mesh/mesh.h"
 
-enum { FG__RESIDUALS = 3, FG__MOST_EXCHANGED = 3 };
+enum { FG__MOST_EXCHANGED = FG__RESTRICTED };
 
 typedef struct fg__spread {
   fg__partition partition;
   fg__exchange *exchange;
-  bool masked;       /* somewhere, if not here */
-  int count;         /* boxes of this rank */
-  fg__level *box;    /* [count] */
-  ptrdiff_t *offset; /* [count] from an array's start to the box's node (0, 0, 0) */
-  size_t size;       /* floats of an array: of all boxes, ghosts and pads included */
-  float *u, *w, *p, *q, *curvature; /* as in level.h, from their start */
-  float *residual[FG__RESIDUALS];
+  bool masked;          /* somewhere, if not here */
+  int count;            /* boxes of this rank */
+  fg__level *box;       /* [count] */
+  ptrdiff_t *offset;    /* [count] from an array's start to the box's node (0, 0, 0) */
+  size_t size;          /* floats of an array: of all boxes, ghosts and pads included */
+  float *u, *w, *p, *q; /* as in level.h, from their start */
+  float *coupling, *shape_curvature, *scale, *curvature;
+  float *residual[FG__RESTRICTED];
   float **pointer; /* [FG__MOST_EXCHANGED * count] */
   void *memory;
 } fg__spread;
@@ -53,22 +54,18 @@ void fg__spread_pointers(const fg__spread *spread, int count, float *const array
 void fg__spread_smooth(const fg__spread *spread, const fg__kernel *kernel, float tau,
                        bool linear);
 
-/* A sweep; then the residuals restricted to the coarse level, whose u and w become 0. */
+/* Restricts to a coarse level; its u and w become 0. A linear level is swept first. */
 void fg__spread_descend(const fg__spread *fine, const fg__spread *coarse,
                         const fg__kernel *kernel, float tau, bool linear);
+
+/* Makes a coarse level's system of what was restricted. */
+void fg__spread_find_space(const fg__spread *coarse, const fg__kernel *kernel);
+
+/* From scale * v to v: a coarse level's u, before it corrects. */
+void fg__spread_unscale(const fg__spread *coarse, const fg__kernel *kernel);
 
 /* The coarse level's correction; then a sweep. */
 void fg__spread_ascend(const fg__spread *coarse, const fg__spread *fine,
                        const fg__kernel *kernel, float tau, bool linear);
-
-/* to := base + the interpolation of a coarse array, ghosts exchanged. */
-void fg__spread_prolong(const fg__spread *coarse, const float *from,
-                        const fg__spread *fine, const float *base, float *to,
-                        const fg__kernel *kernel);
-
-/* out := restriction of p - u - tau L w, a coarse array with ghosts. */
-void fg__spread_restrict_defect(const fg__spread *fine, const float *w,
-                                const fg__spread *coarse, float *out, float tau,
-                                const fg__kernel *kernel);
 
 #endif

@@ -6,10 +6,14 @@
 
 #include "base/memory.h"
 
-/* The control of design.md section 3, found by experiment there: the last cycle's
- * correction relative to the step's change says how well two cycles solved it. */
-static const double acceptable_correction = 0.5; /* delta above this rejects */
-static const double wanted_correction = 0.2;     /* delta that keeps tau */
+/* The control of design.md section 3: the last cycle's correction relative to the step's
+ * change says how well the cycles solved it. It is an estimate of the error before the
+ * last cycle, hence the large values. A step that is not good enough is given more cycles
+ * before it is given up. */
+static const double acceptable_correction = 1.0; /* delta above this rejects */
+static const double wanted_correction = 1.0;     /* delta that keeps tau */
+static const double hopeless_correction = 2.0;
+enum { MORE_CYCLES = 3 };
 static const double correction_floor = 0.2; /* of eta: least change it is compared to */
 static const double acceptable_increment = 3.0; /* in units of eta */
 static const double most_growth = 2.0, most_shrinkage = 0.4;
@@ -57,14 +61,15 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
                        .cell_volume = description->cell_volume,
                        .accuracy = description->accuracy,
                        .cycles = description->cycles,
+                       .second_order = description->second_order,
                        .first_tau = description->first_tau,
                        .most_tau = description->most_tau,
                        .tau = description->first_tau,
                        .tau_limit = (double)INFINITY};
   *multigrid = (fg__multigrid){0};
   fg__multigrid *m = &out->multigrid;
-  fg__array_shape finest = fg__multigrid_shape(m, 0), second = fg__multigrid_shape(m, 1);
-  size_t size = finest.size + FG__LANES, count = 3 * size + second.size;
+  fg__array_shape finest = fg__multigrid_shape(m, 0);
+  size_t size = finest.size + FG__LANES, count = 3 * size;
   float *memory = fg__allocate_aligned(count, sizeof *memory);
   fg_status status = FG_STATUS_OK;
   if (!memory)
@@ -80,7 +85,6 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   out->current = memory + finest.first;
   out->previous = out->current + size;
   out->first_iterate = out->previous + size;
-  out->defect = memory + 3 * size + second.first;
   out->total_mass = weigh_domain(out);
   fg__pass_copy(m, fg__multigrid_u(m), out->current);
   out->mean = mean_of(out, out->current);
@@ -116,33 +120,36 @@ static void guess(fg__stepper *s, double tau, double share)
   }
   double omega = fmin(tau / s->last_tau, most_extrapolation);
   omega *= share * s->persistence;
-  fg__pass_extrapolate(m, s->current, s->previous, omega, u);
+  fg__pass_predict(m, s->current, s->previous, omega, u);
 }
 
 /* Keeps what the last cycle starts from. */
-static fg__changes cycle(fg__stepper *s, double tau)
+static fg__changes solve(fg__stepper *s, double tau, int cycles)
 {
   fg__multigrid *m = &s->multigrid;
-  for (int n = 0; n < s->cycles; ++n)
-    fg__pass_cycle(m, tau, n == s->cycles - 1 ? s->first_iterate : NULL);
-  s->cycles_spent += s->cycles;
+  fg__pass_solve(m, tau, cycles, s->first_iterate);
+  s->cycles_spent += cycles;
   return fg__pass_changes(m, fg__multigrid_u(m), s->current, s->first_iterate,
                           s->previous);
 }
 
-/* With history the last step's defect, kept on the next coarser grid, is carried forward.
- * After a reject w is what the failed attempt left, and starts again from the density. */
-static fg__changes step_by_euler(fg__stepper *s, double tau)
+/* Backward differences: over one step at first, and after a reject, when w is what the
+ * failed attempt left and starts again from the density; else of second order, over two
+ * steps of unequal size. */
+static double prepare_implicit(fg__stepper *s, double tau)
 {
   fg__multigrid *m = &s->multigrid;
   guess(s, tau, 1.0);
-  if (s->history) {
-    fg__pass_prolong(m, s->defect, s->current, fg__multigrid_p(m));
-  } else {
-    fg__pass_copy(m, s->current, fg__multigrid_p(m));
+  if (!s->history)
     fg__pass_evaluate(m, s->current, fg__multigrid_w(m));
+  if (!s->history || !s->second_order) {
+    fg__pass_copy(m, s->current, fg__multigrid_p(m));
+    return tau;
   }
-  return cycle(s, tau);
+  double omega = tau / s->last_tau, both = 1.0 + 2.0 * omega;
+  fg__pass_extrapolate(m, s->current, s->previous, omega * omega / both,
+                       fg__multigrid_p(m));
+  return tau * (1.0 + omega) / both;
 }
 
 /* Its correction is that of the substep solved worst. */
@@ -152,7 +159,8 @@ static fg__changes step_by_theta(fg__stepper *s, double tau)
   guess(s, tau, fg__theta_share(0));
   for (int n = 0; n < FG__THETA_SUBSTEPS; ++n) {
     double worst = sums.from_b;
-    sums = cycle(s, fg__theta_prepare(&s->theta, &s->multigrid, n, tau, s->current));
+    double substep = fg__theta_prepare(&s->theta, &s->multigrid, n, tau, s->current);
+    sums = solve(s, substep, s->cycles);
     sums.from_b = fmax(sums.from_b, worst);
   }
   return sums;
@@ -165,11 +173,11 @@ typedef struct outcome {
   bool at_rest; /* the change is within the rounding of the stored density */
 } outcome;
 
-static outcome attempt(fg__stepper *s, double tau)
+/* What the cycles say of the step; its mean is set right. */
+static outcome judge(fg__stepper *s, double tau, fg__changes sums)
 {
   fg__multigrid *m = &s->multigrid;
   float *u = fg__multigrid_u(m);
-  fg__changes sums = (s->theta.alpha > 0.0 ? step_by_theta : step_by_euler)(s, tau);
   fg__pass_shift(m, u, s->mean - sums.u / s->total_mass);
   fg__means_restore(&s->means, m, u);
   outcome result;
@@ -192,13 +200,24 @@ static outcome attempt(fg__stepper *s, double tau)
   return result;
 }
 
-/* The accepted density becomes the current one; its defect, with the potential that
- * attempt left in first_iterate, is kept for the next step. */
+static outcome attempt(fg__stepper *s, double tau)
+{
+  if (s->theta.alpha > 0.0)
+    return judge(s, tau, step_by_theta(s, tau));
+  double effective = prepare_implicit(s, tau);
+  outcome result = judge(s, tau, solve(s, effective, s->cycles));
+  for (int n = 0; n < MORE_CYCLES; ++n) {
+    if (result.accepted || result.at_rest || !(result.correction <= hopeless_correction))
+      break;
+    result = judge(s, tau, solve(s, effective, 1));
+  }
+  return result;
+}
+
+/* The accepted density becomes the current one. */
 static void keep(fg__stepper *s, double tau, const outcome *result)
 {
   fg__multigrid *m = &s->multigrid;
-  if (s->theta.alpha == 0.0)
-    fg__pass_restrict_defect(m, s->first_iterate, s->defect, tau);
   float *oldest = s->previous;
   s->previous = s->current;
   s->current = fg__multigrid_u(m);

@@ -8,7 +8,8 @@
 
 typedef struct fg__stepper {
   fg__multigrid multigrid;
-  fg__theta theta;    /* alpha 0: implicit Euler */
+  fg__theta theta;    /* alpha 0: implicit */
+  bool second_order;  /* backward differences over two steps, not one */
   double accuracy;    /* eta */
   int cycles;         /* a step, or a substep of the theta scheme */
   double cell_volume; /* hx hy (hz), units of the longest side */
@@ -24,13 +25,12 @@ typedef struct fg__stepper {
   double energy, mass; /* of the current u, units of the longest side */
   double increment;    /* rms of the last step's change */
   double persistence;  /* share of the last change that the predictor continues */
-  bool history;        /* the last step's predecessor and defect may be used */
+  bool history;        /* the last step's predecessor may be used */
   long quiet_steps;    /* steps in a row that changed next to nothing */
 
   /* Arrays of the finest level. A step is computed in the level's own u, which then
    * becomes current: the three are passed round, never copied. */
   float *current, *previous, *first_iterate;
-  float *defect; /* of the next level */
   void *memory;
 } fg__stepper;
 
@@ -39,7 +39,8 @@ typedef struct fg__stepper_description {
   double first_tau, most_tau; /* steps start with one and never exceed the other */
   double accuracy;
   int cycles;
-  double alpha; /* of the theta scheme; 0: implicit Euler */
+  bool second_order; /* implicit: backward differences over two steps, not one */
+  double alpha;      /* of the theta scheme; 0: implicit */
 } fg__stepper_description;
 
 /* Takes over a multigrid hierarchy (cleared with the stepper), for the theta scheme as

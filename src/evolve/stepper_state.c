@@ -19,13 +19,12 @@ const fg__named_value fg__stepper_values[] = {
 const size_t fg__stepper_value_count =
     sizeof fg__stepper_values / sizeof fg__stepper_values[0];
 
-/* With history, a step starts from the change since the previous density, the last
- * potential and the last defect (prepare in stepper.c). */
+/* With history, a step starts from the change since the previous density, and the
+ * last potential (prepare_implicit in stepper.c). */
 void fg__stepper_arrays(fg__stepper *stepper, fg__state_array out[FG__STATE_ARRAYS])
 {
   const fg__level *level = stepper->multigrid.level;
   out[0] = (fg__state_array){"current", 0, level, stepper->current};
   out[1] = (fg__state_array){"previous", 0, level, stepper->previous};
   out[2] = (fg__state_array){"potential", 0, level, level->w};
-  out[3] = (fg__state_array){"defect", 1, level + 1, stepper->defect};
 }

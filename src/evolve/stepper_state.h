@@ -18,7 +18,7 @@ typedef struct fg__state_array {
   float *values;
 } fg__state_array;
 
-enum { FG__STATE_ARRAYS = 4 };
+enum { FG__STATE_ARRAYS = 3 };
 
 /* Lists the arrays; they are the stepper's own, for reading or for filling (with
  * ghosts). */

@@ -53,8 +53,7 @@ static void substep(setting *s, int n, double tau, double *u)
   if (n == 0)
     fg__pass_copy(&s->p.multigrid, s->start, level->u);
   double implicit = fg__theta_prepare(&s->theta, &s->p.multigrid, n, tau, s->start);
-  for (int cycle = 0; cycle < CYCLES; ++cycle)
-    fg__pass_cycle(&s->p.multigrid, implicit, NULL);
+  fg__pass_solve(&s->p.multigrid, implicit, CYCLES, NULL);
   get(&s->p, level->u, u);
 }
 

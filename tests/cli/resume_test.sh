@@ -8,7 +8,7 @@ options=(--nodes 65 --clusters 20,8 --quiet --checkpoint 0)
 # begin FOLDER ARGUMENTS...: a run that is killed a good way on, after a scale.
 begin() {
   rm -rf "$1"
-  with_calls kill 550 "${input[@]}" "${options[@]}" "${@:2}" -o "$1"
+  with_calls kill 380 "${input[@]}" "${options[@]}" "${@:2}" -o "$1"
   [ "$code" = 137 ] || fault "not killed: code $code"
   expect_file "$1/.flowgrain/checkpoint"
   expect_file "$1/.flowgrain/scale-00.svg"
@@ -170,7 +170,7 @@ done_with "but not changed"
 input=(run synth:vortex3)
 try "${input[@]}" "${options[@]}" -o old --seed 9
 before=$(sum_of old)
-with_calls kill 550 "${input[@]}" "${options[@]}" -o old --force
+with_calls kill 380 "${input[@]}" "${options[@]}" -o old --force
 [ "$code" = 137 ] || fault "not killed: code $code"
 mv old/.flowgrain aside
 [ "$(sum_of old)" = "$before" ] || fault "the old results have changed"
@@ -181,9 +181,9 @@ expect_same_results whole old
 expect_only_results old
 done_with "a run killed while it replaces old results leaves them, and goes on"
 
-try "${input[@]}" --nodes 65 --clusters 20,8 --quiet -o limit --max-steps 40
+try "${input[@]}" --nodes 65 --clusters 20,8 --quiet -o limit --max-steps 32
 expect_code 0
-expect_json limit/run.json '.ended == "steps" and .steps.accepted == 40'
+expect_json limit/run.json '.ended == "steps" and .steps.accepted == 32'
 try "${input[@]}" --nodes 65 --clusters 20,8 --quiet -o limit --resume
 expect_code 0
 expect_same_results whole limit
@@ -193,7 +193,7 @@ done_with "a run that ended at its limit goes on without it"
 cube=(run synth:vortex3d --nodes 33 --clusters 9,5 --quiet --checkpoint 0)
 try "${cube[@]}" -o cube
 expect_code 0
-for at in 100 400 800; do
+for at in 100 250 400; do
   rm -rf part
   with_calls kill "$at" "${cube[@]}" -o part
   [ "$code" = 137 ] || fault "not killed: code $code"

@@ -128,7 +128,7 @@ try run synth:vortex3 -o out9t --nodes 65 --scheme theta --clusters 12 --verbose
 expect_code 0
 expect_error ', theta scheme, '
 expect_json out9t/run.json '.parameters.scheme == "theta" and .energy_monotone == true'
-expect_json out1/run.json '.parameters.scheme == "euler"'
+expect_json out1/run.json '.parameters.scheme == "bdf2"'
 [ "$(awk -F, 'NR > 1 && $9 % 6' out9t/evolution.csv)" = "" ] || fault "cycles are not those of three substeps"
 done_with "the theta scheme"
 

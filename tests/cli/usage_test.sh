@@ -29,7 +29,7 @@ wrong 'unknown option --no-such' run a -o x --no-such
 done_with "unknown long option"
 wrong 'unknown option -z' run a -o x -z
 done_with "unknown short option"
-wrong 'scheme thta: not known; the choice is: euler, theta' run a -o x --scheme thta
+wrong 'scheme thta: not known; the choice is: bdf2, euler, theta' run a -o x --scheme thta
 done_with "a word that is no choice"
 wrong 'say one' run a -o x --resume --force
 done_with "--resume and --force exclude each other"
