@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/memory.h"
 
@@ -11,22 +10,24 @@
 
 typedef struct engine {
   fg__multigrid multigrid;
-  fg__theta theta; /* alpha 0: implicit Euler */
-  float *start, *before, *memory;
-  double volume;
+  scheme by;
+  fg__theta theta;
+  float *start, *older, *before, *memory;
+  bool history; /* older is of one such step ago */
 } engine;
 
-static void create_engine(engine *s, const domain *d, double alpha)
+static void create_engine(engine *s, const domain *d, scheme by, double alpha)
 {
-  *s = (engine){.volume = d->volume};
+  *s = (engine){.by = by};
   create_multigrid(&s->multigrid, d, alpha);
   if (alpha > 0.0)
     check(!fg__theta_create(&s->theta, NULL, &s->multigrid, alpha), "the theta scheme");
   fg__array_shape shape = fg__multigrid_shape(&s->multigrid, 0);
-  s->memory = fg__allocate_aligned(2 * (shape.size + FG__LANES), sizeof(float));
+  s->memory = fg__allocate_aligned(3 * (shape.size + FG__LANES), sizeof(float));
   check(s->memory != NULL, "memory");
   s->start = s->memory + shape.first;
-  s->before = s->start + shape.size + FG__LANES;
+  s->older = s->start + shape.size + FG__LANES;
+  s->before = s->older + shape.size + FG__LANES;
 }
 
 static void clear_engine(engine *s)
@@ -44,7 +45,7 @@ static bool solve(engine *s, double tau)
 {
   fg__multigrid *m = &s->multigrid;
   for (int n = 0; n < MOST_CYCLES; ++n) {
-    fg__pass_cycle(m, tau, s->before);
+    fg__pass_solve(m, tau, 1, s->before);
     fg__changes c =
         fg__pass_changes(m, fg__multigrid_u(m), s->start, s->before, s->start);
     if (!(c.from_a < 1e30))
@@ -55,15 +56,32 @@ static bool solve(engine *s, double tau)
   return false;
 }
 
-/* From start to the multigrid's u; false when the cycles do not converge. */
+static void begin(engine *s, const float *u)
+{
+  fg__level_import(&s->multigrid.level[0], s->start, u);
+  s->history = false;
+}
+
+/* The multigrid's u, in which the step ends, becomes the start of the next. */
+static void go_on(engine *s)
+{
+  fg__pass_copy(&s->multigrid, s->start, s->older);
+  fg__pass_copy(&s->multigrid, fg__multigrid_u(&s->multigrid), s->start);
+  s->history = true;
+}
+
+/* From start to the multigrid's u; false when the cycles do not converge. The first step
+ * of BDF2 is Euler's. */
 static bool step(engine *s, double tau)
 {
   fg__multigrid *m = &s->multigrid;
   fg__pass_copy(m, s->start, fg__multigrid_u(m));
-  if (s->theta.alpha == 0.0) {
-    fg__pass_copy(m, s->start, fg__multigrid_p(m));
+  if (s->by != THETA) {
+    bool two = s->by == BDF2 && s->history;
+    fg__pass_extrapolate(m, s->start, two ? s->older : s->start, 1.0 / 3.0,
+                         fg__multigrid_p(m));
     fg__pass_evaluate(m, s->start, fg__multigrid_w(m));
-    return solve(s, tau);
+    return solve(s, two ? 2.0 / 3.0 * tau : tau);
   }
   bool good = true;
   for (int n = 0; n < FG__THETA_SUBSTEPS && good; ++n)
@@ -81,7 +99,10 @@ typedef bool answer(question *q, double tau);
 
 static bool converges(question *q, double tau)
 {
-  fg__level_import(&q->engine->multigrid.level[0], q->engine->start, q->u);
+  begin(q->engine, q->u);
+  if (!step(q->engine, tau))
+    return false;
+  go_on(q->engine);
   return step(q->engine, tau);
 }
 
@@ -92,7 +113,7 @@ static bool energy_falls(question *q, double tau)
 {
   engine *s = q->engine;
   fg__multigrid *m = &s->multigrid;
-  fg__level_import(&m->level[0], s->start, q->u);
+  begin(s, q->u);
   double energy = fg__pass_evaluate(m, s->start, s->before).energy;
   for (int n = 0; n < ENERGY_STEPS; ++n) {
     if (!step(s, tau)) {
@@ -105,7 +126,7 @@ static bool energy_falls(question *q, double tau)
       return false;
     }
     energy = now;
-    fg__pass_copy(m, fg__multigrid_u(m), s->start);
+    go_on(s);
   }
   return true;
 }
@@ -130,28 +151,32 @@ static double largest(answer *holds, question *q, double low)
   return low;
 }
 
-/* The largest steps whose error against the tight solution is at most 1 % of u, and 10 %
- * of the change: found by going up with that solution. Very short steps say nothing: what
- * they change is near the rounding of floats. */
-static void find_accurate_steps(const domain *d, const moment *m, engine *engines[2],
-                                double found[2][2])
+/* The largest steps two of which have an error against the tight solution of at most 1 %
+ * of u, and 10 % of the change: found by going up with that solution. Very short steps
+ * say nothing: what they change is near the rounding of floats. */
+static void find_accurate_steps(const domain *d, const moment *m, engine engines[SCHEMES],
+                                double found[SCHEMES][2])
 {
   static const double allowed[2] = {0.01, 0.1}, factor = 1.1, first = 1e-6;
   float *exact = plain_array(), *u = plain_array();
   fg__stepper tight;
   create_exact(&tight, d, m->u);
-  bool open[2][2] = {{true, true}, {true, true}};
-  memset(found, 0, 4 * sizeof(double));
-  for (double tau = first; open[0][0] || open[0][1] || open[1][0] || open[1][1];
-       tau *= factor) {
-    advance(&tight, tau - tight.time, exact_step(d));
+  bool open[SCHEMES][2], any = true;
+  for (int k = 0; k < SCHEMES; ++k)
+    for (int n = 0; n < 2; ++n) {
+      open[k][n] = true;
+      found[k][n] = 0.0;
+    }
+  for (double tau = first; any; tau *= factor) {
+    advance(&tight, 2.0 * tau - tight.time, exact_step(d));
     export_current(&tight, exact);
-    for (int k = 0; k < 2; ++k) {
+    any = false;
+    for (int k = 0; k < SCHEMES; ++k) {
       if (!open[k][0] && !open[k][1])
         continue;
-      question q = {engines[k], m->u, false};
+      question q = {&engines[k], m->u, false};
       bool good = converges(&q, tau);
-      const fg__multigrid *grid = &engines[k]->multigrid;
+      const fg__multigrid *grid = &engines[k].multigrid;
       fg__level_export(&grid->level[0], grid->level[0].u, u);
       error e = error_of(u, exact, m->u);
       const double shares[2] = {e.of_u, e.of_change};
@@ -159,6 +184,7 @@ static void find_accurate_steps(const domain *d, const moment *m, engine *engine
         open[k][n] = open[k][n] && good && shares[n] <= allowed[n];
         if (open[k][n])
           found[k][n] = tau;
+        any = any || open[k][n];
       }
     }
   }
@@ -175,34 +201,35 @@ static void print_energy_limit(question *q, double unit)
 
 void compare_lengths(const domain *d, const moment moments[MOMENTS])
 {
-  engine schemes[2], *both[2] = {&schemes[0], &schemes[1]};
+  engine schemes[SCHEMES];
   double h2 = d->h * d->h;
-  create_engine(&schemes[0], d, 0.0);
-  create_engine(&schemes[1], d, fg__theta_alpha);
+  for (int k = 0; k < SCHEMES; ++k)
+    create_engine(&schemes[k], d, (scheme)k, k == THETA ? fg__theta_alpha : 0.0);
   puts("\n## Largest steps, in h²\n");
-  puts("| state | scheme | energy falls | cycles converge | error of u ≤ 1 % | error of "
+  puts("| state | scheme | energy falls | two steps can be solved | error of u ≤ 1 % | "
+       "error of "
        "the change ≤ 10 % |\n|---|---|---|---|---|---|");
   for (int n = 0; n < MOMENTS; ++n) {
-    double found[2][2];
-    find_accurate_steps(d, &moments[n], both, found);
-    for (int k = 0; k < 2; ++k) {
+    double found[SCHEMES][2];
+    find_accurate_steps(d, &moments[n], schemes, found);
+    for (int k = 0; k < SCHEMES; ++k) {
       question q = {&schemes[k], moments[n].u, false};
       printf("| %s, N = %d, t = %.3g | %s | ", moments[n].name, moments[n].clusters,
-             moments[n].time, k ? "θ" : "Euler");
+             moments[n].time, scheme_names[k]);
       print_energy_limit(&q, h2);
       printf(" | %.3g | %.3g | %.3g |\n", largest(converges, &q, 1e-7) / h2,
              found[k][0] / h2, found[k][1] / h2);
       fflush(stdout);
     }
   }
-  clear_engine(&schemes[0]);
-  clear_engine(&schemes[1]);
+  for (int k = 0; k < SCHEMES; ++k)
+    clear_engine(&schemes[k]);
   puts("\n| α, middle | linear theory | energy falls | cycles converge "
        "|\n|---|---|---|---|");
   static const double alphas[] = {0.51, 0.5858, 0.65, 0.7, 0.8, 0.9};
   for (size_t n = 0; n < sizeof alphas / sizeof alphas[0]; ++n) {
     engine s;
-    create_engine(&s, d, alphas[n]);
+    create_engine(&s, d, THETA, alphas[n]);
     question q = {&s, moments[1].u, false};
     printf("| %g | %.3g | ", alphas[n], stable_step(d, alphas[n]) / h2);
     print_energy_limit(&q, h2);

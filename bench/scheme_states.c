@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 
+const char *const scheme_names[SCHEMES] = {"Euler", "BDF2", "θ"};
 static const int wanted_clusters[MOMENTS] = {150, 40, 12};
 static const char *const names[MOMENTS] = {"early", "middle", "late"};
 static const double anisotropy = 0.15;
@@ -84,7 +85,7 @@ void domain_clear(domain *d)
 void create_multigrid(fg__multigrid *out, const domain *d, double alpha)
 {
   check(!fg__multigrid_create(out, NULL, &d->mesh, &d->mesh.tile[0], &d->tensor,
-                              (1.0 - alpha) * d->gamma, 1),
+                              (1.0 - alpha) * d->gamma, NULL),
         "a multigrid");
 }
 
@@ -94,10 +95,11 @@ double stable_step(const domain *d, double alpha)
                                4.0 / (d->h * d->h));
 }
 
-void create_stepper(fg__stepper *out, const domain *d, const float *u, double alpha,
+void create_stepper(fg__stepper *out, const domain *d, const float *u, scheme by,
                     int cycles, double most_tau)
 {
   fg__multigrid multigrid;
+  double alpha = by == THETA ? fg__theta_alpha : 0.0;
   create_multigrid(&multigrid, d, alpha);
   fg__level_import(&multigrid.level[0], multigrid.level[0].u, u);
   /* a change of 0.9 is accepted: lengths are ours to choose */
@@ -106,6 +108,7 @@ void create_stepper(fg__stepper *out, const domain *d, const float *u, double al
                                          .most_tau = most_tau,
                                          .accuracy = 0.3,
                                          .cycles = cycles,
+                                         .second_order = by == BDF2,
                                          .alpha = alpha};
   check(!fg__stepper_create(out, NULL, &multigrid, &description), "a stepper");
 }
@@ -129,8 +132,7 @@ void export_current(const fg__stepper *s, float *u)
 void create_exact(fg__stepper *out, const domain *d, const float *u)
 {
   enum { TIGHT_CYCLES = 4 };
-  create_stepper(out, d, u, fg__theta_alpha, TIGHT_CYCLES,
-                 stable_step(d, fg__theta_alpha));
+  create_stepper(out, d, u, THETA, TIGHT_CYCLES, stable_step(d, fg__theta_alpha));
 }
 
 double exact_step(const domain *d)

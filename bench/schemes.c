@@ -17,12 +17,12 @@ static void settle(const domain *d, moment *m)
   fg__stepper_clear(&s);
 }
 
-static error run_steps(const domain *d, const moment *m, double alpha, double time,
+static error run_steps(const domain *d, const moment *m, scheme by, double time,
                        int steps, const float *exact, long *cycles)
 {
   fg__stepper s;
   float *u = plain_array();
-  create_stepper(&s, d, m->u, alpha, 2, time / steps);
+  create_stepper(&s, d, m->u, by, by == THETA ? 2 : 3, time / steps);
   advance(&s, time, time / steps);
   export_current(&s, u);
   *cycles = s.cycles_spent;
@@ -32,8 +32,8 @@ static error run_steps(const domain *d, const moment *m, double alpha, double ti
   return e;
 }
 
-/* Equal steps of two cycles a step or substep, over an eighth of the time so far; late in
- * the run, where that is a thousand stable steps, over this many. */
+/* Equal steps of three cycles, or of two a substep, over an eighth of the time so far;
+ * late in the run, where that is a thousand stable steps, over this many. */
 static const double most_stable_steps = 150.0;
 
 static void compare_accuracy(const domain *d, const moment moments[MOMENTS])
@@ -56,24 +56,20 @@ static void compare_accuracy(const domain *d, const moment moments[MOMENTS])
     error left = error_of(coarser, exact, m->u);
     int least = (int)ceil(time / longest * (1.0 - 1e-9));
     const struct {
-      double alpha;
+      scheme by;
       int steps;
-    } runs[] = {{fg__theta_alpha, least},
-                {0.0, 3 * least},
-                {fg__theta_alpha, 2 * least},
-                {0.0, 6 * least},
-                {fg__theta_alpha, 4 * least},
-                {0.0, 12 * least},
-                {0.0, least},
-                {0.0, least / 10},
-                {0.0, least / 100}};
+    } runs[] = {{THETA, least},     {EULER, 2 * least},  {BDF2, 2 * least},
+                {THETA, 2 * least}, {EULER, 4 * least},  {BDF2, 4 * least},
+                {THETA, 4 * least}, {EULER, 8 * least},  {BDF2, 8 * least},
+                {EULER, least / 2}, {BDF2, least / 2},   {EULER, least / 10},
+                {BDF2, least / 10}, {EULER, least / 50}, {BDF2, least / 50}};
     for (size_t k = 0; k < sizeof runs / sizeof runs[0]; ++k) {
       if (runs[k].steps < 1)
         continue;
       long cycles;
-      error e = run_steps(d, m, runs[k].alpha, time, runs[k].steps, exact, &cycles);
+      error e = run_steps(d, m, runs[k].by, time, runs[k].steps, exact, &cycles);
       printf("| %s, %.3g | %s | %d | %ld | %.3f | %.2f |\n", m->name, time,
-             runs[k].alpha > 0.0 ? "θ" : "Euler", runs[k].steps, cycles, 100.0 * e.of_u,
+             scheme_names[runs[k].by], runs[k].steps, cycles, 100.0 * e.of_u,
              100.0 * e.of_change);
       fflush(stdout);
     }
@@ -91,24 +87,34 @@ static void compare_limits(const domain *d, const moment moments[MOMENTS])
 {
   puts("\n## The control, from early to middle\n");
   puts("| scheme | most τ, h² | steps | rejected | cycles |\n|---|---|---|---|---|");
-  for (int k = 0; k < 3; ++k) {
+  static const struct {
+    scheme by;
+    bool limited;
+    double accuracy;
+    int cycles;
+  } runs[] = {{EULER, false, 0.05, 3},
+              {BDF2, false, 0.07, 3},
+              {THETA, true, 0.05, 2},
+              {THETA, false, 0.05, 2}};
+  for (size_t k = 0; k < sizeof runs / sizeof runs[0]; ++k) {
     fg__multigrid multigrid;
-    double alpha = k == 0 ? 0.0 : fg__theta_alpha,
-           limit = k == 1 ? stable_step(d, fg__theta_alpha) : 1.0;
+    double alpha = runs[k].by == THETA ? fg__theta_alpha : 0.0;
+    double limit = runs[k].limited ? stable_step(d, alpha) : 1.0;
     create_multigrid(&multigrid, d, alpha);
     fg__level_import(&multigrid.level[0], multigrid.level[0].u, moments[0].u);
     fg__stepper_description description = {.cell_volume = d->volume,
                                            .first_tau = 1e-6,
                                            .most_tau = limit,
-                                           .accuracy = 0.05,
-                                           .cycles = 2,
+                                           .accuracy = runs[k].accuracy,
+                                           .cycles = runs[k].cycles,
+                                           .second_order = runs[k].by == BDF2,
                                            .alpha = alpha};
     fg__stepper s;
     check(!fg__stepper_create(&s, NULL, &multigrid, &description), "a stepper");
     while (s.time < moments[1].time - moments[0].time)
       check(!fg__stepper_advance(&s, NULL), "a step");
-    printf("| %s | ", k == 0 ? "Euler" : "θ");
-    if (k == 1)
+    printf("| %s | ", scheme_names[runs[k].by]);
+    if (runs[k].limited)
       printf("%.3g", limit / (d->h * d->h));
     else
       printf("none");

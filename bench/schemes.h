@@ -1,9 +1,13 @@
-/* Steps of implicit Euler and of the theta scheme compared, for docs/method/schemes.md:
+/* Steps of backward differences, of first order (implicit Euler) and of second, and of
+ * the theta scheme compared, for docs/method/schemes.md:
  * vortex3, 257 nodes, from the densities of one tight run at 150, 40 and 12 clusters. */
 #ifndef BENCH_SCHEMES_H
 #define BENCH_SCHEMES_H
 
 #include "evolve/stepper.h"
+
+typedef enum scheme { EULER, BDF2, THETA, SCHEMES } scheme;
+extern const char *const scheme_names[SCHEMES];
 
 enum { NODES = 257, COUNT = NODES * NODES, MOMENTS = 3 };
 
@@ -17,7 +21,7 @@ typedef struct moment {
   float *u; /* COUNT values, x fastest */
 } moment;
 
-/* Of one run with eta = 0.01 and six cycles a step. */
+/* Of one run by BDF2 with eta = 0.01 and six cycles a step. */
 void take_moments(moment moments[MOMENTS], fg_field *field);
 
 /* The equation, as fg_evolution_create sets it up; lengths in units of the side. */
@@ -30,14 +34,14 @@ typedef struct domain {
 void domain_create(domain *out, fg_field *field);
 void domain_clear(domain *d);
 
-/* alpha 0: implicit Euler. */
+/* alpha 0: for implicit steps. */
 void create_multigrid(fg__multigrid *out, const domain *d, double alpha);
 
 /* The theta scheme's longest by linear theory, for any alpha. */
 double stable_step(const domain *d, double alpha);
 
 /* The program's own stepper, for steps of one length. */
-void create_stepper(fg__stepper *out, const domain *d, const float *u, double alpha,
+void create_stepper(fg__stepper *out, const domain *d, const float *u, scheme by,
                     int cycles, double most_tau);
 
 /* Steps of at most tau for a time; what is rejected is taken in shorter ones. */
