@@ -16,7 +16,7 @@ struct cli_drawing {
 
   pthread_mutex_t lock; /* guards what follows up to `results` */
   pthread_cond_t changed;
-  fg_density *waiting[MAX_SCALES + 1]; /* one more than wanted: a last state */
+  scale_moment waiting[MAX_SCALES + 1]; /* one more than wanted: a last state */
   int added, drawn;
   bool closed; /* no more snapshots will come */
   fg_status status;
@@ -66,12 +66,13 @@ static fg_status write_density(cli_drawing *drawing, int index, const fg_density
 }
 
 static fg_status write_pictures(cli_drawing *drawing, int index,
-                                const fg_density *density, const fg_icons *icons)
+                                const scale_moment *moment, const fg_icons *icons)
 {
   static const char *const ends[FORMAT_KINDS] = {"svg", "png", "pdf"};
   fg_picture_options options = settings_picture(drawing->settings);
   options.speed_min = drawing->speeds[0];
   options.speed_max = drawing->speeds[1];
+  options.scale_time = moment->time;
   unsigned formats = drawing->settings->formats;
   if (!formats)
     formats = FORMAT_SVG | FORMAT_PNG;
@@ -82,21 +83,26 @@ static fg_status write_pictures(cli_drawing *drawing, int index,
     char *path = scale_path(drawing, index, ends[kind]);
     if (!path)
       return FG_STATUS_MEMORY;
-    status = fg_picture_write(drawing->context, path, drawing->field, density, icons,
-                              &options);
+    status = fg_picture_write(drawing->context, path, drawing->field, moment->density,
+                              icons, &options);
     free(path);
   }
   return status;
 }
 
-static fg_status draw_icons(cli_drawing *drawing, int index, const fg_density *density)
+static fg_status make_icons(cli_drawing *drawing, scale_moment *moment)
+{
+  fg_icon_options options = {.extent = (fg_icon_extent)drawing->settings->extent};
+  return fg_icons_create(&moment->icons, drawing->context, drawing->field,
+                         moment->density, &options);
+}
+
+static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *moment)
 {
   scale_result *result = &drawing->results[index];
-  fg_icons *icons = NULL;
   double start = clock_seconds();
-  fg_icon_options options = {.extent = (fg_icon_extent)drawing->settings->extent};
-  fg_status status =
-      fg_icons_create(&icons, drawing->context, drawing->field, density, &options);
+  fg_status status = moment->icons ? FG_STATUS_OK : make_icons(drawing, moment);
+  const fg_icons *icons = moment->icons;
   if (!status)
     status = write_icons(drawing, index, icons);
   double between = clock_seconds();
@@ -104,33 +110,40 @@ static fg_status draw_icons(cli_drawing *drawing, int index, const fg_density *d
   if (!status && index == 0)
     speed_range(icons, drawing->speeds);
   if (!status)
-    status = write_pictures(drawing, index, density, icons);
+    status = write_pictures(drawing, index, moment, icons);
   drawing->picture_seconds += clock_seconds() - between;
   if (!status) {
     result->clusters = fg_icons_clusters(icons);
     result->icons = fg_icons_count(icons);
     result->dropped = fg_icons_dropped(icons);
   }
-  fg_icons_destroy(icons);
   return status;
 }
 
-static fg_status draw(cli_drawing *drawing, int index, const fg_density *density)
+static fg_status draw(cli_drawing *drawing, int index, scale_moment *moment)
 {
-  const fg_density_arrays *moment = fg_density_contents(density);
   scale_result *result = &drawing->results[index];
   fg_status status = FG_STATUS_OK;
   result->clusters = moment->clusters;
   result->time = moment->time;
   result->energy = moment->energy;
   result->area_fraction = moment->area_fraction;
+  drawing->icon_seconds += moment->icon_seconds;
+  drawing->picture_seconds += moment->file_seconds;
   if (drawing_makes_icons(drawing))
-    status = draw_icons(drawing, index, density);
+    status = draw_icons(drawing, index, moment);
   double start = clock_seconds();
-  if (!status && drawing_saves_field(drawing))
-    status = write_density(drawing, index, density);
+  if (!status && moment->density && drawing_saves_field(drawing))
+    status = write_density(drawing, index, moment->density);
   drawing->picture_seconds += clock_seconds() - start;
   return status;
+}
+
+static void moment_clear(scale_moment *moment)
+{
+  fg_density_destroy(moment->density);
+  fg_icons_destroy(moment->icons);
+  *moment = (scale_moment){0};
 }
 
 static void *work(void *argument)
@@ -143,12 +156,12 @@ static void *work(void *argument)
     if (drawing->drawn == drawing->added || drawing->status)
       break;
     int index = drawing->drawn;
-    fg_density *density = drawing->waiting[index];
+    scale_moment moment = drawing->waiting[index];
+    drawing->waiting[index] = (scale_moment){0};
     pthread_mutex_unlock(&drawing->lock);
-    fg_status status = draw(drawing, index, density);
-    fg_density_destroy(density);
+    fg_status status = draw(drawing, index, &moment);
+    moment_clear(&moment);
     pthread_mutex_lock(&drawing->lock);
-    drawing->waiting[index] = NULL;
     drawing->status = status;
     ++drawing->drawn;
     pthread_cond_broadcast(&drawing->changed);
@@ -179,7 +192,7 @@ int drawing_start(cli_drawing **out, const cli_settings *settings, const fg_fiel
   return EXIT_DONE;
 }
 
-bool drawing_add(cli_drawing *drawing, fg_density *density, const int *wanted,
+bool drawing_add(cli_drawing *drawing, const scale_moment *moment, const int *wanted,
                  int wanted_count)
 {
   pthread_mutex_lock(&drawing->lock);
@@ -189,13 +202,14 @@ bool drawing_add(cli_drawing *drawing, fg_density *density, const int *wanted,
     result->wanted_count = wanted_count;
     for (int k = 0; k < wanted_count; ++k)
       result->wanted[k] = wanted[k];
-    drawing->waiting[drawing->added] = density;
+    drawing->waiting[drawing->added] = *moment;
     ++drawing->added;
     pthread_cond_broadcast(&drawing->changed);
   }
   pthread_mutex_unlock(&drawing->lock);
   if (!accepted) {
-    fg_density_destroy(density);
+    scale_moment refused = *moment;
+    moment_clear(&refused);
     return false;
   }
   if (drawing->threaded)
@@ -242,14 +256,29 @@ fg_status drawing_finish(cli_drawing *drawing)
   return drawing->status;
 }
 
+bool scales_have_icons(const fg_field *field)
+{
+  return fg_field_contents(field)->dimension == 2;
+}
+
+bool scales_have_density(const cli_settings *settings, const fg_field *field)
+{
+  return settings->save_field || !scales_have_icons(field);
+}
+
 bool drawing_makes_icons(const cli_drawing *drawing)
 {
-  return fg_field_contents(drawing->field)->dimension == 2;
+  return scales_have_icons(drawing->field);
 }
 
 bool drawing_saves_field(const cli_drawing *drawing)
 {
-  return drawing->settings->save_field || !drawing_makes_icons(drawing);
+  return scales_have_density(drawing->settings, drawing->field);
+}
+
+char *drawing_density_path(const cli_drawing *drawing)
+{
+  return scale_path(drawing, drawing->added, "vti");
 }
 
 int drawing_count(const cli_drawing *drawing)
@@ -306,7 +335,7 @@ void drawing_destroy(cli_drawing *drawing)
     fg_context_stop(drawing->context); /* not finished: the scales are not wanted */
   drawing_finish(drawing);
   for (int k = 0; k <= MAX_SCALES; ++k)
-    fg_density_destroy(drawing->waiting[k]);
+    moment_clear(&drawing->waiting[k]);
   pthread_cond_destroy(&drawing->changed);
   pthread_mutex_destroy(&drawing->lock);
   fg_context_destroy(drawing->context);

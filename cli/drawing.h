@@ -12,6 +12,15 @@ typedef struct scale_result {
   double time, energy, area_fraction;
 } scale_result;
 
+/* A moment to be drawn; whoever gets one ends its parts. */
+typedef struct scale_moment {
+  fg_density *density; /* NULL: what needs it has been done */
+  fg_icons *icons;     /* NULL: to be made, unless the density is missing, too */
+  double time, energy, area_fraction;
+  int clusters;
+  double icon_seconds, file_seconds; /* spent on it so far */
+} scale_moment;
+
 typedef struct cli_drawing cli_drawing;
 
 /* Starts a worker thread, or with `threads` 1 none: then drawing_add draws before it
@@ -19,9 +28,9 @@ typedef struct cli_drawing cli_drawing;
 int drawing_start(cli_drawing **out, const cli_settings *settings, const fg_field *field,
                   const cli_output *output);
 
-/* Takes over a snapshot: the next scale. False: an earlier one has failed, or there is no
- * memory; the snapshot is destroyed all the same. */
-bool drawing_add(cli_drawing *drawing, fg_density *density, const int *wanted,
+/* Takes over a moment: the next scale. False: an earlier one has failed, or there is no
+ * memory; its parts are destroyed all the same. */
+bool drawing_add(cli_drawing *drawing, const scale_moment *moment, const int *wanted,
                  int wanted_count);
 
 /* Waits until all that was added is drawn. False: it has failed. */
@@ -36,8 +45,13 @@ void drawing_restore(cli_drawing *drawing, const scale_result *results, int coun
 fg_status drawing_finish(cli_drawing *drawing);
 
 /* Whether scales have icons and pictures, and whether they have a file of the density. */
+bool scales_have_icons(const fg_field *field);
+bool scales_have_density(const cli_settings *settings, const fg_field *field);
 bool drawing_makes_icons(const cli_drawing *drawing);
 bool drawing_saves_field(const cli_drawing *drawing);
+
+/* The file of the next scale's density; NULL: no memory. */
+char *drawing_density_path(const cli_drawing *drawing);
 
 int drawing_count(const cli_drawing *drawing); /* scales added */
 int drawing_ready(cli_drawing *drawing);       /* scales drawn */

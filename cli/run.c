@@ -7,6 +7,7 @@
 #include "checkpoint.h"
 #include "folder.h"
 #include "interrupt.h"
+#include "moment.h"
 #include "options.h"
 #include "ranks.h"
 #include "rehearse.h"
@@ -195,13 +196,13 @@ static int record_step(cli_run *run, const fg_step *before)
   return ranks_leader() ? table_add(&run->table, step) : EXIT_DONE;
 }
 
-/* Collective; rank 0 gets the density, and draws it. */
+/* Collective; rank 0 draws what all made of the density together. */
 static int take_scale(cli_run *run, const int *wanted, int wanted_count)
 {
-  fg_density *density;
-  fg_status status = fg_density_create(&density, run->evolution);
-  if (status)
-    return complain_of(run->context, status, run->settings->operand);
+  scale_moment moment;
+  int code = moment_take(&moment, run);
+  if (code)
+    return code;
   run->last_scale_clusters = run->step.clusters;
   if (!ranks_leader())
     return ranks_agree(EXIT_DONE);
@@ -212,7 +213,7 @@ static int take_scale(cli_run *run, const int *wanted, int wanted_count)
             run->step.clusters, run->step.seconds);
   }
   /* a failure of the drawing is complained of where the run ends */
-  bool added = drawing_add(run->drawing, density, wanted, wanted_count);
+  bool added = drawing_add(run->drawing, &moment, wanted, wanted_count);
   return ranks_agree(added ? EXIT_DONE : EXIT_FAILED);
 }
 

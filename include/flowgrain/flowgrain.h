@@ -97,8 +97,8 @@ FG_API void fg_context_stop(fg_context *context);
  * fg_evolution_create and the calls that take an evolution are collective: every rank
  * makes them in the same order, with the same field (each has it whole, for now) and
  * options, and all get the same status; when one fails, every context holds its message.
- * Rank 0 alone gets densities. All else is the business of the rank that calls it. A
- * program that MPI does not know of has one rank and need not care. */
+ * Densities are shared likewise (fg_density_create). All else is the business of the rank
+ * that calls it. A program that MPI does not know of has one rank and need not care. */
 
 /* This rank's number, from 0, and how many there are. Starts MPI when a launcher started
  * this process, and ends it when the process exits; a program that uses MPI itself starts
@@ -307,7 +307,7 @@ typedef enum fg_activity {
   FG_ACTIVITY_STEPS,     /* fg_evolution_step, apart from its cycles and the counting */
   FG_ACTIVITY_CYCLES,    /* multigrid cycles */
   FG_ACTIVITY_COUNTING,  /* clusters and the area covered, at every step */
-  FG_ACTIVITY_SNAPSHOTS  /* fg_density_create */
+  FG_ACTIVITY_SNAPSHOTS  /* fg_density_create, and icons and files of shared densities */
 } fg_activity;
 
 enum { FG_ACTIVITIES = FG_ACTIVITY_SNAPSHOTS + 1 };
@@ -371,7 +371,7 @@ typedef struct fg_density_arrays {
   double origin[3];  /* node (0, 0, 0), input coordinates */
   double spacing[3]; /* input coordinates */
   bool periodic[3];
-  const float *u;              /* a value a node; inside a cluster u > 0 */
+  const float *u;              /* a value a node; inside a cluster u > 0; NULL: shared */
   const unsigned char *active; /* a byte a cell, 0 = masked; nodes[k] - 1 cells along an
                                   axis, nodes[k] when periodic; NULL: all active */
   double debris_area; /* components of less area (volume) than this are not clusters, in
@@ -380,8 +380,17 @@ typedef struct fg_density_arrays {
   int clusters;
 } fg_density_arrays;
 
-/* Takes a snapshot; on other ranks than 0 *out becomes NULL. MEMORY. */
+/* Takes a snapshot. Where several ranks evolve, each gets its share: `u` and `active` of
+ * its contents are NULL, and what takes a shared density is collective. MEMORY. */
 FG_API fg_status fg_density_create(fg_density **out, const fg_evolution *evolution);
+
+/* Whether a density is shared by several ranks. */
+FG_API bool fg_density_is_shared(const fg_density *density);
+
+/* Puts a shared density together on rank 0; on other ranks *out becomes NULL. Collective.
+ * MEMORY, ARGUMENT (it is not shared). */
+FG_API fg_status fg_density_gather(fg_density **out, fg_context *context,
+                                   const fg_density *density);
 
 /* Copies arrays into a density of its own, for icons from elsewhere. ARGUMENT, MEMORY. */
 FG_API fg_status fg_density_create_from_arrays(fg_density **out, fg_context *context,
@@ -390,7 +399,9 @@ FG_API void fg_density_destroy(fg_density *density);
 FG_API const fg_density_arrays *fg_density_contents(const fg_density *density);
 
 /* Writes u, the number of each node's cluster (0 outside, -1 in components too small to
- * be clusters) and the mask as .vti. FILE_ACCESS, UNSUPPORTED, MEMORY. */
+ * be clusters) and the mask as .vti. Of a shared density rank 0 writes what the others
+ * send it, packed and part by part; `path` is not read elsewhere. FILE_ACCESS,
+ * UNSUPPORTED, MEMORY. */
 FG_API fg_status fg_density_write(fg_context *context, const char *path,
                                   const fg_density *density);
 
@@ -432,8 +443,10 @@ typedef struct fg_icon_options {
 typedef struct fg_icons fg_icons;
 
 /* Makes the icons of a density: label, march, spine, streamline, arrow. Clusters too
- * small for a readable arrow give none; fg_icons_dropped counts them. UNSUPPORTED (3D),
- * MEMORY, STOPPED. */
+ * small for a readable arrow give none; fg_icons_dropped counts them. Of a shared density
+ * each rank makes the icons of some clusters, from what lies round them, and rank 0 gets
+ * all, the same as of the whole; on other ranks *out becomes NULL. UNSUPPORTED (3D; a
+ * shared density with FG_ICON_EXTENT_TERRITORY: fg_density_gather), MEMORY, STOPPED. */
 FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
                                  const fg_field *field, const fg_density *density,
                                  const fg_icon_options *options);
@@ -476,7 +489,8 @@ typedef struct fg_picture_options {
 FG_API const char *const *fg_picture_palettes(void);
 
 /* Draws icons; the format follows the name's end: .svg, .pdf or .png. density may be NULL
- * without tint; options may be NULL. FILE_ACCESS, UNSUPPORTED, ARGUMENT, MEMORY. */
+ * without tint, and must not be shared; options may be NULL. FILE_ACCESS, UNSUPPORTED,
+ * ARGUMENT, MEMORY. */
 FG_API fg_status fg_picture_write(fg_context *context, const char *path,
                                   const fg_field *field, const fg_density *density,
                                   const fg_icons *icons,

@@ -26,6 +26,23 @@ fg_status fg__labels_create(fg__labels *out, fg_context *context,
                             const fg_density_arrays *density);
 void fg__labels_clear(fg__labels *labels);
 
+/* Part of a density's grid with its labels: what one cluster's window is cut from. */
+typedef struct fg__patch {
+  int first[2], nodes[2]; /* of the grid; along a periodic axis it may begin before node 0
+                             and end behind the last, or be all of the period */
+  const float *u;
+  const int *label;
+  const unsigned char *active; /* cells, nodes[k] - 1 along an axis, or nodes[k] when it
+                                  is all of a period; NULL: all active */
+} fg__patch;
+
+/* The whole grid as a patch. */
+fg__patch fg__patch_of(const fg_density_arrays *density, const fg__labels *labels);
+
+/* Sets first and nodes to what the window of a cluster with these bounds is cut from. */
+void fg__patch_place(fg__patch *patch, const fg_density_arrays *density,
+                     const int bounds[4], const bool closed[2]);
+
 /* One cluster on a grid of its own: its bounding box and a rim of 2 nodes round it (cut
  * where the domain ends, unless periodic). A cluster that goes round the whole period is
  * cut: the window then spans one period from cut to cut, without a rim; what hangs on the
@@ -46,9 +63,15 @@ typedef struct fg__window {
  * active cell: only then are its ends neighbours. The edge must exist. */
 bool fg__window_edge_active(const fg__window *window, int x, int y, int axis);
 
+/* Cuts the window of a cluster out of the whole density, or out of a patch: then the
+ * density's own u and active, and the labels' own label, are not read. MEMORY, ARGUMENT
+ * (no such cluster). */
 fg_status fg__window_create(fg__window *out, fg_context *context,
                             const fg_density_arrays *density, const fg__labels *labels,
                             int cluster);
+fg_status fg__window_cut(fg__window *out, fg_context *context,
+                         const fg_density_arrays *density, const fg__labels *labels,
+                         const fg__patch *patch, int cluster);
 void fg__window_clear(fg__window *window);
 
 /* Bilinear level at a point in input coordinates; a negative number outside the window or

@@ -20,6 +20,32 @@ static int wrap(int index, int period)
   return rest < 0 ? rest + period : rest;
 }
 
+fg__patch fg__patch_of(const fg_density_arrays *density, const fg__labels *labels)
+{
+  return (fg__patch){.nodes = {density->nodes[0], density->nodes[1]},
+                     .u = density->u,
+                     .label = labels->label,
+                     .active = density->active};
+}
+
+void fg__patch_place(fg__patch *patch, const fg_density_arrays *density,
+                     const int bounds[4], const bool closed[2])
+{
+  for (int k = 0; k < 2; ++k) {
+    int first = bounds[2 * k] - RIM, last = bounds[2 * k + 1] + RIM;
+    int most = density->nodes[k];
+    if (!density->periodic[k]) {
+      first = first < 0 ? 0 : first;
+      last = last > most - 1 ? most - 1 : last;
+    } else if (closed[k] || last - first + 1 >= most) {
+      first = 0;
+      last = most - 1;
+    }
+    patch->first[k] = first;
+    patch->nodes[k] = last - first + 1;
+  }
+}
+
 /* Sets the window's place on the density's grid; corner is its lower left node there. */
 static void place(fg__window *window, int corner[2], const fg_density_arrays *density,
                   const fg__labels *labels)
@@ -45,16 +71,17 @@ static void place(fg__window *window, int corner[2], const fg_density_arrays *de
 }
 
 static void copy_active(fg__window *window, const int corner[2],
-                        const fg_density_arrays *density)
+                        const fg_density_arrays *density, const fg__patch *patch)
 {
   size_t row = 0;
-  int cells_x = density->periodic[0] ? density->nodes[0] : density->nodes[0] - 1;
+  bool round = density->periodic[0] && patch->nodes[0] == density->nodes[0];
+  int cells_x = round ? patch->nodes[0] : patch->nodes[0] - 1;
   for (int y = 0; y < window->nodes[1] - 1; ++y) {
-    int from_y = wrap(corner[1] + y, density->nodes[1]);
+    int from_y = wrap(corner[1] + y - patch->first[1], density->nodes[1]);
     for (int x = 0; x < window->nodes[0] - 1; ++x) {
-      int from_x = wrap(corner[0] + x, density->nodes[0]);
+      int from_x = wrap(corner[0] + x - patch->first[0], density->nodes[0]);
       size_t cell = (size_t)from_y * (size_t)cells_x + (size_t)from_x;
-      window->active[row + (size_t)x] = !density->active || density->active[cell];
+      window->active[row + (size_t)x] = !patch->active || patch->active[cell];
     }
     row += (size_t)window->nodes[0] - 1;
   }
@@ -69,23 +96,25 @@ static float turned_off(float u)
 }
 
 static void copy_level(fg__window *window, const int corner[2],
-                       const fg_density_arrays *density, const fg__labels *labels)
+                       const fg_density_arrays *density, const fg__labels *labels,
+                       const fg__patch *patch)
 {
   const int *bounds = labels->bounds[window->cluster - 1];
   float *level = window->level;
   for (int y = 0; y < window->nodes[1]; ++y) {
     int unwrapped_y = corner[1] + y;
-    size_t from_row =
-        (size_t)wrap(unwrapped_y, density->nodes[1]) * (size_t)density->nodes[0];
+    size_t from_row = (size_t)wrap(unwrapped_y - patch->first[1], density->nodes[1]) *
+                      (size_t)patch->nodes[0];
     for (int x = 0; x < window->nodes[0]; ++x, ++level) {
       int unwrapped_x = corner[0] + x;
-      size_t node = from_row + (size_t)wrap(unwrapped_x, density->nodes[0]);
+      size_t node =
+          from_row + (size_t)wrap(unwrapped_x - patch->first[0], density->nodes[0]);
       bool in_bounds = unwrapped_x >= bounds[0] && unwrapped_x <= bounds[1] &&
                        unwrapped_y >= bounds[2] && unwrapped_y <= bounds[3];
-      float u = density->u[node];
-      if (labels->label[node] == 0)
+      float u = patch->u[node];
+      if (patch->label[node] == 0)
         *level = u <= 0.0F ? u : outside_level;
-      else if (labels->label[node] == window->cluster && in_bounds)
+      else if (patch->label[node] == window->cluster && in_bounds)
         *level = u;
       else
         *level = turned_off(u);
@@ -126,6 +155,14 @@ fg_status fg__window_create(fg__window *out, fg_context *context,
                             const fg_density_arrays *density, const fg__labels *labels,
                             int cluster)
 {
+  fg__patch whole = fg__patch_of(density, labels);
+  return fg__window_cut(out, context, density, labels, &whole, cluster);
+}
+
+fg_status fg__window_cut(fg__window *out, fg_context *context,
+                         const fg_density_arrays *density, const fg__labels *labels,
+                         const fg__patch *patch, int cluster)
+{
   *out = (fg__window){.cluster = cluster};
   if (cluster < 1 || cluster > labels->count)
     return fg__fail(context, FG_STATUS_ARGUMENT, "window: cluster %d of %d", cluster,
@@ -140,8 +177,8 @@ fg_status fg__window_create(fg__window *out, fg_context *context,
     fg__window_clear(out);
     return fg__fail_memory(context, "a cluster's window", nodes * sizeof(float) + cells);
   }
-  copy_active(out, corner, density);
-  copy_level(out, corner, density, labels);
+  copy_active(out, corner, density, patch);
+  copy_level(out, corner, density, labels, patch);
   const int *bounds = labels->bounds[cluster - 1];
   fg_status status = FG_STATUS_OK;
   if (bounds[1] >= density->nodes[0] || bounds[3] >= density->nodes[1])

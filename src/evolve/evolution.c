@@ -420,7 +420,7 @@ static fg_status build(fg_evolution *e, const fg_field *field)
   }
   if (!status)
     status = create_stepper(e, field);
-  return status ? status : fg__evolution_gather_mask(e);
+  return status;
 }
 
 fg_status fg_evolution_create(fg_evolution **out, fg_context *context,

@@ -43,10 +43,6 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
  * Collective. MEMORY. */
 fg_status fg__evolution_count(fg_evolution *evolution);
 
-/* Where ranks share a field with missing parts: brings the finest cells' mask to rank 0,
- * whose densities will hold it. Collective. MEMORY. */
-fg_status fg__evolution_gather_mask(fg_evolution *evolution);
-
 double fg__evolution_seconds(const fg_evolution *evolution);
 
 /* The state as a step; it took these cycles and rejected attempts. */

@@ -1,15 +1,13 @@
 /* A density, its clusters and its mask as VTK XML image data. */
+#include "format/density_write.h"
 #include "base/memory.h"
 #include "evolve/components.h"
+#include "evolve/density_share.h"
 #include "format/number_text.h"
-#include "format/vti_write.h"
 
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* vtkDataSetAttributes::HIDDENCELL */
-enum { HIDDEN_CELL = 32 };
 
 static size_t along(int points)
 {
@@ -74,7 +72,7 @@ static fg_status write_mask(FILE *stream, fg_context *context,
   if (!ghost)
     return fg__fail_memory(context, "a mask to write", cells);
   for (size_t i = 0; i < cells; ++i)
-    ghost[i] = density->active[i] ? 0 : HIDDEN_CELL;
+    ghost[i] = density->active[i] ? 0 : FG__VTI_HIDDEN_CELL;
   fg_status status = fg__vti_write_array(stream, context,
                                          &(fg__vti_output){.name = "vtkGhostType",
                                                            .type = "UInt8",
@@ -135,23 +133,13 @@ static fg_status label_nodes(fg__components *out, fg_context *context,
   return fg__components_find(out, context, &grid);
 }
 
-fg_status fg_density_write(fg_context *context, const char *path,
-                           const fg_density *density)
+static fg_status write_whole(fg_context *context, const char *path,
+                             const fg_density_arrays *arrays, const fg__vti_image *image)
 {
-  if (!path || !density)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "density: %s to write",
-                    path ? "none" : "no file name");
-  if (!ends_with(path, ".vti"))
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "%s: a density is written as .vti only", path);
-  const fg_density_arrays *arrays = fg_density_contents(density);
-  fg__vti_image image = {0};
   fg__components components = {0};
   fg__number_locale locale;
   fg__whole_file file = {0};
-  fg_status status = describe(&image, context, path, arrays);
-  if (status == FG_STATUS_OK)
-    status = label_nodes(&components, context, arrays);
+  fg_status status = label_nodes(&components, context, arrays);
   if (status != FG_STATUS_OK)
     goto cleanup;
   if (!fg__number_locale_begin(&locale)) {
@@ -160,11 +148,33 @@ fg_status fg_density_write(fg_context *context, const char *path,
   }
   status = fg__whole_file_open(&file, context, path);
   if (status == FG_STATUS_OK)
-    status = write_image(file.stream, context, arrays, &image, components.label);
+    status = write_image(file.stream, context, arrays, image, components.label);
   status = fg__whole_file_close(&file, context, status);
   fg__number_locale_end(&locale);
 
 cleanup:
   fg__components_clear(&components);
   return status;
+}
+
+fg_status fg_density_write(fg_context *context, const char *path,
+                           const fg_density *density)
+{
+  if (!density)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "density: none to write");
+  const fg_density_arrays *arrays = fg_density_contents(density);
+  fg__density_share *share = fg__density_share_of(density);
+  bool writes = !share || share->partition.ranks->rank == 0;
+  fg__vti_image image = {0};
+  fg_status status = FG_STATUS_OK;
+  if (writes && !path)
+    status = fg__fail(context, FG_STATUS_ARGUMENT, "density: no file name to write");
+  else if (writes && !ends_with(path, ".vti"))
+    status = fg__fail(context, FG_STATUS_UNSUPPORTED,
+                      "%s: a density is written as .vti only", path);
+  if (status == FG_STATUS_OK)
+    status = describe(&image, context, writes ? path : "", arrays);
+  if (share)
+    return fg__density_write_shared(context, path, density, &image, status);
+  return status ? status : write_whole(context, path, arrays, &image);
 }

@@ -11,13 +11,6 @@
 #include <libxml/xmlstring.h>
 #include <zlib.h>
 
-enum {
-  BLOCK_BYTES = 32768,  /* VTK's own default */
-  HEADER_NUMBERS = 3,   /* blocks, bytes of a block, bytes of the last */
-  ENCODED_BYTES = 12288 /* encoded in one go: a multiple of 3, so that no padding is put
-                           between */
-};
-
 static const char *byte_order(void)
 {
   const uint16_t one = 1;
@@ -102,60 +95,77 @@ void fg__vti_write_close(FILE *stream)
   fputs("</CellData>\n</Piece>\n</ImageData>\n</VTKFile>\n", stream);
 }
 
-static void write_base64(FILE *stream, const unsigned char *bytes, size_t count)
+static void encode(fg__vti_text *text, size_t count)
 {
-  char text[ENCODED_BYTES / 3 * 4];
-  for (size_t at = 0; at < count; at += ENCODED_BYTES) {
-    size_t part = count - at < ENCODED_BYTES ? count - at : ENCODED_BYTES;
-    fg__base64_encode(text, bytes + at, part);
-    fwrite(text, 1, fg__base64_length(part), stream);
+  char encoded[FG__VTI_ENCODED / 3 * 4];
+  fg__base64_encode(encoded, text->waiting, count);
+  fwrite(encoded, 1, fg__base64_length(count), text->stream);
+  text->count = 0;
+}
+
+void fg__vti_put(fg__vti_text *text, const unsigned char *bytes, size_t count)
+{
+  while (count > 0) {
+    size_t room = FG__VTI_ENCODED - text->count, part = count < room ? count : room;
+    memcpy(text->waiting + text->count, bytes, part);
+    text->count += part;
+    bytes += part;
+    count -= part;
+    if (text->count == FG__VTI_ENCODED)
+      encode(text, text->count);
   }
 }
 
-/* Deflates block by block; sizes[i] becomes what block i takes, *used what all do. */
-static fg_status deflate_blocks(unsigned char *packed, size_t capacity, uint64_t *sizes,
-                                size_t *used, fg_context *context,
-                                const fg__vti_output *array)
+void fg__vti_put_end(fg__vti_text *text)
 {
-  *used = 0;
-  size_t block = 0;
-  for (size_t at = 0; at < array->bytes; at += BLOCK_BYTES, ++block) {
-    size_t part = array->bytes - at < BLOCK_BYTES ? array->bytes - at : BLOCK_BYTES;
-    uLongf size = (uLongf)(capacity - *used);
-    if (compress(packed + *used, &size, (const unsigned char *)array->data + at,
+  if (text->count > 0)
+    encode(text, text->count);
+}
+
+fg_status fg__vti_pack(fg__vti_blocks *out, fg_context *context, const void *data,
+                       size_t bytes)
+{
+  size_t blocks = (bytes + FG__VTI_BLOCK - 1) / FG__VTI_BLOCK;
+  size_t bound = (size_t)compressBound(FG__VTI_BLOCK);
+  *out = (fg__vti_blocks){.count = blocks,
+                          .sizes = fg__allocate(blocks, sizeof *out->sizes),
+                          .packed = fg__allocate(blocks, bound)};
+  if (!out->sizes || !out->packed)
+    return fg__fail_memory(context, "a compressed array", bytes);
+  for (size_t block = 0, at = 0; at < bytes; at += FG__VTI_BLOCK, ++block) {
+    size_t part = bytes - at < FG__VTI_BLOCK ? bytes - at : FG__VTI_BLOCK;
+    uLongf size = (uLongf)(blocks * bound - out->used);
+    if (compress(out->packed + out->used, &size, (const unsigned char *)data + at,
                  (uLong)part) != Z_OK)
-      return fg__fail_memory(context, "compression", capacity);
-    sizes[block] = size;
-    *used += size;
+      return fg__fail_memory(context, "compression", blocks * bound);
+    out->sizes[block] = size;
+    out->used += size;
   }
   return FG_STATUS_OK;
 }
 
-fg_status fg__vti_write_array(FILE *stream, fg_context *context,
-                              const fg__vti_output *array)
+void fg__vti_blocks_clear(fg__vti_blocks *blocks)
 {
-  size_t blocks = (array->bytes + BLOCK_BYTES - 1) / BLOCK_BYTES, used = 0;
-  size_t bound = (size_t)compressBound(BLOCK_BYTES);
-  uint64_t *header = fg__allocate(HEADER_NUMBERS + blocks, sizeof *header);
-  unsigned char *packed = fg__allocate(blocks, bound);
-  fg_status status;
-  if (!header || !packed) {
-    status = fg__fail_memory(context, "a compressed array", array->bytes);
-    goto cleanup;
-  }
-  header[0] = blocks;
-  header[1] = BLOCK_BYTES;
-  header[2] = array->bytes % BLOCK_BYTES;
-  status = deflate_blocks(packed, blocks * bound, header + HEADER_NUMBERS, &used, context,
-                          array);
-  if (status != FG_STATUS_OK)
-    goto cleanup;
+  free(blocks->sizes);
+  free(blocks->packed);
+  *blocks = (fg__vti_blocks){0};
+}
+
+void fg__vti_begin_array(FILE *stream, const fg__vti_output *array, const uint64_t *sizes)
+{
+  uint64_t blocks = (array->bytes + FG__VTI_BLOCK - 1) / FG__VTI_BLOCK;
+  const uint64_t header[] = {blocks, FG__VTI_BLOCK, array->bytes % FG__VTI_BLOCK};
   fprintf(stream, "<DataArray type=\"%s\"", array->type);
   write_attribute(stream, "Name", array->name);
   fprintf(stream, " NumberOfComponents=\"%d\" format=\"binary\">\n", array->components);
-  write_base64(stream, (const unsigned char *)header,
-               (HEADER_NUMBERS + blocks) * sizeof *header);
-  write_base64(stream, packed, used);
+  fg__vti_text text = {.stream = stream};
+  fg__vti_put(&text, (const unsigned char *)header, sizeof header);
+  fg__vti_put(&text, (const unsigned char *)sizes, blocks * sizeof *sizes);
+  fg__vti_put_end(&text);
+}
+
+void fg__vti_end_array(FILE *stream, const fg__vti_output *array)
+{
   fputc('\n', stream);
   /* VTK looks for the data right behind the tag, so what else there is follows them */
   if (array->units && array->units[0]) {
@@ -164,9 +174,20 @@ fg_status fg__vti_write_array(FILE *stream, fg_context *context,
     fputs("</InformationKey>\n", stream);
   }
   fputs("</DataArray>\n", stream);
+}
 
-cleanup:
-  free(packed);
-  free(header);
+fg_status fg__vti_write_array(FILE *stream, fg_context *context,
+                              const fg__vti_output *array)
+{
+  fg__vti_blocks blocks;
+  fg_status status = fg__vti_pack(&blocks, context, array->data, array->bytes);
+  if (status == FG_STATUS_OK) {
+    fg__vti_text text = {.stream = stream};
+    fg__vti_begin_array(stream, array, blocks.sizes);
+    fg__vti_put(&text, blocks.packed, blocks.used);
+    fg__vti_put_end(&text);
+    fg__vti_end_array(stream, array);
+  }
+  fg__vti_blocks_clear(&blocks);
   return status;
 }

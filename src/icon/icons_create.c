@@ -1,3 +1,5 @@
+#include "icon/icons_create.h"
+
 #include "icon/choose.h"
 #include "icon/icons.h"
 #include "icon/territory.h"
@@ -30,11 +32,8 @@ enum { ATTEMPTS = 8, EDGE_BLOCK = 12, MOST_THREADS = 64 };
 
 /* What all threads share; each takes the next cluster until there is none. */
 typedef struct icon_job {
-  const fg_field *field;
-  const fg_density_arrays *density;
-  const fg__labels *labels;
-  const fg__territories *territories; /* NULL: arrows stay in their clusters */
-  fg_icon *icon; /* [labels->count]; points owned, NULL where no arrow fits */
+  const fg__icon_source *source;
+  fg_icon *icon; /* [source->count] */
   atomic_int next;
   atomic_bool halted; /* a thread failed or the caller wants to stop */
 } icon_job;
@@ -264,30 +263,33 @@ static fg_status measure_place(icon_place *place, fg_context *context, double ma
 
 /* Lets the chosen arrow go on through the cluster's territory; *extended when it did. */
 static fg_status extend(icon_place *land, fg__arrow *arrow, bool *extended,
-                        const icon_job *job, fg_context *context, fg__chooser *chooser,
-                        int cluster, const double center[2])
+                        const fg__icon_source *source, fg_context *context,
+                        fg__chooser *chooser, int cluster, const double center[2])
 {
-  double longest = LONGEST_EXTENDED * job->territories->fair_share;
+  double longest = LONGEST_EXTENDED * source->territories->fair_share;
   *extended = false;
-  fg_status status = fg__territory_window(&land->window, context, job->territories,
+  fg_status status = fg__territory_window(&land->window, context, source->territories,
                                           cluster, center, longest);
   if (status == FG_STATUS_OK)
     status = measure_place(land, context, BORDER_GAP * arrow->width);
   if (status == FG_STATUS_OK)
-    status = fg__extend_arrow(arrow, extended, chooser, context, job->field, &land->room,
-                              center, longest);
+    status = fg__extend_arrow(arrow, extended, chooser, context, source->field,
+                              &land->room, center, longest);
   return status;
 }
 
 static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *chooser,
                            int index)
 {
+  const fg__icon_source *source = job->source;
+  int cluster = source->cluster ? source->cluster[index] : index + 1;
   icon_place place = {0}, land = {0};
   fg__spine spine = {0};
   fg__arrow arrow = {0};
   bool extended = false;
   fg_status status =
-      fg__window_create(&place.window, context, job->density, job->labels, index + 1);
+      fg__window_cut(&place.window, context, source->density, source->labels,
+                     source->cluster ? &source->patch[index] : source->patch, cluster);
   if (status == FG_STATUS_OK)
     status = measure_place(&place, context, 0);
   if (status == FG_STATUS_OK)
@@ -295,15 +297,15 @@ static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *choo
   if (status != FG_STATUS_OK)
     goto cleanup;
   const double *center = spine.point[spine.center];
-  status = fg__choose_arrow(&arrow, chooser, context, job->field, &place.room, &spine);
-  if (status == FG_STATUS_OK && job->territories)
-    status = extend(&land, &arrow, &extended, job, context, chooser, index + 1, center);
+  status = fg__choose_arrow(&arrow, chooser, context, source->field, &place.room, &spine);
+  if (status == FG_STATUS_OK && source->territories)
+    status = extend(&land, &arrow, &extended, source, context, chooser, cluster, center);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
     goto cleanup;
   fg_icon *icon = &job->icon[index];
-  icon->cluster = index + 1;
-  icon->area = job->labels->area[index];
-  status = build_icon(icon, context, job->field, extended ? &land.room : &place.room,
+  icon->cluster = cluster;
+  icon->area = source->labels->area[cluster - 1];
+  status = build_icon(icon, context, source->field, extended ? &land.room : &place.room,
                       &chooser->best, &arrow, center);
 cleanup:
   clear_place(&place);
@@ -319,7 +321,7 @@ static void *work(void *argument)
   fg__chooser chooser = {0};
   while (worker->status == FG_STATUS_OK && !atomic_load(&job->halted)) {
     int index = atomic_fetch_add(&job->next, 1);
-    if (index >= job->labels->count)
+    if (index >= job->source->count)
       break;
     if (worker->caller)
       worker->status = fg__check_stop(worker->caller);
@@ -333,8 +335,12 @@ static void *work(void *argument)
 }
 
 /* The caller's thread is the first worker; one that cannot be started is done without. */
-static fg_status run_workers(icon_job *job, fg_context *context, int threads)
+fg_status fg__icons_make(fg_icon *icon, fg_context *context,
+                         const fg__icon_source *source, int threads)
 {
+  icon_job all = {.source = source, .icon = icon}, *job = &all;
+  threads = threads < MOST_THREADS ? threads : MOST_THREADS;
+  threads = threads < source->count ? threads : source->count;
   icon_worker workers[MOST_THREADS] = {0};
   workers[0] = (icon_worker){.job = job, .context = context, .caller = context};
   fg_status status = FG_STATUS_OK;
@@ -359,6 +365,68 @@ static fg_status run_workers(icon_job *job, fg_context *context, int threads)
   return status;
 }
 
+fg_status fg__icons_collect(fg_icons **out, fg_context *context, const fg_icon *icon,
+                            int clusters)
+{
+  fg_icons *icons = NULL;
+  fg_status status = fg__icons_create_empty(&icons, context);
+  int drawn = 0;
+  for (int i = 0; i < clusters && status == FG_STATUS_OK; i++)
+    if (icon[i].points) {
+      status = fg__icons_add(icons, context, &icon[i]);
+      drawn++;
+    }
+  if (status != FG_STATUS_OK) {
+    fg_icons_destroy(icons);
+    return status;
+  }
+  fg__icons_set_clusters(icons, clusters, clusters - drawn);
+  *out = icons;
+  return FG_STATUS_OK;
+}
+
+void fg__icons_free_points(fg_icon *icon, int count)
+{
+  for (int i = 0; icon && i < count; i++)
+    free_points(&icon[i]);
+}
+
+static fg_status create_whole(fg_icons **out, fg_context *context, const fg_field *field,
+                              const fg_density *density, const fg_icon_options *options)
+{
+  fg__labels labels = {0};
+  fg__territories territories = {0};
+  fg_icon *icon = NULL;
+  const fg_density_arrays *arrays = fg_density_contents(density);
+  fg_status status = fg__labels_create(&labels, context, arrays);
+  if (status != FG_STATUS_OK)
+    return status;
+  fg__patch whole = fg__patch_of(arrays, &labels);
+  fg__icon_source source = {.field = field,
+                            .density = arrays,
+                            .labels = &labels,
+                            .patch = &whole,
+                            .count = labels.count};
+  if (options && options->extent == FG_ICON_EXTENT_TERRITORY) {
+    status = fg__territories_create(&territories, context, arrays, &labels);
+    if (status != FG_STATUS_OK)
+      goto cleanup;
+    source.territories = &territories;
+  }
+  icon = fg__allocate((size_t)labels.count, sizeof *icon);
+  status =
+      icon ? fg__icons_make(icon, context, &source, options ? options->threads : 1)
+           : fg__fail_memory(context, "the icons", (size_t)labels.count * sizeof *icon);
+  if (status == FG_STATUS_OK)
+    status = fg__icons_collect(out, context, icon, labels.count);
+cleanup:
+  fg__icons_free_points(icon, labels.count);
+  free(icon);
+  fg__territories_clear(&territories);
+  fg__labels_clear(&labels);
+  return status;
+}
+
 fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *field,
                           const fg_density *density, const fg_icon_options *options)
 {
@@ -376,52 +444,7 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "icons: a density in 2 dimensions of a field in %d",
                     fg_field_contents(field)->dimension);
-  int threads = options && options->threads > 0 ? options->threads : 1;
-  fg__labels labels = {0};
-  fg__territories territories = {0};
-  fg_icons *icons = NULL;
-  icon_job job = {
-      .field = field, .density = fg_density_contents(density), .labels = &labels};
-  fg_status status = fg__labels_create(&labels, context, job.density);
-  if (status != FG_STATUS_OK)
-    return status;
-  if (options && options->extent == FG_ICON_EXTENT_TERRITORY) {
-    status = fg__territories_create(&territories, context, job.density, &labels);
-    if (status != FG_STATUS_OK)
-      goto cleanup;
-    job.territories = &territories;
-  }
-  job.icon = fg__allocate((size_t)labels.count, sizeof *job.icon);
-  if (!job.icon) {
-    status =
-        fg__fail_memory(context, "the icons", (size_t)labels.count * sizeof(fg_icon));
-    goto cleanup;
-  }
-  if (threads > MOST_THREADS)
-    threads = MOST_THREADS;
-  if (threads > labels.count)
-    threads = labels.count > 0 ? labels.count : 1;
-  status = run_workers(&job, context, threads);
-  if (status == FG_STATUS_OK)
-    status = fg__icons_create_empty(&icons, context);
-  int drawn = 0;
-  for (int i = 0; i < labels.count && status == FG_STATUS_OK; i++)
-    if (job.icon[i].points) {
-      status = fg__icons_add(icons, context, &job.icon[i]);
-      drawn++;
-    }
-  if (status != FG_STATUS_OK)
-    goto cleanup;
-  fg__icons_set_clusters(icons, labels.count, labels.count - drawn);
-  *out = icons;
-  icons = NULL;
-cleanup:
-  if (job.icon)
-    for (int i = 0; i < labels.count; i++)
-      free_points(&job.icon[i]);
-  free(job.icon);
-  fg_icons_destroy(icons);
-  fg__territories_clear(&territories);
-  fg__labels_clear(&labels);
-  return status;
+  if (fg_density_is_shared(density))
+    return fg__icons_create_shared(out, context, field, density, options);
+  return create_whole(out, context, field, density, options);
 }

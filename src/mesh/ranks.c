@@ -123,6 +123,39 @@ void fg__ranks_greatest(const fg__ranks *ranks, double *value, int count)
   MPI_Allreduce(MPI_IN_PLACE, value, count, MPI_DOUBLE, MPI_MAX, fg__communicator(ranks));
 }
 
+enum { PIECE_BYTES = 1 << 16 };
+
+static void take_pieces(const unsigned char *bytes, size_t count, fg__taker *take,
+                        void *closure)
+{
+  for (size_t at = 0; at < count; at += PIECE_BYTES)
+    take(closure, bytes + at, count - at < PIECE_BYTES ? count - at : PIECE_BYTES);
+}
+
+void fg__ranks_pass(const fg__ranks *ranks, const void *bytes, size_t count,
+                    fg__taker *take, void *closure)
+{
+  enum { TAG = 1 };
+  unsigned char piece[PIECE_BYTES];
+  const unsigned char *own = bytes ? bytes : piece;
+  if (ranks->rank > 0) {
+    for (size_t at = 0; at <= count; at += PIECE_BYTES) { /* a short one ends them */
+      size_t bytes_now = count - at < PIECE_BYTES ? count - at : PIECE_BYTES;
+      fg__traffic_add_message(ranks->book, bytes_now);
+      MPI_Ssend(own + at, (int)bytes_now, MPI_BYTE, 0, TAG, fg__communicator(ranks));
+    }
+    return;
+  }
+  take_pieces(own, count, take, closure);
+  for (int r = 1; r < ranks->count; ++r)
+    for (int received = PIECE_BYTES; received == PIECE_BYTES;) {
+      MPI_Status about;
+      MPI_Recv(piece, PIECE_BYTES, MPI_BYTE, r, TAG, fg__communicator(ranks), &about);
+      MPI_Get_count(&about, MPI_BYTE, &received);
+      take(closure, piece, (size_t)received);
+    }
+}
+
 /* Replaces what the context holds by what it holds on rank `from`. */
 static void spread_message(const fg__ranks *ranks, fg_context *context, fg_status status,
                            int from)

@@ -29,6 +29,12 @@ void fg__ranks_add(const fg__ranks *ranks, uint64_t *sum, int count);
 /* Greatest of each value over all ranks, in place; none may be NaN. Collective. */
 void fg__ranks_greatest(const fg__ranks *ranks, double *value, int count);
 
+/* Brings the bytes of all ranks to rank 0, those of rank 0 first, then those of rank 1:
+ * `take` gets them there in pieces of at most 64 KiB. Collective. */
+typedef void fg__taker(void *closure, const unsigned char *bytes, size_t count);
+void fg__ranks_pass(const fg__ranks *ranks, const void *bytes, size_t count,
+                    fg__taker *take, void *closure);
+
 /* Makes one failure of many: when `status` is a failure on some rank, all ranks return
  * the status of the lowest such rank, and every context holds that rank's message and
  * hint in place of its own; the program prints it on rank 0. A stop (FG_STATUS_STOPPED)

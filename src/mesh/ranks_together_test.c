@@ -85,6 +85,57 @@ static void a_stop_gives_way_to_a_failure(void **state)
   end_together();
 }
 
+/* A rank's bytes as rank 0 should see them: its number, then a pattern. */
+static unsigned char byte_of(int rank, size_t n)
+{
+  return (unsigned char)(n ? n * 31 % 251 + (size_t)rank : (size_t)rank);
+}
+
+/* What should come next. */
+typedef struct expected {
+  const size_t *counts;
+  int rank;
+  size_t at;
+} expected;
+
+static void take_expected(void *closure, const unsigned char *bytes, size_t count)
+{
+  expected *e = closure;
+  for (size_t n = 0; n < count; ++n) {
+    while (e->rank < us.ranks->count && e->at == e->counts[e->rank]) {
+      ++e->rank;
+      e->at = 0;
+    }
+    expect(e->rank < us.ranks->count && bytes[n] == byte_of(e->rank, e->at));
+    ++e->at;
+  }
+}
+
+/* Lengths round those of the pieces, and none. */
+static void bytes_come_in_the_order_of_ranks(void **state)
+{
+  (void)state;
+  static const size_t lengths[] = {0, 5, 65535, 65536, 65537, 200000, 131072};
+  for (int shift = 0; shift < 7; ++shift) {
+    size_t counts[64];
+    for (int r = 0; r < us.ranks->count; ++r)
+      counts[r] = lengths[(r * 2 + shift) % 7];
+    size_t count = counts[us.ranks->rank];
+    unsigned char *own = allocate_or_end(count, 1);
+    for (size_t n = 0; n < count; ++n)
+      own[n] = byte_of(us.ranks->rank, n);
+    expected e = {.counts = counts};
+    fg__ranks_pass(us.ranks, own, count, take_expected, &e);
+    while (e.rank < us.ranks->count && e.at == counts[e.rank]) {
+      ++e.rank;
+      e.at = 0;
+    }
+    expect(us.ranks->rank > 0 || e.rank == us.ranks->count);
+    free(own);
+  }
+  end_together();
+}
+
 static void a_rank_alone_asks_nobody(void **state)
 {
   (void)state;
@@ -109,6 +160,7 @@ int main(void)
       TOGETHER(no_failure_is_none),
       TOGETHER(all_end_with_the_lowest_rank_s_failure),
       TOGETHER(a_stop_gives_way_to_a_failure),
+      TOGETHER(bytes_come_in_the_order_of_ranks),
       TOGETHER(a_rank_alone_asks_nobody),
   };
   return cmocka_run_group_tests_name("mesh/ranks", tests, NULL, NULL);

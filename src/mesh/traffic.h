@@ -27,6 +27,17 @@ static inline fg_activity fg__traffic_begin(fg__traffic_book *book, fg_activity 
   return before;
 }
 
+/* The same for what belongs to the last that was begun. */
+static inline fg_activity fg__traffic_continue(fg__traffic_book *book,
+                                               fg_activity activity)
+{
+  if (!book)
+    return activity;
+  fg_activity before = book->now;
+  book->now = activity;
+  return before;
+}
+
 static inline void fg__traffic_return(fg__traffic_book *book, fg_activity before)
 {
   if (book)

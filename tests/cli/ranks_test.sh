@@ -59,13 +59,14 @@ compare() {
   done
   done_with "ranks agree, 1 $counts: $name"
 }
-compare wind "2 3 4" "$wind" --nodes 65 --clusters 40,20 --formats svg
+compare wind "2 3 4" "$wind" --nodes 65 --clusters 40,20 --formats svg --save-field
 # where the wind blows from the west: in many parts, and round the globe
-compare masked "2 3 4" "$wind" --mask u10 --nodes 97 --clusters 60 --formats svg
+compare masked "2 3 4" "$wind" --mask u10 --nodes 97 --clusters 60 --formats svg --save-field
 expect_json masked-1/run.json '.mesh | .active_cells < 0.4 * .cells[0] * .cells[1]'
 done_with "less than 40 % of the globe is in the mask"
 compare vortex3 "3" synth:vortex3 --nodes 65 --clusters 20,10 --formats svg --save-field
 compare vortex3d "2 4" synth:vortex3d --nodes 33 --clusters 30
+compare whole "3" synth:benard --nodes 65 --clusters 8 --formats svg --extent territory --tint
 compare tiny "4" synth:vortex3 --nodes 17 --clusters 3 --max-steps 60 --formats svg
 
 expect_json vortex3-1/run.json '.traffic.ranks == 1 and .traffic.cycle.messages.most == 0'

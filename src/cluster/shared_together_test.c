@@ -1,0 +1,113 @@
+#include "cluster/shared.h"
+
+#include <string.h>
+
+#include "cluster/shared_density_test.h"
+
+typedef struct tally {
+  int clusters, unwrapped, closed;
+} tally;
+
+static void compare_labels(const fg__labels *got, const subject *s, const shape *about,
+                           tally *sum)
+{
+  fg__labels want;
+  expect(fg__labels_create(&want, us.context, fg_density_contents(s->whole)) ==
+         FG_STATUS_OK);
+  expect(got->count == want.count && got->debris == want.debris);
+  for (int n = 0; n < want.count && got->count == want.count; ++n) {
+    bool same = memcmp(got->bounds[n], want.bounds[n], sizeof *want.bounds) == 0 &&
+                memcmp(got->closed[n], want.closed[n], sizeof *want.closed) == 0;
+    expect(got->area[n] == want.area[n]);
+    expect(same);
+    if (!same)
+      fprintf(stderr, "%s: cluster %d: x %d to %d, y %d to %d\n", about->name, n + 1,
+              got->bounds[n][0], got->bounds[n][1], got->bounds[n][2], got->bounds[n][3]);
+    sum->clusters++;
+    sum->unwrapped += want.bounds[n][1] >= COLUMNS || want.bounds[n][3] >= ROWS;
+    sum->closed += want.closed[n][0] || want.closed[n][1];
+  }
+  fg__labels_clear(&want);
+}
+
+/* What a rank that has patches sees of each cluster, compared with the whole's window. */
+static void compare_windows(const fg__labels *labels, const subject *s)
+{
+  const fg_density_arrays *grid = fg_density_contents(s->shared);
+  size_t count = (size_t)labels->count;
+  fg__wanted_patch *wanted = allocate_or_end(count, sizeof *wanted);
+  for (int n = 0; n < labels->count; ++n)
+    fg__patch_place(&wanted[n].patch, grid, labels->bounds[n], labels->closed[n]);
+  expect(fg__patches_fill(us.context, s->shared, wanted, labels->count) == FG_STATUS_OK);
+  fg__labels want = {0};
+  if (s->whole)
+    expect(fg__labels_create(&want, us.context, fg_density_contents(s->whole)) ==
+           FG_STATUS_OK);
+  for (int n = 0; n < labels->count && s->whole; ++n) {
+    fg__window one, other;
+    expect(fg__window_cut(&one, us.context, grid, labels, &wanted[n].patch, n + 1) ==
+           FG_STATUS_OK);
+    expect(fg__window_create(&other, us.context, fg_density_contents(s->whole), &want,
+                             n + 1) == FG_STATUS_OK);
+    size_t nodes = (size_t)other.nodes[0] * (size_t)other.nodes[1];
+    size_t cells = (size_t)(other.nodes[0] - 1) * (size_t)(other.nodes[1] - 1);
+    expect(one.nodes[0] == other.nodes[0] && one.nodes[1] == other.nodes[1]);
+    expect(one.origin[0] == other.origin[0] && one.origin[1] == other.origin[1]);
+    expect(memcmp(one.at_border, other.at_border, sizeof one.at_border) == 0);
+    expect(memcmp(one.level, other.level, nodes * sizeof *one.level) == 0);
+    expect(memcmp(one.active, other.active, cells) == 0);
+    fg__window_clear(&one);
+    fg__window_clear(&other);
+  }
+  for (int n = 0; n < labels->count; ++n)
+    fg__patch_clear(&wanted[n].patch);
+  fg__labels_clear(&want);
+  free(wanted);
+}
+
+static void shares_show_what_the_whole_shows(void **state)
+{
+  (void)state;
+  tally sum = {0};
+  for (int n = 0; n < SHAPE_COUNT && us.ranks->count > 1; ++n)
+    for (int way = 0; way < 4; ++way) {
+      bool periodic[2];
+      set_periods(periodic, way);
+      subject s = subject_of(&SHAPES[n], periodic, (n + way) % 3 == 0);
+      fg__labels labels;
+      expect(fg__labels_create_shared(&labels, us.context, s.shared) == FG_STATUS_OK);
+      if (s.whole)
+        compare_labels(&labels, &s, &SHAPES[n], &sum);
+      compare_windows(&labels, &s);
+      fg__labels_clear(&labels);
+      subject_clear(&s);
+    }
+  /* the shapes are what they are meant to be */
+  if (us.ranks->count > 1 && us.ranks->rank == 0)
+    expect(sum.clusters > 150 && sum.unwrapped > 20 && sum.closed > 10);
+  end_together();
+}
+
+static void a_density_in_one_piece_is_not_gathered(void **state)
+{
+  (void)state;
+  const float u[] = {1.0F, -1.0F, 1.0F, 0.5F};
+  fg_density_arrays arrays = {
+      .dimension = 2, .nodes = {2, 2}, .spacing = {1.0, 1.0}, .u = u};
+  fg_density *density, *out;
+  expect(fg_density_create_from_arrays(&density, us.context, &arrays) == FG_STATUS_OK);
+  expect(!fg_density_is_shared(density));
+  expect(fg_density_gather(&out, us.context, density) == FG_STATUS_ARGUMENT);
+  fg_density_destroy(density);
+  end_together();
+}
+
+int main(void)
+{
+  start_together();
+  const struct CMUnitTest tests[] = {
+      TOGETHER(shares_show_what_the_whole_shows),
+      TOGETHER(a_density_in_one_piece_is_not_gathered),
+  };
+  return cmocka_run_group_tests_name("cluster/shared", tests, NULL, NULL);
+}

@@ -1,0 +1,231 @@
+/* Icons by parts: each cluster has an owner, which gets the patch round it, makes its
+ * icon as one rank would, and sends it to rank 0. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "cluster/shared.h"
+#include "icon/icons_create.h"
+
+/* Patches that a rank holds at a time have this share of its part of the grid, but for
+ * one that is larger. */
+static const double patch_share = 0.5;
+
+typedef struct sharing {
+  const fg_density *density;
+  const fg__ranks *ranks;
+  fg__labels labels;
+  fg__wanted_patch *wanted; /* [labels.count] */
+  fg_icon *icon;            /* [labels.count] those of this rank; on rank 0 at last all */
+} sharing;
+
+static size_t nodes_of(const fg__patch *patch)
+{
+  return (size_t)patch->nodes[0] * (size_t)patch->nodes[1];
+}
+
+/* Each cluster goes to the rank with the fewest nodes to look at so far. */
+static fg_status choose_owners(sharing *s, fg_context *context)
+{
+  size_t *load = fg__allocate((size_t)s->ranks->count, sizeof *load);
+  fg_status status = FG_STATUS_OK;
+  if (!load)
+    status = fg__fail_memory(context, "the icons", (size_t)s->ranks->count);
+  for (int n = 0; n < s->labels.count && load; ++n) {
+    fg__wanted_patch *wanted = &s->wanted[n];
+    fg__patch_place(&wanted->patch, fg_density_contents(s->density), s->labels.bounds[n],
+                    s->labels.closed[n]);
+    for (int r = 1; r < s->ranks->count; ++r)
+      if (load[r] < load[wanted->rank])
+        wanted->rank = r;
+    load[wanted->rank] += nodes_of(&wanted->patch);
+  }
+  free(load);
+  return status;
+}
+
+/* How many clusters from `first` on are taken together; the same on all ranks. */
+static int count_together(const sharing *s, int first, size_t *load)
+{
+  const fg_density_arrays *grid = fg_density_contents(s->density);
+  double most = patch_share * (double)grid->nodes[0] * grid->nodes[1] / s->ranks->count;
+  memset(load, 0, (size_t)s->ranks->count * sizeof *load);
+  for (int n = first; n < s->labels.count; ++n) {
+    size_t *of_rank = &load[s->wanted[n].rank];
+    size_t nodes = nodes_of(&s->wanted[n].patch);
+    if (*of_rank > 0 && (double)(*of_rank + nodes) > most)
+      return n - first;
+    *of_rank += nodes;
+  }
+  return s->labels.count - first;
+}
+
+/* The icons of this rank among `count` clusters whose patches are there. */
+static fg_status make_own(sharing *s, fg_context *context, const fg_field *field,
+                          int threads, int first, int count)
+{
+  size_t most = (size_t)count;
+  int *cluster = fg__allocate(most, sizeof *cluster);
+  fg__patch *patch = fg__allocate(most, sizeof *patch);
+  fg_icon *icon = fg__allocate(most, sizeof *icon);
+  fg_status status = FG_STATUS_OK;
+  fg__icon_source source = {.field = field,
+                            .density = fg_density_contents(s->density),
+                            .labels = &s->labels,
+                            .cluster = cluster,
+                            .patch = patch};
+  if (!cluster || !patch || !icon) {
+    status = fg__fail_memory(context, "the icons", most * sizeof *icon);
+    goto cleanup;
+  }
+  for (int n = first; n < first + count; ++n)
+    if (s->wanted[n].rank == s->ranks->rank) {
+      cluster[source.count] = n + 1;
+      patch[source.count++] = s->wanted[n].patch;
+    }
+  status = fg__icons_make(icon, context, &source, threads);
+  for (int n = 0; n < source.count; ++n)
+    s->icon[cluster[n] - 1] = icon[n];
+cleanup:
+  free(cluster);
+  free(patch);
+  free(icon);
+  return status;
+}
+
+static fg_status make_all(sharing *s, fg_context *context, const fg_field *field,
+                          int threads)
+{
+  size_t *load = fg__allocate((size_t)s->ranks->count, sizeof *load);
+  fg_status status = FG_STATUS_OK;
+  if (!load)
+    status = fg__fail_memory(context, "the icons", (size_t)s->ranks->count);
+  status = fg__ranks_agree(s->ranks, context, status);
+  for (int first = 0, count; first < s->labels.count && !status; first += count) {
+    count = count_together(s, first, load);
+    status = fg__patches_fill(context, s->density, s->wanted + first, count);
+    if (status)
+      break;
+    status = make_own(s, context, field, threads, first, count);
+    for (int n = first; n < first + count; ++n)
+      fg__patch_clear(&s->wanted[n].patch);
+    status = fg__ranks_agree(s->ranks, context, status);
+  }
+  free(load);
+  return status;
+}
+
+/* Bytes that come from the ranks: an icon, its points, the next icon. */
+typedef struct letters {
+  unsigned char *bytes;
+  size_t count, capacity;
+  bool lost; /* there was no memory for some */
+} letters;
+
+static void take(void *closure, const unsigned char *bytes, size_t count)
+{
+  letters *l = closure;
+  l->lost = l->lost || !fg__grow((void **)&l->bytes, &l->capacity, l->count + count, 1);
+  if (l->lost)
+    return;
+  memcpy(l->bytes + l->count, bytes, count);
+  l->count += count;
+}
+
+static size_t points_bytes(const fg_icon *icon)
+{
+  return (size_t)icon->point_count * sizeof icon->points[0];
+}
+
+static void read_letters(sharing *s, const letters *l, fg_status *status,
+                         fg_context *context)
+{
+  for (size_t at = 0; at < l->count;) {
+    fg_icon icon;
+    memcpy(&icon, l->bytes + at, sizeof icon);
+    at += sizeof icon;
+    size_t bytes = points_bytes(&icon);
+    double(*points)[3] = fg__allocate(bytes, 1);
+    if (!points) {
+      *status = fg__fail_memory(context, "an icon", bytes);
+      return;
+    }
+    memcpy(points, l->bytes + at, bytes);
+    at += bytes;
+    icon.points = (const double(*)[3])points;
+    s->icon[icon.cluster - 1] = icon;
+  }
+}
+
+/* Rank 0 gets the icons of all. */
+static fg_status bring_together(sharing *s, fg_context *context)
+{
+  letters own = {0}, all = {0};
+  bool sends = s->ranks->rank > 0;
+  for (int n = 0; n < s->labels.count && sends; ++n)
+    if (s->icon[n].points) {
+      take(&own, (const unsigned char *)&s->icon[n], sizeof s->icon[n]);
+      take(&own, (const unsigned char *)s->icon[n].points, points_bytes(&s->icon[n]));
+    }
+  fg__ranks_pass(s->ranks, own.bytes, own.count, take, &all);
+  fg_status status = FG_STATUS_OK;
+  if (own.lost || all.lost)
+    status = fg__fail_memory(context, "the icons", own.count + all.count);
+  else
+    read_letters(s, &all, &status, context);
+  free(own.bytes);
+  free(all.bytes);
+  return fg__ranks_agree(s->ranks, context, status);
+}
+
+static fg_status allocate(sharing *s, fg_context *context)
+{
+  size_t count = (size_t)s->labels.count;
+  s->wanted = fg__allocate(count, sizeof *s->wanted);
+  s->icon = fg__allocate(count, sizeof *s->icon);
+  if (s->wanted && s->icon)
+    return choose_owners(s, context);
+  return fg__fail_memory(context, "the icons", count * sizeof *s->icon);
+}
+
+static fg_status create(fg_icons **out, fg_context *context, const fg_field *field,
+                        const fg_density *density, const fg_icon_options *options)
+{
+  sharing s = {.density = density,
+               .ranks = fg__density_share_of(density)->partition.ranks};
+  fg_status status = fg__labels_create_shared(&s.labels, context, density);
+  if (status)
+    return status;
+  status = fg__ranks_agree(s.ranks, context, allocate(&s, context));
+  if (!status)
+    status = make_all(&s, context, field, options ? options->threads : 1);
+  if (!status)
+    status = bring_together(&s, context);
+  if (!status && s.ranks->rank == 0)
+    status = fg__icons_collect(out, context, s.icon, s.labels.count);
+  status = fg__ranks_agree(s.ranks, context, status);
+  if (status) {
+    fg_icons_destroy(*out);
+    *out = NULL;
+  }
+  fg__icons_free_points(s.icon, s.labels.count);
+  free(s.icon);
+  free(s.wanted);
+  fg__labels_clear(&s.labels);
+  return status;
+}
+
+fg_status fg__icons_create_shared(fg_icons **out, fg_context *context,
+                                  const fg_field *field, const fg_density *density,
+                                  const fg_icon_options *options)
+{
+  if (options && options->extent == FG_ICON_EXTENT_TERRITORY)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "icons: arrows that reach beyond their clusters need the density in "
+                    "one piece");
+  fg__traffic_book *book = fg__density_share_of(density)->partition.ranks->book;
+  fg_activity before = fg__traffic_continue(book, FG_ACTIVITY_SNAPSHOTS);
+  fg_status status = create(out, context, field, density, options);
+  fg__traffic_return(book, before);
+  return status;
+}

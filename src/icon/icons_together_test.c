@@ -1,0 +1,132 @@
+/* Icons that ranks make of their parts are those of the whole, to the bit. */
+#include "cluster/shared_density_test.h"
+
+#include <string.h>
+
+typedef struct tally {
+  int icons, beyond; /* beyond: across a seam */
+} tally;
+
+static void compare_icon(const fg_icon *got, const fg_icon *want, tally *sum)
+{
+  expect(got->cluster == want->cluster && got->kind == want->kind);
+  expect(got->point_count == want->point_count);
+  if (got->point_count != want->point_count)
+    return;
+  expect(memcmp(got->points, want->points,
+                (size_t)want->point_count * sizeof *want->points) == 0);
+  expect(got->width == want->width && got->tail_width == want->tail_width);
+  expect(got->head_length == want->head_length && got->head_width == want->head_width);
+  expect(memcmp(got->center, want->center, sizeof want->center) == 0);
+  expect(got->area == want->area && got->speed == want->speed);
+  bool beyond = false;
+  for (int n = 0; n < want->point_count; ++n)
+    beyond = beyond || want->points[n][0] >= 3.0 || want->points[n][1] >= 3.0;
+  sum->beyond += beyond;
+  sum->icons++;
+}
+
+static void compare(const fg_icons *got, const subject *s, tally *sum)
+{
+  fg_icons *want;
+  expect(fg_icons_create(&want, us.context, s->field, s->whole, NULL) == FG_STATUS_OK);
+  expect(fg_icons_clusters(got) == fg_icons_clusters(want));
+  expect(fg_icons_dropped(got) == fg_icons_dropped(want));
+  expect(fg_icons_count(got) == fg_icons_count(want));
+  for (int n = 0; n < fg_icons_count(want) && fg_icons_at(got, n); ++n)
+    compare_icon(fg_icons_at(got, n), fg_icons_at(want, n), sum);
+  fg_icons_destroy(want);
+}
+
+static void parts_give_the_icons_of_the_whole(void **state)
+{
+  (void)state;
+  tally sum = {0};
+  for (int n = 0; n < SHAPE_COUNT && us.ranks->count > 1; ++n)
+    for (int way = 0; way < 4; ++way) {
+      bool periodic[2];
+      set_periods(periodic, way);
+      subject s = subject_of(&SHAPES[n], periodic, (n + way) % 3 == 0);
+      fg_icons *icons;
+      fg_icon_options options = {.threads = 1 + way};
+      expect(fg_icons_create(&icons, us.context, s.field, s.shared, &options) ==
+             FG_STATUS_OK);
+      expect(!icons == (us.ranks->rank > 0));
+      if (icons)
+        compare(icons, &s, &sum);
+      fg_icons_destroy(icons);
+      subject_clear(&s);
+    }
+  /* the shapes are what they are meant to be */
+  if (us.ranks->count > 1 && us.ranks->rank == 0)
+    expect(sum.icons > 120 && sum.beyond > 15);
+  end_together();
+}
+
+/* A domain without a cluster, and one of which most ranks have none. */
+static double nothing(double x, double y, const bool periodic[2], int seed)
+{
+  (void)periodic;
+  double x0 = x - 0.21, y0 = y - 0.3;
+  return seed ? 1.0 - (x0 * x0 + 3.0 * y0 * y0) / 0.008 : -1.0;
+}
+
+static void ranks_without_a_cluster_take_part(void **state)
+{
+  (void)state;
+  const bool periodic[2] = {false, true};
+  for (int seed = 0; seed < 2; ++seed) {
+    const shape s = {"nothing", nothing, seed};
+    subject made = subject_of(&s, periodic, false);
+    fg_icons *icons;
+    expect(fg_icons_create(&icons, us.context, made.field, made.shared, NULL) ==
+           FG_STATUS_OK);
+    if (us.ranks->rank == 0)
+      expect(icons && fg_icons_clusters(icons) == seed);
+    fg_icons_destroy(icons);
+    subject_clear(&made);
+  }
+  end_together();
+}
+
+/* A stop that one rank alone hears of ends the work of all. */
+static void a_stop_of_one_rank_stops_all(void **state)
+{
+  (void)state;
+  const bool periodic[2] = {true, false};
+  subject s = subject_of(&SHAPES[0], periodic, false);
+  if (us.ranks->rank == us.ranks->count - 1)
+    fg_context_stop(us.context);
+  fg_icons *icons;
+  expect(fg_icons_create(&icons, us.context, s.field, s.shared, NULL) ==
+         FG_STATUS_STOPPED);
+  expect(!icons);
+  subject_clear(&s);
+  end_together();
+}
+
+static void territories_ask_for_the_whole(void **state)
+{
+  (void)state;
+  const bool periodic[2] = {false, false};
+  subject s = subject_of(&SHAPES[1], periodic, false);
+  fg_icons *icons;
+  fg_icon_options options = {.extent = FG_ICON_EXTENT_TERRITORY};
+  fg_status status = fg_icons_create(&icons, us.context, s.field, s.shared, &options);
+  expect(status == (us.ranks->count > 1 ? FG_STATUS_UNSUPPORTED : FG_STATUS_OK));
+  fg_icons_destroy(icons);
+  subject_clear(&s);
+  end_together();
+}
+
+int main(void)
+{
+  start_together();
+  const struct CMUnitTest tests[] = {
+      TOGETHER(parts_give_the_icons_of_the_whole),
+      TOGETHER(ranks_without_a_cluster_take_part),
+      TOGETHER(a_stop_of_one_rank_stops_all),
+      TOGETHER(territories_ask_for_the_whole),
+  };
+  return cmocka_run_group_tests_name("icon/icons", tests, NULL, NULL);
+}
