@@ -44,6 +44,8 @@ static inline void pause_briefly(unsigned look)
 void fg__team_barrier(const fg__share *share)
 {
   fg__team *team = share->team;
+  if (!team && share->meet)
+    share->meet(share->argument);
   if (!team || share->members == 1)
     return;
   unsigned phase = atomic_load_explicit(&team->phase, memory_order_relaxed);
@@ -81,7 +83,8 @@ static void *member_main(void *argument)
 {
   start mine = *(start *)argument;
   free(argument);
-  fg__share share = {mine.team, mine.member, mine.team->members};
+  fg__share share = {
+      .team = mine.team, .member = mine.member, .members = mine.team->members};
   for (unsigned seen = 0; await_work(mine.team, seen); ++seen) {
     mine.team->work(mine.team->argument, &share);
     fg__team_barrier(&share);
@@ -108,7 +111,7 @@ void fg__team_run(fg__team *team, fg__team_work *work, void *argument)
   team->work = work;
   team->argument = argument;
   give_out(team);
-  fg__share share = {team, 0, team->members};
+  fg__share share = {.team = team, .members = team->members};
   work(argument, &share);
   fg__team_barrier(&share);
 }

@@ -9,10 +9,14 @@ typedef struct fg__team fg__team;
 
 enum { FG__MOST_MEMBERS = 256 };
 
-/* What one member of a team is given; `team` is NULL for a member on its own. */
+/* What one member of a team is given; `team` is NULL for a member on its own, which does
+ * `meet` (unless NULL) where members of a team wait for each other: it may be one of
+ * several processes that share the work likewise. */
 typedef struct fg__share {
   fg__team *team;
   int member, members;
+  void (*meet)(void *argument);
+  void *argument;
 } fg__share;
 
 static inline fg__share fg__alone(void)
@@ -35,7 +39,8 @@ typedef void fg__team_work(void *argument, const fg__share *share);
 void fg__team_run(fg__team *team, fg__team_work *work, void *argument);
 
 /* Returns once every member of the share's team has called it; memory written before is
- * seen by all after it. Only within fg__team_run. Nothing for a member on its own. */
+ * seen by all after it. Only within fg__team_run. A member on its own meets whom its
+ * share says. */
 void fg__team_barrier(const fg__share *share);
 
 /* A member's part [*begin, *end) of `count` things; begin is a multiple of `multiple`. */

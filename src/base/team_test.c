@@ -73,7 +73,7 @@ static void parts_cover_all_once(void **state)
     for (int count = 0; count < 40; ++count) {
       int next = 0;
       for (int member = 0; member < members; ++member) {
-        fg__share share = {NULL, member, members};
+        fg__share share = {.member = member, .members = members};
         int begin, end;
         fg__team_part(&share, count, 2, &begin, &end);
         if (begin < end) {

@@ -70,28 +70,33 @@ double fg__level_sum(uint64_t units, double rounding)
   return (double)(int64_t)units * unit_of(rounding);
 }
 
-/* Ghosts of the whole level are copies of its own nodes. */
-static void find_ghost_sources(fg__level *level)
+/* The nodes -1 and n of an axis as images of own ones; what is no image of those is its
+ * own source: filling it changes nothing. box: NULL for the whole level. */
+static void find_images(const fg__level *level, const fg__box *box, int axis, int whole,
+                        int source[2])
 {
-  const fg__layout *at = &level->layout;
-  const int *nodes = at->nodes;
-  bool round_x = level->periodic[0], round_y = level->periodic[1];
-  level->ghost_column_source[0] = fg__column(at, round_x ? nodes[0] - 1 : 1);
-  level->ghost_column_source[1] = fg__column(at, round_x ? 0 : nodes[0] - 2);
-  level->ghost_row_source[0] = round_y ? nodes[1] - 1 : 1;
-  level->ghost_row_source[1] = round_y ? 0 : nodes[1] - 2;
-  level->ghost_plane_source[0] = level->periodic[2] ? nodes[2] - 1 : 1;
-  level->ghost_plane_source[1] = level->periodic[2] ? 0 : nodes[2] - 2;
+  int nodes = level->layout.nodes[axis];
+  bool spans = !box || box->nodes[axis] == whole;
+  source[0] = -1;
+  source[1] = nodes;
+  if (level->periodic[axis] && spans) {
+    source[0] = nodes - 1;
+    source[1] = 0;
+  }
+  if (level->border[axis][0] && nodes > 1)
+    source[0] = 1;
+  if (level->border[axis][1] && nodes > 1)
+    source[1] = nodes - 2;
 }
 
-/* Those of one box among several are their own source: filling them changes nothing. */
-static void leave_ghosts(fg__level *level)
+static void find_ghost_sources(fg__level *level, const fg__box *box, const int whole[3])
 {
-  for (int side = 0; side < 2; ++side) {
-    level->ghost_column_source[side] = level->ghost_column[side];
-    level->ghost_row_source[side] = side == 0 ? -1 : level->layout.nodes[1];
-    level->ghost_plane_source[side] = side == 0 ? -1 : level->layout.nodes[2];
-  }
+  int columns[2];
+  find_images(level, box, 0, whole[0], columns);
+  find_images(level, box, 1, whole[1], level->ghost_row_source);
+  find_images(level, box, 2, whole[2], level->ghost_plane_source);
+  for (int side = 0; side < 2; ++side)
+    level->ghost_column_source[side] = fg__column(&level->layout, columns[side]);
 }
 
 static void lay_out(fg__level *level, const fg__box *box)
@@ -121,10 +126,7 @@ static void lay_out(fg__level *level, const fg__box *box)
   level->gradient_weight = 1.0;
   level->ghost_column[0] = level->layout.odd_offset - 1;
   level->ghost_column[1] = fg__column(&level->layout, nodes[0]);
-  if (box)
-    leave_ghosts(level);
-  else
-    find_ghost_sources(level);
+  find_ghost_sources(level, box, whole);
 }
 
 void fg__fill_ghost_row(const fg__level *level, float *array, int k, int side)

@@ -50,8 +50,8 @@ typedef struct fg__level {
   ptrdiff_t ghost_column[2], ghost_column_source[2]; /* offsets in a row */
   int ghost_row_source[2];   /* rows that rows -1 and nodes[1] are copies of */
   int ghost_plane_source[2]; /* the same for planes */
-  bool boxed;                /* one box of several: its ghosts are filled from outside */
-  bool border[3][2];         /* a natural border at the low, the high end of an axis */
+  bool boxed; /* one box of several: ghosts that are no images are filled from outside */
+  bool border[3][2]; /* a natural border at the low, the high end of an axis */
   /* Terms are rounded to multiples of a fixed small number before they are added, so that
    * a sum does not depend on its order: (x + rounding) - rounding. The first for terms
    * whose mean is at most 8, the other for squares of changes, at most 1/8. */

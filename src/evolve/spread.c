@@ -86,6 +86,20 @@ static void exchange_masses(const fg__spread *spread)
   fg__exchange_fill(spread->exchange, 2, arrays, FG__ALL_COLOURS);
 }
 
+/* Whether each rank has one box and it reaches across the domain along all axes but the
+ * outermost: then slices are shared out as in a team. */
+static bool is_in_slabs(const fg__partition *partition)
+{
+  for (int rank = 0; rank < partition->ranks->count; ++rank)
+    if (partition->first_of_rank[rank + 1] - partition->first_of_rank[rank] != 1)
+      return false;
+  for (int n = 0; n < partition->count; ++n)
+    for (int k = 0; k + 1 < partition->dimension; ++k)
+      if (partition->box[n].nodes[k] != partition->nodes[k])
+        return false;
+  return true;
+}
+
 fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh *mesh,
                             const fg__tensor_recipe *recipe, fg__partition *partition,
                             const fg__spread_description *description)
@@ -93,6 +107,7 @@ fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh
   *out = (fg__spread){.partition = *partition, .masked = recipe->masked};
   *partition = (fg__partition){0};
   fg__own_boxes(&out->partition, &out->count);
+  out->in_slabs = is_in_slabs(&out->partition);
   size_t count = (size_t)out->count;
   out->box = fg__allocate(count, sizeof *out->box);
   out->offset = fg__allocate(count, sizeof *out->offset);
@@ -147,10 +162,37 @@ void fg__spread_exchange(const fg__spread *spread, int count, float *const array
   fg__exchange_fill(spread->exchange, count, places, colours);
 }
 
+typedef struct meeting {
+  const fg__spread *spread;
+  unsigned colours; /* to be exchanged next time */
+} meeting;
+
+/* In the midst of a sweep the others need this rank's first slice, an even one, and at
+ * its end the last one, which is odd (at the domain's end nobody does). */
+static void meet(void *argument)
+{
+  meeting *m = argument;
+  float *const both[] = {m->spread->u, m->spread->w};
+  fg__spread_exchange(m->spread, 2, both, m->colours);
+  m->colours = FG__ALL_COLOURS & ~m->colours;
+}
+
+static void smooth_slab(const fg__spread *spread, const fg__kernel *kernel, float tau,
+                        bool linear)
+{
+  meeting m = {spread, kernel->dimension == 3 ? FG__EVEN_PLANES : FG__EVEN_ROWS};
+  fg__share share = {.members = 1, .meet = meet, .argument = &m};
+  (linear ? kernel->smooth_linear : kernel->smooth)(&spread->box[0], tau, &share);
+}
+
 void fg__spread_smooth(const fg__spread *spread, const fg__kernel *kernel, float tau,
                        bool linear)
 {
   float *const both[] = {spread->u, spread->w};
+  if (spread->in_slabs) {
+    smooth_slab(spread, kernel, tau, linear);
+    return;
+  }
   for (int colour = 0; colour < 1 << kernel->dimension; ++colour) {
     for (int b = 0; b < spread->count; ++b)
       kernel->smooth_one_colour(&spread->box[b], tau, linear, colour);

@@ -13,6 +13,7 @@ typedef struct fg__spread {
   fg__partition partition;
   fg__exchange *exchange;
   bool masked;          /* somewhere, if not here */
+  bool in_slabs;        /* each rank has one box, of whole slices */
   int count;            /* boxes of this rank */
   fg__level *box;       /* [count] */
   ptrdiff_t *offset;    /* [count] from an array's start to the box's node (0, 0, 0) */

@@ -66,7 +66,22 @@ static fg_status prepare(fg__spread_clusters *c, fg_context *context,
   return whole ? FG_STATUS_OK : fg__fail_memory(context, "the clusters", count);
 }
 
-/* A box's array, 4 bytes a node, from or to one with a ring. */
+/* A box's density to an array with a ring. */
+static void export_ring(const fg__level *box, const float *u, float *ring)
+{
+  const fg__layout *layout = &box->layout;
+  const int *nodes = layout->nodes;
+  int solid = layout->dimension == 3;
+  for (int k = -solid; k < nodes[2] + solid; ++k)
+    for (int j = -1; j <= nodes[1]; ++j, ring += nodes[0] + 2) {
+      const float *row = u + fg__row_at(layout, j, k);
+      ring[0] = row[fg__column(layout, -1)];
+      fg__row_export(layout, u, j, k, ring + 1);
+      ring[nodes[0] + 1] = row[fg__column(layout, nodes[0])];
+    }
+}
+
+/* Numbers of pieces, which travel as floats do, from or to one with a ring. */
 static void copy_ring(const fg__level *box, void *in_layout, void *in_ring, bool to_ring)
 {
   const int *nodes = box->layout.nodes;
@@ -206,8 +221,7 @@ fg_status fg__spread_clusters_find(fg__spread_clusters *clusters, fg_context *co
   for (int b = 0; b < c->count && !status; ++b) {
     c->grid[b].u = NULL;
     if (u) {
-      copy_ring(&spread->box[b], (void *)(uintptr_t)(u + spread->offset[b]), c->u[b],
-                true);
+      export_ring(&spread->box[b], u + spread->offset[b], c->u[b]);
       c->grid[b].u = c->u[b] + origin_of(&c->grid[b], spread->box[b].layout.dimension);
     }
     status = counting ? fg__components_cut(&c->box[b], context, &c->grid[b])

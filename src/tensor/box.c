@@ -53,8 +53,13 @@ static void cut_out(void *to, const void *from, size_t size, const fg__cells *ce
       size_t row = layer * (size_t)wide->count[1] + place(cells, wide, 1, j);
       const unsigned char *in =
           (const unsigned char *)from + row * (size_t)wide->count[0] * size;
-      for (int i = 0; i < cells->count[0]; ++i, out += size)
-        memcpy(out, in + place(cells, wide, 0, i) * size, size);
+      for (int i = 0, run; i < cells->count[0]; i += run) { /* until it goes round */
+        size_t at = place(cells, wide, 0, i);
+        run = wide->domain_count[0] - (int)at;
+        run = run < cells->count[0] - i ? run : cells->count[0] - i;
+        memcpy(out, in + at * size, (size_t)run * size);
+        out += (size_t)run * size;
+      }
     }
 }
 
