@@ -123,11 +123,16 @@ static void guess(fg__stepper *s, double tau, double share)
   fg__pass_predict(m, s->current, s->previous, omega, u);
 }
 
-/* Keeps what the last cycle starts from. */
+/* Keeps what the last cycle starts from. What coarse cells bring across a mask's walls
+ * the next cycle would hardly bring back: parts get their means back after each. */
 static fg__changes solve(fg__stepper *s, double tau, int cycles)
 {
   fg__multigrid *m = &s->multigrid;
-  fg__pass_solve(m, tau, cycles, s->first_iterate);
+  int at_once = s->means.count > 1 ? 1 : cycles;
+  for (int n = 0; n < cycles; n += at_once) {
+    fg__pass_solve(m, tau, at_once, s->first_iterate);
+    fg__means_restore(&s->means, m, fg__multigrid_u(m));
+  }
   s->cycles_spent += cycles;
   return fg__pass_changes(m, fg__multigrid_u(m), s->current, s->first_iterate,
                           s->previous);
