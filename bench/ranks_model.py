@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""What a cycle would take on many ranks: docs/design/distribution.md, "On 1000 ranks".
+
+Counts are those of build/bench_mesh (from the Morton curve) and of `--verbose`; costs a
+node were measured on one core; the network is assumed."""
+
+LATENCY = 0.9e-6  # s a message, all of a round one after another
+BANDWIDTH = 10.3e9  # bytes a second and rank
+COST = {2: 17e-9, 3: 49e-9}  # s a node of the finest level, a cycle with its share of a step
+WHOLE_COST = {2: 10e-9, 3: 60e-9}  # s a node of the first whole level, a cycle
+CYCLES = 3  # a step
+
+
+def exchanges(dimension, shared, slabs=False):
+    """Rounds of messages in a cycle."""
+    sweep = 2 if slabs else 2**dimension
+    return sweep + 2 + (shared - 1) * (2 * sweep + 3)
+
+
+def volume(dimension, shared, finest):
+    """Bytes sent in a cycle; finest: by an exchange of u and w there."""
+    shrink = 0.5 ** (dimension - 1)
+    coarse = sum(shrink**level for level in range(1, shared))
+    return finest * (4.0 + 5.5 * coarse)
+
+
+def predict(name, dimension, nodes, ranks, shared, whole, neighbours, finest):
+    work = COST[dimension] * nodes / ranks
+    again = WHOLE_COST[dimension] * whole
+    rounds = exchanges(dimension, shared) * neighbours * LATENCY
+    sent = volume(dimension, shared, finest) / BANDWIDTH
+    gather = (ranks - 1) * LATENCY + 16.0 * whole / BANDWIDTH
+    depth = (ranks - 1).bit_length()
+    reductions = (3.0 + 6.7) / CYCLES * 2 * depth * LATENCY
+    total = work + again + rounds + sent + gather + reductions
+    parts = (work, again, rounds, sent, gather, reductions)
+    row = " | ".join(f"{1e3 * part:.2f}" for part in parts)
+    print(f"| {name} | {row} | {100 * work / total:.0f} % |")
+
+
+def main():
+    print("Volume in a cycle, against what --verbose counts:")
+    for name, dimension, shared, finest, counted in (
+        ("257², 4 ranks", 2, 6, 2080, 20112),
+        ("1025², 4 ranks", 2, 8, 8224, 78832),
+        ("65³, 4 ranks", 3, 4, 36448, 223760),
+        ("129³, 4 ranks", 3, 5, 138336, 831776),
+    ):
+        model = volume(dimension, shared, finest)
+        print(f"  {name}: {model:.0f}, {counted} ({100 * model / counted - 100:+.1f} %)")
+    print("\n| nodes | own nodes | whole levels | rounds | bytes | gather | reductions |"
+          " efficiency |\n|---|---|---|---|---|---|---|---|")
+    predict("8193²", 2, 8193**2, 1000, 5, 257**2, 8.4, 14e3)
+    predict("8193², patch 16", 2, 8193**2, 1000, 3, 1025**2, 8.4, 15e3)
+    predict("32769²", 2, 32769**2, 1000, 7, 257**2, 8.4, 56e3)
+    predict("1025³", 3, 1025**3, 1000, 4, 65**3, 26.2, 762e3)
+    predict("1025³, patch 16", 3, 1025**3, 1000, 3, 129**3, 26.5, 763e3)
+    predict("2049³", 3, 2049**3, 1000, 5, 65**3, 26.2, 3050e3)
+
+
+if __name__ == "__main__":
+    main()
