@@ -8,12 +8,11 @@
 #include "field/fingerprint.h"
 
 /* Defaults that give the paper's pictures (design.md section 2). */
-enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1 };
+enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1, DEFAULT_CYCLES = 3 };
 static const double default_anisotropy = 0.15, default_coverage = 0.3;
 /* By scheme: chosen by the time they take for the same error (docs/design/interfaces.md,
  * docs/method/schemes.md). */
 static const double default_accuracy[] = {0.07, 0.05, 0.05};
-static const int default_cycles[] = {3, 3, 2};
 /* Half-width of an interface along the stream in cells; at 1 an isotropic pattern pins.
  */
 static const double interface_cells = 1.1, isotropic_interface_cells = 1.5;
@@ -59,7 +58,7 @@ static fg_status settle_options(fg_evolution_options *o, fg_context *context,
   if (o->accuracy == 0.0)
     o->accuracy = default_accuracy[o->scheme];
   if (o->cycles == 0)
-    o->cycles = default_cycles[o->scheme];
+    o->cycles = DEFAULT_CYCLES;
   status = check_range(context, "anisotropy", o->anisotropy, 0.0, 1.0, false);
   if (!status && !(o->coverage > 0.0 && o->coverage < 1.0))
     status = fg__fail(context, FG_STATUS_ARGUMENT, "coverage %g is not in (0, 1)",

@@ -52,7 +52,7 @@ static void keeps_promises(const char *name, int nodes, int steps)
     assert_int_equal(fg_evolution_step(evolution, &step), FG_STATUS_OK);
     assert_true(step.energy < energy);
     assert_true(fabs(step.mass - mean) < 1e-7);
-    assert_int_equal(step.cycles, 6 * (1 + step.rejected));
+    assert_int_equal(step.cycles, 9 * (1 + step.rejected));
     energy = step.energy;
   }
   fg_evolution_destroy(evolution);
