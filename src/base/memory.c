@@ -3,8 +3,27 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 enum { VECTOR_BYTES = 64, FIRST_CAPACITY = 16 };
+
+enum { LARGE_PAGE = 1 << 21 };
+
+/* A sweep reads rows of many arrays at once; with small pages it waits for their
+ * addresses to be found (docs/design/evolution.md). Only a wish, and only where the
+ * system can be told. */
+static void prefer_large_pages(unsigned char *memory, size_t bytes)
+{
+#if defined(MADV_HUGEPAGE)
+  size_t skipped = (LARGE_PAGE - (uintptr_t)memory % LARGE_PAGE) % LARGE_PAGE;
+  if (bytes >= skipped + LARGE_PAGE)
+    (void)madvise(memory + skipped, (bytes - skipped) / LARGE_PAGE * LARGE_PAGE,
+                  MADV_HUGEPAGE);
+#else
+  (void)memory;
+  (void)bytes;
+#endif
+}
 
 void *fg__allocate(size_t count, size_t size)
 {
@@ -20,8 +39,10 @@ void *fg__allocate_aligned(size_t count, size_t size)
   size_t bytes = count * size;
   bytes = (bytes / VECTOR_BYTES + 1) * VECTOR_BYTES;
   void *memory = aligned_alloc(VECTOR_BYTES, bytes);
-  if (memory)
+  if (memory) {
+    prefer_large_pages(memory, bytes);
     memset(memory, 0, bytes);
+  }
   return memory;
 }
 
@@ -30,7 +51,10 @@ void *fg__allocate_untouched(void **base, size_t count, size_t size)
   *base = NULL;
   if (size == 0 || count > (SIZE_MAX - VECTOR_BYTES) / size)
     return NULL;
-  unsigned char *memory = *base = calloc(count * size + VECTOR_BYTES, 1);
+  size_t bytes = count * size + VECTOR_BYTES;
+  unsigned char *memory = *base = calloc(bytes, 1);
+  if (memory)
+    prefer_large_pages(memory, bytes);
   return memory ? memory + VECTOR_BYTES - (uintptr_t)memory % VECTOR_BYTES : NULL;
 }
 
