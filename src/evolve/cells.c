@@ -222,15 +222,15 @@ typedef struct range {
   int low[3], count[3];
 } range;
 
-static range range_of(const fg__tensor_recipe *recipe, const fg__box *box,
+static range range_of(int dimension, const bool periodic[3], const fg__box *box,
                       const int level_cells[3])
 {
   range r = {{0, 0, 0}, {1, 1, 1}};
-  for (int k = 0; k < recipe->dimension; ++k) {
+  for (int k = 0; k < dimension; ++k) {
     int low = box->first[k] - 1, high = box->first[k] + box->nodes[k];
-    if (!recipe->periodic[k] && low < 0)
+    if (!periodic[k] && low < 0)
       low = 0;
-    if (!recipe->periodic[k] && high > level_cells[k])
+    if (!periodic[k] && high > level_cells[k])
       high = level_cells[k];
     r.low[k] = low;
     r.count[k] = high - low;
@@ -238,34 +238,19 @@ static range range_of(const fg__tensor_recipe *recipe, const fg__box *box,
   return r;
 }
 
-/* Halves the cells along all axes, in place: means over 2 x 2 (x 2). */
-static void halve(float *values, const int fine[3], int dimension)
-{
-  size_t n = 0, row = (size_t)fine[0], plane = row * (size_t)fine[1];
-  for (int k = 0; k < (dimension == 3 ? fine[2] / 2 : 1); ++k)
-    for (int j = 0; j < fine[1] / 2; ++j)
-      for (int i = 0; i < fine[0] / 2; ++i, ++n) {
-        const float *low = values + (size_t)(2 * k) * plane + (size_t)(2 * j) * row;
-        low += 2 * i;
-        values[n] = mean_of_corners(low, (ptrdiff_t)row, (ptrdiff_t)plane, dimension);
-      }
-}
-
-/* The finest cells of a range of coarse ones, tensor (0 where inactive) and weight, then
- * averaged. `values` has room for the finest. */
+/* The cells of a range, tensor (0 where inactive) and weight. */
 static fg_status fill_range(float *const values[], fg_context *context,
-                            const fg__tensor_recipe *recipe, const range *r, int halvings)
+                            const fg__tensor_recipe *recipe, const range *r)
 {
   fg__cells cells = {.dimension = recipe->dimension};
   size_t count = 1;
-  int fine[3] = {1, 1, 1};
   for (int k = 0; k < recipe->dimension; ++k) {
-    fine[k] = cells.count[k] = r->count[k] << halvings;
-    cells.first[k] = r->low[k] * (1 << halvings);
+    cells.count[k] = r->count[k];
+    cells.first[k] = r->low[k];
     cells.domain_count[k] = recipe->cells[k];
     cells.origin[k] = recipe->origin[k];
     cells.spacing[k] = recipe->spacing[k];
-    count *= (size_t)fine[k];
+    count *= (size_t)r->count[k];
   }
   int components = component_count(recipe->dimension);
   fg__tensor tensor = {.xx = values[0], .xy = values[1], .yy = values[2]};
@@ -286,12 +271,6 @@ static fg_status fill_range(float *const values[], fg_context *context,
       values[c][n] = 0.0F;
   }
   free(tensor.active);
-  for (int h = 0; h < halvings && !status; ++h) {
-    for (int c = 0; c <= components; ++c)
-      halve(values[c], fine, recipe->dimension);
-    for (int k = 0; k < recipe->dimension; ++k)
-      fine[k] /= 2;
-  }
   return status;
 }
 
@@ -324,24 +303,47 @@ static void mirror_sides(const fg__cells_of_box *cells, const range *r,
   }
 }
 
+fg_status fg__cells_halve_box(fg__cells_of_box *out, fg_context *context,
+                              const fg__cells_of_box *fine, const fg__box *box,
+                              const int level_cells[3])
+{
+  fg_status status = allocate(out, context, fine->dimension, box->nodes);
+  if (status)
+    return status;
+  filling f = {.out = out, .count = {1, 1, 1}, .fine = fine};
+  for (int k = 0; k < fine->dimension; ++k) {
+    int left = level_cells[k] - box->first[k]; /* the last node begins no cell */
+    f.count[k] = box->nodes[k] < left ? box->nodes[k] : left;
+  }
+  fg__share alone = fg__alone();
+  fill_with_means(&f, &alone);
+  return FG_STATUS_OK;
+}
+
+void fg__cells_mirror_box(const fg__cells_of_box *cells, const fg__box *box,
+                          const int level_cells[3], const bool periodic[3])
+{
+  range r = range_of(cells->dimension, periodic, box, level_cells);
+  mirror_sides(cells, &r, box);
+}
+
 fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
-                            const fg__tensor_recipe *recipe, const fg__box *box,
-                            int halvings, const int level_cells[3])
+                            const fg__tensor_recipe *recipe, const fg__box *box)
 {
   int dimension = recipe->dimension, components = component_count(dimension);
-  range r = range_of(recipe, box, level_cells);
-  size_t fine = 1;
+  range r = range_of(dimension, recipe->periodic, box, recipe->cells);
+  size_t count = 1;
   for (int k = 0; k < dimension; ++k)
-    fine *= (size_t)r.count[k] << halvings;
-  float *memory = fg__allocate(fine * (size_t)(components + 1), sizeof *memory);
+    count *= (size_t)r.count[k];
+  float *memory = fg__allocate(count * (size_t)(components + 1), sizeof *memory);
   *out = (fg__cells_of_box){0};
   if (!memory)
     return fg__fail_memory(context, "the tensor",
-                           fine * (size_t)(components + 1) * sizeof *memory);
+                           count * (size_t)(components + 1) * sizeof *memory);
   float *values[FG__TENSOR_COMPONENTS + 1];
   for (int c = 0; c <= components; ++c)
-    values[c] = memory + (size_t)c * fine;
-  fg_status status = fill_range(values, context, recipe, &r, halvings);
+    values[c] = memory + (size_t)c * count;
+  fg_status status = fill_range(values, context, recipe, &r);
   if (!status)
     status = allocate(out, context, dimension, box->nodes);
   size_t n = 0;

@@ -48,11 +48,19 @@ typedef struct fg__tensor_recipe {
   bool masked;                  /* some cell is inactive */
 } fg__tensor_recipe;
 
-/* The cells round a box of nodes of a level with `level_cells` cells, each 2^halvings of
- * the domain's. MEMORY. */
+/* The cells round a box of nodes of the finest level. MEMORY. */
 fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
-                            const fg__tensor_recipe *recipe, const fg__box *box,
-                            int halvings, const int level_cells[3]);
+                            const fg__tensor_recipe *recipe, const fg__box *box);
+
+/* The cells round a box of a coarser level, as means over 2 x 2 (x 2) of those of the box
+ * on the next finer level, which begins at even nodes: only those whose lowest corner the
+ * box owns. The ring below comes from the neighbours; what lies beyond natural borders
+ * from mirror_box then. MEMORY. */
+fg_status fg__cells_halve_box(fg__cells_of_box *out, fg_context *context,
+                              const fg__cells_of_box *fine, const fg__box *box,
+                              const int level_cells[3]);
+void fg__cells_mirror_box(const fg__cells_of_box *cells, const fg__box *box,
+                          const int level_cells[3], const bool periodic[3]);
 
 /* An array of all cells of a level, x fastest, as fg__cells_of_box with images: values[n]
  * are the components, the last the weight. MEMORY. */

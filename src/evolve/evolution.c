@@ -184,8 +184,7 @@ static fg_status count_own_cells(fg_evolution *e, const fg_field *field, uint64_
       box.nodes[k] = tile->cells[k];
     }
     fg__cells_of_box cells;
-    fg_status status =
-        fg__cells_for_box(&cells, e->context, &recipe, &box, 0, e->mesh.cells);
+    fg_status status = fg__cells_for_box(&cells, e->context, &recipe, &box);
     for (int k = 0; k < box.nodes[2] && !status; ++k)
       for (int j = 0; j < box.nodes[1]; ++j)
         for (int i = 0; i < box.nodes[0]; ++i)

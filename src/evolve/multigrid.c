@@ -98,7 +98,8 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
     bool workable = fg__partition_is_workable(&partition, LEAST_NODES) &&
                     halvings + 1 < FG__MOST_LEVELS;
     fg__spread *spread = &out->spread[halvings];
-    fg__spread_description description = {halvings, gamma, halvings == 0};
+    fg__spread_description description = {
+        halvings, gamma, halvings > 0 ? &out->spread[halvings - 1] : NULL};
     status = fg__spread_create(spread, context, mesh, recipe, &partition, &description);
     if (status || !workable)
       break;

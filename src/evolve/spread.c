@@ -50,27 +50,114 @@ void fg__spread_use(fg__spread *spread, float *u, float *w, float *p)
 }
 
 static fg_status create_box(fg__spread *spread, fg_context *context, const fg__mesh *mesh,
-                            const fg__tensor_recipe *recipe,
-                            const fg__spread_description *description, int b, bool masked)
+                            const fg__spread_description *description, int b,
+                            fg__cells_of_box *cells)
 {
-  const fg__box *place = &fg__own_boxes(&spread->partition, &(int){0})[b];
-  fg__cells_of_box cells;
-  fg_status status = fg__cells_for_box(&cells, context, recipe, place,
-                                       description->halvings, spread->partition.cells);
-  if (status)
-    return status;
   fg__level_description level = {.dimension = mesh->dimension,
                                  .gamma = description->gamma,
-                                 .finest = description->finest,
-                                 .masked = masked,
-                                 .box = place};
+                                 .finest = !description->finer,
+                                 .masked = spread->masked,
+                                 .box = &fg__own_boxes(&spread->partition, &(int){0})[b]};
   for (int k = 0; k < 3; ++k) {
     level.cells[k] = spread->partition.cells[k];
     level.periodic[k] = mesh->periodic[k];
     level.spacing[k] =
         mesh->spacing[k] * (k < mesh->dimension ? 1 << description->halvings : 1);
   }
-  return fg__level_create(&spread->box[b], context, &level, &cells);
+  return fg__level_create(&spread->box[b], context, &level, cells);
+}
+
+/* The cells below the boxes: each travels as its lowest corner does. node[b]: an array of
+ * box b. */
+static void exchange_cells(const fg__spread *spread, const fg__cells_of_box *cells,
+                           float *node[], int component)
+{
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int b = 0; b < spread->count; ++b) {
+      const fg__cells_of_box *c = &cells[b];
+      fg__layout layout = fg__layout_of(c->dimension, c->nodes);
+      float *value =
+          component < FG__TENSOR_COMPONENTS ? c->component[component] : c->weight;
+      int first = pass == 0 ? 0 : -1, solid = c->dimension == 3;
+      for (int k = solid ? first : 0; k < c->nodes[2]; ++k)
+        for (int j = first; j < c->nodes[1]; ++j)
+          for (int i = first; i < c->nodes[0]; ++i) {
+            ptrdiff_t at = fg__cell_at(c, i, j, k);
+            ptrdiff_t corner = fg__node_at(&layout, i, j, k);
+            if (pass == 0)
+              node[b][corner] = value[at];
+            else if (i < 0 || j < 0 || k < 0)
+              value[at] = node[b][corner];
+          }
+    }
+    float *const *const array = node;
+    if (pass == 0)
+      fg__exchange_fill(spread->exchange, 1, &array, FG__ALL_COLOURS);
+  }
+}
+
+/* Cells of a coarser level from those of the finer one, which the same ranks' boxes
+ * share. Collective. */
+static fg_status halve_cells(const fg__spread *spread, fg_context *context,
+                             const fg__spread *fine, fg__cells_of_box *cells)
+{
+  const fg__partition *partition = &spread->partition;
+  const fg__box *own = fg__own_boxes(partition, &(int){0});
+  size_t count = (size_t)spread->count;
+  float **memory = fg__allocate(count, sizeof *memory);
+  float **node = fg__allocate(count, sizeof *node);
+  fg_status status = FG_STATUS_OK;
+  if (!memory || !node)
+    status = fg__fail_memory(context, "the coarse tensor", count * sizeof *node);
+  for (int b = 0; b < spread->count && !status; ++b) {
+    fg__layout layout = fg__layout_of(partition->dimension, own[b].nodes);
+    memory[b] = fg__allocate(layout.array_size, sizeof **memory);
+    if (memory[b]) {
+      node[b] = memory[b] + layout.first;
+      status = fg__cells_halve_box(&cells[b], context, &fine->box[b].tensor, &own[b],
+                                   partition->cells);
+    } else {
+      status = fg__fail_memory(context, "the coarse tensor",
+                               layout.array_size * sizeof **node);
+    }
+  }
+  status = fg__ranks_agree(partition->ranks, context, status);
+  for (int c = 0; c <= FG__TENSOR_COMPONENTS && !status; ++c)
+    if (c < 3 || c == FG__TENSOR_COMPONENTS || partition->dimension == 3)
+      exchange_cells(spread, cells, node, c);
+  for (int b = 0; b < spread->count && !status; ++b)
+    fg__cells_mirror_box(&cells[b], &own[b], partition->cells, partition->periodic);
+  for (int b = 0; b < spread->count && memory; ++b)
+    free(memory[b]);
+  free(memory);
+  free(node);
+  return status;
+}
+
+static fg_status create_boxes(fg__spread *spread, fg_context *context,
+                              const fg__mesh *mesh, const fg__tensor_recipe *recipe,
+                              const fg__spread_description *description)
+{
+  const fg__box *own = fg__own_boxes(&spread->partition, &(int){0});
+  size_t count = (size_t)spread->count;
+  fg__cells_of_box *cells = fg__allocate(count, sizeof *cells);
+  fg_status status = FG_STATUS_OK;
+  if (!cells)
+    status = fg__fail_memory(context, "the tensor", count * sizeof *cells);
+  status = fg__ranks_agree(mesh->ranks, context, status);
+  if (!status && description->finer)
+    status = halve_cells(spread, context, description->finer, cells);
+  for (int b = 0; b < spread->count && !status && !description->finer; ++b)
+    status = fg__cells_for_box(&cells[b], context, recipe, &own[b]);
+  for (int b = 0; b < spread->count && !status; ++b) {
+    status = create_box(spread, context, mesh, description, b, &cells[b]);
+    spread->offset[b] = (ptrdiff_t)spread->size + spread->box[b].layout.first;
+    spread->size += spread->box[b].layout.array_size + FG__LANES;
+  }
+  for (int b = 0; b < spread->count && cells; ++b)
+    fg__cells_clear(&cells[b]); /* unless a level has taken them over */
+  free(cells);
+  return status;
 }
 
 /* Relative masses beyond a box come from their owners. */
@@ -114,17 +201,15 @@ fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh
   fg_status status = FG_STATUS_OK;
   if (!out->box || !out->offset)
     status = fg__fail_memory(context, "a multigrid level", count * sizeof *out->box);
-  for (int b = 0; b < out->count && !status; ++b) {
-    status = create_box(out, context, mesh, recipe, description, b, recipe->masked);
-    out->offset[b] = (ptrdiff_t)out->size + out->box[b].layout.first;
-    out->size += out->box[b].layout.array_size + FG__LANES;
-  }
-  if (!status)
-    status = take_arrays(out, context, description->finest);
   status = fg__ranks_agree(mesh->ranks, context, status);
   if (!status)
     status =
         fg__exchange_create(&out->exchange, context, &out->partition, FG__MOST_EXCHANGED);
+  if (!status)
+    status = create_boxes(out, context, mesh, recipe, description);
+  if (!status)
+    status = take_arrays(out, context, !description->finer);
+  status = fg__ranks_agree(mesh->ranks, context, status);
   if (!status && recipe->masked)
     exchange_masses(out);
   return status;

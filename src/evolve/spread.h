@@ -28,11 +28,12 @@ typedef struct fg__spread {
 typedef struct fg__spread_description {
   int halvings; /* from the mesh's cells to this level's */
   double gamma;
-  bool finest;
+  const fg__spread *finer; /* the next finer level; NULL: this one is the finest */
 } fg__spread_description;
 
 /* Makes a level of the mesh's grid, takes over its partition, and computes stencils from
- * the tensor that `recipe` gives for each box. Collective. MEMORY, and what the recipe
+ * the tensor: the finest that `recipe` gives for each box, a coarser one from the means
+ * of the finer level's. Collective. MEMORY, and what the recipe
  * meets. */
 fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh *mesh,
                             const fg__tensor_recipe *recipe, fg__partition *partition,
