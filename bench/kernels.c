@@ -33,7 +33,7 @@ static void descend(const subject *s)
   const fg__level *level = s->multigrid.level;
   kernel->restrict_residuals(&level[0], &level[1], s->tau, &ALONE);
   kernel->find_scale(&level[1], &ALONE);
-  kernel->find_curvature(&level[1], &ALONE);
+  kernel->find_curvature(&level[1], s->tau, &ALONE);
 }
 
 static void ascend(const subject *s)

@@ -12,7 +12,7 @@ enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1, DEFAULT_CYC
 static const double default_anisotropy = 0.15, default_coverage = 0.3;
 /* By scheme: chosen by the time they take for the same error (docs/design/interfaces.md,
  * docs/method/schemes.md). */
-static const double default_accuracy[] = {0.07, 0.05, 0.05};
+static const double default_accuracy[] = {0.08, 0.05, 0.05};
 /* Half-width of an interface along the stream in cells; at 1 an isotropic pattern pins.
  */
 static const double interface_cells = 1.1, isotropic_interface_cells = 1.5;

@@ -283,7 +283,7 @@ static void defaults_are_what_the_header_says(void **state)
                                         .coverage = 0.3,
                                         .gamma = 1.1 * h * (1.1 * h) / 0.15,
                                         .seed = 1,
-                                        .accuracy = 0.07,
+                                        .accuracy = 0.08,
                                         .cycles = 3};
   fg_step step;
   fg_density *a = run(*state, field, NULL, 1e-4, 0, &step);

@@ -49,7 +49,9 @@ typedef struct fg__kernel {
   void (*smooth_restrict_linear)(const fg__level *fine, const fg__level *coarse,
                                  float tau, const fg__share *share);
   void (*find_scale)(const fg__level *coarse, const fg__share *share);
-  void (*find_curvature)(const fg__level *coarse, const fg__share *share);
+  void (*find_curvature)(const fg__level *coarse, float tau, const fg__share *share);
+  /* What else a linear level's sweeps need; find_curvature has done it. */
+  void (*find_relaxation)(const fg__level *level, float tau, const fg__share *share);
   /* From scale * v to v, ghosts and all: a coarse level's u, before it corrects. */
   void (*unscale)(const fg__level *coarse, const fg__share *share);
   /* Adds the coarse level's corrections to the fine u, w; then a sweep; then, where it is

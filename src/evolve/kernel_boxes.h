@@ -18,14 +18,22 @@ static void smooth_one_colour(const fg__level *level, float tau, bool linear, in
 static void find_residuals(const fg__level *level, float tau, bool linear,
                            float *const out[FG__RESTRICTED])
 {
+  fg__share alone = fg__alone();
   laplacian l = laplacian_times(level, tau);
-  const int *nodes = level->layout.nodes;
-  for (int k = 0; k < nodes[2]; ++k)
-    for (int j = 0; j < nodes[1]; ++j) {
+  shapes of_u = {0};
+  const float *shape_round[3];
+  if (!linear)
+    of_u = shapes_of(level, &alone);
+  for (int s = 0; s < fg__slices(level); ++s) {
+    if (!linear)
+      shapes_round(&of_u, s, shape_round);
+    for (int n = 0; n < rows_of_slice(level); ++n) {
+      int j = row_index(s, n), k = plane_index(s);
       ptrdiff_t at = fg__row_at(&level->layout, j, k);
       lines rows = {{out[0] + at, out[1] + at, out[2] + at, out[3] + at}};
-      residual_line(level, at, &l, &rows, linear);
+      residual_line(level, j, k, &l, linear ? NULL : shape_round, &rows);
     }
+  }
 }
 
 static void restrict_arrays(const fg__level *fine, const float *const from[],

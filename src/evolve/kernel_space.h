@@ -11,6 +11,7 @@
 #ifndef FG__KERNEL_SPACE_H
 #define FG__KERNEL_SPACE_H
 
+#include <float.h>
 #include <math.h>
 
 #include "evolve/kernel_sums.h"
@@ -28,15 +29,17 @@ static const float shape_square = 2.0F / 3.0F;
 ROW_LOOP void scale_row(const fg__level *level, ptrdiff_t at)
 {
   float *scale = level->scale + at, *coupling = level->coupling + at;
-  float *q = level->q + at, least = bulk * bulk;
+  float *inverse = level->scale_inverse + at, *q = level->q + at;
+  const float least = bulk * bulk;
   INDEPENDENT
   for (ptrdiff_t k = 0; k < level->layout.stride; ++k) {
     float shape = coupling[k];
     float square = least + shape_square * (shape - bulk);
     square = greater(greater(square, shape * shape), least);
     scale[k] = sqrtf(square);
-    coupling[k] = shape / scale[k];
-    q[k] /= scale[k];
+    inverse[k] = 1.0F / scale[k];
+    coupling[k] = shape * inverse[k];
+    q[k] *= inverse[k];
   }
 }
 
@@ -48,8 +51,10 @@ static void find_scale(const fg__level *level, const fg__share *share)
       ptrdiff_t at = fg__row_at(&level->layout, row_index(s, n), plane_index(s));
       scale_row(level, at);
       fg__fill_ghost_columns(level, level->scale + at);
+      fg__fill_ghost_columns(level, level->scale_inverse + at);
     }
     fill_ghosts_of_slice(level, level->scale, s);
+    fill_ghosts_of_slice(level, level->scale_inverse, s);
   }
   fg__team_barrier(share);
 }
@@ -64,14 +69,15 @@ INLINE void curvature_nodes(const fg__level *level, ptrdiff_t row, int colour,
   couplings c = couplings_row(level, &level->energy, row, colour);
   around scale = around_row(level, level->scale, row, colour);
   const float *shape_curvature = level->shape_curvature + own;
-  const float *inverse = masked ? level->mass_inverse + own : NULL;
+  const float *inverse = level->scale_inverse + own;
+  const float *mass_inverse = masked ? level->mass_inverse + own : NULL;
   float *curvature = level->curvature + own;
   INDEPENDENT
   for (int k = 0; k < count; ++k) {
-    float energy = apply(&c, &scale, k), s = scale.center[k];
+    float energy = apply(&c, &scale, k);
     if (masked)
-      energy *= inverse[k];
-    curvature[k] = (greater(shape_curvature[k], 0.0F) / s - energy) / s;
+      energy *= mass_inverse[k];
+    curvature[k] = (greater(shape_curvature[k], 0.0F) * inverse[k] - energy) * inverse[k];
   }
 }
 
@@ -85,15 +91,68 @@ ROW_LOOP void curvature_masked(const fg__level *level, ptrdiff_t row, int colour
   curvature_nodes(level, row, colour, true);
 }
 
-static void find_curvature(const fg__level *level, const fg__share *share)
+/* The inverse denominator of a linear sweep (kernel_sweep.h). Nodes without mass have
+ * m = l0 = 0 and nothing to solve. */
+INLINE void relaxation_nodes(const fg__level *level, ptrdiff_t row, int colour,
+                             const laplacian *l, bool masked)
 {
+  ptrdiff_t own = row + begin_of(level, colour);
+  int count = colour == ODD ? level->odd_count : level->even_count;
+  const float *center = level->energy.center + own, *coupling = level->coupling + own;
+  const float *curvature = level->curvature + own;
+  const float *laplacian_center = masked ? level->laplacian.center + own : NULL;
+  const float *mass_inverse = masked ? level->mass_inverse + own : NULL;
+  float *relaxation = level->relaxation + own;
+  float tau = l->tau, constant = l->center;
+  INDEPENDENT
+  for (int k = 0; k < count; ++k) {
+    float k0 = center[k], l0 = masked ? tau * laplacian_center[k] : constant;
+    if (masked) {
+      k0 *= mass_inverse[k];
+      l0 *= mass_inverse[k];
+    }
+    float m = coupling[k], g = greater(curvature[k] + k0, 0.25F * k0);
+    relaxation[k] = 1.0F / (m * m + l0 * g + FLT_MIN);
+  }
+}
+
+ROW_LOOP void relaxation_plain(const fg__level *level, ptrdiff_t row, int colour,
+                               const laplacian *l)
+{
+  relaxation_nodes(level, row, colour, l, false);
+}
+
+ROW_LOOP void relaxation_masked(const fg__level *level, ptrdiff_t row, int colour,
+                                const laplacian *l)
+{
+  relaxation_nodes(level, row, colour, l, true);
+}
+
+/* Of a level whose scale has its ghosts, or whose curvature is known. */
+static void find_coefficients(const fg__level *level, float tau, bool curvature,
+                              const fg__share *share)
+{
+  laplacian l = laplacian_times(level, tau);
   part mine = part_of(level, share);
   for (int s = mine.begin; s < mine.end; ++s)
     for (int n = 0; n < rows_of_slice(level); ++n)
-      for (int colour = EVEN; colour <= ODD; ++colour)
-        (level->mass ? curvature_masked : curvature_plain)(
-            level, fg__row_at(&level->layout, row_index(s, n), plane_index(s)), colour);
+      for (int colour = EVEN; colour <= ODD; ++colour) {
+        ptrdiff_t at = fg__row_at(&level->layout, row_index(s, n), plane_index(s));
+        if (curvature)
+          (level->mass ? curvature_masked : curvature_plain)(level, at, colour);
+        (level->mass ? relaxation_masked : relaxation_plain)(level, at, colour, &l);
+      }
   fg__team_barrier(share);
+}
+
+static void find_curvature(const fg__level *level, float tau, const fg__share *share)
+{
+  find_coefficients(level, tau, true, share);
+}
+
+static void find_relaxation(const fg__level *level, float tau, const fg__share *share)
+{
+  find_coefficients(level, tau, false, share);
 }
 
 static void unscale(const fg__level *level, const fg__share *share)
@@ -101,10 +160,10 @@ static void unscale(const fg__level *level, const fg__share *share)
   ptrdiff_t begin, end;
   floats_of(level, share, &begin, &end);
   float *u = level->u;
-  const float *scale = level->scale;
+  const float *inverse = level->scale_inverse;
   INDEPENDENT
   for (ptrdiff_t n = begin; n < end; ++n)
-    u[n] /= scale[n];
+    u[n] *= inverse[n];
   fg__team_barrier(share);
 }
 

@@ -70,6 +70,27 @@ INLINE around around_row(const fg__level *level, const float *array, ptrdiff_t r
   return x;
 }
 
+/* The same where the slices before, at and after the row's are apart: arrays of one slice
+ * each, as a slice lies in memory, `row` in them. */
+INLINE around around_slices(const fg__level *level, const float *const slice[3],
+                            ptrdiff_t row, int colour)
+{
+  ptrdiff_t own = row + begin_of(level, colour);
+  ptrdiff_t other = row + (colour == ODD ? 0 : level->layout.odd_offset - 1);
+  around x = {.center = slice[1] + own, .middle = slice[1] + other};
+  UNROLLED
+  for (int r = 0; r < UPPER_ROWS; ++r) {
+    bool within = FG__DIMENSION == 3 && r == 0;
+    ptrdiff_t up = FG__DIMENSION == 3 ? (r == 0 ? 1 : r - 2) * level->layout.stride : 0;
+    const float *above = slice[within ? 1 : 2], *below = slice[within ? 1 : 0];
+    x.upper[r] = above + own + up;
+    x.upper_other[r] = above + other + up;
+    x.lower[r] = below + own - up;
+    x.lower_other[r] = below + other - up;
+  }
+  return x;
+}
+
 /* Rows of a symmetric stencil: couplings of the nodes of one colour, and of the
  * neighbours that hold the other half. */
 typedef struct couplings {
@@ -106,40 +127,24 @@ INLINE float interface_shape(float u)
   return greater(1.0F - u * u, 0.0F);
 }
 
-/* What a stencil is applied to. */
-typedef enum operand { VALUES, SHAPES } operand;
-
-INLINE float operand_of(float value, operand of)
+INLINE float apply_pair(const couplings *c, const around *x, int r, int k)
 {
-  return of == SHAPES ? interface_shape(value) : value;
-}
-
-INLINE float apply_pair(const couplings *c, const around *x, int r, int k, operand of)
-{
-  return (c->upper[r][k] * operand_of(x->upper[r][k], of) +
-          c->lower[r][k] * operand_of(x->lower[r][k], of)) +
-         ((c->upper_east[r][k] * operand_of(x->upper_other[r][k + 1], of) +
-           c->lower_west[r][k] * operand_of(x->lower_other[r][k], of)) +
-          (c->upper_west[r][k] * operand_of(x->upper_other[r][k], of) +
-           c->lower_east[r][k] * operand_of(x->lower_other[r][k + 1], of)));
-}
-
-INLINE float apply_to(const couplings *c, const around *x, int k, operand of)
-{
-  float sum = (c->center[k] * operand_of(x->center[k], of) +
-               (c->east[k] * operand_of(x->middle[k + 1], of) +
-                c->west[k] * operand_of(x->middle[k], of))) +
-              apply_pair(c, x, 0, k, of);
-#if FG__DIMENSION == 3
-  sum += (apply_pair(c, x, 1, k, of) + apply_pair(c, x, 3, k, of)) +
-         apply_pair(c, x, 2, k, of);
-#endif
-  return sum;
+  return (c->upper[r][k] * x->upper[r][k] + c->lower[r][k] * x->lower[r][k]) +
+         ((c->upper_east[r][k] * x->upper_other[r][k + 1] +
+           c->lower_west[r][k] * x->lower_other[r][k]) +
+          (c->upper_west[r][k] * x->upper_other[r][k] +
+           c->lower_east[r][k] * x->lower_other[r][k + 1]));
 }
 
 INLINE float apply(const couplings *c, const around *x, int k)
 {
-  return apply_to(c, x, k, VALUES);
+  float sum = (c->center[k] * x->center[k] +
+               (c->east[k] * x->middle[k + 1] + c->west[k] * x->middle[k])) +
+              apply_pair(c, x, 0, k);
+#if FG__DIMENSION == 3
+  sum += (apply_pair(c, x, 1, k) + apply_pair(c, x, 3, k)) + apply_pair(c, x, 2, k);
+#endif
+  return sum;
 }
 
 /* The Laplacian's constants times tau, kept in registers. */
@@ -183,7 +188,7 @@ typedef struct row_view {
   int count;
   around u, w;
   couplings energy, laplacian;
-  const float *p, *q, *curvature, *coupling, *mass_inverse;
+  const float *p, *q, *curvature, *coupling, *relaxation, *mass_inverse;
 } row_view;
 
 INLINE row_view row_of(const fg__level *level, ptrdiff_t at, int colour, bool linear,
@@ -199,6 +204,7 @@ INLINE row_view row_of(const fg__level *level, ptrdiff_t at, int colour, bool li
     r.q = level->q + own;
     r.curvature = level->curvature + own;
     r.coupling = level->coupling + own;
+    r.relaxation = level->relaxation + own;
   }
   if (masked) {
     r.laplacian = couplings_row(level, &level->laplacian, at, colour);

@@ -2,15 +2,13 @@
 #ifndef FG__KERNEL_SWEEP_H
 #define FG__KERNEL_SWEEP_H
 
-#include <float.h>
-
 #include "evolve/kernel_stencil.h"
 
 /* One colour of one row. Eliminating dw from
  *     m du + tau l0 dw = first,   m dw - g du = second,   g = Psi''(u) + k0
  * (m = 1 on the finest level) leaves a denominator m^2 + tau l0 g, which in the spinodal
  * region may vanish: it (on coarse levels g) is kept above a quarter of its value without
- * Psi''. Nodes without mass have m = l0 = 0 and nothing to solve. */
+ * Psi''. On coarse levels its inverse, the relaxation, is found once a cycle. */
 INLINE void smooth_nodes(const fg__level *level, ptrdiff_t at, int colour,
                          const laplacian *constants, bool linear, bool masked)
 {
@@ -29,9 +27,8 @@ INLINE void smooth_nodes(const fg__level *level, ptrdiff_t at, int colour,
     }
     float g = f.curvature + k0;
     if (linear) {
-      float m = r.coupling[k];
+      float m = r.coupling[k], inverse = r.relaxation[k];
       g = greater(g, 0.25F * k0);
-      float inverse = 1.0F / (m * m + l0 * g + FLT_MIN);
       u[k] += (m * f.first - l0 * f.second) * inverse;
       w[k] += (m * f.second + g * f.first) * inverse;
       continue;

@@ -72,7 +72,15 @@ static void find_curvature(const fg__kernel *kernel, const fg__level *fine,
                            double sums[SUMS])
 {
   (void)fine, (void)sums;
-  kernel->find_curvature(coarse, share);
+  kernel->find_curvature(coarse, step_of(fine), share);
+}
+
+static void find_relaxation(const fg__kernel *kernel, const fg__level *fine,
+                            const fg__level *coarse, const fg__share *share,
+                            double sums[SUMS])
+{
+  (void)sums;
+  kernel->find_relaxation(coarse, step_of(fine), share);
 }
 
 static void unscale(const fg__kernel *kernel, const fg__level *fine,
@@ -178,6 +186,7 @@ static const struct {
     {"smooth_restrict_linear", smooth_restrict_linear, true, true},
     {"find_scale", find_scale, true, false},
     {"find_curvature", find_curvature, true, false},
+    {"find_relaxation", find_relaxation, true, false},
     {"unscale", unscale, true, false},
     {"correct_smooth", correct_smooth, true, false},
     {"correct_smooth_linear", correct_smooth_linear, true, true},
@@ -203,13 +212,20 @@ static bool outside_holes(double x, double y)
 }
 
 /* The arrays of a level that an operation may write; absent ones are NULL. */
-enum { ARRAYS = 8, FIRST_POSITIVE = 4, SCALE = 5 };
+enum { ARRAYS = 10, FIRST_POSITIVE = 4, SCALE = 5, SCALE_INVERSE = 6 };
 
 static void arrays_of(const fg__level *level, bool finest, float *arrays[ARRAYS])
 {
-  float *all[ARRAYS] = {
-      level->u,        level->w,     level->p,         level->q,
-      level->coupling, level->scale, level->curvature, level->shape_curvature};
+  float *all[ARRAYS] = {level->u,
+                        level->w,
+                        level->p,
+                        level->q,
+                        level->coupling,
+                        level->scale,
+                        level->scale_inverse,
+                        level->curvature,
+                        level->shape_curvature,
+                        level->relaxation};
   for (int a = 0; a < ARRAYS; ++a)
     arrays[a] = finest && a > 2 ? NULL : all[a];
 }
@@ -243,9 +259,10 @@ static size_t save(const problem *p, float *to)
     const fg__level *level = &p->multigrid.level[n];
     float *arrays[ARRAYS];
     arrays_of(level, n == 0, arrays);
-    /* u, w and scale with their ghosts, the others without */
+    /* u, w and scales with their ghosts, the others without */
     for (int a = 0; a < ARRAYS && arrays[a]; ++a) {
-      int ring = a < 2 || a == SCALE, solid = ring && p->dimension == 3;
+      int ring = a < 2 || a == SCALE || a == SCALE_INVERSE,
+          solid = ring && p->dimension == 3;
       const int *nodes = level->layout.nodes;
       for (int k = -solid; k < nodes[2] + solid; ++k)
         for (int j = -ring; j < nodes[1] + ring; ++j)

@@ -9,7 +9,7 @@
 /* What kernels keep of slices for themselves: one line and three gathered slices of four
  * quantities; in 3D three lines more that become a gathered one; and a line of its own.
  */
-enum { SCRATCH_QUANTITIES = 4, SCRATCH_SLICES = 3, SCRATCH_LINES = 4 };
+enum { SHAPE_SLICES = 3, SCRATCH_QUANTITIES = 4, SCRATCH_SLICES = 3, SCRATCH_LINES = 4 };
 
 static int round_to_lanes(int count)
 {
@@ -412,7 +412,8 @@ static void weigh_nodes(const fg__level *level)
   fg__fill_ghosts(level, level->mass_inverse);
 }
 
-static fg_status take_rows(fg__level *level, fg_context *context, const fg__team *team)
+static fg_status take_rows(fg__level *level, fg_context *context, const fg__team *team,
+                           bool finest)
 {
   size_t stride = (size_t)level->layout.stride;
   size_t slice = stride; /* of the next coarser level, and room to spare */
@@ -420,7 +421,10 @@ static fg_status take_rows(fg__level *level, fg_context *context, const fg__team
     slice *= (size_t)level->layout.nodes[1] / 2 + 1;
   level->scratch_size =
       SCRATCH_QUANTITIES * (SCRATCH_SLICES * slice + SCRATCH_LINES * stride) + stride;
-  size_t count = 3 * stride + (size_t)fg__team_members(team) * level->scratch_size;
+  size_t slices = level->layout.dimension == 3 ? (size_t)level->layout.plane : stride;
+  slices = finest ? SHAPE_SLICES * slices : 0;
+  size_t members = (size_t)fg__team_members(team);
+  size_t count = 3 * stride + members * (level->scratch_size + slices);
   float *memory = fg__allocate_aligned(count, sizeof *memory);
   if (!memory)
     return fg__fail_memory(context, "a multigrid level", count * sizeof *memory);
@@ -429,6 +433,8 @@ static fg_status take_rows(fg__level *level, fg_context *context, const fg__team
   level->column_east = level->column_mass + stride;
   level->column_west = level->column_east + stride;
   level->scratch = memory + 3 * stride;
+  if (finest)
+    level->shapes = level->scratch + members * level->scratch_size;
   int columns = level->layout.nodes[0];
   for (int i = 0; i < columns; ++i) {
     bool first = level->border[0][0] && i == 0;
@@ -504,12 +510,14 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
     out->spacing[k] = used ? description->spacing[k] : 1.0;
   }
   lay_out(out, description->box);
-  float **const arrays[] = {&out->u,     &out->w,        &out->p,
-                            &out->q,     &out->coupling, &out->shape_curvature,
-                            &out->scale, &out->curvature};
-  fg_status status = take_rows(out, context, description->team);
+  float **const arrays[] = {&out->u,         &out->w,
+                            &out->p,         &out->q,
+                            &out->coupling,  &out->shape_curvature,
+                            &out->scale,     &out->scale_inverse,
+                            &out->curvature, &out->relaxation};
+  fg_status status = take_rows(out, context, description->team, description->finest);
   if (!status && !description->box)
-    status = take_arrays(out, context, arrays, description->finest ? 3 : 8);
+    status = take_arrays(out, context, arrays, description->finest ? 3 : 10);
   if (!status)
     status = take_stencil(out, context, &out->energy);
   if (status)

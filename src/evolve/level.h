@@ -61,7 +61,7 @@ typedef struct fg__level {
   float *p, *q; /* right-hand sides of the first and second equation */
   /* The space of a coarse level's corrections, and Psi'' in it (kernel_space.h). Between
    * restriction and find_scale the coupling holds the restricted d. */
-  float *coupling, *shape_curvature, *scale, *curvature;
+  float *coupling, *shape_curvature, *scale, *scale_inverse, *curvature, *relaxation;
   float bulk;             /* d in the pure phases */
   fg__stencil energy;     /* gamma L_A / volume */
   double gradient_weight; /* of that energy in sums: 1 when the stencil holds all of it */
@@ -75,6 +75,7 @@ typedef struct fg__level {
   float *column_mass, *column_east, *column_west;
   float *scratch;      /* for the kernels' own use, one piece a member of the team */
   size_t scratch_size; /* floats of one piece */
+  float *shapes;       /* finest levels: three slices a member (kernel_transfer.h) */
   float *mass,
       *mass_inverse; /* relative; NULL without a mask; inverse 0 where mass is 0 */
 

@@ -262,16 +262,18 @@ static fg__level *boxes_of(fg__multigrid *multigrid, int *count)
   return spread ? multigrid->spread[0].box : multigrid->level;
 }
 
-void fg__multigrid_leave_wells(fg__multigrid *multigrid, float *zeros, float *ones)
+void fg__multigrid_leave_wells(fg__multigrid *multigrid, const fg__no_wells *instead)
 {
   int count;
   fg__level *box = boxes_of(multigrid, &count);
-  multigrid->linear = zeros;
+  multigrid->linear = instead;
   for (int b = 0; b < count; ++b) {
     ptrdiff_t offset = multigrid->spread_count > 0 ? multigrid->spread[0].offset[b] : 0;
-    float *zero = zeros ? zeros + offset : NULL, *one = ones ? ones + offset : NULL;
+    float *zero = instead ? instead->zeros + offset : NULL;
+    float *one = instead ? instead->ones + offset : NULL;
     box[b].q = box[b].curvature = box[b].shape_curvature = zero;
-    box[b].coupling = box[b].scale = one;
+    box[b].coupling = box[b].scale = box[b].scale_inverse = one;
+    box[b].relaxation = instead ? instead->relaxation + offset : NULL;
   }
 }
 
@@ -296,10 +298,11 @@ typedef struct turn {
   bool restricted, more;
 } turn;
 
-static void find_space(const fg__multigrid *multigrid, int n, const fg__share *share)
+static void find_space(const fg__multigrid *multigrid, int n, float tau,
+                       const fg__share *share)
 {
   multigrid->kernel->find_scale(&multigrid->level[n], share);
-  multigrid->kernel->find_curvature(&multigrid->level[n], share);
+  multigrid->kernel->find_curvature(&multigrid->level[n], tau, share);
 }
 
 static void descend(const fg__multigrid *multigrid, int n, const turn *now,
@@ -310,7 +313,7 @@ static void descend(const fg__multigrid *multigrid, int n, const turn *now,
     multigrid->kernel->smooth_restrict_linear(level, level + 1, now->tau, share);
   else if (!now->restricted)
     multigrid->kernel->restrict_residuals(level, level + 1, now->tau, share);
-  find_space(multigrid, n + 1, share);
+  find_space(multigrid, n + 1, now->tau, share);
 }
 
 static void ascend(const fg__multigrid *multigrid, int n, const turn *now,
@@ -374,7 +377,7 @@ static void cycle_gathered(const fg__multigrid *multigrid, const turn *now)
   for (int n = 0; n < 2; ++n)
     memset(solution[n] - whole->layout.first, 0,
            whole->layout.array_size * sizeof(float));
-  find_space(multigrid, 0, &alone);
+  find_space(multigrid, 0, now->tau, &alone);
   cycle_whole(multigrid, now, &alone);
   multigrid->kernel->unscale(whole, &alone);
   float *const places[] = {image->u, image->w};
@@ -391,7 +394,7 @@ static void cycle_spread(const fg__multigrid *multigrid, const turn *now)
     fg__spread_descend(&spread[n], &spread[n + 1], kernel, now->tau,
                        n > 0 || multigrid->linear);
     if (n + 1 < count)
-      fg__spread_find_space(&spread[n + 1], kernel);
+      fg__spread_find_space(&spread[n + 1], kernel, now->tau);
   }
   cycle_gathered(multigrid, now);
   for (int n = count - 1; n >= 0; --n) {
@@ -424,10 +427,23 @@ void fg__multigrid_copy(const fg__multigrid *multigrid, const float *from, float
   fg__team_barrier(share);
 }
 
+/* Of a linear finest level. */
+static void find_relaxation(const fg__multigrid *multigrid, float tau,
+                            const fg__share *share)
+{
+  const fg__kernel *kernel = multigrid->kernel;
+  if (multigrid->spread_count == 0)
+    kernel->find_relaxation(&multigrid->level[0], tau, share);
+  for (int b = 0; multigrid->spread_count > 0 && b < multigrid->spread[0].count; ++b)
+    kernel->find_relaxation(&multigrid->spread[0].box[b], tau, share);
+}
+
 void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
                          float *before, const fg__share *share)
 {
   turn now = {.tau = (float)tau};
+  if (multigrid->linear)
+    find_relaxation(multigrid, now.tau, share);
   for (int n = 1; n <= cycles; ++n) {
     now.more = n < cycles;
     if (before && n == cycles)

@@ -65,10 +65,14 @@ void fg__multigrid_use(fg__multigrid *multigrid, float *u);
 const fg__level *fg__multigrid_boxes(const fg__multigrid *multigrid, int *count,
                                      const ptrdiff_t **offset);
 
-/* Makes the finest level linear too, its q and curvature the given zeros and its coupling
- * and scale the ones, arrays of its shape that hold nothing else; NULL: nonlinear again.
- */
-void fg__multigrid_leave_wells(fg__multigrid *multigrid, float *zeros, float *ones);
+/* What the finest level has for the wells when it is linear: arrays of its shape. */
+typedef struct fg__no_wells {
+  float *zeros, *ones; /* which hold nothing else */
+  float *relaxation;   /* of its own */
+} fg__no_wells;
+
+/* Makes the finest level linear too; NULL: nonlinear again. */
+void fg__multigrid_leave_wells(fg__multigrid *multigrid, const fg__no_wells *instead);
 
 /* Copies an array of the finest level; by all members of the team. */
 void fg__multigrid_copy(const fg__multigrid *multigrid, const float *from, float *to,

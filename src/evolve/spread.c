@@ -8,16 +8,18 @@
 static fg_status take_arrays(fg__spread *spread, fg_context *context, bool finest)
 {
   size_t count = (size_t)spread->count;
-  size_t arrays = (finest ? 3 : 8) + FG__RESTRICTED;
+  size_t arrays = (finest ? 3 : 10) + FG__RESTRICTED;
   float *memory = fg__allocate_aligned(arrays * spread->size, sizeof *memory);
   spread->pointer = fg__allocate(FG__MOST_EXCHANGED * count, sizeof *spread->pointer);
   spread->memory = memory;
   if (!memory || !spread->pointer)
     return fg__fail_memory(context, "a multigrid level",
                            arrays * spread->size * sizeof *memory);
-  float **own[] = {&spread->u,     &spread->w,        &spread->p,
-                   &spread->q,     &spread->coupling, &spread->shape_curvature,
-                   &spread->scale, &spread->curvature};
+  float **own[] = {&spread->u,         &spread->w,
+                   &spread->p,         &spread->q,
+                   &spread->coupling,  &spread->shape_curvature,
+                   &spread->scale,     &spread->scale_inverse,
+                   &spread->curvature, &spread->relaxation};
   for (size_t n = 0; n < arrays; ++n, memory += spread->size)
     if (n < FG__RESTRICTED)
       spread->residual[n] = memory;
@@ -31,7 +33,9 @@ static fg_status take_arrays(fg__spread *spread, fg_context *context, bool fines
     box->coupling = spread->coupling + offset;
     box->shape_curvature = spread->shape_curvature + offset;
     box->scale = spread->scale + offset;
+    box->scale_inverse = spread->scale_inverse + offset;
     box->curvature = spread->curvature + offset;
+    box->relaxation = spread->relaxation + offset;
   }
   return FG_STATUS_OK;
 }
@@ -307,14 +311,15 @@ void fg__spread_descend(const fg__spread *fine, const fg__spread *coarse,
   memset(coarse->w, 0, coarse->size * sizeof *coarse->w);
 }
 
-void fg__spread_find_space(const fg__spread *coarse, const fg__kernel *kernel)
+void fg__spread_find_space(const fg__spread *coarse, const fg__kernel *kernel, float tau)
 {
+  float *const both[] = {coarse->scale, coarse->scale_inverse};
   fg__share alone = fg__alone();
   for (int b = 0; b < coarse->count; ++b)
     kernel->find_scale(&coarse->box[b], &alone);
-  fg__spread_exchange(coarse, 1, &coarse->scale, FG__ALL_COLOURS);
+  fg__spread_exchange(coarse, 2, both, FG__ALL_COLOURS);
   for (int b = 0; b < coarse->count; ++b)
-    kernel->find_curvature(&coarse->box[b], &alone);
+    kernel->find_curvature(&coarse->box[b], tau, &alone);
 }
 
 void fg__spread_unscale(const fg__spread *coarse, const fg__kernel *kernel)

@@ -19,7 +19,7 @@ typedef struct fg__spread {
   ptrdiff_t *offset;    /* [count] from an array's start to the box's node (0, 0, 0) */
   size_t size;          /* floats of an array: of all boxes, ghosts and pads included */
   float *u, *w, *p, *q; /* as in level.h, from their start */
-  float *coupling, *shape_curvature, *scale, *curvature;
+  float *coupling, *shape_curvature, *scale, *scale_inverse, *curvature, *relaxation;
   float *residual[FG__RESTRICTED];
   float **pointer; /* [FG__MOST_EXCHANGED * count] */
   void *memory;
@@ -61,7 +61,7 @@ void fg__spread_descend(const fg__spread *fine, const fg__spread *coarse,
                         const fg__kernel *kernel, float tau, bool linear);
 
 /* Makes a coarse level's system of what was restricted. */
-void fg__spread_find_space(const fg__spread *coarse, const fg__kernel *kernel);
+void fg__spread_find_space(const fg__spread *coarse, const fg__kernel *kernel, float tau);
 
 /* From scale * v to v: a coarse level's u, before it corrects. */
 void fg__spread_unscale(const fg__spread *coarse, const fg__kernel *kernel);

@@ -14,19 +14,20 @@ fg_status fg__theta_create(fg__theta *out, fg_context *context, fg__multigrid *m
 {
   fg__array_shape shape = fg__multigrid_shape(multigrid, 0);
   *out = (fg__theta){.alpha = alpha};
-  float *memory = fg__allocate_aligned(2 * shape.size, sizeof *memory);
+  float *memory = fg__allocate_aligned(3 * shape.size, sizeof *memory);
   fg_status status = FG_STATUS_OK;
   if (!memory)
     status =
-        fg__fail_memory(context, "the theta scheme", 2 * shape.size * sizeof *memory);
+        fg__fail_memory(context, "the theta scheme", 3 * shape.size * sizeof *memory);
   out->memory = memory;
   status = fg__ranks_agree(multigrid->ranks, context, status);
   if (status) {
     fg__theta_clear(out);
     return status;
   }
-  out->zeros = memory + shape.first;
-  out->ones = out->zeros + shape.size;
+  out->instead = (fg__no_wells){.zeros = memory + shape.first};
+  out->instead.ones = out->instead.zeros + shape.size;
+  out->instead.relaxation = out->instead.ones + shape.size;
   for (size_t n = shape.size; n < 2 * shape.size; ++n)
     memory[n] = 1.0F;
   fg__multigrid_weigh_gradient(multigrid, 1.0 / (1.0 - alpha));
@@ -99,8 +100,7 @@ double fg__theta_prepare(const fg__theta *theta, fg__multigrid *multigrid, int s
     double since_start = substep == 1 ? theta_share : 1.0 - theta_share;
     fg__pass_extrapolate(multigrid, u, start, share / since_start, u);
   }
-  fg__multigrid_leave_wells(multigrid, linear ? theta->zeros : NULL,
-                            linear ? theta->ones : NULL);
+  fg__multigrid_leave_wells(multigrid, linear ? &theta->instead : NULL);
   fg__pass_evaluate(multigrid, u, w);
   if (linear)
     fg__pass_subtract_wells(multigrid, u, w);
