@@ -117,7 +117,7 @@ static void bytes_come_in_the_order_of_ranks(void **state)
   (void)state;
   static const size_t lengths[] = {0, 5, 65535, 65536, 65537, 200000, 131072};
   for (int shift = 0; shift < 7; ++shift) {
-    size_t counts[64];
+    size_t counts[64] = {0};
     for (int r = 0; r < us.ranks->count; ++r)
       counts[r] = lengths[(r * 2 + shift) % 7];
     size_t count = counts[us.ranks->rank];
