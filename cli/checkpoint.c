@@ -8,6 +8,7 @@
 
 #include "folder.h"
 #include "options.h"
+#include "ranks.h"
 #include "said.h"
 
 /* cJSON rounds to 15 digits where it thinks that near enough. */
@@ -93,7 +94,8 @@ static void warn_of_file(cli_run *run, const char *path)
   warn(run, text);
 }
 
-static bool save(cli_run *run)
+/* What rank 0 does before all write: what the checkpoint counts on goes to the disk. */
+static bool prepare(cli_run *run, char **note)
 {
   if (!table_flush(&run->table, true)) {
     warn_of_file(run, run->table.path);
@@ -101,17 +103,24 @@ static bool save(cli_run *run)
   }
   if (output_synchronise(&run->output))
     return false; /* it has complained */
-  char *path = output_path(&run->output, CHECKPOINT_NAME), *note = describe(run);
-  bool saved = false;
-  if (!path || !note)
+  *note = describe(run);
+  if (!*note)
     warn(run, "out of memory for a checkpoint");
-  else if (fg_evolution_save(run->evolution, path, note)) {
-    warn(run, fg_context_message(run->context));
+  return *note;
+}
+
+/* False: it could not be, and rank 0 has told. */
+static bool save(cli_run *run)
+{
+  char *note = NULL;
+  bool prepared = !ranks_leader() || prepare(run, &note), saved = false;
+  if (!ranks_any(!prepared)) {
+    saved = !fg_evolution_save(run->evolution, run->checkpoint, note);
+    if (!saved)
+      warn(run, fg_context_message(run->context));
     fg_context_clear(run->context);
-  } else
-    saved = true;
+  }
   cJSON_free(note);
-  free(path);
   return saved;
 }
 
@@ -119,8 +128,11 @@ int checkpoint_save(cli_run *run)
 {
   if (run->step.step == run->saved_step)
     return EXIT_DONE;
-  if (!drawing_wait(run->drawing))
-    return EXIT_FAILED; /* complained of where the run ends */
+  /* a failure of the drawing is complained of where the run ends */
+  bool drawn = !ranks_leader() || drawing_wait(run->drawing);
+  int code = ranks_agree(drawn ? EXIT_DONE : EXIT_FAILED);
+  if (code)
+    return code;
   double before = clock_seconds();
   bool saved = save(run);
   run->save_tried = clock_seconds();
@@ -128,7 +140,7 @@ int checkpoint_save(cli_run *run)
     return EXIT_DONE;
   run->saved_step = run->step.step;
   run->save_failed = false;
-  if (run->settings->verbose) {
+  if (run->settings->verbose && ranks_leader()) {
     progress_wipe(&run->progress);
     fprintf(stderr, "flowgrain: checkpoint: step %ld, t = %.3e, %.3f s to write\n",
             run->step.step, run->step.time, run->save_tried - before);
@@ -138,7 +150,8 @@ int checkpoint_save(cli_run *run)
 
 bool checkpoint_is_due(const cli_run *run)
 {
-  return clock_seconds() - run->save_tried >= run->settings->checkpoint;
+  bool due = clock_seconds() - run->save_tried >= run->settings->checkpoint;
+  return ranks_any(due && ranks_leader());
 }
 
 static const cJSON *item_of(const cJSON *object, const char *name)
@@ -222,7 +235,8 @@ static int restore_scales(cli_run *run, const cJSON *note)
   return output_go_on(&run->output, count);
 }
 
-static int restore(cli_run *run, const cJSON *note)
+/* What all ranks know. */
+static void restore_counts(cli_run *run, const cJSON *note)
 {
   run->plan.count = list_of(run->plan.wanted, MAX_SCALES, note, "wanted");
   run->plan.next = (int)whole_of(note, "next");
@@ -240,23 +254,40 @@ static int restore(cli_run *run, const cJSON *note)
   run->facts.seconds_read += real_of(note, "seconds_read");
   run->earlier_evolve = real_of(note, "seconds_evolve");
   run->earlier_total = real_of(note, "seconds_total");
+}
+
+/* What rank 0 writes. */
+static int restore_results(cli_run *run, const cJSON *note)
+{
   int code = table_resume(&run->table, output_path(&run->output, TABLE_NAME),
                           whole_of(note, "table_bytes"));
   return code ? code : restore_scales(run, note);
 }
 
+/* Whether this rank was told what the run was begun with. */
+static int check_note(const cli_run *run, const cJSON *note)
+{
+  if (note)
+    return said_the_same(item_of(note, "options"), run->settings) ? EXIT_DONE
+                                                                  : EXIT_FAILED;
+  complain("%s: its checkpoint is not one of this program", run->settings->output);
+  return EXIT_FAILED;
+}
+
 static int resume(cli_run *run, const fg_checkpoint *checkpoint)
 {
-  const char *folder = run->settings->output;
-  if (*fg_checkpoint_damage(checkpoint))
+  if (*fg_checkpoint_damage(checkpoint) && ranks_leader())
     complain("%s; the previous checkpoint is used", fg_checkpoint_damage(checkpoint));
   cJSON *note = cJSON_Parse(fg_checkpoint_note(checkpoint));
-  int code = EXIT_FAILED;
-  if (!note)
-    complain("%s: its checkpoint is not one of this program", folder);
-  else if (said_the_same(item_of(note, "options"), run->settings)) {
+  int code = ranks_agree(check_note(run, note));
+  if (!code) {
     fg_status status = fg_evolution_resume(run->evolution, &run->step, checkpoint);
-    code = status ? complain_of(run->context, status, folder) : restore(run, note);
+    if (status)
+      code = complain_of(run->context, status, run->settings->output);
+  }
+  if (!code) {
+    restore_counts(run, note);
+    code = ranks_agree(ranks_leader() ? restore_results(run, note) : EXIT_DONE);
   }
   cJSON_Delete(note);
   return code;
@@ -264,21 +295,14 @@ static int resume(cli_run *run, const fg_checkpoint *checkpoint)
 
 int checkpoint_resume(cli_run *run)
 {
-  char *path = output_path(&run->output, CHECKPOINT_NAME);
-  if (!path) {
-    complain("out of memory for a file's name");
-    return EXIT_FAILED;
-  }
   fg_checkpoint *checkpoint;
-  fg_status status = fg_checkpoint_open(&checkpoint, run->context, path);
-  int code;
+  fg_status status = fg_checkpoint_open(&checkpoint, run->context, run->checkpoint);
   if (status) {
-    code = complain_of(run->context, status, run->settings->output);
+    int code = complain_of(run->context, status, run->settings->output);
     advise("Start anew with --force.");
-  } else {
-    code = resume(run, checkpoint);
-    fg_checkpoint_destroy(checkpoint);
+    return code;
   }
-  free(path);
+  int code = resume(run, checkpoint);
+  fg_checkpoint_destroy(checkpoint);
   return code;
 }

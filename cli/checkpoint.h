@@ -1,4 +1,5 @@
-/* Checkpoints of a run: the evolution's state, and the program's own beside it. */
+/* Checkpoints of a run: the evolution's state, and the program's own beside it. All
+ * collective: rank 0 sees to the results, and every rank to its part of the file. */
 #ifndef CHECKPOINT_H
 #define CHECKPOINT_H
 
@@ -9,11 +10,13 @@
  * Returns an exit code: failed only when the drawing has. */
 int checkpoint_save(cli_run *run);
 
-/* Says whether the next one is due: --checkpoint seconds after the last. */
+/* Says whether the next one is due by rank 0's clock: --checkpoint seconds after the
+ * last.
+ */
 bool checkpoint_is_due(const cli_run *run);
 
-/* Puts a run that has a folder, a drawing and a new evolution into the state of the
- * checkpoint in its folder. Returns an exit code. */
+/* Puts a run with a new evolution, and on rank 0 with a folder and a drawing, into the
+ * state of the checkpoint in its folder. Returns an exit code, the same on all. */
 int checkpoint_resume(cli_run *run);
 
 #endif

@@ -122,8 +122,8 @@ const option_entry option_table[] = {
      "after every step [60]"},
     {"resume", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(resume), 0, 0, false, false, NULL,
      "go on from the checkpoint in DIR with the same options, to the same results; "
-     "--max-time, --max-steps and --threads may differ; without a checkpoint start from "
-     "the beginning, and leave a finished run as it is"},
+     "--max-time, --max-steps, --threads and the number of ranks may differ; without a "
+     "checkpoint start from the beginning, and leave a finished run as it is"},
 
     {"scale-index", 0, "I", COMMAND_DRAW, OPTION_WHOLE, AT(scale_index), 0,
      MAX_SCALES - 1, false, false, NULL,

@@ -171,6 +171,11 @@ char *output_path(const cli_output *out, const char *name)
   return join_path(out->work, name);
 }
 
+char *output_checkpoint_path(const char *folder)
+{
+  return join_path(folder, WORK_NAME "/" CHECKPOINT_NAME);
+}
+
 static int remove_one(const char *folder, const char *name, const void *data)
 {
   (void)data;

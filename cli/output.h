@@ -43,6 +43,10 @@ int output_go_on(const cli_output *out, int scales);
 /* Where to write the file that shall be DIR/name. NULL without memory. End with free. */
 char *output_path(const cli_output *out, const char *name);
 
+/* Where the checkpoint of a run with the results' folder DIR is, for any rank: rank 0
+ * alone opens the folder. NULL without memory. End with free. */
+char *output_checkpoint_path(const char *folder);
+
 /* Brings the scales written so far to the disk. Returns an exit code. */
 int output_synchronise(const cli_output *out);
 

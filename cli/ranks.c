@@ -14,8 +14,10 @@ int ranks_start(void)
     return EXIT_FAILED;
   }
   fg_status status = fg_ranks(context, &rank, &count);
-  if (status)
-    return complain_of(context, status, "flowgrain");
+  if (status) {
+    complain("%s", fg_context_message(context));
+    return EXIT_FAILED;
+  }
   if (rank > 0 && !freopen("/dev/null", "w", stdout))
     return complain_of_file("/dev/null", "cannot be written");
   return EXIT_DONE;

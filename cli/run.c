@@ -117,11 +117,6 @@ static int decide(const cli_run *run, output_state state, bool *done)
     *done = true;
     return report_is_of(said->output, said) ? EXIT_DONE : EXIT_FAILED;
   }
-  if (said->resume && ranks_count() > 1) {
-    complain("%s: holds a run that can go on, but only on one rank in this version",
-             said->output);
-    return EXIT_FAILED;
-  }
   if (said->resume)
     return EXIT_DONE;
   complain("%s: holds %s", said->output,
@@ -153,13 +148,14 @@ static int go_on(cli_run *run)
   if (code)
     return code;
   run->saved_step = run->step.step;
-  if (!run->settings->quiet)
+  if (!run->settings->quiet && ranks_leader())
     fprintf(stderr, "flowgrain: %s: goes on from step %ld, t = %.3g, after %.0f s\n",
             run->settings->output, run->step.step, run->step.time, run->earlier_total);
   return EXIT_DONE;
 }
 
-static int open_results(cli_run *run, bool *done)
+/* Of rank 0. *goes_on: from the checkpoint that is there. */
+static int open_results(cli_run *run, bool *done, bool *goes_on)
 {
   int code = output_open(&run->output, run->settings->output);
   if (code)
@@ -174,8 +170,8 @@ static int open_results(cli_run *run, bool *done)
   if (code)
     return code;
   interrupt_second(drawing_context(run->drawing));
-  return run->settings->resume && state == OUTPUT_UNFINISHED ? go_on(run)
-                                                             : start_anew(run);
+  *goes_on = run->settings->resume && state == OUTPUT_UNFINISHED;
+  return *goes_on ? EXIT_DONE : start_anew(run);
 }
 
 static int record_step(cli_run *run, const fg_step *before)
@@ -279,13 +275,12 @@ static int evolve(cli_run *run)
     run->facts.ended = reason_to_stop(run);
   while (!code && !run->facts.ended) {
     code = advance(run);
-    if (!code && !run->facts.ended && ranks_count() == 1 && checkpoint_is_due(run))
+    if (!code && !run->facts.ended && checkpoint_is_due(run))
       code = checkpoint_save(run);
     show_progress(run);
   }
   bool interrupted = !code && strcmp(run->facts.ended, "interrupted") == 0;
-  if (!code && ranks_count() == 1 && run->step.step && can_go_on(run) &&
-      (interrupted || run->step.clusters))
+  if (!code && run->step.step && can_go_on(run) && (interrupted || run->step.clusters))
     code = checkpoint_save(run);
   /* a run that ends before its last scale still shows how far it came */
   bool shown = run->last_scale_clusters == run->step.clusters;
@@ -380,7 +375,12 @@ static int prepare(cli_run *run, bool *done)
 {
   output_state state;
   int code = EXIT_DONE;
-  if (ranks_leader()) {
+  run->checkpoint = output_checkpoint_path(run->settings->output);
+  if (!run->checkpoint) {
+    complain("out of memory for a file's name");
+    code = EXIT_FAILED;
+  }
+  if (!code && ranks_leader()) {
     code = output_check(run->settings->output);
     if (!code)
       code = look(run, &state, done);
@@ -415,13 +415,13 @@ static int finish(cli_run *run)
 
 static int work(cli_run *run)
 {
-  bool done = false;
+  bool done = false, goes_on = false;
   int code = prepare(run, &done);
   if (code)
     return code;
   if (ranks_leader())
     code = done ? output_open(&run->output, run->settings->output)
-                : open_results(run, &done);
+                : open_results(run, &done, &goes_on);
   code = ranks_agree(code);
   done = ranks_any(done);
   if (!code && done) {
@@ -430,6 +430,8 @@ static int work(cli_run *run)
       fprintf(stderr, "flowgrain: %s: the run is finished\n", run->settings->output);
     return EXIT_DONE;
   }
+  if (!code && ranks_any(goes_on))
+    code = go_on(run);
   if (code)
     return code;
   code = evolve(run);
@@ -480,5 +482,6 @@ int command_run(const cli_settings *settings)
   fg_evolution_destroy(run.evolution);
   fg_field_destroy(run.field);
   fg_context_destroy(run.context);
+  free(run.checkpoint);
   return code;
 }

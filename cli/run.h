@@ -16,7 +16,8 @@ typedef struct cli_run {
   fg_evolution *evolution;
   cli_drawing *drawing;
   cli_output output;
-  cli_table table; /* evolution.csv */
+  char *checkpoint; /* its path */
+  cli_table table;  /* evolution.csv */
   cli_progress progress;
   scale_plan plan;
   run_facts facts;

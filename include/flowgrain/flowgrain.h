@@ -94,11 +94,12 @@ FG_API void fg_context_stop(fg_context *context);
 
 /* Ranks: processes that a launcher such as mpirun started together share one evolution.
  *
- * fg_evolution_create and the calls that take an evolution are collective: every rank
- * makes them in the same order, with the same field (each has it whole, for now) and
- * options, and all get the same status; when one fails, every context holds its message.
- * Densities are shared likewise (fg_density_create). All else is the business of the rank
- * that calls it. A program that MPI does not know of has one rank and need not care. */
+ * fg_evolution_create, fg_checkpoint_open and the calls that take an evolution are
+ * collective: every rank makes them in the same order, with the same field (each has it
+ * whole, for now), options and path, and all get the same status; when one fails, every
+ * context holds its message. Densities are shared likewise (fg_density_create). All else
+ * is the business of the rank that calls it. A program that MPI does not know of has one
+ * rank and need not care. */
 
 /* This rank's number, from 0, and how many there are. Starts MPI when a launcher started
  * this process, and ends it when the process exits; a program that uses MPI itself starts
@@ -328,14 +329,15 @@ typedef struct fg_traffic {
 FG_API void fg_evolution_traffic(const fg_evolution *evolution, fg_traffic mean[],
                                  fg_traffic greatest[]);
 
-/* Checkpoints: an evolution goes on in another process as if it had never ended. */
+/* Checkpoints: an evolution goes on in other processes, on any number of ranks, as if it
+ * had never ended. All ranks need the file: a file system of their own will not do. */
 
 typedef struct fg_checkpoint fg_checkpoint;
 
 /* Writes the state of an evolution, and a text of the caller's own (NULL: ""), which
- * fg_checkpoint_note gives back. The file takes its name when it is whole and on the
- * disk; what had the name before is then called PATH.previous. On failure both stay as
- * they were and the evolution can go on. FILE_ACCESS, MEMORY. */
+ * fg_checkpoint_note gives back (that of rank 0). The file takes its name when it is
+ * whole and on the disk; what had the name before is then called PATH.previous. On
+ * failure both stay as they were and the evolution can go on. FILE_ACCESS, MEMORY. */
 FG_API fg_status fg_evolution_save(const fg_evolution *evolution, const char *path,
                                    const char *note);
 

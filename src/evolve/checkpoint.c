@@ -10,6 +10,7 @@
 enum { DAMAGE_BYTES = 2048 };
 
 struct fg_checkpoint {
+  const fg__ranks *ranks; /* that have opened it */
   fg__checkpoint_file file;
   const char *note; /* within the file's text */
   char damage[DAMAGE_BYTES];
@@ -99,96 +100,183 @@ static char *describe(const fg_evolution *e, const char *note)
   return text;
 }
 
-static size_t node_count(const fg__level *level)
+/* Room for the values of any of this rank's boxes. NULL without memory. */
+static float *plain_box(const fg_evolution *e,
+                        const fg__state_array arrays[FG__STATE_ARRAYS])
 {
-  const int *nodes = level->layout.nodes;
-  return (size_t)nodes[0] * (size_t)nodes[1] * (size_t)nodes[2];
+  size_t most = 0;
+  for (int n = 0; n < FG__STATE_ARRAYS; ++n)
+    for (int b = 0; b < arrays[n].count; ++b) {
+      fg__box box = fg__state_box(&arrays[n], b);
+      size_t count = (size_t)fg__box_count(&box);
+      most = count > most ? count : most;
+    }
+  float *plain = fg__allocate(most, sizeof *plain);
+  if (!plain)
+    fg__fail_memory(e->context, "a checkpoint", most * sizeof *plain);
+  return plain;
 }
 
-/* The part of a grid that a level covers. */
-static void set_box(fg__box_record *record, const fg_evolution *e,
-                    const fg__state_array *array)
+/* A checkpoint while it is written. */
+typedef struct saving {
+  const fg_evolution *e;
+  fg__stepper stepper; /* its arrays are only read */
+  fg__state_array array[FG__STATE_ARRAYS];
+  fg__box_record record[FG__STATE_ARRAYS];
+  float *plain;
+  char *text; /* of rank 0 */
+  fg__checkpoint_writer writer;
+} saving;
+
+static bool leads(const fg_evolution *e)
 {
-  *record = (fg__box_record){.grid = array->grid, .nodes = {1, 1, 1}};
-  snprintf(record->array, sizeof record->array, "%s", array->name);
-  for (int k = 0; k < e->mesh.dimension; ++k) {
-    record->first[k] = e->mesh.tile[0].first[k] >> array->grid;
-    record->nodes[k] = array->level->layout.nodes[k];
+  return e->ranks->rank == 0;
+}
+
+static fg_status prepare(saving *s, const fg_evolution *e, const char *note)
+{
+  *s = (saving){.e = e, .stepper = e->stepper};
+  fg__stepper_arrays(&s->stepper, s->array);
+  for (int n = 0; n < FG__STATE_ARRAYS; ++n) {
+    fg__box_record *record = &s->record[n];
+    record->grid = s->array[n].grid;
+    record->box = s->array[n].whole;
+    snprintf(record->array, sizeof record->array, "%s", s->array[n].name);
   }
+  fg__checkpoint_place(s->record, FG__STATE_ARRAYS);
+  s->plain = plain_box(e, s->array);
+  if (!s->plain)
+    return FG_STATUS_MEMORY;
+  if (!leads(e))
+    return FG_STATUS_OK;
+  s->text = describe(e, note);
+  if (s->text)
+    return FG_STATUS_OK;
+  return fg__fail(e->context, FG_STATUS_MEMORY, "out of memory for a checkpoint's text");
+}
+
+/* The values of this rank's boxes. */
+static fg_status write_values(saving *s)
+{
+  fg_status status = FG_STATUS_OK;
+  for (int n = 0; n < FG__STATE_ARRAYS; ++n)
+    for (int b = 0; !status && b < s->array[n].count; ++b) {
+      fg__box box = fg__state_box(&s->array[n], b);
+      fg__state_export(&s->array[n], b, s->plain);
+      status =
+          fg__checkpoint_write(&s->writer, s->e->context, &s->record[n], &box, s->plain);
+    }
+  return status;
+}
+
+/* Rank 0 creates the file, all write their parts of it, and rank 0 commits it when no
+ * rank has failed. */
+static fg_status write_together(saving *s, const char *path)
+{
+  const fg_evolution *e = s->e;
+  fg_status status = FG_STATUS_OK;
+  if (leads(e))
+    status = fg__checkpoint_begin(&s->writer, e->context, path, true);
+  status = fg__ranks_agree(e->ranks, e->context, status);
+  if (status)
+    return status;
+  if (!leads(e))
+    status = fg__checkpoint_begin(&s->writer, e->context, path, false);
+  bool begun = !status;
+  if (begun)
+    status = write_values(s);
+  if (begun && !leads(e))
+    status = fg__checkpoint_end_share(&s->writer, e->context, status);
+  status = fg__ranks_agree(e->ranks, e->context, status);
+  fg__checkpoint_settle(s->record, FG__STATE_ARRAYS, e->ranks);
+  if (leads(e))
+    status = fg__checkpoint_commit(&s->writer, e->context, s->text, s->record,
+                                   FG__STATE_ARRAYS, status);
+  return fg__ranks_agree(e->ranks, e->context, status);
 }
 
 fg_status fg_evolution_save(const fg_evolution *evolution, const char *path,
                             const char *note)
 {
   const fg_evolution *e = evolution;
-  if (e->spread)
-    return fg__fail(e->context, FG_STATUS_UNSUPPORTED,
-                    "checkpoints are kept by a run on one rank only, not on %d",
-                    e->mesh.ranks->count);
-  fg__state_array arrays[FG__STATE_ARRAYS];
-  fg__box_record records[FG__STATE_ARRAYS];
-  fg__stepper stepper = e->stepper; /* its arrays are only read */
-  fg__stepper_arrays(&stepper, arrays);
-  for (int n = 0; n < FG__STATE_ARRAYS; ++n)
-    set_box(&records[n], e, &arrays[n]);
-  fg__checkpoint_place(records, FG__STATE_ARRAYS, FG__CHECKPOINT_FIRST_OFFSET);
-  size_t count = node_count(arrays[0].level); /* no coarser level has more */
-  float *plain = fg__allocate(count, sizeof *plain);
-  char *text = describe(e, note);
-  fg__checkpoint_writer writer;
-  fg_status status = FG_STATUS_OK;
-  if (!plain || !text)
-    status = fg__fail_memory(e->context, "a checkpoint", count * sizeof *plain);
+  saving s;
+  fg_status status = fg__ranks_agree(e->ranks, e->context, prepare(&s, e, note));
   if (!status)
-    status = fg__checkpoint_begin(&writer, e->context, path, true);
-  if (!status) {
-    for (int n = 0; !status && n < FG__STATE_ARRAYS; ++n) {
-      fg__level_export(arrays[n].level, arrays[n].values, plain);
-      status = fg__checkpoint_write(&writer, e->context, &records[n], plain);
-    }
-    status = fg__checkpoint_commit(&writer, e->context, text, records, FG__STATE_ARRAYS,
-                                   status);
-  }
-  free(plain);
-  free(text);
+    status = write_together(&s, path);
+  free(s.plain);
+  free(s.text);
   return status;
 }
 
+/* Ranks on machines of their own may find different files under one name. */
+static fg_status check_same_file(const fg__checkpoint_file *file, fg_context *context,
+                                 const fg__ranks *ranks)
+{
+  double greatest[] = {file->identity, -(double)file->identity};
+  fg__ranks_greatest(ranks, greatest, 2);
+  fg_status status = FG_STATUS_OK;
+  if (greatest[0] != -greatest[1])
+    status = fg__fail(context, FG_STATUS_FILE_ACCESS,
+                      "%s: cannot be read: the %d ranks find different files", file->path,
+                      ranks->count);
+  return fg__ranks_agree(ranks, context, status);
+}
+
 static fg_status open_checked(fg__checkpoint_file *out, fg_context *context,
-                              const char *path)
+                              const char *path, const fg__ranks *ranks)
 {
   fg_status status = fg__checkpoint_read(out, context, path);
+  status = fg__ranks_agree(ranks, context, status);
   if (!status)
-    status = fg__checkpoint_verify(out, context, 0, out->record_count);
+    status = check_same_file(out, context, ranks);
+  if (!status)
+    status = fg__checkpoint_verify(out, context, ranks);
   if (status)
     fg__checkpoint_close(out);
   return status;
 }
 
-/* The newest that is whole. When neither is, the failure is the newest one's. */
-static fg_status open_newest(fg_checkpoint *checkpoint, fg_context *context,
-                             const char *path)
+/* The newest that is whole. When neither is, the failure is the newest one's; `newest`
+ * and `older` take what is said of them. */
+static fg_status open_newest(fg_checkpoint *checkpoint, const char *path,
+                             const char *previous, fg_context *newest, fg_context *older)
+{
+  const fg__ranks *ranks = checkpoint->ranks;
+  fg_status status = open_checked(&checkpoint->file, newest, path, ranks);
+  if (!status || status == FG_STATUS_MEMORY)
+    return status;
+  if (open_checked(&checkpoint->file, older, previous, ranks))
+    return status;
+  snprintf(checkpoint->damage, sizeof checkpoint->damage, "%s",
+           fg_context_message(newest));
+  return FG_STATUS_OK;
+}
+
+/* What has to be had before the ranks open a file together. */
+typedef struct opening {
+  fg_checkpoint *checkpoint;
+  char *previous;
+  fg_context *newest, *older;
+} opening;
+
+static fg_status begin_opening(opening *o, fg_context *context, const char *path)
 {
   size_t bytes = strlen(path) + sizeof ".previous";
-  char *previous = fg__allocate(bytes, 1);
-  fg_context *newest;
-  if (!previous || fg_context_create(&newest)) {
-    free(previous);
-    return fg__fail_memory(context, "a checkpoint", bytes);
-  }
-  snprintf(previous, bytes, "%s.previous", path);
-  fg_status status = open_checked(&checkpoint->file, newest, path);
-  const char *fault = fg_context_message(newest);
-  if (status && status != FG_STATUS_MEMORY &&
-      !open_checked(&checkpoint->file, NULL, previous)) {
-    snprintf(checkpoint->damage, sizeof checkpoint->damage, "%s", fault);
-    status = FG_STATUS_OK;
-  }
-  if (status)
-    fg__fail(context, status, "%s", fault);
-  fg_context_destroy(newest);
-  free(previous);
-  return status;
+  *o = (opening){.checkpoint = fg__allocate(1, sizeof *o->checkpoint),
+                 .previous = fg__allocate(bytes, 1)};
+  if (!o->checkpoint || !o->previous || fg_context_create(&o->newest) ||
+      fg_context_create(&o->older))
+    return fg__fail_memory(context, "a checkpoint", sizeof *o->checkpoint);
+  o->checkpoint->file.file = -1;
+  snprintf(o->previous, bytes, "%s.previous", path);
+  return FG_STATUS_OK;
+}
+
+static void end_opening(opening *o)
+{
+  fg_context_destroy(o->newest);
+  fg_context_destroy(o->older);
+  free(o->previous);
 }
 
 fg_status fg_checkpoint_open(fg_checkpoint **out, fg_context *context, const char *path)
@@ -196,18 +284,31 @@ fg_status fg_checkpoint_open(fg_checkpoint **out, fg_context *context, const cha
   if (!out || !path)
     return fg__fail(context, FG_STATUS_ARGUMENT, "checkpoint: a NULL argument");
   *out = NULL;
-  fg_checkpoint *checkpoint = fg__allocate(1, sizeof *checkpoint);
-  if (!checkpoint)
-    return fg__fail_memory(context, "a checkpoint", sizeof *checkpoint);
-  checkpoint->file.file = -1;
-  fg_status status = open_newest(checkpoint, context, path);
+  const fg__ranks *ranks;
+  fg_status status = fg__ranks_all(&ranks, context);
+  return status ? status : fg__checkpoint_open(out, context, path, ranks);
+}
+
+fg_status fg__checkpoint_open(fg_checkpoint **out, fg_context *context, const char *path,
+                              const fg__ranks *ranks)
+{
+  *out = NULL;
+  opening o;
+  fg_status status = fg__ranks_agree(ranks, context, begin_opening(&o, context, path));
+  if (!status) {
+    o.checkpoint->ranks = ranks;
+    status = open_newest(o.checkpoint, path, o.previous, o.newest, o.older);
+    if (status)
+      fg__fail(context, status, "%s", fg_context_message(o.newest));
+  }
+  end_opening(&o);
   if (status) {
-    fg_checkpoint_destroy(checkpoint);
+    free(o.checkpoint);
     return status;
   }
-  const char *end = strstr(checkpoint->file.text, "\n\n");
-  checkpoint->note = end ? end + 2 : "";
-  *out = checkpoint;
+  const char *end = strstr(o.checkpoint->file.text, "\n\n");
+  o.checkpoint->note = end ? end + 2 : "";
+  *out = o.checkpoint;
   return FG_STATUS_OK;
 }
 
@@ -262,37 +363,28 @@ static fg_status check_parameters(const fg_evolution *e, const fg__checkpoint_fi
   return FG_STATUS_ARGUMENT;
 }
 
-static fg_status load_arrays(fg_evolution *e, const fg__checkpoint_file *file)
+/* This rank's boxes, without ghosts. */
+static fg_status load_boxes(const fg_evolution *e, const fg__checkpoint_file *file,
+                            const fg__state_array arrays[FG__STATE_ARRAYS])
 {
-  fg__state_array arrays[FG__STATE_ARRAYS];
-  fg__stepper_arrays(&e->stepper, arrays);
-  size_t count = node_count(arrays[0].level);
-  float *plain = fg__allocate(count, sizeof *plain);
+  float *plain = plain_box(e, arrays);
   if (!plain)
-    return fg__fail_memory(e->context, "a checkpoint", count * sizeof *plain);
+    return FG_STATUS_MEMORY;
   fg_status status = FG_STATUS_OK;
-  for (int n = 0; !status && n < FG__STATE_ARRAYS; ++n) {
-    fg__box_record box;
-    set_box(&box, e, &arrays[n]);
-    status = fg__checkpoint_read_box(file, e->context, box.array, box.grid, box.first,
-                                     box.nodes, plain);
-    if (!status)
-      fg__level_import(arrays[n].level, arrays[n].values, plain);
-  }
+  for (int n = 0; n < FG__STATE_ARRAYS; ++n)
+    for (int b = 0; !status && b < arrays[n].count; ++b) {
+      fg__box box = fg__state_box(&arrays[n], b);
+      status = fg__checkpoint_read_box(file, e->context, arrays[n].name, arrays[n].grid,
+                                       &box, plain);
+      if (!status)
+        fg__state_import(&arrays[n], b, plain);
+    }
   free(plain);
   return status;
 }
 
-fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
-                              const fg_checkpoint *checkpoint)
+static fg_status load(fg_evolution *e, counts *counted, const fg__checkpoint_file *file)
 {
-  fg_evolution *e = evolution;
-  const fg__checkpoint_file *file = &checkpoint->file;
-  counts counted;
-  if (e->spread)
-    return fg__fail(e->context, FG_STATUS_UNSUPPORTED,
-                    "%s: a run is resumed on one rank only, not on %d", file->path,
-                    e->mesh.ranks->count);
   fg_status status = check_version(file, e->context);
   if (!status)
     status = check_parameters(e, file);
@@ -301,9 +393,25 @@ fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
                              fg__stepper_value_count, &e->stepper);
   if (!status)
     status = fg__values_scan(file->text, file->path, e->context, count_values, COUNTS,
-                             &counted);
+                             counted);
+  fg__state_array arrays[FG__STATE_ARRAYS];
+  fg__stepper_arrays(&e->stepper, arrays);
   if (!status)
-    status = load_arrays(e, file);
+    status = load_boxes(e, file, arrays);
+  status = fg__ranks_agree(e->ranks, e->context, status);
+  if (!status)
+    status = fg__checkpoint_check(file, e->context, e->ranks);
+  for (int n = 0; !status && n < FG__STATE_ARRAYS; ++n)
+    fg__state_fill_ghosts(&arrays[n]);
+  return status;
+}
+
+fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
+                              const fg_checkpoint *checkpoint)
+{
+  fg_evolution *e = evolution;
+  counts counted;
+  fg_status status = load(e, &counted, &checkpoint->file);
   if (status)
     return status;
   e->area_fraction = counted.area_fraction;

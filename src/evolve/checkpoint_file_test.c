@@ -17,9 +17,12 @@
 #include "evolve/checkpoint_file.h"
 
 /* A grid of 7 x 5 x 3 nodes cut into three boxes, and a coarser one in a single box. */
-enum { NX = 7, NY = 5, NZ = 3, COARSE_NX = 4, COARSE_NY = 2, BOXES = 3, RECORDS = 7 };
-static const int box_first[BOXES][3] = {{0, 0, 0}, {4, 0, 0}, {0, 0, 2}};
-static const int box_nodes[BOXES][3] = {{4, NY, 2}, {3, NY, 2}, {NX, NY, 1}};
+enum { NX = 7, NY = 5, NZ = 3, COARSE_NX = 4, COARSE_NY = 2, BOXES = 3, RECORDS = 4 };
+static const fg__box piece[BOXES] = {
+    {{0, 0, 0}, {4, NY, 2}}, {{4, 0, 0}, {3, NY, 2}}, {{0, 0, 2}, {NX, NY, 1}}};
+static const fg__box whole = {{0, 0, 0}, {NX, NY, NZ}};
+static const fg__box coarse = {{0, 0, 0}, {COARSE_NX, COARSE_NY, 1}};
+static const fg__ranks one = {.count = 1};
 static const char text[] = "time 3fb999999999999a\n\n{\"note\":1}";
 
 typedef struct fixture {
@@ -71,8 +74,9 @@ static float value_at(uint32_t salt, int i, int j, int k)
   return value;
 }
 
-static void fill(float *values, uint32_t salt, const int first[3], const int nodes[3])
+static void fill(float *values, uint32_t salt, const fg__box *box)
 {
+  const int *first = box->first, *nodes = box->nodes;
   for (int k = 0; k < nodes[2]; ++k)
     for (int j = 0; j < nodes[1]; ++j)
       for (int i = 0; i < nodes[0]; ++i)
@@ -80,61 +84,99 @@ static void fill(float *values, uint32_t salt, const int first[3], const int nod
 }
 
 static void describe(fg__box_record *record, const char *array, int grid,
-                     const int first[3], const int nodes[3])
+                     const fg__box *box)
 {
-  *record = (fg__box_record){.grid = grid};
+  *record = (fg__box_record){.grid = grid, .box = *box};
   strcpy(record->array, array);
-  memcpy(record->first, first, sizeof record->first);
-  memcpy(record->nodes, nodes, sizeof record->nodes);
 }
 
-/* Two arrays of the fine grid in BOXES boxes and one of the coarse grid, shared out to
- * three ranks that write in an order of their own. */
+/* Writes a box of a record's array; returns `status` or a failure. */
+static fg_status put(fixture *f, fg__checkpoint_writer *writer, fg__box_record *record,
+                     const fg__box *box, uint32_t salt, fg_status status)
+{
+  float values[NX * NY * NZ];
+  fill(values, salt + (uint32_t)strlen(record->array), box);
+  return status ? status : fg__checkpoint_write(writer, f->context, record, box, values);
+}
+
+/* What rank `rank` of three writes of four records: an array of the fine grid as a whole,
+ * from boxes that are shared out, another one cut in two records, and one of the coarse
+ * grid. With `alone` it writes everything, from whole arrays. */
+static fg_status write_share(fixture *f, fg__checkpoint_writer *writer,
+                             fg__box_record records[RECORDS], uint32_t salt, int rank,
+                             bool alone)
+{
+  fg_status status = FG_STATUS_OK;
+  for (int n = 0; n < 3; ++n) {
+    if (alone)
+      status = put(f, writer, &records[n], &whole, salt, status);
+    for (int b = 0; !alone && b < BOXES; ++b)
+      if ((b + n) % 3 == rank)
+        status = put(f, writer, &records[n], &piece[b], salt, status);
+  }
+  if (alone || rank == 2)
+    status = put(f, writer, &records[3], &coarse, salt, status);
+  return status;
+}
+
+static void describe_all(fg__box_record records[RECORDS])
+{
+  static const fg__box lower = {{0, 0, 0}, {NX, 2, NZ}};
+  static const fg__box upper = {{0, 2, 0}, {NX, NY - 2, NZ}};
+  describe(&records[0], "current", 0, &whole);
+  describe(&records[1], "previous", 0, &lower);
+  describe(&records[2], "previous", 0, &upper);
+  describe(&records[3], "defect", 1, &coarse);
+  fg__checkpoint_place(records, RECORDS);
+}
+
+static fg_status write_alone(fixture *f, uint32_t salt)
+{
+  fg__box_record records[RECORDS];
+  describe_all(records);
+  fg__checkpoint_writer writer;
+  fg_status status = fg__checkpoint_begin(&writer, f->context, f->path, true);
+  if (status)
+    return status;
+  status = write_share(f, &writer, records, salt, 0, true);
+  fg__checkpoint_settle(records, RECORDS, &one);
+  return fg__checkpoint_commit(&writer, f->context, text, records, RECORDS, status);
+}
+
+/* Three ranks that write in an order of their own. */
 static fg_status write_file(fixture *f, uint32_t salt, fg_status outcome)
 {
-  static const int shares[4] = {0, 2, 3, RECORDS}, order[3] = {2, 0, 1};
-  const int origin[3] = {0}, coarse[3] = {COARSE_NX, COARSE_NY, 1};
-  fg__box_record records[RECORDS];
-  for (int n = 0; n < 2 * BOXES; ++n)
-    describe(&records[n], n % 2 ? "previous" : "current", 0, box_first[n / 2],
-             box_nodes[n / 2]);
-  describe(&records[RECORDS - 1], "defect", 1, origin, coarse);
-  uint64_t offset = FG__CHECKPOINT_FIRST_OFFSET;
-  for (int rank = 0; rank < 3; ++rank)
-    offset = fg__checkpoint_place(records + shares[rank],
-                                  (size_t)(shares[rank + 1] - shares[rank]), offset);
+  static const int order[3] = {2, 0, 1};
   fg__checkpoint_writer writer[3];
+  fg__box_record records[3][RECORDS];
   fg_status status = FG_STATUS_OK;
   for (int rank = 0; rank < 3; ++rank) {
+    describe_all(records[rank]);
     status = fg__checkpoint_begin(&writer[rank], f->context, f->path, rank == 0);
     if (status)
       return status;
   }
   for (int turn = 0; turn < 3; ++turn) {
     int rank = order[turn];
-    for (int n = shares[rank]; !status && n < shares[rank + 1]; ++n) {
-      float values[NX * NY * NZ];
-      fill(values, salt + (uint32_t)strlen(records[n].array), records[n].first,
-           records[n].nodes);
-      status = fg__checkpoint_write(&writer[rank], f->context, &records[n], values);
-    }
+    status = write_share(f, &writer[rank], records[rank], salt, rank, false);
     if (rank > 0)
       status = fg__checkpoint_end_share(&writer[rank], f->context, status);
   }
-  return fg__checkpoint_commit(&writer[0], f->context, text, records, RECORDS,
+  for (int n = 0; n < RECORDS; ++n)
+    records[0][n].checksum ^= records[1][n].checksum ^ records[2][n].checksum;
+  fg__checkpoint_settle(records[0], RECORDS, &one);
+  return fg__checkpoint_commit(&writer[0], f->context, text, records[0], RECORDS,
                                status ? status : outcome);
 }
 
 static void holds_array(fixture *f, const fg__checkpoint_file *file, const char *array,
-                        int grid, uint32_t salt, const int first[3], const int nodes[3])
+                        int grid, uint32_t salt, const fg__box *box)
 {
   float values[NX * NY * NZ], expected[NX * NY * NZ];
-  size_t bytes = (size_t)nodes[0] * (size_t)nodes[1] * (size_t)nodes[2] * sizeof *values;
-  assert_int_equal(
-      fg__checkpoint_read_box(file, f->context, array, grid, first, nodes, values),
-      FG_STATUS_OK);
-  fill(expected, salt + (uint32_t)strlen(array), first, nodes);
-  assert_memory_equal(values, expected, bytes);
+  assert_int_equal(fg__checkpoint_read_box(file, f->context, array, grid, box, values),
+                   FG_STATUS_OK);
+  fill(expected, salt + (uint32_t)strlen(array), box);
+  assert_memory_equal(values, expected, (size_t)fg__box_count(box) * sizeof *values);
 }
 
 /* The file at `path` holds what write_file wrote with this salt. */
@@ -144,15 +186,15 @@ static void holds(fixture *f, const char *path, uint32_t salt)
   assert_int_equal(fg__checkpoint_read(&file, f->context, path), FG_STATUS_OK);
   assert_string_equal(file.text, text);
   assert_int_equal(file.record_count, RECORDS);
-  assert_int_equal(fg__checkpoint_verify(&file, f->context, 0, RECORDS), FG_STATUS_OK);
-  static const int first[][3] = {{0, 0, 0}, {2, 1, 1}, {6, 4, 2}, {3, 0, 0}};
-  static const int nodes[][3] = {{NX, NY, NZ}, {4, 3, 2}, {1, 1, 1}, {2, NY, 1}};
+  assert_int_equal(fg__checkpoint_verify(&file, f->context, &one), FG_STATUS_OK);
+  static const fg__box box[] = {{{2, 1, 1}, {4, 3, 2}},
+                                {{6, 4, 2}, {1, 1, 1}},
+                                {{3, 0, 0}, {2, NY, 1}},
+                                {{0, 1, 0}, {NX, 3, 2}}};
   for (int n = 0; n < 4; ++n) {
-    holds_array(f, &file, "current", 0, salt, first[n], nodes[n]);
-    holds_array(f, &file, "previous", 0, salt, first[n], nodes[n]);
+    holds_array(f, &file, "current", 0, salt, &box[n]);
+    holds_array(f, &file, "previous", 0, salt, &box[n]);
   }
-  const int origin[3] = {0}, coarse[3] = {COARSE_NX, COARSE_NY, 1};
-  holds_array(f, &file, "defect", 1, salt, origin, coarse);
   fg__checkpoint_close(&file);
 }
 
@@ -163,6 +205,63 @@ static void any_ranks_any_boxes(void **state)
   holds(f, f->path, 1);
   assert_false(is_there(f->part));
   assert_false(is_there(f->previous));
+}
+
+static unsigned char *slurp(const char *path, size_t *count);
+
+static void the_bytes_do_not_tell_the_ranks(void **state)
+{
+  fixture *f = *state;
+  size_t count[2];
+  unsigned char first[8192];
+  assert_int_equal(write_alone(f, 1), FG_STATUS_OK);
+  memcpy(first, slurp(f->path, &count[0]), sizeof first);
+  assert_int_equal(write_file(f, 1, FG_STATUS_OK), FG_STATUS_OK);
+  const unsigned char *second = slurp(f->path, &count[1]);
+  assert_int_equal(count[0], count[1]);
+  assert_memory_equal(first, second, count[0]);
+}
+
+/* Reads all arrays, one box of one of them so many times. */
+static fg_status check_after(fixture *f, const fg__checkpoint_file *file, int times)
+{
+  for (int b = 0; b < BOXES; ++b) {
+    holds_array(f, file, "current", 0, 1, &piece[b]);
+    for (int n = 0; n < (b == 1 ? times : 1); ++n)
+      holds_array(f, file, "previous", 0, 1, &piece[b]);
+  }
+  holds_array(f, file, "defect", 1, 1, &coarse);
+  fg_status status = fg__checkpoint_check(file, f->context, &one);
+  fg_context_clear(f->context);
+  return status;
+}
+
+static void what_was_read_is_checked(void **state)
+{
+  fixture *f = *state;
+  assert_int_equal(write_file(f, 1, FG_STATUS_OK), FG_STATUS_OK);
+  fg__checkpoint_file file;
+  assert_int_equal(fg__checkpoint_read(&file, f->context, f->path), FG_STATUS_OK);
+  assert_int_equal(check_after(f, &file, 1), FG_STATUS_OK);
+  assert_int_equal(check_after(f, &file, 0), FG_STATUS_FILE_FORMAT);
+  assert_int_equal(check_after(f, &file, 2), FG_STATUS_FILE_FORMAT);
+  assert_int_equal(check_after(f, &file, 1), FG_STATUS_OK);
+  /* spoilt behind our back */
+  FILE *stream = fopen(f->path, "r+b");
+  assert_non_null(stream);
+  assert_int_equal(fseek(stream, 64 + NX * NY * NZ * 4 + 5, SEEK_SET), 0);
+  assert_int_equal(fputc(77, stream), 77);
+  assert_int_equal(fclose(stream), 0);
+  float values[NX * NY * NZ];
+  static const char *const names[] = {"current", "previous"};
+  for (int n = 0; n < 2; ++n)
+    assert_int_equal(
+        fg__checkpoint_read_box(&file, f->context, names[n], 0, &whole, values),
+        FG_STATUS_OK);
+  holds_array(f, &file, "defect", 1, 1, &coarse);
+  assert_int_equal(fg__checkpoint_check(&file, f->context, &one), FG_STATUS_FILE_FORMAT);
+  assert_non_null(strstr(fg_context_message(f->context), "values of 'previous'"));
+  fg__checkpoint_close(&file);
 }
 
 static void the_previous_one_is_kept(void **state)
@@ -206,7 +305,7 @@ static fg_status read_whole(fixture *f, const char *path)
   fg__checkpoint_file file;
   fg_status status = fg__checkpoint_read(&file, f->context, path);
   if (!status)
-    status = fg__checkpoint_verify(&file, f->context, 0, file.record_count);
+    status = fg__checkpoint_verify(&file, f->context, &one);
   fg__checkpoint_close(&file);
   return status;
 }
@@ -317,15 +416,14 @@ static void boxes_that_are_not_covered(void **state)
   fg__checkpoint_file file;
   assert_int_equal(fg__checkpoint_read(&file, f->context, f->path), FG_STATUS_OK);
   float values[(NX + 1) * NY];
-  static const int first[3] = {0, 0, 1}, nodes[3] = {NX + 1, NY, 1};
+  static const fg__box wide = {{0, 0, 1}, {NX + 1, NY, 1}}, corner = {{0}, {1, 1, 1}};
   assert_int_equal(
-      fg__checkpoint_read_box(&file, f->context, "current", 0, first, nodes, values),
+      fg__checkpoint_read_box(&file, f->context, "current", 0, &wide, values),
       FG_STATUS_FILE_FORMAT);
   assert_non_null(strstr(fg_context_message(f->context), "35 of the 40 nodes"));
   fg_context_clear(f->context);
-  const int one[3] = {1, 1, 1};
   assert_int_equal(
-      fg__checkpoint_read_box(&file, f->context, "energy", 0, first, one, values),
+      fg__checkpoint_read_box(&file, f->context, "energy", 0, &corner, values),
       FG_STATUS_FILE_FORMAT);
   fg__checkpoint_close(&file);
 }
@@ -334,32 +432,32 @@ static void boxes_that_are_not_covered(void **state)
 static void a_large_box(void **state)
 {
   fixture *f = *state;
-  const int first[3] = {5, 0, 0}, nodes[3] = {1021, 67, 1};
-  size_t count = (size_t)nodes[0] * (size_t)nodes[1];
+  const fg__box box = {{5, 0, 0}, {1021, 67, 1}};
+  size_t count = (size_t)fg__box_count(&box);
   float *values = malloc(count * sizeof *values);
   assert_non_null(values);
   for (size_t n = 0; n < count; ++n)
     values[n] = (float)n;
   fg__box_record record;
-  describe(&record, "current", 0, first, nodes);
-  fg__checkpoint_place(&record, 1, FG__CHECKPOINT_FIRST_OFFSET);
+  describe(&record, "current", 0, &box);
+  fg__checkpoint_place(&record, 1);
   fg__checkpoint_writer writer;
   assert_int_equal(fg__checkpoint_begin(&writer, f->context, f->path, true),
                    FG_STATUS_OK);
-  fg_status status = fg__checkpoint_write(&writer, f->context, &record, values);
+  fg_status status = fg__checkpoint_write(&writer, f->context, &record, &box, values);
+  fg__checkpoint_settle(&record, 1, &one);
   assert_int_equal(fg__checkpoint_commit(&writer, f->context, text, &record, 1, status),
                    FG_STATUS_OK);
   fg__checkpoint_file file;
   assert_int_equal(fg__checkpoint_read(&file, f->context, f->path), FG_STATUS_OK);
-  const int corner[3] = {100, 10, 0}, size[3] = {900, 50, 1};
+  const fg__box part = {{100, 10, 0}, {900, 50, 1}};
   memset(values, 0, count * sizeof *values);
   assert_int_equal(
-      fg__checkpoint_read_box(&file, f->context, "current", 0, corner, size, values),
+      fg__checkpoint_read_box(&file, f->context, "current", 0, &part, values),
       FG_STATUS_OK);
-  for (int j = 0; j < size[1]; ++j)
-    for (int i = 0; i < size[0]; ++i)
-      assert_true(values[j * size[0] + i] ==
-                  (float)((corner[1] + j) * nodes[0] + corner[0] + i - first[0]));
+  for (int j = 0; j < 50; ++j)
+    for (int i = 0; i < 900; ++i)
+      assert_true(values[j * 900 + i] == (float)((10 + j) * 1021 + 100 + i - 5));
   fg__checkpoint_close(&file);
   free(values);
 }
@@ -369,7 +467,8 @@ static void a_large_box(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(any_ranks_any_boxes),         CASE(the_previous_one_is_kept),
+      CASE(any_ranks_any_boxes),         CASE(the_bytes_do_not_tell_the_ranks),
+      CASE(what_was_read_is_checked),    CASE(the_previous_one_is_kept),
       CASE(a_failure_changes_nothing),   CASE(a_name_that_can_not_be_taken),
       CASE(every_truncation_is_refused), CASE(every_changed_byte_is_refused),
       CASE(lying_numbers_are_refused),   CASE(what_is_no_file_is_refused),

@@ -8,6 +8,7 @@
 #include "base/checksum.h"
 #include "base/memory.h"
 #include "evolve/checkpoint_layout.h"
+#include "evolve/checkpoint_runs.h"
 
 static fg_status fail_access(fg_context *context, const char *path)
 {
@@ -86,8 +87,8 @@ static bool take_entry(fg__box_record *record, const unsigned char *entry)
     if (first > INT32_MAX / 2 || nodes < 1 || nodes > INT32_MAX / 2 ||
         values % nodes != 0)
       return false;
-    record->first[k] = (int)first;
-    record->nodes[k] = (int)nodes;
+    record->box.first[k] = (int)first;
+    record->box.nodes[k] = (int)nodes;
     values /= nodes;
   }
   return values == 1 && record->bytes % sizeof(float) == 0 && record->grid >= 0 &&
@@ -144,12 +145,14 @@ static fg_status read_frame(fg__checkpoint_file *file, fg_context *context)
       (bytes - text_offset - text_bytes) % FG__ENTRY_BYTES != 0)
     return fg__fail(context, FG_STATUS_FILE_FORMAT,
                     "%s: damaged: its preamble contradicts itself", file->path);
+  file->identity = fg__get_32(preamble + FG__AT_PREAMBLE_CHECKSUM);
   size_t table_bytes = (size_t)count * FG__ENTRY_BYTES;
   file->record_count = (size_t)count;
   file->text = fg__allocate((size_t)text_bytes + 1, 1);
   file->record = fg__allocate(file->record_count, sizeof *file->record);
+  file->share = fg__allocate(file->record_count, sizeof *file->share);
   table = fg__allocate(table_bytes, 1);
-  if (!file->text || !file->record || !table)
+  if (!file->text || !file->record || !file->share || !table)
     status = fg__fail_memory(context, "the table of a checkpoint", table_bytes);
   if (!status)
     status = get(file, context, file->text, (size_t)text_bytes, text_offset);
@@ -191,121 +194,105 @@ void fg__checkpoint_close(fg__checkpoint_file *file)
   free(file->path);
   free(file->text);
   free(file->record);
+  free(file->share);
   *file = (fg__checkpoint_file){.file = -1};
 }
 
-/* The part of a record that is wanted, and where it goes. */
-typedef struct target {
-  int first[3], nodes[3];
-  float *values;
-} target;
-
-/* Copies `count` values of a row of the record, from node (i, j, k) of the whole grid, as
- * far as they lie in the box. */
-static void copy_run(const target *to, int i, int j, int k, const unsigned char *bytes,
-                     int count)
-{
-  int y = j - to->first[1], z = k - to->first[2];
-  if (y < 0 || y >= to->nodes[1] || z < 0 || z >= to->nodes[2])
-    return;
-  int low = i > to->first[0] ? i : to->first[0];
-  int high = i + count, end = to->first[0] + to->nodes[0];
-  high = high < end ? high : end;
-  size_t row = (size_t)z * (size_t)to->nodes[1] + (size_t)y;
-  float *out = to->values + row * (size_t)to->nodes[0];
-  for (int x = low; x < high; ++x) {
-    uint32_t bits = fg__get_32(bytes + (size_t)(x - i) * sizeof(float));
-    memcpy(&out[x - to->first[0]], &bits, sizeof bits);
-  }
-}
-
-static void copy_chunk(const target *to, const fg__box_record *record, uint64_t at,
-                       const unsigned char *bytes, size_t count)
-{
-  uint64_t columns = (uint64_t)record->nodes[0], rows = (uint64_t)record->nodes[1];
-  while (count > 0) {
-    uint64_t i = at % columns, row = at / columns;
-    size_t run = columns - i < count ? (size_t)(columns - i) : count;
-    copy_run(to, record->first[0] + (int)i, record->first[1] + (int)(row % rows),
-             record->first[2] + (int)(row / rows), bytes, (int)run);
-    at += run;
-    bytes += run * sizeof(float);
-    count -= run;
-  }
-}
-
-/* Reads a record through, checks it, and copies what is wanted; `to` NULL: nothing. */
-static fg_status read_record(const fg__checkpoint_file *file, fg_context *context,
-                             const fg__box_record *record, const target *to)
+/* Reads `length` values of a record from `at` bytes on; `values` NULL: for the sum only.
+ */
+static fg_status get_run(const fg__checkpoint_file *file, fg_context *context,
+                         const fg__box_record *record, uint64_t at, float *values,
+                         uint64_t length, fg__checksum_share *share)
 {
   unsigned char chunk[FG__CHUNK_BYTES];
-  uint32_t sum = 0;
-  for (uint64_t at = 0; at < record->bytes; at += sizeof chunk) {
-    uint64_t left = record->bytes - at;
+  for (uint64_t left = length * sizeof *values; left > 0;) {
     size_t bytes = left < sizeof chunk ? (size_t)left : sizeof chunk;
     fg_status status = get(file, context, chunk, bytes, record->offset + at);
     if (status)
       return status;
-    sum = fg__checksum(sum, chunk, bytes);
-    if (to)
-      copy_chunk(to, record, at / sizeof(float), chunk, bytes / sizeof(float));
+    fg__checksum_share_add(share, at, chunk, bytes);
+    for (size_t n = 0; values && n < bytes; n += sizeof *values, ++values) {
+      uint32_t bits = fg__get_32(chunk + n);
+      memcpy(values, &bits, sizeof bits);
+    }
+    at += bytes;
+    left -= bytes;
   }
-  char part[FG__ARRAY_NAME_BYTES + 80];
-  snprintf(part, sizeof part, "values of '%s' from node (%d, %d, %d)", record->array,
-           record->first[0], record->first[1], record->first[2]);
-  return check_sum(file->path, context, part, sum, record->checksum);
+  return FG_STATUS_OK;
 }
 
-fg_status fg__checkpoint_verify(const fg__checkpoint_file *file, fg_context *context,
-                                size_t first, size_t end)
+/* This rank's part of a record's values. */
+static fg_status verify_part(const fg__checkpoint_file *file, fg_context *context,
+                             const fg__ranks *ranks, size_t n)
 {
-  fg_status status = FG_STATUS_OK;
-  for (size_t n = first; !status && n < end; ++n)
-    status = read_record(file, context, &file->record[n], NULL);
+  const fg__box_record *record = &file->record[n];
+  uint64_t values = record->bytes / sizeof(float), count = (uint64_t)ranks->count;
+  uint64_t part = values / count + 1, first = part * (uint64_t)ranks->rank;
+  if (first >= values)
+    return FG_STATUS_OK;
+  uint64_t length = values - first < part ? values - first : part;
+  fg__checksum_share share = fg__checksum_share_of(record->bytes);
+  fg_status status =
+      get_run(file, context, record, first * sizeof(float), NULL, length, &share);
+  file->share[n] ^= fg__checksum_share_sum(&share);
   return status;
 }
 
-/* How many nodes a record and a box have in common. */
-static uint64_t common_nodes(const fg__box_record *record, const target *box)
+fg_status fg__checkpoint_verify(const fg__checkpoint_file *file, fg_context *context,
+                                const fg__ranks *ranks)
 {
-  uint64_t count = 1;
-  for (int k = 0; k < 3; ++k) {
-    int low = record->first[k], high = low + record->nodes[k];
-    low = low > box->first[k] ? low : box->first[k];
-    int end = box->first[k] + box->nodes[k];
-    high = high < end ? high : end;
-    count *= high > low ? (uint64_t)(high - low) : 0;
+  fg_status status = FG_STATUS_OK;
+  for (size_t n = 0; !status && n < file->record_count; ++n)
+    status = verify_part(file, context, ranks, n);
+  status = fg__ranks_agree(ranks, context, status);
+  return status ? status : fg__checkpoint_check(file, context, ranks);
+}
+
+fg_status fg__checkpoint_check(const fg__checkpoint_file *file, fg_context *context,
+                               const fg__ranks *ranks)
+{
+  fg_status status = FG_STATUS_OK;
+  for (size_t n = 0; n < file->record_count; ++n) {
+    const fg__box_record *r = &file->record[n];
+    uint32_t sum = file->share[n];
+    fg__ranks_combine(ranks, &sum, 1);
+    sum ^= fg__checksum_of_zeros(r->bytes);
+    file->share[n] = 0;
+    char part[FG__ARRAY_NAME_BYTES + 80];
+    snprintf(part, sizeof part, "values of '%s' from node (%d, %d, %d)", r->array,
+             r->box.first[0], r->box.first[1], r->box.first[2]);
+    if (!status)
+      status = check_sum(file->path, context, part, sum, r->checksum);
   }
-  return count;
+  return status;
 }
 
 fg_status fg__checkpoint_read_box(const fg__checkpoint_file *file, fg_context *context,
-                                  const char *array, int grid, const int first[3],
-                                  const int nodes[3], float *values)
+                                  const char *array, int grid, const fg__box *box,
+                                  float *values)
 {
-  target to = {.values = values};
-  uint64_t wanted = 1, found = 0;
-  for (int k = 0; k < 3; ++k) {
-    to.first[k] = first[k];
-    to.nodes[k] = nodes[k];
-    wanted *= (uint64_t)nodes[k];
-  }
+  long found = 0;
+  fg_status status = FG_STATUS_OK;
   for (size_t n = 0; n < file->record_count; ++n) {
-    const fg__box_record *record = &file->record[n];
-    if (record->grid != grid || strcmp(record->array, array) != 0)
+    const fg__box_record *r = &file->record[n];
+    if (r->grid != grid || strcmp(r->array, array) != 0)
       continue;
-    uint64_t common = common_nodes(record, &to);
-    if (!common)
-      continue;
-    fg_status status = read_record(file, context, record, &to);
+    fg__runs runs = fg__runs_of(&r->box, box);
+    fg__checksum_share share = fg__checksum_share_of(r->bytes);
+    for (int plane = 0; plane < runs.planes; ++plane)
+      for (int row = 0; !status && row < runs.rows; ++row)
+        status = get_run(
+            file, context, r, sizeof *values * fg__run_at(&runs, &r->box, row, plane),
+            values + fg__run_at(&runs, box, row, plane), runs.length, &share);
     if (status)
       return status;
-    found += common;
+    file->share[n] ^= fg__checksum_share_sum(&share);
+    if (runs.rows > 0)
+      found += fg__box_count(&runs.part);
   }
-  if (found == wanted)
+  if (found == fg__box_count(box))
     return FG_STATUS_OK;
-  return fg__fail(
-      context, FG_STATUS_FILE_FORMAT,
-      "%s: has the values of '%s' at %llu of the %llu nodes wanted of grid %d",
-      file->path, array, (unsigned long long)found, (unsigned long long)wanted, grid);
+  return fg__fail(context, FG_STATUS_FILE_FORMAT,
+                  "%s: has the values of '%s' at %ld of the %ld nodes wanted of grid %d",
+                  file->path, array, found, fg__box_count(box), grid);
 }

@@ -7,6 +7,7 @@
 #include "base/checksum.h"
 #include "base/memory.h"
 #include "evolve/checkpoint_layout.h"
+#include "evolve/checkpoint_runs.h"
 
 static fg_status fail(fg_context *context, const char *path)
 {
@@ -40,17 +41,16 @@ fg_status fg__checkpoint_begin(fg__checkpoint_writer *out, fg_context *context,
   return status;
 }
 
-uint64_t fg__checkpoint_place(fg__box_record *records, size_t count, uint64_t offset)
+void fg__checkpoint_place(fg__box_record *records, size_t count)
 {
+  uint64_t offset = FG__CHECKPOINT_FIRST_OFFSET;
   for (size_t n = 0; n < count; ++n) {
     fg__box_record *r = &records[n];
     r->offset = offset;
-    r->bytes = sizeof(float);
-    for (int k = 0; k < 3; ++k)
-      r->bytes *= (uint64_t)r->nodes[k];
+    r->bytes = sizeof(float) * (uint64_t)fg__box_count(&r->box);
+    r->checksum = 0;
     offset += r->bytes;
   }
-  return offset;
 }
 
 static fg_status put(const fg__checkpoint_writer *writer, fg_context *context,
@@ -69,24 +69,50 @@ static fg_status put(const fg__checkpoint_writer *writer, fg_context *context,
   return FG_STATUS_OK;
 }
 
-fg_status fg__checkpoint_write(fg__checkpoint_writer *writer, fg_context *context,
-                               fg__box_record *record, const float *values)
+/* `at`: bytes before the run in its record. */
+static fg_status put_run(const fg__checkpoint_writer *writer, fg_context *context,
+                         const fg__box_record *record, uint64_t at, const float *values,
+                         size_t length, fg__checksum_share *share)
 {
   unsigned char chunk[FG__CHUNK_BYTES];
   fg_status status = FG_STATUS_OK;
-  record->checksum = 0;
-  for (uint64_t at = 0; !status && at < record->bytes; at += sizeof chunk) {
-    uint64_t left = record->bytes - at;
-    size_t bytes = left < sizeof chunk ? (size_t)left : sizeof chunk;
+  for (size_t left = length * sizeof *values; !status && left > 0;) {
+    size_t bytes = left < sizeof chunk ? left : sizeof chunk;
     for (size_t n = 0; n < bytes; n += sizeof *values) {
       uint32_t bits;
       memcpy(&bits, values++, sizeof bits);
       fg__put_32(chunk + n, bits);
     }
-    record->checksum = fg__checksum(record->checksum, chunk, bytes);
+    fg__checksum_share_add(share, at, chunk, bytes);
     status = put(writer, context, chunk, bytes, record->offset + at);
+    at += bytes;
+    left -= bytes;
   }
   return status;
+}
+
+fg_status fg__checkpoint_write(fg__checkpoint_writer *writer, fg_context *context,
+                               fg__box_record *record, const fg__box *box,
+                               const float *values)
+{
+  fg__runs runs = fg__runs_of(&record->box, box);
+  fg__checksum_share share = fg__checksum_share_of(record->bytes);
+  fg_status status = FG_STATUS_OK;
+  for (int plane = 0; plane < runs.planes; ++plane)
+    for (int row = 0; !status && row < runs.rows; ++row)
+      status = put_run(writer, context, record,
+                       sizeof *values * fg__run_at(&runs, &record->box, row, plane),
+                       values + fg__run_at(&runs, box, row, plane), runs.length, &share);
+  record->checksum ^= fg__checksum_share_sum(&share);
+  return status;
+}
+
+void fg__checkpoint_settle(fg__box_record *records, size_t count, const fg__ranks *ranks)
+{
+  for (size_t n = 0; n < count; ++n) {
+    fg__ranks_combine(ranks, &records[n].checksum, 1);
+    records[n].checksum ^= fg__checksum_of_zeros(records[n].bytes);
+  }
 }
 
 /* Brings the file to the disk; some file systems can not be asked to. */
@@ -121,8 +147,8 @@ static void fill_entry(unsigned char *entry, const fg__box_record *record)
   fg__put_32(entry + FG__AT_GRID, (uint32_t)record->grid);
   fg__put_32(entry + FG__AT_ELEMENT, FG__ELEMENT_FLOAT32);
   for (int k = 0; k < 3; ++k) {
-    fg__put_32(entry + FG__AT_FIRST + 4 * k, (uint32_t)record->first[k]);
-    fg__put_32(entry + FG__AT_NODES + 4 * k, (uint32_t)record->nodes[k]);
+    fg__put_32(entry + FG__AT_FIRST + 4 * k, (uint32_t)record->box.first[k]);
+    fg__put_32(entry + FG__AT_NODES + 4 * k, (uint32_t)record->box.nodes[k]);
   }
   fg__put_64(entry + FG__AT_OFFSET, record->offset);
   fg__put_64(entry + FG__AT_BYTES, record->bytes);

@@ -77,8 +77,8 @@ static fg_status settle_options(fg_evolution_options *o, fg_context *context,
 static fg_status create_mesh(fg_evolution *e, const fg_field *field)
 {
   const fg_field_arrays *arrays = fg_field_contents(field);
-  fg__mesh_description description = {.dimension = arrays->dimension,
-                                      .nodes = e->options.nodes};
+  fg__mesh_description description = {
+      .dimension = arrays->dimension, .nodes = e->options.nodes, .ranks = e->ranks};
   for (int k = 0; k < arrays->dimension; ++k) {
     description.origin[k] = arrays->axis[k][0];
     description.periodic[k] = arrays->period[k] > 0.0;
@@ -429,8 +429,15 @@ fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
   *out = NULL;
   const fg__ranks *ranks;
   fg_status status = fg__ranks_all(&ranks, context);
-  if (status)
-    return status;
+  return status ? status : fg__evolution_create(out, context, ranks, field, options);
+}
+
+fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
+                               const fg__ranks *ranks, const fg_field *field,
+                               const fg_evolution_options *options)
+{
+  *out = NULL;
+  fg_status status;
   fg_activity before = fg__traffic_begin(ranks->book, FG_ACTIVITY_SETUP);
   fg_evolution *e = fg__allocate(1, sizeof *e);
   if (e)

@@ -12,7 +12,7 @@ struct fg_evolution {
   fg_context *context;
   fg_evolution_options options; /* with the defaults filled in */
   fg_mesh_info info;
-  const fg__ranks *ranks; /* all; fewer may share the mesh */
+  const fg__ranks *ranks; /* that share it */
   fg__mesh mesh;
   fg__team *team; /* NULL: one thread */
   fg__tensor tensor;
@@ -31,6 +31,13 @@ struct fg_evolution {
   /* Of the field, and of the initial density when one was given (else 0). */
   uint64_t field_fingerprint, initial_fingerprint;
 };
+
+/* The public calls, for given ranks instead of all. */
+fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
+                               const fg__ranks *ranks, const fg_field *field,
+                               const fg_evolution_options *options);
+fg_status fg__checkpoint_open(fg_checkpoint **out, fg_context *context, const char *path,
+                              const fg__ranks *ranks);
 
 /* Cell volume in units of the longest side; rate at which the fastest mode grows. */
 double fg__evolution_cell_volume(const fg_evolution *evolution);

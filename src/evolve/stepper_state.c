@@ -19,12 +19,68 @@ const fg__named_value fg__stepper_values[] = {
 const size_t fg__stepper_value_count =
     sizeof fg__stepper_values / sizeof fg__stepper_values[0];
 
+static fg__state_array array_of(const fg__multigrid *multigrid, const char *name,
+                                int grid, float *values)
+{
+  fg__state_array array = {.name = name, .grid = grid, .values = values};
+  const int *nodes;
+  if (multigrid->spread_count > 0) {
+    array.spread = &multigrid->spread[grid];
+    array.level = array.spread->box;
+    array.count = array.spread->count;
+    nodes = array.spread->partition.nodes;
+  } else {
+    array.level = &multigrid->level[grid];
+    array.count = 1;
+    nodes = array.level->layout.nodes;
+  }
+  for (int k = 0; k < 3; ++k)
+    array.whole.nodes[k] = nodes[k];
+  return array;
+}
+
 /* With history, a step starts from the change since the previous density, and the
  * last potential (prepare_implicit in stepper.c). */
 void fg__stepper_arrays(fg__stepper *stepper, fg__state_array out[FG__STATE_ARRAYS])
 {
-  const fg__level *level = stepper->multigrid.level;
-  out[0] = (fg__state_array){"current", 0, level, stepper->current};
-  out[1] = (fg__state_array){"previous", 0, level, stepper->previous};
-  out[2] = (fg__state_array){"potential", 0, level, level->w};
+  const fg__multigrid *m = &stepper->multigrid;
+  out[0] = array_of(m, "current", 0, stepper->current);
+  out[1] = array_of(m, "previous", 0, stepper->previous);
+  out[2] = array_of(m, "potential", 0, fg__multigrid_w(m));
+}
+
+fg__box fg__state_box(const fg__state_array *array, int box)
+{
+  if (!array->spread)
+    return array->whole;
+  return fg__own_boxes(&array->spread->partition, &(int){0})[box];
+}
+
+static float *values_of(const fg__state_array *array, int box)
+{
+  return array->values + (array->spread ? array->spread->offset[box] : 0);
+}
+
+void fg__state_export(const fg__state_array *array, int box, float *plain)
+{
+  fg__level_export(&array->level[box], values_of(array, box), plain);
+}
+
+void fg__state_import(const fg__state_array *array, int box, const float *plain)
+{
+  const fg__layout *layout = &array->level[box].layout;
+  float *values = values_of(array, box);
+  for (int k = 0; k < layout->nodes[2]; ++k)
+    for (int j = 0; j < layout->nodes[1]; ++j)
+      for (int i = 0; i < layout->nodes[0]; ++i)
+        values[fg__node_at(layout, i, j, k)] = *plain++;
+}
+
+void fg__state_fill_ghosts(const fg__state_array *array)
+{
+  float *values = array->values;
+  if (array->spread)
+    fg__spread_exchange(array->spread, 1, &values, FG__ALL_COLOURS);
+  else
+    fg__fill_ghosts(array->level, values);
 }

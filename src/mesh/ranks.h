@@ -26,6 +26,9 @@ fg_status fg__ranks_alone(const fg__ranks **out, fg_context *context);
  * order. Collective. */
 void fg__ranks_add(const fg__ranks *ranks, uint64_t *sum, int count);
 
+/* The exclusive or of each word over all ranks, in place. Collective. */
+void fg__ranks_combine(const fg__ranks *ranks, uint32_t *word, int count);
+
 /* Greatest of each value over all ranks, in place; none may be NaN. Collective. */
 void fg__ranks_greatest(const fg__ranks *ranks, double *value, int count);
 

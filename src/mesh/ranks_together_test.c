@@ -23,6 +23,18 @@ static void sums_are_the_same_as_one_rank_alone_gives(void **state)
   end_together();
 }
 
+static void words_are_combined_bit_by_bit(void **state)
+{
+  (void)state;
+  uint32_t word[2] = {0x80000001U << us.ranks->rank, 0xffffffffU}, expected = 0;
+  for (int rank = 0; rank < us.ranks->count; ++rank)
+    expected ^= 0x80000001U << rank;
+  fg__ranks_combine(us.ranks, word, 2);
+  expect(word[0] == expected);
+  expect(word[1] == (us.ranks->count % 2 ? 0xffffffffU : 0U));
+  end_together();
+}
+
 static void the_greatest_is_found_wherever_it_is(void **state)
 {
   (void)state;
@@ -156,6 +168,7 @@ int main(void)
   start_together();
   const struct CMUnitTest tests[] = {
       TOGETHER(sums_are_the_same_as_one_rank_alone_gives),
+      TOGETHER(words_are_combined_bit_by_bit),
       TOGETHER(the_greatest_is_found_wherever_it_is),
       TOGETHER(no_failure_is_none),
       TOGETHER(all_end_with_the_lowest_rank_s_failure),

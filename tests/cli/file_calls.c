@@ -18,10 +18,21 @@
 
 static atomic_long calls;
 
-/* True when the call has to fail, for want of space. */
-static int comes(const char *path, int takes_space)
+static int is_of_the_run(const char *path, int file)
 {
-  if (!calls && (!path || !strstr(path, ".flowgrain")))
+  char link[64], name[4096];
+  if (path)
+    return strstr(path, ".flowgrain") != NULL;
+  snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+  ssize_t length = readlink(link, name, sizeof name - 1);
+  name[length > 0 ? length : 0] = '\0';
+  return strstr(name, ".flowgrain") != NULL;
+}
+
+/* True when the call, with a path or a file, has to fail, for want of space. */
+static int comes(const char *path, int file, int takes_space)
+{
+  if (!calls && !is_of_the_run(path, file))
     return 0;
   long number = ++calls;
   const char *at = getenv("FILE_CALLS_AT"), *what = getenv("FILE_CALLS_DO");
@@ -56,47 +67,47 @@ int rename(const char *from, const char *to)
 {
   int (*next)(const char *, const char *);
   find(&next, "rename");
-  return comes(to, 0) ? -1 : next(from, to);
+  return comes(to, -1, 0) ? -1 : next(from, to);
 }
 
 int link(const char *from, const char *to)
 {
   int (*next)(const char *, const char *);
   find(&next, "link");
-  return comes(to, 1) ? -1 : next(from, to);
+  return comes(to, -1, 1) ? -1 : next(from, to);
 }
 
 int unlink(const char *path)
 {
   int (*next)(const char *);
   find(&next, "unlink");
-  return comes(path, 0) ? -1 : next(path);
+  return comes(path, -1, 0) ? -1 : next(path);
 }
 
 int mkdir(const char *path, mode_t mode)
 {
   int (*next)(const char *, mode_t);
   find(&next, "mkdir");
-  return comes(path, 1) ? -1 : next(path, mode);
+  return comes(path, -1, 1) ? -1 : next(path, mode);
 }
 
 int rmdir(const char *path)
 {
   int (*next)(const char *);
   find(&next, "rmdir");
-  return comes(path, 0) ? -1 : next(path);
+  return comes(path, -1, 0) ? -1 : next(path);
 }
 
 int fsync(int file)
 {
   int (*next)(int);
   find(&next, "fsync");
-  return comes(NULL, 0) ? -1 : next(file);
+  return comes(NULL, file, 0) ? -1 : next(file);
 }
 
 ssize_t pwrite(int file, const void *from, size_t count, off_t at)
 {
   ssize_t (*next)(int, const void *, size_t, off_t);
   find(&next, "pwrite");
-  return comes(NULL, 1) ? -1 : next(file, from, count, at);
+  return comes(NULL, file, 1) ? -1 : next(file, from, count, at);
 }
