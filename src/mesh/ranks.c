@@ -188,7 +188,8 @@ void fg__ranks_pass(const fg__ranks *ranks, const void *bytes, size_t count,
       MPI_Status about;
       MPI_Recv(piece, PIECE_BYTES, MPI_BYTE, r, TAG, fg__communicator(ranks), &about);
       MPI_Get_count(&about, MPI_BYTE, &received);
-      take(closure, piece, (size_t)received);
+      if (received > 0)
+        take(closure, piece, (size_t)received);
     }
 }
 
