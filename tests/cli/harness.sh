@@ -110,6 +110,18 @@ on() {
   code=$?
 }
 
+# wait_at_most SECONDS PID: wait, which kills what does not end by itself. mpirun can lock
+# itself up in its own end (PMIx_server_finalize, Open MPI 4.1.4) once a rank was killed.
+wait_at_most() {
+  local watch code
+  (sleep "$1" && kill -KILL "$2") >/dev/null 2>&1 &
+  watch=$!
+  wait "$2" 2>/dev/null
+  code=$?
+  kill "$watch" 2>/dev/null
+  return "$code"
+}
+
 # mpirun says more when a rank fails; ours are the lines from the program's name on.
 expect_one_message() {
   [ "$(grep -c '^flowgrain: ' err)" = 1 ] || fault "not one message: $(head -c 400 err)"

@@ -85,7 +85,7 @@ killed() {
   launcher) kill -KILL $mpirun ;;
   one) for rank in $ranks; do kill -KILL "$rank" && break; done ;;
   esac 2>/dev/null
-  wait $mpirun 2>/dev/null
+  wait_at_most 10 $mpirun
   for rank in $ranks; do # what is left of them still holds the lock
     for _ in $(seq 600); do
       kill -0 "$rank" 2>/dev/null || break
@@ -215,7 +215,7 @@ ends_by() {
   done
   [ "$2" != rank ] || target=$(pgrep -P $mpirun | tail -n 1)
   kill "-$1" "$target"
-  wait $mpirun
+  wait_at_most 60 $mpirun
   code=$?
 }
 for signal in INT TERM; do

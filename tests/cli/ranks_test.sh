@@ -152,7 +152,7 @@ interrupt() {
     [ "$target" != $mpirun ] || fault "rank 1 is not found"
   fi
   kill -INT "$target"
-  wait $mpirun
+  wait_at_most 60 $mpirun
   code=$?
 }
 interrupt rank stopped 1
