@@ -131,7 +131,8 @@ static unsigned char *bytes_of(const char *name, size_t *count)
 {
   static const char line[] = "\nevolution.seconds ";
   FILE *stream = fopen(name, "rb");
-  expect(stream != NULL);
+  if (!stream)
+    abort();
   fseek(stream, 0, SEEK_END);
   long size = ftell(stream);
   rewind(stream);
@@ -205,7 +206,8 @@ static void spoil(const char *name, long at)
   fg__ranks_agree(us.ranks, us.context, FG_STATUS_OK);
   if (us.ranks->rank == 0) {
     FILE *stream = fopen(name, "r+b");
-    expect(stream != NULL);
+    if (!stream)
+      abort();
     fseek(stream, at, SEEK_SET);
     int byte = fgetc(stream);
     fseek(stream, at, SEEK_SET);
