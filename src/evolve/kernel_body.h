@@ -1,10 +1,10 @@
 /* The one source of the inner loops; see kernel.h. Included by kernel_*.c only, each of
  * which is compiled for one vector width. */
 #include "evolve/kernel_boxes.h"
+#include "evolve/kernel_pass.h"
 #include "evolve/kernel_space.h"
 #include "evolve/kernel_sums.h"
 #include "evolve/kernel_sweep.h"
-#include "evolve/kernel_transfer.h"
 
 const fg__kernel FG__KERNEL = {.name = FG__KERNEL_NAME,
                                .dimension = FG__DIMENSION,

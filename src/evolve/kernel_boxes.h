@@ -3,7 +3,7 @@
 #ifndef FG__KERNEL_BOXES_H
 #define FG__KERNEL_BOXES_H
 
-#include "evolve/kernel_transfer.h"
+#include "evolve/kernel_pass.h"
 
 /* The nodes of one colour, in the order of their rows. */
 static void smooth_one_colour(const fg__level *level, float tau, bool linear, int colour)

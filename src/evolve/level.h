@@ -75,7 +75,7 @@ typedef struct fg__level {
   float *column_mass, *column_east, *column_west;
   float *scratch;      /* for the kernels' own use, one piece a member of the team */
   size_t scratch_size; /* floats of one piece */
-  float *shapes;       /* finest levels: three slices a member (kernel_transfer.h) */
+  float *shapes;       /* finest levels: three slices a member (kernel_restrict.h) */
   float *mass,
       *mass_inverse; /* relative; NULL without a mask; inverse 0 where mass is 0 */
 
