@@ -40,8 +40,8 @@ static fg_status take_tensor(problem *p, fg_context *context, const fg_field *fi
       cells.origin[k] = origin[k];
       cells.spacing[k] = mesh->spacing[k];
     }
-    status = fg__tensor_fill_box(&tensor, context, field, FG_ENERGY_FLOW,
-                                 mesh->anisotropy, &cells, (const bool[3]){false},
+    status = fg__tensor_fill_box(&tensor, context, field, &fg__law_flow, mesh->anisotropy,
+                                 &cells, (const bool[3]){false},
                                  sqrt(mesh->gamma) * mesh->length);
     for (size_t n = 0; n < entries * count; ++n)
       p->tensor[n] = entry[n % entries][n / entries];

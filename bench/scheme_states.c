@@ -68,7 +68,7 @@ void domain_create(domain *d, fg_field *field)
   for (int k = 0; k < 3; ++k)
     check((*components[k] = fg__allocate(count, sizeof(float))) != NULL, "memory");
   check((d->tensor.active = fg__allocate(count, 1)) != NULL, "memory");
-  check(!fg__tensor_fill_box(&d->tensor, NULL, field, FG_ENERGY_FLOW, anisotropy, &cells,
+  check(!fg__tensor_fill_box(&d->tensor, NULL, field, &fg__law_flow, anisotropy, &cells,
                              d->mesh.periodic, sqrt(d->gamma)),
         "the tensor");
 }

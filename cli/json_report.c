@@ -12,7 +12,7 @@
 
 static const char *const scale_words[] = {"auto", "geo", "map", "plain"};
 static const char *const scheme_words[] = {"bdf2", "euler", "theta"};
-static const char *const energy_words[] = {"flow", "isotropic"};
+static const char *const energy_words[] = {"flow", "isotropic", "gradient"};
 static const char *const extent_words[] = {"cluster", "territory"};
 
 static void add_text(cJSON *object, const char *name, const char *text)

@@ -6,7 +6,7 @@
 
 static const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
 static const char *const mesh_words[] = {"uniform", NULL};
-static const char *const energy_words[] = {"flow", "isotropic", NULL};
+static const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
 static const char *const extent_words[] = {"cluster", "territory", NULL};
 
@@ -83,8 +83,8 @@ const option_entry option_table[] = {
      "splitting, stable in far shorter steps only [bdf2]"},
     {"energy", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(energy), 0, 0, false, false,
      energy_words,
-     "interfacial energy: `flow` draws clusters out along the streamlines, `isotropic` "
-     "ignores the field [flow]"},
+     "interfacial energy: `flow` draws clusters out along the streamlines, `gradient` "
+     "along the level sets of the speed, `isotropic` ignores the field [flow]"},
     {"anisotropy", 0, "A", COMMAND_RUN, OPTION_NUMBER, AT(anisotropy), 0, 1, true, false,
      NULL,
      "cost of an interface along the flow against one across it, in (0,1]; clusters "

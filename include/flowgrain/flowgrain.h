@@ -230,9 +230,13 @@ FG_API const fg_inventory_vector *fg_inventory_vector_at(const fg_inventory *inv
 typedef struct fg_evolution fg_evolution;
 
 typedef enum fg_energy {
-  FG_ENERGY_FLOW = 0, /* interfaces along streamlines are cheap */
-  FG_ENERGY_ISOTROPIC /* the original Cahn-Hilliard model */
+  FG_ENERGY_FLOW = 0,  /* interfaces along streamlines are cheap */
+  FG_ENERGY_ISOTROPIC, /* the original Cahn-Hilliard model */
+  FG_ENERGY_GRADIENT,  /* interfaces along level sets of the speed are cheap */
+  FG_ENERGY_LAW        /* of the caller's own: `law` in the options says which */
 } fg_energy;
+
+typedef struct fg_energy_law fg_energy_law; /* flowgrain/energy.h */
 
 /* All solve the same equation, docs/method/schemes.md compares them. */
 typedef enum fg_scheme {
@@ -243,17 +247,18 @@ typedef enum fg_scheme {
 } fg_scheme;
 
 typedef struct fg_evolution_options {
-  int nodes;            /* nodes along the longest side of the mesh [257] */
-  fg_energy energy;     /* [flow] */
-  double anisotropy;    /* a, in (0, 1] [0.15] */
-  double coverage;      /* share of the area clusters shall cover, in (0, 1) [0.3] */
-  double gamma;         /* interface energy, in units of the longest side squared
-                           [(1.1 h)^2 / a; isotropic (1.5 h)^2] */
-  uint64_t seed;        /* of the initial noise [1] */
-  double accuracy;      /* eta: rms change of u allowed in a step [0.08; else 0.05] */
-  int cycles;           /* multigrid cycles a step, or a substep [3] */
-  fg_scheme scheme;     /* of the time steps [BDF2] */
-  int threads;          /* [all cores] */
+  int nodes;                /* nodes along the longest side of the mesh [257] */
+  fg_energy energy;         /* [flow] */
+  const fg_energy_law *law; /* NULL: none; else in place of `energy` */
+  double anisotropy;        /* a, in (0, 1] [0.15] */
+  double coverage;          /* share of the area clusters shall cover, in (0, 1) [0.3] */
+  double gamma;             /* interface energy, in units of the longest side squared
+                               [(1.1 h)^2 / a; isotropic (1.5 h)^2] */
+  uint64_t seed;            /* of the initial noise [1] */
+  double accuracy;          /* eta: rms change of u allowed in a step [0.08; else 0.05] */
+  int cycles;               /* multigrid cycles a step, or a substep [3] */
+  fg_scheme scheme;         /* of the time steps [BDF2] */
+  int threads;              /* [all cores] */
   const float *initial; /* NULL: noise; else u at the nodes of the mesh, as fg_density has
                            it: copied, then shifted nowhere: its mean is kept */
 } fg_evolution_options;
@@ -501,5 +506,7 @@ FG_API fg_status fg_picture_write(fg_context *context, const char *path,
 #ifdef __cplusplus
 }
 #endif
+
+#include "flowgrain/energy.h"
 
 #endif

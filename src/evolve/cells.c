@@ -263,7 +263,7 @@ static fg_status fill_range(float *const values[], fg_context *context,
   if (!tensor.active)
     return fg__fail_memory(context, "the tensor", count);
   fg_status status =
-      fg__tensor_fill_box(&tensor, context, recipe->field, recipe->energy,
+      fg__tensor_fill_box(&tensor, context, recipe->field, recipe->law,
                           recipe->anisotropy, &cells, recipe->periodic, recipe->width);
   for (size_t n = 0; n < count && !status; ++n) {
     values[components][n] = tensor.active[n] ? 1.0F : 0.0F;

@@ -39,7 +39,7 @@ fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
 /* How to find the tensor of any cells of the domain. */
 typedef struct fg__tensor_recipe {
   const fg_field *field;
-  fg_energy energy;
+  const fg_energy_law *law;
   double anisotropy, width; /* see fg__tensor_fill_box */
   int dimension;
   int cells[3]; /* of the domain */

@@ -18,7 +18,7 @@ struct fg_checkpoint {
 
 /* What has to agree between an evolution and a checkpoint. */
 typedef struct parameters {
-  uint64_t field, initial, seed;
+  uint64_t field, initial, law, seed;
   int energy, nodes, cells[3], cycles, scheme;
   double anisotropy, coverage, gamma, accuracy;
 } parameters;
@@ -28,6 +28,7 @@ typedef struct parameters {
 static const fg__named_value parameter_values[] = {
     {"nodes", FG__VALUE_INTEGER, offsetof(parameters, nodes)},
     {"energy", FG__VALUE_INTEGER, offsetof(parameters, energy)},
+    {"law", FG__VALUE_BITS, offsetof(parameters, law)},
     {"anisotropy", FG__VALUE_REAL, offsetof(parameters, anisotropy)},
     {"coverage", FG__VALUE_REAL, offsetof(parameters, coverage)},
     {"seed", FG__VALUE_COUNT, offsetof(parameters, seed)},
@@ -62,6 +63,7 @@ static parameters parameters_of(const fg_evolution *e)
 {
   return (parameters){.field = e->field_fingerprint,
                       .initial = e->initial_fingerprint,
+                      .law = e->law_identity,
                       .seed = e->options.seed,
                       .energy = (int)e->options.energy,
                       .nodes = e->options.nodes,

@@ -50,8 +50,15 @@ static fg_status settle_options(fg_evolution_options *o, fg_context *context,
     return status;
   if (o->nodes == 0)
     o->nodes = dimension == 3 ? DEFAULT_NODES_3D : DEFAULT_NODES;
-  if (o->energy == FG_ENERGY_ISOTROPIC)
-    o->anisotropy = 1.0;
+  if (o->law)
+    o->energy = FG_ENERGY_LAW;
+  else
+    o->law = fg__energy(o->energy);
+  if (!o->law)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "there is no energy number %d",
+                    (int)o->energy);
+  if (o->law->anisotropy > 0.0)
+    o->anisotropy = o->law->anisotropy;
   else if (o->anisotropy == 0.0)
     o->anisotropy = default_anisotropy;
   if (o->coverage == 0.0)
@@ -119,7 +126,7 @@ double fg__evolution_cell_volume(const fg_evolution *e)
 static double interface_energy(const fg_evolution *e)
 {
   double h = largest_spacing(e);
-  bool isotropic = e->options.energy == FG_ENERGY_ISOTROPIC;
+  bool isotropic = e->options.law->anisotropy >= 1.0;
   double width = (isotropic ? isotropic_interface_cells : interface_cells) * h;
   return e->options.gamma > 0.0 ? e->options.gamma
                                 : width * width / e->options.anisotropy;
@@ -155,13 +162,13 @@ static void free_tensor(fg_evolution *e)
 static fg__tensor_recipe recipe_of(const fg_evolution *e, const fg_field *field)
 {
   fg__tensor_recipe r = {.field = field,
-                         .energy = e->options.energy,
+                         .law = e->options.law,
                          .anisotropy = e->options.anisotropy,
                          .dimension = e->mesh.dimension,
                          .cells = {1, 1, 1},
                          .masked = e->active_cells < (long)e->cells};
   /* an interface across the stream is sqrt(gamma) wide */
-  if (e->options.energy == FG_ENERGY_FLOW)
+  if (e->options.law->axes)
     r.width = sqrt(interface_energy(e)) * e->mesh.length;
   for (int k = 0; k < r.dimension; ++k) {
     r.cells[k] = e->mesh.cells[k];
@@ -177,7 +184,8 @@ static fg_status count_own_cells(fg_evolution *e, const fg_field *field, uint64_
 {
   fg__tensor_recipe recipe = recipe_of(e, field);
   recipe.width = 0.0; /* directions do not matter */
-  recipe.energy = FG_ENERGY_ISOTROPIC;
+  recipe.law = &fg__law_isotropic;
+  recipe.anisotropy = 1.0;
   *active = 0;
   for (int n = 0; n < e->mesh.tile_count; ++n) {
     const fg__tile *tile = &e->mesh.tile[n];
@@ -226,7 +234,7 @@ static fg_status create_tensor(fg_evolution *e, const fg_field *field)
     cells.origin[k] = e->mesh.origin[k];
     cells.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
   }
-  status = fg__tensor_fill(&e->tensor, e->context, field, e->options.energy,
+  status = fg__tensor_fill(&e->tensor, e->context, field, e->options.law,
                            e->options.anisotropy, &cells, e->team);
   for (size_t n = 0; n < e->cells && !status; ++n)
     e->active_cells += e->tensor.active[n];
@@ -379,7 +387,11 @@ static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ra
   if (options)
     e->options = *options;
   e->field_fingerprint = fg__field_fingerprint(field);
-  return settle_options(&e->options, context, fg_field_contents(field)->dimension);
+  fg_status status =
+      settle_options(&e->options, context, fg_field_contents(field)->dimension);
+  if (!status)
+    e->law_identity = e->options.law->identity;
+  return status;
 }
 
 /* Ranks with different meshes would wait for messages that never come. */
@@ -390,6 +402,7 @@ static fg_status check_alike(const fg_evolution *e)
   const int words[] = {o->nodes, o->cycles, (int)o->energy, (int)o->scheme,
                        o->initial != NULL};
   uint64_t key = fg__mix(e->field_fingerprint ^ fg__mix(o->seed));
+  key = fg__mix(key ^ e->law_identity);
   for (int n = 0; n < 5; ++n)
     key = fg__mix(key ^ (uint64_t)words[n]);
   for (int n = 0; n < 4; ++n) {
@@ -456,8 +469,10 @@ fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
   if (e && !status)
     status = build(e, field);
   fg__traffic_return(ranks->book, before);
-  if (e)
+  if (e) {
     e->options.initial = NULL; /* the caller's, and used up */
+    e->options.law = NULL;
+  }
   if (status) {
     fg_evolution_destroy(e);
     return status;

@@ -121,7 +121,7 @@ static void describe(run *r, const subject *s, const fg__ranks *ranks)
   double h = r->mesh.spacing[0];
   r->gamma = 1.21 * h * h / 0.15 * (s->theta ? 1.0 - fg__theta_alpha : 1.0);
   r->recipe = (fg__tensor_recipe){.field = r->field,
-                                  .energy = FG_ENERGY_FLOW,
+                                  .law = &fg__law_flow,
                                   .anisotropy = 0.15,
                                   .width = 2.0 * h,
                                   .dimension = s->dimension,
@@ -173,7 +173,7 @@ static void create_whole(run *r, fg__multigrid *multigrid)
   float **components[] = {&t.xx, &t.xy, &t.yy, &t.zz, &t.xz, &t.yz};
   for (int n = 0; n < (r->mesh.dimension == 3 ? 6 : 3); ++n)
     *components[n] = allocate_or_end(cells, sizeof(float));
-  expect(fg__tensor_fill(&t, us.context, r->field, FG_ENERGY_FLOW, 0.15, &all, NULL) ==
+  expect(fg__tensor_fill(&t, us.context, r->field, &fg__law_flow, 0.15, &all, NULL) ==
          FG_STATUS_OK);
   expect(fg__tensor_smooth(&t, us.context, 0.15, &all, r->mesh.periodic, r->recipe.width,
                            NULL) == FG_STATUS_OK);

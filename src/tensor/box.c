@@ -64,27 +64,28 @@ static void cut_out(void *to, const void *from, size_t size, const fg__cells *ce
 }
 
 static fg_status fill_and_smooth(fg__tensor *tensor, fg_context *context,
-                                 const fg_field *field, double anisotropy,
-                                 const fg__cells *cells, const bool periodic[3],
-                                 double width)
+                                 const fg_field *field, const fg_energy_law *law,
+                                 double anisotropy, const fg__cells *cells,
+                                 const bool periodic[3], double width)
 {
   fg_status status =
-      fg__tensor_fill(tensor, context, field, FG_ENERGY_FLOW, anisotropy, cells, NULL);
+      fg__tensor_fill(tensor, context, field, law, anisotropy, cells, NULL);
   return status ? status
                 : fg__tensor_smooth(tensor, context, anisotropy, cells, periodic, width,
                                     NULL);
 }
 
 fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
-                              const fg_field *field, fg_energy energy, double anisotropy,
-                              const fg__cells *cells, const bool periodic[3],
-                              double width)
+                              const fg_field *field, const fg_energy_law *law,
+                              double anisotropy, const fg__cells *cells,
+                              const bool periodic[3], double width)
 {
-  if (energy != FG_ENERGY_FLOW || !(width > 0.0))
-    return fg__tensor_fill(tensor, context, field, energy, anisotropy, cells, NULL);
+  if (!law || !law->axes || !(width > 0.0))
+    return fg__tensor_fill(tensor, context, field, law, anisotropy, cells, NULL);
   fg__cells wide = widened(cells, periodic, width);
   if (is_same(cells, &wide))
-    return fill_and_smooth(tensor, context, field, anisotropy, cells, periodic, width);
+    return fill_and_smooth(tensor, context, field, law, anisotropy, cells, periodic,
+                           width);
 
   size_t count = fg__cell_count(&wide), arrays = cells->dimension == 3 ? 6 : 3;
   float *memory = fg__allocate(count, arrays * sizeof *memory);
@@ -102,7 +103,7 @@ fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
     all.xz = memory + 4 * count;
     all.yz = memory + 5 * count;
   }
-  status = fill_and_smooth(&all, context, field, anisotropy, &wide, periodic, width);
+  status = fill_and_smooth(&all, context, field, law, anisotropy, &wide, periodic, width);
   if (status)
     goto cleanup;
   const float *from[] = {all.xx, all.xy, all.yy, all.zz, all.xz, all.yz};

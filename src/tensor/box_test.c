@@ -135,7 +135,7 @@ static void boxes_get_what_the_whole_has(void **state)
     fg__cells domain = domain_cells(field);
     for (size_t w = 0; w < sizeof width / sizeof *width; ++w) {
       owned_tensor whole = tensor_for(&domain);
-      assert_int_equal(fg__tensor_fill(&whole.tensor, context, field, FG_ENERGY_FLOW,
+      assert_int_equal(fg__tensor_fill(&whole.tensor, context, field, &fg__law_flow,
                                        ANISOTROPY, &domain, NULL),
                        FG_STATUS_OK);
       if (width[w] > 0.0)
@@ -145,7 +145,7 @@ static void boxes_get_what_the_whole_has(void **state)
       for (size_t b = 0; b < sizeof boxes / sizeof *boxes; ++b) {
         fg__cells box = box_of(&domain, boxes[b].first, boxes[b].count);
         owned_tensor part = tensor_for(&box);
-        assert_int_equal(fg__tensor_fill_box(&part.tensor, context, field, FG_ENERGY_FLOW,
+        assert_int_equal(fg__tensor_fill_box(&part.tensor, context, field, &fg__law_flow,
                                              ANISOTROPY, &box, periodic, width[w]),
                          FG_STATUS_OK);
         assert_same(&domain, &whole, &box, &part);
@@ -181,7 +181,7 @@ static void only_an_empty_domain_is_refused(void **state)
                      .first = {3, 3, 3}};
   owned_tensor t = tensor_for(&cells);
   assert_int_equal(
-      fg__tensor_fill(&t.tensor, context, field, FG_ENERGY_ISOTROPIC, 1.0, &cells, NULL),
+      fg__tensor_fill(&t.tensor, context, field, &fg__law_isotropic, 1.0, &cells, NULL),
       FG_STATUS_OK);
   for (size_t n = 0; n < 27; ++n)
     assert_true(t.tensor.active[n] == 0 && t.tensor.zz[n] == 0.0F);
@@ -190,7 +190,7 @@ static void only_an_empty_domain_is_refused(void **state)
   for (int k = 0; k < 3; ++k)
     cells.origin[k] = 1.5;
   assert_int_equal(
-      fg__tensor_fill(&t.tensor, context, field, FG_ENERGY_ISOTROPIC, 1.0, &cells, NULL),
+      fg__tensor_fill(&t.tensor, context, field, &fg__law_isotropic, 1.0, &cells, NULL),
       FG_STATUS_ARGUMENT);
   assert_non_null(strstr(fg_context_message(context), "3 x 3 x 3"));
   tensor_free(&t);
@@ -210,9 +210,9 @@ static void eigenvectors_follow_the_flow(void **state)
   for (int k = 0; k < 3; ++k)
     cells.spacing[k] = 1.0 / cells.count[k];
   owned_tensor t = tensor_for(&cells);
-  assert_int_equal(fg__tensor_fill(&t.tensor, context, field, FG_ENERGY_FLOW, ANISOTROPY,
-                                   &cells, NULL),
-                   FG_STATUS_OK);
+  assert_int_equal(
+      fg__tensor_fill(&t.tensor, context, field, &fg__law_flow, ANISOTROPY, &cells, NULL),
+      FG_STATUS_OK);
   for (size_t n = 0; n < fg__cell_count(&cells); ++n) {
     double at[3] = {((double)(n % 7) + 0.5) / 7, ((double)(n / 7 % 6) + 0.5) / 6,
                     ((double)(n / 42) + 0.5) / 5};

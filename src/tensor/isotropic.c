@@ -1,10 +1,18 @@
 #include "tensor/tensor.h"
 
-/* The model of Cahn and Hilliard (1958): no direction is preferred. */
-void fg__energy_isotropic(double tensor[6], const double tangent[3], double anisotropy)
+void fg__tensor_unit(double tensor[6])
 {
-  (void)tangent;
-  (void)anisotropy;
   tensor[0] = tensor[2] = tensor[3] = 1.0;
   tensor[1] = tensor[4] = tensor[5] = 0.0;
 }
+
+static void tensor_at(double tensor[6], const fg_energy_place *place, const void *data)
+{
+  (void)place;
+  (void)data;
+  fg__tensor_unit(tensor);
+}
+
+/* The model of Cahn and Hilliard (1958): no direction is preferred. */
+const fg_energy_law fg__law_isotropic = {
+    .name = "isotropic", .tensor = tensor_at, .anisotropy = 1.0};

@@ -42,7 +42,7 @@ static void set_direction(grid *g, size_t n, const double direction[3])
 {
   double a[ENTRIES];
   fg__tensor *t = &g->tensor;
-  fg__energy_flow(a, direction, ANISOTROPY);
+  fg__tensor_along(a, direction, ANISOTROPY);
   float *const entry[] = {t->xx, t->xy, t->yy, t->zz, t->xz, t->yz};
   for (int m = 0; m < ENTRIES; ++m)
     entry[m][n] = (float)a[m];
@@ -107,7 +107,7 @@ static void one_direction_stays(void **state)
   grid *g = grid_of(13, 11, 9, constant);
   double before[ENTRIES], e[3];
   constant(0, 0, 0, e);
-  fg__energy_flow(before, e, ANISOTROPY);
+  fg__tensor_along(before, e, ANISOTROPY);
   smooth(g, open_box, 1.1);
   for (size_t n = 0; n < g->count; ++n) {
     double a[ENTRIES];
@@ -313,7 +313,7 @@ static void a_periodic_seam_is_no_border(void **state)
   double border = xx_at(open, 0, 2, 2);
   double e[3], alone[ENTRIES];
   left_and_right(0, 0, 0, e);
-  fg__energy_flow(alone, e, ANISOTROPY);
+  fg__tensor_along(alone, e, ANISOTROPY);
   assert_true(fabs(seam - middle) < 1e-5);
   assert_true(fabs(border - alone[0]) < 1e-5);
   assert_true(fabs(seam - border) > 0.05);
@@ -338,7 +338,7 @@ static void slow_turns_are_followed(void **state)
   for (int k = 6; k < SIDE - 6; ++k) {
     double a[ENTRIES], b[ENTRIES], e[3];
     helix(2, 2, k, e);
-    fg__energy_flow(b, e, ANISOTROPY);
+    fg__tensor_along(b, e, ANISOTROPY);
     entries_at(g, at(g, 2, 2, k), a);
     for (int m = 0; m < ENTRIES; ++m)
       assert_true(fabs(a[m] - b[m]) < 5e-3);

@@ -29,7 +29,7 @@ static size_t at(int i, int j)
 static void set_angle(grid *g, int i, int j, double angle)
 {
   double tensor[6], tangent[3] = {3.0 * cos(angle), 3.0 * sin(angle), 0.0};
-  fg__energy_flow(tensor, tangent, ANISOTROPY);
+  fg__tensor_along(tensor, tangent, ANISOTROPY);
   g->xx[at(i, j)] = (float)tensor[0];
   g->xy[at(i, j)] = (float)tensor[1];
   g->yy[at(i, j)] = (float)tensor[2];

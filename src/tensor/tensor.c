@@ -1,7 +1,20 @@
+#include <math.h>
+
+#include "tensor/eigenvalues.h"
 #include "tensor/tensor.h"
 
 /* in the order of fg_energy */
-static fg__energy_law *const laws[] = {fg__energy_flow, fg__energy_isotropic};
+static const fg_energy_law *const laws[] = {&fg__law_flow, &fg__law_isotropic,
+                                            &fg__law_gradient};
+
+/* By how much eigenvalues may leave their range: entries are kept in float, and equal
+ * eigenvalues in 3D are found to 3e-8 of the largest entry. */
+static const double eigenvalue_slack = 1e-5;
+
+const fg_energy_law *fg__energy(fg_energy energy)
+{
+  return (size_t)energy < sizeof laws / sizeof laws[0] ? laws[energy] : NULL;
+}
 
 int fg__layers(const fg__cells *cells)
 {
@@ -27,17 +40,17 @@ static double center_of(const fg__cells *cells, int k, int n)
 }
 
 /* Fills one row of cells along x, from cell on; returns how many are active. */
-static long fill_row(fg__tensor *tensor, const fg_field *field, fg__energy_law *law,
-                     double anisotropy, const fg__cells *cells, double center[3],
-                     size_t cell)
+static long fill_row(fg__tensor *tensor, const fg_energy_law *law, fg_energy_place *place,
+                     const fg__cells *cells, size_t cell)
 {
   long active = 0;
   for (int i = 0; i < cells->count[0]; ++i, ++cell) {
-    double tangent[3] = {0.0, 0.0, 0.0}, a[6] = {0.0};
-    center[0] = center_of(cells, 0, i);
-    tensor->active[cell] = fg_field_tangent(field, center, tangent);
+    double a[6] = {0.0};
+    place->position[0] = center_of(cells, 0, i);
+    tensor->active[cell] =
+        fg_field_tangent(place->field, place->position, place->direction);
     if (tensor->active[cell])
-      law(a, tangent, anisotropy);
+      law->tensor(a, place, law->data);
     active += tensor->active[cell];
     tensor->xx[cell] = (float)a[0];
     tensor->xy[cell] = (float)a[1];
@@ -63,7 +76,7 @@ static bool is_whole(const fg__cells *cells)
 typedef struct filling {
   fg__tensor *tensor;
   const fg_field *field;
-  fg__energy_law *law;
+  const fg_energy_law *law;
   double anisotropy;
   const fg__cells *cells;
   long active[FG__MOST_MEMBERS];
@@ -77,29 +90,81 @@ static void fill_part(void *argument, const fg__share *share)
   long active = 0;
   fg__team_part(share, height * fg__layers(cells), 1, &begin, &end);
   for (int row = begin; row < end; ++row) {
-    double center[3] = {0.0, center_of(cells, 1, row % height), 0.0};
-    if (cells->dimension == 3)
-      center[2] = center_of(cells, 2, row / height);
-    active += fill_row(f->tensor, f->field, f->law, f->anisotropy, cells, center,
-                       (size_t)row * (size_t)cells->count[0]);
+    fg_energy_place place = {.field = f->field,
+                             .position = {0.0, center_of(cells, 1, row % height), 0.0},
+                             .spacing = {cells->spacing[0], cells->spacing[1], 0.0},
+                             .anisotropy = f->anisotropy};
+    if (cells->dimension == 3) {
+      place.position[2] = center_of(cells, 2, row / height);
+      place.spacing[2] = cells->spacing[2];
+    }
+    active +=
+        fill_row(f->tensor, f->law, &place, cells, (size_t)row * (size_t)cells->count[0]);
   }
   f->active[share->member] = active;
 }
 
-fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_field *field,
-                          fg_energy energy, double anisotropy, const fg__cells *cells,
-                          fg__team *team)
+/* The least and the greatest eigenvalue of a cell; false: some entry is no number. */
+static bool ends_of(const fg__tensor *t, size_t n, int dimension, double *least,
+                    double *greatest)
 {
-  if ((size_t)energy >= sizeof laws / sizeof laws[0])
-    return fg__fail(context, FG_STATUS_ARGUMENT, "there is no energy number %d",
-                    (int)energy);
+  double a[6] = {(double)t->xx[n], (double)t->xy[n], (double)t->yy[n], 0.0, 0.0, 0.0};
+  if (dimension == 2) {
+    double mean = 0.5 * (a[0] + a[2]), half = hypot(0.5 * (a[0] - a[2]), a[1]);
+    *least = mean - half;
+    *greatest = mean + half;
+  } else {
+    a[3] = (double)t->zz[n];
+    a[4] = (double)t->xz[n];
+    a[5] = (double)t->yz[n];
+    double e[3];
+    fg__eigenvalues(e, a);
+    *least = e[2];
+    *greatest = e[0];
+  }
+  double sum = 0.0;
+  for (int k = 0; k < 6; ++k)
+    sum += a[k];
+  return isfinite(sum);
+}
+
+/* Time steps and the width of interfaces count on the range of the eigenvalues. */
+static fg_status check_law(const filling *f, fg_context *context)
+{
+  const fg__cells *cells = f->cells;
+  size_t count = fg__cell_count(cells), width = (size_t)cells->count[0];
+  for (size_t n = 0; n < count; ++n) {
+    double least, greatest;
+    if (!f->tensor->active[n] ||
+        (ends_of(f->tensor, n, cells->dimension, &least, &greatest) &&
+         least >= f->anisotropy - eigenvalue_slack && greatest <= 1.0 + eigenvalue_slack))
+      continue;
+    size_t height = (size_t)cells->count[1];
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "energy %s: the tensor's eigenvalues go from %g to %g at (%g, %g, "
+                    "%g); %g to 1 is the range",
+                    f->law->name, least, greatest, center_of(cells, 0, (int)(n % width)),
+                    center_of(cells, 1, (int)(n / width % height)),
+                    cells->dimension == 3 ? center_of(cells, 2, (int)(n / width / height))
+                                          : 0.0,
+                    f->anisotropy);
+  }
+  return FG_STATUS_OK;
+}
+
+fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_field *field,
+                          const fg_energy_law *law, double anisotropy,
+                          const fg__cells *cells, fg__team *team)
+{
+  if (!law || !law->tensor)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "there is no such energy");
   if (!(anisotropy > 0.0 && anisotropy <= 1.0))
     return fg__fail(context, FG_STATUS_ARGUMENT, "anisotropy %g is not in (0, 1]",
                     anisotropy);
   const int *count = cells->count;
   filling f = {.tensor = tensor,
                .field = field,
-               .law = laws[energy],
+               .law = law,
                .anisotropy = anisotropy,
                .cells = cells};
   fg__team_run(team, fill_part, &f);
@@ -107,7 +172,7 @@ fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_fiel
   for (int n = 0; n < FG__MOST_MEMBERS; ++n)
     active += f.active[n];
   if (active > 0 || !is_whole(cells))
-    return FG_STATUS_OK;
+    return check_law(&f, context);
   static const char what[] = "has its centre in the field's domain";
   if (cells->dimension == 3)
     return fg__fail(context, FG_STATUS_ARGUMENT, "no cell of the mesh, %d x %d x %d, %s",

@@ -25,14 +25,18 @@ typedef struct fg__tensor {
   unsigned char *active;
 } fg__tensor;
 
-/* Fills the arrays, which the caller has allocated with one element a cell of the box,
- * for the energy asked for; the same with any team (NULL: one thread). ARGUMENT
- * (anisotropy outside (0, 1]; no active cell in a box that is the whole domain). */
-fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_field *field,
-                          fg_energy energy, double anisotropy, const fg__cells *cells,
-                          fg__team *team);
+/* The law of one of our own energies; NULL: there is none of that number. */
+const fg_energy_law *fg__energy(fg_energy energy);
 
-/* Averages the directions that a flow tensor prefers over a Gaussian of standard
+/* Fills the arrays, which the caller has allocated with one element a cell of the box,
+ * by the law of an energy; the same with any team (NULL: one thread). ARGUMENT
+ * (anisotropy outside (0, 1]; no active cell in a box that is the whole domain; a law
+ * whose eigenvalues are not between the anisotropy and 1). */
+fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_field *field,
+                          const fg_energy_law *law, double anisotropy,
+                          const fg__cells *cells, fg__team *team);
+
+/* Averages the directions that a law with axes prefers over a Gaussian of standard
  * deviation `width` (same unit as spacing) within the active cells, in place, so that an
  * interface of that width meets a tensor that hardly varies across it; rough measured
  * fields ask for that. Where directions agree at least by half the full anisotropy comes
@@ -45,14 +49,14 @@ fg_status fg__tensor_smooth(fg__tensor *tensor, fg_context *context, double anis
                             fg__team *team);
 
 /* Both for any box of the domain, which may go on beyond the ends of a periodic axis:
- * fills and, for the flow energy and a width above 0, smooths; what lies round the box
+ * fills and, for a law with axes and a width above 0, smooths; what lies round the box
  * within the Gaussian's reach is computed again for that, so that each rank asks for its
  * own boxes alone and gets what the whole domain would have there. A box without an
  * active cell is no failure. ARGUMENT (anisotropy), MEMORY. */
 fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
-                              const fg_field *field, fg_energy energy, double anisotropy,
-                              const fg__cells *cells, const bool periodic[3],
-                              double width);
+                              const fg_field *field, const fg_energy_law *law,
+                              double anisotropy, const fg__cells *cells,
+                              const bool periodic[3], double width);
 
 /* Cells along z, cells of the box, cells of the domain along axis k. */
 int fg__layers(const fg__cells *cells);
@@ -62,11 +66,13 @@ int fg__domain_count(const fg__cells *cells, int k);
 /* How many cells far along axis k smoothing reaches. */
 int fg__smoothing_radius(const fg__cells *cells, int k, double width);
 
-/* One energy: writes xx, xy, yy, zz, xz, yz for a place whose streamline has direction
- * `tangent`; with tangent[2] = 0 the first three are those of a field in 2D. */
-typedef void fg__energy_law(double tensor[6], const double tangent[3], double anisotropy);
+extern const fg_energy_law fg__law_flow;      /* A = e e^T + a (I - e e^T), e = v/|v| */
+extern const fg_energy_law fg__law_isotropic; /* A = I */
+extern const fg_energy_law fg__law_gradient; /* A = I - (1 - a) e e^T, e along grad |v| */
 
-fg__energy_law fg__energy_flow;      /* A = e e^T + a (I - e e^T), e = v/|v| */
-fg__energy_law fg__energy_isotropic; /* A = I */
+/* The tensors of the first two: xx, xy, yy, zz, xz, yz for a direction of any length;
+ * with direction[2] = 0 the first three are those of a field in 2D. */
+void fg__tensor_along(double tensor[6], const double direction[3], double anisotropy);
+void fg__tensor_unit(double tensor[6]);
 
 #endif

@@ -71,8 +71,8 @@ static fg_status fill(fixture *f, fg_energy energy, double anisotropy)
 {
   if (!f->field)
     assert_int_equal(fg_field_create(&f->field, f->context, &f->arrays), FG_STATUS_OK);
-  return fg__tensor_fill(&f->tensor, f->context, f->field, energy, anisotropy, &f->cells,
-                         NULL);
+  return fg__tensor_fill(&f->tensor, f->context, f->field, fg__energy(energy), anisotropy,
+                         &f->cells, NULL);
 }
 
 static void center_of(int i, int j, double center[2])
@@ -193,11 +193,11 @@ static void only_the_direction_counts(void **state)
   (void)state;
   const double speed[] = {1e-40, 1e-30, 1e-8, 1.0, 3e7, 1e38};
   double reference[6];
-  fg__energy_flow(reference, (double[3]){-0.8, 0.6}, 0.3);
+  fg__tensor_along(reference, (double[3]){-0.8, 0.6}, 0.3);
   for (size_t n = 0; n < sizeof speed / sizeof *speed; ++n)
     for (int sign = -1; sign <= 1; sign += 2) {
       double a[6], v[3] = {sign * speed[n] * -0.8, sign * speed[n] * 0.6};
-      fg__energy_flow(a, v, 0.3);
+      fg__tensor_along(a, v, 0.3);
       for (int k = 0; k < 3; ++k)
         assert_true(fabs(a[k] - reference[k]) < 1e-14);
     }
@@ -218,7 +218,7 @@ static void impossible_energies_are_refused(void **state)
   assert_refused(f, FG_ENERGY_FLOW, -0.25, "anisotropy -0.25 ");
   assert_refused(f, FG_ENERGY_FLOW, 1.0625, "anisotropy 1.0625 ");
   assert_refused(f, FG_ENERGY_FLOW, (double)NAN, "anisotropy");
-  assert_refused(f, (fg_energy)77, 0.5, "77");
+  assert_refused(f, (fg_energy)77, 0.5, "no such energy");
 }
 
 /* The only data cell lies between the centres of a coarse mesh. */

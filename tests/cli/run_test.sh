@@ -124,6 +124,12 @@ expect_code 0
 expect_json out9/run.json '.parameters.energy == "isotropic"'
 done_with "isotropic energy"
 
+# round a vortex the speed's level sets are the streamlines
+try run synth:vortex -o out9g --nodes 97 --energy gradient --clusters 12 --quiet
+expect_code 0
+expect_json out9g/run.json '.parameters.energy == "gradient"'
+done_with "gradient energy"
+
 try run synth:vortex3 -o out9t --nodes 65 --scheme theta --clusters 12 --verbose
 expect_code 0
 expect_error ', theta scheme, '

@@ -44,7 +44,7 @@ for bad in "--nodes 3" "--nodes 100000" "--nodes 1e2" "--nodes= 65" "--anisotrop
   "--gamma inf" "--seed 0" "--seed -1" "--seed 99999999999999999999" "--max-time 0" \
   "--max-steps 0" "--threads 0" "--clusters 10,20" "--clusters 20,,10" "--clusters 5,5" \
   "--clusters 0" "--clusters abc" "--formats gif" "--formats svg," "--scale polar" \
-  "--mesh adaptive" "--energy gradient" "--time -1" "--width 3" "--palette no-such-map" \
+  "--mesh adaptive" "--energy uphill" "--time -1" "--width 3" "--palette no-such-map" \
   "--palette #12345" "--vars="; do
   # shellcheck disable=SC2086
   wrong "^flowgrain: --" run synth:vortex -o x $bad

@@ -1,0 +1,50 @@
+/* Interfacial energies of one's own: what an interface costs, by place and direction.
+ * docs/method/energies.md says what each of ours is, and how to add one. */
+#ifndef FLOWGRAIN_ENERGY_H
+#define FLOWGRAIN_ENERGY_H
+
+#include "flowgrain/flowgrain.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Where a tensor is asked for: the centre of a cell of the finest mesh that lies within
+ * the field's domain. */
+typedef struct fg_energy_place {
+  const fg_field *field;
+  double position[3];  /* input coordinates */
+  double spacing[3];   /* of the mesh, likewise */
+  double direction[3]; /* of the streamline here, as fg_field_tangent gives it */
+  double anisotropy;   /* a of the options */
+} fg_energy_place;
+
+/* Writes the symmetric tensor A of a place, xx, xy, yy and in 3D also zz, xz, yz, where
+ * fg_evolution_create asks for it. A piece of interface of normal n costs sqrt(n.A n), so
+ * clusters grow long along A's eigenvectors of large eigenvalues. The eigenvalues must
+ * lie between a and 1. It is called by several threads at once, on each rank for its own
+ * part of the domain and the cells round it, and for one cell more than once; so what it
+ * gives must follow from the place and `data` alone. */
+typedef void fg_energy_tensor(double tensor[6], const fg_energy_place *place,
+                              const void *data);
+
+/* An energy, for `law` in fg_evolution_options. It is borrowed until fg_evolution_create
+ * has returned. */
+struct fg_energy_law {
+  const char *name; /* for messages */
+  fg_energy_tensor *tensor;
+  const void *data;  /* handed to `tensor` */
+  uint64_t identity; /* of `data`: ranks must agree on it, and a checkpoint goes on with
+                        the same only; 0 where there is no data */
+  bool axes; /* A is made of one unit vector e a cell, of either sign: a I + (1 - a) e e^T
+                or I - (1 - a) e e^T. Then A is averaged over the width of an interface
+                (docs/design/tensor.md), which rough data ask for. */
+  double anisotropy; /* the least eigenvalue there is, in place of the option; 0: the
+                        option's */
+};
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
