@@ -1,14 +1,15 @@
-/* Times the evolution's inner loops, one line each: microseconds and nanoseconds a node.
+/* Times the evolution's inner loops, a row of a table each, and sets the time beside what
+ * the machine needs for moving their bytes and doing their arithmetic (floor.h).
  * Usage: bench_kernels [CELLS[x3] ...], x3 for a cube; least of 30 repetitions, one
  * thread. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/memory.h"
 #include "evolve/passes.h"
+#include "floor.h"
 
 enum { REPETITIONS = 30, CALLS = 5 };
 
@@ -66,21 +67,14 @@ static void changes(const subject *s)
                                &ALONE);
 }
 
-static double now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static double least_seconds(operation *run, const subject *s)
 {
-  double least = INFINITY;
+  double least = (double)INFINITY;
   for (int n = 0; n < REPETITIONS; ++n) {
-    double start = now();
+    double start = floor_clock();
     for (int call = 0; call < CALLS; ++call)
       run(s);
-    least = fmin(least, (now() - start) / CALLS);
+    least = fmin(least, (floor_clock() - start) / CALLS);
   }
   return least;
 }
@@ -154,21 +148,60 @@ static fg_status prepare(subject *s, fg_context *context, int cells, int dimensi
   return FG_STATUS_OK;
 }
 
+/* Of a node, without a mask: floats read or written, in full or in part by the coarse
+ * level that belongs to it, and operations, a division counted as one. Counted in the
+ * source: in 2D there are 5 couplings a node, and a coarse level has a quarter of the
+ * nodes; in 3D 14 and an eighth. */
+typedef struct work {
+  double floats, operations;
+} work;
+
 static const struct {
   const char *name;
   operation *run;
-} table[] = {{"smoothing sweep", smooth},
-             {"restriction", descend},
-             {"correction and sweep", ascend},
-             {"correction, sweep and restriction", ascend_and_descend},
-             {"three cycles", step},
-             {"energy and potential", evaluate},
-             {"norms of changes", changes}};
+  work of_node[2]; /* 2D, 3D */
+} table[] = {{"sweep", smooth, {{10, 53}, {19, 107}}},
+             {"restriction", descend, {{8 + 33 / 4.0, 86}, {17 + 42 / 8.0, 161}}},
+             {"correction, sweep", ascend, {{10 + 2 / 4.0, 64}, {19 + 2 / 8.0, 119}}},
+             {"correction, sweep, restriction",
+              ascend_and_descend,
+              {{10 + 14 / 4.0, 140}, {19 + 14 / 8.0, 268}}},
+             {"three cycles", step, {{0, 0}, {0, 0}}},
+             {"energy and potential", evaluate, {{7, 62}, {16, 146}}},
+             {"norms of changes", changes, {{4, 36}, {4, 36}}}};
+
+/* Arrays that a whole cycle goes through, its coarse levels' included. */
+static size_t floats_at_work(const fg__level *level)
+{
+  double arrays = level->layout.dimension == 3 ? 17.0 + 26.0 / 7.0 : 8.0 + 17.0 / 3.0;
+  return (size_t)(arrays * level->nodes);
+}
+
+static void print_row(const subject *s, size_t n, double traffic, double arithmetic)
+{
+  const fg__level *level = &s->multigrid.level[0];
+  int dimension = level->layout.dimension;
+  double seconds = least_seconds(table[n].run, s);
+  work w = table[n].of_node[dimension - 2];
+  double bytes = sizeof(float) * w.floats;
+  printf("| %s | %d^%d | %s | %.0f | %.2f |", s->multigrid.kernel->name,
+         level->layout.nodes[0], dimension, table[n].name, 1e6 * seconds,
+         1e9 * seconds / level->nodes);
+  if (w.operations > 0.0) {
+    double by_traffic = 1e9 * bytes / traffic, by_sums = 1e9 * w.operations / arithmetic;
+    printf(" %.0f | %.0f | %.2f | %.2f | %.1f |\n", bytes, w.operations, by_traffic,
+           by_sums, 1e9 * seconds / level->nodes / fmax(by_traffic, by_sums));
+  } else
+    printf(" | | | | |\n");
+}
 
 int main(int argc, char **argv)
 {
   const char *standard[] = {"128", "256", "512", "1024", "64x3", "128x3"};
   int count = argc > 1 ? argc - 1 : 6;
+  printf(
+      "| kernel | nodes | loop | us | ns a node | bytes | operations | ns, bytes | "
+      "ns, operations | times the larger |\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (int n = 0; n < count; ++n) {
     const char *size = argc > 1 ? argv[n + 1] : standard[n];
     int cells = atoi(size), dimension = strstr(size, "x3") ? 3 : 2;
@@ -180,12 +213,12 @@ int main(int argc, char **argv)
       return 1;
     }
     const fg__level *level = &s.multigrid.level[0];
-    for (size_t k = 0; k < sizeof table / sizeof table[0]; ++k) {
-      double seconds = least_seconds(table[k].run, &s);
-      printf("%-8s %5d^%d  %-24s %10.1f us %8.3f ns/node\n", s.multigrid.kernel->name,
-             cells + 1, dimension, table[k].name, 1e6 * seconds,
-             1e9 * seconds / level->nodes);
-    }
+    double arithmetic = floor_arithmetic(s.multigrid.kernel->name);
+    double traffic = floor_traffic(s.multigrid.kernel->name, floats_at_work(level));
+    for (size_t k = 0; k < sizeof table / sizeof table[0]; ++k)
+      print_row(&s, k, traffic, arithmetic);
+    fprintf(stderr, "%s: %.1f GB/s, %.1f Gflop/s\n", size, 1e-9 * traffic,
+            1e-9 * arithmetic);
     free(s.previous - level->layout.first);
     fg__multigrid_clear(&s.multigrid);
     fg_context_destroy(context);
