@@ -8,11 +8,14 @@ static const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
 static const char *const mesh_words[] = {"uniform", NULL};
 static const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
+static const char *const method_words[] = {"hedgehog", "grid-curved", NULL};
+static const char *const lengths_words[] = {"equal", "speed", NULL};
 static const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
-  EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH,
-  PICTURES = COMMAND_RUN | COMMAND_DRAW,
+  EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL,
+  READERS = COMMAND_RUN | COMMAND_RIVAL,
+  PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL,
 };
 
 const cli_command command_table[] = {
@@ -41,6 +44,16 @@ const cli_command command_table[] = {
      "Writes the analytic field NAME, sampled on the unit square or cube, as VTK image "
      "data (FILE ends in .vti) or NetCDF (.nc).",
      true, command_synth},
+    {COMMAND_RIVAL, "rival", "INPUT", "INPUT -o FILE.geojson --method KIND [options]",
+     "draw the field by a method to compare with",
+     "Draws the field by another method than `flowgrain run`, with about as many arrows "
+     "as --icons says and in the same look, so that the pictures can be put side by "
+     "side. "
+     "Writes the arrows as GeoJSON, and their pictures beside: FILE.svg, FILE.png. With "
+     "several numbers, the files of each are FILE-NUMBER.geojson and so on. The methods: "
+     "`hedgehog` (straight arrows at the points of a grid) and `grid-curved` (pieces of "
+     "streamlines through them). INPUT is as in flowgrain run, in two dimensions.",
+     true, command_rival},
 };
 const size_t command_count = sizeof command_table / sizeof command_table[0];
 
@@ -53,20 +66,31 @@ const option_entry option_table[] = {
      NULL, "picture to write, .svg, .pdf or .png"},
     {"output", 'o', "FILE", COMMAND_SYNTH, OPTION_TEXT, AT(output), 0, 0, false, false,
      NULL, "file to write, .vti or .nc"},
+    {"output", 'o', "FILE", COMMAND_RIVAL, OPTION_TEXT, AT(output), 0, 0, false, false,
+     NULL, "arrows to write, .geojson; their pictures are written beside"},
 
-    {"vars", 0, "U,V[,W]", COMMAND_RUN, OPTION_TEXT, AT(vars), 0, 0, false, false, NULL,
+    {"method", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(method), 0, 0, false, false,
+     method_words, "hedgehog or grid-curved [hedgehog]"},
+    {"icons", 0, "LIST", COMMAND_RIVAL, OPTION_COUNTS, 0, 1, 100000, false, false, NULL,
+     "numbers of arrows to draw, descending, as 150,60,25; a grid comes as near as its "
+     "shape allows [60]"},
+    {"lengths", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(lengths), 0, 0, false, false,
+     lengths_words,
+     "on a grid, `equal` lengths, or lengths in proportion to the `speed` [equal]"},
+
+    {"vars", 0, "U,V[,W]", READERS, OPTION_TEXT, AT(vars), 0, 0, false, false, NULL,
      "the two or three variables, or one vector variable [found by their standard or "
      "usual names; "
      "an ambiguous choice is an error that lists the choices]"},
-    {"vars-from", 0, "FILE", COMMAND_RUN, OPTION_TEXT, AT(vars_from), 0, 0, false, false,
+    {"vars-from", 0, "FILE", READERS, OPTION_TEXT, AT(vars_from), 0, 0, false, false,
      NULL, "second file, which holds the other component"},
-    {"time", 0, "I", COMMAND_RUN, OPTION_WHOLE, AT(time), 0, INT_MAX, false, false, NULL,
+    {"time", 0, "I", READERS, OPTION_WHOLE, AT(time), 0, INT_MAX, false, false, NULL,
      "index along time, from 0 [0]"},
-    {"level", 0, "I", COMMAND_RUN, OPTION_WHOLE, AT(level), 0, INT_MAX, false, false,
-     NULL, "index along level, from 0 [0]"},
-    {"mask", 0, "VAR", COMMAND_RUN, OPTION_TEXT, AT(mask), 0, 0, false, false, NULL,
+    {"level", 0, "I", READERS, OPTION_WHOLE, AT(level), 0, INT_MAX, false, false, NULL,
+     "index along level, from 0 [0]"},
+    {"mask", 0, "VAR", READERS, OPTION_TEXT, AT(mask), 0, 0, false, false, NULL,
      "variable that is zero (or negative, or missing) outside the domain"},
-    {"scale", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(scale), 0, 0, false, false,
+    {"scale", 0, "KIND", READERS, OPTION_CHOICE, AT(scale), 0, 0, false, false,
      scale_words,
      "what the axes are: `geo` (degrees, velocity along east and north), `map` (a "
      "projected plane) or `plain` [auto: from units and axes]"},
@@ -133,7 +157,7 @@ const option_entry option_table[] = {
     {"input", 0, "FILE", COMMAND_DRAW, OPTION_TEXT, AT(input), 0, 0, false, false, NULL,
      "where the field is now, if it is no longer where run.json says"},
 
-    {"formats", 0, "LIST", COMMAND_RUN, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
+    {"formats", 0, "LIST", READERS, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
      "picture formats, of svg, png and pdf [svg,png]"},
     /* 14400 points are the largest page that PDF readers promise to show. */
     {"width", 0, "POINTS", PICTURES, OPTION_NUMBER, AT(width), 36, 14400, false, false,

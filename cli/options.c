@@ -140,8 +140,8 @@ static bool set_counts(cli_settings *out, const cli_command *command,
     intmax_t value;
     if (!parse_whole(&value, item) || value < (intmax_t)option->least ||
         value > (intmax_t)option->most)
-      return wrong(command, "--%s %s: '%s' is no number of clusters from %.0f to %.0f",
-                   option->name, text, item, option->least, option->most);
+      return wrong(command, "--%s %s: '%s' is no number of %s from %.0f to %.0f",
+                   option->name, text, item, option->name, option->least, option->most);
     if (out->cluster_count == most)
       return wrong(command, "--%s %s: more than %d number%s", option->name, text, most,
                    most == 1 ? "" : "s");

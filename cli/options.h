@@ -7,7 +7,13 @@
 
 #include "program.h"
 
-enum { COMMAND_RUN = 1, COMMAND_DRAW = 2, COMMAND_INFO = 4, COMMAND_SYNTH = 8 };
+enum {
+  COMMAND_RUN = 1,
+  COMMAND_DRAW = 2,
+  COMMAND_INFO = 4,
+  COMMAND_SYNTH = 8,
+  COMMAND_RIVAL = 16
+};
 
 typedef struct cli_command {
   unsigned bit;

@@ -40,6 +40,9 @@ typedef struct cli_settings {
   const char *palette;
   bool tint, no_frame, transparent;
 
+  int method;  /* rival: fg_rival_method */
+  int lengths; /* rival: 1 with the speed */
+
   const char *input; /* draw: the field, where it is now */
   int scale_index;   /* draw: -1 when not said */
 
@@ -73,6 +76,7 @@ int command_run(const cli_settings *settings);
 int command_draw(const cli_settings *settings);
 int command_info(const cli_settings *settings);
 int command_synth(const cli_settings *settings);
+int command_rival(const cli_settings *settings);
 
 fg_read_options settings_reading(const cli_settings *settings);
 fg_evolution_options settings_evolution(const cli_settings *settings);

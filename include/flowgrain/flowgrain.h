@@ -508,5 +508,6 @@ FG_API fg_status fg_picture_write(fg_context *context, const char *path,
 #endif
 
 #include "flowgrain/energy.h"
+#include "flowgrain/rival.h"
 
 #endif

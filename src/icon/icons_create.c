@@ -2,6 +2,7 @@
 
 #include "icon/choose.h"
 #include "icon/icons.h"
+#include "icon/measure.h"
 #include "icon/territory.h"
 
 #include "base/memory.h"
@@ -10,9 +11,6 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-
-/* An arrow round more than seven tenths of a turn is a ring, less is a horseshoe. */
-static const double RING_TURNING = 4.4;
 
 /* Space between the outline and the cluster's border, in spacings: the zero set is known
  * to about a tenth of a cell, and a tip on the very border looks as if it poked out. */
@@ -147,52 +145,6 @@ static fg_status test_outline(bool *sound, fg_context *context, const fg_icon *i
   return FG_STATUS_OK;
 }
 
-static void set_width(fg_icon *icon, double width)
-{
-  icon->width = width;
-  icon->tail_width = FG__TAIL_WIDTH * width;
-  icon->head_length = FG__HEAD_LENGTH * width;
-  icon->head_width = FG__HEAD_WIDTH * width;
-}
-
-/* The point of the centreline nearest to the spine's centre. */
-static void set_center(fg_icon *icon, const double center[2])
-{
-  double nearest = HUGE_VAL;
-  for (int i = 0; i + 1 < icon->point_count; i++) {
-    const double *p = icon->points[i], *q = icon->points[i + 1];
-    double dx = q[0] - p[0], dy = q[1] - p[1];
-    double t = ((center[0] - p[0]) * dx + (center[1] - p[1]) * dy) / (dx * dx + dy * dy);
-    t = fmin(fmax(t, 0), 1);
-    double x = p[0] + t * dx, y = p[1] + t * dy;
-    double distance = hypot(center[0] - x, center[1] - y);
-    if (distance < nearest) {
-      nearest = distance;
-      icon->center[0] = x;
-      icon->center[1] = y;
-    }
-  }
-}
-
-/* Mean of |v| by arc length, trapezoidal. */
-static double mean_speed(const fg_field *field, const fg_icon *icon)
-{
-  double sum = 0, length = 0, before = 0;
-  for (int i = 0; i < icon->point_count; i++) {
-    double velocity[3] = {0}, speed = before;
-    if (fg_field_velocity(field, icon->points[i], velocity))
-      speed = hypot(velocity[0], velocity[1]);
-    if (i > 0) {
-      double piece = hypot(icon->points[i][0] - icon->points[i - 1][0],
-                           icon->points[i][1] - icon->points[i - 1][1]);
-      sum += piece * (speed + before) / 2;
-      length += piece;
-    }
-    before = speed;
-  }
-  return length > 0 ? sum / length : 0;
-}
-
 static void free_points(fg_icon *icon)
 {
   free((void *)(uintptr_t)icon->points);
@@ -206,7 +158,7 @@ static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *
                             const fg__arrow *chosen, const double center[2])
 {
   fg__arrow arrow = *chosen;
-  icon->kind = arrow.turning >= RING_TURNING ? FG_ICON_RING : FG_ICON_ARROW;
+  icon->kind = fg__icon_kind_of(arrow.turning);
   bool sound = false;
   fg_status status = FG_STATUS_OK;
   for (int i = 0; i < ATTEMPTS && !sound && status == FG_STATUS_OK; i++) {
@@ -217,7 +169,7 @@ static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *
     icon->points = (const double(*)[3])points;
     if (status != FG_STATUS_OK || icon->point_count < 2)
       break;
-    set_width(icon, arrow.width);
+    fg__icon_set_width(icon, arrow.width);
     status = test_outline(&sound, context, icon, room);
     double less = (1 - SMALLER) / 2 * (arrow.tip - arrow.tail);
     arrow.width *= SMALLER;
@@ -228,8 +180,8 @@ static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *
     free_points(icon);
     return status;
   }
-  set_center(icon, center);
-  icon->speed = mean_speed(field, icon);
+  fg__icon_set_center(icon, center);
+  icon->speed = fg__icon_mean_speed(field, icon);
   return FG_STATUS_OK;
 }
 

@@ -1,0 +1,170 @@
+/* Draws the field by a method to compare with. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "drawing.h"
+#include "options.h"
+#include "rehearse.h"
+
+static const char name_end[] = ".geojson";
+
+/* A file under its temporary name, and the name it gets when all are whole. */
+typedef struct result_file {
+  char *partial, *path;
+  struct result_file *next;
+} result_file;
+
+typedef struct rival_work {
+  const cli_settings *settings;
+  fg_context *context;
+  fg_field *field;
+  fg_rival *rival;
+  double speeds[2]; /* of the first count's icons: the ends of every colour key */
+  result_file *files;
+} rival_work;
+
+static int check_name(const char *path)
+{
+  size_t length = strlen(path), end = strlen(name_end);
+  if (length > end && strcmp(path + length - end, name_end) == 0)
+    return EXIT_DONE;
+  complain("-o %s: the name's end must be %s", path, name_end);
+  advise("Try 'flowgrain rival --help'.");
+  return EXIT_USAGE;
+}
+
+/* Where the picture of one count goes: FILE, or with several counts FILE-COUNT. */
+static char *name_file(const cli_settings *said, int count, const char *end)
+{
+  int stem = (int)(strlen(said->output) - strlen(name_end));
+  size_t room = strlen(said->output) + 32;
+  char *path = malloc(room);
+  if (path && said->cluster_count > 1)
+    snprintf(path, room, "%.*s-%d.%s", stem, said->output, count, end);
+  else if (path)
+    snprintf(path, room, "%.*s.%s", stem, said->output, end);
+  return path;
+}
+
+static const result_file *new_file(rival_work *work, int count, const char *end)
+{
+  result_file *file = calloc(1, sizeof *file);
+  if (!file) {
+    complain("out of memory for a file's name");
+    return NULL;
+  }
+  file->next = work->files;
+  work->files = file;
+  file->path = name_file(work->settings, count, end);
+  file->partial = file->path ? temporary_name(file->path) : NULL;
+  if (file->partial)
+    return file;
+  complain("out of memory for a file's name");
+  return NULL;
+}
+
+static int write_icons(rival_work *work, int count, const fg_icons *icons)
+{
+  const result_file *file = new_file(work, count, name_end + 1);
+  if (!file)
+    return EXIT_FAILED;
+  fg_status status = fg_icons_write(work->context, file->partial, icons);
+  return status ? complain_of(work->context, status, file->path) : EXIT_DONE;
+}
+
+static int write_pictures(rival_work *work, int count, const fg_icons *icons)
+{
+  fg_picture_options options = settings_picture(work->settings);
+  options.speed_min = work->speeds[0];
+  options.speed_max = work->speeds[1];
+  unsigned formats = work->settings->formats;
+  if (!formats)
+    formats = FORMAT_SVG | FORMAT_PNG;
+  int code = EXIT_DONE;
+  for (int kind = 0; !code && kind < FORMAT_KINDS; ++kind) {
+    if (!(formats & (1U << kind)))
+      continue;
+    const result_file *file = new_file(work, count, format_words[kind]);
+    if (!file)
+      return EXIT_FAILED;
+    fg_status status = fg_picture_write(work->context, file->partial, work->field, NULL,
+                                        icons, &options);
+    if (status)
+      code = complain_of(work->context, status, file->path);
+  }
+  return code;
+}
+
+static int draw(rival_work *work, int count)
+{
+  fg_icons *icons = NULL;
+  fg_status status = fg_rival_icons(&icons, work->rival, count);
+  if (status)
+    return complain_of(work->context, status, work->settings->operand);
+  if (!work->files)
+    speed_range(icons, work->speeds);
+  int code = write_icons(work, count, icons);
+  const char *path = code ? NULL : work->files->path;
+  if (!code)
+    code = write_pictures(work, count, icons);
+  if (!code)
+    printf("%4d icons  %s\n", fg_icons_count(icons), path);
+  fg_icons_destroy(icons);
+  return code;
+}
+
+/* All files get their names, or none is left. */
+static int publish(rival_work *work, int code)
+{
+  for (result_file *file = work->files, *next; file; file = next) {
+    next = file->next;
+    if (!code && rename(file->partial, file->path) != 0)
+      code = complain_of_file(file->path, "cannot be written");
+    if (code && file->partial)
+      unlink(file->partial);
+    free(file->partial);
+    free(file->path);
+    free(file);
+  }
+  work->files = NULL;
+  return code;
+}
+
+static int prepare(rival_work *work)
+{
+  const cli_settings *said = work->settings;
+  fg_read_options reading = settings_reading(said);
+  if (rehearse_reading(said->operand, &reading))
+    return EXIT_FAILED;
+  if (fg_context_create(&work->context)) {
+    complain("out of memory");
+    return EXIT_FAILED;
+  }
+  fg_status status = fg_field_read(&work->field, work->context, said->operand, &reading);
+  fg_rival_options options = {.method = (fg_rival_method)said->method,
+                              .nodes = said->nodes,
+                              .length_by_speed = said->lengths != 0};
+  if (!status)
+    status = fg_rival_create(&work->rival, work->context, work->field, &options);
+  return status ? complain_of(work->context, status, said->operand) : EXIT_DONE;
+}
+
+int command_rival(const cli_settings *settings)
+{
+  static const int usual_counts[] = {60};
+  int count = settings->cluster_count;
+  const int *counts = count ? settings->clusters : usual_counts;
+  rival_work work = {.settings = settings};
+  int code = check_name(settings->output);
+  if (!code)
+    code = prepare(&work);
+  for (int k = 0; !code && k < (count ? count : 1); ++k)
+    code = draw(&work, counts[k]);
+  code = publish(&work, code);
+  fg_rival_destroy(work.rival);
+  fg_field_destroy(work.field);
+  fg_context_destroy(work.context);
+  return code;
+}

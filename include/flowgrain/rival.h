@@ -1,0 +1,44 @@
+/* The methods that a user would compare with, each after its paper (docs/method): a
+ * picture with about as many arrows, of the same look. Included by flowgrain.h. */
+#ifndef FLOWGRAIN_RIVAL_H
+#define FLOWGRAIN_RIVAL_H
+
+#include "flowgrain/flowgrain.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum fg_rival_method {
+  FG_RIVAL_HEDGEHOG = 0, /* straight arrows at the points of a grid */
+  FG_RIVAL_GRID_CURVED   /* pieces of streamlines through the points of a grid */
+} fg_rival_method;
+
+typedef struct fg_rival_options {
+  fg_rival_method method; /* [hedgehog] */
+  int nodes; /* of the raster that the method works on, along the longest side [257] */
+  bool length_by_speed; /* hedgehog, grid: as long as |v| of the largest [equal lengths]
+                         */
+} fg_rival_options;
+
+typedef struct fg_rival fg_rival;
+
+/* Prepares a method for a field, which must outlive it. UNSUPPORTED (3D), ARGUMENT
+ * (options out of range), MEMORY, STOPPED. */
+FG_API fg_status fg_rival_create(fg_rival **out, fg_context *context,
+                                 const fg_field *field, const fg_rival_options *options);
+FG_API void fg_rival_destroy(fg_rival *rival);
+
+/* Makes the picture of about `count` arrows: a grid has as near to as many points as its
+ * shape allows. Where the flow stands still there is none; fg_icons_dropped counts them.
+ * ARGUMENT (count below 1), MEMORY, STOPPED. */
+FG_API fg_status fg_rival_icons(fg_icons **out, fg_rival *rival, int count);
+
+/* The word for a method, as the program takes it: "grid-curved"; NULL beyond the last. */
+FG_API const char *fg_rival_name(fg_rival_method method);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

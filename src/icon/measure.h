@@ -1,0 +1,19 @@
+/* What an icon tells of itself, found from its centreline. */
+#ifndef FG__MEASURE_H
+#define FG__MEASURE_H
+
+#include "flowgrain/flowgrain.h"
+
+/* Sets the widths of tail and head, and the head's length, by the body's full width. */
+void fg__icon_set_width(fg_icon *icon, double width);
+
+/* Sets the center to the point of the centreline nearest to a point. */
+void fg__icon_set_center(fg_icon *icon, const double center[2]);
+
+/* Mean of |v| along the centreline by arc length, trapezoidal; input units. */
+double fg__icon_mean_speed(const fg_field *field, const fg_icon *icon);
+
+/* A ring or an arrow, by the angle (radians) between its first and last tangent. */
+fg_icon_kind fg__icon_kind_of(double turning);
+
+#endif

@@ -1,0 +1,32 @@
+/* Arrows of a given length through given points. */
+#ifndef FG__RIVAL_ARROWS_H
+#define FG__RIVAL_ARROWS_H
+
+#include "icon/streamline.h"
+#include "rival/domain.h"
+
+/* Body width of a rival's arrow in its lengths: that of most arrows of `run`, between
+ * 0.03 and 0.075 (icon/arrow.c). */
+#define FG__RIVAL_WIDTH 0.06
+
+/* The straight arrow whose middle is a point, along the flow there, cut where the domain
+ * ends. icon->points is allocated, or NULL where the flow stands still or less than a
+ * cell is left. MEMORY. */
+fg_status fg__rival_straight(fg_icon *icon, fg_context *context, const fg__domain *domain,
+                             const double middle[2], double length);
+
+/* The piece of a streamline whose middle is a point; as above. It turns by 300 degrees at
+ * most. `line` is kept from call to call. MEMORY. */
+fg_status fg__rival_curved(fg_icon *icon, fg_context *context, const fg__domain *domain,
+                           const double middle[2], double length, fg__streamline *line);
+
+/* The piece of a line from one arc length to another as an icon; as above. MEMORY. */
+fg_status fg__rival_piece(fg_icon *icon, fg_context *context, const fg__domain *domain,
+                          const fg__streamline *line, double from, double to,
+                          double width);
+
+/* Sets what follows from the points: widths, center (nearest to `middle`), speed. */
+void fg__rival_finish(fg_icon *icon, const fg__domain *domain, const double middle[2],
+                      double width);
+
+#endif

@@ -1,0 +1,23 @@
+/* A grid of points with a wanted number of them in the domain. */
+#ifndef FG__RIVAL_LATTICE_H
+#define FG__RIVAL_LATTICE_H
+
+#include "rival/domain.h"
+
+typedef struct fg__lattice {
+  int size[2]; /* columns and rows; each point is the middle of its share of the box */
+  double spacing[2];
+  int inside; /* points where the flow has a direction */
+} fg__lattice;
+
+/* Finds the columns and rows with spacings within a quarter of each other that come
+ * nearest to the number; of two as near the fewer. Where none such has any point in the
+ * domain, the finest tried. STOPPED. */
+fg_status fg__lattice_choose(fg__lattice *out, fg_context *context,
+                             const fg__domain *domain, int count);
+
+/* Point number `index`, x fastest. */
+void fg__lattice_point(const fg__lattice *lattice, const fg__domain *domain, int index,
+                       double point[2]);
+
+#endif

@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# What `flowgrain rival` writes, and what it refuses.
+source "$(dirname "$0")/harness.sh"
+
+for method in hedgehog grid-curved; do
+  try rival synth:vortex3 -o $method.geojson --method $method --icons 49
+  expect_code 0
+  [ ! -s err ] || fault "standard error: $(head -c 200 err)"
+  expect_json $method.geojson '(.features | length) == 49'
+  expect_json $method.geojson '[.features[].properties | .speed > 0 and .width > 0 and .area > 0 and (.center | length) == 2 and (.kind | length) > 0 and .cluster > 0] | all'
+  expect_json $method.geojson '[.features[].geometry.coordinates[][] | . >= 0 and . <= 1] | all'
+  xmllint --noout $method.svg 2>fault.txt || fault "$(head -1 fault.txt)"
+  expect_file $method.png
+  [ "$(ls -A | grep -c "$method")" = 3 ] || fault "$(ls -A)"
+  try rival synth:vortex3 -o again.geojson --method $method --icons 49 --formats pdf
+  expect_code 0
+  cmp -s $method.geojson again.geojson || fault "two runs differ"
+  expect_file again.pdf
+  expect_nothing_at again.svg
+  rm -f again.*
+  done_with "rival: $method"
+done
+
+try rival "$root/data/gfs_20140131.nc" -o many.geojson --icons 100,25 --formats svg
+expect_code 0
+[ "$(ls many* | tr '\n' ' ')" = "many-100.geojson many-100.svg many-25.geojson many-25.svg " ] ||
+  fault "$(ls)"
+[ "$(wc -l <out)" = 2 ] || fault "not a line a picture: $(cat out)"
+while read -r line; do
+  expect_file "${line##* }"
+done <out
+done_with "rival: several counts from one call"
+
+try rival synth:vortex3 -o x.svg
+expect_code 2
+expect_one_complaint
+try rival synth:vortex3 -o x.geojson --method telepathy
+expect_code 2
+expect_one_complaint
+try rival synth:vortex3 -o x.geojson --icons 25,60
+expect_code 2
+expect_one_complaint
+try rival synth:abc -o x.geojson
+expect_code 1
+expect_one_complaint
+expect_error '3 dimensions'
+try rival no-such-file.nc -o x.geojson
+expect_code 1
+expect_one_complaint
+try rival synth:vortex3 -o no-such-folder/x.geojson
+expect_code 1
+expect_one_complaint
+[ -z "$(ls -A | grep -E '^x|flowgrain-')" ] || fault "left: $(ls -A)"
+done_with "rival: what is refused leaves nothing"
+finish
