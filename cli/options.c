@@ -117,6 +117,12 @@ static bool set_choice(cli_settings *out, const cli_command *command,
     }
   char words[128];
   list_words(words, sizeof words, option->words);
+  if (option->place == offsetof(cli_settings, mesh) && strcmp(text, "adaptive") == 0)
+    return wrong(
+        command,
+        "--mesh adaptive: not in this program, for it would save neither time nor "
+        "memory; the choice is: %s",
+        words);
   return wrong(command, "--%s %s: not known; the choice is: %s", option->name, text,
                words);
 }

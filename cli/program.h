@@ -22,7 +22,7 @@ typedef struct cli_settings {
   int scale; /* fg_scale */
 
   int nodes;
-  int mesh;   /* only uniform (0) is known */
+  int mesh;   /* auto (0) or uniform, which are the same */
   int scheme; /* fg_scheme */
   int energy; /* fg_energy */
   double anisotropy, coverage, gamma;

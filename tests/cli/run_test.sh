@@ -130,6 +130,14 @@ expect_code 0
 expect_json out9g/run.json '.parameters.energy == "gradient"'
 done_with "gradient energy"
 
+for kind in auto uniform; do
+  try run synth:vortex3 -o "out9$kind" --nodes 65 --mesh "$kind" --clusters 12 --quiet
+  expect_code 0
+  expect_json "out9$kind/run.json" '.parameters.mesh == "uniform"'
+done
+cmp -s out9auto/scale-00.geojson out9uniform/scale-00.geojson || fault "the scales differ"
+done_with "--mesh auto is the uniform mesh"
+
 try run synth:vortex3 -o out9t --nodes 65 --scheme theta --clusters 12 --verbose
 expect_code 0
 expect_error ', theta scheme, '

@@ -39,12 +39,14 @@ wrong '--nodes.*missing' run a -o x --nodes
 done_with "missing argument"
 wrong '--force.*no argument' run a -o x --force=yes
 done_with "argument that is not taken"
+wrong 'mesh adaptive: .*neither time nor memory; .*: auto, uniform$' run a -o x --mesh adaptive
+done_with "an adaptive mesh is refused with the reason"
 for bad in "--nodes 3" "--nodes 100000" "--nodes 1e2" "--nodes= 65" "--anisotropy 0" \
   "--anisotropy 1.5" "--anisotropy nan" "--coverage 1" "--coverage 0" "--gamma -1" \
   "--gamma inf" "--seed 0" "--seed -1" "--seed 99999999999999999999" "--max-time 0" \
   "--max-steps 0" "--threads 0" "--clusters 10,20" "--clusters 20,,10" "--clusters 5,5" \
   "--clusters 0" "--clusters abc" "--formats gif" "--formats svg," "--scale polar" \
-  "--mesh adaptive" "--energy uphill" "--time -1" "--width 3" "--palette no-such-map" \
+  "--mesh adapted" "--energy uphill" "--time -1" "--width 3" "--palette no-such-map" \
   "--palette #12345" "--vars="; do
   # shellcheck disable=SC2086
   wrong "^flowgrain: --" run synth:vortex -o x $bad
