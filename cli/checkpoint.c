@@ -183,7 +183,7 @@ static int list_of(int *out, int most, const cJSON *object, const char *name)
 static bool lacks(const cli_run *run, int index, const char *end)
 {
   char name[32];
-  snprintf(name, sizeof name, "scale-%02d.%s", index, end);
+  snprintf(name, sizeof name, "scale-%02d%.15s", index, end);
   if (file_is_there(run->output.work, name))
     return false;
   complain("%s: damaged: %s, which its checkpoint counts on, is not there",
@@ -194,18 +194,12 @@ static bool lacks(const cli_run *run, int index, const char *end)
 
 static bool scales_are_there(const cli_run *run, int count)
 {
-  bool icons = drawing_makes_icons(run->drawing);
-  unsigned formats = run->settings->formats;
-  if (!formats)
-    formats = FORMAT_SVG | FORMAT_PNG;
-  for (int k = 0; k < count; ++k) {
-    if ((drawing_saves_field(run->drawing) && lacks(run, k, "vti")) ||
-        (icons && lacks(run, k, "geojson")))
-      return false;
-    for (int kind = 0; icons && kind < FORMAT_KINDS; ++kind)
-      if ((formats & (1U << kind)) && lacks(run, k, format_words[kind]))
+  char ends[SCALE_FILES][SCALE_END_BYTES];
+  int files = scale_file_ends(ends, run->settings, run->field);
+  for (int k = 0; k < count; ++k)
+    for (int n = 0; n < files; ++n)
+      if (lacks(run, k, ends[n]))
         return false;
-  }
   return true;
 }
 

@@ -117,8 +117,8 @@ int command_draw(const cli_settings *settings)
   if (code)
     goto cleanup;
   if (report.dimension == 3) {
-    complain("%s: is a run in 3D, which has no icons to draw; its scale-NN.vti hold the "
-             "density and the clusters",
+    complain("%s: is a run in 3D, and this version draws no picture of it; its "
+             "scale-NN.vtp hold the icons",
              settings->operand);
     code = EXIT_FAILED;
     goto cleanup;

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "options.h"
 #include "progress.h"
 
 struct cli_drawing {
@@ -51,6 +52,16 @@ static fg_status write_icons(cli_drawing *drawing, int index, const fg_icons *ic
   if (!path)
     return FG_STATUS_MEMORY;
   fg_status status = fg_icons_write(drawing->context, path, icons);
+  free(path);
+  return status;
+}
+
+static fg_status write_solids(cli_drawing *drawing, int index, const fg_icons *icons)
+{
+  char *path = scale_path(drawing, index, "vtp");
+  if (!path)
+    return FG_STATUS_MEMORY;
+  fg_status status = fg_solid_write(drawing->context, path, icons);
   free(path);
   return status;
 }
@@ -109,7 +120,9 @@ static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *momen
   drawing->icon_seconds += between - start;
   if (!status && index == 0)
     speed_range(icons, drawing->speeds);
-  if (!status)
+  if (!status && scales_are_solid(drawing->field))
+    status = write_solids(drawing, index, icons);
+  else if (!status)
     status = write_pictures(drawing, index, moment, icons);
   drawing->picture_seconds += clock_seconds() - between;
   if (!status) {
@@ -130,8 +143,7 @@ static fg_status draw(cli_drawing *drawing, int index, scale_moment *moment)
   result->area_fraction = moment->area_fraction;
   drawing->icon_seconds += moment->icon_seconds;
   drawing->picture_seconds += moment->file_seconds;
-  if (drawing_makes_icons(drawing))
-    status = draw_icons(drawing, index, moment);
+  status = draw_icons(drawing, index, moment);
   double start = clock_seconds();
   if (!status && moment->density && drawing_saves_field(drawing))
     status = write_density(drawing, index, moment->density);
@@ -256,19 +268,36 @@ fg_status drawing_finish(cli_drawing *drawing)
   return drawing->status;
 }
 
-bool scales_have_icons(const fg_field *field)
+bool scales_are_solid(const fg_field *field)
 {
-  return fg_field_contents(field)->dimension == 2;
+  return fg_field_contents(field)->dimension == 3;
 }
 
 bool scales_have_density(const cli_settings *settings, const fg_field *field)
 {
-  return settings->save_field || !scales_have_icons(field);
+  return settings->save_field || scales_are_solid(field);
 }
 
-bool drawing_makes_icons(const cli_drawing *drawing)
+static int add_end(char ends[SCALE_FILES][SCALE_END_BYTES], int count, const char *end)
 {
-  return scales_have_icons(drawing->field);
+  snprintf(ends[count], SCALE_END_BYTES, ".%s", end);
+  return count + 1;
+}
+
+int scale_file_ends(char ends[SCALE_FILES][SCALE_END_BYTES], const cli_settings *settings,
+                    const fg_field *field)
+{
+  int count = add_end(ends, 0, "geojson");
+  unsigned formats = settings->formats ? settings->formats : FORMAT_SVG | FORMAT_PNG;
+  bool solid = scales_are_solid(field);
+  for (int kind = 0; kind < FORMAT_KINDS && !solid; ++kind)
+    if (formats & (1U << kind))
+      count = add_end(ends, count, format_words[kind]);
+  if (solid)
+    count = add_end(ends, count, "vtp");
+  if (scales_have_density(settings, field))
+    count = add_end(ends, count, "vti");
+  return count;
 }
 
 bool drawing_saves_field(const cli_drawing *drawing)

@@ -1,5 +1,4 @@
-/* Icons, tables and pictures of the scales, made while the evolution goes on. In 3D a
- * scale is the density and its clusters alone. */
+/* Icons, tables and pictures of the scales, made while the evolution goes on. */
 #ifndef DRAWING_H
 #define DRAWING_H
 
@@ -44,11 +43,16 @@ void drawing_restore(cli_drawing *drawing, const scale_result *results, int coun
 /* Waits until all is drawn; the failure, if there was one, is in the context. */
 fg_status drawing_finish(cli_drawing *drawing);
 
-/* Whether scales have icons and pictures, and whether they have a file of the density. */
-bool scales_have_icons(const fg_field *field);
+/* Whether icons are solids, in 3D, and whether scales have a file of the density. */
+bool scales_are_solid(const fg_field *field);
 bool scales_have_density(const cli_settings *settings, const fg_field *field);
-bool drawing_makes_icons(const cli_drawing *drawing);
 bool drawing_saves_field(const cli_drawing *drawing);
+
+/* The files of a scale: what follows "scale-NN" in each name, in the order in which
+ * run.json lists them. Returns their number. */
+enum { SCALE_FILES = 16, SCALE_END_BYTES = 16 };
+int scale_file_ends(char ends[SCALE_FILES][SCALE_END_BYTES], const cli_settings *settings,
+                    const fg_field *field);
 
 /* The file of the next scale's density; NULL: no memory. */
 char *drawing_density_path(const cli_drawing *drawing);

@@ -22,7 +22,8 @@ static size_t digits(const char *text)
 
 int scale_of(const char *name)
 {
-  static const char *const ends[] = {".geojson", ".svg", ".png", ".pdf", ".vti"};
+  static const char *const ends[] = {".geojson", ".svg", ".png", ".pdf",
+                                     ".vti",     ".vtp", ".glb"};
   if (strncmp(name, "scale-", 6) != 0 || digits(name + 6) != 2)
     return -1;
   for (size_t k = 0; k < sizeof ends / sizeof ends[0]; ++k)

@@ -89,7 +89,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   cJSON_AddStringToObject(object, "mesh", "uniform");
   add_text(object, "scheme", scheme_words[said->scheme]);
   add_text(object, "energy", energy_words[said->energy]);
-  if (drawing_makes_icons(facts->drawing))
+  if (!scales_are_solid(facts->field))
     add_text(object, "extent", extent_words[said->extent]);
   cJSON_AddNumberToObject(object, "anisotropy", mesh->anisotropy);
   cJSON_AddNumberToObject(object, "coverage", mesh->coverage);
@@ -122,40 +122,30 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   add_text(made, "kernel", mesh->kernel);
 }
 
-static void add_file(cJSON *scale, int index, const char *end)
+static void add_files(cJSON *scale, const run_facts *facts, int index)
 {
-  char name[32];
-  snprintf(name, sizeof name, "scale-%02d.%s", index, end);
-  cJSON_AddStringToObject(scale, end, name);
+  char ends[SCALE_FILES][SCALE_END_BYTES], name[32];
+  int files = scale_file_ends(ends, facts->settings, facts->field);
+  for (int n = 0; n < files; ++n) {
+    snprintf(name, sizeof name, "scale-%02d%.15s", index, ends[n]);
+    cJSON_AddStringToObject(scale, strrchr(ends[n], '.') + 1, name);
+  }
 }
 
 static void add_scale(cJSON *scales, const run_facts *facts, int index)
 {
-  static const char *const ends[FORMAT_KINDS] = {"svg", "png", "pdf"};
   const scale_result *result = drawing_result(facts->drawing, index);
-  bool icons = drawing_makes_icons(facts->drawing);
-  unsigned formats = facts->settings->formats;
-  if (!formats)
-    formats = FORMAT_SVG | FORMAT_PNG;
   cJSON *scale = cJSON_CreateObject();
   cJSON_AddNumberToObject(scale, "index", index);
   cJSON_AddNumberToObject(scale, "clusters", result->clusters);
-  if (icons) {
-    cJSON_AddNumberToObject(scale, "icons", result->icons);
-    cJSON_AddNumberToObject(scale, "dropped", result->dropped);
-  }
+  cJSON_AddNumberToObject(scale, "icons", result->icons);
+  cJSON_AddNumberToObject(scale, "dropped", result->dropped);
   cJSON_AddItemToObject(scale, "wanted",
                         cJSON_CreateIntArray(result->wanted, result->wanted_count));
   cJSON_AddNumberToObject(scale, "time", result->time);
   cJSON_AddNumberToObject(scale, "energy", result->energy);
   cJSON_AddNumberToObject(scale, "area_fraction", result->area_fraction);
-  if (icons)
-    add_file(scale, index, "geojson");
-  for (int kind = 0; icons && kind < FORMAT_KINDS; ++kind)
-    if (formats & (1U << kind))
-      add_file(scale, index, ends[kind]);
-  if (drawing_saves_field(facts->drawing))
-    add_file(scale, index, "vti");
+  add_files(scale, facts, index);
   cJSON_AddItemToArray(scales, scale);
 }
 
@@ -164,8 +154,7 @@ static void add_outcome(cJSON *root, const run_facts *facts)
   cJSON *scales = cJSON_AddArrayToObject(root, "scales");
   for (int k = 0; k < drawing_count(facts->drawing); ++k)
     add_scale(scales, facts, k);
-  if (drawing_makes_icons(facts->drawing))
-    add_numbers(root, "speed_range", drawing_speeds(facts->drawing), 2);
+  add_numbers(root, "speed_range", drawing_speeds(facts->drawing), 2);
   cJSON_AddStringToObject(root, "ended", facts->ended);
   cJSON *steps = cJSON_AddObjectToObject(root, "steps");
   cJSON_AddNumberToObject(steps, "accepted", (double)facts->accepted);

@@ -8,7 +8,7 @@
 static bool needs_all(const cli_run *run)
 {
   const cli_settings *said = run->settings;
-  return scales_have_icons(run->field) &&
+  return !scales_are_solid(run->field) &&
          (said->tint || said->extent == FG_ICON_EXTENT_TERRITORY);
 }
 
@@ -51,8 +51,7 @@ static int take_shared(scale_moment *moment, cli_run *run, const fg_density *sha
   if (needs_all(run)) {
     status = fg_density_gather(&moment->density, context, shared);
   } else {
-    if (scales_have_icons(run->field))
-      status = make_icons(moment, context, run, shared);
+    status = make_icons(moment, context, run, shared);
     if (!status && scales_have_density(run->settings, run->field))
       status = write_density(moment, context, run, shared);
   }

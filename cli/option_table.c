@@ -26,8 +26,9 @@ const cli_command command_table[] = {
      "picture. DIR also gets run.json, which says all that was done, and evolution.csv, "
      "with a row for every time step. INPUT is a NetCDF file, a VTK image or rectilinear "
      "grid (.vti, .vtr, .vtk), or synth:NAME for an analytic field (see flowgrain synth "
-     "--help). In 3D a scale is the density u and its clusters, without icons and "
-     "pictures.",
+     "--help). In 3D a scale is the icons as GeoJSON and as VTK polydata (.vtp), with "
+     "the "
+     "density u and its clusters (.vti).",
      true, command_run},
     {COMMAND_DRAW, "draw", "DIR", "DIR -o PICTURE [options]",
      "draw one scale of a finished run again, in another style",

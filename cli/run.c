@@ -81,16 +81,6 @@ static void print_mesh(const fg_mesh_info *mesh, int scheme)
           scheme_names[scheme], mesh->kernel);
 }
 
-/* What of this version's results a field in 3D does not get. */
-static void say_what_is_left_out(const cli_run *run)
-{
-  if (fg_field_contents(run->field)->dimension == 3)
-    fprintf(stderr,
-            "flowgrain: %s: in 3D, so a scale is the density u and its clusters "
-            "(scale-NN.vti), without icons and pictures\n",
-            run->settings->operand);
-}
-
 static int create_evolution(cli_run *run)
 {
   fg_evolution_options options = settings_evolution(run->settings);
@@ -334,21 +324,15 @@ static int write_results(cli_run *run)
 
 static void print_summary(const cli_run *run)
 {
-  bool icons = drawing_makes_icons(run->drawing);
-  unsigned formats = run->settings->formats;
-  int kind = 0;
-  while (kind < FORMAT_KINDS - 1 && formats && !(formats & (1U << kind)))
-    ++kind;
+  char ends[SCALE_FILES][SCALE_END_BYTES];
+  scale_file_ends(ends, run->settings, run->field);
   for (int k = 0; k < drawing_count(run->drawing); ++k) {
     const scale_result *result = drawing_result(run->drawing, k);
     char name[32];
-    snprintf(name, sizeof name, "scale-%02d.%s", k, icons ? format_words[kind] : "vti");
+    snprintf(name, sizeof name, "scale-%02d%.15s", k, ends[1]); /* its first picture */
     char *path = join_path(run->settings->output, name);
-    if (icons)
-      printf("%4d clusters %4d icons  %s\n", result->clusters, result->icons,
-             path ? path : name);
-    else
-      printf("%4d clusters  %s\n", result->clusters, path ? path : name);
+    printf("%4d clusters %4d icons  %s\n", result->clusters, result->icons,
+           path ? path : name);
     free(path);
   }
 }
@@ -370,6 +354,16 @@ static int say_ending(const cli_run *run)
   return EXIT_INTERRUPTED;
 }
 
+/* What is asked for, and is not there in 3D. */
+static int check_dimension(const cli_run *run)
+{
+  if (!scales_are_solid(run->field) || run->settings->extent == FG_ICON_EXTENT_CLUSTER)
+    return EXIT_DONE;
+  complain("--extent territory: %s is in 3D, where arrows stay in their clusters",
+           run->settings->operand);
+  return EXIT_USAGE;
+}
+
 /* All ranks read; rank 0 sees to the results' folder. *done: nothing is left to do. */
 static int prepare(cli_run *run, bool *done)
 {
@@ -387,6 +381,8 @@ static int prepare(cli_run *run, bool *done)
   }
   if (!code && !*done)
     code = read_field(run);
+  if (!code && !*done)
+    code = check_dimension(run);
   code = ranks_agree(code);
   *done = ranks_any(*done);
   if (code || *done)
@@ -394,7 +390,6 @@ static int prepare(cli_run *run, bool *done)
   if (ranks_leader()) {
     count_choices(run);
     say_choices(run);
-    say_what_is_left_out(run);
   }
   run->facts.seconds_read = clock_seconds() - run->start;
   return create_evolution(run);

@@ -419,7 +419,8 @@ typedef enum fg_icon_kind {
   FG_ICON_RING,      /* an arrow round a vortex, an arc of at most about 300 degrees */
 } fg_icon_kind;
 
-/* A curved arrow: a tapering body round the centreline and a triangular head. */
+/* A curved arrow: a tapering body round the centreline and a triangular head; in 3D a
+ * tube and a cone. */
 typedef struct fg_icon {
   int cluster; /* label in the density, from 1 */
   fg_icon_kind kind;
@@ -433,6 +434,10 @@ typedef struct fg_icon {
   double center[3];          /* centre of the cluster's spine, on the centreline */
   double area;               /* of the cluster (volume in 3D) */
   double speed;              /* mean |v| along the centreline, input units */
+  /* In 3D, unless the icon was read from a file: the cluster's spine from end to end, and
+   * all of the streamline in the cluster, of which the centreline is a part. */
+  int spine_count, streamline_count;
+  const double (*spine)[3], (*streamline)[3];
 } fg_icon;
 
 typedef enum fg_icon_extent {
@@ -452,8 +457,9 @@ typedef struct fg_icons fg_icons;
 /* Makes the icons of a density: label, march, spine, streamline, arrow. Clusters too
  * small for a readable arrow give none; fg_icons_dropped counts them. Of a shared density
  * each rank makes the icons of some clusters, from what lies round them, and rank 0 gets
- * all, the same as of the whole; on other ranks *out becomes NULL. UNSUPPORTED (3D; a
- * shared density with FG_ICON_EXTENT_TERRITORY: fg_density_gather), MEMORY, STOPPED. */
+ * all, the same as of the whole; on other ranks *out becomes NULL. UNSUPPORTED
+ * (FG_ICON_EXTENT_TERRITORY in 3D, or of a shared density: fg_density_gather), MEMORY,
+ * STOPPED. */
 FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
                                  const fg_field *field, const fg_density *density,
                                  const fg_icon_options *options);
@@ -509,5 +515,6 @@ FG_API fg_status fg_picture_write(fg_context *context, const char *path,
 
 #include "flowgrain/energy.h"
 #include "flowgrain/rival.h"
+#include "flowgrain/solid.h"
 
 #endif

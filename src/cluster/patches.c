@@ -11,7 +11,7 @@ static fg__region region_of(const fg__wanted_patch *wanted,
                             const fg_density_arrays *density, bool cells)
 {
   fg__region out = {.nodes = {{0, 0, 0}, {1, 1, 1}}, .rank = wanted->rank};
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < density->dimension; ++k) {
     int nodes = wanted->patch.nodes[k];
     bool round = density->periodic[k] && nodes == density->nodes[k];
     out.nodes.first[k] = wanted->patch.first[k];

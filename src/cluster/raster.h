@@ -1,5 +1,6 @@
 /* What the stages after the evolution see of the density: labels on its grid, and a
- * window a cluster. Nothing here knows a mesh. */
+ * window a cluster (in 3D: cluster/volume.h). Nothing here knows a mesh. In 2D the third
+ * axis has one node, without a cell. */
 #ifndef FG__RASTER_H
 #define FG__RASTER_H
 
@@ -7,19 +8,20 @@
 
 /* Labels of the nodes: 0 outside every cluster, else 1 ... count in the order of each
  * cluster's first node (x fastest). Nodes are joined when they are neighbours along an
- * axis or across a cell whose bilinear density stays positive on the diagonal, and an
- * active cell joins them (evolve/components.h). A node without an active cell is outside.
- */
+ * axis or across a cell (in 3D a cell's face) whose bilinear density stays positive on
+ * the diagonal, and an active cell joins them (evolve/components.h). A node without an
+ * active cell is outside. */
 typedef struct fg__labels {
   int *label;       /* a number a node of the density */
   int count;        /* clusters, debris not counted */
-  double *area;     /* [count], input coordinates squared, sub-cell: area of {u > 0} */
-  int (*bounds)[4]; /* [count], first and last node: x0, x1, y0, y1; across a periodic
-                       border x1 (y1) goes past the last node, x0 (y0) never does */
-  bool (
-      *closed)[2]; /* [count], the cluster goes round the whole period: it is cut at the
-                      column (row) where it has fewest nodes, which is x0 and again x1 */
-  int debris;      /* components too small to be clusters: labelled -1 */
+  double *area;     /* [count], input coordinates squared (cubed), sub-cell: area (volume)
+                       of {u > 0} */
+  int (*bounds)[6]; /* [count], first and last node: x0, x1, y0, y1, z0, z1; across a
+                       periodic border x1 goes past the last node, x0 never does */
+  bool (*closed)[3]; /* [count], the cluster goes round the whole period: it is cut at the
+                        column (row, plane) where it has fewest nodes, which is x0 and
+                        again x1 */
+  int debris;        /* components too small to be clusters: labelled -1 */
 } fg__labels;
 
 fg_status fg__labels_create(fg__labels *out, fg_context *context,
@@ -28,7 +30,7 @@ void fg__labels_clear(fg__labels *labels);
 
 /* Part of a density's grid with its labels: what one cluster's window is cut from. */
 typedef struct fg__patch {
-  int first[2], nodes[2]; /* of the grid; along a periodic axis it may begin before node 0
+  int first[3], nodes[3]; /* of the grid; along a periodic axis it may begin before node 0
                              and end behind the last, or be all of the period */
   const float *u;
   const int *label;
@@ -41,7 +43,7 @@ fg__patch fg__patch_of(const fg_density_arrays *density, const fg__labels *label
 
 /* Sets first and nodes to what the window of a cluster with these bounds is cut from. */
 void fg__patch_place(fg__patch *patch, const fg_density_arrays *density,
-                     const int bounds[4], const bool closed[2]);
+                     const int bounds[6], const bool closed[3]);
 
 /* One cluster on a grid of its own: its bounding box and a rim of 2 nodes round it (cut
  * where the domain ends, unless periodic). A cluster that goes round the whole period is

@@ -15,15 +15,15 @@ typedef struct finding {
   const fg_density_arrays *grid;
   const fg__density_share *share;
   const fg__ranks *ranks;
-  double (*edge)[4];   /* [count] -x0, x1, -y0, y1 */
-  size_t (*column)[2]; /* [count] where its numbers of nodes a column (row) begin in
+  double (*edge)[6];   /* [count] -x0, x1, -y0, y1, -z0, z1 */
+  size_t (*column)[3]; /* [count] where its numbers of nodes a column (row) begin in
                           `filled`, counted from 1; 0: not on both sides */
   uint64_t *filled;
   size_t filled_count;
-  bool (*full)[2]; /* [count] every column (row) has nodes of the cluster */
+  bool (*full)[3]; /* [count] every column (row, plane) has nodes of the cluster */
 } finding;
 
-typedef void node_action(finding *f, int cluster, const int node[2]);
+typedef void node_action(finding *f, int cluster, const int node[3]);
 
 /* Acts on every own node of a cluster, from 0. */
 static void for_own_nodes(finding *f, node_action *act)
@@ -32,27 +32,31 @@ static void for_own_nodes(finding *f, node_action *act)
   for (int b = 0; b < own->count; ++b) {
     const fg__component_box *box = &own->grid[b];
     const int *label = own->number[b];
-    for (int y = 0; y < box->nodes[1]; ++y)
-      for (int x = 0; x < box->nodes[0]; ++x, ++label) {
-        int cluster = *label - 1;
-        if (cluster >= 0)
-          act(f, cluster, (const int[2]){box->first[0] + x, box->first[1] + y});
-      }
+    int depth = f->grid->dimension == 3 ? box->nodes[2] : 1;
+    for (int z = 0; z < depth; ++z)
+      for (int y = 0; y < box->nodes[1]; ++y)
+        for (int x = 0; x < box->nodes[0]; ++x, ++label) {
+          int cluster = *label - 1;
+          const int node[3] = {box->first[0] + x, box->first[1] + y,
+                               depth > 1 ? box->first[2] + z : 0};
+          if (cluster >= 0)
+            act(f, cluster, node);
+        }
   }
 }
 
-static void widen(finding *f, int cluster, const int node[2])
+static void widen(finding *f, int cluster, const int node[3])
 {
   double *edge = f->edge[cluster];
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < 3; ++k) {
     edge[2 * k] = edge[2 * k] > -node[k] ? edge[2 * k] : -node[k];
     edge[2 * k + 1] = edge[2 * k + 1] > node[k] ? edge[2 * k + 1] : node[k];
   }
 }
 
-static void count_node(finding *f, int cluster, const int node[2])
+static void count_node(finding *f, int cluster, const int node[3])
 {
-  for (int k = 0; k < 2; ++k)
+  for (int k = 0; k < 3; ++k)
     if (f->column[cluster][k])
       ++f->filled[f->column[cluster][k] - 1 + (size_t)node[k]];
 }
@@ -61,12 +65,12 @@ static void find_bounds(finding *f)
 {
   int count = f->labels->count;
   for (int n = 0; n < count; ++n)
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < 6; ++k)
       f->edge[n][k] = -1e300;
   for_own_nodes(f, widen);
-  fg__ranks_greatest(f->ranks, f->edge[0], 4 * count);
+  fg__ranks_greatest(f->ranks, f->edge[0], 6 * count);
   for (int n = 0; n < count; ++n)
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < 3; ++k) {
       int *bounds = f->labels->bounds[n];
       bounds[2 * k] = (int)-f->edge[n][2 * k];
       bounds[2 * k + 1] = (int)f->edge[n][2 * k + 1];
@@ -109,21 +113,21 @@ static fg_status follow_arcs(finding *f, fg_context *context, int *full_count)
   for_own_nodes(f, count_node);
   fg__ranks_add(f->ranks, f->filled, (int)f->filled_count);
   for (int n = 0; n < f->labels->count; ++n) {
-    for (int k = 0; k < 2; ++k)
+    for (int k = 0; k < 3; ++k)
       f->full[n][k] = f->column[n][k] &&
                       !find_arc(&f->labels->bounds[n][2 * k],
                                 f->filled + (f->column[n][k] - 1), f->grid->nodes[k]);
-    *full_count += f->full[n][0] || f->full[n][1];
+    *full_count += f->full[n][0] || f->full[n][1] || f->full[n][2];
   }
   return FG_STATUS_OK;
 }
 
 /* Bounds and closed axes of one cluster from a patch that has all of it. */
 static fg_status flood(const finding *f, fg_context *context, const fg__patch *patch,
-                       int cluster, int bounds[4], bool closed[2])
+                       int cluster, int bounds[6], bool closed[3])
 {
   fg__component_grid grid = {.u = patch->u, .active = patch->active};
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < 3; ++k) {
     grid.nodes[k] = patch->nodes[k];
     grid.periodic[k] = f->grid->periodic[k] && patch->nodes[k] == f->grid->nodes[k];
   }
@@ -136,7 +140,7 @@ static fg_status flood(const finding *f, fg_context *context, const fg__patch *p
     ++first;
   fg__unwrap_bounds(&unwrap, first, bounds, closed);
   fg__unwrap_clear(&unwrap);
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < 3; ++k) {
     int period = f->grid->periodic[k] ? f->grid->nodes[k] : 0;
     int shift = patch->first[k];
     while (period && bounds[2 * k] + shift < 0)
@@ -149,20 +153,20 @@ static fg_status flood(const finding *f, fg_context *context, const fg__patch *p
   return FG_STATUS_OK;
 }
 
-enum { NUMBERS = 6 }; /* told of a flooded cluster: bounds, closed */
+enum { NUMBERS = 9 }; /* told of a flooded cluster: bounds, closed */
 
-static void tell(uint64_t *number, const int bounds[4], const bool closed[2])
+static void tell(uint64_t *number, const int bounds[6], const bool closed[3])
 {
   for (int k = 0; k < NUMBERS; ++k)
-    number[k] = (uint64_t)(k < 4 ? bounds[k] : closed[k - 4]);
+    number[k] = (uint64_t)(k < 6 ? bounds[k] : closed[k - 6]);
 }
 
 static void hear(fg__labels *labels, int n, const uint64_t *number)
 {
-  for (int k = 0; k < 4; ++k)
+  for (int k = 0; k < 6; ++k)
     labels->bounds[n][k] = (int)number[k];
-  for (int k = 0; k < 2; ++k)
-    labels->closed[n][k] = number[4 + k] != 0;
+  for (int k = 0; k < 3; ++k)
+    labels->closed[n][k] = number[6 + k] != 0;
 }
 
 /* The clusters without a gap, shared out over the ranks. */
@@ -179,7 +183,7 @@ static fg_status flood_full_ones(finding *f, fg_context *context, int count)
   if (status)
     goto cleanup;
   for (int n = 0, at = 0; n < f->labels->count; ++n)
-    if (f->full[n][0] || f->full[n][1]) {
+    if (f->full[n][0] || f->full[n][1] || f->full[n][2]) {
       fg__patch_place(&wanted[at].patch, f->grid, f->labels->bounds[n], f->full[n]);
       wanted[at].rank = at % f->ranks->count;
       cluster[at++] = n;
@@ -188,8 +192,8 @@ static fg_status flood_full_ones(finding *f, fg_context *context, int count)
   if (status)
     goto cleanup;
   for (int n = 0; n < count; ++n) {
-    int bounds[4];
-    bool closed[2];
+    int bounds[6];
+    bool closed[3];
     if (wanted[n].rank != f->ranks->rank)
       continue;
     if (!status)
@@ -244,6 +248,8 @@ fg_status fg__labels_create_shared(fg__labels *out, fg_context *context,
   fg_status status = allocate(&f, context);
   if (!status && out->count > 0) {
     double cell_area = grid->spacing[0] * grid->spacing[1];
+    if (grid->dimension == 3)
+      cell_area *= grid->spacing[2];
     for (int n = 0; n < out->count; ++n)
       out->area[n] = found->area[n] * cell_area;
     find_bounds(&f);

@@ -7,7 +7,7 @@
 typedef struct fg__unwrap {
   const fg__component_grid *grid;
   const int *label;
-  int (*place)[2];     /* [nodes] where the flood met a node, unwrapped */
+  int (*place)[3];     /* [nodes] where the flood met a node, unwrapped */
   unsigned char *seen; /* [nodes] */
   int *queue;          /* [nodes] */
 } fg__unwrap;
@@ -19,8 +19,8 @@ void fg__unwrap_clear(fg__unwrap *unwrap);
 
 /* Follows the cluster of node `first` across the borders: its first and last node along
  * each axis, and whether it meets itself a period on, in which case the axis is cut at
- * the column (row) with the fewest nodes of the cluster and the bounds are that column
- * and its next copy. The lower bounds lie inside the grid. */
-void fg__unwrap_bounds(fg__unwrap *unwrap, int first, int bounds[4], bool closed[2]);
+ * the column (row, plane) with the fewest nodes of the cluster and the bounds are that
+ * column and its next copy. The lower bounds lie inside the grid. */
+void fg__unwrap_bounds(fg__unwrap *unwrap, int first, int bounds[6], bool closed[3]);
 
 #endif

@@ -22,16 +22,19 @@ static int wrap(int index, int period)
 
 fg__patch fg__patch_of(const fg_density_arrays *density, const fg__labels *labels)
 {
-  return (fg__patch){.nodes = {density->nodes[0], density->nodes[1]},
+  int depth = density->dimension == 3 ? density->nodes[2] : 1;
+  return (fg__patch){.nodes = {density->nodes[0], density->nodes[1], depth},
                      .u = density->u,
                      .label = labels->label,
                      .active = density->active};
 }
 
 void fg__patch_place(fg__patch *patch, const fg_density_arrays *density,
-                     const int bounds[4], const bool closed[2])
+                     const int bounds[6], const bool closed[3])
 {
-  for (int k = 0; k < 2; ++k) {
+  patch->first[2] = 0;
+  patch->nodes[2] = 1;
+  for (int k = 0; k < density->dimension; ++k) {
     int first = bounds[2 * k] - RIM, last = bounds[2 * k + 1] + RIM;
     int most = density->nodes[k];
     if (!density->periodic[k]) {

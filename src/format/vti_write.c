@@ -11,7 +11,7 @@
 #include <libxml/xmlstring.h>
 #include <zlib.h>
 
-static const char *byte_order(void)
+const char *fg__vti_byte_order(void)
 {
   const uint16_t one = 1;
   return *(const unsigned char *)&one == 1 ? "LittleEndian" : "BigEndian";
@@ -64,7 +64,7 @@ void fg__vti_write_open(FILE *stream, const fg__vti_image *image, const char *ve
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
       "byte_order=\"%s\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
       "<ImageData WholeExtent=\"0 %d 0 %d 0 %d\"",
-      byte_order(), last[0], last[1], last[2]);
+      fg__vti_byte_order(), last[0], last[1], last[2]);
   write_triple(stream, "Origin", image->origin);
   write_triple(stream, "Spacing",
                (const double[]){image->spacing[0], image->spacing[1],

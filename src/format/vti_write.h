@@ -37,6 +37,9 @@ fg_status fg__vti_write_array(FILE *stream, fg_context *context,
 void fg__vti_write_cells(FILE *stream);
 void fg__vti_write_close(FILE *stream);
 
+/* This machine's, as a file's attribute byte_order names it. */
+const char *fg__vti_byte_order(void);
+
 /* What an array is written of, for writers that have it in parts: its compressed blocks,
  * and after the sizes of all blocks their bytes as one text. */
 enum {

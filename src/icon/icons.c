@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One block an icon, its points behind it, so that a borrowed fg_icon stays where it is
- * while the list grows. */
+/* One block an icon, its points and lines behind it, so that a borrowed fg_icon stays
+ * where it is while the list grows. */
 typedef struct entry {
   fg_icon icon;
   double points[][3];
@@ -36,12 +36,25 @@ void fg_icons_destroy(fg_icons *icons)
   free(icons);
 }
 
+/* Copies a line behind what the entry holds already; returns where it lies. */
+static const double (*add_line(entry *added, size_t *used, const double (*line)[3],
+                               int count))[3]
+{
+  if (!line || count < 1)
+    return NULL;
+  memcpy(added->points + *used, line, (size_t)count * sizeof *line);
+  *used += (size_t)count;
+  return (const double(*)[3])(added->points + *used - count);
+}
+
 fg_status fg__icons_add(fg_icons *icons, fg_context *context, const fg_icon *icon)
 {
   if (icon->point_count < 2)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "an icon needs 2 points or more, this one has %d", icon->point_count);
-  size_t points_bytes = (size_t)icon->point_count * sizeof icon->points[0];
+  size_t points = (size_t)icon->point_count + (size_t)icon->spine_count +
+                  (size_t)icon->streamline_count;
+  size_t points_bytes = points * sizeof icon->points[0], used = 0;
   if (!fg__grow((void **)&icons->entries, &icons->capacity, icons->count + 1,
                 sizeof(entry *)))
     return fg__fail_memory(context, "the list of icons",
@@ -50,8 +63,10 @@ fg_status fg__icons_add(fg_icons *icons, fg_context *context, const fg_icon *ico
   if (!added)
     return fg__fail_memory(context, "an icon", sizeof *added + points_bytes);
   added->icon = *icon;
-  memcpy(added->points, icon->points, points_bytes);
-  added->icon.points = (const double(*)[3])added->points;
+  added->icon.points = add_line(added, &used, icon->points, icon->point_count);
+  added->icon.spine = add_line(added, &used, icon->spine, icon->spine_count);
+  added->icon.streamline =
+      add_line(added, &used, icon->streamline, icon->streamline_count);
   icons->entries[icons->count++] = added;
   return FG_STATUS_OK;
 }

@@ -6,6 +6,7 @@
 #include "icon/territory.h"
 
 #include "base/memory.h"
+#include "solid/make.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -230,6 +231,24 @@ static fg_status extend(icon_place *land, fg__arrow *arrow, bool *extended,
   return status;
 }
 
+static fg_status make_solid(icon_job *job, fg_context *context, fg__solid_maker *maker,
+                            int index)
+{
+  const fg__icon_source *source = job->source;
+  int cluster = source->cluster ? source->cluster[index] : index + 1;
+  fg_icon *icon = &job->icon[index];
+  fg__volume volume = {0};
+  fg_status status =
+      fg__volume_cut(&volume, context, source->density, source->labels,
+                     source->cluster ? &source->patch[index] : source->patch, cluster);
+  if (status == FG_STATUS_OK)
+    status = fg__solid_icon_make(icon, context, maker, source->field, &volume);
+  icon->cluster = cluster;
+  icon->area = source->labels->area[cluster - 1];
+  fg__volume_clear(&volume);
+  return status;
+}
+
 static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *chooser,
                            int index)
 {
@@ -271,6 +290,8 @@ static void *work(void *argument)
   icon_worker *worker = argument;
   icon_job *job = worker->job;
   fg__chooser chooser = {0};
+  fg__solid_maker maker = {0};
+  bool solid = job->source->density->dimension == 3;
   while (worker->status == FG_STATUS_OK && !atomic_load(&job->halted)) {
     int index = atomic_fetch_add(&job->next, 1);
     if (index >= job->source->count)
@@ -278,11 +299,13 @@ static void *work(void *argument)
     if (worker->caller)
       worker->status = fg__check_stop(worker->caller);
     if (worker->status == FG_STATUS_OK)
-      worker->status = make_icon(job, worker->context, &chooser, index);
+      worker->status = solid ? make_solid(job, worker->context, &maker, index)
+                             : make_icon(job, worker->context, &chooser, index);
   }
   if (worker->status != FG_STATUS_OK)
     atomic_store(&job->halted, true);
   fg__chooser_clear(&chooser);
+  fg__solid_maker_clear(&maker);
   return NULL;
 }
 
@@ -340,7 +363,7 @@ fg_status fg__icons_collect(fg_icons **out, fg_context *context, const fg_icon *
 void fg__icons_free_points(fg_icon *icon, int count)
 {
   for (int i = 0; icon && i < count; i++)
-    free_points(&icon[i]);
+    fg__solid_icon_free(&icon[i]);
 }
 
 static fg_status create_whole(fg_icons **out, fg_context *context, const fg_field *field,
@@ -388,14 +411,14 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
                     : !field ? "field"
                              : "density");
   *out = NULL;
-  if (fg_density_contents(density)->dimension != 2)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "icons: this version makes none for a density in %d dimensions",
-                    fg_density_contents(density)->dimension);
-  if (fg_field_contents(field)->dimension != 2)
+  int dimension = fg_density_contents(density)->dimension;
+  if (fg_field_contents(field)->dimension != dimension)
     return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "icons: a density in 2 dimensions of a field in %d",
+                    "icons: a density in %d dimensions of a field in %d", dimension,
                     fg_field_contents(field)->dimension);
+  if (dimension == 3 && options && options->extent == FG_ICON_EXTENT_TERRITORY)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "icons: in 3D arrows stay in their clusters");
   if (fg_density_is_shared(density))
     return fg__icons_create_shared(out, context, field, density, options);
   return create_whole(out, context, field, density, options);

@@ -21,7 +21,7 @@ typedef struct sharing {
 
 static size_t nodes_of(const fg__patch *patch)
 {
-  return (size_t)patch->nodes[0] * (size_t)patch->nodes[1];
+  return (size_t)patch->nodes[0] * (size_t)patch->nodes[1] * (size_t)patch->nodes[2];
 }
 
 /* Each cluster goes to the rank with the fewest nodes to look at so far. */
@@ -48,7 +48,8 @@ static fg_status choose_owners(sharing *s, fg_context *context)
 static int count_together(const sharing *s, int first, size_t *load)
 {
   const fg_density_arrays *grid = fg_density_contents(s->density);
-  double most = patch_share * (double)grid->nodes[0] * grid->nodes[1] / s->ranks->count;
+  int depth = grid->dimension == 3 ? grid->nodes[2] : 1;
+  double most = patch_share * grid->nodes[0] * grid->nodes[1] * depth / s->ranks->count;
   memset(load, 0, (size_t)s->ranks->count * sizeof *load);
   for (int n = first; n < s->labels.count; ++n) {
     size_t *of_rank = &load[s->wanted[n].rank];
@@ -115,7 +116,7 @@ static fg_status make_all(sharing *s, fg_context *context, const fg_field *field
   return status;
 }
 
-/* Bytes that come from the ranks: an icon, its points, the next icon. */
+/* Bytes that come from the ranks: an icon, its points and lines, the next icon. */
 typedef struct letters {
   unsigned char *bytes;
   size_t count, capacity;
@@ -132,9 +133,26 @@ static void take(void *closure, const unsigned char *bytes, size_t count)
   l->count += count;
 }
 
-static size_t points_bytes(const fg_icon *icon)
+static void take_line(letters *l, const double (*line)[3], int count)
 {
-  return (size_t)icon->point_count * sizeof icon->points[0];
+  if (count > 0)
+    take(l, (const unsigned char *)line, (size_t)count * sizeof *line);
+}
+
+/* False when there is no memory. */
+static bool read_line(const double (**line)[3], int count, const letters *l, size_t *at)
+{
+  size_t bytes = (size_t)count * sizeof **line;
+  *line = NULL;
+  if (count < 1)
+    return true;
+  double(*points)[3] = fg__allocate(bytes, 1);
+  if (!points)
+    return false;
+  memcpy(points, l->bytes + *at, bytes);
+  *at += bytes;
+  *line = (const double(*)[3])points;
+  return true;
 }
 
 static void read_letters(sharing *s, const letters *l, fg_status *status,
@@ -144,16 +162,15 @@ static void read_letters(sharing *s, const letters *l, fg_status *status,
     fg_icon icon;
     memcpy(&icon, l->bytes + at, sizeof icon);
     at += sizeof icon;
-    size_t bytes = points_bytes(&icon);
-    double(*points)[3] = fg__allocate(bytes, 1);
-    if (!points) {
-      *status = fg__fail_memory(context, "an icon", bytes);
+    icon.spine = icon.streamline = NULL;
+    bool room = read_line(&icon.points, icon.point_count, l, &at) &&
+                read_line(&icon.spine, icon.spine_count, l, &at) &&
+                read_line(&icon.streamline, icon.streamline_count, l, &at);
+    s->icon[icon.cluster - 1] = icon;
+    if (!room) {
+      *status = fg__fail_memory(context, "an icon", l->count);
       return;
     }
-    memcpy(points, l->bytes + at, bytes);
-    at += bytes;
-    icon.points = (const double(*)[3])points;
-    s->icon[icon.cluster - 1] = icon;
   }
 }
 
@@ -165,7 +182,9 @@ static fg_status bring_together(sharing *s, fg_context *context)
   for (int n = 0; n < s->labels.count && sends; ++n)
     if (s->icon[n].points) {
       take(&own, (const unsigned char *)&s->icon[n], sizeof s->icon[n]);
-      take(&own, (const unsigned char *)s->icon[n].points, points_bytes(&s->icon[n]));
+      take_line(&own, s->icon[n].points, s->icon[n].point_count);
+      take_line(&own, s->icon[n].spine, s->icon[n].spine_count);
+      take_line(&own, s->icon[n].streamline, s->icon[n].streamline_count);
     }
   fg__ranks_pass(s->ranks, own.bytes, own.count, take, &all);
   fg_status status = FG_STATUS_OK;

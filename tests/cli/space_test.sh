@@ -1,21 +1,19 @@
 #!/usr/bin/env bash
-# What a run of a field in 3D leaves: the density and its clusters, no icons.
+# What a run of a field in 3D leaves: icons as solids, the density and its clusters.
 source "$(dirname "$0")/harness.sh"
 
 small=(--nodes 49 --clusters "16,8" --quiet)
 
 try run synth:vortex3d -o out1 "${small[@]}" --threads 1
 expect_code 0
-expect_one_complaint
-expect_error 'synth:vortex3d: in 3D, .*without icons and pictures'
-[ "$(ls -A out1 | tr '\n' ' ')" = "evolution.csv run.json scale-00.vti scale-01.vti " ] ||
+[ ! -s err ] || fault "$(cat err)"
+[ "$(ls -A out1 | tr '\n' ' ')" = "evolution.csv run.json scale-00.geojson scale-00.vti scale-00.vtp scale-01.geojson scale-01.vti scale-01.vtp " ] ||
   fault "$(ls -A out1)"
-done_with "a run in 3D says in one line what it leaves, and leaves it"
+done_with "a run in 3D leaves its scales"
 
 [ "$(wc -l <out)" = 2 ] || fault "not a line a scale: $(cat out)"
 while read -r line; do
-  [[ $line =~ ^[0-9]+\ clusters ]] || fault "$line"
-  [[ $line =~ icons ]] && fault "$line"
+  [[ $line =~ ^\ *[0-9]+\ clusters\ +[0-9]+\ icons ]] || fault "$line"
   expect_file "${line##* }"
 done <out
 done_with "standard output names a file a scale"
@@ -26,9 +24,28 @@ expect_json $report '(.mesh.spacing | length) == 3 and .mesh.domain_measure > 0.
 expect_json $report '(.field.size | length) == 3 and (.field.bounds | length) == 6 and (.field.velocity | length) == 3'
 expect_json $report '[.scales[].wanted[]] == [16, 8] and ([.scales[] | .clusters <= .wanted[-1]] | all)'
 expect_json $report '[.scales[].vti] == ["scale-00.vti", "scale-01.vti"]'
-expect_json $report '[.scales[] | has("icons") or has("geojson") or has("svg") or has("png")] | any | not'
+expect_json $report '[.scales[].vtp] == ["scale-00.vtp", "scale-01.vtp"] and ([.scales[] | has("svg")] | any | not)'
+expect_json $report '[.scales[] | .icons + .dropped == .clusters and .icons > .clusters / 2] | all'
 expect_json $report '.mass_drift >= 0 and .mass_drift < 1e-7 and .energy_monotone == true'
-done_with "run.json: the mesh in 3D, scales without pictures"
+done_with "run.json: the mesh in 3D, the files of its scales"
+
+for scale in 0 1; do
+  file=out1/scale-0$scale.geojson
+  expect_json $file '[.features[].geometry.coordinates[] | length == 3 and min >= 0 and max <= 1] | all'
+  expect_json $file '[.features[].properties | .volume > 0 and .volume < 0.3 and .width > 0 and .speed > 0 and (.center | length) == 3 and (has("area") | not)] | all'
+  expect_json $file "(.features | length) == $(jq ".scales[$scale].icons" $report)"
+done
+done_with "GeoJSON has z and volumes"
+
+for scale in 0 1; do
+  file=out1/scale-0$scale.vtp
+  xmllint --noout $file 2>fault.txt || fault "$(head -1 fault.txt)"
+  icons=$(jq ".scales[$scale].icons" $report)
+  verts=$(xmllint --xpath 'string(/VTKFile/PolyData/Piece/@NumberOfVerts)' $file)
+  lines=$(xmllint --xpath 'string(/VTKFile/PolyData/Piece/@NumberOfLines)' $file)
+  [ "$verts $lines" = "$icons $((2 * icons))" ] || fault "$icons icons, $verts points, $lines lines"
+done
+done_with "a scale is VTK polydata with centre, spine, streamline and arrow of each icon"
 
 awk -F, 'NR == 1 { next }
   NF != 11 || $1 != NR - 1 || $10 != 110592 { print "line " NR ": " $0; exit }
@@ -83,6 +100,12 @@ try run synth:vortex3d -o out3 "${small[@]}" --seed 2
 expect_code 0
 cmp -s out1/scale-00.vti out3/scale-00.vti && fault "the seed changes nothing"
 done_with "another seed gives another pattern"
+
+try run synth:abc -o out4 --extent territory --nodes 17 --quiet
+expect_code 2
+expect_one_complaint
+expect_nothing_at out4
+done_with "territories are refused in 3D"
 
 try draw out1 -o x.svg
 expect_code 1

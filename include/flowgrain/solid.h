@@ -1,0 +1,40 @@
+/* Icons in 3D as solids: their geometry, files of it, and rendered pictures. */
+#ifndef FLOWGRAIN_SOLID_H
+#define FLOWGRAIN_SOLID_H
+
+#include "flowgrain/flowgrain.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Triangles. A place where the surface has a crease is one vertex with several corners,
+ * each with the normal of its side. */
+typedef struct fg_surface {
+  int vertex_count, corner_count, triangle_count;
+  double (*vertex)[3]; /* input coordinates; no two are the same place */
+  int *corner;         /* [corner_count] the vertex that a corner lies at */
+  float (*normal)[3];  /* [corner_count] outwards, of length 1 */
+  int (*triangle)[3];  /* corners, counter-clockwise as seen from outside */
+} fg_surface;
+
+/* The solid of an icon: a tapering tube round the centreline with a cone for a head, in a
+ * frame that does not twist (double reflection: Wang, Juettler, Zheng and Liu, ACM
+ * Transactions on Graphics 27, 2008); closed, with Euler characteristic 2. An icon
+ * without width has no triangles. MEMORY, ARGUMENT. */
+FG_API fg_status fg_icon_solid(fg_surface **out, fg_context *context,
+                               const fg_icon *icon);
+FG_API void fg_surface_destroy(fg_surface *surface);
+
+/* Writes icons in 3D; the format follows the name's end. .vtp: VTK polydata in input
+ * coordinates, with the cells' array `part` (0 a centre, 1 a spine, 2 a streamline, 3 an
+ * arrow) and those of their cluster. FILE_ACCESS, UNSUPPORTED (another end), ARGUMENT,
+ * MEMORY. */
+FG_API fg_status fg_solid_write(fg_context *context, const char *path,
+                                const fg_icons *icons);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,20 @@
+/* Files of icons in 3D, by the end of their names. */
+#include "format/vtp_write.h"
+
+#include <string.h>
+
+static bool ends_with(const char *path, const char *end)
+{
+  size_t length = strlen(path), wanted = strlen(end);
+  return length > wanted && strcmp(path + length - wanted, end) == 0;
+}
+
+fg_status fg_solid_write(fg_context *context, const char *path, const fg_icons *icons)
+{
+  if (!path || !icons)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "solids: %s to write",
+                    path ? "none" : "no file name");
+  if (ends_with(path, ".vtp"))
+    return fg__vtp_write(context, path, icons);
+  return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: solids are written as .vtp", path);
+}
