@@ -16,12 +16,12 @@ static bool ends_with(const char *text, const char *end)
   return length > tail && strcasecmp(text + length - tail, end) == 0;
 }
 
-static int check_picture_name(const char *path)
+int check_picture_name(const char *path, const char *command)
 {
   if (ends_with(path, ".svg") || ends_with(path, ".pdf") || ends_with(path, ".png"))
     return EXIT_DONE;
   complain("-o %s: the name's end must be .svg, .pdf or .png", path);
-  fputs("Try 'flowgrain draw --help'.\n", stderr);
+  advise("Try 'flowgrain %s --help'.", command);
   return EXIT_USAGE;
 }
 
@@ -111,7 +111,7 @@ int command_draw(const cli_settings *settings)
   fg_context *context = NULL;
   fg_icons *icons = NULL;
   fg_field *field = NULL;
-  int code = check_picture_name(settings->output);
+  int code = check_picture_name(settings->output, "draw");
   if (!code)
     code = report_read(&report, settings->operand);
   if (code)

@@ -70,6 +70,6 @@ void print_command_help(FILE *stream, const cli_command *command)
       print_option(stream, &option_table[k]);
   if (command->bit == COMMAND_SYNTH)
     print_names(stream, "Analytic fields", fg_field_analytic_names());
-  if (command->bit & (COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL))
+  if (command->bit & (COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL | COMMAND_TEXTURE))
     print_names(stream, "Palettes", fg_picture_palettes());
 }

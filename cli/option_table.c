@@ -10,11 +10,14 @@ static const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL
 static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
 static const char *const method_words[] = {"hedgehog", "grid-curved", NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
+static const char *const kind_words[] = {"lic", NULL};
 static const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
-  EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL,
-  READERS = COMMAND_RUN | COMMAND_RIVAL,
+  EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL |
+          COMMAND_TEXTURE,
+  READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE,
+  SEEDED = COMMAND_RUN | COMMAND_TEXTURE,
   PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL,
 };
 
@@ -36,6 +39,12 @@ const cli_command command_table[] = {
      "end of its name: .svg, .pdf or .png. The field is read again from the input that "
      "run.json names.",
      true, command_draw},
+    {COMMAND_TEXTURE, "texture", "INPUT", "INPUT -o PICTURE [options]",
+     "paint a texture that shows the field's direction at every pixel",
+     "Paints the field's whole box with streaks along the flow, at the resolution of the "
+     "picture however coarse the field's grid; INPUT as for flowgrain run, the picture's "
+     "format by the end of its name: .png (the pixels themselves), .svg or .pdf.",
+     true, command_texture},
     {COMMAND_INFO, "info", "FILE", "FILE [--json]", "say what a file holds",
      "Lists the vector fields that a file holds: a line `vectors:` for each, as --vars "
      "takes it, with its grid, share of missing values, times and levels.",
@@ -65,6 +74,8 @@ const option_entry option_table[] = {
      "folder for the results; made when it is missing"},
     {"output", 'o', "PICTURE", COMMAND_DRAW, OPTION_TEXT, AT(output), 0, 0, false, false,
      NULL, "picture to write, .svg, .pdf or .png"},
+    {"output", 'o', "PICTURE", COMMAND_TEXTURE, OPTION_TEXT, AT(output), 0, 0, false,
+     false, NULL, "picture to write, .png, .svg or .pdf"},
     {"output", 'o', "FILE", COMMAND_SYNTH, OPTION_TEXT, AT(output), 0, 0, false, false,
      NULL, "file to write, .vti or .nc"},
     {"output", 'o', "FILE", COMMAND_RIVAL, OPTION_TEXT, AT(output), 0, 0, false, false,
@@ -95,6 +106,15 @@ const option_entry option_table[] = {
      scale_words,
      "what the axes are: `geo` (degrees, velocity along east and north), `map` (a "
      "projected plane) or `plain` [auto: from units and axes]"},
+
+    {"kind", 0, "KIND", COMMAND_TEXTURE, OPTION_CHOICE, AT(kind), 0, 0, false, false,
+     kind_words, "kind of texture: `lic` (line integral convolution) [lic]"},
+    {"pixels", 0, "N", COMMAND_TEXTURE, OPTION_WHOLE, AT(longest), 16, 16384, false,
+     false, NULL, "pixels along the longest side [1024]"},
+    {"length", 0, "L", COMMAND_TEXTURE, OPTION_NUMBER, AT(length), 2, 400, false, false,
+     NULL, "length of the streaks in pixels [a 25th of the longest side]"},
+    {"fade", 0, "F", COMMAND_TEXTURE, OPTION_NUMBER, AT(fade), 0, 1, false, false, NULL,
+     "share of the way to white, from 0 to 1 [0]"},
 
     {"nodes", 0, "N", COMMAND_RUN, OPTION_WHOLE, AT(nodes), 17, 16385, false, false, NULL,
      "nodes of the mesh along its longest side [257 in 2D, 65 in 3D]"},
@@ -129,14 +149,14 @@ const option_entry option_table[] = {
      extent_words,
      "how far an arrow reaches: to the border of its `cluster`, or through its "
      "`territory`, all that is nearer to this cluster than to any other [cluster]"},
-    {"seed", 0, "S", COMMAND_RUN, OPTION_SEED, AT(seed), 1, 0, false, false, NULL,
+    {"seed", 0, "S", SEEDED, OPTION_SEED, AT(seed), 1, 0, false, false, NULL,
      "seed of the initial noise, from 1 [1]"},
     {"max-time", 0, "T", COMMAND_RUN, OPTION_NUMBER, AT(max_time), 0, 1e300, true, false,
      NULL, "stop when the simulated scale t reaches T; its state is the last scale"},
     {"max-steps", 0, "K", COMMAND_RUN, OPTION_WHOLE, AT(max_steps), 1, INT_MAX, false,
      false, NULL, "stop after K time steps; the state reached is the last scale"},
-    {"threads", 0, "N", COMMAND_RUN, OPTION_WHOLE, AT(threads), 1, 4096, false, false,
-     NULL, "threads to use; the result does not depend on it [all cores]"},
+    {"threads", 0, "N", SEEDED, OPTION_WHOLE, AT(threads), 1, 4096, false, false, NULL,
+     "threads to use; the result does not depend on it [all cores]"},
     {"save-field", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(save_field), 0, 0, false, false,
      NULL,
      "also write the density u and the clusters of every scale (scale-NN.vti); always "
@@ -167,10 +187,14 @@ const option_entry option_table[] = {
      NULL, "width of the picture in points of 1/72 inch [480]"},
     {"palette", 0, "NAME", PICTURES, OPTION_PALETTE, AT(palette), 0, 0, false, false,
      NULL, "colour map of the speed, or #rrggbb for one colour [gale]"},
+    {"palette", 0, "NAME", COMMAND_TEXTURE, OPTION_PALETTE, AT(palette), 0, 0, false,
+     false, NULL, "colour map that shows the speed, or #rrggbb for one colour [greys]"},
     {"tint", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
      "tint the clusters behind their arrows"},
     {"no-frame", 0, NULL, PICTURES, OPTION_FLAG, AT(no_frame), 0, 0, false, false, NULL,
      "only mask and arrows: no axes, no keys, no caption"},
+    {"transparent", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, AT(transparent), 0, 0, false,
+     false, NULL, "nothing where the field is missing, instead of grey"},
     {"transparent", 0, NULL, PICTURES, OPTION_FLAG, AT(transparent), 0, 0, false, false,
      NULL, "no background"},
 

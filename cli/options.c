@@ -355,6 +355,17 @@ fg_evolution_options settings_evolution(const cli_settings *settings)
   };
 }
 
+fg_texture_options settings_texture(const cli_settings *settings)
+{
+  return (fg_texture_options){
+      .kind = (fg_texture_kind)settings->kind,
+      .longest = settings->longest,
+      .length = settings->length,
+      .seed = settings->seed,
+      .threads = settings->threads,
+  };
+}
+
 fg_picture_options settings_picture(const cli_settings *settings)
 {
   return (fg_picture_options){

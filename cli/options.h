@@ -12,7 +12,8 @@ enum {
   COMMAND_DRAW = 2,
   COMMAND_INFO = 4,
   COMMAND_SYNTH = 8,
-  COMMAND_RIVAL = 16
+  COMMAND_RIVAL = 16,
+  COMMAND_TEXTURE = 32
 };
 
 typedef struct cli_command {

@@ -42,6 +42,9 @@ typedef struct cli_settings {
 
   int method;  /* rival: fg_rival_method */
   int lengths; /* rival: 1 with the speed */
+  int kind;    /* fg_texture_kind */
+  int longest; /* pixels */
+  double length, fade;
 
   const char *input; /* draw: the field, where it is now */
   int scale_index;   /* draw: -1 when not said */
@@ -72,14 +75,19 @@ int complain_of_file(const char *path, const char *what);
 char *join_texts(const char *first, const char *second);
 char *join_path(const char *folder, const char *name);
 
+/* Complains of a picture whose name has not the end of a known format; an exit code. */
+int check_picture_name(const char *path, const char *command);
+
 int command_run(const cli_settings *settings);
 int command_draw(const cli_settings *settings);
 int command_info(const cli_settings *settings);
 int command_synth(const cli_settings *settings);
 int command_rival(const cli_settings *settings);
+int command_texture(const cli_settings *settings);
 
 fg_read_options settings_reading(const cli_settings *settings);
 fg_evolution_options settings_evolution(const cli_settings *settings);
 fg_picture_options settings_picture(const cli_settings *settings);
+fg_texture_options settings_texture(const cli_settings *settings);
 
 #endif

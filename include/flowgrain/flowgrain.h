@@ -516,5 +516,6 @@ FG_API fg_status fg_picture_write(fg_context *context, const char *path,
 #include "flowgrain/energy.h"
 #include "flowgrain/rival.h"
 #include "flowgrain/solid.h"
+#include "flowgrain/texture.h"
 
 #endif

@@ -6,6 +6,8 @@
 static const fg__color ink = {0.15, 0.16, 0.18};
 static const fg__color quiet_ink = {0.40, 0.41, 0.43};
 
+const fg__color fg__usual_mask = {0.855, 0.855, 0.845};
+
 /* Points. Journals ask for lines of at least half a point. */
 static const double frame_width = 0.6;
 static const double coast_width = 0.4;
@@ -23,7 +25,7 @@ static void add_loop(cairo_t *cairo, const fg__polygons *polygons, size_t loop)
   cairo_close_path(cairo);
 }
 
-static void add_all(cairo_t *cairo, const fg__polygons *polygons)
+void fg__draw_path(cairo_t *cairo, const fg__polygons *polygons)
 {
   for (size_t loop = 0; loop < polygons->count; ++loop)
     add_loop(cairo, polygons, loop);
@@ -34,21 +36,25 @@ static fg__color darker(fg__color color, double share)
   return (fg__color){share * color.red, share * color.green, share * color.blue};
 }
 
+void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color)
+{
+  fg__draw_path(cairo, mask);
+  set_color(cairo, color);
+  cairo_fill_preserve(cairo);
+  cairo_set_line_width(cairo, coast_width);
+  set_color(cairo, darker(color, 0.78));
+  cairo_stroke(cairo);
+}
+
 static void draw_areas(cairo_t *cairo, const fg__scene *scene, const fg__style *style)
 {
   if (scene->tint.count) {
-    add_all(cairo, &scene->tint);
+    fg__draw_path(cairo, &scene->tint);
     set_color(cairo, style->tint);
     cairo_fill(cairo);
   }
-  if (scene->mask.count) {
-    add_all(cairo, &scene->mask);
-    set_color(cairo, style->mask);
-    cairo_fill_preserve(cairo);
-    cairo_set_line_width(cairo, coast_width);
-    set_color(cairo, darker(style->mask, 0.78));
-    cairo_stroke(cairo);
-  }
+  if (scene->mask.count)
+    fg__draw_mask(cairo, &scene->mask, style->mask);
 }
 
 static void draw_arrows(cairo_t *cairo, const fg__scene *scene)
@@ -133,7 +139,7 @@ void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
     draw_color_key(cairo, page, palette);
   draw_lines(cairo, page);
   if (page->has_size_key && scene->reference.count) {
-    add_all(cairo, &scene->reference);
+    fg__draw_path(cairo, &scene->reference);
     set_color(cairo, quiet_ink);
     cairo_fill(cairo);
   }

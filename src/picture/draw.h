@@ -9,6 +9,15 @@ typedef struct fg__style {
   bool transparent;
 } fg__style;
 
+/* A light grey. */
+extern const fg__color fg__usual_mask;
+
+/* What is masked, with its coast. */
+void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color);
+
+/* Adds polygons to the path. */
+void fg__draw_path(cairo_t *cairo, const fg__polygons *polygons);
+
 /* Draws in points; what went wrong is in the context's status. */
 void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
               const fg__palette *palette, const fg__style *style);

@@ -185,6 +185,16 @@ bool fg__color_read(fg__color *out, const char *text)
   return true;
 }
 
+fg_status fg__color_choose(fg__color *out, fg_context *context, const char *text,
+                           fg__color usual)
+{
+  *out = usual;
+  if (!text || fg__color_read(out, text))
+    return FG_STATUS_OK;
+  return fg__fail(context, FG_STATUS_ARGUMENT, "picture: no colour '%.40s'; use #rrggbb",
+                  text);
+}
+
 static fg_status fail_unknown(fg_context *context, const char *name)
 {
   fg_status status =

@@ -1,16 +1,12 @@
 #include "picture/draw.h"
 
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/memory.h"
-#include "base/whole_file.h"
+#include "picture/sheet.h"
 
 /* A0 paper is 3370 points high; a page six times that is a mistake. */
 static const double largest_page = 20000.0;
@@ -20,25 +16,7 @@ static const double usual_pixels_per_point = 2.0;
 static const double most_pixels_a_side = 32767.0;
 static const double most_pixels = 268435456.0;
 
-static const fg__color usual_mask = {0.855, 0.855, 0.845};
 static const fg__color usual_tint = {0.845, 0.895, 0.950};
-
-typedef enum picture_format {
-  PICTURE_SVG,
-  PICTURE_PDF,
-  PICTURE_PNG,
-  PICTURE_UNKNOWN
-} picture_format;
-
-static picture_format format_of(const char *path)
-{
-  static const char *const ends[] = {".svg", ".pdf", ".png"};
-  size_t length = strlen(path);
-  for (int k = 0; k < PICTURE_UNKNOWN; ++k)
-    if (length > 4 && strcasecmp(path + length - 4, ends[k]) == 0)
-      return (picture_format)k;
-  return PICTURE_UNKNOWN;
-}
 
 /* Checked so that NaN fails too. */
 static bool size_usable(double size)
@@ -66,16 +44,6 @@ static fg_status check_options(fg_context *context, const fg_picture_options *op
                     "picture: the colour key cannot run from %g to %g",
                     options->speed_min, options->speed_max);
   return FG_STATUS_OK;
-}
-
-static fg_status choose_color(fg__color *out, fg_context *context, const char *text,
-                              fg__color usual)
-{
-  *out = usual;
-  if (!text || fg__color_read(out, text))
-    return FG_STATUS_OK;
-  return fg__fail(context, FG_STATUS_ARGUMENT, "picture: no colour '%.40s'; use #rrggbb",
-                  text);
 }
 
 /* Ends of the colour key: what was asked for, or the icons' speeds, rounded out to ticks.
@@ -240,77 +208,16 @@ static fg_status check_pixels(fg_context *context, const picture *p)
                   wide, high, most_pixels_a_side, most_pixels);
 }
 
-/* What Cairo's streams call, with the file as their closure. */
-static cairo_status_t write_bytes(void *closure, const unsigned char *bytes,
-                                  unsigned int count)
-{
-  fg__whole_file *file = closure;
-  if (file->error)
-    return CAIRO_STATUS_WRITE_ERROR;
-  if (fwrite(bytes, 1, count, file->stream) == count)
-    return CAIRO_STATUS_SUCCESS;
-  file->error = errno ? errno : EIO;
-  return CAIRO_STATUS_WRITE_ERROR;
-}
-
-static cairo_surface_t *create_surface(picture_format format, const picture *p,
-                                       fg__whole_file *output)
+static fg_status render(fg_context *context, const char *path, const picture *p)
 {
   const fg__page *page = &p->page;
-  if (format == PICTURE_SVG) {
-    cairo_surface_t *surface = cairo_svg_surface_create_for_stream(
-        write_bytes, output, page->width, page->height);
-    cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PT);
-    return surface;
-  }
-  if (format == PICTURE_PDF) {
-    cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
-        write_bytes, output, page->width, page->height);
-    /* Two runs shall give the same bytes. */
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, p->plan.title);
-    return surface;
-  }
-  double pixels = p->pixels_per_point;
-  return cairo_image_surface_create(CAIRO_FORMAT_ARGB32,
-                                    (int)fmax(ceil(page->width * pixels), 1.0),
-                                    (int)fmax(ceil(page->height * pixels), 1.0));
-}
-
-static fg_status status_of(fg_context *context, cairo_status_t trouble,
-                           const fg__whole_file *output)
-{
-  if (trouble == CAIRO_STATUS_SUCCESS || output->error)
-    return FG_STATUS_OK; /* closing the output reports its own error */
-  if (trouble == CAIRO_STATUS_NO_MEMORY)
-    return fg__fail_memory(context, "a picture", 0);
-  return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: cannot be drawn: %s", output->path,
-                  cairo_status_to_string(trouble));
-}
-
-static fg_status render(fg_context *context, const char *path, picture_format format,
-                        const picture *p)
-{
-  fg__whole_file output;
-  fg_status status = fg__whole_file_open(&output, context, path);
+  fg__sheet sheet;
+  fg_status status = fg__sheet_open(&sheet, context, path, page->width, page->height,
+                                    p->pixels_per_point, p->plan.title);
   if (status)
     return status;
-  cairo_surface_t *surface = create_surface(format, p, &output);
-  cairo_t *cairo = cairo_create(surface);
-  if (format == PICTURE_PNG)
-    cairo_scale(cairo, p->pixels_per_point, p->pixels_per_point);
-  fg__draw(cairo, &p->page, &p->scene, &p->palette, &p->style);
-  cairo_show_page(cairo);
-  cairo_status_t trouble = cairo_status(cairo);
-  cairo_destroy(cairo);
-  if (!trouble && format == PICTURE_PNG)
-    trouble = cairo_surface_write_to_png_stream(surface, write_bytes, &output);
-  cairo_surface_finish(surface);
-  if (!trouble)
-    trouble = cairo_surface_status(surface);
-  cairo_surface_destroy(surface);
-  status = status_of(context, trouble, &output);
-  return fg__whole_file_close(&output, context, status);
+  fg__draw(sheet.cairo, page, &p->scene, &p->palette, &p->style);
+  return fg__sheet_close(&sheet, context, FG_STATUS_OK);
 }
 
 static fg_status prepare(picture *p, fg_context *context, const fg_field_arrays *field,
@@ -320,9 +227,10 @@ static fg_status prepare(picture *p, fg_context *context, const fg_field_arrays 
   if (!status)
     status = fg__palette_create(&p->palette, context, options->palette);
   if (!status)
-    status = choose_color(&p->style.mask, context, options->mask_color, usual_mask);
+    status =
+        fg__color_choose(&p->style.mask, context, options->mask_color, fg__usual_mask);
   if (!status)
-    status = choose_color(&p->style.tint, context, options->tint_color, usual_tint);
+    status = fg__color_choose(&p->style.tint, context, options->tint_color, usual_tint);
   p->style.transparent = options->transparent;
   p->pixels_per_point = options->pixels_per_point > 0.0 ? options->pixels_per_point
                                                         : usual_pixels_per_point;
@@ -358,12 +266,9 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
   if (density && settled.scale_time == 0.0)
     settled.scale_time = fg_density_contents(density)->time;
   options = &settled;
-  picture_format format = format_of(path);
-  if (format == PICTURE_UNKNOWN) {
-    fg_status status = fg__fail(context, FG_STATUS_UNSUPPORTED,
-                                "%s: pictures are written as .svg, .pdf or .png", path);
+  fg_status status = fg__format_check(context, path);
+  if (status)
     return status;
-  }
   if (options->tint && !density)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "picture: a tint of the clusters needs their density");
@@ -375,10 +280,10 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
   picture *p = fg__allocate(1, sizeof *p);
   if (!p)
     return fg__fail_memory(context, "a picture", sizeof *p);
-  fg_status status = check_room(context);
+  status = check_room(context);
   if (!status)
     status = prepare(p, context, contents, icons, options);
-  if (!status && format == PICTURE_PNG)
+  if (!status && fg__format_of(path) == FG__FORMAT_PNG)
     status = check_pixels(context, p);
   const double range[2] = {p->plan.speed.low, p->plan.speed.high};
   if (!status)
@@ -386,7 +291,7 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
                               options->tint ? fg_density_contents(density) : NULL, icons,
                               &p->palette, range);
   if (!status)
-    status = render(context, path, format, p);
+    status = render(context, path, p);
   fg__scene_clear(&p->scene);
   free(p);
   return status;

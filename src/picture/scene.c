@@ -98,6 +98,7 @@ static bool cell_masked(const fg_field_arrays *field, int i, int j)
            sample_valid(field, i, j + 1) && sample_valid(field, i + 1, j + 1));
 }
 
+/* In the field's coordinates. */
 static fg_status make_mask(fg__polygons *out, fg_context *context, const fg__page *page,
                            const fg_field_arrays *field)
 {
@@ -128,6 +129,18 @@ cleanup:
   mask_axis_clear(&axis[0]);
   mask_axis_clear(&axis[1]);
   return status;
+}
+
+fg_status fg__scene_mask(fg__polygons *out, fg_context *context, const fg__page *page,
+                         const fg_field_arrays *field)
+{
+  const placement p = {{field->axis[0][0], field->axis[1][0]}, page->scale, &page->frame};
+  fg_status status = make_mask(out, context, page, field);
+  if (status)
+    return status;
+  place_all(&p, out);
+  fg__polygons_simplify(out, area_tolerance);
+  return FG_STATUS_OK;
 }
 
 static bool add_outline(fg__polygons *out, const fg_icon *icon, const placement *p,
@@ -278,10 +291,9 @@ fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *
   placement p = {{0.0, 0.0}, page->scale, &page->frame};
   double high[2];
   fg__scene_box(p.low, high, field);
-  fg_status status = make_mask(&out->mask, context, page, field);
+  fg_status status = fg__scene_mask(&out->mask, context, page, field);
   if (!status && density)
     status = fg__contour_positive(&out->tint, context, density);
-  place_all(&p, &out->mask);
   place_all(&p, &out->tint);
   if (!status)
     status = make_arrows(out, context, &p, high, field, icons, palette, range);
@@ -291,7 +303,6 @@ fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *
     fg__scene_clear(out);
     return status;
   }
-  fg__polygons_simplify(&out->mask, area_tolerance);
   fg__polygons_simplify(&out->tint, area_tolerance);
   fg__polygons_simplify(&out->arrows, outline_tolerance);
   return FG_STATUS_OK;

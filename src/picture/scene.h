@@ -31,6 +31,11 @@ typedef struct fg__typical_icon {
 fg_status fg__scene_typical_icon(fg__typical_icon *out, fg_context *context,
                                  const fg_icons *icons);
 
+/* The outlines of what is masked, smoothed, on the page: of it the frame and the scale
+ * are read. MEMORY. */
+fg_status fg__scene_mask(fg__polygons *out, fg_context *context, const fg__page *page,
+                         const fg_field_arrays *field);
+
 /* Makes the polygons. density: NULL for no tint. range: speeds at the palette's ends.
  * MEMORY. */
 fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *page,

@@ -1,0 +1,72 @@
+/* Textures: a picture's every pixel shows which way the field goes there.
+ *
+ *     fg_texture *texture;
+ *     fg_texture_create(&texture, ctx, field, &(fg_texture_options){.longest = 2048});
+ *     fg_texture_write(ctx, "wind.png", field, texture, NULL);
+ *
+ * The kinds, their sources and what they are good for: docs/method/textures.md. */
+#ifndef FLOWGRAIN_TEXTURE_H
+#define FLOWGRAIN_TEXTURE_H
+
+#include "flowgrain/flowgrain.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum fg_texture_kind {
+  FG_TEXTURE_LIC = 0 /* line integral convolution (Cabral and Leedom 1993), by the fast
+                        algorithm of Stalling and Hege (1995) */
+} fg_texture_kind;
+
+typedef struct fg_texture_options {
+  fg_texture_kind kind; /* [line integral convolution] */
+  int longest;          /* pixels along the longest side, 16 to 16384 [1024] */
+  int size[2];          /* pixels along x and y, 1 to 16384; 0, 0: from `longest` and the
+                           domain's shape */
+  double length; /* of the streaks, pixels; 2 to 400 [a 25th of the longest side, 20 at
+                    least] */
+  uint64_t seed; /* of the noise [1] */
+  int threads;   /* the texture does not depend on it [all cores] */
+} fg_texture_options;
+
+typedef struct fg_texture fg_texture;
+
+typedef struct fg_texture_arrays {
+  fg_texture_kind kind;
+  int size[2];        /* pixels along x and y; the first row is that of the least y */
+  const float *value; /* 0 to 1, x fastest; of even contrast all over the picture; goes on
+                         smoothly where nothing is known, for pictures to cover */
+  const float *speed; /* |v| in the input's units; NaN where nothing is known */
+} fg_texture_arrays;
+
+/* Makes a texture of the field's box: pixels are those of the picture, however coarse the
+ * field's own grid. Same field, options and seed: same texture, on any number of threads.
+ * ARGUMENT (options out of range), UNSUPPORTED (a field in 3D), MEMORY, STOPPED. */
+FG_API fg_status fg_texture_create(fg_texture **out, fg_context *context,
+                                   const fg_field *field,
+                                   const fg_texture_options *options);
+FG_API void fg_texture_destroy(fg_texture *texture);
+FG_API const fg_texture_arrays *fg_texture_contents(const fg_texture *texture);
+
+typedef struct fg_texture_style {
+  const char *palette; /* NULL: grey; else a colour map that shows the speed, as for
+                          pictures, or "#rrggbb" for one colour */
+  double speed_min, speed_max; /* ends of the colour map; equal: from the field */
+  double fade;            /* share of the way to white, 0 to 1: a quiet background [0] */
+  const char *mask_color; /* "#rrggbb" [light grey] */
+  bool transparent;       /* where nothing is known, instead of the mask's colour */
+} fg_texture_style;
+
+/* Writes a texture: .png has its very pixels, .svg and .pdf hold them as an image, half a
+ * point a pixel. What is masked in the field is covered. FILE_ACCESS, UNSUPPORTED,
+ * ARGUMENT, MEMORY. */
+FG_API fg_status fg_texture_write(fg_context *context, const char *path,
+                                  const fg_field *field, const fg_texture *texture,
+                                  const fg_texture_style *style);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,15 @@
+/* A texture's pixels in colour. */
+#ifndef FG__TEXTURE_IMAGE_H
+#define FG__TEXTURE_IMAGE_H
+
+#include <cairo.h>
+
+#include "flowgrain/texture.h"
+
+/* Makes an image of a texture's size, its first row uppermost. The style's palette, range
+ * of speeds and fade count. End with cairo_surface_destroy. ARGUMENT, MEMORY. */
+fg_status fg__texture_image(cairo_surface_t **out, fg_context *context,
+                            const fg_texture_arrays *texture,
+                            const fg_texture_style *style);
+
+#endif

@@ -1,0 +1,195 @@
+#include <cairo.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/context_test.h"
+#include "flowgrain/texture.h"
+
+/* A uniform stream on [0, 4] x [0, 2] that is missing in x > 2, where the speed grows
+ * along y: 80 x 40 pixels. */
+enum { NX = 41, NY = 21 };
+
+typedef struct example {
+  fg_context *context;
+  fg_field *field;
+  fg_texture *texture;
+  char path[64];
+} example;
+
+static int set_up(void **state)
+{
+  static double x[NX], y[NY];
+  static float u[NX * NY], v[NX * NY];
+  example *e = calloc(1, sizeof *e);
+  assert_non_null(e);
+  for (int i = 0; i < NX; ++i)
+    x[i] = 0.1 * i;
+  for (int j = 0; j < NY; ++j)
+    y[j] = 0.1 * j;
+  for (int n = 0; n < NX * NY; ++n) {
+    u[n] = n % NX > NX / 2 ? NAN : (float)(1.0 + y[n / NX]);
+    v[n] = 0.0F;
+  }
+  const fg_field_arrays arrays = {.dimension = 2,
+                                  .size = {NX, NY, 0},
+                                  .axis = {x, y, NULL},
+                                  .velocity = {u, v, NULL}};
+  const fg_texture_options options = {.longest = 80, .threads = 1};
+  assert_int_equal(fg_context_create(&e->context), FG_STATUS_OK);
+  assert_int_equal(fg_field_create(&e->field, e->context, &arrays), FG_STATUS_OK);
+  assert_int_equal(fg_texture_create(&e->texture, e->context, e->field, &options),
+                   FG_STATUS_OK);
+  snprintf(e->path, sizeof e->path, "/tmp/flowgrain-texture-%d.png", (int)getpid());
+  *state = e;
+  return 0;
+}
+
+static int tear_down(void **state)
+{
+  example *e = *state;
+  unlink(e->path);
+  fg_texture_destroy(e->texture);
+  fg_field_destroy(e->field);
+  fg_context_destroy(e->context);
+  free(e);
+  return 0;
+}
+
+typedef struct rgba {
+  double red, green, blue, alpha;
+} rgba;
+
+static cairo_surface_t *written(example *e, const fg_texture_style *style)
+{
+  if (fg_texture_write(e->context, e->path, e->field, e->texture, style))
+    fail_msg("%s", fg_context_message(e->context));
+  cairo_surface_t *image = cairo_image_surface_create_from_png(e->path);
+  assert_int_equal(cairo_image_surface_get_width(image), 80);
+  assert_int_equal(cairo_image_surface_get_height(image), 40);
+  return image;
+}
+
+static rgba pixel_at(cairo_surface_t *image, int x, int y)
+{
+  const unsigned char *row =
+      cairo_image_surface_get_data(image) + y * cairo_image_surface_get_stride(image);
+  const uint32_t pixel = ((const uint32_t *)(const void *)row)[x];
+  const bool opaque = cairo_image_surface_get_format(image) == CAIRO_FORMAT_RGB24;
+  return (rgba){(pixel >> 16 & 255) / 255.0, (pixel >> 8 & 255) / 255.0,
+                (pixel & 255) / 255.0, opaque ? 1.0 : (pixel >> 24) / 255.0};
+}
+
+/* The mask's border is at the middle, rounded within a cell of two pixels. */
+static void test_pixels_are_the_textures(void **state)
+{
+  example *e = *state;
+  cairo_surface_t *image = written(e, NULL);
+  const fg_texture_arrays *t = fg_texture_contents(e->texture);
+  double least = 1.0, most = 0.0;
+  for (int j = 0; j < 40; ++j)
+    for (int i = 0; i < 37; ++i) {
+      const rgba p = pixel_at(image, i, 39 - j);
+      const double value = (double)t->value[j * 80 + i];
+      assert_true(p.red == p.green && p.green == p.blue && p.alpha == 1.0);
+      /* greys in the order of the values, from nearly black to white */
+      assert_true(fabs(p.red - (0.08 + 0.92 * value)) < 0.003);
+      least = fmin(least, p.red);
+      most = fmax(most, p.red);
+    }
+  assert_true(least < 0.1 && most > 0.98);
+  cairo_surface_destroy(image);
+}
+
+static void test_missing_is_covered(void **state)
+{
+  example *e = *state;
+  const fg_texture_style marked = {.mask_color = "#ff0000"},
+                         clear = {.transparent = true};
+  cairo_surface_t *red = written(e, &marked), *hole = written(e, &clear);
+  for (int j = 2; j < 38; ++j) {
+    for (int i = 43; i < 78; ++i) {
+      const rgba p = pixel_at(red, i, j);
+      assert_true(p.red == 1.0 && p.green == 0.0 && p.blue == 0.0);
+      assert_true(pixel_at(hole, i, j).alpha == 0.0);
+    }
+    for (int i = 0; i < 37; ++i)
+      assert_true(pixel_at(hole, i, j).alpha == 1.0);
+  }
+  cairo_surface_destroy(red);
+  cairo_surface_destroy(hole);
+}
+
+static double mean_lightness(cairo_surface_t *image, int first, int last)
+{
+  double sum = 0.0;
+  for (int j = first; j < last; ++j)
+    for (int i = 0; i < 37; ++i) {
+      const rgba p = pixel_at(image, i, j);
+      sum += (p.red + p.green + p.blue) / 3.0;
+    }
+  return sum / (last - first) / 37.0;
+}
+
+/* In the map "grey" fast places are darker; they are above, in the first rows. */
+static void test_palette_shows_speed(void **state)
+{
+  example *e = *state;
+  const fg_texture_style style = {.palette = "grey"};
+  cairo_surface_t *image = written(e, &style);
+  assert_true(mean_lightness(image, 0, 12) < mean_lightness(image, 28, 40) - 0.03);
+  cairo_surface_destroy(image);
+}
+
+static void test_fading_leads_to_white(void **state)
+{
+  example *e = *state;
+  const fg_texture_style half = {.fade = 0.5}, full = {.fade = 1.0};
+  cairo_surface_t *plain = written(e, NULL), *pale = written(e, &half),
+                  *white = written(e, &full);
+  for (int j = 0; j < 40; ++j)
+    for (int i = 0; i < 37; ++i) {
+      const double before = pixel_at(plain, i, j).red;
+      assert_true(fabs(pixel_at(pale, i, j).red - 0.5 - 0.5 * before) < 0.006);
+      assert_true(pixel_at(white, i, j).red == 1.0);
+    }
+  cairo_surface_destroy(plain);
+  cairo_surface_destroy(pale);
+  cairo_surface_destroy(white);
+}
+
+static void test_refusals(void **state)
+{
+  static const fg_texture_style wrong[] = {
+      {.palette = "nosuch"}, {.fade = -0.1},     {.fade = (double)NAN},
+      {.mask_color = "red"}, {.speed_min = 2.0}, {.speed_max = (double)INFINITY},
+  };
+  example *e = *state;
+  for (size_t n = 0; n < sizeof wrong / sizeof *wrong; ++n) {
+    assert_int_equal(
+        fg_texture_write(e->context, e->path, e->field, e->texture, &wrong[n]),
+        FG_STATUS_ARGUMENT);
+    fg_context_clear(e->context);
+  }
+  assert_int_equal(
+      fg_texture_write(e->context, "/tmp/texture.gif", e->field, e->texture, NULL),
+      FG_STATUS_UNSUPPORTED);
+  fg_context_clear(e->context);
+  assert_int_equal(
+      fg_texture_write(e->context, "/no/such/place.png", e->field, e->texture, NULL),
+      FG_STATUS_FILE_ACCESS);
+  assert_int_equal(access(e->path, F_OK), -1);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(test_pixels_are_the_textures, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_missing_is_covered, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_palette_shows_speed, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_fading_leads_to_white, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_refusals, set_up, tear_down),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,176 @@
+#include "texture/texture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "texture/contrast.h"
+
+enum { LEAST_LONGEST = 16, MOST_PIXELS = 16384, USUAL_LONGEST = 1024 };
+
+static const double least_length = 2.0, most_length = 400.0;
+
+/* Streaks of a 25th of a picture's side show their direction, and turn with the field. */
+static const double usual_share = 1.0 / 25.0, least_usual_length = 20.0;
+
+/* Contrast is evened over windows of this radius: wide enough to hold many streaks. */
+static const double window_radius = 0.6;
+enum { LEAST_WINDOW = 12 };
+
+struct fg_texture {
+  fg_texture_arrays contents;
+  float *value, *speed;
+};
+
+typedef struct texture_kind {
+  fg__texture_paint *paint;
+  int (*margin)(double length);
+} texture_kind;
+
+static const texture_kind kinds[] = {
+    [FG_TEXTURE_LIC] = {fg__lic_paint, fg__lic_margin},
+};
+
+static fg_status check_options(fg_context *context, const fg_texture_options *o)
+{
+  const int last = (int)(sizeof kinds / sizeof *kinds) - 1;
+  if ((int)o->kind < 0 || (int)o->kind > last)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: unknown kind %d",
+                    (int)o->kind);
+  if (o->longest && (o->longest < LEAST_LONGEST || o->longest > MOST_PIXELS))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "texture: %d pixels along the longest side, %d to %d are possible",
+                    o->longest, LEAST_LONGEST, MOST_PIXELS);
+  const bool sized = o->size[0] || o->size[1];
+  if (sized && (o->size[0] < 1 || o->size[1] < 1 || o->size[0] > MOST_PIXELS ||
+                o->size[1] > MOST_PIXELS))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "texture: %d x %d pixels, 1 to %d are possible", o->size[0],
+                    o->size[1], MOST_PIXELS);
+  if (o->length != 0.0 && !(o->length >= least_length && o->length <= most_length))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "texture: streaks of %g pixels, %g to %g are possible", o->length,
+                    least_length, most_length);
+  if (o->threads < 0)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: %d threads", o->threads);
+  return FG_STATUS_OK;
+}
+
+static double side_of(const fg_field_arrays *field, int k)
+{
+  return field->period[k] > 0.0 ? field->period[k]
+                                : field->axis[k][field->size[k] - 1] - field->axis[k][0];
+}
+
+static void choose_size(int size[2], const fg_field_arrays *field,
+                        const fg_texture_options *o)
+{
+  const double side[2] = {side_of(field, 0), side_of(field, 1)};
+  const double longest = o->longest ? o->longest : USUAL_LONGEST;
+  for (int k = 0; k < 2; ++k) {
+    size[k] = o->size[k];
+    if (!o->size[0])
+      size[k] = (int)fmax(floor(longest * (side[k] / fmax(side[0], side[1])) + 0.5), 1.0);
+  }
+}
+
+static double choose_length(const int size[2], const fg_texture_options *o)
+{
+  if (o->length > 0.0)
+    return o->length;
+  const double longest = fmax(size[0], size[1]);
+  return fmin(fmax(usual_share * longest, least_usual_length), most_length);
+}
+
+static int choose_threads(const fg_texture_options *o)
+{
+  if (o->threads)
+    return o->threads;
+  const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+  return cores < 1 ? 1 : (cores > FG__MOST_MEMBERS ? FG__MOST_MEMBERS : (int)cores);
+}
+
+static fg_status paint(fg_texture *texture, fg_context *context, const fg__canvas *canvas)
+{
+  const size_t count = (size_t)canvas->raster.size[0] * (size_t)canvas->raster.size[1];
+  texture->value = fg__allocate(count, sizeof *texture->value);
+  if (!texture->value)
+    return fg__fail_memory(context, "a texture", count * sizeof *texture->value);
+  fg_status status = kinds[texture->contents.kind].paint(texture->value, context, canvas);
+  if (!status)
+    status = fg__check_stop(context);
+  const double radius = fmax(window_radius * canvas->length, LEAST_WINDOW);
+  if (!status)
+    status = fg__contrast_even(texture->value, context, &canvas->raster, (int)radius,
+                               canvas->team);
+  return status;
+}
+
+static fg_status make(fg_texture *texture, fg_context *context, const fg_field *field,
+                      const fg_texture_options *o)
+{
+  fg__canvas canvas = {.field = field, .seed = o->seed ? o->seed : 1};
+  int size[2];
+  choose_size(size, fg_field_contents(field), o);
+  canvas.length = choose_length(size, o);
+  const int margin = kinds[o->kind].margin(canvas.length);
+  fg_status status = fg__team_create(&canvas.team, context, choose_threads(o));
+  if (!status)
+    status = fg__raster_create(&canvas.raster, context, field, size, margin, canvas.team);
+  if (!status)
+    status = paint(texture, context, &canvas);
+  fg__team_destroy(canvas.team);
+  texture->speed = canvas.raster.speed;
+  canvas.raster.speed = NULL;
+  fg__raster_clear(&canvas.raster);
+  texture->contents.size[0] = size[0];
+  texture->contents.size[1] = size[1];
+  texture->contents.value = texture->value;
+  texture->contents.speed = texture->speed;
+  return status;
+}
+
+fg_status fg_texture_create(fg_texture **out, fg_context *context, const fg_field *field,
+                            const fg_texture_options *options)
+{
+  if (!out || !field)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: a NULL argument");
+  *out = NULL;
+  fg_texture_options settled = {0};
+  if (options)
+    settled = *options;
+  fg_status status = check_options(context, &settled);
+  if (status)
+    return status;
+  const int dimension = fg_field_contents(field)->dimension;
+  if (dimension != 2)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "a field in %d dimensions; textures are made of those in 2",
+                    dimension);
+  fg_texture *texture = fg__allocate(1, sizeof *texture);
+  if (!texture)
+    return fg__fail_memory(context, "a texture", sizeof *texture);
+  texture->contents.kind = settled.kind;
+  status = make(texture, context, field, &settled);
+  if (status) {
+    fg_texture_destroy(texture);
+    return status;
+  }
+  *out = texture;
+  return FG_STATUS_OK;
+}
+
+void fg_texture_destroy(fg_texture *texture)
+{
+  if (!texture)
+    return;
+  free(texture->value);
+  free(texture->speed);
+  free(texture);
+}
+
+const fg_texture_arrays *fg_texture_contents(const fg_texture *texture)
+{
+  return texture ? &texture->contents : NULL;
+}

@@ -1,0 +1,26 @@
+/* What the kinds of textures share. */
+#ifndef FG__TEXTURE_H
+#define FG__TEXTURE_H
+
+#include "flowgrain/texture.h"
+#include "texture/raster.h"
+
+/* What a kind is made from. Lengths are in pixels. */
+typedef struct fg__canvas {
+  const fg_field *field;
+  fg__raster raster;
+  double length; /* of streaks */
+  uint64_t seed;
+  fg__team *team;
+} fg__canvas;
+
+/* One kind: fills value (a number a pixel of the picture, not padded) with what it likes;
+ * means and spreads are evened afterwards. MEMORY, STOPPED. */
+typedef fg_status fg__texture_paint(float *value, fg_context *context,
+                                    const fg__canvas *canvas);
+
+/* How far beyond the picture its raster must reach for streaks of a length. */
+int fg__lic_margin(double length);
+fg__texture_paint fg__lic_paint;
+
+#endif

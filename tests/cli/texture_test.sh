@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# texture: pictures of every kind and format, and what is refused.
+source "$(dirname "$0")/harness.sh"
+
+# The width and height in a PNG's header.
+png_size() {
+  od -An -tu1 -j16 -N8 "$1" | awk '{print $1 * 16777216 + $2 * 65536 + $3 * 256 + $4,
+    $5 * 16777216 + $6 * 65536 + $7 * 256 + $8}'
+}
+
+for kind in lic; do
+  try texture synth:benard -o $kind.png --kind $kind --pixels 200
+  expect_code 0
+  [ "$(png_size $kind.png)" = "200 200" ] || fault "size $(png_size $kind.png)"
+  try texture synth:benard -o again.png --kind $kind --pixels 200 --threads 1 --seed 1
+  expect_code 0
+  cmp -s $kind.png again.png || fault "another picture on one thread"
+  try texture synth:benard -o again.png --kind $kind --pixels 200 --seed 2
+  expect_code 0
+  cmp -s $kind.png again.png && fault "the same picture with another seed"
+  done_with "texture: $kind"
+done
+
+try texture "$root/data/gfs_20140131.nc" -o wind.png --pixels 300 --palette deep
+expect_code 0
+[ "$(png_size wind.png)" = "300 150" ] || fault "size $(png_size wind.png)"
+done_with "texture: the domain's shape"
+try texture synth:saddle -o page.pdf --pixels 100 --fade 0.5 --length 30
+expect_code 0
+[ "$(head -c 5 page.pdf)" = %PDF- ] || fault "no PDF"
+try texture synth:saddle -o page.svg --pixels 100 --transparent
+expect_code 0
+grep -q 'width="50pt"' page.svg || fault "$(grep -m1 '<svg' page.svg)"
+done_with "texture: PDF and SVG"
+
+for bad in "--kind plaid" "--kind" "--pixels 3" "--pixels 99999" "--length 1" "--fade 2" \
+  "--seed 0" "--palette nope" "--nodes 65"; do
+  # shellcheck disable=SC2086
+  try texture synth:benard -o bad.png $bad
+  expect_code 2
+  expect_one_complaint
+  expect_nothing_at bad.png
+  done_with "texture: $bad is wrong usage"
+done
+try texture synth:benard -o bad.gif
+expect_code 2
+expect_one_complaint
+try texture synth:benard
+expect_code 2
+expect_one_complaint
+done_with "texture: no or an unknown picture"
+
+try texture no-such-file.nc -o bad.png
+expect_code 1
+expect_one_complaint
+try texture synth:abc -o bad.png
+expect_code 1
+expect_one_complaint
+expect_error 'synth:abc: .*3 dimensions'
+echo junk >junk.nc
+try texture junk.nc -o bad.png
+expect_code 1
+expect_one_complaint
+try texture synth:benard -o no-such-folder/bad.png
+expect_code 1
+expect_one_complaint
+expect_nothing_at bad.png
+done_with "texture: input and output that can not be"
+finish
