@@ -15,7 +15,7 @@ static const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
   EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL |
-          COMMAND_TEXTURE,
+          COMMAND_TEXTURE | COMMAND_GALLERY,
   READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE,
   SEEDED = COMMAND_RUN | COMMAND_TEXTURE,
   PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL,
@@ -64,6 +64,12 @@ const cli_command command_table[] = {
      "`hedgehog` (straight arrows at the points of a grid) and `grid-curved` (pieces of "
      "streamlines through them). INPUT is as in flowgrain run, in two dimensions.",
      true, command_rival},
+    {COMMAND_GALLERY, "gallery", NULL, "-o DIR [options]",
+     "make every figure of the paper, with a page that shows them",
+     "Makes the figures of Garcke et al. (2000), each by commands of this program, and "
+     "DIR/index.html, which shows each beside what the paper's shows and the commands "
+     "that make it again.",
+     true, command_gallery},
 };
 const size_t command_count = sizeof command_table / sizeof command_table[0];
 
@@ -72,6 +78,8 @@ const size_t command_count = sizeof command_table / sizeof command_table[0];
 const option_entry option_table[] = {
     {"output", 'o', "DIR", COMMAND_RUN, OPTION_TEXT, AT(output), 0, 0, false, false, NULL,
      "folder for the results; made when it is missing"},
+    {"output", 'o', "DIR", COMMAND_GALLERY, OPTION_TEXT, AT(output), 0, 0, false, false,
+     NULL, "folder for the page and its pictures; made when it is missing"},
     {"output", 'o', "PICTURE", COMMAND_DRAW, OPTION_TEXT, AT(output), 0, 0, false, false,
      NULL, "picture to write, .svg, .pdf or .png"},
     {"output", 'o', "PICTURE", COMMAND_TEXTURE, OPTION_TEXT, AT(output), 0, 0, false,
@@ -198,6 +206,13 @@ const option_entry option_table[] = {
     {"transparent", 0, NULL, PICTURES, OPTION_FLAG, AT(transparent), 0, 0, false, false,
      NULL, "no background"},
 
+    {"figure", 0, "N", COMMAND_GALLERY, OPTION_WHOLE, AT(figure), 1, 99, false, false,
+     NULL, "only figure N of the paper"},
+
+    {"force", 'f', NULL, COMMAND_GALLERY, OPTION_FLAG, AT(force), 0, 0, false, false,
+     NULL, "replace the gallery in DIR; other files in it stay"},
+    {"quiet", 'q', NULL, COMMAND_GALLERY, OPTION_FLAG, AT(quiet), 0, 0, false, false,
+     NULL, "do not say which figure is being made"},
     {"force", 'f', NULL, COMMAND_RUN, OPTION_FLAG, AT(force), 0, 0, false, false, NULL,
      "replace the results of a finished run in DIR; other files in it stay"},
     {"quiet", 'q', NULL, COMMAND_RUN, OPTION_FLAG, AT(quiet), 0, 0, false, false, NULL,

@@ -272,18 +272,21 @@ static const option_entry *find_option(const cli_command *command, int code)
 static bool check_operands(cli_settings *out, const cli_command *command, int count,
                            char **operands)
 {
-  if (!count)
+  if (!command->operand && count)
+    return wrong(command, "%s: takes no operand, and '%s' is one", command->name,
+                 operands[0]);
+  if (command->operand && !count)
     return wrong(command, "%s: %s is missing", command->name, command->operand);
   if (count > 1)
     return wrong(command, "%s: one %s is expected, and '%s' is one more", command->name,
                  command->operand, operands[1]);
-  if (!*operands[0])
+  if (count && !*operands[0])
     return wrong(command, "%s: %s is empty", command->name, command->operand);
   if (command->needs_output && !out->output)
     return wrong(command, "%s: -o is missing", command->name);
   if (out->resume && out->force)
     return wrong(command, "--resume goes on with what --force would replace: say one");
-  out->operand = operands[0];
+  out->operand = count ? operands[0] : NULL;
   return true;
 }
 

@@ -13,13 +13,14 @@ enum {
   COMMAND_INFO = 4,
   COMMAND_SYNTH = 8,
   COMMAND_RIVAL = 16,
-  COMMAND_TEXTURE = 32
+  COMMAND_TEXTURE = 32,
+  COMMAND_GALLERY = 128
 };
 
 typedef struct cli_command {
   unsigned bit;
   const char *name;
-  const char *operand;  /* the one operand's name */
+  const char *operand;  /* the one operand's name; NULL: takes none */
   const char *synopsis; /* after the name */
   const char *summary;  /* a clause for the list of commands */
   const char *text;     /* a paragraph for its own help */

@@ -48,6 +48,7 @@ typedef struct cli_settings {
 
   const char *input; /* draw: the field, where it is now */
   int scale_index;   /* draw: -1 when not said */
+  int figure;        /* gallery: the only one; 0: all */
 
   bool save_field, resume, force, quiet, verbose, json;
 } cli_settings;
@@ -84,6 +85,10 @@ int command_info(const cli_settings *settings);
 int command_synth(const cli_settings *settings);
 int command_rival(const cli_settings *settings);
 int command_texture(const cli_settings *settings);
+int command_gallery(const cli_settings *settings);
+
+/* Does what a command line says, argv[0] being the program; returns its exit code. */
+int program_perform(int argc, char **argv);
 
 fg_read_options settings_reading(const cli_settings *settings);
 fg_evolution_options settings_evolution(const cli_settings *settings);

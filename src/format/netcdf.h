@@ -238,7 +238,8 @@ fg_status fg__nc_samples_read(fg__nc_samples *out, const fg__nc_file *file,
                               size_t time, size_t level, const char *mask);
 void fg__nc_samples_clear(fg__nc_samples *samples);
 
-/* What the components are together; `components` of them. */
+/* What the components are together, from their long or standard names; else the title of
+ * their file (or group), or their names. */
 void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t size);
 
 /* Describes an index along time or level; name is the dimension's. */

@@ -115,6 +115,9 @@ void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t siz
     if (join_shared(of_u, of_v, out, size))
       return;
   }
+  fg__nc_variable file = {.group = pair->component[0]->group, .id = NC_GLOBAL};
+  if (fg__nc_text(&file, "title", out, size))
+    return;
   if (components == 3)
     snprintf(out, size, "%.80s, %.80s, %.80s", pair->component[0]->plain_name,
              pair->component[1]->plain_name, pair->component[2]->plain_name);

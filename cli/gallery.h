@@ -1,0 +1,42 @@
+/* The figures of Garcke et al. (2000), each made by commands of this program. */
+#ifndef GALLERY_H
+#define GALLERY_H
+
+#include <stdio.h>
+
+#include "program.h"
+
+typedef struct gallery_picture {
+  const char *path; /* in the gallery's folder */
+  const char *caption;
+} gallery_picture;
+
+enum { GALLERY_COMMANDS = 8, GALLERY_PICTURES = 8 };
+
+/* Commands are words after `flowgrain`, with a space between; files of data/ that they
+ * read stand in the gallery's folder. */
+typedef struct gallery_figure {
+  int number; /* the paper's */
+  const char *title;
+  const char *paper;                     /* what the paper's figure shows */
+  const char *differs;                   /* from it, and why; NULL: nothing to say */
+  void (*draw)(FILE *svg);               /* a diagram: fig-NN.svg */
+  const char *command[GALLERY_COMMANDS]; /* up to the first NULL */
+  gallery_picture picture[GALLERY_PICTURES];
+} gallery_figure;
+
+extern const gallery_figure gallery_figures[];
+extern const int gallery_figure_count;
+
+/* Files of data/ that figures read. */
+extern const char *const gallery_data[];
+extern const int gallery_data_count;
+
+/* The page that shows them: all, or the one of that number. */
+void gallery_print_page(FILE *page, int only);
+
+/* The double well, and the substeps of the theta-scheme. */
+void gallery_draw_wells(FILE *svg);
+void gallery_draw_substeps(FILE *svg);
+
+#endif

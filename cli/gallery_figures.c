@@ -1,0 +1,36 @@
+/* The figures, in the paper's order. */
+#include "gallery.h"
+
+const char *const gallery_data[] = {"convection_cells.nc", "convection_plumes.nc"};
+const int gallery_data_count = sizeof gallery_data / sizeof gallery_data[0];
+
+const gallery_figure gallery_figures[] = {
+    {.number = 3,
+     .title = "The double well",
+     .paper = "The energy of the separation, with its two minima at the wells.",
+     .draw = gallery_draw_wells,
+     .picture = {{"fig-03.svg",
+                  "\xCE\xA8(u) = (u\xC2\xB2 \xE2\x88\x92 \xCE\xB2\xC2\xB2)\xC2\xB2/2, "
+                  "\xCE\xB2 = 1; where it is concave, phases separate"}}},
+    {.number = 7,
+     .title = "Two successive times with their icons",
+     .paper = "Curved arrows at two moments of one evolution, the second coarser.",
+     .command = {"run synth:vortex3 -o fig-07 --clusters 80,20 --tint"},
+     .picture = {{"fig-07/scale-00.png", "80 clusters"},
+                 {"fig-07/scale-01.png", "20 clusters: the same evolution, later"}}},
+    {.number = 9,
+     .title = "A circular flow",
+     .paper = "The clustering of a circular flow; clusters become rings.",
+     .command = {"run synth:vortex -o fig-09 --clusters 60,12 --tint"},
+     .picture = {{"fig-09/scale-00.png", "60 clusters"},
+                 {"fig-09/scale-01.png", "12 clusters"}}},
+    {.number = 13,
+     .title = "The time line of the \xCE\xB8-scheme",
+     .paper = "The three substeps of a time step.",
+     .differs = "docs/method/schemes.md compares this scheme, --scheme theta, with the "
+                "ones that this program prefers.",
+     .draw = gallery_draw_substeps,
+     .picture = {{"fig-13.svg", "\xCE\xB8 = 1 \xE2\x88\x92 1/\xE2\x88\x9A"
+                                "2, \xCE\xB2 = 1 \xE2\x88\x92 \xCE\xB1"}}},
+};
+const int gallery_figure_count = sizeof gallery_figures / sizeof gallery_figures[0];

@@ -1,0 +1,84 @@
+/* The gallery's page: each figure beside what the paper's shows, and its commands. */
+#include <string.h>
+
+#include "gallery.h"
+
+static const char head[] =
+    "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+    "<title>flowgrain: the figures of Garcke et al. (2000)</title>\n<style>\n"
+    "body{font:16px/1.5 system-ui,sans-serif;max-width:70rem;margin:2rem auto;"
+    "padding:0 1rem;color:#222}\n"
+    "h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:3rem;border-top:1px solid #ccc;"
+    "padding-top:1rem}\n"
+    ".row{display:flex;flex-wrap:wrap;gap:1rem}\n"
+    "figure{margin:0;flex:1 1 20rem;max-width:34rem}\n"
+    "img{width:100%;height:auto;border:1px solid #ddd}\n"
+    "figcaption{font-size:.9rem;color:#444}\n"
+    "pre{background:#f4f4f1;padding:.6rem;overflow-x:auto;font-size:.85rem}\n"
+    ".paper{color:#444}\n</style>\n</head>\n<body>\n"
+    "<h1>The figures of the paper, made by flowgrain</h1>\n"
+    "<p>H. Garcke, T. Preu&szlig;er, M. Rumpf, A. Telea, U. Weikard and J. J. van Wijk: "
+    "<em>A Continuous Clustering Method for Vector Fields</em>, IEEE Visualization 2000. "
+    "Under each figure: what the paper shows there, what differs, and the commands that "
+    "make it again, to be called in this folder.</p>\n";
+
+/* Text as HTML: the three characters that mean something there. */
+static void print_text(FILE *page, const char *text)
+{
+  for (const char *c = text; *c; ++c)
+    switch (*c) {
+    case '&':
+      fputs("&amp;", page);
+      break;
+    case '<':
+      fputs("&lt;", page);
+      break;
+    case '>':
+      fputs("&gt;", page);
+      break;
+    default:
+      fputc(*c, page);
+    }
+}
+
+static void print_figure(FILE *page, const gallery_figure *figure)
+{
+  fprintf(page, "<h2 id=\"fig-%02d\">Figure %d. ", figure->number, figure->number);
+  print_text(page, figure->title);
+  fputs("</h2>\n<div class=\"row\">\n", page);
+  for (int n = 0; n < GALLERY_PICTURES && figure->picture[n].path; ++n) {
+    const gallery_picture *p = &figure->picture[n];
+    fprintf(page, "<figure><a href=\"%s\"><img src=\"%s\" alt=\"", p->path, p->path);
+    print_text(page, p->caption);
+    fputs("\"></a><figcaption>", page);
+    print_text(page, p->caption);
+    fputs("</figcaption></figure>\n", page);
+  }
+  fputs("</div>\n<p class=\"paper\"><strong>In the paper:</strong> ", page);
+  print_text(page, figure->paper);
+  fputs("</p>\n", page);
+  if (figure->differs) {
+    fputs("<p><strong>Here:</strong> ", page);
+    print_text(page, figure->differs);
+    fputs("</p>\n", page);
+  }
+  if (!figure->command[0])
+    return;
+  fputs("<pre>", page);
+  for (int n = 0; n < GALLERY_COMMANDS && figure->command[n]; ++n) {
+    fputs("flowgrain ", page);
+    print_text(page, figure->command[n]);
+    fputc('\n', page);
+  }
+  fputs("</pre>\n", page);
+}
+
+void gallery_print_page(FILE *page, int only)
+{
+  fputs(head, page);
+  for (int n = 0; n < gallery_figure_count; ++n)
+    if (!only || gallery_figures[n].number == only)
+      print_figure(page, &gallery_figures[n]);
+  fprintf(page, "<p class=\"paper\">flowgrain %s</p>\n</body>\n</html>\n", fg_version());
+}

@@ -1,0 +1,52 @@
+/* From a command line to the command. */
+#include <stdio.h>
+#include <string.h>
+
+#include "options.h"
+#include "ranks.h"
+
+static parse_result usage(void)
+{
+  advise("Try 'flowgrain --help'.");
+  return PARSE_WRONG;
+}
+
+static parse_result parse(const cli_command **command, cli_settings *settings, int argc,
+                          char **argv)
+{
+  if (argc < 2) {
+    complain("a command is missing");
+    return usage();
+  }
+  const char *word = argv[1];
+  if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 ||
+      strcmp(word, "help") == 0) {
+    print_program_help(stdout);
+    return PARSE_DONE;
+  }
+  if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
+    printf("flowgrain %s\n", fg_version());
+    return PARSE_DONE;
+  }
+  *command = command_find(word);
+  if (!*command) {
+    complain("unknown %s '%s'", word[0] == '-' ? "option" : "command", word);
+    return usage();
+  }
+  return options_parse(settings, *command, argc - 1, argv + 1);
+}
+
+int program_perform(int argc, char **argv)
+{
+  const cli_command *command = NULL;
+  cli_settings settings;
+  parse_result parsed = parse(&command, &settings, argc, argv);
+  int code = ranks_agree(parsed == PARSE_WRONG ? EXIT_USAGE : EXIT_DONE);
+  if (code || ranks_any(parsed == PARSE_DONE))
+    return code;
+  if (!command)
+    return EXIT_USAGE;
+  if (command->work != command_run && !ranks_leader())
+    return EXIT_DONE; /* work for one */
+  return command->work(&settings);
+}

@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# The gallery: every figure is made, and the page shows what is there.
+source "$(dirname "$0")/harness.sh"
+
+try gallery -o all --quiet
+expect_code 0
+[ ! -s err ] || fault "it said: $(head -c 300 err)"
+expect_file all/index.html
+shown=$(grep -o 'src="[^"]*"' all/index.html | sed 's/src="//; s/"//' | sort -u)
+[ "$(wc -l <<<"$shown")" -ge 4 ] || fault "few pictures: $shown"
+for picture in $shown; do
+  expect_file "all/$picture"
+done
+! grep -q "$work" all/index.html || fault "the page names a folder of this machine"
+done_with "all figures are made and shown"
+
+try gallery -o all --quiet
+expect_code 1
+expect_one_complaint
+expect_error 'holds a gallery already'
+echo mine >all/notes.txt
+echo old >all/index.html
+try gallery -o all --quiet --force --figure 7
+expect_code 0
+[ "$(cat all/notes.txt)" = mine ] || fault "a foreign file has changed"
+grep -q 'Figure 7' all/index.html || fault "the page does not show figure 7"
+! grep -q 'Figure 3' all/index.html || fault "the page shows another figure"
+done_with "a gallery is replaced only when asked for, and figures one by one"
+
+# the commands on the page make the pictures again
+sed -n '/<pre>/,/<\/pre>/p' all/index.html | sed 's/<[^>]*>//g' | grep '^flowgrain ' >commands
+mkdir again
+(cd again && while read -r _ words; do
+  # shellcheck disable=SC2086
+  "$program" $words >/dev/null 2>&1 || exit 1
+done <../commands) || fault "a command of the page failed: $(cat commands)"
+for picture in $(grep -o 'src="[^"]*png"' all/index.html | sed 's/src="//; s/"//'); do
+  cmp -s "all/$picture" "again/$picture" || fault "$picture differs"
+done
+done_with "the commands that the page names make the same pictures"
+
+try gallery -o none --figure 5000
+expect_code 2
+try gallery -o none --figure 55
+expect_code 2
+expect_one_complaint
+expect_nothing_at none
+FLOWGRAIN_DATA=/no/such/folder try gallery -o none --quiet
+expect_code 1
+expect_one_complaint
+expect_error '/no/such/folder'
+try gallery anything -o none
+expect_code 2
+expect_one_complaint
+done_with "wrong usage and missing data are told"
+
+finish
