@@ -427,7 +427,7 @@ static fg_status build(fg_evolution *e, const fg_field *field)
     status = create_mesh(e, field);
   if (!status) {
     count_cells(e);
-    e->spread = e->ranks->count > 1 || e->mesh.level[0].count != 1;
+    e->spread = e->ranks->count > 1 || e->mesh.partition.count != 1;
     if (!e->spread && (double)e->nodes >= fg__least_shared_nodes)
       status = fg__team_create(&e->team, e->context, e->options.threads);
   }

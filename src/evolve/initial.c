@@ -79,7 +79,7 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
   int count;
   const ptrdiff_t *offset;
   const fg__level *box = fg__multigrid_boxes(multigrid, &count, &offset);
-  const fg__box *place = fg__own_boxes(&e->mesh.level[0], &(int){0});
+  const fg__box *place = fg__own_boxes(&e->mesh.partition, &(int){0});
   float *u = fg__multigrid_u(multigrid);
   fg_status status = FG_STATUS_OK;
   for (int b = 0; b < count && !status; ++b)

@@ -90,7 +90,7 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
 {
   fg__partition partition;
   int own_count;
-  const fg__box *own = fg__own_boxes(&mesh->level[0], &own_count);
+  const fg__box *own = fg__own_boxes(&mesh->partition, &own_count);
   fg_status status =
       fg__partition_create(&partition, context, mesh->ranks, mesh->dimension, mesh->cells,
                            mesh->periodic, own, own_count);

@@ -141,7 +141,7 @@ static void fill(run *r, fg__multigrid *multigrid)
   int count;
   const ptrdiff_t *offset;
   const fg__level *box = fg__multigrid_boxes(multigrid, &count, &offset);
-  const fg__box *place = fg__own_boxes(&r->mesh.level[0], &(int){0});
+  const fg__box *place = fg__own_boxes(&r->mesh.partition, &(int){0});
   float *u = fg__multigrid_u(multigrid);
   for (int b = 0; b < count; ++b) {
     const fg__layout *at = &box[b].layout;
@@ -193,7 +193,7 @@ static void gather(const run *r, outcome *out)
     fg__level_export(&m->level[0], r->stepper.current, plain);
     return;
   }
-  fg__layout layout = fg__layout_of(r->mesh.dimension, r->mesh.level[0].nodes);
+  fg__layout layout = fg__layout_of(r->mesh.dimension, r->mesh.partition.nodes);
   float *whole = allocate_or_end(layout.array_size, sizeof *whole);
   fg__gather *plan;
   expect(fg__gather_create(&plan, us.context, &m->spread[0].partition, 1) ==
@@ -225,7 +225,7 @@ static void count(const run *r, outcome *out)
   fg__components c = {0};
   fg__component_grid grid = {.u = out->u, .active = r->active, .debris_area = 3.0};
   for (int k = 0; k < 3; ++k) {
-    grid.nodes[k] = r->mesh.level[0].nodes[k];
+    grid.nodes[k] = r->mesh.partition.nodes[k];
     grid.periodic[k] = r->mesh.periodic[k];
   }
   expect(fg__components_count(&c, us.context, &grid) == FG_STATUS_OK);
@@ -241,8 +241,8 @@ static outcome outcome_of(const subject *s, const fg__ranks *ranks)
   fg__multigrid multigrid;
   describe(&r, s, ranks);
   for (int k = 0; k < 3; ++k)
-    out.nodes *= (size_t)r.mesh.level[0].nodes[k];
-  if (r.mesh.level[0].count == 1)
+    out.nodes *= (size_t)r.mesh.partition.nodes[k];
+  if (r.mesh.partition.count == 1)
     create_whole(&r, &multigrid);
   else
     expect(fg__multigrid_create_spread(&multigrid, us.context, &r.mesh, &r.recipe,

@@ -17,7 +17,7 @@ static const unsigned char *mask_of(const fg_evolution *e)
 
 static int nodes_along(const fg_evolution *e, int axis)
 {
-  return e->mesh.level[0].nodes[axis];
+  return e->mesh.partition.nodes[axis];
 }
 
 static fg_status count_whole(fg_evolution *e, bool counting, double *covered)

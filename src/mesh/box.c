@@ -2,8 +2,6 @@
 
 #include <stdlib.h>
 
-#include "base/memory.h"
-
 fg__box fg__box_intersection(const fg__box *a, const fg__box *b)
 {
   fg__box out;
@@ -13,28 +11,6 @@ fg__box fg__box_intersection(const fg__box *a, const fg__box *b)
     out.nodes[k] = (a_end < b_end ? a_end : b_end) - out.first[k];
   }
   return out;
-}
-
-int fg__box_without(fg__box out[6], const fg__box *box, const fg__box *hole)
-{
-  fg__box rest = *box;
-  int count = 0;
-  for (int k = 2; k >= 0; --k) {
-    int below = hole->first[k] - rest.first[k];
-    int above = rest.nodes[k] - below - hole->nodes[k];
-    if (below > 0) {
-      out[count] = rest;
-      out[count++].nodes[k] = below;
-    }
-    if (above > 0) {
-      out[count] = rest;
-      out[count].first[k] = hole->first[k] + hole->nodes[k];
-      out[count++].nodes[k] = above;
-    }
-    rest.first[k] = hole->first[k];
-    rest.nodes[k] = hole->nodes[k];
-  }
-  return count;
 }
 
 /* Orders boxes so that those which could be merged along `axis` follow each other. */
@@ -101,34 +77,4 @@ int fg__boxes_merge(fg__box *box, int count)
   }
   qsort(box, (size_t)count, sizeof *box, compare_places);
   return count;
-}
-
-bool fg__box_list_add(fg__box_list *list, const fg__box *box)
-{
-  void *memory = list->box;
-  bool grown = fg__grow(&memory, &list->capacity, list->count + 1, sizeof *list->box);
-  list->box = memory;
-  if (grown)
-    list->box[list->count++] = *box;
-  return grown;
-}
-
-bool fg__box_list_take_out(fg__box_list *list, const fg__box *hole)
-{
-  size_t before = list->count, kept = 0;
-  for (size_t n = 0; n < before; ++n) {
-    fg__box common = fg__box_intersection(&list->box[n], hole), rest[6];
-    if (fg__box_is_empty(&common))
-      continue;
-    int parts = fg__box_without(rest, &list->box[n], &common);
-    list->box[n].nodes[0] = 0; /* empty: dropped below */
-    for (int p = 0; p < parts; ++p)
-      if (!fg__box_list_add(list, &rest[p]))
-        return false;
-  }
-  for (size_t n = 0; n < list->count; ++n)
-    if (!fg__box_is_empty(&list->box[n]))
-      list->box[kept++] = list->box[n];
-  list->count = kept;
-  return true;
 }

@@ -58,25 +58,6 @@ static void the_intersection_is_what_both_have(void **state)
   }
 }
 
-static void box_and_hole_make_up_what_was_there(void **state)
-{
-  (void)state;
-  uint64_t seed = 4;
-  for (int trial = 0; trial < 500; ++trial) {
-    fg__box a = random_box(&seed), b = random_box(&seed), rest[6];
-    fg__box hole = fg__box_intersection(&a, &b);
-    if (fg__box_is_empty(&hole))
-      continue;
-    int count = fg__box_without(rest, &a, &hole);
-    marks whole = {0}, parts = {0};
-    mark(&whole, &a);
-    mark(&parts, &hole);
-    for (int n = 0; n < count; ++n)
-      mark(&parts, &rest[n]);
-    assert_memory_equal(&whole, &parts, sizeof whole);
-  }
-}
-
 /* Unit boxes at random nodes; the same in another order. */
 static int scatter(fg__box box[MOST], uint64_t *seed, unsigned share)
 {
@@ -153,7 +134,6 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_intersection_is_what_both_have),
-      cmocka_unit_test(box_and_hole_make_up_what_was_there),
       cmocka_unit_test(merging_covers_the_same_nodes),
       cmocka_unit_test(nothing_is_left_to_merge),
       cmocka_unit_test(merging_does_not_depend_on_the_order),

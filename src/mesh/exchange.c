@@ -15,7 +15,7 @@ static void post_receives(fg__exchange *e)
   }
 }
 
-static void post_sends(fg__exchange *e, float *const *const from_array[])
+static void post_sends(fg__exchange *e)
 {
   MPI_Comm communicator = fg__communicator(e->ranks);
   for (int n = 0; n < e->senders.count; ++n) {
@@ -24,7 +24,7 @@ static void post_sends(fg__exchange *e, float *const *const from_array[])
     for (int a = 0; a < e->arrays; ++a)
       for (size_t p = l->first; p < l->end; ++p) {
         const fg__brick *from = &e->sent.piece[p].from;
-        end = fg__brick_pack(from, &e->from_layout[from->box], from_array[a][from->box],
+        end = fg__brick_pack(from, &e->layout[from->box], e->array[a][from->box],
                              e->colours, end);
       }
     ptrdiff_t nodes = end - l->buffer;
@@ -37,29 +37,22 @@ static void post_sends(fg__exchange *e, float *const *const from_array[])
   }
 }
 
-void fg__exchange_begin_between(fg__exchange *exchange, int count,
-                                float *const *const from[], float *const *const to[],
-                                unsigned colours)
-{
-  fg__exchange *e = exchange;
-  e->arrays = count;
-  e->to = to;
-  e->colours = colours;
-  fg__traffic_add_exchange(e->ranks->book);
-  post_receives(e);
-  post_sends(e, from);
-  for (size_t n = 0; n < e->copied.count; ++n) {
-    const fg__brick *target = &e->copied.piece[n].to, *source = &e->copied.piece[n].from;
-    for (int a = 0; a < count; ++a)
-      fg__brick_copy(target, &e->to_layout[target->box], to[a][target->box], source,
-                     &e->from_layout[source->box], from[a][source->box], colours);
-  }
-}
-
 void fg__exchange_begin(fg__exchange *exchange, int count, float *const *const array[],
                         unsigned colours)
 {
-  fg__exchange_begin_between(exchange, count, array, array, colours);
+  fg__exchange *e = exchange;
+  e->arrays = count;
+  e->array = array;
+  e->colours = colours;
+  fg__traffic_add_exchange(e->ranks->book);
+  post_receives(e);
+  post_sends(e);
+  for (size_t n = 0; n < e->copied.count; ++n) {
+    const fg__brick *to = &e->copied.piece[n].to, *from = &e->copied.piece[n].from;
+    for (int a = 0; a < count; ++a)
+      fg__brick_copy(to, &e->layout[to->box], array[a][to->box], from,
+                     &e->layout[from->box], array[a][from->box], colours);
+  }
 }
 
 void fg__exchange_finish(fg__exchange *exchange)
@@ -72,15 +65,9 @@ void fg__exchange_finish(fg__exchange *exchange)
     for (int a = 0; a < e->arrays; ++a)
       for (size_t p = l->first; p < l->end; ++p) {
         const fg__brick *to = &e->received.piece[p].to;
-        next = fg__brick_unpack(to, &e->to_layout[to->box], e->to[a][to->box], e->colours,
+        next = fg__brick_unpack(to, &e->layout[to->box], e->array[a][to->box], e->colours,
                                 next);
       }
   }
   MPI_Waitall(e->senders.count, e->senders.request, MPI_STATUSES_IGNORE);
-}
-
-const fg__uncovered *fg__exchange_uncovered(const fg__exchange *exchange, int *count)
-{
-  *count = (int)exchange->uncovered_count;
-  return exchange->uncovered;
 }

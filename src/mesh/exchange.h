@@ -33,33 +33,12 @@ enum {
   FG__ALL_COLOURS = 0xff
 };
 
-/* Which nodes of a box are filled. */
-typedef enum fg__part {
-  FG__GHOSTS = 1,
-  FG__NODES = 2,
-  FG__NODES_AND_GHOSTS = 3
-} fg__part;
-
-/* Nodes to fill that no box of the level owns a source for: local indices of own box
- * `box`. */
-typedef struct fg__uncovered {
-  int box;
-  fg__box nodes;
-} fg__uncovered;
-
 typedef struct fg__exchange fg__exchange;
 
 /* Makes the plan for a level, for up to `most_arrays` arrays at a time; the partition may
  * go afterwards. A rank without a box takes part as well. Collective. MEMORY. */
 fg_status fg__exchange_create(fg__exchange **out, fg_context *context,
                               const fg__partition *partition, int most_arrays);
-
-/* The plan that fills boxes of `to` with what boxes of `from` own, another partition of
- * the same grid by the same ranks: the level of another mesh, or the boxes of a finer
- * level, halved. Collective. MEMORY. */
-fg_status fg__exchange_create_between(fg__exchange **out, fg_context *context,
-                                      const fg__partition *from, const fg__partition *to,
-                                      fg__part part, int most_arrays);
 void fg__exchange_destroy(fg__exchange *exchange); /* NULL-safe */
 
 /* Begins to fill the ghosts of the given colours in `count` arrays; array[a][b] points to
@@ -67,11 +46,6 @@ void fg__exchange_destroy(fg__exchange *exchange); /* NULL-safe */
  * rank are made here. */
 void fg__exchange_begin(fg__exchange *exchange, int count, float *const *const array[],
                         unsigned colours);
-
-/* The same between partitions: arrays of own boxes of `from` and of `to`. */
-void fg__exchange_begin_between(fg__exchange *exchange, int count,
-                                float *const *const from[], float *const *const to[],
-                                unsigned colours);
 
 /* Waits for the others' values and puts them into the ghosts. */
 void fg__exchange_finish(fg__exchange *exchange);
@@ -82,16 +56,5 @@ static inline void fg__exchange_fill(fg__exchange *exchange, int count,
   fg__exchange_begin(exchange, count, array, colours);
   fg__exchange_finish(exchange);
 }
-
-static inline void fg__exchange_fill_between(fg__exchange *exchange, int count,
-                                             float *const *const from[],
-                                             float *const *const to[], unsigned colours)
-{
-  fg__exchange_begin_between(exchange, count, from, to, colours);
-  fg__exchange_finish(exchange);
-}
-
-/* The nodes that exchanges leave alone, disjoint, and their number; borrowed. */
-const fg__uncovered *fg__exchange_uncovered(const fg__exchange *exchange, int *count);
 
 #endif

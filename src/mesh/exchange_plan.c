@@ -50,17 +50,6 @@ static bool add_piece(fg__pieces *list, const fg__piece *added)
   return grown;
 }
 
-static bool add_uncovered(fg__exchange *e, int box, const fg__box *ghosts)
-{
-  void *memory = e->uncovered;
-  bool grown = fg__grow(&memory, &e->uncovered_capacity, e->uncovered_count + 1,
-                        sizeof *e->uncovered);
-  e->uncovered = memory;
-  if (grown)
-    e->uncovered[e->uncovered_count++] = (fg__uncovered){box, *ghosts};
-  return grown;
-}
-
 /* A box to fill: of this rank, or of another that may ask this one. */
 typedef struct target {
   const fg__box *box;
@@ -74,11 +63,9 @@ typedef struct source {
 } source;
 
 typedef struct search {
-  const fg__partition *from, *to;
-  fg__part part;
+  const fg__partition *level;
   source *source;
   size_t source_count, source_capacity;
-  fg__box_list left;
 } search;
 
 /* Mirror images lie within one node of a box as well as neighbours do. */
@@ -101,15 +88,15 @@ static bool find_near(search *s, const fg__box *box, int first_rank, int last_ra
 {
   s->source_count = 0;
   for (int rank = first_rank; rank <= last_rank; ++rank) {
-    int first = s->from->first_of_rank[rank], end = s->from->first_of_rank[rank + 1];
+    int first = s->level->first_of_rank[rank], end = s->level->first_of_rank[rank + 1];
     for (int n = first; n < end; ++n) {
-      if (!reaches(s->from, box, &s->from->box[n]))
+      if (!reaches(s->level, box, &s->level->box[n]))
         continue;
       void *memory = s->source;
       if (!fg__grow(&memory, &s->source_capacity, s->source_count + 1, sizeof *s->source))
         return false;
       s->source = memory;
-      s->source[s->source_count++] = (source){&s->from->box[n], rank, n - first};
+      s->source[s->source_count++] = (source){&s->level->box[n], rank, n - first};
     }
   }
   return true;
@@ -130,28 +117,10 @@ static bool add_pieces(fg__exchange *e, search *s, const target *to,
     fg__piece found = {.to = brick_of(to->own, &filled, &common),
                        .from = brick_of(from->index, &read, &common),
                        .rank = to->own < 0 ? to->rank : from->rank};
-    fg__pieces *list = to->own < 0                          ? &e->sent
-                       : from->rank == s->from->ranks->rank ? &e->copied
-                                                            : &e->received;
-    if (!add_piece(list, &found) ||
-        (to->own >= 0 && !fg__box_list_take_out(&s->left, &common)))
-      return false;
-  }
-  return true;
-}
-
-static bool add_side(fg__exchange *e, search *s, const target *to, const int side[3])
-{
-  fg__box ghosts, sources;
-  find_sources(s->to, to->box, side, &ghosts, &sources);
-  s->left.count = 0;
-  if (to->own >= 0 && !fg__box_list_add(&s->left, &sources))
-    return false;
-  if (!add_pieces(e, s, to, &ghosts, &sources))
-    return false;
-  for (size_t n = 0; n < s->left.count; ++n) {
-    fg__box uncovered = ghosts_of(&s->left.box[n], &sources, &ghosts);
-    if (!add_uncovered(e, to->own, &uncovered))
+    fg__pieces *list = to->own < 0                           ? &e->sent
+                       : from->rank == s->level->ranks->rank ? &e->copied
+                                                             : &e->received;
+    if (!add_piece(list, &found))
       return false;
   }
   return true;
@@ -159,16 +128,19 @@ static bool add_side(fg__exchange *e, search *s, const target *to, const int sid
 
 static bool add_target(fg__exchange *e, search *s, const target *to)
 {
-  int depth = s->to->dimension == 3 ? 1 : 0, here = s->to->ranks->rank;
-  int last = s->to->ranks->count - 1;
+  int depth = s->level->dimension == 3 ? 1 : 0, here = s->level->ranks->rank;
+  int last = s->level->ranks->count - 1;
   if (!find_near(s, to->box, to->own < 0 ? here : 0, to->own < 0 ? here : last))
     return false;
   for (int z = -depth; z <= depth; ++z)
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x) {
-        bool inner = x == 0 && y == 0 && z == 0;
-        if ((s->part & (inner ? FG__NODES : FG__GHOSTS)) != 0 &&
-            !add_side(e, s, to, (int[3]){x, y, z}))
+        const int side[3] = {x, y, z};
+        fg__box ghosts, sources;
+        if (x == 0 && y == 0 && z == 0)
+          continue;
+        find_sources(s->level, to->box, side, &ghosts, &sources);
+        if (!add_pieces(e, s, to, &ghosts, &sources))
           return false;
       }
   return true;
@@ -178,14 +150,14 @@ static bool add_target(fg__exchange *e, search *s, const target *to)
 static bool find_pieces(fg__exchange *e, search *s)
 {
   bool done = true;
-  for (int rank = 0; rank < s->to->ranks->count; ++rank) {
-    int first = s->to->first_of_rank[rank], end = s->to->first_of_rank[rank + 1];
+  const fg__partition *level = s->level;
+  for (int rank = 0; rank < level->ranks->count; ++rank) {
+    int first = level->first_of_rank[rank], end = level->first_of_rank[rank + 1];
     for (int n = first; done && n < end; ++n) {
-      target to = {&s->to->box[n], rank, rank == s->to->ranks->rank ? n - first : -1};
+      target to = {&level->box[n], rank, rank == level->ranks->rank ? n - first : -1};
       done = add_target(e, s, &to);
     }
   }
-  free(s->left.box);
   free(s->source);
   return done;
 }
@@ -274,32 +246,29 @@ static fg__layout *layouts_of(const fg__partition *level)
   return out;
 }
 
-static bool make_plan(fg__exchange *e, const fg__partition *from, const fg__partition *to,
-                      fg__part part)
+static bool make_plan(fg__exchange *e, const fg__partition *level)
 {
-  int ranks = from->ranks->count;
-  search s = {.from = from, .to = to, .part = part};
-  e->from_layout = layouts_of(from);
-  e->to_layout = layouts_of(to);
-  return e->from_layout && e->to_layout && find_pieces(e, &s) &&
-         sort_by_rank(&e->sent, ranks) && sort_by_rank(&e->received, ranks) &&
+  int ranks = level->ranks->count;
+  search s = {.level = level};
+  e->layout = layouts_of(level);
+  return e->layout && find_pieces(e, &s) && sort_by_rank(&e->sent, ranks) &&
+         sort_by_rank(&e->received, ranks) &&
          add_neighbours(&e->senders, &e->sent, true) &&
          add_neighbours(&e->receivers, &e->received, false) && take_buffers(e);
 }
 
-fg_status fg__exchange_create_between(fg__exchange **out, fg_context *context,
-                                      const fg__partition *from, const fg__partition *to,
-                                      fg__part part, int most_arrays)
+fg_status fg__exchange_create(fg__exchange **out, fg_context *context,
+                              const fg__partition *partition, int most_arrays)
 {
   fg__exchange *e = *out = fg__allocate(1, sizeof *e);
   fg_status status = FG_STATUS_OK;
   if (e) {
-    e->ranks = from->ranks;
+    e->ranks = partition->ranks;
     e->most_arrays = most_arrays;
   }
-  if (!e || !make_plan(e, from, to, part))
+  if (!e || !make_plan(e, partition))
     status = fg__fail_memory(context, "an exchange of nodes", sizeof *e);
-  status = fg__ranks_agree(from->ranks, context, status);
+  status = fg__ranks_agree(partition->ranks, context, status);
   if (status) {
     fg__exchange_destroy(e);
     *out = NULL;
@@ -307,19 +276,11 @@ fg_status fg__exchange_create_between(fg__exchange **out, fg_context *context,
   return status;
 }
 
-fg_status fg__exchange_create(fg__exchange **out, fg_context *context,
-                              const fg__partition *partition, int most_arrays)
-{
-  return fg__exchange_create_between(out, context, partition, partition, FG__GHOSTS,
-                                     most_arrays);
-}
-
 void fg__exchange_destroy(fg__exchange *exchange)
 {
   if (!exchange)
     return;
-  free(exchange->to_layout);
-  free(exchange->from_layout);
+  free(exchange->layout);
   free(exchange->copied.piece);
   free(exchange->sent.piece);
   free(exchange->received.piece);
@@ -327,7 +288,6 @@ void fg__exchange_destroy(fg__exchange *exchange)
   free(exchange->senders.request);
   free(exchange->receivers.neighbour);
   free(exchange->receivers.request);
-  free(exchange->uncovered);
   free(exchange->buffers);
   free(exchange);
 }

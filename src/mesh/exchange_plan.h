@@ -32,16 +32,14 @@ typedef struct fg__neighbours {
 
 struct fg__exchange {
   const fg__ranks *ranks;
-  fg__layout *to_layout, *from_layout; /* of own boxes */
+  fg__layout *layout; /* of own boxes */
   fg__pieces copied, sent, received;
   fg__neighbours senders, receivers;
-  fg__uncovered *uncovered;
-  size_t uncovered_count, uncovered_capacity;
   int most_arrays;
   float *buffers;
   /* of the exchange under way */
   int arrays;
-  float *const *const *to;
+  float *const *const *array;
   unsigned colours;
 };
 

@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "mesh/merge.h"
 
@@ -18,8 +17,6 @@ enum { COARSENING = 16, SHORT_SIDE_COARSENING = 8 };
 /* Boxes of smaller patches could not be halved often before they are replicated. */
 enum { LEAST_PATCH_2D = 16, LEAST_PATCH_3D = 8 };
 
-/* Smaller ones would be all ghosts and pads. */
-enum { LEAST_COARSENED_PATCH = 4 };
 static const double most_imbalance = 1.05;
 
 static int round_up(int value, int multiple)
@@ -37,8 +34,6 @@ static int greatest_power_of_two_in(int dimension, const int counts[])
 
 static int step_of_cells(const fg__mesh_description *description, int axis)
 {
-  if (description->patch_cells > 0)
-    return description->patch_cells << description->refinements;
   return description->periodic[axis] ? COARSENING : SHORT_SIDE_COARSENING;
 }
 
@@ -54,14 +49,6 @@ static fg_status check_description(fg_context *context,
     if (!(description->side[k] > 0.0) || !isfinite(description->side[k]))
       return fg__fail(context, FG_STATUS_ARGUMENT,
                       "the domain's side along axis %d is %g", k, description->side[k]);
-  int patch = description->patch_cells;
-  if (patch != 0 &&
-      (patch < LEAST_COARSENED_PATCH || patch > most || (patch & (patch - 1)) != 0 ||
-       description->refinements < 0 || description->refinements > FG__MOST_REFINEMENTS ||
-       patch << description->refinements > most))
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "patches of %d cells refined %d times are not possible", patch,
-                    description->refinements);
   return FG_STATUS_OK;
 }
 
@@ -88,9 +75,7 @@ static fg_status choose_cells(fg__mesh *mesh, fg_context *context,
     if (least_cells > wanted)
       wanted = (int)ceil(least_cells);
   }
-  mesh->cells[longest] =
-      round_up(wanted, description->patch_cells > 0 ? step_of_cells(description, longest)
-                                                    : COARSENING);
+  mesh->cells[longest] = round_up(wanted, COARSENING);
   for (int k = 0; k < mesh->dimension; ++k) {
     if (k != longest) {
       int step = step_of_cells(description, k);
@@ -115,31 +100,26 @@ static double imbalance(const fg__mesh *mesh, int patch)
   return ceil(mean) / mean;
 }
 
-static fg_status grow_forest(fg__mesh *mesh, fg_context *context,
-                             const fg__mesh_description *description)
+static fg_status share_leaves(fg__mesh *mesh, fg_context *context)
 {
   int tree = greatest_power_of_two_in(mesh->dimension, mesh->cells), depth = 0;
   int least = mesh->dimension == 3 ? LEAST_PATCH_3D : LEAST_PATCH_2D;
-  bool adaptive = description->patch_cells > 0;
-  mesh->level_count = 1;
-  if (adaptive) {
-    depth = description->refinements;
-    mesh->level_count += depth;
-    mesh->patch_cells = description->patch_cells;
-    tree = mesh->patch_cells << depth;
-  } else {
-    mesh->patch_cells = tree;
-    while (mesh->patch_cells > least &&
-           imbalance(mesh, mesh->patch_cells) > most_imbalance) {
-      mesh->patch_cells /= 2;
-      ++depth;
-    }
+  mesh->patch_cells = tree;
+  while (mesh->patch_cells > least &&
+         imbalance(mesh, mesh->patch_cells) > most_imbalance) {
+    mesh->patch_cells /= 2;
+    ++depth;
   }
-  int trees[3] = {1, 1, 1};
+  int trees[3] = {1, 1, 1}, count = 0;
   for (int k = 0; k < mesh->dimension; ++k)
     trees[k] = mesh->cells[k] / tree;
-  return mesh->kind->create(&mesh->forest, context, mesh->ranks, trees, mesh->periodic,
-                            depth, adaptive);
+  fg__leaf *leaf = NULL;
+  fg_status status = (mesh->dimension == 3 ? fg__forest_leaves_3d : fg__forest_leaves_2d)(
+      &leaf, &count, context, mesh->ranks, trees, mesh->periodic, depth);
+  if (!status)
+    status = fg__mesh_merge_leaves(mesh, context, leaf, count);
+  free(leaf);
+  return status;
 }
 
 fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
@@ -150,7 +130,6 @@ fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
       (fg__mesh){.dimension = dimension, .cells = {1, 1, 1}, .spacing = {1.0, 1.0, 1.0}};
   if (dimension != 2 && dimension != 3)
     return fg__fail(context, FG_STATUS_ARGUMENT, "a mesh of %d dimensions", dimension);
-  out->kind = dimension == 3 ? &fg__forest_3d : &fg__forest_2d;
   fg_status status = check_description(context, description);
   if (!status)
     status = choose_cells(out, context, description);
@@ -158,26 +137,7 @@ fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
   if (!status && !out->ranks)
     status = fg__ranks_all(&out->ranks, context);
   if (!status)
-    status = grow_forest(out, context, description);
-  if (!status)
-    status = fg__mesh_merge_leaves(out, context);
-  if (status)
-    fg__mesh_clear(out);
-  return status;
-}
-
-fg_status fg__mesh_adapt(fg__mesh *out, fg_context *context, const fg__mesh *mesh,
-                         const signed char *wanted)
-{
-  *out = *mesh;
-  out->leaf_count = out->tile_count = 0;
-  out->leaf = NULL;
-  out->tile = NULL;
-  memset(out->level, 0, sizeof out->level);
-  memset(out->cover, 0, sizeof out->cover);
-  fg_status status = mesh->kind->adapt(&out->forest, context, mesh->forest, wanted);
-  if (!status)
-    status = fg__mesh_merge_leaves(out, context);
+    status = share_leaves(out, context);
   if (status)
     fg__mesh_clear(out);
   return status;
@@ -185,13 +145,7 @@ fg_status fg__mesh_adapt(fg__mesh *out, fg_context *context, const fg__mesh *mes
 
 void fg__mesh_clear(fg__mesh *mesh)
 {
-  if (mesh->kind)
-    mesh->kind->destroy(mesh->forest);
-  for (int n = 0; n < mesh->level_count; ++n) {
-    fg__partition_clear(&mesh->level[n]);
-    fg__partition_clear(&mesh->cover[n]);
-  }
-  free(mesh->leaf);
+  fg__partition_clear(&mesh->partition);
   free(mesh->tile);
   *mesh = (fg__mesh){0};
 }

@@ -36,7 +36,7 @@ static void for_all_meshes(check *holds)
 /* Every node in one box: as many as there are, and no two boxes meet. */
 static void shares_out_its_nodes(const fg__mesh *mesh)
 {
-  const fg__partition *p = &mesh->level[0];
+  const fg__partition *p = &mesh->partition;
   long sum = 0;
   for (int n = 0; n < p->count; ++n) {
     const fg__box *box = &p->box[n];
@@ -61,9 +61,9 @@ static void every_node_has_one_box(void **state)
 
 static void begins_at_patches(const fg__mesh *mesh)
 {
-  for (int n = 0; n < mesh->level[0].count; ++n)
+  for (int n = 0; n < mesh->partition.count; ++n)
     for (int k = 0; k < mesh->dimension; ++k)
-      expect(mesh->level[0].box[n].first[k] % mesh->patch_cells == 0);
+      expect(mesh->partition.box[n].first[k] % mesh->patch_cells == 0);
   expect(mesh->patch_cells >= 8);
 }
 
@@ -78,7 +78,7 @@ static void boxes_begin_at_whole_patches(void **state)
 static void has_each_cell_in_one_tile(const fg__mesh *mesh)
 {
   int count;
-  const fg__box *own = fg__own_boxes(&mesh->level[0], &count);
+  const fg__box *own = fg__own_boxes(&mesh->partition, &count);
   uint64_t cells = 0;
   expect(count == mesh->tile_count);
   for (int n = 0; n < count && n < mesh->tile_count; ++n) {
@@ -114,7 +114,7 @@ static void shares_are_nearly_even(void **state)
   for (int n = 0; n < 4; ++n) {
     fg__mesh mesh = mesh_of(cases[n].dimension, cases[n].side, cases[n].nodes, 7);
     int count;
-    const fg__box *own = fg__own_boxes(&mesh.level[0], &count);
+    const fg__box *own = fg__own_boxes(&mesh.partition, &count);
     double nodes = 0.0;
     for (int b = 0; b < count; ++b)
       nodes += (double)fg__box_count(&own[b]);
@@ -136,8 +136,8 @@ static void a_rank_can_have_a_mesh_of_its_own(void **state)
       .dimension = 2, .side = {1.0, 0.5}, .nodes = 65, .ranks = alone};
   fg__mesh mesh;
   expect(fg__mesh_create(&mesh, us.context, &description) == FG_STATUS_OK);
-  expect(mesh.level[0].count == 1 && mesh.tile_count == 1);
-  expect(mesh.level[0].box[0].nodes[0] == 65 && mesh.level[0].box[0].nodes[1] == 33);
+  expect(mesh.partition.count == 1 && mesh.tile_count == 1);
+  expect(mesh.partition.box[0].nodes[0] == 65 && mesh.partition.box[0].nodes[1] == 33);
   fg__mesh_clear(&mesh);
   end_together();
 }

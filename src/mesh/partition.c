@@ -1,7 +1,6 @@
 #include "mesh/partition.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/memory.h"
 #include "mesh/communicator.h"
@@ -123,22 +122,6 @@ bool fg__partition_is_workable(const fg__partition *partition, int least_nodes)
       if (partition->box[n].first[k] % 2 != 0 || partition->box[n].nodes[k] < least_nodes)
         return false;
   return true;
-}
-
-fg_status fg__partition_replicate(fg__partition *out, fg_context *context,
-                                  const fg__partition *partition)
-{
-  *out = (fg__partition){0};
-  const fg__ranks *alone;
-  fg_status status = fg__ranks_alone(&alone, context);
-  if (!status)
-    status = take_boxes(out, context, alone, 1);
-  if (status)
-    return status;
-  set_grid(out, partition->dimension, partition->cells, partition->periodic);
-  memcpy(out->box[0].nodes, out->nodes, sizeof out->nodes);
-  out->first_of_rank[1] = 1;
-  return FG_STATUS_OK;
 }
 
 fg__box fg__box_cells(const fg__partition *partition, const fg__box *box)

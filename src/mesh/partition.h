@@ -2,17 +2,15 @@
  * rank.
  *
  * Every rank knows the boxes of all: 24 bytes a box and level. A rank has one box to a
- * handful on a uniform mesh (pieces of a Morton curve), so that 1000 ranks take some
- * 100 kB a level and one MPI_Allgatherv when the mesh is made; plans (exchange.h) are
- * found by comparing own boxes with all boxes. An adaptive mesh of hundreds of boxes a
- * rank and level would want a neighbour search instead from some thousand ranks up.
+ * handful (pieces of a Morton curve), so that 1000 ranks take some 100 kB a level and one
+ * MPI_Allgatherv when the mesh is made; plans (exchange.h) are found by comparing own
+ * boxes with all boxes.
  *
  * Levels coarsen by halving: node i of a level is node 2 i of the finer one, and a rank
  * owns on the coarser level what it owns of these nodes on the finer. Where that leaves
- * boxes too small, or not aligned, the level is replicated: every rank holds it whole, as
- * a partition of one box for that rank alone, and all compute the same (bit for bit). The
- * distributed partition of that level still serves to bring values there and back
- * (gather.h). */
+ * boxes too small, or not aligned, the level is replicated: every rank holds it whole,
+ * and all compute the same (bit for bit). The distributed partition of that level still
+ * serves to bring values there and back (gather.h). */
 #ifndef FG__PARTITION_H
 #define FG__PARTITION_H
 
@@ -24,16 +22,14 @@ typedef struct fg__partition {
   int cells[3]; /* of the level's whole grid; 1 along z in 2D */
   int nodes[3]; /* cells + 1, or cells where periodic; 1 along z in 2D */
   bool periodic[3];
-  const fg__ranks *ranks; /* that share it; one when it is replicated or not shared */
+  const fg__ranks *ranks; /* that share it */
   int count;              /* boxes of all ranks */
   fg__box *box;           /* [count], those of rank 0 first */
   int *first_of_rank;     /* [ranks->count + 1]: where a rank's boxes begin in box */
 } fg__partition;
 
 /* Makes the partition of a level with the boxes that this rank owns; they are copied, in
- * their order. A node belongs to one box, but for those that close a level (closure.h):
- * these must have the same value in all. Nodes that nobody owns are not part of the level
- * (adaptive meshes). Collective. MEMORY. */
+ * their order. Each node of the level belongs to one box. Collective. MEMORY. */
 fg_status fg__partition_create(fg__partition *out, fg_context *context,
                                const fg__ranks *ranks, int dimension, const int cells[3],
                                const bool periodic[3], const fg__box *own, int own_count);
@@ -47,10 +43,6 @@ fg_status fg__partition_coarsen(fg__partition *out, fg_context *context,
  * more along each axis and begins at even indices, so that an even column of a box is
  * even everywhere. (A box may end anywhere.) The same on all ranks; not collective. */
 bool fg__partition_is_workable(const fg__partition *partition, int least_nodes);
-
-/* The same level, whole on this rank, as one box. Not collective. MEMORY. */
-fg_status fg__partition_replicate(fg__partition *out, fg_context *context,
-                                  const fg__partition *partition);
 void fg__partition_clear(fg__partition *partition);
 
 /* The cells whose lower corners a box owns, as if they were nodes. */

@@ -46,7 +46,7 @@ static void every_rank_knows_every_owner(void **state)
   (void)state;
   for (int g = 0; g < GRID_COUNT; ++g)
     for (uint64_t seed = 0; seed < SEEDS; ++seed) {
-      shares s = cut_at_random(&GRIDS[g], seed, 2, seed % 2 == 1);
+      shares s = cut_at_random(&GRIDS[g], seed, 2);
       fg__partition partition = partition_of(&GRIDS[g], &s);
       pair p = {&s, &partition, {1, 1, 1}};
       for (int k = 0; k < 3; ++k)
@@ -63,7 +63,7 @@ static void coarse_nodes_stay_with_their_owners(void **state)
   (void)state;
   for (int g = 0; g < GRID_COUNT; ++g)
     for (uint64_t seed = 0; seed < SEEDS; ++seed) {
-      shares s = cut_at_random(&GRIDS[g], seed, 1, seed % 2 == 1);
+      shares s = cut_at_random(&GRIDS[g], seed, 1);
       fg__partition level = partition_of(&GRIDS[g], &s);
       pair p = {&s, &level, {1, 1, 1}};
       for (int depth = 0; depth < 3; ++depth) {
@@ -130,12 +130,18 @@ static void check_ring(const grid *g, const fg__partition *partition, const fiel
 static void replicated_levels_hold_all_and_give_it_back(void **state)
 {
   (void)state;
+  const fg__ranks *alone;
+  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
   for (int g = 0; g < GRID_COUNT; ++g)
     for (uint64_t seed = 0; seed < SEEDS; ++seed) {
-      shares s = cut_at_random(&GRIDS[g], seed, 1, false);
+      fg__box all_nodes = {{0, 0, 0}, {1, 1, 1}};
+      for (int k = 0; k < 3; ++k)
+        all_nodes.nodes[k] = nodes_along(&GRIDS[g], k);
+      shares s = cut_at_random(&GRIDS[g], seed, 1);
       fg__partition partition = partition_of(&GRIDS[g], &s), whole;
-      expect(fg__partition_replicate(&whole, us.context, &partition) == FG_STATUS_OK);
-      expect(whole.count == 1 && whole.ranks->count == 1);
+      expect(fg__partition_create(&whole, us.context, alone, GRIDS[g].dimension,
+                                  GRIDS[g].cells, GRIDS[g].periodic, &all_nodes,
+                                  1) == FG_STATUS_OK);
       fg__gather *gather;
       fg__exchange *mirror;
       expect(fg__gather_create(&gather, us.context, &partition, 3) == FG_STATUS_OK);

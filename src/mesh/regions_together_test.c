@@ -92,7 +92,7 @@ static void check_region(const grid *g, const fg__region *region,
 
 static void check_grid(const grid *g, uint64_t seed, size_t size)
 {
-  shares s = cut_at_random(g, seed, 1, false);
+  shares s = cut_at_random(g, seed, 1);
   fg__partition partition = partition_of(g, &s);
   arrays a = arrays_of_boxes(&partition, size);
   fg__region region[REGIONS];
@@ -128,7 +128,7 @@ static void regions_hold_the_grid(void **state)
 static void no_regions_are_none(void **state)
 {
   (void)state;
-  shares s = cut_at_random(&GRIDS[1], 5, 2, false);
+  shares s = cut_at_random(&GRIDS[1], 5, 2);
   fg__partition partition = partition_of(&GRIDS[1], &s);
   arrays a = arrays_of_boxes(&partition, 1);
   fg__region_source source = {1, a.first, a.row, a.plane};

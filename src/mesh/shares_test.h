@@ -34,14 +34,13 @@ static inline unsigned random_below(uint64_t *seed, unsigned end)
 
 typedef struct shares {
   fg__box box[MOST_SHARES];
-  int owner[MOST_SHARES]; /* -1: nobody */
+  int owner[MOST_SHARES];
   int count;
 } shares;
 
 /* Cuts the grid again and again where a multiple of `alignment` nodes lies below. Owners
- * are dealt at random; with holes some boxes have none. */
-static inline shares cut_at_random(const grid *g, uint64_t seed, int alignment,
-                                   bool holes)
+ * are dealt at random. */
+static inline shares cut_at_random(const grid *g, uint64_t seed, int alignment)
 {
   shares out = {.count = 1};
   for (int k = 0; k < 3; ++k)
@@ -60,11 +59,8 @@ static inline shares cut_at_random(const grid *g, uint64_t seed, int alignment,
     above->nodes[k] -= below;
     cut->nodes[k] = below;
   }
-  for (int n = 0; n < out.count; ++n) {
+  for (int n = 0; n < out.count; ++n)
     out.owner[n] = (int)random_below(&seed, (unsigned)us.ranks->count);
-    if (holes && random_below(&seed, 4) == 0)
-      out.owner[n] = -1;
-  }
   return out;
 }
 

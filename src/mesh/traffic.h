@@ -2,7 +2,7 @@
  *
  * A book belongs to the ranks that share it (ranks.h); it is NULL where there is one rank
  * only, which tells nobody anything, and then nothing is counted. What p4est sends when
- * it makes and adapts a forest is not counted. One thread of a rank sends. */
+ * it makes a forest is not counted. One thread of a rank sends. */
 #ifndef FG__TRAFFIC_H
 #define FG__TRAFFIC_H
 

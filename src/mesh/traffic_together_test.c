@@ -121,7 +121,7 @@ static void every_remote_ghost_is_sent_once(void **state)
   (void)state;
   enum { TIMES = 3, ARRAYS = 2 };
   for (int g = 0; g < GRID_COUNT; ++g) {
-    shares s = cut_at_random(&GRIDS[g], 31, 2, false);
+    shares s = cut_at_random(&GRIDS[g], 31, 2);
     fg__partition partition = partition_of(&GRIDS[g], &s);
     fg__exchange *exchange;
     expect(fg__exchange_create(&exchange, us.context, &partition, ARRAYS) ==
