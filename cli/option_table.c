@@ -10,7 +10,7 @@ static const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL
 static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
 static const char *const method_words[] = {"hedgehog", "grid-curved", NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
-static const char *const kind_words[] = {"lic", NULL};
+static const char *const kind_words[] = {"lic", "spots", NULL};
 static const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
@@ -116,7 +116,9 @@ const option_entry option_table[] = {
      "projected plane) or `plain` [auto: from units and axes]"},
 
     {"kind", 0, "KIND", COMMAND_TEXTURE, OPTION_CHOICE, AT(kind), 0, 0, false, false,
-     kind_words, "kind of texture: `lic` (line integral convolution) [lic]"},
+     kind_words,
+     "kind of texture: `lic` (line integral convolution) or `spots` (spot noise, which "
+     "shows the speed, too) [lic]"},
     {"pixels", 0, "N", COMMAND_TEXTURE, OPTION_WHOLE, AT(longest), 16, 16384, false,
      false, NULL, "pixels along the longest side [1024]"},
     {"length", 0, "L", COMMAND_TEXTURE, OPTION_NUMBER, AT(length), 2, 400, false, false,

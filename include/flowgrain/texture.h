@@ -15,8 +15,10 @@ extern "C" {
 #endif
 
 typedef enum fg_texture_kind {
-  FG_TEXTURE_LIC = 0 /* line integral convolution (Cabral and Leedom 1993), by the fast
-                        algorithm of Stalling and Hege (1995) */
+  FG_TEXTURE_LIC = 0, /* line integral convolution (Cabral and Leedom 1993), by the fast
+                         algorithm of Stalling and Hege (1995) */
+  FG_TEXTURE_SPOTS    /* spot noise (van Wijk 1991): longer and narrower where the flow is
+                         faster */
 } fg_texture_kind;
 
 typedef struct fg_texture_options {
@@ -24,8 +26,8 @@ typedef struct fg_texture_options {
   int longest;          /* pixels along the longest side, 16 to 16384 [1024] */
   int size[2];          /* pixels along x and y, 1 to 16384; 0, 0: from `longest` and the
                            domain's shape */
-  double length; /* of the streaks, pixels; 2 to 400 [a 25th of the longest side, 20 at
-                    least] */
+  double length; /* of the streaks (of the longest spots), pixels; 2 to 400 [a 25th of the
+                    longest side, 20 at least] */
   uint64_t seed; /* of the noise [1] */
   int threads;   /* the texture does not depend on it [all cores] */
 } fg_texture_options;

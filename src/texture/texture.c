@@ -11,8 +11,8 @@ enum { LEAST_LONGEST = 16, MOST_PIXELS = 16384, USUAL_LONGEST = 1024 };
 
 static const double least_length = 2.0, most_length = 400.0;
 
-/* Streaks of a 25th of a picture's side show their direction, and turn with the field. */
-static const double usual_share = 1.0 / 25.0, least_usual_length = 20.0;
+/* Shorter streaks hardly show their direction. */
+static const double least_usual_length = 20.0;
 
 /* Contrast is evened over windows of this radius: wide enough to hold many streaks. */
 static const double window_radius = 0.6;
@@ -26,10 +26,14 @@ struct fg_texture {
 typedef struct texture_kind {
   fg__texture_paint *paint;
   int (*margin)(double length);
+  /* of streaks, as a share of the picture's longest side: as long as they may be and
+     still turn with the field (by eye); single spots fade out towards their ends */
+  double length;
 } texture_kind;
 
 static const texture_kind kinds[] = {
-    [FG_TEXTURE_LIC] = {fg__lic_paint, fg__lic_margin},
+    [FG_TEXTURE_LIC] = {fg__lic_paint, fg__lic_margin, 1.0 / 25.0},
+    [FG_TEXTURE_SPOTS] = {fg__spots_paint, fg__spots_margin, 1.0 / 18.0},
 };
 
 static fg_status check_options(fg_context *context, const fg_texture_options *o)
@@ -80,7 +84,7 @@ static double choose_length(const int size[2], const fg_texture_options *o)
   if (o->length > 0.0)
     return o->length;
   const double longest = fmax(size[0], size[1]);
-  return fmin(fmax(usual_share * longest, least_usual_length), most_length);
+  return fmin(fmax(kinds[o->kind].length * longest, least_usual_length), most_length);
 }
 
 static int choose_threads(const fg_texture_options *o)

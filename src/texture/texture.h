@@ -22,5 +22,7 @@ typedef fg_status fg__texture_paint(float *value, fg_context *context,
 /* How far beyond the picture its raster must reach for streaks of a length. */
 int fg__lic_margin(double length);
 fg__texture_paint fg__lic_paint;
+int fg__spots_margin(double length);
+fg__texture_paint fg__spots_paint;
 
 #endif

@@ -15,6 +15,7 @@ typedef struct promise {
 
 static const promise promises[] = {
     {FG_TEXTURE_LIC, "lic", 0.6, 0.15, 2.0, 1.2, 0.06},
+    {FG_TEXTURE_SPOTS, "spots", 0.6, 0.15, 3.0, 1.2, 0.06},
 };
 enum { KINDS = sizeof promises / sizeof *promises };
 
