@@ -2,6 +2,8 @@
 #ifndef FG__KERNEL_CORRECT_H
 #define FG__KERNEL_CORRECT_H
 
+#include <string.h>
+
 #include "evolve/kernel_space.h"
 
 /* The mean of coarse rows in natural order, with one ghost at its end: of the two (in 3D
@@ -85,6 +87,73 @@ ROW_LOOP void correct_by_scale(const fg__level *coarse, const ptrdiff_t at[4],
   correct_both(coarse, at, fine, row, natural, SCALE);
 }
 
+/* With a mask nodes follow coarse ones as level->interpolation says: adds what one of the
+ * coarse rows round a fine row gives to the changes there, `side` which it is. */
+ROW_LOOP void follow_row(const fg__level *coarse, const float *from,
+                         const fg__level *fine, ptrdiff_t at, int side, float *natural,
+                         float *change)
+{
+  const float *const same[4] = {from, from, from, from};
+  const float *low = fine->interpolation[side] + at;
+  const float *high = fine->interpolation[side | 1] + at;
+  ptrdiff_t odd = fine->layout.odd_offset;
+  merge(coarse, same, natural);
+  INDEPENDENT
+  for (int n = 0; n < fine->even_count; ++n)
+    change[n] += low[n] * natural[n];
+  INDEPENDENT
+  for (int n = 0; n < fine->odd_count; ++n)
+    change[odd + n] += low[odd + n] * natural[n] + high[odd + n] * natural[n + 1];
+}
+
+INLINE void add_to_row(const fg__level *fine, const float *change, ptrdiff_t at,
+                       float *array, factor by)
+{
+  const float *scale = by == SCALE ? fine->scale + at : NULL;
+  float *values = array + at;
+  INDEPENDENT
+  for (ptrdiff_t n = 0; n < fine->layout.stride; ++n) {
+    float amount = change[n];
+    if (by == SHAPE)
+      amount *= bulk + interface_shape(values[n]);
+    else if (by == SCALE)
+      amount *= scale[n];
+    values[n] += amount;
+  }
+}
+
+ROW_LOOP void add_by_shape(const fg__level *fine, const float *change, ptrdiff_t at)
+{
+  add_to_row(fine, change, at, fine->u, SHAPE);
+}
+
+ROW_LOOP void add_by_scale(const fg__level *fine, const float *change, ptrdiff_t at)
+{
+  add_to_row(fine, change, at, fine->u, SCALE);
+}
+
+ROW_LOOP void add_as_it_is(const fg__level *fine, const float *change, ptrdiff_t at)
+{
+  add_to_row(fine, change, at, fine->w, ONE);
+}
+
+static void correct_masked(const fg__level *coarse, const ptrdiff_t at[4], int odd,
+                           const fg__level *fine, ptrdiff_t row, float *natural,
+                           bool linear)
+{
+  float *change = natural - fine->layout.stride;
+  const float *const arrays[] = {coarse->u, coarse->w};
+  for (int a = 0; a < 2; ++a) {
+    memset(change, 0, (size_t)fine->layout.stride * sizeof *change);
+    for (int n = 0; n < 4; ++n)
+      if ((n & ~odd) == 0)
+        follow_row(coarse, arrays[a] + at[n], fine, row, n << 1, natural, change);
+    (a == 1 ? add_as_it_is : linear ? add_by_scale : add_by_shape)(fine, change, row);
+  }
+  fg__fill_ghost_columns(fine, fine->u + row);
+  fg__fill_ghost_columns(fine, fine->w + row);
+}
+
 /* Row j of plane k. */
 static void correct_row(const fg__level *coarse, const fg__level *fine, int j, int k,
                         bool linear, float *natural)
@@ -94,7 +163,10 @@ static void correct_row(const fg__level *coarse, const fg__level *fine, int j, i
   at[1] = at[0] + j % 2 * coarse->layout.stride;
   at[2] = at[0] + k % 2 * coarse->layout.plane;
   at[3] = at[1] + k % 2 * coarse->layout.plane;
-  (linear ? correct_by_scale : correct_by_shape)(coarse, at, fine, row, natural);
+  if (fine->mass)
+    correct_masked(coarse, at, (j & 1) | (k & 1) << 1, fine, row, natural, linear);
+  else
+    (linear ? correct_by_scale : correct_by_shape)(coarse, at, fine, row, natural);
   for (int side = 0; side < 2; ++side)
     if (fine->ghost_row_source[side] == j) {
       fg__fill_ghost_row(fine, fine->u, k, side);

@@ -199,23 +199,28 @@ static void residual_line(const fg__level *fine, int j, int k, const laplacian *
                                                                     out);
 }
 
-static void gather_row(restriction *r, int j, int k, const lines *to, bool linear)
+static void find_row(restriction *r, int j, int k, const lines *out, bool linear)
 {
   const fg__level *fine = r->fine;
   ptrdiff_t at = fg__row_at(&fine->layout, j, k);
   if (r->given)
     for (int n = 0; n < FG__RESTRICTED; ++n)
-      memcpy(r->fine_line.value[n], r->given[n] + at,
+      memcpy(out->value[n], r->given[n] + at,
              (size_t)fine->layout.stride * sizeof(float));
   else
-    residual_line(fine, j, k, &r->l, linear ? NULL : r->around, &r->fine_line);
+    residual_line(fine, j, k, &r->l, linear ? NULL : r->around, out);
   for (int n = 0; n < FG__RESTRICTED; ++n) {
-    float *values = r->fine_line.value[n];
+    float *values = out->value[n];
     fg__fill_ghost_columns(fine, values);
     if (fine->mass)
       multiply(fine->mass + at, values, fine->layout.stride);
   }
-  gather_columns(fine, &r->fine_line, to);
+}
+
+static void gather_row(restriction *r, int j, int k, const lines *to, bool linear)
+{
+  find_row(r, j, k, &r->fine_line, linear);
+  gather_columns(r->fine, &r->fine_line, to);
 }
 
 static void swap_lines(lines *a, lines *b)
@@ -294,16 +299,90 @@ static void combine_slices(restriction *r, int S, float *const out[])
   }
 }
 
+/* With a mask coarse nodes get back what follows them (level->interpolation): adds what
+ * one fine row gives to the coarse row at its `side`. */
+ROW_LOOP void return_row(const fg__level *fine, const lines *from, ptrdiff_t begin,
+                         ptrdiff_t at, int side, const lines *to)
+{
+  const float weight = FG__DIMENSION == 3 ? 0.125F : 0.25F;
+  const lines in = *from, out = *to;
+  const float *low = fine->interpolation[side] + at;
+  const float *high = fine->interpolation[side | 1] + at;
+  ptrdiff_t odd = fine->layout.odd_offset;
+  INDEPENDENT
+  for (int k = 0; k < fine->even_count; ++k) {
+    UNROLLED
+    for (int n = 0; n < FG__RESTRICTED; ++n) {
+      const float *value = in.value[n] + begin;
+      out.value[n][k] +=
+          weight * (low[k] * value[k] + (high[odd + k - 1] * value[odd + k - 1] +
+                                         low[odd + k] * value[odd + k]));
+    }
+  }
+}
+
+/* A whole fine slice; in 3D with its ghost rows. */
+static void keep_slice(restriction *r, int s, const lines *to, bool linear)
+{
+  const fg__level *fine = r->fine;
+  if (!linear)
+    shapes_round(&r->shapes, s, r->around);
+  int beyond = FG__DIMENSION == 3;
+  for (int n = -beyond; n < rows_of_slice(fine) + beyond; ++n) {
+    lines row = *to;
+    for (int m = 0; m < FG__RESTRICTED; ++m)
+      row.value[m] += row_in_slice(fine) + n * fine->layout.stride;
+    int source = n;
+    if (n < 0 || n >= rows_of_slice(fine))
+      source = fine->ghost_row_source[n >= 0];
+    find_row(r, row_index(s, source), plane_index(s), &row, linear);
+  }
+}
+
+static void return_slices(restriction *r, int S, float *const out[])
+{
+  const fg__level *fine = r->fine, *coarse = r->coarse;
+  for (int J = 0; J < rows_of_slice(coarse); ++J) {
+    ptrdiff_t to = fg__row_at(&coarse->layout, row_index(S, J), plane_index(S));
+    for (int n = 0; n < FG__RESTRICTED; ++n)
+      memset(r->fine_line.value[n], 0, (size_t)fine->layout.stride * sizeof(float));
+    for (int s = 0; s < 3; ++s) {
+      int beyond = FG__DIMENSION == 3;
+      for (int d = -beyond; d <= beyond; ++d) {
+        int row = 2 * J + d, slice = 2 * S - 1 + s, side = s == 0;
+        if (FG__DIMENSION == 3)
+          side = (d < 0) << 1 | side << 2;
+        else
+          side <<= 1;
+        ptrdiff_t at =
+            fg__row_at(&fine->layout, row_index(slice, row), plane_index(slice));
+        return_row(fine, &r->slice[s],
+                   row_in_slice(fine) + row * fine->layout.stride * beyond, at, side,
+                   &r->fine_line);
+      }
+    }
+    for (int n = 0; n < FG__RESTRICTED; ++n) {
+      split(coarse, r->fine_line.value[n], out[n] + to);
+      multiply(coarse->mass_inverse + to, out[n] + to, coarse->layout.stride);
+    }
+  }
+}
+
+static void take_slice(restriction *r, int s, const lines *to, bool linear)
+{
+  (r->fine->mass ? keep_slice : gather_slice)(r, s, to, linear);
+}
+
 /* Coarse slice S from fine slices 2 S - 1 (kept from the slice before, unless it is the
  * first of a part), 2 S and 2 S + 1. */
 static void restrict_slice(restriction *r, int S, bool first, float *const out[],
                            bool linear)
 {
   if (first)
-    gather_slice(r, slice_source(r->fine, 2 * S - 1), &r->slice[0], linear);
-  gather_slice(r, 2 * S, &r->slice[1], linear);
-  gather_slice(r, slice_source(r->fine, 2 * S + 1), &r->slice[2], linear);
-  combine_slices(r, S, out);
+    take_slice(r, slice_source(r->fine, 2 * S - 1), &r->slice[0], linear);
+  take_slice(r, 2 * S, &r->slice[1], linear);
+  take_slice(r, slice_source(r->fine, 2 * S + 1), &r->slice[2], linear);
+  (r->fine->mass ? return_slices : combine_slices)(r, S, out);
   swap_lines(&r->slice[0], &r->slice[2]);
 }
 
@@ -319,6 +398,8 @@ static restriction restriction_of(const fg__level *fine, const fg__level *coarse
     r.shapes = shapes_of(fine, share);
   ptrdiff_t stride = fine->layout.stride;
   ptrdiff_t slice = FG__DIMENSION == 3 ? r.line * coarse->layout.nodes[1] : stride;
+  if (fine->mass)
+    slice = slice_floats(fine);
   float *space = fine->scratch + (size_t)share->member * fine->scratch_size;
   for (int n = 0; n < FG__RESTRICTED; ++n) {
     r.fine_line.value[n] = space;

@@ -59,8 +59,12 @@ static void find_scale(const fg__level *level, const fg__share *share)
   fg__team_barrier(share);
 }
 
+/* Of the diagonal of K, what is left of it and the curvature at least. */
+static const float least_diagonal = 0.25F;
+
 /* Restricted, d J d is near 0 at interfaces, of either sign. Negative values, of droplets
- * about to vanish, make cycles diverge. */
+ * about to vanish, make cycles diverge. So does, in the corners of a mask, what positive
+ * couplings of K to neighbours of far larger scale take from the diagonal. */
 INLINE void curvature_nodes(const fg__level *level, ptrdiff_t row, int colour,
                             bool masked)
 {
@@ -78,6 +82,9 @@ INLINE void curvature_nodes(const fg__level *level, ptrdiff_t row, int colour,
     if (masked)
       energy *= mass_inverse[k];
     curvature[k] = (greater(shape_curvature[k], 0.0F) * inverse[k] - energy) * inverse[k];
+    if (masked)
+      curvature[k] = greater(curvature[k],
+                             (least_diagonal - 1.0F) * (c.center[k] * mass_inverse[k]));
   }
 }
 

@@ -5,11 +5,15 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "evolve/interpolation.h"
 
 /* What kernels keep of slices for themselves: one line and three gathered slices of four
  * quantities; in 3D three lines more that become a gathered one; and a line of its own.
  */
 enum { SHAPE_SLICES = 3, SCRATCH_QUANTITIES = 4, SCRATCH_SLICES = 3, SCRATCH_LINES = 4 };
+
+/* With a mask slices are fine ones, and corrections a line of their own. */
+enum { CORRECTION_LINES = 2 };
 
 static int round_to_lanes(int count)
 {
@@ -177,62 +181,32 @@ void fg__level_export(const fg__level *level, const float *array, float *plain)
       fg__row_export(&level->layout, array, j, k, plain);
 }
 
-/* The exact Q1 stiffness of a box of cells hx x hy (x hz) with constant tensor, over its
- * volume. Corners a and b of a cell couple by the sum of weight[c] A_c over the tensor's
- * components; with s the signs of a corner's place, 1D integrals over the unit interval
- * give per axis: both functions 1/3 (s alike) or 1/6, one derivative s/2, both s_a s_b.
- */
+/* What the cells round an edge give its two nodes (elements.h). */
 typedef struct coupling {
-  int cell[3]; /* of the node with the lesser index */
+  int cell[3];   /* of the node with the lesser index */
+  int corner[2]; /* which the two nodes are of the cell */
   double weight[FG__TENSOR_COMPONENTS];
 } coupling;
 
 enum { MOST_CELLS = 4 }; /* that share an edge */
 
-static double integral(const int a[3], const int b[3], int dimension, int p, int q)
-{
-  double product = 1.0;
-  for (int k = 0; k < 3 && k < dimension; ++k) {
-    if (k == p && k == q)
-      product *= a[k] * b[k];
-    else if (k == p)
-      product *= 0.5 * a[k];
-    else if (k == q)
-      product *= 0.5 * b[k];
-    else
-      product *= a[k] == b[k] ? 1.0 / 3.0 : 1.0 / 6.0;
-  }
-  return product;
-}
-
 /* The cells that hold both a node and its neighbour at `offset`, and what each gives. */
 static int couplings_to(const int offset[3], int dimension, const double spacing[3],
                         coupling out[MOST_CELLS])
 {
-  static const int axes[FG__TENSOR_COMPONENTS][2] = {{0, 0}, {0, 1}, {1, 1},
-                                                     {2, 2}, {0, 2}, {1, 2}};
   int count = 0;
   for (int corner = 0; corner < 1 << dimension; ++corner) {
-    int a[3] = {-1, -1, -1}, b[3] = {-1, -1, -1};
-    coupling c = {.cell = {0, 0, 0}};
+    coupling c = {.cell = {0, 0, 0}, .corner = {corner, corner}};
     bool holds = true;
     for (int k = 0; k < 3 && k < dimension; ++k) {
-      a[k] = corner >> k & 1 ? 1 : -1; /* place of the node in the cell */
-      b[k] = a[k] + 2 * offset[k];
-      holds = holds && (b[k] == -1 || b[k] == 1);
-      c.cell[k] = a[k] == 1 ? -1 : 0;
+      int place = corner >> k & 1, other = place + offset[k];
+      holds = holds && (other == 0 || other == 1);
+      c.cell[k] = -place;
+      c.corner[1] ^= offset[k] != 0 ? 1 << k : 0;
     }
     if (!holds)
       continue;
-    for (int n = 0; n < FG__TENSOR_COMPONENTS; ++n) {
-      int p = axes[n][0], q = axes[n][1];
-      if (p >= dimension || q >= dimension)
-        continue;
-      double both = integral(a, b, dimension, p, q);
-      if (p != q)
-        both += integral(a, b, dimension, q, p);
-      c.weight[n] = both / (spacing[p] * spacing[q]);
-    }
+    fg__cell_coupling(corner, c.corner[1], dimension, spacing, c.weight);
     out[count++] = c;
   }
   return count;
@@ -266,13 +240,23 @@ static void couple_row(const assembly *a, const coupling *c, int cells, int low,
                        int j, int k, double *out)
 {
   const fg__cells_of_box *tensor = &a->level->tensor;
-  int count = high - low + 1, components = a->level->layout.dimension == 3 ? 6 : 3;
+  const fg__elements *elements = &a->level->elements;
+  int dimension = a->level->layout.dimension;
+  int count = high - low + 1, components = dimension == 3 ? 6 : 3;
   for (int i = 0; i < count; ++i)
     out[i] = 0.0;
   for (int n = 0; n < cells; ++n) {
     const double *weight = c[n].weight;
-    ptrdiff_t at =
-        fg__cell_at(tensor, low + c[n].cell[0], j + c[n].cell[1], k + c[n].cell[2]);
+    int x = low + c[n].cell[0], y = j + c[n].cell[1], z = k + c[n].cell[2];
+    if (elements->memory) {
+      int entry =
+          fg__element_coupling(dimension, a->laplacian, c[n].corner[0], c[n].corner[1]);
+      const float *of = elements->value[entry] + fg__element_at(elements, x, y, z);
+      for (int i = 0; i < count; ++i)
+        out[i] += (double)of[i];
+      continue;
+    }
+    ptrdiff_t at = fg__cell_at(tensor, x, y, z);
     if (a->laplacian) {
       double diagonal = weight[0] + weight[2] + weight[3];
       for (int i = 0; i < count; ++i)
@@ -395,15 +379,20 @@ static void weigh_nodes(const fg__level *level)
 {
   const fg__layout *at = &level->layout;
   const fg__cells_of_box *tensor = &level->tensor;
+  const fg__elements *elements = &level->elements;
   int corners = 1 << at->dimension;
   for (int k = 0; k < at->nodes[2]; ++k)
     for (int j = 0; j < at->nodes[1]; ++j)
       for (int i = 0; i < at->nodes[0]; ++i) {
         double mass = 0.0;
-        for (int c = 0; c < corners; ++c)
-          mass += (double)tensor->weight[fg__cell_at(tensor, i - (c & 1),
-                                                     j - (c >> 1 & 1), k - (c >> 2))];
-        mass /= corners;
+        for (int c = 0; c < corners; ++c) {
+          int x = i - (c & 1), y = j - (c >> 1 & 1), z = k - (c >> 2);
+          if (elements->memory)
+            mass += (double)elements->value[fg__element_mass(at->dimension, c)]
+                                           [fg__element_at(elements, x, y, z)];
+          else
+            mass += (double)tensor->weight[fg__cell_at(tensor, x, y, z)] / corners;
+        }
         *fg__node(level, level->mass, i, j, k) = (float)mass;
         *fg__node(level, level->mass_inverse, i, j, k) =
             mass > 0.0 ? (float)(1.0 / mass) : 0.0F;
@@ -413,14 +402,16 @@ static void weigh_nodes(const fg__level *level)
 }
 
 static fg_status take_rows(fg__level *level, fg_context *context, const fg__team *team,
-                           bool finest)
+                           bool finest, bool masked)
 {
   size_t stride = (size_t)level->layout.stride;
   size_t slice = stride; /* of the next coarser level, and room to spare */
   if (level->layout.dimension == 3)
-    slice *= (size_t)level->layout.nodes[1] / 2 + 1;
+    slice = masked ? (size_t)level->layout.plane
+                   : stride * ((size_t)level->layout.nodes[1] / 2 + 1);
   level->scratch_size =
-      SCRATCH_QUANTITIES * (SCRATCH_SLICES * slice + SCRATCH_LINES * stride) + stride;
+      SCRATCH_QUANTITIES * (SCRATCH_SLICES * slice + SCRATCH_LINES * stride) +
+      (masked ? CORRECTION_LINES : 1) * stride;
   size_t slices = level->layout.dimension == 3 ? (size_t)level->layout.plane : stride;
   slices = finest ? SHAPE_SLICES * slices : 0;
   size_t members = (size_t)fg__team_members(team);
@@ -486,23 +477,40 @@ static fg_status take_mask(fg__level *level, fg_context *context, bool masked,
 {
   if (!masked)
     return FG_STATUS_OK;
-  float **const arrays[] = {&level->mass, &level->mass_inverse};
-  fg_status status = take_arrays(level, context, arrays, 2);
+  float **arrays[2 + FG__MOST_CORNERS] = {&level->mass, &level->mass_inverse};
+  int sides = 1 << level->layout.dimension;
+  for (int n = 0; n < sides; ++n)
+    arrays[2 + n] = &level->interpolation[n];
+  fg_status status = take_arrays(level, context, arrays, 2 + sides);
   if (!status)
     status = take_stencil(level, context, &level->laplacian);
   if (status)
     return status;
   assemble(level, &level->laplacian, 1.0, true, team);
   weigh_nodes(level);
+  for (int stage = 0; stage <= level->layout.dimension && !level->boxed; ++stage) {
+    fg__interpolation_find(level, stage);
+    for (int n = 0; n < sides; ++n)
+      fg__fill_ghosts(level, level->interpolation[n]);
+    fg__interpolation_mirror(level);
+  }
   return FG_STATUS_OK;
 }
 
 fg_status fg__level_create(fg__level *out, fg_context *context,
                            const fg__level_description *description,
-                           fg__cells_of_box *tensor)
+                           fg__cells_of_box *tensor, fg__elements *elements)
 {
-  *out = (fg__level){.layout.dimension = description->dimension, .tensor = *tensor};
-  *tensor = (fg__cells_of_box){0};
+  *out = (fg__level){.layout.dimension = description->dimension};
+  bool masked = description->masked || elements;
+  if (elements) {
+    out->elements = *elements;
+    *elements = (fg__elements){0};
+  } else {
+    out->tensor = *tensor;
+    *tensor = (fg__cells_of_box){0};
+    masked = masked || has_mask(&out->tensor);
+  }
   for (int k = 0; k < 3; ++k) {
     bool used = k < description->dimension;
     out->cells[k] = used ? description->cells[k] : 1;
@@ -515,7 +523,8 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
                             &out->coupling,  &out->shape_curvature,
                             &out->scale,     &out->scale_inverse,
                             &out->curvature, &out->relaxation};
-  fg_status status = take_rows(out, context, description->team, description->finest);
+  fg_status status =
+      take_rows(out, context, description->team, description->finest, masked);
   if (!status && !description->box)
     status = take_arrays(out, context, arrays, description->finest ? 3 : 10);
   if (!status)
@@ -524,8 +533,7 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
     return status;
   assemble(out, &out->energy, description->gamma, false, description->team);
   set_constant_laplacian(out);
-  return take_mask(out, context, description->masked || has_mask(&out->tensor),
-                   description->team);
+  return take_mask(out, context, masked, description->team);
 }
 
 bool fg__level_can_coarsen(const fg__level *level)
@@ -534,6 +542,19 @@ bool fg__level_can_coarsen(const fg__level *level)
     if (level->cells[k] % 2 != 0 || level->cells[k] < 4)
       return false;
   return true;
+}
+
+fg_status fg__level_coarsen_cells(fg__elements *out, fg_context *context,
+                                  const fg__level *fine, double gamma, const int nodes[3],
+                                  const int count[3])
+{
+  fg__fine_cells cells = {.tensor = fine->elements.memory ? NULL : &fine->tensor,
+                          .elements = &fine->elements,
+                          .spacing = fine->spacing,
+                          .gamma = gamma,
+                          .layout = &fine->layout,
+                          .interpolation = fine->interpolation};
+  return fg__elements_coarsen(out, context, &cells, nodes, count);
 }
 
 fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
@@ -547,17 +568,33 @@ fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
     description.spacing[k] = 2.0 * fine->spacing[k];
   }
   *out = (fg__level){0};
+  fg_status status;
+  if (fine->mass) {
+    fg__elements elements;
+    int nodes[3], count[3];
+    for (int k = 0; k < 3; ++k) {
+      bool used = k < description.dimension;
+      count[k] = used ? description.cells[k] : 1;
+      nodes[k] = used ? count[k] + !fine->periodic[k] : 1;
+    }
+    status = fg__level_coarsen_cells(&elements, context, fine, gamma, nodes, count);
+    if (status)
+      return status;
+    fg__elements_fill_images(&elements, count, fine->periodic);
+    return fg__level_create(out, context, &description, NULL, &elements);
+  }
   fg__cells_of_box tensor;
-  fg_status status = fg__cells_coarsen(&tensor, context, &fine->tensor, fine->cells,
-                                       fine->periodic, worth_while(fine, team));
+  status = fg__cells_coarsen(&tensor, context, &fine->tensor, fine->cells, fine->periodic,
+                             worth_while(fine, team));
   if (status)
     return status;
-  return fg__level_create(out, context, &description, &tensor);
+  return fg__level_create(out, context, &description, &tensor, NULL);
 }
 
 void fg__level_clear(fg__level *level)
 {
   fg__cells_clear(&level->tensor);
+  fg__elements_clear(&level->elements);
   for (int n = 0; n < level->memory_count; ++n)
     free(level->memory[n]);
   *level = (fg__level){0};

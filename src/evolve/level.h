@@ -12,7 +12,7 @@
 
 #include "base/context.h"
 #include "base/team.h"
-#include "evolve/cells.h"
+#include "evolve/elements.h"
 #include "mesh/box.h"
 #include "mesh/layout.h"
 
@@ -79,7 +79,12 @@ typedef struct fg__level {
   float *mass,
       *mass_inverse; /* relative; NULL without a mask; inverse 0 where mass is 0 */
 
+  /* With a mask: how far a node follows the coarse node at the low or (bits of the
+   * index) high side along the axes where it is odd (interpolation.h). */
+  float *interpolation[FG__MOST_CORNERS];
+
   fg__cells_of_box tensor; /* tensor and weight per cell; cleared once it is used up */
+  fg__elements elements;   /* instead of it on coarse levels with a mask */
   void *memory[8];
   int memory_count;
 } fg__level;
@@ -121,14 +126,22 @@ static inline float *fg__node(const fg__level *level, float *array, int i, int j
   return array + fg__node_at(&level->layout, i, j, k);
 }
 
-/* Lays out a level and computes its stencils from the cells' tensor times weight, which
- * it takes over. One of several boxes gets no such arrays of its own, and
- * its masses lack ghosts (spread.h). MEMORY. */
+/* Lays out a level and computes its stencils from the cells' tensor times weight or from
+ * their element matrices (the other NULL), which it takes over. One of several boxes gets
+ * no such arrays of its own, and its masses and interpolation lack ghosts (spread.h).
+ * MEMORY. */
 fg_status fg__level_create(fg__level *out, fg_context *context,
                            const fg__level_description *description,
-                           fg__cells_of_box *tensor);
+                           fg__cells_of_box *tensor, fg__elements *elements);
 
-/* The next coarser level: half the cells, tensor and weight averaged. */
+/* The cells of the next coarser level, of a box of so many nodes, without images; of a
+ * level with a mask, whose interpolation has its ghosts. gamma: of the finest level.
+ * MEMORY. */
+fg_status fg__level_coarsen_cells(fg__elements *out, fg_context *context,
+                                  const fg__level *fine, double gamma, const int nodes[3],
+                                  const int count[3]);
+
+/* The next coarser level: half the cells, tensor averaged, or with a mask P' A P. */
 fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
                                    const fg__level *fine, double gamma, fg__team *team);
 

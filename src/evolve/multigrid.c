@@ -27,7 +27,7 @@ static fg_status create_finest(fg__multigrid *out, fg_context *context,
     description.periodic[k] = mesh->periodic[k];
     description.spacing[k] = mesh->spacing[k];
   }
-  return fg__level_create(&out->level[0], context, &description, &cells);
+  return fg__level_create(&out->level[0], context, &description, &cells, NULL);
 }
 
 static void choose_coarsest_sweeps(fg__multigrid *multigrid)
@@ -54,6 +54,7 @@ static fg_status create_coarser(fg__multigrid *out, fg_context *context, double 
       return status;
     if (out->level_count > 2 || !fine->mass)
       fg__cells_clear(&fine->tensor);
+    fg__elements_clear(&fine->elements);
   }
   return FG_STATUS_OK;
 }
@@ -104,6 +105,8 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
     if (status || !workable)
       break;
     ++out->spread_count;
+    for (int b = 0; halvings > 0 && b < spread[-1].count; ++b)
+      fg__elements_clear(&spread[-1].box[b].elements);
     status = fg__partition_coarsen(&partition, context, &spread->partition);
     status = fg__ranks_agree(mesh->ranks, context, status);
   }
@@ -112,10 +115,13 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
 
 /* The tensor of the first whole level from all ranks' boxes: a cell's values travel as
  * those of its lowest corner. */
-static fg_status gather_cells(fg__cells_of_box *out, fg_context *context,
-                              const fg__multigrid *multigrid, const fg__spread *image)
+static fg_status gather_cells(fg__cells_of_box *out, fg__elements *elements,
+                              fg_context *context, const fg__multigrid *multigrid,
+                              const fg__spread *image)
 {
   int dimension = image->partition.dimension, arrays = dimension == 3 ? 7 : 4;
+  if (image->masked)
+    arrays = fg__element_values(dimension);
   const int *cells = image->partition.cells;
   fg__layout whole = fg__layout_of(dimension, image->partition.nodes);
   size_t count = (size_t)cells[0] * (size_t)cells[1] * (size_t)cells[2];
@@ -131,17 +137,21 @@ static fg_status gather_cells(fg__cells_of_box *out, fg_context *context,
     return status;
   }
   float *place = nodal + whole.first, *carrier = image->residual[0];
-  const float *values[FG__TENSOR_COMPONENTS + 1];
+  const float *values[FG__MOST_ELEMENT_VALUES];
   for (int a = 0; a < arrays; ++a) {
     for (int b = 0; b < image->count; ++b) {
       const fg__level *box = &image->box[b];
       const fg__cells_of_box *own = &box->tensor;
-      const float *from = a + 1 < arrays ? own->component[a] : own->weight;
+      const float *from = image->masked    ? box->elements.value[a]
+                          : a + 1 < arrays ? own->component[a]
+                                           : own->weight;
       float *to = carrier + image->offset[b];
       for (int k = 0; k < box->layout.nodes[2]; ++k)
         for (int j = 0; j < box->layout.nodes[1]; ++j)
           for (int i = 0; i < box->layout.nodes[0]; ++i)
-            to[fg__node_at(&box->layout, i, j, k)] = from[fg__cell_at(own, i, j, k)];
+            to[fg__node_at(&box->layout, i, j, k)] =
+                image->masked ? from[fg__element_at(&box->elements, i, j, k)]
+                              : from[fg__cell_at(own, i, j, k)];
     }
     float *const *boxes[1];
     fg__spread_pointers(image, 1, &carrier, boxes);
@@ -153,8 +163,11 @@ static fg_status gather_cells(fg__cells_of_box *out, fg_context *context,
         for (int i = 0; i < cells[0]; ++i)
           *to++ = place[fg__node_at(&whole, i, j, k)];
   }
-  status = fg__cells_from_arrays(out, context, values, dimension, cells,
-                                 image->partition.periodic);
+  const bool *periodic = image->partition.periodic;
+  status = image->masked
+               ? fg__elements_from_arrays(elements, context, values, dimension, cells,
+                                          periodic)
+               : fg__cells_from_arrays(out, context, values, dimension, cells, periodic);
   free(nodal);
   free(plain);
   return status;
@@ -169,7 +182,8 @@ static fg_status create_first_whole(fg__multigrid *out, fg_context *context,
   if (status)
     return status;
   fg__cells_of_box cells;
-  status = gather_cells(&cells, context, out, image);
+  fg__elements elements;
+  status = gather_cells(&cells, &elements, context, out, image);
   if (status)
     return status;
   fg__level_description description = {.dimension = mesh->dimension, .gamma = gamma};
@@ -180,7 +194,9 @@ static fg_status create_first_whole(fg__multigrid *out, fg_context *context,
         mesh->spacing[k] * (k < mesh->dimension ? 1 << out->spread_count : 1);
   }
   out->level_count = 1;
-  return fg__level_create(&out->level[0], context, &description, &cells);
+  return image->masked
+             ? fg__level_create(&out->level[0], context, &description, NULL, &elements)
+             : fg__level_create(&out->level[0], context, &description, &cells, NULL);
 }
 
 fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,

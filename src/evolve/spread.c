@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "evolve/interpolation.h"
 
 static fg_status take_arrays(fg__spread *spread, fg_context *context, bool finest)
 {
@@ -55,7 +56,7 @@ void fg__spread_use(fg__spread *spread, float *u, float *w, float *p)
 
 static fg_status create_box(fg__spread *spread, fg_context *context, const fg__mesh *mesh,
                             const fg__spread_description *description, int b,
-                            fg__cells_of_box *cells)
+                            fg__cells_of_box *cells, fg__elements *elements)
 {
   fg__level_description level = {.dimension = mesh->dimension,
                                  .gamma = description->gamma,
@@ -68,20 +69,18 @@ static fg_status create_box(fg__spread *spread, fg_context *context, const fg__m
     level.spacing[k] =
         mesh->spacing[k] * (k < mesh->dimension ? 1 << description->halvings : 1);
   }
-  return fg__level_create(&spread->box[b], context, &level, cells);
+  return fg__level_create(&spread->box[b], context, &level, cells, elements);
 }
 
-/* The cells below the boxes: each travels as its lowest corner does. node[b]: an array of
- * box b. */
-static void exchange_cells(const fg__spread *spread, const fg__cells_of_box *cells,
-                           float *node[], int component)
+/* A value of the cells below the boxes: each travels as its lowest corner does. node[b]:
+ * an array of box b; shape: how the cells lie there, with the value as their weight. */
+static void exchange_cells(const fg__spread *spread, const fg__cells_of_box *shape,
+                           float *node[])
 {
   for (int pass = 0; pass < 2; ++pass) {
     for (int b = 0; b < spread->count; ++b) {
-      const fg__cells_of_box *c = &cells[b];
+      const fg__cells_of_box *c = &shape[b];
       fg__layout layout = fg__layout_of(c->dimension, c->nodes);
-      float *value =
-          component < FG__TENSOR_COMPONENTS ? c->component[component] : c->weight;
       int first = pass == 0 ? 0 : -1, solid = c->dimension == 3;
       for (int k = solid ? first : 0; k < c->nodes[2]; ++k)
         for (int j = first; j < c->nodes[1]; ++j)
@@ -89,9 +88,9 @@ static void exchange_cells(const fg__spread *spread, const fg__cells_of_box *cel
             ptrdiff_t at = fg__cell_at(c, i, j, k);
             ptrdiff_t corner = fg__node_at(&layout, i, j, k);
             if (pass == 0)
-              node[b][corner] = value[at];
+              node[b][corner] = c->weight[at];
             else if (i < 0 || j < 0 || k < 0)
-              value[at] = node[b][corner];
+              c->weight[at] = node[b][corner];
           }
     }
     float *const *const array = node;
@@ -100,41 +99,95 @@ static void exchange_cells(const fg__spread *spread, const fg__cells_of_box *cel
   }
 }
 
+/* What the cells of boxes are: the tensor, or element matrices. */
+typedef struct cells_of_boxes {
+  fg__cells_of_box *tensor;
+  fg__elements *element; /* NULL: there is no mask */
+} cells_of_boxes;
+
+static fg_status halve_box(const fg__spread *spread, fg_context *context,
+                           const fg__spread_description *description,
+                           const cells_of_boxes *cells, int b)
+{
+  const fg__partition *partition = &spread->partition;
+  const fg__box *own = &fg__own_boxes(partition, &(int){0})[b];
+  const fg__level *fine = &description->finer->box[b];
+  if (!cells->element)
+    return fg__cells_halve_box(&cells->tensor[b], context, &fine->tensor, own,
+                               partition->cells);
+  int count[3] = {1, 1, 1};
+  for (int k = 0; k < partition->dimension; ++k) {
+    int left = partition->cells[k] - own->first[k]; /* the last node begins no cell */
+    count[k] = own->nodes[k] < left ? own->nodes[k] : left;
+  }
+  return fg__level_coarsen_cells(&cells->element[b], context, fine, description->gamma,
+                                 own->nodes, count);
+}
+
+/* Value n of the cells of all boxes, as exchange_cells takes it. */
+static void view_cells(const fg__spread *spread, const cells_of_boxes *cells, int n,
+                       fg__cells_of_box *out)
+{
+  for (int b = 0; b < spread->count; ++b) {
+    out[b] = cells->tensor[b];
+    if (cells->element) {
+      const fg__elements *e = &cells->element[b];
+      out[b] = (fg__cells_of_box){.dimension = e->dimension,
+                                  .nodes = {e->nodes[0], e->nodes[1], e->nodes[2]},
+                                  .row = e->row,
+                                  .plane = e->plane,
+                                  .weight = e->value[n]};
+    } else if (n > 0) {
+      out[b].weight = out[b].component[n - 1];
+    }
+  }
+}
+
 /* Cells of a coarser level from those of the finer one, which the same ranks' boxes
  * share. Collective. */
 static fg_status halve_cells(const fg__spread *spread, fg_context *context,
-                             const fg__spread *fine, fg__cells_of_box *cells)
+                             const fg__spread_description *description,
+                             const cells_of_boxes *cells)
 {
   const fg__partition *partition = &spread->partition;
   const fg__box *own = fg__own_boxes(partition, &(int){0});
   size_t count = (size_t)spread->count;
   float **memory = fg__allocate(count, sizeof *memory);
   float **node = fg__allocate(count, sizeof *node);
+  fg__cells_of_box *shape = fg__allocate(count, sizeof *shape);
   fg_status status = FG_STATUS_OK;
-  if (!memory || !node)
+  if (!memory || !node || !shape)
     status = fg__fail_memory(context, "the coarse tensor", count * sizeof *node);
   for (int b = 0; b < spread->count && !status; ++b) {
     fg__layout layout = fg__layout_of(partition->dimension, own[b].nodes);
     memory[b] = fg__allocate(layout.array_size, sizeof **memory);
     if (memory[b]) {
       node[b] = memory[b] + layout.first;
-      status = fg__cells_halve_box(&cells[b], context, &fine->box[b].tensor, &own[b],
-                                   partition->cells);
+      status = halve_box(spread, context, description, cells, b);
     } else {
       status = fg__fail_memory(context, "the coarse tensor",
                                layout.array_size * sizeof **node);
     }
   }
   status = fg__ranks_agree(partition->ranks, context, status);
-  for (int c = 0; c <= FG__TENSOR_COMPONENTS && !status; ++c)
-    if (c < 3 || c == FG__TENSOR_COMPONENTS || partition->dimension == 3)
-      exchange_cells(spread, cells, node, c);
+  int dimension = partition->dimension;
+  int values = cells->element ? fg__element_values(dimension) : dimension == 3 ? 7 : 4;
+  for (int n = 0; n < values && !status; ++n) {
+    view_cells(spread, cells, n, shape);
+    exchange_cells(spread, shape, node);
+  }
   for (int b = 0; b < spread->count && !status; ++b)
-    fg__cells_mirror_box(&cells[b], &own[b], partition->cells, partition->periodic);
+    if (cells->element)
+      fg__elements_mirror_box(&cells->element[b], &own[b], partition->cells,
+                              partition->periodic);
+    else
+      fg__cells_mirror_box(&cells->tensor[b], &own[b], partition->cells,
+                           partition->periodic);
   for (int b = 0; b < spread->count && memory; ++b)
     free(memory[b]);
   free(memory);
   free(node);
+  free(shape);
   return status;
 }
 
@@ -144,23 +197,31 @@ static fg_status create_boxes(fg__spread *spread, fg_context *context,
 {
   const fg__box *own = fg__own_boxes(&spread->partition, &(int){0});
   size_t count = (size_t)spread->count;
-  fg__cells_of_box *cells = fg__allocate(count, sizeof *cells);
+  bool elements = spread->masked && description->finer;
+  cells_of_boxes cells = {.tensor = fg__allocate(count, sizeof *cells.tensor)};
+  if (elements)
+    cells.element = fg__allocate(count, sizeof *cells.element);
   fg_status status = FG_STATUS_OK;
-  if (!cells)
-    status = fg__fail_memory(context, "the tensor", count * sizeof *cells);
+  if (!cells.tensor || (elements && !cells.element))
+    status = fg__fail_memory(context, "the tensor", count * sizeof *cells.element);
   status = fg__ranks_agree(mesh->ranks, context, status);
   if (!status && description->finer)
-    status = halve_cells(spread, context, description->finer, cells);
+    status = halve_cells(spread, context, description, &cells);
   for (int b = 0; b < spread->count && !status && !description->finer; ++b)
-    status = fg__cells_for_box(&cells[b], context, recipe, &own[b]);
+    status = fg__cells_for_box(&cells.tensor[b], context, recipe, &own[b]);
   for (int b = 0; b < spread->count && !status; ++b) {
-    status = create_box(spread, context, mesh, description, b, &cells[b]);
+    status = create_box(spread, context, mesh, description, b, &cells.tensor[b],
+                        elements ? &cells.element[b] : NULL);
     spread->offset[b] = (ptrdiff_t)spread->size + spread->box[b].layout.first;
     spread->size += spread->box[b].layout.array_size + FG__LANES;
   }
-  for (int b = 0; b < spread->count && cells; ++b)
-    fg__cells_clear(&cells[b]); /* unless a level has taken them over */
-  free(cells);
+  /* unless a level has taken them over */
+  for (int b = 0; b < spread->count && cells.tensor; ++b)
+    fg__cells_clear(&cells.tensor[b]);
+  for (int b = 0; b < spread->count && cells.element; ++b)
+    fg__elements_clear(&cells.element[b]);
+  free(cells.tensor);
+  free(cells.element);
   return status;
 }
 
@@ -175,6 +236,24 @@ static void exchange_masses(const fg__spread *spread)
   arrays[0] = spread->pointer;
   arrays[1] = spread->pointer + spread->count;
   fg__exchange_fill(spread->exchange, 2, arrays, FG__ALL_COLOURS);
+}
+
+/* So does what the nodes there follow, between the stages in which it is found. */
+static void find_interpolation(const fg__spread *spread)
+{
+  int dimension = spread->partition.dimension;
+  for (int stage = 0; stage <= dimension; ++stage) {
+    for (int b = 0; b < spread->count; ++b)
+      fg__interpolation_find(&spread->box[b], stage);
+    for (int side = 0; side < 1 << dimension; ++side) {
+      for (int b = 0; b < spread->count; ++b)
+        spread->pointer[b] = spread->box[b].interpolation[side];
+      float *const *array = spread->pointer;
+      fg__exchange_fill(spread->exchange, 1, &array, FG__ALL_COLOURS);
+    }
+    for (int b = 0; b < spread->count; ++b)
+      fg__interpolation_mirror(&spread->box[b]);
+  }
 }
 
 /* Whether each rank has one box and it reaches across the domain along all axes but the
@@ -214,8 +293,10 @@ fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh
   if (!status)
     status = take_arrays(out, context, !description->finer);
   status = fg__ranks_agree(mesh->ranks, context, status);
-  if (!status && recipe->masked)
+  if (!status && recipe->masked) {
     exchange_masses(out);
+    find_interpolation(out);
+  }
   return status;
 }
 
