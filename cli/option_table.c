@@ -201,6 +201,8 @@ const option_entry option_table[] = {
      false, NULL, "colour map that shows the speed, or #rrggbb for one colour [greys]"},
     {"tint", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
      "tint the clusters behind their arrows"},
+    {"skeletons", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(skeletons), 0, 0, false, false,
+     NULL, "mark the spine of each cluster by dots, and its centre by a ring"},
     {"no-frame", 0, NULL, PICTURES, OPTION_FLAG, AT(no_frame), 0, 0, false, false, NULL,
      "only mask and arrows: no axes, no keys, no caption"},
     {"transparent", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, AT(transparent), 0, 0, false,

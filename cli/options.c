@@ -377,5 +377,6 @@ fg_picture_options settings_picture(const cli_settings *settings)
       .no_frame = settings->no_frame,
       .transparent = settings->transparent,
       .tint = settings->tint,
+      .skeletons = settings->skeletons,
   };
 }

@@ -38,7 +38,7 @@ typedef struct cli_settings {
   unsigned formats; /* 0: the default, SVG and PNG */
   double width;
   const char *palette;
-  bool tint, no_frame, transparent;
+  bool tint, skeletons, no_frame, transparent;
 
   int method;  /* rival: fg_rival_method */
   int lengths; /* rival: 1 with the speed */

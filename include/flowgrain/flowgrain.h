@@ -434,8 +434,9 @@ typedef struct fg_icon {
   double center[3];          /* centre of the cluster's spine, on the centreline */
   double area;               /* of the cluster (volume in 3D) */
   double speed;              /* mean |v| along the centreline, input units */
-  /* In 3D, unless the icon was read from a file: the cluster's spine from end to end, and
-   * all of the streamline in the cluster, of which the centreline is a part. */
+  /* Unless the icon was read from a file: the cluster's spine from end to end, a ring's
+   * back to where it begins; and in 3D all of the streamline in the cluster, of which the
+   * centreline is a part. */
   int spine_count, streamline_count;
   const double (*spine)[3], (*streamline)[3];
 } fg_icon;
@@ -490,6 +491,8 @@ typedef struct fg_picture_options {
   bool no_frame;               /* only mask and arrows */
   bool transparent;            /* no background */
   bool tint;                   /* tint the clusters (density needed) */
+  bool skeletons;              /* mark the clusters' spines and centres, where icons have
+                                  them */
   const char *title;           /* caption; NULL: from the field; "" none */
   double font_size;            /* points [0: follows from the size; 9 at 480 points] */
   bool no_keys;                /* no colour key, no arrow for the size */

@@ -249,6 +249,21 @@ static fg_status make_solid(icon_job *job, fg_context *context, fg__solid_maker 
   return status;
 }
 
+/* A ring's spine ends where it begins. */
+static fg_status keep_spine(fg_icon *icon, fg_context *context, const fg__spine *spine)
+{
+  int count = spine->count + spine->closed;
+  double(*points)[3] = fg__allocate((size_t)count, sizeof *points);
+  if (!points)
+    return fg__fail_memory(context, "a spine", (size_t)count * sizeof *points);
+  for (int n = 0; n < count; ++n)
+    for (int k = 0; k < 2; ++k)
+      points[n][k] = spine->point[n % spine->count][k];
+  icon->spine = (const double(*)[3])points;
+  icon->spine_count = count;
+  return FG_STATUS_OK;
+}
+
 static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *chooser,
                            int index)
 {
@@ -278,6 +293,8 @@ static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *choo
   icon->area = source->labels->area[cluster - 1];
   status = build_icon(icon, context, source->field, extended ? &land.room : &place.room,
                       &chooser->best, &arrow, center);
+  if (status == FG_STATUS_OK && icon->points)
+    status = keep_spine(icon, context, &spine);
 cleanup:
   clear_place(&place);
   clear_place(&land);

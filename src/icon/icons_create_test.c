@@ -160,6 +160,27 @@ static void follows_a_horseshoe(void **state)
   end_bench(&bench);
 }
 
+static void keeps_the_spine(void **state)
+{
+  (void)state;
+  test_bench bench = bench_of(uniform, grain);
+  const fg_icon *icon = only_icon(&bench);
+  assert_true(icon->spine_count > 20); /* about 12 long, a point a cell */
+  for (int n = 0; n < icon->spine_count; ++n)
+    assert_true(grain(icon->spine[n][0], icon->spine[n][1]) > -0.1 * SHAPE_SPACING);
+  const double *a = icon->spine[0], *b = icon->spine[icon->spine_count - 1];
+  assert_true(hypot(a[0] - b[0], a[1] - b[1]) > 0.9 * 12.4);
+  end_bench(&bench);
+  bench = bench_of(vortex, ring);
+  icon = only_icon(&bench);
+  a = icon->spine[0], b = icon->spine[icon->spine_count - 1];
+  assert_true(hypot(a[0] - b[0], a[1] - b[1]) < 1e-9);
+  for (int n = 0; n < icon->spine_count; ++n)
+    assert_true(fabs(hypot(icon->spine[n][0] - CORE[0], icon->spine[n][1] - CORE[1]) -
+                     6.5) < 0.4);
+  end_bench(&bench);
+}
+
 static void takes_one_branch_or_the_stem(void **state)
 {
   (void)state;
@@ -340,6 +361,7 @@ int main(void)
       cmocka_unit_test(goes_round_a_vortex_core_at_half_radius),
       cmocka_unit_test(goes_round_a_ring_but_for_a_gap),
       cmocka_unit_test(follows_a_horseshoe),
+      cmocka_unit_test(keeps_the_spine),
       cmocka_unit_test(takes_one_branch_or_the_stem),
       cmocka_unit_test(takes_the_longest_way_through_a_stripe),
       cmocka_unit_test(drops_slivers_and_counts_them),

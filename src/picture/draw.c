@@ -66,6 +66,36 @@ static void draw_arrows(cairo_t *cairo, const fg__scene *scene)
   }
 }
 
+/* Spines dotted, centres as rings: points. */
+static void draw_skeletons(cairo_t *cairo, const fg__scene *scene)
+{
+  static const double dot = 1.5, gap = 3.2, ring = 2.6;
+  const double dots[] = {0.0, gap};
+  cairo_save(cairo);
+  cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+  cairo_set_dash(cairo, dots, 2, 0.0);
+  cairo_set_line_width(cairo, dot);
+  set_color(cairo, ink);
+  for (size_t loop = 0; loop < scene->spines.count; ++loop) {
+    cairo_new_sub_path(cairo);
+    for (size_t n = scene->spines.start[loop]; n < scene->spines.start[loop + 1]; ++n)
+      cairo_line_to(cairo, scene->spines.point[n][0], scene->spines.point[n][1]);
+  }
+  cairo_stroke(cairo);
+  cairo_set_dash(cairo, NULL, 0, 0.0);
+  for (size_t n = 0; n < scene->centers.point_count; ++n) {
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, scene->centers.point[n][0], scene->centers.point[n][1], ring, 0.0,
+              2.0 * acos(-1.0));
+  }
+  cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+  cairo_fill_preserve(cairo);
+  cairo_set_line_width(cairo, 0.5 * dot);
+  set_color(cairo, ink);
+  cairo_stroke(cairo);
+  cairo_restore(cairo);
+}
+
 static void add_box(cairo_t *cairo, const fg__box *box)
 {
   cairo_rectangle(cairo, box->x0, box->y0, box->x1 - box->x0, box->y1 - box->y0);
@@ -133,6 +163,7 @@ void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
   cairo_clip(cairo);
   draw_areas(cairo, scene, style);
   draw_arrows(cairo, scene);
+  draw_skeletons(cairo, scene);
   cairo_restore(cairo);
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
   if (page->has_color_key)

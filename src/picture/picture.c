@@ -290,6 +290,8 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
     status = fg__scene_create(&p->scene, context, &p->page, contents,
                               options->tint ? fg_density_contents(density) : NULL, icons,
                               &p->palette, range);
+  if (!status && options->skeletons)
+    status = fg__scene_add_skeletons(&p->scene, context, &p->page, contents, icons);
   if (!status)
     status = render(context, path, p);
   fg__scene_clear(&p->scene);

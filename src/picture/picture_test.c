@@ -37,8 +37,12 @@ static void add_arrow(example *e, double x, double y, double dx, double dy, doub
     points[n][0] = x + 0.25 * n * dx;
     points[n][1] = y + 0.25 * n * dy;
   }
+  const double spine[2][3] = {{x, y + 2.0, 0.0}, {x + dx, y + dy + 2.0, 0.0}};
   double length = hypot(dx, dy);
-  fg_icon icon = {.cluster = 1,
+  fg_icon icon = {.spine_count = 2,
+                  .spine = spine,
+                  .center = {x, y - 2.0},
+                  .cluster = 1,
                   .point_count = 5,
                   .points = (const double(*)[3])points,
                   .width = 0.12 * length,
@@ -225,6 +229,24 @@ static void a_png_shows_arrows_mask_and_tint(void **state)
   expect_pixel(e, "a.png", 30.0, 32.0, 10.0, (unsigned char[]){255, 0x90, 0x90, 0x90});
   expect_pixel(e, "a.png", 30.0, 15.0, 2.0, (unsigned char[]){255, 0xdd, 0xee, 0xff});
   expect_pixel(e, "a.png", 30.0, 15.0, 3.2, white);
+}
+
+static void skeletons_are_shown_when_asked_for(void **state)
+{
+  const example *e = *state;
+  fg_picture_options options = {
+      .width = 300.0, .pixels_per_point = 3.0, .no_frame = true, .skeletons = true};
+  write_picture(e, "a.png", &options);
+  unsigned char begin[4], center[4];
+  pixel_at(begin, e, "a.png", 30.0, 13.0, 2.0);
+  assert_true(begin[1] < 0x60 && begin[2] < 0x60 && begin[3] < 0x60);
+  expect_pixel(e, "a.png", 30.0, 13.0, -2.0, white);
+  pixel_at(center, e, "a.png", 30.0, 13.0 + 0.26, -2.0); /* on its ring */
+  assert_true(center[1] < 0xa0);
+  options.skeletons = false;
+  write_picture(e, "a.png", &options);
+  expect_pixel(e, "a.png", 30.0, 13.0, 2.0, white);
+  expect_pixel(e, "a.png", 30.0, 13.0 + 0.26, -2.0, white);
 }
 
 static void a_transparent_png_has_no_background(void **state)
@@ -455,6 +477,7 @@ int main(void)
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
   const struct CMUnitTest tests[] = {
       TEST(a_png_shows_arrows_mask_and_tint),
+      TEST(skeletons_are_shown_when_asked_for),
       TEST(a_transparent_png_has_no_background),
       TEST(an_svg_has_one_path_an_arrow_in_its_colour),
       TEST(framed_svgs_are_well_formed),

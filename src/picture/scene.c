@@ -308,12 +308,50 @@ fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *
   return FG_STATUS_OK;
 }
 
+static bool add_line(fg__polygons *out, const placement *p, const double (*points)[3],
+                     int count, const double offset[2])
+{
+  bool good = fg__polygons_begin(out);
+  for (int n = 0; good && n < count; ++n) {
+    double point[2] = {points[n][0] + offset[0], points[n][1] + offset[1]};
+    place(p, point);
+    good = fg__polygons_add(out, point);
+  }
+  return good;
+}
+
+fg_status fg__scene_add_skeletons(fg__scene *scene, fg_context *context,
+                                  const fg__page *page, const fg_field_arrays *field,
+                                  const fg_icons *icons)
+{
+  placement p = {{0.0, 0.0}, page->scale, &page->frame};
+  double high[2];
+  fg__scene_box(p.low, high, field);
+  for (int n = 0; n < fg_icons_count(icons); ++n) {
+    const fg_icon *icon = fg_icons_at(icons, n);
+    int x[2], y[2];
+    period_range(x, icon, 0, p.low[0], high[0], field->period[0]);
+    period_range(y, icon, 1, p.low[1], high[1], field->period[1]);
+    for (int sy = y[0]; sy <= y[1] && icon->spine; ++sy)
+      for (int sx = x[0]; sx <= x[1]; ++sx) {
+        const double offset[2] = {sx * field->period[0], sy * field->period[1]};
+        if (!add_line(&scene->spines, &p, icon->spine, icon->spine_count, offset) ||
+            !add_line(&scene->centers, &p, &icon->center, 1, offset))
+          return fg__fail_memory(context, "the spines",
+                                 scene->spines.point_count * sizeof *scene->spines.point);
+      }
+  }
+  return FG_STATUS_OK;
+}
+
 void fg__scene_clear(fg__scene *scene)
 {
   fg__polygons_clear(&scene->mask);
   fg__polygons_clear(&scene->tint);
   fg__polygons_clear(&scene->arrows);
   fg__polygons_clear(&scene->reference);
+  fg__polygons_clear(&scene->spines);
+  fg__polygons_clear(&scene->centers);
   free(scene->arrow_color);
   *scene = (fg__scene){.arrow_color = NULL};
 }

@@ -11,6 +11,8 @@ typedef struct fg__scene {
   fg__polygons tint;   /* clusters */
   fg__polygons arrows; /* a loop each */
   fg__color *arrow_color;
+  fg__polygons spines;    /* an open line each */
+  fg__polygons centers;   /* a point each */
   fg__polygons reference; /* the arrow of the size key */
 } fg__scene;
 
@@ -36,12 +38,16 @@ fg_status fg__scene_typical_icon(fg__typical_icon *out, fg_context *context,
 fg_status fg__scene_mask(fg__polygons *out, fg_context *context, const fg__page *page,
                          const fg_field_arrays *field);
 
-/* Makes the polygons. density: NULL for no tint. range: speeds at the palette's ends.
- * MEMORY. */
+/* Makes the polygons, but for spines and centres. density: NULL for no tint. range:
+ * speeds at the palette's ends. MEMORY. */
 fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *page,
                            const fg_field_arrays *field, const fg_density_arrays *density,
                            const fg_icons *icons, const fg__palette *palette,
                            const double range[2]);
+/* Adds the spines of the icons that have one, and their centres. MEMORY. */
+fg_status fg__scene_add_skeletons(fg__scene *scene, fg_context *context,
+                                  const fg__page *page, const fg_field_arrays *field,
+                                  const fg_icons *icons);
 void fg__scene_clear(fg__scene *scene);
 
 #endif
