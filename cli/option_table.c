@@ -8,7 +8,7 @@ static const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
 static const char *const mesh_words[] = {"auto", "uniform", NULL};
 static const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
-static const char *const method_words[] = {"hedgehog", "grid-curved", NULL};
+static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete", NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
 static const char *const kind_words[] = {"lic", "spots", NULL};
 static const char *const extent_words[] = {"cluster", "territory", NULL};
@@ -17,6 +17,7 @@ enum {
   EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL |
           COMMAND_TEXTURE | COMMAND_GALLERY,
   READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE,
+  DRAWN = COMMAND_RUN | COMMAND_RIVAL,
   SEEDED = COMMAND_RUN | COMMAND_TEXTURE,
   PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL,
 };
@@ -61,8 +62,10 @@ const cli_command command_table[] = {
      "side. "
      "Writes the arrows as GeoJSON, and their pictures beside: FILE.svg, FILE.png. With "
      "several numbers, the files of each are FILE-NUMBER.geojson and so on. The methods: "
-     "`hedgehog` (straight arrows at the points of a grid) and `grid-curved` (pieces of "
-     "streamlines through them). INPUT is as in flowgrain run, in two dimensions.",
+     "`hedgehog` (straight arrows at the points of a grid), `grid-curved` (pieces of "
+     "streamlines through them) and `discrete` (clusters merged from the bottom up, "
+     "Telea "
+     "and van Wijk 1999). INPUT is as in flowgrain run, in two dimensions.",
      true, command_rival},
     {COMMAND_GALLERY, "gallery", NULL, "-o DIR [options]",
      "make every figure of the paper, with a page that shows them",
@@ -90,13 +93,23 @@ const option_entry option_table[] = {
      NULL, "arrows to write, .geojson; their pictures are written beside"},
 
     {"method", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(method), 0, 0, false, false,
-     method_words, "hedgehog or grid-curved [hedgehog]"},
+     method_words, "hedgehog, grid-curved or discrete [hedgehog]"},
     {"icons", 0, "LIST", COMMAND_RIVAL, OPTION_COUNTS, 0, 1, 100000, false, false, NULL,
      "numbers of arrows to draw, descending, as 150,60,25; a grid comes as near as its "
      "shape allows [60]"},
     {"lengths", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(lengths), 0, 0, false, false,
      lengths_words,
      "on a grid, `equal` lengths, or lengths in proportion to the `speed` [equal]"},
+    {"position-weight", 0, "W", COMMAND_RIVAL, OPTION_NUMBER, AT(position_weight), 0, 1,
+     false, false, NULL,
+     "discrete: share of the difference in position in the error, in [0,1]; direction "
+     "has "
+     "the rest [0.95]"},
+    {"elongation", 0, "K", COMMAND_RIVAL, OPTION_NUMBER, AT(elongation), 1, 1e6, false,
+     false, NULL,
+     "discrete: differences along the flow count K times less than across it [2]"},
+    {"nodes", 0, "N", COMMAND_RIVAL, OPTION_WHOLE, AT(nodes), 3, 16385, false, false,
+     NULL, "nodes along the longest side of the raster whose cells are clustered [257]"},
 
     {"vars", 0, "U,V[,W]", READERS, OPTION_TEXT, AT(vars), 0, 0, false, false, NULL,
      "the two or three variables, or one vector variable [found by their standard or "
@@ -167,6 +180,9 @@ const option_entry option_table[] = {
      false, NULL, "stop after K time steps; the state reached is the last scale"},
     {"threads", 0, "N", SEEDED, OPTION_WHOLE, AT(threads), 1, 4096, false, false, NULL,
      "threads to use; the result does not depend on it [all cores]"},
+    {"save-field", 0, NULL, COMMAND_RIVAL, OPTION_FLAG, AT(save_field), 0, 0, false,
+     false, NULL,
+     "also write the clusters: FILE.vti, with a number a cluster on two nodes a cell"},
     {"save-field", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(save_field), 0, 0, false, false,
      NULL,
      "also write the density u and the clusters of every scale (scale-NN.vti); always "
@@ -190,7 +206,7 @@ const option_entry option_table[] = {
     {"input", 0, "FILE", COMMAND_DRAW, OPTION_TEXT, AT(input), 0, 0, false, false, NULL,
      "where the field is now, if it is no longer where run.json says"},
 
-    {"formats", 0, "LIST", READERS, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
+    {"formats", 0, "LIST", DRAWN, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
      "picture formats, of svg, png and pdf [svg,png]"},
     /* 14400 points are the largest page that PDF readers promise to show. */
     {"width", 0, "POINTS", PICTURES, OPTION_NUMBER, AT(width), 36, 14400, false, false,
@@ -199,7 +215,7 @@ const option_entry option_table[] = {
      NULL, "colour map of the speed, or #rrggbb for one colour [gale]"},
     {"palette", 0, "NAME", COMMAND_TEXTURE, OPTION_PALETTE, AT(palette), 0, 0, false,
      false, NULL, "colour map that shows the speed, or #rrggbb for one colour [greys]"},
-    {"tint", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
+    {"tint", 0, NULL, DRAWN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
      "tint the clusters behind their arrows"},
     {"skeletons", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(skeletons), 0, 0, false, false,
      NULL, "mark the spine of each cluster by dots, and its centre by a ring"},

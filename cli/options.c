@@ -297,6 +297,7 @@ parse_result options_parse(cli_settings *out, const cli_command *command, int ar
   fill_tables(&tables, command);
   memset(out, 0, sizeof *out);
   out->scale_index = -1;
+  out->position_weight = -1.0;
   out->checkpoint = 60.0;
   opterr = 0;
   optind = 0; /* the C library's way to start afresh */

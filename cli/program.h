@@ -45,6 +45,7 @@ typedef struct cli_settings {
   int kind;    /* fg_texture_kind */
   int longest; /* pixels */
   double length, fade;
+  double position_weight, elongation;
 
   const char *input; /* draw: the field, where it is now */
   int scale_index;   /* draw: -1 when not said */

@@ -1,4 +1,5 @@
 /* Draws the field by a method to compare with. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -74,7 +75,17 @@ static int write_icons(rival_work *work, int count, const fg_icons *icons)
   return status ? complain_of(work->context, status, file->path) : EXIT_DONE;
 }
 
-static int write_pictures(rival_work *work, int count, const fg_icons *icons)
+static int write_clusters(rival_work *work, int count, const fg_density *clusters)
+{
+  const result_file *file = new_file(work, count, "vti");
+  if (!file)
+    return EXIT_FAILED;
+  fg_status status = fg_density_write(work->context, file->partial, clusters);
+  return status ? complain_of(work->context, status, file->path) : EXIT_DONE;
+}
+
+static int write_pictures(rival_work *work, int count, const fg_icons *icons,
+                          const fg_density *clusters)
 {
   fg_picture_options options = settings_picture(work->settings);
   options.speed_min = work->speeds[0];
@@ -89,28 +100,47 @@ static int write_pictures(rival_work *work, int count, const fg_icons *icons)
     const result_file *file = new_file(work, count, format_words[kind]);
     if (!file)
       return EXIT_FAILED;
-    fg_status status = fg_picture_write(work->context, file->partial, work->field, NULL,
-                                        icons, &options);
+    fg_status status = fg_picture_write(work->context, file->partial, work->field,
+                                        clusters, icons, &options);
     if (status)
       code = complain_of(work->context, status, file->path);
   }
   return code;
 }
 
+/* The icons of a count and, where they are to be seen, its clusters. */
+static fg_status make(rival_work *work, int count, fg_icons **icons,
+                      fg_density **clusters)
+{
+  const cli_settings *said = work->settings;
+  fg_status status = fg_rival_icons(icons, work->rival, count);
+  if (!status && (said->tint || said->save_field))
+    status = fg_rival_clusters(clusters, work->rival, count);
+  return status;
+}
+
 static int draw(rival_work *work, int count)
 {
   fg_icons *icons = NULL;
-  fg_status status = fg_rival_icons(&icons, work->rival, count);
+  fg_density *clusters = NULL;
+  const char *path = NULL;
+  int code = EXIT_DONE;
+  fg_status status = make(work, count, &icons, &clusters);
   if (status)
-    return complain_of(work->context, status, work->settings->operand);
-  if (!work->files)
+    code = complain_of(work->context, status, work->settings->operand);
+  if (!code && !work->files)
     speed_range(icons, work->speeds);
-  int code = write_icons(work, count, icons);
-  const char *path = code ? NULL : work->files->path;
   if (!code)
-    code = write_pictures(work, count, icons);
+    code = write_icons(work, count, icons);
+  if (!code)
+    path = work->files->path;
+  if (!code && work->settings->save_field)
+    code = write_clusters(work, count, clusters);
+  if (!code)
+    code = write_pictures(work, count, icons, clusters);
   if (!code)
     printf("%4d icons  %s\n", fg_icons_count(icons), path);
+  fg_density_destroy(clusters);
   fg_icons_destroy(icons);
   return code;
 }
@@ -132,6 +162,17 @@ static int publish(rival_work *work, int code)
   return code;
 }
 
+static int check_method(const cli_settings *said)
+{
+  fg_rival_method method = (fg_rival_method)said->method;
+  if (fg_rival_divides(method) || !(said->tint || said->save_field))
+    return EXIT_DONE;
+  complain("--%s: the method %s has no clusters", said->tint ? "tint" : "save-field",
+           fg_rival_name(method));
+  advise("Try 'flowgrain rival --help'.");
+  return EXIT_USAGE;
+}
+
 static int prepare(rival_work *work)
 {
   const cli_settings *said = work->settings;
@@ -145,7 +186,10 @@ static int prepare(rival_work *work)
   fg_status status = fg_field_read(&work->field, work->context, said->operand, &reading);
   fg_rival_options options = {.method = (fg_rival_method)said->method,
                               .nodes = said->nodes,
-                              .length_by_speed = said->lengths != 0};
+                              .length_by_speed = said->lengths != 0,
+                              .direction_only = said->position_weight == 0.0,
+                              .position_weight = fmax(said->position_weight, 0.0),
+                              .elongation = said->elongation};
   if (!status)
     status = fg_rival_create(&work->rival, work->context, work->field, &options);
   return status ? complain_of(work->context, status, said->operand) : EXIT_DONE;
@@ -158,6 +202,8 @@ int command_rival(const cli_settings *settings)
   const int *counts = count ? settings->clusters : usual_counts;
   rival_work work = {.settings = settings};
   int code = check_name(settings->output);
+  if (!code)
+    code = check_method(settings);
   if (!code)
     code = prepare(&work);
   for (int k = 0; !code && k < (count ? count : 1); ++k)

@@ -11,14 +11,20 @@ extern "C" {
 
 typedef enum fg_rival_method {
   FG_RIVAL_HEDGEHOG = 0, /* straight arrows at the points of a grid */
-  FG_RIVAL_GRID_CURVED   /* pieces of streamlines through the points of a grid */
+  FG_RIVAL_GRID_CURVED,  /* pieces of streamlines through the points of a grid */
+  FG_RIVAL_DISCRETE      /* clusters merged from the bottom up (Telea, van Wijk 1999) */
 } fg_rival_method;
 
 typedef struct fg_rival_options {
   fg_rival_method method; /* [hedgehog] */
   int nodes; /* of the raster that the method works on, along the longest side [257] */
-  bool length_by_speed; /* hedgehog, grid: as long as |v| of the largest [equal lengths]
-                         */
+  bool length_by_speed;   /* hedgehog, grid: as long as |v| of the largest [equal lengths]
+                           */
+  double position_weight; /* discrete: what position counts beside direction, in (0, 1]
+                             [0.95] */
+  bool direction_only;    /* discrete: position does not count at all */
+  double elongation;      /* discrete: clusters are drawn out along the flow by that many
+                             times, from 1 on [2] */
 } fg_rival_options;
 
 typedef struct fg_rival fg_rival;
@@ -29,10 +35,20 @@ FG_API fg_status fg_rival_create(fg_rival **out, fg_context *context,
                                  const fg_field *field, const fg_rival_options *options);
 FG_API void fg_rival_destroy(fg_rival *rival);
 
-/* Makes the picture of about `count` arrows: a grid has as near to as many points as its
- * shape allows. Where the flow stands still there is none; fg_icons_dropped counts them.
- * ARGUMENT (count below 1), MEMORY, STOPPED. */
+/* Makes the picture of about `count` arrows, as often as wanted: a grid has as near to as
+ * many points as its shape allows; clusters are as many, and nested from count to count.
+ * Where the flow stands still there is none; fg_icons_dropped counts them. ARGUMENT
+ * (count below 1), MEMORY, STOPPED. */
 FG_API fg_status fg_rival_icons(fg_icons **out, fg_rival *rival, int count);
+
+/* The clusters that these arrows stand for, u > 0 inside each and below on the lines
+ * between them, on two nodes a cell: to be drawn behind the arrows (fg_picture_write) or
+ * written with labels (fg_density_write). UNSUPPORTED (a method without clusters),
+ * ARGUMENT, MEMORY, STOPPED. */
+FG_API fg_status fg_rival_clusters(fg_density **out, fg_rival *rival, int count);
+
+/* Whether a method has clusters. */
+FG_API bool fg_rival_divides(fg_rival_method method);
 
 /* The word for a method, as the program takes it: "grid-curved"; NULL beyond the last. */
 FG_API const char *fg_rival_name(fg_rival_method method);

@@ -2,13 +2,19 @@
 #ifndef FG__RIVAL_METHOD_H
 #define FG__RIVAL_METHOD_H
 
-#include "rival/domain.h"
+#include "rival/merge_tree.h"
 
 struct fg_rival {
   fg_context *context;
   fg_rival_options options;
   fg__domain domain;
+  fg__merge_tree tree; /* discrete */
 };
+
+/* Divide the domain: label as fg__clusters_draw takes it. MEMORY, STOPPED. */
+fg_status fg__rival_discrete(const fg_rival *rival, int count, int *label, int *found,
+                             int *left_out);
+fg_status fg__rival_discrete_prepare(fg_rival *rival);
 
 /* Fill a list with about `count` icons. MEMORY, STOPPED. */
 fg_status fg__rival_hedgehog(fg_icons *icons, const fg_rival *rival, int count);

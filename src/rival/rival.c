@@ -1,20 +1,33 @@
 /* The methods by name: a new one is a file and a line in the list. */
 #include "base/memory.h"
 #include "icon/icons.h"
+#include "rival/clusters.h"
 #include "rival/method.h"
 
 #include <stdlib.h>
 
+/* Defaults of the discrete clustering: docs/method/rival-discrete.md measures others. */
+static const double USUAL_POSITION_WEIGHT = 0.95;
+static const double USUAL_ELONGATION = 2;
+static const double LARGEST_ELONGATION = 1e6;
+
 enum { USUAL_NODES = 257, FEWEST_NODES = 3, MOST_NODES = 16385 };
 
+/* A method draws by itself, or it divides the domain and its clusters are drawn. */
 typedef struct method_entry {
   const char *name;
+  fg_status (*prepare)(fg_rival *rival); /* NULL: nothing to do before */
   fg_status (*draw)(fg_icons *icons, const fg_rival *rival, int count);
+  fg_status (*divide)(const fg_rival *rival, int count, int *label, int *found,
+                      int *left_out);
 } method_entry;
 
 static const method_entry methods[] = {
-    [FG_RIVAL_HEDGEHOG] = {"hedgehog", fg__rival_hedgehog},
-    [FG_RIVAL_GRID_CURVED] = {"grid-curved", fg__rival_grid_curved},
+    [FG_RIVAL_HEDGEHOG] = {.name = "hedgehog", .draw = fg__rival_hedgehog},
+    [FG_RIVAL_GRID_CURVED] = {.name = "grid-curved", .draw = fg__rival_grid_curved},
+    [FG_RIVAL_DISCRETE] = {.name = "discrete",
+                           .prepare = fg__rival_discrete_prepare,
+                           .divide = fg__rival_discrete},
 };
 
 enum { METHODS = sizeof methods / sizeof *methods };
@@ -38,6 +51,20 @@ static fg_status settle(fg_rival_options *settled, fg_context *context,
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "rival: a raster of %d nodes, from %d to %d are taken",
                     settled->nodes, FEWEST_NODES, MOST_NODES);
+  if (settled->direction_only)
+    settled->position_weight = 0;
+  else if (!(settled->position_weight != 0))
+    settled->position_weight = USUAL_POSITION_WEIGHT;
+  if (!(settled->elongation != 0))
+    settled->elongation = USUAL_ELONGATION;
+  if (!(settled->position_weight >= 0 && settled->position_weight <= 1))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "rival: a weight of position of %g, it must lie in [0, 1]",
+                    settled->position_weight);
+  if (!(settled->elongation >= 1 && settled->elongation <= LARGEST_ELONGATION))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "rival: an elongation of %g, it must lie in [1, %g]",
+                    settled->elongation, LARGEST_ELONGATION);
   return FG_STATUS_OK;
 }
 
@@ -62,6 +89,8 @@ fg_status fg_rival_create(fg_rival **out, fg_context *context, const fg_field *f
     status = fg__fail(context, FG_STATUS_ARGUMENT,
                       "rival: no cell of a raster of %d x %d has a velocity",
                       rival->domain.cells[0], rival->domain.cells[1]);
+  if (status == FG_STATUS_OK && methods[rival->options.method].prepare)
+    status = methods[rival->options.method].prepare(rival);
   if (status != FG_STATUS_OK) {
     fg_rival_destroy(rival);
     return status;
@@ -74,8 +103,40 @@ void fg_rival_destroy(fg_rival *rival)
 {
   if (!rival)
     return;
+  fg__merge_tree_clear(&rival->tree);
   fg__domain_clear(&rival->domain);
   free(rival);
+}
+
+/* Labels of a division into clusters; *label is allocated. */
+static fg_status divide(int **label, int *found, int *left_out, const fg_rival *rival,
+                        int count)
+{
+  const fg__domain *domain = &rival->domain;
+  size_t cells = (size_t)domain->cells[0] * (size_t)domain->cells[1];
+  *label = fg__allocate(cells, sizeof **label);
+  if (!*label)
+    return fg__fail_memory(rival->context, "clusters", cells * sizeof **label);
+  return methods[rival->options.method].divide(rival, count, *label, found, left_out);
+}
+
+static fg_status draw_clusters(fg_icons *icons, const fg_rival *rival, int count)
+{
+  int *label = NULL, found = 0, left_out = 0;
+  fg_status status = divide(&label, &found, &left_out, rival, count);
+  if (status == FG_STATUS_OK)
+    status =
+        fg__clusters_draw(icons, rival->context, &rival->domain, label, found, left_out);
+  free(label);
+  return status;
+}
+
+static fg_status check_count(fg_rival *rival, int count)
+{
+  if (count >= 1)
+    return FG_STATUS_OK;
+  return fg__fail(rival->context, FG_STATUS_ARGUMENT,
+                  "rival: %d icons were asked for, at least 1 is needed", count);
 }
 
 fg_status fg_rival_icons(fg_icons **out, fg_rival *rival, int count)
@@ -84,17 +145,44 @@ fg_status fg_rival_icons(fg_icons **out, fg_rival *rival, int count)
     return fg__fail(rival ? rival->context : NULL, FG_STATUS_ARGUMENT,
                     "rival: a NULL argument");
   *out = NULL;
-  if (count < 1)
-    return fg__fail(rival->context, FG_STATUS_ARGUMENT,
-                    "rival: %d icons were asked for, at least 1 is needed", count);
   fg_icons *icons = NULL;
-  fg_status status = fg__icons_create_empty(&icons, rival->context);
+  fg_status status = check_count(rival, count);
   if (status == FG_STATUS_OK)
+    status = fg__icons_create_empty(&icons, rival->context);
+  if (status == FG_STATUS_OK && methods[rival->options.method].draw)
     status = methods[rival->options.method].draw(icons, rival, count);
+  else if (status == FG_STATUS_OK)
+    status = draw_clusters(icons, rival, count);
   if (status != FG_STATUS_OK) {
     fg_icons_destroy(icons);
     return status;
   }
   *out = icons;
   return FG_STATUS_OK;
+}
+
+bool fg_rival_divides(fg_rival_method method)
+{
+  return fg_rival_name(method) && methods[method].divide;
+}
+
+fg_status fg_rival_clusters(fg_density **out, fg_rival *rival, int count)
+{
+  if (!out || !rival)
+    return fg__fail(rival ? rival->context : NULL, FG_STATUS_ARGUMENT,
+                    "rival: a NULL argument");
+  *out = NULL;
+  fg_status status = check_count(rival, count);
+  if (status != FG_STATUS_OK)
+    return status;
+  if (!fg_rival_divides(rival->options.method))
+    return fg__fail(rival->context, FG_STATUS_UNSUPPORTED,
+                    "rival: the method %s has no clusters",
+                    fg_rival_name(rival->options.method));
+  int *label = NULL, found = 0, left_out = 0;
+  status = divide(&label, &found, &left_out, rival, count);
+  if (status == FG_STATUS_OK)
+    status = fg__clusters_density(out, rival->context, &rival->domain, label, found);
+  free(label);
+  return status;
 }

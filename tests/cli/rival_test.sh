@@ -2,7 +2,7 @@
 # What `flowgrain rival` writes, and what it refuses.
 source "$(dirname "$0")/harness.sh"
 
-for method in hedgehog grid-curved; do
+for method in hedgehog grid-curved discrete; do
   try rival synth:vortex3 -o $method.geojson --method $method --icons 49
   expect_code 0
   [ ! -s err ] || fault "standard error: $(head -c 200 err)"
@@ -30,6 +30,25 @@ while read -r line; do
   expect_file "${line##* }"
 done <out
 done_with "rival: several counts from one call"
+
+try rival synth:vortex3 -o parts.geojson --method discrete --icons 40,10 --tint --save-field --formats svg --nodes 65
+expect_code 0
+expect_file parts-10.vti
+grep -q cluster parts-10.vti || fault "no labels in parts-10.vti"
+expect_json parts-10.geojson '(.features | length) == 10'
+expect_json parts-10.geojson '([.features[].properties.area] | add) as $sum | $sum > 0.999 and $sum < 1.001'
+try rival synth:vortex3 -o other.geojson --method discrete --icons 10 --position-weight 0.5 --nodes 65 --formats svg
+expect_code 0
+cmp -s parts-10.geojson other.geojson && fault "the weight changes nothing"
+done_with "rival: clusters behind the arrows, and in a file"
+
+for wrong in "--tint" "--save-field" "--method discrete --elongation 0.5" "--method discrete --position-weight 2"; do
+  # shellcheck disable=SC2086
+  try rival synth:vortex3 -o x.geojson $wrong
+  expect_code 2
+  expect_one_complaint
+done
+done_with "rival: options that do not fit are refused"
 
 try rival synth:vortex3 -o x.svg
 expect_code 2
