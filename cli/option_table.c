@@ -10,7 +10,7 @@ static const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL
 static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
 static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete", NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
-static const char *const kind_words[] = {"lic", "spots", NULL};
+static const char *const kind_words[] = {"lic", "spots", "clusters", "stripes", NULL};
 static const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
@@ -135,7 +135,11 @@ const option_entry option_table[] = {
     {"pixels", 0, "N", COMMAND_TEXTURE, OPTION_WHOLE, AT(longest), 16, 16384, false,
      false, NULL, "pixels along the longest side [1024]"},
     {"length", 0, "L", COMMAND_TEXTURE, OPTION_NUMBER, AT(length), 2, 400, false, false,
-     NULL, "length of the streaks in pixels [a 25th of the longest side]"},
+     NULL,
+     "length of the streaks, of the longest spots, or four stripes' width together, in "
+     "pixels [a 25th of the longest side, of spots an 18th]"},
+    {"clusters", 0, "N", COMMAND_TEXTURE, OPTION_COUNTS, 0, 1, 1000000, false, false,
+     NULL, "--kind clusters: the first moment with at most N of them [300]"},
     {"fade", 0, "F", COMMAND_TEXTURE, OPTION_NUMBER, AT(fade), 0, 1, false, false, NULL,
      "share of the way to white, from 0 to 1 [0]"},
 

@@ -138,7 +138,7 @@ static const char *next_item(char *item, size_t room, const char *list)
 static bool set_counts(cli_settings *out, const cli_command *command,
                        const option_entry *option, const char *text)
 {
-  int most = command->bit == COMMAND_DRAW ? 1 : MAX_SCALES;
+  int most = command->bit & (COMMAND_DRAW | COMMAND_TEXTURE) ? 1 : MAX_SCALES;
   out->cluster_count = 0;
   for (const char *rest = text; rest;) {
     char item[32];
@@ -365,6 +365,7 @@ fg_texture_options settings_texture(const cli_settings *settings)
       .kind = (fg_texture_kind)settings->kind,
       .longest = settings->longest,
       .length = settings->length,
+      .clusters = settings->cluster_count ? settings->clusters[0] : 0,
       .seed = settings->seed,
       .threads = settings->threads,
   };

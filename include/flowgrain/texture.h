@@ -17,8 +17,11 @@ extern "C" {
 typedef enum fg_texture_kind {
   FG_TEXTURE_LIC = 0, /* line integral convolution (Cabral and Leedom 1993), by the fast
                          algorithm of Stalling and Hege (1995) */
-  FG_TEXTURE_SPOTS    /* spot noise (van Wijk 1991): longer and narrower where the flow is
+  FG_TEXTURE_SPOTS,   /* spot noise (van Wijk 1991): longer and narrower where the flow is
                          faster */
+  FG_TEXTURE_CLUSTERS, /* the clusters themselves: u, from 1 (light) where it is -0.6 or
+                          less to 0 where it is 0.6 or more */
+  FG_TEXTURE_STRIPES /* u where it grew from weak noise: stripes along the streamlines */
 } fg_texture_kind;
 
 typedef struct fg_texture_options {
@@ -26,10 +29,14 @@ typedef struct fg_texture_options {
   int longest;          /* pixels along the longest side, 16 to 16384 [1024] */
   int size[2];          /* pixels along x and y, 1 to 16384; 0, 0: from `longest` and the
                            domain's shape */
-  double length; /* of the streaks (of the longest spots), pixels; 2 to 400 [a 25th of the
-                    longest side, 20 at least] */
-  uint64_t seed; /* of the noise [1] */
-  int threads;   /* the texture does not depend on it [all cores] */
+  double length; /* of streaks (LIC), the longest spots, four stripes' width together, in
+                    pixels, 2 to 400 [a 25th of the longest side, of spots an 18th; 20
+                    at least]; not for CLUSTERS */
+  int clusters;  /* CLUSTERS: the first moment with no more of them [300] */
+  const fg_density *density; /* CLUSTERS: these instead, not shared; borrowed while the
+                                texture is made [NULL: an evolution of its own] */
+  uint64_t seed;             /* of the noise [1] */
+  int threads;               /* the texture does not depend on it [all cores] */
 } fg_texture_options;
 
 typedef struct fg_texture fg_texture;

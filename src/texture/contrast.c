@@ -5,10 +5,6 @@
 
 #include "base/memory.h"
 
-/* Values of a bell curve cut here and bent by (3 s - s^3) / 4 occur about equally often:
- * 4.6 % are at the ends. */
-static const float cut = 2.0F;
-
 /* A spread below this share of the whole picture's is no texture but rounding. */
 static const float least_spread = 1e-3F;
 
@@ -141,19 +137,18 @@ static float whole_spread(const evening *e, size_t count)
   return (float)(sum / (double)count);
 }
 
-static void settle(evening *e, size_t count)
+static void settle(evening *e, size_t count, float cut)
 {
   const float least = least_spread * least_spread * whole_spread(e, count);
   for (size_t n = 0; n < count; ++n) {
     const float spread = e->around[n] > least ? e->around[n] : least;
-    float s = spread > 0.0F ? e->value[n] / (cut * sqrtf(spread)) : 0.0F;
-    s = s < -1.0F ? -1.0F : (s > 1.0F ? 1.0F : s);
-    e->value[n] = 0.5F + 0.25F * s * (3.0F - s * s);
+    const float size = cut * sqrtf(spread);
+    e->value[n] = fg__contrast_bend(spread > 0.0F ? e->value[n] / size : 0.0F);
   }
 }
 
 fg_status fg__contrast_even(float *value, fg_context *context, const fg__raster *raster,
-                            int radius, fg__team *team)
+                            int radius, double cut, fg__team *team)
 {
   const size_t columns = (size_t)raster->size[0];
   const size_t count = columns * (size_t)raster->size[1];
@@ -173,7 +168,7 @@ fg_status fg__contrast_even(float *value, fg_context *context, const fg__raster 
     for (size_t n = 0; n < count; ++n)
       value[n] -= e.around[n];
     find_means(&e, team, true);
-    settle(&e, count);
+    settle(&e, count, (float)cut);
   }
   free(e.along);
   free(e.around);

@@ -29,11 +29,14 @@ typedef struct texture_kind {
   /* of streaks, as a share of the picture's longest side: as long as they may be and
      still turn with the field (by eye); single spots fade out towards their ends */
   double length;
+  double cut; /* of its contrast (contrast.h); 0: its values are to be left alone */
 } texture_kind;
 
 static const texture_kind kinds[] = {
-    [FG_TEXTURE_LIC] = {fg__lic_paint, fg__lic_margin, 1.0 / 25.0},
-    [FG_TEXTURE_SPOTS] = {fg__spots_paint, fg__spots_margin, 1.0 / 18.0},
+    [FG_TEXTURE_LIC] = {fg__lic_paint, fg__lic_margin, 1.0 / 25.0, 2.0},
+    [FG_TEXTURE_SPOTS] = {fg__spots_paint, fg__spots_margin, 1.0 / 18.0, 2.0},
+    [FG_TEXTURE_CLUSTERS] = {fg__clusters_paint, fg__no_margin, 1.0 / 25.0, 0.0},
+    [FG_TEXTURE_STRIPES] = {fg__stripes_paint, fg__no_margin, 1.0 / 25.0, 0.8},
 };
 
 static fg_status check_options(fg_context *context, const fg_texture_options *o)
@@ -56,6 +59,8 @@ static fg_status check_options(fg_context *context, const fg_texture_options *o)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "texture: streaks of %g pixels, %g to %g are possible", o->length,
                     least_length, most_length);
+  if (o->clusters < 0)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: %d clusters", o->clusters);
   if (o->threads < 0)
     return fg__fail(context, FG_STATUS_ARGUMENT, "texture: %d threads", o->threads);
   return FG_STATUS_OK;
@@ -105,8 +110,9 @@ static fg_status paint(fg_texture *texture, fg_context *context, const fg__canva
   if (!status)
     status = fg__check_stop(context);
   const double radius = fmax(window_radius * canvas->length, LEAST_WINDOW);
-  if (!status)
-    status = fg__contrast_even(texture->value, context, &canvas->raster, (int)radius,
+  const double cut = kinds[texture->contents.kind].cut;
+  if (!status && cut > 0.0)
+    status = fg__contrast_even(texture->value, context, &canvas->raster, (int)radius, cut,
                                canvas->team);
   return status;
 }
@@ -114,7 +120,10 @@ static fg_status paint(fg_texture *texture, fg_context *context, const fg__canva
 static fg_status make(fg_texture *texture, fg_context *context, const fg_field *field,
                       const fg_texture_options *o)
 {
-  fg__canvas canvas = {.field = field, .seed = o->seed ? o->seed : 1};
+  fg__canvas canvas = {.field = field,
+                       .seed = o->seed ? o->seed : 1,
+                       .clusters = o->clusters,
+                       .density = o->density};
   int size[2];
   choose_size(size, fg_field_contents(field), o);
   canvas.length = choose_length(size, o);

@@ -9,7 +9,9 @@
 typedef struct fg__canvas {
   const fg_field *field;
   fg__raster raster;
-  double length; /* of streaks */
+  double length;             /* of streaks */
+  int clusters;              /* at most; 0: the usual number */
+  const fg_density *density; /* of the clusters to show; NULL: evolve them */
   uint64_t seed;
   fg__team *team;
 } fg__canvas;
@@ -24,5 +26,8 @@ int fg__lic_margin(double length);
 fg__texture_paint fg__lic_paint;
 int fg__spots_margin(double length);
 fg__texture_paint fg__spots_paint;
+int fg__no_margin(double length);
+fg__texture_paint fg__clusters_paint;
+fg__texture_paint fg__stripes_paint;
 
 #endif

@@ -8,7 +8,7 @@ png_size() {
     $5 * 16777216 + $6 * 65536 + $7 * 256 + $8}'
 }
 
-for kind in lic spots; do
+for kind in lic spots clusters stripes; do
   try texture synth:benard -o $kind.png --kind $kind --pixels 200
   expect_code 0
   [ "$(png_size $kind.png)" = "200 200" ] || fault "size $(png_size $kind.png)"
@@ -33,7 +33,7 @@ expect_code 0
 grep -q 'width="50pt"' page.svg || fault "$(grep -m1 '<svg' page.svg)"
 done_with "texture: PDF and SVG"
 
-for bad in "--kind plaid" "--kind" "--pixels 3" "--pixels 99999" "--length 1" "--fade 2" \
+for bad in "--kind plaid" "--kind" "--pixels 3" "--pixels 99999" "--length 1" "--clusters 30,10" "--fade 2" \
   "--seed 0" "--palette nope" "--nodes 65"; do
   # shellcheck disable=SC2086
   try texture synth:benard -o bad.png $bad
