@@ -4,6 +4,9 @@
 
 #include "base/memory.h"
 
+/* The work of a cell is compiled for each number of dimensions. */
+#define INLINE static inline __attribute__((always_inline))
+
 static double integral(const int a[3], const int b[3], int dimension, int p, int q)
 {
   double product = 1.0;
@@ -79,11 +82,11 @@ typedef struct unit {
   double weight[FG__MOST_CORNERS][FG__MOST_CORNERS][FG__TENSOR_COMPONENTS];
 } unit;
 
-static void read_tensor(const fg__fine_cells *fine, const unit *u, ptrdiff_t at,
-                        element *out)
+INLINE void read_tensor(const fg__fine_cells *fine, const unit *u, int dimension,
+                        ptrdiff_t at, element *out)
 {
   const fg__cells_of_box *cells = fine->tensor;
-  int corners = 1 << cells->dimension, components = cells->dimension == 3 ? 6 : 3;
+  int corners = 1 << dimension, components = dimension == 3 ? 6 : 3;
   double active = (double)cells->weight[at];
   for (int a = 0; a < corners; ++a) {
     out->mass[a] = active / corners;
@@ -98,9 +101,10 @@ static void read_tensor(const fg__fine_cells *fine, const unit *u, ptrdiff_t at,
   }
 }
 
-static void read_element(const fg__elements *elements, ptrdiff_t at, element *out)
+INLINE void read_element(const fg__elements *elements, int dimension, ptrdiff_t at,
+                         element *out)
 {
-  int dimension = elements->dimension, corners = 1 << dimension;
+  int corners = 1 << dimension;
   for (int a = 0; a < corners; ++a) {
     out->mass[a] = (double)elements->value[fg__element_mass(dimension, a)][at];
     for (int m = 0; m < 2; ++m) {
@@ -119,7 +123,7 @@ static void read_element(const fg__elements *elements, ptrdiff_t at, element *ou
 
 /* How far the fine node at an offset of 0, 1 or 2 from a coarse cell's lowest corner
  * follows each corner: its share of what is beside it, all of what is its own place. */
-static void read_interpolation(const fg__fine_cells *fine, int dimension,
+INLINE void read_interpolation(const fg__fine_cells *fine, int dimension,
                                const int lowest[3], const int offset[3],
                                double share[FG__MOST_CORNERS])
 {
@@ -140,7 +144,7 @@ static void read_interpolation(const fg__fine_cells *fine, int dimension,
 }
 
 /* Adds P' A P of a fine cell, share: those of its corners. */
-static void add_element(const element *from, double share[][FG__MOST_CORNERS],
+INLINE void add_element(const element *from, double share[][FG__MOST_CORNERS],
                         int corners, element *to)
 {
   for (int a = 0; a < corners; ++a)
@@ -153,59 +157,90 @@ static void add_element(const element *from, double share[][FG__MOST_CORNERS],
         for (int c = 0; c < corners; ++c)
           row[c] += from->stiffness[m][a][b] * share[b][c];
       for (int c = 0; c < corners; ++c)
-        for (int d = 0; d < corners && share[a][c] != 0.0; ++d)
+        for (int d = 0; d < corners; ++d)
           to->stiffness[m][c][d] += share[a][c] * row[d];
     }
 }
 
-static void coarsen_cell(const fg__fine_cells *fine, const unit *u, int dimension,
+INLINE void coarsen_cell(const fg__fine_cells *fine, const unit *u, int dimension,
                          const int lowest[3], element *out)
 {
   int corners = 1 << dimension;
-  *out = (element){{0.0}, {{{0.0}}}};
+  for (int a = 0; a < corners; ++a) {
+    out->mass[a] = 0.0;
+    for (int b = 0; b < corners; ++b)
+      out->stiffness[0][a][b] = out->stiffness[1][a][b] = 0.0;
+  }
   for (int cell = 0; cell < corners; ++cell) {
     int place[3] = {cell & 1, cell >> 1 & 1, cell >> 2};
-    double share[FG__MOST_CORNERS][FG__MOST_CORNERS] = {{0.0}};
-    element own = {{0.0}, {{{0.0}}}};
+    double share[FG__MOST_CORNERS][FG__MOST_CORNERS];
+    element own;
     for (int a = 0; a < corners; ++a) {
       int offset[3] = {place[0] + (a & 1), place[1] + (a >> 1 & 1), place[2] + (a >> 2)};
       read_interpolation(fine, dimension, lowest, offset, share[a]);
     }
     int i = lowest[0] + place[0], j = lowest[1] + place[1], k = lowest[2] + place[2];
     if (fine->tensor)
-      read_tensor(fine, u, fg__cell_at(fine->tensor, i, j, k), &own);
+      read_tensor(fine, u, dimension, fg__cell_at(fine->tensor, i, j, k), &own);
     else
-      read_element(fine->elements, fg__element_at(fine->elements, i, j, k), &own);
+      read_element(fine->elements, dimension, fg__element_at(fine->elements, i, j, k),
+                   &own);
     add_element(&own, share, corners, out);
   }
 }
 
+typedef struct coarsening {
+  const fg__elements *out;
+  const fg__fine_cells *fine;
+  const int *count;
+  unit unit;
+} coarsening;
+
+INLINE void coarsen_part(const coarsening *c, int dimension, const fg__share *share)
+{
+  int corners = 1 << dimension, begin[3] = {0, 0, 0};
+  int end[3] = {c->count[0], c->count[1], c->count[2]};
+  fg__team_part(share, end[dimension - 1], 1, &begin[dimension - 1], &end[dimension - 1]);
+  for (int k = begin[2]; k < end[2]; ++k)
+    for (int j = begin[1]; j < end[1]; ++j)
+      for (int i = 0; i < end[0]; ++i) {
+        element e;
+        coarsen_cell(c->fine, &c->unit, dimension, (int[]){2 * i, 2 * j, 2 * k}, &e);
+        ptrdiff_t at = fg__element_at(c->out, i, j, k);
+        float *const *value = c->out->value;
+        for (int a = 0; a < corners; ++a) {
+          value[fg__element_mass(dimension, a)][at] = (float)(e.mass[a] / corners);
+          for (int b = 0; b < a; ++b)
+            for (int m = 0; m < 2; ++m)
+              value[fg__element_coupling(dimension, m == 0, a, b)][at] =
+                  (float)(e.stiffness[m][a][b] / corners);
+        }
+      }
+}
+
+static void coarsen_in_2d(void *argument, const fg__share *share)
+{
+  coarsen_part(argument, 2, share);
+}
+
+static void coarsen_in_3d(void *argument, const fg__share *share)
+{
+  coarsen_part(argument, 3, share);
+}
+
 fg_status fg__elements_coarsen(fg__elements *out, fg_context *context,
                                const fg__fine_cells *fine, const int nodes[3],
-                               const int count[3])
+                               const int count[3], fg__team *team)
 {
   int dimension = fine->layout->dimension, corners = 1 << dimension;
   fg_status status = allocate(out, context, dimension, nodes);
   if (status)
     return status;
-  unit u;
+  coarsening c = {.out = out, .fine = fine, .count = count};
   for (int a = 0; a < corners; ++a)
     for (int b = 0; b < corners; ++b)
-      fg__cell_coupling(a, b, dimension, fine->spacing, u.weight[a][b]);
-  for (int k = 0; k < count[2]; ++k)
-    for (int j = 0; j < count[1]; ++j)
-      for (int i = 0; i < count[0]; ++i) {
-        element e;
-        coarsen_cell(fine, &u, dimension, (int[]){2 * i, 2 * j, 2 * k}, &e);
-        ptrdiff_t at = fg__element_at(out, i, j, k);
-        for (int a = 0; a < corners; ++a) {
-          out->value[fg__element_mass(dimension, a)][at] = (float)(e.mass[a] / corners);
-          for (int b = 0; b < a; ++b)
-            for (int m = 0; m < 2; ++m)
-              out->value[fg__element_coupling(dimension, m == 0, a, b)][at] =
-                  (float)(e.stiffness[m][a][b] / corners);
-        }
-      }
+      fg__cell_coupling(a, b, dimension, fine->spacing, c.unit.weight[a][b]);
+  fg__team_run(team, dimension == 3 ? coarsen_in_3d : coarsen_in_2d, &c);
   return FG_STATUS_OK;
 }
 

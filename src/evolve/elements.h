@@ -63,7 +63,7 @@ typedef struct fg__fine_cells {
  * The ring below comes from the neighbours. MEMORY. */
 fg_status fg__elements_coarsen(fg__elements *out, fg_context *context,
                                const fg__fine_cells *fine, const int nodes[3],
-                               const int count[3]);
+                               const int count[3], fg__team *team);
 
 /* Images beyond the sides of the whole level, `count` cells along each axis. */
 void fg__elements_fill_images(const fg__elements *elements, const int count[3],

@@ -64,8 +64,11 @@ static void find_node(const fg__level *level, const int node[3], int odd)
   int sides = 1 << level->layout.dimension;
   ptrdiff_t here = fg__node_at(&level->layout, node[0], node[1], node[2]);
   float share[FG__MOST_CORNERS] = {0.0F}, sum = 0.0F;
-  star s = star_at(level, node[0], node[1], node[2]);
-  for (int z = -1; z <= 1 && odd != 0; ++z)
+  int solid = level->layout.dimension == 3;
+  star s;
+  if (odd != 0)
+    s = star_at(level, node[0], node[1], node[2]);
+  for (int z = -solid; z <= solid && odd != 0; ++z)
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x)
         follow_neighbour(level, node, odd, (int[]){x, y, z}, -s.to[1 + z][1 + y][1 + x],

@@ -546,7 +546,7 @@ bool fg__level_can_coarsen(const fg__level *level)
 
 fg_status fg__level_coarsen_cells(fg__elements *out, fg_context *context,
                                   const fg__level *fine, double gamma, const int nodes[3],
-                                  const int count[3])
+                                  const int count[3], fg__team *team)
 {
   fg__fine_cells cells = {.tensor = fine->elements.memory ? NULL : &fine->tensor,
                           .elements = &fine->elements,
@@ -554,7 +554,7 @@ fg_status fg__level_coarsen_cells(fg__elements *out, fg_context *context,
                           .gamma = gamma,
                           .layout = &fine->layout,
                           .interpolation = fine->interpolation};
-  return fg__elements_coarsen(out, context, &cells, nodes, count);
+  return fg__elements_coarsen(out, context, &cells, nodes, count, team);
 }
 
 fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
@@ -577,7 +577,8 @@ fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
       count[k] = used ? description.cells[k] : 1;
       nodes[k] = used ? count[k] + !fine->periodic[k] : 1;
     }
-    status = fg__level_coarsen_cells(&elements, context, fine, gamma, nodes, count);
+    status = fg__level_coarsen_cells(&elements, context, fine, gamma, nodes, count,
+                                     worth_while(fine, team));
     if (status)
       return status;
     fg__elements_fill_images(&elements, count, fine->periodic);

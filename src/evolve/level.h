@@ -139,7 +139,7 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
  * MEMORY. */
 fg_status fg__level_coarsen_cells(fg__elements *out, fg_context *context,
                                   const fg__level *fine, double gamma, const int nodes[3],
-                                  const int count[3]);
+                                  const int count[3], fg__team *team);
 
 /* The next coarser level: half the cells, tensor averaged, or with a mask P' A P. */
 fg_status fg__level_create_coarser(fg__level *out, fg_context *context,

@@ -121,7 +121,7 @@ static fg_status halve_box(const fg__spread *spread, fg_context *context,
     count[k] = own->nodes[k] < left ? own->nodes[k] : left;
   }
   return fg__level_coarsen_cells(&cells->element[b], context, fine, description->gamma,
-                                 own->nodes, count);
+                                 own->nodes, count, NULL);
 }
 
 /* Value n of the cells of all boxes, as exchange_cells takes it. */
