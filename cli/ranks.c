@@ -28,6 +28,11 @@ bool ranks_leader(void)
   return rank == 0;
 }
 
+int ranks_number(void)
+{
+  return rank;
+}
+
 int ranks_count(void)
 {
   return count;

@@ -10,6 +10,7 @@
 int ranks_start(void);
 
 bool ranks_leader(void); /* this is rank 0, maybe the only one */
+int ranks_number(void);  /* this one's, from 0 */
 int ranks_count(void);
 
 /* Makes one exit code of all ranks': that of the lowest rank that failed;

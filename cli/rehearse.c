@@ -51,6 +51,7 @@ int signal_that_ends(void (*work)(void *), void *data, unsigned seconds)
 typedef struct reading {
   const char *input;
   const fg_read_options *options;
+  int part, parts;
 } reading;
 
 static void read_once(void *data)
@@ -62,7 +63,7 @@ static void read_once(void *data)
   if (fg_context_create(&context))
     return;
   if (r->options)
-    fg_field_read(&field, context, r->input, r->options);
+    fg_field_read_part(&field, context, r->input, r->options, r->part, r->parts);
   else
     fg_inventory_read(&inventory, context, r->input);
 }
@@ -84,10 +85,16 @@ static bool is_hdf5(const char *path)
 
 int rehearse_reading(const char *input, const fg_read_options *options)
 {
+  return rehearse_reading_part(input, options, 0, 1);
+}
+
+int rehearse_reading_part(const char *input, const fg_read_options *options, int part,
+                          int parts)
+{
   bool second = options && options->vars_from && is_hdf5(options->vars_from);
   if (!is_hdf5(input) && !second)
     return EXIT_DONE;
-  reading r = {input, options};
+  reading r = {input, options, part, parts};
   int number = signal_that_ends(read_once, &r, MOST_SECONDS);
   if (number == 0 || number == SIGINT || number == SIGTERM)
     return EXIT_DONE;

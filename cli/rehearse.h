@@ -14,4 +14,8 @@ int signal_that_ends(void (*work)(void *), void *data, unsigned seconds);
  * else EXIT_DONE. With options as fg_field_read would, with NULL as fg_inventory_read. */
 int rehearse_reading(const char *input, const fg_read_options *options);
 
+/* The same for fg_field_read_part; options must not be NULL. */
+int rehearse_reading_part(const char *input, const fg_read_options *options, int part,
+                          int parts);
+
 #endif

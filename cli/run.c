@@ -13,14 +13,18 @@
 #include "rehearse.h"
 #include "traffic.h"
 
+/* Each rank reads its part, but where icons are made of the whole density (moment.c). */
 static int read_field(cli_run *run)
 {
   const cli_settings *said = run->settings;
+  const bool whole = said->tint || said->extent == FG_ICON_EXTENT_TERRITORY;
+  const int part = whole ? 0 : ranks_number(), parts = whole ? 1 : ranks_count();
   progress_stage(&run->progress, "reading");
   fg_read_options reading = settings_reading(said);
-  if (rehearse_reading(said->operand, &reading))
+  if (rehearse_reading_part(said->operand, &reading, part, parts))
     return EXIT_FAILED;
-  fg_status status = fg_field_read(&run->field, run->context, said->operand, &reading);
+  fg_status status =
+      fg_field_read_part(&run->field, run->context, said->operand, &reading, part, parts);
   progress_wipe(&run->progress);
   if (status)
     return complain_of(run->context, status, run->settings->operand);
@@ -79,6 +83,13 @@ static void print_mesh(const fg_mesh_info *mesh, int scheme)
           " cells (%ld active), a = %g, coverage %g, gamma %g, %s scheme, %s kernel\n",
           mesh->active_cells, mesh->anisotropy, mesh->coverage, mesh->gamma,
           scheme_names[scheme], mesh->kernel);
+}
+
+/* What is wrong with all parts together. Collective. */
+static int join_field(cli_run *run)
+{
+  fg_status status = fg_field_join(run->context, run->field);
+  return status ? complain_of(run->context, status, run->settings->operand) : EXIT_DONE;
 }
 
 static int create_evolution(cli_run *run)
@@ -386,6 +397,9 @@ static int prepare(cli_run *run, bool *done)
   code = ranks_agree(code);
   *done = ranks_any(*done);
   if (code || *done)
+    return code;
+  code = join_field(run);
+  if (code)
     return code;
   if (ranks_leader()) {
     count_choices(run);

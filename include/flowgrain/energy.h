@@ -12,11 +12,12 @@ extern "C" {
 /* Where a tensor is asked for: the centre of a cell of the finest mesh that lies within
  * the field's domain. */
 typedef struct fg_energy_place {
-  const fg_field *field;
-  double position[3];  /* input coordinates */
-  double spacing[3];   /* of the mesh, likewise */
-  double direction[3]; /* of the streamline here, as fg_field_tangent gives it */
-  double anisotropy;   /* a of the options */
+  const fg_field *field; /* that ranks share by parts is known here up to half a
+                            spacing from the position, and beyond as missing */
+  double position[3];    /* input coordinates */
+  double spacing[3];     /* of the mesh, likewise */
+  double direction[3];   /* of the streamline here, as fg_field_tangent gives it */
+  double anisotropy;     /* a of the options */
 } fg_energy_place;
 
 /* Writes the symmetric tensor A of a place, xx, xy, yy and in 3D also zz, xz, yz, where

@@ -96,10 +96,10 @@ FG_API void fg_context_stop(fg_context *context);
  *
  * fg_evolution_create, fg_checkpoint_open and the calls that take an evolution are
  * collective: every rank makes them in the same order, with the same field (each has it
- * whole, for now), options and path, and all get the same status; when one fails, every
- * context holds its message. Densities are shared likewise (fg_density_create). All else
- * is the business of the rank that calls it. A program that MPI does not know of has one
- * rank and need not care. */
+ * whole, or all their parts of it: parts.h), options and path, and all get the same
+ * status; when one fails, every context holds its message. Densities are shared likewise
+ * (fg_density_create). All else is the business of the rank that calls it. A program that
+ * MPI does not know of has one rank and need not care. */
 
 /* This rank's number, from 0, and how many there are. Starts MPI when a launcher started
  * this process, and ends it when the process exits; a program that uses MPI itself starts
@@ -517,6 +517,7 @@ FG_API fg_status fg_picture_write(fg_context *context, const char *path,
 #endif
 
 #include "flowgrain/energy.h"
+#include "flowgrain/parts.h"
 #include "flowgrain/rival.h"
 #include "flowgrain/solid.h"
 #include "flowgrain/texture.h"

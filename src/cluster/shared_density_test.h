@@ -103,11 +103,11 @@ typedef struct subject {
   fg_density *shared, *whole; /* the same on one rank; whole elsewhere NULL */
 } subject;
 
-/* A flow with a turning direction on [0, 3] x [1, 3], of 12 x 10 samples; a mask takes
+/* A flow with a turning direction on [0, 3] x [1, 3], of 48 x 40 samples; a mask takes
  * some out, at the seam, too. */
 static inline fg_field *field_with_periods(const bool periodic[2], bool masked)
 {
-  enum { WIDE = 12, HIGH = 10 };
+  enum { FINE = 4, WIDE = 12 * FINE, HIGH = 10 * FINE };
   float u[WIDE * HIGH], v[WIDE * HIGH];
   double x[WIDE], y[HIGH];
   for (int i = 0; i < WIDE; ++i)
@@ -116,9 +116,10 @@ static inline fg_field *field_with_periods(const bool periodic[2], bool masked)
     y[j] = 1.0 + 2.0 * j / (periodic[1] ? HIGH : HIGH - 1);
   for (int j = 0; j < HIGH; ++j)
     for (int i = 0; i < WIDE; ++i) {
-      u[j * WIDE + i] = (float)(1.2 + sin(2.0 * i));
-      v[j * WIDE + i] = (float)cos(1.5 * j + 0.4);
-      bool hole = (i == 5 && j > 2 && j < 6) || (i == 0 && j == 7);
+      u[j * WIDE + i] = (float)(1.2 + sin(2.0 * i / FINE));
+      v[j * WIDE + i] = (float)cos(1.5 * j / FINE + 0.4);
+      int column = i / FINE, row = j / FINE;
+      bool hole = (column == 5 && row > 2 && row < 6) || (column == 0 && row == 7);
       if (masked && hole)
         u[j * WIDE + i] = NAN;
     }

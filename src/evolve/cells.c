@@ -238,20 +238,33 @@ static range range_of(int dimension, const bool periodic[3], const fg__box *box,
   return r;
 }
 
-/* The cells of a range, tensor (0 where inactive) and weight. */
-static fg_status fill_range(float *const values[], fg_context *context,
-                            const fg__tensor_recipe *recipe, const range *r)
+static fg__cells cells_of(const fg__tensor_recipe *recipe, const range *r)
 {
   fg__cells cells = {.dimension = recipe->dimension};
-  size_t count = 1;
   for (int k = 0; k < recipe->dimension; ++k) {
     cells.count[k] = r->count[k];
     cells.first[k] = r->low[k];
     cells.domain_count[k] = recipe->cells[k];
     cells.origin[k] = recipe->origin[k];
     cells.spacing[k] = recipe->spacing[k];
-    count *= (size_t)r->count[k];
   }
+  return cells;
+}
+
+fg__cells fg__cells_asked(const fg__tensor_recipe *recipe, const fg__box *box)
+{
+  range r = range_of(recipe->dimension, recipe->periodic, box, recipe->cells);
+  fg__cells cells = cells_of(recipe, &r);
+  return fg__tensor_reach(recipe->law, &cells, recipe->periodic, recipe->width);
+}
+
+/* The cells of a range, tensor (0 where inactive) and weight. */
+static fg_status fill_range(float *const values[], fg_context *context,
+                            const fg__tensor_recipe *recipe, const fg_field *field,
+                            const range *r)
+{
+  fg__cells cells = cells_of(recipe, r);
+  size_t count = fg__cell_count(&cells);
   int components = component_count(recipe->dimension);
   fg__tensor tensor = {.xx = values[0], .xy = values[1], .yy = values[2]};
   if (recipe->dimension == 3) {
@@ -263,8 +276,8 @@ static fg_status fill_range(float *const values[], fg_context *context,
   if (!tensor.active)
     return fg__fail_memory(context, "the tensor", count);
   fg_status status =
-      fg__tensor_fill_box(&tensor, context, recipe->field, recipe->law,
-                          recipe->anisotropy, &cells, recipe->periodic, recipe->width);
+      fg__tensor_fill_box(&tensor, context, field, recipe->law, recipe->anisotropy,
+                          &cells, recipe->periodic, recipe->width);
   for (size_t n = 0; n < count && !status; ++n) {
     values[components][n] = tensor.active[n] ? 1.0F : 0.0F;
     for (int c = 0; c < components && !tensor.active[n]; ++c)
@@ -328,8 +341,9 @@ void fg__cells_mirror_box(const fg__cells_of_box *cells, const fg__box *box,
 }
 
 fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
-                            const fg__tensor_recipe *recipe, const fg__box *box)
+                            const fg__tensor_recipe *recipe, const fg__box *box, int n)
 {
+  const fg_field *field = recipe->window ? recipe->window[n] : recipe->field;
   int dimension = recipe->dimension, components = component_count(dimension);
   range r = range_of(dimension, recipe->periodic, box, recipe->cells);
   size_t count = 1;
@@ -343,19 +357,19 @@ fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
   float *values[FG__TENSOR_COMPONENTS + 1];
   for (int c = 0; c <= components; ++c)
     values[c] = memory + (size_t)c * count;
-  fg_status status = fill_range(values, context, recipe, &r);
+  fg_status status = fill_range(values, context, recipe, field, &r);
   if (!status)
     status = allocate(out, context, dimension, box->nodes);
-  size_t n = 0;
+  size_t from = 0;
   for (int k = 0; k < r.count[2] && !status; ++k)
     for (int j = 0; j < r.count[1]; ++j)
-      for (int i = 0; i < r.count[0]; ++i, ++n) {
+      for (int i = 0; i < r.count[0]; ++i, ++from) {
         ptrdiff_t at =
             fg__cell_at(out, r.low[0] - box->first[0] + i, r.low[1] - box->first[1] + j,
                         dimension == 3 ? r.low[2] - box->first[2] + k : 0);
         for (int c = 0; c < components; ++c)
-          out->component[c][at] = values[c][n];
-        out->weight[at] = values[components][n];
+          out->component[c][at] = values[c][from];
+        out->weight[at] = values[components][from];
       }
   free(memory);
   if (!status)

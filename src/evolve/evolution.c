@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/mix.h"
 #include "evolve/evolution.h"
+#include "evolve/field_boxes.h"
 #include "field/fingerprint.h"
 
 /* Defaults that give the paper's pictures (design.md section 2). */
@@ -159,9 +160,19 @@ static void free_tensor(fg_evolution *e)
   }
 }
 
+static void forget_windows(fg_evolution *e)
+{
+  int boxes;
+  if (e->window)
+    fg__own_boxes(&e->mesh.partition, &boxes);
+  fg__field_windows_destroy(e->window, e->window ? boxes : 0);
+  e->window = NULL;
+}
+
 static fg__tensor_recipe recipe_of(const fg_evolution *e, const fg_field *field)
 {
   fg__tensor_recipe r = {.field = field,
+                         .window = e->window,
                          .law = e->options.law,
                          .anisotropy = e->options.anisotropy,
                          .dimension = e->mesh.dimension,
@@ -187,15 +198,14 @@ static fg_status count_own_cells(fg_evolution *e, const fg_field *field, uint64_
   recipe.law = &fg__law_isotropic;
   recipe.anisotropy = 1.0;
   *active = 0;
-  for (int n = 0; n < e->mesh.tile_count; ++n) {
-    const fg__tile *tile = &e->mesh.tile[n];
-    fg__box box = {{0, 0, 0}, {1, 1, 1}};
-    for (int k = 0; k < e->mesh.dimension; ++k) {
-      box.first[k] = tile->first[k];
-      box.nodes[k] = tile->cells[k];
-    }
+  int boxes;
+  const fg__box *own = fg__own_boxes(&e->mesh.partition, &boxes);
+  for (int n = 0; n < boxes; ++n) {
+    fg__box box = fg__box_cells(&e->mesh.partition, &own[n]);
+    if (fg__box_is_empty(&box))
+      continue;
     fg__cells_of_box cells;
-    fg_status status = fg__cells_for_box(&cells, e->context, &recipe, &box);
+    fg_status status = fg__cells_for_box(&cells, e->context, &recipe, &box, n);
     for (int k = 0; k < box.nodes[2] && !status; ++k)
       for (int j = 0; j < box.nodes[1]; ++j)
         for (int i = 0; i < box.nodes[0]; ++i)
@@ -210,7 +220,12 @@ static fg_status count_own_cells(fg_evolution *e, const fg_field *field, uint64_
 static fg_status count_active_cells(fg_evolution *e, const fg_field *field)
 {
   uint64_t active = 0;
-  fg_status status = count_own_cells(e, field, &active);
+  fg__tensor_recipe recipe = recipe_of(e, field);
+  fg_status status =
+      fg__field_of_boxes(&e->window, e->context, &recipe, &e->mesh.partition);
+  if (status)
+    return status;
+  status = count_own_cells(e, field, &active);
   status = fg__ranks_agree(e->mesh.ranks, e->context, status);
   if (status)
     return status;
@@ -345,7 +360,10 @@ static fg_status create_multigrid(fg_evolution *e, const fg_field *field,
   double gamma = (1.0 - alpha_of(e)) * e->info.gamma;
   if (e->spread) {
     fg__tensor_recipe recipe = recipe_of(e, field);
-    return fg__multigrid_create_spread(out, e->context, &e->mesh, &recipe, gamma);
+    fg_status status =
+        fg__multigrid_create_spread(out, e->context, &e->mesh, &recipe, gamma);
+    forget_windows(e);
+    return status;
   }
   fg_status status = fg__multigrid_create(out, e->context, &e->mesh, &e->mesh.tile[0],
                                           &e->tensor, gamma, e->team);
@@ -422,7 +440,9 @@ static fg_status check_alike(const fg_evolution *e)
 
 static fg_status build(fg_evolution *e, const fg_field *field)
 {
-  fg_status status = check_alike(e);
+  fg_status status = fg__field_check_shared(e->context, e->ranks, field);
+  if (!status)
+    status = check_alike(e);
   if (!status)
     status = create_mesh(e, field);
   if (!status) {
@@ -487,6 +507,7 @@ void fg_evolution_destroy(fg_evolution *evolution)
     return;
   fg__stepper_clear(&evolution->stepper);
   fg__team_destroy(evolution->team);
+  forget_windows(evolution);
   fg__team_clusters_clear(&evolution->clusters_found);
   fg__spread_clusters_clear(&evolution->spread_clusters);
   fg__mesh_clear(&evolution->mesh);

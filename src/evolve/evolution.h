@@ -16,6 +16,8 @@ struct fg_evolution {
   fg__mesh mesh;
   fg__team *team; /* NULL: one thread */
   fg__tensor tensor;
+  fg_field *
+      *window; /* [own boxes] of a field that ranks share, until stencils are made */
   fg__stepper stepper;
   fg__team_clusters clusters_found; /* unless spread */
   size_t nodes, cells;              /* of the whole mesh */

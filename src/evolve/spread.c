@@ -208,7 +208,7 @@ static fg_status create_boxes(fg__spread *spread, fg_context *context,
   if (!status && description->finer)
     status = halve_cells(spread, context, description, &cells);
   for (int b = 0; b < spread->count && !status && !description->finer; ++b)
-    status = fg__cells_for_box(&cells.tensor[b], context, recipe, &own[b]);
+    status = fg__cells_for_box(&cells.tensor[b], context, recipe, &own[b], b);
   for (int b = 0; b < spread->count && !status; ++b) {
     status = create_box(spread, context, mesh, description, b, &cells.tensor[b],
                         elements ? &cells.element[b] : NULL);

@@ -1,6 +1,9 @@
-#include "field/field.h"
-#include "base/memory.h"
+#include "field/part.h"
 
+#include "base/memory.h"
+#include "field/fingerprint.h"
+
+#include <inttypes.h>
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>
@@ -146,60 +149,65 @@ static bool sample_is_valid(const fg_field_arrays *arrays, size_t i)
   return true;
 }
 
+/* `i` counts those that the field has. */
 static fg_status fail_speed(const fg_field *field, fg_context *context, int k,
                             double value, size_t i)
 {
-  const size_t row = (size_t)field->contents.size[0];
-  const size_t rows = (size_t)field->contents.size[1];
+  const size_t row = (size_t)field->held[0];
+  const size_t rows = (size_t)field->held[1];
+  size_t at[3] = {i % row, i / row % rows, i / row / rows};
+  const int last = fg__field_last_axis(field);
+  at[last] = (at[last] + (size_t)field->first[last]) % (size_t)field->axis[last].samples;
   const char *name = field->contents.velocity_name[k];
   fg_status status;
   if (field->contents.dimension == 3)
     status =
         fg__fail(context, FG_STATUS_ARGUMENT,
                  "field: %s is %g at sample (%zu, %zu, %zu); speeds up to %g are taken",
-                 name, value, i % row, i / row % rows, i / row / rows, LARGEST_SPEED);
+                 name, value, at[0], at[1], at[2], LARGEST_SPEED);
   else
     status = fg__fail(context, FG_STATUS_ARGUMENT,
                       "field: %s is %g at sample (%zu, %zu); speeds up to %g are taken",
-                      name, value, i % row, i / row, LARGEST_SPEED);
+                      name, value, at[0], at[1], LARGEST_SPEED);
   fg__hint(context, "is it a fill value that is not declared as missing?");
   return status;
 }
 
+/* Copies the samples that the field has, and counts those that miss. In a part NaN alone
+ * tells which. */
 static fg_status copy_samples(fg_field *field, fg_context *context,
-                              const fg_field_arrays *arrays)
+                              const fg_field_arrays *arrays, size_t *missing)
 {
-  size_t count = 1;
-  for (int k = 0; k < arrays->dimension; ++k)
-    count *= (size_t)arrays->size[k]; /* check_size: no overflow */
+  const size_t count = fg__field_held(field); /* check_size: no overflow */
   for (int k = 0; k < arrays->dimension; ++k) {
     field->velocity[k] = fg__allocate(count, sizeof(float));
     if (!field->velocity[k])
       return fg__fail_memory(context, "the velocity", count * sizeof(float));
     field->contents.velocity[k] = field->velocity[k];
   }
-  field->valid = fg__allocate(count, 1);
-  if (!field->valid)
-    return fg__fail_memory(context, "the mask", count);
-  size_t missing = 0;
   for (size_t i = 0; i < count; ++i) {
-    field->valid[i] = sample_is_valid(arrays, i);
-    missing += !field->valid[i];
+    const bool valid = sample_is_valid(arrays, i);
+    *missing += !valid;
     for (int k = 0; k < arrays->dimension; ++k) {
-      const float value = field->valid[i] ? arrays->velocity[k][i] : NAN;
+      const float value = valid ? arrays->velocity[k][i] : NAN;
       field->velocity[k][i] = value;
       if (isinf(value) || fabs((double)value) > LARGEST_SPEED)
         return fail_speed(field, context, k, (double)value, i);
     }
   }
-  if (missing == count)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "field: all %zu samples are missing",
-                    count);
-  if (missing == 0) {
-    free(field->valid);
-    field->valid = NULL;
+  return FG_STATUS_OK;
+}
+
+static fg_status mark_missing(fg_field *field, fg_context *context)
+{
+  const size_t count = fg__field_held(field);
+  field->contents.valid = field->valid = fg__allocate(count, 1);
+  if (!field->valid)
+    return fg__fail_memory(context, "the mask", count);
+  for (size_t i = 0; i < count; ++i) {
+    const bool valid = !isnan(field->velocity[0][i]);
+    field->valid[i] = valid;
   }
-  field->contents.valid = field->valid;
   return FG_STATUS_OK;
 }
 
@@ -211,54 +219,103 @@ static bool moves(const fg_field *field, size_t i)
   return false;
 }
 
-/* Marks a row of cells; returns how many are valid, and sets *moving when one moves. */
-static size_t find_row(fg_field *field, int j, int k, unsigned char *valid_cell,
-                       bool *moving)
+/* Adds up a row of cells; marks them in valid_cell unless that is NULL. */
+static void find_row(const fg_field *field, int j, int k, unsigned char *valid_cell,
+                     fg__part_counts *counts)
 {
-  size_t valid_cells = 0;
   for (int i = 0; i < field->axis[0].cells; ++i) {
     size_t corner[FG__FIELD_CORNERS];
     fg__field_corners_of(field, i, j, k, corner);
     bool valid = true;
     bool corner_moves = false;
     for (int c = 0; c < fg__field_corners(field); ++c) {
-      valid = valid && (!field->valid || field->valid[corner[c]]);
+      valid = valid && !isnan(field->velocity[0][corner[c]]);
       corner_moves = corner_moves || moves(field, corner[c]);
     }
-    valid_cell[i] = valid;
-    valid_cells += valid;
-    *moving = *moving || (valid && corner_moves);
+    if (valid_cell)
+      valid_cell[i] = valid;
+    ++counts->cells;
+    counts->valid_cells += valid;
+    counts->moving_cells += valid && corner_moves;
   }
-  return valid_cells;
+}
+
+/* The cells whose lower corners lie in rows [first, end) along the last axis. */
+static void find_cells(const fg_field *field, int first, int end,
+                       unsigned char *valid_cell, fg__part_counts *counts)
+{
+  const int dimension = field->contents.dimension, columns = field->axis[0].cells;
+  const int cells = field->axis[dimension - 1].cells;
+  end = end < cells ? end : cells;
+  for (int n = first; n < end; ++n)
+    for (int j = 0; j < (dimension == 3 ? field->axis[1].cells : 1); ++j) {
+      find_row(field, dimension == 3 ? j : n, dimension == 3 ? n : 0, valid_cell, counts);
+      valid_cell += valid_cell ? columns : 0;
+    }
 }
 
 /* A cell counts when all its corners do; at least one must, and the velocity must not be
  * zero in all of them. */
-static fg_status find_cells(fg_field *field, fg_context *context)
+fg_status fg__field_check_counts(fg_context *context, const fg__part_counts *counts)
 {
-  const int columns = field->axis[0].cells;
-  const int rows = field->axis[1].cells;
-  const int layers = field->contents.dimension == 3 ? field->axis[2].cells : 1;
-  const size_t count = (size_t)columns * (size_t)rows * (size_t)layers;
-  field->valid_cell = fg__allocate(count, 1);
-  if (!field->valid_cell)
-    return fg__fail_memory(context, "the cells", count);
-  size_t valid_cells = 0;
-  bool moving = false;
-  unsigned char *row = field->valid_cell;
-  for (int k = 0; k < layers; ++k)
-    for (int j = 0; j < rows; ++j, row += columns)
-      valid_cells += find_row(field, j, k, row, &moving);
-  if (valid_cells == 0)
+  if (counts->missing == counts->samples)
     return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "field: none of its %zu cells has a value at every corner", count);
-  if (!moving)
+                    "field: all %" PRIu64 " samples are missing", counts->samples);
+  if (counts->valid_cells == 0)
     return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "field: the velocity is zero everywhere (%zu cells)", valid_cells);
-  if (valid_cells == count) {
-    free(field->valid_cell);
-    field->valid_cell = NULL;
+                    "field: none of its %" PRIu64 " cells has a value at every corner",
+                    counts->cells);
+  if (counts->moving_cells == 0)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "field: the velocity is zero everywhere (%" PRIu64 " cells)",
+                    counts->valid_cells);
+  return FG_STATUS_OK;
+}
+
+static fg_status fill_whole(fg_field *field, fg_context *context,
+                            const fg_field_arrays *arrays)
+{
+  fg__part_counts counts = {.samples = fg__field_held(field)};
+  size_t missing = 0, cells = 1;
+  fg_status status = copy_samples(field, context, arrays, &missing);
+  if (status != FG_STATUS_OK)
+    return status;
+  counts.missing = missing;
+  if (missing == counts.samples)
+    return fg__field_check_counts(context, &counts);
+  if (missing > 0)
+    status = mark_missing(field, context);
+  for (int k = 0; k < arrays->dimension; ++k)
+    cells *= (size_t)field->axis[k].cells;
+  if (missing > 0 && status == FG_STATUS_OK) {
+    field->valid_cell = fg__allocate(cells, 1);
+    if (!field->valid_cell)
+      status = fg__fail_memory(context, "the cells", cells);
   }
+  if (status != FG_STATUS_OK)
+    return status;
+  find_cells(field, 0, field->held[fg__field_last_axis(field)], field->valid_cell,
+             &counts);
+  return fg__field_check_counts(context, &counts);
+}
+
+static fg_status fill_part(fg_field *field, fg_context *context,
+                           const fg_field_arrays *arrays)
+{
+  fg__field_part *part = field->part;
+  fg__part_counts *counts = &part->counts;
+  const int last = fg__field_last_axis(field);
+  const int first = field->first[last];
+  size_t missing = 0;
+  fg_status status = copy_samples(field, context, arrays, &missing);
+  if (status != FG_STATUS_OK)
+    return status;
+  counts->samples = fg__field_held(field) / (size_t)field->held[last] * (size_t)part->own;
+  for (size_t i = 0; i < counts->samples; ++i)
+    counts->missing += isnan(field->velocity[0][i]) ? 1 : 0;
+  find_cells(field, first, first + part->own, NULL, counts);
+  counts->fingerprint = fg__field_fingerprint_samples(field);
+  part->key = fg__field_fingerprint_grid(field);
   return FG_STATUS_OK;
 }
 
@@ -299,13 +356,31 @@ static fg_status copy_words(fg_field *field, fg_context *context,
   return copied ? FG_STATUS_OK : fg__fail_memory(context, "the field's words", 0);
 }
 
-fg_status fg_field_create(fg_field **out, fg_context *context,
-                          const fg_field_arrays *arrays)
+static fg_status begin_part(fg_field *field, fg_context *context, int number, int count)
 {
-  if (!out || !arrays)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "field: no arrays to make it from");
+  const int last = fg__field_last_axis(field), rows = field->axis[last].samples;
+  fg__field_part *part = field->part = fg__allocate(1, sizeof *part);
+  if (!part)
+    return fg__fail_memory(context, "a part of a field", sizeof *part);
+  part->number = number;
+  part->count = count;
+  fg__part_rows(&field->first[last], &part->own, rows, number, count);
+  field->held[last] = fg__part_rows_held(rows, field->first[last], part->own,
+                                         field->axis[last].period > 0.0);
+  return FG_STATUS_OK;
+}
+
+/* number < 0: all of it. */
+static fg_status create(fg_field **out, fg_context *context,
+                        const fg_field_arrays *arrays, int number, int count)
+{
   *out = NULL;
   fg_status status = check_arrays(context, arrays);
+  if (status == FG_STATUS_OK && number >= 0 &&
+      (number >= count || count < 2 || count > arrays->size[arrays->dimension - 1]))
+    status = fg__fail(context, FG_STATUS_ARGUMENT,
+                      "field: part %d of %d of a grid with %d rows", number, count,
+                      arrays->size[arrays->dimension - 1]);
   if (status != FG_STATUS_OK)
     return status;
   fg_field *field = fg__allocate(1, sizeof *field);
@@ -315,16 +390,16 @@ fg_status fg_field_create(fg_field **out, fg_context *context,
   field->contents.scale = arrays->scale == FG_SCALE_AUTO ? FG_SCALE_PLAIN : arrays->scale;
   status = copy_words(field, context, arrays);
   for (int k = 0; k < arrays->dimension && status == FG_STATUS_OK; ++k) {
-    field->contents.size[k] = arrays->size[k];
+    field->held[k] = field->contents.size[k] = arrays->size[k];
     field->contents.period[k] = arrays->period[k];
     status = copy_axis(field, context, arrays, k);
   }
   if (arrays->dimension == 2)
-    field->contents.size[2] = 1;
+    field->held[2] = field->contents.size[2] = 1;
+  if (status == FG_STATUS_OK && number >= 0)
+    status = begin_part(field, context, number, count);
   if (status == FG_STATUS_OK)
-    status = copy_samples(field, context, arrays);
-  if (status == FG_STATUS_OK)
-    status = find_cells(field, context);
+    status = (number < 0 ? fill_whole : fill_part)(field, context, arrays);
   if (status != FG_STATUS_OK) {
     fg_field_destroy(field);
     return status;
@@ -333,17 +408,38 @@ fg_status fg_field_create(fg_field **out, fg_context *context,
   return FG_STATUS_OK;
 }
 
+fg_status fg_field_create(fg_field **out, fg_context *context,
+                          const fg_field_arrays *arrays)
+{
+  if (!out || !arrays)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "field: no arrays to make it from");
+  return create(out, context, arrays, -1, 1);
+}
+
+fg_status fg__field_create_part(fg_field **out, fg_context *context,
+                                const fg_field_arrays *arrays, int number, int count)
+{
+  return create(out, context, arrays, number, count);
+}
+
 void fg_field_destroy(fg_field *field)
 {
   if (!field)
     return;
   for (int k = 0; k < 3; ++k) {
+    free(field->velocity[k]);
+    if (field->of)
+      continue; /* borrowed */
     free(field->axis[k].coordinate);
     free(field->axis[k].inverse_width);
-    free(field->velocity[k]);
   }
   for (int i = 0; i < field->words; ++i)
     free(field->word[i]);
+  if (field->part) {
+    free(field->part->input);
+    free(field->part->valid);
+    free(field->part);
+  }
   free(field->valid);
   free(field->valid_cell);
   free(field);

@@ -2,6 +2,8 @@
 #ifndef FG__FIELD_H
 #define FG__FIELD_H
 
+#include <stdint.h>
+
 #include "base/context.h"
 
 enum { FG__FIELD_CORNERS = 8, FG__FIELD_WORDS = 13 };
@@ -18,15 +20,36 @@ typedef struct fg__axis {
   double inverse_spacing;
 } fg__axis;
 
+typedef struct fg__field_part fg__field_part;
+
+/* A field has all samples of its grid; or it is a part, rows along the last axis; or a
+ * window, a box of samples that was asked of the parts. Indices are always the whole
+ * grid's. */
 struct fg_field {
   fg_field_arrays contents;
   fg__axis axis[3];
+  int first[3], held[3]; /* samples that it has along each axis, from `first` on; on a
+                            periodic axis they may go on round its end */
   float *velocity[3];
-  unsigned char *valid;        /* NULL: all */
-  unsigned char *valid_cell;   /* NULL: all */
+  unsigned char *valid;        /* NULL: all; in a part or window NaN tells */
+  unsigned char *valid_cell;   /* NULL: all, or a part or window */
   char *word[FG__FIELD_WORDS]; /* owned copies of the texts */
   int words;
+  fg__field_part *part; /* of a part; else NULL */
+  const fg_field *of;   /* of a window: whose axes and words it borrows; else NULL */
 };
+
+static inline bool fg__field_is_whole(const fg_field *field)
+{
+  return !field->part && !field->of;
+}
+
+/* Whether the field has sample n along axis k, and which of those it has it is. */
+static inline int fg__field_place(const fg_field *field, int k, int n)
+{
+  const int place = n - field->first[k];
+  return place < 0 ? place + field->axis[k].samples : place;
+}
 
 /* Corners of a cell: 4 in 2D, 8 in 3D. */
 static inline int fg__field_corners(const fg_field *field)
@@ -34,8 +57,32 @@ static inline int fg__field_corners(const fg_field *field)
   return 1 << field->contents.dimension;
 }
 
-/* Sample indices of the corners of cell (i, j, k), k = 0 in 2D; x fastest. */
+/* Samples that it has. */
+static inline size_t fg__field_held(const fg_field *field)
+{
+  return (size_t)field->held[0] * (size_t)field->held[1] * (size_t)field->held[2];
+}
+
+static inline int fg__field_last_axis(const fg_field *field)
+{
+  return field->contents.dimension - 1;
+}
+
+/* Places of the corners of cell (i, j, k), k = 0 in 2D, among the samples that the field
+ * has; x fastest. */
 void fg__field_corners_of(const fg_field *field, int i, int j, int k,
                           size_t corner[FG__FIELD_CORNERS]);
+
+/* What a grid of points is to find in a window along axis k: the samples that points
+ * [first, first + count) of `all` points, `spacing` apart from `origin` on, lie between,
+ * and one more on either side. Points beyond the ends of a periodic axis are those they
+ * repeat; beyond other ends there are none. */
+typedef struct fg__field_points {
+  double origin, spacing;
+  int first, count, all;
+} fg__field_points;
+
+void fg__field_span(int *first_sample, int *samples, const fg_field *field, int k,
+                    const fg__field_points *points);
 
 #endif

@@ -11,27 +11,36 @@ static const double SMALLEST_COSINE = 1.745e-4;
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
 /* The sample after n, round a periodic axis. */
-static size_t next_sample(const fg__axis *axis, int n)
+static int next_sample(const fg__axis *axis, int n)
 {
-  return n + 1 == axis->samples ? 0 : (size_t)n + 1;
+  return n + 1 == axis->samples ? 0 : n + 1;
+}
+
+static size_t place(const fg_field *field, int k, int n)
+{
+  return (size_t)fg__field_place(field, k, n);
 }
 
 void fg__field_corners_of(const fg_field *field, int i, int j, int k,
                           size_t corner[FG__FIELD_CORNERS])
 {
-  const size_t right = next_sample(&field->axis[0], i);
-  const size_t upper = next_sample(&field->axis[1], j);
-  const size_t row = (size_t)field->axis[0].samples;
-  corner[0] = (size_t)j * row + (size_t)i;
-  corner[1] = (size_t)j * row + right;
-  corner[2] = upper * row + (size_t)i;
-  corner[3] = upper * row + right;
+  const size_t left = place(field, 0, i);
+  const size_t right = place(field, 0, next_sample(&field->axis[0], i));
+  const size_t row = (size_t)field->held[0];
+  const size_t lower = place(field, 1, j) * row;
+  const size_t upper = place(field, 1, next_sample(&field->axis[1], j)) * row;
+  corner[0] = lower + left;
+  corner[1] = lower + right;
+  corner[2] = upper + left;
+  corner[3] = upper + right;
   if (field->contents.dimension == 2)
     return;
-  const size_t plane = row * (size_t)field->axis[1].samples;
+  const size_t plane = row * (size_t)field->held[1];
+  const size_t above = place(field, 2, next_sample(&field->axis[2], k)) * plane;
+  const size_t below = place(field, 2, k) * plane;
   for (int c = 0; c < 4; ++c) {
-    corner[4 + c] = corner[c] + next_sample(&field->axis[2], k) * plane;
-    corner[c] += (size_t)k * plane;
+    corner[4 + c] = corner[c] + above;
+    corner[c] += below;
   }
 }
 
@@ -81,6 +90,41 @@ static int find_cell(const fg__axis *axis, double x, double *fraction)
   return cell;
 }
 
+/* A point of a grid along axis k; one a rounding error beyond the axis is at its end. */
+static int cell_of(const fg__axis *axis, const fg__field_points *points, int n)
+{
+  double ignored, x = points->origin + n * points->spacing;
+  const int cell = find_cell(axis, x, &ignored);
+  return cell >= 0 ? cell : x < axis->coordinate[0] ? 0 : axis->cells - 1;
+}
+
+void fg__field_span(int *first_sample, int *samples, const fg_field *field, int k,
+                    const fg__field_points *points)
+{
+  const fg__axis *axis = &field->axis[k];
+  const int all = points->all, n = axis->samples;
+  int first = points->first, last = points->first + points->count - 1;
+  *first_sample = 0;
+  *samples = n;
+  if (points->count >= all)
+    return;
+  if (!(axis->period > 0.0)) {
+    const int low = cell_of(axis, points, first > 0 ? first : 0);
+    const int high = cell_of(axis, points, last < all - 1 ? last : all - 1);
+    *first_sample = low > 0 ? low - 1 : 0;
+    *samples = (high + 3 < n ? high + 3 : n) - *first_sample;
+    return;
+  }
+  first = (first % all + all) % all;
+  last = (last % all + all) % all;
+  const int low = cell_of(axis, points, first), high = cell_of(axis, points, last);
+  const int count = high - low + 4 + (first > last ? n : 0);
+  if (count >= n)
+    return;
+  *first_sample = (low - 1 + n) % n;
+  *samples = count;
+}
+
 /* Between the four corners of a face across z; s along x, t along y. */
 static double bilinear(const float *sample, const size_t corner[4], double s, double t)
 {
@@ -89,6 +133,21 @@ static double bilinear(const float *sample, const size_t corner[4], double s, do
   const double upper =
       (1.0 - s) * (double)sample[corner[2]] + s * (double)sample[corner[3]];
   return (1.0 - t) * lower + t * upper;
+}
+
+/* Whether a part or window has a cell, and no corner of it is missing. */
+static bool has_cell(const fg_field *field, const int at[3])
+{
+  for (int k = 0; k < field->contents.dimension; ++k)
+    if (fg__field_place(field, k, at[k]) >= field->held[k] ||
+        fg__field_place(field, k, next_sample(&field->axis[k], at[k])) >= field->held[k])
+      return false;
+  size_t corner[FG__FIELD_CORNERS];
+  fg__field_corners_of(field, at[0], at[1], at[2], corner);
+  for (int c = 0; c < fg__field_corners(field); ++c)
+    if (isnan(field->velocity[0][corner[c]]))
+      return false;
+  return true;
 }
 
 bool fg_field_velocity(const fg_field *field, const double position[], double velocity[])
@@ -105,6 +164,8 @@ bool fg_field_velocity(const fg_field *field, const double position[], double ve
   for (int k = dimension - 1; k >= 0; --k)
     cell = cell * (size_t)field->axis[k].cells + (size_t)at[k];
   if (field->valid_cell && !field->valid_cell[cell])
+    return false;
+  if (!fg__field_is_whole(field) && !has_cell(field, at))
     return false;
   size_t corner[FG__FIELD_CORNERS];
   fg__field_corners_of(field, at[0], at[1], at[2], corner);

@@ -13,13 +13,31 @@ typedef struct fg__source {
   size_t size;
 } fg__source;
 
+/* What a reader is to read: part `number` of `count` (field/part.h), or with a count of 1
+ * all. */
+typedef struct fg__dealt {
+  int number, count;
+} fg__dealt;
+
+/* Rows along the last axis: [first, first + own) and up to `held` what follows. */
+typedef struct fg__rows {
+  int first, own, held;
+} fg__rows;
+
+/* The rows of a part; all when there are fewer than parts: then `dealt` becomes that. */
+fg__rows fg__rows_of(fg__dealt *dealt, int rows, bool periodic);
+
+/* fg_field_create of the arrays of such rows. */
+fg_status fg__field_of_rows(fg_field **out, fg_context *context,
+                            const fg_field_arrays *arrays, const fg__dealt *dealt);
+
 typedef struct fg__format {
   const char *name; /* as `flowgrain info` shows it */
   bool (*is_mine)(const unsigned char *bytes, size_t size);
   fg_status (*inventory)(fg_inventory *inventory, fg_context *context,
                          const fg__source *source);
   fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
-                    const fg_read_options *options);
+                    const fg_read_options *options, fg__dealt dealt);
 } fg__format;
 
 extern const fg__format fg__format_netcdf;

@@ -2,6 +2,7 @@
 #include "format/netcdf.h"
 
 #include "base/memory.h"
+#include "field/part.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -255,9 +256,21 @@ static fg_status check_missing(const fg__nc_file *file, const fg__nc_variable *v
                   missing->not_a_number);
 }
 
+/* What is missing of a part is judged with all others. */
+static void keep_missing(const fg_field *field, const fg__nc_samples *read)
+{
+  fg__field_part *part = field->part;
+  part->has_reasons = true;
+  for (int k = 0; k < field->contents.dimension; ++k) {
+    part->counts.by_reason[k][0] = read->missing[k].fill;
+    part->counts.by_reason[k][1] = read->missing[k].range;
+    part->counts.by_reason[k][2] = read->missing[k].not_a_number;
+  }
+}
+
 static fg_status make_field(fg_field **out, const fg__nc_file *file,
                             const fg__nc_pair *pair, const fg__nc_grid *grid,
-                            const fg_read_options *options)
+                            const fg_read_options *options, fg__dealt dealt)
 {
   char title[FG__NC_TEXT];
   char units[FG__NC_TEXT];
@@ -266,6 +279,10 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
   char level[FG__NC_TEXT] = "";
   fg_status status = FG_STATUS_OK;
   fg__nc_samples read = {0};
+  const fg__nc_axis *last = &grid->axis[grid->dimension - 1];
+  if (last->period > 0.0)
+    dealt = (fg__dealt){0, 1};
+  const fg__rows rows = fg__rows_of(&dealt, (int)last->size, false);
   if (grid->time >= 0)
     status = fg__nc_index_words(file, grid->time_variable, grid->time_name,
                                 (size_t)options->time, time, sizeof time);
@@ -273,9 +290,9 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
     status = fg__nc_index_words(file, grid->level_variable, grid->level_name,
                                 (size_t)options->level, level, sizeof level);
   if (status == FG_STATUS_OK)
-    status = fg__nc_samples_read(&read, file, pair, grid, (size_t)options->time,
+    status = fg__nc_samples_read(&read, file, pair, grid, &rows, (size_t)options->time,
                                  (size_t)options->level, options->mask);
-  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k)
+  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK && dealt.count == 1; ++k)
     status = check_missing(file, pair->component[k], &read.missing[k], grid->samples);
   if (status == FG_STATUS_OK) {
     fg__nc_title(pair, grid->dimension, title, sizeof title);
@@ -298,7 +315,9 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
       arrays.axis_name[k] = grid->axis[k].name;
       arrays.axis_units[k] = grid->axis[k].units;
     }
-    status = fg_field_create(out, file->context, &arrays);
+    status = fg__field_of_rows(out, file->context, &arrays, &dealt);
+    if (status == FG_STATUS_OK && dealt.count > 1)
+      keep_missing(*out, &read);
   }
   fg__nc_samples_clear(&read);
   return status;
@@ -319,7 +338,7 @@ static fg_status check_level(const fg__nc_file *file, const fg__nc_grid *grid, i
 }
 
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
-                            const fg_read_options *options)
+                            const fg_read_options *options, fg__dealt dealt)
 {
   fg__nc_file file = {0};
   fg__nc_pair pair = {0};
@@ -335,27 +354,37 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
   if (status == FG_STATUS_OK)
     status = check_level(&file, &grid, options->level);
   if (status == FG_STATUS_OK)
-    status = make_field(out, &file, &pair, &grid, options);
+    status = make_field(out, &file, &pair, &grid, options, dealt);
   fg__nc_grid_clear(&grid);
   fg__nc_file_close(&file);
   return status;
 }
 
+/* Samples that an inventory has in memory at a time. */
+enum { COUNTED_AT_ONCE = 1 << 22 };
+
 static fg_status count_missing(fg_inventory_vector *vector, const fg__nc_file *file,
                                const fg__nc_pair *pair, const fg__nc_grid *grid)
 {
-  fg__nc_samples read = {0};
-  fg_status status = fg__nc_samples_read(&read, file, pair, grid, 0, 0, NULL);
+  const size_t all = grid->axis[grid->dimension - 1].size, row = grid->samples / all;
+  const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
   size_t count = 0;
-  for (size_t i = 0; i < grid->samples && status == FG_STATUS_OK; ++i) {
-    bool missing = false;
-    for (int k = 0; k < grid->dimension; ++k)
-      missing = missing || isnan(read.velocity[k][i]);
-    count += missing;
+  fg_status status = FG_STATUS_OK;
+  for (size_t first = 0; first < all && status == FG_STATUS_OK; first += most) {
+    const int own = (int)(all - first < most ? all - first : most);
+    const fg__rows rows = {(int)first, own, own};
+    fg__nc_samples read = {0};
+    status = fg__nc_samples_read(&read, file, pair, grid, &rows, 0, 0, NULL);
+    for (size_t i = 0; i < row * (size_t)own && status == FG_STATUS_OK; ++i) {
+      bool missing = false;
+      for (int k = 0; k < grid->dimension; ++k)
+        missing = missing || isnan(read.velocity[k][i]);
+      count += missing;
+    }
+    fg__nc_samples_clear(&read);
   }
   if (status == FG_STATUS_OK)
     vector->missing_share = (double)count / (double)grid->samples;
-  fg__nc_samples_clear(&read);
   return status;
 }
 

@@ -224,18 +224,19 @@ fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
                       const fg__nc_variable *variable, const fg__nc_grid *grid,
                       const fg__nc_variable *component, size_t time, size_t level);
 
-/* A field's samples, as many as the grid has. */
+/* The samples of some rows of a field. */
 typedef struct fg__nc_samples {
   float *velocity[3];
-  fg__nc_missing missing[3];
-  unsigned char *valid; /* NULL: all */
+  fg__nc_missing missing[3]; /* of its own rows */
+  unsigned char *valid;      /* NULL: all */
 } fg__nc_samples;
 
-/* Reads a pair at one time and, in 2D, level; mask may be NULL. To be cleared even after
- * a failure. FILE_ACCESS, ARGUMENT (mask), MEMORY. */
+/* Reads a pair's rows at one time and, in 2D, level; mask may be NULL. To be cleared even
+ * after a failure. FILE_ACCESS, ARGUMENT (mask), MEMORY. */
 fg_status fg__nc_samples_read(fg__nc_samples *out, const fg__nc_file *file,
                               const fg__nc_pair *pair, const fg__nc_grid *grid,
-                              size_t time, size_t level, const char *mask);
+                              const fg__rows *rows, size_t time, size_t level,
+                              const char *mask);
 void fg__nc_samples_clear(fg__nc_samples *samples);
 
 /* What the components are together, from their long or standard names; else the title of

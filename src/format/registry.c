@@ -1,3 +1,6 @@
+#include "base/memory.h"
+#include "base/mix.h"
+#include "field/part.h"
 #include "format/format.h"
 
 #include <errno.h>
@@ -138,8 +141,26 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
   return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
 }
 
-fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
-                        const fg_read_options *options)
+fg__rows fg__rows_of(fg__dealt *dealt, int rows, bool periodic)
+{
+  if (dealt->count > rows)
+    *dealt = (fg__dealt){0, 1};
+  fg__rows out;
+  fg__part_rows(&out.first, &out.own, rows, dealt->number, dealt->count);
+  out.held = fg__part_rows_held(rows, out.first, out.own, periodic && dealt->count > 1);
+  return out;
+}
+
+fg_status fg__field_of_rows(fg_field **out, fg_context *context,
+                            const fg_field_arrays *arrays, const fg__dealt *dealt)
+{
+  return dealt->count == 1
+             ? fg_field_create(out, context, arrays)
+             : fg__field_create_part(out, context, arrays, dealt->number, dealt->count);
+}
+
+static fg_status read_dealt(fg_field **out, fg_context *context, const char *input,
+                            const fg_read_options *options, fg__dealt dealt)
 {
   if (!out || !input)
     return fg__fail(context, FG_STATUS_ARGUMENT, "no input to read a field from");
@@ -154,10 +175,53 @@ fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
     status = find_format(&format, context, &source);
   if (status == FG_STATUS_OK)
     status = name_the_file(
-        context, format->read(out, context, &source, options ? options : &defaults),
-        input);
+        context,
+        format->read(out, context, &source, options ? options : &defaults, dealt), input);
   fg__source_close(&source);
   return status;
+}
+
+fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
+                        const fg_read_options *options)
+{
+  return read_dealt(out, context, input, options, (fg__dealt){0, 1});
+}
+
+static uint64_t mix_text(uint64_t key, const char *text)
+{
+  for (; text && *text; ++text)
+    key = fg__mix(key ^ (unsigned char)*text);
+  return fg__mix(key);
+}
+
+/* Parts that were read otherwise do not belong together. */
+static uint64_t key_of_reading(const char *input, const fg_read_options *options)
+{
+  uint64_t key = mix_text(0, input);
+  if (!options)
+    return key;
+  key =
+      mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
+  return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
+}
+
+fg_status fg_field_read_part(fg_field **out, fg_context *context, const char *input,
+                             const fg_read_options *options, int part, int parts)
+{
+  if (part < 0 || part >= parts)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "no part %d of %d of a field", part,
+                    parts);
+  fg_status status = read_dealt(out, context, input, options, (fg__dealt){part, parts});
+  if (status != FG_STATUS_OK || !(*out)->part)
+    return status;
+  fg__field_part *own = (*out)->part;
+  own->key ^= key_of_reading(input, options);
+  own->input = fg__copy_text(input);
+  if (own->input)
+    return FG_STATUS_OK;
+  fg_field_destroy(*out);
+  *out = NULL;
+  return fg__fail_memory(context, "a name", strlen(input) + 1);
 }
 
 static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,

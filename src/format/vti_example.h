@@ -5,6 +5,7 @@
 #include "base/context_test.h"
 #include "format/base64.h"
 #include "format/format.h"
+#include "format/parts_alike_test.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -211,7 +212,12 @@ static inline fg_status example_read(fg_field **out, fg_context *context,
   static const fg_read_options none = {0};
   fg__source source = {.path = "example.vti", .bytes = bytes, .size = size};
   fg_context_clear(context);
-  return fg__format_vti.read(out, context, &source, options ? options : &none);
+  options = options ? options : &none;
+  *out = NULL;
+  fg_status status =
+      fg__format_vti.read(out, context, &source, options, (fg__dealt){0, 1});
+  assert_parts_alike(&fg__format_vti, &source, options, *out);
+  return status;
 }
 
 /* ---- files made of words

@@ -127,11 +127,11 @@ size_t fg__vtk_length(const int extent[6], int axis, fg__vtk_place place);
 /* Their product; false when it does not fit an int: no field is that large. */
 bool fg__vtk_count(size_t *count, const int extent[6], fg__vtk_place place);
 
-/* Numbers of one array in this machine's byte order. */
+/* Numbers of one array in this machine's byte order, or some of them in a row. */
 typedef struct fg__vtk_values {
   unsigned char *bytes;
   fg__vtk_type type;
-  size_t count; /* tuples * components */
+  size_t first, count; /* of the array's numbers, tuples * components */
 } fg__vtk_values;
 
 /* Checks that the file holds `tuples` tuples of the array, without allocating: what it
@@ -142,7 +142,19 @@ fg_status fg__vtk_values_check(const fg__vtk *vtk, const fg__vtk_array *array,
 /* Decodes an array; checks as above first. */
 fg_status fg__vtk_values_create(fg__vtk_values *out, const fg__vtk *vtk,
                                 const fg__vtk_array *array, size_t tuples);
+
+/* The same, and keeps tuples [first, end) alone. Of binary arrays only the blocks that
+ * hold them are decoded; text is read through. */
+fg_status fg__vtk_values_create_some(fg__vtk_values *out, const fg__vtk *vtk,
+                                     const fg__vtk_array *array, size_t tuples,
+                                     size_t first, size_t end);
 void fg__vtk_values_clear(fg__vtk_values *values);
+
+/* vtk_text.c. Reads an array of `all` numbers in text and keeps what out has room for. */
+fg_status fg__vtk_values_from_text(fg__vtk_values *out, const fg__vtk *vtk,
+                                   const fg__vtk_array *array, size_t all);
+
+/* Number `index` of the array; it must have been kept. */
 double fg__vtk_value(const fg__vtk_values *values, size_t index);
 
 /* A vector: one array of 2 or 3 components, or 2 or 3 arrays of one. Names are borrowed.
@@ -174,6 +186,7 @@ typedef struct fg__vtk_grid {
   int axis[3]; /* the file's axes that span it, ascending */
   int flat;    /* in 2D the remaining one, one or two points thick; else -1 */
   size_t points[3];
+  size_t first_row, rows; /* along the last axis, to be read; all unless changed */
 } fg__vtk_grid;
 
 /* Finds it; UNSUPPORTED for a line. */
@@ -181,8 +194,11 @@ fg_status fg__vtk_grid_find(fg__vtk_grid *out, const fg__vtk *vtk);
 bool fg__vtk_is_volume(const fg__vtk *vtk);
 size_t fg__vtk_grid_points(const fg__vtk_grid *grid);
 
-/* Brings the components of a vector along the grid's axes onto its points: in 2D a mean
- * over two layers of points; of cells a mean over those round a point (VTK's
+/* Points of the rows to be read. */
+size_t fg__vtk_grid_wanted(const fg__vtk_grid *grid);
+
+/* Brings the components of a vector along the grid's axes onto the wanted rows' points:
+ * in 2D a mean over two layers of points; of cells a mean over those round a point (VTK's
  * CellDataToPointData); NaN where anything that goes into it is missing, hidden
  * (vtkGhostType, vtkValidPointMask), or not positive in the array `mask` (a vector:
  * zero), which may be NULL. End them with free; those beyond the dimension are NULL.
@@ -198,7 +214,8 @@ fg_status fg__vtk_samples_read(float *out[3], const fg__vtk *vtk,
 
 /* What fg__format asks for, of a file opened by `opener`. */
 fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *source,
-                       const fg_read_options *options, fg__vtk_opener *opener);
+                       const fg_read_options *options, fg__dealt dealt,
+                       fg__vtk_opener *opener);
 fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
                             const fg__source *source, fg__vtk_opener *opener);
 

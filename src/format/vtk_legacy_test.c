@@ -14,8 +14,10 @@ static fg_status read_bytes(fg_field **out, fg_context *context, const void *byt
   fg__source source = {.path = "example.vtk", .bytes = copy, .size = size};
   fg_context_clear(context);
   *out = NULL;
+  options = options ? options : &none;
   fg_status status =
-      fg__format_vtk_legacy.read(out, context, &source, options ? options : &none);
+      fg__format_vtk_legacy.read(out, context, &source, options, (fg__dealt){0, 1});
+  assert_parts_alike(&fg__format_vtk_legacy, &source, options, *out);
   free(copy);
   return status;
 }

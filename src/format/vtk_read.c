@@ -11,7 +11,8 @@
 enum {
   MARK_WITHIN =
       4096, /* a file's first tag begins this early, comments before it included */
-  DESCRIBED_SAMPLES = 64, /* vectors whose missing share an inventory counts */
+  DESCRIBED_SAMPLES = 64,    /* vectors whose missing share an inventory counts */
+  COUNTED_AT_ONCE = 1 << 22, /* samples that are in memory for that */
   NAME_BYTES = 256
 };
 
@@ -113,7 +114,7 @@ static fg_status create_axes(double *out[3], const fg__vtk *vtk, const fg__vtk_g
 static fg_status create_field(fg_field **out, const fg__vtk *vtk,
                               const fg__vtk_grid *grid, const fg__vtk_vector *vector,
                               fg_field_arrays arrays, float *const velocity[3],
-                              double *const axis[3])
+                              double *const axis[3], const fg__dealt *dealt)
 {
   char component[3][NAME_BYTES], axis_name[3][2] = {"", "", ""};
   arrays.dimension = grid->dimension;
@@ -131,12 +132,17 @@ static fg_status create_field(fg_field **out, const fg__vtk *vtk,
     arrays.velocity_name[k] = component[k];
     arrays.axis_name[k] = axis_name[k];
   }
-  return fg_field_create(out, vtk->context, &arrays);
+  return fg__field_of_rows(out, vtk->context, &arrays, dealt);
 }
 
-static fg_status build(fg_field **out, const fg__vtk *vtk, const fg__vtk_grid *grid,
-                       const fg__vtk_vector *vector, const fg_read_options *options)
+static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,
+                       const fg__vtk_vector *vector, const fg_read_options *options,
+                       fg__dealt dealt)
 {
+  const fg__rows rows =
+      fg__rows_of(&dealt, (int)grid->points[grid->dimension - 1], false);
+  grid->first_row = (size_t)rows.first;
+  grid->rows = (size_t)rows.held;
   float *velocity[3] = {NULL, NULL, NULL};
   double *axis[3] = {NULL, NULL, NULL};
   char *time = NULL;
@@ -148,7 +154,7 @@ static fg_status build(fg_field **out, const fg__vtk *vtk, const fg__vtk_grid *g
   if (status == FG_STATUS_OK)
     status = create_field(out, vtk, grid, vector,
                           (fg_field_arrays){.scale = options->scale, .time = time},
-                          velocity, axis);
+                          velocity, axis, &dealt);
   for (int k = 0; k < 3; ++k) {
     free(velocity[k]);
     free(axis[k]);
@@ -158,7 +164,8 @@ static fg_status build(fg_field **out, const fg__vtk *vtk, const fg__vtk_grid *g
 }
 
 fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *source,
-                       const fg_read_options *options, fg__vtk_opener *opener)
+                       const fg_read_options *options, fg__dealt dealt,
+                       fg__vtk_opener *opener)
 {
   *out = NULL;
   fg_status status = check_options(context, source, options);
@@ -176,16 +183,16 @@ fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *so
   if (status == FG_STATUS_OK)
     status = fg__vtk_read_coordinates(&vtk);
   if (status == FG_STATUS_OK)
-    status = build(out, &vtk, &grid, &vector, options);
+    status = build(out, &vtk, &grid, &vector, options, dealt);
   free(names);
   fg__vtk_close(&vtk);
   return status;
 }
 
 static fg_status read_xml(fg_field **out, fg_context *context, const fg__source *source,
-                          const fg_read_options *options)
+                          const fg_read_options *options, fg__dealt dealt)
 {
-  return fg__vtk_read(out, context, source, options, fg__vtk_open_xml);
+  return fg__vtk_read(out, context, source, options, dealt, fg__vtk_open_xml);
 }
 
 /* ---- inventory
@@ -194,20 +201,28 @@ static fg_status read_xml(fg_field **out, fg_context *context, const fg__source 
 static fg_status count_missing(double *share, const fg__vtk *vtk,
                                const fg__vtk_grid *grid, const fg__vtk_vector *vector)
 {
-  float *velocity[3];
-  fg_status status = fg__vtk_samples_read(velocity, vtk, grid, vector, NULL);
-  if (status != FG_STATUS_OK)
-    return status;
-  size_t count = fg__vtk_grid_points(grid), missing = 0;
-  for (size_t i = 0; i < count; ++i) {
-    bool here = true;
-    for (int k = 0; k < grid->dimension; ++k)
-      here = here && !isnan(velocity[k][i]);
-    missing += !here;
+  const size_t all = grid->points[grid->dimension - 1];
+  const size_t row = fg__vtk_grid_points(grid) / all;
+  const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
+  size_t missing = 0;
+  for (size_t first = 0; first < all; first += most) {
+    float *velocity[3];
+    fg__vtk_grid some = *grid;
+    some.first_row = first;
+    some.rows = all - first < most ? all - first : most;
+    fg_status status = fg__vtk_samples_read(velocity, vtk, &some, vector, NULL);
+    if (status != FG_STATUS_OK)
+      return status;
+    for (size_t i = 0; i < fg__vtk_grid_wanted(&some); ++i) {
+      bool here = true;
+      for (int k = 0; k < grid->dimension; ++k)
+        here = here && !isnan(velocity[k][i]);
+      missing += !here;
+    }
+    for (int k = 0; k < 3; ++k)
+      free(velocity[k]);
   }
-  *share = (double)missing / (double)count;
-  for (int k = 0; k < 3; ++k)
-    free(velocity[k]);
+  *share = (double)missing / (double)fg__vtk_grid_points(grid);
   return FG_STATUS_OK;
 }
 

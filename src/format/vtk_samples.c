@@ -1,7 +1,7 @@
 /* From the arrays of a grid, in pieces and on points or cells, to the points of a plane
  * or volume. */
 #include "base/memory.h"
-#include "format/vtk.h"
+#include "format/vtk_gather.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -39,6 +39,16 @@ size_t fg__vtk_grid_points(const fg__vtk_grid *grid)
   return grid->points[0] * grid->points[1] * grid->points[2];
 }
 
+static int last_axis(const fg__vtk_grid *grid)
+{
+  return grid->dimension - 1;
+}
+
+size_t fg__vtk_grid_wanted(const fg__vtk_grid *grid)
+{
+  return fg__vtk_grid_points(grid) / grid->points[last_axis(grid)] * grid->rows;
+}
+
 fg_status fg__vtk_grid_find(fg__vtk_grid *out, const fg__vtk *vtk)
 {
   size_t points[3];
@@ -54,14 +64,12 @@ fg_status fg__vtk_grid_find(fg__vtk_grid *out, const fg__vtk *vtk)
       out->axis[out->dimension] = k;
       out->points[out->dimension++] = points[k];
     }
+  out->rows = out->points[last_axis(out)];
   return FG_STATUS_OK;
 }
 
-/* ---- gathering the pieces
- * ---------------------------------------------------------------- */
-
-/* What a number of the file stands for. */
-typedef float meaning(double number);
+/* ---- what numbers mean
+ * -------------------------------------------------------------------- */
 
 static float as_velocity(double number)
 {
@@ -103,129 +111,20 @@ static float as_ghost_cell(double number)
   return as_flag(!has_bit(number, REFINED_CELL | HIDDEN_CELL));
 }
 
-/* Which array, and which of its components, goes where; a sample of `out` is a point or a
- * cell of the whole image, x fastest. */
-typedef struct gathering {
-  const char *name;
-  fg__vtk_place place;
-  int components; /* how many are wanted */
-  int component[3];
-  float *out[3];
-  meaning *means;
-} gathering;
-
-static fg_status find_in_piece(const fg__vtk_array **out, const fg__vtk *vtk,
-                               const gathering *wanted, size_t piece)
-{
-  const fg__vtk_array *array = fg__vtk_find(vtk, piece, wanted->place, wanted->name);
-  const fg__vtk_array *first = fg__vtk_find(vtk, 0, wanted->place, wanted->name);
-  *out = array;
-  if (!array || !first || array->components != first->components)
-    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
-                    "%s: piece %zu of %zu has no array \"%.100s\" like the first's",
-                    vtk->path, piece + 1, vtk->piece_count, wanted->name);
-  for (int c = 0; c < wanted->components; ++c)
-    if (wanted->component[c] >= array->components)
-      return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
-                      "%s: two arrays are named \"%.100s\", one of %d component%s",
-                      vtk->path, wanted->name, array->components,
-                      array->components == 1 ? "" : "s");
-  return FG_STATUS_OK;
-}
-
-/* Every piece must be there with all its bytes, and no byte may serve two pieces: then
- * the whole is no larger than the file can fill. */
-static fg_status check_pieces(const fg__vtk *vtk, const gathering *wanted)
-{
-  size_t stored_sum = 0;
-  for (size_t p = 0; p < vtk->piece_count; ++p) {
-    const fg__vtk_array *array;
-    size_t tuples, stored = 0;
-    fg_status status = find_in_piece(&array, vtk, wanted, p);
-    if (status != FG_STATUS_OK)
-      return status;
-    if (!fg__vtk_count(&tuples, vtk->pieces[p].extent, wanted->place))
-      return FG_STATUS_FILE_FORMAT;
-    status = fg__vtk_values_check(vtk, array, tuples, &stored);
-    if (status != FG_STATUS_OK)
-      return status;
-    if (stored > vtk->file_size - stored_sum)
-      return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
-                      "%s: the pieces of array \"%.100s\" overlap in the file", vtk->path,
-                      wanted->name);
-    stored_sum += stored;
-  }
-  return FG_STATUS_OK;
-}
-
-static void place_piece(const fg__vtk *vtk, const gathering *wanted, const int extent[6],
-                        const fg__vtk_values *values, int stride, unsigned char *seen)
-{
-  size_t length[3], whole[3], first[3];
-  for (int k = 0; k < 3; ++k) {
-    length[k] = fg__vtk_length(extent, k, wanted->place);
-    whole[k] = fg__vtk_length(vtk->extent, k, wanted->place);
-    first[k] = (size_t)((int64_t)extent[2 * k] - (int64_t)vtk->extent[2 * k]);
-    if (first[k] + length[k] > whole[k]) /* a flat piece at the end of the cells */
-      first[k] = whole[k] - length[k];
-  }
-  size_t from = 0;
-  for (size_t z = 0; z < length[2]; ++z)
-    for (size_t y = 0; y < length[1]; ++y) {
-      size_t row = ((first[2] + z) * whole[1] + first[1] + y) * whole[0] + first[0];
-      for (size_t x = 0; x < length[0]; ++x, ++from) {
-        seen[row + x] = 1;
-        for (int c = 0; c < wanted->components; ++c)
-          wanted->out[c][row + x] = wanted->means(fg__vtk_value(
-              values, from * (size_t)stride + (size_t)wanted->component[c]));
-      }
-    }
-}
-
-static fg_status gather(const fg__vtk *vtk, const gathering *wanted)
-{
-  size_t count;
-  if (!fg__vtk_count(&count, vtk->extent, wanted->place))
-    return FG_STATUS_FILE_FORMAT;
-  unsigned char *seen = fg__allocate(count, 1);
-  if (!seen)
-    return fg__fail_memory(vtk->context, "a field's samples", count);
-  fg_status status = FG_STATUS_OK;
-  for (size_t p = 0; p < vtk->piece_count && status == FG_STATUS_OK; ++p) {
-    const int *extent = vtk->pieces[p].extent;
-    const fg__vtk_array *array;
-    fg__vtk_values values = {0};
-    size_t tuples;
-    status = find_in_piece(&array, vtk, wanted, p);
-    if (status == FG_STATUS_OK && fg__vtk_count(&tuples, extent, wanted->place))
-      status = fg__vtk_values_create(&values, vtk, array, tuples);
-    if (status == FG_STATUS_OK)
-      place_piece(vtk, wanted, extent, &values, array->components, seen);
-    fg__vtk_values_clear(&values);
-  }
-  const unsigned char *hole = status == FG_STATUS_OK ? memchr(seen, 0, count) : NULL;
-  if (hole)
-    status =
-        fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
-                 "%s: the %zu pieces do not cover the whole: sample %zu of %zu is in "
-                 "none",
-                 vtk->path, vtk->piece_count, (size_t)(hole - seen), count);
-  free(seen);
-  return status;
-}
-
 /* A mean with them would be missing, or infinite, far from where they are. */
-static fg_status refuse_infinite(const fg__vtk *vtk, const gathering *wanted,
+static fg_status refuse_infinite(const fg__vtk_view *v, const fg__vtk_gathering *wanted,
                                  size_t count)
 {
+  size_t all = 0;
+  fg__vtk_count(&all, v->vtk->extent, v->place);
   for (int c = 0; c < wanted->components; ++c)
     for (size_t i = 0; i < count; ++i)
       if (isinf(wanted->out[c][i]))
         return fg__fail(
-            vtk->context, FG_STATUS_FILE_FORMAT,
+            v->vtk->context, FG_STATUS_FILE_FORMAT,
             "%s: array \"%.100s\" is infinite, or too large to be a velocity, "
             "in sample %zu of %zu",
-            vtk->path, wanted->name, i, count);
+            v->vtk->path, wanted->name, fg__vtk_place_in_whole(v, i), all);
   return FG_STATUS_OK;
 }
 
@@ -234,12 +133,12 @@ static fg_status refuse_infinite(const fg__vtk *vtk, const gathering *wanted,
 
 /* Mean over the layers of the flat axis, or all as it is in a volume; a NaN in one makes
  * the mean one. */
-static void flatten(float *out, const float *samples, const fg__vtk *vtk,
-                    const fg__vtk_grid *grid, fg__vtk_place place)
+static void flatten(float *out, const float *samples, const fg__vtk_view *v)
 {
+  const fg__vtk_grid *grid = &v->grid;
   size_t length[3], step[3] = {1, 0, 0};
   for (int k = 0; k < 3; ++k)
-    length[k] = fg__vtk_length(vtk->extent, k, place);
+    length[k] = fg__vtk_length(v->extent, k, v->place);
   step[1] = length[0];
   step[2] = length[0] * length[1];
   if (grid->dimension == 3) {
@@ -291,42 +190,55 @@ static void cells_to_points(float *out, const float *cells, const size_t points[
       }
 }
 
-/* Takes `samples` over. */
-static fg_status to_grid(float **out, float *samples, const fg__vtk *vtk,
-                         const fg__vtk_grid *grid, fg__vtk_place place)
+/* Drops the rows that were read for their neighbours' sake. */
+static void drop_margins(float *samples, const fg__vtk_view *v, const fg__vtk_grid *grid)
 {
-  if (grid->dimension == 3 && place == FG__VTK_POINTS) {
+  const size_t row = fg__vtk_grid_wanted(grid) / grid->rows;
+  if (v->skipped > 0)
+    memmove(samples, samples + v->skipped * row, grid->rows * row * sizeof *samples);
+}
+
+/* Takes `samples` over. */
+static fg_status to_grid(float **out, float *samples, const fg__vtk_view *v,
+                         const fg__vtk_grid *grid)
+{
+  const bool of_cells = v->place == FG__VTK_CELLS;
+  if (grid->dimension == 3 && !of_cells) {
     *out = samples;
     return FG_STATUS_OK;
   }
-  size_t count = fg__vtk_grid_points(grid);
+  size_t count = fg__vtk_grid_points(&v->grid);
   float *flat = fg__allocate(count, sizeof *flat);
-  float *points = place == FG__VTK_CELLS ? fg__allocate(count, sizeof *points) : NULL;
-  if (!flat || (place == FG__VTK_CELLS && !points)) {
+  float *points = of_cells ? fg__allocate(count, sizeof *points) : NULL;
+  if (!flat || (of_cells && !points)) {
     free(flat);
     free(points);
     free(samples);
-    return fg__fail_memory(vtk->context, "a field's samples", 2 * count * sizeof *flat);
+    return fg__fail_memory(v->vtk->context, "a field's samples",
+                           2 * count * sizeof *flat);
   }
-  flatten(flat, samples, vtk, grid, place);
+  flatten(flat, samples, v);
   free(samples);
   *out = flat;
   if (points) {
-    cells_to_points(points, flat, grid->points);
+    cells_to_points(points, flat, v->grid.points);
     free(flat);
+    drop_margins(points, v, grid);
     *out = points;
   }
   return FG_STATUS_OK;
 }
 
-/* Reads the wanted components onto the grid's points. With `any`, the first result
+/* Reads the wanted components onto the wanted rows' points. With `any`, the first result
  * stands for all: a number where one of them is. */
 static fg_status read_onto_points(float *out[], const fg__vtk *vtk,
-                                  const fg__vtk_grid *grid, gathering *wanted, bool any)
+                                  const fg__vtk_grid *grid, fg__vtk_gathering *wanted,
+                                  bool any)
 {
   size_t count;
-  fg_status status = check_pieces(vtk, wanted);
-  if (status == FG_STATUS_OK && !fg__vtk_count(&count, vtk->extent, wanted->place))
+  const fg__vtk_view v = fg__vtk_view_of(vtk, grid, wanted->place);
+  fg_status status = fg__vtk_gather_check(vtk, wanted);
+  if (status == FG_STATUS_OK && !fg__vtk_count(&count, v.extent, wanted->place))
     status = FG_STATUS_FILE_FORMAT;
   for (int c = 0; c < wanted->components && status == FG_STATUS_OK; ++c) {
     wanted->out[c] = fg__allocate(count, sizeof(float));
@@ -334,16 +246,16 @@ static fg_status read_onto_points(float *out[], const fg__vtk *vtk,
       status = fg__fail_memory(vtk->context, "a field's samples", count * sizeof(float));
   }
   if (status == FG_STATUS_OK)
-    status = gather(vtk, wanted);
+    status = fg__vtk_gather(&v, wanted);
   if (status == FG_STATUS_OK)
-    status = refuse_infinite(vtk, wanted, count);
+    status = refuse_infinite(&v, wanted, count);
   if (status == FG_STATUS_OK && any)
     for (int c = 1; c < wanted->components; ++c)
       for (size_t i = 0; i < count; ++i)
         if (isnan(wanted->out[0][i]))
           wanted->out[0][i] = wanted->out[c][i];
   for (int c = 0; c < (any ? 1 : wanted->components) && status == FG_STATUS_OK; ++c) {
-    status = to_grid(&out[c], wanted->out[c], vtk, grid, wanted->place);
+    status = to_grid(&out[c], wanted->out[c], &v, grid);
     wanted->out[c] = NULL;
   }
   for (int c = 0; c < wanted->components; ++c)
@@ -355,13 +267,13 @@ static fg_status read_onto_points(float *out[], const fg__vtk *vtk,
  * ---------------------------------------------------------------------- */
 
 static fg_status apply_marks(float *velocity[3], const fg__vtk *vtk,
-                             const fg__vtk_grid *grid, gathering *wanted)
+                             const fg__vtk_grid *grid, fg__vtk_gathering *wanted)
 {
   float *marks = NULL;
   fg_status status = read_onto_points(&marks, vtk, grid, wanted, true);
   if (status == FG_STATUS_OK)
     for (int k = 0; k < grid->dimension; ++k)
-      for (size_t i = 0; i < fg__vtk_grid_points(grid); ++i)
+      for (size_t i = 0; i < fg__vtk_grid_wanted(grid); ++i)
         if (velocity[k] && isnan(marks[i]))
           velocity[k][i] = NAN;
   free(marks);
@@ -374,17 +286,17 @@ static fg_status apply_known_marks(float *velocity[3], const fg__vtk *vtk,
   static const struct {
     const char *name;
     fg__vtk_place place;
-    meaning *means;
+    fg__vtk_meaning *means;
   } known[] = {{"vtkGhostType", FG__VTK_POINTS, as_ghost_point},
                {"vtkGhostType", FG__VTK_CELLS, as_ghost_cell},
                {"vtkValidPointMask", FG__VTK_POINTS, as_valid_point}};
   for (size_t k = 0; k < sizeof known / sizeof known[0]; ++k) {
     if (!fg__vtk_find(vtk, 0, known[k].place, known[k].name))
       continue;
-    gathering wanted = {.name = known[k].name,
-                        .place = known[k].place,
-                        .components = 1,
-                        .means = known[k].means};
+    fg__vtk_gathering wanted = {.name = known[k].name,
+                                .place = known[k].place,
+                                .components = 1,
+                                .means = known[k].means};
     fg_status status = apply_marks(velocity, vtk, grid, &wanted);
     if (status != FG_STATUS_OK)
       return status;
@@ -407,11 +319,12 @@ static fg_status apply_mask(float *velocity[3], const fg__vtk *vtk,
     return fg__fail(vtk->context, FG_STATUS_ARGUMENT,
                     "%s: mask \"%.100s\" has %d components; at most 3 can be a mask",
                     vtk->path, mask, array->components);
-  gathering wanted = {.name = mask,
-                      .place = place,
-                      .components = array->components,
-                      .component = {0, 1, 2},
-                      .means = array->components > 1 ? as_vector_mask : as_scalar_mask};
+  fg__vtk_gathering wanted = {.name = mask,
+                              .place = place,
+                              .components = array->components,
+                              .component = {0, 1, 2},
+                              .means = array->components > 1 ? as_vector_mask
+                                                             : as_scalar_mask};
   return apply_marks(velocity, vtk, grid, &wanted);
 }
 
@@ -438,20 +351,20 @@ static fg_status read_vector(float *out[3], const fg__vtk *vtk, const fg__vtk_gr
     return FG_STATUS_UNSUPPORTED;
   }
   if (vector->names == 1) {
-    gathering wanted = {.name = vector->name[0],
-                        .place = vector->place,
-                        .components = grid->dimension,
-                        .means = as_velocity};
+    fg__vtk_gathering wanted = {.name = vector->name[0],
+                                .place = vector->place,
+                                .components = grid->dimension,
+                                .means = as_velocity};
     for (int k = 0; k < grid->dimension; ++k)
       wanted.component[k] = component_along(vector, grid, k);
     return read_onto_points(out, vtk, grid, &wanted, false);
   }
   fg_status status = FG_STATUS_OK;
   for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k) {
-    gathering wanted = {.name = vector->name[component_along(vector, grid, k)],
-                        .place = vector->place,
-                        .components = 1,
-                        .means = as_velocity};
+    fg__vtk_gathering wanted = {.name = vector->name[component_along(vector, grid, k)],
+                                .place = vector->place,
+                                .components = 1,
+                                .means = as_velocity};
     status = read_onto_points(&out[k], vtk, grid, &wanted, false);
   }
   return status;

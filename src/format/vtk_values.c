@@ -1,7 +1,6 @@
-/* The numbers of one array: ascii, base64 or raw, plain or in zlib blocks. */
+/* The numbers of one array: base64 or raw, plain or in zlib blocks. */
 #include "base/memory.h"
 #include "format/base64.h"
-#include "format/number_text.h"
 #include "format/vtk.h"
 
 #include <limits.h>
@@ -13,9 +12,6 @@
 /* Deflate cannot shrink data more than this (zlib's technical details: 1032 to 1), so a
  * block that promises more is refused before anything is allocated. */
 static const uint64_t LARGEST_COMPRESSION = 1032;
-
-/* More characters than any number is written with. */
-enum { LONGEST_NUMBER = 63 };
 
 size_t fg__vtk_size_of(fg__vtk_type type)
 {
@@ -285,106 +281,68 @@ fg_status fg__vtk_values_check(const fg__vtk *vtk, const fg__vtk_array *array,
 /* ---- decoding
  * --------------------------------------------------------------------------- */
 
-static fg_status read_ascii(fg__vtk_values *out, const fg__vtk *vtk,
-                            const fg__vtk_array *array)
+/* Bytes of an array: those that are wanted, and all there are. */
+typedef struct byte_range {
+  size_t first, end, all;
+} byte_range;
+
+static bool grow_to(unsigned char **buffer, size_t *capacity, size_t size)
 {
-  fg__number_locale locale;
-  if (!fg__number_locale_begin(&locale))
-    return fg__fail_memory(vtk->context, "a locale", sizeof locale);
-  const char *text = array->text;
-  size_t found = 0;
-  for (; found < out->count; ++found) {
-    char *end = NULL;
-    double number = strtod(text, &end);
-    if (end == text)
-      break;
-    memcpy(out->bytes + found * sizeof number, &number, sizeof number);
-    text = end;
-  }
-  fg__number_locale_end(&locale);
-  text += strspn(text, " \t\r\n");
-  if (found < out->count)
-    return fg__fail(
-        vtk->context, FG_STATUS_FILE_FORMAT,
-        "%s: array \"%.100s\": %zu numbers promised, %zu found, then \"%.20s\"",
-        vtk->path, array->name, out->count, found, text);
-  if (*text)
-    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
-                    "%s: array \"%.100s\": after its %zu numbers comes \"%.20s\"",
-                    vtk->path, array->name, out->count, text);
-  return FG_STATUS_OK;
+  if (size <= *capacity)
+    return true;
+  free(*buffer);
+  *buffer = fg__allocate(size, 1);
+  *capacity = *buffer ? size : 0;
+  return *buffer != NULL;
 }
 
-/* The same from text that nothing ends: a word at a time. */
-static fg_status read_tokens(fg__vtk_values *out, const fg__vtk *vtk,
-                             const fg__vtk_array *array)
+static bool inflate_block(unsigned char *out, size_t wanted, const unsigned char *packed,
+                          size_t size)
 {
-  fg__number_locale locale;
-  if (!fg__number_locale_begin(&locale))
-    return fg__fail_memory(vtk->context, "a locale", sizeof locale);
-  size_t at = 0, found = 0;
-  char word[LONGEST_NUMBER + 1] = "";
-  for (bool good = true; found < out->count && good; found += good) {
-    size_t length = 0;
-    while (at < array->text_size && strchr(" \t\r\n", array->text[at]))
-      ++at;
-    for (; at < array->text_size && !strchr(" \t\r\n", array->text[at]); ++at)
-      if (length < LONGEST_NUMBER)
-        word[length++] = array->text[at];
-    word[length] = '\0';
-    char *end = word;
-    double number = strtod(word, &end);
-    good = end != word && *end == '\0';
-    if (good)
-      memcpy(out->bytes + found * sizeof number, &number, sizeof number);
-  }
-  fg__number_locale_end(&locale);
-  if (found < out->count)
-    return fg__fail(
-        vtk->context, FG_STATUS_FILE_FORMAT,
-        "%s: array \"%.100s\": %zu numbers promised, %zu found, then \"%.20s\"",
-        vtk->path, array->name, out->count, found, word);
-  return FG_STATUS_OK;
+  uLongf inflated = (uLongf)wanted;
+  uLong used = (uLong)size;
+  return uncompress2(out, &inflated, packed, &used) == Z_OK && inflated == wanted &&
+         used == size;
 }
 
+/* Blocks without a wanted byte are skipped. */
 static fg_status inflate_blocks(unsigned char *out, const fg__vtk *vtk,
-                                const fg__vtk_array *array, block_layout *layout)
+                                const fg__vtk_array *array, block_layout *layout,
+                                const byte_range *range)
 {
-  unsigned char *packed = NULL;
-  size_t capacity = 0;
+  unsigned char *packed = NULL, *whole = NULL;
+  size_t packed_capacity = 0, whole_capacity = 0, at = 0;
   fg_status status = FG_STATUS_OK;
-  for (uint64_t block = 0; block < layout->blocks; ++block) {
+  for (uint64_t block = 0; block < layout->blocks && status == FG_STATUS_OK; ++block) {
     uint64_t size = 0;
     if (!read_header(&layout->sizes, vtk, &size)) {
       status = fail_array(vtk, array, "its list of blocks cannot be read");
       break;
     }
-    if (size > capacity) {
-      free(packed);
-      capacity = (size_t)size;
-      packed = fg__allocate(capacity, 1);
-      if (!packed) {
-        status = fg__fail_memory(vtk->context, "a compressed block", capacity);
-        break;
-      }
+    const size_t wanted = (size_t)size_of_block(layout, block);
+    const size_t first = at > range->first ? at : range->first;
+    const size_t end = at + wanted < range->end ? at + wanted : range->end;
+    const bool skipped = first >= end, entire = !skipped && end - first == wanted;
+    if (!skipped && (!grow_to(&packed, &packed_capacity, (size_t)size) ||
+                     (!entire && !grow_to(&whole, &whole_capacity, wanted)))) {
+      status = fg__fail_memory(vtk->context, "a compressed block", (size_t)size + wanted);
+      break;
     }
-    uint64_t wanted = size_of_block(layout, block);
-    uLongf inflated = (uLongf)wanted;
-    uLong used = (uLong)size;
-    if (!read_bytes(&layout->data, packed, (size_t)size) ||
-        uncompress2(out, &inflated, packed, &used) != Z_OK || inflated != wanted ||
-        used != size) {
+    unsigned char *to = skipped ? NULL : entire ? out + (at - range->first) : whole;
+    if (!read_bytes(&layout->data, skipped ? NULL : packed, (size_t)size) ||
+        (!skipped && !inflate_block(to, wanted, packed, (size_t)size)))
       status =
           fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                    "%s: array \"%.100s\": block %llu of %llu does not inflate to %llu "
                    "bytes",
                    vtk->path, array->name, (unsigned long long)block + 1,
                    (unsigned long long)layout->blocks, (unsigned long long)wanted);
-      break;
-    }
-    out += wanted;
+    else if (!skipped && !entire)
+      memcpy(out + (first - range->first), whole + (first - at), end - first);
+    at += wanted;
   }
   free(packed);
+  free(whole);
   return status;
 }
 
@@ -397,52 +355,64 @@ static void swap_numbers(fg__vtk_values *out, const fg__vtk *vtk,
 }
 
 static fg_status read_binary(fg__vtk_values *out, const fg__vtk *vtk,
-                             const fg__vtk_array *array, size_t bytes)
+                             const fg__vtk_array *array, size_t all)
 {
+  const size_t size = fg__vtk_size_of(array->type);
+  const byte_range range = {out->first * size, (out->first + out->count) * size,
+                            all * size};
   block_layout layout;
   if (array->storage == FG__VTK_RAW) {
-    memcpy(out->bytes, array->text, bytes);
+    memcpy(out->bytes, array->text + range.first, range.end - range.first);
     swap_numbers(out, vtk, array);
     return FG_STATUS_OK;
   }
-  fg_status status = read_layout(&layout, vtk, array, bytes);
+  const bool is_inline = array->storage == FG__VTK_INLINE;
+  fg_status status = read_layout(&layout, vtk, array, range.all);
   if (status != FG_STATUS_OK)
     return status;
   if (vtk->compression == FG__VTK_ZLIB)
-    status = bytes > 0 ? inflate_blocks(out->bytes, vtk, array, &layout) : FG_STATUS_OK;
-  else if (!read_bytes(&layout.data, out->bytes, bytes))
+    status = range.all > 0 ? inflate_blocks(out->bytes, vtk, array, &layout, &range)
+                           : FG_STATUS_OK;
+  else if (!read_bytes(&layout.data, NULL, range.first) ||
+           !read_bytes(&layout.data, out->bytes, range.end - range.first) ||
+           (is_inline && !read_bytes(&layout.data, NULL, range.all - range.end)))
     status = fail_array(vtk, array, "its base64 has a wrong character or ends early");
   if (status != FG_STATUS_OK)
     return status;
-  if (array->storage == FG__VTK_INLINE && !fg__base64_ended(&layout.data.base64))
+  if (is_inline && !fg__base64_ended(&layout.data.base64))
     return fail_array(vtk, array, "has more bytes than it promises");
   swap_numbers(out, vtk, array);
   return FG_STATUS_OK;
 }
 
-fg_status fg__vtk_values_create(fg__vtk_values *out, const fg__vtk *vtk,
-                                const fg__vtk_array *array, size_t tuples)
+fg_status fg__vtk_values_create_some(fg__vtk_values *out, const fg__vtk *vtk,
+                                     const fg__vtk_array *array, size_t tuples,
+                                     size_t first, size_t end)
 {
   *out = (fg__vtk_values){0};
   size_t stored;
   fg_status status = fg__vtk_values_check(vtk, array, tuples, &stored);
   if (status != FG_STATUS_OK)
     return status;
-  out->count = tuples * (size_t)array->components;
+  const size_t components = (size_t)array->components, all = tuples * components;
+  out->first = first * components;
+  out->count = (end - first) * components;
   out->type = is_text(array) ? FG__VTK_FLOAT64 : array->type;
   size_t size = fg__vtk_size_of(out->type);
   out->bytes = fg__allocate(out->count, size);
   if (!out->bytes)
     return fg__fail_memory(vtk->context, "an array of the file", out->count * size);
-  if (array->storage == FG__VTK_TOKENS)
-    status = read_tokens(out, vtk, array);
-  else
-    status = array->storage == FG__VTK_ASCII
-                 ? read_ascii(out, vtk, array)
-                 : read_binary(out, vtk, array, out->count * size);
+  status = is_text(array) ? fg__vtk_values_from_text(out, vtk, array, all)
+                          : read_binary(out, vtk, array, all);
   if (status != FG_STATUS_OK)
     fg__vtk_values_clear(out);
   return status;
+}
+
+fg_status fg__vtk_values_create(fg__vtk_values *out, const fg__vtk *vtk,
+                                const fg__vtk_array *array, size_t tuples)
+{
+  return fg__vtk_values_create_some(out, vtk, array, tuples, 0, tuples);
 }
 
 void fg__vtk_values_clear(fg__vtk_values *values)
@@ -454,7 +424,8 @@ void fg__vtk_values_clear(fg__vtk_values *values)
 #define RETURN_AS(type)                                                                  \
   do {                                                                                   \
     type number;                                                                         \
-    memcpy(&number, values->bytes + index * sizeof number, sizeof number);               \
+    memcpy(&number, values->bytes + (index - values->first) * sizeof number,             \
+           sizeof number);                                                               \
     return (double)number;                                                               \
   } while (0)
 

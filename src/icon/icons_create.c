@@ -214,6 +214,11 @@ static fg_status measure_place(icon_place *place, fg_context *context, double ma
   return fg__march(place->distance, context, window, true);
 }
 
+static const fg_field *field_of(const fg__icon_source *source, int index)
+{
+  return source->field_window ? source->field_window[index] : source->field;
+}
+
 /* Lets the chosen arrow go on through the cluster's territory; *extended when it did. */
 static fg_status extend(icon_place *land, fg__arrow *arrow, bool *extended,
                         const fg__icon_source *source, fg_context *context,
@@ -242,7 +247,7 @@ static fg_status make_solid(icon_job *job, fg_context *context, fg__solid_maker 
       fg__volume_cut(&volume, context, source->density, source->labels,
                      source->cluster ? &source->patch[index] : source->patch, cluster);
   if (status == FG_STATUS_OK)
-    status = fg__solid_icon_make(icon, context, maker, source->field, &volume);
+    status = fg__solid_icon_make(icon, context, maker, field_of(source, index), &volume);
   icon->cluster = cluster;
   icon->area = source->labels->area[cluster - 1];
   fg__volume_clear(&volume);
@@ -269,6 +274,7 @@ static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *choo
 {
   const fg__icon_source *source = job->source;
   int cluster = source->cluster ? source->cluster[index] : index + 1;
+  const fg_field *field = field_of(source, index);
   icon_place place = {0}, land = {0};
   fg__spine spine = {0};
   fg__arrow arrow = {0};
@@ -283,7 +289,7 @@ static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *choo
   if (status != FG_STATUS_OK)
     goto cleanup;
   const double *center = spine.point[spine.center];
-  status = fg__choose_arrow(&arrow, chooser, context, source->field, &place.room, &spine);
+  status = fg__choose_arrow(&arrow, chooser, context, field, &place.room, &spine);
   if (status == FG_STATUS_OK && source->territories)
     status = extend(&land, &arrow, &extended, source, context, chooser, cluster, center);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
@@ -291,7 +297,7 @@ static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *choo
   fg_icon *icon = &job->icon[index];
   icon->cluster = cluster;
   icon->area = source->labels->area[cluster - 1];
-  status = build_icon(icon, context, source->field, extended ? &land.room : &place.room,
+  status = build_icon(icon, context, field, extended ? &land.room : &place.room,
                       &chooser->best, &arrow, center);
   if (status == FG_STATUS_OK && icon->points)
     status = keep_spine(icon, context, &spine);
@@ -436,6 +442,9 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
   if (dimension == 3 && options && options->extent == FG_ICON_EXTENT_TERRITORY)
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "icons: in 3D arrows stay in their clusters");
+  if (fg_field_is_part(field, NULL, NULL) && !fg_density_is_shared(density))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "icons: a field that ranks share, of a density that they do not");
   if (fg_density_is_shared(density))
     return fg__icons_create_shared(out, context, field, density, options);
   return create_whole(out, context, field, density, options);

@@ -8,6 +8,8 @@
 /* What icons are made from. */
 typedef struct fg__icon_source {
   const fg_field *field;
+  fg_field *const *field_window; /* [count] with cluster: what serves in place of a field
+                                    that ranks share; else NULL */
   const fg_density_arrays *density;
   const fg__labels *labels;
   const fg__territories *territories; /* NULL: arrows stay in their clusters */

@@ -6,12 +6,14 @@
 #include "base/memory.h"
 #include "cluster/shared.h"
 #include "icon/icons_create.h"
+#include "mesh/field_parts.h"
 
 /* Patches that a rank holds at a time have this share of its part of the grid, but for
  * one that is larger. */
 static const double patch_share = 0.5;
 
 typedef struct sharing {
+  const fg_field *field;
   const fg_density *density;
   const fg__ranks *ranks;
   fg__labels labels;
@@ -61,27 +63,77 @@ static int count_together(const sharing *s, int first, size_t *load)
   return s->labels.count - first;
 }
 
+/* Streamlines look beyond their cluster for a step at most, which is no longer than a
+ * cell of the density: less than this many nodes beyond the patch. */
+enum { BEYOND_PATCH = 2 };
+
+/* The samples that the icons of a patch ask for. */
+static fg__region samples_of(const sharing *s, const fg__wanted_patch *wanted)
+{
+  const fg_density_arrays *grid = fg_density_contents(s->density);
+  fg__region out = {.nodes = {{0, 0, 0}, {1, 1, 1}}, .rank = wanted->rank};
+  for (int k = 0; k < grid->dimension; ++k) {
+    fg__field_points nodes = {.origin = grid->origin[k],
+                              .spacing = grid->spacing[k],
+                              .first = wanted->patch.first[k] - BEYOND_PATCH,
+                              .count = wanted->patch.nodes[k] + 2 * BEYOND_PATCH,
+                              .all = grid->nodes[k]};
+    fg__field_span(&out.nodes.first[k], &out.nodes.nodes[k], s->field, k, &nodes);
+  }
+  return out;
+}
+
+/* Windows of a field that ranks share for `count` clusters, NULL for a whole one.
+ * Collective. */
+static fg_status take_windows(fg_field ***out, const sharing *s, fg_context *context,
+                              int first, int count)
+{
+  *out = NULL;
+  if (!s->field->part)
+    return FG_STATUS_OK;
+  size_t all = (size_t)count;
+  fg__region *region = fg__allocate(all, sizeof *region);
+  fg_field **window = fg__allocate(all, sizeof *window);
+  fg_status status = FG_STATUS_OK;
+  if (!region || !window)
+    status = fg__fail_memory(context, "the icons", all * sizeof *region);
+  status = fg__ranks_agree(s->ranks, context, status);
+  for (int n = 0; n < count && !status; ++n)
+    region[n] = samples_of(s, &s->wanted[first + n]);
+  if (!status)
+    status = fg__field_windows(window, context, s->ranks, s->field, region, count);
+  free(region);
+  if (status)
+    free(window);
+  else
+    *out = window;
+  return status;
+}
+
 /* The icons of this rank among `count` clusters whose patches are there. */
-static fg_status make_own(sharing *s, fg_context *context, const fg_field *field,
+static fg_status make_own(sharing *s, fg_context *context, fg_field *const *window,
                           int threads, int first, int count)
 {
   size_t most = (size_t)count;
   int *cluster = fg__allocate(most, sizeof *cluster);
   fg__patch *patch = fg__allocate(most, sizeof *patch);
   fg_icon *icon = fg__allocate(most, sizeof *icon);
+  fg_field **own_window = fg__allocate(most, sizeof *own_window);
   fg_status status = FG_STATUS_OK;
-  fg__icon_source source = {.field = field,
+  fg__icon_source source = {.field = s->field,
+                            .field_window = window ? own_window : NULL,
                             .density = fg_density_contents(s->density),
                             .labels = &s->labels,
                             .cluster = cluster,
                             .patch = patch};
-  if (!cluster || !patch || !icon) {
+  if (!cluster || !patch || !icon || !own_window) {
     status = fg__fail_memory(context, "the icons", most * sizeof *icon);
     goto cleanup;
   }
   for (int n = first; n < first + count; ++n)
     if (s->wanted[n].rank == s->ranks->rank) {
       cluster[source.count] = n + 1;
+      own_window[source.count] = window ? window[n - first] : NULL;
       patch[source.count++] = s->wanted[n].patch;
     }
   status = fg__icons_make(icon, context, &source, threads);
@@ -91,11 +143,11 @@ cleanup:
   free(cluster);
   free(patch);
   free(icon);
+  free(own_window);
   return status;
 }
 
-static fg_status make_all(sharing *s, fg_context *context, const fg_field *field,
-                          int threads)
+static fg_status make_all(sharing *s, fg_context *context, int threads)
 {
   size_t *load = fg__allocate((size_t)s->ranks->count, sizeof *load);
   fg_status status = FG_STATUS_OK;
@@ -107,7 +159,11 @@ static fg_status make_all(sharing *s, fg_context *context, const fg_field *field
     status = fg__patches_fill(context, s->density, s->wanted + first, count);
     if (status)
       break;
-    status = make_own(s, context, field, threads, first, count);
+    fg_field **window;
+    status = take_windows(&window, s, context, first, count);
+    if (!status)
+      status = make_own(s, context, window, threads, first, count);
+    fg__field_windows_destroy(window, count);
     for (int n = first; n < first + count; ++n)
       fg__patch_clear(&s->wanted[n].patch);
     status = fg__ranks_agree(s->ranks, context, status);
@@ -210,14 +266,17 @@ static fg_status allocate(sharing *s, fg_context *context)
 static fg_status create(fg_icons **out, fg_context *context, const fg_field *field,
                         const fg_density *density, const fg_icon_options *options)
 {
-  sharing s = {.density = density,
+  sharing s = {.field = field,
+               .density = density,
                .ranks = fg__density_share_of(density)->partition.ranks};
-  fg_status status = fg__labels_create_shared(&s.labels, context, density);
+  fg_status status = fg__field_check_shared(context, s.ranks, field);
+  if (!status)
+    status = fg__labels_create_shared(&s.labels, context, density);
   if (status)
     return status;
   status = fg__ranks_agree(s.ranks, context, allocate(&s, context));
   if (!status)
-    status = make_all(&s, context, field, options ? options->threads : 1);
+    status = make_all(&s, context, options ? options->threads : 1);
   if (!status)
     status = bring_together(&s, context);
   if (!status && s.ranks->rank == 0)

@@ -1,5 +1,6 @@
 /* Icons that ranks make of their parts are those of the whole, to the bit. */
 #include "cluster/shared_density_test.h"
+#include "mesh/parted_test.h"
 
 #include <string.h>
 
@@ -49,8 +50,10 @@ static void parts_give_the_icons_of_the_whole(void **state)
       subject s = subject_of(&SHAPES[n], periodic, (n + way) % 3 == 0);
       fg_icons *icons;
       fg_icon_options options = {.threads = 1 + way};
-      expect(fg_icons_create(&icons, us.context, s.field, s.shared, &options) ==
-             FG_STATUS_OK);
+      fg_field *part = n % 2 == way % 2 ? joined_part_of(s.field) : NULL;
+      expect(fg_icons_create(&icons, us.context, part ? part : s.field, s.shared,
+                             &options) == FG_STATUS_OK);
+      fg_field_destroy(part);
       expect(!icons == (us.ranks->rank > 0));
       if (icons)
         compare(icons, &s, &sum);

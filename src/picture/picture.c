@@ -287,7 +287,7 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
     status = check_pixels(context, p);
   const double range[2] = {p->plan.speed.low, p->plan.speed.high};
   if (!status)
-    status = fg__scene_create(&p->scene, context, &p->page, contents,
+    status = fg__scene_create(&p->scene, context, &p->page, field,
                               options->tint ? fg_density_contents(density) : NULL, icons,
                               &p->palette, range);
   if (!status && options->skeletons)

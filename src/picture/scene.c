@@ -1,6 +1,7 @@
 #include "picture/scene.h"
 
 #include "base/memory.h"
+#include "field/mask.h"
 #include "picture/polygons.h"
 
 #include <math.h>
@@ -82,17 +83,13 @@ static bool mask_axis_create(mask_axis *out, const fg_field_arrays *field, int k
   return true;
 }
 
-static bool sample_valid(const fg_field_arrays *field, int i, int j)
+static bool sample_valid(const fg_field *field, int i, int j)
 {
-  i = i == field->size[0] ? 0 : i;
-  j = j == field->size[1] ? 0 : j;
-  size_t at = (size_t)j * (size_t)field->size[0] + (size_t)i;
-  if (field->valid && !field->valid[at])
-    return false;
-  return isfinite(field->velocity[0][at]) && isfinite(field->velocity[1][at]);
+  const int *size = fg_field_contents(field)->size;
+  return fg__field_sample_is_valid(field, i == size[0] ? 0 : i, j == size[1] ? 0 : j);
 }
 
-static bool cell_masked(const fg_field_arrays *field, int i, int j)
+static bool cell_masked(const fg_field *field, int i, int j)
 {
   return !(sample_valid(field, i, j) && sample_valid(field, i + 1, j) &&
            sample_valid(field, i, j + 1) && sample_valid(field, i + 1, j + 1));
@@ -100,14 +97,15 @@ static bool cell_masked(const fg_field_arrays *field, int i, int j)
 
 /* In the field's coordinates. */
 static fg_status make_mask(fg__polygons *out, fg_context *context, const fg__page *page,
-                           const fg_field_arrays *field)
+                           const fg_field *field)
 {
   fg_status status = FG_STATUS_OK;
+  const fg_field_arrays *grid = fg_field_contents(field);
   mask_axis axis[2] = {{0}, {0}};
   unsigned char *mask = NULL;
   const fg__box *frame = &page->frame;
-  if (!mask_axis_create(&axis[0], field, 0, frame->x1 - frame->x0) ||
-      !mask_axis_create(&axis[1], field, 1, frame->y1 - frame->y0)) {
+  if (!mask_axis_create(&axis[0], grid, 0, frame->x1 - frame->x0) ||
+      !mask_axis_create(&axis[1], grid, 1, frame->y1 - frame->y0)) {
     status = fg__fail_memory(context, "the mask's grid", sizeof axis);
     goto cleanup;
   }
@@ -132,9 +130,10 @@ cleanup:
 }
 
 fg_status fg__scene_mask(fg__polygons *out, fg_context *context, const fg__page *page,
-                         const fg_field_arrays *field)
+                         const fg_field *field)
 {
-  const placement p = {{field->axis[0][0], field->axis[1][0]}, page->scale, &page->frame};
+  const fg_field_arrays *grid = fg_field_contents(field);
+  const placement p = {{grid->axis[0][0], grid->axis[1][0]}, page->scale, &page->frame};
   fg_status status = make_mask(out, context, page, field);
   if (status)
     return status;
@@ -283,20 +282,21 @@ static fg_status make_reference(fg__polygons *out, fg_context *context,
 }
 
 fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *page,
-                           const fg_field_arrays *field, const fg_density_arrays *density,
+                           const fg_field *field, const fg_density_arrays *density,
                            const fg_icons *icons, const fg__palette *palette,
                            const double range[2])
 {
+  const fg_field_arrays *grid = fg_field_contents(field);
   *out = (fg__scene){.arrow_color = NULL};
   placement p = {{0.0, 0.0}, page->scale, &page->frame};
   double high[2];
-  fg__scene_box(p.low, high, field);
+  fg__scene_box(p.low, high, grid);
   fg_status status = fg__scene_mask(&out->mask, context, page, field);
   if (!status && density)
     status = fg__contour_positive(&out->tint, context, density);
   place_all(&p, &out->tint);
   if (!status)
-    status = make_arrows(out, context, &p, high, field, icons, palette, range);
+    status = make_arrows(out, context, &p, high, grid, icons, palette, range);
   if (!status)
     status = make_reference(&out->reference, context, page, icons);
   if (status) {

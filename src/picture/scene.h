@@ -36,12 +36,12 @@ fg_status fg__scene_typical_icon(fg__typical_icon *out, fg_context *context,
 /* The outlines of what is masked, smoothed, on the page: of it the frame and the scale
  * are read. MEMORY. */
 fg_status fg__scene_mask(fg__polygons *out, fg_context *context, const fg__page *page,
-                         const fg_field_arrays *field);
+                         const fg_field *field);
 
 /* Makes the polygons, but for spines and centres. density: NULL for no tint. range:
  * speeds at the palette's ends. MEMORY. */
 fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *page,
-                           const fg_field_arrays *field, const fg_density_arrays *density,
+                           const fg_field *field, const fg_density_arrays *density,
                            const fg_icons *icons, const fg__palette *palette,
                            const double range[2]);
 /* Adds the spines of the icons that have one, and their centres. MEMORY. */

@@ -25,11 +25,11 @@ static fg_status check_style(fg_context *context, const fg_texture_style *style)
 
 /* The outlines of what is masked, in pixels; y is stretched, should pixels not be square.
  */
-static fg_status find_mask(fg__polygons *out, fg_context *context,
-                           const fg_field_arrays *field, const int size[2])
+static fg_status find_mask(fg__polygons *out, fg_context *context, const fg_field *field,
+                           const int size[2])
 {
   double low[2], high[2];
-  fg__scene_box(low, high, field);
+  fg__scene_box(low, high, fg_field_contents(field));
   const double scale = size[0] / (high[0] - low[0]);
   const double tall = scale * (high[1] - low[1]);
   const fg__page page = {.scale = scale, .frame = {0.0, 0.0, size[0], tall}};
@@ -90,7 +90,7 @@ fg_status fg_texture_write(fg_context *context, const char *path, const fg_field
   if (!status)
     status = fg__color_choose(&mask_color, context, settled.mask_color, fg__usual_mask);
   if (!status)
-    status = find_mask(&mask, context, fg_field_contents(field), contents->size);
+    status = find_mask(&mask, context, field, contents->size);
   if (!status)
     status = fg__texture_image(&image, context, contents, &settled);
   if (!status)

@@ -78,6 +78,8 @@ fg_status fg_rival_create(fg_rival **out, fg_context *context, const fg_field *f
   if (fg_field_contents(field)->dimension != 2)
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "rival: the field has 3 dimensions, and the methods are made for 2");
+  if (fg_field_is_part(field, NULL, NULL))
+    return fg__fail(context, FG_STATUS_ARGUMENT, "rival: of a field that ranks share");
   fg_rival *rival = fg__allocate(1, sizeof *rival);
   if (!rival)
     return fg__fail_memory(context, "a rival", sizeof *rival);

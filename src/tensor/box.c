@@ -27,6 +27,14 @@ static fg__cells widened(const fg__cells *cells, const bool periodic[3], double 
   return wide;
 }
 
+fg__cells fg__tensor_reach(const fg_energy_law *law, const fg__cells *cells,
+                           const bool periodic[3], double width)
+{
+  if (!law || !law->axes || !(width > 0.0))
+    return *cells;
+  return widened(cells, periodic, width);
+}
+
 static bool is_same(const fg__cells *a, const fg__cells *b)
 {
   for (int k = 0; k < a->dimension; ++k)

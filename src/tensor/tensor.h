@@ -58,6 +58,11 @@ fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
                               double anisotropy, const fg__cells *cells,
                               const bool periodic[3], double width);
 
+/* The cells at whose centres that asks a law; it may look up to half a cell round each.
+ */
+fg__cells fg__tensor_reach(const fg_energy_law *law, const fg__cells *cells,
+                           const bool periodic[3], double width);
+
 /* Cells along z, cells of the box, cells of the domain along axis k. */
 int fg__layers(const fg__cells *cells);
 size_t fg__cell_count(const fg__cells *cells);

@@ -161,6 +161,8 @@ fg_status fg_texture_create(fg_texture **out, fg_context *context, const fg_fiel
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "a field in %d dimensions; textures are made of those in 2",
                     dimension);
+  if (fg_field_is_part(field, NULL, NULL))
+    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: of a field that ranks share");
   fg_texture *texture = fg__allocate(1, sizeof *texture);
   if (!texture)
     return fg__fail_memory(context, "a texture", sizeof *texture);

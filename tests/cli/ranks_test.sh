@@ -47,6 +47,27 @@ compare vortex3d "2 4" synth:vortex3d --nodes 33 --clusters 30
 compare whole "3" synth:benard --nodes 65 --clusters 8 --formats svg --extent territory --tint
 compare tiny "4" synth:vortex3 --nodes 17 --clusters 3 --max-steps 60 --formats svg
 
+# files of which each rank reads its rows: packed blocks, and a volume
+try synth vortex3 -o rolls.vti --nodes 113
+expect_code 0
+compare image "2 3 4" rolls.vti --nodes 65 --clusters 20,10 --formats svg --save-field
+try synth abc -o space.nc --nodes 33
+expect_code 0
+compare space "2 3" space.nc --nodes 33 --clusters 60
+
+# damage where one rank alone reads
+size=$(stat -c %s rolls.vti)
+printf 'damage' | dd of=rolls.vti bs=1 seek=$((size - 4000)) conv=notrunc status=none
+try run rolls.vti -o none --nodes 33 --quiet
+expect_code 1
+sed '/^flowgrain/!d' err >err-1
+on 4 run rolls.vti -o none --nodes 33 --quiet
+expect_code 1
+expect_one_message
+cmp -s <(sed '/^flowgrain/!d' err) err-1 || fault "ranks say: $(head -c 300 err)"
+expect_nothing_at none
+done_with "a file that is damaged in the rows of one rank"
+
 expect_json vortex3-1/run.json '.traffic.ranks == 1 and .traffic.cycle.messages.most == 0'
 expect_json vortex3-3/run.json '.traffic.ranks == 3 and
   .traffic.cycle.messages.mean > 1 and .traffic.cycle.bytes.most > 100 and

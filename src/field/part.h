@@ -1,0 +1,54 @@
+/* Fields of which this process has some samples only. */
+#ifndef FG__PART_H
+#define FG__PART_H
+
+#include "field/field.h"
+
+/* What is counted in each part and means something once it is added up. */
+typedef struct fg__part_counts {
+  uint64_t samples, missing; /* of the part's own rows */
+  uint64_t cells, valid_cells, moving_cells;
+  uint64_t by_reason[3][3]; /* missing samples of each component as its file has them:
+                               fill values, out of range, not a number */
+  uint64_t fingerprint;     /* of its own samples */
+} fg__part_counts;
+
+struct fg__field_part {
+  int number, count;
+  int own; /* rows along the last axis that no other part counts, from first on */
+  fg__part_counts counts;
+  bool has_reasons;
+  char *input;  /* what it was read from; NULL: from arrays */
+  uint64_t key; /* of what all parts have to have in common */
+  bool joined;
+  uint64_t fingerprint; /* joined: of the whole field */
+  unsigned char *valid; /* joined, rank 0, 2D, some missing: a bit a sample, rows begin
+                           with a byte; else NULL */
+};
+
+/* Rows [*first, *first + *own) of `rows` are those of a part. */
+void fg__part_rows(int *first, int *own, int rows, int number, int count);
+
+/* Rows that a reader is to give to a part: its own, and the next one where there is one
+ * (round a periodic axis, the first). */
+int fg__part_rows_held(int rows, int first, int own, bool periodic);
+
+/* Copies a part's rows into a field: arrays as for fg_field_create, but for the samples,
+ * which are those of its rows (fg__part_rows_held). What is said of all samples together
+ * is left for later. A part of one or of more than there are rows is refused. ARGUMENT,
+ * UNSUPPORTED, MEMORY. */
+fg_status fg__field_create_part(fg_field **out, fg_context *context,
+                                const fg_field_arrays *arrays, int number, int count);
+
+/* Fails when, in all parts together or in a whole field, every sample is missing, no cell
+ * has all its corners, or nothing moves. ARGUMENT. */
+fg_status fg__field_check_counts(fg_context *context, const fg__part_counts *counts);
+
+/* A window of a field, whose axes and words it borrows: it must go first. `velocity`,
+ * [held[0] * held[1] * held[2]] floats a component, x fastest, is taken over, even after
+ * a failure. MEMORY. */
+fg_status fg__field_create_window(fg_field **out, fg_context *context, const fg_field *of,
+                                  const int first[3], const int held[3],
+                                  float *const velocity[3]);
+
+#endif
