@@ -152,7 +152,7 @@ static void icons_and_pictures_in_space_are_refused(void **state)
                    FG_STATUS_OK);
   fg_icons *icons = NULL;
   assert_int_equal(fg_icons_create(&icons, f->context, field, density, NULL),
-                   FG_STATUS_UNSUPPORTED);
+                   FG_STATUS_ARGUMENT);
   assert_null(icons);
   assert_non_null(strstr(fg_context_message(f->context), "3 dimensions"));
   fg_context_clear(f->context);
