@@ -58,11 +58,18 @@ static fg_status write_icons(cli_drawing *drawing, int index, const fg_icons *ic
 
 static fg_status write_solids(cli_drawing *drawing, int index, const fg_icons *icons)
 {
-  char *path = scale_path(drawing, index, "vtp");
-  if (!path)
-    return FG_STATUS_MEMORY;
-  fg_status status = fg_solid_write(drawing->context, path, icons);
-  free(path);
+  static const char *const ends[] = {"vtp", "glb"};
+  fg_solid_options options = {.palette = drawing->settings->palette,
+                              .speed_min = drawing->speeds[0],
+                              .speed_max = drawing->speeds[1]};
+  fg_status status = FG_STATUS_OK;
+  for (size_t k = 0; k < sizeof ends / sizeof *ends && !status; ++k) {
+    char *path = scale_path(drawing, index, ends[k]);
+    if (!path)
+      return FG_STATUS_MEMORY;
+    status = fg_solid_write(drawing->context, path, icons, &options);
+    free(path);
+  }
   return status;
 }
 
@@ -293,8 +300,10 @@ int scale_file_ends(char ends[SCALE_FILES][SCALE_END_BYTES], const cli_settings 
   for (int kind = 0; kind < FORMAT_KINDS && !solid; ++kind)
     if (formats & (1U << kind))
       count = add_end(ends, count, format_words[kind]);
-  if (solid)
+  if (solid) {
     count = add_end(ends, count, "vtp");
+    count = add_end(ends, count, "glb");
+  }
   if (scales_have_density(settings, field))
     count = add_end(ends, count, "vti");
   return count;

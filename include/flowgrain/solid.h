@@ -26,12 +26,19 @@ FG_API fg_status fg_icon_solid(fg_surface **out, fg_context *context,
                                const fg_icon *icon);
 FG_API void fg_surface_destroy(fg_surface *surface);
 
-/* Writes icons in 3D; the format follows the name's end. .vtp: VTK polydata in input
- * coordinates, with the cells' array `part` (0 a centre, 1 a spine, 2 a streamline, 3 an
- * arrow) and those of their cluster. FILE_ACCESS, UNSUPPORTED (another end), ARGUMENT,
- * MEMORY. */
+typedef struct fg_solid_options {
+  const char *palette; /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
+  double speed_min, speed_max; /* ends of the colours; equal: from the icons */
+} fg_solid_options;
+
+/* Writes icons in 3D; the format follows the name's end.
+ * .vtp: VTK polydata in input coordinates, with the cells' array `part` (0 a centre, 1 a
+ * spine, 2 a streamline, 3 an arrow) and those of their cluster.
+ * .glb: glTF 2.0 in one file: a node with a mesh for each arrow, coloured by its speed,
+ * and for all spines, streamlines and centres; z is turned upwards as glTF has y.
+ * options may be NULL. FILE_ACCESS, UNSUPPORTED (another end), ARGUMENT, MEMORY. */
 FG_API fg_status fg_solid_write(fg_context *context, const char *path,
-                                const fg_icons *icons);
+                                const fg_icons *icons, const fg_solid_options *options);
 
 #ifdef __cplusplus
 }

@@ -3,6 +3,7 @@
 #ifndef FG__PAGE_H
 #define FG__PAGE_H
 
+#include "picture/caption.h"
 #include "picture/text.h"
 #include "picture/ticks.h"
 
@@ -13,7 +14,7 @@ typedef struct fg__box {
 
 enum {
   FG__CAPTION_LINES = 4,
-  FG__PAGE_TEXT_BYTES = 320,
+  FG__PAGE_TEXT_BYTES = FG__CAPTION_BYTES,
   /* ticks of two axes and of the colour key, their labels, the caption, the size key */
   FG__PAGE_TEXTS = 3 * FG__TICK_LIMIT + FG__CAPTION_LINES + 8,
   FG__PAGE_LINES = 3 * FG__TICK_LIMIT

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "picture/caption.h"
 #include "picture/sheet.h"
 
 /* A0 paper is 3370 points high; a page six times that is a mistake. */
@@ -46,42 +47,6 @@ static fg_status check_options(fg_context *context, const fg_picture_options *op
   return FG_STATUS_OK;
 }
 
-/* Ends of the colour key: what was asked for, or the icons' speeds, rounded out to ticks.
- */
-static bool find_speeds(double range[2], const fg_icons *icons,
-                        const fg_picture_options *options)
-{
-  int count = fg_icons_count(icons);
-  range[0] = options->speed_min;
-  range[1] = options->speed_max;
-  if (range[1] > range[0])
-    return true;
-  range[0] = HUGE_VAL;
-  range[1] = -HUGE_VAL;
-  for (int n = 0; n < count; ++n) {
-    double speed = fg_icons_at(icons, n)->speed;
-    if (!isfinite(speed))
-      continue;
-    range[0] = fmin(range[0], speed);
-    range[1] = fmax(range[1], speed);
-  }
-  if (!(range[1] >= range[0])) {
-    range[0] = 0.0;
-    range[1] = 1.0;
-    return false;
-  }
-  /* Speeds that differ by rounding are equal: nothing to tell apart. */
-  if (!(range[1] - range[0] > 1e-6 * range[1])) {
-    range[0] = 0.0;
-    range[1] = range[1] > 0.0 ? range[1] : 1.0;
-  }
-  fg__axis plain = {.style = FG__TICKS_NUMBER, .factor = 1.0};
-  double step = fg__ticks_step(&plain, (range[1] - range[0]) / 6.0);
-  range[0] = floor(range[0] / step * (1.0 + 1e-9)) * step;
-  range[1] = ceil(range[1] / step * (1.0 - 1e-9)) * step;
-  return true;
-}
-
 static void describe_axes(fg__page_plan *plan, const fg_field_arrays *field)
 {
   double low[2], high[2];
@@ -97,49 +62,6 @@ static void describe_axes(fg__page_plan *plan, const fg_field_arrays *field)
     fg__axis_of_numbers(&plan->axis[k], low[k], high[k],
                         shared ? larger : high[k] - low[k], field->axis_name[k],
                         field->axis_units[k]);
-}
-
-/* Adds a part of the subtitle after a middle dot. */
-static void add_part(char text[FG__PAGE_TEXT_BYTES], const char *part)
-{
-  char clean[FG__PAGE_TEXT_BYTES];
-  if (!part || !part[0])
-    return;
-  fg__text_clean(clean, sizeof clean, part);
-  size_t used = strlen(text);
-  if (used + strlen(clean) + 5 < FG__PAGE_TEXT_BYTES)
-    snprintf(text + used, FG__PAGE_TEXT_BYTES - used, "%s%s", used ? " \xC2\xB7 " : "",
-             clean);
-}
-
-static void describe_caption(fg__page_plan *plan, const fg_field_arrays *field,
-                             const fg_icons *icons, const fg_picture_options *options)
-{
-  const char *title = options->title;
-  if (title) {
-    fg__text_clean(plan->title, sizeof plan->title, title);
-    return;
-  }
-  char names[FG__PAGE_TEXT_BYTES];
-  snprintf(names, sizeof names, "%.100s, %.100s", field->velocity_name[0],
-           field->velocity_name[1]);
-  bool telling = strcmp(names, "u, v") != 0 &&
-                 strcmp(field->velocity_name[0], field->velocity_name[1]) != 0;
-  fg__text_clean(plan->title, sizeof plan->title, field->title);
-  if (!plan->title[0] && telling)
-    fg__text_clean(plan->title, sizeof plan->title, names);
-  else if (telling)
-    add_part(plan->subtitle, names);
-  add_part(plan->subtitle, field->time);
-  add_part(plan->subtitle, field->level);
-  char words[64];
-  int count = fg_icons_count(icons);
-  snprintf(words, sizeof words, "%d arrow%s", count, count == 1 ? "" : "s");
-  add_part(plan->subtitle, words);
-  if (options->scale_time > 0.0) {
-    snprintf(words, sizeof words, "scale t = %.3g", options->scale_time);
-    add_part(plan->subtitle, words);
-  }
 }
 
 /* Everything that one picture is made from. */
@@ -162,12 +84,15 @@ static fg_status plan_picture(picture *out, fg_context *context,
   plan->height = options->height;
   plan->font_size = options->font_size;
   plan->no_frame = options->no_frame;
-  bool has_speeds = find_speeds(range, icons, options);
+  range[0] = options->speed_min;
+  range[1] = options->speed_max;
+  bool has_speeds = fg__speed_range(range, icons);
   plan->color_key = has_speeds && !out->palette.uniform && !options->no_keys;
   fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0], "mean speed",
                       field->velocity_units);
   describe_axes(plan, field);
-  describe_caption(plan, field, icons, options);
+  fg__caption_write(plan->title, plan->subtitle, field, fg_icons_count(icons),
+                    options->title, options->scale_time);
   fg__typical_icon typical;
   fg_status status = fg__scene_typical_icon(&typical, context, icons);
   if (status)

@@ -7,7 +7,7 @@ small=(--nodes 49 --clusters "16,8" --quiet)
 try run synth:vortex3d -o out1 "${small[@]}" --threads 1
 expect_code 0
 [ ! -s err ] || fault "$(cat err)"
-[ "$(ls -A out1 | tr '\n' ' ')" = "evolution.csv run.json scale-00.geojson scale-00.vti scale-00.vtp scale-01.geojson scale-01.vti scale-01.vtp " ] ||
+[ "$(ls -A out1 | tr '\n' ' ')" = "evolution.csv run.json scale-00.geojson scale-00.glb scale-00.vti scale-00.vtp scale-01.geojson scale-01.glb scale-01.vti scale-01.vtp " ] ||
   fault "$(ls -A out1)"
 done_with "a run in 3D leaves its scales"
 
@@ -24,7 +24,7 @@ expect_json $report '(.mesh.spacing | length) == 3 and .mesh.domain_measure > 0.
 expect_json $report '(.field.size | length) == 3 and (.field.bounds | length) == 6 and (.field.velocity | length) == 3'
 expect_json $report '[.scales[].wanted[]] == [16, 8] and ([.scales[] | .clusters <= .wanted[-1]] | all)'
 expect_json $report '[.scales[].vti] == ["scale-00.vti", "scale-01.vti"]'
-expect_json $report '[.scales[].vtp] == ["scale-00.vtp", "scale-01.vtp"] and ([.scales[] | has("svg")] | any | not)'
+expect_json $report '[.scales[] | .vtp, .glb] == ["scale-00.vtp", "scale-00.glb", "scale-01.vtp", "scale-01.glb"] and ([.scales[] | has("svg")] | any | not)'
 expect_json $report '[.scales[] | .icons + .dropped == .clusters and .icons > .clusters / 2] | all'
 expect_json $report '.mass_drift >= 0 and .mass_drift < 1e-7 and .energy_monotone == true'
 done_with "run.json: the mesh in 3D, the files of its scales"

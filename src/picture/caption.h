@@ -1,0 +1,18 @@
+/* What a picture says of itself: its caption, and the ends of its colour key. */
+#ifndef FG__CAPTION_H
+#define FG__CAPTION_H
+
+#include "flowgrain/flowgrain.h"
+
+/* Sets the ends of the colour key to the icons' speeds, rounded out to ticks, unless
+ * range already says some, ascending. False: no icon has a speed. */
+bool fg__speed_range(double range[2], const fg_icons *icons);
+
+/* The caption: `wanted` as the title when that is not NULL, else what the field says of
+ * itself. scale_time: 0, not told. */
+enum { FG__CAPTION_BYTES = 320 };
+void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_BYTES],
+                       const fg_field_arrays *field, int arrows, const char *wanted,
+                       double scale_time);
+
+#endif
