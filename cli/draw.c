@@ -82,6 +82,17 @@ static int read_field(fg_field **out, fg_context *context, const cli_settings *s
   return code;
 }
 
+static fg_status write_solid(fg_context *context, const char *path,
+                             const cli_settings *settings, const cli_report *report,
+                             int index, const fg_field *field, const fg_icons *icons)
+{
+  fg_solid_options options = settings_solid(settings, 0);
+  options.speed_min = report->speeds[0];
+  options.speed_max = report->speeds[1];
+  options.scale_time = report_scale_time(report, index);
+  return fg_solid_write(context, path, field, icons, &options);
+}
+
 static int write_picture(fg_context *context, const cli_settings *settings,
                          const cli_report *report, int index, const fg_field *field,
                          const fg_icons *icons)
@@ -94,7 +105,10 @@ static int write_picture(fg_context *context, const cli_settings *settings,
   if (!partial)
     return EXIT_FAILED;
   int code = EXIT_DONE;
-  fg_status status = fg_picture_write(context, partial, field, NULL, icons, &options);
+  fg_status status =
+      report->dimension == 3
+          ? write_solid(context, partial, settings, report, index, field, icons)
+          : fg_picture_write(context, partial, field, NULL, icons, &options);
   if (status)
     code = complain_of(context, status, settings->output);
   else if (rename(partial, settings->output) != 0)
@@ -116,13 +130,6 @@ int command_draw(const cli_settings *settings)
     code = report_read(&report, settings->operand);
   if (code)
     goto cleanup;
-  if (report.dimension == 3) {
-    complain("%s: is a run in 3D, and this version draws no picture of it; its "
-             "scale-NN.vtp hold the icons",
-             settings->operand);
-    code = EXIT_FAILED;
-    goto cleanup;
-  }
   int index = choose_scale(settings, &report);
   if (index < 0 || fg_context_create(&context)) {
     code = EXIT_FAILED;

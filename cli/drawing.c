@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "options.h"
 #include "progress.h"
@@ -42,13 +43,13 @@ void speed_range(const fg_icons *icons, double range[2])
 static char *scale_path(const cli_drawing *drawing, int index, const char *end)
 {
   char name[32];
-  snprintf(name, sizeof name, "scale-%02d.%s", index, end);
+  snprintf(name, sizeof name, "scale-%02d%.15s", index, end);
   return output_path(drawing->output, name);
 }
 
 static fg_status write_icons(cli_drawing *drawing, int index, const fg_icons *icons)
 {
-  char *path = scale_path(drawing, index, "geojson");
+  char *path = scale_path(drawing, index, ".geojson");
   if (!path)
     return FG_STATUS_MEMORY;
   fg_status status = fg_icons_write(drawing->context, path, icons);
@@ -58,7 +59,7 @@ static fg_status write_icons(cli_drawing *drawing, int index, const fg_icons *ic
 
 static fg_status write_solids(cli_drawing *drawing, int index, const fg_icons *icons)
 {
-  static const char *const ends[] = {"vtp", "glb"};
+  static const char *const ends[] = {".vtp", ".glb"};
   fg_solid_options options = {.palette = drawing->settings->palette,
                               .speed_min = drawing->speeds[0],
                               .speed_max = drawing->speeds[1]};
@@ -67,7 +68,33 @@ static fg_status write_solids(cli_drawing *drawing, int index, const fg_icons *i
     char *path = scale_path(drawing, index, ends[k]);
     if (!path)
       return FG_STATUS_MEMORY;
-    status = fg_solid_write(drawing->context, path, icons, &options);
+    status = fg_solid_write(drawing->context, path, NULL, icons, &options);
+    free(path);
+  }
+  return status;
+}
+
+/* A picture for each view and format. */
+static fg_status write_renderings(cli_drawing *drawing, int index, double time,
+                                  const fg_icons *icons)
+{
+  const cli_settings *settings = drawing->settings;
+  char ends[SCALE_FILES][SCALE_END_BYTES];
+  int files = scale_file_ends(ends, settings, drawing->field);
+  fg_status status = FG_STATUS_OK;
+  for (int n = 1; n < files && !status; ++n) {
+    int view = solid_view_of(ends[n]);
+    if (view < 0)
+      continue;
+    fg_solid_options options = settings_solid(settings, view);
+    options.speed_min = drawing->speeds[0];
+    options.speed_max = drawing->speeds[1];
+    options.scale_time = time;
+    options.threads = settings->threads;
+    char *path = scale_path(drawing, index, ends[n]);
+    if (!path)
+      return FG_STATUS_MEMORY;
+    status = fg_solid_write(drawing->context, path, drawing->field, icons, &options);
     free(path);
   }
   return status;
@@ -75,7 +102,7 @@ static fg_status write_solids(cli_drawing *drawing, int index, const fg_icons *i
 
 static fg_status write_density(cli_drawing *drawing, int index, const fg_density *density)
 {
-  char *path = scale_path(drawing, index, "vti");
+  char *path = scale_path(drawing, index, ".vti");
   if (!path)
     return FG_STATUS_MEMORY;
   fg_status status = fg_density_write(drawing->context, path, density);
@@ -86,7 +113,7 @@ static fg_status write_density(cli_drawing *drawing, int index, const fg_density
 static fg_status write_pictures(cli_drawing *drawing, int index,
                                 const scale_moment *moment, const fg_icons *icons)
 {
-  static const char *const ends[FORMAT_KINDS] = {"svg", "png", "pdf"};
+  static const char *const ends[FORMAT_KINDS] = {".svg", ".png", ".pdf"};
   fg_picture_options options = settings_picture(drawing->settings);
   options.speed_min = drawing->speeds[0];
   options.speed_max = drawing->speeds[1];
@@ -127,8 +154,11 @@ static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *momen
   drawing->icon_seconds += between - start;
   if (!status && index == 0)
     speed_range(icons, drawing->speeds);
-  if (!status && scales_are_solid(drawing->field))
+  bool solid = scales_are_solid(drawing->field);
+  if (!status && solid)
     status = write_solids(drawing, index, icons);
+  if (!status && solid)
+    status = write_renderings(drawing, index, moment->time, icons);
   else if (!status)
     status = write_pictures(drawing, index, moment, icons);
   drawing->picture_seconds += clock_seconds() - between;
@@ -285,6 +315,15 @@ bool scales_have_density(const cli_settings *settings, const fg_field *field)
   return settings->save_field || scales_are_solid(field);
 }
 
+/* Files of views are called scale-NN.png, scale-NN-2.png, ... */
+int solid_view_of(const char *end)
+{
+  if (strcmp(end, ".vtp") == 0 || strcmp(end, ".glb") == 0 || strcmp(end, ".vti") == 0 ||
+      strcmp(end, ".geojson") == 0)
+    return -1;
+  return end[0] == '-' ? atoi(end + 1) - 1 : 0;
+}
+
 static int add_end(char ends[SCALE_FILES][SCALE_END_BYTES], int count, const char *end)
 {
   snprintf(ends[count], SCALE_END_BYTES, ".%s", end);
@@ -295,11 +334,16 @@ int scale_file_ends(char ends[SCALE_FILES][SCALE_END_BYTES], const cli_settings 
                     const fg_field *field)
 {
   int count = add_end(ends, 0, "geojson");
-  unsigned formats = settings->formats ? settings->formats : FORMAT_SVG | FORMAT_PNG;
   bool solid = scales_are_solid(field);
-  for (int kind = 0; kind < FORMAT_KINDS && !solid; ++kind)
-    if (formats & (1U << kind))
+  unsigned formats = settings->formats ? settings->formats
+                     : solid           ? FORMAT_PNG
+                                       : FORMAT_SVG | FORMAT_PNG;
+  for (int kind = 0; kind < FORMAT_KINDS && (!solid || fg_solid_can_draw()); ++kind)
+    if (formats & (1U << kind)) {
       count = add_end(ends, count, format_words[kind]);
+      for (int view = 1; view < settings->view_count && solid; ++view)
+        snprintf(ends[count++], SCALE_END_BYTES, "-%d.%s", view + 1, format_words[kind]);
+    }
   if (solid) {
     count = add_end(ends, count, "vtp");
     count = add_end(ends, count, "glb");
@@ -316,7 +360,7 @@ bool drawing_saves_field(const cli_drawing *drawing)
 
 char *drawing_density_path(const cli_drawing *drawing)
 {
-  return scale_path(drawing, drawing->added, "vti");
+  return scale_path(drawing, drawing->added, ".vti");
 }
 
 int drawing_count(const cli_drawing *drawing)

@@ -26,8 +26,11 @@ int scale_of(const char *name)
                                      ".vti",     ".vtp", ".glb"};
   if (strncmp(name, "scale-", 6) != 0 || digits(name + 6) != 2)
     return -1;
+  const char *end = name + 8;
+  if (end[0] == '-' && digits(end + 1) > 0) /* a further view */
+    end += 1 + digits(end + 1);
   for (size_t k = 0; k < sizeof ends / sizeof ends[0]; ++k)
-    if (strcmp(name + 8, ends[k]) == 0)
+    if (strcmp(end, ends[k]) == 0)
       return atoi(name + 6);
   return -1;
 }

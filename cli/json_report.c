@@ -128,7 +128,11 @@ static void add_files(cJSON *scale, const run_facts *facts, int index)
   int files = scale_file_ends(ends, facts->settings, facts->field);
   for (int n = 0; n < files; ++n) {
     snprintf(name, sizeof name, "scale-%02d%.15s", index, ends[n]);
-    cJSON_AddStringToObject(scale, strrchr(ends[n], '.') + 1, name);
+    /* further views are called after their place: "png-2" */
+    char key[SCALE_END_BYTES];
+    const char *dot = strrchr(ends[n], '.');
+    snprintf(key, sizeof key, "%s%.*s", dot + 1, (int)(dot - ends[n]), ends[n]);
+    cJSON_AddStringToObject(scale, key, name);
   }
 }
 

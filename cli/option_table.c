@@ -30,9 +30,9 @@ const cli_command command_table[] = {
      "picture. DIR also gets run.json, which says all that was done, and evolution.csv, "
      "with a row for every time step. INPUT is a NetCDF file, a VTK image or rectilinear "
      "grid (.vti, .vtr, .vtk), or synth:NAME for an analytic field (see flowgrain synth "
-     "--help). In 3D a scale is the icons as GeoJSON and as VTK polydata (.vtp), with "
-     "the "
-     "density u and its clusters (.vti).",
+     "--help). In 3D a scale is the icons as GeoJSON, VTK polydata (.vtp) "
+     "and glTF (.glb), a rendered picture for each --view, and the density u and its "
+     "clusters (.vti).",
      true, command_run},
     {COMMAND_DRAW, "draw", "DIR", "DIR -o PICTURE [options]",
      "draw one scale of a finished run again, in another style",
@@ -211,10 +211,14 @@ const option_entry option_table[] = {
      "where the field is now, if it is no longer where run.json says"},
 
     {"formats", 0, "LIST", DRAWN, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
-     "picture formats, of svg, png and pdf [svg,png]"},
+     "picture formats, of svg, png and pdf [svg,png; in 3D png]"},
     /* 14400 points are the largest page that PDF readers promise to show. */
     {"width", 0, "POINTS", PICTURES, OPTION_NUMBER, AT(width), 36, 14400, false, false,
      NULL, "width of the picture in points of 1/72 inch [480]"},
+    {"view", 0, "AZ,EL", COMMAND_RUN | COMMAND_DRAW, OPTION_VIEW, 0, 0, 0, false, false,
+     NULL,
+     "in 3D: where the viewer stands, in degrees counter-clockwise from the front (the "
+     "side of least y) and above the horizon; run takes several, a picture each [30,22]"},
     {"palette", 0, "NAME", PICTURES, OPTION_PALETTE, AT(palette), 0, 0, false, false,
      NULL, "colour map of the speed, or #rrggbb for one colour [gale]"},
     {"palette", 0, "NAME", COMMAND_TEXTURE, OPTION_PALETTE, AT(palette), 0, 0, false,

@@ -199,6 +199,30 @@ static bool set_palette(cli_settings *out, const cli_command *command,
   return true;
 }
 
+static bool set_view(cli_settings *out, const cli_command *command,
+                     const option_entry *option, const char *text)
+{
+  int most = command->bit == COMMAND_DRAW ? 1 : MAX_VIEWS;
+  char azimuth[32], elevation[32];
+  double view[2];
+  const char *rest = next_item(azimuth, sizeof azimuth, text);
+  if (rest)
+    rest = next_item(elevation, sizeof elevation, rest);
+  else
+    elevation[0] = '\0';
+  if (rest || !parse_number(&view[0], azimuth) || !parse_number(&view[1], elevation) ||
+      !(fabs(view[0]) <= 360.0) || !(fabs(view[1]) <= 90.0))
+    return wrong(command,
+                 "--%s %s: AZIMUTH,ELEVATION is needed, in degrees, from -360 to 360 and "
+                 "from -90 to 90",
+                 option->name, text);
+  if (out->view_count == most)
+    return wrong(command, "--%s %s: more than %d view%s", option->name, text, most,
+                 most == 1 ? "" : "s");
+  memcpy(out->views[out->view_count++], view, sizeof view);
+  return true;
+}
+
 static bool set_option(cli_settings *out, const cli_command *command,
                        const option_entry *option, const char *text)
 {
@@ -226,6 +250,8 @@ static bool set_option(cli_settings *out, const cli_command *command,
     return set_formats(out, command, option, text);
   case OPTION_PALETTE:
     return set_palette(out, command, option, text);
+  case OPTION_VIEW:
+    return set_view(out, command, option, text);
   case OPTION_HELP:
   case OPTION_VERSION:
     break;
@@ -381,4 +407,23 @@ fg_picture_options settings_picture(const cli_settings *settings)
       .tint = settings->tint,
       .skeletons = settings->skeletons,
   };
+}
+
+fg_solid_options settings_solid(const cli_settings *settings, int view)
+{
+  /* pictures in 3D are 1200 pixels wide where those in 2D are 480 points */
+  int pixels = (int)lround(2.5 * settings->width);
+  fg_solid_options out = {
+      .palette = settings->palette,
+      .width = pixels,
+      .height = pixels,
+      .no_frame = settings->no_frame,
+      .transparent = settings->transparent,
+      .has_view = view < settings->view_count,
+  };
+  if (out.has_view) {
+    out.azimuth = settings->views[view][0];
+    out.elevation = settings->views[view][1];
+  }
+  return out;
 }

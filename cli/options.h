@@ -38,6 +38,7 @@ typedef enum option_kind {
   OPTION_COUNTS,  /* settings.clusters */
   OPTION_FORMATS, /* settings.formats */
   OPTION_PALETTE, /* const char *: a palette's name or #rrggbb */
+  OPTION_VIEW,    /* settings.views, one more */
   OPTION_HELP,
   OPTION_VERSION
 } option_kind;

@@ -9,6 +9,9 @@ enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
 
 enum { MAX_SCALES = 64 };
 
+/* Views of a picture in 3D. */
+enum { MAX_VIEWS = 8 };
+
 /* Picture formats, as bits of settings.formats. */
 enum { FORMAT_SVG = 1, FORMAT_PNG = 2, FORMAT_PDF = 4, FORMAT_KINDS = 3 };
 
@@ -35,10 +38,12 @@ typedef struct cli_settings {
   int extent;        /* fg_icon_extent */
   double checkpoint; /* seconds between checkpoints; 0: after every step */
 
-  unsigned formats; /* 0: the default, SVG and PNG */
+  unsigned formats; /* 0: the default, SVG and PNG, in 3D PNG */
   double width;
   const char *palette;
   bool tint, skeletons, no_frame, transparent;
+  double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
+  int view_count;             /* 0: one, the usual */
 
   int method;  /* rival: fg_rival_method */
   int lengths; /* rival: 1 with the speed */
@@ -94,6 +99,9 @@ int program_perform(int argc, char **argv);
 fg_read_options settings_reading(const cli_settings *settings);
 fg_evolution_options settings_evolution(const cli_settings *settings);
 fg_picture_options settings_picture(const cli_settings *settings);
+
+/* The options of one of the views in 3D, from 0. */
+fg_solid_options settings_solid(const cli_settings *settings, int view);
 fg_texture_options settings_texture(const cli_settings *settings);
 
 #endif

@@ -42,6 +42,14 @@ static void print_counts(char *text, const cli_settings *settings)
                              settings->clusters[k]);
 }
 
+static void print_views(char *text, const cli_settings *settings)
+{
+  size_t used = 0;
+  for (int k = 0; k < settings->view_count && used < VALUE_BYTES; ++k)
+    used += (size_t)snprintf(text + used, VALUE_BYTES - used, "%s%.15g,%.15g",
+                             k ? " " : "", settings->views[k][0], settings->views[k][1]);
+}
+
 static void print_formats(char *text, unsigned formats)
 {
   size_t used = 0;
@@ -97,6 +105,9 @@ static void print_value(char text[VALUE_BYTES], const cli_settings *settings,
     break;
   case OPTION_FORMATS:
     print_formats(text, settings->formats);
+    break;
+  case OPTION_VIEW:
+    print_views(text, settings);
     break;
   case OPTION_HELP:
   case OPTION_VERSION:

@@ -29,6 +29,17 @@ FG_API void fg_surface_destroy(fg_surface *surface);
 typedef struct fg_solid_options {
   const char *palette; /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
   double speed_min, speed_max; /* ends of the colours; equal: from the icons */
+  /* Of pictures: */
+  int width, height;         /* pixels [1200] */
+  bool has_view;             /* the next two count [30, 22] */
+  double azimuth, elevation; /* degrees: where the viewer stands, counter-clockwise from
+                                the front (the side of least y), and above the horizon,
+                                -90 to 90 */
+  bool no_frame;             /* only arrows */
+  bool transparent;          /* no background */
+  const char *title;         /* caption; NULL: from the field; "" none */
+  double scale_time;         /* t of the scale, for the caption [none] */
+  int threads;               /* [all cores] */
 } fg_solid_options;
 
 /* Writes icons in 3D; the format follows the name's end.
@@ -36,9 +47,17 @@ typedef struct fg_solid_options {
  * spine, 2 a streamline, 3 an arrow) and those of their cluster.
  * .glb: glTF 2.0 in one file: a node with a mesh for each arrow, coloured by its speed,
  * and for all spines, streamlines and centres; z is turned upwards as glTF has y.
- * options may be NULL. FILE_ACCESS, UNSUPPORTED (another end), ARGUMENT, MEMORY. */
+ * .png, .svg, .pdf: a rendered picture, the same to the bit on any number of threads; 2.5
+ * pixels a point.
+ * The field is needed for pictures only, else NULL. options may be NULL. FILE_ACCESS,
+ * UNSUPPORTED (another end; a picture where flowgrain was built without Embree),
+ * ARGUMENT, MEMORY, STOPPED. */
 FG_API fg_status fg_solid_write(fg_context *context, const char *path,
-                                const fg_icons *icons, const fg_solid_options *options);
+                                const fg_field *field, const fg_icons *icons,
+                                const fg_solid_options *options);
+
+/* Whether pictures in 3D can be drawn: flowgrain was built with Embree. */
+FG_API bool fg_solid_can_draw(void);
 
 #ifdef __cplusplus
 }

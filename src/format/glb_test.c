@@ -162,7 +162,8 @@ static void a_file_holds_what_was_written(void **state)
   folder *f = *state;
   fg_icons *icons = make_icons(f->context);
   fg_solid_options options = {.palette = "#ff0000", .speed_min = 1, .speed_max = 3};
-  assert_int_equal(fg_solid_write(f->context, f->path, icons, &options), FG_STATUS_OK);
+  assert_int_equal(fg_solid_write(f->context, f->path, NULL, icons, &options),
+                   FG_STATUS_OK);
   glb g = read_glb(f->path);
   const cJSON *root = entry(&g, "nodes", 0);
   const cJSON *moved = cJSON_GetObjectItemCaseSensitive(root, "translation");
@@ -206,16 +207,16 @@ static void no_icons_make_an_empty_scene(void **state)
   folder *f = *state;
   fg_icons *icons = NULL;
   assert_int_equal(fg__icons_create_empty(&icons, f->context), FG_STATUS_OK);
-  assert_int_equal(fg_solid_write(f->context, f->path, icons, NULL), FG_STATUS_OK);
+  assert_int_equal(fg_solid_write(f->context, f->path, NULL, icons, NULL), FG_STATUS_OK);
   glb g = read_glb(f->path);
   assert_null(g.numbers);
   assert_null(cJSON_GetObjectItemCaseSensitive(g.json, "meshes"));
   clear_glb(&g);
-  assert_int_equal(fg_solid_write(f->context, "icons.stl", icons, NULL),
-                   FG_STATUS_UNSUPPORTED);
+  assert_int_equal(fg_solid_write(f->context, "icons.stl", NULL, icons, NULL),
+                   FG_STATUS_ARGUMENT);
   fg_context_clear(f->context);
   fg_solid_options options = {.palette = "no such"};
-  assert_int_equal(fg_solid_write(f->context, f->path, icons, &options),
+  assert_int_equal(fg_solid_write(f->context, f->path, NULL, icons, &options),
                    FG_STATUS_ARGUMENT);
   fg_context_clear(f->context);
   fg_icons_destroy(icons);

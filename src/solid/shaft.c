@@ -14,7 +14,7 @@ enum { MOST_STATIONS = 400 };
 static const double MARGIN = 0.15;
 
 /* Of the length: thicker looks like a drop, thinner like a thread. */
-static const double WIDEST = 0.13, SLIMMEST = 0.028;
+static const double WIDEST = 0.09, SLIMMEST = 0.028;
 
 /* Widths are tried from the widest down in such steps. */
 static const double NARROWER = 0.88;

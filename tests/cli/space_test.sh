@@ -2,12 +2,23 @@
 # What a run of a field in 3D leaves: icons as solids, the density and its clusters.
 source "$(dirname "$0")/harness.sh"
 
-small=(--nodes 49 --clusters "16,8" --quiet)
+small=(--nodes 49 --clusters "16,8" --quiet --width 96)
+files="evolution.csv run.json"
+pictures=
+# a program without Embree draws no pictures in 3D
+if ldd "$(dirname "$program")/libflowgrain.so" 2>/dev/null | grep -q embree; then
+  pictures=yes
+fi
+for scale in 00 01; do
+  files="$files scale-$scale.geojson scale-$scale.glb"
+  [ -z "$pictures" ] || files="$files scale-$scale.png"
+  files="$files scale-$scale.vti scale-$scale.vtp"
+done
 
 try run synth:vortex3d -o out1 "${small[@]}" --threads 1
 expect_code 0
 [ ! -s err ] || fault "$(cat err)"
-[ "$(ls -A out1 | tr '\n' ' ')" = "evolution.csv run.json scale-00.geojson scale-00.glb scale-00.vti scale-00.vtp scale-01.geojson scale-01.glb scale-01.vti scale-01.vtp " ] ||
+[ "$(ls -A out1 | tr '\n' ' ')" = "$files " ] ||
   fault "$(ls -A out1)"
 done_with "a run in 3D leaves its scales"
 
@@ -92,7 +103,9 @@ fi
 try run synth:vortex3d -o out2 "${small[@]}" --threads 2
 expect_code 0
 for scale in 0 1; do
-  cmp -s "out1/scale-0$scale.vti" "out2/scale-0$scale.vti" || fault "scale $scale differs"
+  for end in geojson glb vti vtp ${pictures:+png}; do
+    cmp -s "out1/scale-0$scale.$end" "out2/scale-0$scale.$end" || fault "scale-0$scale.$end differs"
+  done
 done
 done_with "one and two threads give identical scales"
 
@@ -107,12 +120,38 @@ expect_one_complaint
 expect_nothing_at out4
 done_with "territories are refused in 3D"
 
-try draw out1 -o x.svg
-expect_code 1
-expect_one_complaint
-expect_error '^flowgrain: out1: .*3D'
-expect_nothing_at x.svg
-done_with "draw refuses a run in 3D"
+if [ -n "$pictures" ]; then
+  try draw out1 -o again.png --scale-index 0 --width 96
+  expect_code 0
+  cmp -s out1/scale-00.png again.png || fault "drawn again, scale 0 differs"
+  try draw out1 -o side.pdf --view 120,5 --width 96
+  expect_code 0
+  [ "$(head -c 5 side.pdf)" = "%PDF-" ] || fault "no PDF"
+  done_with "draw draws a run in 3D again"
+
+  try run synth:vortex3d -o views --nodes 33 --clusters 6 --quiet --width 40 --view 30,22 --view -75,60 --no-frame
+  expect_code 0
+  expect_json views/run.json '.scales[0] | .png == "scale-00.png" and .["png-2"] == "scale-00-2.png"'
+  expect_file views/scale-00.png
+  expect_file views/scale-00-2.png
+  cmp -s views/scale-00.png views/scale-00-2.png && fault "two views are one"
+  expect_only_results views
+  done_with "each view has a picture"
+else
+  try draw out1 -o again.png
+  expect_code 1
+  expect_one_complaint
+  expect_error 'built without Embree'
+  done_with "without Embree draw refuses a run in 3D"
+fi
+
+for view in 5 5,6,7 x,3 30,91 400,0; do
+  try run synth:vortex3d -o out4 --view $view
+  expect_code 2
+  expect_one_complaint
+done
+expect_nothing_at out4
+done_with "views are azimuth and elevation"
 
 try run synth:vortex3d -o out4 --max-steps 1 --nodes 17 --quiet
 expect_code 1

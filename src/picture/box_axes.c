@@ -1,0 +1,207 @@
+#include "picture/box_axes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "picture/text.h"
+
+/* In font sizes. */
+static const double tick_length = 0.35, number_gap = 0.3, label_gap = 0.55;
+static const double least_step = 4.5; /* from one number to the next */
+static const double shortest_axis = 3.0;
+static const double bar_width = 0.9;
+
+static const double ink = 0.22;
+
+/* An end of the edge with an axis' numbers, on the stage. */
+static void edge_end(const fg__stage *stage, const int edge[3], int axis, double along,
+                     double out[3])
+{
+  for (int k = 0; k < 3; ++k)
+    out[k] = k == axis ? along : edge[k] * stage->half[k];
+}
+
+static void pixel_at(const fg__stage *stage, const fg__camera *camera, const int edge[3],
+                     int axis, double along, double out[2])
+{
+  double point[3];
+  edge_end(stage, edge, axis, along, point);
+  fg__camera_project(camera, point, out);
+}
+
+/* The lowest edge of the outline, or the leftmost for z. */
+static void choose_edge(int out[3], const fg__stage *stage, const fg__camera *camera,
+                        int axis)
+{
+  int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  double best = -HUGE_VAL;
+  for (int n = 0; n < 4; ++n) {
+    int edge[3] = {0, 0, 0};
+    double middle[2];
+    edge[a] = n & 1 ? 1 : -1;
+    edge[b] = n & 2 ? 1 : -1;
+    if (fg__camera_sees_inside(camera, stage, a, edge[a]) ==
+        fg__camera_sees_inside(camera, stage, b, edge[b]))
+      continue;
+    pixel_at(stage, camera, edge, axis, 0.0, middle);
+    double merit = axis == 2 ? -middle[0] : middle[1] - 1e-3 * middle[0];
+    if (merit > best) {
+      best = merit;
+      memcpy(out, edge, sizeof edge);
+    }
+  }
+}
+
+/* Numbers along x need their width, those along z their height. */
+static void choose_ticks(fg__box_axes *out, int axis, double pixels, cairo_t *ruler)
+{
+  fg__ticks *ticks = &out->ticks[axis];
+  const fg__axis *of = &out->axis[axis];
+  double range = of->high - of->low;
+  double step = fg__ticks_step(of, range * fmin(least_step * out->em / pixels, 1.0));
+  for (int turn = 0; turn < 6; ++turn) {
+    fg__ticks_fill(ticks, of, step);
+    double widest = 0.0;
+    for (int n = 0; n < ticks->count; ++n)
+      widest = fmax(widest, fg__text_width(ruler, ticks->text[n], out->em, false));
+    if (ticks->count > 0 && (widest + out->em) < pixels * step / range)
+      return;
+    step = fg__ticks_step(of, 1.2 * step);
+  }
+}
+
+void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
+                     const fg__stage *stage, const fg__camera *camera, double em,
+                     cairo_t *ruler)
+{
+  memset(out, 0, sizeof *out);
+  out->em = em;
+  for (int k = 0; k < 3; ++k) {
+    double extent = stage->high[k] - stage->low[k];
+    for (int m = 0; m < 3; ++m)
+      if (strcmp(field->axis_units[k], field->axis_units[m]) == 0)
+        extent = fmax(extent, stage->high[m] - stage->low[m]);
+    fg__axis_of_numbers(&out->axis[k], stage->low[k], stage->high[k], extent,
+                        field->axis_name[k], field->axis_units[k]);
+    double from[2], to[2];
+    choose_edge(out->edge[k], stage, camera, k);
+    pixel_at(stage, camera, out->edge[k], k, -stage->half[k], from);
+    pixel_at(stage, camera, out->edge[k], k, stage->half[k], to);
+    double pixels = hypot(to[0] - from[0], to[1] - from[1]);
+    out->edge[k][k] = pixels > shortest_axis * em;
+    choose_ticks(out, k, fmax(pixels, 1.0), ruler);
+  }
+}
+
+/* Boxes of the texts that are there. */
+typedef struct taken {
+  fg__pane box[3 * (FG__TICK_LIMIT + 1)];
+  int count;
+} taken;
+
+static bool is_free(const taken *t, const fg__pane *box, double gap)
+{
+  for (int n = 0; n < t->count; ++n)
+    if (box->x0 < t->box[n].x1 + gap && t->box[n].x0 < box->x1 + gap &&
+        box->y0 < t->box[n].y1 + gap && t->box[n].y0 < box->y1 + gap)
+      return false;
+  return true;
+}
+
+/* A text whose box lies beyond a point: it touches it at the side it comes from. Where
+ * another text is, it is left out. */
+static void draw_text_beyond(cairo_t *cairo, taken *t, const char *text,
+                             const double at[2], const double away[2], double em)
+{
+  double width = fg__text_width(cairo, text, em, false);
+  double height = 0.72 * em; /* of digits */
+  double x = at[0] + away[0] * width / 2.0 - width / 2.0;
+  double y = at[1] + away[1] * height / 2.0 + height / 2.0;
+  const fg__pane box = {x, y - height, x + width, y};
+  if (!is_free(t, &box, 0.25 * em))
+    return;
+  t->box[t->count++] = box;
+  cairo_move_to(cairo, x, y);
+  fg__text_draw(cairo, text, em, false);
+}
+
+static void draw_axis(cairo_t *cairo, taken *t, const fg__box_axes *axes,
+                      const fg__stage *stage, const fg__camera *camera, int axis)
+{
+  const int *edge = axes->edge[axis];
+  const fg__ticks *ticks = &axes->ticks[axis];
+  const double origin[3] = {0.0, 0.0, 0.0};
+  double from[2], to[2], middle[2], away[2], em = axes->em, widest = 0.0;
+  pixel_at(stage, camera, edge, axis, -stage->half[axis], from);
+  pixel_at(stage, camera, edge, axis, stage->half[axis], to);
+  fg__camera_project(camera, origin, middle);
+  double length = hypot(to[0] - from[0], to[1] - from[1]);
+  away[0] = (to[1] - from[1]) / length;
+  away[1] = -(to[0] - from[0]) / length;
+  double side = (from[0] - middle[0]) * away[0] + (from[1] - middle[1]) * away[1];
+  for (int k = 0; k < 2; ++k)
+    away[k] = side < 0.0 ? -away[k] : away[k];
+  for (int n = 0; n < ticks->count; ++n) {
+    double at[2];
+    pixel_at(stage, camera, edge, axis, fg__stage_place(stage, axis, ticks->position[n]),
+             at);
+    cairo_move_to(cairo, at[0], at[1]);
+    cairo_line_to(cairo, at[0] + tick_length * em * away[0],
+                  at[1] + tick_length * em * away[1]);
+    cairo_stroke(cairo);
+    for (int k = 0; k < 2; ++k)
+      at[k] += (tick_length + number_gap) * em * away[k];
+    draw_text_beyond(cairo, t, ticks->text[n], at, away, em);
+    widest = fmax(widest, fg__text_width(cairo, ticks->text[n], em, false));
+  }
+  double beyond = (tick_length + number_gap + label_gap) * em + fabs(away[0]) * widest +
+                  fabs(away[1]) * 0.72 * em;
+  const double at[2] = {(from[0] + to[0]) / 2.0 + beyond * away[0],
+                        (from[1] + to[1]) / 2.0 + beyond * away[1]};
+  draw_text_beyond(cairo, t, axes->axis[axis].label, at, away, em);
+}
+
+void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
+                       const fg__camera *camera)
+{
+  cairo_set_source_rgb(cairo, ink, ink, ink);
+  cairo_set_line_width(cairo, fmax(axes->em / 16.0, 1.0));
+  taken t = {.count = 0};
+  for (int k = 0; k < 3; ++k)
+    if (axes->edge[k][k])
+      draw_axis(cairo, &t, axes, stage, camera, k);
+}
+
+void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
+                        const fg__palette *palette, const fg__axis *speed)
+{
+  double height = pane->y1 - pane->y0, width = bar_width * em;
+  cairo_pattern_t *ramp = cairo_pattern_create_linear(0.0, pane->y1, 0.0, pane->y0);
+  for (int k = 0; k < FG__PALETTE_SAMPLES; ++k) {
+    fg__color color = palette->sample[k];
+    cairo_pattern_add_color_stop_rgb(ramp, (double)k / (FG__PALETTE_SAMPLES - 1),
+                                     color.red, color.green, color.blue);
+  }
+  cairo_rectangle(cairo, pane->x0, pane->y0, width, height);
+  cairo_set_source(cairo, ramp);
+  cairo_fill_preserve(cairo);
+  cairo_pattern_destroy(ramp);
+  cairo_set_source_rgb(cairo, ink, ink, ink);
+  cairo_set_line_width(cairo, fmax(em / 16.0, 1.0));
+  cairo_stroke(cairo);
+  fg__ticks ticks;
+  double range = speed->high - speed->low;
+  fg__ticks_fill(&ticks, speed, fg__ticks_step(speed, range * 2.4 * em / height));
+  for (int n = 0; n < ticks.count; ++n) {
+    double y = pane->y1 - height * (ticks.position[n] - speed->low) / range;
+    cairo_move_to(cairo, pane->x0 + width, y);
+    cairo_line_to(cairo, pane->x0 + width + tick_length * em, y);
+    cairo_stroke(cairo);
+    cairo_move_to(cairo, pane->x0 + width + (tick_length + number_gap) * em,
+                  y + 0.36 * em);
+    fg__text_draw(cairo, ticks.text[n], em, false);
+  }
+  double label = fg__text_width(cairo, speed->label, em, false);
+  cairo_move_to(cairo, fmin(pane->x0, pane->x1 - label), pane->y0 - 0.8 * em);
+  fg__text_draw(cairo, speed->label, em, false);
+}

@@ -1,0 +1,45 @@
+/* How light falls on what a ray has met: plain arithmetic, without a ray tracer. */
+#ifndef FG__LIGHT_H
+#define FG__LIGHT_H
+
+#include <stdint.h>
+
+#include "picture/palette.h"
+#include "picture/render.h"
+
+/* Light, 0 to 1 a component, linear. */
+typedef struct fg__light {
+  double red, green, blue, alpha;
+} fg__light;
+
+/* Two numbers in [0, 1) for sample `index` of a pixel: evenly spread over the samples
+ * (the additive recurrence of the plastic number, Roberts 2018), shifted from pixel to
+ * pixel. `kind` parts uses of one sample. */
+void fg__light_numbers(int x, int y, int index, int kind, double out[2]);
+
+/* Unit vector towards the lamp: from behind the viewer's left shoulder and above. */
+void fg__lamp_direction(const fg__camera *camera, double out[3]);
+
+/* A direction near the lamp's, as if it were a disc: soft shadows. */
+void fg__lamp_sample(const double lamp[3], const double number[2], double out[3]);
+
+/* A direction round a normal, more often near it (by the cosine). */
+void fg__sky_sample(const double normal[3], const double number[2], double out[3]);
+
+/* What is known of a point. */
+typedef struct fg__lit {
+  double normal[3], to_viewer[3], lamp[3]; /* unit */
+  double lamp_seen;                        /* share of the lamp that is not hidden */
+  double sky_seen;                         /* likewise of the sky */
+  double depth; /* 0 at the nearest corner of the box, 1 at the farthest */
+} fg__lit;
+
+fg__light fg__light_arrow(fg__color color, const fg__lit *lit);
+
+/* `line`: how much of a line of the grid covers the point, 0 to 1. */
+fg__light fg__light_wall(int axis, double line, const fg__lit *lit);
+
+/* To premultiplied bytes, over white unless `transparent`. */
+uint32_t fg__light_pixel(fg__light light, bool transparent);
+
+#endif

@@ -1,0 +1,32 @@
+/* Arrows in a box, rendered: rays are traced by Embree. */
+#ifndef FG__RENDER_H
+#define FG__RENDER_H
+
+#include <stdint.h>
+
+#include "picture/palette.h"
+#include "picture/stage.h"
+
+enum { FG__GRID_LINES = 24 };
+
+typedef struct fg__rendering {
+  int width, height; /* pixels */
+  fg__stage stage;
+  fg__camera camera;
+  const fg_icons *icons;
+  const fg__palette *palette;
+  double range[2];                /* speeds at the ends of the palette */
+  bool walls;                     /* the sides of the box behind the arrows, with lines */
+  double line[3][FG__GRID_LINES]; /* stage coordinates of the lines across an axis */
+  int lines[3];
+  bool transparent; /* nothing behind arrows and walls; else white */
+  int threads;      /* at least 1 */
+} fg__rendering;
+
+/* Fills an image of rows of `stride` pixels, premultiplied ARGB as Cairo has it. A pixel
+ * depends on nothing but its place: any number of threads gives the same. UNSUPPORTED
+ * (built without Embree), MEMORY, STOPPED. */
+fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32_t *image,
+                     int stride);
+
+#endif

@@ -1,0 +1,214 @@
+#include "picture/solid_picture.h"
+
+#include <cairo.h>
+#include <math.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "picture/box_axes.h"
+#include "picture/caption.h"
+#include "picture/render.h"
+#include "picture/sheet.h"
+#include "picture/text.h"
+
+enum { USUAL_SIZE = 1200, LEAST_SIZE = 64, LARGEST_SIZE = 8192 };
+static const double usual_azimuth = 30.0, usual_elevation = 22.0;
+
+/* As pictures in 2D have it: 1200 pixels are 480 points. */
+static const double pixels_per_point = 2.5;
+
+/* The font size in sides of the picture, and the least, pixels. */
+static const double font_share = 1.0 / 58.0, least_font = 9.0;
+
+/* Room round the box for what is written, in font sizes. */
+static const double left_room = 4.2, right_room = 2.6, key_room = 6.0, bottom_room = 4.2,
+                    top_room = 1.5, line_height = 1.3, edge = 1.2;
+
+/* The colour bar is this much of the picture high. */
+static const double bar_share = 0.34;
+
+typedef struct solid_picture {
+  fg__rendering rendering;
+  fg__palette palette;
+  fg__axis speed;
+  fg__box_axes axes;
+  double em;
+  bool framed, has_key;
+  char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
+} solid_picture;
+
+static fg_status check_options(fg_context *context, const fg_solid_options *options)
+{
+  int wide = options->width ? options->width : USUAL_SIZE;
+  int high = options->height ? options->height : USUAL_SIZE;
+  if (wide < LEAST_SIZE || wide > LARGEST_SIZE || high < LEAST_SIZE ||
+      high > LARGEST_SIZE)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: %d x %d pixels, each must lie between %d and %d", wide,
+                    high, LEAST_SIZE, LARGEST_SIZE);
+  if (!(fabs(options->azimuth) <= 3600.0) || !(fabs(options->elevation) <= 90.0))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: a view from azimuth %g, elevation %g degrees; the second "
+                    "must lie between -90 and 90",
+                    options->azimuth, options->elevation);
+  if (!isfinite(options->speed_min) || !isfinite(options->speed_max) ||
+      options->speed_max < options->speed_min)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: the colour key cannot run from %g to %g",
+                    options->speed_min, options->speed_max);
+  return FG_STATUS_OK;
+}
+
+static void settle_threads(fg__rendering *out, int threads)
+{
+  long cores = threads > 0 ? threads : sysconf(_SC_NPROCESSORS_ONLN);
+  out->threads = cores > 1 ? (int)cores : 1;
+}
+
+/* Where the box goes: the rest of the picture. */
+static fg__pane box_pane(const solid_picture *p)
+{
+  const fg__rendering *r = &p->rendering;
+  double em = p->em, rows = (p->title[0] != 0) + (p->subtitle[0] != 0);
+  if (!p->framed)
+    return (fg__pane){edge * em, edge * em, r->width - edge * em, r->height - edge * em};
+  return (fg__pane){left_room * em, (top_room + rows * line_height) * em,
+                    r->width - (p->has_key ? right_room + key_room : right_room) * em,
+                    r->height - bottom_room * em};
+}
+
+static void lay_out(solid_picture *p, const fg_field_arrays *field,
+                    const fg_solid_options *options)
+{
+  fg__rendering *r = &p->rendering;
+  bool viewed = options->has_view;
+  fg__pane pane = box_pane(p);
+  fg__stage_of(&r->stage, field);
+  fg__camera_look(&r->camera, &r->stage, viewed ? options->azimuth : usual_azimuth,
+                  viewed ? options->elevation : usual_elevation, &pane);
+  cairo_t *ruler = fg__text_ruler();
+  fg__box_axes_of(&p->axes, field, &r->stage, &r->camera, p->em, ruler);
+  cairo_destroy(ruler);
+  for (int k = 0; k < 3; ++k)
+    for (int n = 0; n < p->axes.ticks[k].count && n < FG__GRID_LINES; ++n)
+      r->line[k][r->lines[k]++] =
+          fg__stage_place(&r->stage, k, p->axes.ticks[k].position[n]);
+}
+
+static fg_status prepare(solid_picture *p, fg_context *context,
+                         const fg_field_arrays *field, const fg_icons *icons,
+                         const fg_solid_options *options)
+{
+  fg__rendering *r = &p->rendering;
+  fg_status status = check_options(context, options);
+  if (!status)
+    status = fg__palette_create(&p->palette, context, options->palette);
+  if (status)
+    return status;
+  r->width = options->width ? options->width : USUAL_SIZE;
+  r->height = options->height ? options->height : USUAL_SIZE;
+  r->icons = icons;
+  r->palette = &p->palette;
+  r->range[0] = options->speed_min;
+  r->range[1] = options->speed_max;
+  bool has_speeds = fg__speed_range(r->range, icons);
+  p->framed = r->walls = !options->no_frame;
+  p->has_key = p->framed && has_speeds && !p->palette.uniform;
+  r->transparent = options->transparent;
+  settle_threads(r, options->threads);
+  p->em = fmax(font_share * fmin(r->width, r->height), least_font);
+  fg__axis_of_numbers(&p->speed, r->range[0], r->range[1], r->range[1] - r->range[0],
+                      "mean speed", field->velocity_units);
+  if (p->framed)
+    fg__caption_write(p->title, p->subtitle, field, fg_icons_count(icons), options->title,
+                      options->scale_time);
+  lay_out(p, field, options);
+  return FG_STATUS_OK;
+}
+
+static void draw_line_of_text(cairo_t *cairo, char *text, double em, double width,
+                              bool bold, double *y)
+{
+  if (!text[0])
+    return;
+  *y += line_height * em;
+  fg__text_shorten(cairo, text, FG__CAPTION_BYTES, em, bold, width);
+  cairo_move_to(cairo, edge * em, *y);
+  fg__text_draw(cairo, text, em, bold);
+}
+
+static void draw_words(cairo_t *cairo, solid_picture *p)
+{
+  const fg__rendering *r = &p->rendering;
+  double em = p->em, y = 0.4 * em, width = r->width - 2.0 * edge * em;
+  fg__box_axes_draw(cairo, &p->axes, &r->stage, &r->camera);
+  cairo_set_source_rgb(cairo, 0.1, 0.1, 0.1);
+  draw_line_of_text(cairo, p->title, em, width, true, &y);
+  cairo_set_source_rgb(cairo, 0.4, 0.4, 0.4);
+  draw_line_of_text(cairo, p->subtitle, em, width, false, &y);
+  if (p->has_key) {
+    double high = bar_share * r->height, middle = 0.5 * r->height;
+    fg__pane pane = {r->width - key_room * em, middle - high / 2.0, r->width - edge * em,
+                     middle + high / 2.0};
+    fg__color_bar_draw(cairo, &pane, em, &p->palette, &p->speed);
+  }
+}
+
+/* Renders the arrows to an image; it is to be destroyed. */
+static fg_status render(cairo_surface_t **out, fg_context *context, solid_picture *p)
+{
+  const fg__rendering *r = &p->rendering;
+  *out = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, r->width, r->height);
+  if (cairo_surface_status(*out))
+    return fg__fail_memory(context, "a picture", (size_t)r->width * (size_t)r->height);
+  cairo_surface_flush(*out);
+  unsigned char *bytes = cairo_image_surface_get_data(*out);
+  int stride = cairo_image_surface_get_stride(*out) / (int)sizeof(uint32_t);
+  fg_status status = fg__render(context, r, (uint32_t *)(void *)bytes, stride);
+  cairo_surface_mark_dirty(*out);
+  return status;
+}
+
+static fg_status draw(fg_context *context, const char *path, solid_picture *p)
+{
+  const fg__rendering *r = &p->rendering;
+  cairo_surface_t *image;
+  fg__sheet sheet;
+  fg_status status = render(&image, context, p);
+  if (!status)
+    status = fg__sheet_open(&sheet, context, path, r->width / pixels_per_point,
+                            r->height / pixels_per_point, pixels_per_point, p->title);
+  if (!status) {
+    cairo_scale(sheet.cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
+    cairo_set_source_surface(sheet.cairo, image, 0.0, 0.0);
+    cairo_paint(sheet.cairo);
+    if (p->framed)
+      draw_words(sheet.cairo, p);
+    status = fg__sheet_close(&sheet, context, FG_STATUS_OK);
+  }
+  cairo_surface_destroy(image);
+  return status;
+}
+
+fg_status fg__solid_picture_write(fg_context *context, const char *path,
+                                  const fg_field *field, const fg_icons *icons,
+                                  const fg_solid_options *options)
+{
+  const fg_field_arrays *contents = fg_field_contents(field);
+  fg_status status = fg__format_check(context, path);
+  if (status)
+    return status;
+  if (contents->dimension != 3)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: a picture of solids of a field in %d dimensions", path,
+                    contents->dimension);
+  solid_picture *p = fg__allocate(1, sizeof *p);
+  if (!p)
+    return fg__fail_memory(context, "a picture", sizeof *p);
+  status = prepare(p, context, contents, icons, options);
+  if (!status)
+    status = draw(context, path, p);
+  free(p);
+  return status;
+}
