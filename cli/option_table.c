@@ -8,7 +8,8 @@ static const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
 static const char *const mesh_words[] = {"auto", "uniform", NULL};
 static const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
-static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete", NULL};
+static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete",
+                                           "streamlines", NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
 static const char *const kind_words[] = {"lic", "spots", "clusters", "stripes", NULL};
 static const char *const extent_words[] = {"cluster", "territory", NULL};
@@ -63,9 +64,11 @@ const cli_command command_table[] = {
      "Writes the arrows as GeoJSON, and their pictures beside: FILE.svg, FILE.png. With "
      "several numbers, the files of each are FILE-NUMBER.geojson and so on. The methods: "
      "`hedgehog` (straight arrows at the points of a grid), `grid-curved` (pieces of "
-     "streamlines through them) and `discrete` (clusters merged from the bottom up, "
-     "Telea "
-     "and van Wijk 1999). INPUT is as in flowgrain run, in two dimensions.",
+     "streamlines through them), `discrete` (clusters merged from the bottom up, Telea "
+     "and "
+     "van Wijk 1999), `streamlines` (evenly spaced, Jobard and Lefer 1997). INPUT is as "
+     "in "
+     "flowgrain run, in two dimensions.",
      true, command_rival},
     {COMMAND_GALLERY, "gallery", NULL, "-o DIR [options]",
      "make every figure of the paper, with a page that shows them",
@@ -93,7 +96,7 @@ const option_entry option_table[] = {
      NULL, "arrows to write, .geojson; their pictures are written beside"},
 
     {"method", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(method), 0, 0, false, false,
-     method_words, "hedgehog, grid-curved or discrete [hedgehog]"},
+     method_words, "hedgehog, grid-curved, discrete or streamlines [hedgehog]"},
     {"icons", 0, "LIST", COMMAND_RIVAL, OPTION_COUNTS, 0, 1, 100000, false, false, NULL,
      "numbers of arrows to draw, descending, as 150,60,25; a grid comes as near as its "
      "shape allows [60]"},

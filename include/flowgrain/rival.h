@@ -12,7 +12,8 @@ extern "C" {
 typedef enum fg_rival_method {
   FG_RIVAL_HEDGEHOG = 0, /* straight arrows at the points of a grid */
   FG_RIVAL_GRID_CURVED,  /* pieces of streamlines through the points of a grid */
-  FG_RIVAL_DISCRETE      /* clusters merged from the bottom up (Telea, van Wijk 1999) */
+  FG_RIVAL_DISCRETE,     /* clusters merged from the bottom up (Telea, van Wijk 1999) */
+  FG_RIVAL_STREAMLINES   /* evenly spaced (Jobard, Lefer 1997) */
 } fg_rival_method;
 
 typedef struct fg_rival_options {

@@ -19,5 +19,6 @@ fg_status fg__rival_discrete_prepare(fg_rival *rival);
 /* Fill a list with about `count` icons. MEMORY, STOPPED. */
 fg_status fg__rival_hedgehog(fg_icons *icons, const fg_rival *rival, int count);
 fg_status fg__rival_grid_curved(fg_icons *icons, const fg_rival *rival, int count);
+fg_status fg__rival_streamlines(fg_icons *icons, const fg_rival *rival, int count);
 
 #endif
