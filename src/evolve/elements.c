@@ -172,7 +172,7 @@ INLINE void coarsen_cell(const fg__fine_cells *fine, const unit *u, int dimensio
       out->stiffness[0][a][b] = out->stiffness[1][a][b] = 0.0;
   }
   for (int cell = 0; cell < corners; ++cell) {
-    int place[3] = {cell & 1, cell >> 1 & 1, cell >> 2};
+    const int place[3] = {cell & 1, cell >> 1 & 1, cell >> 2};
     double share[FG__MOST_CORNERS][FG__MOST_CORNERS];
     element own;
     for (int a = 0; a < corners; ++a) {

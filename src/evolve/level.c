@@ -506,7 +506,8 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
   if (elements) {
     out->elements = *elements;
     *elements = (fg__elements){0};
-  } else {
+  }
+  if (tensor) {
     out->tensor = *tensor;
     *tensor = (fg__cells_of_box){0};
     masked = masked || has_mask(&out->tensor);
