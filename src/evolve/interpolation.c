@@ -9,7 +9,7 @@ static star star_at(const fg__level *level, int i, int j, int k)
 {
   star s = {{{{0.0F}}}};
   const fg__layout *at = &level->layout;
-  for (int n = 0; n < 1 + 3 * fg__upper_rows(at->dimension); ++n) {
+  for (int n = 0; n < fg__coupling_count(at->dimension); ++n) {
     int d[3] = {n == 0 ? 1 : (n - 1) % 3 - 1, 0, 0};
     if (n > 0)
       fg__upper_row((n - 1) / 3, &d[1], &d[2]);

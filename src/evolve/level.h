@@ -32,6 +32,12 @@ static inline int fg__upper_rows(int dimension)
   return dimension == 3 ? FG__MOST_UPPER_ROWS : 1;
 }
 
+/* Half of a node's couplings, those that it keeps itself. */
+static inline int fg__coupling_count(int dimension)
+{
+  return 1 + 3 * fg__upper_rows(dimension);
+}
+
 /* Offsets along y and z of upper row r. */
 static inline void fg__upper_row(int r, int *dy, int *dz)
 {
