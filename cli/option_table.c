@@ -11,7 +11,8 @@ static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
 static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete",
                                            "streamlines", NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
-static const char *const kind_words[] = {"lic", "spots", "clusters", "stripes", NULL};
+static const char *const kind_words[] = {"lic",     "spots",     "clusters",
+                                         "stripes", "diffusion", NULL};
 static const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
@@ -133,8 +134,9 @@ const option_entry option_table[] = {
 
     {"kind", 0, "KIND", COMMAND_TEXTURE, OPTION_CHOICE, AT(kind), 0, 0, false, false,
      kind_words,
-     "kind of texture: `lic` (line integral convolution) or `spots` (spot noise, which "
-     "shows the speed, too) [lic]"},
+     "kind of texture: `lic` (line integral convolution), `spots` (spot noise, which "
+     "shows the speed, too), `clusters` (those of the evolution), `stripes` (which grow "
+     "from weak noise) or `diffusion` (of noise along the flow) [lic]"},
     {"pixels", 0, "N", COMMAND_TEXTURE, OPTION_WHOLE, AT(longest), 16, 16384, false,
      false, NULL, "pixels along the longest side [1024]"},
     {"length", 0, "L", COMMAND_TEXTURE, OPTION_NUMBER, AT(length), 2, 400, false, false,

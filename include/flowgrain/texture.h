@@ -21,7 +21,9 @@ typedef enum fg_texture_kind {
                          faster */
   FG_TEXTURE_CLUSTERS, /* the clusters themselves: u, from 1 (light) where it is -0.6 or
                           less to 0 where it is 0.6 or more */
-  FG_TEXTURE_STRIPES /* u where it grew from weak noise: stripes along the streamlines */
+  FG_TEXTURE_STRIPES, /* u where it grew from weak noise: stripes along the streamlines */
+  FG_TEXTURE_DIFFUSION /* nonlinear anisotropic diffusion of noise (Preusser and Rumpf
+                          1999) */
 } fg_texture_kind;
 
 typedef struct fg_texture_options {
@@ -30,8 +32,8 @@ typedef struct fg_texture_options {
   int size[2];          /* pixels along x and y, 1 to 16384; 0, 0: from `longest` and the
                            domain's shape */
   double length; /* of streaks (LIC), the longest spots, four stripes' width together, in
-                    pixels, 2 to 400 [a 25th of the longest side, of spots an 18th; 20
-                    at least]; not for CLUSTERS */
+                    pixels, 2 to 400 [a 25th of the longest side, of spots an 18th, of
+                    DIFFUSION a 20th; 20 at least]; not for CLUSTERS */
   int clusters;  /* CLUSTERS: the first moment with no more of them [300] */
   const fg_density *density; /* CLUSTERS: these instead, not shared; borrowed while the
                                 texture is made [NULL: an evolution of its own] */

@@ -37,6 +37,7 @@ static const texture_kind kinds[] = {
     [FG_TEXTURE_SPOTS] = {fg__spots_paint, fg__spots_margin, 1.0 / 18.0, 2.0},
     [FG_TEXTURE_CLUSTERS] = {fg__clusters_paint, fg__no_margin, 1.0 / 25.0, 0.0},
     [FG_TEXTURE_STRIPES] = {fg__stripes_paint, fg__no_margin, 1.0 / 25.0, 0.8},
+    [FG_TEXTURE_DIFFUSION] = {fg__diffusion_paint, fg__diffusion_margin, 1.0 / 20.0, 1.5},
 };
 
 static fg_status check_options(fg_context *context, const fg_texture_options *o)

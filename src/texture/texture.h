@@ -29,5 +29,7 @@ fg__texture_paint fg__spots_paint;
 int fg__no_margin(double length);
 fg__texture_paint fg__clusters_paint;
 fg__texture_paint fg__stripes_paint;
+int fg__diffusion_margin(double length);
+fg__texture_paint fg__diffusion_paint;
 
 #endif

@@ -19,6 +19,7 @@ static const promise promises[] = {
     {FG_TEXTURE_LIC, "lic", 0.6, 0.15, 2.0, 1.2, 0.5, 0.06, 0.7},
     {FG_TEXTURE_SPOTS, "spots", 0.6, 0.15, 3.0, 1.2, 0.5, 0.06, 0.7},
     {FG_TEXTURE_CLUSTERS, "clusters", 0.6, 0.15, 3.0, 1.4, 0.69, 0.2, 0.1},
+    {FG_TEXTURE_DIFFUSION, "diffusion", 0.6, 0.15, 2.0, 1.2, 0.5, 0.06, 0.7},
     {FG_TEXTURE_STRIPES, "stripes", 0.6, 0.15, 3.0, 1.2, 0.5, 0.06, 0.7},
 };
 enum { KINDS = sizeof promises / sizeof *promises };

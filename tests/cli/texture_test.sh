@@ -8,7 +8,7 @@ png_size() {
     $5 * 16777216 + $6 * 65536 + $7 * 256 + $8}'
 }
 
-for kind in lic spots clusters stripes; do
+for kind in lic spots clusters stripes diffusion; do
   try texture synth:benard -o $kind.png --kind $kind --pixels 200
   expect_code 0
   [ "$(png_size $kind.png)" = "200 200" ] || fault "size $(png_size $kind.png)"
