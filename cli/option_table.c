@@ -9,7 +9,7 @@ static const char *const mesh_words[] = {"auto", "uniform", NULL};
 static const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
 static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete",
-                                           "streamlines", NULL};
+                                           "top-down", "streamlines", NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
 static const char *const kind_words[] = {"lic",     "spots",     "clusters",
                                          "stripes", "diffusion", NULL};
@@ -67,9 +67,9 @@ const cli_command command_table[] = {
      "`hedgehog` (straight arrows at the points of a grid), `grid-curved` (pieces of "
      "streamlines through them), `discrete` (clusters merged from the bottom up, Telea "
      "and "
-     "van Wijk 1999), `streamlines` (evenly spaced, Jobard and Lefer 1997). INPUT is as "
-     "in "
-     "flowgrain run, in two dimensions.",
+     "van Wijk 1999), `top-down` (clusters bisected, Heckel et al. 1999), `streamlines` "
+     "(evenly spaced, Jobard and Lefer 1997). INPUT is as in flowgrain run, in two "
+     "dimensions.",
      true, command_rival},
     {COMMAND_GALLERY, "gallery", NULL, "-o DIR [options]",
      "make every figure of the paper, with a page that shows them",
@@ -97,7 +97,7 @@ const option_entry option_table[] = {
      NULL, "arrows to write, .geojson; their pictures are written beside"},
 
     {"method", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(method), 0, 0, false, false,
-     method_words, "hedgehog, grid-curved, discrete or streamlines [hedgehog]"},
+     method_words, "hedgehog, grid-curved, discrete, top-down or streamlines [hedgehog]"},
     {"icons", 0, "LIST", COMMAND_RIVAL, OPTION_COUNTS, 0, 1, 100000, false, false, NULL,
      "numbers of arrows to draw, descending, as 150,60,25; a grid comes as near as its "
      "shape allows [60]"},

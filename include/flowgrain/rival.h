@@ -13,6 +13,7 @@ typedef enum fg_rival_method {
   FG_RIVAL_HEDGEHOG = 0, /* straight arrows at the points of a grid */
   FG_RIVAL_GRID_CURVED,  /* pieces of streamlines through the points of a grid */
   FG_RIVAL_DISCRETE,     /* clusters merged from the bottom up (Telea, van Wijk 1999) */
+  FG_RIVAL_TOP_DOWN,     /* clusters bisected from the top down (Heckel et al. 1999) */
   FG_RIVAL_STREAMLINES   /* evenly spaced (Jobard, Lefer 1997) */
 } fg_rival_method;
 

@@ -15,6 +15,8 @@ struct fg_rival {
 fg_status fg__rival_discrete(const fg_rival *rival, int count, int *label, int *found,
                              int *left_out);
 fg_status fg__rival_discrete_prepare(fg_rival *rival);
+fg_status fg__rival_top_down(const fg_rival *rival, int count, int *label, int *found,
+                             int *left_out);
 
 /* Fill a list with about `count` icons. MEMORY, STOPPED. */
 fg_status fg__rival_hedgehog(fg_icons *icons, const fg_rival *rival, int count);

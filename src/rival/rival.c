@@ -28,6 +28,7 @@ static const method_entry methods[] = {
     [FG_RIVAL_DISCRETE] = {.name = "discrete",
                            .prepare = fg__rival_discrete_prepare,
                            .divide = fg__rival_discrete},
+    [FG_RIVAL_TOP_DOWN] = {.name = "top-down", .divide = fg__rival_top_down},
     [FG_RIVAL_STREAMLINES] = {.name = "streamlines", .draw = fg__rival_streamlines},
 };
 

@@ -2,7 +2,7 @@
 # What `flowgrain rival` writes, and what it refuses.
 source "$(dirname "$0")/harness.sh"
 
-for method in hedgehog grid-curved discrete streamlines; do
+for method in hedgehog grid-curved discrete top-down streamlines; do
   try rival synth:vortex3 -o $method.geojson --method $method --icons 49
   expect_code 0
   [ ! -s err ] || fault "standard error: $(head -c 200 err)"
