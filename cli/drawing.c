@@ -75,13 +75,16 @@ static fg_status write_solids(cli_drawing *drawing, int index, const fg_icons *i
 }
 
 /* A picture for each view and format. */
-static fg_status write_renderings(cli_drawing *drawing, int index, double time,
-                                  const fg_icons *icons)
+static fg_status write_renderings(cli_drawing *drawing, int index,
+                                  const scale_moment *moment, const fg_icons *icons)
 {
   const cli_settings *settings = drawing->settings;
   char ends[SCALE_FILES][SCALE_END_BYTES];
   int files = scale_file_ends(ends, settings, drawing->field);
+  fg_surface *surface = NULL;
   fg_status status = FG_STATUS_OK;
+  if (settings->surfaces && moment->density)
+    status = fg_density_surface(&surface, drawing->context, moment->density);
   for (int n = 1; n < files && !status; ++n) {
     int view = solid_view_of(ends[n]);
     if (view < 0)
@@ -89,14 +92,17 @@ static fg_status write_renderings(cli_drawing *drawing, int index, double time,
     fg_solid_options options = settings_solid(settings, view);
     options.speed_min = drawing->speeds[0];
     options.speed_max = drawing->speeds[1];
-    options.scale_time = time;
+    options.scale_time = moment->time;
+    options.surface = surface;
     options.threads = settings->threads;
     char *path = scale_path(drawing, index, ends[n]);
     if (!path)
-      return FG_STATUS_MEMORY;
-    status = fg_solid_write(drawing->context, path, drawing->field, icons, &options);
+      status = FG_STATUS_MEMORY;
+    else
+      status = fg_solid_write(drawing->context, path, drawing->field, icons, &options);
     free(path);
   }
+  fg_surface_destroy(surface);
   return status;
 }
 
@@ -158,7 +164,7 @@ static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *momen
   if (!status && solid)
     status = write_solids(drawing, index, icons);
   if (!status && solid)
-    status = write_renderings(drawing, index, moment->time, icons);
+    status = write_renderings(drawing, index, moment, icons);
   else if (!status)
     status = write_pictures(drawing, index, moment, icons);
   drawing->picture_seconds += clock_seconds() - between;

@@ -220,6 +220,8 @@ const option_entry option_table[] = {
     /* 14400 points are the largest page that PDF readers promise to show. */
     {"width", 0, "POINTS", PICTURES, OPTION_NUMBER, AT(width), 36, 14400, false, false,
      NULL, "width of the picture in points of 1/72 inch [480]"},
+    {"surfaces", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(surfaces), 0, 0, false, false,
+     NULL, "in 3D: show the clusters' surfaces round the arrows, transparent"},
     {"view", 0, "AZ,EL", COMMAND_RUN | COMMAND_DRAW, OPTION_VIEW, 0, 0, 0, false, false,
      NULL,
      "in 3D: where the viewer stands, in degrees counter-clockwise from the front (the "

@@ -416,7 +416,6 @@ fg_solid_options settings_solid(const cli_settings *settings, int view)
   fg_solid_options out = {
       .palette = settings->palette,
       .width = pixels,
-      .height = pixels,
       .no_frame = settings->no_frame,
       .transparent = settings->transparent,
       .has_view = view < settings->view_count,

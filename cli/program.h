@@ -42,6 +42,7 @@ typedef struct cli_settings {
   double width;
   const char *palette;
   bool tint, skeletons, no_frame, transparent;
+  bool surfaces;
   double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
   int view_count;             /* 0: one, the usual */
 

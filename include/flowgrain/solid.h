@@ -26,15 +26,21 @@ FG_API fg_status fg_icon_solid(fg_surface **out, fg_context *context,
                                const fg_icon *icon);
 FG_API void fg_surface_destroy(fg_surface *surface);
 
+/* The surface {u = 0} of all clusters of a density in 3D, open where they end at the
+ * border of the domain or of a mask. MEMORY, ARGUMENT (2D, a shared density). */
+FG_API fg_status fg_density_surface(fg_surface **out, fg_context *context,
+                                    const fg_density *density);
+
 typedef struct fg_solid_options {
   const char *palette; /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
   double speed_min, speed_max; /* ends of the colours; equal: from the icons */
   /* Of pictures: */
-  int width, height;         /* pixels [1200] */
+  int width, height;         /* pixels [1200; as high as needed, at most as wide] */
   bool has_view;             /* the next two count [30, 22] */
   double azimuth, elevation; /* degrees: where the viewer stands, counter-clockwise from
                                 the front (the side of least y), and above the horizon,
                                 -90 to 90 */
+  const fg_surface *surface; /* shown round the arrows, transparent [none] */
   bool no_frame;             /* only arrows */
   bool transparent;          /* no background */
   const char *title;         /* caption; NULL: from the field; "" none */

@@ -18,6 +18,11 @@ static const double shadow_depth = 0.45, corner_depth = 0.5;
 static const double wall_tone[3] = {0.80, 0.86, 0.93};
 static const double line_tone = 0.55;
 
+/* Of the clusters' surfaces: what they hide where they face the viewer, and at the rim.
+ */
+static const double skin_alpha = 0.10, skin_rim = 0.62;
+static const double skin_color[3] = {0.62, 0.74, 0.88};
+
 /* The lamp's radius over its distance. */
 static const double lamp_size = 0.13;
 
@@ -122,6 +127,15 @@ fg__light fg__light_wall(int axis, double line, const fg__lit *lit)
   tone *= 1.0 - shadow_depth * (1.0 - lit->lamp_seen);
   tone *= 1.0 - corner_depth * (1.0 - lit->sky_seen);
   return (fg__light){tone, tone, tone, 1.0};
+}
+
+fg__light fg__light_skin(const fg__lit *lit)
+{
+  double facing = fabs(fg__dot(lit->normal, lit->to_viewer)), side = 1.0 - facing;
+  double alpha = skin_alpha + (skin_rim - skin_alpha) * side * side * side;
+  double light = 0.72 + 0.28 * fg__dot(lit->normal, lit->lamp);
+  return (fg__light){alpha * skin_color[0] * light, alpha * skin_color[1] * light,
+                     alpha * skin_color[2] * light, alpha};
 }
 
 uint32_t fg__light_pixel(fg__light light, bool transparent)

@@ -39,6 +39,10 @@ fg__light fg__light_arrow(fg__color color, const fg__lit *lit);
 /* `line`: how much of a line of the grid covers the point, 0 to 1. */
 fg__light fg__light_wall(int axis, double line, const fg__lit *lit);
 
+/* Light that a transparent surface sends itself; alpha: what it hides of what is behind,
+ * more where it is seen from the side. */
+fg__light fg__light_skin(const fg__lit *lit);
+
 /* To premultiplied bytes, over white unless `transparent`. */
 uint32_t fg__light_pixel(fg__light light, bool transparent);
 

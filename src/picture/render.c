@@ -44,6 +44,9 @@ static const float off_surface = 2e-5F;
 /* Half the width of a line on a wall, pixels. */
 static const double half_line = 0.6;
 
+/* Transparent surfaces that a ray looks through; what is behind is hardly seen. */
+enum { MOST_SKINS = 24 };
+
 /* Rows of the image that a thread takes at a time. */
 enum { ROWS = 8 };
 
@@ -56,8 +59,8 @@ typedef struct shop {
   const fg__rendering *about;
   fg_context *context;
   RTCDevice device;
-  RTCScene scene;
-  fg__color *color; /* [geometries] */
+  RTCScene scene, skins; /* what hides, and what lets light through */
+  fg__color *color;      /* [geometries] */
   int geometries;
   double lamp[3];
   float bound[3];           /* of the box; beyond it nothing is seen */
@@ -128,6 +131,27 @@ static fg_status add_solid(shop *s, const fg_surface *solid, fg__color color,
   return FG_STATUS_OK;
 }
 
+/* The clusters' surfaces, in a scene of their own: they hide nothing. */
+static fg_status add_skin(shop *s)
+{
+  const fg_surface *surface = s->about->surface;
+  const fg__color unused = {0.0, 0.0, 0.0};
+  const double stays[3] = {0.0, 0.0, 0.0};
+  RTCScene solids = s->scene;
+  int geometries = s->geometries;
+  fg__color *color = s->color, only;
+  s->skins = s->scene = rtcNewScene(s->device);
+  s->geometries = 0;
+  s->color = &only;
+  rtcSetSceneFlags(s->skins, RTC_SCENE_FLAG_ROBUST);
+  fg_status status = surface ? add_solid(s, surface, unused, stays, false) : FG_STATUS_OK;
+  rtcCommitScene(s->skins);
+  s->scene = solids;
+  s->geometries = geometries;
+  s->color = color;
+  return status;
+}
+
 /* How far along an axis copies of a solid reach into the box: from -low to high periods.
  */
 static void find_copies(const shop *s, const fg_surface *solid, int axis, int copies[2])
@@ -191,6 +215,8 @@ static fg_status open_shop(shop *s)
   for (int n = 0; n < fg_icons_count(s->about->icons) && !status; ++n)
     status = add_icon(s, fg_icons_at(s->about->icons, n), &capacity);
   rtcCommitScene(s->scene);
+  if (!status)
+    status = add_skin(s);
   if (!status && rtcGetDeviceError(s->device) != RTC_ERROR_NONE)
     status = fail(s, "the scene cannot be built");
   return status;
@@ -200,6 +226,8 @@ static void close_shop(shop *s)
 {
   if (s->scene)
     rtcReleaseScene(s->scene);
+  if (s->skins)
+    rtcReleaseScene(s->skins);
   if (s->device)
     rtcReleaseDevice(s->device);
   free(s->color);
@@ -336,6 +364,46 @@ static fg__light light_wall(const shop *s, const double direction[3], int x, int
   return fg__light_wall(axis, line_at(about, axis, place, distance), &lit);
 }
 
+/* What is seen of transparent surfaces up to a distance, and through them. */
+static fg__light look_through(const shop *s, const double direction[3], float reach,
+                              fg__light behind)
+{
+  fg__light out = {0};
+  double left = 1.0, from = 0.0;
+  for (int n = 0; n < MOST_SKINS && left > 0.01; ++n) {
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    struct RTCRayHit hit = {.ray = ray_from(s->about->camera.eye, direction, reach),
+                            .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+    hit.ray.tnear = (float)from;
+    rtcIntersect1(s->skins, &context, &hit);
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+      break;
+    float smooth[3];
+    fg__lit lit;
+    rtcInterpolate0(rtcGetGeometry(s->skins, hit.hit.geomID), hit.hit.primID, hit.hit.u,
+                    hit.hit.v, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0, smooth, 3);
+    for (int k = 0; k < 3; ++k) {
+      lit.normal[k] = (double)smooth[k];
+      lit.to_viewer[k] = -direction[k];
+      lit.lamp[k] = s->lamp[k];
+    }
+    fg__normalise(lit.normal);
+    fg__light skin = fg__light_skin(&lit);
+    out.red += left * skin.red;
+    out.green += left * skin.green;
+    out.blue += left * skin.blue;
+    out.alpha += left * skin.alpha;
+    left *= 1.0 - skin.alpha;
+    from = (double)hit.ray.tfar + (double)off_surface;
+  }
+  out.red += left * behind.red;
+  out.green += left * behind.green;
+  out.blue += left * behind.blue;
+  out.alpha += left * behind.alpha;
+  return out;
+}
+
 static fg__light trace_sample(const shop *s, int x, int y, int sample)
 {
   const fg__camera *camera = &s->about->camera;
@@ -348,9 +416,10 @@ static fg__light trace_sample(const shop *s, int x, int y, int sample)
   struct RTCRayHit hit = {.ray = ray_from(camera->eye, direction, INFINITY),
                           .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
   rtcIntersect1(s->scene, &context, &hit);
-  if (hit.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-    return light_hit(s, &hit, direction, x, y, sample);
-  return light_wall(s, direction, x, y, sample);
+  fg__light behind = hit.hit.geomID != RTC_INVALID_GEOMETRY_ID
+                         ? light_hit(s, &hit, direction, x, y, sample)
+                         : light_wall(s, direction, x, y, sample);
+  return s->about->surface ? look_through(s, direction, hit.ray.tfar, behind) : behind;
 }
 
 static void trace_row(const shop *s, int y)

@@ -16,6 +16,7 @@ typedef struct fg__rendering {
   const fg_icons *icons;
   const fg__palette *palette;
   double range[2];                /* speeds at the ends of the palette */
+  const fg_surface *surface;      /* transparent; NULL: none */
   bool walls;                     /* the sides of the box behind the arrows, with lines */
   double line[3][FG__GRID_LINES]; /* stage coordinates of the lines across an axis */
   int lines[3];

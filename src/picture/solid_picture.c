@@ -25,6 +25,9 @@ static const double font_share = 1.0 / 58.0, least_font = 9.0;
 static const double left_room = 4.2, right_room = 2.6, key_room = 6.0, bottom_room = 4.2,
                     top_room = 1.5, line_height = 1.3, edge = 1.2;
 
+/* The height is at least this share of the width, unless it is given. */
+static const double flattest = 0.5;
+
 /* The colour bar is this much of the picture high. */
 static const double bar_share = 0.34;
 
@@ -41,7 +44,7 @@ typedef struct solid_picture {
 static fg_status check_options(fg_context *context, const fg_solid_options *options)
 {
   int wide = options->width ? options->width : USUAL_SIZE;
-  int high = options->height ? options->height : USUAL_SIZE;
+  int high = options->height ? options->height : wide;
   if (wide < LEAST_SIZE || wide > LARGEST_SIZE || high < LEAST_SIZE ||
       high > LARGEST_SIZE)
     return fg__fail(context, FG_STATUS_ARGUMENT,
@@ -78,15 +81,37 @@ static fg__pane box_pane(const solid_picture *p)
                     r->height - bottom_room * em};
 }
 
+/* Pixels from the box's highest corner to its lowest. */
+static double box_height(const fg__rendering *r)
+{
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (int c = 0; c < 8; ++c) {
+    double corner[3], at[2];
+    for (int k = 0; k < 3; ++k)
+      corner[k] = c >> k & 1 ? r->stage.half[k] : -r->stage.half[k];
+    fg__camera_project(&r->camera, corner, at);
+    low = fmin(low, at[1]);
+    high = fmax(high, at[1]);
+  }
+  return high - low;
+}
+
 static void lay_out(solid_picture *p, const fg_field_arrays *field,
                     const fg_solid_options *options)
 {
   fg__rendering *r = &p->rendering;
   bool viewed = options->has_view;
   fg__pane pane = box_pane(p);
+  double azimuth = viewed ? options->azimuth : usual_azimuth;
+  double elevation = viewed ? options->elevation : usual_elevation;
   fg__stage_of(&r->stage, field);
-  fg__camera_look(&r->camera, &r->stage, viewed ? options->azimuth : usual_azimuth,
-                  viewed ? options->elevation : usual_elevation, &pane);
+  fg__camera_look(&r->camera, &r->stage, azimuth, elevation, &pane);
+  if (options->height == 0) { /* no more of it than a flat box needs */
+    double unused = pane.y1 - pane.y0 - box_height(r);
+    r->height -= (int)fmin(unused, (1.0 - flattest) * r->width);
+    pane = box_pane(p);
+    fg__camera_look(&r->camera, &r->stage, azimuth, elevation, &pane);
+  }
   cairo_t *ruler = fg__text_ruler();
   fg__box_axes_of(&p->axes, field, &r->stage, &r->camera, p->em, ruler);
   cairo_destroy(ruler);
@@ -107,8 +132,9 @@ static fg_status prepare(solid_picture *p, fg_context *context,
   if (status)
     return status;
   r->width = options->width ? options->width : USUAL_SIZE;
-  r->height = options->height ? options->height : USUAL_SIZE;
+  r->height = options->height ? options->height : r->width;
   r->icons = icons;
+  r->surface = options->surface;
   r->palette = &p->palette;
   r->range[0] = options->speed_min;
   r->range[1] = options->speed_max;

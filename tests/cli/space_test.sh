@@ -137,6 +137,13 @@ if [ -n "$pictures" ]; then
   cmp -s views/scale-00.png views/scale-00-2.png && fault "two views are one"
   expect_only_results views
   done_with "each view has a picture"
+
+  try run synth:vortex3d -o bare --nodes 33 --clusters 6 --quiet --width 40 --no-frame
+  try run synth:vortex3d -o skins --nodes 33 --clusters 6 --quiet --width 40 --no-frame --surfaces
+  expect_code 0
+  cmp -s views/scale-00.png bare/scale-00.png || fault "the first view is not the usual one"
+  cmp -s skins/scale-00.png bare/scale-00.png && fault "no surfaces are seen"
+  done_with "clusters' surfaces are shown on demand"
 else
   try draw out1 -o again.png
   expect_code 1
