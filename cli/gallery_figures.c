@@ -14,6 +14,18 @@ const gallery_figure gallery_figures[] = {
                  "run synth:vortex3 -o fig-01 --clusters 100"},
      .picture = {{"fig-01-hedgehog.png", "100 straight arrows on a grid"},
                  {"fig-01/scale-00.png", "100 clusters"}}},
+    {.number = 2,
+     .title = "Isotropic Cahn-Hilliard evolution",
+     .paper = "The original model, without a field, at three times.",
+     .command = {"texture synth:vortex3 -o fig-02-a.png --kind clusters --nodes 257 "
+                 "--pixels 768 --energy isotropic --clusters 150",
+                 "texture synth:vortex3 -o fig-02-b.png --kind clusters --nodes 257 "
+                 "--pixels 768 --energy isotropic --clusters 60",
+                 "texture synth:vortex3 -o fig-02-c.png --kind clusters --nodes 257 "
+                 "--pixels 768 --energy isotropic --clusters 20"},
+     .picture = {{"fig-02-a.png", "150 clusters"},
+                 {"fig-02-b.png", "60 clusters"},
+                 {"fig-02-c.png", "20 clusters"}}},
     {.number = 3,
      .title = "The double well",
      .paper = "The energy of the separation, with its two minima at the wells.",
@@ -21,6 +33,34 @@ const gallery_figure gallery_figures[] = {
      .picture = {{"fig-03.svg",
                   "\xCE\xA8(u) = (u\xC2\xB2 \xE2\x88\x92 \xCE\xB2\xC2\xB2)\xC2\xB2/2, "
                   "\xCE\xB2 = 1; where it is concave, phases separate"}}},
+    {.number = 4,
+     .title = "Clusters of a field, in time and by anisotropy",
+     .paper = "The clustering of a field at successive times, and the same with the "
+              "anisotropy growing: a = 1, 0.5, 0.2, 0.1; 257 nodes a side.",
+     .differs =
+         "The last four have the same interface energy, and are shown when they have "
+         "come down to 40 clusters, not at one time.",
+     .command = {"texture synth:vortex3 -o fig-04-a.png --kind clusters --nodes 257 "
+                 "--pixels 768 --clusters 150",
+                 "texture synth:vortex3 -o fig-04-b.png --kind clusters --nodes 257 "
+                 "--pixels 768 --clusters 60",
+                 "texture synth:vortex3 -o fig-04-c.png --kind clusters --nodes 257 "
+                 "--pixels 768 --clusters 20",
+                 "texture synth:vortex3 -o fig-04-d.png --kind clusters --nodes 257 "
+                 "--pixels 768 --gamma 2e-4 --clusters 40 --anisotropy 1",
+                 "texture synth:vortex3 -o fig-04-e.png --kind clusters --nodes 257 "
+                 "--pixels 768 --gamma 2e-4 --clusters 40 --anisotropy 0.5",
+                 "texture synth:vortex3 -o fig-04-f.png --kind clusters --nodes 257 "
+                 "--pixels 768 --gamma 2e-4 --clusters 40 --anisotropy 0.2",
+                 "texture synth:vortex3 -o fig-04-g.png --kind clusters --nodes 257 "
+                 "--pixels 768 --gamma 2e-4 --clusters 40 --anisotropy 0.1"},
+     .picture = {{"fig-04-a.png", "a = 0.15, 150 clusters"},
+                 {"fig-04-b.png", "a = 0.15, 60 clusters"},
+                 {"fig-04-c.png", "a = 0.15, 20 clusters"},
+                 {"fig-04-d.png", "a = 1"},
+                 {"fig-04-e.png", "a = 0.5"},
+                 {"fig-04-f.png", "a = 0.2"},
+                 {"fig-04-g.png", "a = 0.1"}}},
     {.number = 5,
      .title = "From a cluster to its arrow",
      .paper =
@@ -30,9 +70,12 @@ const gallery_figure gallery_figures[] = {
                 "(dots); its middle is the centre (ring). The arrow follows the "
                 "streamline through the centre, or one near it that fits better, and "
                 "stays in the cluster: docs/method/icons.md.",
-     .command = {"run synth:benard -o fig-05/clusters --clusters 40 --tint",
+     .command = {"texture synth:benard -o fig-05-density.png --kind clusters --nodes 257 "
+                 "--pixels 768 --clusters 40",
+                 "run synth:benard -o fig-05/clusters --clusters 40 --tint",
                  "run synth:benard -o fig-05/skeletons --clusters 40 --tint --skeletons"},
-     .picture = {{"fig-05/clusters/scale-00.png", "Clusters and their arrows"},
+     .picture = {{"fig-05-density.png", "The density"},
+                 {"fig-05/clusters/scale-00.png", "Clusters and their arrows"},
                  {"fig-05/skeletons/scale-00.png",
                   "Spines and centres of the clusters that the arrows come from"}}},
     {.number = 7,
@@ -47,6 +90,27 @@ const gallery_figure gallery_figures[] = {
      .command = {"run synth:vortex -o fig-09 --clusters 60,12 --tint"},
      .picture = {{"fig-09/scale-00.png", "60 clusters"},
                  {"fig-09/scale-01.png", "12 clusters"}}},
+    {.number = 10,
+     .title = "A circular vortex in three dimensions",
+     .paper = "Curved arrows of a vortex in 3D, from two viewpoints.",
+     .command =
+         {"run synth:vortex3d -o fig-10 --clusters 40,12 --view 30,22 --view 75,50"},
+     .picture = {{"fig-10/scale-00.png", "40 clusters"},
+                 {"fig-10/scale-00-2.png", "The same from above"},
+                 {"fig-10/scale-01.png", "12 clusters"},
+                 {"fig-10/scale-01-2.png", "The same from above"}}},
+    {.number = 11,
+     .title = "Discrete clustering",
+     .paper =
+         "The method of Telea and van Wijk (1999), which the paper compares with, on "
+         "the field of three vortices and on the circular one.",
+     .command =
+         {"rival synth:vortex3 -o fig-11-vortices.geojson --method discrete --icons "
+          "40 --tint",
+          "rival synth:vortex -o fig-11-circle.geojson --method discrete --icons 20 "
+          "--tint"},
+     .picture = {{"fig-11-vortices.png", "Three vortices, 40 clusters"},
+                 {"fig-11-circle.png", "Circular flow, 20 clusters"}}},
     {.number = 13,
      .title = "The time line of the \xCE\xB8-scheme",
      .paper = "The three substeps of a time step.",

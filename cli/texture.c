@@ -16,7 +16,9 @@ static int write_texture(fg_context *context, const cli_settings *settings,
 
 static int paint(fg_context *context, const cli_settings *settings, const fg_field *field)
 {
-  const fg_texture_options options = settings_texture(settings);
+  const fg_evolution_options evolution = settings_evolution(settings);
+  fg_texture_options options = settings_texture(settings);
+  options.evolution = &evolution;
   fg_texture *texture = NULL;
   fg_status status = fg_texture_create(&texture, context, field, &options);
   int code = status ? complain_of(context, status, settings->operand)

@@ -35,6 +35,9 @@ typedef struct fg_texture_options {
                     pixels, 2 to 400 [a 25th of the longest side, of spots an 18th, of
                     DIFFUSION a 20th; 20 at least]; not for CLUSTERS */
   int clusters;  /* CLUSTERS: the first moment with no more of them [300] */
+  const fg_evolution_options *evolution; /* CLUSTERS: how they evolve; its `nodes`, when
+                                            0, follow the pixels; seed and threads are
+                                            those below [NULL: defaults] */
   const fg_density *density; /* CLUSTERS: these instead, not shared; borrowed while the
                                 texture is made [NULL: an evolution of its own] */
   uint64_t seed;             /* of the noise [1] */

@@ -98,10 +98,13 @@ static bool few_clusters(const fg_step *step, const fg_mesh_info *mesh,
 
 fg_status fg__clusters_paint(float *value, fg_context *context, const fg__canvas *canvas)
 {
-  const fg_evolution_options options = {
-      .nodes = node_count(longest_of(canvas) / pixels_a_cell + 1.0),
-      .seed = canvas->seed,
-      .threads = fg__team_members(canvas->team)};
+  fg_evolution_options options = {0};
+  if (canvas->evolution)
+    options = *canvas->evolution;
+  if (options.nodes == 0)
+    options.nodes = node_count(longest_of(canvas) / pixels_a_cell + 1.0);
+  options.seed = canvas->seed;
+  options.threads = fg__team_members(canvas->team);
   fg_density *density = NULL;
   fg_status status = FG_STATUS_OK;
   if (!canvas->density)

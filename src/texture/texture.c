@@ -124,6 +124,7 @@ static fg_status make(fg_texture *texture, fg_context *context, const fg_field *
   fg__canvas canvas = {.field = field,
                        .seed = o->seed ? o->seed : 1,
                        .clusters = o->clusters,
+                       .evolution = o->evolution,
                        .density = o->density};
   int size[2];
   choose_size(size, fg_field_contents(field), o);

@@ -9,9 +9,10 @@
 typedef struct fg__canvas {
   const fg_field *field;
   fg__raster raster;
-  double length;             /* of streaks */
-  int clusters;              /* at most; 0: the usual number */
-  const fg_density *density; /* of the clusters to show; NULL: evolve them */
+  double length;                         /* of streaks */
+  int clusters;                          /* at most; 0: the usual number */
+  const fg_evolution_options *evolution; /* of the clusters; NULL: defaults */
+  const fg_density *density;             /* of the clusters to show; NULL: evolve them */
   uint64_t seed;
   fg__team *team;
 } fg__canvas;

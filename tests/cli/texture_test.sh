@@ -34,7 +34,7 @@ grep -q 'width="50pt"' page.svg || fault "$(grep -m1 '<svg' page.svg)"
 done_with "texture: PDF and SVG"
 
 for bad in "--kind plaid" "--kind" "--pixels 3" "--pixels 99999" "--length 1" "--clusters 30,10" "--fade 2" \
-  "--seed 0" "--palette nope" "--nodes 65"; do
+  "--seed 0" "--palette nope" "--max-steps 3"; do
   # shellcheck disable=SC2086
   try texture synth:benard -o bad.png $bad
   expect_code 2
