@@ -1,5 +1,6 @@
-/* The mean of u in each part of a domain, held. Coarse cells reach across the narrow
- * walls of a mask, so a cycle moves some mass through them; each part gets its own back.
+/* The mean of u in each part of a domain, held: sweeps do not keep it, and on a coarse
+ * level whose one node stands for a part all that is missing would be put where the
+ * density is between the wells.
  *
  * The parts are the components of a density that is 1 everywhere (components.h): two
  * nodes are of one part when a chain of active cells joins them, whoever owns them. Sums

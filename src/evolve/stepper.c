@@ -123,8 +123,8 @@ static void guess(fg__stepper *s, double tau, double share)
   fg__pass_predict(m, s->current, s->previous, omega, u);
 }
 
-/* Keeps what the last cycle starts from. What coarse cells bring across a mask's walls
- * the next cycle would hardly bring back: parts get their means back after each. */
+/* Keeps what the last cycle starts from. Parts get their means back after each cycle,
+ * before the next one restricts what they lack. */
 static fg__changes solve(fg__stepper *s, double tau, int cycles)
 {
   fg__multigrid *m = &s->multigrid;
