@@ -17,10 +17,10 @@ static const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
   EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL |
-          COMMAND_TEXTURE | COMMAND_GALLERY,
+          COMMAND_TEXTURE | COMMAND_GALLERY | COMMAND_BRUSH,
   READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE,
   DRAWN = COMMAND_RUN | COMMAND_RIVAL,
-  SEEDED = COMMAND_RUN | COMMAND_TEXTURE,
+  SEEDED = COMMAND_RUN | COMMAND_TEXTURE | COMMAND_BRUSH,
   PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL,
 };
 
@@ -48,6 +48,15 @@ const cli_command command_table[] = {
      "picture however coarse the field's grid; INPUT as for flowgrain run, the picture's "
      "format by the end of its name: .png (the pixels themselves), .svg or .pdf.",
      true, command_texture},
+    {COMMAND_BRUSH, "brush", "IMAGE", "IMAGE -o PICTURE [options]",
+     "paint an image in brush strokes",
+     "Lets clusters grow along the level sets of an image's grey values and paints each "
+     "as a stroke of a brush, in the image's colours: a layer of few broad strokes "
+     "first, "
+     "then finer ones where the painting still differs from the image. IMAGE is a PNG, "
+     "JPEG, PGM or PPM file; the picture's format follows the end of its name: .png, "
+     ".svg or .pdf.",
+     true, command_brush},
     {COMMAND_INFO, "info", "FILE", "FILE [--json]", "say what a file holds",
      "Lists the vector fields that a file holds: a line `vectors:` for each, as --vars "
      "takes it, with its grid, share of missing values, times and levels.",
@@ -91,6 +100,8 @@ const option_entry option_table[] = {
      NULL, "picture to write, .svg, .pdf or .png"},
     {"output", 'o', "PICTURE", COMMAND_TEXTURE, OPTION_TEXT, AT(output), 0, 0, false,
      false, NULL, "picture to write, .png, .svg or .pdf"},
+    {"output", 'o', "PICTURE", COMMAND_BRUSH, OPTION_TEXT, AT(output), 0, 0, false, false,
+     NULL, "picture to write, .png, .svg or .pdf"},
     {"output", 'o', "FILE", COMMAND_SYNTH, OPTION_TEXT, AT(output), 0, 0, false, false,
      NULL, "file to write, .vti or .nc"},
     {"output", 'o', "FILE", COMMAND_RIVAL, OPTION_TEXT, AT(output), 0, 0, false, false,
@@ -179,6 +190,10 @@ const option_entry option_table[] = {
      NULL,
      "cost of an interface along the flow against one across it, in (0,1]; clusters "
      "become about 1/sqrt(A) times as long as wide [0.15]"},
+    {"anisotropy", 0, "A", COMMAND_BRUSH, OPTION_NUMBER, AT(anisotropy), 0, 1, true, true,
+     NULL,
+     "cost of an interface along the level sets against one across them; smaller makes "
+     "longer strokes [0.15]"},
     {"coverage", 0, "C", COMMAND_RUN, OPTION_NUMBER, AT(coverage), 0, 1, true, true, NULL,
      "share of the area (volume) that clusters shall cover, in (0,1) [0.3]"},
     {"gamma", 0, "G", COMMAND_RUN, OPTION_NUMBER, AT(gamma), 0, 1, true, false, NULL,
@@ -188,6 +203,10 @@ const option_entry option_table[] = {
      "numbers of clusters at which to write a scale, descending, as 200,50,12; a scale "
      "is the first moment at or below the number [the first number seen, then "
      "..., 96, 48, 24, 12]"},
+    {"clusters", 0, "LIST", COMMAND_BRUSH, OPTION_COUNTS, 0, 1, 1000000, false, false,
+     NULL,
+     "numbers of clusters, descending, as 2000,400,80: a layer of strokes each, painted "
+     "from the last to the first [four layers, the finest of a cluster every 52 pixels]"},
     {"extent", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(extent), 0, 0, false, false,
      extent_words,
      "how far an arrow reaches: to the border of its `cluster`, or through its "
@@ -231,6 +250,11 @@ const option_entry option_table[] = {
     /* 14400 points are the largest page that PDF readers promise to show. */
     {"width", 0, "POINTS", PICTURES, OPTION_NUMBER, AT(width), 36, 14400, false, false,
      NULL, "width of the picture in points of 1/72 inch [480]"},
+    {"width", 0, "POINTS", COMMAND_BRUSH, OPTION_NUMBER, AT(width), 36, 14400, false,
+     false, NULL,
+     "width of the picture in points of 1/72 inch; a .png has two pixels a point [a "
+     "point "
+     "for every pixel of the image]"},
     {"surfaces", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(surfaces), 0, 0, false, false,
      NULL, "in 3D: show the clusters' surfaces round the arrows, transparent"},
     {"view", 0, "AZ,EL", COMMAND_RUN | COMMAND_DRAW, OPTION_VIEW, 0, 0, 0, false, false,
@@ -252,6 +276,9 @@ const option_entry option_table[] = {
     {"transparent", 0, NULL, PICTURES, OPTION_FLAG, AT(transparent), 0, 0, false, false,
      NULL, "no background"},
 
+    {"transparent", 0, NULL, COMMAND_BRUSH, OPTION_FLAG, AT(transparent), 0, 0, false,
+     false, NULL, "no ground of the image's mean colour under the strokes"},
+
     {"figure", 0, "N", COMMAND_GALLERY, OPTION_WHOLE, AT(figure), 1, 99, false, false,
      NULL, "only figure N of the paper"},
 
@@ -263,8 +290,8 @@ const option_entry option_table[] = {
      "replace the results of a finished run in DIR; other files in it stay"},
     {"quiet", 'q', NULL, COMMAND_RUN, OPTION_FLAG, AT(quiet), 0, 0, false, false, NULL,
      "no progress bar (there is none when standard error is no terminal)"},
-    {"verbose", 'v', NULL, COMMAND_RUN, OPTION_FLAG, AT(verbose), 0, 0, false, false,
-     NULL, "say on standard error what is being done"},
+    {"verbose", 'v', NULL, COMMAND_RUN | COMMAND_BRUSH, OPTION_FLAG, AT(verbose), 0, 0,
+     false, false, NULL, "say on standard error what is being done"},
     {"json", 0, NULL, COMMAND_INFO, OPTION_FLAG, AT(json), 0, 0, false, false, NULL,
      "as JSON"},
     {"help", 'h', NULL, EVERY, OPTION_HELP, 0, 0, 0, false, false, NULL,

@@ -138,7 +138,9 @@ static const char *next_item(char *item, size_t room, const char *list)
 static bool set_counts(cli_settings *out, const cli_command *command,
                        const option_entry *option, const char *text)
 {
-  int most = command->bit & (COMMAND_DRAW | COMMAND_TEXTURE) ? 1 : MAX_SCALES;
+  int most = command->bit & (COMMAND_DRAW | COMMAND_TEXTURE) ? 1
+             : command->bit == COMMAND_BRUSH                 ? (int)FG_MOST_BRUSH_SCALES
+                                                             : MAX_SCALES;
   out->cluster_count = 0;
   for (const char *rest = text; rest;) {
     char item[32];

@@ -92,6 +92,7 @@ int command_info(const cli_settings *settings);
 int command_synth(const cli_settings *settings);
 int command_rival(const cli_settings *settings);
 int command_texture(const cli_settings *settings);
+int command_brush(const cli_settings *settings);
 int command_gallery(const cli_settings *settings);
 
 /* Does what a command line says, argv[0] being the program; returns its exit code. */

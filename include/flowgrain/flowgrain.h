@@ -516,6 +516,7 @@ FG_API fg_status fg_picture_write(fg_context *context, const char *path,
 }
 #endif
 
+#include "flowgrain/brush.h"
 #include "flowgrain/energy.h"
 #include "flowgrain/parts.h"
 #include "flowgrain/rival.h"

@@ -138,7 +138,7 @@ static void refuses(fixture *f, const fg_energy_law *law, const char *part_of_me
 static void a_law_out_of_range_is_refused(void **state)
 {
   fixture *f = *state;
-  const double twice[2] = {1.2, 0.9}, half[2] = {0.3, 0.4}, none[2] = {NAN, 1.0};
+  const double twice[2] = {1.2, 0.9}, half[2] = {0.3, 0.4}, none[2] = {(double)NAN, 1.0};
   fg_energy_law law = {.name = "line", .tensor = along_one_line, .data = twice};
   refuses(f, &law, "energy line: the tensor's eigenvalues go from 0.15 to 2.0625 at (");
   law.data = none;

@@ -1,0 +1,49 @@
+/* Paints an image in brush strokes along its level sets. */
+#include <stdio.h>
+
+#include "interrupt.h"
+#include "output.h"
+
+static fg_status paint(fg_context *context, const cli_settings *settings,
+                       const fg_image *image)
+{
+  fg_brush_options brush = {.clusters = settings->clusters,
+                            .cluster_count = settings->cluster_count,
+                            .anisotropy = settings->anisotropy,
+                            .seed = settings->seed,
+                            .threads = settings->threads};
+  fg_painting_options look = {.width = settings->width,
+                              .transparent = settings->transparent};
+  fg_strokes *strokes = NULL;
+  fg_status status = fg_strokes_create(&strokes, context, image, &brush);
+  if (!status)
+    status = fg_painting_write(context, settings->output, image, strokes, &look);
+  if (!status && settings->verbose)
+    fprintf(stderr, "flowgrain: %d strokes in %d layers\n", fg_strokes_count(strokes),
+            fg_strokes_layers(strokes));
+  fg_strokes_destroy(strokes);
+  return status;
+}
+
+int command_brush(const cli_settings *settings)
+{
+  int code = check_picture_name(settings->output, "brush");
+  if (code)
+    return code;
+  fg_context *context;
+  if (fg_context_create(&context)) {
+    complain("out of memory");
+    return EXIT_FAILED;
+  }
+  interrupt_start(context);
+  fg_image *image = NULL;
+  fg_status status = fg_image_read(&image, context, settings->operand);
+  if (!status)
+    status = paint(context, settings, image);
+  interrupt_end();
+  if (status)
+    code = complain_of(context, status, settings->operand);
+  fg_image_destroy(image);
+  fg_context_destroy(context);
+  return code;
+}

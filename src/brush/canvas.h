@@ -1,0 +1,37 @@
+/* Colours by pixel: of an image that is copied, and of the painting so far. */
+#ifndef FG__CANVAS_H
+#define FG__CANVAS_H
+
+#include "brush/image.h"
+
+/* Three planes, red, green and blue, rows from the top. */
+typedef struct fg__canvas {
+  int width, height;
+  float *plane[3];
+  unsigned char *painted; /* a byte a pixel; NULL: of an image */
+} fg__canvas;
+
+/* An image (on white where it is transparent) averaged over a Gaussian of that standard
+ * deviation in pixels. MEMORY. */
+fg_status fg__canvas_of_image(fg__canvas *out, fg_context *context,
+                              const fg_image_arrays *image, double deviation);
+
+/* One colour all over: the mean of the image. MEMORY. */
+fg_status fg__canvas_blank(fg__canvas *out, fg_context *context,
+                           const fg_image_arrays *image);
+void fg__canvas_clear(fg__canvas *canvas);
+
+/* The colour at a point in pixels from the upper left corner, bilinear. */
+void fg__canvas_color(double color[3], const fg__canvas *canvas, const double at[2]);
+
+/* Paints a disc. */
+void fg__canvas_dab(fg__canvas *canvas, const double at[2], double radius,
+                    const double color[3]);
+
+/* Whether the pixel at a point, if there is one, has not been painted. */
+bool fg__canvas_is_bare(const fg__canvas *canvas, const double at[2]);
+
+/* The mean colour of an image. */
+void fg__image_mean(double color[3], const fg_image_arrays *image);
+
+#endif

@@ -1,0 +1,32 @@
+/* An image's own representation, and what strokes ask of it. */
+#ifndef FG__IMAGE_H
+#define FG__IMAGE_H
+
+#include "base/context.h"
+#include "flowgrain/brush.h"
+
+struct fg_image {
+  fg_image_arrays contents;
+  float *sample, *alpha; /* owned; alpha may be NULL */
+};
+
+/* More pixels than that are refused before memory is asked for: 2^26 are 67 million. */
+enum { FG__MOST_PIXELS = 1 << 26 };
+
+/* Makes an image whose arrays are to be filled, opaque unless `has_alpha`. `name` goes
+ * before messages. ARGUMENT (fewer than 2 pixels a side, too many in all), MEMORY. */
+fg_status fg__image_begin(fg_image **out, fg_context *context, const char *name,
+                          size_t width, size_t height, int channels, bool has_alpha);
+
+/* The grey values (luma of Rec. 709, on white where the image is transparent), rows from
+ * the top. To be freed; NULL without memory. */
+float *fg__image_grey(const fg_image_arrays *image);
+
+/* Averages rows and columns of a plane over a Gaussian of standard deviation `width` in
+ * pixels, in place; beyond the border the plane is mirrored. False without memory. */
+bool fg__image_blur(float *plane, int width, int height, double deviation);
+
+/* Mirrors an index into [0, count). */
+int fg__image_mirror(int index, int count);
+
+#endif

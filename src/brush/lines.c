@@ -1,0 +1,100 @@
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+#include "brush/layer.h"
+
+/* Clusters whose lines are to be found; members take every so manyth. */
+typedef struct search {
+  const fg_density_arrays *density;
+  const fg__labels *labels;
+  const fg__canvas *image;
+  const fg__line_rule *rule;
+  fg__line *line;
+  fg_context *context;               /* the caller's */
+  fg_context *own[FG__MOST_MEMBERS]; /* a context is for one thread */
+  fg_status status[FG__MOST_MEMBERS];
+} search;
+
+static fg_status find_line(const search *s, fg_context *context, int cluster)
+{
+  fg__window window;
+  fg_status status = fg__window_create(&window, context, s->density, s->labels, cluster);
+  if (status)
+    return status;
+  status = fg__line_create(&s->line[cluster - 1], context, &window, s->image, s->rule);
+  fg__window_clear(&window);
+  return status;
+}
+
+static void find_part(void *argument, const fg__share *share)
+{
+  search *s = argument;
+  int member = share->member;
+  fg_status status = FG_STATUS_OK;
+  for (int cluster = 1 + member; cluster <= s->labels->count && !status;
+       cluster += share->members) {
+    if (member == 0)
+      status = fg__check_stop(s->context);
+    if (!status)
+      status = find_line(s, s->own[member], cluster);
+  }
+  s->status[member] = status;
+}
+
+static fg_status find_lines(search *s, fg__team *team)
+{
+  int members = fg__team_members(team), made = 0;
+  fg_status status = FG_STATUS_OK;
+  for (; made < members && !status; ++made)
+    status = fg_context_create(&s->own[made]);
+  if (status)
+    status = fg__fail_memory(s->context, "a context", 0);
+  else
+    fg__team_run(team, find_part, s);
+  for (int n = 0; n < made; ++n) {
+    if (!status && s->status[n])
+      status =
+          s->status[n] == FG_STATUS_STOPPED
+              ? s->status[n]
+              : fg__fail(s->context, s->status[n], "%s", fg_context_message(s->own[n]));
+    fg_context_destroy(s->own[n]);
+  }
+  return status;
+}
+
+fg_status fg__layer_lines(fg__line **lines, int *count, fg_context *context,
+                          const fg_density_arrays *density, const fg__canvas *image,
+                          const fg__line_rule *rule, int threads)
+{
+  fg__labels labels;
+  fg__team *team = NULL;
+  *lines = NULL;
+  fg_status status = fg__labels_create(&labels, context, density);
+  if (status)
+    return status;
+  search *s = fg__allocate(1, sizeof *s);
+  fg__line *found = fg__allocate((size_t)labels.count + 1, sizeof *found);
+  *count = labels.count;
+  if (!s || !found)
+    status = fg__fail_memory(context, "strokes", (size_t)labels.count * sizeof *found);
+  else
+    status = fg__team_create(&team, context, threads);
+  if (!status) {
+    *s = (search){.density = density,
+                  .labels = &labels,
+                  .image = image,
+                  .rule = rule,
+                  .line = found,
+                  .context = context};
+    status = find_lines(s, team);
+  }
+  fg__team_destroy(team);
+  fg__labels_clear(&labels);
+  free(s);
+  if (status)
+    free(found);
+  else
+    *lines = found;
+  return status;
+}

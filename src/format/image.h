@@ -1,0 +1,22 @@
+/* Readers of images: one file a format, one line in the list of image.c. */
+#ifndef FG__FORMAT_IMAGE_H
+#define FG__FORMAT_IMAGE_H
+
+#include "brush/image.h"
+#include "format/format.h"
+
+typedef struct fg__image_format {
+  const char *name;
+  bool (*is_mine)(const unsigned char *bytes, size_t size);
+  /* From bytes alone. FILE_FORMAT, UNSUPPORTED, MEMORY. */
+  fg_status (*read)(fg_image **out, fg_context *context, const fg__source *source);
+} fg__image_format;
+
+extern const fg__image_format fg__image_png;
+extern const fg__image_format fg__image_jpeg;
+extern const fg__image_format fg__image_pnm;
+
+/* Reads whatever image the source holds. FILE_FORMAT, UNSUPPORTED, MEMORY. */
+fg_status fg__image_read(fg_image **out, fg_context *context, const fg__source *source);
+
+#endif
