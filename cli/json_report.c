@@ -12,7 +12,6 @@
 
 static const char *const scale_words[] = {"auto", "geo", "map", "plain"};
 static const char *const scheme_words[] = {"bdf2", "euler", "theta"};
-static const char *const energy_words[] = {"flow", "isotropic", "gradient"};
 static const char *const extent_words[] = {"cluster", "territory"};
 
 static void add_text(cJSON *object, const char *name, const char *text)
@@ -88,7 +87,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
     cJSON_AddNumberToObject(object, "nodes", said->nodes);
   cJSON_AddStringToObject(object, "mesh", "uniform");
   add_text(object, "scheme", scheme_words[said->scheme]);
-  add_text(object, "energy", energy_words[said->energy]);
+  add_text(object, "energy", said->energy ? said->energy : "flow");
   if (!scales_are_solid(facts->field))
     add_text(object, "extent", extent_words[said->extent]);
   cJSON_AddNumberToObject(object, "anisotropy", mesh->anisotropy);

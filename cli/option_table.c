@@ -6,7 +6,7 @@
 
 static const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
 static const char *const mesh_words[] = {"auto", "uniform", NULL};
-static const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
+const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
 static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete",
                                            "top-down", "streamlines", NULL};
@@ -182,10 +182,11 @@ const option_entry option_table[] = {
      scheme_words,
      "time steps: backward differences of second order, implicit `euler`, or the `theta` "
      "splitting, stable in far shorter steps only [bdf2]"},
-    {"energy", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(energy), 0, 0, false, false,
-     energy_words,
+    {"energy", 0, "KIND", COMMAND_RUN, OPTION_TEXT, AT(energy), 0, 0, false, false, NULL,
      "interfacial energy: `flow` draws clusters out along the streamlines, `gradient` "
-     "along the level sets of the speed, `isotropic` ignores the field [flow]"},
+     "along the level sets of the speed, `isotropic` ignores the field; or a file with a "
+     "symmetric tensor field, of VTK tensors or variables xx, xy, yy (zz, xz, yz) "
+     "[flow]"},
     {"anisotropy", 0, "A", COMMAND_RUN, OPTION_NUMBER, AT(anisotropy), 0, 1, true, false,
      NULL,
      "cost of an interface along the flow against one across it, in (0,1]; clusters "

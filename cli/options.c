@@ -297,6 +297,30 @@ static const option_entry *find_option(const cli_command *command, int code)
   return NULL;
 }
 
+int energy_place(const char *word)
+{
+  for (int k = 0; word && energy_words[k]; ++k)
+    if (strcmp(energy_words[k], word) == 0)
+      return k;
+  return word ? -1 : 0;
+}
+
+/* A word that no file is likely to be called is a wrong one. */
+static bool check_energy(const cli_settings *said, const cli_command *command)
+{
+  if (energy_place(said->energy) >= 0)
+    return true;
+  char words[128];
+  list_words(words, sizeof words, energy_words);
+  if (!strpbrk(said->energy, "./"))
+    return wrong(command, "--energy %s: not known; the choice is: %s, or a file",
+                 said->energy, words);
+  if (said->anisotropy > 0.0)
+    return wrong(command, "--anisotropy %g: that is for --energy to say, %s",
+                 said->anisotropy, said->energy);
+  return true;
+}
+
 static bool check_operands(cli_settings *out, const cli_command *command, int count,
                            char **operands)
 {
@@ -315,7 +339,7 @@ static bool check_operands(cli_settings *out, const cli_command *command, int co
   if (out->resume && out->force)
     return wrong(command, "--resume goes on with what --force would replace: say one");
   out->operand = count ? operands[0] : NULL;
-  return true;
+  return check_energy(out, command);
 }
 
 parse_result options_parse(cli_settings *out, const cli_command *command, int argc,
@@ -378,7 +402,9 @@ fg_evolution_options settings_evolution(const cli_settings *settings)
   return (fg_evolution_options){
       .nodes = settings->nodes,
       .scheme = (fg_scheme)settings->scheme,
-      .energy = (fg_energy)settings->energy,
+      .energy = (fg_energy)(energy_place(settings->energy) < 0
+                                ? 0
+                                : energy_place(settings->energy)),
       .anisotropy = settings->anisotropy,
       .coverage = settings->coverage,
       .gamma = settings->gamma,

@@ -65,6 +65,11 @@ extern const size_t option_count;
 /* Names of the picture formats, in the order of their bits. */
 extern const char *const format_words[FORMAT_KINDS];
 
+/* Energies that are no files, in the order of fg_energy, ended by NULL; and the place of
+ * a word among them, -1 for a file. */
+extern const char *const energy_words[];
+int energy_place(const char *word);
+
 /* Finds a command by its name; NULL when there is none. */
 const cli_command *command_find(const char *name);
 

@@ -25,9 +25,9 @@ typedef struct cli_settings {
   int scale; /* fg_scale */
 
   int nodes;
-  int mesh;   /* auto (0) or uniform, which are the same */
-  int scheme; /* fg_scheme */
-  int energy; /* fg_energy */
+  int mesh;           /* auto (0) or uniform, which are the same */
+  int scheme;         /* fg_scheme */
+  const char *energy; /* a word of energy_words or a file; NULL: flow */
   double anisotropy, coverage, gamma;
   uint64_t seed;
   double max_time;

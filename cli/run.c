@@ -92,11 +92,35 @@ static int join_field(cli_run *run)
   return status ? complain_of(run->context, status, run->settings->operand) : EXIT_DONE;
 }
 
+/* Of a file that says the energy; complains and returns the exit code. All ranks. */
+static int read_energy(fg_tensors **out, const cli_run *run)
+{
+  const char *path = run->settings->energy;
+  *out = NULL;
+  if (energy_place(path) >= 0)
+    return EXIT_DONE;
+  int code = rehearse_reading(path, NULL);
+  if (!code) {
+    fg_status status = fg_tensors_read(out, run->context, path, run->field);
+    code = status ? complain_of(run->context, status, path) : EXIT_DONE;
+  }
+  return ranks_agree(code);
+}
+
 static int create_evolution(cli_run *run)
 {
   fg_evolution_options options = settings_evolution(run->settings);
+  fg_tensors *tensors;
+  int code = read_energy(&tensors, run);
+  if (code) {
+    fg_tensors_destroy(tensors);
+    return code;
+  }
+  if (tensors)
+    options.law = fg_tensors_law(tensors);
   fg_status status =
       fg_evolution_create(&run->evolution, run->context, run->field, &options);
+  fg_tensors_destroy(tensors);
   if (status)
     return complain_of(run->context, status, run->settings->operand);
   const fg_mesh_info *mesh = fg_evolution_mesh(run->evolution);

@@ -44,6 +44,20 @@ struct fg_energy_law {
                         option's */
 };
 
+/* A symmetric tensor field from a file, as an energy: a VTK array of nine components or
+ * six (.vti, .vtr, .vtk), or variables xx, xy, yy (in 3D also zz, xz, yz) of any format
+ * that fields are read from. Its grid must hold the field's box; between samples it is
+ * linear. All is divided by the greatest eigenvalue. FILE_ACCESS, FILE_FORMAT,
+ * UNSUPPORTED, ARGUMENT (not symmetric, not positive definite, eigenvalues more than a
+ * factor of 1000 apart, another place or dimension), MEMORY. */
+typedef struct fg_tensors fg_tensors;
+FG_API fg_status fg_tensors_read(fg_tensors **out, fg_context *context, const char *path,
+                                 const fg_field *field);
+FG_API void fg_tensors_destroy(fg_tensors *tensors);
+
+/* Borrowed: it lives as long as the tensors. */
+FG_API const fg_energy_law *fg_tensors_law(const fg_tensors *tensors);
+
 #ifdef __cplusplus
 }
 #endif

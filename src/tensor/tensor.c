@@ -140,6 +140,12 @@ static fg_status check_law(const filling *f, fg_context *context)
          least >= f->anisotropy - eigenvalue_slack && greatest <= 1.0 + eigenvalue_slack))
       continue;
     size_t height = (size_t)cells->count[1];
+    if (isnan(f->tensor->xx[n]))
+      return fg__fail(
+          context, FG_STATUS_ARGUMENT, "energy %s: no tensor at (%g, %g, %g)",
+          f->law->name, center_of(cells, 0, (int)(n % width)),
+          center_of(cells, 1, (int)(n / width % height)),
+          cells->dimension == 3 ? center_of(cells, 2, (int)(n / width / height)) : 0.0);
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "energy %s: the tensor's eigenvalues go from %g to %g at (%g, %g, "
                     "%g); %g to 1 is the range",
