@@ -191,11 +191,11 @@ static void png_images_of_every_kind_are_read(void **state)
 static void pnm_images_of_every_kind_are_read(void **state)
 {
   for (int deep = 0; deep <= 1; ++deep)
-    for (char kind = '2'; kind <= '6'; ++kind) {
+    for (int kind = '2'; kind <= '6'; ++kind) {
       if (kind == '4')
         continue;
       int channels = kind % 3 == 0 ? 3 : 1; /* '3' and '6' are 51 and 54 */
-      file f = pnm_of(kind, channels, deep ? 65535 : 255);
+      file f = pnm_of((char)kind, channels, deep ? 65535 : 255);
       /* of text, the last number may lose digits */
       fg_image *image = read_and_truncate(*state, &f, kind < '5' ? 6 : 0);
       assert_samples(image, channels, false);

@@ -29,7 +29,7 @@ static void tensor_at(double tensor[6], const fg_energy_place *place, const void
   double v[3] = {0.0, 0.0, 0.0}, e[3] = {0.0, 0.0, 0.0};
   fg_field_velocity(place->field, place->position, v);
   double here = hypot(hypot(v[0], v[1]), v[2]), change = 0.0;
-  for (int k = 0; k < dimension; ++k) {
+  for (int k = 0; k < 3 && k < dimension; ++k) {
     double low, high, half = 0.5 * place->spacing[k];
     double above = speed_beside(place, k, half, here, &high);
     double below = speed_beside(place, k, -half, here, &low);
