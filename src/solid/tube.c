@@ -9,8 +9,8 @@
 #include "solid/vector.h"
 
 /* Corners of a cross-section: with smooth normals no edge shows in a picture where the
- * tube is 60 pixels thick. */
-enum { SIDES = 20 };
+ * head is 100 pixels thick. */
+enum { SIDES = 32 };
 
 /* Sections of a head, so that it bends with the line. */
 enum { HEAD_SECTIONS = 6 };

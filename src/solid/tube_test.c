@@ -79,7 +79,7 @@ static void expect_normals(const fg_surface *s)
       const float *f = s->normal[t[k]];
       const double normal[3] = {(double)f[0], (double)f[1], (double)f[2]};
       assert_true(fabs(fg__length(normal) - 1.0) < 1e-6);
-      assert_true(fg__dot(normal, face) > 0.9); /* a side of 20 is 18 degrees wide */
+      assert_true(fg__dot(normal, face) > 0.9); /* a side of 32 is 11 degrees wide */
     }
   }
 }
@@ -100,7 +100,7 @@ static void a_straight_arrow_has_its_volume(void **state)
   double tail = 0.06, base = 0.15, head = 0.33, cone = 0.75, body = 4.0 - cone;
   double round =
       PI * (body * (tail * tail + tail * base + base * base) + cone * head * head) / 3.0;
-  double polygon = 20 * sin(2 * PI / 20) / (2 * PI); /* of 20 sides, in a circle */
+  double polygon = 32 * sin(2 * PI / 32) / (2 * PI); /* of 32 sides, in a circle */
   assert_true(fabs(volume_of(solid) / (round * polygon) - 1.0) < 1e-9);
   fg_surface_destroy(solid);
 }
