@@ -28,13 +28,20 @@ static const double OWN_WAY = 1.6;
 static const double MOST_TURNING = 18.9;
 static const double MOST_LENGTH = 4;
 
+/* Lines are traced so many separations either way, and farther only where there is room:
+ * most meet another line before that. */
+static const double FIRST_REACH = 12;
+
 /* Placing ends in the search after so many separations; the number of lines jumps with
  * it, so that not every number can be had. */
 enum { ATTEMPTS = 16 };
 
+/* A number of lines is met when it is missed by less than this share. */
+static const double CLOSE = 0.02;
+
 /* How the number of lines falls with the separation: between 1 (all as long as the box)
  * and 2 (all as long as they are apart). */
-static const double FALL = 1.5;
+static const double FALL = 1.2;
 
 /* The points of one streamline. */
 typedef struct points {
@@ -58,12 +65,11 @@ typedef struct placing {
 } placing;
 
 fg_status fg__evenly_trace(fg__streamline *out, fg_context *context,
-                           const fg__domain *domain, const double seed[2],
+                           const fg__domain *domain, const double seed[2], double reach,
                            double *at_seed)
 {
-  fg__streamline_limits limits = {.step = domain->trace_step, .turning = MOST_TURNING};
-  for (int k = 0; k < 2; k++)
-    limits.length += MOST_LENGTH * domain->cells[k] * domain->spacing[k];
+  fg__streamline_limits limits = {
+      .step = domain->trace_step, .length = reach, .turning = MOST_TURNING};
   fg_status status =
       fg__streamline_trace(out, context, domain->field, &domain->all, seed, &limits);
   *at_seed = status == FG_STATUS_OK && out->count > 0 ? out->node[out->start].s : 0;
@@ -151,27 +157,53 @@ static fg_status keep(placing *work, const double seed[2], int first, int last,
   return add_sides(work, first, last);
 }
 
-static fg_status try_seed(placing *work, const double seed[2])
+/* Traces and cuts the line through a seed, as far as `reach` either way; *whole: no part
+ * of it lies beyond. */
+static fg_status try_line(placing *work, const double seed[2], double reach, int *first,
+                          int *last, bool *whole)
 {
-  fg__evenly *evenly = work->evenly;
-  if (!fg__domain_moves(work->domain, seed) ||
-      fg__near_has(&work->near, seed, evenly->separation, -1, 0, 0))
-    return FG_STATUS_OK;
   double at_seed;
   fg_status status =
-      fg__evenly_trace(&work->line, work->context, work->domain, seed, &at_seed);
+      fg__evenly_trace(&work->line, work->context, work->domain, seed, reach, &at_seed);
+  *first = *last = 0;
+  *whole = true;
   if (status != FG_STATUS_OK || work->line.count < 2)
     return status;
   status = find_points(work, at_seed);
+  if (status == FG_STATUS_OK)
+    status = fg__near_add(&work->near, work->context, seed, work->evenly->count, 0);
+  if (status == FG_STATUS_OK)
+    status = go(work, 1, last);
+  if (status == FG_STATUS_OK)
+    status = go(work, -1, first);
+  *whole = !(work->line.end[0] == FG__STREAMLINE_LONG && *first == 0) &&
+           !(work->line.end[1] == FG__STREAMLINE_LONG && *last == work->now.count - 1);
+  return status;
+}
+
+static fg_status try_seed(placing *work, const double seed[2])
+{
+  fg__evenly *evenly = work->evenly;
+  const fg__domain *domain = work->domain;
+  if (!fg__domain_moves(domain, seed) ||
+      fg__near_has(&work->near, seed, evenly->separation, -1, 0, 0))
+    return FG_STATUS_OK;
+  double most = MOST_LENGTH * (domain->cells[0] * domain->spacing[0] +
+                               domain->cells[1] * domain->spacing[1]);
+  double reach = FIRST_REACH * evenly->separation;
   int points_before = work->near.count, first = 0, last = 0;
-  if (status == FG_STATUS_OK)
-    status = fg__near_add(&work->near, work->context, seed, evenly->count, 0);
-  if (status == FG_STATUS_OK)
-    status = go(work, 1, &last);
-  if (status == FG_STATUS_OK)
-    status = go(work, -1, &first);
-  if (status == FG_STATUS_OK)
+  bool whole = false;
+  fg_status status = FG_STATUS_OK;
+  while (!whole && status == FG_STATUS_OK) {
+    fg__near_forget(&work->near, points_before);
+    status = try_line(work, seed, fmin(reach, most), &first, &last, &whole);
+    whole = whole || reach >= most;
+    reach *= 4;
+  }
+  if (status == FG_STATUS_OK && last > first)
     status = keep(work, seed, first, last, points_before);
+  else
+    fg__near_forget(&work->near, points_before);
   return status == FG_STATUS_OK ? fg__check_stop(work->context) : status;
 }
 
@@ -274,7 +306,7 @@ fg_status fg__evenly_search(fg__evenly *out, fg_context *context,
   double separation = sqrt(domain->area / count) / 2, low = 0, high = HUGE_VAL;
   int best = -1;
   fg_status status = FG_STATUS_OK;
-  for (int i = 0; i < ATTEMPTS && best != count; i++) {
+  for (int i = 0; i < ATTEMPTS && (best < 0 || abs(best - count) > CLOSE * count); i++) {
     status = fg__evenly_place(&tried, context, domain, separation);
     if (status != FG_STATUS_OK)
       break;

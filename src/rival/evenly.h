@@ -33,10 +33,10 @@ void fg__evenly_clear(fg__evenly *evenly);
 fg_status fg__evenly_search(fg__evenly *out, fg_context *context,
                             const fg__domain *domain, int count);
 
-/* The streamline that a line is part of, arc length 0 at its upstream end; *seed is where
- * the seed lies on it. MEMORY. */
+/* The streamline that a line is part of, as far as `reach` either way from the seed and
+ * one step more; arc length is 0 at its upstream end, *at_seed at the seed. MEMORY. */
 fg_status fg__evenly_trace(fg__streamline *out, fg_context *context,
-                           const fg__domain *domain, const double seed[2],
+                           const fg__domain *domain, const double seed[2], double reach,
                            double *at_seed);
 
 #endif

@@ -21,7 +21,8 @@ static void sample_lines(bench *b, fg_context *context, double spacing)
   for (int n = 0; n < b->evenly.count; n++) {
     const fg__evenly_line *part = &b->evenly.line[n];
     double at_seed;
-    assert_int_equal(fg__evenly_trace(&line, context, &b->domain, part->seed, &at_seed),
+    assert_int_equal(fg__evenly_trace(&line, context, &b->domain, part->seed,
+                                      fmax(-part->from, part->to), &at_seed),
                      FG_STATUS_OK);
     int pieces = (int)ceil((part->to - part->from) / spacing);
     if (used + pieces + 1 > capacity) {

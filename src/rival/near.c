@@ -5,6 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Along an axis: together they take 64 MB, and 4 million lines would not fill them. */
+enum { MOST_BINS = 4096 };
+
 fg_status fg__near_create(fg__near *out, fg_context *context, const fg__domain *domain,
                           double reach)
 {
@@ -12,8 +15,7 @@ fg_status fg__near_create(fg__near *out, fg_context *context, const fg__domain *
   size_t bins = 1;
   for (int k = 0; k < 2; k++) {
     double side = domain->cells[k] * domain->spacing[k];
-    /* no more bins than cells: a smaller reach gains nothing */
-    out->bins[k] = (int)fmin(fmax(floor(side / reach), 1), domain->cells[k]);
+    out->bins[k] = (int)fmin(fmax(floor(side / reach), 1), MOST_BINS);
     out->size[k] = side / out->bins[k];
     bins *= (size_t)out->bins[k];
   }
@@ -73,16 +75,25 @@ void fg__near_forget(fg__near *near, int count)
   }
 }
 
-static bool bin_has(const fg__near *near, int bin, const double inside[2],
-                    double distance, int line, double s, double own)
+/* What is asked for. */
+typedef struct query {
+  double inside[2];
+  double square; /* of the distance */
+  int line;
+  double s, own;
+} query;
+
+static bool bin_has(const fg__near *near, int bin, const query *asked)
 {
+  bool periodic = near->domain->period[0] > 0 || near->domain->period[1] > 0;
   for (int i = near->top[bin]; i >= 0; i = near->point[i].below) {
     const fg__near_point *point = &near->point[i];
-    if (point->line == line && fabs(point->s - s) <= own)
-      continue;
-    double way[2] = {point->position[0] - inside[0], point->position[1] - inside[1]};
-    fg__domain_shortest(near->domain, way);
-    if (way[0] * way[0] + way[1] * way[1] < distance * distance)
+    double way[2] = {point->position[0] - asked->inside[0],
+                     point->position[1] - asked->inside[1]};
+    if (periodic)
+      fg__domain_shortest(near->domain, way);
+    if (way[0] * way[0] + way[1] * way[1] < asked->square &&
+        (point->line != asked->line || fabs(point->s - asked->s) > asked->own))
       return true;
   }
   return false;
@@ -91,20 +102,21 @@ static bool bin_has(const fg__near *near, int bin, const double inside[2],
 bool fg__near_has(const fg__near *near, const double position[2], double distance,
                   int line, double s, double own)
 {
-  double inside[2];
+  /* the middle first: there most is near */
+  static const int order[3] = {0, -1, 1};
+  query asked = {.square = distance * distance, .line = line, .s = s, .own = own};
   int bin[2];
-  locate(near, position, inside, bin);
-  for (int dy = -1; dy <= 1; dy++)
-    for (int dx = -1; dx <= 1; dx++) {
-      int at[2] = {bin[0] + dx, bin[1] + dy};
+  locate(near, position, asked.inside, bin);
+  for (int dy = 0; dy < 3; dy++)
+    for (int dx = 0; dx < 3; dx++) {
+      int at[2] = {bin[0] + order[dx], bin[1] + order[dy]};
       bool there = true;
       for (int k = 0; k < 2; k++) {
         if (near->domain->period[k] > 0)
           at[k] = (at[k] + near->bins[k]) % near->bins[k];
         there = there && at[k] >= 0 && at[k] < near->bins[k];
       }
-      if (there &&
-          bin_has(near, at[1] * near->bins[0] + at[0], inside, distance, line, s, own))
+      if (there && bin_has(near, at[1] * near->bins[0] + at[0], &asked))
         return true;
     }
   return false;

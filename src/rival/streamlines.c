@@ -17,8 +17,8 @@ static fg_status add_line(fg_icons *icons, const fg_rival *rival,
   const fg__evenly_line *part = &evenly->line[index];
   double at_seed, length = part->to - part->from;
   fg_icon icon = {.cluster = index + 1, .area = length * evenly->separation};
-  fg_status status =
-      fg__evenly_trace(line, rival->context, &rival->domain, part->seed, &at_seed);
+  fg_status status = fg__evenly_trace(line, rival->context, &rival->domain, part->seed,
+                                      fmax(-part->from, part->to), &at_seed);
   if (status == FG_STATUS_OK)
     status = fg__rival_piece(&icon, rival->context, &rival->domain, line,
                              at_seed + part->from, at_seed + part->to,
