@@ -260,7 +260,7 @@ fg__cells fg__cells_asked(const fg__tensor_recipe *recipe, const fg__box *box)
 
 /* The cells of a range, tensor (0 where inactive) and weight. */
 static fg_status fill_range(float *const values[], fg_context *context,
-                            const fg__tensor_recipe *recipe, const fg_field *field,
+                            const fg__tensor_recipe *recipe, fg__wide_tensor *wide,
                             const range *r)
 {
   fg__cells cells = cells_of(recipe, r);
@@ -275,9 +275,14 @@ static fg_status fill_range(float *const values[], fg_context *context,
   tensor.active = fg__allocate(count, 1);
   if (!tensor.active)
     return fg__fail_memory(context, "the tensor", count);
-  fg_status status =
-      fg__tensor_fill_box(&tensor, context, field, recipe->law, recipe->anisotropy,
-                          &cells, recipe->periodic, recipe->width);
+  fg_status status = wide->memory
+                         ? fg__wide_tensor_finish(&tensor, context, wide, recipe->law,
+                                                  recipe->anisotropy, &cells,
+                                                  recipe->periodic, recipe->width)
+                         : fg__tensor_fill_box(&tensor, context, recipe->field,
+                                               recipe->law, recipe->anisotropy, &cells,
+                                               recipe->periodic, recipe->width);
+  fg__wide_tensor_clear(wide);
   for (size_t n = 0; n < count && !status; ++n) {
     values[components][n] = tensor.active[n] ? 1.0F : 0.0F;
     for (int c = 0; c < components && !tensor.active[n]; ++c)
@@ -341,9 +346,9 @@ void fg__cells_mirror_box(const fg__cells_of_box *cells, const fg__box *box,
 }
 
 fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
-                            const fg__tensor_recipe *recipe, const fg__box *box, int n)
+                            const fg__tensor_recipe *recipe, const fg__box *box,
+                            fg__wide_tensor *wide)
 {
-  const fg_field *field = recipe->window ? recipe->window[n] : recipe->field;
   int dimension = recipe->dimension, components = component_count(dimension);
   range r = range_of(dimension, recipe->periodic, box, recipe->cells);
   size_t count = 1;
@@ -357,7 +362,7 @@ fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
   float *values[FG__TENSOR_COMPONENTS + 1];
   for (int c = 0; c <= components; ++c)
     values[c] = memory + (size_t)c * count;
-  fg_status status = fill_range(values, context, recipe, field, &r);
+  fg_status status = fill_range(values, context, recipe, wide, &r);
   if (!status)
     status = allocate(out, context, dimension, box->nodes);
   size_t from = 0;

@@ -39,8 +39,6 @@ fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
 /* How to find the tensor of any cells of the domain. */
 typedef struct fg__tensor_recipe {
   const fg_field *field;
-  fg_field *const *window; /* [own boxes of the finest level] to be used in place of a
-                              field that ranks share; else NULL */
   const fg_energy_law *law;
   double anisotropy, width; /* see fg__tensor_fill_box */
   int dimension;
@@ -53,9 +51,12 @@ typedef struct fg__tensor_recipe {
 /* The cells whose centres that takes the field at, for a box of nodes. */
 fg__cells fg__cells_asked(const fg__tensor_recipe *recipe, const fg__box *box);
 
-/* The cells round box number `n` of nodes of the finest level. MEMORY. */
+/* The cells round a box of nodes of the finest level. wide: the recipe's law at all cells
+ * asked, of which this is made, unless it is empty (evolve/field_boxes.h); it is cleared.
+ * MEMORY. */
 fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
-                            const fg__tensor_recipe *recipe, const fg__box *box, int n);
+                            const fg__tensor_recipe *recipe, const fg__box *box,
+                            fg__wide_tensor *wide);
 
 /* The cells round a box of a coarser level, as means over 2 x 2 (x 2) of those of the box
  * on the next finer level, which begins at even nodes: only those whose lowest corner the

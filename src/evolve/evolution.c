@@ -160,19 +160,9 @@ static void free_tensor(fg_evolution *e)
   }
 }
 
-static void forget_windows(fg_evolution *e)
-{
-  int boxes;
-  if (e->window)
-    fg__own_boxes(&e->mesh.partition, &boxes);
-  fg__field_windows_destroy(e->window, e->window ? boxes : 0);
-  e->window = NULL;
-}
-
 static fg__tensor_recipe recipe_of(const fg_evolution *e, const fg_field *field)
 {
   fg__tensor_recipe r = {.field = field,
-                         .window = e->window,
                          .law = e->options.law,
                          .anisotropy = e->options.anisotropy,
                          .dimension = e->mesh.dimension,
@@ -190,43 +180,41 @@ static fg__tensor_recipe recipe_of(const fg_evolution *e, const fg_field *field)
   return r;
 }
 
-/* The active cells of this rank's own boxes. */
-static fg_status count_own_cells(fg_evolution *e, const fg_field *field, uint64_t *active)
+/* The active cells whose lowest corners a box owns. */
+static fg_status count_box(const fg_evolution *e, const fg__tensor_recipe *recipe,
+                           const fg__box *box, fg__wide_tensor *wide, uint64_t *active)
 {
-  fg__tensor_recipe recipe = recipe_of(e, field);
-  recipe.width = 0.0; /* directions do not matter */
-  recipe.law = &fg__law_isotropic;
-  recipe.anisotropy = 1.0;
-  *active = 0;
-  int boxes;
-  const fg__box *own = fg__own_boxes(&e->mesh.partition, &boxes);
-  for (int n = 0; n < boxes; ++n) {
-    fg__box box = fg__box_cells(&e->mesh.partition, &own[n]);
-    if (fg__box_is_empty(&box))
-      continue;
-    fg__cells_of_box cells;
-    fg_status status = fg__cells_for_box(&cells, e->context, &recipe, &box, n);
-    for (int k = 0; k < box.nodes[2] && !status; ++k)
-      for (int j = 0; j < box.nodes[1]; ++j)
-        for (int i = 0; i < box.nodes[0]; ++i)
-          *active += cells.weight[fg__cell_at(&cells, i, j, k)] > 0.0F;
-    fg__cells_clear(&cells);
-    if (status)
-      return status;
-  }
-  return FG_STATUS_OK;
+  fg__cells_of_box cells;
+  fg_status status = fg__cells_for_box(&cells, e->context, recipe, box, wide);
+  const fg__box own = fg__box_cells(&e->mesh.partition, box);
+  for (int k = 0; k < own.nodes[2] && !status; ++k)
+    for (int j = 0; j < own.nodes[1]; ++j)
+      for (int i = 0; i < own.nodes[0]; ++i)
+        *active += cells.weight[fg__cell_at(&cells, i, j, k)] > 0.0F;
+  fg__cells_clear(&cells);
+  return status;
 }
 
 static fg_status count_active_cells(fg_evolution *e, const fg_field *field)
 {
-  uint64_t active = 0;
+  const fg__partition *partition = &e->mesh.partition;
   fg__tensor_recipe recipe = recipe_of(e, field);
-  fg_status status =
-      fg__field_of_boxes(&e->window, e->context, &recipe, &e->mesh.partition);
-  if (status)
-    return status;
-  status = count_own_cells(e, field, &active);
-  status = fg__ranks_agree(e->mesh.ranks, e->context, status);
+  recipe.width = 0.0; /* directions do not matter */
+  recipe.law = &fg__law_isotropic;
+  recipe.anisotropy = 1.0;
+  uint64_t active = 0;
+  int boxes;
+  const fg__box *own = fg__own_boxes(partition, &boxes);
+  fg_status status = FG_STATUS_OK;
+  for (int n = 0; n < fg__most_boxes(partition) && !status; ++n) {
+    fg__wide_tensor wide;
+    status = fg__wide_of_box(&wide, e->context, &recipe, partition, n);
+    if (status)
+      break;
+    if (n < boxes)
+      status = count_box(e, &recipe, &own[n], &wide, &active);
+    status = fg__ranks_agree(e->mesh.ranks, e->context, status);
+  }
   if (status)
     return status;
   fg__ranks_add(e->mesh.ranks, &active, 1);
@@ -360,10 +348,7 @@ static fg_status create_multigrid(fg_evolution *e, const fg_field *field,
   double gamma = (1.0 - alpha_of(e)) * e->info.gamma;
   if (e->spread) {
     fg__tensor_recipe recipe = recipe_of(e, field);
-    fg_status status =
-        fg__multigrid_create_spread(out, e->context, &e->mesh, &recipe, gamma);
-    forget_windows(e);
-    return status;
+    return fg__multigrid_create_spread(out, e->context, &e->mesh, &recipe, gamma);
   }
   fg_status status = fg__multigrid_create(out, e->context, &e->mesh, &e->mesh.tile[0],
                                           &e->tensor, gamma, e->team);
@@ -507,7 +492,6 @@ void fg_evolution_destroy(fg_evolution *evolution)
     return;
   fg__stepper_clear(&evolution->stepper);
   fg__team_destroy(evolution->team);
-  forget_windows(evolution);
   fg__team_clusters_clear(&evolution->clusters_found);
   fg__spread_clusters_clear(&evolution->spread_clusters);
   fg__mesh_clear(&evolution->mesh);

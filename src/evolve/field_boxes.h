@@ -5,12 +5,17 @@
 #include "evolve/cells.h"
 #include "mesh/field_parts.h"
 
-/* Gives each of this rank's boxes of the finest level a window of recipe->field that
- * holds all that fg__cells_for_box takes from it; *out is NULL when the field is whole.
- * End with fg__field_windows_destroy. Collective. MEMORY, UNSUPPORTED (see
- * fg__field_windows). */
-fg_status fg__field_of_boxes(fg_field ***out, fg_context *context,
-                             const fg__tensor_recipe *recipe,
-                             const fg__partition *partition);
+/* Boxes that the rank with most of them has. */
+int fg__most_boxes(const fg__partition *partition);
+
+/* Asks the law of a recipe for all cells round this rank's n-th box, if it has one, so
+ * that fg__cells_for_box can do without the field: layer by layer, from windows that are
+ * each about a quarter as large as this rank's part. Where the field is whole *out
+ * becomes empty, and nothing is done. Every rank calls it for each n below
+ * fg__most_boxes. Collective. MEMORY, UNSUPPORTED (see fg__field_windows), what the law
+ * meets. */
+fg_status fg__wide_of_box(fg__wide_tensor *out, fg_context *context,
+                          const fg__tensor_recipe *recipe, const fg__partition *partition,
+                          int n);
 
 #endif

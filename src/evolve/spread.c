@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "evolve/field_boxes.h"
 #include "evolve/interpolation.h"
 
 static fg_status take_arrays(fg__spread *spread, fg_context *context, bool finest)
@@ -191,11 +192,29 @@ static fg_status halve_cells(const fg__spread *spread, fg_context *context,
   return status;
 }
 
+/* The cells of the finest level. Collective. */
+static fg_status ask_for_cells(const fg__spread *spread, fg_context *context,
+                               const fg__tensor_recipe *recipe, fg__cells_of_box *cells)
+{
+  const fg__partition *partition = &spread->partition;
+  const fg__box *own = fg__own_boxes(partition, &(int){0});
+  fg_status status = FG_STATUS_OK;
+  for (int n = 0; n < fg__most_boxes(partition) && !status; ++n) {
+    fg__wide_tensor wide;
+    status = fg__wide_of_box(&wide, context, recipe, partition, n);
+    if (status)
+      return status;
+    if (n < spread->count)
+      status = fg__cells_for_box(&cells[n], context, recipe, &own[n], &wide);
+    status = fg__ranks_agree(partition->ranks, context, status);
+  }
+  return status;
+}
+
 static fg_status create_boxes(fg__spread *spread, fg_context *context,
                               const fg__mesh *mesh, const fg__tensor_recipe *recipe,
                               const fg__spread_description *description)
 {
-  const fg__box *own = fg__own_boxes(&spread->partition, &(int){0});
   size_t count = (size_t)spread->count;
   bool elements = spread->masked && description->finer;
   cells_of_boxes cells = {.tensor = fg__allocate(count, sizeof *cells.tensor)};
@@ -207,8 +226,8 @@ static fg_status create_boxes(fg__spread *spread, fg_context *context,
   status = fg__ranks_agree(mesh->ranks, context, status);
   if (!status && description->finer)
     status = halve_cells(spread, context, description, &cells);
-  for (int b = 0; b < spread->count && !status && !description->finer; ++b)
-    status = fg__cells_for_box(&cells.tensor[b], context, recipe, &own[b], b);
+  if (!status && !description->finer)
+    status = ask_for_cells(spread, context, recipe, cells.tensor);
   for (int b = 0; b < spread->count && !status; ++b) {
     status = create_box(spread, context, mesh, description, b, &cells.tensor[b],
                         elements ? &cells.element[b] : NULL);

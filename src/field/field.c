@@ -173,17 +173,20 @@ static fg_status fail_speed(const fg_field *field, fg_context *context, int k,
   return status;
 }
 
-/* Copies the samples that the field has, and counts those that miss. In a part NaN alone
- * tells which. */
+/* Copies the samples that the field has, or takes them over where they are, and counts
+ * those that miss. In a part NaN alone tells which. */
 static fg_status copy_samples(fg_field *field, fg_context *context,
-                              const fg_field_arrays *arrays, size_t *missing)
+                              const fg_field_arrays *arrays, float *taken[3],
+                              size_t *missing)
 {
   const size_t count = fg__field_held(field); /* check_size: no overflow */
   for (int k = 0; k < arrays->dimension; ++k) {
-    field->velocity[k] = fg__allocate(count, sizeof(float));
+    field->velocity[k] = taken ? taken[k] : fg__allocate(count, sizeof(float));
     if (!field->velocity[k])
       return fg__fail_memory(context, "the velocity", count * sizeof(float));
     field->contents.velocity[k] = field->velocity[k];
+    if (taken)
+      taken[k] = NULL;
   }
   for (size_t i = 0; i < count; ++i) {
     const bool valid = sample_is_valid(arrays, i);
@@ -273,11 +276,11 @@ fg_status fg__field_check_counts(fg_context *context, const fg__part_counts *cou
 }
 
 static fg_status fill_whole(fg_field *field, fg_context *context,
-                            const fg_field_arrays *arrays)
+                            const fg_field_arrays *arrays, float *taken[3])
 {
   fg__part_counts counts = {.samples = fg__field_held(field)};
   size_t missing = 0, cells = 1;
-  fg_status status = copy_samples(field, context, arrays, &missing);
+  fg_status status = copy_samples(field, context, arrays, taken, &missing);
   if (status != FG_STATUS_OK)
     return status;
   counts.missing = missing;
@@ -300,14 +303,14 @@ static fg_status fill_whole(fg_field *field, fg_context *context,
 }
 
 static fg_status fill_part(fg_field *field, fg_context *context,
-                           const fg_field_arrays *arrays)
+                           const fg_field_arrays *arrays, float *taken[3])
 {
   fg__field_part *part = field->part;
   fg__part_counts *counts = &part->counts;
   const int last = fg__field_last_axis(field);
   const int first = field->first[last];
   size_t missing = 0;
-  fg_status status = copy_samples(field, context, arrays, &missing);
+  fg_status status = copy_samples(field, context, arrays, taken, &missing);
   if (status != FG_STATUS_OK)
     return status;
   counts->samples = fg__field_held(field) / (size_t)field->held[last] * (size_t)part->own;
@@ -372,7 +375,8 @@ static fg_status begin_part(fg_field *field, fg_context *context, int number, in
 
 /* number < 0: all of it. */
 static fg_status create(fg_field **out, fg_context *context,
-                        const fg_field_arrays *arrays, int number, int count)
+                        const fg_field_arrays *arrays, float *taken[3], int number,
+                        int count)
 {
   *out = NULL;
   fg_status status = check_arrays(context, arrays);
@@ -399,7 +403,7 @@ static fg_status create(fg_field **out, fg_context *context,
   if (status == FG_STATUS_OK && number >= 0)
     status = begin_part(field, context, number, count);
   if (status == FG_STATUS_OK)
-    status = (number < 0 ? fill_whole : fill_part)(field, context, arrays);
+    status = (number < 0 ? fill_whole : fill_part)(field, context, arrays, taken);
   if (status != FG_STATUS_OK) {
     fg_field_destroy(field);
     return status;
@@ -413,13 +417,20 @@ fg_status fg_field_create(fg_field **out, fg_context *context,
 {
   if (!out || !arrays)
     return fg__fail(context, FG_STATUS_ARGUMENT, "field: no arrays to make it from");
-  return create(out, context, arrays, -1, 1);
+  return create(out, context, arrays, NULL, -1, 1);
+}
+
+fg_status fg__field_take(fg_field **out, fg_context *context,
+                         const fg_field_arrays *arrays, float *taken[3])
+{
+  return create(out, context, arrays, taken, -1, 1);
 }
 
 fg_status fg__field_create_part(fg_field **out, fg_context *context,
-                                const fg_field_arrays *arrays, int number, int count)
+                                const fg_field_arrays *arrays, float *taken[3],
+                                int number, int count)
 {
-  return create(out, context, arrays, number, count);
+  return create(out, context, arrays, taken, number, count);
 }
 
 void fg_field_destroy(fg_field *field)

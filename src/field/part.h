@@ -33,12 +33,18 @@ void fg__part_rows(int *first, int *own, int rows, int number, int count);
  * (round a periodic axis, the first). */
 int fg__part_rows_held(int rows, int first, int own, bool periodic);
 
-/* Copies a part's rows into a field: arrays as for fg_field_create, but for the samples,
- * which are those of its rows (fg__part_rows_held). What is said of all samples together
- * is left for later. A part of one or of more than there are rows is refused. ARGUMENT,
- * UNSUPPORTED, MEMORY. */
+/* fg_field_create with samples that are taken over instead of copied: arrays->velocity[k]
+ * is taken[k], which becomes NULL once it is the field's. */
+fg_status fg__field_take(fg_field **out, fg_context *context,
+                         const fg_field_arrays *arrays, float *taken[3]);
+
+/* Copies a part's rows into a field, or takes them over likewise (taken may be NULL):
+ * arrays as for fg_field_create, but for the samples, which are those of its rows
+ * (fg__part_rows_held). What is said of all samples together is left for later. A part of
+ * one or of more than there are rows is refused. ARGUMENT, UNSUPPORTED, MEMORY. */
 fg_status fg__field_create_part(fg_field **out, fg_context *context,
-                                const fg_field_arrays *arrays, int number, int count);
+                                const fg_field_arrays *arrays, float *taken[3],
+                                int number, int count);
 
 /* Fails when, in all parts together or in a whole field, every sample is missing, no cell
  * has all its corners, or nothing moves. ARGUMENT. */

@@ -27,9 +27,11 @@ typedef struct fg__rows {
 /* The rows of a part; all when there are fewer than parts: then `dealt` becomes that. */
 fg__rows fg__rows_of(fg__dealt *dealt, int rows, bool periodic);
 
-/* fg_field_create of the arrays of such rows. */
+/* The field of the arrays of such rows; velocity[k], which is arrays->velocity[k],
+ * becomes NULL where the field takes it over. */
 fg_status fg__field_of_rows(fg_field **out, fg_context *context,
-                            const fg_field_arrays *arrays, const fg__dealt *dealt);
+                            const fg_field_arrays *arrays, float *velocity[3],
+                            const fg__dealt *dealt);
 
 typedef struct fg__format {
   const char *name; /* as `flowgrain info` shows it */

@@ -315,7 +315,7 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
       arrays.axis_name[k] = grid->axis[k].name;
       arrays.axis_units[k] = grid->axis[k].units;
     }
-    status = fg__field_of_rows(out, file->context, &arrays, &dealt);
+    status = fg__field_of_rows(out, file->context, &arrays, read.velocity, &dealt);
     if (status == FG_STATUS_OK && dealt.count > 1)
       keep_missing(*out, &read);
   }

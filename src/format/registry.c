@@ -152,11 +152,12 @@ fg__rows fg__rows_of(fg__dealt *dealt, int rows, bool periodic)
 }
 
 fg_status fg__field_of_rows(fg_field **out, fg_context *context,
-                            const fg_field_arrays *arrays, const fg__dealt *dealt)
+                            const fg_field_arrays *arrays, float *velocity[3],
+                            const fg__dealt *dealt)
 {
-  return dealt->count == 1
-             ? fg_field_create(out, context, arrays)
-             : fg__field_create_part(out, context, arrays, dealt->number, dealt->count);
+  return dealt->count == 1 ? fg__field_take(out, context, arrays, velocity)
+                           : fg__field_create_part(out, context, arrays, velocity,
+                                                   dealt->number, dealt->count);
 }
 
 static fg_status read_dealt(fg_field **out, fg_context *context, const char *input,

@@ -113,7 +113,7 @@ static fg_status create_axes(double *out[3], const fg__vtk *vtk, const fg__vtk_g
 
 static fg_status create_field(fg_field **out, const fg__vtk *vtk,
                               const fg__vtk_grid *grid, const fg__vtk_vector *vector,
-                              fg_field_arrays arrays, float *const velocity[3],
+                              fg_field_arrays arrays, float *velocity[3],
                               double *const axis[3], const fg__dealt *dealt)
 {
   char component[3][NAME_BYTES], axis_name[3][2] = {"", "", ""};
@@ -132,7 +132,7 @@ static fg_status create_field(fg_field **out, const fg__vtk *vtk,
     arrays.velocity_name[k] = component[k];
     arrays.axis_name[k] = axis_name[k];
   }
-  return fg__field_of_rows(out, vtk->context, &arrays, dealt);
+  return fg__field_of_rows(out, vtk->context, &arrays, velocity, dealt);
 }
 
 static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,

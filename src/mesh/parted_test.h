@@ -30,8 +30,8 @@ static inline fg_status part_of_arrays(fg_field **out, const fg_field_arrays *wh
       memcpy(velocity[k] + to, whole->velocity[k] + from, row * sizeof(float));
   }
   arrays.valid = valid;
-  fg_status status =
-      fg__field_create_part(out, us.context, &arrays, us.ranks->rank, us.ranks->count);
+  fg_status status = fg__field_create_part(out, us.context, &arrays, NULL, us.ranks->rank,
+                                           us.ranks->count);
   for (int k = 0; k <= last; ++k)
     free(velocity[k]);
   free(valid);

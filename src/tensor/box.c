@@ -71,16 +71,73 @@ static void cut_out(void *to, const void *from, size_t size, const fg__cells *ce
     }
 }
 
-static fg_status fill_and_smooth(fg__tensor *tensor, fg_context *context,
-                                 const fg_field *field, const fg_energy_law *law,
+fg_status fg__wide_tensor_create(fg__wide_tensor *out, fg_context *context,
+                                 const fg__cells *reach)
+{
+  size_t count = fg__cell_count(reach), arrays = reach->dimension == 3 ? 6 : 3;
+  float *memory = fg__allocate(count, arrays * sizeof *memory + 1);
+  *out = (fg__wide_tensor){.cells = *reach, .memory = memory};
+  if (!memory)
+    return fg__fail_memory(context, "a box of the tensor",
+                           count * (arrays * sizeof *memory + 1));
+  out->tensor = (fg__tensor){.xx = memory,
+                             .xy = memory + count,
+                             .yy = memory + 2 * count,
+                             .active = (unsigned char *)(memory + arrays * count)};
+  if (reach->dimension == 3) {
+    out->tensor.zz = memory + 3 * count;
+    out->tensor.xz = memory + 4 * count;
+    out->tensor.yz = memory + 5 * count;
+  }
+  return FG_STATUS_OK;
+}
+
+void fg__wide_tensor_clear(fg__wide_tensor *wide)
+{
+  free(wide->memory);
+  *wide = (fg__wide_tensor){0};
+}
+
+fg_status fg__wide_tensor_fill(fg__wide_tensor *wide, fg_context *context,
+                               const fg_field *field, const fg_energy_law *law,
+                               double anisotropy, int first, int count)
+{
+  const int last = wide->cells.dimension - 1;
+  fg__cells cells = wide->cells;
+  size_t skipped = fg__cell_count(&cells) / (size_t)cells.count[last] * (size_t)first;
+  for (int k = 0; k <= last; ++k)
+    cells.domain_count[k] = fg__domain_count(&wide->cells, k);
+  cells.first[last] += first;
+  cells.count[last] = count;
+  fg__tensor part = wide->tensor;
+  float **array[] = {&part.xx, &part.xy, &part.yy, &part.zz, &part.xz, &part.yz};
+  for (int n = 0; n < (last == 2 ? 6 : 3); ++n)
+    *array[n] += skipped;
+  part.active += skipped;
+  return fg__tensor_fill(&part, context, field, law, anisotropy, &cells, NULL);
+}
+
+fg_status fg__wide_tensor_finish(fg__tensor *tensor, fg_context *context,
+                                 fg__wide_tensor *wide, const fg_energy_law *law,
                                  double anisotropy, const fg__cells *cells,
                                  const bool periodic[3], double width)
 {
-  fg_status status =
-      fg__tensor_fill(tensor, context, field, law, anisotropy, cells, NULL);
-  return status ? status
-                : fg__tensor_smooth(tensor, context, anisotropy, cells, periodic, width,
-                                    NULL);
+  const fg__tensor *all = &wide->tensor;
+  fg_status status = FG_STATUS_OK;
+  if (law->axes && width > 0.0)
+    status = fg__tensor_smooth(&wide->tensor, context, anisotropy, &wide->cells, periodic,
+                               width, NULL);
+  if (status)
+    return status;
+  fg__cells from_box = wide->cells;
+  for (int k = 0; k < cells->dimension; ++k)
+    from_box.domain_count[k] = fg__domain_count(&wide->cells, k);
+  const float *from[] = {all->xx, all->xy, all->yy, all->zz, all->xz, all->yz};
+  float *to[] = {tensor->xx, tensor->xy, tensor->yy, tensor->zz, tensor->xz, tensor->yz};
+  for (int n = 0; n < (cells->dimension == 3 ? 6 : 3); ++n)
+    cut_out(to[n], from[n], sizeof(float), cells, &from_box);
+  cut_out(tensor->active, all->active, 1, cells, &from_box);
+  return FG_STATUS_OK;
 }
 
 fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
@@ -90,37 +147,22 @@ fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
 {
   if (!law || !law->axes || !(width > 0.0))
     return fg__tensor_fill(tensor, context, field, law, anisotropy, cells, NULL);
-  fg__cells wide = widened(cells, periodic, width);
-  if (is_same(cells, &wide))
-    return fill_and_smooth(tensor, context, field, law, anisotropy, cells, periodic,
-                           width);
-
-  size_t count = fg__cell_count(&wide), arrays = cells->dimension == 3 ? 6 : 3;
-  float *memory = fg__allocate(count, arrays * sizeof *memory);
-  unsigned char *active = fg__allocate(count, 1);
-  fg_status status = FG_STATUS_OK;
-  if (!memory || !active) {
-    status = fg__fail_memory(context, "a box of the tensor",
-                             count * (arrays * sizeof *memory + 1));
-    goto cleanup;
+  fg__cells reach = widened(cells, periodic, width);
+  if (is_same(cells, &reach)) {
+    fg_status status =
+        fg__tensor_fill(tensor, context, field, law, anisotropy, cells, NULL);
+    return status ? status
+                  : fg__tensor_smooth(tensor, context, anisotropy, cells, periodic, width,
+                                      NULL);
   }
-  fg__tensor all = {
-      .xx = memory, .xy = memory + count, .yy = memory + 2 * count, .active = active};
-  if (cells->dimension == 3) {
-    all.zz = memory + 3 * count;
-    all.xz = memory + 4 * count;
-    all.yz = memory + 5 * count;
-  }
-  status = fill_and_smooth(&all, context, field, law, anisotropy, &wide, periodic, width);
-  if (status)
-    goto cleanup;
-  const float *from[] = {all.xx, all.xy, all.yy, all.zz, all.xz, all.yz};
-  float *to[] = {tensor->xx, tensor->xy, tensor->yy, tensor->zz, tensor->xz, tensor->yz};
-  for (size_t n = 0; n < arrays; ++n)
-    cut_out(to[n], from[n], sizeof(float), cells, &wide);
-  cut_out(tensor->active, active, 1, cells, &wide);
-cleanup:
-  free(memory);
-  free(active);
+  fg__wide_tensor wide;
+  fg_status status = fg__wide_tensor_create(&wide, context, &reach);
+  if (!status)
+    status = fg__wide_tensor_fill(&wide, context, field, law, anisotropy, 0,
+                                  reach.count[reach.dimension - 1]);
+  if (!status)
+    status = fg__wide_tensor_finish(tensor, context, &wide, law, anisotropy, cells,
+                                    periodic, width);
+  fg__wide_tensor_clear(&wide);
   return status;
 }

@@ -58,10 +58,30 @@ fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
                               double anisotropy, const fg__cells *cells,
                               const bool periodic[3], double width);
 
-/* The cells at whose centres that asks a law; it may look up to half a cell round each.
- */
+/* The same in steps, for a field that comes window by window: a box's tensor with what
+ * smoothing reaches round it. MEMORY. */
+typedef struct fg__wide_tensor {
+  fg__cells cells; /* at whose centres a law is asked; it may look half a cell round */
+  fg__tensor tensor;
+  void *memory;
+} fg__wide_tensor;
+
 fg__cells fg__tensor_reach(const fg_energy_law *law, const fg__cells *cells,
                            const bool periodic[3], double width);
+fg_status fg__wide_tensor_create(fg__wide_tensor *out, fg_context *context,
+                                 const fg__cells *reach);
+
+/* Layers [first, first + count) along its last axis. As fg__tensor_fill. */
+fg_status fg__wide_tensor_fill(fg__wide_tensor *wide, fg_context *context,
+                               const fg_field *field, const fg_energy_law *law,
+                               double anisotropy, int first, int count);
+
+/* Once all are filled: what fg__tensor_fill_box gives. MEMORY. */
+fg_status fg__wide_tensor_finish(fg__tensor *tensor, fg_context *context,
+                                 fg__wide_tensor *wide, const fg_energy_law *law,
+                                 double anisotropy, const fg__cells *cells,
+                                 const bool periodic[3], double width);
+void fg__wide_tensor_clear(fg__wide_tensor *wide);
 
 /* Cells along z, cells of the box, cells of the domain along axis k. */
 int fg__layers(const fg__cells *cells);
