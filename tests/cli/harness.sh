@@ -71,7 +71,7 @@ expect_same_results() {
 # Nothing is left in a folder but results.
 expect_only_results() {
   local rest
-  rest=$(ls -A "$1" | grep -vE '^(scale-[0-9]{2}(-[0-9])?\.(geojson|svg|png|pdf|vti|vtp|glb)|run\.json|evolution\.csv)$')
+  rest=$(ls -A "$1" | grep -vE '^(scale-[0-9]{2}\.(geojson|svg|png|pdf|vti|vtp|glb)|run\.json|evolution\.csv)$')
   [ -z "$rest" ] || fault "left in $1: $rest"
 }
 
@@ -98,8 +98,22 @@ need_ranks() {
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
   export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
   export OMPI_MCA_btl_vader_single_copy_mechanism=none
+  # what a killed mpirun leaves behind (session folders by process number, which come
+  # again, and segments of shared memory) must not meet a later one, or another test's
+  TMPDIR=$work/.mpi
+  export TMPDIR
+  case $work in
+  /dev/shm/*) export OMPI_MCA_btl_vader_backing_directory=$TMPDIR ;;
+  esac
+  forget_launchers
   # two ranks would be bound to the first two cores, whatever else runs there
   export OMPI_MCA_hwloc_base_binding_policy=none
+}
+
+# Once what was killed has ended.
+forget_launchers() {
+  rm -rf "$TMPDIR"
+  mkdir "$TMPDIR"
 }
 
 # on RANKS ARGUMENTS...: as try, on several ranks; one that hangs ends with code 124.
@@ -112,14 +126,17 @@ on() {
 
 # wait_at_most SECONDS PID: wait, which kills what does not end by itself. mpirun can lock
 # itself up in its own end (PMIx_server_finalize, Open MPI 4.1.4) once a rank was killed.
+# No subshell watches: a signal that meets one just forked has it run our trap, and the
+# folder of the test is gone.
 wait_at_most() {
-  local watch code
-  (sleep "$1" && kill -KILL "$2") >/dev/null 2>&1 &
-  watch=$!
-  wait "$2" 2>/dev/null
-  code=$?
-  kill "$watch" 2>/dev/null
-  return "$code"
+  local left=$(($1 * 20))
+  {
+    while kill -0 "$2"; do
+      [ "$((left--))" -gt 0 ] || kill -KILL "$2"
+      sleep 0.05
+    done
+    wait "$2"
+  } 2>/dev/null
 }
 
 # mpirun says more when a rank fails; ours are the lines from the program's name on.

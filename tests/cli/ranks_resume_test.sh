@@ -93,6 +93,7 @@ killed() {
     done
     kill -0 "$rank" 2>/dev/null && fault "$3: rank $rank lives on"
   done
+  forget_launchers
 }
 killed often 3 all
 expect_file often/.flowgrain/checkpoint
@@ -112,6 +113,7 @@ for turn in "0 3 900 2" "0 2 131 1" "1 2 77 3" "2 3 400 4"; do
   case $code in
   0 | 124) fault "rank $rank at call $call: code $code" ;;
   esac
+  forget_launchers
   goes_on part "$others"
 done
 done_with "one rank is killed in writing"
