@@ -6,6 +6,7 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include "background.h"
 #include "drawing.h"
 #include "json_report.h"
 #include "rehearse.h"
@@ -105,16 +106,22 @@ static int write_picture(fg_context *context, const cli_settings *settings,
   if (!partial)
     return EXIT_FAILED;
   int code = EXIT_DONE;
-  fg_status status =
-      report->dimension == 3
-          ? write_solid(context, partial, settings, report, index, field, icons)
-          : fg_picture_write(context, partial, field, NULL, icons, &options);
+  fg_texture *background = NULL;
+  fg_status status = report->dimension == 3
+                         ? FG_STATUS_OK
+                         : background_choose(&options, &background, context, settings,
+                                             field, NULL, icons);
+  if (!status)
+    status = report->dimension == 3
+                 ? write_solid(context, partial, settings, report, index, field, icons)
+                 : fg_picture_write(context, partial, field, NULL, icons, &options);
   if (status)
     code = complain_of(context, status, settings->output);
   else if (rename(partial, settings->output) != 0)
     code = complain_of_file(settings->output, "cannot be written");
   if (code)
     unlink(partial);
+  fg_texture_destroy(background);
   free(partial);
   return code;
 }
@@ -126,6 +133,8 @@ int command_draw(const cli_settings *settings)
   fg_icons *icons = NULL;
   fg_field *field = NULL;
   int code = check_picture_name(settings->output, "draw");
+  if (!code)
+    code = background_check(settings, false, 1);
   if (!code)
     code = report_read(&report, settings->operand);
   if (code)

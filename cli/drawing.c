@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "background.h"
 #include "options.h"
 #include "progress.h"
 
@@ -12,7 +13,8 @@ struct cli_drawing {
   const cli_settings *settings;
   const fg_field *field;
   const cli_output *output;
-  fg_context *context; /* the worker's own */
+  fg_context *context;    /* the worker's own */
+  fg_texture *background; /* of the last picture, NULL: none */
   bool threaded;
   pthread_t thread;
 
@@ -124,10 +126,12 @@ static fg_status write_pictures(cli_drawing *drawing, int index,
   options.speed_min = drawing->speeds[0];
   options.speed_max = drawing->speeds[1];
   options.scale_time = moment->time;
+  fg_status status =
+      background_choose(&options, &drawing->background, drawing->context,
+                        drawing->settings, drawing->field, moment->density, icons);
   unsigned formats = drawing->settings->formats;
   if (!formats)
     formats = FORMAT_SVG | FORMAT_PNG;
-  fg_status status = FG_STATUS_OK;
   for (int kind = 0; !status && kind < FORMAT_KINDS; ++kind) {
     if (!(formats & (1U << kind)))
       continue;
@@ -426,6 +430,7 @@ void drawing_destroy(cli_drawing *drawing)
     moment_clear(&drawing->waiting[k]);
   pthread_cond_destroy(&drawing->changed);
   pthread_mutex_destroy(&drawing->lock);
+  fg_texture_destroy(drawing->background);
   fg_context_destroy(drawing->context);
   free(drawing);
 }

@@ -13,6 +13,8 @@ static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete"
 static const char *const lengths_words[] = {"equal", "speed", NULL};
 static const char *const kind_words[] = {"lic",     "spots",     "clusters",
                                          "stripes", "diffusion", NULL};
+static const char *const background_words[] = {
+    "none", "lic", "spots", "clusters", "stripes", "diffusion", NULL};
 static const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
@@ -268,6 +270,10 @@ const option_entry option_table[] = {
      false, NULL, "colour map that shows the speed, or #rrggbb for one colour [greys]"},
     {"tint", 0, NULL, DRAWN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
      "tint the clusters behind their arrows"},
+    {"background", 0, "KIND", COMMAND_RUN | COMMAND_DRAW, OPTION_CHOICE, AT(background),
+     0, 0, false, false, background_words,
+     "in 2D: a pale texture behind the icons, as flowgrain texture paints: `lic`, "
+     "`spots`, `stripes`, `diffusion`, or (run only) the `clusters` of the scale [none]"},
     {"skeletons", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(skeletons), 0, 0, false, false,
      NULL, "mark the spine of each cluster by dots, and its centre by a ring"},
     {"no-frame", 0, NULL, PICTURES, OPTION_FLAG, AT(no_frame), 0, 0, false, false, NULL,

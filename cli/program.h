@@ -46,10 +46,11 @@ typedef struct cli_settings {
   double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
   int view_count;             /* 0: one, the usual */
 
-  int method;  /* rival: fg_rival_method */
-  int lengths; /* rival: 1 with the speed */
-  int kind;    /* fg_texture_kind */
-  int longest; /* pixels */
+  int method;     /* rival: fg_rival_method */
+  int lengths;    /* rival: 1 with the speed */
+  int kind;       /* fg_texture_kind */
+  int background; /* 0: none; 1 more than fg_texture_kind */
+  int longest;    /* pixels */
   double length, fade;
   double position_weight, elongation;
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "background.h"
 #include "checkpoint.h"
 #include "folder.h"
 #include "interrupt.h"
@@ -17,7 +18,8 @@
 static int read_field(cli_run *run)
 {
   const cli_settings *said = run->settings;
-  const bool whole = said->tint || said->extent == FG_ICON_EXTENT_TERRITORY;
+  const bool whole =
+      said->tint || said->background || said->extent == FG_ICON_EXTENT_TERRITORY;
   const int part = whole ? 0 : ranks_number(), parts = whole ? 1 : ranks_count();
   progress_stage(&run->progress, "reading");
   fg_read_options reading = settings_reading(said);
@@ -505,7 +507,9 @@ int command_run(const cli_settings *settings)
     return EXIT_FAILED;
   }
   interrupt_start(run.context);
-  int code = work(&run);
+  int code = background_check(settings, true, ranks_count());
+  if (!code)
+    code = work(&run);
   interrupt_end();
   progress_wipe(&run.progress);
   drawing_destroy(run.drawing);

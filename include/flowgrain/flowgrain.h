@@ -487,15 +487,17 @@ typedef struct fg_picture_options {
   double height;           /* [0: follows from the domain's shape] */
   double pixels_per_point; /* for PNG [2] */
   const char *palette; /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
-  double speed_min, speed_max; /* ends of the colour key; equal: from the icons */
-  bool no_frame;               /* only mask and arrows */
-  bool transparent;            /* no background */
-  bool tint;                   /* tint the clusters (density needed) */
-  bool skeletons;              /* mark the clusters' spines and centres, where icons have
-                                  them */
-  const char *title;           /* caption; NULL: from the field; "" none */
-  double font_size;            /* points [0: follows from the size; 9 at 480 points] */
-  bool no_keys;                /* no colour key, no arrow for the size */
+  double speed_min, speed_max;         /* ends of the colour key; equal: from the icons */
+  bool no_frame;                       /* only mask and arrows */
+  bool transparent;                    /* no background */
+  bool tint;                           /* tint the clusters (density needed) */
+  const struct fg_texture *background; /* behind all, in pale greys (texture.h) [none] */
+  double background_fade;              /* share of its way to white, 0 to 1 [0.7] */
+  bool skeletons;    /* mark the clusters' spines and centres, where icons have
+                        them */
+  const char *title; /* caption; NULL: from the field; "" none */
+  double font_size;  /* points [0: follows from the size; 9 at 480 points] */
+  bool no_keys;      /* no colour key, no arrow for the size */
   const char *mask_color, *tint_color; /* "#rrggbb" [light grey, light blue] */
   double
       scale_time; /* t of the scale, for the caption [the density's; none without it] */

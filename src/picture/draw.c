@@ -11,6 +11,10 @@ const fg__color fg__usual_mask = {0.855, 0.855, 0.845};
 /* Points. Journals ask for lines of at least half a point. */
 static const double frame_width = 0.6;
 static const double coast_width = 0.4;
+static const double rim_width = 0.9;
+
+/* Opacity of a tint through which a texture is still to be seen. */
+static const double tint_on_texture = 0.55;
 
 static void set_color(cairo_t *cairo, fg__color color)
 {
@@ -46,21 +50,49 @@ void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color)
   cairo_stroke(cairo);
 }
 
+/* Pixels that are as large as those of the sheet are taken as they are. */
+static void draw_background(cairo_t *cairo, const fg__box *frame,
+                            cairo_surface_t *background)
+{
+  const double wide = cairo_image_surface_get_width(background);
+  const double high = cairo_image_surface_get_height(background);
+  double pixel[2] = {(frame->x1 - frame->x0) / wide, (frame->y1 - frame->y0) / high};
+  cairo_save(cairo);
+  cairo_translate(cairo, frame->x0, frame->y0);
+  cairo_scale(cairo, pixel[0], pixel[1]);
+  cairo_set_source_surface(cairo, background, 0.0, 0.0);
+  pixel[0] = pixel[1] = 1.0;
+  cairo_user_to_device_distance(cairo, &pixel[0], &pixel[1]);
+  if (fabs(pixel[0] - 1.0) < 0.02 && fabs(pixel[1] - 1.0) < 0.02)
+    cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
+  cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
+  cairo_rectangle(cairo, 0.0, 0.0, wide, high);
+  cairo_fill(cairo);
+  cairo_restore(cairo);
+}
+
 static void draw_areas(cairo_t *cairo, const fg__scene *scene, const fg__style *style)
 {
   if (scene->tint.count) {
     fg__draw_path(cairo, &scene->tint);
-    set_color(cairo, style->tint);
+    cairo_set_source_rgba(cairo, style->tint.red, style->tint.green, style->tint.blue,
+                          style->background ? tint_on_texture : 1.0);
     cairo_fill(cairo);
   }
   if (scene->mask.count)
     fg__draw_mask(cairo, &scene->mask, style->mask);
 }
 
-static void draw_arrows(cairo_t *cairo, const fg__scene *scene)
+/* On a texture each has a pale rim, which sets it off. */
+static void draw_arrows(cairo_t *cairo, const fg__scene *scene, bool rims)
 {
+  cairo_set_line_width(cairo, 2.0 * rim_width);
   for (size_t loop = 0; loop < scene->arrows.count; ++loop) {
     add_loop(cairo, &scene->arrows, loop);
+    if (rims) {
+      cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+      cairo_stroke_preserve(cairo);
+    }
     set_color(cairo, scene->arrow_color[loop]);
     cairo_fill(cairo);
   }
@@ -161,8 +193,10 @@ void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
   cairo_save(cairo);
   add_box(cairo, &page->frame);
   cairo_clip(cairo);
+  if (style->background)
+    draw_background(cairo, &page->frame, style->background);
   draw_areas(cairo, scene, style);
-  draw_arrows(cairo, scene);
+  draw_arrows(cairo, scene, style->background != NULL);
   draw_skeletons(cairo, scene);
   cairo_restore(cairo);
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);

@@ -7,6 +7,7 @@
 typedef struct fg__style {
   fg__color mask, tint;
   bool transparent;
+  cairo_surface_t *background; /* fills the frame; NULL: none */
 } fg__style;
 
 /* A light grey. */

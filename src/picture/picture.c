@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "picture/caption.h"
 #include "picture/sheet.h"
+#include "picture/texture_image.h"
 
 /* A0 paper is 3370 points high; a page six times that is a mistake. */
 static const double largest_page = 20000.0;
@@ -18,6 +19,10 @@ static const double most_pixels_a_side = 32767.0;
 static const double most_pixels = 268435456.0;
 
 static const fg__color usual_tint = {0.845, 0.895, 0.950};
+
+/* A texture as it is outshines what is drawn on it; by eye, on winds and vortices. */
+static const double usual_fade = 0.7;
+static const double most_background = 16384.0;
 
 /* Checked so that NaN fails too. */
 static bool size_usable(double size)
@@ -44,6 +49,10 @@ static fg_status check_options(fg_context *context, const fg_picture_options *op
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "picture: the colour key cannot run from %g to %g",
                     options->speed_min, options->speed_max);
+  if (!(options->background_fade >= 0.0 && options->background_fade <= 1.0))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: a background faded by %g, it must lie between 0 and 1",
+                    options->background_fade);
   return FG_STATUS_OK;
 }
 
@@ -179,6 +188,43 @@ static fg_status check_room(fg_context *context)
   return FG_STATUS_OK;
 }
 
+static fg_status make_background(picture *p, fg_context *context,
+                                 const fg_picture_options *options)
+{
+  const fg_texture_style style = {
+      .fade = options->background_fade > 0.0 ? options->background_fade : usual_fade};
+  return fg__texture_image(&p->style.background, context,
+                           fg_texture_contents(options->background), &style);
+}
+
+static int pixels_of(double length)
+{
+  return (int)fmin(fmax(floor(length + 0.5), 1.0), most_background);
+}
+
+fg_status fg_picture_frame(int size[2], fg_context *context, const fg_field *field,
+                           const fg_icons *icons, const fg_picture_options *options)
+{
+  if (!size || !field || !icons || fg_field_contents(field)->dimension != 2)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: a NULL argument, or a field in 3 dimensions");
+  const fg_picture_options usual = {0};
+  picture *p = fg__allocate(1, sizeof *p);
+  if (!p)
+    return fg__fail_memory(context, "a picture", sizeof *p);
+  fg_status status = check_room(context);
+  if (!status)
+    status =
+        prepare(p, context, fg_field_contents(field), icons, options ? options : &usual);
+  if (!status) {
+    const fg__box *frame = &p->page.frame;
+    size[0] = pixels_of(p->pixels_per_point * (frame->x1 - frame->x0));
+    size[1] = pixels_of(p->pixels_per_point * (frame->y1 - frame->y0));
+  }
+  free(p);
+  return status;
+}
+
 fg_status fg_picture_write(fg_context *context, const char *path, const fg_field *field,
                            const fg_density *density, const fg_icons *icons,
                            const fg_picture_options *options)
@@ -217,8 +263,11 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
                               &p->palette, range);
   if (!status && options->skeletons)
     status = fg__scene_add_skeletons(&p->scene, context, &p->page, contents, icons);
+  if (!status && options->background)
+    status = make_background(p, context, options);
   if (!status)
     status = render(context, path, p);
+  cairo_surface_destroy(p->style.background);
   fg__scene_clear(&p->scene);
   free(p);
   return status;

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "base/context_test.h"
-#include "flowgrain/texture.h"
+#include "icon/icons.h"
 
 /* A uniform stream on [0, 4] x [0, 2] that is missing in x > 2, where the speed grows
  * along y: 80 x 40 pixels. */
@@ -159,6 +159,39 @@ static void test_fading_leads_to_white(void **state)
   cairo_surface_destroy(white);
 }
 
+/* Icons of none, no frame: the picture is the background, at its own pixels, faded, and
+ * the mask. */
+static void test_background_fills_the_frame(void **state)
+{
+  example *e = *state;
+  fg_icons *icons = NULL;
+  assert_int_equal(fg__icons_create_empty(&icons, e->context), FG_STATUS_OK);
+  fg_picture_options options = {.width = 40.0, .no_frame = true, .background_fade = 0.25};
+  int size[2];
+  assert_int_equal(fg_picture_frame(size, e->context, e->field, icons, &options),
+                   FG_STATUS_OK);
+  assert_int_equal(size[0], 80);
+  assert_int_equal(size[1], 40);
+  options.background = e->texture;
+  if (fg_picture_write(e->context, e->path, e->field, NULL, icons, &options))
+    fail_msg("%s", fg_context_message(e->context));
+  cairo_surface_t *image = cairo_image_surface_create_from_png(e->path);
+  const fg_texture_arrays *t = fg_texture_contents(e->texture);
+  for (int j = 2; j < 38; ++j) {
+    for (int i = 2; i < 37; ++i) {
+      const double grey = 0.08 + 0.92 * (double)t->value[j * 80 + i];
+      const double shown = pixel_at(image, i, 39 - j).red;
+      assert_true(fabs(shown - 0.25 - 0.75 * grey) < 0.006);
+    }
+    assert_true(fabs(pixel_at(image, 60, j).red - 0.855) < 0.003);
+  }
+  cairo_surface_destroy(image);
+  options.background_fade = 1.5;
+  assert_int_equal(fg_picture_write(e->context, e->path, e->field, NULL, icons, &options),
+                   FG_STATUS_ARGUMENT);
+  fg_icons_destroy(icons);
+}
+
 static void test_refusals(void **state)
 {
   static const fg_texture_style wrong[] = {
@@ -189,6 +222,7 @@ int main(void)
       cmocka_unit_test_setup_teardown(test_missing_is_covered, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_palette_shows_speed, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_fading_leads_to_white, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_background_fills_the_frame, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_refusals, set_up, tear_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

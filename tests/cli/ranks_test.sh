@@ -44,6 +44,7 @@ expect_json masked-1/run.json '.mesh | .active_cells < 0.4 * .cells[0] * .cells[
 done_with "less than 40 % of the globe is in the mask"
 compare vortex3 "3" synth:vortex3 --nodes 65 --clusters 20,10 --formats svg --save-field
 compare vortex3d "2 4" synth:vortex3d --nodes 33 --clusters 30
+compare background "2" synth:benard --nodes 65 --clusters 8 --formats svg --background lic
 compare whole "3" synth:benard --nodes 65 --clusters 8 --formats svg --extent territory --tint
 compare tiny "4" synth:vortex3 --nodes 17 --clusters 3 --max-steps 60 --formats svg
 

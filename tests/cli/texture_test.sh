@@ -33,6 +33,25 @@ expect_code 0
 grep -q 'width="50pt"' page.svg || fault "$(grep -m1 '<svg' page.svg)"
 done_with "texture: PDF and SVG"
 
+for kind in spots clusters; do
+  try run synth:saddle -o "run-$kind" --nodes 65 --clusters 12 --formats svg --background "$kind" --quiet
+  expect_code 0
+  [ "$(grep -c '<image' "run-$kind/scale-00.svg")" = 1 ] || fault "no image in the picture"
+done
+cmp -s run-spots/scale-00.geojson run-clusters/scale-00.geojson || fault "other icons"
+done_with "run: a texture behind the icons"
+try draw run-spots -o plain.svg
+expect_code 0
+grep -q '<image' plain.svg && fault "a background that was not asked for"
+try draw run-spots -o stripes.svg --background stripes
+expect_code 0
+grep -q '<image' stripes.svg || fault "no image in the picture"
+try draw run-spots -o clusters.svg --background clusters
+expect_code 2
+expect_one_complaint
+expect_nothing_at clusters.svg
+done_with "draw: a texture behind the icons"
+
 for bad in "--kind plaid" "--kind" "--pixels 3" "--pixels 99999" "--length 1" "--clusters 30,10" "--fade 2" \
   "--seed 0" "--palette nope" "--max-steps 3"; do
   # shellcheck disable=SC2086
