@@ -17,7 +17,10 @@ if(DEFINED ENV{FLOWGRAIN_SYSROOT})
     ${CMAKE_SYSROOT}/usr/lib/aarch64-linux-gnu/pkgconfig:${CMAKE_SYSROOT}/usr/share/pkgconfig)
 else()
   # after the compiler's own, so that libc's are of arm64
-  set(CMAKE_C_FLAGS_INIT "-idirafter /usr/include")
+  # (libjpeg has one in the folder of this machine's processor, the same on arm64)
+  execute_process(COMMAND gcc -print-multiarch OUTPUT_VARIABLE here
+    OUTPUT_STRIP_TRAILING_WHITESPACE)
+  set(CMAKE_C_FLAGS_INIT "-idirafter /usr/include -idirafter /usr/include/${here}")
   set(P4EST_LIBRARY p4est CACHE STRING "not linked")
   set(SC_LIBRARY sc CACHE STRING "not linked")
 endif()

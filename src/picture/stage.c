@@ -58,8 +58,9 @@ void fg__camera_look(fg__camera *out, const fg__stage *stage, double azimuth,
       corner[k] = c >> k & 1 ? stage->half[k] : -stage->half[k];
     see(out, corner, at);
     for (int k = 0; k < 2; ++k) {
-      low[k] = fmin(low[k], at[k]);
-      high[k] = fmax(high[k], at[k]);
+      /* with fmin and fmax here GCC 12 for arm64 breaks down */
+      low[k] = at[k] < low[k] ? at[k] : low[k];
+      high[k] = at[k] > high[k] ? at[k] : high[k];
     }
   }
   out->factor = fmin((pane->x1 - pane->x0) / (high[0] - low[0]),
