@@ -12,7 +12,7 @@ static const double darkest = 0.08;
 /* What a colour becomes at a texture's darkest and lightest places: so much of itself,
  * and so much nearer to white. By eye: the colours stay what they are, the streaks stay
  * to be seen in slow (light) and fast (dark) places. */
-static const double shade = 0.5, light = 0.72;
+static const double shade = 0.72, light = 0.82;
 
 /* The fastest hundredth of the pixels share the last colour: a single fast place, near a
  * pole say, would leave the rest with one. */
