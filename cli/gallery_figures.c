@@ -1,7 +1,8 @@
 /* The figures, in the paper's order. */
 #include "gallery.h"
 
-const char *const gallery_data[] = {"convection_cells.nc", "convection_plumes.nc"};
+const char *const gallery_data[] = {"convection_cells.nc", "convection_plumes.nc",
+                                    "monalisa.png"};
 const int gallery_data_count = sizeof gallery_data / sizeof gallery_data[0];
 
 const gallery_figure gallery_figures[] = {
@@ -111,6 +112,16 @@ const gallery_figure gallery_figures[] = {
           "--tint"},
      .picture = {{"fig-11-vortices.png", "Three vortices, 40 clusters"},
                  {"fig-11-circle.png", "Circular flow, 20 clusters"}}},
+    {.number = 12,
+     .title = "Brush strokes",
+     .paper = "The Mona Lisa in brush strokes of several scales.",
+     .differs = "In the painting's colours, and all scales on top of each other.",
+     .command = {"brush monalisa.png -o fig-12-coarse.png --clusters 100",
+                 "brush monalisa.png -o fig-12-fine.png --clusters 1000",
+                 "brush monalisa.png -o fig-12.png"},
+     .picture = {{"fig-12-coarse.png", "100 clusters, a stroke each"},
+                 {"fig-12-fine.png", "1000 clusters"},
+                 {"fig-12.png", "Four scales, the finest last"}}},
     {.number = 13,
      .title = "The time line of the \xCE\xB8-scheme",
      .paper = "The three substeps of a time step.",
