@@ -85,6 +85,23 @@ const gallery_figure gallery_figures[] = {
      .command = {"run synth:vortex3 -o fig-07 --clusters 80,20 --tint"},
      .picture = {{"fig-07/scale-00.png", "80 clusters"},
                  {"fig-07/scale-01.png", "20 clusters: the same evolution, later"}}},
+    {.number = 8,
+     .title = "Two convective flows over spot noise",
+     .paper =
+         "Two convective fields, each at a fine and a coarse scale, over a spot-noise "
+         "texture.",
+     .differs = "The paper's fields were not published. These are convection in a porous "
+                "layer at Rayleigh numbers 1000 and 3000, computed by "
+                "examples/convection.c.",
+     .command =
+         {"run convection_cells.nc -o fig-08-cells --clusters 150,40 --nodes 513 "
+          "--background spots",
+          "run convection_plumes.nc -o fig-08-plumes --clusters 150,40 --nodes 513 "
+          "--background spots"},
+     .picture = {{"fig-08-cells/scale-00.png", "Cells, 150 clusters"},
+                 {"fig-08-cells/scale-01.png", "Cells, 40 clusters"},
+                 {"fig-08-plumes/scale-00.png", "Plumes, 150 clusters"},
+                 {"fig-08-plumes/scale-01.png", "Plumes, 40 clusters"}}},
     {.number = 9,
      .title = "A circular flow",
      .paper = "The clustering of a circular flow; clusters become rings.",

@@ -71,7 +71,7 @@ expect_same_results() {
 # Nothing is left in a folder but results.
 expect_only_results() {
   local rest
-  rest=$(ls -A "$1" | grep -vE '^(scale-[0-9]{2}\.(geojson|svg|png|pdf|vti|vtp|glb)|run\.json|evolution\.csv)$')
+  rest=$(ls -A "$1" | grep -vE '^(scale-[0-9]{2}(-[0-9])?\.(geojson|svg|png|pdf|vti|vtp|glb)|run\.json|evolution\.csv)$')
   [ -z "$rest" ] || fault "left in $1: $rest"
 }
 
