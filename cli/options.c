@@ -312,9 +312,10 @@ static bool check_energy(const cli_settings *said, const cli_command *command)
     return true;
   char words[128];
   list_words(words, sizeof words, energy_words);
-  if (!strpbrk(said->energy, "./"))
-    return wrong(command, "--energy %s: not known; the choice is: %s, or a file",
-                 said->energy, words);
+  bool takes_file = command->bit == COMMAND_RUN;
+  if (!takes_file || !strpbrk(said->energy, "./"))
+    return wrong(command, "--energy %s: not known; the choice is: %s%s", said->energy,
+                 words, takes_file ? ", or a file" : "");
   if (said->anisotropy > 0.0)
     return wrong(command, "--anisotropy %g: that is for --energy to say, %s",
                  said->anisotropy, said->energy);

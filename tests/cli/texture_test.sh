@@ -53,7 +53,7 @@ expect_nothing_at clusters.svg
 done_with "draw: a texture behind the icons"
 
 for bad in "--kind plaid" "--kind" "--pixels 3" "--pixels 99999" "--length 1" "--clusters 30,10" "--fade 2" \
-  "--seed 0" "--palette nope" "--max-steps 3"; do
+  "--seed 0" "--palette nope" "--max-steps 3" "--energy ./tensors.vtk"; do
   # shellcheck disable=SC2086
   try texture synth:benard -o bad.png $bad
   expect_code 2
