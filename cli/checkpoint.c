@@ -182,8 +182,8 @@ static int list_of(int *out, int most, const cJSON *object, const char *name)
 /* A file that the checkpoint counts on, and that is not there any more. */
 static bool lacks(const cli_run *run, int index, const char *end)
 {
-  char name[32];
-  snprintf(name, sizeof name, "scale-%02d%.15s", index, end);
+  char name[SCALE_NAME_BYTES];
+  scale_name(name, index, end);
   if (file_is_there(run->output.work, name))
     return false;
   complain("%s: damaged: %s, which its checkpoint counts on, is not there",

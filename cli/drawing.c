@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "background.h"
+#include "folder.h"
 #include "options.h"
 #include "progress.h"
 
@@ -44,8 +45,8 @@ void speed_range(const fg_icons *icons, double range[2])
 
 static char *scale_path(const cli_drawing *drawing, int index, const char *end)
 {
-  char name[32];
-  snprintf(name, sizeof name, "scale-%02d%.15s", index, end);
+  char name[SCALE_NAME_BYTES];
+  scale_name(name, index, end);
   return output_path(drawing->output, name);
 }
 

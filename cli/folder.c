@@ -20,6 +20,11 @@ static size_t digits(const char *text)
   return strspn(text, "0123456789");
 }
 
+void scale_name(char out[SCALE_NAME_BYTES], int index, const char *end)
+{
+  snprintf(out, SCALE_NAME_BYTES, "scale-%02d%.15s", index, end);
+}
+
 int scale_of(const char *name)
 {
   static const char *const ends[] = {".geojson", ".svg", ".png", ".pdf",

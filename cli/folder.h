@@ -12,6 +12,10 @@
 /* A name that a run leaves in DIR; no other is ever removed or replaced there. */
 bool is_result(const char *name);
 
+/* The name of a scale's file with that end: "scale-07.svg". */
+enum { SCALE_NAME_BYTES = 40 };
+void scale_name(char out[SCALE_NAME_BYTES], int index, const char *end);
+
 /* The scale that a result's name belongs to, "scale-07.svg" 7; -1: to none. */
 int scale_of(const char *name);
 

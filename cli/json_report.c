@@ -123,10 +123,10 @@ static void add_parameters(cJSON *root, const run_facts *facts)
 
 static void add_files(cJSON *scale, const run_facts *facts, int index)
 {
-  char ends[SCALE_FILES][SCALE_END_BYTES], name[32];
+  char ends[SCALE_FILES][SCALE_END_BYTES], name[SCALE_NAME_BYTES];
   int files = scale_file_ends(ends, facts->settings, facts->field);
   for (int n = 0; n < files; ++n) {
-    snprintf(name, sizeof name, "scale-%02d%.15s", index, ends[n]);
+    scale_name(name, index, ends[n]);
     /* further views are called after their place: "png-2" */
     char key[SCALE_END_BYTES];
     const char *dot = strrchr(ends[n], '.');

@@ -365,8 +365,8 @@ static void print_summary(const cli_run *run)
   scale_file_ends(ends, run->settings, run->field);
   for (int k = 0; k < drawing_count(run->drawing); ++k) {
     const scale_result *result = drawing_result(run->drawing, k);
-    char name[32];
-    snprintf(name, sizeof name, "scale-%02d%.15s", k, ends[1]); /* its first picture */
+    char name[SCALE_NAME_BYTES];
+    scale_name(name, k, ends[1]); /* its first picture */
     char *path = join_path(run->settings->output, name);
     printf("%4d clusters %4d icons  %s\n", result->clusters, result->icons,
            path ? path : name);
