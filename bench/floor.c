@@ -92,6 +92,7 @@ double floor_arithmetic(const char *kernel)
 double floor_traffic(const char *kernel, size_t count)
 {
   const probe *p = probe_of(kernel);
+  count = count > LANES ? count : LANES;
   float *values = fg__allocate_aligned(count, sizeof *values);
   if (!values)
     return 0.0;

@@ -359,7 +359,7 @@ fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
   if (!memory)
     return fg__fail_memory(context, "the tensor",
                            count * (size_t)(components + 1) * sizeof *memory);
-  float *values[FG__TENSOR_COMPONENTS + 1];
+  float *values[FG__TENSOR_COMPONENTS + 1] = {NULL};
   for (int c = 0; c <= components; ++c)
     values[c] = memory + (size_t)c * count;
   fg_status status = fill_range(values, context, recipe, wide, &r);
