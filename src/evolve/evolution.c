@@ -1,19 +1,12 @@
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/memory.h"
-#include "base/mix.h"
-#include "evolve/evolution.h"
-#include "evolve/field_boxes.h"
+#include "evolve/evolution_options.h"
+#include "evolve/evolution_tensor.h"
 #include "field/fingerprint.h"
+#include "mesh/field_parts.h"
 
-/* Defaults that give the paper's pictures (design.md section 2). */
-enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1, DEFAULT_CYCLES = 3 };
-static const double default_anisotropy = 0.15, default_coverage = 0.3;
-/* By scheme: chosen by the time they take for the same error (docs/design/interfaces.md,
- * docs/method/schemes.md). */
-static const double default_accuracy[] = {0.08, 0.05, 0.05};
 /* Half-width of an interface along the stream in cells; at 1 an isotropic pattern pins.
  */
 static const double interface_cells = 1.1, isotropic_interface_cells = 1.5;
@@ -33,57 +26,6 @@ static const double first_step_share = 1e-3;
 
 /* tau gamma / h^4 (measured at 1025 nodes, docs/design/evolution.md). */
 static const double most_stiffness = 2e5;
-
-static fg_status check_range(fg_context *context, const char *name, double value,
-                             double low, double high, bool low_included)
-{
-  if ((low_included ? value >= low : value > low) && value <= high)
-    return FG_STATUS_OK;
-  return fg__fail(context, FG_STATUS_ARGUMENT, "%s %g is not in %c%g, %g]", name, value,
-                  low_included ? '[' : '(', low, high);
-}
-
-static fg_status settle_options(fg_evolution_options *o, fg_context *context,
-                                int dimension)
-{
-  fg_status status = check_range(context, "scheme", o->scheme, 0, FG_SCHEME_THETA, true);
-  if (status)
-    return status;
-  if (o->nodes == 0)
-    o->nodes = dimension == 3 ? DEFAULT_NODES_3D : DEFAULT_NODES;
-  if (o->law)
-    o->energy = FG_ENERGY_LAW;
-  else
-    o->law = fg__energy(o->energy);
-  if (!o->law)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "there is no energy number %d",
-                    (int)o->energy);
-  if (o->law->anisotropy > 0.0)
-    o->anisotropy = o->law->anisotropy;
-  else if (o->anisotropy == 0.0)
-    o->anisotropy = default_anisotropy;
-  if (o->coverage == 0.0)
-    o->coverage = default_coverage;
-  if (o->seed == 0)
-    o->seed = DEFAULT_SEED;
-  if (o->accuracy == 0.0)
-    o->accuracy = default_accuracy[o->scheme];
-  if (o->cycles == 0)
-    o->cycles = DEFAULT_CYCLES;
-  status = check_range(context, "anisotropy", o->anisotropy, 0.0, 1.0, false);
-  if (!status && !(o->coverage > 0.0 && o->coverage < 1.0))
-    status = fg__fail(context, FG_STATUS_ARGUMENT, "coverage %g is not in (0, 1)",
-                      o->coverage);
-  if (!status)
-    status = check_range(context, "accuracy", o->accuracy, 0.0, 1.0, false);
-  if (!status)
-    status = check_range(context, "cycles", o->cycles, 1, 1000, true);
-  if (!status && o->gamma != 0.0)
-    status = check_range(context, "gamma", o->gamma, 0.0, 1.0, false);
-  if (!status && o->threads < 0)
-    status = fg__fail(context, FG_STATUS_ARGUMENT, "%d threads", o->threads);
-  return status;
-}
 
 static fg_status create_mesh(fg_evolution *e, const fg_field *field)
 {
@@ -124,128 +66,13 @@ double fg__evolution_cell_volume(const fg_evolution *e)
   return volume;
 }
 
-static double interface_energy(const fg_evolution *e)
+double fg__evolution_interface_energy(const fg_evolution *e)
 {
   double h = largest_spacing(e);
   bool isotropic = e->options.law->anisotropy >= 1.0;
   double width = (isotropic ? isotropic_interface_cells : interface_cells) * h;
   return e->options.gamma > 0.0 ? e->options.gamma
                                 : width * width / e->options.anisotropy;
-}
-
-static fg_status allocate_tensor(fg_evolution *e)
-{
-  float **arrays[] = {&e->tensor.xx, &e->tensor.xy, &e->tensor.yy,
-                      &e->tensor.zz, &e->tensor.xz, &e->tensor.yz};
-  int count = e->mesh.dimension == 3 ? 6 : 3;
-  bool whole = true;
-  for (int n = 0; n < count; ++n) {
-    *arrays[n] = fg__allocate(e->cells, sizeof **arrays[n]);
-    whole = whole && *arrays[n];
-  }
-  e->tensor.active = fg__allocate(e->cells, 1);
-  if (whole && e->tensor.active)
-    return FG_STATUS_OK;
-  return fg__fail_memory(e->context, "the tensor",
-                         e->cells * ((size_t)count * sizeof(float) + 1));
-}
-
-static void free_tensor(fg_evolution *e)
-{
-  float **arrays[] = {&e->tensor.xx, &e->tensor.xy, &e->tensor.yy,
-                      &e->tensor.zz, &e->tensor.xz, &e->tensor.yz};
-  for (int n = 0; n < 6; ++n) {
-    free(*arrays[n]);
-    *arrays[n] = NULL;
-  }
-}
-
-static fg__tensor_recipe recipe_of(const fg_evolution *e, const fg_field *field)
-{
-  fg__tensor_recipe r = {.field = field,
-                         .law = e->options.law,
-                         .anisotropy = e->options.anisotropy,
-                         .dimension = e->mesh.dimension,
-                         .cells = {1, 1, 1},
-                         .masked = e->active_cells < (long)e->cells};
-  /* an interface across the stream is sqrt(gamma) wide */
-  if (e->options.law->axes)
-    r.width = sqrt(interface_energy(e)) * e->mesh.length;
-  for (int k = 0; k < r.dimension; ++k) {
-    r.cells[k] = e->mesh.cells[k];
-    r.periodic[k] = e->mesh.periodic[k];
-    r.origin[k] = e->mesh.origin[k];
-    r.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
-  }
-  return r;
-}
-
-/* The active cells whose lowest corners a box owns. */
-static fg_status count_box(const fg_evolution *e, const fg__tensor_recipe *recipe,
-                           const fg__box *box, fg__wide_tensor *wide, uint64_t *active)
-{
-  fg__cells_of_box cells;
-  fg_status status = fg__cells_for_box(&cells, e->context, recipe, box, wide);
-  const fg__box own = fg__box_cells(&e->mesh.partition, box);
-  for (int k = 0; k < own.nodes[2] && !status; ++k)
-    for (int j = 0; j < own.nodes[1]; ++j)
-      for (int i = 0; i < own.nodes[0]; ++i)
-        *active += cells.weight[fg__cell_at(&cells, i, j, k)] > 0.0F;
-  fg__cells_clear(&cells);
-  return status;
-}
-
-static fg_status count_active_cells(fg_evolution *e, const fg_field *field)
-{
-  const fg__partition *partition = &e->mesh.partition;
-  fg__tensor_recipe recipe = recipe_of(e, field);
-  recipe.width = 0.0; /* directions do not matter */
-  recipe.law = &fg__law_isotropic;
-  recipe.anisotropy = 1.0;
-  uint64_t active = 0;
-  int boxes;
-  const fg__box *own = fg__own_boxes(partition, &boxes);
-  fg_status status = FG_STATUS_OK;
-  for (int n = 0; n < fg__most_boxes(partition) && !status; ++n) {
-    fg__wide_tensor wide;
-    status = fg__wide_of_box(&wide, e->context, &recipe, partition, n);
-    if (status)
-      break;
-    if (n < boxes)
-      status = count_box(e, &recipe, &own[n], &wide, &active);
-    status = fg__ranks_agree(e->mesh.ranks, e->context, status);
-  }
-  if (status)
-    return status;
-  fg__ranks_add(e->mesh.ranks, &active, 1);
-  e->active_cells = (long)active;
-  if (active == 0)
-    return fg__fail(e->context, FG_STATUS_ARGUMENT, "the field is missing everywhere");
-  return FG_STATUS_OK;
-}
-
-static fg_status create_tensor(fg_evolution *e, const fg_field *field)
-{
-  if (e->spread)
-    return count_active_cells(e, field);
-  fg_status status = allocate_tensor(e);
-  if (status)
-    return status;
-  fg__cells cells = {.dimension = e->mesh.dimension};
-  for (int k = 0; k < e->mesh.dimension; ++k) {
-    cells.count[k] = e->mesh.cells[k];
-    cells.origin[k] = e->mesh.origin[k];
-    cells.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
-  }
-  status = fg__tensor_fill(&e->tensor, e->context, field, e->options.law,
-                           e->options.anisotropy, &cells, e->team);
-  for (size_t n = 0; n < e->cells && !status; ++n)
-    e->active_cells += e->tensor.active[n];
-  double width = recipe_of(e, field).width;
-  if (status || !(width > 0.0))
-    return status;
-  return fg__tensor_smooth(&e->tensor, e->context, e->options.anisotropy, &cells,
-                           e->mesh.periodic, width, e->team);
 }
 
 static fg_status check_interface(const fg_evolution *e)
@@ -318,7 +145,7 @@ static void describe(fg_evolution *e)
   int dimension = e->mesh.dimension;
   e->info = (fg_mesh_info){.dimension = dimension,
                            .cells = {1, 1, 1},
-                           .gamma = interface_energy(e),
+                           .gamma = fg__evolution_interface_energy(e),
                            .anisotropy = e->options.anisotropy,
                            .coverage = e->options.coverage,
                            .length = e->mesh.length};
@@ -342,20 +169,6 @@ static double alpha_of(const fg_evolution *e)
   return e->options.scheme == FG_SCHEME_THETA ? fg__theta_alpha : 0.0;
 }
 
-static fg_status create_multigrid(fg_evolution *e, const fg_field *field,
-                                  fg__multigrid *out)
-{
-  double gamma = (1.0 - alpha_of(e)) * e->info.gamma;
-  if (e->spread) {
-    fg__tensor_recipe recipe = recipe_of(e, field);
-    return fg__multigrid_create_spread(out, e->context, &e->mesh, &recipe, gamma);
-  }
-  fg_status status = fg__multigrid_create(out, e->context, &e->mesh, &e->mesh.tile[0],
-                                          &e->tensor, gamma, e->team);
-  free_tensor(e);
-  return status;
-}
-
 static fg_status create_stepper(fg_evolution *e, const fg_field *field)
 {
   fg__multigrid multigrid = {0};
@@ -369,7 +182,8 @@ static fg_status create_stepper(fg_evolution *e, const fg_field *field)
       .alpha = alpha_of(e)};
   fg_status status = fg__ranks_agree(e->ranks, e->context, check_initial(e));
   if (!status)
-    status = create_multigrid(e, field, &multigrid);
+    status = fg__evolution_multigrid_create(&multigrid, e, field,
+                                            (1.0 - alpha_of(e)) * e->info.gamma);
   if (status)
     return status;
   e->info.kernel = multigrid.kernel->name;
@@ -390,44 +204,18 @@ static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ra
   if (options)
     e->options = *options;
   e->field_fingerprint = fg__field_fingerprint(field);
-  fg_status status =
-      settle_options(&e->options, context, fg_field_contents(field)->dimension);
+  fg_status status = fg__evolution_options_settle(&e->options, context,
+                                                  fg_field_contents(field)->dimension);
   if (!status)
     e->law_identity = e->options.law->identity;
   return status;
-}
-
-/* Ranks with different meshes would wait for messages that never come. */
-static fg_status check_alike(const fg_evolution *e)
-{
-  const fg_evolution_options *o = &e->options;
-  const double numbers[] = {o->anisotropy, o->coverage, o->gamma, o->accuracy};
-  const int words[] = {o->nodes, o->cycles, (int)o->energy, (int)o->scheme,
-                       o->initial != NULL};
-  uint64_t key = fg__mix(e->field_fingerprint ^ fg__mix(o->seed));
-  key = fg__mix(key ^ e->law_identity);
-  for (int n = 0; n < 5; ++n)
-    key = fg__mix(key ^ (uint64_t)words[n]);
-  for (int n = 0; n < 4; ++n) {
-    uint64_t bits;
-    memcpy(&bits, &numbers[n], sizeof bits);
-    key = fg__mix(key ^ bits);
-  }
-  /* halves are whole numbers in a double; the greatest of -x is the least of x */
-  double high = (double)(key >> 32), low = (double)(uint32_t)key;
-  double greatest[] = {high, -high, low, -low};
-  fg__ranks_greatest(e->ranks, greatest, 4);
-  if (greatest[0] == -greatest[1] && greatest[2] == -greatest[3])
-    return FG_STATUS_OK;
-  return fg__fail(e->context, FG_STATUS_ARGUMENT,
-                  "the %d ranks have different fields or options", e->ranks->count);
 }
 
 static fg_status build(fg_evolution *e, const fg_field *field)
 {
   fg_status status = fg__field_check_shared(e->context, e->ranks, field);
   if (!status)
-    status = check_alike(e);
+    status = fg__evolution_check_alike(e);
   if (!status)
     status = create_mesh(e, field);
   if (!status) {
@@ -437,7 +225,7 @@ static fg_status build(fg_evolution *e, const fg_field *field)
       status = fg__team_create(&e->team, e->context, e->options.threads);
   }
   if (!status)
-    status = create_tensor(e, field);
+    status = fg__evolution_tensor_create(e, field);
   if (!status) {
     describe(e);
     status = check_interface(e);
@@ -495,7 +283,7 @@ void fg_evolution_destroy(fg_evolution *evolution)
   fg__team_clusters_clear(&evolution->clusters_found);
   fg__spread_clusters_clear(&evolution->spread_clusters);
   fg__mesh_clear(&evolution->mesh);
-  free_tensor(evolution);
+  fg__evolution_tensor_free(evolution);
   free(evolution->tensor.active);
   free(evolution);
 }

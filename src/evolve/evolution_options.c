@@ -1,0 +1,87 @@
+#include <string.h>
+
+#include "base/mix.h"
+#include "evolve/evolution_options.h"
+
+/* Defaults that give the paper's pictures (design.md section 2). */
+enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1, DEFAULT_CYCLES = 3 };
+static const double default_anisotropy = 0.15, default_coverage = 0.3;
+/* By scheme: chosen by the time they take for the same error (docs/design/interfaces.md,
+ * docs/method/schemes.md). */
+static const double default_accuracy[] = {0.08, 0.05, 0.05};
+
+static fg_status check_range(fg_context *context, const char *name, double value,
+                             double low, double high, bool low_included)
+{
+  if ((low_included ? value >= low : value > low) && value <= high)
+    return FG_STATUS_OK;
+  return fg__fail(context, FG_STATUS_ARGUMENT, "%s %g is not in %c%g, %g]", name, value,
+                  low_included ? '[' : '(', low, high);
+}
+
+fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *context,
+                                       int dimension)
+{
+  fg_status status = check_range(context, "scheme", o->scheme, 0, FG_SCHEME_THETA, true);
+  if (status)
+    return status;
+  if (o->nodes == 0)
+    o->nodes = dimension == 3 ? DEFAULT_NODES_3D : DEFAULT_NODES;
+  if (o->law)
+    o->energy = FG_ENERGY_LAW;
+  else
+    o->law = fg__energy(o->energy);
+  if (!o->law)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "there is no energy number %d",
+                    (int)o->energy);
+  if (o->law->anisotropy > 0.0)
+    o->anisotropy = o->law->anisotropy;
+  else if (o->anisotropy == 0.0)
+    o->anisotropy = default_anisotropy;
+  if (o->coverage == 0.0)
+    o->coverage = default_coverage;
+  if (o->seed == 0)
+    o->seed = DEFAULT_SEED;
+  if (o->accuracy == 0.0)
+    o->accuracy = default_accuracy[o->scheme];
+  if (o->cycles == 0)
+    o->cycles = DEFAULT_CYCLES;
+  status = check_range(context, "anisotropy", o->anisotropy, 0.0, 1.0, false);
+  if (!status && !(o->coverage > 0.0 && o->coverage < 1.0))
+    status = fg__fail(context, FG_STATUS_ARGUMENT, "coverage %g is not in (0, 1)",
+                      o->coverage);
+  if (!status)
+    status = check_range(context, "accuracy", o->accuracy, 0.0, 1.0, false);
+  if (!status)
+    status = check_range(context, "cycles", o->cycles, 1, 1000, true);
+  if (!status && o->gamma != 0.0)
+    status = check_range(context, "gamma", o->gamma, 0.0, 1.0, false);
+  if (!status && o->threads < 0)
+    status = fg__fail(context, FG_STATUS_ARGUMENT, "%d threads", o->threads);
+  return status;
+}
+
+fg_status fg__evolution_check_alike(const fg_evolution *e)
+{
+  const fg_evolution_options *o = &e->options;
+  const double numbers[] = {o->anisotropy, o->coverage, o->gamma, o->accuracy};
+  const int words[] = {o->nodes, o->cycles, (int)o->energy, (int)o->scheme,
+                       o->initial != NULL};
+  uint64_t key = fg__mix(e->field_fingerprint ^ fg__mix(o->seed));
+  key = fg__mix(key ^ e->law_identity);
+  for (int n = 0; n < 5; ++n)
+    key = fg__mix(key ^ (uint64_t)words[n]);
+  for (int n = 0; n < 4; ++n) {
+    uint64_t bits;
+    memcpy(&bits, &numbers[n], sizeof bits);
+    key = fg__mix(key ^ bits);
+  }
+  /* halves are whole numbers in a double; the greatest of -x is the least of x */
+  double high = (double)(key >> 32), low = (double)(uint32_t)key;
+  double greatest[] = {high, -high, low, -low};
+  fg__ranks_greatest(e->ranks, greatest, 4);
+  if (greatest[0] == -greatest[1] && greatest[2] == -greatest[3])
+    return FG_STATUS_OK;
+  return fg__fail(e->context, FG_STATUS_ARGUMENT,
+                  "the %d ranks have different fields or options", e->ranks->count);
+}
