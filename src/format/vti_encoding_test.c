@@ -58,7 +58,7 @@ static bool is_expected(const fg_field *field, int type)
 static bool encoding_at(example_encoding *out, int index)
 {
   static const size_t blocks[] = {32, 48, 1000}; /* the array is 288 bytes in Float64 */
-  int combinations = EXAMPLE_STORAGES * 2 * 2 * 2 * 3;
+  int combinations = EXAMPLE_STORAGES * 3 * 2 * 2 * 3;
   *out = (example_encoding){.type = EXAMPLE_FLOAT64};
   if (index >= combinations) {
     out->storage = (example_storage)(index % EXAMPLE_STORAGES);
@@ -69,10 +69,12 @@ static bool encoding_at(example_encoding *out, int index)
   }
   out->storage = (example_storage)(index % EXAMPLE_STORAGES);
   index /= EXAMPLE_STORAGES;
-  out->zlib = index & 1;
-  out->wide = index & 2;
-  out->big = index & 4;
-  out->block = blocks[index / 8];
+  out->zlib = index % 3 == 1;
+  out->lz4 = index % 3 == 2;
+  index /= 3;
+  out->wide = index & 1;
+  out->big = index & 2;
+  out->block = blocks[index / 4];
   return true;
 }
 
@@ -107,11 +109,12 @@ static void every_truncation_is_refused_or_equal(void **state)
 {
   fg_context *context = *state;
   for (int storage = 0; storage < EXAMPLE_STORAGES; ++storage)
-    for (int zlib = 0; zlib < 2; ++zlib) {
+    for (int packing = 0; packing < 3; ++packing) {
       example_encoding encoding = {.storage = (example_storage)storage,
-                                   .zlib = zlib == 1,
+                                   .zlib = packing == 1,
+                                   .lz4 = packing == 2,
                                    .block = 64,
-                                   .big = zlib == 0,
+                                   .big = packing == 0,
                                    .type = EXAMPLE_FLOAT64};
       example_text file = make_file(&encoding);
       for (size_t size = 1; size < file.size; ++size) {
@@ -149,11 +152,12 @@ static void no_mutation_does_harm(void **state)
   uint64_t random = 20240229;
   long accepted = 0, refused = 0;
   for (int storage = 0; storage < EXAMPLE_STORAGES; ++storage)
-    for (int zlib = 0; zlib < 2; ++zlib) {
+    for (int packing = 0; packing < 3; ++packing) {
       example_encoding encoding = {.storage = (example_storage)storage,
-                                   .zlib = zlib == 1,
+                                   .zlib = packing == 1,
+                                   .lz4 = packing == 2,
                                    .block = 64,
-                                   .wide = zlib == 1,
+                                   .wide = packing > 0,
                                    .type = EXAMPLE_FLOAT64};
       example_text file = make_file(&encoding);
       for (int round = 0; round < 500; ++round) {

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lz4.h>
 #include <zlib.h>
 
 typedef struct example_text {
@@ -57,11 +58,11 @@ enum { EXAMPLE_TYPE_COUNT = 10, EXAMPLE_FLOAT64 = 9 };
 
 typedef struct example_encoding {
   example_storage storage;
-  bool zlib;
-  size_t block; /* bytes of a zlib block */
-  bool wide;    /* UInt64 headers */
-  bool big;     /* big-endian */
-  int type;     /* index into EXAMPLE_TYPES */
+  bool zlib, lz4; /* one of them */
+  size_t block;   /* bytes of a compressed block */
+  bool wide;      /* UInt64 headers */
+  bool big;       /* big-endian */
+  int type;       /* index into EXAMPLE_TYPES */
 } example_encoding;
 
 /* A number of type `type`, in the wanted byte order; returns its size. */
@@ -113,12 +114,31 @@ static inline void example_put(example_text *out, const example_encoding *encodi
     example_base64(out, part);
 }
 
-/* Header and data as VTK has them: plain, both encoded as one; zlib, each by itself. */
+static inline void example_packed(example_text *out, example_text *header,
+                                  const example_encoding *encoding,
+                                  const unsigned char *bytes, size_t size)
+{
+  uLongf most = compressBound((uLong)size) + (uLongf)LZ4_COMPRESSBOUND((int)size);
+  unsigned char *packed = malloc(most);
+  if (!packed)
+    abort();
+  if (encoding->lz4)
+    most = (uLongf)LZ4_compress_default((const char *)bytes, (char *)packed, (int)size,
+                                        (int)most);
+  else if (compress(packed, &most, bytes, (uLong)size) != Z_OK)
+    abort();
+  example_header(header, encoding, most);
+  example_bytes(out, packed, most);
+  free(packed);
+}
+
+/* Header and data as VTK has them: plain, both encoded as one; in blocks, each by itself.
+ */
 static inline void example_binary(example_text *out, const example_encoding *encoding,
                                   const example_text *data)
 {
   example_text header = {0}, packed = {0};
-  if (!encoding->zlib) {
+  if (!encoding->zlib && !encoding->lz4) {
     example_header(&header, encoding, data->size);
     example_bytes(&header, data->bytes, data->size);
     example_put(out, encoding, &header);
@@ -131,13 +151,7 @@ static inline void example_binary(example_text *out, const example_encoding *enc
   example_header(&header, encoding, data->size % block);
   for (size_t at = 0; at < data->size; at += block) {
     size_t part = data->size - at < block ? data->size - at : block;
-    uLongf size = compressBound((uLong)part);
-    unsigned char *bytes = malloc(size);
-    if (!bytes || compress(bytes, &size, data->bytes + at, (uLong)part) != Z_OK)
-      abort();
-    example_header(&header, encoding, size);
-    example_bytes(&packed, bytes, size);
-    free(bytes);
+    example_packed(&packed, &header, encoding, data->bytes + at, part);
   }
   example_put(out, encoding, &header);
   example_put(out, encoding, &packed);
@@ -184,7 +198,10 @@ static inline void example_begin(example_text *out, const example_encoding *enco
            "byte_order=\"%s\" header_type=\"%s\"%s>\n<ImageData %s>\n",
            encoding->big ? "BigEndian" : "LittleEndian",
            encoding->wide ? "UInt64" : "UInt32",
-           encoding->zlib ? " compressor=\"vtkZLibDataCompressor\"" : "", image);
+           encoding->zlib  ? " compressor=\"vtkZLibDataCompressor\""
+           : encoding->lz4 ? " compressor=\"vtkLZ4DataCompressor\""
+                           : "",
+           image);
   example_words(out, words);
 }
 

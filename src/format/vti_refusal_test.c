@@ -89,7 +89,7 @@ static void compression_that_is_not_known_is_refused(void **state)
 {
   char file[EXAMPLE_FILE_BYTES];
   const char *at = strstr(GOOD, "header_type");
-  snprintf(file, sizeof file, "%.*scompressor='vtkLZ4DataCompressor' %s",
+  snprintf(file, sizeof file, "%.*scompressor='vtkLZMADataCompressor' %s",
            (int)(at - GOOD), GOOD, at);
   fg_field_destroy(
       example_field(*state, file, NULL)); /* what is not compressed can be read */
@@ -100,7 +100,7 @@ static void compression_that_is_not_known_is_refused(void **state)
   format[7] = '\'';
   fg_field *field = NULL;
   assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_UNSUPPORTED);
-  assert_non_null(strstr(fg_context_message(*state), "vtkLZ4DataCompressor"));
+  assert_non_null(strstr(fg_context_message(*state), "vtkLZMADataCompressor"));
   assert_non_null(strstr(fg_context_hint(*state), "zlib"));
 }
 

@@ -40,6 +40,7 @@ typedef enum fg__vtk_storage {
 typedef enum fg__vtk_compression {
   FG__VTK_PLAIN,
   FG__VTK_ZLIB,
+  FG__VTK_LZ4,
   FG__VTK_OTHER_COMPRESSION
 } fg__vtk_compression;
 

@@ -75,6 +75,8 @@ static fg_status read_file_attributes(fg__vtk *vtk, const xmlNode *root)
     vtk->compression = FG__VTK_PLAIN;
   else if (strcmp(vtk->compressor, "vtkZLibDataCompressor") == 0)
     vtk->compression = FG__VTK_ZLIB;
+  else if (strcmp(vtk->compressor, "vtkLZ4DataCompressor") == 0)
+    vtk->compression = FG__VTK_LZ4;
   else
     vtk->compression = FG__VTK_OTHER_COMPRESSION;
   return FG_STATUS_OK;

@@ -1,4 +1,4 @@
-/* The numbers of one array: base64 or raw, plain or in zlib blocks. */
+/* The numbers of one array: base64 or raw, plain or in blocks of zlib or LZ4. */
 #include "base/memory.h"
 #include "format/base64.h"
 #include "format/vtk.h"
@@ -7,11 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lz4.h>
 #include <zlib.h>
 
-/* Deflate cannot shrink data more than this (zlib's technical details: 1032 to 1), so a
- * block that promises more is refused before anything is allocated. */
-static const uint64_t LARGEST_COMPRESSION = 1032;
+/* Deflate cannot shrink data more than this (zlib's technical details: 1032 to 1), LZ4
+ * not more than 255 to 1 (a byte a run of as many), so a block that promises more is
+ * refused before anything is allocated. */
+static const uint64_t LARGEST_COMPRESSION[] = {
+    [FG__VTK_PLAIN] = 1, [FG__VTK_ZLIB] = 1032, [FG__VTK_LZ4] = 255};
 
 size_t fg__vtk_size_of(fg__vtk_type type)
 {
@@ -174,7 +177,7 @@ static fg_status read_block_sizes(block_layout *out, const fg__vtk *vtk,
     uint64_t available = bytes_available(&out->data);
     if (size > available || out->stored > available - size)
       return fail_short(vtk, array, size, available - out->stored);
-    if (size_of_block(out, block) / LARGEST_COMPRESSION > size)
+    if (size_of_block(out, block) / LARGEST_COMPRESSION[vtk->compression] > size)
       return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                       "%s: array \"%.100s\": block %llu cannot hold %llu bytes in %llu",
                       vtk->path, array->name, (unsigned long long)block,
@@ -220,14 +223,14 @@ static fg_status read_layout(block_layout *out, const fg__vtk *vtk,
     fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
              "%s: array \"%.100s\" is compressed by %.100s, which cannot be read yet",
              vtk->path, array->name, vtk->compressor);
-    fg__hint(vtk->context, "write it with zlib or without compression");
+    fg__hint(vtk->context, "write it with zlib, with LZ4 or without compression");
     return FG_STATUS_UNSUPPORTED;
   }
   fg_status status = open_stream(&out->data, vtk, array);
   if (status != FG_STATUS_OK)
     return status;
-  return vtk->compression == FG__VTK_ZLIB ? read_block_layout(out, vtk, array, expected)
-                                          : read_plain_layout(out, vtk, array, expected);
+  return vtk->compression == FG__VTK_PLAIN ? read_plain_layout(out, vtk, array, expected)
+                                           : read_block_layout(out, vtk, array, expected);
 }
 
 static fg_status expected_count(size_t *count, const fg__vtk *vtk,
@@ -296,9 +299,13 @@ static bool grow_to(unsigned char **buffer, size_t *capacity, size_t size)
   return *buffer != NULL;
 }
 
-static bool inflate_block(unsigned char *out, size_t wanted, const unsigned char *packed,
-                          size_t size)
+static bool inflate_block(const fg__vtk *vtk, unsigned char *out, size_t wanted,
+                          const unsigned char *packed, size_t size)
 {
+  if (vtk->compression == FG__VTK_LZ4)
+    return wanted <= INT_MAX && size <= INT_MAX &&
+           LZ4_decompress_safe((const char *)packed, (char *)out, (int)size,
+                               (int)wanted) == (int)wanted;
   uLongf inflated = (uLongf)wanted;
   uLong used = (uLong)size;
   return uncompress2(out, &inflated, packed, &used) == Z_OK && inflated == wanted &&
@@ -330,7 +337,7 @@ static fg_status inflate_blocks(unsigned char *out, const fg__vtk *vtk,
     }
     unsigned char *to = skipped ? NULL : entire ? out + (at - range->first) : whole;
     if (!read_bytes(&layout->data, skipped ? NULL : packed, (size_t)size) ||
-        (!skipped && !inflate_block(to, wanted, packed, (size_t)size)))
+        (!skipped && !inflate_block(vtk, to, wanted, packed, (size_t)size)))
       status =
           fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                    "%s: array \"%.100s\": block %llu of %llu does not inflate to %llu "
@@ -370,7 +377,7 @@ static fg_status read_binary(fg__vtk_values *out, const fg__vtk *vtk,
   fg_status status = read_layout(&layout, vtk, array, range.all);
   if (status != FG_STATUS_OK)
     return status;
-  if (vtk->compression == FG__VTK_ZLIB)
+  if (vtk->compression != FG__VTK_PLAIN)
     status = range.all > 0 ? inflate_blocks(out->bytes, vtk, array, &layout, &range)
                            : FG_STATUS_OK;
   else if (!read_bytes(&layout.data, NULL, range.first) ||

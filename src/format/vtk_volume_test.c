@@ -84,10 +84,10 @@ static void assert_points(const fg_field *field)
 static void points_of_a_volume_are_read_in_every_encoding(void **state)
 {
   const example_encoding encodings[] = {
-      {EXAMPLE_ASCII, false, 0, false, false, EXAMPLE_FLOAT64},
-      {EXAMPLE_INLINE, true, 64, false, true, EXAMPLE_FLOAT64 - 1},
-      {EXAMPLE_APPENDED_RAW, false, 0, true, true, EXAMPLE_FLOAT64},
-      {EXAMPLE_APPENDED_BASE64, true, 100, true, false, EXAMPLE_FLOAT64 - 1}};
+      {EXAMPLE_ASCII, false, false, 0, false, false, EXAMPLE_FLOAT64},
+      {EXAMPLE_INLINE, true, false, 64, false, true, EXAMPLE_FLOAT64 - 1},
+      {EXAMPLE_APPENDED_RAW, false, false, 0, true, true, EXAMPLE_FLOAT64},
+      {EXAMPLE_APPENDED_BASE64, false, true, 100, true, false, EXAMPLE_FLOAT64 - 1}};
   for (size_t e = 0; e < sizeof encodings / sizeof encodings[0]; ++e) {
     example_text file = volume(&encodings[e], false, "");
     fg_field *field = field_of(*state, &file, NULL);
