@@ -9,7 +9,7 @@
 #ifndef FLOWGRAIN_BRUSH_H
 #define FLOWGRAIN_BRUSH_H
 
-#include "flowgrain/flowgrain.h"
+#include "flowgrain/context.h"
 
 #ifdef __cplusplus
 extern "C" {

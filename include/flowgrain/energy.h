@@ -3,7 +3,7 @@
 #ifndef FLOWGRAIN_ENERGY_H
 #define FLOWGRAIN_ENERGY_H
 
-#include "flowgrain/flowgrain.h"
+#include "flowgrain/evolution.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -3,7 +3,7 @@
 #ifndef FLOWGRAIN_PARTS_H
 #define FLOWGRAIN_PARTS_H
 
-#include <flowgrain/flowgrain.h>
+#include "flowgrain/field.h"
 
 #ifdef __cplusplus
 extern "C" {

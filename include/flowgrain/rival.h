@@ -3,7 +3,7 @@
 #ifndef FLOWGRAIN_RIVAL_H
 #define FLOWGRAIN_RIVAL_H
 
-#include "flowgrain/flowgrain.h"
+#include "flowgrain/icons.h"
 
 #ifdef __cplusplus
 extern "C" {

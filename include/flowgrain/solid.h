@@ -2,7 +2,7 @@
 #ifndef FLOWGRAIN_SOLID_H
 #define FLOWGRAIN_SOLID_H
 
-#include "flowgrain/flowgrain.h"
+#include "flowgrain/icons.h"
 
 #ifdef __cplusplus
 extern "C" {

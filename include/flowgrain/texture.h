@@ -8,7 +8,7 @@
 #ifndef FLOWGRAIN_TEXTURE_H
 #define FLOWGRAIN_TEXTURE_H
 
-#include "flowgrain/flowgrain.h"
+#include "flowgrain/picture.h"
 
 #ifdef __cplusplus
 extern "C" {

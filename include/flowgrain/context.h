@@ -1,0 +1,87 @@
+/* The version, statuses, the context, and the ranks that share the work. */
+#ifndef FLOWGRAIN_CONTEXT_H
+#define FLOWGRAIN_CONTEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FG_VERSION_MAJOR 0
+#define FG_VERSION_MINOR 1
+#define FG_VERSION_PATCH 0
+
+#if defined(__GNUC__)
+#define FG_API __attribute__((visibility("default")))
+#else
+#define FG_API
+#endif
+
+typedef enum fg_status {
+  FG_STATUS_OK = 0,
+  FG_STATUS_MEMORY,         /* an allocation failed */
+  FG_STATUS_ARGUMENT,       /* the caller asked for something impossible */
+  FG_STATUS_FILE_ACCESS,    /* a file cannot be opened, read or written */
+  FG_STATUS_FILE_FORMAT,    /* a file is damaged or not what it claims to be */
+  FG_STATUS_UNSUPPORTED,    /* well-formed, but nothing here can handle it */
+  FG_STATUS_NO_CONVERGENCE, /* the evolution broke one of its promises */
+  FG_STATUS_STOPPED,        /* fg_context_stop was called */
+  FG_STATUS_MPI             /* the message-passing layer failed */
+} fg_status;
+
+typedef struct fg_context fg_context;
+
+/* Returns the version of the library in use, "0.1.0". */
+FG_API const char *fg_version(void);
+
+/* Returns the standard word for a status, "malformed file" for example. */
+FG_API const char *fg_status_name(fg_status status);
+
+/* Makes a context: the place of messages and of the stop flag. MEMORY. */
+FG_API fg_status fg_context_create(fg_context **out);
+FG_API void fg_context_destroy(fg_context *context);
+
+/* The first failure's message, one line without a line end, "" when there was none:
+ * "FILE: what is wrong, with the numbers that show it". */
+FG_API const char *fg_context_message(const fg_context *context);
+
+/* A second line that says what to do about the failure, or "". */
+FG_API const char *fg_context_hint(const fg_context *context);
+
+/* Forgets the failure, so that the context can be used again. */
+FG_API void fg_context_clear(fg_context *context);
+
+/* Asks the work going on with this context to end with FG_STATUS_STOPPED at its next safe
+ * point. The only function that may be called from a signal handler or another thread. */
+FG_API void fg_context_stop(fg_context *context);
+
+/* Ranks: processes that a launcher such as mpirun started together share one evolution.
+ *
+ * fg_evolution_create, fg_checkpoint_open and the calls that take an evolution are
+ * collective: every rank makes them in the same order, with the same field (each has it
+ * whole, or all their parts of it: parts.h), options and path, and all get the same
+ * status; when one fails, every context holds its message. Densities are shared likewise
+ * (fg_density_create). All else is the business of the rank that calls it. A program that
+ * MPI does not know of has one rank and need not care. */
+
+/* This rank's number, from 0, and how many there are. Starts MPI when a launcher started
+ * this process, and ends it when the process exits; a program that uses MPI itself starts
+ * and ends it itself. Collective in the first call. MPI. */
+FG_API fg_status fg_ranks(fg_context *context, int *rank, int *count);
+
+/* Makes one failure of many, for what ranks do each on its own: when `status` is one on
+ * some rank, all return that of the lowest such rank, and every context holds that rank's
+ * message and hint in place of its own. FG_STATUS_STOPPED gives way to other failures.
+ * message: what to tell of this rank's failure instead of what the context holds (hint:
+ * NULL, none), or NULL. Collective. */
+FG_API fg_status fg_ranks_agree(fg_context *context, fg_status status,
+                                const char *message, const char *hint);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,59 @@
+/* A moment of the evolution. */
+#ifndef FLOWGRAIN_DENSITY_H
+#define FLOWGRAIN_DENSITY_H
+
+#include "flowgrain/evolution.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The density at the nodes of a uniform grid over the field's box; a snapshot that stays
+ * as it is while the evolution goes on. */
+typedef struct fg_density fg_density;
+
+typedef struct fg_density_arrays {
+  int dimension;     /* 2 or 3; without a third axis nodes[2] reads 1 */
+  int nodes[3];      /* along a periodic axis the repeated last node is left out */
+  double origin[3];  /* node (0, 0, 0), input coordinates */
+  double spacing[3]; /* input coordinates */
+  bool periodic[3];
+  const float *u;              /* a value a node; inside a cluster u > 0; NULL: shared */
+  const unsigned char *active; /* a byte a cell, 0 = masked; nodes[k] - 1 cells along an
+                                  axis, nodes[k] when periodic; NULL: all active */
+  double debris_area; /* components of less area (volume) than this are not clusters, in
+                         input coordinates squared (cubed) */
+  double time, energy, area_fraction;
+  int clusters;
+} fg_density_arrays;
+
+/* Takes a snapshot. Where several ranks evolve, each gets its share: `u` and `active` of
+ * its contents are NULL, and what takes a shared density is collective. MEMORY. */
+FG_API fg_status fg_density_create(fg_density **out, const fg_evolution *evolution);
+
+/* Whether a density is shared by several ranks. */
+FG_API bool fg_density_is_shared(const fg_density *density);
+
+/* Puts a shared density together on rank 0; on other ranks *out becomes NULL. Collective.
+ * MEMORY, ARGUMENT (it is not shared). */
+FG_API fg_status fg_density_gather(fg_density **out, fg_context *context,
+                                   const fg_density *density);
+
+/* Copies arrays into a density of its own, for icons from elsewhere. ARGUMENT, MEMORY. */
+FG_API fg_status fg_density_create_from_arrays(fg_density **out, fg_context *context,
+                                               const fg_density_arrays *arrays);
+FG_API void fg_density_destroy(fg_density *density);
+FG_API const fg_density_arrays *fg_density_contents(const fg_density *density);
+
+/* Writes u, the number of each node's cluster (0 outside, -1 in components too small to
+ * be clusters) and the mask as .vti. Of a shared density rank 0 writes what the others
+ * send it, packed and part by part; `path` is not read elsewhere. FILE_ACCESS,
+ * UNSUPPORTED, MEMORY. */
+FG_API fg_status fg_density_write(fg_context *context, const char *path,
+                                  const fg_density *density);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,122 @@
+/* The evolution: a density whose positive parts become ever fewer, larger clusters. */
+#ifndef FLOWGRAIN_EVOLUTION_H
+#define FLOWGRAIN_EVOLUTION_H
+
+#include "flowgrain/field.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct fg_evolution fg_evolution;
+
+typedef enum fg_energy {
+  FG_ENERGY_FLOW = 0,  /* interfaces along streamlines are cheap */
+  FG_ENERGY_ISOTROPIC, /* the original Cahn-Hilliard model */
+  FG_ENERGY_GRADIENT,  /* interfaces along level sets of the speed are cheap */
+  FG_ENERGY_LAW        /* of the caller's own: `law` in the options says which */
+} fg_energy;
+
+typedef struct fg_energy_law fg_energy_law; /* flowgrain/energy.h */
+
+/* All solve the same equation, docs/method/schemes.md compares them. */
+typedef enum fg_scheme {
+  FG_SCHEME_BDF2 = 0, /* backward differences of second order: steps as large as the
+                         change of u allows */
+  FG_SCHEME_EULER,    /* implicit Euler: the same of first order */
+  FG_SCHEME_THETA     /* theta-splitting in three substeps: second order, small steps */
+} fg_scheme;
+
+typedef struct fg_evolution_options {
+  int nodes;                /* nodes along the longest side of the mesh [257] */
+  fg_energy energy;         /* [flow] */
+  const fg_energy_law *law; /* NULL: none; else in place of `energy` */
+  double anisotropy;        /* a, in (0, 1] [0.15] */
+  double coverage;          /* share of the area clusters shall cover, in (0, 1) [0.3] */
+  double gamma;             /* interface energy, in units of the longest side squared
+                               [(1.1 h)^2 / a; isotropic (1.5 h)^2] */
+  uint64_t seed;            /* of the initial noise [1] */
+  double accuracy;          /* eta: rms change of u allowed in a step [0.08; else 0.05] */
+  int cycles;               /* multigrid cycles a step, or a substep [3] */
+  fg_scheme scheme;         /* of the time steps [BDF2] */
+  int threads;              /* [all cores] */
+  const float *initial; /* NULL: noise; else u at the nodes of the mesh, as fg_density has
+                           it: copied, then shifted nowhere: its mean is kept */
+} fg_evolution_options;
+
+typedef struct fg_step {
+  long step;            /* accepted steps so far */
+  double time;          /* t, in units of (longest side)^2 */
+  double tau;           /* size of this step */
+  double energy;        /* E(u) */
+  double mass;          /* integral of u over the domain, in double */
+  double area_fraction; /* share of the domain where u > 0 */
+  int clusters;         /* components of {u > 0} above the size of debris; 0 while the
+                           covered area is below 0.8 of the coverage */
+  int cycles;           /* multigrid cycles spent on this step, rejects included */
+  int rejected;         /* attempts rejected before this step was accepted */
+  long cells;           /* active cells of the mesh */
+  double increment;     /* rms of the change of u */
+  double seconds;       /* wall time since the evolution was created */
+  bool stationary;      /* the pattern no longer changes */
+} fg_step;
+
+/* Builds mesh, tensor and initial density. nodes is rounded up so that the mesh can be
+ * coarsened; fg_evolution_mesh says what it became. ARGUMENT (options out of range,
+ * ranks that disagree on field or options), MEMORY, MPI. */
+FG_API fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
+                                     const fg_field *field,
+                                     const fg_evolution_options *options);
+FG_API void fg_evolution_destroy(fg_evolution *evolution);
+
+/* Makes one accepted time step and describes it. NO_CONVERGENCE when no step small enough
+ * is accepted, or mass or energy break their promise; STOPPED. */
+FG_API fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step);
+
+typedef struct fg_mesh_info {
+  int dimension;
+  int cells[3];      /* along each axis */
+  double spacing[3]; /* in the input's coordinates */
+  double gamma;      /* as used, in units of the longest side squared */
+  double anisotropy, coverage;
+  double length;         /* the longest side in the input's coordinates */
+  double domain_measure; /* area (volume) of the active cells, units of length squared */
+  long active_cells;
+  const char *kernel; /* which vector instructions run: "avx512", "avx2", "generic" */
+} fg_mesh_info;
+
+FG_API const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution);
+
+/* What ranks tell each other, by what it is for. */
+typedef enum fg_activity {
+  FG_ACTIVITY_OTHER = 0, /* agreements and whatever else is outside of these: */
+  FG_ACTIVITY_SETUP,     /* fg_evolution_create */
+  FG_ACTIVITY_STEPS,     /* fg_evolution_step, apart from its cycles and the counting */
+  FG_ACTIVITY_CYCLES,    /* multigrid cycles */
+  FG_ACTIVITY_COUNTING,  /* clusters and the area covered, at every step */
+  FG_ACTIVITY_SNAPSHOTS  /* fg_density_create, and icons and files of shared densities */
+} fg_activity;
+
+enum { FG_ACTIVITIES = FG_ACTIVITY_SNAPSHOTS + 1 };
+
+/* Numbers of one rank. An exchange is a round of messages, one to each neighbour that
+ * needs anything, which wait for each other only at its end. */
+typedef struct fg_traffic {
+  double times; /* that the activity was begun; 0 for OTHER */
+  double exchanges;
+  double messages, bytes;     /* sent to single ranks */
+  double gathers, gathered;   /* all ranks' pieces on each; bytes received from others */
+  double reductions, reduced; /* sums and the like over all ranks; bytes given */
+} fg_traffic;
+
+/* What the ranks of an evolution told each other since the program began, exact: the mean
+ * over ranks and the greatest of each number, all 0 with one rank. What p4est sends is
+ * not in it. Collective. */
+FG_API void fg_evolution_traffic(const fg_evolution *evolution, fg_traffic mean[],
+                                 fg_traffic greatest[]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

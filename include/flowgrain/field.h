@@ -1,0 +1,124 @@
+/* Vector fields: read, made or copied, asked and written; and what a file holds. */
+#ifndef FLOWGRAIN_FIELD_H
+#define FLOWGRAIN_FIELD_H
+
+#include "flowgrain/context.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct fg_field fg_field;
+
+typedef enum fg_scale {
+  FG_SCALE_AUTO = 0, /* from units and axes */
+  FG_SCALE_GEO,      /* axes in degrees, velocity along east and north */
+  FG_SCALE_MAP,      /* projected plane: axes in a length, velocity along the axes */
+  FG_SCALE_PLAIN     /* axes without a known unit */
+} fg_scale;
+
+typedef struct fg_read_options {
+  const char *vars;      /* "U,V", "U,V,W" or one vector variable; NULL: found */
+  const char *vars_from; /* second file with the other component(s) */
+  int time;              /* index along time, from 0 */
+  int level;             /* index along level, from 0 */
+  const char *mask; /* variable that is zero (negative, missing) outside the domain */
+  fg_scale scale;
+} fg_read_options;
+
+/* Reads a field from a file, or makes an analytic one from "synth:NAME" (sampled at 257
+ * nodes a side in 2D, at 65 in 3D). The format is found from the content, not the name.
+ * options may be NULL. FILE_ACCESS, FILE_FORMAT, UNSUPPORTED, ARGUMENT (names, indices),
+ * MEMORY. */
+FG_API fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
+                               const fg_read_options *options);
+
+/* Makes the analytic field NAME on the unit square or cube, with `nodes` samples a side,
+ * both ends included (0: 257 in 2D, 65 in 3D; at least 2; 3 for the periodic field abc,
+ * which leaves the repeated end out). ARGUMENT, MEMORY. */
+FG_API fg_status fg_field_create_analytic(fg_field **out, fg_context *context,
+                                          const char *name, int nodes);
+
+/* Names of the analytic fields, ended by NULL. */
+FG_API const char *const *fg_field_analytic_names(void);
+
+typedef struct fg_field_arrays {
+  int dimension;              /* 2 or 3 */
+  int size[3];                /* samples along x, y(, z); at least 2 each */
+  const double *axis[3];      /* size[k] ascending coordinates each */
+  double period[3];           /* 0, or the length after which that axis repeats; then the
+                                 last sample must lie before axis[0] + period */
+  const float *velocity[3];   /* size[0] * size[1] (* size[2]) samples a component, x
+                                 fastest; NaN: missing */
+  const unsigned char *valid; /* a byte a sample, 0 = missing; NULL: all but NaN */
+  fg_scale scale;             /* AUTO means PLAIN */
+  const char *velocity_name[3]; /* NULL: "u", "v", "w" */
+  const char *velocity_units;   /* NULL: "" */
+  const char *axis_name[3];     /* NULL: "x", "y", "z" */
+  const char *axis_units[3];    /* NULL: "" */
+  const char *title;            /* what it is, for captions; NULL: "" */
+  const char *time;             /* the chosen time in words; NULL: none */
+  const char *level;            /* the chosen level in words; NULL: none */
+} fg_field_arrays;
+
+/* Copies arrays into a new field. ARGUMENT (sizes, order of axes, no valid cell, infinite
+ * values, a field that is zero everywhere), UNSUPPORTED (3D with scale GEO), MEMORY. */
+FG_API fg_status fg_field_create(fg_field **out, fg_context *context,
+                                 const fg_field_arrays *arrays);
+FG_API void fg_field_destroy(fg_field *field);
+
+/* The field's own arrays and words, borrowed; no pointer in it is NULL but `valid` (then
+ * every sample counts), in 2D `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen).
+ */
+FG_API const fg_field_arrays *fg_field_contents(const fg_field *field);
+
+/* Velocity at a point in the input's units, bilinear or trilinear; false outside the
+ * domain: beyond the border, or in a data cell with a missing corner. position and
+ * velocity: dimension numbers. */
+FG_API bool fg_field_velocity(const fg_field *field, const double position[],
+                              double velocity[]);
+
+/* The direction of the streamline in the axes' coordinates, not normalised: (u, v(, w)),
+ * but (u / cos latitude, v) on a longitude-latitude grid. False as above. */
+FG_API bool fg_field_tangent(const fg_field *field, const double position[],
+                             double tangent[]);
+
+/* Writes a field as .vti (VTK XML image data; axes must be evenly spaced) or .nc
+ * (NetCDF, CF). UNSUPPORTED for other names' ends, FILE_ACCESS, MEMORY. */
+FG_API fg_status fg_field_write(fg_context *context, const char *path,
+                                const fg_field *field);
+
+/* What a file holds. */
+
+typedef struct fg_inventory fg_inventory;
+
+typedef struct fg_inventory_vector {
+  int components;       /* 2 or 3 */
+  const char *name[3];  /* variables; for one vector variable name[0] only */
+  const char *units;    /* "" unknown */
+  const char *found_by; /* "standard_name", "names", "vector variable", ... */
+  int dimension;        /* of the field it would give */
+  int size[3];          /* samples along x, y(, z) */
+  int times, levels;    /* 1 when there is no such axis */
+  double missing_share; /* share of missing samples at the first time and level */
+  fg_scale scale;       /* what AUTO would choose */
+  double bounds[6];     /* xmin, xmax, ymin, ymax, zmin, zmax */
+  bool periodic[3];     /* whether each axis closes (longitude, say) */
+  const char *unusable; /* NULL, or why this pair can not be read yet */
+} fg_inventory_vector;
+
+/* Says what a file holds, without reading a whole field where that can be avoided.
+ * Statuses as fg_field_read. */
+FG_API fg_status fg_inventory_read(fg_inventory **out, fg_context *context,
+                                   const char *input);
+FG_API void fg_inventory_destroy(fg_inventory *inventory);
+FG_API const char *fg_inventory_format(const fg_inventory *inventory);
+FG_API int fg_inventory_vector_count(const fg_inventory *inventory);
+FG_API const fg_inventory_vector *fg_inventory_vector_at(const fg_inventory *inventory,
+                                                         int index);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

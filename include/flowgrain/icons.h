@@ -1,0 +1,81 @@
+/* Icons: a curved arrow for every cluster. */
+#ifndef FLOWGRAIN_ICONS_H
+#define FLOWGRAIN_ICONS_H
+
+#include "flowgrain/density.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum fg_icon_kind {
+  FG_ICON_ARROW = 0, /* a curved arrow along one streamline */
+  FG_ICON_RING,      /* an arrow round a vortex, an arc of at most about 300 degrees */
+} fg_icon_kind;
+
+/* A curved arrow: a tapering body round the centreline and a triangular head; in 3D a
+ * tube and a cone. */
+typedef struct fg_icon {
+  int cluster; /* label in the density, from 1 */
+  fg_icon_kind kind;
+  int point_count;           /* of the centreline, at least 2 */
+  const double (*points)[3]; /* from tail to the tip of the head; z = 0 in 2D; across a
+                                periodic border the coordinate goes on past it */
+  double width;              /* body's full width where the head begins */
+  double tail_width;         /* body's full width at the tail */
+  double head_length;        /* along the centreline */
+  double head_width;         /* full width of the head's base */
+  double center[3];          /* centre of the cluster's spine, on the centreline */
+  double area;               /* of the cluster (volume in 3D) */
+  double speed;              /* mean |v| along the centreline, input units */
+  /* Unless the icon was read from a file: the cluster's spine from end to end, a ring's
+   * back to where it begins; and in 3D all of the streamline in the cluster, of which the
+   * centreline is a part. */
+  int spine_count, streamline_count;
+  const double (*spine)[3], (*streamline)[3];
+} fg_icon;
+
+typedef enum fg_icon_extent {
+  FG_ICON_EXTENT_CLUSTER = 0, /* an arrow stays in its cluster */
+  FG_ICON_EXTENT_TERRITORY /* it goes on to the border with the next cluster's territory
+                              (what lies nearest to it, round masks), and is at most
+                              2 sqrt(domain area / clusters) long */
+} fg_icon_extent;
+
+typedef struct fg_icon_options {
+  int threads;           /* [1] */
+  fg_icon_extent extent; /* [cluster] */
+} fg_icon_options;
+
+typedef struct fg_icons fg_icons;
+
+/* Makes the icons of a density: label, march, spine, streamline, arrow. Clusters too
+ * small for a readable arrow give none; fg_icons_dropped counts them. Of a shared density
+ * each rank makes the icons of some clusters, from what lies round them, and rank 0 gets
+ * all, the same as of the whole; on other ranks *out becomes NULL. UNSUPPORTED
+ * (FG_ICON_EXTENT_TERRITORY in 3D, or of a shared density: fg_density_gather), MEMORY,
+ * STOPPED. */
+FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
+                                 const fg_field *field, const fg_density *density,
+                                 const fg_icon_options *options);
+FG_API void fg_icons_destroy(fg_icons *icons);
+FG_API int fg_icons_count(const fg_icons *icons);
+FG_API const fg_icon *fg_icons_at(const fg_icons *icons, int index);
+FG_API int fg_icons_clusters(const fg_icons *icons); /* clusters, drawn or dropped */
+FG_API int fg_icons_dropped(const fg_icons *icons);
+
+/* Outline of an icon as a closed polygon, the first vertex not repeated. *vertices is
+ * allocated with malloc: free it. MEMORY. */
+FG_API fg_status fg_icon_outline(const fg_icon *icon, double (**vertices)[2], int *count);
+
+/* Writes icons as GeoJSON (a LineString each, coordinates of the input), or reads them
+ * back. FILE_ACCESS, FILE_FORMAT, MEMORY. */
+FG_API fg_status fg_icons_write(fg_context *context, const char *path,
+                                const fg_icons *icons);
+FG_API fg_status fg_icons_read(fg_icons **out, fg_context *context, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,47 @@
+/* Pictures of icons. */
+#ifndef FLOWGRAIN_PICTURE_H
+#define FLOWGRAIN_PICTURE_H
+
+#include "flowgrain/icons.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct fg_picture_options {
+  double width;            /* of the whole picture, in points of 1/72 inch [480] */
+  double height;           /* [0: follows from the domain's shape] */
+  double pixels_per_point; /* for PNG [2] */
+  const char *palette; /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
+  double speed_min, speed_max;         /* ends of the colour key; equal: from the icons */
+  bool no_frame;                       /* only mask and arrows */
+  bool transparent;                    /* no background */
+  bool tint;                           /* tint the clusters (density needed) */
+  const struct fg_texture *background; /* behind all, in pale greys (texture.h) [none] */
+  double background_fade;              /* share of its way to white, 0 to 1 [0.7] */
+  bool skeletons;    /* mark the clusters' spines and centres, where icons have
+                        them */
+  const char *title; /* caption; NULL: from the field; "" none */
+  double font_size;  /* points [0: follows from the size; 9 at 480 points] */
+  bool no_keys;      /* no colour key, no arrow for the size */
+  const char *mask_color, *tint_color; /* "#rrggbb" [light grey, light blue] */
+  double
+      scale_time; /* t of the scale, for the caption [the density's; none without it] */
+} fg_picture_options;
+
+/* Names of the colour maps, ended by NULL. */
+FG_API const char *const *fg_picture_palettes(void);
+
+/* Draws icons; the format follows the name's end: .svg, .pdf or .png. density may be NULL
+ * without tint, and must not be shared; options may be NULL. FILE_ACCESS, UNSUPPORTED,
+ * ARGUMENT, MEMORY. */
+FG_API fg_status fg_picture_write(fg_context *context, const char *path,
+                                  const fg_field *field, const fg_density *density,
+                                  const fg_icons *icons,
+                                  const fg_picture_options *options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
