@@ -26,8 +26,9 @@ typedef struct fg_image_arrays {
 } fg_image_arrays;
 
 /* Reads a PNG, JPEG or PNM (PGM, PPM; text or binary) image, of 8 or 16 bits; the format
- * is found from the content. A whole file only: a truncated one is refused. FILE_ACCESS,
- * FILE_FORMAT, UNSUPPORTED, MEMORY. */
+ * is found from the content. It is turned upright as its Exif data say; ICC profiles and
+ * the inks of print are converted to sRGB (docs/method/brush.md). A whole file only: a
+ * truncated one is refused. FILE_ACCESS, FILE_FORMAT, UNSUPPORTED, MEMORY. */
 FG_API fg_status fg_image_read(fg_image **out, fg_context *context, const char *path);
 
 /* Copies arrays into a new image. ARGUMENT (sizes, values outside 0 to 1), MEMORY. */

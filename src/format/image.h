@@ -19,4 +19,10 @@ extern const fg__image_format fg__image_pnm;
 /* Reads whatever image the source holds. FILE_FORMAT, UNSUPPORTED, MEMORY. */
 fg_status fg__image_read(fg_image **out, fg_context *context, const fg__source *source);
 
+/* Puts an image upright that is stored in one of the eight orientations of Exif (CIPA
+ * DC-008): 1 as it is to be seen, 3 upside down, 6 to be turned clockwise, 8 the other
+ * way, 2, 4, 5, 7 mirrored. On failure the image stays. MEMORY. */
+fg_status fg__image_turn(fg_image **image, fg_context *context, const char *name,
+                         int orientation);
+
 #endif

@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "format/colors.h"
+#include "format/exif.h"
 
 static bool png_is_mine(const unsigned char *bytes, size_t size)
 {
@@ -21,6 +23,8 @@ typedef struct reading {
   fg_image *image;
   unsigned char *bytes;
   unsigned char **rows;
+  float *components; /* of a row, without alpha */
+  fg__colors *colors;
   jmp_buf out;
   char message[160];
 } reading;
@@ -72,20 +76,48 @@ static float value_at(const unsigned char *row, size_t n, int depth)
   return (float)row[n] / 255.0F;
 }
 
-static void unpack(fg_image *image, unsigned char *const *rows, int depth)
+static void unpack_row(const reading *r, int j, int depth)
 {
+  const fg_image *image = r->image;
   int channels = image->contents.channels;
-  size_t width = (size_t)image->contents.width;
+  size_t width = (size_t)image->contents.width, first = (size_t)j * width;
   size_t values = (size_t)channels + (image->alpha ? 1 : 0);
-  for (int j = 0; j < image->contents.height; ++j)
-    for (size_t i = 0; i < width; ++i) {
-      size_t pixel = (size_t)j * width + i;
-      for (int k = 0; k < channels; ++k)
-        image->sample[pixel * (size_t)channels + (size_t)k] =
-            value_at(rows[j], i * values + (size_t)k, depth);
-      if (image->alpha)
-        image->alpha[pixel] = value_at(rows[j], i * values + (size_t)channels, depth);
-    }
+  for (size_t i = 0; i < width; ++i) {
+    for (size_t k = 0; k < (size_t)channels; ++k)
+      r->components[i * (size_t)channels + k] =
+          value_at(r->rows[j], i * values + k, depth);
+    if (image->alpha)
+      image->alpha[first + i] =
+          value_at(r->rows[j], i * values + (size_t)channels, depth);
+  }
+  fg__colors_convert(r->colors, image->sample + first * (size_t)channels, r->components,
+                     width, channels);
+}
+
+static fg_status open_colors(reading *r, png_structp png, png_infop info)
+{
+  png_charp name;
+  int compression;
+  png_bytep profile = NULL;
+  png_uint_32 size = 0;
+  if (!png_get_iCCP(png, info, &name, &compression, &profile, &size))
+    return FG_STATUS_OK;
+  return fg__colors_create(&r->colors, r->context, r->source->path, profile, size,
+                           r->image->contents.channels);
+}
+
+static int orientation_of(png_structp png, png_infop info)
+{
+#ifdef PNG_eXIf_SUPPORTED
+  png_bytep exif = NULL;
+  png_uint_32 size = 0;
+  if (png_get_eXIf_1(png, info, &size, &exif) && exif)
+    return fg__exif_orientation(exif, size);
+#else
+  (void)png;
+  (void)info;
+#endif
+  return 1;
 }
 
 static fg_status read_pixels(reading *r, png_structp png, png_infop info)
@@ -98,19 +130,24 @@ static fg_status read_pixels(reading *r, png_structp png, png_infop info)
   fg_status status = fg__image_begin(&r->image, r->context, r->source->path, width,
                                      height, type & PNG_COLOR_MASK_COLOR ? 3 : 1,
                                      (type & PNG_COLOR_MASK_ALPHA) != 0);
+  if (!status)
+    status = open_colors(r, png, info);
   if (status)
     return status;
   size_t row = png_get_rowbytes(png, info);
   r->bytes = fg__allocate(height, row);
   r->rows = fg__allocate(height, sizeof *r->rows);
-  if (!r->bytes || !r->rows)
+  r->components = fg__allocate(width, 3 * sizeof *r->components);
+  if (!r->bytes || !r->rows || !r->components)
     return fg__fail_memory(r->context, "an image", height * row);
   for (size_t j = 0; j < height; ++j)
     r->rows[j] = r->bytes + j * row;
   png_read_image(png, r->rows);
-  png_read_end(png, NULL);
-  unpack(r->image, r->rows, depth);
-  return FG_STATUS_OK;
+  png_read_end(png, info); /* Exif may lie behind the pixels */
+  for (size_t j = 0; j < height; ++j)
+    unpack_row(r, (int)j, depth);
+  return fg__image_turn(&r->image, r->context, r->source->path,
+                        orientation_of(png, info));
 }
 
 static fg_status png_read(fg_image **out, fg_context *context, const fg__source *source)
@@ -133,8 +170,10 @@ static fg_status png_read(fg_image **out, fg_context *context, const fg__source 
     status = fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: is no whole PNG image: %s",
                       source->path, r->message);
   png_destroy_read_struct(&png, &info, NULL);
+  fg__colors_destroy(r->colors);
   free(r->bytes);
   free(r->rows);
+  free(r->components);
   if (status)
     fg_image_destroy(r->image);
   else
