@@ -1,7 +1,9 @@
 #include "brush/canvas.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 
@@ -18,14 +20,40 @@ static fg_status allocate(fg__canvas *out, fg_context *context,
   return fg__fail_memory(context, "a canvas", 3 * count * sizeof(float));
 }
 
-static void color_of_pixel(float color[3], const fg_image_arrays *image, size_t n)
+static float sample_of(const fg_image_arrays *image, size_t n, int k)
 {
-  float alpha = image->alpha ? image->alpha[n] : 1.0F;
+  return image->channels == 3 ? image->sample[3 * n + (size_t)k] : image->sample[n];
+}
+
+/* Where nothing is seen within reach of the average, no colour is known. */
+static void divide_by_alpha(fg__canvas *out, const float *alpha, const double other[3])
+{
+  size_t count = (size_t)out->width * (size_t)out->height;
+  for (size_t n = 0; n < count; ++n)
+    for (int k = 0; k < 3; ++k)
+      out->plane[k][n] =
+          alpha[n] > FLT_EPSILON ? out->plane[k][n] / alpha[n] : (float)other[k];
+}
+
+/* Colours count as much as they are seen: what lies under transparent pixels does not. */
+static bool average(fg__canvas *out, const fg_image_arrays *image, float *alpha,
+                    double deviation)
+{
+  size_t count = (size_t)out->width * (size_t)out->height;
   for (int k = 0; k < 3; ++k) {
-    size_t channel = image->channels == 3 ? (size_t)k : 0;
-    color[k] =
-        alpha * image->sample[n * (size_t)image->channels + channel] + (1.0F - alpha);
+    for (size_t n = 0; n < count; ++n)
+      out->plane[k][n] = (alpha ? alpha[n] : 1.0F) * sample_of(image, n, k);
+    if (!fg__image_blur(out->plane[k], out->width, out->height, deviation))
+      return false;
   }
+  if (!alpha)
+    return true;
+  double mean[3];
+  fg__image_mean(mean, image);
+  if (!fg__image_blur(alpha, out->width, out->height, deviation))
+    return false;
+  divide_by_alpha(out, alpha, mean);
+  return true;
 }
 
 fg_status fg__canvas_of_image(fg__canvas *out, fg_context *context,
@@ -35,30 +63,33 @@ fg_status fg__canvas_of_image(fg__canvas *out, fg_context *context,
   if (status)
     return status;
   size_t count = (size_t)image->width * (size_t)image->height;
-  for (size_t n = 0; n < count; ++n) {
-    float color[3];
-    color_of_pixel(color, image, n);
-    for (int k = 0; k < 3; ++k)
-      out->plane[k][n] = color[k];
+  float *alpha = NULL;
+  if (image->alpha) {
+    alpha = fg__allocate(count, sizeof *alpha);
+    if (alpha)
+      memcpy(alpha, image->alpha, count * sizeof *alpha);
   }
-  for (int k = 0; k < 3; ++k)
-    if (!fg__image_blur(out->plane[k], out->width, out->height, deviation)) {
-      fg__canvas_clear(out);
-      return fg__fail_memory(context, "a canvas", count * sizeof(float));
-    }
-  return FG_STATUS_OK;
+  if ((image->alpha && !alpha) || !average(out, image, alpha, deviation)) {
+    fg__canvas_clear(out);
+    status = fg__fail_memory(context, "a canvas", count * sizeof(float));
+  }
+  free(alpha);
+  return status;
 }
 
 void fg__image_mean(double color[3], const fg_image_arrays *image)
 {
   size_t count = (size_t)image->width * (size_t)image->height;
+  double seen = 0.0;
   color[0] = color[1] = color[2] = 0.0;
   for (size_t n = 0; n < count; ++n) {
-    float pixel[3];
-    color_of_pixel(pixel, image, n);
+    double alpha = image->alpha ? (double)image->alpha[n] : 1.0;
+    seen += alpha;
     for (int k = 0; k < 3; ++k)
-      color[k] += (double)pixel[k] / (double)count;
+      color[k] += alpha * (double)sample_of(image, n, k);
   }
+  for (int k = 0; k < 3; ++k)
+    color[k] = seen > 0.0 ? color[k] / seen : 1.0;
 }
 
 fg_status fg__canvas_blank(fg__canvas *out, fg_context *context,

@@ -11,8 +11,8 @@ typedef struct fg__canvas {
   unsigned char *painted; /* a byte a pixel; NULL: of an image */
 } fg__canvas;
 
-/* An image (on white where it is transparent) averaged over a Gaussian of that standard
- * deviation in pixels. MEMORY. */
+/* An image averaged over a Gaussian of that standard deviation in pixels, its pixels
+ * weighted by their alpha. MEMORY. */
 fg_status fg__canvas_of_image(fg__canvas *out, fg_context *context,
                               const fg_image_arrays *image, double deviation);
 
@@ -31,7 +31,7 @@ void fg__canvas_dab(fg__canvas *canvas, const double at[2], double radius,
 /* Whether the pixel at a point, if there is one, has not been painted. */
 bool fg__canvas_is_bare(const fg__canvas *canvas, const double at[2]);
 
-/* The mean colour of an image. */
+/* The mean colour of an image, its pixels weighted by their alpha. */
 void fg__image_mean(double color[3], const fg_image_arrays *image);
 
 #endif

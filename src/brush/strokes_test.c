@@ -198,6 +198,31 @@ static void refused(fg_context *context, const fg_image *image,
   fg_context_clear(context);
 }
 
+/* On a round piece of glass with a soft rim, whose pixels are grey where they are seen
+ * and white where they are not: its strokes have its own grey to the very rim. */
+static void what_lies_under_transparent_pixels_is_not_seen(void **state)
+{
+  enum { W = 130, H = 110 };
+  const float own = 0.3F;
+  float *alpha = calloc(2 * W * H, sizeof *alpha);
+  assert_non_null(alpha);
+  float *sample = alpha + W * H;
+  for (int n = 0; n < W * H; ++n) {
+    double inside = 42.0 - hypot(n % W - 70.0, n / W - 55.0); /* of the rim, in pixels */
+    alpha[n] = (float)fmin(fmax(0.5 + inside / 6.0, 0.0), 1.0);
+    sample[n] = alpha[n] > 0.0F ? own : 1.0F;
+  }
+  fg_image_arrays arrays = {W, H, 1, sample, alpha};
+  fg_image *image = NULL;
+  assert_int_equal(fg_image_create(&image, *state, &arrays), FG_STATUS_OK);
+  fg_strokes *strokes = strokes_of(*state, image, NULL);
+  for (int n = 0; n < fg_strokes_count(strokes); ++n)
+    assert_true(fabs(fg_strokes_at(strokes, n)->color[0] - (double)own) < 1e-4);
+  fg_strokes_destroy(strokes);
+  fg_image_destroy(image);
+  free(alpha);
+}
+
 static void wrong_arguments_are_refused(void **state)
 {
   fg_context *context = *state;
@@ -244,8 +269,11 @@ int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
   const struct CMUnitTest tests[] = {
-      CASE(strokes_lie_along_level_sets), CASE(strokes_turn_with_the_image),
-      CASE(layers_go_from_broad_to_fine), CASE(what_is_transparent_gets_no_strokes),
+      CASE(strokes_lie_along_level_sets),
+      CASE(strokes_turn_with_the_image),
+      CASE(layers_go_from_broad_to_fine),
+      CASE(what_is_transparent_gets_no_strokes),
+      CASE(what_lies_under_transparent_pixels_is_not_seen),
       CASE(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests_name("brush/strokes", tests, NULL, NULL);
