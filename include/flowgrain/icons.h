@@ -19,14 +19,15 @@ typedef struct fg_icon {
   int cluster; /* label in the density, from 1 */
   fg_icon_kind kind;
   int point_count;           /* of the centreline, at least 2 */
-  const double (*points)[3]; /* from tail to the tip of the head; z = 0 in 2D; across a
-                                periodic border the coordinate goes on past it */
+  const double (*points)[3]; /* from tail to the tip of the head; z = 0 in 2D; in 3D, and
+                                from files, the coordinate may go on past a periodic
+                                border */
   double width;              /* body's full width where the head begins */
   double tail_width;         /* body's full width at the tail */
   double head_length;        /* along the centreline */
   double head_width;         /* full width of the head's base */
   double center[3];          /* centre of the cluster's spine, on the centreline */
-  double area;               /* of the cluster (volume in 3D) */
+  double area;               /* of the cluster (volume in 3D), or of the icon's part */
   double speed;              /* mean |v| along the centreline, input units */
   /* Unless the icon was read from a file: the cluster's spine from end to end, a ring's
    * back to where it begins; and in 3D all of the streamline in the cluster, of which the
@@ -50,7 +51,9 @@ typedef struct fg_icon_options {
 typedef struct fg_icons fg_icons;
 
 /* Makes the icons of a density: label, march, spine, streamline, arrow. Clusters too
- * small for a readable arrow give none; fg_icons_dropped counts them. Of a shared density
+ * small for a readable arrow give none; fg_icons_dropped counts them. In 2D no arrow
+ * crosses a periodic border: a cluster with a quarter of itself or more on either side
+ * gives an icon on each, with the same `cluster`. Of a shared density
  * each rank makes the icons of some clusters, from what lies round them, and rank 0 gets
  * all, the same as of the whole; on other ranks *out becomes NULL. UNSUPPORTED
  * (FG_ICON_EXTENT_TERRITORY in 3D, or of a shared density: fg_density_gather), MEMORY,

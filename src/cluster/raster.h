@@ -76,6 +76,26 @@ fg_status fg__window_cut(fg__window *out, fg_context *context,
                          const fg__patch *patch, int cluster);
 void fg__window_clear(fg__window *window);
 
+/* Of the pieces of {level > 0} only the largest stays. MEMORY. */
+fg_status fg__window_keep_largest(fg__window *window, fg_context *context);
+
+/* A part of a cluster that gets an icon of its own, of at most so many. */
+enum { FG__WINDOW_PARTS = 4 };
+
+typedef struct fg__window_part {
+  fg__window window;
+  double share; /* of the cluster's nodes */
+} fg__window_part;
+
+/* Cuts a cluster's window where it crosses periodic borders, since a map ends there: the
+ * largest part, and each that holds a quarter of the cluster or more, in the domain's own
+ * coordinates, from left to right and from below to above. A cut edge is at_border. One
+ * that crosses none is the only part. Takes `whole`, which is empty afterwards; *count
+ * parts are to be cleared, also after a failure. MEMORY. */
+fg_status fg__window_divide(fg__window_part part[FG__WINDOW_PARTS], int *count,
+                            fg_context *context, const fg_density_arrays *density,
+                            fg__window *whole);
+
 /* Bilinear level at a point in input coordinates; a negative number outside the window or
  * in a masked cell. */
 double fg__window_level(const fg__window *window, const double position[2]);

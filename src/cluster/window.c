@@ -125,9 +125,7 @@ static void copy_level(fg__window *window, const int corner[2],
   }
 }
 
-/* In coordinates that go on across a periodic border a window can show parts of the
- * cluster a second time, and a cut can part it: the largest piece stays. */
-static fg_status keep_largest_piece(fg__window *window, fg_context *context)
+fg_status fg__window_keep_largest(fg__window *window, fg_context *context)
 {
   fg__component_grid grid = {
       .nodes = {window->nodes[0], window->nodes[1]},
@@ -184,8 +182,10 @@ fg_status fg__window_cut(fg__window *out, fg_context *context,
   copy_level(out, corner, density, labels, patch);
   const int *bounds = labels->bounds[cluster - 1];
   fg_status status = FG_STATUS_OK;
+  /* in coordinates that go on across a periodic border a window can show parts of the
+   * cluster a second time, and a cut can part it */
   if (bounds[1] >= density->nodes[0] || bounds[3] >= density->nodes[1])
-    status = keep_largest_piece(out, context);
+    status = fg__window_keep_largest(out, context);
   if (status)
     fg__window_clear(out);
   return status;

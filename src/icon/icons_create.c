@@ -32,7 +32,7 @@ enum { ATTEMPTS = 8, EDGE_BLOCK = 12, MOST_THREADS = 64 };
 /* What all threads share; each takes the next cluster until there is none. */
 typedef struct icon_job {
   const fg__icon_source *source;
-  fg_icon *icon; /* [source->count] */
+  fg_icon *icon; /* [source->count * FG__ICON_PARTS] */
   atomic_int next;
   atomic_bool halted; /* a thread failed or the caller wants to stop */
 } icon_job;
@@ -186,7 +186,7 @@ static fg_status build_icon(fg_icon *icon, fg_context *context, const fg_field *
   return FG_STATUS_OK;
 }
 
-/* What is known of one cluster while its icon is made. */
+/* What is known of one cluster, or of its part, while its icon is made. */
 typedef struct icon_place {
   fg__window window;
   double *distance;
@@ -241,7 +241,7 @@ static fg_status make_solid(icon_job *job, fg_context *context, fg__solid_maker 
 {
   const fg__icon_source *source = job->source;
   int cluster = source->cluster ? source->cluster[index] : index + 1;
-  fg_icon *icon = &job->icon[index];
+  fg_icon *icon = &job->icon[(size_t)index * FG__ICON_PARTS];
   fg__volume volume = {0};
   fg_status status =
       fg__volume_cut(&volume, context, source->density, source->labels,
@@ -269,35 +269,41 @@ static fg_status keep_spine(fg_icon *icon, fg_context *context, const fg__spine 
   return FG_STATUS_OK;
 }
 
-static fg_status make_icon(icon_job *job, fg_context *context, fg__chooser *chooser,
-                           int index)
+/* One cluster, or a part of one that crosses a periodic border. */
+typedef struct icon_request {
+  const fg__icon_source *source;
+  const fg_field *field;
+  int cluster;
+  bool divided; /* it is not the cluster's only part */
+} icon_request;
+
+/* Makes the icon of a window's cluster; takes the window. */
+static fg_status make_icon(fg_icon *icon, fg_context *context, fg__chooser *chooser,
+                           const icon_request *request, fg__window *window)
 {
-  const fg__icon_source *source = job->source;
-  int cluster = source->cluster ? source->cluster[index] : index + 1;
-  const fg_field *field = field_of(source, index);
-  icon_place place = {0}, land = {0};
+  const fg__icon_source *source = request->source;
+  icon_place place = {.window = *window}, land = {0};
   fg__spine spine = {0};
   fg__arrow arrow = {0};
   bool extended = false;
-  fg_status status =
-      fg__window_cut(&place.window, context, source->density, source->labels,
-                     source->cluster ? &source->patch[index] : source->patch, cluster);
-  if (status == FG_STATUS_OK)
-    status = measure_place(&place, context, 0);
+  *window = (fg__window){0};
+  fg_status status = measure_place(&place, context, 0);
   if (status == FG_STATUS_OK)
     status = fg__spine_create(&spine, context, &place.window, place.distance);
   if (status != FG_STATUS_OK)
     goto cleanup;
   const double *center = spine.point[spine.center];
-  status = fg__choose_arrow(&arrow, chooser, context, field, &place.room, &spine);
-  if (status == FG_STATUS_OK && source->territories)
-    status = extend(&land, &arrow, &extended, source, context, chooser, cluster, center);
+  status =
+      fg__choose_arrow(&arrow, chooser, context, request->field, &place.room, &spine);
+  /* the parts' arrows might meet in the territory that is theirs together */
+  if (status == FG_STATUS_OK && source->territories && !request->divided)
+    status = extend(&land, &arrow, &extended, source, context, chooser, request->cluster,
+                    center);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
     goto cleanup;
-  fg_icon *icon = &job->icon[index];
-  icon->cluster = cluster;
-  icon->area = source->labels->area[cluster - 1];
-  status = build_icon(icon, context, field, extended ? &land.room : &place.room,
+  icon->cluster = request->cluster;
+  icon->area = source->labels->area[request->cluster - 1];
+  status = build_icon(icon, context, request->field, extended ? &land.room : &place.room,
                       &chooser->best, &arrow, center);
   if (status == FG_STATUS_OK && icon->points)
     status = keep_spine(icon, context, &spine);
@@ -305,6 +311,34 @@ cleanup:
   clear_place(&place);
   clear_place(&land);
   fg__spine_clear(&spine);
+  return status;
+}
+
+static fg_status make_icons(icon_job *job, fg_context *context, fg__chooser *chooser,
+                            int index)
+{
+  const fg__icon_source *source = job->source;
+  fg_icon *icon = &job->icon[(size_t)index * FG__ICON_PARTS];
+  icon_request request = {.source = source,
+                          .field = field_of(source, index),
+                          .cluster =
+                              source->cluster ? source->cluster[index] : index + 1};
+  fg__window whole;
+  fg__window_part part[FG__WINDOW_PARTS] = {{{0}, 0.0}};
+  int parts = 0;
+  fg_status status = fg__window_cut(
+      &whole, context, source->density, source->labels,
+      source->cluster ? &source->patch[index] : source->patch, request.cluster);
+  if (status == FG_STATUS_OK)
+    status = fg__window_divide(part, &parts, context, source->density, &whole);
+  request.divided = parts > 1;
+  for (int k = 0; k < parts && status == FG_STATUS_OK; k++) {
+    status = make_icon(&icon[k], context, chooser, &request, &part[k].window);
+    if (parts > 1)
+      icon[k].area *= part[k].share;
+  }
+  for (int k = 0; k < parts; k++)
+    fg__window_clear(&part[k].window);
   return status;
 }
 
@@ -323,7 +357,7 @@ static void *work(void *argument)
       worker->status = fg__check_stop(worker->caller);
     if (worker->status == FG_STATUS_OK)
       worker->status = solid ? make_solid(job, worker->context, &maker, index)
-                             : make_icon(job, worker->context, &chooser, index);
+                             : make_icons(job, worker->context, &chooser, index);
   }
   if (worker->status != FG_STATUS_OK)
     atomic_store(&job->halted, true);
@@ -369,11 +403,16 @@ fg_status fg__icons_collect(fg_icons **out, fg_context *context, const fg_icon *
   fg_icons *icons = NULL;
   fg_status status = fg__icons_create_empty(&icons, context);
   int drawn = 0;
-  for (int i = 0; i < clusters && status == FG_STATUS_OK; i++)
-    if (icon[i].points) {
-      status = fg__icons_add(icons, context, &icon[i]);
-      drawn++;
-    }
+  for (int i = 0; i < clusters && status == FG_STATUS_OK; i++) {
+    const fg_icon *part = &icon[(size_t)i * FG__ICON_PARTS];
+    bool has_icon = false;
+    for (int k = 0; k < FG__ICON_PARTS && status == FG_STATUS_OK; k++)
+      if (part[k].points) {
+        status = fg__icons_add(icons, context, &part[k]);
+        has_icon = true;
+      }
+    drawn += has_icon;
+  }
   if (status != FG_STATUS_OK) {
     fg_icons_destroy(icons);
     return status;
@@ -383,10 +422,16 @@ fg_status fg__icons_collect(fg_icons **out, fg_context *context, const fg_icon *
   return FG_STATUS_OK;
 }
 
-void fg__icons_free_points(fg_icon *icon, int count)
+fg_icon *fg__icons_allocate(int clusters)
 {
-  for (int i = 0; icon && i < count; i++)
+  return fg__allocate((size_t)clusters * FG__ICON_PARTS, sizeof(fg_icon));
+}
+
+void fg__icons_free(fg_icon *icon, int clusters)
+{
+  for (int i = 0; icon && i < clusters * FG__ICON_PARTS; i++)
     fg__solid_icon_free(&icon[i]);
+  free(icon);
 }
 
 static fg_status create_whole(fg_icons **out, fg_context *context, const fg_field *field,
@@ -411,15 +456,14 @@ static fg_status create_whole(fg_icons **out, fg_context *context, const fg_fiel
       goto cleanup;
     source.territories = &territories;
   }
-  icon = fg__allocate((size_t)labels.count, sizeof *icon);
+  icon = fg__icons_allocate(labels.count);
   status =
       icon ? fg__icons_make(icon, context, &source, options ? options->threads : 1)
            : fg__fail_memory(context, "the icons", (size_t)labels.count * sizeof *icon);
   if (status == FG_STATUS_OK)
     status = fg__icons_collect(out, context, icon, labels.count);
 cleanup:
-  fg__icons_free_points(icon, labels.count);
-  free(icon);
+  fg__icons_free(icon, labels.count);
   fg__territories_clear(&territories);
   fg__labels_clear(&labels);
   return status;

@@ -18,11 +18,18 @@ typedef struct fg__icon_source {
   const fg__patch *patch;             /* [count] with cluster, else one for all */
 } fg__icon_source;
 
-/* Makes icons by up to `threads` threads: icon[source->count], zeroed before. Their
- * points are to be freed, and NULL where no arrow fits. MEMORY, STOPPED. */
+/* Places for a cluster's icons: a cluster across a periodic border may have several. */
+enum { FG__ICON_PARTS = FG__WINDOW_PARTS };
+
+/* [clusters * FG__ICON_PARTS], zeroed; NULL when there is no memory. fg__icons_free ends
+ * them with their points. */
+fg_icon *fg__icons_allocate(int clusters);
+void fg__icons_free(fg_icon *icon, int clusters);
+
+/* Makes icons by up to `threads` threads into icon[source->count * FG__ICON_PARTS]. Where
+ * no arrow fits, and where a cluster has fewer icons, points is NULL. MEMORY, STOPPED. */
 fg_status fg__icons_make(fg_icon *icon, fg_context *context,
                          const fg__icon_source *source, int threads);
-void fg__icons_free_points(fg_icon *icon, int count);
 
 /* The list of those that have points, in their order. MEMORY. */
 fg_status fg__icons_collect(fg_icons **out, fg_context *context, const fg_icon *icon,

@@ -303,57 +303,6 @@ static void keeps_its_promises_in_a_rough_field(void **state)
   assert_true(drawn >= 6); /* of 8 */
 }
 
-/* A grain across the seam of a periodic axis is as long as one in the middle. */
-static void goes_on_across_a_periodic_border(void **state)
-{
-  (void)state;
-  enum { N = 80, M = 40 };
-  static float u[N * M], velocity[2][N * M];
-  static double axis[2][N];
-  for (int i = 0; i < N; i++)
-    axis[0][i] = 3 + 0.5 * i;
-  for (int j = 0; j < M; j++)
-    axis[1][j] = -9 + 0.5 * j;
-  for (int j = 0; j < M; j++)
-    for (int i = 0; i < N; i++) {
-      double x = axis[0][i] > 23 ? axis[0][i] - 40 : axis[0][i];
-      double depth = ellipse(x, axis[1][j], 4, 0.5, 7, 2.5, 0.1);
-      u[j * N + i] = (float)fmax(fmin(depth / 0.5, 1), -1);
-      velocity[0][j * N + i] = -4;
-      velocity[1][j * N + i] = -0.4F;
-    }
-  fg_context *context = NULL;
-  assert_int_equal(fg_context_create(&context), FG_STATUS_OK);
-  fg_field_arrays field_arrays = {.dimension = 2,
-                                  .size = {N, M, 1},
-                                  .axis = {axis[0], axis[1]},
-                                  .period = {40, 0, 0},
-                                  .velocity = {velocity[0], velocity[1]}};
-  fg_density_arrays density_arrays = {.dimension = 2,
-                                      .nodes = {N, M, 1},
-                                      .origin = {3, -9, 0},
-                                      .spacing = {0.5, 0.5, 1},
-                                      .periodic = {true, false, false},
-                                      .u = u};
-  fg_field *field = NULL;
-  fg_density *density = NULL;
-  fg_icons *icons = NULL;
-  assert_int_equal(fg_field_create(&field, context, &field_arrays), FG_STATUS_OK);
-  assert_int_equal(fg_density_create_from_arrays(&density, context, &density_arrays),
-                   FG_STATUS_OK);
-  assert_int_equal(fg_icons_create(&icons, context, field, density, NULL), FG_STATUS_OK);
-  assert_int_equal(fg_icons_count(icons), 1);
-  const fg_icon *icon = fg_icons_at(icons, 0);
-  assert_true(icon_length(icon) > 0.8 * 14);
-  assert_true(icon_length(icon) < 14);
-  const double *tail = icon->points[0], *tip = icon->points[icon->point_count - 1];
-  assert_true(fabs(tail[0] - tip[0] - icon_length(icon) * 4 / hypot(4, 0.4)) < 1e-3);
-  fg_icons_destroy(icons);
-  fg_density_destroy(density);
-  fg_field_destroy(field);
-  fg_context_destroy(context);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -370,7 +319,6 @@ int main(void)
       cmocka_unit_test(finds_a_way_past_a_stagnation_point),
       cmocka_unit_test(makes_no_hairpins),
       cmocka_unit_test(keeps_its_promises_in_a_rough_field),
-      cmocka_unit_test(goes_on_across_a_periodic_border),
   };
   return cmocka_run_group_tests_name("icon/icons_create", tests, NULL, NULL);
 }

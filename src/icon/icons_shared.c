@@ -18,7 +18,8 @@ typedef struct sharing {
   const fg__ranks *ranks;
   fg__labels labels;
   fg__wanted_patch *wanted; /* [labels.count] */
-  fg_icon *icon;            /* [labels.count] those of this rank; on rank 0 at last all */
+  fg_icon *icon;            /* [labels.count * FG__ICON_PARTS] those of this rank; on rank
+                               0 at last all */
 } sharing;
 
 static size_t nodes_of(const fg__patch *patch)
@@ -110,6 +111,11 @@ static fg_status take_windows(fg_field ***out, const sharing *s, fg_context *con
   return status;
 }
 
+static fg_icon *icons_of(const sharing *s, int cluster)
+{
+  return s->icon + (size_t)(cluster - 1) * FG__ICON_PARTS;
+}
+
 /* The icons of this rank among `count` clusters whose patches are there. */
 static fg_status make_own(sharing *s, fg_context *context, fg_field *const *window,
                           int threads, int first, int count)
@@ -117,7 +123,7 @@ static fg_status make_own(sharing *s, fg_context *context, fg_field *const *wind
   size_t most = (size_t)count;
   int *cluster = fg__allocate(most, sizeof *cluster);
   fg__patch *patch = fg__allocate(most, sizeof *patch);
-  fg_icon *icon = fg__allocate(most, sizeof *icon);
+  fg_icon *icon = fg__icons_allocate(count);
   fg_field **own_window = fg__allocate(most, sizeof *own_window);
   fg_status status = FG_STATUS_OK;
   fg__icon_source source = {.field = s->field,
@@ -138,11 +144,12 @@ static fg_status make_own(sharing *s, fg_context *context, fg_field *const *wind
     }
   status = fg__icons_make(icon, context, &source, threads);
   for (int n = 0; n < source.count; ++n)
-    s->icon[cluster[n] - 1] = icon[n];
+    memcpy(icons_of(s, cluster[n]), icon + (size_t)n * FG__ICON_PARTS,
+           FG__ICON_PARTS * sizeof *icon);
 cleanup:
   free(cluster);
   free(patch);
-  free(icon);
+  free(icon); /* their points are the sharing's now */
   free(own_window);
   return status;
 }
@@ -222,7 +229,10 @@ static void read_letters(sharing *s, const letters *l, fg_status *status,
     bool room = read_line(&icon.points, icon.point_count, l, &at) &&
                 read_line(&icon.spine, icon.spine_count, l, &at) &&
                 read_line(&icon.streamline, icon.streamline_count, l, &at);
-    s->icon[icon.cluster - 1] = icon;
+    fg_icon *place = icons_of(s, icon.cluster); /* after its cluster's others */
+    while (place->points)
+      ++place;
+    *place = icon;
     if (!room) {
       *status = fg__fail_memory(context, "an icon", l->count);
       return;
@@ -235,7 +245,7 @@ static fg_status bring_together(sharing *s, fg_context *context)
 {
   letters own = {0}, all = {0};
   bool sends = s->ranks->rank > 0;
-  for (int n = 0; n < s->labels.count && sends; ++n)
+  for (int n = 0; n < s->labels.count * FG__ICON_PARTS && sends; ++n)
     if (s->icon[n].points) {
       take(&own, (const unsigned char *)&s->icon[n], sizeof s->icon[n]);
       take_line(&own, s->icon[n].points, s->icon[n].point_count);
@@ -257,7 +267,7 @@ static fg_status allocate(sharing *s, fg_context *context)
 {
   size_t count = (size_t)s->labels.count;
   s->wanted = fg__allocate(count, sizeof *s->wanted);
-  s->icon = fg__allocate(count, sizeof *s->icon);
+  s->icon = fg__icons_allocate(s->labels.count);
   if (s->wanted && s->icon)
     return choose_owners(s, context);
   return fg__fail_memory(context, "the icons", count * sizeof *s->icon);
@@ -286,8 +296,7 @@ static fg_status create(fg_icons **out, fg_context *context, const fg_field *fie
     fg_icons_destroy(*out);
     *out = NULL;
   }
-  fg__icons_free_points(s.icon, s.labels.count);
-  free(s.icon);
+  fg__icons_free(s.icon, s.labels.count);
   free(s.wanted);
   fg__labels_clear(&s.labels);
   return status;

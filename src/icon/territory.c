@@ -178,21 +178,18 @@ static double level_at(const fg__territories *land, int x, int y, int cluster)
   return owner == cluster ? level : -level;
 }
 
-/* The nodes to look at: first and last, unwrapped; never a node twice. */
+/* The nodes to look at: first and last. They stay in the domain: a map ends at a periodic
+ * border, whose node is both the first and the one after the last. */
 static void find_reach(const fg__territories *land, const double center[2], double reach,
                        int bounds[4])
 {
   for (int k = 0; k < 2; k++) {
     int nodes = land->grid.nodes[k];
     double middle = (center[k] - land->origin[k]) / land->spacing[k];
-    double most = land->grid.periodic[k] ? (nodes - 1) / 2 : nodes;
-    double half = fmin(reach / land->spacing[k], most);
-    bounds[2 * k] = (int)ceil(middle - half);
-    bounds[2 * k + 1] = (int)floor(middle + half);
-    if (land->grid.periodic[k])
-      continue;
-    bounds[2 * k] = bounds[2 * k] < 0 ? 0 : bounds[2 * k];
-    bounds[2 * k + 1] = bounds[2 * k + 1] < nodes ? bounds[2 * k + 1] : nodes - 1;
+    double half = fmin(reach / land->spacing[k], nodes);
+    int last = land->grid.periodic[k] ? nodes : nodes - 1;
+    bounds[2 * k] = (int)ceil(fmax(middle - half, 0));
+    bounds[2 * k + 1] = (int)floor(fmin(middle + half, last));
   }
 }
 
