@@ -1,14 +1,9 @@
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "base/context.h"
+#include "base/context_test.h"
 #include "flowgrain/brush.h"
 
 static const double PI = 3.14159265358979323846;
@@ -251,23 +246,10 @@ static void wrong_arguments_are_refused(void **state)
   fg_image_destroy(image);
 }
 
-static int set_up(void **state)
-{
-  fg_context *context = NULL;
-  fg_status status = fg_context_create(&context);
-  *state = context;
-  return status != FG_STATUS_OK;
-}
-
-static int tear_down(void **state)
-{
-  fg_context_destroy(*state);
-  return 0;
-}
-
 int main(void)
 {
-#define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define CASE(name)                                                                       \
+  cmocka_unit_test_setup_teardown(name, context_set_up, context_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(strokes_lie_along_level_sets),
       CASE(strokes_turn_with_the_image),

@@ -56,6 +56,14 @@ static void forget(void)
   fg__ranks_agree(us.ranks, us.context, FG_STATUS_OK);
 }
 
+static void end_case(fg_evolution *evolution, fg_field *field)
+{
+  fg_evolution_destroy(evolution);
+  fg_field_destroy(field);
+  forget();
+  end_together();
+}
+
 static bool is_there(const char *name)
 {
   struct stat about;
@@ -276,10 +284,7 @@ static void damage_anywhere_is_refused_by_all(void **state)
   opens_previous(s, field, 2, "damaged: the checksum of its values");
   spoil(previous, 20);
   is_refused(path, FG_STATUS_FILE_FORMAT, "damaged: the checksum of its values");
-  fg_evolution_destroy(e);
-  fg_field_destroy(field);
-  forget();
-  end_together();
+  end_case(e, field);
 }
 
 /* On one of the ranks, a limit on what it may use. Returns the limit there was. */
@@ -338,10 +343,7 @@ static void a_rank_that_can_not_write(void **state)
   expect(fg_evolution_save(e, path, "a note") == FG_STATUS_OK);
   fg_evolution_destroy(resume(s, field, us.ranks, path, &step));
   expect(step.step == 3 && is_there(previous));
-  fg_evolution_destroy(e);
-  fg_field_destroy(field);
-  forget();
-  end_together();
+  end_case(e, field);
 }
 
 static void a_rank_that_can_not_read(void **state)
@@ -363,10 +365,7 @@ static void a_rank_that_can_not_read(void **state)
   }
   fg_evolution_destroy(resume(s, field, us.ranks, path, &step));
   expect(step.step == 2);
-  fg_evolution_destroy(e);
-  fg_field_destroy(field);
-  forget();
-  end_together();
+  end_case(e, field);
 }
 
 /* Folders of the same name on machines of their own. */
@@ -383,10 +382,7 @@ static void ranks_that_find_different_files(void **state)
   bool last = us.ranks->rank == us.ranks->count - 1;
   if (us.ranks->count > 1)
     is_refused(last ? other : path, FG_STATUS_FILE_ACCESS, "different files");
-  fg_evolution_destroy(e);
-  fg_field_destroy(field);
-  forget();
-  end_together();
+  end_case(e, field);
 }
 
 /* All have the same folder; rank 0 removes it. */

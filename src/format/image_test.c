@@ -1,16 +1,12 @@
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
 #include <jpeglib.h>
 #include <png.h>
 
+#include "base/context_test.h"
 #include "format/image.h"
 
 enum { WIDTH = 7, HEIGHT = 5, MOST_CHANNELS = 4 };
@@ -262,23 +258,10 @@ static void damage_does_no_harm(void **state)
   free(f.bytes);
 }
 
-static int set_up(void **state)
-{
-  fg_context *context = NULL;
-  fg_status status = fg_context_create(&context);
-  *state = context;
-  return status != FG_STATUS_OK;
-}
-
-static int tear_down(void **state)
-{
-  fg_context_destroy(*state);
-  return 0;
-}
-
 int main(void)
 {
-#define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define CASE(name)                                                                       \
+  cmocka_unit_test_setup_teardown(name, context_set_up, context_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(png_images_of_every_kind_are_read),
       CASE(pnm_images_of_every_kind_are_read),

@@ -1,13 +1,8 @@
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "base/context_test.h"
 #include "tensor/tensor.h"
 
 /* Speeds are stored in float; a difference over a cell of a tenth of the domain loses a
@@ -153,23 +148,10 @@ static void in_a_vortex_both_energies_agree(void **state)
   fg_field_destroy(field);
 }
 
-static int set_up(void **state)
-{
-  fg_context *context = NULL;
-  fg_status status = fg_context_create(&context);
-  *state = context;
-  return status != FG_STATUS_OK;
-}
-
-static int tear_down(void **state)
-{
-  fg_context_destroy(*state);
-  return 0;
-}
-
 int main(void)
 {
-#define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define CASE(name)                                                                       \
+  cmocka_unit_test_setup_teardown(name, context_set_up, context_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(the_gradient_is_cheap_to_cross),
       CASE(where_the_speed_is_even_nothing_is_preferred),
