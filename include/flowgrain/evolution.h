@@ -37,7 +37,7 @@ typedef struct fg_evolution_options {
                                [(1.1 h)^2 / a; isotropic (1.5 h)^2] */
   uint64_t seed;            /* of the initial noise [1] */
   double accuracy;          /* eta: rms change of u allowed in a step [0.08; else 0.05] */
-  int cycles;               /* multigrid cycles a step, or a substep [3] */
+  int cycles;               /* multigrid cycles a step, or a substep [2; else 3] */
   fg_scheme scheme;         /* of the time steps [BDF2] */
   int threads;              /* [all cores] */
   const float *initial; /* NULL: noise; else u at the nodes of the mesh, as fg_density has

@@ -328,11 +328,11 @@ static void another_run_is_refused(void **state)
   differs(f, field, &other, "accuracy: 0.08, not 0.03");
   other = options;
   other.cycles = 4;
-  differs(f, field, &other, "cycles: 3, not 4");
+  differs(f, field, &other, "cycles: 2, not 4");
   other = options;
   other.scheme = FG_SCHEME_THETA;
-  other.accuracy = 0.08; /* the default depends on the scheme */
-  other.cycles = 3;
+  other.accuracy = 0.08; /* the defaults depend on the scheme */
+  other.cycles = 2;
   differs(f, field, &other, "scheme: 0, not 2");
   other = options;
   other.gamma = 0.01;

@@ -4,11 +4,12 @@
 #include "evolve/evolution_options.h"
 
 /* Defaults that give the paper's pictures (design.md section 2). */
-enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1, DEFAULT_CYCLES = 3 };
+enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1 };
 static const double default_anisotropy = 0.15, default_coverage = 0.3;
-/* By scheme: chosen by the time they take for the same error (docs/design/interfaces.md,
- * docs/method/schemes.md). */
+/* By scheme: chosen by time and error, which stays below the scatter of seeds
+ * (docs/design/evolution.md, docs/method/schemes.md). */
 static const double default_accuracy[] = {0.08, 0.05, 0.05};
+static const int default_cycles[] = {2, 3, 3};
 
 static fg_status check_range(fg_context *context, const char *name, double value,
                              double low, double high, bool low_included)
@@ -45,7 +46,7 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
   if (o->accuracy == 0.0)
     o->accuracy = default_accuracy[o->scheme];
   if (o->cycles == 0)
-    o->cycles = DEFAULT_CYCLES;
+    o->cycles = default_cycles[o->scheme];
   status = check_range(context, "anisotropy", o->anisotropy, 0.0, 1.0, false);
   if (!status && !(o->coverage > 0.0 && o->coverage < 1.0))
     status = fg__fail(context, FG_STATUS_ARGUMENT, "coverage %g is not in (0, 1)",

@@ -284,7 +284,7 @@ static void defaults_are_what_the_header_says(void **state)
                                         .gamma = 1.1 * h * (1.1 * h) / 0.15,
                                         .seed = 1,
                                         .accuracy = 0.08,
-                                        .cycles = 3};
+                                        .cycles = 2};
   fg_step step;
   fg_density *a = run(*state, field, NULL, 1e-4, 0, &step);
   fg_density *b = run(*state, field, &spelled, 1e-4, 0, &step);
