@@ -44,8 +44,6 @@ static inline void pause_briefly(unsigned look)
 void fg__team_barrier(const fg__share *share)
 {
   fg__team *team = share->team;
-  if (!team && share->meet)
-    share->meet(share->argument);
   if (!team || share->members == 1)
     return;
   unsigned phase = atomic_load_explicit(&team->phase, memory_order_relaxed);
@@ -58,6 +56,14 @@ void fg__team_barrier(const fg__share *share)
   for (unsigned look = 0;
        atomic_load_explicit(&team->phase, memory_order_acquire) == phase; ++look)
     pause_briefly(look);
+}
+
+void fg__team_meet(const fg__share *share, unsigned occasion)
+{
+  if (!share->team && share->meet)
+    share->meet(share->argument, occasion);
+  else
+    fg__team_barrier(share);
 }
 
 /* Waits until there is a piece of work other than `seen`; false when there will be none.

@@ -9,13 +9,14 @@ typedef struct fg__team fg__team;
 
 enum { FG__MOST_MEMBERS = 256 };
 
-/* What one member of a team is given; `team` is NULL for a member on its own, which does
- * `meet` (unless NULL) where members of a team wait for each other: it may be one of
- * several processes that share the work likewise. */
+/* What one member of a team is given; `team` is NULL for a member on its own. That may be
+ * one of several processes that share the work likewise: where members of a team meet it
+ * does `meet` (unless NULL) with the occasion, which is between the work and whoever
+ * gives it out. */
 typedef struct fg__share {
   fg__team *team;
   int member, members;
-  void (*meet)(void *argument);
+  void (*meet)(void *argument, unsigned occasion);
   void *argument;
 } fg__share;
 
@@ -39,9 +40,11 @@ typedef void fg__team_work(void *argument, const fg__share *share);
 void fg__team_run(fg__team *team, fg__team_work *work, void *argument);
 
 /* Returns once every member of the share's team has called it; memory written before is
- * seen by all after it. Only within fg__team_run. A member on its own meets whom its
- * share says. */
+ * seen by all after it. Only within fg__team_run. */
 void fg__team_barrier(const fg__share *share);
+
+/* The same for a team; a member on its own meets whom its share says. */
+void fg__team_meet(const fg__share *share, unsigned occasion);
 
 /* A member's part [*begin, *end) of `count` things; begin is a multiple of `multiple`. */
 void fg__team_part(const fg__share *share, int count, int multiple, int *begin, int *end);

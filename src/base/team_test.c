@@ -22,7 +22,7 @@ static void fill_and_add(void *argument, const fg__share *share)
   fg__team_part(share, COUNT, 2, &begin, &end);
   for (int n = begin; n < end; ++n)
     ++s->value[n];
-  fg__team_barrier(share);
+  fg__team_meet(share, 1);
   long total = 0;
   for (int n = 0; n < COUNT; ++n)
     total += s->value[n];
@@ -58,6 +58,27 @@ static void one_member_needs_no_thread(void **state)
   fg__team_destroy(team);
 }
 
+static void count_occasions(void *argument, unsigned occasion)
+{
+  unsigned *seen = argument;
+  *seen = 10 * *seen + occasion;
+}
+
+/* Whom a member on its own meets hears of meetings, not of barriers; without anybody to
+ * meet it goes on. */
+static void one_member_meets_whom_its_share_says(void **state)
+{
+  (void)state;
+  unsigned seen = 0;
+  fg__share share = {.members = 1, .meet = count_occasions, .argument = &seen};
+  fg__team_meet(&share, 3);
+  fg__team_barrier(&share);
+  fg__team_meet(&share, 5);
+  assert_int_equal(seen, 35);
+  fg__share alone = fg__alone();
+  fg__team_meet(&alone, 3);
+}
+
 static void a_team_may_end_without_work(void **state)
 {
   (void)state;
@@ -91,6 +112,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(members_see_what_others_wrote),
       cmocka_unit_test(one_member_needs_no_thread),
+      cmocka_unit_test(one_member_meets_whom_its_share_says),
       cmocka_unit_test(a_team_may_end_without_work),
       cmocka_unit_test(parts_cover_all_once),
   };

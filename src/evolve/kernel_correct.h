@@ -202,7 +202,7 @@ static void correct_ends(const fg__level *coarse, const fg__level *fine, part mi
     correct_slice(coarse, fine, s, linear, share);
   if (last >= mine.begin + 2)
     correct_slice(coarse, fine, last, linear, share);
-  fg__team_barrier(share);
+  fg__team_meet(share, FG__FIRST_SLICE | FG__LAST_SLICE);
 }
 
 #endif

@@ -16,10 +16,26 @@ typedef struct work {
   bool correct, sweep, restriction;
 } work;
 
+/* What the rank above needs of the last slice. */
+static void hand_over(const fg__level *fine, const lines *gathered)
+{
+  ptrdiff_t floats = fg__gathered_floats(fine);
+  for (int n = 0; n < FG__RESTRICTED; ++n)
+    memcpy(fine->handed + n * floats, gathered->value[n],
+           (size_t)floats * sizeof *fine->handed);
+}
+
+/* The slice before the first comes from the rank below. */
+static void take_over(const fg__level *fine, lines *gathered)
+{
+  for (int n = 0; n < FG__RESTRICTED; ++n)
+    gathered->value[n] = fine->taken + n * fg__gathered_floats(fine);
+}
+
 /* Slice s is smoothed when those up to s + 1 are corrected. Once slices up to s = 2 S + 2
  * are smoothed, those up to 2 S + 1 have their final residuals, while they are still
  * near. Not so at the start of a part, whose neighbour may be at work still, nor across a
- * periodic border, where slice 0 needs the last. */
+ * periodic border within a part, where slice 0 needs the last. */
 static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool linear,
                  work todo, const fg__share *share)
 {
@@ -28,8 +44,9 @@ static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool
   float *const out[] = {coarse->p, coarse->q, coarse->coupling, coarse->shape_curvature};
   part mine = part_of(fine, share);
   int first = mine.begin / 2, last = (mine.end + 1) / 2; /* coarse slices */
-  bool together = todo.sweep && todo.restriction && !fine->periodic[FG__DIMENSION - 1];
-  int started = together && mine.begin == 0 ? first : first + 1;
+  bool together = todo.sweep && todo.restriction &&
+                  (!fine->periodic[FG__DIMENSION - 1] || fine->taken);
+  int started = together && mine.begin == 0 && !fine->taken ? first : first + 1;
   if (todo.correct)
     correct_ends(coarse, fine, mine, linear, share);
   if (todo.sweep)
@@ -42,12 +59,20 @@ static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool
     if (together && S >= started)
       restrict_slice(&r, S, S == started, out, linear);
   }
-  fg__team_barrier(share);
+  if (todo.restriction && fine->handed) {
+    if (!together)
+      take_slice(&r, mine.end - 1, &r.slice[0], linear);
+    hand_over(fine, &r.slice[0]);
+  }
+  fg__team_meet(share, (todo.sweep ? FG__LAST_SLICE : 0U) |
+                           (todo.restriction ? FG__GATHERED_SLICE : 0U));
   if (!todo.restriction)
     return;
   int end = together ? started : last;
+  if (fine->taken)
+    take_over(fine, &r.slice[0]);
   for (int S = first; S < end && S < last; ++S)
-    restrict_slice(&r, S, S == first, out, linear);
+    restrict_slice(&r, S, S == first && !fine->taken, out, linear);
   if (share->member == 0)
     clear(coarse, coarse->u);
   if (share->member == share->members - 1)

@@ -21,12 +21,6 @@ typedef struct shapes {
   int held[3];    /* which slice each has, -2: none */
 } shapes;
 
-/* Floats of a slice with its ghosts. */
-INLINE ptrdiff_t slice_floats(const fg__level *level)
-{
-  return FG__DIMENSION == 3 ? level->layout.plane : level->layout.stride;
-}
-
 /* Of row 0 in a slice. */
 INLINE ptrdiff_t row_in_slice(const fg__level *level)
 {
@@ -36,9 +30,10 @@ INLINE ptrdiff_t row_in_slice(const fg__level *level)
 static shapes shapes_of(const fg__level *level, const fg__share *share)
 {
   shapes x = {.level = level, .held = {-2, -2, -2}};
-  float *space = level->shapes + (size_t)share->member * 3 * (size_t)slice_floats(level);
+  float *space =
+      level->shapes + (size_t)share->member * 3 * (size_t)fg__slice_floats(level);
   for (int n = 0; n < 3; ++n)
-    x.slot[n] = space + n * slice_floats(level);
+    x.slot[n] = space + n * fg__slice_floats(level);
   return x;
 }
 
@@ -58,7 +53,7 @@ static void shapes_round(shapes *x, int s, const float *out[3])
     if (x->held[slot] != slice) {
       ptrdiff_t row = fg__row_at(&level->layout, row_index(slice, 0), plane_index(slice));
       shape_floats(level->u + row - row_in_slice(level), x->slot[slot],
-                   slice_floats(level));
+                   fg__slice_floats(level));
       x->held[slot] = slice;
     }
     out[n] = x->slot[slot] + row_in_slice(level);
@@ -397,9 +392,7 @@ static restriction restriction_of(const fg__level *fine, const fg__level *coarse
   if (fine->shapes)
     r.shapes = shapes_of(fine, share);
   ptrdiff_t stride = fine->layout.stride;
-  ptrdiff_t slice = FG__DIMENSION == 3 ? r.line * coarse->layout.nodes[1] : stride;
-  if (fine->mass)
-    slice = slice_floats(fine);
+  ptrdiff_t slice = fg__gathered_floats(fine);
   float *space = fine->scratch + (size_t)share->member * fine->scratch_size;
   for (int n = 0; n < FG__RESTRICTED; ++n) {
     r.fine_line.value[n] = space;

@@ -167,7 +167,7 @@ INLINE int plane_index(int slice)
 
 static void fill_ghosts_of_slice(const fg__level *level, float *array, int s)
 {
-  if (level->boxed)
+  if (level->boxed && !level->slab)
     return;
   for (int side = 0; side < 2; ++side) {
 #if FG__DIMENSION == 3

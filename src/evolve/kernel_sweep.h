@@ -137,7 +137,7 @@ static void begin_sweep(const fg__level *level, part mine, const laplacian *l,
 {
   if (mine.begin < mine.end)
     smooth_slice(level, mine.begin, l, linear);
-  fg__team_barrier(share);
+  fg__team_meet(share, FG__FIRST_SLICE);
 }
 
 /* Slices s (even, not the first) and s - 1, as far as they are of the part: again even
@@ -158,7 +158,7 @@ static void sweep(const fg__level *level, float tau, bool linear, const fg__shar
   begin_sweep(level, mine, &l, linear, share);
   for (int s = mine.begin + 2; s <= mine.end + 1; s += 2)
     continue_sweep(level, s, mine, &l, linear);
-  fg__team_barrier(share);
+  fg__team_meet(share, FG__LAST_SLICE);
 }
 
 static void smooth_linear(const fg__level *level, float tau, const fg__share *share)

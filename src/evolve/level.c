@@ -109,9 +109,10 @@ static void lay_out(fg__level *level, const fg__box *box)
   int whole[3] = {1, 1, 1}, dimension = level->layout.dimension;
   level->nodes = 1.0;
   level->cell_volume = 1.0;
-  level->boxed = box;
+  level->boxed = level->slab = box;
   for (int k = 0; k < dimension; ++k) {
     whole[k] = level->periodic[k] ? level->cells[k] : level->cells[k] + 1;
+    level->slab = level->slab && (k + 1 == dimension || box->nodes[k] == whole[k]);
     level->nodes *= whole[k];
     level->cell_volume *= level->spacing[k];
     level->border[k][0] = !level->periodic[k] && (!box || box->first[k] == 0);
@@ -122,7 +123,7 @@ static void lay_out(fg__level *level, const fg__box *box)
   level->layout = fg__layout_of(dimension, nodes);
   level->even_count = (nodes[0] + 1) / 2;
   level->odd_count = nodes[0] / 2;
-  if (!box) { /* whole vectors are faster; ghosts are filled after them */
+  if (!box || level->slab) { /* whole vectors are faster; ghosts are filled after them */
     level->even_count = round_to_lanes(level->even_count);
     level->odd_count = round_to_lanes(level->odd_count);
   }

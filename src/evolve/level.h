@@ -57,6 +57,7 @@ typedef struct fg__level {
   int ghost_row_source[2];   /* rows that rows -1 and nodes[1] are copies of */
   int ghost_plane_source[2]; /* the same for planes */
   bool boxed; /* one box of several: ghosts that are no images are filled from outside */
+  bool slab;  /* a box of whole slices: of their own ghosts all are images */
   bool border[3][2]; /* a natural border at the low, the high end of an axis */
   /* Terms are rounded to multiples of a fixed small number before they are added, so that
    * a sum does not depend on its order: (x + rounding) - rounding. The first for terms
@@ -82,6 +83,9 @@ typedef struct fg__level {
   float *scratch;      /* for the kernels' own use, one piece a member of the team */
   size_t scratch_size; /* floats of one piece */
   float *shapes;       /* finest levels: three slices a member (kernel_restrict.h) */
+  /* Of ranks that have a slab each: this one's last slice gathered (kernel_restrict.h),
+   * for the rank above, and that of the rank below; NULL where there is none. */
+  float *handed, *taken;
   float *mass,
       *mass_inverse; /* relative; NULL without a mask; inverse 0 where mass is 0 */
 
@@ -121,6 +125,28 @@ static inline int fg__slices(const fg__level *level)
 {
   return level->layout.nodes[level->layout.dimension - 1];
 }
+
+/* Floats of a slice with its ghosts. */
+static inline ptrdiff_t fg__slice_floats(const fg__level *level)
+{
+  return level->layout.dimension == 3 ? level->layout.plane : level->layout.stride;
+}
+
+/* Floats of one quantity of a fine slice gathered to coarse rows and columns. */
+static inline ptrdiff_t fg__gathered_floats(const fg__level *level)
+{
+  if (level->layout.dimension == 2 || level->mass)
+    return fg__slice_floats(level);
+  return level->layout.odd_offset * ((level->layout.nodes[1] + 1) / 2);
+}
+
+/* What slices are exchanged for where members of a team meet; a member on its own is told
+ * what its neighbours need by then. */
+enum {
+  FG__FIRST_SLICE = 1,   /* of u and w, for the rank below */
+  FG__LAST_SLICE = 2,    /* of u and w, for the rank above */
+  FG__GATHERED_SLICE = 4 /* level->handed */
+};
 
 static inline float *fg__row(const fg__level *level, float *array, int j, int k)
 {

@@ -401,14 +401,15 @@ static void cycle_gathered(const fg__multigrid *multigrid, const turn *now)
   fg__gather_return(multigrid->gather, 2, solution, boxes);
 }
 
-static void cycle_spread(const fg__multigrid *multigrid, const turn *now)
+static void cycle_spread(const fg__multigrid *multigrid, turn *now)
 {
   const fg__kernel *kernel = multigrid->kernel;
   const fg__spread *spread = multigrid->spread;
   int count = multigrid->spread_count;
   for (int n = 0; n < count; ++n) {
-    fg__spread_descend(&spread[n], &spread[n + 1], kernel, now->tau,
-                       n > 0 || multigrid->linear);
+    if (n > 0 || !now->restricted)
+      fg__spread_descend(&spread[n], &spread[n + 1], kernel, now->tau,
+                         n > 0 || multigrid->linear);
     if (n + 1 < count)
       fg__spread_find_space(&spread[n + 1], kernel, now->tau);
   }
@@ -416,8 +417,8 @@ static void cycle_spread(const fg__multigrid *multigrid, const turn *now)
   for (int n = count - 1; n >= 0; --n) {
     if (n + 1 < count)
       fg__spread_unscale(&spread[n + 1], kernel);
-    fg__spread_ascend(&spread[n + 1], &spread[n], kernel, now->tau,
-                      n > 0 || multigrid->linear);
+    now->restricted = fg__spread_ascend(&spread[n + 1], &spread[n], kernel, now->tau,
+                                        n > 0 || multigrid->linear, n == 0 && now->more);
   }
 }
 
@@ -469,8 +470,9 @@ void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
       fg_activity activity = fg__traffic_begin(book, FG_ACTIVITY_CYCLES);
       cycle_spread(multigrid, &now);
       fg__traffic_return(book, activity);
-    } else
+    } else {
       cycle_whole(multigrid, &now, share);
-    now.restricted = now.more;
+      now.restricted = now.more;
+    }
   }
 }

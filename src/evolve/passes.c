@@ -122,7 +122,7 @@ fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float
   if (is_spread(multigrid)) {
     const fg__spread *spread = &multigrid->spread[0];
     double rounding = fg__level_rounding(node_count(spread));
-    fg__spread_exchange(spread, 1, &w, FG__ALL_COLOURS);
+    fg__spread_exchange_ends(spread, 1, &w);
     /* halves of exact sums */
     add_over_ranks(multigrid, (double *const[]){&total.energy, &total.u},
                    (const double[]){0.5 * rounding, rounding}, 2);

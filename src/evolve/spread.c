@@ -7,10 +7,26 @@
 #include "evolve/field_boxes.h"
 #include "evolve/interpolation.h"
 
+/* Room for a slice as restriction gathers it: for the rank above, and of the one below.
+ */
+static bool take_gathered(fg__spread *spread)
+{
+  fg__level *box = &spread->box[0];
+  size_t floats = FG__RESTRICTED * (size_t)fg__gathered_floats(box);
+  spread->handed = fg__allocate_aligned(2 * floats, sizeof *spread->handed);
+  if (!spread->handed)
+    return false;
+  spread->taken = spread->handed + floats;
+  box->handed = spread->slabs.above == FG__NOBODY ? NULL : spread->handed;
+  box->taken = spread->slabs.below == FG__NOBODY ? NULL : spread->taken;
+  return true;
+}
+
 static fg_status take_arrays(fg__spread *spread, fg_context *context, bool finest)
 {
   size_t count = (size_t)spread->count;
-  size_t arrays = (finest ? 3 : 10) + FG__RESTRICTED;
+  size_t residuals = spread->in_slabs ? 1 : FG__RESTRICTED;
+  size_t arrays = (finest ? 3 : 10) + residuals;
   float *memory = fg__allocate_aligned(arrays * spread->size, sizeof *memory);
   spread->pointer = fg__allocate(FG__MOST_EXCHANGED * count, sizeof *spread->pointer);
   spread->memory = memory;
@@ -23,11 +39,14 @@ static fg_status take_arrays(fg__spread *spread, fg_context *context, bool fines
                    &spread->scale,     &spread->scale_inverse,
                    &spread->curvature, &spread->relaxation};
   for (size_t n = 0; n < arrays; ++n, memory += spread->size)
-    if (n < FG__RESTRICTED)
+    if (n < residuals)
       spread->residual[n] = memory;
     else
-      *own[n - FG__RESTRICTED] = memory;
+      *own[n - residuals] = memory;
   fg__spread_use(spread, spread->u, spread->w, spread->p);
+  if (spread->in_slabs && !take_gathered(spread))
+    return fg__fail_memory(context, "a multigrid level",
+                           (size_t)fg__slice_floats(&spread->box[0]) * sizeof *memory);
   for (int b = 0; b < spread->count && !finest; ++b) {
     fg__level *box = &spread->box[b];
     ptrdiff_t offset = spread->offset[b];
@@ -275,20 +294,6 @@ static void find_interpolation(const fg__spread *spread)
   }
 }
 
-/* Whether each rank has one box and it reaches across the domain along all axes but the
- * outermost: then slices are shared out as in a team. */
-static bool is_in_slabs(const fg__partition *partition)
-{
-  for (int rank = 0; rank < partition->ranks->count; ++rank)
-    if (partition->first_of_rank[rank + 1] - partition->first_of_rank[rank] != 1)
-      return false;
-  for (int n = 0; n < partition->count; ++n)
-    for (int k = 0; k + 1 < partition->dimension; ++k)
-      if (partition->box[n].nodes[k] != partition->nodes[k])
-        return false;
-  return true;
-}
-
 fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh *mesh,
                             const fg__tensor_recipe *recipe, fg__partition *partition,
                             const fg__spread_description *description)
@@ -296,7 +301,7 @@ fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh
   *out = (fg__spread){.partition = *partition, .masked = recipe->masked};
   *partition = (fg__partition){0};
   fg__own_boxes(&out->partition, &out->count);
-  out->in_slabs = is_in_slabs(&out->partition);
+  out->in_slabs = fg__slabs_find(&out->slabs, &out->partition);
   size_t count = (size_t)out->count;
   out->box = fg__allocate(count, sizeof *out->box);
   out->offset = fg__allocate(count, sizeof *out->offset);
@@ -329,6 +334,7 @@ void fg__spread_clear(fg__spread *spread)
   free(spread->offset);
   free(spread->pointer);
   free(spread->memory);
+  free(spread->handed);
   *spread = (fg__spread){0};
 }
 
@@ -351,37 +357,58 @@ void fg__spread_exchange(const fg__spread *spread, int count, float *const array
   fg__exchange_fill(spread->exchange, count, places, colours);
 }
 
+/* The end slices of so many arrays, for the neighbours named by the set of slices. */
+static void pass_slices(const fg__spread *spread, int count, float *const array[],
+                        unsigned slices)
+{
+  const fg__level *box = &spread->box[0];
+  ptrdiff_t floats = fg__slice_floats(box), end = floats * fg__slices(box);
+  fg__run run[FG__MOST_RUNS];
+  int runs = 0;
+  for (int a = 0; a < count; ++a) {
+    /* where slice 0 begins with its ghosts */
+    float *first = array[a] + spread->offset[0] - box->layout.first + floats;
+    if (slices & FG__FIRST_SLICE)
+      run[runs++] = (fg__run){first, first + end, (size_t)floats, false};
+    if (slices & FG__LAST_SLICE)
+      run[runs++] = (fg__run){first + end - floats, first - floats, (size_t)floats, true};
+  }
+  if (slices & FG__GATHERED_SLICE)
+    run[runs++] = (fg__run){spread->handed, spread->taken,
+                            FG__RESTRICTED * (size_t)fg__gathered_floats(box), true};
+  fg__slabs_exchange(&spread->slabs, run, runs);
+}
+
+void fg__spread_exchange_ends(const fg__spread *spread, int count, float *const array[])
+{
+  if (spread->in_slabs)
+    pass_slices(spread, count, array, FG__FIRST_SLICE | FG__LAST_SLICE);
+  else
+    fg__spread_exchange(spread, count, array, FG__ALL_COLOURS);
+}
+
+/* What a member on its own, whose neighbours are other ranks, has to tell them. */
 typedef struct meeting {
   const fg__spread *spread;
-  unsigned colours; /* to be exchanged next time */
 } meeting;
 
-/* In the midst of a sweep the others need this rank's first slice, an even one, and at
- * its end the last one, which is odd (at the domain's end nobody does). */
-static void meet(void *argument)
+static void meet(void *argument, unsigned slices)
 {
-  meeting *m = argument;
+  const meeting *m = argument;
   float *const both[] = {m->spread->u, m->spread->w};
-  fg__spread_exchange(m->spread, 2, both, m->colours);
-  m->colours = FG__ALL_COLOURS & ~m->colours;
+  bool solution = slices & (FG__FIRST_SLICE | FG__LAST_SLICE);
+  pass_slices(m->spread, solution ? 2 : 0, both, slices);
 }
 
-static void smooth_slab(const fg__spread *spread, const fg__kernel *kernel, float tau,
-                        bool linear)
+static fg__share share_of(meeting *m)
 {
-  meeting m = {spread, kernel->dimension == 3 ? FG__EVEN_PLANES : FG__EVEN_ROWS};
-  fg__share share = {.members = 1, .meet = meet, .argument = &m};
-  (linear ? kernel->smooth_linear : kernel->smooth)(&spread->box[0], tau, &share);
+  return (fg__share){.members = 1, .meet = meet, .argument = m};
 }
 
-void fg__spread_smooth(const fg__spread *spread, const fg__kernel *kernel, float tau,
-                       bool linear)
+static void smooth(const fg__spread *spread, const fg__kernel *kernel, float tau,
+                   bool linear)
 {
   float *const both[] = {spread->u, spread->w};
-  if (spread->in_slabs) {
-    smooth_slab(spread, kernel, tau, linear);
-    return;
-  }
   for (int colour = 0; colour < 1 << kernel->dimension; ++colour) {
     for (int b = 0; b < spread->count; ++b)
       kernel->smooth_one_colour(&spread->box[b], tau, linear, colour);
@@ -392,8 +419,14 @@ void fg__spread_smooth(const fg__spread *spread, const fg__kernel *kernel, float
 void fg__spread_descend(const fg__spread *fine, const fg__spread *coarse,
                         const fg__kernel *kernel, float tau, bool linear)
 {
+  if (fine->in_slabs) {
+    fg__share share = share_of(&(meeting){fine});
+    (linear ? kernel->smooth_restrict_linear
+            : kernel->restrict_residuals)(&fine->box[0], &coarse->box[0], tau, &share);
+    return;
+  }
   if (linear)
-    fg__spread_smooth(fine, kernel, tau, true);
+    smooth(fine, kernel, tau, true);
   for (int b = 0; b < fine->count; ++b) {
     float *out[FG__RESTRICTED];
     for (int n = 0; n < FG__RESTRICTED; ++n)
@@ -417,7 +450,7 @@ void fg__spread_find_space(const fg__spread *coarse, const fg__kernel *kernel, f
   fg__share alone = fg__alone();
   for (int b = 0; b < coarse->count; ++b)
     kernel->find_scale(&coarse->box[b], &alone);
-  fg__spread_exchange(coarse, 2, both, FG__ALL_COLOURS);
+  fg__spread_exchange_ends(coarse, 2, both);
   for (int b = 0; b < coarse->count; ++b)
     kernel->find_curvature(&coarse->box[b], tau, &alone);
 }
@@ -429,12 +462,21 @@ void fg__spread_unscale(const fg__spread *coarse, const fg__kernel *kernel)
     kernel->unscale(&coarse->box[b], &alone);
 }
 
-void fg__spread_ascend(const fg__spread *coarse, const fg__spread *fine,
-                       const fg__kernel *kernel, float tau, bool linear)
+bool fg__spread_ascend(const fg__spread *coarse, const fg__spread *fine,
+                       const fg__kernel *kernel, float tau, bool linear, bool more)
 {
+  if (fine->in_slabs) {
+    fg__share share = share_of(&(meeting){fine});
+    more = more && !linear;
+    (more     ? kernel->correct_smooth_restrict
+     : linear ? kernel->correct_smooth_linear
+              : kernel->correct_smooth)(&coarse->box[0], &fine->box[0], tau, &share);
+    return more;
+  }
   float *const both[] = {fine->u, fine->w};
   for (int b = 0; b < fine->count; ++b)
     kernel->correct(&coarse->box[b], &fine->box[b], linear);
   fg__spread_exchange(fine, 2, both, FG__ALL_COLOURS);
-  fg__spread_smooth(fine, kernel, tau, linear);
+  smooth(fine, kernel, tau, linear);
+  return false;
 }

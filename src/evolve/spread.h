@@ -6,22 +6,25 @@
 #include "evolve/kernel.h"
 #include "mesh/exchange.h"
 #include "mesh/mesh.h"
+#include "mesh/slabs.h"
 
 enum { FG__MOST_EXCHANGED = FG__RESTRICTED };
 
 typedef struct fg__spread {
   fg__partition partition;
   fg__exchange *exchange;
-  bool masked;          /* somewhere, if not here */
-  bool in_slabs;        /* each rank has one box, of whole slices */
-  int count;            /* boxes of this rank */
-  fg__level *box;       /* [count] */
-  ptrdiff_t *offset;    /* [count] from an array's start to the box's node (0, 0, 0) */
-  size_t size;          /* floats of an array: of all boxes, ghosts and pads included */
-  float *u, *w, *p, *q; /* as in level.h, from their start */
+  bool masked;   /* somewhere, if not here */
+  bool in_slabs; /* each rank has one box, of whole slices: */
+  fg__slabs slabs;
+  float *handed, *taken; /* as in level.h, for all ranks */
+  int count;             /* boxes of this rank */
+  fg__level *box;        /* [count] */
+  ptrdiff_t *offset;     /* [count] from an array's start to the box's node (0, 0, 0) */
+  size_t size;           /* floats of an array: of all boxes, ghosts and pads included */
+  float *u, *w, *p, *q;  /* as in level.h, from their start */
   float *coupling, *shape_curvature, *scale, *scale_inverse, *curvature, *relaxation;
-  float *residual[FG__RESTRICTED];
-  float **pointer; /* [FG__MOST_EXCHANGED * count] */
+  float *residual[FG__RESTRICTED]; /* in slabs the first only: room for one array */
+  float **pointer;                 /* [FG__MOST_EXCHANGED * count] */
   void *memory;
 } fg__spread;
 
@@ -47,14 +50,14 @@ void fg__spread_use(fg__spread *spread, float *u, float *w, float *p);
 void fg__spread_exchange(const fg__spread *spread, int count, float *const array[],
                          unsigned colours);
 
+/* Fills the ghosts of whole arrays, where kernels have filled those of slabs that are
+ * images. */
+void fg__spread_exchange_ends(const fg__spread *spread, int count, float *const array[]);
+
 /* The boxes' places in up to FG__MOST_EXCHANGED arrays, as exchange.h and gather.h take
  * them; valid until the next call. */
 void fg__spread_pointers(const fg__spread *spread, int count, float *const array[],
                          float *const *out[]);
-
-/* A sweep over all boxes, with its exchanges. */
-void fg__spread_smooth(const fg__spread *spread, const fg__kernel *kernel, float tau,
-                       bool linear);
 
 /* Restricts to a coarse level; its u and w become 0. A linear level is swept first. */
 void fg__spread_descend(const fg__spread *fine, const fg__spread *coarse,
@@ -66,8 +69,9 @@ void fg__spread_find_space(const fg__spread *coarse, const fg__kernel *kernel, f
 /* From scale * v to v: a coarse level's u, before it corrects. */
 void fg__spread_unscale(const fg__spread *coarse, const fg__kernel *kernel);
 
-/* The coarse level's correction; then a sweep. */
-void fg__spread_ascend(const fg__spread *coarse, const fg__spread *fine,
-                       const fg__kernel *kernel, float tau, bool linear);
+/* The coarse level's correction; then a sweep. True when the next cycle's restriction is
+ * done as well, for which there must be `more` cycles. */
+bool fg__spread_ascend(const fg__spread *coarse, const fg__spread *fine,
+                       const fg__kernel *kernel, float tau, bool linear, bool more);
 
 #endif

@@ -1,0 +1,34 @@
+/* What ranks tell each other that have whole slices each (rows in 2D, planes in 3D), one
+ * behind the other along the last axis: runs of memory, as they lie there, for the rank
+ * above or below. exchange.h does all other boxes. */
+#ifndef FG__SLABS_H
+#define FG__SLABS_H
+
+#include "mesh/partition.h"
+
+enum { FG__NOBODY = -1 };
+
+typedef struct fg__slabs {
+  const fg__ranks *ranks;
+  int below, above; /* ranks, FG__NOBODY at the domain's ends */
+} fg__slabs;
+
+/* Floats for the rank above (or below), and where those of the other side's neighbour
+ * go. */
+typedef struct fg__run {
+  const float *sent;
+  float *received;
+  size_t count;
+  bool up;
+} fg__run;
+
+/* Whether each rank has one box and it reaches across the domain along all axes but the
+ * last, and no rank has all. The same on all ranks; not collective. */
+bool fg__slabs_find(fg__slabs *out, const fg__partition *partition);
+
+/* At most FG__MOST_RUNS; sent values must be all different memory from received ones.
+ * Collective: all ranks give as many runs, of the same directions and sizes. */
+enum { FG__MOST_RUNS = 8 };
+void fg__slabs_exchange(const fg__slabs *slabs, const fg__run run[], int count);
+
+#endif
