@@ -77,7 +77,8 @@ static size_t profile_of(unsigned char bytes[MOST_BYTES], double gamma, double x
   cmsToneCurve *curve = cmsBuildGamma(NULL, gamma);
   cmsToneCurve *curves[3] = {curve, curve, curve};
   cmsHPROFILE profile = cmsCreateRGBProfile(&white, &primaries, curves);
-  cmsUInt32Number size = MOST_BYTES;
+  cmsUInt32Number size = 0;
+  assert_true(cmsSaveProfileToMem(profile, NULL, &size) && size <= MOST_BYTES);
   assert_true(cmsSaveProfileToMem(profile, bytes, &size));
   cmsCloseProfile(profile);
   cmsFreeToneCurve(curve);
