@@ -32,11 +32,11 @@ const cli_command command_table[] = {
      "Reads a vector field, lets clusters grow on it from fine to coarse, and writes at "
      "every wanted number of clusters one scale into DIR: the icons as GeoJSON and their "
      "picture. DIR also gets run.json, which says all that was done, and evolution.csv, "
-     "with a row for every time step. INPUT is a NetCDF file, a VTK image or rectilinear "
-     "grid (.vti, .vtr, .vtk), or synth:NAME for an analytic field (see flowgrain synth "
-     "--help). In 3D a scale is the icons as GeoJSON, VTK polydata (.vtp) "
-     "and glTF (.glb), a rendered picture for each --view, and the density u and its "
-     "clusters (.vti).",
+     "with a row for every time step. INPUT is a NetCDF file, a VTK image or grid (.vti, "
+     ".vtr, .vts, .vtu, .vtk), or synth:NAME for an analytic field (see flowgrain synth "
+     "--help). In 3D a scale is the icons as GeoJSON, VTK polydata (.vtp) and glTF "
+     "(.glb), "
+     "a rendered picture for each --view, and the density u and its clusters (.vti).",
      true, command_run},
     {COMMAND_DRAW, "draw", "DIR", "DIR -o PICTURE [options]",
      "draw one scale of a finished run again, in another style",

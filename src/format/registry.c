@@ -14,8 +14,9 @@
 static const fg__format *const FORMATS[] = {&fg__format_netcdf, &fg__format_vti,
                                             &fg__format_vtk_legacy};
 static const char KNOWN_FORMATS[] =
-    "NetCDF (classic, 64-bit offset, CDF-5, NetCDF-4), VTK XML images and rectilinear "
-    "grids (.vti, .vtr) and VTK legacy files of them (.vtk)";
+    "NetCDF (classic, 64-bit offset, CDF-5, NetCDF-4), VTK XML images, rectilinear, "
+    "curvilinear and unstructured grids (.vti, .vtr, .vts, .vtu) and VTK legacy files of "
+    "them (.vtk)";
 static const char SYNTHETIC[] = "synth:";
 enum { MESSAGE_BYTES = 2048 };
 

@@ -123,7 +123,11 @@ fg_status fg__tensors_of_vtk(fg_field *row[2], bool *found, fg_context *context,
     status = fg__vtk_read_coordinates(&vtk);
   const fg__vtk_array *array = status ? NULL : find_array(&vtk);
   *found = array != NULL;
-  if (array)
+  if (array && vtk.cells.count > 0)
+    status = fg__fail(context, FG_STATUS_UNSUPPORTED,
+                      "%s: tensors on cells that are not along the axes can not be read",
+                      vtk.path);
+  else if (array)
     status = make_rows(row, &vtk, array);
   fg__vtk_close(&vtk);
   return status;

@@ -189,27 +189,35 @@ static inline void example_array(example_text *out, example_text *appended,
   example_words(out, "</DataArray>\n");
 }
 
-static inline void example_begin(example_text *out, const example_encoding *encoding,
-                                 const char *image)
+static inline void example_begin_kind(example_text *out, const example_encoding *encoding,
+                                      const char *kind, const char *attributes)
 {
   char words[512];
   snprintf(words, sizeof words,
-           "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
-           "byte_order=\"%s\" header_type=\"%s\"%s>\n<ImageData %s>\n",
-           encoding->big ? "BigEndian" : "LittleEndian",
+           "<?xml version=\"1.0\"?>\n<VTKFile type=\"%s\" version=\"1.0\" "
+           "byte_order=\"%s\" header_type=\"%s\"%s>\n<%s %s>\n",
+           kind, encoding->big ? "BigEndian" : "LittleEndian",
            encoding->wide ? "UInt64" : "UInt32",
            encoding->zlib  ? " compressor=\"vtkZLibDataCompressor\""
            : encoding->lz4 ? " compressor=\"vtkLZ4DataCompressor\""
                            : "",
-           image);
+           kind, attributes);
   example_words(out, words);
 }
 
-/* Frees `appended`. */
-static inline void example_end(example_text *out, example_text *appended,
-                               const example_encoding *encoding)
+static inline void example_begin(example_text *out, const example_encoding *encoding,
+                                 const char *image)
 {
-  example_words(out, "</ImageData>\n");
+  example_begin_kind(out, encoding, "ImageData", image);
+}
+
+/* Frees `appended`. */
+static inline void example_end_kind(example_text *out, example_text *appended,
+                                    const example_encoding *encoding, const char *kind)
+{
+  char words[64];
+  snprintf(words, sizeof words, "</%s>\n", kind);
+  example_words(out, words);
   if (encoding->storage >= EXAMPLE_APPENDED_BASE64) {
     example_words(out, encoding->storage == EXAMPLE_APPENDED_RAW
                            ? "<AppendedData encoding=\"raw\">\n _"
@@ -219,6 +227,12 @@ static inline void example_end(example_text *out, example_text *appended,
   }
   example_words(out, "</VTKFile>\n");
   example_free(appended);
+}
+
+static inline void example_end(example_text *out, example_text *appended,
+                               const example_encoding *encoding)
+{
+  example_end_kind(out, appended, encoding, "ImageData");
 }
 
 /* Reads from memory; the status, the field through *out. */

@@ -66,6 +66,7 @@ void fg__vtk_close(fg__vtk *vtk)
   free(vtk->vectors[0]);
   free(vtk->vectors[1]);
   free(vtk->compressor);
+  fg__cell_set_clear(&vtk->cells);
   if (vtk->document)
     xmlFreeDoc(vtk->document);
   *vtk = (fg__vtk){0};
@@ -163,8 +164,19 @@ static fg_status read_axis(fg__vtk *vtk, int axis)
   return FG_STATUS_OK;
 }
 
+bool fg__vtk_tuples(size_t *count, const fg__vtk *vtk, const fg__vtk_piece *piece,
+                    fg__vtk_place place)
+{
+  if (vtk->kind != FG__VTK_UNSTRUCTURED)
+    return fg__vtk_count(count, piece->extent, place);
+  *count = place == FG__VTK_CELLS ? piece->cells : piece->points;
+  return true;
+}
+
 fg_status fg__vtk_read_coordinates(fg__vtk *vtk)
 {
+  if (vtk->kind != FG__VTK_ALONG_AXES)
+    return fg__vtk_read_cells(vtk);
   for (int k = 0; k < 3 && vtk->uneven; ++k) {
     fg_status status = check_coordinates(vtk, k);
     if (status == FG_STATUS_OK)

@@ -1,11 +1,13 @@
-/* A VTK file of a grid along the axes, taken apart: what vtk_document.c finds in the
+/* A VTK file of a grid or of cells, taken apart: what vtk_document.c finds in the
  * markup that vtk_markup.c parsed, or vtk_legacy.c in a legacy file, vtk_values.c turns
- * into numbers, vtk_choice.c picks vectors from, vtk_samples.c brings onto the points of
- * a plane or a volume, and vtk_read.c makes a field of. Format: VTK File Formats,
- * Kitware. */
+ * into numbers, vtk_cells.c makes a set of cells and their raster of where the grid is
+ * not along the axes, vtk_choice.c picks vectors from, vtk_samples.c brings onto the
+ * points of a plane or a volume, and vtk_read.c makes a field of. Format: VTK File
+ * Formats, Kitware. */
 #ifndef FG__VTK_H
 #define FG__VTK_H
 
+#include "format/cell_set.h"
 #include "format/format.h"
 
 typedef enum fg__vtk_type {
@@ -62,9 +64,23 @@ typedef struct fg__vtk_array {
 
 typedef struct fg__vtk_piece {
   int extent[6];
-  size_t first_array, array_count; /* of points and cells */
-  size_t coordinates;              /* the first of three arrays, on an uneven grid */
+  size_t first_array, array_count;    /* of points and cells */
+  size_t coordinates;                 /* the first of three arrays, on an uneven grid */
+  size_t positions;                   /* the array of its points, of cells */
+  size_t points, cells;               /* of an unstructured grid */
+  size_t corners, types, ends;        /* arrays that say what these are; ends: NONE where
+                                         each cell's corners follow their number */
+  size_t corner_numbers, end_numbers; /* of these arrays; 0: as the last end says, as
+                                         many as cells */
 } fg__vtk_piece;
+
+#define FG__VTK_NONE SIZE_MAX
+
+typedef enum fg__vtk_kind {
+  FG__VTK_ALONG_AXES = 0,
+  FG__VTK_CURVILINEAR,
+  FG__VTK_UNSTRUCTURED
+} fg__vtk_kind;
 
 typedef struct fg__vtk {
   fg_context *context;
@@ -78,7 +94,9 @@ typedef struct fg__vtk {
   const unsigned char *appended; /* NULL: none */
   size_t appended_size;
   bool appended_base64;
-  int extent[6]; /* first and last point along x, y, z */
+  fg__vtk_kind kind;
+  fg__cell_set cells; /* count is 0: the grid is along the axes, or not read yet */
+  int extent[6];      /* first and last point along x, y, z */
   double origin[3], spacing[3];
   bool uneven;           /* each piece has its coordinates */
   double *coordinate[3]; /* of an uneven grid, from the first point of extent on */
@@ -112,8 +130,17 @@ fg_status fg__vtk_end_piece(fg__vtk *vtk);
 /* Bytes of a number; 0 for the unknown type. */
 size_t fg__vtk_size_of(fg__vtk_type type);
 
-/* Reads an uneven grid's coordinates from its pieces. */
+/* Reads an uneven grid's coordinates from its pieces, or the points and cells of one that
+ * is not along the axes: then extent, origin and spacing become those of its raster; but
+ * a curvilinear grid whose lines are along the axes becomes an uneven one. */
 fg_status fg__vtk_read_coordinates(fg__vtk *vtk);
+
+/* Points or cells of a piece; false as for fg__vtk_count. */
+bool fg__vtk_tuples(size_t *count, const fg__vtk *vtk, const fg__vtk_piece *piece,
+                    fg__vtk_place place);
+
+/* The part of fg__vtk_read_coordinates that reads points and cells. */
+fg_status fg__vtk_read_cells(fg__vtk *vtk);
 
 /* A point's coordinate along an axis; i counts from the first of extent. */
 double fg__vtk_coordinate(const fg__vtk *vtk, int axis, size_t i);
@@ -208,7 +235,7 @@ fg_status fg__vtk_samples_read(float *out[3], const fg__vtk *vtk,
                                const fg__vtk_grid *grid, const fg__vtk_vector *vector,
                                const char *mask);
 
-/* What to do about a grid that cannot be read. */
+/* What to do about cells that cannot be read. */
 #define FG__VTK_RESAMPLE                                                                 \
   "resample it to an image, with ParaView's filter Resample To Image or "                \
   "vtkResampleToImage, and save that as .vti"

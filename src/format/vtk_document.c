@@ -296,6 +296,50 @@ static fg_status read_arrays(fg__vtk *vtk, const xmlNode *parent, const char *na
   return FG_STATUS_OK;
 }
 
+/* A piece's points, and the cells between them. */
+static fg_status read_points(fg__vtk *vtk, const xmlNode *node)
+{
+  const size_t piece = vtk->piece_count - 1, first = vtk->array_count;
+  fg_status status = read_arrays(vtk, node, "Points", FG__VTK_COORDINATES);
+  if (status == FG_STATUS_OK &&
+      (vtk->array_count != first + 1 || vtk->arrays[first].components != 3))
+    status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                      "%s: line %ld: a piece without one array of points x y z",
+                      vtk->path, xmlGetLineNo(node));
+  vtk->pieces[piece].positions = first;
+  return status;
+}
+
+static fg_status read_cells(fg__vtk *vtk, const xmlNode *node)
+{
+  static const char *const names[3] = {"connectivity", "offsets", "types"};
+  fg__vtk_piece *piece = &vtk->pieces[vtk->piece_count - 1];
+  const size_t first = vtk->array_count;
+  size_t *const found[3] = {&piece->corners, &piece->ends, &piece->types};
+  fg_status status = read_arrays(vtk, node, "Cells", FG__VTK_COORDINATES);
+  for (int k = 0; k < 3 && status == FG_STATUS_OK; ++k) {
+    *found[k] = FG__VTK_NONE;
+    for (size_t i = first; i < vtk->array_count; ++i)
+      if (strcmp(vtk->arrays[i].name, names[k]) == 0 && vtk->arrays[i].components == 1)
+        *found[k] = i;
+    if (*found[k] == FG__VTK_NONE)
+      status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                        "%s: line %ld: a piece's cells without array \"%s\"", vtk->path,
+                        xmlGetLineNo(node), names[k]);
+  }
+  return status;
+}
+
+static bool read_count(size_t *out, const xmlNode *node, const char *name)
+{
+  int number = 0;
+  char *text = attribute(node, name);
+  const bool good = text && fg__number_read_integers(&number, 1, text) && number >= 0;
+  free(text);
+  *out = (size_t)number;
+  return good;
+}
+
 static bool is_within(const int inner[6], const int outer[6])
 {
   for (int k = 0; k < 3; ++k)
@@ -317,9 +361,44 @@ static fg_status read_coordinates(fg__vtk *vtk, const xmlNode *node)
   return status;
 }
 
+static fg_status read_piece_arrays(fg__vtk *vtk, const xmlNode *node)
+{
+  fg_status status = read_arrays(vtk, node, "PointData", FG__VTK_POINTS);
+  if (status == FG_STATUS_OK)
+    status = read_arrays(vtk, node, "CellData", FG__VTK_CELLS);
+  if (status == FG_STATUS_OK)
+    status = fg__vtk_end_piece(vtk);
+  if (status == FG_STATUS_OK && vtk->uneven)
+    status = read_coordinates(vtk, node);
+  if (status == FG_STATUS_OK && vtk->kind != FG__VTK_ALONG_AXES)
+    status = read_points(vtk, node);
+  if (status == FG_STATUS_OK && vtk->kind == FG__VTK_UNSTRUCTURED)
+    status = read_cells(vtk, node);
+  return status;
+}
+
+static fg_status read_unstructured_piece(fg__vtk *vtk, const xmlNode *node)
+{
+  size_t points, cells;
+  if (!read_count(&points, node, "NumberOfPoints"))
+    return bad_attribute(vtk, node, "NumberOfPoints");
+  if (!read_count(&cells, node, "NumberOfCells"))
+    return bad_attribute(vtk, node, "NumberOfCells");
+  if (points == 0 || cells == 0)
+    return FG_STATUS_OK;
+  fg_status status = fg__vtk_add_piece(vtk, vtk->extent);
+  if (status != FG_STATUS_OK)
+    return status;
+  vtk->pieces[vtk->piece_count - 1].points = points;
+  vtk->pieces[vtk->piece_count - 1].cells = cells;
+  return read_piece_arrays(vtk, node);
+}
+
 static fg_status read_piece(fg__vtk *vtk, const xmlNode *node)
 {
   int extent[6];
+  if (vtk->kind == FG__VTK_UNSTRUCTURED)
+    return read_unstructured_piece(vtk, node);
   fg_status status = read_extent(vtk, node, "Extent", extent);
   if (status != FG_STATUS_OK)
     return status;
@@ -330,13 +409,7 @@ static fg_status read_piece(fg__vtk *vtk, const xmlNode *node)
     return bad_attribute(vtk, node, "Extent");
 
   status = fg__vtk_add_piece(vtk, extent);
-  if (status == FG_STATUS_OK)
-    status = read_arrays(vtk, node, "PointData", FG__VTK_POINTS);
-  if (status == FG_STATUS_OK)
-    status = read_arrays(vtk, node, "CellData", FG__VTK_CELLS);
-  if (status == FG_STATUS_OK)
-    status = fg__vtk_end_piece(vtk);
-  return status == FG_STATUS_OK && vtk->uneven ? read_coordinates(vtk, node) : status;
+  return status == FG_STATUS_OK ? read_piece_arrays(vtk, node) : status;
 }
 
 /* Pieces too small for the whole are refused before anything is allocated for it. They
@@ -344,6 +417,8 @@ static fg_status read_piece(fg__vtk *vtk, const xmlNode *node)
 static fg_status check_pieces(const fg__vtk *vtk)
 {
   size_t whole, sum = 0;
+  if (vtk->kind == FG__VTK_UNSTRUCTURED)
+    return FG_STATUS_OK;
   if (!fg__vtk_count(&whole, vtk->extent, FG__VTK_CELLS))
     return FG_STATUS_FILE_FORMAT;
   for (size_t p = 0; p < vtk->piece_count && sum < whole; ++p) {
@@ -363,8 +438,8 @@ static fg_status fail_type(const fg__vtk *vtk, const xmlNode *root)
 {
   char *type = attribute(root, "type");
   fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
-           "%s: a VTK file of type \"%.100s\"; of VTK's XML files only ImageData and "
-           "RectilinearGrid can be read yet",
+           "%s: a VTK file of type \"%.100s\"; of VTK's XML files only ImageData, "
+           "RectilinearGrid, StructuredGrid and UnstructuredGrid can be read yet",
            vtk->path, type ? type : "");
   fg__hint(vtk->context, "%s", FG__VTK_RESAMPLE);
   free(type);
@@ -377,16 +452,24 @@ static fg_status read_document(fg__vtk *vtk)
   if (!root || !is_element(root, "VTKFile"))
     return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                     "%s: XML, but its first element is not VTKFile", vtk->path);
-  vtk->uneven = attribute_is(root, "type", "RectilinearGrid");
-  const char *type = vtk->uneven ? "RectilinearGrid" : "ImageData";
-  if (!attribute_is(root, "type", type))
+  static const char *const types[] = {"ImageData", "RectilinearGrid", "StructuredGrid",
+                                      "UnstructuredGrid"};
+  size_t at = 0;
+  while (at < 4 && !attribute_is(root, "type", types[at]))
+    ++at;
+  if (at == 4)
     return fail_type(vtk, root);
+  const char *type = types[at];
+  vtk->uneven = at == 1;
+  vtk->kind = at == 2   ? FG__VTK_CURVILINEAR
+              : at == 3 ? FG__VTK_UNSTRUCTURED
+                        : FG__VTK_ALONG_AXES;
   const xmlNode *image = child_named(root, type);
   if (!image)
     return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: no %s element", vtk->path,
                     type);
   fg_status status = read_file_attributes(vtk, root);
-  if (status == FG_STATUS_OK)
+  if (status == FG_STATUS_OK && vtk->kind != FG__VTK_UNSTRUCTURED)
     status = read_geometry(vtk, image);
   if (status == FG_STATUS_OK && vtk->appended) {
     const xmlNode *appended = child_named(root, "AppendedData");

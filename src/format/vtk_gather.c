@@ -64,7 +64,7 @@ fg_status fg__vtk_gather_check(const fg__vtk *vtk, const fg__vtk_gathering *want
     fg_status status = find_in_piece(&array, vtk, wanted, p);
     if (status != FG_STATUS_OK)
       return status;
-    if (!fg__vtk_count(&tuples, vtk->pieces[p].extent, wanted->place))
+    if (!fg__vtk_tuples(&tuples, vtk, &vtk->pieces[p], wanted->place))
       return FG_STATUS_FILE_FORMAT;
     status = fg__vtk_values_check(vtk, array, tuples, &stored);
     if (status != FG_STATUS_OK)
@@ -74,6 +74,30 @@ fg_status fg__vtk_gather_check(const fg__vtk *vtk, const fg__vtk_gathering *want
                       "%s: the pieces of array \"%.100s\" overlap in the file", vtk->path,
                       wanted->name);
     stored_sum += stored;
+  }
+  return FG_STATUS_OK;
+}
+
+fg_status fg__vtk_gather_pieces(const fg__vtk *vtk, const fg__vtk_gathering *wanted)
+{
+  size_t to = 0;
+  for (size_t p = 0; p < vtk->piece_count; ++p) {
+    const fg__vtk_array *array;
+    fg__vtk_values values = {0};
+    size_t tuples;
+    fg_status status = find_in_piece(&array, vtk, wanted, p);
+    if (status == FG_STATUS_OK &&
+        !fg__vtk_tuples(&tuples, vtk, &vtk->pieces[p], wanted->place))
+      status = FG_STATUS_FILE_FORMAT;
+    if (status == FG_STATUS_OK)
+      status = fg__vtk_values_create(&values, vtk, array, tuples);
+    if (status != FG_STATUS_OK)
+      return status;
+    for (size_t n = 0; n < tuples; ++n, ++to)
+      for (int c = 0; c < wanted->components; ++c)
+        wanted->out[c][to] = wanted->means(fg__vtk_value(
+            &values, n * (size_t)array->components + (size_t)wanted->component[c]));
+    fg__vtk_values_clear(&values);
   }
   return FG_STATUS_OK;
 }

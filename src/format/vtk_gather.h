@@ -38,6 +38,9 @@ typedef struct fg__vtk_gathering {
  * the whole is no larger than the file can fill. */
 fg_status fg__vtk_gather_check(const fg__vtk *vtk, const fg__vtk_gathering *wanted);
 
+/* Takes all samples of a file of cells, piece after piece. FILE_FORMAT, MEMORY. */
+fg_status fg__vtk_gather_pieces(const fg__vtk *vtk, const fg__vtk_gathering *wanted);
+
 /* Fills the view from the pieces; each sample must be in one. FILE_FORMAT, MEMORY. */
 fg_status fg__vtk_gather(const fg__vtk_view *v, const fg__vtk_gathering *wanted);
 

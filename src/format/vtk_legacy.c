@@ -1,4 +1,4 @@
-/* Legacy VTK files of images and of rectilinear grids. */
+/* Legacy VTK files: what their lines say. */
 #include "base/memory.h"
 #include "format/vtk_legacy_scan.h"
 
@@ -282,7 +282,34 @@ static fg_status read_geometry_line(legacy_file *file, const char *keyword, bool
       vtk->pieces[0].coordinates = first;
     return status;
   }
+  if (vtk->kind != FG__VTK_ALONG_AXES && vtk->piece_count == 0 &&
+      (file->sized || vtk->kind == FG__VTK_UNSTRUCTURED) &&
+      fg__legacy_is(keyword, "POINTS"))
+    return fg__legacy_points(vtk, &file->cursor);
+  if (vtk->kind == FG__VTK_UNSTRUCTURED && vtk->piece_count > 0) {
+    if (fg__legacy_is(keyword, "CELLS"))
+      return fg__legacy_cells(vtk, &file->cursor);
+    if (fg__legacy_is(keyword, "CELL_TYPES"))
+      return fg__legacy_cell_types(vtk, &file->cursor);
+  }
   *known = false;
+  return FG_STATUS_OK;
+}
+
+/* The piece that its points have begun is to have all else, too. */
+static fg_status begin_piece_of_cells(legacy_file *file)
+{
+  fg__vtk *vtk = file->vtk;
+  fg__vtk_piece *piece = vtk->piece_count > 0 ? &vtk->pieces[0] : NULL;
+  const bool listed = vtk->kind == FG__VTK_UNSTRUCTURED;
+  if (!piece ||
+      (listed && (piece->corners == FG__VTK_NONE || piece->types == FG__VTK_NONE)))
+    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: has no %s", vtk->path,
+                    !piece                           ? "POINTS"
+                    : piece->corners == FG__VTK_NONE ? "CELLS"
+                                                     : "CELL_TYPES");
+  piece->first_array = vtk->array_count;
+  file->in_piece = true;
   return FG_STATUS_OK;
 }
 
@@ -290,6 +317,8 @@ static fg_status read_geometry_line(legacy_file *file, const char *keyword, bool
 static fg_status begin_piece(legacy_file *file)
 {
   fg__vtk *vtk = file->vtk;
+  if (vtk->kind != FG__VTK_ALONG_AXES)
+    return begin_piece_of_cells(file);
   if (vtk->piece_count == 0) {
     if (!file->sized || vtk->uneven)
       return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: has no %s", vtk->path,
@@ -322,7 +351,7 @@ static fg_status begin_section(legacy_file *file, fg__vtk_place place)
     status = begin_piece(file);
   if (status != FG_STATUS_OK)
     return status;
-  fg__vtk_count(&expected, file->vtk->extent, place);
+  fg__vtk_tuples(&expected, file->vtk, &file->vtk->pieces[0], place);
   if ((size_t)count != expected)
     return fg__fail(file->cursor.context, FG_STATUS_FILE_FORMAT,
                     "%s: %s_DATA of %d where the grid has %zu", file->cursor.path,
@@ -393,8 +422,8 @@ static fg_status read_sections(legacy_file *file)
 static fg_status fail_dataset(const fg__vtk *vtk, const char *kind)
 {
   fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
-           "%s: a legacy VTK file of a %.40s; only STRUCTURED_POINTS and "
-           "RECTILINEAR_GRID can be read yet",
+           "%s: a legacy VTK file of a %.40s; only STRUCTURED_POINTS, RECTILINEAR_GRID, "
+           "STRUCTURED_GRID and UNSTRUCTURED_GRID can be read yet",
            vtk->path, kind);
   fg__hint(vtk->context, "%s", FG__VTK_RESAMPLE);
   return FG_STATUS_UNSUPPORTED;
@@ -416,9 +445,13 @@ static fg_status read_header(legacy_file *file)
   if (!fg__legacy_word(c, word))
     return fg__legacy_fail(c, "no kind of DATASET but", word);
   file->vtk->uneven = fg__legacy_is(word, "RECTILINEAR_GRID");
-  return file->vtk->uneven || fg__legacy_is(word, "STRUCTURED_POINTS")
-             ? FG_STATUS_OK
-             : fail_dataset(file->vtk, word);
+  if (fg__legacy_is(word, "STRUCTURED_GRID"))
+    file->vtk->kind = FG__VTK_CURVILINEAR;
+  else if (fg__legacy_is(word, "UNSTRUCTURED_GRID"))
+    file->vtk->kind = FG__VTK_UNSTRUCTURED;
+  else if (!file->vtk->uneven && !fg__legacy_is(word, "STRUCTURED_POINTS"))
+    return fail_dataset(file->vtk, word);
+  return FG_STATUS_OK;
 }
 
 fg_status fg__vtk_open_legacy(fg__vtk *out, fg_context *context, const fg__source *source)

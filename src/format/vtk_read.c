@@ -176,12 +176,12 @@ fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *so
   fg__vtk_vector vector;
   char *names = NULL;
   status = opener(&vtk, context, source);
+  if (status == FG_STATUS_OK) /* first: the grid of cells is not known before */
+    status = fg__vtk_read_coordinates(&vtk);
   if (status == FG_STATUS_OK)
     status = fg__vtk_choose(&vector, &names, &vtk, options->vars);
   if (status == FG_STATUS_OK)
     status = fg__vtk_grid_find(&grid, &vtk);
-  if (status == FG_STATUS_OK)
-    status = fg__vtk_read_coordinates(&vtk);
   if (status == FG_STATUS_OK)
     status = build(out, &vtk, &grid, &vector, options, dealt);
   free(names);

@@ -115,8 +115,10 @@ static float as_ghost_cell(double number)
 static fg_status refuse_infinite(const fg__vtk_view *v, const fg__vtk_gathering *wanted,
                                  size_t count)
 {
-  size_t all = 0;
-  fg__vtk_count(&all, v->vtk->extent, v->place);
+  const bool cells = v->vtk->cells.count > 0;
+  size_t all = count;
+  if (!cells)
+    fg__vtk_count(&all, v->vtk->extent, v->place);
   for (int c = 0; c < wanted->components; ++c)
     for (size_t i = 0; i < count; ++i)
       if (isinf(wanted->out[c][i]))
@@ -124,7 +126,7 @@ static fg_status refuse_infinite(const fg__vtk_view *v, const fg__vtk_gathering 
             v->vtk->context, FG_STATUS_FILE_FORMAT,
             "%s: array \"%.100s\" is infinite, or too large to be a velocity, "
             "in sample %zu of %zu",
-            v->vtk->path, wanted->name, fg__vtk_place_in_whole(v, i), all);
+            v->vtk->path, wanted->name, cells ? i : fg__vtk_place_in_whole(v, i), all);
   return FG_STATUS_OK;
 }
 
@@ -229,6 +231,30 @@ static fg_status to_grid(float **out, float *samples, const fg__vtk_view *v,
   return FG_STATUS_OK;
 }
 
+/* The same from the points or cells of a set to its raster. */
+static fg_status to_raster(float **out, float *samples, const fg__vtk_view *v,
+                           const fg__vtk_grid *grid)
+{
+  const fg__cell_set *set = &v->vtk->cells;
+  const size_t count = fg__vtk_grid_wanted(grid), row = count / grid->rows;
+  float *points = samples;
+  fg_status status = FG_STATUS_OK;
+  if (v->place == FG__VTK_CELLS) {
+    points = fg__allocate(set->points, sizeof *points);
+    status = points ? fg__cell_set_to_points(points, set, samples)
+                    : fg__fail_memory(set->context, "means of cells", set->points * 4);
+    free(samples);
+  }
+  float *raster = status == FG_STATUS_OK ? fg__allocate(count, sizeof *raster) : NULL;
+  if (raster)
+    fg__cell_set_sample(raster, set, points, grid->first_row * row, count);
+  else if (status == FG_STATUS_OK)
+    status = fg__fail_memory(set->context, "a field's samples", count * sizeof *raster);
+  free(points);
+  *out = raster;
+  return status;
+}
+
 /* Reads the wanted components onto the wanted rows' points. With `any`, the first result
  * stands for all: a number where one of them is. */
 static fg_status read_onto_points(float *out[], const fg__vtk *vtk,
@@ -238,7 +264,10 @@ static fg_status read_onto_points(float *out[], const fg__vtk *vtk,
   size_t count;
   const fg__vtk_view v = fg__vtk_view_of(vtk, grid, wanted->place);
   fg_status status = fg__vtk_gather_check(vtk, wanted);
-  if (status == FG_STATUS_OK && !fg__vtk_count(&count, v.extent, wanted->place))
+  const bool cells = vtk->cells.count > 0;
+  if (cells)
+    count = wanted->place == FG__VTK_CELLS ? vtk->cells.numbers : vtk->cells.points;
+  else if (status == FG_STATUS_OK && !fg__vtk_count(&count, v.extent, wanted->place))
     status = FG_STATUS_FILE_FORMAT;
   for (int c = 0; c < wanted->components && status == FG_STATUS_OK; ++c) {
     wanted->out[c] = fg__allocate(count, sizeof(float));
@@ -246,7 +275,7 @@ static fg_status read_onto_points(float *out[], const fg__vtk *vtk,
       status = fg__fail_memory(vtk->context, "a field's samples", count * sizeof(float));
   }
   if (status == FG_STATUS_OK)
-    status = fg__vtk_gather(&v, wanted);
+    status = cells ? fg__vtk_gather_pieces(vtk, wanted) : fg__vtk_gather(&v, wanted);
   if (status == FG_STATUS_OK)
     status = refuse_infinite(&v, wanted, count);
   if (status == FG_STATUS_OK && any)
@@ -255,7 +284,7 @@ static fg_status read_onto_points(float *out[], const fg__vtk *vtk,
         if (isnan(wanted->out[0][i]))
           wanted->out[0][i] = wanted->out[c][i];
   for (int c = 0; c < (any ? 1 : wanted->components) && status == FG_STATUS_OK; ++c) {
-    status = to_grid(&out[c], wanted->out[c], &v, grid);
+    status = (cells ? to_raster : to_grid)(&out[c], wanted->out[c], &v, grid);
     wanted->out[c] = NULL;
   }
   for (int c = 0; c < wanted->components; ++c)

@@ -49,13 +49,13 @@ expect_code 1
 expect_one_complaint
 expect_error '^flowgrain: short.vtk: array "wind" is cut short'
 expect_nothing_at out-short
-sed 's/RECTILINEAR_GRID/UNSTRUCTURED_GRID/' grid.vtk >cells.vtk
+sed 's/RECTILINEAR_GRID/POLYDATA/' grid.vtk >cells.vtk
 try run cells.vtk -o out-cells
 expect_code 1
 expect_one_complaint
-expect_error 'UNSTRUCTURED_GRID'
+expect_error 'POLYDATA'
 expect_error 'esample'
 expect_nothing_at out-cells
-done_with "a short file and an unstructured one are refused in a line and a hint"
+done_with "a short file and one of surfaces are refused in a line and a hint"
 
 finish
