@@ -1,0 +1,140 @@
+#include "input.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "options.h"
+#include "ranks.h"
+#include "rehearse.h"
+
+/* What is asked for, and is not there in 3D. */
+static int check_dimension(const cli_run *run)
+{
+  if (!scales_are_solid(run->field) || run->settings->extent == FG_ICON_EXTENT_CLUSTER)
+    return EXIT_DONE;
+  complain("--extent territory: %s is in 3D, where arrows stay in their clusters",
+           run->settings->operand);
+  return EXIT_USAGE;
+}
+
+/* Parts, but where icons are made of the whole density (moment.c). */
+int input_read(cli_run *run)
+{
+  const cli_settings *said = run->settings;
+  const bool whole =
+      said->tint || said->background || said->extent == FG_ICON_EXTENT_TERRITORY;
+  const int part = whole ? 0 : ranks_number(), parts = whole ? 1 : ranks_count();
+  progress_stage(&run->progress, "reading");
+  fg_read_options reading = settings_reading(said);
+  if (rehearse_reading_part(said->operand, &reading, part, parts))
+    return EXIT_FAILED;
+  fg_status status =
+      fg_field_read_part(&run->field, run->context, said->operand, &reading, part, parts);
+  progress_wipe(&run->progress);
+  if (status)
+    return complain_of(run->context, status, run->settings->operand);
+  run->facts.field = run->field;
+  return check_dimension(run);
+}
+
+/* How many times and levels there were to choose from; nothing when that can't be said.
+ */
+static void count_choices(cli_run *run)
+{
+  const fg_field_arrays *field = fg_field_contents(run->field);
+  if (!field->time && !field->level)
+    return;
+  fg_context *context;
+  fg_inventory *inventory = NULL;
+  if (fg_context_create(&context))
+    return;
+  if (!fg_inventory_read(&inventory, context, run->settings->operand))
+    for (int k = 0; k < fg_inventory_vector_count(inventory); ++k) {
+      const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, k);
+      if (vector->name[0] && strcmp(vector->name[0], field->velocity_name[0]) == 0) {
+        run->facts.time_count = vector->times;
+        run->facts.level_count = vector->levels;
+        break;
+      }
+    }
+  fg_inventory_destroy(inventory);
+  fg_context_destroy(context);
+}
+
+static void say_choice(const char *file, const char *kind, int index, int count,
+                       const char *words)
+{
+  if (count > 1)
+    fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", file, kind, index, count - 1,
+            words ? ": " : "", words ? words : "");
+}
+
+static void say_choices(cli_run *run)
+{
+  const cli_settings *said = run->settings;
+  const fg_field_arrays *field = fg_field_contents(run->field);
+  count_choices(run);
+  say_choice(said->operand, "time", said->time, run->facts.time_count, field->time);
+  say_choice(said->operand, "level", said->level, run->facts.level_count, field->level);
+}
+
+int input_join(cli_run *run)
+{
+  fg_status status = fg_field_join(run->context, run->field);
+  if (status)
+    return complain_of(run->context, status, run->settings->operand);
+  if (ranks_leader())
+    say_choices(run);
+  return EXIT_DONE;
+}
+
+static const char *const scheme_names[] = {"BDF2", "implicit Euler", "theta"};
+
+static void print_mesh(const fg_mesh_info *mesh, int scheme)
+{
+  fprintf(stderr, "flowgrain: mesh %d x %d", mesh->cells[0], mesh->cells[1]);
+  if (mesh->dimension == 3)
+    fprintf(stderr, " x %d", mesh->cells[2]);
+  fprintf(stderr,
+          " cells (%ld active), a = %g, coverage %g, gamma %g, %s scheme, %s kernel\n",
+          mesh->active_cells, mesh->anisotropy, mesh->coverage, mesh->gamma,
+          scheme_names[scheme], mesh->kernel);
+}
+
+/* Of a file that says the energy; complains and returns the exit code. All ranks. */
+static int read_energy(fg_tensors **out, const cli_run *run)
+{
+  const char *path = run->settings->energy;
+  *out = NULL;
+  if (energy_place(path) >= 0)
+    return EXIT_DONE;
+  int code = rehearse_reading(path, NULL);
+  if (!code) {
+    fg_status status = fg_tensors_read(out, run->context, path, run->field);
+    code = status ? complain_of(run->context, status, path) : EXIT_DONE;
+  }
+  return ranks_agree(code);
+}
+
+int input_create_evolution(cli_run *run)
+{
+  fg_evolution_options options = settings_evolution(run->settings);
+  fg_tensors *tensors;
+  int code = read_energy(&tensors, run);
+  if (code) {
+    fg_tensors_destroy(tensors);
+    return code;
+  }
+  if (tensors)
+    options.law = fg_tensors_law(tensors);
+  fg_status status =
+      fg_evolution_create(&run->evolution, run->context, run->field, &options);
+  fg_tensors_destroy(tensors);
+  if (status)
+    return complain_of(run->context, status, run->settings->operand);
+  const fg_mesh_info *mesh = fg_evolution_mesh(run->evolution);
+  run->facts.mesh = mesh;
+  if (run->settings->verbose && ranks_leader())
+    print_mesh(mesh, run->settings->scheme);
+  return EXIT_DONE;
+}
