@@ -77,6 +77,16 @@ static fg_status write_solids(cli_drawing *drawing, int index, const fg_icons *i
   return status;
 }
 
+/* Which view a file of that end shows, from 0; -1: it is no picture. In 3D. Files of
+ * views are called scale-NN.png, scale-NN-2.png, ... */
+static int solid_view_of(const char *end)
+{
+  if (strcmp(end, ".vtp") == 0 || strcmp(end, ".glb") == 0 || strcmp(end, ".vti") == 0 ||
+      strcmp(end, ".geojson") == 0)
+    return -1;
+  return end[0] == '-' ? atoi(end + 1) - 1 : 0;
+}
+
 /* A picture for each view and format. */
 static fg_status write_renderings(cli_drawing *drawing, int index,
                                   const scale_moment *moment, const fg_icons *icons)
@@ -193,7 +203,8 @@ static fg_status draw(cli_drawing *drawing, int index, scale_moment *moment)
   drawing->picture_seconds += moment->file_seconds;
   status = draw_icons(drawing, index, moment);
   double start = clock_seconds();
-  if (!status && moment->density && drawing_saves_field(drawing))
+  if (!status && moment->density &&
+      scales_have_density(drawing->settings, drawing->field))
     status = write_density(drawing, index, moment->density);
   drawing->picture_seconds += clock_seconds() - start;
   return status;
@@ -326,15 +337,6 @@ bool scales_have_density(const cli_settings *settings, const fg_field *field)
   return settings->save_field || scales_are_solid(field);
 }
 
-/* Files of views are called scale-NN.png, scale-NN-2.png, ... */
-int solid_view_of(const char *end)
-{
-  if (strcmp(end, ".vtp") == 0 || strcmp(end, ".glb") == 0 || strcmp(end, ".vti") == 0 ||
-      strcmp(end, ".geojson") == 0)
-    return -1;
-  return end[0] == '-' ? atoi(end + 1) - 1 : 0;
-}
-
 static int add_end(char ends[SCALE_FILES][SCALE_END_BYTES], int count, const char *end)
 {
   snprintf(ends[count], SCALE_END_BYTES, ".%s", end);
@@ -362,11 +364,6 @@ int scale_file_ends(char ends[SCALE_FILES][SCALE_END_BYTES], const cli_settings 
   if (scales_have_density(settings, field))
     count = add_end(ends, count, "vti");
   return count;
-}
-
-bool drawing_saves_field(const cli_drawing *drawing)
-{
-  return scales_have_density(drawing->settings, drawing->field);
 }
 
 char *drawing_density_path(const cli_drawing *drawing)

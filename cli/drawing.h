@@ -46,16 +46,12 @@ fg_status drawing_finish(cli_drawing *drawing);
 /* Whether icons are solids, in 3D, and whether scales have a file of the density. */
 bool scales_are_solid(const fg_field *field);
 bool scales_have_density(const cli_settings *settings, const fg_field *field);
-bool drawing_saves_field(const cli_drawing *drawing);
 
 /* The files of a scale: what follows "scale-NN" in each name, in the order in which
  * run.json lists them. Returns their number. */
 enum { SCALE_FILES = FORMAT_KINDS * MAX_VIEWS + 4, SCALE_END_BYTES = 16 };
 int scale_file_ends(char ends[SCALE_FILES][SCALE_END_BYTES], const cli_settings *settings,
                     const fg_field *field);
-
-/* Which view a file of that end shows, from 0; -1: it is no picture. In 3D. */
-int solid_view_of(const char *end);
 
 /* The file of the next scale's density; NULL: no memory. */
 char *drawing_density_path(const cli_drawing *drawing);

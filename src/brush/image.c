@@ -105,7 +105,8 @@ float *fg__image_grey(const fg_image_arrays *image)
   return grey;
 }
 
-int fg__image_mirror(int index, int count)
+/* Mirrors an index into [0, count). */
+static int mirrored(int index, int count)
 {
   int period = 2 * count, rest = index % period;
   rest = rest < 0 ? rest + period : rest;
@@ -152,7 +153,7 @@ static bool kernel_create(kernel *out, double deviation)
 static void running_mean(float *line, int count, int radius, float *padded)
 {
   for (int i = -radius; i < count + radius; ++i)
-    padded[i + radius] = line[fg__image_mirror(i, count)];
+    padded[i + radius] = line[mirrored(i, count)];
   double sum = 0.0;
   for (int k = 0; k < 2 * radius; ++k)
     sum += (double)padded[k];
@@ -167,7 +168,7 @@ static void weighted_mean(float *line, int count, const kernel *k, float *padded
 {
   int radius = k->radius;
   for (int i = -radius; i < count + radius; ++i)
-    padded[i + radius] = line[fg__image_mirror(i, count)];
+    padded[i + radius] = line[mirrored(i, count)];
   for (int i = 0; i < count; ++i)
     line[i] = k->weight[0] * padded[i + radius];
   for (int m = 1; m <= radius; ++m)

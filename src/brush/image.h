@@ -26,7 +26,4 @@ float *fg__image_grey(const fg_image_arrays *image);
  * pixels, in place; beyond the border the plane is mirrored. False without memory. */
 bool fg__image_blur(float *plane, int width, int height, double deviation);
 
-/* Mirrors an index into [0, count). */
-int fg__image_mirror(int index, int count);
-
 #endif

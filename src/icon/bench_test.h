@@ -123,7 +123,7 @@ static inline void judge(const test_bench *bench, const fg_icon *icon, depth_of 
   }
   free(vertex);
   assert_true(icon_tangency(icon, bench->field) < 0.5);
-  double length = icon_length(icon);
+  double length = fg__icon_length(icon);
   assert_true(length >= 3 * SHAPE_SPACING);
   assert_true(icon->head_width >= 1.2 * SHAPE_SPACING);
   assert_true(icon->width < 0.1 * length && icon->tail_width < icon->width);

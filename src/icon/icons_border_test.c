@@ -88,7 +88,7 @@ static double judge_all(const test_bench *bench, round_depth depth,
     for (int k = 0; k < 2; k++)
       assert_true(icon->center[k] >= LOW[k] && icon->center[k] <= LOW[k] + SIZE[k]);
     assert_true(icon_tangency(icon, bench->field) < 0.5);
-    length += icon_length(icon);
+    length += fg__icon_length(icon);
   }
   return length;
 }

@@ -119,7 +119,7 @@ static void runs_along_a_grain(void **state)
   const fg_icon *icon = only_icon(&bench);
   assert_int_equal(icon->kind, FG_ICON_ARROW);
   assert_int_equal(icon->cluster, 1);
-  assert_true(icon_length(icon) > 0.95 * 12.4);
+  assert_true(fg__icon_length(icon) > 0.95 * 12.4);
   assert_true(hypot(icon->center[0] - 11, icon->center[1] - 19) < SHAPE_SPACING);
   assert_true(fabs(icon->area / (PI * 6.2 * 2.1) - 1) < 0.02);
   assert_true(fabs(icon->speed - 1.3) < 1e-6);
@@ -155,7 +155,7 @@ static void follows_a_horseshoe(void **state)
   (void)state;
   test_bench bench = bench_of(vortex, horseshoe);
   const fg_icon *icon = only_icon(&bench);
-  assert_true(icon_length(icon) > 1.05 * 7 * 2 * 1.92);
+  assert_true(fg__icon_length(icon) > 1.05 * 7 * 2 * 1.92);
   assert_true(fabs(mean_radius(icon) - 7) < 0.4);
   end_bench(&bench);
 }
@@ -186,7 +186,7 @@ static void takes_one_branch_or_the_stem(void **state)
   (void)state;
   test_bench bench = bench_of(eastward, branches);
   const fg_icon *icon = only_icon(&bench);
-  assert_true(icon_length(icon) > 13); /* the stem and what lies before it */
+  assert_true(fg__icon_length(icon) > 13); /* the stem and what lies before it */
   assert_true(fabs(icon->points[0][1] - 20) < 0.8);
   end_bench(&bench);
 }
@@ -197,7 +197,7 @@ static void takes_the_longest_way_through_a_stripe(void **state)
   test_bench bench = bench_of(drifting, stripe);
   const fg_icon *icon = only_icon(&bench);
   /* the flow crosses the stripe, 3 wide, at 0.14 radians */
-  assert_true(icon_length(icon) > 0.62 * 3 / sin(0.14));
+  assert_true(fg__icon_length(icon) > 0.62 * 3 / sin(0.14));
   const double *tail = icon->points[0], *tip = icon->points[icon->point_count - 1];
   assert_true(fabs((tail[0] + tip[0]) / 2 - 10) < 3);
   end_bench(&bench);
@@ -219,7 +219,7 @@ static void stays_inside_the_domain(void **state)
   test_bench bench = bench_of(uniform, border_grain);
   assert_int_equal(fg_icons_count(bench.icons), 2);
   for (int i = 0; i < 2; i++)
-    assert_true(icon_length(fg_icons_at(bench.icons, i)) > 4);
+    assert_true(fg__icon_length(fg_icons_at(bench.icons, i)) > 4);
   end_bench(&bench);
 }
 
@@ -256,7 +256,7 @@ static void finds_a_way_past_a_stagnation_point(void **state)
     for (int s = 0; s < 2; s++) {
       test_bench bench = bench_of(flows[f], shapes[s]);
       const fg_icon *icon = only_icon(&bench);
-      assert_true(icon_length(icon) > 3);
+      assert_true(fg__icon_length(icon) > 3);
       assert_true(fabs(icon_turning(icon)) < PI / 2 + 0.1);
       end_bench(&bench);
     }
@@ -284,7 +284,7 @@ static void makes_no_hairpins(void **state)
           assert_true(hypot(p[k][0] - p[i][0], p[k][1] - p[i][1]) > 0.28 * way);
       }
     }
-    assert_true(icon_length(icon) > 3);
+    assert_true(fg__icon_length(icon) > 3);
     end_bench(&bench);
   }
 }

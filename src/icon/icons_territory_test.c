@@ -27,8 +27,8 @@ static void goes_on_through_its_territory(void **state)
   for (int i = 0; i < 2; i++) {
     const fg_icon *a = fg_icons_at(cluster.icons, i), *b = fg_icons_at(wide.icons, i);
     judge(&wide, b, everywhere);
-    assert_true(icon_length(b) > 1.3 * icon_length(a));
-    assert_true(icon_length(b) <= 2 * fair_share);
+    assert_true(fg__icon_length(b) > 1.3 * fg__icon_length(a));
+    assert_true(fg__icon_length(b) <= 2 * fair_share);
     assert_true(b->width <= a->width);
     assert_true(fabs(b->center[1] - a->center[1]) < SHAPE_SPACING);
     /* the grains end at 2 and 11: the border is at 6.5 */

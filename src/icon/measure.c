@@ -33,6 +33,16 @@ void fg__icon_set_center(fg_icon *icon, const double center[2])
   }
 }
 
+double fg__icon_length(const fg_icon *icon)
+{
+  double length = 0.0;
+  for (int i = 1; i < icon->point_count; i++) {
+    const double *a = icon->points[i - 1], *b = icon->points[i];
+    length += hypot(hypot(b[0] - a[0], b[1] - a[1]), b[2] - a[2]);
+  }
+  return length;
+}
+
 double fg__icon_mean_speed(const fg_field *field, const fg_icon *icon)
 {
   double sum = 0, length = 0, before = 0;

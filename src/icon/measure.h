@@ -10,6 +10,9 @@ void fg__icon_set_width(fg_icon *icon, double width);
 /* Sets the center to the point of the centreline nearest to a point. */
 void fg__icon_set_center(fg_icon *icon, const double center[2]);
 
+/* Of the centreline. */
+double fg__icon_length(const fg_icon *icon);
+
 /* Mean of |v| along the centreline by arc length, trapezoidal; input units. */
 double fg__icon_mean_speed(const fg_field *field, const fg_icon *icon);
 

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 
 #include "flowgrain/flowgrain.h"
+#include "icon/measure.h"
 
 /* A domain with an origin, a size and a spacing that are nothing special. */
 enum { SHAPE_NODES_X = 161, SHAPE_NODES_Y = 121, DATA_X = 41, DATA_Y = 31 };
@@ -114,15 +115,6 @@ static inline bool is_within(const double (*vertex)[2], int count, depth_of dept
         return false;
     }
   return true;
-}
-
-static inline double icon_length(const fg_icon *icon)
-{
-  double length = 0;
-  for (int i = 1; i < icon->point_count; i++)
-    length += hypot(icon->points[i][0] - icon->points[i - 1][0],
-                    icon->points[i][1] - icon->points[i - 1][1]);
-  return length;
 }
 
 /* Sum of the signed angles between successive pieces, radians. */

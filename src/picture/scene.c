@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "field/mask.h"
+#include "icon/measure.h"
 #include "picture/polygons.h"
 
 #include <math.h>
@@ -204,15 +205,6 @@ static fg_status make_arrows(fg__scene *out, fg_context *context, const placemen
     }
   }
   return FG_STATUS_OK;
-}
-
-double fg__icon_length(const fg_icon *icon)
-{
-  double length = 0.0;
-  for (int n = 1; n < icon->point_count; ++n)
-    length += hypot(icon->points[n][0] - icon->points[n - 1][0],
-                    icon->points[n][1] - icon->points[n - 1][1]);
-  return length;
 }
 
 typedef struct ranked_icon {

@@ -19,9 +19,6 @@ typedef struct fg__scene {
 /* The field's box in its coordinates, x then y. */
 void fg__scene_box(double low[2], double high[2], const fg_field_arrays *field);
 
-/* Length of an arrow's centreline. */
-double fg__icon_length(const fg_icon *icon);
-
 /* The median length, and an icon whose width is the median in units of its length; 0 and
  * NULL without icons. */
 typedef struct fg__typical_icon {

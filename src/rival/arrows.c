@@ -33,8 +33,9 @@ static double free_way(const fg__domain *domain, const double from[2],
   return way;
 }
 
-void fg__rival_finish(fg_icon *icon, const fg__domain *domain, const double middle[2],
-                      double width)
+/* Sets what follows from the points: widths, center (nearest to `middle`), speed. */
+static void finish(fg_icon *icon, const fg__domain *domain, const double middle[2],
+                   double width)
 {
   fg__icon_set_width(icon, width);
   fg__icon_set_center(icon, middle);
@@ -69,7 +70,7 @@ fg_status fg__rival_straight(fg_icon *icon, fg_context *context, const fg__domai
   icon->points = (const double(*)[3])points;
   icon->point_count = POINTS;
   icon->kind = FG_ICON_ARROW;
-  fg__rival_finish(icon, domain, middle, FG__RIVAL_WIDTH * (tail + tip));
+  finish(icon, domain, middle, FG__RIVAL_WIDTH * (tail + tip));
   return FG_STATUS_OK;
 }
 
@@ -96,7 +97,7 @@ fg_status fg__rival_piece(fg_icon *icon, fg_context *context, const fg__domain *
   icon->kind = fg__icon_kind_of(highest > lowest ? highest - lowest : 0);
   double middle[2], tangent[2];
   fg__streamline_at(line, (from + to) / 2, NULL, middle, tangent);
-  fg__rival_finish(icon, domain, middle, width);
+  finish(icon, domain, middle, width);
   return FG_STATUS_OK;
 }
 

@@ -25,8 +25,4 @@ fg_status fg__rival_piece(fg_icon *icon, fg_context *context, const fg__domain *
                           const fg__streamline *line, double from, double to,
                           double width);
 
-/* Sets what follows from the points: widths, center (nearest to `middle`), speed. */
-void fg__rival_finish(fg_icon *icon, const fg__domain *domain, const double middle[2],
-                      double width);
-
 #endif

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "icon/icons.h"
+#include "icon/measure.h"
 #include "rival/arrows.h"
 
 #include <math.h>
@@ -87,19 +88,15 @@ static fg_status find_centers(cluster *clusters, fg_context *context,
   return FG_STATUS_OK;
 }
 
-static double length_of(const fg_icon *icon)
-{
-  double length = 0;
-  for (int i = 1; icon->points && i < icon->point_count; i++)
-    length += hypot(icon->points[i][0] - icon->points[i - 1][0],
-                    icon->points[i][1] - icon->points[i - 1][1]);
-  return length;
-}
-
 static void free_points(fg_icon *icon)
 {
   free((void *)(uintptr_t)icon->points);
   icon->points = NULL;
+}
+
+static double length_of(const fg_icon *icon)
+{
+  return icon->points ? fg__icon_length(icon) : 0.0;
 }
 
 /* The arrow through the centre, or a longer one beside it. */

@@ -238,13 +238,6 @@ static void the_most_alike_are_merged(void **state)
   tear_down(&b);
 }
 
-static void slant(double x, double y, double v[2])
-{
-  (void)x, (void)y;
-  v[0] = 4 * cos(0.6);
-  v[1] = 4 * sin(0.6);
-}
-
 /* Mean over clusters of the variance along the flow over that across it. */
 static double drawn_out(fg_context *context, double elongation)
 {
@@ -257,7 +250,8 @@ static double drawn_out(fg_context *context, double elongation)
   for (int i = 0; i < raster_count(&b); i++) {
     double p[2];
     fg__domain_center(&b.domain, i, p);
-    double s = p[0] * cos(0.6) + p[1] * sin(0.6), t = p[1] * cos(0.6) - p[0] * sin(0.6);
+    double s = p[0] * cos(SLANT) + p[1] * sin(SLANT),
+           t = p[1] * cos(SLANT) - p[0] * sin(SLANT);
     const double terms[5] = {1, s, s * s, t, t * t};
     for (int k = 0; k < 5; k++)
       sum[label[i]][k] += terms[k];
@@ -330,19 +324,15 @@ static void icons_and_clusters_of_the_public_calls(void **state)
 {
   fg_context *context = *state;
   fg_field *field = field_of(context, coast, false);
-  fg_rival_options options = {.method = FG_RIVAL_DISCRETE, .nodes = 97};
-  fg_rival *rival = NULL;
-  assert_int_equal(fg_rival_create(&rival, context, field, &options), FG_STATUS_OK);
+  fg_rival *rival = rival_of(context, field, FG_RIVAL_DISCRETE, 97);
   for (int count = 64; count > 2; count /= 4) {
-    fg_icons *icons = NULL;
+    fg_icons *icons = curved_icons(rival, field, count);
     fg_density *clusters = NULL;
-    assert_int_equal(fg_rival_icons(&icons, rival, count), FG_STATUS_OK);
     assert_int_equal(fg_icons_count(icons), count);
-    assert_along_flow(icons, field, 0.03);
     double area = 0;
     for (int n = 0; n < count; n++) {
       const fg_icon *icon = fg_icons_at(icons, n);
-      assert_true(icon_length(icon) <= 1.001 * sqrt(icon->area));
+      assert_true(fg__icon_length(icon) <= 1.001 * sqrt(icon->area));
       area += icon->area;
     }
     assert_int_equal(fg_rival_clusters(&clusters, rival, count), FG_STATUS_OK);

@@ -143,13 +143,6 @@ static void lines_stay_away_from_themselves(void **state)
   tear_down(&b);
 }
 
-static void slant(double x, double y, double v[2])
-{
-  (void)x, (void)y;
-  v[0] = 2 * cos(0.6);
-  v[1] = 2 * sin(0.6);
-}
-
 /* A uniform flow: parallel lines, each a separation from the next, none left out. */
 static void a_uniform_flow_is_covered(void **state)
 {
@@ -159,7 +152,7 @@ static void a_uniform_flow_is_covered(void **state)
   assert_true(b.evenly.count < 64);
   for (int n = 0; n < b.evenly.count; n++) {
     const double *seed = b.evenly.line[n].seed;
-    place[n] = seed[1] * cos(0.6) - seed[0] * sin(0.6);
+    place[n] = seed[1] * cos(SLANT) - seed[0] * sin(SLANT);
   }
   for (int n = 0; n < b.evenly.count; n++) {
     double nearest = HUGE_VAL;
@@ -169,7 +162,7 @@ static void a_uniform_flow_is_covered(void **state)
     assert_true(fabs(nearest / 1.3 - 1) < 1e-6);
   }
   /* the box is so wide across the flow; corners hold only lines that are too short */
-  double across = 30 * sin(0.6) + 17.6 * cos(0.6);
+  double across = 30 * sin(SLANT) + 17.6 * cos(SLANT);
   assert_true(b.evenly.count <= across / 1.3 + 1);
   assert_true(b.evenly.count >= across / 1.3 - 3);
   tear_down(&b);
@@ -179,14 +172,10 @@ static void the_number_is_nearly_met(void **state)
 {
   fg_context *context = *state;
   fg_field *field = field_of(context, coast, false);
-  fg_rival_options options = {.method = FG_RIVAL_STREAMLINES, .nodes = 121};
-  fg_rival *rival = NULL;
-  assert_int_equal(fg_rival_create(&rival, context, field, &options), FG_STATUS_OK);
+  fg_rival *rival = rival_of(context, field, FG_RIVAL_STREAMLINES, 121);
   for (int count = 8; count < 100; count += 23) {
-    fg_icons *icons = NULL;
-    assert_int_equal(fg_rival_icons(&icons, rival, count), FG_STATUS_OK);
+    fg_icons *icons = curved_icons(rival, field, count);
     assert_true(abs(fg_icons_count(icons) - count) <= 1 + count / 20);
-    assert_along_flow(icons, field, 0.03);
     fg_icons_destroy(icons);
   }
   fg_rival_destroy(rival);

@@ -4,6 +4,7 @@
 #define FG__RIVAL_FIELDS_TEST_H
 
 #include "base/context_test.h"
+#include "icon/measure.h"
 
 #include <math.h>
 
@@ -54,13 +55,13 @@ static inline void coast(double x, double y, double v[2])
     v[0] = (double)NAN;
 }
 
-static inline double icon_length(const fg_icon *icon)
+/* A uniform flow. */
+static const double SLANT = 0.6;
+static inline void slant(double x, double y, double v[2])
 {
-  double length = 0;
-  for (int i = 1; i < icon->point_count; i++)
-    length += hypot(icon->points[i][0] - icon->points[i - 1][0],
-                    icon->points[i][1] - icon->points[i - 1][1]);
-  return length;
+  (void)x, (void)y;
+  v[0] = 4 * cos(SLANT);
+  v[1] = 4 * sin(SLANT);
 }
 
 static inline double angle_between(const double a[2], const double b[2])
@@ -82,6 +83,24 @@ static inline void assert_along_flow(const fg_icons *icons, const fg_field *fiel
       assert_true(fabs(angle_between(piece, tangent)) < most);
     }
   }
+}
+
+static inline fg_rival *rival_of(fg_context *context, const fg_field *field,
+                                 fg_rival_method method, int nodes)
+{
+  fg_rival_options options = {.method = method, .nodes = nodes};
+  fg_rival *rival = NULL;
+  assert_int_equal(fg_rival_create(&rival, context, field, &options), FG_STATUS_OK);
+  return rival;
+}
+
+/* The icons of a method whose icons are pieces of streamlines. */
+static inline fg_icons *curved_icons(fg_rival *rival, const fg_field *field, int count)
+{
+  fg_icons *icons = NULL;
+  assert_int_equal(fg_rival_icons(&icons, rival, count), FG_STATUS_OK);
+  assert_along_flow(icons, field, 0.03);
+  return icons;
 }
 
 #endif

@@ -28,7 +28,7 @@ static void hedgehog_is_straight_along_the_flow(void **state)
   fg_rival_options options = {.method = FG_RIVAL_HEDGEHOG};
   fg_icons *icons = draw(*state, field, &options, 37);
   assert_true(fg_icons_count(icons) >= 30 && fg_icons_count(icons) <= 44);
-  double length = icon_length(fg_icons_at(icons, 0));
+  double length = fg__icon_length(fg_icons_at(icons, 0));
   for (int n = 0; n < fg_icons_count(icons); n++) {
     const fg_icon *icon = fg_icons_at(icons, n);
     const double *tail = icon->points[0], *tip = icon->points[icon->point_count - 1];
@@ -37,7 +37,7 @@ static void hedgehog_is_straight_along_the_flow(void **state)
     assert_true(fg_field_velocity(field, middle, velocity));
     assert_true(fabs(angle_between(along, velocity)) < 1e-9);
     assert_true(fabs(hypot(along[0], along[1]) - length) < 1e-9);
-    assert_true(fabs(icon_length(icon) - length) < 1e-9);
+    assert_true(fabs(fg__icon_length(icon) - length) < 1e-9);
     assert_true(icon->speed > 0 && icon->width > 0);
   }
   fg_icons_destroy(icons);
@@ -78,7 +78,7 @@ static void lengths_follow_the_speed(void **state)
     double middle[2], velocity[2];
     middle_of(icon, middle);
     assert_true(fg_field_velocity(field, middle, velocity));
-    double here = icon_length(icon) / hypot(velocity[0], velocity[1]);
+    double here = fg__icon_length(icon) / hypot(velocity[0], velocity[1]);
     assert_true(n == 0 || fabs(here / ratio - 1) < 1e-6);
     ratio = here;
   }

@@ -176,13 +176,6 @@ static void clusters_are_convex(void **state)
   tear_down(&b);
 }
 
-static void slant(double x, double y, double v[2])
-{
-  (void)x, (void)y;
-  v[0] = 5 * cos(2.2);
-  v[1] = 5 * sin(2.2);
-}
-
 static void a_uniform_flow_has_no_error(void **state)
 {
   bench b;
@@ -239,16 +232,12 @@ static void as_many_icons_as_wanted(void **state)
 {
   fg_context *context = *state;
   fg_field *field = field_of(context, coast, false);
-  fg_rival_options options = {.method = FG_RIVAL_TOP_DOWN, .nodes = 97};
-  fg_rival *rival = NULL;
-  assert_int_equal(fg_rival_create(&rival, context, field, &options), FG_STATUS_OK);
+  fg_rival *rival = rival_of(context, field, FG_RIVAL_TOP_DOWN, 97);
   for (int count = 1; count < 90; count += 11) {
-    fg_icons *icons = NULL;
-    assert_int_equal(fg_rival_icons(&icons, rival, count), FG_STATUS_OK);
+    fg_icons *icons = curved_icons(rival, field, count);
     assert_int_equal(fg_icons_clusters(icons), count);
     assert_int_equal(fg_icons_count(icons) + fg_icons_dropped(icons), count);
     assert_true(fg_icons_dropped(icons) <= count / 20);
-    assert_along_flow(icons, field, 0.03);
     fg_icons_destroy(icons);
   }
   fg_rival_destroy(rival);

@@ -2,7 +2,6 @@
 
 #include "base/memory.h"
 #include "solid/march.h"
-#include "solid/tube.h"
 #include "solid/vector.h"
 
 #include <math.h>

@@ -17,7 +17,7 @@ typedef struct fg__solid_maker {
 /* Tries streamlines through the spine's centre, through other points of it, through
  * points beside them and some all over the cluster, fits an arrow to each, and takes the
  * one nearest to all points of the cluster, as in 2D (docs/method/icons.md). Every vertex
- * of its solid (solid/tube.h) lies in {level > 0}: an arrow that fails that is made
+ * of its solid (fg_icon_solid) lies in {level > 0}: an arrow that fails that is made
  * smaller. Fills in all of the icon but cluster and area; point_count stays 0 when no
  * arrow fits. fg__solid_icon_free ends its arrays. MEMORY. */
 fg_status fg__solid_icon_make(fg_icon *out, fg_context *context, fg__solid_maker *maker,

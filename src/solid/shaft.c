@@ -41,15 +41,6 @@ double fg__shaft_widest(double length)
   return WIDEST * length;
 }
 
-double fg__shaft_radius(double width, double length, double behind)
-{
-  double head = FG__SOLID_HEAD_LENGTH * width, body = length - head;
-  if (behind < head)
-    return FG__SOLID_HEAD_WIDTH / 2 * width * fmax(behind, 0) / head;
-  double share = body > 0 ? fmin((length - behind) / body, 1) : 1;
-  return width / 2 * (FG__SOLID_TAIL_WIDTH + (1 - FG__SOLID_TAIL_WIDTH) * share);
-}
-
 static fg_status place(fg__shaft_stations *stations, fg_context *context,
                        const fg__path *path, const fg__solid_room *room)
 {

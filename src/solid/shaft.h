@@ -45,8 +45,4 @@ void fg__shaft_stations_clear(fg__shaft_stations *stations);
 /* No arrow on a path of this length is wider. */
 double fg__shaft_widest(double length);
 
-/* Radius at a distance `behind` the tip of an arrow `length` long: the cone's, or the
- * body's. */
-double fg__shaft_radius(double width, double length, double behind);
-
 #endif

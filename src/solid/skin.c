@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/context.h"
 #include "base/memory.h"
 #include "cluster/raster.h"
-#include "solid/tube.h"
 #include "solid/vector.h"
 
 /* Edges begin at a node and go to one of the seven others of the cell above it: bit k of

@@ -1,9 +1,8 @@
-#include "solid/tube.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/context.h"
 #include "base/memory.h"
 #include "solid/frame.h"
 #include "solid/vector.h"
@@ -240,8 +239,9 @@ static bool is_drawable(const fg_icon *icon)
          icon->head_width > icon->width && length_of(icon) > 0;
 }
 
-fg_status fg__surface_create(fg_surface **out, fg_context *context, size_t vertices,
-                             size_t corners, size_t triangles)
+/* With room for so much, all counts 0. */
+static fg_status create(fg_surface **out, fg_context *context, size_t vertices,
+                        size_t corners, size_t triangles)
 {
   fg_surface *s = fg__allocate(1, sizeof *s);
   *out = s;
@@ -266,12 +266,12 @@ fg_status fg_icon_solid(fg_surface **out, fg_context *context, const fg_icon *ic
                     out ? "no icon with points" : "no place for the result");
   *out = NULL;
   if (!is_drawable(icon))
-    return fg__surface_create(out, context, 0, 0, 0);
+    return create(out, context, 0, 0, 0);
   shape s;
   fg_status status = create_shape(&s, context, icon);
   size_t rings = (size_t)s.count * SIDES;
   if (status == FG_STATUS_OK)
-    status = fg__surface_create(out, context, rings + 2, 2 * rings + 1, 2 * rings);
+    status = create(out, context, rings + 2, 2 * rings + 1, 2 * rings);
   if (status == FG_STATUS_OK)
     add_solid(*out, &s);
   clear_shape(&s);
