@@ -6,6 +6,10 @@
 
 /* Steps of a share, and more than the eight whole cells that a node can have. */
 static const float share_steps = 0x1p24F, beyond_all_shares = 9.0F;
+enum { whole_cell = 1 << 24 };
+
+/* More than the shares of a whole cell's corners may lack for having been rounded. */
+static const double rounding = 1e-4;
 
 /* The root of a run's tree. */
 static int find(struct fg__run *run, int index)
@@ -51,6 +55,8 @@ typedef struct cutter {
   int *ends;            /* where runs start, and where each has ended */
   float *plane[2];      /* shares from the planes of cells before and after the row */
   float *space;
+  int64_t
+      enough; /* as in the box, in steps of a share; 0: every run is measured at once */
 } cutter;
 
 /* Marks the row's positive nodes, of a masked grid only those with an active cell. */
@@ -149,24 +155,46 @@ static int row_weight(const fg__shape *s, int j, int k)
 /* The share of every node of a row in whole steps; of no meaning where u is not positive.
  * Two loops, each of which compilers turn into vector instructions. */
 static void count_steps(const float *u, const float *before, const float *after,
-                        int width, float *share, int *steps)
+                        fg__stretch nodes, float *share, int *steps)
 {
-  for (int x = 0; x < width; ++x) {
+  for (int x = nodes.first; x <= nodes.last; ++x) {
     float of_node = u[x] * (before[x] + after[x]);
     share[x] = of_node < beyond_all_shares ? of_node : 0.0F; /* u may be infinite */
   }
-  for (int x = 0; x < width; ++x)
+  for (int x = nodes.first; x <= nodes.last; ++x)
     steps[x] = (int)(share[x] * share_steps);
 }
 
-static void add_run(cutter *c, int first, int last, const int *steps)
+static int *steps_of(const cutter *c)
 {
-  int64_t size = 0;
+  return c->ends + 2 * c->shape.nodes[0] + 2;
+}
+
+/* The steps of a stretch of row (j, k), from the shares in `plane`. */
+static void measure(const cutter *c, int j, int k, fg__stretch nodes)
+{
+  ptrdiff_t row = (ptrdiff_t)j * c->shape.nodes[0];
+  count_steps(fg__shape_row(&c->shape, j, k), c->plane[0] + row, c->plane[1] + row, nodes,
+              c->space, steps_of(c));
+}
+
+static int64_t steps_within(const cutter *c, int first, int last)
+{
+  const int *steps = steps_of(c);
+  int64_t sum = 0;
   for (int x = first; x <= last; ++x)
-    size += steps[x];
+    sum += steps[x];
+  return sum;
+}
+
+static void add_run(cutter *c, int first, int last)
+{
   int number = c->run_count++;
   c->components->run[number] =
-      (struct fg__run){.parent = number, .first = first, .last = last, .size = size};
+      (struct fg__run){.parent = number,
+                       .first = first,
+                       .last = last,
+                       .size = c->enough ? 0 : steps_within(c, first, last)};
 }
 
 /* Cuts row (j, k) into runs; returns what they cover. */
@@ -174,19 +202,17 @@ static int64_t cut_row(cutter *c, int j, int k)
 {
   const fg__shape *s = &c->shape;
   int width = s->nodes[0], first = c->run_count;
-  int *steps = c->ends + 2 * width + 2;
   mark(c, j, k);
   int ends = s->active ? list_changes_masked(c, c->ends)
                        : list_changes(c->marks, width, c->ends);
   if (ends == 0)
     return 0;
-  ptrdiff_t row = (ptrdiff_t)j * width;
-  count_steps(fg__shape_row(s, j, k), c->plane[0] + row, c->plane[1] + row, width,
-              c->space, steps);
+  if (!c->enough)
+    measure(c, j, k, (fg__stretch){0, width - 1});
   int weight = row_weight(s, j, k);
   int64_t covered = 0;
   for (int n = 0; n < ends; n += 2) {
-    add_run(c, c->ends[n], c->ends[n + 1] - 1, steps);
+    add_run(c, c->ends[n], c->ends[n + 1] - 1);
     covered += covered_by(c, &c->components->run[c->run_count - 1], weight);
   }
   struct fg__run *run = c->components->run;
@@ -236,6 +262,8 @@ static void join_rows(cutter *c, const int a[2], const int b[2], const fg__gate 
     if (low <= high) {
       if (p->parent != q->parent && fg__gate_open(gate, s, low - 1, high))
         join(run, (int)(p - run), (int)(q - run));
+      if (c->enough) /* cells that are positive throughout */
+        run[p - run].size += (int64_t)(high - low) * whole_cell;
     } else if (low == high + 1) {
       bool forward = p->last == high;
       if (face_joins(s, forward ? row_a : row_b, forward ? row_b : row_a, high, gate))
@@ -357,6 +385,32 @@ static fg_status gather_pieces(cutter *c, fg_context *context)
   return FG_STATUS_OK;
 }
 
+/* Measures, in 2D, the pieces whose cells that are positive throughout are not enough.
+ * Until it is known, -1 - size stands for the size of such a piece. */
+static void measure_small_pieces(cutter *c)
+{
+  fg__components *components = c->components;
+  const fg__shape *s = &c->shape;
+  fg__component_piece *piece = components->piece;
+  for (int n = 0; n < components->piece_count; ++n)
+    if (piece[n].size < c->enough)
+      piece[n].size = -1;
+  for (int k = 0; k < s->nodes[2]; ++k)
+    for (int n = components->run_of_row[k]; n < components->run_of_row[k + 1]; ++n) {
+      const struct fg__run *run = &components->run[n];
+      if (piece[run->piece].size >= 0)
+        continue;
+      const fg__stretch nodes = {run->first, run->last};
+      fg__share_plane(s, k - 1, nodes, c->space, c->plane[0]);
+      fg__share_plane(s, k, nodes, c->space, c->plane[1]);
+      measure(c, 0, k, nodes);
+      piece[run->piece].size -= steps_within(c, run->first, run->last);
+    }
+  for (int n = 0; n < components->piece_count; ++n)
+    if (piece[n].size < 0)
+      piece[n].size = -1 - piece[n].size;
+}
+
 static fg_status check_size(fg_context *context, const fg__component_box *box)
 {
   bool flat = box->grid_nodes[2] <= 1;
@@ -404,6 +458,8 @@ static fg_status take_memory(cutter *c, fg_context *context, const fg__component
       ones[n] = 1.0F;
     c->shape.ones = ones + 1;
   }
+  if (box->enough > 0.0 && box->u && !box->active && c->shape.high[1] == FG__SIDE_FLAT)
+    c->enough = 1 + (int64_t)(box->enough * (1.0 + rounding) * whole_cell);
   components->run_of_row[0] = 0;
   return FG_STATUS_OK;
 }
@@ -420,10 +476,12 @@ fg_status fg__components_cut(fg__components *components, fg_context *context,
   cutter c = {.components = components};
   fg_status status = take_memory(&c, context, box);
   int64_t covered = 0;
-  if (!status)
-    fg__share_plane(&c.shape, -1, c.space, c.plane[0]);
+  const fg__stretch all = {0, c.shape.nodes[0] - 1};
+  if (!status && !c.enough)
+    fg__share_plane(&c.shape, -1, all, c.space, c.plane[0]);
   for (int k = 0; !status && k < c.shape.nodes[2]; ++k) {
-    fg__share_plane(&c.shape, k, c.space, c.plane[1]);
+    if (!c.enough)
+      fg__share_plane(&c.shape, k, all, c.space, c.plane[1]);
     status = cut_plane(&c, context, k, &covered);
     float *swap = c.plane[0];
     c.plane[0] = c.plane[1];
@@ -435,7 +493,10 @@ fg_status fg__components_cut(fg__components *components, fg_context *context,
     for (int j = 0; j < c.shape.nodes[1]; ++j)
       join_below(&c, j, 0, c.shape.nodes[2] - 1);
   components->covered = cells_of(&c.shape, covered);
-  return gather_pieces(&c, context);
+  status = gather_pieces(&c, context);
+  if (!status && c.enough)
+    measure_small_pieces(&c);
+  return status;
 }
 
 fg_status fg__components_cover(fg__components *components, fg_context *context,

@@ -72,18 +72,19 @@ bool fg__gate_open(const fg__gate *gate, const fg__shape *shape, int x, int x_la
   return false;
 }
 
-/* |u| of a row of nodes and the one beyond it along the outer axis, added: sum[0 ...
- * nodes - 1], and a node more on each side that has one. */
-static void add_rows(const fg__shape *shape, int j, int k, float *sum)
+/* |u| of a row of nodes and the one beyond it along the outer axis, added: a stretch of
+ * sums, and a node more on each side that has one. */
+static void add_rows(const fg__shape *shape, int j, int k, fg__stretch at, float *sum)
 {
   const float *low = fg__shape_row(shape, j, fg__shape_node(shape, 2, k));
   const float *high = fg__shape_row(shape, j, fg__shape_node(shape, 2, k + 1));
-  int nodes = shape->nodes[0];
-  for (int x = 0; x < nodes; ++x)
+  for (int x = at.first; x <= at.last; ++x)
     sum[x] = fabsf(low[x]) + fabsf(high[x]);
-  int before = fg__shape_node(shape, 0, -1), after = fg__shape_node(shape, 0, nodes);
-  sum[-1] = before == FG__NOWHERE ? 0.0F : fabsf(low[before]) + fabsf(high[before]);
-  sum[nodes] = after == FG__NOWHERE ? 0.0F : fabsf(low[after]) + fabsf(high[after]);
+  int before = fg__shape_node(shape, 0, at.first - 1);
+  int after = fg__shape_node(shape, 0, at.last + 1);
+  sum[at.first - 1] =
+      before == FG__NOWHERE ? 0.0F : fabsf(low[before]) + fabsf(high[before]);
+  sum[at.last + 1] = after == FG__NOWHERE ? 0.0F : fabsf(low[after]) + fabsf(high[after]);
 }
 
 /* 1 / sum; 0 when all corners are 0, or one is not a number. */
@@ -92,50 +93,53 @@ static inline float reciprocal(float sum)
   return 1.0F / (sum > 0.0F ? sum : INFINITY);
 }
 
-/* One over the sum of |u| at the corners of each cell of a row, 0 where there is none:
- * inverse[-1 ... nodes - 1]. In 2D `high` is not looked at. */
-static void invert(const fg__shape *shape, int j, int k, const float *low,
+/* One over the sum of |u| at the corners of each cell of a row, 0 where there is none, on
+ * both sides of a stretch of nodes: inverse[first - 1 ... last]. In 2D `high` is not
+ * looked at. */
+static void invert(const fg__shape *shape, int j, int k, fg__stretch at, const float *low,
                    const float *high, float *inverse)
 {
-  int nodes = shape->nodes[0];
   if (shape->high[1] == FG__SIDE_FLAT)
-    for (int x = -1; x < nodes; ++x)
+    for (int x = at.first - 1; x <= at.last; ++x)
       inverse[x] = reciprocal(low[x] + low[x + 1]);
   else
-    for (int x = -1; x < nodes; ++x)
+    for (int x = at.first - 1; x <= at.last; ++x)
       inverse[x] = reciprocal((low[x] + low[x + 1]) + (high[x] + high[x + 1]));
-  if (fg__shape_cell(shape, 0, -1) == FG__NOWHERE)
-    inverse[-1] = 0.0F;
-  if (fg__shape_cell(shape, 0, nodes - 1) == FG__NOWHERE)
-    inverse[nodes - 1] = 0.0F;
+  if (fg__shape_cell(shape, 0, at.first - 1) == FG__NOWHERE)
+    inverse[at.first - 1] = 0.0F;
+  if (fg__shape_cell(shape, 0, at.last) == FG__NOWHERE)
+    inverse[at.last] = 0.0F;
   if (!shape->active)
     return;
   fg__gate gate = fg__gate_of(shape, j, j, k, k);
-  for (int x = -1; x < nodes; ++x)
+  for (int x = at.first - 1; x <= at.last; ++x)
     if (!fg__gate_open(&gate, shape, x, x))
       inverse[x] = 0.0F;
 }
 
-void fg__share_plane(const fg__shape *shape, int k, float *space, float *shares)
+void fg__share_plane(const fg__shape *shape, int k, fg__stretch nodes, float *space,
+                     float *shares)
 {
   int width = shape->nodes[0], height = shape->nodes[1];
   ptrdiff_t pitch = width + 2;
   float *sum[2] = {space + 1, space + pitch + 1}, *inverse = space + 2 * pitch + 1;
-  memset(shares, 0, (size_t)width * (size_t)height * sizeof *shares);
+  for (int row = 0; row < height; ++row)
+    memset(shares + (ptrdiff_t)row * width + nodes.first, 0,
+           (size_t)(nodes.last - nodes.first + 1) * sizeof *shares);
   if (fg__shape_cell(shape, 2, k) == FG__NOWHERE)
     return;
   bool flat = shape->high[1] == FG__SIDE_FLAT;
   int j = fg__shape_cell(shape, 1, -1) == FG__NOWHERE ? 0 : -1;
-  add_rows(shape, fg__shape_node(shape, 1, j), k, sum[0]);
+  add_rows(shape, fg__shape_node(shape, 1, j), k, nodes, sum[0]);
   for (; j < height && fg__shape_cell(shape, 1, j) != FG__NOWHERE; ++j) {
     if (!flat)
-      add_rows(shape, fg__shape_node(shape, 1, j + 1), k, sum[1]);
-    invert(shape, j, k, sum[0], sum[1], inverse);
+      add_rows(shape, fg__shape_node(shape, 1, j + 1), k, nodes, sum[1]);
+    invert(shape, j, k, nodes, sum[0], sum[1], inverse);
     for (int row = j; row <= j + 1; ++row) {
       if (row < 0 || row >= height)
         continue;
       float *out = shares + (ptrdiff_t)row * width;
-      for (int x = 0; x < width; ++x)
+      for (int x = nodes.first; x <= nodes.last; ++x)
         out[x] += inverse[x - 1] + inverse[x];
     }
     float *swap = sum[0];

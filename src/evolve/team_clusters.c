@@ -193,6 +193,7 @@ fg_status fg__team_clusters_find(fg__team_clusters *clusters, fg_context *contex
     grid.periodic[k] = periodic[k];
   }
   t.grid = fg__component_box_of(&grid);
+  t.grid.enough = debris_area;
   t.axis = layout->dimension - 1;
   t.slices = layout->nodes[t.axis];
   t.slice = (size_t)(t.axis == 2 ? t.grid.plane : t.grid.row);
