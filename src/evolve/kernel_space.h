@@ -62,9 +62,14 @@ static void find_scale(const fg__level *level, const fg__share *share)
 /* Of the diagonal of K, what is left of it and the curvature at least. */
 static const float least_diagonal = 0.25F;
 
+/* Scales below this, twice bulk, are those of pure phases, whose curvature is positive.
+ */
+static const float pure_scale = 0.02F;
+
 /* Restricted, d J d is near 0 at interfaces, of either sign. Negative values, of droplets
  * about to vanish, make cycles diverge. So does, in the corners of a mask, what positive
- * couplings of K to neighbours of far larger scale take from the diagonal. */
+ * couplings of K to neighbours of far larger scale take from the diagonal; of a pure
+ * phase round such a corner it would take even the curvature of the well. */
 INLINE void curvature_nodes(const fg__level *level, ptrdiff_t row, int colour,
                             bool masked)
 {
@@ -82,9 +87,11 @@ INLINE void curvature_nodes(const fg__level *level, ptrdiff_t row, int colour,
     if (masked)
       energy *= mass_inverse[k];
     curvature[k] = (greater(shape_curvature[k], 0.0F) * inverse[k] - energy) * inverse[k];
-    if (masked)
-      curvature[k] = greater(curvature[k],
-                             (least_diagonal - 1.0F) * (c.center[k] * mass_inverse[k]));
+    if (masked) {
+      float least = (least_diagonal - 1.0F) * (c.center[k] * mass_inverse[k]);
+      least = scale.center[k] < pure_scale ? 0.0F : least;
+      curvature[k] = greater(curvature[k], least);
+    }
   }
 }
 

@@ -6,15 +6,6 @@
 #include "evolve/passes.h"
 #include "evolve/spread_clusters.h"
 
-/* Nodes of one part that follow each other in memory: even, or odd, columns of a row. */
-typedef struct fg__part_run {
-  ptrdiff_t at; /* of the first, in arrays of the finest level */
-  int nodes;
-  int part; /* from 0 */
-  float row_mass;
-  const float *column_mass, *mass; /* of the first node */
-} part_run;
-
 static float axis_mass(const fg__level *box, int axis, int at)
 {
   bool low = box->border[axis][0] && at == 0;
@@ -25,7 +16,7 @@ static float axis_mass(const fg__level *box, int axis, int at)
 /* Cuts a row's nodes into runs, by their labels from 1 (0: no part); with `run` NULL they
  * are only counted. `place` is the box's in arrays. */
 static int cut_row(const fg__level *box, ptrdiff_t place, int j, int k, const int *label,
-                   part_run *run)
+                   fg__part_run *run)
 {
   const fg__layout *at = &box->layout;
   float row_mass = axis_mass(box, 1, j) * axis_mass(box, 2, k);
@@ -39,18 +30,19 @@ static int cut_row(const fg__level *box, ptrdiff_t place, int j, int k, const in
         continue;
       ptrdiff_t column = fg__column(at, i), node = fg__row_at(at, j, k) + column;
       if (run)
-        run[count] = (part_run){.at = place + node,
-                                .nodes = (end - i) / 2,
-                                .part = label[i] - 1,
-                                .row_mass = row_mass,
-                                .column_mass = box->column_mass + column,
-                                .mass = box->mass + node};
+        run[count] = (fg__part_run){.at = place + node,
+                                    .nodes = (end - i) / 2,
+                                    .part = label[i] - 1,
+                                    .row_mass = row_mass,
+                                    .column_mass = box->column_mass + column,
+                                    .mass = box->mass + node};
       ++count;
     }
   return count;
 }
 
-static int cut_box(const fg__level *box, ptrdiff_t place, const int *label, part_run *run)
+static int cut_box(const fg__level *box, ptrdiff_t place, const int *label,
+                   fg__part_run *run)
 {
   const int *nodes = box->layout.nodes;
   int count = 0;
@@ -162,7 +154,7 @@ static fg_status take_arrays(fg__means *out, fg_context *context)
 }
 
 /* Mass times u (times 1 when u is NULL); lanes are one vector's or several. */
-static double sum_of_run(const part_run *run, const float *u, double rounding)
+static double sum_of_run(const fg__part_run *run, const float *u, double rounding)
 {
   double lane[FG__LANES] = {0.0}, sum = 0.0;
   for (int n = 0; n < run->nodes; n += FG__LANES) {
@@ -235,7 +227,7 @@ void fg__means_restore(const fg__means *means, const fg__multigrid *multigrid, f
     return;
   add_up(means, multigrid, u, means->sum);
   for (int n = 0; n < means->run_count; ++n) {
-    const part_run *run = &means->run[n];
+    const fg__part_run *run = &means->run[n];
     int part = run->part;
     float shift = (float)(means->mean[part] - means->sum[part] / means->mass[part]);
     for (int m = 0; m < run->nodes; ++m)

@@ -10,13 +10,22 @@
 
 #include "evolve/multigrid.h"
 
+/* Nodes of one part that follow each other in memory: even, or odd, columns of a row. */
+typedef struct fg__part_run {
+  ptrdiff_t at; /* of the first, in arrays of the finest level */
+  int nodes;
+  int part; /* from 0 */
+  float row_mass;
+  const float *column_mass, *mass; /* of the first node */
+} fg__part_run;
+
 typedef struct fg__means {
   int count; /* parts; at most 1: no more than the mean of all is to be held */
   int run_count;
-  struct fg__part_run *run; /* [run_count] the nodes of this rank's boxes, by parts */
-  double *mass;             /* [count] sums of relative masses */
-  double *mean;             /* [count] of u, held */
-  double *sum;              /* [count] working space, like units */
+  fg__part_run *run; /* [run_count] the nodes of this rank's boxes, by parts */
+  double *mass;      /* [count] sums of relative masses */
+  double *mean;      /* [count] of u, held */
+  double *sum;       /* [count] working space, like units */
   uint64_t *units;
   double rounding; /* of the sums */
 } fg__means;

@@ -1,5 +1,6 @@
 /* Whole runs on a domain of pockets, passages and dead ends a few cells wide come to
- * their end, which is often a pattern at rest, about as soon as runs on an open one. */
+ * their end, which is often a pattern at rest, about as soon as runs on an open one;
+ * where interfaces stand across passages for good, cycles do not make steps fail. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -41,8 +42,13 @@ static fg_field *create_field(fg_context *context, bool with_pockets)
   return field;
 }
 
-static int cycles_of_run(fg_context *context, const fg_field *field, uint64_t seed,
-                         int most)
+/* What a run took. */
+typedef struct effort {
+  int cycles, rejected, steps;
+} effort;
+
+static effort effort_of_run(fg_context *context, const fg_field *field, uint64_t seed,
+                            int most)
 {
   fg_evolution_options options = {.nodes = SIDE, .seed = seed, .threads = 1};
   fg_evolution *evolution;
@@ -62,7 +68,7 @@ static int cycles_of_run(fg_context *context, const fg_field *field, uint64_t se
       (int)seed, fg_evolution_mesh(evolution)->active_cells,
       (long)(SIDE - 1) * (SIDE - 1), step.clusters, step.step, rejected, cycles);
   fg_evolution_destroy(evolution);
-  return cycles;
+  return (effort){cycles, rejected, (int)step.step};
 }
 
 static void pockets_cost_little_more_than_an_open_domain(void **state)
@@ -71,9 +77,15 @@ static void pockets_cost_little_more_than_an_open_domain(void **state)
   fg_context *context;
   assert_int_equal(fg_context_create(&context), FG_STATUS_OK);
   fg_field *open = create_field(context, false), *pockets = create_field(context, true);
-  int usual = cycles_of_run(context, open, 1, INT_MAX), most = 4 * usual;
-  for (uint64_t seed = 1; seed <= SEEDS; ++seed)
-    assert_true(cycles_of_run(context, pockets, seed, most) <= most);
+  int most = 4 * effort_of_run(context, open, 1, INT_MAX).cycles;
+  int rejected = 0, steps = 0;
+  for (uint64_t seed = 1; seed <= SEEDS; ++seed) {
+    effort run = effort_of_run(context, pockets, seed, most);
+    assert_true(run.cycles <= most);
+    rejected += run.rejected;
+    steps += run.steps;
+  }
+  assert_true(25 * rejected <= steps);
   fg_field_destroy(open);
   fg_field_destroy(pockets);
   fg_context_destroy(context);

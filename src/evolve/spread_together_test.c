@@ -13,7 +13,7 @@ enum {
   THETA_STEPS = 3 /* of three substeps */,
   CYCLES = 2,
   SAMPLES = 33,
-  MOST_PARTS = 8
+  MOST_PARTS = 256
 };
 
 typedef struct subject {
@@ -31,7 +31,7 @@ typedef struct outcome {
   double energy[STEPS], tau[STEPS], mass[STEPS];
   int clusters;
   double covered;
-  int parts;
+  int parts, pockets;
   double mean[MOST_PARTS]; /* of u in each part, held */
 } outcome;
 
@@ -73,6 +73,18 @@ static bool shell(double x, double y, double z)
   double r = sqrt(pow(fmin(x, 1.0 - x), 2.0) + pow(fmin(y, 1.0 - y), 2.0) +
                   pow(fmin(z, 1.0 - z), 2.0));
   return r > 0.27 && r < 0.36;
+}
+
+/* Many parts of some fifty nodes each, also across a period. */
+static bool bars(double x, double y, double z)
+{
+  return fmod(x + 0.07, 0.2) > 0.13 || fmod(y + 0.1 + 0.2 * x, 0.25) > 0.18 || z > 2.0;
+}
+
+static bool cages(double x, double y, double z)
+{
+  return fmod(x + 0.07, 0.2) > 0.11 || fmod(y + 0.02, 0.25) > 0.14 ||
+         fmod(z + 0.11, 0.25) > 0.14;
 }
 
 static fg_field *field_of(const subject *s)
@@ -259,6 +271,7 @@ static outcome outcome_of(const subject *s, const fg__ranks *ranks)
          FG_STATUS_OK);
   const fg__means *means = &r.stepper.means;
   out.parts = means->count;
+  out.pockets = r.stepper.pockets.count;
   expect(out.parts <= MOST_PARTS);
   for (int n = 0; n < MOST_PARTS && out.parts > 1 && n < out.parts; ++n)
     out.mean[n] = means->mean[n];
@@ -288,7 +301,9 @@ static const subject SUBJECTS[] = {{"vortex3", 2, 65, false, NULL, 1},
                                    {"vortex3", 2, 65, true, slats, 4},
                                    {"vortex3d", 3, 33, false, rooms, 3},
                                    {"abc", 3, 33, false, shell, 2},
-                                   {"vortex3d", 3, 33, true, rooms, 3}};
+                                   {"vortex3d", 3, 33, true, rooms, 3},
+                                   {"benard", 2, 65, false, bars, 27},
+                                   {"abc", 3, 33, false, cages, 80}};
 
 static void many_ranks_do_what_one_does(void **state)
 {
@@ -305,6 +320,8 @@ static void many_ranks_do_what_one_does(void **state)
     expect(one.clusters > 0 && one.clusters == all.clusters);
     expect(one.covered == all.covered);
     expect(one.parts == SUBJECTS[n].parts && all.parts == SUBJECTS[n].parts);
+    expect(all.pockets == one.pockets);
+    expect(one.parts < 20 || one.pockets == one.parts);
     expect(memcmp(one.mean, all.mean, sizeof one.mean) == 0);
     expect(one.energy[THETA_STEPS - 1] < one.energy[0]);
     free(one.u);

@@ -26,10 +26,10 @@ static const double least_tau_share = 1e-9;
 /* Mass is held to the rounding of the stored precision. */
 static const double mass_tolerance = 1e-7;
 
-/* Rounding of floats moves the energy of a pattern at rest by less than this share, and
- * its density by less than this; such a step leaves the density as it is, for else the
- * energy could rise by rounding. */
-static const double energy_rounding = 1e-6, rest_increment = 1e-5;
+/* A step that moves the density by less than this and raises the energy, by less than
+ * this share, which is several times what rounding to floats moves it, leaves the density
+ * as it is: what moves would lower it. */
+static const double energy_rounding = 1e-7, rest_increment = 1e-4;
 
 /* A pattern at rest: so many steps in a row at whose rate u would change by less than
  * this (rms) while time doubles; coarsening changes it by some tenths. Not before this
@@ -89,6 +89,8 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   fg__pass_copy(m, fg__multigrid_u(m), out->current);
   out->mean = mean_of(out, out->current);
   status = fg__means_create(&out->means, context, m, out->current);
+  if (!status && !(description->alpha > 0.0))
+    status = fg__pockets_create(&out->pockets, context, m, &out->means);
   if (status) {
     fg__stepper_clear(out);
     return status;
@@ -103,6 +105,7 @@ void fg__stepper_clear(fg__stepper *stepper)
 {
   fg__multigrid_clear(&stepper->multigrid);
   fg__means_clear(&stepper->means);
+  fg__pockets_clear(&stepper->pockets);
   fg__theta_clear(&stepper->theta);
   free(stepper->memory);
   *stepper = (fg__stepper){0};
@@ -131,6 +134,7 @@ static fg__changes solve(fg__stepper *s, double tau, int cycles)
   int at_once = s->means.count > 1 ? 1 : cycles;
   for (int n = 0; n < cycles; n += at_once) {
     fg__pass_solve(m, tau, at_once, s->first_iterate);
+    fg__pockets_put(&s->pockets, m, s->first_iterate);
     fg__means_restore(&s->means, m, fg__multigrid_u(m));
   }
   s->cycles_spent += cycles;
@@ -210,6 +214,7 @@ static outcome attempt(fg__stepper *s, double tau)
   if (s->theta.alpha > 0.0)
     return judge(s, tau, step_by_theta(s, tau));
   double effective = prepare_implicit(s, tau);
+  fg__pockets_solve(&s->pockets, &s->multigrid, tau, effective, s->current);
   outcome result = judge(s, tau, solve(s, effective, s->cycles));
   for (int n = 0; n < MORE_CYCLES; ++n) {
     if (result.accepted || result.at_rest || !(result.correction <= hopeless_correction))

@@ -4,18 +4,20 @@
 
 #include "evolve/means.h"
 #include "evolve/passes.h"
+#include "evolve/pockets.h"
 #include "evolve/theta.h"
 
 typedef struct fg__stepper {
   fg__multigrid multigrid;
-  fg__theta theta;    /* alpha 0: implicit */
-  bool second_order;  /* backward differences over two steps, not one */
-  double accuracy;    /* eta */
-  int cycles;         /* a step, or a substep of the theta scheme */
-  double cell_volume; /* hx hy (hz), units of the longest side */
-  double total_mass;  /* sum of the nodes' relative masses */
-  double mean;        /* of u, held */
-  fg__means means;    /* of the parts of the domain, each held too */
+  fg__theta theta;     /* alpha 0: implicit */
+  bool second_order;   /* backward differences over two steps, not one */
+  double accuracy;     /* eta */
+  int cycles;          /* a step, or a substep of the theta scheme */
+  double cell_volume;  /* hx hy (hz), units of the longest side */
+  double total_mass;   /* sum of the nodes' relative masses */
+  double mean;         /* of u, held */
+  fg__means means;     /* of the parts of the domain, each held too */
+  fg__pockets pockets; /* those of few nodes; the theta scheme has none */
   double first_tau, most_tau;
 
   long accepted, rejected, cycles_spent;

@@ -1,0 +1,397 @@
+#include "evolve/pockets.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "evolve/passes.h"
+#include "evolve/pocket.h"
+
+/* Of all pockets: what every rank may hold. Where there are more, only smaller parts are
+ * taken. */
+enum { MOST_NODES = 16384 };
+
+/* What ranks tell of a node: first its place, later u, the guess and p. */
+enum { WORDS = 3 };
+
+enum { MOST_ENTRIES = 27 }; /* of a row in 3D */
+
+typedef struct place {
+  uint64_t index; /* in the level's grid, x fastest */
+  uint32_t part;
+} place;
+
+typedef struct collection {
+  fg__pockets *out;
+  const fg__multigrid *multigrid;
+  const fg__means *means;
+  const fg__level *box; /* [boxes] */
+  const ptrdiff_t *offset;
+  const fg__box *bounds; /* [boxes] in the level's grid */
+  fg__box whole;
+  const bool *periodic;
+  int boxes;
+  int largest;    /* nodes of a pocket */
+  uint64_t *size; /* [parts] nodes */
+  place *place;   /* [out->nodes] sorted */
+} collection;
+
+static bool is_pocket(const collection *c, int part)
+{
+  return c->size[part] <= (uint64_t)c->largest;
+}
+
+static void count_nodes(collection *c)
+{
+  const fg__means *means = c->means;
+  for (int n = 0; n < means->run_count; ++n)
+    c->size[means->run[n].part] += (uint64_t)means->run[n].nodes;
+  fg__ranks_add(c->multigrid->ranks, c->size, means->count);
+  for (c->largest = FG__POCKET_NODES; c->largest > 0; c->largest /= 2) {
+    uint64_t nodes = 0;
+    for (int n = 0; n < means->count; ++n)
+      nodes += is_pocket(c, n) ? c->size[n] : 0;
+    if (nodes <= MOST_NODES) {
+      c->out->nodes = (int)nodes;
+      break;
+    }
+  }
+  for (int n = 0; n < means->count; ++n)
+    c->out->count += is_pocket(c, n) && c->largest > 0;
+  for (int n = 0; n < means->run_count; ++n)
+    if (is_pocket(c, means->run[n].part))
+      c->out->own_count += means->run[n].nodes;
+}
+
+static fg_status take_arrays(fg__pockets *out, fg_context *context)
+{
+  size_t nodes = (size_t)out->nodes, rows = nodes * (size_t)out->entries;
+  size_t own = (size_t)out->own_count + 1;
+  out->first = fg__allocate((size_t)out->count + 1, sizeof *out->first);
+  out->target = fg__allocate(rows, sizeof *out->target);
+  out->laplacian = fg__allocate(rows, sizeof *out->laplacian);
+  out->energy = fg__allocate(rows, sizeof *out->energy);
+  out->mass = fg__allocate(nodes, sizeof *out->mass);
+  out->own = fg__allocate(own, sizeof *out->own);
+  out->at = fg__allocate(own, sizeof *out->at);
+  out->word = fg__allocate(WORDS * nodes, sizeof *out->word);
+  out->u = fg__allocate(nodes, sizeof *out->u);
+  out->w = fg__allocate(nodes, sizeof *out->w);
+  out->space = fg__allocate(FG__POCKET_SPACE + 5 * FG__POCKET_NODES, sizeof *out->space);
+  if (out->first && out->target && out->laplacian && out->energy && out->mass &&
+      out->own && out->at && out->word && out->u && out->w && out->space)
+    return FG_STATUS_OK;
+  return fg__fail_memory(context, "small parts of the domain",
+                         rows * (sizeof(int) + 2 * sizeof(double)));
+}
+
+/* Which box a node of this rank's arrays is in, and where there. */
+static int find_box(const collection *c, ptrdiff_t at, int node[3])
+{
+  int b = c->boxes - 1;
+  while (b > 0 && c->offset[b] > at)
+    --b;
+  const fg__layout *layout = &c->box[b].layout;
+  ptrdiff_t left = at - c->offset[b];
+  node[2] = layout->plane > 0 ? (int)(left / layout->plane) : 0;
+  left -= node[2] * layout->plane;
+  node[1] = (int)(left / layout->stride);
+  left -= node[1] * layout->stride;
+  node[0] =
+      (int)(left < layout->odd_offset ? 2 * left : 2 * (left - layout->odd_offset) + 1);
+  return b;
+}
+
+static uint64_t index_of(const collection *c, const int node[3])
+{
+  const int *nodes = c->whole.nodes;
+  return (uint64_t)node[0] +
+         (uint64_t)nodes[0] *
+             ((uint64_t)node[1] + (uint64_t)nodes[1] * (uint64_t)node[2]);
+}
+
+static int compare_places(const void *left, const void *right)
+{
+  const place *a = left, *b = right;
+  if (a->part != b->part)
+    return a->part < b->part ? -1 : 1;
+  return (a->index > b->index) - (a->index < b->index);
+}
+
+static int find_place(const collection *c, uint32_t part, uint64_t index)
+{
+  place key = {index, part};
+  const place *found =
+      bsearch(&key, c->place, (size_t)c->out->nodes, sizeof key, compare_places);
+  return found ? (int)(found - c->place) : -1;
+}
+
+/* Tells all ranks of each node; then all sort alike. */
+static void exchange_places(collection *c, uint64_t *before)
+{
+  fg__pockets *out = c->out;
+  const fg__ranks *ranks = c->multigrid->ranks;
+  before[ranks->rank] = (uint64_t)out->own_count;
+  fg__ranks_add(ranks, before, ranks->count);
+  size_t slot = 0;
+  for (int n = 0; n < ranks->rank; ++n)
+    slot += before[n];
+  memset(out->word, 0, WORDS * (size_t)out->nodes * sizeof *out->word);
+  for (int n = 0, own = 0; n < c->means->run_count; ++n) {
+    const fg__part_run *run = &c->means->run[n];
+    for (int m = 0; m < run->nodes && is_pocket(c, run->part); ++m, ++own) {
+      int node[3], b = find_box(c, run->at + m, node);
+      for (int k = 0; k < 3; ++k)
+        node[k] += c->bounds[b].first[k];
+      uint64_t index = index_of(c, node);
+      uint32_t *word = out->word + WORDS * (slot + (size_t)own);
+      word[0] = (uint32_t)index;
+      word[1] = (uint32_t)(index >> 32);
+      word[2] = (uint32_t)run->part;
+      out->at[own] = run->at + m;
+    }
+  }
+  fg__ranks_combine(ranks, out->word, WORDS * out->nodes);
+  for (int n = 0; n < out->nodes; ++n) {
+    const uint32_t *word = out->word + WORDS * n;
+    c->place[n] = (place){(uint64_t)word[1] << 32 | word[0], word[2]};
+  }
+  qsort(c->place, (size_t)out->nodes, sizeof *c->place, compare_places);
+  for (int n = 0; n < out->own_count; ++n) {
+    const uint32_t *word = out->word + WORDS * (slot + (size_t)n);
+    out->own[n] = find_place(c, word[2], (uint64_t)word[1] << 32 | word[0]);
+  }
+  int pocket = 0;
+  for (int n = 0; n < out->nodes; ++n)
+    if (n == 0 || c->place[n].part != c->place[n - 1].part)
+      out->first[pocket++] = n;
+  out->first[pocket] = out->nodes;
+}
+
+/* A node's couplings to its neighbours, x fastest. */
+static void read_row(const fg__level *box, const fg__stencil *stencil, const int node[3],
+                     float *row)
+{
+  const fg__layout *at = &box->layout;
+  int middle = at->dimension == 3 ? 13 : 4;
+  row[middle] = 0.0F;
+  for (int n = 0; n < fg__coupling_count(at->dimension); ++n) {
+    int d[3] = {n == 0 ? 1 : (n - 1) % 3 - 1, 0, 0};
+    if (n > 0)
+      fg__upper_row((n - 1) / 3, &d[1], &d[2]);
+    int step = d[0] + 3 * d[1] + 9 * d[2];
+    row[middle + step] = stencil->to[n][fg__node_at(at, node[0], node[1], node[2])];
+    row[middle - step] =
+        stencil->to[n][fg__node_at(at, node[0] - d[0], node[1] - d[1], node[2] - d[2])];
+  }
+}
+
+/* The node that a neighbour, perhaps beyond the grid, is or stands for. */
+static uint64_t neighbour_of(const collection *c, uint64_t index, int entry)
+{
+  const int *nodes = c->whole.nodes;
+  const bool *periodic = c->periodic;
+  bool solid = c->out->entries == MOST_ENTRIES;
+  uint64_t size[2] = {(uint64_t)nodes[0], (uint64_t)nodes[1]};
+  int node[3] = {(int)(index % size[0]), (int)(index / size[0] % size[1]),
+                 (int)(index / (size[0] * size[1]))};
+  int d[3] = {entry % 3 - 1, entry / 3 % 3 - 1, solid ? entry / 9 - 1 : 0};
+  for (int k = 0; k < 3; ++k) {
+    node[k] += d[k];
+    if (node[k] < 0)
+      node[k] = periodic[k] ? nodes[k] - 1 : 1;
+    else if (node[k] >= nodes[k])
+      node[k] = periodic[k] ? 0 : nodes[k] - 2;
+  }
+  return index_of(c, node);
+}
+
+static double value_of(uint32_t word)
+{
+  float value;
+  memcpy(&value, &word, sizeof value);
+  return (double)value;
+}
+
+static uint32_t word_of(float value)
+{
+  uint32_t word;
+  memcpy(&word, &value, sizeof word);
+  return word;
+}
+
+/* Rows over the mass; a constant has neither flux nor energy, to the last bit. */
+static void fill_row(const collection *c, int first, int node, const float *laplacian,
+                     const float *energy, double mass)
+{
+  const fg__pockets *out = c->out;
+  const place *here = &c->place[node];
+  int entries = out->entries, middle = entries / 2;
+  double *l = out->laplacian + node * entries, *k = out->energy + node * entries;
+  int *target = out->target + node * entries;
+  l[middle] = k[middle] = 0.0;
+  for (int n = 0; n < entries; ++n) {
+    int found = find_place(c, here->part, neighbour_of(c, here->index, n));
+    target[n] = found < 0 ? -1 : found - first;
+    if (n == middle || found < 0)
+      continue;
+    l[n] = (double)laplacian[n] / mass;
+    k[n] = (double)energy[n] / mass;
+    l[middle] -= l[n];
+    k[middle] -= k[n];
+  }
+}
+
+/* Sends each own node's rows and masses to all. */
+static void exchange_rows(const collection *c, uint32_t *word)
+{
+  fg__pockets *out = c->out;
+  int entries = out->entries, width = 2 * entries + 2;
+  for (int n = 0, own = 0; n < c->means->run_count; ++n) {
+    const fg__part_run *run = &c->means->run[n];
+    for (int m = 0; m < run->nodes && is_pocket(c, run->part); ++m, ++own) {
+      float row[2 * MOST_ENTRIES] = {0.0F};
+      int node[3];
+      const fg__level *box = &c->box[find_box(c, run->at + m, node)];
+      read_row(box, &box->laplacian, node, row);
+      read_row(box, &box->energy, node, row + entries);
+      uint32_t *to = word + (size_t)width * (size_t)out->own[own];
+      for (int k = 0; k < 2 * entries; ++k)
+        to[k] = word_of(row[k]);
+      to[2 * entries] = word_of(run->mass[m]);
+      to[2 * entries + 1] = word_of(run->row_mass * run->column_mass[m] * run->mass[m]);
+    }
+  }
+  fg__ranks_combine(c->multigrid->ranks, word, width * out->nodes);
+  for (int p = 0; p < out->count; ++p)
+    for (int n = out->first[p]; n < out->first[p + 1]; ++n, word += width) {
+      float row[2 * MOST_ENTRIES] = {0.0F};
+      for (int k = 0; k < 2 * entries; ++k)
+        row[k] = (float)value_of(word[k]);
+      fill_row(c, out->first[p], n, row, row + entries, value_of(word[2 * entries]));
+      out->mass[n] = value_of(word[2 * entries + 1]);
+    }
+}
+
+static fg_status collect(collection *c, fg_context *context)
+{
+  fg__pockets *out = c->out;
+  const fg__ranks *ranks = c->multigrid->ranks;
+  uint64_t *before = fg__allocate((size_t)ranks->count, sizeof *before);
+  size_t words = (2 * (size_t)out->entries + 2) * (size_t)out->nodes;
+  uint32_t *word = fg__allocate(words, sizeof *word);
+  c->place = fg__allocate((size_t)out->nodes, sizeof *c->place);
+  fg_status status = take_arrays(out, context);
+  if (!status && !(before && word && c->place))
+    status = fg__fail_memory(context, "small parts of the domain", words * sizeof *word);
+  status = fg__ranks_agree(ranks, context, status);
+  if (!status) {
+    exchange_places(c, before);
+    exchange_rows(c, word);
+  }
+  free(before);
+  free(word);
+  free(c->place);
+  return status;
+}
+
+fg_status fg__pockets_create(fg__pockets *out, fg_context *context,
+                             const fg__multigrid *multigrid, const fg__means *means)
+{
+  *out = (fg__pockets){0};
+  if (means->count <= 1)
+    return FG_STATUS_OK;
+  collection c = {.out = out, .multigrid = multigrid, .means = means};
+  const fg__level *whole = &multigrid->level[0];
+  const fg__spread *spread = multigrid->spread_count > 0 ? &multigrid->spread[0] : NULL;
+  c.box = fg__multigrid_boxes(multigrid, &c.boxes, &c.offset);
+  c.bounds = spread ? fg__own_boxes(&spread->partition, &c.boxes) : &c.whole;
+  memcpy(c.whole.nodes, spread ? spread->partition.nodes : whole->layout.nodes,
+         sizeof c.whole.nodes);
+  c.periodic = spread ? spread->partition.periodic : whole->periodic;
+  out->entries = whole->layout.dimension == 3 ? MOST_ENTRIES : 9;
+  c.size = fg__allocate((size_t)means->count, sizeof *c.size);
+  fg_status status = FG_STATUS_OK;
+  if (!c.size)
+    status = fg__fail_memory(context, "small parts of the domain",
+                             (size_t)means->count * sizeof *c.size);
+  status = fg__ranks_agree(multigrid->ranks, context, status);
+  if (!status)
+    count_nodes(&c);
+  if (!status && out->count > 0)
+    status = collect(&c, context);
+  free(c.size);
+  if (status)
+    fg__pockets_clear(out);
+  return status;
+}
+
+void fg__pockets_clear(fg__pockets *pockets)
+{
+  free(pockets->first);
+  free(pockets->target);
+  free(pockets->laplacian);
+  free(pockets->energy);
+  free(pockets->mass);
+  free(pockets->own);
+  free(pockets->at);
+  free(pockets->word);
+  free(pockets->u);
+  free(pockets->w);
+  free(pockets->space);
+  *pockets = (fg__pockets){0};
+}
+
+void fg__pockets_solve(const fg__pockets *pockets, const fg__multigrid *multigrid,
+                       double tau, double effective, const float *current)
+{
+  if (pockets->count == 0)
+    return;
+  const fg__pockets *s = pockets;
+  const float *const values[WORDS] = {current, fg__multigrid_u(multigrid),
+                                      fg__multigrid_p(multigrid)};
+  if (multigrid->ranks->count > 1)
+    memset(s->word, 0, WORDS * (size_t)s->nodes * sizeof *s->word);
+  for (int n = 0; n < s->own_count; ++n)
+    for (int k = 0; k < WORDS; ++k)
+      s->word[WORDS * s->own[n] + k] = word_of(values[k][s->at[n]]);
+  fg__ranks_combine(multigrid->ranks, s->word, WORDS * s->nodes);
+  double *before = s->space, *u = before + FG__POCKET_NODES, *p = u + FG__POCKET_NODES;
+  double *w = p + FG__POCKET_NODES, *space = w + FG__POCKET_NODES;
+  for (int k = 0; k < s->count; ++k) {
+    int first = s->first[k], nodes = s->first[k + 1] - first;
+    fg__pocket pocket = {.nodes = nodes,
+                         .entries = s->entries,
+                         .target = s->target + first * s->entries,
+                         .laplacian = s->laplacian + first * s->entries,
+                         .energy = s->energy + first * s->entries,
+                         .mass = s->mass + first};
+    for (int n = 0; n < nodes; ++n) {
+      const uint32_t *word = s->word + WORDS * (first + n);
+      before[n] = value_of(word[0]);
+      u[n] = value_of(word[1]);
+      p[n] = value_of(word[2]);
+    }
+    fg__pocket_task task = {tau, effective, p, before};
+    fg__pocket_step(&pocket, &task, u, w, space);
+    for (int n = 0; n < nodes; ++n) {
+      s->u[first + n] = (float)u[n];
+      s->w[first + n] = (float)w[n];
+    }
+  }
+}
+
+void fg__pockets_put(const fg__pockets *pockets, const fg__multigrid *multigrid,
+                     float *copy)
+{
+  if (pockets->count == 0)
+    return;
+  float *u = fg__multigrid_u(multigrid), *w = fg__multigrid_w(multigrid);
+  for (int n = 0; n < pockets->own_count; ++n) {
+    ptrdiff_t at = pockets->at[n];
+    u[at] = copy[at] = pockets->u[pockets->own[n]];
+    w[at] = pockets->w[pockets->own[n]];
+  }
+  fg__pass_fill_ghosts(multigrid, u);
+  fg__pass_fill_ghosts(multigrid, w);
+}

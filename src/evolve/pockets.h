@@ -1,0 +1,41 @@
+/* The parts of a domain that have only a few nodes (pocket.h): cycles may go round in
+ * them for ever where an interface across a passage is held by the little bulk beside it,
+ * and would hold up the whole (docs/design/evolution.md). Every rank knows all of them
+ * and computes the same. */
+#ifndef FG__POCKETS_H
+#define FG__POCKETS_H
+
+#include <stdint.h>
+
+#include "evolve/means.h"
+
+typedef struct fg__pockets {
+  int count;   /* pockets */
+  int nodes;   /* of all */
+  int entries; /* of a row */
+  int *first;  /* [count + 1] a pocket's first node */
+  int *target; /* [nodes * entries] from the pocket's first node; -1: none */
+  double *laplacian, *energy, *mass;
+  int own_count;  /* nodes that this rank owns */
+  int *own;       /* [own_count] which they are */
+  ptrdiff_t *at;  /* [own_count] where they lie in arrays of the finest level */
+  uint32_t *word; /* [3 * nodes] u, guess and p as they travel */
+  float *u, *w;   /* [nodes] the solution */
+  double *space;
+} fg__pockets;
+
+/* Collects the pockets among a domain's parts. Collective. MEMORY. */
+fg_status fg__pockets_create(fg__pockets *out, fg_context *context,
+                             const fg__multigrid *multigrid, const fg__means *means);
+void fg__pockets_clear(fg__pockets *pockets);
+
+/* Solves the finest level's system of a step of length tau, whose formula has another,
+ * from what u and p hold. Collective. */
+void fg__pockets_solve(const fg__pockets *pockets, const fg__multigrid *multigrid,
+                       double tau, double effective, const float *current);
+
+/* Puts the solution into u, w and a copy of u, without ghosts. */
+void fg__pockets_put(const fg__pockets *pockets, const fg__multigrid *multigrid,
+                     float *copy);
+
+#endif
