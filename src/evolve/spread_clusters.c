@@ -81,22 +81,29 @@ static void export_ring(const fg__level *box, const float *u, float *ring)
     }
 }
 
-/* Numbers of pieces, which travel as floats do, from or to one with a ring. */
-static void copy_ring(const fg__level *box, void *in_layout, void *in_ring, bool to_ring)
+/* Numbers of pieces, which travel as floats do: a box's outermost nodes from an array
+ * with a ring, or the ring to it. */
+static void copy_sides(const fg__level *box, void *in_layout, void *in_ring, bool to_ring)
 {
   const int *nodes = box->layout.nodes;
-  int solid = box->layout.dimension == 3;
-  size_t n = 0;
-  for (int k = -solid; k < nodes[2] + solid; ++k)
-    for (int j = -1; j <= nodes[1]; ++j)
-      for (int i = -1; i <= nodes[0]; ++i, ++n) {
+  int solid = box->layout.dimension == 3, low = to_ring ? -1 : 0;
+  int last[3];
+  for (int axis = 0; axis < 3; ++axis)
+    last[axis] = nodes[axis] - 1 - low;
+  int first_plane = solid ? low : 0, last_plane = solid ? last[2] : 0;
+  ptrdiff_t row = nodes[0] + 2, plane = row * (nodes[1] + 2);
+  for (int k = first_plane; k <= last_plane; ++k)
+    for (int j = low; j <= last[1]; ++j) {
+      bool all = j == low || j == last[1] || (solid && (k == low || k == last[2]));
+      float *ring = (float *)in_ring + (k + solid) * plane + (j + 1) * row + 1;
+      for (int i = low; i <= last[0]; i += all || i == last[0] ? 1 : last[0] - low) {
         float *a = (float *)in_layout + fg__node_at(&box->layout, i, j, k);
-        float *b = (float *)in_ring + n;
         if (to_ring)
-          memcpy(b, a, sizeof *b);
+          memcpy(ring + i, a, sizeof *a);
         else
-          memcpy(a, b, sizeof *a);
+          memcpy(a, ring + i, sizeof *a);
       }
+    }
 }
 
 /* Shares that ranks have of a table, brought together: each fills its own places, the
@@ -173,15 +180,16 @@ static fg_status number_and_join(fg__spread_clusters *c, fg_context *context,
   for (int b = 0; b < c->count; ++b) {
     ptrdiff_t origin = origin_of(&c->grid[b], spread->box[b].layout.dimension);
     fg__components_number(&c->box[b], &c->grid[b], (int)at, false, c->number[b] + origin);
-    copy_ring(&spread->box[b], scratch + spread->offset[b], c->number[b], false);
+    copy_sides(&spread->box[b], scratch + spread->offset[b], c->number[b], false);
     at += (uint64_t)c->box[b].piece_count;
   }
-  fg__spread_exchange(spread, 1, &scratch, FG__ALL_COLOURS);
+  /* no image of a border is asked for */
+  fg__spread_exchange_ends(spread, 1, &scratch);
   fg_status status = FG_STATUS_OK;
   uint64_t pairs = 0;
   for (int b = 0; b < c->count && !status; ++b) {
     ptrdiff_t origin = origin_of(&c->grid[b], spread->box[b].layout.dimension);
-    copy_ring(&spread->box[b], scratch + spread->offset[b], c->number[b], true);
+    copy_sides(&spread->box[b], scratch + spread->offset[b], c->number[b], true);
     status =
         fg__components_pairs(&c->box[b], context, &c->grid[b], c->number[b] + origin);
     pairs += c->box[b].pair_count;
