@@ -221,7 +221,7 @@ static fg_status build(fg_evolution *e, const fg_field *field)
   if (!status) {
     count_cells(e);
     e->spread = e->ranks->count > 1 || e->mesh.partition.count != 1;
-    if (!e->spread && (double)e->nodes >= fg__least_shared_nodes)
+    if (!e->spread && (double)e->nodes >= fg__least_team_nodes)
       status = fg__team_create(&e->team, e->context, e->options.threads);
   }
   if (!status)

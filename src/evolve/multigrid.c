@@ -1,5 +1,6 @@
 #include "evolve/multigrid.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +10,10 @@
  * 9); a side that cannot be halved further needs more, in proportion. */
 enum { COARSEST_SWEEPS = 12, COARSEST_CELLS = 4 };
 
-const double fg__least_shared_nodes = 200000.0;
+const double fg__least_team_nodes = 200000.0;
+
+/* A level is shared while each member gets so many nodes, or it is as large as that. */
+static const double least_nodes_of_member = 5000.0;
 
 static fg_status create_finest(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, const fg__tile *tile,
@@ -75,8 +79,10 @@ fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
     fg__multigrid_clear(out);
     return status;
   }
+  double least =
+      fmin(least_nodes_of_member * fg__team_members(team), fg__least_team_nodes);
   while (out->team && out->shared_levels < out->level_count &&
-         out->level[out->shared_levels].nodes >= fg__least_shared_nodes)
+         out->level[out->shared_levels].nodes >= least)
     ++out->shared_levels;
   choose_coarsest_sweeps(out);
   return FG_STATUS_OK;

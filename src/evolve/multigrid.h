@@ -27,9 +27,9 @@ typedef struct fg__multigrid {
   bool linear; /* the finest level too */
 } fg__multigrid;
 
-/* A level of fewer nodes is done sooner by one thread than by several that wait for each
- * other (docs/design/evolution.md). */
-extern const double fg__least_shared_nodes;
+/* A mesh of fewer nodes is one thread's: where other work wants the cores, too, several
+ * would wait for each other longer than they work (docs/design/evolution.md). */
+extern const double fg__least_team_nodes;
 
 /* Builds all levels over a mesh of one box, with a team that will also work on them
  * (borrowed; NULL: one thread). MEMORY. */
