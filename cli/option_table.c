@@ -155,7 +155,7 @@ const option_entry option_table[] = {
     {"length", 0, "L", COMMAND_TEXTURE, OPTION_NUMBER, AT(length), 2, 400, false, false,
      NULL,
      "length of the streaks, of the longest spots, or four stripes' width together, in "
-     "pixels [a 25th of the longest side, of spots an 18th]"},
+     "pixels [a 25th of the longest side, of spots an 18th, of diffusion a 20th]"},
     {"clusters", 0, "N", COMMAND_TEXTURE, OPTION_COUNTS, 0, 1, 1000000, false, false,
      NULL, "--kind clusters: the first moment with at most N of them [300]"},
     {"nodes", 0, "N", COMMAND_TEXTURE, OPTION_WHOLE, AT(nodes), 17, 16385, false, false,

@@ -99,8 +99,9 @@ static fg_status check_initial(const fg_evolution *e)
   return FG_STATUS_OK;
 }
 
-/* The fastest growing mode of linear theory grows at this rate (design.md section 3).
- * Where the mean itself is stable the wells' own curvature sets the pace. */
+/* In linear theory the mode k grows at k^2 (c - a gamma k^2), c = -Psi''(mean): at most
+ * at this rate. Where the mean itself is stable the wells' own curvature sets the pace.
+ */
 double fg__evolution_growth_rate(const fg_evolution *e)
 {
   double mean = 2.0 * e->options.coverage - 1.0;

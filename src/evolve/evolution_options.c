@@ -3,7 +3,7 @@
 #include "base/mix.h"
 #include "evolve/evolution_options.h"
 
-/* Defaults that give the paper's pictures (design.md section 2). */
+/* Defaults that give the paper's pictures. */
 enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1 };
 static const double default_anisotropy = 0.15, default_coverage = 0.3;
 /* By scheme: chosen by time and error, which stays below the scatter of seeds

@@ -8,7 +8,7 @@
 
 #include "evolve/level.h"
 
-/* The system of one time step, rows divided by the mass (design.md section 3):
+/* The system of one time step, rows divided by the mass (docs/method/README.md):
  *     u + tau L w = p,      w - Psi'(u) - K u = q,
  * L the Laplacian, K = gamma L_A, Psi'(u) = 2 u (u^2 - 1); q = 0 on the finest level.
  * Coarse levels correct it: u += d P v, w += P w, P multilinear and d the shape of a

@@ -6,8 +6,8 @@
 
 #include "base/memory.h"
 
-/* Enough Gauss-Seidel sweeps for the coarsest grid when it is small (design.md section
- * 9); a side that cannot be halved further needs more, in proportion. */
+/* Enough Gauss-Seidel sweeps for the coarsest grid when it is small; a side that cannot
+ * be halved further needs more, in proportion. */
 enum { COARSEST_SWEEPS = 12, COARSEST_CELLS = 4 };
 
 const double fg__least_team_nodes = 200000.0;

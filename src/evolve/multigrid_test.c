@@ -56,7 +56,7 @@ static const shape ROOMS[] = {
     {"rooms, periodic", {128, 64}, {1.0, 0.51}, {true, true}, in_rooms},
 };
 
-/* The default interface of design.md section 2: gamma = (1.1 h)^2 / a. */
+/* The default interface: gamma = (1.1 h)^2 / a. */
 static void create(problem *p, const shape *s)
 {
   double anisotropy = 0.15;

@@ -5,7 +5,7 @@
 #include "base/mix.h"
 
 /* Strong noise gives separate grains, weak noise stripes along whole streamlines
- * (design.md section 2): uniform values of this amplitude, cell by cell. */
+ * (docs/design/evolution.md): uniform values of this amplitude, cell by cell. */
 static const double amplitude = 1.5;
 
 /* Mean over all phases of the sum of squared weights of the quadratic B-spline: by its

@@ -1,4 +1,4 @@
-/* The discrete model of design.md sections 2 and 3 by its definition: double precision,
+/* The discrete model of docs/method/README.md by its definition: double precision,
  * plain arrays, cell by cell, gradients integrated by quadrature. What the engine
  * computes is compared with this. */
 #ifndef FG__REFERENCE_TEST_H

@@ -6,10 +6,10 @@
 
 #include "base/memory.h"
 
-/* The control of design.md section 3: the last cycle's correction relative to the step's
- * change says how well the cycles solved it. It is an estimate of the error before the
- * last cycle, hence the large values. A step that is not good enough is given more cycles
- * before it is given up. */
+/* The control (docs/design/interfaces.md): the last cycle's correction relative to the
+ * step's change says how well the cycles solved it. It is an estimate of the error before
+ * the last cycle, hence the large values. A step that is not good enough is given more
+ * cycles before it is given up. */
 static const double acceptable_correction = 1.0; /* delta above this rejects */
 static const double wanted_correction = 1.0;     /* delta that keeps tau */
 static const double hopeless_correction = 2.0;
