@@ -14,7 +14,7 @@ static const double aspect = 2.6;
  * cells at a = 0.15); they have grown together a little when these are left. */
 static const double cells_per_cluster = 450.0;
 /* More cells than that take longer than a painting should. */
-static const double most_cells = 1.7e6;
+static const double most_cells = 7.3e6;
 /* Structure is averaged over that share of a cluster's width. */
 static const double structure_share = 0.8, presmoothing_share = 0.25;
 /* Strokes need no better steps: eta and cycles of the evolution. */

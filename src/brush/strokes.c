@@ -47,21 +47,37 @@ typedef struct work {
   fg_strokes *strokes;
 } work;
 
-/* Clusters of the layers that a picture gets by itself, but at least so many pixels a
- * cluster: finer strokes would be of a pixel's width. */
-static const double usual_clusters[] = {80.0, 400.0, 1700.0, 4400.0};
-static const double least_area = 52.0;
+/* Clusters of the layers that a picture gets by itself: broad ones that depend on the
+ * composition only, and finer ones, up to four times as many each, until a cluster has
+ * about so many pixels; finer strokes would be of a pixel's width, and more of them take
+ * longer than a painting should. */
+static const double broad_clusters[] = {80.0, 400.0, 1700.0};
+enum { BROAD_LAYERS = sizeof broad_clusters / sizeof *broad_clusters };
+static const double layer_ratio = 4.0;
+static const double least_area = 60.0, most_clusters = 16000.0;
+
+static void choose_layers(work *w)
+{
+  double pixels = (double)w->image->width * (double)w->image->height;
+  double finest = fmin(pixels / least_area, most_clusters);
+  double last = broad_clusters[BROAD_LAYERS - 1];
+  int finer = (int)fmax(ceil(log(finest / last) / log(layer_ratio)), 1.0);
+  /* an image too small for the broad layers has fewer clusters in each */
+  double share = fmin(finest / (layer_ratio / 2.0 * last), 1.0);
+  w->options.cluster_count = BROAD_LAYERS + finer;
+  for (int k = 0; k < BROAD_LAYERS; ++k)
+    w->clusters[k] = (int)fmax(share * broad_clusters[k], 2.0 + k);
+  last *= share;
+  for (int k = 1; k <= finer; ++k)
+    w->clusters[BROAD_LAYERS + k - 1] =
+        (int)fmax(last * pow(finest / last, (double)k / finer), 1.0 + BROAD_LAYERS + k);
+}
 
 static void choose_clusters(work *w)
 {
   fg_brush_options *o = &w->options;
-  double pixels = (double)w->image->width * (double)w->image->height;
   if (o->cluster_count == 0) {
-    o->cluster_count = (int)(sizeof usual_clusters / sizeof *usual_clusters);
-    double most = usual_clusters[o->cluster_count - 1];
-    double share = fmin(pixels / least_area / most, 1.0);
-    for (int k = 0; k < o->cluster_count; ++k)
-      w->clusters[k] = (int)fmax(share * usual_clusters[k], 2.0 + k);
+    choose_layers(w);
     return;
   }
   for (int k = 0; k < o->cluster_count; ++k) {
