@@ -32,6 +32,8 @@ static void print_vector(const fg_inventory_vector *vector)
   printf("  grid:");
   for (int k = 0; k < vector->dimension; ++k)
     printf("%s %d", k ? " x" : "", vector->size[k]);
+  if (vector->cells > 0)
+    printf(", interpolated from %zu cells", vector->cells);
   putchar('\n');
   for (int k = 0; k < vector->dimension; ++k)
     printf("  %c: %.6g to %.6g%s\n", axis[k], vector->bounds[2 * k],
@@ -57,6 +59,8 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
   }
   cJSON_AddItemToObject(object, "size",
                         cJSON_CreateIntArray(vector->size, vector->dimension));
+  if (vector->cells > 0)
+    cJSON_AddNumberToObject(object, "cells", (double)vector->cells);
   cJSON_AddItemToObject(object, "bounds",
                         cJSON_CreateDoubleArray(vector->bounds, 2 * vector->dimension));
   cJSON_AddBoolToObject(object, "periodic",

@@ -105,6 +105,8 @@ typedef struct fg_inventory_vector {
   double bounds[6];     /* xmin, xmax, ymin, ymax, zmin, zmax */
   bool periodic[3];     /* whether each axis closes (longitude, say) */
   const char *unusable; /* NULL, or why this pair can not be read yet */
+  size_t cells;         /* 0, or how many cells, which are not along the axes, are
+                           interpolated onto that grid; outside them is missing */
 } fg_inventory_vector;
 
 /* Says what a file holds, without reading a whole field where that can be avoided.

@@ -233,6 +233,7 @@ static fg_status describe(fg_inventory_vector *entry, const fg__vtk *vtk,
   fg__vtk_grid grid;
   fg_status status = fg__vtk_grid_find(&grid, vtk);
   entry->dimension = grid.dimension;
+  entry->cells = vtk->cells.count;
   for (int k = 0; k < grid.dimension && status == FG_STATUS_OK; ++k) {
     entry->size[k] = (int)grid.points[k];
     entry->bounds[2 * k] = fg__vtk_coordinate(vtk, grid.axis[k], 0);

@@ -58,4 +58,62 @@ expect_error 'esample'
 expect_nothing_at out-cells
 done_with "a short file and one of surfaces are refused in a line and a hint"
 
+# Hexahedra in two rows, one thick along x: a plane of y and z, where the flow is linear.
+{
+  printf '# vtk DataFile Version 3.0\nsmall\nASCII\nDATASET UNSTRUCTURED_GRID\n'
+  printf 'POINTS 18 float\n'
+  for x in 2 3; do
+    for z in 0 1 3; do echo "$x 0 $z $x 2 $z $x 5 $z"; done
+  done
+  printf 'CELLS 4 36\n'
+  for n in 0 1 3 4; do
+    echo "8 $n $((n + 1)) $((n + 4)) $((n + 3)) $((n + 9)) $((n + 10)) $((n + 13)) $((n + 12))"
+  done
+  printf 'CELL_TYPES 4\n12 12 12 12\nPOINT_DATA 18\nVECTORS flow float\n'
+  for x in 2 3; do
+    for z in 0 1 3; do
+      for y in 0 2 5; do echo "9 $((1 + z)) $((y - 2 * z))"; done
+    done
+  done
+} >cells.vtk
+try info cells.vtk
+expect_code 0
+grep -q 'interpolated from 4 cells' out || fault "$(cat out)"
+grep -q 'y: 0 to 3' out || fault "$(cat out)"
+grep -q 'missing: 0.0 %' out || fault "$(cat out)"
+try info --json cells.vtk
+cp out cells.json
+expect_json cells.json '.vectors[0].cells == 4 and .vectors[0].bounds == [0, 5, 0, 3]'
+try run cells.vtk -o run-cells --nodes 33 --clusters 8 --quiet
+expect_code 0
+expect_file run-cells/scale-00.svg
+sed 's/^12 12 12 12/12 12 12 25/' cells.vtk >curved.vtk
+try info curved.vtk
+expect_code 1
+expect_one_complaint
+expect_error 'cell 3 is a quadratic hexahedron'
+done_with "cells that are not along the axes are interpolated, or refused by their kind"
+
+# The first grid as a curvilinear one, whose lines are along the axes after all.
+{
+  printf '# vtk DataFile Version 3.0\nsmall\nASCII\nDATASET STRUCTURED_GRID\n'
+  printf 'DIMENSIONS 4 3 5\nPOINTS 60 float\n'
+  for z in 1 2 3 4 5; do
+    for y in 0 2 3; do
+      for x in 0 1 2 4; do echo "$x $y $z"; done
+    done
+  done
+  sed -n '/POINT_DATA/,$p' grid.vtk
+} >lines.vtk
+for file in grid lines; do
+  try info $file.vtk
+  expect_code 0
+  sed 1d out >$file.info
+  try run $file.vtk -o run-$file --nodes 17 --clusters 4 --quiet
+  expect_code 0
+done
+cmp -s grid.info lines.info || fault "$(diff grid.info lines.info)"
+cmp -s run-grid/scale-00.geojson run-lines/scale-00.geojson || fault "other arrows"
+done_with "a curvilinear grid along the axes is a rectilinear one"
+
 finish
