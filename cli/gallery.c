@@ -202,7 +202,7 @@ static int make_figure(const gallery_figure *figure, const cli_settings *setting
 
 static bool is_wanted(const gallery_figure *figure, const cli_settings *settings)
 {
-  return !settings->figure || figure->number == settings->figure;
+  return gallery_shows(figure, settings->figure);
 }
 
 static int check(const cli_settings *settings)

@@ -58,14 +58,17 @@ void gallery_draw_wells(FILE *svg)
   fprintf(svg, "</svg>\n");
 }
 
+/* Not the letter for a subscript n: few fonts have it. */
+#define T_N "t<tspan dy=\"4\" font-size=\"11\">n</tspan><tspan dy=\"-4\">&#8203;</tspan>"
+
 void gallery_draw_substeps(FILE *svg)
 {
   const double left = 70.0, right = 690.0, axis = 130.0;
   const double theta = 1.0 - 1.0 / sqrt(2.0), step = right - left;
   const double at[4] = {left, left + theta * step, right - theta * step, right};
-  const char *const moment[4] = {"t\xE2\x82\x99", "t\xE2\x82\x99 + \xCE\xB8\xCF\x84",
-                                 "t\xE2\x82\x99 + (1 \xE2\x88\x92 \xCE\xB8)\xCF\x84",
-                                 "t\xE2\x82\x99 + \xCF\x84"};
+  const char *const moment[4] = {T_N, T_N " + \xCE\xB8\xCF\x84",
+                                 T_N " + (1 \xE2\x88\x92 \xCE\xB8)\xCF\x84",
+                                 T_N " + \xCF\x84"};
   const char *const implicit[3] = {"\xCE\xB1 K", "\xCE\xB2 K + \xCE\xA8\xE2\x80\xB2",
                                    "\xCE\xB1 K"};
   const char *const given[3] = {"\xCE\xB2 K + \xCE\xA8\xE2\x80\xB2", "\xCE\xB1 K",

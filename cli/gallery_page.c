@@ -11,9 +11,11 @@ static const char head[] =
     "padding:0 1rem;color:#222}\n"
     "h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:3rem;border-top:1px solid #ccc;"
     "padding-top:1rem}\n"
-    ".row{display:grid;gap:1rem;grid-template-columns:repeat(auto-fill,minmax(20rem,1fr))"
-    "}"
-    "\n"
+    ".row{display:grid;gap:1rem;margin-bottom:1rem;"
+    "grid-template-columns:repeat(var(--pictures),minmax(0,1fr))}\n"
+    ".row.single{max-width:44rem}\n"
+    "@media (max-width:45rem){.row{grid-template-columns:repeat(min(var(--pictures),2),"
+    "minmax(0,1fr))}}\n"
     "figure{margin:0}\n"
     "img{width:100%;height:auto;border:1px solid #ddd}\n"
     "figcaption{font-size:.9rem;color:#444}\n"
@@ -23,7 +25,10 @@ static const char head[] =
     "<p>H. Garcke, T. Preu&szlig;er, M. Rumpf, A. Telea, U. Weikard and J. J. van Wijk: "
     "<em>A Continuous Clustering Method for Vector Fields</em>, IEEE Visualization 2000. "
     "Under each figure: what the paper shows there, what differs, and the commands that "
-    "make it again, to be called in this folder.</p>\n";
+    "make it again, to be called in this folder. A number of clusters is the one asked "
+    "for: the first moment with no more of them is shown. Clusters too small for an "
+    "arrow "
+    "have none.</p>\n";
 
 /* Text as HTML: the three characters that mean something there. */
 static void print_text(FILE *page, const char *text)
@@ -44,20 +49,46 @@ static void print_text(FILE *page, const char *text)
     }
 }
 
-static void print_figure(FILE *page, const gallery_figure *figure)
+static int count_pictures(const gallery_figure *figure)
 {
-  fprintf(page, "<h2 id=\"fig-%02d\">Figure %d. ", figure->number, figure->number);
-  print_text(page, figure->title);
-  fputs("</h2>\n<div class=\"row\">\n", page);
-  for (int n = 0; n < GALLERY_PICTURES && figure->picture[n].path; ++n) {
-    const gallery_picture *p = &figure->picture[n];
-    fprintf(page, "<figure><a href=\"%s\"><img src=\"%s\" alt=\"", p->path, p->path);
-    print_text(page, p->caption);
+  int count = 0;
+  while (count < GALLERY_PICTURES && figure->picture[count].path)
+    ++count;
+  return count;
+}
+
+static void print_row(FILE *page, const gallery_picture *picture, int count)
+{
+  fprintf(page, "<div class=\"row%s\" style=\"--pictures:%d\">\n",
+          count == 1 ? " single" : "", count);
+  for (int n = 0; n < count; ++n) {
+    fprintf(page, "<figure><a href=\"%s\"><img src=\"%s\" alt=\"", picture[n].path,
+            picture[n].path);
+    print_text(page, picture[n].caption);
     fputs("\"></a><figcaption>", page);
-    print_text(page, p->caption);
+    print_text(page, picture[n].caption);
     fputs("</figcaption></figure>\n", page);
   }
-  fputs("</div>\n<p class=\"paper\"><strong>In the paper:</strong> ", page);
+  fputs("</div>\n", page);
+}
+
+static void print_figure(FILE *page, const gallery_figure *figure)
+{
+  fprintf(page, "<h2 id=\"fig-%02d\">Figure", figure->number);
+  if (figure->last)
+    fprintf(page, "s %d and %d. ", figure->number, figure->last);
+  else
+    fprintf(page, " %d. ", figure->number);
+  print_text(page, figure->title);
+  fputs("</h2>\n", page);
+  const int count = count_pictures(figure);
+  for (int row = 0, first = 0; first < count; ++row) {
+    int wanted = row < GALLERY_ROWS ? figure->row[row] : 0;
+    int pictures = wanted && wanted < count - first ? wanted : count - first;
+    print_row(page, figure->picture + first, pictures);
+    first += pictures;
+  }
+  fputs("<p class=\"paper\"><strong>In the paper:</strong> ", page);
   print_text(page, figure->paper);
   fputs("</p>\n", page);
   if (figure->differs) {
@@ -76,11 +107,17 @@ static void print_figure(FILE *page, const gallery_figure *figure)
   fputs("</pre>\n", page);
 }
 
+bool gallery_shows(const gallery_figure *figure, int number)
+{
+  int last = figure->last ? figure->last : figure->number;
+  return !number || (figure->number <= number && number <= last);
+}
+
 void gallery_print_page(FILE *page, int only)
 {
   fputs(head, page);
   for (int n = 0; n < gallery_figure_count; ++n)
-    if (!only || gallery_figures[n].number == only)
+    if (gallery_shows(&gallery_figures[n], only))
       print_figure(page, &gallery_figures[n]);
   fprintf(page, "<p class=\"paper\">flowgrain %s</p>\n</body>\n</html>\n", fg_version());
 }

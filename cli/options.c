@@ -421,6 +421,7 @@ fg_texture_options settings_texture(const cli_settings *settings)
       .longest = settings->longest,
       .length = settings->length,
       .clusters = settings->cluster_count ? settings->clusters[0] : 0,
+      .max_time = settings->max_time,
       .seed = settings->seed,
       .threads = settings->threads,
   };
@@ -435,6 +436,8 @@ fg_picture_options settings_picture(const cli_settings *settings)
       .transparent = settings->transparent,
       .tint = settings->tint,
       .skeletons = settings->skeletons,
+      .centers = settings->centers,
+      .no_arrows = settings->no_arrows,
   };
 }
 

@@ -41,7 +41,7 @@ typedef struct cli_settings {
   unsigned formats; /* 0: the default, SVG and PNG, in 3D PNG */
   double width;
   const char *palette;
-  bool tint, skeletons, no_frame, transparent;
+  bool tint, skeletons, centers, no_arrows, no_frame, transparent;
   bool surfaces;
   double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
   int view_count;             /* 0: one, the usual */

@@ -192,8 +192,8 @@ static fg_status write(flow *f, fg_context *context, double rayleigh, double tim
   float *u = malloc(nodes * sizeof *u), *v = malloc(nodes * sizeof *v);
   double *axis = zeros((size_t)f->nx + 1);
   char title[120];
-  snprintf(title, sizeof title, "Convection in a porous layer, Ra = %.3g, t = %g",
-           rayleigh, time);
+  snprintf(title, sizeof title, "Convection in a porous layer, Ra = %g, t = %g", rayleigh,
+           time);
   find_stream(f);
   for (int j = 0; u && v && j <= f->ny; ++j)
     for (int i = 0; i <= f->nx; ++i) {

@@ -21,6 +21,8 @@ typedef struct fg_picture_options {
   double background_fade;              /* share of its way to white, 0 to 1 [0.7] */
   bool skeletons;    /* mark the clusters' spines and centres, where icons have
                         them */
+  bool centers;      /* mark the centres alone, where icons have them */
+  bool no_arrows;    /* nor keys for them: mask, tint, background and marks alone */
   const char *title; /* caption; NULL: from the field; "" none */
   double font_size;  /* points [0: follows from the size; 9 at 480 points] */
   bool no_keys;      /* no colour key, no arrow for the size */

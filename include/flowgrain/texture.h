@@ -34,7 +34,9 @@ typedef struct fg_texture_options {
   double length; /* of streaks (LIC), the longest spots, four stripes' width together, in
                     pixels, 2 to 400 [a 25th of the longest side, of spots an 18th, of
                     DIFFUSION a 20th; 20 at least]; not for CLUSTERS */
-  int clusters;  /* CLUSTERS: the first moment with no more of them [300] */
+  int clusters;  /* CLUSTERS: the first moment with no more of them [300; with max_time:
+                    none] */
+  double max_time; /* CLUSTERS: no later than the first moment from this t on [never] */
   const fg_evolution_options *evolution; /* CLUSTERS: how they evolve; its `nodes`, when
                                             0, follow the pixels; seed and threads are
                                             those below [NULL: defaults] */

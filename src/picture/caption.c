@@ -77,8 +77,10 @@ void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_
   add_part(subtitle, field->time);
   add_part(subtitle, field->level);
   char words[64];
-  snprintf(words, sizeof words, "%d arrow%s", arrows, arrows == 1 ? "" : "s");
-  add_part(subtitle, words);
+  if (arrows >= 0) {
+    snprintf(words, sizeof words, "%d arrow%s", arrows, arrows == 1 ? "" : "s");
+    add_part(subtitle, words);
+  }
   if (scale_time > 0.0) {
     snprintf(words, sizeof words, "scale t = %.3g", scale_time);
     add_part(subtitle, words);

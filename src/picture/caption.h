@@ -9,7 +9,7 @@
 bool fg__speed_range(double range[2], const fg_icons *icons);
 
 /* The caption: `wanted` as the title when that is not NULL, else what the field says of
- * itself. scale_time: 0, not told. */
+ * itself. arrows < 0, scale_time 0: not told. */
 enum { FG__CAPTION_BYTES = 320 };
 void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_BYTES],
                        const fg_field_arrays *field, int arrows, const char *wanted,

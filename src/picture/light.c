@@ -9,8 +9,9 @@
 static const double lamp_share = 0.66, sky_share = 0.46, viewer_share = 0.12;
 static const double shine = 0.22, shine_power = 36.0;
 
-/* What is far fades towards white by this share: depth is seen in colour, too. */
-static const double fade = 0.2;
+/* What is far fades by this share towards this level, as eyes see them (sRGB): depth is
+ * seen in colour, too. Of linear light, a tenth of white outshines a dark colour. */
+static const double fade = 0.22, far_level = 0.92;
 
 /* On the walls: what a shadow and a hidden sky take away; the tone of a wall (floor and
  * ceiling are the lightest), and of its lines. */
@@ -24,7 +25,7 @@ static const double skin_alpha = 0.10, skin_rim = 0.62;
 static const double skin_color[3] = {0.62, 0.74, 0.88};
 
 /* The lamp's radius over its distance. */
-static const double lamp_size = 0.13;
+static const double lamp_size = 0.05;
 
 static const double full_turn = 6.283185307179586;
 
@@ -50,7 +51,7 @@ void fg__lamp_direction(const fg__camera *camera, double out[3])
 {
   for (int k = 0; k < 3; ++k)
     out[k] = -0.42 * camera->right[k] - 0.42 * camera->forward[k] + 0.25 * camera->up[k];
-  out[2] += 0.75; /* up in the world: shadows fall on the floor */
+  out[2] += 1.05; /* up in the world: shadows fall on the floor */
   fg__normalise(out);
 }
 
@@ -115,9 +116,9 @@ fg__light fg__light_arrow(fg__color color, const fg__lit *lit)
   double glint =
       shine * lit->lamp_seen * pow(fmax(fg__dot(lit->normal, half), 0.0), shine_power);
   const double level[3] = {linear(color.red), linear(color.green), linear(color.blue)};
-  double out[3], white = fade * lit->depth;
+  double out[3], far = fade * lit->depth;
   for (int k = 0; k < 3; ++k)
-    out[k] = (1.0 - white) * (level[k] * light + glint) + white * 0.9;
+    out[k] = linear((1.0 - far) * encoded(level[k] * light + glint) + far * far_level);
   return (fg__light){out[0], out[1], out[2], 1.0};
 }
 

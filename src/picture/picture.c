@@ -20,6 +20,9 @@ static const double most_pixels = 268435456.0;
 
 static const fg__color usual_tint = {0.845, 0.895, 0.950};
 
+/* Of clusters that no arrows shall stand out from. */
+static const fg__color lone_tint = {0.56, 0.68, 0.83};
+
 /* A texture as it is outshines what is drawn on it; by eye, on winds and vortices. */
 static const double usual_fade = 0.7;
 static const double most_background = 16384.0;
@@ -96,17 +99,19 @@ static fg_status plan_picture(picture *out, fg_context *context,
   range[0] = options->speed_min;
   range[1] = options->speed_max;
   bool has_speeds = fg__speed_range(range, icons);
-  plan->color_key = has_speeds && !out->palette.uniform && !options->no_keys;
+  bool keys = !options->no_keys && !options->no_arrows;
+  plan->color_key = has_speeds && !out->palette.uniform && keys;
   fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0], "mean speed",
                       field->velocity_units);
   describe_axes(plan, field);
-  fg__caption_write(plan->title, plan->subtitle, field, fg_icons_count(icons),
-                    options->title, options->scale_time);
+  fg__caption_write(plan->title, plan->subtitle, field,
+                    options->no_arrows ? -1 : fg_icons_count(icons), options->title,
+                    options->scale_time);
   fg__typical_icon typical;
   fg_status status = fg__scene_typical_icon(&typical, context, icons);
   if (status)
     return status;
-  plan->size_key = typical.length > 0.0 && !options->no_keys;
+  plan->size_key = typical.length > 0.0 && keys;
   plan->arrow_length = typical.length;
   return FG_STATUS_OK;
 }
@@ -164,7 +169,8 @@ static fg_status prepare(picture *p, fg_context *context, const fg_field_arrays 
     status =
         fg__color_choose(&p->style.mask, context, options->mask_color, fg__usual_mask);
   if (!status)
-    status = fg__color_choose(&p->style.tint, context, options->tint_color, usual_tint);
+    status = fg__color_choose(&p->style.tint, context, options->tint_color,
+                              options->no_arrows ? lone_tint : usual_tint);
   p->style.transparent = options->transparent;
   p->pixels_per_point = options->pixels_per_point > 0.0 ? options->pixels_per_point
                                                         : usual_pixels_per_point;
@@ -259,10 +265,11 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
   const double range[2] = {p->plan.speed.low, p->plan.speed.high};
   if (!status)
     status = fg__scene_create(&p->scene, context, &p->page, field,
-                              options->tint ? fg_density_contents(density) : NULL, icons,
-                              &p->palette, range);
-  if (!status && options->skeletons)
-    status = fg__scene_add_skeletons(&p->scene, context, &p->page, contents, icons);
+                              options->tint ? fg_density_contents(density) : NULL,
+                              options->no_arrows ? NULL : icons, &p->palette, range);
+  if (!status && (options->skeletons || options->centers))
+    status = fg__scene_add_skeletons(&p->scene, context, &p->page, contents, icons,
+                                     options->skeletons);
   if (!status && options->background)
     status = make_background(p, context, options);
   if (!status)

@@ -247,6 +247,38 @@ static void skeletons_are_shown_when_asked_for(void **state)
   write_picture(e, "a.png", &options);
   expect_pixel(e, "a.png", 30.0, 13.0, 2.0, white);
   expect_pixel(e, "a.png", 30.0, 13.0 + 0.26, -2.0, white);
+  options.centers = true;
+  write_picture(e, "a.png", &options);
+  expect_pixel(e, "a.png", 30.0, 13.0, 2.0, white);
+  pixel_at(center, e, "a.png", 30.0, 13.0 + 0.26, -2.0);
+  assert_true(center[1] < 0xa0);
+}
+
+static void arrows_and_their_keys_can_be_left_out(void **state)
+{
+  const example *e = *state;
+  fg_picture_options options = {.width = 300.0,
+                                .pixels_per_point = 3.0,
+                                .no_frame = true,
+                                .palette = "#2040c0",
+                                .tint_color = "#ddeeff",
+                                .tint = true,
+                                .no_arrows = true};
+  const unsigned char tint[4] = {255, 0xdd, 0xee, 0xff};
+  write_picture(e, "a.png", &options);
+  expect_pixel(e, "a.png", 30.0, 16.0, 0.0, tint);
+  expect_pixel(e, "a.png", 30.0, 15.0, 2.0, tint);
+  int with[2], without[2], keyless[2];
+  options = (fg_picture_options){.width = 300.0, .height = 240.0};
+  assert_int_equal(fg_picture_frame(with, e->context, e->field, e->icons, &options), 0);
+  options.no_arrows = true;
+  assert_int_equal(fg_picture_frame(without, e->context, e->field, e->icons, &options),
+                   0);
+  options = (fg_picture_options){.width = 300.0, .height = 240.0, .no_keys = true};
+  assert_int_equal(fg_picture_frame(keyless, e->context, e->field, e->icons, &options),
+                   0);
+  assert_true(without[0] > with[0] || without[1] > with[1]);
+  assert_memory_equal(without, keyless, sizeof without);
 }
 
 static void a_transparent_png_has_no_background(void **state)
@@ -478,6 +510,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       TEST(a_png_shows_arrows_mask_and_tint),
       TEST(skeletons_are_shown_when_asked_for),
+      TEST(arrows_and_their_keys_can_be_left_out),
       TEST(a_transparent_png_has_no_background),
       TEST(an_svg_has_one_path_an_arrow_in_its_colour),
       TEST(framed_svgs_are_well_formed),

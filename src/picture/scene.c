@@ -287,9 +287,9 @@ fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *
   if (!status && density)
     status = fg__contour_positive(&out->tint, context, density);
   place_all(&p, &out->tint);
-  if (!status)
+  if (!status && icons)
     status = make_arrows(out, context, &p, high, grid, icons, palette, range);
-  if (!status)
+  if (!status && icons)
     status = make_reference(&out->reference, context, page, icons);
   if (status) {
     fg__scene_clear(out);
@@ -314,7 +314,7 @@ static bool add_line(fg__polygons *out, const placement *p, const double (*point
 
 fg_status fg__scene_add_skeletons(fg__scene *scene, fg_context *context,
                                   const fg__page *page, const fg_field_arrays *field,
-                                  const fg_icons *icons)
+                                  const fg_icons *icons, bool spines)
 {
   placement p = {{0.0, 0.0}, page->scale, &page->frame};
   double high[2];
@@ -327,7 +327,8 @@ fg_status fg__scene_add_skeletons(fg__scene *scene, fg_context *context,
     for (int sy = y[0]; sy <= y[1] && icon->spine; ++sy)
       for (int sx = x[0]; sx <= x[1]; ++sx) {
         const double offset[2] = {sx * field->period[0], sy * field->period[1]};
-        if (!add_line(&scene->spines, &p, icon->spine, icon->spine_count, offset) ||
+        if ((spines &&
+             !add_line(&scene->spines, &p, icon->spine, icon->spine_count, offset)) ||
             !add_line(&scene->centers, &p, &icon->center, 1, offset))
           return fg__fail_memory(context, "the spines",
                                  scene->spines.point_count * sizeof *scene->spines.point);

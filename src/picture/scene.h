@@ -35,16 +35,17 @@ fg_status fg__scene_typical_icon(fg__typical_icon *out, fg_context *context,
 fg_status fg__scene_mask(fg__polygons *out, fg_context *context, const fg__page *page,
                          const fg_field *field);
 
-/* Makes the polygons, but for spines and centres. density: NULL for no tint. range:
- * speeds at the palette's ends. MEMORY. */
+/* Makes the polygons, but for spines and centres. density: NULL for no tint; icons: NULL
+ * for no arrows. range: speeds at the palette's ends. MEMORY. */
 fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *page,
                            const fg_field *field, const fg_density_arrays *density,
                            const fg_icons *icons, const fg__palette *palette,
                            const double range[2]);
-/* Adds the spines of the icons that have one, and their centres. MEMORY. */
+/* Adds the centres of the icons that have a spine, and when `spines` the spines. MEMORY.
+ */
 fg_status fg__scene_add_skeletons(fg__scene *scene, fg_context *context,
                                   const fg__page *page, const fg_field_arrays *field,
-                                  const fg_icons *icons);
+                                  const fg_icons *icons, bool spines);
 void fg__scene_clear(fg__scene *scene);
 
 #endif

@@ -92,8 +92,10 @@ static bool few_clusters(const fg_step *step, const fg_mesh_info *mesh,
                          const fg__canvas *canvas)
 {
   (void)mesh;
-  const int wanted = canvas->clusters ? canvas->clusters : USUAL_CLUSTERS;
-  return step->clusters && step->clusters <= wanted;
+  const bool timed = canvas->max_time > 0.0;
+  const int wanted = canvas->clusters || timed ? canvas->clusters : USUAL_CLUSTERS;
+  return (timed && step->time >= canvas->max_time) ||
+         (step->clusters && step->clusters <= wanted);
 }
 
 fg_status fg__clusters_paint(float *value, fg_context *context, const fg__canvas *canvas)

@@ -62,6 +62,9 @@ static fg_status check_options(fg_context *context, const fg_texture_options *o)
                     least_length, most_length);
   if (o->clusters < 0)
     return fg__fail(context, FG_STATUS_ARGUMENT, "texture: %d clusters", o->clusters);
+  if (!(o->max_time >= 0.0))
+    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: clusters at t = %g",
+                    o->max_time);
   if (o->threads < 0)
     return fg__fail(context, FG_STATUS_ARGUMENT, "texture: %d threads", o->threads);
   return FG_STATUS_OK;
@@ -124,6 +127,7 @@ static fg_status make(fg_texture *texture, fg_context *context, const fg_field *
   fg__canvas canvas = {.field = field,
                        .seed = o->seed ? o->seed : 1,
                        .clusters = o->clusters,
+                       .max_time = o->max_time,
                        .evolution = o->evolution,
                        .density = o->density};
   int size[2];

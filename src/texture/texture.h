@@ -11,6 +11,7 @@ typedef struct fg__canvas {
   fg__raster raster;
   double length;                         /* of streaks */
   int clusters;                          /* at most; 0: the usual number */
+  double max_time;                       /* no later than about here; 0: no matter */
   const fg_evolution_options *evolution; /* of the clusters; NULL: defaults */
   const fg_density *density;             /* of the clusters to show; NULL: evolve them */
   uint64_t seed;

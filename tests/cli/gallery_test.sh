@@ -11,6 +11,10 @@ shown=$(grep -o 'src="[^"]*"' all/index.html | sed 's/src="//; s/"//' | sort -u)
 for picture in $shown; do
   expect_file "all/$picture"
 done
+for number in {1..13}; do
+  grep -Eq "<h2[^>]*>Figures? ($number|[0-9]+ and $number|$number and [0-9]+)\\. " all/index.html ||
+    fault "figure $number of the paper is missing"
+done
 ! grep -q "$work" all/index.html || fault "the page names a folder of this machine"
 done_with "all figures are made and shown"
 
@@ -38,6 +42,18 @@ for picture in $(grep -o 'src="[^"]*png"' all/index.html | sed 's/src="//; s/"//
   cmp -s "all/$picture" "again/$picture" || fault "$picture differs"
 done
 done_with "the commands that the page names make the same pictures"
+
+try gallery -o six --quiet --figure 6
+expect_code 0
+grep -q '<h2[^>]*>Figures 5 and 6' six/index.html || fault "figure 6 is not in the page"
+for picture in $(grep -o 'src="[^"]*"' six/index.html | sed 's/src="//; s/"//'); do
+  expect_file "six/$picture"
+done
+cmp -s six/fig-06/clusters/scale-00.geojson six/fig-06/arrows/scale-00.geojson ||
+  fault "clusters and arrows of different moments"
+rows=$(grep -c '<div class="row' six/index.html)
+[ "$rows" = 2 ] || fault "$rows rows of pictures instead of 2"
+done_with "figures that the paper has apart are made together"
 
 try gallery -o none --figure 5000
 expect_code 2

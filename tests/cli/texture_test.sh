@@ -21,6 +21,20 @@ for kind in lic spots clusters stripes diffusion; do
   done_with "texture: $kind"
 done
 
+# a scale's moment by its clusters, and by the time that run.json has for it
+try run synth:benard -o timed --nodes 101 --clusters 20 --formats svg --quiet
+expect_code 0
+moment=$(sed -n '/"scales"/,$s/^.*"time":[[:space:]]*\([0-9.e-]*\).*$/\1/p' timed/run.json | head -n 1)
+try texture synth:benard -o counted.png --kind clusters --pixels 200 --nodes 101 --clusters 20
+expect_code 0
+try texture synth:benard -o timed.png --kind clusters --pixels 200 --nodes 101 --max-time "$moment"
+expect_code 0
+cmp -s counted.png timed.png || fault "other clusters at t = $moment"
+try texture synth:benard -o early.png --kind clusters --pixels 200 --nodes 101 --max-time 1e-3
+expect_code 0
+cmp -s early.png timed.png && fault "the same clusters at t = 1e-3 and $moment"
+done_with "texture: clusters at a time"
+
 try texture "$root/data/gfs_20140131.nc" -o wind.png --pixels 300 --palette deep
 expect_code 0
 [ "$(png_size wind.png)" = "300 150" ] || fault "size $(png_size wind.png)"
