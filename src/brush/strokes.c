@@ -14,8 +14,15 @@ static const double default_anisotropy = 0.15;
 static const double first_widening = 1.9, last_widening = 1.5;
 enum { FIRST_PASSES = 4, PASSES = 3 };
 
+/* A layer alone is that far from the first to the last: strokes as broad as they can be
+ * while faces keep their features; by eye. */
+static const double lone_share = 0.35;
+
 /* Pixels a side of a touch of colour under the strokes. */
 enum { TOUCH = 4 };
+/* How far it reaches either way, and how far it may lie beside the block that it covers,
+ * in such sides. */
+static const double touch_reach = 1.8, touch_shift = 0.25;
 
 /* Distances in RGB: of the image under one stroke of the first and of the last layer, and
  * between image and painting below which a later stroke is left out. */
@@ -158,7 +165,7 @@ static fg_status paint_pass(work *w, const fg__structure *structure,
                             const fg__layer_plan *plan, int layer)
 {
   int last = w->options.cluster_count - 1, count;
-  double share = last > 0 ? (double)layer / last : 1.0;
+  double share = last > 0 ? (double)layer / last : lone_share;
   fg__line_rule rule = {
       .widening = first_widening + share * (last_widening - first_widening),
       .tolerance = first_tolerance + share * (last_tolerance - first_tolerance)};
@@ -207,23 +214,56 @@ static bool block_is_bare(const work *w, int left, int top)
   return false;
 }
 
+/* The direction of the level sets at a place, y downwards. */
+static void along_level_set(double out[2], const work *w, const fg__structure *structure,
+                            const double at[2])
+{
+  double tensor[6];
+  const fg_energy_place place = {.position = {at[0], w->image->height - at[1]}};
+  fg__structure_tensor(tensor, &place, structure);
+  double angle = 0.5 * atan2(2.0 * tensor[1], tensor[0] - tensor[2]);
+  out[0] = cos(angle);
+  out[1] = -sin(angle);
+}
+
+/* A touch along the level set through a block's middle, a little beside it, so that no
+ * rows are seen. */
+static void place_touch(fg__line *line, const work *w, const fg__structure *structure,
+                        int left, int top)
+{
+  uint64_t hash =
+      fg__mix(w->options.seed ^ fg__mix((uint64_t)left << 32 | (uint64_t)top));
+  const double beside = touch_shift * TOUCH * ((double)(hash >> 32) / 2147483648.0 - 1.0);
+  double at[2] = {left + 0.5 * TOUCH, top + 0.5 * TOUCH}, along[2];
+  fg__canvas_color(line->color, &w->original, at);
+  along_level_set(along, w, structure, at);
+  line->count = 2;
+  line->width = 2.0 * TOUCH;
+  for (int n = 0; n < 2; ++n) {
+    double arc = (n ? touch_reach : -touch_reach) * TOUCH;
+    line->point[n][0] = at[0] + arc * along[0] - beside * along[1];
+    line->point[n][1] = at[1] + arc * along[1] + beside * along[0];
+  }
+}
+
 /* Touches of colour, to be painted first, where strokes may leave the canvas bare. */
 static fg_status touch_up(work *w)
 {
+  const fg__layer_plan plan = {.clusters = w->clusters[w->options.cluster_count - 1],
+                               .anisotropy = w->options.anisotropy};
+  fg__structure structure = {0};
   fg_status status = fg__canvas_of_image(&w->original, w->context, w->image, 0.5 * TOUCH);
+  if (!status)
+    status = fg__layer_structure(&structure, w->context, w->image, &plan);
   for (int j = 0; j < w->image->height && !status; j += TOUCH)
     for (int i = 0; i < w->image->width && !status; i += TOUCH) {
       if (!block_is_bare(w, i, j))
         continue;
-      fg__line line = {.count = 2, .width = 2.0 * TOUCH};
-      for (int n = 0; n < 2; ++n) {
-        line.point[n][0] = i + TOUCH * (n ? 1.4 : -0.4);
-        line.point[n][1] = j + 0.5 * TOUCH;
-      }
-      double middle[2] = {i + 0.5 * TOUCH, j + 0.5 * TOUCH};
-      fg__canvas_color(line.color, &w->original, middle);
+      fg__line line;
+      place_touch(&line, w, &structure, i, j);
       status = add_stroke(w, &line, 0);
     }
+  fg__structure_clear(&structure);
   fg__canvas_clear(&w->original);
   return status;
 }
