@@ -58,9 +58,6 @@ static cell_box box_of(const fg__cell_set *set, size_t cell)
   return box;
 }
 
-/* ---- the raster
- * ----------------------------------------------------------------------------- */
-
 static fg_status find_box(cell_box *out, const fg__cell_set *set)
 {
   *out = empty_box();
@@ -192,9 +189,6 @@ fg_status fg__cell_set_choose_raster(fg__cell_set *set)
     set->origin[set->flat] = 0.5 * (box.low[set->flat] + box.high[set->flat]);
   return FG_STATUS_OK;
 }
-
-/* ---- its samples
- * ---------------------------------------------------------------------------- */
 
 /* Samples that a cell's box, made larger by the tolerance, holds: [first, end). */
 static bool samples_in(int first[3], int end[3], const fg__cell_set *set,

@@ -219,9 +219,6 @@ static void slopes_are_those_of_weights(void **state)
   }
 }
 
-/* ---- meshes
- * ------------------------------------------------------------------------------ */
-
 enum { N = 5, NODES = N * N * N };
 
 /* Points of a box whose inner ones are moved, so that cells are warped and yet fill it.
@@ -373,9 +370,6 @@ static void a_layer_is_the_plane_in_its_middle(void **state)
   free(value);
   fg__cell_set_clear(&set);
 }
-
-/* ---- what cannot be, and what does no harm
- * ------------------------------------------------------ */
 
 static void refuse(fg__cell_set *set, fg_status status, const char *words)
 {

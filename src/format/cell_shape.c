@@ -21,9 +21,6 @@ int fg__cell_corners(fg__cell_shape shape)
   return SHAPES[shape].corners;
 }
 
-/* ---- weights
- * ------------------------------------------------------------------------------ */
-
 /* A factor of a weight, 1 - x or x, and its slope. */
 static double factor(double x, int end)
 {
@@ -132,9 +129,6 @@ double fg__cell_excess(fg__cell_shape shape, const double at[3])
     excess = fmax(excess, at[0] + at[1] - 1.0);
   return excess;
 }
-
-/* ---- the inverse
- * ------------------------------------------------------------------------------ */
 
 /* Solves matrix * x = right by Cramer's rule; false when the matrix is singular. Two
  * dimensions are three with a last one that is untouched. */

@@ -31,9 +31,6 @@ static void assert_numbers(const float *found, const double *expected, size_t co
 /* 3 x 2 points */
 #define SIX "1 10 0 2 20 0 3 30 0\n4 40 0 5 50 0 6 60 0"
 
-/* ---- planes and places
- * ------------------------------------------------------------------------ */
-
 static void cells_are_averaged_onto_the_points(void **state)
 {
   /* 2 x 2 cells: a corner has one cell, an edge two, the middle all four */
@@ -151,9 +148,6 @@ static void pieces_make_the_same_field_as_the_whole(void **state)
   }
 }
 
-/* ---- which vectors
- * ---------------------------------------------------------------------------- */
-
 static void assert_chosen(fg_context *context, const char *data, const char *vars,
                           const char *u_name, float first)
 {
@@ -254,10 +248,6 @@ static void only_one_moment_is_there(void **state)
   fg_field_destroy(field);
 }
 
-/* ---- words
- * -------------------------------------------------------------------------------------
- */
-
 static void words_are_taken_from_the_file(void **state)
 {
   static const char file[] =
@@ -278,10 +268,6 @@ static void words_are_taken_from_the_file(void **state)
   assert_true(a->scale == FG_SCALE_PLAIN);
   fg_field_destroy(field);
 }
-
-/* ---- masks
- * --------------------------------------------------------------------------------------
- */
 
 /* 4 x 3 points of something */
 #define TWELVE "1 2 1 2 1 2 1 2\n1 2 1 2 1 2 1 2\n1 2 1 2 1 2 1 2"
@@ -350,10 +336,6 @@ static void a_mask_is_zero_outside(void **state)
                    FG_STATUS_ARGUMENT);
   assert_non_null(strstr(fg_context_hint(*state), "U"));
 }
-
-/* ---- inventory
- * --------------------------------------------------------------------------------------
- */
 
 static fg_inventory *inventory_of(fg_context *context, const char *words)
 {

@@ -67,13 +67,8 @@ static void wrong_markup_is_refused(void **state)
       {"7 1 7", "7 1e99 7", FG_STATUS_FILE_FORMAT, "infinite"},
       {"7 1 7", "7 &x; 7", FG_STATUS_FILE_FORMAT, "not XML"},
   };
-  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-    char file[EXAMPLE_FILE_BYTES];
-    fg_field *field = NULL;
-    example_changed(file, GOOD, &cases[i]);
-    fg_status status = example_read_words(&field, *state, file, NULL);
-    assert_as_said(&cases[i], status, *state, field);
-  }
+  example_try_changes(*state, &fg__format_vti, GOOD, cases,
+                      sizeof cases / sizeof cases[0]);
 }
 
 static void lines_are_refused(void **state)

@@ -7,9 +7,6 @@
 #include "base/memory.h"
 #include "format/vtk.h"
 
-/* ---- types of cells
- * ------------------------------------------------------------------------ */
-
 /* vtkCellType.h */
 typedef struct cell_type {
   int number;
@@ -77,9 +74,6 @@ static fg_status fail_type(const fg__vtk *vtk, double type, size_t cell)
   fg__hint(vtk->context, "%s", FG__VTK_RESAMPLE);
   return FG_STATUS_UNSUPPORTED;
 }
-
-/* ---- of an unstructured grid
- * --------------------------------------------------------------- */
 
 /* Which numbers are the corners of the cells, one after the other. */
 typedef struct topology {
@@ -197,9 +191,6 @@ static fg_status read_listed(fg__vtk *vtk, const fg__vtk_piece *piece,
   return status;
 }
 
-/* ---- of a curvilinear grid
- * ----------------------------------------------------------------- */
-
 static fg_status add_implied(fg__vtk *vtk, const fg__vtk_piece *piece,
                              const fg__cell_points *points)
 {
@@ -277,9 +268,6 @@ static fg_status find_axes(bool *found, fg__vtk *vtk)
   }
   return FG_STATUS_OK;
 }
-
-/* ---- both
- * ------------------------------------------------------------------------------- */
 
 static fg_status count_points(fg__vtk *vtk)
 {

@@ -175,9 +175,6 @@ fg_status fg__vtk_vectors(fg__vtk_vector **out, size_t *count, const fg__vtk *vt
   return list_vectors(out, count, vtk, 0);
 }
 
-/* ---- by the user's word
- * ---------------------------------------------------------------- */
-
 static const fg__vtk_array *find_anywhere(const fg__vtk *vtk, const char *name)
 {
   const fg__vtk_array *array = fg__vtk_find(vtk, 0, FG__VTK_POINTS, name);
@@ -258,9 +255,6 @@ static fg_status choose_named(fg__vtk_vector *out, char **names_storage,
     return fg__fail_memory(vtk->context, "names of variables", strlen(vars) + 1);
   return choose_scalars(out, vtk, *names_storage);
 }
-
-/* ---- by themselves
- * ---------------------------------------------------------------------- */
 
 static void describe(char *text, size_t size, const fg__vtk_vector *vector)
 {

@@ -39,9 +39,6 @@ static void decode_name(char *name)
   *out = '\0';
 }
 
-/* ---- arrays
- * ------------------------------------------------------------------------------ */
-
 /* Adds an array and takes its numbers, from the next line on. */
 static fg_status add_array(legacy_file *file, fg__vtk_array **out, char *name,
                            const char *type, int components, size_t tuples)
@@ -197,9 +194,6 @@ static fg_status read_field_block(legacy_file *file)
   return status;
 }
 
-/* ---- the grid
- * ------------------------------------------------------------------------------ */
-
 static fg_status read_dimensions(legacy_file *file)
 {
   fg__vtk *vtk = file->vtk;
@@ -337,9 +331,6 @@ static fg_status begin_piece(legacy_file *file)
   return FG_STATUS_OK;
 }
 
-/* ---- sections
- * ------------------------------------------------------------------------------ */
-
 /* POINT_DATA or CELL_DATA and how many there are. */
 static fg_status begin_section(legacy_file *file, fg__vtk_place place)
 {
@@ -471,9 +462,6 @@ fg_status fg__vtk_open_legacy(fg__vtk *out, fg_context *context, const fg__sourc
   fg_status status = read_header(&file);
   return status == FG_STATUS_OK ? read_sections(&file) : status;
 }
-
-/* ---- the seam
- * ---------------------------------------------------------------------------- */
 
 static bool is_mine(const unsigned char *bytes, size_t size)
 {

@@ -1,53 +1,20 @@
 #include <math.h>
 
-#include "format/vti_example.h"
+#include "format/vtk_legacy_example.h"
 
 enum { NX = 4, NY = 3, NZ = 3, COUNT = NX * NY * NZ };
 
 static fg_status read_bytes(fg_field **out, fg_context *context, const void *bytes,
                             size_t size, const fg_read_options *options)
 {
-  static const fg_read_options none = {0};
-  unsigned char *copy = malloc(size + !size); /* its end is where the sanitizer watches */
-  assert_non_null(copy);
-  memcpy(copy, bytes, size);
-  fg__source source = {.path = "example.vtk", .bytes = copy, .size = size};
-  fg_context_clear(context);
-  *out = NULL;
-  options = options ? options : &none;
-  fg_status status =
-      fg__format_vtk_legacy.read(out, context, &source, options, (fg__dealt){0, 1});
-  assert_parts_alike(&fg__format_vtk_legacy, &source, options, *out);
-  free(copy);
-  return status;
+  return example_read_as(out, context, &fg__format_vtk_legacy, bytes, size, options);
 }
 
 static fg_field *field_of(fg_context *context, const example_text *file,
                           const fg_read_options *options)
 {
-  fg_field *field = NULL;
-  fg_status status = read_bytes(&field, context, file->bytes, file->size, options);
-  if (status != FG_STATUS_OK)
-    print_error("%s\n", fg_context_message(context));
-  assert_int_equal(status, FG_STATUS_OK);
-  return field;
-}
-
-/* `count` numbers of a type as text or big-endian bytes, then a new line. */
-static void add_numbers(example_text *file, bool binary, int type, const double *numbers,
-                        size_t count)
-{
-  for (size_t i = 0; i < count; ++i) {
-    unsigned char bytes[8];
-    char word[40];
-    if (binary) {
-      example_bytes(file, bytes, example_number(bytes, numbers[i], type, true));
-      continue;
-    }
-    snprintf(word, sizeof word, "%.17g%s", numbers[i], i % 9 == 8 ? "\n" : " ");
-    example_words(file, word);
-  }
-  example_words(file, "\n");
+  return example_field_as(context, &fg__format_vtk_legacy, file->bytes, file->size,
+                          options);
 }
 
 static double sample(int n, int component)
@@ -61,7 +28,7 @@ static void add_vectors(example_text *file, bool binary, int type)
   for (int n = 0; n < COUNT; ++n)
     for (int c = 0; c < 3; ++c)
       numbers[3 * n + c] = sample(n, c);
-  add_numbers(file, binary, type, numbers, 3 * COUNT);
+  example_legacy_numbers(file, binary, type, numbers, 3 * COUNT);
 }
 
 static void begin(example_text *file, bool binary, const char *dataset)
@@ -79,33 +46,33 @@ static example_text image(bool binary)
   for (int n = 0; n < 9 * COUNT; ++n)
     ramp[n] = n % 100;
   begin(&file, binary, "DATASET STRUCTURED_POINTS\nFIELD FieldData 2\nTIME 1 1 double\n");
-  add_numbers(&file, binary, EXAMPLE_FLOAT64, (const double[]){2.5}, 1);
+  example_legacy_numbers(&file, binary, EXAMPLE_FLOAT64, (const double[]){2.5}, 1);
   example_words(&file, "chars 4 1 char\n");
-  add_numbers(&file, binary, 0, four, 4);
+  example_legacy_numbers(&file, binary, 0, four, 4);
   example_words(&file, "ORIGIN 1 2 -3\ndimensions 4 3 3\nAspect_Ratio 0.5 2 1e1\n");
   example_words(&file, "CELL_DATA 12\nSCALARS cells%20here int\nLOOKUP_TABLE default\n");
-  add_numbers(&file, binary, 4, ramp, 12);
+  example_legacy_numbers(&file, binary, 4, ramp, 12);
   example_words(&file, "METADATA\nINFORMATION 1\nNAME X LOCATION Y\nDATA VECTORS 3\n\n");
   example_words(&file, "POINT_DATA 36\nSCALARS three unsigned_short 3\n");
   example_words(&file, "LOOKUP_TABLE mine\n");
-  add_numbers(&file, binary, 3, ramp, 3 * COUNT);
+  example_legacy_numbers(&file, binary, 3, ramp, 3 * COUNT);
   example_words(&file, "LOOKUP_TABLE mine 2\n");
-  add_numbers(&file, binary, binary ? 1 : EXAMPLE_FLOAT64, ramp, 8);
+  example_legacy_numbers(&file, binary, binary ? 1 : EXAMPLE_FLOAT64, ramp, 8);
   example_words(&file, "COLOR_SCALARS colour 4\n");
-  add_numbers(&file, binary, binary ? 1 : EXAMPLE_FLOAT64, ramp, 4 * COUNT);
+  example_legacy_numbers(&file, binary, binary ? 1 : EXAMPLE_FLOAT64, ramp, 4 * COUNT);
   example_words(&file, "NORMALS n float\n");
-  add_numbers(&file, binary, EXAMPLE_FLOAT64 - 1, ramp, 3 * COUNT);
+  example_legacy_numbers(&file, binary, EXAMPLE_FLOAT64 - 1, ramp, 3 * COUNT);
   example_words(&file, "TEXTURE_COORDINATES t 2 double\n");
-  add_numbers(&file, binary, EXAMPLE_FLOAT64, ramp, 2 * COUNT);
+  example_legacy_numbers(&file, binary, EXAMPLE_FLOAT64, ramp, 2 * COUNT);
   example_words(&file, "TENSORS stress float\n");
-  add_numbers(&file, binary, EXAMPLE_FLOAT64 - 1, ramp, 9 * COUNT);
+  example_legacy_numbers(&file, binary, EXAMPLE_FLOAT64 - 1, ramp, 9 * COUNT);
   example_words(&file, "SCALARS old long\n"); /* without a table */
-  add_numbers(&file, binary, 6, ramp, COUNT);
+  example_legacy_numbers(&file, binary, 6, ramp, COUNT);
   example_words(&file, "SCALARS bits bit\nLOOKUP_TABLE default\n");
   if (binary)
-    add_numbers(&file, binary, 1, ramp, 5); /* 36 bits */
+    example_legacy_numbers(&file, binary, 1, ramp, 5); /* 36 bits */
   else
-    add_numbers(&file, binary, 1, ramp, COUNT);
+    example_legacy_numbers(&file, binary, 1, ramp, COUNT);
   example_words(&file, "FIELD more 2\nnames 1 2 string\n");
   example_words(&file, binary ? "\xC5"
                                 "ab cd"
@@ -166,11 +133,12 @@ static example_text grid(bool binary)
   example_text file = {0};
   begin(&file, binary, "DATASET RECTILINEAR_GRID\nDIMENSIONS 4 3 3\n");
   example_words(&file, "X_COORDINATES 4 float\n");
-  add_numbers(&file, binary, EXAMPLE_FLOAT64 - 1, (double[]){-1.5, 0.0, 0.25, 8.0}, 4);
+  example_legacy_numbers(&file, binary, EXAMPLE_FLOAT64 - 1,
+                         (double[]){-1.5, 0.0, 0.25, 8.0}, 4);
   example_words(&file, "Y_COORDINATES 3 int\n");
-  add_numbers(&file, binary, 4, (double[]){1.0, 5.0, 6.0}, 3);
+  example_legacy_numbers(&file, binary, 4, (double[]){1.0, 5.0, 6.0}, 3);
   example_words(&file, "Z_COORDINATES 3 double\n");
-  add_numbers(&file, binary, EXAMPLE_FLOAT64, (double[]){0.1, 0.2, 0.4}, 3);
+  example_legacy_numbers(&file, binary, EXAMPLE_FLOAT64, (double[]){0.1, 0.2, 0.4}, 3);
   example_words(&file, "POINT_DATA 36\r\nVECTORS flow float\n");
   add_vectors(&file, binary, EXAMPLE_FLOAT64 - 1);
   return file;
@@ -271,14 +239,8 @@ static void wrong_words_are_refused(void **state)
       {"5 0 0", "5 O 0", FG_STATUS_FILE_FORMAT, "13 found, then \"O\""},
       {"5 0 0 6 0 0\n", "5 0 0 6 0", FG_STATUS_FILE_FORMAT, "18 numbers promised"},
   };
-  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-    char file[EXAMPLE_FILE_BYTES];
-    fg_field *field = NULL;
-    example_changed(file, GOOD, &cases[i]);
-    fg_status status = read_bytes(&field, *state, file, strlen(file), NULL);
-    assert_as_said(&cases[i], status, *state, field);
-    fg_field_destroy(field);
-  }
+  example_try_changes(*state, &fg__format_vtk_legacy, GOOD, cases,
+                      sizeof cases / sizeof cases[0]);
 }
 
 static void assert_one_line(const fg_context *context)

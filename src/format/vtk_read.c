@@ -18,9 +18,6 @@ enum {
 
 static const char LETTERS[] = "xyz";
 
-/* ---- the seam
- * ---------------------------------------------------------------------------- */
-
 static bool is_mine(const unsigned char *bytes, size_t size)
 {
   static const char mark[] = "<VTKFile";
@@ -36,9 +33,6 @@ static bool is_mine(const unsigned char *bytes, size_t size)
       return true;
   return false;
 }
-
-/* ---- words
- * -------------------------------------------------------------------------------- */
 
 /* The moment that FieldData tells in TimeValue, as "t = 2.5"; *out stays NULL without. */
 static fg_status read_time(char **out, const fg__vtk *vtk)
@@ -73,9 +67,6 @@ static void name_component(char name[NAME_BYTES], const fg__vtk_vector *vector, 
   else
     snprintf(name, NAME_BYTES, "%.200s_%c", vector->name[0], LETTERS[axis]);
 }
-
-/* ---- reading
- * ------------------------------------------------------------------------------ */
 
 static fg_status check_options(fg_context *context, const fg__source *source,
                                const fg_read_options *options)
@@ -194,9 +185,6 @@ static fg_status read_xml(fg_field **out, fg_context *context, const fg__source 
 {
   return fg__vtk_read(out, context, source, options, dealt, fg__vtk_open_xml);
 }
-
-/* ---- inventory
- * ------------------------------------------------------------------------------ */
 
 static fg_status count_missing(double *share, const fg__vtk *vtk,
                                const fg__vtk_grid *grid, const fg__vtk_vector *vector)

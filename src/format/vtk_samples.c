@@ -68,9 +68,6 @@ fg_status fg__vtk_grid_find(fg__vtk_grid *out, const fg__vtk *vtk)
   return FG_STATUS_OK;
 }
 
-/* ---- what numbers mean
- * -------------------------------------------------------------------- */
-
 static float as_velocity(double number)
 {
   return (float)number;
@@ -129,9 +126,6 @@ static fg_status refuse_infinite(const fg__vtk_view *v, const fg__vtk_gathering 
             v->vtk->path, wanted->name, cells ? i : fg__vtk_place_in_whole(v, i), all);
   return FG_STATUS_OK;
 }
-
-/* ---- bringing samples onto the grid's points
- * -------------------------------------------- */
 
 /* Mean over the layers of the flat axis, or all as it is in a volume; a NaN in one makes
  * the mean one. */
@@ -292,9 +286,6 @@ static fg_status read_onto_points(float *out[], const fg__vtk *vtk,
   return status;
 }
 
-/* ---- what is missing
- * ---------------------------------------------------------------------- */
-
 static fg_status apply_marks(float *velocity[3], const fg__vtk *vtk,
                              const fg__vtk_grid *grid, fg__vtk_gathering *wanted)
 {
@@ -356,9 +347,6 @@ static fg_status apply_mask(float *velocity[3], const fg__vtk *vtk,
                                                              : as_scalar_mask};
   return apply_marks(velocity, vtk, grid, &wanted);
 }
-
-/* ---- the vector
- * ----------------------------------------------------------------------------- */
 
 /* Which component lies along the grid's axis k: of three, the axis' own; two are meant
  * along a plane. */

@@ -89,9 +89,6 @@ static bool read_header(byte_stream *stream, const fg__vtk *vtk, uint64_t *numbe
   return true;
 }
 
-/* ---- what an array promises
- * ------------------------------------------------------------ */
-
 /* Where a binary array's bytes are. Uncompressed is one block stored as it is. */
 typedef struct block_layout {
   byte_stream sizes; /* at the compressed size of the first block */
@@ -280,9 +277,6 @@ fg_status fg__vtk_values_check(const fg__vtk *vtk, const fg__vtk_array *array,
   *stored = (size_t)layout.stored;
   return status;
 }
-
-/* ---- decoding
- * --------------------------------------------------------------------------- */
 
 /* Bytes of an array: those that are wanted, and all there are. */
 typedef struct byte_range {

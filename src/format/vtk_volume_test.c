@@ -59,11 +59,8 @@ static example_text volume(const example_encoding *encoding, bool cells, const c
 static fg_field *field_of(fg_context *context, example_text *file,
                           const fg_read_options *options)
 {
-  fg_field *field = NULL;
-  fg_status status = example_read(&field, context, file->bytes, file->size, options);
-  if (status != FG_STATUS_OK)
-    print_error("%s\n", fg_context_message(context));
-  assert_int_equal(status, FG_STATUS_OK);
+  fg_field *field =
+      example_field_as(context, &fg__format_vti, file->bytes, file->size, options);
   example_free(file);
   return field;
 }
@@ -257,9 +254,6 @@ static void an_inventory_tells_of_a_volume(void **state)
   fg_inventory_destroy(inventory);
   example_free(&file);
 }
-
-/* ---- rectilinear grids
- * --------------------------------------------------------------------- */
 
 static void rectilinear(char file[EXAMPLE_FILE_BYTES], const char *extent,
                         const char *pieces)

@@ -4,8 +4,6 @@
 
 #include <string.h>
 
-/* ---- shapes: signed depths */
-
 static const double DISC[3][3] = {{-3, 11, 2.1}, {4.5, 27, 3.2}, {19, 17, 1.4}};
 
 static double discs(double x, double y)
@@ -56,8 +54,6 @@ static int node_at(double x, double y)
   int j = (int)lround((y - SHAPE_ORIGIN[1]) / SHAPE_SPACING);
   return j * SHAPE_NODES_X + i;
 }
-
-/* ---- tests */
 
 /* First order fast marching from a disc is late by about 0.4 spacings at 15 spacings. */
 static void every_place_belongs_to_the_nearest_disc(void **state)
