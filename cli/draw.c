@@ -8,7 +8,7 @@
 
 #include "background.h"
 #include "drawing.h"
-#include "json_report.h"
+#include "past_run.h"
 #include "rehearse.h"
 
 static bool ends_with(const char *text, const char *end)

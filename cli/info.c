@@ -3,10 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "program.h"
+#include "options.h"
 #include "rehearse.h"
-
-static const char *const scale_words[] = {"auto", "geo", "map", "plain"};
 
 static int name_count(const fg_inventory_vector *vector)
 {

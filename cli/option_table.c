@@ -4,10 +4,10 @@
 
 #define AT(member) offsetof(cli_settings, member)
 
-static const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
+const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
 static const char *const mesh_words[] = {"auto", "uniform", NULL};
 const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
-static const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
+const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
 static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete",
                                            "top-down", "streamlines", NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
@@ -15,7 +15,7 @@ static const char *const kind_words[] = {"lic",     "spots",     "clusters",
                                          "stripes", "diffusion", NULL};
 static const char *const background_words[] = {
     "none", "lic", "spots", "clusters", "stripes", "diffusion", NULL};
-static const char *const extent_words[] = {"cluster", "territory", NULL};
+const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
   EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL |

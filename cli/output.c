@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "folder.h"
-#include "json_report.h"
+#include "past_run.h"
 
 #define WORK_NAME ".flowgrain"
 #define LOCK_NAME "lock"

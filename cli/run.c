@@ -11,6 +11,7 @@
 #include "input.h"
 #include "interrupt.h"
 #include "moment.h"
+#include "past_run.h"
 #include "ranks.h"
 #include "traffic.h"
 

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "skeleton/border.h"
 #include "skeleton/heap.h"
+#include "skeleton/upwind.h"
 
 /* Fast marching: J. A. Sethian, "A fast marching level set method for monotonically
  * advancing fronts", PNAS 93 (1996); the stencil with second order one-sided differences:
@@ -21,12 +22,6 @@ typedef struct march {
   unsigned char *state; /* of the nodes */
   fg__heap heap;
 } march;
-
-/* Upwind side of one axis: a term weight (T - value)^2 of |grad T|^2. */
-typedef struct upwind {
-  double weight, value;
-  double nearest; /* T of the neighbour; the solution must not lie below it */
-} upwind;
 
 /* The node `step` nodes on along an axis, or -1 when no active cell leads there or the
  * front has not arrived. */
@@ -47,7 +42,7 @@ static int known_neighbour(const march *front, int x, int y, int axis, int step)
 
 /* Returns false when the front has not reached the node along this axis. */
 static bool look_upwind(const march *front, int x, int y, int axis, bool second_order,
-                        upwind *out)
+                        fg__upwind *out)
 {
   int best = -1;
   int side = 0;
@@ -62,7 +57,7 @@ static bool look_upwind(const march *front, int x, int y, int axis, bool second_
     return false;
   double h = front->window->spacing[axis];
   double near = front->distance[best];
-  *out = (upwind){1.0 / (h * h), near, near};
+  *out = (fg__upwind){1.0 / (h * h), near, near};
   if (!second_order)
     return true;
   int behind = known_neighbour(front, axis == 0 ? x + side : x, axis == 1 ? y + side : y,
@@ -74,40 +69,19 @@ static bool look_upwind(const march *front, int x, int y, int axis, bool second_
   return true;
 }
 
-/* Solves the sum of weight (T - value)^2 = 1 for the later T; false when there is none
- * that is later than the neighbours it was made from. */
-static bool solve(const upwind *term, int terms, double *out)
-{
-  double a = 0.0;
-  double b = 0.0;
-  double c = -1.0;
-  double latest = 0.0;
-  for (int k = 0; k < terms; ++k) {
-    a += term[k].weight;
-    b += term[k].weight * term[k].value;
-    c += term[k].weight * term[k].value * term[k].value;
-    latest = fmax(latest, term[k].nearest);
-  }
-  double discriminant = b * b - a * c;
-  if (!(discriminant >= 0.0))
-    return false;
-  *out = (b + sqrt(discriminant)) / a;
-  return *out >= latest;
-}
-
 static double arrival(const march *front, int x, int y)
 {
   for (int order = 2; order >= 1; --order) {
-    upwind term[2];
+    fg__upwind term[2];
     int terms = 0;
     for (int axis = 0; axis < 2; ++axis)
       terms += look_upwind(front, x, y, axis, order == 2, &term[terms]);
     double value;
-    if (terms > 0 && solve(term, terms, &value))
+    if (terms > 0 && fg__upwind_solve(term, terms, &value))
       return value;
     double best = HUGE_VAL;
     for (int k = 0; order == 1 && k < terms; ++k) {
-      if (solve(&term[k], 1, &value))
+      if (fg__upwind_solve(&term[k], 1, &value))
         best = fmin(best, value);
     }
     if (order == 1)

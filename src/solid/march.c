@@ -6,6 +6,7 @@
 #include "base/context.h"
 #include "base/memory.h"
 #include "skeleton/heap.h"
+#include "skeleton/upwind.h"
 
 enum state { OUTSIDE, FAR, KNOWN };
 
@@ -16,12 +17,6 @@ typedef struct march {
   fg__heap heap;
   ptrdiff_t stride[3];
 } march;
-
-/* Upwind side of one axis: a term weight (T - value)^2 of |grad T|^2. */
-typedef struct upwind {
-  double weight, value;
-  double nearest; /* T of the neighbour; the solution must not lie below it */
-} upwind;
 
 static void place_of(const fg__volume *volume, size_t node, int place[3])
 {
@@ -83,7 +78,7 @@ static bool is_known(const march *front, size_t node, int at, int axis, int step
 
 /* False when the front has not reached the node along this axis. */
 static bool look_upwind(const march *front, size_t node, const int place[3], int axis,
-                        bool second_order, upwind *out)
+                        bool second_order, fg__upwind *out)
 {
   int side = 0;
   double near = HUGE_VAL, h = front->volume->spacing[axis];
@@ -95,7 +90,7 @@ static bool look_upwind(const march *front, size_t node, const int place[3], int
     }
   if (!side)
     return false;
-  *out = (upwind){1.0 / (h * h), near, near};
+  *out = (fg__upwind){1.0 / (h * h), near, near};
   if (second_order && is_known(front, node, place[axis], axis, 2 * side)) {
     double behind = front->distance[(ptrdiff_t)node + 2 * side * front->stride[axis]];
     if (behind < near) { /* equal: both lie on a mask */
@@ -106,29 +101,11 @@ static bool look_upwind(const march *front, size_t node, const int place[3], int
   return true;
 }
 
-/* Solves the sum of weight (T - value)^2 = 1 for the later T; false when there is none
- * that is later than the neighbours it was made from. */
-static bool solve(const upwind *term, int terms, double *out)
-{
-  double a = 0.0, b = 0.0, c = -1.0, latest = 0.0;
-  for (int k = 0; k < terms; ++k) {
-    a += term[k].weight;
-    b += term[k].weight * term[k].value;
-    c += term[k].weight * term[k].value * term[k].value;
-    latest = fmax(latest, term[k].nearest);
-  }
-  double discriminant = b * b - a * c;
-  if (!(discriminant >= 0.0))
-    return false;
-  *out = (b + sqrt(discriminant)) / a;
-  return *out >= latest;
-}
-
-static void sort(upwind *term, int terms)
+static void sort(fg__upwind *term, int terms)
 {
   for (int i = 1; i < terms; ++i)
     for (int j = i; j > 0 && term[j].nearest < term[j - 1].nearest; --j) {
-      upwind swap = term[j];
+      fg__upwind swap = term[j];
       term[j] = term[j - 1];
       term[j - 1] = swap;
     }
@@ -140,14 +117,14 @@ static double arrival(const march *front, size_t node)
   int place[3];
   place_of(front->volume, node, place);
   for (int order = 2; order >= 1; --order) {
-    upwind term[3];
+    fg__upwind term[3];
     int terms = 0;
     for (int axis = 0; axis < 3; ++axis)
       terms += look_upwind(front, node, place, axis, order == 2, &term[terms]);
     sort(term, terms);
     double value;
     for (int used = terms; used > (order == 2 ? terms - 1 : 0) && used > 0; --used)
-      if (solve(term, used, &value))
+      if (fg__upwind_solve(term, used, &value))
         return value;
   }
   return HUGE_VAL;

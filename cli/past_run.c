@@ -1,0 +1,182 @@
+#include "past_run.h"
+
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "folder.h"
+#include "options.h"
+#include "said.h"
+
+char *read_text(const char *path)
+{
+  FILE *stream = fopen(path, "rb");
+  if (!stream) {
+    complain_of_file(path, "cannot be read");
+    return NULL;
+  }
+  char *text = NULL;
+  size_t used = 0, room = 0, got = 0;
+  do {
+    used += got;
+    if (room - used < 4096) {
+      room = room ? 2 * room : 65536;
+      char *larger = realloc(text, room);
+      if (!larger) {
+        complain("%s: out of memory: %zu bytes", path, room);
+        free(text);
+        fclose(stream);
+        return NULL;
+      }
+      text = larger;
+    }
+    got = fread(text + used, 1, room - used - 1, stream);
+  } while (got);
+  text[used] = '\0';
+  if (ferror(stream)) {
+    complain_of_file(path, "cannot be read");
+    free(text);
+    text = NULL;
+  }
+  fclose(stream);
+  return text;
+}
+
+static const char *text_of(const cJSON *object, const char *name)
+{
+  return cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(object, name));
+}
+
+/* A number of run.json within [least, most]; NaN and absent become `otherwise`. */
+static double number_of(const cJSON *object, const char *name, double least, double most,
+                        double otherwise)
+{
+  const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
+  if (!cJSON_IsNumber(item) || !(item->valuedouble >= least) ||
+      !(item->valuedouble <= most))
+    return otherwise;
+  return item->valuedouble;
+}
+
+run_ending report_ending(const char *folder)
+{
+  if (!file_is_there(folder, REPORT_NAME))
+    return ENDING_NONE;
+  char *path = join_path(folder, REPORT_NAME);
+  char *text = path ? read_text(path) : NULL;
+  cJSON *tree = text ? cJSON_Parse(text) : NULL;
+  const char *ended = text_of(tree, "ended");
+  run_ending ending = ENDING_COMPLETE;
+  if (ended && strcmp(ended, "interrupted") == 0)
+    ending = ENDING_INTERRUPTED;
+  if (ended && (strcmp(ended, "time") == 0 || strcmp(ended, "steps") == 0))
+    ending = ENDING_LIMIT;
+  cJSON_Delete(tree);
+  free(text);
+  free(path);
+  return ending;
+}
+
+/* Paths of one file may differ; synth:NAME has no path. */
+static bool same_input(const cJSON *input, const char *operand)
+{
+  char *absolute = realpath(operand, NULL);
+  const char *earlier = text_of(input, "absolute");
+  const char *name = text_of(input, "path");
+  bool same = absolute && earlier ? strcmp(absolute, earlier) == 0
+                                  : name && strcmp(name, operand) == 0;
+  free(absolute);
+  return same;
+}
+
+bool report_is_of(const char *folder, const cli_settings *settings)
+{
+  cli_report report;
+  bool same = !report_read(&report, folder);
+  if (same) {
+    const cJSON *input = cJSON_GetObjectItemCaseSensitive(report.tree, "input");
+    same = same_input(input, settings->operand);
+    if (!same) {
+      complain("%s: holds the results of a run on %s", folder, report.input);
+      advise("Choose another folder with -o, or replace its results with --force.");
+    }
+  }
+  if (same)
+    same =
+        said_the_same(cJSON_GetObjectItemCaseSensitive(report.tree, "options"), settings);
+  report_clear(&report);
+  return same;
+}
+
+static const cJSON *scale_at(const cli_report *report, int index)
+{
+  return cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(report->tree, "scales"),
+                            index);
+}
+
+static void fill_reading(cli_report *out, const cJSON *input)
+{
+  out->reading.vars = text_of(input, "vars");
+  out->reading.vars_from = text_of(input, "vars_from");
+  out->reading.mask = text_of(input, "mask");
+  out->reading.time = (int)number_of(input, "time", 0.0, 1e9, 0.0);
+  out->reading.level = (int)number_of(input, "level", 0.0, 1e9, 0.0);
+  const char *scale = text_of(input, "scale");
+  for (int k = 0; scale && scale_words[k]; ++k)
+    if (strcmp(scale, scale_words[k]) == 0)
+      out->reading.scale = (fg_scale)k;
+  out->input = text_of(input, "path");
+  out->input_absolute = text_of(input, "absolute");
+}
+
+int report_read(cli_report *out, const char *folder)
+{
+  memset(out, 0, sizeof *out);
+  char *path = join_path(folder, REPORT_NAME);
+  char *text = path ? read_text(path) : NULL;
+  int code = EXIT_FAILED;
+  if (!text)
+    goto cleanup;
+  out->tree = cJSON_Parse(text);
+  fill_reading(out, cJSON_GetObjectItemCaseSensitive(out->tree, "input"));
+  const cJSON *mesh = cJSON_GetObjectItemCaseSensitive(out->tree, "mesh");
+  out->dimension = (int)number_of(mesh, "dimension", 2.0, 3.0, 2.0);
+  const cJSON *scales = cJSON_GetObjectItemCaseSensitive(out->tree, "scales");
+  out->scale_count = cJSON_GetArraySize(scales);
+  const cJSON *range = cJSON_GetObjectItemCaseSensitive(out->tree, "speed_range");
+  for (int k = 0; k < 2; ++k) {
+    const cJSON *end = cJSON_GetArrayItem(range, k);
+    out->speeds[k] = cJSON_IsNumber(end) ? end->valuedouble : 0.0;
+  }
+  if (!out->input || out->scale_count < 1)
+    complain("%s: is not the report of a finished run (%s)", path,
+             out->tree ? "it names no input or no scales" : "it is not JSON");
+  else
+    code = EXIT_DONE;
+cleanup:
+  free(text);
+  free(path);
+  return code;
+}
+
+int report_scale_clusters(const cli_report *report, int index)
+{
+  return (int)number_of(scale_at(report, index), "clusters", 0.0, 1e9, 0.0);
+}
+
+const char *report_scale_icons(const cli_report *report, int index)
+{
+  return text_of(scale_at(report, index), "geojson");
+}
+
+double report_scale_time(const cli_report *report, int index)
+{
+  return number_of(scale_at(report, index), "time", 0.0, 1e300, 0.0);
+}
+
+void report_clear(cli_report *report)
+{
+  cJSON_Delete(report->tree);
+  memset(report, 0, sizeof *report);
+}
