@@ -14,19 +14,49 @@ static const double most_density = 3.0;
 /* Share of a pocket's energy by which sums of doubles may be wrong. */
 static const double energy_rounding = 1e-12;
 
+/* Of the nodes' numbers that a row of L K joins. */
+static int bandwidth_of(const fg__pocket *pocket)
+{
+  int width = 0;
+  for (int n = 0; n < pocket->nodes; ++n)
+    for (int k = 0; k < pocket->entries; ++k) {
+      int target = pocket->target[n * pocket->entries + k];
+      int distance = target > n ? target - n : n - target;
+      if (target >= 0 && distance > width)
+        width = distance;
+    }
+  return 2 * width;
+}
+
+/* A band of `width` entries on both sides of the diagonal, which pivots widen to the
+ * right: entry (n, j) is at n * stride + j - n + width. */
 typedef struct room {
-  double *matrix; /* [nodes * nodes] */
-  double *rhs, *residual, *curvature, *kept, *start;
+  int width, stride;
+  double *matrix; /* [nodes * stride] */
+  double *rhs, *curvature, *start;
 } room;
 
-static room room_in(double *space, int nodes)
+enum { VECTORS = 3 };
+
+static room room_in(double *space, const fg__pocket *pocket)
 {
-  room r = {.matrix = space};
-  double *next = space + nodes * nodes;
-  double **const vectors[] = {&r.rhs, &r.residual, &r.curvature, &r.kept, &r.start};
-  for (int n = 0; n < 5; ++n, next += nodes)
-    *vectors[n] = next;
+  room r = {.width = bandwidth_of(pocket), .matrix = space};
+  r.stride = 3 * r.width + 1;
+  r.rhs = space + pocket->nodes * r.stride;
+  r.curvature = r.rhs + pocket->nodes;
+  r.start = r.curvature + pocket->nodes;
   return r;
+}
+
+int fg__pocket_space(const fg__pocket *pocket)
+{
+  return pocket->nodes * (3 * bandwidth_of(pocket) + 1 + VECTORS);
+}
+
+/* So that [j] is the entry in column j. */
+static double *row_of(const room *r, int n)
+{
+  return r->matrix + (n * r->stride + r->width - n);
 }
 
 static double apply(const fg__pocket *pocket, const double *rows, const double *x,
@@ -58,33 +88,18 @@ static double energy_of(const fg__pocket *pocket, const double *u)
   return sum;
 }
 
-/* Of the nodes' numbers that a row of L K joins. */
-static int bandwidth_of(const fg__pocket *pocket)
-{
-  int width = 0;
-  for (int n = 0; n < pocket->nodes; ++n)
-    for (int k = 0; k < pocket->entries; ++k) {
-      int target = pocket->target[n * pocket->entries + k];
-      int distance = target > n ? target - n : n - target;
-      if (target >= 0 && distance > width)
-        width = distance;
-    }
-  return 2 * width;
-}
-
 static int least(int a, int b)
 {
   return a < b ? a : b;
 }
 
-/* 1 + tau L (Psi'' + K), a band that pivots may widen to the right. */
-static void fill_matrix(const fg__pocket *pocket, double tau, int width, const room *r)
+/* 1 + tau L (Psi'' + K). */
+static void fill_matrix(const fg__pocket *pocket, double tau, const room *r)
 {
   int nodes = pocket->nodes, entries = pocket->entries;
+  memset(r->matrix, 0, (size_t)(nodes * r->stride) * sizeof *r->matrix);
   for (int n = 0; n < nodes; ++n) {
-    double *row = r->matrix + n * nodes;
-    int begin = n > width ? n - width : 0, end = least(n + 2 * width + 1, nodes);
-    memset(row + begin, 0, (size_t)(end - begin) * sizeof *row);
+    double *row = row_of(r, n);
     row[n] = 1.0;
     for (int k = 0; k < entries; ++k) {
       int middle = pocket->target[n * entries + k];
@@ -110,34 +125,41 @@ static void swap_rows(double *a, double *b, int count)
   }
 }
 
-/* Gauss with row pivots inside a band; the solution replaces the right-hand side. False:
- * singular. */
-static bool eliminate(const room *r, int nodes, int width)
+static void subtract(double *restrict from, const double *restrict row, double factor,
+                     int count)
+{
+  for (int n = 0; n < count; ++n)
+    from[n] -= factor * row[n];
+}
+
+/* Gauss with row pivots; the solution replaces the right-hand side. False: singular. */
+static bool eliminate(const room *r, int nodes)
 {
   double *x = r->rhs;
   for (int k = 0; k < nodes; ++k) {
-    int last = least(k + width, nodes - 1), pivot = k;
-    int end = least(k + 2 * width + 1, nodes);
+    int last = least(k + r->width, nodes - 1), pivot = k;
+    int end = least(k + 2 * r->width + 1, nodes);
     for (int i = k + 1; i <= last; ++i)
-      if (fabs(r->matrix[i * nodes + k]) > fabs(r->matrix[pivot * nodes + k]))
+      if (fabs(row_of(r, i)[k]) > fabs(row_of(r, pivot)[k]))
         pivot = i;
-    double *row = r->matrix + k * nodes;
+    double *row = row_of(r, k);
     if (pivot != k) {
-      swap_rows(row + k, r->matrix + pivot * nodes + k, end - k);
+      swap_rows(row + k, row_of(r, pivot) + k, end - k);
       swap_rows(x + k, x + pivot, 1);
     }
     if (!(fabs(row[k]) > 0.0))
       return false;
     for (int i = k + 1; i <= last; ++i) {
-      double *below = r->matrix + i * nodes, factor = below[k] / row[k];
-      for (int j = k + 1; j < end; ++j)
-        below[j] -= factor * row[j];
+      double *below = row_of(r, i), factor = below[k] / row[k];
+      if (factor == 0.0)
+        continue;
+      subtract(below + k + 1, row + k + 1, factor, end - k - 1);
       x[i] -= factor * x[k];
     }
   }
   for (int k = nodes - 1; k >= 0; --k) {
-    int end = least(k + 2 * width + 1, nodes);
-    const double *row = r->matrix + k * nodes;
+    int end = least(k + 2 * r->width + 1, nodes);
+    const double *row = row_of(r, k);
     for (int j = k + 1; j < end; ++j)
       x[k] -= row[j] * x[j];
     x[k] /= row[k];
@@ -149,15 +171,15 @@ static bool eliminate(const room *r, int nodes, int width)
 static bool solve(const fg__pocket *pocket, double tau, const double *p, double *u,
                   double *w, const room *r)
 {
-  int nodes = pocket->nodes, width = bandwidth_of(pocket);
+  int nodes = pocket->nodes;
   for (int iteration = 0; iteration < MOST_ITERATIONS; ++iteration) {
     find_potential(pocket, u, w);
     for (int n = 0; n < nodes; ++n) {
       r->rhs[n] = p[n] - u[n] - tau * apply(pocket, pocket->laplacian, w, n);
       r->curvature[n] = 6.0 * u[n] * u[n] - 2.0;
     }
-    fill_matrix(pocket, tau, width, r);
-    if (!eliminate(r, nodes, width))
+    fill_matrix(pocket, tau, r);
+    if (!eliminate(r, nodes))
       return false;
     double largest = 0.0;
     for (int n = 0; n < nodes; ++n) {
@@ -182,7 +204,7 @@ static bool falls(double after, double before)
 void fg__pocket_step(const fg__pocket *pocket, const fg__pocket_task *task, double *u,
                      double *w, double *space)
 {
-  room r = room_in(space, pocket->nodes);
+  room r = room_in(space, pocket);
   size_t size = (size_t)pocket->nodes * sizeof *u;
   double energy = energy_of(pocket, task->before);
   if (solve(pocket, task->effective, task->p, u, w, &r) &&

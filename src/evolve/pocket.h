@@ -1,12 +1,9 @@
 /* One step of a part of the domain that has only a few nodes, solved as it stands: a
- * dense system in double instead of cycles. */
+ * system in double instead of cycles. */
 #ifndef FG__POCKET_H
 #define FG__POCKET_H
 
 #include <stdbool.h>
-
-/* Largest pocket: the matrix is to stay in a core's cache. */
-enum { FG__POCKET_NODES = 128 };
 
 /* The rows of L and K over the node's mass. */
 typedef struct fg__pocket {
@@ -16,8 +13,8 @@ typedef struct fg__pocket {
   const double *mass;               /* [nodes] */
 } fg__pocket;
 
-/* Doubles of working space. */
-enum { FG__POCKET_SPACE = FG__POCKET_NODES * (FG__POCKET_NODES + 6) };
+/* Doubles of working space that a step of it takes. */
+int fg__pocket_space(const fg__pocket *pocket);
 
 /* The system of a step: u + effective L w = p, w = Psi'(u) + K u. */
 typedef struct fg__pocket_task {

@@ -13,16 +13,17 @@
 
 /* An L-shaped room, cells of unequal sides. Node numbers go along x, then y. */
 enum { WIDE = 6, HIGH = 7, ENTRIES = 9, CELLS = WIDE * HIGH };
+enum { MOST = (WIDE + 1) * (HIGH + 1) };
+
+static double space[MOST * (3 * MOST + 10)];
 
 typedef struct room {
-  int nodes, number[(WIDE + 1) * (HIGH + 1)];
-  int target[FG__POCKET_NODES * ENTRIES];
-  double laplacian[FG__POCKET_NODES * ENTRIES], energy[FG__POCKET_NODES * ENTRIES];
-  double mass[FG__POCKET_NODES];
+  int nodes, number[MOST];
+  int target[MOST * ENTRIES];
+  double laplacian[MOST * ENTRIES], energy[MOST * ENTRIES];
+  double mass[MOST];
   fg__pocket pocket;
 } room;
-
-static double space[FG__POCKET_SPACE];
 
 static bool inside(int x, int y)
 {
@@ -51,7 +52,7 @@ static void create(room *r)
           inside(i, j) || inside(i - 1, j) || inside(i, j - 1) || inside(i - 1, j - 1);
       r->number[j * (WIDE + 1) + i] = any ? r->nodes++ : -1;
     }
-  for (int n = 0; n < FG__POCKET_NODES * ENTRIES; ++n)
+  for (int n = 0; n < MOST * ENTRIES; ++n)
     r->target[n] = -1;
   for (int cell = 0; cell < CELLS; ++cell) {
     int x = cell % WIDE, y = cell / WIDE;
@@ -110,7 +111,7 @@ static void a_short_step_solves_both_equations(void **state)
   (void)state;
   static room r;
   create(&r);
-  double before[FG__POCKET_NODES], u[FG__POCKET_NODES], w[FG__POCKET_NODES];
+  double before[MOST], u[MOST], w[MOST];
   fill(&r, 3, before);
   fill(&r, 3, u);
   const double tau = 0.02;
@@ -133,7 +134,7 @@ static void no_step_raises_the_energy_or_changes_the_mass(void **state)
   create(&r);
   for (uint64_t seed = 1; seed <= 20; ++seed)
     for (double tau = 1e-3; tau < 1e7; tau *= 30.0) {
-      double before[FG__POCKET_NODES], u[FG__POCKET_NODES], w[FG__POCKET_NODES];
+      double before[MOST], u[MOST], w[MOST];
       fill(&r, seed, before);
       for (int n = 0; n < r.nodes; ++n)
         u[n] = before[n];
@@ -151,7 +152,7 @@ static void a_pocket_comes_to_rest(void **state)
   static room r;
   create(&r);
   for (uint64_t seed = 1; seed <= 5; ++seed) {
-    double u[FG__POCKET_NODES], w[FG__POCKET_NODES], before[FG__POCKET_NODES];
+    double u[MOST], w[MOST], before[MOST];
     fill(&r, seed, u);
     for (int step = 0; step < 6; ++step) {
       for (int n = 0; n < r.nodes; ++n)

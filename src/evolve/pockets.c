@@ -7,9 +7,11 @@
 #include "evolve/passes.h"
 #include "evolve/pocket.h"
 
-/* Of all pockets: what every rank may hold. Where there are more, only smaller parts are
- * taken. */
-enum { MOST_NODES = 16384 };
+/* A pocket may be so large; all together what every rank may hold, and cost less than
+ * cycles do: the sum of squares of their nodes is at most four times the mesh's nodes
+ * (docs/design/evolution.md). Where that is not enough for all, smaller parts go first.
+ */
+enum { MOST_OF_ONE = 512, MOST_OF_ALL = 16384, MOST_SQUARES = 4 };
 
 /* What ranks tell of a node: first its place, later u, the guess and p. */
 enum { WORDS = 3 };
@@ -31,14 +33,35 @@ typedef struct collection {
   fg__box whole;
   const bool *periodic;
   int boxes;
-  int largest;    /* nodes of a pocket */
   uint64_t *size; /* [parts] nodes */
   place *place;   /* [out->nodes] sorted */
+  int *position;  /* [out->nodes] where each of these is solved */
+  int *at;        /* [out->nodes] which of them is solved where */
 } collection;
 
 static bool is_pocket(const collection *c, int part)
 {
-  return c->size[part] <= (uint64_t)c->largest;
+  return c->size[part] <= (uint64_t)c->out->largest;
+}
+
+/* By the number of parts of each size. */
+static int choose_largest(const collection *c)
+{
+  const int *nodes = c->whole.nodes;
+  double left = (double)MOST_SQUARES * nodes[0] * nodes[1] * nodes[2];
+  int parts[MOST_OF_ONE + 1] = {0}, largest = 0;
+  double all = MOST_OF_ALL;
+  for (int n = 0; n < c->means->count; ++n)
+    if (c->size[n] <= MOST_OF_ONE)
+      ++parts[c->size[n]];
+  for (int n = 1; n <= MOST_OF_ONE; ++n) {
+    all -= (double)n * parts[n];
+    left -= (double)n * n * parts[n];
+    if (all < 0.0 || left < 0.0)
+      break;
+    largest = parts[n] > 0 ? n : largest;
+  }
+  return largest;
 }
 
 static void count_nodes(collection *c)
@@ -47,17 +70,12 @@ static void count_nodes(collection *c)
   for (int n = 0; n < means->run_count; ++n)
     c->size[means->run[n].part] += (uint64_t)means->run[n].nodes;
   fg__ranks_add(c->multigrid->ranks, c->size, means->count);
-  for (c->largest = FG__POCKET_NODES; c->largest > 0; c->largest /= 2) {
-    uint64_t nodes = 0;
-    for (int n = 0; n < means->count; ++n)
-      nodes += is_pocket(c, n) ? c->size[n] : 0;
-    if (nodes <= MOST_NODES) {
-      c->out->nodes = (int)nodes;
-      break;
-    }
-  }
+  c->out->largest = choose_largest(c);
   for (int n = 0; n < means->count; ++n)
-    c->out->count += is_pocket(c, n) && c->largest > 0;
+    if (is_pocket(c, n)) {
+      c->out->nodes += (int)c->size[n];
+      ++c->out->count;
+    }
   for (int n = 0; n < means->run_count; ++n)
     if (is_pocket(c, means->run[n].part))
       c->out->own_count += means->run[n].nodes;
@@ -77,9 +95,8 @@ static fg_status take_arrays(fg__pockets *out, fg_context *context)
   out->word = fg__allocate(WORDS * nodes, sizeof *out->word);
   out->u = fg__allocate(nodes, sizeof *out->u);
   out->w = fg__allocate(nodes, sizeof *out->w);
-  out->space = fg__allocate(FG__POCKET_SPACE + 5 * FG__POCKET_NODES, sizeof *out->space);
   if (out->first && out->target && out->laplacian && out->energy && out->mass &&
-      out->own && out->at && out->word && out->u && out->w && out->space)
+      out->own && out->at && out->word && out->u && out->w)
     return FG_STATUS_OK;
   return fg__fail_memory(context, "small parts of the domain",
                          rows * (sizeof(int) + 2 * sizeof(double)));
@@ -126,8 +143,80 @@ static int find_place(const collection *c, uint32_t part, uint64_t index)
   return found ? (int)(found - c->place) : -1;
 }
 
+/* The node that a neighbour, perhaps beyond the grid, is or stands for. */
+static uint64_t neighbour_of(const collection *c, uint64_t index, int entry)
+{
+  const int *nodes = c->whole.nodes;
+  const bool *periodic = c->periodic;
+  bool solid = c->out->entries == MOST_ENTRIES;
+  uint64_t size[2] = {(uint64_t)nodes[0], (uint64_t)nodes[1]};
+  int node[3] = {(int)(index % size[0]), (int)(index / size[0] % size[1]),
+                 (int)(index / (size[0] * size[1]))};
+  int d[3] = {entry % 3 - 1, entry / 3 % 3 - 1, solid ? entry / 9 - 1 : 0};
+  for (int k = 0; k < 3; ++k) {
+    node[k] += d[k];
+    if (node[k] < 0)
+      node[k] = periodic[k] ? nodes[k] - 1 : 1;
+    else if (node[k] >= nodes[k])
+      node[k] = periodic[k] ? 0 : nodes[k] - 2;
+  }
+  return index_of(c, node);
+}
+
+/* Visits a pocket's nodes, [first, end) of the sorted ones, from one on, neighbours
+ * first, and returns the last; `seen` is 0 for all of them. */
+static int visit(const collection *c, int first, int end, int from, int *order,
+                 char *seen)
+{
+  int entries = c->out->entries, count = 1;
+  order[0] = from;
+  seen[from] = 1;
+  for (int n = 0; n < count; ++n)
+    for (int k = 0; k < entries; ++k) {
+      const place *here = &c->place[order[n]];
+      int found = find_place(c, here->part, neighbour_of(c, here->index, k));
+      if (found < first || found >= end || seen[found])
+        continue;
+      seen[found] = 1;
+      order[count++] = found;
+    }
+  memset(seen + first, 0, (size_t)(end - first));
+  return order[count - 1];
+}
+
+/* Greatest distance of neighbours' positions. */
+static int spread_of(const collection *c, int first, int end)
+{
+  int most = 0;
+  for (int n = first; n < end; ++n)
+    for (int k = 0; k < c->out->entries; ++k) {
+      const place *here = &c->place[n];
+      int found = find_place(c, here->part, neighbour_of(c, here->index, k));
+      int distance = found < 0 ? 0 : abs(c->position[found] - c->position[n]);
+      most = distance > most ? distance : most;
+    }
+  return most;
+}
+
+/* The narrower band of two orders: as nodes are sorted, or along the pocket from one of
+ * its ends, as Cuthill and McKee do. */
+static void order_nodes(collection *c, int first, int end, char *seen)
+{
+  for (int n = first; n < end; ++n)
+    c->position[n] = n;
+  int band = spread_of(c, first, end);
+  int *order = c->at + first, start = visit(c, first, end, first, order, seen);
+  visit(c, first, end, start, order, seen);
+  for (int n = first; n < end; ++n)
+    c->position[c->at[n]] = n;
+  if (spread_of(c, first, end) < band)
+    return;
+  for (int n = first; n < end; ++n)
+    c->position[n] = c->at[n] = n;
+}
+
 /* Tells all ranks of each node; then all sort alike. */
-static void exchange_places(collection *c, uint64_t *before)
+static void exchange_places(collection *c, uint64_t *before, char *seen)
 {
   fg__pockets *out = c->out;
   const fg__ranks *ranks = c->multigrid->ranks;
@@ -166,6 +255,10 @@ static void exchange_places(collection *c, uint64_t *before)
     if (n == 0 || c->place[n].part != c->place[n - 1].part)
       out->first[pocket++] = n;
   out->first[pocket] = out->nodes;
+  for (int n = 0; n < out->count; ++n)
+    order_nodes(c, out->first[n], out->first[n + 1], seen);
+  for (int n = 0; n < out->own_count; ++n)
+    out->own[n] = c->position[out->own[n]];
 }
 
 /* A node's couplings to its neighbours, x fastest. */
@@ -184,26 +277,6 @@ static void read_row(const fg__level *box, const fg__stencil *stencil, const int
     row[middle - step] =
         stencil->to[n][fg__node_at(at, node[0] - d[0], node[1] - d[1], node[2] - d[2])];
   }
-}
-
-/* The node that a neighbour, perhaps beyond the grid, is or stands for. */
-static uint64_t neighbour_of(const collection *c, uint64_t index, int entry)
-{
-  const int *nodes = c->whole.nodes;
-  const bool *periodic = c->periodic;
-  bool solid = c->out->entries == MOST_ENTRIES;
-  uint64_t size[2] = {(uint64_t)nodes[0], (uint64_t)nodes[1]};
-  int node[3] = {(int)(index % size[0]), (int)(index / size[0] % size[1]),
-                 (int)(index / (size[0] * size[1]))};
-  int d[3] = {entry % 3 - 1, entry / 3 % 3 - 1, solid ? entry / 9 - 1 : 0};
-  for (int k = 0; k < 3; ++k) {
-    node[k] += d[k];
-    if (node[k] < 0)
-      node[k] = periodic[k] ? nodes[k] - 1 : 1;
-    else if (node[k] >= nodes[k])
-      node[k] = periodic[k] ? 0 : nodes[k] - 2;
-  }
-  return index_of(c, node);
 }
 
 static double value_of(uint32_t word)
@@ -225,14 +298,14 @@ static void fill_row(const collection *c, int first, int node, const float *lapl
                      const float *energy, double mass)
 {
   const fg__pockets *out = c->out;
-  const place *here = &c->place[node];
+  const place *here = &c->place[c->at[node]];
   int entries = out->entries, middle = entries / 2;
   double *l = out->laplacian + node * entries, *k = out->energy + node * entries;
   int *target = out->target + node * entries;
   l[middle] = k[middle] = 0.0;
   for (int n = 0; n < entries; ++n) {
     int found = find_place(c, here->part, neighbour_of(c, here->index, n));
-    target[n] = found < 0 ? -1 : found - first;
+    target[n] = found < 0 ? -1 : c->position[found] - first;
     if (n == middle || found < 0)
       continue;
     l[n] = (double)laplacian[n] / mass;
@@ -273,6 +346,33 @@ static void exchange_rows(const collection *c, uint32_t *word)
     }
 }
 
+static fg__pocket pocket_of(const fg__pockets *p, int n)
+{
+  int first = p->first[n];
+  return (fg__pocket){.nodes = p->first[n + 1] - first,
+                      .entries = p->entries,
+                      .target = p->target + first * p->entries,
+                      .laplacian = p->laplacian + first * p->entries,
+                      .energy = p->energy + first * p->entries,
+                      .mass = p->mass + first};
+}
+
+/* Four vectors and the largest that a step takes. */
+static fg_status take_space(fg__pockets *out, fg_context *context)
+{
+  int most = 0;
+  for (int n = 0; n < out->count; ++n) {
+    fg__pocket pocket = pocket_of(out, n);
+    int space = fg__pocket_space(&pocket);
+    most = space > most ? space : most;
+  }
+  size_t count = (size_t)most + 4 * (size_t)out->largest;
+  out->space = fg__allocate(count, sizeof *out->space);
+  if (out->space)
+    return FG_STATUS_OK;
+  return fg__fail_memory(context, "small parts of the domain", count * sizeof(double));
+}
+
 static fg_status collect(collection *c, fg_context *context)
 {
   fg__pockets *out = c->out;
@@ -280,18 +380,25 @@ static fg_status collect(collection *c, fg_context *context)
   uint64_t *before = fg__allocate((size_t)ranks->count, sizeof *before);
   size_t words = (2 * (size_t)out->entries + 2) * (size_t)out->nodes;
   uint32_t *word = fg__allocate(words, sizeof *word);
+  char *seen = fg__allocate((size_t)out->nodes, 1);
   c->place = fg__allocate((size_t)out->nodes, sizeof *c->place);
+  c->position = fg__allocate((size_t)out->nodes, sizeof *c->position);
+  c->at = fg__allocate((size_t)out->nodes, sizeof *c->at);
   fg_status status = take_arrays(out, context);
-  if (!status && !(before && word && c->place))
+  if (!status && !(before && word && seen && c->place && c->position && c->at))
     status = fg__fail_memory(context, "small parts of the domain", words * sizeof *word);
   status = fg__ranks_agree(ranks, context, status);
   if (!status) {
-    exchange_places(c, before);
+    exchange_places(c, before, seen);
     exchange_rows(c, word);
+    status = fg__ranks_agree(ranks, context, take_space(out, context));
   }
   free(before);
   free(word);
+  free(seen);
   free(c->place);
+  free(c->position);
+  free(c->at);
   return status;
 }
 
@@ -356,16 +463,11 @@ void fg__pockets_solve(const fg__pockets *pockets, const fg__multigrid *multigri
     for (int k = 0; k < WORDS; ++k)
       s->word[WORDS * s->own[n] + k] = word_of(values[k][s->at[n]]);
   fg__ranks_combine(multigrid->ranks, s->word, WORDS * s->nodes);
-  double *before = s->space, *u = before + FG__POCKET_NODES, *p = u + FG__POCKET_NODES;
-  double *w = p + FG__POCKET_NODES, *space = w + FG__POCKET_NODES;
+  double *before = s->space, *u = before + s->largest, *p = u + s->largest;
+  double *w = p + s->largest, *space = w + s->largest;
   for (int k = 0; k < s->count; ++k) {
-    int first = s->first[k], nodes = s->first[k + 1] - first;
-    fg__pocket pocket = {.nodes = nodes,
-                         .entries = s->entries,
-                         .target = s->target + first * s->entries,
-                         .laplacian = s->laplacian + first * s->entries,
-                         .energy = s->energy + first * s->entries,
-                         .mass = s->mass + first};
+    fg__pocket pocket = pocket_of(s, k);
+    int first = s->first[k], nodes = pocket.nodes;
     for (int n = 0; n < nodes; ++n) {
       const uint32_t *word = s->word + WORDS * (first + n);
       before[n] = value_of(word[0]);

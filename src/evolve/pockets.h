@@ -21,7 +21,8 @@ typedef struct fg__pockets {
   ptrdiff_t *at;  /* [own_count] where they lie in arrays of the finest level */
   uint32_t *word; /* [3 * nodes] u, guess and p as they travel */
   float *u, *w;   /* [nodes] the solution */
-  double *space;
+  int largest;    /* nodes of a pocket */
+  double *space;  /* for one of them */
 } fg__pockets;
 
 /* Collects the pockets among a domain's parts. Collective. MEMORY. */

@@ -75,7 +75,7 @@ static bool shell(double x, double y, double z)
   return r > 0.27 && r < 0.36;
 }
 
-/* Many parts of some fifty nodes each, also across a period. */
+/* Many parts of few nodes, also across a period; in 2D too many to take them all. */
 static bool bars(double x, double y, double z)
 {
   return fmod(x + 0.07, 0.2) > 0.13 || fmod(y + 0.1 + 0.2 * x, 0.25) > 0.18 || z > 2.0;
@@ -83,8 +83,8 @@ static bool bars(double x, double y, double z)
 
 static bool cages(double x, double y, double z)
 {
-  return fmod(x + 0.07, 0.2) > 0.11 || fmod(y + 0.02, 0.25) > 0.14 ||
-         fmod(z + 0.11, 0.25) > 0.14;
+  return fmod(x + 0.07, 0.2) > 0.07 || fmod(y + 0.02, 0.25) > 0.09 ||
+         fmod(z + 0.11, 0.25) > 0.09;
 }
 
 static fg_field *field_of(const subject *s)
@@ -321,7 +321,7 @@ static void many_ranks_do_what_one_does(void **state)
     expect(one.covered == all.covered);
     expect(one.parts == SUBJECTS[n].parts && all.parts == SUBJECTS[n].parts);
     expect(all.pockets == one.pockets);
-    expect(one.parts < 20 || one.pockets == one.parts);
+    expect(one.parts < 20 || one.pockets > 10);
     expect(memcmp(one.mean, all.mean, sizeof one.mean) == 0);
     expect(one.energy[THETA_STEPS - 1] < one.energy[0]);
     free(one.u);
