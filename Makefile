@@ -29,6 +29,8 @@ bench: setup all
 	@cmake --build build --target bench_all -j $(JOBS) >/dev/null
 	@bench/run build
 	@echo
+	@bench/scaling build
+	@echo
 	@bench/rivals build $(if $(WHOLE),--whole)
 
 install: all

@@ -363,7 +363,7 @@ static void pass_slices(const fg__spread *spread, int count, float *const array[
 {
   const fg__level *box = &spread->box[0];
   ptrdiff_t floats = fg__slice_floats(box), end = floats * fg__slices(box);
-  fg__run run[FG__MOST_RUNS];
+  fg__run run[2 * FG__MOST_EXCHANGED + 1];
   int runs = 0;
   for (int a = 0; a < count; ++a) {
     /* where slice 0 begins with its ghosts */

@@ -26,9 +26,8 @@ typedef struct fg__run {
  * last, and no rank has all. The same on all ranks; not collective. */
 bool fg__slabs_find(fg__slabs *out, const fg__partition *partition);
 
-/* At most FG__MOST_RUNS; sent values must be all different memory from received ones.
- * Collective: all ranks give as many runs, of the same directions and sizes. */
-enum { FG__MOST_RUNS = 8 };
+/* A run after the other. Collective: all ranks give as many, of the same directions and
+ * sizes. */
 void fg__slabs_exchange(const fg__slabs *slabs, const fg__run run[], int count);
 
 #endif
