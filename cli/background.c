@@ -5,15 +5,15 @@ static fg_texture_kind kind_of(const cli_settings *settings)
   return (fg_texture_kind)(settings->background - 1); /* 0: none */
 }
 
-int background_check(const cli_settings *settings, bool has_density, int ranks)
+bool background_needs_density(const cli_settings *settings)
+{
+  return settings->background && kind_of(settings) == FG_TEXTURE_CLUSTERS;
+}
+
+int background_check(const cli_settings *settings, int ranks)
 {
   if (!settings->background)
     return EXIT_DONE;
-  if (kind_of(settings) == FG_TEXTURE_CLUSTERS && !has_density) {
-    complain("--background clusters: a finished run has no clusters, only their icons");
-    advise("Say --background clusters to `flowgrain run`.");
-    return EXIT_USAGE;
-  }
   if (kind_of(settings) == FG_TEXTURE_STRIPES && ranks > 1) {
     complain("--background stripes: not with %d processes", ranks);
     advise("Draw it afterwards: `flowgrain draw DIR -o PICTURE --background stripes`.");

@@ -6,7 +6,10 @@
 
 /* Refuses what the command line's --background can not be drawn with. Returns an exit
  * code. */
-int background_check(const cli_settings *settings, bool has_density, int ranks);
+int background_check(const cli_settings *settings, int ranks);
+
+/* Whether it shows the clusters. */
+bool background_needs_density(const cli_settings *settings);
 
 /* Gives a picture's options the background that the settings ask for, at the pixels of
  * its frame. *texture: the last picture's, kept when it fits, or NULL at first; the

@@ -26,6 +26,14 @@ int check_picture_name(const char *path, const char *command)
   return EXIT_USAGE;
 }
 
+/* Solids, too. */
+static int check_name(const char *path)
+{
+  if (ends_with(path, ".vtp") || ends_with(path, ".glb"))
+    return EXIT_DONE;
+  return check_picture_name(path, "draw");
+}
+
 /* The scale that the options choose, -1 after a complaint. */
 static int choose_scale(const cli_settings *settings, const cli_report *report)
 {
@@ -83,20 +91,62 @@ static int read_field(fg_field **out, fg_context *context, const cli_settings *s
   return code;
 }
 
+/* What the option is called that needs the density; NULL: none does. */
+static const char *density_user(const cli_settings *settings, bool solid)
+{
+  if (solid)
+    return settings->surfaces ? "--surfaces" : NULL;
+  if (settings->tint)
+    return "--tint";
+  return background_needs_density(settings) ? "--background clusters" : NULL;
+}
+
+/* The density that the run has saved, where it is needed. */
+static int read_density(fg_density **out, fg_context *context,
+                        const cli_settings *settings, const cli_report *report, int index,
+                        const fg_field *field)
+{
+  const char *user = density_user(settings, scales_are_solid(field));
+  if (!user)
+    return EXIT_DONE;
+  const char *name = report_scale_density(report, index);
+  if (!name || strchr(name, '/')) {
+    complain("%s: %s needs the density of scale %d, which was not saved",
+             settings->operand, user, index);
+    advise("Say --save-field to `flowgrain run`.");
+    return EXIT_FAILED;
+  }
+  char *path = join_path(settings->operand, name);
+  if (!path)
+    return EXIT_FAILED;
+  fg_status status = fg_density_read(out, context, path, field);
+  free(path);
+  return status ? complain_of(context, status, settings->operand) : EXIT_DONE;
+}
+
 static fg_status write_solid(fg_context *context, const char *path,
                              const cli_settings *settings, const cli_report *report,
-                             int index, const fg_field *field, const fg_icons *icons)
+                             int index, const fg_field *field, const fg_density *density,
+                             const fg_icons *icons)
 {
+  fg_surface *surface = NULL;
+  fg_status status =
+      density ? fg_density_surface(&surface, context, density) : FG_STATUS_OK;
+  if (status)
+    return status;
   fg_solid_options options = settings_solid(settings, 0);
+  options.surface = surface;
   options.speed_min = report->speeds[0];
   options.speed_max = report->speeds[1];
   options.scale_time = report_scale_time(report, index);
-  return fg_solid_write(context, path, field, icons, &options);
+  status = fg_solid_write(context, path, field, icons, &options);
+  fg_surface_destroy(surface);
+  return status;
 }
 
 static int write_picture(fg_context *context, const cli_settings *settings,
                          const cli_report *report, int index, const fg_field *field,
-                         const fg_icons *icons)
+                         const fg_density *density, const fg_icons *icons)
 {
   fg_picture_options options = settings_picture(settings);
   options.speed_min = report->speeds[0];
@@ -110,11 +160,12 @@ static int write_picture(fg_context *context, const cli_settings *settings,
   fg_status status = report->dimension == 3
                          ? FG_STATUS_OK
                          : background_choose(&options, &background, context, settings,
-                                             field, NULL, icons);
+                                             field, density, icons);
   if (!status)
     status = report->dimension == 3
-                 ? write_solid(context, partial, settings, report, index, field, icons)
-                 : fg_picture_write(context, partial, field, NULL, icons, &options);
+                 ? write_solid(context, partial, settings, report, index, field, density,
+                               icons)
+                 : fg_picture_write(context, partial, field, density, icons, &options);
   if (status)
     code = complain_of(context, status, settings->output);
   else if (rename(partial, settings->output) != 0)
@@ -132,9 +183,8 @@ int command_draw(const cli_settings *settings)
   fg_context *context = NULL;
   fg_icons *icons = NULL;
   fg_field *field = NULL;
-  int code = check_picture_name(settings->output, "draw");
-  if (!code)
-    code = background_check(settings, false, 1);
+  fg_density *density = NULL;
+  int code = check_name(settings->output);
   if (!code)
     code = report_read(&report, settings->operand);
   if (code)
@@ -148,8 +198,11 @@ int command_draw(const cli_settings *settings)
   if (!code)
     code = read_field(&field, context, settings, &report);
   if (!code)
-    code = write_picture(context, settings, &report, index, field, icons);
+    code = read_density(&density, context, settings, &report, index, field);
+  if (!code)
+    code = write_picture(context, settings, &report, index, field, density, icons);
 cleanup:
+  fg_density_destroy(density);
   fg_field_destroy(field);
   fg_icons_destroy(icons);
   fg_context_destroy(context);

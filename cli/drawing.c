@@ -60,12 +60,14 @@ static fg_status write_icons(cli_drawing *drawing, int index, const fg_icons *ic
   return status;
 }
 
-static fg_status write_solids(cli_drawing *drawing, int index, const fg_icons *icons)
+static fg_status write_solids(cli_drawing *drawing, int index, const fg_icons *icons,
+                              const fg_surface *surface)
 {
   static const char *const ends[] = {".vtp", ".glb"};
   fg_solid_options options = {.palette = drawing->settings->palette,
                               .speed_min = drawing->speeds[0],
-                              .speed_max = drawing->speeds[1]};
+                              .speed_max = drawing->speeds[1],
+                              .surface = surface};
   fg_status status = FG_STATUS_OK;
   for (size_t k = 0; k < sizeof ends / sizeof *ends && !status; ++k) {
     char *path = scale_path(drawing, index, ends[k]);
@@ -89,15 +91,13 @@ static int solid_view_of(const char *end)
 
 /* A picture for each view and format. */
 static fg_status write_renderings(cli_drawing *drawing, int index,
-                                  const scale_moment *moment, const fg_icons *icons)
+                                  const scale_moment *moment, const fg_icons *icons,
+                                  const fg_surface *surface)
 {
   const cli_settings *settings = drawing->settings;
   char ends[SCALE_FILES][SCALE_END_BYTES];
   int files = scale_file_ends(ends, settings, drawing->field);
-  fg_surface *surface = NULL;
   fg_status status = FG_STATUS_OK;
-  if (settings->surfaces && moment->density)
-    status = fg_density_surface(&surface, drawing->context, moment->density);
   for (int n = 1; n < files && !status; ++n) {
     int view = solid_view_of(ends[n]);
     if (view < 0)
@@ -115,6 +115,20 @@ static fg_status write_renderings(cli_drawing *drawing, int index,
       status = fg_solid_write(drawing->context, path, drawing->field, icons, &options);
     free(path);
   }
+  return status;
+}
+
+static fg_status draw_solids(cli_drawing *drawing, int index, const scale_moment *moment,
+                             const fg_icons *icons)
+{
+  fg_surface *surface = NULL;
+  fg_status status = FG_STATUS_OK;
+  if (drawing->settings->surfaces && moment->density)
+    status = fg_density_surface(&surface, drawing->context, moment->density);
+  if (!status)
+    status = write_solids(drawing, index, icons, surface);
+  if (!status)
+    status = write_renderings(drawing, index, moment, icons, surface);
   fg_surface_destroy(surface);
   return status;
 }
@@ -175,13 +189,10 @@ static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *momen
   drawing->icon_seconds += between - start;
   if (!status && index == 0)
     speed_range(icons, drawing->speeds);
-  bool solid = scales_are_solid(drawing->field);
-  if (!status && solid)
-    status = write_solids(drawing, index, icons);
-  if (!status && solid)
-    status = write_renderings(drawing, index, moment, icons);
-  else if (!status)
-    status = write_pictures(drawing, index, moment, icons);
+  if (!status)
+    status = scales_are_solid(drawing->field)
+                 ? draw_solids(drawing, index, moment, icons)
+                 : write_pictures(drawing, index, moment, icons);
   drawing->picture_seconds += clock_seconds() - between;
   if (!status) {
     result->clusters = fg_icons_clusters(icons);

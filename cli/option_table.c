@@ -41,7 +41,8 @@ const cli_command command_table[] = {
     {COMMAND_DRAW, "draw", "DIR", "DIR -o PICTURE [options]",
      "draw one scale of a finished run again, in another style",
      "Draws a scale that `flowgrain run` left in DIR; the picture's format follows the "
-     "end of its name: .svg, .pdf or .png. The field is read again from the input that "
+     "end of its name: .svg, .pdf or .png, and in 3D .vtp or .glb. The field is read "
+     "again from the input that "
      "run.json names.",
      true, command_draw},
     {COMMAND_TEXTURE, "texture", "INPUT", "INPUT -o PICTURE [options]",
@@ -99,7 +100,7 @@ const option_entry option_table[] = {
     {"output", 'o', "DIR", COMMAND_GALLERY, OPTION_TEXT, AT(output), 0, 0, false, false,
      NULL, "folder for the page and its pictures; made when it is missing"},
     {"output", 'o', "PICTURE", COMMAND_DRAW, OPTION_TEXT, AT(output), 0, 0, false, false,
-     NULL, "picture to write, .svg, .pdf or .png"},
+     NULL, "picture to write, .svg, .pdf or .png; in 3D also solids, .vtp or .glb"},
     {"output", 'o', "PICTURE", COMMAND_TEXTURE, OPTION_TEXT, AT(output), 0, 0, false,
      false, NULL, "picture to write, .png, .svg or .pdf"},
     {"output", 'o', "PICTURE", COMMAND_BRUSH, OPTION_TEXT, AT(output), 0, 0, false, false,
@@ -261,8 +262,11 @@ const option_entry option_table[] = {
      "width of the picture in points of 1/72 inch; a .png has two pixels a point [a "
      "point "
      "for every pixel of the image]"},
-    {"surfaces", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(surfaces), 0, 0, false, false,
-     NULL, "in 3D: show the clusters' surfaces round the arrows, transparent"},
+    {"surfaces", 0, NULL, COMMAND_RUN | COMMAND_DRAW, OPTION_FLAG, AT(surfaces), 0, 0,
+     false, false, NULL,
+     "in 3D: show the clusters' surfaces round the arrows, transparent; in .vtp and "
+     ".glb, "
+     "too"},
     {"view", 0, "AZ,EL", COMMAND_RUN | COMMAND_DRAW, OPTION_VIEW, 0, 0, 0, false, false,
      NULL,
      "in 3D: where the viewer stands, in degrees counter-clockwise from the front (the "
@@ -273,10 +277,14 @@ const option_entry option_table[] = {
      false, NULL, "colour map that shows the speed, or #rrggbb for one colour [greys]"},
     {"tint", 0, NULL, DRAWN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
      "tint the clusters behind their arrows"},
+    {"tint", 0, NULL, COMMAND_DRAW, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
+     "in 2D: tint the clusters behind their arrows, of a run with --save-field"},
     {"background", 0, "KIND", COMMAND_RUN | COMMAND_DRAW, OPTION_CHOICE, AT(background),
      0, 0, false, false, background_words,
      "in 2D: a pale texture behind the icons, as flowgrain texture paints: `lic`, "
-     "`spots`, `stripes`, `diffusion`, or (run only) the `clusters` of the scale [none]"},
+     "`spots`, `stripes`, `diffusion`, or the `clusters` of the scale (draw: of a run "
+     "with "
+     "--save-field) [none]"},
     {"skeletons", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(skeletons), 0, 0, false, false,
      NULL, "mark the spine of each cluster by dots, and its centre by a ring"},
     {"centers", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(centers), 0, 0, false, false, NULL,

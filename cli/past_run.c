@@ -170,6 +170,11 @@ const char *report_scale_icons(const cli_report *report, int index)
   return text_of(scale_at(report, index), "geojson");
 }
 
+const char *report_scale_density(const cli_report *report, int index)
+{
+  return text_of(scale_at(report, index), "vti");
+}
+
 double report_scale_time(const cli_report *report, int index)
 {
   return number_of(scale_at(report, index), "time", 0.0, 1e300, 0.0);

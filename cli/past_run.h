@@ -33,6 +33,8 @@ typedef struct cli_report {
 int report_read(cli_report *out, const char *folder);
 int report_scale_clusters(const cli_report *report, int index);
 const char *report_scale_icons(const cli_report *report, int index); /* file's name */
+/* The density's file; NULL: none was saved. */
+const char *report_scale_density(const cli_report *report, int index);
 double report_scale_time(const cli_report *report, int index);
 void report_clear(cli_report *report);
 

@@ -271,7 +271,7 @@ int command_run(const cli_settings *settings)
     return EXIT_FAILED;
   }
   interrupt_start(run.context);
-  int code = background_check(settings, true, ranks_count());
+  int code = background_check(settings, ranks_count());
   if (!code)
     code = work(&run);
   interrupt_end();

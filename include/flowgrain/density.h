@@ -52,6 +52,12 @@ FG_API const fg_density_arrays *fg_density_contents(const fg_density *density);
 FG_API fg_status fg_density_write(fg_context *context, const char *path,
                                   const fg_density *density);
 
+/* Reads what fg_density_write has written of the evolution on that field, which says what
+ * is periodic. Its energy and area are not known. FILE_ACCESS, FILE_FORMAT (among them a
+ * density of another kind of field), MEMORY. */
+FG_API fg_status fg_density_read(fg_density **out, fg_context *context, const char *path,
+                                 const fg_field *field);
+
 #ifdef __cplusplus
 }
 #endif

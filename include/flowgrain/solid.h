@@ -34,13 +34,14 @@ FG_API fg_status fg_density_surface(fg_surface **out, fg_context *context,
 typedef struct fg_solid_options {
   const char *palette; /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
   double speed_min, speed_max; /* ends of the colours; equal: from the icons */
+  const fg_surface *surface;   /* of the clusters, shown round the arrows, transparent
+                                  [none] */
   /* Of pictures: */
   int width, height;         /* pixels [1200; as high as needed, at most as wide] */
   bool has_view;             /* the next two count [30, 22] */
   double azimuth, elevation; /* degrees: where the viewer stands, counter-clockwise from
                                 the front (the side of least y), and above the horizon,
                                 -90 to 90 */
-  const fg_surface *surface; /* shown round the arrows, transparent [none] */
   bool no_frame;             /* only arrows */
   bool transparent;          /* no background */
   const char *title;         /* caption; NULL: from the field; "" none */
@@ -50,14 +51,13 @@ typedef struct fg_solid_options {
 
 /* Writes icons in 3D; the format follows the name's end.
  * .vtp: VTK polydata in input coordinates, with the cells' array `part` (0 a centre, 1 a
- * spine, 2 a streamline, 3 an arrow) and those of their cluster.
+ * spine, 2 a streamline, 3 an arrow, 4 the clusters' surface) and those of their cluster.
  * .glb: glTF 2.0 in one file: a node with a mesh for each arrow, coloured by its speed,
- * and for all spines, streamlines and centres; z is turned upwards as glTF has y.
- * .png, .svg, .pdf: a rendered picture, the same to the bit on any number of threads; 2.5
- * pixels a point.
- * The field is needed for pictures only, else NULL. options may be NULL. FILE_ACCESS,
- * UNSUPPORTED (another end; a picture where flowgrain was built without Embree),
- * ARGUMENT, MEMORY, STOPPED. */
+ * and for all spines, streamlines, centres and clusters' surfaces; z is turned upwards as
+ * glTF has y. .png, .svg, .pdf: a rendered picture, the same to the bit on any number of
+ * threads; 2.5 pixels a point. The field is needed for pictures only, else NULL. options
+ * may be NULL. FILE_ACCESS, UNSUPPORTED (another end; a picture where flowgrain was built
+ * without Embree), ARGUMENT, MEMORY, STOPPED. */
 FG_API fg_status fg_solid_write(fg_context *context, const char *path,
                                 const fg_field *field, const fg_icons *icons,
                                 const fg_solid_options *options);

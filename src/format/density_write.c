@@ -109,6 +109,7 @@ static fg_status describe(fg__vti_image *image, fg_context *context, const char 
                           const fg_density_arrays *density)
 {
   image->time = &density->time;
+  image->least_area = &density->debris_area;
   for (int k = 0; k < density->dimension; ++k) {
     if (density->nodes[k] == INT_MAX)
       return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: too many nodes", path);

@@ -137,6 +137,94 @@ static void a_density_in_space_comes_back(void **state)
   fg_density_destroy(density);
 }
 
+/* A field of any values over so many samples, of that period along one axis. */
+static fg_field *field_with_period(fg_context *context, int dimension, int axis,
+                                   double period)
+{
+  static const double place[3] = {0.0, 1.0, 2.0};
+  static float velocity[27];
+  for (int n = 0; n < 27; ++n)
+    velocity[n] = 1.0f;
+  fg_field_arrays arrays = {.dimension = dimension};
+  for (int k = 0; k < dimension; ++k) {
+    arrays.size[k] = 3;
+    arrays.axis[k] = place;
+    arrays.velocity[k] = velocity;
+  }
+  arrays.period[axis] = period;
+  fg_field *field = NULL;
+  assert_int_equal(fg_field_create(&field, context, &arrays), FG_STATUS_OK);
+  return field;
+}
+
+/* In either dimension, with a mask and a periodic axis: what was written comes back to
+ * the bit, but what is too small for a cluster lies outside. */
+static void what_was_written_is_read_again(void **state)
+{
+  folder *f = *state;
+  enum { WIDE = 6, HIGH = 5, DEEP = 4 };
+  for (int dimension = 2; dimension <= 3; ++dimension) {
+    int last = dimension - 1; /* the periodic axis */
+    fg_density_arrays arrays = {.dimension = dimension,
+                                .nodes = {WIDE, HIGH, dimension == 3 ? DEEP : 1},
+                                .origin = {-1, 2.1, dimension == 3 ? 0.3 : 0.0},
+                                .spacing = {0.1, 0.7, dimension == 3 ? 1.3 : 0.0},
+                                .debris_area = dimension == 3 ? 0.1 : 0.08,
+                                .time = 3.7e-5};
+    arrays.periodic[last] = true;
+    size_t nodes = (size_t)WIDE * HIGH * (size_t)arrays.nodes[2];
+    size_t cells = dimension == 2 ? (WIDE - 1) * HIGH : (WIDE - 1) * (HIGH - 1) * DEEP;
+    float u[WIDE * HIGH * DEEP];
+    unsigned char active[WIDE * HIGH * DEEP];
+    memset(active, 1, sizeof active);
+    active[7] = 0;
+    for (size_t n = 0; n < nodes; ++n)
+      u[n] = -0.5f - 0.001f * (float)n;
+    for (size_t n = 0; n < 4; ++n)
+      u[nodes - 1 - n] = u[nodes - 1 - n - WIDE] = 0.75f;
+    u[WIDE + 1] = 0.25f; /* too small */
+    arrays.u = u;
+    arrays.active = active;
+    fg_density *density = NULL, *again = NULL;
+    assert_int_equal(fg_density_create_from_arrays(&density, f->context, &arrays),
+                     FG_STATUS_OK);
+    assert_int_equal(fg_density_write(f->context, path_of(f, "u.vti"), density),
+                     FG_STATUS_OK);
+    fg_field *field = field_with_period(f->context, dimension, last, 3.5);
+    if (fg_density_read(&again, f->context, f->path, field))
+      fail_msg("%s", fg_context_message(f->context));
+    const fg_density_arrays *a = fg_density_contents(again);
+    assert_int_equal(a->dimension, dimension);
+    assert_memory_equal(a->nodes, arrays.nodes, sizeof a->nodes);
+    assert_memory_equal(a->origin, arrays.origin, sizeof a->origin);
+    assert_memory_equal(a->spacing, arrays.spacing, sizeof a->spacing);
+    assert_memory_equal(a->periodic, arrays.periodic, sizeof a->periodic);
+    assert_memory_equal(a->active, active, cells);
+    assert_true(a->time == arrays.time);
+    assert_int_equal(a->clusters, 1);
+    assert_true(a->debris_area == arrays.debris_area);
+    assert_memory_equal(a->u, u, nodes * sizeof *u);
+    fg_density_destroy(again);
+    fg_field_destroy(field);
+    /* a density of a field with another dimension */
+    field = field_with_period(f->context, 5 - dimension, 0, 0.0);
+    assert_int_equal(fg_density_read(&again, f->context, f->path, field),
+                     FG_STATUS_FILE_FORMAT);
+    assert_null(again);
+    fg_context_clear(f->context);
+    /* an image of something else */
+    assert_int_equal(fg_field_write(f->context, f->path, field), FG_STATUS_OK);
+    fg_field_destroy(field);
+    field = field_with_period(f->context, 5 - dimension, 0, 0.0);
+    assert_int_equal(fg_density_read(&again, f->context, f->path, field),
+                     FG_STATUS_FILE_FORMAT);
+    assert_non_null(strstr(fg_context_message(f->context), "is no density"));
+    fg_context_clear(f->context);
+    fg_field_destroy(field);
+    fg_density_destroy(density);
+  }
+}
+
 /* Stages that know two dimensions only say so. */
 static void icons_and_pictures_in_space_are_refused(void **state)
 {
@@ -179,6 +267,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       TEST(a_density_shows_clusters_and_mask),
       TEST(a_density_in_space_comes_back),
+      TEST(what_was_written_is_read_again),
       TEST(icons_and_pictures_in_space_are_refused),
   };
   return cmocka_run_group_tests_name("format/density_write", tests, NULL, NULL);

@@ -202,6 +202,43 @@ static void a_file_holds_what_was_written(void **state)
   fg_icons_destroy(icons);
 }
 
+/* A surface is a mesh of its own behind the arrows, which one sees through. */
+static void the_surface_of_clusters_is_transparent(void **state)
+{
+  folder *f = *state;
+  fg_icons *icons = make_icons(f->context);
+  fg_surface *surface;
+  assert_int_equal(fg_icon_solid(&surface, f->context, fg_icons_at(icons, 2)),
+                   FG_STATUS_OK);
+  fg_solid_options options = {.surface = surface};
+  assert_int_equal(fg_solid_write(f->context, f->path, NULL, icons, &options),
+                   FG_STATUS_OK);
+  glb g = read_glb(f->path);
+  int last = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(g.json, "nodes")) - 1;
+  assert_int_equal(last, 2 + 2 + 1); /* spines, centres, two arrows, the clusters */
+  const cJSON *node = entry(&g, "nodes", last);
+  assert_string_equal(
+      cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(node, "name")), "clusters");
+  const cJSON *primitive = cJSON_GetArrayItem(
+      cJSON_GetObjectItemCaseSensitive(entry(&g, "meshes", (int)number(node, "mesh")),
+                                       "primitives"),
+      0);
+  const cJSON *attributes = cJSON_GetObjectItemCaseSensitive(primitive, "attributes");
+  int normals, indices;
+  data_of(&g, (int)number(attributes, "NORMAL"), &normals);
+  data_of(&g, (int)number(primitive, "indices"), &indices);
+  assert_int_equal(normals, surface->corner_count);
+  assert_int_equal(indices, 3 * surface->triangle_count);
+  for (int n = 0; n < last; ++n) {
+    const cJSON *mode =
+        cJSON_GetObjectItemCaseSensitive(entry(&g, "materials", n), "alphaMode");
+    assert_int_equal(mode != NULL, n == last - 1);
+  }
+  clear_glb(&g);
+  fg_surface_destroy(surface);
+  fg_icons_destroy(icons);
+}
+
 static void no_icons_make_an_empty_scene(void **state)
 {
   folder *f = *state;
@@ -227,6 +264,7 @@ int main(void)
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, folder_tear_down)
   const struct CMUnitTest tests[] = {
       TEST(a_file_holds_what_was_written),
+      TEST(the_surface_of_clusters_is_transparent),
       TEST(no_icons_make_an_empty_scene),
   };
   return cmocka_run_group_tests_name("format/glb", tests, NULL, NULL);

@@ -25,11 +25,12 @@ typedef struct part {
   const fg_icon *icon; /* of an arrow */
   int mode;
   fg__color color;
+  double opacity;
   size_t first, count;             /* places */
-  size_t first_normal;             /* of an arrow, as many as places */
+  size_t first_normal;             /* of triangles, as many as places */
   size_t first_index, index_count; /* indices count from `first` */
   float low[3], high[3];
-  int accessor; /* the first of its own: places, indices, and of an arrow normals */
+  int accessor; /* the first of its own: places, indices, and of triangles normals */
 } part;
 
 typedef struct model {
@@ -50,6 +51,7 @@ static part *begin_part(model *m, const char *name, int mode, fg__color color)
   *out = (part){.name = name,
                 .mode = mode,
                 .color = color,
+                .opacity = 1.0,
                 .first = m->places,
                 .first_normal = m->normals,
                 .first_index = m->indices,
@@ -64,7 +66,7 @@ static void end_part(model *m)
   if (ended->index_count == 0)
     m->parts--;
   else if (m->parts > 1)
-    ended->accessor = ended[-1].accessor + (ended[-1].icon ? 3 : 2);
+    ended->accessor = ended[-1].accessor + (ended[-1].mode == TRIANGLES ? 3 : 2);
 }
 
 /* Both are false when there is no memory. */
@@ -174,6 +176,18 @@ static fg_status add_arrows(model *m, fg_context *context, const fg_icons *icons
   return FG_STATUS_OK;
 }
 
+/* All clusters' surfaces in one mesh, in the colour that they have in pictures. */
+static fg_status add_clusters(model *m, fg_context *context, const fg_surface *surface)
+{
+  static const fg__color color = {0.36, 0.52, 0.72};
+  part *to = begin_part(m, "clusters", TRIANGLES, color);
+  if (!to || !add_surface(m, to, surface))
+    return fg__fail_memory(context, "clusters to write", m->places * sizeof *m->place);
+  to->opacity = 0.25;
+  end_part(m);
+  return FG_STATUS_OK;
+}
+
 static fg_status collect(model *m, fg_context *context, const fg_icons *icons,
                          const fg_solid_options *options)
 {
@@ -190,6 +204,8 @@ static fg_status collect(model *m, fg_context *context, const fg_icons *icons,
   if (!room)
     return fg__fail_memory(context, "icons to write", m->places * sizeof *m->place);
   status = add_arrows(m, context, icons, &palette, range);
+  if (!status && options->surface)
+    status = add_clusters(m, context, options->surface);
   /* chunks have 32 bits for their length */
   size_t bytes = (m->places + m->normals) * sizeof *m->place + m->indices * 4;
   if (!status && bytes > UINT32_MAX / 2)
@@ -246,7 +262,7 @@ static void put_meshes(const model *m, FILE *out)
     const part *p = &m->part[n];
     fprintf(out, "%s\n{\"primitives\":[{\"attributes\":{\"POSITION\":%d", n ? "," : "",
             p->accessor);
-    if (p->icon)
+    if (p->mode == TRIANGLES)
       fprintf(out, ",\"NORMAL\":%d", p->accessor + 2);
     fprintf(out, "},\"indices\":%d,\"mode\":%d,\"material\":%zu}]}", p->accessor + 1,
             p->mode, n);
@@ -276,7 +292,7 @@ static void put_accessors(const model *m, FILE *out)
             ",{\"bufferView\":%d,\"byteOffset\":%zu,\"componentType\":%d,\"count\":%zu,"
             "\"type\":\"SCALAR\"}",
             VIEW_INDICES, 4 * p->first_index, UNSIGNED_INT, p->index_count);
-    if (p->icon)
+    if (p->mode == TRIANGLES)
       fprintf(out,
               ",{\"bufferView\":%d,\"byteOffset\":%zu,\"componentType\":%d,\"count\":%zu,"
               "\"type\":\"VEC3\"}",
@@ -302,7 +318,11 @@ static void put_materials(const model *m, FILE *out)
                linear(color.red));
     put_number(out, ",", linear(color.green));
     put_number(out, ",", linear(color.blue));
-    fputs(",1],\"metallicFactor\":0,\"roughnessFactor\":0.6}}", out);
+    put_number(out, ",", m->part[n].opacity);
+    fputs("],\"metallicFactor\":0,\"roughnessFactor\":0.6}", out);
+    if (m->part[n].opacity < 1.0)
+      fputs(",\"alphaMode\":\"BLEND\",\"doubleSided\":true", out);
+    fputc('}', out);
   }
   fputc(']', out);
 }

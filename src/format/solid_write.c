@@ -20,7 +20,7 @@ fg_status fg_solid_write(fg_context *context, const char *path, const fg_field *
                     path ? "none" : "no file name");
   options = options ? options : &usual;
   if (ends_with(path, ".vtp"))
-    return fg__vtp_write(context, path, icons);
+    return fg__vtp_write(context, path, icons, options->surface);
   if (ends_with(path, ".glb"))
     return fg__glb_write(context, path, icons, options);
   if (!field)

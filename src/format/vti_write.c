@@ -53,6 +53,18 @@ static void write_triple(FILE *stream, const char *name, const double triple[3])
   fprintf(stream, " %s=\"%s %s %s\"", name, number[0], number[1], number[2]);
 }
 
+static void write_number(FILE *stream, const char *name, const double *value)
+{
+  if (!value)
+    return;
+  char number[FG__NUMBER_BYTES];
+  fg__number_write(number, *value);
+  fprintf(stream,
+          "<DataArray type=\"Float64\" Name=\"%s\" NumberOfTuples=\"1\" "
+          "format=\"ascii\">\n%s\n</DataArray>\n",
+          name, number);
+}
+
 void fg__vti_write_open(FILE *stream, const fg__vti_image *image, const char *vectors,
                         const char *scalars)
 {
@@ -70,13 +82,11 @@ void fg__vti_write_open(FILE *stream, const fg__vti_image *image, const char *ve
                (const double[]){image->spacing[0], image->spacing[1],
                                 flat ? 1.0 : image->spacing[2]});
   fputs(">\n", stream);
-  if (image->time) {
-    char number[FG__NUMBER_BYTES];
-    fg__number_write(number, *image->time);
-    fprintf(stream,
-            "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
-            "NumberOfTuples=\"1\" format=\"ascii\">\n%s\n</DataArray>\n</FieldData>\n",
-            number);
+  if (image->time || image->least_area) {
+    fputs("<FieldData>\n", stream);
+    write_number(stream, "TimeValue", image->time);
+    write_number(stream, "LeastClusterArea", image->least_area);
+    fputs("</FieldData>\n", stream);
   }
   fprintf(stream, "<Piece Extent=\"0 %d 0 %d 0 %d\">\n<PointData", last[0], last[1],
           last[2]);

@@ -13,7 +13,8 @@
 typedef struct fg__vti_image {
   int points[3];
   double origin[3], spacing[3];
-  const double *time; /* TimeValue; NULL: none */
+  const double *time;       /* TimeValue; NULL: none */
+  const double *least_area; /* LeastClusterArea; NULL: none */
 } fg__vti_image;
 
 /* An array to be written: float, unsigned char or int, by the size of one and the type's

@@ -6,6 +6,7 @@
 #include "format/vti_write.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -74,12 +75,9 @@ static bool add_line(polydata *data, const double (*line)[3], int count,
   return room;
 }
 
-static fg_status add_solid(polydata *data, fg_context *context, const fg_icon *icon)
+static bool add_surface(polydata *data, const fg_surface *solid, const fg_icon *icon,
+                        fg__vtp_part part)
 {
-  fg_surface *solid;
-  fg_status status = fg_icon_solid(&solid, context, icon);
-  if (status)
-    return status;
   int first = (int)data->points;
   bool room = true;
   for (int n = 0; n < solid->vertex_count && room; ++n)
@@ -88,8 +86,18 @@ static fg_status add_solid(polydata *data, fg_context *context, const fg_icon *i
     int point[3];
     for (int k = 0; k < 3; ++k)
       point[k] = first + solid->corner[solid->triangle[n][k]];
-    room = add_cell(&data->kind[2], point, 3, icon, FG__VTP_ARROW);
+    room = add_cell(&data->kind[2], point, 3, icon, part);
   }
+  return room;
+}
+
+static fg_status add_solid(polydata *data, fg_context *context, const fg_icon *icon)
+{
+  fg_surface *solid;
+  fg_status status = fg_icon_solid(&solid, context, icon);
+  if (status)
+    return status;
+  bool room = add_surface(data, solid, icon, FG__VTP_ARROW);
   fg_surface_destroy(solid);
   return room ? FG_STATUS_OK
               : fg__fail_memory(context, "icons to write", data->points * 24);
@@ -207,8 +215,11 @@ static fg_status write_polydata(FILE *stream, fg_context *context, const polydat
   return status;
 }
 
-fg_status fg__vtp_write(fg_context *context, const char *path, const fg_icons *icons)
+fg_status fg__vtp_write(fg_context *context, const char *path, const fg_icons *icons,
+                        const fg_surface *surface)
 {
+  /* of no one cluster */
+  static const fg_icon none = {.speed = NAN, .area = NAN};
   polydata data = {0};
   fg__number_locale locale;
   fg__whole_file file;
@@ -218,6 +229,10 @@ fg_status fg__vtp_write(fg_context *context, const char *path, const fg_icons *i
     if (!status && data.points > INT_MAX / 8)
       status = fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: too many points", path);
   }
+  if (!status && surface && (size_t)surface->vertex_count + data.points > INT_MAX / 8)
+    status = fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: too many points", path);
+  if (!status && surface && !add_surface(&data, surface, &none, FG__VTP_CLUSTER))
+    status = fg__fail_memory(context, "clusters to write", data.points * 24);
   if (!status && !fg__number_locale_begin(&locale))
     status = fg__fail_memory(context, "a locale", sizeof locale);
   if (!status) {

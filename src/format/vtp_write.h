@@ -3,16 +3,19 @@
 #define FG__VTP_WRITE_H
 
 #include "base/context.h"
+#include "flowgrain/solid.h"
 
 /* What a cell is: its array `part`. */
 typedef enum fg__vtp_part {
   FG__VTP_CENTER = 0,
   FG__VTP_SPINE,
   FG__VTP_STREAMLINE,
-  FG__VTP_ARROW
+  FG__VTP_ARROW,
+  FG__VTP_CLUSTER
 } fg__vtp_part;
 
-/* fg_solid_write of a .vtp. */
-fg_status fg__vtp_write(fg_context *context, const char *path, const fg_icons *icons);
+/* fg_solid_write of a .vtp. surface: of all clusters, or NULL. */
+fg_status fg__vtp_write(fg_context *context, const char *path, const fg_icons *icons,
+                        const fg_surface *surface);
 
 #endif

@@ -60,11 +60,28 @@ grep -q '<image' plain.svg && fault "a background that was not asked for"
 try draw run-spots -o stripes.svg --background stripes
 expect_code 0
 grep -q '<image' stripes.svg || fault "no image in the picture"
-try draw run-spots -o clusters.svg --background clusters
-expect_code 2
-expect_one_complaint
-expect_nothing_at clusters.svg
 done_with "draw: a texture behind the icons"
+
+# The density that a run has saved is what it drew itself.
+try run synth:saddle -o saved --nodes 65 --clusters 12 --formats png --background clusters --tint --save-field --quiet
+expect_code 0
+try draw saved -o again.png --background clusters --tint
+expect_code 0
+cmp -s saved/scale-00.png again.png || fault "draw: another picture than the run's"
+for option in "--background clusters" --tint; do
+  # shellcheck disable=SC2086
+  try draw run-spots -o clusters.svg $option
+  expect_code 1
+  expect_one_complaint
+  expect_error "which was not saved"
+  expect_nothing_at clusters.svg
+done
+echo junk >saved/scale-00.vti
+try draw saved -o again.svg --tint
+expect_code 1
+expect_one_complaint
+expect_nothing_at again.svg
+done_with "draw: the clusters of a run that has saved them"
 
 for bad in "--kind plaid" "--kind" "--pixels 3" "--pixels 99999" "--length 1" "--clusters 30,10" "--fade 2" \
   "--seed 0" "--palette nope" "--max-steps 3" "--energy ./tensors.vtk"; do

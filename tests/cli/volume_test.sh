@@ -30,6 +30,20 @@ for end in vti nc; do
 done
 done_with "a volume of either format is run"
 
+try run abc.vti -o skins --nodes 33 --clusters 20 --surfaces --width 60 --quiet
+expect_code 0
+cmp -s skins/scale-00.geojson run-vti/scale-00.geojson || fault "other icons with surfaces"
+[ "$(wc -c <skins/scale-00.glb)" -gt "$(wc -c <run-vti/scale-00.glb)" ] || fault "no surfaces in the .glb"
+for end in vtp glb; do
+  try draw skins -o again.$end --scale-index 0 --surfaces
+  expect_code 0
+  expect_file again.$end
+  try draw skins -o plain.$end --scale-index 0
+  expect_code 0
+  [ "$(wc -c <again.$end)" -gt "$(wc -c <plain.$end)" ] || fault "draw: no surfaces in the .$end"
+done
+done_with "surfaces of clusters in solids, drawn again"
+
 {
   printf '# vtk DataFile Version 3.0\nsmall\nASCII\nDATASET RECTILINEAR_GRID\n'
   printf 'DIMENSIONS 4 3 5\nX_COORDINATES 4 float\n0 1 2 4\nY_COORDINATES 3 float\n0 2 3\n'
