@@ -13,17 +13,3 @@ fg_status fg__image_read(fg_image **out, fg_context *context, const fg__source *
                   "%s: is no image that can be read: PNG, JPEG, PGM and PPM can",
                   source->path);
 }
-
-fg_status fg_image_read(fg_image **out, fg_context *context, const char *path)
-{
-  if (!out || !path)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "image: a NULL argument");
-  *out = NULL;
-  fg__source source;
-  fg_status status = fg__source_open(&source, context, path);
-  if (status)
-    return status;
-  status = fg__image_read(out, context, &source);
-  fg__source_close(&source);
-  return status;
-}

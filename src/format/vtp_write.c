@@ -219,7 +219,7 @@ fg_status fg__vtp_write(fg_context *context, const char *path, const fg_icons *i
                         const fg_surface *surface)
 {
   /* of no one cluster */
-  static const fg_icon none = {.speed = NAN, .area = NAN};
+  static const fg_icon none = {.speed = (double)NAN, .area = (double)NAN};
   polydata data = {0};
   fg__number_locale locale;
   fg__whole_file file;
