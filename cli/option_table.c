@@ -275,6 +275,8 @@ const option_entry option_table[] = {
      NULL, "colour map of the speed, or #rrggbb for one colour [gale]"},
     {"palette", 0, "NAME", COMMAND_TEXTURE, OPTION_PALETTE, AT(palette), 0, 0, false,
      false, NULL, "colour map that shows the speed, or #rrggbb for one colour [greys]"},
+    {"key", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, AT(key), 0, 0, false, false, NULL,
+     "with --palette: a key of the speeds' colours below the texture"},
     {"tint", 0, NULL, DRAWN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
      "tint the clusters behind their arrows"},
     {"tint", 0, NULL, COMMAND_DRAW, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,

@@ -43,6 +43,7 @@ typedef struct cli_settings {
   const char *palette;
   bool tint, skeletons, centers, no_arrows, no_frame, transparent;
   bool surfaces;
+  bool key;
   double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
   int view_count;             /* 0: one, the usual */
 

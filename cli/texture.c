@@ -9,6 +9,7 @@ static int write_texture(fg_context *context, const cli_settings *settings,
       .palette = settings->palette,
       .fade = settings->fade,
       .transparent = settings->transparent,
+      .key = settings->key,
   };
   fg_status status = fg_texture_write(context, settings->output, field, texture, &style);
   return status ? complain_of(context, status, settings->output) : EXIT_DONE;

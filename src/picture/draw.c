@@ -182,6 +182,15 @@ static void draw_texts(cairo_t *cairo, const fg__page *page)
   }
 }
 
+void fg__draw_key(cairo_t *cairo, const fg__page *page, const fg__palette *palette)
+{
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
+  if (page->has_color_key)
+    draw_color_key(cairo, page, palette);
+  draw_lines(cairo, page);
+  draw_texts(cairo, page);
+}
+
 void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
               const fg__palette *palette, const fg__style *style)
 {

@@ -19,6 +19,9 @@ void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color);
 /* Adds polygons to the path. */
 void fg__draw_path(cairo_t *cairo, const fg__polygons *polygons);
 
+/* The bar of a page's colour key, its ticks and all texts of the page. */
+void fg__draw_key(cairo_t *cairo, const fg__page *page, const fg__palette *palette);
+
 /* Draws in points; what went wrong is in the context's status. */
 void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
               const fg__palette *palette, const fg__style *style);

@@ -28,9 +28,7 @@ static double fastest(const fg_texture_arrays *texture, size_t count)
   return most;
 }
 
-/* The colour map's ends: as asked, or from 0 to what most pixels are slower than. MEMORY.
- */
-static fg_status find_range(double range[2], fg_context *context,
+fg_status fg__texture_range(double range[2], fg_context *context,
                             const fg_texture_arrays *texture,
                             const fg_texture_style *style)
 {
@@ -119,7 +117,7 @@ fg_status fg__texture_image(cairo_surface_t **out, fg_context *context,
   coloring c = {.texture = texture, .grey = !style->palette, .fade = style->fade};
   fg_status status = fg__palette_create(&c.palette, context, style->palette);
   if (!status && !c.grey)
-    status = find_range(c.range, context, texture, style);
+    status = fg__texture_range(c.range, context, texture, style);
   if (status)
     return status;
   cairo_surface_t *surface =

@@ -12,4 +12,10 @@ fg_status fg__texture_image(cairo_surface_t **out, fg_context *context,
                             const fg_texture_arrays *texture,
                             const fg_texture_style *style);
 
+/* The speeds at the ends of the colour map: the style's, or from 0 to what 99 % of the
+ * pixels are slower than. MEMORY. */
+fg_status fg__texture_range(double range[2], fg_context *context,
+                            const fg_texture_arrays *texture,
+                            const fg_texture_style *style);
+
 #endif

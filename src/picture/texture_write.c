@@ -2,10 +2,13 @@
 #include "flowgrain/texture.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "base/memory.h"
 #include "picture/draw.h"
 #include "picture/sheet.h"
 #include "picture/texture_image.h"
+#include "picture/texture_key.h"
 
 /* In files without pixels of their own: what the arrows' pictures have in PNG. */
 static const double pixels_per_point = 2.0;
@@ -56,17 +59,41 @@ static void paint(cairo_t *cairo, cairo_surface_t *image, const fg__polygons *ma
     fg__draw_mask(cairo, mask, mask_color);
 }
 
+/* A page as large as the image; with a key when the style wants it. */
+static fg_status plan_page(fg__page *page, fg__palette *palette, fg_context *context,
+                           const fg_field *field, const fg_texture_arrays *texture,
+                           const fg_texture_style *style)
+{
+  const double wide = texture->size[0] / pixels_per_point;
+  const double high = texture->size[1] / pixels_per_point;
+  *page = (fg__page){.width = wide, .height = high, .frame = {.x1 = wide, .y1 = high}};
+  fg_status status = fg__palette_create(palette, context, style->palette);
+  if (status || !style->key || !style->palette || palette->uniform)
+    return status;
+  double range[2];
+  status = fg__texture_range(range, context, texture, style);
+  if (!status)
+    fg__texture_key_place(page, range, fg_field_contents(field)->velocity_units);
+  return status;
+}
+
 static fg_status write(fg_context *context, const char *path, cairo_surface_t *image,
                        const fg__polygons *mask, const fg_texture_style *style,
-                       fg__color mask_color)
+                       fg__color mask_color, const fg__page *page,
+                       const fg__palette *palette)
 {
   fg__sheet sheet;
-  const double wide = cairo_image_surface_get_width(image) / pixels_per_point;
-  const double high = cairo_image_surface_get_height(image) / pixels_per_point;
-  fg_status status =
-      fg__sheet_open(&sheet, context, path, wide, high, pixels_per_point, NULL);
+  fg_status status = fg__sheet_open(&sheet, context, path, page->width, page->height,
+                                    pixels_per_point, NULL);
   if (status)
     return status;
+  if (page->has_color_key) {
+    if (!style->transparent) {
+      cairo_set_source_rgb(sheet.cairo, 1.0, 1.0, 1.0);
+      cairo_paint(sheet.cairo);
+    }
+    fg__draw_key(sheet.cairo, page, palette);
+  }
   cairo_scale(sheet.cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
   paint(sheet.cairo, image, mask, style, mask_color);
   return fg__sheet_close(&sheet, context, FG_STATUS_OK);
@@ -84,6 +111,10 @@ fg_status fg_texture_write(fg_context *context, const char *path, const fg_field
   fg__color mask_color = fg__usual_mask;
   fg__polygons mask = {0};
   cairo_surface_t *image = NULL;
+  fg__palette palette;
+  fg__page *page = fg__allocate(1, sizeof *page);
+  if (!page)
+    return fg__fail_memory(context, "a page", sizeof *page);
   fg_status status = fg__format_check(context, path);
   if (!status)
     status = check_style(context, &settled);
@@ -94,7 +125,10 @@ fg_status fg_texture_write(fg_context *context, const char *path, const fg_field
   if (!status)
     status = fg__texture_image(&image, context, contents, &settled);
   if (!status)
-    status = write(context, path, image, &mask, &settled, mask_color);
+    status = plan_page(page, &palette, context, field, contents, &settled);
+  if (!status)
+    status = write(context, path, image, &mask, &settled, mask_color, page, &palette);
+  free(page);
   cairo_surface_destroy(image);
   fg__polygons_clear(&mask);
   return status;

@@ -102,6 +102,52 @@ static void test_pixels_are_the_textures(void **state)
   cairo_surface_destroy(image);
 }
 
+static cairo_surface_t *written_large(example *e, const fg_texture *texture,
+                                      const fg_texture_style *style)
+{
+  if (fg_texture_write(e->context, e->path, e->field, texture, style))
+    fail_msg("%s", fg_context_message(e->context));
+  cairo_surface_t *image = cairo_image_surface_create_from_png(e->path);
+  assert_int_equal(cairo_image_surface_get_width(image), 400);
+  return image;
+}
+
+/* The key lies below: what is above stays to the pixel. Its bar runs from the colours of
+ * slow to those of fast places. */
+static void test_a_key_comes_below(void **state)
+{
+  example *e = *state;
+  const fg_texture_options options = {.longest = 400, .threads = 1};
+  fg_texture *texture = NULL;
+  assert_int_equal(fg_texture_create(&texture, e->context, e->field, &options),
+                   FG_STATUS_OK);
+  const fg_texture_style plain = {.palette = "gale"},
+                         keyed = {.palette = "gale", .key = true}, grey = {.key = true};
+  cairo_surface_t *without = written_large(e, texture, &plain);
+  cairo_surface_t *with = written_large(e, texture, &keyed);
+  cairo_surface_t *none = written_large(e, texture, &grey);
+  assert_int_equal(cairo_image_surface_get_height(without), 200);
+  assert_int_equal(cairo_image_surface_get_height(none), 200); /* nothing to explain */
+  const int height = cairo_image_surface_get_height(with);
+  assert_true(height > 230 && height < 320);
+  for (int j = 0; j < 200; ++j)
+    for (int i = 0; i < 400; ++i) {
+      const rgba a = pixel_at(without, i, j), b = pixel_at(with, i, j);
+      assert_true(a.red == b.red && a.green == b.green && a.blue == b.blue);
+    }
+  int bar = 200; /* its first row below the texture */
+  while (bar < height && pixel_at(with, 200, bar).green > 0.9)
+    ++bar;
+  bar += 6;
+  assert_true(bar < height);
+  const rgba slow = pixel_at(with, 60, bar), fast = pixel_at(with, 340, bar);
+  assert_true(slow.green > fast.green + 0.2); /* gale: from a light blue to a dark red */
+  cairo_surface_destroy(without);
+  cairo_surface_destroy(with);
+  cairo_surface_destroy(none);
+  fg_texture_destroy(texture);
+}
+
 static void test_missing_is_covered(void **state)
 {
   example *e = *state;
@@ -219,6 +265,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(test_pixels_are_the_textures, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_a_key_comes_below, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_missing_is_covered, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_palette_shows_speed, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_fading_leads_to_white, set_up, tear_down),

@@ -39,6 +39,13 @@ try texture "$root/data/gfs_20140131.nc" -o wind.png --pixels 300 --palette deep
 expect_code 0
 [ "$(png_size wind.png)" = "300 150" ] || fault "size $(png_size wind.png)"
 done_with "texture: the domain's shape"
+try texture "$root/data/gfs_20140131.nc" -o key.png --pixels 300 --palette deep --key
+expect_code 0
+[ "$(png_size key.png)" != "300 150" ] || fault "no key"
+try texture "$root/data/gfs_20140131.nc" -o key.svg --pixels 300 --palette deep --key
+expect_code 0
+xmllint --noout key.svg 2>/dev/null || fault "no XML"
+done_with "texture: a colour key"
 try texture synth:saddle -o page.pdf --pixels 100 --fade 0.5 --length 30
 expect_code 0
 [ "$(head -c 5 page.pdf)" = %PDF- ] || fault "no PDF"
