@@ -13,8 +13,8 @@ enum {
   FINEST =
       8, /* samples a cell, where there is room: stairs at slanting edges are finer */
   MEASURED_CELLS = 1 << 16, /* so many, evenly chosen, tell the spacing */
-  MOST_COVER = 64 /* times that cells' boxes may cover the raster: sound meshes do it less
-                     than ten times (tetrahedra fill a sixth of their boxes) */
+  MOST_COVER = 64 /* times that cells' boxes may cover the raster: sound meshes do it 1 to
+                     6 times (tetrahedra fill a sixth of their boxes) */
 };
 
 /* Of the width: single precision rounds coordinates by less, and no layer is thinner. */

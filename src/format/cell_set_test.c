@@ -40,8 +40,8 @@ static void map_affine(double out[3], const double at[3], int dimension)
 {
   for (int k = 0; k < 3; ++k) {
     out[k] = k < dimension ? ZERO[k] : 7.0;
-    for (int j = 0; j < dimension && k < dimension; ++j)
-      out[k] += EDGE[j][k] * at[j];
+    for (int j = 0; j < 3; ++j)
+      out[k] += j < dimension && k < dimension ? EDGE[j][k] * at[j] : 0.0;
   }
 }
 
@@ -201,7 +201,7 @@ static void slopes_are_those_of_weights(void **state)
     const double at[3] = {0.3, 0.2, 0.4}, step = 1e-6;
     double weight[FG__CELL_CORNERS], slope[FG__CELL_CORNERS][3];
     fg__cell_weights(shape, at, weight, slope);
-    for (int k = 0; k < fg__cell_dimension(shape); ++k) {
+    for (int k = 0; k < 3 && k < fg__cell_dimension(shape); ++k) {
       double before[3] = {at[0], at[1], at[2]}, after[3] = {at[0], at[1], at[2]};
       double low[FG__CELL_CORNERS], high[FG__CELL_CORNERS];
       before[k] -= step;

@@ -111,7 +111,7 @@ static fg_status add_cell(fg__vtk *vtk, const topology *t, size_t cell,
 {
   const double type = fg__vtk_value(&t->types, cell);
   const size_t corners = t->end - t->at;
-  double corner[FG__CELL_CORNERS];
+  double corner[FG__CELL_CORNERS] = {0.0};
   for (size_t i = 0; i < corners && i < FG__CELL_CORNERS; ++i)
     corner[i] = fg__vtk_value(&t->corners, t->at + i);
   if (type >= 0.0 && type <= LAST_LINE) /* neither area nor volume */
@@ -226,17 +226,20 @@ static fg_status add_implied(fg__vtk *vtk, const fg__vtk_piece *piece,
   return FG_STATUS_OK;
 }
 
-/* Whether point n of a grid is where its lines along the axes cross, but for the rounding
- * of single precision. */
-static bool is_at_crossing(const fg__vtk *vtk, const size_t length[3], size_t n,
-                           const double rounding[3])
+/* Whether the points of a grid are where its lines along the axes cross, but for the
+ * rounding of single precision. */
+static bool are_at_crossings(const fg__vtk *vtk, const size_t length[3],
+                             const double rounding[3])
 {
-  const double *position = vtk->cells.position + 3 * n;
-  const size_t at[3] = {n % length[0], n / length[0] % length[1],
-                        n / length[0] / length[1]};
-  for (int k = 0; k < 3; ++k)
-    if (!(fabs(position[k] - vtk->coordinate[k][at[k]]) <= rounding[k]))
-      return false;
+  const double *position = vtk->cells.position;
+  double *const *axis = vtk->coordinate;
+  for (size_t k = 0; k < length[2]; ++k)
+    for (size_t j = 0; j < length[1]; ++j)
+      for (size_t i = 0; i < length[0]; ++i, position += 3)
+        if (!(fabs(position[0] - axis[0][i]) <= rounding[0] &&
+              fabs(position[1] - axis[1][j]) <= rounding[1] &&
+              fabs(position[2] - axis[2][k]) <= rounding[2]))
+          return false;
   return true;
 }
 
@@ -244,7 +247,7 @@ static bool is_at_crossing(const fg__vtk *vtk, const size_t length[3], size_t n,
  * samples are kept as they are. */
 static fg_status find_axes(bool *found, fg__vtk *vtk)
 {
-  size_t length[3], step = 1;
+  size_t length[3] = {1, 1, 1}, step = 1;
   double rounding[3] = {0.0, 0.0, 0.0};
   *found = vtk->piece_count == 1 && vtk->cells.points > 0;
   for (int k = 0; k < 3 && *found; ++k) {
@@ -260,8 +263,7 @@ static fg_status find_axes(bool *found, fg__vtk *vtk)
       *found = *found && axis[i] - axis[i - 1] > rounding[k];
     step *= length[k];
   }
-  for (size_t n = 0; n < vtk->cells.points && *found; ++n)
-    *found = is_at_crossing(vtk, length, n, rounding);
+  *found = *found && are_at_crossings(vtk, length, rounding);
   for (int k = 0; k < 3 && !*found; ++k) {
     free(vtk->coordinate[k]);
     vtk->coordinate[k] = NULL;

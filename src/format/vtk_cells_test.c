@@ -145,6 +145,40 @@ static void a_curvilinear_grid_is_the_cells_between_its_points(void **state)
   fg_field_destroy(binary);
 }
 
+/* One layer of points is quads: here in the plane x = 7, sheared. */
+static void a_flat_curvilinear_grid_is_a_plane(void **state)
+{
+  static const double place[18] = {7, 0, 1, 7, 2, 1, 7, 5, 1, 7, 1, 4, 7, 3, 4, 7, 6, 4};
+  static const double vector[18] = {9, 0, 1, 9, 2, 1, 9, 5, 1, 9, 1, 4, 9, 3, 4, 9, 6, 4};
+  example_text file = {0}, appended = {0};
+  example_begin_kind(&file, &RAW, "StructuredGrid", "WholeExtent=\"0 2 4 4 0 1\"");
+  example_words(&file, "<Piece Extent=\"0 2 4 4 0 1\"><PointData>\n");
+  example_array(&file, &appended, &RAW, "U", 3, vector, 18);
+  example_words(&file, "</PointData><Points>\n");
+  example_array(&file, &appended, &RAW, "Points", 3, place, 18);
+  example_words(&file, "</Points></Piece>\n");
+  example_end_kind(&file, &appended, &RAW, "StructuredGrid");
+  fg_field *field = field_of(*state, file, NULL);
+  const fg_field_arrays *f = fg_field_contents(field);
+  assert_int_equal(f->dimension, 2);
+  assert_string_equal(f->axis_name[0], "y");
+  assert_true(f->axis[1][0] == 1.0 && f->axis[1][f->size[1] - 1] == 4.0);
+  int missing = 0;
+  for (int j = 0; j < f->size[1]; ++j)
+    for (int i = 0; i < f->size[0]; ++i) {
+      const size_t n = (size_t)j * (size_t)f->size[0] + (size_t)i;
+      const double y = f->axis[0][i], z = f->axis[1][j], left = (z - 1.0) / 3.0;
+      missing += isnan(f->velocity[0][n]) ? 1 : 0;
+      if (isnan(f->velocity[0][n]))
+        assert_true(y < left + 1e-3 || y > left + 5.0 - 1e-3);
+      else
+        assert_true(fabs((double)f->velocity[0][n] - y) < 1e-5 &&
+                    fabs((double)f->velocity[1][n] - z) < 1e-5);
+    }
+  assert_true(missing > 0);
+  fg_field_destroy(field);
+}
+
 /* A grid whose points are where lines along the axes cross keeps its axes and samples. */
 static void a_curvilinear_grid_along_the_axes_stays_as_it_is(void **state)
 {
@@ -254,6 +288,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_way_of_writing_gives_the_same_field),
       cmocka_unit_test(a_curvilinear_grid_is_the_cells_between_its_points),
+      cmocka_unit_test(a_flat_curvilinear_grid_is_a_plane),
       cmocka_unit_test(a_curvilinear_grid_along_the_axes_stays_as_it_is),
       cmocka_unit_test(values_of_cells_agree_with_those_of_an_image),
       cmocka_unit_test(masks_and_hidden_points_are_missing),
