@@ -31,18 +31,6 @@ struct cli_drawing {
   double icon_seconds, picture_seconds;
 };
 
-void speed_range(const fg_icons *icons, double range[2])
-{
-  range[0] = range[1] = 0.0;
-  for (int k = 0; k < fg_icons_count(icons); ++k) {
-    double speed = fg_icons_at(icons, k)->speed;
-    if (k == 0 || speed < range[0])
-      range[0] = speed;
-    if (k == 0 || speed > range[1])
-      range[1] = speed;
-  }
-}
-
 static char *scale_path(const cli_drawing *drawing, int index, const char *end)
 {
   char name[SCALE_NAME_BYTES];
@@ -188,7 +176,7 @@ static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *momen
   double between = clock_seconds();
   drawing->icon_seconds += between - start;
   if (!status && index == 0)
-    speed_range(icons, drawing->speeds);
+    fg_icons_speed_range(drawing->speeds, icons);
   if (!status)
     status = scales_are_solid(drawing->field)
                  ? draw_solids(drawing, index, moment, icons)

@@ -69,7 +69,4 @@ double drawing_picture_seconds(const cli_drawing *drawing);
 fg_context *drawing_context(const cli_drawing *drawing);
 void drawing_destroy(cli_drawing *drawing);
 
-/* Finest and fastest: the range of the icons' speeds; 0, 0 for none. */
-void speed_range(const fg_icons *icons, double range[2]);
-
 #endif

@@ -129,7 +129,7 @@ static int draw(rival_work *work, int count)
   if (status)
     code = complain_of(work->context, status, work->settings->operand);
   if (!code && !work->files)
-    speed_range(icons, work->speeds);
+    fg_icons_speed_range(work->speeds, icons);
   if (!code)
     code = write_icons(work, count, icons);
   if (!code)

@@ -52,9 +52,9 @@ typedef struct fg_icons fg_icons;
 
 /* Makes the icons of a density: label, march, spine, streamline, arrow. Clusters too
  * small for a readable arrow give none; fg_icons_dropped counts them. In 2D no arrow
- * crosses a periodic border: a cluster with a quarter of itself or more on either side
- * gives an icon on each, with the same `cluster`. Of a shared density
- * each rank makes the icons of some clusters, from what lies round them, and rank 0 gets
+ * crosses a periodic border: a cluster with a quarter of itself, or of the mean cluster,
+ * on either side gives an icon on each, with the same `cluster`. Of a shared density each
+ * rank makes the icons of some clusters, from what lies round them, and rank 0 gets
  * all, the same as of the whole; on other ranks *out becomes NULL. UNSUPPORTED
  * (FG_ICON_EXTENT_TERRITORY in 3D, or of a shared density: fg_density_gather), MEMORY,
  * STOPPED. */
@@ -66,6 +66,12 @@ FG_API int fg_icons_count(const fg_icons *icons);
 FG_API const fg_icon *fg_icons_at(const fg_icons *icons, int index);
 FG_API int fg_icons_clusters(const fg_icons *icons); /* clusters, drawn or dropped */
 FG_API int fg_icons_dropped(const fg_icons *icons);
+
+/* Least and largest speed, the ends of a colour key. Of 8 icons or more, one that is far
+ * out does not count, so that it leaves the others their colours: faster than the upper
+ * quartile by more than 3 times the distance between the quartiles (Tukey 1977). Without
+ * icons 0, 0. */
+FG_API void fg_icons_speed_range(double range[2], const fg_icons *icons);
 
 /* Outline of an icon as a closed polygon, the first vertex not repeated. *vertices is
  * allocated with malloc: free it. MEMORY. */

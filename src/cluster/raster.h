@@ -84,17 +84,17 @@ enum { FG__WINDOW_PARTS = 4 };
 
 typedef struct fg__window_part {
   fg__window window;
-  double share; /* of the cluster's nodes */
+  double share; /* of the cluster */
 } fg__window_part;
 
 /* Cuts a cluster's window where it crosses periodic borders, since a map ends there: the
- * largest part, and each that holds a quarter of the cluster or more, in the domain's own
- * coordinates, from left to right and from below to above. A cut edge is at_border. One
- * that crosses none is the only part. Takes `whole`, which is empty afterwards; *count
- * parts are to be cleared, also after a failure. MEMORY. */
+ * largest part, and each that holds a quarter of the cluster, or of the mean cluster, in
+ * the domain's own coordinates, from left to right and from below to above. A cut edge is
+ * at_border. One that crosses none is the only part. Takes `whole`, which is empty
+ * afterwards; *count parts are to be cleared, also after a failure. MEMORY. */
 fg_status fg__window_divide(fg__window_part part[FG__WINDOW_PARTS], int *count,
                             fg_context *context, const fg_density_arrays *density,
-                            fg__window *whole);
+                            const fg__labels *labels, fg__window *whole);
 
 /* Bilinear level at a point in input coordinates; a negative number outside the window or
  * in a masked cell. */

@@ -7,8 +7,8 @@
 #include "base/context.h"
 #include "base/memory.h"
 
-/* A part with less of the cluster gets no icon: it would be a small arrow beside large
- * ones, and the largest part's arrow speaks for it. */
+/* A part with less than this share both of the cluster and of the mean cluster gets no
+ * icon: it would be a small arrow beside large ones. */
 static const double LEAST_SHARE = 0.25;
 
 /* Columns (or rows) of a window between two neighbouring borders of the domain. */
@@ -81,6 +81,7 @@ typedef struct division {
   const fg_density_arrays *density;
   const fg__window *whole;
   int all, largest;
+  double least; /* nodes that a part needs, but for the largest */
 } division;
 
 static void count_parts(division *d)
@@ -99,12 +100,13 @@ static fg_status take_parts(fg__window_part *part, int *count, fg_context *conte
 {
   stretch range[2];
   bool has_largest = false;
+  *count = 0;
   for (int n = 0; find_stretch(&range[1], d->density, d->whole, 1, n); ++n)
     for (int m = 0; find_stretch(&range[0], d->density, d->whole, 0, m); ++m) {
       int nodes = count_nodes(d->whole, &range[0], &range[1]);
       bool largest = nodes == d->largest && !has_largest;
       has_largest = has_largest || largest;
-      if ((!largest && nodes < LEAST_SHARE * d->all) || *count == FG__WINDOW_PARTS)
+      if ((!largest && nodes < d->least) || *count == FG__WINDOW_PARTS)
         continue;
       fg__window_part *next = &part[(*count)++];
       next->share = (double)nodes / d->all;
@@ -117,7 +119,7 @@ static fg_status take_parts(fg__window_part *part, int *count, fg_context *conte
 
 fg_status fg__window_divide(fg__window_part part[FG__WINDOW_PARTS], int *count,
                             fg_context *context, const fg_density_arrays *density,
-                            fg__window *whole)
+                            const fg__labels *labels, fg__window *whole)
 {
   stretch second;
   *count = 0;
@@ -130,6 +132,10 @@ fg_status fg__window_divide(fg__window_part part[FG__WINDOW_PARTS], int *count,
   }
   division d = {.density = density, .whole = whole};
   count_parts(&d);
+  double mean = 0.0, area = labels->area[whole->cluster - 1];
+  for (int n = 0; n < labels->count; ++n)
+    mean += labels->area[n] / labels->count;
+  d.least = LEAST_SHARE * d.all * (area > mean ? mean / area : 1.0);
   fg_status status = take_parts(part, count, context, &d);
   fg__window_clear(whole);
   return status;

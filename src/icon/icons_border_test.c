@@ -120,6 +120,30 @@ static void no_arrow_crosses_a_periodic_border(void **state)
   }
 }
 
+/* The grain with four small ones far from it. */
+static double among_small_ones(double x, double y, const double center[2])
+{
+  double d = round_grain(x, y, center);
+  for (int k = 0; k < 4; k++)
+    d = fmax(d, ellipse(x, y, 20 + 4 * (k % 2), k < 2 ? -6 : 7, 1.6, 0.9, 0));
+  return d;
+}
+
+/* What is a small part of a large cluster is worth an arrow where most are small. */
+static void a_part_as_large_as_other_clusters_has_an_arrow(void **state)
+{
+  (void)state;
+  const double center[2] = {6.8, 0.7};
+  for (int k = 0; k < 2; k++) {
+    round_depth depth = k ? among_small_ones : round_grain;
+    test_bench bench = round_bench(depth, center, false, FG_ICON_EXTENT_CLUSTER);
+    assert_int_equal(fg_icons_clusters(bench.icons), k ? 5 : 1);
+    assert_int_equal(fg_icons_count(bench.icons), k ? 6 : 1);
+    judge_all(&bench, depth, center, false);
+    end_bench(&bench);
+  }
+}
+
 static void nor_a_corner_of_two(void **state)
 {
   (void)state;
@@ -173,6 +197,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(no_arrow_crosses_a_periodic_border),
       cmocka_unit_test(nor_a_corner_of_two),
+      cmocka_unit_test(a_part_as_large_as_other_clusters_has_an_arrow),
       cmocka_unit_test(a_band_is_cut_at_the_border_too),
       cmocka_unit_test(territories_end_at_the_border),
   };

@@ -330,7 +330,8 @@ static fg_status make_icons(icon_job *job, fg_context *context, fg__chooser *cho
       &whole, context, source->density, source->labels,
       source->cluster ? &source->patch[index] : source->patch, request.cluster);
   if (status == FG_STATUS_OK)
-    status = fg__window_divide(part, &parts, context, source->density, &whole);
+    status =
+        fg__window_divide(part, &parts, context, source->density, source->labels, &whole);
   request.divided = parts > 1;
   for (int k = 0; k < parts && status == FG_STATUS_OK; k++) {
     status = make_icon(&icon[k], context, chooser, &request, &part[k].window);

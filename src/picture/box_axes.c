@@ -173,7 +173,8 @@ void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage
 }
 
 void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
-                        const fg__palette *palette, const fg__axis *speed)
+                        const fg__palette *palette, const fg__axis *speed,
+                        const bool beyond[2])
 {
   double height = pane->y1 - pane->y0, width = bar_width * em;
   cairo_pattern_t *ramp = cairo_pattern_create_linear(0.0, pane->y1, 0.0, pane->y0);
@@ -182,7 +183,14 @@ void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
     cairo_pattern_add_color_stop_rgb(ramp, (double)k / (FG__PALETTE_SAMPLES - 1),
                                      color.red, color.green, color.blue);
   }
-  cairo_rectangle(cairo, pane->x0, pane->y0, width, height);
+  double middle = pane->x0 + 0.5 * width;
+  cairo_move_to(cairo, pane->x0, pane->y0);
+  cairo_line_to(cairo, middle, beyond[1] ? pane->y0 - width : pane->y0);
+  cairo_line_to(cairo, pane->x0 + width, pane->y0);
+  cairo_line_to(cairo, pane->x0 + width, pane->y1);
+  cairo_line_to(cairo, middle, beyond[0] ? pane->y1 + width : pane->y1);
+  cairo_line_to(cairo, pane->x0, pane->y1);
+  cairo_close_path(cairo);
   cairo_set_source(cairo, ramp);
   cairo_fill_preserve(cairo);
   cairo_pattern_destroy(ramp);
@@ -202,6 +210,7 @@ void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
     fg__text_draw(cairo, ticks.text[n], em, false);
   }
   double label = fg__text_width(cairo, speed->label, em, false);
-  cairo_move_to(cairo, fmin(pane->x0, pane->x1 - label), pane->y0 - 0.8 * em);
+  cairo_move_to(cairo, fmin(pane->x0, pane->x1 - label),
+                pane->y0 - 0.8 * em - (beyond[1] ? width : 0.0));
   fg__text_draw(cairo, speed->label, em, false);
 }

@@ -25,8 +25,10 @@ void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
 void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
                        const fg__camera *camera);
 
-/* An upright bar in a pane, with numbers at its right and the speed's name above. */
+/* An upright bar in a pane, with numbers at its right and the speed's name above; its end
+ * is a point where there are speeds below or above. */
 void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
-                        const fg__palette *palette, const fg__axis *speed);
+                        const fg__palette *palette, const fg__axis *speed,
+                        const bool beyond[2]);
 
 #endif

@@ -9,20 +9,10 @@
 
 bool fg__speed_range(double range[2], const fg_icons *icons)
 {
-  int count = fg_icons_count(icons);
   if (range[1] > range[0])
     return true;
-  range[0] = HUGE_VAL;
-  range[1] = -HUGE_VAL;
-  for (int n = 0; n < count; ++n) {
-    double speed = fg_icons_at(icons, n)->speed;
-    if (!isfinite(speed))
-      continue;
-    range[0] = fmin(range[0], speed);
-    range[1] = fmax(range[1], speed);
-  }
-  if (!(range[1] >= range[0])) {
-    range[0] = 0.0;
+  fg_icons_speed_range(range, icons);
+  if (fg_icons_count(icons) == 0) {
     range[1] = 1.0;
     return false;
   }
@@ -36,6 +26,17 @@ bool fg__speed_range(double range[2], const fg_icons *icons)
   range[0] = floor(range[0] / step * (1.0 + 1e-9)) * step;
   range[1] = ceil(range[1] / step * (1.0 - 1e-9)) * step;
   return true;
+}
+
+void fg__speeds_beyond(bool beyond[2], const fg_icons *icons, const double range[2])
+{
+  double rounding = 1e-9 * (range[1] - range[0]);
+  beyond[0] = beyond[1] = false;
+  for (int n = 0; n < fg_icons_count(icons); ++n) {
+    double speed = fg_icons_at(icons, n)->speed;
+    beyond[0] = beyond[0] || speed < range[0] - rounding;
+    beyond[1] = beyond[1] || speed > range[1] + rounding;
+  }
 }
 
 /* Adds a part of the subtitle after a middle dot. */

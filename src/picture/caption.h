@@ -4,9 +4,12 @@
 
 #include "flowgrain/flowgrain.h"
 
-/* Sets the ends of the colour key to the icons' speeds, rounded out to ticks, unless
- * range already says some, ascending. False: no icon has a speed. */
+/* Sets the ends of the colour key to fg_icons_speed_range, rounded out to ticks, unless
+ * range already says some, ascending. False: there are no icons. */
 bool fg__speed_range(double range[2], const fg_icons *icons);
+
+/* Whether some icons are slower, or faster, than the ends of the colour key. */
+void fg__speeds_beyond(bool beyond[2], const fg_icons *icons, const double range[2]);
 
 /* The caption: `wanted` as the title when that is not NULL, else what the field says of
  * itself. arrows < 0, scale_time 0: not told. */

@@ -133,6 +133,28 @@ static void add_box(cairo_t *cairo, const fg__box *box)
   cairo_rectangle(cairo, box->x0, box->y0, box->x1 - box->x0, box->y1 - box->y0);
 }
 
+/* The colour key's outline, with a point at an end beyond which there are speeds. */
+static void add_color_key(cairo_t *cairo, const fg__page *page)
+{
+  const fg__box *key = &page->color_key;
+  bool upright = page->color_key_upright;
+  const double *point = page->color_key_point;
+  double middle = upright ? 0.5 * (key->x0 + key->x1) : 0.5 * (key->y0 + key->y1);
+  cairo_move_to(cairo, key->x0, key->y0);
+  if (upright && point[1] > 0.0)
+    cairo_line_to(cairo, middle, key->y0 - point[1]);
+  cairo_line_to(cairo, key->x1, key->y0);
+  if (!upright && point[1] > 0.0)
+    cairo_line_to(cairo, key->x1 + point[1], middle);
+  cairo_line_to(cairo, key->x1, key->y1);
+  if (upright && point[0] > 0.0)
+    cairo_line_to(cairo, middle, key->y1 + point[0]);
+  cairo_line_to(cairo, key->x0, key->y1);
+  if (!upright && point[0] > 0.0)
+    cairo_line_to(cairo, key->x0 - point[0], middle);
+  cairo_close_path(cairo);
+}
+
 static void draw_color_key(cairo_t *cairo, const fg__page *page,
                            const fg__palette *palette)
 {
@@ -145,7 +167,7 @@ static void draw_color_key(cairo_t *cairo, const fg__page *page,
     cairo_pattern_add_color_stop_rgb(ramp, (double)k / (FG__PALETTE_SAMPLES - 1),
                                      color.red, color.green, color.blue);
   }
-  add_box(cairo, key);
+  add_color_key(cairo, page);
   cairo_set_source(cairo, ramp);
   cairo_fill_preserve(cairo);
   cairo_pattern_destroy(ramp);

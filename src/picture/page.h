@@ -45,6 +45,7 @@ typedef struct fg__page {
   int line_count;
   bool has_color_key, color_key_upright;
   fg__box color_key;
+  double color_key_point[2]; /* length of the points at its ends, for speeds beyond */
   bool has_size_key;
   double size_key[2];     /* where its arrow's tail is */
   double size_key_length; /* points */
@@ -60,7 +61,8 @@ typedef struct fg__page_plan {
   char title[FG__PAGE_TEXT_BYTES];    /* "" none */
   char subtitle[FG__PAGE_TEXT_BYTES]; /* "" none */
   bool color_key;
-  fg__axis speed; /* with the ends of the colour key */
+  fg__axis speed;        /* with the ends of the colour key */
+  bool speeds_beyond[2]; /* some arrows are slower or faster than these ends */
   bool size_key;
   double arrow_length; /* of a typical arrow, coordinates */
 } fg__page_plan;

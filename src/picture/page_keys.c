@@ -66,6 +66,17 @@ static const char *color_label(const fg__page_plan *plan, cairo_t *ruler,
   return "";
 }
 
+/* An end beyond which there are speeds is a point; the bar is that much shorter. */
+static void add_points(fg__page *page, const fg__page_plan *plan, double *start,
+                       double *end)
+{
+  for (int k = 0; k < 2; ++k)
+    page->color_key_point[k] =
+        plan->speeds_beyond[k] ? bar_thickness * page->font_size : 0.0;
+  *start += page->color_key_point[0];
+  *end -= page->color_key_point[1];
+}
+
 static void bar_below(fg__page *page, fg__margins *room, const fg__page_plan *plan,
                       cairo_t *ruler, double x0, double y0, double length)
 {
@@ -73,7 +84,10 @@ static void bar_below(fg__page *page, fg__margins *room, const fg__page_plan *pl
   const fg__axis *speed = &plan->speed;
   page->has_color_key = true;
   page->color_key_upright = false;
-  page->color_key = (fg__box){x0, y0, x0 + length, y0 + bar_thickness * em};
+  double x1 = x0 + length;
+  add_points(page, plan, &x0, &x1);
+  length = x1 - x0;
+  page->color_key = (fg__box){x0, y0, x1, y0 + bar_thickness * em};
   fg__ticks ticks;
   fg__page_choose_ticks(&ticks, speed, ruler, length, em, false);
   double y1 = page->color_key.y1;
@@ -144,6 +158,10 @@ static double bar_beside(fg__page *page, fg__margins *room, const fg__page_plan 
   const fg__axis *speed = &plan->speed;
   page->has_color_key = true;
   page->color_key_upright = true;
+  double above = -y0, below = -y1;
+  add_points(page, plan, &below, &above);
+  y0 = -above;
+  y1 = -below;
   page->color_key = (fg__box){x0, y0, x0 + bar_thickness * em, y1};
   fg__ticks ticks;
   fg__page_choose_ticks(&ticks, speed, ruler, y1 - y0, em, true);

@@ -23,6 +23,20 @@ static fg__box size_key_box(const fg__page *page)
                    page->size_key[0] + page->size_key_length, page->size_key[1] + 1.0};
 }
 
+/* With the points at its ends. */
+static fg__box color_key_box(const fg__page *page)
+{
+  fg__box box = page->color_key;
+  if (page->color_key_upright) {
+    box.y1 += page->color_key_point[0];
+    box.y0 -= page->color_key_point[1];
+  } else {
+    box.x0 -= page->color_key_point[0];
+    box.x1 += page->color_key_point[1];
+  }
+  return box;
+}
+
 static void check_inside(const fg__page *page, const fg__box *box)
 {
   const double slack = 1e-6 * (page->width + page->height);
@@ -39,7 +53,7 @@ static void check_page(const fg__page *page, const fg__page_plan *plan)
     things[count++] = page->text[k].box;
   things[count++] = page->frame;
   if (page->has_color_key)
-    things[count++] = page->color_key;
+    things[count++] = color_key_box(page);
   if (page->has_size_key)
     things[count++] = size_key_box(page);
   for (int a = 0; a < count; ++a) {
@@ -81,6 +95,8 @@ static fg__page_plan plan_of(double width, double height, double x, double y, in
   }
   fg__axis_of_numbers(&plan.speed, 0.0, 13.7, 13.7, "mean speed", "m s-1");
   plan.color_key = plan.size_key = true;
+  plan.speeds_beyond[0] = style == 1;
+  plan.speeds_beyond[1] = style > 0;
   plan.arrow_length = 0.13 * sqrt(x * y);
   snprintf(plan.title, sizeof plan.title, "%s", title);
   snprintf(plan.subtitle, sizeof plan.subtitle, "%s",
@@ -159,6 +175,35 @@ static void a_usual_page_has_everything(void **state)
   }
 }
 
+static double longer_side(const fg__box *box)
+{
+  return fmax(box->x1 - box->x0, box->y1 - box->y0);
+}
+
+/* Only an end beyond which there are speeds has a point, in the room of a plain bar. */
+static void a_key_points_at_speeds_beyond(void **state)
+{
+  (void)state;
+  for (int s = 0; s < 2; ++s)
+    for (int ends = 1; ends < 4; ++ends) {
+      fg__page_plan plan = plan_of(0, 0, s ? 40 : 360, 90, 0, "Wind");
+      fg__page *plain = lay_out(&plan);
+      plan.speeds_beyond[0] = ends & 1;
+      plan.speeds_beyond[1] = ends & 2;
+      fg__page *pointed = lay_out(&plan);
+      assert_true(plain->has_color_key && pointed->has_color_key);
+      fg__box without = color_key_box(plain), with = color_key_box(pointed);
+      assert_true(fabs(longer_side(&with) - longer_side(&without)) < 1e-9);
+      assert_true(longer_side(&pointed->color_key) < longer_side(&without) - 1.0);
+      for (int k = 0; k < 2; ++k) {
+        assert_true(plain->color_key_point[k] == 0.0);
+        assert_true((pointed->color_key_point[k] > 1.0) == plan.speeds_beyond[k]);
+      }
+      free(plain);
+      free(pointed);
+    }
+}
+
 static void ticks_mark_their_coordinates(void **state)
 {
   (void)state;
@@ -227,6 +272,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(nothing_collides_on_any_page),
       cmocka_unit_test(a_usual_page_has_everything),
+      cmocka_unit_test(a_key_points_at_speeds_beyond),
       cmocka_unit_test(ticks_mark_their_coordinates),
       cmocka_unit_test(the_reference_arrow_has_its_length),
       cmocka_unit_test(no_frame_is_the_domain_alone),

@@ -99,6 +99,7 @@ static fg_status plan_picture(picture *out, fg_context *context,
   range[0] = options->speed_min;
   range[1] = options->speed_max;
   bool has_speeds = fg__speed_range(range, icons);
+  fg__speeds_beyond(plan->speeds_beyond, icons, range);
   bool keys = !options->no_keys && !options->no_arrows;
   plan->color_key = has_speeds && !out->palette.uniform && keys;
   fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0], "mean speed",

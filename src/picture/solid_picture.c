@@ -177,7 +177,9 @@ static void draw_words(cairo_t *cairo, solid_picture *p)
     double high = bar_share * r->height, middle = 0.5 * r->height;
     fg__pane pane = {r->width - key_room * em, middle - high / 2.0, r->width - edge * em,
                      middle + high / 2.0};
-    fg__color_bar_draw(cairo, &pane, em, &p->palette, &p->speed);
+    bool beyond[2];
+    fg__speeds_beyond(beyond, r->icons, r->range);
+    fg__color_bar_draw(cairo, &pane, em, &p->palette, &p->speed, beyond);
   }
 }
 
