@@ -1,6 +1,7 @@
 #include "past_run.h"
 
 #include <cjson/cJSON.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -178,6 +179,51 @@ const char *report_scale_density(const cli_report *report, int index)
 double report_scale_time(const cli_report *report, int index)
 {
   return number_of(scale_at(report, index), "time", 0.0, 1e300, 0.0);
+}
+
+/* Ends of axes pass through text and through units: what differs by less is the same. */
+static const double same_share = 1e-6;
+
+static double number_at(const cJSON *list, int index)
+{
+  const cJSON *item = cJSON_GetArrayItem(list, index);
+  return cJSON_IsNumber(item) ? item->valuedouble : (double)NAN;
+}
+
+bool report_is_of_field(const cli_report *report, const char *folder, const char *input,
+                        const fg_field *field)
+{
+  const cJSON *told = cJSON_GetObjectItemCaseSensitive(report->tree, "field");
+  const cJSON *size = cJSON_GetObjectItemCaseSensitive(told, "size");
+  const cJSON *bounds = cJSON_GetObjectItemCaseSensitive(told, "bounds");
+  const char *scale = text_of(told, "scale");
+  const fg_field_arrays *got = fg_field_contents(field);
+  if (!cJSON_IsArray(size) || !cJSON_IsArray(bounds))
+    return true; /* it does not say */
+  int dimension = cJSON_GetArraySize(size);
+  if (dimension != got->dimension) {
+    complain("%s: %s is a field in %d dimensions, and the run's is in %d", folder, input,
+             got->dimension, dimension);
+    return false;
+  }
+  for (int k = 0; k < dimension; ++k) {
+    double samples = number_at(size, k);
+    double low = number_at(bounds, 2 * k), high = number_at(bounds, 2 * k + 1);
+    double first = got->axis[k][0], last = got->axis[k][got->size[k] - 1];
+    double slack = same_share * fabs(high - low);
+    if (samples == got->size[k] && fabs(first - low) <= slack &&
+        fabs(last - high) <= slack)
+      continue;
+    complain("%s: %s has %d samples from %g to %g along axis %d, and the run's field has "
+             "%g from %g to %g",
+             folder, input, got->size[k], first, last, k + 1, samples, low, high);
+    return false;
+  }
+  if (!scale || strcmp(scale, scale_words[got->scale]) == 0)
+    return true;
+  complain("%s: the scale of %s is %s, and the run's is %s", folder, input,
+           scale_words[got->scale], scale);
+  return false;
 }
 
 void report_clear(cli_report *report)

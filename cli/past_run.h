@@ -36,6 +36,10 @@ const char *report_scale_icons(const cli_report *report, int index); /* file's n
 /* The density's file; NULL: none was saved. */
 const char *report_scale_density(const cli_report *report, int index);
 double report_scale_time(const cli_report *report, int index);
+/* Whether a field has the grid and the scale of the one that the run was made of; if not,
+ * complains. */
+bool report_is_of_field(const cli_report *report, const char *folder, const char *input,
+                        const fg_field *field);
 void report_clear(cli_report *report);
 
 /* Reads a whole file into a text; NULL: a complaint was printed. End with free. */

@@ -48,6 +48,22 @@ expect_one_complaint
 expect_nothing_at x.svg
 done_with "draw: icons are missing"
 
+for other in 'synth:vortex3d' 'other.vti' 'finer.vti'; do
+  try synth saddle -o finer.vti --nodes 77
+  printf '%s\n' '<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian"><ImageData' \
+    'WholeExtent="0 1 0 1 0 0" Origin="0 0 0" Spacing="1.5 1 1"><Piece Extent="0 1 0 1 0 0">' \
+    '<PointData><DataArray type="Float32" Name="v" NumberOfComponents="3" format="ascii">' \
+    '1 0 0 1 0 0 1 0 0 1 0 0</DataArray></PointData></Piece></ImageData></VTKFile>' >other.vti
+  try draw run -o x.svg --input "$other"
+  expect_code 1
+  expect_one_complaint
+  expect_error "$other"
+  expect_nothing_at x.svg
+done
+try draw run -o x.svg --input synth:vortex --no-frame
+expect_code 0
+done_with "draw: an input with another grid is refused"
+
 for end in vti nc; do
   try synth benard -o field.$end --nodes 33
   expect_code 0
