@@ -121,7 +121,7 @@ static fg_status make(fg_density **out, reading *r)
     status = fg__fail_memory(r->context, "a density", nodes * sizeof *u + cells);
   } else {
     take_nodes(r, u);
-    for (size_t n = 0; n < cells && r->masked; ++n)
+    for (size_t n = 0; n < cells && active; ++n)
       active[n] = ((int)fg__vtk_value(&r->ghost, n) & FG__VTI_HIDDEN_CELL) == 0;
     a->u = u;
     a->active = active;

@@ -27,7 +27,7 @@ static void put(unsigned char *to, unsigned value, int width, bool big_endian)
 static void exif_of(unsigned char exif[SIZE], unsigned orientation, bool big_endian)
 {
   memset(exif, 0, SIZE);
-  memcpy(exif, big_endian ? "MM" : "II", 2);
+  exif[0] = exif[1] = big_endian ? 'M' : 'I';
   put(exif + 2, 42, 2, big_endian);
   put(exif + 4, 12, 4, big_endian);
   put(exif + 12, 2, 2, big_endian);
