@@ -157,11 +157,11 @@ static int run_command(const char *command, const cli_settings *settings)
 }
 
 /* Writes DIR/name by `print`, whole or not at all. */
-static int write_file(const char *folder, const char *name,
-                      void (*print)(FILE *stream, int only), void (*draw)(FILE *stream),
-                      int only)
+static int write_file(const cli_settings *settings, const char *name,
+                      void (*print)(FILE *stream, const cli_settings *settings),
+                      void (*draw)(FILE *stream))
 {
-  char *path = join_path(folder, name);
+  char *path = join_path(settings->output, name);
   char *partial = path ? temporary_name(path) : NULL;
   if (!partial) {
     free(path);
@@ -173,7 +173,7 @@ static int write_file(const char *folder, const char *name,
     code = complain_of_file(path, "cannot be written");
   else {
     if (print)
-      print(stream, only);
+      print(stream, settings);
     else
       draw(stream);
     bool written = !ferror(stream);
@@ -193,7 +193,7 @@ static int make_figure(const gallery_figure *figure, const cli_settings *setting
   if (!settings->quiet)
     fprintf(stderr, "flowgrain: figure %d: %s\n", figure->number, figure->title);
   if (figure->draw)
-    return write_file(settings->output, figure->picture[0].path, NULL, figure->draw, 0);
+    return write_file(settings, figure->picture[0].path, NULL, figure->draw);
   int code = EXIT_DONE;
   for (int n = 0; n < GALLERY_COMMANDS && figure->command[n] && !code; ++n)
     code = run_command(figure->command[n], settings);
@@ -236,8 +236,7 @@ int command_gallery(const cli_settings *settings)
     if (is_wanted(&gallery_figures[n], settings))
       code = make_figure(&gallery_figures[n], settings);
   if (!code)
-    code = write_file(settings->output, PAGE_NAME, gallery_print_page, NULL,
-                      settings->figure);
+    code = write_file(settings, PAGE_NAME, gallery_print_page, NULL);
   if (!code)
     printf("%s/%s\n", settings->output, PAGE_NAME);
   return code;

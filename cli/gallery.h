@@ -37,8 +37,9 @@ extern const int gallery_data_count;
 /* Whether a figure is the one of that number; all are, when it is 0. */
 bool gallery_shows(const gallery_figure *figure, int number);
 
-/* The page that shows them: all, or the one of that number. */
-void gallery_print_page(FILE *page, int only);
+/* The page that shows them, all or the one of the settings: what is there of their
+ * pictures. */
+void gallery_print_page(FILE *page, const cli_settings *settings);
 
 /* The double well, and the substeps of the theta-scheme. */
 void gallery_draw_wells(FILE *svg);

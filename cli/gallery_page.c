@@ -1,6 +1,7 @@
 /* The gallery's page: each figure beside what the paper's shows, and its commands. */
 #include <string.h>
 
+#include "folder.h"
 #include "gallery.h"
 
 static const char head[] =
@@ -57,11 +58,21 @@ static int count_pictures(const gallery_figure *figure)
   return count;
 }
 
-static void print_row(FILE *page, const gallery_picture *picture, int count)
+/* A program built without Embree draws nothing in 3D; the figure then says so. */
+static void print_row(FILE *page, const char *folder, const gallery_picture *picture,
+                      int count)
 {
   fprintf(page, "<div class=\"row%s\" style=\"--pictures:%d\">\n",
           count == 1 ? " single" : "", count);
   for (int n = 0; n < count; ++n) {
+    if (!file_is_there(folder, picture[n].path)) {
+      fputs("<figure><figcaption>", page);
+      print_text(page, picture[n].caption);
+      fputs(": no picture, since this flowgrain was built without Embree, which draws "
+            "in 3D</figcaption></figure>\n",
+            page);
+      continue;
+    }
     fprintf(page, "<figure><a href=\"%s\"><img src=\"%s\" alt=\"", picture[n].path,
             picture[n].path);
     print_text(page, picture[n].caption);
@@ -72,7 +83,7 @@ static void print_row(FILE *page, const gallery_picture *picture, int count)
   fputs("</div>\n", page);
 }
 
-static void print_figure(FILE *page, const gallery_figure *figure)
+static void print_figure(FILE *page, const char *folder, const gallery_figure *figure)
 {
   fprintf(page, "<h2 id=\"fig-%02d\">Figure", figure->number);
   if (figure->last)
@@ -85,7 +96,7 @@ static void print_figure(FILE *page, const gallery_figure *figure)
   for (int row = 0, first = 0; first < count; ++row) {
     int wanted = row < GALLERY_ROWS ? figure->row[row] : 0;
     int pictures = wanted && wanted < count - first ? wanted : count - first;
-    print_row(page, figure->picture + first, pictures);
+    print_row(page, folder, figure->picture + first, pictures);
     first += pictures;
   }
   fputs("<p class=\"paper\"><strong>In the paper:</strong> ", page);
@@ -113,11 +124,11 @@ bool gallery_shows(const gallery_figure *figure, int number)
   return !number || (figure->number <= number && number <= last);
 }
 
-void gallery_print_page(FILE *page, int only)
+void gallery_print_page(FILE *page, const cli_settings *settings)
 {
   fputs(head, page);
   for (int n = 0; n < gallery_figure_count; ++n)
-    if (gallery_shows(&gallery_figures[n], only))
-      print_figure(page, &gallery_figures[n]);
+    if (gallery_shows(&gallery_figures[n], settings->figure))
+      print_figure(page, settings->output, &gallery_figures[n]);
   fprintf(page, "<p class=\"paper\">flowgrain %s</p>\n</body>\n</html>\n", fg_version());
 }
