@@ -27,6 +27,9 @@ static const double SHORTEST = 3.0, LEAST_HEAD = 1.2;
 /* The body's radius in radii of curvature: beyond 1 its sections would cross. */
 static const double LARGEST_BEND = 0.7;
 
+/* The line under a head turns by no more, radians: a cone bent further is a claw. */
+static const double HEAD_TURNING = 0.6;
+
 /* Parts of an arrow that are farther apart along it than this many head widths must be
  * APART head widths apart in space: the gap between two turns shows. */
 static const double SEPARATE = 3.0, APART = 1.5;
@@ -76,7 +79,8 @@ static bool head_fits(const fg__shaft_stations *stations, int tip, double width,
 {
   double head = FG__SOLID_HEAD_LENGTH * width;
   *base = tip - (int)ceil(head / stations->step);
-  if (*base < 0)
+  if (*base < 0 ||
+      stations->station[tip].turning - stations->station[*base].turning > HEAD_TURNING)
     return false;
   for (int i = tip; i >= *base; i--) {
     double behind = fmin((tip - i) * stations->step, head);
