@@ -51,7 +51,7 @@ for signal in INT TERM HUP; do
   done_with "SIG$signal before the first scale: a checkpoint, and --resume goes on"
 done
 
-wide=(run synth:vortex3 --nodes 257 --clusters 100,12 --quiet)
+wide=(run synth:vortex3 --nodes 513 --clusters 200,12 --quiet)
 try "${wide[@]}" -o whole2
 expect_code 0
 in_background "${wide[@]}" -o stopped --checkpoint 0
