@@ -36,8 +36,8 @@ typedef struct fg__shaft_stations {
 
 /* Finds the arrow that is seen best: length times width to the power of 0.4. At each of
  * its points the ball of the arrow's radius lies in the cluster, the radius is below that
- * of the curve, its head is nearly straight, and no part of it comes near another. Shorter than 3 or with a head
- * narrower than 1.2 spacings gives width 0. MEMORY. */
+ * of the curve, its head is nearly straight, and no part of it comes near another.
+ * Shorter than 3 or with a head narrower than 1.2 spacings gives width 0. MEMORY. */
 fg_status fg__shaft_fit(fg__shaft *out, fg_context *context, const fg__path *path,
                         const fg__solid_room *room, fg__shaft_stations *stations);
 void fg__shaft_stations_clear(fg__shaft_stations *stations);
