@@ -88,7 +88,7 @@ static inline example_text legacy(bool binary, bool with_offsets)
   if (with_offsets) {
     example_words(&file, "METADATA\nINFORMATION 0\n\nCELLS 8 21\nOFFSETS vtktypeint64\n");
     example_legacy_numbers(&file, binary, TYPE_INT64, begins, CELLS_OF + 1);
-    example_words(&file, "CONNECTIVITY vtktypeint64\n");
+    example_words(&file, "METADATA\nINFORMATION 0\n\nCONNECTIVITY vtktypeint64\n");
     example_legacy_numbers(&file, binary, TYPE_INT64, CORNERS, CORNERS_OF);
   } else {
     example_words(&file, "CELLS 7 28\n");

@@ -80,6 +80,10 @@ static void wrong_words_of_legacy_files_are_refused(void **state)
       {"POINT_DATA 4", "CELL_DATA 4", FG_STATUS_FILE_FORMAT, "the grid has 2"},
       {"CELLS 2 8", "CELLS 3 6\nOFFSETS int\n0 3 6\nCONNECTED int", FG_STATUS_FILE_FORMAT,
        "no CONNECTIVITY"},
+      {"CELLS 2 8", "CELLS 2 3\nOFFSETS int\n0 3\nCONNECTIVITY int\n0 1 2\nCELLS 2 8",
+       FG_STATUS_FILE_FORMAT, "comes \"CELLS\""},
+      {"CELL_TYPES 2", "CELL_TYPES 2\n5 5\nCELL_TYPES 2", FG_STATUS_FILE_FORMAT,
+       "comes \"CELL_TYPES\""},
   };
   example_try_changes(*state, &fg__format_vtk_legacy, GOOD_LEGACY, cases,
                       sizeof cases / sizeof cases[0]);

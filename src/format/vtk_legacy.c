@@ -56,6 +56,24 @@ static fg_status add_array(legacy_file *file, fg__vtk_array **out, char *name,
   return fg__legacy_take(&file->cursor, *out, type, tuples * (size_t)components);
 }
 
+/* The same of one that the file says is no velocity. */
+static fg_status add_other(legacy_file *file, char *name, const char *type,
+                           int components, size_t tuples)
+{
+  fg__vtk_array *array = NULL;
+  fg_status status = add_array(file, &array, name, type, components, tuples);
+  if (status == FG_STATUS_OK)
+    array->no_velocity = true;
+  return status;
+}
+
+static fg_status read_type(fg__legacy_cursor *c, char type[FG__LEGACY_WORD],
+                           const char *name)
+{
+  return fg__legacy_word(c, type) ? FG_STATUS_OK
+                                  : fg__legacy_fail(c, "no type of array", name);
+}
+
 static fg_status read_name_and_type(fg__legacy_cursor *c, char name[FG__LEGACY_WORD],
                                     char type[FG__LEGACY_WORD])
 {
@@ -71,27 +89,26 @@ static fg_status read_name_and_count(fg__legacy_cursor *c, char name[FG__LEGACY_
                                   : fg__legacy_fail(c, "no name after", name);
 }
 
-/* NAME TYPE, and so many components. */
-static fg_status read_plain(legacy_file *file, fg__vtk_array **out, int components)
-{
-  char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
-  fg_status status = read_name_and_type(&file->cursor, name, type);
-  if (status != FG_STATUS_OK)
-    return status;
-  return add_array(file, out, name, type, components, file->tuples);
-}
-
-/* The first vectors are the active ones, as VTK has it; several may be meant. */
+/* NAME TYPE. The first vectors are the active ones, as VTK has it; several may be meant.
+ */
 static fg_status read_vectors(legacy_file *file)
 {
+  char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
   fg__vtk_array *array = NULL;
-  fg_status status = read_plain(file, &array, 3);
+  fg_status status = read_name_and_type(&file->cursor, name, type);
+  if (status == FG_STATUS_OK)
+    status = add_array(file, &array, name, type, 3, file->tuples);
   if (status != FG_STATUS_OK)
     return status;
   char **active = &file->vtk->vectors[file->place];
   free(*active);
-  *active = file->named_vectors[file->place]++ == 0 ? fg__copy_text(array->name) : NULL;
-  return FG_STATUS_OK;
+  *active = NULL;
+  if (file->named_vectors[file->place]++ > 0)
+    return FG_STATUS_OK;
+  *active = fg__copy_text(array->name);
+  return *active ? FG_STATUS_OK
+                 : fg__fail_memory(file->cursor.context, "an array's name",
+                                   strlen(array->name) + 1);
 }
 
 /* NAME TYPE [COMPONENTS], then in most files a line that names a table of colours. */
@@ -121,75 +138,70 @@ static fg_status read_scalars(legacy_file *file)
  * colours are bytes. */
 static fg_status read_colors(legacy_file *file, bool table)
 {
-  fg__legacy_cursor *c = &file->cursor;
   char name[FG__LEGACY_WORD];
   int count = 0;
-  fg_status status = read_name_and_count(c, name, &count, 1, "a number of colours");
-  if (status != FG_STATUS_OK)
-    return status;
-  fg__vtk_array *array;
-  status = add_array(file, &array, name, c->binary ? "unsigned_char" : "float",
-                     table ? 4 : count, table ? (size_t)count : file->tuples);
+  fg_status status =
+      read_name_and_count(&file->cursor, name, &count, 1, "a number of colours");
   if (status == FG_STATUS_OK)
-    array->no_velocity = true;
+    status = add_other(file, name, file->cursor.binary ? "unsigned_char" : "float",
+                       table ? 4 : count, table ? (size_t)count : file->tuples);
   return status;
 }
 
 /* NAME COMPONENTS TYPE: coordinates of a texture. */
 static fg_status read_texture(legacy_file *file)
 {
-  fg__legacy_cursor *c = &file->cursor;
   char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
   int components = 0;
   fg_status status =
-      read_name_and_count(c, name, &components, 1, "a number of components");
-  if (status != FG_STATUS_OK)
-    return status;
-  if (!fg__legacy_word(c, type))
-    return fg__legacy_fail(c, "no type of array", name);
-  fg__vtk_array *array;
-  status = add_array(file, &array, name, type, components, file->tuples);
+      read_name_and_count(&file->cursor, name, &components, 1, "a number of components");
   if (status == FG_STATUS_OK)
-    array->no_velocity = true;
+    status = read_type(&file->cursor, type, name);
+  if (status == FG_STATUS_OK)
+    status = add_other(file, name, type, components, file->tuples);
   return status;
 }
 
+/* NAME TYPE, and so many components. */
 static fg_status read_other(legacy_file *file, int components)
 {
-  fg__vtk_array *array = NULL;
-  fg_status status = read_plain(file, &array, components);
+  char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
+  fg_status status = read_name_and_type(&file->cursor, name, type);
   if (status == FG_STATUS_OK)
-    array->no_velocity = true;
+    status = add_other(file, name, type, components, file->tuples);
   return status;
 }
 
-/* FIELD NAME COUNT, then arrays NAME COMPONENTS TUPLES TYPE. */
+/* COMPONENTS TUPLES TYPE, after a name. */
+static fg_status read_field_array(legacy_file *file, char *name)
+{
+  fg__legacy_cursor *c = &file->cursor;
+  char type[FG__LEGACY_WORD];
+  int components = 0, tuples = 0;
+  fg__vtk_array *array;
+  fg_status status = fg__legacy_whole(c, &components, 0, "a number of components");
+  if (status == FG_STATUS_OK)
+    status = fg__legacy_whole(c, &tuples, 0, "a number of tuples");
+  if (status == FG_STATUS_OK)
+    status = read_type(c, type, name);
+  if (status == FG_STATUS_OK)
+    status = add_array(file, &array, name, type, components > 0 ? components : 1,
+                       components > 0 ? (size_t)tuples : 0);
+  return status;
+}
+
+/* FIELD NAME COUNT, then arrays. */
 static fg_status read_field_block(legacy_file *file)
 {
   fg__legacy_cursor *c = &file->cursor;
-  char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
+  char name[FG__LEGACY_WORD];
   int arrays = 0;
   fg_status status = read_name_and_count(c, name, &arrays, 0, "a number of arrays");
   for (int i = 0; i < arrays && status == FG_STATUS_OK; ++i) {
-    int components = 0, tuples = 0;
     if (!fg__legacy_word(c, name))
       return fg__legacy_fail(c, "no name of an array after", name);
-    if (fg__legacy_is(name, "METADATA")) {
-      fg__legacy_skip_paragraph(c);
-      --i;
-      continue;
-    }
-    if (fg__legacy_is(name, "NULL_ARRAY"))
-      continue;
-    status = fg__legacy_whole(c, &components, 0, "a number of components");
-    if (status == FG_STATUS_OK)
-      status = fg__legacy_whole(c, &tuples, 0, "a number of tuples");
-    if (status == FG_STATUS_OK && !fg__legacy_word(c, type))
-      status = fg__legacy_fail(c, "no type of array", name);
-    fg__vtk_array *array;
-    if (status == FG_STATUS_OK)
-      status = add_array(file, &array, name, type, components > 0 ? components : 1,
-                         components > 0 ? (size_t)tuples : 0);
+    if (!fg__legacy_is(name, "NULL_ARRAY"))
+      status = read_field_array(file, name);
   }
   return status;
 }
@@ -232,18 +244,20 @@ static fg_status read_coordinates(legacy_file *file)
   fg__legacy_cursor *c = &file->cursor;
   char word[FG__LEGACY_WORD];
   for (int k = 0; k < 3; ++k) {
+    const int points = file->vtk->extent[2 * k + 1] + 1;
     int count = 0;
     if (!fg__legacy_word(c, word) || !fg__legacy_is(word, keyword[k]))
       return fg__legacy_fail(c, "no coordinates but", word);
     fg_status status = fg__legacy_whole(c, &count, 1, "a number of coordinates");
     if (status != FG_STATUS_OK)
       return status;
-    if (count != file->vtk->extent[2 * k + 1] + 1)
+    if (count != points)
       return fg__fail(c->context, FG_STATUS_FILE_FORMAT,
                       "%s: %d coordinates along %c for %d points", c->path, count,
-                      "xyz"[k], file -> vtk -> extent[2 * k + 1] + 1);
-    if (!fg__legacy_word(c, word))
-      return fg__legacy_fail(c, "no type after", keyword[k]);
+                      "xyz"[k], points);
+    status = read_type(c, word, keyword[k]);
+    if (status != FG_STATUS_OK)
+      return status;
     char name[] = "coordinates";
     fg__vtk_array *array;
     file->place = FG__VTK_COORDINATES;
@@ -265,7 +279,8 @@ static fg_status read_geometry_line(legacy_file *file, const char *keyword, bool
     return read_triple(file, vtk->origin, "an origin");
   if (fg__legacy_is(keyword, "SPACING") || fg__legacy_is(keyword, "ASPECT_RATIO"))
     return read_triple(file, vtk->spacing, "a spacing");
-  if (vtk->uneven && file->sized && fg__legacy_is(keyword, "X_COORDINATES")) {
+  if (vtk->uneven && file->sized && vtk->piece_count == 0 &&
+      fg__legacy_is(keyword, "X_COORDINATES")) {
     size_t first = vtk->array_count;
     vtk->field_array_count = first;
     file->cursor.at -= strlen(keyword);
@@ -281,9 +296,10 @@ static fg_status read_geometry_line(legacy_file *file, const char *keyword, bool
       fg__legacy_is(keyword, "POINTS"))
     return fg__legacy_points(vtk, &file->cursor);
   if (vtk->kind == FG__VTK_UNSTRUCTURED && vtk->piece_count > 0) {
-    if (fg__legacy_is(keyword, "CELLS"))
+    const fg__vtk_piece *piece = &vtk->pieces[0];
+    if (piece->corners == FG__VTK_NONE && fg__legacy_is(keyword, "CELLS"))
       return fg__legacy_cells(vtk, &file->cursor);
-    if (fg__legacy_is(keyword, "CELL_TYPES"))
+    if (piece->types == FG__VTK_NONE && fg__legacy_is(keyword, "CELL_TYPES"))
       return fg__legacy_cell_types(vtk, &file->cursor);
   }
   *known = false;
@@ -377,10 +393,6 @@ static fg_status read_section(legacy_file *file, const char *keyword)
 {
   bool known = false;
   fg_status status = FG_STATUS_OK;
-  if (fg__legacy_is(keyword, "METADATA")) {
-    fg__legacy_skip_paragraph(&file->cursor);
-    return FG_STATUS_OK;
-  }
   if (fg__legacy_is(keyword, "FIELD"))
     return read_field_block(file);
   if (fg__legacy_is(keyword, "POINT_DATA"))

@@ -76,12 +76,17 @@ void fg__legacy_skip_line(fg__legacy_cursor *cursor)
   cursor->at = end ? (size_t)(end - cursor->bytes) + 1 : cursor->size;
 }
 
-void fg__legacy_skip_paragraph(fg__legacy_cursor *cursor)
+/* METADATA may follow any array, and ends with an empty line. */
+static void skip_metadata(fg__legacy_cursor *cursor)
 {
+  fg__legacy_cursor ahead = *cursor;
   char word[FG__LEGACY_WORD];
+  if (!fg__legacy_word(&ahead, word) || !fg__legacy_is(word, "METADATA"))
+    return;
   do
-    fg__legacy_skip_line(cursor);
-  while (cursor->at < cursor->size && (fg__legacy_word_of_line(cursor, word) || word[0]));
+    fg__legacy_skip_line(&ahead);
+  while (ahead.at < ahead.size && (fg__legacy_word_of_line(&ahead, word) || word[0]));
+  *cursor = ahead;
 }
 
 fg_status fg__legacy_fail(const fg__legacy_cursor *cursor, const char *what,
@@ -183,10 +188,9 @@ static fg_status skip_strings(fg__legacy_cursor *c, const fg__vtk_array *array,
   return FG_STATUS_OK;
 }
 
-fg_status fg__legacy_take(fg__legacy_cursor *cursor, fg__vtk_array *array,
-                          const char *type, size_t count)
+static fg_status take(fg__legacy_cursor *cursor, fg__vtk_array *array, const char *type,
+                      size_t count)
 {
-  fg__legacy_skip_line(cursor);
   if (fg__legacy_is(type, "string") || fg__legacy_is(type, "utf8_string"))
     return skip_strings(cursor, array, count);
   bool bits = fg__legacy_is(type, "bit");
@@ -200,4 +204,14 @@ fg_status fg__legacy_take(fg__legacy_cursor *cursor, fg__vtk_array *array,
   if (bits)
     return take_bytes(cursor, array, count / CHAR_BIT + (count % CHAR_BIT != 0), 1);
   return take_bytes(cursor, array, count, fg__vtk_size_of(array->type));
+}
+
+fg_status fg__legacy_take(fg__legacy_cursor *cursor, fg__vtk_array *array,
+                          const char *type, size_t count)
+{
+  fg__legacy_skip_line(cursor);
+  fg_status status = take(cursor, array, type, count);
+  if (status == FG_STATUS_OK)
+    skip_metadata(cursor);
+  return status;
 }

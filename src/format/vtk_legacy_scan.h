@@ -27,9 +27,6 @@ bool fg__legacy_is(const char *word, const char *keyword);
 /* Moves to the start of the next line. */
 void fg__legacy_skip_line(fg__legacy_cursor *cursor);
 
-/* Moves behind the next empty line, which ends METADATA. */
-void fg__legacy_skip_paragraph(fg__legacy_cursor *cursor);
-
 /* The next word as a whole number from `least` on that fits an int, or as a finite one.
  * FILE_FORMAT; `what` says what it is. */
 fg_status fg__legacy_whole(fg__legacy_cursor *cursor, int *out, int least,
@@ -40,8 +37,8 @@ fg_status fg__legacy_fail(const fg__legacy_cursor *cursor, const char *what,
                           const char *word);
 
 /* Sets where the array's numbers lie, `count` of the type called `type`, and moves behind
- * them; the line that announces them is left first. FILE_FORMAT when the file ends before
- * they do, or for an unknown type. */
+ * them and the METADATA that may follow; the line that announces them is left first.
+ * FILE_FORMAT when the file ends before they do, or for an unknown type. */
 fg_status fg__legacy_take(fg__legacy_cursor *cursor, fg__vtk_array *array,
                           const char *type, size_t count);
 

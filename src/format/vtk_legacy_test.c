@@ -135,6 +135,7 @@ static example_text grid(bool binary)
   example_words(&file, "X_COORDINATES 4 float\n");
   example_legacy_numbers(&file, binary, EXAMPLE_FLOAT64 - 1,
                          (double[]){-1.5, 0.0, 0.25, 8.0}, 4);
+  example_words(&file, "METADATA\nINFORMATION 1\nNAME X LOCATION Y\nDATA 1\n\n");
   example_words(&file, "Y_COORDINATES 3 int\n");
   example_legacy_numbers(&file, binary, 4, (double[]){1.0, 5.0, 6.0}, 3);
   example_words(&file, "Z_COORDINATES 3 double\n");
@@ -189,6 +190,9 @@ static void an_image_one_point_thick_is_a_plane(void **state)
   fg_field_destroy(field);
 }
 
+#define AXES                                                                             \
+  "X_COORDINATES 3 int\n0 1 4\nY_COORDINATES 2 int\n0 2\nZ_COORDINATES 1 int\n7\n"
+
 static void wrong_words_are_refused(void **state)
 {
   static const example_change cases[] = {
@@ -213,6 +217,11 @@ static void wrong_words_are_refused(void **state)
       {"ORIGIN 0 0 0", "ORIGIN 0 nan 0", FG_STATUS_FILE_FORMAT, "an origin \"nan\""},
       {"SPACING 1 1 1", "SPACING 1 -1 1", FG_STATUS_FILE_FORMAT, "not positive"},
       {"SPACING 1 1 1", "SPACING 1 1", FG_STATUS_FILE_FORMAT, "a spacing \"POINT_DATA\""},
+      {"STRUCTURED_POINTS\nDIMENSIONS 3 2 1\n",
+       "RECTILINEAR_GRID\nDIMENSIONS 3 2 1\n" AXES, FG_STATUS_OK, ""},
+      {"STRUCTURED_POINTS\nDIMENSIONS 3 2 1\n",
+       "RECTILINEAR_GRID\nDIMENSIONS 3 2 1\n" AXES AXES, FG_STATUS_FILE_FORMAT,
+       "comes \"X_COORDINATES\""},
       {"POINT_DATA 6", "POINT_DATA 7", FG_STATUS_FILE_FORMAT, "7 where the grid has 6"},
       {"POINT_DATA 6", "CELL_DATA 6", FG_STATUS_FILE_FORMAT, "6 where the grid has 2"},
       {"POINT_DATA 6", "POINT_DATA six", FG_STATUS_FILE_FORMAT, "\"six\""},
