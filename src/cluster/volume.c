@@ -99,9 +99,7 @@ static void copy_level(fg__volume *volume, const int corner[3],
       }
 }
 
-/* A cluster that is unwrapped, or cut, can show parts of itself a second time: the
- * largest piece stays. */
-static fg_status keep_largest_piece(fg__volume *volume, fg_context *context)
+fg_status fg__volume_keep_largest(fg__volume *volume, fg_context *context)
 {
   fg__component_grid grid = {
       .nodes = {volume->nodes[0], volume->nodes[1], volume->nodes[2]},
@@ -146,7 +144,8 @@ fg_status fg__volume_cut(fg__volume *out, fg_context *context,
   }
   copy_active(out, corner, density, patch);
   copy_level(out, corner, density, labels, patch);
-  fg_status status = unwrapped ? keep_largest_piece(out, context) : FG_STATUS_OK;
+  /* unwrapped, or cut, a cluster can show parts of itself a second time */
+  fg_status status = unwrapped ? fg__volume_keep_largest(out, context) : FG_STATUS_OK;
   if (status)
     fg__volume_clear(out);
   return status;

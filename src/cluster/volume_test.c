@@ -153,12 +153,74 @@ static void clusters_are_followed_across_periods(void **state)
   }
 }
 
+static void divide(fg__volume_part part[FG__VOLUME_PARTS], int *count, fg__labels *labels,
+                   const fg_density_arrays *density)
+{
+  fg__volume volume;
+  assert_int_equal(fg__labels_create(labels, NULL, density), FG_STATUS_OK);
+  cut(&volume, labels, density, 1);
+  assert_int_equal(fg__volume_divide(part, count, NULL, density, labels, &volume),
+                   FG_STATUS_OK);
+  assert_null(volume.level);
+}
+
+/* A block across the seams of x and z: a part in each corner that is large enough, where
+ * it lies in the domain, with a border at the seam. */
+static void clusters_are_cut_at_periodic_borders(void **state)
+{
+  (void)state;
+  fg_density_arrays density = empty(true, false, true);
+  density.active = active;
+  fill((int[]){W - 3, 3, D - 3}, (int[]){W + 3, 6, D + 1}, 0.5F);
+  active[(3 * (H - 1) + 4) * W + 2] = 0; /* in the part that begins at x = 0, z = 0 */
+  fg__labels labels;
+  fg__volume_part part[FG__VOLUME_PARTS];
+  int count;
+  divide(part, &count, &labels, &density);
+  assert_int_equal(count, 2);
+  double all = 0.0;
+  for (int n = 0; n < count; ++n) {
+    const fg__volume *v = &part[n].volume;
+    assert_int_equal(v->cluster, 1);
+    assert_int_equal(positive_nodes(v), 4 * 4 * 4); /* the seam's are in both */
+    assert_true(fabs(v->origin[2] - (2.0 + 2.0 * 4)) < 1e-12);
+    assert_true(fabs(v->origin[0] - (10.0 + (n == 0 ? 0.5 * (W - 5) : 0.0))) < 1e-12);
+    assert_int_equal(v->at_border[0], n == 1);
+    assert_int_equal(v->at_border[1], n == 0);
+    assert_false(v->at_border[4]);
+    assert_true(v->at_border[5]);
+    assert_true(fabs(part[n].share - 4.0 / (8 * 6) * 4) < 1e-12);
+    all += part[n].share;
+    fg__volume_clear(&part[n].volume);
+  }
+  assert_true(all < 1.0);
+  fg__labels_clear(&labels);
+}
+
+static void a_cluster_within_the_borders_is_one_part(void **state)
+{
+  (void)state;
+  fg_density_arrays density = empty(true, true, true);
+  fill((int[]){3, 3, 2}, (int[]){6, 5, 5}, 0.5F);
+  fg__labels labels;
+  fg__volume_part part[FG__VOLUME_PARTS];
+  int count;
+  divide(part, &count, &labels, &density);
+  assert_int_equal(count, 1);
+  assert_true(fabs(part[0].share - 1.0) < 1e-12);
+  assert_int_equal(positive_nodes(&part[0].volume), 4 * 3 * 4);
+  fg__volume_clear(&part[0].volume);
+  fg__labels_clear(&labels);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_window_holds_its_cluster_and_a_rim),
       cmocka_unit_test(masked_cells_are_outside),
       cmocka_unit_test(clusters_are_followed_across_periods),
+      cmocka_unit_test(clusters_are_cut_at_periodic_borders),
+      cmocka_unit_test(a_cluster_within_the_borders_is_one_part),
   };
   return cmocka_run_group_tests_name("cluster/volume", tests, NULL, NULL);
 }

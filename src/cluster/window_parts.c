@@ -1,40 +1,19 @@
-#include "cluster/raster.h"
+#include "cluster/stretch.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/context.h"
 #include "base/memory.h"
 
-/* A part with less than this share both of the cluster and of the mean cluster gets no
- * icon: it would be a small arrow beside large ones. */
-static const double LEAST_SHARE = 0.25;
-
-/* Columns (or rows) of a window between two neighbouring borders of the domain. */
-typedef struct stretch {
-  int first, last; /* of the window, both included */
-  int start;       /* the first on the density's grid, in [0, period] */
-} stretch;
-
-/* The stretch number n from the left; false when there are fewer. */
-static bool find_stretch(stretch *out, const fg_density_arrays *density,
+static bool find_stretch(fg__stretch *out, const fg_density_arrays *density,
                          const fg__window *window, int k, int n)
 {
-  int last = window->nodes[k] - 1, period = density->nodes[k];
-  int start = (int)lround((window->origin[k] - density->origin[k]) / density->spacing[k]);
-  *out = (stretch){0, last, start};
-  if (!density->periodic[k])
-    return n == 0;
-  int turn = (int)floor((double)start / period) + n;
-  int first = turn * period - start, next = first + period;
-  out->first = first > 0 ? first : 0;
-  out->last = next < last ? next : last;
-  out->start = start + out->first - turn * period;
-  return out->first < last;
+  return fg__stretch_find(out, density, k, window->origin[k], window->nodes[k], n);
 }
 
-static int count_nodes(const fg__window *window, const stretch *x, const stretch *y)
+static int count_nodes(const fg__window *window, const fg__stretch *x,
+                       const fg__stretch *y)
 {
   int count = 0;
   for (int j = y->first; j <= y->last; ++j)
@@ -46,11 +25,11 @@ static int count_nodes(const fg__window *window, const stretch *x, const stretch
 /* Copies a rectangle of the window. */
 static fg_status take(fg__window *out, fg_context *context,
                       const fg_density_arrays *density, const fg__window *whole,
-                      const stretch range[2])
+                      const fg__stretch range[2])
 {
   *out = (fg__window){.cluster = whole->cluster};
   for (int k = 0; k < 2; ++k) {
-    const stretch *r = &range[k];
+    const fg__stretch *r = &range[k];
     bool from_start = r->first == 0, to_end = r->last == whole->nodes[k] - 1;
     out->nodes[k] = r->last - r->first + 1;
     out->spacing[k] = whole->spacing[k];
@@ -86,7 +65,7 @@ typedef struct division {
 
 static void count_parts(division *d)
 {
-  stretch range[2];
+  fg__stretch range[2];
   for (int n = 0; find_stretch(&range[1], d->density, d->whole, 1, n); ++n)
     for (int m = 0; find_stretch(&range[0], d->density, d->whole, 0, m); ++m) {
       int nodes = count_nodes(d->whole, &range[0], &range[1]);
@@ -98,7 +77,7 @@ static void count_parts(division *d)
 static fg_status take_parts(fg__window_part *part, int *count, fg_context *context,
                             const division *d)
 {
-  stretch range[2];
+  fg__stretch range[2];
   bool has_largest = false;
   *count = 0;
   for (int n = 0; find_stretch(&range[1], d->density, d->whole, 1, n); ++n)
@@ -121,7 +100,7 @@ fg_status fg__window_divide(fg__window_part part[FG__WINDOW_PARTS], int *count,
                             fg_context *context, const fg_density_arrays *density,
                             const fg__labels *labels, fg__window *whole)
 {
-  stretch second;
+  fg__stretch second;
   *count = 0;
   if (!find_stretch(&second, density, whole, 0, 1) &&
       !find_stretch(&second, density, whole, 1, 1)) {
@@ -132,10 +111,7 @@ fg_status fg__window_divide(fg__window_part part[FG__WINDOW_PARTS], int *count,
   }
   division d = {.density = density, .whole = whole};
   count_parts(&d);
-  double mean = 0.0, area = labels->area[whole->cluster - 1];
-  for (int n = 0; n < labels->count; ++n)
-    mean += labels->area[n] / labels->count;
-  d.least = LEAST_SHARE * d.all * (area > mean ? mean / area : 1.0);
+  d.least = d.all * fg__stretch_least(labels, whole->cluster);
   fg_status status = take_parts(part, count, context, &d);
   fg__window_clear(whole);
   return status;

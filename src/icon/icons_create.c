@@ -236,21 +236,29 @@ static fg_status extend(icon_place *land, fg__arrow *arrow, bool *extended,
   return status;
 }
 
-static fg_status make_solid(icon_job *job, fg_context *context, fg__solid_maker *maker,
-                            int index)
+static fg_status make_solids(icon_job *job, fg_context *context, fg__solid_maker *maker,
+                             int index)
 {
   const fg__icon_source *source = job->source;
   int cluster = source->cluster ? source->cluster[index] : index + 1;
   fg_icon *icon = &job->icon[(size_t)index * FG__ICON_PARTS];
-  fg__volume volume = {0};
+  fg__volume whole = {0};
+  fg__volume_part part[FG__VOLUME_PARTS] = {{{0}, 0.0}};
+  int parts = 0;
   fg_status status =
-      fg__volume_cut(&volume, context, source->density, source->labels,
+      fg__volume_cut(&whole, context, source->density, source->labels,
                      source->cluster ? &source->patch[index] : source->patch, cluster);
   if (status == FG_STATUS_OK)
-    status = fg__solid_icon_make(icon, context, maker, field_of(source, index), &volume);
-  icon->cluster = cluster;
-  icon->area = source->labels->area[cluster - 1];
-  fg__volume_clear(&volume);
+    status =
+        fg__volume_divide(part, &parts, context, source->density, source->labels, &whole);
+  for (int k = 0; k < parts && status == FG_STATUS_OK; k++) {
+    status = fg__solid_icon_make(&icon[k], context, maker, field_of(source, index),
+                                 &part[k].volume);
+    icon[k].cluster = cluster;
+    icon[k].area = source->labels->area[cluster - 1] * part[k].share;
+  }
+  for (int k = 0; k < parts; k++)
+    fg__volume_clear(&part[k].volume);
   return status;
 }
 
@@ -357,7 +365,7 @@ static void *work(void *argument)
     if (worker->caller)
       worker->status = fg__check_stop(worker->caller);
     if (worker->status == FG_STATUS_OK)
-      worker->status = solid ? make_solid(job, worker->context, &maker, index)
+      worker->status = solid ? make_solids(job, worker->context, &maker, index)
                              : make_icons(job, worker->context, &chooser, index);
   }
   if (worker->status != FG_STATUS_OK)

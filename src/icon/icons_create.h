@@ -2,7 +2,7 @@
 #ifndef FG__ICONS_CREATE_H
 #define FG__ICONS_CREATE_H
 
-#include "cluster/raster.h"
+#include "cluster/volume.h"
 #include "icon/territory.h"
 
 /* What icons are made from. */
@@ -19,7 +19,10 @@ typedef struct fg__icon_source {
 } fg__icon_source;
 
 /* Places for a cluster's icons: a cluster across a periodic border may have several. */
-enum { FG__ICON_PARTS = FG__WINDOW_PARTS };
+enum {
+  FG__ICON_PARTS = (int)FG__WINDOW_PARTS > (int)FG__VOLUME_PARTS ? (int)FG__WINDOW_PARTS
+                                                                 : (int)FG__VOLUME_PARTS
+};
 
 /* [clusters * FG__ICON_PARTS], zeroed; NULL when there is no memory. fg__icons_free ends
  * them with their points. */

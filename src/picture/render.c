@@ -183,7 +183,7 @@ static fg_status add_icon(shop *s, const fg_icon *icon, size_t *capacity)
   bool clipped = false;
   for (int k = 0; k < 3; ++k) {
     find_copies(s, solid, k, copies[k]);
-    clipped = clipped || about->stage.period[k] > 0.0;
+    clipped = clipped || copies[k][0] < 0 || copies[k][1] > 0;
   }
   for (at[2] = copies[2][0]; at[2] <= copies[2][1]; ++at[2])
     for (at[1] = copies[1][0]; at[1] <= copies[1][1]; ++at[1])
