@@ -51,7 +51,8 @@ FG_API const char *fg_context_message(const fg_context *context);
 /* A second line that says what to do about the failure, or "". */
 FG_API const char *fg_context_hint(const fg_context *context);
 
-/* Forgets the failure, so that the context can be used again. */
+/* Forgets the failure, so that the context can be used again. One that was asked to stop
+ * stays so: what follows needs another. */
 FG_API void fg_context_clear(fg_context *context);
 
 /* Asks the work going on with this context to end with FG_STATUS_STOPPED at its next safe

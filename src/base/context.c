@@ -16,7 +16,7 @@ enum { MESSAGE_BYTES = 2048 };
 struct fg_context {
   char message[MESSAGE_BYTES];
   char hint[MESSAGE_BYTES];
-  bool hint_open; /* a failure was recorded and has no hint yet */
+  bool hint_open; /* the last failure is the one recorded, and has no hint yet */
   atomic_int stop;
 };
 
@@ -102,14 +102,16 @@ static void keep_one_line(char *text)
 
 fg_status fg__fail(fg_context *context, fg_status status, const char *format, ...)
 {
-  if (!context || context->message[0])
+  if (!context)
+    return status;
+  context->hint_open = !context->message[0]; /* not for what is dropped */
+  if (!context->hint_open)
     return status;
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(context->message, sizeof context->message, format, arguments);
   va_end(arguments);
   keep_one_line(context->message);
-  context->hint_open = true;
   return status;
 }
 
