@@ -282,7 +282,6 @@ static fg_status fill_range(float *const values[], fg_context *context,
                          : fg__tensor_fill_box(&tensor, context, recipe->field,
                                                recipe->law, recipe->anisotropy, &cells,
                                                recipe->periodic, recipe->width);
-  fg__wide_tensor_clear(wide);
   for (size_t n = 0; n < count && !status; ++n) {
     values[components][n] = tensor.active[n] ? 1.0F : 0.0F;
     for (int c = 0; c < components && !tensor.active[n]; ++c)
@@ -356,13 +355,14 @@ fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
     count *= (size_t)r.count[k];
   float *memory = fg__allocate(count * (size_t)(components + 1), sizeof *memory);
   *out = (fg__cells_of_box){0};
-  if (!memory)
-    return fg__fail_memory(context, "the tensor",
-                           count * (size_t)(components + 1) * sizeof *memory);
   float *values[FG__TENSOR_COMPONENTS + 1] = {NULL};
-  for (int c = 0; c <= components; ++c)
+  for (int c = 0; c <= components && memory; ++c)
     values[c] = memory + (size_t)c * count;
-  fg_status status = fill_range(values, context, recipe, wide, &r);
+  fg_status status =
+      memory ? fill_range(values, context, recipe, wide, &r)
+             : fg__fail_memory(context, "the tensor",
+                               count * (size_t)(components + 1) * sizeof *memory);
+  fg__wide_tensor_clear(wide);
   if (!status)
     status = allocate(out, context, dimension, box->nodes);
   size_t from = 0;

@@ -116,6 +116,7 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
     status = fg__partition_coarsen(&partition, context, &spread->partition);
     status = fg__ranks_agree(mesh->ranks, context, status);
   }
+  fg__partition_clear(&partition); /* what no level has taken over */
   return status;
 }
 

@@ -48,7 +48,7 @@ static bool copy_mask(fg__spread_clusters *c, const fg__spread *spread, int b)
 static fg_status prepare(fg__spread_clusters *c, fg_context *context,
                          const fg__spread *spread)
 {
-  size_t count = (size_t)spread->count;
+  size_t count = (size_t)spread->count, bytes = count * sizeof *c->box;
   c->count = spread->count;
   c->box = fg__allocate(count, sizeof *c->box);
   c->u = fg__allocate(count, sizeof *c->u);
@@ -58,12 +58,16 @@ static fg_status prepare(fg__spread_clusters *c, fg_context *context,
   bool whole = c->box && c->u && c->number && c->active && c->grid;
   for (int b = 0; b < c->count && whole; ++b) {
     size_t size = ring_size(&spread->box[b]);
+    bytes = size * (sizeof *c->u[b] + sizeof *c->number[b]);
     c->u[b] = fg__allocate(size, sizeof *c->u[b]);
     c->number[b] = fg__allocate(size, sizeof *c->number[b]);
     describe(&c->grid[b], spread, b);
     whole = c->u[b] && c->number[b] && copy_mask(c, spread, b);
   }
-  return whole ? FG_STATUS_OK : fg__fail_memory(context, "the clusters", count);
+  if (whole)
+    return FG_STATUS_OK;
+  fg__spread_clusters_clear(c); /* or the next call would take it for prepared */
+  return fg__fail_memory(context, "the clusters", bytes);
 }
 
 /* A box's density to an array with a ring. */
@@ -106,25 +110,28 @@ static void copy_sides(const fg__level *box, void *in_layout, void *in_ring, boo
     }
 }
 
-/* Shares that ranks have of a table, brought together: each fills its own places, the
- * others add nothing. */
-static uint64_t *table_of(fg_context *context, const fg__ranks *ranks, uint64_t own,
-                          uint64_t *before, uint64_t *total)
+/* This rank's places in a table of all ranks', `own` of `total`: it fills those, and the
+ * others, which add nothing to them, do likewise. Collective. */
+static fg_status find_places(fg_context *context, const fg__ranks *ranks, uint64_t own,
+                             uint64_t *before, uint64_t *total)
 {
   uint64_t *counts = fg__allocate((size_t)ranks->count, sizeof *counts);
-  fg_status status = counts ? FG_STATUS_OK : fg__fail_memory(context, "the clusters", 8);
-  if (fg__ranks_agree(ranks, context, status)) {
-    free(counts);
-    return NULL;
-  }
-  counts[ranks->rank] = own;
-  fg__ranks_add(ranks, counts, ranks->count);
+  fg_status status = FG_STATUS_OK;
+  if (!counts)
+    status =
+        fg__fail_memory(context, "the clusters", (size_t)ranks->count * sizeof *counts);
+  status = fg__ranks_agree(ranks, context, status);
   *before = *total = 0;
-  for (int r = 0; r < ranks->count; ++r) {
-    *before += r < ranks->rank ? counts[r] : 0;
-    *total += counts[r];
+  if (!status) {
+    counts[ranks->rank] = own;
+    fg__ranks_add(ranks, counts, ranks->count);
+    for (int r = 0; r < ranks->count; ++r) {
+      *before += r < ranks->rank ? counts[r] : 0;
+      *total += counts[r];
+    }
   }
-  return counts;
+  free(counts);
+  return status;
 }
 
 static fg_status join(fg__spread_clusters *c, fg_context *context,
@@ -138,7 +145,9 @@ static fg_status join(fg__spread_clusters *c, fg_context *context,
   fg__component_pair *pair = fg__allocate(pair_count, sizeof *pair);
   fg_status status = FG_STATUS_OK;
   if (!words || !piece || !pair)
-    status = fg__fail_memory(context, "the clusters", pair_count * sizeof *words);
+    status = fg__fail_memory(context, "the clusters",
+                             pair_count * (sizeof *words + sizeof *pair) +
+                                 piece_count * sizeof *piece);
   status = fg__ranks_agree(ranks, context, status);
   if (!status) {
     uint64_t at = before_pairs;
@@ -168,13 +177,12 @@ static fg_status number_and_join(fg__spread_clusters *c, fg_context *context,
                                  double debris_area)
 {
   const fg__ranks *ranks = spread->partition.ranks;
-  uint64_t own = 0, before, total, before_pairs, pair_count, *pieces = NULL;
+  uint64_t own = 0, before, total, before_pairs, pair_count;
   for (int b = 0; b < c->count; ++b)
     own += (uint64_t)c->box[b].piece_count;
-  uint64_t *counts = table_of(context, ranks, own, &before, &total);
-  if (!counts)
-    return FG_STATUS_MEMORY;
-  free(counts);
+  fg_status status = find_places(context, ranks, own, &before, &total);
+  if (status)
+    return status;
   c->before = (int)before;
   uint64_t at = before;
   for (int b = 0; b < c->count; ++b) {
@@ -185,7 +193,6 @@ static fg_status number_and_join(fg__spread_clusters *c, fg_context *context,
   }
   /* no image of a border is asked for */
   fg__spread_exchange_ends(spread, 1, &scratch);
-  fg_status status = FG_STATUS_OK;
   uint64_t pairs = 0;
   for (int b = 0; b < c->count && !status; ++b) {
     ptrdiff_t origin = origin_of(&c->grid[b], spread->box[b].layout.dimension);
@@ -194,15 +201,12 @@ static fg_status number_and_join(fg__spread_clusters *c, fg_context *context,
         fg__components_pairs(&c->box[b], context, &c->grid[b], c->number[b] + origin);
     pairs += c->box[b].pair_count;
   }
-  pieces = fg__allocate(2 * total, sizeof *pieces);
+  uint64_t *pieces = fg__allocate(2 * total, sizeof *pieces);
   if (!status && !pieces)
     status = fg__fail_memory(context, "the clusters", 2 * total * sizeof *pieces);
   status = fg__ranks_agree(ranks, context, status);
-  if (!status) {
-    counts = table_of(context, ranks, pairs, &before_pairs, &pair_count);
-    status = counts ? FG_STATUS_OK : FG_STATUS_MEMORY;
-    free(counts);
-  }
+  if (!status)
+    status = find_places(context, ranks, pairs, &before_pairs, &pair_count);
   if (!status) {
     at = 2 * before;
     for (int b = 0; b < c->count; ++b)

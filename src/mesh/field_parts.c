@@ -125,7 +125,7 @@ fg_status fg__field_join(fg_context *context, const fg__ranks *ranks, fg_field *
 {
   fg__field_part *part = field->part;
   fg_status status = check_parts(context, ranks, field);
-  if (status != FG_STATUS_OK || !part)
+  if (status != FG_STATUS_OK || !part || part->joined)
     return status;
   uint64_t sums[sizeof(fg__part_counts) / sizeof(uint64_t)];
   fg__part_counts all;
