@@ -74,6 +74,21 @@ fg_status fg__rival_straight(fg_icon *icon, fg_context *context, const fg__domai
   return FG_STATUS_OK;
 }
 
+/* Moves points by whole periods so that `middle`, which goes with them, lies in the box.
+ */
+static void move_into_box(double (*points)[3], int count, double middle[2],
+                          const fg__domain *domain)
+{
+  int turns[2];
+  fg__domain_turns(domain, middle, turns);
+  for (int k = 0; k < 2; k++) {
+    double way = turns[k] * domain->period[k];
+    middle[k] -= way;
+    for (int i = 0; i < count; i++)
+      points[i][k] -= way;
+  }
+}
+
 fg_status fg__rival_piece(fg_icon *icon, fg_context *context, const fg__domain *domain,
                           const fg__streamline *line, double from, double to,
                           double width)
@@ -97,6 +112,7 @@ fg_status fg__rival_piece(fg_icon *icon, fg_context *context, const fg__domain *
   icon->kind = fg__icon_kind_of(highest > lowest ? highest - lowest : 0);
   double middle[2], tangent[2];
   fg__streamline_at(line, (from + to) / 2, NULL, middle, tangent);
+  move_into_box(points, icon->point_count, middle, domain);
   finish(icon, domain, middle, width);
   return FG_STATUS_OK;
 }
@@ -107,9 +123,11 @@ fg_status fg__rival_curved(fg_icon *icon, fg_context *context, const fg__domain 
   fg__streamline_limits limits = {.step = domain->trace_step,
                                   .length = length / 2,
                                   .turning = FG__LARGEST_TURNING / 2};
+  fg__window room =
+      fg__domain_room(domain, middle, FG__HEAD_WIDTH / 2 * FG__RIVAL_WIDTH * length);
   icon->points = NULL;
   fg_status status =
-      fg__streamline_trace(line, context, domain->field, &domain->all, middle, &limits);
+      fg__streamline_trace(line, context, domain->field, &room, middle, &limits);
   if (status != FG_STATUS_OK || line->count < 2)
     return status;
   double start = line->node[line->start].s;

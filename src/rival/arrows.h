@@ -15,12 +15,14 @@
 fg_status fg__rival_straight(fg_icon *icon, fg_context *context, const fg__domain *domain,
                              const double middle[2], double length);
 
-/* The piece of a streamline whose middle is a point; as above. It turns by 300 degrees at
- * most. `line` is kept from call to call. MEMORY. */
+/* The piece of a streamline whose middle is a point of the box; as above. It turns by 300
+ * degrees at most and ends at periodic borders. `line` is kept from call to call. MEMORY.
+ */
 fg_status fg__rival_curved(fg_icon *icon, fg_context *context, const fg__domain *domain,
                            const double middle[2], double length, fg__streamline *line);
 
-/* The piece of a line from one arc length to another as an icon; as above. MEMORY. */
+/* The piece of a line from one arc length to another as an icon, moved by whole periods
+ * so that its middle lies in the box; as above. MEMORY. */
 fg_status fg__rival_piece(fg_icon *icon, fg_context *context, const fg__domain *domain,
                           const fg__streamline *line, double from, double to,
                           double width);

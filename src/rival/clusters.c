@@ -4,6 +4,7 @@
 #include "icon/icons.h"
 #include "icon/measure.h"
 #include "rival/arrows.h"
+#include "rival/parts.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,79 +14,44 @@
 static const double SHORT = 0.7;
 static const double ASIDE = 0.3;
 
-/* One cluster's sums. */
-typedef struct cluster {
-  int cells, first;
-  double way[2];    /* sum of the ways from the first cell's centre */
+/* Where a part of a cluster lies. */
+typedef struct place {
+  double sum[2];    /* of its cells' centres */
   double center[2]; /* the mean, or the cell nearest to it */
   double nearest;   /* of the cells, squared distance to the mean */
-} cluster;
+} place;
 
-static void way_between(const fg__domain *domain, const double from[2],
-                        const double to[2], double way[2])
-{
-  for (int k = 0; k < 2; k++)
-    way[k] = to[k] - from[k];
-  fg__domain_shortest(domain, way);
-}
-
-static void find_means(cluster *clusters, const fg__domain *domain, const int *label,
-                       int count)
+/* A part bent like a bow has its mean outside. */
+static void find_places(place *places, const fg__domain *domain,
+                        const fg__rival_parts *parts)
 {
   int raster = domain->cells[0] * domain->cells[1];
+  double center[2];
   for (int i = 0; i < raster; i++) {
-    if (label[i] < 1)
-      continue;
-    cluster *c = &clusters[label[i] - 1];
-    if (c->cells++ == 0)
-      c->first = i;
-    double from[2], to[2], way[2];
-    fg__domain_center(domain, c->first, from);
-    fg__domain_center(domain, i, to);
-    way_between(domain, from, to, way);
-    for (int k = 0; k < 2; k++)
-      c->way[k] += way[k];
-  }
-  for (int n = 0; n < count; n++) {
-    cluster *c = &clusters[n];
-    fg__domain_center(domain, c->first, c->center);
-    for (int k = 0; k < 2; k++)
-      c->center[k] += c->way[k] / c->cells;
-    c->nearest = HUGE_VAL;
-  }
-}
-
-/* A cluster bent like a bow has its mean outside. */
-static fg_status find_centers(cluster *clusters, fg_context *context,
-                              const fg__domain *domain, const int *label, int count)
-{
-  double(*mean)[2] = fg__allocate((size_t)count, sizeof *mean);
-  if (!mean)
-    return fg__fail_memory(context, "the clusters' centres",
-                           (size_t)count * sizeof *mean);
-  for (int n = 0; n < count; n++) {
-    for (int k = 0; k < 2; k++)
-      mean[n][k] = clusters[n].center[k];
-    int cell = fg__domain_cell(domain, mean[n]);
-    if (cell >= 0 && label[cell] == n + 1)
-      clusters[n].nearest = 0;
-  }
-  for (int i = 0; i < domain->cells[0] * domain->cells[1]; i++) {
-    if (label[i] < 1 || clusters[label[i] - 1].nearest <= 0)
-      continue;
-    cluster *c = &clusters[label[i] - 1];
-    double center[2], way[2];
     fg__domain_center(domain, i, center);
-    way_between(domain, mean[label[i] - 1], center, way);
-    double distance = way[0] * way[0] + way[1] * way[1];
-    if (distance < c->nearest) {
-      c->nearest = distance;
-      for (int k = 0; k < 2; k++)
-        c->center[k] = center[k];
+    for (int k = 0; k < 2 && parts->label[i] > 0; k++)
+      places[parts->label[i] - 1].sum[k] += center[k];
+  }
+  for (int n = 0; n < parts->count; n++) {
+    place *p = &places[n];
+    for (int k = 0; k < 2; k++)
+      p->center[k] = p->sum[k] /= parts->cells[n];
+    int cell = fg__domain_cell(domain, p->sum);
+    p->nearest = cell >= 0 && parts->label[cell] == n + 1 ? 0 : HUGE_VAL;
+  }
+  for (int i = 0; i < raster; i++) {
+    if (parts->label[i] < 1 || places[parts->label[i] - 1].nearest <= 0)
+      continue;
+    place *p = &places[parts->label[i] - 1];
+    fg__domain_center(domain, i, center);
+    double x = center[0] - p->sum[0], y = center[1] - p->sum[1];
+    double distance = x * x + y * y;
+    if (distance < p->nearest) {
+      p->nearest = distance;
+      p->center[0] = center[0];
+      p->center[1] = center[1];
     }
   }
-  free(mean);
-  return FG_STATUS_OK;
 }
 
 static void free_points(fg_icon *icon)
@@ -99,21 +65,23 @@ static double length_of(const fg_icon *icon)
   return icon->points ? fg__icon_length(icon) : 0.0;
 }
 
-/* The arrow through the centre, or a longer one beside it. */
+/* The arrow through a part's centre, or a longer one beside it. */
 static fg_status make_icon(fg_icon *icon, fg_context *context, const fg__domain *domain,
-                           const int *label, const cluster *c, fg__streamline *line)
+                           const fg__rival_parts *parts, int part, const double center[2],
+                           fg__streamline *line)
 {
   static const int side[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-  int number = icon->cluster;
-  double area = c->cells * domain->spacing[0] * domain->spacing[1], wanted = sqrt(area);
-  icon->area = area;
-  fg_status status = fg__rival_curved(icon, context, domain, c->center, wanted, line);
+  double area = parts->cells[part] * domain->spacing[0] * domain->spacing[1];
+  double wanted = sqrt(area);
+  *icon = (fg_icon){.cluster = parts->cluster[part], .area = area};
+  fg_status status = fg__rival_curved(icon, context, domain, center, wanted, line);
   double length = length_of(icon);
   for (int d = 0; d < 4 && status == FG_STATUS_OK && length < SHORT * wanted; d++) {
-    double beside[2] = {c->center[0] + ASIDE * wanted * side[d][0],
-                        c->center[1] + ASIDE * wanted * side[d][1]};
-    int cell = fg__domain_cell(domain, beside);
-    if (cell < 0 || label[cell] != number)
+    double beside[2] = {center[0] + ASIDE * wanted * side[d][0],
+                        center[1] + ASIDE * wanted * side[d][1]};
+    int cell = fg__domain_cell(domain, beside), turns[2];
+    fg__domain_turns(domain, beside, turns);
+    if (cell < 0 || turns[0] || turns[1] || parts->label[cell] != part + 1)
       continue;
     fg_icon other = *icon;
     status = fg__rival_curved(&other, context, domain, beside, wanted, line);
@@ -127,30 +95,47 @@ static fg_status make_icon(fg_icon *icon, fg_context *context, const fg__domain 
   return status;
 }
 
-fg_status fg__clusters_draw(fg_icons *icons, fg_context *context,
-                            const fg__domain *domain, const int *label, int count,
-                            int left_out)
+static fg_status draw_parts(fg_icons *icons, fg_context *context,
+                            const fg__domain *domain, const fg__rival_parts *parts,
+                            const place *places, int *drawn)
 {
-  cluster *clusters = fg__allocate((size_t)count, sizeof *clusters);
-  if (!clusters)
-    return fg__fail_memory(context, "clusters", (size_t)count * sizeof *clusters);
   fg__streamline line = {0};
-  int dropped = left_out;
-  find_means(clusters, domain, label, count);
-  fg_status status = find_centers(clusters, context, domain, label, count);
-  for (int n = 0; n < count && status == FG_STATUS_OK; n++) {
-    fg_icon icon = {.cluster = n + 1};
-    status = make_icon(&icon, context, domain, label, &clusters[n], &line);
-    if (status == FG_STATUS_OK && icon.points)
+  fg_status status = FG_STATUS_OK;
+  int last = 0;
+  for (int n = 0; n < parts->count && status == FG_STATUS_OK; n++) {
+    fg_icon icon;
+    status = make_icon(&icon, context, domain, parts, n, places[n].center, &line);
+    if (status == FG_STATUS_OK && icon.points) {
       status = fg__icons_add(icons, context, &icon);
-    dropped += !icon.points;
+      *drawn += icon.cluster != last;
+      last = icon.cluster;
+    }
     free_points(&icon);
     if (status == FG_STATUS_OK)
       status = fg__check_stop(context);
   }
-  fg__icons_set_clusters(icons, count + left_out, dropped);
   fg__streamline_clear(&line);
-  free(clusters);
+  return status;
+}
+
+fg_status fg__clusters_draw(fg_icons *icons, fg_context *context,
+                            const fg__domain *domain, const int *label, int count,
+                            int left_out)
+{
+  fg__rival_parts parts;
+  int drawn = 0;
+  fg_status status = fg__rival_parts_create(&parts, context, domain, label, count);
+  if (status != FG_STATUS_OK)
+    return status;
+  place *places = fg__allocate((size_t)parts.count, sizeof *places);
+  if (places) {
+    find_places(places, domain, &parts);
+    status = draw_parts(icons, context, domain, &parts, places, &drawn);
+  } else
+    status = fg__fail_memory(context, "clusters", (size_t)parts.count * sizeof *places);
+  fg__icons_set_clusters(icons, count + left_out, count + left_out - drawn);
+  free(places);
+  fg__rival_parts_clear(&parts);
   return status;
 }
 

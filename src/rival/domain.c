@@ -77,6 +77,22 @@ void fg__domain_clear(fg__domain *domain)
   *domain = (fg__domain){0};
 }
 
+fg__window fg__domain_room(const fg__domain *domain, const double middle[2],
+                           double half_width)
+{
+  fg__window room = domain->all;
+  for (int k = 0; k < 2; k++) {
+    if (!(domain->period[k] > 0))
+      continue;
+    double low = domain->origin[k], high = low + domain->period[k];
+    low += fmin(half_width, fmax(middle[k] - low, 0) / 2);
+    high -= fmin(half_width, fmax(high - middle[k], 0) / 2);
+    room.origin[k] = low;
+    room.spacing[k] = high - low;
+  }
+  return room;
+}
+
 void fg__domain_center(const fg__domain *domain, int cell, double center[2])
 {
   int at[2] = {cell % domain->cells[0], cell / domain->cells[0]};
@@ -105,6 +121,14 @@ bool fg__domain_moves(const fg__domain *domain, const double point[2])
   double tangent[3] = {0};
   return fg_field_tangent(domain->field, point, tangent) &&
          hypot(tangent[0], tangent[1]) > 0;
+}
+
+void fg__domain_turns(const fg__domain *domain, const double point[2], int turns[2])
+{
+  for (int k = 0; k < 2; k++)
+    turns[k] = domain->period[k] > 0
+                   ? (int)floor((point[k] - domain->origin[k]) / domain->period[k])
+                   : 0;
 }
 
 void fg__domain_shortest(const fg__domain *domain, double difference[2])

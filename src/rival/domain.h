@@ -28,6 +28,13 @@ fg_status fg__domain_create(fg__domain *out, fg_context *context, const fg_field
                             int nodes);
 void fg__domain_clear(fg__domain *domain);
 
+/* The part of the box in which an arrow of this half width through `middle` may lie: it
+ * keeps off periodic borders, since a map ends there, by that or half of the middle's own
+ * way to them. Where an axis is open the field ends by itself. Positive all over; it
+ * borrows from the domain. */
+fg__window fg__domain_room(const fg__domain *domain, const double middle[2],
+                           double half_width);
+
 /* Centre of a cell. */
 void fg__domain_center(const fg__domain *domain, int cell, double center[2]);
 
@@ -36,6 +43,9 @@ int fg__domain_cell(const fg__domain *domain, const double point[2]);
 
 /* Whether the flow has a direction at a point. */
 bool fg__domain_moves(const fg__domain *domain, const double point[2]);
+
+/* How many periods a point lies from the box along each axis. */
+void fg__domain_turns(const fg__domain *domain, const double point[2], int turns[2]);
 
 /* The same difference of two points, by the shortest way round the periods. */
 void fg__domain_shortest(const fg__domain *domain, double difference[2]);

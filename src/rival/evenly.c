@@ -17,9 +17,6 @@ enum { SEED_STRIDE = 4 };
  * very point it was made from. */
 static const double BESIDE = 1 + 1e-9;
 
-/* Shorter lines, in separations, are specks. */
-static const double SHORTEST = 1.0;
-
 /* A line is near itself only beyond so many d_test along it: on a circle as wide as
  * d_test half of the way round is pi / 2 of it. */
 static const double OWN_WAY = 1.6;
@@ -142,7 +139,7 @@ static fg_status keep(placing *work, const double seed[2], int first, int last,
                       int points_before)
 {
   fg__evenly *evenly = work->evenly;
-  if ((last - first) * work->now.step < SHORTEST * evenly->separation) {
+  if ((last - first) * work->now.step < FG__EVENLY_SHORTEST * evenly->separation) {
     fg__near_forget(&work->near, points_before);
     return FG_STATUS_OK;
   }

@@ -9,6 +9,9 @@
 /* d_test in separations: how near a line may come to others while it goes on. */
 #define FG__EVENLY_TEST 0.5
 
+/* Shorter lines, in separations, are specks. */
+#define FG__EVENLY_SHORTEST 1.0
+
 /* The part of the streamline through a seed between two arc lengths from there. */
 typedef struct fg__evenly_line {
   double seed[2];
