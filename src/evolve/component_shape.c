@@ -72,6 +72,13 @@ bool fg__gate_open(const fg__gate *gate, const fg__shape *shape, int x, int x_la
   return false;
 }
 
+bool fg__components_saddle_joins(float a, float b, float c, float d)
+{
+  /* the value at the saddle point is (ad - bc)/(a + d - b - c), its denominator positive
+   */
+  return (double)a * (double)d > (double)b * (double)c;
+}
+
 /* |u| of a row of nodes and the one beyond it along the outer axis, added: a stretch of
  * sums, and a node more on each side that has one. */
 static void add_rows(const fg__shape *shape, int j, int k, fg__stretch at, float *sum)

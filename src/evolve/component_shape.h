@@ -63,7 +63,7 @@ static inline const float *fg__shape_row(const fg__shape *shape, int j, int k)
 
 /* A run is a stretch of positive nodes in one row, each joined to the next. Union-find
  * works on runs, of which there are some ten times fewer than nodes. */
-struct fg__run {
+struct fg__component_run {
   int parent;      /* the run itself at the root; never a later run */
   int first, last; /* nodes of the row */
   int piece;

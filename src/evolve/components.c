@@ -37,18 +37,11 @@ bool fg__components_edge_active(const fg__component_grid *grid, int x, int y, in
                     : fg__components_cell_active(grid, x - 1, y));
 }
 
-bool fg__components_saddle_joins(float a, float b, float c, float d)
-{
-  /* the value at the saddle point is (ad - bc)/(a + d - b - c), its denominator positive
-   */
-  return (double)a * (double)d > (double)b * (double)c;
-}
-
 /* Writes the value of each run's piece to its nodes, 0 to all others. */
 static void write_row(const fg__components *components, int row, int width,
                       const int *piece_value, int before, int *out)
 {
-  const struct fg__run *run = components->run;
+  const struct fg__component_run *run = components->run;
   memset(out, 0, (size_t)width * sizeof *out);
   for (int n = components->run_of_row[row]; n < components->run_of_row[row + 1]; ++n) {
     int value =
@@ -75,7 +68,7 @@ void fg__components_number(const fg__components *components, const fg__component
         continue;
       }
       int first = components->run_of_row[row], last = components->run_of_row[row + 1] - 1;
-      const struct fg__run *run = components->run;
+      const struct fg__component_run *run = components->run;
       out[0] = out[end] = 0;
       if (first <= last && run[first].first == 0)
         out[0] = before + run[first].piece + 1;

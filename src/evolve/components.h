@@ -85,7 +85,7 @@ typedef struct fg__components {
   fg__component_pair *pair;
   int *piece_label; /* after a merge: of every piece; piece n has number n + 1 */
 
-  struct fg__run *run;
+  struct fg__component_run *run;
   struct fg__component_group *group;
   int *run_of_row, *ends, *root;
   unsigned char *marks, *cells;
