@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "coarser.h"
 #include "folder.h"
 #include "options.h"
 #include "ranks.h"
@@ -59,6 +60,7 @@ static char *describe(const cli_run *run)
   add_whole(root, "first_clusters", first->clusters);
   add_exact(root, "first_time", first->time);
   add_exact(root, "first_seconds", first->seconds);
+  coarser_add(root, facts);
   cJSON *scales = cJSON_AddArrayToObject(root, "scales");
   for (int k = 0; k < drawing_count(run->drawing); ++k)
     add_scale(scales, drawing_result(run->drawing, k));
@@ -241,6 +243,7 @@ static void restore_counts(cli_run *run, const cJSON *note)
   run->facts.rejected = whole_of(note, "rejected");
   run->facts.mass_drift = real_of(note, "mass_drift");
   run->facts.energy_monotone = cJSON_IsTrue(item_of(note, "energy_monotone"));
+  coarser_restore(&run->facts, note);
   run->first_counted = (fg_step){.step = whole_of(note, "first_step"),
                                  .clusters = (int)whole_of(note, "first_clusters"),
                                  .time = real_of(note, "first_time"),
@@ -274,6 +277,9 @@ static int resume(cli_run *run, const fg_checkpoint *checkpoint)
     complain("%s; the previous checkpoint is used", fg_checkpoint_damage(checkpoint));
   cJSON *note = cJSON_Parse(fg_checkpoint_note(checkpoint));
   int code = ranks_agree(check_note(run, note));
+  if (!code) {
+    code = coarser_as_before(run, checkpoint);
+  }
   if (!code) {
     fg_status status = fg_evolution_resume(run->evolution, &run->step, checkpoint);
     if (status)

@@ -90,13 +90,19 @@ int input_join(cli_run *run)
 
 static const char *const scheme_names[] = {"BDF2", "implicit Euler", "theta"};
 
-static void print_mesh(const fg_mesh_info *mesh, int scheme)
+void input_print_cells(const fg_mesh_info *mesh)
 {
-  fprintf(stderr, "flowgrain: mesh %d x %d", mesh->cells[0], mesh->cells[1]);
+  fprintf(stderr, "mesh %d x %d", mesh->cells[0], mesh->cells[1]);
   if (mesh->dimension == 3)
     fprintf(stderr, " x %d", mesh->cells[2]);
-  fprintf(stderr,
-          " cells (%ld active), a = %g, coverage %g, gamma %g, %s scheme, %s kernel\n",
+  fprintf(stderr, " cells");
+}
+
+static void print_mesh(const fg_mesh_info *mesh, int scheme)
+{
+  fprintf(stderr, "flowgrain: ");
+  input_print_cells(mesh);
+  fprintf(stderr, " (%ld active), a = %g, coverage %g, gamma %g, %s scheme, %s kernel\n",
           mesh->active_cells, mesh->anisotropy, mesh->coverage, mesh->gamma,
           scheme_names[scheme], mesh->kernel);
 }
@@ -118,23 +124,19 @@ static int read_energy(fg_tensors **out, const cli_run *run)
 
 int input_create_evolution(cli_run *run)
 {
-  fg_evolution_options options = settings_evolution(run->settings);
-  fg_tensors *tensors;
-  int code = read_energy(&tensors, run);
-  if (code) {
-    fg_tensors_destroy(tensors);
+  fg_evolution_options *options = &run->evolution_options;
+  *options = settings_evolution(run->settings);
+  int code = read_energy(&run->tensors, run);
+  if (code)
     return code;
-  }
-  if (tensors)
-    options.law = fg_tensors_law(tensors);
+  if (run->tensors)
+    options->law = fg_tensors_law(run->tensors);
   fg_status status =
-      fg_evolution_create(&run->evolution, run->context, run->field, &options);
-  fg_tensors_destroy(tensors);
+      fg_evolution_create(&run->evolution, run->context, run->field, options);
   if (status)
     return complain_of(run->context, status, run->settings->operand);
-  const fg_mesh_info *mesh = fg_evolution_mesh(run->evolution);
-  run->facts.mesh = mesh;
+  run->facts.mesh = *fg_evolution_mesh(run->evolution);
   if (run->settings->verbose && ranks_leader())
-    print_mesh(mesh, run->settings->scheme);
+    print_mesh(&run->facts.mesh, run->settings->scheme);
   return EXIT_DONE;
 }

@@ -16,4 +16,7 @@ int input_join(cli_run *run);
  * Returns an exit code, the same on all. */
 int input_create_evolution(cli_run *run);
 
+/* To stderr: "mesh 512 x 512 cells". */
+void input_print_cells(const fg_mesh_info *mesh);
+
 #endif

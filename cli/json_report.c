@@ -1,5 +1,7 @@
 #include "json_report.h"
 
+#include "coarser.h"
+
 #include <cjson/cJSON.h>
 #include <errno.h>
 #include <stdio.h>
@@ -78,11 +80,11 @@ static void add_input(cJSON *root, const run_facts *facts)
 static void add_parameters(cJSON *root, const run_facts *facts)
 {
   const cli_settings *said = facts->settings;
-  const fg_mesh_info *mesh = facts->mesh;
+  const fg_mesh_info *mesh = &facts->mesh;
   cJSON *object = cJSON_AddObjectToObject(root, "parameters");
   if (said->nodes)
     cJSON_AddNumberToObject(object, "nodes", said->nodes);
-  cJSON_AddStringToObject(object, "mesh", "uniform");
+  add_text(object, "mesh", settings_adapt_mesh(said) ? "adaptive" : "uniform");
   add_text(object, "scheme", scheme_words[said->scheme]);
   add_text(object, "energy", said->energy ? said->energy : "flow");
   if (!scales_are_solid(facts->field))
@@ -116,6 +118,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   cJSON_AddNumberToObject(made, "active_cells", (double)mesh->active_cells);
   cJSON_AddNumberToObject(made, "domain_measure", mesh->domain_measure);
   add_text(made, "kernel", mesh->kernel);
+  coarser_add(made, facts);
 }
 
 static void add_files(cJSON *scale, const run_facts *facts, int index)

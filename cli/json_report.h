@@ -4,10 +4,21 @@
 
 #include "drawing.h"
 
+enum { MAX_MESH_CHANGES = 16 };
+
+/* A halving of the mesh: the state in which it was made, and the cells since. */
+typedef struct mesh_change {
+  long step;
+  double time;
+  int clusters, cells[3];
+} mesh_change;
+
 typedef struct run_facts {
   const cli_settings *settings;
   const fg_field *field;
-  const fg_mesh_info *mesh;
+  fg_mesh_info mesh; /* the first */
+  mesh_change change[MAX_MESH_CHANGES];
+  int change_count;
   cli_drawing *drawing;
   const char *ended; /* "scales", "time", "steps", "stationary", "interrupted" */
   int time_count, level_count; /* of the input; 0: not known */

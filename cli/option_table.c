@@ -5,7 +5,7 @@
 #define AT(member) offsetof(cli_settings, member)
 
 const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
-static const char *const mesh_words[] = {"auto", "uniform", NULL};
+const char *const mesh_words[] = {"auto", "adaptive", "uniform", NULL};
 const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
 static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete",
@@ -180,8 +180,9 @@ const option_entry option_table[] = {
      NULL, "samples a side [257 in 2D, 65 in 3D]"},
     {"mesh", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(mesh), 0, 0, false, false,
      mesh_words,
-     "kind of mesh: `uniform`, or `auto`, the kind that is fastest, which is uniform: "
-     "adaptive meshes were measured to save neither time nor memory [auto]"},
+     "kind of mesh: `adaptive` is halved along each side, down to the default number of "
+     "nodes, as clusters grow; `uniform` stays as it is; `auto` is adaptive unless "
+     "--gamma is given [auto]"},
     {"scheme", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(scheme), 0, 0, false, false,
      scheme_words,
      "time steps: backward differences of second order, implicit `euler`, or the `theta` "

@@ -117,12 +117,6 @@ static bool set_choice(cli_settings *out, const cli_command *command,
     }
   char words[128];
   list_words(words, sizeof words, option->words);
-  if (option->place == offsetof(cli_settings, mesh) && strcmp(text, "adaptive") == 0)
-    return wrong(
-        command,
-        "--mesh adaptive: not in this program, for it would save neither time nor "
-        "memory; the choice is: %s",
-        words);
   return wrong(command, "--%s %s: not known; the choice is: %s", option->name, text,
                words);
 }
@@ -396,6 +390,12 @@ fg_read_options settings_reading(const cli_settings *settings)
       .mask = settings->mask,
       .scale = (fg_scale)settings->scale,
   };
+}
+
+bool settings_adapt_mesh(const cli_settings *settings)
+{
+  return strcmp(mesh_words[settings->mesh], "adaptive") == 0 ||
+         (strcmp(mesh_words[settings->mesh], "auto") == 0 && settings->gamma == 0.0);
 }
 
 fg_evolution_options settings_evolution(const cli_settings *settings)

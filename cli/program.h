@@ -25,7 +25,7 @@ typedef struct cli_settings {
   int scale; /* fg_scale */
 
   int nodes;
-  int mesh;           /* auto (0) or uniform, which are the same */
+  int mesh;           /* auto (0), adaptive, uniform */
   int scheme;         /* fg_scheme */
   const char *energy; /* a word of energy_words or a file; NULL: flow */
   double anisotropy, coverage, gamma;
@@ -102,6 +102,10 @@ int program_perform(int argc, char **argv);
 
 fg_read_options settings_reading(const cli_settings *settings);
 fg_evolution_options settings_evolution(const cli_settings *settings);
+
+/* Whether the mesh is halved as clusters grow; not where the user gives the width of
+ * interfaces, unless they ask for it. */
+bool settings_adapt_mesh(const cli_settings *settings);
 fg_picture_options settings_picture(const cli_settings *settings);
 
 /* The options of one of the views in 3D, from 0. */

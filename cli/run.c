@@ -6,6 +6,7 @@
 
 #include "background.h"
 #include "checkpoint.h"
+#include "coarser.h"
 #include "ending.h"
 #include "folder.h"
 #include "input.h"
@@ -87,7 +88,7 @@ static int open_results(cli_run *run, bool *done, bool *goes_on)
 static int record_step(cli_run *run, const fg_step *before)
 {
   const fg_step *step = &run->step;
-  const fg_mesh_info *mesh = run->facts.mesh;
+  const fg_mesh_info *mesh = &run->facts.mesh;
   run->facts.accepted = step->step;
   run->facts.rejected += step->rejected;
   if (before->step && step->energy > before->energy)
@@ -150,6 +151,10 @@ static void show_progress(cli_run *run)
 
 static int advance(cli_run *run)
 {
+  /* before a step, not after: a checkpoint holds what the next step begins with */
+  int code = coarser_when_ample(run);
+  if (code)
+    return code;
   fg_step before = run->step;
   fg_status status = fg_evolution_step(run->evolution, &run->step);
   if (status == FG_STATUS_STOPPED) {
@@ -162,7 +167,7 @@ static int advance(cli_run *run)
     progress_wipe(&run->progress);
     return complain_of(run->context, status, run->settings->operand);
   }
-  int code = ranks_agree(record_step(run, &before));
+  code = ranks_agree(record_step(run, &before));
   int reached = scale_plan_reach(&run->plan, run->step.clusters);
   if (!code && reached)
     code = take_scale(run, &run->plan.wanted[run->plan.next - reached], reached);
@@ -281,6 +286,7 @@ int command_run(const cli_settings *settings)
   bool resumable = output_close(&run.output, run.finished);
   ending_advise(&run, code, resumable);
   fg_evolution_destroy(run.evolution);
+  fg_tensors_destroy(run.tensors);
   fg_field_destroy(run.field);
   fg_context_destroy(run.context);
   free(run.checkpoint);

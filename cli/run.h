@@ -13,6 +13,8 @@ typedef struct cli_run {
   const cli_settings *settings;
   fg_context *context;
   fg_field *field;
+  fg_evolution_options evolution_options;
+  fg_tensors *tensors; /* of which the energy is, or NULL */
   fg_evolution *evolution;
   cli_drawing *drawing;
   cli_output output;

@@ -29,6 +29,10 @@ FG_API const char *fg_checkpoint_note(const fg_checkpoint *checkpoint);
 /* Why the previous checkpoint was opened, "PATH: damaged: ...", or "". */
 FG_API const char *fg_checkpoint_damage(const fg_checkpoint *checkpoint);
 
+/* How often fg_evolution_coarsen has halved the mesh before: an evolution has to be made
+ * coarser as often before it can resume. */
+FG_API int fg_checkpoint_halvings(const fg_checkpoint *checkpoint);
+
 /* Puts an evolution, just created from the same field with the same options (threads may
  * differ), into the state of a checkpoint: every later step is the same to the last bit
  * as without the interruption. `step` becomes the last accepted one; it counts no cycles

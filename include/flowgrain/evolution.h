@@ -46,9 +46,9 @@ typedef struct fg_evolution_options {
 
 typedef struct fg_step {
   long step;            /* accepted steps so far */
-  double time;          /* t, in units of (longest side)^2 */
-  double tau;           /* size of this step */
-  double energy;        /* E(u) */
+  double time;          /* t, in units of (longest side)^2, and */
+  double tau;           /* size of this step, as the first mesh has them: see */
+  double energy;        /* E(u)               fg_evolution_coarsen */
   double mass;          /* integral of u over the domain, in double */
   double area_fraction; /* share of the domain where u > 0 */
   int clusters;         /* components of {u > 0} above the size of debris; 0 while the
@@ -72,6 +72,23 @@ FG_API void fg_evolution_destroy(fg_evolution *evolution);
 /* Makes one accepted time step and describes it. NO_CONVERGENCE when no step small enough
  * is accepted, or mass or energy break their promise; STOPPED. */
 FG_API fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step);
+
+/* Whether the clusters have grown so large that a mesh with half the cells along each
+ * side would show them as well: 4096 cells of the domain (in 3D 32768) to a cluster, and
+ * more nodes a side than a mesh has by default. False in a domain with missing values,
+ * whose narrow parts a coarser mesh would lose. */
+FG_API bool fg_evolution_is_ample(const fg_evolution *evolution);
+
+/* Goes on with half the cells along each side, and interfaces twice as wide: gamma is
+ * four times what it was. u becomes its mean round every other node, its integral stays.
+ * Wider interfaces cost more and move faster: energies are divided, times and time steps
+ * multiplied by two, so that they go on as on the first mesh. `step` becomes the present
+ * state; it counts no cycles. `field` and `options` (NULL: defaults) are those of the
+ * evolution's creation. Collective. ARGUMENT (they are not, the cells can not be halved,
+ * the field has missing values): nothing has changed; MEMORY, MPI: the evolution is of no
+ * use any more. */
+FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, const fg_field *field,
+                                      const fg_evolution_options *options, fg_step *step);
 
 typedef struct fg_mesh_info {
   int dimension;

@@ -19,7 +19,7 @@ struct fg_checkpoint {
 /* What has to agree between an evolution and a checkpoint. */
 typedef struct parameters {
   uint64_t field, initial, law, seed;
-  int energy, nodes, cells[3], cycles, scheme;
+  int energy, nodes, halvings, cells[3], cycles, scheme;
   double anisotropy, coverage, gamma, accuracy;
 } parameters;
 
@@ -37,6 +37,7 @@ static const fg__named_value parameter_values[] = {
     {"scheme", FG__VALUE_INTEGER, offsetof(parameters, scheme)},
     {"field", FG__VALUE_BITS, offsetof(parameters, field)},
     {"initial", FG__VALUE_BITS, offsetof(parameters, initial)},
+    {"halvings", FG__VALUE_INTEGER, offsetof(parameters, halvings)},
     {"gamma", FG__VALUE_REAL, offsetof(parameters, gamma)},
     {"cells-x", FG__VALUE_INTEGER, offsetof(parameters, cells[0])},
     {"cells-y", FG__VALUE_INTEGER, offsetof(parameters, cells[1])},
@@ -47,6 +48,7 @@ enum { PARAMETERS = sizeof parameter_values / sizeof parameter_values[0] };
 /* The evolution's own state, beside the stepper's. */
 typedef struct counts {
   double area_fraction, seconds;
+  long earlier_steps;
   int clusters;
   bool counting;
 } counts;
@@ -55,6 +57,7 @@ static const fg__named_value count_values[] = {
     {"evolution.area_fraction", FG__VALUE_REAL, offsetof(counts, area_fraction)},
     {"evolution.clusters", FG__VALUE_INTEGER, offsetof(counts, clusters)},
     {"evolution.counting", FG__VALUE_FLAG, offsetof(counts, counting)},
+    {"evolution.earlier_steps", FG__VALUE_LONG, offsetof(counts, earlier_steps)},
     {"evolution.seconds", FG__VALUE_REAL, offsetof(counts, seconds)},
 };
 enum { COUNTS = sizeof count_values / sizeof count_values[0] };
@@ -67,6 +70,7 @@ static parameters parameters_of(const fg_evolution *e)
                       .seed = e->options.seed,
                       .energy = (int)e->options.energy,
                       .nodes = e->options.nodes,
+                      .halvings = e->halvings,
                       .cells = {e->info.cells[0], e->info.cells[1], e->info.cells[2]},
                       .cycles = e->options.cycles,
                       .scheme = (int)e->options.scheme,
@@ -87,6 +91,7 @@ static char *describe(const fg_evolution *e, const char *note)
   parameters agreed = parameters_of(e);
   counts counted = {.area_fraction = e->area_fraction,
                     .seconds = fg__evolution_seconds(e),
+                    .earlier_steps = e->earlier_steps,
                     .clusters = e->clusters,
                     .counting = e->counting};
   fprintf(stream, "version %s\n", fg_version());
@@ -332,6 +337,14 @@ const char *fg_checkpoint_damage(const fg_checkpoint *checkpoint)
   return checkpoint->damage;
 }
 
+int fg_checkpoint_halvings(const fg_checkpoint *checkpoint)
+{
+  size_t length;
+  const char *value = fg__value_find(checkpoint->file.text, "halvings", &length);
+  long halvings = value ? strtol(value, NULL, 10) : 0;
+  return halvings > 0 && halvings < 32 ? (int)halvings : 0;
+}
+
 static fg_status check_version(const fg__checkpoint_file *file, fg_context *context)
 {
   size_t length = 0;
@@ -419,6 +432,7 @@ fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
   e->area_fraction = counted.area_fraction;
   e->clusters = counted.clusters;
   e->counting = counted.counting;
+  e->earlier_steps = counted.earlier_steps;
   e->earlier_seconds = counted.seconds;
   *step = fg__evolution_describe(e, 0, 0);
   return FG_STATUS_OK;

@@ -389,12 +389,7 @@ static void ranks_that_find_different_files(void **state)
 static int make_folder(void **state)
 {
   (void)state;
-  uint64_t process = us.ranks->rank == 0 ? (uint64_t)getpid() : 0;
-  fg__ranks_add(us.ranks, &process, 1);
-  /* where nothing has to be brought to a disk, if there is such a place */
-  snprintf(folder, sizeof folder, "%s/flowgrain-together-%llu",
-           access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp",
-           (unsigned long long)process);
+  name_folder(folder, sizeof folder);
   snprintf(path, sizeof path, "%s/checkpoint", folder);
   snprintf(previous, sizeof previous, "%s.previous", path);
   snprintf(part, sizeof part, "%s.part", path);

@@ -21,8 +21,9 @@ static const double most_initial = 10.0;
  * Such a drop is all interface. */
 static const double debris_squares = 10.0, debris_cubes = 24.0;
 
-/* The first step, as a share of the fastest growth time of linear theory. */
-static const double first_step_share = 1e-3;
+/* The first step, as a share of the fastest growth time of linear theory; and the first
+ * on a coarser mesh, where interfaces are there and only widen. */
+static const double first_step_share = 1e-3, first_coarser_share = 0.05;
 
 /* tau gamma / h^4 (measured at 1025 nodes, docs/design/evolution.md). */
 static const double most_stiffness = 2e5;
@@ -31,7 +32,7 @@ static fg_status create_mesh(fg_evolution *e, const fg_field *field)
 {
   const fg_field_arrays *arrays = fg_field_contents(field);
   fg__mesh_description description = {
-      .dimension = arrays->dimension, .nodes = e->options.nodes, .ranks = e->ranks};
+      .dimension = arrays->dimension, .nodes = e->mesh_nodes, .ranks = e->ranks};
   for (int k = 0; k < arrays->dimension; ++k) {
     description.origin[k] = arrays->axis[k][0];
     description.periodic[k] = arrays->period[k] > 0.0;
@@ -66,13 +67,19 @@ double fg__evolution_cell_volume(const fg_evolution *e)
   return volume;
 }
 
+double fg__evolution_unit(const fg_evolution *e)
+{
+  return ldexp(1.0, e->halvings);
+}
+
 double fg__evolution_interface_energy(const fg_evolution *e)
 {
   double h = largest_spacing(e);
   bool isotropic = e->options.law->anisotropy >= 1.0;
   double width = (isotropic ? isotropic_interface_cells : interface_cells) * h;
-  return e->options.gamma > 0.0 ? e->options.gamma
-                                : width * width / e->options.anisotropy;
+  if (e->options.gamma > 0.0) /* of the first mesh */
+    return ldexp(e->options.gamma, 2 * e->halvings);
+  return width * width / e->options.anisotropy;
 }
 
 static fg_status check_interface(const fg_evolution *e)
@@ -175,7 +182,8 @@ static fg_status create_stepper(fg_evolution *e, const fg_field *field)
   fg__multigrid multigrid = {0};
   fg__stepper_description description = {
       .cell_volume = fg__evolution_cell_volume(e),
-      .first_tau = first_step_share / fg__evolution_growth_rate(e),
+      .first_tau = (e->halved ? first_coarser_share : first_step_share) /
+                   fg__evolution_growth_rate(e),
       .most_tau = most_step(e),
       .accuracy = e->options.accuracy,
       .cycles = e->options.cycles,
@@ -209,11 +217,13 @@ static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ra
                                                   fg_field_contents(field)->dimension);
   if (!status)
     e->law_identity = e->options.law->identity;
+  e->mesh_nodes = e->options.nodes;
   return status;
 }
 
-static fg_status build(fg_evolution *e, const fg_field *field)
+fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field)
 {
+  fg_evolution *e = evolution;
   fg_status status = fg__field_check_shared(e->context, e->ranks, field);
   if (!status)
     status = fg__evolution_check_alike(e);
@@ -261,7 +271,7 @@ fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
     status = fg__fail_memory(context, "an evolution", sizeof *e);
   status = fg__ranks_agree(ranks, context, status);
   if (e && !status)
-    status = build(e, field);
+    status = fg__evolution_build(e, field);
   fg__traffic_return(ranks->book, before);
   if (e) {
     e->options.initial = NULL; /* the caller's, and used up */
@@ -275,17 +285,26 @@ fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
   return FG_STATUS_OK;
 }
 
+void fg__evolution_clear(fg_evolution *evolution)
+{
+  fg_evolution *e = evolution;
+  fg__stepper_clear(&e->stepper);
+  fg__team_destroy(e->team);
+  e->team = NULL;
+  fg__team_clusters_clear(&e->clusters_found);
+  fg__spread_clusters_clear(&e->spread_clusters);
+  fg__mesh_clear(&e->mesh);
+  fg__evolution_tensor_free(e);
+  free(e->tensor.active);
+  e->tensor.active = NULL;
+  e->active_cells = 0;
+}
+
 void fg_evolution_destroy(fg_evolution *evolution)
 {
   if (!evolution)
     return;
-  fg__stepper_clear(&evolution->stepper);
-  fg__team_destroy(evolution->team);
-  fg__team_clusters_clear(&evolution->clusters_found);
-  fg__spread_clusters_clear(&evolution->spread_clusters);
-  fg__mesh_clear(&evolution->mesh);
-  fg__evolution_tensor_free(evolution);
-  free(evolution->tensor.active);
+  fg__evolution_clear(evolution);
   free(evolution);
 }
 
@@ -307,10 +326,11 @@ fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int re
 {
   const fg_evolution *e = evolution;
   const fg__stepper *s = &e->stepper;
-  return (fg_step){.step = s->accepted,
-                   .time = s->time,
-                   .tau = s->last_tau,
-                   .energy = s->energy,
+  double unit = fg__evolution_unit(e);
+  return (fg_step){.step = e->earlier_steps + s->accepted,
+                   .time = unit * s->time,
+                   .tau = unit * s->last_tau,
+                   .energy = s->energy / unit,
                    .mass = s->mass,
                    .area_fraction = e->area_fraction,
                    .clusters = e->clusters,

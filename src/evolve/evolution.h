@@ -4,6 +4,7 @@
 
 #include <time.h>
 
+#include "evolve/halved.h"
 #include "evolve/spread_clusters.h"
 #include "evolve/stepper.h"
 #include "evolve/team_clusters.h"
@@ -27,7 +28,13 @@ struct fg_evolution {
   double debris_area; /* in cells */
   double area_fraction;
   int clusters;
-  bool counting; /* nucleation is over */
+  bool counting;      /* nucleation is over */
+  int mesh_nodes;     /* wanted along the longest side of the present mesh */
+  int halvings;       /* of the mesh, since it was created */
+  long earlier_steps; /* accepted on finer meshes */
+  const fg__halved
+      *halved; /* NULL, or what a coarser mesh goes on from; while it is made */
+  double halved_mean;
   struct timespec start;
   double earlier_seconds; /* spent before a resumed evolution was created */
   /* Of the field, and of the initial density when one was given (else 0). */
@@ -48,7 +55,19 @@ double fg__evolution_cell_volume(const fg_evolution *evolution);
 double fg__evolution_interface_energy(const fg_evolution *evolution);
 double fg__evolution_growth_rate(const fg_evolution *evolution);
 
-/* Puts noise or the caller's density into the finest u. Collective. MEMORY. */
+/* Times and energies of the first mesh in units of the present one's. With the mesh's
+ * spacing the width of interfaces doubles, and with it their energy and the speed of
+ * coarsening. */
+double fg__evolution_unit(const fg_evolution *evolution);
+
+/* Makes everything that depends on the mesh, for options that are settled. Collective. */
+fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field);
+
+/* Frees it again; what the evolution remembers of its past stays. */
+void fg__evolution_clear(fg_evolution *evolution);
+
+/* Puts noise, the caller's density or that of a finer mesh into the finest u. Collective.
+ * MEMORY. */
 fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multigrid);
 
 /* Finds the share covered and, once nucleation is over, the number of clusters.

@@ -11,6 +11,11 @@ static const double default_anisotropy = 0.15, default_coverage = 0.3;
 static const double default_accuracy[] = {0.08, 0.05, 0.05};
 static const int default_cycles[] = {2, 3, 3};
 
+int fg__default_nodes(int dimension)
+{
+  return dimension == 3 ? DEFAULT_NODES_3D : DEFAULT_NODES;
+}
+
 static fg_status check_range(fg_context *context, const char *name, double value,
                              double low, double high, bool low_included)
 {
@@ -27,7 +32,7 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
   if (status)
     return status;
   if (o->nodes == 0)
-    o->nodes = dimension == 3 ? DEFAULT_NODES_3D : DEFAULT_NODES;
+    o->nodes = fg__default_nodes(dimension);
   if (o->law)
     o->energy = FG_ENERGY_LAW;
   else

@@ -4,6 +4,9 @@
 
 #include "evolve/evolution.h"
 
+/* Nodes along the longest side of a mesh when none are asked for. */
+int fg__default_nodes(int dimension);
+
 /* Fills in the defaults of a mesh in `dimension` dimensions, then checks every option.
  * ARGUMENT. */
 fg_status fg__evolution_options_settle(fg_evolution_options *options, fg_context *context,

@@ -13,7 +13,8 @@ typedef struct filling {
   const fg__level *level;
   const fg__box *box;
   const fg__noise *noise;
-  float *row; /* one a member */
+  const float *values; /* of the box alone, x fastest; NULL: noise or the caller's */
+  float *row;          /* one a member */
   float *u;
 } filling;
 
@@ -32,7 +33,9 @@ static void fill_part(void *argument, const fg__share *share)
     int j = n % nodes[1], k = n / nodes[1];
     int y = f->box->first[1] + j, z = f->box->first[2] + k;
     const float *values = row;
-    if (e->options.initial)
+    if (f->values)
+      values = f->values + (size_t)n * (size_t)nodes[0];
+    else if (e->options.initial)
       values = e->options.initial + ((size_t)z * rows + (size_t)y) * columns +
                f->box->first[0];
     else
@@ -44,10 +47,12 @@ static void fill_part(void *argument, const fg__share *share)
 }
 
 static fg_status fill_box(const fg_evolution *e, const fg__level *level,
-                          const fg__box *box, const fg__noise *noise, float *u)
+                          const fg__box *box, const fg__noise *noise, const float *values,
+                          float *u)
 {
   size_t count = (size_t)fg__team_members(e->team) * (size_t)level->layout.nodes[0];
-  filling f = {.e = e, .level = level, .box = box, .noise = noise, .u = u};
+  filling f = {
+      .e = e, .level = level, .box = box, .noise = noise, .values = values, .u = u};
   f.row = fg__allocate(count, sizeof *f.row);
   if (!f.row)
     return fg__fail_memory(e->context, "the noise", count * sizeof *f.row);
@@ -69,6 +74,34 @@ static void settle_mean(const fg__multigrid *multigrid, double mean)
   fg__pass_shift(multigrid, u, mean - sum / weight);
 }
 
+/* What the boxes get of the density of a finer mesh; the caller frees each and the list.
+ */
+static fg_status take_halved(float ***out, const fg_evolution *e)
+{
+  int count;
+  const fg__box *own = fg__own_boxes(&e->mesh.partition, &count);
+  float **values = *out = fg__allocate((size_t)count, sizeof *values);
+  bool whole = values;
+  for (int b = 0; b < count && whole; ++b) {
+    values[b] = fg__allocate((size_t)fg__box_count(&own[b]), sizeof **values);
+    whole = values[b];
+  }
+  fg_status status = FG_STATUS_OK;
+  if (!whole)
+    status =
+        fg__fail_memory(e->context, "a coarser density", (size_t)count * sizeof *values);
+  status = fg__ranks_agree(e->mesh.ranks, e->context, status);
+  return status ? status
+                : fg__halved_deliver(e->halved, e->context, &e->mesh.partition, values);
+}
+
+static void free_list(float **values, int count)
+{
+  for (int b = 0; b < count && values; ++b)
+    free(values[b]);
+  free(values);
+}
+
 fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multigrid)
 {
   fg_evolution *e = evolution;
@@ -80,15 +113,21 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
   const ptrdiff_t *offset;
   const fg__level *box = fg__multigrid_boxes(multigrid, &count, &offset);
   const fg__box *place = fg__own_boxes(&e->mesh.partition, &(int){0});
-  float *u = fg__multigrid_u(multigrid);
+  float *u = fg__multigrid_u(multigrid), **values = NULL;
   fg_status status = FG_STATUS_OK;
+  if (e->halved)
+    status = take_halved(&values, e);
   for (int b = 0; b < count && !status; ++b)
-    status = fill_box(e, &box[b], &place[b], &noise, u + offset[b]);
+    status =
+        fill_box(e, &box[b], &place[b], &noise, values ? values[b] : NULL, u + offset[b]);
+  free_list(values, count);
   status = fg__ranks_agree(e->mesh.ranks, e->context, status);
   if (status)
     return status;
   fg__pass_fill_ghosts(multigrid, u);
-  if (e->options.initial) {
+  if (e->halved) {
+    settle_mean(multigrid, e->halved_mean);
+  } else if (e->options.initial) {
     e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial, e->nodes);
     fg__pass_shift(multigrid, u, 0.0);
   } else {

@@ -81,8 +81,8 @@ static fg_density_arrays describe_density(const fg_evolution *e)
                               .debris_area = e->debris_area *
                                              fg__evolution_cell_volume(e) *
                                              pow(e->mesh.length, e->mesh.dimension),
-                              .time = e->stepper.time,
-                              .energy = e->stepper.energy,
+                              .time = fg__evolution_unit(e) * e->stepper.time,
+                              .energy = e->stepper.energy / fg__evolution_unit(e),
                               .area_fraction = e->area_fraction,
                               .clusters = e->clusters};
   for (int k = 0; k < 3; ++k) {

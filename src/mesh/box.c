@@ -2,6 +2,17 @@
 
 #include <stdlib.h>
 
+fg__box fg__box_halved(const fg__box *fine)
+{
+  fg__box even;
+  for (int k = 0; k < 3; ++k) {
+    int end = fine->first[k] + fine->nodes[k];
+    even.first[k] = (fine->first[k] + 1) / 2;
+    even.nodes[k] = (end + 1) / 2 - even.first[k];
+  }
+  return even;
+}
+
 fg__box fg__box_intersection(const fg__box *a, const fg__box *b)
 {
   fg__box out;

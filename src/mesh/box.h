@@ -22,6 +22,10 @@ static inline long fg__box_count(const fg__box *box)
   return (long)box->nodes[0] * box->nodes[1] * box->nodes[2];
 }
 
+/* The box's nodes with even indices, as nodes of the grid with half as many cells along
+ * each axis; empty when it has none. */
+fg__box fg__box_halved(const fg__box *fine);
+
 /* What two boxes have in common; empty when they have nothing. */
 fg__box fg__box_intersection(const fg__box *a, const fg__box *b);
 

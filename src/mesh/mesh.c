@@ -149,3 +149,29 @@ void fg__mesh_clear(fg__mesh *mesh)
   free(mesh->tile);
   *mesh = (fg__mesh){0};
 }
+
+int fg__mesh_most_cells(const fg__mesh *mesh)
+{
+  int most = 0;
+  for (int k = 0; k < mesh->dimension; ++k)
+    if (mesh->spacing[k] * mesh->cells[k] > 1.0 - 1e-9)
+      most = mesh->cells[k] > most ? mesh->cells[k] : most;
+  return most;
+}
+
+bool fg__mesh_can_be_halved(const fg__mesh *mesh)
+{
+  fg__mesh half = {.dimension = mesh->dimension};
+  fg__mesh_description description = {.dimension = mesh->dimension,
+                                      .nodes = fg__mesh_most_cells(mesh) / 2 + 1};
+  for (int k = 0; k < mesh->dimension; ++k) {
+    description.side[k] = mesh->spacing[k] * mesh->cells[k];
+    description.periodic[k] = mesh->periodic[k];
+  }
+  if (check_description(NULL, &description) || choose_cells(&half, NULL, &description))
+    return false;
+  for (int k = 0; k < mesh->dimension; ++k)
+    if (2 * half.cells[k] != mesh->cells[k])
+      return false;
+  return true;
+}

@@ -54,4 +54,11 @@ fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
                           const fg__mesh_description *description);
 void fg__mesh_clear(fg__mesh *mesh);
 
+/* Whether there is a mesh of the same domain with exactly half the cells along each axis:
+ * fg__mesh_create makes it for half as many, and one, nodes along the longest side. */
+bool fg__mesh_can_be_halved(const fg__mesh *mesh);
+
+/* Cells along the longest side. */
+int fg__mesh_most_cells(const fg__mesh *mesh);
+
 #endif

@@ -101,12 +101,7 @@ fg_status fg__partition_coarsen(fg__partition *out, fg_context *context,
   for (int r = 0; r < fine->ranks->count; ++r) {
     out->first_of_rank[r] = out->count;
     for (int n = fine->first_of_rank[r]; n < fine->first_of_rank[r + 1]; ++n) {
-      fg__box box = fine->box[n];
-      for (int k = 0; k < fine->dimension; ++k) {
-        int end = box.first[k] + box.nodes[k];
-        box.first[k] = (box.first[k] + 1) / 2;
-        box.nodes[k] = (end + 1) / 2 - box.first[k];
-      }
+      const fg__box box = fg__box_halved(&fine->box[n]);
       if (!fg__box_is_empty(&box))
         out->box[out->count++] = box;
     }

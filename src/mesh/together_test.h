@@ -13,6 +13,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "mesh/ranks.h"
 
@@ -62,6 +63,17 @@ static inline void *allocate_or_end(size_t count, size_t size)
   if (!memory)
     abort();
   return memory;
+}
+
+/* A name for a folder, the same on all ranks, that no other test has; where nothing has
+ * to be brought to a disk, if there is such a place. */
+static inline void name_folder(char *out, size_t room)
+{
+  uint64_t process = us.ranks->rank == 0 ? (uint64_t)getpid() : 0;
+  fg__ranks_add(us.ranks, &process, 1);
+  snprintf(out, room, "%s/flowgrain-together-%llu",
+           access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp",
+           (unsigned long long)process);
 }
 
 static inline void start_together(void)

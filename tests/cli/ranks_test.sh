@@ -43,6 +43,9 @@ compare masked "2 3 4" "$wind" --mask u10 --nodes 97 --clusters 60 --formats svg
 expect_json masked-1/run.json '.mesh | .active_cells < 0.4 * .cells[0] * .cells[1]'
 done_with "less than 40 % of the globe is in the mask"
 compare vortex3 "3" synth:vortex3 --nodes 65 --clusters 20,10 --formats svg --save-field
+compare halved "3" synth:vortex3 --nodes 513 --clusters 60,48 --formats svg --save-field
+expect_json halved-3/run.json '.mesh.coarser | length == 1'
+done_with "the mesh of three ranks was halved"
 compare vortex3d "2 4" synth:vortex3d --nodes 33 --clusters 30
 compare background "2" synth:benard --nodes 65 --clusters 8 --formats svg --background lic
 compare whole "3" synth:benard --nodes 65 --clusters 8 --formats svg --extent territory --tint

@@ -195,6 +195,21 @@ expect_same_results whole limit
 expect_only_results limit
 done_with "a run that ended at its limit goes on without it"
 
+fine=(run synth:vortex3 --nodes 513 --clusters 48 --quiet --checkpoint 0)
+try "${fine[@]}" -o fine
+expect_code 0
+halved=$(jq '.mesh.coarser[0].step' fine/run.json)
+for more in 0 4; do
+  try "${fine[@]}" -o "fine-$more" --max-steps $((halved + more))
+  expect_code 0
+  expect_json "fine-$more/run.json" ".mesh.coarser | length == ($more > 0 | if . then 1 else 0 end)"
+  try "${fine[@]}" -o "fine-$more" --resume
+  expect_code 0
+  expect_same_results fine "fine-$more"
+  expect_only_results "fine-$more"
+done
+done_with "a run whose mesh is halved goes on, before and after"
+
 cube=(run synth:vortex3d --nodes 33 --clusters 9,5 --quiet --checkpoint 0)
 try "${cube[@]}" -o cube
 expect_code 0

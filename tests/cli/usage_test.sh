@@ -39,8 +39,8 @@ wrong '--nodes.*missing' run a -o x --nodes
 done_with "missing argument"
 wrong '--force.*no argument' run a -o x --force=yes
 done_with "argument that is not taken"
-wrong 'mesh adaptive: .*neither time nor memory; .*: auto, uniform$' run a -o x --mesh adaptive
-done_with "an adaptive mesh is refused with the reason"
+wrong 'mesh adapted: not known; .*: auto, adaptive, uniform$' run a -o x --mesh adapted
+done_with "a mesh of another kind is refused with those that there are"
 for bad in "--nodes 3" "--nodes 100000" "--nodes 1e2" "--nodes= 65" "--anisotropy 0" \
   "--anisotropy 1.5" "--anisotropy nan" "--coverage 1" "--coverage 0" "--gamma -1" \
   "--gamma inf" "--seed 0" "--seed -1" "--seed 99999999999999999999" "--max-time 0" \

@@ -1,0 +1,121 @@
+/* A mesh that is halved, on several ranks: the bits of one rank alone, also after a
+ * checkpoint. */
+#include "mesh/together_test.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#include "evolve/evolution.h"
+
+enum { SAMPLES = 33, BEFORE = 6, BETWEEN = 4, AFTER = 4 };
+
+static char path[96];
+
+static fg_evolution *begin(const fg_field *field, const fg__ranks *ranks,
+                           const fg_evolution_options *options)
+{
+  fg_evolution *e;
+  expect(fg__evolution_create(&e, us.context, ranks, field, options) == FG_STATUS_OK);
+  return e;
+}
+
+static fg_step advance(fg_evolution *e, int steps)
+{
+  fg_step step = {0};
+  for (int n = 0; n < steps; ++n)
+    expect(fg_evolution_step(e, &step) == FG_STATUS_OK);
+  return step;
+}
+
+static bool same(double a, double b)
+{
+  return memcmp(&a, &b, sizeof a) == 0;
+}
+
+static void expect_same(const fg_step *a, const fg_step *b)
+{
+  expect(a->step == b->step);
+  expect(same(a->time, b->time));
+  expect(same(a->tau, b->tau));
+  expect(same(a->energy, b->energy));
+  expect(same(a->mass, b->mass));
+  expect(same(a->increment, b->increment));
+  expect(same(a->area_fraction, b->area_fraction));
+  expect(a->cells == b->cells);
+}
+
+static void compare(const char *name, const fg_evolution_options *options)
+{
+  const fg__ranks *alone;
+  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
+  fg_field *field;
+  expect(fg_field_create_analytic(&field, us.context, name, SAMPLES) == FG_STATUS_OK);
+  fg_evolution *one = begin(field, alone, options),
+               *all = begin(field, us.ranks, options);
+  fg_step a = advance(one, BEFORE), b = advance(all, BEFORE), resumed;
+  expect_same(&a, &b);
+  expect(fg_evolution_coarsen(one, field, options, &a) == FG_STATUS_OK);
+  expect(fg_evolution_coarsen(all, field, options, &b) == FG_STATUS_OK);
+  expect_same(&a, &b);
+  advance(all, BETWEEN);
+  expect(fg_evolution_save(all, path, "halved") == FG_STATUS_OK);
+
+  fg_checkpoint *checkpoint;
+  expect(fg__checkpoint_open(&checkpoint, us.context, path, us.ranks) == FG_STATUS_OK);
+  expect(fg_checkpoint_halvings(checkpoint) == 1);
+  fg_evolution *later = begin(field, us.ranks, options);
+  expect(fg_evolution_resume(later, &resumed, checkpoint) == FG_STATUS_ARGUMENT);
+  expect(strstr(fg_context_message(us.context), "halvings") != NULL);
+  fg_context_clear(us.context);
+  fg_evolution_destroy(later);
+  later = begin(field, us.ranks, options);
+  expect(fg_evolution_coarsen(later, field, options, &resumed) == FG_STATUS_OK);
+  expect(fg_evolution_resume(later, &resumed, checkpoint) == FG_STATUS_OK);
+  fg_checkpoint_destroy(checkpoint);
+  resumed = advance(later, AFTER);
+  a = advance(one, BETWEEN + AFTER);
+  b = advance(all, AFTER);
+  expect_same(&a, &b);
+  expect_same(&a, &resumed);
+  fg_evolution_destroy(one);
+  fg_evolution_destroy(all);
+  fg_evolution_destroy(later);
+  fg_field_destroy(field);
+}
+
+static void a_halved_mesh_has_the_bits_of_one_rank(void **state)
+{
+  (void)state;
+  compare("vortex3", &(fg_evolution_options){.nodes = 129, .seed = 3});
+  compare("benard", &(fg_evolution_options){.nodes = 129}); /* periodic */
+  compare("vortex3", &(fg_evolution_options){.nodes = 65, .scheme = FG_SCHEME_THETA});
+  compare("abc", &(fg_evolution_options){.nodes = 33}); /* 3D, periodic */
+  compare("vortex3d", &(fg_evolution_options){.nodes = 33});
+  end_together();
+}
+
+static int name_checkpoint(void **state)
+{
+  (void)state;
+  name_folder(path, sizeof path); /* a file in place of the folder */
+  return 0;
+}
+
+static int remove_checkpoint(void **state)
+{
+  (void)state;
+  if (us.ranks->rank != 0)
+    return 0;
+  char previous[128];
+  snprintf(previous, sizeof previous, "%s.previous", path);
+  unlink(previous);
+  return unlink(path);
+}
+
+int main(void)
+{
+  start_together();
+  const struct CMUnitTest tests[] = {TOGETHER(a_halved_mesh_has_the_bits_of_one_rank)};
+  return cmocka_run_group_tests_name("evolve/coarsen_together", tests, name_checkpoint,
+                                     remove_checkpoint);
+}
