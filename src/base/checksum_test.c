@@ -1,14 +1,8 @@
 /* The checksum of a whole from the shares of its pieces. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <string.h>
 
 #include "base/checksum.h"
+#include "base/context_test.h"
 
 enum { BYTES = 9001, RANKS = 3 };
 

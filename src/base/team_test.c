@@ -1,11 +1,5 @@
+#include "base/context_test.h"
 #include "base/team.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 enum { MEMBERS = 3, COUNT = 1001, ROUNDS = 200 };
 

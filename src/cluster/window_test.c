@@ -1,12 +1,7 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <string.h>
 
+#include "base/context_test.h"
 #include "cluster/raster.h"
 
 #define assert_near(value, expected, tolerance)                                          \

@@ -1,12 +1,5 @@
 /* Checkpoint files: what is written by any division into ranks and boxes is read by any
  * other, and no damaged file is accepted. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/checksum.h"
+#include "base/context_test.h"
 #include "evolve/checkpoint_file.h"
 
 /* A grid of 7 x 5 x 3 nodes cut into three boxes, and a coarser one in a single box. */

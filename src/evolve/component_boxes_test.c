@@ -1,14 +1,9 @@
 /* A grid in boxes gives what the whole grid gives. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/context_test.h"
 #include "evolve/components.h"
 
 enum { MOST_BOXES = 24 };

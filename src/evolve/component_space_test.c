@@ -1,14 +1,9 @@
 /* Components in 3D. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/context_test.h"
 #include "evolve/components.h"
 
 #define assert_near(value, expected, tolerance)                                          \

@@ -3,18 +3,11 @@
 #ifndef FG__CURVE_TEST_H
 #define FG__CURVE_TEST_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "flowgrain/flowgrain.h"
+#include "base/context_test.h"
 
 enum { MOST_POINTS = 4096, TIMES = 10 };
 

@@ -1,27 +1,9 @@
 /* The evolution through the public interface: its promises, and what must not matter. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "flowgrain/flowgrain.h"
-
-static int set_up(void **state)
-{
-  return fg_context_create((fg_context **)state) != FG_STATUS_OK;
-}
-
-static int tear_down(void **state)
-{
-  fg_context_destroy(*state);
-  return 0;
-}
+#include "base/context_test.h"
 
 /* Samples of a velocity on a box: side + 1 of them along natural axes, side along
  * periodic ones, whose period is their length. */
@@ -466,7 +448,8 @@ static void the_initial_density_is_kept(void **state)
 
 int main(void)
 {
-#define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define CASE(name)                                                                       \
+  cmocka_unit_test_setup_teardown(name, context_set_up, context_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(mass_stays_and_energy_falls),
       CASE(mass_stays_and_energy_falls_round_islands),

@@ -3,18 +3,11 @@
 #ifndef FG__FIXTURE_TEST_H
 #define FG__FIXTURE_TEST_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "flowgrain/flowgrain.h"
+#include "base/context_test.h"
 
 enum { SIDE = 65 };
 

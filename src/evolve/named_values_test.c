@@ -1,17 +1,11 @@
 /* Values survive being lines of a text to the last bit, and nothing else becomes one. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/context_test.h"
 #include "evolve/named_values.h"
 
 typedef struct sample {

@@ -1,12 +1,7 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/context_test.h"
 #include "evolve/noise.h"
 
 static void test_a_row_in_pieces_is_the_row(void **state)

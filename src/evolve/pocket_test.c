@@ -1,14 +1,8 @@
 /* A step of a small part solves its system, holds its mass, and never raises its energy,
  * however long it is. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 
+#include "base/context_test.h"
 #include "evolve/pocket.h"
 
 /* An L-shaped room, cells of unequal sides. Node numbers go along x, then y. */

@@ -1,17 +1,10 @@
 /* Whole runs on a domain of pockets, passages and dead ends a few cells wide come to
  * their end, which is often a pattern at rest, about as soon as runs on an open one;
  * where interfaces stand across passages for good, cycles do not make steps fail. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <limits.h>
 #include <math.h>
 
-#include "flowgrain/flowgrain.h"
+#include "base/context_test.h"
 
 enum { SIDE = 129, SEEDS = 3, CLUSTERS = 12 };
 

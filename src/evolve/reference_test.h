@@ -4,17 +4,11 @@
 #ifndef FG__REFERENCE_TEST_H
 #define FG__REFERENCE_TEST_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/context_test.h"
 #include "evolve/multigrid.h"
 
 static const double PI = 3.14159265358979323846;

@@ -1,13 +1,8 @@
 /* Any team finds what is found in the whole grid at once. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/context_test.h"
 #include "evolve/team_clusters.h"
 
 enum { MOST_TEAM = 7, TRIALS = 60 };

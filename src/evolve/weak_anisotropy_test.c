@@ -1,14 +1,7 @@
 /* A weak anisotropy costs little more than the default one: interfaces along the stream
  * are as thin as those across it are by default, and cycles once needed four times as
  * many. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
-#include "flowgrain/flowgrain.h"
+#include "base/context_test.h"
 
 enum { SEEDS = 3, CLUSTERS = 12 };
 

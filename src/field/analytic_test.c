@@ -1,14 +1,7 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
-#include "flowgrain/flowgrain.h"
-
 #include <math.h>
 #include <string.h>
+
+#include "base/context_test.h"
 
 enum { NODES = 201 }; /* samples at multiples of 0.005, so every core lies on one */
 

@@ -1,14 +1,8 @@
 /* Fingerprints tell fields apart by every number in them, and by nothing else. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 #include <string.h>
 
+#include "base/context_test.h"
 #include "field/fingerprint.h"
 
 enum { NX = 5, NY = 4 };

@@ -1,13 +1,7 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
-#include "format/base64.h"
-
 #include <string.h>
+
+#include "base/context_test.h"
+#include "format/base64.h"
 
 /* RFC 4648, section 10 */
 static const char *const CLEAR[] = {"", "f", "fo", "foo", "foob", "fooba", "foobar"};

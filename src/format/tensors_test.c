@@ -1,14 +1,9 @@
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include <netcdf.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-#include <netcdf.h>
-
+#include "base/context_test.h"
 #include "flowgrain/energy.h"
 #include "format/folder_test.h"
 

@@ -1,10 +1,4 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "base/context_test.h"
 #include "icon/icons.h"
 
 static fg_icon icon_of(int cluster, const double (*points)[3], int count)

@@ -3,17 +3,10 @@
 #ifndef FG__SHAPES_TEST_H
 #define FG__SHAPES_TEST_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 #include <stdlib.h>
 
-#include "flowgrain/flowgrain.h"
+#include "base/context_test.h"
 #include "icon/measure.h"
 
 /* A domain with an origin, a size and a spacing that are nothing special. */

@@ -1,12 +1,6 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 
+#include "base/context_test.h"
 #include "icon/icons.h"
 
 /* Speeds of icons whose other properties do not matter. */

@@ -1,13 +1,7 @@
-#include "mesh/box.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <string.h>
+
+#include "base/context_test.h"
+#include "mesh/box.h"
 
 /* Small enough to mark every node. */
 enum { SIDE_X = 7, SIDE_Y = 6, SIDE_Z = 5, MOST = SIDE_X * SIDE_Y * SIDE_Z };

@@ -4,17 +4,11 @@
 #ifndef FG__TOGETHER_TEST_H
 #define FG__TOGETHER_TEST_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/context_test.h"
 #include "mesh/ranks.h"
 
 typedef struct together {

@@ -1,13 +1,7 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/context_test.h"
 #include "picture/light.h"
 
 /* Levels of an arrow's pixel as a picture has them, 0 to 255, without a glint. */

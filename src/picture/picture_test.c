@@ -1,10 +1,3 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <cairo.h>
 #include <dirent.h>
 #include <math.h>
@@ -13,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/context_test.h"
 #include "icon/icons.h"
 #include "picture/palette.h"
 

@@ -1,13 +1,7 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 #include <string.h>
 
+#include "base/context_test.h"
 #include "picture/text.h"
 
 static void bytes_that_are_no_text_are_replaced(void **state)

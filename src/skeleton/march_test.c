@@ -1,13 +1,8 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/context_test.h"
 #include "skeleton/spine.h"
 
 #define assert_near(value, expected, tolerance)                                          \

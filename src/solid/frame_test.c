@@ -1,11 +1,6 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
+#include "base/context_test.h"
 #include "solid/frame.h"
 #include "solid/vector.h"
-#include <cmocka.h>
 
 enum { LARGEST = 241 };
 static const double RADIUS = 1.7, PITCH = 0.6; /* of height a radian */

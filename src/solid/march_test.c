@@ -1,12 +1,7 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/context_test.h"
 #include "solid/march.h"
 
 /* Distance to the border of a ball that lies askew on the grid. */

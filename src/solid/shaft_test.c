@@ -1,13 +1,8 @@
 /* Where on a streamline an arrow ends. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/context_test.h"
 #include "solid/shaft.h"
 
 enum { STRAIGHT = 160, HOOK = 24, SIDE = 4, SAMPLES = SIDE * SIDE * SIDE };

@@ -1,13 +1,7 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "flowgrain/flowgrain.h"
+#include "base/context_test.h"
 #include "solid/vector.h"
 
 enum { W = 36, H = 30, D = 24, NODES = W * H * D };

@@ -1,11 +1,6 @@
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
+#include "base/context_test.h"
 #include "tensor/eigenvalues.h"
 
 /* V diag(e) V^T for the orthonormal columns of a rotation by Euler angles. */

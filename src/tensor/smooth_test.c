@@ -1,12 +1,7 @@
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
+#include "base/context_test.h"
 #include "tensor/tensor.h"
 
 enum { COLUMNS = 46, ROWS = 30, COUNT = COLUMNS * ROWS };

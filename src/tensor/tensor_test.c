@@ -1,13 +1,7 @@
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 #include <string.h>
 
+#include "base/context_test.h"
 #include "tensor/tensor.h"
 
 /* Velocities and tensor entries are stored in float, and the entries are at most 1. */
