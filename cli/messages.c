@@ -5,10 +5,15 @@
 #include <string.h>
 
 #include "program.h"
-#include "ranks.h"
 
 enum { TEXT_BYTES = 2048 }; /* of a context's message */
 static char complaint[TEXT_BYTES], advice[TEXT_BYTES];
+static bool silent;
+
+void keep_complaints(void)
+{
+  silent = true;
+}
 
 void complain(const char *format, ...)
 {
@@ -17,7 +22,7 @@ void complain(const char *format, ...)
   vsnprintf(complaint, sizeof complaint, format, arguments);
   va_end(arguments);
   advice[0] = '\0';
-  if (ranks_leader())
+  if (!silent)
     fprintf(stderr, "flowgrain: %s\n", complaint);
 }
 
@@ -27,7 +32,7 @@ void advise(const char *format, ...)
   va_start(arguments, format);
   vsnprintf(advice, sizeof advice, format, arguments);
   va_end(arguments);
-  if (ranks_leader())
+  if (!silent)
     fprintf(stderr, "%s\n", advice);
 }
 

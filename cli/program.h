@@ -62,11 +62,14 @@ typedef struct cli_settings {
   bool save_field, resume, force, quiet, verbose, json;
 } cli_settings;
 
-/* Prints "flowgrain: TEXT" on standard error; on ranks other than 0 it is kept for them
- * to agree on (ranks.h). */
+/* From now on complaints are kept, not printed: on ranks other than 0, for all to agree
+ * on (ranks.h). */
+void keep_complaints(void);
+
+/* Prints "flowgrain: TEXT" on standard error, or keeps it. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Prints a second line, which says what to do about the complaint. */
+/* The same of a second line, which says what to do about the complaint. */
 void advise(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* What was last complained of, and advised on it; "" before. */

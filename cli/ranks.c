@@ -18,6 +18,8 @@ int ranks_start(void)
     complain("%s", fg_context_message(context));
     return EXIT_FAILED;
   }
+  if (rank > 0)
+    keep_complaints();
   if (rank > 0 && !freopen("/dev/null", "w", stdout))
     return complain_of_file("/dev/null", "cannot be written");
   return EXIT_DONE;
