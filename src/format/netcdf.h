@@ -167,9 +167,20 @@ typedef struct fg__nc_grid {
   char hint[FG__NC_TEXT];
 } fg__nc_grid;
 
-/* Writes why a pair cannot be read, once. */
+/* netcdf_fitness.c. Writes why a pair cannot be read, once. */
 void fg__nc_unusable(fg__nc_grid *grid, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+
+/* Compares the components' dimensions; staggered grids (Arakawa's C grid) keep them at
+ * different places, which makes the pair unusable. */
+void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
+                         const fg__nc_variable *u, const fg__nc_variable *v);
+
+/* A variable that is no field of numbers makes the pair unusable, or one larger than the
+ * file can hold. */
+void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v);
+void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
+                          const fg__nc_variable *v);
 
 /* netcdf_axes.c. Reads a coordinate along an axis, makes it ascend, finds where it
  * repeats. */
@@ -190,17 +201,6 @@ fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
  * is asked for, what is in the way makes the pair unusable. */
 fg_status fg__nc_volume_find(fg__nc_grid *grid, const fg__nc_file *file,
                              const fg__nc_pair *pair);
-
-/* Compares the components' dimensions; staggered grids (Arakawa's C grid) keep them at
- * different places, which makes the pair unusable. */
-void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
-                         const fg__nc_variable *u, const fg__nc_variable *v);
-
-/* A variable that is no field of numbers makes the pair unusable, or one larger than the
- * file can hold. */
-void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v);
-void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
-                          const fg__nc_variable *v);
 
 /* Finds the grid of a pair. What makes it unusable goes to `unusable`; only failures to
  * read or a lack of memory are statuses. */
