@@ -96,7 +96,8 @@ static int64_t day_number(date d, calendar_kind calendar)
 
 static date date_of(int64_t days, calendar_kind calendar)
 {
-  date d = {.year = floor_divide(days, 366) - 1, .month = 1};
+  /* not after the day: no year is longer than 366 days, none shorter than 360 */
+  date d = {.year = floor_divide(days, days < 0 ? 360 : 366) - 1, .month = 1};
   while (days_before(d.year + 1, calendar) <= days)
     ++d.year;
   days -= days_before(d.year, calendar);

@@ -79,10 +79,14 @@ static void dates_follow_the_calendar(void **state)
   /* Julian day 0 is noon of 1 January 4713 BC (year -4712); day 2451545 is 2000-01-01 12
    * h */
   assert_date(2451545.0, "days since -4712-01-01 12:00", "standard", "2000-01-01 12:00");
+  assert_date(-1.0, "days since -4712-01-01", "standard", "-4713-12-31");
+  assert_date(-719528.0 - 146097.0 * 20.0, "days since 1970-01-01", "proleptic_gregorian",
+              "-8000-01-01");
   assert_date(60.0, "days since 2004-01-01", "noleap", "2004-03-02");
   assert_date(59.0, "days since 2003-01-01", "366_day", "2003-02-29");
   assert_date(59.0, "days since 2003-01-01", "360_day", "2003-02-30");
   assert_date(360.0 * 5.0 - 1.0, "days since 2000-01-01", "360_day", "2004-12-30");
+  assert_date(360.0 * 5.0 - 1.0, "days since -900-01-01", "360_day", "-896-12-30");
   assert_date(366.0, "hour since 0000-01-01 00:00:00", "", "16 January (climatology)");
   assert_date(-719528.0, "days since 1970-01-01", "proleptic_gregorian", "0000-01-01");
 }
