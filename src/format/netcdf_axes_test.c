@@ -337,6 +337,28 @@ static void grids_that_no_file_can_hold_are_refused(void **state)
   }
 }
 
+/* Nor is it read through to learn whether the components lie at the same places. */
+static void coordinates_that_no_file_can_hold_are_not_compared(void **state)
+{
+  sample_file *f = *state;
+  sample_begin(f, NC_NETCDF4);
+  int all[2][3];
+  const size_t chunk[3] = {1000, ROWS, ROWS};
+  for (int c = 0; c < 2; ++c) {
+    all[c][0] = sample_dimension(f, c == 0 ? "z_u" : "z_v", 2000000000);
+    const int id = sample_variable(f, c == 0 ? "z_u" : "z_v", NC_DOUBLE, 1, all[c]);
+    nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, chunk));
+  }
+  all[0][1] = all[1][1] = sample_axis(f, "lat", ROWS, LATITUDES, "degrees_north");
+  all[0][2] = all[1][2] = sample_axis(f, "lon", ROWS, LATITUDES, "degrees_east");
+  for (int c = 0; c < 2; ++c) {
+    const int id = sample_variable(f, c == 0 ? "u" : "v", NC_FLOAT, 3, all[c]);
+    nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, chunk));
+  }
+  sample_end(f);
+  refuse(f, "'u' runs along 'z_u', 'v' along 'z_v'");
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
@@ -353,6 +375,7 @@ int main(void)
       CASE(bare_arrays_are_read_on_their_indices),
       CASE(dimensions_that_fit_nothing_are_refused),
       CASE(grids_that_no_file_can_hold_are_refused),
+      CASE(coordinates_that_no_file_can_hold_are_not_compared),
   };
   return cmocka_run_group_tests_name("format/netcdf_axes", tests, NULL, NULL);
 }

@@ -1,11 +1,9 @@
 /* Whether variables can be a pair's components at all: numbers enough, and all at the
  * same places. */
-#include "base/memory.h"
 #include "format/netcdf.h"
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Deflate makes 1032 bytes of one at most (zlib's documentation): a field whose file is
@@ -46,6 +44,28 @@ void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v)
     fg__nc_unusable(grid, "'%s' has more than %d dimensions", v->name, FG__NC_RANK);
 }
 
+static bool fits_file(const fg__nc_file *file, const fg__nc_variable *v, size_t samples)
+{
+  size_t width = 1;
+  return nc_inq_type(v->group, v->type, NULL, &width) != NC_NOERR ||
+         samples / LARGEST_COMPRESSION * width <= file->sizes[v->file];
+}
+
+/* A part at a time: a header alone must not make them take memory. */
+static bool same_numbers(const fg__nc_variable *a, const fg__nc_variable *b, size_t n)
+{
+  enum { AT_ONCE = 4096 };
+  double x[AT_ONCE], y[AT_ONCE];
+  for (size_t start = 0; start < n; start += AT_ONCE) {
+    const size_t count = n - start < AT_ONCE ? n - start : AT_ONCE;
+    if (nc_get_vara_double(a->group, a->id, &start, &count, x) ||
+        nc_get_vara_double(b->group, b->id, &start, &count, y) ||
+        memcmp(x, y, count * sizeof *x) != 0)
+      return false;
+  }
+  return true;
+}
+
 static bool same_coordinates(const fg__nc_file *file, const fg__nc_variable *a,
                              const fg__nc_variable *b, int k)
 {
@@ -54,13 +74,8 @@ static bool same_coordinates(const fg__nc_file *file, const fg__nc_variable *a,
   const fg__nc_variable *of_b = fg__nc_coordinate(file, b, k);
   if (!of_a || !of_b)
     return !of_a && !of_b && a->file != b->file;
-  const size_t start = 0;
-  double *x = fg__allocate(n, 2 * sizeof *x);
-  const bool read = x && !nc_get_vara_double(of_a->group, of_a->id, &start, &n, x) &&
-                    !nc_get_vara_double(of_b->group, of_b->id, &start, &n, x + n);
-  const bool same = read && memcmp(x, x + n, n * sizeof *x) == 0;
-  free(x);
-  return same;
+  return fits_file(file, of_a, n) && fits_file(file, of_b, n) &&
+         same_numbers(of_a, of_b, n);
 }
 
 void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
@@ -86,10 +101,7 @@ void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
 void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
                           const fg__nc_variable *v)
 {
-  size_t width = 1;
-  if (nc_inq_type(v->group, v->type, NULL, &width) != NC_NOERR)
-    return;
-  if (grid->samples * width / LARGEST_COMPRESSION > file->sizes[v->file])
+  if (!fits_file(file, v, grid->samples))
     fg__nc_unusable(grid, "'%.120s' has %zu samples, but the file has only %zu bytes",
                     v->name, grid->samples, file->sizes[v->file]);
 }
