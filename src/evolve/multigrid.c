@@ -88,9 +88,6 @@ fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
   return FG_STATUS_OK;
 }
 
-/* A level's boxes are worked on while they have this many nodes a side. */
-enum { LEAST_NODES = 4 };
-
 static fg_status spread_levels(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, const fg__tensor_recipe *recipe,
                                double gamma)
@@ -102,7 +99,7 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
       fg__partition_create(&partition, context, mesh->ranks, mesh->dimension, mesh->cells,
                            mesh->periodic, own, own_count);
   for (int halvings = 0; !status; ++halvings) {
-    bool workable = fg__partition_is_workable(&partition, LEAST_NODES) &&
+    bool workable = fg__partition_is_workable(&partition, FG__LEAST_BOX_NODES) &&
                     halvings + 1 < FG__MOST_LEVELS;
     fg__spread *spread = &out->spread[halvings];
     fg__spread_description description = {

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesh/merge.h"
 
@@ -100,8 +101,20 @@ static double imbalance(const fg__mesh *mesh, int patch)
   return ceil(mean) / mean;
 }
 
-static fg_status share_leaves(fg__mesh *mesh, fg_context *context)
+/* So that what many ranks have is tested on few. */
+static bool wants_leaves(const fg__ranks *ranks)
 {
+  const char *shares = getenv("FLOWGRAIN_SHARES");
+  double wants = shares && strcmp(shares, "leaves") == 0;
+  fg__ranks_greatest(ranks, &wants, 1);
+  return wants > 0.0;
+}
+
+static fg_status share_nodes(fg__mesh *mesh, fg_context *context)
+{
+  int unit = wants_leaves(mesh->ranks) ? 0 : fg__mesh_slab_unit(mesh);
+  if (unit > 0)
+    return fg__mesh_cut_slabs(mesh, context, unit);
   int tree = greatest_power_of_two_in(mesh->dimension, mesh->cells), depth = 0;
   int least = mesh->dimension == 3 ? LEAST_PATCH_3D : LEAST_PATCH_2D;
   mesh->patch_cells = tree;
@@ -137,7 +150,7 @@ fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
   if (!status && !out->ranks)
     status = fg__ranks_all(&out->ranks, context);
   if (!status)
-    status = share_leaves(out, context);
+    status = share_nodes(out, context);
   if (status)
     fg__mesh_clear(out);
   return status;

@@ -1,5 +1,6 @@
-/* The mesh: a uniform grid of Q1 cells, cut into patches of patch_cells along each axis,
- * the leaves of a forest, which the ranks share along a Morton curve.
+/* The mesh: a uniform grid of Q1 cells. Few ranks share it in slabs of whole slices along
+ * the last axis, many in patches of patch_cells along each axis, the leaves of a forest,
+ * along a Morton curve.
  *
  * A patch owns the nodes of its cells' lower corners, and those that close the grid at
  * upper ends of natural axes. The nodes that a rank owns are merged into few boxes
@@ -25,7 +26,7 @@ typedef struct fg__mesh {
   double spacing[3]; /* in units of the domain's longest side; 1 along z in 2D */
   double length;     /* the longest side in the input's coordinates */
   double origin[3];  /* lower corner, input coordinates; 0 along z in 2D */
-  int patch_cells;   /* along each side of a leaf */
+  int patch_cells;   /* boxes begin at multiples of it: a leaf's side, a slab's unit */
   const fg__ranks *ranks;
   fg__partition partition; /* of the nodes */
   int tile_count;
@@ -44,11 +45,12 @@ typedef struct fg__mesh_description {
 /* Builds a mesh. The cells along the longest side are nodes - 1 rounded up to a multiple
  * of 16, every other side gets the multiple of 8 (16 when periodic) that makes cells most
  * nearly cubes; so all can be halved at least three times; a domain so thin that this
- * makes cells more than twice as wide as long gets more cells along it. Leaves are as
- * large as they can be without one rank getting 5 % more than the mean, but have 16 cells
- * a side at least (8 in 3D) where more ranks ask for smaller ones: so many ranks are
- * uneven. Collective. ARGUMENT (fewer than 9 or too many nodes, an empty box), MEMORY,
- * MPI.
+ * makes cells more than twice as wide as long gets more cells along it. Each rank gets a
+ * slab unless boxes are less work (fg__mesh_slab_unit), or the environment variable
+ * FLOWGRAIN_SHARES is "leaves" on a rank (tests do that). Leaves are as large as they can
+ * be without one rank getting 5 % more than the mean, but have 16 cells a side at least
+ * (8 in 3D) where more ranks ask for smaller ones: so many ranks are uneven. Collective.
+ * ARGUMENT (fewer than 9 or too many nodes, an empty box), MEMORY, MPI.
  */
 fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
                           const fg__mesh_description *description);

@@ -112,6 +112,9 @@ fg_status fg__partition_coarsen(fg__partition *out, fg_context *context,
 
 bool fg__partition_is_workable(const fg__partition *partition, int least_nodes)
 {
+  for (int k = 0; k < partition->dimension; ++k)
+    if (partition->cells[k] % 2 != 0)
+      return false;
   for (int n = 0; n < partition->count; ++n)
     for (int k = 0; k < partition->dimension; ++k)
       if (partition->box[n].first[k] % 2 != 0 || partition->box[n].nodes[k] < least_nodes)

@@ -39,9 +39,13 @@ fg_status fg__partition_create(fg__partition *out, fg_context *context,
 fg_status fg__partition_coarsen(fg__partition *out, fg_context *context,
                                 const fg__partition *fine);
 
-/* True when the level is good to work on as it is shared: every box has `least_nodes` or
- * more along each axis and begins at even indices, so that an even column of a box is
- * even everywhere. (A box may end anywhere.) The same on all ranks; not collective. */
+/* Boxes of a level are worked on while they have so many nodes a side. */
+enum { FG__LEAST_BOX_NODES = 4 };
+
+/* True when the level is good to work on as it is shared, and to be coarsened: its cells
+ * are even along each axis, every box has `least_nodes` or more and begins at even
+ * indices, so that an even column of a box is even everywhere. (A box may end anywhere.)
+ * The same on all ranks; not collective. */
 bool fg__partition_is_workable(const fg__partition *partition, int least_nodes);
 void fg__partition_clear(fg__partition *partition);
 

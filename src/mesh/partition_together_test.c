@@ -109,6 +109,21 @@ static void small_or_crooked_boxes_are_not_workable(void **state)
   end_together();
 }
 
+/* Its last row would be no node of the next level. */
+static void a_level_of_odd_cells_is_not_workable(void **state)
+{
+  (void)state;
+  const grid g = {2, {12, 6, 1}, {false, false, false}};
+  shares s = {.count = 1, .box = {{{0, 0, 0}, {13, 7, 1}}}};
+  fg__partition partition = partition_of(&g, &s), coarse;
+  expect(fg__partition_is_workable(&partition, 4));
+  expect(fg__partition_coarsen(&coarse, us.context, &partition) == FG_STATUS_OK);
+  expect(coarse.box[0].nodes[1] == 4 && !fg__partition_is_workable(&coarse, 4));
+  fg__partition_clear(&coarse);
+  fg__partition_clear(&partition);
+  end_together();
+}
+
 static void check_ring(const grid *g, const fg__partition *partition, const fields *f)
 {
   int count, depth = g->dimension == 3;
@@ -180,6 +195,7 @@ int main(void)
       TOGETHER(every_rank_knows_every_owner),
       TOGETHER(coarse_nodes_stay_with_their_owners),
       TOGETHER(small_or_crooked_boxes_are_not_workable),
+      TOGETHER(a_level_of_odd_cells_is_not_workable),
       TOGETHER(replicated_levels_hold_all_and_give_it_back),
   };
   return cmocka_run_group_tests_name("mesh/partition", tests, NULL, NULL);
