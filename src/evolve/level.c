@@ -200,7 +200,8 @@ static bool has_mask(const fg__cells_of_box *tensor)
   return false;
 }
 
-/* Relative mass of a node from the cells round it. */
+/* Relative mass of a node from the cells round it; beyond one of several boxes it comes
+ * from those who own it. */
 static void weigh_nodes(const fg__level *level)
 {
   const fg__layout *at = &level->layout;
@@ -223,6 +224,8 @@ static void weigh_nodes(const fg__level *level)
         *fg__node(level, level->mass_inverse, i, j, k) =
             mass > 0.0 ? (float)(1.0 / mass) : 0.0F;
       }
+  if (level->boxed)
+    return;
   fg__fill_ghosts(level, level->mass);
   fg__fill_ghosts(level, level->mass_inverse);
 }

@@ -187,6 +187,7 @@ static inline void fg__fill_ghost_columns(const fg__level *level, float *row)
   row[level->ghost_column[0]] = row[level->ghost_column_source[0]];
   row[level->ghost_column[1]] = row[level->ghost_column_source[1]];
 }
+/* Of the whole level, or of a box whose ghosts there are images of its own nodes. */
 void fg__fill_ghost_row(const fg__level *level, float *array, int k, int side);
 void fg__fill_ghost_plane(const fg__level *level, float *array, int side);
 void fg__fill_ghosts(const fg__level *level, float *array);

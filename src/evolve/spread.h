@@ -36,8 +36,7 @@ typedef struct fg__spread_description {
 
 /* Makes a level of the mesh's grid, takes over its partition, and computes stencils from
  * the tensor: the finest that `recipe` gives for each box, a coarser one from the means
- * of the finer level's. Collective. MEMORY, and what the recipe
- * meets. */
+ * of the finer level's. Collective. MEMORY, and what the recipe meets. */
 fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh *mesh,
                             const fg__tensor_recipe *recipe, fg__partition *partition,
                             const fg__spread_description *description);

@@ -253,7 +253,8 @@ static void find_cells(const fg_field *field, int first, int end,
   for (int n = first; n < end; ++n)
     for (int j = 0; j < (dimension == 3 ? field->axis[1].cells : 1); ++j) {
       find_row(field, dimension == 3 ? j : n, dimension == 3 ? n : 0, valid_cell, counts);
-      valid_cell += valid_cell ? columns : 0;
+      if (valid_cell)
+        valid_cell += columns;
     }
 }
 
@@ -415,6 +416,8 @@ static fg_status create(fg_field **out, fg_context *context,
 fg_status fg_field_create(fg_field **out, fg_context *context,
                           const fg_field_arrays *arrays)
 {
+  if (out)
+    *out = NULL;
   if (!out || !arrays)
     return fg__fail(context, FG_STATUS_ARGUMENT, "field: no arrays to make it from");
   return create(out, context, arrays, NULL, -1, 1);

@@ -410,6 +410,13 @@ static void motion_outside_the_cells_does_not_count(void **state)
   assert_refused(set, "zero everywhere");
 }
 
+static void no_arrays_make_no_field(void **state)
+{
+  fg_field *field = *state;
+  assert_int_equal(fg_field_create(&field, NULL, NULL), FG_STATUS_ARGUMENT);
+  assert_null(field);
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
@@ -429,6 +436,7 @@ int main(void)
       CASE(bad_sizes_are_refused),
       CASE(bad_values_are_refused),
       CASE(motion_outside_the_cells_does_not_count),
+      CASE(no_arrays_make_no_field),
   };
   return cmocka_run_group_tests_name("field/field", tests, NULL, NULL);
 }

@@ -22,7 +22,7 @@ static uint64_t mix_double(uint64_t key, uint64_t place, double value)
 
 uint64_t fg__field_fingerprint_grid(const fg_field *field)
 {
-  const fg_field_arrays *f = fg_field_contents(field);
+  const fg_field_arrays *f = &field->contents;
   uint64_t sum = fg__mix(key_of(KEY_SHAPE, f->dimension) ^ (uint64_t)f->scale);
   for (int k = 0; k < f->dimension; ++k) {
     sum += mix_double(key_of(KEY_PERIOD, k), 0, f->period[k]);

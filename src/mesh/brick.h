@@ -12,7 +12,7 @@ typedef struct fg__brick {
   int odd[3]; /* 1 where the source of the first node has an odd global index */
 } fg__brick;
 
-/* How many of a brick's nodes have a colour of the set (exchange.h). */
+/* How many of a brick's nodes have a colour of the set (layout.h). */
 long fg__brick_count(const fg__brick *brick, unsigned colours);
 
 /* Writes those nodes one after the other; returns the end of what was written. */

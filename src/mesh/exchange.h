@@ -6,8 +6,8 @@
  * for what all their axes say together. Every ghost is copied straight from its owner:
  * within the rank by memory, between ranks in one message per neighbouring rank and
  * exchange, whatever the number of boxes and arrays. A ghost's column, row and plane are
- * even or odd as its source's are, so an exchange can be confined to some colours of
- * nodes: after a Gauss-Seidel sweep has changed one colour, that is all there is to send.
+ * even or odd as its source's are, so an exchange can be confined to a set of colours:
+ * after a Gauss-Seidel sweep has changed one colour, that is all there is to send.
  *
  *     float *const *arrays[] = {u, w};  // u[b]: node (0, 0, 0) of own box b, layout.h
  *     fg__exchange_fill(exchange, 2, arrays, FG__ALL_COLOURS);
@@ -20,18 +20,6 @@
 
 #include "mesh/layout.h"
 #include "mesh/partition.h"
-
-/* A node's colour is 1 for odd columns + 2 for odd rows + 4 for odd planes (global
- * indices); sets of colours have bit 1 << colour. */
-enum {
-  FG__EVEN_COLUMNS = 0x55,
-  FG__ODD_COLUMNS = 0xaa,
-  FG__EVEN_ROWS = 0x33,
-  FG__ODD_ROWS = 0xcc,
-  FG__EVEN_PLANES = 0x0f,
-  FG__ODD_PLANES = 0xf0,
-  FG__ALL_COLOURS = 0xff
-};
 
 typedef struct fg__exchange fg__exchange;
 

@@ -50,8 +50,10 @@ static void holds_its_source(const ghost *g, int box, const fg__layout *layout,
     expect(c->fields->node[a][box][at] == (filled ? value_at(a, g->node) : UNTOUCHED));
 }
 
-static const unsigned COLOURS[] = {FG__ALL_COLOURS, 1U << 0,         1U << 3, 1U << 6,
-                                   FG__EVEN_ROWS,   FG__ODD_COLUMNS, 0x81,    0};
+enum { EVEN_ROWS = 0x33, ODD_COLUMNS = 0xaa };
+
+static const unsigned COLOURS[] = {FG__ALL_COLOURS, 1U << 0,     1U << 3, 1U << 6,
+                                   EVEN_ROWS,       ODD_COLUMNS, 0x81,    0};
 enum { COLOUR_SETS = sizeof COLOURS / sizeof *COLOURS, SEEDS = 12 };
 
 static void check_exchange(const grid *g, const shares *s, unsigned colours)
@@ -104,14 +106,14 @@ static void work_goes_on_between_begin_and_finish(void **state)
   expect(fg__exchange_create(&first, us.context, &one, 2) == FG_STATUS_OK);
   expect(fg__exchange_create(&second, us.context, &two, 1) == FG_STATUS_OK);
   fields f = fields_of(&one, 2), h = fields_of(&two, 1);
-  fg__exchange_begin(first, 2, arrays_of(&f), FG__EVEN_ROWS);
+  fg__exchange_begin(first, 2, arrays_of(&f), EVEN_ROWS);
   fg__exchange_begin(second, 1, arrays_of(&h), FG__ALL_COLOURS);
   for (int b = 0; b < f.boxes; ++b)
     for (int i = 0; i < f.layout[b].nodes[0]; ++i)
       f.node[0][b][fg__node_at(&f.layout[b], i, 1, 0)] = 1e9F;
   fg__exchange_finish(first);
   fg__exchange_finish(second);
-  check c = {.fields = &f, .colours = FG__EVEN_ROWS};
+  check c = {.fields = &f, .colours = EVEN_ROWS};
   for_all_ghosts(g, &s, holds_its_source, &c);
   c = (check){.fields = &h, .colours = FG__ALL_COLOURS};
   for_all_ghosts(g, &t, holds_its_source, &c);

@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "mesh/brick.h"
 #include "mesh/communicator.h"
-#include "mesh/exchange.h"
 
 struct fg__gather {
   const fg__ranks *ranks;

@@ -13,6 +13,10 @@
 /* Lanes by which every loop over a row advances: the widest vector of floats. */
 enum { FG__LANES = 16 };
 
+/* A node's colour is 1 for odd columns + 2 for odd rows + 4 for odd planes (global
+ * indices); sets of colours have bit 1 << colour. */
+enum { FG__ALL_COLOURS = 0xff };
+
 typedef struct fg__layout {
   int dimension;
   int nodes[3];         /* without ghosts; nodes[2] = 1 in 2D */

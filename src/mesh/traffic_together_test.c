@@ -51,12 +51,14 @@ typedef struct example {
   int nodes[2]; /* that ranks 0 and 1 send to each other, counted by hand */
 } example;
 
+enum { EVEN_COLUMNS = 0x55, ODD_COLUMNS = 0xaa };
+
 static const example EXAMPLES[] = {
     /* 17 x 9 nodes, cut before column 8: a column of 9 and its mirrored ends each way */
     {{2, {16, 8, 1}, {false, false, false}}, 0, 8, FG__ALL_COLOURS, {11, 11}},
     /* column 8 is even, what it needs of the other side odd */
-    {{2, {16, 8, 1}, {false, false, false}}, 0, 8, FG__EVEN_COLUMNS, {0, 11}},
-    {{2, {16, 8, 1}, {false, false, false}}, 0, 8, FG__ODD_COLUMNS, {11, 0}},
+    {{2, {16, 8, 1}, {false, false, false}}, 0, 8, EVEN_COLUMNS, {0, 11}},
+    {{2, {16, 8, 1}, {false, false, false}}, 0, 8, ODD_COLUMNS, {11, 0}},
     /* of rows -1 to 9, which stand for 1, 0 ... 8, 7, the even and the odd */
     {{2, {16, 8, 1}, {false, false, false}}, 0, 8, 1U << 0, {0, 5}},
     {{2, {16, 8, 1}, {false, false, false}}, 0, 8, 1U << 2, {0, 6}},

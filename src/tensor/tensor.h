@@ -52,7 +52,8 @@ fg_status fg__tensor_smooth(fg__tensor *tensor, fg_context *context, double anis
  * fills and, for a law with axes and a width above 0, smooths; what lies round the box
  * within the Gaussian's reach is computed again for that, so that each rank asks for its
  * own boxes alone and gets what the whole domain would have there. A box without an
- * active cell is no failure. ARGUMENT (anisotropy), MEMORY. */
+ * active cell is no failure unless it is the whole domain. Statuses as fg__tensor_fill;
+ * MEMORY. */
 fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
                               const fg_field *field, const fg_energy_law *law,
                               double anisotropy, const fg__cells *cells,
