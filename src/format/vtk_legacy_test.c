@@ -252,6 +252,24 @@ static void wrong_words_are_refused(void **state)
                       sizeof cases / sizeof cases[0]);
 }
 
+/* As some programs write them; what is too long for that is not cut to something else. */
+static void long_numbers_are_read_whole_or_refused(void **state)
+{
+  for (int zeros = 80; zeros <= 800; zeros += 720) {
+    char file[EXAMPLE_FILE_BYTES], number[1024] = "5";
+    memset(number + 1, '0', (size_t)zeros);
+    snprintf(number + 1 + zeros, 8, "e-%d ", zeros);
+    example_changed(file, GOOD, &(example_change){.before = "4 ", .after = number});
+    memcpy(strstr(file, " 5 0 0"), "\f5\v0\t0", 6);
+    fg_field *field = NULL;
+    fg_status status = read_bytes(&field, *state, file, strlen(file), NULL);
+    assert_int_equal(status, zeros == 80 ? FG_STATUS_OK : FG_STATUS_FILE_FORMAT);
+    if (field)
+      assert_true(fg_field_contents(field)->velocity[0][3] == 5.0f);
+    fg_field_destroy(field);
+  }
+}
+
 static void assert_one_line(const fg_context *context)
 {
   const char *message = fg_context_message(context);
@@ -331,6 +349,7 @@ int main(void)
       cmocka_unit_test(several_vectors_are_ambiguous),
       cmocka_unit_test(an_image_one_point_thick_is_a_plane),
       cmocka_unit_test(wrong_words_are_refused),
+      cmocka_unit_test(long_numbers_are_read_whole_or_refused),
       cmocka_unit_test(truncated_files_are_refused),
       cmocka_unit_test(damaged_files_do_no_harm),
       cmocka_unit_test(the_format_is_known_by_its_first_line),

@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* More characters than any number is written with. */
-enum { LONGEST_NUMBER = 63 };
+/* A number written out takes 309 figures at most (DBL_MAX), and may have some behind the
+ * point; a longer word is no number. */
+enum { LONGEST_NUMBER = 511 };
 
 /* Keeps a number of text if it is wanted. */
 static void keep(fg__vtk_values *out, size_t index, double number)
@@ -51,6 +52,11 @@ static fg_status read_ascii(fg__vtk_values *out, const fg__vtk *vtk,
   return FG_STATUS_OK;
 }
 
+static bool is_space(char c)
+{
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
 /* Ended by nothing: a word at a time. */
 static fg_status read_tokens(fg__vtk_values *out, const fg__vtk *vtk,
                              const fg__vtk_array *array, size_t all)
@@ -62,15 +68,16 @@ static fg_status read_tokens(fg__vtk_values *out, const fg__vtk *vtk,
   char word[LONGEST_NUMBER + 1] = "";
   for (bool good = true; found < all && good; found += good) {
     size_t length = 0;
-    while (at < array->text_size && strchr(" \t\r\n", array->text[at]))
+    while (at < array->text_size && is_space(array->text[at]))
       ++at;
-    for (; at < array->text_size && !strchr(" \t\r\n", array->text[at]); ++at)
+    const size_t start = at;
+    for (; at < array->text_size && !is_space(array->text[at]); ++at)
       if (length < LONGEST_NUMBER)
         word[length++] = array->text[at];
     word[length] = '\0';
     char *end = word;
     double number = strtod(word, &end);
-    good = end != word && *end == '\0';
+    good = length > 0 && end == word + (at - start);
     if (good)
       keep(out, found, number);
   }
