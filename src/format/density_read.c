@@ -1,6 +1,7 @@
 /* A density that fg_density_write has left. */
 #include "flowgrain/density.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -50,9 +51,10 @@ static fg_status describe(reading *r, const fg_field_arrays *field)
                       "%s: %d points along axis %d; it is no density of this field",
                       r->vtk.path, points, k);
   }
-  return r->vtk.uneven ? fg__fail(r->context, FG_STATUS_FILE_FORMAT,
-                                  "%s: is no density: its grid is uneven", r->vtk.path)
-                       : FG_STATUS_OK;
+  if (r->vtk.uneven || r->vtk.kind != FG__VTK_ALONG_AXES)
+    return fg__fail(r->context, FG_STATUS_FILE_FORMAT,
+                    "%s: is no density: its grid is uneven", r->vtk.path);
+  return FG_STATUS_OK;
 }
 
 /* A number about the whole, which older files may lack. */
@@ -89,21 +91,39 @@ static fg_status read_all(reading *r)
   return status;
 }
 
-static void take_nodes(reading *r, float *u)
+static fg_status take_nodes(reading *r, float *u)
 {
   const fg_density_arrays *a = &r->arrays;
   size_t columns = (size_t)a->nodes[0] + a->periodic[0];
   size_t rows = (size_t)a->nodes[1] + a->periodic[1], to = 0;
-  int most = 0;
+  double most = 0.0;
   for (int z = 0; z < a->nodes[2]; ++z)
     for (int y = 0; y < a->nodes[1]; ++y)
       for (int x = 0; x < a->nodes[0]; ++x, ++to) {
         size_t from = ((size_t)z * rows + (size_t)y) * columns + (size_t)x;
         double cluster = fg__vtk_value(&r->cluster, from);
         u[to] = (float)fg__vtk_value(&r->u, from);
-        most = cluster > most ? (int)cluster : most;
+        most = cluster > most ? cluster : most;
       }
-  r->arrays.clusters = most;
+  if (most > INT_MAX)
+    return fg__fail(r->context, FG_STATUS_FILE_FORMAT, "%s: has a cluster number %g",
+                    r->vtk.path, most);
+  r->arrays.clusters = (int)most;
+  return FG_STATUS_OK;
+}
+
+/* A number of vtkGhostType is a byte of bits. */
+static fg_status take_cells(reading *r, unsigned char *active, size_t cells)
+{
+  for (size_t n = 0; n < cells; ++n) {
+    double bits = fg__vtk_value(&r->ghost, n);
+    if (!(bits >= 0.0 && bits <= UCHAR_MAX))
+      return fg__fail(r->context, FG_STATUS_FILE_FORMAT,
+                      "%s: vtkGhostType of cell %zu of %zu is %g", r->vtk.path, n, cells,
+                      bits);
+    active[n] = ((unsigned)bits & FG__VTI_HIDDEN_CELL) == 0;
+  }
+  return FG_STATUS_OK;
 }
 
 static fg_status make(fg_density **out, reading *r)
@@ -120,12 +140,13 @@ static fg_status make(fg_density **out, reading *r)
   if (!u || (r->masked && !active)) {
     status = fg__fail_memory(r->context, "a density", nodes * sizeof *u + cells);
   } else {
-    take_nodes(r, u);
-    for (size_t n = 0; n < cells && active; ++n)
-      active[n] = ((int)fg__vtk_value(&r->ghost, n) & FG__VTI_HIDDEN_CELL) == 0;
+    status = take_nodes(r, u);
+    if (!status && active)
+      status = take_cells(r, active, cells);
     a->u = u;
     a->active = active;
-    status = fg_density_create_from_arrays(out, r->context, a);
+    if (!status)
+      status = fg_density_create_from_arrays(out, r->context, a);
   }
   free(u);
   free(active);

@@ -225,6 +225,46 @@ static void what_was_written_is_read_again(void **state)
   }
 }
 
+/* Numbers that other programs may write where ours writes small whole ones. */
+static void what_is_no_cluster_or_mark_is_refused(void **state)
+{
+  static const struct {
+    const char *cluster, *ghost, *words;
+  } cases[] = {{"1", "32", ""},
+               {"2147483647", "255", ""},
+               {"1e10", "0", "a cluster number 1e+10"},
+               {"1", "-1", "vtkGhostType of cell 1 of 2 is -1"},
+               {"1", "256", "is 256"},
+               {"1", "nan", "is nan"},
+               {"1", "1e300", "is 1e+300"}};
+  folder *f = *state;
+  fg_field *field = field_with_period(f->context, 2, 0, 0.0);
+  for (size_t n = 0; n < sizeof cases / sizeof cases[0]; ++n) {
+    FILE *file = fopen(path_of(f, "u.vti"), "w");
+    assert_non_null(file);
+    fprintf(file,
+            "<VTKFile type='ImageData'><ImageData WholeExtent='0 2 0 1 0 0'>"
+            "<Piece Extent='0 2 0 1 0 0'><PointData>"
+            "<DataArray type='Float32' Name='u'>1 1 -1 0.5 1 -1</DataArray>"
+            "<DataArray type='Float64' Name='cluster'>0 0 %s 0 0 0</DataArray>"
+            "</PointData><CellData>"
+            "<DataArray type='Float64' Name='vtkGhostType'>0 %s</DataArray>"
+            "</CellData></Piece></ImageData></VTKFile>",
+            cases[n].cluster, cases[n].ghost);
+    assert_int_equal(fclose(file), 0);
+    fg_density *density = NULL;
+    fg_context_clear(f->context);
+    fg_status status = fg_density_read(&density, f->context, f->path, field);
+    assert_int_equal(status, cases[n].words[0] ? FG_STATUS_FILE_FORMAT : FG_STATUS_OK);
+    if (!strstr(fg_context_message(f->context), cases[n].words))
+      fail_msg("%s", fg_context_message(f->context));
+    if (density)
+      assert_int_equal(fg_density_contents(density)->active[1], 0);
+    fg_density_destroy(density);
+  }
+  fg_field_destroy(field);
+}
+
 /* Stages that know two dimensions only say so. */
 static void icons_and_pictures_in_space_are_refused(void **state)
 {
@@ -268,6 +308,7 @@ int main(void)
       TEST(a_density_shows_clusters_and_mask),
       TEST(a_density_in_space_comes_back),
       TEST(what_was_written_is_read_again),
+      TEST(what_is_no_cluster_or_mark_is_refused),
       TEST(icons_and_pictures_in_space_are_refused),
   };
   return cmocka_run_group_tests_name("format/density_write", tests, NULL, NULL);
