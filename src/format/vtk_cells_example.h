@@ -42,6 +42,29 @@ static inline void add_as(example_text *file, example_text *appended,
   example_array(file, appended, &other, name, 1, numbers, count);
 }
 
+/* Points of a curvilinear or unstructured grid, and the latter's cells: not in the order
+ * that programs write them in, which must not matter. */
+static inline void add_points(example_text *file, example_text *appended,
+                              const example_encoding *encoding, const double *place,
+                              size_t count)
+{
+  example_words(file, "<Points>\n");
+  example_array(file, appended, encoding, "Points", 3, place, 3 * count);
+  example_words(file, "</Points>\n");
+}
+
+static inline void add_cells(example_text *file, example_text *appended,
+                             const example_encoding *encoding, const double *corners,
+                             size_t corner_count, const double *ends, const double *types,
+                             size_t count)
+{
+  example_words(file, "<Cells>\n");
+  add_as(file, appended, encoding, TYPE_UINT8, "types", types, count);
+  add_as(file, appended, encoding, TYPE_INT64, "offsets", ends, count);
+  add_as(file, appended, encoding, TYPE_INT64, "connectivity", corners, corner_count);
+  example_words(file, "</Cells>");
+}
+
 static inline example_text vtu(const example_encoding *encoding, const char *more)
 {
   example_text file = {0}, appended = {0};
@@ -51,13 +74,10 @@ static inline example_text vtu(const example_encoding *encoding, const char *mor
   example_words(&file, "<Piece NumberOfPoints=\"9\" NumberOfCells=\"7\"><PointData>\n");
   example_array(&file, &appended, encoding, "U", 3, numbers, 3 * POINTS_OF);
   example_words(&file, more);
-  example_words(&file, "</PointData>\n<Points>\n");
-  example_array(&file, &appended, encoding, "", 3, PLACE, 3 * POINTS_OF);
-  example_words(&file, "</Points>\n<Cells>\n");
-  add_as(&file, &appended, encoding, TYPE_INT64, "connectivity", CORNERS, CORNERS_OF);
-  add_as(&file, &appended, encoding, TYPE_INT64, "offsets", ENDS, CELLS_OF);
-  add_as(&file, &appended, encoding, TYPE_UINT8, "types", TYPES, CELLS_OF);
-  example_words(&file, "</Cells></Piece>\n");
+  example_words(&file, "</PointData>\n");
+  add_points(&file, &appended, encoding, PLACE, POINTS_OF);
+  add_cells(&file, &appended, encoding, CORNERS, CORNERS_OF, ENDS, TYPES, CELLS_OF);
+  example_words(&file, "</Piece>\n");
   example_end_kind(&file, &appended, encoding, "UnstructuredGrid");
   return file;
 }
@@ -133,9 +153,9 @@ static inline example_text vts(const example_encoding *encoding, double shear)
   example_begin_kind(&file, encoding, "StructuredGrid", "WholeExtent=\"1 5 0 3 -1 1\"");
   example_words(&file, "<Piece Extent=\"1 5 0 3 -1 1\"><PointData Vectors=\"U\">\n");
   example_array(&file, &appended, encoding, "U", 3, vector, 3 * COUNT);
-  example_words(&file, "</PointData><Points>\n");
-  example_array(&file, &appended, encoding, "Points", 3, place, 3 * COUNT);
-  example_words(&file, "</Points></Piece>\n");
+  example_words(&file, "</PointData>");
+  add_points(&file, &appended, encoding, place, COUNT);
+  example_words(&file, "</Piece>\n");
   example_end_kind(&file, &appended, encoding, "StructuredGrid");
   return file;
 }

@@ -117,13 +117,10 @@ static example_text listed(const example_encoding *encoding, double shear)
   example_array(&file, &appended, encoding, "U", 3, vector, 3 * COUNT);
   example_words(&file, "</PointData><CellData>\n");
   example_array(&file, &appended, encoding, "C", 3, cells, 3 * HEXAHEDRA);
-  example_words(&file, "</CellData><Points>\n");
-  example_array(&file, &appended, encoding, "Points", 3, place, 3 * COUNT);
-  example_words(&file, "</Points><Cells>\n");
-  example_array(&file, &appended, encoding, "types", 1, types, HEXAHEDRA);
-  example_array(&file, &appended, encoding, "offsets", 1, ends, HEXAHEDRA);
-  example_array(&file, &appended, encoding, "connectivity", 1, corner, 8 * HEXAHEDRA);
-  example_words(&file, "</Cells></Piece>\n");
+  example_words(&file, "</CellData>");
+  add_points(&file, &appended, encoding, place, COUNT);
+  add_cells(&file, &appended, encoding, corner, 8 * HEXAHEDRA, ends, types, HEXAHEDRA);
+  example_words(&file, "</Piece>\n");
   example_end_kind(&file, &appended, encoding, "UnstructuredGrid");
   return file;
 }
@@ -154,9 +151,9 @@ static void a_flat_curvilinear_grid_is_a_plane(void **state)
   example_begin_kind(&file, &RAW, "StructuredGrid", "WholeExtent=\"0 2 4 4 0 1\"");
   example_words(&file, "<Piece Extent=\"0 2 4 4 0 1\"><PointData>\n");
   example_array(&file, &appended, &RAW, "U", 3, vector, 18);
-  example_words(&file, "</PointData><Points>\n");
-  example_array(&file, &appended, &RAW, "Points", 3, place, 18);
-  example_words(&file, "</Points></Piece>\n");
+  example_words(&file, "</PointData>");
+  add_points(&file, &appended, &RAW, place, 6);
+  example_words(&file, "</Piece>\n");
   example_end_kind(&file, &appended, &RAW, "StructuredGrid");
   fg_field *field = field_of(*state, file, NULL);
   const fg_field_arrays *f = fg_field_contents(field);

@@ -2,13 +2,20 @@
 # Volumes: written, described, read from files of each format.
 source "$(dirname "$0")/harness.sh"
 
+# expect_info FILE WORDS...: what info says of a file has all of these.
+expect_info() {
+  local words
+  try info "$1"
+  expect_code 0
+  for words in "${@:2}"; do
+    grep -q "$words" out || fault "$(cat out)"
+  done
+}
+
 for end in vti nc; do
   try synth abc -o abc.$end --nodes 17
   expect_code 0
-  try info abc.$end
-  expect_code 0
-  grep -q 'grid: 17 x 17 x 17' out || fault "$(cat out)"
-  grep -q 'z: 0 to 1' out || fault "$(cat out)"
+  expect_info abc.$end 'grid: 17 x 17 x 17' 'z: 0 to 1'
   try info --json abc.$end
   cp out $end.json
   expect_json $end.json '.vectors[0].size == [17, 17, 17] and .vectors[0].components == 3'
@@ -19,8 +26,7 @@ done_with "synth writes volumes that info describes"
 try info --json synth:abc
 cp out synth.json
 expect_json synth.json '.vectors[0].size == [64, 64, 64] and .vectors[0].periodic_axes == [true, true, true]'
-try info synth:abc
-grep -q 'z: 0 to .*, periodic' out || fault "$(cat out)"
+expect_info synth:abc 'z: 0 to .*, periodic'
 done_with "info tells the periods of an analytic volume"
 
 for end in vti nc; do
@@ -50,11 +56,7 @@ done_with "surfaces of clusters in solids, drawn again"
   printf 'Z_COORDINATES 5 double\n1 2 3 4 5\nPOINT_DATA 60\nVECTORS wind float\n'
   for ((n = 0; n < 60; ++n)); do echo "1 $((n % 7)) -2"; done
 } >grid.vtk
-try info grid.vtk
-expect_code 0
-grep -q 'vectors: wind' out || fault "$(cat out)"
-grep -q 'grid: 4 x 3 x 5' out || fault "$(cat out)"
-grep -q 'x: 0 to 4' out || fault "$(cat out)"
+expect_info grid.vtk 'vectors: wind' 'grid: 4 x 3 x 5' 'x: 0 to 4'
 done_with "info describes a legacy file"
 
 head -c 400 grid.vtk >short.vtk
@@ -90,11 +92,7 @@ done_with "a short file and one of surfaces are refused in a line and a hint"
     done
   done
 } >cells.vtk
-try info cells.vtk
-expect_code 0
-grep -q 'interpolated from 4 cells' out || fault "$(cat out)"
-grep -q 'y: 0 to 3' out || fault "$(cat out)"
-grep -q 'missing: 0.0 %' out || fault "$(cat out)"
+expect_info cells.vtk 'interpolated from 4 cells' 'y: 0 to 3' 'missing: 0.0 %'
 try info --json cells.vtk
 cp out cells.json
 expect_json cells.json '.vectors[0].cells == 4 and .vectors[0].bounds == [0, 5, 0, 3]'
