@@ -1,6 +1,7 @@
 #include "picture/light.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/mix.h"
 #include "solid/vector.h"
@@ -29,22 +30,36 @@ static const double lamp_size = 0.05;
 
 static const double full_turn = 6.283185307179586;
 
-/* 1 / p and 1 / p^2 of the real root p of p^3 = p + 1. */
-static const double plastic[2] = {0.7548776662466927, 0.5698402909980532};
+/* 1 / p and 1 / p^2 of the real root p of p^3 = p + 1, times 2^64. */
+static const uint64_t plastic[2] = {13925035116211876495U, 10511698010929265437U};
 
-static double fraction(double x)
+/* The curve's square has so many pixels a side: no picture is larger. */
+enum { CURVE_SIDE = 1 << 13 };
+
+uint64_t fg__light_order(int x, int y)
 {
-  return x - floor(x);
+  uint64_t order = 0;
+  for (int side = CURVE_SIDE / 2; side > 0; side /= 2) {
+    int right = (x & side) != 0, upper = (y & side) != 0;
+    order = 4 * order + (uint64_t)((3 * right) ^ upper);
+    if (upper)
+      continue;
+    if (right) { /* the quarter runs the other way, and is turned */
+      x = ~x;
+      y = ~y;
+    }
+    int swap = x;
+    x = y;
+    y = swap;
+  }
+  return order;
 }
 
-void fg__light_numbers(int x, int y, int index, int kind, double out[2])
+void fg__light_numbers(uint64_t index, int kind, double out[2])
 {
-  uint64_t pixel = (uint64_t)(uint32_t)x << 32 | (uint32_t)y;
-  uint64_t hash = fg__mix(fg__mix(pixel) ^ (uint64_t)(unsigned)kind);
-  for (int k = 0; k < 2; ++k) {
-    double shift = (double)(uint32_t)(hash >> 32 * k) / 4294967296.0;
-    out[k] = fraction(shift + plastic[k] * index);
-  }
+  uint64_t shift = fg__mix((uint64_t)(unsigned)kind);
+  for (int k = 0; k < 2; ++k) /* whole numbers wrap round */
+    out[k] = (double)((index * plastic[k] + (shift << 32 * k)) >> 11) * 0x1p-53;
 }
 
 void fg__lamp_direction(const fg__camera *camera, double out[3])
@@ -63,30 +78,34 @@ static void disc(const double number[2], double out[2])
   out[1] = radius * sin(angle);
 }
 
-static void bases(const double axis[3], double one[3], double other[3])
+void fg__bases_of(fg__bases *out, const double axis[3])
 {
-  fg__any_normal(axis, one);
-  fg__cross(axis, one, other);
+  memcpy(out->axis, axis, sizeof out->axis);
+  fg__any_normal(axis, out->one);
+  fg__cross(axis, out->one, out->other);
 }
 
-void fg__lamp_sample(const double lamp[3], const double number[2], double out[3])
+static void combine(const fg__bases *bases, double height, const double at[2],
+                    double out[3])
 {
-  double one[3], other[3], at[2];
-  bases(lamp, one, other);
-  disc(number, at);
-  fg__along(lamp, lamp_size * at[0], one, out);
-  fg__along(out, lamp_size * at[1], other, out);
-  fg__normalise(out);
-}
-
-void fg__sky_sample(const double normal[3], const double number[2], double out[3])
-{
-  double one[3], other[3], at[2];
-  bases(normal, one, other);
-  disc(number, at);
-  double height = sqrt(fmax(1.0 - number[0], 0.0));
   for (int k = 0; k < 3; ++k)
-    out[k] = height * normal[k] + at[0] * one[k] + at[1] * other[k];
+    out[k] = height * bases->axis[k] + at[0] * bases->one[k] + at[1] * bases->other[k];
+}
+
+void fg__lamp_sample(const fg__bases *lamp, const double number[2], double out[3])
+{
+  double at[2];
+  disc(number, at);
+  at[0] *= lamp_size;
+  at[1] *= lamp_size;
+  combine(lamp, 1.0, at, out);
+}
+
+void fg__sky_sample(const fg__bases *normal, const double number[2], double out[3])
+{
+  double at[2];
+  disc(number, at);
+  combine(normal, sqrt(fmax(1.0 - number[0], 0.0)), at, out);
 }
 
 /* sRGB to linear light and back (IEC 61966-2-1). */

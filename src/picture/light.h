@@ -12,19 +12,33 @@ typedef struct fg__light {
   double red, green, blue, alpha;
 } fg__light;
 
-/* Two numbers in [0, 1) for sample `index` of a pixel: evenly spread over the samples
- * (the additive recurrence of the plastic number, Roberts 2018), shifted from pixel to
- * pixel. `kind` parts uses of one sample. */
-void fg__light_numbers(int x, int y, int index, int kind, double out[2]);
+/* Where a pixel stands on a Hilbert curve through a square of pixels: neighbours on it
+ * are neighbours in the picture. */
+uint64_t fg__light_order(int x, int y);
+
+/* Two numbers in [0, 1): number `index` of a sequence that fills the square evenly (the
+ * additive recurrence of the plastic number, Roberts 2018). Pixels that take numbers in
+ * turn, in the order above, have each an even set, and so have they together: what one
+ * is too dark its neighbours are too light, and the eye sees no grain. `kind` parts uses
+ * of one number. */
+void fg__light_numbers(uint64_t index, int kind, double out[2]);
 
 /* Unit vector towards the lamp: from behind the viewer's left shoulder and above. */
 void fg__lamp_direction(const fg__camera *camera, double out[3]);
 
-/* A direction near the lamp's, as if it were a disc: soft shadows. */
-void fg__lamp_sample(const double lamp[3], const double number[2], double out[3]);
+/* A unit vector and two others, all at right angles. */
+typedef struct fg__bases {
+  double axis[3], one[3], other[3];
+} fg__bases;
 
-/* A direction round a normal, more often near it (by the cosine). */
-void fg__sky_sample(const double normal[3], const double number[2], double out[3]);
+void fg__bases_of(fg__bases *out, const double axis[3]);
+
+/* A direction near the lamp's, as if it were a disc: soft shadows. Its length is 1 to a
+ * part in 800. */
+void fg__lamp_sample(const fg__bases *lamp, const double number[2], double out[3]);
+
+/* A unit direction round a normal, more often near it (by the cosine). */
+void fg__sky_sample(const fg__bases *normal, const double number[2], double out[3]);
 
 /* What is known of a point. */
 typedef struct fg__lit {

@@ -48,7 +48,8 @@ static void samples_of_a_pixel_are_evenly_spread(void **state)
     int quarter[4] = {0};
     for (int n = 0; n < 16; ++n) {
       double number[2];
-      fg__light_numbers(3 * pixel, 7 * pixel + 1, n, 1, number);
+      fg__light_numbers(16 * fg__light_order(3 * pixel, 7 * pixel + 1) + (unsigned)n, 1,
+                        number);
       for (int k = 0; k < 2; ++k)
         assert_true(number[k] >= 0.0 && number[k] < 1.0);
       ++quarter[2 * (number[0] < 0.5) + (number[1] < 0.5)];
@@ -58,11 +59,63 @@ static void samples_of_a_pixel_are_evenly_spread(void **state)
   }
 }
 
+/* Squares whose side and corner are multiples of a power of two are each one stretch of
+ * the curve, from neighbour to neighbour. */
+static void the_order_of_pixels_is_a_hilbert_curve(void **state)
+{
+  (void)state;
+  enum { SIDE = 16 };
+  const int corner[2] = {5 * SIDE, 83 * SIDE};
+  int place[SIDE * SIDE][2];
+  bool met[SIDE * SIDE] = {false};
+  uint64_t first = fg__light_order(corner[0], corner[1]) / (SIDE * SIDE) * (SIDE * SIDE);
+  for (int n = 0; n < SIDE * SIDE; ++n) {
+    int x = corner[0] + n % SIDE, y = corner[1] + n / SIDE;
+    uint64_t at = fg__light_order(x, y) - first;
+    assert_true(at < SIDE * SIDE && !met[at]);
+    met[at] = true;
+    place[at][0] = x;
+    place[at][1] = y;
+  }
+  for (int n = 1; n < SIDE * SIDE; ++n)
+    assert_int_equal(
+        abs(place[n][0] - place[n - 1][0]) + abs(place[n][1] - place[n - 1][1]), 1);
+}
+
+/* A disc's share of the square, by the numbers of one pixel and of 4 x 4 together: what
+ * one has too much others have too little. */
+static void pixels_make_up_for_each_other(void **state)
+{
+  (void)state;
+  const double share = 3.141592653589793 * 0.09;
+  double single = 0.0, together = 0.0;
+  for (int block = 0; block < 64; ++block) {
+    int seen = 0;
+    for (int n = 0; n < 16; ++n) {
+      int x = 4 * block + n % 4, y = 4 * (block % 7) + n / 4, own = 0;
+      for (int m = 0; m < 16; ++m) {
+        double number[2];
+        fg__light_numbers(16 * fg__light_order(x, y) + (unsigned)m, 1, number);
+        own += hypot(number[0] - 0.45, number[1] - 0.52) < 0.3;
+      }
+      seen += own;
+      single += pow(own / 16.0 - share, 2.0) / (64 * 16);
+    }
+    together += pow(seen / 256.0 - share, 2.0) / 64;
+  }
+  assert_true(single > 0.0);
+  /* independent sets would leave a quarter, and 16 numbers by chance 0.11 */
+  assert_true(sqrt(together) < 0.2 * sqrt(single));
+  assert_true(sqrt(single) < 0.07);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(far_colors_keep_apart_alike),
       cmocka_unit_test(samples_of_a_pixel_are_evenly_spread),
+      cmocka_unit_test(the_order_of_pixels_is_a_hilbert_curve),
+      cmocka_unit_test(pixels_make_up_for_each_other),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

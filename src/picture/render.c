@@ -19,20 +19,18 @@ fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32
 
 #else
 
-#include <embree3/rtcore.h>
 #include <math.h>
 #include <stdatomic.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
 #include "base/team.h"
 #include "picture/light.h"
+#include "picture/target.h"
 #include "solid/vector.h"
 
 /* Rays through a pixel in rows and columns: edges have 16 shades between. Each looks for
- * the lamp once and for the sky SKY_RAYS times. */
-enum { GRID = 4, SAMPLES = GRID * GRID, SKY_RAYS = 2 };
+ * the lamp and the sky once, and where that leaves grain, in half shadows, so often. */
+enum { GRID = 4, SAMPLES = GRID * GRID, LAMP_FINER = 4, SKY_FINER = 8 };
 
 /* What hides the sky is no farther than this, in longest sides of the box. */
 static const float sky_reach = 0.16F;
@@ -47,8 +45,8 @@ static const double half_line = 0.6;
 /* Transparent surfaces that a ray looks through; what is behind is hardly seen. */
 enum { MOST_SKINS = 24 };
 
-/* Rows of the image that a thread takes at a time. */
-enum { ROWS = 8 };
+/* Pixels a side of the tiles that the image is made of. */
+enum { TILE = 8 };
 
 bool fg_solid_can_draw(void)
 {
@@ -58,180 +56,14 @@ bool fg_solid_can_draw(void)
 typedef struct shop {
   const fg__rendering *about;
   fg_context *context;
-  RTCDevice device;
-  RTCScene scene, skins; /* what hides, and what lets light through */
-  fg__color *color;      /* [geometries] */
-  int geometries;
-  double lamp[3];
-  float bound[3];           /* of the box; beyond it nothing is seen */
+  fg__target target;
+  fg__bases lamp;
   double nearest, farthest; /* distances of the box's corners from the eye */
   uint32_t *image;
   int stride;
   atomic_int next_row;
   atomic_bool stopped;
 } shop;
-
-/* Hits beyond the box do not count: parts of arrows that go on across a period. */
-static void only_inside(const struct RTCFilterFunctionNArguments *given)
-{
-  const float *bound = given->geometryUserPtr;
-  const struct RTCRay *ray = (const struct RTCRay *)(const void *)given->ray;
-  const float place[3] = {ray->org_x + ray->tfar * ray->dir_x,
-                          ray->org_y + ray->tfar * ray->dir_y,
-                          ray->org_z + ray->tfar * ray->dir_z};
-  for (int k = 0; k < 3; ++k)
-    if (fabsf(place[k]) > bound[k])
-      given->valid[0] = 0;
-}
-
-static fg_status fail(const shop *s, const char *what)
-{
-  return fg__fail(s->context, FG_STATUS_MEMORY, "picture: Embree: %s (error %d)", what,
-                  (int)rtcGetDeviceError(s->device));
-}
-
-/* Adds a copy of a solid, moved by `shift`. */
-static fg_status add_solid(shop *s, const fg_surface *solid, fg__color color,
-                           const double shift[3], bool clipped)
-{
-  if (solid->triangle_count == 0)
-    return FG_STATUS_OK;
-  const fg__stage *stage = &s->about->stage;
-  RTCGeometry geometry = rtcNewGeometry(s->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  size_t corners = (size_t)solid->corner_count, faces = (size_t)solid->triangle_count;
-  rtcSetGeometryVertexAttributeCount(geometry, 1);
-  float *place = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                         RTC_FORMAT_FLOAT3, 3 * sizeof *place, corners);
-  float *normal = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0,
-                                          RTC_FORMAT_FLOAT3, 3 * sizeof *normal, corners);
-  unsigned *index = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-                                            RTC_FORMAT_UINT3, 3 * sizeof *index, faces);
-  if (!place || !normal || !index) {
-    rtcReleaseGeometry(geometry);
-    return fail(s, "no memory for a surface");
-  }
-  for (size_t n = 0; n < corners; ++n)
-    for (int k = 0; k < 3; ++k) {
-      place[3 * n + (size_t)k] =
-          (float)(fg__stage_place(stage, k, solid->vertex[solid->corner[n]][k]) +
-                  shift[k]);
-      normal[3 * n + (size_t)k] = solid->normal[n][k];
-    }
-  for (size_t n = 0; n < 3 * faces; ++n)
-    index[n] = (unsigned)solid->triangle[n / 3][n % 3];
-  if (clipped) {
-    rtcSetGeometryUserData(geometry, s->bound);
-    rtcSetGeometryIntersectFilterFunction(geometry, only_inside);
-    rtcSetGeometryOccludedFilterFunction(geometry, only_inside);
-  }
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(s->scene, geometry, (unsigned)s->geometries);
-  rtcReleaseGeometry(geometry);
-  s->color[s->geometries++] = color;
-  return FG_STATUS_OK;
-}
-
-/* The clusters' surfaces, in a scene of their own: they hide nothing. */
-static fg_status add_skin(shop *s)
-{
-  const fg_surface *surface = s->about->surface;
-  const fg__color unused = {0.0, 0.0, 0.0};
-  const double stays[3] = {0.0, 0.0, 0.0};
-  RTCScene solids = s->scene;
-  int geometries = s->geometries;
-  fg__color *color = s->color, only;
-  s->skins = s->scene = rtcNewScene(s->device);
-  s->geometries = 0;
-  s->color = &only;
-  rtcSetSceneFlags(s->skins, RTC_SCENE_FLAG_ROBUST);
-  fg_status status = surface ? add_solid(s, surface, unused, stays, false) : FG_STATUS_OK;
-  rtcCommitScene(s->skins);
-  s->scene = solids;
-  s->geometries = geometries;
-  s->color = color;
-  return status;
-}
-
-/* How far along an axis copies of a solid reach into the box: from -low to high periods.
- */
-static void find_copies(const shop *s, const fg_surface *solid, int axis, int copies[2])
-{
-  const fg__stage *stage = &s->about->stage;
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  copies[0] = copies[1] = 0;
-  for (int n = 0; n < solid->vertex_count; ++n) {
-    double at = fg__stage_place(stage, axis, solid->vertex[n][axis]);
-    low = fmin(low, at);
-    high = fmax(high, at);
-  }
-  if (!(stage->period[axis] > 0.0) || solid->vertex_count == 0)
-    return;
-  copies[0] = (int)fmax(ceil((-stage->half[axis] - high) / stage->period[axis]), -3.0);
-  copies[1] = (int)fmin(floor((stage->half[axis] - low) / stage->period[axis]), 3.0);
-}
-
-static fg_status add_icon(shop *s, const fg_icon *icon, size_t *capacity)
-{
-  const fg__rendering *about = s->about;
-  fg_surface *solid;
-  fg_status status = fg_icon_solid(&solid, s->context, icon);
-  if (status)
-    return status;
-  double share = (icon->speed - about->range[0]) / (about->range[1] - about->range[0]);
-  fg__color color = fg__palette_color(about->palette, share);
-  int copies[3][2], at[3];
-  bool clipped = false;
-  for (int k = 0; k < 3; ++k) {
-    find_copies(s, solid, k, copies[k]);
-    clipped = clipped || copies[k][0] < 0 || copies[k][1] > 0;
-  }
-  for (at[2] = copies[2][0]; at[2] <= copies[2][1]; ++at[2])
-    for (at[1] = copies[1][0]; at[1] <= copies[1][1]; ++at[1])
-      for (at[0] = copies[0][0]; at[0] <= copies[0][1] && !status; ++at[0]) {
-        double shift[3];
-        for (int k = 0; k < 3; ++k)
-          shift[k] = at[k] * about->stage.period[k];
-        if (!fg__grow((void **)&s->color, capacity, (size_t)s->geometries + 1,
-                      sizeof *s->color))
-          status = fg__fail_memory(s->context, "a picture", sizeof *s->color);
-        else
-          status = add_solid(s, solid, color, shift, clipped);
-      }
-  fg_surface_destroy(solid);
-  return status;
-}
-
-/* One thread builds: the tree, and so what rays meet first among equals, is the same
- * however many trace. */
-static fg_status open_shop(shop *s)
-{
-  s->device = rtcNewDevice("threads=1,start_threads=0");
-  if (!s->device)
-    return fail(s, "no device");
-  s->scene = rtcNewScene(s->device);
-  rtcSetSceneFlags(s->scene, RTC_SCENE_FLAG_ROBUST);
-  fg_status status = FG_STATUS_OK;
-  size_t capacity = 0;
-  for (int n = 0; n < fg_icons_count(s->about->icons) && !status; ++n)
-    status = add_icon(s, fg_icons_at(s->about->icons, n), &capacity);
-  rtcCommitScene(s->scene);
-  if (!status)
-    status = add_skin(s);
-  if (!status && rtcGetDeviceError(s->device) != RTC_ERROR_NONE)
-    status = fail(s, "the scene cannot be built");
-  return status;
-}
-
-static void close_shop(shop *s)
-{
-  if (s->scene)
-    rtcReleaseScene(s->scene);
-  if (s->skins)
-    rtcReleaseScene(s->skins);
-  if (s->device)
-    rtcReleaseDevice(s->device);
-  free(s->color);
-}
 
 static struct RTCRay ray_from(const double place[3], const double direction[3],
                               float reach)
@@ -246,35 +78,46 @@ static struct RTCRay ray_from(const double place[3], const double direction[3],
                          .mask = ~0U};
 }
 
-static bool is_hidden(const shop *s, const double place[3], const double direction[3],
-                      float reach)
-{
-  struct RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  struct RTCRay ray = ray_from(place, direction, reach);
-  rtcOccluded1(s->scene, &context, &ray);
-  return ray.tfar < 0.0F;
-}
+/* A pixel, how many rays each of its samples sends to the lamp and to the sky, and how
+ * many of all these met nothing. */
+typedef struct pixel {
+  uint64_t order; /* on the curve, see fg__light_order */
+  int x, y;
+  int lamp_rays, sky_rays, lamp_seen, sky_seen;
+} pixel;
 
 /* Sends rays from a point to the lamp and the sky; `face` is the surface's own normal.
  * What faces away from the lamp hides it itself, but walls let all light in. */
 static void find_light(const shop *s, fg__lit *lit, const double place[3],
-                       const double face[3], bool wall, int x, int y, int sample)
+                       const double face[3], bool wall, pixel *p, int sample)
 {
   double from[3], to[3], number[2];
+  int lamp = 0, sky = 0;
+  fg__packet rays = {.count = 0};
+  uint64_t at = p->order * SAMPLES + (unsigned)sample;
+  fg__bases round;
+  fg__bases_of(&round, face);
   fg__along(place, (double)off_surface, face, from);
-  memcpy(lit->lamp, s->lamp, sizeof lit->lamp);
-  fg__light_numbers(x, y, sample, 1, number);
-  fg__lamp_sample(s->lamp, number, to);
-  bool faces = fg__dot(to, face) > 0.0;
-  lit->lamp_seen = faces ? !is_hidden(s, from, to, 4.0F) : wall;
-  int seen = 0;
-  for (int n = 0; n < SKY_RAYS; ++n) {
-    fg__light_numbers(x, y, SKY_RAYS * sample + n, 2, number);
-    fg__sky_sample(face, number, to);
-    seen += !is_hidden(s, from, to, sky_reach);
+  memcpy(lit->lamp, s->lamp.axis, sizeof lit->lamp);
+  for (int n = 0; n < p->lamp_rays; ++n) {
+    fg__light_numbers(at * (unsigned)p->lamp_rays + (unsigned)n, 1, number);
+    fg__lamp_sample(&s->lamp, number, to);
+    if (fg__dot(to, face) > 0.0)
+      lamp += fg__packet_add(&rays, &s->target, from, to, 4.0F);
+    else
+      lamp += wall;
   }
-  lit->sky_seen = (double)seen / SKY_RAYS;
+  lamp += fg__packet_flush(&rays, &s->target);
+  for (int n = 0; n < p->sky_rays; ++n) {
+    fg__light_numbers(at * (unsigned)p->sky_rays + (unsigned)n, 2, number);
+    fg__sky_sample(&round, number, to);
+    sky += fg__packet_add(&rays, &s->target, from, to, sky_reach);
+  }
+  sky += fg__packet_flush(&rays, &s->target);
+  lit->lamp_seen = (double)lamp / p->lamp_rays;
+  lit->sky_seen = (double)sky / p->sky_rays;
+  p->lamp_seen += lamp;
+  p->sky_seen += sky;
 }
 
 static double depth_of(const shop *s, double distance)
@@ -284,13 +127,13 @@ static double depth_of(const shop *s, double distance)
 }
 
 static fg__light light_hit(const shop *s, const struct RTCRayHit *hit,
-                           const double direction[3], int x, int y, int sample)
+                           const double direction[3], pixel *p, int sample)
 {
   float smooth[3];
   fg__lit lit;
   double face[3] = {(double)hit->hit.Ng_x, (double)hit->hit.Ng_y, (double)hit->hit.Ng_z};
-  rtcInterpolate0(rtcGetGeometry(s->scene, hit->hit.geomID), hit->hit.primID, hit->hit.u,
-                  hit->hit.v, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0, smooth, 3);
+  rtcInterpolate0(rtcGetGeometry(s->target.scene, hit->hit.geomID), hit->hit.primID,
+                  hit->hit.u, hit->hit.v, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0, smooth, 3);
   double place[3], distance = (double)hit->ray.tfar;
   fg__along(s->about->camera.eye, distance, direction, place);
   fg__normalise(face);
@@ -305,8 +148,8 @@ static fg__light light_hit(const shop *s, const struct RTCRayHit *hit,
       lit.normal[k] = -lit.normal[k];
     }
   lit.depth = depth_of(s, distance);
-  find_light(s, &lit, place, face, false, x, y, sample);
-  return fg__light_arrow(s->color[hit->hit.geomID], &lit);
+  find_light(s, &lit, place, face, false, p, sample);
+  return fg__light_arrow(s->target.color[hit->hit.geomID], &lit);
 }
 
 /* Where a ray leaves the box; false when it misses it. */
@@ -349,7 +192,7 @@ static double line_at(const fg__rendering *about, int axis, const double place[3
   return cover;
 }
 
-static fg__light light_wall(const shop *s, const double direction[3], int x, int y,
+static fg__light light_wall(const shop *s, const double direction[3], pixel *p,
                             int sample)
 {
   const fg__rendering *about = s->about;
@@ -360,7 +203,7 @@ static fg__light light_wall(const shop *s, const double direction[3], int x, int
   fg__along(about->camera.eye, distance, direction, place);
   face[axis] = direction[axis] > 0.0 ? -1.0 : 1.0;
   fg__lit lit = {.depth = depth_of(s, distance)};
-  find_light(s, &lit, place, face, true, x, y, sample);
+  find_light(s, &lit, place, face, true, p, sample);
   return fg__light_wall(axis, line_at(about, axis, place, distance), &lit);
 }
 
@@ -376,17 +219,17 @@ static fg__light look_through(const shop *s, const double direction[3], float re
     struct RTCRayHit hit = {.ray = ray_from(s->about->camera.eye, direction, reach),
                             .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
     hit.ray.tnear = (float)from;
-    rtcIntersect1(s->skins, &context, &hit);
+    rtcIntersect1(s->target.skins, &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
       break;
     float smooth[3];
     fg__lit lit;
-    rtcInterpolate0(rtcGetGeometry(s->skins, hit.hit.geomID), hit.hit.primID, hit.hit.u,
-                    hit.hit.v, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0, smooth, 3);
+    rtcInterpolate0(rtcGetGeometry(s->target.skins, hit.hit.geomID), hit.hit.primID,
+                    hit.hit.u, hit.hit.v, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0, smooth, 3);
     for (int k = 0; k < 3; ++k) {
       lit.normal[k] = (double)smooth[k];
       lit.to_viewer[k] = -direction[k];
-      lit.lamp[k] = s->lamp[k];
+      lit.lamp[k] = s->lamp.axis[k];
     }
     fg__normalise(lit.normal);
     fg__light skin = fg__light_skin(&lit);
@@ -404,37 +247,72 @@ static fg__light look_through(const shop *s, const double direction[3], float re
   return out;
 }
 
-static fg__light trace_sample(const shop *s, int x, int y, int sample)
+static fg__light trace_sample(const shop *s, pixel *p, int sample)
 {
   const fg__camera *camera = &s->about->camera;
   double number[2], direction[3];
-  fg__light_numbers(x, y, sample, 0, number);
-  fg__camera_ray(camera, x + (sample % GRID + number[0]) / GRID,
-                 y + (sample / GRID + number[1]) / GRID, direction);
+  fg__light_numbers(p->order * SAMPLES + (unsigned)sample, 0, number);
+  fg__camera_ray(camera, p->x + (sample % GRID + number[0]) / GRID,
+                 p->y + (sample / GRID + number[1]) / GRID, direction);
   struct RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   struct RTCRayHit hit = {.ray = ray_from(camera->eye, direction, INFINITY),
                           .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-  rtcIntersect1(s->scene, &context, &hit);
+  rtcIntersect1(s->target.scene, &context, &hit);
   fg__light behind = hit.hit.geomID != RTC_INVALID_GEOMETRY_ID
-                         ? light_hit(s, &hit, direction, x, y, sample)
-                         : light_wall(s, direction, x, y, sample);
+                         ? light_hit(s, &hit, direction, p, sample)
+                         : light_wall(s, direction, p, sample);
   return s->about->surface ? look_through(s, direction, hit.ray.tfar, behind) : behind;
 }
 
-static void trace_row(const shop *s, int y)
+/* Light that needs more rays. */
+typedef struct unevenness {
+  bool lamp, sky;
+} unevenness;
+
+/* Draws a pixel; what its rays did not all find alike is uneven. */
+static unevenness trace_pixel(const shop *s, int x, int y, const unevenness *finer)
 {
-  for (int x = 0; x < s->about->width; ++x) {
-    fg__light sum = {0};
-    for (int sample = 0; sample < SAMPLES; ++sample) {
-      fg__light light = trace_sample(s, x, y, sample);
-      sum.red += light.red / SAMPLES;
-      sum.green += light.green / SAMPLES;
-      sum.blue += light.blue / SAMPLES;
-      sum.alpha += light.alpha / SAMPLES;
-    }
-    s->image[(ptrdiff_t)y * s->stride + x] = fg__light_pixel(sum, s->about->transparent);
+  pixel p = {.order = fg__light_order(x, y),
+             .x = x,
+             .y = y,
+             .lamp_rays = finer->lamp ? LAMP_FINER : 1,
+             .sky_rays = finer->sky ? SKY_FINER : 1};
+  fg__light sum = {0};
+  for (int sample = 0; sample < SAMPLES; ++sample) {
+    fg__light light = trace_sample(s, &p, sample);
+    sum.red += light.red / SAMPLES;
+    sum.green += light.green / SAMPLES;
+    sum.blue += light.blue / SAMPLES;
+    sum.alpha += light.alpha / SAMPLES;
   }
+  s->image[(ptrdiff_t)y * s->stride + x] = fg__light_pixel(sum, s->about->transparent);
+  return (unevenness){.lamp = p.lamp_seen > 0 &&
+                              p.lamp_seen<SAMPLES * p.lamp_rays, .sky = p.sky_seen> 0 &&
+                              p.sky_seen < SAMPLES * p.sky_rays};
+}
+
+/* Draws a tile, and those pixels once more where light, also a neighbour's, is uneven. */
+static void trace_tile(const shop *s, int x, int y)
+{
+  const unevenness usual = {false, false};
+  unevenness at[TILE + 2][TILE + 2] = {{{false, false}}};
+  int wide = s->about->width - x, high = s->about->height - y;
+  wide = wide < TILE ? wide : TILE;
+  high = high < TILE ? high : TILE;
+  for (int j = 0; j < high; ++j)
+    for (int i = 0; i < wide; ++i)
+      at[j + 1][i + 1] = trace_pixel(s, x + i, y + j, &usual);
+  for (int j = 0; j < high; ++j)
+    for (int i = 0; i < wide; ++i) {
+      unevenness near = usual;
+      for (int n = 0; n < 9; ++n) {
+        near.lamp = near.lamp || at[j + n / 3][i + n % 3].lamp;
+        near.sky = near.sky || at[j + n / 3][i + n % 3].sky;
+      }
+      if (near.lamp || near.sky)
+        trace_pixel(s, x + i, y + j, &near);
+    }
 }
 
 static void work(void *argument, const fg__share *share)
@@ -442,11 +320,11 @@ static void work(void *argument, const fg__share *share)
   shop *s = argument;
   int height = s->about->height;
   for (;;) {
-    int first = atomic_fetch_add(&s->next_row, ROWS);
+    int first = atomic_fetch_add(&s->next_row, TILE);
     if (first >= height || atomic_load(&s->stopped))
       return;
-    for (int y = first; y < first + ROWS && y < height; ++y)
-      trace_row(s, y);
+    for (int x = 0; x < s->about->width; x += TILE)
+      trace_tile(s, x, first);
     if (share->member == 0 && fg__check_stop(s->context))
       atomic_store(&s->stopped, true);
   }
@@ -470,11 +348,11 @@ fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32
 {
   shop s = {.about = rendering, .context = context, .image = image, .stride = stride};
   fg__team *team = NULL;
-  for (int k = 0; k < 3; ++k)
-    s.bound[k] = (float)rendering->stage.half[k] * 1.000001F;
-  fg__lamp_direction(&rendering->camera, s.lamp);
+  double lamp[3];
+  fg__lamp_direction(&rendering->camera, lamp);
+  fg__bases_of(&s.lamp, lamp);
   find_depths(&s);
-  fg_status status = open_shop(&s);
+  fg_status status = fg__target_open(&s.target, context, rendering);
   if (!status)
     status = fg__team_create(&team, context, rendering->threads);
   if (!status) {
@@ -482,7 +360,7 @@ fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32
     status = fg__check_stop(context);
   }
   fg__team_destroy(team);
-  close_shop(&s);
+  fg__target_close(&s.target);
   return status;
 }
 
