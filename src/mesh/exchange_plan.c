@@ -167,22 +167,22 @@ static bool sort_by_rank(fg__pieces *list, int ranks)
 {
   size_t *place = fg__allocate((size_t)ranks + 1, sizeof *place);
   fg__piece *sorted = fg__allocate(list->count, sizeof *sorted);
-  if (place && sorted) {
-    for (size_t n = 0; n < list->count; ++n)
-      ++place[list->piece[n].rank + 1];
-    for (int r = 0; r < ranks; ++r)
-      place[r + 1] += place[r];
-    for (size_t n = 0; n < list->count; ++n)
-      sorted[place[list->piece[n].rank]++] = list->piece[n];
-    free(list->piece);
-    list->piece = sorted;
-    sorted = NULL;
-    list->capacity = list->count;
+  if (!place || !sorted) {
+    free(place);
+    free(sorted);
+    return false;
   }
-  bool done = place && !sorted;
+  for (size_t n = 0; n < list->count; ++n)
+    ++place[list->piece[n].rank + 1];
+  for (int r = 0; r < ranks; ++r)
+    place[r + 1] += place[r];
+  for (size_t n = 0; n < list->count; ++n)
+    sorted[place[list->piece[n].rank]++] = list->piece[n];
   free(place);
-  free(sorted);
-  return done;
+  free(list->piece);
+  list->piece = sorted;
+  list->capacity = list->count;
+  return true;
 }
 
 static bool add_neighbours(fg__neighbours *out, const fg__pieces *list, bool sent)
