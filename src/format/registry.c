@@ -3,13 +3,8 @@
 #include "field/part.h"
 #include "format/format.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdint.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 static const fg__format *const FORMATS[] = {&fg__format_netcdf, &fg__format_vti,
                                             &fg__format_vtk_legacy};
@@ -26,58 +21,6 @@ const fg__format *fg__format_find(const unsigned char *bytes, size_t size)
     if (FORMATS[i]->is_mine(bytes, size))
       return FORMATS[i];
   return NULL;
-}
-
-static fg_status check_kind(fg_context *context, const char *path,
-                            const struct stat *about)
-{
-  if (S_ISDIR(about->st_mode)) {
-    fg_status status =
-        fg__fail(context, FG_STATUS_FILE_ACCESS, "%s: is a directory, not a file", path);
-    fg__hint(context, "name one file in it");
-    return status;
-  }
-  if (!S_ISREG(about->st_mode))
-    return fg__fail(context, FG_STATUS_FILE_ACCESS,
-                    "%s: is no regular file (a pipe, socket or device)", path);
-  if (about->st_size == 0)
-    return fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: is empty (0 bytes)", path);
-  if ((uintmax_t)about->st_size > SIZE_MAX)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: %jd bytes cannot be mapped",
-                    path, (intmax_t)about->st_size);
-  return FG_STATUS_OK;
-}
-
-fg_status fg__source_open(fg__source *out, fg_context *context, const char *path)
-{
-  *out = (fg__source){.path = path};
-  /* O_NONBLOCK: opening a pipe that nobody writes to must not wait */
-  const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0)
-    return fg__fail(context, FG_STATUS_FILE_ACCESS, "%s: %s", path, strerror(errno));
-  struct stat about;
-  fg_status status = FG_STATUS_OK;
-  if (fstat(file, &about) != 0)
-    status = fg__fail(context, FG_STATUS_FILE_ACCESS, "%s: %s", path, strerror(errno));
-  else
-    status = check_kind(context, path, &about);
-  if (status == FG_STATUS_OK) {
-    void *bytes = mmap(NULL, (size_t)about.st_size, PROT_READ, MAP_PRIVATE, file, 0);
-    if (bytes == MAP_FAILED)
-      status = fg__fail(context, FG_STATUS_FILE_ACCESS, "%s: %s", path, strerror(errno));
-    else
-      *out = (fg__source){
-          .path = path, .on_disk = true, .bytes = bytes, .size = (size_t)about.st_size};
-  }
-  close(file);
-  return status;
-}
-
-void fg__source_close(fg__source *source)
-{
-  if (source->bytes)
-    munmap((void *)(uintptr_t)source->bytes, source->size);
-  source->bytes = NULL;
 }
 
 static fg_status find_format(const fg__format **out, fg_context *context,
@@ -140,25 +83,6 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
                     "choose from",
                     input);
   return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
-}
-
-fg__rows fg__rows_of(fg__dealt *dealt, int rows, bool periodic)
-{
-  if (dealt->count > rows)
-    *dealt = (fg__dealt){0, 1};
-  fg__rows out;
-  fg__part_rows(&out.first, &out.own, rows, dealt->number, dealt->count);
-  out.held = fg__part_rows_held(rows, out.first, out.own, periodic && dealt->count > 1);
-  return out;
-}
-
-fg_status fg__field_of_rows(fg_field **out, fg_context *context,
-                            const fg_field_arrays *arrays, float *velocity[3],
-                            const fg__dealt *dealt)
-{
-  return dealt->count == 1 ? fg__field_take(out, context, arrays, velocity)
-                           : fg__field_create_part(out, context, arrays, velocity,
-                                                   dealt->number, dealt->count);
 }
 
 static fg_status read_dealt(fg_field **out, fg_context *context, const char *input,
