@@ -46,6 +46,14 @@ static fg_status find_format(const fg__format **out, fg_context *context,
   return status;
 }
 
+/* To be closed even after a failure. */
+static fg_status open_known(fg__source *source, const fg__format **format,
+                            fg_context *context, const char *path)
+{
+  fg_status status = fg__source_open(source, context, path);
+  return status == FG_STATUS_OK ? find_format(format, context, source) : status;
+}
+
 static bool is_synthetic(const char *input)
 {
   return strncmp(input, SYNTHETIC, sizeof SYNTHETIC - 1) == 0;
@@ -95,10 +103,8 @@ static fg_status read_dealt(fg_field **out, fg_context *context, const char *inp
     return read_analytic(out, context, input, options);
   static const fg_read_options defaults = {0};
   fg__source source;
-  const fg__format *format = NULL;
-  fg_status status = fg__source_open(&source, context, input);
-  if (status == FG_STATUS_OK)
-    status = find_format(&format, context, &source);
+  const fg__format *format;
+  fg_status status = open_known(&source, &format, context, input);
   if (status == FG_STATUS_OK)
     status = name_the_file(
         context,
@@ -180,10 +186,8 @@ static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,
 static fg_status describe_file(fg_inventory **out, fg_context *context, const char *path)
 {
   fg__source source;
-  const fg__format *format = NULL;
-  fg_status status = fg__source_open(&source, context, path);
-  if (status == FG_STATUS_OK)
-    status = find_format(&format, context, &source);
+  const fg__format *format;
+  fg_status status = open_known(&source, &format, context, path);
   if (status == FG_STATUS_OK)
     status = fg__inventory_create(out, context, format->name);
   if (status == FG_STATUS_OK)
