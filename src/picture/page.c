@@ -29,58 +29,6 @@ static const double shortest_caption = 8.0;
 /* Passes in which the margins may grow until everything fits; three is usual. */
 enum { PASSES = 12 };
 
-static fg__page_text *next_text(fg__page *page, const char *text)
-{
-  if (page->text_count == FG__PAGE_TEXTS)
-    return NULL;
-  fg__page_text *added = &page->text[page->text_count++];
-  *added = (fg__page_text){.size = page->font_size};
-  snprintf(added->text, sizeof added->text, "%s", text);
-  return added;
-}
-
-static double start_of(double x, double width, fg__align align)
-{
-  return align == FG__ALIGN_START    ? x
-         : align == FG__ALIGN_MIDDLE ? x - 0.5 * width
-                                     : x - width;
-}
-
-double fg__page_add_text(fg__page *page, cairo_t *ruler, const char *text, double x,
-                         double y, fg__align align)
-{
-  fg__page_text *added = next_text(page, text);
-  if (!added)
-    return 0.0;
-  double width = fg__text_width(ruler, added->text, added->size, false);
-  added->x = start_of(x, width, align);
-  added->y = y;
-  added->box = (fg__box){added->x, y - FG__TEXT_ASCENT * added->size, added->x + width,
-                         y + FG__TEXT_DESCENT * added->size};
-  return width;
-}
-
-double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *text,
-                                 double x, double y)
-{
-  fg__page_text *added = next_text(page, text);
-  if (!added)
-    return 0.0;
-  double width = fg__text_width(ruler, added->text, added->size, false);
-  added->upwards = true;
-  added->x = x;
-  added->y = y + 0.5 * width;
-  added->box = (fg__box){x - FG__TEXT_ASCENT * added->size, added->y - width,
-                         x + FG__TEXT_DESCENT * added->size, added->y};
-  return width;
-}
-
-void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y1)
-{
-  if (page->line_count < FG__PAGE_LINES)
-    page->line[page->line_count++] = (fg__page_line){x0, y0, x1, y1};
-}
-
 static double font_size(const fg__page_plan *plan)
 {
   if (plan->font_size > 0.0)
@@ -143,7 +91,7 @@ static void place_caption(fg__page *page, fg__margins *room, const fg__page_plan
     return;
   double y = page->frame.y0 - room->top - 0.7 * em - FG__TEXT_DESCENT * em;
   for (int k = count - 1; k >= 0; --k) {
-    fg__page_text *added = next_text(page, line[k]);
+    fg__page_text *added = fg__page_next_text(page, line[k]);
     if (!added)
       return;
     added->bold = k < titles;
