@@ -31,10 +31,8 @@ int command_brush(const cli_settings *settings)
   if (code)
     return code;
   fg_context *context;
-  if (fg_context_create(&context)) {
-    complain("out of memory");
+  if (create_context(&context))
     return EXIT_FAILED;
-  }
   interrupt_start(context);
   fg_image *image = NULL;
   fg_status status = fg_image_read(&image, context, settings->operand);

@@ -159,7 +159,6 @@ static int write_picture(fg_context *context, const cli_settings *settings,
   char *partial = temporary_name(settings->output);
   if (!partial)
     return EXIT_FAILED;
-  int code = EXIT_DONE;
   fg_texture *background = NULL;
   fg_status status = report->dimension == 3
                          ? FG_STATUS_OK
@@ -170,15 +169,9 @@ static int write_picture(fg_context *context, const cli_settings *settings,
                  ? write_solid(context, partial, settings, report, index, field, density,
                                icons)
                  : fg_picture_write(context, partial, field, density, icons, &options);
-  if (status)
-    code = complain_of(context, status, settings->output);
-  else if (rename(partial, settings->output) != 0)
-    code = complain_of_file(settings->output, "cannot be written");
-  if (code)
-    unlink(partial);
+  int code = status ? complain_of(context, status, settings->output) : EXIT_DONE;
   fg_texture_destroy(background);
-  free(partial);
-  return code;
+  return publish_file(partial, settings->output, code);
 }
 
 int command_draw(const cli_settings *settings)
@@ -194,7 +187,7 @@ int command_draw(const cli_settings *settings)
   if (code)
     goto cleanup;
   int index = choose_scale(settings, &report);
-  if (index < 0 || fg_context_create(&context)) {
+  if (index < 0 || create_context(&context)) {
     code = EXIT_FAILED;
     goto cleanup;
   }

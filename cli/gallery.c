@@ -164,8 +164,9 @@ static int write_file(const cli_settings *settings, const char *name,
   char *path = join_path(settings->output, name);
   char *partial = path ? temporary_name(path) : NULL;
   if (!partial) {
+    int none = path ? EXIT_FAILED : out_of_memory();
     free(path);
-    return out_of_memory();
+    return none;
   }
   int code = EXIT_DONE;
   FILE *stream = fopen(partial, "w");
@@ -178,12 +179,10 @@ static int write_file(const cli_settings *settings, const char *name,
       draw(stream);
     bool written = !ferror(stream);
     written = fclose(stream) == 0 && written;
-    if (!written || rename(partial, path) != 0)
+    if (!written)
       code = complain_of_file(path, "cannot be written");
   }
-  if (code)
-    unlink(partial);
-  free(partial);
+  code = publish_file(partial, path, code);
   free(path);
   return code;
 }

@@ -97,10 +97,8 @@ int command_info(const cli_settings *settings)
   if (rehearse_reading(settings->operand, NULL))
     return EXIT_FAILED;
   fg_context *context;
-  if (fg_context_create(&context)) {
-    complain("out of memory");
+  if (create_context(&context))
     return EXIT_FAILED;
-  }
   fg_inventory *inventory = NULL;
   int code = EXIT_DONE;
   fg_status status = fg_inventory_read(&inventory, context, settings->operand);

@@ -66,6 +66,14 @@ int complain_of_file(const char *path, const char *what)
   return EXIT_FAILED;
 }
 
+int create_context(fg_context **out)
+{
+  if (fg_context_create(out) == FG_STATUS_OK)
+    return EXIT_DONE;
+  complain("out of memory");
+  return EXIT_FAILED;
+}
+
 static char *join(const char *first, const char *between, const char *second)
 {
   size_t room = strlen(first) + strlen(between) + strlen(second) + 1;

@@ -295,5 +295,17 @@ char *temporary_name(const char *path)
   if (text)
     snprintf(text, room, "%.*s.flowgrain-%ld-%s", (int)(name - path), path,
              (long)getpid(), name);
+  else
+    complain("out of memory for a file's name");
   return text;
+}
+
+int publish_file(char *partial, const char *path, int code)
+{
+  if (!code && rename(partial, path) != 0)
+    code = complain_of_file(path, "cannot be written");
+  if (code && partial)
+    unlink(partial);
+  free(partial);
+  return code;
 }

@@ -60,8 +60,12 @@ int output_publish(const cli_output *out);
  * made for nothing. Returns whether the run can go on. */
 bool output_close(cli_output *out, bool finished);
 
-/* A name beside `path`, with the same end, to write it under until it is whole. NULL
- * without memory. End with free. */
+/* A name beside `path`, with the same end, to write it under until it is whole. NULL,
+ * after a complaint, without memory. */
 char *temporary_name(const char *path);
+
+/* Ends such a name: gives its file the name `path`, or removes it when it could not be
+ * written, as a `code` other than EXIT_DONE says. Returns an exit code. */
+int publish_file(char *partial, const char *path, int code);
 
 #endif

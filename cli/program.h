@@ -83,6 +83,9 @@ int complain_of(const fg_context *context, fg_status status, const char *file);
 /* Prints a file's error from errno, "flowgrain: PATH: No such file ..."; EXIT_FAILED. */
 int complain_of_file(const char *path, const char *what);
 
+/* Creates a context, or complains. Returns an exit code. */
+int create_context(fg_context **out);
+
 /* Joins two texts, or a folder and a name with a slash between. NULL without memory. End
  * with free. */
 char *join_texts(const char *first, const char *second);

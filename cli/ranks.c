@@ -9,10 +9,8 @@ static fg_context *context;
 
 int ranks_start(void)
 {
-  if (fg_context_create(&context)) {
-    complain("out of memory");
+  if (create_context(&context))
     return EXIT_FAILED;
-  }
   fg_status status = fg_ranks(context, &rank, &count);
   if (status) {
     complain("%s", fg_context_message(context));

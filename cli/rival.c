@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "drawing.h"
 #include "options.h"
@@ -59,11 +58,10 @@ static const result_file *new_file(rival_work *work, int count, const char *end)
   file->next = work->files;
   work->files = file;
   file->path = name_file(work->settings, count, end);
+  if (!file->path)
+    complain("out of memory for a file's name");
   file->partial = file->path ? temporary_name(file->path) : NULL;
-  if (file->partial)
-    return file;
-  complain("out of memory for a file's name");
-  return NULL;
+  return file->partial ? file : NULL;
 }
 
 static int write_icons(rival_work *work, int count, const fg_icons *icons)
@@ -150,11 +148,7 @@ static int publish(rival_work *work, int code)
 {
   for (result_file *file = work->files, *next; file; file = next) {
     next = file->next;
-    if (!code && rename(file->partial, file->path) != 0)
-      code = complain_of_file(file->path, "cannot be written");
-    if (code && file->partial)
-      unlink(file->partial);
-    free(file->partial);
+    code = publish_file(file->partial, file->path, code);
     free(file->path);
     free(file);
   }
@@ -179,10 +173,8 @@ static int prepare(rival_work *work)
   fg_read_options reading = settings_reading(said);
   if (rehearse_reading(said->operand, &reading))
     return EXIT_FAILED;
-  if (fg_context_create(&work->context)) {
-    complain("out of memory");
+  if (create_context(&work->context))
     return EXIT_FAILED;
-  }
   fg_status status = fg_field_read(&work->field, work->context, said->operand, &reading);
   fg_rival_options options = {.method = (fg_rival_method)said->method,
                               .nodes = said->nodes,

@@ -1,8 +1,6 @@
 /* Writes an analytic field to a file. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "output.h"
 
@@ -42,16 +40,9 @@ static int write_field(fg_context *context, const cli_settings *settings,
   char *partial = temporary_name(settings->output);
   if (!partial)
     return EXIT_FAILED;
-  int code = EXIT_DONE;
   fg_status status = fg_field_write(context, partial, field);
-  if (status)
-    code = complain_of(context, status, settings->output);
-  else if (rename(partial, settings->output) != 0)
-    code = complain_of_file(settings->output, "cannot be written");
-  if (code)
-    unlink(partial);
-  free(partial);
-  return code;
+  int code = status ? complain_of(context, status, settings->output) : EXIT_DONE;
+  return publish_file(partial, settings->output, code);
 }
 
 int command_synth(const cli_settings *settings)
@@ -65,10 +56,8 @@ int command_synth(const cli_settings *settings)
   if (code)
     return code;
   fg_context *context;
-  if (fg_context_create(&context)) {
-    complain("out of memory");
+  if (create_context(&context))
     return EXIT_FAILED;
-  }
   fg_field *field = NULL;
   fg_status status = fg_field_create_analytic(&field, context, name, settings->nodes);
   code = status ? complain_of(context, status, settings->output)

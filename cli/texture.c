@@ -37,10 +37,8 @@ int command_texture(const cli_settings *settings)
   if (code)
     return code;
   fg_context *context;
-  if (fg_context_create(&context)) {
-    complain("out of memory");
+  if (create_context(&context))
     return EXIT_FAILED;
-  }
   interrupt_start(context);
   fg_field *field = NULL;
   fg_status status = fg_field_read(&field, context, settings->operand, &reading);
