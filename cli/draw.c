@@ -169,7 +169,8 @@ static int write_picture(fg_context *context, const cli_settings *settings,
                  ? write_solid(context, partial, settings, report, index, field, density,
                                icons)
                  : fg_picture_write(context, partial, field, density, icons, &options);
-  int code = status ? complain_of(context, status, settings->output) : EXIT_DONE;
+  int code = status ? complain_of_partial(context, status, partial, settings->output)
+                    : EXIT_DONE;
   fg_texture_destroy(background);
   return publish_file(partial, settings->output, code);
 }

@@ -46,15 +46,30 @@ const char *last_advice(void)
   return advice;
 }
 
+static bool begins_with(const char *text, const char *start)
+{
+  return strncmp(text, start, strlen(start)) == 0;
+}
+
 int complain_of(const fg_context *context, fg_status status, const char *file)
+{
+  return complain_of_partial(context, status, file, file);
+}
+
+int complain_of_partial(const fg_context *context, fg_status status, const char *partial,
+                        const char *file)
 {
   const char *message = fg_context_message(context);
   const char *hint = fg_context_hint(context);
   if (!*message)
     message = fg_status_name(status);
-  bool named = status == FG_STATUS_FILE_ACCESS || status == FG_STATUS_FILE_FORMAT ||
-               strncmp(message, file, strlen(file)) == 0;
-  complain("%s%s%s", named ? "" : file, named ? "" : ": ", message);
+  if (begins_with(message, partial))
+    complain("%s%s", file, message + strlen(partial));
+  else if (begins_with(message, file) || status == FG_STATUS_FILE_ACCESS ||
+           status == FG_STATUS_FILE_FORMAT)
+    complain("%s", message);
+  else
+    complain("%s: %s", file, message);
   if (*hint)
     advise("%s", hint);
   return status == FG_STATUS_STOPPED ? EXIT_INTERRUPTED : EXIT_FAILED;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "folder.h"
 #include "options.h"
@@ -137,6 +138,8 @@ int report_read(cli_report *out, const char *folder)
   char *path = join_path(folder, REPORT_NAME);
   char *text = path ? read_text(path) : NULL;
   int code = EXIT_FAILED;
+  if (path && !text && access(path, F_OK) != 0)
+    advise("Name the folder of a finished `flowgrain run`.");
   if (!text)
     goto cleanup;
   out->tree = cJSON_Parse(text);

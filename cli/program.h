@@ -80,6 +80,11 @@ const char *last_advice(void);
  * file's name of its own; returns the exit code for the failure. */
 int complain_of(const fg_context *context, fg_status status, const char *file);
 
+/* The same of a file that is written under the name `partial` first, which is not told.
+ */
+int complain_of_partial(const fg_context *context, fg_status status, const char *partial,
+                        const char *file);
+
 /* Prints a file's error from errno, "flowgrain: PATH: No such file ..."; EXIT_FAILED. */
 int complain_of_file(const char *path, const char *what);
 

@@ -64,13 +64,19 @@ static const result_file *new_file(rival_work *work, int count, const char *end)
   return file->partial ? file : NULL;
 }
 
+static int complain_of_result(const rival_work *work, const result_file *file,
+                              fg_status status)
+{
+  return complain_of_partial(work->context, status, file->partial, file->path);
+}
+
 static int write_icons(rival_work *work, int count, const fg_icons *icons)
 {
   const result_file *file = new_file(work, count, name_end + 1);
   if (!file)
     return EXIT_FAILED;
   fg_status status = fg_icons_write(work->context, file->partial, icons);
-  return status ? complain_of(work->context, status, file->path) : EXIT_DONE;
+  return status ? complain_of_result(work, file, status) : EXIT_DONE;
 }
 
 static int write_clusters(rival_work *work, int count, const fg_density *clusters)
@@ -79,7 +85,7 @@ static int write_clusters(rival_work *work, int count, const fg_density *cluster
   if (!file)
     return EXIT_FAILED;
   fg_status status = fg_density_write(work->context, file->partial, clusters);
-  return status ? complain_of(work->context, status, file->path) : EXIT_DONE;
+  return status ? complain_of_result(work, file, status) : EXIT_DONE;
 }
 
 static int write_pictures(rival_work *work, int count, const fg_icons *icons,
@@ -101,7 +107,7 @@ static int write_pictures(rival_work *work, int count, const fg_icons *icons,
     fg_status status = fg_picture_write(work->context, file->partial, work->field,
                                         clusters, icons, &options);
     if (status)
-      code = complain_of(work->context, status, file->path);
+      code = complain_of_result(work, file, status);
   }
   return code;
 }

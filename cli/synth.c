@@ -30,7 +30,7 @@ static int check_end(const char *path)
   if (end && (strcmp(end, ".vti") == 0 || strcmp(end, ".nc") == 0))
     return EXIT_DONE;
   complain("-o %s: the name's end must be .vti or .nc", path);
-  fputs("Try 'flowgrain synth --help'.\n", stderr);
+  advise("Try 'flowgrain synth --help'.");
   return EXIT_USAGE;
 }
 
@@ -41,7 +41,8 @@ static int write_field(fg_context *context, const cli_settings *settings,
   if (!partial)
     return EXIT_FAILED;
   fg_status status = fg_field_write(context, partial, field);
-  int code = status ? complain_of(context, status, settings->output) : EXIT_DONE;
+  int code = status ? complain_of_partial(context, status, partial, settings->output)
+                    : EXIT_DONE;
   return publish_file(partial, settings->output, code);
 }
 

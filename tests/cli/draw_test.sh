@@ -30,6 +30,7 @@ done_with "draw: a scale that is not there"
 try draw . -o x.svg
 expect_code 1
 expect_one_complaint
+expect_error 'Name the folder of a finished'
 echo '{"scales": 3}' >run.json
 try draw . -o x.svg
 expect_code 1
@@ -47,6 +48,14 @@ expect_code 1
 expect_one_complaint
 expect_nothing_at x.svg
 done_with "draw: icons are missing"
+for said in 'draw run -o no-such-folder/x.svg' 'synth saddle -o no-such-folder/x.vti'; do
+  read -ra words <<<"$said"
+  try "${words[@]}"
+  expect_code 1
+  expect_one_complaint
+  expect_error "^flowgrain: ${words[3]}: .*No such file"
+done
+done_with "draw and synth: a folder that is not there"
 
 for other in 'synth:vortex3d' 'other.vti' 'finer.vti'; do
   try synth saddle -o finer.vti --nodes 77

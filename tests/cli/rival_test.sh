@@ -69,6 +69,7 @@ expect_one_complaint
 try rival synth:vortex3 -o no-such-folder/x.geojson
 expect_code 1
 expect_one_complaint
+expect_error '^flowgrain: no-such-folder/x.geojson: .*No such file'
 [ -z "$(ls -A | grep -E '^x|flowgrain-')" ] || fault "left: $(ls -A)"
 done_with "rival: what is refused leaves nothing"
 finish
