@@ -1,6 +1,6 @@
 /* Making the icons of some clusters, from the whole density or from parts of it. */
-#ifndef FG__ICONS_CREATE_H
-#define FG__ICONS_CREATE_H
+#ifndef FG__ICONS_MAKE_H
+#define FG__ICONS_MAKE_H
 
 #include "cluster/volume.h"
 #include "icon/territory.h"
@@ -38,7 +38,7 @@ fg_status fg__icons_make(fg_icon *icon, fg_context *context,
 fg_status fg__icons_collect(fg_icons **out, fg_context *context, const fg_icon *icon,
                             int clusters);
 
-/* fg_icons_create of a shared density. */
+/* icons_shared.c. fg_icons_create of a shared density. */
 fg_status fg__icons_create_shared(fg_icons **out, fg_context *context,
                                   const fg_field *field, const fg_density *density,
                                   const fg_icon_options *options);
