@@ -78,12 +78,20 @@ static struct RTCRay ray_from(const double place[3], const double direction[3],
                          .mask = ~0U};
 }
 
+/* Transparent surfaces in front of something. */
+typedef struct veil {
+  fg__light light; /* what they send themselves */
+  double left;     /* what they let through */
+} veil;
+
 /* A pixel, how many rays each of its samples sends to the lamp and to the sky, and how
  * many of all these met nothing. */
 typedef struct pixel {
   uint64_t order; /* on the curve, see fg__light_order */
   int x, y;
   int lamp_rays, sky_rays, lamp_seen, sky_seen;
+  bool again;  /* it has been drawn before, and `front` is known */
+  veil *front; /* [SAMPLES] where surfaces are shown */
 } pixel;
 
 /* Sends rays from a point to the lamp and the sky; `face` is the surface's own normal.
@@ -207,9 +215,9 @@ static fg__light light_wall(const shop *s, const double direction[3], pixel *p,
   return fg__light_wall(axis, line_at(about, axis, place, distance), &lit);
 }
 
-/* What is seen of transparent surfaces up to a distance, and through them. */
-static fg__light look_through(const shop *s, const double direction[3], float reach,
-                              fg__light behind)
+/* What is seen of transparent surfaces up to a distance, and the share of light that
+ * comes through them. */
+static veil look_through(const shop *s, const double direction[3], float reach)
 {
   fg__light out = {0};
   double left = 1.0, from = 0.0;
@@ -240,11 +248,15 @@ static fg__light look_through(const shop *s, const double direction[3], float re
     left *= 1.0 - skin.alpha;
     from = (double)hit.ray.tfar + (double)off_surface;
   }
-  out.red += left * behind.red;
-  out.green += left * behind.green;
-  out.blue += left * behind.blue;
-  out.alpha += left * behind.alpha;
-  return out;
+  return (veil){out, left};
+}
+
+static fg__light behind_veil(const veil *front, fg__light behind)
+{
+  const fg__light *light = &front->light;
+  return (fg__light){
+      light->red + front->left * behind.red, light->green + front->left * behind.green,
+      light->blue + front->left * behind.blue, light->alpha + front->left * behind.alpha};
 }
 
 static fg__light trace_sample(const shop *s, pixel *p, int sample)
@@ -262,7 +274,11 @@ static fg__light trace_sample(const shop *s, pixel *p, int sample)
   fg__light behind = hit.hit.geomID != RTC_INVALID_GEOMETRY_ID
                          ? light_hit(s, &hit, direction, p, sample)
                          : light_wall(s, direction, p, sample);
-  return s->about->surface ? look_through(s, direction, hit.ray.tfar, behind) : behind;
+  if (!s->about->surface)
+    return behind;
+  if (!p->again)
+    p->front[sample] = look_through(s, direction, hit.ray.tfar);
+  return behind_veil(&p->front[sample], behind);
 }
 
 /* Light that needs more rays. */
@@ -271,13 +287,16 @@ typedef struct unevenness {
 } unevenness;
 
 /* Draws a pixel; what its rays did not all find alike is uneven. */
-static unevenness trace_pixel(const shop *s, int x, int y, const unevenness *finer)
+static unevenness trace_pixel(const shop *s, int x, int y, const unevenness *finer,
+                              veil *front)
 {
   pixel p = {.order = fg__light_order(x, y),
              .x = x,
              .y = y,
              .lamp_rays = finer->lamp ? LAMP_FINER : 1,
-             .sky_rays = finer->sky ? SKY_FINER : 1};
+             .sky_rays = finer->sky ? SKY_FINER : 1,
+             .again = finer->lamp || finer->sky,
+             .front = front};
   fg__light sum = {0};
   for (int sample = 0; sample < SAMPLES; ++sample) {
     fg__light light = trace_sample(s, &p, sample);
@@ -297,12 +316,13 @@ static void trace_tile(const shop *s, int x, int y)
 {
   const unevenness usual = {false, false};
   unevenness at[TILE + 2][TILE + 2] = {{{false, false}}};
+  veil front[TILE][TILE][SAMPLES]; /* written when first drawn */
   int wide = s->about->width - x, high = s->about->height - y;
   wide = wide < TILE ? wide : TILE;
   high = high < TILE ? high : TILE;
   for (int j = 0; j < high; ++j)
     for (int i = 0; i < wide; ++i)
-      at[j + 1][i + 1] = trace_pixel(s, x + i, y + j, &usual);
+      at[j + 1][i + 1] = trace_pixel(s, x + i, y + j, &usual, front[j][i]);
   for (int j = 0; j < high; ++j)
     for (int i = 0; i < wide; ++i) {
       unevenness near = usual;
@@ -311,7 +331,7 @@ static void trace_tile(const shop *s, int x, int y)
         near.sky = near.sky || at[j + n / 3][i + n % 3].sky;
       }
       if (near.lamp || near.sky)
-        trace_pixel(s, x + i, y + j, &near);
+        trace_pixel(s, x + i, y + j, &near, front[j][i]);
     }
 }
 
