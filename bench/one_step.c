@@ -49,7 +49,9 @@ static void start(const fg__multigrid *m, const float *u)
 {
   const fg__level *level = &m->level[0];
   fg__level_import(level, level->p, u);
+  fg__fill_ghosts(level, level->p);
   fg__level_import(level, level->u, u);
+  fg__fill_ghosts(level, level->u);
   fg__pass_evaluate(m, level->u, level->w);
 }
 

@@ -59,6 +59,7 @@ static bool solve(engine *s, double tau)
 static void begin(engine *s, const float *u)
 {
   fg__level_import(&s->multigrid.level[0], s->start, u);
+  fg__fill_ghosts(&s->multigrid.level[0], s->start);
   s->history = false;
 }
 

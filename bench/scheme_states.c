@@ -102,6 +102,7 @@ void create_stepper(fg__stepper *out, const domain *d, const float *u, scheme by
   double alpha = by == THETA ? fg__theta_alpha : 0.0;
   create_multigrid(&multigrid, d, alpha);
   fg__level_import(&multigrid.level[0], multigrid.level[0].u, u);
+  fg__fill_ghosts(&multigrid.level[0], multigrid.level[0].u);
   /* a change of 0.9 is accepted: lengths are ours to choose */
   fg__stepper_description description = {.cell_volume = d->volume,
                                          .first_tau = most_tau,

@@ -104,6 +104,7 @@ static void compare_limits(const domain *d, const moment moments[MOMENTS])
     double limit = runs[k].limited ? stable_step(d, alpha) : 1.0;
     create_multigrid(&multigrid, d, alpha);
     fg__level_import(&multigrid.level[0], multigrid.level[0].u, moments[0].u);
+    fg__fill_ghosts(&multigrid.level[0], multigrid.level[0].u);
     fg__stepper_description description = {.cell_volume = d->volume,
                                            .first_tau = 1e-6,
                                            .most_tau = limit,

@@ -172,7 +172,6 @@ void fg__level_import(const fg__level *level, float *array, const float *plain)
       for (int i = 0; i < nodes[0]; ++i)
         row[fg__column(&level->layout, i)] = *plain++;
     }
-  fg__fill_ghosts(level, array);
 }
 
 void fg__level_export(const fg__level *level, const float *array, float *plain)

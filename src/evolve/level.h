@@ -192,7 +192,7 @@ void fg__fill_ghost_row(const fg__level *level, float *array, int k, int side);
 void fg__fill_ghost_plane(const fg__level *level, float *array, int side);
 void fg__fill_ghosts(const fg__level *level, float *array);
 
-/* Copies nodal values from or to plain arrays, x fastest. */
+/* Copies nodal values from or to plain arrays, x fastest; ghosts are left alone. */
 void fg__level_import(const fg__level *level, float *array, const float *plain);
 void fg__level_export(const fg__level *level, const float *array, float *plain);
 

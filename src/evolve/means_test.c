@@ -77,6 +77,7 @@ static void create(subject *s, mask *inside)
     plain[n] = s->mass[n] > 0.0 ? (float)(rand() % 2000 - 1100) / 1000.0F : 0.0F;
   s->u = fg__multigrid_u(&s->multigrid);
   fg__level_import(&s->multigrid.level[0], s->u, plain);
+  fg__fill_ghosts(&s->multigrid.level[0], s->u);
 }
 
 static double mean_of(const subject *s, int first_plane, int planes)
@@ -139,6 +140,7 @@ static void each_part_gets_its_mean_back(void **state)
   for (int n = 0; n < NODES; ++n)
     plain[n] += n < (int)node_of(0, 0, 4) ? 0.07F : (float)(n % 3) * -0.05F;
   fg__level_import(level, s.u, plain);
+  fg__fill_ghosts(level, s.u);
   assert_true(fabs(mean_of(&s, 0, 4) - before[0]) > 0.01);
   fg__means_restore(&means, &s.multigrid, s.u);
   assert_true(fabs(mean_of(&s, 0, 4) - before[0]) < 1e-7);

@@ -201,6 +201,7 @@ static inline void put(const problem *p, float *array, const double *values)
   for (size_t n = 0; n < p->nodes; ++n)
     plain[n] = (float)values[n];
   fg__level_import(&p->multigrid.level[0], array, plain);
+  fg__fill_ghosts(&p->multigrid.level[0], array);
   free(plain);
 }
 

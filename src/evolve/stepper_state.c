@@ -68,12 +68,7 @@ void fg__state_export(const fg__state_array *array, int box, float *plain)
 
 void fg__state_import(const fg__state_array *array, int box, const float *plain)
 {
-  const fg__layout *layout = &array->level[box].layout;
-  float *values = values_of(array, box);
-  for (int k = 0; k < layout->nodes[2]; ++k)
-    for (int j = 0; j < layout->nodes[1]; ++j)
-      for (int i = 0; i < layout->nodes[0]; ++i)
-        values[fg__node_at(layout, i, j, k)] = *plain++;
+  fg__level_import(&array->level[box], values_of(array, box), plain);
 }
 
 void fg__state_fill_ghosts(const fg__state_array *array)
