@@ -168,6 +168,12 @@ expect_json out10/scale-01.geojson "($points) > 1.2 * $(jq "$points" out1/scale-
 expect_json out10/scale-01.geojson '[.features[].geometry.coordinates[][] | . >= 0 and . <= 1] | all'
 done_with "--extent territory draws longer arrows"
 
+: >file
+TMPDIR=$PWD/file try run synth:vortex3 -o out11 "${small[@]}"
+expect_code 0
+[ ! -s err ] || fault "standard error: $(head -c 200 err)"
+done_with "a run on its own needs no folder for temporary files"
+
 try run "$root/data/gfs_20140131.nc" -o gfs --nodes 129 --clusters 40 --quiet
 expect_code 0
 expect_json gfs/run.json '.field.scale == "geo" and .field.period[0] == 360 and .field.velocity == ["u10", "v10"]'
