@@ -3,6 +3,7 @@
 
 #include "interrupt.h"
 #include "output.h"
+#include "progress.h"
 
 static fg_status paint(fg_context *context, const cli_settings *settings,
                        const fg_image *image)
@@ -15,9 +16,14 @@ static fg_status paint(fg_context *context, const cli_settings *settings,
   fg_painting_options look = {.width = settings->width,
                               .transparent = settings->transparent};
   fg_strokes *strokes = NULL;
+  cli_progress progress;
+  progress_start(&progress, false);
+  progress_stage(&progress, "strokes grow on the image, layer after layer");
   fg_status status = fg_strokes_create(&strokes, context, image, &brush);
+  progress_stage(&progress, "painting");
   if (!status)
     status = fg_painting_write(context, settings->output, image, strokes, &look);
+  progress_wipe(&progress);
   if (!status && settings->verbose)
     fprintf(stderr, "flowgrain: %d strokes in %d layers\n", fg_strokes_count(strokes),
             fg_strokes_layers(strokes));

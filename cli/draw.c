@@ -8,6 +8,7 @@
 
 #include "background.h"
 #include "drawing.h"
+#include "folder.h"
 #include "past_run.h"
 #include "rehearse.h"
 
@@ -20,7 +21,7 @@ static bool ends_with(const char *text, const char *end)
 int check_picture_name(const char *path, const char *command)
 {
   if (ends_with(path, ".svg") || ends_with(path, ".pdf") || ends_with(path, ".png"))
-    return EXIT_DONE;
+    return check_place_of_file(path);
   complain("-o %s: the name's end must be .svg, .pdf or .png", path);
   advise("Try 'flowgrain %s --help'.", command);
   return EXIT_USAGE;
@@ -30,7 +31,7 @@ int check_picture_name(const char *path, const char *command)
 static int check_name(const char *path)
 {
   if (ends_with(path, ".vtp") || ends_with(path, ".glb"))
-    return EXIT_DONE;
+    return check_place_of_file(path);
   return check_picture_name(path, "draw");
 }
 

@@ -203,6 +203,29 @@ char *nearest_existing(const char *path)
   return nearest;
 }
 
+int check_place_of_file(const char *path)
+{
+  struct stat found;
+  if (stat(path, &found) == 0 && !S_ISREG(found.st_mode)) {
+    errno = EISDIR;
+    return S_ISDIR(found.st_mode) ? complain_of_file(path, "cannot be written")
+                                  : EXIT_DONE; /* a device */
+  }
+  char *folder = join_texts(path, "");
+  if (!folder)
+    return out_of_memory();
+  cut_to_parent(folder);
+  int code = EXIT_DONE;
+  if (access(folder, W_OK | X_OK) != 0) {
+    bool missing = errno == ENOENT;
+    code = complain_of_file(path, "cannot be written");
+    if (missing)
+      advise("Make the folder %s first.", folder);
+  }
+  free(folder);
+  return code;
+}
+
 int make_folders(const char *folder, char **topmost)
 {
   char *path = join_texts(folder, "");

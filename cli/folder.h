@@ -49,6 +49,10 @@ int make_folders(const char *folder, char **topmost);
  * free. */
 char *nearest_existing(const char *path);
 
+/* Refuses a file to be written whose folder is not there or can not be written to, and
+ * one that is a folder: before the work, not after it. Returns an exit code. */
+int check_place_of_file(const char *path);
+
 /* Removes folders that are empty, from `folder` up to `topmost`. */
 void remove_empty_folders(const char *folder, const char *topmost);
 

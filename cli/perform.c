@@ -11,6 +11,24 @@ static parse_result usage(void)
   return PARSE_WRONG;
 }
 
+static parse_result unknown(const char *word)
+{
+  complain("unknown %s '%s'", word[0] == '-' ? "option" : "command", word);
+  return usage();
+}
+
+static parse_result help(const char *word)
+{
+  const cli_command *command = word ? command_find(word) : NULL;
+  if (word && !command)
+    return unknown(word);
+  if (command)
+    print_command_help(stdout, command);
+  else
+    print_program_help(stdout);
+  return PARSE_DONE;
+}
+
 static parse_result parse(const cli_command **command, cli_settings *settings, int argc,
                           char **argv)
 {
@@ -19,20 +37,19 @@ static parse_result parse(const cli_command **command, cli_settings *settings, i
     return usage();
   }
   const char *word = argv[1];
-  if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 ||
-      strcmp(word, "help") == 0) {
+  if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
     print_program_help(stdout);
     return PARSE_DONE;
   }
+  if (strcmp(word, "help") == 0)
+    return help(argc > 2 ? argv[2] : NULL);
   if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
     printf("flowgrain %s\n", fg_version());
     return PARSE_DONE;
   }
   *command = command_find(word);
-  if (!*command) {
-    complain("unknown %s '%s'", word[0] == '-' ? "option" : "command", word);
-    return usage();
-  }
+  if (!*command)
+    return unknown(word);
   return options_parse(settings, *command, argc - 1, argv + 1);
 }
 

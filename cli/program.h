@@ -96,7 +96,8 @@ int create_context(fg_context **out);
 char *join_texts(const char *first, const char *second);
 char *join_path(const char *folder, const char *name);
 
-/* Complains of a picture whose name has not the end of a known format; an exit code. */
+/* Complains of a picture whose name has not the end of a known format, or that can not be
+ * put where it shall be; an exit code. */
 int check_picture_name(const char *path, const char *command);
 
 int command_run(const cli_settings *settings);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "drawing.h"
+#include "folder.h"
 #include "options.h"
 #include "rehearse.h"
 
@@ -29,7 +30,7 @@ static int check_name(const char *path)
 {
   size_t length = strlen(path), end = strlen(name_end);
   if (length > end && strcmp(path + length - end, name_end) == 0)
-    return EXIT_DONE;
+    return check_place_of_file(path);
   complain("-o %s: the name's end must be %s", path, name_end);
   advise("Try 'flowgrain rival --help'.");
   return EXIT_USAGE;

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "folder.h"
 #include "output.h"
 
 static bool name_is_known(const char *name)
@@ -28,7 +29,7 @@ static int check_end(const char *path)
 {
   const char *end = strrchr(path, '.');
   if (end && (strcmp(end, ".vti") == 0 || strcmp(end, ".nc") == 0))
-    return EXIT_DONE;
+    return check_place_of_file(path);
   complain("-o %s: the name's end must be .vti or .nc", path);
   advise("Try 'flowgrain synth --help'.");
   return EXIT_USAGE;

@@ -59,10 +59,38 @@ done_with "synth: unknown name"
 wrong '\.vti or \.nc' synth vortex -o x.dat
 done_with "synth: unknown format"
 
+# before anything is read: what the inputs lack is not what is said
+mkdir folder.png
+for words in "draw a -o no/x.png" "draw a -o no/x.glb" "texture a -o no/x.png" \
+  "brush a -o no/x.svg" "synth vortex -o no/x.vti" "rival a -o no/x.geojson"; do
+  # shellcheck disable=SC2086
+  try $words
+  expect_code 1
+  expect_error "^flowgrain: ${words##* }: cannot be written: No such file"
+  expect_error "Make the folder no first"
+  expect_one_complaint
+  done_with "$words: a folder that is not there is said at once"
+done
+try texture a -o folder.png
+expect_code 1
+expect_error '^flowgrain: folder.png: cannot be written: Is a directory$'
+done_with "a folder is no place for a picture"
+try draw folder.png -o x.png
+expect_code 1
+expect_error "^Name the folder of a finished"
+expect_one_complaint
+done_with "draw: a folder that holds no run"
+
 try --help
 expect_code 0
 [ "$(grep -c '^  run  ' out)" -ge 1 ] || fault "run is not listed"
 done_with "--help"
+try help draw
+expect_code 0
+cmp -s out <("$program" draw --help) || fault "not draw's help: $(head -1 out)"
+done_with "help COMMAND"
+wrong "unknown command 'drew'" help drew
+done_with "help of an unknown command"
 try --version
 expect_code 0
 grep -qE '^flowgrain [0-9]+\.[0-9]+\.[0-9]+$' out || fault "$(cat out)"
