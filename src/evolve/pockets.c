@@ -1,5 +1,6 @@
 #include "evolve/pockets.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,8 +11,14 @@
 /* A pocket may be so large; all together what every rank may hold, and cost less than
  * cycles do: the sum of squares of their nodes is at most four times the mesh's nodes
  * (docs/design/evolution.md). Where that is not enough for all, smaller parts go first.
- */
-enum { MOST_OF_ONE = 512, MOST_OF_ALL = 16384, MOST_SQUARES = 4 };
+ * While a step has failed of late more of them are worth their cost. */
+enum { MOST_OF_ONE = 512, MOST_SQUARES = 4 };
+enum { MOST_OF_ONE_FAILED = 1024, MOST_SQUARES_FAILED = 64, MOST_OF_ALL = 16384 };
+
+/* A step's length times a node's L and K from which pockets are solved: tau gamma / h^4
+ * times 4 to 7 in 2D. Cycles contract up to 1e3 of it and go round at 1e4; thresholds of
+ * 400 to 2e4 took much the same number of cycles to rest (docs/design/evolution.md). */
+static const double least_stiffness = 2e4;
 
 /* What ranks tell of a node: first its place, later u, the guess and p. */
 enum { WORDS = 3 };
@@ -45,16 +52,16 @@ static bool is_pocket(const collection *c, int part)
 }
 
 /* By the number of parts of each size. */
-static int choose_largest(const collection *c)
+static int choose_largest(const collection *c, int most_of_one, double most_squares)
 {
   const int *nodes = c->whole.nodes;
-  double left = (double)MOST_SQUARES * nodes[0] * nodes[1] * nodes[2];
-  int parts[MOST_OF_ONE + 1] = {0}, largest = 0;
+  double left = most_squares * nodes[0] * nodes[1] * nodes[2];
+  int parts[MOST_OF_ONE_FAILED + 1] = {0}, largest = 0;
   double all = MOST_OF_ALL;
   for (int n = 0; n < c->means->count; ++n)
-    if (c->size[n] <= MOST_OF_ONE)
+    if (c->size[n] <= MOST_OF_ONE_FAILED)
       ++parts[c->size[n]];
-  for (int n = 1; n <= MOST_OF_ONE; ++n) {
+  for (int n = 1; n <= most_of_one; ++n) {
     all -= (double)n * parts[n];
     left -= (double)n * n * parts[n];
     if (all < 0.0 || left < 0.0)
@@ -70,7 +77,8 @@ static void count_nodes(collection *c)
   for (int n = 0; n < means->run_count; ++n)
     c->size[means->run[n].part] += (uint64_t)means->run[n].nodes;
   fg__ranks_add(c->multigrid->ranks, c->size, means->count);
-  c->out->largest = choose_largest(c);
+  c->out->small = choose_largest(c, MOST_OF_ONE, MOST_SQUARES);
+  c->out->largest = choose_largest(c, MOST_OF_ONE_FAILED, MOST_SQUARES_FAILED);
   for (int n = 0; n < means->count; ++n)
     if (is_pocket(c, n)) {
       c->out->nodes += (int)c->size[n];
@@ -95,8 +103,9 @@ static fg_status take_arrays(fg__pockets *out, fg_context *context)
   out->word = fg__allocate(WORDS * nodes, sizeof *out->word);
   out->u = fg__allocate(nodes, sizeof *out->u);
   out->w = fg__allocate(nodes, sizeof *out->w);
+  out->done = fg__allocate(nodes, sizeof *out->done);
   if (out->first && out->target && out->laplacian && out->energy && out->mass &&
-      out->own && out->at && out->word && out->u && out->w)
+      out->own && out->at && out->word && out->u && out->w && out->done)
     return FG_STATUS_OK;
   return fg__fail_memory(context, "small parts of the domain",
                          rows * (sizeof(int) + 2 * sizeof(double)));
@@ -343,6 +352,8 @@ static void exchange_rows(const collection *c, uint32_t *word)
         row[k] = (float)value_of(word[k]);
       fill_row(c, out->first[p], n, row, row + entries, value_of(word[2 * entries]));
       out->mass[n] = value_of(word[2 * entries + 1]);
+      int middle = n * entries + entries / 2;
+      out->stiffness = fmax(out->stiffness, out->laplacian[middle] * out->energy[middle]);
     }
 }
 
@@ -445,16 +456,21 @@ void fg__pockets_clear(fg__pockets *pockets)
   free(pockets->word);
   free(pockets->u);
   free(pockets->w);
+  free(pockets->done);
   free(pockets->space);
   *pockets = (fg__pockets){0};
 }
 
 void fg__pockets_solve(const fg__pockets *pockets, const fg__multigrid *multigrid,
-                       double tau, double effective, const float *current)
+                       double tau, double effective, const float *current, bool failed)
 {
-  if (pockets->count == 0)
-    return;
   const fg__pockets *s = pockets;
+  if (s->count == 0)
+    return;
+  memset(s->done, 0, (size_t)s->nodes);
+  int largest = failed ? s->largest : s->small;
+  if (largest == 0 || !(tau * s->stiffness >= least_stiffness))
+    return;
   const float *const values[WORDS] = {current, fg__multigrid_u(multigrid),
                                       fg__multigrid_p(multigrid)};
   if (multigrid->ranks->count > 1)
@@ -468,6 +484,9 @@ void fg__pockets_solve(const fg__pockets *pockets, const fg__multigrid *multigri
   for (int k = 0; k < s->count; ++k) {
     fg__pocket pocket = pocket_of(s, k);
     int first = s->first[k], nodes = pocket.nodes;
+    if (nodes > largest)
+      continue;
+    memset(s->done + first, 1, (size_t)nodes);
     for (int n = 0; n < nodes; ++n) {
       const uint32_t *word = s->word + WORDS * (first + n);
       before[n] = value_of(word[0]);
@@ -486,11 +505,13 @@ void fg__pockets_solve(const fg__pockets *pockets, const fg__multigrid *multigri
 void fg__pockets_put(const fg__pockets *pockets, const fg__multigrid *multigrid,
                      float *copy)
 {
-  if (pockets->count == 0)
+  if (pockets->count == 0 || !memchr(pockets->done, 1, (size_t)pockets->nodes))
     return;
   float *u = fg__multigrid_u(multigrid), *w = fg__multigrid_w(multigrid);
   for (int n = 0; n < pockets->own_count; ++n) {
     ptrdiff_t at = pockets->at[n];
+    if (!pockets->done[pockets->own[n]])
+      continue;
     u[at] = copy[at] = pockets->u[pockets->own[n]];
     w[at] = pockets->w[pockets->own[n]];
   }

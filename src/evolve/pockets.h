@@ -16,13 +16,16 @@ typedef struct fg__pockets {
   int *first;  /* [count + 1] a pocket's first node */
   int *target; /* [nodes * entries] from the pocket's first node; -1: none */
   double *laplacian, *energy, *mass;
-  int own_count;  /* nodes that this rank owns */
-  int *own;       /* [own_count] which they are */
-  ptrdiff_t *at;  /* [own_count] where they lie in arrays of the finest level */
-  uint32_t *word; /* [3 * nodes] u, guess and p as they travel */
-  float *u, *w;   /* [nodes] the solution */
-  int largest;    /* nodes of a pocket */
-  double *space;  /* for one of them */
+  int own_count;       /* nodes that this rank owns */
+  int *own;            /* [own_count] which they are */
+  ptrdiff_t *at;       /* [own_count] where they lie in arrays of the finest level */
+  uint32_t *word;      /* [3 * nodes] u, guess and p as they travel */
+  float *u, *w;        /* [nodes] the solution */
+  int small;           /* pockets to so many nodes are solved in every step, */
+  int largest;         /* larger ones to this where cycles have failed */
+  double stiffness;    /* greatest of a node's own L times K */
+  unsigned char *done; /* [nodes] solved in this step */
+  double *space;       /* for one of them */
 } fg__pockets;
 
 /* Collects the pockets among a domain's parts. Collective. MEMORY. */
@@ -31,9 +34,10 @@ fg_status fg__pockets_create(fg__pockets *out, fg_context *context,
 void fg__pockets_clear(fg__pockets *pockets);
 
 /* Solves the finest level's system of a step of length tau, whose formula has another,
- * from what u and p hold. Collective. */
+ * from what u and p hold, where the step is long enough for cycles to go round; larger
+ * pockets only with `failed`. Collective. */
 void fg__pockets_solve(const fg__pockets *pockets, const fg__multigrid *multigrid,
-                       double tau, double effective, const float *current);
+                       double tau, double effective, const float *current, bool failed);
 
 /* Puts the solution into u, w and a copy of u, without ghosts. */
 void fg__pockets_put(const fg__pockets *pockets, const fg__multigrid *multigrid,

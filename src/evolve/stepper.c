@@ -214,7 +214,8 @@ static outcome attempt(fg__stepper *s, double tau)
   if (s->theta.alpha > 0.0)
     return judge(s, tau, step_by_theta(s, tau));
   double effective = prepare_implicit(s, tau);
-  fg__pockets_solve(&s->pockets, &s->multigrid, tau, effective, s->current);
+  bool failed = s->tau_limit < s->most_tau; /* of late */
+  fg__pockets_solve(&s->pockets, &s->multigrid, tau, effective, s->current, failed);
   outcome result = judge(s, tau, solve(s, effective, s->cycles));
   for (int n = 0; n < MORE_CYCLES; ++n) {
     if (result.accepted || result.at_rest || !(result.correction <= hopeless_correction))
