@@ -161,8 +161,8 @@ static void draw_axis(cairo_t *cairo, taken *t, const fg__box_axes *axes,
   draw_text_beyond(cairo, t, axes->axis[axis].label, at, away, em);
 }
 
-void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
-                       const fg__camera *camera)
+double fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
+                         const fg__camera *camera)
 {
   cairo_set_source_rgb(cairo, ink, ink, ink);
   cairo_set_line_width(cairo, fmax(axes->em / 16.0, 1.0));
@@ -170,6 +170,10 @@ void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage
   for (int k = 0; k < 3; ++k)
     if (axes->edge[k][k])
       draw_axis(cairo, &t, axes, stage, camera, k);
+  double lowest = 0.0;
+  for (int n = 0; n < t.count; ++n)
+    lowest = fmax(lowest, t.box[n].y1);
+  return lowest;
 }
 
 void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,

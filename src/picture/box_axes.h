@@ -22,8 +22,9 @@ void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
                      const fg__stage *stage, const fg__camera *camera, double em,
                      cairo_t *ruler);
 
-void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
-                       const fg__camera *camera);
+/* Returns how low the numbers and names reach, in pixels from above. */
+double fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
+                         const fg__camera *camera);
 
 /* An upright bar in a pane, with numbers at its right and the speed's name above; its end
  * is a point where there are speeds below or above. */

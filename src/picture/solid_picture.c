@@ -81,8 +81,8 @@ static fg__pane box_pane(const solid_picture *p)
                     r->height - bottom_room * em};
 }
 
-/* Pixels from the box's highest corner to its lowest. */
-static double box_height(const fg__rendering *r)
+/* The box's highest corner and its lowest, pixels from above. */
+static void box_rows(const fg__rendering *r, double *highest, double *lowest)
 {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (int c = 0; c < 8; ++c) {
@@ -93,7 +93,18 @@ static double box_height(const fg__rendering *r)
     low = fmin(low, at[1]);
     high = fmax(high, at[1]);
   }
-  return high - low;
+  *highest = low;
+  *lowest = high;
+}
+
+/* Of a height that is not given, no more below the box than its numbers need. */
+static void trim(solid_picture *p, cairo_t *ruler)
+{
+  fg__rendering *r = &p->rendering;
+  double highest, lowest, least = flattest * r->width;
+  box_rows(r, &highest, &lowest);
+  lowest = fmax(lowest, fg__box_axes_draw(ruler, &p->axes, &r->stage, &r->camera));
+  r->height = (int)fmin(r->height, fmax(ceil(lowest + edge * p->em), least));
 }
 
 static void lay_out(solid_picture *p, const fg_field_arrays *field,
@@ -107,13 +118,17 @@ static void lay_out(solid_picture *p, const fg_field_arrays *field,
   fg__stage_of(&r->stage, field);
   fg__camera_look(&r->camera, &r->stage, azimuth, elevation, &pane);
   if (options->height == 0) { /* no more of it than a flat box needs */
-    double unused = pane.y1 - pane.y0 - box_height(r);
+    double highest, lowest;
+    box_rows(r, &highest, &lowest);
+    double unused = pane.y1 - pane.y0 - (lowest - highest);
     r->height -= (int)fmin(unused, (1.0 - flattest) * r->width);
     pane = box_pane(p);
     fg__camera_look(&r->camera, &r->stage, azimuth, elevation, &pane);
   }
   cairo_t *ruler = fg__text_ruler();
   fg__box_axes_of(&p->axes, field, &r->stage, &r->camera, p->em, ruler);
+  if (options->height == 0 && p->framed)
+    trim(p, ruler);
   cairo_destroy(ruler);
   for (int k = 0; k < 3; ++k)
     for (int n = 0; n < p->axes.ticks[k].count && n < FG__GRID_LINES; ++n)
