@@ -10,7 +10,7 @@
 static const fg__vtk_array *arrays_of_file(const fg__vtk *vtk, size_t *count)
 {
   *count = vtk->piece_count > 0 ? vtk->pieces[0].array_count : 0;
-  return vtk->piece_count > 0 ? vtk->arrays + vtk->pieces[0].first_array : NULL;
+  return *count > 0 ? vtk->arrays + vtk->pieces[0].first_array : NULL;
 }
 
 static bool is_float(const fg__vtk_array *array)
