@@ -1,8 +1,10 @@
 #include "evolve/cells.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
+#include "evolve/cell_images.h"
 
 /* The axes whose mirror image changes a component's sign. */
 static const unsigned char odd_axes[FG__TENSOR_COMPONENTS][2] = {{0, 0}, {0, 1}, {1, 1},
@@ -16,19 +18,16 @@ static int component_count(int dimension)
 static fg_status allocate(fg__cells_of_box *out, fg_context *context, int dimension,
                           const int nodes[3])
 {
-  *out = (fg__cells_of_box){.dimension = dimension, .nodes = {1, 1, 1}};
-  for (int k = 0; k < 3 && k < dimension; ++k)
-    out->nodes[k] = nodes[k];
-  out->row = out->nodes[0] + 1;
-  out->plane = out->row * (out->nodes[1] + 1);
-  size_t planes = dimension == 3 ? (size_t)out->nodes[2] + 1 : 1;
-  size_t size = (size_t)out->plane * planes;
-  size_t arrays = (size_t)component_count(dimension) + 1;
+  fg__cell_layout layout = fg__cell_layout_of(dimension, nodes);
+  *out = (fg__cells_of_box){
+      .dimension = dimension, .row = layout.row, .plane = layout.plane};
+  memcpy(out->nodes, layout.nodes, sizeof out->nodes);
+  size_t size = layout.size, arrays = (size_t)component_count(dimension) + 1;
   float *memory = fg__allocate(size * arrays, sizeof *memory);
   if (!memory)
     return fg__fail_memory(context, "the tensor", size * arrays * sizeof *memory);
   out->memory = memory;
-  float *origin = memory + out->row + 1 + (dimension == 3 ? out->plane : 0);
+  float *origin = memory + layout.origin;
   for (size_t n = 0; n + 1 < arrays; ++n)
     out->component[n] = origin + n * size;
   out->weight = origin + (arrays - 1) * size;
@@ -44,11 +43,10 @@ static fg_status allocate_whole(fg__cells_of_box *out, fg_context *context, int 
   return allocate(out, context, dimension, nodes);
 }
 
-/* A row of cells beyond a side (or a cell, a plane) from its image; `step` to the next of
- * `count` cells, flipped along `axis`. */
-static void copy_image(const fg__cells_of_box *cells, ptrdiff_t to, ptrdiff_t from,
-                       int axis, bool mirrored)
+static void copy_image(const void *argument, ptrdiff_t to, ptrdiff_t from, int axis,
+                       bool mirrored)
 {
+  const fg__cells_of_box *cells = argument;
   for (int c = 0; c < component_count(cells->dimension); ++c) {
     bool odd = mirrored && odd_axes[c][0] != odd_axes[c][1] &&
                (odd_axes[c][0] == axis || odd_axes[c][1] == axis);
@@ -58,35 +56,11 @@ static void copy_image(const fg__cells_of_box *cells, ptrdiff_t to, ptrdiff_t fr
   cells->weight[to] = cells->weight[from];
 }
 
-/* Images along one axis, for all cells along the axes done before (their images included)
- * and the true ones of those to come. */
-static void fill_images(const fg__cells_of_box *cells, const int count[3], int axis,
-                        bool periodic)
-{
-  int low[3], high[3];
-  for (int k = 0; k < 3; ++k) {
-    bool done = k < axis && k < cells->dimension;
-    low[k] = done ? -1 : 0;
-    high[k] = done ? cells->nodes[k] - 1 : count[k] - 1;
-  }
-  low[axis] = high[axis] = 0;
-  ptrdiff_t step = axis == 0 ? 1 : axis == 1 ? cells->row : cells->plane;
-  ptrdiff_t last = count[axis] - 1;
-  for (int k = low[2]; k <= high[2]; ++k)
-    for (int j = low[1]; j <= high[1]; ++j)
-      for (int i = low[0]; i <= high[0]; ++i) {
-        ptrdiff_t n = fg__cell_at(cells, i, j, k);
-        copy_image(cells, n - step, n + (periodic ? last * step : 0), axis, !periodic);
-        if (!periodic)
-          copy_image(cells, n + (last + 1) * step, n + last * step, axis, true);
-      }
-}
-
 static void fill_all_images(const fg__cells_of_box *cells, const int count[3],
                             const bool periodic[3])
 {
-  for (int axis = 0; axis < cells->dimension; ++axis)
-    fill_images(cells, count, axis, periodic[axis]);
+  fg__cell_layout layout = fg__cell_layout_of(cells->dimension, cells->nodes);
+  fg__cell_images_fill(&layout, count, periodic, copy_image, cells);
 }
 
 /* Cells to be filled, of which members take slices along the outermost axis. */
@@ -291,35 +265,6 @@ static fg_status fill_range(float *const values[], fg_context *context,
   return status;
 }
 
-/* Mirror images for the sides of a box that lie on a natural border. */
-static void mirror_sides(const fg__cells_of_box *cells, const range *r,
-                         const fg__box *box)
-{
-  int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
-  for (int k = 0; k < cells->dimension; ++k) {
-    low[k] = r->low[k] - box->first[k];
-    high[k] = low[k] + r->count[k] - 1;
-  }
-  for (int axis = 0; axis < cells->dimension; ++axis) {
-    ptrdiff_t step = axis == 0 ? 1 : axis == 1 ? cells->row : cells->plane;
-    int begin[3] = {low[0], low[1], low[2]}, end[3] = {high[0], high[1], high[2]};
-    bool below = low[axis] == 0, above = high[axis] < cells->nodes[axis] - 1;
-    begin[axis] = end[axis] = 0;
-    for (int k = begin[2]; k <= end[2]; ++k)
-      for (int j = begin[1]; j <= end[1]; ++j)
-        for (int i = begin[0]; i <= end[0]; ++i) {
-          ptrdiff_t n = fg__cell_at(cells, i, j, k);
-          if (below)
-            copy_image(cells, n - step, n, axis, true);
-          if (above)
-            copy_image(cells, n + (high[axis] + 1) * step, n + high[axis] * step, axis,
-                       true);
-        }
-    low[axis] = -1;
-    high[axis] = cells->nodes[axis] - 1;
-  }
-}
-
 fg_status fg__cells_halve_box(fg__cells_of_box *out, fg_context *context,
                               const fg__cells_of_box *fine, const fg__box *box,
                               const int level_cells[3])
@@ -340,8 +285,8 @@ fg_status fg__cells_halve_box(fg__cells_of_box *out, fg_context *context,
 void fg__cells_mirror_box(const fg__cells_of_box *cells, const fg__box *box,
                           const int level_cells[3], const bool periodic[3])
 {
-  range r = range_of(cells->dimension, periodic, box, level_cells);
-  mirror_sides(cells, &r, box);
+  fg__cell_layout layout = fg__cell_layout_of(cells->dimension, cells->nodes);
+  fg__cell_images_mirror(&layout, box, level_cells, periodic, copy_image, cells);
 }
 
 fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
@@ -378,17 +323,16 @@ fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
       }
   free(memory);
   if (!status)
-    mirror_sides(out, &r, box);
+    fg__cells_mirror_box(out, box, recipe->cells, recipe->periodic);
   return status;
 }
 
 unsigned char *fg__cells_mask(const fg__cells_of_box *cells, ptrdiff_t *origin)
 {
-  bool solid = cells->dimension == 3;
-  size_t size = (size_t)cells->plane * (size_t)(solid ? cells->nodes[2] + 1 : 1);
-  *origin = 1 + cells->row + (solid ? cells->plane : 0);
-  unsigned char *active = fg__allocate(size, 1);
-  for (size_t n = 0; n < size && active; ++n)
+  fg__cell_layout layout = fg__cell_layout_of(cells->dimension, cells->nodes);
+  *origin = layout.origin;
+  unsigned char *active = fg__allocate(layout.size, 1);
+  for (size_t n = 0; n < layout.size && active; ++n)
     active[n] = cells->weight[(ptrdiff_t)n - *origin] > 0.0F;
   return active;
 }

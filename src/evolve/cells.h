@@ -9,9 +9,7 @@
 
 enum { FG__TENSOR_COMPONENTS = 6 }; /* xx, xy, yy, zz, xz, yz; three in 2D */
 
-/* Cell (i, j, k) lies between nodes (i, j, k) and (i + 1, j + 1, k + 1); indices run from
- * -1 to count - 1 along each axis (from 0 to 0 along z in 2D), count the number of
- * nodes. */
+/* Laid out as cell_images.h says. */
 typedef struct fg__cells_of_box {
   int dimension;
   int nodes[3];

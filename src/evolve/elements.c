@@ -1,8 +1,10 @@
 #include "evolve/elements.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
+#include "evolve/cell_images.h"
 
 /* The work of a cell is compiled for each number of dimensions. */
 #define INLINE static inline __attribute__((always_inline))
@@ -50,22 +52,18 @@ void fg__cell_coupling(int a, int b, int dimension, const double spacing[3],
 static fg_status allocate(fg__elements *out, fg_context *context, int dimension,
                           const int nodes[3])
 {
-  *out = (fg__elements){.dimension = dimension, .nodes = {1, 1, 1}};
-  for (int k = 0; k < 3 && k < dimension; ++k)
-    out->nodes[k] = nodes[k];
-  out->row = out->nodes[0] + 1;
-  out->plane = out->row * (out->nodes[1] + 1);
-  size_t planes = dimension == 3 ? (size_t)out->nodes[2] + 1 : 1;
-  size_t size = (size_t)out->plane * planes;
+  fg__cell_layout layout = fg__cell_layout_of(dimension, nodes);
+  *out = (fg__elements){.dimension = dimension, .row = layout.row, .plane = layout.plane};
+  memcpy(out->nodes, layout.nodes, sizeof out->nodes);
+  size_t size = layout.size;
   int arrays = fg__element_values(dimension);
   float *memory = fg__allocate(size * (size_t)arrays, sizeof *memory);
   if (!memory)
     return fg__fail_memory(context, "a level's cells",
                            size * (size_t)arrays * sizeof *memory);
   out->memory = memory;
-  ptrdiff_t origin = out->row + 1 + (dimension == 3 ? out->plane : 0);
   for (int n = 0; n < arrays; ++n)
-    out->value[n] = memory + (size_t)n * size + origin;
+    out->value[n] = memory + (size_t)n * size + layout.origin;
   return FG_STATUS_OK;
 }
 
@@ -244,10 +242,11 @@ fg_status fg__elements_coarsen(fg__elements *out, fg_context *context,
   return FG_STATUS_OK;
 }
 
-/* A cell from its image; mirrored along `axis`, corners change places. */
-static void copy_image(const fg__elements *e, ptrdiff_t to, ptrdiff_t from, int axis,
+/* Mirrored, corners change places. */
+static void copy_image(const void *argument, ptrdiff_t to, ptrdiff_t from, int axis,
                        bool mirrored)
 {
+  const fg__elements *e = argument;
   int dimension = e->dimension, corners = 1 << dimension;
   int turn = mirrored ? 1 << axis : 0;
   for (int a = 0; a < corners; ++a) {
@@ -260,59 +259,18 @@ static void copy_image(const fg__elements *e, ptrdiff_t to, ptrdiff_t from, int 
   }
 }
 
-/* Images along one axis of the cells from low to high along the others. */
-static void fill_images(const fg__elements *e, const int low[3], const int high[3],
-                        int axis, const ptrdiff_t to[2], const ptrdiff_t from[2],
-                        bool mirrored)
-{
-  int begin[3] = {low[0], low[1], low[2]}, end[3] = {high[0], high[1], high[2]};
-  ptrdiff_t step = axis == 0 ? 1 : axis == 1 ? e->row : e->plane;
-  begin[axis] = end[axis] = 0;
-  for (int k = begin[2]; k <= end[2]; ++k)
-    for (int j = begin[1]; j <= end[1]; ++j)
-      for (int i = begin[0]; i <= end[0]; ++i) {
-        ptrdiff_t n = fg__element_at(e, i, j, k);
-        for (int side = 0; side < 2; ++side)
-          if (to[side] != from[side])
-            copy_image(e, n + to[side] * step, n + from[side] * step, axis, mirrored);
-      }
-}
-
 void fg__elements_fill_images(const fg__elements *elements, const int count[3],
                               const bool periodic[3])
 {
-  int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
-  for (int k = 0; k < 3 && k < elements->dimension; ++k)
-    high[k] = count[k] - 1;
-  for (int k = 0; k < 3 && k < elements->dimension; ++k) {
-    ptrdiff_t last = count[k] - 1;
-    const ptrdiff_t to[2] = {-1, periodic[k] ? -1 : last + 1};
-    const ptrdiff_t from[2] = {periodic[k] ? last : 0, periodic[k] ? -1 : last};
-    fill_images(elements, low, high, k, to, from, !periodic[k]);
-    low[k] = -1;
-    high[k] = elements->nodes[k] - 1;
-  }
+  fg__cell_layout layout = fg__cell_layout_of(elements->dimension, elements->nodes);
+  fg__cell_images_fill(&layout, count, periodic, copy_image, elements);
 }
 
 void fg__elements_mirror_box(const fg__elements *elements, const fg__box *box,
                              const int level_cells[3], const bool periodic[3])
 {
-  int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
-  for (int k = 0; k < 3 && k < elements->dimension; ++k) {
-    int first = box->first[k], end = first + box->nodes[k];
-    low[k] = !periodic[k] && first == 0 ? 0 : -1;
-    high[k] =
-        (!periodic[k] && end > level_cells[k] ? level_cells[k] - first : box->nodes[k]) -
-        1;
-  }
-  for (int k = 0; k < 3 && k < elements->dimension; ++k) {
-    bool below = low[k] == 0, above = high[k] < elements->nodes[k] - 1;
-    const ptrdiff_t to[2] = {below ? -1 : 0, high[k] + above};
-    const ptrdiff_t from[2] = {0, high[k]};
-    fill_images(elements, low, high, k, to, from, true);
-    low[k] = -1;
-    high[k] = elements->nodes[k] - 1;
-  }
+  fg__cell_layout layout = fg__cell_layout_of(elements->dimension, elements->nodes);
+  fg__cell_images_mirror(&layout, box, level_cells, periodic, copy_image, elements);
 }
 
 fg_status fg__elements_from_arrays(fg__elements *out, fg_context *context,

@@ -10,8 +10,8 @@
 
 enum { FG__MOST_CORNERS = 8, FG__MOST_ELEMENT_VALUES = 64 };
 
-/* Laid out as fg__cells_of_box. Corner a of a cell is its node at offset a & 1, a >> 1 &
- * 1, a >> 2. Of the values of a cell, a matrix of C x C for C corners, the diagonal are
+/* Laid out as cell_images.h says. Corner a of a cell is its node at offset a & 1, a >> 1
+ * & 1, a >> 2. Of the values of a cell, a matrix of C x C for C corners, the diagonal are
  * the corners' masses, what is above it (row before column) the Laplacian's couplings,
  * what is below those of the energy; all over the cell's volume. */
 typedef struct fg__elements {
