@@ -12,7 +12,7 @@ enum { MOST_ITERATIONS = 12, MOST_SUBSTEPS = 400 };
 static const double most_density = 3.0;
 
 /* Share of a pocket's energy by which the rounding of its density to floats, and so of
- * its mass, may raise it: at rest, 1e-12 made two thirds of the steps fail. */
+ * its mass, may raise it: with 1e-12 a fifth of the solutions were refused. */
 static const double energy_rounding = 1e-8;
 
 /* Of the nodes' numbers that a row of L K joins. */
