@@ -82,8 +82,9 @@ FG_API fg_status fg_texture_write(fg_context *context, const char *path,
                                   const fg_field *field, const fg_texture *texture,
                                   const fg_texture_style *style);
 
-/* Pixels inside the frame of the picture that fg_picture_write would draw with these
- * options: the size of a background that needs no stretching. ARGUMENT, MEMORY. */
+/* Pixels that the whole domain has in the picture that fg_picture_write would draw with
+ * these options, whose frame may show less of it: the size of a background that needs no
+ * stretching. ARGUMENT, MEMORY. */
 FG_API fg_status fg_picture_frame(int size[2], fg_context *context, const fg_field *field,
                                   const fg_icons *icons,
                                   const fg_picture_options *options);

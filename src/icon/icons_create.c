@@ -1,4 +1,5 @@
 #include "icon/icons_make.h"
+#include "icon/specks.h"
 
 static fg_status create_whole(fg_icons **out, fg_context *context, const fg_field *field,
                               const fg_density *density, const fg_icon_options *options)
@@ -26,6 +27,8 @@ static fg_status create_whole(fg_icons **out, fg_context *context, const fg_fiel
   status =
       icon ? fg__icons_make(icon, context, &source, options ? options->threads : 1)
            : fg__fail_memory(context, "the icons", (size_t)labels.count * sizeof *icon);
+  if (status == FG_STATUS_OK && arrays->dimension == 2)
+    status = fg__icons_drop_specks(icon, context, labels.count * FG__ICON_PARTS);
   if (status == FG_STATUS_OK)
     status = fg__icons_collect(out, context, icon, labels.count);
 cleanup:

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "cluster/shared.h"
 #include "icon/icons_make.h"
+#include "icon/specks.h"
 #include "mesh/field_parts.h"
 
 /* Patches that a rank holds at a time have this share of its part of the grid, but for
@@ -289,6 +290,8 @@ static fg_status create(fg_icons **out, fg_context *context, const fg_field *fie
     status = make_all(&s, context, options ? options->threads : 1);
   if (!status)
     status = bring_together(&s, context);
+  if (!status && s.ranks->rank == 0 && fg_field_contents(field)->dimension == 2)
+    status = fg__icons_drop_specks(s.icon, context, s.labels.count * FG__ICON_PARTS);
   if (!status && s.ranks->rank == 0)
     status = fg__icons_collect(out, context, s.icon, s.labels.count);
   status = fg__ranks_agree(s.ranks, context, status);

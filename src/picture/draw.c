@@ -51,14 +51,14 @@ void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color)
 }
 
 /* Pixels that are as large as those of the sheet are taken as they are. */
-static void draw_background(cairo_t *cairo, const fg__box *frame,
+static void draw_background(cairo_t *cairo, const fg__box *box,
                             cairo_surface_t *background)
 {
   const double wide = cairo_image_surface_get_width(background);
   const double high = cairo_image_surface_get_height(background);
-  double pixel[2] = {(frame->x1 - frame->x0) / wide, (frame->y1 - frame->y0) / high};
+  double pixel[2] = {(box->x1 - box->x0) / wide, (box->y1 - box->y0) / high};
   cairo_save(cairo);
-  cairo_translate(cairo, frame->x0, frame->y0);
+  cairo_translate(cairo, box->x0, box->y0);
   cairo_scale(cairo, pixel[0], pixel[1]);
   cairo_set_source_surface(cairo, background, 0.0, 0.0);
   pixel[0] = pixel[1] = 1.0;
@@ -225,7 +225,7 @@ void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
   add_box(cairo, &page->frame);
   cairo_clip(cairo);
   if (style->background)
-    draw_background(cairo, &page->frame, style->background);
+    draw_background(cairo, &style->background_box, style->background);
   draw_areas(cairo, scene, style);
   draw_arrows(cairo, scene, style->background != NULL);
   draw_skeletons(cairo, scene);

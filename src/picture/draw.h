@@ -7,7 +7,8 @@
 typedef struct fg__style {
   fg__color mask, tint;
   bool transparent;
-  cairo_surface_t *background; /* fills the frame; NULL: none */
+  cairo_surface_t *background; /* NULL: none */
+  fg__box background_box;      /* of the domain, which may be wider than the frame */
 } fg__style;
 
 /* A light grey. */

@@ -59,10 +59,9 @@ static fg_status check_options(fg_context *context, const fg_picture_options *op
   return FG_STATUS_OK;
 }
 
-static void describe_axes(fg__page_plan *plan, const fg_field_arrays *field)
+static void describe_axes(fg__page_plan *plan, const fg_field_arrays *field,
+                          const double low[2], const double high[2])
 {
-  double low[2], high[2];
-  fg__scene_box(low, high, field);
   if (field->scale == FG_SCALE_GEO) {
     fg__axis_of_degrees(&plan->axis[0], low[0], high[0], FG__TICKS_LONGITUDE);
     fg__axis_of_degrees(&plan->axis[1], low[1], high[1], FG__TICKS_LATITUDE);
@@ -83,13 +82,14 @@ typedef struct picture {
   fg__palette palette;
   fg__style style;
   fg__scene scene;
+  double low[2], high[2]; /* what the frame shows, in the field's coordinates */
   double pixels_per_point;
 } picture;
 
-static fg_status plan_picture(picture *out, fg_context *context,
-                              const fg_field_arrays *field, const fg_icons *icons,
-                              const fg_picture_options *options)
+static fg_status plan_picture(picture *out, fg_context *context, const fg_field *whole,
+                              const fg_icons *icons, const fg_picture_options *options)
 {
+  const fg_field_arrays *field = fg_field_contents(whole);
   double range[2];
   fg__page_plan *plan = &out->plan;
   plan->width = options->width;
@@ -104,7 +104,11 @@ static fg_status plan_picture(picture *out, fg_context *context,
   plan->color_key = has_speeds && !out->palette.uniform && keys;
   fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0], "mean speed",
                       field->velocity_units);
-  describe_axes(plan, field);
+  if (options->no_frame)
+    fg__scene_box(out->low, out->high, field);
+  else
+    fg__scene_shown(out->low, out->high, whole);
+  describe_axes(plan, field, out->low, out->high);
   fg__caption_write(plan->title, plan->subtitle, field,
                     options->no_arrows ? -1 : fg_icons_count(icons), options->title,
                     options->scale_time);
@@ -160,7 +164,19 @@ static fg_status render(fg_context *context, const char *path, const picture *p)
   return fg__sheet_close(&sheet, context, FG_STATUS_OK);
 }
 
-static fg_status prepare(picture *p, fg_context *context, const fg_field_arrays *field,
+/* Where the page has, or would have, the whole domain. */
+static fg__box domain_box(const picture *p, const fg_field_arrays *field)
+{
+  double low[2], high[2];
+  const fg__page *page = &p->page;
+  fg__scene_box(low, high, field);
+  return (fg__box){page->frame.x0 + page->scale * (low[0] - p->low[0]),
+                   page->frame.y1 - page->scale * (high[1] - p->low[1]),
+                   page->frame.x0 + page->scale * (high[0] - p->low[0]),
+                   page->frame.y1 - page->scale * (low[1] - p->low[1])};
+}
+
+static fg_status prepare(picture *p, fg_context *context, const fg_field *field,
                          const fg_icons *icons, const fg_picture_options *options)
 {
   fg_status status = check_options(context, options);
@@ -179,6 +195,8 @@ static fg_status prepare(picture *p, fg_context *context, const fg_field_arrays 
     status = plan_picture(p, context, field, icons, options);
   if (!status)
     status = lay_out(p, context);
+  if (!status)
+    p->style.background_box = domain_box(p, fg_field_contents(field));
   return status;
 }
 
@@ -221,12 +239,11 @@ fg_status fg_picture_frame(int size[2], fg_context *context, const fg_field *fie
     return fg__fail_memory(context, "a picture", sizeof *p);
   fg_status status = check_room(context);
   if (!status)
-    status =
-        prepare(p, context, fg_field_contents(field), icons, options ? options : &usual);
+    status = prepare(p, context, field, icons, options ? options : &usual);
   if (!status) {
-    const fg__box *frame = &p->page.frame;
-    size[0] = pixels_of(p->pixels_per_point * (frame->x1 - frame->x0));
-    size[1] = pixels_of(p->pixels_per_point * (frame->y1 - frame->y0));
+    const fg__box *box = &p->style.background_box;
+    size[0] = pixels_of(p->pixels_per_point * (box->x1 - box->x0));
+    size[1] = pixels_of(p->pixels_per_point * (box->y1 - box->y0));
   }
   free(p);
   return status;
@@ -260,17 +277,17 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
     return fg__fail_memory(context, "a picture", sizeof *p);
   status = check_room(context);
   if (!status)
-    status = prepare(p, context, contents, icons, options);
+    status = prepare(p, context, field, icons, options);
   if (!status && fg__format_of(path) == FG__FORMAT_PNG)
     status = check_pixels(context, p);
   const double range[2] = {p->plan.speed.low, p->plan.speed.high};
   if (!status)
-    status = fg__scene_create(&p->scene, context, &p->page, field,
+    status = fg__scene_create(&p->scene, context, &p->page, field, p->low, p->high,
                               options->tint ? fg_density_contents(density) : NULL,
                               options->no_arrows ? NULL : icons, &p->palette, range);
   if (!status && (options->skeletons || options->centers))
-    status = fg__scene_add_skeletons(&p->scene, context, &p->page, contents, icons,
-                                     options->skeletons);
+    status = fg__scene_add_skeletons(&p->scene, context, &p->page, contents, p->low,
+                                     p->high, icons, options->skeletons);
   if (!status && options->background)
     status = make_background(p, context, options);
   if (!status)

@@ -16,12 +16,56 @@ static const double area_tolerance = 0.06;
 /* Finer masks than so many cells a point are sampled: nobody sees the difference. */
 static const double mask_cells_a_point = 2.0;
 
+/* Round what is valid this share of its longer side stays, so that its shape is seen. Who
+ * frames a field wide by choice, with less than a quarter of nothing, gets it so. */
+static const double shown_margin = 0.04;
+static const double most_shown = 0.75;
+
 void fg__scene_box(double low[2], double high[2], const fg_field_arrays *field)
 {
   for (int k = 0; k < 2; ++k) {
     low[k] = field->axis[k][0];
     high[k] = field->period[k] > 0.0 ? low[k] + field->period[k]
                                      : field->axis[k][field->size[k] - 1];
+  }
+}
+
+/* Whether a sample with such a place along axis k is valid. */
+static bool has_valid(const fg_field *field, int k, int place)
+{
+  const int *size = fg_field_contents(field)->size;
+  for (int n = 0; n < size[1 - k]; ++n)
+    if (fg__field_sample_is_valid(field, k == 0 ? place : n, k == 0 ? n : place))
+      return true;
+  return false;
+}
+
+void fg__scene_shown(double low[2], double high[2], const fg_field *field)
+{
+  const fg_field_arrays *grid = fg_field_contents(field);
+  double area = 1.0, shown_low[2], shown_high[2], larger = 0.0;
+  fg__scene_box(low, high, grid);
+  for (int k = 0; k < 2; ++k) {
+    int first = 0, last = grid->size[k] - 1;
+    while (first < last && !has_valid(field, k, first))
+      ++first;
+    while (last > first && !has_valid(field, k, last))
+      --last;
+    bool whole = grid->period[k] > 0.0;
+    shown_low[k] = whole ? low[k] : grid->axis[k][first];
+    shown_high[k] = whole ? high[k] : grid->axis[k][last];
+    larger = fmax(larger, shown_high[k] - shown_low[k]);
+  }
+  for (int k = 0; k < 2; ++k) {
+    shown_low[k] = fmax(shown_low[k] - shown_margin * larger, low[k]);
+    shown_high[k] = fmin(shown_high[k] + shown_margin * larger, high[k]);
+    area *= (shown_high[k] - shown_low[k]) / (high[k] - low[k]);
+  }
+  if (!(larger > 0.0) || area > most_shown)
+    return;
+  for (int k = 0; k < 2; ++k) {
+    low[k] = shown_low[k];
+    high[k] = shown_high[k];
   }
 }
 
@@ -131,10 +175,9 @@ cleanup:
 }
 
 fg_status fg__scene_mask(fg__polygons *out, fg_context *context, const fg__page *page,
-                         const fg_field *field)
+                         const fg_field *field, const double low[2])
 {
-  const fg_field_arrays *grid = fg_field_contents(field);
-  const placement p = {{grid->axis[0][0], grid->axis[1][0]}, page->scale, &page->frame};
+  const placement p = {{low[0], low[1]}, page->scale, &page->frame};
   fg_status status = make_mask(out, context, page, field);
   if (status)
     return status;
@@ -274,16 +317,15 @@ static fg_status make_reference(fg__polygons *out, fg_context *context,
 }
 
 fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *page,
-                           const fg_field *field, const fg_density_arrays *density,
+                           const fg_field *field, const double low[2],
+                           const double high[2], const fg_density_arrays *density,
                            const fg_icons *icons, const fg__palette *palette,
                            const double range[2])
 {
   const fg_field_arrays *grid = fg_field_contents(field);
   *out = (fg__scene){.arrow_color = NULL};
-  placement p = {{0.0, 0.0}, page->scale, &page->frame};
-  double high[2];
-  fg__scene_box(p.low, high, grid);
-  fg_status status = fg__scene_mask(&out->mask, context, page, field);
+  const placement p = {{low[0], low[1]}, page->scale, &page->frame};
+  fg_status status = fg__scene_mask(&out->mask, context, page, field, low);
   if (!status && density)
     status = fg__contour_positive(&out->tint, context, density);
   place_all(&p, &out->tint);
@@ -314,11 +356,10 @@ static bool add_line(fg__polygons *out, const placement *p, const double (*point
 
 fg_status fg__scene_add_skeletons(fg__scene *scene, fg_context *context,
                                   const fg__page *page, const fg_field_arrays *field,
+                                  const double low[2], const double high[2],
                                   const fg_icons *icons, bool spines)
 {
-  placement p = {{0.0, 0.0}, page->scale, &page->frame};
-  double high[2];
-  fg__scene_box(p.low, high, field);
+  const placement p = {{low[0], low[1]}, page->scale, &page->frame};
   for (int n = 0; n < fg_icons_count(icons); ++n) {
     const fg_icon *icon = fg_icons_at(icons, n);
     int x[2], y[2];
