@@ -258,9 +258,9 @@ static void long_numbers_are_read_whole_or_refused(void **state)
   for (int zeros = 80; zeros <= 800; zeros += 720) {
     char file[EXAMPLE_FILE_BYTES], number[1024] = "5";
     memset(number + 1, '0', (size_t)zeros);
-    snprintf(number + 1 + zeros, 8, "e-%d ", zeros);
-    example_changed(file, GOOD, &(example_change){.before = "4 ", .after = number});
-    memcpy(strstr(file, " 5 0 0"), "\f5\v0\t0", 6);
+    snprintf(number + 1 + zeros, 24, "e-%d 0\v0\f5 0\t0", zeros);
+    example_changed(file, GOOD,
+                    &(example_change){.before = "4 0 0 5 0 0", .after = number});
     fg_field *field = NULL;
     fg_status status = read_bytes(&field, *state, file, strlen(file), NULL);
     assert_int_equal(status, zeros == 80 ? FG_STATUS_OK : FG_STATUS_FILE_FORMAT);
