@@ -7,9 +7,6 @@
 #include "field/fingerprint.h"
 #include "mesh/field_parts.h"
 
-/* Half-width of an interface along the stream in cells; at 1 an isotropic pattern pins.
- */
-static const double interface_cells = 1.1, isotropic_interface_cells = 1.5;
 /* A thinner one lies between two nodes and can not move. */
 static const double least_interface_cells = 0.3;
 
@@ -43,14 +40,6 @@ static fg_status create_mesh(fg_evolution *e, const fg_field *field)
   return fg__mesh_create(&e->mesh, e->context, &description);
 }
 
-static double largest_spacing(const fg_evolution *e)
-{
-  double h = 0.0;
-  for (int k = 0; k < e->mesh.dimension; ++k)
-    h = fmax(h, e->mesh.spacing[k]);
-  return h;
-}
-
 static double least_spacing(const fg_evolution *e)
 {
   double h = (double)INFINITY;
@@ -59,33 +48,9 @@ static double least_spacing(const fg_evolution *e)
   return h;
 }
 
-double fg__evolution_cell_volume(const fg_evolution *e)
-{
-  double volume = 1.0;
-  for (int k = 0; k < e->mesh.dimension; ++k)
-    volume *= e->mesh.spacing[k];
-  return volume;
-}
-
-double fg__evolution_unit(const fg_evolution *e)
-{
-  return ldexp(1.0, e->halvings);
-}
-
-double fg__evolution_interface_energy(const fg_evolution *e)
-{
-  double h = largest_spacing(e);
-  bool isotropic = e->options.law->anisotropy >= 1.0;
-  double width = (isotropic ? isotropic_interface_cells : interface_cells) * h;
-  if (e->options.gamma > 0.0) /* of the first mesh */
-    return ldexp(e->options.gamma, 2 * e->halvings);
-  return width * width / e->options.anisotropy;
-}
-
 static fg_status check_interface(const fg_evolution *e)
 {
-  double h = largest_spacing(e);
-  double cells = sqrt(e->info.gamma * e->options.anisotropy) / h;
+  double cells = sqrt(e->info.gamma * e->options.anisotropy) / fg__evolution_spacing(e);
   if (cells >= least_interface_cells)
     return FG_STATUS_OK;
   fg__fail(e->context, FG_STATUS_ARGUMENT,
@@ -106,16 +71,6 @@ static fg_status check_initial(const fg_evolution *e)
   return FG_STATUS_OK;
 }
 
-/* In linear theory the mode k grows at k^2 (c - a gamma k^2), c = -Psi''(mean): at most
- * at this rate. Where the mean itself is stable the wells' own curvature sets the pace.
- */
-double fg__evolution_growth_rate(const fg_evolution *e)
-{
-  double mean = 2.0 * e->options.coverage - 1.0;
-  double curvature = fmax(fabs(6.0 * mean * mean - 2.0), 1.0);
-  return curvature * curvature / (4.0 * e->options.anisotropy * e->info.gamma);
-}
-
 /* Beyond it the theta scheme is not stable, and the cycles of implicit steps move less of
  * a pattern than such a step should, unseen. */
 static double most_step(const fg_evolution *e)
@@ -131,19 +86,11 @@ static double most_step(const fg_evolution *e)
   return fmax(most_stiffness * h * h * h * h / gamma, first);
 }
 
-/* Nodes along an axis; the repeated last one of a periodic axis is left out. */
-static int nodes_along(const fg__mesh *mesh, int axis)
-{
-  if (axis >= mesh->dimension)
-    return 1;
-  return mesh->periodic[axis] ? mesh->cells[axis] : mesh->cells[axis] + 1;
-}
-
 static void count_cells(fg_evolution *e)
 {
   e->nodes = e->cells = 1;
   for (int k = 0; k < e->mesh.dimension; ++k) {
-    e->nodes *= (size_t)nodes_along(&e->mesh, k);
+    e->nodes *= (size_t)e->mesh.partition.nodes[k];
     e->cells *= (size_t)e->mesh.cells[k];
   }
 }

@@ -15,11 +15,6 @@ static const unsigned char *mask_of(const fg_evolution *e)
   return e->active_cells < (long)e->cells ? e->tensor.active : NULL;
 }
 
-static int nodes_along(const fg_evolution *e, int axis)
-{
-  return e->mesh.partition.nodes[axis];
-}
-
 static fg_status count_whole(fg_evolution *e, bool counting, double *covered)
 {
   fg__team_clusters *c = &e->clusters_found;
@@ -86,7 +81,7 @@ static fg_density_arrays describe_density(const fg_evolution *e)
                               .area_fraction = e->area_fraction,
                               .clusters = e->clusters};
   for (int k = 0; k < 3; ++k) {
-    arrays.nodes[k] = nodes_along(e, k);
+    arrays.nodes[k] = e->mesh.partition.nodes[k];
     arrays.origin[k] = e->mesh.origin[k];
     arrays.spacing[k] = e->info.spacing[k];
     arrays.periodic[k] = e->mesh.periodic[k];
