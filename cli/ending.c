@@ -70,6 +70,20 @@ static void print_summary(const cli_run *run)
   }
 }
 
+/* A coarse mesh begins with few clusters. */
+static void say_first_scale(const cli_run *run)
+{
+  const cli_settings *said = run->settings;
+  if (said->cluster_count < 1 || drawing_count(run->drawing) < 1)
+    return;
+  int wanted = said->clusters[0], first = drawing_result(run->drawing, 0)->clusters;
+  if (first > wanted / 2)
+    return;
+  complain("%s: no scale of about %d clusters: the first that could be counted were %d",
+           said->operand, wanted, first);
+  advise("More --nodes begin with more clusters.");
+}
+
 /* What is said where a run ends early, or reached less than was wanted. */
 static int say_ending(const cli_run *run)
 {
@@ -77,8 +91,10 @@ static int say_ending(const cli_run *run)
   if (strcmp(run->facts.ended, "stationary") == 0 && !scale_plan_done(&run->plan))
     complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
              said->operand, run->plan.wanted[run->plan.next], run->step.clusters);
-  if (strcmp(run->facts.ended, "interrupted") != 0)
+  if (strcmp(run->facts.ended, "interrupted") != 0) {
+    say_first_scale(run);
     return EXIT_DONE;
+  }
   int count = drawing_count(run->drawing);
   complain("%s: interrupted at t = %.3g with %d clusters; the %d scale%s until then %s "
            "in %s",

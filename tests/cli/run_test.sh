@@ -189,4 +189,14 @@ else
   [ "$(jq -r .ended rest/run.json)" = scales ] || fault "ended: $(jq -c .ended rest/run.json)"
 fi
 done_with "what the pattern does not reach is said"
+
+try run synth:vortex3 -o few --nodes 65 --clusters 400,8 --quiet
+expect_code 0
+expect_json few/run.json '.scales[0].clusters <= 200'
+expect_error "no scale of about 400 clusters: .* $(jq '.scales[0].clusters' few/run.json)$"
+expect_one_complaint
+try run synth:vortex3 -o enough --nodes 65 --clusters 8 --quiet
+expect_code 0
+[ ! -s err ] || fault "standard error: $(head -c 200 err)"
+done_with "a mesh that begins with fewer clusters than were asked for is named"
 finish
