@@ -105,7 +105,7 @@ run=("${small[@]}")
 done_with "killed at random moments, and resumed on other numbers of ranks"
 
 # at a call that changes files, of one rank alone
-for turn in "0 3 900 2" "0 2 131 1" "1 2 77 3" "2 3 400 4"; do
+for turn in "0 3 300 2" "0 2 131 1" "1 2 77 3" "2 3 100 4"; do
   read -r rank ranks call others <<<"$turn"
   rm -rf part
   one_other "$rank" "$ranks" env FILE_CALLS_DO=kill FILE_CALLS_AT="$call" LD_PRELOAD="$FILE_CALLS" \
