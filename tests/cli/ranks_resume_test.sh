@@ -66,7 +66,7 @@ done_with "1 to 4 ranks write one checkpoint, and each reads it"
 
 # killed FOLDER RANKS WHOM: started or resumed, and killed at a random moment.
 small=("${run[@]}")
-run=(run synth:vortex3 --nodes 129 --clusters 60,12 --formats svg --quiet --checkpoint 0)
+run=(run synth:vortex3 --nodes 257 --clusters 60,12 --formats svg --quiet --checkpoint 0)
 try "${run[@]}" -o whole2
 killed() {
   mpirun -n "$2" "$program" "${run[@]}" -o "$1" --resume >out 2>err &
