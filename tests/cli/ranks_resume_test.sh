@@ -66,7 +66,8 @@ done_with "1 to 4 ranks write one checkpoint, and each reads it"
 
 # killed FOLDER RANKS WHOM: started or resumed, and killed at a random moment.
 small=("${run[@]}")
-run=(run synth:vortex3 --nodes 257 --clusters 60,12 --formats svg --quiet --checkpoint 0)
+medium=(run synth:vortex3 --nodes 513 --clusters 60,12 --formats svg --quiet --checkpoint 0)
+run=("${medium[@]}")
 try "${run[@]}" -o whole2
 killed() {
   mpirun -n "$2" "$program" "${run[@]}" -o "$1" --resume >out 2>err &
@@ -220,16 +221,18 @@ ends_by() {
   wait_at_most 60 $mpirun
   code=$?
 }
+run=("${medium[@]}") # the small one may end before the signal comes
 for signal in INT TERM; do
   ends_by "$signal" rank "stopped-$signal"
   expect_code 130
   expect_one_message
   expect_error 'interrupted at t = '
   grep -q '^The same command with --resume goes on from step' err || fault "no advice"
-  goes_on "stopped-$signal" 2
+  goes_on "stopped-$signal" 2 whole2
 done
 ends_by INT launcher ended
 [ "$code" != 0 ] || fault "mpirun: code 0"
-goes_on ended 4
+goes_on ended 4 whole2
+run=("${small[@]}")
 done_with "a signal leaves a checkpoint"
 finish
