@@ -1,6 +1,6 @@
 /* Checkpoints of several ranks: the bytes of one rank alone, read by any number; what one
  * rank can not do is a failure of all, and leaves the last checkpoint good. */
-#include "mesh/together_test.h"
+#include "evolve/steps_test.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "evolve/checkpoint_layout.h"
-#include "evolve/evolution.h"
 
 typedef struct subject {
   const char *field;
@@ -94,31 +93,6 @@ static fg_evolution *begin(const subject *s, const fg_field *field,
   fg_evolution *e;
   expect(fg__evolution_create(&e, us.context, ranks, field, &s->options) == FG_STATUS_OK);
   return e;
-}
-
-static fg_step advance(fg_evolution *e, int steps)
-{
-  fg_step step = {0};
-  for (int n = 0; n < steps; ++n)
-    expect(fg_evolution_step(e, &step) == FG_STATUS_OK);
-  return step;
-}
-
-static bool same_number(double a, double b)
-{
-  return memcmp(&a, &b, sizeof a) == 0;
-}
-
-static void expect_same(const fg_step *a, const fg_step *b)
-{
-  expect(a->step == b->step);
-  expect(same_number(a->time, b->time));
-  expect(same_number(a->tau, b->tau));
-  expect(same_number(a->energy, b->energy));
-  expect(same_number(a->mass, b->mass));
-  expect(same_number(a->increment, b->increment));
-  expect(same_number(a->area_fraction, b->area_fraction));
-  expect(a->clusters == b->clusters);
 }
 
 static fg_evolution *resume(const subject *s, const fg_field *field,

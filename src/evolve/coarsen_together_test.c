@@ -1,11 +1,8 @@
 /* A mesh that is halved, on several ranks: the bits of one rank alone, also after a
  * checkpoint. */
-#include "mesh/together_test.h"
+#include "evolve/steps_test.h"
 
-#include <string.h>
 #include <unistd.h>
-
-#include "evolve/evolution.h"
 
 enum { SAMPLES = 33, BEFORE = 6, BETWEEN = 4, AFTER = 4 };
 
@@ -17,31 +14,6 @@ static fg_evolution *begin(const fg_field *field, const fg__ranks *ranks,
   fg_evolution *e;
   expect(fg__evolution_create(&e, us.context, ranks, field, options) == FG_STATUS_OK);
   return e;
-}
-
-static fg_step advance(fg_evolution *e, int steps)
-{
-  fg_step step = {0};
-  for (int n = 0; n < steps; ++n)
-    expect(fg_evolution_step(e, &step) == FG_STATUS_OK);
-  return step;
-}
-
-static bool same(double a, double b)
-{
-  return memcmp(&a, &b, sizeof a) == 0;
-}
-
-static void expect_same(const fg_step *a, const fg_step *b)
-{
-  expect(a->step == b->step);
-  expect(same(a->time, b->time));
-  expect(same(a->tau, b->tau));
-  expect(same(a->energy, b->energy));
-  expect(same(a->mass, b->mass));
-  expect(same(a->increment, b->increment));
-  expect(same(a->area_fraction, b->area_fraction));
-  expect(a->cells == b->cells);
 }
 
 static void compare(const char *name, const fg_evolution_options *options)
