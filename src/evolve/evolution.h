@@ -49,12 +49,15 @@ fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
 fg_status fg__checkpoint_open(fg_checkpoint **out, fg_context *context, const char *path,
                               const fg__ranks *ranks);
 
-/* In units of the longest side: the cells' greatest side and volume, and gamma, as asked
- * for or as the mesh has it. Rate at which the fastest mode grows. */
+/* In units of the longest side: the cells' greatest and least side and volume, and gamma,
+ * as asked for or as the mesh has it. Rate at which the fastest mode grows. Alpha of the
+ * theta scheme; 0: an implicit one. */
 double fg__evolution_spacing(const fg_evolution *evolution);
+double fg__evolution_least_spacing(const fg_evolution *evolution);
 double fg__evolution_cell_volume(const fg_evolution *evolution);
 double fg__evolution_interface_energy(const fg_evolution *evolution);
 double fg__evolution_growth_rate(const fg_evolution *evolution);
+double fg__evolution_alpha(const fg_evolution *evolution);
 
 /* Times and energies of the first mesh in units of the present one's. With the mesh's
  * spacing the width of interfaces doubles, and with it their energy and the speed of

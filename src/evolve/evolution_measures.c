@@ -14,6 +14,14 @@ double fg__evolution_spacing(const fg_evolution *e)
   return h;
 }
 
+double fg__evolution_least_spacing(const fg_evolution *e)
+{
+  double h = (double)INFINITY;
+  for (int k = 0; k < e->mesh.dimension; ++k)
+    h = fmin(h, e->mesh.spacing[k]);
+  return h;
+}
+
 double fg__evolution_cell_volume(const fg_evolution *e)
 {
   double volume = 1.0;
@@ -35,6 +43,11 @@ double fg__evolution_interface_energy(const fg_evolution *e)
   if (e->options.gamma > 0.0) /* of the first mesh */
     return ldexp(e->options.gamma, 2 * e->halvings);
   return width * width / e->options.anisotropy;
+}
+
+double fg__evolution_alpha(const fg_evolution *e)
+{
+  return e->options.scheme == FG_SCHEME_THETA ? fg__theta_alpha : 0.0;
 }
 
 /* In linear theory the mode k grows at k^2 (c - a gamma k^2), c = -Psi''(mean): at most

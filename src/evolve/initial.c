@@ -5,6 +5,7 @@
 #include "base/mix.h"
 #include "evolve/evolution.h"
 #include "evolve/noise.h"
+#include "evolve/widen.h"
 
 /* The nodes of a box to be filled, of which members of a team take rows: with noise, or
  * the caller's density. */
@@ -126,6 +127,8 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
     return status;
   fg__pass_fill_ghosts(multigrid, u);
   if (e->halved) {
+    fg__widen_interfaces(multigrid, e->info.gamma, 1.0 - fg__evolution_alpha(e),
+                         fg__evolution_least_spacing(e));
     settle_mean(multigrid, e->halved_mean);
   } else if (e->options.initial) {
     e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial, e->nodes);

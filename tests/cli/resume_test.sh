@@ -195,7 +195,7 @@ expect_same_results whole limit
 expect_only_results limit
 done_with "a run that ended at its limit goes on without it"
 
-fine=(run synth:vortex3 --nodes 513 --clusters 58 --quiet)
+fine=(run synth:vortex3 --nodes 513 --clusters 55 --quiet)
 try "${fine[@]}" -o fine
 expect_code 0
 halved=$(jq '.mesh.coarser[0].step' fine/run.json)
