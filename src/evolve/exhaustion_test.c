@@ -1,73 +1,11 @@
 /* Every allocation of an evolution fails once: each failure is told as such, nothing is
- * left behind, and an evolution whose step has failed can go on or be ended. The linker
- * puts these functions in place of the C library's (CMakeLists.txt). */
+ * left behind, and an evolution whose step has failed can go on or be ended. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/context_test.h"
-
-static long asked, failing = -1, held;
-
-static bool refuses(void)
-{
-  return asked++ == failing;
-}
-
-static void *count(void *memory)
-{
-  held += memory != NULL;
-  return memory;
-}
-
-#define DECLARE(result, name, parameters)                                                \
-  result __real_##name parameters;                                                       \
-  result __wrap_##name parameters;
-
-/* clang-format off */
-DECLARE(void *, malloc, (size_t))
-DECLARE(void *, calloc, (size_t, size_t))
-DECLARE(void *, aligned_alloc, (size_t, size_t))
-DECLARE(void *, realloc, (void *, size_t))
-DECLARE(char *, strdup, (const char *))
-DECLARE(void, free, (void *))
-/* clang-format on */
-
-void *__wrap_malloc(size_t bytes)
-{
-  return refuses() ? NULL : count(__real_malloc(bytes));
-}
-
-void *__wrap_calloc(size_t number, size_t size)
-{
-  return refuses() ? NULL : count(__real_calloc(number, size));
-}
-
-void *__wrap_aligned_alloc(size_t border, size_t bytes)
-{
-  return refuses() ? NULL : count(__real_aligned_alloc(border, bytes));
-}
-
-void *__wrap_realloc(void *memory, size_t bytes)
-{
-  if (refuses())
-    return NULL;
-  bool first = !memory;
-  void *grown = __real_realloc(memory, bytes);
-  held += first && grown;
-  return grown;
-}
-
-char *__wrap_strdup(const char *text)
-{
-  return refuses() ? NULL : count(__real_strdup(text));
-}
-
-void __wrap_free(void *memory)
-{
-  held -= memory != NULL;
-  __real_free(memory);
-}
+#include "base/refusal_test.h"
 
 enum { COLUMNS = 22, ROWS = 18, STEPS = 40 };
 
@@ -138,16 +76,16 @@ static fg_status live_through(fg_context *context, const example *x)
 static void fail_in_turn(fg_context *context, const example *x)
 {
   failing = -1;
-  asked = held = 0;
+  asked = unfreed = 0;
   assert_int_equal(live_through(context, x), FG_STATUS_OK);
-  assert_int_equal(held, 0);
+  assert_int_equal(unfreed, 0);
   long all = asked;
   for (long n = 0; n < all; ++n) {
     fg_context_clear(context);
-    asked = held = 0;
+    asked = unfreed = 0;
     failing = n;
     assert_int_equal(live_through(context, x), FG_STATUS_MEMORY);
-    assert_int_equal(held, 0);
+    assert_int_equal(unfreed, 0);
   }
   failing = -1;
 }

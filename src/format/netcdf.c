@@ -299,6 +299,9 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
     if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
       fg__nc_text(pair->component[1], "units", text, sizeof text);
     fg__nc_units(text, units, sizeof units);
+    status = fg__nc_status(file, status);
+  }
+  if (status == FG_STATUS_OK) {
     fg_field_arrays arrays = {.dimension = grid->dimension,
                               .valid = read.valid,
                               .scale = grid->scale,
@@ -355,6 +358,7 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
     status = check_level(&file, &grid, options->level);
   if (status == FG_STATUS_OK)
     status = make_field(out, &file, &pair, &grid, options, dealt);
+  status = fg__nc_status(&file, status);
   fg__nc_grid_clear(&grid);
   fg__nc_file_close(&file);
   return status;
@@ -440,6 +444,7 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
     status = fg__nc_pairs(&all.pair, &all.count, &file);
   for (size_t i = 0; i < all.count && status == FG_STATUS_OK; ++i)
     status = describe_pair(inventory, &file, &all.pair[i]);
+  status = fg__nc_status(&file, status);
   free(all.pair);
   fg__nc_file_close(&file);
   return status;

@@ -35,6 +35,7 @@ typedef struct fg__nc_dimension {
 } fg__nc_dimension;
 
 typedef struct fg__nc_variable {
+  struct fg__nc_file *owner;
   int file;  /* 0 or 1 */
   int group; /* ncid */
   int id;
@@ -57,6 +58,7 @@ typedef struct fg__nc_file {
   size_t dimension_count, dimension_capacity;
   fg__nc_variable *variables;
   size_t variable_count, variable_capacity;
+  bool exhausted; /* memory for an attribute was lacking, which the context says */
 } fg__nc_file;
 
 /* Opens a source and lists its dimensions and variables; may be called a second time to
@@ -65,6 +67,10 @@ fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
                            const fg__source *source);
 void fg__nc_file_close(fg__nc_file *file);
 
+/* MEMORY where an attribute could not be read for lack of memory, whatever came of it;
+ * else `status`. */
+fg_status fg__nc_status(const fg__nc_file *file, fg_status status);
+
 /* Records a failure of libnetcdf. */
 fg_status fg__nc_fail(fg_context *context, const char *path, const char *what, int error);
 
@@ -72,11 +78,11 @@ fg_status fg__nc_fail(fg_context *context, const char *path, const char *what, i
 const fg__nc_variable *fg__nc_find(const fg__nc_file *file, const char *name);
 
 /* A text attribute without white space at its ends, cut to the buffer; "" when there is
- * none. Returns whether there is one. */
+ * none. Returns whether there is one; fg__nc_status tells a lack of memory. */
 bool fg__nc_text(const fg__nc_variable *variable, const char *attribute, char *out,
                  size_t size);
 
-/* The numbers of an attribute, at most `capacity`; returns how many. */
+/* The numbers of an attribute, at most `capacity`; returns how many; likewise. */
 int fg__nc_numbers(const fg__nc_variable *variable, const char *attribute, double *out,
                    int capacity, nc_type *type);
 

@@ -108,7 +108,7 @@ static fg_status list_variables(fg__nc_file *file, int root, int group,
     error = nc_inq_varids(group, &count, ids);
   for (int i = 0; i < count && !error; ++i) {
     fg__nc_variable *v = &file->variables[file->variable_count];
-    *v = (fg__nc_variable){.path = path, .file = file->root_count - 1};
+    *v = (fg__nc_variable){.owner = file, .path = path, .file = file->root_count - 1};
     error = describe_variable(v, file, root, group, ids[i], group_name);
     ++file->variable_count;
   }
@@ -236,34 +236,48 @@ static void trim(char *text)
   text[end - start] = '\0';
 }
 
+fg_status fg__nc_status(const fg__nc_file *file, fg_status status)
+{
+  return file->exhausted ? FG_STATUS_MEMORY : status;
+}
+
+/* Attributes that are not there, or are damaged, count as not said. */
+static bool is_read(const fg__nc_variable *v, int error, size_t bytes)
+{
+  if (error == NC_ENOMEM) {
+    v->owner->exhausted = true;
+    fg__fail_memory(v->owner->context, "an attribute", bytes);
+  }
+  return error == NC_NOERR;
+}
+
 static bool read_text(const fg__nc_variable *v, const char *attribute, size_t length,
                       char *out, size_t size)
 {
   char *all = fg__allocate(length + 1, 1);
-  if (!all)
-    return false;
-  const bool read = nc_get_att_text(v->group, v->id, attribute, all) == NC_NOERR;
-  if (read) {
+  const int error = all ? nc_get_att_text(v->group, v->id, attribute, all) : NC_ENOMEM;
+  if (!error) {
     all[length] = '\0';
     snprintf(out, size, "%s", all);
   }
   free(all);
-  return read;
+  return is_read(v, error, length + 1);
 }
 
 static bool read_strings(const fg__nc_variable *v, const char *attribute, size_t length,
                          char *out, size_t size)
 {
-  char **strings = length ? fg__allocate(length, sizeof *strings) : NULL;
-  if (!strings)
+  if (length == 0)
     return false;
-  const bool read = nc_get_att_string(v->group, v->id, attribute, strings) == NC_NOERR;
-  if (read) {
+  char **strings = fg__allocate(length, sizeof *strings);
+  const int error =
+      strings ? nc_get_att_string(v->group, v->id, attribute, strings) : NC_ENOMEM;
+  if (!error) {
     snprintf(out, size, "%s", strings[0] ? strings[0] : "");
     nc_free_string(length, strings);
   }
   free(strings);
-  return read;
+  return is_read(v, error, length * sizeof *strings);
 }
 
 bool fg__nc_text(const fg__nc_variable *variable, const char *attribute, char *out,
@@ -273,7 +287,8 @@ bool fg__nc_text(const fg__nc_variable *variable, const char *attribute, char *o
   size_t length;
   bool read = false;
   out[0] = '\0';
-  if (nc_inq_att(variable->group, variable->id, attribute, &type, &length) != NC_NOERR)
+  if (!is_read(variable,
+               nc_inq_att(variable->group, variable->id, attribute, &type, &length), 0))
     return false;
   if (type == NC_CHAR)
     read = read_text(variable, attribute, length, out, size);
@@ -287,16 +302,17 @@ int fg__nc_numbers(const fg__nc_variable *variable, const char *attribute, doubl
                    int capacity, nc_type *type)
 {
   size_t length;
-  if (nc_inq_att(variable->group, variable->id, attribute, type, &length) != NC_NOERR ||
+  if (!is_read(variable,
+               nc_inq_att(variable->group, variable->id, attribute, type, &length), 0) ||
       *type == NC_CHAR || *type > NC_UINT64 || *type < NC_BYTE || length == 0)
     return 0;
   double *all = fg__allocate(length, sizeof *all);
-  if (!all)
-    return 0;
+  const int error =
+      all ? nc_get_att_double(variable->group, variable->id, attribute, all) : NC_ENOMEM;
   int count = 0;
-  if (nc_get_att_double(variable->group, variable->id, attribute, all) == NC_NOERR)
+  if (!error)
     for (; count < capacity && (size_t)count < length; ++count)
       out[count] = all[count];
   free(all);
-  return count;
+  return is_read(variable, error, length * sizeof *all) ? count : 0;
 }

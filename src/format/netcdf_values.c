@@ -252,6 +252,8 @@ fg_status fg__nc_values(float *out, fg__nc_missing *missing, const fg__nc_file *
   slab s;
   set_slab(&s, variable, grid, position, time, level);
   value_sink to = {&p, missing, out};
+  if (file->exhausted)
+    return FG_STATUS_MEMORY;
   return read_slab(&s, file, variable, put_value, &to);
 }
 
@@ -312,5 +314,7 @@ fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
   slab s;
   set_slab(&s, variable, grid, position, time, level);
   mask_sink to = {&p, out};
+  if (file->exhausted)
+    return FG_STATUS_MEMORY;
   return read_slab(&s, file, variable, put_mask, &to);
 }

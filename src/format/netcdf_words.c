@@ -115,7 +115,9 @@ void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t siz
     if (join_shared(of_u, of_v, out, size))
       return;
   }
-  fg__nc_variable file = {.group = pair->component[0]->group, .id = NC_GLOBAL};
+  fg__nc_variable file = {.owner = pair->component[0]->owner,
+                          .group = pair->component[0]->group,
+                          .id = NC_GLOBAL};
   if (fg__nc_text(&file, "title", out, size))
     return;
   if (components == 3)

@@ -106,6 +106,7 @@ typedef struct fg__vtk {
   size_t array_count, array_capacity; /* FieldData's first, then the pieces' */
   size_t field_array_count;
   char *vectors[2]; /* the Vectors attribute of the points' and of the cells' data */
+  bool exhausted;   /* memory for what the markup says was lacking; the context says so */
 } fg__vtk;
 
 /* Parses the markup into `document` and finds the appended data. */

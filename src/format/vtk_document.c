@@ -23,26 +23,38 @@ static const xmlNode *child_named(const xmlNode *parent, const char *name)
   return node;
 }
 
-/* Copy of an attribute; NULL when it is not there. End with free. */
-static char *attribute(const xmlNode *node, const char *name)
+/* A copy of what libxml2 has copied, which NULL shows it could not. End with free. */
+static char *copy_of(fg__vtk *vtk, xmlChar *value)
 {
-  xmlChar *value = xmlGetNoNsProp(node, (const xmlChar *)name);
   char *copy = fg__copy_text((const char *)value);
   xmlFree(value);
+  if (!copy) {
+    vtk->exhausted = true;
+    fg__fail_memory(vtk->context, "what the markup says", 0);
+  }
   return copy;
 }
 
-static bool attribute_is(const xmlNode *node, const char *name, const char *expected)
+/* Copy of an attribute; NULL when it is not there. End with free. */
+static char *attribute(fg__vtk *vtk, const xmlNode *node, const char *name)
 {
-  char *value = attribute(node, name);
+  return xmlHasNsProp(node, (const xmlChar *)name, NULL)
+             ? copy_of(vtk, xmlGetNoNsProp(node, (const xmlChar *)name))
+             : NULL;
+}
+
+static bool attribute_is(fg__vtk *vtk, const xmlNode *node, const char *name,
+                         const char *expected)
+{
+  char *value = attribute(vtk, node, name);
   bool same = value && strcmp(value, expected) == 0;
   free(value);
   return same;
 }
 
-static fg_status bad_attribute(const fg__vtk *vtk, const xmlNode *node, const char *name)
+static fg_status bad_attribute(fg__vtk *vtk, const xmlNode *node, const char *name)
 {
-  char *value = attribute(node, name);
+  char *value = attribute(vtk, node, name);
   fg_status status =
       fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: line %ld: %s has %s \"%.200s\"",
                vtk->path, xmlGetLineNo(node), (const char *)node->name, name,
@@ -55,7 +67,7 @@ static fg_status read_file_attributes(fg__vtk *vtk, const xmlNode *root)
 {
   const uint16_t one = 1;
   const bool little_machine = *(const unsigned char *)&one == 1;
-  char *order = attribute(root, "byte_order");
+  char *order = attribute(vtk, root, "byte_order");
   bool big = order && strcmp(order, "BigEndian") == 0;
   bool order_known = !order || big || strcmp(order, "LittleEndian") == 0;
   free(order);
@@ -63,14 +75,14 @@ static fg_status read_file_attributes(fg__vtk *vtk, const xmlNode *root)
     return bad_attribute(vtk, root, "byte_order");
   vtk->swap = big == little_machine;
 
-  char *header = attribute(root, "header_type");
+  char *header = attribute(vtk, root, "header_type");
   vtk->header_bytes = header && strcmp(header, "UInt64") == 0 ? 8 : 4;
   bool header_known = !header || vtk->header_bytes == 8 || strcmp(header, "UInt32") == 0;
   free(header);
   if (!header_known)
     return bad_attribute(vtk, root, "header_type");
 
-  vtk->compressor = attribute(root, "compressor");
+  vtk->compressor = attribute(vtk, root, "compressor");
   if (!vtk->compressor || !vtk->compressor[0])
     vtk->compression = FG__VTK_PLAIN;
   else if (strcmp(vtk->compressor, "vtkZLibDataCompressor") == 0)
@@ -83,11 +95,11 @@ static fg_status read_file_attributes(fg__vtk *vtk, const xmlNode *root)
 }
 
 /* Directions other than the axes' own would turn the vectors against the grid. */
-static fg_status check_direction(const fg__vtk *vtk, const xmlNode *image)
+static fg_status check_direction(fg__vtk *vtk, const xmlNode *image)
 {
   static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   double direction[9];
-  char *text = attribute(image, "Direction");
+  char *text = attribute(vtk, image, "Direction");
   if (!text)
     return FG_STATUS_OK;
   bool good = fg__number_read_list(direction, 9, text);
@@ -96,7 +108,7 @@ static fg_status check_direction(const fg__vtk *vtk, const xmlNode *image)
     return bad_attribute(vtk, image, "Direction");
   for (int i = 0; i < 9; ++i)
     if (direction[i] != identity[i]) {
-      text = attribute(image, "Direction");
+      text = attribute(vtk, image, "Direction");
       fg__fail(
           vtk->context, FG_STATUS_UNSUPPORTED,
           "%s: a turned image, with Direction \"%.200s\"; only images along the axes "
@@ -108,19 +120,19 @@ static fg_status check_direction(const fg__vtk *vtk, const xmlNode *image)
   return FG_STATUS_OK;
 }
 
-static fg_status read_numbers(const fg__vtk *vtk, const xmlNode *node, const char *name,
+static fg_status read_numbers(fg__vtk *vtk, const xmlNode *node, const char *name,
                               double numbers[3])
 {
-  char *text = attribute(node, name);
+  char *text = attribute(vtk, node, name);
   bool good = !text || fg__number_read_list(numbers, 3, text);
   free(text);
   return good ? FG_STATUS_OK : bad_attribute(vtk, node, name);
 }
 
-static fg_status read_extent(const fg__vtk *vtk, const xmlNode *node, const char *name,
+static fg_status read_extent(fg__vtk *vtk, const xmlNode *node, const char *name,
                              int extent[6])
 {
-  char *text = attribute(node, name);
+  char *text = attribute(vtk, node, name);
   bool good = fg__number_read_integers(extent, 6, text);
   free(text);
   return good ? FG_STATUS_OK : bad_attribute(vtk, node, name);
@@ -204,31 +216,31 @@ static bool find_text(fg__vtk_array *array, const xmlNode *node)
   return true;
 }
 
-static char *find_units(const xmlNode *node)
+static void trim(char *text)
+{
+  size_t start = strspn(text, " \t\r\n"), length = strlen(text + start);
+  while (length > 0 && strchr(" \t\r\n", text[start + length - 1]))
+    --length;
+  memmove(text, text + start, length);
+  text[length] = '\0';
+}
+
+static char *find_units(fg__vtk *vtk, const xmlNode *node)
 {
   for (const xmlNode *child = node->children; child; child = child->next)
     if (is_element(child, "InformationKey") &&
-        attribute_is(child, "name", "UNITS_LABEL")) {
-      xmlChar *content = xmlNodeGetContent(child);
-      char *units = NULL;
-      if (content) {
-        char *text = (char *)content + strspn((char *)content, " \t\r\n");
-        size_t length = strlen(text);
-        while (length > 0 && strchr(" \t\r\n", text[length - 1]))
-          --length;
-        text[length] = '\0';
-        units = fg__copy_text(text);
-      }
-      xmlFree(content);
+        attribute_is(vtk, child, "name", "UNITS_LABEL")) {
+      char *units = copy_of(vtk, xmlNodeGetContent(child));
+      if (units)
+        trim(units);
       return units;
     }
   return NULL;
 }
 
-static fg_status read_storage(const fg__vtk *vtk, fg__vtk_array *array,
-                              const xmlNode *node)
+static fg_status read_storage(fg__vtk *vtk, fg__vtk_array *array, const xmlNode *node)
 {
-  char *format = attribute(node, "format");
+  char *format = attribute(vtk, node, "format");
   bool known = true;
   if (!format || strcmp(format, "ascii") == 0)
     array->storage = FG__VTK_ASCII;
@@ -245,7 +257,7 @@ static fg_status read_storage(const fg__vtk *vtk, fg__vtk_array *array,
     return find_text(array, node)
                ? FG_STATUS_OK
                : fg__fail_memory(vtk->context, "an array's text", array->text_size);
-  char *text = attribute(node, "offset");
+  char *text = attribute(vtk, node, "offset");
   char *end = text;
   errno = 0;
   unsigned long long offset = text ? strtoull(text, &end, 10) : 0;
@@ -259,17 +271,17 @@ static fg_status read_storage(const fg__vtk *vtk, fg__vtk_array *array,
 static fg_status read_array(fg__vtk *vtk, const xmlNode *node, fg__vtk_place place)
 {
   fg__vtk_array *array = NULL;
-  char *name = attribute(node, "Name");
+  char *name = attribute(vtk, node, "Name");
   fg_status status = fg__vtk_add_array(&array, vtk, name ? name : "", place);
   free(name);
   if (status != FG_STATUS_OK)
     return status;
 
-  char *type = attribute(node, "type");
+  char *type = attribute(vtk, node, "type");
   array->type = type_of(type);
   free(type);
-  array->units = find_units(node);
-  char *components = attribute(node, "NumberOfComponents");
+  array->units = find_units(vtk, node);
+  char *components = attribute(vtk, node, "NumberOfComponents");
   bool good =
       !components || (fg__number_read_integers(&array->components, 1, components) &&
                       array->components >= 1);
@@ -286,7 +298,7 @@ static fg_status read_arrays(fg__vtk *vtk, const xmlNode *parent, const char *na
   if (!data)
     return FG_STATUS_OK;
   if (place <= FG__VTK_CELLS && !vtk->vectors[place])
-    vtk->vectors[place] = attribute(data, "Vectors");
+    vtk->vectors[place] = attribute(vtk, data, "Vectors");
   for (const xmlNode *node = data->children; node; node = node->next)
     if (is_element(node, "DataArray")) {
       fg_status status = read_array(vtk, node, place);
@@ -330,10 +342,10 @@ static fg_status read_cells(fg__vtk *vtk, const xmlNode *node)
   return status;
 }
 
-static bool read_count(size_t *out, const xmlNode *node, const char *name)
+static bool read_count(size_t *out, fg__vtk *vtk, const xmlNode *node, const char *name)
 {
   int number = 0;
-  char *text = attribute(node, name);
+  char *text = attribute(vtk, node, name);
   const bool good = text && fg__number_read_integers(&number, 1, text) && number >= 0;
   free(text);
   *out = (size_t)number;
@@ -380,9 +392,9 @@ static fg_status read_piece_arrays(fg__vtk *vtk, const xmlNode *node)
 static fg_status read_unstructured_piece(fg__vtk *vtk, const xmlNode *node)
 {
   size_t points, cells;
-  if (!read_count(&points, node, "NumberOfPoints"))
+  if (!read_count(&points, vtk, node, "NumberOfPoints"))
     return bad_attribute(vtk, node, "NumberOfPoints");
-  if (!read_count(&cells, node, "NumberOfCells"))
+  if (!read_count(&cells, vtk, node, "NumberOfCells"))
     return bad_attribute(vtk, node, "NumberOfCells");
   if (points == 0 || cells == 0)
     return FG_STATUS_OK;
@@ -434,9 +446,9 @@ static fg_status check_pieces(const fg__vtk *vtk)
   return FG_STATUS_OK;
 }
 
-static fg_status fail_type(const fg__vtk *vtk, const xmlNode *root)
+static fg_status fail_type(fg__vtk *vtk, const xmlNode *root)
 {
-  char *type = attribute(root, "type");
+  char *type = attribute(vtk, root, "type");
   fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
            "%s: a VTK file of type \"%.100s\"; of VTK's XML files only ImageData, "
            "RectilinearGrid, StructuredGrid and UnstructuredGrid can be read yet",
@@ -455,7 +467,7 @@ static fg_status read_document(fg__vtk *vtk)
   static const char *const types[] = {"ImageData", "RectilinearGrid", "StructuredGrid",
                                       "UnstructuredGrid"};
   size_t at = 0;
-  while (at < 4 && !attribute_is(root, "type", types[at]))
+  while (at < 4 && !attribute_is(vtk, root, "type", types[at]))
     ++at;
   if (at == 4)
     return fail_type(vtk, root);
@@ -473,9 +485,9 @@ static fg_status read_document(fg__vtk *vtk)
     status = read_geometry(vtk, image);
   if (status == FG_STATUS_OK && vtk->appended) {
     const xmlNode *appended = child_named(root, "AppendedData");
-    vtk->appended_base64 = appended && attribute_is(appended, "encoding", "base64");
+    vtk->appended_base64 = appended && attribute_is(vtk, appended, "encoding", "base64");
     if (!appended ||
-        (!vtk->appended_base64 && !attribute_is(appended, "encoding", "raw")))
+        (!vtk->appended_base64 && !attribute_is(vtk, appended, "encoding", "raw")))
       status = bad_attribute(vtk, appended ? appended : root, "encoding");
   }
   if (status == FG_STATUS_OK)
@@ -492,5 +504,7 @@ fg_status fg__vtk_open_xml(fg__vtk *out, fg_context *context, const fg__source *
 {
   *out = (fg__vtk){.context = context, .path = source->path, .file_size = source->size};
   fg_status status = fg__vtk_parse(out, source);
-  return status == FG_STATUS_OK ? read_document(out) : status;
+  if (status == FG_STATUS_OK)
+    status = read_document(out);
+  return out->exhausted ? FG_STATUS_MEMORY : status;
 }

@@ -140,12 +140,14 @@ static fg_status parse(fg__vtk *vtk, const char *markup, size_t size)
   if (size > 10000000)
     options |= XML_PARSE_HUGE;
   xmlDoc *document = xmlCtxtReadMemory(parser, markup, (int)size, NULL, NULL, options);
+  const xmlError *error = xmlCtxtGetLastError(parser);
   fg_status status = FG_STATUS_OK;
   if (has_document_type) {
     status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                       "%s: has a document type, which a VTK file has not", vtk->path);
+  } else if (error && error->code == XML_ERR_NO_MEMORY) {
+    status = fg__fail_memory(vtk->context, "the markup", size);
   } else if (!document) {
-    const xmlError *error = xmlCtxtGetLastError(parser);
     const char *message = error && error->message ? error->message : "no reason given";
     status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: line %d: not XML: %.*s",
                       vtk->path, error ? error->line : 0, (int)strcspn(message, "\n"),
