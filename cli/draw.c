@@ -11,6 +11,7 @@
 #include "folder.h"
 #include "past_run.h"
 #include "rehearse.h"
+#include "unfit.h"
 
 static bool ends_with(const char *text, const char *end)
 {
@@ -27,12 +28,45 @@ int check_picture_name(const char *path, const char *command)
   return EXIT_USAGE;
 }
 
-/* Solids, too. */
-static int check_name(const char *path)
+/* What only pictures have. */
+static int check_solids(const cli_settings *settings)
 {
-  if (ends_with(path, ".vtp") || ends_with(path, ".glb"))
-    return check_place_of_file(path);
-  return check_picture_name(path, "draw");
+  const unfit_option unfit[] = {
+      {"view", settings->view_count > 0},
+      {"width", settings->width > 0.0},
+      {"no-frame", settings->no_frame},
+      {"transparent", settings->transparent},
+      {"palette", settings->palette && ends_with(settings->output, ".vtp")},
+  };
+  int code = refuse_unfit("draw", unfit, sizeof unfit / sizeof unfit[0],
+                          "only in a picture, and %s is none", settings->output);
+  return code ? code : check_place_of_file(settings->output);
+}
+
+static bool is_solids(const char *path)
+{
+  return ends_with(path, ".vtp") || ends_with(path, ".glb");
+}
+
+static int check_output(const cli_settings *settings)
+{
+  const char *path = settings->output;
+  if (settings->scale_index >= 0 && settings->cluster_count > 0) {
+    complain("--scale-index and --clusters each choose a scale: say one");
+    advise("Try 'flowgrain draw --help'.");
+    return EXIT_USAGE;
+  }
+  return is_solids(path) ? check_solids(settings) : check_picture_name(path, "draw");
+}
+
+static int check_dimension(const cli_settings *settings, int dimension)
+{
+  if (is_solids(settings->output) && dimension == 2) {
+    complain("-o %s: only in 3D, and %s is in 2D", settings->output, settings->operand);
+    advise("Try 'flowgrain draw --help'.");
+    return EXIT_USAGE;
+  }
+  return refuse_other_dimension("draw", settings, dimension, settings->operand);
 }
 
 /* The scale that the options choose, -1 after a complaint. */
@@ -183,9 +217,11 @@ int command_draw(const cli_settings *settings)
   fg_icons *icons = NULL;
   fg_field *field = NULL;
   fg_density *density = NULL;
-  int code = check_name(settings->output);
+  int code = check_output(settings);
   if (!code)
     code = report_read(&report, settings->operand);
+  if (!code)
+    code = check_dimension(settings, report.dimension);
   if (code)
     goto cleanup;
   int index = choose_scale(settings, &report);

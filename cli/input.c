@@ -6,16 +6,7 @@
 #include "options.h"
 #include "ranks.h"
 #include "rehearse.h"
-
-/* What is asked for, and is not there in 3D. */
-static int check_dimension(const cli_run *run)
-{
-  if (!scales_are_solid(run->field) || run->settings->extent == FG_ICON_EXTENT_CLUSTER)
-    return EXIT_DONE;
-  complain("--extent territory: %s is in 3D, where arrows stay in their clusters",
-           run->settings->operand);
-  return EXIT_USAGE;
-}
+#include "unfit.h"
 
 /* Parts, but where icons are made of the whole density (moment.c). */
 int input_read(cli_run *run)
@@ -34,7 +25,8 @@ int input_read(cli_run *run)
   if (status)
     return complain_of(run->context, status, run->settings->operand);
   run->facts.field = run->field;
-  return check_dimension(run);
+  return refuse_other_dimension("run", said, fg_field_contents(run->field)->dimension,
+                                said->operand);
 }
 
 /* How many times and levels there were to choose from; nothing when that can't be said.

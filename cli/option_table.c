@@ -215,7 +215,7 @@ const option_entry option_table[] = {
      "from the last to the first [four layers, the finest of a cluster every 52 pixels]"},
     {"extent", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(extent), 0, 0, false, false,
      extent_words,
-     "how far an arrow reaches: to the border of its `cluster`, or through its "
+     "how far an arrow reaches: to the border of its `cluster` or, in 2D, through its "
      "`territory`, all that is nearer to this cluster than to any other [cluster]"},
     {"seed", 0, "S", SEEDED, OPTION_SEED, AT(seed), 1, 0, false, false, NULL,
      "seed of the initial noise, from 1 [1]"},
@@ -279,7 +279,7 @@ const option_entry option_table[] = {
     {"key", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, AT(key), 0, 0, false, false, NULL,
      "with --palette: a key of the speeds' colours below the texture"},
     {"tint", 0, NULL, DRAWN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
-     "tint the clusters behind their arrows"},
+     "in 2D: tint the clusters behind their arrows"},
     {"tint", 0, NULL, COMMAND_DRAW, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
      "in 2D: tint the clusters behind their arrows, of a run with --save-field"},
     {"background", 0, "KIND", COMMAND_RUN | COMMAND_DRAW, OPTION_CHOICE, AT(background),
@@ -289,9 +289,9 @@ const option_entry option_table[] = {
      "with "
      "--save-field) [none]"},
     {"skeletons", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(skeletons), 0, 0, false, false,
-     NULL, "mark the spine of each cluster by dots, and its centre by a ring"},
+     NULL, "in 2D: mark the spine of each cluster by dots, and its centre by a ring"},
     {"centers", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(centers), 0, 0, false, false, NULL,
-     "mark the centre of each cluster by a ring"},
+     "in 2D: mark the centre of each cluster by a ring"},
     {"no-arrows", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(no_arrows), 0, 0, false, false,
      NULL,
      "in 2D: leave the arrows out of the picture; --tint, --skeletons and the "

@@ -219,14 +219,29 @@ static bool set_view(cli_settings *out, const cli_command *command,
   return true;
 }
 
+enum { TYPED_BYTES = 40 };
+
+/* An option as it was typed, "-o" or "--output"; `code` is what getopt_long made of it.
+ */
+static const char *typed_name(char out[TYPED_BYTES], const option_entry *option, int code)
+{
+  if (code >= LONG_BASE)
+    snprintf(out, TYPED_BYTES, "--%s", option->name);
+  else
+    snprintf(out, TYPED_BYTES, "-%c", option->letter);
+  return out;
+}
+
 static bool set_option(cli_settings *out, const cli_command *command,
-                       const option_entry *option, const char *text)
+                       const option_entry *option, int code, const char *text)
 {
   bool yes = true;
+  char typed[TYPED_BYTES];
   switch (option->kind) {
   case OPTION_TEXT:
     if (!*text)
-      return wrong(command, "--%s: its %s is empty", option->name, option->argument);
+      return wrong(command, "%s: its %s is empty", typed_name(typed, option, code),
+                   option->argument);
     memcpy((char *)out + option->place, &text, sizeof text);
     return true;
   case OPTION_FLAG:
@@ -302,6 +317,9 @@ int energy_place(const char *word)
 /* A word that no file is likely to be called is a wrong one. */
 static bool check_energy(const cli_settings *said, const cli_command *command)
 {
+  if (said->anisotropy > 0.0 && energy_place(said->energy) == FG_ENERGY_ISOTROPIC)
+    return wrong(command, "--anisotropy %g: not with --energy isotropic, which has none",
+                 said->anisotropy);
   if (energy_place(said->energy) >= 0)
     return true;
   char words[128];
@@ -354,10 +372,12 @@ parse_result options_parse(cli_settings *out, const cli_command *command, int ar
       break;
     if (code == '?' || code == ':') {
       const option_entry *known = optopt ? find_option(command, optopt) : NULL;
+      char typed[TYPED_BYTES];
       if (known && known->argument)
-        wrong(command, "--%s: its %s is missing", known->name, known->argument);
+        wrong(command, "%s: its %s is missing", typed_name(typed, known, optopt),
+              known->argument);
       else if (known)
-        wrong(command, "--%s: takes no argument", known->name);
+        wrong(command, "%s: takes no argument", typed_name(typed, known, optopt));
       else if (optopt)
         wrong(command, "%s: unknown option -%c", command->name, optopt);
       else
@@ -373,7 +393,7 @@ parse_result options_parse(cli_settings *out, const cli_command *command, int ar
       printf("flowgrain %s\n", fg_version());
       return PARSE_DONE;
     }
-    if (!set_option(out, command, option, optarg))
+    if (!set_option(out, command, option, code, optarg))
       return PARSE_WRONG;
   }
   return check_operands(out, command, argc - optind, argv + optind) ? PARSE_GO

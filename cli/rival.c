@@ -8,6 +8,7 @@
 #include "folder.h"
 #include "options.h"
 #include "rehearse.h"
+#include "unfit.h"
 
 static const char name_end[] = ".geojson";
 
@@ -166,12 +167,22 @@ static int publish(rival_work *work, int code)
 static int check_method(const cli_settings *said)
 {
   fg_rival_method method = (fg_rival_method)said->method;
-  if (fg_rival_divides(method) || !(said->tint || said->save_field))
-    return EXIT_DONE;
-  complain("--%s: the method %s has no clusters", said->tint ? "tint" : "save-field",
-           fg_rival_name(method));
-  advise("Try 'flowgrain rival --help'.");
-  return EXIT_USAGE;
+  const unfit_option of_clusters[] = {{"tint", said->tint},
+                                      {"save-field", said->save_field}};
+  const unfit_option of_discrete[] = {{"position-weight", said->position_weight >= 0.0},
+                                      {"elongation", said->elongation > 0.0}};
+  const unfit_option of_grids = {"lengths speed", said->lengths != 0};
+  int code = EXIT_DONE;
+  if (!fg_rival_divides(method))
+    code = refuse_unfit("rival", of_clusters, sizeof of_clusters / sizeof of_clusters[0],
+                        "the method %s has no clusters", fg_rival_name(method));
+  if (!code && method != FG_RIVAL_DISCRETE)
+    code = refuse_unfit("rival", of_discrete, sizeof of_discrete / sizeof of_discrete[0],
+                        "only with --method discrete");
+  if (!code && method != FG_RIVAL_HEDGEHOG && method != FG_RIVAL_GRID_CURVED)
+    code =
+        refuse_unfit("rival", &of_grids, 1, "only with --method hedgehog or grid-curved");
+  return code;
 }
 
 static int prepare(rival_work *work)
@@ -200,9 +211,9 @@ int command_rival(const cli_settings *settings)
   int count = settings->cluster_count;
   const int *counts = count ? settings->clusters : usual_counts;
   rival_work work = {.settings = settings};
-  int code = check_name(settings->output);
+  int code = check_method(settings);
   if (!code)
-    code = check_method(settings);
+    code = check_name(settings->output);
   if (!code)
     code = prepare(&work);
   for (int k = 0; !code && k < (count ? count : 1); ++k)

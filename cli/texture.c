@@ -1,6 +1,7 @@
 /* Paints a texture of a field. */
 #include "interrupt.h"
 #include "rehearse.h"
+#include "unfit.h"
 
 static int write_texture(fg_context *context, const cli_settings *settings,
                          const fg_field *field, const fg_texture *texture)
@@ -28,10 +29,39 @@ static int paint(fg_context *context, const cli_settings *settings, const fg_fie
   return code;
 }
 
+static int check_options(const cli_settings *settings)
+{
+  const unfit_option of_clusters[] = {
+      {"clusters", settings->cluster_count > 0},
+      {"max-time", settings->max_time > 0.0},
+      {"nodes", settings->nodes > 0},
+      {"energy", settings->energy != NULL},
+      {"anisotropy", settings->anisotropy > 0.0},
+      {"coverage", settings->coverage > 0.0},
+      {"gamma", settings->gamma > 0.0},
+  };
+  const unfit_option length = {"length", settings->length > 0.0};
+  const unfit_option key = {"key", settings->key};
+  int code = EXIT_DONE;
+  if (settings->kind == FG_TEXTURE_CLUSTERS)
+    code = refuse_unfit("texture", &length, 1, "not with --kind clusters");
+  else
+    code =
+        refuse_unfit("texture", of_clusters, sizeof of_clusters / sizeof of_clusters[0],
+                     "only with --kind clusters");
+  if (!code && !settings->palette)
+    code =
+        refuse_unfit("texture", &key, 1, "only with --palette, whose colours it shows");
+  else if (!code && settings->palette[0] == '#')
+    code = refuse_unfit("texture", &key, 1, "not with --palette %s, which is one colour",
+                        settings->palette);
+  return code ? code : check_picture_name(settings->output, "texture");
+}
+
 int command_texture(const cli_settings *settings)
 {
   const fg_read_options reading = settings_reading(settings);
-  int code = check_picture_name(settings->output, "texture");
+  int code = check_options(settings);
   if (!code && rehearse_reading(settings->operand, &reading))
     code = EXIT_FAILED;
   if (code)

@@ -90,6 +90,9 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
                     "%s: an analytic field has no variables, masks, times or levels to "
                     "choose from",
                     input);
+  if (options && (options->scale == FG_SCALE_GEO || options->scale == FG_SCALE_MAP))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: an analytic field is neither on the globe nor on a map", input);
   return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
 }
 

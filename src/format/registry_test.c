@@ -156,7 +156,8 @@ static void analytic_fields_offer_no_choice(void **state)
 {
   place *p = *state;
   const fg_read_options choices[] = {
-      {.vars = "a,b"}, {.vars_from = "x"}, {.mask = "m"}, {.time = 3}, {.level = 1}};
+      {.vars = "a,b"}, {.vars_from = "x"},      {.mask = "m"},          {.time = 3},
+      {.level = 1},    {.scale = FG_SCALE_GEO}, {.scale = FG_SCALE_MAP}};
   for (size_t k = 0; k < sizeof choices / sizeof *choices; ++k) {
     fg_field *field = NULL;
     fg_context_clear(p->context);

@@ -57,6 +57,24 @@ for said in 'draw run -o no-such-folder/x.svg' 'synth saddle -o no-such-folder/x
 done
 done_with "draw and synth: a folder that is not there"
 
+for option in '--view 30,20' --surfaces; do
+  for words in 'draw run -o x.svg' 'run synth:saddle -o x --nodes 65 --clusters 8'; do
+    # shellcheck disable=SC2086
+    try $words $option
+    expect_code 2
+    expect_one_complaint
+    expect_error "^flowgrain: ${option%% *}: only in 3D, and (run|synth:saddle) is in 2D$"
+    expect_nothing_at x.svg
+    expect_nothing_at x
+  done
+done
+try draw run -o x.glb
+expect_code 2
+expect_one_complaint
+expect_error '^flowgrain: -o x.glb: only in 3D, and run is in 2D$'
+expect_nothing_at x.glb
+done_with "draw and run: what a picture in 2D can not show is refused"
+
 for other in 'synth:vortex3d' 'other.vti' 'finer.vti'; do
   try synth saddle -o finer.vti --nodes 77
   printf '%s\n' '<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian"><ImageData' \

@@ -42,7 +42,8 @@ expect_code 0
 cmp -s parts-10.geojson other.geojson && fault "the weight changes nothing"
 done_with "rival: clusters behind the arrows, and in a file"
 
-for wrong in "--tint" "--save-field" "--method discrete --elongation 0.5" "--method discrete --position-weight 2"; do
+for wrong in "--tint" "--save-field" "--elongation 3" "--method top-down --position-weight 0" \
+  "--method discrete --lengths speed" "--method streamlines --lengths speed" "--method discrete --elongation 0.5" "--method discrete --position-weight 2"; do
   # shellcheck disable=SC2086
   try rival synth:vortex3 -o x.geojson $wrong
   expect_code 2

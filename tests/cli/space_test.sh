@@ -114,11 +114,22 @@ expect_code 0
 cmp -s out1/scale-00.vti out3/scale-00.vti && fault "the seed changes nothing"
 done_with "another seed gives another pattern"
 
-try run synth:abc -o out4 --extent territory --nodes 17 --quiet
-expect_code 2
-expect_one_complaint
-expect_nothing_at out4
-done_with "territories are refused in 3D"
+for option in '--extent territory' --tint '--background lic' --skeletons --centers --no-arrows; do
+  # shellcheck disable=SC2086
+  try run synth:abc -o out4 $option --nodes 17 --quiet
+  expect_code 2
+  expect_one_complaint
+  expect_error "^flowgrain: $(cut -d ' ' -f 1 <<<"$option").*: only in 2D, and synth:abc is in 3D$"
+  expect_nothing_at out4
+done
+for option in --tint '--background clusters'; do
+  # shellcheck disable=SC2086
+  try draw out1 -o x.png $option
+  expect_code 2
+  expect_one_complaint
+  expect_nothing_at x.png
+done
+done_with "what a picture in 3D can not show is refused"
 
 if [ -n "$pictures" ]; then
   try draw out1 -o again.png --scale-index 0 --width 96

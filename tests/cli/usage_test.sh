@@ -37,6 +37,11 @@ wrong 'checkpoint -1: a number in .0, 1e.09.' run a -o x --checkpoint -1
 done_with "seconds between checkpoints are not negative"
 wrong '--nodes.*missing' run a -o x --nodes
 done_with "missing argument"
+wrong '^flowgrain: -o: its DIR is missing$' run a -o
+wrong '^flowgrain: --output: its PICTURE is missing$' draw a --output
+wrong '^flowgrain: -o: its FILE is empty$' synth vortex -o ''
+wrong '^flowgrain: --output: its DIR is empty$' run a --output=
+done_with "an option is named as it was typed"
 wrong '--force.*no argument' run a -o x --force=yes
 done_with "argument that is not taken"
 wrong 'mesh adapted: not known; .*: auto, adaptive, uniform$' run a -o x --mesh adapted
@@ -52,6 +57,14 @@ for bad in "--nodes 3" "--nodes 100000" "--nodes 1e2" "--nodes= 65" "--anisotrop
   wrong "^flowgrain: --" run synth:vortex -o x $bad
   done_with "run $bad"
 done
+wrong 'anisotropy 0.5: not with --energy isotropic' run a -o x --energy isotropic --anisotropy 0.5
+wrong '--scale-index and --clusters' draw a -o x.svg --scale-index 0 --clusters 9
+for words in "--view 30,20" "--width 60" --no-frame --transparent; do
+  # shellcheck disable=SC2086
+  wrong "^flowgrain: ${words%% *}: only in a picture, and x.glb is none$" draw a -o x.glb $words
+done
+wrong '^flowgrain: --palette: only in a picture, and x.vtp is none$' draw a -o x.vtp --palette deep
+done_with "options that do not fit others are refused"
 wrong '\.svg, \.pdf or \.png' draw a -o picture.gif
 done_with "draw: unknown picture format"
 wrong 'analytic field' synth nosuch -o x.vti
