@@ -55,17 +55,28 @@ static int write_results(cli_run *run)
   return code ? code : output_publish(&run->output);
 }
 
+/* What else is to be said of a scale's arrows; "" for nothing. */
+enum { ASIDE_BYTES = 64 };
+static const char *say_dropped(char out[ASIDE_BYTES], int dropped)
+{
+  out[0] = '\0';
+  if (dropped > 0)
+    snprintf(out, ASIDE_BYTES, ", %d cluster%s too small for one", dropped,
+             dropped == 1 ? "" : "s");
+  return out;
+}
+
 static void print_summary(const cli_run *run)
 {
   char ends[SCALE_FILES][SCALE_END_BYTES];
   scale_file_ends(ends, run->settings, run->field);
   for (int k = 0; k < drawing_count(run->drawing); ++k) {
     const scale_result *result = drawing_result(run->drawing, k);
-    char name[SCALE_NAME_BYTES];
+    char name[SCALE_NAME_BYTES], aside[ASIDE_BYTES];
     scale_name(name, k, ends[1]); /* its first picture */
     char *path = join_path(run->settings->output, name);
-    printf("%4d clusters %4d icons  %s\n", result->clusters, result->icons,
-           path ? path : name);
+    printf("%4d clusters %4d icons%s  %s\n", result->clusters, result->icons,
+           say_dropped(aside, result->dropped), path ? path : name);
     free(path);
   }
 }

@@ -20,6 +20,14 @@ while read -r line; do
 done <out
 done_with "standard output names a picture a scale"
 
+try run synth:saddle -o small --nodes 65 --clusters 16,8 --quiet
+expect_code 0
+expect_json small/run.json '[.scales[].dropped] | add > 0'
+jq -r '.scales[] | "\(.clusters) clusters \(.icons) icons" + ({"0": "", "1": ", 1 cluster too small for one"}[
+  .dropped | tostring] // ", \(.dropped) clusters too small for one") + " small/" + .svg' small/run.json >told
+sed 's/  */ /g; s/^ //' out | cmp -s - told || fault "$(cat out)"
+done_with "it also tells how many clusters are too small for an arrow"
+
 report=out1/run.json
 expect_json $report '.version | test("^[0-9.]+$")'
 expect_json $report '.input.path == "synth:vortex3"'
