@@ -84,7 +84,8 @@ FG_API fg_status fg_texture_write(fg_context *context, const char *path,
 
 /* Pixels that the whole domain has in the picture that fg_picture_write would draw with
  * these options, whose frame may show less of it: the size of a background that needs no
- * stretching. ARGUMENT, MEMORY. */
+ * stretching. Where that is more than 16 times the frame's pixels, so many of its shape.
+ * ARGUMENT, MEMORY. */
 FG_API fg_status fg_picture_frame(int size[2], fg_context *context, const fg_field *field,
                                   const fg_icons *icons,
                                   const fg_picture_options *options);

@@ -27,6 +27,10 @@ static const fg__color lone_tint = {0.56, 0.68, 0.83};
 static const double usual_fade = 0.7;
 static const double most_background = 16384.0;
 
+/* Where the frame shows a small part of the domain, the texture of all of it has at most
+ * so many pixels for each of the frame, so that it does not cost hundreds of pictures. */
+static const double background_beyond = 16.0;
+
 /* Checked so that NaN fails too. */
 static bool size_usable(double size)
 {
@@ -241,9 +245,12 @@ fg_status fg_picture_frame(int size[2], fg_context *context, const fg_field *fie
   if (!status)
     status = prepare(p, context, field, icons, options ? options : &usual);
   if (!status) {
-    const fg__box *box = &p->style.background_box;
-    size[0] = pixels_of(p->pixels_per_point * (box->x1 - box->x0));
-    size[1] = pixels_of(p->pixels_per_point * (box->y1 - box->y0));
+    const fg__box *box = &p->style.background_box, *frame = &p->page.frame;
+    double wide = box->x1 - box->x0, high = box->y1 - box->y0;
+    double most = background_beyond * (frame->x1 - frame->x0) * (frame->y1 - frame->y0);
+    double pixels = p->pixels_per_point * fmin(sqrt(most / (wide * high)), 1.0);
+    size[0] = pixels_of(pixels * wide);
+    size[1] = pixels_of(pixels * high);
   }
   free(p);
   return status;

@@ -101,15 +101,16 @@ static void mask_axis_clear(mask_axis *axis)
   free(axis->cell);
 }
 
+/* scale: points a unit of the coordinates. */
 static bool mask_axis_create(mask_axis *out, const fg_field_arrays *field, int k,
-                             double points)
+                             double scale)
 {
   int samples = field->size[k];
   int cells = field->period[k] > 0.0 ? samples : samples - 1;
   double low = field->axis[k][0];
   double high =
       field->period[k] > 0.0 ? low + field->period[k] : field->axis[k][samples - 1];
-  double most = fmax(ceil(mask_cells_a_point * points), 1.0);
+  double most = fmax(ceil(mask_cells_a_point * scale * (high - low)), 1.0);
   bool sampled = cells > most;
   out->count = sampled ? (int)most : cells;
   out->edge = fg__allocate((size_t)out->count + 1, sizeof *out->edge);
@@ -148,9 +149,8 @@ static fg_status make_mask(fg__polygons *out, fg_context *context, const fg__pag
   const fg_field_arrays *grid = fg_field_contents(field);
   mask_axis axis[2] = {{0}, {0}};
   unsigned char *mask = NULL;
-  const fg__box *frame = &page->frame;
-  if (!mask_axis_create(&axis[0], grid, 0, frame->x1 - frame->x0) ||
-      !mask_axis_create(&axis[1], grid, 1, frame->y1 - frame->y0)) {
+  if (!mask_axis_create(&axis[0], grid, 0, page->scale) ||
+      !mask_axis_create(&axis[1], grid, 1, page->scale)) {
     status = fg__fail_memory(context, "the mask's grid", sizeof axis);
     goto cleanup;
   }
