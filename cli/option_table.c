@@ -253,8 +253,10 @@ const option_entry option_table[] = {
     {"input", 0, "FILE", COMMAND_DRAW, OPTION_TEXT, AT(input), 0, 0, false, false, NULL,
      "where the field is now, if it is no longer where run.json says"},
 
-    {"formats", 0, "LIST", DRAWN, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
+    {"formats", 0, "LIST", COMMAND_RUN, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
      "picture formats, of svg, png and pdf [svg,png; in 3D png]"},
+    {"formats", 0, "LIST", COMMAND_RIVAL, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
+     "picture formats, of svg, png and pdf [svg,png]"},
     /* 14400 points are the largest page that PDF readers promise to show. */
     {"width", 0, "POINTS", PICTURES, OPTION_NUMBER, AT(width), 36, 14400, false, false,
      NULL, "width of the picture in points of 1/72 inch [480]"},

@@ -42,6 +42,11 @@ expect_code 0
 cmp -s parts-10.geojson other.geojson && fault "the weight changes nothing"
 done_with "rival: clusters behind the arrows, and in a file"
 
+try rival --help
+expect_code 0
+grep -q 3D out && fault "its help speaks of 3D: $(grep 3D out)"
+done_with "rival: help is about two dimensions"
+
 for wrong in "--tint" "--save-field" "--elongation 3" "--method top-down --position-weight 0" \
   "--method discrete --lengths speed" "--method streamlines --lengths speed" "--method discrete --elongation 0.5" "--method discrete --position-weight 2"; do
   # shellcheck disable=SC2086
