@@ -76,22 +76,27 @@ fg_status fg__window_cut(fg__window *out, fg_context *context,
                          const fg__patch *patch, int cluster);
 void fg__window_clear(fg__window *window);
 
+/* Room for the levels, zero, and active cells of a window whose nodes are set; the window
+ * is empty after a failure. MEMORY. */
+fg_status fg__window_allocate(fg__window *window, fg_context *context);
+
 /* Of the pieces of {level > 0} only the largest stays. MEMORY. */
 fg_status fg__window_keep_largest(fg__window *window, fg_context *context);
 
-/* A part of a cluster that gets an icon of its own, of at most so many. */
-enum { FG__WINDOW_PARTS = 4 };
+/* A part of a cluster that gets an icon of its own, of at most so many, in 2D and 3D: a
+ * box has eight corners. */
+enum { FG__WINDOW_PARTS = 8 };
 
 typedef struct fg__window_part {
   fg__window window;
-  double share; /* of the cluster */
+  double share; /* of the cluster: those of all parts are 1 together */
 } fg__window_part;
 
 /* Cuts a cluster's window where it crosses periodic borders, since a map ends there: the
- * largest part, and each that holds a quarter of the cluster, or of the mean cluster, in
- * the domain's own coordinates, from left to right and from below to above. A cut edge is
- * at_border. One that crosses none is the only part. Takes `whole`, which is empty
- * afterwards; *count parts are to be cleared, also after a failure. MEMORY. */
+ * largest part, and the larger ones of those that hold a quarter of the cluster, or of
+ * the mean cluster, each where it lies in the domain; in the window's order, x fastest.
+ * A cut edge is at_border. One that crosses none is the only part. Takes `whole`, which
+ * is empty afterwards; *count parts are to be cleared, also after a failure. MEMORY. */
 fg_status fg__window_divide(fg__window_part part[FG__WINDOW_PARTS], int *count,
                             fg_context *context, const fg_density_arrays *density,
                             const fg__labels *labels, fg__window *whole);

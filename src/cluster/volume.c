@@ -5,46 +5,7 @@
 
 #include "base/context.h"
 #include "base/memory.h"
-#include "evolve/components.h"
-
-/* As in window.c. */
-enum { RIM = 2 };
-static const float outside_level = -1.0F;
-
-static int wrap(int index, int period)
-{
-  int rest = index % period;
-  return rest < 0 ? rest + period : rest;
-}
-
-/* Where something else than the cluster is positive: window.c says why. */
-static float turned_off(float u)
-{
-  return fminf(-u / 1024.0F, -0x1p-100F);
-}
-
-/* Sets the window's place on the density's grid; corner is its lowest node there. */
-static void place(fg__volume *volume, int corner[3], const fg_density_arrays *density,
-                  const fg__labels *labels)
-{
-  const int *bounds = labels->bounds[volume->cluster - 1];
-  const bool *closed = labels->closed[volume->cluster - 1];
-  for (int k = 0; k < 3; ++k) {
-    int first = closed[k] ? bounds[2 * k] : bounds[2 * k] - RIM;
-    int last = closed[k] ? bounds[2 * k + 1] : bounds[2 * k + 1] + RIM;
-    volume->at_border[2 * k] = volume->at_border[2 * k + 1] = closed[k];
-    if (!density->periodic[k]) {
-      volume->at_border[2 * k] = first <= 0;
-      volume->at_border[2 * k + 1] = last >= density->nodes[k] - 1;
-      first = first < 0 ? 0 : first;
-      last = last > density->nodes[k] - 1 ? density->nodes[k] - 1 : last;
-    }
-    corner[k] = first;
-    volume->nodes[k] = last - first + 1;
-    volume->spacing[k] = density->spacing[k];
-    volume->origin[k] = density->origin[k] + first * density->spacing[k];
-  }
-}
+#include "cluster/cut.h"
 
 /* Where the window's node (cell) `at` lies in a patch that is `width` wide along an axis.
  */
@@ -54,7 +15,7 @@ static size_t in_patch(const int at[3], const int corner[3],
 {
   size_t index = 0;
   for (int k = 2; k >= 0; --k) {
-    int place = wrap(corner[k] + at[k] - patch->first[k], density->nodes[k]);
+    int place = fg__cut_wrap(corner[k] + at[k] - patch->first[k], density->nodes[k]);
     index = index * (size_t)width[k] + (size_t)place;
   }
   return index;
@@ -93,31 +54,17 @@ static void copy_level(fg__volume *volume, const int corner[3],
                       corner[k] + at[k] <= bounds[2 * k + 1];
         float u = patch->u[node];
         if (patch->label[node] == 0)
-          *level = u <= 0.0F ? u : outside_level;
+          *level = u <= 0.0F ? u : FG__CUT_OUTSIDE;
         else
-          *level = patch->label[node] == volume->cluster && in_bounds ? u : turned_off(u);
+          *level = patch->label[node] == volume->cluster && in_bounds
+                       ? u
+                       : fg__cut_turned_off(u);
       }
 }
 
 fg_status fg__volume_keep_largest(fg__volume *volume, fg_context *context)
 {
-  fg__component_grid grid = {
-      .nodes = {volume->nodes[0], volume->nodes[1], volume->nodes[2]},
-      .u = volume->level,
-      .active = volume->active,
-  };
-  fg__components pieces = {0};
-  fg_status status = fg__components_find(&pieces, context, &grid);
-  int largest = 1;
-  for (int k = 1; k < pieces.count && !status; ++k)
-    if (pieces.area[k] > pieces.area[largest - 1])
-      largest = k + 1;
-  size_t nodes = fg__volume_count(volume);
-  for (size_t k = 0; k < nodes && !status; ++k)
-    if (volume->level[k] > 0.0F && pieces.label[k] != largest)
-      volume->level[k] = turned_off(volume->level[k]);
-  fg__components_clear(&pieces);
-  return status;
+  return fg__cut_keep_largest(volume->level, volume->active, volume->nodes, context);
 }
 
 fg_status fg__volume_cut(fg__volume *out, fg_context *context,
@@ -129,26 +76,37 @@ fg_status fg__volume_cut(fg__volume *out, fg_context *context,
     return fg__fail(context, FG_STATUS_ARGUMENT, "window: cluster %d of %d", cluster,
                     labels->count);
   int corner[3];
-  place(out, corner, density, labels);
-  size_t nodes = fg__volume_count(out), cells = 1;
   bool unwrapped = false;
   for (int k = 0; k < 3; ++k) {
-    cells *= (size_t)out->nodes[k] - 1;
+    out->spacing[k] = density->spacing[k];
+    corner[k] = fg__cut_place(&out->nodes[k], &out->origin[k], &out->at_border[2 * k],
+                              density, labels, cluster, k);
     unwrapped = unwrapped || labels->bounds[cluster - 1][2 * k + 1] >= density->nodes[k];
   }
-  out->level = fg__allocate(nodes, sizeof *out->level);
-  out->active = fg__allocate(cells, 1);
-  if (!out->level || !out->active) {
-    fg__volume_clear(out);
-    return fg__fail_memory(context, "a cluster's window", nodes * sizeof(float) + cells);
-  }
+  fg_status status = fg__volume_allocate(out, context);
+  if (status)
+    return status;
   copy_active(out, corner, density, patch);
   copy_level(out, corner, density, labels, patch);
   /* unwrapped, or cut, a cluster can show parts of itself a second time */
-  fg_status status = unwrapped ? fg__volume_keep_largest(out, context) : FG_STATUS_OK;
+  if (unwrapped)
+    status = fg__volume_keep_largest(out, context);
   if (status)
     fg__volume_clear(out);
   return status;
+}
+
+fg_status fg__volume_allocate(fg__volume *volume, fg_context *context)
+{
+  size_t nodes = fg__volume_count(volume), cells = 1;
+  for (int k = 0; k < 3; ++k)
+    cells *= (size_t)volume->nodes[k] - 1;
+  volume->level = fg__allocate(nodes, sizeof *volume->level);
+  volume->active = fg__allocate(cells, 1);
+  if (volume->level && volume->active)
+    return FG_STATUS_OK;
+  fg__volume_clear(volume);
+  return fg__fail_memory(context, "a cluster's window", nodes * sizeof(float) + cells);
 }
 
 void fg__volume_clear(fg__volume *volume)
@@ -194,7 +152,7 @@ double fg__volume_level(const fg__volume *volume, const double position[3])
   size_t node[8];
   if (!find_cell(volume, position, cell, share) ||
       !volume->active[fg__volume_cell(volume, cell[0], cell[1], cell[2])])
-    return (double)outside_level;
+    return (double)FG__CUT_OUTSIDE;
   weigh(volume, cell, share, node, weight);
   for (int c = 0; c < 8; ++c)
     sum += weight[c] * (double)volume->level[node[c]];

@@ -23,24 +23,20 @@ fg_status fg__volume_cut(fg__volume *out, fg_context *context,
                          const fg__patch *patch, int cluster);
 void fg__volume_clear(fg__volume *volume);
 
+/* As fg__window_allocate. MEMORY. */
+fg_status fg__volume_allocate(fg__volume *volume, fg_context *context);
+
 /* Of the pieces of {level > 0} only the largest stays. MEMORY. */
 fg_status fg__volume_keep_largest(fg__volume *volume, fg_context *context);
 
-/* A part of a cluster that gets an icon of its own, of at most so many: a box has eight
- * corners. */
-enum { FG__VOLUME_PARTS = 8 };
-
+/* As fg__window_part. */
 typedef struct fg__volume_part {
   fg__volume volume;
-  double share; /* of the cluster */
+  double share;
 } fg__volume_part;
 
-/* Cuts a cluster's window where it crosses periodic borders, as fg__window_divide does in
- * 2D: the largest part, and the larger ones of those that hold a quarter of the cluster,
- * or of the mean cluster, each where it lies in the domain; in the window's order, x
- * fastest. Takes `whole`, which is empty afterwards; *count parts are to be cleared, also
- * after a failure. MEMORY. */
-fg_status fg__volume_divide(fg__volume_part part[FG__VOLUME_PARTS], int *count,
+/* As fg__window_divide. MEMORY. */
+fg_status fg__volume_divide(fg__volume_part part[FG__WINDOW_PARTS], int *count,
                             fg_context *context, const fg_density_arrays *density,
                             const fg__labels *labels, fg__volume *whole);
 

@@ -243,7 +243,7 @@ static fg_status make_solids(icon_job *job, fg_context *context, fg__solid_maker
   int cluster = source->cluster ? source->cluster[index] : index + 1;
   fg_icon *icon = &job->icon[(size_t)index * FG__ICON_PARTS];
   fg__volume whole = {0};
-  fg__volume_part part[FG__VOLUME_PARTS] = {{{0}, 0.0}};
+  fg__volume_part part[FG__WINDOW_PARTS] = {{{0}, 0.0}};
   int parts = 0;
   fg_status status =
       fg__volume_cut(&whole, context, source->density, source->labels,

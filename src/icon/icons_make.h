@@ -19,10 +19,7 @@ typedef struct fg__icon_source {
 } fg__icon_source;
 
 /* Places for a cluster's icons: a cluster across a periodic border may have several. */
-enum {
-  FG__ICON_PARTS = (int)FG__WINDOW_PARTS > (int)FG__VOLUME_PARTS ? (int)FG__WINDOW_PARTS
-                                                                 : (int)FG__VOLUME_PARTS
-};
+enum { FG__ICON_PARTS = FG__WINDOW_PARTS };
 
 /* [clusters * FG__ICON_PARTS], zeroed; NULL when there is no memory. fg__icons_free ends
  * them with their points. */

@@ -1,14 +1,8 @@
 /* No solid crosses a periodic border: a picture of the domain ends there. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <stdlib.h>
 
-#include "flowgrain/flowgrain.h"
+#include "base/context_test.h"
 #include "solid/vector.h"
 
 enum { N = 48, M = 40, L = 36, MOST = N };

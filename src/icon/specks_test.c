@@ -1,12 +1,7 @@
 /* Arrows too small beside the others. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
+#include "base/context_test.h"
 #include "icon/specks.h"
 #include "solid/make.h"
 

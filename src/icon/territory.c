@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "cluster/cut.h"
 #include "skeleton/heap.h"
 
 /* First order fast marching from all clusters at once (Sethian, "A fast marching level
@@ -193,12 +194,6 @@ static void find_reach(const fg__territories *land, const double center[2], doub
   }
 }
 
-static int wrap(int index, int period)
-{
-  int rest = index % period;
-  return rest < 0 ? rest + period : rest;
-}
-
 /* Narrows the bounds to the territory and a rim. */
 static void find_land(const fg__territories *land, int cluster, int bounds[4])
 {
@@ -206,7 +201,8 @@ static void find_land(const fg__territories *land, int cluster, int bounds[4])
   int found[4] = {bounds[1], bounds[0], bounds[3], bounds[2]};
   for (int y = bounds[2]; y <= bounds[3]; y++)
     for (int x = bounds[0]; x <= bounds[1]; x++)
-      if (land->owner[wrap(y, nodes[1]) * nodes[0] + wrap(x, nodes[0])] == cluster) {
+      if (land->owner[fg__cut_wrap(y, nodes[1]) * nodes[0] + fg__cut_wrap(x, nodes[0])] ==
+          cluster) {
         found[0] = x < found[0] ? x : found[0];
         found[1] = x > found[1] ? x : found[1];
         found[2] = y < found[2] ? y : found[2];
@@ -233,20 +229,16 @@ fg_status fg__territory_window(fg__window *out, fg_context *context,
     out->spacing[k] = land->spacing[k];
     out->origin[k] = land->origin[k] + bounds[2 * k] * land->spacing[k];
   }
-  size_t nodes = (size_t)out->nodes[0] * (size_t)out->nodes[1];
-  size_t cells = (size_t)(out->nodes[0] - 1) * (size_t)(out->nodes[1] - 1);
-  out->level = fg__allocate(nodes, sizeof *out->level);
-  out->active = fg__allocate(cells, 1);
-  if (!out->level || !out->active) {
-    fg__window_clear(out);
-    return fg__fail_memory(context, "a territory", nodes * sizeof(float) + cells);
-  }
+  fg_status status = fg__window_allocate(out, context);
+  if (status)
+    return status;
   const int *size = land->grid.nodes;
   float *level = out->level;
   unsigned char *active = out->active;
   for (int j = 0; j < out->nodes[1]; j++)
     for (int i = 0; i < out->nodes[0]; i++) {
-      int x = wrap(bounds[0] + i, size[0]), y = wrap(bounds[2] + j, size[1]);
+      int x = fg__cut_wrap(bounds[0] + i, size[0]),
+          y = fg__cut_wrap(bounds[2] + j, size[1]);
       *level++ = (float)level_at(land, x, y, cluster);
       if (i < out->nodes[0] - 1 && j < out->nodes[1] - 1)
         *active++ = fg__components_cell_active(&land->grid, x, y);

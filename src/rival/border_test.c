@@ -148,9 +148,6 @@ static void clusters_are_parted(void **state)
   fg__rival_parts_clear(&parts);
 }
 
-#define CASE(function)                                                                   \
-  cmocka_unit_test_setup_teardown(function, context_set_up, context_tear_down)
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {

@@ -351,8 +351,6 @@ static void icons_and_clusters_of_the_public_calls(void **state)
 
 int main(void)
 {
-#define CASE(function)                                                                   \
-  cmocka_unit_test_setup_teardown(function, context_set_up, context_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(clusters_are_nested_and_as_many_as_wanted),
       CASE(numbers_are_in_the_order_of_first_cells),

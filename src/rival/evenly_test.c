@@ -184,8 +184,6 @@ static void the_number_is_nearly_met(void **state)
 
 int main(void)
 {
-#define CASE(function)                                                                   \
-  cmocka_unit_test_setup_teardown(function, context_set_up, context_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(lines_keep_their_distance),       CASE(also_across_a_periodic_border),
       CASE(lines_stay_away_from_themselves), CASE(a_uniform_flow_is_covered),

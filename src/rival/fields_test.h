@@ -8,6 +8,9 @@
 
 #include <math.h>
 
+#define CASE(function)                                                                   \
+  cmocka_unit_test_setup_teardown(function, context_set_up, context_tear_down)
+
 enum { COLUMNS = 61, ROWS = 45 };
 static const double CORNER[2] = {-7, 3};
 static const double SAMPLING[2] = {0.5, 0.4};

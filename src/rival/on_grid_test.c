@@ -168,20 +168,13 @@ static void what_cannot_be_is_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test_setup_teardown(hedgehog_is_straight_along_the_flow, context_set_up,
-                                      context_tear_down),
-      cmocka_unit_test_setup_teardown(hedgehog_points_are_a_grid, context_set_up,
-                                      context_tear_down),
-      cmocka_unit_test_setup_teardown(lengths_follow_the_speed, context_set_up,
-                                      context_tear_down),
-      cmocka_unit_test_setup_teardown(curved_ones_follow_the_flow, context_set_up,
-                                      context_tear_down),
-      cmocka_unit_test_setup_teardown(straight_ones_stay_in_the_domain, context_set_up,
-                                      context_tear_down),
-      cmocka_unit_test_setup_teardown(the_number_is_nearly_met, context_set_up,
-                                      context_tear_down),
-      cmocka_unit_test_setup_teardown(what_cannot_be_is_refused, context_set_up,
-                                      context_tear_down),
+      CASE(hedgehog_is_straight_along_the_flow),
+      CASE(hedgehog_points_are_a_grid),
+      CASE(lengths_follow_the_speed),
+      CASE(curved_ones_follow_the_flow),
+      CASE(straight_ones_stay_in_the_domain),
+      CASE(the_number_is_nearly_met),
+      CASE(what_cannot_be_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,9 @@
 #include "rival/parts.h"
 
 #include "base/memory.h"
+#include "cluster/parts.h"
 
 #include <stdlib.h>
-
-/* As in cluster/stretch.c: a smaller part would be a small arrow beside large ones. */
-static const double LEAST_SHARE = 0.25;
 
 /* Cells of one cluster that are joined within the box, before small ones are left out. */
 typedef struct piece {
@@ -140,8 +138,7 @@ static void number_pieces(const parting *p, fg__rival_parts *out, int *number)
       *most = n;
   }
   for (int n = 0; n < p->pieces; n++) {
-    double least = p->cells[p->piece[n].cluster];
-    least = LEAST_SHARE * (least < mean ? least : mean);
+    double least = fg__part_least(p->cells[p->piece[n].cluster], mean);
     number[n] = n == largest[p->piece[n].cluster] || p->piece[n].cells >= least;
   }
   int *next = p->cells; /* of each cluster, from here on: how many parts are before it */

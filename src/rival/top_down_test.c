@@ -246,8 +246,6 @@ static void as_many_icons_as_wanted(void **state)
 
 int main(void)
 {
-#define CASE(function)                                                                   \
-  cmocka_unit_test_setup_teardown(function, context_set_up, context_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(the_worst_is_divided),
       CASE(the_largest_error_shrinks),
