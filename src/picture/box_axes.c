@@ -11,6 +11,12 @@ static const double least_step = 4.5; /* from one number to the next */
 static const double shortest_axis = 3.0;
 static const double bar_width = 0.9;
 
+/* Two numbers side by side read as one when they are nearer than this. */
+static const double least_gap[2] = {0.6, 0.25};
+
+/* Texts in the way of another are tried so much farther off the box, in steps. */
+static const double aside_step = 0.25, most_aside = 1.5;
+
 static const double ink = 0.22;
 
 /* An end of the edge with an axis' numbers, on the stage. */
@@ -93,87 +99,132 @@ void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
   }
 }
 
-/* Boxes of the texts that are there. */
-typedef struct taken {
-  fg__pane box[3 * (FG__TICK_LIMIT + 1)];
-  int count;
-} taken;
-
-static bool is_free(const taken *t, const fg__pane *box, double gap)
+static bool are_apart(const fg__pane *a, const fg__pane *b, double em)
 {
-  for (int n = 0; n < t->count; ++n)
-    if (box->x0 < t->box[n].x1 + gap && t->box[n].x0 < box->x1 + gap &&
-        box->y0 < t->box[n].y1 + gap && t->box[n].y0 < box->y1 + gap)
+  return a->x0 >= b->x1 + least_gap[0] * em || b->x0 >= a->x1 + least_gap[0] * em ||
+         a->y0 >= b->y1 + least_gap[1] * em || b->y0 >= a->y1 + least_gap[1] * em;
+}
+
+static bool is_free(const fg__box_axes *axes, const fg__pane *box)
+{
+  for (int n = 0; n < axes->texts; ++n)
+    if (!are_apart(box, &axes->text[n].box, axes->em))
       return false;
-  return true;
+  return !(axes->kept.x1 > axes->kept.x0) || are_apart(box, &axes->kept, axes->em);
 }
 
-/* A text whose box lies beyond a point: it touches it at the side it comes from. Where
- * another text is, it is left out. */
-static void draw_text_beyond(cairo_t *cairo, taken *t, const char *text,
-                             const double at[2], const double away[2], double em)
+/* A text whose box lies beyond a point: it touches it at the side it comes from. */
+static void place_text(fg__box_axes *axes, const char *text, const double at[2],
+                       const double away[2], cairo_t *ruler)
 {
-  double width = fg__text_width(cairo, text, em, false);
+  double em = axes->em, width = fg__text_width(ruler, text, em, false);
   double height = 0.72 * em; /* of digits */
-  double x = at[0] + away[0] * width / 2.0 - width / 2.0;
-  double y = at[1] + away[1] * height / 2.0 + height / 2.0;
-  const fg__pane box = {x, y - height, x + width, y};
-  if (!is_free(t, &box, 0.25 * em))
-    return;
-  t->box[t->count++] = box;
-  cairo_move_to(cairo, x, y);
-  fg__text_draw(cairo, text, em, false);
+  for (double aside = 0.0; aside <= most_aside; aside += aside_step) {
+    double x = at[0] + away[0] * (width / 2.0 + aside * em) - width / 2.0;
+    double y = at[1] + away[1] * (height / 2.0 + aside * em) + height / 2.0;
+    const fg__pane box = {x, y - height, x + width, y};
+    if (is_free(axes, &box)) {
+      axes->text[axes->texts++] = (fg__box_text){box, text};
+      return;
+    }
+  }
 }
 
-static void draw_axis(cairo_t *cairo, taken *t, const fg__box_axes *axes,
-                      const fg__stage *stage, const fg__camera *camera, int axis)
+/* The ends of an axis' edge, pixels, and the direction away from the box there. */
+static void find_edge(const fg__box_axes *axes, const fg__stage *stage,
+                      const fg__camera *camera, int axis, double end[2][2],
+                      double away[2])
 {
   const int *edge = axes->edge[axis];
-  const fg__ticks *ticks = &axes->ticks[axis];
   const double origin[3] = {0.0, 0.0, 0.0};
-  double from[2], to[2], middle[2], away[2], em = axes->em, widest = 0.0;
-  pixel_at(stage, camera, edge, axis, -stage->half[axis], from);
-  pixel_at(stage, camera, edge, axis, stage->half[axis], to);
+  double middle[2];
+  pixel_at(stage, camera, edge, axis, -stage->half[axis], end[0]);
+  pixel_at(stage, camera, edge, axis, stage->half[axis], end[1]);
   fg__camera_project(camera, origin, middle);
-  double length = hypot(to[0] - from[0], to[1] - from[1]);
-  away[0] = (to[1] - from[1]) / length;
-  away[1] = -(to[0] - from[0]) / length;
-  double side = (from[0] - middle[0]) * away[0] + (from[1] - middle[1]) * away[1];
+  double length = hypot(end[1][0] - end[0][0], end[1][1] - end[0][1]);
+  away[0] = (end[1][1] - end[0][1]) / length;
+  away[1] = -(end[1][0] - end[0][0]) / length;
+  double side = (end[0][0] - middle[0]) * away[0] + (end[0][1] - middle[1]) * away[1];
   for (int k = 0; k < 2; ++k)
     away[k] = side < 0.0 ? -away[k] : away[k];
+}
+
+static void tick_at(const fg__box_axes *axes, const fg__stage *stage,
+                    const fg__camera *camera, int axis, int n, double out[2])
+{
+  pixel_at(stage, camera, axes->edge[axis], axis,
+           fg__stage_place(stage, axis, axes->ticks[axis].position[n]), out);
+}
+
+static void place_axis(fg__box_axes *axes, const fg__stage *stage,
+                       const fg__camera *camera, int axis, cairo_t *ruler)
+{
+  const fg__ticks *ticks = &axes->ticks[axis];
+  double end[2][2], away[2], at[2], em = axes->em, widest = 0.0;
+  find_edge(axes, stage, camera, axis, end, away);
   for (int n = 0; n < ticks->count; ++n) {
-    double at[2];
-    pixel_at(stage, camera, edge, axis, fg__stage_place(stage, axis, ticks->position[n]),
-             at);
-    cairo_move_to(cairo, at[0], at[1]);
-    cairo_line_to(cairo, at[0] + tick_length * em * away[0],
-                  at[1] + tick_length * em * away[1]);
-    cairo_stroke(cairo);
+    tick_at(axes, stage, camera, axis, n, at);
     for (int k = 0; k < 2; ++k)
       at[k] += (tick_length + number_gap) * em * away[k];
-    draw_text_beyond(cairo, t, ticks->text[n], at, away, em);
-    widest = fmax(widest, fg__text_width(cairo, ticks->text[n], em, false));
+    place_text(axes, ticks->text[n], at, away, ruler);
+    widest = fmax(widest, fg__text_width(ruler, ticks->text[n], em, false));
   }
   double beyond = (tick_length + number_gap + label_gap) * em + fabs(away[0]) * widest +
                   fabs(away[1]) * 0.72 * em;
-  const double at[2] = {(from[0] + to[0]) / 2.0 + beyond * away[0],
-                        (from[1] + to[1]) / 2.0 + beyond * away[1]};
-  draw_text_beyond(cairo, t, axes->axis[axis].label, at, away, em);
+  for (int k = 0; k < 2; ++k)
+    at[k] = (end[0][k] + end[1][k]) / 2.0 + beyond * away[k];
+  place_text(axes, axes->axis[axis].label, at, away, ruler);
 }
 
-double fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
-                         const fg__camera *camera)
+double fg__box_axes_place(fg__box_axes *axes, const fg__stage *stage,
+                          const fg__camera *camera, cairo_t *ruler)
 {
-  cairo_set_source_rgb(cairo, ink, ink, ink);
-  cairo_set_line_width(cairo, fmax(axes->em / 16.0, 1.0));
-  taken t = {.count = 0};
+  double lowest = 0.0;
+  axes->texts = 0;
   for (int k = 0; k < 3; ++k)
     if (axes->edge[k][k])
-      draw_axis(cairo, &t, axes, stage, camera, k);
-  double lowest = 0.0;
-  for (int n = 0; n < t.count; ++n)
-    lowest = fmax(lowest, t.box[n].y1);
+      place_axis(axes, stage, camera, k, ruler);
+  for (int n = 0; n < axes->texts; ++n)
+    lowest = fmax(lowest, axes->text[n].box.y1);
   return lowest;
+}
+
+void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
+                       const fg__camera *camera)
+{
+  double end[2][2], away[2], at[2], tick = tick_length * axes->em;
+  cairo_set_source_rgb(cairo, ink, ink, ink);
+  cairo_set_line_width(cairo, fmax(axes->em / 16.0, 1.0));
+  for (int k = 0; k < 3; ++k) {
+    if (!axes->edge[k][k])
+      continue;
+    find_edge(axes, stage, camera, k, end, away);
+    for (int n = 0; n < axes->ticks[k].count; ++n) {
+      tick_at(axes, stage, camera, k, n, at);
+      cairo_move_to(cairo, at[0], at[1]);
+      cairo_line_to(cairo, at[0] + tick * away[0], at[1] + tick * away[1]);
+    }
+  }
+  cairo_stroke(cairo);
+  for (int n = 0; n < axes->texts; ++n) {
+    cairo_move_to(cairo, axes->text[n].box.x0, axes->text[n].box.y1);
+    fg__text_draw(cairo, axes->text[n].text, axes->em, false);
+  }
+}
+
+/* From the bar's pane to the baseline of the name above it. */
+static double name_rise(double em, const bool beyond[2])
+{
+  return 0.8 * em + (beyond[1] ? bar_width * em : 0.0);
+}
+
+fg__pane fg__color_bar_box(const fg__pane *pane, double em, const fg__axis *speed,
+                           const bool beyond[2], cairo_t *ruler)
+{
+  double label = fg__text_width(ruler, speed->label, em, false);
+  return (fg__pane){fmin(pane->x0, pane->x1 - label),
+                    pane->y0 - name_rise(em, beyond) - em, pane->x1,
+                    pane->y1 + (beyond[0] ? bar_width * em : 0.5 * em)};
 }
 
 void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
@@ -215,6 +266,6 @@ void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
   }
   double label = fg__text_width(cairo, speed->label, em, false);
   cairo_move_to(cairo, fmin(pane->x0, pane->x1 - label),
-                pane->y0 - 0.8 * em - (beyond[1] ? width : 0.0));
+                pane->y0 - name_rise(em, beyond));
   fg__text_draw(cairo, speed->label, em, false);
 }

@@ -8,6 +8,14 @@
 #include "picture/stage.h"
 #include "picture/ticks.h"
 
+/* A number or a name: its box, whose lower left corner is where it is drawn. */
+typedef struct fg__box_text {
+  fg__pane box;
+  const char *text; /* of the axes */
+} fg__box_text;
+
+enum { FG__BOX_TEXTS = 3 * (FG__TICK_LIMIT + 1) };
+
 /* Axes with their ticks, which are at least so far apart that their numbers fit. */
 typedef struct fg__box_axes {
   fg__axis axis[3];
@@ -15,6 +23,9 @@ typedef struct fg__box_axes {
   int edge[3][3]; /* of axis k: the sides, -1 or 1, of the two others on which the edge
                      with the numbers lies; [k][k]: 0 when it is seen too short for any */
   double em;      /* font size, pixels */
+  fg__pane kept;  /* nothing is written here; all zero: no such place */
+  fg__box_text text[FG__BOX_TEXTS];
+  int texts;
 } fg__box_axes;
 
 /* Chooses edges of the box's outline: below for x and y, at the left for z. */
@@ -22,9 +33,18 @@ void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
                      const fg__stage *stage, const fg__camera *camera, double em,
                      cairo_t *ruler);
 
-/* Returns how low the numbers and names reach, in pixels from above. */
-double fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
-                         const fg__camera *camera);
+/* Chooses where the numbers and names go: one that would touch another, or the kept
+ * place, stands farther off the box, and is left out where that does not help. Returns
+ * how low they reach, in pixels from above. The axes must stay where they are. */
+double fg__box_axes_place(fg__box_axes *axes, const fg__stage *stage,
+                          const fg__camera *camera, cairo_t *ruler);
+
+void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
+                       const fg__camera *camera);
+
+/* Where a colour bar in a pane is, with all that is written at it. */
+fg__pane fg__color_bar_box(const fg__pane *pane, double em, const fg__axis *speed,
+                           const bool beyond[2], cairo_t *ruler);
 
 /* An upright bar in a pane, with numbers at its right and the speed's name above; its end
  * is a point where there are speeds below or above. */

@@ -103,7 +103,7 @@ static void trim(solid_picture *p, cairo_t *ruler)
   fg__rendering *r = &p->rendering;
   double highest, lowest, least = flattest * r->width;
   box_rows(r, &highest, &lowest);
-  lowest = fmax(lowest, fg__box_axes_draw(ruler, &p->axes, &r->stage, &r->camera));
+  lowest = fmax(lowest, fg__box_axes_place(&p->axes, &r->stage, &r->camera, ruler));
   r->height = (int)fmin(r->height, fmax(ceil(lowest + edge * p->em), least));
 }
 
@@ -179,23 +179,32 @@ static void draw_line_of_text(cairo_t *cairo, char *text, double em, double widt
   fg__text_draw(cairo, text, em, bold);
 }
 
+/* The colour bar, where there is one. */
+static void draw_key(cairo_t *cairo, solid_picture *p)
+{
+  const fg__rendering *r = &p->rendering;
+  if (!p->has_key)
+    return;
+  double em = p->em, high = bar_share * r->height, middle = 0.5 * r->height;
+  fg__pane pane = {r->width - key_room * em, middle - high / 2.0, r->width - edge * em,
+                   middle + high / 2.0};
+  bool beyond[2];
+  fg__speeds_beyond(beyond, r->icons, r->range);
+  fg__color_bar_draw(cairo, &pane, em, &p->palette, &p->speed, beyond);
+  p->axes.kept = fg__color_bar_box(&pane, em, &p->speed, beyond, cairo);
+}
+
 static void draw_words(cairo_t *cairo, solid_picture *p)
 {
   const fg__rendering *r = &p->rendering;
   double em = p->em, y = 0.4 * em, width = r->width - 2.0 * edge * em;
+  draw_key(cairo, p);
+  fg__box_axes_place(&p->axes, &r->stage, &r->camera, cairo);
   fg__box_axes_draw(cairo, &p->axes, &r->stage, &r->camera);
   cairo_set_source_rgb(cairo, 0.1, 0.1, 0.1);
   draw_line_of_text(cairo, p->title, em, width, true, &y);
   cairo_set_source_rgb(cairo, 0.4, 0.4, 0.4);
   draw_line_of_text(cairo, p->subtitle, em, width, false, &y);
-  if (p->has_key) {
-    double high = bar_share * r->height, middle = 0.5 * r->height;
-    fg__pane pane = {r->width - key_room * em, middle - high / 2.0, r->width - edge * em,
-                     middle + high / 2.0};
-    bool beyond[2];
-    fg__speeds_beyond(beyond, r->icons, r->range);
-    fg__color_bar_draw(cairo, &pane, em, &p->palette, &p->speed, beyond);
-  }
 }
 
 /* Renders the arrows to an image; it is to be destroyed. */
