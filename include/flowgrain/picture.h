@@ -18,7 +18,8 @@ typedef struct fg_picture_options {
   bool transparent;                    /* no background */
   bool tint;                           /* tint the clusters (density needed) */
   const struct fg_texture *background; /* behind all, in pale greys (texture.h) [none] */
-  double background_fade;              /* share of its way to white, 0 to 1 [0.7] */
+  double background_fade;              /* share of its way to white, 0 to 1 [0.7,
+                                          stripes 0.85] */
   bool skeletons;    /* mark the clusters' spines and centres, where icons have
                         them */
   bool centers;      /* mark the centres alone, where icons have them */

@@ -23,8 +23,10 @@ static const fg__color usual_tint = {0.845, 0.895, 0.950};
 /* Of clusters that no arrows shall stand out from. */
 static const fg__color lone_tint = {0.56, 0.68, 0.83};
 
-/* A texture as it is outshines what is drawn on it; by eye, on winds and vortices. */
-static const double usual_fade = 0.7;
+/* A texture as it is outshines what is drawn on it; by eye, on winds and vortices.
+ * Stripes are black and white with little between: paler, they are not darker than land.
+ */
+static const double usual_fade = 0.7, stripes_fade = 0.85;
 static const double most_background = 16384.0;
 
 /* Where the frame shows a small part of the domain, the texture of all of it has at most
@@ -220,10 +222,11 @@ static fg_status check_room(fg_context *context)
 static fg_status make_background(picture *p, fg_context *context,
                                  const fg_picture_options *options)
 {
-  const fg_texture_style style = {
-      .fade = options->background_fade > 0.0 ? options->background_fade : usual_fade};
-  return fg__texture_image(&p->style.background, context,
-                           fg_texture_contents(options->background), &style);
+  const fg_texture_arrays *texture = fg_texture_contents(options->background);
+  fg_texture_style style = {.fade = options->background_fade};
+  if (!(style.fade > 0.0))
+    style.fade = texture->kind == FG_TEXTURE_STRIPES ? stripes_fade : usual_fade;
+  return fg__texture_image(&p->style.background, context, texture, &style);
 }
 
 static int pixels_of(double length)

@@ -238,6 +238,43 @@ static void test_background_fills_the_frame(void **state)
   fg_icons_destroy(icons);
 }
 
+/* Grey places of a picture with the usual fade: land, and the darkest of the sea. */
+static void find_tones(example *e, const fg_texture *background, double *land,
+                       double *darkest)
+{
+  fg_icons *icons = NULL;
+  assert_int_equal(fg__icons_create_empty(&icons, e->context), FG_STATUS_OK);
+  const fg_picture_options options = {
+      .width = 40.0, .no_frame = true, .background = background};
+  if (fg_picture_write(e->context, e->path, e->field, NULL, icons, &options))
+    fail_msg("%s", fg_context_message(e->context));
+  cairo_surface_t *image = cairo_image_surface_create_from_png(e->path);
+  *land = pixel_at(image, 60, 20).red;
+  *darkest = 1.0;
+  for (int j = 2; j < 38; ++j)
+    for (int i = 2; i < 37; ++i)
+      *darkest = fmin(*darkest, pixel_at(image, i, j).red);
+  cairo_surface_destroy(image);
+  fg_icons_destroy(icons);
+}
+
+static void test_stripes_are_not_darker_than_land(void **state)
+{
+  example *e = *state;
+  double land, darkest, of_lic;
+  fg_texture *stripes;
+  const fg_texture_options options = {
+      .kind = FG_TEXTURE_STRIPES, .size = {80, 40}, .length = 20.0, .threads = 1};
+  assert_int_equal(fg_texture_create(&stripes, e->context, e->field, &options),
+                   FG_STATUS_OK);
+  find_tones(e, stripes, &land, &darkest);
+  assert_true(darkest > land - 0.01);
+  assert_true(darkest < land + 0.05);
+  find_tones(e, e->texture, &land, &of_lic);
+  assert_true(of_lic < land - 0.05); /* a few of its pixels are */
+  fg_texture_destroy(stripes);
+}
+
 static void test_refusals(void **state)
 {
   static const fg_texture_style wrong[] = {
@@ -270,6 +307,8 @@ int main(void)
       cmocka_unit_test_setup_teardown(test_palette_shows_speed, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_fading_leads_to_white, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_background_fills_the_frame, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_stripes_are_not_darker_than_land, set_up,
+                                      tear_down),
       cmocka_unit_test_setup_teardown(test_refusals, set_up, tear_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
