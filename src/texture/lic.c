@@ -7,14 +7,14 @@
 #include "texture/texture.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "texture/blocks.h"
 #include "texture/grain.h"
 
 enum {
-  BLOCK = 128,     /* its directions and noise fit into a second-level cache */
+  BLOCK = FG__BLOCK,
   REACH = 64,      /* steps a way that a streamline serves pixels; more are lost
                       outside the block, fewer cost more convolution ends */
   MOST_HALF = 200, /* half a kernel: fg_texture_options.length is 400 at most */
@@ -32,8 +32,7 @@ typedef struct painting {
   const float *grain;
   float *value;
   int half; /* of the kernel: steps of a pixel */
-  int blocks[2];
-  atomic_int next;     /* block to be painted */
+  fg__blocks blocks;
   struct block *block; /* one a member */
 } painting;
 
@@ -164,30 +163,14 @@ static void write_block(const block *b)
   }
 }
 
-static void serve_block(block *b, int number)
-{
-  const painting *p = b->p;
-  const int at[2] = {number % p->blocks[0], number / p->blocks[0]};
-  for (int k = 0; k < 2; ++k) {
-    b->first[k] = at[k] * BLOCK;
-    const int rest = p->raster->size[k] - b->first[k];
-    b->size[k] = rest < BLOCK ? rest : BLOCK;
-  }
-  serve_all(b);
-  write_block(b);
-}
-
 static void paint_part(void *argument, const fg__share *share)
 {
   painting *p = argument;
   block *b = &p->block[share->member];
   b->p = p;
-  const int count = p->blocks[0] * p->blocks[1];
-  for (;;) {
-    const int number = atomic_fetch_add_explicit(&p->next, 1, memory_order_relaxed);
-    if (number >= count)
-      return;
-    serve_block(b, number);
+  while (fg__blocks_take(&p->blocks, b->first, b->size)) {
+    serve_all(b);
+    write_block(b);
   }
 }
 
@@ -238,8 +221,7 @@ fg_status fg__lic_paint(float *value, fg_context *context, const fg__canvas *can
   painting p = {.raster = r, .grain = grain, .value = value};
   p.half = half_of(canvas->length);
   p.block = fg__allocate(members, sizeof *p.block);
-  for (int k = 0; k < 2; ++k)
-    p.blocks[k] = (r->size[k] + BLOCK - 1) / BLOCK;
+  fg__blocks_begin(&p.blocks, r);
   fg_status status = FG_STATUS_OK;
   if (!grain || !p.block)
     status = fg__fail_memory(context, "noise",

@@ -8,13 +8,13 @@
 #include "texture/texture.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "base/mix.h"
+#include "texture/blocks.h"
 
-enum { BLOCK = 128 };
+enum { BLOCK = FG__BLOCK };
 
 /* Spots that lie over a pixel on average: fewer leave single spots to be seen, more cost
  * time and change nothing (the sum is a bell curve by then). */
@@ -39,8 +39,7 @@ typedef struct painting {
   double cell[2]; /* of the lattice, pixels */
   int cells[2];   /* along a periodic axis */
   double reach;   /* of a spot from its centre, at most */
-  int blocks[2];
-  atomic_int next;
+  fg__blocks blocks;
   struct block *block;
 } painting;
 
@@ -219,15 +218,11 @@ static void add_spot(block *b, const spot *s)
     add_row(b, s, y);
 }
 
-static void paint_block(block *b, int number)
+static void paint_block(block *b)
 {
   const painting *p = b->p;
-  const int at[2] = {number % p->blocks[0], number / p->blocks[0]};
   int64_t first[2], last[2];
   for (int k = 0; k < 2; ++k) {
-    b->first[k] = at[k] * BLOCK;
-    const int rest = p->raster->size[k] - b->first[k];
-    b->size[k] = rest < BLOCK ? rest : BLOCK;
     first[k] = (int64_t)floor((b->first[k] - p->reach) / p->cell[k]);
     last[k] = (int64_t)floor((b->first[k] + b->size[k] + p->reach) / p->cell[k]);
   }
@@ -250,13 +245,8 @@ static void paint_part(void *argument, const fg__share *share)
   painting *p = argument;
   block *b = &p->block[share->member];
   b->p = p;
-  const int count = p->blocks[0] * p->blocks[1];
-  for (;;) {
-    const int number = atomic_fetch_add_explicit(&p->next, 1, memory_order_relaxed);
-    if (number >= count)
-      return;
-    paint_block(b, number);
-  }
+  while (fg__blocks_take(&p->blocks, b->first, b->size))
+    paint_block(b);
 }
 
 static double mean_speed(const fg__raster *r)
@@ -287,8 +277,8 @@ fg_status fg__spots_paint(float *value, fg_context *context, const fg__canvas *c
   for (int k = 0; k < 2; ++k) {
     p.cells[k] = (int)fmax(floor(r->size[k] / spacing), 1.0);
     p.cell[k] = r->periodic[k] ? (double)r->size[k] / p.cells[k] : spacing;
-    p.blocks[k] = (r->size[k] + BLOCK - 1) / BLOCK;
   }
+  fg__blocks_begin(&p.blocks, r);
   p.block = fg__allocate(members, sizeof *p.block);
   if (!p.block)
     return fg__fail_memory(context, "spots", members * sizeof *p.block);

@@ -1,0 +1,42 @@
+/* The square blocks that a picture falls into, which members paint in any order. */
+#ifndef FG__BLOCKS_H
+#define FG__BLOCKS_H
+
+#include <stdatomic.h>
+
+#include "texture/raster.h"
+
+enum { FG__BLOCK = 128 }; /* pixels a side: a block fits into a second-level cache */
+
+typedef struct fg__blocks {
+  int size[2];  /* of the picture */
+  int along[2]; /* blocks along x and y */
+  atomic_int next;
+} fg__blocks;
+
+static inline void fg__blocks_begin(fg__blocks *blocks, const fg__raster *raster)
+{
+  for (int k = 0; k < 2; ++k) {
+    blocks->size[k] = raster->size[k];
+    blocks->along[k] = (raster->size[k] + FG__BLOCK - 1) / FG__BLOCK;
+  }
+  atomic_init(&blocks->next, 0);
+}
+
+/* The lowest pixel and the size of a block that nobody has taken yet; false when there is
+ * none. */
+static inline bool fg__blocks_take(fg__blocks *blocks, int first[2], int size[2])
+{
+  int number = atomic_fetch_add_explicit(&blocks->next, 1, memory_order_relaxed);
+  if (number >= blocks->along[0] * blocks->along[1])
+    return false;
+  const int at[2] = {number % blocks->along[0], number / blocks->along[0]};
+  for (int k = 0; k < 2; ++k) {
+    first[k] = at[k] * FG__BLOCK;
+    const int rest = blocks->size[k] - first[k];
+    size[k] = rest < FG__BLOCK ? rest : FG__BLOCK;
+  }
+  return true;
+}
+
+#endif
