@@ -306,12 +306,13 @@ static unevenness trace_pixel(const shop *s, int x, int y, const unevenness *fin
     sum.alpha += light.alpha / SAMPLES;
   }
   s->image[(ptrdiff_t)y * s->stride + x] = fg__light_pixel(sum, s->about->transparent);
-  return (unevenness){.lamp = p.lamp_seen > 0 &&
-                              p.lamp_seen<SAMPLES * p.lamp_rays, .sky = p.sky_seen> 0 &&
-                              p.sky_seen < SAMPLES * p.sky_rays};
+  bool half_lamp = p.lamp_seen > 0 && p.lamp_seen < SAMPLES * p.lamp_rays;
+  bool half_sky = p.sky_seen > 0 && p.sky_seen < SAMPLES * p.sky_rays;
+  return (unevenness){half_lamp, half_sky};
 }
 
-/* Draws a tile, and those pixels once more where light, also a neighbour's, is uneven. */
+/* Draws a tile, and those pixels once more where light is uneven, also that of a
+ * neighbour in the tile. */
 static void trace_tile(const shop *s, int x, int y)
 {
   const unevenness usual = {false, false};
