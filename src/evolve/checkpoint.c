@@ -219,10 +219,8 @@ fg_status fg_evolution_save(const fg_evolution *evolution, const char *path,
 static fg_status check_same_file(const fg__checkpoint_file *file, fg_context *context,
                                  const fg__ranks *ranks)
 {
-  double greatest[] = {file->identity, -(double)file->identity};
-  fg__ranks_greatest(ranks, greatest, 2);
   fg_status status = FG_STATUS_OK;
-  if (greatest[0] != -greatest[1])
+  if (!fg__ranks_alike(ranks, file->identity))
     status = fg__fail(context, FG_STATUS_FILE_ACCESS,
                       "%s: cannot be read: the %d ranks find different files", file->path,
                       ranks->count);

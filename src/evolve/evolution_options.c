@@ -82,11 +82,7 @@ fg_status fg__evolution_check_alike(const fg_evolution *e)
     memcpy(&bits, &numbers[n], sizeof bits);
     key = fg__mix(key ^ bits);
   }
-  /* halves are whole numbers in a double; the greatest of -x is the least of x */
-  double high = (double)(key >> 32), low = (double)(uint32_t)key;
-  double greatest[] = {high, -high, low, -low};
-  fg__ranks_greatest(e->ranks, greatest, 4);
-  if (greatest[0] == -greatest[1] && greatest[2] == -greatest[3])
+  if (fg__ranks_alike(e->ranks, key))
     return FG_STATUS_OK;
   return fg__fail(e->context, FG_STATUS_ARGUMENT,
                   "the %d ranks have different fields or options", e->ranks->count);

@@ -17,15 +17,6 @@ static uint64_t key_of(const fg_field *field)
   return part ? fg__mix(part->key ^ (uint64_t)part->count) : 0;
 }
 
-static bool is_number_alike(const fg__ranks *ranks, uint64_t number)
-{
-  /* halves are whole numbers in a double; the greatest of -x is the least of x */
-  double high = (double)(number >> 32), low = (double)(uint32_t)number;
-  double greatest[] = {high, -high, low, -low};
-  fg__ranks_greatest(ranks, greatest, 4);
-  return greatest[0] == -greatest[1] && greatest[2] == -greatest[3];
-}
-
 static fg_status check_parts(fg_context *context, const fg__ranks *ranks,
                              const fg_field *field)
 {
@@ -36,7 +27,7 @@ static fg_status check_parts(fg_context *context, const fg__ranks *ranks,
         fg__fail(context, FG_STATUS_ARGUMENT, "field: rank %d of %d has part %d of %d",
                  ranks->rank, ranks->count, part->number, part->count);
   status = fg__ranks_agree(ranks, context, status);
-  if (status == FG_STATUS_OK && !is_number_alike(ranks, key_of(field)))
+  if (status == FG_STATUS_OK && !fg__ranks_alike(ranks, key_of(field)))
     status = fg__fail(context, FG_STATUS_ARGUMENT, "the %d ranks have different fields",
                       ranks->count);
   return status;

@@ -165,6 +165,16 @@ void fg__ranks_greatest(const fg__ranks *ranks, double *value, int count)
   MPI_Allreduce(MPI_IN_PLACE, value, count, MPI_DOUBLE, MPI_MAX, fg__communicator(ranks));
 }
 
+bool fg__ranks_alike(const fg__ranks *ranks, uint64_t number)
+{
+  if (ranks->count == 1)
+    return true;
+  uint64_t ends[] = {number, ~number}; /* the greatest complement is the least's */
+  fg__traffic_add_reduction(ranks->book, sizeof ends);
+  MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_UINT64_T, MPI_MAX, fg__communicator(ranks));
+  return ends[0] == ~ends[1];
+}
+
 enum { PIECE_BYTES = 1 << 16 };
 
 static void take_pieces(const unsigned char *bytes, size_t count, fg__taker *take,

@@ -32,6 +32,9 @@ void fg__ranks_combine(const fg__ranks *ranks, uint32_t *word, int count);
 /* Greatest of each value over all ranks, in place; none may be NaN. Collective. */
 void fg__ranks_greatest(const fg__ranks *ranks, double *value, int count);
 
+/* Whether a number is the same on all ranks. Collective. */
+bool fg__ranks_alike(const fg__ranks *ranks, uint64_t number);
+
 /* Brings the bytes of all ranks to rank 0, those of rank 0 first, then those of rank 1:
  * `take` gets them there in pieces of at most 64 KiB. Collective. */
 typedef void fg__taker(void *closure, const unsigned char *bytes, size_t count);

@@ -47,6 +47,21 @@ static void the_greatest_is_found_wherever_it_is(void **state)
   end_together();
 }
 
+/* One bit of one rank, the lowest and the highest too, is enough of a difference. */
+static void a_number_is_alike_or_not(void **state)
+{
+  (void)state;
+  const uint64_t number = UINT64_C(0x9e3779b97f4a7c15);
+  expect(fg__ranks_alike(us.ranks, number));
+  expect(fg__ranks_alike(us.ranks, 0) && fg__ranks_alike(us.ranks, ~UINT64_C(0)));
+  for (int bit = 0; bit < 64; ++bit)
+    for (int rank = 0; rank < us.ranks->count; ++rank) {
+      uint64_t other = number ^ (uint64_t)(us.ranks->rank == rank) << bit;
+      expect(fg__ranks_alike(us.ranks, other) == (us.ranks->count == 1));
+    }
+  end_together();
+}
+
 static void no_failure_is_none(void **state)
 {
   (void)state;
@@ -170,6 +185,7 @@ int main(void)
       TOGETHER(sums_are_the_same_as_one_rank_alone_gives),
       TOGETHER(words_are_combined_bit_by_bit),
       TOGETHER(the_greatest_is_found_wherever_it_is),
+      TOGETHER(a_number_is_alike_or_not),
       TOGETHER(no_failure_is_none),
       TOGETHER(all_end_with_the_lowest_rank_s_failure),
       TOGETHER(a_stop_gives_way_to_a_failure),
