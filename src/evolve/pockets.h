@@ -6,8 +6,13 @@
 #define FG__POCKETS_H
 
 #include <stdint.h>
+#include <string.h>
 
 #include "evolve/means.h"
+#include "evolve/pocket.h"
+
+/* What ranks tell of a node: first its place, later u, the guess and p. */
+enum { FG__POCKET_WORDS = 3 };
 
 typedef struct fg__pockets {
   int count;   /* pockets */
@@ -32,6 +37,23 @@ typedef struct fg__pockets {
 fg_status fg__pockets_create(fg__pockets *out, fg_context *context,
                              const fg__multigrid *multigrid, const fg__means *means);
 void fg__pockets_clear(fg__pockets *pockets);
+
+fg__pocket fg__pocket_of(const fg__pockets *pockets, int n);
+
+/* Floats travel as words. */
+static inline uint32_t fg__bits_of(float value)
+{
+  uint32_t word;
+  memcpy(&word, &value, sizeof word);
+  return word;
+}
+
+static inline double fg__float_of(uint32_t word)
+{
+  float value;
+  memcpy(&value, &word, sizeof value);
+  return (double)value;
+}
 
 /* Solves the finest level's system of a step of length tau, whose formula has another,
  * from what u and p hold, where the step is long enough for cycles to go round; larger
