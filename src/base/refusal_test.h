@@ -4,6 +4,7 @@
 #define FG__REFUSAL_TEST_H
 
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 /* How many were asked for, the number from 0 of the one that fails, and how many are not
@@ -31,6 +32,7 @@ DECLARE(void *, calloc, (size_t, size_t))
 DECLARE(void *, aligned_alloc, (size_t, size_t))
 DECLARE(void *, realloc, (void *, size_t))
 DECLARE(char *, strdup, (const char *))
+DECLARE(FILE *, open_memstream, (char **, size_t *))
 DECLARE(void, free, (void *))
 /* clang-format on */
 
@@ -62,6 +64,12 @@ void *__wrap_realloc(void *memory, size_t bytes)
 char *__wrap_strdup(const char *text)
 {
   return refuses() ? NULL : count(__real_strdup(text));
+}
+
+/* Its text is freed by whoever opened it. */
+FILE *__wrap_open_memstream(char **text, size_t *bytes)
+{
+  return refuses() ? NULL : count(__real_open_memstream(text, bytes));
 }
 
 void __wrap_free(void *memory)

@@ -189,39 +189,47 @@ static fg_status write_frame(fg__checkpoint_writer *writer, fg_context *context,
   return status;
 }
 
-/* A name is on the disk when its folder is. */
-static void synchronise_folder(const char *path)
+/* "a/b" becomes "a", "a" becomes ".", "/a" becomes "/". End with free. */
+static char *folder_of(const char *path)
 {
-  char *folder = with_end(path, "");
-  if (!folder)
-    return;
-  char *slash = strrchr(folder, '/');
-  if (slash)
-    slash[slash == folder ? 1 : 0] = '\0';
-  int file = open(slash ? folder : ".", O_RDONLY | O_CLOEXEC);
+  const char *slash = strrchr(path, '/');
+  if (!slash)
+    return fg__copy_text(".");
+  char *folder = fg__copy_text(path);
+  if (folder)
+    folder[slash == path ? 1 : slash - path] = '\0';
+  return folder;
+}
+
+/* A name is on the disk when its folder is. */
+static void synchronise_folder(const char *folder)
+{
+  int file = open(folder, O_RDONLY | O_CLOEXEC);
   if (file >= 0) {
     synchronise(file);
     close(file);
   }
-  free(folder);
 }
 
 /* Whoever is killed between the two renames leaves the previous file alone, and whole. */
 static fg_status take_name(const fg__checkpoint_writer *writer, fg_context *context)
 {
-  char *previous = with_end(writer->path, ".previous");
-  if (!previous)
-    return fg__fail_memory(context, "a file's name", strlen(writer->path));
+  char *previous = with_end(writer->path, ".previous"), *folder = folder_of(writer->path);
   fg_status status = FG_STATUS_OK;
-  bool moved = rename(writer->path, previous) == 0;
-  if ((!moved && errno != ENOENT) || rename(writer->part, writer->path) != 0) {
-    status = fail(context, writer->path);
-    if (moved)
-      (void)rename(previous, writer->path);
+  if (!previous || !folder) {
+    status = fg__fail_memory(context, "a file's name", strlen(writer->path));
+  } else {
+    bool moved = rename(writer->path, previous) == 0;
+    if ((!moved && errno != ENOENT) || rename(writer->part, writer->path) != 0) {
+      status = fail(context, writer->path);
+      if (moved)
+        (void)rename(previous, writer->path);
+    }
   }
-  free(previous);
   if (!status)
-    synchronise_folder(writer->path);
+    synchronise_folder(folder);
+  free(previous);
+  free(folder);
   return status;
 }
 
