@@ -46,9 +46,10 @@ typedef struct fg_evolution_options {
 
 typedef struct fg_step {
   long step;            /* accepted steps so far */
-  double time;          /* t, in units of (longest side)^2, and */
-  double tau;           /* size of this step, as the first mesh has them: see */
-  double energy;        /* E(u)               fg_evolution_coarsen */
+  double time;          /* t, in units of (longest side)^2 */
+  double tau;           /* size of this step */
+  double energy;        /* E(u); like t and tau in the first mesh's units: see
+                           fg_evolution_coarsen */
   double mass;          /* integral of u over the domain, in double */
   double area_fraction; /* share of the domain where u > 0 */
   int clusters;         /* components of {u > 0} above the size of debris; 0 while the

@@ -27,6 +27,8 @@
  * - A function that can fail returns fg_status; its result comes first, through `out`,
  *   and belongs to the caller, who ends it with the matching destroy. Destroys accept
  *   NULL.
+ * - Pointers must not be NULL unless it is said that they may be. A context may be: what
+ *   fails is then told by the status alone.
  * - Pointers returned to const are borrowed: they live as long as what they came from.
  * - Option structs: a zero field means the default; a NULL pointer means all defaults.
  * - On failure the context keeps one message (the first), with the numbers that show it.

@@ -71,7 +71,7 @@ fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field);
 void fg__evolution_clear(fg_evolution *evolution);
 
 /* Puts noise, the caller's density or that of a finer mesh into the finest u. Collective.
- * MEMORY. */
+ * MEMORY, ARGUMENT (the caller's is not the same on all ranks). */
 fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multigrid);
 
 /* Finds the share covered and, once nucleation is over, the number of clusters.

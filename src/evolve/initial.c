@@ -132,6 +132,9 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
     settle_mean(multigrid, e->halved_mean);
   } else if (e->options.initial) {
     e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial, e->nodes);
+    if (!fg__ranks_alike(e->ranks, e->initial_fingerprint))
+      return fg__fail(e->context, FG_STATUS_ARGUMENT,
+                      "the %d ranks have different initial densities", e->ranks->count);
     fg__pass_shift(multigrid, u, 0.0);
   } else {
     settle_mean(multigrid, mean);

@@ -107,12 +107,50 @@ static void a_part_must_be_joined(void **state)
   end_together();
 }
 
+static void is_refused(const fg_field *field, const fg_evolution_options *options,
+                       const char *words)
+{
+  fg_evolution *evolution = NULL;
+  fg_status status = fg_evolution_create(&evolution, us.context, field, options);
+  if (us.ranks->count == 1) {
+    expect(status == FG_STATUS_OK);
+  } else {
+    expect(status == FG_STATUS_ARGUMENT && !evolution);
+    expect(strstr(fg_context_message(us.context), words) != NULL);
+  }
+  fg_context_clear(us.context);
+  fg_evolution_destroy(evolution);
+}
+
+/* One rank alone wants something else, and be it one value of all. */
+static void ranks_that_disagree_are_told(void **state)
+{
+  (void)state;
+  enum { NODES = 33 };
+  fg_field *field;
+  expect(fg_field_create_analytic(&field, us.context, "vortex3", NODES) == FG_STATUS_OK);
+  bool odd = us.ranks->rank == us.ranks->count - 1;
+  fg_evolution_options options = {.nodes = NODES, .seed = odd ? 2 : 1};
+  is_refused(field, &options, "different fields or options");
+  options = (fg_evolution_options){.nodes = NODES, .anisotropy = odd ? 0.25 : 0.125};
+  is_refused(field, &options, "different fields or options");
+  float initial[NODES * NODES];
+  for (int n = 0; n < NODES * NODES; ++n)
+    initial[n] = n % 7 < 3 ? 0.875F : -0.75F;
+  initial[40] = odd ? 0.5F : -0.5F;
+  options = (fg_evolution_options){.nodes = NODES, .initial = initial};
+  is_refused(field, &options, "different initial densities");
+  fg_field_destroy(field);
+  end_together();
+}
+
 int main(void)
 {
   start_together();
   const struct CMUnitTest tests[] = {
       TOGETHER(parts_evolve_as_the_whole),
       TOGETHER(a_part_must_be_joined),
+      TOGETHER(ranks_that_disagree_are_told),
   };
   return cmocka_run_group_tests_name("evolve/parts", tests, NULL, NULL);
 }

@@ -33,8 +33,8 @@ static const double energy_rounding = 1e-7, rest_increment = 1e-4;
 
 /* A pattern at rest: so many steps in a row at whose rate u would change by less than
  * this (rms) while time doubles; coarsening changes it by some tenths. Not before this
- * many first steps, twenty growth times of linear theory, in which a weak perturbation
- * may still be growing unseen. */
+ * many first steps, twenty growth times of linear theory (a halved mesh begins with
+ * longer steps: more), in which a weak perturbation may still be growing unseen. */
 enum { QUIET_STEPS = 12 };
 static const double quiet_change = 1e-3, quiet_after = 2e4;
 
