@@ -219,7 +219,7 @@ static int check(const cli_settings *settings)
     advise("Choose another folder, or replace it with --force.");
     return EXIT_FAILED;
   }
-  return EXIT_DONE;
+  return output_check(settings->output);
 }
 
 int command_gallery(const cli_settings *settings)
@@ -228,7 +228,6 @@ int command_gallery(const cli_settings *settings)
   int code = check(settings);
   if (!code)
     code = make_folders(settings->output, &topmost);
-  free(topmost);
   if (!code)
     code = copy_data(settings->output);
   for (int n = 0; n < gallery_figure_count && !code; ++n)
@@ -238,5 +237,8 @@ int command_gallery(const cli_settings *settings)
     code = write_file(settings, PAGE_NAME, gallery_print_page, NULL);
   if (!code)
     printf("%s/%s\n", settings->output, PAGE_NAME);
+  else if (topmost)
+    remove_empty_folders(settings->output, topmost);
+  free(topmost);
   return code;
 }

@@ -113,6 +113,7 @@ int command_info(const cli_settings *settings)
   }
   if (!status && fg_inventory_vector_count(inventory) == 0) {
     complain("%s: holds no vector field", settings->operand);
+    advise("`flowgrain run --vars U,V` takes variables by any names.");
     code = EXIT_FAILED;
   }
   fg_inventory_destroy(inventory);

@@ -41,6 +41,10 @@ static parse_result parse(const cli_command **command, cli_settings *settings, i
     print_program_help(stdout);
     return PARSE_DONE;
   }
+  if (strcmp(word, "help") == 0 && argc > 3) {
+    complain("help: one COMMAND is expected, and '%s' is one more", argv[3]);
+    return usage();
+  }
   if (strcmp(word, "help") == 0)
     return help(argc > 2 ? argv[2] : NULL);
   if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {

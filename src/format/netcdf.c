@@ -149,9 +149,10 @@ static fg_status fail_unusable(const fg__nc_file *file, const fg__nc_pair *pair,
 
 static fg_status fail_no_vectors(const fg__nc_file *file)
 {
-  fg_status status = fg__fail(file->context, FG_STATUS_UNSUPPORTED,
-                              "%s: no vectors found among its %zu variables",
-                              file->paths[0], file->variable_count);
+  fg_status status =
+      fg__fail(file->context, FG_STATUS_UNSUPPORTED,
+               "%s: no vectors found among its %zu variable%s", file->paths[0],
+               file->variable_count, file->variable_count == 1 ? "" : "s");
   if (file->root_count == 1)
     fg__hint(file->context, "name the components with --vars U,V; when the other one is "
                             "in a second file, add --vars-from FILE");
@@ -228,6 +229,25 @@ static fg_status choose(fg__nc_pair *pair, fg__nc_grid *grid, const fg__nc_file 
   }
   free(all.pair);
   return status;
+}
+
+/* Components that are named are looked for in both files: where neither they nor the mask
+ * are of the second, it is not the file that was meant. */
+static fg_status check_second(const fg__nc_file *file, const fg__nc_pair *pair,
+                              const char *mask)
+{
+  const fg__nc_variable *masked = mask ? fg__nc_find(file, mask) : NULL;
+  bool used = file->root_count < 2 || (masked && masked->file == 1);
+  for (int k = 0; k < 3; ++k)
+    used = used || (pair->component[k] && pair->component[k]->file == 1);
+  if (used)
+    return FG_STATUS_OK;
+  fg__fail(file->context, FG_STATUS_ARGUMENT,
+           "%s: gives no component: '%.200s' and '%.200s' are both of %s", file->paths[1],
+           pair->component[0]->name, pair->component[1]->name, file->paths[0]);
+  fg__hint(file->context,
+           "name one of its variables with --vars, or leave out --vars-from");
+  return FG_STATUS_ARGUMENT;
 }
 
 static fg_status check_index(const fg__nc_file *file, const char *what, int index,
@@ -351,6 +371,8 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
     status = add_second_file(&file, context, options->vars_from);
   if (status == FG_STATUS_OK)
     status = choose(&pair, &grid, &file, options);
+  if (status == FG_STATUS_OK)
+    status = check_second(&file, &pair, options->mask);
   if (status == FG_STATUS_OK)
     status =
         check_index(&file, "time", options->time, grid.time, grid.times, grid.time_name);

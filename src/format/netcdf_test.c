@@ -197,6 +197,36 @@ static void the_other_component_may_lie_in_a_second_file(void **state)
   unlink(second.path);
 }
 
+static void a_second_file_is_of_use_or_refused(void **state)
+{
+  sample_file *f = *state;
+  sample_file second = *f;
+  double inside[COUNT];
+  int id[2];
+  snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
+  sample_begin(&second, 0);
+  const int all[2] = {sample_axis(&second, "y", NY, Y, "km"),
+                      sample_axis(&second, "x", NX, X, "km")};
+  for (int i = 0; i < COUNT; ++i)
+    inside[i] = i % 5 > 0;
+  sample_put(&second, sample_variable(&second, "sea", NC_FLOAT, 2, all), inside);
+  sample_end(&second);
+  make_plain(f, 0, NC_FLOAT, id);
+  sample_end(f);
+  fg_read_options options = {.vars = "u,v", .vars_from = second.path};
+  fg_field *field = NULL;
+  fg_context_clear(f->context);
+  assert_int_equal(fg_field_read(&field, f->context, f->path, &options),
+                   FG_STATUS_ARGUMENT);
+  assert_null(field);
+  assert_non_null(strstr(fg_context_message(f->context), "second.nc: gives no comp"));
+  options.mask = "sea";
+  field = read_with(f, &options);
+  assert_int_equal(fg_field_contents(field)->valid[5], 0);
+  fg_field_destroy(field);
+  unlink(second.path);
+}
+
 static void groups_are_searched(void **state)
 {
   sample_file *f = *state;
@@ -332,6 +362,7 @@ int main(void)
       CASE(any_order_of_dimensions_is_read),
       CASE(winds_on_the_sphere_are_recognised),
       CASE(the_other_component_may_lie_in_a_second_file),
+      CASE(a_second_file_is_of_use_or_refused),
       CASE(groups_are_searched),
       CASE(only_possible_requests_are_met),
       CASE(files_without_vectors_say_so),

@@ -116,6 +116,13 @@ expect_code 0
 grep -q '^vectors: u10,v10$' out || fault "$(cat out)"
 grep -q 'scale: geo' out || fault "$(cat out)"
 done_with "info: a global wind field"
+printf '%s\n' '<VTKFile type="ImageData"><ImageData WholeExtent="0 1 0 1 0 0"><Piece' \
+  'Extent="0 1 0 1 0 0"></Piece></ImageData></VTKFile>' >bare.vti
+try info bare.vti
+expect_code 1
+expect_one_complaint
+expect_error '^`flowgrain run --vars U,V`'
+done_with "info: no vectors"
 try info no-such-file.nc
 expect_code 1
 expect_one_complaint

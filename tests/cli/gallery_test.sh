@@ -65,6 +65,12 @@ FLOWGRAIN_DATA=/no/such/folder try gallery -o none --quiet
 expect_code 1
 expect_one_complaint
 expect_error '/no/such/folder'
+expect_nothing_at none
+: >file
+try gallery -o file --quiet
+expect_code 1
+expect_one_complaint
+expect_error '^flowgrain: file: is a file, a folder is needed'
 try gallery anything -o none
 expect_code 2
 expect_one_complaint

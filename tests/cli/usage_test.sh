@@ -104,6 +104,8 @@ cmp -s out <("$program" draw --help) || fault "not draw's help: $(head -1 out)"
 done_with "help COMMAND"
 wrong "unknown command 'drew'" help drew
 done_with "help of an unknown command"
+wrong "one COMMAND is expected, and 'run' is one more" help draw run
+done_with "help of two commands"
 try --version
 expect_code 0
 grep -qE '^flowgrain [0-9]+\.[0-9]+\.[0-9]+$' out || fault "$(cat out)"
