@@ -1,5 +1,5 @@
 # A thin front of CMake (CMakePresets.json). `make demo` and `make check` also install
-# what is missing, with apt.
+# what is missing, with apt. Only `make check` builds the tests.
 
 MAKEFLAGS += --no-print-directory
 JOBS := $(shell nproc 2>/dev/null || echo 2)
@@ -11,7 +11,7 @@ all:
 	@cmake --preset release -DCMAKE_INSTALL_PREFIX=$(PREFIX) >build-log 2>&1 || \
 	  { cat build-log; rm -f build-log; echo "make: 'make setup' installs what is missing" >&2; exit 1; }
 	@rm -f build-log
-	@cmake --build build -j $(JOBS)
+	@cmake --build build -j $(JOBS) --target flowgrain_program manual
 
 setup:
 	@scripts/setup
