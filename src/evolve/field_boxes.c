@@ -19,18 +19,19 @@ int fg__most_boxes(const fg__partition *partition)
   return most;
 }
 
-/* The samples for some layers of cells, and the cells beside: a law may look half a cell
- * round each centre. */
+/* The samples for some layers of cells, from face to face: a law may look half a cell
+ * round each centre, at the domain's ends too. */
 static fg__region region_of(const fg_field *field, const fg__cells *cells, int rank)
 {
   fg__region out = {.nodes = {{0, 0, 0}, {1, 1, 1}}, .rank = rank};
   for (int k = 0; k < cells->dimension; ++k) {
-    fg__field_points centers = {.origin = cells->origin[k] + 0.5 * cells->spacing[k],
-                                .spacing = cells->spacing[k],
-                                .first = cells->first[k] - 1,
-                                .count = cells->count[k] + 2,
-                                .all = fg__domain_count(cells, k)};
-    fg__field_span(&out.nodes.first[k], &out.nodes.nodes[k], field, k, &centers);
+    bool periodic = fg_field_contents(field)->period[k] > 0.0;
+    fg__field_points faces = {.origin = cells->origin[k],
+                              .spacing = cells->spacing[k],
+                              .first = cells->first[k],
+                              .count = cells->count[k] + 1,
+                              .all = fg__domain_count(cells, k) + !periodic};
+    fg__field_span(&out.nodes.first[k], &out.nodes.nodes[k], field, k, &faces);
   }
   return out;
 }
