@@ -254,11 +254,13 @@ static void restore_counts(cli_run *run, const cJSON *note)
 }
 
 /* What rank 0 writes. */
-static int restore_results(cli_run *run, const cJSON *note)
+static int restore_results(cli_run *run, const cJSON *note, bool is_previous)
 {
   int code = table_resume(&run->table, output_path(&run->output, TABLE_NAME),
                           whole_of(note, "table_bytes"));
-  return code ? code : restore_scales(run, note);
+  if (!code)
+    code = restore_scales(run, note);
+  return !code && is_previous ? output_use_previous(&run->output) : code;
 }
 
 /* Whether this rank was told what the run was begun with. */
@@ -273,13 +275,19 @@ static int check_note(const cli_run *run, const cJSON *note)
 
 static int resume(cli_run *run, const fg_checkpoint *checkpoint)
 {
-  if (*fg_checkpoint_damage(checkpoint) && ranks_leader())
+  bool is_previous = *fg_checkpoint_damage(checkpoint);
+  if (is_previous && ranks_leader())
     complain("%s; the previous checkpoint is used", fg_checkpoint_damage(checkpoint));
   cJSON *note = cJSON_Parse(fg_checkpoint_note(checkpoint));
   int code = ranks_agree(check_note(run, note));
   if (!code) {
-    code = coarser_as_before(run, checkpoint);
+    /* another field's mesh may not be one to be halved */
+    fg_status status = fg_evolution_check(run->evolution, checkpoint);
+    if (status)
+      code = complain_of(run->context, status, run->settings->output);
   }
+  if (!code)
+    code = coarser_as_before(run, checkpoint);
   if (!code) {
     fg_status status = fg_evolution_resume(run->evolution, &run->step, checkpoint);
     if (status)
@@ -287,7 +295,8 @@ static int resume(cli_run *run, const fg_checkpoint *checkpoint)
   }
   if (!code) {
     restore_counts(run, note);
-    code = ranks_agree(ranks_leader() ? restore_results(run, note) : EXIT_DONE);
+    code =
+        ranks_agree(ranks_leader() ? restore_results(run, note, is_previous) : EXIT_DONE);
   }
   cJSON_Delete(note);
   return code;

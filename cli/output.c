@@ -216,6 +216,20 @@ int output_go_on(const cli_output *out, int scales)
   return for_names(out->work, is_result_or_partial, remove_later, &scales);
 }
 
+int output_use_previous(const cli_output *out)
+{
+  char *previous = join_path(out->work, PREVIOUS_NAME);
+  char *newest = join_path(out->work, CHECKPOINT_NAME);
+  int code = EXIT_DONE;
+  if (!previous || !newest)
+    code = out_of_memory();
+  else if (rename(previous, newest) != 0)
+    code = complain_of_file(newest, "cannot be replaced");
+  free(previous);
+  free(newest);
+  return code;
+}
+
 static bool is_scale(const char *name)
 {
   return scale_of(name) >= 0;

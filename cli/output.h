@@ -40,6 +40,11 @@ int output_start_anew(const cli_output *out);
  * `scales` scales. Returns an exit code. */
 int output_go_on(const cli_output *out, int scales);
 
+/* Gives the previous checkpoint, which is the one that is whole, the name of the newest:
+ * the next one to be written would else take its place before it has a name itself.
+ * Returns an exit code. */
+int output_use_previous(const cli_output *out);
+
 /* Where to write the file that shall be DIR/name. NULL without memory. End with free. */
 char *output_path(const cli_output *out, const char *name);
 

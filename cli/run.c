@@ -214,11 +214,13 @@ static int prepare(cli_run *run, bool *done)
     if (!code)
       code = look(run, &state, done);
   }
-  if (!code && !*done)
-    code = input_read(run);
+  /* before the reading: a finished run does not need its input any more */
   code = ranks_agree(code);
   *done = ranks_any(*done);
   if (code || *done)
+    return code;
+  code = ranks_agree(input_read(run));
+  if (code)
     return code;
   code = input_join(run);
   if (code)

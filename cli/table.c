@@ -51,7 +51,20 @@ int table_start(cli_table *out, char *path)
   return append(out, heading, sizeof heading - 1) ? EXIT_DONE : EXIT_FAILED;
 }
 
-/* Copies the rows to keep; -1 when there are fewer. */
+/* A disk that gets full takes a part first, and says why only when asked again. */
+static bool write_all(int file, const char *bytes, size_t count)
+{
+  while (count > 0) {
+    ssize_t put = write(file, bytes, count);
+    if (put < 0 && errno != EINTR)
+      return false;
+    bytes += put > 0 ? put : 0;
+    count -= put > 0 ? (size_t)put : 0;
+  }
+  return true;
+}
+
+/* Copies the rows to keep. */
 static int copy_start(const char *to, const char *from, long long bytes)
 {
   int source = open(from, O_RDONLY | O_CLOEXEC);
@@ -69,7 +82,7 @@ static int copy_start(const char *to, const char *from, long long bytes)
       complain("%s: damaged: it ends %lld bytes before the checkpoint's last row", from,
                left);
       code = EXIT_FAILED;
-    } else if (write(target, chunk, (size_t)got) != got)
+    } else if (!write_all(target, chunk, (size_t)got))
       code = complain_of_file(from, "cannot be written");
     left -= got;
   }

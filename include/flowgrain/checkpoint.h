@@ -33,6 +33,13 @@ FG_API const char *fg_checkpoint_damage(const fg_checkpoint *checkpoint);
  * coarser as often before it can resume. */
 FG_API int fg_checkpoint_halvings(const fg_checkpoint *checkpoint);
 
+/* Whether a checkpoint is of the same field and options, however often its mesh was
+ * halved: to be asked before a new evolution is made coarser for it. ARGUMENT (the
+ * message names what differs with both values), UNSUPPORTED (written by another version),
+ * FILE_FORMAT. */
+FG_API fg_status fg_evolution_check(const fg_evolution *evolution,
+                                    const fg_checkpoint *checkpoint);
+
 /* Puts an evolution, just created from the same field with the same options (threads may
  * differ), into the state of a checkpoint: every later step is the same to the last bit
  * as without the interruption. `step` becomes the last accepted one; it counts no cycles

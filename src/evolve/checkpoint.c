@@ -43,7 +43,10 @@ static const fg__named_value parameter_values[] = {
     {"cells-y", FG__VALUE_INTEGER, offsetof(parameters, cells[1])},
     {"cells-z", FG__VALUE_INTEGER, offsetof(parameters, cells[2])},
 };
-enum { PARAMETERS = sizeof parameter_values / sizeof parameter_values[0] };
+enum {
+  PARAMETERS = sizeof parameter_values / sizeof parameter_values[0],
+  MESH_PARAMETERS = 5 /* the last of them, which a halving changes */
+};
 
 /* The evolution's own state, beside the stepper's. */
 typedef struct counts {
@@ -355,15 +358,17 @@ static fg_status check_version(const fg__checkpoint_file *file, fg_context *cont
                   (int)length, version ? version : "", own);
 }
 
-static fg_status check_parameters(const fg_evolution *e, const fg__checkpoint_file *file)
+/* The first `count` parameters agree. */
+static fg_status check_parameters(const fg_evolution *e, const fg__checkpoint_file *file,
+                                  size_t count)
 {
   parameters own = parameters_of(e), theirs;
   fg_status status = fg__values_scan(file->text, file->path, e->context, parameter_values,
-                                     PARAMETERS, &theirs);
+                                     count, &theirs);
   if (status)
     return status;
   const fg__named_value *differs =
-      fg__values_difference(parameter_values, PARAMETERS, &own, &theirs);
+      fg__values_difference(parameter_values, count, &own, &theirs);
   if (!differs)
     return FG_STATUS_OK;
   char one[FG__VALUE_TEXT_BYTES], other[FG__VALUE_TEXT_BYTES];
@@ -400,7 +405,7 @@ static fg_status load(fg_evolution *e, counts *counted, const fg__checkpoint_fil
 {
   fg_status status = check_version(file, e->context);
   if (!status)
-    status = check_parameters(e, file);
+    status = check_parameters(e, file, PARAMETERS);
   if (!status)
     status = fg__values_scan(file->text, file->path, e->context, fg__stepper_values,
                              fg__stepper_value_count, &e->stepper);
@@ -417,6 +422,16 @@ static fg_status load(fg_evolution *e, counts *counted, const fg__checkpoint_fil
   for (int n = 0; !status && n < FG__STATE_ARRAYS; ++n)
     fg__state_fill_ghosts(&arrays[n]);
   return status;
+}
+
+fg_status fg_evolution_check(const fg_evolution *evolution,
+                             const fg_checkpoint *checkpoint)
+{
+  const fg_evolution *e = evolution;
+  fg_status status = check_version(&checkpoint->file, e->context);
+  if (!status)
+    status = check_parameters(e, &checkpoint->file, PARAMETERS - MESH_PARAMETERS);
+  return fg__ranks_agree(e->ranks, e->context, status);
 }
 
 fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,

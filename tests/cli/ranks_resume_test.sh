@@ -64,6 +64,19 @@ goes_on part-3 2
 goes_on part-2 3
 done_with "1 to 4 ranks write one checkpoint, and each reads it"
 
+"$program" synth vortex3 -o field.nc --nodes 20
+gone=(run field.nc --nodes 33 --clusters 5 --formats svg --quiet -o gone)
+on 2 "${gone[@]}"
+expect_code 0
+rm field.nc
+for ranks in 1 3; do
+  on $ranks "${gone[@]}" --resume
+  expect_code 0
+  expect_one_message
+  expect_error 'gone: the run is finished'
+done
+done_with "a finished run does without its input on any number of ranks"
+
 # killed FOLDER RANKS WHOM: started or resumed, and killed at a random moment.
 small=("${run[@]}")
 medium=(run synth:vortex3 --nodes 513 --clusters 60,12 --formats svg --quiet --checkpoint 0)

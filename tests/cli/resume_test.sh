@@ -127,6 +127,18 @@ for length in 0 63 64 $((size / 2)) $((size - 1)); do
 done
 done_with "a damaged checkpoint is refused, and the previous one used"
 
+# the damaged one must not take the place of the whole one, not even for a moment
+for at in {6..24}; do
+  restore
+  truncate -s 3000 part/.flowgrain/checkpoint
+  with_calls kill "$at" "${input[@]}" "${options[@]}" -o part --resume
+  [ "$code" = 137 ] || fault "call $at: not killed: code $code"
+  try "${input[@]}" "${options[@]}" -o part --resume
+  [ "$code" = 0 ] || fault "call $at: code $code: $(head -c 300 err)"
+  expect_same_results whole part
+done
+done_with "killed after that, it still goes on"
+
 restore
 truncate -s 3000 part/.flowgrain/checkpoint part/.flowgrain/checkpoint.previous
 before=$(sum_of part)
@@ -151,6 +163,20 @@ expect_code 1
 expect_one_complaint
 expect_error 'evolution.csv: damaged'
 done_with "files that a checkpoint counts on must be there"
+
+restore
+before=$(sum_of part)
+[ "$(stat -c %s part/.flowgrain/evolution.csv)" -gt 1024 ] || fault "a short table"
+(
+  ulimit -f 1
+  try "${input[@]}" "${options[@]}" -o part --resume
+  echo "$code" >code
+)
+code=$(cat code)
+expect_code 1
+expect_error 'evolution.csv: cannot be written: File too large'
+[ "$(sum_of part)" = "$before" ] || fault "it has changed"
+done_with "no room for the rows so far is an error that says so"
 
 "$program" synth vortex3 -o field.nc --nodes 40
 input=(run field.nc)
@@ -209,6 +235,24 @@ for more in 0 4; do
   expect_only_results "fine-$more"
 done
 done_with "a run whose mesh is halved goes on, before and after"
+
+# stretched HEIGHT: a file with a field on a domain of that height.
+stretched() {
+  printf '%s\n' '# vtk DataFile Version 3.0' flow ASCII 'DATASET STRUCTURED_POINTS' \
+    'DIMENSIONS 3 3 1' 'ORIGIN 0 0 0' "SPACING 0.5 $1 1" 'POINT_DATA 9' 'VECTORS v float' \
+    '1 0 0  1 1 0  0 1 0' '1 1 0  2 1 0  1 1 0' '0 1 0  1 1 0  1 0 0' >field.vtk
+}
+stretched 0.5
+fine=(run field.vtk --nodes 513 --clusters 58,40 --quiet)
+try "${fine[@]}" -o stretched --max-steps 96
+expect_code 0
+expect_json stretched/run.json '.mesh.coarser | length == 1'
+stretched 0.26 # 264 cells high: their half is no number of cells that a mesh can have
+try "${fine[@]}" -o stretched --resume
+expect_code 1
+expect_one_complaint
+expect_error 'another field'
+done_with "nor where the mesh of the changed input can not be halved"
 
 cube=(run synth:vortex3d --nodes 33 --clusters 9,5 --quiet --checkpoint 0)
 try "${cube[@]}" -o cube
