@@ -23,8 +23,10 @@ static void only_inside(const struct RTCFilterFunctionNArguments *given)
 
 static fg_status fail(const fg__target *t, const char *what)
 {
-  return fg__fail(t->context, FG_STATUS_MEMORY, "picture: Embree: %s (error %d)", what,
-                  (int)rtcGetDeviceError(t->device));
+  int error = (int)rtcGetDeviceError(t->device);
+  const char *reason = error == (int)RTC_ERROR_OUT_OF_MEMORY ? "out of memory: " : "";
+  return fg__fail(t->context, FG_STATUS_MEMORY, "%spicture: Embree: %s (error %d)",
+                  reason, what, error);
 }
 
 /* Adds a copy of a solid, moved by `shift`. */

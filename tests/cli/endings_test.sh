@@ -161,6 +161,19 @@ else
   done
   done_with "out of memory: one message, and nothing is left"
 
+  # Embree reserves 200 MB or so for a device
+  (
+    ulimit -v 300000
+    try run synth:vortex3d --nodes 17 --clusters 3 -o solid --quiet --threads 1
+    echo "$code" >code
+  )
+  code=$(cat code)
+  if [ "$code" != 0 ]; then
+    expect_code 1
+    expect_error '^flowgrain: synth:vortex3d: out of memory: '
+  fi
+  done_with "nor is there another for pictures in 3D"
+
   with_calls kill 60 "${wide[@]}" -o tight --checkpoint 0
   [ "$code" = 137 ] || fault "not killed: code $code"
   for more in 4 8 12; do
