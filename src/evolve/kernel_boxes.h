@@ -10,9 +10,11 @@ static void smooth_one_colour(const fg__level *level, float tau, bool linear, in
 {
   laplacian l = laplacian_times(level, tau);
   const int *nodes = level->layout.nodes;
+  smooth_row_loop *loop =
+      smooth_loop[colour & 1 ? ODD_ONLY : EVEN_ONLY][linear][level->mass != NULL];
   for (int k = colour >> 2; k < nodes[2]; k += 2)
     for (int j = colour >> 1 & 1; j < nodes[1]; j += 2)
-      smooth_colour(level, fg__row_at(&level->layout, j, k), colour & 1, &l, linear);
+      loop(level, fg__row_at(&level->layout, j, k), &l);
 }
 
 static void find_residuals(const fg__level *level, float tau, bool linear,

@@ -109,74 +109,122 @@ ROW_LOOP void multiply(const float *by, float *values, ptrdiff_t count)
     values[k] *= by[k];
 }
 
-INLINE void residual_nodes(const fg__level *fine, ptrdiff_t at, int colour,
-                           const laplacian *constants, const float *const shape_round[3],
-                           ptrdiff_t row, const lines *out, bool masked)
+/* Both residuals at a block of columns, and in a linear level's terms the rest. */
+INLINE void put_residuals(const fg__level *fine, ptrdiff_t at, ptrdiff_t column,
+                          const laplacian *l, vector energy, vector flux,
+                          const float *shape_of_row, const lines *out, bool linear,
+                          bool masked)
+{
+  vector u = load(fine->u + at), w = load(fine->w + at), p = load(fine->p + at);
+  if (masked) {
+    vector inverse = load(fine->mass_inverse + at);
+    energy *= inverse;
+    flux *= l->tau * inverse;
+  }
+  vector first, second, d;
+  if (linear) {
+    vector m = load(fine->coupling + at), scale = load(fine->scale + at);
+    first = (p - m * u) - flux;
+    second =
+        ((load(fine->q + at) + load(fine->curvature + at) * u + energy) - m * w) * scale;
+    d = m * scale;
+    store(out->value[3] + column, load(fine->shape_curvature + at), WIDTH);
+  } else {
+    d = bulk + load(shape_of_row + column);
+    first = (p - u) - flux;
+    second = ((2.0F * u * (u * u - 1.0F) + energy) - w) * d;
+  }
+  store(out->value[0] + column, first, WIDTH);
+  store(out->value[1] + column, second, WIDTH);
+  store(out->value[2] + column, d, WIDTH);
+}
+
+/* d J d, from K on the shape. */
+INLINE void put_curvature(const fg__level *fine, ptrdiff_t at, ptrdiff_t column,
+                          vector energy, const float *shape_of_row, const lines *out,
+                          bool masked)
+{
+  vector u = load(fine->u + at), d = bulk + load(shape_of_row + column);
+  if (masked)
+    energy *= load(fine->mass_inverse + at);
+  store(out->value[3] + column, d * ((6.0F * (u * u) - 2.0F) * d + energy), WIDTH);
+}
+
+INLINE void residual_nodes(const fg__level *fine, ptrdiff_t at,
+                           const laplacian *constants, const float *shape_of_row,
+                           const lines *out, bool linear, bool masked)
 {
   const laplacian copy = *constants, *l = &copy;
-  row_view r = row_of(fine, at, colour, false, masked);
-  around x = around_slices(fine, shape_round, row, colour);
-  ptrdiff_t own = begin_of(fine, colour);
-  float *first = out->value[0] + own, *second = out->value[1] + own;
-  float *shape = out->value[2] + own, *curvature = out->value[3] + own;
-  INDEPENDENT
-  for (int k = 0; k < r.count; ++k) {
-    residuals f = residuals_at(&r, l, k, false, masked);
-    first[k] = f.first;
-    float d = bulk + x.center[k], energy = apply(&r.energy, &x, k);
-    if (masked)
-      energy *= r.mass_inverse[k];
-    second[k] = f.second * d;
-    shape[k] = d;
-    curvature[k] = d * (f.curvature * d + energy);
+  block n = first_block(fine);
+  strand energy =
+      strand_of(fine, &fine->energy, l, neighbours_round(fine, fine->u, at), at);
+  strand flux = strand_of(fine, masked ? &fine->laplacian : NULL, l,
+                          neighbours_round(fine, fine->w, at), at);
+  begin(&energy, &n);
+  begin(&flux, &n);
+  for (; n.even < n.evens; next_block(&n)) {
+    advance(&energy, n.even, n.odd);
+    advance(&flux, n.even, n.odd);
+    put_residuals(fine, at + n.even, n.even, l, at_even_block(&energy, &n),
+                  at_even_block(&flux, &n), shape_of_row, out, linear, masked);
+    if (n.even > 0)
+      put_residuals(fine, at + n.odd - WIDTH, n.odd - WIDTH, l,
+                    at_odd_before(&energy, &n), at_odd_before(&flux, &n), shape_of_row,
+                    out, linear, masked);
   }
+  if (n.even - WIDTH < n.odds)
+    put_residuals(fine, at + n.odd - WIDTH, n.odd - WIDTH, l, at_last_odd(&energy, &n),
+                  at_last_odd(&flux, &n), shape_of_row, out, linear, masked);
 }
 
-INLINE void residual_linear_nodes(const fg__level *fine, ptrdiff_t at, int colour,
-                                  const laplacian *constants, const lines *out,
-                                  bool masked)
+INLINE void curvature_of_shape(const fg__level *fine, ptrdiff_t at,
+                               const float *const shape_round[3], ptrdiff_t row,
+                               const lines *out, bool masked)
 {
-  const laplacian copy = *constants, *l = &copy;
-  row_view r = row_of(fine, at, colour, true, masked);
-  ptrdiff_t own = begin_of(fine, colour);
-  float *first = out->value[0] + own, *second = out->value[1] + own;
-  float *shape = out->value[2] + own, *curvature = out->value[3] + own;
-  const float *scale = fine->scale + at + own;
-  const float *shape_curvature = fine->shape_curvature + at + own;
-  INDEPENDENT
-  for (int k = 0; k < r.count; ++k) {
-    residuals f = residuals_at(&r, l, k, true, masked);
-    first[k] = f.first;
-    second[k] = f.second * scale[k];
-    shape[k] = r.coupling[k] * scale[k];
-    curvature[k] = shape_curvature[k];
+  block n = first_block(fine);
+  const float *shape_of_row = shape_round[1] + row;
+  strand shape = strand_of(fine, &fine->energy, NULL,
+                           neighbours_of_slices(fine, shape_round, row), at);
+  begin(&shape, &n);
+  for (; n.even < n.evens; next_block(&n)) {
+    advance(&shape, n.even, n.odd);
+    put_curvature(fine, at + n.even, n.even, at_even_block(&shape, &n), shape_of_row, out,
+                  masked);
+    if (n.even > 0)
+      put_curvature(fine, at + n.odd - WIDTH, n.odd - WIDTH, at_odd_before(&shape, &n),
+                    shape_of_row, out, masked);
   }
+  if (n.even - WIDTH < n.odds)
+    put_curvature(fine, at + n.odd - WIDTH, n.odd - WIDTH, at_last_odd(&shape, &n),
+                  shape_of_row, out, masked);
 }
 
-ROW_LOOP void residual_plain(const fg__level *fine, ptrdiff_t at, int colour,
-                             const laplacian *l, const float *const shape_round[3],
-                             ptrdiff_t row, const lines *out)
+ROW_LOOP void residual_plain(const fg__level *fine, ptrdiff_t at, const laplacian *l,
+                             const float *const shape_round[3], ptrdiff_t row,
+                             const lines *out)
 {
-  residual_nodes(fine, at, colour, l, shape_round, row, out, false);
+  residual_nodes(fine, at, l, shape_round[1] + row, out, false, false);
+  curvature_of_shape(fine, at, shape_round, row, out, false);
 }
 
-ROW_LOOP void residual_masked(const fg__level *fine, ptrdiff_t at, int colour,
-                              const laplacian *l, const float *const shape_round[3],
-                              ptrdiff_t row, const lines *out)
+ROW_LOOP void residual_masked(const fg__level *fine, ptrdiff_t at, const laplacian *l,
+                              const float *const shape_round[3], ptrdiff_t row,
+                              const lines *out)
 {
-  residual_nodes(fine, at, colour, l, shape_round, row, out, true);
+  residual_nodes(fine, at, l, shape_round[1] + row, out, false, true);
+  curvature_of_shape(fine, at, shape_round, row, out, true);
 }
 
-ROW_LOOP void residual_linear_plain(const fg__level *fine, ptrdiff_t at, int colour,
+ROW_LOOP void residual_linear_plain(const fg__level *fine, ptrdiff_t at,
                                     const laplacian *l, const lines *out)
 {
-  residual_linear_nodes(fine, at, colour, l, out, false);
+  residual_nodes(fine, at, l, NULL, out, true, false);
 }
 
-ROW_LOOP void residual_linear_masked(const fg__level *fine, ptrdiff_t at, int colour,
+ROW_LOOP void residual_linear_masked(const fg__level *fine, ptrdiff_t at,
                                      const laplacian *l, const lines *out)
 {
-  residual_linear_nodes(fine, at, colour, l, out, true);
+  residual_nodes(fine, at, l, NULL, out, true, true);
 }
 
 /* Of row j of plane k. The shapes round its slice: NULL for a linear level. */
@@ -185,13 +233,10 @@ static void residual_line(const fg__level *fine, int j, int k, const laplacian *
 {
   ptrdiff_t at = fg__row_at(&fine->layout, j, k);
   ptrdiff_t row = FG__DIMENSION == 3 ? j * fine->layout.stride : 0;
-  for (int colour = EVEN; colour <= ODD; ++colour)
-    if (shape_round)
-      (fine->mass ? residual_masked : residual_plain)(fine, at, colour, l, shape_round,
-                                                      row, out);
-    else
-      (fine->mass ? residual_linear_masked : residual_linear_plain)(fine, at, colour, l,
-                                                                    out);
+  if (shape_round)
+    (fine->mass ? residual_masked : residual_plain)(fine, at, l, shape_round, row, out);
+  else
+    (fine->mass ? residual_linear_masked : residual_linear_plain)(fine, at, l, out);
 }
 
 static void find_row(restriction *r, int j, int k, const lines *out, bool linear)

@@ -3,6 +3,7 @@
 #define FG__KERNEL_STENCIL_H
 
 #include "evolve/kernel.h"
+#include "evolve/kernel_vector.h"
 
 #if defined(__clang__)
 /* clang 14 leaves one loop of the masked 3D energy as it is: slower, not wrong */
@@ -13,7 +14,6 @@
 #define INDEPENDENT _Pragma("GCC ivdep")
 #define UNROLLED _Pragma("GCC unroll 4")
 #endif
-#define INLINE static inline __attribute__((always_inline))
 /* Loops over one row, a function each, so that each is compiled once. */
 #define ROW_LOOP static __attribute__((noinline))
 
@@ -66,27 +66,6 @@ INLINE around around_row(const fg__level *level, const float *array, ptrdiff_t r
     x.upper_other[r] = array + other + up;
     x.lower[r] = array + own - up;
     x.lower_other[r] = array + other - up;
-  }
-  return x;
-}
-
-/* The same where the slices before, at and after the row's are apart: arrays of one slice
- * each, as a slice lies in memory, `row` in them. */
-INLINE around around_slices(const fg__level *level, const float *const slice[3],
-                            ptrdiff_t row, int colour)
-{
-  ptrdiff_t own = row + begin_of(level, colour);
-  ptrdiff_t other = row + (colour == ODD ? 0 : level->layout.odd_offset - 1);
-  around x = {.center = slice[1] + own, .middle = slice[1] + other};
-  UNROLLED
-  for (int r = 0; r < UPPER_ROWS; ++r) {
-    bool within = FG__DIMENSION == 3 && r == 0;
-    ptrdiff_t up = FG__DIMENSION == 3 ? (r == 0 ? 1 : r - 2) * level->layout.stride : 0;
-    const float *above = slice[within ? 1 : 2], *below = slice[within ? 1 : 0];
-    x.upper[r] = above + own + up;
-    x.upper_other[r] = above + other + up;
-    x.lower[r] = below + own - up;
-    x.lower_other[r] = below + other - up;
   }
   return x;
 }
@@ -180,64 +159,6 @@ INLINE float apply_constant(const laplacian *l, const around *x, int k)
          apply_constant_pair(l, x, 2, k);
 #endif
   return sum;
-}
-
-/* Everything about the nodes of one colour in one row. The masked versions multiply rows
- * by the inverse of the relative mass. */
-typedef struct row_view {
-  int count;
-  around u, w;
-  couplings energy, laplacian;
-  const float *p, *q, *curvature, *coupling, *relaxation, *mass_inverse;
-} row_view;
-
-INLINE row_view row_of(const fg__level *level, ptrdiff_t at, int colour, bool linear,
-                       bool masked)
-{
-  ptrdiff_t own = at + begin_of(level, colour);
-  row_view r = {.count = colour == ODD ? level->odd_count : level->even_count,
-                .u = around_row(level, level->u, at, colour),
-                .w = around_row(level, level->w, at, colour),
-                .energy = couplings_row(level, &level->energy, at, colour),
-                .p = level->p + own};
-  if (linear) {
-    r.q = level->q + own;
-    r.curvature = level->curvature + own;
-    r.coupling = level->coupling + own;
-    r.relaxation = level->relaxation + own;
-  }
-  if (masked) {
-    r.laplacian = couplings_row(level, &level->laplacian, at, colour);
-    r.mass_inverse = level->mass_inverse + own;
-  }
-  return r;
-}
-
-/* Residuals of both equations at node k, and the curvature there. */
-typedef struct residuals {
-  float first, second, curvature;
-} residuals;
-
-INLINE residuals residuals_at(const row_view *r, const laplacian *l, int k, bool linear,
-                              bool masked)
-{
-  float u = r->u.center[k], w = r->w.center[k];
-  float energy = apply(&r->energy, &r->u, k);
-  float flux =
-      masked ? l->tau * apply(&r->laplacian, &r->w, k) : apply_constant(l, &r->w, k);
-  if (masked) {
-    energy *= r->mass_inverse[k];
-    flux *= r->mass_inverse[k];
-  }
-  if (linear) {
-    float curvature = r->curvature[k], coupling = r->coupling[k];
-    return (residuals){(r->p[k] - coupling * u) - flux,
-                       (r->q[k] + curvature * u + energy) - coupling * w, curvature};
-  }
-  float first = (r->p[k] - u) - flux;
-  float square = u * u;
-  return (residuals){first, (2.0F * u * (square - 1.0F) + energy) - w,
-                     6.0F * square - 2.0F};
 }
 
 #endif

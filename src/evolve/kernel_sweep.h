@@ -2,86 +2,123 @@
 #ifndef FG__KERNEL_SWEEP_H
 #define FG__KERNEL_SWEEP_H
 
-#include "evolve/kernel_stencil.h"
+#include <limits.h>
 
-/* One colour of one row. Eliminating dw from
+#include "evolve/kernel_row.h"
+
+/* A block of nodes of one colour. Eliminating dw from
  *     m du + tau l0 dw = first,   m dw - g du = second,   g = Psi''(u) + k0
  * (m = 1 on the finest level) leaves a denominator m^2 + tau l0 g, which in the spinodal
  * region may vanish: it (on coarse levels g) is kept above a quarter of its value without
  * Psi''. On coarse levels its inverse, the relaxation, is found once a cycle. */
-INLINE void smooth_nodes(const fg__level *level, ptrdiff_t at, int colour,
-                         const laplacian *constants, bool linear, bool masked)
+INLINE void relax(const fg__level *level, ptrdiff_t at, int count, const laplacian *l,
+                  vector energy, vector flux, bool linear, bool masked)
+{
+  vector u = load(level->u + at), w = load(level->w + at), p = load(level->p + at);
+  vector k0 = load(level->energy.center + at), l0 = {0};
+  l0 += l->center;
+  if (masked) {
+    vector inverse = load(level->mass_inverse + at);
+    energy *= inverse;
+    flux *= l->tau * inverse;
+    k0 *= inverse;
+    l0 = l->tau * load(level->laplacian.center + at) * inverse;
+  }
+  vector du, dw;
+  if (linear) {
+    vector curvature = load(level->curvature + at), m = load(level->coupling + at);
+    vector inverse = load(level->relaxation + at);
+    vector first = (p - m * u) - flux;
+    vector second = (load(level->q + at) + curvature * u + energy) - m * w;
+    vector g = greater_lanes(curvature + k0, 0.25F * k0);
+    du = (m * first - l0 * second) * inverse;
+    dw = (m * second + g * first) * inverse;
+  } else {
+    vector square = u * u;
+    vector first = (p - u) - flux;
+    vector second = (2.0F * u * (square - 1.0F) + energy) - w;
+    vector g = (6.0F * square - 2.0F) + k0;
+    vector denominator = greater_lanes(1.0F + l0 * g, 0.25F + 0.25F * l0 * k0);
+    du = (first - l0 * second) / denominator;
+    dw = second + g * du;
+  }
+  store(level->u + at, u + du, count);
+  store(level->w + at, w + dw, count);
+}
+
+/* Columns of a row that a sweep goes through. */
+typedef enum parity { EVEN_ONLY = 1, ODD_ONLY = 2, BOTH = 3 } parity;
+
+INLINE void smooth_nodes(const fg__level *level, ptrdiff_t at, const laplacian *constants,
+                         parity which, bool linear, bool masked)
 {
   const laplacian copy = *constants, *l = &copy;
-  row_view r = row_of(level, at, colour, linear, masked);
-  ptrdiff_t own = at + begin_of(level, colour);
-  float *u = level->u + own, *w = level->w + own;
-  INDEPENDENT
-  for (int k = 0; k < r.count; ++k) {
-    residuals f = residuals_at(&r, l, k, linear, masked);
-    float k0 = r.energy.center[k];
-    float l0 = masked ? l->tau * r.laplacian.center[k] : l->center;
-    if (masked) {
-      k0 *= r.mass_inverse[k];
-      l0 *= r.mass_inverse[k];
-    }
-    float g = f.curvature + k0;
-    if (linear) {
-      float m = r.coupling[k], inverse = r.relaxation[k];
-      g = greater(g, 0.25F * k0);
-      u[k] += (m * f.first - l0 * f.second) * inverse;
-      w[k] += (m * f.second + g * f.first) * inverse;
-      continue;
-    }
-    float denominator = greater(1.0F + l0 * g, 0.25F + 0.25F * l0 * k0);
-    float du = (f.first - l0 * f.second) / denominator;
-    u[k] += du;
-    w[k] += f.second + g * du;
+  block n = first_block(level);
+  /* what lies beyond the row's end is filled after, or else not to be touched */
+  bool whole = !level->boxed || level->slab;
+  int evens = whole ? INT_MAX : n.evens, odds = whole ? INT_MAX : n.odds;
+  strand energy =
+      strand_of(level, &level->energy, l, neighbours_round(level, level->u, at), at);
+  strand flux = strand_of(level, masked ? &level->laplacian : NULL, l,
+                          neighbours_round(level, level->w, at), at);
+  begin(&energy, &n);
+  begin(&flux, &n);
+  for (; n.even < n.evens; next_block(&n)) {
+    advance(&energy, n.even, n.odd);
+    advance(&flux, n.even, n.odd);
+    if (which & EVEN_ONLY)
+      relax(level, at + n.even, evens - (int)n.even, l, at_even_block(&energy, &n),
+            at_even_block(&flux, &n), linear, masked);
+    if ((which & ODD_ONLY) && n.even > 0)
+      relax(level, at + n.odd - WIDTH, odds - (int)(n.even - WIDTH), l,
+            at_odd_before(&energy, &n), at_odd_before(&flux, &n), linear, masked);
   }
-}
-
-ROW_LOOP void smooth_plain(const fg__level *level, ptrdiff_t at, int colour,
-                           const laplacian *l)
-{
-  smooth_nodes(level, at, colour, l, false, false);
-}
-
-ROW_LOOP void smooth_masked(const fg__level *level, ptrdiff_t at, int colour,
-                            const laplacian *l)
-{
-  smooth_nodes(level, at, colour, l, false, true);
-}
-
-ROW_LOOP void smooth_linear_plain(const fg__level *level, ptrdiff_t at, int colour,
-                                  const laplacian *l)
-{
-  smooth_nodes(level, at, colour, l, true, false);
-}
-
-ROW_LOOP void smooth_linear_masked(const fg__level *level, ptrdiff_t at, int colour,
-                                   const laplacian *l)
-{
-  smooth_nodes(level, at, colour, l, true, true);
-}
-
-static void smooth_colour(const fg__level *level, ptrdiff_t at, int colour,
-                          const laplacian *l, bool linear)
-{
-  if (level->mass)
-    (linear ? smooth_linear_masked : smooth_masked)(level, at, colour, l);
-  else
-    (linear ? smooth_linear_plain : smooth_plain)(level, at, colour, l);
+  fg__fill_ghost_columns(level, level->u + at);
+  fg__fill_ghost_columns(level, level->w + at);
+  if (!(which & ODD_ONLY) || n.even - WIDTH >= n.odds)
+    return;
+  relax(level, at + n.odd - WIDTH, odds - (int)(n.even - WIDTH), l,
+        at_last_odd(&energy, &n), at_last_odd(&flux, &n), linear, masked);
   fg__fill_ghost_columns(level, level->u + at);
   fg__fill_ghost_columns(level, level->w + at);
 }
+
+#define SMOOTH_ROW(name, which, linear, masked)                                          \
+  ROW_LOOP void name(const fg__level *level, ptrdiff_t at, const laplacian *l)           \
+  {                                                                                      \
+    smooth_nodes(level, at, l, which, linear, masked);                                   \
+  }
+SMOOTH_ROW(smooth_plain, BOTH, false, false)
+SMOOTH_ROW(smooth_masked, BOTH, false, true)
+SMOOTH_ROW(smooth_linear_plain, BOTH, true, false)
+SMOOTH_ROW(smooth_linear_masked, BOTH, true, true)
+SMOOTH_ROW(smooth_even_plain, EVEN_ONLY, false, false)
+SMOOTH_ROW(smooth_even_masked, EVEN_ONLY, false, true)
+SMOOTH_ROW(smooth_even_linear_plain, EVEN_ONLY, true, false)
+SMOOTH_ROW(smooth_even_linear_masked, EVEN_ONLY, true, true)
+SMOOTH_ROW(smooth_odd_plain, ODD_ONLY, false, false)
+SMOOTH_ROW(smooth_odd_masked, ODD_ONLY, false, true)
+SMOOTH_ROW(smooth_odd_linear_plain, ODD_ONLY, true, false)
+SMOOTH_ROW(smooth_odd_linear_masked, ODD_ONLY, true, true)
+#undef SMOOTH_ROW
+
+typedef void smooth_row_loop(const fg__level *level, ptrdiff_t at, const laplacian *l);
+
+/* By columns, linear, masked. */
+static smooth_row_loop *const smooth_loop[BOTH + 1][2][2] = {
+    [EVEN_ONLY] = {{smooth_even_plain, smooth_even_masked},
+                   {smooth_even_linear_plain, smooth_even_linear_masked}},
+    [ODD_ONLY] = {{smooth_odd_plain, smooth_odd_masked},
+                  {smooth_odd_linear_plain, smooth_odd_linear_masked}},
+    [BOTH] = {{smooth_plain, smooth_masked},
+              {smooth_linear_plain, smooth_linear_masked}}};
 
 /* Row j of plane k, and the ghost rows that are its copies. */
 static void smooth_row(const fg__level *level, int j, int k, const laplacian *l,
                        bool linear)
 {
   ptrdiff_t at = fg__row_at(&level->layout, j, k);
-  smooth_colour(level, at, EVEN, l, linear);
-  smooth_colour(level, at, ODD, l, linear);
+  smooth_loop[BOTH][linear][level->mass != NULL](level, at, l);
   for (int side = 0; side < 2; ++side)
     if (level->ghost_row_source[side] == j) {
       fg__fill_ghost_row(level, level->u, k, side);
@@ -95,10 +132,10 @@ static void smooth_row(const fg__level *level, int j, int k, const laplacian *l,
 static void smooth_rows(const fg__level *level, int j, int k, const laplacian *l,
                         bool linear)
 {
-  int rows = level->layout.nodes[1];
-  if (j < rows)
+  int count = level->layout.nodes[1];
+  if (j < count)
     smooth_row(level, j, k, l, linear);
-  if (j > 0 && j - 1 < rows)
+  if (j > 0 && j - 1 < count)
     smooth_row(level, j - 1, k, l, linear);
 }
 
