@@ -51,9 +51,11 @@ typedef struct fg_icon_options {
 typedef struct fg_icons fg_icons;
 
 /* Makes the icons of a density: label, march, spine, streamline, arrow. Clusters too
- * small for a readable arrow give none; fg_icons_dropped counts them. In 2D no arrow
- * crosses a periodic border: a cluster with a quarter of itself, or of the mean cluster,
- * on either side gives an icon on each, with the same `cluster`. Of a shared density each
+ * small for a readable arrow give none; fg_icons_dropped counts them. In 2D a cluster may
+ * give several, with the same `cluster`: no arrow crosses a periodic border, so that one
+ * with a quarter of itself, or of the mean cluster, on either side gives an icon on each;
+ * and far parts of one that its arrow does not stand for give icons of their own, unless
+ * arrows reach beyond their clusters. Of a shared density each
  * rank makes the icons of some clusters, from what lies round them, and rank 0 gets
  * all, the same as of the whole; on other ranks *out becomes NULL. UNSUPPORTED
  * (FG_ICON_EXTENT_TERRITORY in 3D, or of a shared density: fg_density_gather), MEMORY,

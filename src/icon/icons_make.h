@@ -18,7 +18,8 @@ typedef struct fg__icon_source {
   const fg__patch *patch;             /* [count] with cluster, else one for all */
 } fg__icon_source;
 
-/* Places for a cluster's icons: a cluster across a periodic border may have several. */
+/* Places for a cluster's icons: one across a periodic border, or that one arrow does not
+ * stand for (icon/rest.h), may have several. */
 enum { FG__ICON_PARTS = FG__WINDOW_PARTS };
 
 /* [clusters * FG__ICON_PARTS], zeroed; NULL when there is no memory. fg__icons_free ends
