@@ -81,13 +81,14 @@ FG_API fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step);
 FG_API bool fg_evolution_is_ample(const fg_evolution *evolution);
 
 /* Goes on with half the cells along each side, and interfaces twice as wide: gamma is
- * four times what it was. u becomes its mean round every other node, its integral stays.
- * Wider interfaces cost more and move faster: energies are divided, times and time steps
- * multiplied by two, so that they go on as on the first mesh. `step` becomes the present
- * state; it counts no cycles. `field` and `options` (NULL: defaults) are those of the
- * evolution's creation. Collective. ARGUMENT (they are not, the cells can not be halved,
- * the field has missing values): nothing has changed; MEMORY, MPI: the evolution is of no
- * use any more. */
+ * four times what it was. u becomes its mean round every other node, smoothed until
+ * interfaces are as wide as they will be; its integral stays. Wider interfaces cost more
+ * and move faster: energies are divided, times and time steps multiplied by two, so that
+ * they go on as on the first mesh. `step` becomes the present state; it counts no cycles.
+ * `field` and the energy of `options` (NULL: the default) are those of the evolution's
+ * creation; all other options stay what they were. Collective. ARGUMENT (they are not,
+ * the cells can not be halved, the field has missing values): nothing has changed;
+ * MEMORY, MPI: the evolution is of no use any more. */
 FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, const fg_field *field,
                                       const fg_evolution_options *options, fg_step *step);
 

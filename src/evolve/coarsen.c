@@ -84,6 +84,8 @@ fg_status fg_evolution_coarsen(fg_evolution *evolution, const fg_field *field,
     fg__evolution_options_settle(&settled, e->context, e->mesh.dimension);
     status = change_mesh(e, field, settled.law, &halved);
   }
+  if (!status)
+    status = fg__evolution_count(e);
   fg__halved_clear(&halved);
   fg__traffic_return(e->ranks->book, before);
   if (!status)

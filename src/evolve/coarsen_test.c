@@ -256,6 +256,41 @@ static void clusters_on_a_coarser_mesh_are_those_of_the_finer(void **state)
   fg_field_destroy(field);
 }
 
+/* Share of the nodes of a square in {u > 0}, those of its border by half or a quarter. */
+static double share_covered(const fg_density_arrays *density)
+{
+  int side = density->nodes[0];
+  double covered = 0.0;
+  for (int n = 0; n < side * side; ++n) {
+    int x = n % side, y = n / side;
+    double weight = (x % (side - 1) ? 1.0 : 0.5) * (y % (side - 1) ? 1.0 : 0.5);
+    covered += density->u[n] > 0.0F ? weight : 0.0;
+  }
+  return covered / ((side - 1) * (side - 1));
+}
+
+/* What a step says is of the mesh that is there. */
+static void clusters_are_counted_on_the_coarser_mesh(void **state)
+{
+  fg_context *context = *state;
+  fg_field *field = field_of(context, "vortex3", 65);
+  const fg_evolution_options options = {.nodes = 129};
+  fg_evolution *evolution = begin(context, field, &options);
+  double measure;
+  fg_step before = run_to(evolution, 30, &measure), after;
+  assert_int_equal(fg_evolution_coarsen(evolution, field, &options, &after),
+                   FG_STATUS_OK);
+  fg_density *density = density_of(evolution);
+  double covered = share_covered(fg_density_contents(density));
+  assert_true(fabs(before.area_fraction - covered) > 5e-3);
+  assert_true(fabs(after.area_fraction - covered) < 1e-3);
+  assert_true(after.clusters > 0 && after.clusters < before.clusters);
+  assert_int_equal(fg_density_contents(density)->clusters, after.clusters);
+  fg_density_destroy(density);
+  fg_evolution_destroy(evolution);
+  fg_field_destroy(field);
+}
+
 static void the_mesh_is_ample_for_large_clusters_only(void **state)
 {
   enum { AMPLE = 4096, CLUSTERS = 60 };
@@ -361,6 +396,8 @@ int main(void)
       cmocka_unit_test_setup_teardown(interfaces_become_as_wide_as_they_want_to_be,
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(clusters_on_a_coarser_mesh_are_those_of_the_finer,
+                                      context_set_up, context_tear_down),
+      cmocka_unit_test_setup_teardown(clusters_are_counted_on_the_coarser_mesh,
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(the_mesh_is_ample_for_large_clusters_only,
                                       context_set_up, context_tear_down),
