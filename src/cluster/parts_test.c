@@ -52,15 +52,16 @@ static int find(fg__piece out[FG__WINDOW_PARTS], double area, double other_areas
 /* Of pieces of the same size the first. */
 static bool comes_before(int one, int other)
 {
-  return nodes_in[one] > nodes_in[other] ||
-         (nodes_in[one] == nodes_in[other] && one < other);
+  if (nodes_in[one] != nodes_in[other])
+    return nodes_in[one] > nodes_in[other];
+  return one < other;
 }
 
 static void the_largest_pieces_are_kept(void **state)
 {
   (void)state;
   fg__piece piece[FG__WINDOW_PARTS];
-  int kept[FG__WINDOW_PARTS], count = 0, nodes = 0;
+  int kept[FG__WINDOW_PARTS] = {0}, count = 0, nodes = 0;
   fill();
   assert_int_equal(find(piece, 1000.0, 1.0), FG__WINDOW_PARTS);
   for (int n = 0; n < STRETCHES * STRETCHES; ++n) {
@@ -72,6 +73,7 @@ static void the_largest_pieces_are_kept(void **state)
       kept[count++] = n;
     }
   }
+  assert_int_equal(count, FG__WINDOW_PARTS);
   for (int n = 0; n < count; ++n) {
     const fg__stretch *x = &piece[n].range[0], *y = &piece[n].range[1];
     const int *of_x = along_x[kept[n] % STRETCHES], *of_y = along_y[kept[n] / STRETCHES];
