@@ -1,12 +1,9 @@
 /* A mesh that is halved, on several ranks: the bits of one rank alone, also after a
  * checkpoint. */
+#include "evolve/checkpoint_place_test.h"
 #include "evolve/steps_test.h"
 
-#include <unistd.h>
-
 enum { SAMPLES = 33, BEFORE = 6, BETWEEN = 4, AFTER = 4 };
-
-static char path[96];
 
 static fg_evolution *begin(const fg_field *field, const fg__ranks *ranks,
                            const fg_evolution_options *options)
@@ -64,24 +61,6 @@ static void a_halved_mesh_has_the_bits_of_one_rank(void **state)
   compare("abc", &(fg_evolution_options){.nodes = 33}); /* 3D, periodic */
   compare("vortex3d", &(fg_evolution_options){.nodes = 33});
   end_together();
-}
-
-static int name_checkpoint(void **state)
-{
-  (void)state;
-  name_folder(path, sizeof path); /* a file in place of the folder */
-  return 0;
-}
-
-static int remove_checkpoint(void **state)
-{
-  (void)state;
-  if (us.ranks->rank != 0)
-    return 0;
-  char previous[128];
-  snprintf(previous, sizeof previous, "%s.previous", path);
-  unlink(previous);
-  return unlink(path);
 }
 
 int main(void)

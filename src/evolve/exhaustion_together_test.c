@@ -2,11 +2,11 @@
  * their mesh and go on: all are told of it alike, none waits for the others, nothing is
  * left behind. */
 #include "base/refusal_test.h"
+#include "evolve/checkpoint_place_test.h"
 #include "evolve/evolution.h"
 #include "mesh/parted_test.h"
 
 #include <math.h>
-#include <unistd.h>
 
 enum { COLUMNS = 22, ROWS = 26, LAYERS = 3 };
 
@@ -16,7 +16,6 @@ typedef struct example {
   bool masked;
 } example;
 
-static char path[96];
 static int failures; /* in what was just lived through */
 static long created; /* what was asked for by the time an evolution was there */
 
@@ -205,24 +204,6 @@ static void of_parts_in_3d(void **state)
   fg_field_destroy(part);
   fg_field_destroy(whole);
   end_together();
-}
-
-static int name_checkpoint(void **state)
-{
-  (void)state;
-  name_folder(path, sizeof path); /* a file in place of the folder */
-  return 0;
-}
-
-static int remove_checkpoint(void **state)
-{
-  (void)state;
-  if (us.ranks->rank != 0)
-    return 0;
-  char previous[128];
-  snprintf(previous, sizeof previous, "%s.previous", path);
-  unlink(previous);
-  return unlink(path);
 }
 
 int main(void)
