@@ -51,6 +51,7 @@
 #include "flowgrain/icons.h"
 #include "flowgrain/parts.h"
 #include "flowgrain/picture.h"
+#include "flowgrain/placement.h"
 #include "flowgrain/rival.h"
 #include "flowgrain/solid.h"
 #include "flowgrain/texture.h"

@@ -10,7 +10,8 @@ extern "C" {
 
 typedef enum fg_icon_kind {
   FG_ICON_ARROW = 0, /* a curved arrow along one streamline */
-  FG_ICON_RING,      /* an arrow round a vortex, an arc of at most about 300 degrees */
+  FG_ICON_RING,      /* an arrow round a vortex, an arc of at most about 330 degrees */
+  FG_ICON_SPIRAL,    /* the same where the streamline does not close */
 } fg_icon_kind;
 
 /* A curved arrow: a tapering body round the centreline and a triangular head; in 3D a
@@ -28,7 +29,12 @@ typedef struct fg_icon {
   double head_width;         /* full width of the head's base */
   double center[3];          /* centre of the cluster's spine, on the centreline */
   double area;               /* of the cluster (volume in 3D), or of the icon's part */
-  double speed;              /* mean |v| along the centreline, input units */
+  double speed;              /* mean |v| along the centreline, or in the icon's part */
+  /* Of placed icons (placement.h), else 0: */
+  int id;         /* from 1, the same in all scales */
+  int parent;     /* id of the icon that it goes into in the next scale; 0: not known */
+  double seed[3]; /* a point of its line, */
+  double way[2];  /* and how far that may go against the flow and along it */
   /* Unless the icon was read from a file: the cluster's spine from end to end, a ring's
    * back to where it begins; and in 3D all of the streamline in the cluster, of which the
    * centreline is a part. */

@@ -118,10 +118,32 @@ static fg_status read_kind(fg_icon_kind *out, const reading *at, const cJSON *pr
   *out = FG_ICON_ARROW;
   if (!item || (kind && strcmp(kind, "arrow") == 0))
     return FG_STATUS_OK;
-  if (!kind || strcmp(kind, "ring") != 0)
-    return fail_member(at, "kind", "\"arrow\" or \"ring\"");
-  *out = FG_ICON_RING;
+  if (!kind || (strcmp(kind, "ring") != 0 && strcmp(kind, "spiral") != 0))
+    return fail_member(at, "kind", "\"arrow\", \"ring\" or \"spiral\"");
+  *out = strcmp(kind, "ring") == 0 ? FG_ICON_RING : FG_ICON_SPIRAL;
   return FG_STATUS_OK;
+}
+
+/* What a placed icon goes on from. Other programs' lines may have an `id` of any kind:
+ * only one beside a `seed` and a `way` is ours. */
+static fg_status read_placement(fg_icon *icon, const reading *at,
+                                const cJSON *properties)
+{
+  const cJSON *seed = cJSON_GetObjectItemCaseSensitive(properties, "seed");
+  const cJSON *way = cJSON_GetObjectItemCaseSensitive(properties, "way");
+  double ways[3] = {0};
+  if (!cJSON_IsArray(seed) || !cJSON_IsArray(way))
+    return FG_STATUS_OK;
+  fg_status status = read_whole_number(&icon->id, at, properties, "id", 1);
+  if (status == FG_STATUS_OK)
+    status = read_whole_number(&icon->parent, at, properties, "parent", 1);
+  if (status == FG_STATUS_OK)
+    status = read_position(icon->seed, at, seed, "seed");
+  if (status == FG_STATUS_OK)
+    status = read_position(ways, at, way, "way");
+  icon->way[0] = ways[0];
+  icon->way[1] = ways[1];
+  return status;
 }
 
 /* Properties that another program's lines lack stay 0; their cluster is their place in
@@ -143,7 +165,7 @@ static fg_status read_properties(fg_icon *icon, const reading *at, const cJSON *
                  {"tail_width", &icon->tail_width},
                  {"head_length", &icon->head_length},
                  {"head_width", &icon->head_width}};
-  fg_status status = read_whole_number(&icon->cluster, at, properties, "cluster", 1);
+  fg_status status = read_whole_number(&icon->cluster, at, properties, "cluster", 0);
   for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i)
     if (status == FG_STATUS_OK)
       status = read_number(numbers[i].number, at, properties, numbers[i].member);
@@ -152,6 +174,8 @@ static fg_status read_properties(fg_icon *icon, const reading *at, const cJSON *
   const cJSON *center = cJSON_GetObjectItemCaseSensitive(properties, "center");
   if (status == FG_STATUS_OK && center)
     status = read_position(icon->center, at, center, "center");
+  if (status == FG_STATUS_OK)
+    status = read_placement(icon, at, properties);
   return status;
 }
 
@@ -184,12 +208,16 @@ static fg_status read_collection(fg_icons *icons, reading *at, const cJSON *root
     if (status != FG_STATUS_OK)
       return status;
   }
-  int dropped = 0, clusters = at->feature + 1;
+  int dropped = 0, clusters = at->feature + 1, next_id = 0;
   fg_status status = read_whole_number(&clusters, at, root, "clusters", 0);
   if (status == FG_STATUS_OK)
     status = read_whole_number(&dropped, at, root, "dropped", 0);
   if (status == FG_STATUS_OK)
+    status = read_whole_number(&next_id, at, root, "next_id", 1);
+  if (status == FG_STATUS_OK) {
     fg__icons_set_clusters(icons, clusters, dropped);
+    fg__icons_set_next_id(icons, next_id);
+  }
   return status;
 }
 

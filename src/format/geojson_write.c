@@ -2,12 +2,13 @@
  * input's own, which the RFC wants to be longitude and latitude only. */
 #include "base/whole_file.h"
 #include "format/number_text.h"
+#include "icon/icons.h"
 
 #include <math.h>
 
 static const char *kind_name(fg_icon_kind kind)
 {
-  return kind == FG_ICON_RING ? "ring" : "arrow";
+  return kind == FG_ICON_RING ? "ring" : kind == FG_ICON_SPIRAL ? "spiral" : "arrow";
 }
 
 static bool all_finite(const fg_icon *icon)
@@ -50,6 +51,20 @@ static void write_position(FILE *stream, const double position[3], int dimension
   fputc(']', stream);
 }
 
+/* What a placed icon is in the chain of scales; `seed` and `way` are what a run goes on
+ * from. */
+static void write_placement(FILE *stream, const fg_icon *icon, int dimension)
+{
+  fprintf(stream, ",\"id\":%d", icon->id);
+  if (icon->parent > 0)
+    fprintf(stream, ",\"parent\":%d", icon->parent);
+  fputs(",\"seed\":", stream);
+  write_position(stream, icon->seed, dimension);
+  write_number(stream, ",\"way\":[", icon->way[0]);
+  write_number(stream, ",", icon->way[1]);
+  fputc(']', stream);
+}
+
 static void write_icon(FILE *stream, const fg_icon *icon, int dimension)
 {
   fputs("{\"type\":\"Feature\",\"geometry\":{\"type\":\"LineString\",\"coordinates\":[",
@@ -69,6 +84,8 @@ static void write_icon(FILE *stream, const fg_icon *icon, int dimension)
   write_number(stream, ",\"head_width\":", icon->head_width);
   fputs(",\"center\":", stream);
   write_position(stream, icon->center, dimension);
+  if (icon->id > 0)
+    write_placement(stream, icon, dimension);
   fputs("}}", stream);
 }
 
@@ -89,10 +106,12 @@ fg_status fg_icons_write(fg_context *context, const char *path, const fg_icons *
   fg_status status = fg__whole_file_open(&file, context, path);
   if (status == FG_STATUS_OK) {
     int dimension = is_flat(icons) ? 2 : 3;
-    fprintf(
-        file.stream,
-        "{\"type\":\"FeatureCollection\",\"clusters\":%d,\"dropped\":%d,\"features\":[",
-        fg_icons_clusters(icons), fg_icons_dropped(icons));
+    fprintf(file.stream,
+            "{\"type\":\"FeatureCollection\",\"clusters\":%d,\"dropped\":%d,",
+            fg_icons_clusters(icons), fg_icons_dropped(icons));
+    if (fg__icons_next_id(icons) > 0)
+      fprintf(file.stream, "\"next_id\":%d,", fg__icons_next_id(icons));
+    fputs("\"features\":[", file.stream);
     for (int n = 0; n < fg_icons_count(icons); ++n) {
       fputs(n > 0 ? ",\n" : "\n", file.stream);
       write_icon(file.stream, fg_icons_at(icons, n), dimension);

@@ -16,6 +16,7 @@ struct fg_icons {
   entry **entries;
   size_t count, capacity;
   int clusters, dropped;
+  int next_id; /* 0: they were not placed */
 };
 
 fg_status fg__icons_create_empty(fg_icons **out, fg_context *context)
@@ -75,6 +76,21 @@ void fg__icons_set_clusters(fg_icons *icons, int clusters, int dropped)
 {
   icons->clusters = clusters;
   icons->dropped = dropped;
+}
+
+fg_icon *fg__icons_change(fg_icons *icons, int index)
+{
+  return &icons->entries[index]->icon;
+}
+
+void fg__icons_set_next_id(fg_icons *icons, int next_id)
+{
+  icons->next_id = next_id;
+}
+
+int fg__icons_next_id(const fg_icons *icons)
+{
+  return icons->next_id;
 }
 
 int fg_icons_count(const fg_icons *icons)

@@ -13,4 +13,11 @@ fg_status fg__icons_add(fg_icons *icons, fg_context *context, const fg_icon *ico
 /* Says how many clusters there were, and how many of them gave no icon. */
 void fg__icons_set_clusters(fg_icons *icons, int clusters, int dropped);
 
+/* An icon to be changed in all but its lines. */
+fg_icon *fg__icons_change(fg_icons *icons, int index);
+
+/* The id that the next new icon of a chain of scales gets; 0 for icons not placed. */
+void fg__icons_set_next_id(fg_icons *icons, int next_id);
+int fg__icons_next_id(const fg_icons *icons);
+
 #endif

@@ -1,0 +1,77 @@
+/* Exactly N arrows, placed so that a reader gets the field back. Included by flowgrain.h.
+ */
+#ifndef FLOWGRAIN_PLACEMENT_H
+#define FLOWGRAIN_PLACEMENT_H
+
+#include "flowgrain/icons.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Lengths are given in fair-share lengths lambda: the root (2D) or cube root (3D) of
+ * (area or volume of the domain / number of arrows). */
+typedef enum fg_lengths {
+  FG_LENGTHS_FREE = 0, /* each arrow as long as it tells most, 0.35 to 2 lambda */
+  FG_LENGTHS_FAIR      /* lambda at most */
+} fg_lengths;
+
+typedef enum fg_effort {
+  FG_EFFORT_NORMAL = 0,
+  FG_EFFORT_QUICK,   /* descent alone: some per cent more error, half the time */
+  FG_EFFORT_THOROUGH /* more exchanges: several times the time, a per cent less error */
+} fg_effort;
+
+typedef struct fg_placement_options {
+  fg_lengths lengths; /* [free] */
+  fg_effort effort;   /* [normal] */
+} fg_placement_options;
+
+/* Arrows on a field: one scale after another, from many arrows to few. */
+typedef struct fg_placement fg_placement;
+
+/* Prepares a field, which must outlive it, in 2D or 3D. The method is descent on the error
+ * of readers who reconstruct the field from its arrows (docs/method/placement.md).
+ * ARGUMENT, MEMORY, STOPPED. */
+FG_API fg_status fg_placement_create(fg_placement **out, fg_context *context,
+                                     const fg_field *field,
+                                     const fg_placement_options *options);
+FG_API void fg_placement_destroy(fg_placement *placement);
+
+/* Places exactly `count` arrows. The first time they start from `clusters`, one for each
+ * of these icons and more or fewer until there are `count`; NULL: from evenly distributed
+ * points. Later scales go on from the one before, and `clusters` is not looked at. The
+ * same on any machine and any number of threads. ARGUMENT (count below 1; so many have
+ * no room: the message says how many have), MEMORY, STOPPED. */
+FG_API fg_status fg_placement_place(fg_placement *placement, int count,
+                                    const fg_icons *clusters);
+
+/* The arrows of the present scale: an arrow has the same `id` in all scales; `area`
+ * (volume) and `speed` (mean) are of the points that are nearest to it, width follows that
+ * speed, and `cluster` is the id until fg_placement_find_clusters. MEMORY. */
+FG_API fg_status fg_placement_icons(fg_icons **out, const fg_placement *placement);
+
+/* The regions that the arrows stand for, each point with the arrow nearest to it, as a
+ * density to be drawn behind the arrows: u > 0 inside each and below between two. 2D.
+ * MEMORY, UNSUPPORTED. */
+FG_API fg_status fg_placement_regions(fg_density **out, const fg_placement *placement);
+
+/* Sets each icon's `cluster` to that of a density, not shared, which is nearest to its
+ * middle; fg_icons_clusters then says how many there are. MEMORY, ARGUMENT. */
+FG_API fg_status fg_placement_find_clusters(fg_context *context, fg_icons *icons,
+                                            const fg_density *density);
+
+/* Sets each finer icon's `parent`: its own id where it is still there, else that of the
+ * present arrow nearest to it. */
+FG_API void fg_placement_find_parents(const fg_placement *placement, fg_icons *finer);
+
+/* Goes on from the icons of a scale, as fg_placement_icons gave them or fg_icons_read read
+ * them: the scales that follow are the same. ARGUMENT (they are no placed icons), MEMORY.
+ */
+FG_API fg_status fg_placement_resume(fg_placement *placement, const fg_icons *icons);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,279 @@
+#include "place/domain.h"
+
+#include "base/memory.h"
+#include "place/distance.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Cells of the map along the longest side: two to a sample's distance, within these. */
+enum { FEWEST_2D = 128, MOST_2D = 512, FEWEST_3D = 48, MOST_3D = 112 };
+
+/* Much of the domain is dead where half of it is slower than this share of the root mean
+ * square: a vessel in a box of noise (docs/method/placement.md). */
+static const double DEAD_SHARE = 0.1;
+
+static size_t map_count(const fg__place_domain *domain)
+{
+  return (size_t)domain->cells[0] * (size_t)domain->cells[1] * (size_t)domain->cells[2];
+}
+
+bool fg__place_direction(const fg__place_domain *domain, const double position[3],
+                         double direction[3])
+{
+  direction[2] = 0.0;
+  if (!fg_field_tangent(domain->field, position, direction))
+    return false;
+  double square = direction[0] * direction[0] + direction[1] * direction[1] +
+                  direction[2] * direction[2];
+  if (!(square > 0.0))
+    return false;
+  double inverse = 1.0 / sqrt(square);
+  for (int k = 0; k < 3; ++k)
+    direction[k] *= inverse;
+  return true;
+}
+
+double fg__place_speed(const fg__place_domain *domain, const double position[3])
+{
+  double v[3] = {0};
+  if (!fg_field_velocity(domain->field, position, v))
+    return 0.0;
+  return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* The cell of the map that holds a point, along axis k, within the map. */
+static int cell_along(const fg__place_domain *domain, int k, double x)
+{
+  int cell = (int)floor((x - domain->low[k]) / domain->spacing);
+  return cell < 0 ? 0 : cell < domain->cells[k] ? cell : domain->cells[k] - 1;
+}
+
+static bool is_in_box(const fg__place_domain *domain, const double position[3])
+{
+  for (int k = 0; k < domain->dimension; ++k)
+    if (!(position[k] >= domain->low[k] && position[k] <= domain->high[k]))
+      return false;
+  return true;
+}
+
+const fg__place_part *fg__place_part_at(const fg__place_domain *domain,
+                                        const double position[3])
+{
+  if (!is_in_box(domain, position))
+    return NULL;
+  size_t cell = 0;
+  for (int k = domain->dimension - 1; k >= 0; --k)
+    cell = cell * (size_t)domain->cells[k] + (size_t)cell_along(domain, k, position[k]);
+  int part = domain->part[cell];
+  return part ? &domain->parts[part - 1] : NULL;
+}
+
+double fg__place_clearance(const fg__place_domain *domain, const double position[3])
+{
+  if (!is_in_box(domain, position))
+    return 0.0;
+  size_t base = 0, stride = 1, step[3] = {0};
+  double inside[3] = {0}, frame = HUGE_VAL;
+  for (int k = 0; k < domain->dimension; ++k) {
+    double place = (position[k] - domain->low[k]) / domain->spacing - 0.5;
+    int last = domain->cells[k] - 1;
+    place = place < 0.0 ? 0.0 : place < last ? place : last;
+    int cell = (int)place < last ? (int)place : last > 0 ? last - 1 : 0;
+    inside[k] = place - cell;
+    step[k] = last > 0 ? stride : 0;
+    base += (size_t)cell * stride;
+    stride *= (size_t)domain->cells[k];
+    frame =
+        fmin(frame, fmin(position[k] - domain->low[k], domain->high[k] - position[k]));
+  }
+  double sum = 0.0;
+  for (int corner = 0; corner < 1 << domain->dimension; ++corner) {
+    double weight = 1.0;
+    size_t cell = base;
+    for (int k = 0; k < domain->dimension; ++k) {
+      bool upper = corner >> k & 1;
+      weight *= upper ? inside[k] : 1.0 - inside[k];
+      cell += upper ? step[k] : 0;
+    }
+    sum += weight * (double)domain->clearance[cell];
+  }
+  return fmin(sum, frame);
+}
+
+double fg__place_weight(const fg__place_domain *domain, double speed)
+{
+  return domain->dead ? speed / (speed + domain->root_mean_square) : 1.0;
+}
+
+static void choose_map(fg__place_domain *domain)
+{
+  const fg_field_arrays *arrays = fg_field_contents(domain->field);
+  double longest = 0.0;
+  domain->data_step = HUGE_VAL;
+  for (int k = 0; k < domain->dimension; ++k) {
+    int size = arrays->size[k];
+    domain->low[k] = arrays->axis[k][0];
+    domain->high[k] = arrays->period[k] > 0.0 ? domain->low[k] + arrays->period[k]
+                                              : arrays->axis[k][size - 1];
+    double length = domain->high[k] - domain->low[k];
+    int intervals = arrays->period[k] > 0.0 ? size : size - 1;
+    longest = fmax(longest, length);
+    domain->data_step = fmin(domain->data_step, length / intervals);
+  }
+  int fewest = domain->dimension == 2 ? FEWEST_2D : FEWEST_3D;
+  int most = domain->dimension == 2 ? MOST_2D : MOST_3D;
+  double wanted = fmin(fmax(2.0 * longest / domain->data_step, fewest), most);
+  domain->spacing = longest / floor(wanted);
+  for (int k = 0; k < 3; ++k) {
+    double length = domain->high[k] - domain->low[k];
+    int cells = k < domain->dimension ? (int)ceil(length / domain->spacing - 1e-9) : 1;
+    domain->cells[k] = cells > 1 ? cells : 1;
+  }
+}
+
+static void cell_center(const fg__place_domain *domain, const int at[3], double center[3])
+{
+  for (int k = 0; k < 3; ++k)
+    center[k] = domain->low[k] + (at[k] + 0.5) * domain->spacing;
+  for (int k = 0; k < domain->dimension; ++k) /* the last cells may stick out */
+    center[k] = fmin(center[k], domain->high[k]);
+}
+
+static int compare_speeds(const void *a, const void *b)
+{
+  float one = *(const float *)a, other = *(const float *)b;
+  return (one > other) - (one < other);
+}
+
+/* Marks the domain's cells with part 1, and keeps their speeds. */
+static size_t mark_domain(fg__place_domain *domain, float *speed)
+{
+  size_t cell = 0, count = 0;
+  for (int z = 0; z < domain->cells[2]; ++z)
+    for (int y = 0; y < domain->cells[1]; ++y)
+      for (int x = 0; x < domain->cells[0]; ++x, ++cell) {
+        double center[3], v[3] = {0};
+        cell_center(domain, (const int[3]){x, y, z}, center);
+        if (!fg_field_velocity(domain->field, center, v))
+          continue;
+        domain->part[cell] = 1;
+        speed[count++] = (float)sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+      }
+  return count;
+}
+
+static fg_status measure_speeds(fg__place_domain *domain, fg_context *context,
+                                float *speed)
+{
+  size_t count = mark_domain(domain, speed);
+  if (count == 0)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "the field has no cell with a velocity on a raster of %zu cells",
+                    map_count(domain));
+  double squares = 0.0, weights = 0.0;
+  qsort(speed, count, sizeof *speed, compare_speeds);
+  for (size_t n = 0; n < count; ++n)
+    squares += (double)speed[n] * (double)speed[n];
+  domain->greatest = (double)speed[count - 1];
+  domain->median = (double)speed[count / 2];
+  domain->fast = (double)speed[count - 1 - count / 20];
+  domain->root_mean_square = sqrt(squares / (double)count);
+  domain->dead =
+      domain->dimension == 3 && domain->median < DEAD_SHARE * domain->root_mean_square;
+  for (size_t n = 0; n < count; ++n)
+    weights += fg__place_weight(domain, (double)speed[n]);
+  double cell = pow(domain->spacing, domain->dimension);
+  domain->whole = cell * (double)count;
+  domain->measure = cell * weights / fg__place_weight(domain, domain->greatest);
+  return FG_STATUS_OK;
+}
+
+/* Numbers the part of a cell, by a stack of cells. */
+static void fill_part(fg__place_domain *domain, size_t first, int number, size_t *stack)
+{
+  size_t stride[3] = {1, (size_t)domain->cells[0],
+                      (size_t)domain->cells[0] * (size_t)domain->cells[1]};
+  size_t depth = 0;
+  fg__place_part *part = &domain->parts[number - 1];
+  double cell_measure = pow(domain->spacing, domain->dimension);
+  stack[depth++] = first;
+  domain->part[first] = number;
+  while (depth > 0) {
+    size_t cell = stack[--depth], rest = cell;
+    part->measure += cell_measure;
+    part->widest = fmax(part->widest, (double)domain->clearance[cell]);
+    for (int k = 0; k < domain->dimension; ++k) {
+      int at = (int)(rest % (size_t)domain->cells[k]);
+      rest /= (size_t)domain->cells[k];
+      for (int side = -1; side <= 1; side += 2) {
+        if (at + side < 0 || at + side >= domain->cells[k])
+          continue;
+        size_t next = side < 0 ? cell - stride[k] : cell + stride[k];
+        if (domain->part[next] == -1) {
+          domain->part[next] = number;
+          stack[depth++] = next;
+        }
+      }
+    }
+  }
+}
+
+static fg_status number_parts(fg__place_domain *domain, fg_context *context)
+{
+  size_t count = map_count(domain), capacity = 0;
+  size_t *stack = fg__allocate(count, sizeof *stack);
+  if (!stack)
+    return fg__fail_memory(context, "a stack of cells", count * sizeof *stack);
+  fg_status status = FG_STATUS_OK;
+  for (size_t n = 0; n < count; ++n)
+    domain->part[n] = -domain->part[n];
+  for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n) {
+    if (domain->part[n] != -1)
+      continue;
+    if (!fg__grow((void **)&domain->parts, &capacity, (size_t)domain->part_count + 1,
+                  sizeof *domain->parts)) {
+      status = fg__fail_memory(context, "parts of the domain", capacity);
+      break;
+    }
+    domain->parts[domain->part_count++] = (fg__place_part){0};
+    fill_part(domain, n, domain->part_count, stack);
+  }
+  free(stack);
+  return status;
+}
+
+fg_status fg__place_domain_create(fg__place_domain *out, fg_context *context,
+                                  const fg_field *field)
+{
+  *out = (fg__place_domain){.field = field,
+                            .dimension = fg_field_contents(field)->dimension};
+  choose_map(out);
+  size_t count = map_count(out);
+  out->part = fg__allocate(count, sizeof *out->part);
+  out->clearance = fg__allocate(count, sizeof *out->clearance);
+  fg_status status = FG_STATUS_OK;
+  if (!out->part || !out->clearance)
+    status = fg__fail_memory(context, "the map of a domain",
+                             count * (sizeof *out->part + sizeof *out->clearance));
+  if (status == FG_STATUS_OK) /* the clearance's place holds speeds for a while */
+    status = measure_speeds(out, context, out->clearance);
+  if (status == FG_STATUS_OK)
+    status = fg__place_distance(out->clearance, context, out->part, out->cells,
+                                out->dimension, out->spacing);
+  if (status == FG_STATUS_OK)
+    status = number_parts(out, context);
+  if (status == FG_STATUS_OK)
+    status = fg__check_stop(context);
+  if (status != FG_STATUS_OK)
+    fg__place_domain_clear(out);
+  return status;
+}
+
+void fg__place_domain_clear(fg__place_domain *domain)
+{
+  free(domain->clearance);
+  free(domain->part);
+  free(domain->parts);
+  *domain = (fg__place_domain){0};
+}

@@ -1,0 +1,57 @@
+/* The domain of a placement: where the field has a direction, how far walls are, and how
+ * much each point of it counts. It does not depend on the number of arrows. */
+#ifndef FG__PLACE_DOMAIN_H
+#define FG__PLACE_DOMAIN_H
+
+#include "base/context.h"
+
+/* A connected part of the domain. */
+typedef struct fg__place_part {
+  double measure; /* area or volume */
+  double widest;  /* greatest clearance in it */
+} fg__place_part;
+
+typedef struct fg__place_domain {
+  const fg_field *field;
+  int dimension;
+  double low[3], high[3]; /* the field's box, input coordinates as all that follows */
+  double data_step;       /* the smallest of the mean distances between samples */
+  /* The map: square cells over the box. */
+  int cells[3];
+  double spacing;
+  float *clearance; /* a cell: from its centre to the nearest wall, mask or frame; 0
+                       outside the domain */
+  int *part;        /* a cell: which part from 1 on, 0 outside */
+  fg__place_part *parts;
+  int part_count;
+  double whole;    /* area or volume of the domain */
+  double measure;  /* of what counts: less than the whole where much of it is dead */
+  double greatest; /* speed */
+  double median, fast, root_mean_square; /* fast: exceeded by a twentieth */
+  bool dead; /* most of the domain hardly moves: speed weighs */
+} fg__place_domain;
+
+/* Maps the domain of a field. The field must outlive it. MEMORY, STOPPED. */
+fg_status fg__place_domain_create(fg__place_domain *out, fg_context *context,
+                                  const fg_field *field);
+void fg__place_domain_clear(fg__place_domain *domain);
+
+/* The unit direction of the flow as seen on the page; false outside the domain and where
+ * the velocity vanishes. `direction` has 3 components, the third 0 in 2D. */
+bool fg__place_direction(const fg__place_domain *domain, const double position[3],
+                         double direction[3]);
+
+/* |v| in the input's units; 0 outside. */
+double fg__place_speed(const fg__place_domain *domain, const double position[3]);
+
+/* Distance to the nearest wall, interpolated; 0 outside the box. */
+double fg__place_clearance(const fg__place_domain *domain, const double position[3]);
+
+/* The part that holds a point, NULL outside the domain. */
+const fg__place_part *fg__place_part_at(const fg__place_domain *domain,
+                                        const double position[3]);
+
+/* What a point counts in (0, 1], by its speed. */
+double fg__place_weight(const fg__place_domain *domain, double speed);
+
+#endif

@@ -1,0 +1,106 @@
+/* From placed lines to arrows. */
+#include "place/placement.h"
+
+#include "base/memory.h"
+#include "icon/icons.h"
+#include "icon/measure.h"
+#include "place/angle.h"
+#include "place/regions.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Body widths in lambda: of an arrow in still and in fast flow (that of the domain's
+ * upper twentieth). A reader takes broad arrows for strong flow, so that width says the
+ * same as colour. */
+static const double SLOW_WIDTH = 0.028;
+static const double FAST_WIDTH = 0.066;
+
+/* In lengths of its line, at most: short arrows are slim, and their heads stay heads. */
+static const double WIDEST = 0.085;
+
+/* A line that turns by more than this goes round something: a ring when the streamline
+ * comes back to its tail within this share of its diameter, else a spiral. */
+static const double ROUND_TURNING = 4.4;
+static const double CLOSED = 0.12;
+
+static double width_of(const fg__place_search *search, double speed, double length)
+{
+  const fg__place_domain *domain = search->domain;
+  double share = domain->fast > 0.0 ? fmin(1.0, speed / domain->fast) : 1.0;
+  double width = search->scale.lambda * (SLOW_WIDTH + share * (FAST_WIDTH - SLOW_WIDTH));
+  return fmin(width, WIDEST * length);
+}
+
+/* An arrow, a ring or a spiral. */
+static fg_icon_kind kind_of(const fg__place_search *search, const fg_icon *icon)
+{
+  double gap, diameter;
+  double turning = fg__place_turning(icon->points, icon->point_count);
+  if (turning < ROUND_TURNING ||
+      !fg__place_close(&gap, &diameter, search->domain, &search->scale, icon->points[0],
+                       fg__icon_length(icon) / turning))
+    return FG_ICON_ARROW;
+  return gap < CLOSED * diameter ? FG_ICON_RING : FG_ICON_SPIRAL;
+}
+
+static fg_status add_icon(fg_icons *icons, fg_context *context,
+                          const fg__place_search *search, int index,
+                          const fg__place_share *read)
+{
+  const fg__place_icon *placed = search->icon[index];
+  double(*points)[3] = NULL;
+  fg_icon icon = {.cluster = placed->identity + 1,
+                  .id = placed->identity + 1,
+                  .area = read->measure,
+                  .speed = read->speed};
+  fg_status status =
+      fg__place_trace_fine(&points, &icon.point_count, context, search->domain,
+                           &search->scale, placed->seed.position, placed->line.way);
+  if (status != FG_STATUS_OK)
+    return status;
+  if (icon.point_count < 2) {
+    free(points);
+    return fg__fail(context, FG_STATUS_NO_CONVERGENCE,
+                    "the line of arrow %d ends where it begins", index);
+  }
+  icon.points = (const double(*)[3])points;
+  if (!(read->measure > 0.0))
+    icon.speed = fg__place_speed(search->domain, placed->seed.position);
+  icon.kind = kind_of(search, &icon);
+  fg__icon_set_width(&icon, width_of(search, icon.speed, fg__icon_length(&icon)));
+  for (int k = 0; k < 3; ++k) {
+    icon.center[k] = points[icon.point_count / 2][k];
+    icon.seed[k] = placed->seed.position[k];
+  }
+  for (int k = 0; k < 2; ++k)
+    icon.way[k] = placed->seed.way[k];
+  status = fg__icons_add(icons, context, &icon);
+  free(points);
+  return status;
+}
+
+fg_status fg_placement_icons(fg_icons **out, const fg_placement *placement)
+{
+  const fg__place_search *search = fg__placement_search(placement);
+  fg_context *context = search->context;
+  fg_icons *icons = NULL;
+  fg__place_share *read = fg__allocate((size_t)search->count, sizeof *read);
+  *out = NULL;
+  if (!read)
+    return fg__fail_memory(context, "the icons", (size_t)search->count * sizeof *read);
+  fg_status status = fg__place_find_shares(read, context, search);
+  if (status == FG_STATUS_OK)
+    status = fg__icons_create_empty(&icons, context);
+  for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
+    status = add_icon(icons, context, search, n, &read[n]);
+  free(read);
+  if (status != FG_STATUS_OK) {
+    fg_icons_destroy(icons);
+    return status;
+  }
+  fg__icons_set_clusters(icons, search->count, 0);
+  fg__icons_set_next_id(icons, search->next_identity + 1);
+  *out = icons;
+  return FG_STATUS_OK;
+}

@@ -1,0 +1,329 @@
+#include "place/line.h"
+
+#include "base/memory.h"
+#include "place/angle.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Local error of a step in lambda, and the longest step in cells of the data: the field
+ * is linear between samples, with kinks at them. */
+static const double ERROR = 1e-3;
+static const double FINE_ERROR = 1e-5;
+static const double LONGEST_STEP = 1.5;
+
+/* A line ends before it turns by this angle over this share of lambda: a head there would
+ * be broken. */
+static const double BREAK_COSINE = 0.25881904510252074; /* 75 degrees */
+static const double BREAK_RANGE = 0.15;
+
+/* A sample that can not be reached is tried at halves of the way, this often. */
+enum { HALVINGS = 3, MOST_STEPS = 64, FINE_EVERY = 8 };
+
+typedef struct tracing {
+  const fg__place_domain *domain;
+  const fg__place_scale *scale;
+  double error; /* local, input coordinates */
+  double step;  /* the last accepted one */
+  double wall;  /* no nearer to one */
+  bool follows; /* a line that was found before: it ends by its ways alone */
+} tracing;
+
+/* One end of a line as it grows. */
+typedef struct tip {
+  double position[3];
+  double direction[3]; /* the flow's, whichever way the tip goes */
+  double clearance;
+  double turned[3]; /* sum of turns as vectors, radians */
+} tip;
+
+static bool advance_stage(const tracing *with, double out[3], const double from[3],
+                          const double slope[3], double step)
+{
+  double place[3];
+  for (int k = 0; k < 3; ++k)
+    place[k] = from[k] + step * slope[k];
+  return fg__place_direction(with->domain, place, out) &&
+         fg__place_dot(out, slope) > 0.0; /* else it reverses */
+}
+
+/* One step of the pair, to `out`; false where a stage falls outside or turns back. */
+static bool try_step(const tracing *with, tip *out, double *error, const tip *from,
+                     double step)
+{
+  double k2[3], k3[3], k4[3], mean[3];
+  const double *k1 = from->direction;
+  if (!advance_stage(with, k2, from->position, k1, 0.5 * step) ||
+      !advance_stage(with, k3, from->position, k2, 0.75 * step))
+    return false;
+  for (int k = 0; k < 3; ++k)
+    mean[k] = (2.0 * k1[k] + 3.0 * k2[k] + 4.0 * k3[k]) / 9.0;
+  if (!advance_stage(with, k4, from->position, mean, step))
+    return false;
+  double square = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    double off = step * (-5.0 / 72.0 * k1[k] + k2[k] / 12.0 + k3[k] / 9.0 - k4[k] / 8.0);
+    square += off * off;
+    out->position[k] = from->position[k] + step * mean[k];
+    out->direction[k] = k4[k];
+  }
+  *error = sqrt(square);
+  return true;
+}
+
+/* Moves a tip by an arc length, negative against the flow, in as many steps as it takes.
+ */
+static bool move(tracing *with, tip *out, const tip *from, double way)
+{
+  double sign = way < 0.0 ? -1.0 : 1.0, left = fabs(way);
+  double most = LONGEST_STEP * with->domain->data_step;
+  *out = *from;
+  for (int n = 0; n < MOST_STEPS && left > 0.0; ++n) {
+    double step = fmin(fmin(with->step, most), left), error;
+    tip next = *out;
+    if (!try_step(with, &next, &error, out, sign * step))
+      return false;
+    double grow = error > 0.0 ? 0.9 * sqrt(with->error / error) : 2.0;
+    if (error > with->error && n + 1 < MOST_STEPS / 2) {
+      with->step = step * fmax(0.3, grow);
+      continue;
+    }
+    if (step < left || grow < 1.0) /* one cut short by the sample says little */
+      with->step = step * fmin(fmax(grow, 0.5), 2.0);
+    else
+      with->step = fmax(with->step, step * fmin(grow, 2.0));
+    *out = next;
+    left = step < left ? left - step : 0.0;
+  }
+  return left <= 0.0;
+}
+
+/* Whether a line may go on to a place; adds up its turn. */
+static bool accept(const tracing *with, tip *next, const tip *from)
+{
+  double turn[3], cosine = fg__place_dot(from->direction, next->direction);
+  if (with->follows)
+    return true;
+  next->clearance = fg__place_clearance(with->domain, next->position);
+  if (next->clearance < with->wall && next->clearance < from->clearance)
+    return false;
+  if (!(cosine > 0.0))
+    return false;
+  fg__place_cross(turn, from->direction, next->direction);
+  double sine = fg__place_norm(turn);
+  if (sine > 0.0) {
+    double angle = fg__place_arccos(cosine) / sine;
+    for (int k = 0; k < 3; ++k)
+      next->turned[k] = from->turned[k] + angle * turn[k];
+  }
+  return fg__place_norm(next->turned) <= with->scale->turning;
+}
+
+/* A side's samples, the seed's first. */
+typedef struct side {
+  tip sample[FG__PLACE_SAMPLES * FINE_EVERY];
+  double at[FG__PLACE_SAMPLES * FINE_EVERY]; /* arc length from the seed */
+  int count;
+} side;
+
+/* Takes the samples off behind which the line breaks. */
+static bool breaks(const side *line, double range)
+{
+  int last = line->count - 1, first = last;
+  while (first > 0 && line->at[last] - line->at[first] < range)
+    --first;
+  return fg__place_dot(line->sample[first].direction, line->sample[last].direction) <
+         BREAK_COSINE;
+}
+
+static void cut_break(side *line, double range)
+{
+  double end = line->at[line->count - 1] - range;
+  while (line->count > 1 && line->at[line->count - 1] > end)
+    --line->count;
+}
+
+static void trace_side(side *line, tracing *with, const tip *seed, double sign,
+                       double way, double sampling)
+{
+  enum { MOST = FG__PLACE_SAMPLES * FINE_EVERY };
+  double range = BREAK_RANGE * with->scale->lambda;
+  line->sample[0] = *seed;
+  line->at[0] = 0.0;
+  line->count = 1;
+  while (line->count < MOST) {
+    const tip *from = &line->sample[line->count - 1];
+    tip *next = &line->sample[line->count];
+    double done = line->at[line->count - 1], step = fmin(sampling, way - done);
+    int halving = 0;
+    if (step < 0.05 * sampling)
+      return;
+    for (; halving < HALVINGS; ++halving, step /= 2.0)
+      if (move(with, next, from, sign * step) && accept(with, next, from))
+        break;
+    if (halving == HALVINGS)
+      return;
+    line->at[line->count++] = done + step;
+    if (!with->follows && breaks(line, range)) {
+      cut_break(line, range);
+      return;
+    }
+    if (halving > 0)
+      return;
+  }
+}
+
+double fg__place_least_clearance(const fg__place_domain *domain,
+                                 const fg__place_scale *scale, const double position[3])
+{
+  const fg__place_part *part = fg__place_part_at(domain, position);
+  return part ? fmin(scale->clearance, 0.5 * part->widest) : HUGE_VAL;
+}
+
+/* Both sides of a seed; false: no line can be here. */
+static bool trace_both(side both[2], const fg__place_domain *domain,
+                       const fg__place_scale *scale, const fg__place_seed *seed)
+{
+  tip start = {{0}, {0}, 0, {0}};
+  double sampling = scale->sampling;
+  tracing with = {domain, scale, ERROR * scale->lambda, sampling, 0.0, false};
+  memcpy(start.position, seed->position, sizeof start.position);
+  with.wall = fg__place_least_clearance(domain, scale, start.position);
+  start.clearance = fg__place_clearance(domain, start.position);
+  if (start.clearance < with.wall ||
+      !fg__place_direction(domain, start.position, start.direction))
+    return false;
+  for (int n = 0; n < 2; ++n) {
+    with.step = sampling;
+    trace_side(&both[n], &with, &start, n ? 1.0 : -1.0, seed->way[n], sampling);
+  }
+  /* narrow seas may have short ones */
+  double ends = both[0].at[both[0].count - 1] + both[1].at[both[1].count - 1];
+  double shortest =
+      with.wall < scale->clearance ? 0.7 * scale->shortest : scale->shortest;
+  return ends >= shortest;
+}
+
+/* Adds `count` samples of a side, from `from` on by steps of 1 or -1. */
+static void take_samples(fg__place_line *out, const fg__place_domain *domain,
+                         const fg__place_scale *scale, const side *line, int from,
+                         int step, int count)
+{
+  double inverse = 1.0 / scale->lambda;
+  for (int n = 0, i = from; n < count && out->count < FG__PLACE_SAMPLES; ++n, i += step) {
+    const tip *sample = &line->sample[i];
+    double before = i > 0 ? line->at[i] - line->at[i - 1] : 0.0;
+    double after = i + 1 < line->count ? line->at[i + 1] - line->at[i] : 0.0;
+    for (int k = 0; k < 3; ++k) {
+      out->position[k][out->count] =
+          (float)((sample->position[k] - domain->low[k]) * inverse);
+      out->tangent[k][out->count] = (float)sample->direction[k];
+    }
+    out->share[out->count++] = (float)((before + after) / 2.0 / scale->sampling);
+  }
+}
+
+void fg__place_trace(fg__place_line *out, const fg__place_domain *domain,
+                     const fg__place_scale *scale, const fg__place_seed *seed)
+{
+  side both[2];
+  out->count = 0;
+  if (!trace_both(both, domain, scale, seed))
+    return;
+  take_samples(out, domain, scale, &both[0], both[0].count - 1, -1, both[0].count);
+  out->seed = out->count - 1;
+  double first = both[1].count > 1 ? both[1].at[1] / 2.0 / scale->sampling : 0.0;
+  out->share[out->seed] += (float)first;
+  take_samples(out, domain, scale, &both[1], 1, 1, both[1].count - 1);
+  for (int n = 0; n < 2; ++n)
+    out->way[n] = both[n].at[both[n].count - 1];
+  out->length = out->way[0] + out->way[1];
+}
+
+fg_status fg__place_trace_fine(double (**points)[3], int *count, fg_context *context,
+                               const fg__place_domain *domain,
+                               const fg__place_scale *scale, const double position[3],
+                               const double way[2])
+{
+  fg_status status = FG_STATUS_OK;
+  double sampling = scale->sampling / FINE_EVERY;
+  tracing with = {domain, scale, FINE_ERROR * scale->lambda, sampling, 0.0, true};
+  tip start = {{0}, {0}, 0, {0}};
+  *points = NULL;
+  *count = 0;
+  side *both = fg__allocate(2, sizeof *both);
+  if (!both)
+    return fg__fail_memory(context, "a line", 2 * sizeof *both);
+  memcpy(start.position, position, sizeof start.position);
+  if (!fg__place_direction(domain, start.position, start.direction))
+    goto cleanup;
+  for (int n = 0; n < 2; ++n) {
+    with.step = sampling;
+    trace_side(&both[n], &with, &start, n ? 1.0 : -1.0, way[n], sampling);
+  }
+  int all = both[0].count + both[1].count - 1;
+  *points = fg__allocate((size_t)all, sizeof **points);
+  if (!*points) {
+    status = fg__fail_memory(context, "a line", (size_t)all * sizeof **points);
+    goto cleanup;
+  }
+  for (int n = both[0].count - 1; n >= 0; --n, ++*count)
+    memcpy((*points)[*count], both[0].sample[n].position, sizeof **points);
+  for (int n = 1; n < both[1].count; ++n, ++*count)
+    memcpy((*points)[*count], both[1].sample[n].position, sizeof **points);
+cleanup:
+  free(both);
+  return status;
+}
+
+double fg__place_turning(const double (*points)[3], int count)
+{
+  double sum[3] = {0}, before[3] = {0};
+  for (int n = 1; n < count; ++n) {
+    double along[3], turn[3];
+    for (int k = 0; k < 3; ++k)
+      along[k] = points[n][k] - points[n - 1][k];
+    double size = fg__place_norm(along);
+    if (!(size > 0.0))
+      continue;
+    for (int k = 0; k < 3; ++k)
+      along[k] /= size;
+    fg__place_cross(turn, before, along);
+    double sine = fg__place_norm(turn);
+    double angle = fg__place_arccos(fg__place_dot(before, along));
+    for (int k = 0; k < 3 && sine > 0.0; ++k)
+      sum[k] += turn[k] * angle / sine;
+    memcpy(before, along, sizeof before);
+  }
+  return fg__place_norm(sum);
+}
+
+bool fg__place_close(double *gap, double *diameter, const fg__place_domain *domain,
+                     const fg__place_scale *scale, const double start[3], double radius)
+{
+  enum { STEPS = 400 };
+  double step = radius * FG__PLACE_PI / 60.0, off[3];
+  tracing with = {domain, scale, FINE_ERROR * radius, step, 0.0, true};
+  tip now = {{0}, {0}, 0, {0}}, next;
+  memcpy(now.position, start, sizeof now.position);
+  if (!fg__place_direction(domain, start, now.direction))
+    return false;
+  *diameter = 0.0;
+  with.follows = false; /* turns are added up, walls do not matter */
+  with.wall = 0.0;
+  fg__place_scale all_round = *scale;
+  all_round.turning = 4.0 * FG__PLACE_PI;
+  with.scale = &all_round;
+  for (int n = 0; n < STEPS; ++n) {
+    if (!move(&with, &next, &now, step) || !accept(&with, &next, &now))
+      return false;
+    now = next;
+    for (int k = 0; k < 3; ++k)
+      off[k] = now.position[k] - start[k];
+    *gap = fg__place_norm(off);
+    *diameter = fmax(*diameter, *gap);
+    if (fg__place_norm(now.turned) >= 2.0 * FG__PLACE_PI)
+      return true;
+  }
+  return false;
+}

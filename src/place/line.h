@@ -1,0 +1,56 @@
+/* The line of an icon: the piece of the streamline through its seed. */
+#ifndef FG__PLACE_LINE_H
+#define FG__PLACE_LINE_H
+
+#include "place/scale.h"
+
+enum { FG__PLACE_SAMPLES = 40 };
+
+/* Where an icon lies: a point and how far its line may go from there, up and down the
+ * stream. */
+typedef struct fg__place_seed {
+  double position[3];
+  double way[2]; /* against the flow, along it */
+} fg__place_seed;
+
+typedef struct fg__place_line {
+  int count; /* of samples from tail to tip, at most `sampling` apart; 0: there is none */
+  int seed;  /* the sample at the seed */
+  double length;
+  float position[3][FG__PLACE_SAMPLES]; /* from the domain's low corner, in lambda */
+  float tangent[3][FG__PLACE_SAMPLES];  /* unit */
+  float share[FG__PLACE_SAMPLES];       /* of a full sampling step that a sample stands
+                                           for */
+  double way[2];                        /* how far it really goes */
+} fg__place_line;
+
+/* Traces the line of a seed: it ends at the seed's ways; before a wall, once it comes
+ * nearer than the clearance and still nears it; where it has turned by `turning`; before
+ * a place where it breaks (75 degrees over 0.15 lambda) or reverses. count is 0 where the
+ * seed is too near a wall or the line is too short. Bogacki and Shampine's embedded 3(2)
+ * pair (1989) in arc length. */
+void fg__place_trace(fg__place_line *out, const fg__place_domain *domain,
+                     const fg__place_scale *scale, const fg__place_seed *seed);
+
+/* A line for a picture: through a point, `way` against the flow and along it, which a
+ * search has found to be free. Four times as many samples, with a hundredth of the error.
+ * *points is allocated, from tail to tip: free it. MEMORY. */
+fg_status fg__place_trace_fine(double (**points)[3], int *count, fg_context *context,
+                               const fg__place_domain *domain,
+                               const fg__place_scale *scale, const double position[3],
+                               const double way[2]);
+
+/* The angle by which a polyline turns, radians: of the sum of its turns as vectors. */
+double fg__place_turning(const double (*points)[3], int count);
+
+/* Follows the streamline of a point until it has turned once round: how far from the
+ * point it then is, and the diameter of its way. `radius` is about half of that. False
+ * where it does not get round. */
+bool fg__place_close(double *gap, double *diameter, const fg__place_domain *domain,
+                     const fg__place_scale *scale, const double start[3], double radius);
+
+/* Least distance to a wall that a line may have at a point, and least length there. */
+double fg__place_least_clearance(const fg__place_domain *domain,
+                                 const fg__place_scale *scale, const double position[3]);
+
+#endif

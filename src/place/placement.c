@@ -1,0 +1,302 @@
+#include "place/placement.h"
+
+#include "base/memory.h"
+#include "icon/icons.h"
+#include "icon/measure.h"
+#include "place/angle.h"
+#include "place/even.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Sweeps of descent, and exchanges with the failures after which they end. */
+typedef struct effort {
+  int sweeps, exchanges, failures;
+} effort;
+
+static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 6, 3},
+                                 [FG_EFFORT_QUICK] = {8, 0, 0},
+                                 [FG_EFFORT_THOROUGH] = {14, 40, 4}};
+
+/* A scale is reached by numbers of icons that fall by this factor. */
+static const double CHAIN_RATIO = 0.87;
+static const double CHAIN_STEP = 0.1; /* of its icons, in lambda */
+
+/* Ink of a free placement, at most; its price rises until that holds. */
+static const double MOST_INK = 1.48;
+static const double FIRST_PRICE = 0.1;
+static const double PRICE_GROWTH = 1.6;
+enum { MOST_PRICES = 12 };
+
+struct fg_placement {
+  fg_context *context;
+  fg_placement_options options;
+  fg__place_domain domain;
+  fg__place_search search;
+  bool begun;
+};
+
+const fg__place_search *fg__placement_search(const fg_placement *placement)
+{
+  return &placement->search;
+}
+
+fg_status fg_placement_create(fg_placement **out, fg_context *context,
+                              const fg_field *field, const fg_placement_options *options)
+{
+  if (!out || !field)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "placement: no %s given",
+                    out ? "field" : "place for the result");
+  *out = NULL;
+  if (options &&
+      (options->effort < FG_EFFORT_NORMAL || options->effort > FG_EFFORT_THOROUGH ||
+       options->lengths < FG_LENGTHS_FREE || options->lengths > FG_LENGTHS_FAIR))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "placement: effort %d or lengths %d is not known",
+                    (int)options->effort, (int)options->lengths);
+  fg_placement *placement = fg__allocate(1, sizeof *placement);
+  if (!placement)
+    return fg__fail_memory(context, "a placement", sizeof *placement);
+  placement->context = context;
+  if (options)
+    placement->options = *options;
+  fg_status status = fg__place_domain_create(&placement->domain, context, field);
+  if (status != FG_STATUS_OK) {
+    free(placement);
+    return status;
+  }
+  *out = placement;
+  return FG_STATUS_OK;
+}
+
+void fg_placement_destroy(fg_placement *placement)
+{
+  if (!placement)
+    return;
+  if (placement->begun)
+    fg__place_search_clear(&placement->search);
+  fg__place_domain_clear(&placement->domain);
+  free(placement);
+}
+
+/* An icon of a cluster as a seed: its middle, and half its length either way. */
+static fg__place_seed seed_of(const fg_icon *icon, const fg__place_scale *scale)
+{
+  fg__place_seed seed = {{0}, {0}};
+  double length = fg__icon_length(icon), half = length / 2.0, done = 0.0;
+  memcpy(seed.position, icon->points[0], sizeof seed.position);
+  for (int n = 1; n < icon->point_count && done < half; ++n) {
+    const double *a = icon->points[n - 1], *b = icon->points[n];
+    double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    double piece = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double t = piece > 0.0 ? fmin(1.0, (half - done) / piece) : 0.0;
+    for (int k = 0; k < 3; ++k)
+      seed.position[k] = a[k] + t * d[k];
+    done += piece;
+  }
+  double way = scale->free ? fmin(fmax(half, 0.3 * scale->lambda), scale->lambda)
+                           : 0.5 * scale->lambda;
+  seed.way[0] = seed.way[1] = way;
+  return seed;
+}
+
+/* A search for `count` icons, with none. */
+static fg_status begin(fg_placement *placement, int count)
+{
+  if (placement->begun)
+    fg__place_search_clear(&placement->search);
+  placement->begun = false;
+  fg_status status =
+      fg__place_search_create(&placement->search, placement->context, &placement->domain,
+                              count, placement->options.lengths == FG_LENGTHS_FREE);
+  placement->begun = status == FG_STATUS_OK;
+  return status;
+}
+
+static fg_status start(fg_placement *placement, int count, const fg_icons *clusters)
+{
+  fg__place_search *search = &placement->search;
+  fg_status status = begin(placement, count);
+  if (status != FG_STATUS_OK)
+    return status;
+  if (!clusters)
+    return fg__place_start_even(search);
+  for (int n = 0; n < fg_icons_count(clusters) && status == FG_STATUS_OK; ++n) {
+    fg__place_seed seed = seed_of(fg_icons_at(clusters, n), &search->scale);
+    bool added;
+    status = fg__place_add(search, &added, &seed, search->next_identity);
+    search->next_identity += added;
+  }
+  return status;
+}
+
+fg_status fg_placement_resume(fg_placement *placement, const fg_icons *icons)
+{
+  if (!placement || !icons || fg_icons_count(icons) < 1)
+    return fg__fail(placement ? placement->context : NULL, FG_STATUS_ARGUMENT,
+                    "placement: no icons to go on from");
+  fg_status status = begin(placement, fg_icons_count(icons));
+  for (int n = 0; n < fg_icons_count(icons) && status == FG_STATUS_OK; ++n) {
+    const fg_icon *icon = fg_icons_at(icons, n);
+    fg__place_seed seed;
+    bool added = false;
+    memcpy(seed.position, icon->seed, sizeof seed.position);
+    memcpy(seed.way, icon->way, sizeof seed.way);
+    if (icon->id > 0)
+      status = fg__place_add(&placement->search, &added, &seed, icon->id - 1);
+    if (status == FG_STATUS_OK && !added)
+      status = fg__fail(placement->context, FG_STATUS_ARGUMENT,
+                        "placement: icon %d of %d was not placed on this field", n,
+                        fg_icons_count(icons));
+  }
+  placement->search.next_identity = fg__icons_next_id(icons) - 1;
+  return status;
+}
+
+/* Descends, with the ink within its bounds. */
+static fg_status descend(fg__place_search *search, int sweeps)
+{
+  fg_status status = fg__place_relax(search, sweeps);
+  for (int n = 0; n < MOST_PRICES && status == FG_STATUS_OK && search->scale.free &&
+                  fg__place_ink(search) > MOST_INK;
+       ++n) {
+    search->scale.ink = fmax(search->scale.ink * PRICE_GROWTH, FIRST_PRICE);
+    fg__place_wake_all(search, 0.2);
+    status = fg__place_relax(search, 4);
+  }
+  return status;
+}
+
+/* The first scale: from whatever icons there are to a minimum of the energy. */
+static fg_status settle(fg_placement *placement)
+{
+  fg__place_search *search = &placement->search;
+  const effort *much = &EFFORTS[placement->options.effort];
+  fg_status status = fg__place_complete(search);
+  if (status == FG_STATUS_OK)
+    status = fg__place_relax(search, 2);
+  if (status == FG_STATUS_OK)
+    status = fg__place_weigh(search);
+  if (status == FG_STATUS_OK)
+    status = descend(search, much->sweeps);
+  return status;
+}
+
+static fg_status polish(fg_placement *placement)
+{
+  fg__place_search *search = &placement->search;
+  const effort *much = &EFFORTS[placement->options.effort];
+  fg_status status = FG_STATUS_OK;
+  if (much->exchanges > 0)
+    status = fg__place_exchange(search, much->exchanges, much->failures);
+  if (status == FG_STATUS_OK) {
+    fg__place_wake_all(search, 0.1);
+    status = descend(search, much->sweeps);
+  }
+  return status;
+}
+
+/* A step of the chain: fewer icons, those that are left a little longer. All of it
+ * follows from the icons' seeds, so that a run can go on from a file. */
+static fg_status go_on(fg__place_search *search, int count)
+{
+  fg_status status = fg__place_search_rescale(search, count);
+  if (status == FG_STATUS_OK)
+    status = fg__place_weigh(search);
+  fg__place_wake_all(search, CHAIN_STEP);
+  if (status == FG_STATUS_OK)
+    status = fg__place_relax(search, 2);
+  while (status == FG_STATUS_OK && search->count > count) {
+    int index;
+    double place[3];
+    status = fg__place_least(search, &index);
+    if (status != FG_STATUS_OK)
+      break;
+    memcpy(place, search->icon[index]->seed.position, sizeof place);
+    fg__place_drop(search, index);
+    fg__place_wake(search, place, CHAIN_STEP);
+    status = fg__place_relax(search, 2);
+  }
+  if (status == FG_STATUS_OK)
+    status = fg__place_complete(search);
+  if (status == FG_STATUS_OK)
+    status = descend(search, 4);
+  return status;
+}
+
+static fg_status go_down(fg_placement *placement, int count)
+{
+  fg__place_search *search = &placement->search;
+  fg_status status = FG_STATUS_OK;
+  for (int now = search->count; now > count && status == FG_STATUS_OK;) {
+    int next = (int)(CHAIN_RATIO * now);
+    now = next > count ? next : count;
+    status = go_on(search, now);
+  }
+  return status;
+}
+
+fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons *clusters)
+{
+  if (!placement || count < 1)
+    return fg__fail(placement ? placement->context : NULL, FG_STATUS_ARGUMENT,
+                    "placement: %d arrows", count);
+  fg__place_search *search = &placement->search;
+  fg_status status = FG_STATUS_OK;
+  if (!placement->begun || count > search->count) {
+    status = start(placement, count, clusters);
+    if (status == FG_STATUS_OK)
+      status = settle(placement);
+  } else {
+    status = go_down(placement, count);
+  }
+  if (status == FG_STATUS_OK)
+    status = polish(placement);
+  if (status == FG_STATUS_OK && search->count < count)
+    return fg__fail(placement->context, FG_STATUS_ARGUMENT,
+                    "%d arrows do not fit into this field: %d do", count, search->count);
+  return status;
+}
+
+/* Square of the distance from a point to a line, lambda. */
+static double distance_to(const fg__place_search *search, const fg__place_line *line,
+                          const double point[3])
+{
+  double least = HUGE_VAL;
+  for (int n = 0; n < line->count; ++n) {
+    double square = 0.0;
+    for (int k = 0; k < search->scale.dimension; ++k) {
+      double way = (point[k] - search->domain->low[k]) / search->scale.lambda -
+                   (double)line->position[k][n];
+      square += way * way;
+    }
+    least = fmin(least, square);
+  }
+  return least;
+}
+
+static int parent_of(const fg__place_search *search, const fg_icon *icon)
+{
+  double least = HUGE_VAL;
+  int parent = 0;
+  for (int n = 0; n < search->count; ++n) {
+    const fg__place_icon *placed = search->icon[n];
+    if (placed->identity + 1 == icon->id)
+      return icon->id;
+    double square = distance_to(search, &placed->line, icon->seed);
+    if (square < least) {
+      least = square;
+      parent = placed->identity + 1;
+    }
+  }
+  return parent;
+}
+
+void fg_placement_find_parents(const fg_placement *placement, fg_icons *finer)
+{
+  for (int n = 0; n < fg_icons_count(finer); ++n) {
+    fg_icon *icon = fg__icons_change(finer, n);
+    icon->parent = parent_of(&placement->search, icon);
+  }
+}

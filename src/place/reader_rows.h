@@ -1,0 +1,41 @@
+/* The inner loops of reading: rows of cells, compiled for several vector widths. Every
+ * width gives the same bits: products and sums stay apart, and sums go in eight fixed
+ * lanes. */
+#ifndef FG__PLACE_READER_ROWS_H
+#define FG__PLACE_READER_ROWS_H
+
+#include "place/readers.h"
+
+/* Where a row of cells lies, in lambda. */
+typedef struct fg__place_row_place {
+  float x, y, z;                     /* its low end, its middle */
+  float cell, reach, inverse_square; /* 1 / reach^2 */
+} fg__place_row_place;
+
+/* Tells `count` untold cells from `value` on, arrays `stride` apart, what a line tells.
+ */
+void fg__place_tell_row(int dimension, float *value, size_t stride, int count,
+                        const fg__place_line *line, const fg__place_row_place *row);
+
+/* Joins what other icons tell: the nearer of two, the sums of the rest. */
+void fg__place_add_row(int dimension, float *to, size_t to_stride, const float *from,
+                       size_t from_stride, int count);
+
+/* A row that a tale has, from cell `first` of the row that is asked on. */
+typedef struct fg__place_part_row {
+  const float *value; /* NULL: nothing */
+  size_t stride;
+  int first, count;
+} fg__place_part_row;
+
+typedef struct fg__place_row {
+  const float *weight;
+  const float *direction[3];
+  fg__place_price price;
+} fg__place_row;
+
+/* The sum of the cells' prices, kept in `cost` unless NULL. */
+double fg__place_cost_row(int dimension, float *cost, int count, const fg__place_row *row,
+                          const fg__place_part_row parts[2]);
+
+#endif

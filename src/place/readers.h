@@ -1,0 +1,90 @@
+/* What readers make of icons: the field they take back from the lines around a point, and
+ * its error. Three readers follow the nearest line, the lines by inverse distance, and
+ * their samples by a local stand-in for diffusion (docs/method/placement.md). */
+#ifndef FG__PLACE_READERS_H
+#define FG__PLACE_READERS_H
+
+#include "place/line.h"
+
+/* The raster on which readers are asked, in units of lambda from the domain's low corner.
+ */
+typedef struct fg__place_raster {
+  int dimension, cells[3];
+  size_t count;
+  float cell;
+  float *direction[3]; /* of the flow, unit; 0 where nothing is asked */
+  float *weight;       /* their sum is the number of icons */
+} fg__place_raster;
+
+/* MEMORY. */
+fg_status fg__place_raster_create(fg__place_raster *out, fg_context *context,
+                                  const fg__place_domain *domain,
+                                  const fg__place_scale *scale);
+void fg__place_raster_clear(fg__place_raster *raster);
+
+/* A box of cells. */
+typedef struct fg__place_box {
+  int low[3], size[3];
+} fg__place_box;
+
+static inline size_t fg__place_box_count(const fg__place_box *box)
+{
+  return (size_t)box->size[0] * (size_t)box->size[1] * (size_t)box->size[2];
+}
+
+bool fg__place_boxes_meet(const fg__place_box *a, const fg__place_box *b);
+
+/* What some icons tell the cells of a box. */
+enum { FG__PLACE_NEAR = 1 };
+#define FG__PLACE_ARRAYS(dimension) (FG__PLACE_NEAR + 3 * (dimension))
+
+typedef struct fg__place_tale {
+  fg__place_box box;
+  int dimension;
+  size_t capacity; /* cells */
+  float *value;    /* FG__PLACE_ARRAYS arrays of `capacity`: square of the distance to the
+                      nearest sample; from NEAR on its tangent, then the sum over icons of
+                      the nearest tangent by inverse distance, then the sum over samples */
+} fg__place_tale;
+
+void fg__place_tale_clear(fg__place_tale *tale);
+
+/* Makes a tale of a box that nobody tells anything. MEMORY. */
+fg_status fg__place_tale_start(fg__place_tale *tale, fg_context *context, int dimension,
+                               const fg__place_box *box, float reach);
+
+/* The cells that a line can reach; empty for no line. */
+fg__place_box fg__place_box_of(const fg__place_raster *raster,
+                               const fg__place_scale *scale, const fg__place_line *line);
+
+/* Tells what a line tells, over its box. MEMORY. */
+fg_status fg__place_tell(fg__place_tale *out, fg_context *context,
+                         const fg__place_raster *raster, const fg__place_scale *scale,
+                         const fg__place_line *line);
+
+/* Adds one tale to another, where both have cells. */
+void fg__place_tale_add(fg__place_tale *to, const fg__place_tale *from);
+
+/* Weighs the readers' errors. */
+typedef struct fg__place_price {
+  float inverse_error; /* 1 / E0, a degree's price */
+  float far;           /* kappa */
+  float reach;         /* R in lambda */
+} fg__place_price;
+
+/* The price of each cell of `box`, told by both tales (either may be NULL, or end within
+ * the box), summed up; kept in `cost` unless NULL. */
+double fg__place_cost(float *cost, const fg__place_raster *raster,
+                      const fg__place_box *box, const fg__place_tale *one,
+                      const fg__place_tale *other, const fg__place_price *price);
+
+/* The mean error of the three readers, in degrees. */
+double fg__place_mean_error(const fg__place_raster *raster, const fg__place_tale *tale,
+                            double reach);
+
+/* Square of the distance to the nearest line of a tale at a place in lambda, as the cell
+ * there has it; `reach` squared outside. */
+float fg__place_near(const fg__place_raster *raster, const fg__place_tale *tale,
+                     const float position[3], float reach);
+
+#endif

@@ -1,0 +1,28 @@
+/* The lengths and weights of a placement of N icons: everything that is a share of the
+ * fair-share length. docs/method/placement.md gives the energy and the reasons. */
+#ifndef FG__PLACE_SCALE_H
+#define FG__PLACE_SCALE_H
+
+#include "place/domain.h"
+
+typedef struct fg__place_scale {
+  int dimension, count;
+  double lambda;   /* (|domain| / N)^(1/dimension) */
+  double cell;     /* of the raster on which readers are asked */
+  double sampling; /* along a line */
+  double reach;    /* R: what an icon tells, and no farther */
+  double clearance, shortest;
+  double turning;     /* either way from the seed, radians */
+  double longest;     /* the sum of both ways */
+  double crowding;    /* mu */
+  double crowd_range; /* s */
+  double far;         /* kappa: price of distance */
+  double brevity;     /* nu */
+  double ink;         /* p */
+  bool free;          /* each icon has a length of its own */
+} fg__place_scale;
+
+/* `measure` is what fg__place_domain calls so. */
+fg__place_scale fg__place_scale_of(int dimension, int count, double measure, bool free);
+
+#endif
