@@ -8,6 +8,7 @@
 #include "background.h"
 #include "folder.h"
 #include "options.h"
+#include "placing.h"
 #include "progress.h"
 
 struct cli_drawing {
@@ -16,6 +17,8 @@ struct cli_drawing {
   const cli_output *output;
   fg_context *context;    /* the worker's own */
   fg_texture *background; /* of the last picture, NULL: none */
+  cli_placing placing;
+  fg_icons *finer; /* placed icons of the last scale, whose parents come with the next */
   bool threaded;
   pthread_t thread;
 
@@ -131,8 +134,10 @@ static fg_status write_density(cli_drawing *drawing, int index, const fg_density
   return status;
 }
 
+/* `regions`: what placed arrows stand for, in place of the clusters; NULL: none. */
 static fg_status write_pictures(cli_drawing *drawing, int index,
-                                const scale_moment *moment, const fg_icons *icons)
+                                const scale_moment *moment, const fg_icons *icons,
+                                const fg_density *regions)
 {
   static const char *const ends[FORMAT_KINDS] = {".svg", ".png", ".pdf"};
   fg_picture_options options = settings_picture(drawing->settings);
@@ -151,8 +156,8 @@ static fg_status write_pictures(cli_drawing *drawing, int index,
     char *path = scale_path(drawing, index, ends[kind]);
     if (!path)
       return FG_STATUS_MEMORY;
-    status = fg_picture_write(drawing->context, path, drawing->field, moment->density,
-                              icons, &options);
+    status = fg_picture_write(drawing->context, path, drawing->field,
+                              regions ? regions : moment->density, icons, &options);
     free(path);
   }
   return status;
@@ -165,11 +170,54 @@ static fg_status make_icons(cli_drawing *drawing, scale_moment *moment)
                          moment->density, &options);
 }
 
+/* The last scale's icons, from its file after a resume. */
+static fg_status find_finer(cli_drawing *drawing, int index)
+{
+  if (index == 0 || drawing->finer)
+    return FG_STATUS_OK;
+  char *path = scale_path(drawing, index - 1, ".geojson");
+  if (!path)
+    return FG_STATUS_MEMORY;
+  fg_status status = fg_icons_read(&drawing->finer, drawing->context, path);
+  free(path);
+  return status;
+}
+
+/* Exactly as many icons as the scale asks for. The finer scale's file is written again,
+ * with the icons that its own went into. */
+static fg_status place_icons(cli_drawing *drawing, int index, scale_moment *moment)
+{
+  int count = drawing->results[index].wanted[0];
+  fg_status status = find_finer(drawing, index);
+  if (!status)
+    status =
+        placing_make(&moment->icons, &drawing->placing, count, moment, drawing->finer);
+  if (!status && drawing->finer)
+    status = write_icons(drawing, index - 1, drawing->finer);
+  return status;
+}
+
+static fg_status draw_flat(cli_drawing *drawing, int index, const scale_moment *moment)
+{
+  fg_density *regions = NULL;
+  fg_status status = FG_STATUS_OK;
+  if (drawing->placing.placement)
+    status = placing_regions(&regions, &drawing->placing);
+  if (!status)
+    status = write_pictures(drawing, index, moment, moment->icons, regions);
+  fg_density_destroy(regions);
+  return status;
+}
+
 static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *moment)
 {
   scale_result *result = &drawing->results[index];
   double start = clock_seconds();
-  fg_status status = moment->icons ? FG_STATUS_OK : make_icons(drawing, moment);
+  fg_status status = FG_STATUS_OK;
+  if (settings_place(drawing->settings))
+    status = place_icons(drawing, index, moment);
+  else if (!moment->icons)
+    status = make_icons(drawing, moment);
   const fg_icons *icons = moment->icons;
   if (!status)
     status = write_icons(drawing, index, icons);
@@ -178,14 +226,19 @@ static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *momen
   if (!status && index == 0)
     fg_icons_speed_range(drawing->speeds, icons);
   if (!status)
-    status = scales_are_solid(drawing->field)
-                 ? draw_solids(drawing, index, moment, icons)
-                 : write_pictures(drawing, index, moment, icons);
+    status = scales_are_solid(drawing->field) ? draw_solids(drawing, index, moment, icons)
+                                              : draw_flat(drawing, index, moment);
   drawing->picture_seconds += clock_seconds() - between;
   if (!status) {
-    result->clusters = fg_icons_clusters(icons);
+    if (!settings_place(drawing->settings) || moment->density)
+      result->clusters = fg_icons_clusters(icons);
     result->icons = fg_icons_count(icons);
     result->dropped = fg_icons_dropped(icons);
+  }
+  if (!status && settings_place(drawing->settings)) {
+    fg_icons_destroy(drawing->finer);
+    drawing->finer = moment->icons;
+    moment->icons = NULL;
   }
   return status;
 }
@@ -254,6 +307,7 @@ int drawing_start(cli_drawing **out, const cli_settings *settings, const fg_fiel
   drawing->settings = settings;
   drawing->field = field;
   drawing->output = output;
+  drawing->placing = (cli_placing){settings, field, drawing->context, NULL};
   pthread_mutex_init(&drawing->lock, NULL);
   pthread_cond_init(&drawing->changed, NULL);
   /* without a thread to be had, the drawing is done in order: the result is the same */
@@ -427,6 +481,8 @@ void drawing_destroy(cli_drawing *drawing)
     moment_clear(&drawing->waiting[k]);
   pthread_cond_destroy(&drawing->changed);
   pthread_mutex_destroy(&drawing->lock);
+  placing_clear(&drawing->placing);
+  fg_icons_destroy(drawing->finer);
   fg_texture_destroy(drawing->background);
   fg_context_destroy(drawing->context);
   free(drawing);

@@ -23,7 +23,8 @@ typedef struct scale_moment {
 typedef struct cli_drawing cli_drawing;
 
 /* Starts a worker thread, or with `threads` 1 none: then drawing_add draws before it
- * returns. The field and output are borrowed. Returns an exit code. */
+ * returns. The field, whole where arrows are placed, and output are borrowed. Returns an
+ * exit code. */
 int drawing_start(cli_drawing **out, const cli_settings *settings, const fg_field *field,
                   const cli_output *output);
 

@@ -75,8 +75,11 @@ static void print_summary(const cli_run *run)
     char name[SCALE_NAME_BYTES], aside[ASIDE_BYTES];
     scale_name(name, k, ends[1]); /* its first picture */
     char *path = join_path(run->settings->output, name);
-    printf("%4d clusters %4d icons%s  %s\n", result->clusters, result->icons,
-           say_dropped(aside, result->dropped), path ? path : name);
+    if (settings_place(run->settings))
+      printf("%4d arrows  %s\n", result->icons, path ? path : name);
+    else
+      printf("%4d clusters %4d icons%s  %s\n", result->clusters, result->icons,
+             say_dropped(aside, result->dropped), path ? path : name);
     free(path);
   }
 }

@@ -96,6 +96,13 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   char seed[32];
   snprintf(seed, sizeof seed, "%llu", (unsigned long long)(said->seed ? said->seed : 1));
   cJSON_AddItemToObject(object, "seed", cJSON_CreateRaw(seed));
+  if (settings_place(said)) {
+    cJSON_AddStringToObject(object, "lengths", said->lengths ? "fair" : "free");
+    cJSON_AddStringToObject(object, "start", said->start ? "even" : "clusters");
+  }
+  if (said->arrow_count)
+    cJSON_AddItemToObject(object, "arrows",
+                          cJSON_CreateIntArray(said->arrows, said->arrow_count));
   if (said->cluster_count)
     cJSON_AddItemToObject(object, "clusters",
                           cJSON_CreateIntArray(said->clusters, said->cluster_count));

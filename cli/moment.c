@@ -9,8 +9,9 @@ static bool needs_all(const cli_run *run)
 {
   const cli_settings *said = run->settings;
   if (scales_are_solid(run->field))
-    return said->surfaces;
-  return said->tint || said->background || said->extent == FG_ICON_EXTENT_TERRITORY;
+    return said->surfaces || settings_place(said);
+  return settings_place(said) || said->tint || said->background ||
+         said->extent == FG_ICON_EXTENT_TERRITORY;
 }
 
 static fg_status make_icons(scale_moment *moment, fg_context *context, const cli_run *run,

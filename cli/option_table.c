@@ -15,6 +15,9 @@ static const char *const kind_words[] = {"lic",     "spots",     "clusters",
                                          "stripes", "diffusion", NULL};
 static const char *const background_words[] = {
     "none", "lic", "spots", "clusters", "stripes", "diffusion", NULL};
+static const char *const arrow_lengths_words[] = {"free", "fair", NULL};
+static const char *const start_words[] = {"clusters", "even", NULL};
+static const char *const effort_words[] = {"1", "0", "2", NULL};
 const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
@@ -175,7 +178,8 @@ const option_entry option_table[] = {
      "share of the way to white, from 0 to 1 [0]"},
 
     {"nodes", 0, "N", COMMAND_RUN, OPTION_WHOLE, AT(nodes), 17, 16385, false, false, NULL,
-     "nodes of the mesh along its longest side [257 in 2D, 65 in 3D]"},
+     "nodes of the mesh along its longest side [from the number of arrows; with "
+     "--clusters 257 in 2D, 65 in 3D]"},
     {"nodes", 0, "N", COMMAND_SYNTH, OPTION_WHOLE, AT(nodes), 2, 16385, false, false,
      NULL, "samples a side [257 in 2D, 65 in 3D]"},
     {"mesh", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(mesh), 0, 0, false, false,
@@ -205,10 +209,28 @@ const option_entry option_table[] = {
     {"gamma", 0, "G", COMMAND_RUN, OPTION_NUMBER, AT(gamma), 0, 1, true, false, NULL,
      "interface energy, in units of the longest side squared [(1.1 h)^2 / A for cells of "
      "size h; isotropic (1.5 h)^2]"},
+    {"arrows", 0, "LIST", COMMAND_RUN, OPTION_COUNTS, AT(arrows), 1, 100000, false, false,
+     NULL,
+     "numbers of arrows, descending: a scale of exactly so many each, placed so that a "
+     "reader gets the field back [200,100,50,25,12; in 3D 60,25,12]"},
+    {"tolerance", 0, "DEG", COMMAND_RUN, OPTION_NUMBER, AT(tolerance), 0, 90, true, false,
+     NULL,
+     "one scale: the fewest arrows from which the field is read within DEG degrees, the "
+     "mean error of three readers"},
+    {"lengths", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(lengths), 0, 0, false, false,
+     arrow_lengths_words,
+     "arrows of `free` length, up to twice the fair share (the root of area / arrows), "
+     "or of the `fair` share at most [free]"},
+    {"start", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(start), 0, 0, false, false,
+     start_words,
+     "what the first scale's arrows start from: the `clusters` at that number, or an "
+     "`even` distribution, which has no seed [clusters]"},
+    {"effort", 0, "E", COMMAND_RUN, OPTION_CHOICE, AT(effort), 0, 0, false, false,
+     effort_words, "work that placing takes, 0 to 2: less error for more time [1]"},
     {"clusters", 0, "LIST", COMMAND_RUN, OPTION_COUNTS, 0, 1, 1000000, false, false, NULL,
-     "numbers of clusters at which to write a scale, descending, as 200,50,12; a scale "
-     "is the first moment at or below the number [the first number seen, then "
-     "..., 96, 48, 24, 12]"},
+     "instead of --arrows the paper's way: an arrow inside each cluster; numbers of "
+     "clusters, descending, as 200,50,12: a scale is the first moment at or below the "
+     "number"},
     {"clusters", 0, "LIST", COMMAND_BRUSH, OPTION_COUNTS, 0, 1, 1000000, false, false,
      NULL,
      "numbers of clusters, descending, as 2000,400,80: a layer of strokes each, painted "

@@ -135,7 +135,9 @@ static bool set_counts(cli_settings *out, const cli_command *command,
   int most = command->bit & (COMMAND_DRAW | COMMAND_TEXTURE) ? 1
              : command->bit == COMMAND_BRUSH                 ? (int)FG_MOST_BRUSH_SCALES
                                                              : MAX_SCALES;
-  out->cluster_count = 0;
+  int *list = option->place ? out->arrows : out->clusters;
+  int *count = option->place ? &out->arrow_count : &out->cluster_count;
+  *count = 0;
   for (const char *rest = text; rest;) {
     char item[32];
     rest = next_item(item, sizeof item, rest);
@@ -144,13 +146,13 @@ static bool set_counts(cli_settings *out, const cli_command *command,
         value > (intmax_t)option->most)
       return wrong(command, "--%s %s: '%s' is no number of %s from %.0f to %.0f",
                    option->name, text, item, option->name, option->least, option->most);
-    if (out->cluster_count == most)
+    if (*count == most)
       return wrong(command, "--%s %s: more than %d number%s", option->name, text, most,
                    most == 1 ? "" : "s");
-    if (out->cluster_count && value >= out->clusters[out->cluster_count - 1])
+    if (*count && value >= list[*count - 1])
       return wrong(command, "--%s %s: the numbers must descend, and %s follows %d",
-                   option->name, text, item, out->clusters[out->cluster_count - 1]);
-    out->clusters[out->cluster_count++] = (int)value;
+                   option->name, text, item, list[*count - 1]);
+    list[(*count)++] = (int)value;
   }
   return true;
 }
@@ -334,6 +336,32 @@ static bool check_energy(const cli_settings *said, const cli_command *command)
   return true;
 }
 
+/* Arrows are counted, or clusters, or found by their error. */
+static bool check_placement(const cli_settings *said, const cli_command *command)
+{
+  if (command->bit != COMMAND_RUN)
+    return true;
+  if (said->arrow_count && said->cluster_count)
+    return wrong(command,
+                 "--arrows and --clusters: say one; --clusters draws an arrow in "
+                 "each cluster, however many they are");
+  if (said->tolerance > 0.0 && (said->arrow_count || said->cluster_count))
+    return wrong(command, "--tolerance %g: finds the number of arrows; not with --%s",
+                 said->tolerance, said->arrow_count ? "arrows" : "clusters");
+  const char *placed = said->start     ? "start"
+                       : said->effort  ? "effort"
+                       : said->lengths ? "lengths"
+                                       : NULL;
+  if (placed && !settings_place(said))
+    return wrong(command,
+                 "--%s: says nothing with --clusters, whose arrows are not placed",
+                 placed);
+  if (settings_place(said) && (said->skeletons || said->centers))
+    return wrong(command, "--%s: of clusters; say how many with --clusters",
+                 said->skeletons ? "skeletons" : "centers");
+  return true;
+}
+
 static bool check_operands(cli_settings *out, const cli_command *command, int count,
                            char **operands)
 {
@@ -352,7 +380,7 @@ static bool check_operands(cli_settings *out, const cli_command *command, int co
   if (out->resume && out->force)
     return wrong(command, "--resume goes on with what --force would replace: say one");
   out->operand = count ? operands[0] : NULL;
-  return check_energy(out, command);
+  return check_placement(out, command) && check_energy(out, command);
 }
 
 parse_result options_parse(cli_settings *out, const cli_command *command, int argc,
@@ -432,6 +460,17 @@ fg_evolution_options settings_evolution(const cli_settings *settings)
       .seed = settings->seed,
       .threads = settings->threads,
   };
+}
+
+bool settings_place(const cli_settings *settings)
+{
+  return settings->cluster_count == 0 && !settings->no_arrows;
+}
+
+fg_placement_options settings_placement(const cli_settings *settings)
+{
+  return (fg_placement_options){.lengths = (fg_lengths)settings->lengths,
+                                .effort = (fg_effort)settings->effort};
 }
 
 fg_texture_options settings_texture(const cli_settings *settings)

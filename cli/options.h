@@ -36,7 +36,7 @@ typedef enum option_kind {
   OPTION_NUMBER,  /* double, least to most; the ends as `open` says */
   OPTION_FLAG,    /* bool */
   OPTION_CHOICE,  /* int: value of the word's place in `words` */
-  OPTION_COUNTS,  /* settings.clusters */
+  OPTION_COUNTS,  /* settings.clusters, or with a place settings.arrows */
   OPTION_FORMATS, /* settings.formats */
   OPTION_PALETTE, /* const char *: a palette's name or #rrggbb */
   OPTION_VIEW,    /* settings.views, one more */

@@ -35,6 +35,11 @@ typedef struct cli_settings {
   int threads;
   int clusters[MAX_SCALES]; /* descending */
   int cluster_count;
+  int arrows[MAX_SCALES]; /* descending; none and no clusters: the default list */
+  int arrow_count;
+  double tolerance;  /* degrees; 0: not said */
+  int start;         /* of a placement: clusters (0), even */
+  int effort;        /* fg_effort */
   int extent;        /* fg_icon_extent */
   double checkpoint; /* seconds between checkpoints; 0: after every step */
 
@@ -48,7 +53,7 @@ typedef struct cli_settings {
   int view_count;             /* 0: one, the usual */
 
   int method;     /* rival: fg_rival_method */
-  int lengths;    /* rival: 1 with the speed */
+  int lengths;    /* run: fg_lengths; rival: 1 with the speed */
   int kind;       /* fg_texture_kind */
   int background; /* 0: none; 1 more than fg_texture_kind */
   int longest;    /* pixels */
@@ -119,6 +124,10 @@ fg_evolution_options settings_evolution(const cli_settings *settings);
  * interfaces, unless they ask for it. */
 bool settings_adapt_mesh(const cli_settings *settings);
 fg_picture_options settings_picture(const cli_settings *settings);
+
+/* Whether arrows are placed, exactly so many; else they are their clusters' own. */
+bool settings_place(const cli_settings *settings);
+fg_placement_options settings_placement(const cli_settings *settings);
 
 /* The options of one of the views in 3D, from 0. */
 fg_solid_options settings_solid(const cli_settings *settings, int view);

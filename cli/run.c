@@ -76,7 +76,11 @@ static int open_results(cli_run *run, bool *done, bool *goes_on)
   code = look(run, &state, done);
   if (code || *done)
     return code;
-  code = drawing_start(&run->drawing, run->settings, run->field, &run->output);
+  code = input_read_whole(run);
+  if (code)
+    return code;
+  code = drawing_start(&run->drawing, run->settings, run->whole ? run->whole : run->field,
+                       &run->output);
   run->facts.drawing = run->drawing;
   if (code)
     return code;
@@ -122,6 +126,36 @@ static int take_scale(cli_run *run, const int *wanted, int wanted_count)
   /* a failure of the drawing is complained of where the run ends */
   bool added = drawing_add(run->drawing, &moment, wanted, wanted_count);
   return ranks_agree(added ? EXIT_DONE : EXIT_FAILED);
+}
+
+/* The scales that a state answers: one of all numbers, or where arrows are placed one of
+ * each. Collective. */
+static int take_scales(cli_run *run, int reached)
+{
+  const int *wanted = &run->plan.wanted[run->plan.next - reached];
+  if (!run->plan.placed)
+    return take_scale(run, wanted, reached);
+  int code = EXIT_DONE;
+  for (int k = 0; k < reached && !code; ++k)
+    code = take_scale(run, &wanted[k], 1);
+  return code;
+}
+
+/* Where a run ends before its last scale it still shows how far it came; placed arrows
+ * can be as few as is wanted all the same. Collective. */
+static int take_last(cli_run *run)
+{
+  if (scale_plan_done(&run->plan) || !run->step.clusters)
+    return EXIT_DONE;
+  if (run->plan.placed) {
+    int left = run->plan.count - run->plan.next;
+    if (strcmp(run->facts.ended, "interrupted") == 0)
+      return EXIT_DONE;
+    run->plan.next = run->plan.count;
+    return take_scales(run, left);
+  }
+  return run->last_scale_clusters == run->step.clusters ? EXIT_DONE
+                                                        : take_scale(run, NULL, 0);
 }
 
 static const char *reason_to_stop(const cli_run *run)
@@ -170,7 +204,7 @@ static int advance(cli_run *run)
   code = ranks_agree(record_step(run, &before));
   int reached = scale_plan_reach(&run->plan, run->step.clusters);
   if (!code && reached)
-    code = take_scale(run, &run->plan.wanted[run->plan.next - reached], reached);
+    code = take_scales(run, reached);
   run->facts.ended = reason_to_stop(run);
   return code;
 }
@@ -191,10 +225,8 @@ static int evolve(cli_run *run)
   if (!code && run->step.step && ending_can_go_on(run) &&
       (interrupted || run->step.clusters))
     code = checkpoint_save(run);
-  /* a run that ends before its last scale still shows how far it came */
-  bool shown = run->last_scale_clusters == run->step.clusters;
-  if (!code && !scale_plan_done(&run->plan) && run->step.clusters && !shown)
-    code = take_scale(run, NULL, 0);
+  if (!code)
+    code = take_last(run);
   run->facts.seconds_evolve = run->earlier_evolve + clock_seconds() - run->evolving_since;
   return code;
 }
@@ -225,6 +257,9 @@ static int prepare(cli_run *run, bool *done)
   code = input_join(run);
   if (code)
     return code;
+  if (settings_place(run->settings))
+    scale_plan_start_placed(&run->plan, run->settings->arrows, run->settings->arrow_count,
+                            fg_field_contents(run->field)->dimension);
   run->facts.seconds_read = clock_seconds() - run->start;
   return input_create_evolution(run);
 }
@@ -290,6 +325,7 @@ int command_run(const cli_settings *settings)
   fg_evolution_destroy(run.evolution);
   fg_tensors_destroy(run.tensors);
   fg_field_destroy(run.field);
+  fg_field_destroy(run.whole);
   fg_context_destroy(run.context);
   free(run.checkpoint);
   return code;

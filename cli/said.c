@@ -34,12 +34,12 @@ static void print_number(char *text, double value)
     snprintf(text, VALUE_BYTES, "%.17g", value);
 }
 
-static void print_counts(char *text, const cli_settings *settings)
+static void print_counts(char *text, const int *list, int count)
 {
   size_t used = 0;
-  for (int k = 0; k < settings->cluster_count && used < VALUE_BYTES; ++k)
-    used += (size_t)snprintf(text + used, VALUE_BYTES - used, "%s%d", k ? "," : "",
-                             settings->clusters[k]);
+  for (int k = 0; k < count && used < VALUE_BYTES; ++k)
+    used +=
+        (size_t)snprintf(text + used, VALUE_BYTES - used, "%s%d", k ? "," : "", list[k]);
 }
 
 static void print_views(char *text, const cli_settings *settings)
@@ -101,7 +101,10 @@ static void print_value(char text[VALUE_BYTES], const cli_settings *settings,
       snprintf(text, VALUE_BYTES, "%s", option->words[whole]);
     break;
   case OPTION_COUNTS:
-    print_counts(text, settings);
+    if (option->place)
+      print_counts(text, settings->arrows, settings->arrow_count);
+    else
+      print_counts(text, settings->clusters, settings->cluster_count);
     break;
   case OPTION_FORMATS:
     print_formats(text, settings->formats);

@@ -17,6 +17,18 @@ void scale_plan_start(scale_plan *plan, const int *list, int count)
     plan->wanted[k] = list[k];
 }
 
+void scale_plan_start_placed(scale_plan *plan, const int *list, int count, int dimension)
+{
+  static const int flat[] = {200, 100, 50, 25, 12}, solid[] = {60, 25, 12};
+  const int *usual = dimension == 3 ? solid : flat;
+  size_t usual_count = dimension == 3 ? sizeof solid : sizeof flat;
+  if (!count)
+    scale_plan_start(plan, usual, (int)(usual_count / sizeof *usual));
+  else
+    scale_plan_start(plan, list, count);
+  plan->placed = true;
+}
+
 /* The first number seen, then those of 12 * 2^k that differ from it by more than half a
  * halving: two scales closer than that look alike. */
 static void fill_default(scale_plan *plan, int first)

@@ -8,12 +8,14 @@
 typedef struct scale_plan {
   int wanted[MAX_SCALES];
   int count;
-  int next; /* wanted[next] has not been reached; count: all have */
+  int next;    /* wanted[next] has not been reached; count: all have */
+  bool placed; /* these are numbers of arrows: each is a scale of its own */
 } scale_plan;
 
-/* Starts with a list, or with none: the default one follows from the first number seen.
- */
+/* Starts with a list, or with none: the default one follows from the first number of
+ * clusters seen, or is that of placed arrows in 2D or 3D. */
 void scale_plan_start(scale_plan *plan, const int *list, int count);
+void scale_plan_start_placed(scale_plan *plan, const int *list, int count, int dimension);
 
 /* Says how many wanted numbers the state with `clusters` clusters is the first at or
  * below; 0: it is no scale. One state is one scale, however many numbers it passes at

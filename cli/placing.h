@@ -1,0 +1,25 @@
+/* Placing the arrows of a run's scales, one after the other, in the drawing's thread. */
+#ifndef PLACING_H
+#define PLACING_H
+
+#include "drawing.h"
+
+typedef struct cli_placing {
+  const cli_settings *settings;
+  const fg_field *field; /* whole */
+  fg_context *context;
+  fg_placement *placement; /* NULL: not begun */
+} cli_placing;
+
+/* Makes the icons of a scale of exactly `count` arrows; it goes on from `finer`, those of
+ * the scale before, whose parents it sets, or starts from the clusters of the moment's
+ * density when that is NULL. */
+fg_status placing_make(fg_icons **out, cli_placing *placing, int count,
+                       const scale_moment *moment, fg_icons *finer);
+
+/* What the picture's --tint shows of them; NULL in 3D or without --tint. */
+fg_status placing_regions(fg_density **out, const cli_placing *placing);
+
+void placing_clear(cli_placing *placing);
+
+#endif
