@@ -1,6 +1,6 @@
 /* The scores of icons as a picture of a field. */
 #include "base/memory.h"
-#include "score/reader.h"
+#include "score/measures.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@ typedef struct scoring {
   fg__score_raster raster;
   fg__samples samples;
   fg__nearest nearest;
-  fg__harmonic diffusion;
+  fg__harmonic harmonic;
   int count; /* nominal */
 } scoring;
 
@@ -34,7 +34,7 @@ static fg_status check(fg_context *context, const fg_field *field, const fg_icon
   return FG_STATUS_OK;
 }
 
-static void set_rest(fg_score *out)
+static void leave_out_rest(fg_score *out)
 {
   out->advection = out->critical_f1 = (double)NAN;
   out->void_mean = out->void_max = (double)NAN;
@@ -77,13 +77,34 @@ static fg_status read_diffusion(scoring *s, fg_score *out, fg_context *context)
   if (!angle)
     return fg__fail_memory(context, "angles", s->raster.cells * sizeof *angle);
   fg_status status =
-      fg__harmonic_create(&s->diffusion, context, &s->raster, &s->samples, 0.0);
+      fg__harmonic_create(&s->harmonic, context, &s->raster, &s->samples, 0.0);
   if (status == FG_STATUS_OK) {
-    fg__harmonic_angles(angle, &s->raster, &s->diffusion);
+    fg__harmonic_angles(angle, &s->raster, &s->harmonic);
     status = fg__reader_error(&out->diffusion, context, &s->raster, angle);
   }
   free(angle);
   return status;
+}
+
+static fg_status measure_rest(scoring *s, fg_score *out, fg_context *context)
+{
+  const fg__score_raster *raster = &s->raster;
+  const fg__samples *samples = &s->samples;
+  const double lambda = out->count_length;
+  const size_t all = samples->count + samples->outside;
+  fg_status status = fg__check_stop(context);
+  if (status == FG_STATUS_OK && raster->dimension == 2)
+    status = fg__score_critical(&out->critical_f1, context, raster, &s->harmonic, lambda,
+                                s->team);
+  if (status == FG_STATUS_OK)
+    status = fg__score_clutter(&out->clutter, context, raster, samples, lambda);
+  if (status != FG_STATUS_OK)
+    return status;
+  out->advection = fg__score_advection(raster, &s->harmonic, s->team);
+  out->tangency = fg__score_tangency(raster, samples);
+  out->outside = all ? (double)samples->outside / (double)all : 0.0;
+  fg__score_voids(&out->void_mean, &out->void_max, raster, s->nearest.distance, lambda);
+  return fg__check_stop(context);
 }
 
 static fg_status score(scoring *s, fg_score *out, fg_context *context,
@@ -101,7 +122,9 @@ static fg_status score(scoring *s, fg_score *out, fg_context *context,
   out->percentile_95 = (out->diffusion.percentile_95 + out->nearest.percentile_95 +
                         out->inverse_distance.percentile_95) /
                        3.0;
-  set_rest(out);
+  leave_out_rest(out);
+  if (status == FG_STATUS_OK && !s->options->readers_only)
+    status = measure_rest(s, out, context);
   return status;
 }
 
@@ -124,7 +147,7 @@ fg_status fg_icons_score(fg_score *out, fg_context *context, const fg_field *fie
   status = fg__team_create(&s.team, context, options->threads ? options->threads : 1);
   if (status == FG_STATUS_OK)
     status = score(&s, out, context, field, icons);
-  fg__harmonic_clear(&s.diffusion);
+  fg__harmonic_clear(&s.harmonic);
   fg__nearest_clear(&s.nearest);
   fg__samples_clear(&s.samples);
   fg__score_raster_clear(&s.raster);
