@@ -28,7 +28,7 @@ static inline fg_field *field_of(fg_context *context, const sampling *box,
 {
   double *axis[3] = {0};
   float *sample[3] = {0};
-  size_t count = 1;
+  size_t samples = 1;
   fg_field *field = NULL;
   fg_field_arrays arrays = {.dimension = box->dimension, .scale = box->scale};
   for (int k = 0; k < box->dimension; ++k) {
@@ -36,13 +36,13 @@ static inline fg_field *field_of(fg_context *context, const sampling *box,
     arrays.axis[k] = axis[k] = calloc((size_t)nodes, sizeof(double));
     for (int i = 0; i < nodes; ++i)
       axis[k][i] = box->low[k] + (box->high[k] - box->low[k]) * i / (nodes - 1);
-    count *= (size_t)nodes;
+    samples *= (size_t)nodes;
   }
   for (int k = 0; k < box->dimension; ++k)
-    arrays.velocity[k] = sample[k] = calloc(count, sizeof(float));
+    arrays.velocity[k] = sample[k] = calloc(samples, sizeof(float));
   if (box->round)
     arrays.period[0] = (box->high[0] - box->low[0]) * box->nodes[0] / (box->nodes[0] - 1);
-  for (size_t n = 0; n < count; ++n) {
+  for (size_t n = 0; n < samples; ++n) {
     double position[3] = {0}, v[3] = {0};
     size_t rest = n;
     for (int k = 0; k < box->dimension; ++k) {
