@@ -5,7 +5,7 @@ MAKEFLAGS += --no-print-directory
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
 
-.PHONY: all setup demo check bench install format clean
+.PHONY: all setup demo check bench score install format clean
 
 all:
 	@cmake --preset release -DCMAKE_INSTALL_PREFIX=$(PREFIX) >build-log 2>&1 || \
@@ -32,6 +32,10 @@ bench: setup all
 	@bench/scaling build
 	@echo
 	@bench/rivals build $(if $(WHOLE),--whole)
+
+# how well flowgrain and its rivals tell fields: docs/method/score.md
+score: all
+	@scripts/score
 
 install: all
 	@cmake --install build

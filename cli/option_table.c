@@ -18,12 +18,13 @@ static const char *const background_words[] = {
 static const char *const arrow_lengths_words[] = {"free", "fair", NULL};
 static const char *const start_words[] = {"clusters", "even", NULL};
 static const char *const effort_words[] = {"1", "0", "2", NULL};
+static const char *const class_words[] = {"arrows", "free", NULL};
 const char *const extent_words[] = {"cluster", "territory", NULL};
 
 enum {
   EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL |
-          COMMAND_TEXTURE | COMMAND_GALLERY | COMMAND_BRUSH,
-  READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE,
+          COMMAND_TEXTURE | COMMAND_GALLERY | COMMAND_BRUSH | COMMAND_SCORE,
+  READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE | COMMAND_SCORE,
   DRAWN = COMMAND_RUN | COMMAND_RIVAL,
   SEEDED = COMMAND_RUN | COMMAND_TEXTURE | COMMAND_BRUSH,
   PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL,
@@ -40,20 +41,20 @@ const cli_command command_table[] = {
      "--help). In 3D a scale is the icons as GeoJSON, VTK polydata (.vtp) and glTF "
      "(.glb), "
      "a rendered picture for each --view, and the density u and its clusters (.vti).",
-     true, command_run},
+     true, command_run, NULL},
     {COMMAND_DRAW, "draw", "DIR", "DIR -o PICTURE [options]",
      "draw one scale of a finished run again, in another style",
      "Draws a scale that `flowgrain run` left in DIR; the picture's format follows the "
      "end of its name: .svg, .pdf or .png, and in 3D .vtp or .glb. The field is read "
      "again from the input that "
      "run.json names.",
-     true, command_draw},
+     true, command_draw, NULL},
     {COMMAND_TEXTURE, "texture", "INPUT", "INPUT -o PICTURE [options]",
      "paint a texture that shows the field's direction at every pixel",
      "Paints the field's whole box with streaks along the flow, at the resolution of the "
      "picture however coarse the field's grid; INPUT as for flowgrain run, the picture's "
      "format by the end of its name: .png (the pixels themselves), .svg or .pdf.",
-     true, command_texture},
+     true, command_texture, NULL},
     {COMMAND_BRUSH, "brush", "IMAGE", "IMAGE -o PICTURE [options]",
      "paint an image in brush strokes",
      "Lets clusters grow along the level sets of an image's grey values and paints each "
@@ -62,16 +63,16 @@ const cli_command command_table[] = {
      "then finer ones where the painting still differs from the image. IMAGE is a PNG, "
      "JPEG, PGM or PPM file; the picture's format follows the end of its name: .png, "
      ".svg or .pdf.",
-     true, command_brush},
+     true, command_brush, NULL},
     {COMMAND_INFO, "info", "FILE", "FILE [--json]", "say what a file holds",
      "Lists the vector fields that a file holds: a line `vectors:` for each, as --vars "
      "takes it, with its grid, share of missing values, times and levels.",
-     false, command_info},
+     false, command_info, NULL},
     {COMMAND_SYNTH, "synth", "NAME", "NAME -o FILE [--nodes N]",
      "write an analytic field as .vti or .nc",
      "Writes the analytic field NAME, sampled on the unit square or cube, as VTK image "
      "data (FILE ends in .vti) or NetCDF (.nc).",
-     true, command_synth},
+     true, command_synth, NULL},
     {COMMAND_RIVAL, "rival", "INPUT", "INPUT -o FILE.geojson --method KIND [options]",
      "draw the field by a method to compare with",
      "Draws the field by another method than `flowgrain run`, with about as many arrows "
@@ -85,13 +86,25 @@ const cli_command command_table[] = {
      "van Wijk 1999), `top-down` (clusters bisected, Heckel et al. 1999), `streamlines` "
      "(evenly spaced, Jobard and Lefer 1997). INPUT is as in flowgrain run, in two "
      "dimensions.",
-     true, command_rival},
+     true, command_rival, NULL},
+    {COMMAND_SCORE, "score", "INPUT", "INPUT ICONS.geojson... [options]",
+     "tell how well icons tell the field",
+     "Prints a row for every file of icons (GeoJSON LineStrings from tail to head, in "
+     "the "
+     "coordinates of INPUT, from any program): how many there are; E_ang, the mean angle "
+     "in degrees between the field and what a reader makes of the icons, who continues "
+     "them harmonically; the same of readers who take the nearest icon, and all by the "
+     "inverse of their distance; the mean of the three, and the angle that 95 % of the "
+     "area have at most; E_adv, how far apart particles end; F1 of critical points; mean "
+     "and greatest void, and ink, in fair-share lengths; clutter; angle of the lines to "
+     "the field; and what lies outside. INPUT is as in flowgrain run.",
+     false, command_score, "ICONS"},
     {COMMAND_GALLERY, "gallery", NULL, "-o DIR [options]",
      "make every figure of the paper, with a page that shows them",
      "Makes the figures of Garcke et al. (2000), each by commands of this program, and "
      "DIR/index.html, which shows each beside what the paper's shows and the commands "
      "that make it again.",
-     true, command_gallery},
+     true, command_gallery, NULL},
 };
 const size_t command_count = sizeof command_table / sizeof command_table[0];
 
@@ -131,6 +144,17 @@ const option_entry option_table[] = {
      "discrete: differences along the flow count K times less than across it [2]"},
     {"nodes", 0, "N", COMMAND_RIVAL, OPTION_WHOLE, AT(nodes), 3, 16385, false, false,
      NULL, "nodes along the longest side of the raster whose cells are clustered [257]"},
+
+    {"class", 0, "KIND", COMMAND_SCORE, OPTION_CHOICE, AT(length_class), 0, 0, false,
+     false, class_words,
+     "`arrows`: lines longer than the fair-share length sqrt(area / N), in 3D the cube "
+     "root, count for their middle part of that length; `free`: as long as they are "
+     "[arrows]"},
+    {"icons", 0, "N", COMMAND_SCORE, OPTION_COUNTS, 0, 1, 100000, false, false, NULL,
+     "the nominal number N of icons [those of each file]"},
+    {"ink", 0, "MAX", COMMAND_SCORE, OPTION_NUMBER, AT(ink), 0, 1e6, true, false, NULL,
+     "cut the longest lines to one length, so that all together are at most MAX N "
+     "fair-share lengths [no limit]"},
 
     {"vars", 0, "U,V[,W]", READERS, OPTION_TEXT, AT(vars), 0, 0, false, false, NULL,
      "the two or three variables, or one vector variable [found by their standard or "
@@ -343,8 +367,8 @@ const option_entry option_table[] = {
      "no progress bar (there is none when standard error is no terminal)"},
     {"verbose", 'v', NULL, COMMAND_RUN | COMMAND_BRUSH, OPTION_FLAG, AT(verbose), 0, 0,
      false, false, NULL, "say on standard error what is being done"},
-    {"json", 0, NULL, COMMAND_INFO, OPTION_FLAG, AT(json), 0, 0, false, false, NULL,
-     "as JSON"},
+    {"json", 0, NULL, COMMAND_INFO | COMMAND_SCORE, OPTION_FLAG, AT(json), 0, 0, false,
+     false, NULL, "as JSON"},
     {"help", 'h', NULL, EVERY, OPTION_HELP, 0, 0, 0, false, false, NULL,
      "print this help"},
     {"version", 'V', NULL, EVERY, OPTION_VERSION, 0, 0, 0, false, false, NULL,

@@ -132,9 +132,9 @@ static const char *next_item(char *item, size_t room, const char *list)
 static bool set_counts(cli_settings *out, const cli_command *command,
                        const option_entry *option, const char *text)
 {
-  int most = command->bit & (COMMAND_DRAW | COMMAND_TEXTURE) ? 1
-             : command->bit == COMMAND_BRUSH                 ? (int)FG_MOST_BRUSH_SCALES
-                                                             : MAX_SCALES;
+  int most = command->bit & (COMMAND_DRAW | COMMAND_TEXTURE | COMMAND_SCORE) ? 1
+             : command->bit == COMMAND_BRUSH ? (int)FG_MOST_BRUSH_SCALES
+                                             : MAX_SCALES;
   int *list = option->place ? out->arrows : out->clusters;
   int *count = option->place ? &out->arrow_count : &out->cluster_count;
   *count = 0;
@@ -370,16 +370,22 @@ static bool check_operands(cli_settings *out, const cli_command *command, int co
                  operands[0]);
   if (command->operand && !count)
     return wrong(command, "%s: %s is missing", command->name, command->operand);
-  if (count > 1)
+  if (command->more && count == 1)
+    return wrong(command, "%s: %s is missing", command->name, command->more);
+  if (count > 1 && !command->more)
     return wrong(command, "%s: one %s is expected, and '%s' is one more", command->name,
                  command->operand, operands[1]);
-  if (count && !*operands[0])
-    return wrong(command, "%s: %s is empty", command->name, command->operand);
+  for (int k = 0; k < count; ++k)
+    if (!*operands[k])
+      return wrong(command, "%s: %s is empty", command->name,
+                   k ? command->more : command->operand);
   if (command->needs_output && !out->output)
     return wrong(command, "%s: -o is missing", command->name);
   if (out->resume && out->force)
     return wrong(command, "--resume goes on with what --force would replace: say one");
   out->operand = count ? operands[0] : NULL;
+  out->files = operands + 1;
+  out->file_count = count > 1 ? count - 1 : 0;
   return check_placement(out, command) && check_energy(out, command);
 }
 

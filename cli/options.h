@@ -15,7 +15,8 @@ enum {
   COMMAND_RIVAL = 16,
   COMMAND_TEXTURE = 32,
   COMMAND_BRUSH = 64,
-  COMMAND_GALLERY = 128
+  COMMAND_GALLERY = 128,
+  COMMAND_SCORE = 256
 };
 
 typedef struct cli_command {
@@ -27,6 +28,7 @@ typedef struct cli_command {
   const char *text;     /* a paragraph for its own help */
   bool needs_output;
   int (*work)(const cli_settings *settings);
+  const char *more; /* name of one or more operands after the first; NULL: takes none */
 } cli_command;
 
 typedef enum option_kind {

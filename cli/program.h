@@ -18,6 +18,8 @@ enum { FORMAT_SVG = 1, FORMAT_PNG = 2, FORMAT_PDF = 4, FORMAT_KINDS = 3 };
 /* Everything a command line can say. Zero means "not said". */
 typedef struct cli_settings {
   const char *operand; /* INPUT, FILE, DIR or NAME */
+  char *const *files;  /* score: the operands after it */
+  int file_count;
   const char *output;
 
   const char *vars, *vars_from, *mask;
@@ -52,11 +54,13 @@ typedef struct cli_settings {
   double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
   int view_count;             /* 0: one, the usual */
 
-  int method;     /* rival: fg_rival_method */
-  int lengths;    /* run: fg_lengths; rival: 1 with the speed */
-  int kind;       /* fg_texture_kind */
-  int background; /* 0: none; 1 more than fg_texture_kind */
-  int longest;    /* pixels */
+  int method;       /* rival: fg_rival_method */
+  int lengths;      /* run: fg_lengths; rival: 1 with the speed */
+  int length_class; /* score: fg_score_class */
+  double ink;       /* score: 0: no limit */
+  int kind;         /* fg_texture_kind */
+  int background;   /* 0: none; 1 more than fg_texture_kind */
+  int longest;      /* pixels */
   double length, fade;
   double position_weight, elongation;
 
@@ -110,6 +114,7 @@ int command_draw(const cli_settings *settings);
 int command_info(const cli_settings *settings);
 int command_synth(const cli_settings *settings);
 int command_rival(const cli_settings *settings);
+int command_score(const cli_settings *settings);
 int command_texture(const cli_settings *settings);
 int command_brush(const cli_settings *settings);
 int command_gallery(const cli_settings *settings);

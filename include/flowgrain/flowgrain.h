@@ -21,7 +21,7 @@
  * The manual is the headers that this one includes: context.h (statuses, messages,
  * ranks), field.h and parts.h (in), evolution.h, energy.h and checkpoint.h (the work),
  * density.h and icons.h (its results), picture.h, solid.h, texture.h and brush.h (out),
- * rival.h (what to compare with). Each can be included alone.
+ * rival.h (what to compare with), score.h (how good it is). Each can be included alone.
  *
  * Conventions
  * - A function that can fail returns fg_status; its result comes first, through `out`,
@@ -53,6 +53,7 @@
 #include "flowgrain/picture.h"
 #include "flowgrain/placement.h"
 #include "flowgrain/rival.h"
+#include "flowgrain/score.h"
 #include "flowgrain/solid.h"
 #include "flowgrain/texture.h"
 

@@ -62,8 +62,14 @@ static fg_status read_line(double (**points)[3], int *count, const reading *at,
                            const cJSON *feature)
 {
   const cJSON *geometry = cJSON_GetObjectItemCaseSensitive(feature, "geometry");
-  if (!has_type(geometry, "LineString"))
-    return fail_member(at, "geometry", "a LineString");
+  if (!has_type(geometry, "LineString")) {
+    const fg_status status = fail_member(at, "geometry", "a LineString");
+    if (has_type(geometry, "MultiLineString"))
+      fg__hint(at->context,
+               "it is a MultiLineString: every icon is to be one line; ogr2ogr "
+               "-explodecollections makes them so");
+    return status;
+  }
   const cJSON *positions = cJSON_GetObjectItemCaseSensitive(geometry, "coordinates");
   *count = cJSON_IsArray(positions) ? cJSON_GetArraySize(positions) : 0;
   if (*count < 2)

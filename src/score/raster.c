@@ -1,0 +1,204 @@
+#include "score/raster.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Cells along a side of the square or cube as large as the domain. */
+enum { CELLS_2D = 256, CELLS_3D = 64 };
+
+/* A domain that fills less of its box would take gigabytes. */
+enum { MOST_CELLS = 1 << 24 };
+
+/* Slower flow has no direction worth telling. */
+static const double STILL = 1e-3;
+
+typedef struct box {
+  double low[3], high[3], measure;
+} box;
+
+/* Adds a row of data cells; `from` and `to` are its ends along y and z. */
+static void add_row(box *sum, const fg_field *field, const unsigned char *valid,
+                    const double from[3], const double to[3])
+{
+  const double *x = field->axis[0].coordinate;
+  double width = 0.0, left = HUGE_VAL, right = -HUGE_VAL;
+  for (int i = 0; i < field->axis[0].cells; ++i)
+    if (!valid || valid[i]) {
+      width += x[i + 1] - x[i];
+      left = fmin(left, x[i]);
+      right = fmax(right, x[i + 1]);
+    }
+  if (!(width > 0.0))
+    return;
+  double measure = width;
+  for (int k = 1; k < field->contents.dimension; ++k) {
+    measure *= to[k] - from[k];
+    sum->low[k] = fmin(sum->low[k], from[k]);
+    sum->high[k] = fmax(sum->high[k], to[k]);
+  }
+  sum->low[0] = fmin(sum->low[0], left);
+  sum->high[0] = fmax(sum->high[0], right);
+  sum->measure += measure;
+}
+
+static box find_box(const fg_field *field)
+{
+  box out = {.measure = 0.0};
+  const int dimension = field->contents.dimension;
+  const int layers = dimension == 3 ? field->axis[2].cells : 1;
+  const unsigned char *valid = field->valid_cell;
+  for (int k = 0; k < dimension; ++k) {
+    out.low[k] = HUGE_VAL;
+    out.high[k] = -HUGE_VAL;
+  }
+  for (int k = 0; k < layers; ++k)
+    for (int j = 0; j < field->axis[1].cells; ++j) {
+      const double *y = field->axis[1].coordinate + j;
+      double from[3] = {0.0, y[0]}, to[3] = {0.0, y[1]};
+      if (dimension == 3) {
+        from[2] = field->axis[2].coordinate[k];
+        to[2] = field->axis[2].coordinate[k + 1];
+      }
+      add_row(&out, field, valid, from, to);
+      if (valid)
+        valid += field->axis[0].cells;
+    }
+  return out;
+}
+
+static fg_status set_size(fg__score_raster *raster, fg_context *context,
+                          const box *bounds)
+{
+  double cells = 1.0;
+  for (int k = 0; k < 3; ++k) {
+    raster->size[k] = 1;
+    raster->cell[k] = 1.0;
+  }
+  for (int k = 0; k < raster->dimension; ++k) {
+    const double length = bounds->high[k] - bounds->low[k];
+    const double count = fmax(1.0, round(length / raster->spacing));
+    cells *= count;
+    if (cells > MOST_CELLS)
+      return fg__fail(
+          context, FG_STATUS_UNSUPPORTED,
+          "score: the domain, %g of %g in its box, takes more than %d cells",
+          raster->measure,
+          (bounds->high[0] - bounds->low[0]) * (bounds->high[1] - bounds->low[1]) *
+              (raster->dimension == 3 ? bounds->high[2] - bounds->low[2] : 1.0),
+          MOST_CELLS);
+    raster->size[k] = (int)count;
+    raster->cell[k] = length / count;
+    raster->origin[k] = bounds->low[k];
+  }
+  raster->cells = (size_t)cells;
+  return FG_STATUS_OK;
+}
+
+static fg_status allocate(fg__score_raster *raster, fg_context *context)
+{
+  const size_t cells = raster->cells;
+  bool all = true;
+  raster->inside = fg__allocate(cells, 1);
+  raster->counts = fg__allocate(cells, 1);
+  raster->speed = fg__allocate(cells, sizeof(float));
+  for (int k = 0; k < raster->dimension; ++k) {
+    raster->direction[k] = fg__allocate(cells, sizeof(float));
+    all = all && raster->direction[k];
+  }
+  if (all && raster->inside && raster->counts && raster->speed)
+    return FG_STATUS_OK;
+  return fg__fail_memory(context, "the raster of a score",
+                         cells * (2 + 4 * (1 + (size_t)raster->dimension)));
+}
+
+static void fill_cell(fg__score_raster *raster, size_t place, const double position[3])
+{
+  double velocity[3], tangent[3], speed = 0.0, length = 0.0;
+  if (!fg_field_velocity(raster->field, position, velocity))
+    return;
+  raster->inside[place] = 1;
+  for (int k = 0; k < raster->dimension; ++k)
+    speed += velocity[k] * velocity[k];
+  speed = sqrt(speed);
+  raster->speed[place] = (float)speed;
+  if (raster->field->contents.scale != FG_SCALE_GEO) {
+    for (int k = 0; k < raster->dimension; ++k)
+      tangent[k] = velocity[k];
+    length = speed;
+  } else if (fg_field_tangent(raster->field, position, tangent))
+    length = hypot(tangent[0], tangent[1]);
+  for (int k = 0; length > 0.0 && k < raster->dimension; ++k)
+    raster->direction[k][place] = (float)(tangent[k] / length);
+}
+
+static void fill_rows(void *argument, const fg__share *share)
+{
+  fg__score_raster *raster = argument;
+  int row, end;
+  fg__team_part(share, (int)fg__score_raster_rows(raster), 1, &row, &end);
+  for (; row < end; ++row) {
+    int at[3] = {0, row % raster->size[1], row / raster->size[1]};
+    for (; at[0] < raster->size[0]; ++at[0]) {
+      double position[3];
+      fg__score_raster_centre(raster, at, position);
+      fill_cell(raster, (size_t)row * (size_t)raster->size[0] + (size_t)at[0], position);
+    }
+  }
+}
+
+static void count_cells(fg__score_raster *raster)
+{
+  float fastest = 0.0F;
+  for (size_t n = 0; n < raster->cells; ++n)
+    fastest = raster->speed[n] > fastest ? raster->speed[n] : fastest;
+  const float least = (float)STILL * fastest;
+  for (size_t n = 0; n < raster->cells; ++n)
+    raster->counts[n] = raster->inside[n] && raster->speed[n] > least;
+}
+
+fg_status fg__score_raster_create(fg__score_raster *out, fg_context *context,
+                                  const fg_field *field, fg__team *team)
+{
+  *out = (fg__score_raster){.field = field, .dimension = field->contents.dimension};
+  if (!fg__field_is_whole(field))
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "score: a part of a field can not be scored, only all of it");
+  const box bounds = find_box(field);
+  out->measure = bounds.measure;
+  out->side = out->dimension == 3 ? cbrt(bounds.measure) : sqrt(bounds.measure);
+  out->spacing = out->side / (out->dimension == 3 ? CELLS_3D : CELLS_2D);
+  fg_status status = set_size(out, context, &bounds);
+  if (status == FG_STATUS_OK)
+    status = allocate(out, context);
+  if (status != FG_STATUS_OK)
+    return status;
+  fg__team_run(team, fill_rows, out);
+  count_cells(out);
+  return fg__check_stop(context);
+}
+
+void fg__score_raster_clear(fg__score_raster *raster)
+{
+  free(raster->inside);
+  free(raster->counts);
+  free(raster->speed);
+  for (int k = 0; k < 3; ++k)
+    free(raster->direction[k]);
+  *raster = (fg__score_raster){0};
+}
+
+bool fg__score_raster_find(const fg__score_raster *raster, const double position[3],
+                           size_t *place)
+{
+  size_t found = 0;
+  for (int k = raster->dimension - 1; k >= 0; --k) {
+    const double at = floor((position[k] - raster->origin[k]) / raster->cell[k]);
+    if (!(at >= 0.0 && at < raster->size[k]))
+      return false;
+    found = found * (size_t)raster->size[k] + (size_t)at;
+  }
+  *place = found;
+  return true;
+}

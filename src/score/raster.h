@@ -1,0 +1,47 @@
+/* The domain as a raster of cells that a score is taken over. */
+#ifndef FG__SCORE_RASTER_H
+#define FG__SCORE_RASTER_H
+
+#include "base/team.h"
+#include "field/field.h"
+
+/* The bounding box of the domain in cells of about side / 256, in 3D side / 64; x
+ * fastest. A cell lies in the domain when its centre does. */
+typedef struct fg__score_raster {
+  const fg_field *field;
+  int dimension;
+  int size[3]; /* cells; one along z in 2D */
+  double origin[3], cell[3];
+  double measure; /* area or volume of the valid data cells */
+  double side;    /* of the square or cube of that measure */
+  double spacing; /* the wanted side of cells */
+  size_t cells;
+  unsigned char *inside, *counts; /* a byte a cell: in the domain; and it moves there at
+                                     more than a thousandth of the greatest speed */
+  float *direction[3], *speed;    /* unit tangents (0 where it stands still) and |v| */
+} fg__score_raster;
+
+/* Ends with fg__score_raster_clear, also after a failure. UNSUPPORTED (a part of a field,
+ * a domain far smaller than its box), MEMORY, STOPPED. */
+fg_status fg__score_raster_create(fg__score_raster *out, fg_context *context,
+                                  const fg_field *field, fg__team *team);
+void fg__score_raster_clear(fg__score_raster *raster);
+
+static inline size_t fg__score_raster_rows(const fg__score_raster *raster)
+{
+  return (size_t)raster->size[1] * (size_t)raster->size[2];
+}
+
+/* Centre of the cell (i, j, k). */
+static inline void fg__score_raster_centre(const fg__score_raster *raster,
+                                           const int at[3], double position[3])
+{
+  for (int k = 0; k < 3; ++k)
+    position[k] = raster->origin[k] + (at[k] + 0.5) * raster->cell[k];
+}
+
+/* The place of the cell that holds a point; false outside the box. */
+bool fg__score_raster_find(const fg__score_raster *raster, const double position[3],
+                           size_t *place);
+
+#endif
