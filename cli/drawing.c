@@ -96,7 +96,9 @@ static fg_status write_renderings(cli_drawing *drawing, int index,
     fg_solid_options options = settings_solid(settings, view);
     options.speed_min = drawing->speeds[0];
     options.speed_max = drawing->speeds[1];
-    options.scale_time = moment->time;
+    if (!settings_place(settings)) /* the time of clusters */
+      if (!settings_place(drawing->settings))
+        options.scale_time = moment->time;
     options.surface = surface;
     options.threads = settings->threads;
     char *path = scale_path(drawing, index, ends[n]);
@@ -218,6 +220,9 @@ static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *momen
     status = place_icons(drawing, index, moment);
   else if (!moment->icons)
     status = make_icons(drawing, moment);
+  if (!status && !settings_place(drawing->settings) &&
+      !fg_field_is_part(drawing->field, NULL, NULL))
+    status = placing_score(drawing->context, drawing->field, moment->icons);
   const fg_icons *icons = moment->icons;
   if (!status)
     status = write_icons(drawing, index, icons);
@@ -233,6 +238,10 @@ static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *momen
     if (!settings_place(drawing->settings) || moment->density)
       result->clusters = fg_icons_clusters(icons);
     result->icons = fg_icons_count(icons);
+    const fg_score *score = fg_icons_kept_score(icons);
+    result->has_score = score != NULL;
+    if (score)
+      result->score = *score;
     result->dropped = fg_icons_dropped(icons);
   }
   if (!status && settings_place(drawing->settings)) {

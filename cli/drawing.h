@@ -9,6 +9,8 @@ typedef struct scale_result {
   int wanted_count;
   int clusters, icons, dropped;
   double time, energy, area_fraction;
+  bool has_score;
+  fg_score score; /* of its icons: the readers' errors */
 } scale_result;
 
 /* A moment to be drawn; whoever gets one ends its parts. */

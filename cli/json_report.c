@@ -142,6 +142,24 @@ static void add_files(cJSON *scale, const run_facts *facts, int index)
   }
 }
 
+static void add_reader(cJSON *object, const char *name, const fg_reader_error *reader)
+{
+  cJSON *error = cJSON_AddObjectToObject(object, name);
+  cJSON_AddNumberToObject(error, "mean", reader->mean);
+  cJSON_AddNumberToObject(error, "percentile_95", reader->percentile_95);
+  cJSON_AddNumberToObject(error, "speed_weighted", reader->speed_weighted);
+}
+
+static void add_error(cJSON *scale, const fg_score *score)
+{
+  cJSON *error = cJSON_AddObjectToObject(scale, "error");
+  cJSON_AddNumberToObject(error, "mean", score->mean);
+  cJSON_AddNumberToObject(error, "percentile_95", score->percentile_95);
+  add_reader(error, "diffusion", &score->diffusion);
+  add_reader(error, "nearest", &score->nearest);
+  add_reader(error, "inverse_distance", &score->inverse_distance);
+}
+
 static void add_scale(cJSON *scales, const run_facts *facts, int index)
 {
   const scale_result *result = drawing_result(facts->drawing, index);
@@ -155,6 +173,8 @@ static void add_scale(cJSON *scales, const run_facts *facts, int index)
   cJSON_AddNumberToObject(scale, "time", result->time);
   cJSON_AddNumberToObject(scale, "energy", result->energy);
   cJSON_AddNumberToObject(scale, "area_fraction", result->area_fraction);
+  if (result->has_score)
+    add_error(scale, &result->score);
   add_files(scale, facts, index);
   cJSON_AddItemToArray(scales, scale);
 }

@@ -13,6 +13,7 @@
 #include "interrupt.h"
 #include "moment.h"
 #include "past_run.h"
+#include "placing.h"
 #include "ranks.h"
 #include "traffic.h"
 
@@ -231,6 +232,24 @@ static int evolve(cli_run *run)
   return code;
 }
 
+/* Every rank finds the same number of arrows. */
+static int plan_scales(cli_run *run)
+{
+  const cli_settings *said = run->settings;
+  int dimension = fg_field_contents(run->field)->dimension;
+  if (said->tolerance > 0.0) {
+    int count = 0;
+    progress_stage(&run->progress, "counting arrows");
+    int code = ranks_agree(placing_find_count(&count, run->context, said, run->field));
+    progress_wipe(&run->progress);
+    scale_plan_start_placed(&run->plan, &count, 1, dimension);
+    return code;
+  }
+  if (settings_place(said))
+    scale_plan_start_placed(&run->plan, said->arrows, said->arrow_count, dimension);
+  return EXIT_DONE;
+}
+
 /* All ranks read; rank 0 sees to the results' folder. *done: nothing is left to do. */
 static int prepare(cli_run *run, bool *done)
 {
@@ -257,9 +276,9 @@ static int prepare(cli_run *run, bool *done)
   code = input_join(run);
   if (code)
     return code;
-  if (settings_place(run->settings))
-    scale_plan_start_placed(&run->plan, run->settings->arrows, run->settings->arrow_count,
-                            fg_field_contents(run->field)->dimension);
+  code = plan_scales(run);
+  if (code)
+    return code;
   run->facts.seconds_read = clock_seconds() - run->start;
   return input_create_evolution(run);
 }

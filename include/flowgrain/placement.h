@@ -46,6 +46,13 @@ FG_API void fg_placement_destroy(fg_placement *placement);
 FG_API fg_status fg_placement_place(fg_placement *placement, int count,
                                     const fg_icons *clusters);
 
+/* Places the fewest arrows, from an even start, whose readers' mean error
+ * (fg_icons_score, lengths as they are) is at most `degrees`; *count is how many. ARGUMENT
+ * (degrees; `most` arrows, or as many as have room, do not reach it: the message says what
+ * they do), MEMORY, STOPPED. */
+FG_API fg_status fg_placement_within(fg_placement *placement, double degrees, int most,
+                                     int *count);
+
 /* The arrows of the present scale: an arrow has the same `id` in all scales; `area`
  * (volume) and `speed` (mean) are of the points that are nearest to it, width follows that
  * speed, and `cluster` is the id until fg_placement_find_clusters. MEMORY. */

@@ -69,6 +69,13 @@ typedef struct fg_score {
 FG_API fg_status fg_icons_score(fg_score *out, fg_context *context, const fg_field *field,
                                 const fg_icons *icons, const fg_score_options *options);
 
+/* Lets icons keep a score: their file and their picture then say it. NULL: none. */
+FG_API void fg_icons_keep_score(fg_icons *icons, const fg_score *score);
+
+/* The score that icons keep, borrowed; NULL: none. From a file it has the readers' errors,
+ * the rest is NaN. */
+FG_API const fg_score *fg_icons_kept_score(const fg_icons *icons);
+
 #ifdef __cplusplus
 }
 #endif

@@ -132,8 +132,7 @@ static fg_status read_kind(fg_icon_kind *out, const reading *at, const cJSON *pr
 
 /* What a placed icon goes on from. Other programs' lines may have an `id` of any kind:
  * only one beside a `seed` and a `way` is ours. */
-static fg_status read_placement(fg_icon *icon, const reading *at,
-                                const cJSON *properties)
+static fg_status read_placement(fg_icon *icon, const reading *at, const cJSON *properties)
 {
   const cJSON *seed = cJSON_GetObjectItemCaseSensitive(properties, "seed");
   const cJSON *way = cJSON_GetObjectItemCaseSensitive(properties, "way");
@@ -201,6 +200,53 @@ static fg_status read_feature(fg_icons *icons, const reading *at, const cJSON *f
   return status;
 }
 
+static fg_status read_reader(fg_reader_error *out, const reading *at, const cJSON *error,
+                             const char *name)
+{
+  const cJSON *reader = cJSON_GetObjectItemCaseSensitive(error, name);
+  *out = (fg_reader_error){NAN, NAN, NAN};
+  fg_status status = read_number(&out->mean, at, reader, "mean");
+  if (status == FG_STATUS_OK)
+    status = read_number(&out->percentile_95, at, reader, "percentile_95");
+  if (status == FG_STATUS_OK)
+    status = read_number(&out->speed_weighted, at, reader, "speed_weighted");
+  return status;
+}
+
+/* The error that our own files have beside the icons. */
+static fg_status read_error(fg_icons *icons, const reading *at, const cJSON *root)
+{
+  const cJSON *error = cJSON_GetObjectItemCaseSensitive(root, "error");
+  fg_score score = {.icons = fg_icons_count(icons),
+                    .mean = NAN,
+                    .percentile_95 = NAN,
+                    .advection = NAN,
+                    .critical_f1 = NAN,
+                    .void_mean = NAN,
+                    .void_max = NAN,
+                    .ink = NAN,
+                    .clutter = NAN,
+                    .tangency = NAN,
+                    .outside = NAN,
+                    .shortest = NAN,
+                    .longest = NAN,
+                    .count_length = NAN};
+  if (!cJSON_IsObject(error))
+    return FG_STATUS_OK;
+  fg_status status = read_number(&score.mean, at, error, "mean");
+  if (status == FG_STATUS_OK)
+    status = read_number(&score.percentile_95, at, error, "percentile_95");
+  if (status == FG_STATUS_OK)
+    status = read_reader(&score.diffusion, at, error, "diffusion");
+  if (status == FG_STATUS_OK)
+    status = read_reader(&score.nearest, at, error, "nearest");
+  if (status == FG_STATUS_OK)
+    status = read_reader(&score.inverse_distance, at, error, "inverse_distance");
+  if (status == FG_STATUS_OK && isfinite(score.mean))
+    fg_icons_keep_score(icons, &score);
+  return status;
+}
+
 static fg_status read_collection(fg_icons *icons, reading *at, const cJSON *root)
 {
   const cJSON *features = cJSON_GetObjectItemCaseSensitive(root, "features");
@@ -223,6 +269,7 @@ static fg_status read_collection(fg_icons *icons, reading *at, const cJSON *root
   if (status == FG_STATUS_OK) {
     fg__icons_set_clusters(icons, clusters, dropped);
     fg__icons_set_next_id(icons, next_id);
+    status = read_error(icons, at, root);
   }
   return status;
 }

@@ -51,6 +51,26 @@ static void write_position(FILE *stream, const double position[3], int dimension
   fputc(']', stream);
 }
 
+static void write_reader(FILE *stream, const char *name, const fg_reader_error *reader)
+{
+  fprintf(stream, ",\"%s\":{", name);
+  write_number(stream, "\"mean\":", reader->mean);
+  write_number(stream, ",\"percentile_95\":", reader->percentile_95);
+  write_number(stream, ",\"speed_weighted\":", reader->speed_weighted);
+  fputc('}', stream);
+}
+
+/* The readers' errors in degrees. */
+static void write_error(FILE *stream, const fg_score *score)
+{
+  write_number(stream, "\"error\":{\"mean\":", score->mean);
+  write_number(stream, ",\"percentile_95\":", score->percentile_95);
+  write_reader(stream, "diffusion", &score->diffusion);
+  write_reader(stream, "nearest", &score->nearest);
+  write_reader(stream, "inverse_distance", &score->inverse_distance);
+  fputs("},", stream);
+}
+
 /* What a placed icon is in the chain of scales; `seed` and `way` are what a run goes on
  * from. */
 static void write_placement(FILE *stream, const fg_icon *icon, int dimension)
@@ -111,6 +131,8 @@ fg_status fg_icons_write(fg_context *context, const char *path, const fg_icons *
             fg_icons_clusters(icons), fg_icons_dropped(icons));
     if (fg__icons_next_id(icons) > 0)
       fprintf(file.stream, "\"next_id\":%d,", fg__icons_next_id(icons));
+    if (fg_icons_kept_score(icons))
+      write_error(file.stream, fg_icons_kept_score(icons));
     fputs("\"features\":[", file.stream);
     for (int n = 0; n < fg_icons_count(icons); ++n) {
       fputs(n > 0 ? ",\n" : "\n", file.stream);

@@ -17,6 +17,8 @@ struct fg_icons {
   size_t count, capacity;
   int clusters, dropped;
   int next_id; /* 0: they were not placed */
+  bool has_score;
+  fg_score score;
 };
 
 fg_status fg__icons_create_empty(fg_icons **out, fg_context *context)
@@ -76,6 +78,18 @@ void fg__icons_set_clusters(fg_icons *icons, int clusters, int dropped)
 {
   icons->clusters = clusters;
   icons->dropped = dropped;
+}
+
+void fg_icons_keep_score(fg_icons *icons, const fg_score *score)
+{
+  icons->has_score = score != NULL;
+  if (score)
+    icons->score = *score;
+}
+
+const fg_score *fg_icons_kept_score(const fg_icons *icons)
+{
+  return icons && icons->has_score ? &icons->score : NULL;
 }
 
 fg_icon *fg__icons_change(fg_icons *icons, int index)

@@ -52,9 +52,18 @@ static void add_part(char text[FG__CAPTION_BYTES], const char *part)
              clean);
 }
 
+/* Whole degrees, below three with a decimal, never less than the error. */
+static const char *say_error(char *words, size_t room, const fg_score *score)
+{
+  double degrees =
+      score->mean < 3.0 ? ceil(10.0 * score->mean) / 10.0 : ceil(score->mean);
+  snprintf(words, room, "read within %g\xC2\xB0", degrees);
+  return words;
+}
+
 void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_BYTES],
-                       const fg_field_arrays *field, int arrows, const char *wanted,
-                       double scale_time)
+                       const fg_field_arrays *field, const fg_icons *icons,
+                       const char *wanted, double scale_time)
 {
   title[0] = subtitle[0] = '\0';
   if (wanted) {
@@ -78,9 +87,12 @@ void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_
   add_part(subtitle, field->time);
   add_part(subtitle, field->level);
   char words[64];
-  if (arrows >= 0) {
+  if (icons) {
+    int arrows = fg_icons_count(icons);
     snprintf(words, sizeof words, "%d arrow%s", arrows, arrows == 1 ? "" : "s");
     add_part(subtitle, words);
+    if (fg_icons_kept_score(icons))
+      add_part(subtitle, say_error(words, sizeof words, fg_icons_kept_score(icons)));
   }
   if (scale_time > 0.0) {
     snprintf(words, sizeof words, "scale t = %.3g", scale_time);

@@ -12,10 +12,11 @@ bool fg__speed_range(double range[2], const fg_icons *icons);
 void fg__speeds_beyond(bool beyond[2], const fg_icons *icons, const double range[2]);
 
 /* The caption: `wanted` as the title when that is not NULL, else what the field says of
- * itself. arrows < 0, scale_time 0: not told. */
+ * itself. icons NULL, scale_time 0: not told. Icons that
+ * keep a score tell it. */
 enum { FG__CAPTION_BYTES = 320 };
 void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_BYTES],
-                       const fg_field_arrays *field, int arrows, const char *wanted,
-                       double scale_time);
+                       const fg_field_arrays *field, const fg_icons *icons,
+                       const char *wanted, double scale_time);
 
 #endif

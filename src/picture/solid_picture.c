@@ -162,7 +162,7 @@ static fg_status prepare(solid_picture *p, fg_context *context,
   fg__axis_of_numbers(&p->speed, r->range[0], r->range[1], r->range[1] - r->range[0],
                       "mean speed", field->velocity_units);
   if (p->framed)
-    fg__caption_write(p->title, p->subtitle, field, fg_icons_count(icons), options->title,
+    fg__caption_write(p->title, p->subtitle, field, icons, options->title,
                       options->scale_time);
   lay_out(p, field, options);
   return FG_STATUS_OK;

@@ -42,6 +42,16 @@ const fg__place_search *fg__placement_search(const fg_placement *placement)
   return &placement->search;
 }
 
+fg_context *fg__placement_context(const fg_placement *placement)
+{
+  return placement->context;
+}
+
+const fg_field *fg__placement_field(const fg_placement *placement)
+{
+  return placement->domain.field;
+}
+
 fg_status fg_placement_create(fg_placement **out, fg_context *context,
                               const fg_field *field, const fg_placement_options *options)
 {
@@ -237,6 +247,25 @@ static fg_status go_down(fg_placement *placement, int count)
   return status;
 }
 
+static fg_status check_count(const fg_placement *placement, int count)
+{
+  if (placement->search.count >= count)
+    return FG_STATUS_OK;
+  return fg__fail(placement->context, FG_STATUS_ARGUMENT,
+                  "%d arrows do not fit into this field: %d do", count,
+                  placement->search.count);
+}
+
+fg_status fg__placement_begin_again(fg_placement *placement, int count)
+{
+  fg_status status = start(placement, count, NULL);
+  if (status == FG_STATUS_OK)
+    status = settle(placement);
+  if (status == FG_STATUS_OK)
+    status = polish(placement);
+  return status == FG_STATUS_OK ? check_count(placement, count) : status;
+}
+
 fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons *clusters)
 {
   if (!placement || count < 1)
@@ -253,10 +282,7 @@ fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons 
   }
   if (status == FG_STATUS_OK)
     status = polish(placement);
-  if (status == FG_STATUS_OK && search->count < count)
-    return fg__fail(placement->context, FG_STATUS_ARGUMENT,
-                    "%d arrows do not fit into this field: %d do", count, search->count);
-  return status;
+  return status == FG_STATUS_OK ? check_count(placement, count) : status;
 }
 
 /* Square of the distance from a point to a line, lambda. */
