@@ -35,7 +35,7 @@ typedef struct cli_settings {
   int threads;
   int clusters[MAX_SCALES]; /* descending */
   int cluster_count;
-  int extent;        /* fg_icon_extent */
+  int extent;        /* cluster (0), the only one */
   double checkpoint; /* seconds between checkpoints; 0: after every step */
 
   unsigned formats; /* 0: the default, SVG and PNG, in 3D PNG */
