@@ -167,9 +167,8 @@ static fg_status write_pictures(cli_drawing *drawing, int index,
 
 static fg_status make_icons(cli_drawing *drawing, scale_moment *moment)
 {
-  fg_icon_options options = {.extent = (fg_icon_extent)drawing->settings->extent};
   return fg_icons_create(&moment->icons, drawing->context, drawing->field,
-                         moment->density, &options);
+                         moment->density, NULL);
 }
 
 /* The last scale's icons, from its file after a resume. */

@@ -13,8 +13,7 @@
 int input_read(cli_run *run)
 {
   const cli_settings *said = run->settings;
-  const bool whole = said->tolerance > 0.0 || said->tint || said->background ||
-                     said->extent == FG_ICON_EXTENT_TERRITORY;
+  const bool whole = said->tolerance > 0.0 || said->tint || said->background;
   const int part = whole ? 0 : ranks_number(), parts = whole ? 1 : ranks_count();
   progress_stage(&run->progress, "reading");
   fg_read_options reading = settings_reading(said);

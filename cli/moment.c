@@ -10,17 +10,14 @@ static bool needs_all(const cli_run *run)
   const cli_settings *said = run->settings;
   if (scales_are_solid(run->field))
     return said->surfaces || settings_place(said);
-  return settings_place(said) || said->tint || said->background ||
-         said->extent == FG_ICON_EXTENT_TERRITORY;
+  return settings_place(said) || said->tint || said->background;
 }
 
 static fg_status make_icons(scale_moment *moment, fg_context *context, const cli_run *run,
                             const fg_density *shared)
 {
   double start = clock_seconds();
-  fg_icon_options options = {.extent = (fg_icon_extent)run->settings->extent};
-  fg_status status =
-      fg_icons_create(&moment->icons, context, run->field, shared, &options);
+  fg_status status = fg_icons_create(&moment->icons, context, run->field, shared, NULL);
   moment->icon_seconds = clock_seconds() - start;
   return status;
 }

@@ -19,7 +19,7 @@ static const char *const arrow_lengths_words[] = {"free", "fair", NULL};
 static const char *const start_words[] = {"clusters", "even", NULL};
 static const char *const effort_words[] = {"1", "0", "2", NULL};
 static const char *const class_words[] = {"arrows", "free", NULL};
-const char *const extent_words[] = {"cluster", "territory", NULL};
+const char *const extent_words[] = {"cluster", NULL};
 
 enum {
   EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL |
@@ -260,9 +260,7 @@ const option_entry option_table[] = {
      "numbers of clusters, descending, as 2000,400,80: a layer of strokes each, painted "
      "from the last to the first [four layers, the finest of a cluster every 52 pixels]"},
     {"extent", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, AT(extent), 0, 0, false, false,
-     extent_words,
-     "how far an arrow reaches: to the border of its `cluster` or, in 2D, through its "
-     "`territory`, all that is nearer to this cluster than to any other [cluster]"},
+     extent_words, "where an arrow ends: inside its `cluster`, the only KIND [cluster]"},
     {"seed", 0, "S", SEEDED, OPTION_SEED, AT(seed), 1, 0, false, false, NULL,
      "seed of the initial noise, from 1 [1]"},
     {"max-time", 0, "T", COMMAND_RUN, OPTION_NUMBER, AT(max_time), 0, 1e300, true, false,

@@ -67,9 +67,9 @@ extern const size_t option_count;
 /* Names of the picture formats, in the order of their bits. */
 extern const char *const format_words[FORMAT_KINDS];
 
-/* Words of options, in the order of what they mean (fg_scale, fg_scheme, fg_icon_extent;
- * energies that are no files: fg_energy), ended by NULL; and the place of an energy's
- * word, -1 for a file. */
+/* Words of options, in the order of what they mean (fg_scale, fg_scheme; energies that
+ * are no files: fg_energy), ended by NULL; and the place of an energy's word, -1 for a
+ * file. */
 extern const char *const energy_words[],
     *const mesh_words[], *const scale_words[], *const scheme_words[],
                                                    *const extent_words[];

@@ -42,7 +42,7 @@ typedef struct cli_settings {
   double tolerance;  /* degrees; 0: not said */
   int start;         /* of a placement: clusters (0), even */
   int effort;        /* fg_effort */
-  int extent;        /* fg_icon_extent */
+  int extent;        /* cluster (0), the only one */
   double checkpoint; /* seconds between checkpoints; 0: after every step */
 
   unsigned formats; /* 0: the default, SVG and PNG, in 3D PNG */

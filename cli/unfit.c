@@ -27,12 +27,9 @@ int refuse_other_dimension(const char *command, const cli_settings *settings,
                            int dimension, const char *name)
 {
   const unfit_option flat[] = {
-      {"tint", settings->tint},
-      {"background", settings->background != 0},
-      {"skeletons", settings->skeletons},
-      {"centers", settings->centers},
+      {"tint", settings->tint},           {"background", settings->background != 0},
+      {"skeletons", settings->skeletons}, {"centers", settings->centers},
       {"no-arrows", settings->no_arrows},
-      {"extent territory", settings->extent == FG_ICON_EXTENT_TERRITORY},
   };
   const unfit_option solid[] = {
       {"view", settings->view_count > 0},

@@ -42,30 +42,19 @@ typedef struct fg_icon {
   const double (*spine)[3], (*streamline)[3];
 } fg_icon;
 
-typedef enum fg_icon_extent {
-  FG_ICON_EXTENT_CLUSTER = 0, /* an arrow stays in its cluster */
-  FG_ICON_EXTENT_TERRITORY /* it goes on to the border with the next cluster's territory
-                              (what lies nearest to it, round masks), and is at most
-                              2 sqrt(domain area / clusters) long */
-} fg_icon_extent;
-
 typedef struct fg_icon_options {
-  int threads;           /* [1] */
-  fg_icon_extent extent; /* [cluster] */
+  int threads; /* [1] */
 } fg_icon_options;
 
 typedef struct fg_icons fg_icons;
 
-/* Makes the icons of a density: label, march, spine, streamline, arrow. Clusters too
- * small for a readable arrow give none; fg_icons_dropped counts them. In 2D a cluster may
- * give several, with the same `cluster`: no arrow crosses a periodic border, so that one
- * with a quarter of itself, or of the mean cluster, on either side gives an icon on each;
- * and far parts of one that its arrow does not stand for give icons of their own, unless
- * arrows reach beyond their clusters. Of a shared density each
- * rank makes the icons of some clusters, from what lies round them, and rank 0 gets
- * all, the same as of the whole; on other ranks *out becomes NULL. UNSUPPORTED
- * (FG_ICON_EXTENT_TERRITORY in 3D, or of a shared density: fg_density_gather), MEMORY,
- * STOPPED. */
+/* Makes the icons of a density, one arrow in each cluster (Garcke, Preusser, Rumpf,
+ * Telea, Weikard and van Wijk 2000): label, march, spine, streamline, arrow. Clusters too
+ * small for a readable arrow give none; fg_icons_dropped counts them. No arrow crosses a
+ * periodic boundary: a cluster with a quarter of itself, or of the mean cluster, on
+ * either side gives an icon on each, with the same `cluster`. Of a shared density each
+ * rank makes the icons of some clusters, from what lies round them, and rank 0 gets all,
+ * the same as of the whole; on other ranks *out becomes NULL. MEMORY, STOPPED. */
 FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
                                  const fg_field *field, const fg_density *density,
                                  const fg_icon_options *options);

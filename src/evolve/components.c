@@ -28,15 +28,6 @@ bool fg__components_cell_active(const fg__component_grid *grid, int x, int y)
   return !grid->active || grid->active[(size_t)y * (size_t)cells_x + (size_t)x];
 }
 
-bool fg__components_edge_active(const fg__component_grid *grid, int x, int y, int axis)
-{
-  if (!grid->active)
-    return true;
-  return fg__components_cell_active(grid, x, y) ||
-         (axis == 0 ? fg__components_cell_active(grid, x, y - 1)
-                    : fg__components_cell_active(grid, x - 1, y));
-}
-
 /* Writes the value of each run's piece to its nodes, 0 to all others. */
 static void write_row(const fg__components *components, int row, int width,
                       const int *piece_value, int before, int *out)

@@ -145,10 +145,6 @@ void fg__components_label(const fg__components *components, const fg__component_
  */
 bool fg__components_cell_active(const fg__component_grid *grid, int x, int y);
 
-/* In 2D: whether an active cell adjoins the edge from node (x, y) to its next node along
- * `axis`; the edge must exist. */
-bool fg__components_edge_active(const fg__component_grid *grid, int x, int y, int axis);
-
 /* Whether the bilinear density of a face joins the two corners `a` and `d` > 0 that face
  * each other across it when the other two, `b` and `c`, are not positive. */
 bool fg__components_saddle_joins(float a, float b, float c, float d);

@@ -13,6 +13,10 @@ static const double NARROWEST_HEAD = 1.2;
  * stubs; a fat cluster does not make a fat arrow. */
 static const double LARGEST_WIDTH = 0.075;
 
+/* Arrows slimmer than this, in lengths, look like threads with a knot: the cluster gets a
+ * shorter and bolder one instead. */
+static const double SLIMMEST = 0.03;
+
 /* The narrowest arrow may be wider in lengths than others: its head, a third of it, is
  * what a reader needs to see which way it points. */
 static const double SMALL_ARROW_WIDTH = 0.11;
@@ -77,12 +81,10 @@ static const double POINT_SPACING = 1.0;
 typedef struct arrow_search {
   fg__stations *stations;
   const fg__room *room;
-  const fg__arrow_rules *rules;
   double narrowest; /* width */
   double rolled_up; /* the most that any part of the line may be longer, see below */
   double width;     /* tried now */
   double weight;    /* what it makes of a length */
-  int start;        /* station next to the streamline's start */
   fg__arrow best;
   double worth;
 } arrow_search;
@@ -254,10 +256,9 @@ static double rolled_up(double turning)
 static bool is_too_long(const arrow_search *search, int tail, int tip, double slim)
 {
   const fg__station *station = search->stations->station;
-  double length = station[tip].s - station[tail].s, longest = search->rules->longest;
+  double length = station[tip].s - station[tail].s;
   double turning = fabs(station[tip].turning - station[tail].turning);
-  return (longest > 0 && length > longest) || length > slim * rolled_up(turning) ||
-         turning > FG__LARGEST_TURNING;
+  return length > slim * rolled_up(turning) || turning > FG__LARGEST_TURNING;
 }
 
 /* Tries the arrows of one width that end at a station and begin at `tail` or later. */
@@ -272,8 +273,6 @@ static void try_tails(arrow_search *search, int tail, int base, int tip, double 
     int begin = tail + (int)(CUTS[k] * length / search->stations->step);
     if (begin >= base || station[tip].s - station[begin].s < least)
       return;
-    if (search->rules->holds_start && begin > search->start)
-      return;
     consider(search, begin, tip);
   }
 }
@@ -286,7 +285,7 @@ static void try_width(arrow_search *search, double width, double end_gap)
   double total = station[count - 1].s;
   double ratio = width > search->narrowest ? LARGEST_WIDTH : SMALL_ARROW_WIDTH;
   double least = fmax(SHORTEST * search->room->spacing, width / ratio);
-  double slim = width / search->rules->slimmest, most = slim * search->rolled_up;
+  double slim = width / SLIMMEST, most = slim * search->rolled_up;
   double weight = pow(width / search->room->spacing, WIDTH_WORTH);
   if (fmin(most, total) * weight <= search->worth)
     return;
@@ -296,8 +295,7 @@ static void try_width(arrow_search *search, double width, double end_gap)
   find_shares(search);
   find_earliest(search);
   int gap = (int)ceil(end_gap / search->stations->step), last = count - 1 - gap;
-  int lowest = search->rules->holds_start ? search->start : gap + 1;
-  for (int tip = last; tip > lowest; tip--) {
+  for (int tip = last; tip > gap + 1; tip--) {
     double length = station[tip].s - station[gap].s;
     if (fmin(length, most) * weight <= search->worth)
       break;
@@ -315,25 +313,20 @@ static void try_width(arrow_search *search, double width, double end_gap)
 
 fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
                         const fg__streamline *streamline, const fg__room *room,
-                        const fg__arrow_rules *rules, fg__stations *stations)
+                        fg__stations *stations)
 {
   *out = (fg__arrow){0};
   double length = fg__streamline_length(streamline);
   if (length < SHORTEST * room->spacing)
     return FG_STATUS_OK;
   double widest = fg__arrow_widest(length, room->spacing);
-  if (rules->widest > 0)
-    widest = fmin(widest, rules->widest);
   fg_status status = fg__stations_place(stations, context, streamline, room,
                                         widest * FG__HEAD_WIDTH / 2 / HEAD_SHARE);
   if (status != FG_STATUS_OK)
     return status;
   arrow_search search = {.stations = stations,
                          .room = room,
-                         .rules = rules,
                          .narrowest = NARROWEST_HEAD * room->spacing / FG__HEAD_WIDTH};
-  search.start =
-      (int)lround(streamline->node[streamline->start].s / length * (stations->count - 1));
   double room_found = 0, lowest = 0, highest = 0;
   for (int i = 0; i < stations->count; i++) {
     const fg__station *station = &stations->station[i];

@@ -24,20 +24,12 @@ typedef struct fg__arrow {
   double unrest;  /* 1 for an even bend; more for corners, wiggles and hairpins */
 } fg__arrow;
 
-/* What an arrow may be like. */
-typedef struct fg__arrow_rules {
-  double widest;    /* no wider than this; 0: as wide as its length allows */
-  double slimmest;  /* least width, in lengths */
-  double longest;   /* 0: no limit */
-  bool holds_start; /* the line's start point must be on it */
-} fg__arrow_rules;
-
 /* Finds the arrow on the streamline that is seen best, by its length and the root of its
  * width, and is calm; its outline lies in the room and does not meet itself. Shorter than
  * 3 or with a head narrower than 1.2 spacings gives width 0. MEMORY. */
 fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
                         const fg__streamline *streamline, const fg__room *room,
-                        const fg__arrow_rules *rules, fg__stations *stations);
+                        fg__stations *stations);
 
 /* No arrow on a line of this length is wider. */
 double fg__arrow_widest(double length, double spacing);

@@ -79,25 +79,18 @@ typedef struct test_bench {
   fg_icons *icons;
 } test_bench;
 
-static inline test_bench bench_reaching(velocity_of velocity, depth_of depth,
-                                        const unsigned char *active, int threads,
-                                        fg_icon_extent extent)
+static inline test_bench bench_with(velocity_of velocity, depth_of depth,
+                                    const unsigned char *active, int threads)
 {
   test_bench bench = {0};
   assert_int_equal(fg_context_create(&bench.context), FG_STATUS_OK);
   bench.field = field_of(bench.context, velocity);
   bench.density = density_of(bench.context, depth, active);
-  fg_icon_options options = {.threads = threads, .extent = extent};
+  fg_icon_options options = {.threads = threads};
   assert_int_equal(fg_icons_create(&bench.icons, bench.context, bench.field,
-                                   bench.density, threads || extent ? &options : NULL),
+                                   bench.density, threads ? &options : NULL),
                    FG_STATUS_OK);
   return bench;
-}
-
-static inline test_bench bench_with(velocity_of velocity, depth_of depth,
-                                    const unsigned char *active, int threads)
-{
-  return bench_reaching(velocity, depth, active, threads, FG_ICON_EXTENT_CLUSTER);
 }
 
 static inline void end_bench(test_bench *bench)
@@ -138,23 +131,13 @@ static inline void judge(const test_bench *bench, const fg_icon *icon, depth_of 
   assert_true(icon->speed > 0 && icon->area > 0);
 }
 
-/* A cluster's icons stand side by side. */
-static inline int count_drawn_clusters(const fg_icons *icons)
-{
-  int drawn = 0;
-  for (int i = 0; i < fg_icons_count(icons); i++)
-    drawn +=
-        i == 0 || fg_icons_at(icons, i)->cluster != fg_icons_at(icons, i - 1)->cluster;
-  return drawn;
-}
-
 static inline test_bench bench_of(velocity_of velocity, depth_of depth)
 {
   test_bench bench = bench_with(velocity, depth, NULL, 0);
   for (int i = 0; i < fg_icons_count(bench.icons); i++)
     judge(&bench, fg_icons_at(bench.icons, i), depth);
   assert_int_equal(fg_icons_clusters(bench.icons),
-                   count_drawn_clusters(bench.icons) + fg_icons_dropped(bench.icons));
+                   fg_icons_count(bench.icons) + fg_icons_dropped(bench.icons));
   return bench;
 }
 

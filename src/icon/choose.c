@@ -40,14 +40,6 @@ static const double PASSED = 0.2;
 static const double SHIFT = 0.2;
 enum { SHIFTS = 1 };
 
-/* Arrows slimmer than this look like threads with a knot: the cluster gets a shorter and
- * bolder one instead. */
-static const double SLIMMEST = 0.03;
-
-/* An arrow that goes on beyond its cluster is thinner for its length: it is as wide as
- * the cluster allows, and its length says more than its weight. */
-static const double SLIMMEST_EXTENDED = 0.024;
-
 /* An arrow stands for the points of the cluster up to about this share of the spine's
  * length from it: which ones lie farther away counts less and less. */
 static const double REACH = 0.2;
@@ -176,7 +168,6 @@ static bool was_passed(const candidate_search *search, const double point[2])
 /* Tries the streamline through a point. */
 static fg_status consider(candidate_search *search, const double start[2])
 {
-  const fg__arrow_rules rules = {.slimmest = SLIMMEST};
   fg__chooser *chooser = search->chooser;
   fg_status status = fg__streamline_trace(&chooser->tried, search->context, search->field,
                                           search->window, start, &search->limits);
@@ -190,7 +181,7 @@ static fg_status consider(candidate_search *search, const double start[2])
   if (cost_of(search, 0, length, widest) >= search->cost)
     return FG_STATUS_OK;
   fg__arrow arrow;
-  status = fg__arrow_fit(&arrow, search->context, &chooser->tried, search->room, &rules,
+  status = fg__arrow_fit(&arrow, search->context, &chooser->tried, search->room,
                          &chooser->stations);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
     return status;
@@ -356,42 +347,6 @@ fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *c
     status = refine(&search, radius);
   *arrow = search.arrow;
   return status;
-}
-
-fg_status fg__extend_arrow(fg__arrow *arrow, bool *extended, fg__chooser *chooser,
-                           fg_context *context, const fg_field *field,
-                           const fg__room *room, const double center[2], double longest)
-{
-  *extended = false;
-  double start[2] = {center[0], center[1]}, tangent[2];
-  fg__arrow_rules rules = {.widest = fg__arrow_widest(0, room->spacing),
-                           .slimmest = SLIMMEST_EXTENDED,
-                           .longest = longest,
-                           .holds_start = true};
-  if (arrow->width > 0) {
-    fg__streamline_at(&chooser->best, (arrow->tail + arrow->tip) / 2, NULL, start,
-                      tangent);
-    rules.widest = arrow->width;
-  }
-  fg__streamline_limits limits = {.step = step_limit(field, room->window),
-                                  .length = longest,
-                                  .turning = FG__LARGEST_TURNING};
-  fg_status status =
-      fg__streamline_trace(&chooser->tried, context, field, room->window, start, &limits);
-  if (status != FG_STATUS_OK || chooser->tried.count < 2)
-    return status;
-  fg__arrow longer;
-  status =
-      fg__arrow_fit(&longer, context, &chooser->tried, room, &rules, &chooser->stations);
-  if (status != FG_STATUS_OK || !(longer.width > 0) ||
-      !(longer.tip - longer.tail > arrow->tip - arrow->tail))
-    return status;
-  fg__streamline line = chooser->best;
-  chooser->best = chooser->tried;
-  chooser->tried = line;
-  *arrow = longer;
-  *extended = true;
-  return FG_STATUS_OK;
 }
 
 void fg__chooser_clear(fg__chooser *chooser)

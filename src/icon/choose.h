@@ -23,13 +23,6 @@ typedef struct fg__chooser {
 fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *context,
                            const fg_field *field, const fg__room *room,
                            const fg__spine *spine);
-/* Lets an arrow go on beyond its cluster: traces the streamline through its middle (or,
- * when it has no width, through the cluster's centre) in a wider room and fits an arrow
- * that is no wider, at most `longest`. Replaces *arrow and chooser->best and sets
- * *extended when that is longer. MEMORY. */
-fg_status fg__extend_arrow(fg__arrow *arrow, bool *extended, fg__chooser *chooser,
-                           fg_context *context, const fg_field *field,
-                           const fg__room *room, const double center[2], double longest);
 void fg__chooser_clear(fg__chooser *chooser);
 
 #endif

@@ -28,8 +28,7 @@ static double round_band(double x, double y, const double center[2])
   return 1.5 - 0.7 * exp(-dx * dx / 9) - fabs(y - center[1]);
 }
 
-static test_bench round_bench(round_depth depth, const double center[2], bool both,
-                              fg_icon_extent extent)
+static test_bench round_bench(round_depth depth, const double center[2], bool both)
 {
   float u[N * M], velocity[2][N * M];
   double axis[2][N];
@@ -56,13 +55,12 @@ static test_bench round_bench(round_depth depth, const double center[2], bool bo
                                .spacing = {0.5, 0.5, 1},
                                .periodic = {true, both, false},
                                .u = u};
-  fg_icon_options options = {.extent = extent};
   assert_int_equal(fg_context_create(&bench.context), FG_STATUS_OK);
   assert_int_equal(fg_field_create(&bench.field, bench.context, &field), FG_STATUS_OK);
   assert_int_equal(fg_density_create_from_arrays(&bench.density, bench.context, &density),
                    FG_STATUS_OK);
   assert_int_equal(
-      fg_icons_create(&bench.icons, bench.context, bench.field, bench.density, &options),
+      fg_icons_create(&bench.icons, bench.context, bench.field, bench.density, NULL),
       FG_STATUS_OK);
   return bench;
 }
@@ -101,7 +99,7 @@ static void no_arrow_crosses_a_periodic_border(void **state)
   for (int n = 0; n < 40; n++) {
     const double center[2] = {3.1 + n, 0.7};
     double beside = fabs(nearest_copy(center[0], LOW[0], SIZE[0]));
-    test_bench bench = round_bench(round_grain, center, false, FG_ICON_EXTENT_CLUSTER);
+    test_bench bench = round_bench(round_grain, center, false);
     int count = fg_icons_count(bench.icons);
     assert_int_equal(fg_icons_clusters(bench.icons), 1);
     assert_int_equal(fg_icons_dropped(bench.icons), 0);
@@ -136,7 +134,7 @@ static void a_part_as_large_as_other_clusters_has_an_arrow(void **state)
   const double center[2] = {6.8, 0.7};
   for (int k = 0; k < 2; k++) {
     round_depth depth = k ? among_small_ones : round_grain;
-    test_bench bench = round_bench(depth, center, false, FG_ICON_EXTENT_CLUSTER);
+    test_bench bench = round_bench(depth, center, false);
     assert_int_equal(fg_icons_clusters(bench.icons), k ? 5 : 1);
     assert_int_equal(fg_icons_count(bench.icons), k ? 6 : 1);
     judge_all(&bench, depth, center, false);
@@ -148,7 +146,7 @@ static void nor_a_corner_of_two(void **state)
 {
   (void)state;
   const double center[2] = {3.4, -8.7};
-  test_bench bench = round_bench(round_grain, center, true, FG_ICON_EXTENT_CLUSTER);
+  test_bench bench = round_bench(round_grain, center, true);
   assert_in_range(fg_icons_count(bench.icons), 1, 4);
   judge_all(&bench, round_grain, center, true);
   end_bench(&bench);
@@ -158,38 +156,11 @@ static void a_band_is_cut_at_the_border_too(void **state)
 {
   (void)state;
   const double center[2] = {20, 1}; /* cut here: 17 to one side, 23 to the other */
-  test_bench bench = round_bench(round_band, center, false, FG_ICON_EXTENT_CLUSTER);
+  test_bench bench = round_bench(round_band, center, false);
   assert_int_equal(fg_icons_clusters(bench.icons), 1);
   assert_int_equal(fg_icons_count(bench.icons), 2);
   judge_all(&bench, round_band, center, false);
   end_bench(&bench);
-}
-
-static double everywhere(double x, double y, const double center[2])
-{
-  (void)x;
-  (void)y;
-  (void)center;
-  return 1;
-}
-
-/* Beyond its cluster, too, an arrow ends where the map ends; two of one cluster do not go
- * on, so that they cannot meet. */
-static void territories_end_at_the_border(void **state)
-{
-  (void)state;
-  for (int n = 0; n < 12; n++) {
-    const double center[2] = {3.1 + 0.9 * n, 0.7};
-    test_bench inside = round_bench(round_grain, center, false, FG_ICON_EXTENT_CLUSTER);
-    test_bench wide = round_bench(round_grain, center, false, FG_ICON_EXTENT_TERRITORY);
-    int count = fg_icons_count(wide.icons);
-    assert_int_equal(count, fg_icons_count(inside.icons));
-    double length = judge_all(&wide, everywhere, center, false);
-    double less = judge_all(&inside, round_grain, center, false);
-    assert_true(count == 2 ? fabs(length - less) < 1e-9 : length >= less);
-    end_bench(&inside);
-    end_bench(&wide);
-  }
 }
 
 int main(void)
@@ -199,7 +170,6 @@ int main(void)
       cmocka_unit_test(nor_a_corner_of_two),
       cmocka_unit_test(a_part_as_large_as_other_clusters_has_an_arrow),
       cmocka_unit_test(a_band_is_cut_at_the_border_too),
-      cmocka_unit_test(territories_end_at_the_border),
   };
   return cmocka_run_group_tests_name("icon/icons_border", tests, NULL, NULL);
 }

@@ -1,12 +1,11 @@
 #include "icon/icons_make.h"
-#include "icon/specks.h"
+
+#include "base/context.h"
 
 static fg_status create_whole(fg_icons **out, fg_context *context, const fg_field *field,
                               const fg_density *density, const fg_icon_options *options)
 {
   fg__labels labels = {0};
-  fg__territories territories = {0};
-  fg_icon *icon = NULL;
   const fg_density_arrays *arrays = fg_density_contents(density);
   fg_status status = fg__labels_create(&labels, context, arrays);
   if (status != FG_STATUS_OK)
@@ -17,23 +16,13 @@ static fg_status create_whole(fg_icons **out, fg_context *context, const fg_fiel
                             .labels = &labels,
                             .patch = &whole,
                             .count = labels.count};
-  if (options && options->extent == FG_ICON_EXTENT_TERRITORY) {
-    status = fg__territories_create(&territories, context, arrays, &labels);
-    if (status != FG_STATUS_OK)
-      goto cleanup;
-    source.territories = &territories;
-  }
-  icon = fg__icons_allocate(labels.count);
+  fg_icon *icon = fg__icons_allocate(labels.count);
   status =
       icon ? fg__icons_make(icon, context, &source, options ? options->threads : 1)
            : fg__fail_memory(context, "the icons", (size_t)labels.count * sizeof *icon);
-  if (status == FG_STATUS_OK && arrays->dimension == 2)
-    status = fg__icons_drop_specks(icon, context, labels.count * FG__ICON_PARTS);
   if (status == FG_STATUS_OK)
     status = fg__icons_collect(out, context, icon, labels.count);
-cleanup:
   fg__icons_free(icon, labels.count);
-  fg__territories_clear(&territories);
   fg__labels_clear(&labels);
   return status;
 }
@@ -52,9 +41,6 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "icons: a density in %d dimensions of a field in %d", dimension,
                     fg_field_contents(field)->dimension);
-  if (dimension == 3 && options && options->extent == FG_ICON_EXTENT_TERRITORY)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "icons: in 3D arrows stay in their clusters");
   if (fg_field_is_part(field, NULL, NULL) && !fg_density_is_shared(density))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "icons: a field that ranks share, of a density that they do not");

@@ -96,6 +96,18 @@ static double blob(double x, double y)
   return 5 - hypot(x - CORE[0] - 0.3, y - CORE[1] + 0.2);
 }
 
+/* A wall of 6 by 19, four grains of half axes 5 and 2, and a small one between two of
+ * them. */
+static double uneven_family(double x, double y)
+{
+  double d = fmin(3 - fabs(x - 2), 9.5 - fabs(y - 18));
+  d = fmax(d, ellipse(x, y, -5, 31, 5, 2, 0.1));
+  d = fmax(d, ellipse(x, y, 8, 32, 5, 2, -0.1));
+  d = fmax(d, ellipse(x, y, 22, 31, 5, 2, 0.2));
+  d = fmax(d, ellipse(x, y, 24, 8, 5, 2, 0));
+  return fmax(d, ellipse(x, y, 15, 31.2, 1.2, 0.8, 0));
+}
+
 /* The one arrow of a bench with one cluster. */
 static const fg_icon *only_icon(const test_bench *bench)
 {
@@ -213,6 +225,24 @@ static void drops_slivers_and_counts_them(void **state)
   end_bench(&bench);
 }
 
+/* The stream crosses the wall, so that an arrow is near to a part of it only. */
+static void each_cluster_has_one_however_large(void **state)
+{
+  (void)state;
+  test_bench bench = bench_of(eastward, uneven_family);
+  bool small = false, wall = false;
+  assert_int_equal(fg_icons_clusters(bench.icons), 6);
+  assert_int_equal(fg_icons_count(bench.icons), 6);
+  for (int i = 0; i < 6; i++) {
+    const fg_icon *icon = fg_icons_at(bench.icons, i);
+    assert_int_equal(icon->cluster, i + 1);
+    small = small || fabs(icon->area / (PI * 1.2 * 0.8) - 1) < 0.1;
+    wall = wall || fabs(icon->area / (6 * 19) - 1) < 0.02;
+  }
+  assert_true(small && wall);
+  end_bench(&bench);
+}
+
 static void stays_inside_the_domain(void **state)
 {
   (void)state;
@@ -314,6 +344,7 @@ int main(void)
       cmocka_unit_test(takes_one_branch_or_the_stem),
       cmocka_unit_test(takes_the_longest_way_through_a_stripe),
       cmocka_unit_test(drops_slivers_and_counts_them),
+      cmocka_unit_test(each_cluster_has_one_however_large),
       cmocka_unit_test(stays_inside_the_domain),
       cmocka_unit_test(never_enters_a_mask),
       cmocka_unit_test(finds_a_way_past_a_stagnation_point),

@@ -3,8 +3,6 @@
 #include "icon/choose.h"
 #include "icon/icons.h"
 #include "icon/measure.h"
-#include "icon/rest.h"
-#include "icon/territory.h"
 
 #include "base/memory.h"
 #include "solid/make.h"
@@ -17,11 +15,6 @@
 /* Space between the outline and the cluster's border, in spacings: the zero set is known
  * to about a tenth of a cell, and a tip on the very border looks as if it poked out. */
 static const double MARGIN = 0.35;
-
-/* An arrow in its territory keeps that many of its widths from the border, so that
- * neighbours do not seem to touch, and is at most that many fair shares long. */
-static const double BORDER_GAP = 0.75;
-static const double LONGEST_EXTENDED = 2.0;
 
 /* The outline is tested at its vertices and between them, at least this close (in
  * spacings of the density); an arrow that fails is made smaller this many times before it
@@ -196,39 +189,20 @@ typedef struct icon_place {
 /* Measures the window's distances and makes it a room. The domain's border counts: an
  * arrow there needs room for its head like elsewhere. */
 static fg_status measure_place(icon_place *place, fg_context *context,
-                               const fg__window *window, double margin)
+                               const fg__window *window)
 {
   size_t nodes = (size_t)window->nodes[0] * (size_t)window->nodes[1];
   place->distance = fg__allocate(nodes, sizeof *place->distance);
   if (!place->distance)
     return fg__fail_memory(context, "a distance map", nodes * sizeof *place->distance);
   double spacing = fmin(window->spacing[0], window->spacing[1]);
-  place->room =
-      (fg__room){window, place->distance, spacing, fmax(MARGIN * spacing, margin)};
+  place->room = (fg__room){window, place->distance, spacing, MARGIN * spacing};
   return fg__march(place->distance, context, window, true);
 }
 
 static const fg_field *field_of(const fg__icon_source *source, int index)
 {
   return source->field_window ? source->field_window[index] : source->field;
-}
-
-/* Lets the chosen arrow go on through the cluster's territory; *extended when it did. */
-static fg_status extend(icon_place *land, fg__window *window, fg__arrow *arrow,
-                        bool *extended, const fg__icon_source *source,
-                        fg_context *context, fg__chooser *chooser, int cluster,
-                        const double center[2])
-{
-  double longest = LONGEST_EXTENDED * source->territories->fair_share;
-  *extended = false;
-  fg_status status = fg__territory_window(window, context, source->territories, cluster,
-                                          center, longest);
-  if (status == FG_STATUS_OK)
-    status = measure_place(land, context, window, BORDER_GAP * arrow->width);
-  if (status == FG_STATUS_OK)
-    status = fg__extend_arrow(arrow, extended, chooser, context, source->field,
-                              &land->room, center, longest);
-  return status;
 }
 
 static fg_status make_solids(icon_job *job, fg_context *context, fg__solid_maker *maker,
@@ -272,92 +246,28 @@ static fg_status keep_spine(fg_icon *icon, fg_context *context, const fg__spine 
   return FG_STATUS_OK;
 }
 
-/* One cluster, or a part of one that crosses a periodic border. */
-typedef struct icon_request {
-  const fg__icon_source *source;
-  const fg_field *field;
-  int cluster;
-  bool divided; /* it is not the cluster's only part */
-} icon_request;
-
-/* Makes the icon of a window's cluster. */
+/* Makes the icon of a window's cluster, but for its area. */
 static fg_status make_icon(fg_icon *icon, fg_context *context, fg__chooser *chooser,
-                           const icon_request *request, const fg__window *window)
+                           const fg_field *field, const fg__window *window)
 {
-  const fg__icon_source *source = request->source;
-  icon_place place = {0}, land = {0};
-  fg__window land_window = {0};
+  icon_place place = {0};
   fg__spine spine = {0};
   fg__arrow arrow = {0};
-  bool extended = false;
-  fg_status status = measure_place(&place, context, window, 0);
+  fg_status status = measure_place(&place, context, window);
   if (status == FG_STATUS_OK)
     status = fg__spine_create(&spine, context, window, place.distance);
-  if (status != FG_STATUS_OK)
-    goto cleanup;
-  const double *center = spine.point[spine.center];
-  status =
-      fg__choose_arrow(&arrow, chooser, context, request->field, &place.room, &spine);
-  /* the parts' arrows might meet in the territory that is theirs together */
-  if (status == FG_STATUS_OK && source->territories && !request->divided)
-    status = extend(&land, &land_window, &arrow, &extended, source, context, chooser,
-                    request->cluster, center);
+  if (status == FG_STATUS_OK)
+    status = fg__choose_arrow(&arrow, chooser, context, field, &place.room, &spine);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
     goto cleanup;
-  icon->cluster = request->cluster;
-  status = build_icon(icon, context, request->field, extended ? &land.room : &place.room,
-                      &chooser->best, &arrow, center);
+  icon->cluster = window->cluster;
+  status = build_icon(icon, context, field, &place.room, &chooser->best, &arrow,
+                      spine.point[spine.center]);
   if (status == FG_STATUS_OK && icon->points)
     status = keep_spine(icon, context, &spine);
 cleanup:
   free(place.distance);
-  free(land.distance);
-  fg__window_clear(&land_window);
   fg__spine_clear(&spine);
-  return status;
-}
-
-/* Icons for what the first leaves, icon[1] and on. A rest in which none is worth while is
- * taken off the window, so that the next is found. */
-static fg_status add_rests(fg_icon *icon, int *count, int most, fg_context *context,
-                           fg__chooser *chooser, const icon_request *request,
-                           fg__window *window)
-{
-  const fg__labels *labels = request->source->labels;
-  fg_status status = FG_STATUS_OK;
-  for (bool found = true; found && *count < most && status == FG_STATUS_OK;) {
-    fg__window rest;
-    fg_icon *next = &icon[*count];
-    status = fg__rest_find(&rest, &found, context, window, icon, *count, labels);
-    if (status != FG_STATUS_OK || !found)
-      break;
-    status = make_icon(next, context, chooser, request, &rest);
-    if (next->points && fg__rest_deserves(next, labels)) {
-      ++*count;
-    } else {
-      fg__solid_icon_free(next);
-      fg__rest_give_up(window, &rest);
-    }
-    fg__window_clear(&rest);
-  }
-  return status;
-}
-
-/* Makes the icon of a part of a cluster, and those of what lies far from it: at most
- * `most`. */
-static fg_status make_part(fg_icon *icon, int *count, int most, fg_context *context,
-                           fg__chooser *chooser, const icon_request *request,
-                           fg__window_part *part)
-{
-  const fg__labels *labels = request->source->labels;
-  fg_status status = make_icon(icon, context, chooser, request, &part->window);
-  *count = status == FG_STATUS_OK && icon->points;
-  if (*count && !request->source->territories)
-    status = add_rests(icon, count, most, context, chooser, request, &part->window);
-  for (int k = 0; k < *count; k++)
-    icon[k].area = labels->area[request->cluster - 1] * part->share;
-  if (status == FG_STATUS_OK && *count > 1)
-    fg__rest_share_out(icon, *count, &part->window);
   return status;
 }
 
@@ -365,25 +275,21 @@ static fg_status make_icons(icon_job *job, fg_context *context, fg__chooser *cho
                             int index)
 {
   const fg__icon_source *source = job->source;
+  int cluster = source->cluster ? source->cluster[index] : index + 1;
   fg_icon *icon = &job->icon[(size_t)index * FG__ICON_PARTS];
-  const fg_icon *end = icon + FG__ICON_PARTS;
-  icon_request request = {.source = source,
-                          .field = field_of(source, index),
-                          .cluster =
-                              source->cluster ? source->cluster[index] : index + 1};
   fg__window whole;
   fg__window_part part[FG__WINDOW_PARTS] = {{{0}, 0.0}};
   int parts = 0;
-  fg_status status = fg__window_cut(
-      &whole, context, source->density, source->labels,
-      source->cluster ? &source->patch[index] : source->patch, request.cluster);
+  fg_status status =
+      fg__window_cut(&whole, context, source->density, source->labels,
+                     source->cluster ? &source->patch[index] : source->patch, cluster);
   if (status == FG_STATUS_OK)
     status =
         fg__window_divide(part, &parts, context, source->density, source->labels, &whole);
-  request.divided = parts > 1;
-  for (int k = 0, made; k < parts && status == FG_STATUS_OK; k++, icon += made) {
-    int most = (int)(end - icon) - (parts - 1 - k); /* the other parts come first */
-    status = make_part(icon, &made, most, context, chooser, &request, &part[k]);
+  for (int k = 0; k < parts && status == FG_STATUS_OK; k++) {
+    status =
+        make_icon(&icon[k], context, chooser, field_of(source, index), &part[k].window);
+    icon[k].area = source->labels->area[cluster - 1] * part[k].share;
   }
   for (int k = 0; k < parts; k++)
     fg__window_clear(&part[k].window);

@@ -3,7 +3,6 @@
 #define FG__ICONS_MAKE_H
 
 #include "cluster/volume.h"
-#include "icon/territory.h"
 
 /* What icons are made from. */
 typedef struct fg__icon_source {
@@ -12,14 +11,12 @@ typedef struct fg__icon_source {
                                     that ranks share; else NULL */
   const fg_density_arrays *density;
   const fg__labels *labels;
-  const fg__territories *territories; /* NULL: arrows stay in their clusters */
-  int count;                          /* of icons wanted */
-  const int *cluster;                 /* [count] their labels; NULL: 1 ... count */
-  const fg__patch *patch;             /* [count] with cluster, else one for all */
+  int count;              /* of icons wanted */
+  const int *cluster;     /* [count] their labels; NULL: 1 ... count */
+  const fg__patch *patch; /* [count] with cluster, else one for all */
 } fg__icon_source;
 
-/* Places for a cluster's icons: one across a periodic border, or that one arrow does not
- * stand for (icon/rest.h), may have several. */
+/* Places for a cluster's icons: one across a periodic border may have several. */
 enum { FG__ICON_PARTS = FG__WINDOW_PARTS };
 
 /* [clusters * FG__ICON_PARTS], zeroed; NULL when there is no memory. fg__icons_free ends

@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "cluster/shared.h"
 #include "icon/icons_make.h"
-#include "icon/specks.h"
 #include "mesh/field_parts.h"
 
 /* Patches that a rank holds at a time have this share of its part of the grid, but for
@@ -290,8 +289,6 @@ static fg_status create(fg_icons **out, fg_context *context, const fg_field *fie
     status = make_all(&s, context, options ? options->threads : 1);
   if (!status)
     status = bring_together(&s, context);
-  if (!status && s.ranks->rank == 0 && fg_field_contents(field)->dimension == 2)
-    status = fg__icons_drop_specks(s.icon, context, s.labels.count * FG__ICON_PARTS);
   if (!status && s.ranks->rank == 0)
     status = fg__icons_collect(out, context, s.icon, s.labels.count);
   status = fg__ranks_agree(s.ranks, context, status);
@@ -309,10 +306,6 @@ fg_status fg__icons_create_shared(fg_icons **out, fg_context *context,
                                   const fg_field *field, const fg_density *density,
                                   const fg_icon_options *options)
 {
-  if (options && options->extent == FG_ICON_EXTENT_TERRITORY)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "icons: arrows that reach beyond their clusters need the density in "
-                    "one piece");
   fg__traffic_book *book = fg__density_share_of(density)->partition.ranks->book;
   fg_activity before = fg__traffic_continue(book, FG_ACTIVITY_SNAPSHOTS);
   fg_status status = create(out, context, field, density, options);

@@ -107,20 +107,6 @@ static void a_stop_of_one_rank_stops_all(void **state)
   end_together();
 }
 
-static void territories_ask_for_the_whole(void **state)
-{
-  (void)state;
-  const bool periodic[2] = {false, false};
-  subject s = subject_of(&SHAPES[1], periodic, false);
-  fg_icons *icons;
-  fg_icon_options options = {.extent = FG_ICON_EXTENT_TERRITORY};
-  fg_status status = fg_icons_create(&icons, us.context, s.field, s.shared, &options);
-  expect(status == (us.ranks->count > 1 ? FG_STATUS_UNSUPPORTED : FG_STATUS_OK));
-  fg_icons_destroy(icons);
-  subject_clear(&s);
-  end_together();
-}
-
 int main(void)
 {
   start_together();
@@ -128,7 +114,6 @@ int main(void)
       TOGETHER(parts_give_the_icons_of_the_whole),
       TOGETHER(ranks_without_a_cluster_take_part),
       TOGETHER(a_stop_of_one_rank_stops_all),
-      TOGETHER(territories_ask_for_the_whole),
   };
   return cmocka_run_group_tests_name("icon/icons", tests, NULL, NULL);
 }

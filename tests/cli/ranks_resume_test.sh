@@ -179,9 +179,9 @@ refused 'part/.flowgrain/checkpoint: cannot be read: No such file'
 done_with "a rank that can not read the checkpoint"
 
 timeout 60 mpirun -n 1 "$program" "${run[@]}" -o part --resume : \
-  -n 1 "$program" "${run[@]}" -o part --resume --extent territory >out 2>err
+  -n 1 "$program" "${run[@]}" -o part --resume --palette '#102030' >out 2>err
 code=$?
-refused 'was begun without --extent; this command goes with --extent territory'
+refused 'was begun without --palette; this command goes with --palette #102030'
 done_with "a rank that is told another option"
 
 # what a process takes before MPI starts, and less than that needs

@@ -48,7 +48,7 @@ expect_json halved-3/run.json '.mesh.coarser | length == 1'
 done_with "the mesh of three ranks was halved"
 compare vortex3d "2 4" synth:vortex3d --nodes 33 --clusters 30
 compare background "2" synth:benard --nodes 65 --clusters 8 --formats svg --background lic
-compare whole "3" synth:benard --nodes 65 --clusters 8 --formats svg --extent territory --tint
+compare whole "3" synth:benard --nodes 65 --clusters 8 --formats svg --tint
 # boxes as many ranks have them: src/mesh/mesh.h
 FLOWGRAIN_SHARES=leaves compare leaves "3" "$wind" --nodes 65 --clusters 40,20 --formats svg --save-field
 compare tiny "4" synth:vortex3 --nodes 17 --clusters 3 --max-steps 60 --formats svg

@@ -69,7 +69,6 @@ refused 'with --clusters 20,8; this command goes with --clusters 20,6' --cluster
 refused 'without --coverage; this command goes with --coverage 0.25' --coverage 0.25
 refused 'without --energy; this command goes with --energy isotropic' --energy isotropic
 refused 'without --scheme; this command goes with --scheme theta' --scheme theta
-refused 'without --extent' --extent territory
 refused 'without --palette' --palette '#102030'
 refused 'without --tint; this command goes with --tint$' --tint
 refused 'without --save-field' --save-field
