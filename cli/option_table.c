@@ -9,7 +9,8 @@ const char *const mesh_words[] = {"auto", "adaptive", "uniform", NULL};
 const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
 static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete",
-                                           "top-down", "streamlines", NULL};
+                                           "top-down", "streamlines", "voronoi",
+                                           "k-means",  "farthest",    NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
 static const char *const kind_words[] = {"lic",     "spots",     "clusters",
                                          "stripes", "diffusion", NULL};
@@ -80,7 +81,13 @@ const cli_command command_table[] = {
      "streamlines through them), `discrete` (clusters merged from the bottom up, Telea "
      "and "
      "van Wijk 1999), `top-down` (clusters bisected, Heckel et al. 1999), `streamlines` "
-     "(evenly spaced, Jobard and Lefer 1997). INPUT is as in flowgrain run, in two "
+     "(evenly spaced, Jobard and Lefer 1997), `voronoi` (pieces of streamlines through "
+     "the centres of a centroidal Voronoi tessellation), `k-means` (the same, one for "
+     "each "
+     "cluster of places and directions), `farthest` (long streamlines, each from the "
+     "place "
+     "farthest from those before, Mebarki et al. 2005). INPUT is as in flowgrain run, in "
+     "two "
      "dimensions.",
      true, command_rival},
     {COMMAND_GALLERY, "gallery", NULL, "-o DIR [options]",
@@ -111,10 +118,17 @@ const option_entry option_table[] = {
      NULL, "arrows to write, .geojson; their pictures are written beside"},
 
     {"method", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(method), 0, 0, false, false,
-     method_words, "hedgehog, grid-curved, discrete, top-down or streamlines [hedgehog]"},
+     method_words,
+     "hedgehog, grid-curved, discrete, top-down, streamlines, voronoi, k-means or "
+     "farthest [hedgehog]"},
     {"icons", 0, "LIST", COMMAND_RIVAL, OPTION_COUNTS, 0, 1, 100000, false, false, NULL,
      "numbers of arrows to draw, descending, as 150,60,25; a grid comes as near as its "
      "shape allows [60]"},
+    {"length", 0, "L", COMMAND_RIVAL, OPTION_NUMBER, AT(length), 0, 1000, false, false,
+     NULL,
+     "hedgehog, grid-curved, voronoi, k-means: length of an arrow (the longest) in sides "
+     "of its fair share, the root of area over --icons [0: voronoi and k-means 1, on a "
+     "grid 0.92 spacings]"},
     {"lengths", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(lengths), 0, 0, false, false,
      lengths_words,
      "on a grid, `equal` lengths, or lengths in proportion to the `speed` [equal]"},

@@ -164,6 +164,13 @@ static int publish(rival_work *work, int code)
   return code;
 }
 
+/* Whether all arrows of a method are meant to be equally long. */
+static bool has_length(fg_rival_method method)
+{
+  return method == FG_RIVAL_HEDGEHOG || method == FG_RIVAL_GRID_CURVED ||
+         method == FG_RIVAL_VORONOI || method == FG_RIVAL_K_MEANS;
+}
+
 static int check_method(const cli_settings *said)
 {
   fg_rival_method method = (fg_rival_method)said->method;
@@ -172,6 +179,7 @@ static int check_method(const cli_settings *said)
   const unfit_option of_discrete[] = {{"position-weight", said->position_weight >= 0.0},
                                       {"elongation", said->elongation > 0.0}};
   const unfit_option of_grids = {"lengths speed", said->lengths != 0};
+  const unfit_option of_pieces = {"length", said->length > 0.0};
   int code = EXIT_DONE;
   if (!fg_rival_divides(method))
     code = refuse_unfit("rival", of_clusters, sizeof of_clusters / sizeof of_clusters[0],
@@ -182,6 +190,9 @@ static int check_method(const cli_settings *said)
   if (!code && method != FG_RIVAL_HEDGEHOG && method != FG_RIVAL_GRID_CURVED)
     code =
         refuse_unfit("rival", &of_grids, 1, "only with --method hedgehog or grid-curved");
+  if (!code && !has_length(method))
+    code = refuse_unfit("rival", &of_pieces, 1,
+                        "only with --method hedgehog, grid-curved, voronoi or k-means");
   return code;
 }
 
@@ -197,6 +208,7 @@ static int prepare(rival_work *work)
   fg_rival_options options = {.method = (fg_rival_method)said->method,
                               .nodes = said->nodes,
                               .length_by_speed = said->lengths != 0,
+                              .length = said->length,
                               .direction_only = said->position_weight == 0.0,
                               .position_weight = fmax(said->position_weight, 0.0),
                               .elongation = said->elongation};

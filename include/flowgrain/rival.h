@@ -14,14 +14,20 @@ typedef enum fg_rival_method {
   FG_RIVAL_GRID_CURVED,  /* pieces of streamlines through the points of a grid */
   FG_RIVAL_DISCRETE,     /* clusters merged from the bottom up (Telea, van Wijk 1999) */
   FG_RIVAL_TOP_DOWN,     /* clusters bisected from the top down (Heckel et al. 1999) */
-  FG_RIVAL_STREAMLINES   /* evenly spaced (Jobard, Lefer 1997) */
+  FG_RIVAL_STREAMLINES,  /* evenly spaced (Jobard, Lefer 1997) */
+  FG_RIVAL_VORONOI,      /* pieces of streamlines through centroidal Voronoi seeds */
+  FG_RIVAL_K_MEANS,      /* the same, one a cluster of place and direction */
+  FG_RIVAL_FARTHEST /* long streamlines from the farthest place each (Mebarki, Alliez,
+                       Devillers 2005) */
 } fg_rival_method;
 
 typedef struct fg_rival_options {
   fg_rival_method method; /* [hedgehog] */
   int nodes; /* of the raster that the method works on, along the longest side [257] */
-  bool length_by_speed;   /* hedgehog, grid: as long as |v| of the largest [equal lengths]
-                           */
+  bool length_by_speed; /* hedgehog, grid: as long as |v| of the largest [equal lengths]
+                         */
+  double length; /* hedgehog, grid-curved, voronoi, k-means: of an arrow (the longest), in
+                    fair-share lengths sqrt(area / count) [what the method has] */
   double position_weight; /* discrete: what position counts beside direction, in (0, 1]
                              [0.95] */
   bool direction_only;    /* discrete: position does not count at all */

@@ -11,6 +11,9 @@ static const double USUAL_POSITION_WEIGHT = 0.95;
 static const double USUAL_ELONGATION = 2;
 static const double LARGEST_ELONGATION = 1e6;
 
+/* In fair-share lengths: more than any box has room for. */
+static const double LARGEST_LENGTH = 1000;
+
 enum { USUAL_NODES = 257, FEWEST_NODES = 3, MOST_NODES = 16385 };
 
 /* A method draws by itself, or it divides the domain and its clusters are drawn. */
@@ -30,6 +33,9 @@ static const method_entry methods[] = {
                            .divide = fg__rival_discrete},
     [FG_RIVAL_TOP_DOWN] = {.name = "top-down", .divide = fg__rival_top_down},
     [FG_RIVAL_STREAMLINES] = {.name = "streamlines", .draw = fg__rival_streamlines},
+    [FG_RIVAL_VORONOI] = {.name = "voronoi", .draw = fg__rival_voronoi},
+    [FG_RIVAL_K_MEANS] = {.name = "k-means", .draw = fg__rival_k_means},
+    [FG_RIVAL_FARTHEST] = {.name = "farthest", .draw = fg__rival_farthest},
 };
 
 enum { METHODS = sizeof methods / sizeof *methods };
@@ -53,6 +59,10 @@ static fg_status settle(fg_rival_options *settled, fg_context *context,
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "rival: a raster of %d nodes, from %d to %d are taken",
                     settled->nodes, FEWEST_NODES, MOST_NODES);
+  if (!(settled->length >= 0 && settled->length <= LARGEST_LENGTH))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "rival: a length of %g fair shares, it must lie in [0, %g]",
+                    settled->length, LARGEST_LENGTH);
   if (settled->direction_only)
     settled->position_weight = 0;
   else if (!(settled->position_weight != 0))
