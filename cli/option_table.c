@@ -8,9 +8,9 @@ const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
 const char *const mesh_words[] = {"auto", "adaptive", "uniform", NULL};
 const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
-static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete",
-                                           "top-down", "streamlines", "voronoi",
-                                           "k-means",  "farthest",    NULL};
+static const char *const method_words[] = {
+    "hedgehog", "grid-curved", "discrete", "top-down", "streamlines",
+    "voronoi",  "k-means",     "farthest", "random",   NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
 static const char *const kind_words[] = {"lic",     "spots",     "clusters",
                                          "stripes", "diffusion", NULL};
@@ -119,16 +119,16 @@ const option_entry option_table[] = {
 
     {"method", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(method), 0, 0, false, false,
      method_words,
-     "hedgehog, grid-curved, discrete, top-down, streamlines, voronoi, k-means or "
-     "farthest [hedgehog]"},
+     "hedgehog, grid-curved, discrete, top-down, streamlines, voronoi, k-means, farthest "
+     "or random [hedgehog]"},
     {"icons", 0, "LIST", COMMAND_RIVAL, OPTION_COUNTS, 0, 1, 100000, false, false, NULL,
      "numbers of arrows to draw, descending, as 150,60,25; a grid comes as near as its "
      "shape allows [60]"},
     {"length", 0, "L", COMMAND_RIVAL, OPTION_NUMBER, AT(length), 0, 1000, false, false,
      NULL,
-     "hedgehog, grid-curved, voronoi, k-means: length of an arrow (the longest) in sides "
-     "of its fair share, the root of area over --icons [0: voronoi and k-means 1, on a "
-     "grid 0.92 spacings]"},
+     "hedgehog, grid-curved, voronoi, k-means, random: length of an arrow (the longest) "
+     "in sides of its fair share, the root of area over --icons, in 3D the cube root of "
+     "volume [0: 1, on a grid in 2D 0.92 spacings]"},
     {"lengths", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(lengths), 0, 0, false, false,
      lengths_words,
      "on a grid, `equal` lengths, or lengths in proportion to the `speed` [equal]"},
@@ -141,7 +141,9 @@ const option_entry option_table[] = {
      false, NULL,
      "discrete: differences along the flow count K times less than across it [2]"},
     {"nodes", 0, "N", COMMAND_RIVAL, OPTION_WHOLE, AT(nodes), 3, 16385, false, false,
-     NULL, "nodes along the longest side of the raster whose cells are clustered [257]"},
+     NULL,
+     "nodes along the longest side of the raster whose cells are clustered, or are seeds "
+     "[257, in 3D 49]"},
 
     {"vars", 0, "U,V[,W]", READERS, OPTION_TEXT, AT(vars), 0, 0, false, false, NULL,
      "the two or three variables, or one vector variable [found by their standard or "
@@ -270,7 +272,7 @@ const option_entry option_table[] = {
     {"formats", 0, "LIST", COMMAND_RUN, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
      "picture formats, of svg, png and pdf [svg,png; in 3D png]"},
     {"formats", 0, "LIST", COMMAND_RIVAL, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
-     "picture formats, of svg, png and pdf [svg,png]"},
+     "picture formats, of svg, png and pdf [svg,png; in 3D png]"},
     /* 14400 points are the largest page that PDF readers promise to show. */
     {"width", 0, "POINTS", PICTURES, OPTION_NUMBER, AT(width), 36, 14400, false, false,
      NULL, "width of the picture in points of 1/72 inch [480]"},
@@ -284,8 +286,7 @@ const option_entry option_table[] = {
      "in 3D: show the clusters' surfaces round the arrows, transparent; in .vtp and "
      ".glb, "
      "too"},
-    {"view", 0, "AZ,EL", COMMAND_RUN | COMMAND_DRAW, OPTION_VIEW, 0, 0, 0, false, false,
-     NULL,
+    {"view", 0, "AZ,EL", PICTURES, OPTION_VIEW, 0, 0, 0, false, false, NULL,
      "in 3D: where the viewer stands, in degrees counter-clockwise from the front (the "
      "side of least y) and above the horizon; run takes several, a picture each [30,22]"},
     {"palette", 0, "NAME", PICTURES, OPTION_PALETTE, AT(palette), 0, 0, false, false,

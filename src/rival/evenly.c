@@ -131,12 +131,13 @@ static fg_status place_all(seeding *work)
   return status;
 }
 
+/* In 3D lines end at periodic borders: cut there, each would give many arrows. */
 fg_status fg__evenly_place(fg__lines *out, fg_context *context, const fg__domain *domain,
                            double separation)
 {
   seeding work = {0};
   fg_status status = fg__placing_start(&work.placing, context, domain, out, separation,
-                                       FG__EVENLY_TEST, true);
+                                       FG__EVENLY_TEST, domain->dimension == 2);
   if (status == FG_STATUS_OK)
     status = place_all(&work);
   fg__placing_end(&work.placing);

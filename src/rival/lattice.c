@@ -3,8 +3,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A grid looks regular while one spacing is at most this many of the other. */
-static const double SKEWEST = 1.25;
+/* A grid looks regular while one spacing is at most this many of the other; in 3D, where
+ * fewer numbers of points can be had, a little less regular ones are taken. */
+static const double SKEWEST = 1.25, SKEWEST_IN_SPACE = 1.4;
 
 /* Numbers of points in the box that are looked at, in what the domain's share of the box
  * lets one expect; where masks are odd, the wider ranges. */
@@ -91,7 +92,7 @@ static bool is_skew(const search *wanted, const fg__lattice *tried)
   if (wanted->domain->dimension == 2 || tried->size[y] == 1 || tried->size[z] == 1)
     return false;
   double a = tried->spacing[y], b = tried->spacing[z];
-  return a > SKEWEST * b || b > SKEWEST * a;
+  return a > SKEWEST_IN_SPACE * b || b > SKEWEST_IN_SPACE * a;
 }
 
 /* Tries a grid, unless its spacings differ too much. */
@@ -121,8 +122,9 @@ static fg_status search_axis(const search *wanted, int turn, int size[3], double
     /* what makes this spacing that of the ruling axis */
     double square = size[ruling] * wanted->box[axis] / wanted->box[ruling];
     double least = turn + 1 == dimension ? ceil(wanted->least / before) : 1;
-    last = (int)fmin(fmax(square * SKEWEST, 1), wanted->most / before);
-    first = (int)fmax(fmax(ceil(square / SKEWEST), 1), least);
+    double skewest = dimension == 2 ? SKEWEST : SKEWEST_IN_SPACE;
+    last = (int)fmin(fmax(square * skewest, 1), wanted->most / before);
+    first = (int)fmax(fmax(ceil(square / skewest), 1), least);
   }
   fg_status status = FG_STATUS_OK;
   for (int n = first;

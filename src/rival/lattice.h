@@ -11,9 +11,9 @@ typedef struct fg__lattice {
   int inside; /* points where the flow has a direction */
 } fg__lattice;
 
-/* Finds the columns, rows and layers with spacings within a quarter of each other that
- * come nearest to the number; of two as near the fewer. Where none such has any point in
- * the domain, the finest tried. STOPPED. */
+/* Finds the columns, rows and layers with spacings within a quarter of each other (in 3D
+ * two fifths) that come nearest to the number; of two as near the fewer. Where none such
+ * has any point in the domain, the finest tried. STOPPED. */
 fg_status fg__lattice_choose(fg__lattice *out, fg_context *context,
                              const fg__domain *domain, int count);
 

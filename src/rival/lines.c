@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points of a line, in separations: distances between lines are then known to a
- * five-hundredth. */
-static const double POINT_SPACING = 0.0625;
+/* Points of a line, in separations, in 2D and 3D: distances of half a separation are then
+ * known to a five-hundredth and a hundredth. */
+static const double POINT_SPACING = 0.0625, POINT_SPACING_IN_SPACE = 0.125;
 
 /* A line is near itself only beyond so many test distances along it: on a circle as wide
  * as that, half of the way round is pi / 2 of it. */
@@ -62,7 +62,8 @@ static fg_status find_points(fg__placing *placing)
 {
   const fg__line *line = &placing->line;
   fg__lines_points *points = &placing->points;
-  points->step = POINT_SPACING * placing->lines->separation;
+  points->step = placing->lines->separation *
+                 (line->dimension == 2 ? POINT_SPACING : POINT_SPACING_IN_SPACE);
   points->seed = (int)floor(line->start / points->step);
   double length = fg__line_length(line);
   points->count = points->seed + 1 + (int)floor((length - line->start) / points->step);

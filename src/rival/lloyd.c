@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rounds end when no centre has moved by this, in fair-share lengths: far below a cell of
+/* Rounds end when no centre has moved by this, in fair-share lengths: less than a cell of
  * the raster; or after so many, when few move. */
-static const double STILL = 1e-3;
-enum { MOST_ROUNDS = 100 };
+static const double STILL = 5e-3;
+enum { MOST_ROUNDS = 60 };
 
 /* A cell with what it is sorted by. */
 typedef struct sorted_cell {

@@ -25,5 +25,6 @@ fg_status fg__rival_streamlines(fg_icons *icons, const fg_rival *rival, int coun
 fg_status fg__rival_voronoi(fg_icons *icons, const fg_rival *rival, int count);
 fg_status fg__rival_k_means(fg_icons *icons, const fg_rival *rival, int count);
 fg_status fg__rival_farthest(fg_icons *icons, const fg_rival *rival, int count);
+fg_status fg__rival_random(fg_icons *icons, const fg_rival *rival, int count);
 
 #endif

@@ -7,8 +7,19 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Length of the longest arrow in spacings: a gap is left between head and next tail. */
-static const double LONGEST = 0.92;
+/* Length of the longest arrow: in 2D in spacings, so that a gap is left between a head
+ * and the next tail; in 3D, where arrows in a row are seldom seen one behind the other,
+ * in fair shares. */
+static const double LONGEST = 0.92, LONGEST_IN_SPACE = 1;
+
+static double longest_arrow(const fg_rival *rival, const fg__lattice *lattice, int count)
+{
+  const fg__domain *domain = &rival->domain;
+  if (domain->dimension == 2 && !(rival->options.length > 0))
+    return LONGEST * fg__lattice_spacing(lattice, domain);
+  double shares = rival->options.length > 0 ? rival->options.length : LONGEST_IN_SPACE;
+  return shares * fg__domain_fair_share(domain, count);
+}
 
 static double largest_speed(const fg__lattice *lattice, const fg__domain *domain)
 {
@@ -52,9 +63,7 @@ static fg_status draw_grid(fg_icons *icons, const fg_rival *rival, int count,
   fg_status status = fg__lattice_choose(&lattice, rival->context, domain, count);
   if (status != FG_STATUS_OK)
     return status;
-  double longest = rival->options.length > 0
-                       ? rival->options.length * fg__domain_fair_share(domain, count)
-                       : LONGEST * fg__lattice_spacing(&lattice, domain);
+  double longest = longest_arrow(rival, &lattice, count);
   double fastest = largest_speed(&lattice, domain);
   int number = 0, dropped = 0;
   for (int i = 0; i < fg__lattice_count(&lattice) && status == FG_STATUS_OK; i++) {

@@ -58,26 +58,34 @@ void fg__seed_bins_clear(fg__seed_bins *bins)
 typedef struct query {
   const fg__seed_bins *bins;
   const fg__seed *from;
-  double weight;
+  double place_weight, turn_weight;
   int bin[3];
   int best;
   double cost;
 } query;
 
+/* Both places lie in the box, so that one period at most is too much. */
+static double shortest(double way, double period)
+{
+  if (way > period / 2)
+    return way - period;
+  return way < -period / 2 ? way + period : way;
+}
+
 static double cost_of(const query *asked, int seed)
 {
   const fg__seed *to = &asked->bins->seed[seed], *from = asked->from;
-  double way[3], place = 0, turn = 0;
-  for (int k = 0; k < 3; k++)
-    way[k] = to->position[k] - from->position[k];
-  fg__domain_shortest(asked->bins->domain, way);
+  const double *period = asked->bins->domain->period;
+  double place = 0, turn = 0;
   for (int k = 0; k < 3; k++) {
+    double way = to->position[k] - from->position[k];
     double d = to->direction[k] - from->direction[k];
-    place += way[k] * way[k];
+    if (period[k] > 0)
+      way = shortest(way, period[k]);
+    place += way * way;
     turn += d * d;
   }
-  double lambda = asked->bins->lambda;
-  return place / (lambda * lambda) + asked->weight * asked->weight * turn;
+  return place * asked->place_weight + turn * asked->turn_weight;
 }
 
 static void look_into(query *asked, int bin)
@@ -146,7 +154,11 @@ static double least_way(const query *asked, int ring)
 int fg__seed_bins_nearest(const fg__seed_bins *bins, const fg__seed *from, double weight,
                           int guess, double *cost)
 {
-  query asked = {.bins = bins, .from = from, .weight = weight, .best = guess};
+  query asked = {.bins = bins,
+                 .from = from,
+                 .place_weight = 1 / (bins->lambda * bins->lambda),
+                 .turn_weight = weight * weight,
+                 .best = guess};
   for (int k = 0; k < bins->domain->dimension; k++)
     asked.bin[k] = bin_of(bins, from->position, k);
   asked.cost = cost_of(&asked, guess);
