@@ -8,8 +8,9 @@ const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
 const char *const mesh_words[] = {"auto", "adaptive", "uniform", NULL};
 const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
-static const char *const method_words[] = {"hedgehog", "grid-curved", "discrete",
-                                           "top-down", "streamlines", NULL};
+static const char *const method_words[] = {
+    "hedgehog", "grid-curved", "discrete", "top-down", "streamlines",
+    "voronoi",  "k-means",     "farthest", "random",   NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
 static const char *const kind_words[] = {"lic",     "spots",     "clusters",
                                          "stripes", "diffusion", NULL};
@@ -84,7 +85,13 @@ const cli_command command_table[] = {
      "streamlines through them), `discrete` (clusters merged from the bottom up, Telea "
      "and "
      "van Wijk 1999), `top-down` (clusters bisected, Heckel et al. 1999), `streamlines` "
-     "(evenly spaced, Jobard and Lefer 1997). INPUT is as in flowgrain run, in two "
+     "(evenly spaced, Jobard and Lefer 1997), `voronoi` (pieces of streamlines through "
+     "the centres of a centroidal Voronoi tessellation), `k-means` (the same, one for "
+     "each "
+     "cluster of places and directions), `farthest` (long streamlines, each from the "
+     "place "
+     "farthest from those before, Mebarki et al. 2005). INPUT is as in flowgrain run, in "
+     "two "
      "dimensions.",
      true, command_rival, NULL},
     {COMMAND_SCORE, "score", "INPUT", "INPUT ICONS.geojson... [options]",
@@ -127,10 +134,17 @@ const option_entry option_table[] = {
      NULL, "arrows to write, .geojson; their pictures are written beside"},
 
     {"method", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(method), 0, 0, false, false,
-     method_words, "hedgehog, grid-curved, discrete, top-down or streamlines [hedgehog]"},
+     method_words,
+     "hedgehog, grid-curved, discrete, top-down, streamlines, voronoi, k-means, farthest "
+     "or random [hedgehog]"},
     {"icons", 0, "LIST", COMMAND_RIVAL, OPTION_COUNTS, 0, 1, 100000, false, false, NULL,
      "numbers of arrows to draw, descending, as 150,60,25; a grid comes as near as its "
      "shape allows [60]"},
+    {"length", 0, "L", COMMAND_RIVAL, OPTION_NUMBER, AT(length), 0, 1000, false, false,
+     NULL,
+     "hedgehog, grid-curved, voronoi, k-means, random: length of an arrow (the longest) "
+     "in sides of its fair share, the root of area over --icons, in 3D the cube root of "
+     "volume [0: 1, on a grid in 2D 0.92 spacings]"},
     {"lengths", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, AT(lengths), 0, 0, false, false,
      lengths_words,
      "on a grid, `equal` lengths, or lengths in proportion to the `speed` [equal]"},
@@ -143,7 +157,9 @@ const option_entry option_table[] = {
      false, NULL,
      "discrete: differences along the flow count K times less than across it [2]"},
     {"nodes", 0, "N", COMMAND_RIVAL, OPTION_WHOLE, AT(nodes), 3, 16385, false, false,
-     NULL, "nodes along the longest side of the raster whose cells are clustered [257]"},
+     NULL,
+     "nodes along the longest side of the raster whose cells are clustered, or are seeds "
+     "[257, in 3D 49]"},
 
     {"class", 0, "KIND", COMMAND_SCORE, OPTION_CHOICE, AT(length_class), 0, 0, false,
      false, class_words,
@@ -300,7 +316,7 @@ const option_entry option_table[] = {
     {"formats", 0, "LIST", COMMAND_RUN, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
      "picture formats, of svg, png and pdf [svg,png; in 3D png]"},
     {"formats", 0, "LIST", COMMAND_RIVAL, OPTION_FORMATS, 0, 0, 0, false, false, NULL,
-     "picture formats, of svg, png and pdf [svg,png]"},
+     "picture formats, of svg, png and pdf [svg,png; in 3D png]"},
     /* 14400 points are the largest page that PDF readers promise to show. */
     {"width", 0, "POINTS", PICTURES, OPTION_NUMBER, AT(width), 36, 14400, false, false,
      NULL, "width of the picture in points of 1/72 inch [480]"},
@@ -314,8 +330,7 @@ const option_entry option_table[] = {
      "in 3D: show the clusters' surfaces round the arrows, transparent; in .vtp and "
      ".glb, "
      "too"},
-    {"view", 0, "AZ,EL", COMMAND_RUN | COMMAND_DRAW, OPTION_VIEW, 0, 0, 0, false, false,
-     NULL,
+    {"view", 0, "AZ,EL", PICTURES, OPTION_VIEW, 0, 0, 0, false, false, NULL,
      "in 3D: where the viewer stands, in degrees counter-clockwise from the front (the "
      "side of least y) and above the horizon; run takes several, a picture each [30,22]"},
     {"palette", 0, "NAME", PICTURES, OPTION_PALETTE, AT(palette), 0, 0, false, false,

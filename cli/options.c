@@ -200,7 +200,7 @@ static bool set_palette(cli_settings *out, const cli_command *command,
 static bool set_view(cli_settings *out, const cli_command *command,
                      const option_entry *option, const char *text)
 {
-  int most = command->bit == COMMAND_DRAW ? 1 : MAX_VIEWS;
+  int most = command->bit == COMMAND_RUN ? MAX_VIEWS : 1;
   char azimuth[32], elevation[32];
   double view[2];
   const char *rest = next_item(azimuth, sizeof azimuth, text);

@@ -90,27 +90,70 @@ static int write_clusters(rival_work *work, int count, const fg_density *cluster
   return status ? complain_of_result(work, file, status) : EXIT_DONE;
 }
 
-static int write_pictures(rival_work *work, int count, const fg_icons *icons,
-                          const fg_density *clusters)
+/* Files of one count beside its icons: pictures, in 3D also solids. */
+typedef struct rival_files {
+  rival_work *work;
+  int count;
+  const fg_icons *icons;
+  const fg_density *clusters;
+} rival_files;
+
+static int write_flat(const rival_files *files, const char *end)
 {
+  rival_work *work = files->work;
   fg_picture_options options = settings_picture(work->settings);
   options.speed_min = work->speeds[0];
   options.speed_max = work->speeds[1];
-  unsigned formats = work->settings->formats;
-  if (!formats)
-    formats = FORMAT_SVG | FORMAT_PNG;
+  const result_file *file = new_file(work, files->count, end);
+  if (!file)
+    return EXIT_FAILED;
+  fg_status status = fg_picture_write(work->context, file->partial, work->field,
+                                      files->clusters, files->icons, &options);
+  return status ? complain_of_result(work, file, status) : EXIT_DONE;
+}
+
+static int write_solid(const rival_files *files, const char *end)
+{
+  rival_work *work = files->work;
+  fg_solid_options options = settings_solid(work->settings, 0);
+  options.speed_min = work->speeds[0];
+  options.speed_max = work->speeds[1];
+  const result_file *file = new_file(work, files->count, end);
+  if (!file)
+    return EXIT_FAILED;
+  fg_status status =
+      fg_solid_write(work->context, file->partial, work->field, files->icons, &options);
+  return status ? complain_of_result(work, file, status) : EXIT_DONE;
+}
+
+static bool is_solid(const rival_work *work)
+{
+  return fg_field_contents(work->field)->dimension == 3;
+}
+
+/* Formats that are asked for, or the usual ones; in 3D there may be none. */
+static unsigned find_formats(const rival_work *work)
+{
+  if (work->settings->formats)
+    return work->settings->formats;
+  if (!is_solid(work))
+    return FORMAT_SVG | FORMAT_PNG;
+  return fg_solid_can_draw() ? FORMAT_PNG : 0;
+}
+
+static int write_pictures(const rival_files *files)
+{
+  bool solid = is_solid(files->work);
+  unsigned formats = find_formats(files->work);
   int code = EXIT_DONE;
-  for (int kind = 0; !code && kind < FORMAT_KINDS; ++kind) {
-    if (!(formats & (1U << kind)))
-      continue;
-    const result_file *file = new_file(work, count, format_words[kind]);
-    if (!file)
-      return EXIT_FAILED;
-    fg_status status = fg_picture_write(work->context, file->partial, work->field,
-                                        clusters, icons, &options);
-    if (status)
-      code = complain_of_result(work, file, status);
-  }
+  if (solid)
+    code = write_solid(files, "vtp");
+  if (!code && solid)
+    code = write_solid(files, "glb");
+  for (int kind = 0; !code && kind < FORMAT_KINDS; ++kind)
+    if (formats & (1U << kind))
+      code = solid ? write_solid(files, format_words[kind])
+                   : write_flat(files, format_words[kind]);
   return code;
 }
 
@@ -143,7 +186,7 @@ static int draw(rival_work *work, int count)
   if (!code && work->settings->save_field)
     code = write_clusters(work, count, clusters);
   if (!code)
-    code = write_pictures(work, count, icons, clusters);
+    code = write_pictures(&(rival_files){work, count, icons, clusters});
   if (!code)
     printf("%4d icons  %s\n", fg_icons_count(icons), path);
   fg_density_destroy(clusters);
@@ -164,6 +207,14 @@ static int publish(rival_work *work, int code)
   return code;
 }
 
+/* Whether all arrows of a method are meant to be equally long. */
+static bool has_length(fg_rival_method method)
+{
+  return method == FG_RIVAL_HEDGEHOG || method == FG_RIVAL_GRID_CURVED ||
+         method == FG_RIVAL_VORONOI || method == FG_RIVAL_K_MEANS ||
+         method == FG_RIVAL_RANDOM;
+}
+
 static int check_method(const cli_settings *said)
 {
   fg_rival_method method = (fg_rival_method)said->method;
@@ -172,6 +223,7 @@ static int check_method(const cli_settings *said)
   const unfit_option of_discrete[] = {{"position-weight", said->position_weight >= 0.0},
                                       {"elongation", said->elongation > 0.0}};
   const unfit_option of_grids = {"lengths speed", said->lengths != 0};
+  const unfit_option of_pieces = {"length", said->length > 0.0};
   int code = EXIT_DONE;
   if (!fg_rival_divides(method))
     code = refuse_unfit("rival", of_clusters, sizeof of_clusters / sizeof of_clusters[0],
@@ -182,6 +234,10 @@ static int check_method(const cli_settings *said)
   if (!code && method != FG_RIVAL_HEDGEHOG && method != FG_RIVAL_GRID_CURVED)
     code =
         refuse_unfit("rival", &of_grids, 1, "only with --method hedgehog or grid-curved");
+  if (!code && !has_length(method))
+    code = refuse_unfit("rival", &of_pieces, 1,
+                        "only with --method hedgehog, grid-curved, voronoi, k-means or "
+                        "random");
   return code;
 }
 
@@ -197,11 +253,17 @@ static int prepare(rival_work *work)
   fg_rival_options options = {.method = (fg_rival_method)said->method,
                               .nodes = said->nodes,
                               .length_by_speed = said->lengths != 0,
+                              .length = said->length,
                               .direction_only = said->position_weight == 0.0,
                               .position_weight = fmax(said->position_weight, 0.0),
                               .elongation = said->elongation};
-  if (!status)
+  if (!status) {
+    int dimension = fg_field_contents(work->field)->dimension;
+    int code = refuse_other_dimension("rival", said, dimension, said->operand);
+    if (code)
+      return code;
     status = fg_rival_create(&work->rival, work->context, work->field, &options);
+  }
   return status ? complain_of(work->context, status, said->operand) : EXIT_DONE;
 }
 

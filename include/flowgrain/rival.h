@@ -14,14 +14,23 @@ typedef enum fg_rival_method {
   FG_RIVAL_GRID_CURVED,  /* pieces of streamlines through the points of a grid */
   FG_RIVAL_DISCRETE,     /* clusters merged from the bottom up (Telea, van Wijk 1999) */
   FG_RIVAL_TOP_DOWN,     /* clusters bisected from the top down (Heckel et al. 1999) */
-  FG_RIVAL_STREAMLINES   /* evenly spaced (Jobard, Lefer 1997) */
+  FG_RIVAL_STREAMLINES,  /* evenly spaced (Jobard, Lefer 1997) */
+  FG_RIVAL_VORONOI,      /* pieces of streamlines through centroidal Voronoi seeds */
+  FG_RIVAL_K_MEANS,      /* the same, one a cluster of place and direction */
+  FG_RIVAL_FARTHEST, /* long streamlines from the farthest place each (Mebarki, Alliez,
+                        Devillers 2005) */
+  FG_RIVAL_RANDOM    /* pieces of streamlines through random points, always the same */
 } fg_rival_method;
 
 typedef struct fg_rival_options {
   fg_rival_method method; /* [hedgehog] */
-  int nodes; /* of the raster that the method works on, along the longest side [257] */
-  bool length_by_speed;   /* hedgehog, grid: as long as |v| of the largest [equal lengths]
-                           */
+  int nodes; /* of the raster that the method works on, along the longest side [257, in 3D
+                49] */
+  bool length_by_speed; /* hedgehog, grid: as long as |v| of the largest [equal lengths]
+                         */
+  double length; /* of an arrow (the longest), in fair-share lengths sqrt(area / count),
+                    in 3D cbrt(volume / count); not of discrete, top-down, streamlines,
+                    farthest [what the method has] */
   double position_weight; /* discrete: what position counts beside direction, in (0, 1]
                              [0.95] */
   bool direction_only;    /* discrete: position does not count at all */
@@ -31,14 +40,16 @@ typedef struct fg_rival_options {
 
 typedef struct fg_rival fg_rival;
 
-/* Prepares a method for a field, which must outlive it. UNSUPPORTED (3D), ARGUMENT
- * (options out of range), MEMORY, STOPPED. */
+/* Prepares a method for a field, which must outlive it. UNSUPPORTED (discrete and
+ * top-down in 3D), ARGUMENT (options out of range), MEMORY, STOPPED. */
 FG_API fg_status fg_rival_create(fg_rival **out, fg_context *context,
                                  const fg_field *field, const fg_rival_options *options);
 FG_API void fg_rival_destroy(fg_rival *rival);
 
 /* Makes the picture of about `count` arrows, as often as wanted: a grid has as near to as
- * many points as its shape allows; clusters are as many, and nested from count to count.
+ * many points as its shape allows, and evenly spaced streamlines as their spacing;
+ * discrete and top-down clusters are as many, and nested from count to count; other
+ * methods give exactly `count` where there is room. No centreline leaves the domain.
  * Where the flow stands still there is none; fg_icons_dropped counts them. ARGUMENT
  * (count below 1), MEMORY, STOPPED. */
 FG_API fg_status fg_rival_icons(fg_icons **out, fg_rival *rival, int count);

@@ -3,29 +3,42 @@
 #include "base/memory.h"
 #include "icon/arrow.h"
 #include "icon/measure.h"
+#include "solid/measure.h"
+#include "solid/shaft.h"
+#include "solid/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A shorter arrow is a speck, in cells. */
 static const double SHORTEST = 1.0;
 
+/* What straight pieces of a bent arrow are shorter by, at most, for which it is no speck.
+ */
+static const double ROUNDING = 0.01;
+
 /* Where a straight arrow meets a mask is found by steps of this share of a cell. */
 static const double CUT_STEP = 0.125;
 
-static double cell_size(const fg__domain *domain)
+/* The point so far from another along a direction. */
+static void go(const fg__domain *domain, const double from[], double way,
+               const double ahead[3], double point[3])
 {
-  return fmin(domain->spacing[0], domain->spacing[1]);
+  point[2] = 0;
+  for (int k = 0; k < domain->dimension; k++)
+    point[k] = from[k] + way * ahead[k];
 }
 
-/* How far one can go straight on inside the domain, at most `reach`. */
-static double free_way(const fg__domain *domain, const double from[2],
-                       const double direction[2], double reach)
+/* How far one can go straight on inside the domain, at most `reach`; sign: with the
+ * direction or against it. */
+static double free_way(const fg__domain *domain, const double from[],
+                       const double ahead[3], double sign, double reach)
 {
-  double step = CUT_STEP * cell_size(domain), way = 0, velocity[3];
+  double step = CUT_STEP * fg__domain_cell_size(domain), way = 0, velocity[3], point[3];
   while (way < reach) {
     double next = fmin(way + step, reach);
-    double point[2] = {from[0] + next * direction[0], from[1] + next * direction[1]};
+    go(domain, from, sign * next, ahead, point);
     if (!fg_field_velocity(domain->field, point, velocity))
       break;
     way = next;
@@ -34,39 +47,37 @@ static double free_way(const fg__domain *domain, const double from[2],
 }
 
 /* Sets what follows from the points: widths, center (nearest to `middle`), speed. */
-static void finish(fg_icon *icon, const fg__domain *domain, const double middle[2],
+static void finish(fg_icon *icon, const fg__domain *domain, const double middle[],
                    double width)
 {
-  fg__icon_set_width(icon, width);
-  fg__icon_set_center(icon, middle);
-  icon->speed = fg__icon_mean_speed(domain->field, icon);
+  if (domain->dimension == 2) {
+    fg__icon_set_width(icon, width);
+    fg__icon_set_center(icon, middle);
+    icon->speed = fg__icon_mean_speed(domain->field, icon);
+  } else {
+    fg__solid_set_width(icon, width);
+    fg__solid_set_center(icon, middle);
+    icon->speed = fg__solid_mean_speed(domain->field, icon);
+  }
 }
 
 fg_status fg__rival_straight(fg_icon *icon, fg_context *context, const fg__domain *domain,
-                             const double middle[2], double length)
+                             const double middle[], double length)
 {
   enum { POINTS = 9 }; /* so that the mean speed is one */
-  double tangent[3] = {0};
+  double ahead[3];
   icon->points = NULL;
-  if (!fg_field_tangent(domain->field, middle, tangent))
+  if (!fg__domain_flow(domain, middle, ahead))
     return FG_STATUS_OK;
-  double size = hypot(tangent[0], tangent[1]);
-  if (!(size > 0))
-    return FG_STATUS_OK;
-  double ahead[2] = {tangent[0] / size, tangent[1] / size};
-  double back[2] = {-ahead[0], -ahead[1]};
-  double tail = free_way(domain, middle, back, length / 2);
-  double tip = free_way(domain, middle, ahead, length / 2);
-  if (tail + tip < SHORTEST * cell_size(domain))
+  double tail = free_way(domain, middle, ahead, -1, length / 2);
+  double tip = free_way(domain, middle, ahead, 1, length / 2);
+  if (tail + tip < SHORTEST * fg__domain_cell_size(domain))
     return FG_STATUS_OK;
   double(*points)[3] = fg__allocate(POINTS, sizeof *points);
   if (!points)
     return fg__fail_memory(context, "an arrow", POINTS * sizeof *points);
-  for (int i = 0; i < POINTS; i++) {
-    double way = (tail + tip) * i / (POINTS - 1) - tail;
-    for (int k = 0; k < 2; k++)
-      points[i][k] = middle[k] + way * ahead[k];
-  }
+  for (int i = 0; i < POINTS; i++)
+    go(domain, middle, (tail + tip) * i / (POINTS - 1) - tail, ahead, points[i]);
   icon->points = (const double(*)[3])points;
   icon->point_count = POINTS;
   icon->kind = FG_ICON_ARROW;
@@ -76,12 +87,12 @@ fg_status fg__rival_straight(fg_icon *icon, fg_context *context, const fg__domai
 
 /* Moves points by whole periods so that `middle`, which goes with them, lies in the box.
  */
-static void move_into_box(double (*points)[3], int count, double middle[2],
+static void move_into_box(double (*points)[3], int count, double middle[3],
                           const fg__domain *domain)
 {
-  int turns[2];
+  int turns[3];
   fg__domain_turns(domain, middle, turns);
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < domain->dimension; k++) {
     double way = turns[k] * domain->period[k];
     middle[k] -= way;
     for (int i = 0; i < count; i++)
@@ -89,50 +100,87 @@ static void move_into_box(double (*points)[3], int count, double middle[2],
   }
 }
 
-fg_status fg__rival_piece(fg_icon *icon, fg_context *context, const fg__domain *domain,
-                          const fg__streamline *line, double from, double to,
-                          double width)
+/* Whether a piece of a polyline lies in the domain: its ends and its middle do. */
+static bool is_inside(const fg__domain *domain, const double p[3], const double q[3])
 {
+  double tangent[3], middle[3];
+  for (int k = 0; k < 3; k++)
+    middle[k] = (p[k] + q[k]) / 2;
+  return fg_field_tangent(domain->field, p, tangent) &&
+         fg_field_tangent(domain->field, middle, tangent) &&
+         fg_field_tangent(domain->field, q, tangent);
+}
+
+/* Keeps the longest run of points that nowhere leaves the domain: a tracer's step can
+ * cross the corner of a mask. Returns its length. */
+static double keep_inside(double (*points)[3], int *count, const fg__domain *domain)
+{
+  int first = 0, kept = 0, begin = 0;
+  double longest = 0, length = 0;
+  for (int i = 1; i < *count; i++) {
+    if (!is_inside(domain, points[i - 1], points[i])) {
+      begin = i;
+      length = 0;
+      continue;
+    }
+    length += fg__apart(points[i], points[i - 1]);
+    if (length > longest) {
+      longest = length;
+      first = begin;
+      kept = i - begin + 1;
+    }
+  }
+  memmove(points, points + first, (size_t)kept * sizeof *points);
+  *count = kept;
+  return longest;
+}
+
+fg_status fg__rival_piece(fg_icon *icon, fg_context *context, const fg__domain *domain,
+                          const fg__line *line, double from, double to, double width)
+{
+  double size = fg__domain_cell_size(domain);
   icon->points = NULL;
-  if (!(to - from >= SHORTEST * cell_size(domain)))
+  if (!(to - from >= SHORTEST * size))
     return FG_STATUS_OK;
-  fg__arrow arrow = {.tail = from, .tip = to};
   double(*points)[3] = NULL;
-  fg_status status = fg__arrow_centerline(&points, &icon->point_count, context, line,
-                                          &arrow, cell_size(domain));
+  fg_status status =
+      fg__line_points(&points, &icon->point_count, context, line, from, to, size);
   icon->points = (const double(*)[3])points;
   if (status != FG_STATUS_OK || !points)
     return status;
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;
-  for (int i = 0; i < line->count; i++)
-    if (line->node[i].s >= from && line->node[i].s <= to) {
-      lowest = fmin(lowest, line->node[i].turning);
-      highest = fmax(highest, line->node[i].turning);
-    }
-  icon->kind = fg__icon_kind_of(highest > lowest ? highest - lowest : 0);
-  double middle[2], tangent[2];
-  fg__streamline_at(line, (from + to) / 2, NULL, middle, tangent);
+  if (keep_inside(points, &icon->point_count, domain) < (SHORTEST - ROUNDING) * size) {
+    fg__rival_free_points(icon);
+    return FG_STATUS_OK;
+  }
+  icon->kind = fg__icon_kind_of(fg__line_turning(line, from, to));
+  double middle[3], tangent[3];
+  fg__line_at(line, (from + to) / 2, NULL, middle, tangent);
   move_into_box(points, icon->point_count, middle, domain);
   finish(icon, domain, middle, width);
   return FG_STATUS_OK;
 }
 
 fg_status fg__rival_curved(fg_icon *icon, fg_context *context, const fg__domain *domain,
-                           const double middle[2], double length, fg__streamline *line)
+                           const double middle[], double length, fg__line *line)
 {
-  fg__streamline_limits limits = {.step = domain->trace_step,
-                                  .length = length / 2,
-                                  .turning = FG__LARGEST_TURNING / 2};
-  fg__window room =
-      fg__domain_room(domain, middle, FG__HEAD_WIDTH / 2 * FG__RIVAL_WIDTH * length);
+  bool flat = domain->dimension == 2;
+  fg__line_limits limits = {.length = length / 2,
+                            .turning =
+                                (flat ? FG__LARGEST_TURNING : FG__SOLID_TURNING) / 2};
+  double head = flat ? FG__HEAD_WIDTH : FG__SOLID_HEAD_WIDTH;
+  fg__extent room = fg__domain_room(domain, middle, head / 2 * FG__RIVAL_WIDTH * length);
   icon->points = NULL;
-  fg_status status =
-      fg__streamline_trace(line, context, domain->field, &room, middle, &limits);
+  fg_status status = fg__line_trace(line, context, domain, &room, middle, &limits);
   if (status != FG_STATUS_OK || line->count < 2)
     return status;
-  double start = line->node[line->start].s;
-  double from = fmax(start - length / 2, 0);
-  double to = fmin(start + length / 2, fg__streamline_length(line));
+  double from = fmax(line->start - length / 2, 0);
+  double to = fmin(line->start + length / 2, fg__line_length(line));
   return fg__rival_piece(icon, context, domain, line, from, to,
                          FG__RIVAL_WIDTH * (to - from));
+}
+
+void fg__rival_free_points(fg_icon *icon)
+{
+  free((void *)(uintptr_t)icon->points);
+  icon->points = NULL;
 }

@@ -61,7 +61,7 @@ double fg__part_error(const fg__domain *domain, const int *cell, int count)
   double mean[2] = {0, 0}, sum = 0;
   for (int i = 0; i < count; i++)
     for (int k = 0; k < 2; k++)
-      mean[k] += domain->direction[cell[i]][k] / count;
+      mean[k] += fg__domain_direction(domain, cell[i])[k] / count;
   double length = sqrt(count * domain->spacing[0] * domain->spacing[1]);
   int lines = count < LINES ? count : LINES;
   for (int i = 0; i < lines; i++) {

@@ -71,13 +71,13 @@ static void lines_are_cut_there(void **state)
     double length = length_inside(context, FG_RIVAL_STREAMLINES, slant, count, 1.3);
     fg_field *field = field_of(context, slant, true);
     fg__domain domain;
-    fg__evenly evenly = {0};
+    fg__lines evenly = {0};
     double before = 0;
     int across = 0;
     assert_int_equal(fg__domain_create(&domain, context, field, 121), FG_STATUS_OK);
     assert_int_equal(fg__evenly_search(&evenly, context, &domain, count), FG_STATUS_OK);
     for (int n = 0; n < evenly.count; n++) {
-      const fg__evenly_line *line = &evenly.line[n];
+      const fg__lines_part *line = &evenly.part[n];
       double ends[2] = {line->seed[0] + line->from * cos(SLANT),
                         line->seed[0] + line->to * cos(SLANT)};
       double turns[2];
@@ -89,7 +89,7 @@ static void lines_are_cut_there(void **state)
     assert_true(across > 2);
     assert_true(length <= before * (1 + 1e-9));
     assert_true(length > before - across * evenly.separation);
-    fg__evenly_clear(&evenly);
+    fg__lines_clear(&evenly);
     fg__domain_clear(&domain);
     fg_field_destroy(field);
   }
@@ -114,7 +114,8 @@ static void clusters_are_parted(void **state)
     label[i] = from == '.' ? 0 : 1 + (from | 32) - 'a';
     wanted[i] = to == '.' ? 0 : to;
   }
-  fg__domain domain = {.cells = {WIDE, HIGH},
+  fg__domain domain = {.dimension = 2,
+                       .cells = {WIDE, HIGH, 1},
                        .spacing = {1, 1},
                        .period = {WIDE, 0},
                        .valid_count = WIDE * HIGH};

@@ -54,12 +54,6 @@ static void find_places(place *places, const fg__domain *domain,
   }
 }
 
-static void free_points(fg_icon *icon)
-{
-  free((void *)(uintptr_t)icon->points);
-  icon->points = NULL;
-}
-
 static double length_of(const fg_icon *icon)
 {
   return icon->points ? fg__icon_length(icon) : 0.0;
@@ -68,7 +62,7 @@ static double length_of(const fg_icon *icon)
 /* The arrow through a part's centre, or a longer one beside it. */
 static fg_status make_icon(fg_icon *icon, fg_context *context, const fg__domain *domain,
                            const fg__rival_parts *parts, int part, const double center[2],
-                           fg__streamline *line)
+                           fg__line *line)
 {
   static const int side[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   double area = parts->cells[part] * domain->spacing[0] * domain->spacing[1];
@@ -86,11 +80,11 @@ static fg_status make_icon(fg_icon *icon, fg_context *context, const fg__domain 
     fg_icon other = *icon;
     status = fg__rival_curved(&other, context, domain, beside, wanted, line);
     if (length_of(&other) > length) {
-      free_points(icon);
+      fg__rival_free_points(icon);
       *icon = other;
       length = length_of(icon);
     } else
-      free_points(&other);
+      fg__rival_free_points(&other);
   }
   return status;
 }
@@ -99,7 +93,7 @@ static fg_status draw_parts(fg_icons *icons, fg_context *context,
                             const fg__domain *domain, const fg__rival_parts *parts,
                             const place *places, int *drawn)
 {
-  fg__streamline line = {0};
+  fg__line line = {0};
   fg_status status = FG_STATUS_OK;
   int last = 0;
   for (int n = 0; n < parts->count && status == FG_STATUS_OK; n++) {
@@ -110,11 +104,11 @@ static fg_status draw_parts(fg_icons *icons, fg_context *context,
       *drawn += icon.cluster != last;
       last = icon.cluster;
     }
-    free_points(&icon);
+    fg__rival_free_points(&icon);
     if (status == FG_STATUS_OK)
       status = fg__check_stop(context);
   }
-  fg__streamline_clear(&line);
+  fg__line_clear(&line);
   return status;
 }
 

@@ -53,13 +53,14 @@ static double deviation(const bench *b, const int *label, int count)
   double(*sum)[3] = calloc((size_t)count + 1, sizeof *sum), total = 0;
   assert_non_null(sum);
   for (int i = 0; i < raster_count(b); i++) {
-    sum[label[i]][0] += b->domain.direction[i][0];
-    sum[label[i]][1] += b->domain.direction[i][1];
+    sum[label[i]][0] += fg__domain_direction(&b->domain, i)[0];
+    sum[label[i]][1] += fg__domain_direction(&b->domain, i)[1];
     sum[label[i]][2] += 1;
   }
   for (int i = 0; i < raster_count(b); i++)
     for (int k = 0; label[i] > 0 && k < 2; k++) {
-      double d = b->domain.direction[i][k] - sum[label[i]][k] / sum[label[i]][2];
+      double d =
+          fg__domain_direction(&b->domain, i)[k] - sum[label[i]][k] / sum[label[i]][2];
       total += d * d;
     }
   free(sum);

@@ -1,5 +1,6 @@
-/* The domain as the rivals see it: a raster of cells, each valid or masked, with the
- * direction of the flow in it. */
+/* The domain as the rivals see it: a raster of cells in 2D or 3D, each valid or masked,
+ * with the direction of the flow in it. In 2D the third axis has one cell, and points
+ * have z = 0 where they have a z. */
 #ifndef FG__RIVAL_DOMAIN_H
 #define FG__RIVAL_DOMAIN_H
 
@@ -8,46 +9,77 @@
 
 typedef struct fg__domain {
   const fg_field *field;
-  int cells[2];
-  double origin[2], spacing[2]; /* input coordinates, as all that follows */
-  double period[2];             /* 0: none */
+  int dimension; /* 2 or 3 */
+  int cells[3];
+  double origin[3], spacing[3]; /* input coordinates, as all that follows */
+  double period[3];             /* 0: none */
   unsigned char *valid;         /* a byte a cell: its centre has a velocity */
-  double (*direction)[2];       /* a unit vector a cell, zero where masked or still */
+  double *direction;            /* a unit vector a cell, zero where masked or still */
   int valid_count;
-  double area;       /* of the valid cells */
+  double area;       /* of the valid cells; volume in 3D */
   double trace_step; /* longest step of a streamline */
-  fg__window all;    /* positive everywhere, with periods to spare: masks end streamlines
-                        by themselves */
-  float all_level[4];
-  unsigned char all_active;
 } fg__domain;
 
+/* A box with sides along the axes. */
+typedef struct fg__extent {
+  double origin[3], side[3];
+} fg__extent;
+
 /* Lays cells over the field's box, as near to square as fills it: nodes - 1 along its
- * longest side. `out` must stay where it is. MEMORY. */
+ * longest side. MEMORY. */
 fg_status fg__domain_create(fg__domain *out, fg_context *context, const fg_field *field,
                             int nodes);
 void fg__domain_clear(fg__domain *domain);
 
+/* Where streamlines may lie when only masks and the field's own ends stop them: the box
+ * with periods to spare along periodic axes. */
+fg__extent fg__domain_all(const fg__domain *domain);
+
 /* The part of the box in which an arrow of this half width through `middle` may lie: it
  * keeps off periodic borders, since a map ends there, by that or half of the middle's own
- * way to them. Where an axis is open the field ends by itself. Positive all over; it
- * borrows from the domain. */
-fg__window fg__domain_room(const fg__domain *domain, const double middle[2],
+ * way to them. Where an axis is open the field ends by itself. */
+fg__extent fg__domain_room(const fg__domain *domain, const double middle[],
                            double half_width);
 
-/* Centre of a cell. */
-void fg__domain_center(const fg__domain *domain, int cell, double center[2]);
+static inline int fg__domain_cell_count(const fg__domain *domain)
+{
+  return domain->cells[0] * domain->cells[1] * domain->cells[2];
+}
+
+static inline const double *fg__domain_direction(const fg__domain *domain, int cell)
+{
+  return domain->direction + (size_t)cell * (size_t)domain->dimension;
+}
+
+/* Shortest side of a cell. */
+double fg__domain_cell_size(const fg__domain *domain);
+
+/* Side of the square (cube) that is the share of one of `count` arrows. */
+double fg__domain_fair_share(const fg__domain *domain, int count);
+
+/* Centre of a cell: dimension numbers. */
+void fg__domain_center(const fg__domain *domain, int cell, double center[]);
 
 /* The cell of a point, periods taken off; -1 outside the box. It may be masked. */
-int fg__domain_cell(const fg__domain *domain, const double point[2]);
+int fg__domain_cell(const fg__domain *domain, const double point[]);
 
-/* Whether the flow has a direction at a point. */
-bool fg__domain_moves(const fg__domain *domain, const double point[2]);
+/* Unit vector of the flow at a point; false where it has no direction. */
+bool fg__domain_flow(const fg__domain *domain, const double point[], double ahead[3]);
+
+/* Whether the flow has a direction at a point, or in a cell's centre. */
+bool fg__domain_moves(const fg__domain *domain, const double point[]);
+bool fg__domain_cell_moves(const fg__domain *domain, int cell);
+
+/* |v| at a point; 0 outside the domain. */
+double fg__domain_speed(const fg__domain *domain, const double point[]);
 
 /* How many periods a point lies from the box along each axis. */
-void fg__domain_turns(const fg__domain *domain, const double point[2], int turns[2]);
+void fg__domain_turns(const fg__domain *domain, const double point[], int turns[]);
+
+/* Takes those periods off. */
+void fg__domain_wrap(const fg__domain *domain, double point[]);
 
 /* The same difference of two points, by the shortest way round the periods. */
-void fg__domain_shortest(const fg__domain *domain, double difference[2]);
+void fg__domain_shortest(const fg__domain *domain, double difference[]);
 
 #endif

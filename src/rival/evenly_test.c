@@ -7,22 +7,21 @@
 typedef struct bench {
   fg_field *field;
   fg__domain domain;
-  fg__evenly evenly;
-  double (*point)[2];
+  fg__lines evenly;
+  double (*point)[3];
   int *first; /* [lines + 1] */
 } bench;
 
 static void sample_lines(bench *b, fg_context *context, double spacing)
 {
-  fg__streamline line = {0};
+  fg__line line = {0};
   int capacity = 0, used = 0;
   b->first = calloc((size_t)b->evenly.count + 1, sizeof *b->first);
   assert_non_null(b->first);
   for (int n = 0; n < b->evenly.count; n++) {
-    const fg__evenly_line *part = &b->evenly.line[n];
-    double at_seed;
-    assert_int_equal(fg__evenly_trace(&line, context, &b->domain, part->seed,
-                                      fmax(-part->from, part->to), &at_seed),
+    const fg__lines_part *part = &b->evenly.part[n];
+    assert_int_equal(fg__lines_trace(&line, context, &b->domain, &b->evenly, part->seed,
+                                     fmax(-part->from, part->to)),
                      FG_STATUS_OK);
     int pieces = (int)ceil((part->to - part->from) / spacing);
     if (used + pieces + 1 > capacity) {
@@ -31,14 +30,13 @@ static void sample_lines(bench *b, fg_context *context, double spacing)
       assert_non_null(b->point);
     }
     for (int i = 0; i <= pieces; i++) {
-      double tangent[2];
-      fg__streamline_at(&line,
-                        at_seed + part->from + (part->to - part->from) * i / pieces, NULL,
-                        b->point[used++], tangent);
+      double tangent[3];
+      fg__line_at(&line, line.start + part->from + (part->to - part->from) * i / pieces,
+                  NULL, b->point[used++], tangent);
     }
     b->first[n + 1] = used;
   }
-  fg__streamline_clear(&line);
+  fg__line_clear(&line);
 }
 
 static void set_up(bench *b, fg_context *context, velocity_of velocity, bool round,
@@ -55,7 +53,7 @@ static void tear_down(bench *b)
 {
   free(b->point);
   free(b->first);
-  fg__evenly_clear(&b->evenly);
+  fg__lines_clear(&b->evenly);
   fg__domain_clear(&b->domain);
   fg_field_destroy(b->field);
 }
@@ -82,7 +80,7 @@ static void assert_distances(const bench *b)
   double separation = b->evenly.separation;
   for (int n = 0; n < b->evenly.count; n++)
     for (int m = 0; m < n; m++) {
-      double seed_way = distance_to_line(b, b->evenly.line[n].seed, m);
+      double seed_way = distance_to_line(b, b->evenly.part[n].seed, m);
       assert_true(seed_way > 0.99 * separation);
       for (int i = b->first[n]; i < b->first[n + 1]; i++)
         assert_true(distance_to_line(b, b->point[i], m) >
@@ -129,7 +127,7 @@ static void lines_stay_away_from_themselves(void **state)
   double test = FG__EVENLY_TEST * b.evenly.separation;
   int round = 0;
   for (int n = 0; n < b.evenly.count; n++) {
-    double length = b.evenly.line[n].to - b.evenly.line[n].from;
+    double length = b.evenly.part[n].to - b.evenly.part[n].from;
     int first = b.first[n], last = b.first[n + 1] - 1;
     double step = length / (last - first);
     for (int i = first; i <= last; i++)
@@ -151,7 +149,7 @@ static void a_uniform_flow_is_covered(void **state)
   double place[64];
   assert_true(b.evenly.count < 64);
   for (int n = 0; n < b.evenly.count; n++) {
-    const double *seed = b.evenly.line[n].seed;
+    const double *seed = b.evenly.part[n].seed;
     place[n] = seed[1] * cos(SLANT) - seed[0] * sin(SLANT);
   }
   for (int n = 0; n < b.evenly.count; n++) {

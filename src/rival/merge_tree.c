@@ -222,7 +222,7 @@ static void place_cells(merging *work, int *leaf_at)
     *node = (fg__merge_node){.parent = -1, .child = {-1, -1}, .size = 1};
     fg__domain_center(domain, raster, node->position);
     for (int k = 0; k < 2; k++)
-      node->vector[k] = domain->direction[raster][k];
+      node->vector[k] = fg__domain_direction(domain, raster)[k];
     work->up[cell] = cell;
     work->first[cell] = work->last[cell] = -1;
   }

@@ -5,17 +5,19 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Along an axis: together they take 64 MB, and 4 million lines would not fill them. */
-enum { MOST_BINS = 4096 };
+/* Along an axis, in 2D and 3D: together they take 64 MB. */
+enum { MOST_BINS = 4096, MOST_BINS_IN_SPACE = 256 };
 
 fg_status fg__near_create(fg__near *out, fg_context *context, const fg__domain *domain,
                           double reach)
 {
   *out = (fg__near){.domain = domain};
   size_t bins = 1;
-  for (int k = 0; k < 2; k++) {
+  int most = domain->dimension == 2 ? MOST_BINS : MOST_BINS_IN_SPACE;
+  out->bins[2] = 1;
+  for (int k = 0; k < domain->dimension; k++) {
     double side = domain->cells[k] * domain->spacing[k];
-    out->bins[k] = (int)fmin(fmax(floor(side / reach), 1), MOST_BINS);
+    out->bins[k] = (int)fmin(fmax(floor(side / reach), 1), most);
     out->size[k] = side / out->bins[k];
     bins *= (size_t)out->bins[k];
   }
@@ -35,11 +37,12 @@ void fg__near_clear(fg__near *near)
 }
 
 /* Takes periods off, and finds the bin along each axis. */
-static void locate(const fg__near *near, const double position[2], double inside[2],
-                   int bin[2])
+static void locate(const fg__near *near, const double position[], double inside[3],
+                   int bin[3])
 {
   const fg__domain *domain = near->domain;
-  for (int k = 0; k < 2; k++) {
+  inside[2] = bin[2] = 0;
+  for (int k = 0; k < domain->dimension; k++) {
     double offset = position[k] - domain->origin[k];
     if (domain->period[k] > 0)
       offset -= floor(offset / domain->period[k]) * domain->period[k];
@@ -49,7 +52,7 @@ static void locate(const fg__near *near, const double position[2], double inside
   }
 }
 
-fg_status fg__near_add(fg__near *near, fg_context *context, const double position[2],
+fg_status fg__near_add(fg__near *near, fg_context *context, const double position[],
                        int line, double s)
 {
   if (!fg__grow((void **)&near->point, &near->capacity, (size_t)near->count + 1,
@@ -57,11 +60,11 @@ fg_status fg__near_add(fg__near *near, fg_context *context, const double positio
     return fg__fail_memory(context, "points of lines",
                            ((size_t)near->count + 1) * sizeof *near->point);
   fg__near_point *point = &near->point[near->count];
-  int bin[2];
+  int bin[3];
   locate(near, position, point->position, bin);
   point->line = line;
   point->s = s;
-  point->bin = bin[1] * near->bins[0] + bin[0];
+  point->bin = (bin[2] * near->bins[1] + bin[1]) * near->bins[0] + bin[0];
   point->below = near->top[point->bin];
   near->top[point->bin] = near->count++;
   return FG_STATUS_OK;
@@ -77,47 +80,62 @@ void fg__near_forget(fg__near *near, int count)
 
 /* What is asked for. */
 typedef struct query {
-  double inside[2];
+  double inside[3];
   double square; /* of the distance */
   int line;
   double s, own;
 } query;
 
+static bool is_periodic(const fg__domain *domain)
+{
+  return domain->period[0] > 0 || domain->period[1] > 0 || domain->period[2] > 0;
+}
+
 static bool bin_has(const fg__near *near, int bin, const query *asked)
 {
-  bool periodic = near->domain->period[0] > 0 || near->domain->period[1] > 0;
+  bool periodic = is_periodic(near->domain);
   for (int i = near->top[bin]; i >= 0; i = near->point[i].below) {
     const fg__near_point *point = &near->point[i];
-    double way[2] = {point->position[0] - asked->inside[0],
-                     point->position[1] - asked->inside[1]};
+    double way[3];
+    for (int k = 0; k < 3; k++)
+      way[k] = point->position[k] - asked->inside[k];
     if (periodic)
       fg__domain_shortest(near->domain, way);
-    if (way[0] * way[0] + way[1] * way[1] < asked->square &&
+    if (way[0] * way[0] + way[1] * way[1] + way[2] * way[2] < asked->square &&
         (point->line != asked->line || fabs(point->s - asked->s) > asked->own))
       return true;
   }
   return false;
 }
 
-bool fg__near_has(const fg__near *near, const double position[2], double distance,
+/* The bin beside another; -1 where the box ends. */
+static int bin_beside(const fg__near *near, const int bin[3], const int step[3])
+{
+  int index = 0;
+  for (int k = 2; k >= 0; k--) {
+    int at = bin[k] + step[k];
+    if (near->domain->period[k] > 0)
+      at = (at + near->bins[k]) % near->bins[k];
+    if (at < 0 || at >= near->bins[k])
+      return -1;
+    index = index * near->bins[k] + at;
+  }
+  return index;
+}
+
+bool fg__near_has(const fg__near *near, const double position[], double distance,
                   int line, double s, double own)
 {
   /* the middle first: there most is near */
   static const int order[3] = {0, -1, 1};
   query asked = {.square = distance * distance, .line = line, .s = s, .own = own};
-  int bin[2];
+  int bin[3], beside = near->domain->dimension == 2 ? 9 : 27;
   locate(near, position, asked.inside, bin);
-  for (int dy = 0; dy < 3; dy++)
-    for (int dx = 0; dx < 3; dx++) {
-      int at[2] = {bin[0] + order[dx], bin[1] + order[dy]};
-      bool there = true;
-      for (int k = 0; k < 2; k++) {
-        if (near->domain->period[k] > 0)
-          at[k] = (at[k] + near->bins[k]) % near->bins[k];
-        there = there && at[k] >= 0 && at[k] < near->bins[k];
-      }
-      if (there && bin_has(near, at[1] * near->bins[0] + at[0], &asked))
-        return true;
-    }
+  for (int n = 0; n < beside; n++) {
+    const int step[3] = {order[n % 3], order[n / 3 % 3], order[n / 9]};
+    int there = bin_beside(near, bin, step);
+    if (there >= 0 && bin_has(near, there, &asked))
+      return true;
+  }
   return false;
 }

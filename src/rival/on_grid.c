@@ -7,61 +7,72 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Length of the longest arrow in spacings: a gap is left between head and next tail. */
-static const double LONGEST = 0.92;
+/* Length of the longest arrow: in 2D in spacings, so that a gap is left between a head
+ * and the next tail; in 3D, where arrows in a row are seldom seen one behind the other,
+ * in fair shares. */
+static const double LONGEST = 0.92, LONGEST_IN_SPACE = 1;
 
-static double speed_at(const fg__domain *domain, const double point[2])
+static double longest_arrow(const fg_rival *rival, const fg__lattice *lattice, int count)
 {
-  double velocity[3];
-  return fg_field_velocity(domain->field, point, velocity)
-             ? hypot(velocity[0], velocity[1])
-             : 0;
+  const fg__domain *domain = &rival->domain;
+  if (domain->dimension == 2 && !(rival->options.length > 0))
+    return LONGEST * fg__lattice_spacing(lattice, domain);
+  double shares = rival->options.length > 0 ? rival->options.length : LONGEST_IN_SPACE;
+  return shares * fg__domain_fair_share(domain, count);
 }
 
 static double largest_speed(const fg__lattice *lattice, const fg__domain *domain)
 {
-  double largest = 0, point[2];
-  for (int i = 0; i < lattice->size[0] * lattice->size[1]; i++) {
+  double largest = 0, point[3];
+  for (int i = 0; i < fg__lattice_count(lattice); i++) {
     fg__lattice_point(lattice, domain, i, point);
-    largest = fmax(largest, speed_at(domain, point));
+    largest = fmax(largest, fg__domain_speed(domain, point));
   }
   return largest;
 }
 
+static double share_of(const fg__lattice *lattice, const fg__domain *domain)
+{
+  double share = 1;
+  for (int k = 0; k < domain->dimension; k++)
+    share *= lattice->spacing[k];
+  return share;
+}
+
 /* One arrow, added to the list when there is one; *drawn says so. */
 static fg_status add_arrow(fg_icons *icons, bool *drawn, const fg_rival *rival,
-                           const fg__lattice *lattice, const double point[2],
-                           double length, int number, fg__streamline *line)
+                           const fg__lattice *lattice, const double point[],
+                           double length, int number, fg__line *line)
 {
-  fg_icon icon = {.cluster = number, .area = lattice->spacing[0] * lattice->spacing[1]};
+  fg_icon icon = {.cluster = number, .area = share_of(lattice, &rival->domain)};
   fg_status status =
       line ? fg__rival_curved(&icon, rival->context, &rival->domain, point, length, line)
            : fg__rival_straight(&icon, rival->context, &rival->domain, point, length);
   *drawn = status == FG_STATUS_OK && icon.points;
   if (*drawn)
     status = fg__icons_add(icons, rival->context, &icon);
-  free((void *)(uintptr_t)icon.points);
+  fg__rival_free_points(&icon);
   return status;
 }
 
 static fg_status draw_grid(fg_icons *icons, const fg_rival *rival, int count,
-                           fg__streamline *line)
+                           fg__line *line)
 {
   fg__lattice lattice;
   const fg__domain *domain = &rival->domain;
   fg_status status = fg__lattice_choose(&lattice, rival->context, domain, count);
   if (status != FG_STATUS_OK)
     return status;
-  double longest = LONGEST * fmin(lattice.spacing[0], lattice.spacing[1]);
+  double longest = longest_arrow(rival, &lattice, count);
   double fastest = largest_speed(&lattice, domain);
   int number = 0, dropped = 0;
-  for (int i = 0; i < lattice.size[0] * lattice.size[1] && status == FG_STATUS_OK; i++) {
-    double point[2], length = longest;
+  for (int i = 0; i < fg__lattice_count(&lattice) && status == FG_STATUS_OK; i++) {
+    double point[3], length = longest;
     fg__lattice_point(&lattice, domain, i, point);
     if (!fg__domain_moves(domain, point))
       continue;
     if (rival->options.length_by_speed)
-      length *= speed_at(domain, point) / fastest;
+      length *= fg__domain_speed(domain, point) / fastest;
     bool drawn;
     status = add_arrow(icons, &drawn, rival, &lattice, point, length, ++number, line);
     dropped += !drawn;
@@ -79,8 +90,8 @@ fg_status fg__rival_hedgehog(fg_icons *icons, const fg_rival *rival, int count)
 
 fg_status fg__rival_grid_curved(fg_icons *icons, const fg_rival *rival, int count)
 {
-  fg__streamline line = {0};
+  fg__line line = {0};
   fg_status status = draw_grid(icons, rival, count, &line);
-  fg__streamline_clear(&line);
+  fg__line_clear(&line);
   return status;
 }

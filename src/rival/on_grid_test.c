@@ -145,10 +145,20 @@ static void what_cannot_be_is_refused(void **state)
   fg_icons *icons = NULL;
   fg_field *space = NULL, *field = field_of(context, swirl, false);
   assert_int_equal(fg_field_create_analytic(&space, context, "abc", 5), FG_STATUS_OK);
-  assert_refused(context, fg_rival_create(&rival, context, space, NULL),
+  fg_rival_options options = {.method = FG_RIVAL_DISCRETE};
+  assert_refused(context, fg_rival_create(&rival, context, space, &options),
                  FG_STATUS_UNSUPPORTED, "3 dimensions");
+  options = (fg_rival_options){.method = FG_RIVAL_TOP_DOWN};
+  assert_refused(context, fg_rival_create(&rival, context, space, &options),
+                 FG_STATUS_UNSUPPORTED, "top-down");
   assert_null(rival);
-  fg_rival_options options = {.method = (fg_rival_method)99};
+  options = (fg_rival_options){.length = -0.5};
+  assert_refused(context, fg_rival_create(&rival, context, field, &options),
+                 FG_STATUS_ARGUMENT, "-0.5");
+  options = (fg_rival_options){.nodes = 2000};
+  assert_refused(context, fg_rival_create(&rival, context, space, &options),
+                 FG_STATUS_ARGUMENT, "2000 nodes");
+  options = (fg_rival_options){.method = (fg_rival_method)99};
   assert_refused(context, fg_rival_create(&rival, context, field, &options),
                  FG_STATUS_ARGUMENT, "99");
   options = (fg_rival_options){.nodes = 2};

@@ -11,11 +11,22 @@ static const double USUAL_POSITION_WEIGHT = 0.95;
 static const double USUAL_ELONGATION = 2;
 static const double LARGEST_ELONGATION = 1e6;
 
-enum { USUAL_NODES = 257, FEWEST_NODES = 3, MOST_NODES = 16385 };
+/* In fair-share lengths: more than any box has room for. */
+static const double LARGEST_LENGTH = 1000;
+
+/* In 3D a raster of 1025 nodes a side still has fewer cells than an int can count. */
+enum {
+  USUAL_NODES = 257,
+  USUAL_NODES_IN_SPACE = 49,
+  FEWEST_NODES = 3,
+  MOST_NODES = 16385,
+  MOST_NODES_IN_SPACE = 1025
+};
 
 /* A method draws by itself, or it divides the domain and its clusters are drawn. */
 typedef struct method_entry {
   const char *name;
+  bool flat;                             /* only in 2D */
   fg_status (*prepare)(fg_rival *rival); /* NULL: nothing to do before */
   fg_status (*draw)(fg_icons *icons, const fg_rival *rival, int count);
   fg_status (*divide)(const fg_rival *rival, int count, int *label, int *found,
@@ -26,10 +37,17 @@ static const method_entry methods[] = {
     [FG_RIVAL_HEDGEHOG] = {.name = "hedgehog", .draw = fg__rival_hedgehog},
     [FG_RIVAL_GRID_CURVED] = {.name = "grid-curved", .draw = fg__rival_grid_curved},
     [FG_RIVAL_DISCRETE] = {.name = "discrete",
+                           .flat = true,
                            .prepare = fg__rival_discrete_prepare,
                            .divide = fg__rival_discrete},
-    [FG_RIVAL_TOP_DOWN] = {.name = "top-down", .divide = fg__rival_top_down},
+    [FG_RIVAL_TOP_DOWN] = {.name = "top-down",
+                           .flat = true,
+                           .divide = fg__rival_top_down},
     [FG_RIVAL_STREAMLINES] = {.name = "streamlines", .draw = fg__rival_streamlines},
+    [FG_RIVAL_VORONOI] = {.name = "voronoi", .draw = fg__rival_voronoi},
+    [FG_RIVAL_K_MEANS] = {.name = "k-means", .draw = fg__rival_k_means},
+    [FG_RIVAL_FARTHEST] = {.name = "farthest", .draw = fg__rival_farthest},
+    [FG_RIVAL_RANDOM] = {.name = "random", .draw = fg__rival_random},
 };
 
 enum { METHODS = sizeof methods / sizeof *methods };
@@ -40,19 +58,28 @@ const char *fg_rival_name(fg_rival_method method)
 }
 
 static fg_status settle(fg_rival_options *settled, fg_context *context,
-                        const fg_rival_options *options)
+                        const fg_rival_options *options, int dimension)
 {
+  int most = dimension == 2 ? MOST_NODES : MOST_NODES_IN_SPACE;
   if (options)
     *settled = *options;
   if ((int)settled->method < 0 || (int)settled->method >= METHODS)
     return fg__fail(context, FG_STATUS_ARGUMENT, "rival: no method %d",
                     (int)settled->method);
+  if (dimension == 3 && methods[settled->method].flat)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "rival: the field has 3 dimensions, and the method %s is made for 2",
+                    methods[settled->method].name);
   if (settled->nodes == 0)
-    settled->nodes = USUAL_NODES;
-  if (settled->nodes < FEWEST_NODES || settled->nodes > MOST_NODES)
+    settled->nodes = dimension == 2 ? USUAL_NODES : USUAL_NODES_IN_SPACE;
+  if (settled->nodes < FEWEST_NODES || settled->nodes > most)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "rival: a raster of %d nodes, from %d to %d are taken",
-                    settled->nodes, FEWEST_NODES, MOST_NODES);
+                    settled->nodes, FEWEST_NODES, most);
+  if (!(settled->length >= 0 && settled->length <= LARGEST_LENGTH))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "rival: a length of %g fair shares, it must lie in [0, %g]",
+                    settled->length, LARGEST_LENGTH);
   if (settled->direction_only)
     settled->position_weight = 0;
   else if (!(settled->position_weight != 0))
@@ -77,22 +104,21 @@ fg_status fg_rival_create(fg_rival **out, fg_context *context, const fg_field *f
     return fg__fail(context, FG_STATUS_ARGUMENT, "rival: no %s given",
                     out ? "field" : "place for the result");
   *out = NULL;
-  if (fg_field_contents(field)->dimension != 2)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "rival: the field has 3 dimensions, and the methods are made for 2");
   if (fg_field_is_part(field, NULL, NULL))
     return fg__fail(context, FG_STATUS_ARGUMENT, "rival: of a field that ranks share");
   fg_rival *rival = fg__allocate(1, sizeof *rival);
   if (!rival)
     return fg__fail_memory(context, "a rival", sizeof *rival);
   rival->context = context;
-  fg_status status = settle(&rival->options, context, options);
+  fg_status status =
+      settle(&rival->options, context, options, fg_field_contents(field)->dimension);
   if (status == FG_STATUS_OK)
     status = fg__domain_create(&rival->domain, context, field, rival->options.nodes);
   if (status == FG_STATUS_OK && rival->domain.valid_count == 0)
-    status = fg__fail(context, FG_STATUS_ARGUMENT,
-                      "rival: no cell of a raster of %d x %d has a velocity",
-                      rival->domain.cells[0], rival->domain.cells[1]);
+    status =
+        fg__fail(context, FG_STATUS_ARGUMENT,
+                 "rival: no cell of a raster of %d x %d x %d has a velocity",
+                 rival->domain.cells[0], rival->domain.cells[1], rival->domain.cells[2]);
   if (status == FG_STATUS_OK && methods[rival->options.method].prepare)
     status = methods[rival->options.method].prepare(rival);
   if (status != FG_STATUS_OK) {

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "solid/march.h"
+#include "solid/measure.h"
 #include "solid/vector.h"
 
 #include <math.h>
@@ -18,16 +19,9 @@ static const double REACH = 0.2, WIDTH_WORTH = 0.25;
 static const double PLACES[] = {0.5, 0.35, 0.65, 0.2, 0.8};
 static const double ASIDE = 0.45;
 
-/* From this turning on an arrow is a ring, as in icon/icons_create.c. */
-static const double RING_TURNING = 4.4;
-
 /* An arrow that does not lie in its cluster is made this much smaller, up to so often. */
 static const double SMALLER = 0.93;
 enum { ATTEMPTS = 12 };
-
-/* The centreline turns by at most this between two points, radians (5 degrees), and has a
- * point a spacing. */
-static const double LARGEST_TURN = 0.0873;
 
 typedef struct making {
   fg__solid_maker *maker;
@@ -193,68 +187,6 @@ static fg_status choose(making *m, const fg__core *core)
   return status;
 }
 
-/* Points of a part of the best line, dense enough to be drawn as straight pieces. */
-static fg_status sample_line(double (**points)[3], int *count, const making *m,
-                             double tail, double tip, double turning)
-{
-  const fg__path *path = &m->maker->best;
-  int pieces = (int)ceil(fmax((tip - tail) / m->room.spacing, turning / LARGEST_TURN));
-  pieces = pieces < 8 ? 8 : pieces;
-  *points = fg__allocate((size_t)pieces + 1, sizeof **points);
-  if (!*points)
-    return fg__fail_memory(m->context, "an icon", (size_t)pieces * sizeof **points);
-  int hint = 0;
-  double tangent[3];
-  for (int i = 0; i <= pieces; i++)
-    fg__path_at(path, tail + (tip - tail) * i / pieces, &hint, (*points)[i], tangent);
-  *count = pieces + 1;
-  return FG_STATUS_OK;
-}
-
-static void set_width(fg_icon *icon, double width)
-{
-  icon->width = width;
-  icon->tail_width = FG__SOLID_TAIL_WIDTH * width;
-  icon->head_length = FG__SOLID_HEAD_LENGTH * width;
-  icon->head_width = FG__SOLID_HEAD_WIDTH * width;
-}
-
-/* The point of the centreline nearest to the spine's centre. */
-static void set_center(fg_icon *icon, const double center[3])
-{
-  double nearest = HUGE_VAL;
-  for (int i = 0; i + 1 < icon->point_count; i++) {
-    const double *p = icon->points[i], *q = icon->points[i + 1];
-    double along[3], to[3], on[3];
-    fg__along(q, -1, p, along);
-    fg__along(center, -1, p, to);
-    double t = fmin(fmax(fg__dot(to, along) / fg__dot(along, along), 0), 1);
-    fg__along(p, t, along, on);
-    if (fg__apart(on, center) < nearest) {
-      nearest = fg__apart(on, center);
-      memcpy(icon->center, on, sizeof on);
-    }
-  }
-}
-
-/* Mean of |v| by arc length, trapezoidal. */
-static double mean_speed(const fg_field *field, const fg_icon *icon)
-{
-  double sum = 0, length = 0, before = 0;
-  for (int i = 0; i < icon->point_count; i++) {
-    double velocity[3], speed = before;
-    if (fg_field_velocity(field, icon->points[i], velocity))
-      speed = fg__length(velocity);
-    if (i > 0) {
-      double piece = fg__apart(icon->points[i], icon->points[i - 1]);
-      sum += piece * (speed + before) / 2;
-      length += piece;
-    }
-    before = speed;
-  }
-  return length > 0 ? sum / length : 0;
-}
-
 static fg_status lies_inside(bool *inside, fg_context *context, const fg_icon *icon,
                              const fg__volume *volume)
 {
@@ -279,16 +211,16 @@ static void free_line(const double (**points)[3])
 static fg_status build(fg_icon *icon, const making *m, const double center[3])
 {
   fg__shaft shaft = m->shaft;
-  icon->kind = shaft.turning >= RING_TURNING ? FG_ICON_RING : FG_ICON_ARROW;
+  icon->kind = fg__solid_kind_of(shaft.turning);
   bool inside = false;
   fg_status status = FG_STATUS_OK;
   for (int i = 0; i < ATTEMPTS && !inside && status == FG_STATUS_OK; i++) {
     double(*points)[3] = NULL;
     free_line(&icon->points);
-    status =
-        sample_line(&points, &icon->point_count, m, shaft.tail, shaft.tip, shaft.turning);
+    status = fg__path_points(&points, &icon->point_count, m->context, &m->maker->best,
+                             shaft.tail, shaft.tip, shaft.turning, m->room.spacing);
     icon->points = (const double(*)[3])points;
-    set_width(icon, shaft.width);
+    fg__solid_set_width(icon, shaft.width);
     if (status == FG_STATUS_OK)
       status = lies_inside(&inside, m->context, icon, m->room.volume);
     double less = (1 - SMALLER) / 2 * (shaft.tip - shaft.tail);
@@ -301,12 +233,13 @@ static fg_status build(fg_icon *icon, const making *m, const double center[3])
     icon->point_count = 0;
     return status;
   }
-  set_center(icon, center);
-  icon->speed = mean_speed(m->field, icon);
+  fg__solid_set_center(icon, center);
+  icon->speed = fg__solid_mean_speed(m->field, icon);
   double(*line)[3];
   const fg__path *path = &m->maker->best;
-  status = sample_line(&line, &icon->streamline_count, m, 0, fg__path_length(path),
-                       path->node[path->count - 1].turning);
+  status = fg__path_points(&line, &icon->streamline_count, m->context, path, 0,
+                           fg__path_length(path), path->node[path->count - 1].turning,
+                           m->room.spacing);
   if (status == FG_STATUS_OK)
     icon->streamline = (const double(*)[3])line;
   return status;

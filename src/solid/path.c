@@ -14,6 +14,11 @@ static const double LARGEST_TURN_COSINE = 0.866;
 static const double STANDSTILL = 1e-6;
 enum { LARGEST_NODE_COUNT = 20000, BISECTIONS = 24 };
 
+/* Points of a line to be drawn: it turns by at most this between two of them, radians (5
+ * degrees), and has at least so many pieces. */
+static const double LARGEST_TURN = 0.0873;
+enum { FEWEST_PIECES = 8 };
+
 typedef struct tracing {
   const fg_field *field;
   const fg__volume *volume;
@@ -181,7 +186,7 @@ fg_status fg__path_trace(fg__path *out, fg_context *context, const fg_field *fie
                          const fg__volume *volume, const double start[3],
                          const fg__path_limits *limits)
 {
-  out->count = 0;
+  out->count = out->start = 0;
   double tangent[3];
   if (!(fg__volume_level(volume, start) > 0) || !fg_field_tangent(field, start, tangent))
     return FG_STATUS_OK;
@@ -200,6 +205,7 @@ fg_status fg__path_trace(fg__path *out, fg_context *context, const fg_field *fie
   if (status != FG_STATUS_OK)
     return status;
   reverse(out);
+  out->start = out->count - 1;
   tracer.sign = 1;
   return trace_one_way(out, context, &tracer);
 }
@@ -236,4 +242,21 @@ double fg__path_at(const fg__path *path, double s, int *hint, double position[3]
   interpolate(node[i].position, node[i].tangent, node[i + 1].position,
               node[i + 1].tangent, length, fraction, position, tangent);
   return node[i].turning + fraction * (node[i + 1].turning - node[i].turning);
+}
+
+fg_status fg__path_points(double (**points)[3], int *count, fg_context *context,
+                          const fg__path *path, double from, double to, double turning,
+                          double spacing)
+{
+  double tangent[3];
+  int pieces = (int)ceil(fmax((to - from) / spacing, turning / LARGEST_TURN));
+  pieces = pieces < FEWEST_PIECES ? FEWEST_PIECES : pieces;
+  *points = fg__allocate((size_t)pieces + 1, sizeof **points);
+  if (!*points)
+    return fg__fail_memory(context, "an icon", ((size_t)pieces + 1) * sizeof **points);
+  int hint = 0;
+  for (int i = 0; i <= pieces; i++)
+    fg__path_at(path, from + (to - from) * i / pieces, &hint, (*points)[i], tangent);
+  *count = pieces + 1;
+  return FG_STATUS_OK;
 }

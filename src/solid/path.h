@@ -17,6 +17,7 @@ typedef struct fg__path {
   fg__path_node *node; /* ascending s, in the direction of the flow */
   int count;
   size_t capacity;
+  int start; /* index of the node at the start point */
 } fg__path;
 
 typedef struct fg__path_limits {
@@ -39,5 +40,12 @@ void fg__path_clear(fg__path *path);
 double fg__path_at(const fg__path *path, double s, int *hint, double position[3],
                    double tangent[3]);
 double fg__path_length(const fg__path *path);
+
+/* Points at even steps from one arc length to another, at least 9: pieces are no longer
+ * than `spacing`, and share `turning`, that of the part, at 5 degrees each at most.
+ * *points is allocated: free it. MEMORY. */
+fg_status fg__path_points(double (**points)[3], int *count, fg_context *context,
+                          const fg__path *path, double from, double to, double turning,
+                          double spacing);
 
 #endif

@@ -2,7 +2,7 @@
 # What `flowgrain rival` writes, and what it refuses.
 source "$(dirname "$0")/harness.sh"
 
-for method in hedgehog grid-curved discrete top-down streamlines; do
+for method in hedgehog grid-curved discrete top-down streamlines voronoi k-means farthest random; do
   try rival synth:vortex3 -o $method.geojson --method $method --icons 49
   expect_code 0
   [ ! -s err ] || fault "standard error: $(head -c 200 err)"
@@ -19,6 +19,25 @@ for method in hedgehog grid-curved discrete top-down streamlines; do
   expect_nothing_at again.svg
   rm -f again.*
   done_with "rival: $method"
+done
+
+for method in voronoi k-means farthest random; do
+  try rival "$root/data/gfs_20140131.nc" -o exact.geojson --method $method --icons 97,31 --formats svg
+  expect_code 0
+  expect_json exact-97.geojson '.features | length == 97'
+  expect_json exact-31.geojson '.features | length == 31'
+  done_with "rival: exactly so many arrows of $method, round the Earth"
+done
+
+for method in hedgehog grid-curved voronoi k-means random; do
+  for length in 0.5 1; do
+    try rival synth:vortex3 -o long-$length.geojson --method $method --icons 49 --length $length --formats svg
+    expect_code 0
+  done
+  # a fair share of the unit square is a seventh of its side
+  expect_json long-0.5.geojson '[.features[].geometry.coordinates | [., .[1:]] | transpose[:-1] | map((.[0][0] - .[1][0]) * (.[0][0] - .[1][0]) + (.[0][1] - .[1][1]) * (.[0][1] - .[1][1]) | sqrt) | add] | max * 14 | . > 0.99 and . < 1.01'
+  cmp -s long-0.5.geojson long-1.geojson && fault "the length changes nothing"
+  done_with "rival: lengths of $method"
 done
 
 try rival "$root/data/gfs_20140131.nc" -o many.geojson --icons 100,25 --formats svg
@@ -42,13 +61,51 @@ expect_code 0
 cmp -s parts-10.geojson other.geojson && fault "the weight changes nothing"
 done_with "rival: clusters behind the arrows, and in a file"
 
-try rival --help
-expect_code 0
-grep -q 3D out && fault "its help speaks of 3D: $(grep 3D out)"
-done_with "rival: help is about two dimensions"
+for method in hedgehog grid-curved streamlines voronoi k-means farthest random; do
+  rm -f $method.*
+  try rival synth:vortex3d -o $method.geojson --method $method --icons 28 --width 72
+  expect_code 0
+  [ ! -s err ] || fault "standard error: $(head -c 200 err)"
+  expect_json $method.geojson '(.features | length) as $n | $n >= 25 and $n <= 31'
+  case $method in voronoi | k-means | farthest | random)
+    expect_json $method.geojson '.features | length == 28' ;;
+  esac
+  expect_json $method.geojson '[.features[].geometry.coordinates[] | length == 3 and (map(. >= 0 and . <= 1) | all)] | all'
+  expect_json $method.geojson '[.features[].properties | .speed > 0 and .width > 0 and .volume > 0] | all'
+  xmllint --noout $method.vtp 2>fault.txt || fault "$(head -1 fault.txt)"
+  expect_file $method.glb
+  expect_nothing_at $method.svg
+  cp $method.geojson first.geojson
+  try rival synth:vortex3d -o $method.geojson --method $method --icons 28 --width 72 --view 10,70
+  expect_code 0
+  cmp -s $method.geojson first.geojson || fault "two runs differ"
+  rm -f $method.* first.geojson
+  done_with "rival: $method in 3D"
+done
+
+for method in discrete top-down; do
+  try rival synth:vortex3d -o x.geojson --method $method
+  expect_code 1
+  expect_one_complaint
+  expect_error "3 dimensions, and the method $method is made for 2"
+done
+for wrong in "--tint" "--view 10,20"; do
+  field=synth:vortex3
+  [ "$wrong" = --tint ] && field="synth:vortex3d --method discrete"
+  # shellcheck disable=SC2086
+  try rival $field -o x.geojson $wrong
+  expect_code 2
+  expect_one_complaint
+done
+try rival synth:vortex3d -o x.geojson --view 10,20 --view 20,30
+expect_code 2
+expect_one_complaint
+expect_nothing_at x.geojson
+done_with "rival: what 2D and 3D do not have is refused"
 
 for wrong in "--tint" "--save-field" "--elongation 3" "--method top-down --position-weight 0" \
-  "--method discrete --lengths speed" "--method streamlines --lengths speed" "--method discrete --elongation 0.5" "--method discrete --position-weight 2"; do
+ "--method discrete --lengths speed" "--method discrete --length 1" "--method streamlines --length 1" "--method farthest --length 0.5" "--length -1" "--method k-means --lengths speed" \
+  "--method streamlines --lengths speed" "--method discrete --elongation 0.5" "--method discrete --position-weight 2"; do
   # shellcheck disable=SC2086
   try rival synth:vortex3 -o x.geojson $wrong
   expect_code 2
@@ -65,10 +122,6 @@ expect_one_complaint
 try rival synth:vortex3 -o x.geojson --icons 25,60
 expect_code 2
 expect_one_complaint
-try rival synth:abc -o x.geojson
-expect_code 1
-expect_one_complaint
-expect_error '3 dimensions'
 try rival no-such-file.nc -o x.geojson
 expect_code 1
 expect_one_complaint
