@@ -42,9 +42,11 @@ enum { SMALL_PICTURE = 400 * 400 };
 /* Rows of pixels that a thread takes at a time. */
 enum { ROWS = 4 };
 
-/* Samples in turn that take floor light and transparent surfaces from the first of them:
- * both vary little within a pixel, and are what takes most time. */
-enum { SHARED = 4 };
+/* Samples in turn, a row of a pixel, that take floor light and transparent surfaces from
+ * the first of them: both vary little within a pixel, and are what takes most time. The
+ * first ones of the rows lie in different columns. */
+enum { SHARED = GRID };
+static const int first_column[GRID] = {1, 3, 0, 2};
 
 /* Transparent surfaces before an arrow hide it less than what is behind it. */
 static const double veil_before_arrow = 0.45;
@@ -260,13 +262,14 @@ static uint32_t trace_finely(const shop *s, int x, int y)
   shared.number = order * (SAMPLES / SHARED);
   for (int sample = 0; sample < SAMPLES; ++sample) {
     double number[2];
+    int row = sample / GRID, column = (sample + first_column[row]) % GRID;
     if (sample % SHARED == 0) {
       shared.has_floor = shared.has_veils = false;
       shared.number += sample > 0;
     }
     fg__light_numbers(order * SAMPLES + (unsigned)sample, 0, number);
-    fg__light light = trace(s, x + (sample % GRID + number[0]) / GRID,
-                            y + (sample / GRID + number[1]) / GRID, &shared);
+    fg__light light =
+        trace(s, x + (column + number[0]) / GRID, y + (row + number[1]) / GRID, &shared);
     sum.red += light.red / SAMPLES;
     sum.green += light.green / SAMPLES;
     sum.blue += light.blue / SAMPLES;
