@@ -211,9 +211,6 @@ static fg_status sample_line(double (**points)[3], int *count, const making *m,
   return FG_STATUS_OK;
 }
 
-/* What fits a cluster may be plump; drawn slender it hides less. Of the length. */
-static const double SLENDER = 0.055;
-
 static void set_width(fg_icon *icon, double width)
 {
   icon->width = width;
@@ -291,7 +288,7 @@ static fg_status build(fg_icon *icon, const making *m, const double center[3])
     status =
         sample_line(&points, &icon->point_count, m, shaft.tail, shaft.tip, shaft.turning);
     icon->points = (const double(*)[3])points;
-    set_width(icon, fmin(shaft.width, SLENDER * (shaft.tip - shaft.tail)));
+    set_width(icon, shaft.width);
     if (status == FG_STATUS_OK)
       status = lies_inside(&inside, m->context, icon, m->room.volume);
     double less = (1 - SMALLER) / 2 * (shaft.tip - shaft.tail);

@@ -16,6 +16,9 @@ static const double largest_bend = 0.7;
  * is not made smaller than this share of itself for that. */
 static const double head_turning = 0.6, least_head = 0.5;
 
+/* What is thicker than this many slender arrows is made thinner. */
+static const double plump = 1.5;
+
 static double piece_of(const fg_icon *icon, int n, double along[3])
 {
   fg__along(icon->points[n + 1], -1, icon->points[n], along);
@@ -72,4 +75,17 @@ void fg__solid_set_width(fg_icon *icon, double lambda)
   icon->head_width = head_aspect * head;
   icon->width = body_of_head * icon->head_width;
   icon->tail_width = tail_of_body * icon->width;
+}
+
+void fg__solid_slim(fg_icon *icon, double lambda)
+{
+  if (!(icon->width > 0))
+    return;
+  fg_icon slender = *icon;
+  fg__solid_set_width(&slender, lambda);
+  double factor = fmin(1, plump * slender.width / icon->width);
+  icon->width *= factor;
+  icon->tail_width *= factor;
+  icon->head_length *= factor;
+  icon->head_width *= factor;
 }

@@ -83,12 +83,36 @@ static void what_has_no_length_has_no_width(void **state)
   assert_true(!(icon.width > 0.0) && isfinite(icon.width));
 }
 
+/* All its measures alike, and only down. */
+static void plump_arrows_become_slim(void **state)
+{
+  (void)state;
+  fg_icon usual = straight(1.4);
+  fg__solid_set_width(&usual, 1.0);
+  fg_icon plump = usual, slim = usual;
+  plump.width = 0.3;
+  plump.tail_width = 0.12;
+  plump.head_length = 0.6;
+  plump.head_width = 0.75;
+  fg__solid_slim(&plump, 1.0);
+  assert_true(fabs(plump.width - 1.5 * usual.width) < 1e-12);
+  assert_true(fabs(plump.head_length - 2.0 * plump.width) < 1e-12);
+  assert_true(fabs(plump.head_width - 2.5 * plump.width) < 1e-12);
+  assert_true(fabs(plump.tail_width - 0.4 * plump.width) < 1e-12);
+  fg__solid_slim(&slim, 1.0);
+  assert_memory_equal(&slim, &usual, sizeof slim);
+  fg_icon none = {.cluster = 7};
+  fg__solid_slim(&none, 1.0);
+  assert_true(!(none.width > 0.0) && none.cluster == 7);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(arrows_of_all_lengths_are_slender),
       cmocka_unit_test(what_is_longer_is_no_thinner),
       cmocka_unit_test(bodies_and_heads_follow_narrow_bends),
+      cmocka_unit_test(plump_arrows_become_slim),
       cmocka_unit_test(what_has_no_length_has_no_width),
   };
   return cmocka_run_group_tests_name("solid/slender", tests, NULL, NULL);
