@@ -184,7 +184,7 @@ static void unit(const float given[3], double out[3])
   fg__normalise(out);
 }
 
-/* What a ray through transparent surfaces has met, in no order. */
+/* What a ray through transparent surfaces has met, the nearest first. */
 typedef struct passage {
   struct RTCIntersectContext context; /* first: Embree knows only this */
   const fg__target *target;
@@ -201,12 +201,16 @@ static void note(const struct RTCFilterFunctionNArguments *given)
   given->valid[0] = 0;
   if (p->count == FG__MOST_VEILS)
     return;
-  fg__veil *veil = &p->veil[p->count++];
+  double distance = (double)((const float *)(const void *)given->ray)[FAR];
+  int at = p->count++;
+  for (; at > 0 && p->veil[at - 1].distance > distance; --at)
+    p->veil[at] = p->veil[at - 1];
+  fg__veil *veil = &p->veil[at];
   float normal[3];
   rtcInterpolate0(rtcGetGeometry(p->target->skins, number[GEOMETRY]), number[TRIANGLE],
                   hit[U], hit[V], RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, NORMAL, normal, 3);
   unit(normal, veil->normal);
-  veil->distance = (double)((const float *)(const void *)given->ray)[FAR];
+  veil->distance = distance;
   veil->silhouette = number[GEOMETRY] == SILHOUETTE;
 }
 
@@ -401,23 +405,12 @@ fg__hit fg__target_hit(const fg__target *t, const double from[3],
 int fg__target_veils(const fg__target *t, const double from[3], const double direction[3],
                      fg__veil out[FG__MOST_VEILS])
 {
-  fg__veil met[FG__MOST_VEILS];
-  passage p = {.target = t, .veil = met};
+  passage p = {.target = t, .veil = out};
   struct RTCRayHit ray = ray_from(from, direction);
   rtcInitIntersectContext(&p.context);
   rtcIntersect1(t->skins, &p.context, &ray);
-  int count = 0;
-  for (int n = 0; n < p.count; ++n) { /* by distance; a few */
-    int at = count;
-    while (at > 0 && out[at - 1].distance > met[n].distance) {
-      out[at] = out[at - 1];
-      --at;
-    }
-    out[at] = met[n];
-    ++count;
-  }
   int kept = 0;
-  for (int n = 0; n < count; ++n)
+  for (int n = 0; n < p.count; ++n)
     if (kept == 0 || out[n].silhouette != out[kept - 1].silhouette ||
         out[n].distance - out[kept - 1].distance > same_distance)
       out[kept++] = out[n];

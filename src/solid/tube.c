@@ -295,7 +295,7 @@ static fg_status make(fg_surface **out, float **at_vertex, fg_context *context,
     status = create(out, context, rings + 2, 2 * rings + 1, 2 * rings);
   if (status == FG_STATUS_OK)
     add_solid(*out, &s);
-  if (status == FG_STATUS_OK && value)
+  if (status == FG_STATUS_OK && at_vertex)
     status = value_vertices(at_vertex, context, &s, *out);
   clear_shape(&s);
   if (status != FG_STATUS_OK) {
