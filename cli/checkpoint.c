@@ -64,8 +64,11 @@ static char *describe(const cli_run *run)
   cJSON *scales = cJSON_AddArrayToObject(root, "scales");
   for (int k = 0; k < drawing_count(run->drawing); ++k)
     add_scale(scales, drawing_result(run->drawing, k));
-  add_exact(root, "slowest", drawing_speeds(run->drawing)[0]);
-  add_exact(root, "fastest", drawing_speeds(run->drawing)[1]);
+  const common_look *look = drawing_look(run->drawing);
+  add_exact(root, "slowest", look->speeds[0]);
+  add_exact(root, "fastest", look->speeds[1]);
+  add_exact(root, "azimuth", look->view[0]);
+  add_exact(root, "elevation", look->view[1]);
   add_exact(root, "seconds_read", facts->seconds_read);
   add_exact(root, "seconds_evolve", run->earlier_evolve + now - run->evolving_since);
   add_exact(root, "seconds_icons", drawing_icon_seconds(run->drawing));
@@ -225,8 +228,10 @@ static int restore_scales(cli_run *run, const cJSON *note)
   }
   if (!scales_are_there(run, count))
     return EXIT_FAILED;
-  const double speeds[2] = {real_of(note, "slowest"), real_of(note, "fastest")};
-  drawing_restore(run->drawing, results, count, speeds, real_of(note, "seconds_icons"),
+  const common_look look = {
+      .speeds = {real_of(note, "slowest"), real_of(note, "fastest")},
+      .view = {real_of(note, "azimuth"), real_of(note, "elevation")}};
+  drawing_restore(run->drawing, results, count, &look, real_of(note, "seconds_icons"),
                   real_of(note, "seconds_pictures"));
   return output_go_on(&run->output, count);
 }

@@ -173,7 +173,8 @@ static fg_status write_solid(fg_context *context, const char *path,
       density ? fg_density_surface(&surface, context, density) : FG_STATUS_OK;
   if (status)
     return status;
-  fg_solid_options options = settings_solid(settings, 0);
+  fg_solid_options options =
+      settings_solid(settings, 0, report->has_view ? report->view : NULL);
   options.surface = surface;
   options.speed_min = report->speeds[0];
   options.speed_max = report->speeds[1];

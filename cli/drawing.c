@@ -14,6 +14,7 @@
 struct cli_drawing {
   const cli_settings *settings;
   const fg_field *field;
+  fg_field *whole; /* `field` where that one given is a part; else NULL */
   const cli_output *output;
   fg_context *context;    /* the worker's own */
   fg_texture *background; /* of the last picture, NULL: none */
@@ -30,7 +31,7 @@ struct cli_drawing {
   fg_status status;
 
   scale_result results[MAX_SCALES + 1]; /* written by the worker, read after it ended */
-  double speeds[2];
+  common_look look;
   double icon_seconds, picture_seconds;
 };
 
@@ -56,8 +57,8 @@ static fg_status write_solids(cli_drawing *drawing, int index, const fg_icons *i
 {
   static const char *const ends[] = {".vtp", ".glb"};
   fg_solid_options options = {.palette = drawing->settings->palette,
-                              .speed_min = drawing->speeds[0],
-                              .speed_max = drawing->speeds[1],
+                              .speed_min = drawing->look.speeds[0],
+                              .speed_max = drawing->look.speeds[1],
                               .surface = surface};
   fg_status status = FG_STATUS_OK;
   for (size_t k = 0; k < sizeof ends / sizeof *ends && !status; ++k) {
@@ -93,12 +94,11 @@ static fg_status write_renderings(cli_drawing *drawing, int index,
     int view = solid_view_of(ends[n]);
     if (view < 0)
       continue;
-    fg_solid_options options = settings_solid(settings, view);
-    options.speed_min = drawing->speeds[0];
-    options.speed_max = drawing->speeds[1];
+    fg_solid_options options = settings_solid(settings, view, drawing->look.view);
+    options.speed_min = drawing->look.speeds[0];
+    options.speed_max = drawing->look.speeds[1];
     if (!settings_place(settings)) /* the time of clusters */
-      if (!settings_place(drawing->settings))
-        options.scale_time = moment->time;
+      options.scale_time = moment->time;
     options.surface = surface;
     options.threads = settings->threads;
     char *path = scale_path(drawing, index, ends[n]);
@@ -143,9 +143,10 @@ static fg_status write_pictures(cli_drawing *drawing, int index,
 {
   static const char *const ends[FORMAT_KINDS] = {".svg", ".png", ".pdf"};
   fg_picture_options options = settings_picture(drawing->settings);
-  options.speed_min = drawing->speeds[0];
-  options.speed_max = drawing->speeds[1];
-  options.scale_time = moment->time;
+  options.speed_min = drawing->look.speeds[0];
+  options.speed_max = drawing->look.speeds[1];
+  if (!settings_place(drawing->settings))
+    options.scale_time = moment->time;
   fg_status status =
       background_choose(&options, &drawing->background, drawing->context,
                         drawing->settings, drawing->field, moment->density, icons);
@@ -210,6 +211,22 @@ static fg_status draw_flat(cli_drawing *drawing, int index, const scale_moment *
   return status;
 }
 
+/* Of the finest scale. */
+static fg_status choose_look(cli_drawing *drawing, const fg_icons *icons)
+{
+  common_look *look = &drawing->look;
+  if (!scales_are_solid(drawing->field)) {
+    fg_icons_speed_range(look->speeds, icons);
+    return FG_STATUS_OK;
+  }
+  fg_status status =
+      fg_solid_speed_range(look->speeds, drawing->context, drawing->field, icons);
+  if (!status)
+    status = fg_solid_best_view(&look->view[0], &look->view[1], drawing->context,
+                                drawing->field, icons);
+  return status;
+}
+
 static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *moment)
 {
   scale_result *result = &drawing->results[index];
@@ -228,7 +245,7 @@ static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *momen
   double between = clock_seconds();
   drawing->icon_seconds += between - start;
   if (!status && index == 0)
-    fg_icons_speed_range(drawing->speeds, icons);
+    status = choose_look(drawing, icons);
   if (!status)
     status = scales_are_solid(drawing->field) ? draw_solids(drawing, index, moment, icons)
                                               : draw_flat(drawing, index, moment);
@@ -301,6 +318,21 @@ static void *work(void *argument)
   return NULL;
 }
 
+/* Reads what other ranks have of a field in 3D. */
+static int read_whole(cli_drawing *drawing)
+{
+  bool wanted = scales_are_solid(drawing->field) || settings_place(drawing->settings);
+  if (!wanted || !fg_field_is_part(drawing->field, NULL, NULL))
+    return EXIT_DONE;
+  const char *input = drawing->settings->operand;
+  fg_read_options reading = settings_reading(drawing->settings);
+  fg_status status = fg_field_read(&drawing->whole, drawing->context, input, &reading);
+  if (status)
+    return complain_of(drawing->context, status, input);
+  drawing->field = drawing->whole;
+  return EXIT_DONE;
+}
+
 int drawing_start(cli_drawing **out, const cli_settings *settings, const fg_field *field,
                   const cli_output *output)
 {
@@ -315,7 +347,14 @@ int drawing_start(cli_drawing **out, const cli_settings *settings, const fg_fiel
   drawing->settings = settings;
   drawing->field = field;
   drawing->output = output;
-  drawing->placing = (cli_placing){settings, field, drawing->context, NULL};
+  int code = read_whole(drawing);
+  if (code) {
+    fg_context_destroy(drawing->context);
+    free(drawing);
+    *out = NULL;
+    return code;
+  }
+  drawing->placing = (cli_placing){settings, drawing->field, drawing->context, NULL};
   pthread_mutex_init(&drawing->lock, NULL);
   pthread_cond_init(&drawing->changed, NULL);
   /* without a thread to be had, the drawing is done in order: the result is the same */
@@ -362,14 +401,13 @@ bool drawing_wait(cli_drawing *drawing)
 }
 
 void drawing_restore(cli_drawing *drawing, const scale_result *results, int count,
-                     const double speeds[2], double icon_seconds, double picture_seconds)
+                     const common_look *look, double icon_seconds, double picture_seconds)
 {
   pthread_mutex_lock(&drawing->lock);
   for (int k = 0; k < count; ++k)
     drawing->results[k] = results[k];
   drawing->added = drawing->drawn = count;
-  for (int k = 0; k < 2; ++k)
-    drawing->speeds[k] = speeds[k];
+  drawing->look = *look;
   drawing->icon_seconds = icon_seconds;
   drawing->picture_seconds = picture_seconds;
   pthread_mutex_unlock(&drawing->lock);
@@ -458,9 +496,9 @@ const scale_result *drawing_result(const cli_drawing *drawing, int index)
   return &drawing->results[index];
 }
 
-const double *drawing_speeds(const cli_drawing *drawing)
+const common_look *drawing_look(const cli_drawing *drawing)
 {
-  return drawing->speeds;
+  return &drawing->look;
 }
 
 double drawing_icon_seconds(const cli_drawing *drawing)
@@ -492,6 +530,7 @@ void drawing_destroy(cli_drawing *drawing)
   placing_clear(&drawing->placing);
   fg_icons_destroy(drawing->finer);
   fg_texture_destroy(drawing->background);
+  fg_field_destroy(drawing->whole);
   fg_context_destroy(drawing->context);
   free(drawing);
 }

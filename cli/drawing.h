@@ -24,9 +24,16 @@ typedef struct scale_moment {
 
 typedef struct cli_drawing cli_drawing;
 
+/* What all scales' pictures have in common, found from the finest scale's icons: the ends
+ * of the colour key, so that a colour means the same in all of them, and in 3D the
+ * viewpoint, azimuth and elevation. */
+typedef struct common_look {
+  double speeds[2], view[2];
+} common_look;
+
 /* Starts a worker thread, or with `threads` 1 none: then drawing_add draws before it
- * returns. The field, whole where arrows are placed, and output are borrowed. Returns an
- * exit code. */
+ * returns. The field and output are borrowed; of a part of a field, where arrows are
+ * placed or in 3D, the whole is read again. Returns an exit code. */
 int drawing_start(cli_drawing **out, const cli_settings *settings, const fg_field *field,
                   const cli_output *output);
 
@@ -38,10 +45,11 @@ bool drawing_add(cli_drawing *drawing, const scale_moment *moment, const int *wa
 /* Waits until all that was added is drawn. False: it has failed. */
 bool drawing_wait(cli_drawing *drawing);
 
-/* Takes over what was drawn before: `count` scales, their range of speeds, and the
+/* Takes over what was drawn before: `count` scales, what they have in common, and the
  * seconds it took. Before anything is added. */
 void drawing_restore(cli_drawing *drawing, const scale_result *results, int count,
-                     const double speeds[2], double icon_seconds, double picture_seconds);
+                     const common_look *look, double icon_seconds,
+                     double picture_seconds);
 
 /* Waits until all is drawn; the failure, if there was one, is in the context. */
 fg_status drawing_finish(cli_drawing *drawing);
@@ -64,9 +72,7 @@ int drawing_ready(cli_drawing *drawing);       /* scales drawn */
 bool drawing_failed(cli_drawing *drawing);     /* drawing_finish says why */
 const scale_result *drawing_result(const cli_drawing *drawing, int index);
 
-/* Mean speeds of the finest scale's icons: the ends of the colour key of every scale, so
- * that a colour means the same in all of them. */
-const double *drawing_speeds(const cli_drawing *drawing);
+const common_look *drawing_look(const cli_drawing *drawing);
 double drawing_icon_seconds(const cli_drawing *drawing);
 double drawing_picture_seconds(const cli_drawing *drawing);
 fg_context *drawing_context(const cli_drawing *drawing);

@@ -29,16 +29,6 @@ int input_read(cli_run *run)
                                 said->operand);
 }
 
-int input_read_whole(cli_run *run)
-{
-  if (!settings_place(run->settings) || !fg_field_is_part(run->field, NULL, NULL))
-    return EXIT_DONE;
-  fg_read_options reading = settings_reading(run->settings);
-  fg_status status =
-      fg_field_read(&run->whole, run->context, run->settings->operand, &reading);
-  return status ? complain_of(run->context, status, run->settings->operand) : EXIT_DONE;
-}
-
 /* How many times and levels there were to choose from; nothing when that can't be said.
  */
 static void count_choices(cli_run *run)

@@ -8,10 +8,6 @@
  * its dimension. Returns an exit code of this rank alone. */
 int input_read(cli_run *run);
 
-/* Of rank 0: reads the whole field where arrows are placed on one that ranks share.
- * Returns an exit code. */
-int input_read_whole(cli_run *run);
-
 /* Makes one field of all ranks' parts; rank 0 says which time and level it is, where
  * there were several. Collective. Returns an exit code, the same on all. */
 int input_join(cli_run *run);

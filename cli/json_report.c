@@ -184,7 +184,9 @@ static void add_outcome(cJSON *root, const run_facts *facts)
   cJSON *scales = cJSON_AddArrayToObject(root, "scales");
   for (int k = 0; k < drawing_count(facts->drawing); ++k)
     add_scale(scales, facts, k);
-  add_numbers(root, "speed_range", drawing_speeds(facts->drawing), 2);
+  add_numbers(root, "speed_range", drawing_look(facts->drawing)->speeds, 2);
+  if (scales_are_solid(facts->field))
+    add_numbers(root, "view", drawing_look(facts->drawing)->view, 2);
   cJSON_AddStringToObject(root, "ended", facts->ended);
   cJSON *steps = cJSON_AddObjectToObject(root, "steps");
   cJSON_AddNumberToObject(steps, "accepted", (double)facts->accepted);

@@ -332,7 +332,8 @@ const option_entry option_table[] = {
      "too"},
     {"view", 0, "AZ,EL", PICTURES, OPTION_VIEW, 0, 0, 0, false, false, NULL,
      "in 3D: where the viewer stands, in degrees counter-clockwise from the front (the "
-     "side of least y) and above the horizon; run takes several, a picture each [30,22]"},
+     "side of least y) and above the horizon; run takes several, a picture each [from "
+     "where most of the finest scale's arrows is seen]"},
     {"palette", 0, "NAME", PICTURES, OPTION_PALETTE, AT(palette), 0, 0, false, false,
      NULL, "colour map of the speed, or #rrggbb for one colour [gale]"},
     {"palette", 0, "NAME", COMMAND_TEXTURE, OPTION_PALETTE, AT(palette), 0, 0, false,

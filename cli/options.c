@@ -506,7 +506,8 @@ fg_picture_options settings_picture(const cli_settings *settings)
   };
 }
 
-fg_solid_options settings_solid(const cli_settings *settings, int view)
+fg_solid_options settings_solid(const cli_settings *settings, int view,
+                                const double usual[2])
 {
   /* pictures in 3D are 1200 pixels wide where those in 2D are 480 points */
   int pixels = (int)lround(2.5 * settings->width);
@@ -515,11 +516,12 @@ fg_solid_options settings_solid(const cli_settings *settings, int view)
       .width = pixels,
       .no_frame = settings->no_frame,
       .transparent = settings->transparent,
-      .has_view = view < settings->view_count,
   };
-  if (out.has_view) {
-    out.azimuth = settings->views[view][0];
-    out.elevation = settings->views[view][1];
+  const double *from = view < settings->view_count ? settings->views[view] : usual;
+  if (from) {
+    out.has_view = true;
+    out.azimuth = from[0];
+    out.elevation = from[1];
   }
   return out;
 }

@@ -153,6 +153,13 @@ int report_read(cli_report *out, const char *folder)
     const cJSON *end = cJSON_GetArrayItem(range, k);
     out->speeds[k] = cJSON_IsNumber(end) ? end->valuedouble : 0.0;
   }
+  const cJSON *view = cJSON_GetObjectItemCaseSensitive(out->tree, "view");
+  out->has_view = cJSON_GetArraySize(view) == 2;
+  for (int k = 0; k < 2; ++k) {
+    const cJSON *angle = cJSON_GetArrayItem(view, k);
+    out->has_view = out->has_view && cJSON_IsNumber(angle);
+    out->view[k] = out->has_view ? angle->valuedouble : 0.0;
+  }
   if (!out->input || out->scale_count < 1)
     complain("%s: is not the report of a finished run (%s)", path,
              out->tree ? "it names no input or no scales" : "it is not JSON");

@@ -27,6 +27,8 @@ typedef struct cli_report {
   int dimension;
   int scale_count;
   double speeds[2];
+  bool has_view;  /* in 3D */
+  double view[2]; /* azimuth, elevation */
 } cli_report;
 
 /* Reads DIR/run.json. Returns an exit code. */

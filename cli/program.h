@@ -134,8 +134,10 @@ fg_picture_options settings_picture(const cli_settings *settings);
 bool settings_place(const cli_settings *settings);
 fg_placement_options settings_placement(const cli_settings *settings);
 
-/* The options of one of the views in 3D, from 0. */
-fg_solid_options settings_solid(const cli_settings *settings, int view);
+/* The options of one of the views in 3D, from 0. usual: azimuth and elevation where none
+ * is asked for, or NULL. */
+fg_solid_options settings_solid(const cli_settings *settings, int view,
+                                const double usual[2]);
 fg_texture_options settings_texture(const cli_settings *settings);
 
 #endif

@@ -77,11 +77,7 @@ static int open_results(cli_run *run, bool *done, bool *goes_on)
   code = look(run, &state, done);
   if (code || *done)
     return code;
-  code = input_read_whole(run);
-  if (code)
-    return code;
-  code = drawing_start(&run->drawing, run->settings, run->whole ? run->whole : run->field,
-                       &run->output);
+  code = drawing_start(&run->drawing, run->settings, run->field, &run->output);
   run->facts.drawing = run->drawing;
   if (code)
     return code;
@@ -344,7 +340,6 @@ int command_run(const cli_settings *settings)
   fg_evolution_destroy(run.evolution);
   fg_tensors_destroy(run.tensors);
   fg_field_destroy(run.field);
-  fg_field_destroy(run.whole);
   fg_context_destroy(run.context);
   free(run.checkpoint);
   return code;

@@ -13,7 +13,6 @@ typedef struct cli_run {
   const cli_settings *settings;
   fg_context *context;
   fg_field *field;
-  fg_field *whole; /* of rank 0 of several, where arrows are placed; else NULL */
   fg_evolution_options evolution_options;
   fg_tensors *tensors; /* of which the energy is, or NULL */
   fg_evolution *evolution;

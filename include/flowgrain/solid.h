@@ -33,21 +33,39 @@ FG_API fg_status fg_density_surface(fg_surface **out, fg_context *context,
 
 typedef struct fg_solid_options {
   const char *palette; /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
-  double speed_min, speed_max; /* ends of the colours; equal: from the icons */
+  double speed_min, speed_max; /* ends of the colours; equal: of pictures those of
+                                  fg_solid_speed_range, else from the icons */
   const fg_surface *surface;   /* of the clusters, shown round the arrows, transparent
                                   [none] */
   /* Of pictures: */
   int width, height;         /* pixels [1200; as high as needed, at most as wide] */
-  bool has_view;             /* the next two count [30, 22] */
+  bool has_view;             /* the next two count [those of fg_solid_best_view] */
   double azimuth, elevation; /* degrees: where the viewer stands, counter-clockwise from
                                 the front (the side of least y), and above the horizon,
                                 -90 to 90 */
-  bool no_frame;             /* only arrows */
+  bool no_frame;             /* only arrows, and the outline of where the flow is */
   bool transparent;          /* no background */
   const char *title;         /* caption; NULL: from the field; "" none */
   double scale_time;         /* t of the scale, for the caption [none] */
   int threads;               /* [all cores] */
 } fg_solid_options;
+
+/* The viewpoint from which a picture of icons in 3D shows most of them: for each of the
+ * azimuths 0, 10, ... 350 with each of the elevations 10, 14, ... 50 degrees the length
+ * of what is seen of the arrows is measured as it appears, without what others hide,
+ * heads counted three times. Of the views within 4 % of the best it is the one nearest to
+ * azimuth 30, elevation 22 (fg_solid_options); that one without icons. MEMORY, ARGUMENT
+ * (2D). */
+FG_API fg_status fg_solid_best_view(double *azimuth, double *elevation,
+                                    fg_context *context, const fg_field *field,
+                                    const fg_icons *icons);
+
+/* The speeds along the arrows of icons in 3D, the ends of a colour key: of all their
+ * length 2 % is slower than range[0] and 2 % is faster than range[1], input units. Of a
+ * field of which other processes hold parts, or NULL, each arrow has its mean speed. 0, 0
+ * without icons. MEMORY, ARGUMENT. */
+FG_API fg_status fg_solid_speed_range(double range[2], fg_context *context,
+                                      const fg_field *field, const fg_icons *icons);
 
 /* Writes icons in 3D; the format follows the name's end.
  * .vtp: VTK polydata in input coordinates, with the cells' array `part` (0 a centre, 1 a
@@ -55,9 +73,11 @@ typedef struct fg_solid_options {
  * .glb: glTF 2.0 in one file: a node with a mesh for each arrow, coloured by its speed,
  * and for all spines, streamlines, centres and clusters' surfaces; z is turned upwards as
  * glTF has y. .png, .svg, .pdf: a rendered picture, the same to the bit on any number of
- * threads; 2.5 pixels a point. The field is needed for pictures only, else NULL. options
- * may be NULL. FILE_ACCESS, UNSUPPORTED (another end; a picture where flowgrain was built
- * without Embree), ARGUMENT, MEMORY, STOPPED. */
+ * threads; 2.5 pixels a point; colours follow the speed along each arrow, and the surface
+ * of where the field is valid, or of what moves in a field that hardly does, is seen as a
+ * faint outline, unless other processes hold parts of the field. The field is needed for
+ * pictures only, else NULL. options may be NULL. FILE_ACCESS, UNSUPPORTED (another end; a
+ * picture where flowgrain was built without Embree), ARGUMENT, MEMORY, STOPPED. */
 FG_API fg_status fg_solid_write(fg_context *context, const char *path,
                                 const fg_field *field, const fg_icons *icons,
                                 const fg_solid_options *options);

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "solid/make.h"
+#include "solid/slender.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -22,6 +23,10 @@ static const double MARGIN = 0.35;
 static const double TEST_SPACING = 0.25;
 static const double SMALLER = 0.9;
 enum { ATTEMPTS = 8, EDGE_BLOCK = 12, MOST_THREADS = 64 };
+
+/* In 3D a cluster's fair share of the domain is its volume over this, the coverage that
+ * is usual: by it an arrow counts as plump. */
+static const double USUAL_COVERAGE = 0.3;
 
 /* What all threads share; each takes the next cluster until there is none. */
 typedef struct icon_job {
@@ -225,6 +230,7 @@ static fg_status make_solids(icon_job *job, fg_context *context, fg__solid_maker
                                  &part[k].volume);
     icon[k].cluster = cluster;
     icon[k].area = source->labels->area[cluster - 1] * part[k].share;
+    fg__solid_slim(&icon[k], cbrt(icon[k].area / USUAL_COVERAGE));
   }
   for (int k = 0; k < parts; k++)
     fg__volume_clear(&part[k].volume);

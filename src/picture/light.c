@@ -1,32 +1,36 @@
 #include "picture/light.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/mix.h"
 #include "solid/vector.h"
 
 /* Shares of the light, chosen by eye so that a lit face has the colour of the key. */
-static const double lamp_share = 0.66, sky_share = 0.46, viewer_share = 0.12;
-static const double shine = 0.22, shine_power = 36.0;
+static const double lamp_share = 0.62, sky_share = 0.42, viewer_share = 0.14;
+static const double shine = 0.20, shine_power = 30.0;
 
 /* What is far fades by this share towards this level, as eyes see them (sRGB): depth is
  * seen in colour, too. Of linear light, a tenth of white outshines a dark colour. */
-static const double fade = 0.22, far_level = 0.92;
+static const double fade = 0.42, far_level = 0.95;
 
-/* On the walls: what a shadow and a hidden sky take away; the tone of a wall (floor and
- * ceiling are the lightest), and of its lines. */
-static const double shadow_depth = 0.45, corner_depth = 0.5;
-static const double wall_tone[3] = {0.80, 0.86, 0.93};
-static const double line_tone = 0.55;
+/* The tone of a wall (the floor is the darkest, so that its shadows have a ground), of
+ * the box's edges, and what a shadow takes away. */
+static const double wall_tone[3] = {0.955, 0.955, 0.915};
+static const double edge_tone = 0.66, shadow_depth = 0.27;
 
 /* Of the clusters' surfaces: what they hide where they face the viewer, and at the rim.
  */
 static const double skin_alpha = 0.10, skin_rim = 0.62;
 static const double skin_color[3] = {0.62, 0.74, 0.88};
 
-/* The lamp's radius over its distance. */
-static const double lamp_size = 0.05;
+/* Likewise of the domain's or the moving volume's outline; at the rim only what is seen
+ * from very near its side counts. */
+static const double outline_alpha = 0.075, outline_rim = 0.75, outline_power = 2.4;
+static const double cut_alpha = 0.5;
+static const double outline_color[3] = {0.42, 0.49, 0.60};
+
+/* The overhead disc's radius over its distance. */
+static const double overhead_size = 0.013;
 
 static const double full_turn = 6.283185307179586;
 
@@ -70,42 +74,12 @@ void fg__lamp_direction(const fg__camera *camera, double out[3])
   fg__normalise(out);
 }
 
-/* A point of the unit disc. */
-static void disc(const double number[2], double out[2])
+void fg__overhead_sample(const double number[2], double out[3])
 {
-  double radius = sqrt(number[0]), angle = full_turn * number[1];
+  double radius = overhead_size * sqrt(number[0]), angle = full_turn * number[1];
   out[0] = radius * cos(angle);
   out[1] = radius * sin(angle);
-}
-
-void fg__bases_of(fg__bases *out, const double axis[3])
-{
-  memcpy(out->axis, axis, sizeof out->axis);
-  fg__any_normal(axis, out->one);
-  fg__cross(axis, out->one, out->other);
-}
-
-static void combine(const fg__bases *bases, double height, const double at[2],
-                    double out[3])
-{
-  for (int k = 0; k < 3; ++k)
-    out[k] = height * bases->axis[k] + at[0] * bases->one[k] + at[1] * bases->other[k];
-}
-
-void fg__lamp_sample(const fg__bases *lamp, const double number[2], double out[3])
-{
-  double at[2];
-  disc(number, at);
-  at[0] *= lamp_size;
-  at[1] *= lamp_size;
-  combine(lamp, 1.0, at, out);
-}
-
-void fg__sky_sample(const fg__bases *normal, const double number[2], double out[3])
-{
-  double at[2];
-  disc(number, at);
-  combine(normal, sqrt(fmax(1.0 - number[0], 0.0)), at, out);
+  out[2] = 1.0;
 }
 
 /* sRGB to linear light and back (IEC 61966-2-1). */
@@ -123,29 +97,36 @@ static double encoded(double light)
   return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1.0 / 2.4) - 0.055;
 }
 
+/* Fades a level of linear light with the distance. */
+static double faded(double light, double depth)
+{
+  double far = fade * depth;
+  return linear((1.0 - far) * encoded(light) + far * far_level);
+}
+
 fg__light fg__light_arrow(fg__color color, const fg__lit *lit)
 {
-  double facing = fmax(fg__dot(lit->normal, lit->lamp), 0.0) * lit->lamp_seen;
-  double sky = lit->sky_seen * (0.7 + 0.3 * lit->normal[2]);
-  double light = lamp_share * facing + sky_share * sky +
+  double facing = fmax(fg__dot(lit->normal, lit->lamp), 0.0);
+  double light = lamp_share * facing + sky_share * (0.7 + 0.3 * lit->normal[2]) +
                  viewer_share * fmax(fg__dot(lit->normal, lit->to_viewer), 0.0);
   double half[3];
   fg__along(lit->lamp, 1, lit->to_viewer, half);
   fg__normalise(half);
-  double glint =
-      shine * lit->lamp_seen * pow(fmax(fg__dot(lit->normal, half), 0.0), shine_power);
-  const double level[3] = {linear(color.red), linear(color.green), linear(color.blue)};
-  double out[3], far = fade * lit->depth;
-  for (int k = 0; k < 3; ++k)
-    out[k] = linear((1.0 - far) * encoded(level[k] * light + glint) + far * far_level);
-  return (fg__light){out[0], out[1], out[2], 1.0};
+  double glint = shine * pow(fmax(fg__dot(lit->normal, half), 0.0), shine_power);
+  return (fg__light){faded(linear(color.red) * light + glint, lit->depth),
+                     faded(linear(color.green) * light + glint, lit->depth),
+                     faded(linear(color.blue) * light + glint, lit->depth), 1.0};
 }
 
-fg__light fg__light_wall(int axis, double line, const fg__lit *lit)
+fg__light fg__light_wall(int axis, double lit)
 {
-  double tone = wall_tone[axis] * (1.0 - line * (1.0 - line_tone));
-  tone *= 1.0 - shadow_depth * (1.0 - lit->lamp_seen);
-  tone *= 1.0 - corner_depth * (1.0 - lit->sky_seen);
+  double tone = wall_tone[axis] * (1.0 - shadow_depth * (1.0 - lit));
+  return (fg__light){tone, tone, tone, 1.0};
+}
+
+fg__light fg__light_edge(double depth)
+{
+  double tone = faded(edge_tone, depth);
   return (fg__light){tone, tone, tone, 1.0};
 }
 
@@ -156,6 +137,15 @@ fg__light fg__light_skin(const fg__lit *lit)
   double light = 0.72 + 0.28 * fg__dot(lit->normal, lit->lamp);
   return (fg__light){alpha * skin_color[0] * light, alpha * skin_color[1] * light,
                      alpha * skin_color[2] * light, alpha};
+}
+
+fg__light fg__light_silhouette(const fg__lit *lit, bool cut)
+{
+  double side = 1.0 - fmin(fabs(fg__dot(lit->normal, lit->to_viewer)), 1.0);
+  double alpha = outline_alpha + (outline_rim - outline_alpha) * pow(side, outline_power);
+  alpha = fmax(alpha, cut ? cut_alpha : 0.0) * (1.0 - fade * lit->depth);
+  return (fg__light){alpha * outline_color[0], alpha * outline_color[1],
+                     alpha * outline_color[2], alpha};
 }
 
 uint32_t fg__light_pixel(fg__light light, bool transparent)

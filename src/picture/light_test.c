@@ -10,7 +10,6 @@ static void levels_of(double out[3], fg__color color, double depth)
   const fg__lit lit = {.normal = {0.0, -0.6, 0.8},
                        .to_viewer = {0.0, -0.6, 0.8},
                        .lamp = {0.0, 0.8, 0.6},
-                       .sky_seen = 1.0,
                        .depth = depth};
   const uint32_t pixel = fg__light_pixel(fg__light_arrow(color, &lit), false);
   for (int k = 0; k < 3; ++k)
@@ -36,7 +35,7 @@ static void far_colors_keep_apart_alike(void **state)
       kept[pair][k] = (other[1][k] - one[1][k]) / (other[0][k] - one[0][k]);
   }
   for (int k = 0; k < 3; ++k) {
-    assert_true(kept[0][k] > 0.6 && kept[0][k] < 0.95);
+    assert_true(kept[0][k] > 0.5 && kept[0][k] < 0.75);
     assert_true(fabs(kept[0][k] - kept[1][k]) < 0.06); /* bytes: 1 of 50 and more */
   }
 }

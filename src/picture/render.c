@@ -21,32 +21,44 @@ fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32
 
 #include <math.h>
 #include <stdatomic.h>
-#include <string.h>
+#include <stdlib.h>
 
+#include "base/memory.h"
 #include "base/team.h"
 #include "picture/light.h"
 #include "picture/target.h"
 #include "solid/vector.h"
 
-/* Rays through a pixel in rows and columns: edges have 16 shades between. Each looks for
- * the lamp and the sky once, and where that leaves grain, in half shadows, so often. */
-enum { GRID = 4, SAMPLES = GRID * GRID, LAMP_FINER = 4, SKY_FINER = 8 };
+/* Rays through a pixel where the picture is uneven, in rows and columns: edges have 16
+ * shades between. Elsewhere one through the middle will do. */
+enum { GRID = 4, SAMPLES = GRID * GRID };
 
-/* What hides the sky is no farther than this, in longest sides of the box. */
-static const float sky_reach = 0.16F;
+/* A pixel is uneven when a level of a neighbour, of 255, differs by more. */
+enum { TOLERANCE = 4 };
 
-/* Rays leave a surface from this far off it, likewise: some float steps at the distance
- * of the eye. */
-static const float off_surface = 2e-5F;
+/* In smaller pictures arrows are as thin as pixels: all are drawn finely. */
+enum { SMALL_PICTURE = 400 * 400 };
 
-/* Half the width of a line on a wall, pixels. */
+/* Rows of pixels that a thread takes at a time. */
+enum { ROWS = 4 };
+
+/* Samples in turn, a row of a pixel, that take floor light and transparent surfaces from
+ * the first of them: both vary little within a pixel, and are what takes most time. The
+ * first ones of the rows lie in different columns. */
+enum { SHARED = GRID };
+static const int first_column[GRID] = {1, 3, 0, 2};
+
+/* Transparent surfaces before an arrow hide it less than what is behind it. */
+static const double veil_before_arrow = 0.45;
+
+/* A surface that lies along a side of the box, by its normal, is not cut by it. */
+static const double upright = 0.8;
+
+/* Rays start from this far off the floor, in longest sides of the box. */
+static const double off_floor = 2e-5;
+
+/* Half the width of the box's edges, pixels. */
 static const double half_line = 0.6;
-
-/* Transparent surfaces that a ray looks through; what is behind is hardly seen. */
-enum { MOST_SKINS = 24 };
-
-/* Pixels a side of the tiles that the image is made of. */
-enum { TILE = 8 };
 
 bool fg_solid_can_draw(void)
 {
@@ -57,76 +69,23 @@ typedef struct shop {
   const fg__rendering *about;
   fg_context *context;
   fg__target target;
-  fg__bases lamp;
+  double lamp[3];
   double nearest, farthest; /* distances of the box's corners from the eye */
-  uint32_t *image;
+  double margin;            /* round the box, within which halos are looked for */
+  uint32_t *image, *coarse; /* coarse: drawn with one ray a pixel */
   int stride;
-  atomic_int next_row;
+  atomic_int next_row, next_fine_row;
   atomic_bool stopped;
 } shop;
 
-static struct RTCRay ray_from(const double place[3], const double direction[3],
-                              float reach)
-{
-  return (struct RTCRay){.org_x = (float)place[0],
-                         .org_y = (float)place[1],
-                         .org_z = (float)place[2],
-                         .dir_x = (float)direction[0],
-                         .dir_y = (float)direction[1],
-                         .dir_z = (float)direction[2],
-                         .tfar = reach,
-                         .mask = ~0U};
-}
-
-/* Transparent surfaces in front of something. */
-typedef struct veil {
-  fg__light light; /* what they send themselves */
-  double left;     /* what they let through */
-} veil;
-
-/* A pixel, how many rays each of its samples sends to the lamp and to the sky, and how
- * many of all these met nothing. */
-typedef struct pixel {
-  uint64_t order; /* on the curve, see fg__light_order */
-  int x, y;
-  int lamp_rays, sky_rays, lamp_seen, sky_seen;
-  bool again;  /* it has been drawn before, and `front` is known */
-  veil *front; /* [SAMPLES] where surfaces are shown */
-} pixel;
-
-/* Sends rays from a point to the lamp and the sky; `face` is the surface's own normal.
- * What faces away from the lamp hides it itself, but walls let all light in. */
-static void find_light(const shop *s, fg__lit *lit, const double place[3],
-                       const double face[3], bool wall, pixel *p, int sample)
-{
-  double from[3], to[3], number[2];
-  int lamp = 0, sky = 0;
-  fg__packet rays = {.count = 0};
-  uint64_t at = p->order * SAMPLES + (unsigned)sample;
-  fg__bases round;
-  fg__bases_of(&round, face);
-  fg__along(place, (double)off_surface, face, from);
-  memcpy(lit->lamp, s->lamp.axis, sizeof lit->lamp);
-  for (int n = 0; n < p->lamp_rays; ++n) {
-    fg__light_numbers(at * (unsigned)p->lamp_rays + (unsigned)n, 1, number);
-    fg__lamp_sample(&s->lamp, number, to);
-    if (fg__dot(to, face) > 0.0)
-      lamp += fg__packet_add(&rays, &s->target, from, to, 4.0F);
-    else
-      lamp += wall;
-  }
-  lamp += fg__packet_flush(&rays, &s->target);
-  for (int n = 0; n < p->sky_rays; ++n) {
-    fg__light_numbers(at * (unsigned)p->sky_rays + (unsigned)n, 2, number);
-    fg__sky_sample(&round, number, to);
-    sky += fg__packet_add(&rays, &s->target, from, to, sky_reach);
-  }
-  sky += fg__packet_flush(&rays, &s->target);
-  lit->lamp_seen = (double)lamp / p->lamp_rays;
-  lit->sky_seen = (double)sky / p->sky_rays;
-  p->lamp_seen += lamp;
-  p->sky_seen += sky;
-}
+/* What samples of a pixel share. */
+typedef struct glance {
+  uint64_t number; /* of all rays: for what they scatter */
+  bool has_floor, has_veils;
+  double floor; /* the share of the light overhead that comes there */
+  int veils;
+  fg__veil veil[FG__MOST_VEILS];
+} glance;
 
 static double depth_of(const shop *s, double distance)
 {
@@ -134,221 +93,258 @@ static double depth_of(const shop *s, double distance)
   return fmin(fmax(share, 0.0), 1.0);
 }
 
-static fg__light light_hit(const shop *s, const struct RTCRayHit *hit,
-                           const double direction[3], pixel *p, int sample)
-{
-  float smooth[3];
-  fg__lit lit;
-  double face[3] = {(double)hit->hit.Ng_x, (double)hit->hit.Ng_y, (double)hit->hit.Ng_z};
-  rtcInterpolate0(rtcGetGeometry(s->target.scene, hit->hit.geomID), hit->hit.primID,
-                  hit->hit.u, hit->hit.v, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0, smooth, 3);
-  double place[3], distance = (double)hit->ray.tfar;
-  fg__along(s->about->camera.eye, distance, direction, place);
-  fg__normalise(face);
-  for (int k = 0; k < 3; ++k) {
-    lit.normal[k] = (double)smooth[k];
-    lit.to_viewer[k] = -direction[k];
-  }
-  fg__normalise(lit.normal);
-  if (fg__dot(face, direction) > 0.0) /* the inside of one that the box cuts open */
-    for (int k = 0; k < 3; ++k) {
-      face[k] = -face[k];
-      lit.normal[k] = -lit.normal[k];
-    }
-  lit.depth = depth_of(s, distance);
-  find_light(s, &lit, place, face, false, p, sample);
-  return fg__light_arrow(s->target.color[hit->hit.geomID], &lit);
-}
+/* Where a ray is in the box. */
+typedef struct stay {
+  double enter, leave; /* distances */
+  int door, exit;      /* the axes across which the sides there lie */
+} stay;
 
-/* Where a ray leaves the box; false when it misses it. */
-static bool leave_box(const fg__rendering *about, const double direction[3], int *axis,
-                      double *distance)
+/* Of a box that is larger by a margin; false when the ray misses it. */
+static bool cross_box(const fg__rendering *about, const double direction[3],
+                      double margin, stay *out)
 {
-  double enter = 0.0, leave = HUGE_VAL;
+  *out = (stay){.leave = HUGE_VAL};
   for (int k = 0; k < 3; ++k) {
-    double half = about->stage.half[k], eye = about->camera.eye[k];
+    double half = about->stage.half[k] + margin, eye = about->camera.eye[k];
     if (!(fabs(direction[k]) > 0.0)) {
       if (fabs(eye) > half)
         return false;
       continue;
     }
     double one = (-half - eye) / direction[k], other = (half - eye) / direction[k];
-    enter = fmax(enter, fmin(one, other));
-    if (fmax(one, other) < leave) {
-      leave = fmax(one, other);
-      *axis = k;
+    if (fmin(one, other) > out->enter) {
+      out->enter = fmin(one, other);
+      out->door = k;
+    }
+    if (fmax(one, other) < out->leave) {
+      out->leave = fmax(one, other);
+      out->exit = k;
     }
   }
-  *distance = leave;
-  return enter < leave;
+  return out->enter < out->leave;
 }
 
-/* How much of a line covers a point of the wall across `axis`. */
-static double line_at(const fg__rendering *about, int axis, const double place[3],
-                      double distance)
+/* Whether a point of the side across `axis` lies on an edge of the box. */
+static bool on_edge(const fg__rendering *about, int axis, const double place[3],
+                    double distance)
 {
-  double width = half_line * distance / about->camera.factor, cover = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    if (k == axis)
-      continue;
-    if (fabs(place[k]) > about->stage.half[k] - 2.0 * width)
-      return 1.0;
-    for (int n = 0; n < about->lines[k]; ++n)
-      if (fabs(place[k] - about->line[k][n]) < width)
-        cover = 0.42;
-  }
-  return cover;
+  double width = 2.0 * half_line * distance / about->camera.factor;
+  for (int k = 0; k < 3; ++k)
+    if (k != axis && fabs(place[k]) > about->stage.half[k] - width)
+      return true;
+  return false;
 }
 
-static fg__light light_wall(const shop *s, const double direction[3], pixel *p,
-                            int sample)
+/* The share of the light overhead that comes to a point of the floor. */
+static double light_floor(const shop *s, const double place[3], glance *shared)
+{
+  if (shared->has_floor)
+    return shared->floor;
+  double to[FG__PACKET][3];
+  const double from[3] = {place[0], place[1], place[2] + off_floor};
+  for (unsigned n = 0; n < FG__PACKET; ++n) {
+    double at[2];
+    fg__light_numbers(shared->number * FG__PACKET + n, 1, at);
+    fg__overhead_sample(at, to[n]);
+  }
+  int seen = fg__target_unhidden(&s->target, from, (const double(*)[3])to);
+  shared->has_floor = true;
+  return shared->floor = (double)seen / FG__PACKET;
+}
+
+/* What is behind the arrows. */
+static fg__light light_ground(const shop *s, const double direction[3], glance *shared)
 {
   const fg__rendering *about = s->about;
-  int axis = 0;
-  double distance, place[3], face[3] = {0.0, 0.0, 0.0};
-  if (!about->walls || !leave_box(about, direction, &axis, &distance))
+  stay box;
+  double place[3];
+  if (!about->walls || !cross_box(about, direction, 0.0, &box))
     return (fg__light){0};
-  fg__along(about->camera.eye, distance, direction, place);
-  face[axis] = direction[axis] > 0.0 ? -1.0 : 1.0;
-  fg__lit lit = {.depth = depth_of(s, distance)};
-  find_light(s, &lit, place, face, true, p, sample);
-  return fg__light_wall(axis, line_at(about, axis, place, distance), &lit);
+  fg__along(about->camera.eye, box.enter, direction, place);
+  if (on_edge(about, box.door, place, box.enter))
+    return fg__light_edge(depth_of(s, box.enter));
+  fg__along(about->camera.eye, box.leave, direction, place);
+  if (on_edge(about, box.exit, place, box.leave))
+    return fg__light_edge(depth_of(s, box.leave));
+  bool floor = box.exit == 2 && direction[2] < 0.0;
+  return fg__light_wall(box.exit, floor ? light_floor(s, place, shared) : 1.0);
 }
 
-/* What is seen of transparent surfaces up to a distance, and the share of light that
- * comes through them. */
-static veil look_through(const shop *s, const double direction[3], float reach)
+static fg__lit lit_of(const shop *s, const double normal[3], const double direction[3],
+                      double distance)
+{
+  fg__lit lit = {.depth = depth_of(s, distance)};
+  for (int k = 0; k < 3; ++k) {
+    lit.normal[k] = normal[k];
+    lit.to_viewer[k] = -direction[k];
+    lit.lamp[k] = s->lamp[k];
+  }
+  return lit;
+}
+
+/* White, as the page, or nothing where there is no page. */
+static fg__light light_halo(const shop *s)
+{
+  double paper = s->about->transparent && !s->about->walls ? 0.0 : 1.0;
+  return (fg__light){paper, paper, paper, paper};
+}
+
+static fg__light light_hit(const shop *s, const fg__hit *hit, const double direction[3])
+{
+  if (hit->halo)
+    return light_halo(s);
+  const fg__lit lit = lit_of(s, hit->normal, direction, hit->distance);
+  return fg__light_arrow(fg__palette_color(s->about->palette, hit->share), &lit);
+}
+
+/* What a transparent surface sends; where the box cuts it, the line of the cut. */
+static fg__light light_veil(const shop *s, const fg__veil *veil,
+                            const double direction[3])
+{
+  const fg__lit lit = lit_of(s, veil->normal, direction, veil->distance);
+  if (!veil->silhouette)
+    return fg__light_skin(&lit);
+  const fg__rendering *about = s->about;
+  double place[3], width = 2.0 * half_line * veil->distance / about->camera.factor;
+  fg__along(about->camera.eye, veil->distance, direction, place);
+  bool cut = false;
+  for (int k = 0; k < 3; ++k)
+    cut = cut || (!(about->stage.period[k] > 0.0) && fabs(veil->normal[k]) < upright &&
+                  fabs(place[k]) > about->stage.half[k] - width);
+  return fg__light_silhouette(&lit, cut);
+}
+
+/* Transparent surfaces up to what a ray meets, before what is seen there. */
+static fg__light look_through(const shop *s, const double direction[3],
+                              const fg__hit *hit, const fg__light *behind, glance *shared)
 {
   fg__light out = {0};
-  double left = 1.0, from = 0.0;
-  for (int n = 0; n < MOST_SKINS && left > 0.01; ++n) {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    struct RTCRayHit hit = {.ray = ray_from(s->about->camera.eye, direction, reach),
-                            .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-    hit.ray.tnear = (float)from;
-    rtcIntersect1(s->target.skins, &context, &hit);
-    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-      break;
-    float smooth[3];
-    fg__lit lit;
-    rtcInterpolate0(rtcGetGeometry(s->target.skins, hit.hit.geomID), hit.hit.primID,
-                    hit.hit.u, hit.hit.v, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0, smooth, 3);
-    for (int k = 0; k < 3; ++k) {
-      lit.normal[k] = (double)smooth[k];
-      lit.to_viewer[k] = -direction[k];
-      lit.lamp[k] = s->lamp.axis[k];
-    }
-    fg__normalise(lit.normal);
-    fg__light skin = fg__light_skin(&lit);
-    out.red += left * skin.red;
-    out.green += left * skin.green;
-    out.blue += left * skin.blue;
-    out.alpha += left * skin.alpha;
-    left *= 1.0 - skin.alpha;
-    from = (double)hit.ray.tfar + (double)off_surface;
+  double left = 1.0, strength = hit->part >= 0 ? veil_before_arrow : 1.0;
+  if (!shared->has_veils)
+    shared->veils =
+        fg__target_veils(&s->target, s->about->camera.eye, direction, shared->veil);
+  shared->has_veils = true;
+  for (int n = 0; n < shared->veils && shared->veil[n].distance < hit->distance; ++n) {
+    fg__light skin = light_veil(s, &shared->veil[n], direction);
+    double share = left * strength;
+    out.red += share * skin.red;
+    out.green += share * skin.green;
+    out.blue += share * skin.blue;
+    out.alpha += share * skin.alpha;
+    left *= 1.0 - strength * skin.alpha;
   }
-  return (veil){out, left};
+  return (fg__light){out.red + left * behind->red, out.green + left * behind->green,
+                     out.blue + left * behind->blue, out.alpha + left * behind->alpha};
 }
 
-static fg__light behind_veil(const veil *front, fg__light behind)
+/* Of a ray through a place in the picture. */
+static fg__light trace(const shop *s, double x, double y, glance *shared)
 {
-  const fg__light *light = &front->light;
-  return (fg__light){
-      light->red + front->left * behind.red, light->green + front->left * behind.green,
-      light->blue + front->left * behind.blue, light->alpha + front->left * behind.alpha};
+  const fg__rendering *about = s->about;
+  double direction[3];
+  stay box;
+  fg__camera_ray(&about->camera, x, y, direction);
+  if (!cross_box(about, direction, s->margin, &box))
+    return (fg__light){0};
+  fg__hit hit = fg__target_hit(&s->target, about->camera.eye, direction);
+  fg__light light =
+      hit.part >= 0 ? light_hit(s, &hit, direction) : light_ground(s, direction, shared);
+  if (!about->surface && !about->silhouette)
+    return light;
+  return look_through(s, direction, &hit, &light, shared);
 }
 
-static fg__light trace_sample(const shop *s, pixel *p, int sample)
+static uint32_t trace_finely(const shop *s, int x, int y)
 {
-  const fg__camera *camera = &s->about->camera;
-  double number[2], direction[3];
-  fg__light_numbers(p->order * SAMPLES + (unsigned)sample, 0, number);
-  fg__camera_ray(camera, p->x + (sample % GRID + number[0]) / GRID,
-                 p->y + (sample / GRID + number[1]) / GRID, direction);
-  struct RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  struct RTCRayHit hit = {.ray = ray_from(camera->eye, direction, INFINITY),
-                          .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-  rtcIntersect1(s->target.scene, &context, &hit);
-  fg__light behind = hit.hit.geomID != RTC_INVALID_GEOMETRY_ID
-                         ? light_hit(s, &hit, direction, p, sample)
-                         : light_wall(s, direction, p, sample);
-  if (!s->about->surface)
-    return behind;
-  if (!p->again)
-    p->front[sample] = look_through(s, direction, hit.ray.tfar);
-  return behind_veil(&p->front[sample], behind);
-}
-
-/* Light that needs more rays. */
-typedef struct unevenness {
-  bool lamp, sky;
-} unevenness;
-
-/* Draws a pixel; what its rays did not all find alike is uneven. */
-static unevenness trace_pixel(const shop *s, int x, int y, const unevenness *finer,
-                              veil *front)
-{
-  pixel p = {.order = fg__light_order(x, y),
-             .x = x,
-             .y = y,
-             .lamp_rays = finer->lamp ? LAMP_FINER : 1,
-             .sky_rays = finer->sky ? SKY_FINER : 1,
-             .again = finer->lamp || finer->sky,
-             .front = front};
   fg__light sum = {0};
+  uint64_t order = fg__light_order(x, y);
+  glance shared;
+  shared.number = order * (SAMPLES / SHARED);
   for (int sample = 0; sample < SAMPLES; ++sample) {
-    fg__light light = trace_sample(s, &p, sample);
+    double number[2];
+    int row = sample / GRID, column = (sample + first_column[row]) % GRID;
+    if (sample % SHARED == 0) {
+      shared.has_floor = shared.has_veils = false;
+      shared.number += sample > 0;
+    }
+    fg__light_numbers(order * SAMPLES + (unsigned)sample, 0, number);
+    fg__light light =
+        trace(s, x + (column + number[0]) / GRID, y + (row + number[1]) / GRID, &shared);
     sum.red += light.red / SAMPLES;
     sum.green += light.green / SAMPLES;
     sum.blue += light.blue / SAMPLES;
     sum.alpha += light.alpha / SAMPLES;
   }
-  s->image[(ptrdiff_t)y * s->stride + x] = fg__light_pixel(sum, s->about->transparent);
-  bool half_lamp = p.lamp_seen > 0 && p.lamp_seen < SAMPLES * p.lamp_rays;
-  bool half_sky = p.sky_seen > 0 && p.sky_seen < SAMPLES * p.sky_rays;
-  return (unevenness){half_lamp, half_sky};
+  return fg__light_pixel(sum, s->about->transparent);
 }
 
-/* Draws a tile, and those pixels once more where light is uneven, also that of a
- * neighbour in the tile. */
-static void trace_tile(const shop *s, int x, int y)
+static bool differ(uint32_t one, uint32_t other)
 {
-  const unevenness usual = {false, false};
-  unevenness at[TILE + 2][TILE + 2] = {{{false, false}}};
-  veil front[TILE][TILE][SAMPLES]; /* written when first drawn */
-  int wide = s->about->width - x, high = s->about->height - y;
-  wide = wide < TILE ? wide : TILE;
-  high = high < TILE ? high : TILE;
-  for (int j = 0; j < high; ++j)
-    for (int i = 0; i < wide; ++i)
-      at[j + 1][i + 1] = trace_pixel(s, x + i, y + j, &usual, front[j][i]);
-  for (int j = 0; j < high; ++j)
-    for (int i = 0; i < wide; ++i) {
-      unevenness near = usual;
-      for (int n = 0; n < 9; ++n) {
-        near.lamp = near.lamp || at[j + n / 3][i + n % 3].lamp;
-        near.sky = near.sky || at[j + n / 3][i + n % 3].sky;
-      }
-      if (near.lamp || near.sky)
-        trace_pixel(s, x + i, y + j, &near, front[j][i]);
-    }
+  for (int shift = 0; shift < 32; shift += 8)
+    if (abs((int)(one >> shift & 255U) - (int)(other >> shift & 255U)) > TOLERANCE)
+      return true;
+  return false;
 }
 
-static void work(void *argument, const fg__share *share)
+/* Whether a pixel of the coarse image differs from one beside it. */
+static bool is_uneven(const shop *s, int x, int y)
 {
-  shop *s = argument;
-  int height = s->about->height;
+  int wide = s->about->width, high = s->about->height;
+  uint32_t own = s->coarse[(ptrdiff_t)y * wide + x];
+  for (int n = 0; n < 9; ++n) {
+    int i = x + n % 3 - 1, j = y + n / 3 - 1;
+    if (i >= 0 && i < wide && j >= 0 && j < high &&
+        differ(own, s->coarse[(ptrdiff_t)j * wide + i]))
+      return true;
+  }
+  return false;
+}
+
+/* Gives rows out until there are none or the work is stopped; `draw` makes one. */
+static void share_rows(shop *s, const fg__share *share, atomic_int *next,
+                       void (*draw)(const shop *s, int y))
+{
   for (;;) {
-    int first = atomic_fetch_add(&s->next_row, TILE);
-    if (first >= height || atomic_load(&s->stopped))
+    int first = atomic_fetch_add(next, ROWS), high = s->about->height;
+    if (first >= high || atomic_load(&s->stopped))
       return;
-    for (int x = 0; x < s->about->width; x += TILE)
-      trace_tile(s, x, first);
+    for (int y = first; y < first + ROWS && y < high; ++y)
+      draw(s, y);
     if (share->member == 0 && fg__check_stop(s->context))
       atomic_store(&s->stopped, true);
   }
+}
+
+static void draw_coarse_row(const shop *s, int y)
+{
+  for (int x = 0; x < s->about->width; ++x) {
+    glance alone; /* its veils are written when there are any */
+    alone.number = fg__light_order(x, y);
+    alone.has_floor = alone.has_veils = false;
+    s->coarse[(ptrdiff_t)y * s->about->width + x] =
+        fg__light_pixel(trace(s, x + 0.5, y + 0.5, &alone), s->about->transparent);
+  }
+}
+
+static void draw_row(const shop *s, int y)
+{
+  bool small = s->about->width * s->about->height < SMALL_PICTURE;
+  for (int x = 0; x < s->about->width; ++x)
+    s->image[(ptrdiff_t)y * s->stride + x] =
+        small || is_uneven(s, x, y) ? trace_finely(s, x, y)
+                                    : s->coarse[(ptrdiff_t)y * s->about->width + x];
+}
+
+static void work_coarsely(void *argument, const fg__share *share)
+{
+  shop *s = argument;
+  share_rows(s, share, &s->next_row, draw_coarse_row);
+}
+
+static void work_finely(void *argument, const fg__share *share)
+{
+  shop *s = argument;
+  share_rows(s, share, &s->next_fine_row, draw_row);
 }
 
 static void find_depths(shop *s)
@@ -362,6 +358,7 @@ static void find_depths(shop *s)
     s->nearest = fmin(s->nearest, distance);
     s->farthest = fmax(s->farthest, distance);
   }
+  s->margin = 2.0 * s->about->halo * s->farthest / s->about->camera.factor;
 }
 
 fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32_t *image,
@@ -369,19 +366,23 @@ fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32
 {
   shop s = {.about = rendering, .context = context, .image = image, .stride = stride};
   fg__team *team = NULL;
-  double lamp[3];
-  fg__lamp_direction(&rendering->camera, lamp);
-  fg__bases_of(&s.lamp, lamp);
+  size_t pixels = (size_t)rendering->width * (size_t)rendering->height;
+  fg__lamp_direction(&rendering->camera, s.lamp);
   find_depths(&s);
   fg_status status = fg__target_open(&s.target, context, rendering);
+  s.coarse = fg__allocate(pixels, sizeof *s.coarse);
+  if (!status && !s.coarse)
+    status = fg__fail_memory(context, "a picture", pixels * sizeof *s.coarse);
   if (!status)
     status = fg__team_create(&team, context, rendering->threads);
   if (!status) {
-    fg__team_run(team, work, &s);
+    fg__team_run(team, work_coarsely, &s);
+    fg__team_run(team, work_finely, &s);
     status = fg__check_stop(context);
   }
   fg__team_destroy(team);
   fg__target_close(&s.target);
+  free(s.coarse);
   return status;
 }
 

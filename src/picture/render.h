@@ -7,21 +7,22 @@
 #include "picture/palette.h"
 #include "picture/stage.h"
 
-enum { FG__GRID_LINES = 24 };
-
 typedef struct fg__rendering {
   int width, height; /* pixels */
   fg__stage stage;
   fg__camera camera;
   const fg_icons *icons;
+  const fg_field *field; /* where an arrow's colour follows the speed; NULL: each has the
+                            colour of its mean */
   const fg__palette *palette;
-  double range[2];                /* speeds at the ends of the palette */
-  const fg_surface *surface;      /* transparent; NULL: none */
-  bool walls;                     /* the sides of the box behind the arrows, with lines */
-  double line[3][FG__GRID_LINES]; /* stage coordinates of the lines across an axis */
-  int lines[3];
-  bool transparent; /* nothing behind arrows and walls; else white */
-  int threads;      /* at least 1 */
+  double range[2];              /* speeds at the ends of the palette */
+  const fg_surface *surface;    /* transparent; NULL: none */
+  const fg_surface *silhouette; /* almost seen as an outline alone; NULL: none */
+  bool walls;                   /* the box: its sides behind the arrows, and its edges */
+  double halo;                  /* of white round each arrow, pixels; 0: none */
+  double least_head;            /* heads are no shorter in the box's middle, pixels */
+  bool transparent;             /* nothing behind arrows and walls; else white */
+  int threads;                  /* at least 1 */
 } fg__rendering;
 
 /* Fills an image of rows of `stride` pixels, premultiplied ARGB as Cairo has it. A pixel

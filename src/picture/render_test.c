@@ -5,6 +5,7 @@
 #include "base/context_test.h"
 #include "icon/icons.h"
 #include "picture/render.h"
+#include "solid/vector.h"
 
 enum { WIDTH = 150, HEIGHT = 120 };
 
@@ -124,6 +125,122 @@ static void walls_lie_behind_and_take_shadows(void **state)
   fg_icons_destroy(icons);
 }
 
+/* An upright arrow before one along x, both in the middle of the box, the second behind.
+ */
+static fg_icons *make_crossing(void)
+{
+  fg_icons *icons = NULL;
+  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
+  const double points[2][2][3] = {{{12.0, -4.3, 5.2}, {12.0, -4.3, 6.9}},
+                                  {{10.4, -1.8, 6.0}, {13.8, -1.8, 6.0}}};
+  for (int n = 0; n < 2; ++n) {
+    fg_icon icon = {.cluster = n + 1,
+                    .point_count = 2,
+                    .points = points[n],
+                    .width = 0.2,
+                    .tail_width = 0.18,
+                    .head_length = 0.5,
+                    .head_width = 0.5,
+                    .speed = 1.0 + n};
+    assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
+  }
+  return icons;
+}
+
+/* The one behind ends at the halo of the one before it, which is whole. */
+static void halos_part_arrows(void **state)
+{
+  (void)state;
+  fg_icons *icons = make_crossing();
+  fg__palette colors;
+  assert_int_equal(fg__palette_create(&colors, NULL, "#208010"), FG_STATUS_OK);
+  fg__rendering r = rendering_of(icons, &colors, 0.0, 0.0);
+  for (int halo = 0; halo < 2; ++halo)
+    for (int page = 0; page < 2; ++page) {
+      r.halo = 4.0 * halo;
+      r.transparent = !page;
+      assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
+      uint32_t paper = page ? 0xffffffffU : 0;
+      double front = 0.1 * r.camera.factor * r.stage.scale /
+                     (fg__length(r.camera.eye) - 1.3 * r.stage.scale);
+      double at[2];
+      const double middle[3] = {0.0, -1.3 * r.stage.scale, 0.0};
+      fg__camera_project(&r.camera, middle, at);
+      int x = (int)at[0], y = (int)at[1];
+      int beside = (int)floor(at[0] + front + 2.0);
+      assert_int_not_equal(image[y][x], paper);
+      assert_int_not_equal(image[y][beside + 6], paper);
+      if (halo)
+        assert_int_equal(image[y][beside], paper);
+      else
+        assert_int_not_equal(image[y][beside], paper);
+      assert_int_equal(image[y - 12][beside + 2], paper); /* behind it is nothing */
+    }
+  fg_icons_destroy(icons);
+}
+
+/* A surface is clearer where it is seen from the front than at its rim. */
+static void outlines_are_darkest_at_the_rim(void **state)
+{
+  (void)state;
+  fg_icons *none = NULL;
+  fg_surface *body;
+  fg__palette colors;
+  assert_int_equal(fg__palette_create(&colors, NULL, NULL), FG_STATUS_OK);
+  assert_int_equal(fg__icons_create_empty(&none, NULL), FG_STATUS_OK);
+  const double points[2][3] = {{12.0, -3.0, 5.1}, {12.0, -3.0, 6.9}};
+  const fg_icon thick = {.point_count = 2,
+                         .points = points,
+                         .width = 1.0,
+                         .tail_width = 1.0,
+                         .head_length = 0.1,
+                         .head_width = 1.01};
+  assert_int_equal(fg_icon_solid(&body, NULL, &thick), FG_STATUS_OK);
+  fg__rendering r = rendering_of(none, &colors, 70.0, 0.0);
+  r.silhouette = body;
+  assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
+  double at[2];
+  const double middle[3] = {0.0, 0.0, 0.0};
+  fg__camera_project(&r.camera, middle, at);
+  int y = (int)at[1], front = channel(image[y][(int)at[0]], 24), rim = 0, x = 0;
+  for (x = (int)at[0]; image[y][x] != 0; ++x)
+    rim = channel(image[y][x], 24) > rim ? channel(image[y][x], 24) : rim;
+  double radius = (x - at[0]) / (r.camera.factor / fg__length(r.camera.eye));
+  assert_true(fabs(radius - 0.5 * r.stage.scale) < 0.02);
+  assert_true(front > 5 && front < 60 && rim > 2 * front);
+  fg_surface_destroy(body);
+  fg_icons_destroy(none);
+}
+
+/* An arrow upwards where the flow is faster above: from the slow colour to the fast. */
+static void colors_follow_the_speed(void **state)
+{
+  (void)state;
+  static const double axis[3][2] = {{10.0, 14.0}, {-5.0, -1.0}, {5.0, 7.0}};
+  static const float none[8] = {0}, up[8] = {0.5F, 0.5F, 0.5F, 0.5F, 2, 2, 2, 2};
+  const fg_field_arrays arrays = {.dimension = 3,
+                                  .size = {2, 2, 2},
+                                  .axis = {axis[0], axis[1], axis[2]},
+                                  .velocity = {none, none, up}};
+  fg_field *field;
+  fg_icons *icons = make_icons(0.0, false);
+  fg__palette greys;
+  assert_int_equal(fg_field_create(&field, NULL, &arrays), FG_STATUS_OK);
+  assert_int_equal(fg__palette_create(&greys, NULL, "grey"), FG_STATUS_OK);
+  fg__rendering r = rendering_of(icons, &greys, 20.0, 5.0);
+  int level[2][2];
+  for (int varies = 0; varies < 2; ++varies) {
+    r.field = varies ? field : NULL;
+    assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
+    level[varies][0] = channel(pixel_at(&r, 12.4, -3.9 + 0.02, 5.4), 8);
+    level[varies][1] = channel(pixel_at(&r, 12.4, -3.9 + 0.1, 6.2), 8);
+  }
+  assert_true(abs(level[0][0] - level[0][1]) < 12);
+  assert_true(level[1][0] - level[1][1] > 25); /* what is fast is dark */
+  fg_icons_destroy(icons);
+  fg_field_destroy(field);
+}
+
 /* What goes on across a period comes in at the other side, and is cut at the border. */
 static void arrows_go_round_periods(void **state)
 {
@@ -186,6 +303,9 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(an_arrow_is_seen_where_it_is),
       cmocka_unit_test(walls_lie_behind_and_take_shadows),
+      cmocka_unit_test(halos_part_arrows),
+      cmocka_unit_test(outlines_are_darkest_at_the_rim),
+      cmocka_unit_test(colors_follow_the_speed),
       cmocka_unit_test(arrows_go_round_periods),
       cmocka_unit_test(threads_change_nothing),
       cmocka_unit_test(turning_all_changes_nothing),

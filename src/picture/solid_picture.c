@@ -10,10 +10,10 @@
 #include "picture/caption.h"
 #include "picture/render.h"
 #include "picture/sheet.h"
+#include "picture/silhouette.h"
 #include "picture/text.h"
 
 enum { USUAL_SIZE = 1200, LEAST_SIZE = 64, LARGEST_SIZE = 8192 };
-static const double usual_azimuth = 30.0, usual_elevation = 22.0;
 
 /* As pictures in 2D have it: 1200 pixels are 480 points. */
 static const double pixels_per_point = 2.5;
@@ -24,6 +24,12 @@ static const double font_share = 1.0 / 58.0, least_font = 9.0;
 /* Room round the box for what is written, in font sizes. */
 static const double left_room = 4.2, right_room = 2.6, key_room = 6.0, bottom_room = 4.2,
                     top_room = 1.5, line_height = 1.3, edge = 1.2;
+
+/* The white round each arrow, of the picture's larger side. */
+static const double halo_share = 0.0021;
+
+/* The least length of a head, likewise. */
+static const double head_share = 0.0135;
 
 /* The height is at least this share of the width, unless it is given. */
 static const double flattest = 0.5;
@@ -36,6 +42,8 @@ typedef struct solid_picture {
   fg__palette palette;
   fg__axis speed;
   fg__box_axes axes;
+  fg_surface *silhouette;
+  double azimuth, elevation;
   double em;
   bool framed, has_key;
   char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
@@ -111,10 +119,8 @@ static void lay_out(solid_picture *p, const fg_field_arrays *field,
                     const fg_solid_options *options)
 {
   fg__rendering *r = &p->rendering;
-  bool viewed = options->has_view;
   fg__pane pane = box_pane(p);
-  double azimuth = viewed ? options->azimuth : usual_azimuth;
-  double elevation = viewed ? options->elevation : usual_elevation;
+  double azimuth = p->azimuth, elevation = p->elevation;
   fg__stage_of(&r->stage, field);
   fg__camera_look(&r->camera, &r->stage, azimuth, elevation, &pane);
   if (options->height == 0) { /* no more of it than a flat box needs */
@@ -130,29 +136,48 @@ static void lay_out(solid_picture *p, const fg_field_arrays *field,
   if (options->height == 0 && p->framed)
     trim(p, ruler);
   cairo_destroy(ruler);
-  for (int k = 0; k < 3; ++k)
-    for (int n = 0; n < p->axes.ticks[k].count && n < FG__GRID_LINES; ++n)
-      r->line[k][r->lines[k]++] =
-          fg__stage_place(&r->stage, k, p->axes.ticks[k].position[n]);
 }
 
-static fg_status prepare(solid_picture *p, fg_context *context,
-                         const fg_field_arrays *field, const fg_icons *icons,
-                         const fg_solid_options *options)
+/* What is made of the field: the view, the colours' ends and the outline. */
+static fg_status explore(solid_picture *p, fg_context *context, const fg_field *field,
+                         const fg_icons *icons, const fg_solid_options *options)
 {
+  fg__rendering *r = &p->rendering;
+  fg_status status = FG_STATUS_OK;
+  p->azimuth = options->azimuth;
+  p->elevation = options->elevation;
+  if (!options->has_view)
+    status = fg_solid_best_view(&p->azimuth, &p->elevation, context, field, icons);
+  r->range[0] = options->speed_min;
+  r->range[1] = options->speed_max;
+  if (!status && !(r->range[1] > r->range[0]))
+    status = fg_solid_speed_range(r->range, context, field, icons);
+  if (!status)
+    status = fg__silhouette_create(&p->silhouette, context, field);
+  r->silhouette = p->silhouette;
+  return status;
+}
+
+static fg_status prepare(solid_picture *p, fg_context *context, const fg_field *field,
+                         const fg_icons *icons, const fg_solid_options *options)
+{
+  const fg_field_arrays *about = fg_field_contents(field);
   fg__rendering *r = &p->rendering;
   fg_status status = check_options(context, options);
   if (!status)
     status = fg__palette_create(&p->palette, context, options->palette);
+  if (!status)
+    status = explore(p, context, field, icons, options);
   if (status)
     return status;
   r->width = options->width ? options->width : USUAL_SIZE;
   r->height = options->height ? options->height : r->width;
+  r->halo = halo_share * fmax(r->width, r->height);
+  r->least_head = head_share * fmax(r->width, r->height);
   r->icons = icons;
+  r->field = field;
   r->surface = options->surface;
   r->palette = &p->palette;
-  r->range[0] = options->speed_min;
-  r->range[1] = options->speed_max;
   bool has_speeds = fg__speed_range(r->range, icons);
   p->framed = r->walls = !options->no_frame;
   p->has_key = p->framed && has_speeds && !p->palette.uniform;
@@ -160,11 +185,11 @@ static fg_status prepare(solid_picture *p, fg_context *context,
   settle_threads(r, options->threads);
   p->em = fmax(font_share * fmin(r->width, r->height), least_font);
   fg__axis_of_numbers(&p->speed, r->range[0], r->range[1], r->range[1] - r->range[0],
-                      "mean speed", field->velocity_units);
+                      "speed", about->velocity_units);
   if (p->framed)
-    fg__caption_write(p->title, p->subtitle, field, icons, options->title,
+    fg__caption_write(p->title, p->subtitle, about, icons, options->title,
                       options->scale_time);
-  lay_out(p, field, options);
+  lay_out(p, about, options);
   return FG_STATUS_OK;
 }
 
@@ -258,9 +283,10 @@ fg_status fg__solid_picture_write(fg_context *context, const char *path,
   solid_picture *p = fg__allocate(1, sizeof *p);
   if (!p)
     return fg__fail_memory(context, "a picture", sizeof *p);
-  status = prepare(p, context, contents, icons, options);
+  status = prepare(p, context, field, icons, options);
   if (!status)
     status = draw(context, path, p);
+  fg_surface_destroy(p->silhouette);
   free(p);
   return status;
 }

@@ -6,7 +6,7 @@
 
 /* The viewer's distance in half diagonals of the box: near enough that what is behind
  * looks smaller, far enough that parallels look so. */
-static const double viewing_distance = 4.2;
+static const double viewing_distance = 5.0;
 
 static const double radians_per_degree = 0.017453292519943295;
 

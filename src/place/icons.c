@@ -6,6 +6,7 @@
 #include "icon/measure.h"
 #include "place/angle.h"
 #include "place/regions.h"
+#include "solid/slender.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -68,7 +69,10 @@ static fg_status add_icon(fg_icons *icons, fg_context *context,
   if (!(read->measure > 0.0))
     icon.speed = fg__place_speed(search->domain, placed->seed.position);
   icon.kind = kind_of(search, &icon);
-  fg__icon_set_width(&icon, width_of(search, icon.speed, fg__icon_length(&icon)));
+  if (search->scale.dimension == 3)
+    fg__solid_set_width(&icon, search->scale.lambda);
+  else
+    fg__icon_set_width(&icon, width_of(search, icon.speed, fg__icon_length(&icon)));
   for (int k = 0; k < 3; ++k) {
     icon.center[k] = points[icon.point_count / 2][k];
     icon.seed[k] = placed->seed.position[k];

@@ -1,8 +1,9 @@
+#include "solid/tube.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/context.h"
 #include "base/memory.h"
 #include "solid/frame.h"
 #include "solid/vector.h"
@@ -22,6 +23,7 @@ static const double FULL_TURN = 6.283185307179586;
 typedef struct section {
   double position[3];
   double radius, slope; /* slope: growth of the radius along the line */
+  double value;
 } section;
 
 /* An arrow as sections from tail to tip; the two at the head's base share a place. */
@@ -39,9 +41,11 @@ static double length_of(const fg_icon *icon)
   return length;
 }
 
-/* Adds sections at s[], ascending arc lengths; pieces are walked once. */
-static void add_sections(shape *out, const fg_icon *icon, const double *s, int count,
-                         double radius_first, double radius_last)
+/* Adds sections at s[], ascending arc lengths; pieces are walked once. value: at each
+ * point, or NULL. */
+static void add_sections(shape *out, const fg_icon *icon, const double *value,
+                         const double *s, int count, double radius_first,
+                         double radius_last)
 {
   double passed = 0, slope = (radius_last - radius_first) / (s[count - 1] - s[0]);
   int piece = 0;
@@ -59,6 +63,8 @@ static void add_sections(shape *out, const fg_icon *icon, const double *s, int c
                          t * (icon->points[piece + 1][k] - icon->points[piece][k]);
     add->radius = radius_first + slope * (s[n] - s[0]);
     add->slope = slope;
+    if (value)
+      add->value = value[piece] + t * (value[piece + 1] - value[piece]);
   }
 }
 
@@ -76,7 +82,8 @@ static void add_frames(shape *s)
   }
 }
 
-static fg_status create_shape(shape *out, fg_context *context, const fg_icon *icon)
+static fg_status create_shape(shape *out, fg_context *context, const fg_icon *icon,
+                              const double *value)
 {
   double length = length_of(icon);
   double head = fmin(icon->head_length, LONGEST_HEAD * length), body = length - head;
@@ -95,10 +102,10 @@ static fg_status create_shape(shape *out, fg_context *context, const fg_icon *ic
   }
   for (int i = 0; i <= pieces; i++)
     s[i] = body * i / pieces;
-  add_sections(out, icon, s, pieces + 1, icon->tail_width / 2, icon->width / 2);
+  add_sections(out, icon, value, s, pieces + 1, icon->tail_width / 2, icon->width / 2);
   for (int i = 0; i <= HEAD_SECTIONS; i++)
     s[i] = body + head * i / HEAD_SECTIONS;
-  add_sections(out, icon, s, HEAD_SECTIONS + 1, icon->head_width / 2, 0);
+  add_sections(out, icon, value, s, HEAD_SECTIONS + 1, icon->head_width / 2, 0);
   free(s);
   add_frames(out);
   return FG_STATUS_OK;
@@ -259,23 +266,65 @@ static fg_status create(fg_surface **out, fg_context *context, size_t vertices,
                          vertices * sizeof *s->vertex + triangles * sizeof *s->triangle);
 }
 
-fg_status fg_icon_solid(fg_surface **out, fg_context *context, const fg_icon *icon)
+/* Vertices lie as add_solid makes them: a ring, the tail's middle, the other rings, the
+ * tip. */
+static fg_status value_vertices(float **out, fg_context *context, const shape *s,
+                                const fg_surface *solid)
 {
-  if (!out || !icon || icon->point_count < 2)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "a solid: %s given",
-                    out ? "no icon with points" : "no place for the result");
+  size_t count = (size_t)solid->vertex_count;
+  *out = fg__allocate(count, sizeof **out);
+  if (!*out)
+    return fg__fail_memory(context, "an arrow", count * sizeof **out);
+  for (int n = 0; n < solid->vertex_count; ++n) {
+    int ring = n <= SIDES ? 0 : (n - 1) / SIDES;
+    (*out)[n] = (float)s->section[ring].value;
+  }
+  return FG_STATUS_OK;
+}
+
+static fg_status make(fg_surface **out, float **at_vertex, fg_context *context,
+                      const fg_icon *icon, const double *value)
+{
   *out = NULL;
   if (!is_drawable(icon))
     return create(out, context, 0, 0, 0);
   shape s;
-  fg_status status = create_shape(&s, context, icon);
+  fg_status status = create_shape(&s, context, icon, value);
   size_t rings = (size_t)s.count * SIDES;
   if (status == FG_STATUS_OK)
     status = create(out, context, rings + 2, 2 * rings + 1, 2 * rings);
   if (status == FG_STATUS_OK)
     add_solid(*out, &s);
+  if (status == FG_STATUS_OK && at_vertex)
+    status = value_vertices(at_vertex, context, &s, *out);
   clear_shape(&s);
+  if (status != FG_STATUS_OK) {
+    fg_surface_destroy(*out);
+    *out = NULL;
+  }
   return status;
+}
+
+static fg_status check(fg_context *context, const void *out, const fg_icon *icon)
+{
+  if (out && icon && icon->point_count >= 2)
+    return FG_STATUS_OK;
+  return fg__fail(context, FG_STATUS_ARGUMENT, "a solid: %s given",
+                  out ? "no icon with points" : "no place for the result");
+}
+
+fg_status fg_icon_solid(fg_surface **out, fg_context *context, const fg_icon *icon)
+{
+  fg_status status = check(context, out, icon);
+  return status ? status : make(out, NULL, context, icon, NULL);
+}
+
+fg_status fg__solid_with_values(fg_surface **out, float **at_vertex, fg_context *context,
+                                const fg_icon *icon, const double *value)
+{
+  *at_vertex = NULL;
+  fg_status status = check(context, out, icon);
+  return status ? status : make(out, at_vertex, context, icon, value);
 }
 
 void fg_surface_destroy(fg_surface *surface)

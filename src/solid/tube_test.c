@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
+#include "solid/tube.h"
 #include "solid/vector.h"
 
 static const double PI = 3.141592653589793;
@@ -134,11 +135,39 @@ static void what_has_no_width_has_no_solid(void **state)
   assert_int_equal(fg_icon_solid(&solid, NULL, &icon), FG_STATUS_ARGUMENT);
 }
 
+/* A number that is linear in the arc length is so on the solid. */
+static void values_lie_along_the_line(void **state)
+{
+  (void)state;
+  double points[POINTS][3], value[POINTS];
+  const double along[3] = {2.0 / 7, 3.0 / 7, -6.0 / 7};
+  for (int n = 0; n < POINTS; ++n) {
+    double s = 4.0 * pow((double)n / (POINTS - 1), 1.3);
+    for (int k = 0; k < 3; ++k)
+      points[n][k] = 1.0 + k + s * along[k];
+    value[n] = 3.0 - 2.0 * s;
+  }
+  fg_icon icon = icon_of((const double(*)[3])points, POINTS, 0.3);
+  fg_surface *solid;
+  float *at;
+  assert_int_equal(fg__solid_with_values(&solid, &at, NULL, &icon, value), FG_STATUS_OK);
+  expect_closed(solid);
+  for (int n = 0; n < solid->vertex_count; ++n) {
+    double s = 0.0;
+    for (int k = 0; k < 3; ++k)
+      s += along[k] * (solid->vertex[n][k] - 1.0 - k);
+    assert_true(fabs((double)at[n] - (3.0 - 2.0 * s)) < 1e-5);
+  }
+  free(at);
+  fg_surface_destroy(solid);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_straight_arrow_has_its_volume),
       cmocka_unit_test(bent_arrows_are_closed),
+      cmocka_unit_test(values_lie_along_the_line),
       cmocka_unit_test(what_has_no_width_has_no_solid),
   };
   return cmocka_run_group_tests_name("solid/tube", tests, NULL, NULL);

@@ -1,0 +1,204 @@
+/* From where arrows in 3D are seen best. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "picture/stage.h"
+#include "solid/vector.h"
+
+/* Views that are tried, degrees: every azimuth with every elevation. */
+enum { AZIMUTHS = 36, ELEVATIONS = 11 };
+static const double azimuth_step = 10.0, lowest = 10.0, elevation_step = 4.0;
+
+/* The view that is taken when others are not better by more than `as_good`. */
+static const double usual_azimuth = 30.0, usual_elevation = 22.0;
+static const double as_good = 0.04;
+
+/* A head is read for the direction, a body for the way: in lengths of the body. */
+static const double head_counts = 3.0;
+
+/* Pixels a side of the image of depths. */
+enum { SIDE = 192 };
+
+/* Points of an icon's line are at most so far apart, in longest sides of the box. */
+static const double longest_step = 0.008;
+
+static const double radians_per_degree = 0.017453292519943295;
+
+/* A point of a line: a ball of the arrow. */
+typedef struct ball {
+  double place[3], radius; /* on the stage */
+  double counts;           /* of the piece to the next one; 0: none */
+} ball;
+
+typedef struct crowd {
+  ball *ball;
+  size_t count, capacity;
+} crowd;
+
+/* What is known of a ball from one viewpoint. */
+typedef struct shade {
+  double pixel[2], depth, radius;
+} shade;
+
+static fg_status add_ball(crowd *out, fg_context *context, const ball *one)
+{
+  if (!fg__grow((void **)&out->ball, &out->capacity, out->count + 1, sizeof *out->ball))
+    return fg__fail_memory(context, "a view", out->count * sizeof *out->ball);
+  out->ball[out->count++] = *one;
+  return FG_STATUS_OK;
+}
+
+/* Brings a point into the box, along the axes with a period. */
+static void wrap(const fg__stage *stage, double place[3])
+{
+  for (int k = 0; k < 3; ++k)
+    if (stage->period[k] > 0.0)
+      place[k] -=
+          stage->period[k] * floor((place[k] + stage->half[k]) / stage->period[k]);
+}
+
+static double length_of(const fg_icon *icon)
+{
+  double length = 0.0;
+  for (int n = 0; n + 1 < icon->point_count; ++n)
+    length += fg__apart(icon->points[n], icon->points[n + 1]);
+  return length;
+}
+
+static fg_status add_icon(crowd *out, fg_context *context, const fg__stage *stage,
+                          const fg_icon *icon)
+{
+  double base = length_of(icon) - icon->head_length, passed = 0.0;
+  fg_status status = FG_STATUS_OK;
+  for (int n = 0; n + 1 < icon->point_count && !status; ++n) {
+    const double *from = icon->points[n], *to = icon->points[n + 1];
+    double piece = fg__apart(from, to);
+    int parts = (int)fmin(fmax(ceil(piece * stage->scale / longest_step), 1.0), 1e4);
+    for (int m = 0; m < parts && !status; ++m) {
+      double t = (double)m / parts, at = passed + t * piece;
+      double width = at <= base
+                         ? icon->width
+                         : icon->head_width * (1.0 - (at - base) / icon->head_length);
+      ball one = {.radius = stage->scale * width / 2.0,
+                  .counts = at > base ? head_counts : 1.0};
+      for (int k = 0; k < 3; ++k)
+        one.place[k] = fg__stage_place(stage, k, from[k] + t * (to[k] - from[k]));
+      wrap(stage, one.place);
+      status = add_ball(out, context, &one);
+    }
+    passed += piece;
+  }
+  if (!status && out->count > 0)
+    out->ball[out->count - 1].counts = 0.0; /* the next one is another arrow's */
+  return status;
+}
+
+/* Writes a disc into the image of depths. */
+static void splat(float depth[SIDE][SIDE], const shade *one)
+{
+  int x0 = (int)ceil(one->pixel[0] - one->radius - 0.5);
+  int x1 = (int)floor(one->pixel[0] + one->radius + 0.5);
+  int y0 = (int)ceil(one->pixel[1] - one->radius - 0.5);
+  int y1 = (int)floor(one->pixel[1] + one->radius + 0.5);
+  for (int y = y0 > 0 ? y0 : 0; y <= y1 && y < SIDE; ++y)
+    for (int x = x0 > 0 ? x0 : 0; x <= x1 && x < SIDE; ++x)
+      if ((double)depth[y][x] > one->depth)
+        depth[y][x] = (float)one->depth;
+}
+
+static bool is_seen(float depth[SIDE][SIDE], const shade *one)
+{
+  int x = (int)lround(one->pixel[0]), y = (int)lround(one->pixel[1]);
+  if (x < 0 || y < 0 || x >= SIDE || y >= SIDE)
+    return true;
+  /* its neighbours along the line are not before it, nor is what only touches it */
+  double slack = 4.0 * longest_step;
+  return one->depth < (double)depth[y][x] + slack;
+}
+
+/* Length of what is seen, as it is seen, on the stage. */
+static double merit_of(const crowd *all, const fg__camera *camera, shade *seen,
+                       float depth[SIDE][SIDE])
+{
+  double sum = 0.0, distance = fg__length(camera->eye);
+  for (int y = 0; y < SIDE; ++y)
+    for (int x = 0; x < SIDE; ++x)
+      depth[y][x] = INFINITY;
+  for (size_t n = 0; n < all->count; ++n) {
+    double to[3];
+    fg__along(all->ball[n].place, -1, camera->eye, to);
+    fg__camera_project(camera, all->ball[n].place, seen[n].pixel);
+    seen[n].depth = fg__dot(to, camera->forward);
+    seen[n].radius = all->ball[n].radius * camera->factor / seen[n].depth;
+    splat(depth, &seen[n]);
+  }
+  for (size_t n = 0; n + 1 < all->count; ++n) {
+    double piece = hypot(seen[n + 1].pixel[0] - seen[n].pixel[0],
+                         seen[n + 1].pixel[1] - seen[n].pixel[1]);
+    if (all->ball[n].counts > 0.0 && is_seen(depth, &seen[n]) &&
+        fg__apart(all->ball[n].place, all->ball[n + 1].place) < 2.0 * longest_step)
+      sum += all->ball[n].counts * piece * distance / camera->factor;
+  }
+  return sum;
+}
+
+/* The cosine of the angle to the usual view. */
+static double nearness(double azimuth, double elevation)
+{
+  double a = (azimuth - usual_azimuth) * radians_per_degree;
+  double e = elevation * radians_per_degree, u = usual_elevation * radians_per_degree;
+  return cos(e) * cos(u) * cos(a) + sin(e) * sin(u);
+}
+
+static void choose(double *azimuth, double *elevation,
+                   const double merit[AZIMUTHS * ELEVATIONS])
+{
+  double best = 0.0, nearest = -HUGE_VAL;
+  for (int n = 0; n < AZIMUTHS * ELEVATIONS; ++n)
+    best = fmax(best, merit[n]);
+  for (int n = 0; n < AZIMUTHS * ELEVATIONS; ++n) {
+    double a = azimuth_step * (n % AZIMUTHS);
+    double e = lowest + elevation_step * (n / AZIMUTHS), near = nearness(a, e);
+    if (merit[n] >= (1.0 - as_good) * best && near > nearest + 1e-9) {
+      nearest = near;
+      *azimuth = a;
+      *elevation = e;
+    }
+  }
+}
+
+fg_status fg_solid_best_view(double *azimuth, double *elevation, fg_context *context,
+                             const fg_field *field, const fg_icons *icons)
+{
+  if (!azimuth || !elevation || !field || !icons ||
+      fg_field_contents(field)->dimension != 3)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "a view: a field in 3 dimensions, icons and places for the angles "
+                    "are needed");
+  const fg__pane pane = {0.0, 0.0, SIDE, SIDE};
+  fg__stage stage;
+  fg__stage_of(&stage, fg_field_contents(field));
+  crowd all = {.ball = NULL};
+  fg_status status = FG_STATUS_OK;
+  for (int n = 0; n < fg_icons_count(icons) && !status; ++n)
+    status = add_icon(&all, context, &stage, fg_icons_at(icons, n));
+  float(*depth)[SIDE] = fg__allocate(SIDE, sizeof *depth);
+  shade *seen = fg__allocate(all.count, sizeof *seen);
+  if (!status && (!depth || !seen))
+    status = fg__fail_memory(context, "a view", all.count * sizeof *seen);
+  double merit[AZIMUTHS * ELEVATIONS];
+  for (int n = 0; n < AZIMUTHS * ELEVATIONS && !status; ++n) {
+    fg__camera camera;
+    fg__camera_look(&camera, &stage, azimuth_step * (n % AZIMUTHS),
+                    lowest + elevation_step * (n / AZIMUTHS), &pane);
+    merit[n] = merit_of(&all, &camera, seen, depth);
+  }
+  if (!status)
+    choose(azimuth, elevation, merit);
+  free(seen);
+  free(depth);
+  free(all.ball);
+  return status;
+}
