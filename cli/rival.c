@@ -115,7 +115,7 @@ static int write_flat(const rival_files *files, const char *end)
 static int write_solid(const rival_files *files, const char *end)
 {
   rival_work *work = files->work;
-  fg_solid_options options = settings_solid(work->settings, 0);
+  fg_solid_options options = settings_solid(work->settings, 0, NULL);
   options.speed_min = work->speeds[0];
   options.speed_max = work->speeds[1];
   const result_file *file = new_file(work, files->count, end);

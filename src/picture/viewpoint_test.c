@@ -31,7 +31,7 @@ static void add(fg_icons *icons, const double from[3], const double along[3],
   }
   fg_icon icon = {
       .cluster = 1, .point_count = 2, .points = (const double(*)[3])points, .speed = 1.0};
-  fg__solid_set_width(&icon, lambda);
+  fg__solid_set_slender(&icon, lambda);
   assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
 }
 

@@ -22,6 +22,11 @@ static const double FREE_WAY = 0.6;
 enum { EXCHANGE_SWEEPS = 3 };
 static const double FRESH = 0.1; /* first step of the neighbours, in lambda */
 
+/* Icons that go in one round are at least this many lambda apart: each is priced beside
+ * its neighbours. Sweeps of those after a round. */
+static const double APART_IN_A_ROUND = 1.3;
+enum { THIN_SWEEPS = 2 };
+
 static void smooth_axis(float *out, const float *in, const fg__place_raster *raster,
                         int k)
 {
@@ -177,36 +182,85 @@ fg_status fg__place_insert(fg__place_search *search, bool *inserted, int passed)
   return status;
 }
 
-fg_status fg__place_least(fg__place_search *search, int *index)
+/* What the energy rises by when an icon goes. */
+static fg_status price_of_loss(fg__place_search *search, int index, double *rise)
 {
-  double least = HUGE_VAL;
-  *index = 0;
-  for (int n = 0; n < search->count; ++n) {
-    fg__place_icon *icon = search->icon[n];
-    const fg__place_box *box = &icon->tale.box;
-    fg_status status = fg__place_gather(&search->others, search, box, n);
-    if (status != FG_STATUS_OK)
-      return status;
-    double with = fg__place_cost(NULL, &search->raster, box, &search->others, &icon->tale,
-                                 &search->price);
-    double without =
-        fg__place_cost(NULL, &search->raster, box, &search->others, NULL, &search->price);
-    double rise =
-        without - with - fg__place_own_price(search, &icon->line, &search->others);
-    if (rise < least) {
-      least = rise;
-      *index = n;
-    }
-  }
+  fg__place_icon *icon = search->icon[index];
+  const fg__place_box *box = &icon->tale.box;
+  fg_status status = fg__place_gather(&search->others, search, box, index);
+  if (status != FG_STATUS_OK)
+    return status;
+  double with = fg__place_cost(NULL, &search->raster, box, &search->others, &icon->tale,
+                               &search->price);
+  double without =
+      fg__place_cost(NULL, &search->raster, box, &search->others, NULL, &search->price);
+  *rise = without - with - fg__place_own_price(search, &icon->line, &search->others);
   return FG_STATUS_OK;
 }
 
+static int least_of(const double *rise, int count)
+{
+  int least = 0;
+  for (int n = 1; n < count; ++n)
+    if (rise[n] < rise[least])
+      least = n;
+  return least;
+}
+
+/* Takes an icon off, and lets its neighbours move and stay. */
+static void take_off(fg__place_search *search, double *rise, int index)
+{
+  double near = APART_IN_A_ROUND * search->scale.lambda, place[3];
+  memcpy(place, search->icon[index]->seed.position, sizeof place);
+  fg__place_drop(search, index);
+  memmove(&rise[index], &rise[index + 1], (size_t)(search->count - index) * sizeof *rise);
+  fg__place_wake(search, place, FRESH);
+  for (int n = 0; n < search->count; ++n) {
+    double way[3];
+    for (int k = 0; k < 3; ++k)
+      way[k] = search->icon[n]->seed.position[k] - place[k];
+    if (fg__place_dot(way, way) < near * near)
+      rise[n] = HUGE_VAL;
+  }
+}
+
+fg_status fg__place_thin(fg__place_search *search, int count)
+{
+  fg_status status = FG_STATUS_OK;
+  double *rise = fg__allocate((size_t)search->count, sizeof *rise);
+  if (!rise)
+    return fg__fail_memory(search->context, "the worth of icons",
+                           (size_t)search->count * sizeof *rise);
+  while (status == FG_STATUS_OK && search->count > count) {
+    for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
+      status = price_of_loss(search, n, &rise[n]);
+    while (status == FG_STATUS_OK && search->count > count) {
+      int least = least_of(rise, search->count);
+      if (!(rise[least] < HUGE_VAL))
+        break;
+      take_off(search, rise, least);
+    }
+    if (status == FG_STATUS_OK)
+      status = fg__place_relax(search, THIN_SWEEPS);
+  }
+  free(rise);
+  return status;
+}
+
+/* Takes off the icon that is missed least, from where others may come. */
 static fg_status remove_least(fg__place_search *search, double place[3])
 {
-  int index;
-  fg_status status = fg__place_least(search, &index);
-  if (status != FG_STATUS_OK)
-    return status;
+  double least = HUGE_VAL, rise;
+  int index = 0;
+  for (int n = 0; n < search->count; ++n) {
+    fg_status status = price_of_loss(search, n, &rise);
+    if (status != FG_STATUS_OK)
+      return status;
+    if (rise < least) {
+      least = rise;
+      index = n;
+    }
+  }
   memcpy(place, search->icon[index]->seed.position, 3 * sizeof *place);
   fg__place_drop(search, index);
   return FG_STATUS_OK;
@@ -218,10 +272,8 @@ fg_status fg__place_complete(fg__place_search *search)
   bool inserted = true;
   while (status == FG_STATUS_OK && inserted && search->count < search->scale.count)
     status = fg__place_insert(search, &inserted, 0);
-  while (status == FG_STATUS_OK && search->count > search->scale.count) {
-    double place[3];
-    status = remove_least(search, place);
-  }
+  if (status == FG_STATUS_OK && search->count > search->scale.count)
+    status = fg__place_thin(search, search->scale.count);
   return status;
 }
 

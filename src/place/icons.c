@@ -70,7 +70,7 @@ static fg_status add_icon(fg_icons *icons, fg_context *context,
     icon.speed = fg__place_speed(search->domain, placed->seed.position);
   icon.kind = kind_of(search, &icon);
   if (search->scale.dimension == 3)
-    fg__solid_set_width(&icon, search->scale.lambda);
+    fg__solid_set_slender(&icon, search->scale.lambda);
   else
     fg__icon_set_width(&icon, width_of(search, icon.speed, fg__icon_length(&icon)));
   for (int k = 0; k < 3; ++k) {

@@ -20,7 +20,7 @@ static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 6, 3},
                                  [FG_EFFORT_THOROUGH] = {14, 40, 4}};
 
 /* A scale is reached by numbers of icons that fall by this factor. */
-static const double CHAIN_RATIO = 0.87;
+static const double CHAIN_RATIO = 0.8;
 static const double CHAIN_STEP = 0.1; /* of its icons, in lambda */
 
 /* Ink of a free placement, at most; its price rises until that holds. */
@@ -173,7 +173,7 @@ static fg_status descend(fg__place_search *search, int sweeps)
        ++n) {
     search->scale.ink = fmax(search->scale.ink * PRICE_GROWTH, FIRST_PRICE);
     fg__place_wake_all(search, 0.2);
-    status = fg__place_relax(search, 4);
+    status = fg__place_relax(search, 2);
   }
   return status;
 }
@@ -217,21 +217,14 @@ static fg_status go_on(fg__place_search *search, int count)
   fg__place_wake_all(search, CHAIN_STEP);
   if (status == FG_STATUS_OK)
     status = fg__place_relax(search, 2);
-  while (status == FG_STATUS_OK && search->count > count) {
-    int index;
-    double place[3];
-    status = fg__place_least(search, &index);
-    if (status != FG_STATUS_OK)
-      break;
-    memcpy(place, search->icon[index]->seed.position, sizeof place);
-    fg__place_drop(search, index);
-    fg__place_wake(search, place, CHAIN_STEP);
-    status = fg__place_relax(search, 2);
-  }
+  fg__place_wake_all(search, 0.0); /* then only the neighbours of those that go move */
+  if (status == FG_STATUS_OK)
+    status = fg__place_thin(search, count);
   if (status == FG_STATUS_OK)
     status = fg__place_complete(search);
+  fg__place_wake_all(search, CHAIN_STEP);
   if (status == FG_STATUS_OK)
-    status = descend(search, 4);
+    status = fg__place_relax(search, 3);
   return status;
 }
 

@@ -55,8 +55,9 @@ void fg__place_wake_all(fg__place_search *search, double step);
  * `passed` ones are passed over. *inserted is false where there is no room. MEMORY. */
 fg_status fg__place_insert(fg__place_search *search, bool *inserted, int passed);
 
-/* The icon whose removal raises the energy least. MEMORY. */
-fg_status fg__place_least(fg__place_search *search, int *index);
+/* Takes off the icons that are missed least until `count` are left; the neighbours of
+ * those that go move, and others that are not at rest. MEMORY, STOPPED. */
+fg_status fg__place_thin(fg__place_search *search, int count);
 
 /* Brings the number of icons to the scale's, by inserting and removing. Ends early where
  * no more fit. MEMORY. */

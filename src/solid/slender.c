@@ -59,7 +59,7 @@ static double straight_end(const fg_icon *icon)
   return HUGE_VAL;
 }
 
-void fg__solid_set_width(fg_icon *icon, double lambda)
+void fg__solid_set_slender(fg_icon *icon, double lambda)
 {
   double length = 0, ignored[3];
   for (int n = 0; n + 1 < icon->point_count; ++n)
@@ -82,7 +82,7 @@ void fg__solid_slim(fg_icon *icon, double lambda)
   if (!(icon->width > 0))
     return;
   fg_icon slender = *icon;
-  fg__solid_set_width(&slender, lambda);
+  fg__solid_set_slender(&slender, lambda);
   double factor = fmin(1, plump * slender.width / icon->width);
   icon->width *= factor;
   icon->tail_width *= factor;

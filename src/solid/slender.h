@@ -9,7 +9,7 @@
  * 0.2 lambda long, less on arrows shorter than half of lambda and where the line under it
  * turns. The body's radius stays below 0.7 of the curve's. An icon without length, or a
  * lambda that is not positive, gives widths of 0. */
-void fg__solid_set_width(fg_icon *icon, double lambda);
+void fg__solid_set_slender(fg_icon *icon, double lambda);
 
 /* Makes an arrow thinner that is more than half as thick again; it stays inside its
  * former self. Without width nothing is done. */

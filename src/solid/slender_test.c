@@ -36,7 +36,7 @@ static void arrows_of_all_lengths_are_slender(void **state)
   const double lambda = 0.8;
   for (double share = 0.35; share < 2.05; share += 0.15) {
     fg_icon icon = straight(share * lambda);
-    fg__solid_set_width(&icon, lambda);
+    fg__solid_set_slender(&icon, lambda);
     assert_true(icon.width > 0.02 * lambda && icon.width < 0.13 * share * lambda);
     assert_true(icon.tail_width > 0.0 && icon.tail_width < icon.width);
     assert_true(icon.head_width > 2.0 * icon.width && icon.head_width < 3.0 * icon.width);
@@ -49,11 +49,11 @@ static void what_is_longer_is_no_thinner(void **state)
 {
   (void)state;
   fg_icon brief = straight(0.3), usual = straight(0.7), longest = straight(1.4);
-  fg__solid_set_width(&longest, 1.0);
+  fg__solid_set_slender(&longest, 1.0);
   usual = straight(0.7);
-  fg__solid_set_width(&usual, 1.0);
+  fg__solid_set_slender(&usual, 1.0);
   brief = straight(0.3);
-  fg__solid_set_width(&brief, 1.0);
+  fg__solid_set_slender(&brief, 1.0);
   assert_true(brief.width < usual.width);
   assert_true(fabs(usual.width - longest.width) < 1e-12);
 }
@@ -62,12 +62,12 @@ static void bodies_and_heads_follow_narrow_bends(void **state)
 {
   (void)state;
   fg_icon wide = arc(0.5, 2.0);
-  fg__solid_set_width(&wide, 1.0);
+  fg__solid_set_slender(&wide, 1.0);
   fg_icon narrow = arc(0.17, 5.0);
-  fg__solid_set_width(&narrow, 1.0);
+  fg__solid_set_slender(&narrow, 1.0);
   assert_true(narrow.head_length < 0.7 * 0.17 && wide.head_length > 0.19);
   fg_icon ring = arc(0.02, 6.0);
-  fg__solid_set_width(&ring, 1.0);
+  fg__solid_set_slender(&ring, 1.0);
   assert_true(ring.width / 2 < 0.71 * 0.02 && ring.width > 0.0);
 }
 
@@ -76,10 +76,10 @@ static void what_has_no_length_has_no_width(void **state)
   (void)state;
   fg_icon icon = straight(0.0);
   icon.width = 3.0;
-  fg__solid_set_width(&icon, 1.0);
+  fg__solid_set_slender(&icon, 1.0);
   assert_true(!(icon.width > 0.0) && !(icon.head_length > 0.0));
   icon = straight(1.0);
-  fg__solid_set_width(&icon, 0.0);
+  fg__solid_set_slender(&icon, 0.0);
   assert_true(!(icon.width > 0.0) && isfinite(icon.width));
 }
 
@@ -88,7 +88,7 @@ static void plump_arrows_become_slim(void **state)
 {
   (void)state;
   fg_icon usual = straight(1.4);
-  fg__solid_set_width(&usual, 1.0);
+  fg__solid_set_slender(&usual, 1.0);
   fg_icon plump = usual, slim = usual;
   plump.width = 0.3;
   plump.tail_width = 0.12;
