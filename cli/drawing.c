@@ -159,8 +159,9 @@ static fg_status write_pictures(cli_drawing *drawing, int index,
     char *path = scale_path(drawing, index, ends[kind]);
     if (!path)
       return FG_STATUS_MEMORY;
-    status = fg_picture_write(drawing->context, path, drawing->field,
-                              regions ? regions : moment->density, icons, &options);
+    status = fg_picture_write(
+        drawing->context, path, drawing->field,
+        settings_place(drawing->settings) ? regions : moment->density, icons, &options);
     free(path);
   }
   return status;
