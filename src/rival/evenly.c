@@ -131,7 +131,7 @@ static fg_status place_all(seeding *work)
   return status;
 }
 
-/* In 3D lines end at periodic borders: cut there, each would give many arrows. */
+/* In 3D lines end at periodic boundaries: cut there, each would give many arrows. */
 fg_status fg__evenly_place(fg__lines *out, fg_context *context, const fg__domain *domain,
                            double separation)
 {

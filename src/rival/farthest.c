@@ -12,54 +12,63 @@
 static const double CLOSE = 0.01;
 enum { ATTEMPTS = 24 };
 
+/* Where a raster is too coarse for the number, one of half the spacing is tried, up to so
+ * many cells: 1025 nodes along the sides of a square, 145 along those of a cube. */
+enum { MOST_CELLS = 3000000 };
+
 /* No separation below so many cells is tried: seeds are cells. */
 static const double NARROWEST = 1.5;
 
 /* Steps of the search while one of its ends is not known. */
 static const double WIDER = 1.5;
 
-/* Of the cells only those left count from here on: a line through the others is short. */
 typedef struct seeding {
   fg__placing placing;
   fg__voids voids;
-  unsigned char *left_out;
 } seeding;
 
 /* The first seed is the cell farthest from the domain's boundary. */
 static fg_status first_seed(seeding *work, int *cell)
 {
   fg__voids inner;
-  const fg__domain *domain = work->placing.domain;
-  fg_status status = fg__voids_create(&inner, work->placing.context, domain);
+  const fg__placing *placing = &work->placing;
+  fg_status status = fg__voids_create(&inner, placing->context, placing->domain);
   if (status != FG_STATUS_OK)
     return status;
   fg__voids_add_boundary(&inner);
   fg__voids_update(&inner);
-  *cell = fg__voids_farthest(&inner, work->left_out);
+  status = fg__voids_take_farthest(&inner, placing->context, cell);
   fg__voids_clear(&inner);
+  return status;
+}
+
+/* Tries the line through a cell. */
+static fg_status try_cell(seeding *work, int cell)
+{
+  fg__placing *placing = &work->placing;
+  double seed[3];
+  bool kept;
+  fg__domain_center(placing->domain, cell, seed);
+  fg_status status = fg__placing_try(placing, seed, &kept);
+  if (status != FG_STATUS_OK || !kept)
+    return status;
+  for (int i = placing->first; i <= placing->last; i++)
+    fg__voids_add(&work->voids, placing->points.position[i]);
+  fg__voids_update(&work->voids);
   return FG_STATUS_OK;
 }
 
 static fg_status place_all(seeding *work, int most)
 {
-  fg__placing *placing = &work->placing;
-  const fg__domain *domain = placing->domain;
-  double least = placing->lines->separation * placing->lines->separation;
+  const fg__lines *lines = work->placing.lines;
+  double least = lines->separation * lines->separation;
   int cell = -1;
   fg_status status = first_seed(work, &cell);
   while (status == FG_STATUS_OK && cell >= 0 && work->voids.square[cell] >= least &&
-         placing->lines->count < most) {
-    double seed[3];
-    bool kept;
-    fg__domain_center(domain, cell, seed);
-    work->left_out[cell] = 1;
-    status = fg__placing_try(placing, seed, &kept);
-    if (status == FG_STATUS_OK && kept) {
-      for (int i = placing->first; i <= placing->last; i++)
-        fg__voids_add(&work->voids, placing->points.position[i]);
-      fg__voids_update(&work->voids);
-    }
-    cell = fg__voids_farthest(&work->voids, work->left_out);
+         lines->count < most) {
+    status = try_cell(work, cell);
+    if (status == FG_STATUS_OK)
+      status = fg__voids_take_farthest(&work->voids, work->placing.context, &cell);
   }
   return status;
 }
@@ -68,12 +77,7 @@ fg_status fg__farthest_place(fg__lines *out, fg_context *context,
                              const fg__domain *domain, double separation, int most)
 {
   seeding work = {0};
-  size_t cells = (size_t)fg__domain_cell_count(domain);
-  work.left_out = fg__allocate(cells, 1);
-  fg_status status =
-      work.left_out ? FG_STATUS_OK : fg__fail_memory(context, "seeds", cells);
-  if (status == FG_STATUS_OK)
-    status = fg__voids_create(&work.voids, context, domain);
+  fg_status status = fg__voids_create(&work.voids, context, domain);
   if (status == FG_STATUS_OK)
     status = fg__placing_start(&work.placing, context, domain, out, separation,
                                FG__FARTHEST_TEST, false);
@@ -81,7 +85,6 @@ fg_status fg__farthest_place(fg__lines *out, fg_context *context,
     status = place_all(&work, most);
   fg__placing_end(&work.placing);
   fg__voids_clear(&work.voids);
-  free(work.left_out);
   return status;
 }
 
@@ -125,12 +128,36 @@ fg_status fg__farthest_search(fg__lines *out, fg_context *context,
   return status;
 }
 
-fg_status fg__rival_farthest(fg_icons *icons, const fg_rival *rival, int count)
+/* Places lines on a raster and draws them, unless they are too few and `finer` rasters
+ * are left to be tried: then *enough is false, and nothing is drawn. */
+static fg_status draw_on(fg_icons *icons, const fg_rival *rival, const fg__domain *domain,
+                         int count, bool finer, bool *enough)
 {
   fg__lines lines = {0};
-  fg_status status = fg__farthest_search(&lines, rival->context, &rival->domain, count);
-  if (status == FG_STATUS_OK)
-    status = fg__lines_draw(icons, rival->context, &rival->domain, &lines);
+  fg_status status = fg__farthest_search(&lines, rival->context, domain, count);
+  *enough = lines.count == count || !finer;
+  if (status == FG_STATUS_OK && *enough)
+    status = fg__lines_draw(icons, rival->context, domain, &lines);
   fg__lines_clear(&lines);
+  return status;
+}
+
+fg_status fg__rival_farthest(fg_icons *icons, const fg_rival *rival, int count)
+{
+  const fg__domain *given = &rival->domain;
+  int nodes = rival->options.nodes;
+  double cells = fg__domain_cell_count(given), growth = given->dimension == 2 ? 4 : 8;
+  bool finer = growth * cells <= MOST_CELLS, enough = false;
+  fg_status status = draw_on(icons, rival, given, count, finer, &enough);
+  while (!enough && status == FG_STATUS_OK) {
+    fg__domain domain;
+    nodes = 2 * nodes - 1;
+    status = fg__domain_create(&domain, rival->context, given->field, nodes);
+    if (status != FG_STATUS_OK)
+      return status;
+    finer = growth * fg__domain_cell_count(&domain) <= MOST_CELLS;
+    status = draw_on(icons, rival, &domain, count, finer, &enough);
+    fg__domain_clear(&domain);
+  }
   return status;
 }

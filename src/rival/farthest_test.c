@@ -148,6 +148,19 @@ static void exactly_so_many_arrows(void **state)
   }
 }
 
+/* Where the raster has too few cells for the number, a finer one is taken. */
+static void a_coarse_raster_is_made_finer(void **state)
+{
+  fg_context *context = *state;
+  fg_field *field = field_of(context, swirl, false);
+  fg_rival *rival = rival_of(context, field, FG_RIVAL_FARTHEST, 17);
+  fg_icons *icons = curved_icons(rival, field, 90);
+  assert_int_equal(fg_icons_count(icons), 90);
+  fg_icons_destroy(icons);
+  fg_rival_destroy(rival);
+  fg_field_destroy(field);
+}
+
 /* Distances on the raster against all points one by one. */
 static void distances_are_those_to_the_nearest_point(void **state)
 {
@@ -185,6 +198,7 @@ int main(void)
       CASE(each_seed_is_farthest_from_the_lines),
       CASE(lines_keep_their_distance),
       CASE(exactly_so_many_arrows),
+      CASE(a_coarse_raster_is_made_finer),
       CASE(distances_are_those_to_the_nearest_point),
   };
   return cmocka_run_group_tests_name("rival/farthest", tests, NULL, NULL);

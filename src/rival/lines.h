@@ -16,7 +16,7 @@ typedef struct fg__lines_part {
 
 typedef struct fg__lines {
   double separation; /* of a seed from all lines before it, input coordinates */
-  bool round;        /* lines go on past periodic borders */
+  bool round;        /* lines go on past periodic boundaries */
   fg__lines_part *part;
   size_t capacity;
   int count;
@@ -61,8 +61,8 @@ void fg__placing_end(fg__placing *placing);
  * MEMORY, STOPPED. */
 fg_status fg__placing_try(fg__placing *placing, const double seed[], bool *kept);
 
-/* Draws every line as an arrow, cut where it crosses a periodic border: its longest piece
- * and those no shorter than a line may be. MEMORY. */
+/* Draws every line as an arrow, cut where it crosses a periodic boundary: its longest
+ * piece and those no shorter than a line may be. MEMORY. */
 fg_status fg__lines_draw(fg_icons *icons, fg_context *context, const fg__domain *domain,
                          const fg__lines *lines);
 

@@ -4,6 +4,7 @@
 #define FG__RIVAL_VOIDS_H
 
 #include "rival/domain.h"
+#include "skeleton/heap.h"
 
 typedef struct fg__voids {
   const fg__domain *domain;
@@ -12,6 +13,9 @@ typedef struct fg__voids {
   unsigned char *waiting; /* a byte a cell: it is in the queue */
   int *queue;             /* of cells, in a ring */
   int head, waits;
+  fg__heap
+      heap; /* of the cells not yet taken, those farthest when last looked at first */
+  bool is_heaped;
 } fg__voids;
 
 /* Begins without a point: all distances are infinite. MEMORY. */
@@ -32,8 +36,8 @@ void fg__voids_update(fg__voids *voids);
  * a velocity and one without, or the end of the box. */
 void fg__voids_add_boundary(fg__voids *voids);
 
-/* The cell farthest from all points among those whose flow has a direction and whose
- * byte in `left_out` is 0; the first of equal ones; -1: there is none. */
-int fg__voids_farthest(const fg__voids *voids, const unsigned char *left_out);
+/* Takes the cell farthest from all points among those whose flow has a direction; no cell
+ * is taken twice; -1: there is none left. MEMORY. */
+fg_status fg__voids_take_farthest(fg__voids *voids, fg_context *context, int *cell);
 
 #endif
