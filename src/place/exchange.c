@@ -22,8 +22,8 @@ static const double FREE_WAY = 0.6;
 enum { EXCHANGE_SWEEPS = 3 };
 static const double FRESH = 0.1; /* first step of the neighbours, in lambda */
 
-/* Icons that go in one round are at least this many lambda apart: each is priced beside
- * its neighbours. Sweeps of those after a round. */
+/* Icons that come or go in one round are at least this many lambda apart: each is priced
+ * beside its neighbours. Sweeps of those after a round. */
 static const double APART_IN_A_ROUND = 1.3;
 enum { THIN_SWEEPS = 2 };
 
@@ -153,9 +153,10 @@ static void rank(candidate best[PLACES], int *count, const candidate *next)
   best[n] = *next;
 }
 
-fg_status fg__place_insert(fg__place_search *search, bool *inserted, int passed)
+/* The best candidates of the places where readers err most, in descending order. */
+static fg_status list_candidates(candidate best[PLACES], int *count,
+                                 fg__place_search *search)
 {
-  *inserted = false;
   fg__place_box all = {{0}, {0}};
   memcpy(all.size, search->raster.cells, sizeof all.size);
   fg_status status = fg__place_gather(&search->whole, search, &all, -1);
@@ -164,21 +165,74 @@ fg_status fg__place_insert(fg__place_search *search, bool *inserted, int passed)
   fg__place_cost(search->map, &search->raster, &all, &search->whole, NULL,
                  &search->price);
   smooth_map(search);
-  candidate best[PLACES] = {{{{0}, {0}}, -HUGE_VAL}};
-  int count = 0;
+  *count = 0;
   float position[3];
   /* where nothing fits at the first places, all others are tried */
-  for (int n = 0; status == FG_STATUS_OK && (n < PLACES || count == 0); ++n) {
+  for (int n = 0; status == FG_STATUS_OK && (n < PLACES || *count == 0); ++n) {
     candidate next = {{{0}, {0}}, -HUGE_VAL};
     if (!take_maximum(search, position))
       break;
     status = try_place(search, position, &next.seed, &next.fall);
     if (next.fall > -HUGE_VAL)
-      rank(best, &count, &next);
+      rank(best, count, &next);
   }
+  return status;
+}
+
+fg_status fg__place_insert(fg__place_search *search, bool *inserted, int passed)
+{
+  candidate best[PLACES];
+  int count;
+  *inserted = false;
+  fg_status status = list_candidates(best, &count, search);
   if (status == FG_STATUS_OK && passed < count)
     status = fg__place_add(search, inserted, &best[passed].seed, search->next_identity);
   search->next_identity += *inserted;
+  return status;
+}
+
+static bool is_near(const fg__place_search *search, const double a[3], const double b[3])
+{
+  double near = APART_IN_A_ROUND * search->scale.lambda, way[3];
+  for (int k = 0; k < 3; ++k)
+    way[k] = a[k] - b[k];
+  return fg__place_dot(way, way) < near * near;
+}
+
+/* Adds the better half of the candidates that are not near each other, as many as there
+ * is room for in the scale. */
+static fg_status add_round(fg__place_search *search, int *added)
+{
+  candidate best[PLACES];
+  int count, first = search->count;
+  *added = 0;
+  fg_status status = list_candidates(best, &count, search);
+  for (int n = 0; n < (count + 1) / 2 && status == FG_STATUS_OK; ++n) {
+    bool beside = false, inserted = false;
+    for (int k = first; k < search->count && !beside; ++k)
+      beside = is_near(search, search->icon[k]->seed.position, best[n].seed.position);
+    if (beside || search->count >= search->scale.count)
+      continue;
+    status = fg__place_add(search, &inserted, &best[n].seed, search->next_identity);
+    search->next_identity += inserted;
+    *added += inserted;
+  }
+  return status;
+}
+
+/* Adds icons in rounds; after each the new ones and their neighbours move. */
+static fg_status fill(fg__place_search *search)
+{
+  fg_status status = FG_STATUS_OK;
+  int added = 1;
+  while (status == FG_STATUS_OK && added > 0 && search->count < search->scale.count) {
+    int first = search->count;
+    status = add_round(search, &added);
+    for (int n = first; n < search->count; ++n)
+      fg__place_wake(search, search->icon[n]->seed.position, FRESH);
+    if (status == FG_STATUS_OK)
+      status = fg__place_relax(search, THIN_SWEEPS);
+  }
   return status;
 }
 
@@ -210,18 +264,14 @@ static int least_of(const double *rise, int count)
 /* Takes an icon off, and lets its neighbours move and stay. */
 static void take_off(fg__place_search *search, double *rise, int index)
 {
-  double near = APART_IN_A_ROUND * search->scale.lambda, place[3];
+  double place[3];
   memcpy(place, search->icon[index]->seed.position, sizeof place);
   fg__place_drop(search, index);
   memmove(&rise[index], &rise[index + 1], (size_t)(search->count - index) * sizeof *rise);
   fg__place_wake(search, place, FRESH);
-  for (int n = 0; n < search->count; ++n) {
-    double way[3];
-    for (int k = 0; k < 3; ++k)
-      way[k] = search->icon[n]->seed.position[k] - place[k];
-    if (fg__place_dot(way, way) < near * near)
+  for (int n = 0; n < search->count; ++n)
+    if (is_near(search, search->icon[n]->seed.position, place))
       rise[n] = HUGE_VAL;
-  }
 }
 
 fg_status fg__place_thin(fg__place_search *search, int count)
@@ -268,10 +318,7 @@ static fg_status remove_least(fg__place_search *search, double place[3])
 
 fg_status fg__place_complete(fg__place_search *search)
 {
-  fg_status status = FG_STATUS_OK;
-  bool inserted = true;
-  while (status == FG_STATUS_OK && inserted && search->count < search->scale.count)
-    status = fg__place_insert(search, &inserted, 0);
+  fg_status status = fill(search);
   if (status == FG_STATUS_OK && search->count > search->scale.count)
     status = fg__place_thin(search, search->scale.count);
   return status;

@@ -183,9 +183,9 @@ static fg_status settle(fg_placement *placement)
 {
   fg__place_search *search = &placement->search;
   const effort *much = &EFFORTS[placement->options.effort];
-  fg_status status = fg__place_complete(search);
+  fg_status status = fg__place_relax(search, 2);
   if (status == FG_STATUS_OK)
-    status = fg__place_relax(search, 2);
+    status = fg__place_complete(search);
   if (status == FG_STATUS_OK)
     status = fg__place_weigh(search);
   if (status == FG_STATUS_OK)

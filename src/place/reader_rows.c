@@ -1,6 +1,8 @@
 #include "place/reader_rows.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 /* epsilon of the inverse distance and of the smooth reader, in lambda, squared */
 #define EPSILON_SQUARE 0.0025F
@@ -34,39 +36,79 @@ INLINE float taper(float square, float inverse_square)
   return f * f;
 }
 
-/* Adds a sample to cells: with `dimension` known, a loop without branches. `aside` is the
- * square of its distance to the row, `offset` the first cell's place along the row from
- * it. */
-INLINE void tell(const int dimension, float *restrict value, size_t stride, int count,
-                 const fg__place_line *line, int n, float aside, float offset,
-                 const fg__place_row_place *row)
+/* Sixteen cells at once; narrower instructions take them in pieces. */
+typedef float vector __attribute__((vector_size(64)));
+typedef int32_t mask __attribute__((vector_size(64)));
+enum { WIDTH = 16 };
+
+INLINE vector load(const float *from)
 {
-  const float share = line->share[n], cell = row->cell;
-  const float inverse_square = row->inverse_square;
-  const float tx = line->tangent[0][n], ty = line->tangent[1][n],
-              tz = line->tangent[2][n];
-  float *restrict nx = value + FG__PLACE_NEAR * stride, *restrict ny = nx + stride;
-  float *restrict nz = dimension == 3 ? ny + stride : NULL;
-  float *restrict sx = value + (size_t)smooth_array(dimension) * stride, *restrict sy =
-                                                                             sx + stride;
-  float *restrict sz = dimension == 3 ? sy + stride : NULL;
-  for (int i = 0; i < count; ++i) {
-    float dx = offset + cell * (float)i;
-    float square = dx * dx + aside;
-    float near = value[i];
-    int nearer = square < near;
-    value[i] = nearer ? square : near;
-    nx[i] = nearer ? tx : nx[i];
-    ny[i] = nearer ? ty : ny[i];
-    float q = square + EPSILON_SQUARE;
-    float power = dimension == 2 ? q * q : q * q * sqrtf(q);
-    float weight = share * taper(square, inverse_square) / power;
-    sx[i] += weight * tx;
-    sy[i] += weight * ty;
-    if (dimension == 3) {
-      nz[i] = nearer ? tz : nz[i];
-      sz[i] += weight * tz;
-    }
+  vector out;
+  memcpy(&out, from, sizeof out);
+  return out;
+}
+
+/* The first `count` of a vector. */
+INLINE void store(float *to, vector from, int count)
+{
+  memcpy(to, &from, (size_t)count * sizeof *to);
+}
+
+INLINE vector choose(mask which, vector yes, vector no)
+{
+  return (vector)((which & (mask)yes) | (~which & (mask)no));
+}
+
+/* What a line tells some cells: the nearest sample's tangent, and the sum over samples.
+ */
+typedef struct line_told {
+  vector near, tangent[3], sum[3];
+} line_told;
+
+/* `x` of the cells from the row's low end; `aside` is the square of the sample's distance
+ * to the row. */
+INLINE void tell_sample(const int dimension, line_told *out, vector x,
+                        const fg__place_line *line, int n, float aside,
+                        const fg__place_row_place *row)
+{
+  const vector zero = {0};
+  vector dx = x - (line->position[0][n] - row->x);
+  vector square = dx * dx + aside;
+  mask nearer = square < out->near;
+  out->near = choose(nearer, square, out->near);
+  vector left = 1.0F - square * row->inverse_square;
+  left = choose(left > 0.0F, left, zero);
+  vector q = square + EPSILON_SQUARE;
+  vector power = dimension == 2 ? q * q : q * q * q;
+  vector weight = line->share[n] * left * left / power;
+  for (int k = 0; k < dimension; ++k) {
+    float tangent = line->tangent[k][n];
+    out->tangent[k] = choose(nearer, zero + tangent, out->tangent[k]);
+    out->sum[k] += weight * tangent;
+  }
+}
+
+INLINE void tell_cells(const int dimension, float *value, size_t stride, int first,
+                       int count, const fg__place_line *line,
+                       const fg__place_row_place *row)
+{
+  static const float steps[WIDTH] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                     8, 9, 10, 11, 12, 13, 14, 15};
+  line_told out = {.near = (vector){0} + row->reach * row->reach};
+  vector x = (load(steps) + ((float)first + 0.5F)) * row->cell;
+  for (int n = 0; n < line->count; ++n) {
+    float dy = row->y - line->position[1][n];
+    float dz = dimension == 3 ? row->z - line->position[2][n] : 0.0F;
+    float aside = dy * dy + dz * dz;
+    if (aside < row->reach * row->reach)
+      tell_sample(dimension, &out, x, line, n, aside, row);
+  }
+  int cells = count - first < WIDTH ? count - first : WIDTH;
+  store(value + first, out.near, cells);
+  for (int k = 0; k < dimension; ++k) {
+    store(value + (size_t)(FG__PLACE_NEAR + k) * stride + first, out.tangent[k], cells);
+    store(value + (size_t)(smooth_array(dimension) + k) * stride + first, out.sum[k],
+          cells);
   }
 }
 
@@ -74,21 +116,8 @@ INLINE void tell(const int dimension, float *restrict value, size_t stride, int 
 INLINE void tell_row(const int dimension, float *restrict value, size_t stride, int count,
                      const fg__place_line *line, const fg__place_row_place *row)
 {
-  for (int n = 0; n < line->count; ++n) {
-    float dy = row->y - line->position[1][n];
-    float dz = dimension == 3 ? row->z - line->position[2][n] : 0.0F;
-    float aside = dy * dy + dz * dz, left = row->reach * row->reach - aside;
-    if (!(left > 0.0F))
-      continue;
-    float half = sqrtf(left), middle = line->position[0][n] - row->x;
-    int first = (int)((middle - half) / row->cell),
-        last = (int)((middle + half) / row->cell) + 1;
-    first = first > 0 ? first : 0;
-    last = last < count ? last : count;
-    if (first < last)
-      tell(dimension, value + first, stride, last - first, line, n, aside,
-           ((float)first + 0.5F) * row->cell - middle, row);
-  }
+  for (int first = 0; first < count; first += WIDTH)
+    tell_cells(dimension, value, stride, first, count, line, row);
   for (int i = 0; i < count; ++i) { /* the pull of the icon as a whole */
     float square = value[i], q = square + EPSILON_SQUARE;
     float power = dimension == 2 ? q * sqrtf(q) : q * q;
