@@ -10,14 +10,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sweeps of descent, and exchanges with the failures after which they end. */
+/* Sweeps of descent; exchanges, and how many may fail before they end: so many, and one
+ * more for so many icons (0: none). */
 typedef struct effort {
-  int sweeps, exchanges, failures;
+  int sweeps, exchanges, icons_an_exchange, failures;
 } effort;
 
-static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 6, 3},
-                                 [FG_EFFORT_QUICK] = {8, 0, 0},
-                                 [FG_EFFORT_THOROUGH] = {14, 40, 4}};
+static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 4, 10, 3},
+                                 [FG_EFFORT_QUICK] = {8, 0, 0, 0},
+                                 [FG_EFFORT_THOROUGH] = {14, 40, 3, 8}};
 
 /* A scale is reached by numbers of icons that fall by this factor. */
 static const double CHAIN_RATIO = 0.8;
@@ -199,7 +200,9 @@ static fg_status polish(fg_placement *placement)
   const effort *much = &EFFORTS[placement->options.effort];
   fg_status status = FG_STATUS_OK;
   if (much->exchanges > 0)
-    status = fg__place_exchange(search, much->exchanges, much->failures);
+    status = fg__place_exchange(search,
+                                much->exchanges + search->count / much->icons_an_exchange,
+                                much->failures);
   if (status == FG_STATUS_OK) {
     fg__place_wake_all(search, 0.1);
     status = descend(search, much->sweeps);

@@ -271,7 +271,7 @@ double fg__place_mean_error(const fg__place_raster *raster, const fg__place_tale
     weights += (double)raster->weight[n];
   fg__place_price errors = {1.0F, 0.0F, (float)reach};
   double sum = fg__place_cost(NULL, raster, &tale->box, tale, NULL, &errors);
-  return weights > 0.0 ? sum / weights / 3.0 : 0.0;
+  return weights > 0.0 ? sum / weights / FG__PLACE_WORTH : 0.0;
 }
 
 float fg__place_near(const fg__place_raster *raster, const fg__place_tale *tale,

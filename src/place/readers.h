@@ -78,7 +78,10 @@ double fg__place_cost(float *cost, const fg__place_raster *raster,
                       const fg__place_box *box, const fg__place_tale *one,
                       const fg__place_tale *other, const fg__place_price *price);
 
-/* The mean error of the three readers, in degrees. */
+/* The sum of what the three readers' errors count (reader_rows.c). */
+#define FG__PLACE_WORTH 4.0
+
+/* The mean error of the three readers as they count, in degrees. */
 double fg__place_mean_error(const fg__place_raster *raster, const fg__place_tale *tale,
                             double reach);
 

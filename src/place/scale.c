@@ -1,34 +1,39 @@
 #include "place/scale.h"
 
 #include <math.h>
-#include <stdlib.h>
-static double E(const char *n, double d)
-{
-  const char *t = getenv(n);
-  return t ? atof(t) : d;
-}
 
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;
+
+/* Cells of the raster along lambda: eight, and more for few icons, whose lambda spans
+ * many samples of the data; the work stays below that of many icons. In 3D always four.
+ */
+static double cells_along(int dimension, int count)
+{
+  enum { MANY = 150 };
+  if (dimension == 3)
+    return 4.0;
+  return count < MANY ? 8.0 * sqrt(sqrt((double)MANY / count)) : 8.0;
+}
 
 fg__place_scale fg__place_scale_of(int dimension, int count, double measure, bool free)
 {
   bool flat = dimension == 2;
-  double lambda = pow(measure / count, 1.0 / dimension);
+  double share = measure / count, lambda = flat ? sqrt(share) : cbrt(share);
   return (fg__place_scale){
       .dimension = dimension,
       .count = count,
       .lambda = lambda,
-      .cell = lambda / E("CELL", flat ? 8.0 : 4.0),
-      .sampling = lambda / E("SAMP", flat ? 10.0 : 8.0),
-      .reach = lambda * E("REACH", flat ? 1.5 : 1.3),
+      .cell = lambda / cells_along(dimension, count),
+      .sampling = lambda / (flat ? 10.0 : 8.0),
+      .reach = lambda * (flat ? 1.5 : 1.1),
       .clearance = lambda * (flat ? 0.1 : 0.05),
       .shortest = 0.5 * lambda,
       .turning = 165.0 * RADIANS_PER_DEGREE,
       .longest = (free ? 2.0 : 1.0) * lambda,
-      .crowding = E("MU", flat ? 0.5 : 0.2),
-      .crowd_range = E("S", 0.3) * lambda,
-      .far = E("FAR", 5.0),
-      .brevity = E("NU", 4.0),
+      .crowding = flat ? 0.3 : 0.2,
+      .crowd_range = 0.3 * lambda,
+      .far = 3.0,
+      .brevity = 4.0,
       .ink = flat || !free ? 0.0 : 0.1,
       .free = free,
   };
