@@ -1,12 +1,6 @@
 #include "place/scale.h"
 
 #include <math.h>
-#include <stdlib.h>
-static double E(const char *n, double d)
-{
-  const char *t = getenv(n);
-  return t ? atof(t) : d;
-}
 
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
@@ -18,17 +12,17 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
       .dimension = dimension,
       .count = count,
       .lambda = lambda,
-      .cell = lambda / E("CELL", flat ? 8.0 : 4.0),
-      .sampling = lambda / E("SAMP", flat ? 10.0 : 8.0),
-      .reach = lambda * E("REACH", flat ? 1.5 : 1.3),
+      .cell = lambda / (flat ? 8.0 : 4.0),
+      .sampling = lambda / (flat ? 10.0 : 8.0),
+      .reach = lambda * (flat ? 1.5 : 1.3),
       .clearance = lambda * (flat ? 0.1 : 0.05),
       .shortest = 0.5 * lambda,
       .turning = 165.0 * RADIANS_PER_DEGREE,
       .longest = (free ? 2.0 : 1.0) * lambda,
-      .crowding = E("MU", flat ? 0.5 : 0.2),
-      .crowd_range = E("S", 0.3) * lambda,
-      .far = E("FAR", 5.0),
-      .brevity = E("NU", 4.0),
+      .crowding = flat ? 0.5 : 0.2,
+      .crowd_range = 0.3 * lambda,
+      .far = 5.0,
+      .brevity = 4.0,
       .ink = flat || !free ? 0.0 : 0.1,
       .free = free,
   };
