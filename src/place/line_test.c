@@ -1,0 +1,278 @@
+#include "place/line.h"
+
+#include "place/fields_test.h"
+
+typedef struct setting {
+  fg_field *field;
+  fg__place_domain domain;
+  fg__place_scale scale;
+} setting;
+
+static setting set(fg_context *context, const sampling *box, velocity_of velocity,
+                   int count)
+{
+  setting s = {.field = field_of(context, box, velocity)};
+  assert_int_equal(fg__place_domain_create(&s.domain, context, s.field), FG_STATUS_OK);
+  s.scale = fg__place_scale_of(s.domain.dimension, count, s.domain.measure, true);
+  return s;
+}
+
+static void clear(setting *s)
+{
+  fg__place_domain_clear(&s->domain);
+  fg_field_destroy(s->field);
+}
+
+static void point_of(double out[3], const setting *s, const fg__place_line *line, int n)
+{
+  for (int k = 0; k < 3; ++k)
+    out[k] = s->domain.low[k] + (double)line->position[k][n] * s->scale.lambda;
+}
+
+static double arc_of(const setting *s, const fg__place_line *line)
+{
+  double sum = 0.0, a[3], b[3];
+  for (int n = 1; n < line->count; ++n) {
+    point_of(a, s, line, n - 1);
+    point_of(b, s, line, n);
+    sum += distance_between(a, b, s->domain.dimension);
+  }
+  return sum;
+}
+
+static void a_line_round_a_vortex_is_an_arc(void **state)
+{
+  setting s = set(*state, &PLAIN, vortex, 25);
+  const double radius = 1.3 * s.scale.lambda, way[2] = {0.31, 1.07};
+  fg__place_seed seed = {{EYE[0] + radius * cos(0.7), EYE[1] + radius * sin(0.7)}, {0}};
+  for (int k = 0; k < 2; ++k)
+    seed.way[k] = way[k] * s.scale.lambda;
+  fg__place_line line;
+  fg__place_trace(&line, &s.domain, &s.scale, &seed);
+  assert_true(line.count > 10);
+  for (int n = 0; n < line.count; ++n) {
+    double p[3];
+    point_of(p, &s, &line, n);
+    const double out[2] = {p[0] - EYE[0], p[1] - EYE[1]};
+    const double t[2] = {(double)line.tangent[0][n], (double)line.tangent[1][n]};
+    assert_close(hypot(out[0], out[1]), radius, 2e-3 * s.scale.lambda);
+    const double around[2] = {-out[1], out[0]};
+    assert_close(degrees_between(t, around, 2), 0, 0.1);
+  }
+  /* from tail to tip, the seed on it, as far as its ways */
+  double p[3], share = 0.0;
+  const double angle = radius / s.scale.lambda;
+  point_of(p, &s, &line, 0);
+  assert_close(atan2(p[1] - EYE[1], p[0] - EYE[0]), 0.7 - way[0] / angle, 3e-3);
+  point_of(p, &s, &line, line.count - 1);
+  assert_close(atan2(p[1] - EYE[1], p[0] - EYE[0]), 0.7 + way[1] / angle, 3e-3);
+  point_of(p, &s, &line, line.seed);
+  assert_close(distance_between(p, seed.position, 2), 0, 1e-5);
+  for (int k = 0; k < 2; ++k)
+    assert_close(line.way[k], seed.way[k], 1e-9);
+  assert_close(line.length, (way[0] + way[1]) * s.scale.lambda, 1e-9);
+  for (int n = 0; n < line.count; ++n)
+    share += (double)line.share[n] * s.scale.sampling;
+  assert_close(share, line.length, 1e-5);
+  clear(&s);
+}
+
+static void a_line_ends_where_it_has_turned_enough(void **state)
+{
+  setting s = set(*state, &PLAIN, vortex, 12);
+  const double radius = 0.25 * s.scale.lambda;
+  const fg__place_seed seed = {{EYE[0] + radius, EYE[1]},
+                               {0.95 * s.scale.lambda, 0.4 * s.scale.lambda}};
+  fg__place_line line;
+  fg__place_trace(&line, &s.domain, &s.scale, &seed);
+  /* against the flow 165 degrees, less a step at most; along it its way */
+  assert_true(line.way[0] <= 165.5 * DEGREE * radius);
+  assert_true(line.way[0] >= 165 * DEGREE * radius - s.scale.sampling);
+  assert_close(line.way[1], seed.way[1], 1e-9);
+  assert_close(line.length, arc_of(&s, &line), 0.03 * line.length);
+  clear(&s);
+}
+
+static void lines_keep_off_walls(void **state)
+{
+  setting s = set(*state, &PLAIN, slant, 40);
+  unsigned random = 3;
+  const double far = s.scale.lambda;
+  int ended = 0, refused = 0;
+  for (int n = 0; n < 500; ++n) {
+    const fg__place_seed seed = {
+        {-7 + 12 * next_random(&random), 3 + 8 * next_random(&random)}, {far, far}};
+    fg__place_line line;
+    fg__place_trace(&line, &s.domain, &s.scale, &seed);
+    const double *at = seed.position;
+    double room = fmin(fmin(at[0] + 7, 5 - at[0]), fmin(at[1] - 3, 11 - at[1]));
+    if (room < 0.99 * s.scale.clearance)
+      assert_int_equal(line.count, 0);
+    refused += line.count == 0;
+    for (int i = 0; i < line.count; ++i) {
+      double p[3];
+      point_of(p, &s, &line, i);
+      double clear_of = fmin(fmin(p[0] + 7, 5 - p[0]), fmin(p[1] - 3, 11 - p[1]));
+      assert_true(clear_of >= s.scale.clearance - 1e-4);
+    }
+    /* it goes as near as the halves of a step allow */
+    if (line.count > 0 && line.way[1] < far - 1e-9) {
+      double p[3];
+      point_of(p, &s, &line, line.count - 1);
+      double ahead = fmin(5 - p[0], 11 - p[1]);
+      assert_true(ahead < s.scale.clearance + s.scale.sampling);
+      ++ended;
+    }
+  }
+  assert_true(ended > 50 && refused > 10 && refused < 250);
+  clear(&s);
+}
+
+/* To both sides of a line at which the flow meets itself. */
+static void clash(const double position[3], double v[3])
+{
+  v[0] = EYE[0] - position[0];
+  v[1] = 1e-4;
+}
+
+static void a_line_ends_before_the_flow_reverses_or_breaks(void **state)
+{
+  setting s = set(*state, &PLAIN, clash, 12);
+  const double lambda = s.scale.lambda;
+  const fg__place_seed seed = {{EYE[0] - 0.6 * lambda, EYE[1]}, {lambda, lambda}};
+  fg__place_line line;
+  fg__place_trace(&line, &s.domain, &s.scale, &seed);
+  assert_true(line.count > 0);
+  assert_true(line.way[1] < 0.62 * lambda && line.way[1] > 0.3 * lambda);
+  for (int n = 0; n < line.count; ++n)
+    assert_true((double)line.tangent[0][n] > 0.99);
+  clear(&s);
+}
+
+static void too_short_a_line_is_none(void **state)
+{
+  setting s = set(*state, &PLAIN, slant, 30);
+  fg__place_line line;
+  fg__place_seed seed = {{-1, 7}, {0.24 * s.scale.lambda, 0.24 * s.scale.lambda}};
+  fg__place_trace(&line, &s.domain, &s.scale, &seed);
+  assert_int_equal(line.count, 0);
+  seed.way[1] = 0.3 * s.scale.lambda;
+  fg__place_trace(&line, &s.domain, &s.scale, &seed);
+  assert_true(line.count > 0);
+  clear(&s);
+}
+
+/* Where the way of a fine line comes nearest to a point. */
+static double distance_to_line(const double (*points)[3], int count,
+                               const double point[3], int dimension)
+{
+  double least = HUGE_VAL;
+  for (int n = 1; n < count; ++n) {
+    double dot = 0.0, square = 0.0, foot[3] = {0};
+    for (int k = 0; k < dimension; ++k) {
+      double piece = points[n][k] - points[n - 1][k];
+      dot += piece * (point[k] - points[n - 1][k]);
+      square += piece * piece;
+    }
+    double t = square > 0.0 ? fmax(0.0, fmin(1.0, dot / square)) : 0.0;
+    for (int k = 0; k < dimension; ++k)
+      foot[k] = points[n - 1][k] + t * (points[n][k] - points[n - 1][k]);
+    least = fmin(least, distance_between(foot, point, dimension));
+  }
+  return least;
+}
+
+static void compare_fine(fg_context *context, const sampling *box, velocity_of velocity,
+                         int count)
+{
+  setting s = set(context, box, velocity, count);
+  int dimension = s.domain.dimension, lines = 0;
+  unsigned random = 9;
+  for (int n = 0; n < 100; ++n) {
+    fg__place_seed seed = {{0},
+                           {(0.2 + 0.8 * next_random(&random)) * s.scale.lambda,
+                            (0.2 + 0.8 * next_random(&random)) * s.scale.lambda}};
+    for (int k = 0; k < dimension; ++k)
+      seed.position[k] =
+          box->low[k] + (box->high[k] - box->low[k]) * next_random(&random);
+    fg__place_line line;
+    fg__place_trace(&line, &s.domain, &s.scale, &seed);
+    if (line.count == 0)
+      continue;
+    double(*fine)[3], arc = 0.0;
+    int fine_count;
+    assert_int_equal(fg__place_trace_fine(&fine, &fine_count, context, &s.domain,
+                                          &s.scale, seed.position, line.way),
+                     FG_STATUS_OK);
+    assert_true(fine_count > line.count);
+    for (int i = 0; i < line.count; ++i) {
+      double p[3];
+      point_of(p, &s, &line, i);
+      assert_true(distance_to_line((const double(*)[3])fine, fine_count, p, dimension) <
+                  0.02 * s.scale.lambda);
+    }
+    for (int i = 1; i < fine_count; ++i)
+      arc += distance_between(fine[i - 1], fine[i], dimension);
+    assert_close(arc, line.length, 0.02 * s.scale.lambda);
+    free(fine);
+    ++lines;
+  }
+  assert_true(lines > 60);
+  clear(&s);
+}
+
+static void a_fine_line_is_the_coarse_one(void **state)
+{
+  compare_fine(*state, &PLAIN, swirl, 60);
+  compare_fine(*state, &SOLID, swirl, 30);
+}
+
+static void a_ring_closes_and_a_spiral_does_not(void **state)
+{
+  setting s = set(*state, &PLAIN, vortex, 12);
+  const double start[3] = {EYE[0] + 0.9, EYE[1] - 0.3};
+  double gap, diameter, radius = hypot(0.9, 0.3);
+  assert_true(fg__place_close(&gap, &diameter, &s.domain, &s.scale, start, radius));
+  assert_true(gap < 0.06 * diameter);
+  assert_close(diameter, 2 * radius, 0.02);
+  clear(&s);
+  s = set(*state, &PLAIN, drain, 12);
+  assert_true(fg__place_close(&gap, &diameter, &s.domain, &s.scale, start, radius));
+  assert_close(gap, radius * (1 - exp(-0.06 * 2 * 180 * DEGREE)), 0.06 * radius);
+  clear(&s);
+  s = set(*state, &PLAIN, slant, 12);
+  assert_false(fg__place_close(&gap, &diameter, &s.domain, &s.scale, start, radius));
+  clear(&s);
+}
+
+static void turns_add_up_as_vectors(void **state)
+{
+  (void)state;
+  double arc[60][3], bend[3][3] = {{0, 0, 0}, {1, 0, 0}, {1, 0, 2}};
+  for (int n = 0; n < 60; ++n) {
+    arc[n][0] = 3 * cos(0.09 * n);
+    arc[n][1] = 3 * sin(0.09 * n);
+    arc[n][2] = 0;
+  }
+  assert_close(fg__place_turning((const double(*)[3])arc, 60), 58 * 0.09, 0.02);
+  assert_close(fg__place_turning((const double(*)[3])bend, 3), 90 * DEGREE, 1e-3);
+  /* there and back again: a wave does not turn */
+  for (int n = 0; n < 60; ++n)
+    arc[n][1] = sin(2 * 180 * DEGREE * n / 59), arc[n][0] = 2.0 * n / 59;
+  assert_close(fg__place_turning((const double(*)[3])arc, 60), 0, 0.02);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      CASE(a_line_round_a_vortex_is_an_arc),
+      CASE(a_line_ends_where_it_has_turned_enough),
+      CASE(lines_keep_off_walls),
+      CASE(a_line_ends_before_the_flow_reverses_or_breaks),
+      CASE(too_short_a_line_is_none),
+      CASE(a_fine_line_is_the_coarse_one),
+      CASE(a_ring_closes_and_a_spiral_does_not),
+      CASE(turns_add_up_as_vectors),
+  };
+  return cmocka_run_group_tests_name("place/line", tests, NULL, NULL);
+}

@@ -1,0 +1,216 @@
+#include "place/search.h"
+
+#include "place/even.h"
+#include "place/fields_test.h"
+
+typedef struct setting {
+  fg_field *field;
+  fg__place_domain domain;
+  fg__place_search search;
+} setting;
+
+static void set(setting *s, fg_context *context, const sampling *box,
+                velocity_of velocity, int count, bool free)
+{
+  *s = (setting){.field = field_of(context, box, velocity)};
+  assert_int_equal(fg__place_domain_create(&s->domain, context, s->field), FG_STATUS_OK);
+  assert_int_equal(fg__place_search_create(&s->search, context, &s->domain, count, free),
+                   FG_STATUS_OK);
+}
+
+static void set_even(setting *s, fg_context *context, const sampling *box,
+                     velocity_of velocity, int count, bool free)
+{
+  set(s, context, box, velocity, count, free);
+  assert_int_equal(fg__place_start_even(&s->search), FG_STATUS_OK);
+  assert_int_equal(fg__place_complete(&s->search), FG_STATUS_OK);
+  assert_int_equal(s->search.count, count);
+}
+
+static void clear(setting *s)
+{
+  fg__place_search_clear(&s->search);
+  fg__place_domain_clear(&s->domain);
+  fg_field_destroy(s->field);
+}
+
+static double energy_of(setting *s)
+{
+  double energy;
+  assert_int_equal(fg__place_energy(&s->search, &energy), FG_STATUS_OK);
+  return energy;
+}
+
+/* Sweep by sweep, and to well below the start. `crowd`: an icon's moves are priced by how
+ * near it comes to others, all icons by that too: the sum may rise a little. */
+static void descend(fg_context *context, const sampling *box, velocity_of velocity,
+                    bool free, bool crowd)
+{
+  setting s;
+  set_even(&s, context, box, velocity, 24, free);
+  if (!crowd)
+    s.search.scale.crowding = 0.0;
+  assert_int_equal(fg__place_weigh(&s.search), FG_STATUS_OK);
+  double first = energy_of(&s), before = first;
+  for (int sweep = 0; sweep < 8; ++sweep) {
+    assert_int_equal(fg__place_relax(&s.search, 1), FG_STATUS_OK);
+    double now = energy_of(&s);
+    if (now > before * (crowd ? 1.005 : 1 + 1e-6))
+      fail_msg("from %.9g to %.9g in sweep %d", before, now, sweep);
+    before = now;
+  }
+  assert_true(before < 0.9 * first);
+  assert_int_equal(fg__place_exchange(&s.search, 3, 2), FG_STATUS_OK);
+  assert_int_equal(s.search.count, 24);
+  assert_true(energy_of(&s) <= before * (1 + 1e-6));
+  clear(&s);
+}
+
+static void the_energy_falls(void **state)
+{
+  descend(*state, &PLAIN, coast, true, false);
+  descend(*state, &PLAIN, swirl, false, true);
+  descend(*state, &SOLID, hall, true, true);
+}
+
+/* The price of a region told by the others and by one line. */
+static double price_of(setting *s, const fg__place_box *box, int index)
+{
+  fg__place_search *search = &s->search;
+  fg__place_icon *icon = search->icon[index];
+  assert_int_equal(fg__place_gather(&search->others, search, box, index), FG_STATUS_OK);
+  return fg__place_cost(NULL, &search->raster, box, &search->others, &icon->tale,
+                        &search->price) +
+         fg__place_own_price(search, &icon->line, &search->others);
+}
+
+static void join(fg__place_box *box, const fg__place_box *by)
+{
+  for (int k = 0; k < 3; ++k) {
+    int end = box->low[k] + box->size[k], other = by->low[k] + by->size[k];
+    box->low[k] = box->low[k] < by->low[k] ? box->low[k] : by->low[k];
+    box->size[k] = (end > other ? end : other) - box->low[k];
+  }
+}
+
+/* Icons move one after the other, most of them by moves that the search would not take:
+ * the region's price changes by as much as the energy of all. */
+static void a_move_is_priced_where_it_tells(void **state)
+{
+  setting s;
+  set_even(&s, *state, &PLAIN, swirl, 20, true);
+  s.search.scale.crowding = 0.0;
+  assert_int_equal(fg__place_weigh(&s.search), FG_STATUS_OK);
+  unsigned random = 17;
+  int moved = 0;
+  for (int n = 0; n < s.search.count; ++n) {
+    fg__place_icon *icon = s.search.icon[n];
+    fg__place_seed seed = icon->seed;
+    for (int k = 0; k < 2; ++k)
+      seed.position[k] += (next_random(&random) - 0.5) * s.search.scale.lambda;
+    seed.way[0] *= 0.6 + next_random(&random);
+    fg__place_line line;
+    fg__place_trace(&line, &s.domain, &s.search.scale, &seed);
+    if (line.count == 0)
+      continue;
+    fg__place_box region = icon->tale.box,
+                  to = fg__place_box_of(&s.search.raster, &s.search.scale, &line);
+    join(&region, &to);
+    double all = energy_of(&s), here = price_of(&s, &region, n);
+    icon->seed = seed;
+    icon->line = line;
+    assert_int_equal(
+        fg__place_tell(&icon->tale, *state, &s.search.raster, &s.search.scale, &line),
+        FG_STATUS_OK);
+    assert_close(price_of(&s, &region, n) - here, energy_of(&s) - all, 1e-5 * all);
+    ++moved;
+  }
+  assert_true(moved > 10);
+  clear(&s);
+}
+
+static void add(setting *s, double x, double y, bool expected)
+{
+  const double lambda = s->search.scale.lambda;
+  const fg__place_seed seed = {{x, y}, {0.5 * lambda, 0.5 * lambda}};
+  bool added;
+  assert_int_equal(fg__place_add(&s->search, &added, &seed, s->search.next_identity++),
+                   FG_STATUS_OK);
+  assert_true(added == expected);
+}
+
+static void crowding_is_dear_and_so_are_short_lines(void **state)
+{
+  setting s;
+  set(&s, *state, &PLAIN, slant, 12, true);
+  const double lambda = s.search.scale.lambda;
+  add(&s, -1, 7, true);
+  add(&s, -1 - 0.1 * lambda * sin(SLANT), 7 + 0.1 * lambda * cos(SLANT), true);
+  fg__place_box all = {{0}, {0}};
+  memcpy(all.size, s.search.raster.cells, sizeof all.size);
+  fg__place_line *line = &s.search.icon[1]->line;
+  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 1), FG_STATUS_OK);
+  double near = fg__place_own_price(&s.search, line, &s.search.others);
+  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 0), FG_STATUS_OK);
+  /* the other line itself is a cell away at most: about 2 mu for each lambda */
+  assert_close(near, 2 * s.search.scale.crowding * exp(-0.01 / 0.18), 0.12);
+  fg__place_drop(&s.search, 0);
+  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 0), FG_STATUS_OK);
+  assert_true(fg__place_own_price(&s.search, line, &s.search.others) < 1e-9);
+  fg__place_seed brief = {{2, 8}, {0.3 * lambda, 0.3 * lambda}};
+  fg__place_line shorter;
+  fg__place_trace(&shorter, &s.domain, &s.search.scale, &brief);
+  assert_close(fg__place_own_price(&s.search, &shorter, &s.search.others), 4 * 0.2 * 0.2,
+               1e-6);
+  clear(&s);
+}
+
+static void thinning_takes_the_ones_that_say_least(void **state)
+{
+  setting s;
+  set_even(&s, *state, &PLAIN, slant, 12, true);
+  assert_int_equal(fg__place_weigh(&s.search), FG_STATUS_OK);
+  int twin = s.search.next_identity;
+  const double *at = s.search.icon[4]->seed.position;
+  int other = s.search.icon[4]->identity;
+  add(&s, at[0] + 0.02, at[1] + 0.02, true);
+  assert_int_equal(fg__place_thin(&s.search, 12), FG_STATUS_OK);
+  assert_int_equal(s.search.count, 12);
+  bool first = false, second = false;
+  for (int n = 0; n < 12; ++n) {
+    first = first || s.search.icon[n]->identity == other;
+    second = second || s.search.icon[n]->identity == twin;
+  }
+  assert_true(first != second);
+  clear(&s);
+}
+
+/* Half of the domain is empty: a new icon comes there. */
+static void an_icon_comes_where_readers_err(void **state)
+{
+  setting s;
+  set(&s, *state, &PLAIN, swirl, 8, true);
+  add(&s, -5, 5, true);
+  add(&s, -5, 9, true);
+  add(&s, -2.5, 7, true);
+  double before = energy_of(&s);
+  bool inserted;
+  assert_int_equal(fg__place_insert(&s.search, &inserted, 0), FG_STATUS_OK);
+  assert_true(inserted);
+  assert_int_equal(s.search.count, 4);
+  assert_true(s.search.icon[3]->seed.position[0] > 0);
+  assert_true(energy_of(&s) < before);
+  clear(&s);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      CASE(the_energy_falls),
+      CASE(a_move_is_priced_where_it_tells),
+      CASE(crowding_is_dear_and_so_are_short_lines),
+      CASE(thinning_takes_the_ones_that_say_least),
+      CASE(an_icon_comes_where_readers_err),
+  };
+  return cmocka_run_group_tests_name("place/search", tests, NULL, NULL);
+}
