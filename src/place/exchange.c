@@ -11,15 +11,23 @@
 /* Places that are tried for a new icon, at least this far apart in lambda, each with
  * offsets along the axes; the error is smoothed by this many passes of 1 2 1 (lambda/4 on
  * cells of lambda/8). */
-enum { PLACES = 10, PASSES = 2 };
+enum { PLACES = 30, PASSES = 2 };
 static const double APART = 0.5;
 static const double OFFSET = 0.25;
+
+/* Errors beside a line do not call for another one: they count by d^2 / (d^2 + this), d
+ * the distance in lambda. Rough coasts would draw all new icons else. */
+static const float BESIDE = 0.04F;
 
 /* Ways of a new icon in a free placement, in lambda. */
 static const double FREE_WAY = 0.6;
 
 /* Sweeps after an icon has come, and after one has gone. */
 enum { EXCHANGE_SWEEPS = 3 };
+/* A fall of the energy by less than this share of it is kept, but counts as a failure:
+ * the best exchanges come first. */
+static const double LITTLE_GAIN = 3e-4;
+
 static const double FRESH = 0.1; /* first step of the neighbours, in lambda */
 
 /* Icons that come or go in one round are at least this many lambda apart: each is priced
@@ -164,6 +172,8 @@ static fg_status list_candidates(candidate best[PLACES], int *count,
     return status;
   fg__place_cost(search->map, &search->raster, &all, &search->whole, NULL,
                  &search->price);
+  for (size_t n = 0; n < search->raster.count; ++n)
+    search->map[n] *= search->whole.value[n] / (search->whole.value[n] + BESIDE);
   smooth_map(search);
   *count = 0;
   float position[3];
@@ -412,8 +422,8 @@ fg_status fg__place_exchange(fg__place_search *search, int most, int failures)
     if (status == FG_STATUS_OK)
       status = fg__place_energy(search, &now);
     if (status == FG_STATUS_OK && now < energy) {
+      failed = now < energy * (1.0 - LITTLE_GAIN) ? 0 : failed + 1;
       energy = now;
-      failed = 0;
     } else if (status == FG_STATUS_OK) {
       status = restore(search, &before);
       ++failed;
