@@ -100,12 +100,23 @@ expect_json out4/run.json '[.scales[].wanted[]] == [30, 29, 28]'
 expect_json out4/run.json '[.scales[] | .clusters <= .wanted[-1]] | all'
 done_with "numbers passed in one step are answered by one scale"
 
-try run synth:vortex3 -o out5 --nodes 97 --quiet
+try run synth:vortex3 -o out5 --nodes 97 --no-arrows --quiet
 expect_code 0
 expect_json out5/run.json '.scales[-1].clusters <= 12 and .ended == "scales"'
 expect_json out5/run.json '[.scales[].wanted[]] | .[-1] == 12 and (. == (sort | reverse))'
 expect_json out5/run.json '.scales[0].clusters == .scales[0].wanted[0]'
-done_with "the default scales halve down to 12"
+done_with "without arrows the default scales halve down to 12 clusters"
+
+# the clusters of this mesh are fewer than the arrows of its first scale
+try run synth:vortex3 -o usual --nodes 65 --effort 0 --formats svg --quiet
+expect_code 0
+expect_json usual/run.json '[.scales[].icons] == [200, 100, 50, 25, 12] and .ended == "scales"'
+expect_json usual/run.json '[.scales[].wanted[]] == [200, 100, 50, 25, 12] and .scales[0].clusters < 200'
+expect_json usual/run.json '[.scales[].error.mean] | . == sort and .[0] > 0 and .[4] < 40'
+[ "$(awk '{print $1, $2}' out | tr '\n' ' ')" = "200 arrows 100 arrows 50 arrows 25 arrows 12 arrows " ] ||
+  fault "$(cat out)"
+[ ! -s err ] || fault "standard error: $(head -c 200 err)"
+done_with "the usual scales have 200 to 12 arrows, and the summary tells"
 
 steps=$(jq .steps.accepted out5/run.json)
 try run synth:vortex3 -o out6 --nodes 97 --max-steps $((steps - 5)) --clusters 2 --quiet
