@@ -215,6 +215,24 @@ else
 fi
 done_with "what the pattern does not reach is said"
 
+# a diagonal channel, three samples wide
+awk 'BEGIN {
+  n = 160
+  printf "# vtk DataFile Version 3.0\nchannel\nASCII\nDATASET STRUCTURED_POINTS\n"
+  printf "DIMENSIONS %d %d 1\nORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA %d\nVECTORS v float\n", n, n, n * n
+  for (j = 0; j < n; ++j)
+    for (i = 0; i < n; ++i)
+      print (i - j < 2 && j - i < 2) ? "1 1 0" : "nan nan 0"
+}' >channel.vtk
+try run channel.vtk -o narrow --nodes 65 --arrows 10,4 --quiet --tint
+expect_code 0
+expect_json narrow/run.json '[.scales[] | .icons, .clusters] == [10, 0, 4, 0] and .ended == "stationary"'
+expect_json narrow/scale-01.geojson '[.features[].geometry.coordinates[] | .[0] - .[1] | fabs <= 2] | all'
+try run channel.vtk -o none --nodes 65 --clusters 10 --quiet
+expect_code 1
+expect_error 'no clusters after [0-9]+ steps, .*: the pattern no longer changes'
+done_with "a channel too narrow for clusters has arrows all the same"
+
 try run synth:vortex3 -o few --nodes 65 --clusters 400,8 --quiet
 expect_code 0
 expect_json few/run.json '.scales[0].clusters <= 200'
