@@ -75,7 +75,7 @@ expect_only_results stopped
 done_with "an interrupted run writes the scales it has, and goes on from there"
 
 # its first scale is drawn while most of the evolution is still to come
-long=(run synth:vortex3 --nodes 1025 --clusters 1000,12 --formats svg --quiet)
+long=(run synth:vortex3 --nodes 1025 --mesh uniform --clusters 300,12 --formats svg --quiet)
 try "${long[@]}" -o whole3
 expect_code 0
 in_background "${long[@]}" -o never
