@@ -2,6 +2,7 @@
 
 #include <cjson/cJSON.h>
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +26,51 @@ static void add_whole(cJSON *object, const char *name, long value)
   cJSON_AddNumberToObject(object, name, (double)value);
 }
 
+enum { SCORE_NUMBERS = 11 };
+
+/* The numbers of a score that a run reports, to be kept or set. */
+static void find_score_numbers(double *out[SCORE_NUMBERS], fg_score *score)
+{
+  fg_reader_error *const readers[] = {&score->diffusion, &score->nearest,
+                                      &score->inverse_distance};
+  int count = 0;
+  out[count++] = &score->mean;
+  out[count++] = &score->percentile_95;
+  for (size_t k = 0; k < sizeof readers / sizeof *readers; ++k) {
+    out[count++] = &readers[k]->mean;
+    out[count++] = &readers[k]->percentile_95;
+    out[count++] = &readers[k]->speed_weighted;
+  }
+}
+
+static void add_score(cJSON *scale, const scale_result *result)
+{
+  fg_score score = result->score;
+  double *number[SCORE_NUMBERS];
+  if (!result->has_score)
+    return;
+  find_score_numbers(number, &score);
+  cJSON *list = cJSON_AddArrayToObject(scale, "score");
+  for (int k = 0; k < SCORE_NUMBERS; ++k) {
+    char text[32];
+    snprintf(text, sizeof text, "%.17g", *number[k]);
+    cJSON_AddItemToArray(list, isfinite(*number[k]) ? cJSON_CreateRaw(text)
+                                                    : cJSON_CreateNull());
+  }
+}
+
+static void restore_score(scale_result *result, const cJSON *scale)
+{
+  const cJSON *list = cJSON_GetObjectItemCaseSensitive(scale, "score");
+  double *number[SCORE_NUMBERS];
+  result->has_score = cJSON_GetArraySize(list) == SCORE_NUMBERS;
+  if (!result->has_score)
+    return;
+  find_score_numbers(number, &result->score);
+  for (int k = 0; k < SCORE_NUMBERS; ++k)
+    *number[k] = cJSON_GetNumberValue(cJSON_GetArrayItem(list, k)); /* null: NaN */
+}
+
 static void add_scale(cJSON *scales, const scale_result *result)
 {
   cJSON *scale = cJSON_CreateObject();
@@ -36,6 +82,7 @@ static void add_scale(cJSON *scales, const scale_result *result)
   add_exact(scale, "time", result->time);
   add_exact(scale, "energy", result->energy);
   add_exact(scale, "area_fraction", result->area_fraction);
+  add_score(scale, result);
   cJSON_AddItemToArray(scales, scale);
 }
 
@@ -225,6 +272,7 @@ static int restore_scales(cli_run *run, const cJSON *note)
     result->time = real_of(scale, "time");
     result->energy = real_of(scale, "energy");
     result->area_fraction = real_of(scale, "area_fraction");
+    restore_score(result, scale);
   }
   if (!scales_are_there(run, count))
     return EXIT_FAILED;

@@ -51,8 +51,12 @@ static bool is_solids(const char *path)
 static int check_output(const cli_settings *settings)
 {
   const char *path = settings->output;
-  if (settings->scale_index >= 0 && settings->cluster_count > 0) {
-    complain("--scale-index and --clusters each choose a scale: say one");
+  const bool index = settings->scale_index >= 0, arrows = settings->arrow_count > 0,
+             clusters = settings->cluster_count > 0;
+  if (index + arrows + clusters > 1) {
+    complain("%s and %s each choose a scale: say one",
+             index ? "--scale-index" : "--arrows",
+             index && arrows ? "--arrows" : "--clusters");
     advise("Try 'flowgrain draw --help'.");
     return EXIT_USAGE;
   }
@@ -69,6 +73,19 @@ static int check_dimension(const cli_settings *settings, int dimension)
   return refuse_other_dimension("draw", settings, dimension, settings->operand);
 }
 
+/* The finest scale that has at most so many of what is counted. */
+static int choose_at_most(const cli_settings *settings, const cli_report *report,
+                          int (*count_of)(const cli_report *, int), int most,
+                          const char *what)
+{
+  for (int k = 0; k < report->scale_count; ++k)
+    if (count_of(report, k) <= most)
+      return k;
+  complain("%s: its coarsest scale has %d %s, and at most %d were asked for",
+           settings->operand, count_of(report, report->scale_count - 1), what, most);
+  return -1;
+}
+
 /* The scale that the options choose, -1 after a complaint. */
 static int choose_scale(const cli_settings *settings, const cli_report *report)
 {
@@ -80,15 +97,13 @@ static int choose_scale(const cli_settings *settings, const cli_report *report)
   }
   if (settings->scale_index >= 0)
     return settings->scale_index;
-  if (!settings->cluster_count)
-    return count - 1;
-  for (int k = 0; k < count; ++k)
-    if (report_scale_clusters(report, k) <= settings->clusters[0])
-      return k;
-  complain("%s: its coarsest scale has %d clusters, and at most %d were asked for",
-           settings->operand, report_scale_clusters(report, count - 1),
-           settings->clusters[0]);
-  return -1;
+  if (settings->arrow_count)
+    return choose_at_most(settings, report, report_scale_arrows, settings->arrows[0],
+                          "arrows");
+  if (settings->cluster_count)
+    return choose_at_most(settings, report, report_scale_clusters, settings->clusters[0],
+                          "clusters");
+  return count - 1;
 }
 
 static int read_icons(fg_icons **out, fg_context *context, const cli_settings *settings,
@@ -130,12 +145,14 @@ static int read_field(fg_field **out, fg_context *context, const cli_settings *s
   return code;
 }
 
-/* What the option is called that needs the density; NULL: none does. */
-static const char *density_user(const cli_settings *settings, bool solid)
+/* What the option is called that needs the density; NULL: none does. Placed arrows have
+ * regions of their own to tint. */
+static const char *density_user(const cli_settings *settings, const cli_report *report,
+                                bool solid)
 {
   if (solid)
     return settings->surfaces ? "--surfaces" : NULL;
-  if (settings->tint)
+  if (settings->tint && !report->placed)
     return "--tint";
   return background_needs_density(settings) ? "--background clusters" : NULL;
 }
@@ -145,7 +162,7 @@ static int read_density(fg_density **out, fg_context *context,
                         const cli_settings *settings, const cli_report *report, int index,
                         const fg_field *field)
 {
-  const char *user = density_user(settings, scales_are_solid(field));
+  const char *user = density_user(settings, report, scales_are_solid(field));
   if (!user)
     return EXIT_DONE;
   const char *name = report_scale_density(report, index);
@@ -160,6 +177,30 @@ static int read_density(fg_density **out, fg_context *context,
     return EXIT_FAILED;
   fg_status status = fg_density_read(out, context, path, field);
   free(path);
+  return status ? complain_of(context, status, settings->operand) : EXIT_DONE;
+}
+
+/* The simulated scale is one of clusters, not of placed arrows. */
+static double caption_time(const cli_report *report, int index)
+{
+  return report->placed ? 0.0 : report_scale_time(report, index);
+}
+
+/* The regions of placed arrows, where --tint shows them. */
+static int make_regions(fg_density **out, fg_context *context,
+                        const cli_settings *settings, const cli_report *report,
+                        const fg_field *field, const fg_icons *icons)
+{
+  if (!settings->tint || !report->placed)
+    return EXIT_DONE;
+  fg_placement *placement = NULL;
+  fg_placement_options options = {.lengths = report->lengths};
+  fg_status status = fg_placement_create(&placement, context, field, &options);
+  if (!status)
+    status = fg_placement_resume(placement, icons);
+  if (!status)
+    status = fg_placement_regions(out, placement);
+  fg_placement_destroy(placement);
   return status ? complain_of(context, status, settings->operand) : EXIT_DONE;
 }
 
@@ -178,7 +219,7 @@ static fg_status write_solid(fg_context *context, const char *path,
   options.surface = surface;
   options.speed_min = report->speeds[0];
   options.speed_max = report->speeds[1];
-  options.scale_time = report_scale_time(report, index);
+  options.scale_time = caption_time(report, index);
   status = fg_solid_write(context, path, field, icons, &options);
   fg_surface_destroy(surface);
   return status;
@@ -186,12 +227,13 @@ static fg_status write_solid(fg_context *context, const char *path,
 
 static int write_picture(fg_context *context, const cli_settings *settings,
                          const cli_report *report, int index, const fg_field *field,
-                         const fg_density *density, const fg_icons *icons)
+                         const fg_density *density, const fg_density *regions,
+                         const fg_icons *icons)
 {
   fg_picture_options options = settings_picture(settings);
   options.speed_min = report->speeds[0];
   options.speed_max = report->speeds[1];
-  options.scale_time = report_scale_time(report, index);
+  options.scale_time = caption_time(report, index);
   char *partial = temporary_name(settings->output);
   if (!partial)
     return EXIT_FAILED;
@@ -204,7 +246,8 @@ static int write_picture(fg_context *context, const cli_settings *settings,
     status = report->dimension == 3
                  ? write_solid(context, partial, settings, report, index, field, density,
                                icons)
-                 : fg_picture_write(context, partial, field, density, icons, &options);
+                 : fg_picture_write(context, partial, field,
+                                    report->placed ? regions : density, icons, &options);
   int code = status ? complain_of_partial(context, status, partial, settings->output)
                     : EXIT_DONE;
   fg_texture_destroy(background);
@@ -217,7 +260,7 @@ int command_draw(const cli_settings *settings)
   fg_context *context = NULL;
   fg_icons *icons = NULL;
   fg_field *field = NULL;
-  fg_density *density = NULL;
+  fg_density *density = NULL, *regions = NULL;
   int code = check_output(settings);
   if (!code)
     code = report_read(&report, settings->operand);
@@ -236,8 +279,12 @@ int command_draw(const cli_settings *settings)
   if (!code)
     code = read_density(&density, context, settings, &report, index, field);
   if (!code)
-    code = write_picture(context, settings, &report, index, field, density, icons);
+    code = make_regions(&regions, context, settings, &report, field, icons);
+  if (!code)
+    code =
+        write_picture(context, settings, &report, index, field, density, regions, icons);
 cleanup:
+  fg_density_destroy(regions);
   fg_density_destroy(density);
   fg_field_destroy(field);
   fg_icons_destroy(icons);

@@ -237,8 +237,7 @@ static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *momen
     status = place_icons(drawing, index, moment);
   else if (!moment->icons)
     status = make_icons(drawing, moment);
-  if (!status && !settings_place(drawing->settings) &&
-      !fg_field_is_part(drawing->field, NULL, NULL))
+  if (!status && !settings_place(drawing->settings))
     status = placing_score(drawing->context, drawing->field, moment->icons);
   const fg_icons *icons = moment->icons;
   if (!status)
@@ -319,11 +318,10 @@ static void *work(void *argument)
   return NULL;
 }
 
-/* Reads what other ranks have of a field in 3D. */
+/* Reads what other ranks have of a field: placing, scoring and pictures in 3D need it. */
 static int read_whole(cli_drawing *drawing)
 {
-  bool wanted = scales_are_solid(drawing->field) || settings_place(drawing->settings);
-  if (!wanted || !fg_field_is_part(drawing->field, NULL, NULL))
+  if (!fg_field_is_part(drawing->field, NULL, NULL))
     return EXIT_DONE;
   const char *input = drawing->settings->operand;
   fg_read_options reading = settings_reading(drawing->settings);

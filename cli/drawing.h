@@ -32,8 +32,8 @@ typedef struct common_look {
 } common_look;
 
 /* Starts a worker thread, or with `threads` 1 none: then drawing_add draws before it
- * returns. The field and output are borrowed; of a part of a field, where arrows are
- * placed or in 3D, the whole is read again. Returns an exit code. */
+ * returns. The field and output are borrowed; of a part of a field the whole is read
+ * again. Returns an exit code. */
 int drawing_start(cli_drawing **out, const cli_settings *settings, const fg_field *field,
                   const cli_output *output);
 

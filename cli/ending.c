@@ -110,10 +110,15 @@ static int say_ending(const cli_run *run)
     return EXIT_DONE;
   }
   int count = drawing_count(run->drawing);
-  complain("%s: interrupted at t = %.3g with %d clusters; the %d scale%s until then %s "
-           "in %s",
-           said->operand, run->step.time, run->step.clusters, count,
-           count == 1 ? "" : "s", count == 1 ? "is" : "are", said->output);
+  char reached[64];
+  if (run->plan.placed)
+    snprintf(reached, sizeof reached, "before the scale of %d arrows",
+             run->plan.wanted[run->plan.next]);
+  else
+    snprintf(reached, sizeof reached, "with %d clusters", run->step.clusters);
+  complain("%s: interrupted at t = %.3g %s; the %d scale%s until then %s in %s",
+           said->operand, run->step.time, reached, count, count == 1 ? "" : "s",
+           count == 1 ? "is" : "are", said->output);
   return EXIT_INTERRUPTED;
 }
 

@@ -98,7 +98,11 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   cJSON_AddItemToObject(object, "seed", cJSON_CreateRaw(seed));
   if (settings_place(said)) {
     cJSON_AddStringToObject(object, "lengths", said->lengths ? "fair" : "free");
-    cJSON_AddStringToObject(object, "start", said->start ? "even" : "clusters");
+    cJSON_AddStringToObject(object, "start",
+                            said->start || said->tolerance > 0.0 ? "even" : "clusters");
+    cJSON_AddStringToObject(object, "effort", effort_words[said->effort]);
+    if (said->tolerance > 0.0)
+      cJSON_AddNumberToObject(object, "tolerance", said->tolerance);
   }
   if (said->arrow_count)
     cJSON_AddItemToObject(object, "arrows",

@@ -18,7 +18,7 @@ static const char *const background_words[] = {
     "none", "lic", "spots", "clusters", "stripes", "diffusion", NULL};
 static const char *const arrow_lengths_words[] = {"free", "fair", NULL};
 static const char *const start_words[] = {"clusters", "even", NULL};
-static const char *const effort_words[] = {"1", "0", "2", NULL};
+const char *const effort_words[] = {"1", "0", "2", NULL};
 static const char *const class_words[] = {"arrows", "free", NULL};
 const char *const extent_words[] = {"cluster", NULL};
 
@@ -26,17 +26,17 @@ enum {
   EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL |
           COMMAND_TEXTURE | COMMAND_GALLERY | COMMAND_BRUSH | COMMAND_SCORE,
   READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE | COMMAND_SCORE,
-  DRAWN = COMMAND_RUN | COMMAND_RIVAL,
   SEEDED = COMMAND_RUN | COMMAND_TEXTURE | COMMAND_BRUSH,
   PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL,
 };
 
 const cli_command command_table[] = {
     {COMMAND_RUN, "run", "INPUT", "INPUT -o DIR [options]",
-     "evolve, and write a picture of every scale: the main job",
-     "Reads a vector field, lets clusters grow on it from fine to coarse, and writes at "
-     "every wanted number of clusters one scale into DIR: the icons as GeoJSON and their "
-     "picture. DIR also gets run.json, which says all that was done, and evolution.csv, "
+     "write a picture of every scale: the main job",
+     "Reads a vector field, lets clusters grow on it from fine to coarse, places for "
+     "every wanted number exactly so many arrows, which start from the clusters, and "
+     "writes each scale into DIR: the icons as GeoJSON and their picture. DIR also gets "
+     "run.json, which says all that was done, and evolution.csv, "
      "with a row for every time step. INPUT is a NetCDF file, a VTK image or grid (.vti, "
      ".vtr, .vts, .vtu, .vtk), or synth:NAME for an analytic field (see flowgrain synth "
      "--help). In 3D a scale is the icons as GeoJSON, VTK polydata (.vtp) and glTF "
@@ -251,8 +251,8 @@ const option_entry option_table[] = {
      "size h; isotropic (1.5 h)^2]"},
     {"arrows", 0, "LIST", COMMAND_RUN, OPTION_COUNTS, AT(arrows), 1, 100000, false, false,
      NULL,
-     "numbers of arrows, descending: a scale of exactly so many each, placed so that a "
-     "reader gets the field back [200,100,50,25,12; in 3D 60,25,12]"},
+     "numbers of arrows, descending: a scale of exactly so many each, placed so that "
+     "readers get the field back [200,100,50,25,12; in 3D 60,25,12]"},
     {"tolerance", 0, "DEG", COMMAND_RUN, OPTION_NUMBER, AT(tolerance), 0, 90, true, false,
      NULL,
      "one scale: the fewest arrows from which the field is read within DEG degrees, the "
@@ -268,8 +268,8 @@ const option_entry option_table[] = {
     {"effort", 0, "E", COMMAND_RUN, OPTION_CHOICE, AT(effort), 0, 0, false, false,
      effort_words, "work that placing takes, 0 to 2: less error for more time [1]"},
     {"clusters", 0, "LIST", COMMAND_RUN, OPTION_COUNTS, 0, 1, 1000000, false, false, NULL,
-     "instead of --arrows the paper's way: an arrow inside each cluster; numbers of "
-     "clusters, descending, as 200,50,12: a scale is the first moment at or below the "
+     "instead of --arrows an arrow inside each cluster, as in the paper: numbers of "
+     "clusters, descending, as 200,50,12; a scale is the first moment at or below the "
      "number"},
     {"clusters", 0, "LIST", COMMAND_BRUSH, OPTION_COUNTS, 0, 1, 1000000, false, false,
      NULL,
@@ -308,6 +308,8 @@ const option_entry option_table[] = {
     {"scale-index", 0, "I", COMMAND_DRAW, OPTION_WHOLE, AT(scale_index), 0,
      MAX_SCALES - 1, false, false, NULL,
      "which scale, 0 being the finest [the coarsest]"},
+    {"arrows", 0, "N", COMMAND_DRAW, OPTION_COUNTS, AT(arrows), 1, 1000000, false, false,
+     NULL, "the finest scale with at most N arrows"},
     {"clusters", 0, "N", COMMAND_DRAW, OPTION_COUNTS, 0, 1, 1000000, false, false, NULL,
      "the finest scale with at most N clusters"},
     {"input", 0, "FILE", COMMAND_DRAW, OPTION_TEXT, AT(input), 0, 0, false, false, NULL,
@@ -340,10 +342,14 @@ const option_entry option_table[] = {
      false, NULL, "colour map that shows the speed, or #rrggbb for one colour [greys]"},
     {"key", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, AT(key), 0, 0, false, false, NULL,
      "with --palette: a key of the speeds' colours below the texture"},
-    {"tint", 0, NULL, DRAWN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
-     "in 2D: tint the clusters behind their arrows"},
+    {"tint", 0, NULL, COMMAND_RIVAL, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
+     "discrete, top-down: tint the clusters behind their arrows"},
+    {"tint", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
+     "in 2D: tint what each arrow stands for behind it: the points nearest to it, with "
+     "--clusters its cluster"},
     {"tint", 0, NULL, COMMAND_DRAW, OPTION_FLAG, AT(tint), 0, 0, false, false, NULL,
-     "in 2D: tint the clusters behind their arrows, of a run with --save-field"},
+     "in 2D: tint what each arrow stands for behind it; clusters only of a run with "
+     "--save-field"},
     {"background", 0, "KIND", COMMAND_RUN | COMMAND_DRAW, OPTION_CHOICE, AT(background),
      0, 0, false, false, background_words,
      "in 2D: a pale texture behind the icons, as flowgrain texture paints: `lic`, "
@@ -351,13 +357,13 @@ const option_entry option_table[] = {
      "with "
      "--save-field) [none]"},
     {"skeletons", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(skeletons), 0, 0, false, false,
-     NULL, "in 2D: mark the spine of each cluster by dots, and its centre by a ring"},
+     NULL, "in 2D, of clusters: mark each spine by dots, and each centre by a ring"},
     {"centers", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(centers), 0, 0, false, false, NULL,
-     "in 2D: mark the centre of each cluster by a ring"},
+     "in 2D, of clusters: mark each centre by a ring"},
     {"no-arrows", 0, NULL, COMMAND_RUN, OPTION_FLAG, AT(no_arrows), 0, 0, false, false,
      NULL,
-     "in 2D: leave the arrows out of the picture; --tint, --skeletons and the "
-     "others remain"},
+     "in 2D: show clusters, and leave the arrows out of the picture; --tint, --skeletons "
+     "and the others remain"},
     {"no-frame", 0, NULL, PICTURES, OPTION_FLAG, AT(no_frame), 0, 0, false, false, NULL,
      "only mask and arrows: no axes, no keys, no caption"},
     {"transparent", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, AT(transparent), 0, 0, false,

@@ -72,7 +72,8 @@ extern const char *const format_words[FORMAT_KINDS];
  * file. */
 extern const char *const energy_words[],
     *const mesh_words[], *const scale_words[], *const scheme_words[],
-                                                   *const extent_words[];
+                                                   *const effort_words[],
+                                                       *const extent_words[];
 int energy_place(const char *word);
 
 /* Finds a command by its name; NULL when there is none. */

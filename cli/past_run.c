@@ -132,6 +132,15 @@ static void fill_reading(cli_report *out, const cJSON *input)
   out->input_absolute = text_of(input, "absolute");
 }
 
+/* Only placed arrows have a rule of lengths. */
+static void fill_placement(cli_report *out, const cJSON *parameters)
+{
+  const char *lengths = text_of(parameters, "lengths");
+  out->placed = lengths != NULL;
+  out->lengths =
+      lengths && strcmp(lengths, "fair") == 0 ? FG_LENGTHS_FAIR : FG_LENGTHS_FREE;
+}
+
 int report_read(cli_report *out, const char *folder)
 {
   memset(out, 0, sizeof *out);
@@ -144,6 +153,7 @@ int report_read(cli_report *out, const char *folder)
     goto cleanup;
   out->tree = cJSON_Parse(text);
   fill_reading(out, cJSON_GetObjectItemCaseSensitive(out->tree, "input"));
+  fill_placement(out, cJSON_GetObjectItemCaseSensitive(out->tree, "parameters"));
   const cJSON *mesh = cJSON_GetObjectItemCaseSensitive(out->tree, "mesh");
   out->dimension = (int)number_of(mesh, "dimension", 2.0, 3.0, 2.0);
   const cJSON *scales = cJSON_GetObjectItemCaseSensitive(out->tree, "scales");
@@ -174,6 +184,11 @@ cleanup:
 int report_scale_clusters(const cli_report *report, int index)
 {
   return (int)number_of(scale_at(report, index), "clusters", 0.0, 1e9, 0.0);
+}
+
+int report_scale_arrows(const cli_report *report, int index)
+{
+  return (int)number_of(scale_at(report, index), "icons", 0.0, 1e9, 0.0);
 }
 
 const char *report_scale_icons(const cli_report *report, int index)

@@ -26,6 +26,8 @@ typedef struct cli_report {
   const char *input_absolute; /* NULL: an analytic field */
   int dimension;
   int scale_count;
+  bool placed; /* its arrows; else they are their clusters' own */
+  fg_lengths lengths;
   double speeds[2];
   bool has_view;  /* in 3D */
   double view[2]; /* azimuth, elevation */
@@ -34,6 +36,7 @@ typedef struct cli_report {
 /* Reads DIR/run.json. Returns an exit code. */
 int report_read(cli_report *out, const char *folder);
 int report_scale_clusters(const cli_report *report, int index);
+int report_scale_arrows(const cli_report *report, int index);
 const char *report_scale_icons(const cli_report *report, int index); /* file's name */
 /* The density's file; NULL: none was saved. */
 const char *report_scale_density(const cli_report *report, int index);

@@ -7,7 +7,10 @@ fg_status placing_score(fg_context *context, const fg_field *field, fg_icons *ic
   fg_status status = fg_icons_score(&score, context, field, icons, &options);
   if (!status)
     fg_icons_keep_score(icons, &score);
-  return status;
+  if (status != FG_STATUS_UNSUPPORTED)
+    return status;
+  fg_context_clear(context); /* a narrow domain: its icons have no score */
+  return FG_STATUS_OK;
 }
 
 int placing_find_count(int *count, fg_context *context, const cli_settings *settings,

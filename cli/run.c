@@ -139,10 +139,12 @@ static int take_scales(cli_run *run, int reached)
 }
 
 /* Where a run ends before its last scale it still shows how far it came; placed arrows
- * can be as few as is wanted all the same. Collective. */
+ * can be as few as is wanted all the same, even where no cluster has room. Collective. */
 static int take_last(cli_run *run)
 {
-  if (scale_plan_done(&run->plan) || !run->step.clusters)
+  bool settled = strcmp(run->facts.ended, "stationary") == 0;
+  if (scale_plan_done(&run->plan) ||
+      (!run->step.clusters && !(run->plan.placed && settled)))
     return EXIT_DONE;
   if (run->plan.placed) {
     int left = run->plan.count - run->plan.next;

@@ -17,7 +17,7 @@ typedef enum fg_icon_kind {
 /* A curved arrow: a tapering body round the centreline and a triangular head; in 3D a
  * tube and a cone. */
 typedef struct fg_icon {
-  int cluster; /* label in the density, from 1 */
+  int cluster; /* label in the density, from 1; 0: placed, and none is there */
   fg_icon_kind kind;
   int point_count;           /* of the centreline, at least 2 */
   const double (*points)[3]; /* from tail to the tip of the head; z = 0 in 2D; in 3D, and

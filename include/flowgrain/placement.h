@@ -30,8 +30,8 @@ typedef struct fg_placement_options {
 /* Arrows on a field: one scale after another, from many arrows to few. */
 typedef struct fg_placement fg_placement;
 
-/* Prepares a field, which must outlive it, in 2D or 3D. The method is descent on the error
- * of readers who reconstruct the field from its arrows (docs/method/placement.md).
+/* Prepares a field, which must outlive it, in 2D or 3D. The method is descent on the
+ * error of readers who reconstruct the field from its arrows (docs/method/placement.md).
  * ARGUMENT, MEMORY, STOPPED. */
 FG_API fg_status fg_placement_create(fg_placement **out, fg_context *context,
                                      const fg_field *field,
@@ -47,15 +47,15 @@ FG_API fg_status fg_placement_place(fg_placement *placement, int count,
                                     const fg_icons *clusters);
 
 /* Places the fewest arrows, from an even start, whose readers' mean error
- * (fg_icons_score, lengths as they are) is at most `degrees`; *count is how many. ARGUMENT
- * (degrees; `most` arrows, or as many as have room, do not reach it: the message says what
- * they do), MEMORY, STOPPED. */
+ * (fg_icons_score, lengths as they are) is at most `degrees`; *count is how many.
+ * ARGUMENT (degrees; `most` arrows, or as many as have room, do not reach it: the message
+ * says what they do), MEMORY, STOPPED. */
 FG_API fg_status fg_placement_within(fg_placement *placement, double degrees, int most,
                                      int *count);
 
 /* The arrows of the present scale: an arrow has the same `id` in all scales; `area`
- * (volume) and `speed` (mean) are of the points that are nearest to it, width follows that
- * speed, and `cluster` is the id until fg_placement_find_clusters. MEMORY. */
+ * (volume) and `speed` (mean) are of the points that are nearest to it, width follows
+ * that speed, and `cluster` is the id until fg_placement_find_clusters. MEMORY. */
 FG_API fg_status fg_placement_icons(fg_icons **out, const fg_placement *placement);
 
 /* The regions that the arrows stand for, each point with the arrow nearest to it, as a
@@ -72,8 +72,9 @@ FG_API fg_status fg_placement_find_clusters(fg_context *context, fg_icons *icons
  * present arrow nearest to it. */
 FG_API void fg_placement_find_parents(const fg_placement *placement, fg_icons *finer);
 
-/* Goes on from the icons of a scale, as fg_placement_icons gave them or fg_icons_read read
- * them: the scales that follow are the same. ARGUMENT (they are no placed icons), MEMORY.
+/* Goes on from the icons of a scale, as fg_placement_icons gave them or fg_icons_read
+ * read them: the scales that follow are the same. ARGUMENT (they are no placed icons),
+ * MEMORY.
  */
 FG_API fg_status fg_placement_resume(fg_placement *placement, const fg_icons *icons);
 

@@ -72,8 +72,8 @@ FG_API fg_status fg_icons_score(fg_score *out, fg_context *context, const fg_fie
 /* Lets icons keep a score: their file and their picture then say it. NULL: none. */
 FG_API void fg_icons_keep_score(fg_icons *icons, const fg_score *score);
 
-/* The score that icons keep, borrowed; NULL: none. From a file it has the readers' errors,
- * the rest is NaN. */
+/* The score that icons keep, borrowed; NULL: none. From a file it has the readers'
+ * errors, the rest is NaN. */
 FG_API const fg_score *fg_icons_kept_score(const fg_icons *icons);
 
 #ifdef __cplusplus

@@ -115,9 +115,8 @@ static fg_status plan_picture(picture *out, fg_context *context, const fg_field 
   else
     fg__scene_shown(out->low, out->high, whole);
   describe_axes(plan, field, out->low, out->high);
-  fg__caption_write(plan->title, plan->subtitle, field,
-                    options->no_arrows ? NULL : icons, options->title,
-                    options->scale_time);
+  fg__caption_write(plan->title, plan->subtitle, field, options->no_arrows ? NULL : icons,
+                    options->title, options->scale_time);
   fg__typical_icon typical;
   fg_status status = fg__scene_typical_icon(&typical, context, icons);
   if (status)

@@ -139,6 +139,8 @@ static fg_status start(fg_placement *placement, int count, const fg_icons *clust
     status = fg__place_add(search, &added, &seed, search->next_identity);
     search->next_identity += added;
   }
+  if (status == FG_STATUS_OK && search->count == 0) /* all clusters were too small */
+    status = fg__place_start_even(search);
   return status;
 }
 

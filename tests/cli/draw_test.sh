@@ -19,6 +19,37 @@ cmp -s by-clusters.svg last.svg || fault "--clusters 9 and --scale-index 1 diffe
 cmp -s by-clusters.svg fine.svg && fault "the scales do not differ"
 done_with "draw: a scale chosen by its clusters"
 
+placed=(run synth:saddle --nodes 65 --arrows 24,10 --effort 0 --quiet --formats svg)
+try "${placed[@]}" -o placed --tint
+expect_code 0
+for arrows in 24 23; do # the second takes the next coarser scale
+  try draw placed -o again.svg --tint --arrows $arrows
+  expect_code 0
+  scale=$((24 - arrows))
+  cmp -s <(without_numbers again.svg) <(without_numbers placed/scale-0$scale.svg) ||
+    fault "--arrows $arrows is not scale $scale of the run"
+done
+try draw placed -o plain.svg
+expect_code 0
+"$program" "${placed[@]}" -o untinted >/dev/null
+cmp -s <(without_numbers plain.svg) <(without_numbers untinted/scale-01.svg) || fault "without --tint"
+cmp -s <(without_numbers plain.svg) <(without_numbers placed/scale-01.svg) && fault "--tint changes nothing"
+done_with "draw: a scale of placed arrows, chosen by their number, and what they stand for"
+try draw placed -o x.svg --arrows 9
+expect_code 1
+expect_one_complaint
+expect_error 'placed: its coarsest scale has 10 arrows, and at most 9 were asked for'
+try draw placed -o x.svg --arrows 9 --clusters 9
+expect_code 2
+expect_one_complaint
+expect_error '--arrows and --clusters each choose'
+try draw run -o x.svg --tint
+expect_code 1
+expect_one_complaint
+expect_error '--tint needs the density of scale 1, which was not saved'
+expect_nothing_at x.svg
+done_with "draw: numbers of arrows and tints that there are not"
+
 try draw run -o x.svg --scale-index 5
 expect_code 1
 expect_one_complaint

@@ -74,15 +74,35 @@ expect_same_results whole2 stopped
 expect_only_results stopped
 done_with "an interrupted run writes the scales it has, and goes on from there"
 
-in_background "${wide[@]}" -o never
+# its first scale is drawn while most of the evolution is still to come
+long=(run synth:vortex3 --nodes 1025 --mesh uniform --clusters 300,12 --formats svg --quiet)
+try "${long[@]}" -o whole3
+expect_code 0
+in_background "${long[@]}" -o never
 until_there never/.flowgrain/scale-00.geojson
 ends_by TERM
 expect_code 130
 expect_file never/.flowgrain/checkpoint
-try "${wide[@]}" -o never --resume
+try "${long[@]}" -o never --resume
 expect_code 0
-expect_same_results whole2 never
+expect_same_results whole3 never
 done_with "its first checkpoint may be that of the interruption"
+
+placed=(run synth:vortex3 --nodes 513 --arrows 60,12 --effort 0 --formats svg --quiet)
+try "${placed[@]}" -o whole4
+expect_code 0
+in_background "${placed[@]}" -o between --checkpoint 0
+until_there between/.flowgrain/scale-00.geojson
+ends_by INT
+expect_code 130
+expect_one_complaint
+expect_error 'interrupted at t = .* before the scale of 12 arrows; the 1 scale until then is in between$'
+expect_json between/run.json '.ended == "interrupted" and [.scales[].icons] == [60]'
+try "${placed[@]}" -o between --resume
+expect_code 0
+expect_same_results whole4 between
+expect_only_results between
+done_with "an interrupted run of placed arrows says which are missing, and goes on"
 
 # checkpoints have 3 arrays of 129 x 129 floats and more; results are smaller
 limit_kib=150

@@ -71,6 +71,23 @@ expect_same_results whole part
 expect_only_results part
 done_with "killed again and again"
 
+# placed arrows go on from the file of the scale before, which each scale writes again
+run=(run synth:vortex3 --nodes 33 --arrows 20,9 --effort 0 --formats svg --quiet --threads 1 --checkpoint 0)
+try "${run[@]}" -o placed
+expect_code 0
+with_calls kill 0 "${run[@]}" -o placed-counted
+all=$(cat calls)
+for at in $(seq $((all - 90)) $((3 * every)) "$all"); do
+  rm -rf part
+  with_calls kill "$at" "${run[@]}" -o part
+  [ "$code" = 137 ] || fault "call $at: not killed: code $code"
+  try "${run[@]}" -o part --resume
+  [ "$code" = 0 ] || fault "call $at: resumed: code $code: $(head -c 300 err)"
+  expect_same_results placed part
+  expect_only_results part
+done
+done_with "placed arrows go on to the same"
+
 run=(run synth:vortex3 --nodes 193 --clusters 60,12 --quiet --checkpoint 0.05)
 try "${run[@]}" -o whole2
 expect_code 0

@@ -47,6 +47,8 @@ compare halved "3" synth:vortex3 --nodes 513 --clusters 60,48 --formats svg --sa
 expect_json halved-3/run.json '.mesh.coarser | length == 1'
 done_with "the mesh of three ranks was halved"
 compare vortex3d "2 4" synth:vortex3d --nodes 33 --clusters 30
+compare placed "2 3" "$wind" --nodes 65 --arrows 30,12 --effort 0 --formats svg --tint --save-field
+compare placed3d "2" synth:vortex3d --nodes 33 --arrows 20 --effort 0
 compare background "2" synth:benard --nodes 65 --clusters 8 --formats svg --background lic
 compare whole "3" synth:benard --nodes 65 --clusters 8 --formats svg --tint
 # boxes as many ranks have them: src/mesh/mesh.h

@@ -100,12 +100,23 @@ expect_json out4/run.json '[.scales[].wanted[]] == [30, 29, 28]'
 expect_json out4/run.json '[.scales[] | .clusters <= .wanted[-1]] | all'
 done_with "numbers passed in one step are answered by one scale"
 
-try run synth:vortex3 -o out5 --nodes 97 --quiet
+try run synth:vortex3 -o out5 --nodes 97 --no-arrows --quiet
 expect_code 0
 expect_json out5/run.json '.scales[-1].clusters <= 12 and .ended == "scales"'
 expect_json out5/run.json '[.scales[].wanted[]] | .[-1] == 12 and (. == (sort | reverse))'
 expect_json out5/run.json '.scales[0].clusters == .scales[0].wanted[0]'
-done_with "the default scales halve down to 12"
+done_with "without arrows the default scales halve down to 12 clusters"
+
+# the clusters of this mesh are fewer than the arrows of its first scale
+try run synth:vortex3 -o usual --nodes 65 --effort 0 --formats svg --quiet
+expect_code 0
+expect_json usual/run.json '[.scales[].icons] == [200, 100, 50, 25, 12] and .ended == "scales"'
+expect_json usual/run.json '[.scales[].wanted[]] == [200, 100, 50, 25, 12] and .scales[0].clusters < 200'
+expect_json usual/run.json '[.scales[].error.mean] | . == sort and .[0] > 0 and .[4] < 40'
+[ "$(awk '{print $1, $2}' out | tr '\n' ' ')" = "200 arrows 100 arrows 50 arrows 25 arrows 12 arrows " ] ||
+  fault "$(cat out)"
+[ ! -s err ] || fault "standard error: $(head -c 200 err)"
+done_with "the usual scales have 200 to 12 arrows, and the summary tells"
 
 steps=$(jq .steps.accepted out5/run.json)
 try run synth:vortex3 -o out6 --nodes 97 --max-steps $((steps - 5)) --clusters 2 --quiet
@@ -203,6 +214,24 @@ else
   [ "$(jq -r .ended rest/run.json)" = scales ] || fault "ended: $(jq -c .ended rest/run.json)"
 fi
 done_with "what the pattern does not reach is said"
+
+# a diagonal channel, three samples wide
+awk 'BEGIN {
+  n = 160
+  printf "# vtk DataFile Version 3.0\nchannel\nASCII\nDATASET STRUCTURED_POINTS\n"
+  printf "DIMENSIONS %d %d 1\nORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA %d\nVECTORS v float\n", n, n, n * n
+  for (j = 0; j < n; ++j)
+    for (i = 0; i < n; ++i)
+      print (i - j < 2 && j - i < 2) ? "1 1 0" : "nan nan 0"
+}' >channel.vtk
+try run channel.vtk -o narrow --nodes 65 --arrows 10,4 --quiet --tint
+expect_code 0
+expect_json narrow/run.json '[.scales[] | .icons, .clusters] == [10, 0, 4, 0] and .ended == "stationary"'
+expect_json narrow/scale-01.geojson '[.features[].geometry.coordinates[] | .[0] - .[1] | fabs <= 2] | all'
+try run channel.vtk -o none --nodes 65 --clusters 10 --quiet
+expect_code 1
+expect_error 'no clusters after [0-9]+ steps, .*: the pattern no longer changes'
+done_with "a channel too narrow for clusters has arrows all the same"
 
 try run synth:vortex3 -o few --nodes 65 --clusters 400,8 --quiet
 expect_code 0

@@ -116,7 +116,7 @@ done_with "another seed gives another pattern"
 
 for option in --tint '--background lic' --skeletons --centers --no-arrows; do
   # shellcheck disable=SC2086
-  try run synth:abc -o out4 $option --nodes 17 --quiet
+  try run synth:abc -o out4 $option --nodes 17 --clusters 8 --quiet
   expect_code 2
   expect_one_complaint
   expect_error "^flowgrain: $(cut -d ' ' -f 1 <<<"$option").*: only in 2D, and synth:abc is in 3D$"
