@@ -4,8 +4,10 @@
 #include <stdint.h>
 #include <string.h>
 
-/* epsilon of the inverse distance and of the smooth reader, in lambda, squared */
-#define EPSILON_SQUARE 0.0025F
+/* Squares of epsilon in lambda: of the inverse distance, as the score has it; and of the
+ * smooth reader, whose sums shall not be those of the nearest samples alone. */
+#define PULL_EPSILON 0.0025F
+#define SMOOTH_EPSILON 0.01F
 
 /* What a degree of each reader's error counts: nearest, inverse distance, smooth. The
  * last stands for diffusion and for the paths that follow from it: with 2 in place of 1,
@@ -83,7 +85,7 @@ INLINE void tell_sample(const int dimension, line_told *out, vector x,
   out->near = choose(nearer, square, out->near);
   vector left = 1.0F - square * row->inverse_square;
   left = choose(left > 0.0F, left, zero);
-  vector q = square + EPSILON_SQUARE;
+  vector q = square + SMOOTH_EPSILON;
   vector power = dimension == 2 ? q * q : q * q * q;
   vector weight = line->share[n] * left * left / power;
   for (int k = 0; k < dimension; ++k) {
@@ -124,7 +126,7 @@ INLINE void tell_row(const int dimension, float *restrict value, size_t stride, 
   for (int first = 0; first < count; first += WIDTH)
     tell_cells(dimension, value, stride, first, count, line, row);
   for (int i = 0; i < count; ++i) { /* the pull of the icon as a whole */
-    float square = value[i], q = square + EPSILON_SQUARE;
+    float square = value[i], q = square + PULL_EPSILON;
     float power = dimension == 2 ? q * sqrtf(q) : q * q;
     float weight = taper(square, row->inverse_square) / power;
     for (int k = 0; k < dimension; ++k)
