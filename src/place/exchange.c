@@ -145,12 +145,54 @@ typedef struct candidate {
 /* Puts a candidate in its place among the `count` best, which descend. */
 static void rank(candidate best[PLACES], int *count, const candidate *next)
 {
-  int n = *count < PLACES ? (*count)++ : PLACES - 1;
-  if (n == PLACES - 1 && *count == PLACES && best[n].fall >= next->fall)
+  if (*count == PLACES && best[PLACES - 1].fall >= next->fall)
     return;
+  int n = *count < PLACES ? (*count)++ : PLACES - 1;
   for (; n > 0 && best[n - 1].fall < next->fall; --n)
     best[n] = best[n - 1];
   best[n] = *next;
+}
+
+/* The best of the places where readers err most. */
+static fg_status try_maxima(fg__place_search *search, candidate best[PLACES], int *count)
+{
+  fg_status status = FG_STATUS_OK;
+  float position[3];
+  smooth_map(search);
+  /* where nothing fits at the first places, all others are tried */
+  for (int n = 0; status == FG_STATUS_OK && (n < PLACES || *count == 0); ++n) {
+    candidate next = {{{0}, {0}}, -HUGE_VAL};
+    if (!take_maximum(search, position))
+      break;
+    status = try_place(search, position, &next.seed, &next.fall);
+    if (next.fall > -HUGE_VAL)
+      rank(best, count, &next);
+  }
+  return status;
+}
+
+/* The best of all cells. Where the flow is narrow beside lambda, lines fit at few seeds.
+ */
+static fg_status try_cells(fg__place_search *search, candidate best[PLACES], int *count)
+{
+  const fg__place_raster *raster = &search->raster;
+  fg_status status = FG_STATUS_OK;
+  for (size_t n = 0; n < raster->count && status == FG_STATUS_OK; ++n) {
+    candidate next = {{{0}, {0}}, -HUGE_VAL};
+    float position[3];
+    size_t rest = n;
+    if (!(raster->weight[n] > 0.0F))
+      continue;
+    for (int k = 0; k < 3; ++k) {
+      position[k] = ((float)(rest % (size_t)raster->cells[k]) + 0.5F) * raster->cell;
+      rest /= (size_t)raster->cells[k];
+    }
+    next.seed = seed_at(search, position);
+    status = try_seed(search, &next.seed, &next.fall);
+    if (next.fall > -HUGE_VAL)
+      rank(best, count, &next);
+  }
+  return status;
 }
 
 fg_status fg__place_insert(fg__place_search *search, bool *inserted, int passed)
@@ -163,19 +205,11 @@ fg_status fg__place_insert(fg__place_search *search, bool *inserted, int passed)
     return status;
   fg__place_cost(search->map, &search->raster, &all, &search->whole, NULL,
                  &search->price);
-  smooth_map(search);
-  candidate best[PLACES] = {{{{0}, {0}}, -HUGE_VAL}};
+  candidate best[PLACES];
   int count = 0;
-  float position[3];
-  /* where nothing fits at the first places, all others are tried */
-  for (int n = 0; status == FG_STATUS_OK && (n < PLACES || count == 0); ++n) {
-    candidate next = {{{0}, {0}}, -HUGE_VAL};
-    if (!take_maximum(search, position))
-      break;
-    status = try_place(search, position, &next.seed, &next.fall);
-    if (next.fall > -HUGE_VAL)
-      rank(best, &count, &next);
-  }
+  status = try_maxima(search, best, &count);
+  if (status == FG_STATUS_OK && count == 0)
+    status = try_cells(search, best, &count);
   if (status == FG_STATUS_OK && passed < count)
     status = fg__place_add(search, inserted, &best[passed].seed, search->next_identity);
   search->next_identity += *inserted;
@@ -269,9 +303,12 @@ static fg_status remove_least(fg__place_search *search, double place[3])
 fg_status fg__place_complete(fg__place_search *search)
 {
   fg_status status = FG_STATUS_OK;
-  bool inserted = true;
-  while (status == FG_STATUS_OK && inserted && search->count < search->scale.count)
+  while (status == FG_STATUS_OK && search->count < search->scale.count) {
+    bool inserted;
     status = fg__place_insert(search, &inserted, 0);
+    if (status == FG_STATUS_OK && !inserted && !fg__place_shorten(&search->scale))
+      break;
+  }
   if (status == FG_STATUS_OK && search->count > search->scale.count)
     status = fg__place_thin(search, search->scale.count);
   return status;
