@@ -57,6 +57,29 @@ static void the_default_halves(void **state)
   }
 }
 
+/* Numbers of arrows: what is asked for, or the usual ones. */
+static void placed_arrows_have_numbers_of_their_own(void **state)
+{
+  (void)state;
+  static const int list[] = {70, 9}, usual[][5] = {{200, 100, 50, 25, 12}, {60, 25, 12}};
+  scale_plan plan;
+  scale_plan_start(&plan, list, 2);
+  assert_false(plan.placed);
+  scale_plan_start_placed(&plan, list, 2, 3);
+  assert_true(plan.placed);
+  assert_int_equal(plan.count, 2);
+  assert_memory_equal(plan.wanted, list, sizeof list);
+  assert_int_equal(scale_plan_reach(&plan, 8), 2); /* a scale each */
+  for (int dimension = 2; dimension <= 3; ++dimension) {
+    scale_plan_start_placed(&plan, NULL, 0, dimension);
+    assert_true(plan.placed);
+    assert_int_equal(plan.count, dimension == 2 ? 5 : 3);
+    assert_memory_equal(plan.wanted, usual[dimension - 2],
+                        (size_t)plan.count * sizeof(int));
+    assert_false(scale_plan_done(&plan));
+  }
+}
+
 static void time_left_follows_the_power_law(void **state)
 {
   (void)state;
@@ -94,6 +117,7 @@ int main(void)
       cmocka_unit_test(the_number_may_rise_again),
       cmocka_unit_test(the_default_halves),
       cmocka_unit_test(the_share_of_the_way_is_even_in_the_logarithm),
+      cmocka_unit_test(placed_arrows_have_numbers_of_their_own),
       cmocka_unit_test(time_left_follows_the_power_law),
   };
   return cmocka_run_group_tests_name("cli/scales", tests, NULL, NULL);

@@ -130,13 +130,24 @@ static fg_status read_kind(fg_icon_kind *out, const reading *at, const cJSON *pr
   return FG_STATUS_OK;
 }
 
+static fg_status read_way(double out[2], const reading *at, const cJSON *way)
+{
+  const cJSON *number = way->child;
+  for (int k = 0; k < 2; ++k, number = number->next) {
+    if (cJSON_GetArraySize(way) != 2 || !cJSON_IsNumber(number) ||
+        !isfinite(number->valuedouble) || number->valuedouble < 0.0)
+      return fail_member(at, "way", "two finite numbers of at least 0");
+    out[k] = number->valuedouble;
+  }
+  return FG_STATUS_OK;
+}
+
 /* What a placed icon goes on from. Other programs' lines may have an `id` of any kind:
  * only one beside a `seed` and a `way` is ours. */
 static fg_status read_placement(fg_icon *icon, const reading *at, const cJSON *properties)
 {
   const cJSON *seed = cJSON_GetObjectItemCaseSensitive(properties, "seed");
   const cJSON *way = cJSON_GetObjectItemCaseSensitive(properties, "way");
-  double ways[3] = {0};
   if (!cJSON_IsArray(seed) || !cJSON_IsArray(way))
     return FG_STATUS_OK;
   fg_status status = read_whole_number(&icon->id, at, properties, "id", 1);
@@ -145,9 +156,7 @@ static fg_status read_placement(fg_icon *icon, const reading *at, const cJSON *p
   if (status == FG_STATUS_OK)
     status = read_position(icon->seed, at, seed, "seed");
   if (status == FG_STATUS_OK)
-    status = read_position(ways, at, way, "way");
-  icon->way[0] = ways[0];
-  icon->way[1] = ways[1];
+    status = read_way(icon->way, at, way);
   return status;
 }
 

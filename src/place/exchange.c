@@ -153,30 +153,20 @@ typedef struct candidate {
 /* Puts a candidate in its place among the `count` best, which descend. */
 static void rank(candidate best[PLACES], int *count, const candidate *next)
 {
-  int n = *count < PLACES ? (*count)++ : PLACES - 1;
-  if (n == PLACES - 1 && *count == PLACES && best[n].fall >= next->fall)
+  if (*count == PLACES && best[PLACES - 1].fall >= next->fall)
     return;
+  int n = *count < PLACES ? (*count)++ : PLACES - 1;
   for (; n > 0 && best[n - 1].fall < next->fall; --n)
     best[n] = best[n - 1];
   best[n] = *next;
 }
 
-/* The best candidates of the places where readers err most, in descending order. */
-static fg_status list_candidates(candidate best[PLACES], int *count,
-                                 fg__place_search *search)
+/* The best of the places where readers err most. */
+static fg_status try_maxima(fg__place_search *search, candidate best[PLACES], int *count)
 {
-  fg__place_box all = {{0}, {0}};
-  memcpy(all.size, search->raster.cells, sizeof all.size);
-  fg_status status = fg__place_gather(&search->whole, search, &all, -1);
-  if (status != FG_STATUS_OK)
-    return status;
-  fg__place_cost(search->map, &search->raster, &all, &search->whole, NULL,
-                 &search->price);
-  for (size_t n = 0; n < search->raster.count; ++n)
-    search->map[n] *= search->whole.value[n] / (search->whole.value[n] + BESIDE);
-  smooth_map(search);
-  *count = 0;
+  fg_status status = FG_STATUS_OK;
   float position[3];
+  smooth_map(search);
   /* where nothing fits at the first places, all others are tried */
   for (int n = 0; status == FG_STATUS_OK && (n < PLACES || *count == 0); ++n) {
     candidate next = {{{0}, {0}}, -HUGE_VAL};
@@ -186,6 +176,50 @@ static fg_status list_candidates(candidate best[PLACES], int *count,
     if (next.fall > -HUGE_VAL)
       rank(best, count, &next);
   }
+  return status;
+}
+
+/* The best of all cells. Where the flow is narrow beside lambda, lines fit at few seeds.
+ */
+static fg_status try_cells(fg__place_search *search, candidate best[PLACES], int *count)
+{
+  const fg__place_raster *raster = &search->raster;
+  fg_status status = FG_STATUS_OK;
+  for (size_t n = 0; n < raster->count && status == FG_STATUS_OK; ++n) {
+    candidate next = {{{0}, {0}}, -HUGE_VAL};
+    float position[3];
+    size_t rest = n;
+    if (!(raster->weight[n] > 0.0F))
+      continue;
+    for (int k = 0; k < 3; ++k) {
+      position[k] = ((float)(rest % (size_t)raster->cells[k]) + 0.5F) * raster->cell;
+      rest /= (size_t)raster->cells[k];
+    }
+    next.seed = seed_at(search, position);
+    status = try_seed(search, &next.seed, &next.fall);
+    if (next.fall > -HUGE_VAL)
+      rank(best, count, &next);
+  }
+  return status;
+}
+
+/* The best candidates for a new icon, in descending order. */
+static fg_status list_candidates(candidate best[PLACES], int *count,
+                                 fg__place_search *search)
+{
+  fg__place_box all = {{0}, {0}};
+  memcpy(all.size, search->raster.cells, sizeof all.size);
+  *count = 0;
+  fg_status status = fg__place_gather(&search->whole, search, &all, -1);
+  if (status != FG_STATUS_OK)
+    return status;
+  fg__place_cost(search->map, &search->raster, &all, &search->whole, NULL,
+                 &search->price);
+  for (size_t n = 0; n < search->raster.count; ++n)
+    search->map[n] *= search->whole.value[n] / (search->whole.value[n] + BESIDE);
+  status = try_maxima(search, best, count);
+  if (status == FG_STATUS_OK && *count == 0)
+    status = try_cells(search, best, count);
   return status;
 }
 
@@ -328,7 +362,17 @@ static fg_status remove_least(fg__place_search *search, double place[3])
 
 fg_status fg__place_complete(fg__place_search *search)
 {
+<<<<<<< HEAD
   fg_status status = fill(search);
+=======
+  fg_status status = FG_STATUS_OK;
+  while (status == FG_STATUS_OK && search->count < search->scale.count) {
+    bool inserted;
+    status = fg__place_insert(search, &inserted, 0);
+    if (status == FG_STATUS_OK && !inserted && !fg__place_shorten(&search->scale))
+      break;
+  }
+>>>>>>> placetests
   if (status == FG_STATUS_OK && search->count > search->scale.count)
     status = fg__place_thin(search, search->scale.count);
   return status;

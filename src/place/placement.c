@@ -144,6 +144,23 @@ static fg_status start(fg_placement *placement, int count, const fg_icons *clust
   return status;
 }
 
+/* Adds an icon that was placed before. Where the domain is narrow it may be short. */
+static fg_status add_again(fg_placement *placement, bool *added, const fg_icon *icon)
+{
+  fg__place_search *search = &placement->search;
+  fg_status status = FG_STATUS_OK;
+  fg__place_seed seed;
+  memcpy(seed.position, icon->seed, sizeof seed.position);
+  memcpy(seed.way, icon->way, sizeof seed.way);
+  *added = false;
+  if (icon->id < 1)
+    return status;
+  do
+    status = fg__place_add(search, added, &seed, icon->id - 1);
+  while (status == FG_STATUS_OK && !*added && fg__place_shorten(&search->scale));
+  return status;
+}
+
 fg_status fg_placement_resume(fg_placement *placement, const fg_icons *icons)
 {
   if (!placement || !icons || fg_icons_count(icons) < 1)
@@ -151,19 +168,18 @@ fg_status fg_placement_resume(fg_placement *placement, const fg_icons *icons)
                     "placement: no icons to go on from");
   fg_status status = begin(placement, fg_icons_count(icons));
   for (int n = 0; n < fg_icons_count(icons) && status == FG_STATUS_OK; ++n) {
-    const fg_icon *icon = fg_icons_at(icons, n);
-    fg__place_seed seed;
-    bool added = false;
-    memcpy(seed.position, icon->seed, sizeof seed.position);
-    memcpy(seed.way, icon->way, sizeof seed.way);
-    if (icon->id > 0)
-      status = fg__place_add(&placement->search, &added, &seed, icon->id - 1);
+    bool added;
+    status = add_again(placement, &added, fg_icons_at(icons, n));
     if (status == FG_STATUS_OK && !added)
       status = fg__fail(placement->context, FG_STATUS_ARGUMENT,
                         "placement: icon %d of %d was not placed on this field", n,
                         fg_icons_count(icons));
   }
   placement->search.next_identity = fg__icons_next_id(icons) - 1;
+  if (status != FG_STATUS_OK && placement->begun) {
+    fg__place_search_clear(&placement->search);
+    placement->begun = false;
+  }
   return status;
 }
 
@@ -261,7 +277,7 @@ fg_status fg__placement_begin_again(fg_placement *placement, int count)
     status = settle(placement);
   if (status == FG_STATUS_OK)
     status = polish(placement);
-  return status == FG_STATUS_OK ? check_count(placement, count) : status;
+  return status;
 }
 
 fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons *clusters)

@@ -11,7 +11,7 @@
 static const double STILL = 1e-3;
 
 /* A part of the domain smaller than this many lambda squared (cubed) gets no icon, and
- * does not count. */
+ * does not count, unless it is the largest. */
 static const double SMALLEST_PART_2D = 0.25;
 static const double SMALLEST_PART_3D = 1.0;
 
@@ -24,12 +24,20 @@ static void raster_center(const fg__place_raster *raster, const fg__place_domain
                     : 0.0;
 }
 
+static double smallest_part(const fg__place_domain *domain, const fg__place_scale *scale)
+{
+  double largest = 0.0,
+         share = pow(scale->lambda, domain->dimension) *
+                 (domain->dimension == 2 ? SMALLEST_PART_2D : SMALLEST_PART_3D);
+  for (int n = 0; n < domain->part_count; ++n)
+    largest = fmax(largest, domain->parts[n].measure);
+  return fmin(share, largest);
+}
+
 static void fill_raster(fg__place_raster *raster, const fg__place_domain *domain,
                         const fg__place_scale *scale)
 {
-  double sum = 0.0,
-         part_share = pow(scale->lambda, raster->dimension) *
-                      (raster->dimension == 2 ? SMALLEST_PART_2D : SMALLEST_PART_3D);
+  double sum = 0.0, part_share = smallest_part(domain, scale);
   size_t cell = 0;
   for (int z = 0; z < raster->cells[2]; ++z)
     for (int y = 0; y < raster->cells[1]; ++y)

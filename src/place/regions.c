@@ -15,9 +15,9 @@ static const double HALF_GAP = 0.7;
 /* The owners of points on a grid of their own. */
 typedef struct owners {
   int size[3];
-  double low[3], spacing; /* of the points, input coordinates */
-  float *first, *second;  /* squares of the distances to the two nearest icons, lambda */
-  int *owner;             /* -1: none within reach */
+  double low[3], spacing[3]; /* of the points, input coordinates */
+  float *first, *second; /* squares of the distances to the two nearest icons, lambda */
+  int *owner;            /* -1: none within reach */
 } owners;
 
 static size_t point_count(const owners *all)
@@ -42,8 +42,8 @@ static void claim(owners *all, const fg__place_search *search, int index)
   for (int k = 0; k < search->scale.dimension; ++k) {
     double begin = search->domain->low[k] + box->low[k] * search->scale.cell;
     double end = begin + box->size[k] * search->scale.cell;
-    int first = (int)ceil((begin - all->low[k]) / all->spacing);
-    int last = (int)floor((end - all->low[k]) / all->spacing);
+    int first = (int)ceil((begin - all->low[k]) / all->spacing[k]);
+    int last = (int)floor((end - all->low[k]) / all->spacing[k]);
     low[k] = first > 0 ? first : 0;
     high[k] = last + 1 < all->size[k] ? last + 1 : all->size[k];
   }
@@ -57,7 +57,7 @@ static void claim(owners *all, const fg__place_search *search, int index)
         float place[3] = {0}, nearest = HUGE_VALF;
         for (int k = 0; k < search->scale.dimension; ++k)
           place[k] =
-              (float)((all->low[k] + node[k] * all->spacing - search->domain->low[k]) /
+              (float)((all->low[k] + node[k] * all->spacing[k] - search->domain->low[k]) /
                       lambda);
         for (int n = 0; n < line->count; ++n) {
           float square = 0.0F;
@@ -77,17 +77,20 @@ static void claim(owners *all, const fg__place_search *search, int index)
       }
 }
 
-/* Finds the owners of points at `spacing`, the first half of it from the box's corner
- * when they are `centers`. */
+/* Finds the owners of points at `spacing` from the box's corner on, or when they are
+ * `centers` of the cells of a grid that fills the box, with that spacing at most. */
 static fg_status find_owners(owners *all, fg_context *context,
                              const fg__place_search *search, double spacing, bool centers)
 {
-  *all = (owners){.spacing = spacing, .size = {1, 1, 1}};
+  *all = (owners){.size = {1, 1, 1}, .spacing = {spacing, spacing, spacing}};
   for (int k = 0; k < search->scale.dimension; ++k) {
     double length = search->domain->high[k] - search->domain->low[k];
-    all->low[k] = search->domain->low[k] + (centers ? 0.5 * spacing : 0.0);
-    all->size[k] = (int)floor(length / spacing + 1e-6) + (centers ? 0 : 1);
+    all->size[k] = centers ? (int)ceil(length / spacing - 1e-6)
+                           : (int)floor(length / spacing + 1e-6) + 1;
     all->size[k] = all->size[k] > 1 ? all->size[k] : 1;
+    if (centers)
+      all->spacing[k] = length / all->size[k];
+    all->low[k] = search->domain->low[k] + (centers ? 0.5 * all->spacing[k] : 0.0);
   }
   size_t count = point_count(all);
   all->first = fg__allocate(count, sizeof *all->first);
@@ -115,7 +118,7 @@ fg_status fg__place_find_shares(fg__place_share *out, fg_context *context,
     return status;
   double cell = 1.0;
   for (int k = 0; k < search->scale.dimension; ++k)
-    cell *= search->scale.cell;
+    cell *= all.spacing[k];
   size_t at = 0;
   for (int z = 0; z < all.size[2]; ++z)
     for (int y = 0; y < all.size[1]; ++y)
@@ -123,7 +126,7 @@ fg_status fg__place_find_shares(fg__place_share *out, fg_context *context,
         const int node[3] = {x, y, z};
         double point[3] = {0};
         for (int k = 0; k < search->scale.dimension; ++k)
-          point[k] = all.low[k] + node[k] * all.spacing;
+          point[k] = all.low[k] + node[k] * all.spacing[k];
         if (all.owner[at] < 0 || !fg__place_part_at(search->domain, point))
           continue;
         out[all.owner[at]].measure += cell;
@@ -144,7 +147,7 @@ static float level_of(const owners *all, size_t at, double lambda)
   double first = sqrt((double)all->first[at]), second = sqrt((double)all->second[at]);
   if (!(second < HUGE_VAL))
     return 1.0F;
-  double level = (second - first) * lambda / (2.0 * all->spacing) - HALF_GAP;
+  double level = (second - first) * lambda / (2.0 * all->spacing[0]) - HALF_GAP;
   return (float)fmin(fmax(level, -1.0), 1.0);
 }
 
@@ -178,7 +181,7 @@ fg_status fg_placement_regions(fg_density **out, const fg_placement *placement)
   for (int k = 0; k < 3; ++k) {
     arrays.nodes[k] = all.size[k];
     arrays.origin[k] = all.low[k];
-    arrays.spacing[k] = all.spacing;
+    arrays.spacing[k] = all.spacing[k];
   }
   unsigned char *active = fg__allocate(nodes, 1);
   if (active) {

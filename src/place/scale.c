@@ -2,6 +2,10 @@
 
 #include <math.h>
 
+/* Lines get shorter by this factor where no more fit, down to so many lambda. */
+static const double SHORTER = 0.7;
+static const double LEAST_LENGTH = 0.2;
+
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
 /* Cells of the raster along lambda: eight, and more for few icons, whose lambda spans
@@ -37,4 +41,13 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
       .ink = flat || !free ? 0.0 : 0.1,
       .free = free,
   };
+}
+
+bool fg__place_shorten(fg__place_scale *scale)
+{
+  double shorter = SHORTER * scale->shortest;
+  if (shorter < LEAST_LENGTH * scale->lambda)
+    return false;
+  scale->shortest = shorter;
+  return true;
 }

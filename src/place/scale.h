@@ -25,4 +25,7 @@ typedef struct fg__place_scale {
 /* `measure` is what fg__place_domain calls so. */
 fg__place_scale fg__place_scale_of(int dimension, int count, double measure, bool free);
 
+/* Allows shorter lines; false where they are as short as may be. */
+bool fg__place_shorten(fg__place_scale *scale);
+
 #endif

@@ -59,8 +59,9 @@ fg_status fg__place_insert(fg__place_search *search, bool *inserted, int passed)
  * those that go move, and others that are not at rest. MEMORY, STOPPED. */
 fg_status fg__place_thin(fg__place_search *search, int count);
 
-/* Brings the number of icons to the scale's, by inserting and removing. Ends early where
- * no more fit. MEMORY. */
+/* Brings the number of icons to the scale's, by inserting and removing. Where no more fit
+ * the scale's shortest lines become shorter, and it ends early where that does not help.
+ * MEMORY, STOPPED. */
 fg_status fg__place_complete(fg__place_search *search);
 
 /* Up to `most` exchanges of an icon for one elsewhere, given up after `failures` that did

@@ -41,21 +41,18 @@ static double energy_of(setting *s)
   return energy;
 }
 
-/* Sweep by sweep, and to well below the start. `crowd`: an icon's moves are priced by how
- * near it comes to others, all icons by that too: the sum may rise a little. */
+/* Sweep by sweep, and to well below the start. */
 static void descend(fg_context *context, const sampling *box, velocity_of velocity,
-                    bool free, bool crowd)
+                    bool free)
 {
   setting s;
   set_even(&s, context, box, velocity, 24, free);
-  if (!crowd)
-    s.search.scale.crowding = 0.0;
   assert_int_equal(fg__place_weigh(&s.search), FG_STATUS_OK);
   double first = energy_of(&s), before = first;
   for (int sweep = 0; sweep < 8; ++sweep) {
     assert_int_equal(fg__place_relax(&s.search, 1), FG_STATUS_OK);
     double now = energy_of(&s);
-    if (now > before * (crowd ? 1.005 : 1 + 1e-6))
+    if (now > before * (1 + 1e-6))
       fail_msg("from %.9g to %.9g in sweep %d", before, now, sweep);
     before = now;
   }
@@ -68,9 +65,9 @@ static void descend(fg_context *context, const sampling *box, velocity_of veloci
 
 static void the_energy_falls(void **state)
 {
-  descend(*state, &PLAIN, coast, true, false);
-  descend(*state, &PLAIN, swirl, false, true);
-  descend(*state, &SOLID, hall, true, true);
+  descend(*state, &PLAIN, coast, true);
+  descend(*state, &PLAIN, swirl, false);
+  descend(*state, &SOLID, hall, true);
 }
 
 /* The price of a region told by the others and by one line. */

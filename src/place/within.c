@@ -6,8 +6,15 @@
 /* Where the search for a number of icons begins. */
 enum { FEWEST = 4 };
 
-/* Places `count` icons anew and asks the readers. */
-static fg_status measure(fg_placement *placement, int count, double *error)
+/* The least error so far, and of how many icons that was. */
+typedef struct best {
+  int count;
+  double error;
+} best;
+
+/* Places `count` icons anew and asks the readers. Where fewer fit the error is infinite,
+ * and *least that of those that do. */
+static fg_status measure(fg_placement *placement, int count, double *error, best *least)
 {
   fg_context *context = fg__placement_context(placement);
   fg_icons *icons = NULL;
@@ -19,8 +26,14 @@ static fg_status measure(fg_placement *placement, int count, double *error)
   if (status == FG_STATUS_OK)
     status =
         fg_icons_score(&score, context, fg__placement_field(placement), icons, &options);
+  *error = HUGE_VAL;
+  if (status == FG_STATUS_OK) {
+    if (fg_icons_count(icons) == count)
+      *error = score.mean;
+    if (score.mean < least->error)
+      *least = (best){fg_icons_count(icons), score.mean};
+  }
   fg_icons_destroy(icons);
-  *error = status == FG_STATUS_OK ? score.mean : HUGE_VAL;
   return status;
 }
 
@@ -33,27 +46,28 @@ fg_status fg_placement_within(fg_placement *placement, double degrees, int most,
                     "placement: %g degrees with at most %d arrows", degrees, most);
   int below = 0, enough = FEWEST < most ? FEWEST : most;
   double error;
-  fg_status status = measure(placement, enough, &error);
+  best least = {0, HUGE_VAL};
+  fg_status status = measure(placement, enough, &error, &least);
   while (status == FG_STATUS_OK && error > degrees && enough < most) {
     below = enough;
     enough = 2 * enough < most ? 2 * enough : most;
-    status = measure(placement, enough, &error);
+    status = measure(placement, enough, &error, &least);
   }
   if (status == FG_STATUS_OK && error > degrees)
     status = fg__fail(context, FG_STATUS_ARGUMENT,
                       "the field can not be read within %g degrees: with %d arrows it is "
                       "read within %.1f",
-                      degrees, enough, error);
+                      degrees, least.count, least.error);
   while (status == FG_STATUS_OK && enough - below > 1) {
     int middle = below + (enough - below) / 2;
-    status = measure(placement, middle, &error);
+    status = measure(placement, middle, &error, &least);
     if (error <= degrees)
       enough = middle;
     else
       below = middle;
   }
   if (status == FG_STATUS_OK)
-    status = measure(placement, enough, &error);
+    status = measure(placement, enough, &error, &least);
   *count = enough;
   return status;
 }

@@ -1,0 +1,238 @@
+#include "place/placement.h"
+
+#include "place/placed_test.h"
+
+/* The fields that every count is placed on. */
+static const struct {
+  const sampling *box;
+  velocity_of velocity;
+} CASES[] = {
+    {&PLAIN, coast}, {&STRIP, swirl}, {&ROUND, winds}, {&SOLID, hall}, {&PLAIN, swirl}};
+enum { CASE_COUNT = sizeof CASES / sizeof *CASES };
+
+/* Along the flow, within the domain, of lengths that belong to their number. */
+static void check_lines(const fg_placement *placement, const fg_icons *icons,
+                        double least)
+{
+  const fg__place_search *search = fg__placement_search(placement);
+  const fg_field *field = fg__placement_field(placement);
+  const int dimension = fg_field_contents(field)->dimension;
+  const double lambda = lambda_of(placement);
+  double angles = 0.0, lengths = 0.0;
+  for (int n = 0; n < fg_icons_count(icons); ++n) {
+    const fg_icon *icon = fg_icons_at(icons, n);
+    const double length = length_of(icon) / lambda;
+    assert_true(length > least - 0.005 && length < 2.01);
+    assert_true(icon->id > 0 && icon->parent == 0 && icon->cluster == icon->id);
+    assert_true(icon->width > 0 && icon->head_length > 0 && icon->area > 0);
+    for (int m = 0; m < n; ++m)
+      assert_int_not_equal(icon->id, fg_icons_at(icons, m)->id);
+    const double clear_of =
+        fg__place_least_clearance(search->domain, &search->scale, icon->seed);
+    for (int i = 1; i < icon->point_count; ++i) {
+      assert_true(fg__place_clearance(search->domain, icon->points[i]) > 0.9 * clear_of);
+      double middle[3], piece[3], flow[3];
+      for (int k = 0; k < 3; ++k) {
+        middle[k] = (icon->points[i][k] + icon->points[i - 1][k]) / 2;
+        piece[k] = icon->points[i][k] - icon->points[i - 1][k];
+      }
+      assert_true(fg_field_tangent(field, middle, flow));
+      double size = distance_between(icon->points[i], icon->points[i - 1], 3);
+      angles += size * degrees_between(piece, flow, dimension);
+      lengths += size;
+    }
+  }
+  assert_true(angles / lengths < 0.5);
+}
+
+/* Their regions make up the domain; a point beyond all reach belongs to none. */
+static void check_areas(const fg_field *field, const fg_icons *icons)
+{
+  double sum = 0.0, domain = 1.0;
+  const fg_field_arrays *arrays = fg_field_contents(field);
+  for (int k = 0; k < arrays->dimension; ++k)
+    domain *= arrays->period[k] > 0.0
+                  ? arrays->period[k]
+                  : arrays->axis[k][arrays->size[k] - 1] - arrays->axis[k][0];
+  for (int n = 0; n < fg_icons_count(icons); ++n)
+    sum += fg_icons_at(icons, n)->area;
+  assert_close(sum, domain, 0.03 * domain);
+}
+
+static void there_are_as_many_as_asked_for(void **state)
+{
+  static const int counts[] = {1, 2, 7, 60};
+  for (int n = 0; n < CASE_COUNT; ++n) {
+    fg_field *field = field_of(*state, CASES[n].box, CASES[n].velocity);
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; ++k) {
+      fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
+      fg_icons *icons = place(*state, placement, counts[k]);
+      assert_int_equal(fg_icons_count(icons), counts[k]);
+      assert_int_equal(fg_icons_clusters(icons), counts[k]);
+      /* a strip is narrower than a few arrows' share */
+      check_lines(placement, icons, n == 1 && counts[k] < 7 ? 0.17 : 0.35);
+      if (n == 2 || n == 4)
+        check_areas(field, icons);
+      fg_icons_destroy(icons);
+      fg_placement_destroy(placement);
+    }
+    fg_field_destroy(field);
+  }
+}
+
+static void assert_same(const fg_icons *a, const fg_icons *b)
+{
+  assert_int_equal(fg_icons_count(a), fg_icons_count(b));
+  for (int n = 0; n < fg_icons_count(a); ++n) {
+    const fg_icon *one = fg_icons_at(a, n), *other = fg_icons_at(b, n);
+    assert_int_equal(one->id, other->id);
+    assert_int_equal(one->point_count, other->point_count);
+    assert_memory_equal(one->points, other->points,
+                        (size_t)one->point_count * sizeof *one->points);
+    assert_memory_equal(one->seed, other->seed, sizeof one->seed);
+    assert_memory_equal(one->way, other->way, sizeof one->way);
+    assert_true(one->area == other->area && one->speed == other->speed);
+    assert_true(one->width == other->width && one->kind == other->kind);
+  }
+}
+
+static void a_field_has_one_picture(void **state)
+{
+  for (int n = 0; n < CASE_COUNT; n += 3) {
+    fg_field *field = field_of(*state, CASES[n].box, CASES[n].velocity);
+    fg_icons *icons[2];
+    for (int k = 0; k < 2; ++k) {
+      fg_placement *placement =
+          placement_of(*state, field, n == 0 ? FG_EFFORT_NORMAL : FG_EFFORT_QUICK);
+      if (k == 1) { /* what was placed before does not matter */
+        fg_icons_destroy(place(*state, placement, 5));
+        assert_int_equal(fg_placement_place(placement, 18, NULL), FG_STATUS_OK);
+        assert_int_equal(fg_placement_icons(&icons[1], placement), FG_STATUS_OK);
+      } else
+        icons[0] = place(*state, placement, 18);
+      fg_placement_destroy(placement);
+    }
+    assert_same(icons[0], icons[1]);
+    fg_icons_destroy(icons[0]);
+    fg_icons_destroy(icons[1]);
+    fg_field_destroy(field);
+  }
+}
+
+/* swirl, turned by a right angle: (x, y) goes to (-y, x). */
+static void turned(const double position[3], double v[3])
+{
+  const double back[3] = {position[1], -position[0], 0};
+  double w[3];
+  swirl(back, w);
+  v[0] = -w[1];
+  v[1] = w[0];
+}
+
+static void a_turned_field_is_read_as_well(void **state)
+{
+  const sampling box = {
+      .dimension = 2, .nodes = {22, 31}, .low = {-11, -7}, .high = {-3, 5}};
+  fg_field *fields[2] = {field_of(*state, &PLAIN, swirl), field_of(*state, &box, turned)};
+  double error[2];
+  for (int n = 0; n < 2; ++n) {
+    fg_placement *placement = placement_of(*state, fields[n], FG_EFFORT_NORMAL);
+    fg_icons *icons = place(*state, placement, 40);
+    error[n] = error_of(*state, fields[n], icons);
+    fg_icons_destroy(icons);
+    fg_placement_destroy(placement);
+    fg_field_destroy(fields[n]);
+  }
+  assert_close(error[0], error[1], 0.06 * error[0]);
+}
+
+/* Better than the even start by a fifth at least. */
+static void placing_lowers_the_error(void **state)
+{
+  fg_field *field = field_of(*state, &PLAIN, coast);
+  const fg_placement_options fair = {.lengths = FG_LENGTHS_FAIR};
+  fg_placement *placement = NULL;
+  assert_int_equal(fg_placement_create(&placement, *state, field, &fair), FG_STATUS_OK);
+  fg_icons *icons = place(*state, placement, 30), *lattice = no_icons(*state);
+  const double lambda = lambda_of(placement);
+  for (int n = 0; n < 30; ++n) {
+    assert_true(length_of(fg_icons_at(icons, n)) < 1.005 * lambda);
+    assert_true(fg_icons_at(icons, n)->way[0] + fg_icons_at(icons, n)->way[1] <=
+                1.0001 * lambda);
+  }
+  /* straight pieces of the same length on a lattice */
+  for (double x = -7 + lambda / 2; x < 5; x += lambda)
+    for (double y = 3 + lambda / 2; y < 11; y += lambda) {
+      double v[3] = {0};
+      const double at[3] = {x, y, 0};
+      if (!fg_field_velocity(field, at, v))
+        continue;
+      double half = lambda / 2 / hypot(v[0], v[1]);
+      add_straight(lattice, *state, x - half * v[0], y - half * v[1], x + half * v[0],
+                   y + half * v[1]);
+    }
+  assert_true(error_of(*state, field, icons) < 0.8 * error_of(*state, field, lattice));
+  fg_icons_destroy(icons);
+  fg_icons_destroy(lattice);
+  fg_placement_destroy(placement);
+  fg_field_destroy(field);
+}
+
+static void icons_of_clusters_are_a_start(void **state)
+{
+  fg_field *field = field_of(*state, &PLAIN, swirl);
+  fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
+  fg_icons *clusters = no_icons(*state), *icons = NULL;
+  for (int n = 0; n < 5; ++n) {
+    const double x = -6 + 2.2 * n, y = 4 + 1.3 * n;
+    add_straight(clusters, *state, x - 0.5, y, x + 0.5, y);
+  }
+  assert_int_equal(fg_placement_place(placement, 9, clusters), FG_STATUS_OK);
+  assert_int_equal(fg_placement_icons(&icons, placement), FG_STATUS_OK);
+  assert_int_equal(fg_icons_count(icons), 9);
+  check_lines(placement, icons, 0.35);
+  fg_icons_destroy(clusters);
+  fg_icons_destroy(icons);
+  fg_placement_destroy(placement);
+  fg_field_destroy(field);
+}
+
+static void wrong_arguments_are_refused(void **state)
+{
+  fg_field *field = field_of(*state, &PLAIN, swirl);
+  fg_placement *placement = NULL;
+  fg_placement_options options = {.effort = (fg_effort)3};
+  assert_int_equal(fg_placement_create(NULL, *state, field, NULL), FG_STATUS_ARGUMENT);
+  assert_int_equal(fg_placement_create(&placement, *state, NULL, NULL),
+                   FG_STATUS_ARGUMENT);
+  assert_int_equal(fg_placement_create(&placement, *state, field, &options),
+                   FG_STATUS_ARGUMENT);
+  options = (fg_placement_options){.lengths = (fg_lengths)2};
+  assert_int_equal(fg_placement_create(&placement, *state, field, &options),
+                   FG_STATUS_ARGUMENT);
+  assert_null(placement);
+  placement = placement_of(*state, field, FG_EFFORT_QUICK);
+  fg_icons *lines = no_icons(*state);
+  assert_int_equal(fg_placement_resume(placement, lines), FG_STATUS_ARGUMENT);
+  add_straight(lines, *state, -3, 5, -2, 5); /* not placed */
+  assert_int_equal(fg_placement_resume(placement, lines), FG_STATUS_ARGUMENT);
+  assert_int_equal(fg_placement_resume(placement, NULL), FG_STATUS_ARGUMENT);
+  /* it can still be used */
+  fg_icons *icons = place(*state, placement, 3);
+  assert_int_equal(fg_icons_count(icons), 3);
+  fg_icons_destroy(icons);
+  fg_icons_destroy(lines);
+  fg_placement_destroy(placement);
+  fg_placement_destroy(NULL);
+  fg_field_destroy(field);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      CASE(there_are_as_many_as_asked_for), CASE(a_field_has_one_picture),
+      CASE(a_turned_field_is_read_as_well), CASE(placing_lowers_the_error),
+      CASE(icons_of_clusters_are_a_start),  CASE(wrong_arguments_are_refused),
+  };
+  return cmocka_run_group_tests_name("place/placement", tests, NULL, NULL);
+}

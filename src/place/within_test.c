@@ -1,0 +1,91 @@
+#include "place/placement.h"
+
+#include "place/placed_test.h"
+
+#include <stdio.h>
+
+/* Rooms of a cell each, between cells that lack a corner. */
+static void cells(const double position[3], double v[3])
+{
+  const int i = (int)lround(position[0]), j = (int)lround(position[1]);
+  slant(position, v);
+  if (i % 3 == 2 || j % 3 == 2)
+    v[0] = (double)NAN;
+}
+
+static void what_does_not_fit_is_refused_with_the_number_that_does(void **state)
+{
+  const sampling box = {
+      .dimension = 2, .nodes = {18, 15}, .low = {0, 0}, .high = {17, 14}};
+  fg_field *field = field_of(*state, &box, cells);
+  fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
+  assert_int_equal(fg_placement_place(placement, 1, NULL), FG_STATUS_ARGUMENT);
+  assert_string_equal(fg_context_message(*state),
+                      "1 arrows do not fit into this field: 0 do");
+  fg_context_clear(*state);
+  assert_int_equal(fg_placement_place(placement, 0, NULL), FG_STATUS_ARGUMENT);
+  fg_context_clear(*state);
+  fg_icons *icons = place(*state, placement, 60); /* two in each */
+  assert_int_equal(fg_icons_count(icons), 60);
+  fg_icons_destroy(icons);
+  /* the way to a number that reaches an error leads over some that do not fit */
+  int count = 0;
+  assert_int_equal(fg_placement_within(placement, 5, 200, &count), FG_STATUS_OK);
+  assert_true(count > 1 && count <= 60);
+  fg_placement_destroy(placement);
+  fg_field_destroy(field);
+}
+
+static void the_fewest_within_an_error_are_found(void **state)
+{
+  fg_field *field = field_of(*state, &PLAIN, swirl);
+  fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
+  int count = 0;
+  const double degrees = 17;
+  assert_int_equal(fg_placement_within(placement, degrees, 500, &count), FG_STATUS_OK);
+  fg_icons *icons = NULL;
+  assert_int_equal(fg_placement_icons(&icons, placement), FG_STATUS_OK);
+  assert_int_equal(fg_icons_count(icons), count);
+  assert_true(count > 4 && count < 100);
+  assert_true(error_of(*state, field, icons) <= degrees);
+  fg_icons_destroy(icons);
+  assert_int_equal(fg__placement_begin_again(placement, count - 1), FG_STATUS_OK);
+  assert_int_equal(fg_placement_icons(&icons, placement), FG_STATUS_OK);
+  assert_true(error_of(*state, field, icons) > degrees);
+  fg_icons_destroy(icons);
+  fg_placement_destroy(placement);
+  fg_field_destroy(field);
+}
+
+static void what_can_not_be_reached_is_refused(void **state)
+{
+  fg_field *field = field_of(*state, &PLAIN, swirl);
+  fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
+  int count = 0;
+  assert_int_equal(fg_placement_within(placement, 2, 10, &count), FG_STATUS_ARGUMENT);
+  const char *message = fg_context_message(*state);
+  int most;
+  double degrees, reached;
+  if (sscanf(message,
+             "the field can not be read within %lf degrees: with %d arrows it is "
+             "read within %lf",
+             &degrees, &most, &reached) != 3)
+    fail_msg("%s", message);
+  assert_true(degrees == 2 && most == 10 && reached > 4 && reached < 60);
+  fg_context_clear(*state);
+  assert_int_equal(fg_placement_within(placement, 0, 10, &count), FG_STATUS_ARGUMENT);
+  assert_int_equal(fg_placement_within(placement, 20, 0, &count), FG_STATUS_ARGUMENT);
+  assert_int_equal(fg_placement_within(NULL, 20, 9, &count), FG_STATUS_ARGUMENT);
+  fg_placement_destroy(placement);
+  fg_field_destroy(field);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      CASE(what_does_not_fit_is_refused_with_the_number_that_does),
+      CASE(the_fewest_within_an_error_are_found),
+      CASE(what_can_not_be_reached_is_refused),
+  };
+  return cmocka_run_group_tests_name("place/within", tests, NULL, NULL);
+}
