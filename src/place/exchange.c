@@ -362,17 +362,10 @@ static fg_status remove_least(fg__place_search *search, double place[3])
 
 fg_status fg__place_complete(fg__place_search *search)
 {
-<<<<<<< HEAD
   fg_status status = fill(search);
-=======
-  fg_status status = FG_STATUS_OK;
-  while (status == FG_STATUS_OK && search->count < search->scale.count) {
-    bool inserted;
-    status = fg__place_insert(search, &inserted, 0);
-    if (status == FG_STATUS_OK && !inserted && !fg__place_shorten(&search->scale))
-      break;
-  }
->>>>>>> placetests
+  while (status == FG_STATUS_OK && search->count < search->scale.count &&
+         fg__place_shorten(&search->scale))
+    status = fill(search);
   if (status == FG_STATUS_OK && search->count > search->scale.count)
     status = fg__place_thin(search, search->scale.count);
   return status;
