@@ -13,16 +13,55 @@
 #include "said.h"
 
 /* cJSON rounds to 15 digits where it thinks that near enough. */
-static void add_exact(cJSON *object, const char *name, double value)
+static cJSON *exact(double value)
 {
   char text[32];
   snprintf(text, sizeof text, "%.17g", value);
-  cJSON_AddItemToObject(object, name, cJSON_CreateRaw(text));
+  return cJSON_CreateRaw(text);
+}
+
+static void add_exact(cJSON *object, const char *name, double value)
+{
+  cJSON_AddItemToObject(object, name, exact(value));
 }
 
 static void add_whole(cJSON *object, const char *name, long value)
 {
   cJSON_AddNumberToObject(object, name, (double)value);
+}
+
+/* A number of a scale's readers, by its place in the list that a checkpoint has. */
+enum { ERROR_COUNT = 11 };
+static double *error_at(fg_score *score, int index)
+{
+  double *const errors[ERROR_COUNT] = {&score->mean,
+                                       &score->percentile_95,
+                                       &score->diffusion.mean,
+                                       &score->diffusion.percentile_95,
+                                       &score->diffusion.speed_weighted,
+                                       &score->nearest.mean,
+                                       &score->nearest.percentile_95,
+                                       &score->nearest.speed_weighted,
+                                       &score->inverse_distance.mean,
+                                       &score->inverse_distance.percentile_95,
+                                       &score->inverse_distance.speed_weighted};
+  return errors[index];
+}
+
+static void add_errors(cJSON *scale, const scale_result *result)
+{
+  fg_score score = result->score;
+  cJSON *list = cJSON_AddArrayToObject(scale, "errors");
+  for (int n = 0; n < ERROR_COUNT && result->has_score; ++n)
+    cJSON_AddItemToArray(list, exact(*error_at(&score, n)));
+}
+
+static void restore_errors(scale_result *result, const cJSON *scale)
+{
+  const cJSON *list = cJSON_GetObjectItemCaseSensitive(scale, "errors");
+  result->has_score = cJSON_GetArraySize(list) == ERROR_COUNT;
+  for (int n = 0; n < ERROR_COUNT && result->has_score; ++n)
+    *error_at(&result->score, n) = cJSON_GetNumberValue(cJSON_GetArrayItem(list, n));
 }
 
 static void add_scale(cJSON *scales, const scale_result *result)
@@ -36,6 +75,7 @@ static void add_scale(cJSON *scales, const scale_result *result)
   add_exact(scale, "time", result->time);
   add_exact(scale, "energy", result->energy);
   add_exact(scale, "area_fraction", result->area_fraction);
+  add_errors(scale, result);
   cJSON_AddItemToArray(scales, scale);
 }
 
@@ -225,6 +265,7 @@ static int restore_scales(cli_run *run, const cJSON *note)
     result->time = real_of(scale, "time");
     result->energy = real_of(scale, "energy");
     result->area_fraction = real_of(scale, "area_fraction");
+    restore_errors(result, scale);
   }
   if (!scales_are_there(run, count))
     return EXIT_FAILED;
