@@ -348,14 +348,16 @@ static bool check_placement(const cli_settings *said, const cli_command *command
   if (said->tolerance > 0.0 && (said->arrow_count || said->cluster_count))
     return wrong(command, "--tolerance %g: finds the number of arrows; not with --%s",
                  said->tolerance, said->arrow_count ? "arrows" : "clusters");
+  if (said->no_arrows && (said->arrow_count || said->tolerance > 0.0))
+    return wrong(command, "--%s and --no-arrows: say one",
+                 said->arrow_count ? "arrows" : "tolerance");
   const char *placed = said->start     ? "start"
                        : said->effort  ? "effort"
                        : said->lengths ? "lengths"
                                        : NULL;
   if (placed && !settings_place(said))
-    return wrong(command,
-                 "--%s: says nothing with --clusters, whose arrows are not placed",
-                 placed);
+    return wrong(command, "--%s: says nothing with --%s: no arrows are placed", placed,
+                 said->cluster_count ? "clusters" : "no-arrows");
   if (settings_place(said) && (said->skeletons || said->centers))
     return wrong(command, "--%s: of clusters; say how many with --clusters",
                  said->skeletons ? "skeletons" : "centers");
