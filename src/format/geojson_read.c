@@ -209,11 +209,14 @@ static fg_status read_feature(fg_icons *icons, const reading *at, const cJSON *f
   return status;
 }
 
+/* What a file does not tell of a score. */
+#define UNKNOWN ((double)NAN)
+
 static fg_status read_reader(fg_reader_error *out, const reading *at, const cJSON *error,
                              const char *name)
 {
   const cJSON *reader = cJSON_GetObjectItemCaseSensitive(error, name);
-  *out = (fg_reader_error){NAN, NAN, NAN};
+  *out = (fg_reader_error){UNKNOWN, UNKNOWN, UNKNOWN};
   fg_status status = read_number(&out->mean, at, reader, "mean");
   if (status == FG_STATUS_OK)
     status = read_number(&out->percentile_95, at, reader, "percentile_95");
@@ -227,19 +230,19 @@ static fg_status read_error(fg_icons *icons, const reading *at, const cJSON *roo
 {
   const cJSON *error = cJSON_GetObjectItemCaseSensitive(root, "error");
   fg_score score = {.icons = fg_icons_count(icons),
-                    .mean = NAN,
-                    .percentile_95 = NAN,
-                    .advection = NAN,
-                    .critical_f1 = NAN,
-                    .void_mean = NAN,
-                    .void_max = NAN,
-                    .ink = NAN,
-                    .clutter = NAN,
-                    .tangency = NAN,
-                    .outside = NAN,
-                    .shortest = NAN,
-                    .longest = NAN,
-                    .count_length = NAN};
+                    .mean = UNKNOWN,
+                    .percentile_95 = UNKNOWN,
+                    .advection = UNKNOWN,
+                    .critical_f1 = UNKNOWN,
+                    .void_mean = UNKNOWN,
+                    .void_max = UNKNOWN,
+                    .ink = UNKNOWN,
+                    .clutter = UNKNOWN,
+                    .tangency = UNKNOWN,
+                    .outside = UNKNOWN,
+                    .shortest = UNKNOWN,
+                    .longest = UNKNOWN,
+                    .count_length = UNKNOWN};
   if (!cJSON_IsObject(error))
     return FG_STATUS_OK;
   fg_status status = read_number(&score.mean, at, error, "mean");
