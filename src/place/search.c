@@ -24,6 +24,10 @@ static const double LEAST_ERROR = 8.0;
 /* Shorter than this many lambda costs nu times the square of what is missing. */
 static const double BRIEF = 0.8;
 
+/* Ends of lines nearer than this to another line, in lambda, cost up to this. */
+static const double END_GAP = 0.2;
+static const double END_PRICE = 0.7;
+
 /* A move is taken when it lowers a region's energy by this share of it: more than the
  * sums' rounding. */
 static const double LEAST_FALL = 1e-6;
@@ -174,6 +178,23 @@ static double decay(double x)
   return f * f * f * f;
 }
 
+/* A head that touches another arrow's tail makes one arrow of two. */
+static double price_of_ends(const fg__place_search *search, const fg__place_line *line,
+                            const fg__place_tale *others)
+{
+  double sum = 0.0;
+  for (int end = 0; end < 2; ++end) {
+    int n = end && line->count > 0 ? line->count - 1 : 0;
+    float position[3] = {line->position[0][n], line->position[1][n],
+                         line->position[2][n]};
+    double square =
+        (double)fg__place_near(&search->raster, others, position, search->price.reach);
+    double near = fmax(0.0, 1.0 - sqrt(square) / END_GAP);
+    sum += END_PRICE * near * near;
+  }
+  return sum;
+}
+
 double fg__place_own_price(const fg__place_search *search, const fg__place_line *line,
                            const fg__place_tale *others)
 {
@@ -189,8 +210,8 @@ double fg__place_own_price(const fg__place_search *search, const fg__place_line 
     crowd += (double)line->share[n] * sampling * decay(square / (2.0 * range * range));
   }
   double brief = fmax(0.0, BRIEF - length);
-  return 2.0 * scale->crowding * crowd + scale->brevity * brief * brief +
-         scale->ink * length;
+  return 2.0 * scale->crowding * crowd + price_of_ends(search, line, others) +
+         scale->brevity * brief * brief + scale->ink * length;
 }
 
 /* Two unit vectors across a direction; the second only in 3D. */
