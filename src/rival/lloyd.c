@@ -103,7 +103,7 @@ static void features(const clustering *work, int at, double feature[6])
 /* The feature of largest variance; the first of equal ones. */
 static int widest_feature(const clustering *work, const sorted_cell *cell, int count)
 {
-  double sum[6] = {0}, square[6] = {0}, feature[6], largest = -1;
+  double sum[6] = {0}, square[6] = {0}, feature[6] = {0}, largest = -1;
   int widest = 0, number = 2 * work->domain->dimension;
   for (int i = 0; i < count; i++) {
     features(work, cell[i].at, feature);
@@ -133,7 +133,7 @@ static void halve(clustering *work, sorted_cell *cell, int count, int first, int
   }
   int widest = widest_feature(work, cell, count);
   for (int i = 0; i < count; i++) {
-    double feature[6];
+    double feature[6] = {0};
     features(work, cell[i].at, feature);
     cell[i].key = feature[widest];
   }

@@ -129,7 +129,7 @@ bool fg__near_has(const fg__near *near, const double position[], double distance
   /* the middle first: there most is near */
   static const int order[3] = {0, -1, 1};
   query asked = {.square = distance * distance, .line = line, .s = s, .own = own};
-  int bin[3], beside = near->domain->dimension == 2 ? 9 : 27;
+  int bin[3] = {0}, beside = near->domain->dimension == 2 ? 9 : 27;
   locate(near, position, asked.inside, bin);
   for (int n = 0; n < beside; n++) {
     const int step[3] = {order[n % 3], order[n / 3 % 3], order[n / 9]};

@@ -105,7 +105,7 @@ static int bin_beside(const query *asked, const int step[3])
 {
   const fg__seed_bins *bins = asked->bins;
   int index = 0;
-  for (int k = bins->domain->dimension - 1; k >= 0; k--) {
+  for (int k = bins->domain->dimension == 3 ? 2 : 1; k >= 0; k--) {
     int at = asked->bin[k] + step[k];
     if (bins->domain->period[k] > 0) {
       if (2 * abs(step[k]) > bins->bins[k])

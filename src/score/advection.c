@@ -47,9 +47,10 @@ static int place_particles(double (*out)[3], const fg__score_raster *raster)
 static bool interpolate(double out[3], const work *w, const double position[3])
 {
   const fg__score_raster *raster = w->raster;
+  const int dimension = raster->dimension == 3 ? 3 : 2;
   int low[3] = {0};
   double inside[3] = {0.0}, weights = 0.0;
-  for (int k = 0; k < raster->dimension; ++k) {
+  for (int k = 0; k < dimension; ++k) {
     const double at = (position[k] - raster->origin[k]) / raster->cell[k] - 0.5;
     if (!(at >= -1.0 && at < raster->size[k]))
       return false;
@@ -57,11 +58,11 @@ static bool interpolate(double out[3], const work *w, const double position[3])
     inside[k] = at - low[k];
   }
   out[0] = out[1] = out[2] = 0.0;
-  for (int corner = 0; corner < 1 << raster->dimension; ++corner) {
+  for (int corner = 0; corner < 1 << dimension; ++corner) {
     double weight = 1.0;
     size_t place = 0;
     bool there = true;
-    for (int k = raster->dimension - 1; k >= 0; --k) {
+    for (int k = dimension - 1; k >= 0; --k) {
       const int far = corner >> k & 1, at = low[k] + far;
       weight *= far ? inside[k] : 1.0 - inside[k];
       there = there && at >= 0 && at < raster->size[k];
@@ -70,7 +71,7 @@ static bool interpolate(double out[3], const work *w, const double position[3])
     if (!there || !w->harmonic->known[place])
       continue;
     weights += weight;
-    for (int k = 0; k < raster->dimension; ++k)
+    for (int k = 0; k < dimension; ++k)
       out[k] += weight * w->harmonic->value[k][place];
   }
   return weights > 0.0;

@@ -96,7 +96,7 @@ static bool has_other(const buckets *b, size_t place, size_t sample)
 
 static bool is_crowded(const buckets *b, size_t sample)
 {
-  int at[3], from[3], to[3];
+  int at[3] = {0}, from[3], to[3];
   bucket_of(b, b->samples->position[sample], at);
   for (int k = 0; k < 3; ++k) {
     from[k] = at[k] > 0 ? at[k] - 1 : 0;

@@ -233,7 +233,7 @@ static void read_row(const work *w, row_work *row, int number)
 {
   const fg__score_raster *raster = w->raster;
   const fg__samples *samples = w->samples;
-  const int columns = raster->size[0], dimension = raster->dimension;
+  const int columns = raster->size[0], dimension = raster->dimension == 3 ? 3 : 2;
   const size_t first = (size_t)number * (size_t)columns;
   const int at[2] = {number % raster->size[1], number / raster->size[1]};
   double centre[3] = {0.0};
