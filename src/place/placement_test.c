@@ -43,6 +43,8 @@ static void check_lines(const fg_placement *placement, const fg_icons *icons,
     }
   }
   assert_true(angles / lengths < 0.5);
+  /* ink, less where the arrows stand for a part of the volume only */
+  assert_true(lengths < 1.5 * lambda * fg_icons_count(icons));
 }
 
 /* Their regions make up the domain; a point beyond all reach belongs to none. */
