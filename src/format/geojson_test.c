@@ -165,7 +165,7 @@ static void every_wrong_value_is_refused(void **state)
       {"[-179.25,0.1]", "[-179.25,1e999]"},
       {"[-179.25,0.1]", "[-179.25,nan]"},
       {"[-179.25,0.1]", "null"},
-      {"\"cluster\":7", "\"cluster\":0"},
+      {"\"cluster\":7", "\"cluster\":-1"},
       {"\"cluster\":7", "\"cluster\":7.5"},
       {"\"cluster\":7", "\"cluster\":2147483648"},
       {"\"cluster\":7", "\"cluster\":\"7\""},
