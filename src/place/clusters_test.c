@@ -42,10 +42,44 @@ static void icons_find_their_clusters(void **state)
   fg_density_destroy(density);
 }
 
+/* A cluster to the left is nearer than one across a corner. */
+static void the_nearest_cluster_is_not_that_of_the_nearest_box(void **state)
+{
+  enum { NODES = 40 };
+  static float u[NODES * NODES];
+  for (int y = 0; y < NODES; ++y)
+    for (int x = 0; x < NODES; ++x) {
+      bool left = x >= 10 && x <= 15 && y >= 17 && y <= 23;
+      bool corner = x >= 24 && x <= 29 && y >= 24 && y <= 29;
+      u[y * NODES + x] = left || corner ? 0.9F : -0.9F;
+    }
+  const fg_density_arrays arrays = {
+      .dimension = 2, .nodes = {NODES, NODES, 1}, .spacing = {1, 1, 1}, .u = u};
+  fg_density *density = NULL;
+  assert_int_equal(fg_density_create_from_arrays(&density, *state, &arrays),
+                   FG_STATUS_OK);
+  fg_icons *icons = no_icons(*state);
+  static const double middles[3][2] = {{20, 20}, {12, 20}, {26, 26}};
+  for (int n = 0; n < 3; ++n) {
+    const double points[2][3] = {{0, 5, 0}, {1, 5, 0}};
+    const fg_icon icon = {.cluster = 77,
+                          .point_count = 2,
+                          .points = points,
+                          .center = {middles[n][0], middles[n][1]}};
+    assert_int_equal(fg__icons_add(icons, *state, &icon), FG_STATUS_OK);
+  }
+  assert_int_equal(fg_placement_find_clusters(*state, icons, density), FG_STATUS_OK);
+  assert_int_not_equal(fg_icons_at(icons, 1)->cluster, fg_icons_at(icons, 2)->cluster);
+  assert_int_equal(fg_icons_at(icons, 0)->cluster, fg_icons_at(icons, 1)->cluster);
+  fg_icons_destroy(icons);
+  fg_density_destroy(density);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       CASE(icons_find_their_clusters),
+      CASE(the_nearest_cluster_is_not_that_of_the_nearest_box),
   };
   return cmocka_run_group_tests_name("place/clusters", tests, NULL, NULL);
 }

@@ -44,6 +44,27 @@ static void parts_are_told_apart(void **state)
   fg_field_destroy(field);
 }
 
+/* A wall from above and one from below: the way between leads up and down. */
+static void winding(const double position[3], double v[3])
+{
+  const double x = position[0], y = position[1];
+  slant(position, v);
+  if ((fabs(x + 1) < 0.4 && y > 4.5) || (fabs(x - 2) < 0.4 && y < 7.5))
+    v[1] = (double)NAN;
+}
+
+static void a_winding_domain_is_one_part(void **state)
+{
+  const sampling box = {
+      .dimension = 2, .nodes = {37, 25}, .low = {-4, 3}, .high = {5, 9}};
+  fg_field *field = field_of(*state, &box, winding);
+  fg__place_domain domain = domain_of(*state, field);
+  assert_int_equal(domain.part_count, 1);
+  assert_close(domain.parts[0].measure, domain.whole, 1e-6 * domain.whole);
+  fg__place_domain_clear(&domain);
+  fg_field_destroy(field);
+}
+
 static void clearance_is_that_to_the_frame_or_a_wall(void **state)
 {
   const sampling box = {
@@ -122,6 +143,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       CASE(parts_are_told_apart),
+      CASE(a_winding_domain_is_one_part),
       CASE(clearance_is_that_to_the_frame_or_a_wall),
       CASE(a_period_belongs_to_the_domain),
       CASE(dead_volume_hardly_counts),

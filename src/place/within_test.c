@@ -38,21 +38,24 @@ static void what_does_not_fit_is_refused_with_the_number_that_does(void **state)
 
 static void the_fewest_within_an_error_are_found(void **state)
 {
+  static const double tolerances[] = {16, 10.5, 9.5};
   fg_field *field = field_of(*state, &PLAIN, swirl);
   fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
-  int count = 0;
-  const double degrees = 17;
-  assert_int_equal(fg_placement_within(placement, degrees, 500, &count), FG_STATUS_OK);
-  fg_icons *icons = NULL;
-  assert_int_equal(fg_placement_icons(&icons, placement), FG_STATUS_OK);
-  assert_int_equal(fg_icons_count(icons), count);
-  assert_true(count > 4 && count < 100);
-  assert_true(error_of(*state, field, icons) <= degrees);
-  fg_icons_destroy(icons);
-  assert_int_equal(fg__placement_begin_again(placement, count - 1), FG_STATUS_OK);
-  assert_int_equal(fg_placement_icons(&icons, placement), FG_STATUS_OK);
-  assert_true(error_of(*state, field, icons) > degrees);
-  fg_icons_destroy(icons);
+  for (size_t n = 0; n < sizeof tolerances / sizeof *tolerances; ++n) {
+    const double degrees = tolerances[n];
+    int count = 0;
+    fg_icons *icons = NULL;
+    assert_int_equal(fg_placement_within(placement, degrees, 500, &count), FG_STATUS_OK);
+    assert_int_equal(fg_placement_icons(&icons, placement), FG_STATUS_OK);
+    assert_int_equal(fg_icons_count(icons), count);
+    assert_true(count > 1 && count < 100);
+    assert_true(error_of(*state, field, icons) <= degrees);
+    fg_icons_destroy(icons);
+    assert_int_equal(fg__placement_begin_again(placement, count - 1), FG_STATUS_OK);
+    assert_int_equal(fg_placement_icons(&icons, placement), FG_STATUS_OK);
+    assert_true(error_of(*state, field, icons) > degrees);
+    fg_icons_destroy(icons);
+  }
   fg_placement_destroy(placement);
   fg_field_destroy(field);
 }

@@ -58,15 +58,15 @@ for scale in 0 1 2; do
 done
 done_with "the error in run.json and in the file is that of flowgrain score"
 
+# letters are outlines in SVG
 if command -v gs >/dev/null; then
-  try draw whole -o drawn --formats pdf
-  [ "$code" = 0 ] || try run "$wind" --arrows 40,20,7 --formats pdf --quiet -o drawn
+  try "${run[@]}" --formats pdf -o drawn
   expect_code 0
-  for scale in 0 2; do
-    degrees=$(jq ".scales[$scale].error.mean | ceil" whole/run.json)
+  for scale in 0 1 2; do
+    degrees=$(jq ".scales[$scale].error.mean | ceil" drawn/run.json)
+    count=$(jq ".scales[$scale].icons" drawn/run.json)
     gs -q -sDEVICE=txtwrite -o words "drawn/scale-0$scale.pdf" >/dev/null 2>&1
-    grep -qE "$(jq ".scales[$scale].icons" whole/run.json) arrows .*read within $degrees" words ||
-      fault "scale $scale: $(head -c 200 words)"
+    grep -qE "$count arrows .*read within $degrees" words || fault "scale $scale: $(head -c 200 words)"
   done
 fi
 done_with "pictures say what readers get wrong"
@@ -166,7 +166,7 @@ refused 'clusters, even' --start middle
 refused '--skeletons' --arrows 5 --skeletons
 done_with "what can not be asked for"
 
-# a place in the way of ranks: the arrows are placed on one
+# the arrows are placed on one of them
 if command -v mpirun >/dev/null; then
   need_ranks
   on 2 "${run[@]}" -o two

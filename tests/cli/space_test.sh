@@ -114,7 +114,7 @@ expect_code 0
 cmp -s out1/scale-00.vti out3/scale-00.vti && fault "the seed changes nothing"
 done_with "another seed gives another pattern"
 
-for option in --tint '--background lic' --skeletons --centers --no-arrows; do
+for option in --tint '--background lic' '--skeletons --clusters 4' '--centers --clusters 4' --no-arrows; do
   # shellcheck disable=SC2086
   try run synth:abc -o out4 $option --nodes 17 --clusters 8 --quiet
   expect_code 2
