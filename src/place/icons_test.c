@@ -19,7 +19,7 @@ static void count_kinds(int kinds[3], fg_context *context, velocity_of velocity,
 /* Not at every number: a ring needs a radius that a line of its length goes round. */
 static void vortices_get_rings_and_sinks_spirals(void **state)
 {
-  static const int counts[] = {13, 17, 20, 25};
+  static const int counts[] = {9, 12, 16, 22, 30, 40};
   int rings = 0, spirals = 0, kinds[3];
   for (size_t n = 0; n < sizeof counts / sizeof *counts; ++n) {
     count_kinds(kinds, *state, vortex, counts[n]);

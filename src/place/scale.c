@@ -36,6 +36,8 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
       .longest = (free ? 2.0 : 1.0) * lambda,
       .crowding = flat ? 0.3 : 0.2,
       .crowd_range = 0.3 * lambda,
+      .ends = 0.7,
+      .end_gap = 0.2 * lambda,
       .far = 3.0,
       .brevity = 4.0,
       .ink = flat || !free ? 0.0 : 0.1,

@@ -16,6 +16,8 @@ typedef struct fg__place_scale {
   double longest;     /* the sum of both ways */
   double crowding;    /* mu */
   double crowd_range; /* s */
+  double ends;        /* price of an end that lies on another line, */
+  double end_gap;     /* and falls to 0 at this distance */
   double far;         /* kappa: price of distance */
   double brevity;     /* nu */
   double ink;         /* p */

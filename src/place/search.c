@@ -24,10 +24,6 @@ static const double LEAST_ERROR = 8.0;
 /* Shorter than this many lambda costs nu times the square of what is missing. */
 static const double BRIEF = 0.8;
 
-/* Ends of lines nearer than this to another line, in lambda, cost up to this. */
-static const double END_GAP = 0.2;
-static const double END_PRICE = 0.7;
-
 /* A move is taken when it lowers a region's energy by this share of it: more than the
  * sums' rounding. */
 static const double LEAST_FALL = 1e-6;
@@ -182,6 +178,7 @@ static double decay(double x)
 static double price_of_ends(const fg__place_search *search, const fg__place_line *line,
                             const fg__place_tale *others)
 {
+  const fg__place_scale *scale = &search->scale;
   double sum = 0.0;
   for (int end = 0; end < 2; ++end) {
     int n = end && line->count > 0 ? line->count - 1 : 0;
@@ -189,8 +186,8 @@ static double price_of_ends(const fg__place_search *search, const fg__place_line
                          line->position[2][n]};
     double square =
         (double)fg__place_near(&search->raster, others, position, search->price.reach);
-    double near = fmax(0.0, 1.0 - sqrt(square) / END_GAP);
-    sum += END_PRICE * near * near;
+    double near = fmax(0.0, 1.0 - sqrt(square) * scale->lambda / scale->end_gap);
+    sum += scale->ends * near * near;
   }
   return sum;
 }

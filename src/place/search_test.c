@@ -127,7 +127,7 @@ static void a_move_is_priced_where_it_tells(void **state)
 {
   setting s;
   set_even(&s, *state, &PLAIN, swirl, 20, true);
-  s.search.scale.crowding = 0.0;
+  s.search.scale.crowding = s.search.scale.ends = 0.0;
   assert_int_equal(fg__place_weigh(&s.search), FG_STATUS_OK);
   unsigned random = 17;
   int moved = 0;
@@ -172,6 +172,7 @@ static void crowding_is_dear_and_so_are_short_lines(void **state)
   setting s;
   set(&s, *state, &PLAIN, slant, 12, true);
   const double lambda = s.search.scale.lambda;
+  s.search.scale.ends = 0.0;
   add(&s, -1, 7, true);
   add(&s, -1 - 0.1 * lambda * sin(SLANT), 7 + 0.1 * lambda * cos(SLANT), true);
   fg__place_box all = {{0}, {0}};
@@ -190,6 +191,30 @@ static void crowding_is_dear_and_so_are_short_lines(void **state)
   fg__place_trace(&shorter, &s.domain, &s.search.scale, &brief);
   assert_close(fg__place_own_price(&s.search, &shorter, &s.search.others), 4 * 0.2 * 0.2,
                1e-6);
+  clear(&s);
+}
+
+/* A line that ends a tenth of lambda before another begins: two ends, each half of the
+ * gap away. */
+static void heads_keep_away_from_other_ends(void **state)
+{
+  setting s;
+  set(&s, *state, &PLAIN, slant, 12, true);
+  const double lambda = s.search.scale.lambda, step = 1.1 * lambda;
+  s.search.scale.crowding = 0.0;
+  add(&s, -1, 7, true);
+  add(&s, -1 + step * cos(SLANT), 7 + step * sin(SLANT), true);
+  fg__place_box all = {{0}, {0}};
+  memcpy(all.size, s.search.raster.cells, sizeof all.size);
+  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 1), FG_STATUS_OK);
+  /* the other line is known to half a cell's diagonal, 0.06 lambda */
+  double price =
+      fg__place_own_price(&s.search, &s.search.icon[1]->line, &s.search.others);
+  assert_true(price > 0.7 * 0.04 && price < 0.7 * 0.64);
+  fg__place_drop(&s.search, 0);
+  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 0), FG_STATUS_OK);
+  assert_true(fg__place_own_price(&s.search, &s.search.icon[0]->line, &s.search.others) <
+              1e-9);
   clear(&s);
 }
 
@@ -238,6 +263,7 @@ int main(void)
       CASE(an_exchange_that_does_not_pay_is_undone),
       CASE(a_move_is_priced_where_it_tells),
       CASE(crowding_is_dear_and_so_are_short_lines),
+      CASE(heads_keep_away_from_other_ends),
       CASE(thinning_takes_the_ones_that_say_least),
       CASE(an_icon_comes_where_readers_err),
   };
