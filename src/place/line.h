@@ -33,8 +33,8 @@ void fg__place_trace(fg__place_line *out, const fg__place_domain *domain,
                      const fg__place_scale *scale, const fg__place_seed *seed);
 
 /* A line for a picture: through a point, `way` against the flow and along it, which a
- * search has found to be free. Four times as many samples, with a hundredth of the error.
- * *points is allocated, from tail to tip: free it. MEMORY. */
+ * search has found to be free. Eight times as many samples, with a hundredth of the
+ * error. *points is allocated, from tail to tip: free it. MEMORY. */
 fg_status fg__place_trace_fine(double (**points)[3], int *count, fg_context *context,
                                const fg__place_domain *domain,
                                const fg__place_scale *scale, const double position[3],
