@@ -7,6 +7,7 @@
 
 #include "background.h"
 #include "folder.h"
+#include "interrupt.h"
 #include "options.h"
 #include "placing.h"
 #include "progress.h"
@@ -28,6 +29,8 @@ struct cli_drawing {
   scale_moment waiting[MAX_SCALES + 1]; /* one more than wanted: a last state */
   int added, drawn;
   bool closed; /* no more snapshots will come */
+  bool heeds;  /* interrupts, from now on */
+  bool cut;    /* by one */
   fg_status status;
 
   scale_result results[MAX_SCALES + 1]; /* written by the worker, read after it ended */
@@ -303,6 +306,11 @@ static void *work(void *argument)
       pthread_cond_wait(&drawing->changed, &drawing->lock);
     if (drawing->drawn == drawing->added || drawing->status)
       break;
+    if (drawing->heeds && drawing->drawn > 0 && interrupt_came()) {
+      drawing->cut = true;
+      drawing->added = drawing->drawn;
+      break;
+    }
     int index = drawing->drawn;
     scale_moment moment = drawing->waiting[index];
     drawing->waiting[index] = (scale_moment){0};
@@ -410,6 +418,18 @@ void drawing_restore(cli_drawing *drawing, const scale_result *results, int coun
   drawing->icon_seconds = icon_seconds;
   drawing->picture_seconds = picture_seconds;
   pthread_mutex_unlock(&drawing->lock);
+}
+
+void drawing_heed_interrupts(cli_drawing *drawing)
+{
+  pthread_mutex_lock(&drawing->lock);
+  drawing->heeds = true;
+  pthread_mutex_unlock(&drawing->lock);
+}
+
+bool drawing_was_cut(const cli_drawing *drawing)
+{
+  return drawing->cut;
 }
 
 fg_status drawing_finish(cli_drawing *drawing)

@@ -35,6 +35,8 @@ int ending_draw(cli_run *run)
 {
   if (drawing_ready(run->drawing) < drawing_count(run->drawing))
     progress_stage(&run->progress, "drawing");
+  if (strcmp(run->facts.ended, "interrupted") != 0)
+    drawing_heed_interrupts(run->drawing);
   fg_status status = drawing_finish(run->drawing);
   progress_wipe(&run->progress);
   if (status)
@@ -113,7 +115,7 @@ static int say_ending(const cli_run *run)
   char reached[64];
   if (run->plan.placed)
     snprintf(reached, sizeof reached, "before the scale of %d arrows",
-             run->plan.wanted[run->plan.next]);
+             run->plan.wanted[count]);
   else
     snprintf(reached, sizeof reached, "with %d clusters", run->step.clusters);
   complain("%s: interrupted at t = %.3g %s; the %d scale%s until then %s in %s",
@@ -125,6 +127,8 @@ static int say_ending(const cli_run *run)
 int ending_finish(cli_run *run)
 {
   int code = ending_draw(run);
+  if (!code && drawing_was_cut(run->drawing))
+    run->facts.ended = "interrupted";
   if (!code)
     code = write_results(run);
   if (code)

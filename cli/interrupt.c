@@ -39,6 +39,11 @@ void interrupt_second(fg_context *second)
   atomic_store(&stop_second, second);
 }
 
+bool interrupt_came(void)
+{
+  return interrupts > 0;
+}
+
 void interrupt_end(void)
 {
   atomic_store(&stop_first, NULL);

@@ -12,6 +12,9 @@ void interrupt_start(fg_context *first);
 /* What the second stops; NULL: nothing. */
 void interrupt_second(fg_context *second);
 
+/* Whether a signal has come. */
+bool interrupt_came(void);
+
 /* From here on signals stop nothing. */
 void interrupt_end(void);
 

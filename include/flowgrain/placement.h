@@ -40,7 +40,8 @@ FG_API void fg_placement_destroy(fg_placement *placement);
 
 /* Places exactly `count` arrows. The first time they start from `clusters`, one for each
  * of these icons and more or fewer until there are `count`; NULL: from evenly distributed
- * points. Later scales go on from the one before, and `clusters` is not looked at. The
+ * points. Scales of fewer arrows go on from the one before, and `clusters` is not looked
+ * at; one of more begins anew. The
  * same on any machine and any number of threads. ARGUMENT (count below 1; so many have
  * no room: the message says how many have), MEMORY, STOPPED. */
 FG_API fg_status fg_placement_place(fg_placement *placement, int count,

@@ -20,13 +20,18 @@ static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 4, 10, 3},
                                  [FG_EFFORT_QUICK] = {8, 0, 0, 0},
                                  [FG_EFFORT_THOROUGH] = {14, 40, 3, 8}};
 
+/* The least fair-share length in distances between samples, and a number of icons that
+ * any field may have. */
+static const double FINEST = 0.125;
+enum { FEW = 200 };
+
 /* A scale is reached by numbers of icons that fall by this factor. */
 static const double CHAIN_RATIO = 0.8;
 static const double CHAIN_STEP = 0.1; /* of its icons, in lambda */
 
 /* Ink of a free placement, at most; its price rises until that holds. */
 static const double MOST_INK = 1.48;
-static const double FIRST_PRICE = 0.1;
+static const double FIRST_PRICE = 0.25;
 static const double PRICE_GROWTH = 1.6;
 enum { MOST_PRICES = 12 };
 
@@ -112,9 +117,27 @@ static fg__place_seed seed_of(const fg_icon *icon, const fg__place_scale *scale)
   return seed;
 }
 
+/* Refuses icons far smaller than what the data can tell: their number is a mistake, and
+ * would take hours. */
+static fg_status check_fineness(const fg_placement *placement, int count)
+{
+  const fg__place_domain *domain = &placement->domain;
+  double least = FINEST * domain->data_step;
+  double most = domain->measure / pow(least, domain->dimension);
+  if (count <= most || count <= FEW)
+    return FG_STATUS_OK;
+  return fg__fail(placement->context, FG_STATUS_ARGUMENT,
+                  "%d arrows do not fit into this field: %.0f do, each for an eighth of "
+                  "the distance between samples",
+                  count, fmax(floor(most), FEW));
+}
+
 /* A search for `count` icons, with none. */
 static fg_status begin(fg_placement *placement, int count)
 {
+  fg_status fine = check_fineness(placement, count);
+  if (fine != FG_STATUS_OK)
+    return fine;
   if (placement->begun)
     fg__place_search_clear(&placement->search);
   placement->begun = false;

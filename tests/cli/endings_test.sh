@@ -4,7 +4,7 @@
 source "$(dirname "$0")/harness.sh"
 
 run=(run synth:vortex3 --nodes 129 --quiet)
-scales=(--clusters 60,12)
+scales=(--clusters 25,12)
 try "${run[@]}" "${scales[@]}" -o whole
 expect_code 0
 
@@ -103,6 +103,16 @@ expect_code 0
 expect_same_results whole4 between
 expect_only_results between
 done_with "an interrupted run of placed arrows says which are missing, and goes on"
+
+# the evolution is short, the placing of so many is long
+in_background run synth:vortex3 --nodes 129 --arrows 400,399,398,397,396,395 --formats svg --quiet -o placing
+until_there placing/.flowgrain/scale-00.geojson
+ends_by INT
+expect_code 130
+expect_one_complaint
+expect_json placing/run.json '.ended == "interrupted" and (.scales | length) >= 1 and (.scales | length) < 6'
+expect_json placing/run.json '[.scales[].icons] == [400,399,398,397,396,395][:(.scales | length)]'
+done_with "an interrupt while arrows are placed keeps the scales that are there"
 
 # checkpoints have 3 arrays of 129 x 129 floats and more; results are smaller
 limit_kib=150
