@@ -17,6 +17,12 @@ static const double LONGEST_STEP = 1.5;
 static const double BREAK_COSINE = 0.25881904510252074; /* 75 degrees */
 static const double BREAK_RANGE = 0.15;
 
+/* A head lies on so much of the line, too; one that would bend by this angle, and so many
+ * times as much as the line before it, ends earlier, by so many samples at most. */
+static const double HEAD_BEND = 40.0 * FG__PLACE_PI / 180.0;
+static const double UNEVEN = 1.5;
+enum { MOST_HEAD_CUTS = 4 };
+
 /* A sample that can not be reached is tried at halves of the way, this often. */
 enum { HALVINGS = 3, MOST_STEPS = 64, FINE_EVERY = 8 };
 
@@ -180,6 +186,35 @@ double fg__place_least_clearance(const fg__place_domain *domain,
   return part ? fmin(scale->clearance, 0.5 * part->widest) : HUGE_VAL;
 }
 
+/* The sample a range before another one. */
+static int sample_before(const side *line, int last, double range)
+{
+  int first = last;
+  while (first > 0 && line->at[last] - line->at[first] < range)
+    --first;
+  return first;
+}
+
+static double bend_between(const side *line, int first, int last)
+{
+  return fg__place_arccos(
+      fg__place_dot(line->sample[first].direction, line->sample[last].direction));
+}
+
+/* Takes the end off that a head would have to bend round. An even arc, as of a ring, has
+ * no such end. */
+static void straighten_head(side *line, double range)
+{
+  for (int n = 0; n < MOST_HEAD_CUTS && line->count > 2; ++n) {
+    int last = line->count - 1, middle = sample_before(line, last, range);
+    double bend = bend_between(line, middle, last);
+    double before = bend_between(line, sample_before(line, middle, range), middle);
+    if (bend < HEAD_BEND || bend < UNEVEN * before)
+      return;
+    --line->count;
+  }
+}
+
 /* Both sides of a seed; false: no line can be here. */
 static bool trace_both(side both[2], const fg__place_domain *domain,
                        const fg__place_scale *scale, const fg__place_seed *seed)
@@ -197,6 +232,7 @@ static bool trace_both(side both[2], const fg__place_domain *domain,
     with.step = sampling;
     trace_side(&both[n], &with, &start, n ? 1.0 : -1.0, seed->way[n], sampling);
   }
+  straighten_head(&both[1], BREAK_RANGE * scale->lambda);
   /* narrow seas may have short ones */
   double ends = both[0].at[both[0].count - 1] + both[1].at[both[1].count - 1];
   double shortest =

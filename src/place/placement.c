@@ -25,6 +25,13 @@ static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 4, 10, 3},
 static const double FINEST = 0.125;
 enum { FEW = 200 };
 
+/* A first scale begins with more icons than are asked for, half as many again but at most
+ * so many more, and goes down from there: at 60 icons E_ang is 8 % smaller with free
+ * lengths than from the number itself (six fields). Sweeps before that. */
+static const int MOST_MORE[] = {
+    [FG_EFFORT_NORMAL] = 30, [FG_EFFORT_QUICK] = 0, [FG_EFFORT_THOROUGH] = 200};
+enum { SETTLING = 3 };
+
 /* A scale is reached by numbers of icons that fall by this factor. */
 static const double CHAIN_RATIO = 0.8;
 static const double CHAIN_STEP = 0.1; /* of its icons, in lambda */
@@ -220,18 +227,16 @@ static fg_status descend(fg__place_search *search, int sweeps)
   return status;
 }
 
-/* The first scale: from whatever icons there are to a minimum of the energy. */
-static fg_status settle(fg_placement *placement)
+/* From whatever icons there are to near a minimum of the energy. */
+static fg_status settle(fg__place_search *search)
 {
-  fg__place_search *search = &placement->search;
-  const effort *much = &EFFORTS[placement->options.effort];
   fg_status status = fg__place_relax(search, 2);
   if (status == FG_STATUS_OK)
     status = fg__place_complete(search);
   if (status == FG_STATUS_OK)
     status = fg__place_weigh(search);
   if (status == FG_STATUS_OK)
-    status = descend(search, much->sweeps);
+    status = fg__place_relax(search, SETTLING);
   return status;
 }
 
@@ -293,14 +298,30 @@ static fg_status check_count(const fg_placement *placement, int count)
                   placement->search.count);
 }
 
+/* The first scale: of more icons than are asked for those that are missed least go. Where
+ * so many have no room the number itself is tried. */
+static fg_status place_first(fg_placement *placement, int count, const fg_icons *clusters)
+{
+  fg__place_search *search = &placement->search;
+  int most = MOST_MORE[placement->options.effort];
+  int more = count / 2 < most ? count / 2 : most;
+  fg_status status = start(placement, count + more, clusters);
+  if (status == FG_STATUS_OK)
+    status = settle(search);
+  if (status == FG_STATUS_OK && search->count < count) {
+    status = start(placement, count, clusters);
+    if (status == FG_STATUS_OK)
+      status = settle(search);
+  }
+  if (status == FG_STATUS_OK)
+    status = go_down(placement, count);
+  return status;
+}
+
 fg_status fg__placement_begin_again(fg_placement *placement, int count)
 {
-  fg_status status = start(placement, count, NULL);
-  if (status == FG_STATUS_OK)
-    status = settle(placement);
-  if (status == FG_STATUS_OK)
-    status = polish(placement);
-  return status;
+  fg_status status = place_first(placement, count, NULL);
+  return status == FG_STATUS_OK ? polish(placement) : status;
 }
 
 fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons *clusters)
@@ -311,9 +332,7 @@ fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons 
   fg__place_search *search = &placement->search;
   fg_status status = FG_STATUS_OK;
   if (!placement->begun || count > search->count) {
-    status = start(placement, count, clusters);
-    if (status == FG_STATUS_OK)
-      status = settle(placement);
+    status = place_first(placement, count, clusters);
   } else {
     status = go_down(placement, count);
   }
