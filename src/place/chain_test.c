@@ -32,10 +32,9 @@ static void a_chain_keeps_its_arrows(void **state)
       if (!find_id(coarse, icon->id))
         continue;
       assert_int_equal(icon->parent, icon->id);
-      /* it is the same arrow: it has moved by little */
-      assert_true(distance_between(icon->center, parent->center, 3) <
-                  lambda_of(placement));
-      ++kept;
+      /* it stays only if it has moved by little */
+      if (distance_between(icon->center, parent->center, 3) < lambda_of(placement))
+        ++kept;
     }
     assert_true(10 * kept >= 9 * fewer);
     fg_icons_destroy(fine);
