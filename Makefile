@@ -18,7 +18,7 @@ setup:
 
 demo: setup
 	@$(MAKE) --no-print-directory all
-	@build/flowgrain run data/gfs_20140131.nc -o demo --nodes 513 --force
+	@build/flowgrain run data/gfs_20140131.nc -o demo --force
 	@echo "The pictures are in $(CURDIR)/demo"
 
 check: setup
