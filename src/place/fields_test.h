@@ -51,7 +51,7 @@ static inline void hall(const double position[3], double v[3])
 static inline double distance_between(const double a[3], const double b[3], int dimension)
 {
   double sum = 0.0;
-  for (int k = 0; k < dimension; ++k)
+  for (int k = 0; k < 3 && k < dimension; ++k)
     sum += (a[k] - b[k]) * (a[k] - b[k]);
   return sqrt(sum);
 }
@@ -60,7 +60,7 @@ static inline double distance_between(const double a[3], const double b[3], int 
 static inline double degrees_between(const double *a, const double *b, int dimension)
 {
   double dot = 0.0, aa = 0.0, bb = 0.0;
-  for (int k = 0; k < dimension; ++k) {
+  for (int k = 0; k < 3 && k < dimension; ++k) {
     dot += a[k] * b[k];
     aa += a[k] * a[k];
     bb += b[k] * b[k];

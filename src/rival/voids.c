@@ -62,7 +62,7 @@ static void consider(fg__voids *voids, int cell, const int at[3], const double p
 {
   const fg__domain *domain = voids->domain;
   double square = 0;
-  for (int k = 0; k < domain->dimension; k++) {
+  for (int k = 0; k < 3 && k < domain->dimension; k++) {
     double period = domain->period[k];
     double way = fabs(domain->origin[k] + (at[k] + 0.5) * domain->spacing[k] - point[k]);
     if (period > 0 && way > period / 2)
