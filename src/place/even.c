@@ -114,7 +114,7 @@ static void move_to_centroids(points *all)
       all->place[n][k] = (float)(all->sum[n][k] / all->sum[n][3]);
 }
 
-static void spread_out(points *all)
+static void even_out(points *all)
 {
   float within = 0.0F;
   choose_farthest(all);
@@ -160,7 +160,7 @@ fg_status fg__place_start_even(fg__place_search *search)
     status = fg__fail_memory(search->context, "even seeds",
                              raster->count * (sizeof *all.square + sizeof *all.owner));
   if (status == FG_STATUS_OK) {
-    spread_out(&all);
+    even_out(&all);
     status = add_icons(search, &all);
   }
   free(all.place);
