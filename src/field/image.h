@@ -1,4 +1,5 @@
-/* An image's own representation, and what strokes ask of it. */
+/* An image's own representation: samples of grey or colours, as a field has samples of
+ * vectors. */
 #ifndef FG__IMAGE_H
 #define FG__IMAGE_H
 
@@ -17,13 +18,5 @@ enum { FG__MOST_PIXELS = 1 << 26 };
  * before messages. ARGUMENT (fewer than 2 pixels a side, too many in all), MEMORY. */
 fg_status fg__image_begin(fg_image **out, fg_context *context, const char *name,
                           size_t width, size_t height, int channels, bool has_alpha);
-
-/* The grey values (luma of Rec. 709, on white where the image is transparent), rows from
- * the top. To be freed; NULL without memory. */
-float *fg__image_grey(const fg_image_arrays *image);
-
-/* Averages rows and columns of a plane over a Gaussian of standard deviation `width` in
- * pixels, in place; beyond the border the plane is mirrored. False without memory. */
-bool fg__image_blur(float *plane, int width, int height, double deviation);
 
 #endif

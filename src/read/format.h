@@ -40,6 +40,10 @@ typedef struct fg__format {
                          const fg__source *source);
   fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
                     const fg_read_options *options, fg__dealt dealt);
+  /* The file's array of tensors as two fields (tensor_rows.h); *found: there is one. NULL
+   * where the format has none. */
+  fg_status (*tensors)(fg_field *row[2], bool *found, fg_context *context,
+                       const fg__source *source);
 } fg__format;
 
 extern const fg__format fg__format_netcdf;

@@ -472,4 +472,5 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
   return status;
 }
 
-const fg__format fg__format_netcdf = {"NetCDF", is_netcdf, describe, read_field};
+const fg__format fg__format_netcdf = {
+    .name = "NetCDF", .is_mine = is_netcdf, .inventory = describe, .read = read_field};

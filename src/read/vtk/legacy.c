@@ -492,5 +492,8 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
   return fg__vtk_read(out, context, source, options, dealt, fg__vtk_open_legacy);
 }
 
-const fg__format fg__format_vtk_legacy = {
-    .name = "VTK legacy", .is_mine = is_mine, .inventory = describe, .read = read_field};
+const fg__format fg__format_vtk_legacy = {.name = "VTK legacy",
+                                          .is_mine = is_mine,
+                                          .inventory = describe,
+                                          .read = read_field,
+                                          .tensors = fg__tensors_of_vtk};

@@ -277,5 +277,8 @@ static fg_status describe_xml(fg_inventory *inventory, fg_context *context,
   return fg__vtk_inventory(inventory, context, source, fg__vtk_open_xml);
 }
 
-const fg__format fg__format_vti = {
-    .name = "VTK XML", .is_mine = is_mine, .inventory = describe_xml, .read = read_xml};
+const fg__format fg__format_vti = {.name = "VTK XML",
+                                   .is_mine = is_mine,
+                                   .inventory = describe_xml,
+                                   .read = read_xml,
+                                   .tensors = fg__tensors_of_vtk};

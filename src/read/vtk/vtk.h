@@ -248,4 +248,9 @@ fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *so
 fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
                             const fg__source *source, fg__vtk_opener *opener);
 
+/* A tensor array as fields of the matrix's rows; *found: there is one. FILE_FORMAT,
+ * UNSUPPORTED, ARGUMENT (not symmetric), MEMORY. */
+fg_status fg__tensors_of_vtk(fg_field *row[2], bool *found, fg_context *context,
+                             const fg__source *source);
+
 #endif

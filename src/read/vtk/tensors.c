@@ -1,5 +1,4 @@
-#include "load/tensors.h"
-
+/* Tensors of VTK files: rows of the matrix as fields. */
 #include <math.h>
 #include <stdlib.h>
 
