@@ -1,5 +1,5 @@
 /* Files of icons in 3D, by the end of their names. */
-#include "picture/solid_picture.h"
+#include "picture/render/solid_picture.h"
 #include "write/glb.h"
 #include "write/vtp.h"
 

@@ -3,12 +3,12 @@
 #include "base/base64.h"
 #include "base/memory.h"
 #include "base/number_text.h"
+#include "base/utf8.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <libxml/xmlstring.h>
 #include <zlib.h>
 
 const char *fg__vti_byte_order(void)
@@ -20,7 +20,7 @@ const char *fg__vti_byte_order(void)
 /* Text as an attribute or an element holds it; what XML cannot hold becomes '?'. */
 static void write_text(FILE *stream, const char *text)
 {
-  bool utf8 = xmlCheckUTF8((const unsigned char *)text) != 0;
+  bool utf8 = fg__utf8_is_valid(text);
   for (; *text; ++text) {
     unsigned char c = (unsigned char)*text;
     if (c == '&')
