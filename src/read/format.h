@@ -34,7 +34,8 @@ fg_status fg__field_of_rows(fg_field **out, fg_context *context,
                             const fg__dealt *dealt);
 
 typedef struct fg__format {
-  const char *name; /* as `flowgrain info` shows it */
+  const char *name;  /* as `flowgrain info` shows it */
+  const char *files; /* which ones it reads; NULL: another says it, or none are read */
   bool (*is_mine)(const unsigned char *bytes, size_t size);
   fg_status (*inventory)(fg_inventory *inventory, fg_context *context,
                          const fg__source *source);

@@ -4,16 +4,13 @@
 #include "read/format.h"
 
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 static const fg__format *const FORMATS[] = {&fg__format_netcdf, &fg__format_vti,
                                             &fg__format_vtk_legacy};
-static const char KNOWN_FORMATS[] =
-    "NetCDF (classic, 64-bit offset, CDF-5, NetCDF-4), VTK XML images, rectilinear, "
-    "curvilinear and unstructured grids (.vti, .vtr, .vts, .vtu) and VTK legacy files of "
-    "them (.vtk)";
 static const char SYNTHETIC[] = "synth:";
-enum { MESSAGE_BYTES = 2048 };
+enum { MESSAGE_BYTES = 2048, KNOWN_BYTES = 512 };
 
 const fg__format *fg__format_find(const unsigned char *bytes, size_t size)
 {
@@ -21,6 +18,17 @@ const fg__format *fg__format_find(const unsigned char *bytes, size_t size)
     if (FORMATS[i]->is_mine(bytes, size))
       return FORMATS[i];
   return NULL;
+}
+
+static void hint_at_known(fg_context *context)
+{
+  char known[KNOWN_BYTES] = "";
+  size_t used = 0;
+  for (size_t i = 0; i < sizeof FORMATS / sizeof *FORMATS; ++i)
+    if (FORMATS[i]->files && used < sizeof known)
+      used += (size_t)snprintf(known + used, sizeof known - used, "%s%s",
+                               used ? ", " : "", FORMATS[i]->files);
+  fg__hint(context, "formats known: %s; or synth:NAME", used ? known : "none");
 }
 
 static fg_status find_format(const fg__format **out, fg_context *context,
@@ -42,7 +50,7 @@ static fg_status find_format(const fg__format **out, fg_context *context,
   fg_status status = fg__fail(context, FG_STATUS_FILE_FORMAT,
                               "%s: unknown format (%zu bytes, starting with %s)",
                               source->path, source->size, start);
-  fg__hint(context, "formats known: %s; or synth:NAME", KNOWN_FORMATS);
+  hint_at_known(context);
   return status;
 }
 

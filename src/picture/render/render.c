@@ -1,24 +1,5 @@
 #include "picture/render/render.h"
 
-#ifndef FG__EMBREE
-
-bool fg_solid_can_draw(void)
-{
-  return false;
-}
-
-fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32_t *image,
-                     int stride)
-{
-  (void)rendering;
-  (void)image;
-  (void)stride;
-  return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                  "picture: this flowgrain was built without Embree, which draws in 3D");
-}
-
-#else
-
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -59,11 +40,6 @@ static const double off_floor = 2e-5;
 
 /* Half the width of the box's edges, pixels. */
 static const double half_line = 0.6;
-
-bool fg_solid_can_draw(void)
-{
-  return true;
-}
 
 typedef struct shop {
   const fg__rendering *about;
@@ -385,5 +361,3 @@ fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32
   free(s.coarse);
   return status;
 }
-
-#endif

@@ -26,8 +26,8 @@ typedef struct fg__rendering {
 } fg__rendering;
 
 /* Fills an image of rows of `stride` pixels, premultiplied ARGB as Cairo has it. A pixel
- * depends on nothing but its place: any number of threads gives the same. UNSUPPORTED
- * (built without Embree), MEMORY, STOPPED. */
+ * depends on nothing but its place: any number of threads gives the same. MEMORY,
+ * STOPPED. */
 fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32_t *image,
                      int stride);
 

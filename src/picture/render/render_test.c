@@ -310,7 +310,5 @@ int main(void)
       cmocka_unit_test(threads_change_nothing),
       cmocka_unit_test(turning_all_changes_nothing),
   };
-  if (!fg_solid_can_draw())
-    return 0;
   return cmocka_run_group_tests_name("picture/render/render", tests, NULL, NULL);
 }

@@ -1,7 +1,5 @@
 #include "picture/render/target.h"
 
-#ifdef FG__EMBREE
-
 #include <embree3/rtcore.h>
 #include <math.h>
 #include <stdlib.h>
@@ -444,5 +442,3 @@ int fg__target_unhidden(const fg__target *t, const double place[3],
     seen += !(ray.tfar[n] < 0.0F);
   return seen;
 }
-
-#endif

@@ -5,8 +5,6 @@
 
 #include "picture/render/render.h"
 
-#ifdef FG__EMBREE
-
 typedef struct fg__target {
   const fg__rendering *about;
   fg_context *context;
@@ -52,5 +50,4 @@ enum { FG__PACKET = 8 };
 int fg__target_unhidden(const fg__target *target, const double place[3],
                         const double direction[FG__PACKET][3]);
 
-#endif
 #endif

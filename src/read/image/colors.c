@@ -3,14 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
-
-#ifdef FG__LCMS
 #include <lcms2.h>
-#else
-typedef void *cmsHTRANSFORM;
-typedef void *cmsContext;
-#endif
+
+#include "base/memory.h"
 
 /* Pixels that are converted at a time. */
 enum { RUN = 256, MOST_COMPONENTS = 4 };
@@ -20,8 +15,6 @@ struct fg__colors {
   cmsHTRANSFORM transform; /* NULL: inks without a profile */
   bool grey_as_rgb;        /* grey pixels with a profile of red, green and blue */
 };
-
-#ifdef FG__LCMS
 
 static fg_status open_transform(fg__colors *colors, fg_context *context, const char *path,
                                 const void *bytes, size_t size, int components)
@@ -81,44 +74,6 @@ static void transform_run(const fg__colors *colors, float *to, const float *from
 {
   cmsDoTransform(colors->transform, from, to, (cmsUInt32Number)count);
 }
-
-#else
-
-/* What all profiles of sRGB have in their description, in either of its encodings. */
-static bool is_srgb(const unsigned char *bytes, size_t size)
-{
-  for (size_t n = 0; n + 7 <= size; ++n)
-    if (memcmp(bytes + n, "sRGB", 4) == 0 || memcmp(bytes + n, "s\0R\0G\0B", 7) == 0)
-      return true;
-  return false;
-}
-
-static fg_status open_transform(fg__colors *colors, fg_context *context, const char *path,
-                                const void *bytes, size_t size, int components)
-{
-  (void)colors;
-  if (components <= 3 && is_srgb(bytes, size))
-    return FG_STATUS_OK;
-  return fg__fail(
-      context, FG_STATUS_UNSUPPORTED,
-      "%s: has a colour profile; flowgrain was built without Little CMS, which "
-      "converts colours",
-      path);
-}
-
-static void close_transform(fg__colors *colors)
-{
-  (void)colors;
-}
-
-static void transform_run(const fg__colors *colors, float *to, const float *from,
-                          size_t count)
-{
-  (void)colors;
-  memcpy(to, from, 3 * count * sizeof *to);
-}
-
-#endif
 
 fg_status fg__colors_create(fg__colors **out, fg_context *context, const char *path,
                             const void *profile, size_t size, int components)

@@ -10,7 +10,7 @@ typedef struct fg__colors fg__colors;
  * black ink). profile: `size` bytes of an ICC profile; NULL: grey and RGB are sRGB
  * already, and inks absorb light one after the other. *out is NULL where nothing is to be
  * done. `path` goes before messages. FILE_FORMAT (no profile, or of other components),
- * UNSUPPORTED (built without Little CMS), MEMORY. */
+ * MEMORY. */
 fg_status fg__colors_create(fg__colors **out, fg_context *context, const char *path,
                             const void *profile, size_t size, int components);
 void fg__colors_destroy(fg__colors *colors);

@@ -2,6 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lcms2.h>
+
 #include "base/context_test.h"
 #include "read/image/colors.h"
 
@@ -56,9 +58,6 @@ static void damaged_profiles_are_refused(void **state)
     fg_context_clear(*state);
   }
 }
-
-#ifdef FG__LCMS
-#include <lcms2.h>
 
 enum { MOST_BYTES = 1 << 16 };
 
@@ -147,7 +146,6 @@ static void short_profiles_do_no_harm(void **state)
                    FG_STATUS_FILE_FORMAT);
   assert_non_null(strstr(fg_context_message(*state), "4 components"));
 }
-#endif
 
 int main(void)
 {
@@ -157,11 +155,9 @@ int main(void)
       CASE(without_a_profile_all_but_inks_stay),
       CASE(inks_absorb_light),
       CASE(damaged_profiles_are_refused),
-#ifdef FG__LCMS
       CASE(a_profile_with_another_gamma_bends_greys),
       CASE(a_wider_profile_makes_colours_stronger),
       CASE(short_profiles_do_no_harm),
-#endif
   };
   return cmocka_run_group_tests_name("read/image/colors", tests, NULL, NULL);
 }

@@ -473,4 +473,8 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
 }
 
 const fg__format fg__format_netcdf = {
-    .name = "NetCDF", .is_mine = is_netcdf, .inventory = describe, .read = read_field};
+    .name = "NetCDF",
+    .files = "NetCDF (classic, 64-bit offset, CDF-5, NetCDF-4)",
+    .is_mine = is_netcdf,
+    .inventory = describe,
+    .read = read_field};

@@ -4,18 +4,9 @@
 #define FG__NETCDF_H
 
 #include "read/format.h"
+#include "read/signature.h"
 
 #include <netcdf.h>
-
-typedef enum fg__nc_kind {
-  FG__NC_NONE = 0,
-  FG__NC_CLASSIC,
-  FG__NC_OFFSET64,
-  FG__NC_CDF5,
-  FG__NC_HDF5
-} fg__nc_kind;
-
-fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size);
 
 /* Compares the size of a file with what its header promises. FILE_FORMAT. */
 fg_status fg__nc_check_size(fg_context *context, const fg__source *source);

@@ -321,22 +321,6 @@ static fg_status check_hdf5(fg_context *context, const fg__source *source)
   return FG_STATUS_OK;
 }
 
-fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size)
-{
-  static const unsigned char hdf5[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-  if (size >= sizeof hdf5 && memcmp(bytes, hdf5, sizeof hdf5) == 0)
-    return FG__NC_HDF5;
-  if (size >= 4 && memcmp(bytes, "CDF", 3) == 0) {
-    if (bytes[3] == 1)
-      return FG__NC_CLASSIC;
-    if (bytes[3] == 2)
-      return FG__NC_OFFSET64;
-    if (bytes[3] == 5)
-      return FG__NC_CDF5;
-  }
-  return FG__NC_NONE;
-}
-
 fg_status fg__nc_check_size(fg_context *context, const fg__source *source)
 {
   if (fg__nc_kind_of(source->bytes, source->size) == FG__NC_HDF5)

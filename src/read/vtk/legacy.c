@@ -11,8 +11,6 @@
 /* More than any program writes. */
 enum { MOST_ARRAYS = 1000 };
 
-static const char MARK[] = "# vtk DataFile Version";
-
 typedef struct legacy_file {
   fg__vtk *vtk;
   fg__legacy_cursor cursor;
@@ -475,11 +473,6 @@ fg_status fg__vtk_open_legacy(fg__vtk *out, fg_context *context, const fg__sourc
   return status == FG_STATUS_OK ? read_sections(&file) : status;
 }
 
-static bool is_mine(const unsigned char *bytes, size_t size)
-{
-  return size >= sizeof MARK - 1 && memcmp(bytes, MARK, sizeof MARK - 1) == 0;
-}
-
 static fg_status describe(fg_inventory *inventory, fg_context *context,
                           const fg__source *source)
 {
@@ -493,7 +486,7 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
 }
 
 const fg__format fg__format_vtk_legacy = {.name = "VTK legacy",
-                                          .is_mine = is_mine,
+                                          .is_mine = fg__is_vtk_legacy,
                                           .inventory = describe,
                                           .read = read_field,
                                           .tensors = fg__tensors_of_vtk};

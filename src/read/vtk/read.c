@@ -9,30 +9,12 @@
 #include <string.h>
 
 enum {
-  MARK_WITHIN =
-      4096, /* a file's first tag begins this early, comments before it included */
   DESCRIBED_SAMPLES = 64,    /* vectors whose missing share an inventory counts */
   COUNTED_AT_ONCE = 1 << 22, /* samples that are in memory for that */
   NAME_BYTES = 256
 };
 
 static const char LETTERS[] = "xyz";
-
-static bool is_mine(const unsigned char *bytes, size_t size)
-{
-  static const char mark[] = "<VTKFile";
-  size_t at = 0;
-  if (size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0) /* a byte order mark */
-    at = 3;
-  while (at < size && strchr(" \t\r\n", bytes[at]) && bytes[at])
-    ++at;
-  if (at == size || bytes[at] != '<')
-    return false;
-  for (; at + sizeof mark - 1 <= size && at < MARK_WITHIN; ++at)
-    if (memcmp(bytes + at, mark, sizeof mark - 1) == 0)
-      return true;
-  return false;
-}
 
 /* The moment that FieldData tells in TimeValue, as "t = 2.5"; *out stays NULL without. */
 static fg_status read_time(char **out, const fg__vtk *vtk)
@@ -277,8 +259,11 @@ static fg_status describe_xml(fg_inventory *inventory, fg_context *context,
   return fg__vtk_inventory(inventory, context, source, fg__vtk_open_xml);
 }
 
-const fg__format fg__format_vti = {.name = "VTK XML",
-                                   .is_mine = is_mine,
-                                   .inventory = describe_xml,
-                                   .read = read_xml,
-                                   .tensors = fg__tensors_of_vtk};
+const fg__format fg__format_vti = {
+    .name = "VTK XML",
+    .files = "VTK XML images, rectilinear, curvilinear and unstructured grids (.vti, "
+             ".vtr, .vts, .vtu) and VTK legacy files of them (.vtk)",
+    .is_mine = fg__is_vtk_xml,
+    .inventory = describe_xml,
+    .read = read_xml,
+    .tensors = fg__tensors_of_vtk};

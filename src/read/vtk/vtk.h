@@ -9,6 +9,7 @@
 
 #include "read/cells/set.h"
 #include "read/format.h"
+#include "read/signature.h"
 
 typedef enum fg__vtk_type {
   FG__VTK_UNKNOWN = 0, /* String, Bit, ... */
