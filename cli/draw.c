@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "background.h"
+#include "build_features.h"
 #include "drawing.h"
 #include "folder.h"
 #include "past_run.h"
@@ -21,8 +22,10 @@ static bool ends_with(const char *text, const char *end)
 
 int check_picture_name(const char *path, const char *command)
 {
-  if (ends_with(path, ".svg") || ends_with(path, ".pdf") || ends_with(path, ".png"))
-    return check_place_of_file(path);
+  if (ends_with(path, ".svg") || ends_with(path, ".pdf") || ends_with(path, ".png")) {
+    int code = require_feature(path, FG_FEATURE_PICTURES);
+    return code ? code : check_place_of_file(path);
+  }
   complain("-o %s: the name's end must be .svg, .pdf or .png", path);
   advise("Try 'flowgrain %s --help'.", command);
   return EXIT_USAGE;
@@ -70,7 +73,10 @@ static int check_dimension(const cli_settings *settings, int dimension)
     advise("Try 'flowgrain draw --help'.");
     return EXIT_USAGE;
   }
-  return refuse_other_dimension("draw", settings, dimension, settings->operand);
+  int code = refuse_other_dimension("draw", settings, dimension, settings->operand);
+  if (!code && dimension == 3 && !is_solids(settings->output))
+    code = require_feature(settings->output, FG_FEATURE_RENDER);
+  return code;
 }
 
 /* The finest scale that has at most so many of what is counted. */

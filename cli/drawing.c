@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "background.h"
+#include "build_features.h"
 #include "folder.h"
 #include "interrupt.h"
 #include "options.h"
@@ -145,6 +146,9 @@ static fg_status write_pictures(cli_drawing *drawing, int index,
                                 const fg_density *regions)
 {
   static const char *const ends[FORMAT_KINDS] = {".svg", ".png", ".pdf"};
+  unsigned formats = formats_to_draw(drawing->settings, false);
+  if (!formats)
+    return FG_STATUS_OK;
   fg_picture_options options = settings_picture(drawing->settings);
   options.speed_min = drawing->look.speeds[0];
   options.speed_max = drawing->look.speeds[1];
@@ -153,9 +157,6 @@ static fg_status write_pictures(cli_drawing *drawing, int index,
   fg_status status =
       background_choose(&options, &drawing->background, drawing->context,
                         drawing->settings, drawing->field, moment->density, icons);
-  unsigned formats = drawing->settings->formats;
-  if (!formats)
-    formats = FORMAT_SVG | FORMAT_PNG;
   for (int kind = 0; !status && kind < FORMAT_KINDS; ++kind) {
     if (!(formats & (1U << kind)))
       continue;
@@ -466,10 +467,8 @@ int scale_file_ends(char ends[SCALE_FILES][SCALE_END_BYTES], const cli_settings 
 {
   int count = add_end(ends, 0, "geojson");
   bool solid = scales_are_solid(field);
-  unsigned formats = settings->formats ? settings->formats
-                     : solid           ? FORMAT_PNG
-                                       : FORMAT_SVG | FORMAT_PNG;
-  for (int kind = 0; kind < FORMAT_KINDS && (!solid || fg_solid_can_draw()); ++kind)
+  unsigned formats = formats_to_draw(settings, solid);
+  for (int kind = 0; kind < FORMAT_KINDS; ++kind)
     if (formats & (1U << kind)) {
       count = add_end(ends, count, format_words[kind]);
       for (int view = 1; view < settings->view_count && solid; ++view)

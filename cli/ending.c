@@ -71,11 +71,11 @@ static const char *say_dropped(char out[ASIDE_BYTES], int dropped)
 static void print_summary(const cli_run *run)
 {
   char ends[SCALE_FILES][SCALE_END_BYTES];
-  scale_file_ends(ends, run->settings, run->field);
+  int count = scale_file_ends(ends, run->settings, run->field);
   for (int k = 0; k < drawing_count(run->drawing); ++k) {
     const scale_result *result = drawing_result(run->drawing, k);
     char name[SCALE_NAME_BYTES], aside[ASIDE_BYTES];
-    scale_name(name, k, ends[1]); /* its first picture */
+    scale_name(name, k, ends[count > 1 ? 1 : 0]); /* its first picture, if any */
     char *path = join_path(run->settings->output, name);
     if (settings_place(run->settings))
       printf("%4d arrows  %s\n", result->icons, path ? path : name);

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "build_features.h"
 #include "folder.h"
 #include "output.h"
 #include "ranks.h"
@@ -226,6 +227,8 @@ int command_gallery(const cli_settings *settings)
 {
   char *topmost = NULL;
   int code = check(settings);
+  if (!code)
+    code = require_feature("gallery", FG_FEATURE_PICTURES);
   if (!code)
     code = make_folders(settings->output, &topmost);
   if (!code)

@@ -58,7 +58,7 @@ static int count_pictures(const gallery_figure *figure)
   return count;
 }
 
-/* A program built without Embree draws nothing in 3D; the figure then says so. */
+/* A build may draw nothing in 3D; the figure then says so. */
 static void print_row(FILE *page, const char *folder, const gallery_picture *picture,
                       int count)
 {
@@ -68,8 +68,8 @@ static void print_row(FILE *page, const char *folder, const gallery_picture *pic
     if (!file_is_there(folder, picture[n].path)) {
       fputs("<figure><figcaption>", page);
       print_text(page, picture[n].caption);
-      fputs(": no picture, since this flowgrain was built without Embree, which draws "
-            "in 3D</figcaption></figure>\n",
+      fputs(": no picture, since this build has no pictures in 3D "
+            "(FLOWGRAIN_RENDER=OFF)</figcaption></figure>\n",
             page);
       continue;
     }

@@ -34,7 +34,7 @@ void print_program_help(FILE *stream)
   for (size_t k = 0; k < command_count; ++k)
     fprintf(stream, "  %-7s %s\n", command_table[k].name, command_table[k].summary);
   fputs("\n'flowgrain COMMAND --help' lists a command's options;\n"
-        "'flowgrain --version' prints the version.\n",
+        "'flowgrain --version' prints the version and what this build can do.\n",
         stream);
 }
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "build_features.h"
 #include "options.h"
 #include "ranks.h"
 #include "rehearse.h"
@@ -25,8 +26,9 @@ int input_read(cli_run *run)
   if (status)
     return complain_of(run->context, status, run->settings->operand);
   run->facts.field = run->field;
-  return refuse_other_dimension("run", said, fg_field_contents(run->field)->dimension,
-                                said->operand);
+  int dimension = fg_field_contents(run->field)->dimension;
+  int code = refuse_other_dimension("run", said, dimension, said->operand);
+  return code ? code : refuse_undrawable(said, dimension == 3);
 }
 
 /* How many times and levels there were to choose from; nothing when that can't be said.

@@ -392,6 +392,6 @@ const option_entry option_table[] = {
     {"help", 'h', NULL, EVERY, OPTION_HELP, 0, 0, 0, false, false, NULL,
      "print this help"},
     {"version", 'V', NULL, EVERY, OPTION_VERSION, 0, 0, 0, false, false, NULL,
-     "print the version"},
+     "print the version and what this build can do"},
 };
 const size_t option_count = sizeof option_table / sizeof option_table[0];

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "build_features.h"
+
 /* getopt_long's value for a long option is this plus its place in option_table, beyond
  * every letter. */
 enum { LONG_BASE = 256, MAX_OPTIONS = 64 };
@@ -426,7 +428,7 @@ parse_result options_parse(cli_settings *out, const cli_command *command, int ar
       return PARSE_DONE;
     }
     if (option->kind == OPTION_VERSION) {
-      printf("flowgrain %s\n", fg_version());
+      print_version();
       return PARSE_DONE;
     }
     if (!set_option(out, command, option, code, optarg))

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "build_features.h"
 #include "options.h"
 #include "ranks.h"
 
@@ -48,7 +49,7 @@ static parse_result parse(const cli_command **command, cli_settings *settings, i
   if (strcmp(word, "help") == 0)
     return help(argc > 2 ? argv[2] : NULL);
   if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
-    printf("flowgrain %s\n", fg_version());
+    print_version();
     return PARSE_DONE;
   }
   *command = command_find(word);

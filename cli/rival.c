@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "build_features.h"
 #include "drawing.h"
 #include "folder.h"
 #include "options.h"
@@ -131,20 +132,10 @@ static bool is_solid(const rival_work *work)
   return fg_field_contents(work->field)->dimension == 3;
 }
 
-/* Formats that are asked for, or the usual ones; in 3D there may be none. */
-static unsigned find_formats(const rival_work *work)
-{
-  if (work->settings->formats)
-    return work->settings->formats;
-  if (!is_solid(work))
-    return FORMAT_SVG | FORMAT_PNG;
-  return fg_solid_can_draw() ? FORMAT_PNG : 0;
-}
-
 static int write_pictures(const rival_files *files)
 {
   bool solid = is_solid(files->work);
-  unsigned formats = find_formats(files->work);
+  unsigned formats = formats_to_draw(files->work->settings, solid);
   int code = EXIT_DONE;
   if (solid)
     code = write_solid(files, "vtp");
@@ -260,6 +251,8 @@ static int prepare(rival_work *work)
   if (!status) {
     int dimension = fg_field_contents(work->field)->dimension;
     int code = refuse_other_dimension("rival", said, dimension, said->operand);
+    if (!code)
+      code = refuse_undrawable(said, dimension == 3);
     if (code)
       return code;
     status = fg_rival_create(&work->rival, work->context, work->field, &options);

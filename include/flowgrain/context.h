@@ -1,4 +1,5 @@
-/* The version, statuses, the context, and the ranks that share the work. */
+/* The version and its features, statuses, the context, and the ranks that share the work.
+ */
 #ifndef FLOWGRAIN_CONTEXT_H
 #define FLOWGRAIN_CONTEXT_H
 
@@ -36,6 +37,28 @@ typedef struct fg_context fg_context;
 
 /* Returns the version of the library in use, "0.1.0". */
 FG_API const char *fg_version(void);
+
+/* What a build of the library may leave out (CMake's FLOWGRAIN_NETCDF=OFF, ...).
+ * Functions that need it are there all the same, and return UNSUPPORTED. */
+typedef enum fg_feature {
+  FG_FEATURE_NETCDF = 0, /* reading and writing NetCDF */
+  FG_FEATURE_VTK,        /* reading VTK's files; writing them is always possible */
+  FG_FEATURE_IMAGES,     /* reading PNG, JPEG, PGM and PPM */
+  FG_FEATURE_PICTURES,   /* drawing SVG, PDF and PNG */
+  FG_FEATURE_RENDER,     /* drawing fields in 3D */
+  FG_FEATURES            /* how many there are */
+} fg_feature;
+
+/* Whether the library in use has a feature. */
+FG_API bool fg_has_feature(fg_feature feature);
+
+/* Returns a feature's name, "netcdf"; NULL from FG_FEATURES on. */
+FG_API const char *fg_feature_name(fg_feature feature);
+
+/* Refuses `what`, a file's name or a kind of work, where the library lacks a feature; the
+ * message says how it was left out. UNSUPPORTED. */
+FG_API fg_status fg_require_feature(fg_context *context, const char *what,
+                                    fg_feature feature);
 
 /* Returns the standard word for a status, "malformed file" for example. */
 FG_API const char *fg_status_name(fg_status status);

@@ -77,13 +77,10 @@ FG_API fg_status fg_solid_speed_range(double range[2], fg_context *context,
  * of where the field is valid, or of what moves in a field that hardly does, is seen as a
  * faint outline, unless other processes hold parts of the field. The field is needed for
  * pictures only, else NULL. options may be NULL. FILE_ACCESS, UNSUPPORTED (another end; a
- * picture where flowgrain was built without Embree), ARGUMENT, MEMORY, STOPPED. */
+ * picture without FG_FEATURE_RENDER), ARGUMENT, MEMORY, STOPPED. */
 FG_API fg_status fg_solid_write(fg_context *context, const char *path,
                                 const fg_field *field, const fg_icons *icons,
                                 const fg_solid_options *options);
-
-/* Whether pictures in 3D can be drawn: flowgrain was built with Embree. */
-FG_API bool fg_solid_can_draw(void);
 
 #ifdef __cplusplus
 }

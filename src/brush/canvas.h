@@ -2,7 +2,7 @@
 #ifndef FG__CANVAS_H
 #define FG__CANVAS_H
 
-#include "brush/image.h"
+#include "brush/grey.h"
 
 /* Three planes, red, green and blue, rows from the top. */
 typedef struct fg__canvas {

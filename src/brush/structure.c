@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "brush/image.h"
+#include "brush/grey.h"
 
 /* The wide average: how much wider, and its weight. */
 static const double wider = 4.0, wide_weight = 0.02;

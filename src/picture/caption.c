@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/text.h"
+#include "picture/plain_text.h"
 #include "picture/ticks.h"
 
 bool fg__speed_range(double range[2], const fg_icons *icons)

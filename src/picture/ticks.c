@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/text.h"
+#include "picture/plain_text.h"
 #include "picture/units.h"
 
 #define MINUS "\xE2\x88\x92"

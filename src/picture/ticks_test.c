@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "picture/text.h"
+#include "picture/plain_text.h"
 #include "picture/ticks.h"
 
 #define MINUS "\xE2\x88\x92"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/text.h"
+#include "picture/plain_text.h"
 
 enum { NAME_BYTES = 32 };
 

@@ -1,7 +1,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "picture/text.h"
+#include "picture/plain_text.h"
 #include "picture/units.h"
 
 #define POWER(digits) FG__TEXT_RAISE digits FG__TEXT_LOWER

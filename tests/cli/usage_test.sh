@@ -109,6 +109,7 @@ done_with "help of two commands"
 try --version
 expect_code 0
 grep -qE '^flowgrain [0-9]+\.[0-9]+\.[0-9]+$' out || fault "$(cat out)"
+grep -qE '^with(out)? [a-z]+(, [a-z]+)*$' out || fault "no features: $(cat out)"
 done_with "--version"
 for command in run draw info synth; do
   try "$command" --help

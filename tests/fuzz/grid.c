@@ -2,7 +2,7 @@
  * told, and what is read has the promised shape. */
 #include <assert.h>
 
-#include "format/format.h"
+#include "read/format.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
 

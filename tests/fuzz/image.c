@@ -1,7 +1,7 @@
 /* Any bytes as an image: libFuzzer's target. What is read has the promised shape. */
 #include <assert.h>
 
-#include "format/image.h"
+#include "read/image/image.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
 

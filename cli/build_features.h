@@ -1,0 +1,20 @@
+/* What the library in use can do, and what follows from that. */
+#ifndef BUILD_FEATURES_H
+#define BUILD_FEATURES_H
+
+#include "program.h"
+
+/* Prints the version, the features that are there and those that are not. */
+void print_version(void);
+
+/* Complains of `what` where a feature is lacking; an exit code. */
+int require_feature(const char *what, fg_feature feature);
+
+/* The formats of pictures (bits, FORMAT_SVG, ...) that each scale gets: those asked for,
+ * or the usual ones; none where pictures cannot be drawn. */
+unsigned formats_to_draw(const cli_settings *settings, bool solid);
+
+/* Complains where pictures are asked for that cannot be drawn; an exit code. */
+int refuse_undrawable(const cli_settings *settings, bool solid);
+
+#endif

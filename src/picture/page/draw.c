@@ -1,0 +1,243 @@
+#include "picture/page/draw.h"
+
+#include <math.h>
+
+/* Ink for the frame and words: softer than black, so that the arrows come first. */
+static const fg__color ink = {0.15, 0.16, 0.18};
+static const fg__color quiet_ink = {0.40, 0.41, 0.43};
+
+const fg__color fg__usual_mask = {0.855, 0.855, 0.845};
+
+/* Points. Journals ask for lines of at least half a point. */
+static const double frame_width = 0.6;
+static const double coast_width = 0.4;
+static const double rim_width = 0.9;
+
+/* Opacity of a tint through which a texture is still to be seen. */
+static const double tint_on_texture = 0.55;
+
+static void set_color(cairo_t *cairo, fg__color color)
+{
+  cairo_set_source_rgb(cairo, color.red, color.green, color.blue);
+}
+
+static void add_loop(cairo_t *cairo, const fg__polygons *polygons, size_t loop)
+{
+  cairo_new_sub_path(cairo);
+  for (size_t n = polygons->start[loop]; n < polygons->start[loop + 1]; ++n)
+    cairo_line_to(cairo, polygons->point[n][0], polygons->point[n][1]);
+  cairo_close_path(cairo);
+}
+
+void fg__draw_path(cairo_t *cairo, const fg__polygons *polygons)
+{
+  for (size_t loop = 0; loop < polygons->count; ++loop)
+    add_loop(cairo, polygons, loop);
+}
+
+static fg__color darker(fg__color color, double share)
+{
+  return (fg__color){share * color.red, share * color.green, share * color.blue};
+}
+
+void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color)
+{
+  fg__draw_path(cairo, mask);
+  set_color(cairo, color);
+  cairo_fill_preserve(cairo);
+  cairo_set_line_width(cairo, coast_width);
+  set_color(cairo, darker(color, 0.78));
+  cairo_stroke(cairo);
+}
+
+/* Pixels that are as large as those of the sheet are taken as they are. */
+static void draw_background(cairo_t *cairo, const fg__box *box,
+                            cairo_surface_t *background)
+{
+  const double wide = cairo_image_surface_get_width(background);
+  const double high = cairo_image_surface_get_height(background);
+  double pixel[2] = {(box->x1 - box->x0) / wide, (box->y1 - box->y0) / high};
+  cairo_save(cairo);
+  cairo_translate(cairo, box->x0, box->y0);
+  cairo_scale(cairo, pixel[0], pixel[1]);
+  cairo_set_source_surface(cairo, background, 0.0, 0.0);
+  pixel[0] = pixel[1] = 1.0;
+  cairo_user_to_device_distance(cairo, &pixel[0], &pixel[1]);
+  if (fabs(pixel[0] - 1.0) < 0.02 && fabs(pixel[1] - 1.0) < 0.02)
+    cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
+  cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
+  cairo_rectangle(cairo, 0.0, 0.0, wide, high);
+  cairo_fill(cairo);
+  cairo_restore(cairo);
+}
+
+static void draw_areas(cairo_t *cairo, const fg__scene *scene, const fg__style *style)
+{
+  if (scene->tint.count) {
+    fg__draw_path(cairo, &scene->tint);
+    cairo_set_source_rgba(cairo, style->tint.red, style->tint.green, style->tint.blue,
+                          style->background ? tint_on_texture : 1.0);
+    cairo_fill(cairo);
+  }
+  if (scene->mask.count)
+    fg__draw_mask(cairo, &scene->mask, style->mask);
+}
+
+/* On a texture each has a pale rim, which sets it off. */
+static void draw_arrows(cairo_t *cairo, const fg__scene *scene, bool rims)
+{
+  cairo_set_line_width(cairo, 2.0 * rim_width);
+  for (size_t loop = 0; loop < scene->arrows.count; ++loop) {
+    add_loop(cairo, &scene->arrows, loop);
+    if (rims) {
+      cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+      cairo_stroke_preserve(cairo);
+    }
+    set_color(cairo, scene->arrow_color[loop]);
+    cairo_fill(cairo);
+  }
+}
+
+/* Spines dotted, centres as rings: points. */
+static void draw_skeletons(cairo_t *cairo, const fg__scene *scene)
+{
+  static const double dot = 1.5, gap = 3.2, ring = 2.6;
+  const double dots[] = {0.0, gap};
+  cairo_save(cairo);
+  cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+  cairo_set_dash(cairo, dots, 2, 0.0);
+  cairo_set_line_width(cairo, dot);
+  set_color(cairo, ink);
+  for (size_t loop = 0; loop < scene->spines.count; ++loop) {
+    cairo_new_sub_path(cairo);
+    for (size_t n = scene->spines.start[loop]; n < scene->spines.start[loop + 1]; ++n)
+      cairo_line_to(cairo, scene->spines.point[n][0], scene->spines.point[n][1]);
+  }
+  cairo_stroke(cairo);
+  cairo_set_dash(cairo, NULL, 0, 0.0);
+  for (size_t n = 0; n < scene->centers.point_count; ++n) {
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, scene->centers.point[n][0], scene->centers.point[n][1], ring, 0.0,
+              2.0 * acos(-1.0));
+  }
+  cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+  cairo_fill_preserve(cairo);
+  cairo_set_line_width(cairo, 0.5 * dot);
+  set_color(cairo, ink);
+  cairo_stroke(cairo);
+  cairo_restore(cairo);
+}
+
+static void add_box(cairo_t *cairo, const fg__box *box)
+{
+  cairo_rectangle(cairo, box->x0, box->y0, box->x1 - box->x0, box->y1 - box->y0);
+}
+
+/* The colour key's outline, with a point at an end beyond which there are speeds. */
+static void add_color_key(cairo_t *cairo, const fg__page *page)
+{
+  const fg__box *key = &page->color_key;
+  bool upright = page->color_key_upright;
+  const double *point = page->color_key_point;
+  double middle = upright ? 0.5 * (key->x0 + key->x1) : 0.5 * (key->y0 + key->y1);
+  cairo_move_to(cairo, key->x0, key->y0);
+  if (upright && point[1] > 0.0)
+    cairo_line_to(cairo, middle, key->y0 - point[1]);
+  cairo_line_to(cairo, key->x1, key->y0);
+  if (!upright && point[1] > 0.0)
+    cairo_line_to(cairo, key->x1 + point[1], middle);
+  cairo_line_to(cairo, key->x1, key->y1);
+  if (upright && point[0] > 0.0)
+    cairo_line_to(cairo, middle, key->y1 + point[0]);
+  cairo_line_to(cairo, key->x0, key->y1);
+  if (!upright && point[0] > 0.0)
+    cairo_line_to(cairo, key->x0 - point[0], middle);
+  cairo_close_path(cairo);
+}
+
+static void draw_color_key(cairo_t *cairo, const fg__page *page,
+                           const fg__palette *palette)
+{
+  const fg__box *key = &page->color_key;
+  cairo_pattern_t *ramp = page->color_key_upright
+                              ? cairo_pattern_create_linear(0.0, key->y1, 0.0, key->y0)
+                              : cairo_pattern_create_linear(key->x0, 0.0, key->x1, 0.0);
+  for (int k = 0; k < FG__PALETTE_SAMPLES; ++k) {
+    fg__color color = palette->sample[k];
+    cairo_pattern_add_color_stop_rgb(ramp, (double)k / (FG__PALETTE_SAMPLES - 1),
+                                     color.red, color.green, color.blue);
+  }
+  add_color_key(cairo, page);
+  cairo_set_source(cairo, ramp);
+  cairo_fill_preserve(cairo);
+  cairo_pattern_destroy(ramp);
+  cairo_set_line_width(cairo, frame_width);
+  set_color(cairo, ink);
+  cairo_stroke(cairo);
+}
+
+static void draw_lines(cairo_t *cairo, const fg__page *page)
+{
+  cairo_set_line_width(cairo, frame_width);
+  set_color(cairo, ink);
+  if (page->framed)
+    add_box(cairo, &page->frame);
+  for (int k = 0; k < page->line_count; ++k) {
+    cairo_move_to(cairo, page->line[k].x0, page->line[k].y0);
+    cairo_line_to(cairo, page->line[k].x1, page->line[k].y1);
+  }
+  cairo_stroke(cairo);
+}
+
+static void draw_texts(cairo_t *cairo, const fg__page *page)
+{
+  for (int k = 0; k < page->text_count; ++k) {
+    const fg__page_text *text = &page->text[k];
+    set_color(cairo, text->quiet ? quiet_ink : ink);
+    cairo_save(cairo);
+    cairo_translate(cairo, text->x, text->y);
+    if (text->upwards)
+      cairo_rotate(cairo, -0.5 * acos(-1.0));
+    cairo_move_to(cairo, 0.0, 0.0);
+    fg__text_draw(cairo, text->text, text->size, text->bold);
+    cairo_restore(cairo);
+  }
+}
+
+void fg__draw_key(cairo_t *cairo, const fg__page *page, const fg__palette *palette)
+{
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
+  if (page->has_color_key)
+    draw_color_key(cairo, page, palette);
+  draw_lines(cairo, page);
+  draw_texts(cairo, page);
+}
+
+void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
+              const fg__palette *palette, const fg__style *style)
+{
+  if (!style->transparent) {
+    cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+    cairo_paint(cairo); /* pixels that reach past the page's edge, too */
+  }
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+  cairo_save(cairo);
+  add_box(cairo, &page->frame);
+  cairo_clip(cairo);
+  if (style->background)
+    draw_background(cairo, &style->background_box, style->background);
+  draw_areas(cairo, scene, style);
+  draw_arrows(cairo, scene, style->background != NULL);
+  draw_skeletons(cairo, scene);
+  cairo_restore(cairo);
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
+  if (page->has_color_key)
+    draw_color_key(cairo, page, palette);
+  draw_lines(cairo, page);
+  if (page->has_size_key && scene->reference.count) {
+    fg__draw_path(cairo, &scene->reference);
+    set_color(cairo, quiet_ink);
+    cairo_fill(cairo);
+  }
+  draw_texts(cairo, page);
+}

@@ -1,0 +1,30 @@
+/* Puts a page and its scene on a Cairo surface. */
+#ifndef FG__DRAW_H
+#define FG__DRAW_H
+
+#include "picture/page/scene.h"
+
+typedef struct fg__style {
+  fg__color mask, tint;
+  bool transparent;
+  cairo_surface_t *background; /* NULL: none */
+  fg__box background_box;      /* of the domain, which may be wider than the frame */
+} fg__style;
+
+/* A light grey. */
+extern const fg__color fg__usual_mask;
+
+/* What is masked, with its coast. */
+void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color);
+
+/* Adds polygons to the path. */
+void fg__draw_path(cairo_t *cairo, const fg__polygons *polygons);
+
+/* The bar of a page's colour key, its ticks and all texts of the page. */
+void fg__draw_key(cairo_t *cairo, const fg__page *page, const fg__palette *palette);
+
+/* Draws in points; what went wrong is in the context's status. */
+void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
+              const fg__palette *palette, const fg__style *style);
+
+#endif

@@ -1,0 +1,110 @@
+/* A page: where the frame, the ticks, the keys and the caption lie, found from measured
+ * texts before anything is drawn. */
+#ifndef FG__PAGE_H
+#define FG__PAGE_H
+
+#include "picture/caption.h"
+#include "picture/page/text.h"
+#include "picture/ticks.h"
+
+/* Points of 1/72 inch from the page's upper left corner, y downwards. */
+typedef struct fg__box {
+  double x0, y0, x1, y1;
+} fg__box;
+
+enum {
+  FG__CAPTION_LINES = 4,
+  FG__PAGE_TEXT_BYTES = FG__CAPTION_BYTES,
+  /* ticks of two axes and of the colour key, their labels, the caption, the size key */
+  FG__PAGE_TEXTS = 3 * FG__TICK_LIMIT + FG__CAPTION_LINES + 8,
+  FG__PAGE_LINES = 3 * FG__TICK_LIMIT
+};
+
+typedef struct fg__page_text {
+  char text[FG__PAGE_TEXT_BYTES];
+  double size;
+  bool bold, quiet;
+  bool upwards; /* reads from below to above */
+  double x, y;  /* where its baseline begins */
+  fg__box box;
+} fg__page_text;
+
+typedef struct fg__page_line {
+  double x0, y0, x1, y1;
+} fg__page_line;
+
+typedef struct fg__page {
+  double width, height;
+  double font_size;
+  fg__box frame;
+  double scale; /* points a coordinate unit */
+  bool framed;
+  fg__page_text text[FG__PAGE_TEXTS];
+  int text_count;
+  fg__page_line line[FG__PAGE_LINES];
+  int line_count;
+  bool has_color_key, color_key_upright;
+  fg__box color_key;
+  double color_key_point[2]; /* length of the points at its ends, for speeds beyond */
+  bool has_size_key;
+  double size_key[2];     /* where its arrow's tail is */
+  double size_key_length; /* points */
+} fg__page;
+
+/* What a page shall hold. */
+typedef struct fg__page_plan {
+  double width;     /* points; 0: 480 at most, less for a tall domain */
+  double height;    /* points; 0: follows */
+  double font_size; /* points; 0: follows from the page's size */
+  bool no_frame;    /* the domain's box, nothing else */
+  fg__axis axis[2];
+  char title[FG__PAGE_TEXT_BYTES];    /* "" none */
+  char subtitle[FG__PAGE_TEXT_BYTES]; /* "" none */
+  bool color_key;
+  fg__axis speed;        /* with the ends of the colour key */
+  bool speeds_beyond[2]; /* some arrows are slower or faster than these ends */
+  bool size_key;
+  double arrow_length; /* of a typical arrow, coordinates */
+} fg__page_plan;
+
+/* Lays out a page. What would leave the domain too little room is left out, the least
+ * needed first; no two texts touch, and none leaves the page. `ruler` measures. */
+void fg__page_layout(fg__page *out, const fg__page_plan *plan, cairo_t *ruler);
+
+typedef enum fg__align { FG__ALIGN_START, FG__ALIGN_MIDDLE, FG__ALIGN_END } fg__align;
+
+/* Room round the frame, points. */
+typedef struct fg__margins {
+  double left, right, top, bottom;
+} fg__margins;
+
+/* page_items.c. The next of the texts, of the usual size and nowhere yet; NULL when there
+ * are too many. */
+fg__page_text *fg__page_next_text(fg__page *page, const char *text);
+
+/* Adds a text with its baseline at y, aligned at x. Returns its width. */
+double fg__page_add_text(fg__page *page, cairo_t *ruler, const char *text, double x,
+                         double y, fg__align align);
+/* The same, reading upwards: the baseline is the vertical line at x, the text's middle at
+ * y. */
+double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *text,
+                                 double x, double y);
+void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y1);
+
+/* Ticks of an axis of `length` points whose labels keep a distance. */
+void fg__page_choose_ticks(fg__ticks *out, const fg__axis *axis, cairo_t *ruler,
+                           double length, double font_size, bool upright);
+
+/* Which parts a page has. */
+typedef struct fg__page_parts {
+  bool axes, axis_labels, color_key, size_key, caption;
+  bool keys_below;
+} fg__page_parts;
+
+/* Both add to the page what lies round page->frame and report the room that takes. */
+void fg__page_place_axes(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                         const fg__page_parts *parts, cairo_t *ruler);
+void fg__page_place_keys(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                         const fg__page_parts *parts, cairo_t *ruler);
+
+#endif

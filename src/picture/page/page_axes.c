@@ -1,0 +1,151 @@
+#include "picture/page/page.h"
+
+#include <math.h>
+
+/* In units of the font size: a tick's length; from its end to its label; between texts
+ * side by side; from the middle of a digit to its baseline. */
+static const double tick_length = 0.35;
+static const double label_gap = 0.3;
+static const double word_gap = 0.8;
+static const double half_digit = 0.36;
+
+/* Distance of ticks in units of the font size that reads easily; what short axes with
+ * fewer than FEW_TICKS ticks may go down to; and the most ticks. */
+static const double usual_spacing = 5.0;
+static const double usual_spacing_upright = 4.2;
+static const double least_spacing_upright = 2.6;
+enum { USUAL_TICKS = 12, FEW_TICKS = 4, TRIES = 16 };
+
+static bool labels_fit(const fg__ticks *ticks, const fg__axis *axis, cairo_t *ruler,
+                       double length, double font_size, bool upright)
+{
+  double points = length / (axis->high - axis->low);
+  double line = (FG__TEXT_ASCENT + FG__TEXT_DESCENT) * font_size;
+  double end = -HUGE_VAL;
+  for (int k = 0; k < ticks->count; ++k) {
+    double middle = points * (ticks->position[k] - axis->low);
+    double size =
+        upright ? line : fg__text_width(ruler, ticks->text[k], font_size, false);
+    double gap = upright ? 0.1 * font_size : word_gap * font_size;
+    if (middle - 0.5 * size < end + gap)
+      return false;
+    end = middle + 0.5 * size;
+  }
+  return true;
+}
+
+void fg__page_choose_ticks(fg__ticks *out, const fg__axis *axis, cairo_t *ruler,
+                           double length, double font_size, bool upright)
+{
+  double range = axis->high - axis->low;
+  double spacing = (upright ? usual_spacing_upright : usual_spacing) * font_size;
+  double step = fg__ticks_step(axis, fmax(range * spacing / length, range / USUAL_TICKS));
+  for (int k = 0; k < TRIES; ++k) {
+    fg__ticks_fill(out, axis, step);
+    if (labels_fit(out, axis, ruler, length, font_size, upright))
+      break;
+    step = fg__ticks_step(axis, 1.05 * step);
+    out->count = 0;
+  }
+  for (int k = 0; k < TRIES && out->count < FEW_TICKS; ++k) {
+    fg__ticks finer;
+    step = fg__ticks_step_below(axis, step);
+    bool close = upright && step * length < least_spacing_upright * font_size * range;
+    fg__ticks_fill(&finer, axis, step);
+    if ((close && out->count >= 2) ||
+        !labels_fit(&finer, axis, ruler, length, font_size, upright))
+      break;
+    *out = finer;
+  }
+}
+
+static void place_x(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                    cairo_t *ruler)
+{
+  const double em = page->font_size;
+  const fg__box *frame = &page->frame;
+  fg__ticks ticks;
+  fg__page_choose_ticks(&ticks, &plan->axis[0], ruler, frame->x1 - frame->x0, em, false);
+  double baseline = frame->y1 + (tick_length + label_gap + FG__TEXT_ASCENT) * em;
+  for (int k = 0; k < ticks.count; ++k) {
+    double x = frame->x0 + page->scale * (ticks.position[k] - plan->axis[0].low);
+    fg__page_add_line(page, x, frame->y1, x, frame->y1 + tick_length * em);
+    double width =
+        fg__page_add_text(page, ruler, ticks.text[k], x, baseline, FG__ALIGN_MIDDLE);
+    room->left = fmax(room->left, frame->x0 - x + 0.5 * width);
+    room->right = fmax(room->right, x + 0.5 * width - frame->x1);
+  }
+  if (ticks.count)
+    room->bottom = baseline + FG__TEXT_DESCENT * em - frame->y1;
+}
+
+static void place_y(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                    cairo_t *ruler)
+{
+  const double em = page->font_size;
+  const fg__box *frame = &page->frame;
+  fg__ticks ticks;
+  fg__page_choose_ticks(&ticks, &plan->axis[1], ruler, frame->y1 - frame->y0, em, true);
+  for (int k = 0; k < ticks.count; ++k) {
+    double y = frame->y1 - page->scale * (ticks.position[k] - plan->axis[1].low);
+    fg__page_add_line(page, frame->x0 - tick_length * em, y, frame->x0, y);
+    double x = frame->x0 - (tick_length + label_gap) * em;
+    double baseline = y + half_digit * em;
+    double width =
+        fg__page_add_text(page, ruler, ticks.text[k], x, baseline, FG__ALIGN_END);
+    room->left = fmax(room->left, frame->x0 - x + width);
+    room->top = fmax(room->top, frame->y0 - baseline + FG__TEXT_ASCENT * em);
+    room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - frame->y1);
+  }
+}
+
+static void place_x_label(fg__page *page, fg__margins *room, const char *label,
+                          cairo_t *ruler)
+{
+  const double em = page->font_size;
+  const fg__box *frame = &page->frame;
+  double middle = 0.5 * (frame->x0 + frame->x1);
+  double baseline = frame->y1 + room->bottom + (0.15 + FG__TEXT_ASCENT) * em;
+  double width =
+      fg__page_add_text(page, ruler, label, middle, baseline, FG__ALIGN_MIDDLE);
+  room->bottom = baseline + FG__TEXT_DESCENT * em - frame->y1;
+  room->left = fmax(room->left, frame->x0 - middle + 0.5 * width);
+  room->right = fmax(room->right, middle + 0.5 * width - frame->x1);
+}
+
+/* Upwards beside the tick labels; a label of a letter or two, or one that is longer than
+ * the frame is high, stays level. */
+static void place_y_label(fg__page *page, fg__margins *room, const char *label,
+                          cairo_t *ruler)
+{
+  const double em = page->font_size;
+  const fg__box *frame = &page->frame;
+  double middle = 0.5 * (frame->y0 + frame->y1);
+  double width = fg__text_width(ruler, label, em, false);
+  if (width <= 2.0 * em || width > frame->y1 - frame->y0) {
+    double x = frame->x0 - room->left - 0.6 * em;
+    double baseline = middle + half_digit * em;
+    fg__page_add_text(page, ruler, label, x, baseline, FG__ALIGN_END);
+    room->left = frame->x0 - x + width;
+    room->top = fmax(room->top, frame->y0 - baseline + FG__TEXT_ASCENT * em);
+    room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - frame->y1);
+    return;
+  }
+  double x = frame->x0 - room->left - (0.3 + FG__TEXT_DESCENT) * em;
+  fg__page_add_text_upwards(page, ruler, label, x, middle);
+  room->left = frame->x0 - x + FG__TEXT_ASCENT * em;
+}
+
+void fg__page_place_axes(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                         const fg__page_parts *parts, cairo_t *ruler)
+{
+  place_x(page, room, plan, ruler);
+  place_y(page, room, plan, ruler);
+  room->bottom = fmax(room->bottom, 0.0);
+  if (!parts->axis_labels)
+    return;
+  if (plan->axis[1].label[0])
+    place_y_label(page, room, plan->axis[1].label, ruler);
+  if (plan->axis[0].label[0])
+    place_x_label(page, room, plan->axis[0].label, ruler);
+}

@@ -1,0 +1,245 @@
+#include "picture/page/page.h"
+
+#include <math.h>
+#include <string.h>
+
+/* In units of the font size. */
+static const double bar_thickness = 0.85;
+static const double tick_length = 0.3;
+static const double label_gap = 0.3;
+static const double half_digit = 0.36;
+static const double line_height = 1.25;
+static const double key_gap = 1.4;      /* between the frame's labels and a key */
+static const double shortest_bar = 6.0; /* two ticks and their labels */
+static const double longest_bar = 36.0; /* longer ones only draw the eye */
+static const double widest_arrow = 7.0;
+static const double shortest_arrow = 0.8;
+
+/* What the size of an arrow stands for: the cluster that it was made from. */
+static const char size_words[] = "region length";
+
+/* The reference arrow: a nice length near that of a typical arrow, as far as there is
+ * room. Returns its length in coordinates, 0 when it would be too short to see. */
+static double reference_length(const fg__page *page, const fg__page_plan *plan)
+{
+  const double em = page->font_size;
+  double most = widest_arrow * em / page->scale;
+  /* nice lengths are at most a factor 2.5 apart: from 0.65 to 1.6 of the typical */
+  double length =
+      fg__ticks_step(&plan->axis[0], 0.65 * fmin(plan->arrow_length, most / 1.6));
+  return length * page->scale >= shortest_arrow * em ? length : 0.0;
+}
+
+typedef struct size_key {
+  double length; /* points */
+  char text[FG__AXIS_BYTES];
+  double width; /* of the whole key */
+} size_key;
+
+static bool measure_size_key(size_key *out, const fg__page *page,
+                             const fg__page_plan *plan, cairo_t *ruler)
+{
+  double length = reference_length(page, plan);
+  if (!(length > 0.0))
+    return false;
+  out->length = length * page->scale;
+  fg__axis_write_length(out->text, &plan->axis[0], length);
+  double text = fg__text_width(ruler, out->text, page->font_size, false);
+  double words = fg__text_width(ruler, size_words, page->font_size, false);
+  out->width = fmax(out->length, fmax(text, words));
+  return true;
+}
+
+static void make_quiet(fg__page *page)
+{
+  page->text[page->text_count - 1].quiet = true;
+}
+
+/* The speed's name and unit; where that is too long for the bar its unit; or nothing. */
+static const char *color_label(const fg__page_plan *plan, cairo_t *ruler,
+                               double font_size, double length)
+{
+  const char *choice[] = {plan->speed.label, plan->speed.units};
+  for (int k = 0; k < 2; ++k)
+    if (fg__text_width(ruler, choice[k], font_size, false) <= length)
+      return choice[k];
+  return "";
+}
+
+/* An end beyond which there are speeds is a point; the bar is that much shorter. */
+static void add_points(fg__page *page, const fg__page_plan *plan, double *start,
+                       double *end)
+{
+  for (int k = 0; k < 2; ++k)
+    page->color_key_point[k] =
+        plan->speeds_beyond[k] ? bar_thickness * page->font_size : 0.0;
+  *start += page->color_key_point[0];
+  *end -= page->color_key_point[1];
+}
+
+static void bar_below(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                      cairo_t *ruler, double x0, double y0, double length)
+{
+  const double em = page->font_size;
+  const fg__axis *speed = &plan->speed;
+  page->has_color_key = true;
+  page->color_key_upright = false;
+  double x1 = x0 + length;
+  add_points(page, plan, &x0, &x1);
+  length = x1 - x0;
+  page->color_key = (fg__box){x0, y0, x1, y0 + bar_thickness * em};
+  fg__ticks ticks;
+  fg__page_choose_ticks(&ticks, speed, ruler, length, em, false);
+  double y1 = page->color_key.y1;
+  double baseline = y1 + (tick_length + label_gap + FG__TEXT_ASCENT) * em;
+  for (int k = 0; k < ticks.count; ++k) {
+    double share = (ticks.position[k] - speed->low) / (speed->high - speed->low);
+    double x = x0 + share * length;
+    fg__page_add_line(page, x, y1, x, y1 + tick_length * em);
+    double width =
+        fg__page_add_text(page, ruler, ticks.text[k], x, baseline, FG__ALIGN_MIDDLE);
+    room->left = fmax(room->left, page->frame.x0 - x + 0.5 * width);
+    room->right = fmax(room->right, x + 0.5 * width - page->frame.x1);
+  }
+  const char *label = color_label(plan, ruler, em, length);
+  if (label[0]) {
+    baseline += line_height * em;
+    fg__page_add_text(page, ruler, label, x0 + 0.5 * length, baseline, FG__ALIGN_MIDDLE);
+  }
+  room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
+}
+
+static void size_below(fg__page *page, fg__margins *room, const size_key *key,
+                       cairo_t *ruler, double middle, double y0)
+{
+  const double em = page->font_size;
+  page->has_size_key = true;
+  page->size_key[0] = middle - 0.5 * key->length;
+  page->size_key[1] = y0 + 0.5 * bar_thickness * em;
+  page->size_key_length = key->length;
+  double baseline = y0 + (bar_thickness + tick_length + label_gap + FG__TEXT_ASCENT) * em;
+  fg__page_add_text(page, ruler, key->text, middle, baseline, FG__ALIGN_MIDDLE);
+  baseline += line_height * em;
+  fg__page_add_text(page, ruler, size_words, middle, baseline, FG__ALIGN_MIDDLE);
+  make_quiet(page);
+  room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
+}
+
+/* One row under the frame: the bar at its left end, the reference arrow at its right. */
+static void place_below(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                        const fg__page_parts *parts, cairo_t *ruler)
+{
+  const double em = page->font_size;
+  const fg__box *frame = &page->frame;
+  double y0 = frame->y1 + room->bottom + 0.7 * em;
+  double wide = frame->x1 - frame->x0;
+  size_key key;
+  bool has_size = parts->size_key && measure_size_key(&key, page, plan, ruler);
+  double length = fmin(wide, longest_bar * em);
+  if (has_size && parts->color_key)
+    length = fmin(wide - key.width - 3.0 * em, longest_bar * em);
+  if (has_size && parts->color_key && length < shortest_bar * em) {
+    has_size = false;
+    length = fmin(wide, longest_bar * em);
+  }
+  if (has_size) {
+    double middle = frame->x1 - 0.5 * key.width;
+    size_below(page, room, &key, ruler, middle, y0);
+    room->left = fmax(room->left, frame->x0 - middle + 0.5 * key.width);
+  }
+  if (parts->color_key && length >= shortest_bar * em)
+    bar_below(page, room, plan, ruler, frame->x0, y0, length);
+}
+
+static double bar_beside(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                         cairo_t *ruler, double x0, double y0, double y1)
+{
+  const double em = page->font_size;
+  const fg__axis *speed = &plan->speed;
+  page->has_color_key = true;
+  page->color_key_upright = true;
+  double above = -y0, below = -y1;
+  add_points(page, plan, &below, &above);
+  y0 = -above;
+  y1 = -below;
+  page->color_key = (fg__box){x0, y0, x0 + bar_thickness * em, y1};
+  fg__ticks ticks;
+  fg__page_choose_ticks(&ticks, speed, ruler, y1 - y0, em, true);
+  double right = page->color_key.x1;
+  double end = right;
+  for (int k = 0; k < ticks.count; ++k) {
+    double share = (ticks.position[k] - speed->low) / (speed->high - speed->low);
+    double y = y1 - share * (y1 - y0);
+    fg__page_add_line(page, right, y, right + tick_length * em, y);
+    double x = right + (tick_length + label_gap) * em;
+    double baseline = y + half_digit * em;
+    double width =
+        fg__page_add_text(page, ruler, ticks.text[k], x, baseline, FG__ALIGN_START);
+    end = fmax(end, x + width);
+    room->top = fmax(room->top, page->frame.y0 - baseline + FG__TEXT_ASCENT * em);
+    room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
+  }
+  const char *label = color_label(plan, ruler, em, y1 - y0);
+  if (label[0]) {
+    double x = end + (0.35 + FG__TEXT_ASCENT) * em;
+    fg__page_add_text_upwards(page, ruler, label, x, 0.5 * (y0 + y1));
+    end = x + FG__TEXT_DESCENT * em;
+  }
+  return end;
+}
+
+/* Arrow and words in a column whose lower end is at y1. */
+static void size_beside(fg__page *page, const size_key *key, cairo_t *ruler, double x0,
+                        double y1)
+{
+  const double em = page->font_size;
+  page->has_size_key = true;
+  double baseline = y1 - FG__TEXT_DESCENT * em;
+  fg__page_add_text(page, ruler, size_words, x0, baseline, FG__ALIGN_START);
+  make_quiet(page);
+  baseline -= line_height * em;
+  fg__page_add_text(page, ruler, key->text, x0, baseline, FG__ALIGN_START);
+  page->size_key[0] = x0;
+  page->size_key[1] = baseline - (FG__TEXT_ASCENT + 0.6) * em;
+  page->size_key_length = key->length;
+}
+
+/* A column to the right of the frame: the bar from its top, the reference arrow at its
+ * lower end. */
+static void place_beside(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                         const fg__page_parts *parts, cairo_t *ruler)
+{
+  const double em = page->font_size;
+  const fg__box *frame = &page->frame;
+  const double size_height = 5.6 * em; /* arrow, two lines, and the gap above them */
+  double x0 = frame->x1 + fmax(room->right + 0.5 * em, key_gap * em);
+  double high = frame->y1 - frame->y0;
+  double end = x0;
+  size_key key;
+  bool has_size =
+      parts->size_key && high >= size_height && measure_size_key(&key, page, plan, ruler);
+  if (has_size && parts->color_key && high - size_height < shortest_bar * em)
+    has_size = false;
+  if (has_size) {
+    size_beside(page, &key, ruler, x0, frame->y1);
+    end = x0 + key.width;
+  }
+  double y1 = has_size ? frame->y1 - size_height : frame->y1;
+  double y0 = fmax(frame->y0, y1 - longest_bar * em);
+  if (has_size)
+    y0 = frame->y0;
+  y1 = fmin(y1, y0 + longest_bar * em);
+  if (parts->color_key && y1 - y0 >= shortest_bar * em)
+    end = fmax(end, bar_beside(page, room, plan, ruler, x0, y0, y1));
+  if (end > x0)
+    room->right = end - frame->x1;
+}
+
+void fg__page_place_keys(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                         const fg__page_parts *parts, cairo_t *ruler)
+{
+  if (parts->keys_below)
+    place_below(page, room, plan, parts, ruler);
+  else
+    place_beside(page, room, plan, parts, ruler);
+}

@@ -1,0 +1,275 @@
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/context_test.h"
+#include "picture/page/page.h"
+
+static bool boxes_meet(const fg__box *a, const fg__box *b)
+{
+  return a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1;
+}
+
+static fg__box size_key_box(const fg__page *page)
+{
+  return (fg__box){page->size_key[0], page->size_key[1] - 1.0,
+                   page->size_key[0] + page->size_key_length, page->size_key[1] + 1.0};
+}
+
+/* With the points at its ends. */
+static fg__box color_key_box(const fg__page *page)
+{
+  fg__box box = page->color_key;
+  if (page->color_key_upright) {
+    box.y1 += page->color_key_point[0];
+    box.y0 -= page->color_key_point[1];
+  } else {
+    box.x0 -= page->color_key_point[0];
+    box.x1 += page->color_key_point[1];
+  }
+  return box;
+}
+
+static void check_inside(const fg__page *page, const fg__box *box)
+{
+  const double slack = 1e-6 * (page->width + page->height);
+  assert_true(box->x0 >= -slack && box->y0 >= -slack);
+  assert_true(box->x1 <= page->width + slack && box->y1 <= page->height + slack);
+}
+
+/* No two things on the page touch; all lie on it; one unit is as long along x and y. */
+static void check_page(const fg__page *page, const fg__page_plan *plan)
+{
+  fg__box things[FG__PAGE_TEXTS + 3];
+  int count = 0;
+  for (int k = 0; k < page->text_count; ++k)
+    things[count++] = page->text[k].box;
+  things[count++] = page->frame;
+  if (page->has_color_key)
+    things[count++] = color_key_box(page);
+  if (page->has_size_key)
+    things[count++] = size_key_box(page);
+  for (int a = 0; a < count; ++a) {
+    check_inside(page, &things[a]);
+    for (int b = 0; b < a; ++b) {
+      if (boxes_meet(&things[a], &things[b]))
+        print_error("page %g x %g: %s meets %s\n", page->width, page->height,
+                    a < page->text_count ? page->text[a].text : "a box",
+                    b < page->text_count ? page->text[b].text : "a box");
+      assert_false(boxes_meet(&things[a], &things[b]));
+    }
+  }
+  double wide = page->frame.x1 - page->frame.x0, high = page->frame.y1 - page->frame.y0;
+  double x = plan->axis[0].high - plan->axis[0].low;
+  double y = plan->axis[1].high - plan->axis[1].low;
+  assert_true(page->scale > 0.0);
+  assert_true(fabs(wide / x / page->scale - 1.0) < 1e-6);
+  assert_true(fabs(high / y / page->scale - 1.0) < 1e-6);
+}
+
+static const char *const titles[] = {
+    "", "Wind", "Monthly mean of the sea surface wind over the oceans, from ships",
+    ("An even longer title, which says where the data come from, who measured them with "
+     "which instrument, and when, and which hence has no room on two lines of a page"),
+    "Donaudampfschifffahrtselektrizitaetenhauptbetriebswerkbauunterbeamtengesellschaft"};
+
+static fg__page_plan plan_of(double width, double height, double x, double y, int style,
+                             const char *title)
+{
+  fg__page_plan plan = {.width = width, .height = height};
+  if (style == 0) {
+    fg__axis_of_degrees(&plan.axis[0], 21.3, 21.3 + x, FG__TICKS_LONGITUDE);
+    fg__axis_of_degrees(&plan.axis[1], -0.45 * y, 0.55 * y, FG__TICKS_LATITUDE);
+  } else {
+    const char *units = style == 1 ? "m" : "";
+    double larger = fmax(x, y);
+    fg__axis_of_numbers(&plan.axis[0], 5e5, 5e5 + x, larger, "projection_x", units);
+    fg__axis_of_numbers(&plan.axis[1], 0.1 * y, 1.1 * y, larger, "y", units);
+  }
+  fg__axis_of_numbers(&plan.speed, 0.0, 13.7, 13.7, "mean speed", "m s-1");
+  plan.color_key = plan.size_key = true;
+  plan.speeds_beyond[0] = style == 1;
+  plan.speeds_beyond[1] = style > 0;
+  plan.arrow_length = 0.13 * sqrt(x * y);
+  snprintf(plan.title, sizeof plan.title, "%s", title);
+  snprintf(plan.subtitle, sizeof plan.subtitle, "%s",
+           title[0] ? "UWND, VWND \xC2\xB7 January 1996 \xC2\xB7 150 arrows" : "");
+  return plan;
+}
+
+static void nothing_collides_on_any_page(void **state)
+{
+  (void)state;
+  static const double widths[] = {0, 20, 60, 110, 170, 252, 480, 700, 1600, 20000};
+  static const double heights[] = {0, 30, 90, 200, 500, 1500, 20000};
+  static const double shapes[][2] = {{360, 180}, {1, 1},    {20, 1}, {1, 20},
+                                     {1000, 1},  {1, 1000}, {3, 4},  {1.6, 1}};
+  cairo_t *ruler = fg__text_ruler();
+  fg__page *page = malloc(sizeof *page);
+  assert_non_null(page);
+  int pages = 0, complete = 0;
+  for (size_t w = 0; w < sizeof widths / sizeof *widths; ++w)
+    for (size_t h = 0; h < sizeof heights / sizeof *heights; ++h)
+      for (size_t s = 0; s < sizeof shapes / sizeof *shapes; ++s)
+        for (int style = 0; style < 3; ++style) {
+          const char *title = titles[(w + h + s + (size_t)style) % 5];
+          double unit = style == 1 ? 1e5 : style == 2 ? 1e-4 : 1.0;
+          double x = unit * shapes[s][0], y = unit * shapes[s][1];
+          if (style == 0 && (x > 360 || y > 180))
+            continue;
+          fg__page_plan plan = plan_of(widths[w], heights[h], x, y, style, title);
+          fg__page_layout(page, &plan, ruler);
+          check_page(page, &plan);
+          if (widths[w] > 0.0)
+            assert_true(page->width == widths[w]);
+          if (heights[h] > 0.0)
+            assert_true(page->height == heights[h]);
+          ++pages;
+          complete += page->has_color_key && page->has_size_key;
+        }
+  assert_true(complete > pages / 4);
+  assert_int_equal(cairo_status(ruler), CAIRO_STATUS_SUCCESS);
+  free(page);
+  cairo_destroy(ruler);
+}
+
+static fg__page *lay_out(const fg__page_plan *plan)
+{
+  cairo_t *ruler = fg__text_ruler();
+  fg__page *page = malloc(sizeof *page);
+  assert_non_null(page);
+  fg__page_layout(page, plan, ruler);
+  cairo_destroy(ruler);
+  return page;
+}
+
+static bool has_text(const fg__page *page, const char *text)
+{
+  for (int k = 0; k < page->text_count; ++k)
+    if (strcmp(page->text[k].text, text) == 0)
+      return true;
+  return false;
+}
+
+static void a_usual_page_has_everything(void **state)
+{
+  (void)state;
+  static const double shapes[][2] = {{360, 170}, {40, 40}, {30, 50}};
+  for (int s = 0; s < 3; ++s) {
+    fg__page_plan plan = plan_of(0, 0, shapes[s][0], shapes[s][1], 0, "Wind");
+    fg__page *page = lay_out(&plan);
+    assert_true(page->has_color_key && page->has_size_key);
+    assert_true(page->color_key_upright == (s > 0));
+    assert_true(has_text(page, "Wind") && has_text(page, plan.speed.label));
+    assert_true(has_text(page, "0\xC2\xB0"));
+    assert_true(page->line_count >= 9);
+    assert_true(page->frame.x1 - page->frame.x0 > 0.55 * page->width);
+    free(page);
+  }
+}
+
+static double longer_side(const fg__box *box)
+{
+  return fmax(box->x1 - box->x0, box->y1 - box->y0);
+}
+
+/* Only an end beyond which there are speeds has a point, in the room of a plain bar. */
+static void a_key_points_at_speeds_beyond(void **state)
+{
+  (void)state;
+  for (int s = 0; s < 2; ++s)
+    for (int ends = 1; ends < 4; ++ends) {
+      fg__page_plan plan = plan_of(0, 0, s ? 40 : 360, 90, 0, "Wind");
+      fg__page *plain = lay_out(&plan);
+      plan.speeds_beyond[0] = ends & 1;
+      plan.speeds_beyond[1] = ends & 2;
+      fg__page *pointed = lay_out(&plan);
+      assert_true(plain->has_color_key && pointed->has_color_key);
+      fg__box without = color_key_box(plain), with = color_key_box(pointed);
+      assert_true(fabs(longer_side(&with) - longer_side(&without)) < 1e-9);
+      assert_true(longer_side(&pointed->color_key) < longer_side(&without) - 1.0);
+      for (int k = 0; k < 2; ++k) {
+        assert_true(plain->color_key_point[k] == 0.0);
+        assert_true((pointed->color_key_point[k] > 1.0) == plan.speeds_beyond[k]);
+      }
+      free(plain);
+      free(pointed);
+    }
+}
+
+static void ticks_mark_their_coordinates(void **state)
+{
+  (void)state;
+  fg__page_plan plan = plan_of(480, 0, 80, 60, 0, "");
+  fg__page *page = lay_out(&plan);
+  int found = 0;
+  for (int k = 0; k < page->text_count; ++k) {
+    double degrees = atof(page->text[k].text);
+    size_t digits = strspn(page->text[k].text, "0123456789");
+    const char *side = page->text[k].text + digits;
+    const fg__box *box = &page->text[k].box;
+    if (strcmp(side, "\xC2\xB0"
+                     "E") == 0) {
+      double x = page->frame.x0 + page->scale * (degrees - plan.axis[0].low);
+      assert_true(fabs(0.5 * (box->x0 + box->x1) - x) < 0.01);
+      ++found;
+    } else if (strcmp(side, "\xC2\xB0"
+                            "S") == 0) {
+      double y = page->frame.y1 - page->scale * (-degrees - plan.axis[1].low);
+      assert_true(box->y0 < y && y < box->y1);
+      ++found;
+    }
+  }
+  assert_true(found >= 5);
+  free(page);
+}
+
+static void the_reference_arrow_has_its_length(void **state)
+{
+  (void)state;
+  for (int s = 0; s < 2; ++s) {
+    fg__page_plan plan = plan_of(480, 0, s ? 41 : 360, 80, 0, "");
+    fg__page *page = lay_out(&plan);
+    assert_true(page->has_size_key);
+    double degrees = 0.0;
+    for (int k = 0; k < page->text_count; ++k) {
+      size_t digits = strspn(page->text[k].text, "0123456789.");
+      if (strcmp(page->text[k].text + digits, "\xC2\xB0") == 0 &&
+          page->text[k].box.y0 > page->size_key[1])
+        degrees = fmax(degrees, atof(page->text[k].text));
+    }
+    assert_true(fabs(page->size_key_length - degrees * page->scale) < 1e-6);
+    assert_true(degrees > 0.5 * plan.arrow_length && degrees < 2.0 * plan.arrow_length);
+    free(page);
+  }
+}
+
+static void no_frame_is_the_domain_alone(void **state)
+{
+  (void)state;
+  fg__page_plan plan = plan_of(300, 0, 25, 40, 0, "Wind");
+  plan.no_frame = true;
+  fg__page *page = lay_out(&plan);
+  assert_int_equal(page->text_count, 0);
+  assert_int_equal(page->line_count, 0);
+  assert_false(page->framed || page->has_color_key || page->has_size_key);
+  assert_true(fabs(page->height - 480.0) < 1e-9 && page->width == 300.0);
+  assert_true(page->frame.x0 == 0.0 && page->frame.y0 == 0.0);
+  assert_true(fabs(page->frame.x1 - 300.0) < 1e-9);
+  assert_true(fabs(page->frame.y1 - 480.0) < 1e-9);
+  free(page);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(nothing_collides_on_any_page),
+      cmocka_unit_test(a_usual_page_has_everything),
+      cmocka_unit_test(a_key_points_at_speeds_beyond),
+      cmocka_unit_test(ticks_mark_their_coordinates),
+      cmocka_unit_test(the_reference_arrow_has_its_length),
+      cmocka_unit_test(no_frame_is_the_domain_alone),
+  };
+  return cmocka_run_group_tests_name("picture/page/page", tests, NULL, NULL);
+}

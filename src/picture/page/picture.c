@@ -1,0 +1,308 @@
+#include "picture/page/draw.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "picture/caption.h"
+#include "picture/page/sheet.h"
+#include "picture/page/texture_image.h"
+
+/* A0 paper is 3370 points high; a page six times that is a mistake. */
+static const double largest_page = 20000.0;
+static const double usual_pixels_per_point = 2.0;
+
+/* Cairo's image surfaces end at 32767 pixels a side; 2^28 pixels take 1 GiB. */
+static const double most_pixels_a_side = 32767.0;
+static const double most_pixels = 268435456.0;
+
+static const fg__color usual_tint = {0.845, 0.895, 0.950};
+
+/* Of clusters that no arrows shall stand out from. */
+static const fg__color lone_tint = {0.56, 0.68, 0.83};
+
+/* A texture as it is outshines what is drawn on it; by eye, on winds and vortices.
+ * Stripes are black and white with little between: paler, they are not darker than land.
+ */
+static const double usual_fade = 0.7, stripes_fade = 0.85;
+static const double most_background = 16384.0;
+
+/* Where the frame shows a small part of the domain, the texture of all of it has at most
+ * so many pixels for each of the frame, so that it does not cost hundreds of pictures. */
+static const double background_beyond = 16.0;
+
+/* Checked so that NaN fails too. */
+static bool size_usable(double size)
+{
+  return size >= 0.0 && size <= largest_page;
+}
+
+static fg_status check_options(fg_context *context, const fg_picture_options *options)
+{
+  if (!size_usable(options->width) || !size_usable(options->height))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: %g x %g points, each must lie between 0 and %g",
+                    options->width, options->height, largest_page);
+  if (!(options->pixels_per_point >= 0.0) || !isfinite(options->pixels_per_point))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: %g pixels a point, a positive number is needed",
+                    options->pixels_per_point);
+  if (!(options->font_size >= 0.0) || options->font_size > largest_page)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: a font of %g points, it must lie between 0 and %g",
+                    options->font_size, largest_page);
+  if (!isfinite(options->speed_min) || !isfinite(options->speed_max) ||
+      options->speed_max < options->speed_min)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: the colour key cannot run from %g to %g",
+                    options->speed_min, options->speed_max);
+  if (!(options->background_fade >= 0.0 && options->background_fade <= 1.0))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: a background faded by %g, it must lie between 0 and 1",
+                    options->background_fade);
+  return FG_STATUS_OK;
+}
+
+static void describe_axes(fg__page_plan *plan, const fg_field_arrays *field,
+                          const double low[2], const double high[2])
+{
+  if (field->scale == FG_SCALE_GEO) {
+    fg__axis_of_degrees(&plan->axis[0], low[0], high[0], FG__TICKS_LONGITUDE);
+    fg__axis_of_degrees(&plan->axis[1], low[1], high[1], FG__TICKS_LATITUDE);
+    return;
+  }
+  bool shared = strcmp(field->axis_units[0], field->axis_units[1]) == 0;
+  double larger = fmax(high[0] - low[0], high[1] - low[1]);
+  for (int k = 0; k < 2; ++k)
+    fg__axis_of_numbers(&plan->axis[k], low[k], high[k],
+                        shared ? larger : high[k] - low[k], field->axis_name[k],
+                        field->axis_units[k]);
+}
+
+/* Everything that one picture is made from. */
+typedef struct picture {
+  fg__page_plan plan;
+  fg__page page;
+  fg__palette palette;
+  fg__style style;
+  fg__scene scene;
+  double low[2], high[2]; /* what the frame shows, in the field's coordinates */
+  double pixels_per_point;
+} picture;
+
+static fg_status plan_picture(picture *out, fg_context *context, const fg_field *whole,
+                              const fg_icons *icons, const fg_picture_options *options)
+{
+  const fg_field_arrays *field = fg_field_contents(whole);
+  double range[2];
+  fg__page_plan *plan = &out->plan;
+  plan->width = options->width;
+  plan->height = options->height;
+  plan->font_size = options->font_size;
+  plan->no_frame = options->no_frame;
+  range[0] = options->speed_min;
+  range[1] = options->speed_max;
+  bool has_speeds = fg__speed_range(range, icons);
+  fg__speeds_beyond(plan->speeds_beyond, icons, range);
+  bool keys = !options->no_keys && !options->no_arrows;
+  plan->color_key = has_speeds && !out->palette.uniform && keys;
+  fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0], "mean speed",
+                      field->velocity_units);
+  if (options->no_frame)
+    fg__scene_box(out->low, out->high, field);
+  else
+    fg__scene_shown(out->low, out->high, whole);
+  describe_axes(plan, field, out->low, out->high);
+  fg__caption_write(plan->title, plan->subtitle, field, options->no_arrows ? NULL : icons,
+                    options->title, options->scale_time);
+  fg__typical_icon typical;
+  fg_status status = fg__scene_typical_icon(&typical, context, icons);
+  if (status)
+    return status;
+  plan->size_key = typical.length > 0.0 && keys;
+  plan->arrow_length = typical.length;
+  return FG_STATUS_OK;
+}
+
+static fg_status lay_out(picture *out, fg_context *context)
+{
+  cairo_t *ruler = fg__text_ruler();
+  fg__page_layout(&out->page, &out->plan, ruler);
+  cairo_status_t trouble = cairo_status(ruler);
+  cairo_destroy(ruler);
+  if (trouble == CAIRO_STATUS_NO_MEMORY)
+    return fg__fail_memory(context, "a page's layout", sizeof out->page);
+  if (trouble)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED, "picture: no text can be drawn: %s",
+                    cairo_status_to_string(trouble));
+  if (!(out->page.width <= largest_page && out->page.height <= largest_page))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: the domain's shape needs a page of %g x %g points, at most "
+                    "%g are drawn",
+                    out->page.width, out->page.height, largest_page);
+  return FG_STATUS_OK;
+}
+
+static fg_status check_pixels(fg_context *context, const picture *p)
+{
+  double wide = ceil(p->page.width * p->pixels_per_point);
+  double high = ceil(p->page.height * p->pixels_per_point);
+  if (wide <= most_pixels_a_side && high <= most_pixels_a_side &&
+      wide * high <= most_pixels)
+    return FG_STATUS_OK;
+  return fg__fail(context, FG_STATUS_ARGUMENT,
+                  "picture: %g x %g pixels, at most %g a side and %g in all are drawn",
+                  wide, high, most_pixels_a_side, most_pixels);
+}
+
+static fg_status render(fg_context *context, const char *path, const picture *p)
+{
+  const fg__page *page = &p->page;
+  fg__sheet sheet;
+  fg_status status = fg__sheet_open(&sheet, context, path, page->width, page->height,
+                                    p->pixels_per_point, p->plan.title);
+  if (status)
+    return status;
+  fg__draw(sheet.cairo, page, &p->scene, &p->palette, &p->style);
+  return fg__sheet_close(&sheet, context, FG_STATUS_OK);
+}
+
+/* Where the page has, or would have, the whole domain. */
+static fg__box domain_box(const picture *p, const fg_field_arrays *field)
+{
+  double low[2], high[2];
+  const fg__page *page = &p->page;
+  fg__scene_box(low, high, field);
+  return (fg__box){page->frame.x0 + page->scale * (low[0] - p->low[0]),
+                   page->frame.y1 - page->scale * (high[1] - p->low[1]),
+                   page->frame.x0 + page->scale * (high[0] - p->low[0]),
+                   page->frame.y1 - page->scale * (low[1] - p->low[1])};
+}
+
+static fg_status prepare(picture *p, fg_context *context, const fg_field *field,
+                         const fg_icons *icons, const fg_picture_options *options)
+{
+  fg_status status = check_options(context, options);
+  if (!status)
+    status = fg__palette_create(&p->palette, context, options->palette);
+  if (!status)
+    status =
+        fg__color_choose(&p->style.mask, context, options->mask_color, fg__usual_mask);
+  if (!status)
+    status = fg__color_choose(&p->style.tint, context, options->tint_color,
+                              options->no_arrows ? lone_tint : usual_tint);
+  p->style.transparent = options->transparent;
+  p->pixels_per_point = options->pixels_per_point > 0.0 ? options->pixels_per_point
+                                                        : usual_pixels_per_point;
+  if (!status)
+    status = plan_picture(p, context, field, icons, options);
+  if (!status)
+    status = lay_out(p, context);
+  if (!status)
+    p->style.background_box = domain_box(p, fg_field_contents(field));
+  return status;
+}
+
+/* Fontconfig crashes where memory runs out while it loads fonts, which with cairo took 40
+ * MB of address space. So there must be more than that before it begins. */
+enum { ROOM_BYTES = 48 << 20 };
+
+static fg_status check_room(fg_context *context)
+{
+  void *room = fg__allocate(ROOM_BYTES, 1); /* never touched */
+  if (!room)
+    return fg__fail_memory(context, "a picture", ROOM_BYTES);
+  free(room);
+  return FG_STATUS_OK;
+}
+
+static fg_status make_background(picture *p, fg_context *context,
+                                 const fg_picture_options *options)
+{
+  const fg_texture_arrays *texture = fg_texture_contents(options->background);
+  fg_texture_style style = {.fade = options->background_fade};
+  if (!(style.fade > 0.0))
+    style.fade = texture->kind == FG_TEXTURE_STRIPES ? stripes_fade : usual_fade;
+  return fg__texture_image(&p->style.background, context, texture, &style);
+}
+
+static int pixels_of(double length)
+{
+  return (int)fmin(fmax(floor(length + 0.5), 1.0), most_background);
+}
+
+fg_status fg_picture_frame(int size[2], fg_context *context, const fg_field *field,
+                           const fg_icons *icons, const fg_picture_options *options)
+{
+  if (!size || !field || !icons || fg_field_contents(field)->dimension != 2)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: a NULL argument, or a field in 3 dimensions");
+  const fg_picture_options usual = {0};
+  picture *p = fg__allocate(1, sizeof *p);
+  if (!p)
+    return fg__fail_memory(context, "a picture", sizeof *p);
+  fg_status status = check_room(context);
+  if (!status)
+    status = prepare(p, context, field, icons, options ? options : &usual);
+  if (!status) {
+    const fg__box *box = &p->style.background_box, *frame = &p->page.frame;
+    double wide = box->x1 - box->x0, high = box->y1 - box->y0;
+    double most = background_beyond * (frame->x1 - frame->x0) * (frame->y1 - frame->y0);
+    double pixels = p->pixels_per_point * fmin(sqrt(most / (wide * high)), 1.0);
+    size[0] = pixels_of(pixels * wide);
+    size[1] = pixels_of(pixels * high);
+  }
+  free(p);
+  return status;
+}
+
+fg_status fg_picture_write(fg_context *context, const char *path, const fg_field *field,
+                           const fg_density *density, const fg_icons *icons,
+                           const fg_picture_options *options)
+{
+  if (!path || !field || !icons)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "picture: a NULL argument");
+  fg_picture_options settled = {0};
+  if (options)
+    settled = *options;
+  if (density && settled.scale_time == 0.0)
+    settled.scale_time = fg_density_contents(density)->time;
+  options = &settled;
+  fg_status status = fg__sheet_format_check(context, path);
+  if (status)
+    return status;
+  if (options->tint && !density)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: a tint of the clusters needs their density");
+  const fg_field_arrays *contents = fg_field_contents(field);
+  if (contents->dimension != 2 ||
+      (density && fg_density_contents(density)->dimension != 2))
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "%s: this version draws no fields in 3 dimensions", path);
+  picture *p = fg__allocate(1, sizeof *p);
+  if (!p)
+    return fg__fail_memory(context, "a picture", sizeof *p);
+  status = check_room(context);
+  if (!status)
+    status = prepare(p, context, field, icons, options);
+  if (!status && fg__sheet_format_of(path) == FG__SHEET_PNG)
+    status = check_pixels(context, p);
+  const double range[2] = {p->plan.speed.low, p->plan.speed.high};
+  if (!status)
+    status = fg__scene_create(&p->scene, context, &p->page, field, p->low, p->high,
+                              options->tint ? fg_density_contents(density) : NULL,
+                              options->no_arrows ? NULL : icons, &p->palette, range);
+  if (!status && (options->skeletons || options->centers))
+    status = fg__scene_add_skeletons(&p->scene, context, &p->page, contents, p->low,
+                                     p->high, icons, options->skeletons);
+  if (!status && options->background)
+    status = make_background(p, context, options);
+  if (!status)
+    status = render(context, path, p);
+  cairo_surface_destroy(p->style.background);
+  fg__scene_clear(&p->scene);
+  free(p);
+  return status;
+}

@@ -1,0 +1,106 @@
+#include "picture/page/text.h"
+
+#include <string.h>
+
+enum { PIECE_BYTES = 256 };
+
+/* An exponent's size and height, in units of the font size: usual typography. */
+static const double raised_size = 0.7;
+static const double raised_height = 0.36;
+
+static void choose_font(cairo_t *cairo, double size, bool bold)
+{
+  cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo, size);
+  /* Hinted advances depend on the surface's resolution, so a text would outgrow the box
+   * that it was measured for. */
+  cairo_font_options_t *options = cairo_font_options_create();
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+  cairo_set_font_options(cairo, options);
+  cairo_font_options_destroy(options);
+}
+
+cairo_t *fg__text_ruler(void)
+{
+  cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+  cairo_t *cairo = cairo_create(surface);
+  cairo_surface_destroy(surface);
+  return cairo;
+}
+
+/* Copies the text up to the next mark; returns what follows. */
+static const char *next_piece(const char *text, char piece[PIECE_BYTES], bool *raised)
+{
+  if (*text == FG__TEXT_RAISE[0] || *text == FG__TEXT_LOWER[0]) {
+    *raised = *text == FG__TEXT_RAISE[0];
+    ++text;
+  }
+  size_t length = strcspn(text, FG__TEXT_RAISE FG__TEXT_LOWER);
+  size_t kept = length;
+  if (kept > PIECE_BYTES - 1) {
+    kept = PIECE_BYTES - 1;
+    while (kept > 0 && ((unsigned char)text[kept] & 0xC0) == 0x80)
+      --kept;
+    length = kept;
+  }
+  memcpy(piece, text, kept);
+  piece[kept] = '\0';
+  return text + length;
+}
+
+double fg__text_width(cairo_t *cairo, const char *text, double size, bool bold)
+{
+  double width = 0.0;
+  bool raised = false;
+  while (*text) {
+    char piece[PIECE_BYTES];
+    text = next_piece(text, piece, &raised);
+    choose_font(cairo, raised ? raised_size * size : size, bold);
+    cairo_text_extents_t extents;
+    cairo_text_extents(cairo, piece, &extents);
+    width += extents.x_advance;
+  }
+  return width;
+}
+
+void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold)
+{
+  double x, y;
+  cairo_get_current_point(cairo, &x, &y);
+  bool raised = false;
+  while (*text) {
+    char piece[PIECE_BYTES];
+    text = next_piece(text, piece, &raised);
+    choose_font(cairo, raised ? raised_size * size : size, bold);
+    cairo_move_to(cairo, x, raised ? y - raised_height * size : y);
+    cairo_show_text(cairo, piece);
+    cairo_text_extents_t extents;
+    cairo_text_extents(cairo, piece, &extents);
+    x += extents.x_advance;
+  }
+}
+
+void fg__text_shorten(cairo_t *cairo, char *text, size_t capacity, double size, bool bold,
+                      double width)
+{
+  static const char ellipsis[] = "\xE2\x80\xA6";
+  if (fg__text_width(cairo, text, size, bold) <= width)
+    return;
+  size_t length = strlen(text);
+  while (length > 0) {
+    do
+      --length;
+    while (length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80);
+    while (length > 0 && text[length - 1] == ' ')
+      --length;
+    if (length == 0 || length + sizeof ellipsis > capacity)
+      continue;
+    memcpy(text + length, ellipsis, sizeof ellipsis);
+    if (fg__text_width(cairo, text, size, bold) <= width)
+      return;
+  }
+  text[0] = '\0';
+}

@@ -1,0 +1,32 @@
+/* Text on a page: measured and drawn the same way on every surface. */
+#ifndef FG__TEXT_H
+#define FG__TEXT_H
+
+#include <cairo.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "picture/plain_text.h"
+
+/* Above and below the baseline, in units of the font size: room for capitals with an
+ * exponent, and for descenders, in the usual sans-serif fonts (DejaVu, Liberation, Noto).
+ */
+#define FG__TEXT_ASCENT 0.86
+#define FG__TEXT_DESCENT 0.24
+
+/* A drawing context to measure with, or one whose status says why there is none. End with
+ * cairo_destroy. */
+cairo_t *fg__text_ruler(void);
+
+/* Width of a text in the units of the font size. */
+double fg__text_width(cairo_t *cairo, const char *text, double size, bool bold);
+
+/* Draws a text from the current point on, along the x axis of the current transform. */
+void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold);
+
+/* Cuts a text without marks and ends it with an ellipsis, so that it is at most `width`
+ * wide; it may become empty. */
+void fg__text_shorten(cairo_t *cairo, char *text, size_t capacity, double size, bool bold,
+                      double width);
+
+#endif

@@ -1,0 +1,133 @@
+#include "picture/page/texture_image.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "picture/palette.h"
+
+/* Greys from nearly black to white; black itself would outshine what is drawn above. */
+static const double darkest = 0.08;
+
+/* What a colour becomes at a texture's darkest and lightest places: so much of itself,
+ * and so much nearer to white. By eye: the colours stay what they are, the streaks stay
+ * to be seen in slow (light) and fast (dark) places. */
+static const double shade = 0.72, light = 0.82;
+
+/* The fastest hundredth of the pixels share the last colour: a single fast place, near a
+ * pole say, would leave the rest with one. */
+static const double slower_share = 0.99;
+enum { BINS = 4096 };
+
+static double fastest(const fg_texture_arrays *texture, size_t count)
+{
+  double most = 0.0;
+  for (size_t n = 0; n < count; ++n)
+    if ((double)texture->speed[n] > most) /* false for NaN */
+      most = (double)texture->speed[n];
+  return most;
+}
+
+fg_status fg__texture_range(double range[2], fg_context *context,
+                            const fg_texture_arrays *texture,
+                            const fg_texture_style *style)
+{
+  range[0] = style->speed_min;
+  range[1] = style->speed_max;
+  if (range[1] > range[0])
+    return FG_STATUS_OK;
+  const size_t count = (size_t)texture->size[0] * (size_t)texture->size[1];
+  const double most = fastest(texture, count);
+  range[0] = 0.0;
+  range[1] = most > 0.0 ? most : 1.0;
+  size_t *bin = fg__allocate(BINS + 1, sizeof *bin);
+  if (!bin)
+    return fg__fail_memory(context, "the range of speeds", BINS * sizeof *bin);
+  size_t known = 0;
+  for (size_t n = 0; n < count; ++n) {
+    const double speed = (double)texture->speed[n];
+    if (isnan(speed))
+      continue;
+    ++bin[(int)(speed / range[1] * BINS)];
+    ++known;
+  }
+  size_t slower = 0;
+  int at = 0;
+  while (at < BINS && (double)slower < slower_share * (double)known)
+    slower += bin[at++];
+  free(bin);
+  range[1] *= (double)at / BINS;
+  return FG_STATUS_OK;
+}
+
+typedef struct coloring {
+  const fg_texture_arrays *texture;
+  fg__palette palette;
+  bool grey;
+  double range[2];
+  double fade;
+} coloring;
+
+static uint32_t byte_of(double share)
+{
+  return (uint32_t)(255.0 * share + 0.5);
+}
+
+static uint32_t pixel_of(const coloring *c, double value, double speed)
+{
+  double rgb[3];
+  if (c->grey) {
+    rgb[0] = rgb[1] = rgb[2] = darkest + (1.0 - darkest) * value;
+  } else {
+    const double share = (speed - c->range[0]) / (c->range[1] - c->range[0]);
+    const fg__color color = fg__palette_color(&c->palette, share);
+    const double part[3] = {color.red, color.green, color.blue};
+    for (int k = 0; k < 3; ++k) {
+      const double dark = shade * part[k], bright = part[k] + light * (1.0 - part[k]);
+      rgb[k] = dark + value * (bright - dark);
+    }
+  }
+  uint32_t pixel = 255;
+  for (int k = 0; k < 3; ++k)
+    pixel = pixel << 8 | byte_of(rgb[k] + c->fade * (1.0 - rgb[k]));
+  return pixel;
+}
+
+static void paint(cairo_surface_t *surface, const coloring *c)
+{
+  const int *size = c->texture->size;
+  unsigned char *bytes = cairo_image_surface_get_data(surface);
+  const size_t stride = (size_t)cairo_image_surface_get_stride(surface);
+  cairo_surface_flush(surface);
+  for (int j = 0; j < size[1]; ++j) {
+    /* cairo's rows are aligned for what it keeps in them */
+    uint32_t *out = (uint32_t *)(void *)(bytes + (size_t)(size[1] - 1 - j) * stride);
+    const size_t at = (size_t)j * (size_t)size[0];
+    for (int i = 0; i < size[0]; ++i)
+      out[i] = pixel_of(c, (double)c->texture->value[at + (size_t)i],
+                        (double)c->texture->speed[at + (size_t)i]);
+  }
+  cairo_surface_mark_dirty(surface);
+}
+
+fg_status fg__texture_image(cairo_surface_t **out, fg_context *context,
+                            const fg_texture_arrays *texture,
+                            const fg_texture_style *style)
+{
+  coloring c = {.texture = texture, .grey = !style->palette, .fade = style->fade};
+  fg_status status = fg__palette_create(&c.palette, context, style->palette);
+  if (!status && !c.grey)
+    status = fg__texture_range(c.range, context, texture, style);
+  if (status)
+    return status;
+  cairo_surface_t *surface =
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, texture->size[0], texture->size[1]);
+  if (cairo_surface_status(surface)) {
+    cairo_surface_destroy(surface);
+    return fg__fail_memory(context, "a texture's image",
+                           (size_t)texture->size[0] * (size_t)texture->size[1] * 4);
+  }
+  paint(surface, &c);
+  *out = surface;
+  return FG_STATUS_OK;
+}

@@ -1,0 +1,271 @@
+#include "picture/render/box_axes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "picture/page/text.h"
+
+/* In font sizes. */
+static const double tick_length = 0.35, number_gap = 0.3, label_gap = 0.55;
+static const double least_step = 4.5; /* from one number to the next */
+static const double shortest_axis = 3.0;
+static const double bar_width = 0.9;
+
+/* Two numbers side by side read as one when they are nearer than this. */
+static const double least_gap[2] = {0.6, 0.25};
+
+/* Texts in the way of another are tried so much farther off the box, in steps. */
+static const double aside_step = 0.25, most_aside = 1.5;
+
+static const double ink = 0.22;
+
+/* An end of the edge with an axis' numbers, on the stage. */
+static void edge_end(const fg__stage *stage, const int edge[3], int axis, double along,
+                     double out[3])
+{
+  for (int k = 0; k < 3; ++k)
+    out[k] = k == axis ? along : edge[k] * stage->half[k];
+}
+
+static void pixel_at(const fg__stage *stage, const fg__camera *camera, const int edge[3],
+                     int axis, double along, double out[2])
+{
+  double point[3];
+  edge_end(stage, edge, axis, along, point);
+  fg__camera_project(camera, point, out);
+}
+
+/* The lowest edge of the outline, or the leftmost for z. */
+static void choose_edge(int out[3], const fg__stage *stage, const fg__camera *camera,
+                        int axis)
+{
+  int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  double best = -HUGE_VAL;
+  for (int n = 0; n < 4; ++n) {
+    int edge[3] = {0, 0, 0};
+    double middle[2];
+    edge[a] = n & 1 ? 1 : -1;
+    edge[b] = n & 2 ? 1 : -1;
+    if (fg__camera_sees_inside(camera, stage, a, edge[a]) ==
+        fg__camera_sees_inside(camera, stage, b, edge[b]))
+      continue;
+    pixel_at(stage, camera, edge, axis, 0.0, middle);
+    double merit = axis == 2 ? -middle[0] : middle[1] - 1e-3 * middle[0];
+    if (merit > best) {
+      best = merit;
+      memcpy(out, edge, sizeof edge);
+    }
+  }
+}
+
+/* Numbers along x need their width, those along z their height. */
+static void choose_ticks(fg__box_axes *out, int axis, double pixels, cairo_t *ruler)
+{
+  fg__ticks *ticks = &out->ticks[axis];
+  const fg__axis *of = &out->axis[axis];
+  double range = of->high - of->low;
+  double step = fg__ticks_step(of, range * fmin(least_step * out->em / pixels, 1.0));
+  for (int turn = 0; turn < 6; ++turn) {
+    fg__ticks_fill(ticks, of, step);
+    double widest = 0.0;
+    for (int n = 0; n < ticks->count; ++n)
+      widest = fmax(widest, fg__text_width(ruler, ticks->text[n], out->em, false));
+    if (ticks->count > 0 && (widest + out->em) < pixels * step / range)
+      return;
+    step = fg__ticks_step(of, 1.2 * step);
+  }
+}
+
+void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
+                     const fg__stage *stage, const fg__camera *camera, double em,
+                     cairo_t *ruler)
+{
+  memset(out, 0, sizeof *out);
+  out->em = em;
+  for (int k = 0; k < 3; ++k) {
+    double extent = stage->high[k] - stage->low[k];
+    for (int m = 0; m < 3; ++m)
+      if (strcmp(field->axis_units[k], field->axis_units[m]) == 0)
+        extent = fmax(extent, stage->high[m] - stage->low[m]);
+    fg__axis_of_numbers(&out->axis[k], stage->low[k], stage->high[k], extent,
+                        field->axis_name[k], field->axis_units[k]);
+    double from[2], to[2];
+    choose_edge(out->edge[k], stage, camera, k);
+    pixel_at(stage, camera, out->edge[k], k, -stage->half[k], from);
+    pixel_at(stage, camera, out->edge[k], k, stage->half[k], to);
+    double pixels = hypot(to[0] - from[0], to[1] - from[1]);
+    out->edge[k][k] = pixels > shortest_axis * em;
+    choose_ticks(out, k, fmax(pixels, 1.0), ruler);
+  }
+}
+
+static bool are_apart(const fg__pane *a, const fg__pane *b, double em)
+{
+  return a->x0 >= b->x1 + least_gap[0] * em || b->x0 >= a->x1 + least_gap[0] * em ||
+         a->y0 >= b->y1 + least_gap[1] * em || b->y0 >= a->y1 + least_gap[1] * em;
+}
+
+static bool is_free(const fg__box_axes *axes, const fg__pane *box)
+{
+  for (int n = 0; n < axes->texts; ++n)
+    if (!are_apart(box, &axes->text[n].box, axes->em))
+      return false;
+  return !(axes->kept.x1 > axes->kept.x0) || are_apart(box, &axes->kept, axes->em);
+}
+
+/* A text whose box lies beyond a point: it touches it at the side it comes from. */
+static void place_text(fg__box_axes *axes, const char *text, const double at[2],
+                       const double away[2], cairo_t *ruler)
+{
+  double em = axes->em, width = fg__text_width(ruler, text, em, false);
+  double height = 0.72 * em; /* of digits */
+  for (double aside = 0.0; aside <= most_aside; aside += aside_step) {
+    double x = at[0] + away[0] * (width / 2.0 + aside * em) - width / 2.0;
+    double y = at[1] + away[1] * (height / 2.0 + aside * em) + height / 2.0;
+    const fg__pane box = {x, y - height, x + width, y};
+    if (is_free(axes, &box)) {
+      axes->text[axes->texts++] = (fg__box_text){box, text};
+      return;
+    }
+  }
+}
+
+/* The ends of an axis' edge, pixels, and the direction away from the box there. */
+static void find_edge(const fg__box_axes *axes, const fg__stage *stage,
+                      const fg__camera *camera, int axis, double end[2][2],
+                      double away[2])
+{
+  const int *edge = axes->edge[axis];
+  const double origin[3] = {0.0, 0.0, 0.0};
+  double middle[2];
+  pixel_at(stage, camera, edge, axis, -stage->half[axis], end[0]);
+  pixel_at(stage, camera, edge, axis, stage->half[axis], end[1]);
+  fg__camera_project(camera, origin, middle);
+  double length = hypot(end[1][0] - end[0][0], end[1][1] - end[0][1]);
+  away[0] = (end[1][1] - end[0][1]) / length;
+  away[1] = -(end[1][0] - end[0][0]) / length;
+  double side = (end[0][0] - middle[0]) * away[0] + (end[0][1] - middle[1]) * away[1];
+  for (int k = 0; k < 2; ++k)
+    away[k] = side < 0.0 ? -away[k] : away[k];
+}
+
+static void tick_at(const fg__box_axes *axes, const fg__stage *stage,
+                    const fg__camera *camera, int axis, int n, double out[2])
+{
+  pixel_at(stage, camera, axes->edge[axis], axis,
+           fg__stage_place(stage, axis, axes->ticks[axis].position[n]), out);
+}
+
+static void place_axis(fg__box_axes *axes, const fg__stage *stage,
+                       const fg__camera *camera, int axis, cairo_t *ruler)
+{
+  const fg__ticks *ticks = &axes->ticks[axis];
+  double end[2][2], away[2], at[2], em = axes->em, widest = 0.0;
+  find_edge(axes, stage, camera, axis, end, away);
+  for (int n = 0; n < ticks->count; ++n) {
+    tick_at(axes, stage, camera, axis, n, at);
+    for (int k = 0; k < 2; ++k)
+      at[k] += (tick_length + number_gap) * em * away[k];
+    place_text(axes, ticks->text[n], at, away, ruler);
+    widest = fmax(widest, fg__text_width(ruler, ticks->text[n], em, false));
+  }
+  double beyond = (tick_length + number_gap + label_gap) * em + fabs(away[0]) * widest +
+                  fabs(away[1]) * 0.72 * em;
+  for (int k = 0; k < 2; ++k)
+    at[k] = (end[0][k] + end[1][k]) / 2.0 + beyond * away[k];
+  place_text(axes, axes->axis[axis].label, at, away, ruler);
+}
+
+double fg__box_axes_place(fg__box_axes *axes, const fg__stage *stage,
+                          const fg__camera *camera, cairo_t *ruler)
+{
+  double lowest = 0.0;
+  axes->texts = 0;
+  for (int k = 0; k < 3; ++k)
+    if (axes->edge[k][k])
+      place_axis(axes, stage, camera, k, ruler);
+  for (int n = 0; n < axes->texts; ++n)
+    lowest = fmax(lowest, axes->text[n].box.y1);
+  return lowest;
+}
+
+void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
+                       const fg__camera *camera)
+{
+  double end[2][2], away[2], at[2], tick = tick_length * axes->em;
+  cairo_set_source_rgb(cairo, ink, ink, ink);
+  cairo_set_line_width(cairo, fmax(axes->em / 16.0, 1.0));
+  for (int k = 0; k < 3; ++k) {
+    if (!axes->edge[k][k])
+      continue;
+    find_edge(axes, stage, camera, k, end, away);
+    for (int n = 0; n < axes->ticks[k].count; ++n) {
+      tick_at(axes, stage, camera, k, n, at);
+      cairo_move_to(cairo, at[0], at[1]);
+      cairo_line_to(cairo, at[0] + tick * away[0], at[1] + tick * away[1]);
+    }
+  }
+  cairo_stroke(cairo);
+  for (int n = 0; n < axes->texts; ++n) {
+    cairo_move_to(cairo, axes->text[n].box.x0, axes->text[n].box.y1);
+    fg__text_draw(cairo, axes->text[n].text, axes->em, false);
+  }
+}
+
+/* From the bar's pane to the baseline of the name above it. */
+static double name_rise(double em, const bool beyond[2])
+{
+  return 0.8 * em + (beyond[1] ? bar_width * em : 0.0);
+}
+
+fg__pane fg__color_bar_box(const fg__pane *pane, double em, const fg__axis *speed,
+                           const bool beyond[2], cairo_t *ruler)
+{
+  double label = fg__text_width(ruler, speed->label, em, false);
+  return (fg__pane){fmin(pane->x0, pane->x1 - label),
+                    pane->y0 - name_rise(em, beyond) - em, pane->x1,
+                    pane->y1 + (beyond[0] ? bar_width * em : 0.5 * em)};
+}
+
+void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
+                        const fg__palette *palette, const fg__axis *speed,
+                        const bool beyond[2])
+{
+  double height = pane->y1 - pane->y0, width = bar_width * em;
+  cairo_pattern_t *ramp = cairo_pattern_create_linear(0.0, pane->y1, 0.0, pane->y0);
+  for (int k = 0; k < FG__PALETTE_SAMPLES; ++k) {
+    fg__color color = palette->sample[k];
+    cairo_pattern_add_color_stop_rgb(ramp, (double)k / (FG__PALETTE_SAMPLES - 1),
+                                     color.red, color.green, color.blue);
+  }
+  double middle = pane->x0 + 0.5 * width;
+  cairo_move_to(cairo, pane->x0, pane->y0);
+  cairo_line_to(cairo, middle, beyond[1] ? pane->y0 - width : pane->y0);
+  cairo_line_to(cairo, pane->x0 + width, pane->y0);
+  cairo_line_to(cairo, pane->x0 + width, pane->y1);
+  cairo_line_to(cairo, middle, beyond[0] ? pane->y1 + width : pane->y1);
+  cairo_line_to(cairo, pane->x0, pane->y1);
+  cairo_close_path(cairo);
+  cairo_set_source(cairo, ramp);
+  cairo_fill_preserve(cairo);
+  cairo_pattern_destroy(ramp);
+  cairo_set_source_rgb(cairo, ink, ink, ink);
+  cairo_set_line_width(cairo, fmax(em / 16.0, 1.0));
+  cairo_stroke(cairo);
+  fg__ticks ticks;
+  double range = speed->high - speed->low;
+  fg__ticks_fill(&ticks, speed, fg__ticks_step(speed, range * 2.4 * em / height));
+  for (int n = 0; n < ticks.count; ++n) {
+    double y = pane->y1 - height * (ticks.position[n] - speed->low) / range;
+    cairo_move_to(cairo, pane->x0 + width, y);
+    cairo_line_to(cairo, pane->x0 + width + tick_length * em, y);
+    cairo_stroke(cairo);
+    cairo_move_to(cairo, pane->x0 + width + (tick_length + number_gap) * em,
+                  y + 0.36 * em);
+    fg__text_draw(cairo, ticks.text[n], em, false);
+  }
+  double label = fg__text_width(cairo, speed->label, em, false);
+  cairo_move_to(cairo, fmin(pane->x0, pane->x1 - label),
+                pane->y0 - name_rise(em, beyond));
+  fg__text_draw(cairo, speed->label, em, false);
+}

@@ -1,0 +1,135 @@
+#include "read/cells/set.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+void fg__cell_set_clear(fg__cell_set *set)
+{
+  free(set->position);
+  free(set->shape);
+  free(set->number);
+  free(set->first);
+  free(set->corner);
+  free(set->place);
+  *set = (fg__cell_set){0};
+}
+
+static bool grow_cells(fg__cell_set *set)
+{
+  if (set->count < set->capacity)
+    return true;
+  size_t capacity = set->capacity;
+  void *shape = set->shape, *number = set->number, *first = set->first;
+  bool grown = fg__grow(&shape, &capacity, set->count + 1, sizeof *set->shape);
+  set->shape = shape;
+  capacity = set->capacity;
+  grown = grown && fg__grow(&number, &capacity, set->count + 1, sizeof *set->number);
+  set->number = number;
+  capacity = set->capacity;
+  grown = grown && fg__grow(&first, &capacity, set->count + 1, sizeof *set->first);
+  set->first = first;
+  if (grown)
+    set->capacity = capacity;
+  return grown;
+}
+
+fg_status fg__cell_set_add(fg__cell_set *set, fg__cell_shape shape, const double *corner,
+                           const fg__cell_points *points, int number)
+{
+  const size_t corners = (size_t)fg__cell_corners(shape);
+  void *all = set->corner;
+  if (set->corners > INT_MAX - corners)
+    return fg__fail(set->context, FG_STATUS_UNSUPPORTED, "%s: more than %d corners",
+                    set->path, INT_MAX);
+  if (!grow_cells(set) || !fg__grow(&all, &set->corners_capacity, set->corners + corners,
+                                    sizeof *set->corner))
+    return fg__fail_memory(set->context, "cells", set->corners * sizeof *set->corner);
+  set->corner = all;
+  for (size_t i = 0; i < corners; ++i) {
+    if (!(corner[i] >= 0.0 && corner[i] < (double)points->count))
+      return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
+                      "%s: corner %zu of cell %d is point %g of %zu", set->path, i,
+                      number, corner[i], points->count);
+    set->corner[set->corners + i] = (int)(points->first + (size_t)corner[i]);
+  }
+  set->shape[set->count] = (unsigned char)shape;
+  set->number[set->count] = number;
+  set->first[set->count++] = set->corners;
+  set->corners += corners;
+  return FG_STATUS_OK;
+}
+
+/* Keeps cells of the largest dimension alone. */
+static void drop_lower(fg__cell_set *set)
+{
+  int most = 0;
+  size_t kept = 0;
+  for (size_t c = 0; c < set->count; ++c)
+    if (fg__cell_dimension(set->shape[c]) > most)
+      most = fg__cell_dimension(set->shape[c]);
+  for (size_t c = 0; c < set->count; ++c)
+    if (fg__cell_dimension(set->shape[c]) == most) {
+      set->shape[kept] = set->shape[c];
+      set->number[kept] = set->number[c];
+      set->first[kept++] = set->first[c];
+    }
+  set->count = kept;
+}
+
+fg_status fg__cell_set_locate(fg__cell_set *set)
+{
+  if (set->count == 0)
+    return fg__fail(set->context, FG_STATUS_UNSUPPORTED,
+                    "%s: none of its %zu cells has an area or a volume", set->path,
+                    set->numbers);
+  drop_lower(set);
+  fg_status status = fg__cell_set_choose_raster(set);
+  return status == FG_STATUS_OK ? fg__cell_set_find_places(set) : status;
+}
+
+fg_status fg__cell_set_to_points(float *of_point, const fg__cell_set *set,
+                                 const float *of_cell)
+{
+  double *sum = fg__allocate(set->points, sizeof *sum);
+  int *cells = fg__allocate(set->points, sizeof *cells);
+  if (!sum || !cells) {
+    free(sum);
+    free(cells);
+    return fg__fail_memory(set->context, "means of cells", set->points * 12);
+  }
+  for (size_t c = 0; c < set->count; ++c)
+    for (int i = 0; i < fg__cell_corners(set->shape[c]); ++i) {
+      const int point = set->corner[set->first[c] + (size_t)i];
+      sum[point] += (double)of_cell[set->number[c]];
+      ++cells[point];
+    }
+  for (size_t p = 0; p < set->points; ++p)
+    of_point[p] = cells[p] > 0 ? (float)(sum[p] / cells[p]) : NAN;
+  free(sum);
+  free(cells);
+  return FG_STATUS_OK;
+}
+
+void fg__cell_set_sample(float *out, const fg__cell_set *set, const float *of_point,
+                         size_t first, size_t count)
+{
+  for (size_t n = 0; n < count; ++n) {
+    const fg__cell_place *place = &set->place[first + n];
+    out[n] = NAN;
+    if (place->cell < 0)
+      continue;
+    const fg__cell_shape shape = set->shape[place->cell];
+    const int *corner = set->corner + set->first[place->cell];
+    double weight[FG__CELL_CORNERS], sum = 0.0;
+    const double at[3] = {(double)place->at[0], (double)place->at[1],
+                          (double)place->at[2]};
+    fg__cell_weights(shape, at, weight, NULL);
+    for (int i = 0; i < fg__cell_corners(shape); ++i)
+      sum += weight[i] * (double)of_point[corner[i]];
+    out[n] = (float)sum;
+  }
+}

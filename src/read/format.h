@@ -1,0 +1,70 @@
+/* File formats: one file a format, one line in the list of registry.c. */
+#ifndef FG__FORMAT_H
+#define FG__FORMAT_H
+
+#include "base/context.h"
+
+/* A file to read: its bytes are mapped or in memory, so that a reader can be fuzzed. A
+ * library that wants to open the file itself may use `path` when `on_disk`. */
+typedef struct fg__source {
+  const char *path; /* for messages; the file's name when on_disk */
+  bool on_disk;
+  const unsigned char *bytes;
+  size_t size;
+} fg__source;
+
+/* What a reader is to read: part `number` of `count` (field/part.h), or with a count of 1
+ * all. */
+typedef struct fg__dealt {
+  int number, count;
+} fg__dealt;
+
+/* Rows along the last axis: [first, first + own) and up to `held` what follows. */
+typedef struct fg__rows {
+  int first, own, held;
+} fg__rows;
+
+/* The rows of a part; all when there are fewer than parts: then `dealt` becomes that. */
+fg__rows fg__rows_of(fg__dealt *dealt, int rows, bool periodic);
+
+/* The field of the arrays of such rows; velocity[k], which is arrays->velocity[k],
+ * becomes NULL where the field takes it over. */
+fg_status fg__field_of_rows(fg_field **out, fg_context *context,
+                            const fg_field_arrays *arrays, float *velocity[3],
+                            const fg__dealt *dealt);
+
+typedef struct fg__format {
+  const char *name;  /* as `flowgrain info` shows it */
+  const char *files; /* which ones it reads; NULL: another says it, or none are read */
+  bool (*is_mine)(const unsigned char *bytes, size_t size);
+  fg_status (*inventory)(fg_inventory *inventory, fg_context *context,
+                         const fg__source *source);
+  fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
+                    const fg_read_options *options, fg__dealt dealt);
+  /* The file's array of tensors as two fields (tensor_rows.h); *found: there is one. NULL
+   * where the format has none. */
+  fg_status (*tensors)(fg_field *row[2], bool *found, fg_context *context,
+                       const fg__source *source);
+} fg__format;
+
+extern const fg__format fg__format_netcdf;
+extern const fg__format fg__format_vti;
+extern const fg__format fg__format_vtk_legacy;
+
+/* Maps a regular file that can be read and is not empty. FILE_ACCESS, FILE_FORMAT
+ * (empty). */
+fg_status fg__source_open(fg__source *out, fg_context *context, const char *path);
+void fg__source_close(fg__source *source);
+
+/* Finds the format of bytes; NULL when no reader knows them. */
+const fg__format *fg__format_find(const unsigned char *bytes, size_t size);
+
+/* Makes an empty inventory of a file in a format of that name. MEMORY. */
+fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
+                               const char *format);
+
+/* Adds a copy of a vector (texts included) to an inventory. MEMORY. */
+fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
+                            const fg_inventory_vector *vector);
+
+#endif

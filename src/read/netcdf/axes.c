@@ -1,0 +1,183 @@
+/* Coordinates along one axis: read, unwrapped, made to ascend, and closed where longitude
+ * does. */
+#include "base/memory.h"
+#include "read/netcdf/netcdf.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A circle of longitude is closed when what is missing to 360 degrees is a cell like the
+ * others; within a quarter of it, which uneven spacing needs and regional grids miss. */
+static const double CLOSING_TOLERANCE = 0.25;
+
+/* A column that repeats the first lies there within a hundredth of a cell: float rounding
+ * stays below on grids down to 0.003 degrees. */
+static const double REPEATED_TOLERANCE = 0.01;
+
+/* Reads along the axis's dimension, at the start of any other. */
+static fg_status read_coordinates(const fg__nc_axis *axis, const fg__nc_file *file,
+                                  const fg__nc_variable *coordinate)
+{
+  double *out = axis->coordinate;
+  size_t start[FG__NC_RANK] = {0};
+  size_t size[FG__NC_RANK];
+  for (int k = 0; k < coordinate->rank; ++k)
+    size[k] = coordinate->dimension[k] == axis->dimension ? axis->size : 1;
+  const int error =
+      nc_get_vara_double(coordinate->group, coordinate->id, start, size, out);
+  if (error)
+    return fg__nc_fail(file->context, coordinate->path, coordinate->name, error);
+  nc_type type;
+  double scale = 1.0;
+  double offset = 0.0;
+  fg__nc_numbers(coordinate, "scale_factor", &scale, 1, &type);
+  fg__nc_numbers(coordinate, "add_offset", &offset, 1, &type);
+  for (size_t i = 0; i < axis->size; ++i)
+    out[i] = out[i] * scale + offset;
+  return FG_STATUS_OK;
+}
+
+/* Longitudes that jump from 180 to -180 or from 360 to 0 go on. */
+static void unwrap(double *x, size_t count)
+{
+  double turn = 0.0;
+  for (size_t i = 1; i < count; ++i) {
+    const double step = x[i] + turn - x[i - 1];
+    if (fabs(step) > 180.0 && fabs(step) < 720.0)
+      turn -= 360.0 * round(step / 360.0);
+    x[i] += turn;
+  }
+}
+
+static void reverse(double *x, size_t count)
+{
+  for (size_t i = 0; i < count / 2; ++i) {
+    const double swapped = x[i];
+    x[i] = x[count - 1 - i];
+    x[count - 1 - i] = swapped;
+  }
+}
+
+static bool check_coordinates(fg__nc_grid *grid, const double *x, size_t count,
+                              const char *name)
+{
+  for (size_t i = 0; i < count; ++i)
+    if (!isfinite(x[i]) || fabs(x[i]) > 1e18) {
+      fg__nc_unusable(grid, "coordinate %zu of '%s' is %g, not a usable number", i, name,
+                      x[i]);
+      return false;
+    }
+  return true;
+}
+
+static bool check_order(fg__nc_grid *grid, const double *x, size_t count, bool reversed,
+                        const char *name)
+{
+  for (size_t i = 1; i < count; ++i)
+    if (!(x[i] > x[i - 1])) {
+      const size_t before = reversed ? count - 1 - i : i - 1;
+      fg__nc_unusable(grid,
+                      "axis '%s' is not strictly monotonic: %g and %g at samples %zu and "
+                      "%zu",
+                      name, reversed ? x[i] : x[i - 1], reversed ? x[i - 1] : x[i],
+                      before, before + 1);
+      return false;
+    }
+  return true;
+}
+
+/* Drops columns that repeat others 360 degrees on, and sets the period where the rest
+ * closes the circle. */
+static void close_circle(fg__nc_axis *axis)
+{
+  const double *x = axis->coordinate;
+  size_t n = axis->size;
+  const double spacing = (x[n - 1] - x[0]) / (double)(n - 1);
+  const double circle = 360.0 - REPEATED_TOLERANCE * spacing;
+  while (n > 2 && x[n - 1] - x[0] >= circle)
+    --n;
+  const double cell = (x[n - 1] - x[0]) / (double)(n - 1);
+  const double gap = 360.0 - (x[n - 1] - x[0]);
+  if (fabs(gap - cell) > CLOSING_TOLERANCE * cell)
+    return;
+  axis->period = 360.0;
+  if (axis->reversed)
+    axis->first += axis->size - n;
+  axis->size = n;
+}
+
+static void describe_axis(fg__nc_axis *axis, const fg__nc_variable *coordinate, int k)
+{
+  char text[FG__NC_TEXT];
+  fg__nc_text(coordinate, "units", text, sizeof text);
+  axis->quantity = fg__nc_units(text, axis->units, sizeof axis->units);
+  fg__nc_text(coordinate, "standard_name", text, sizeof text);
+  snprintf(axis->name, sizeof axis->name, "%s", coordinate->plain_name);
+  const fg__nc_role geographic = fg__nc_geographic(coordinate);
+  if (strncmp(text, "grid_l", 6) == 0) {
+    /* a rotated pole: degrees, but neither east nor north */
+    axis->quantity = FG__NC_DEGREES;
+    snprintf(axis->units, sizeof axis->units, "°");
+    snprintf(axis->name, sizeof axis->name, "grid %s", text + 5);
+  } else if ((int)geographic == k && k == FG__NC_X) {
+    axis->quantity = FG__NC_DEGREES_EAST;
+    snprintf(axis->units, sizeof axis->units, "°E");
+    snprintf(axis->name, sizeof axis->name, "longitude");
+  } else if ((int)geographic == k) {
+    axis->quantity = FG__NC_DEGREES_NORTH;
+    snprintf(axis->units, sizeof axis->units, "°N");
+    snprintf(axis->name, sizeof axis->name, "latitude");
+  } else if (strncmp(text, "projection_", 11) == 0) {
+    snprintf(axis->name, sizeof axis->name, "%s", k == FG__NC_X ? "x" : "y");
+  }
+}
+
+static bool is_longitude(const fg__nc_axis *axis)
+{
+  return axis->quantity == FG__NC_DEGREES_EAST ||
+         strcmp(axis->name, "grid longitude") == 0;
+}
+
+fg_status fg__nc_axis_read(fg__nc_grid *grid, const fg__nc_file *file, int k,
+                           const fg__nc_variable *coordinate)
+{
+  fg__nc_axis *axis = &grid->axis[k];
+  describe_axis(axis, coordinate, k);
+  free(axis->coordinate);
+  axis->coordinate = fg__allocate(axis->size, sizeof *axis->coordinate);
+  if (!axis->coordinate)
+    return fg__fail_memory(file->context, "an axis",
+                           axis->size * sizeof *axis->coordinate);
+  fg_status status = read_coordinates(axis, file, coordinate);
+  if (status != FG_STATUS_OK ||
+      !check_coordinates(grid, axis->coordinate, axis->size, coordinate->name))
+    return status;
+  if (is_longitude(axis))
+    unwrap(axis->coordinate, axis->size);
+  axis->reversed = axis->coordinate[axis->size - 1] < axis->coordinate[0];
+  if (axis->reversed)
+    reverse(axis->coordinate, axis->size);
+  if (check_order(grid, axis->coordinate, axis->size, axis->reversed, coordinate->name) &&
+      is_longitude(axis))
+    close_circle(axis);
+  return FG_STATUS_OK;
+}
+
+fg_status fg__nc_axis_count(fg__nc_grid *grid, const fg__nc_file *file, int k)
+{
+  fg__nc_axis *axis = &grid->axis[k];
+  free(axis->coordinate);
+  axis->coordinate = fg__allocate(axis->size, sizeof *axis->coordinate);
+  if (!axis->coordinate)
+    return fg__fail_memory(file->context, "an axis",
+                           axis->size * sizeof *axis->coordinate);
+  for (size_t i = 0; i < axis->size; ++i)
+    axis->coordinate[i] = (double)i;
+  axis->quantity = FG__NC_UNKNOWN;
+  axis->units[0] = '\0';
+  snprintf(axis->name, sizeof axis->name, "%.*s", FG__NC_TEXT - 1,
+           file->dimensions[axis->dimension].name);
+  return FG_STATUS_OK;
+}

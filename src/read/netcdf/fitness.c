@@ -1,0 +1,107 @@
+/* Whether variables can be a pair's components at all: numbers enough, and all at the
+ * same places. */
+#include "read/netcdf/netcdf.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Deflate makes 1032 bytes of one at most (zlib's documentation): a field whose file is
+ * smaller still was never written. */
+static const size_t LARGEST_COMPRESSION = 1032;
+
+void fg__nc_unusable(fg__nc_grid *grid, const char *format, ...)
+{
+  if (grid->unusable[0])
+    return;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(grid->unusable, sizeof grid->unusable, format, arguments);
+  va_end(arguments);
+}
+
+static void write_shape(char *out, size_t size, const fg__nc_file *file,
+                        const fg__nc_variable *v)
+{
+  size_t n = 0;
+  out[0] = '\0';
+  for (int k = 0; k < v->rank && k < FG__NC_RANK && n < size; ++k)
+    n += (size_t)snprintf(out + n, size - n, "%s%zu", k > 0 ? " x " : "",
+                          file->dimensions[v->dimension[k]].length);
+}
+
+void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v)
+{
+  if (v->type == NC_CHAR || v->type == NC_STRING)
+    fg__nc_unusable(grid, "'%s' holds text, not numbers", v->name);
+  else if (v->type < NC_BYTE || v->type > NC_UINT64)
+    fg__nc_unusable(grid, "'%s' is of a type made by its author, not of numbers",
+                    v->name);
+  else if (v->rank < 2)
+    fg__nc_unusable(grid, "'%s' has %d dimension%s; a field has two or more", v->name,
+                    v->rank, v->rank == 1 ? "" : "s");
+  else if (v->rank > FG__NC_RANK)
+    fg__nc_unusable(grid, "'%s' has more than %d dimensions", v->name, FG__NC_RANK);
+}
+
+static bool fits_file(const fg__nc_file *file, const fg__nc_variable *v, size_t samples)
+{
+  size_t width = 1;
+  return nc_inq_type(v->group, v->type, NULL, &width) != NC_NOERR ||
+         samples / LARGEST_COMPRESSION * width <= file->sizes[v->file];
+}
+
+/* A part at a time: a header alone must not make them take memory. */
+static bool same_numbers(const fg__nc_variable *a, const fg__nc_variable *b, size_t n)
+{
+  enum { AT_ONCE = 4096 };
+  double x[AT_ONCE], y[AT_ONCE];
+  for (size_t start = 0; start < n; start += AT_ONCE) {
+    const size_t count = n - start < AT_ONCE ? n - start : AT_ONCE;
+    if (nc_get_vara_double(a->group, a->id, &start, &count, x) ||
+        nc_get_vara_double(b->group, b->id, &start, &count, y) ||
+        memcmp(x, y, count * sizeof *x) != 0)
+      return false;
+  }
+  return true;
+}
+
+static bool same_coordinates(const fg__nc_file *file, const fg__nc_variable *a,
+                             const fg__nc_variable *b, int k)
+{
+  const size_t n = file->dimensions[a->dimension[k]].length;
+  const fg__nc_variable *of_a = fg__nc_coordinate(file, a, k);
+  const fg__nc_variable *of_b = fg__nc_coordinate(file, b, k);
+  if (!of_a || !of_b)
+    return !of_a && !of_b && a->file != b->file;
+  return fits_file(file, of_a, n) && fits_file(file, of_b, n) &&
+         same_numbers(of_a, of_b, n);
+}
+
+void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
+                         const fg__nc_variable *u, const fg__nc_variable *v)
+{
+  char of_u[FG__NC_TEXT / 2];
+  char of_v[FG__NC_TEXT / 2];
+  write_shape(of_u, sizeof of_u, file, u);
+  write_shape(of_v, sizeof of_v, file, v);
+  if (strcmp(of_u, of_v) != 0) {
+    fg__nc_unusable(grid, "'%.60s' is %s, '%.60s' is %s samples: a staggered grid",
+                    u->plain_name, of_u, v->plain_name, of_v);
+    return;
+  }
+  for (int k = 0; k < u->rank; ++k)
+    if (u->dimension[k] != v->dimension[k] && !same_coordinates(file, u, v, k))
+      fg__nc_unusable(
+          grid, "'%.60s' runs along '%.60s', '%.60s' along '%.60s': a staggered grid",
+          u->plain_name, file->dimensions[u->dimension[k]].name, v->plain_name,
+          file->dimensions[v->dimension[k]].name);
+}
+
+void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
+                          const fg__nc_variable *v)
+{
+  if (!fits_file(file, v, grid->samples))
+    fg__nc_unusable(grid, "'%.120s' has %zu samples, but the file has only %zu bytes",
+                    v->name, grid->samples, file->sizes[v->file]);
+}

@@ -1,0 +1,243 @@
+/* The grid of a pair: dimensions, coordinates, units and scale. */
+#include "base/memory.h"
+#include "read/netcdf/netcdf.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* 2^31 samples take 24 gigabytes on the way to a field; more cannot be meant. */
+static const size_t MOST_SAMPLES = (size_t)1 << 31;
+
+static bool is_usable(const fg__nc_grid *grid)
+{
+  return grid->unusable[0] == '\0';
+}
+
+static void check_lengths(fg__nc_grid *grid, const fg__nc_file *file,
+                          const fg__nc_variable *v)
+{
+  for (int k = 0; k < v->rank; ++k) {
+    const fg__nc_dimension *d = &file->dimensions[v->dimension[k]];
+    if (d->length == 0)
+      fg__nc_unusable(grid, "dimension '%.120s' is empty", d->name);
+    else if (d->length >= INT_MAX)
+      fg__nc_unusable(grid, "dimension '%.120s' has %zu samples, more than %d", d->name,
+                      d->length, INT_MAX - 1);
+  }
+}
+
+static void set_index_axis(const fg__nc_file *file, const fg__nc_variable *v,
+                           int position, size_t *count,
+                           const fg__nc_variable **coordinate, char *name)
+{
+  *count = 1;
+  if (position < 0)
+    return;
+  const fg__nc_dimension *d = &file->dimensions[v->dimension[position]];
+  *count = d->length;
+  *coordinate = fg__nc_coordinate(file, v, position);
+  snprintf(name, NC_MAX_NAME + 1, "%s", d->name);
+}
+
+static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
+                            const fg__nc_variable *v)
+{
+  int position[FG__NC_ROLES];
+  const int extra = fg__nc_roles(position, file, v);
+  if (extra >= 0) {
+    const fg__nc_dimension *d = &file->dimensions[v->dimension[extra]];
+    fg__nc_unusable(grid, "dimension '%.120s' of %zu samples is neither time nor level",
+                    d->name, d->length);
+    return;
+  }
+  if (position[FG__NC_X] < 0 || position[FG__NC_Y] < 0) {
+    fg__nc_unusable(grid,
+                    "'%.120s' has only one dimension in space: a profile, a section "
+                    "or an unstructured mesh",
+                    v->name);
+    return;
+  }
+  for (int k = 0; k < 2; ++k) {
+    const int dimension = v->dimension[position[k]];
+    const fg__nc_dimension *d = &file->dimensions[dimension];
+    grid->axis[k].dimension = dimension;
+    grid->axis[k].size = d->length;
+    if (d->length < 2)
+      fg__nc_unusable(grid, "its %c axis '%.120s' has only %zu sample", "xy"[k],
+                      d -> name, d -> length);
+  }
+  grid->samples = grid->axis[0].size * grid->axis[1].size;
+  if (grid->samples > MOST_SAMPLES)
+    fg__nc_unusable(grid, "%zu x %zu samples are more than the %zu that are handled",
+                    grid->axis[0].size, grid->axis[1].size, MOST_SAMPLES);
+  fg__nc_check_storage(grid, file, v);
+  grid->time = position[FG__NC_TIME];
+  grid->level = position[FG__NC_LEVEL];
+  set_index_axis(file, v, grid->time, &grid->times, &grid->time_variable,
+                 grid->time_name);
+  set_index_axis(file, v, grid->level, &grid->levels, &grid->level_variable,
+                 grid->level_name);
+}
+
+static const fg__nc_variable *axis_coordinate(const fg__nc_grid *grid,
+                                              const fg__nc_file *file,
+                                              const fg__nc_variable *v, int k)
+{
+  for (int p = 0; p < v->rank; ++p)
+    if (v->dimension[p] == grid->axis[k].dimension)
+      return fg__nc_coordinate(file, v, p);
+  return NULL;
+}
+
+static fg_status read_axes(fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_variable *v)
+{
+  const fg__nc_variable *coordinate[2];
+  bool both = true;
+  for (int k = 0; k < 2; ++k) {
+    coordinate[k] = axis_coordinate(grid, file, v, k);
+    both = both && coordinate[k] && !fg__nc_counts(coordinate[k]);
+  }
+  if (!both) {
+    bool found = false;
+    fg_status status = fg__nc_plane_find(grid, file, v, &found);
+    if (status != FG_STATUS_OK || found || !is_usable(grid))
+      return status;
+  }
+  for (int k = 0; k < 2; ++k) {
+    fg_status status = coordinate[k] ? fg__nc_axis_read(grid, file, k, coordinate[k])
+                                     : fg__nc_axis_count(grid, file, k);
+    if (status != FG_STATUS_OK)
+      return status;
+  }
+  return FG_STATUS_OK;
+}
+
+static void set_positions(fg__nc_grid *grid, const fg__nc_variable *v)
+{
+  for (int k = 0; k < 2; ++k)
+    for (int p = 0; p < v->rank; ++p)
+      if (v->dimension[p] == grid->axis[k].dimension)
+        grid->axis[k].position = p;
+}
+
+static fg__nc_quantity velocity_units(const fg__nc_variable *v, char *label, size_t size)
+{
+  char text[FG__NC_TEXT];
+  fg__nc_text(v, "units", text, sizeof text);
+  return fg__nc_units(text, label, size);
+}
+
+static void check_units(fg__nc_grid *grid, const fg__nc_pair *pair,
+                        fg__nc_quantity *quantity)
+{
+  char of_u[FG__NC_TEXT];
+  char of_v[FG__NC_TEXT];
+  *quantity = velocity_units(pair->component[0], of_u, sizeof of_u);
+  const fg__nc_quantity other = velocity_units(pair->component[1], of_v, sizeof of_v);
+  if (of_u[0] && of_v[0] && strcmp(of_u, of_v) != 0)
+    fg__nc_unusable(grid, "'%.60s' is in %.40s, '%.60s' in %.40s",
+                    pair->component[0]->plain_name, of_u, pair->component[1]->plain_name,
+                    of_v);
+  if (*quantity == FG__NC_UNKNOWN)
+    *quantity = other;
+}
+
+static fg_scale natural_scale(const fg__nc_grid *grid, fg__nc_quantity velocity)
+{
+  const fg__nc_quantity x = grid->axis[0].quantity;
+  const fg__nc_quantity y = grid->axis[1].quantity;
+  const bool rotated = strcmp(grid->axis[0].name, "grid longitude") == 0 &&
+                       strcmp(grid->axis[1].name, "grid latitude") == 0;
+  /* any vector along east and north follows the sphere; an angular speed counts degrees
+   */
+  if (((x == FG__NC_DEGREES_EAST && y == FG__NC_DEGREES_NORTH) || rotated) &&
+      velocity != FG__NC_ANGULAR_SPEED)
+    return FG_SCALE_GEO;
+  if (x == FG__NC_LENGTH && y == FG__NC_LENGTH)
+    return FG_SCALE_MAP;
+  return FG_SCALE_PLAIN;
+}
+
+/* Components along east and north are not components along the axes of a projection or of
+ * a rotated pole; on Mercator's and its kin's they are. */
+static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
+                             const fg__nc_variable *u)
+{
+  static const char *const upright[] = {"mercator", "latitude_longitude",
+                                        "lambert_cylindrical_equal_area"};
+  char text[FG__NC_TEXT];
+  char mapping[FG__NC_TEXT];
+  fg__nc_text(u, "standard_name", text, sizeof text);
+  if (!strstr(text, "eastward"))
+    return;
+  fg__nc_text(u, "grid_mapping", mapping, sizeof mapping);
+  const fg__nc_variable *described = mapping[0] ? fg__nc_find(file, mapping) : NULL;
+  if (!described || !fg__nc_text(described, "grid_mapping_name", mapping, sizeof mapping))
+    return;
+  for (size_t i = 0; i < sizeof upright / sizeof *upright; ++i)
+    if (strcmp(mapping, upright[i]) == 0)
+      return;
+  fg__nc_unusable(grid, "'%.60s' points east, but the axes of its %.60s grid do not",
+                  u->plain_name, mapping);
+  snprintf(grid->hint, sizeof grid->hint,
+           "--scale map or plain takes the components as if they were along the axes");
+}
+
+static void settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
+                         const fg__nc_pair *pair, fg__nc_quantity velocity,
+                         fg_scale wanted)
+{
+  const fg__nc_axis *x = &grid->axis[0];
+  const fg__nc_axis *y = &grid->axis[1];
+  grid->scale = wanted == FG_SCALE_AUTO ? natural_scale(grid, velocity) : wanted;
+  if (wanted == FG_SCALE_AUTO || wanted == FG_SCALE_GEO)
+    check_directions(grid, file, pair->component[0]);
+  if (grid->scale == FG_SCALE_GEO &&
+      (x->quantity == FG__NC_LENGTH || y->quantity == FG__NC_LENGTH))
+    fg__nc_unusable(grid, "scale geo needs axes in degrees; '%.60s' is in %.40s", x->name,
+                    x->units);
+  if (grid->scale == FG_SCALE_MAP && strcmp(x->units, y->units) != 0)
+    fg__nc_unusable(grid, "'%.60s' is in %.40s, '%.60s' in %.40s: no plane", x->name,
+                    x->units, y->name, y->units);
+}
+
+fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_pair *pair, fg_scale scale)
+{
+  const fg__nc_variable *u = pair->component[0];
+  const fg__nc_variable *v = pair->component[1];
+  *grid = (fg__nc_grid){
+      .dimension = 2, .time = -1, .level = -1, .times = 1, .levels = 1, .scale = scale};
+  fg__nc_check_variable(grid, u);
+  fg__nc_check_variable(grid, v);
+  if (is_usable(grid))
+    fg__nc_check_shapes(grid, file, u, v);
+  if (is_usable(grid))
+    check_lengths(grid, file, u);
+  if (is_usable(grid))
+    find_dimensions(grid, file, u);
+  if (!is_usable(grid))
+    return FG_STATUS_OK;
+  fg_status status = read_axes(grid, file, u);
+  if (status != FG_STATUS_OK)
+    return status;
+  set_positions(grid, u);
+  grid->samples = grid->axis[0].size * grid->axis[1].size;
+  fg__nc_quantity velocity;
+  check_units(grid, pair, &velocity);
+  if (is_usable(grid))
+    settle_scale(grid, file, pair, velocity, scale);
+  return is_usable(grid) && pair->component[2] ? fg__nc_volume_find(grid, file, pair)
+                                               : FG_STATUS_OK;
+}
+
+void fg__nc_grid_clear(fg__nc_grid *grid)
+{
+  for (int k = 0; k < 3; ++k) {
+    free(grid->axis[k].coordinate);
+    grid->axis[k].coordinate = NULL;
+  }
+}

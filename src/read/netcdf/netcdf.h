@@ -1,0 +1,247 @@
+/* The parts of the NetCDF reader, in the order a file passes through them: size, file,
+ * pairs, grid, values. */
+#ifndef FG__NETCDF_H
+#define FG__NETCDF_H
+
+#include "read/format.h"
+#include "read/signature.h"
+
+#include <netcdf.h>
+
+/* Compares the size of a file with what its header promises. FILE_FORMAT. */
+fg_status fg__nc_check_size(fg_context *context, const fg__source *source);
+
+enum {
+  FG__NC_RANK = 8,                  /* more dimensions than any field has */
+  FG__NC_TEXT = 256,                /* bytes of an attribute that are looked at */
+  FG__NC_NAME = 2 * NC_MAX_NAME + 2 /* group/variable */
+};
+
+typedef struct fg__nc_dimension {
+  int id;
+  int root; /* ncid of the file it belongs to */
+  char name[NC_MAX_NAME + 1];
+  size_t length;
+  bool unlimited;
+} fg__nc_dimension;
+
+typedef struct fg__nc_variable {
+  struct fg__nc_file *owner;
+  int file;  /* 0 or 1 */
+  int group; /* ncid */
+  int id;
+  char name[FG__NC_NAME]; /* with the names of its groups: "ocean/u" */
+  const char *plain_name; /* the last part */
+  const char *path;       /* of its file */
+  nc_type type;
+  int rank;                   /* FG__NC_RANK + 1 when it has more */
+  int dimension[FG__NC_RANK]; /* indices into the file's dimensions */
+} fg__nc_variable;
+
+/* One or two NetCDF files (the second holds the other component). */
+typedef struct fg__nc_file {
+  fg_context *context;
+  int roots[2];
+  char *paths[2];
+  size_t sizes[2]; /* bytes */
+  int root_count;
+  fg__nc_dimension *dimensions;
+  size_t dimension_count, dimension_capacity;
+  fg__nc_variable *variables;
+  size_t variable_count, variable_capacity;
+  bool exhausted; /* memory for an attribute was lacking, which the context says */
+} fg__nc_file;
+
+/* Opens a source and lists its dimensions and variables; may be called a second time to
+ * add another file. FILE_FORMAT, MEMORY. */
+fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
+                           const fg__source *source);
+void fg__nc_file_close(fg__nc_file *file);
+
+/* MEMORY where an attribute could not be read for lack of memory, whatever came of it;
+ * else `status`. */
+fg_status fg__nc_status(const fg__nc_file *file, fg_status status);
+
+/* Records a failure of libnetcdf. */
+fg_status fg__nc_fail(fg_context *context, const char *path, const char *what, int error);
+
+/* The variable of that name (whole, or its last part), or NULL. */
+const fg__nc_variable *fg__nc_find(const fg__nc_file *file, const char *name);
+
+/* A text attribute without white space at its ends, cut to the buffer; "" when there is
+ * none. Returns whether there is one; fg__nc_status tells a lack of memory. */
+bool fg__nc_text(const fg__nc_variable *variable, const char *attribute, char *out,
+                 size_t size);
+
+/* The numbers of an attribute, at most `capacity`; returns how many; likewise. */
+int fg__nc_numbers(const fg__nc_variable *variable, const char *attribute, double *out,
+                   int capacity, nc_type *type);
+
+typedef enum fg__nc_quantity {
+  FG__NC_UNKNOWN = 0, /* no units, or none that is known here */
+  FG__NC_SPEED,
+  FG__NC_ANGULAR_SPEED,
+  FG__NC_LENGTH,
+  FG__NC_DEGREES,
+  FG__NC_DEGREES_EAST,
+  FG__NC_DEGREES_NORTH,
+  FG__NC_PRESSURE,
+  FG__NC_DATE /* "hours since ..." */
+} fg__nc_quantity;
+
+/* Classifies units and writes them as an axis label has them: "m s**-1" as "m/s". */
+fg__nc_quantity fg__nc_units(const char *units, char *label, size_t size);
+
+/* Writes a time as a date, "2014-01-31 03:00"; false when units or calendar are not
+ * known. */
+bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
+                 size_t size);
+
+typedef struct fg__nc_pair {
+  const fg__nc_variable *component[3]; /* the third NULL when there is none */
+  bool volume;                         /* the third is asked for, not only found */
+  const char *found_by;
+  int rank;         /* the smallest is the best */
+  bool is_velocity; /* not a stress, a flux, or something of unfit units */
+} fg__nc_pair;
+
+/* Lists the pairs, best rank first, in the file's order in each. *out is for free(). */
+fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file);
+
+/* The variable that goes with a pair as the third component: same dimensions and units,
+ * and named like them; NULL for none. */
+const fg__nc_variable *fg__nc_third(const fg__nc_file *file, const fg__nc_pair *pair);
+
+typedef enum fg__nc_role {
+  FG__NC_NO_ROLE = -1,
+  FG__NC_X = 0,
+  FG__NC_Y,
+  FG__NC_TIME,
+  FG__NC_LEVEL
+} fg__nc_role;
+
+enum { FG__NC_ROLES = 4 };
+
+/* Whether a coordinate is longitude (X), latitude (Y), or neither. */
+fg__nc_role fg__nc_geographic(const fg__nc_variable *coordinate);
+
+/* The one-dimensional coordinate of a variable's dimension number k, or NULL. */
+const fg__nc_variable *fg__nc_coordinate(const fg__nc_file *file,
+                                         const fg__nc_variable *variable, int k);
+
+/* Whether a coordinate may only count samples: neither units nor a standard name say that
+ * it measures anything. */
+bool fg__nc_counts(const fg__nc_variable *coordinate);
+
+/* Finds the position among a variable's dimensions of each role, -1 where there is none.
+ * Returns the position of a dimension longer than 1 that fits no role, or -1. */
+int fg__nc_roles(int position[FG__NC_ROLES], const fg__nc_file *file,
+                 const fg__nc_variable *variable);
+
+typedef struct fg__nc_axis {
+  int dimension;      /* index into the file's dimensions */
+  int position;       /* among those of the variable */
+  size_t first;       /* first sample in the file */
+  size_t size;        /* samples that are used */
+  bool reversed;      /* the last of them comes first */
+  double *coordinate; /* [size], ascending */
+  double period;
+  fg__nc_quantity quantity;
+  char name[FG__NC_TEXT];
+  char units[FG__NC_TEXT];
+} fg__nc_axis;
+
+typedef struct fg__nc_grid {
+  int dimension;        /* 2: a plane at one level; 3 */
+  fg__nc_axis axis[3];  /* x, y; the levels as z in 3D */
+  int time, level;      /* positions among the dimensions, or -1 */
+  size_t times, levels; /* 1 when there is none */
+  const fg__nc_variable *time_variable, *level_variable; /* or NULL */
+  char time_name[NC_MAX_NAME + 1], level_name[NC_MAX_NAME + 1];
+  fg_scale scale;
+  size_t samples;                 /* of the axes together */
+  char unusable[2 * FG__NC_TEXT]; /* "" or why the pair cannot be read */
+  char hint[FG__NC_TEXT];
+} fg__nc_grid;
+
+/* fitness.c. Writes why a pair cannot be read, once. */
+void fg__nc_unusable(fg__nc_grid *grid, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Compares the components' dimensions; staggered grids (Arakawa's C grid) keep them at
+ * different places, which makes the pair unusable. */
+void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
+                         const fg__nc_variable *u, const fg__nc_variable *v);
+
+/* A variable that is no field of numbers makes the pair unusable, or one larger than the
+ * file can hold. */
+void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v);
+void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
+                          const fg__nc_variable *v);
+
+/* axes.c. Reads a coordinate along an axis, makes it ascend, finds where it
+ * repeats. */
+fg_status fg__nc_axis_read(fg__nc_grid *grid, const fg__nc_file *file, int k,
+                           const fg__nc_variable *coordinate);
+
+/* Makes the samples' numbers, from 0, the coordinate. */
+fg_status fg__nc_axis_count(fg__nc_grid *grid, const fg__nc_file *file, int k);
+
+/* plane.c. Looks for two-dimensional longitude and latitude. When they vary along
+ * one dimension each they become the axes, and *found is true; otherwise the pair is
+ * unusable, unless the scale is plain. */
+fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
+                            const fg__nc_variable *variable, bool *found);
+
+/* volume.c. Makes a grid found for the first two components one in 3D when there
+ * is a third, all levels are one axis in space, and space has one measure; when the third
+ * is asked for, what is in the way makes the pair unusable. */
+fg_status fg__nc_volume_find(fg__nc_grid *grid, const fg__nc_file *file,
+                             const fg__nc_pair *pair);
+
+/* Finds the grid of a pair. What makes it unusable goes to `unusable`; only failures to
+ * read or a lack of memory are statuses. */
+fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_pair *pair, fg_scale scale);
+void fg__nc_grid_clear(fg__nc_grid *grid);
+
+typedef struct fg__nc_missing {
+  size_t fill, range, not_a_number; /* samples that are missing, by reason */
+} fg__nc_missing;
+
+/* Reads a component at one time and level into out, x fastest, both axes ascending; NaN
+ * where a value is missing. missing is added to. */
+fg_status fg__nc_values(float *out, fg__nc_missing *missing, const fg__nc_file *file,
+                        const fg__nc_variable *variable, const fg__nc_grid *grid,
+                        size_t time, size_t level);
+
+/* Reads a mask into out: 0 where the variable is zero or missing. The variable has the
+ * grid's two dimensions, and perhaps its time and level. */
+fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
+                      const fg__nc_variable *variable, const fg__nc_grid *grid,
+                      const fg__nc_variable *component, size_t time, size_t level);
+
+/* The samples of some rows of a field. */
+typedef struct fg__nc_samples {
+  float *velocity[3];
+  fg__nc_missing missing[3]; /* of its own rows */
+  unsigned char *valid;      /* NULL: all */
+} fg__nc_samples;
+
+/* Reads a pair's rows at one time and, in 2D, level; mask may be NULL. To be cleared even
+ * after a failure. FILE_ACCESS, ARGUMENT (mask), MEMORY. */
+fg_status fg__nc_samples_read(fg__nc_samples *out, const fg__nc_file *file,
+                              const fg__nc_pair *pair, const fg__nc_grid *grid,
+                              const fg__rows *rows, size_t time, size_t level,
+                              const char *mask);
+void fg__nc_samples_clear(fg__nc_samples *samples);
+
+/* What the components are together, from their long or standard names; else the title of
+ * their file (or group), or their names. */
+void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t size);
+
+/* Describes an index along time or level; name is the dimension's. */
+fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,
+                             const char *name, size_t index, char *out, size_t size);
+
+#endif

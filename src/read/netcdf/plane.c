@@ -1,0 +1,155 @@
+/* Longitude and latitude kept as two-dimensional arrays: a grid in disguise when each
+ * varies along one dimension only, else curvilinear. */
+#include "base/memory.h"
+#include "read/netcdf/netcdf.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Departures from a rectilinear grid by less than this part of a cell, anywhere, are
+ * rounding: arrays in float depart by 1.5e-5 degrees. */
+static const double STRAIGHT_TOLERANCE = 0.01;
+
+typedef struct plane {
+  const fg__nc_variable *variable;
+  double *value; /* the file's order: [first dimension][second dimension] */
+} plane;
+
+static bool is_listed(const char *names, const char *name)
+{
+  const size_t length = strlen(name);
+  for (const char *c = names; (c = strstr(c, name)); c += length)
+    if ((c == names || c[-1] == ' ') && (c[length] == '\0' || c[length] == ' '))
+      return true;
+  return false;
+}
+
+static const int *last_dimensions(const fg__nc_variable *v)
+{
+  return v->dimension + v->rank - 2;
+}
+
+/* Time may go before: WRF repeats the coordinates for every time. */
+static bool lies_in_plane(const fg__nc_variable *v, int x, int y)
+{
+  if (v->rank < 2 || v->rank > 3 || v->type == NC_CHAR || v->type > NC_UINT64)
+    return false;
+  const int *last = last_dimensions(v);
+  return (last[0] == x && last[1] == y) || (last[0] == y && last[1] == x);
+}
+
+/* The two-dimensional longitude (x) or latitude (y) of a variable; one that the variable
+ * names among its coordinates goes before others. */
+static const fg__nc_variable *find_plane(const fg__nc_grid *grid, const fg__nc_file *file,
+                                         const fg__nc_variable *variable,
+                                         fg__nc_role role)
+{
+  char listed[FG__NC_TEXT];
+  fg__nc_text(variable, "coordinates", listed, sizeof listed);
+  const int x = grid->axis[0].dimension;
+  const int y = grid->axis[1].dimension;
+  const fg__nc_variable *found = NULL;
+  for (size_t i = 0; i < file->variable_count; ++i) {
+    const fg__nc_variable *v = &file->variables[i];
+    if (!lies_in_plane(v, x, y) || fg__nc_geographic(v) != role)
+      continue;
+    if (is_listed(listed, v->plain_name))
+      return v;
+    if (!found)
+      found = v;
+  }
+  return found;
+}
+
+static fg_status read_plane(plane *out, const fg__nc_file *file)
+{
+  const fg__nc_variable *v = out->variable;
+  size_t start[FG__NC_RANK] = {0};
+  size_t count[FG__NC_RANK];
+  size_t samples = 1;
+  for (int k = 0; k < v->rank; ++k) {
+    count[k] = k < v->rank - 2 ? 1 : file->dimensions[v->dimension[k]].length;
+    samples *= count[k];
+  }
+  out->value = fg__allocate(samples, sizeof *out->value);
+  if (!out->value)
+    return fg__fail_memory(file->context, "a coordinate", samples * sizeof *out->value);
+  const int error = nc_get_vara_double(v->group, v->id, start, count, out->value);
+  return error ? fg__nc_fail(file->context, v->path, v->name, error) : FG_STATUS_OK;
+}
+
+/* The dimension (0 or 1) along which alone the plane varies, or -1. Longitudes are
+ * compared modulo 360. */
+static int direction_of(const plane *p, size_t n0, size_t n1, bool longitude)
+{
+  for (int along = 0; along < 2; ++along) {
+    const size_t n = along == 0 ? n0 : n1;
+    const size_t across = along == 0 ? n1 : n0;
+    const size_t step = along == 0 ? n1 : 1;
+    const size_t step_across = along == 0 ? 1 : n1;
+    double spacing = 0.0;
+    for (size_t i = 1; i < n; ++i) {
+      double d = p->value[i * step] - p->value[(i - 1) * step];
+      d = longitude ? remainder(d, 360.0) : d;
+      spacing += fabs(d) / (double)(n - 1);
+    }
+    bool constant = spacing > 0.0;
+    for (size_t i = 0; i < n && constant; ++i)
+      for (size_t j = 1; j < across && constant; ++j) {
+        double d = p->value[i * step + j * step_across] - p->value[i * step];
+        d = longitude ? remainder(d, 360.0) : d;
+        constant = fabs(d) <= STRAIGHT_TOLERANCE * spacing;
+      }
+    if (constant)
+      return along;
+  }
+  return -1;
+}
+
+fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
+                            const fg__nc_variable *variable, bool *found)
+{
+  *found = false;
+  plane longitude = {find_plane(grid, file, variable, FG__NC_X), NULL};
+  plane latitude = {find_plane(grid, file, variable, FG__NC_Y), NULL};
+  if (!longitude.variable || !latitude.variable || grid->scale == FG_SCALE_PLAIN)
+    return FG_STATUS_OK;
+  const int *dimension = last_dimensions(longitude.variable);
+  const int *other = last_dimensions(latitude.variable);
+  const size_t n0 = file->dimensions[dimension[0]].length;
+  const size_t n1 = file->dimensions[dimension[1]].length;
+  fg_status status = read_plane(&longitude, file);
+  if (status == FG_STATUS_OK)
+    status = read_plane(&latitude, file);
+  if (status != FG_STATUS_OK)
+    goto cleanup;
+  const bool same_order = other[0] == dimension[0];
+  const int x = direction_of(&longitude, n0, n1, true);
+  const int y = same_order ? direction_of(&latitude, n0, n1, false)
+                           : direction_of(&latitude, n1, n0, false);
+  const int y_dimension = y < 0 ? -1 : other[y];
+  if (x < 0 || y < 0 || dimension[x] == y_dimension) {
+    fg__nc_unusable(grid,
+                    "a curvilinear grid: '%s' and '%s' vary along both of its dimensions",
+                    longitude.variable->name, latitude.variable->name);
+    snprintf(grid->hint, sizeof grid->hint,
+             "--scale plain reads it on its index grid, columns and rows as the axes");
+    goto cleanup;
+  }
+  if (grid->axis[0].dimension != dimension[x]) {
+    const fg__nc_axis swapped = grid->axis[0];
+    grid->axis[0] = grid->axis[1];
+    grid->axis[1] = swapped;
+  }
+  *found = true;
+  status = fg__nc_axis_read(grid, file, 0, longitude.variable);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_axis_read(grid, file, 1, latitude.variable);
+
+cleanup:
+  free(longitude.value);
+  free(latitude.value);
+  return status;
+}

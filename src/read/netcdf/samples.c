@@ -1,0 +1,123 @@
+/* A field's samples, or those of some of its rows: its components, level by level in 3D,
+ * and its mask. */
+#include "base/memory.h"
+#include "read/netcdf/netcdf.h"
+
+#include <stdlib.h>
+
+/* Samples of one level, and the level of the file that is the grid's k-th. */
+static size_t plane_size(const fg__nc_grid *grid)
+{
+  return grid->axis[0].size * grid->axis[1].size;
+}
+
+static size_t level_of(const fg__nc_grid *grid, size_t k)
+{
+  const fg__nc_axis *z = &grid->axis[2];
+  return z->first + (z->reversed ? z->size - 1 - k : k);
+}
+
+static size_t level_count(const fg__nc_grid *grid)
+{
+  return grid->dimension == 3 ? grid->axis[2].size : 1;
+}
+
+/* Samples of one row along the last axis. */
+static size_t row_size(const fg__nc_grid *grid)
+{
+  return grid->dimension == 3 ? plane_size(grid) : grid->axis[0].size;
+}
+
+/* The grid of rows [first, first + count) alone. */
+static fg__nc_grid rows_of_grid(const fg__nc_grid *grid, int first, int count)
+{
+  fg__nc_grid out = *grid;
+  fg__nc_axis *axis = &out.axis[out.dimension - 1];
+  axis->first +=
+      axis->reversed ? axis->size - (size_t)first - (size_t)count : (size_t)first;
+  axis->size = (size_t)count;
+  return out;
+}
+
+/* Where samples are read from. */
+typedef struct source {
+  const fg__nc_file *file;
+  const fg__nc_pair *pair;
+  const fg__nc_grid *grid;
+  const fg__rows *rows;
+  size_t time, level;
+} source;
+
+static fg_status read_values(float *out, fg__nc_missing *missing, const source *from,
+                             const fg__nc_variable *variable, const fg__nc_grid *grid)
+{
+  fg_status status = FG_STATUS_OK;
+  for (size_t z = 0; z < level_count(grid) && status == FG_STATUS_OK; ++z)
+    status =
+        fg__nc_values(out + z * plane_size(grid), missing, from->file, variable, grid,
+                      from->time, grid->dimension == 3 ? level_of(grid, z) : from->level);
+  return status;
+}
+
+static fg_status read_component(fg__nc_samples *out, const source *from, int k)
+{
+  const fg__rows *rows = from->rows;
+  const fg__nc_variable *variable = from->pair->component[k];
+  const size_t row = row_size(from->grid), samples = row * (size_t)rows->held;
+  out->velocity[k] = fg__allocate(samples, sizeof *out->velocity[k]);
+  if (!out->velocity[k])
+    return fg__fail_memory(from->file->context, "the velocity",
+                           samples * sizeof *out->velocity[k]);
+  const fg__nc_grid own = rows_of_grid(from->grid, rows->first, rows->own);
+  fg_status status =
+      read_values(out->velocity[k], &out->missing[k], from, variable, &own);
+  if (status != FG_STATUS_OK || rows->held == rows->own)
+    return status;
+  fg__nc_missing others = {0}; /* another part counts them */
+  const fg__nc_grid rest =
+      rows_of_grid(from->grid, rows->first + rows->own, rows->held - rows->own);
+  return read_values(out->velocity[k] + row * (size_t)rows->own, &others, from, variable,
+                     &rest);
+}
+
+static fg_status read_mask(fg__nc_samples *out, const source *from, const char *name)
+{
+  const fg__nc_variable *mask = fg__nc_find(from->file, name);
+  if (!mask)
+    return fg__fail(from->file->context, FG_STATUS_ARGUMENT,
+                    "%s: has no variable '%s' for the mask", from->file->paths[0], name);
+  const size_t samples = row_size(from->grid) * (size_t)from->rows->held;
+  out->valid = fg__allocate(samples, 1);
+  if (!out->valid)
+    return fg__fail_memory(from->file->context, "the mask", samples);
+  const fg__nc_grid grid = rows_of_grid(from->grid, from->rows->first, from->rows->held);
+  fg_status status = FG_STATUS_OK;
+  for (size_t z = 0; z < level_count(&grid) && status == FG_STATUS_OK; ++z)
+    status = fg__nc_mask(out->valid + z * plane_size(&grid), from->file, mask, &grid,
+                         from->pair->component[0], from->time,
+                         grid.dimension == 3 ? level_of(&grid, z) : from->level);
+  return status;
+}
+
+fg_status fg__nc_samples_read(fg__nc_samples *out, const fg__nc_file *file,
+                              const fg__nc_pair *pair, const fg__nc_grid *grid,
+                              const fg__rows *rows, size_t time, size_t level,
+                              const char *mask)
+{
+  const source from = {file, pair, grid, rows, time, level};
+  *out = (fg__nc_samples){0};
+  fg_status status = FG_STATUS_OK;
+  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k)
+    status = read_component(out, &from, k);
+  if (status == FG_STATUS_OK && mask)
+    status = read_mask(out, &from, mask);
+  return status;
+}
+
+void fg__nc_samples_clear(fg__nc_samples *samples)
+{
+  for (int k = 0; k < 3; ++k)
+    free(samples->velocity[k]);
+  free(samples->valid);
+  *samples = (fg__nc_samples){0};
+}

@@ -1,0 +1,132 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/context_test.h"
+#include "read/netcdf/netcdf.h"
+
+static void units_are_classified_and_written_shortly(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *units;
+    fg__nc_quantity quantity;
+    const char *label;
+  } cases[] = {
+      {"m/s", FG__NC_SPEED, "m/s"},
+      {"m s-1", FG__NC_SPEED, "m/s"},
+      {"m s**-1", FG__NC_SPEED, "m/s"},
+      {"m.s^-1", FG__NC_SPEED, "m/s"},
+      {"M/S", FG__NC_SPEED, "m/s"},
+      {"meter second-1", FG__NC_SPEED, "m/s"},
+      {"meters per second", FG__NC_SPEED, "m/s"},
+      {"centimeter/s", FG__NC_SPEED, "cm/s"},
+      {"km h-1", FG__NC_SPEED, "km/h"},
+      {"m day-1", FG__NC_SPEED, "m/d"},
+      {"knots", FG__NC_SPEED, "kn"},
+      {"degrees/day", FG__NC_ANGULAR_SPEED, "°/d"},
+      {"rad s-1", FG__NC_ANGULAR_SPEED, "rad/s"},
+      {"m", FG__NC_LENGTH, "m"},
+      {"kilometers", FG__NC_LENGTH, "km"},
+      {"degrees", FG__NC_DEGREES, "°"},
+      {"degrees_east", FG__NC_DEGREES_EAST, "°E"},
+      {"degree_N", FG__NC_DEGREES_NORTH, "°N"},
+      {"millibar", FG__NC_PRESSURE, "hPa"},
+      {"hours since 1900-01-01", FG__NC_DATE, "hours since 1900-01-01"},
+      {"", FG__NC_UNKNOWN, ""},
+      {"1", FG__NC_UNKNOWN, "1"},
+      {"m2 s-2", FG__NC_UNKNOWN, "m2 s-2"},
+      {"N m-2", FG__NC_UNKNOWN, "N m-2"},
+      {"m s-2", FG__NC_UNKNOWN, "m s-2"},
+      {"m s", FG__NC_UNKNOWN, "m s"},
+      {"m/", FG__NC_UNKNOWN, "m/"},
+      {"m/s/s", FG__NC_UNKNOWN, "m/s/s"},
+      {"\xff\xfe", FG__NC_UNKNOWN, "\xff\xfe"},
+  };
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    char label[FG__NC_TEXT];
+    const fg__nc_quantity quantity = fg__nc_units(cases[i].units, label, sizeof label);
+    if (quantity != cases[i].quantity || strcmp(label, cases[i].label) != 0)
+      fail_msg("\"%s\" became %d \"%s\"", cases[i].units, (int)quantity, label);
+  }
+}
+
+static void assert_date(double value, const char *units, const char *calendar,
+                        const char *wanted)
+{
+  char out[FG__NC_TEXT] = "";
+  const bool known = fg__nc_date(value, units, calendar, out, sizeof out);
+  if (known != (wanted != NULL) || (wanted && strcmp(out, wanted) != 0))
+    fail_msg("%g %s (%s) became \"%s\"", value, units, calendar, out);
+}
+
+/* Known days: from the calendars' definitions and from almanacs. */
+static void dates_follow_the_calendar(void **state)
+{
+  (void)state;
+  assert_date(0.0, "days since 1970-01-01", "", "1970-01-01");
+  assert_date(16861.0, "days since 1970-01-01", "standard", "2016-03-01");
+  assert_date(1452729600.0, "seconds since 1970-01-01 00:00:00 +00:00", "", "2016-01-14");
+  assert_date(-1.0, "hours since 2000-03-01", "gregorian", "2000-02-29 23:00");
+  assert_date(90.0, "minutes since 1999-12-31T23:00:00Z", "", "2000-01-01 00:30");
+  assert_date(1.0, "days since 1900-02-28", "", "1900-03-01");
+  assert_date(1.0, "days since 1900-02-28", "julian", "1900-02-29");
+  /* the day after 4 October 1582 was 15 October */
+  assert_date(1.0, "days since 1582-10-04", "standard", "1582-10-15");
+  assert_date(-1.0, "days since 1582-10-15", "gregorian", "1582-10-04");
+  assert_date(-1.0, "days since 1582-10-15", "proleptic_gregorian", "1582-10-14");
+  /* Julian day 0 is noon of 1 January 4713 BC (year -4712); day 2451545 is 2000-01-01 12
+   * h */
+  assert_date(2451545.0, "days since -4712-01-01 12:00", "standard", "2000-01-01 12:00");
+  assert_date(-1.0, "days since -4712-01-01", "standard", "-4713-12-31");
+  assert_date(-719528.0 - 146097.0 * 20.0, "days since 1970-01-01", "proleptic_gregorian",
+              "-8000-01-01");
+  assert_date(60.0, "days since 2004-01-01", "noleap", "2004-03-02");
+  assert_date(59.0, "days since 2003-01-01", "366_day", "2003-02-29");
+  assert_date(59.0, "days since 2003-01-01", "360_day", "2003-02-30");
+  assert_date(360.0 * 5.0 - 1.0, "days since 2000-01-01", "360_day", "2004-12-30");
+  assert_date(360.0 * 5.0 - 1.0, "days since -900-01-01", "360_day", "-896-12-30");
+  assert_date(366.0, "hour since 0000-01-01 00:00:00", "", "16 January (climatology)");
+  assert_date(-719528.0, "days since 1970-01-01", "proleptic_gregorian", "0000-01-01");
+}
+
+/* Day by day against the C library, over two centuries and back. */
+static void dates_agree_with_the_c_library(void **state)
+{
+  (void)state;
+  for (int day = -36000; day < 47000; day += 17) {
+    const time_t seconds = (time_t)day * 86400 + 3 * 3600 + 25 * 60;
+    struct tm broken;
+    char wanted[64];
+    char out[64];
+    assert_non_null(gmtime_r(&seconds, &broken));
+    assert_true(strftime(wanted, sizeof wanted, "%Y-%m-%d %H:%M", &broken) > 0);
+    assert_true(
+        fg__nc_date(day + 205.0 / 1440.0, "days since 1970-01-01", "", out, sizeof out));
+    assert_string_equal(out, wanted);
+  }
+}
+
+static void what_is_no_date_is_left_alone(void **state)
+{
+  (void)state;
+  assert_date(1.0, "days since yesterday", "", NULL);
+  assert_date(1.0, "fortnights since 1970-01-01", "", NULL);
+  assert_date(1.0, "days since 1970-13-01", "", NULL);
+  assert_date(1.0, "days since 1970-01-01", "mayan", NULL);
+  assert_date(1e30, "days since 1970-01-01", "", NULL);
+  assert_date((double)NAN, "days since 1970-01-01", "", NULL);
+  assert_date(1.0, "days", "", NULL);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(units_are_classified_and_written_shortly),
+      cmocka_unit_test(dates_follow_the_calendar),
+      cmocka_unit_test(dates_agree_with_the_c_library),
+      cmocka_unit_test(what_is_no_date_is_left_alone),
+  };
+  return cmocka_run_group_tests_name("read/netcdf/units", tests, NULL, NULL);
+}

@@ -1,0 +1,320 @@
+/* Samples of a component at one time and level: missing values found, packing undone (CF
+ * conventions, chapters 2.5 and 8.1). */
+#include "base/memory.h"
+#include "read/netcdf/netcdf.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* Values read at once: 32 megabytes as double, whole chunks of common files. */
+static const size_t BLOCK_VALUES = (size_t)1 << 22;
+
+enum { MOST_FILLS = 16 };
+
+typedef struct packing {
+  double scale, offset;
+  double fill[MOST_FILLS]; /* as stored */
+  int fills;
+  double least, largest; /* valid range */
+  bool range_unpacked;   /* it is of the values, not of what is stored */
+  double wrap;           /* added to negative values of _Unsigned data, or 0 */
+} packing;
+
+/* What libnetcdf stores where nothing was written. Bytes have none: each value counts. */
+static bool default_fill(nc_type type, double *fill)
+{
+  switch (type) {
+  case NC_SHORT:
+    *fill = NC_FILL_SHORT;
+    return true;
+  case NC_INT:
+    *fill = NC_FILL_INT;
+    return true;
+  case NC_FLOAT:
+    *fill = (double)NC_FILL_FLOAT;
+    return true;
+  case NC_DOUBLE:
+    *fill = NC_FILL_DOUBLE;
+    return true;
+  case NC_USHORT:
+    *fill = NC_FILL_USHORT;
+    return true;
+  case NC_UINT:
+    *fill = NC_FILL_UINT;
+    return true;
+  case NC_INT64:
+    *fill = (double)NC_FILL_INT64;
+    return true;
+  case NC_UINT64:
+    *fill = (double)NC_FILL_UINT64;
+    return true;
+  default:
+    return false;
+  }
+}
+
+static double round_to_type(double value, nc_type type)
+{
+  return type == NC_FLOAT && fabs(value) <= (double)FLT_MAX ? (double)(float)value
+                                                            : value;
+}
+
+static void find_fills(packing *p, const fg__nc_variable *v)
+{
+  nc_type type;
+  p->fills = fg__nc_numbers(v, "_FillValue", p->fill, 1, &type);
+  if (p->fills == 0)
+    p->fills = default_fill(v->type, p->fill);
+  p->fills += fg__nc_numbers(v, "missing_value", p->fill + p->fills,
+                             MOST_FILLS - p->fills, &type);
+  for (int i = 0; i < p->fills; ++i)
+    p->fill[i] = round_to_type(p->fill[i], v->type);
+}
+
+static bool is_floating(nc_type type)
+{
+  return type == NC_FLOAT || type == NC_DOUBLE;
+}
+
+static void find_range(packing *p, const fg__nc_variable *v, bool packed)
+{
+  double range[2];
+  nc_type type = NC_NAT;
+  p->least = -HUGE_VAL;
+  p->largest = HUGE_VAL;
+  if (fg__nc_numbers(v, "valid_range", range, 2, &type) == 2) {
+    p->least = range[0];
+    p->largest = range[1];
+  } else {
+    fg__nc_numbers(v, "valid_min", &p->least, 1, &type);
+    fg__nc_numbers(v, "valid_max", &p->largest, 1, &type);
+  }
+  /* NUG, appendix A: a range of the unpacked type is of the unpacked values */
+  p->range_unpacked = packed && is_floating(type) && !is_floating(v->type);
+  if (!p->range_unpacked) {
+    p->least = round_to_type(p->least, v->type);
+    p->largest = round_to_type(p->largest, v->type);
+  }
+  if (!(p->least <= p->largest)) { /* an empty range is a mistake, not a wish */
+    p->least = -HUGE_VAL;
+    p->largest = HUGE_VAL;
+  }
+}
+
+static void find_unsigned(packing *p, const fg__nc_variable *v)
+{
+  char text[FG__NC_TEXT];
+  if (!fg__nc_text(v, "_Unsigned", text, sizeof text) || strcasecmp(text, "true") != 0)
+    return;
+  p->wrap = v->type == NC_BYTE    ? 256.0
+            : v->type == NC_SHORT ? 65536.0
+            : v->type == NC_INT   ? 4294967296.0
+                                  : 0.0;
+  for (int i = 0; i < p->fills; ++i)
+    if (p->fill[i] < 0.0)
+      p->fill[i] += p->wrap;
+  if (p->wrap > 0.0 && !p->range_unpacked) {
+    p->least += p->least < 0.0 ? p->wrap : 0.0;
+    p->largest += p->largest < 0.0 ? p->wrap : 0.0;
+  }
+}
+
+static packing find_packing(const fg__nc_variable *v)
+{
+  packing p = {.scale = 1.0, .offset = 0.0};
+  nc_type type;
+  const int scaled = fg__nc_numbers(v, "scale_factor", &p.scale, 1, &type);
+  const int moved = fg__nc_numbers(v, "add_offset", &p.offset, 1, &type);
+  find_fills(&p, v);
+  find_range(&p, v, scaled + moved > 0);
+  find_unsigned(&p, v);
+  return p;
+}
+
+/* The value of what is stored, NaN when it is missing. */
+static double unpack(const packing *p, double stored, fg__nc_missing *missing)
+{
+  if (isnan(stored)) {
+    ++missing->not_a_number;
+    return stored;
+  }
+  if (stored < 0.0)
+    stored += p->wrap;
+  for (int i = 0; i < p->fills; ++i)
+    if (stored == p->fill[i]) {
+      ++missing->fill;
+      return (double)NAN;
+    }
+  const double value = stored * p->scale + p->offset;
+  const double ranged = p->range_unpacked ? value : stored;
+  if (ranged < p->least || ranged > p->largest) {
+    ++missing->range;
+    return (double)NAN;
+  }
+  return value;
+}
+
+typedef struct slab {
+  size_t start[FG__NC_RANK], count[FG__NC_RANK];
+  int outer, inner; /* positions of the two axes, in the file's order */
+  const fg__nc_axis *outer_axis, *inner_axis;
+  size_t outer_step, inner_step; /* in the field's array */
+} slab;
+
+static void set_slab(slab *s, const fg__nc_variable *v, const fg__nc_grid *grid,
+                     const int position[FG__NC_ROLES], size_t time, size_t level)
+{
+  for (int k = 0; k < v->rank; ++k) {
+    s->start[k] = 0;
+    s->count[k] = 1;
+  }
+  if (position[FG__NC_TIME] >= 0)
+    s->start[position[FG__NC_TIME]] = time;
+  if (position[FG__NC_LEVEL] >= 0)
+    s->start[position[FG__NC_LEVEL]] = level;
+  const int first = position[FG__NC_X] < position[FG__NC_Y] ? FG__NC_X : FG__NC_Y;
+  s->outer = position[first];
+  s->inner = position[1 - first];
+  s->outer_axis = &grid->axis[first];
+  s->inner_axis = &grid->axis[1 - first];
+  s->outer_step = first == FG__NC_X ? 1 : grid->axis[0].size;
+  s->inner_step = first == FG__NC_X ? grid->axis[0].size : 1;
+  s->start[s->inner] = s->inner_axis->first;
+  s->count[s->inner] = s->inner_axis->size;
+}
+
+static size_t place(const fg__nc_axis *axis, size_t i)
+{
+  return axis->reversed ? axis->size - 1 - i : i;
+}
+
+typedef void sink(void *target, size_t index, double stored);
+
+static fg_status read_slab(slab *s, const fg__nc_file *file, const fg__nc_variable *v,
+                           sink *put, void *target)
+{
+  const size_t row = s->inner_axis->size;
+  const size_t rows = s->outer_axis->size;
+  size_t at_once = BLOCK_VALUES / row;
+  at_once = at_once < 1 ? 1 : at_once > rows ? rows : at_once;
+  double *block = fg__allocate(at_once * row, sizeof *block);
+  if (!block)
+    return fg__fail_memory(file->context, "samples", at_once * row * sizeof *block);
+  fg_status status = FG_STATUS_OK;
+  for (size_t first = 0; first < rows && status == FG_STATUS_OK; first += at_once) {
+    const size_t count = rows - first < at_once ? rows - first : at_once;
+    s->start[s->outer] = s->outer_axis->first + first;
+    s->count[s->outer] = count;
+    const int error = nc_get_vara_double(v->group, v->id, s->start, s->count, block);
+    if (error)
+      status = fg__nc_fail(file->context, v->path, v->name, error);
+    for (size_t j = 0; j < count && status == FG_STATUS_OK; ++j)
+      for (size_t i = 0; i < row; ++i)
+        put(target,
+            place(s->outer_axis, first + j) * s->outer_step +
+                place(s->inner_axis, i) * s->inner_step,
+            block[j * row + i]);
+    if (status == FG_STATUS_OK)
+      status = fg__check_stop(file->context);
+  }
+  free(block);
+  return status;
+}
+
+typedef struct value_sink {
+  const packing *packing;
+  fg__nc_missing *missing;
+  float *out;
+} value_sink;
+
+static void put_value(void *target, size_t index, double stored)
+{
+  const value_sink *to = target;
+  const double value = unpack(to->packing, stored, to->missing);
+  /* beyond float, but not infinite: it stays beyond every speed that is taken */
+  if (isfinite(value) && fabs(value) > (double)FLT_MAX)
+    to->out[index] = value > 0.0 ? FLT_MAX : -FLT_MAX;
+  else
+    to->out[index] = (float)value;
+}
+
+fg_status fg__nc_values(float *out, fg__nc_missing *missing, const fg__nc_file *file,
+                        const fg__nc_variable *variable, const fg__nc_grid *grid,
+                        size_t time, size_t level)
+{
+  const packing p = find_packing(variable);
+  const int position[FG__NC_ROLES] = {grid->axis[0].position, grid->axis[1].position,
+                                      grid->time, grid->level};
+  slab s;
+  set_slab(&s, variable, grid, position, time, level);
+  value_sink to = {&p, missing, out};
+  if (file->exhausted)
+    return FG_STATUS_MEMORY;
+  return read_slab(&s, file, variable, put_value, &to);
+}
+
+typedef struct mask_sink {
+  const packing *packing;
+  unsigned char *out;
+} mask_sink;
+
+static void put_mask(void *target, size_t index, double stored)
+{
+  const mask_sink *to = target;
+  fg__nc_missing ignored = {0};
+  const double value = unpack(to->packing, stored, &ignored);
+  to->out[index] = value > 0.0; /* false for NaN */
+}
+
+/* The mask's own dimension that matches one of the component's, or -1. */
+static int matching(const fg__nc_file *file, const fg__nc_variable *mask, int dimension)
+{
+  const fg__nc_dimension *wanted = &file->dimensions[dimension];
+  for (int k = 0; k < mask->rank; ++k) {
+    const fg__nc_dimension *own = &file->dimensions[mask->dimension[k]];
+    if (mask->dimension[k] == dimension ||
+        (strcmp(own->name, wanted->name) == 0 && own->length == wanted->length))
+      return k;
+  }
+  return -1;
+}
+
+fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
+                      const fg__nc_variable *variable, const fg__nc_grid *grid,
+                      const fg__nc_variable *component, size_t time, size_t level)
+{
+  if (variable->rank < 2 || variable->rank > FG__NC_RANK || variable->type == NC_CHAR ||
+      variable->type > NC_UINT64)
+    return fg__fail(file->context, FG_STATUS_ARGUMENT,
+                    "%s: the mask '%s' is no array of numbers", variable->path,
+                    variable->name);
+  int position[FG__NC_ROLES] = {-1, -1, -1, -1};
+  bool placed = true;
+  for (int k = 0; k < 2; ++k)
+    position[k] = matching(file, variable, grid->axis[k].dimension);
+  if (grid->time >= 0)
+    position[FG__NC_TIME] = matching(file, variable, component->dimension[grid->time]);
+  if (grid->level >= 0)
+    position[FG__NC_LEVEL] = matching(file, variable, component->dimension[grid->level]);
+  for (int k = 0; k < variable->rank; ++k) {
+    bool known = file->dimensions[variable->dimension[k]].length == 1;
+    for (int role = 0; role < FG__NC_ROLES; ++role)
+      known = known || position[role] == k;
+    placed = placed && known;
+  }
+  if (position[FG__NC_X] < 0 || position[FG__NC_Y] < 0 || !placed)
+    return fg__fail(file->context, FG_STATUS_ARGUMENT,
+                    "%s: the mask '%s' does not lie on the grid of '%s'", variable->path,
+                    variable->name, component->name);
+  const packing p = find_packing(variable);
+  slab s;
+  set_slab(&s, variable, grid, position, time, level);
+  mask_sink to = {&p, out};
+  if (file->exhausted)
+    return FG_STATUS_MEMORY;
+  return read_slab(&s, file, variable, put_mask, &to);
+}

@@ -1,0 +1,186 @@
+/* Levels as an axis in space: the third component, and whether the three make a volume.
+ */
+#include "read/netcdf/netcdf.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool same_dimensions(const fg__nc_variable *a, const fg__nc_variable *b)
+{
+  return a->rank == b->rank &&
+         memcmp(a->dimension, b->dimension, (size_t)a->rank * sizeof *a->dimension) == 0;
+}
+
+static void units_label(const fg__nc_variable *v, char label[FG__NC_TEXT])
+{
+  char text[FG__NC_TEXT];
+  fg__nc_text(v, "units", text, sizeof text);
+  fg__nc_units(text, label, FG__NC_TEXT);
+}
+
+static bool same_units(const fg__nc_variable *a, const fg__nc_variable *b)
+{
+  char of_a[FG__NC_TEXT], of_b[FG__NC_TEXT];
+  units_label(a, of_a);
+  units_label(b, of_b);
+  return strcmp(of_a, of_b) == 0;
+}
+
+/* Where the names of the pair differ, by the letters u and v or x and y, the third has w
+ * or z, and the same everywhere else: u v w, vx vy vz, uwnd vwnd wwnd, U_x U_y U_z. */
+static bool is_named_like(const char *w, const char *u, const char *v)
+{
+  static const char *const letters[] = {"uvw", "UVW", "xyz", "XYZ"};
+  const size_t length = strlen(u);
+  if (strlen(v) != length || strlen(w) != length)
+    return false;
+  for (size_t i = 0; i < length; ++i) {
+    bool fits = u[i] == v[i] && u[i] == w[i];
+    for (size_t k = 0; k < 4 && u[i] != v[i]; ++k)
+      fits = fits ||
+             (u[i] == letters[k][0] && v[i] == letters[k][1] && w[i] == letters[k][2]);
+    if (!fits)
+      return false;
+  }
+  return true;
+}
+
+/* CF: "upward_air_velocity", "upward_sea_water_velocity". */
+static bool is_upward_velocity(const fg__nc_variable *v)
+{
+  char name[FG__NC_TEXT];
+  fg__nc_text(v, "standard_name", name, sizeof name);
+  return strncmp(name, "upward_", 7) == 0 && strstr(name, "velocity");
+}
+
+const fg__nc_variable *fg__nc_third(const fg__nc_file *file, const fg__nc_pair *pair)
+{
+  const fg__nc_variable *u = pair->component[0], *v = pair->component[1];
+  const fg__nc_variable *upward = NULL;
+  int upward_count = 0;
+  for (size_t i = 0; i < file->variable_count; ++i) {
+    const fg__nc_variable *w = &file->variables[i];
+    if (w == u || w == v || !same_dimensions(u, w) || w->type < NC_BYTE ||
+        w->type > NC_UINT64 || w->type == NC_CHAR || !same_units(u, w))
+      continue;
+    if (is_named_like(w->name, u->name, v->name))
+      return w;
+    if (is_upward_velocity(w)) {
+      upward = w;
+      ++upward_count;
+    }
+  }
+  return upward_count == 1 ? upward : NULL;
+}
+
+static const fg__nc_variable *axis_variable(const fg__nc_file *file,
+                                            const fg__nc_grid *grid,
+                                            const fg__nc_variable *u, int k)
+{
+  for (int p = 0; p < u->rank; ++p)
+    if (u->dimension[p] == grid->axis[k].dimension)
+      return fg__nc_coordinate(file, u, p);
+  return NULL;
+}
+
+/* Maps and the atmosphere above them are not of one measure: one is a hundred times as
+ * wide as the other is high, and their files are read level by level. */
+static bool is_map(const fg__nc_file *file, const fg__nc_grid *grid,
+                   const fg__nc_variable *u)
+{
+  char name[FG__NC_TEXT] = "";
+  const fg__nc_variable *x = axis_variable(file, grid, u, FG__NC_X);
+  if (x)
+    fg__nc_text(x, "standard_name", name, sizeof name);
+  return strncmp(name, "projection_", 11) == 0;
+}
+
+static bool counts_down(const fg__nc_variable *z)
+{
+  char text[FG__NC_TEXT];
+  return z && fg__nc_text(z, "positive", text, sizeof text) && strcmp(text, "down") == 0;
+}
+
+static void check_components(fg__nc_grid *grid, const fg__nc_file *file,
+                             const fg__nc_pair *pair)
+{
+  const fg__nc_variable *u = pair->component[0], *w = pair->component[2];
+  fg__nc_check_variable(grid, w);
+  if (!grid->unusable[0])
+    fg__nc_check_shapes(grid, file, u, w);
+  if (!same_units(u, w))
+    fg__nc_unusable(grid, "'%.60s' and '%.60s' differ in units", u->plain_name,
+                    w->plain_name);
+}
+
+static void check_space(fg__nc_grid *grid, const fg__nc_file *file,
+                        const fg__nc_pair *pair)
+{
+  const fg__nc_variable *u = pair->component[0];
+  const fg__nc_axis *x = &grid->axis[0], *z = &grid->axis[2];
+  if (grid->scale == FG_SCALE_GEO)
+    fg__nc_unusable(grid, "longitude, latitude and height together cannot be handled "
+                          "yet");
+  else if (grid->scale == FG_SCALE_MAP && strcmp(x->units, z->units) != 0)
+    fg__nc_unusable(grid, "'%.60s' is in %.40s, '%.60s' in %.40s: no space", x->name,
+                    x->units, z->name, z->units[0] ? z->units : "no units");
+  else if (grid->scale != FG_SCALE_PLAIN && counts_down(axis_variable(file, grid, u, 2)))
+    fg__nc_unusable(grid, "'%.60s' counts downwards", z->name);
+  if (grid->unusable[0])
+    snprintf(grid->hint, sizeof grid->hint,
+             "--scale plain takes the velocity as if it were along the axes, in their "
+             "units; --vars U,V reads the plane of one level");
+}
+
+/* What is found, not asked for, must leave no doubt. */
+static bool is_beyond_doubt(const fg__nc_grid *grid, const fg__nc_file *file,
+                            const fg__nc_variable *u)
+{
+  return strcmp(grid->axis[0].units, grid->axis[2].units) == 0 &&
+         !is_map(file, grid, u) && !counts_down(axis_variable(file, grid, u, 2));
+}
+
+static fg_status find_levels(fg__nc_grid *grid, const fg__nc_file *file,
+                             const fg__nc_variable *u)
+{
+  fg__nc_axis *z = &grid->axis[2];
+  if (grid->level < 0 || grid->levels < 2) {
+    fg__nc_unusable(grid, "'%.120s' has only two dimensions in space", u->name);
+    return FG_STATUS_OK;
+  }
+  z->dimension = u->dimension[grid->level];
+  z->position = grid->level;
+  z->size = grid->levels;
+  if (z->size > SIZE_MAX / sizeof(float) / grid->samples)
+    fg__nc_unusable(grid, "%zu levels of %zu samples are too many", z->size,
+                    grid->samples);
+  if (grid->unusable[0])
+    return FG_STATUS_OK;
+  grid->samples *= z->size;
+  fg__nc_check_storage(grid, file, u);
+  return grid->level_variable ? fg__nc_axis_read(grid, file, 2, grid->level_variable)
+                              : fg__nc_axis_count(grid, file, 2);
+}
+
+fg_status fg__nc_volume_find(fg__nc_grid *grid, const fg__nc_file *file,
+                             const fg__nc_pair *pair)
+{
+  const fg__nc_variable *u = pair->component[0];
+  const size_t plane = grid->samples;
+  check_components(grid, file, pair);
+  fg_status status = grid->unusable[0] ? FG_STATUS_OK : find_levels(grid, file, u);
+  if (status != FG_STATUS_OK)
+    return status;
+  if (!grid->unusable[0])
+    check_space(grid, file, pair);
+  if (!grid->unusable[0] && (pair->volume || is_beyond_doubt(grid, file, u))) {
+    grid->dimension = 3;
+  } else if (!pair->volume) {
+    free(grid->axis[2].coordinate);
+    grid->axis[2] = (fg__nc_axis){0};
+    grid->samples = plane;
+    grid->unusable[0] = grid->hint[0] = '\0';
+  }
+  return FG_STATUS_OK;
+}

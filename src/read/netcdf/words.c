@@ -1,0 +1,172 @@
+/* Words for captions: what a pair is, which time, which level. */
+#include "read/netcdf/netcdf.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+enum { MOST_WORDS = 24, WORD_BYTES = 48 };
+
+typedef struct word_list {
+  char word[MOST_WORDS][WORD_BYTES];
+  int count;
+} word_list;
+
+/* Words of a text, what stands in brackets left out; underscores part words. */
+static void split_words(word_list *list, const char *text)
+{
+  int depth = 0;
+  size_t n = 0;
+  list->count = 0;
+  for (const char *c = text;; ++c) {
+    const bool bracket = strchr("([{", *c) && *c;
+    const bool parts = *c == '\0' || *c == '_' || isspace((unsigned char)*c) || bracket;
+    if (parts && n > 0 && list->count < MOST_WORDS) {
+      list->word[list->count++][n] = '\0';
+      n = 0;
+    }
+    if (*c == '\0')
+      return;
+    depth += bracket;
+    if (!parts && depth == 0 && n < WORD_BYTES - 1 && list->count < MOST_WORDS)
+      list->word[list->count][n++] = *c;
+    depth -= depth > 0 && strchr(")]}", *c);
+  }
+}
+
+static bool has_word(const word_list *list, const char *word)
+{
+  for (int i = 0; i < list->count; ++i)
+    if (strcasecmp(list->word[i], word) == 0)
+      return true;
+  return false;
+}
+
+static bool is_filler(const char *word)
+{
+  static const char *const filler[] = {"component", "components", "comp.", "of",
+                                       "the",       "along",      "-",     ","};
+  for (size_t i = 0; i < sizeof filler / sizeof *filler; ++i)
+    if (strcasecmp(word, filler[i]) == 0)
+      return true;
+  return false;
+}
+
+static bool is_shouted(const char *word)
+{
+  size_t n = 0;
+  for (; word[n]; ++n)
+    if (!isupper((unsigned char)word[n]))
+      return false;
+  return n > 3;
+}
+
+/* Joins the words that both components share: "Zonal 10 metre wind", "Meridional 10 metre
+ * wind" is "10 metre wind". */
+static bool join_shared(const char *of_u, const char *of_v, char *out, size_t size)
+{
+  word_list u;
+  word_list v;
+  split_words(&u, of_u);
+  split_words(&v, of_v);
+  size_t n = 0;
+  bool telling = false;
+  out[0] = '\0';
+  for (int i = 0; i < u.count; ++i) {
+    char *word = u.word[i];
+    if (!has_word(&v, word) || (is_filler(word) && n == 0) ||
+        strncasecmp(word, "component", 9) == 0)
+      continue;
+    if (is_shouted(word))
+      for (char *c = word; *c; ++c)
+        *c = (char)tolower((unsigned char)*c);
+    telling = telling || (isalpha((unsigned char)word[0]) && word[1] && !is_filler(word));
+    const int written = snprintf(out + n, size - n, "%s%s", n > 0 ? " " : "", word);
+    if (written < 0 || (size_t)written >= size - n)
+      break;
+    n += (size_t)written;
+  }
+  const size_t end = strlen(out);
+  if (end > 3 && strcmp(out + end - 3, " of") == 0)
+    out[end - 3] = '\0';
+  return telling;
+}
+
+static void cut_location(char *standard_name)
+{
+  char *at = strstr(standard_name, "_at_u_location");
+  at = at ? at : strstr(standard_name, "_at_v_location");
+  if (at)
+    *at = '\0';
+}
+
+void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t size)
+{
+  static const char *const attribute[] = {"long_name", "standard_name"};
+  for (int a = 0; a < 2; ++a) {
+    char of_u[FG__NC_TEXT];
+    char of_v[FG__NC_TEXT];
+    fg__nc_text(pair->component[0], attribute[a], of_u, sizeof of_u);
+    fg__nc_text(pair->component[1], attribute[a], of_v, sizeof of_v);
+    cut_location(of_u);
+    cut_location(of_v);
+    if (join_shared(of_u, of_v, out, size))
+      return;
+  }
+  fg__nc_variable file = {.owner = pair->component[0]->owner,
+                          .group = pair->component[0]->group,
+                          .id = NC_GLOBAL};
+  if (fg__nc_text(&file, "title", out, size))
+    return;
+  if (components == 3)
+    snprintf(out, size, "%.80s, %.80s, %.80s", pair->component[0]->plain_name,
+             pair->component[1]->plain_name, pair->component[2]->plain_name);
+  else
+    snprintf(out, size, "%.120s, %.120s", pair->component[0]->plain_name,
+             pair->component[1]->plain_name);
+}
+
+static const char *kind_of_height(const fg__nc_variable *coordinate)
+{
+  static const char *const known[] = {"depth", "altitude", "height"};
+  char name[FG__NC_TEXT];
+  fg__nc_text(coordinate, "standard_name", name, sizeof name);
+  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
+    if (strstr(name, known[i]) || strstr(coordinate->plain_name, known[i]))
+      return known[i];
+  return coordinate->plain_name;
+}
+
+fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,
+                             const char *name, size_t index, char *out, size_t size)
+{
+  if (!coordinate) {
+    snprintf(out, size, "%s %zu", name, index);
+    return FG_STATUS_OK;
+  }
+  double value = 0.0;
+  const int error = nc_get_var1_double(coordinate->group, coordinate->id, &index, &value);
+  if (error)
+    return fg__nc_fail(file->context, coordinate->path, coordinate->name, error);
+  char units[FG__NC_TEXT];
+  char label[FG__NC_TEXT];
+  char calendar[FG__NC_TEXT];
+  fg__nc_text(coordinate, "units", units, sizeof units);
+  fg__nc_text(coordinate, "calendar", calendar, sizeof calendar);
+  const fg__nc_quantity quantity = fg__nc_units(units, label, sizeof label);
+  if (quantity == FG__NC_DATE && fg__nc_date(value, units, calendar, out, size))
+    return FG_STATUS_OK;
+  if (quantity == FG__NC_PRESSURE)
+    snprintf(out, size, "%g %s", value, label);
+  else if (quantity == FG__NC_LENGTH)
+    snprintf(out, size, "%s %g %s", kind_of_height(coordinate), value, label);
+  else if (strncasecmp(units, "month", 5) == 0)
+    snprintf(out, size, "month %g", value);
+  else if (units[0] == '\0' || strcmp(units, "1") == 0)
+    snprintf(out, size, "%s %g", coordinate->plain_name, value);
+  else
+    snprintf(out, size, "%s %g %s", coordinate->plain_name, value, units);
+  return FG_STATUS_OK;
+}

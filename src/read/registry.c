@@ -1,0 +1,229 @@
+#include "base/memory.h"
+#include "base/mix.h"
+#include "field/part.h"
+#include "read/format.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+static const fg__format *const FORMATS[] = {&fg__format_netcdf, &fg__format_vti,
+                                            &fg__format_vtk_legacy};
+static const char SYNTHETIC[] = "synth:";
+enum { MESSAGE_BYTES = 2048, KNOWN_BYTES = 512 };
+
+const fg__format *fg__format_find(const unsigned char *bytes, size_t size)
+{
+  for (size_t i = 0; i < sizeof FORMATS / sizeof *FORMATS; ++i)
+    if (FORMATS[i]->is_mine(bytes, size))
+      return FORMATS[i];
+  return NULL;
+}
+
+static void hint_at_known(fg_context *context)
+{
+  char known[KNOWN_BYTES] = "";
+  size_t used = 0;
+  for (size_t i = 0; i < sizeof FORMATS / sizeof *FORMATS; ++i)
+    if (FORMATS[i]->files && used < sizeof known)
+      used += (size_t)snprintf(known + used, sizeof known - used, "%s%s",
+                               used ? ", " : "", FORMATS[i]->files);
+  fg__hint(context, "formats known: %s; or synth:NAME", used ? known : "none");
+}
+
+static fg_status find_format(const fg__format **out, fg_context *context,
+                             const fg__source *source)
+{
+  *out = fg__format_find(source->bytes, source->size);
+  if (*out)
+    return FG_STATUS_OK;
+  char start[3 * 4 + 1] = "";
+  for (size_t i = 0; i < 4 && i < source->size; ++i) {
+    static const char digit[] = "0123456789abcdef";
+    start[3 * i] = digit[source->bytes[i] >> 4];
+    start[3 * i + 1] = digit[source->bytes[i] & 15];
+    start[3 * i + 2] = ' ';
+    start[3 * i + 3] = '\0';
+  }
+  if (start[0])
+    start[strlen(start) - 1] = '\0';
+  fg_status status = fg__fail(context, FG_STATUS_FILE_FORMAT,
+                              "%s: unknown format (%zu bytes, starting with %s)",
+                              source->path, source->size, start);
+  hint_at_known(context);
+  return status;
+}
+
+/* To be closed even after a failure. */
+static fg_status open_known(fg__source *source, const fg__format **format,
+                            fg_context *context, const char *path)
+{
+  fg_status status = fg__source_open(source, context, path);
+  return status == FG_STATUS_OK ? find_format(format, context, source) : status;
+}
+
+static bool is_synthetic(const char *input)
+{
+  return strncmp(input, SYNTHETIC, sizeof SYNTHETIC - 1) == 0;
+}
+
+/* What fg_field_create finds wrong with a file's samples is said of the file. */
+static fg_status name_the_file(fg_context *context, fg_status status, const char *input)
+{
+  static const char prefix[] = "field: ";
+  const char *message = fg_context_message(context);
+  if (status == FG_STATUS_OK || strncmp(message, prefix, sizeof prefix - 1) != 0)
+    return status;
+  char words[MESSAGE_BYTES];
+  char hint[MESSAGE_BYTES];
+  strncpy(words, message + sizeof prefix - 1, sizeof words - 1);
+  strncpy(hint, fg_context_hint(context), sizeof hint - 1);
+  words[sizeof words - 1] = hint[sizeof hint - 1] = '\0';
+  fg_context_clear(context);
+  if (status == FG_STATUS_ARGUMENT)
+    status = FG_STATUS_FILE_FORMAT;
+  fg__fail(context, status, "%s: %s", input, words);
+  if (hint[0])
+    fg__hint(context, "%s", hint);
+  return status;
+}
+
+/* An analytic field has one vector and no axes to choose from. */
+static fg_status read_analytic(fg_field **out, fg_context *context, const char *input,
+                               const fg_read_options *options)
+{
+  if (options && (options->vars || options->vars_from || options->mask || options->time ||
+                  options->level))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: an analytic field has no variables, masks, times or levels to "
+                    "choose from",
+                    input);
+  if (options && (options->scale == FG_SCALE_GEO || options->scale == FG_SCALE_MAP))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: an analytic field is neither on the globe nor on a map", input);
+  return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
+}
+
+static fg_status read_dealt(fg_field **out, fg_context *context, const char *input,
+                            const fg_read_options *options, fg__dealt dealt)
+{
+  if (!out || !input)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "no input to read a field from");
+  *out = NULL;
+  if (is_synthetic(input))
+    return read_analytic(out, context, input, options);
+  static const fg_read_options defaults = {0};
+  fg__source source;
+  const fg__format *format;
+  fg_status status = open_known(&source, &format, context, input);
+  if (status == FG_STATUS_OK)
+    status = name_the_file(
+        context,
+        format->read(out, context, &source, options ? options : &defaults, dealt), input);
+  fg__source_close(&source);
+  return status;
+}
+
+fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
+                        const fg_read_options *options)
+{
+  return read_dealt(out, context, input, options, (fg__dealt){0, 1});
+}
+
+static uint64_t mix_text(uint64_t key, const char *text)
+{
+  for (; text && *text; ++text)
+    key = fg__mix(key ^ (unsigned char)*text);
+  return fg__mix(key);
+}
+
+/* Parts that were read otherwise do not belong together. */
+static uint64_t key_of_reading(const char *input, const fg_read_options *options)
+{
+  uint64_t key = mix_text(0, input);
+  if (!options)
+    return key;
+  key =
+      mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
+  return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
+}
+
+fg_status fg_field_read_part(fg_field **out, fg_context *context, const char *input,
+                             const fg_read_options *options, int part, int parts)
+{
+  if (part < 0 || part >= parts)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "no part %d of %d of a field", part,
+                    parts);
+  fg_status status = read_dealt(out, context, input, options, (fg__dealt){part, parts});
+  if (status != FG_STATUS_OK || !(*out)->part)
+    return status;
+  fg__field_part *own = (*out)->part;
+  own->key ^= key_of_reading(input, options);
+  own->input = fg__copy_text(input);
+  if (own->input)
+    return FG_STATUS_OK;
+  fg_field_destroy(*out);
+  *out = NULL;
+  return fg__fail_memory(context, "a name", strlen(input) + 1);
+}
+
+static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,
+                                   const char *name)
+{
+  fg_field *field = NULL;
+  fg_status status = fg_field_create_analytic(&field, context, name, 0);
+  if (status != FG_STATUS_OK)
+    return status;
+  const fg_field_arrays *arrays = fg_field_contents(field);
+  fg_inventory_vector vector = {.components = arrays->dimension,
+                                .units = arrays->velocity_units,
+                                .found_by = "formula",
+                                .dimension = arrays->dimension,
+                                .times = 1,
+                                .levels = 1,
+                                .scale = arrays->scale};
+  for (int k = 0; k < arrays->dimension; ++k) {
+    vector.name[k] = arrays->velocity_name[k];
+    vector.size[k] = arrays->size[k];
+    vector.bounds[2 * k] = arrays->axis[k][0];
+    vector.bounds[2 * k + 1] = arrays->axis[k][arrays->size[k] - 1];
+    vector.periodic[k] = arrays->period[k] > 0.0;
+  }
+  status = fg__inventory_add(inventory, context, &vector);
+  fg_field_destroy(field);
+  return status;
+}
+
+static fg_status describe_file(fg_inventory **out, fg_context *context, const char *path)
+{
+  fg__source source;
+  const fg__format *format;
+  fg_status status = open_known(&source, &format, context, path);
+  if (status == FG_STATUS_OK)
+    status = fg__inventory_create(out, context, format->name);
+  if (status == FG_STATUS_OK)
+    status = format->inventory(*out, context, &source);
+  fg__source_close(&source);
+  return status;
+}
+
+fg_status fg_inventory_read(fg_inventory **out, fg_context *context, const char *input)
+{
+  if (!out || !input)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "no input to describe");
+  *out = NULL;
+  fg_inventory *inventory = NULL;
+  fg_status status;
+  if (is_synthetic(input)) {
+    status = fg__inventory_create(&inventory, context, "analytic");
+    if (status == FG_STATUS_OK)
+      status = describe_analytic(inventory, context, input + sizeof SYNTHETIC - 1);
+  } else {
+    status = describe_file(&inventory, context, input);
+  }
+  if (status == FG_STATUS_OK)
+    *out = inventory;
+  else
+    fg_inventory_destroy(inventory);
+  return status;
+}

@@ -1,0 +1,184 @@
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/context_test.h"
+#include "read/format.h"
+
+typedef struct place {
+  char folder[64];
+  char path[96];
+  fg_context *context;
+} place;
+
+static int set_up(void **state)
+{
+  static place p;
+  strcpy(p.folder, "/tmp/flowgrain-registry-XXXXXX");
+  if (!mkdtemp(p.folder) || fg_context_create(&p.context) != FG_STATUS_OK)
+    return 1;
+  snprintf(p.path, sizeof p.path, "%s/file", p.folder);
+  *state = &p;
+  return 0;
+}
+
+static int tear_down(void **state)
+{
+  place *p = *state;
+  unlink(p->path);
+  rmdir(p->folder);
+  fg_context_destroy(p->context);
+  return 0;
+}
+
+static void refuse(place *p, const char *input, fg_status status, const char *words)
+{
+  fg_field *field = NULL;
+  fg_inventory *inventory = NULL;
+  for (int inventoried = 0; inventoried < 2; ++inventoried) {
+    fg_context_clear(p->context);
+    const fg_status found = inventoried ? fg_inventory_read(&inventory, p->context, input)
+                                        : fg_field_read(&field, p->context, input, NULL);
+    assert_int_equal(found, status);
+    assert_null(field);
+    assert_null(inventory);
+    const char *message = fg_context_message(p->context);
+    if (!strstr(message, words) || strncmp(message, input, strlen(input)) != 0)
+      fail_msg("\"%s\" lacks \"%s\" or the input's name", message, words);
+  }
+}
+
+static void write_file(const place *p, const char *text)
+{
+  FILE *file = fopen(p->path, "wb");
+  assert_non_null(file);
+  fputs(text, file);
+  assert_int_equal(fclose(file), 0);
+}
+
+static void what_is_no_file_is_refused(void **state)
+{
+  place *p = *state;
+  refuse(p, p->path, FG_STATUS_FILE_ACCESS, "No such file");
+  refuse(p, p->folder, FG_STATUS_FILE_ACCESS, "directory");
+  refuse(p, "/dev/null", FG_STATUS_FILE_ACCESS, "no regular file");
+  assert_int_equal(mkfifo(p->path, 0600), 0);
+  refuse(p, p->path, FG_STATUS_FILE_ACCESS, "pipe");
+}
+
+static void files_that_may_not_be_read_are_refused(void **state)
+{
+  place *p = *state;
+  if (geteuid() == 0)
+    skip(); /* root may read everything */
+  write_file(p, "CDF\001");
+  assert_int_equal(chmod(p->path, 0), 0);
+  refuse(p, p->path, FG_STATUS_FILE_ACCESS, "Permission denied");
+}
+
+static void unknown_formats_are_told_the_known_ones(void **state)
+{
+  place *p = *state;
+  write_file(p, "");
+  refuse(p, p->path, FG_STATUS_FILE_FORMAT, "empty");
+  write_file(p, "PK\003\004 a zip archive");
+  refuse(p, p->path, FG_STATUS_FILE_FORMAT,
+         "unknown format (18 bytes, starting with 50 4b");
+  assert_non_null(strstr(fg_context_hint(p->context), "NetCDF"));
+  assert_non_null(strstr(fg_context_hint(p->context), ".vti"));
+  write_file(p, "\n");
+  refuse(p, p->path, FG_STATUS_FILE_FORMAT, "starting with 0a)");
+}
+
+static void impossible_calls_are_refused(void **state)
+{
+  place *p = *state;
+  fg_field *field = NULL;
+  assert_int_equal(fg_field_read(NULL, p->context, p->path, NULL), FG_STATUS_ARGUMENT);
+  assert_int_equal(fg_field_read(&field, p->context, NULL, NULL), FG_STATUS_ARGUMENT);
+  assert_int_equal(fg_inventory_read(NULL, p->context, p->path), FG_STATUS_ARGUMENT);
+  fg_context_clear(p->context);
+  assert_int_equal(fg_field_read(&field, p->context, "synth:nothing-like-it", NULL),
+                   FG_STATUS_ARGUMENT);
+  assert_null(field);
+}
+
+static void analytic_fields_are_inputs_too(void **state)
+{
+  place *p = *state;
+  fg_field *field = NULL;
+  fg_inventory *inventory = NULL;
+  assert_int_equal(fg_field_read(&field, p->context, "synth:saddle", NULL), FG_STATUS_OK);
+  const fg_field_arrays *a = fg_field_contents(field);
+  assert_int_equal(fg_inventory_read(&inventory, p->context, "synth:saddle"),
+                   FG_STATUS_OK);
+  assert_int_equal(fg_inventory_vector_count(inventory), 1);
+  const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
+  for (int k = 0; k < 2; ++k) {
+    assert_int_equal(v->size[k], 257);
+    assert_int_equal(v->size[k], a->size[k]);
+    assert_string_equal(v->name[k], a->velocity_name[k]);
+    assert_true(v->bounds[2 * k] == 0.0 && v->bounds[2 * k + 1] == 1.0);
+  }
+  assert_null(v->unusable);
+  fg_inventory_destroy(inventory);
+  fg_field_destroy(field);
+}
+
+static void inventories_own_their_words(void **state)
+{
+  place *p = *state;
+  fg_inventory *inventory = NULL;
+  char name[] = "velocity";
+  const fg_inventory_vector vector = {
+      .components = 3, .name = {name, NULL, NULL}, .times = 7, .unusable = name + 3};
+  assert_int_equal(fg__inventory_create(&inventory, p->context, "X"), FG_STATUS_OK);
+  for (int i = 0; i < 100; ++i)
+    assert_int_equal(fg__inventory_add(inventory, p->context, &vector), FG_STATUS_OK);
+  memset(name, '?', sizeof name - 1);
+  assert_string_equal(fg_inventory_format(inventory), "X");
+  assert_int_equal(fg_inventory_vector_count(inventory), 100);
+  const fg_inventory_vector *last = fg_inventory_vector_at(inventory, 99);
+  assert_string_equal(last->name[0], "velocity");
+  assert_null(last->name[1]);
+  assert_string_equal(last->units, "");
+  assert_string_equal(last->found_by, "");
+  assert_string_equal(last->unusable, "ocity");
+  assert_int_equal(last->times, 7);
+  assert_null(fg_inventory_vector_at(inventory, 100));
+  assert_null(fg_inventory_vector_at(inventory, -1));
+  fg_inventory_destroy(inventory);
+}
+
+static void analytic_fields_offer_no_choice(void **state)
+{
+  place *p = *state;
+  const fg_read_options choices[] = {
+      {.vars = "a,b"}, {.vars_from = "x"},      {.mask = "m"},          {.time = 3},
+      {.level = 1},    {.scale = FG_SCALE_GEO}, {.scale = FG_SCALE_MAP}};
+  for (size_t k = 0; k < sizeof choices / sizeof *choices; ++k) {
+    fg_field *field = NULL;
+    fg_context_clear(p->context);
+    assert_int_equal(fg_field_read(&field, p->context, "synth:vortex", &choices[k]),
+                     FG_STATUS_ARGUMENT);
+    assert_null(field);
+    assert_non_null(strstr(fg_context_message(p->context), "synth:vortex: "));
+  }
+}
+
+int main(void)
+{
+#define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+  const struct CMUnitTest tests[] = {
+      CASE(what_is_no_file_is_refused),
+      CASE(files_that_may_not_be_read_are_refused),
+      CASE(unknown_formats_are_told_the_known_ones),
+      CASE(impossible_calls_are_refused),
+      CASE(analytic_fields_are_inputs_too),
+      CASE(inventories_own_their_words),
+      CASE(analytic_fields_offer_no_choice),
+  };
+  return cmocka_run_group_tests_name("read/registry", tests, NULL, NULL);
+}

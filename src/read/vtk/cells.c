@@ -1,0 +1,366 @@
+/* The points and cells of curvilinear and unstructured VTK grids. */
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "read/vtk/vtk.h"
+
+/* vtkCellType.h */
+typedef struct cell_type {
+  int number;
+  const char *name;
+  int corners; /* 0: cannot be read; else of `shape` */
+  fg__cell_shape shape;
+} cell_type;
+
+static const cell_type TYPES[] = {
+    {5, "triangle", 3, FG__CELL_TRIANGLE},
+    {6, "triangle strip", 0, 0},
+    {7, "polygon", 0, 0}, /* but for those of 3 or 4 corners */
+    {8, "pixel", 4, FG__CELL_QUAD},
+    {9, "quad", 4, FG__CELL_QUAD},
+    {10, "tetrahedron", 4, FG__CELL_TETRAHEDRON},
+    {11, "voxel", 8, FG__CELL_HEXAHEDRON},
+    {12, "hexahedron", 8, FG__CELL_HEXAHEDRON},
+    {13, "wedge", 6, FG__CELL_WEDGE},
+    {14, "pyramid", 5, FG__CELL_PYRAMID},
+    {15, "pentagonal prism", 0, 0},
+    {16, "hexagonal prism", 0, 0},
+    {21, "quadratic edge", 0, 0},
+    {22, "quadratic triangle", 0, 0},
+    {23, "quadratic quad", 0, 0},
+    {24, "quadratic tetrahedron", 0, 0},
+    {25, "quadratic hexahedron", 0, 0},
+    {26, "quadratic wedge", 0, 0},
+    {27, "quadratic pyramid", 0, 0},
+    {28, "biquadratic quad", 0, 0},
+    {29, "triquadratic hexahedron", 0, 0},
+    {34, "biquadratic triangle", 0, 0},
+    {36, "quadratic polygon", 0, 0},
+    {41, "convex point set", 0, 0},
+    {42, "polyhedron", 0, 0},
+    {69, "Lagrange triangle", 0, 0},
+    {70, "Lagrange quadrilateral", 0, 0},
+    {71, "Lagrange tetrahedron", 0, 0},
+    {72, "Lagrange hexahedron", 0, 0},
+    {73, "Lagrange wedge", 0, 0},
+    {74, "Lagrange pyramid", 0, 0},
+};
+
+enum { LAST_LINE = 4, POLYGON = 7, PIXEL = 8, VOXEL = 11 };
+
+/* Corners of pixels and voxels lie in rows, those of quads and hexahedra go round. */
+static void go_round(double *corner, int corners)
+{
+  for (int i = 0; i < corners; i += 4) {
+    const double third = corner[i + 2];
+    corner[i + 2] = corner[i + 3];
+    corner[i + 3] = third;
+  }
+}
+
+static fg_status fail_type(const fg__vtk *vtk, double type, size_t cell)
+{
+  const char *name = "type that is not known";
+  for (size_t i = 0; i < sizeof TYPES / sizeof TYPES[0]; ++i)
+    if (TYPES[i].number == type)
+      name = TYPES[i].name;
+  fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
+           "%s: cell %zu is a %s (VTK's number %g); only linear cells of up to 8 corners "
+           "can be read",
+           vtk->path, cell, name, type);
+  fg__hint(vtk->context, "%s", FG__VTK_RESAMPLE);
+  return FG_STATUS_UNSUPPORTED;
+}
+
+/* Which numbers are the corners of the cells, one after the other. */
+typedef struct topology {
+  fg__vtk_values corners, types, ends;
+  size_t at, end;   /* of the cell's among the corners */
+  bool counted;     /* each cell begins with the number of its corners */
+  size_t first_end; /* in `ends`: 1 where these begin with the first cell's beginning */
+} topology;
+
+static fg_status fail_corners(const fg__vtk *vtk, const topology *t, size_t cell)
+{
+  return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                  "%s: the corners of cell %zu are not within those %zu that there are",
+                  vtk->path, cell, t->corners.count);
+}
+
+static fg_status next_cell(topology *t, const fg__vtk *vtk, size_t cell)
+{
+  double end = -1.0;
+  t->at = t->end;
+  if (t->counted && t->at < t->corners.count) {
+    end = fg__vtk_value(&t->corners, t->at++);
+    end = end >= 0.0 ? end + (double)t->at : -1.0;
+  } else if (!t->counted) {
+    end = fg__vtk_value(&t->ends, cell + t->first_end);
+  }
+  if (!(end >= (double)t->at && end <= (double)t->corners.count))
+    return fail_corners(vtk, t, cell);
+  t->end = (size_t)end;
+  return FG_STATUS_OK;
+}
+
+static fg_status add_cell(fg__vtk *vtk, const topology *t, size_t cell,
+                          const fg__cell_points *points, int number)
+{
+  const double type = fg__vtk_value(&t->types, cell);
+  const size_t corners = t->end - t->at;
+  double corner[FG__CELL_CORNERS] = {0.0};
+  for (size_t i = 0; i < corners && i < FG__CELL_CORNERS; ++i)
+    corner[i] = fg__vtk_value(&t->corners, t->at + i);
+  if (type >= 0.0 && type <= LAST_LINE) /* neither area nor volume */
+    return FG_STATUS_OK;
+  if (type == POLYGON && (corners == 3 || corners == 4))
+    return fg__cell_set_add(&vtk->cells, corners == 3 ? FG__CELL_TRIANGLE : FG__CELL_QUAD,
+                            corner, points, number);
+  for (size_t i = 0; i < sizeof TYPES / sizeof TYPES[0]; ++i) {
+    const cell_type *known = &TYPES[i];
+    if (known->number != type || known->corners == 0)
+      continue;
+    if ((size_t)known->corners != corners)
+      return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                      "%s: cell %zu is a %s with %zu corners, not %d", vtk->path, cell,
+                      known->name, corners, known->corners);
+    if (known->number == PIXEL || known->number == VOXEL)
+      go_round(corner, known->corners);
+    return fg__cell_set_add(&vtk->cells, known->shape, corner, points, number);
+  }
+  return fail_type(vtk, type, cell);
+}
+
+/* Reads an array of a piece that no other may share bytes with: *room is what the file
+ * still has for such. */
+static fg_status read_own(fg__vtk_values *out, const fg__vtk *vtk, size_t array,
+                          size_t tuples, size_t *room)
+{
+  size_t stored = 0;
+  fg_status status = fg__vtk_values_check(vtk, &vtk->arrays[array], tuples, &stored);
+  if (status == FG_STATUS_OK && stored > *room)
+    status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                      "%s: the pieces' arrays \"%.100s\" overlap in the file", vtk->path,
+                      vtk->arrays[array].name);
+  if (status != FG_STATUS_OK)
+    return status;
+  *room -= stored;
+  return fg__vtk_values_create(out, vtk, &vtk->arrays[array], tuples);
+}
+
+/* How many corners an XML piece has is what the last end says. */
+static fg_status find_corner_count(size_t *out, const fg__vtk *vtk,
+                                   const fg__vtk_piece *piece, const topology *t)
+{
+  *out = piece->corner_numbers;
+  if (*out > 0)
+    return FG_STATUS_OK;
+  const double last = fg__vtk_value(&t->ends, t->ends.count - 1);
+  if (!(last >= 0.0 && last <= INT_MAX))
+    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                    "%s: a piece's cells have %g corners", vtk->path, last);
+  *out = (size_t)last;
+  return FG_STATUS_OK;
+}
+
+static fg_status read_listed(fg__vtk *vtk, const fg__vtk_piece *piece,
+                             const fg__cell_points *points, size_t *room)
+{
+  topology t = {.counted = piece->ends == FG__VTK_NONE,
+                .first_end = piece->end_numbers > piece->cells ? 1 : 0};
+  size_t corners = 0;
+  fg_status status = read_own(&t.types, vtk, piece->types, piece->cells, room);
+  if (status == FG_STATUS_OK && !t.counted)
+    status = read_own(&t.ends, vtk, piece->ends,
+                      piece->end_numbers > 0 ? piece->end_numbers : piece->cells, room);
+  if (status == FG_STATUS_OK)
+    status = find_corner_count(&corners, vtk, piece, &t);
+  if (status == FG_STATUS_OK)
+    status = read_own(&t.corners, vtk, piece->corners, corners, room);
+  for (size_t c = 0; c < piece->cells && status == FG_STATUS_OK; ++c) {
+    status = next_cell(&t, vtk, c);
+    if (status == FG_STATUS_OK)
+      status = add_cell(vtk, &t, c, points, (int)(vtk->cells.numbers + c));
+  }
+  fg__vtk_values_clear(&t.types);
+  fg__vtk_values_clear(&t.ends);
+  fg__vtk_values_clear(&t.corners);
+  return status;
+}
+
+static fg_status add_implied(fg__vtk *vtk, const fg__vtk_piece *piece,
+                             const fg__cell_points *points)
+{
+  size_t length[3], cells[3], step[3] = {1, 0, 0}, wide[3];
+  int dimension = 0, number = (int)vtk->cells.numbers;
+  for (int k = 0; k < 3; ++k) {
+    length[k] = fg__vtk_length(piece->extent, k, FG__VTK_POINTS);
+    cells[k] = fg__vtk_length(piece->extent, k, FG__VTK_CELLS);
+    if (k > 0)
+      step[k] = step[k - 1] * length[k - 1];
+    if (length[k] > 1)
+      wide[dimension++] = step[k];
+  }
+  if (dimension < 2)
+    return fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
+                    "%s: a line of %zu x %zu x %zu points; a field needs two directions",
+                    vtk->path, length[0], length[1], length[2]);
+  for (size_t k = 0; k < cells[2]; ++k)
+    for (size_t j = 0; j < cells[1]; ++j)
+      for (size_t i = 0; i < cells[0]; ++i) {
+        const size_t first = i * step[0] + j * step[1] + k * step[2];
+        double corner[FG__CELL_CORNERS];
+        for (int c = 0; c < 8; ++c)
+          corner[c] = (double)(first + (c % 4 == 1 || c % 4 == 2 ? wide[0] : 0) +
+                               (c % 4 >= 2 ? wide[1] : 0) +
+                               (c >= 4 && dimension == 3 ? wide[2] : 0));
+        fg_status status = fg__cell_set_add(
+            &vtk->cells, dimension == 3 ? FG__CELL_HEXAHEDRON : FG__CELL_QUAD, corner,
+            points, number++);
+        if (status != FG_STATUS_OK)
+          return status;
+      }
+  return FG_STATUS_OK;
+}
+
+/* Whether the points of a grid are where its lines along the axes cross, but for the
+ * rounding of single precision. */
+static bool are_at_crossings(const fg__vtk *vtk, const size_t length[3],
+                             const double rounding[3])
+{
+  const double *position = vtk->cells.position;
+  double *const *axis = vtk->coordinate;
+  for (size_t k = 0; k < length[2]; ++k)
+    for (size_t j = 0; j < length[1]; ++j)
+      for (size_t i = 0; i < length[0]; ++i, position += 3)
+        if (!(fabs(position[0] - axis[0][i]) <= rounding[0] &&
+              fabs(position[1] - axis[1][j]) <= rounding[1] &&
+              fabs(position[2] - axis[2][k]) <= rounding[2]))
+          return false;
+  return true;
+}
+
+/* A curvilinear grid whose lines are along the axes after all is an uneven one, and its
+ * samples are kept as they are. */
+static fg_status find_axes(bool *found, fg__vtk *vtk)
+{
+  size_t length[3] = {1, 1, 1}, step = 1;
+  double rounding[3] = {0.0, 0.0, 0.0};
+  *found = vtk->piece_count == 1 && vtk->cells.points > 0;
+  for (int k = 0; k < 3 && *found; ++k) {
+    length[k] = fg__vtk_length(vtk->extent, k, FG__VTK_POINTS);
+    double *axis = vtk->coordinate[k] = fg__allocate(length[k], sizeof *axis);
+    if (!axis)
+      return fg__fail_memory(vtk->context, "an axis", length[k] * sizeof *axis);
+    for (size_t i = 0; i < length[k]; ++i) {
+      axis[i] = vtk->cells.position[3 * i * step + (size_t)k];
+      rounding[k] = fmax(rounding[k], 4.0 * (double)FLT_EPSILON * fabs(axis[i]));
+    }
+    for (size_t i = 1; i < length[k]; ++i)
+      *found = *found && axis[i] - axis[i - 1] > rounding[k];
+    step *= length[k];
+  }
+  *found = *found && are_at_crossings(vtk, length, rounding);
+  for (int k = 0; k < 3 && !*found; ++k) {
+    free(vtk->coordinate[k]);
+    vtk->coordinate[k] = NULL;
+  }
+  return FG_STATUS_OK;
+}
+
+static fg_status count_points(fg__vtk *vtk)
+{
+  size_t sum = 0;
+  for (size_t p = 0; p < vtk->piece_count; ++p) {
+    size_t points = 0, cells = 0;
+    if (!fg__vtk_tuples(&points, vtk, &vtk->pieces[p], FG__VTK_POINTS) ||
+        !fg__vtk_tuples(&cells, vtk, &vtk->pieces[p], FG__VTK_CELLS) ||
+        points > INT_MAX - sum || cells > INT_MAX - vtk->cells.numbers)
+      return fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
+                      "%s: more than %d points or cells", vtk->path, INT_MAX);
+    sum += points;
+    vtk->cells.numbers += cells;
+  }
+  vtk->cells.numbers = 0;
+  return FG_STATUS_OK;
+}
+
+static fg_status read_positions(fg__vtk *vtk, const fg__vtk_piece *piece, size_t points,
+                                size_t *room)
+{
+  fg__cell_set *set = &vtk->cells;
+  fg__vtk_values values = {0};
+  fg_status status = read_own(&values, vtk, piece->positions, points, room);
+  if (status != FG_STATUS_OK)
+    return status;
+  double *position = realloc(set->position, (set->points + points) * 3 * sizeof(double));
+  if (position)
+    set->position = position;
+  else
+    status = fg__fail_memory(vtk->context, "points", points * 3 * sizeof(double));
+  for (size_t i = 0; position && i < 3 * points; ++i)
+    position[3 * set->points + i] = fg__vtk_value(&values, i);
+  fg__vtk_values_clear(&values);
+  return status;
+}
+
+static fg_status read_piece(fg__vtk *vtk, const fg__vtk_piece *piece, size_t *room)
+{
+  fg__cell_set *set = &vtk->cells;
+  size_t points = 0, cells = 0;
+  fg__vtk_tuples(&points, vtk, piece, FG__VTK_POINTS);
+  fg__vtk_tuples(&cells, vtk, piece, FG__VTK_CELLS);
+  fg_status status = read_positions(vtk, piece, points, room);
+  if (status != FG_STATUS_OK)
+    return status;
+  const fg__cell_points own = {set->points, points};
+  set->points += points;
+  bool along_axes = false;
+  if (vtk->kind == FG__VTK_CURVILINEAR) {
+    status = find_axes(&along_axes, vtk);
+    if (along_axes) {
+      vtk->kind = FG__VTK_ALONG_AXES;
+      vtk->uneven = true;
+    } else if (status == FG_STATUS_OK) {
+      status = add_implied(vtk, piece, &own);
+    }
+  } else {
+    status = read_listed(vtk, piece, &own, room);
+  }
+  set->numbers += cells;
+  return status;
+}
+
+/* The raster takes the place of the grid. */
+static void become_raster(fg__vtk *vtk)
+{
+  const fg__cell_set *set = &vtk->cells;
+  for (int k = 0; k < 3; ++k) {
+    vtk->extent[2 * k] = 0;
+    vtk->extent[2 * k + 1] = set->size[k] - 1;
+    vtk->origin[k] = set->origin[k];
+    vtk->spacing[k] = set->spacing[k];
+  }
+}
+
+fg_status fg__vtk_read_cells(fg__vtk *vtk)
+{
+  size_t room = vtk->file_size;
+  vtk->cells = (fg__cell_set){.context = vtk->context, .path = vtk->path};
+  fg_status status = count_points(vtk);
+  for (size_t p = 0; p < vtk->piece_count && status == FG_STATUS_OK; ++p)
+    status = read_piece(vtk, &vtk->pieces[p], &room);
+  if (status != FG_STATUS_OK)
+    return status;
+  if (vtk->uneven) {
+    fg__cell_set_clear(&vtk->cells);
+    return FG_STATUS_OK;
+  }
+  status = fg__cell_set_locate(&vtk->cells);
+  if (status == FG_STATUS_OK)
+    become_raster(vtk);
+  return status;
+}

@@ -1,0 +1,353 @@
+/* Which arrays of a file are the vectors. */
+#include "base/memory.h"
+#include "read/vtk/vtk.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The first piece speaks for all. */
+static const fg__vtk_array *arrays_of_file(const fg__vtk *vtk, size_t *count)
+{
+  *count = vtk->piece_count > 0 ? vtk->pieces[0].array_count : 0;
+  return *count > 0 ? vtk->arrays + vtk->pieces[0].first_array : NULL;
+}
+
+static bool is_float(const fg__vtk_array *array)
+{
+  return array->type == FG__VTK_FLOAT32 || array->type == FG__VTK_FLOAT64;
+}
+
+static bool is_of_grid(const fg__vtk_array *array)
+{
+  return array->place == FG__VTK_POINTS || array->place == FG__VTK_CELLS;
+}
+
+static bool is_active(const fg__vtk *vtk, const fg__vtk_array *array)
+{
+  const char *name = is_of_grid(array) ? vtk->vectors[array->place] : NULL;
+  return name && strcmp(name, array->name) == 0;
+}
+
+static bool has_vectors(const fg__vtk_array *array)
+{
+  return array->type != FG__VTK_UNKNOWN &&
+         (array->components == 2 || array->components == 3);
+}
+
+/* Three bytes are a colour more often than a velocity: whole numbers count only when the
+ * file calls them vectors. */
+static bool is_vector(const fg__vtk *vtk, const fg__vtk_array *array)
+{
+  return is_of_grid(array) && has_vectors(array) && !array->no_velocity &&
+         (is_float(array) || is_active(vtk, array));
+}
+
+static fg__vtk_vector vector_of(const fg__vtk *vtk, const fg__vtk_array *array)
+{
+  return (fg__vtk_vector){.name = {array->name},
+                          .names = 1,
+                          .components = array->components,
+                          .place = array->place,
+                          .found_by = is_active(vtk, array) ? "Vectors attribute"
+                                                            : "vector variable",
+                          .units = array->units};
+}
+
+/* Whether a name is `like` but for its letter `at`. */
+static bool is_like(const char *name, const char *like, size_t at, char letter)
+{
+  return strlen(name) == strlen(like) && strncmp(name, like, at) == 0 &&
+         name[at] == letter && strcmp(name + at + 1, like + at + 1) == 0;
+}
+
+/* "u10" for letter "u" and a name "v10"-like: names that differ in one letter, u against
+ * v or x against y, at their beginning or end or before figures: u v, U V, vx vy, u10
+ * v10, velocity_x velocity_y; but not bare x and y, which are coordinates. In a volume
+ * the third, unless NULL, is a w or z like them. */
+static bool are_a_pair(const char *first, const char *second, const char *third)
+{
+  static const char *const letters[] = {"uvw", "UVW", "xyz", "XYZ"};
+  size_t length = strlen(first), at = 0;
+  if (length != strlen(second) || length == 0)
+    return false;
+  while (at < length && first[at] == second[at])
+    ++at;
+  if (at == length || strcmp(first + at + 1, second + at + 1) != 0)
+    return false;
+  bool known = false;
+  for (size_t k = 0; k < 4; ++k)
+    known = known || (first[at] == letters[k][0] && second[at] == letters[k][1] &&
+                      (!third || is_like(third, first, at, letters[k][2])));
+  size_t figures = strspn(first + at + 1, "0123456789_");
+  bool coordinates = length == 1 && (first[0] == 'x' || first[0] == 'X');
+  return known && !coordinates && (at == 0 || at + 1 + figures == length);
+}
+
+static bool is_scalar(const fg__vtk_array *array)
+{
+  return is_of_grid(array) && array->components == 1 && array->type != FG__VTK_UNKNOWN;
+}
+
+static fg_status add(fg__vtk_vector **out, size_t *count, size_t *capacity,
+                     const fg__vtk *vtk, fg__vtk_vector vector)
+{
+  void *vectors = *out;
+  if (!fg__grow(&vectors, capacity, *count + 1, sizeof **out))
+    return fg__fail_memory(vtk->context, "a list of vectors", *count * sizeof **out);
+  *out = vectors;
+  (*out)[(*count)++] = vector;
+  return FG_STATUS_OK;
+}
+
+/* The third of a volume's components, beside two that are a pair; NULL for none. */
+static const fg__vtk_array *find_third(const fg__vtk *vtk, const fg__vtk_array *first,
+                                       const fg__vtk_array *second)
+{
+  size_t arrays;
+  const fg__vtk_array *third = arrays_of_file(vtk, &arrays);
+  for (size_t i = 0; i < arrays; ++i, ++third)
+    if (third->place == first->place && is_scalar(third) && is_float(third) &&
+        are_a_pair(first->name, second->name, third->name))
+      return third;
+  return NULL;
+}
+
+static fg_status add_pairs(fg__vtk_vector **out, size_t *count, size_t *capacity,
+                           const fg__vtk *vtk, const fg__vtk_array *first, int components)
+{
+  size_t arrays;
+  const fg__vtk_array *second = arrays_of_file(vtk, &arrays);
+  for (size_t i = 0; i < arrays; ++i, ++second) {
+    if (second->place != first->place || !is_scalar(second) || !is_float(second) ||
+        !are_a_pair(first->name, second->name, NULL))
+      continue;
+    const fg__vtk_array *third = components == 3 ? find_third(vtk, first, second) : NULL;
+    if (components == 3 && !third)
+      continue;
+    fg_status status = add(
+        out, count, capacity, vtk,
+        (fg__vtk_vector){.name = {first->name, second->name, third ? third->name : NULL},
+                         .names = components,
+                         .components = components,
+                         .place = first->place,
+                         .found_by = "names",
+                         .units = first->units});
+    if (status != FG_STATUS_OK)
+      return status;
+  }
+  return FG_STATUS_OK;
+}
+
+/* Those of so many components; 0: two or three, arrays in pairs. */
+static fg_status list_vectors(fg__vtk_vector **out, size_t *count, const fg__vtk *vtk,
+                              int components)
+{
+  *out = NULL;
+  *count = 0;
+  size_t capacity = 0;
+  fg_status status = FG_STATUS_OK;
+  size_t arrays;
+  const fg__vtk_array *array = arrays_of_file(vtk, &arrays);
+  for (size_t i = 0; i < arrays && status == FG_STATUS_OK; ++i, ++array) {
+    if (is_vector(vtk, array)) {
+      if (components == 0 || array->components == components)
+        status = add(out, count, &capacity, vtk, vector_of(vtk, array));
+    } else if (is_scalar(array) && is_float(array)) {
+      status = add_pairs(out, count, &capacity, vtk, array, components == 3 ? 3 : 2);
+    }
+  }
+  if (status != FG_STATUS_OK) {
+    free(*out);
+    *out = NULL;
+    *count = 0;
+  }
+  return status;
+}
+
+fg_status fg__vtk_vectors(fg__vtk_vector **out, size_t *count, const fg__vtk *vtk)
+{
+  if (fg__vtk_is_volume(vtk)) {
+    fg_status status = list_vectors(out, count, vtk, 3);
+    if (status != FG_STATUS_OK || *count > 0)
+      return status;
+  }
+  return list_vectors(out, count, vtk, 0);
+}
+
+static const fg__vtk_array *find_anywhere(const fg__vtk *vtk, const char *name)
+{
+  const fg__vtk_array *array = fg__vtk_find(vtk, 0, FG__VTK_POINTS, name);
+  return array ? array : fg__vtk_find(vtk, 0, FG__VTK_CELLS, name);
+}
+
+static void list_names(char *text, size_t size, const fg__vtk *vtk)
+{
+  size_t arrays, used = 0;
+  const fg__vtk_array *array = arrays_of_file(vtk, &arrays);
+  snprintf(text, size, "none");
+  for (size_t i = 0; i < arrays && used < size; ++i, ++array)
+    used += (size_t)snprintf(text + used, size - used, "%s%.100s", i ? ", " : "",
+                             array->name);
+}
+
+fg_status fg__vtk_fail_unknown(const fg__vtk *vtk, const char *name)
+{
+  char names[512];
+  list_names(names, sizeof names, vtk);
+  fg_status status = fg__fail(vtk->context, FG_STATUS_ARGUMENT,
+                              "%s: there is no variable \"%.100s\"", vtk->path, name);
+  fg__hint(vtk->context, "the variables are: %s", names);
+  return status;
+}
+
+static fg_status choose_scalars(fg__vtk_vector *out, const fg__vtk *vtk, char *names)
+{
+  *out = (fg__vtk_vector){.found_by = "--vars"};
+  char *rest = names;
+  while (rest) {
+    char *name = rest;
+    rest = strchr(rest, ',');
+    if (rest)
+      *rest++ = '\0';
+    if (out->names == 3)
+      return fg__fail(vtk->context, FG_STATUS_ARGUMENT,
+                      "%s: more than three variables are named", vtk->path);
+    const fg__vtk_array *array = out->names == 0 ? find_anywhere(vtk, name)
+                                                 : fg__vtk_find(vtk, 0, out->place, name);
+    if (!array && find_anywhere(vtk, name))
+      return fg__fail(vtk->context, FG_STATUS_ARGUMENT,
+                      "%s: \"%.100s\" and \"%.100s\" lie on different places, points and "
+                      "cells",
+                      vtk->path, out->name[0], name);
+    if (!array)
+      return fg__vtk_fail_unknown(vtk, name);
+    if (!is_scalar(array))
+      return fg__fail(vtk->context, FG_STATUS_ARGUMENT,
+                      "%s: \"%.100s\" has %d components; one of several variables must "
+                      "have one",
+                      vtk->path, name, array->components);
+    out->place = array->place;
+    out->units = array->units;
+    out->name[out->names++] = name;
+  }
+  out->components = out->names;
+  return FG_STATUS_OK;
+}
+
+static fg_status choose_named(fg__vtk_vector *out, char **names_storage,
+                              const fg__vtk *vtk, const char *vars)
+{
+  const fg__vtk_array *array = find_anywhere(vtk, vars);
+  if (array && has_vectors(array)) {
+    *out = vector_of(vtk, array);
+    out->found_by = "--vars";
+    return FG_STATUS_OK;
+  }
+  if (array)
+    return fg__fail(vtk->context, FG_STATUS_ARGUMENT,
+                    "%s: \"%.100s\" has %d component%s, not 2 or 3", vtk->path, vars,
+                    array->components, array->components == 1 ? "" : "s");
+  if (!strchr(vars, ','))
+    return fg__vtk_fail_unknown(vtk, vars);
+  *names_storage = fg__copy_text(vars);
+  if (!*names_storage)
+    return fg__fail_memory(vtk->context, "names of variables", strlen(vars) + 1);
+  return choose_scalars(out, vtk, *names_storage);
+}
+
+static void describe(char *text, size_t size, const fg__vtk_vector *vector)
+{
+  if (vector->names == 1)
+    snprintf(text, size, "%.100s", vector->name[0]);
+  else if (vector->names == 2)
+    snprintf(text, size, "%.80s,%.80s", vector->name[0], vector->name[1]);
+  else
+    snprintf(text, size, "%.80s,%.80s,%.80s", vector->name[0], vector->name[1],
+             vector->name[2]);
+}
+
+static fg_status fail_ambiguous(const fg__vtk *vtk, const fg__vtk_vector *vectors,
+                                size_t count)
+{
+  char all[1024] = "", one[256];
+  for (size_t i = 0; i < count; ++i) {
+    describe(one, sizeof one, &vectors[i]);
+    size_t used = strlen(all);
+    snprintf(all + used, sizeof all - used, "%s%s", used ? " | " : "", one);
+  }
+  fg_status status =
+      fg__fail(vtk->context, FG_STATUS_ARGUMENT, "%s: %zu vectors could be meant: %s",
+               vtk->path, count, all);
+  describe(one, sizeof one, &vectors[0]);
+  fg__hint(vtk->context, "choose one: --vars %s", one);
+  return status;
+}
+
+static fg_status fail_none(const fg__vtk *vtk)
+{
+  char names[512];
+  list_names(names, sizeof names, vtk);
+  return fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
+                  "%s: holds no vectors; its variables: %s", vtk->path, names);
+}
+
+/* Vectors that the file marks as such come first, then vector variables, then pairs. One
+ * name on points and on cells is one quantity: the points' is taken. */
+static int rank(const fg__vtk *vtk, const fg__vtk_vector *vector)
+{
+  if (vector->names > 1)
+    return 2;
+  const char *active = vtk->vectors[vector->place];
+  return active && strcmp(active, vector->name[0]) == 0 ? 0 : 1;
+}
+
+static bool is_the_same(const fg__vtk_vector *a, const fg__vtk_vector *b)
+{
+  if (a->names != b->names)
+    return false;
+  for (int k = 0; k < a->names; ++k)
+    if (strcmp(a->name[k], b->name[k]) != 0)
+      return false;
+  return true;
+}
+
+static fg_status choose_among(fg__vtk_vector *out, const fg__vtk *vtk,
+                              fg__vtk_vector *vectors, size_t count)
+{
+  int best = 2;
+  for (size_t i = 0; i < count; ++i)
+    if (rank(vtk, &vectors[i]) < best)
+      best = rank(vtk, &vectors[i]);
+  size_t kept = 0;
+  for (size_t i = 0; i < count; ++i) {
+    bool known = rank(vtk, &vectors[i]) != best;
+    for (size_t k = 0; k < kept && !known; ++k)
+      if (is_the_same(&vectors[k], &vectors[i])) {
+        known = true;
+        if (vectors[i].place == FG__VTK_POINTS)
+          vectors[k] = vectors[i];
+      }
+    if (!known)
+      vectors[kept++] = vectors[i];
+  }
+  if (kept > 1)
+    return fail_ambiguous(vtk, vectors, kept);
+  *out = vectors[0];
+  return FG_STATUS_OK;
+}
+
+fg_status fg__vtk_choose(fg__vtk_vector *out, char **names_storage, const fg__vtk *vtk,
+                         const char *vars)
+{
+  *names_storage = NULL;
+  if (vars)
+    return choose_named(out, names_storage, vtk, vars);
+  fg__vtk_vector *vectors = NULL;
+  size_t count = 0;
+  fg_status status = fg__vtk_vectors(&vectors, &count, vtk);
+  if (status == FG_STATUS_OK)
+    status = count > 0 ? choose_among(out, vtk, vectors, count) : fail_none(vtk);
+  free(vectors);
+  return status;
+}

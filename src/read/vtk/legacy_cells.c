@@ -1,0 +1,98 @@
+/* The points and cells of a legacy VTK file. */
+#include "read/vtk/legacy_scan.h"
+
+/* Adds an array of so many numbers of a type, which begin on the next line. */
+static fg_status take(size_t *out, fg__vtk *vtk, fg__legacy_cursor *c, const char *name,
+                      const char *type, size_t count)
+{
+  fg__vtk_array *array;
+  *out = vtk->array_count;
+  fg_status status = fg__vtk_add_array(&array, vtk, name, FG__VTK_COORDINATES);
+  return status == FG_STATUS_OK ? fg__legacy_take(c, array, type, count) : status;
+}
+
+/* COUNT TYPE, then x y z of each. */
+fg_status fg__legacy_points(fg__vtk *vtk, fg__legacy_cursor *c)
+{
+  int count = 0;
+  size_t expected, positions;
+  char type[FG__LEGACY_WORD];
+  fg_status status = fg__legacy_whole(c, &count, 1, "a number of points");
+  if (status != FG_STATUS_OK)
+    return status;
+  if (!fg__legacy_word(c, type))
+    return fg__legacy_fail(c, "no type of POINTS but", type);
+  if (vtk->kind == FG__VTK_CURVILINEAR &&
+      fg__vtk_count(&expected, vtk->extent, FG__VTK_POINTS) && (size_t)count != expected)
+    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                    "%s: POINTS of %d where DIMENSIONS say %zu", vtk->path, count,
+                    expected);
+  vtk->field_array_count = vtk->array_count;
+  status = take(&positions, vtk, c, "points", type, 3 * (size_t)count);
+  if (status == FG_STATUS_OK)
+    status = fg__vtk_add_piece(vtk, vtk->extent);
+  if (status != FG_STATUS_OK)
+    return status;
+  vtk->arrays[positions].components = 3;
+  fg__vtk_piece *piece = &vtk->pieces[0];
+  piece->positions = positions;
+  piece->points = (size_t)count;
+  piece->corners = piece->types = piece->ends = FG__VTK_NONE;
+  return FG_STATUS_OK;
+}
+
+/* OFFSETS TYPE and CONNECTIVITY TYPE, of version 5.1. */
+static fg_status take_with_offsets(fg__vtk *vtk, fg__legacy_cursor *c, int ends,
+                                   int corners)
+{
+  fg__vtk_piece *piece = &vtk->pieces[0];
+  char word[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
+  fg_status status = FG_STATUS_OK;
+  if (!fg__legacy_word(c, word) || !fg__legacy_word(c, type))
+    return fg__legacy_fail(c, "no type of OFFSETS after", word);
+  status = take(&piece->ends, vtk, c, "offsets", type, (size_t)ends);
+  if (status != FG_STATUS_OK)
+    return status;
+  if (!fg__legacy_word(c, word) || !fg__legacy_is(word, "CONNECTIVITY") ||
+      !fg__legacy_word(c, type))
+    return fg__legacy_fail(c, "no CONNECTIVITY but", word);
+  piece->cells = (size_t)ends - 1;
+  piece->end_numbers = (size_t)ends;
+  piece->corner_numbers = (size_t)corners;
+  return take(&piece->corners, vtk, c, "connectivity", type, (size_t)corners);
+}
+
+/* COUNT SIZE, then of each cell the number of its corners and these; since version 5.1
+ * OFFSETS come first, one more than cells, and then what they part. */
+fg_status fg__legacy_cells(fg__vtk *vtk, fg__legacy_cursor *c)
+{
+  int count = 0, size = 0;
+  char word[FG__LEGACY_WORD];
+  fg_status status = fg__legacy_whole(c, &count, 1, "a number of cells");
+  if (status == FG_STATUS_OK)
+    status = fg__legacy_whole(c, &size, 1, "a number of corners");
+  if (status != FG_STATUS_OK)
+    return status;
+  fg__legacy_cursor ahead = *c;
+  fg__legacy_skip_line(&ahead);
+  if (fg__legacy_word_of_line(&ahead, word) && fg__legacy_is(word, "OFFSETS"))
+    return take_with_offsets(vtk, c, count, size);
+  vtk->pieces[0].cells = (size_t)count;
+  vtk->pieces[0].corner_numbers = (size_t)size;
+  return take(&vtk->pieces[0].corners, vtk, c, "cells", "int", (size_t)size);
+}
+
+/* COUNT, then the type of each cell. */
+fg_status fg__legacy_cell_types(fg__vtk *vtk, fg__legacy_cursor *c)
+{
+  fg__vtk_piece *piece = &vtk->pieces[0];
+  int count = 0;
+  fg_status status = fg__legacy_whole(c, &count, 0, "a number of cells");
+  if (status != FG_STATUS_OK)
+    return status;
+  if (piece->corners == FG__VTK_NONE || (size_t)count != piece->cells)
+    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                    "%s: CELL_TYPES of %d cells, CELLS of %zu", vtk->path, count,
+                    piece->corners == FG__VTK_NONE ? (size_t)0 : piece->cells);
+  return take(&piece->types, vtk, c, "types", "int", (size_t)count);
+}

@@ -1,0 +1,269 @@
+/* VTK grids along the axes as fields, and VTK XML files as a format. */
+#include "base/memory.h"
+#include "base/number_text.h"
+#include "read/vtk/vtk.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  DESCRIBED_SAMPLES = 64,    /* vectors whose missing share an inventory counts */
+  COUNTED_AT_ONCE = 1 << 22, /* samples that are in memory for that */
+  NAME_BYTES = 256
+};
+
+static const char LETTERS[] = "xyz";
+
+/* The moment that FieldData tells in TimeValue, as "t = 2.5"; *out stays NULL without. */
+static fg_status read_time(char **out, const fg__vtk *vtk)
+{
+  const fg__vtk_array *array = fg__vtk_find(vtk, 0, FG__VTK_FIELD, "TimeValue");
+  if (!array && !vtk->document) /* VisIt's name for it in legacy files */
+    array = fg__vtk_find(vtk, 0, FG__VTK_FIELD, "TIME");
+  if (!array)
+    return FG_STATUS_OK;
+  fg__vtk_values values;
+  fg_status status = fg__vtk_values_create(&values, vtk, array, 1);
+  if (status != FG_STATUS_OK)
+    return status;
+  char number[FG__NUMBER_BYTES], words[FG__NUMBER_BYTES + 8];
+  fg__number_locale locale;
+  if (fg__number_locale_begin(&locale)) {
+    fg__number_write(number, fg__vtk_value(&values, 0));
+    fg__number_locale_end(&locale);
+    snprintf(words, sizeof words, "t = %s", number);
+    *out = fg__copy_text(words);
+  }
+  fg__vtk_values_clear(&values);
+  return *out ? FG_STATUS_OK : fg__fail_memory(vtk->context, "words", sizeof words);
+}
+
+/* "U_x" for a vector variable U; a scalar's own name. */
+static void name_component(char name[NAME_BYTES], const fg__vtk_vector *vector, int axis,
+                           int component)
+{
+  if (vector->names > 1)
+    snprintf(name, NAME_BYTES, "%.200s", vector->name[component]);
+  else
+    snprintf(name, NAME_BYTES, "%.200s_%c", vector->name[0], LETTERS[axis]);
+}
+
+static fg_status check_options(fg_context *context, const fg__source *source,
+                               const fg_read_options *options)
+{
+  if (options->vars_from)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "%s: a second file with the other component cannot be used with VTK "
+                    "files",
+                    source->path);
+  if (options->time != 0 || options->level != 0)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: %s %d is asked for, but the file holds one only, number 0",
+                    source->path, options->time != 0 ? "time" : "level",
+                    options->time != 0 ? options->time : options->level);
+  return FG_STATUS_OK;
+}
+
+static fg_status create_axes(double *out[3], const fg__vtk *vtk, const fg__vtk_grid *grid)
+{
+  for (int k = 0; k < grid->dimension; ++k) {
+    int axis = grid->axis[k];
+    size_t count = grid->points[k];
+    out[k] = fg__allocate(count, sizeof(double));
+    if (!out[k])
+      return fg__fail_memory(vtk->context, "an axis", count * sizeof(double));
+    for (size_t i = 0; i < count; ++i)
+      out[k][i] = fg__vtk_coordinate(vtk, axis, i);
+    if (!vtk->uneven && (!(out[k][1] > out[k][0]) || !isfinite(out[k][count - 1])))
+      return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                      "%s: points along %c from %g in steps of %g are no axis", vtk->path,
+                      LETTERS[axis], out[k][0], vtk->spacing[axis]);
+  }
+  return FG_STATUS_OK;
+}
+
+static fg_status create_field(fg_field **out, const fg__vtk *vtk,
+                              const fg__vtk_grid *grid, const fg__vtk_vector *vector,
+                              fg_field_arrays arrays, float *velocity[3],
+                              double *const axis[3], const fg__dealt *dealt)
+{
+  char component[3][NAME_BYTES], axis_name[3][2] = {"", "", ""};
+  arrays.dimension = grid->dimension;
+  arrays.velocity_units = vector->units;
+  arrays.title = vector->names == 1 ? vector->name[0] : NULL;
+  if (arrays.scale == FG_SCALE_AUTO)
+    arrays.scale = FG_SCALE_PLAIN;
+  for (int k = 0; k < grid->dimension; ++k) {
+    name_component(component[k], vector, grid->axis[k],
+                   vector->components == 3 ? grid->axis[k] : k);
+    axis_name[k][0] = LETTERS[grid->axis[k]];
+    arrays.size[k] = (int)grid->points[k];
+    arrays.axis[k] = axis[k];
+    arrays.velocity[k] = velocity[k];
+    arrays.velocity_name[k] = component[k];
+    arrays.axis_name[k] = axis_name[k];
+  }
+  return fg__field_of_rows(out, vtk->context, &arrays, velocity, dealt);
+}
+
+static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,
+                       const fg__vtk_vector *vector, const fg_read_options *options,
+                       fg__dealt dealt)
+{
+  const fg__rows rows =
+      fg__rows_of(&dealt, (int)grid->points[grid->dimension - 1], false);
+  grid->first_row = (size_t)rows.first;
+  grid->rows = (size_t)rows.held;
+  float *velocity[3] = {NULL, NULL, NULL};
+  double *axis[3] = {NULL, NULL, NULL};
+  char *time = NULL;
+  fg_status status = create_axes(axis, vtk, grid);
+  if (status == FG_STATUS_OK)
+    status = read_time(&time, vtk);
+  if (status == FG_STATUS_OK)
+    status = fg__vtk_samples_read(velocity, vtk, grid, vector, options->mask);
+  if (status == FG_STATUS_OK)
+    status = create_field(out, vtk, grid, vector,
+                          (fg_field_arrays){.scale = options->scale, .time = time},
+                          velocity, axis, &dealt);
+  for (int k = 0; k < 3; ++k) {
+    free(velocity[k]);
+    free(axis[k]);
+  }
+  free(time);
+  return status;
+}
+
+fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *source,
+                       const fg_read_options *options, fg__dealt dealt,
+                       fg__vtk_opener *opener)
+{
+  *out = NULL;
+  fg_status status = check_options(context, source, options);
+  if (status != FG_STATUS_OK)
+    return status;
+  fg__vtk vtk;
+  fg__vtk_grid grid;
+  fg__vtk_vector vector;
+  char *names = NULL;
+  status = opener(&vtk, context, source);
+  if (status == FG_STATUS_OK) /* first: the grid of cells is not known before */
+    status = fg__vtk_read_coordinates(&vtk);
+  if (status == FG_STATUS_OK)
+    status = fg__vtk_choose(&vector, &names, &vtk, options->vars);
+  if (status == FG_STATUS_OK)
+    status = fg__vtk_grid_find(&grid, &vtk);
+  if (status == FG_STATUS_OK)
+    status = build(out, &vtk, &grid, &vector, options, dealt);
+  free(names);
+  fg__vtk_close(&vtk);
+  return status;
+}
+
+static fg_status read_xml(fg_field **out, fg_context *context, const fg__source *source,
+                          const fg_read_options *options, fg__dealt dealt)
+{
+  return fg__vtk_read(out, context, source, options, dealt, fg__vtk_open_xml);
+}
+
+static fg_status count_missing(double *share, const fg__vtk *vtk,
+                               const fg__vtk_grid *grid, const fg__vtk_vector *vector)
+{
+  const size_t all = grid->points[grid->dimension - 1];
+  const size_t row = fg__vtk_grid_points(grid) / all;
+  const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
+  size_t missing = 0;
+  for (size_t first = 0; first < all; first += most) {
+    float *velocity[3];
+    fg__vtk_grid some = *grid;
+    some.first_row = first;
+    some.rows = all - first < most ? all - first : most;
+    fg_status status = fg__vtk_samples_read(velocity, vtk, &some, vector, NULL);
+    if (status != FG_STATUS_OK)
+      return status;
+    for (size_t i = 0; i < fg__vtk_grid_wanted(&some); ++i) {
+      bool here = true;
+      for (int k = 0; k < grid->dimension; ++k)
+        here = here && !isnan(velocity[k][i]);
+      missing += !here;
+    }
+    for (int k = 0; k < 3; ++k)
+      free(velocity[k]);
+  }
+  *share = (double)missing / (double)fg__vtk_grid_points(grid);
+  return FG_STATUS_OK;
+}
+
+/* What is not supported is said of the vector, not held against the file. */
+static fg_status describe(fg_inventory_vector *entry, const fg__vtk *vtk,
+                          const fg__vtk_vector *vector, bool with_samples)
+{
+  fg__vtk_grid grid;
+  fg_status status = fg__vtk_grid_find(&grid, vtk);
+  entry->dimension = grid.dimension;
+  entry->cells = vtk->cells.count;
+  for (int k = 0; k < grid.dimension && status == FG_STATUS_OK; ++k) {
+    entry->size[k] = (int)grid.points[k];
+    entry->bounds[2 * k] = fg__vtk_coordinate(vtk, grid.axis[k], 0);
+    entry->bounds[2 * k + 1] = fg__vtk_coordinate(vtk, grid.axis[k], grid.points[k] - 1);
+  }
+  if (with_samples && status == FG_STATUS_OK)
+    status = count_missing(&entry->missing_share, vtk, &grid, vector);
+  return status;
+}
+
+fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
+                            const fg__source *source, fg__vtk_opener *opener)
+{
+  fg__vtk vtk;
+  fg__vtk_vector *vectors = NULL;
+  size_t count = 0;
+  fg_status status = opener(&vtk, context, source);
+  if (status == FG_STATUS_OK)
+    status = fg__vtk_read_coordinates(&vtk);
+  if (status == FG_STATUS_OK)
+    status = fg__vtk_vectors(&vectors, &count, &vtk);
+  for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i) {
+    fg_inventory_vector entry = {.components = vectors[i].components,
+                                 .units = vectors[i].units ? vectors[i].units : "",
+                                 .found_by = vectors[i].found_by,
+                                 .times = 1,
+                                 .levels = 1,
+                                 .scale = FG_SCALE_PLAIN};
+    for (int k = 0; k < vectors[i].names; ++k)
+      entry.name[k] = vectors[i].name[k];
+    char *unusable = NULL;
+    status = describe(&entry, &vtk, &vectors[i], i < DESCRIBED_SAMPLES);
+    if (status == FG_STATUS_UNSUPPORTED) {
+      const char *message = fg_context_message(context);
+      size_t prefix = strlen(source->path) + 2; /* "PATH: " is said elsewhere */
+      unusable = fg__copy_text(strlen(message) > prefix ? message + prefix : message);
+      entry.unusable = unusable;
+      fg_context_clear(context);
+      status = FG_STATUS_OK;
+    }
+    if (status == FG_STATUS_OK)
+      status = fg__inventory_add(inventory, context, &entry);
+    free(unusable);
+  }
+  free(vectors);
+  fg__vtk_close(&vtk);
+  return status;
+}
+
+static fg_status describe_xml(fg_inventory *inventory, fg_context *context,
+                              const fg__source *source)
+{
+  return fg__vtk_inventory(inventory, context, source, fg__vtk_open_xml);
+}
+
+const fg__format fg__format_vti = {
+    .name = "VTK XML",
+    .files = "VTK XML images, rectilinear, curvilinear and unstructured grids (.vti, "
+             ".vtr, .vts, .vtu) and VTK legacy files of them (.vtk)",
+    .is_mine = fg__is_vtk_xml,
+    .inventory = describe_xml,
+    .read = read_xml,
+    .tensors = fg__tensors_of_vtk};

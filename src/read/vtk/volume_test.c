@@ -1,0 +1,344 @@
+/* Volumes in VTK XML files, and rectilinear grids. */
+#include <math.h>
+
+#include "read/vtk/vti_example.h"
+
+enum {
+  NX = 5,
+  NY = 4,
+  NZ = 3,
+  COUNT = NX * NY * NZ,
+  CELLS = (NX - 1) * (NY - 1) * (NZ - 1)
+};
+
+static const example_encoding TEXT = {.storage = EXAMPLE_ASCII, .type = EXAMPLE_FLOAT64};
+
+/* Whole numbers, each its own. */
+static double sample(int i, int j, int k, int component)
+{
+  return 1.0 + i + 10.0 * j + 100.0 * k + 1000.0 * component;
+}
+
+/* A piece of the volume [first, end), its points' or cells' vectors as U. */
+static void add_piece(example_text *file, example_text *appended,
+                      const example_encoding *encoding, const int first[3],
+                      const int end[3], bool cells, const char *more)
+{
+  double numbers[3 * COUNT];
+  size_t count = 0;
+  int less = cells ? 1 : 0;
+  for (int k = first[2]; k <= end[2] - less; ++k)
+    for (int j = first[1]; j <= end[1] - less; ++j)
+      for (int i = first[0]; i <= end[0] - less; ++i)
+        for (int c = 0; c < 3; ++c)
+          numbers[count++] = sample(i, j, k, c);
+  char words[128];
+  snprintf(words, sizeof words, "<Piece Extent=\"%d %d %d %d %d %d\">\n<%sData>\n",
+           first[0], end[0], first[1], end[1], first[2], end[2],
+           cells ? "Cell" : "Point");
+  example_words(file, words);
+  example_array(file, appended, encoding, "U", 3, numbers, count);
+  example_words(file, more);
+  example_words(file, cells ? "</CellData>\n" : "</PointData>\n");
+  example_words(file, "</Piece>\n");
+}
+
+static const char BOX[] =
+    "WholeExtent=\"0 4 0 3 0 2\" Origin=\"1 2 3\" Spacing=\"0.5 0.25 2\"";
+
+static example_text volume(const example_encoding *encoding, bool cells, const char *more)
+{
+  example_text file = {0}, appended = {0};
+  example_begin(&file, encoding, BOX);
+  add_piece(&file, &appended, encoding, (const int[]){0, 0, 0},
+            (const int[]){NX - 1, NY - 1, NZ - 1}, cells, more);
+  example_end(&file, &appended, encoding);
+  return file;
+}
+
+static fg_field *field_of(fg_context *context, example_text *file,
+                          const fg_read_options *options)
+{
+  fg_field *field =
+      example_field_as(context, &fg__format_vti, file->bytes, file->size, options);
+  example_free(file);
+  return field;
+}
+
+static void assert_points(const fg_field *field)
+{
+  const fg_field_arrays *f = fg_field_contents(field);
+  assert_int_equal(f->dimension, 3);
+  assert_true(f->size[0] == NX && f->size[1] == NY && f->size[2] == NZ);
+  size_t n = 0;
+  for (int k = 0; k < NZ; ++k)
+    for (int j = 0; j < NY; ++j)
+      for (int i = 0; i < NX; ++i, ++n)
+        for (int c = 0; c < 3; ++c)
+          assert_true(f->velocity[c][n] == (float)sample(i, j, k, c));
+}
+
+static void points_of_a_volume_are_read_in_every_encoding(void **state)
+{
+  const example_encoding encodings[] = {
+      {EXAMPLE_ASCII, false, false, 0, false, false, EXAMPLE_FLOAT64},
+      {EXAMPLE_INLINE, true, false, 64, false, true, EXAMPLE_FLOAT64 - 1},
+      {EXAMPLE_APPENDED_RAW, false, false, 0, true, true, EXAMPLE_FLOAT64},
+      {EXAMPLE_APPENDED_BASE64, false, true, 100, true, false, EXAMPLE_FLOAT64 - 1}};
+  for (size_t e = 0; e < sizeof encodings / sizeof encodings[0]; ++e) {
+    example_text file = volume(&encodings[e], false, "");
+    fg_field *field = field_of(*state, &file, NULL);
+    assert_points(field);
+    const fg_field_arrays *f = fg_field_contents(field);
+    assert_true(f->axis[0][1] == 1.5 && f->axis[1][3] == 2.75 && f->axis[2][2] == 7.0);
+    assert_string_equal(f->velocity_name[2], "U_z");
+    assert_string_equal(f->axis_name[2], "z");
+    fg_field_destroy(field);
+  }
+}
+
+static void pieces_make_a_whole(void **state)
+{
+  example_text file = {0}, appended = {0};
+  example_begin(&file, &TEXT, BOX);
+  add_piece(&file, &appended, &TEXT, (const int[]){0, 0, 0}, (const int[]){4, 3, 1},
+            false, "");
+  add_piece(&file, &appended, &TEXT, (const int[]){2, 0, 1}, (const int[]){4, 3, 2},
+            false, "");
+  add_piece(&file, &appended, &TEXT, (const int[]){0, 0, 1}, (const int[]){2, 3, 2},
+            false, "");
+  example_end(&file, &appended, &TEXT);
+  fg_field *field = field_of(*state, &file, NULL);
+  assert_points(field);
+  fg_field_destroy(field);
+}
+
+/* A point has the mean of the up to eight cells round it; of a linear function that is
+ * the function at their middle. */
+static void cells_go_to_their_points(void **state)
+{
+  example_text file = volume(&TEXT, true, "");
+  fg_field *field = field_of(*state, &file, NULL);
+  const fg_field_arrays *f = fg_field_contents(field);
+  assert_true(f->size[0] == NX && f->size[1] == NY && f->size[2] == NZ);
+  for (int k = 0; k < NZ; ++k)
+    for (int j = 0; j < NY; ++j)
+      for (int i = 0; i < NX; ++i) {
+        double x = i == 0 ? 0.0 : i == NX - 1 ? NX - 2.0 : i - 0.5;
+        double y = j == 0 ? 0.0 : j == NY - 1 ? NY - 2.0 : j - 0.5;
+        double z = k == 0 ? 0.0 : k == NZ - 1 ? NZ - 2.0 : k - 0.5;
+        for (int c = 0; c < 3; ++c) {
+          double mean = 1.0 + x + 10.0 * y + 100.0 * z + 1000.0 * c;
+          assert_true(fabs((double)f->velocity[c][(k * NY + j) * NX + i] - mean) < 1e-3);
+        }
+      }
+  fg_field_destroy(field);
+}
+
+/* A hidden cell spoils its eight corners. */
+static void hidden_cells_are_holes(void **state)
+{
+  char marks[256] = "<DataArray type='UInt8' Name='vtkGhostType'>";
+  for (int n = 0; n < CELLS; ++n)
+    strcat(marks, n == (1 * (NY - 1) + 1) * (NX - 1) + 2 ? " 32" : " 0");
+  strcat(marks, "</DataArray>");
+  example_text file = volume(&TEXT, true, marks);
+  fg_field *field = field_of(*state, &file, NULL);
+  const fg_field_arrays *f = fg_field_contents(field);
+  int missing = 0;
+  for (int n = 0; n < COUNT; ++n) {
+    int i = n % NX, j = n / NX % NY, k = n / NX / NY;
+    bool corner = (i == 2 || i == 3) && (j == 1 || j == 2) && (k == 1 || k == 2);
+    assert_int_equal(f->valid[n], !corner);
+    missing += corner;
+  }
+  assert_int_equal(missing, 8);
+  fg_field_destroy(field);
+}
+
+static void a_mask_leaves_its_points_out(void **state)
+{
+  char mask[512] = "<DataArray type='Int16' Name='inside'>";
+  for (int n = 0; n < COUNT; ++n)
+    strcat(mask, n == 17 || n == 40 ? " 0" : " 3");
+  strcat(mask, "</DataArray>");
+  example_text file = volume(&TEXT, false, mask);
+  fg_field *field = field_of(*state, &file, &(fg_read_options){.mask = "inside"});
+  const fg_field_arrays *f = fg_field_contents(field);
+  for (int n = 0; n < COUNT; ++n)
+    for (int c = 0; c < 3; ++c)
+      assert_true(isnan(f->velocity[c][n]) == (n == 17 || n == 40));
+  fg_field_destroy(field);
+}
+
+/* Values of so many points. */
+#define WIDE "0 1 0 2 0 2"
+#define EIGHTEEN "1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9"
+#define VOLUME "0 2 0 2 0 2"
+#define TWENTYSEVEN EIGHTEEN " 1 2 3 4 5 6 7 8 9"
+
+static void three_scalars_are_a_vector(void **state)
+{
+  char file[EXAMPLE_FILE_BYTES];
+  fg_field *field = NULL;
+  example_image(file, "", VOLUME,
+                POINTS(SCALAR("vel_z", TWENTYSEVEN) SCALAR("p", TWENTYSEVEN)
+                           SCALAR("vel_x", TWENTYSEVEN) SCALAR("vel_y", TWENTYSEVEN)));
+  assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_OK);
+  const fg_field_arrays *f = fg_field_contents(field);
+  assert_int_equal(f->dimension, 3);
+  assert_string_equal(f->velocity_name[0], "vel_x");
+  assert_string_equal(f->velocity_name[1], "vel_y");
+  assert_string_equal(f->velocity_name[2], "vel_z");
+  fg_field_destroy(field);
+
+  fg_read_options options = {.vars = "p,vel_x,vel_z"};
+  assert_int_equal(example_read_words(&field, *state, file, &options), FG_STATUS_OK);
+  assert_string_equal(fg_field_contents(field)->velocity_name[2], "vel_z");
+  fg_field_destroy(field);
+
+  options.vars = "vel_x,vel_y";
+  assert_int_equal(example_read_words(&field, *state, file, &options),
+                   FG_STATUS_UNSUPPORTED);
+  assert_non_null(strstr(fg_context_message(*state), "3 x 3 x 3 points needs three"));
+  assert_non_null(strstr(fg_context_hint(*state), "--vars U,V,W"));
+
+  example_image(file, "", VOLUME,
+                POINTS(SCALAR("u", TWENTYSEVEN) SCALAR("v", TWENTYSEVEN)));
+  assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_UNSUPPORTED);
+  assert_non_null(strstr(fg_context_message(*state), "needs three components"));
+}
+
+static void several_volumes_of_vectors_are_ambiguous(void **state)
+{
+  char file[EXAMPLE_FILE_BYTES];
+  fg_field *field = NULL;
+  example_image(file, "", VOLUME,
+                POINTS(SCALAR("u", TWENTYSEVEN) SCALAR("v", TWENTYSEVEN)
+                           SCALAR("w", TWENTYSEVEN) SCALAR("bx", TWENTYSEVEN)
+                               SCALAR("by", TWENTYSEVEN) SCALAR("bz", TWENTYSEVEN)
+                                   SCALAR("ax", TWENTYSEVEN) SCALAR("ay", TWENTYSEVEN)));
+  assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_ARGUMENT);
+  assert_non_null(strstr(fg_context_message(*state), "2 vectors"));
+  assert_non_null(strstr(fg_context_message(*state), "u,v,w | bx,by,bz"));
+}
+
+/* Two layers of points are a plane with a mean, as ever. */
+static void two_layers_are_a_plane(void **state)
+{
+  char file[EXAMPLE_FILE_BYTES];
+  fg_field *field = NULL;
+  example_image(file, "", WIDE, POINTS(SCALAR("u", EIGHTEEN) SCALAR("v", EIGHTEEN)));
+  assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_OK);
+  const fg_field_arrays *f = fg_field_contents(field);
+  assert_int_equal(f->dimension, 2);
+  assert_true(f->size[0] == 3 && f->size[1] == 3);
+  assert_true(f->velocity[0][0] == 1.5f);
+  fg_field_destroy(field);
+}
+
+static void an_inventory_tells_of_a_volume(void **state)
+{
+  example_text file = volume(&TEXT, false, "");
+  fg_inventory *inventory = NULL;
+  fg__source source = {.path = "a.vti", .bytes = file.bytes, .size = file.size};
+  assert_int_equal(fg__inventory_create(&inventory, *state, "x"), FG_STATUS_OK);
+  assert_int_equal(fg__format_vti.inventory(inventory, *state, &source), FG_STATUS_OK);
+  const fg_inventory_vector *u = fg_inventory_vector_at(inventory, 0);
+  assert_int_equal(u->dimension, 3);
+  assert_int_equal(u->components, 3);
+  assert_true(u->size[0] == NX && u->size[1] == NY && u->size[2] == NZ);
+  assert_true(u->bounds[1] == 3.0 && u->bounds[3] == 2.75 && u->bounds[5] == 7.0);
+  assert_true(u->missing_share == 0.0);
+  assert_null(u->unusable);
+  fg_inventory_destroy(inventory);
+  example_free(&file);
+}
+
+static void rectilinear(char file[EXAMPLE_FILE_BYTES], const char *extent,
+                        const char *pieces)
+{
+  int size = snprintf(file, EXAMPLE_FILE_BYTES,
+                      "<VTKFile type='RectilinearGrid'><RectilinearGrid "
+                      "WholeExtent='%s'>%s</RectilinearGrid></VTKFile>",
+                      extent, pieces);
+  assert_true(size > 0 && size < EXAMPLE_FILE_BYTES);
+}
+
+#define AXES(x, y, z)                                                                    \
+  "<Coordinates>" SCALAR("a", x) SCALAR("b", y) SCALAR("c", z) "</Coordinates>"
+#define LEFT                                                                             \
+  "<Piece Extent='2 4 0 1 7 7'>" POINTS(PAIR_OF("U", "1 1 2 2 3 3 4 4 5 5 6 6"))         \
+      AXES("0.5 1 4", "-1 2", "9") "</Piece>"
+#define RIGHT                                                                            \
+  "<Piece Extent='4 5 0 1 7 7'>" POINTS(PAIR_OF("U", "3 3 7 7 6 6 8 8"))                 \
+      AXES("4 4.25", "-1 2", "9") "</Piece>"
+
+static void rectilinear_grids_have_their_own_axes(void **state)
+{
+  char file[EXAMPLE_FILE_BYTES];
+  rectilinear(file, "2 5 0 1 7 7", LEFT RIGHT);
+  fg_field *field = NULL;
+  assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_OK);
+  const fg_field_arrays *f = fg_field_contents(field);
+  assert_int_equal(f->dimension, 2);
+  const double x[] = {0.5, 1.0, 4.0, 4.25}, y[] = {-1.0, 2.0};
+  assert_memory_equal(f->axis[0], x, sizeof x);
+  assert_memory_equal(f->axis[1], y, sizeof y);
+  const float u[] = {1, 2, 3, 7, 4, 5, 6, 8};
+  assert_memory_equal(f->velocity[0], u, sizeof u);
+  fg_field_destroy(field);
+}
+
+static void wrong_coordinates_are_refused(void **state)
+{
+  static const struct {
+    const char *pieces, *words;
+  } cases[] = {
+      {LEFT "<Piece Extent='4 5 0 1 7 7'>" POINTS(PAIR_OF("U", "3 3 7 7 6 6 8 8"))
+           AXES("4", "-1 2", "9") "</Piece>",
+       "cut short"},
+      {LEFT "<Piece Extent='4 5 0 1 7 7'>" POINTS(PAIR_OF("U", "3 3 7 7 6 6 8 8"))
+           AXES("4 nan", "-1 2", "9") "</Piece>",
+       "coordinate 3 of 4 along x"},
+      {LEFT "<Piece Extent='4 5 0 1 7 7'>" POINTS(PAIR_OF("U", "3 3 7 7 6 6 8 8"))
+           AXES("4 3", "-1 2", "9") "</Piece>",
+       "does not ascend"},
+      {LEFT
+       "<Piece Extent='4 5 0 1 7 7'>" POINTS(PAIR_OF("U", "3 3 7 7 6 6 8 8")) "</Piece>",
+       "0 arrays of coordinates"},
+      {LEFT "<Piece Extent='4 5 0 1 7 7'>" POINTS(
+           PAIR_OF("U", "3 3 7 7 6 6 8 8")) "<Coordinates>" VECTOR("a", "1 2 3 4 5 6")
+           SCALAR("b", "-1 2") SCALAR("c", "9") "</Coordinates></Piece>",
+       "are vectors"},
+  };
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+    char file[EXAMPLE_FILE_BYTES];
+    rectilinear(file, "2 5 0 1 7 7", cases[i].pieces);
+    fg_field *field = NULL;
+    fg_status status = example_read_words(&field, *state, file, NULL);
+    assert_true(status == FG_STATUS_FILE_FORMAT || status == FG_STATUS_ARGUMENT);
+    if (!strstr(fg_context_message(*state), cases[i].words))
+      fail_msg("\"%s\" lacks \"%s\"", fg_context_message(*state), cases[i].words);
+    assert_null(field);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(points_of_a_volume_are_read_in_every_encoding),
+      cmocka_unit_test(pieces_make_a_whole),
+      cmocka_unit_test(cells_go_to_their_points),
+      cmocka_unit_test(hidden_cells_are_holes),
+      cmocka_unit_test(a_mask_leaves_its_points_out),
+      cmocka_unit_test(three_scalars_are_a_vector),
+      cmocka_unit_test(several_volumes_of_vectors_are_ambiguous),
+      cmocka_unit_test(two_layers_are_a_plane),
+      cmocka_unit_test(an_inventory_tells_of_a_volume),
+      cmocka_unit_test(rectilinear_grids_have_their_own_axes),
+      cmocka_unit_test(wrong_coordinates_are_refused),
+  };
+  return cmocka_run_group_tests_name("read/vtk/volume", tests, context_set_up,
+                                     context_tear_down);
+}

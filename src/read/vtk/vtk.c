@@ -1,0 +1,125 @@
+/* The parts of a VTK file, whichever way they were found. */
+#include "read/vtk/vtk.h"
+
+#include "base/memory.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <libxml/tree.h>
+
+/* More arrays in a piece than any program writes; names are compared each with each. */
+enum { ARRAYS_MAX = 1000 };
+
+fg_status fg__vtk_add_array(fg__vtk_array **out, fg__vtk *vtk, const char *name,
+                            fg__vtk_place place)
+{
+  void *arrays = vtk->arrays;
+  if (!fg__grow(&arrays, &vtk->array_capacity, vtk->array_count + 1, sizeof *vtk->arrays))
+    return fg__fail_memory(vtk->context, "a list of arrays", vtk->array_count);
+  vtk->arrays = arrays;
+  fg__vtk_array *array = &vtk->arrays[vtk->array_count++];
+  *array = (fg__vtk_array){.place = place, .components = 1};
+  array->name = fg__copy_text(name);
+  if (!array->name)
+    return fg__fail_memory(vtk->context, "an array's name", strlen(name) + 1);
+  *out = array;
+  return FG_STATUS_OK;
+}
+
+fg_status fg__vtk_add_piece(fg__vtk *vtk, const int extent[6])
+{
+  void *pieces = vtk->pieces;
+  if (!fg__grow(&pieces, &vtk->piece_capacity, vtk->piece_count + 1, sizeof *vtk->pieces))
+    return fg__fail_memory(vtk->context, "a list of pieces", vtk->piece_count);
+  vtk->pieces = pieces;
+  fg__vtk_piece *piece = &vtk->pieces[vtk->piece_count++];
+  *piece = (fg__vtk_piece){.first_array = vtk->array_count};
+  memcpy(piece->extent, extent, sizeof piece->extent);
+  return FG_STATUS_OK;
+}
+
+fg_status fg__vtk_end_piece(fg__vtk *vtk)
+{
+  fg__vtk_piece *piece = &vtk->pieces[vtk->piece_count - 1];
+  piece->array_count = vtk->array_count - piece->first_array;
+  if (piece->array_count > ARRAYS_MAX)
+    return fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
+                    "%s: %zu arrays; at most %d can be read", vtk->path,
+                    piece->array_count, ARRAYS_MAX);
+  return FG_STATUS_OK;
+}
+
+void fg__vtk_close(fg__vtk *vtk)
+{
+  for (size_t i = 0; i < vtk->array_count; ++i) {
+    free(vtk->arrays[i].name);
+    free(vtk->arrays[i].units);
+    free(vtk->arrays[i].joined_text);
+  }
+  for (int k = 0; k < 3; ++k)
+    free(vtk->coordinate[k]);
+  free(vtk->arrays);
+  free(vtk->pieces);
+  free(vtk->vectors[0]);
+  free(vtk->vectors[1]);
+  free(vtk->compressor);
+  fg__cell_set_clear(&vtk->cells);
+  if (vtk->document)
+    xmlFreeDoc(vtk->document);
+  *vtk = (fg__vtk){0};
+}
+
+const fg__vtk_array *fg__vtk_find(const fg__vtk *vtk, size_t piece, fg__vtk_place place,
+                                  const char *name)
+{
+  size_t first = 0, count = vtk->field_array_count;
+  if (place != FG__VTK_FIELD) {
+    if (piece >= vtk->piece_count)
+      return NULL;
+    first = vtk->pieces[piece].first_array;
+    count = vtk->pieces[piece].array_count;
+  }
+  for (size_t i = first; i < first + count; ++i)
+    if (vtk->arrays[i].place == place && strcmp(vtk->arrays[i].name, name) == 0)
+      return &vtk->arrays[i];
+  return NULL;
+}
+
+size_t fg__vtk_length(const int extent[6], int axis, fg__vtk_place place)
+{
+  size_t intervals = (size_t)((int64_t)extent[2 * axis + 1] - (int64_t)extent[2 * axis]);
+  if (place == FG__VTK_CELLS)
+    return intervals > 0 ? intervals : 1;
+  return intervals + 1;
+}
+
+bool fg__vtk_count(size_t *count, const int extent[6], fg__vtk_place place)
+{
+  *count = 1;
+  for (int k = 0; k < 3; ++k) {
+    size_t length = fg__vtk_length(extent, k, place);
+    if (length > (size_t)INT_MAX / *count)
+      return false;
+    *count *= length;
+  }
+  return true;
+}
+
+bool fg__vtk_tuples(size_t *count, const fg__vtk *vtk, const fg__vtk_piece *piece,
+                    fg__vtk_place place)
+{
+  if (vtk->kind != FG__VTK_UNSTRUCTURED)
+    return fg__vtk_count(count, piece->extent, place);
+  *count = place == FG__VTK_CELLS ? piece->cells : piece->points;
+  return true;
+}
+
+double fg__vtk_coordinate(const fg__vtk *vtk, int axis, size_t i)
+{
+  if (vtk->coordinate[axis])
+    return vtk->coordinate[axis][i];
+  return vtk->origin[axis] +
+         vtk->spacing[axis] * ((double)vtk->extent[2 * axis] + (double)i);
+}

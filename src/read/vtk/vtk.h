@@ -1,0 +1,257 @@
+/* A VTK file of a grid or of cells, taken apart: what document.c finds in the
+ * markup that markup.c parsed, or legacy.c in a legacy file, values.c turns
+ * into numbers, cells.c makes a set of cells and their raster of where the grid is
+ * not along the axes, choice.c picks vectors from, samples.c brings onto the
+ * points of a plane or a volume, and read.c makes a field of. Format: VTK File
+ * Formats, Kitware. */
+#ifndef FG__VTK_H
+#define FG__VTK_H
+
+#include "read/cells/set.h"
+#include "read/format.h"
+#include "read/signature.h"
+
+typedef enum fg__vtk_type {
+  FG__VTK_UNKNOWN = 0, /* String, Bit, ... */
+  FG__VTK_INT8,
+  FG__VTK_UINT8,
+  FG__VTK_INT16,
+  FG__VTK_UINT16,
+  FG__VTK_INT32,
+  FG__VTK_UINT32,
+  FG__VTK_INT64,
+  FG__VTK_UINT64,
+  FG__VTK_FLOAT32,
+  FG__VTK_FLOAT64
+} fg__vtk_type;
+
+typedef enum fg__vtk_place {
+  FG__VTK_POINTS,
+  FG__VTK_CELLS,
+  FG__VTK_FIELD,
+  FG__VTK_COORDINATES
+} fg__vtk_place;
+
+typedef enum fg__vtk_storage {
+  FG__VTK_ASCII,
+  FG__VTK_INLINE,
+  FG__VTK_APPENDED,
+  FG__VTK_TOKENS, /* a legacy file's text, not ended by a NUL */
+  FG__VTK_RAW     /* a legacy file's bytes */
+} fg__vtk_storage;
+
+typedef enum fg__vtk_compression {
+  FG__VTK_PLAIN,
+  FG__VTK_ZLIB,
+  FG__VTK_LZ4,
+  FG__VTK_OTHER_COMPRESSION
+} fg__vtk_compression;
+
+/* A DataArray element, or an array of a legacy file. */
+typedef struct fg__vtk_array {
+  char *name;
+  char *units; /* NULL: not said */
+  fg__vtk_type type;
+  int components;
+  fg__vtk_place place;
+  fg__vtk_storage storage;
+  bool no_velocity; /* the file says that it is something else: normals, colours */
+  const char *text; /* ascii, inline: what the element holds, ended by a NUL; tokens, raw:
+                       where it lies in the file */
+  size_t text_size;
+  char *joined_text; /* owned, when text lay in several parts; else NULL */
+  size_t offset;     /* appended: where it begins */
+} fg__vtk_array;
+
+typedef struct fg__vtk_piece {
+  int extent[6];
+  size_t first_array, array_count;    /* of points and cells */
+  size_t coordinates;                 /* the first of three arrays, on an uneven grid */
+  size_t positions;                   /* the array of its points, of cells */
+  size_t points, cells;               /* of an unstructured grid */
+  size_t corners, types, ends;        /* arrays that say what these are; ends: NONE where
+                                         each cell's corners follow their number */
+  size_t corner_numbers, end_numbers; /* of these arrays; 0: as the last end says, as
+                                         many as cells */
+} fg__vtk_piece;
+
+#define FG__VTK_NONE SIZE_MAX
+
+typedef enum fg__vtk_kind {
+  FG__VTK_ALONG_AXES = 0,
+  FG__VTK_CURVILINEAR,
+  FG__VTK_UNSTRUCTURED
+} fg__vtk_kind;
+
+typedef struct fg__vtk {
+  fg_context *context;
+  const char *path;
+  size_t file_size;
+  void *document; /* libxml2's tree, which texts point into; NULL: a legacy file */
+  bool swap;      /* the file's byte order is not this machine's */
+  size_t header_bytes;
+  fg__vtk_compression compression;
+  char *compressor;
+  const unsigned char *appended; /* NULL: none */
+  size_t appended_size;
+  bool appended_base64;
+  fg__vtk_kind kind;
+  fg__cell_set cells; /* count is 0: the grid is along the axes, or not read yet */
+  int extent[6];      /* first and last point along x, y, z */
+  double origin[3], spacing[3];
+  bool uneven;           /* each piece has its coordinates */
+  double *coordinate[3]; /* of an uneven grid, from the first point of extent on */
+  fg__vtk_piece *pieces;
+  size_t piece_count, piece_capacity;
+  fg__vtk_array *arrays;
+  size_t array_count, array_capacity; /* FieldData's first, then the pieces' */
+  size_t field_array_count;
+  char *vectors[2]; /* the Vectors attribute of the points' and of the cells' data */
+  bool exhausted;   /* memory for what the markup says was lacking; the context says so */
+} fg__vtk;
+
+/* Parses the markup into `document` and finds the appended data. */
+fg_status fg__vtk_parse(fg__vtk *vtk, const fg__source *source);
+
+/* How a file is opened. The result is to be closed even after a failure. */
+typedef fg_status fg__vtk_opener(fg__vtk *out, fg_context *context,
+                                 const fg__source *source);
+fg__vtk_opener fg__vtk_open_xml, fg__vtk_open_legacy;
+void fg__vtk_close(fg__vtk *vtk);
+
+/* Adds an array of one component and unknown type, named by a copy of `name`. *out is
+ * borrowed until the next is added. */
+fg_status fg__vtk_add_array(fg__vtk_array **out, fg__vtk *vtk, const char *name,
+                            fg__vtk_place place);
+
+/* Adds a piece. Its arrays are those added from now on, until its array_count is set;
+ * UNSUPPORTED when those are more than any program writes. */
+fg_status fg__vtk_add_piece(fg__vtk *vtk, const int extent[6]);
+fg_status fg__vtk_end_piece(fg__vtk *vtk);
+
+/* Bytes of a number; 0 for the unknown type. */
+size_t fg__vtk_size_of(fg__vtk_type type);
+
+/* Reads an uneven grid's coordinates from its pieces, or the points and cells of one that
+ * is not along the axes: then extent, origin and spacing become those of its raster; but
+ * a curvilinear grid whose lines are along the axes becomes an uneven one. */
+fg_status fg__vtk_read_coordinates(fg__vtk *vtk);
+
+/* Points or cells of a piece; false as for fg__vtk_count. */
+bool fg__vtk_tuples(size_t *count, const fg__vtk *vtk, const fg__vtk_piece *piece,
+                    fg__vtk_place place);
+
+/* The part of fg__vtk_read_coordinates that reads points and cells. */
+fg_status fg__vtk_read_cells(fg__vtk *vtk);
+
+/* A point's coordinate along an axis; i counts from the first of extent. */
+double fg__vtk_coordinate(const fg__vtk *vtk, int axis, size_t i);
+
+/* The array of this name; NULL when there is none. */
+const fg__vtk_array *fg__vtk_find(const fg__vtk *vtk, size_t piece, fg__vtk_place place,
+                                  const char *name);
+
+/* Points or cells of an extent along an axis; a flat axis has one cell. */
+size_t fg__vtk_length(const int extent[6], int axis, fg__vtk_place place);
+
+/* Their product; false when it does not fit an int: no field is that large. */
+bool fg__vtk_count(size_t *count, const int extent[6], fg__vtk_place place);
+
+/* Numbers of one array in this machine's byte order, or some of them in a row. */
+typedef struct fg__vtk_values {
+  unsigned char *bytes;
+  fg__vtk_type type;
+  size_t first, count; /* of the array's numbers, tuples * components */
+} fg__vtk_values;
+
+/* Checks that the file holds `tuples` tuples of the array, without allocating: what it
+ * promises against what there is. *stored becomes the bytes they take in the file. */
+fg_status fg__vtk_values_check(const fg__vtk *vtk, const fg__vtk_array *array,
+                               size_t tuples, size_t *stored);
+
+/* Decodes an array; checks as above first. */
+fg_status fg__vtk_values_create(fg__vtk_values *out, const fg__vtk *vtk,
+                                const fg__vtk_array *array, size_t tuples);
+
+/* The same, and keeps tuples [first, end) alone. Of binary arrays only the blocks that
+ * hold them are decoded; text is read through. */
+fg_status fg__vtk_values_create_some(fg__vtk_values *out, const fg__vtk *vtk,
+                                     const fg__vtk_array *array, size_t tuples,
+                                     size_t first, size_t end);
+void fg__vtk_values_clear(fg__vtk_values *values);
+
+/* text.c. Reads an array of `all` numbers in text and keeps what out has room for. */
+fg_status fg__vtk_values_from_text(fg__vtk_values *out, const fg__vtk *vtk,
+                                   const fg__vtk_array *array, size_t all);
+
+/* Number `index` of the array; it must have been kept. */
+double fg__vtk_value(const fg__vtk_values *values, size_t index);
+
+/* A vector: one array of 2 or 3 components, or 2 or 3 arrays of one. Names are borrowed.
+ */
+typedef struct fg__vtk_vector {
+  const char *name[3];
+  int names;
+  int components;
+  fg__vtk_place place;
+  const char *found_by;
+  const char *units;
+} fg__vtk_vector;
+
+/* Lists every vector that could be meant; of a volume those of three components, unless
+ * there is none. End *out with free. */
+fg_status fg__vtk_vectors(fg__vtk_vector **out, size_t *count, const fg__vtk *vtk);
+
+/* Fails for a name that no array has; the hint lists those there are. */
+fg_status fg__vtk_fail_unknown(const fg__vtk *vtk, const char *name);
+
+/* Picks the vector that vars names, or the only one that can be meant when it is NULL.
+ * The names live as long as *names_storage, to be freed, and vtk. */
+fg_status fg__vtk_choose(fg__vtk_vector *out, char **names_storage, const fg__vtk *vtk,
+                         const char *vars);
+
+/* The plane or volume that a grid is. */
+typedef struct fg__vtk_grid {
+  int dimension;
+  int axis[3]; /* the file's axes that span it, ascending */
+  int flat;    /* in 2D the remaining one, one or two points thick; else -1 */
+  size_t points[3];
+  size_t first_row, rows; /* along the last axis, to be read; all unless changed */
+} fg__vtk_grid;
+
+/* Finds it; UNSUPPORTED for a line. */
+fg_status fg__vtk_grid_find(fg__vtk_grid *out, const fg__vtk *vtk);
+bool fg__vtk_is_volume(const fg__vtk *vtk);
+size_t fg__vtk_grid_points(const fg__vtk_grid *grid);
+
+/* Points of the rows to be read. */
+size_t fg__vtk_grid_wanted(const fg__vtk_grid *grid);
+
+/* Brings the components of a vector along the grid's axes onto the wanted rows' points:
+ * in 2D a mean over two layers of points; of cells a mean over those round a point (VTK's
+ * CellDataToPointData); NaN where anything that goes into it is missing, hidden
+ * (vtkGhostType, vtkValidPointMask), or not positive in the array `mask` (a vector:
+ * zero), which may be NULL. End them with free; those beyond the dimension are NULL.
+ * UNSUPPORTED for two components in a volume. */
+fg_status fg__vtk_samples_read(float *out[3], const fg__vtk *vtk,
+                               const fg__vtk_grid *grid, const fg__vtk_vector *vector,
+                               const char *mask);
+
+/* What to do about cells that cannot be read. */
+#define FG__VTK_RESAMPLE                                                                 \
+  "resample it to an image, with ParaView's filter Resample To Image or "                \
+  "vtkResampleToImage, and save that as .vti"
+
+/* What fg__format asks for, of a file opened by `opener`. */
+fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *source,
+                       const fg_read_options *options, fg__dealt dealt,
+                       fg__vtk_opener *opener);
+fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
+                            const fg__source *source, fg__vtk_opener *opener);
+
+/* A tensor array as fields of the matrix's rows; *found: there is one. FILE_FORMAT,
+ * UNSUPPORTED, ARGUMENT (not symmetric), MEMORY. */
+fg_status fg__tensors_of_vtk(fg_field *row[2], bool *found, fg_context *context,
+                             const fg__source *source);
+
+#endif
