@@ -16,7 +16,7 @@ typedef struct effort {
   int sweeps, exchanges, icons_an_exchange, failures;
 } effort;
 
-static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 4, 10, 3},
+static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 8, 10, 4},
                                  [FG_EFFORT_QUICK] = {8, 0, 0, 0},
                                  [FG_EFFORT_THOROUGH] = {14, 40, 3, 8}};
 
@@ -25,11 +25,7 @@ static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 4, 10, 3},
 static const double FINEST = 0.125;
 enum { FEW = 200 };
 
-/* A first scale begins with more icons than are asked for, half as many again but at most
- * so many more, and goes down from there: at 60 icons E_ang is 8 % smaller with free
- * lengths than from the number itself (six fields). Sweeps before that. */
-static const int MOST_MORE[] = {
-    [FG_EFFORT_NORMAL] = 30, [FG_EFFORT_QUICK] = 0, [FG_EFFORT_THOROUGH] = 200};
+/* Sweeps after the first scale is complete. */
 enum { SETTLING = 3 };
 
 /* A scale is reached by numbers of icons that fall by this factor. */
@@ -298,24 +294,10 @@ static fg_status check_count(const fg_placement *placement, int count)
                   placement->search.count);
 }
 
-/* The first scale: of more icons than are asked for those that are missed least go. Where
- * so many have no room the number itself is tried. */
 static fg_status place_first(fg_placement *placement, int count, const fg_icons *clusters)
 {
-  fg__place_search *search = &placement->search;
-  int most = MOST_MORE[placement->options.effort];
-  int more = count / 2 < most ? count / 2 : most;
-  fg_status status = start(placement, count + more, clusters);
-  if (status == FG_STATUS_OK)
-    status = settle(search);
-  if (status == FG_STATUS_OK && search->count < count) {
-    status = start(placement, count, clusters);
-    if (status == FG_STATUS_OK)
-      status = settle(search);
-  }
-  if (status == FG_STATUS_OK)
-    status = go_down(placement, count);
-  return status;
+  fg_status status = start(placement, count, clusters);
+  return status == FG_STATUS_OK ? settle(&placement->search) : status;
 }
 
 fg_status fg__placement_begin_again(fg_placement *placement, int count)

@@ -4,15 +4,8 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Squares of epsilon in lambda: of the inverse distance, as the score has it; and of the
- * smooth reader, whose sums shall not be those of the nearest samples alone. */
+/* Square of epsilon in lambda: of the inverse distance, as the score has it. */
 #define PULL_EPSILON 0.0025F
-#define SMOOTH_EPSILON 0.01F
-
-/* What a degree of each reader's error counts: nearest, inverse distance, smooth. The
- * last stands for diffusion and for the paths that follow from it: with 2 in place of 1,
- * E_ang and E_adv fall by 3 %, the mean of the readers stays. */
-static const float WORTH[3] = {1.0F, 1.0F, 2.0F};
 
 enum { LANES = 8, MOST_CELLS = 64 };
 
@@ -24,15 +17,10 @@ enum { LANES = 8, MOST_CELLS = 64 };
 #endif
 #define INLINE static inline __attribute__((always_inline))
 
-/* Where the arrays of the two sums begin. */
+/* Where the array of the sum begins. */
 INLINE int pull_array(const int dimension)
 {
   return FG__PLACE_NEAR + dimension;
-}
-
-INLINE int smooth_array(const int dimension)
-{
-  return FG__PLACE_NEAR + 2 * dimension;
 }
 
 /* (1 - d^2 / R^2)^2, 0 beyond R. */
@@ -66,10 +54,9 @@ INLINE vector choose(mask which, vector yes, vector no)
   return (vector)((which & (mask)yes) | (~which & (mask)no));
 }
 
-/* What a line tells some cells: the nearest sample's tangent, and the sum over samples.
- */
+/* What a line tells some cells: the nearest sample's tangent. */
 typedef struct line_told {
-  vector near, tangent[3], sum[3];
+  vector near, tangent[3];
 } line_told;
 
 /* `x` of the cells from the row's low end; `aside` is the square of the sample's distance
@@ -83,16 +70,8 @@ INLINE void tell_sample(const int dimension, line_told *out, vector x,
   vector square = dx * dx + aside;
   mask nearer = square < out->near;
   out->near = choose(nearer, square, out->near);
-  vector left = 1.0F - square * row->inverse_square;
-  left = choose(left > 0.0F, left, zero);
-  vector q = square + SMOOTH_EPSILON;
-  vector power = dimension == 2 ? q * q : q * q * q;
-  vector weight = line->share[n] * left * left / power;
-  for (int k = 0; k < dimension; ++k) {
-    float tangent = line->tangent[k][n];
-    out->tangent[k] = choose(nearer, zero + tangent, out->tangent[k]);
-    out->sum[k] += weight * tangent;
-  }
+  for (int k = 0; k < dimension; ++k)
+    out->tangent[k] = choose(nearer, zero + line->tangent[k][n], out->tangent[k]);
 }
 
 INLINE void tell_cells(const int dimension, float *value, size_t stride, int first,
@@ -112,11 +91,8 @@ INLINE void tell_cells(const int dimension, float *value, size_t stride, int fir
   }
   int cells = count - first < WIDTH ? count - first : WIDTH;
   store(value + first, out.near, cells);
-  for (int k = 0; k < dimension; ++k) {
+  for (int k = 0; k < dimension; ++k)
     store(value + (size_t)(FG__PLACE_NEAR + k) * stride + first, out.tangent[k], cells);
-    store(value + (size_t)(smooth_array(dimension) + k) * stride + first, out.sum[k],
-          cells);
-  }
 }
 
 /* Each sample tells the cells of the row that lie within its reach. */
@@ -258,11 +234,10 @@ INLINE double price_cells(const int dimension, float *cost, int first, int count
   float price[MOST_CELLS], lane[LANES] = {0};
   for (int i = 0; i < count; ++i) {
     float angles = 0.0F;
-    for (int reader = 0; reader < 3; ++reader) {
+    for (int reader = 0; reader < 2; ++reader) {
       int at = FG__PLACE_NEAR + reader * dimension;
-      angles += WORTH[reader] * angle_to(dimension, value[at][i], value[at + 1][i],
-                                         dimension == 3 ? value[at + 2][i] : 0.0F, vx[i],
-                                         vy[i], vz[i]);
+      angles += angle_to(dimension, value[at][i], value[at + 1][i],
+                         dimension == 3 ? value[at + 2][i] : 0.0F, vx[i], vy[i], vz[i]);
     }
     price[i] =
         weight[i] * (angles * row->price.inverse_error + row->price.far * value[0][i]);
@@ -311,4 +286,87 @@ double fg__place_cost_row(int dimension, float *cost, int count, const fg__place
                           const fg__place_part_row parts[2])
 {
   return (dimension == 2 ? cost_2d : cost_3d)(cost, count, row, parts);
+}
+
+INLINE void diffuse_row(const int dimension, float *out, const float *in,
+                        const size_t stride[2], const float *source, const float *inverse,
+                        int count, float omega)
+{
+  for (int i = 0; i < count; i += WIDTH) {
+    const float *at = in + i;
+    vector sum =
+        load(at - 1) + load(at + 1) + load(at - stride[0]) + load(at + stride[0]);
+    if (dimension == 3)
+      sum += load(at - stride[1]) + load(at + stride[1]);
+    vector before = load(out + i);
+    vector change = (sum + load(source + i)) * load(inverse + i) - before;
+    store(out + i, before + omega * change, count - i < WIDTH ? count - i : WIDTH);
+  }
+}
+
+CLONES static void diffuse_2d(float *out, const float *in, const size_t stride[2],
+                              const float *source, const float *inverse, int count,
+                              float omega)
+{
+  diffuse_row(2, out, in, stride, source, inverse, count, omega);
+}
+
+CLONES static void diffuse_3d(float *out, const float *in, const size_t stride[2],
+                              const float *source, const float *inverse, int count,
+                              float omega)
+{
+  diffuse_row(3, out, in, stride, source, inverse, count, omega);
+}
+
+void fg__place_diffuse_row(int dimension, float *out, const float *in,
+                           const size_t stride[2], const float *source,
+                           const float *inverse, int count, float omega)
+{
+  (dimension == 2 ? diffuse_2d : diffuse_3d)(out, in, stride, source, inverse, count,
+                                             omega);
+}
+
+CLONES void fg__place_inverse_row(float *restrict out, const float *restrict faces,
+                                  const float *restrict strength, int count)
+{
+  for (int i = 0; i < count; ++i)
+    out[i] = faces[i] > 0.0F ? 1.0F / (faces[i] + strength[i]) : 0.0F;
+}
+
+INLINE double angle_row(const int dimension, float *restrict out,
+                        const fg__place_angle_cells *cells, int count)
+{
+  const float *const *value = cells->value, *const *direction = cells->direction;
+  const float *z = dimension == 3 ? value[2] : value[0];
+  const float *dz = dimension == 3 ? direction[2] : direction[0];
+  float lane[LANES] = {0};
+  for (int i = 0; i < count; ++i)
+    out[i] = cells->weight[i] * angle_to(dimension, value[0][i], value[1][i], z[i],
+                                         direction[0][i], direction[1][i], dz[i]);
+  int i = 0;
+  for (; i + LANES <= count; i += LANES)
+    for (int k = 0; k < LANES; ++k)
+      lane[k] += out[i + k] - cells->before[i + k];
+  for (int k = 0; i < count; ++i, ++k)
+    lane[k] += out[i] - cells->before[i]; /* cppcheck-suppress uninitvar */
+  double sum = 0.0;
+  for (int k = 0; k < LANES; ++k)
+    sum += (double)lane[k];
+  return sum;
+}
+
+CLONES static double angle_2d(float *out, const fg__place_angle_cells *cells, int count)
+{
+  return angle_row(2, out, cells, count);
+}
+
+CLONES static double angle_3d(float *out, const fg__place_angle_cells *cells, int count)
+{
+  return angle_row(3, out, cells, count);
+}
+
+double fg__place_angle_row(int dimension, float *out, const fg__place_angle_cells *cells,
+                           int count)
+{
+  return (dimension == 2 ? angle_2d : angle_3d)(out, cells, count);
 }

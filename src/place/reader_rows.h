@@ -38,4 +38,24 @@ typedef struct fg__place_row {
 double fg__place_cost_row(int dimension, float *cost, int count, const fg__place_row *row,
                           const fg__place_part_row parts[2]);
 
+/* One step of Chebyshev's iteration for the diffusion reader: `out` has the values of the
+ * step before the last, `in` those of the last. */
+void fg__place_diffuse_row(int dimension, float *out, const float *in,
+                           const size_t stride[2], const float *source,
+                           const float *inverse, int count, float omega);
+
+/* 1 / (faces + strength), what a cell's value follows from; 0 outside the domain. */
+void fg__place_inverse_row(float *out, const float *faces, const float *strength,
+                           int count);
+
+typedef struct fg__place_angle_cells {
+  const float *value[3], *direction[3]; /* directions are unit vectors */
+  const float *weight, *before;
+} fg__place_angle_cells;
+
+/* Angles between values and directions times weight, degrees; returns the sum of what
+ * they are more than `before`. */
+double fg__place_angle_row(int dimension, float *out, const fg__place_angle_cells *cells,
+                           int count);
+
 #endif

@@ -15,13 +15,15 @@ static const double STILL = 1e-3;
 static const double SMALLEST_PART_2D = 0.25;
 static const double SMALLEST_PART_3D = 1.0;
 
-static void raster_center(const fg__place_raster *raster, const fg__place_domain *domain,
-                          double lambda, const int at[3], double center[3])
+void fg__place_raster_center(double center[3], const fg__place_raster *raster,
+                             const fg__place_domain *domain, const fg__place_scale *scale,
+                             const int at[3])
 {
   for (int k = 0; k < 3; ++k)
-    center[k] = k < raster->dimension
-                    ? domain->low[k] + (at[k] + 0.5) * (double)raster->cell * lambda
-                    : 0.0;
+    center[k] =
+        k < raster->dimension
+            ? domain->low[k] + (at[k] + 0.5) * (double)raster->cell * scale->lambda
+            : 0.0;
 }
 
 static double smallest_part(const fg__place_domain *domain, const fg__place_scale *scale)
@@ -43,7 +45,7 @@ static void fill_raster(fg__place_raster *raster, const fg__place_domain *domain
     for (int y = 0; y < raster->cells[1]; ++y)
       for (int x = 0; x < raster->cells[0]; ++x, ++cell) {
         double center[3], direction[3];
-        raster_center(raster, domain, scale->lambda, (const int[3]){x, y, z}, center);
+        fg__place_raster_center(center, raster, domain, scale, (const int[3]){x, y, z});
         double speed = fg__place_speed(domain, center);
         const fg__place_part *part = fg__place_part_at(domain, center);
         if (!(speed > STILL * domain->greatest) || !part ||
@@ -269,17 +271,6 @@ double fg__place_cost(float *cost, const fg__place_raster *raster,
       sum += fg__place_cost_row(raster->dimension, kept, box->size[0], &row, parts);
     }
   return sum;
-}
-
-double fg__place_mean_error(const fg__place_raster *raster, const fg__place_tale *tale,
-                            double reach)
-{
-  double weights = 0.0;
-  for (size_t n = 0; n < raster->count; ++n)
-    weights += (double)raster->weight[n];
-  fg__place_price errors = {1.0F, 0.0F, (float)reach};
-  double sum = fg__place_cost(NULL, raster, &tale->box, tale, NULL, &errors);
-  return weights > 0.0 ? sum / weights / FG__PLACE_WORTH : 0.0;
 }
 
 float fg__place_near(const fg__place_raster *raster, const fg__place_tale *tale,

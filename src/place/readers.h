@@ -1,6 +1,6 @@
 /* What readers make of icons: the field they take back from the lines around a point, and
- * its error. Three readers follow the nearest line, the lines by inverse distance, and
- * their samples by a local stand-in for diffusion (docs/method/placement.md). */
+ * its error. Two readers follow the nearest line, and the lines by inverse distance; a
+ * third one is in diffusion.h (docs/method/placement.md). */
 #ifndef FG__PLACE_READERS_H
 #define FG__PLACE_READERS_H
 
@@ -22,6 +22,11 @@ fg_status fg__place_raster_create(fg__place_raster *out, fg_context *context,
                                   const fg__place_scale *scale);
 void fg__place_raster_clear(fg__place_raster *raster);
 
+/* Where the middle of a cell lies, input coordinates. */
+void fg__place_raster_center(double center[3], const fg__place_raster *raster,
+                             const fg__place_domain *domain, const fg__place_scale *scale,
+                             const int at[3]);
+
 /* A box of cells. */
 typedef struct fg__place_box {
   int low[3], size[3];
@@ -36,7 +41,7 @@ bool fg__place_boxes_meet(const fg__place_box *a, const fg__place_box *b);
 
 /* What some icons tell the cells of a box. */
 enum { FG__PLACE_NEAR = 1 };
-#define FG__PLACE_ARRAYS(dimension) (FG__PLACE_NEAR + 3 * (dimension))
+#define FG__PLACE_ARRAYS(dimension) (FG__PLACE_NEAR + 2 * (dimension))
 
 typedef struct fg__place_tale {
   fg__place_box box;
@@ -44,7 +49,7 @@ typedef struct fg__place_tale {
   size_t capacity; /* cells */
   float *value;    /* FG__PLACE_ARRAYS arrays of `capacity`: square of the distance to the
                       nearest sample; from NEAR on its tangent, then the sum over icons of
-                      the nearest tangent by inverse distance, then the sum over samples */
+                      the nearest tangent by inverse distance */
 } fg__place_tale;
 
 void fg__place_tale_clear(fg__place_tale *tale);
@@ -77,13 +82,6 @@ typedef struct fg__place_price {
 double fg__place_cost(float *cost, const fg__place_raster *raster,
                       const fg__place_box *box, const fg__place_tale *one,
                       const fg__place_tale *other, const fg__place_price *price);
-
-/* The sum of what the three readers' errors count (reader_rows.c). */
-#define FG__PLACE_WORTH 4.0
-
-/* The mean error of the three readers as they count, in degrees. */
-double fg__place_mean_error(const fg__place_raster *raster, const fg__place_tale *tale,
-                            double reach);
 
 /* Square of the distance to the nearest line of a tale at a place in lambda, as the cell
  * there has it; `reach` squared outside. */

@@ -8,17 +8,6 @@ static const double LEAST_LENGTH = 0.2;
 
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
-/* Cells of the raster along lambda: eight, and more for few icons, whose lambda spans
- * many samples of the data; the work stays below that of many icons. In 3D always four.
- */
-static double cells_along(int dimension, int count)
-{
-  enum { MANY = 150 };
-  if (dimension == 3)
-    return 4.0;
-  return count < MANY ? 8.0 * sqrt(sqrt((double)MANY / count)) : 8.0;
-}
-
 fg__place_scale fg__place_scale_of(int dimension, int count, double measure, bool free)
 {
   bool flat = dimension == 2;
@@ -27,9 +16,9 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
       .dimension = dimension,
       .count = count,
       .lambda = lambda,
-      .cell = lambda / cells_along(dimension, count),
+      .cell = lambda / (flat ? 8.0 : 4.0),
       .sampling = lambda / (flat ? 10.0 : 8.0),
-      .reach = lambda * (flat ? 1.5 : 1.1),
+      .reach = lambda * (flat ? 1.0 : 1.1),
       .clearance = lambda * (flat ? 0.1 : 0.05),
       .shortest = 0.5 * lambda,
       .turning = 165.0 * RADIANS_PER_DEGREE,
@@ -38,6 +27,7 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
       .crowd_range = 0.3 * lambda,
       .ends = 0.7,
       .end_gap = 0.2 * lambda,
+      .diffusion = 2.0,
       .far = 3.0,
       .brevity = 4.0,
       .ink = flat || !free ? 0.0 : 0.1,

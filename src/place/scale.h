@@ -18,6 +18,7 @@ typedef struct fg__place_scale {
   double crowd_range; /* s */
   double ends;        /* price of an end that lies on another line, */
   double end_gap;     /* and falls to 0 at this distance */
+  double diffusion;   /* what a degree of the diffusion reader counts */
   double far;         /* kappa: price of distance */
   double brevity;     /* nu */
   double ink;         /* p */

@@ -2,7 +2,7 @@
 #ifndef FG__PLACE_SEARCH_H
 #define FG__PLACE_SEARCH_H
 
-#include "place/readers.h"
+#include "place/diffusion.h"
 
 typedef struct fg__place_icon {
   fg__place_seed seed;
@@ -19,6 +19,7 @@ typedef struct fg__place_search {
   fg__place_scale scale;
   fg__place_raster raster;
   fg__place_price price;
+  fg__place_diffusion diffusion;
   double error;          /* E0, degrees */
   fg__place_icon **icon; /* [count] */
   int count;
@@ -41,7 +42,7 @@ fg_status fg__place_search_rescale(fg__place_search *search, int count);
 /* Adds an icon at a seed; *added is false where no line can be. MEMORY. */
 fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_seed *seed,
                         int identity);
-void fg__place_drop(fg__place_search *search, int index);
+fg_status fg__place_drop(fg__place_search *search, int index);
 
 /* Up to `sweeps` times over all icons that still move, largest steps first tried. MEMORY,
  * STOPPED. */
@@ -77,12 +78,37 @@ fg_status fg__place_energy(fg__place_search *search, double *energy);
 /* Sum of lengths in count * lambda. */
 double fg__place_ink(const fg__place_search *search);
 
-/* For the search's own files: what a line costs by itself beside others. */
+/* For the search's own files: */
+
+/* R in lambda. */
+static inline double fg__place_reach(const fg__place_search *search)
+{
+  return search->scale.reach / search->scale.lambda;
+}
+
+/* What a line costs by itself beside others. */
 double fg__place_own_price(const fg__place_search *search, const fg__place_line *line,
                            const fg__place_tale *others);
+
+/* What line `to` in place of line `from` (NULL: none) adds to the price of the diffusion
+ * reader's errors. MEMORY. */
+fg_status fg__place_diffusion_price(double *price, fg__place_search *search,
+                                    const fg__place_line *from, const fg__place_line *to);
 
 /* What all icons but `except` (-1: all) tell a box. MEMORY. */
 fg_status fg__place_gather(fg__place_tale *out, fg__place_search *search,
                            const fg__place_box *box, int except);
+
+/* A seed for a new icon, and how much that would lower the energy. */
+typedef struct fg__place_candidate {
+  fg__place_seed seed;
+  double fall;
+} fg__place_candidate;
+
+enum { FG__PLACE_CANDIDATES = 30 };
+
+/* The best candidates where readers err most, in descending order. MEMORY. */
+fg_status fg__place_list_candidates(fg__place_candidate best[FG__PLACE_CANDIDATES],
+                                    int *count, fg__place_search *search);
 
 #endif
