@@ -196,7 +196,10 @@ static void add_outcome(cJSON *root, const run_facts *facts)
   cJSON_AddNumberToObject(steps, "accepted", (double)facts->accepted);
   cJSON_AddNumberToObject(steps, "rejected", (double)facts->rejected);
   cJSON_AddNumberToObject(root, "mass_drift", facts->mass_drift);
-  cJSON_AddBoolToObject(root, "energy_monotone", facts->energy_monotone);
+  cJSON_AddBoolToObject(root, "energy_monotone",
+                        facts->energy_monotone && !coarser_raised_energy(facts));
+  cJSON_AddBoolToObject(root, "energy_monotone_between_coarsenings",
+                        facts->energy_monotone);
   traffic_add(root, facts);
   cJSON *seconds = cJSON_AddObjectToObject(root, "seconds");
   cJSON_AddNumberToObject(seconds, "read", facts->seconds_read);

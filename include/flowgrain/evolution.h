@@ -84,7 +84,8 @@ FG_API bool fg_evolution_is_ample(const fg_evolution *evolution);
  * four times what it was. u becomes its mean round every other node, smoothed until
  * interfaces are as wide as they will be; its integral stays. Wider interfaces cost more
  * and move faster: energies are divided, times and time steps multiplied by two, so that
- * they go on as on the first mesh. `step` becomes the present state; it counts no cycles.
+ * they go on as on the first mesh, but for a jump of the energy, by some per cent up or
+ * down. `step` becomes the present state; it counts no cycles.
  * `field` and the energy of `options` (NULL: the default) are those of the evolution's
  * creation; all other options stay what they were. Collective. ARGUMENT (they are not,
  * the cells can not be halved, the field has missing values): nothing has changed;
