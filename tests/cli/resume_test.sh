@@ -161,6 +161,12 @@ try "${input[@]}" "${options[@]}" -o part --resume
 expect_code 1
 expect_one_complaint
 expect_error 'evolution.csv: damaged'
+restore
+sed -i '1s/clusters,/clusters,newton,/' part/.flowgrain/evolution.csv
+try "${input[@]}" "${options[@]}" -o part --resume
+expect_code 1
+expect_one_complaint
+expect_error 'evolution.csv: has the columns of another version'
 done_with "files that a checkpoint counts on must be there"
 
 restore
