@@ -92,6 +92,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   cJSON_AddNumberToObject(object, "anisotropy", mesh->anisotropy);
   cJSON_AddNumberToObject(object, "coverage", mesh->coverage);
   cJSON_AddNumberToObject(object, "gamma", mesh->gamma);
+  cJSON_AddNumberToObject(object, "noise", mesh->noise);
   /* a double would round a large seed */
   char seed[32];
   snprintf(seed, sizeof seed, "%llu", (unsigned long long)(said->seed ? said->seed : 1));

@@ -279,6 +279,11 @@ const option_entry option_table[] = {
      extent_words, "where an arrow ends: inside its `cluster`, the only KIND [cluster]"},
     {"seed", 0, "S", SEEDED, OPTION_SEED, AT(seed), 1, 0, false, false, NULL,
      "seed of the initial noise, from 1 [1]"},
+    {"noise", 0, "A", COMMAND_RUN, OPTION_NUMBER, AT(noise), 0, 5, true, false, NULL,
+     "amplitude of the initial noise, in (0,5]; weak noise, as 0.05, begins with the "
+     "separation of the phases and gives longer clusters [1.5]"},
+    {"noise", 0, "A", COMMAND_TEXTURE, OPTION_NUMBER, AT(noise), 0, 5, true, false, NULL,
+     "--kind clusters: amplitude of the initial noise, as for flowgrain run [1.5]"},
     {"max-time", 0, "T", COMMAND_RUN, OPTION_NUMBER, AT(max_time), 0, 1e300, true, false,
      NULL, "stop when the simulated scale t reaches T; its state is the last scale"},
     {"max-time", 0, "T", COMMAND_TEXTURE, OPTION_NUMBER, AT(max_time), 0, 1e300, true,

@@ -466,6 +466,7 @@ fg_evolution_options settings_evolution(const cli_settings *settings)
       .coverage = settings->coverage,
       .gamma = settings->gamma,
       .seed = settings->seed,
+      .noise = settings->noise,
       .threads = settings->threads,
   };
 }

@@ -36,6 +36,9 @@ typedef struct fg_evolution_options {
   double gamma;             /* interface energy, in units of the longest side squared
                                [(1.1 h)^2 / a; isotropic (1.5 h)^2] */
   uint64_t seed;            /* of the initial noise [1] */
+  double noise;             /* its amplitude, in (0, 5]: u begins with the mean and the
+                               standard deviation of uniform values between the mean
+                               less this and the mean plus this [1.5] */
   double accuracy;          /* eta: rms change of u allowed in a step [0.08; else 0.05] */
   int cycles;               /* multigrid cycles a step, or a substep [2; else 3] */
   fg_scheme scheme;         /* of the time steps [BDF2] */
@@ -95,11 +98,11 @@ FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, const fg_field *f
 
 typedef struct fg_mesh_info {
   int dimension;
-  int cells[3];      /* along each axis */
-  double spacing[3]; /* in the input's coordinates */
-  double gamma;      /* as used, in units of the longest side squared */
-  double anisotropy, coverage;
-  double length;         /* the longest side in the input's coordinates */
+  int cells[3];                       /* along each axis */
+  double spacing[3];                  /* in the input's coordinates */
+  double gamma;                       /* as used, in units of the longest side squared */
+  double anisotropy, coverage, noise; /* as used */
+  double length;                      /* the longest side in the input's coordinates */
   double domain_measure; /* area (volume) of the active cells, units of length squared */
   long active_cells;
   const char *kernel; /* which vector instructions run: "avx512", "avx2", "generic" */

@@ -20,7 +20,7 @@ struct fg_checkpoint {
 typedef struct parameters {
   uint64_t field, initial, law, seed;
   int energy, nodes, halvings, cells[3], cycles, scheme;
-  double anisotropy, coverage, gamma, accuracy;
+  double anisotropy, coverage, noise, gamma, accuracy;
 } parameters;
 
 /* In the order in which a difference is reported: first what follows from nothing else.
@@ -32,6 +32,7 @@ static const fg__named_value parameter_values[] = {
     {"anisotropy", FG__VALUE_REAL, offsetof(parameters, anisotropy)},
     {"coverage", FG__VALUE_REAL, offsetof(parameters, coverage)},
     {"seed", FG__VALUE_COUNT, offsetof(parameters, seed)},
+    {"noise", FG__VALUE_REAL, offsetof(parameters, noise)},
     {"accuracy", FG__VALUE_REAL, offsetof(parameters, accuracy)},
     {"cycles", FG__VALUE_INTEGER, offsetof(parameters, cycles)},
     {"scheme", FG__VALUE_INTEGER, offsetof(parameters, scheme)},
@@ -79,6 +80,7 @@ static parameters parameters_of(const fg_evolution *e)
                       .scheme = (int)e->options.scheme,
                       .anisotropy = e->options.anisotropy,
                       .coverage = e->options.coverage,
+                      .noise = e->options.noise,
                       .gamma = e->info.gamma,
                       .accuracy = e->options.accuracy};
 }

@@ -95,6 +95,7 @@ static void describe(fg_evolution *e)
                            .gamma = fg__evolution_interface_energy(e),
                            .anisotropy = e->options.anisotropy,
                            .coverage = e->options.coverage,
+                           .noise = e->options.noise,
                            .length = e->mesh.length};
   double cell = 1.0;
   for (int k = 0; k < dimension; ++k) {

@@ -124,8 +124,9 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
   fg_evolution *e = evolution;
   double mean = 2.0 * e->options.coverage - 1.0;
   double correlation = sqrt(e->info.gamma * e->options.anisotropy);
-  fg__noise noise = fg__noise_of(e->mesh.dimension, e->mesh.cells, e->mesh.spacing,
-                                 e->mesh.periodic, mean, correlation, e->options.seed);
+  fg__noise noise =
+      fg__noise_of(e->mesh.dimension, e->mesh.cells, e->mesh.spacing, e->mesh.periodic,
+                   mean, e->options.noise, correlation, e->options.seed);
   int count;
   const ptrdiff_t *offset;
   const fg__level *box = fg__multigrid_boxes(multigrid, &count, &offset);

@@ -32,7 +32,7 @@ report=out1/run.json
 expect_json $report '.version | test("^[0-9.]+$")'
 expect_json $report '.input.path == "synth:vortex3"'
 expect_json $report '.parameters.anisotropy == 0.15 and .parameters.coverage == 0.3'
-expect_json $report '.parameters.seed == 1 and .parameters.gamma > 0'
+expect_json $report '.parameters.seed == 1 and .parameters.gamma > 0 and .parameters.noise == 1.5'
 expect_json $report '.mesh.cells[0] >= 96 and .mesh.active_cells == .mesh.cells[0] * .mesh.cells[1]'
 expect_json $report '.scales | length == 3'
 expect_json $report '[.scales[].index] == [0, 1, 2]'
@@ -137,6 +137,11 @@ expect_one_complaint
 expect_error 'no clusters after 1 steps'
 expect_nothing_at out8
 done_with "a run that ends before there are clusters says so and leaves nothing"
+
+try run synth:vortex3 -o out9n --nodes 97 --noise 0.05 --clusters 12 --quiet
+expect_code 0
+expect_json out9n/run.json '.parameters.noise == 0.05 and .energy_monotone'
+done_with "weak noise"
 
 try run synth:vortex3 -o out9 --nodes 97 --energy isotropic --clusters 12 --quiet
 expect_code 0
