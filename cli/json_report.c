@@ -90,6 +90,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   if (!scales_are_solid(facts->field))
     add_text(object, "extent", extent_words[said->extent]);
   cJSON_AddNumberToObject(object, "anisotropy", mesh->anisotropy);
+  cJSON_AddNumberToObject(object, "isotropic_below", mesh->isotropic_below);
   cJSON_AddNumberToObject(object, "coverage", mesh->coverage);
   cJSON_AddNumberToObject(object, "gamma", mesh->gamma);
   cJSON_AddNumberToObject(object, "noise", mesh->noise);

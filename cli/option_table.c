@@ -244,6 +244,10 @@ const option_entry option_table[] = {
      NULL,
      "cost of an interface along the level sets against one across them; smaller makes "
      "longer strokes [0.15]"},
+    {"isotropic-below", 0, "SPEED", COMMAND_RUN, OPTION_NUMBER, AT(isotropic_below), 0,
+     1e300, true, false, NULL,
+     "speed, in the input's units, below which the flow's direction counts the less the "
+     "slower it is: A tends to 1 [A everywhere]"},
     {"coverage", 0, "C", COMMAND_RUN, OPTION_NUMBER, AT(coverage), 0, 1, true, true, NULL,
      "share of the area (volume) that clusters shall cover, in (0,1) [0.3]"},
     {"gamma", 0, "G", COMMAND_RUN, OPTION_NUMBER, AT(gamma), 0, 1, true, false, NULL,

@@ -32,6 +32,9 @@ typedef struct fg_evolution_options {
   fg_energy energy;         /* [flow] */
   const fg_energy_law *law; /* NULL: none; else in place of `energy` */
   double anisotropy;        /* a, in (0, 1] [0.15] */
+  double isotropic_below;   /* speed, in the input's units, below which a tends to 1 as
+                               the speed to 0: a(|v|) = 1 - (1 - a) |v| / this; only
+                               with the energy flow [0: a everywhere] */
   double coverage;          /* share of the area clusters shall cover, in (0, 1) [0.3] */
   double gamma;             /* interface energy, in units of the longest side squared
                                [(1.1 h)^2 / a; isotropic (1.5 h)^2] */
@@ -98,11 +101,11 @@ FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, const fg_field *f
 
 typedef struct fg_mesh_info {
   int dimension;
-  int cells[3];                       /* along each axis */
-  double spacing[3];                  /* in the input's coordinates */
-  double gamma;                       /* as used, in units of the longest side squared */
-  double anisotropy, coverage, noise; /* as used */
-  double length;                      /* the longest side in the input's coordinates */
+  int cells[3];      /* along each axis */
+  double spacing[3]; /* in the input's coordinates */
+  double gamma;      /* as used, in units of the longest side squared */
+  double anisotropy, isotropic_below, coverage, noise; /* as used */
+  double length;         /* the longest side in the input's coordinates */
   double domain_measure; /* area (volume) of the active cells, units of length squared */
   long active_cells;
   const char *kernel; /* which vector instructions run: "avx512", "avx2", "generic" */

@@ -1,3 +1,4 @@
+#include <math.h>
 #include <string.h>
 
 #include "base/mix.h"
@@ -26,6 +27,18 @@ static fg_status check_range(fg_context *context, const char *name, double value
     return FG_STATUS_OK;
   return fg__fail(context, FG_STATUS_ARGUMENT, "%s %g is not in %c%g, %g]", name, value,
                   low_included ? '[' : '(', low, high);
+}
+
+static fg_status check_slow(const fg_evolution_options *o, fg_context *context)
+{
+  if (!(o->isotropic_below >= 0.0) || isinf(o->isotropic_below))
+    return fg__fail(context, FG_STATUS_ARGUMENT, "isotropic below the speed %g",
+                    o->isotropic_below);
+  if (o->isotropic_below > 0.0 && o->energy != FG_ENERGY_FLOW)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "isotropic below the speed %g: only with the energy flow",
+                    o->isotropic_below);
+  return FG_STATUS_OK;
 }
 
 fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *context,
@@ -64,6 +77,8 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
   if (!status)
     status = check_range(context, "accuracy", o->accuracy, 0.0, 1.0, false);
   if (!status)
+    status = check_slow(o, context);
+  if (!status)
     status = check_range(context, "noise", o->noise, 0.0, most_noise, false);
   if (!status)
     status = check_range(context, "cycles", o->cycles, 1, 1000, true);
@@ -77,7 +92,8 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
 fg_status fg__evolution_check_alike(const fg_evolution *e)
 {
   const fg_evolution_options *o = &e->options;
-  const double numbers[] = {o->anisotropy, o->coverage, o->gamma, o->accuracy, o->noise};
+  const double numbers[] = {o->anisotropy, o->isotropic_below, o->coverage,
+                            o->gamma,      o->accuracy,        o->noise};
   const int words[] = {o->nodes, o->cycles, (int)o->energy, (int)o->scheme,
                        o->initial != NULL};
   uint64_t key = fg__mix(e->field_fingerprint ^ fg__mix(o->seed));

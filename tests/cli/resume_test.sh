@@ -66,6 +66,7 @@ refused() {
 }
 refused 'with --nodes 65; this command goes with --nodes 97' --nodes 97
 refused 'with --clusters 20,8; this command goes with --clusters 20,6' --clusters 20,6
+refused 'without --isotropic-below; this command goes with --isotropic-below 0.5' --isotropic-below 0.5
 refused 'without --noise; this command goes with --noise 0.05' --noise 0.05
 refused 'without --coverage; this command goes with --coverage 0.25' --coverage 0.25
 refused 'without --energy; this command goes with --energy isotropic' --energy isotropic

@@ -143,6 +143,15 @@ expect_code 0
 expect_json out9n/run.json '.parameters.noise == 0.05 and .energy_monotone'
 done_with "weak noise"
 
+# no direction counts where all is slower by far
+try run synth:vortex3 -o out9s --nodes 97 --isotropic-below 1e9 --clusters 12 --quiet
+expect_code 0
+expect_json out9s/run.json '.parameters.isotropic_below == 1e9 and .parameters.anisotropy == 0.15'
+expect_json out1/run.json '.parameters.isotropic_below == 0'
+try run synth:vortex3 -o out9d --nodes 97 --clusters 12 --quiet
+cmp -s out9s/scale-00.geojson out9d/scale-00.geojson && fault "the speed does not count"
+done_with "slow flow has no direction"
+
 try run synth:vortex3 -o out9 --nodes 97 --energy isotropic --clusters 12 --quiet
 expect_code 0
 expect_json out9/run.json '.parameters.energy == "isotropic"'
