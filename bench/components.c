@@ -24,7 +24,8 @@ static float *smooth_noise(const int nodes[3], double length)
   const bool periodic[3] = {false, false, false};
   int dimension = nodes[2] > 1 ? 3 : 2;
   double mean = dimension == 3 ? -0.30 : -0.35;
-  fg__noise noise = fg__noise_of(dimension, cells, spacing, periodic, mean, length, 1);
+  fg__noise noise =
+      fg__noise_of(dimension, cells, spacing, periodic, mean, 1.5, length, 1);
   size_t row = (size_t)nodes[0];
   float *u = malloc(row * (size_t)nodes[1] * (size_t)nodes[2] * sizeof *u);
   for (int k = 0; u && k < nodes[2]; ++k)

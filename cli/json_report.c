@@ -90,8 +90,10 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   if (!scales_are_solid(facts->field))
     add_text(object, "extent", extent_words[said->extent]);
   cJSON_AddNumberToObject(object, "anisotropy", mesh->anisotropy);
+  cJSON_AddNumberToObject(object, "isotropic_below", mesh->isotropic_below);
   cJSON_AddNumberToObject(object, "coverage", mesh->coverage);
   cJSON_AddNumberToObject(object, "gamma", mesh->gamma);
+  cJSON_AddNumberToObject(object, "noise", mesh->noise);
   /* a double would round a large seed */
   char seed[32];
   snprintf(seed, sizeof seed, "%llu", (unsigned long long)(said->seed ? said->seed : 1));
@@ -196,7 +198,10 @@ static void add_outcome(cJSON *root, const run_facts *facts)
   cJSON_AddNumberToObject(steps, "accepted", (double)facts->accepted);
   cJSON_AddNumberToObject(steps, "rejected", (double)facts->rejected);
   cJSON_AddNumberToObject(root, "mass_drift", facts->mass_drift);
-  cJSON_AddBoolToObject(root, "energy_monotone", facts->energy_monotone);
+  cJSON_AddBoolToObject(root, "energy_monotone",
+                        facts->energy_monotone && !coarser_raised_energy(facts));
+  cJSON_AddBoolToObject(root, "energy_monotone_between_coarsenings",
+                        facts->energy_monotone);
   traffic_add(root, facts);
   cJSON *seconds = cJSON_AddObjectToObject(root, "seconds");
   cJSON_AddNumberToObject(seconds, "read", facts->seconds_read);

@@ -6,10 +6,11 @@
 
 enum { MAX_MESH_CHANGES = 16 };
 
-/* A halving of the mesh: the state in which it was made, and the cells since. */
+/* A halving of the mesh: the state in which it was made, what it made of the energy, and
+ * the cells since. */
 typedef struct mesh_change {
   long step;
-  double time;
+  double time, energy_before, energy_after;
   int clusters, cells[3];
 } mesh_change;
 
@@ -24,7 +25,7 @@ typedef struct run_facts {
   int time_count, level_count; /* of the input; 0: not known */
   long accepted, rejected;
   double mass_drift;
-  bool energy_monotone;
+  bool energy_monotone; /* in steps, between changes of the mesh */
   double seconds_read, seconds_evolve, seconds_total;
   int ranks;
   fg_traffic traffic[FG_ACTIVITIES], most_traffic[FG_ACTIVITIES];

@@ -244,6 +244,10 @@ const option_entry option_table[] = {
      NULL,
      "cost of an interface along the level sets against one across them; smaller makes "
      "longer strokes [0.15]"},
+    {"isotropic-below", 0, "SPEED", COMMAND_RUN, OPTION_NUMBER, AT(isotropic_below), 0,
+     1e300, true, false, NULL,
+     "speed, in the input's units, below which the flow's direction counts the less the "
+     "slower it is: A tends to 1 [A everywhere]"},
     {"coverage", 0, "C", COMMAND_RUN, OPTION_NUMBER, AT(coverage), 0, 1, true, true, NULL,
      "share of the area (volume) that clusters shall cover, in (0,1) [0.3]"},
     {"gamma", 0, "G", COMMAND_RUN, OPTION_NUMBER, AT(gamma), 0, 1, true, false, NULL,
@@ -279,6 +283,11 @@ const option_entry option_table[] = {
      extent_words, "where an arrow ends: inside its `cluster`, the only KIND [cluster]"},
     {"seed", 0, "S", SEEDED, OPTION_SEED, AT(seed), 1, 0, false, false, NULL,
      "seed of the initial noise, from 1 [1]"},
+    {"noise", 0, "A", COMMAND_RUN, OPTION_NUMBER, AT(noise), 0, 5, true, false, NULL,
+     "amplitude of the initial noise, in (0,5]; weak noise, as 0.05, begins with the "
+     "separation of the phases and gives longer clusters [1.5]"},
+    {"noise", 0, "A", COMMAND_TEXTURE, OPTION_NUMBER, AT(noise), 0, 5, true, false, NULL,
+     "--kind clusters: amplitude of the initial noise, as for flowgrain run [1.5]"},
     {"max-time", 0, "T", COMMAND_RUN, OPTION_NUMBER, AT(max_time), 0, 1e300, true, false,
      NULL, "stop when the simulated scale t reaches T; its state is the last scale"},
     {"max-time", 0, "T", COMMAND_TEXTURE, OPTION_NUMBER, AT(max_time), 0, 1e300, true,

@@ -324,6 +324,9 @@ static bool check_energy(const cli_settings *said, const cli_command *command)
   if (said->anisotropy > 0.0 && energy_place(said->energy) == FG_ENERGY_ISOTROPIC)
     return wrong(command, "--anisotropy %g: not with --energy isotropic, which has none",
                  said->anisotropy);
+  if (said->isotropic_below > 0.0 && energy_place(said->energy) != FG_ENERGY_FLOW)
+    return wrong(command, "--isotropic-below %g: only with --energy flow",
+                 said->isotropic_below);
   if (energy_place(said->energy) >= 0)
     return true;
   char words[128];
@@ -465,9 +468,11 @@ fg_evolution_options settings_evolution(const cli_settings *settings)
                                 ? 0
                                 : energy_place(settings->energy)),
       .anisotropy = settings->anisotropy,
+      .isotropic_below = settings->isotropic_below,
       .coverage = settings->coverage,
       .gamma = settings->gamma,
       .seed = settings->seed,
+      .noise = settings->noise,
       .threads = settings->threads,
   };
 }

@@ -30,7 +30,7 @@ typedef struct cli_settings {
   int mesh;           /* auto (0), adaptive, uniform */
   int scheme;         /* fg_scheme */
   const char *energy; /* a word of energy_words or a file; NULL: flow */
-  double anisotropy, coverage, gamma;
+  double anisotropy, isotropic_below, coverage, gamma, noise;
   uint64_t seed;
   double max_time;
   int max_steps;

@@ -11,7 +11,7 @@
 enum { ENOUGH_BYTES = 1 << 16, ROW_BYTES = 512 };
 
 static const char heading[] =
-    "step,t,tau,energy,mass,area_fraction,clusters,newton,cycles,cells,seconds\n";
+    "step,t,tau,energy,mass,area_fraction,clusters,cycles,cells,seconds\n";
 
 static bool append(cli_table *table, const char *text, size_t bytes)
 {
@@ -64,16 +64,32 @@ static bool write_all(int file, const char *bytes, size_t count)
   return true;
 }
 
+/* Another version may have had other columns. */
+static int check_heading(const char *path, int source)
+{
+  char begin[sizeof heading - 1];
+  ssize_t got = pread(source, begin, sizeof begin, 0);
+  if (got < 0)
+    return complain_of_file(path, "cannot be read");
+  if ((size_t)got < sizeof begin || memcmp(begin, heading, sizeof begin) == 0)
+    return EXIT_DONE; /* what is too short is found to be so as it is copied */
+  complain("%s: has the columns of another version of flowgrain", path);
+  advise("Start anew with --force.");
+  return EXIT_FAILED;
+}
+
 /* Copies the rows to keep. */
 static int copy_start(const char *to, const char *from, long long bytes)
 {
   int source = open(from, O_RDONLY | O_CLOEXEC);
   if (source < 0)
     return complain_of_file(from, "cannot be read");
-  int code = EXIT_DONE;
-  int target = open(to, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (target < 0)
-    code = complain_of_file(to, "cannot be written");
+  int code = check_heading(from, source), target = -1;
+  if (!code) {
+    target = open(to, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (target < 0)
+      code = complain_of_file(to, "cannot be written");
+  }
   char chunk[1 << 14];
   for (long long left = bytes; !code && left > 0;) {
     size_t wanted = left < (long long)sizeof chunk ? (size_t)left : sizeof chunk;
@@ -111,15 +127,13 @@ int table_resume(cli_table *out, char *path, long long bytes)
   return out->file < 0 ? complain_of_file(path, "cannot be written") : EXIT_DONE;
 }
 
-/* The scheme smooths the nonlinear system directly, so there are no Newton iterations to
- * count: that column stays 0. */
 int table_add(cli_table *table, const fg_step *step)
 {
   char row[ROW_BYTES];
-  int bytes = snprintf(
-      row, sizeof row, "%ld,%.9g,%.9g,%.12g,%.12g,%.6g,%d,0,%d,%ld,%.6f\n", step->step,
-      step->time, step->tau, step->energy, step->mass, step->area_fraction,
-      step->clusters, step->cycles, step->cells, step->seconds);
+  int bytes = snprintf(row, sizeof row, "%ld,%.9g,%.9g,%.12g,%.12g,%.6g,%d,%d,%ld,%.6f\n",
+                       step->step, step->time, step->tau, step->energy, step->mass,
+                       step->area_fraction, step->clusters, step->cycles, step->cells,
+                       step->seconds);
   if (!append(table, row, (size_t)bytes))
     return EXIT_FAILED;
   if (table->used >= ENOUGH_BYTES)

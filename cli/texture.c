@@ -39,6 +39,7 @@ static int check_options(const cli_settings *settings)
       {"anisotropy", settings->anisotropy > 0.0},
       {"coverage", settings->coverage > 0.0},
       {"gamma", settings->gamma > 0.0},
+      {"noise", settings->noise > 0.0},
   };
   const unfit_option length = {"length", settings->length > 0.0};
   const unfit_option key = {"key", settings->key};

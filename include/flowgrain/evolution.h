@@ -32,10 +32,16 @@ typedef struct fg_evolution_options {
   fg_energy energy;         /* [flow] */
   const fg_energy_law *law; /* NULL: none; else in place of `energy` */
   double anisotropy;        /* a, in (0, 1] [0.15] */
+  double isotropic_below;   /* speed, in the input's units, below which a tends to 1 as
+                               the speed to 0: a(|v|) = 1 - (1 - a) |v| / this; only
+                               with the energy flow [0: a everywhere] */
   double coverage;          /* share of the area clusters shall cover, in (0, 1) [0.3] */
   double gamma;             /* interface energy, in units of the longest side squared
                                [(1.1 h)^2 / a; isotropic (1.5 h)^2] */
   uint64_t seed;            /* of the initial noise [1] */
+  double noise;             /* its amplitude, in (0, 5]: u begins with the mean and the
+                               standard deviation of uniform values between the mean
+                               less this and the mean plus this [1.5] */
   double accuracy;          /* eta: rms change of u allowed in a step [0.08; else 0.05] */
   int cycles;               /* multigrid cycles a step, or a substep [2; else 3] */
   fg_scheme scheme;         /* of the time steps [BDF2] */
@@ -84,7 +90,8 @@ FG_API bool fg_evolution_is_ample(const fg_evolution *evolution);
  * four times what it was. u becomes its mean round every other node, smoothed until
  * interfaces are as wide as they will be; its integral stays. Wider interfaces cost more
  * and move faster: energies are divided, times and time steps multiplied by two, so that
- * they go on as on the first mesh. `step` becomes the present state; it counts no cycles.
+ * they go on as on the first mesh, but for a jump of the energy, by some per cent up or
+ * down. `step` becomes the present state; it counts no cycles.
  * `field` and the energy of `options` (NULL: the default) are those of the evolution's
  * creation; all other options stay what they were. Collective. ARGUMENT (they are not,
  * the cells can not be halved, the field has missing values): nothing has changed;
@@ -97,7 +104,7 @@ typedef struct fg_mesh_info {
   int cells[3];      /* along each axis */
   double spacing[3]; /* in the input's coordinates */
   double gamma;      /* as used, in units of the longest side squared */
-  double anisotropy, coverage;
+  double anisotropy, isotropic_below, coverage, noise; /* as used */
   double length;         /* the longest side in the input's coordinates */
   double domain_measure; /* area (volume) of the active cells, units of length squared */
   long active_cells;

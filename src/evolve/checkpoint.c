@@ -20,7 +20,7 @@ struct fg_checkpoint {
 typedef struct parameters {
   uint64_t field, initial, law, seed;
   int energy, nodes, halvings, cells[3], cycles, scheme;
-  double anisotropy, coverage, gamma, accuracy;
+  double anisotropy, isotropic_below, coverage, noise, gamma, accuracy;
 } parameters;
 
 /* In the order in which a difference is reported: first what follows from nothing else.
@@ -30,8 +30,10 @@ static const fg__named_value parameter_values[] = {
     {"energy", FG__VALUE_INTEGER, offsetof(parameters, energy)},
     {"law", FG__VALUE_BITS, offsetof(parameters, law)},
     {"anisotropy", FG__VALUE_REAL, offsetof(parameters, anisotropy)},
+    {"isotropic-below", FG__VALUE_REAL, offsetof(parameters, isotropic_below)},
     {"coverage", FG__VALUE_REAL, offsetof(parameters, coverage)},
     {"seed", FG__VALUE_COUNT, offsetof(parameters, seed)},
+    {"noise", FG__VALUE_REAL, offsetof(parameters, noise)},
     {"accuracy", FG__VALUE_REAL, offsetof(parameters, accuracy)},
     {"cycles", FG__VALUE_INTEGER, offsetof(parameters, cycles)},
     {"scheme", FG__VALUE_INTEGER, offsetof(parameters, scheme)},
@@ -78,7 +80,9 @@ static parameters parameters_of(const fg_evolution *e)
                       .cycles = e->options.cycles,
                       .scheme = (int)e->options.scheme,
                       .anisotropy = e->options.anisotropy,
+                      .isotropic_below = e->options.isotropic_below,
                       .coverage = e->options.coverage,
+                      .noise = e->options.noise,
                       .gamma = e->info.gamma,
                       .accuracy = e->options.accuracy};
 }

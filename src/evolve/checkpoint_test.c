@@ -318,6 +318,12 @@ static void another_run_is_refused(void **state)
   other.coverage = 0.25;
   differs(f, field, &other, "coverage: 0.3, not 0.25");
   other = options;
+  other.isotropic_below = 0.5;
+  differs(f, field, &other, "isotropic-below: 0, not 0.5");
+  other = options;
+  other.noise = 0.25;
+  differs(f, field, &other, "noise: 1.5, not 0.25");
+  other = options;
   other.anisotropy = nextafter(0.15, 1.0);
   differs(f, field, &other, "anisotropy: 0.15, not 0.15000000000000002");
   other = options;

@@ -94,7 +94,9 @@ static void describe(fg_evolution *e)
                            .cells = {1, 1, 1},
                            .gamma = fg__evolution_interface_energy(e),
                            .anisotropy = e->options.anisotropy,
+                           .isotropic_below = e->options.isotropic_below,
                            .coverage = e->options.coverage,
+                           .noise = e->options.noise,
                            .length = e->mesh.length};
   double cell = 1.0;
   for (int k = 0; k < dimension; ++k) {
@@ -157,6 +159,11 @@ static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ra
 fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field)
 {
   fg_evolution *e = evolution;
+  if (e->options.isotropic_below > 0.0) {
+    e->slow_flow = *e->options.law;
+    e->slow_flow.data = &e->options.isotropic_below;
+    e->options.law = &e->slow_flow;
+  }
   fg_status status = fg__field_check_shared(e->context, e->ranks, field);
   if (!status)
     status = fg__evolution_check_alike(e);

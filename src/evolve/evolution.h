@@ -39,7 +39,8 @@ struct fg_evolution {
   double earlier_seconds; /* spent before a resumed evolution was created */
   /* Of the field, and of the initial density when one was given (else 0). */
   uint64_t field_fingerprint, initial_fingerprint;
-  uint64_t law_identity; /* see fg_energy_law */
+  uint64_t law_identity;   /* see fg_energy_law */
+  fg_energy_law slow_flow; /* that of the flow, with isotropic_below */
 };
 
 /* The public calls, for given ranks instead of all. */

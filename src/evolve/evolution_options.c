@@ -1,3 +1,4 @@
+#include <math.h>
 #include <string.h>
 
 #include "base/mix.h"
@@ -6,6 +7,9 @@
 /* Defaults that give the paper's pictures. */
 enum { DEFAULT_NODES = 257, DEFAULT_NODES_3D = 65, DEFAULT_SEED = 1 };
 static const double default_anisotropy = 0.15, default_coverage = 0.3;
+/* Strong noise gives separate grains, weak noise stripes along whole streamlines
+ * (docs/design/evolution.md). */
+static const double default_noise = 1.5, most_noise = 5.0;
 /* By scheme: chosen by time and error, which stays below the scatter of seeds
  * (docs/design/evolution.md, docs/method/schemes.md). */
 static const double default_accuracy[] = {0.08, 0.05, 0.05};
@@ -23,6 +27,18 @@ static fg_status check_range(fg_context *context, const char *name, double value
     return FG_STATUS_OK;
   return fg__fail(context, FG_STATUS_ARGUMENT, "%s %g is not in %c%g, %g]", name, value,
                   low_included ? '[' : '(', low, high);
+}
+
+static fg_status check_slow(const fg_evolution_options *o, fg_context *context)
+{
+  if (!(o->isotropic_below >= 0.0) || isinf(o->isotropic_below))
+    return fg__fail(context, FG_STATUS_ARGUMENT, "isotropic below the speed %g",
+                    o->isotropic_below);
+  if (o->isotropic_below > 0.0 && o->energy != FG_ENERGY_FLOW)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "isotropic below the speed %g: only with the energy flow",
+                    o->isotropic_below);
+  return FG_STATUS_OK;
 }
 
 fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *context,
@@ -46,6 +62,8 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
     o->anisotropy = default_anisotropy;
   if (o->coverage == 0.0)
     o->coverage = default_coverage;
+  if (o->noise == 0.0)
+    o->noise = default_noise;
   if (o->seed == 0)
     o->seed = DEFAULT_SEED;
   if (o->accuracy == 0.0)
@@ -59,6 +77,10 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
   if (!status)
     status = check_range(context, "accuracy", o->accuracy, 0.0, 1.0, false);
   if (!status)
+    status = check_slow(o, context);
+  if (!status)
+    status = check_range(context, "noise", o->noise, 0.0, most_noise, false);
+  if (!status)
     status = check_range(context, "cycles", o->cycles, 1, 1000, true);
   if (!status && o->gamma != 0.0)
     status = check_range(context, "gamma", o->gamma, 0.0, 1.0, false);
@@ -70,14 +92,15 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
 fg_status fg__evolution_check_alike(const fg_evolution *e)
 {
   const fg_evolution_options *o = &e->options;
-  const double numbers[] = {o->anisotropy, o->coverage, o->gamma, o->accuracy};
+  const double numbers[] = {o->anisotropy, o->isotropic_below, o->coverage,
+                            o->gamma,      o->accuracy,        o->noise};
   const int words[] = {o->nodes, o->cycles, (int)o->energy, (int)o->scheme,
                        o->initial != NULL};
   uint64_t key = fg__mix(e->field_fingerprint ^ fg__mix(o->seed));
   key = fg__mix(key ^ e->law_identity);
   for (int n = 0; n < 5; ++n)
     key = fg__mix(key ^ (uint64_t)words[n]);
-  for (int n = 0; n < 4; ++n) {
+  for (size_t n = 0; n < sizeof numbers / sizeof *numbers; ++n) {
     uint64_t bits;
     memcpy(&bits, &numbers[n], sizeof bits);
     key = fg__mix(key ^ bits);

@@ -75,6 +75,22 @@ static void settle_mean(const fg__multigrid *multigrid, double mean)
   fg__pass_shift(multigrid, u, mean - sum / weight);
 }
 
+/* In a part of a few nodes behind a mask the noise may have a mean beyond the wells,
+ * which no evolution within the part could change: it becomes a pure phase. */
+static fg_status settle_parts(const fg_evolution *e, const fg__multigrid *multigrid,
+                              double mean)
+{
+  float *u = fg__multigrid_u(multigrid);
+  fg__means means;
+  fg_status status = fg__means_create(&means, e->context, multigrid, u);
+  if (!status && fg__means_bound(&means, -1.0, 1.0)) {
+    fg__means_restore(&means, multigrid, u);
+    settle_mean(multigrid, mean);
+  }
+  fg__means_clear(&means);
+  return status;
+}
+
 /* What the boxes get of the density of a finer mesh; the caller frees each and the list.
  */
 static fg_status take_halved(float ***out, const fg_evolution *e)
@@ -108,8 +124,9 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
   fg_evolution *e = evolution;
   double mean = 2.0 * e->options.coverage - 1.0;
   double correlation = sqrt(e->info.gamma * e->options.anisotropy);
-  fg__noise noise = fg__noise_of(e->mesh.dimension, e->mesh.cells, e->mesh.spacing,
-                                 e->mesh.periodic, mean, correlation, e->options.seed);
+  fg__noise noise =
+      fg__noise_of(e->mesh.dimension, e->mesh.cells, e->mesh.spacing, e->mesh.periodic,
+                   mean, e->options.noise, correlation, e->options.seed);
   int count;
   const ptrdiff_t *offset;
   const fg__level *box = fg__multigrid_boxes(multigrid, &count, &offset);
@@ -138,6 +155,7 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
     fg__pass_shift(multigrid, u, 0.0);
   } else {
     settle_mean(multigrid, mean);
+    status = settle_parts(e, multigrid, mean);
   }
-  return FG_STATUS_OK;
+  return status;
 }

@@ -12,7 +12,8 @@
  *     u + tau L w = p,      w - Psi'(u) - K u = q,
  * L the Laplacian, K = gamma L_A, Psi'(u) = 2 u (u^2 - 1); q = 0 on the finest level.
  * Coarse levels correct it: u += d P v, w += P w, P multilinear and d the shape of a
- * moving interface (kernel_space.h). In scale * v, written u there, their system is
+ * moving interface (kernel_space.h); changes of u that lead past a well are bounded
+ * (kernel_stencil.h). In scale * v, written u there, their system is
  *     m u + tau L w = p,      m w - (curvature + K) u = q,      m the coupling. */
 
 /* What is restricted: residuals of both equations, the second times d; d; and d J d. */

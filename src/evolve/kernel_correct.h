@@ -32,6 +32,11 @@ INLINE void merge(const fg__level *coarse, const float *const from[4], float *na
  * linear level, or nothing. */
 typedef enum factor { ONE, SHAPE, SCALE } factor;
 
+INLINE float shaped_change(float u, float v)
+{
+  return bounded_change(u, (bulk + interface_shape(u)) * v);
+}
+
 INLINE void correct_nodes(const fg__level *fine, const float *natural, ptrdiff_t at,
                           float *array, factor by)
 {
@@ -42,7 +47,7 @@ INLINE void correct_nodes(const fg__level *fine, const float *natural, ptrdiff_t
   for (int n = 0; n < fine->even_count; ++n) {
     float change = natural[n];
     if (by == SHAPE)
-      change *= bulk + interface_shape(even[n]);
+      change = shaped_change(even[n], change);
     else if (by == SCALE)
       change *= scale[n];
     even[n] += change;
@@ -51,7 +56,7 @@ INLINE void correct_nodes(const fg__level *fine, const float *natural, ptrdiff_t
   for (int n = 0; n < fine->odd_count; ++n) {
     float change = 0.5F * (natural[n] + natural[n + 1]);
     if (by == SHAPE)
-      change *= bulk + interface_shape(odd[n]);
+      change = shaped_change(odd[n], change);
     else if (by == SCALE)
       change *= scale[odd_offset + n];
     odd[n] += change;
@@ -115,7 +120,7 @@ INLINE void add_to_row(const fg__level *fine, const float *change, ptrdiff_t at,
   for (ptrdiff_t n = 0; n < fine->layout.stride; ++n) {
     float amount = change[n];
     if (by == SHAPE)
-      amount *= bulk + interface_shape(values[n]);
+      amount = shaped_change(values[n], amount);
     else if (by == SCALE)
       amount *= scale[n];
     values[n] += amount;

@@ -106,6 +106,21 @@ INLINE float interface_shape(float u)
   return greater(1.0F - u * u, 0.0F);
 }
 
+/* Where a droplet vanishes the equations are next to singular, and a change that is found
+ * from them as linear ones would carry u far past the well that it moves to. So neither a
+ * coarse correction nor a sweep takes a node past a well by more than this, which is what
+ * the curvature of interfaces does there. Near a solution changes are smaller, and it is
+ * the same solution (docs/design/evolution.md). */
+static const float leeway = 0.02F;
+
+/* For a correction: a node past a well goes no farther than the leeway, either. */
+INLINE float bounded_change(float u, float change)
+{
+  float up = greater(1.0F - u, 0.0F) + leeway, down = -greater(1.0F + u, 0.0F) - leeway;
+  float bounded = change > up ? up : change; /* no number stays none */
+  return bounded < down ? down : bounded;
+}
+
 INLINE float apply_pair(const couplings *c, const around *x, int r, int k)
 {
   return (c->upper[r][k] * x->upper[r][k] + c->lower[r][k] * x->lower[r][k]) +

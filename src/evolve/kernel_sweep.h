@@ -6,6 +6,16 @@
 
 #include "evolve/kernel_row.h"
 
+/* For a sweep: a node past a well, where Psi'' is 4 and more, may go as far again, so
+ * that noise beyond the wells is smoothed as fast as other noise. */
+INLINE vector bounded_changes(vector u, vector change)
+{
+  lanes_mask sign = sign_of_lanes(change);
+  vector to_well = size_of_lanes(1.0F - (vector)((lanes_mask)u ^ sign));
+  vector size = at_most_lanes(size_of_lanes(change), to_well + leeway);
+  return (vector)((lanes_mask)size | sign);
+}
+
 /* A block of nodes of one colour. Eliminating dw from
  *     m du + tau l0 dw = first,   m dw - g du = second,   g = Psi''(u) + k0
  * (m = 1 on the finest level) leaves a denominator m^2 + tau l0 g, which in the spinodal
@@ -39,7 +49,7 @@ INLINE void relax(const fg__level *level, ptrdiff_t at, int count, const laplaci
     vector second = (2.0F * u * (square - 1.0F) + energy) - w;
     vector g = (6.0F * square - 2.0F) + k0;
     vector denominator = greater_lanes(1.0F + l0 * g, 0.25F + 0.25F * l0 * k0);
-    du = (first - l0 * second) / denominator;
+    du = bounded_changes(u, (first - l0 * second) / denominator);
     dw = second + g * du;
   }
   store(level->u + at, u + du, count);

@@ -69,4 +69,22 @@ INLINE vector greater_lanes(vector a, vector b)
   return (vector)((m & (lanes_mask)a) | (~m & (lanes_mask)b));
 }
 
+/* The lesser of both, where x is a number. */
+INLINE vector at_most_lanes(vector x, vector most)
+{
+  lanes_mask m = x > most;
+  return (vector)((m & (lanes_mask)most) | (~m & (lanes_mask)x));
+}
+
+/* The sign bits of x, and x without them. */
+INLINE lanes_mask sign_of_lanes(vector x)
+{
+  return (lanes_mask)x & INT32_MIN;
+}
+
+INLINE vector size_of_lanes(vector x)
+{
+  return (vector)((lanes_mask)x & INT32_MAX);
+}
+
 #endif

@@ -20,6 +20,14 @@ static void options_out_of_range_are_refused(void **state)
   refuses(f, &(fg_evolution_options){.accuracy = -0.05}, "accuracy -0.05 ");
   refuses(f, &(fg_evolution_options){.accuracy = 1.125}, "accuracy 1.125 ");
   refuses(f, &(fg_evolution_options){.accuracy = (double)NAN}, "accuracy");
+  refuses(f, &(fg_evolution_options){.isotropic_below = -2.0}, "speed -2");
+  refuses(f, &(fg_evolution_options){.isotropic_below = (double)NAN}, "speed");
+  refuses(f,
+          &(fg_evolution_options){.isotropic_below = 2.0, .energy = FG_ENERGY_GRADIENT},
+          "speed 2: only with the energy flow");
+  refuses(f, &(fg_evolution_options){.noise = -0.5}, "noise -0.5 ");
+  refuses(f, &(fg_evolution_options){.noise = 5.5}, "noise 5.5 ");
+  refuses(f, &(fg_evolution_options){.noise = (double)NAN}, "noise");
   refuses(f, &(fg_evolution_options){.cycles = -1}, "cycles -1 ");
   refuses(f, &(fg_evolution_options){.cycles = 1001}, "cycles 1001 ");
   refuses(f, &(fg_evolution_options){.energy = (fg_energy)7}, "energy");

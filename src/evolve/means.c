@@ -1,5 +1,6 @@
 #include "evolve/means.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -219,6 +220,17 @@ void fg__means_clear(fg__means *means)
   free(means->sum);
   free(means->units);
   *means = (fg__means){.count = 1};
+}
+
+bool fg__means_bound(fg__means *means, double low, double high)
+{
+  bool changed = false;
+  for (int n = 0; means->count > 1 && n < means->count; ++n) {
+    double bounded = fmin(fmax(means->mean[n], low), high);
+    changed = changed || bounded != means->mean[n];
+    means->mean[n] = bounded;
+  }
+  return changed;
 }
 
 void fg__means_restore(const fg__means *means, const fg__multigrid *multigrid, float *u)

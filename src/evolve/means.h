@@ -36,6 +36,10 @@ fg_status fg__means_create(fg__means *out, fg_context *context,
                            const fg__multigrid *multigrid, const float *u);
 void fg__means_clear(fg__means *means);
 
+/* Changes the means that are to be held to ones between two bounds; whether any was not.
+ */
+bool fg__means_bound(fg__means *means, double low, double high);
+
 /* Shifts u in each part so that its mean is again what it was, ghosts included.
  * Collective. */
 void fg__means_restore(const fg__means *means, const fg__multigrid *multigrid, float *u);

@@ -102,8 +102,27 @@ static double residual(const problem *p, double tau, const double *rhs)
   return size;
 }
 
+/* What rounding the density to floats makes of the residual, through w. */
+static double rounding_of(const problem *p, double tau, const double *density)
+{
+  double *u = values_of(p), *exact = values_of(p), *rounded = values_of(p);
+  uint64_t seed = 29;
+  for (size_t n = 0; n < p->nodes; ++n)
+    u[n] = density[n] * (1.0 + 0x1p-24 * random_value(&seed));
+  reference_potential(p, density, exact);
+  reference_potential(p, u, rounded);
+  for (size_t n = 0; n < p->nodes; ++n)
+    rounded[n] -= exact[n];
+  double size = tau / square_of_spacing(p) * norm(p, rounded);
+  free(u);
+  free(exact);
+  free(rounded);
+  return size;
+}
+
 /* Starts a step from a density and returns the mean factor by which each of CYCLES cycles
- * lowers the residual. tau is given as tau gamma / h^4. */
+ * lowers the residual, or each of those before rounding is what is left of it. tau is
+ * given as tau gamma / h^4. */
 static double factor(const problem *p, const double *density, double scaled_tau)
 {
   const fg__level *level = &p->multigrid.level[0];
@@ -117,14 +136,16 @@ static double factor(const problem *p, const double *density, double scaled_tau)
   double before = residual(p, tau, density);
   fg__means means;
   assert_int_equal(fg__means_create(&means, NULL, &p->multigrid, level->u), FG_STATUS_OK);
-  int at_once = means.count > 1 ? 1 : CYCLES;
-  for (int n = 0; n < CYCLES; n += at_once) {
-    fg__pass_solve(&p->multigrid, tau, at_once, NULL);
+  double after = before, least = 4.0 * rounding_of(p, tau, density);
+  int cycles = 0;
+  while (cycles < CYCLES && after > least) {
+    fg__pass_solve(&p->multigrid, tau, 1, NULL);
     fg__means_restore(&means, &p->multigrid, level->u);
+    after = residual(p, tau, density);
+    ++cycles;
   }
   fg__means_clear(&means);
-  double after = residual(p, tau, density);
-  return pow(after / before, 1.0 / CYCLES);
+  return pow(after / before, 1.0 / cycles);
 }
 
 /* A density of separated phases: steps of growing size from noise. */

@@ -4,10 +4,6 @@
 
 #include "base/mix.h"
 
-/* Strong noise gives separate grains, weak noise stripes along whole streamlines
- * (docs/design/evolution.md): uniform values of this amplitude, cell by cell. */
-static const double amplitude = 1.5;
-
 /* Mean over all phases of the sum of squared weights of the quadratic B-spline: by its
  * root smoothing lowers the standard deviation along each axis. */
 static const double spline_square_sum = 0.55;
@@ -28,7 +24,8 @@ static fg__noise_axis axis_of(int cells, double spacing, bool periodic, double l
 }
 
 fg__noise fg__noise_of(int dimension, const int cells[3], const double spacing[3],
-                       const bool periodic[3], double mean, double length, uint64_t seed)
+                       const bool periodic[3], double mean, double amplitude,
+                       double length, uint64_t seed)
 {
   fg__noise out = {.dimension = dimension,
                    .mean = mean,

@@ -19,12 +19,14 @@ typedef struct fg__noise {
   uint64_t key;
 } fg__noise;
 
-/* Noise about `mean` whose correlation length is `length` (units of the spacing), over a
- * uniform grid of cells[k] cells of side spacing[k] along each axis. The noise at a place
- * depends only on the place, the seed, the length and the domain's size: neither on the
- * mesh nor on who computes it. Its standard deviation is the same in 2D and 3D. */
+/* Noise about `mean` with the standard deviation of uniform values up to `amplitude` off
+ * it, whose correlation length is `length` (units of the spacing), over a uniform grid of
+ * cells[k] cells of side spacing[k] along each axis. The noise at a place depends only on
+ * the place, the seed, the length and the domain's size: neither on the mesh nor on who
+ * computes it. Its standard deviation is the same in 2D and 3D. */
 fg__noise fg__noise_of(int dimension, const int cells[3], const double spacing[3],
-                       const bool periodic[3], double mean, double length, uint64_t seed);
+                       const bool periodic[3], double mean, double amplitude,
+                       double length, uint64_t seed);
 
 /* Writes the noise at nodes (first + n, j, k), n = 0 ... count - 1, of the whole grid to
  * out[n]; k is 0 in 2D. */

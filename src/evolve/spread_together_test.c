@@ -149,7 +149,7 @@ static void describe(run *r, const subject *s, const fg__ranks *ranks)
 static void fill(run *r, fg__multigrid *multigrid)
 {
   fg__noise noise = fg__noise_of(r->mesh.dimension, r->mesh.cells, r->mesh.spacing,
-                                 r->mesh.periodic, -0.4, r->mesh.spacing[0], 3);
+                                 r->mesh.periodic, -0.4, 1.5, r->mesh.spacing[0], 3);
   int count;
   const ptrdiff_t *offset;
   const fg__level *box = fg__multigrid_boxes(multigrid, &count, &offset);

@@ -20,10 +20,26 @@ void fg__tensor_along(double tensor[6], const double direction[3], double anisot
   tensor[5] = (1.0 - anisotropy) * y * z;
 }
 
+/* How much the direction of a place counts. Smoothing gives the full anisotropy back from
+ * fg__full_coherence on: so, where directions agree, 1 - a is in proportion to the speed
+ * below the given one. */
+static double weight_of(const fg_energy_place *place, double isotropic_below)
+{
+  double v[3] = {0.0, 0.0, 0.0};
+  fg_field_velocity(place->field, place->position, v);
+  double speed = hypot(hypot(v[0], v[1]), v[2]);
+  return fmin(fg__full_coherence * speed / isotropic_below, 1.0);
+}
+
 static void tensor_at(double tensor[6], const fg_energy_place *place, const void *data)
 {
-  (void)data;
   fg__tensor_along(tensor, place->direction, place->anisotropy);
+  if (!data)
+    return;
+  double unit[6], weight = weight_of(place, *(const double *)data);
+  fg__tensor_unit(unit);
+  for (int k = 0; k < 6; ++k)
+    tensor[k] = weight * tensor[k] + (1.0 - weight) * unit[k];
 }
 
 const fg_energy_law fg__law_flow = {.name = "flow", .tensor = tensor_at, .axes = true};

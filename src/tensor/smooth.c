@@ -12,7 +12,7 @@ static const double reach = 3.0;
 /* Coherence, the length of the mean of unit directions' double-angle vectors, above which
  * the full anisotropy is given back. Chosen by eye among 1, 2/3, 1/2 and 1/3 on global
  * winds: less leaves blobs where the wind turns within a cluster, more makes cusps. */
-static const double full_coherence = 0.5;
+const double fg__full_coherence = 0.5;
 
 /* A Gaussian cut at reach; weights[k] for offsets 0 ... radius. */
 typedef struct gaussian {
@@ -141,7 +141,7 @@ static void rebuild_2d(fg__tensor *tensor, size_t n, double anisotropy)
   double x = (double)(tensor->xx[n] / tensor->yy[n]);
   double y = (double)(tensor->xy[n] / tensor->yy[n]);
   double length = hypot(x, y) / (1.0 - anisotropy);
-  double share = fmin(length / full_coherence, 1.0);
+  double share = fmin(length / fg__full_coherence, 1.0);
   double contrast = (1.0 - anisotropy) * share;
   double cosine = length > 0.0 ? x / hypot(x, y) : 0.0;
   double sine = length > 0.0 ? y / hypot(x, y) : 0.0;
@@ -165,7 +165,7 @@ static void take_apart_3d(fg__tensor *tensor, size_t n)
 }
 
 /* With M the mean of e e^T, p its largest eigenvalue and P = p I - M: each eigenvalue q
- * of P becomes 1 - (1 - a) min(q / full_coherence, 1), and its direction stays. In a
+ * of P becomes 1 - (1 - a) min(q / fg__full_coherence, 1), and its direction stays. In a
  * plane, where q is 0 and the coherence, that is the rule of 2D. The minimum is written
  * as the quadratic linear P + square P^2 through its three values, the first of them 0 at
  * the main direction: no eigenvectors, nothing to choose where eigenvalues meet. */
@@ -179,12 +179,12 @@ static void rebuild_3d(fg__tensor *tensor, size_t n, double anisotropy)
   double e[3];
   fg__eigenvalues(e, m);
   double near = e[0] - e[1], far = e[0] - e[2];
-  double linear = 1.0 / full_coherence, square = 0.0;
-  if (near >= full_coherence) {
+  double linear = 1.0 / fg__full_coherence, square = 0.0;
+  if (near >= fg__full_coherence) {
     linear = (near + far) / (near * far);
     square = -1.0 / (near * far);
-  } else if (far > full_coherence) {
-    square = -(far / full_coherence - 1.0) / (far * (far - near));
+  } else if (far > fg__full_coherence) {
+    square = -(far / fg__full_coherence - 1.0) / (far * (far - near));
     linear -= square * near;
   }
   linear *= 1.0 - anisotropy;

@@ -36,6 +36,9 @@ fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_fiel
                           const fg_energy_law *law, double anisotropy,
                           const fg__cells *cells, fg__team *team);
 
+/* Length of a mean of directions from which on the full anisotropy comes back. */
+extern const double fg__full_coherence;
+
 /* Averages the directions that a law with axes prefers over a Gaussian of standard
  * deviation `width` (same unit as spacing) within the active cells, in place, so that an
  * interface of that width meets a tensor that hardly varies across it; rough measured
@@ -92,7 +95,9 @@ int fg__domain_count(const fg__cells *cells, int k);
 /* How many cells far along axis k smoothing reaches. */
 int fg__smoothing_radius(const fg__cells *cells, int k, double width);
 
-extern const fg_energy_law fg__law_flow;      /* A = e e^T + a (I - e e^T), e = v/|v| */
+/* A = e e^T + a (I - e e^T), e = v/|v|. With data, a double: 1 - a falls to 0 with the
+ * speed below that one (input's units), once it is smoothed. */
+extern const fg_energy_law fg__law_flow;
 extern const fg_energy_law fg__law_isotropic; /* A = I */
 extern const fg_energy_law fg__law_gradient; /* A = I - (1 - a) e e^T, e along grad |v| */
 

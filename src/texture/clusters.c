@@ -142,7 +142,7 @@ static float *make_noise(fg_context *context, const fg__mesh *mesh, uint64_t see
   const size_t count = (size_t)columns * (size_t)rows;
   const double width = fmax(mesh->spacing[0], mesh->spacing[1]);
   fg__noise noise =
-      fg__noise_of(2, mesh->cells, mesh->spacing, mesh->periodic, 0.0, width, seed);
+      fg__noise_of(2, mesh->cells, mesh->spacing, mesh->periodic, 0.0, 1.5, width, seed);
   float *u = fg__allocate(count, sizeof *u);
   if (!u) {
     fg__fail_memory(context, "the noise", count * sizeof *u);

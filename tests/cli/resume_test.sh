@@ -66,6 +66,8 @@ refused() {
 }
 refused 'with --nodes 65; this command goes with --nodes 97' --nodes 97
 refused 'with --clusters 20,8; this command goes with --clusters 20,6' --clusters 20,6
+refused 'without --isotropic-below; this command goes with --isotropic-below 0.5' --isotropic-below 0.5
+refused 'without --noise; this command goes with --noise 0.05' --noise 0.05
 refused 'without --coverage; this command goes with --coverage 0.25' --coverage 0.25
 refused 'without --energy; this command goes with --energy isotropic' --energy isotropic
 refused 'without --scheme; this command goes with --scheme theta' --scheme theta
@@ -161,6 +163,12 @@ try "${input[@]}" "${options[@]}" -o part --resume
 expect_code 1
 expect_one_complaint
 expect_error 'evolution.csv: damaged'
+restore
+sed -i '1s/clusters,/clusters,newton,/' part/.flowgrain/evolution.csv
+try "${input[@]}" "${options[@]}" -o part --resume
+expect_code 1
+expect_one_complaint
+expect_error 'evolution.csv: has the columns of another version'
 done_with "files that a checkpoint counts on must be there"
 
 restore

@@ -59,7 +59,7 @@ done
 done_with "a scale is VTK polydata with centre, spine, streamline and arrow of each icon"
 
 awk -F, 'NR == 1 { next }
-  NF != 11 || $1 != NR - 1 || $10 != 110592 { print "line " NR ": " $0; exit }
+  NF != 10 || $1 != NR - 1 || $9 != 110592 { print "line " NR ": " $0; exit }
   NR > 2 && ($2 <= t || $4 > energy) { print "line " NR ": " $0; exit }
   NR > 2 && ($5 - mass > 1e-7 || mass - $5 > 1e-7) { print "line " NR ": mass " $5; exit }
   { t = $2; energy = $4; if (NR == 2) mass = $5 }' out1/evolution.csv >fault.txt

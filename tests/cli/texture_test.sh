@@ -91,7 +91,7 @@ expect_nothing_at again.svg
 done_with "draw: the clusters of a run that has saved them"
 
 for bad in "--key" "--palette #102030 --key" "--kind clusters --length 30" "--kind spots --clusters 20" "--nodes 65" \
-  "--kind stripes --max-time 1" "--energy flow" "--anisotropy 0.3" "--coverage 0.5" "--gamma 1e-3" \
+  "--kind stripes --max-time 1" "--energy flow" "--anisotropy 0.3" "--coverage 0.5" "--gamma 1e-3" "--noise 0.1" \
   "--kind clusters --energy isotropic --anisotropy 0.3" "--kind plaid" "--kind" "--pixels 3" "--pixels 99999" "--length 1" "--clusters 30,10" "--fade 2" \
   "--seed 0" "--palette nope" "--max-steps 3" "--energy ./tensors.vtk"; do
   # shellcheck disable=SC2086

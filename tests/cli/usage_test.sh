@@ -48,7 +48,7 @@ wrong 'mesh adapted: not known; .*: auto, adaptive, uniform$' run a -o x --mesh 
 done_with "a mesh of another kind is refused with those that there are"
 for bad in "--nodes 3" "--nodes 100000" "--nodes 1e2" "--nodes= 65" "--anisotropy 0" \
   "--anisotropy 1.5" "--anisotropy nan" "--coverage 1" "--coverage 0" "--gamma -1" \
-  "--gamma inf" "--seed 0" "--seed -1" "--seed 99999999999999999999" "--max-time 0" \
+  "--gamma inf" "--noise 0" "--isotropic-below 0" "--isotropic-below -1" "--noise -1" "--noise 5.5" "--noise nan" "--seed 0" "--seed -1" "--seed 99999999999999999999" "--max-time 0" \
   "--max-steps 0" "--threads 0" "--clusters 10,20" "--clusters 20,,10" "--clusters 5,5" \
   "--clusters 0" "--clusters abc" "--formats gif" "--formats svg," "--scale polar" \
   "--mesh adapted" "--energy uphill" "--time -1" "--width 3" "--palette no-such-map" \
@@ -57,6 +57,7 @@ for bad in "--nodes 3" "--nodes 100000" "--nodes 1e2" "--nodes= 65" "--anisotrop
   wrong "^flowgrain: --" run synth:vortex -o x $bad
   done_with "run $bad"
 done
+wrong 'isotropic-below 2: only with --energy flow' run a -o x --energy gradient --isotropic-below 2
 wrong 'anisotropy 0.5: not with --energy isotropic' run a -o x --energy isotropic --anisotropy 0.5
 wrong '--scale-index and --clusters' draw a -o x.svg --scale-index 0 --clusters 9
 for words in "--view 30,20" "--width 60" --no-frame --transparent; do
