@@ -82,7 +82,7 @@ typedef struct fg__kernel {
   /* Adds an amount to u wherever there is mass; elsewhere u becomes 0. */
   void (*shift)(const fg__level *level, float *u, float amount, const fg__share *share);
 
-  /* Where several boxes share a level, the same in pieces between which ghosts are
+  /* Where ranks share a level in pencils, the same in pieces between which ghosts are
    * exchanged, by one thread. The nodes of one colour (1 odd column + 2 odd row + 4 odd
    * plane) of a sweep. */
   void (*smooth_one_colour)(const fg__level *level, float tau, bool linear, int colour);

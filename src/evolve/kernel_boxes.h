@@ -1,4 +1,4 @@
-/* Operations on one of several boxes that share a level, between which ghosts are
+/* Operations on one of the pencils that share a level, between which ghosts are
  * exchanged. Part of kernel_body.h. */
 #ifndef FG__KERNEL_BOXES_H
 #define FG__KERNEL_BOXES_H

@@ -76,7 +76,7 @@ double fg__level_sum(uint64_t units, double rounding)
 }
 
 /* The nodes -1 and n of an axis as images of own ones; what is no image of those is its
- * own source: filling it changes nothing. box: NULL for the whole level. */
+ * own source: filling it changes nothing. box: a block; NULL for the whole level. */
 static void find_images(const fg__level *level, const fg__box *box, int axis, int whole,
                         int source[2])
 {
@@ -199,8 +199,8 @@ static bool has_mask(const fg__cells_of_box *tensor)
   return false;
 }
 
-/* Relative mass of a node from the cells round it; beyond one of several boxes it comes
- * from those who own it. */
+/* Relative mass of a node from the cells round it; beyond one of several blocks it
+ * comes from those who own it. */
 static void weigh_nodes(const fg__level *level)
 {
   const fg__layout *at = &level->layout;

@@ -44,7 +44,6 @@ static void create(subject *s, mask *inside)
 {
   const fg__mesh mesh = {.dimension = 3,
                          .cells = {W, H, D},
-                         .cells = {W, H, D},
                          .periodic = {true, false, false},
                          .spacing = {0.0625, 0.07, 0.08}};
   float *values = calloc(6 * CELLS, sizeof *values);

@@ -96,13 +96,14 @@ static fg_status refuse(fg_context *context, int ranks, int dimension, const int
   while (fitting > 1 && !arrange(count, fitting, dimension, cells, FG__LEAST_BLOCK_CELLS))
     --fitting;
   if (dimension == 3)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "%d ranks are too many for %d x %d x %d cells, of which each needs "
-                    "%d along y and z; %d ranks fit",
-                    ranks, cells[0], cells[1], cells[2], FG__LEAST_BLOCK_CELLS, fitting);
+    return fg__fail(
+        context, FG_STATUS_ARGUMENT,
+        "%d ranks are too many for a mesh of %d x %d x %d cells: each needs a "
+        "block of %d cells along y and z; %d ranks fit",
+        ranks, cells[0], cells[1], cells[2], FG__LEAST_BLOCK_CELLS, fitting);
   return fg__fail(context, FG_STATUS_ARGUMENT,
-                  "%d ranks are too many for %d x %d cells, of which each needs %d along "
-                  "y; %d ranks fit",
+                  "%d ranks are too many for a mesh of %d x %d cells: each needs a block "
+                  "of %d cells along y; %d ranks fit",
                   ranks, cells[0], cells[1], FG__LEAST_BLOCK_CELLS, fitting);
 }
 
