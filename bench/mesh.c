@@ -116,8 +116,10 @@ int main(void)
   if (all->count > 1)
     return 0;
   count_neighbours(2, 8193, 64);
+  count_neighbours(2, 8193, 256);
   count_neighbours(2, 8193, 1000);
   count_neighbours(3, 1025, 64);
   count_neighbours(3, 1025, 1000);
+  count_neighbours(3, 2049, 1024);
   return 0;
 }

@@ -57,7 +57,6 @@ typedef struct fg__level {
   int ghost_row_source[2];   /* rows that rows -1 and nodes[1] are copies of */
   int ghost_plane_source[2]; /* the same for planes */
   bool boxed; /* a block of several: ghosts that are no images are filled from outside */
-  bool slab;  /* a block of whole slices: of their own ghosts all are images */
   bool border[3][2]; /* a natural border at the low, the high end of an axis */
   /* Terms are rounded to multiples of a fixed small number before they are added, so that
    * a sum does not depend on its order: (x + rounding) - rounding. The first for terms

@@ -60,9 +60,10 @@ static void smooth(const fg__spread *spread, const fg__kernel *kernel, float tau
                    bool linear)
 {
   float *const both[] = {spread->block.u, spread->block.w};
-  for (int colour = 0; colour < 1 << kernel->dimension; ++colour) {
-    kernel->smooth_one_colour(&spread->block, tau, linear, colour);
-    fg__spread_exchange(spread, 2, both, 1U << colour);
+  for (int rows = 0; rows < 1 << (kernel->dimension - 1); ++rows) {
+    const unsigned colours = 3U << (2 * rows); /* even and odd columns */
+    kernel->smooth_rows_of(&spread->block, tau, linear, rows);
+    fg__spread_exchange(spread, 2, both, colours);
   }
 }
 
