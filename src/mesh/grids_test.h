@@ -50,7 +50,7 @@ static inline void cut_at_random(int *first, int count, int nodes, int alignment
 static inline fg__partition divide_at_random(const grid *g, uint64_t seed, int alignment)
 {
   enum { MOST = 64 };
-  int ranks = us.ranks->count, blocks[3] = {1, ranks, 1}, first[3][MOST + 1];
+  int ranks = us.ranks->count, blocks[3] = {1, ranks, 1}, first[3][MOST + 1] = {{0}};
   if (g->dimension == 3) {
     do
       blocks[1] = 1 + (int)random_below(&seed, (unsigned)ranks);
@@ -62,15 +62,17 @@ static inline fg__partition divide_at_random(const grid *g, uint64_t seed, int a
       fg__partition_create(&out, us.context, us.ranks, g->dimension, g->cells,
                            g->periodic, blocks, 1) != FG_STATUS_OK)
     abort();
-  for (int k = 1; k < g->dimension; ++k)
+  first[2][1] = 1; /* in 2D */
+  for (int k = 1; k < 3 && k < g->dimension; ++k)
     cut_at_random(first[k], blocks[k], nodes_along(g, k), alignment, &seed);
-  for (int rank = 0; rank < ranks; ++rank) {
-    const int place[3] = {0, rank % blocks[1], rank / blocks[1]};
-    for (int k = 1; k < g->dimension; ++k) {
-      out.block[rank].first[k] = first[k][place[k]];
-      out.block[rank].nodes[k] = first[k][place[k] + 1] - first[k][place[k]];
+  fg__box *block = out.block;
+  for (int z = 0; z < blocks[2]; ++z)
+    for (int y = 0; y < blocks[1]; ++y, ++block) {
+      block->first[1] = first[1][y];
+      block->nodes[1] = first[1][y + 1] - first[1][y];
+      block->first[2] = first[2][z];
+      block->nodes[2] = first[2][z + 1] - first[2][z];
     }
-  }
   return out;
 }
 

@@ -42,7 +42,7 @@ static void check_blocks(const grid *g, const int blocks[3], int unit)
   for (int rank = 0; rank < us.ranks->count; ++rank) {
     const fg__box *block = &partition.block[rank];
     expect(block->first[0] == 0 && block->nodes[0] == nodes_along(g, 0));
-    for (int k = 1; k < g->dimension; ++k) {
+    for (int k = 1; k < 3 && k < g->dimension; ++k) {
       double mean = (double)g->cells[k] / blocks[k];
       fg__box cells = fg__block_cells(&partition, block);
       expect(block->first[k] % unit == 0 && cells.nodes[k] % unit == 0);
