@@ -129,8 +129,7 @@ typedef struct fg_traffic {
 } fg_traffic;
 
 /* What the ranks of an evolution told each other since the program began, exact: the mean
- * over ranks and the greatest of each number, all 0 with one rank. What p4est sends is
- * not in it. Collective. */
+ * over ranks and the greatest of each number, all 0 with one rank. Collective. */
 FG_API void fg_evolution_traffic(const fg_evolution *evolution, fg_traffic mean[],
                                  fg_traffic greatest[]);
 
