@@ -112,10 +112,10 @@ static fg_status create_multigrid(subject *s, fg_context *context, int cells,
   double h = 1.0 / cells, width = interface_cells * h, gamma = width * width / anisotropy;
   if (whole) {
     fill_tensor(&tensor, count, cells, anisotropy);
-    fg__mesh mesh = {.dimension = dimension, .spacing = {h, h, h}};
-    fg__tile tile = {.cells = {cells, cells, dimension == 3 ? cells : 1}};
-    status =
-        fg__multigrid_create(&s->multigrid, context, &mesh, &tile, &tensor, gamma, NULL);
+    fg__mesh mesh = {.dimension = dimension,
+                     .cells = {cells, cells, dimension == 3 ? cells : 1},
+                     .spacing = {h, h, h}};
+    status = fg__multigrid_create(&s->multigrid, context, &mesh, &tensor, gamma, NULL);
   }
   for (int n = 0; n < 6; ++n)
     free(*components[n]);

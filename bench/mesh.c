@@ -1,11 +1,12 @@
 /* What sharing a mesh costs: ghosts filled and messages sent on the ranks it is started
- * with (mpirun -n R bench_mesh), boxes and neighbours of 1000 ranks by counting. */
+ * with (mpirun -n R bench_mesh), blocks and neighbours of many ranks by counting. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
 #include "base/memory.h"
+#include "mesh/blocks.h"
 #include "mesh/exchange_plan.h"
 #include "mesh/mesh.h"
 
@@ -40,16 +41,10 @@ static void time_exchange(int dimension, int nodes)
                                                 .nodes = nodes}));
   fg__exchange *exchange;
   check(fg__exchange_create(&exchange, NULL, &mesh.partition, 2));
-  int count;
-  const fg__box *own = fg__own_boxes(&mesh.partition, &count);
-  float **node[2] = {take((size_t)count, sizeof(float *)),
-                     take((size_t)count, sizeof(float *))};
-  for (int b = 0; b < count; ++b)
-    for (int a = 0; a < 2; ++a) {
-      fg__layout layout = fg__layout_of(dimension, own[b].nodes);
-      node[a][b] = (float *)take(layout.array_size, sizeof(float)) + layout.first;
-    }
-  float *const *arrays[2] = {node[0], node[1]};
+  fg__layout layout = fg__layout_of(dimension, fg__own_block(&mesh.partition)->nodes);
+  float *const arrays[2] = {
+      (float *)take(layout.array_size, sizeof(float)) + layout.first,
+      (float *)take(layout.array_size, sizeof(float)) + layout.first};
   enum { TIMES = 200 };
   fg__exchange_fill(exchange, 2, arrays, FG__ALL_COLOURS);
   fg__traffic_book *book = mesh.ranks->book;
@@ -59,71 +54,34 @@ static void time_exchange(int dimension, int nodes)
     fg__exchange_fill(exchange, 2, arrays, FG__ALL_COLOURS);
   double seconds = (now() - start) / TIMES;
   fg_traffic sent = book ? book->of[book->now] : (fg_traffic){0};
-  double most[4] = {seconds * 1e6, (sent.messages - first.messages) / TIMES,
-                    (sent.bytes - first.bytes) / TIMES, count};
-  fg__ranks_greatest(mesh.ranks, most, 4);
+  double most[3] = {seconds * 1e6, (sent.messages - first.messages) / TIMES,
+                    (sent.bytes - first.bytes) / TIMES};
+  fg__ranks_greatest(mesh.ranks, most, 3);
   if (mesh.ranks->rank == 0)
     printf("%d ranks, %d nodes a side in %dD: an exchange of u and w takes %.0f us; at "
-           "most %.0f boxes a rank, %.0f messages, %.0f kB\n",
-           mesh.ranks->count, nodes, dimension, most[0], most[3], most[1], most[2] / 1e3);
+           "most %.0f messages, %.0f kB\n",
+           mesh.ranks->count, nodes, dimension, most[0], most[1], most[2] / 1e3);
   fg__exchange_destroy(exchange);
   fg__mesh_clear(&mesh);
 }
 
-/* Patch n of the Morton curve. */
-static fg__box patch_at(long n, int dimension, int cells, int patch)
+static void count_neighbours(int dimension, int nodes, int rank_count)
 {
-  fg__box out = {{0, 0, 0}, {1, 1, 1}};
-  for (int bit = 0; n >> (bit * dimension); ++bit)
-    for (int k = 0; k < dimension; ++k)
-      out.first[k] |= (int)(n >> (bit * dimension + k) & 1) << bit;
-  for (int k = 0; k < dimension; ++k) {
-    out.first[k] *= patch;
-    out.nodes[k] = patch + (out.first[k] + patch == cells);
-  }
-  return out;
-}
-
-/* The shares that ranks would have of a square (cube) of 2^n patches a side: equal pieces
- * of the curve. */
-static fg__partition share_out(int dimension, int cells, int patch,
-                               const fg__ranks *ranks)
-{
-  fg__partition out = {
-      .dimension = dimension, .cells = {1, 1, 1}, .nodes = {1, 1, 1}, .ranks = ranks};
-  long patches = 1;
-  for (int k = 0; k < dimension; ++k) {
-    out.cells[k] = cells;
-    out.nodes[k] = cells + 1;
-    patches *= cells / patch;
-  }
-  out.box = take((size_t)patches, sizeof *out.box);
-  out.first_of_rank = take((size_t)ranks->count + 1, sizeof(int));
-  for (int r = 0; r < ranks->count; ++r) {
-    long first = patches * r / ranks->count, end = patches * (r + 1) / ranks->count;
-    fg__box *box = out.box + out.count;
-    for (long n = first; n < end; ++n)
-      box[n - first] = patch_at(n, dimension, cells, patch);
-    out.first_of_rank[r] = out.count;
-    out.count += fg__boxes_merge(box, (int)(end - first));
-  }
-  out.first_of_rank[ranks->count] = out.count;
-  return out;
-}
-
-static void count_neighbours(int dimension, int nodes, int patch, int rank_count)
-{
-  double boxes = 0.0, neighbours = 0.0, most_neighbours = 0.0, most_bytes = 0.0,
-         plan_seconds = 0.0, asked = 0.0;
+  double neighbours = 0.0, most_bytes = 0.0, plan_seconds = 0.0, asked = 0.0;
   fg__ranks ranks = {.count = rank_count};
-  fg__partition level = share_out(dimension, nodes - 1, patch, &ranks);
+  const int cells[3] = {nodes - 1, nodes - 1, dimension == 3 ? nodes - 1 : 1};
+  const bool periodic[3] = {false, false, false};
+  fg__blocks blocks;
+  fg__partition level, coarse;
+  check(fg__blocks_choose(&blocks, NULL, &ranks, dimension, cells));
+  check(fg__partition_create(&level, NULL, &ranks, dimension, cells, periodic,
+                             blocks.count, blocks.unit));
+  check(fg__partition_copy(&coarse, NULL, &level));
   int workable = 0;
-  fg__partition coarse = level;
-  while (fg__partition_is_workable(&coarse, 4)) {
+  for (; fg__partition_is_workable(&coarse, FG__LEAST_BLOCK_NODES); ++workable) {
     fg__partition next;
     check(fg__partition_coarsen(&next, NULL, &coarse));
-    if (workable++)
-      fg__partition_clear(&coarse);
+    fg__partition_clear(&coarse);
     coarse = next;
   }
   for (int r = 0; r < rank_count; r += 37, ++asked) {
@@ -135,18 +93,16 @@ static void count_neighbours(int dimension, int nodes, int patch, int rank_count
     for (int n = 0; n < exchange->senders.count; ++n)
       bytes += 8.0 * (double)fg__neighbour_nodes(&exchange->senders.neighbour[n],
                                                  FG__ALL_COLOURS);
-    boxes += level.first_of_rank[r + 1] - level.first_of_rank[r];
     neighbours += exchange->senders.count;
-    most_neighbours = fmax(most_neighbours, exchange->senders.count);
     most_bytes = fmax(most_bytes, bytes);
     fg__exchange_destroy(exchange);
   }
-  printf("%d ranks, %d nodes a side in %dD, patches of %d: %.1f boxes and %.1f "
-         "neighbours a rank (%.0f at most), %.0f kB an exchange of u and w; list of %d "
-         "boxes, plan in %.1f ms; %d shared levels, then %d x %d x %d nodes whole\n",
-         rank_count, nodes, dimension, patch, boxes / asked, neighbours / asked,
-         most_neighbours, most_bytes / 1e3, level.count, plan_seconds / asked * 1e3,
-         workable, coarse.nodes[0], coarse.nodes[1], coarse.nodes[2]);
+  printf("%d x %d ranks, %d nodes a side in %dD, units of %d: %.1f neighbours a rank, "
+         "%.0f kB an exchange of u and w; plan in %.1f ms; %d shared levels, then "
+         "%d x %d x %d nodes whole\n",
+         blocks.count[1], blocks.count[2], nodes, dimension, blocks.unit,
+         neighbours / asked, most_bytes / 1e3, plan_seconds / asked * 1e3, workable,
+         coarse.nodes[0], coarse.nodes[1], coarse.nodes[2]);
   fg__partition_clear(&coarse);
   fg__partition_clear(&level);
 }
@@ -159,9 +115,11 @@ int main(void)
   time_exchange(3, 129);
   if (all->count > 1)
     return 0;
-  count_neighbours(2, 8193, 16, 1000);
-  count_neighbours(2, 8193, 64, 1000);
-  count_neighbours(3, 1025, 16, 1000);
-  count_neighbours(3, 1025, 32, 1000);
+  count_neighbours(2, 8193, 64);
+  count_neighbours(2, 8193, 256);
+  count_neighbours(2, 8193, 1000);
+  count_neighbours(3, 1025, 64);
+  count_neighbours(3, 1025, 1000);
+  count_neighbours(3, 2049, 1024);
   return 0;
 }

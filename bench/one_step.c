@@ -34,10 +34,11 @@ static fg_status create(fg__multigrid *out, fg_context *context, const problem *
       tensor.zz = memory + 5 * count;
     }
     fg__mesh mesh = {.dimension = p->dimension};
-    fg__tile tile = {.cells = {p->cells[0], p->cells[1], p->cells[2]}};
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3; ++k) {
+      mesh.cells[k] = p->cells[k];
       mesh.spacing[k] = p->spacing[k];
-    status = fg__multigrid_create(out, context, &mesh, &tile, &tensor, p->gamma, NULL);
+    }
+    status = fg__multigrid_create(out, context, &mesh, &tensor, p->gamma, NULL);
   }
   free(memory);
   free(active);

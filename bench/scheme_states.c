@@ -84,8 +84,8 @@ void domain_clear(domain *d)
 
 void create_multigrid(fg__multigrid *out, const domain *d, double alpha)
 {
-  check(!fg__multigrid_create(out, NULL, &d->mesh, &d->mesh.tile[0], &d->tensor,
-                              (1.0 - alpha) * d->gamma, NULL),
+  check(!fg__multigrid_create(out, NULL, &d->mesh, &d->tensor, (1.0 - alpha) * d->gamma,
+                              NULL),
         "a multigrid");
 }
 

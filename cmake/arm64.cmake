@@ -22,6 +22,4 @@ else()
   execute_process(COMMAND gcc -print-multiarch OUTPUT_VARIABLE here
     OUTPUT_STRIP_TRAILING_WHITESPACE)
   set(CMAKE_C_FLAGS_INIT "-idirafter /usr/include -idirafter /usr/include/${here}")
-  set(P4EST_LIBRARY p4est CACHE STRING "not linked")
-  set(SC_LIBRARY sc CACHE STRING "not linked")
 endif()

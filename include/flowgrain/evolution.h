@@ -94,8 +94,8 @@ FG_API bool fg_evolution_is_ample(const fg_evolution *evolution);
  * down. `step` becomes the present state; it counts no cycles.
  * `field` and the energy of `options` (NULL: the default) are those of the evolution's
  * creation; all other options stay what they were. Collective. ARGUMENT (they are not,
- * the cells can not be halved, the field has missing values): nothing has changed;
- * MEMORY, MPI: the evolution is of no use any more. */
+ * the cells can not be halved, or by fewer ranks only; the field has missing values):
+ * nothing has changed; MEMORY, MPI: the evolution is of no use any more. */
 FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, const fg_field *field,
                                       const fg_evolution_options *options, fg_step *step);
 
@@ -136,8 +136,7 @@ typedef struct fg_traffic {
 } fg_traffic;
 
 /* What the ranks of an evolution told each other since the program began, exact: the mean
- * over ranks and the greatest of each number, all 0 with one rank. What p4est sends is
- * not in it. Collective. */
+ * over ranks and the greatest of each number, all 0 with one rank. Collective. */
 FG_API void fg_evolution_traffic(const fg_evolution *evolution, fg_traffic mean[],
                                  fg_traffic greatest[]);
 

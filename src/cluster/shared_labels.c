@@ -29,20 +29,17 @@ typedef void node_action(finding *f, int cluster, const int node[3]);
 static void for_own_nodes(finding *f, node_action *act)
 {
   const fg__spread_clusters *own = &f->share->own;
-  for (int b = 0; b < own->count; ++b) {
-    const fg__component_box *box = &own->grid[b];
-    const int *label = own->number[b];
-    int depth = f->grid->dimension == 3 ? box->nodes[2] : 1;
-    for (int z = 0; z < depth; ++z)
-      for (int y = 0; y < box->nodes[1]; ++y)
-        for (int x = 0; x < box->nodes[0]; ++x, ++label) {
-          int cluster = *label - 1;
-          const int node[3] = {box->first[0] + x, box->first[1] + y,
-                               depth > 1 ? box->first[2] + z : 0};
-          if (cluster >= 0)
-            act(f, cluster, node);
-        }
-  }
+  const fg__component_box *block = &own->grid;
+  const int *label = own->number;
+  for (int z = 0; z < block->nodes[2]; ++z)
+    for (int y = 0; y < block->nodes[1]; ++y)
+      for (int x = 0; x < block->nodes[0]; ++x, ++label) {
+        int cluster = *label - 1;
+        const int node[3] = {block->first[0] + x, block->first[1] + y,
+                             block->first[2] + z};
+        if (cluster >= 0)
+          act(f, cluster, node);
+      }
 }
 
 static void widen(finding *f, int cluster, const int node[3])

@@ -114,17 +114,15 @@ static char *describe(const fg_evolution *e, const char *note)
   return text;
 }
 
-/* Room for the values of any of this rank's boxes. NULL without memory. */
-static float *plain_box(const fg_evolution *e,
-                        const fg__state_array arrays[FG__STATE_ARRAYS])
+/* Room for the values of this rank's block of any array. NULL without memory. */
+static float *plain_block(const fg_evolution *e,
+                          const fg__state_array arrays[FG__STATE_ARRAYS])
 {
   size_t most = 0;
-  for (int n = 0; n < FG__STATE_ARRAYS; ++n)
-    for (int b = 0; b < arrays[n].count; ++b) {
-      fg__box box = fg__state_box(&arrays[n], b);
-      size_t count = (size_t)fg__box_count(&box);
-      most = count > most ? count : most;
-    }
+  for (int n = 0; n < FG__STATE_ARRAYS; ++n) {
+    size_t count = (size_t)fg__box_count(&arrays[n].block);
+    most = count > most ? count : most;
+  }
   float *plain = fg__allocate(most, sizeof *plain);
   if (!plain)
     fg__fail_memory(e->context, "a checkpoint", most * sizeof *plain);
@@ -158,7 +156,7 @@ static fg_status prepare(saving *s, const fg_evolution *e, const char *note)
     snprintf(record->array, sizeof record->array, "%s", s->array[n].name);
   }
   fg__checkpoint_place(s->record, FG__STATE_ARRAYS);
-  s->plain = plain_box(e, s->array);
+  s->plain = plain_block(e, s->array);
   if (!s->plain)
     return FG_STATUS_MEMORY;
   if (!leads(e))
@@ -169,17 +167,15 @@ static fg_status prepare(saving *s, const fg_evolution *e, const char *note)
   return fg__fail(e->context, FG_STATUS_MEMORY, "out of memory for a checkpoint's text");
 }
 
-/* The values of this rank's boxes. */
+/* The values of this rank's blocks. */
 static fg_status write_values(saving *s)
 {
   fg_status status = FG_STATUS_OK;
-  for (int n = 0; n < FG__STATE_ARRAYS; ++n)
-    for (int b = 0; !status && b < s->array[n].count; ++b) {
-      fg__box box = fg__state_box(&s->array[n], b);
-      fg__state_export(&s->array[n], b, s->plain);
-      status =
-          fg__checkpoint_write(&s->writer, s->e->context, &s->record[n], &box, s->plain);
-    }
+  for (int n = 0; n < FG__STATE_ARRAYS && !status; ++n) {
+    fg__state_export(&s->array[n], s->plain);
+    status = fg__checkpoint_write(&s->writer, s->e->context, &s->record[n],
+                                  &s->array[n].block, s->plain);
+  }
   return status;
 }
 
@@ -385,22 +381,20 @@ static fg_status check_parameters(const fg_evolution *e, const fg__checkpoint_fi
   return FG_STATUS_ARGUMENT;
 }
 
-/* This rank's boxes, without ghosts. */
-static fg_status load_boxes(const fg_evolution *e, const fg__checkpoint_file *file,
-                            const fg__state_array arrays[FG__STATE_ARRAYS])
+/* This rank's blocks, without ghosts. */
+static fg_status load_blocks(const fg_evolution *e, const fg__checkpoint_file *file,
+                             const fg__state_array arrays[FG__STATE_ARRAYS])
 {
-  float *plain = plain_box(e, arrays);
+  float *plain = plain_block(e, arrays);
   if (!plain)
     return FG_STATUS_MEMORY;
   fg_status status = FG_STATUS_OK;
-  for (int n = 0; n < FG__STATE_ARRAYS; ++n)
-    for (int b = 0; !status && b < arrays[n].count; ++b) {
-      fg__box box = fg__state_box(&arrays[n], b);
-      status = fg__checkpoint_read_box(file, e->context, arrays[n].name, arrays[n].grid,
-                                       &box, plain);
-      if (!status)
-        fg__state_import(&arrays[n], b, plain);
-    }
+  for (int n = 0; n < FG__STATE_ARRAYS && !status; ++n) {
+    status = fg__checkpoint_read_box(file, e->context, arrays[n].name, arrays[n].grid,
+                                     &arrays[n].block, plain);
+    if (!status)
+      fg__state_import(&arrays[n], plain);
+  }
   free(plain);
   return status;
 }
@@ -419,7 +413,7 @@ static fg_status load(fg_evolution *e, counts *counted, const fg__checkpoint_fil
   fg__state_array arrays[FG__STATE_ARRAYS];
   fg__stepper_arrays(&e->stepper, arrays);
   if (!status)
-    status = load_boxes(e, file, arrays);
+    status = load_blocks(e, file, arrays);
   status = fg__ranks_agree(e->ranks, e->context, status);
   if (!status)
     status = fg__checkpoint_check(file, e->context, e->ranks);

@@ -5,6 +5,7 @@
 #include "evolve/evolution.h"
 #include "evolve/evolution_options.h"
 #include "field/fingerprint.h"
+#include "mesh/blocks.h"
 
 /* Cells a cluster, of all the domain's, from which on the mesh is finer than needed: each
  * keeps what clusters have on the meshes that are the default, at the scales at which
@@ -36,9 +37,14 @@ static fg_status check(const fg_evolution *e, const fg_field *field,
     return fg__fail(e->context, FG_STATUS_ARGUMENT,
                     "coarser mesh: %d cells along the longest side can not be halved",
                     fg__mesh_most_cells(&e->mesh));
+  int cells[3];
+  for (int k = 0; k < 3; ++k)
+    cells[k] = e->mesh.cells[k] / 2;
+  fg_status status = fg__blocks_choose(&(fg__blocks){.unit = 0}, e->context, e->ranks,
+                                       e->mesh.dimension, cells);
   fg_evolution_options settled = *options;
-  fg_status status =
-      fg__evolution_options_settle(&settled, e->context, e->mesh.dimension);
+  if (!status)
+    status = fg__evolution_options_settle(&settled, e->context, e->mesh.dimension);
   if (!status &&
       (settled.energy != e->options.energy || settled.law->identity != e->law_identity))
     status = fg__fail(e->context, FG_STATUS_ARGUMENT,
@@ -74,7 +80,7 @@ fg_status fg_evolution_coarsen(fg_evolution *evolution, const fg_field *field,
   if (!options)
     options = &none;
   fg_activity before = fg__traffic_begin(e->ranks->book, FG_ACTIVITY_SETUP);
-  fg__halved halved = {.count = 0};
+  fg__halved halved = {.values = NULL};
   fg_status status = fg__ranks_agree(e->ranks, e->context, check(e, field, options));
   if (!status)
     status = fg__halved_create(&halved, e->context, &e->stepper.multigrid,

@@ -63,10 +63,60 @@ static void a_halved_mesh_has_the_bits_of_one_rank(void **state)
   end_together();
 }
 
+/* A strip four times as long as wide. */
+static fg_field *strip(void)
+{
+  enum { COLUMNS = 33, ROWS = 9 };
+  double x[COLUMNS], y[ROWS];
+  float u[ROWS * COLUMNS], v[ROWS * COLUMNS];
+  for (int i = 0; i < COLUMNS; ++i)
+    x[i] = 0.125 * i;
+  for (int j = 0; j < ROWS; ++j)
+    y[j] = 0.125 * j;
+  for (int n = 0; n < ROWS * COLUMNS; ++n) {
+    u[n] = 1.0F + 0.1F * (float)(n % 7);
+    v[n] = 0.2F * (float)(n % 5) - 0.3F;
+  }
+  const fg_field_arrays arrays = {
+      .dimension = 2, .size = {COLUMNS, ROWS}, .axis = {x, y}, .velocity = {u, v}};
+  fg_field *field;
+  expect(fg_field_create(&field, us.context, &arrays) == FG_STATUS_OK);
+  return field;
+}
+
+/* 64 x 16 cells are enough for four ranks, half as many for two. */
+static void more_ranks_than_the_halved_mesh_has_blocks_for_are_refused(void **state)
+{
+  (void)state;
+  const fg__ranks *alone;
+  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
+  const fg_evolution_options options = {.nodes = 65};
+  fg_field *field = strip();
+  fg_evolution *one = begin(field, alone, &options),
+               *all = begin(field, us.ranks, &options);
+  fg_step a = advance(one, BEFORE), b = advance(all, BEFORE), halved;
+  expect_same(&a, &b);
+  fg_status status = fg_evolution_coarsen(all, field, &options, &halved);
+  expect(status == (us.ranks->count > 2 ? FG_STATUS_ARGUMENT : FG_STATUS_OK));
+  if (status) {
+    expect(strstr(fg_context_message(us.context), "2 ranks fit") != NULL);
+    a = advance(one, AFTER); /* nothing has changed */
+    b = advance(all, AFTER);
+    expect_same(&a, &b);
+  }
+  fg_evolution_destroy(one);
+  fg_evolution_destroy(all);
+  fg_field_destroy(field);
+  end_together();
+}
+
 int main(void)
 {
   start_together();
-  const struct CMUnitTest tests[] = {TOGETHER(a_halved_mesh_has_the_bits_of_one_rank)};
+  const struct CMUnitTest tests[] = {
+      TOGETHER(a_halved_mesh_has_the_bits_of_one_rank),
+      TOGETHER(more_ranks_than_the_halved_mesh_has_blocks_for_are_refused),
+  };
   return cmocka_run_group_tests_name("evolve/coarsen_together", tests, name_checkpoint,
                                      remove_checkpoint);
 }

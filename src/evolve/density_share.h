@@ -1,4 +1,4 @@
-/* A density that several ranks share: each has u, labels and mask of its own boxes, and
+/* A density that several ranks share: each has u, labels and mask of its block, and
  * whoever needs more asks for a region. */
 #ifndef FG__DENSITY_SHARE_H
 #define FG__DENSITY_SHARE_H
@@ -10,8 +10,6 @@ typedef struct fg__density_share {
   fg__partition partition; /* of the whole grid's nodes */
   fg__spread_clusters own; /* u, labels (in `number`) and mask; `whole` says the same
                               on every rank */
-  const void **first;      /* [own.count], what follows from them for regions.h */
-  ptrdiff_t *row, *plane;  /* [own.count] */
   bool masked;             /* some cell of the grid is not active */
 } fg__density_share;
 

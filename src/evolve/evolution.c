@@ -171,7 +171,7 @@ fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field)
     status = create_mesh(e, field);
   if (!status) {
     count_cells(e);
-    e->spread = e->ranks->count > 1 || e->mesh.partition.count != 1;
+    e->spread = e->ranks->count > 1;
     if (!e->spread && (double)e->nodes >= fg__least_team_nodes)
       status = fg__team_create(&e->team, e->context, e->options.threads);
   }

@@ -17,13 +17,11 @@ struct fg_evolution {
   fg__mesh mesh;
   fg__team *team; /* NULL: one thread */
   fg__tensor tensor;
-  fg_field *
-      *window; /* [own boxes] of a field that ranks share, until stencils are made */
   fg__stepper stepper;
   fg__team_clusters clusters_found; /* unless spread */
   size_t nodes, cells;              /* of the whole mesh */
   long active_cells;
-  bool spread; /* over several ranks or boxes */
+  bool spread; /* over several ranks */
   fg__spread_clusters spread_clusters;
   double debris_area; /* in cells */
   double area_fraction;

@@ -52,13 +52,14 @@ static fg__tensor_recipe recipe_of(const fg_evolution *e, const fg_field *field)
   return r;
 }
 
-/* The active cells whose lowest corners a box owns. */
-static fg_status count_box(const fg_evolution *e, const fg__tensor_recipe *recipe,
-                           const fg__box *box, fg__wide_tensor *wide, uint64_t *active)
+/* The active cells whose lowest corners a block owns. */
+static fg_status count_block(const fg_evolution *e, const fg__tensor_recipe *recipe,
+                             const fg__box *block, fg__wide_tensor *wide,
+                             uint64_t *active)
 {
   fg__cells_of_box cells;
-  fg_status status = fg__cells_for_box(&cells, e->context, recipe, box, wide);
-  const fg__box own = fg__box_cells(&e->mesh.partition, box);
+  fg_status status = fg__cells_for_box(&cells, e->context, recipe, block, wide);
+  const fg__box own = fg__block_cells(&e->mesh.partition, block);
   for (int k = 0; k < own.nodes[2] && !status; ++k)
     for (int j = 0; j < own.nodes[1]; ++j)
       for (int i = 0; i < own.nodes[0]; ++i)
@@ -75,18 +76,12 @@ static fg_status count_active_cells(fg_evolution *e, const fg_field *field)
   recipe.law = &fg__law_isotropic;
   recipe.anisotropy = 1.0;
   uint64_t active = 0;
-  int boxes;
-  const fg__box *own = fg__own_boxes(partition, &boxes);
-  fg_status status = FG_STATUS_OK;
-  for (int n = 0; n < fg__most_boxes(partition) && !status; ++n) {
-    fg__wide_tensor wide;
-    status = fg__wide_of_box(&wide, e->context, &recipe, partition, n);
-    if (status)
-      break;
-    if (n < boxes)
-      status = count_box(e, &recipe, &own[n], &wide, &active);
-    status = fg__ranks_agree(e->mesh.ranks, e->context, status);
-  }
+  fg__wide_tensor wide;
+  fg_status status = fg__wide_of_block(&wide, e->context, &recipe, partition);
+  if (status)
+    return status;
+  status = count_block(e, &recipe, fg__own_block(partition), &wide, &active);
+  status = fg__ranks_agree(e->mesh.ranks, e->context, status);
   if (status)
     return status;
   fg__ranks_add(e->mesh.ranks, &active, 1);
@@ -127,8 +122,8 @@ fg_status fg__evolution_multigrid_create(fg__multigrid *out, fg_evolution *e,
     fg__tensor_recipe recipe = recipe_of(e, field);
     return fg__multigrid_create_spread(out, e->context, &e->mesh, &recipe, gamma);
   }
-  fg_status status = fg__multigrid_create(out, e->context, &e->mesh, &e->mesh.tile[0],
-                                          &e->tensor, gamma, e->team);
+  fg_status status =
+      fg__multigrid_create(out, e->context, &e->mesh, &e->tensor, gamma, e->team);
   fg__evolution_tensor_free(e);
   return status;
 }

@@ -1,6 +1,6 @@
 /* The tensor over an evolution's mesh, as the field and the energy make it, and the
- * multigrid hierarchy over both. One box holds the tensor of all cells until its stencils
- * are made; several boxes make it piece by piece, from the same recipe. */
+ * multigrid hierarchy over both. A process alone holds the tensor of all cells until
+ * stencils are made; several ranks make it block by block, from the same recipe. */
 #ifndef FG__EVOLUTION_TENSOR_H
 #define FG__EVOLUTION_TENSOR_H
 

@@ -9,16 +9,6 @@
 static const double window_share = 0.25;
 enum { MOST_ROUNDS = 64, NOBODY = -1 };
 
-int fg__most_boxes(const fg__partition *partition)
-{
-  int most = 0;
-  for (int r = 0; r < partition->ranks->count; ++r) {
-    int own = partition->first_of_rank[r + 1] - partition->first_of_rank[r];
-    most = own > most ? own : most;
-  }
-  return most;
-}
-
 /* The samples for some layers of cells, from face to face: a law may look half a cell
  * round each centre, at the domain's ends too. */
 static fg__region region_of(const fg_field *field, const fg__cells *cells, int rank)
@@ -36,12 +26,11 @@ static fg__region region_of(const fg_field *field, const fg__cells *cells, int r
   return out;
 }
 
-/* The n-th boxes of all ranks, which take their windows together. */
+/* The blocks of all ranks, which take their windows together. */
 typedef struct rounds {
   const fg_field *field;
   int ranks;
-  fg__cells *asked; /* [ranks], of boxes that are there */
-  bool *there;      /* [ranks] */
+  fg__cells *asked; /* [ranks] */
   fg__region *region;
   fg_field **window;
   int count;
@@ -50,32 +39,26 @@ typedef struct rounds {
 static void clear(rounds *r)
 {
   free(r->asked);
-  free(r->there);
   free(r->region);
   free(r->window);
 }
 
 static fg_status plan(rounds *r, fg_context *context, const fg__tensor_recipe *recipe,
-                      const fg__partition *partition, int n)
+                      const fg__partition *partition)
 {
   const size_t ranks = (size_t)partition->ranks->count;
   *r = (rounds){.field = recipe->field,
                 .ranks = partition->ranks->count,
                 .asked = fg__allocate(ranks, sizeof *r->asked),
-                .there = fg__allocate(ranks, sizeof *r->there),
                 .region = fg__allocate(ranks, sizeof *r->region),
                 .window = fg__allocate(ranks, sizeof *r->window)};
-  if (!r->asked || !r->there || !r->region || !r->window)
+  if (!r->asked || !r->region || !r->window)
     return fg__fail_memory(context, "windows of the field", ranks * sizeof *r->asked);
   double most = 0.0, samples = 1.0;
   for (int k = 0; k < recipe->dimension; ++k)
     samples *= fg_field_contents(recipe->field)->size[k];
   for (int rank = 0; rank < r->ranks; ++rank) {
-    const int box = partition->first_of_rank[rank] + n;
-    r->there[rank] = box < partition->first_of_rank[rank + 1];
-    if (!r->there[rank])
-      continue;
-    r->asked[rank] = fg__cells_asked(recipe, &partition->box[box]);
+    r->asked[rank] = fg__cells_asked(recipe, &partition->block[rank]);
     fg__region region = region_of(recipe->field, &r->asked[rank], rank);
     double count = (double)fg__box_count(&region.nodes);
     most = count > most ? count : most;
@@ -85,12 +68,10 @@ static fg_status plan(rounds *r, fg_context *context, const fg__tensor_recipe *r
   return FG_STATUS_OK;
 }
 
-/* Layers [*first, *first + *count) of a box's cells are those of a round. */
+/* Layers [*first, *first + *count) of a block's cells are those of a round. */
 static bool has_layers(const rounds *r, int rank, int round, int *first, int *count)
 {
   const fg__cells *cells = &r->asked[rank];
-  if (!r->there[rank])
-    return false;
   fg__part_rows(first, count, cells->count[cells->dimension - 1], round, r->count);
   return *count > 0;
 }
@@ -122,17 +103,17 @@ static fg_status go_round(rounds *r, fg_context *context, const fg__tensor_recip
   return fg__ranks_agree(ranks, context, status);
 }
 
-fg_status fg__wide_of_box(fg__wide_tensor *out, fg_context *context,
-                          const fg__tensor_recipe *recipe, const fg__partition *partition,
-                          int n)
+fg_status fg__wide_of_block(fg__wide_tensor *out, fg_context *context,
+                            const fg__tensor_recipe *recipe,
+                            const fg__partition *partition)
 {
   *out = (fg__wide_tensor){0};
   if (!recipe->field->part)
     return FG_STATUS_OK;
   const fg__ranks *ranks = partition->ranks;
   rounds r;
-  fg_status status = plan(&r, context, recipe, partition, n);
-  if (!status && r.there[ranks->rank])
+  fg_status status = plan(&r, context, recipe, partition);
+  if (!status)
     status = fg__wide_tensor_create(out, context, &r.asked[ranks->rank]);
   status = fg__ranks_agree(ranks, context, status);
   for (int round = 0; round < r.count && !status; ++round)

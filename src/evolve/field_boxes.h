@@ -1,21 +1,17 @@
-/* What the boxes of a mesh see of a field that ranks share. */
+/* What the blocks of a mesh see of a field that ranks share. */
 #ifndef FG__FIELD_BOXES_H
 #define FG__FIELD_BOXES_H
 
 #include "evolve/cells.h"
 #include "mesh/field_parts.h"
 
-/* Boxes that the rank with most of them has. */
-int fg__most_boxes(const fg__partition *partition);
-
-/* Asks the law of a recipe for all cells round this rank's n-th box, if it has one, so
- * that fg__cells_for_box can do without the field: layer by layer, from windows that are
- * each about a quarter as large as this rank's part. Where the field is whole *out
- * becomes empty, and nothing is done. Every rank calls it for each n below
- * fg__most_boxes. Collective. MEMORY, UNSUPPORTED (see fg__field_windows), what the law
- * meets. */
-fg_status fg__wide_of_box(fg__wide_tensor *out, fg_context *context,
-                          const fg__tensor_recipe *recipe, const fg__partition *partition,
-                          int n);
+/* Asks the law of a recipe for all cells round this rank's block, so that
+ * fg__cells_for_box can do without the field: layer by layer, from windows that are each
+ * about a quarter as large as this rank's part. Where the field is whole *out becomes
+ * empty, and nothing is done. Collective. MEMORY, UNSUPPORTED (see fg__field_windows),
+ * what the law meets. */
+fg_status fg__wide_of_block(fg__wide_tensor *out, fg_context *context,
+                            const fg__tensor_recipe *recipe,
+                            const fg__partition *partition);
 
 #endif

@@ -6,8 +6,7 @@
 
 typedef struct fg__halved {
   fg__partition partition; /* of the even nodes, as the finer mesh shared them out */
-  int count;               /* boxes of this rank */
-  float **box;             /* [count] values, x fastest */
+  float *values;           /* of this rank's block, x fastest */
 } fg__halved;
 
 /* Takes the means of `u`, an array of the finest level whose ghosts are filled, with the
@@ -19,9 +18,9 @@ fg_status fg__halved_create(fg__halved *out, fg_context *context,
                             const float *u);
 void fg__halved_clear(fg__halved *halved);
 
-/* Brings the values to the boxes of another partition of the same nodes: out[b] takes
- * those of own box b, x fastest. Collective. MEMORY. */
+/* Brings the values to the blocks of another partition of the same nodes: `out` takes
+ * those of the own block, x fastest. Collective. MEMORY. */
 fg_status fg__halved_deliver(const fg__halved *halved, fg_context *context,
-                             const fg__partition *to, float *const out[]);
+                             const fg__partition *to, float *out);
 
 #endif

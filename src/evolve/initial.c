@@ -7,14 +7,14 @@
 #include "evolve/noise.h"
 #include "evolve/widen.h"
 
-/* The nodes of a box to be filled, of which members of a team take rows: with noise, or
+/* The nodes of a block to be filled, of which members of a team take rows: with noise, or
  * the caller's density. */
 typedef struct filling {
   const fg_evolution *e;
   const fg__level *level;
-  const fg__box *box;
+  const fg__box *block;
   const fg__noise *noise;
-  const float *values; /* of the box alone, x fastest; NULL: noise or the caller's */
+  const float *values; /* of the block alone, x fastest; NULL: noise or the caller's */
   float *row;          /* one a member */
   float *u;
 } filling;
@@ -32,28 +32,28 @@ static void fill_part(void *argument, const fg__share *share)
   fg__team_part(share, nodes[1] * nodes[2], 1, &begin, &end);
   for (int n = begin; n < end; ++n) {
     int j = n % nodes[1], k = n / nodes[1];
-    int y = f->box->first[1] + j, z = f->box->first[2] + k;
+    int y = f->block->first[1] + j, z = f->block->first[2] + k;
     const float *values = row;
     if (f->values)
       values = f->values + (size_t)n * (size_t)nodes[0];
     else if (e->options.initial)
       values = e->options.initial + ((size_t)z * rows + (size_t)y) * columns +
-               f->box->first[0];
+               f->block->first[0];
     else
-      fg__noise_row(f->noise, y, z, f->box->first[0], nodes[0], row);
+      fg__noise_row(f->noise, y, z, f->block->first[0], nodes[0], row);
     float *to = fg__row(f->level, f->u, j, k);
     for (int i = 0; i < nodes[0]; ++i)
       to[fg__column(layout, i)] = values[i];
   }
 }
 
-static fg_status fill_box(const fg_evolution *e, const fg__level *level,
-                          const fg__box *box, const fg__noise *noise, const float *values,
-                          float *u)
+static fg_status fill_block(const fg_evolution *e, const fg__level *level,
+                            const fg__box *block, const fg__noise *noise,
+                            const float *values, float *u)
 {
   size_t count = (size_t)fg__team_members(e->team) * (size_t)level->layout.nodes[0];
   filling f = {
-      .e = e, .level = level, .box = box, .noise = noise, .values = values, .u = u};
+      .e = e, .level = level, .block = block, .noise = noise, .values = values, .u = u};
   f.row = fg__allocate(count, sizeof *f.row);
   if (!f.row)
     return fg__fail_memory(e->context, "the noise", count * sizeof *f.row);
@@ -91,32 +91,17 @@ static fg_status settle_parts(const fg_evolution *e, const fg__multigrid *multig
   return status;
 }
 
-/* What the boxes get of the density of a finer mesh; the caller frees each and the list.
- */
-static fg_status take_halved(float ***out, const fg_evolution *e)
+/* What the block gets of the density of a finer mesh; the caller frees it. */
+static fg_status take_halved(float **out, const fg_evolution *e)
 {
-  int count;
-  const fg__box *own = fg__own_boxes(&e->mesh.partition, &count);
-  float **values = *out = fg__allocate((size_t)count, sizeof *values);
-  bool whole = values;
-  for (int b = 0; b < count && whole; ++b) {
-    values[b] = fg__allocate((size_t)fg__box_count(&own[b]), sizeof **values);
-    whole = values[b];
-  }
+  size_t count = (size_t)fg__box_count(fg__own_block(&e->mesh.partition));
+  float *values = *out = fg__allocate(count, sizeof *values);
   fg_status status = FG_STATUS_OK;
-  if (!whole)
-    status =
-        fg__fail_memory(e->context, "a coarser density", (size_t)count * sizeof *values);
+  if (!values)
+    status = fg__fail_memory(e->context, "a coarser density", count * sizeof *values);
   status = fg__ranks_agree(e->mesh.ranks, e->context, status);
   return status ? status
                 : fg__halved_deliver(e->halved, e->context, &e->mesh.partition, values);
-}
-
-static void free_list(float **values, int count)
-{
-  for (int b = 0; b < count && values; ++b)
-    free(values[b]);
-  free(values);
 }
 
 fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multigrid)
@@ -127,18 +112,14 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
   fg__noise noise =
       fg__noise_of(e->mesh.dimension, e->mesh.cells, e->mesh.spacing, e->mesh.periodic,
                    mean, e->options.noise, correlation, e->options.seed);
-  int count;
-  const ptrdiff_t *offset;
-  const fg__level *box = fg__multigrid_boxes(multigrid, &count, &offset);
-  const fg__box *place = fg__own_boxes(&e->mesh.partition, &(int){0});
-  float *u = fg__multigrid_u(multigrid), **values = NULL;
+  float *u = fg__multigrid_u(multigrid), *values = NULL;
   fg_status status = FG_STATUS_OK;
   if (e->halved)
     status = take_halved(&values, e);
-  for (int b = 0; b < count && !status; ++b)
-    status =
-        fill_box(e, &box[b], &place[b], &noise, values ? values[b] : NULL, u + offset[b]);
-  free_list(values, count);
+  if (!status)
+    status = fill_block(e, fg__multigrid_finest(multigrid),
+                        fg__own_block(&e->mesh.partition), &noise, values, u);
+  free(values);
   status = fg__ranks_agree(e->mesh.ranks, e->context, status);
   if (status)
     return status;

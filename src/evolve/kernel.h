@@ -83,10 +83,10 @@ typedef struct fg__kernel {
   /* Adds an amount to u wherever there is mass; elsewhere u becomes 0. */
   void (*shift)(const fg__level *level, float *u, float amount, const fg__share *share);
 
-  /* Where several boxes share a level, the same in pieces between which ghosts are
-   * exchanged, by one thread. The nodes of one colour (1 odd column + 2 odd row + 4 odd
-   * plane) of a sweep. */
-  void (*smooth_one_colour)(const fg__level *level, float tau, bool linear, int colour);
+  /* Where ranks share a level in pencils, the same in pieces between which ghosts are
+   * exchanged, by one thread. The rows of a sweep that are alike (1 odd row + 2 odd
+   * plane): no neighbour of one has another's nodes to wait for. */
+  void (*smooth_rows_of)(const fg__level *level, float tau, bool linear, int rows);
   /* What is to be restricted; and its restriction, once it has ghosts. */
   void (*find_residuals)(const fg__level *level, float tau, bool linear,
                          float *const out[FG__RESTRICTED]);

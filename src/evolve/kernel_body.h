@@ -26,7 +26,7 @@ const fg__kernel FG__KERNEL = {.name = FG__KERNEL_NAME,
                                .extrapolate = extrapolate,
                                .predict = predict,
                                .shift = shift,
-                               .smooth_one_colour = smooth_one_colour,
+                               .smooth_rows_of = smooth_rows_of,
                                .find_residuals = find_residuals,
                                .restrict_arrays = restrict_arrays,
                                .correct = correct};

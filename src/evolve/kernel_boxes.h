@@ -1,19 +1,17 @@
-/* Operations on one of several boxes that share a level, between which ghosts are
+/* Operations on one of the pencils that share a level, between which ghosts are
  * exchanged. Part of kernel_body.h. */
 #ifndef FG__KERNEL_BOXES_H
 #define FG__KERNEL_BOXES_H
 
 #include "evolve/kernel_pass.h"
 
-/* The nodes of one colour, in the order of their rows. */
-static void smooth_one_colour(const fg__level *level, float tau, bool linear, int colour)
+static void smooth_rows_of(const fg__level *level, float tau, bool linear, int rows)
 {
   laplacian l = laplacian_times(level, tau);
   const int *nodes = level->layout.nodes;
-  smooth_row_loop *loop =
-      smooth_loop[colour & 1 ? ODD_ONLY : EVEN_ONLY][linear][level->mass != NULL];
-  for (int k = colour >> 2; k < nodes[2]; k += 2)
-    for (int j = colour >> 1 & 1; j < nodes[1]; j += 2)
+  smooth_row_loop *loop = smooth_loop[linear][level->mass != NULL];
+  for (int k = rows >> 1; k < nodes[2]; k += 2)
+    for (int j = rows & 1; j < nodes[1]; j += 2)
       loop(level, fg__row_at(&level->layout, j, k), &l);
 }
 

@@ -128,15 +128,15 @@ INLINE void put_residuals(const fg__level *fine, ptrdiff_t at, ptrdiff_t column,
     second =
         ((load(fine->q + at) + load(fine->curvature + at) * u + energy) - m * w) * scale;
     d = m * scale;
-    store(out->value[3] + column, load(fine->shape_curvature + at), WIDTH);
+    store(out->value[3] + column, load(fine->shape_curvature + at));
   } else {
     d = bulk + load(shape_of_row + column);
     first = (p - u) - flux;
     second = ((2.0F * u * (u * u - 1.0F) + energy) - w) * d;
   }
-  store(out->value[0] + column, first, WIDTH);
-  store(out->value[1] + column, second, WIDTH);
-  store(out->value[2] + column, d, WIDTH);
+  store(out->value[0] + column, first);
+  store(out->value[1] + column, second);
+  store(out->value[2] + column, d);
 }
 
 /* d J d, from K on the shape. */
@@ -147,7 +147,7 @@ INLINE void put_curvature(const fg__level *fine, ptrdiff_t at, ptrdiff_t column,
   vector u = load(fine->u + at), d = bulk + load(shape_of_row + column);
   if (masked)
     energy *= load(fine->mass_inverse + at);
-  store(out->value[3] + column, d * ((6.0F * (u * u) - 2.0F) * d + energy), WIDTH);
+  store(out->value[3] + column, d * ((6.0F * (u * u) - 2.0F) * d + energy));
 }
 
 INLINE void residual_nodes(const fg__level *fine, ptrdiff_t at,

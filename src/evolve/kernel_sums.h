@@ -167,13 +167,13 @@ INLINE int plane_index(int slice)
 
 static void fill_ghosts_of_slice(const fg__level *level, float *array, int s)
 {
-  if (level->boxed && !level->slab)
-    return;
   for (int side = 0; side < 2; ++side) {
+    int source = level->ghost_row_source[side];
 #if FG__DIMENSION == 3
-    fg__fill_ghost_row(level, array, s, side);
+    if (source >= 0 && source < level->layout.nodes[1])
+      fg__fill_ghost_row(level, array, s, side);
 #else
-    if (level->ghost_row_source[side] == s)
+    if (source == s)
       fg__fill_ghost_row(level, array, 0, side);
 #endif
   }

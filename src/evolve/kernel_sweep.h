@@ -2,8 +2,6 @@
 #ifndef FG__KERNEL_SWEEP_H
 #define FG__KERNEL_SWEEP_H
 
-#include <limits.h>
-
 #include "evolve/kernel_row.h"
 
 /* For a sweep: a node past a well, where Psi'' is 4 and more, may go as far again, so
@@ -21,8 +19,8 @@ INLINE vector bounded_changes(vector u, vector change)
  * (m = 1 on the finest level) leaves a denominator m^2 + tau l0 g, which in the spinodal
  * region may vanish: it (on coarse levels g) is kept above a quarter of its value without
  * Psi''. On coarse levels its inverse, the relaxation, is found once a cycle. */
-INLINE void relax(const fg__level *level, ptrdiff_t at, int count, const laplacian *l,
-                  vector energy, vector flux, bool linear, bool masked)
+INLINE void relax(const fg__level *level, ptrdiff_t at, const laplacian *l, vector energy,
+                  vector flux, bool linear, bool masked)
 {
   vector u = load(level->u + at), w = load(level->w + at), p = load(level->p + at);
   vector k0 = load(level->energy.center + at), l0 = {0};
@@ -52,21 +50,16 @@ INLINE void relax(const fg__level *level, ptrdiff_t at, int count, const laplaci
     du = bounded_changes(u, (first - l0 * second) / denominator);
     dw = second + g * du;
   }
-  store(level->u + at, u + du, count);
-  store(level->w + at, w + dw, count);
+  store(level->u + at, u + du);
+  store(level->w + at, w + dw);
 }
 
-/* Columns of a row that a sweep goes through. */
-typedef enum parity { EVEN_ONLY = 1, ODD_ONLY = 2, BOTH = 3 } parity;
-
+/* Both colours of a row. What lies beyond its end is filled after. */
 INLINE void smooth_nodes(const fg__level *level, ptrdiff_t at, const laplacian *constants,
-                         parity which, bool linear, bool masked)
+                         bool linear, bool masked)
 {
   const laplacian copy = *constants, *l = &copy;
   block n = first_block(level);
-  /* what lies beyond the row's end is filled after, or else not to be touched */
-  bool whole = !level->boxed || level->slab;
-  int evens = whole ? INT_MAX : n.evens, odds = whole ? INT_MAX : n.odds;
   strand energy =
       strand_of(level, &level->energy, l, neighbours_round(level, level->u, at), at);
   strand flux = strand_of(level, masked ? &level->laplacian : NULL, l,
@@ -76,59 +69,45 @@ INLINE void smooth_nodes(const fg__level *level, ptrdiff_t at, const laplacian *
   for (; n.even < n.evens; next_block(&n)) {
     advance(&energy, n.even, n.odd);
     advance(&flux, n.even, n.odd);
-    if (which & EVEN_ONLY)
-      relax(level, at + n.even, evens - (int)n.even, l, at_even_block(&energy, &n),
-            at_even_block(&flux, &n), linear, masked);
-    if ((which & ODD_ONLY) && n.even > 0)
-      relax(level, at + n.odd - WIDTH, odds - (int)(n.even - WIDTH), l,
-            at_odd_before(&energy, &n), at_odd_before(&flux, &n), linear, masked);
+    relax(level, at + n.even, l, at_even_block(&energy, &n), at_even_block(&flux, &n),
+          linear, masked);
+    if (n.even > 0)
+      relax(level, at + n.odd - WIDTH, l, at_odd_before(&energy, &n),
+            at_odd_before(&flux, &n), linear, masked);
   }
   fg__fill_ghost_columns(level, level->u + at);
   fg__fill_ghost_columns(level, level->w + at);
-  if (!(which & ODD_ONLY) || n.even - WIDTH >= n.odds)
+  if (n.even - WIDTH >= n.odds)
     return;
-  relax(level, at + n.odd - WIDTH, odds - (int)(n.even - WIDTH), l,
-        at_last_odd(&energy, &n), at_last_odd(&flux, &n), linear, masked);
+  relax(level, at + n.odd - WIDTH, l, at_last_odd(&energy, &n), at_last_odd(&flux, &n),
+        linear, masked);
   fg__fill_ghost_columns(level, level->u + at);
   fg__fill_ghost_columns(level, level->w + at);
 }
 
-#define SMOOTH_ROW(name, which, linear, masked)                                          \
+#define SMOOTH_ROW(name, linear, masked)                                                 \
   ROW_LOOP void name(const fg__level *level, ptrdiff_t at, const laplacian *l)           \
   {                                                                                      \
-    smooth_nodes(level, at, l, which, linear, masked);                                   \
+    smooth_nodes(level, at, l, linear, masked);                                          \
   }
-SMOOTH_ROW(smooth_plain, BOTH, false, false)
-SMOOTH_ROW(smooth_masked, BOTH, false, true)
-SMOOTH_ROW(smooth_linear_plain, BOTH, true, false)
-SMOOTH_ROW(smooth_linear_masked, BOTH, true, true)
-SMOOTH_ROW(smooth_even_plain, EVEN_ONLY, false, false)
-SMOOTH_ROW(smooth_even_masked, EVEN_ONLY, false, true)
-SMOOTH_ROW(smooth_even_linear_plain, EVEN_ONLY, true, false)
-SMOOTH_ROW(smooth_even_linear_masked, EVEN_ONLY, true, true)
-SMOOTH_ROW(smooth_odd_plain, ODD_ONLY, false, false)
-SMOOTH_ROW(smooth_odd_masked, ODD_ONLY, false, true)
-SMOOTH_ROW(smooth_odd_linear_plain, ODD_ONLY, true, false)
-SMOOTH_ROW(smooth_odd_linear_masked, ODD_ONLY, true, true)
+SMOOTH_ROW(smooth_plain, false, false)
+SMOOTH_ROW(smooth_masked, false, true)
+SMOOTH_ROW(smooth_linear_plain, true, false)
+SMOOTH_ROW(smooth_linear_masked, true, true)
 #undef SMOOTH_ROW
 
 typedef void smooth_row_loop(const fg__level *level, ptrdiff_t at, const laplacian *l);
 
-/* By columns, linear, masked. */
-static smooth_row_loop *const smooth_loop[BOTH + 1][2][2] = {
-    [EVEN_ONLY] = {{smooth_even_plain, smooth_even_masked},
-                   {smooth_even_linear_plain, smooth_even_linear_masked}},
-    [ODD_ONLY] = {{smooth_odd_plain, smooth_odd_masked},
-                  {smooth_odd_linear_plain, smooth_odd_linear_masked}},
-    [BOTH] = {{smooth_plain, smooth_masked},
-              {smooth_linear_plain, smooth_linear_masked}}};
+/* By linear, masked. */
+static smooth_row_loop *const smooth_loop[2][2] = {
+    {smooth_plain, smooth_masked}, {smooth_linear_plain, smooth_linear_masked}};
 
 /* Row j of plane k, and the ghost rows that are its copies. */
 static void smooth_row(const fg__level *level, int j, int k, const laplacian *l,
                        bool linear)
 {
   ptrdiff_t at = fg__row_at(&level->layout, j, k);
-  smooth_loop[BOTH][linear][level->mass != NULL](level, at, l);
+  smooth_loop[linear][level->mass != NULL](level, at, l);
   for (int side = 0; side < 2; ++side)
     if (level->ghost_row_source[side] == j) {
       fg__fill_ghost_row(level, level->u, k, side);

@@ -5,7 +5,6 @@
 
 #include <stddef.h>
 #include <stdint.h>
-#include <string.h>
 
 #define INLINE static inline __attribute__((always_inline))
 
@@ -28,13 +27,9 @@ INLINE vector load(const float *from)
   return *(const loose_vector *)from;
 }
 
-/* The first `count` lanes, all where there are no more. */
-INLINE void store(float *to, vector x, int count)
+INLINE void store(float *to, vector x)
 {
-  if (count >= WIDTH)
-    *(loose_vector *)to = x;
-  else
-    memcpy(to, &x, (size_t)count * sizeof *to);
+  *(loose_vector *)to = x;
 }
 
 /* Lane n gets lane n - 1, the first one the last of the vector before. */

@@ -76,7 +76,7 @@ double fg__level_sum(uint64_t units, double rounding)
 }
 
 /* The nodes -1 and n of an axis as images of own ones; what is no image of those is its
- * own source: filling it changes nothing. box: NULL for the whole level. */
+ * own source: filling it changes nothing. box: a block; NULL for the whole level. */
 static void find_images(const fg__level *level, const fg__box *box, int axis, int whole,
                         int source[2])
 {
@@ -109,10 +109,9 @@ static void lay_out(fg__level *level, const fg__box *box)
   int whole[3] = {1, 1, 1}, dimension = level->layout.dimension;
   level->nodes = 1.0;
   level->cell_volume = 1.0;
-  level->boxed = level->slab = box;
+  level->boxed = box;
   for (int k = 0; k < dimension; ++k) {
     whole[k] = level->periodic[k] ? level->cells[k] : level->cells[k] + 1;
-    level->slab = level->slab && (k + 1 == dimension || box->nodes[k] == whole[k]);
     level->nodes *= whole[k];
     level->cell_volume *= level->spacing[k];
     level->border[k][0] = !level->periodic[k] && (!box || box->first[k] == 0);
@@ -121,12 +120,9 @@ static void lay_out(fg__level *level, const fg__box *box)
   }
   const int *nodes = box ? box->nodes : whole;
   level->layout = fg__layout_of(dimension, nodes);
-  level->even_count = (nodes[0] + 1) / 2;
-  level->odd_count = nodes[0] / 2;
-  if (!box || level->slab) { /* whole vectors are faster; ghosts are filled after them */
-    level->even_count = round_to_lanes(level->even_count);
-    level->odd_count = round_to_lanes(level->odd_count);
-  }
+  /* whole vectors are faster; ghosts are filled after them */
+  level->even_count = round_to_lanes((nodes[0] + 1) / 2);
+  level->odd_count = round_to_lanes(nodes[0] / 2);
   level->rounding = fg__level_rounding(level->nodes);
   level->change_rounding = fg__level_change_rounding(level->nodes);
   level->gradient_weight = 1.0;
@@ -199,8 +195,8 @@ static bool has_mask(const fg__cells_of_box *tensor)
   return false;
 }
 
-/* Relative mass of a node from the cells round it; beyond one of several boxes it comes
- * from those who own it. */
+/* Relative mass of a node from the cells round it; beyond one of several blocks it
+ * comes from those who own it. */
 static void weigh_nodes(const fg__level *level)
 {
   const fg__layout *at = &level->layout;

@@ -1,6 +1,6 @@
 /* One level of the multigrid hierarchy: the arrays of a box of nodes (mesh/layout.h) and
- * the equations' coefficients there. The box is the whole level, a plain array at full
- * speed, or one of several that share it (spread.h).
+ * the equations' coefficients there. The box is the whole level, or this rank's block of
+ * it (spread.h).
  *
  * Scaling. Rows of the equations are divided by the lumped mass; the cell's volume is
  * divided out of everything, so a node's relative mass is 1 inside, and with a mask the
@@ -56,8 +56,7 @@ typedef struct fg__level {
   ptrdiff_t ghost_column[2], ghost_column_source[2]; /* offsets in a row */
   int ghost_row_source[2];   /* rows that rows -1 and nodes[1] are copies of */
   int ghost_plane_source[2]; /* the same for planes */
-  bool boxed; /* one box of several: ghosts that are no images are filled from outside */
-  bool slab;  /* a box of whole slices: of their own ghosts all are images */
+  bool boxed; /* a block of several: ghosts that are no images are filled from outside */
   bool border[3][2]; /* a natural border at the low, the high end of an axis */
   /* Terms are rounded to multiples of a fixed small number before they are added, so that
    * a sum does not depend on its order: (x + rounding) - rounding. The first for terms
@@ -108,7 +107,7 @@ typedef struct fg__level_description {
   bool finest;        /* no second right-hand side and space of corrections */
   bool masked;        /* somewhere on the level, if not here */
   fg__team *team;     /* that builds it and will work on it; NULL: one thread */
-  const fg__box *box; /* of nodes, when there are several; NULL: all */
+  const fg__box *box; /* the block, when there are several; NULL: all nodes */
 } fg__level_description;
 
 /* Both roundings for a level of so many nodes. */
@@ -159,7 +158,7 @@ static inline float *fg__node(const fg__level *level, float *array, int i, int j
 }
 
 /* Lays out a level and computes its stencils from the cells' tensor times weight or from
- * their element matrices (the other NULL), which it takes over. One of several boxes gets
+ * their element matrices (the other NULL), which it takes over. A block of several gets
  * no such arrays of its own, and its masses and interpolation lack ghosts (spread.h).
  * MEMORY. */
 fg_status fg__level_create(fg__level *out, fg_context *context,

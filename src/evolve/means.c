@@ -15,8 +15,8 @@ static float axis_mass(const fg__level *box, int axis, int at)
 }
 
 /* Cuts a row's nodes into runs, by their labels from 1 (0: no part); with `run` NULL they
- * are only counted. `place` is the box's in arrays. */
-static int cut_row(const fg__level *box, ptrdiff_t place, int j, int k, const int *label,
+ * are only counted. */
+static int cut_row(const fg__level *box, int j, int k, const int *label,
                    fg__part_run *run)
 {
   const fg__layout *at = &box->layout;
@@ -31,7 +31,7 @@ static int cut_row(const fg__level *box, ptrdiff_t place, int j, int k, const in
         continue;
       ptrdiff_t column = fg__column(at, i), node = fg__row_at(at, j, k) + column;
       if (run)
-        run[count] = (fg__part_run){.at = place + node,
+        run[count] = (fg__part_run){.at = node,
                                     .nodes = (end - i) / 2,
                                     .part = label[i] - 1,
                                     .row_mass = row_mass,
@@ -42,28 +42,25 @@ static int cut_row(const fg__level *box, ptrdiff_t place, int j, int k, const in
   return count;
 }
 
-static int cut_box(const fg__level *box, ptrdiff_t place, const int *label,
-                   fg__part_run *run)
+static int cut_box(const fg__level *box, const int *label, fg__part_run *run)
 {
   const int *nodes = box->layout.nodes;
   int count = 0;
   for (int k = 0; k < nodes[2]; ++k)
     for (int j = 0; j < nodes[1]; ++j, label += nodes[0])
-      count += cut_row(box, place, j, k, label, run ? run + count : NULL);
+      count += cut_row(box, j, k, label, run ? run + count : NULL);
   return count;
 }
 
-static fg_status append_box(fg__means *out, fg_context *context, size_t *capacity,
-                            const fg__level *box, ptrdiff_t place, const int *label)
+static fg_status take_runs(fg__means *out, fg_context *context, const fg__level *box,
+                           const int *label)
 {
-  size_t count = (size_t)(out->run_count + cut_box(box, place, label, NULL));
-  void *memory = out->run;
-  bool grown = fg__grow(&memory, capacity, count, sizeof *out->run);
-  out->run = memory;
-  if (!grown)
-    return fg__fail_memory(context, "the parts of the domain", count * sizeof *out->run);
-  cut_box(box, place, label, out->run + out->run_count);
-  out->run_count = (int)count;
+  int count = cut_box(box, label, NULL);
+  out->run = fg__allocate((size_t)count, sizeof *out->run);
+  if (!out->run)
+    return fg__fail_memory(context, "the parts of the domain",
+                           (size_t)count * sizeof *out->run);
+  out->run_count = cut_box(box, label, out->run);
   return FG_STATUS_OK;
 }
 
@@ -104,7 +101,6 @@ static fg_status label_whole(fg__components *parts, fg_context *context,
 static fg_status find_in_whole(fg__means *out, fg_context *context, const fg__level *box)
 {
   fg__components parts = {0};
-  size_t capacity = 0;
   int *label = fg__allocate(node_count(box), sizeof *label);
   if (!label)
     return fg__fail_memory(context, "the parts of the domain",
@@ -112,7 +108,7 @@ static fg_status find_in_whole(fg__means *out, fg_context *context, const fg__le
   fg_status status = label_whole(&parts, context, box, label);
   out->count = parts.count;
   if (!status && out->count > 1)
-    status = append_box(out, context, &capacity, box, 0, label);
+    status = take_runs(out, context, box, label);
   fg__components_clear(&parts);
   free(label);
   return status;
@@ -122,19 +118,18 @@ static fg_status find_in_spread(fg__means *out, fg_context *context,
                                 const fg__spread *spread)
 {
   fg__spread_clusters parts = {0};
-  size_t capacity = 0;
   fg_status status = fg__spread_clusters_find(&parts, context, spread, NULL,
                                               spread->residual[0], 0.0, true);
   out->count = parts.whole.count;
-  for (int b = 0; b < spread->count && !status && out->count > 1; ++b) {
-    const fg__level *box = &spread->box[b];
-    int *label = fg__allocate(node_count(box), sizeof *label);
+  if (!status && out->count > 1) {
+    const fg__level *block = &spread->block;
+    int *label = fg__allocate(node_count(block), sizeof *label);
     if (label) {
-      fg__spread_clusters_label(&parts, b, label);
-      status = append_box(out, context, &capacity, box, spread->offset[b], label);
+      fg__spread_clusters_label(&parts, label);
+      status = take_runs(out, context, block, label);
     } else {
       status = fg__fail_memory(context, "the parts of the domain",
-                               node_count(box) * sizeof *label);
+                               node_count(block) * sizeof *label);
     }
     free(label);
   }

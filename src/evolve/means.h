@@ -4,7 +4,7 @@
  *
  * The parts are the components of a density that is 1 everywhere (components.h): two
  * nodes are of one part when a chain of active cells joins them, whoever owns them. Sums
- * are exact (level.h), so that the means are the same bits on any boxes and ranks. */
+ * are exact (level.h), so that the means are the same bits on any ranks. */
 #ifndef FG__MEANS_H
 #define FG__MEANS_H
 
@@ -22,7 +22,7 @@ typedef struct fg__part_run {
 typedef struct fg__means {
   int count; /* parts; at most 1: no more than the mean of all is to be held */
   int run_count;
-  fg__part_run *run; /* [run_count] the nodes of this rank's boxes, by parts */
+  fg__part_run *run; /* [run_count] the nodes of this rank's block, by parts */
   double *mass;      /* [count] sums of relative masses */
   double *mean;      /* [count] of u, held */
   double *sum;       /* [count] working space, like units */
@@ -31,7 +31,7 @@ typedef struct fg__means {
 } fg__means;
 
 /* Finds the parts of the finest level and the mean of u, an array of it, in each.
- * Collective. MEMORY, ARGUMENT (a box too large for int labels). */
+ * Collective. MEMORY, ARGUMENT (a block too large for int labels). */
 fg_status fg__means_create(fg__means *out, fg_context *context,
                            const fg__multigrid *multigrid, const float *u);
 void fg__means_clear(fg__means *means);

@@ -42,7 +42,6 @@ static size_t node_of(int i, int j, int k)
 
 static void create(subject *s, mask *inside)
 {
-  const fg__tile tile = {.cells = {W, H, D}};
   const fg__mesh mesh = {.dimension = 3,
                          .cells = {W, H, D},
                          .periodic = {true, false, false},
@@ -66,9 +65,8 @@ static void create(subject *s, mask *inside)
     for (int corner = 0; corner < 8 && active[n]; ++corner)
       s->mass[node_of((x + corner % 2) % W, y + corner / 2 % 2, z + corner / 4)] += 0.125;
   }
-  assert_int_equal(
-      fg__multigrid_create(&s->multigrid, NULL, &mesh, &tile, &tensor, 1.0, NULL),
-      FG_STATUS_OK);
+  assert_int_equal(fg__multigrid_create(&s->multigrid, NULL, &mesh, &tensor, 1.0, NULL),
+                   FG_STATUS_OK);
   free(values);
   free(active);
   float plain[NODES];

@@ -2,76 +2,61 @@
 
 #include <string.h>
 
+static const fg__level *level_at(const fg__multigrid *multigrid, int depth)
+{
+  return multigrid->spread_count > 0 ? &multigrid->spread[depth].block
+                                     : &multigrid->level[depth];
+}
+
+static fg__level *finest_of(fg__multigrid *multigrid)
+{
+  return multigrid->spread_count > 0 ? &multigrid->spread[0].block : multigrid->level;
+}
+
+const fg__level *fg__multigrid_finest(const fg__multigrid *multigrid)
+{
+  return level_at(multigrid, 0);
+}
+
 fg__array_shape fg__multigrid_shape(const fg__multigrid *multigrid, int depth)
 {
-  if (multigrid->spread_count > 0)
-    return (fg__array_shape){.size = multigrid->spread[depth].size};
-  const fg__layout *layout = &multigrid->level[depth].layout;
+  const fg__layout *layout = &level_at(multigrid, depth)->layout;
   return (fg__array_shape){layout->array_size, layout->first};
 }
 
 float *fg__multigrid_u(const fg__multigrid *multigrid)
 {
-  return multigrid->spread_count > 0 ? multigrid->spread[0].u : multigrid->level[0].u;
+  return level_at(multigrid, 0)->u;
 }
 
 float *fg__multigrid_w(const fg__multigrid *multigrid)
 {
-  return multigrid->spread_count > 0 ? multigrid->spread[0].w : multigrid->level[0].w;
+  return level_at(multigrid, 0)->w;
 }
 
 float *fg__multigrid_p(const fg__multigrid *multigrid)
 {
-  return multigrid->spread_count > 0 ? multigrid->spread[0].p : multigrid->level[0].p;
+  return level_at(multigrid, 0)->p;
 }
 
 void fg__multigrid_use(fg__multigrid *multigrid, float *u)
 {
-  fg__spread *finest = &multigrid->spread[0];
-  if (multigrid->spread_count > 0)
-    fg__spread_use(finest, u, finest->w, finest->p);
-  else
-    multigrid->level[0].u = u;
-}
-
-const fg__level *fg__multigrid_boxes(const fg__multigrid *multigrid, int *count,
-                                     const ptrdiff_t **offset)
-{
-  static const ptrdiff_t none = 0;
-  bool spread = multigrid->spread_count > 0;
-  *count = spread ? multigrid->spread[0].count : 1;
-  *offset = spread ? multigrid->spread[0].offset : &none;
-  return spread ? multigrid->spread[0].box : multigrid->level;
-}
-
-static fg__level *boxes_of(fg__multigrid *multigrid, int *count)
-{
-  bool spread = multigrid->spread_count > 0;
-  *count = spread ? multigrid->spread[0].count : 1;
-  return spread ? multigrid->spread[0].box : multigrid->level;
+  finest_of(multigrid)->u = u;
 }
 
 void fg__multigrid_leave_wells(fg__multigrid *multigrid, const fg__no_wells *instead)
 {
-  int count;
-  fg__level *box = boxes_of(multigrid, &count);
+  fg__level *level = finest_of(multigrid);
   multigrid->linear = instead;
-  for (int b = 0; b < count; ++b) {
-    ptrdiff_t offset = multigrid->spread_count > 0 ? multigrid->spread[0].offset[b] : 0;
-    float *zero = instead ? instead->zeros + offset : NULL;
-    float *one = instead ? instead->ones + offset : NULL;
-    box[b].q = box[b].curvature = box[b].shape_curvature = zero;
-    box[b].coupling = box[b].scale = box[b].scale_inverse = one;
-    box[b].relaxation = instead ? instead->relaxation + offset : NULL;
-  }
+  float *zero = instead ? instead->zeros : NULL, *one = instead ? instead->ones : NULL;
+  level->q = level->curvature = level->shape_curvature = zero;
+  level->coupling = level->scale = level->scale_inverse = one;
+  level->relaxation = instead ? instead->relaxation : NULL;
 }
 
 void fg__multigrid_weigh_gradient(fg__multigrid *multigrid, double weight)
 {
-  int count;
-  fg__level *box = boxes_of(multigrid, &count);
-  for (int b = 0; b < count; ++b)
-    box[b].gradient_weight = weight;
+  finest_of(multigrid)->gradient_weight = weight;
 }
 
 /* Whether whole level n is the finest, with its wells. */
@@ -154,14 +139,12 @@ static void cycle_whole(const fg__multigrid *multigrid, const turn *now,
 /* From what the ranks share to level[0] and back. */
 static void cycle_gathered(const fg__multigrid *multigrid, const turn *now)
 {
-  const fg__spread *image = &multigrid->spread[multigrid->spread_count];
+  const fg__level *image = &multigrid->spread[multigrid->spread_count].block;
   const fg__level *whole = &multigrid->level[0];
   fg__share alone = fg__alone();
   float *const sent[] = {image->p, image->q, image->coupling, image->shape_curvature};
   float *const received[] = {whole->p, whole->q, whole->coupling, whole->shape_curvature};
-  float *const *boxes[FG__MOST_EXCHANGED];
-  fg__spread_pointers(image, FG__RESTRICTED, sent, boxes);
-  fg__gather_fill(multigrid->gather, FG__RESTRICTED, boxes, received);
+  fg__gather_fill(multigrid->gather, FG__RESTRICTED, sent, received);
   float *const solution[] = {whole->u, whole->w};
   for (int n = 0; n < 2; ++n)
     memset(solution[n] - whole->layout.first, 0,
@@ -169,9 +152,8 @@ static void cycle_gathered(const fg__multigrid *multigrid, const turn *now)
   find_space(multigrid, 0, now->tau, &alone);
   cycle_whole(multigrid, now, &alone);
   multigrid->kernel->unscale(whole, &alone);
-  float *const places[] = {image->u, image->w};
-  fg__spread_pointers(image, 2, places, boxes);
-  fg__gather_return(multigrid->gather, 2, solution, boxes);
+  float *const own[] = {image->u, image->w};
+  fg__gather_return(multigrid->gather, 2, solution, own);
 }
 
 static void cycle_spread(const fg__multigrid *multigrid, turn *now)
@@ -210,22 +192,8 @@ static void copy_rows(const fg__level *level, const float *from, float *to,
 void fg__multigrid_copy(const fg__multigrid *multigrid, const float *from, float *to,
                         const fg__share *share)
 {
-  if (multigrid->spread_count > 0)
-    memcpy(to, from, multigrid->spread[0].size * sizeof *to);
-  else
-    copy_rows(&multigrid->level[0], from, to, share);
+  copy_rows(fg__multigrid_finest(multigrid), from, to, share);
   fg__team_barrier(share);
-}
-
-/* Of a linear finest level. */
-static void find_relaxation(const fg__multigrid *multigrid, float tau,
-                            const fg__share *share)
-{
-  const fg__kernel *kernel = multigrid->kernel;
-  if (multigrid->spread_count == 0)
-    kernel->find_relaxation(&multigrid->level[0], tau, share);
-  for (int b = 0; multigrid->spread_count > 0 && b < multigrid->spread[0].count; ++b)
-    kernel->find_relaxation(&multigrid->spread[0].box[b], tau, share);
 }
 
 void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
@@ -233,7 +201,7 @@ void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
 {
   turn now = {.tau = (float)tau};
   if (multigrid->linear)
-    find_relaxation(multigrid, now.tau, share);
+    multigrid->kernel->find_relaxation(fg__multigrid_finest(multigrid), now.tau, share);
   for (int n = 1; n <= cycles; ++n) {
     now.more = n < cycles;
     if (before && n == cycles)

@@ -8,9 +8,9 @@
 enum { FG__MOST_LEVELS = 16 };
 
 /* The levels from fine to coarse: spread[0] ... spread[spread_count - 1] are shared by
- * several ranks or boxes; spread[spread_count] is the next one as they share it, and
- * level[0] the same whole on every rank, which all ranks cycle on alike. Where one rank
- * has it all in one box there is nothing spread, and level[0] is the finest. */
+ * several ranks; spread[spread_count] is the next one as they share it, and level[0] the
+ * same whole on every rank, which all ranks cycle on alike. Where one rank has it all
+ * there is nothing spread, and level[0] is the finest. */
 typedef struct fg__multigrid {
   const fg__kernel *kernel;
   const fg__ranks *ranks;
@@ -31,22 +31,24 @@ typedef struct fg__multigrid {
  * would wait for each other longer than they work (docs/design/evolution.md). */
 extern const double fg__least_team_nodes;
 
-/* Builds all levels over a mesh of one box, with a team that will also work on them
+/* Builds all levels over a mesh of one block, with a team that will also work on them
  * (borrowed; NULL: one thread). MEMORY. */
 fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
-                               const fg__mesh *mesh, const fg__tile *tile,
-                               const fg__tensor *tensor, double gamma, fg__team *team);
+                               const fg__mesh *mesh, const fg__tensor *tensor,
+                               double gamma, fg__team *team);
 
-/* Builds all levels over a mesh of any boxes on any ranks. Collective. MEMORY, and what
+/* Builds all levels over a mesh that several ranks share. Collective. MEMORY, and what
  * the recipe meets. */
 fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
                                       const fg__mesh *mesh,
                                       const fg__tensor_recipe *recipe, double gamma);
 void fg__multigrid_clear(fg__multigrid *multigrid);
 
+/* The finest level, or this rank's block of it. */
+const fg__level *fg__multigrid_finest(const fg__multigrid *multigrid);
+
 /* Nodal arrays of the finest (depth 0) and the next level (depth 1). Arrays are handled
- * by the place `first` floats behind their start: node (0, 0, 0) where the level is one
- * box, the start where it is several. */
+ * by the place of node (0, 0, 0), `first` floats behind their start. */
 typedef struct fg__array_shape {
   size_t size;
   ptrdiff_t first;
@@ -60,10 +62,6 @@ float *fg__multigrid_p(const fg__multigrid *multigrid);
 
 /* Makes another array the finest level's density; the former one is the caller's. */
 void fg__multigrid_use(fg__multigrid *multigrid, float *u);
-
-/* The boxes of the finest level and their offsets in arrays (none for one box). */
-const fg__level *fg__multigrid_boxes(const fg__multigrid *multigrid, int *count,
-                                     const ptrdiff_t **offset);
 
 /* What the finest level has for the wells when it is linear: arrays of its shape. */
 typedef struct fg__no_wells {

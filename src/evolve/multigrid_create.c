@@ -14,18 +14,18 @@ const double fg__least_team_nodes = 200000.0;
 static const double least_nodes_of_member = 5000.0;
 
 static fg_status create_finest(fg__multigrid *out, fg_context *context,
-                               const fg__mesh *mesh, const fg__tile *tile,
-                               const fg__tensor *tensor, double gamma, fg__team *team)
+                               const fg__mesh *mesh, const fg__tensor *tensor,
+                               double gamma, fg__team *team)
 {
   fg__cells_of_box cells;
   fg_status status = fg__cells_from_tensor(&cells, context, tensor, mesh->dimension,
-                                           tile->cells, mesh->periodic, team);
+                                           mesh->cells, mesh->periodic, team);
   if (status)
     return status;
   fg__level_description description = {
       .dimension = mesh->dimension, .gamma = gamma, .finest = true, .team = team};
   for (int k = 0; k < 3; ++k) {
-    description.cells[k] = tile->cells[k];
+    description.cells[k] = mesh->cells[k];
     description.periodic[k] = mesh->periodic[k];
     description.spacing[k] = mesh->spacing[k];
   }
@@ -62,15 +62,15 @@ static fg_status create_coarser(fg__multigrid *out, fg_context *context, double 
 }
 
 fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
-                               const fg__mesh *mesh, const fg__tile *tile,
-                               const fg__tensor *tensor, double gamma, fg__team *team)
+                               const fg__mesh *mesh, const fg__tensor *tensor,
+                               double gamma, fg__team *team)
 {
   static const fg__ranks one = {.count = 1};
   *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension),
                          .ranks = &one,
                          .team = team,
                          .level_count = 1};
-  fg_status status = create_finest(out, context, mesh, tile, tensor, gamma, team);
+  fg_status status = create_finest(out, context, mesh, tensor, gamma, team);
   if (!status)
     status = create_coarser(out, context, gamma);
   if (status) {
@@ -91,13 +91,10 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
                                double gamma)
 {
   fg__partition partition;
-  int own_count;
-  const fg__box *own = fg__own_boxes(&mesh->partition, &own_count);
-  fg_status status =
-      fg__partition_create(&partition, context, mesh->ranks, mesh->dimension, mesh->cells,
-                           mesh->periodic, own, own_count);
+  fg_status status = fg__partition_copy(&partition, context, &mesh->partition);
+  status = fg__ranks_agree(mesh->ranks, context, status);
   for (int halvings = 0; !status; ++halvings) {
-    bool workable = fg__partition_is_workable(&partition, FG__LEAST_BOX_NODES) &&
+    bool workable = fg__partition_is_workable(&partition, FG__LEAST_BLOCK_NODES) &&
                     halvings + 1 < FG__MOST_LEVELS;
     fg__spread *spread = &out->spread[halvings];
     fg__spread_description description = {
@@ -106,8 +103,8 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
     if (status || !workable)
       break;
     ++out->spread_count;
-    for (int b = 0; halvings > 0 && b < spread[-1].count; ++b)
-      fg__elements_clear(&spread[-1].box[b].elements);
+    if (halvings > 0)
+      fg__elements_clear(&spread[-1].block.elements);
     status = fg__partition_coarsen(&partition, context, &spread->partition);
     status = fg__ranks_agree(mesh->ranks, context, status);
   }
@@ -115,7 +112,7 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
   return status;
 }
 
-/* The tensor of the first whole level from all ranks' boxes: a cell's values travel as
+/* The tensor of the first whole level from all ranks' blocks: a cell's values travel as
  * those of its lowest corner. */
 static fg_status gather_cells(fg__cells_of_box *out, fg__elements *elements,
                               fg_context *context, const fg__multigrid *multigrid,
@@ -141,23 +138,18 @@ static fg_status gather_cells(fg__cells_of_box *out, fg__elements *elements,
   float *place = nodal + whole.first, *carrier = image->residual[0];
   const float *values[FG__MOST_ELEMENT_VALUES];
   for (int a = 0; a < arrays; ++a) {
-    for (int b = 0; b < image->count; ++b) {
-      const fg__level *box = &image->box[b];
-      const fg__cells_of_box *own = &box->tensor;
-      const float *from = image->masked    ? box->elements.value[a]
-                          : a + 1 < arrays ? own->component[a]
-                                           : own->weight;
-      float *to = carrier + image->offset[b];
-      for (int k = 0; k < box->layout.nodes[2]; ++k)
-        for (int j = 0; j < box->layout.nodes[1]; ++j)
-          for (int i = 0; i < box->layout.nodes[0]; ++i)
-            to[fg__node_at(&box->layout, i, j, k)] =
-                image->masked ? from[fg__element_at(&box->elements, i, j, k)]
-                              : from[fg__cell_at(own, i, j, k)];
-    }
-    float *const *boxes[1];
-    fg__spread_pointers(image, 1, &carrier, boxes);
-    fg__gather_fill(multigrid->gather, 1, boxes, &place);
+    const fg__level *block = &image->block;
+    const fg__cells_of_box *own = &block->tensor;
+    const float *from = image->masked    ? block->elements.value[a]
+                        : a + 1 < arrays ? own->component[a]
+                                         : own->weight;
+    for (int k = 0; k < block->layout.nodes[2]; ++k)
+      for (int j = 0; j < block->layout.nodes[1]; ++j)
+        for (int i = 0; i < block->layout.nodes[0]; ++i)
+          carrier[fg__node_at(&block->layout, i, j, k)] =
+              image->masked ? from[fg__element_at(&block->elements, i, j, k)]
+                            : from[fg__cell_at(own, i, j, k)];
+    fg__gather_fill(multigrid->gather, 1, &carrier, &place);
     float *to = plain + (size_t)a * count;
     values[a] = to;
     for (int k = 0; k < cells[2]; ++k)

@@ -6,9 +6,8 @@
 
 typedef struct pass pass;
 
-/* What is done to one box of the finest level, whose nodes begin `at` in all arrays. */
-typedef void box_work(pass *p, const fg__level *box, ptrdiff_t at,
-                      const fg__share *share);
+/* What is done to the finest level, or to this rank's block of it. */
+typedef void level_work(pass *p, const fg__level *level, const fg__share *share);
 
 /* What a pass works on; each uses what it needs. */
 struct pass {
@@ -17,7 +16,7 @@ struct pass {
   float *to;
   double number;
   int cycles;
-  box_work *work;
+  level_work *work;
   fg__sums sums[FG__MOST_MEMBERS];
   fg__changes changes[FG__MOST_MEMBERS];
 };
@@ -27,30 +26,22 @@ static void run(pass *p, fg__team_work *work)
   fg__team_run(p->multigrid->shared_levels > 0 ? p->multigrid->team : NULL, work, p);
 }
 
-/* What several boxes share is worked on box by box, and sums are added up over ranks. */
+/* Several ranks work on a block each, with one thread, and add up their sums. */
 static bool is_spread(const fg__multigrid *multigrid)
 {
   return multigrid->spread_count > 0;
 }
 
-static void work_on_whole(void *argument, const fg__share *share)
+static void work_on_finest(void *argument, const fg__share *share)
 {
   pass *p = argument;
-  p->work(p, &p->multigrid->level[0], 0, share);
+  p->work(p, fg__multigrid_finest(p->multigrid), share);
 }
 
-/* By the team on the one whole box, or alone on box after box. */
-static void run_on_boxes(pass *p, box_work *work)
+static void run_on_finest(pass *p, level_work *work)
 {
   p->work = work;
-  if (!is_spread(p->multigrid)) {
-    run(p, work_on_whole);
-    return;
-  }
-  const fg__spread *spread = &p->multigrid->spread[0];
-  fg__share alone = fg__alone();
-  for (int b = 0; b < spread->count; ++b)
-    work(p, &spread->box[b], spread->offset[b], &alone);
+  run(p, work_on_finest);
 }
 
 static double node_count(const fg__spread *spread)
@@ -103,9 +94,9 @@ void fg__pass_solve(const fg__multigrid *multigrid, double tau, int cycles, floa
   run(&p, solve);
 }
 
-static void evaluate(pass *p, const fg__level *box, ptrdiff_t at, const fg__share *share)
+static void evaluate(pass *p, const fg__level *level, const fg__share *share)
 {
-  fg__sums part = p->multigrid->kernel->evaluate(box, p->from + at, p->to + at, share);
+  fg__sums part = p->multigrid->kernel->evaluate(level, p->from, p->to, share);
   p->sums[share->member].energy += part.energy;
   p->sums[share->member].u += part.u;
 }
@@ -113,7 +104,7 @@ static void evaluate(pass *p, const fg__level *box, ptrdiff_t at, const fg__shar
 fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float *w)
 {
   pass p = {.multigrid = multigrid, .from = u, .to = w};
-  run_on_boxes(&p, evaluate);
+  run_on_finest(&p, evaluate);
   fg__sums total = {0.0, 0.0};
   for (int n = 0; n < FG__MOST_MEMBERS; ++n) {
     total.energy += p.sums[n].energy;
@@ -130,11 +121,10 @@ fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float
   return total;
 }
 
-static void explicit_part(pass *p, const fg__level *box, ptrdiff_t at,
-                          const fg__share *share)
+static void explicit_part(pass *p, const fg__level *level, const fg__share *share)
 {
-  p->multigrid->kernel->explicit_part(box, p->from + at, p->a + at, (float)p->number,
-                                      p->to + at, share);
+  p->multigrid->kernel->explicit_part(level, p->from, p->a, (float)p->number, p->to,
+                                      share);
 }
 
 void fg__pass_explicit_part(const fg__multigrid *multigrid, const float *u,
@@ -145,25 +135,24 @@ void fg__pass_explicit_part(const fg__multigrid *multigrid, const float *u,
             .a = w,
             .number = tau,
             .to = fg__multigrid_p(multigrid)};
-  run_on_boxes(&p, explicit_part);
+  run_on_finest(&p, explicit_part);
 }
 
-static void subtract_wells(pass *p, const fg__level *box, ptrdiff_t at,
-                           const fg__share *share)
+static void subtract_wells(pass *p, const fg__level *level, const fg__share *share)
 {
-  p->multigrid->kernel->subtract_wells(box, p->from + at, p->to + at, share);
+  p->multigrid->kernel->subtract_wells(level, p->from, p->to, share);
 }
 
 void fg__pass_subtract_wells(const fg__multigrid *multigrid, const float *u, float *w)
 {
   pass p = {.multigrid = multigrid, .from = u, .to = w};
-  run_on_boxes(&p, subtract_wells);
+  run_on_finest(&p, subtract_wells);
 }
 
-static void changes(pass *p, const fg__level *box, ptrdiff_t at, const fg__share *share)
+static void changes(pass *p, const fg__level *level, const fg__share *share)
 {
-  fg__changes part = p->multigrid->kernel->changes(box, p->from + at, p->a + at,
-                                                   p->b + at, p->c + at, share);
+  fg__changes part =
+      p->multigrid->kernel->changes(level, p->from, p->a, p->b, p->c, share);
   fg__changes *sum = &p->changes[share->member];
   sum->u += part.u;
   sum->from_a += part.from_a;
@@ -175,7 +164,7 @@ fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
                              const float *a, const float *b, const float *c)
 {
   pass p = {.multigrid = multigrid, .from = u, .a = a, .b = b, .c = c};
-  run_on_boxes(&p, changes);
+  run_on_finest(&p, changes);
   fg__changes total = {0.0, 0.0, 0.0, 0.0};
   for (int n = 0; n < FG__MOST_MEMBERS; ++n) {
     total.u += p.changes[n].u;
@@ -194,40 +183,37 @@ fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
   return total;
 }
 
-static void shift(pass *p, const fg__level *box, ptrdiff_t at, const fg__share *share)
+static void shift(pass *p, const fg__level *level, const fg__share *share)
 {
-  p->multigrid->kernel->shift(box, p->to + at, (float)p->number, share);
+  p->multigrid->kernel->shift(level, p->to, (float)p->number, share);
 }
 
 void fg__pass_shift(const fg__multigrid *multigrid, float *u, double amount)
 {
   pass p = {.multigrid = multigrid, .to = u, .number = amount};
-  run_on_boxes(&p, shift);
+  run_on_finest(&p, shift);
 }
 
-static void extrapolate(pass *p, const fg__level *box, ptrdiff_t at,
-                        const fg__share *share)
+static void extrapolate(pass *p, const fg__level *level, const fg__share *share)
 {
-  p->multigrid->kernel->extrapolate(box, p->from + at, p->a + at, (float)p->number,
-                                    p->to + at, share);
+  p->multigrid->kernel->extrapolate(level, p->from, p->a, (float)p->number, p->to, share);
 }
 
 void fg__pass_extrapolate(const fg__multigrid *multigrid, const float *now,
                           const float *before, double omega, float *out)
 {
   pass p = {.multigrid = multigrid, .from = now, .a = before, .number = omega, .to = out};
-  run_on_boxes(&p, extrapolate);
+  run_on_finest(&p, extrapolate);
 }
 
-static void predict(pass *p, const fg__level *box, ptrdiff_t at, const fg__share *share)
+static void predict(pass *p, const fg__level *level, const fg__share *share)
 {
-  p->multigrid->kernel->predict(box, p->from + at, p->a + at, (float)p->number,
-                                p->to + at, share);
+  p->multigrid->kernel->predict(level, p->from, p->a, (float)p->number, p->to, share);
 }
 
 void fg__pass_predict(const fg__multigrid *multigrid, const float *now,
                       const float *before, double omega, float *out)
 {
   pass p = {.multigrid = multigrid, .from = now, .a = before, .number = omega, .to = out};
-  run_on_boxes(&p, predict);
+  run_on_finest(&p, predict);
 }

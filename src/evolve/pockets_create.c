@@ -24,12 +24,10 @@ typedef struct collection {
   fg__pockets *out;
   const fg__multigrid *multigrid;
   const fg__means *means;
-  const fg__level *box; /* [boxes] */
-  const ptrdiff_t *offset;
-  const fg__box *bounds; /* [boxes] in the level's grid */
-  fg__box whole;
+  const fg__level *block; /* of this rank */
+  const int *first;       /* its first node in the level's grid */
+  const int *nodes;       /* of the level's grid */
   const bool *periodic;
-  int boxes;
   uint64_t *size; /* [parts] nodes */
   place *place;   /* [out->nodes] sorted */
   int *position;  /* [out->nodes] where each of these is solved */
@@ -44,7 +42,7 @@ static bool is_pocket(const collection *c, int part)
 /* By the number of parts of each size. */
 static int choose_largest(const collection *c, int most_of_one, double most_squares)
 {
-  const int *nodes = c->whole.nodes;
+  const int *nodes = c->nodes;
   double left = most_squares * nodes[0] * nodes[1] * nodes[2];
   int parts[MOST_OF_ONE_FAILED + 1] = {0}, largest = 0;
   double all = MOST_OF_ALL;
@@ -101,26 +99,22 @@ static fg_status take_arrays(fg__pockets *out, fg_context *context)
                          rows * (sizeof(int) + 2 * sizeof(double)));
 }
 
-/* Which box a node of this rank's arrays is in, and where there. */
-static int find_box(const collection *c, ptrdiff_t at, int node[3])
+/* Which node of the block lies at a place of this rank's arrays. */
+static void find_node(const collection *c, ptrdiff_t at, int node[3])
 {
-  int b = c->boxes - 1;
-  while (b > 0 && c->offset[b] > at)
-    --b;
-  const fg__layout *layout = &c->box[b].layout;
-  ptrdiff_t left = at - c->offset[b];
+  const fg__layout *layout = &c->block->layout;
+  ptrdiff_t left = at;
   node[2] = layout->plane > 0 ? (int)(left / layout->plane) : 0;
   left -= node[2] * layout->plane;
   node[1] = (int)(left / layout->stride);
   left -= node[1] * layout->stride;
   node[0] =
       (int)(left < layout->odd_offset ? 2 * left : 2 * (left - layout->odd_offset) + 1);
-  return b;
 }
 
 static uint64_t index_of(const collection *c, const int node[3])
 {
-  const int *nodes = c->whole.nodes;
+  const int *nodes = c->nodes;
   return (uint64_t)node[0] +
          (uint64_t)nodes[0] *
              ((uint64_t)node[1] + (uint64_t)nodes[1] * (uint64_t)node[2]);
@@ -145,7 +139,7 @@ static int find_place(const collection *c, uint32_t part, uint64_t index)
 /* The node that a neighbour, perhaps beyond the grid, is or stands for. */
 static uint64_t neighbour_of(const collection *c, uint64_t index, int entry)
 {
-  const int *nodes = c->whole.nodes;
+  const int *nodes = c->nodes;
   const bool *periodic = c->periodic;
   bool solid = c->out->entries == MOST_ENTRIES;
   uint64_t size[2] = {(uint64_t)nodes[0], (uint64_t)nodes[1]};
@@ -228,9 +222,10 @@ static void exchange_places(collection *c, uint64_t *before, char *seen)
   for (int n = 0, own = 0; n < c->means->run_count; ++n) {
     const fg__part_run *run = &c->means->run[n];
     for (int m = 0; m < run->nodes && is_pocket(c, run->part); ++m, ++own) {
-      int node[3], b = find_box(c, run->at + m, node);
+      int node[3];
+      find_node(c, run->at + m, node);
       for (int k = 0; k < 3; ++k)
-        node[k] += c->bounds[b].first[k];
+        node[k] += c->first[k];
       uint64_t index = index_of(c, node);
       uint32_t *word = out->word + FG__POCKET_WORDS * (slot + (size_t)own);
       word[0] = (uint32_t)index;
@@ -261,10 +256,10 @@ static void exchange_places(collection *c, uint64_t *before, char *seen)
 }
 
 /* A node's couplings to its neighbours, x fastest. */
-static void read_row(const fg__level *box, const fg__stencil *stencil, const int node[3],
-                     float *row)
+static void read_row(const fg__level *block, const fg__stencil *stencil,
+                     const int node[3], float *row)
 {
-  const fg__layout *at = &box->layout;
+  const fg__layout *at = &block->layout;
   int middle = at->dimension == 3 ? 13 : 4;
   row[middle] = 0.0F;
   for (int n = 0; n < fg__coupling_count(at->dimension); ++n) {
@@ -310,9 +305,9 @@ static void exchange_rows(const collection *c, uint32_t *word)
     for (int m = 0; m < run->nodes && is_pocket(c, run->part); ++m, ++own) {
       float row[2 * MOST_ENTRIES] = {0.0F};
       int node[3];
-      const fg__level *box = &c->box[find_box(c, run->at + m, node)];
-      read_row(box, &box->laplacian, node, row);
-      read_row(box, &box->energy, node, row + entries);
+      find_node(c, run->at + m, node);
+      read_row(c->block, &c->block->laplacian, node, row);
+      read_row(c->block, &c->block->energy, node, row + entries);
       uint32_t *to = word + (size_t)width * (size_t)out->own[own];
       for (int k = 0; k < 2 * entries; ++k)
         to[k] = fg__bits_of(row[k]);
@@ -396,15 +391,18 @@ fg_status fg__pockets_create(fg__pockets *out, fg_context *context,
   *out = (fg__pockets){0};
   if (means->count <= 1)
     return FG_STATUS_OK;
-  collection c = {.out = out, .multigrid = multigrid, .means = means};
-  const fg__level *whole = &multigrid->level[0];
-  const fg__spread *spread = multigrid->spread_count > 0 ? &multigrid->spread[0] : NULL;
-  c.box = fg__multigrid_boxes(multigrid, &c.boxes, &c.offset);
-  c.bounds = spread ? fg__own_boxes(&spread->partition, &c.boxes) : &c.whole;
-  memcpy(c.whole.nodes, spread ? spread->partition.nodes : whole->layout.nodes,
-         sizeof c.whole.nodes);
-  c.periodic = spread ? spread->partition.periodic : whole->periodic;
-  out->entries = whole->layout.dimension == 3 ? MOST_ENTRIES : 9;
+  static const int origin[3] = {0, 0, 0};
+  const fg__level *block = fg__multigrid_finest(multigrid);
+  const fg__partition *shared =
+      multigrid->spread_count > 0 ? &multigrid->spread[0].partition : NULL;
+  collection c = {.out = out,
+                  .multigrid = multigrid,
+                  .means = means,
+                  .block = block,
+                  .first = shared ? fg__own_block(shared)->first : origin,
+                  .nodes = shared ? shared->nodes : block->layout.nodes,
+                  .periodic = block->periodic};
+  out->entries = block->layout.dimension == 3 ? MOST_ENTRIES : 9;
   c.size = fg__allocate((size_t)means->count, sizeof *c.size);
   fg_status status = FG_STATUS_OK;
   if (!c.size)

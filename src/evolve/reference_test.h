@@ -39,7 +39,6 @@ typedef struct problem {
   double *mass;                 /* lumped: the integral of each node's basis function */
   double stiffness[8][8][3][3]; /* integral of d_i phi_a d_j phi_b over a cell */
   fg__mesh mesh;
-  fg__tile tile;
   fg__team *team; /* of MOST_THREADS */
   fg__multigrid multigrid;
 } problem;
@@ -155,7 +154,7 @@ static inline void problem_create(problem *p, const problem_description *of)
     bool used = k < p->dimension;
     p->count[k] = used ? of->cells[k] : 1;
     p->spacing[k] = used ? of->side[k] / of->cells[k] : 1.0;
-    p->mesh.cells[k] = p->tile.cells[k] = p->count[k];
+    p->mesh.cells[k] = p->count[k];
     p->mesh.periodic[k] = used && of->periodic[k];
     p->mesh.spacing[k] = p->spacing[k];
     nodes[k] = used ? of->cells[k] + !of->periodic[k] : 1;
@@ -174,8 +173,8 @@ static inline void problem_create(problem *p, const problem_description *of)
   integrate_cell(p);
   fill_tensor(p);
   assert_int_equal(fg__team_create(&p->team, p->context, MOST_THREADS), FG_STATUS_OK);
-  assert_int_equal(fg__multigrid_create(&p->multigrid, p->context, &p->mesh, &p->tile,
-                                        &p->tensor, of->gamma, p->team),
+  assert_int_equal(fg__multigrid_create(&p->multigrid, p->context, &p->mesh, &p->tensor,
+                                        of->gamma, p->team),
                    FG_STATUS_OK);
 }
 

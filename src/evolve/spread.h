@@ -1,5 +1,5 @@
-/* A level that several ranks or boxes share: the arrays of this rank's boxes, one behind
- * the other, and the exchange of their ghosts. */
+/* A level that several ranks share: the arrays of this rank's block, and the exchange of
+ * its ghosts. Arrays are handled by the place of the block's node (0, 0, 0). */
 #ifndef FG__SPREAD_H
 #define FG__SPREAD_H
 
@@ -14,17 +14,11 @@ typedef struct fg__spread {
   fg__partition partition;
   fg__exchange *exchange;
   bool masked;   /* somewhere, if not here */
-  bool in_slabs; /* each rank has one box, of whole slices: */
+  bool in_slabs; /* the last axis alone is divided: */
   fg__slabs slabs;
   float *handed, *taken; /* as in level.h, for all ranks */
-  int count;             /* boxes of this rank */
-  fg__level *box;        /* [count] */
-  ptrdiff_t *offset;     /* [count] from an array's start to the box's node (0, 0, 0) */
-  size_t size;           /* floats of an array: of all boxes, ghosts and pads included */
-  float *u, *w, *p, *q;  /* as in level.h, from their start */
-  float *coupling, *shape_curvature, *scale, *scale_inverse, *curvature, *relaxation;
+  fg__level block;
   float *residual[FG__RESTRICTED]; /* in slabs the first only: room for one array */
-  float **pointer;                 /* [FG__MOST_EXCHANGED * count] */
   void *memory;
 } fg__spread;
 
@@ -35,15 +29,12 @@ typedef struct fg__spread_description {
 } fg__spread_description;
 
 /* Makes a level of the mesh's grid, takes over its partition, and computes stencils from
- * the tensor: the finest that `recipe` gives for each box, a coarser one from the means
+ * the tensor: the finest that `recipe` gives for each block, a coarser one from the means
  * of the finer level's. Collective. MEMORY, and what the recipe meets. */
 fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh *mesh,
                             const fg__tensor_recipe *recipe, fg__partition *partition,
                             const fg__spread_description *description);
 void fg__spread_clear(fg__spread *spread);
-
-/* Makes boxes take their u (or w, p) from another array. */
-void fg__spread_use(fg__spread *spread, float *u, float *w, float *p);
 
 /* Fills the ghosts of the given colours of up to FG__MOST_EXCHANGED arrays. */
 void fg__spread_exchange(const fg__spread *spread, int count, float *const array[],
@@ -52,11 +43,6 @@ void fg__spread_exchange(const fg__spread *spread, int count, float *const array
 /* Fills the ghosts of whole arrays, where kernels have filled those of slabs that are
  * images. */
 void fg__spread_exchange_ends(const fg__spread *spread, int count, float *const array[]);
-
-/* The boxes' places in up to FG__MOST_EXCHANGED arrays, as exchange.h and gather.h take
- * them; valid until the next call. */
-void fg__spread_pointers(const fg__spread *spread, int count, float *const array[],
-                         float *const *out[]);
 
 /* Restricts to a coarse level; its u and w become 0. A linear level is swept first. */
 void fg__spread_descend(const fg__spread *fine, const fg__spread *coarse,

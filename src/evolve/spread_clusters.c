@@ -5,75 +5,65 @@
 
 #include "base/memory.h"
 
-/* Floats of a box with its ring. */
-static size_t ring_size(const fg__level *box)
+/* Floats of a block with its ring. */
+static size_t ring_size(const fg__level *block)
 {
-  const int *nodes = box->layout.nodes;
+  const int *nodes = block->layout.nodes;
   size_t size = (size_t)(nodes[0] + 2) * (size_t)(nodes[1] + 2);
-  return box->layout.dimension == 3 ? size * (size_t)(nodes[2] + 2) : size;
+  return block->layout.dimension == 3 ? size * (size_t)(nodes[2] + 2) : size;
 }
 
-static void describe(fg__component_box *out, const fg__spread *spread, int b)
+static fg__component_box describe(const fg__spread *spread)
 {
-  const fg__box *place = &fg__own_boxes(&spread->partition, &(int){0})[b];
-  const fg__cells_of_box *cells = &spread->box[b].tensor;
-  *out = (fg__component_box){
+  const fg__box *place = fg__own_block(&spread->partition);
+  const fg__cells_of_box *cells = &spread->block.tensor;
+  fg__component_box out = {
       .row = place->nodes[0] + 2, .cell_row = cells->row, .cell_plane = cells->plane};
-  out->plane = out->row * (place->nodes[1] + 2);
+  out.plane = out.row * (place->nodes[1] + 2);
   for (int k = 0; k < 3; ++k) {
-    out->grid_nodes[k] = spread->partition.nodes[k];
-    out->periodic[k] = spread->partition.periodic[k];
-    out->first[k] = place->first[k];
-    out->nodes[k] = place->nodes[k];
+    out.grid_nodes[k] = spread->partition.nodes[k];
+    out.periodic[k] = spread->partition.periodic[k];
+    out.first[k] = place->first[k];
+    out.nodes[k] = place->nodes[k];
   }
+  return out;
 }
 
-/* Where node (0, 0, 0) lies in a box with its ring. */
+/* Where node (0, 0, 0) lies in a block with its ring. */
 static ptrdiff_t origin_of(const fg__component_box *grid, int dimension)
 {
   return 1 + grid->row + (dimension == 3 ? grid->plane : 0);
 }
 
-static bool copy_mask(fg__spread_clusters *c, const fg__spread *spread, int b)
+static bool copy_mask(fg__spread_clusters *c, const fg__spread *spread)
 {
   if (!spread->masked)
     return true;
   ptrdiff_t origin;
-  c->active[b] = fg__cells_mask(&spread->box[b].tensor, &origin);
-  if (c->active[b])
-    c->grid[b].active = c->active[b] + origin;
-  return c->active[b];
+  c->active = fg__cells_mask(&spread->block.tensor, &origin);
+  if (c->active)
+    c->grid.active = c->active + origin;
+  return c->active;
 }
 
 static fg_status prepare(fg__spread_clusters *c, fg_context *context,
                          const fg__spread *spread)
 {
-  size_t count = (size_t)spread->count, bytes = count * sizeof *c->box;
-  c->count = spread->count;
-  c->box = fg__allocate(count, sizeof *c->box);
-  c->u = fg__allocate(count, sizeof *c->u);
-  c->number = fg__allocate(count, sizeof *c->number);
-  c->active = fg__allocate(count, sizeof *c->active);
-  c->grid = fg__allocate(count, sizeof *c->grid);
-  bool whole = c->box && c->u && c->number && c->active && c->grid;
-  for (int b = 0; b < c->count && whole; ++b) {
-    size_t size = ring_size(&spread->box[b]);
-    bytes = size * (sizeof *c->u[b] + sizeof *c->number[b]);
-    c->u[b] = fg__allocate(size, sizeof *c->u[b]);
-    c->number[b] = fg__allocate(size, sizeof *c->number[b]);
-    describe(&c->grid[b], spread, b);
-    whole = c->u[b] && c->number[b] && copy_mask(c, spread, b);
-  }
-  if (whole)
+  size_t size = ring_size(&spread->block);
+  c->u = fg__allocate(size, sizeof *c->u);
+  c->number = fg__allocate(size, sizeof *c->number);
+  c->grid = describe(spread);
+  if (c->u && c->number && copy_mask(c, spread))
     return FG_STATUS_OK;
   fg__spread_clusters_clear(c); /* or the next call would take it for prepared */
-  return fg__fail_memory(context, "the clusters", bytes);
+  return fg__fail_memory(context, "the clusters",
+                         size * (sizeof *c->u + sizeof *c->number));
 }
 
-/* A box's density to an array with a ring. */
-static void export_ring(const fg__level *box, const float *u, float *ring)
+/* A block's density to an array with a ring. */
+static void export_ring(const fg__level *block, const float *u, float *ring)
 {
-  const fg__layout *layout = &box->layout;
+  const fg__layout *layout = &block->layout;
   const int *nodes = layout->nodes;
   int solid = layout->dimension == 3;
   for (int k = -solid; k < nodes[2] + solid; ++k)
@@ -85,12 +75,13 @@ static void export_ring(const fg__level *box, const float *u, float *ring)
     }
 }
 
-/* Numbers of pieces, which travel as floats do: a box's outermost nodes from an array
+/* Numbers of pieces, which travel as floats do: a block's outermost nodes from an array
  * with a ring, or the ring to it. */
-static void copy_sides(const fg__level *box, void *in_layout, void *in_ring, bool to_ring)
+static void copy_sides(const fg__level *block, void *in_layout, void *in_ring,
+                       bool to_ring)
 {
-  const int *nodes = box->layout.nodes;
-  int solid = box->layout.dimension == 3, low = to_ring ? -1 : 0;
+  const int *nodes = block->layout.nodes;
+  int solid = block->layout.dimension == 3, low = to_ring ? -1 : 0;
   int last[3];
   for (int axis = 0; axis < 3; ++axis)
     last[axis] = nodes[axis] - 1 - low;
@@ -101,7 +92,7 @@ static void copy_sides(const fg__level *box, void *in_layout, void *in_ring, boo
       bool all = j == low || j == last[1] || (solid && (k == low || k == last[2]));
       float *ring = (float *)in_ring + (k + solid) * plane + (j + 1) * row + 1;
       for (int i = low; i <= last[0]; i += all || i == last[0] ? 1 : last[0] - low) {
-        float *a = (float *)in_layout + fg__node_at(&box->layout, i, j, k);
+        float *a = (float *)in_layout + fg__node_at(&block->layout, i, j, k);
         if (to_ring)
           memcpy(ring + i, a, sizeof *a);
         else
@@ -150,11 +141,10 @@ static fg_status join(fg__spread_clusters *c, fg_context *context,
                                  piece_count * sizeof *piece);
   status = fg__ranks_agree(ranks, context, status);
   if (!status) {
-    uint64_t at = before_pairs;
-    for (int b = 0; b < c->count; ++b)
-      for (size_t n = 0; n < c->box[b].pair_count; ++n)
-        words[at++] = (uint64_t)c->box[b].pair[n].low << 32 |
-                      (uint64_t)(uint32_t)c->box[b].pair[n].high;
+    const fg__components *own = &c->pieces;
+    for (size_t n = 0; n < own->pair_count; ++n)
+      words[before_pairs + n] =
+          (uint64_t)own->pair[n].low << 32 | (uint64_t)(uint32_t)own->pair[n].high;
     fg__ranks_add(ranks, words, (int)pair_count);
     for (uint64_t n = 0; n < pair_count; ++n)
       pair[n] = (fg__component_pair){(int)(words[n] >> 32), (int)(uint32_t)words[n]};
@@ -177,43 +167,34 @@ static fg_status number_and_join(fg__spread_clusters *c, fg_context *context,
                                  double debris_area)
 {
   const fg__ranks *ranks = spread->partition.ranks;
-  uint64_t own = 0, before, total, before_pairs, pair_count;
-  for (int b = 0; b < c->count; ++b)
-    own += (uint64_t)c->box[b].piece_count;
-  fg_status status = find_places(context, ranks, own, &before, &total);
+  const fg__level *block = &spread->block;
+  const fg__components *own = &c->pieces;
+  uint64_t before, total, before_pairs, pair_count;
+  fg_status status =
+      find_places(context, ranks, (uint64_t)own->piece_count, &before, &total);
   if (status)
     return status;
   c->before = (int)before;
-  uint64_t at = before;
-  for (int b = 0; b < c->count; ++b) {
-    ptrdiff_t origin = origin_of(&c->grid[b], spread->box[b].layout.dimension);
-    fg__components_number(&c->box[b], &c->grid[b], (int)at, false, c->number[b] + origin);
-    copy_sides(&spread->box[b], scratch + spread->offset[b], c->number[b], false);
-    at += (uint64_t)c->box[b].piece_count;
-  }
-  /* no image of a border is asked for */
+  int *number = c->number + origin_of(&c->grid, block->layout.dimension);
+  fg__components_number(own, &c->grid, c->before, false, number);
+  copy_sides(block, scratch, c->number, false);
+  /* no mirror image is asked for */
   fg__spread_exchange_ends(spread, 1, &scratch);
-  uint64_t pairs = 0;
-  for (int b = 0; b < c->count && !status; ++b) {
-    ptrdiff_t origin = origin_of(&c->grid[b], spread->box[b].layout.dimension);
-    copy_sides(&spread->box[b], scratch + spread->offset[b], c->number[b], true);
-    status =
-        fg__components_pairs(&c->box[b], context, &c->grid[b], c->number[b] + origin);
-    pairs += c->box[b].pair_count;
-  }
+  copy_sides(block, scratch, c->number, true);
+  status = fg__components_pairs(&c->pieces, context, &c->grid, number);
   uint64_t *pieces = fg__allocate(2 * total, sizeof *pieces);
   if (!status && !pieces)
     status = fg__fail_memory(context, "the clusters", 2 * total * sizeof *pieces);
   status = fg__ranks_agree(ranks, context, status);
   if (!status)
-    status = find_places(context, ranks, pairs, &before_pairs, &pair_count);
+    status = find_places(context, ranks, (uint64_t)own->pair_count, &before_pairs,
+                         &pair_count);
   if (!status) {
-    at = 2 * before;
-    for (int b = 0; b < c->count; ++b)
-      for (int n = 0; n < c->box[b].piece_count; ++n) {
-        pieces[at++] = (uint64_t)c->box[b].piece[n].first;
-        pieces[at++] = (uint64_t)c->box[b].piece[n].size;
-      }
+    uint64_t *to = pieces + 2 * before;
+    for (int n = 0; n < own->piece_count; ++n) {
+      *to++ = (uint64_t)own->piece[n].first;
+      *to++ = (uint64_t)own->piece[n].size;
+    }
     fg__ranks_add(ranks, pieces, (int)(2 * total));
     status =
         join(c, context, spread, pieces, total, before_pairs, pair_count, debris_area);
@@ -228,59 +209,42 @@ fg_status fg__spread_clusters_find(fg__spread_clusters *clusters, fg_context *co
 {
   fg__spread_clusters *c = clusters;
   const fg__ranks *ranks = spread->partition.ranks;
-  fg_status status = c->grid ? FG_STATUS_OK : prepare(c, context, spread);
-  double covered = 0.0;
-  for (int b = 0; b < c->count && !status; ++b) {
-    c->grid[b].u = NULL;
+  fg_status status = c->u ? FG_STATUS_OK : prepare(c, context, spread);
+  if (!status) {
+    c->grid.u = NULL;
     if (u) {
-      export_ring(&spread->box[b], u + spread->offset[b], c->u[b]);
-      c->grid[b].u = c->u[b] + origin_of(&c->grid[b], spread->box[b].layout.dimension);
+      export_ring(&spread->block, u, c->u);
+      c->grid.u = c->u + origin_of(&c->grid, spread->block.layout.dimension);
     }
-    status = counting ? fg__components_cut(&c->box[b], context, &c->grid[b])
-                      : fg__components_cover(&c->box[b], context, &c->grid[b]);
-    covered += c->box[b].covered;
+    status = counting ? fg__components_cut(&c->pieces, context, &c->grid)
+                      : fg__components_cover(&c->pieces, context, &c->grid);
   }
   status = fg__ranks_agree(ranks, context, status);
   if (status)
     return status;
   /* multiples of 1/8 */
-  uint64_t eighths = (uint64_t)(8.0 * covered);
+  uint64_t eighths = (uint64_t)(8.0 * c->pieces.covered);
   fg__ranks_add(ranks, &eighths, 1);
   c->covered = (double)eighths / 8.0;
   return counting ? number_and_join(c, context, spread, scratch, debris_area)
                   : FG_STATUS_OK;
 }
 
-void fg__spread_clusters_label(const fg__spread_clusters *clusters, int b, int *label)
+void fg__spread_clusters_label(const fg__spread_clusters *clusters, int *label)
 {
   const fg__spread_clusters *c = clusters;
-  fg__component_box plain = c->grid[b];
+  fg__component_box plain = c->grid;
   plain.row = plain.nodes[0];
   plain.plane = plain.row * plain.nodes[1];
-  int before = c->before;
-  for (int n = 0; n < b; ++n)
-    before += c->box[n].piece_count;
-  fg__components_label(&c->box[b], &plain, c->whole.piece_label, before, label);
+  fg__components_label(&c->pieces, &plain, c->whole.piece_label, c->before, label);
 }
 
 void fg__spread_clusters_clear(fg__spread_clusters *clusters)
 {
-  fg__spread_clusters *c = clusters;
-  for (int b = 0; b < c->count; ++b) {
-    if (c->box)
-      fg__components_clear(&c->box[b]);
-    if (c->u)
-      free(c->u[b]);
-    if (c->number)
-      free(c->number[b]);
-    if (c->active)
-      free(c->active[b]);
-  }
-  fg__components_clear(&c->whole);
-  free(c->box);
-  free(c->u);
-  free(c->number);
-  free(c->active);
-  free(c->grid);
-  *c = (fg__spread_clusters){0};
+  fg__components_clear(&clusters->pieces);
+  fg__components_clear(&clusters->whole);
+  free(clusters->u);
+  free(clusters->number);
+  free(clusters->active);
+  *clusters = (fg__spread_clusters){0};
 }

@@ -1,5 +1,5 @@
-/* Clusters of a density that several ranks or boxes share: components.h on every box,
- * then joined over their borders, alike on all ranks. */
+/* Clusters of a density that several ranks share: components.h on every block, then
+ * joined where blocks meet, alike on all ranks. */
 #ifndef FG__SPREAD_CLUSTERS_H
 #define FG__SPREAD_CLUSTERS_H
 
@@ -8,15 +8,14 @@
 
 /* Working memory; zero it before the first use. */
 typedef struct fg__spread_clusters {
-  int count;               /* boxes */
-  fg__components *box;     /* [count] */
-  float **u;               /* [count] each with its ring, x fastest */
-  int **number;            /* [count] like u */
-  unsigned char **active;  /* [count] cells, those one beyond included; NULL: all */
-  fg__component_box *grid; /* [count] */
-  fg__components whole;    /* the result on every rank: count, debris, area */
-  double covered;          /* cells, of all ranks */
-  int before;              /* pieces of the ranks before this one */
+  fg__components pieces;  /* of this rank's block */
+  float *u;               /* of the block with its ring, x fastest */
+  int *number;            /* like u */
+  unsigned char *active;  /* cells, those one beyond included; NULL: all */
+  fg__component_box grid; /* the block */
+  fg__components whole;   /* the result on every rank: count, debris, area */
+  double covered;         /* cells, of all ranks */
+  int before;             /* pieces of the ranks before this one */
 } fg__spread_clusters;
 
 /* Finds the share covered and, when `counting`, the clusters of u, an array of the level
@@ -25,9 +24,9 @@ fg_status fg__spread_clusters_find(fg__spread_clusters *clusters, fg_context *co
                                    const fg__spread *spread, const float *u,
                                    float *scratch, double debris_area, bool counting);
 
-/* Writes the labels (components.h) of the nodes of box b to a plain array, x fastest,
- * once clusters were counted. */
-void fg__spread_clusters_label(const fg__spread_clusters *clusters, int b, int *label);
+/* Writes the labels (components.h) of the block's nodes to a plain array, x fastest, once
+ * clusters were counted. */
+void fg__spread_clusters_label(const fg__spread_clusters *clusters, int *label);
 void fg__spread_clusters_clear(fg__spread_clusters *clusters);
 
 #endif

@@ -9,190 +9,153 @@
  */
 static bool take_gathered(fg__spread *spread)
 {
-  fg__level *box = &spread->box[0];
-  size_t floats = FG__RESTRICTED * (size_t)fg__gathered_floats(box);
+  fg__level *block = &spread->block;
+  size_t floats = FG__RESTRICTED * (size_t)fg__gathered_floats(block);
   spread->handed = fg__allocate_aligned(2 * floats, sizeof *spread->handed);
   if (!spread->handed)
     return false;
   spread->taken = spread->handed + floats;
-  box->handed = spread->slabs.above == FG__NOBODY ? NULL : spread->handed;
-  box->taken = spread->slabs.below == FG__NOBODY ? NULL : spread->taken;
+  block->handed = spread->slabs.above == FG__NOBODY ? NULL : spread->handed;
+  block->taken = spread->slabs.below == FG__NOBODY ? NULL : spread->taken;
   return true;
 }
 
 static fg_status take_arrays(fg__spread *spread, fg_context *context, bool finest)
 {
-  size_t count = (size_t)spread->count;
+  fg__level *block = &spread->block;
   size_t residuals = spread->in_slabs ? 1 : FG__RESTRICTED;
   size_t arrays = (finest ? 3 : 10) + residuals;
-  float *memory = fg__allocate_aligned(arrays * spread->size, sizeof *memory);
-  spread->pointer = fg__allocate(FG__MOST_EXCHANGED * count, sizeof *spread->pointer);
+  size_t apart = block->layout.array_size + FG__LANES;
+  float *memory = fg__allocate_aligned(arrays * apart, sizeof *memory);
   spread->memory = memory;
-  if (!memory || !spread->pointer)
-    return fg__fail_memory(context, "a multigrid level",
-                           arrays * spread->size * sizeof *memory);
-  float **own[] = {&spread->u,         &spread->w,
-                   &spread->p,         &spread->q,
-                   &spread->coupling,  &spread->shape_curvature,
-                   &spread->scale,     &spread->scale_inverse,
-                   &spread->curvature, &spread->relaxation};
-  for (size_t n = 0; n < arrays; ++n, memory += spread->size)
+  if (!memory)
+    return fg__fail_memory(context, "a multigrid level", arrays * apart * sizeof *memory);
+  float **own[] = {&block->u,         &block->w,
+                   &block->p,         &block->q,
+                   &block->coupling,  &block->shape_curvature,
+                   &block->scale,     &block->scale_inverse,
+                   &block->curvature, &block->relaxation};
+  memory += block->layout.first;
+  for (size_t n = 0; n < arrays; ++n, memory += apart)
     if (n < residuals)
       spread->residual[n] = memory;
     else
       *own[n - residuals] = memory;
-  fg__spread_use(spread, spread->u, spread->w, spread->p);
   if (spread->in_slabs && !take_gathered(spread))
     return fg__fail_memory(context, "a multigrid level",
-                           (size_t)fg__slice_floats(&spread->box[0]) * sizeof *memory);
-  for (int b = 0; b < spread->count && !finest; ++b) {
-    fg__level *box = &spread->box[b];
-    ptrdiff_t offset = spread->offset[b];
-    box->q = spread->q + offset;
-    box->coupling = spread->coupling + offset;
-    box->shape_curvature = spread->shape_curvature + offset;
-    box->scale = spread->scale + offset;
-    box->scale_inverse = spread->scale_inverse + offset;
-    box->curvature = spread->curvature + offset;
-    box->relaxation = spread->relaxation + offset;
-  }
+                           (size_t)fg__slice_floats(block) * sizeof *memory);
   return FG_STATUS_OK;
 }
 
-static fg_status create_box(fg__spread *spread, fg_context *context, const fg__mesh *mesh,
-                            const fg__spread_description *description, int b,
-                            fg__cells_of_box *cells, fg__elements *elements)
+/* What the cells of a block are: the tensor, or element matrices. */
+typedef struct block_cells {
+  fg__cells_of_box tensor;
+  fg__elements elements;
+  bool by_elements; /* with a mask, on coarse levels */
+} block_cells;
+
+static fg_status create_level(fg__spread *spread, fg_context *context,
+                              const fg__mesh *mesh,
+                              const fg__spread_description *description,
+                              block_cells *cells)
 {
   fg__level_description level = {.dimension = mesh->dimension,
                                  .gamma = description->gamma,
                                  .finest = !description->finer,
                                  .masked = spread->masked,
-                                 .box = &fg__own_boxes(&spread->partition, &(int){0})[b]};
+                                 .box = fg__own_block(&spread->partition)};
   for (int k = 0; k < 3; ++k) {
     level.cells[k] = spread->partition.cells[k];
     level.periodic[k] = mesh->periodic[k];
     level.spacing[k] =
         mesh->spacing[k] * (k < mesh->dimension ? 1 << description->halvings : 1);
   }
-  return fg__level_create(&spread->box[b], context, &level, cells, elements);
+  return fg__level_create(&spread->block, context, &level, &cells->tensor,
+                          cells->by_elements ? &cells->elements : NULL);
 }
 
-/* A value of the cells below the boxes: each travels as its lowest corner does. node[b]:
- * an array of box b; shape: how the cells lie there, with the value as their weight. */
-static void exchange_cells(const fg__spread *spread, const fg__cells_of_box *shape,
-                           float *node[])
+/* A value of the cells below the block: each travels as its lowest corner does. node: an
+ * array of the block; c: how the cells lie there, with the value as their weight. */
+static void exchange_cells(const fg__spread *spread, const fg__cells_of_box *c,
+                           float *node)
 {
+  fg__layout layout = fg__layout_of(c->dimension, c->nodes);
   for (int pass = 0; pass < 2; ++pass) {
-    for (int b = 0; b < spread->count; ++b) {
-      const fg__cells_of_box *c = &shape[b];
-      fg__layout layout = fg__layout_of(c->dimension, c->nodes);
-      int first = pass == 0 ? 0 : -1, solid = c->dimension == 3;
-      for (int k = solid ? first : 0; k < c->nodes[2]; ++k)
-        for (int j = first; j < c->nodes[1]; ++j)
-          for (int i = first; i < c->nodes[0]; ++i) {
-            ptrdiff_t at = fg__cell_at(c, i, j, k);
-            ptrdiff_t corner = fg__node_at(&layout, i, j, k);
-            if (pass == 0)
-              node[b][corner] = c->weight[at];
-            else if (i < 0 || j < 0 || k < 0)
-              c->weight[at] = node[b][corner];
-          }
-    }
-    float *const *const array = node;
+    int first = pass == 0 ? 0 : -1, solid = c->dimension == 3;
+    for (int k = solid ? first : 0; k < c->nodes[2]; ++k)
+      for (int j = first; j < c->nodes[1]; ++j)
+        for (int i = first; i < c->nodes[0]; ++i) {
+          ptrdiff_t at = fg__cell_at(c, i, j, k);
+          ptrdiff_t corner = fg__node_at(&layout, i, j, k);
+          if (pass == 0)
+            node[corner] = c->weight[at];
+          else if (i < 0 || j < 0 || k < 0)
+            c->weight[at] = node[corner];
+        }
     if (pass == 0)
-      fg__exchange_fill(spread->exchange, 1, &array, FG__ALL_COLOURS);
+      fg__exchange_fill(spread->exchange, 1, &node, FG__ALL_COLOURS);
   }
 }
 
-/* What the cells of boxes are: the tensor, or element matrices. */
-typedef struct cells_of_boxes {
-  fg__cells_of_box *tensor;
-  fg__elements *element; /* NULL: there is no mask */
-} cells_of_boxes;
-
-static fg_status halve_box(const fg__spread *spread, fg_context *context,
-                           const fg__spread_description *description,
-                           const cells_of_boxes *cells, int b)
+static fg_status halve_block(const fg__spread *spread, fg_context *context,
+                             const fg__spread_description *description,
+                             block_cells *cells)
 {
   const fg__partition *partition = &spread->partition;
-  const fg__box *own = &fg__own_boxes(partition, &(int){0})[b];
-  const fg__level *fine = &description->finer->box[b];
-  if (!cells->element)
-    return fg__cells_halve_box(&cells->tensor[b], context, &fine->tensor, own,
+  const fg__box *own = fg__own_block(partition);
+  const fg__level *fine = &description->finer->block;
+  if (!cells->by_elements)
+    return fg__cells_halve_box(&cells->tensor, context, &fine->tensor, own,
                                partition->cells);
-  int count[3] = {1, 1, 1};
-  for (int k = 0; k < partition->dimension; ++k) {
-    int left = partition->cells[k] - own->first[k]; /* the last node begins no cell */
-    count[k] = own->nodes[k] < left ? own->nodes[k] : left;
-  }
-  return fg__level_coarsen_cells(&cells->element[b], context, fine, description->gamma,
-                                 own->nodes, count, NULL);
+  const fg__box below = fg__block_cells(partition, own);
+  return fg__level_coarsen_cells(&cells->elements, context, fine, description->gamma,
+                                 own->nodes, below.nodes, NULL);
 }
 
-/* Value n of the cells of all boxes, as exchange_cells takes it. */
-static void view_cells(const fg__spread *spread, const cells_of_boxes *cells, int n,
-                       fg__cells_of_box *out)
+/* Value n of the block's cells, as exchange_cells takes it. */
+static fg__cells_of_box view_cells(const block_cells *cells, int n)
 {
-  for (int b = 0; b < spread->count; ++b) {
-    out[b] = cells->tensor[b];
-    if (cells->element) {
-      const fg__elements *e = &cells->element[b];
-      out[b] = (fg__cells_of_box){.dimension = e->dimension,
-                                  .nodes = {e->nodes[0], e->nodes[1], e->nodes[2]},
-                                  .row = e->row,
-                                  .plane = e->plane,
-                                  .weight = e->value[n]};
-    } else if (n > 0) {
-      out[b].weight = out[b].component[n - 1];
-    }
+  fg__cells_of_box out = cells->tensor;
+  if (cells->by_elements) {
+    const fg__elements *e = &cells->elements;
+    out = (fg__cells_of_box){.dimension = e->dimension,
+                             .nodes = {e->nodes[0], e->nodes[1], e->nodes[2]},
+                             .row = e->row,
+                             .plane = e->plane,
+                             .weight = e->value[n]};
+  } else if (n > 0) {
+    out.weight = out.component[n - 1];
   }
+  return out;
 }
 
-/* Cells of a coarser level from those of the finer one, which the same ranks' boxes
- * share. Collective. */
+/* Cells of a coarser level from those of the finer one, which the same ranks share.
+ * Collective. */
 static fg_status halve_cells(const fg__spread *spread, fg_context *context,
                              const fg__spread_description *description,
-                             const cells_of_boxes *cells)
+                             block_cells *cells)
 {
   const fg__partition *partition = &spread->partition;
-  const fg__box *own = fg__own_boxes(partition, &(int){0});
-  size_t count = (size_t)spread->count;
-  float **memory = fg__allocate(count, sizeof *memory);
-  float **node = fg__allocate(count, sizeof *node);
-  fg__cells_of_box *shape = fg__allocate(count, sizeof *shape);
-  fg_status status = FG_STATUS_OK;
-  if (!memory || !node || !shape)
-    status = fg__fail_memory(context, "the coarse tensor", count * sizeof *node);
-  for (int b = 0; b < spread->count && !status; ++b) {
-    fg__layout layout = fg__layout_of(partition->dimension, own[b].nodes);
-    memory[b] = fg__allocate(layout.array_size, sizeof **memory);
-    if (memory[b]) {
-      node[b] = memory[b] + layout.first;
-      status = halve_box(spread, context, description, cells, b);
-    } else {
-      status = fg__fail_memory(context, "the coarse tensor",
-                               layout.array_size * sizeof **node);
-    }
-  }
-  status = fg__ranks_agree(partition->ranks, context, status);
+  const fg__box *own = fg__own_block(partition);
   int dimension = partition->dimension;
-  int values = cells->element ? fg__element_values(dimension) : dimension == 3 ? 7 : 4;
+  fg__layout layout = fg__layout_of(dimension, own->nodes);
+  float *node = fg__allocate(layout.array_size, sizeof *node);
+  fg_status status = node ? halve_block(spread, context, description, cells)
+                          : fg__fail_memory(context, "the coarse tensor",
+                                            layout.array_size * sizeof *node);
+  status = fg__ranks_agree(partition->ranks, context, status);
+  int values = cells->by_elements ? fg__element_values(dimension)
+               : dimension == 3   ? 7
+                                  : 4;
   for (int n = 0; n < values && !status; ++n) {
-    view_cells(spread, cells, n, shape);
-    exchange_cells(spread, shape, node);
+    fg__cells_of_box value = view_cells(cells, n);
+    exchange_cells(spread, &value, node + layout.first);
   }
-  for (int b = 0; b < spread->count && !status; ++b)
-    if (cells->element)
-      fg__elements_mirror_box(&cells->element[b], &own[b], partition->cells,
-                              partition->periodic);
-    else
-      fg__cells_mirror_box(&cells->tensor[b], &own[b], partition->cells,
-                           partition->periodic);
-  for (int b = 0; b < spread->count && memory; ++b)
-    free(memory[b]);
-  free(memory);
+  if (!status && cells->by_elements)
+    fg__elements_mirror_box(&cells->elements, own, partition->cells, partition->periodic);
+  else if (!status)
+    fg__cells_mirror_box(&cells->tensor, own, partition->cells, partition->periodic);
   free(node);
-  free(shape);
   return status;
 }
 
@@ -201,81 +164,47 @@ static fg_status ask_for_cells(const fg__spread *spread, fg_context *context,
                                const fg__tensor_recipe *recipe, fg__cells_of_box *cells)
 {
   const fg__partition *partition = &spread->partition;
-  const fg__box *own = fg__own_boxes(partition, &(int){0});
-  fg_status status = FG_STATUS_OK;
-  for (int n = 0; n < fg__most_boxes(partition) && !status; ++n) {
-    fg__wide_tensor wide;
-    status = fg__wide_of_box(&wide, context, recipe, partition, n);
-    if (status)
-      return status;
-    if (n < spread->count)
-      status = fg__cells_for_box(&cells[n], context, recipe, &own[n], &wide);
-    status = fg__ranks_agree(partition->ranks, context, status);
-  }
-  return status;
+  fg__wide_tensor wide;
+  fg_status status = fg__wide_of_block(&wide, context, recipe, partition);
+  if (status)
+    return status;
+  status = fg__cells_for_box(cells, context, recipe, fg__own_block(partition), &wide);
+  return fg__ranks_agree(partition->ranks, context, status);
 }
 
-static fg_status create_boxes(fg__spread *spread, fg_context *context,
+static fg_status create_block(fg__spread *spread, fg_context *context,
                               const fg__mesh *mesh, const fg__tensor_recipe *recipe,
                               const fg__spread_description *description)
 {
-  size_t count = (size_t)spread->count;
-  bool elements = spread->masked && description->finer;
-  cells_of_boxes cells = {.tensor = fg__allocate(count, sizeof *cells.tensor)};
-  if (elements)
-    cells.element = fg__allocate(count, sizeof *cells.element);
-  fg_status status = FG_STATUS_OK;
-  if (!cells.tensor || (elements && !cells.element))
-    status = fg__fail_memory(context, "the tensor", count * sizeof *cells.element);
-  status = fg__ranks_agree(mesh->ranks, context, status);
-  if (!status && description->finer)
-    status = halve_cells(spread, context, description, &cells);
-  if (!status && !description->finer)
-    status = ask_for_cells(spread, context, recipe, cells.tensor);
-  for (int b = 0; b < spread->count && !status; ++b) {
-    status = create_box(spread, context, mesh, description, b, &cells.tensor[b],
-                        elements ? &cells.element[b] : NULL);
-    spread->offset[b] = (ptrdiff_t)spread->size + spread->box[b].layout.first;
-    spread->size += spread->box[b].layout.array_size + FG__LANES;
-  }
-  /* unless a level has taken them over */
-  for (int b = 0; b < spread->count && cells.tensor; ++b)
-    fg__cells_clear(&cells.tensor[b]);
-  for (int b = 0; b < spread->count && cells.element; ++b)
-    fg__elements_clear(&cells.element[b]);
-  free(cells.tensor);
-  free(cells.element);
+  block_cells cells = {.by_elements = spread->masked && description->finer};
+  fg_status status = description->finer
+                         ? halve_cells(spread, context, description, &cells)
+                         : ask_for_cells(spread, context, recipe, &cells.tensor);
+  if (!status)
+    status = create_level(spread, context, mesh, description, &cells);
+  /* unless the level has taken them over */
+  fg__cells_clear(&cells.tensor);
+  fg__elements_clear(&cells.elements);
   return status;
 }
 
-/* Relative masses beyond a box come from their owners. */
+/* Relative masses beyond the block come from their owners. */
 static void exchange_masses(const fg__spread *spread)
 {
-  float *const *arrays[2];
-  for (int b = 0; b < spread->count; ++b) {
-    spread->pointer[b] = spread->box[b].mass;
-    spread->pointer[spread->count + b] = spread->box[b].mass_inverse;
-  }
-  arrays[0] = spread->pointer;
-  arrays[1] = spread->pointer + spread->count;
-  fg__exchange_fill(spread->exchange, 2, arrays, FG__ALL_COLOURS);
+  float *const both[] = {spread->block.mass, spread->block.mass_inverse};
+  fg__exchange_fill(spread->exchange, 2, both, FG__ALL_COLOURS);
 }
 
 /* So does what the nodes there follow, between the stages in which it is found. */
-static void find_interpolation(const fg__spread *spread)
+static void find_interpolation(fg__spread *spread)
 {
   int dimension = spread->partition.dimension;
   for (int stage = 0; stage <= dimension; ++stage) {
-    for (int b = 0; b < spread->count; ++b)
-      fg__interpolation_find(&spread->box[b], stage);
-    for (int side = 0; side < 1 << dimension; ++side) {
-      for (int b = 0; b < spread->count; ++b)
-        spread->pointer[b] = spread->box[b].interpolation[side];
-      float *const *array = spread->pointer;
-      fg__exchange_fill(spread->exchange, 1, &array, FG__ALL_COLOURS);
-    }
-    for (int b = 0; b < spread->count; ++b)
-      fg__interpolation_mirror(&spread->box[b]);
+    fg__interpolation_find(&spread->block, stage);
+    for (int side = 0; side < 1 << dimension; ++side)
+      fg__exchange_fill(spread->exchange, 1, &spread->block.interpolation[side],
+                        FG__ALL_COLOURS);
+    fg__interpolation_mirror(&spread->block);
   }
 }
 
@@ -285,20 +214,11 @@ fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh
 {
   *out = (fg__spread){.partition = *partition, .masked = recipe->masked};
   *partition = (fg__partition){0};
-  fg__own_boxes(&out->partition, &out->count);
   out->in_slabs = fg__slabs_find(&out->slabs, &out->partition);
-  size_t count = (size_t)out->count;
-  out->box = fg__allocate(count, sizeof *out->box);
-  out->offset = fg__allocate(count, sizeof *out->offset);
-  fg_status status = FG_STATUS_OK;
-  if (!out->box || !out->offset)
-    status = fg__fail_memory(context, "a multigrid level", count * sizeof *out->box);
-  status = fg__ranks_agree(mesh->ranks, context, status);
+  fg_status status =
+      fg__exchange_create(&out->exchange, context, &out->partition, FG__MOST_EXCHANGED);
   if (!status)
-    status =
-        fg__exchange_create(&out->exchange, context, &out->partition, FG__MOST_EXCHANGED);
-  if (!status)
-    status = create_boxes(out, context, mesh, recipe, description);
+    status = create_block(out, context, mesh, recipe, description);
   if (!status)
     status = take_arrays(out, context, !description->finer);
   status = fg__ranks_agree(mesh->ranks, context, status);
@@ -311,13 +231,9 @@ fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh
 
 void fg__spread_clear(fg__spread *spread)
 {
-  for (int b = 0; b < spread->count && spread->box; ++b)
-    fg__level_clear(&spread->box[b]);
+  fg__level_clear(&spread->block);
   fg__exchange_destroy(spread->exchange);
   fg__partition_clear(&spread->partition);
-  free(spread->box);
-  free(spread->offset);
-  free(spread->pointer);
   free(spread->memory);
   free(spread->handed);
   *spread = (fg__spread){0};

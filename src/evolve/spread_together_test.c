@@ -41,7 +41,7 @@ typedef struct run {
   fg__tensor_recipe recipe;
   fg__stepper stepper;
   double gamma;
-  unsigned char *active; /* of one box */
+  unsigned char *active; /* of the whole */
 } run;
 
 /* A wall across the domain, thinner than a coarse cell, and a moat round an island. */
@@ -150,28 +150,23 @@ static void fill(run *r, fg__multigrid *multigrid)
 {
   fg__noise noise = fg__noise_of(r->mesh.dimension, r->mesh.cells, r->mesh.spacing,
                                  r->mesh.periodic, -0.4, 1.5, r->mesh.spacing[0], 3);
-  int count;
-  const ptrdiff_t *offset;
-  const fg__level *box = fg__multigrid_boxes(multigrid, &count, &offset);
-  const fg__box *place = fg__own_boxes(&r->mesh.partition, &(int){0});
+  const fg__layout *at = &fg__multigrid_finest(multigrid)->layout;
+  const fg__box *place = fg__own_block(&r->mesh.partition);
   float *u = fg__multigrid_u(multigrid);
-  for (int b = 0; b < count; ++b) {
-    const fg__layout *at = &box[b].layout;
-    float *row = allocate_or_end((size_t)at->nodes[0], sizeof *row);
-    for (int k = 0; k < at->nodes[2]; ++k)
-      for (int j = 0; j < at->nodes[1]; ++j) {
-        fg__noise_row(&noise, place[b].first[1] + j, place[b].first[2] + k,
-                      place[b].first[0], at->nodes[0], row);
-        for (int i = 0; i < at->nodes[0]; ++i)
-          u[offset[b] + fg__node_at(at, i, j, k)] = row[i];
-      }
-    free(row);
-  }
+  float *row = allocate_or_end((size_t)at->nodes[0], sizeof *row);
+  for (int k = 0; k < at->nodes[2]; ++k)
+    for (int j = 0; j < at->nodes[1]; ++j) {
+      fg__noise_row(&noise, place->first[1] + j, place->first[2] + k, place->first[0],
+                    at->nodes[0], row);
+      for (int i = 0; i < at->nodes[0]; ++i)
+        u[fg__node_at(at, i, j, k)] = row[i];
+    }
+  free(row);
   fg__pass_shift(multigrid, u, 0.0); /* 0 where there is no mass */
   fg__pass_fill_ghosts(multigrid, u);
 }
 
-/* One box: everything by the plain engine. */
+/* One block: everything by the plain engine. */
 static void create_whole(run *r, fg__multigrid *multigrid)
 {
   size_t cells = 1;
@@ -189,8 +184,8 @@ static void create_whole(run *r, fg__multigrid *multigrid)
          FG_STATUS_OK);
   expect(fg__tensor_smooth(&t, us.context, 0.15, &all, r->mesh.periodic, r->recipe.width,
                            NULL) == FG_STATUS_OK);
-  expect(fg__multigrid_create(multigrid, us.context, &r->mesh, &r->mesh.tile[0], &t,
-                              r->gamma, NULL) == FG_STATUS_OK);
+  expect(fg__multigrid_create(multigrid, us.context, &r->mesh, &t, r->gamma, NULL) ==
+         FG_STATUS_OK);
   for (int n = 0; n < 6; ++n)
     free(*components[n]);
   r->active = t.active;
@@ -210,10 +205,8 @@ static void gather(const run *r, outcome *out)
   fg__gather *plan;
   expect(fg__gather_create(&plan, us.context, &m->spread[0].partition, 1) ==
          FG_STATUS_OK);
-  float *const *boxes[1];
   float *const from = r->stepper.current, *const to = whole + layout.first;
-  fg__spread_pointers(&m->spread[0], 1, &from, boxes);
-  fg__gather_fill(plan, 1, boxes, &to);
+  fg__gather_fill(plan, 1, &from, &to);
   for (int k = 0; k < layout.nodes[2]; ++k)
     for (int j = 0; j < layout.nodes[1]; ++j)
       for (int i = 0; i < layout.nodes[0]; ++i)
@@ -269,7 +262,7 @@ static outcome outcome_of(const subject *s, const fg__ranks *ranks)
   describe(&r, s, ranks);
   for (int k = 0; k < 3; ++k)
     out.nodes *= (size_t)r.mesh.partition.nodes[k];
-  if (r.mesh.partition.count == 1)
+  if (r.mesh.ranks->count == 1)
     create_whole(&r, &multigrid);
   else
     expect(fg__multigrid_create_spread(&multigrid, us.context, &r.mesh, &r.recipe,

@@ -1,6 +1,7 @@
 #include "evolve/stepper_state.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #define VALUE(name, kind)                                                                \
   {                                                                                      \
@@ -23,19 +24,16 @@ static fg__state_array array_of(const fg__multigrid *multigrid, const char *name
                                 int grid, float *values)
 {
   fg__state_array array = {.name = name, .grid = grid, .values = values};
-  const int *nodes;
   if (multigrid->spread_count > 0) {
     array.spread = &multigrid->spread[grid];
-    array.level = array.spread->box;
-    array.count = array.spread->count;
-    nodes = array.spread->partition.nodes;
+    array.level = &array.spread->block;
+    array.block = *fg__own_block(&array.spread->partition);
+    memcpy(array.whole.nodes, array.spread->partition.nodes, sizeof array.whole.nodes);
   } else {
     array.level = &multigrid->level[grid];
-    array.count = 1;
-    nodes = array.level->layout.nodes;
+    memcpy(array.whole.nodes, array.level->layout.nodes, sizeof array.whole.nodes);
+    array.block = array.whole;
   }
-  for (int k = 0; k < 3; ++k)
-    array.whole.nodes[k] = nodes[k];
   return array;
 }
 
@@ -49,26 +47,14 @@ void fg__stepper_arrays(fg__stepper *stepper, fg__state_array out[FG__STATE_ARRA
   out[2] = array_of(m, "potential", 0, fg__multigrid_w(m));
 }
 
-fg__box fg__state_box(const fg__state_array *array, int box)
+void fg__state_export(const fg__state_array *array, float *plain)
 {
-  if (!array->spread)
-    return array->whole;
-  return fg__own_boxes(&array->spread->partition, &(int){0})[box];
+  fg__level_export(array->level, array->values, plain);
 }
 
-static float *values_of(const fg__state_array *array, int box)
+void fg__state_import(const fg__state_array *array, const float *plain)
 {
-  return array->values + (array->spread ? array->spread->offset[box] : 0);
-}
-
-void fg__state_export(const fg__state_array *array, int box, float *plain)
-{
-  fg__level_export(&array->level[box], values_of(array, box), plain);
-}
-
-void fg__state_import(const fg__state_array *array, int box, const float *plain)
-{
-  fg__level_import(&array->level[box], values_of(array, box), plain);
+  fg__level_import(array->level, array->values, plain);
 }
 
 void fg__state_fill_ghosts(const fg__state_array *array)

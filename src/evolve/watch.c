@@ -129,16 +129,7 @@ static fg_status create_whole(fg_density **out, const fg_evolution *e)
 
 static fg_status create(fg_density **out, const fg_evolution *e)
 {
-  if (!e->spread)
-    return create_whole(out, e);
-  fg_status status = create_shared(out, e);
-  if (status || e->mesh.ranks->count > 1)
-    return status;
-  /* several boxes of one rank: it has them all */
-  fg_density *share = *out;
-  status = fg_density_gather(out, e->context, share);
-  fg_density_destroy(share);
-  return status;
+  return e->spread ? create_shared(out, e) : create_whole(out, e);
 }
 
 fg_status fg_density_create(fg_density **out, const fg_evolution *evolution)

@@ -29,9 +29,4 @@ fg__box fg__box_halved(const fg__box *fine);
 /* What two boxes have in common; empty when they have nothing. */
 fg__box fg__box_intersection(const fg__box *a, const fg__box *b);
 
-/* Merges disjoint boxes that share a whole side, in place, first along x, then y, then z;
- * sorts what comes out by plane, row and column, and returns its number. The result does
- * not depend on the order of the boxes given. */
-int fg__boxes_merge(fg__box *box, int count);
-
 #endif

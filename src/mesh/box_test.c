@@ -52,85 +52,10 @@ static void the_intersection_is_what_both_have(void **state)
   }
 }
 
-/* Unit boxes at random nodes; the same in another order. */
-static int scatter(fg__box box[MOST], uint64_t *seed, unsigned share)
-{
-  int count = 0;
-  for (int n = 0; n < MOST; ++n)
-    if (random_below(seed, 10) < share)
-      box[count++] =
-          (fg__box){{n % SIDE_X, n / SIDE_X % SIDE_Y, n / SIDE_X / SIDE_Y}, {1, 1, 1}};
-  for (int n = count - 1; n > 0; --n) {
-    int other = (int)random_below(seed, (unsigned)n + 1);
-    fg__box kept = box[n];
-    box[n] = box[other];
-    box[other] = kept;
-  }
-  return count;
-}
-
-static void merging_covers_the_same_nodes(void **state)
-{
-  (void)state;
-  uint64_t seed = 5;
-  for (unsigned share = 0; share <= 10; ++share)
-    for (int trial = 0; trial < 20; ++trial) {
-      fg__box box[MOST];
-      int count = scatter(box, &seed, share);
-      marks before = {0}, after = {0};
-      for (int n = 0; n < count; ++n)
-        mark(&before, &box[n]);
-      int merged = fg__boxes_merge(box, count);
-      for (int n = 0; n < merged; ++n)
-        mark(&after, &box[n]);
-      assert_memory_equal(&before, &after, sizeof before);
-      if (share == 10)
-        assert_int_equal(merged, 1);
-    }
-}
-
-/* No two of the boxes that come out could still be made one. */
-static void nothing_is_left_to_merge(void **state)
-{
-  (void)state;
-  uint64_t seed = 6;
-  for (unsigned share = 3; share <= 9; ++share) {
-    fg__box box[MOST];
-    int count = fg__boxes_merge(box, scatter(box, &seed, share));
-    for (int a = 0; a < count; ++a)
-      for (int b = 0; b < count; ++b)
-        for (int axis = 0; axis < 3; ++axis) {
-          bool one = box[a].first[axis] + box[a].nodes[axis] == box[b].first[axis];
-          for (int k = 0; k < 3; ++k)
-            one = one && (k == axis || (box[a].first[k] == box[b].first[k] &&
-                                        box[a].nodes[k] == box[b].nodes[k]));
-          assert_false(one);
-        }
-  }
-}
-
-static void merging_does_not_depend_on_the_order(void **state)
-{
-  (void)state;
-  uint64_t seed = 7;
-  for (int trial = 0; trial < 50; ++trial) {
-    fg__box box[MOST], other[MOST];
-    int count = scatter(box, &seed, 7);
-    for (int n = 0; n < count; ++n)
-      other[n] = box[count - 1 - n];
-    int merged = fg__boxes_merge(box, count);
-    assert_int_equal(fg__boxes_merge(other, count), merged);
-    assert_memory_equal(box, other, (size_t)merged * sizeof *box);
-  }
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_intersection_is_what_both_have),
-      cmocka_unit_test(merging_covers_the_same_nodes),
-      cmocka_unit_test(nothing_is_left_to_merge),
-      cmocka_unit_test(merging_does_not_depend_on_the_order),
   };
   return cmocka_run_group_tests_name("mesh/box", tests, NULL, NULL);
 }

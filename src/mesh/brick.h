@@ -5,9 +5,8 @@
 #include "mesh/box.h"
 #include "mesh/layout.h"
 
-/* Nodes of the arrays of one box, ghosts perhaps, in local indices. */
+/* Nodes of the arrays of one block, ghosts perhaps, in local indices. */
 typedef struct fg__brick {
-  int box; /* which of this rank's boxes */
   fg__box nodes;
   int odd[3]; /* 1 where the source of the first node has an odd global index */
 } fg__brick;

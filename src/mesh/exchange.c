@@ -24,8 +24,7 @@ static void post_sends(fg__exchange *e)
     for (int a = 0; a < e->arrays; ++a)
       for (size_t p = l->first; p < l->end; ++p) {
         const fg__brick *from = &e->sent.piece[p].from;
-        end = fg__brick_pack(from, &e->layout[from->box], e->array[a][from->box],
-                             e->colours, end);
+        end = fg__brick_pack(from, &e->layout, e->array[a], e->colours, end);
       }
     ptrdiff_t nodes = end - l->buffer;
     e->senders.request[n] = MPI_REQUEST_NULL;
@@ -37,7 +36,7 @@ static void post_sends(fg__exchange *e)
   }
 }
 
-void fg__exchange_begin(fg__exchange *exchange, int count, float *const *const array[],
+void fg__exchange_begin(fg__exchange *exchange, int count, float *const array[],
                         unsigned colours)
 {
   fg__exchange *e = exchange;
@@ -50,8 +49,7 @@ void fg__exchange_begin(fg__exchange *exchange, int count, float *const *const a
   for (size_t n = 0; n < e->copied.count; ++n) {
     const fg__brick *to = &e->copied.piece[n].to, *from = &e->copied.piece[n].from;
     for (int a = 0; a < count; ++a)
-      fg__brick_copy(to, &e->layout[to->box], array[a][to->box], from,
-                     &e->layout[from->box], array[a][from->box], colours);
+      fg__brick_copy(to, &e->layout, array[a], from, &e->layout, array[a], colours);
   }
 }
 
@@ -65,8 +63,7 @@ void fg__exchange_finish(fg__exchange *exchange)
     for (int a = 0; a < e->arrays; ++a)
       for (size_t p = l->first; p < l->end; ++p) {
         const fg__brick *to = &e->received.piece[p].to;
-        next = fg__brick_unpack(to, &e->layout[to->box], e->array[a][to->box], e->colours,
-                                next);
+        next = fg__brick_unpack(to, &e->layout, e->array[a], e->colours, next);
       }
   }
   MPI_Waitall(e->senders.count, e->senders.request, MPI_STATUSES_IGNORE);

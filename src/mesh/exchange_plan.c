@@ -4,16 +4,16 @@
 
 #include "base/memory.h"
 
-/* Ghosts of a box on the side side[k] of it along each axis (-1, 0 within, 1), in local
+/* Ghosts of a block on the side side[k] of it along each axis (-1, 0 within, 1), in local
  * indices, and the nodes of the whole grid that they stand for. */
-static void find_sources(const fg__partition *level, const fg__box *box,
+static void find_sources(const fg__partition *level, const fg__box *block,
                          const int side[3], fg__box *ghosts, fg__box *sources)
 {
   for (int k = 0; k < 3; ++k) {
-    int nodes = box->nodes[k], last = level->nodes[k] - 1;
+    int nodes = block->nodes[k], last = level->nodes[k] - 1;
     ghosts->first[k] = side[k] < 0 ? -1 : side[k] > 0 ? nodes : 0;
     ghosts->nodes[k] = sources->nodes[k] = side[k] == 0 ? nodes : 1;
-    int first = box->first[k] + ghosts->first[k];
+    int first = block->first[k] + ghosts->first[k];
     if (first < 0)
       first = level->periodic[k] ? last : 1;
     else if (first > last)
@@ -22,19 +22,21 @@ static void find_sources(const fg__partition *level, const fg__box *box,
   }
 }
 
-/* The brick of ghosts whose sources are `part` of `sources`. */
-static fg__box ghosts_of(const fg__box *part, const fg__box *sources,
-                         const fg__box *ghosts)
+/* The rank that owns these sources: mirror images lie in the same block. */
+static int owner_of(const fg__partition *level, int rank, const int side[3])
 {
-  fg__box out = *part;
-  for (int k = 0; k < 3; ++k)
-    out.first[k] = ghosts->first[k] + part->first[k] - sources->first[k];
-  return out;
+  int steps[3] = {0, 0, 0};
+  for (int k = 0; k < 3; ++k) {
+    steps[k] = side[k];
+    if (fg__block_neighbour(level, rank, steps) == FG__NOBODY)
+      steps[k] = 0;
+  }
+  return fg__block_neighbour(level, rank, steps);
 }
 
-static fg__brick brick_of(int box, const fg__box *nodes, const fg__box *sources)
+static fg__brick brick_of(const fg__box *nodes, const fg__box *sources)
 {
-  fg__brick out = {.box = box, .nodes = *nodes};
+  fg__brick out = {.nodes = *nodes};
   for (int k = 0; k < 3; ++k)
     out.odd[k] = sources->first[k] & 1;
   return out;
@@ -50,139 +52,42 @@ static bool add_piece(fg__pieces *list, const fg__piece *added)
   return grown;
 }
 
-/* A box to fill: of this rank, or of another that may ask this one. */
-typedef struct target {
-  const fg__box *box;
-  int rank, own; /* own: index among this rank's boxes, or -1 */
-} target;
-
-/* A box that may have what a target needs. */
-typedef struct source {
-  const fg__box *box;
-  int rank, index; /* among the rank's boxes */
-} source;
-
-typedef struct search {
-  const fg__partition *level;
-  source *source;
-  size_t source_count, source_capacity;
-} search;
-
-/* Mirror images lie within one node of a box as well as neighbours do. */
-static bool reaches(const fg__partition *level, const fg__box *filled, const fg__box *box)
+/* Adds the ghosts on the sides of a rank's block whose sources another, or the same, rank
+ * owns; `other` is of these two the one that this rank exchanges them with. */
+static bool add_ghosts(fg__pieces *list, const fg__partition *level, int rank, int owner,
+                       int other)
 {
-  for (int k = 0; k < level->dimension; ++k) {
-    int first = filled->first[k] - 1, end = filled->first[k] + filled->nodes[k] + 1;
-    int box_end = box->first[k] + box->nodes[k], nodes = level->nodes[k];
-    bool near = box->first[k] < end && box_end > first;
-    bool round = level->periodic[k] &&
-                 ((first < 0 && box_end == nodes) || (end > nodes && box->first[k] == 0));
-    if (!near && !round)
-      return false;
-  }
-  return true;
-}
-
-/* Boxes of ranks first_rank ... last_rank near a target, in order. */
-static bool find_near(search *s, const fg__box *box, int first_rank, int last_rank)
-{
-  s->source_count = 0;
-  for (int rank = first_rank; rank <= last_rank; ++rank) {
-    int first = s->level->first_of_rank[rank], end = s->level->first_of_rank[rank + 1];
-    for (int n = first; n < end; ++n) {
-      if (!reaches(s->level, box, &s->level->box[n]))
-        continue;
-      void *memory = s->source;
-      if (!fg__grow(&memory, &s->source_capacity, s->source_count + 1, sizeof *s->source))
-        return false;
-      s->source = memory;
-      s->source[s->source_count++] = (source){&s->level->box[n], rank, n - first};
-    }
-  }
-  return true;
-}
-
-/* Pieces of one side of a target, found among the sources near it. */
-static bool add_pieces(fg__exchange *e, search *s, const target *to,
-                       const fg__box *ghosts, const fg__box *sources)
-{
-  for (size_t n = 0; n < s->source_count; ++n) {
-    const source *from = &s->source[n];
-    fg__box common = fg__box_intersection(sources, from->box);
-    if (fg__box_is_empty(&common))
-      continue;
-    fg__box filled = ghosts_of(&common, sources, ghosts), read = common;
-    for (int k = 0; k < 3; ++k)
-      read.first[k] -= from->box->first[k];
-    fg__piece found = {.to = brick_of(to->own, &filled, &common),
-                       .from = brick_of(from->index, &read, &common),
-                       .rank = to->own < 0 ? to->rank : from->rank};
-    fg__pieces *list = to->own < 0                           ? &e->sent
-                       : from->rank == s->level->ranks->rank ? &e->copied
-                                                             : &e->received;
-    if (!add_piece(list, &found))
-      return false;
-  }
-  return true;
-}
-
-static bool add_target(fg__exchange *e, search *s, const target *to)
-{
-  int depth = s->level->dimension == 3 ? 1 : 0, here = s->level->ranks->rank;
-  int last = s->level->ranks->count - 1;
-  if (!find_near(s, to->box, to->own < 0 ? here : 0, to->own < 0 ? here : last))
-    return false;
+  int depth = level->dimension == 3 ? 1 : 0;
   for (int z = -depth; z <= depth; ++z)
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x) {
         const int side[3] = {x, y, z};
         fg__box ghosts, sources;
-        if (x == 0 && y == 0 && z == 0)
+        if ((x == 0 && y == 0 && z == 0) || owner_of(level, rank, side) != owner)
           continue;
-        find_sources(s->level, to->box, side, &ghosts, &sources);
-        if (!add_pieces(e, s, to, &ghosts, &sources))
+        find_sources(level, &level->block[rank], side, &ghosts, &sources);
+        fg__box read = sources;
+        for (int k = 0; k < 3; ++k)
+          read.first[k] -= level->block[owner].first[k];
+        fg__piece found = {.to = brick_of(&ghosts, &sources),
+                           .from = brick_of(&read, &sources),
+                           .rank = other};
+        if (!add_piece(list, &found))
           return false;
       }
   return true;
 }
 
-/* Both sides of a message list its pieces by target, then side, then owner's box. */
-static bool find_pieces(fg__exchange *e, search *s)
+/* Both sides of a message list its pieces by side of the block that is filled. */
+static bool find_pieces(fg__exchange *e, const fg__partition *level)
 {
-  bool done = true;
-  const fg__partition *level = s->level;
-  for (int rank = 0; rank < level->ranks->count; ++rank) {
-    int first = level->first_of_rank[rank], end = level->first_of_rank[rank + 1];
-    for (int n = first; done && n < end; ++n) {
-      target to = {&level->box[n], rank, rank == level->ranks->rank ? n - first : -1};
-      done = add_target(e, s, &to);
-    }
-  }
-  free(s->source);
+  int here = level->ranks->rank;
+  bool done = add_ghosts(&e->copied, level, here, here, here);
+  for (int rank = 0; rank < level->ranks->count && done; ++rank)
+    if (rank != here)
+      done = add_ghosts(&e->received, level, here, rank, rank) &&
+             add_ghosts(&e->sent, level, rank, here, rank);
   return done;
-}
-
-/* Stable: pieces of one rank stay in their order. */
-static bool sort_by_rank(fg__pieces *list, int ranks)
-{
-  size_t *place = fg__allocate((size_t)ranks + 1, sizeof *place);
-  fg__piece *sorted = fg__allocate(list->count, sizeof *sorted);
-  if (!place || !sorted) {
-    free(place);
-    free(sorted);
-    return false;
-  }
-  for (size_t n = 0; n < list->count; ++n)
-    ++place[list->piece[n].rank + 1];
-  for (int r = 0; r < ranks; ++r)
-    place[r + 1] += place[r];
-  for (size_t n = 0; n < list->count; ++n)
-    sorted[place[list->piece[n].rank]++] = list->piece[n];
-  free(place);
-  free(list->piece);
-  list->piece = sorted;
-  list->capacity = list->count;
-  return true;
 }
 
 static bool add_neighbours(fg__neighbours *out, const fg__pieces *list, bool sent)
@@ -236,24 +141,10 @@ static bool take_buffers(fg__exchange *e)
   return true;
 }
 
-static fg__layout *layouts_of(const fg__partition *level)
-{
-  int count;
-  const fg__box *own = fg__own_boxes(level, &count);
-  fg__layout *out = fg__allocate((size_t)count, sizeof *out);
-  for (int n = 0; out && n < count; ++n)
-    out[n] = fg__layout_of(level->dimension, own[n].nodes);
-  return out;
-}
-
 static bool make_plan(fg__exchange *e, const fg__partition *level)
 {
-  int ranks = level->ranks->count;
-  search s = {.level = level};
-  e->layout = layouts_of(level);
-  return e->layout && find_pieces(e, &s) && sort_by_rank(&e->sent, ranks) &&
-         sort_by_rank(&e->received, ranks) &&
-         add_neighbours(&e->senders, &e->sent, true) &&
+  e->layout = fg__layout_of(level->dimension, fg__own_block(level)->nodes);
+  return find_pieces(e, level) && add_neighbours(&e->senders, &e->sent, true) &&
          add_neighbours(&e->receivers, &e->received, false) && take_buffers(e);
 }
 
@@ -280,7 +171,6 @@ void fg__exchange_destroy(fg__exchange *exchange)
 {
   if (!exchange)
     return;
-  free(exchange->layout);
   free(exchange->copied.piece);
   free(exchange->sent.piece);
   free(exchange->received.piece);

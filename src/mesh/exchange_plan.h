@@ -6,7 +6,7 @@
 #include "mesh/communicator.h"
 #include "mesh/exchange.h"
 
-/* Nodes to fill and where they come from; box -1 where that is another rank. */
+/* Nodes to fill and where they come from, of which one may be another rank's. */
 typedef struct fg__piece {
   fg__brick to, from;
   int rank; /* of the other side */
@@ -32,14 +32,14 @@ typedef struct fg__neighbours {
 
 struct fg__exchange {
   const fg__ranks *ranks;
-  fg__layout *layout; /* of own boxes */
+  fg__layout layout; /* of the own block */
   fg__pieces copied, sent, received;
   fg__neighbours senders, receivers;
   int most_arrays;
   float *buffers;
   /* of the exchange under way */
   int arrays;
-  float *const *const *array;
+  float *const *array;
   unsigned colours;
 };
 

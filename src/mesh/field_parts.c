@@ -167,15 +167,12 @@ static fg_status deal(fg__partition *out, fg_context *context, const fg__ranks *
   const int last = fg__field_last_axis(field);
   *out = (fg__partition){.dimension = contents->dimension,
                          .ranks = ranks,
-                         .count = ranks->count,
-                         .box = fg__allocate((size_t)ranks->count, sizeof *out->box),
-                         .first_of_rank = fg__allocate((size_t)ranks->count + 1,
-                                                       sizeof *out->first_of_rank)};
-  if (!out->box || !out->first_of_rank) {
-    fg__partition_clear(out);
+                         .blocks = {1, 1, 1},
+                         .block = fg__allocate((size_t)ranks->count, sizeof *out->block)};
+  if (!out->block)
     return fg__fail_memory(context, "the parts of a field",
                            (size_t)ranks->count * sizeof(fg__box));
-  }
+  out->blocks[last] = ranks->count;
   for (int k = 0; k < 3; ++k) {
     bool used = k < contents->dimension;
     out->nodes[k] = used ? contents->size[k] : 1;
@@ -183,11 +180,10 @@ static fg_status deal(fg__partition *out, fg_context *context, const fg__ranks *
     out->periodic[k] = used && contents->period[k] > 0.0;
   }
   for (int r = 0; r < ranks->count; ++r) {
-    fg__box *box = &out->box[r];
-    memcpy(box->nodes, out->nodes, sizeof box->nodes);
-    fg__part_rows(&box->first[last], &box->nodes[last], contents->size[last], r,
+    fg__box *block = &out->block[r];
+    memcpy(block->nodes, out->nodes, sizeof block->nodes);
+    fg__part_rows(&block->first[last], &block->nodes[last], contents->size[last], r,
                   ranks->count);
-    out->first_of_rank[r + 1] = r + 1;
   }
   return FG_STATUS_OK;
 }
@@ -197,10 +193,11 @@ static fg_status fill_component(fg_context *context, const fg__partition *partit
                                 const fg_field *field, int k, const fg__region *region,
                                 int count, float *const out[], void **place)
 {
-  const void *first = field->velocity[k];
-  const ptrdiff_t row = field->held[0], plane = row * field->held[1];
-  fg__region_source source = {
-      .size = sizeof(float), .first = &first, .row = &row, .plane = &plane};
+  const ptrdiff_t row = field->held[0];
+  fg__region_source source = {.size = sizeof(float),
+                              .first = field->velocity[k],
+                              .row = row,
+                              .plane = row * field->held[1]};
   for (int n = 0; n < count; ++n)
     place[n] = out[3 * n + k];
   return fg__regions_fill(context, partition, region, count, &source, place);

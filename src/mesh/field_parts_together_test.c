@@ -5,7 +5,7 @@
 
 #include "field/fingerprint.h"
 #include "field/mask.h"
-#include "mesh/shares_test.h"
+#include "mesh/grids_test.h"
 
 enum { SEEDS = 24, WINDOWS = 9, TRIES = 60, MOST_SIDE = 40 };
 

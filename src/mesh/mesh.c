@@ -1,10 +1,7 @@
 #include "mesh/mesh.h"
 
+#include "mesh/blocks.h"
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "mesh/merge.h"
 
 /* Cells longer than twice their width resolve an interface in one direction only: a thin
  * domain gets more nodes along it than asked for. */
@@ -15,22 +12,9 @@ enum { LEAST_NODES = 9, MOST_NODES_2D = 16385, MOST_NODES_3D = 2049 };
 
 enum { COARSENING = 16, SHORT_SIDE_COARSENING = 8 };
 
-/* Boxes of smaller patches could not be halved often before they are replicated. */
-enum { LEAST_PATCH_2D = 16, LEAST_PATCH_3D = 8 };
-
-static const double most_imbalance = 1.05;
-
 static int round_up(int value, int multiple)
 {
   return (value + multiple - 1) / multiple * multiple;
-}
-
-static int greatest_power_of_two_in(int dimension, const int counts[])
-{
-  for (int power = 1;; power *= 2)
-    for (int k = 0; k < dimension; ++k)
-      if (counts[k] % (2 * power) != 0)
-        return power;
 }
 
 static int step_of_cells(const fg__mesh_description *description, int axis)
@@ -91,48 +75,15 @@ static fg_status choose_cells(fg__mesh *mesh, fg_context *context,
   return FG_STATUS_OK;
 }
 
-/* The most that a rank gets over the mean, when `patch` cells make a side of a leaf. */
-static double imbalance(const fg__mesh *mesh, int patch)
-{
-  double leaves = 1.0;
-  for (int k = 0; k < mesh->dimension; ++k)
-    leaves *= mesh->cells[k] / patch;
-  double mean = leaves / mesh->ranks->count;
-  return ceil(mean) / mean;
-}
-
-/* So that what many ranks have is tested on few. */
-static bool wants_leaves(const fg__ranks *ranks)
-{
-  const char *shares = getenv("FLOWGRAIN_SHARES");
-  double wants = shares && strcmp(shares, "leaves") == 0;
-  fg__ranks_greatest(ranks, &wants, 1);
-  return wants > 0.0;
-}
-
 static fg_status share_nodes(fg__mesh *mesh, fg_context *context)
 {
-  int unit = wants_leaves(mesh->ranks) ? 0 : fg__mesh_slab_unit(mesh);
-  if (unit > 0)
-    return fg__mesh_cut_slabs(mesh, context, unit);
-  int tree = greatest_power_of_two_in(mesh->dimension, mesh->cells), depth = 0;
-  int least = mesh->dimension == 3 ? LEAST_PATCH_3D : LEAST_PATCH_2D;
-  mesh->patch_cells = tree;
-  while (mesh->patch_cells > least &&
-         imbalance(mesh, mesh->patch_cells) > most_imbalance) {
-    mesh->patch_cells /= 2;
-    ++depth;
-  }
-  int trees[3] = {1, 1, 1}, count = 0;
-  for (int k = 0; k < mesh->dimension; ++k)
-    trees[k] = mesh->cells[k] / tree;
-  fg__leaf *leaf = NULL;
-  fg_status status = (mesh->dimension == 3 ? fg__forest_leaves_3d : fg__forest_leaves_2d)(
-      &leaf, &count, context, mesh->ranks, trees, mesh->periodic, depth);
+  fg__blocks blocks;
+  fg_status status =
+      fg__blocks_choose(&blocks, context, mesh->ranks, mesh->dimension, mesh->cells);
   if (!status)
-    status = fg__mesh_merge_leaves(mesh, context, leaf, count);
-  free(leaf);
-  return status;
+    status = fg__partition_create(&mesh->partition, context, mesh->ranks, mesh->dimension,
+                                  mesh->cells, mesh->periodic, blocks.count, blocks.unit);
+  return fg__ranks_agree(mesh->ranks, context, status);
 }
 
 fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
@@ -159,7 +110,6 @@ fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
 void fg__mesh_clear(fg__mesh *mesh)
 {
   fg__partition_clear(&mesh->partition);
-  free(mesh->tile);
   *mesh = (fg__mesh){0};
 }
 

@@ -176,26 +176,19 @@ static void cubes_have_as_many_cells_along_each_side(void **state)
   fg__mesh_clear(&mesh);
 }
 
-static void has_each_cell_in_one_tile(const fg__mesh *mesh,
-                                      const fg__mesh_description *description)
+static void has_one_block(const fg__mesh *mesh, const fg__mesh_description *description)
 {
-  long covered = 0;
-  for (int t = 0; t < mesh->tile_count; ++t) {
-    const fg__tile *tile = &mesh->tile[t];
-    for (int k = 0; k < description->dimension; ++k) {
-      assert_true(tile->first[k] >= 0 && tile->cells[k] > 0);
-      assert_true(tile->first[k] + tile->cells[k] <= mesh->cells[k]);
-      assert_int_equal(tile->first[k] % mesh->patch_cells, 0);
-      assert_int_equal(tile->cells[k] % mesh->patch_cells, 0);
-    }
-    covered += (long)tile->cells[0] * tile->cells[1] * tile->cells[2];
+  const fg__box *block = fg__own_block(&mesh->partition);
+  for (int k = 0; k < 3; ++k) {
+    bool natural = k < mesh->dimension && !description->periodic[k];
+    assert_int_equal(block->first[k], 0);
+    assert_int_equal(block->nodes[k], mesh->cells[k] + natural);
   }
-  assert_int_equal(covered, (long)mesh->cells[0] * mesh->cells[1] * mesh->cells[2]);
 }
 
-static void tiles_of_whole_patches_cover_the_mesh(void **state)
+static void a_process_alone_has_all_in_one_block(void **state)
 {
-  for_all_meshes(*state, has_each_cell_in_one_tile);
+  for_all_meshes(*state, has_one_block);
 }
 
 static void assert_refused(fg_context *context, const fg__mesh_description *description)
@@ -249,7 +242,7 @@ int main(void)
       CASE(cells_are_as_square_as_can_be),
       CASE(squares_stay_squares),
       CASE(cubes_have_as_many_cells_along_each_side),
-      CASE(tiles_of_whole_patches_cover_the_mesh),
+      CASE(a_process_alone_has_all_in_one_block),
       CASE(impossible_numbers_of_nodes_are_refused),
       CASE(impossible_boxes_are_refused),
   };

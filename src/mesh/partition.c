@@ -1,9 +1,19 @@
 #include "mesh/partition.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
-#include "mesh/communicator.h"
+
+static fg_status take_blocks(fg__partition *out, fg_context *context)
+{
+  size_t count = (size_t)out->ranks->count;
+  out->block = fg__allocate(count, sizeof *out->block);
+  if (out->block)
+    return FG_STATUS_OK;
+  *out = (fg__partition){0};
+  return fg__fail_memory(context, "the partition", count * sizeof *out->block);
+}
 
 static void set_grid(fg__partition *out, int dimension, const int cells[3],
                      const bool periodic[3])
@@ -17,123 +27,112 @@ static void set_grid(fg__partition *out, int dimension, const int cells[3],
   }
 }
 
-static fg_status take_boxes(fg__partition *out, fg_context *context,
-                            const fg__ranks *ranks, int count)
+/* Where a rank's block lies among the others. */
+static void find_place(const fg__partition *partition, int rank, int place[3])
 {
-  out->ranks = ranks;
-  out->count = count;
-  out->box = fg__allocate((size_t)count, sizeof *out->box);
-  if (!out->first_of_rank)
-    out->first_of_rank =
-        fg__allocate((size_t)ranks->count + 1, sizeof *out->first_of_rank);
-  if (out->box && out->first_of_rank)
-    return FG_STATUS_OK;
-  fg__partition_clear(out);
-  return fg__fail_memory(context, "the partition", (size_t)count * sizeof *out->box);
+  const int *blocks = partition->blocks;
+  place[0] = 0;
+  place[1] = rank % blocks[1];
+  place[2] = rank / blocks[1];
 }
 
-/* first_of_rank from the number of boxes of each rank. */
-static void sum_up_counts(int *first_of_rank, int ranks)
+/* The first node of block `place` along an axis; the end of the last block. */
+static int first_node(const fg__partition *partition, int axis, int place, int unit)
 {
-  int first = 0;
-  for (int r = 0; r <= ranks; ++r) {
-    int count = r < ranks ? first_of_rank[r] : 0;
-    first_of_rank[r] = first;
-    first += count;
-  }
+  int count = partition->blocks[axis];
+  if (place == count)
+    return partition->nodes[axis];
+  return (int)((long)(partition->cells[axis] / unit) * place / count) * unit;
 }
 
 fg_status fg__partition_create(fg__partition *out, fg_context *context,
                                const fg__ranks *ranks, int dimension, const int cells[3],
-                               const bool periodic[3], const fg__box *own, int own_count)
+                               const bool periodic[3], const int blocks[3], int unit)
 {
-  *out = (fg__partition){0};
-  int *first = out->first_of_rank = fg__allocate((size_t)ranks->count + 1, sizeof *first);
-  fg_status status = FG_STATUS_OK;
-  if (!first)
-    status =
-        fg__fail_memory(context, "the partition", (size_t)ranks->count * sizeof *first);
-  status = fg__ranks_agree(ranks, context, status);
-  if (status) {
-    fg__partition_clear(out);
+  *out = (fg__partition){.ranks = ranks};
+  fg_status status = take_blocks(out, context);
+  if (status)
     return status;
+  set_grid(out, dimension, cells, periodic);
+  memcpy(out->blocks, blocks, sizeof out->blocks);
+  for (int rank = 0; rank < ranks->count; ++rank) {
+    fg__box *block = &out->block[rank];
+    int place[3];
+    find_place(out, rank, place);
+    for (int k = 0; k < 3; ++k) {
+      block->first[k] = first_node(out, k, place[k], unit);
+      block->nodes[k] = first_node(out, k, place[k] + 1, unit) - block->first[k];
+    }
   }
-  MPI_Comm communicator = fg__communicator(ranks);
-  fg__traffic_add_gather(ranks->book, (size_t)(ranks->count - 1) * sizeof own_count);
-  MPI_Allgather(&own_count, 1, MPI_INT, first, 1, MPI_INT, communicator);
-  sum_up_counts(first, ranks->count);
-  int *count = fg__allocate((size_t)ranks->count, sizeof *count);
-  status = take_boxes(out, context, ranks, first[ranks->count]);
-  if (!status && !count)
-    status =
-        fg__fail_memory(context, "the partition", (size_t)ranks->count * sizeof *count);
-  status = fg__ranks_agree(ranks, context, status);
-  if (!status) {
-    MPI_Datatype type;
-    MPI_Type_contiguous(sizeof(fg__box) / sizeof(int), MPI_INT, &type);
-    MPI_Type_commit(&type);
-    for (int r = 0; r < ranks->count; ++r)
-      count[r] = first[r + 1] - first[r];
-    fg__traffic_add_gather(ranks->book,
-                           (size_t)(first[ranks->count] - own_count) * sizeof *own);
-    MPI_Allgatherv(own, own_count, type, out->box, count, first, type, communicator);
-    MPI_Type_free(&type);
-    set_grid(out, dimension, cells, periodic);
-  } else {
-    fg__partition_clear(out);
-  }
-  free(count);
+  return FG_STATUS_OK;
+}
+
+fg_status fg__partition_copy(fg__partition *out, fg_context *context,
+                             const fg__partition *from)
+{
+  *out = *from;
+  fg_status status = take_blocks(out, context);
+  if (!status)
+    memcpy(out->block, from->block, (size_t)from->ranks->count * sizeof *out->block);
   return status;
 }
 
 fg_status fg__partition_coarsen(fg__partition *out, fg_context *context,
                                 const fg__partition *fine)
 {
-  *out = (fg__partition){0};
-  fg_status status = take_boxes(out, context, fine->ranks, fine->count);
+  *out = *fine;
+  fg_status status = take_blocks(out, context);
   if (status)
     return status;
   int cells[3];
   for (int k = 0; k < 3; ++k)
     cells[k] = fine->cells[k] / 2;
   set_grid(out, fine->dimension, cells, fine->periodic);
-  out->count = 0;
-  for (int r = 0; r < fine->ranks->count; ++r) {
-    out->first_of_rank[r] = out->count;
-    for (int n = fine->first_of_rank[r]; n < fine->first_of_rank[r + 1]; ++n) {
-      const fg__box box = fg__box_halved(&fine->box[n]);
-      if (!fg__box_is_empty(&box))
-        out->box[out->count++] = box;
-    }
-  }
-  out->first_of_rank[fine->ranks->count] = out->count;
+  for (int rank = 0; rank < fine->ranks->count; ++rank)
+    out->block[rank] = fg__box_halved(&fine->block[rank]);
   return FG_STATUS_OK;
 }
 
 bool fg__partition_is_workable(const fg__partition *partition, int least_nodes)
 {
-  for (int k = 0; k < partition->dimension; ++k)
+  for (int k = 0; k < partition->dimension; ++k) {
     if (partition->cells[k] % 2 != 0)
       return false;
-  for (int n = 0; n < partition->count; ++n)
-    for (int k = 0; k < partition->dimension; ++k)
-      if (partition->box[n].first[k] % 2 != 0 || partition->box[n].nodes[k] < least_nodes)
+    for (int n = 0; n < partition->ranks->count; ++n) {
+      const fg__box *block = &partition->block[n];
+      if (block->first[k] % 2 != 0 || block->nodes[k] < least_nodes)
         return false;
+    }
+  }
   return true;
 }
 
-fg__box fg__box_cells(const fg__partition *partition, const fg__box *box)
+fg__box fg__block_cells(const fg__partition *partition, const fg__box *block)
 {
-  fg__box out = *box;
+  fg__box out = *block;
   for (int k = 0; k < partition->dimension; ++k)
     if (out.first[k] + out.nodes[k] > partition->cells[k])
       out.nodes[k] = partition->cells[k] - out.first[k];
   return out;
 }
 
+int fg__block_neighbour(const fg__partition *partition, int rank, const int steps[3])
+{
+  const int *blocks = partition->blocks;
+  int place[3];
+  find_place(partition, rank, place);
+  for (int k = 0; k < 3; ++k) {
+    place[k] += steps[k];
+    if (partition->periodic[k])
+      place[k] = (place[k] + blocks[k]) % blocks[k];
+    if (place[k] < 0 || place[k] >= blocks[k])
+      return FG__NOBODY;
+  }
+  return place[1] + blocks[1] * place[2];
+}
+
 void fg__partition_clear(fg__partition *partition)
 {
-  free(partition->box);
-  free(partition->first_of_rank);
+  free(partition->block);
   *partition = (fg__partition){0};
 }

@@ -2,21 +2,9 @@
 
 #include "mesh/exchange.h"
 #include "mesh/gather.h"
-#include "mesh/shares_test.h"
+#include "mesh/grids_test.h"
 
 enum { SEEDS = 12 };
-
-/* Rank that owns a node, -1 for none, -2 for more than one. */
-static int owner_in(const fg__partition *partition, const int node[3])
-{
-  int owner = -1;
-  for (int rank = 0; rank < partition->ranks->count; ++rank)
-    for (int n = partition->first_of_rank[rank]; n < partition->first_of_rank[rank + 1];
-         ++n)
-      if (has_node(&partition->box[n], node))
-        owner = owner == -1 ? rank : -2;
-  return owner;
-}
 
 typedef void on_node(const int node[3], void *data);
 
@@ -29,30 +17,74 @@ static void for_all_nodes(const int nodes[3], on_node *act, void *data)
 }
 
 typedef struct pair {
-  const shares *shares;
-  const fg__partition *partition;
-  int scale[3]; /* from the partition's indices to the shares' */
+  const fg__partition *fine, *level;
+  int scale[3]; /* from the level's indices to the fine one's */
 } pair;
 
 static void has_its_owner(const int node[3], void *data)
 {
   const pair *p = data;
   int fine[3] = {node[0] * p->scale[0], node[1] * p->scale[1], node[2] * p->scale[2]};
-  expect(owner_in(p->partition, node) == owner_of(p->shares, fine));
+  int owner = owner_of(p->level, node);
+  expect(owner != FG__NOBODY && owner == owner_of(p->fine, fine));
 }
 
-static void every_rank_knows_every_owner(void **state)
+/* Blocks of whole rows, each but the last of whole units, as even as units allow. */
+static void check_blocks(const grid *g, const int blocks[3], int unit)
+{
+  fg__partition partition;
+  expect(fg__partition_create(&partition, us.context, us.ranks, g->dimension, g->cells,
+                              g->periodic, blocks, unit) == FG_STATUS_OK);
+  pair p = {&partition, &partition, {1, 1, 1}};
+  for (int k = 0; k < 3; ++k)
+    expect(partition.nodes[k] == nodes_along(g, k));
+  for_all_nodes(partition.nodes, has_its_owner, &p);
+  for (int rank = 0; rank < us.ranks->count; ++rank) {
+    const fg__box *block = &partition.block[rank];
+    expect(block->first[0] == 0 && block->nodes[0] == nodes_along(g, 0));
+    for (int k = 1; k < 3 && k < g->dimension; ++k) {
+      double mean = (double)g->cells[k] / blocks[k];
+      fg__box cells = fg__block_cells(&partition, block);
+      expect(block->first[k] % unit == 0 && cells.nodes[k] % unit == 0);
+      expect(cells.nodes[k] > mean - unit && cells.nodes[k] < mean + unit);
+    }
+  }
+  fg__partition_clear(&partition);
+}
+
+static void every_node_has_one_owner(void **state)
+{
+  (void)state;
+  for (int g = 0; g < GRID_COUNT; ++g)
+    for (int unit = 1; unit <= 2; unit *= 2)
+      for (int along_y = 1; along_y <= us.ranks->count; ++along_y) {
+        const int blocks[3] = {1, along_y, us.ranks->count / along_y};
+        if (blocks[1] * blocks[2] == us.ranks->count &&
+            (GRIDS[g].dimension == 3 || blocks[2] == 1))
+          check_blocks(&GRIDS[g], blocks, unit);
+      }
+  end_together();
+}
+
+/* Blocks touch their neighbours' sides, across periodic boundaries too. */
+static void neighbours_lie_side_by_side(void **state)
 {
   (void)state;
   for (int g = 0; g < GRID_COUNT; ++g)
     for (uint64_t seed = 0; seed < SEEDS; ++seed) {
-      shares s = cut_at_random(&GRIDS[g], seed, 2);
-      fg__partition partition = partition_of(&GRIDS[g], &s);
-      pair p = {&s, &partition, {1, 1, 1}};
-      for (int k = 0; k < 3; ++k)
-        expect(partition.nodes[k] == nodes_along(&GRIDS[g], k));
-      for_all_nodes(partition.nodes, has_its_owner, &p);
-      fg__partition_clear(&partition);
+      fg__partition p = divide_at_random(&GRIDS[g], seed, 1);
+      const fg__box *own = fg__own_block(&p);
+      for (int axis = 0; axis < GRIDS[g].dimension; ++axis)
+        for (int up = 0; up < 2; ++up) {
+          int steps[3] = {0, 0, 0},
+              node[3] = {own->first[0], own->first[1], own->first[2]};
+          steps[axis] = up ? 1 : -1;
+          node[axis] = up ? own->first[axis] + own->nodes[axis] : own->first[axis] - 1;
+          if (GRIDS[g].periodic[axis])
+            node[axis] = image_along(&GRIDS[g], axis, node[axis]);
+          expect(fg__block_neighbour(&p, us.ranks->rank, steps) == owner_of(&p, node));
+        }
+      fg__partition_clear(&p);
     }
   end_together();
 }
@@ -63,9 +95,9 @@ static void coarse_nodes_stay_with_their_owners(void **state)
   (void)state;
   for (int g = 0; g < GRID_COUNT; ++g)
     for (uint64_t seed = 0; seed < SEEDS; ++seed) {
-      shares s = cut_at_random(&GRIDS[g], seed, 1);
-      fg__partition level = partition_of(&GRIDS[g], &s);
-      pair p = {&s, &level, {1, 1, 1}};
+      fg__partition finest = divide_at_random(&GRIDS[g], seed, 1), level;
+      expect(fg__partition_copy(&level, us.context, &finest) == FG_STATUS_OK);
+      pair p = {&finest, &level, {1, 1, 1}};
       for (int depth = 0; depth < 3; ++depth) {
         fg__partition coarse;
         expect(fg__partition_coarsen(&coarse, us.context, &level) == FG_STATUS_OK);
@@ -78,33 +110,30 @@ static void coarse_nodes_stay_with_their_owners(void **state)
         level = coarse;
         for_all_nodes(level.nodes, has_its_owner, &p);
       }
+      fg__partition_clear(&finest);
       fg__partition_clear(&level);
     }
   end_together();
 }
 
-static void small_or_crooked_boxes_are_not_workable(void **state)
+/* 17 x 9 x 25 nodes, cut along z. */
+static void thin_or_crooked_blocks_are_not_workable(void **state)
 {
   (void)state;
-  const grid *g = &GRIDS[4]; /* 17 x 9 x 25 nodes */
+  const grid *g = &GRIDS[4];
   const struct {
-    fg__box box[2];
-    int least;
+    int cut, least;
     bool workable;
-  } cases[] = {
-      {{{{0, 0, 0}, {8, 9, 25}}, {{8, 0, 0}, {9, 9, 25}}}, 8, true},
-      {{{{0, 0, 0}, {8, 9, 25}}, {{8, 0, 0}, {9, 9, 25}}}, 9, false},
-      {{{{0, 0, 0}, {17, 9, 22}}, {{0, 0, 22}, {17, 9, 3}}}, 3, true},
-      {{{{0, 0, 0}, {17, 9, 22}}, {{0, 0, 22}, {17, 9, 3}}}, 4, false},
-      {{{{0, 0, 0}, {17, 5, 25}}, {{0, 5, 0}, {17, 4, 25}}}, 2, false},
-  };
-  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
-    shares s = {.count = 2, .owner = {0, us.ranks->count - 1}};
-    s.box[0] = cases[n].box[0];
-    s.box[1] = cases[n].box[1];
-    fg__partition partition = partition_of(g, &s);
-    expect(fg__partition_is_workable(&partition, cases[n].least) == cases[n].workable);
-    fg__partition_clear(&partition);
+  } cases[] = {{8, 8, true}, {8, 9, false}, {22, 3, true}, {22, 4, false}, {5, 2, false}};
+  const int blocks[3] = {1, 1, us.ranks->count};
+  for (size_t n = 0; n < sizeof cases / sizeof *cases && us.ranks->count == 2; ++n) {
+    fg__partition p;
+    expect(fg__partition_create(&p, us.context, us.ranks, g->dimension, g->cells,
+                                g->periodic, blocks, 1) == FG_STATUS_OK);
+    p.block[0].nodes[2] = p.block[1].first[2] = cases[n].cut;
+    p.block[1].nodes[2] = p.nodes[2] - cases[n].cut;
+    expect(fg__partition_is_workable(&p, cases[n].least) == cases[n].workable);
+    fg__partition_clear(&p);
   }
   end_together();
 }
@@ -114,11 +143,14 @@ static void a_level_of_odd_cells_is_not_workable(void **state)
 {
   (void)state;
   const grid g = {2, {12, 6, 1}, {false, false, false}};
-  shares s = {.count = 1, .box = {{{0, 0, 0}, {13, 7, 1}}}};
-  fg__partition partition = partition_of(&g, &s), coarse;
+  const fg__ranks *alone;
+  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
+  fg__partition partition, coarse;
+  expect(fg__partition_create(&partition, us.context, alone, 2, g.cells, g.periodic,
+                              (const int[3]){1, 1, 1}, 8) == FG_STATUS_OK);
   expect(fg__partition_is_workable(&partition, 4));
   expect(fg__partition_coarsen(&coarse, us.context, &partition) == FG_STATUS_OK);
-  expect(coarse.box[0].nodes[1] == 4 && !fg__partition_is_workable(&coarse, 4));
+  expect(coarse.block[0].nodes[1] == 4 && !fg__partition_is_workable(&coarse, 4));
   fg__partition_clear(&coarse);
   fg__partition_clear(&partition);
   end_together();
@@ -126,19 +158,43 @@ static void a_level_of_odd_cells_is_not_workable(void **state)
 
 static void check_ring(const grid *g, const fg__partition *partition, const fields *f)
 {
-  int count, depth = g->dimension == 3;
-  const fg__box *own = fg__own_boxes(partition, &count);
-  for (int b = 0; b < count; ++b)
-    for (int k = -depth; k < own[b].nodes[2] + depth; ++k)
-      for (int j = -1; j <= own[b].nodes[1]; ++j)
-        for (int i = -1; i <= own[b].nodes[0]; ++i) {
-          int node[3] = {own[b].first[0] + i, own[b].first[1] + j, own[b].first[2] + k};
-          for (int axis = 0; axis < 3; ++axis)
-            node[axis] = image_along(g, axis, node[axis]);
-          for (int a = 0; a < f->count; ++a)
-            expect(f->node[a][b][fg__node_at(&f->layout[b], i, j, k)] ==
-                   value_at(a, node));
-        }
+  int depth = g->dimension == 3;
+  const fg__box *own = fg__own_block(partition);
+  for (int k = -depth; k < own->nodes[2] + depth; ++k)
+    for (int j = -1; j <= own->nodes[1]; ++j)
+      for (int i = -1; i <= own->nodes[0]; ++i) {
+        int node[3] = {own->first[0] + i, own->first[1] + j, own->first[2] + k};
+        for (int axis = 0; axis < 3; ++axis)
+          node[axis] = image_along(g, axis, node[axis]);
+        for (int a = 0; a < f->count; ++a)
+          expect(f->array[a][fg__node_at(&f->layout, i, j, k)] == value_at(a, node));
+      }
+}
+
+static void check_gather(const grid *g, uint64_t seed, const fg__ranks *alone)
+{
+  int arrays = 1 + (int)seed % 3;
+  fg__partition partition = divide_at_random(g, seed, 1), whole;
+  expect(fg__partition_create(&whole, us.context, alone, g->dimension, g->cells,
+                              g->periodic, (const int[3]){1, 1, 1}, 8) == FG_STATUS_OK);
+  fg__gather *gather;
+  fg__exchange *mirror;
+  expect(fg__gather_create(&gather, us.context, &partition, 3) == FG_STATUS_OK);
+  expect(fg__exchange_create(&mirror, us.context, &whole, 3) == FG_STATUS_OK);
+  fields shared = fields_of(&partition, arrays), all = fields_of(&whole, arrays);
+  fields_forget(&all);
+  fg__gather_fill(gather, arrays, shared.array, all.array);
+  fg__exchange_fill(mirror, arrays, all.array, FG__ALL_COLOURS);
+  check_ring(g, &whole, &all);
+  fields_forget(&shared);
+  fg__gather_return(gather, arrays, all.array, shared.array);
+  check_ring(g, &partition, &shared);
+  fields_clear(&shared);
+  fields_clear(&all);
+  fg__gather_destroy(gather);
+  fg__exchange_destroy(mirror);
+  fg__partition_clear(&partition);
+  fg__partition_clear(&whole);
 }
 
 /* To the whole grid on each rank and back, ghosts included. */
@@ -148,43 +204,8 @@ static void replicated_levels_hold_all_and_give_it_back(void **state)
   const fg__ranks *alone;
   expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
   for (int g = 0; g < GRID_COUNT; ++g)
-    for (uint64_t seed = 0; seed < SEEDS; ++seed) {
-      fg__box all_nodes = {{0, 0, 0}, {1, 1, 1}};
-      for (int k = 0; k < 3; ++k)
-        all_nodes.nodes[k] = nodes_along(&GRIDS[g], k);
-      shares s = cut_at_random(&GRIDS[g], seed, 1);
-      fg__partition partition = partition_of(&GRIDS[g], &s), whole;
-      expect(fg__partition_create(&whole, us.context, alone, GRIDS[g].dimension,
-                                  GRIDS[g].cells, GRIDS[g].periodic, &all_nodes,
-                                  1) == FG_STATUS_OK);
-      fg__gather *gather;
-      fg__exchange *mirror;
-      expect(fg__gather_create(&gather, us.context, &partition, 3) == FG_STATUS_OK);
-      expect(fg__exchange_create(&mirror, us.context, &whole, 3) == FG_STATUS_OK);
-      fields shared = fields_of(&partition, 3), all = fields_of(&whole, 3);
-      for (int a = 0; a < 3; ++a)
-        for (size_t n = 0; n < all.layout[0].array_size; ++n)
-          (all.node[a][0] - all.layout[0].first)[n] = UNTOUCHED;
-      float *target[3] = {all.node[0][0], all.node[1][0], all.node[2][0]};
-      int arrays = 1 + (int)seed % 3;
-      fg__gather_fill(gather, arrays, arrays_of(&shared), target);
-      fg__exchange_fill(mirror, 3, arrays_of(&all), FG__ALL_COLOURS);
-      all.count = shared.count = arrays;
-      check_ring(&GRIDS[g], &whole, &all);
-      for (int b = 0; b < shared.boxes; ++b)
-        for (int a = 0; a < arrays; ++a)
-          for (size_t n = 0; n < shared.layout[b].array_size; ++n)
-            (shared.node[a][b] - shared.layout[b].first)[n] = UNTOUCHED;
-      fg__gather_return(gather, arrays, target, arrays_of(&shared));
-      check_ring(&GRIDS[g], &partition, &shared);
-      all.count = shared.count = 3;
-      fields_clear(&shared);
-      fields_clear(&all);
-      fg__gather_destroy(gather);
-      fg__exchange_destroy(mirror);
-      fg__partition_clear(&partition);
-      fg__partition_clear(&whole);
-    }
+    for (uint64_t seed = 0; seed < SEEDS; ++seed)
+      check_gather(&GRIDS[g], seed, alone);
   end_together();
 }
 
@@ -192,9 +213,10 @@ int main(void)
 {
   start_together();
   const struct CMUnitTest tests[] = {
-      TOGETHER(every_rank_knows_every_owner),
+      TOGETHER(every_node_has_one_owner),
+      TOGETHER(neighbours_lie_side_by_side),
       TOGETHER(coarse_nodes_stay_with_their_owners),
-      TOGETHER(small_or_crooked_boxes_are_not_workable),
+      TOGETHER(thin_or_crooked_blocks_are_not_workable),
       TOGETHER(a_level_of_odd_cells_is_not_workable),
       TOGETHER(replicated_levels_hold_all_and_give_it_back),
   };

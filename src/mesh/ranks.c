@@ -1,7 +1,6 @@
 #include "mesh/ranks.h"
 
 #include <limits.h>
-#include <p4est_base.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -97,8 +96,6 @@ static void start(void)
       return;
     atexit(finalise);
   }
-  sc_init(sc_MPI_COMM_WORLD, 0, 0, NULL, SC_LP_SILENT);
-  p4est_init(NULL, SC_LP_SILENT);
   start_error = MPI_Comm_dup(MPI_COMM_WORLD, &communicator_of_all);
   if (start_error != MPI_SUCCESS)
     return;

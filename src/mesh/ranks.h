@@ -19,7 +19,7 @@ typedef struct fg__ranks {
  * MPI. */
 fg_status fg__ranks_all(const fg__ranks **out, fg_context *context);
 
-/* This process on its own, whatever the others do: MPI and p4est are started likewise. */
+/* This process on its own, whatever the others do: MPI is started likewise. */
 fg_status fg__ranks_alone(const fg__ranks **out, fg_context *context);
 
 /* Adds up whole numbers over all ranks, modulo 2^64, in place: the same bits in any

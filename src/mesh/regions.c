@@ -7,18 +7,18 @@
 #include "base/memory.h"
 #include "mesh/communicator.h"
 
-/* What one box holds of a region, or of its image a period on. */
+/* What one block holds of a region, or of its image a period on. */
 typedef struct piece {
-  fg__box nodes; /* as the box counts them in the grid */
+  fg__box nodes; /* as the block counts them in the grid */
   int shift[3];  /* from there to the region's own count */
 } piece;
 
 /* All images of a region that can meet the grid: a period on and back. */
 enum { IMAGES = 27 };
 
-/* False when this image has nothing of the box. */
+/* False when this image has nothing of the block. */
 static bool find_piece(piece *out, const fg__partition *partition,
-                       const fg__region *region, const fg__box *box, int image)
+                       const fg__region *region, const fg__box *block, int image)
 {
   fg__box moved = region->nodes;
   for (int k = 0, rest = image; k < 3; ++k, rest /= 3) {
@@ -28,28 +28,26 @@ static bool find_piece(piece *out, const fg__partition *partition,
     out->shift[k] = turns * partition->nodes[k];
     moved.first[k] -= out->shift[k];
   }
-  out->nodes = fg__box_intersection(&moved, box);
+  out->nodes = fg__box_intersection(&moved, block);
   return !fg__box_is_empty(&out->nodes);
 }
 
 /* The pieces that go from a rank to another, in the order in which both take them. */
-typedef void piece_action(void *closure, int region, int box, const piece *found);
+typedef void piece_action(void *closure, int region, const piece *found);
 
 static void for_pieces(const fg__partition *partition, const fg__region *region,
                        int count, int from, int to, piece_action *action, void *closure)
 {
   piece found;
   for (int n = 0; n < count; ++n)
-    for (int b = partition->first_of_rank[from];
-         region[n].rank == to && b < partition->first_of_rank[from + 1]; ++b)
-      for (int image = 0; image < IMAGES; ++image)
-        if (find_piece(&found, partition, &region[n], &partition->box[b], image))
-          action(closure, n, b - partition->first_of_rank[from], &found);
+    for (int image = 0; region[n].rank == to && image < IMAGES; ++image)
+      if (find_piece(&found, partition, &region[n], &partition->block[from], image))
+        action(closure, n, &found);
 }
 
-static void add_up(void *closure, int region, int box, const piece *found)
+static void add_up(void *closure, int region, const piece *found)
 {
-  (void)region, (void)box;
+  (void)region;
   *(size_t *)closure += (size_t)fg__box_count(&found->nodes);
 }
 
@@ -61,29 +59,26 @@ typedef struct packing {
   unsigned char *at;
 } packing;
 
-static void pack(void *closure, int region, int box, const piece *found)
+static void pack(void *closure, int region, const piece *found)
 {
   (void)region;
   packing *p = closure;
   const fg__region_source *source = p->source;
-  int own_count;
-  const fg__box *own = &fg__own_boxes(p->partition, &own_count)[box];
+  const fg__box *own = fg__own_block(p->partition);
   const fg__box *nodes = &found->nodes;
   size_t bytes = (size_t)nodes->nodes[0] * source->size;
   for (int k = 0; k < nodes->nodes[2]; ++k)
     for (int j = 0; j < nodes->nodes[1]; ++j, p->at += bytes) {
       ptrdiff_t node = nodes->first[0] - own->first[0] +
-                       (nodes->first[1] - own->first[1] + j) * source->row[box] +
-                       (nodes->first[2] - own->first[2] + k) * source->plane[box];
-      memcpy(p->at,
-             (const unsigned char *)source->first[box] + node * (ptrdiff_t)source->size,
+                       (nodes->first[1] - own->first[1] + j) * source->row +
+                       (nodes->first[2] - own->first[2] + k) * source->plane;
+      memcpy(p->at, (const unsigned char *)source->first + node * (ptrdiff_t)source->size,
              bytes);
     }
 }
 
-static void unpack(void *closure, int region, int box, const piece *found)
+static void unpack(void *closure, int region, const piece *found)
 {
-  (void)box;
   packing *p = closure;
   const fg__box *whole = &p->region[region].nodes, *nodes = &found->nodes;
   size_t size = p->source->size, bytes = (size_t)nodes->nodes[0] * size;

@@ -1,7 +1,7 @@
-/* Regions of a level's grid, put together from all ranks' boxes on the ranks that want
+/* Regions of a level's grid, put together from all ranks' blocks on the ranks that want
  * them: the window round a cluster, the rows of a file.
  *
- * Every rank knows all boxes and all regions, so each finds for itself what it has to
+ * Every rank knows all blocks and all regions, so each finds for itself what it has to
  * send and to whom; one exchange takes all of it. */
 #ifndef FG__REGIONS_H
 #define FG__REGIONS_H
@@ -15,12 +15,12 @@ typedef struct fg__region {
   int rank;      /* who gets it */
 } fg__region;
 
-/* What this rank's boxes hold: arrays of elements of `size` bytes, x fastest. Elements
- * are nodes, or cells, which belong to the box that owns their lowest corner. */
+/* What this rank's block holds: an array of elements of `size` bytes, x fastest. Elements
+ * are nodes, or cells, which belong to the block that owns their lowest corner. */
 typedef struct fg__region_source {
   size_t size;
-  const void *const *first;     /* [own boxes] node (0, 0, 0) */
-  const ptrdiff_t *row, *plane; /* [own boxes] elements from a row, a plane to the next */
+  const void *first;    /* node (0, 0, 0) */
+  ptrdiff_t row, plane; /* elements from a row, a plane to the next */
 } fg__region_source;
 
 /* Fills out[n], x fastest, with region n where that is this rank's; other entries are not

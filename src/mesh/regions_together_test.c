@@ -1,6 +1,6 @@
 #include "mesh/regions.h"
 
-#include "mesh/shares_test.h"
+#include "mesh/grids_test.h"
 
 enum { SEEDS = 10, REGIONS = 20, PAD = 3 };
 
@@ -26,33 +26,28 @@ static bool is_element(const unsigned char *at, size_t size, const int node[3])
                                : *at == (unsigned char)(number % 251);
 }
 
-/* Own boxes with a pad round them, so that rows and planes are longer than the box. */
-typedef struct arrays {
-  void *memory[MOST_SHARES];
-  const void *first[MOST_SHARES];
-  ptrdiff_t row[MOST_SHARES], plane[MOST_SHARES];
-  int count;
-} arrays;
+/* The own block with a pad round it, so that rows and planes are longer than the block.
+ */
+typedef struct padded {
+  void *memory;
+  fg__region_source source;
+} padded;
 
-static arrays arrays_of_boxes(const fg__partition *partition, size_t size)
+static padded padded_block(const fg__partition *partition, size_t size)
 {
-  arrays out = {.count = 0};
-  const fg__box *own = fg__own_boxes(partition, &out.count);
-  for (int b = 0; b < out.count; ++b) {
-    const int *nodes = own[b].nodes;
-    out.row[b] = nodes[0] + PAD;
-    out.plane[b] = out.row[b] * (nodes[1] + PAD);
-    unsigned char *memory = out.memory[b] =
-        allocate_or_end((size_t)out.plane[b] * (size_t)(nodes[2] + 1), size);
-    unsigned char *first = memory + (size_t)(out.row[b] + 1) * size;
-    out.first[b] = first;
-    for (int k = 0; k < nodes[2]; ++k)
-      for (int j = 0; j < nodes[1]; ++j)
-        for (int i = 0; i < nodes[0]; ++i)
-          set_element(
-              first + (size_t)(i + j * out.row[b] + k * out.plane[b]) * size, size,
-              (int[3]){own[b].first[0] + i, own[b].first[1] + j, own[b].first[2] + k});
-  }
+  const fg__box *own = fg__own_block(partition);
+  const int *nodes = own->nodes;
+  padded out = {.source = {.size = size, .row = nodes[0] + PAD}};
+  ptrdiff_t row = out.source.row, plane = out.source.plane = row * (nodes[1] + PAD);
+  unsigned char *memory = out.memory =
+      allocate_or_end((size_t)plane * (size_t)(nodes[2] + 1), size);
+  unsigned char *first = memory + (size_t)(row + 1) * size;
+  out.source.first = first;
+  for (int k = 0; k < nodes[2]; ++k)
+    for (int j = 0; j < nodes[1]; ++j)
+      for (int i = 0; i < nodes[0]; ++i)
+        set_element(first + (size_t)(i + j * row + k * plane) * size, size,
+                    (int[3]){own->first[0] + i, own->first[1] + j, own->first[2] + k});
   return out;
 }
 
@@ -92,9 +87,8 @@ static void check_region(const grid *g, const fg__region *region,
 
 static void check_grid(const grid *g, uint64_t seed, size_t size)
 {
-  shares s = cut_at_random(g, seed, 1);
-  fg__partition partition = partition_of(g, &s);
-  arrays a = arrays_of_boxes(&partition, size);
+  fg__partition partition = divide_at_random(g, seed, 1);
+  padded own = padded_block(&partition, size);
   fg__region region[REGIONS];
   void *out[REGIONS] = {0};
   for (int n = 0; n < REGIONS; ++n) {
@@ -102,16 +96,14 @@ static void check_grid(const grid *g, uint64_t seed, size_t size)
     if (region[n].rank == us.ranks->rank)
       out[n] = allocate_or_end((size_t)fg__box_count(&region[n].nodes), size);
   }
-  fg__region_source source = {size, a.first, a.row, a.plane};
-  expect(fg__regions_fill(us.context, &partition, region, REGIONS, &source, out) ==
+  expect(fg__regions_fill(us.context, &partition, region, REGIONS, &own.source, out) ==
          FG_STATUS_OK);
   for (int n = 0; n < REGIONS; ++n)
     if (out[n])
       check_region(g, &region[n], out[n], size);
   for (int n = 0; n < REGIONS; ++n)
     free(out[n]);
-  for (int b = 0; b < a.count; ++b)
-    free(a.memory[b]);
+  free(own.memory);
   fg__partition_clear(&partition);
 }
 
@@ -128,14 +120,11 @@ static void regions_hold_the_grid(void **state)
 static void no_regions_are_none(void **state)
 {
   (void)state;
-  shares s = cut_at_random(&GRIDS[1], 5, 2);
-  fg__partition partition = partition_of(&GRIDS[1], &s);
-  arrays a = arrays_of_boxes(&partition, 1);
-  fg__region_source source = {1, a.first, a.row, a.plane};
-  expect(fg__regions_fill(us.context, &partition, NULL, 0, &source, NULL) ==
+  fg__partition partition = divide_at_random(&GRIDS[1], 5, 2);
+  padded own = padded_block(&partition, 1);
+  expect(fg__regions_fill(us.context, &partition, NULL, 0, &own.source, NULL) ==
          FG_STATUS_OK);
-  for (int b = 0; b < a.count; ++b)
-    free(a.memory[b]);
+  free(own.memory);
   fg__partition_clear(&partition);
   end_together();
 }

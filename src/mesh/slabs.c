@@ -2,41 +2,17 @@
 
 #include "mesh/communicator.h"
 
-static bool are_slabs(const fg__partition *partition)
-{
-  for (int rank = 0; rank < partition->ranks->count; ++rank)
-    if (partition->first_of_rank[rank + 1] - partition->first_of_rank[rank] != 1)
-      return false;
-  for (int n = 0; n < partition->count; ++n)
-    for (int k = 0; k + 1 < partition->dimension; ++k)
-      if (partition->box[n].nodes[k] != partition->nodes[k])
-        return false;
-  return partition->count > 1;
-}
-
-/* The rank whose slab begins or ends at slice `at`; every rank has one. */
-static int rank_at(const fg__partition *partition, int at, bool begins)
-{
-  int axis = partition->dimension - 1, nodes = partition->nodes[axis];
-  if (partition->periodic[axis])
-    at = begins ? at % nodes : at > 0 ? at : nodes;
-  for (int n = 0; n < partition->count; ++n) {
-    const fg__box *box = &partition->box[n];
-    if (box->first[axis] + (begins ? 0 : box->nodes[axis]) == at)
-      return n;
-  }
-  return FG__NOBODY;
-}
-
 bool fg__slabs_find(fg__slabs *out, const fg__partition *partition)
 {
-  *out = (fg__slabs){.ranks = partition->ranks, .below = FG__NOBODY, .above = FG__NOBODY};
-  if (!are_slabs(partition))
+  const fg__ranks *ranks = partition->ranks;
+  int last = partition->dimension - 1, up[3] = {0, 0, 0}, down[3] = {0, 0, 0};
+  *out = (fg__slabs){.ranks = ranks, .below = FG__NOBODY, .above = FG__NOBODY};
+  if (ranks->count == 1 || partition->blocks[last] != ranks->count)
     return false;
-  int axis = partition->dimension - 1;
-  const fg__box *own = &partition->box[partition->ranks->rank];
-  out->below = rank_at(partition, own->first[axis], false);
-  out->above = rank_at(partition, own->first[axis] + own->nodes[axis], true);
+  up[last] = 1;
+  down[last] = -1;
+  out->below = fg__block_neighbour(partition, ranks->rank, down);
+  out->above = fg__block_neighbour(partition, ranks->rank, up);
   return true;
 }
 

@@ -1,12 +1,10 @@
 /* What ranks tell each other that have whole slices each (rows in 2D, planes in 3D), one
  * behind the other along the last axis: runs of memory, as they lie there, for the rank
- * above or below. exchange.h does all other boxes. */
+ * above or below. exchange.h does pencils. */
 #ifndef FG__SLABS_H
 #define FG__SLABS_H
 
 #include "mesh/partition.h"
-
-enum { FG__NOBODY = -1 };
 
 typedef struct fg__slabs {
   const fg__ranks *ranks;
@@ -22,8 +20,8 @@ typedef struct fg__run {
   bool up;
 } fg__run;
 
-/* Whether each rank has one box and it reaches across the domain along all axes but the
- * last, and no rank has all. The same on all ranks; not collective. */
+/* Whether several ranks divide the last axis only. The same on all ranks; not collective.
+ */
 bool fg__slabs_find(fg__slabs *out, const fg__partition *partition);
 
 /* A run after the other. Collective: all ranks give as many, of the same directions and

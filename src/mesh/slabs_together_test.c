@@ -1,46 +1,27 @@
 /* Ranks with a slab each find their neighbours and get what these send, and no more. */
 #include "mesh/slabs.h"
 
-#include "mesh/shares_test.h"
+#include "mesh/grids_test.h"
 
-static int last_axis(const grid *g)
+/* The last axis alone is divided. */
+static fg__partition in_slabs(const grid *g)
 {
-  return g->dimension - 1;
-}
-
-/* Slabs of two slices, and one of what is left; slab n, counted from below, belongs to
- * rank (turn + step n) modulo the ranks' number. */
-static shares in_slabs(const grid *g, int turn, int step)
-{
-  int ranks = us.ranks->count, axis = last_axis(g);
-  shares out = {.count = ranks};
-  int first = 0;
-  for (int n = 0; n < ranks; ++n) {
-    for (int k = 0; k < 3; ++k)
-      out.box[n].nodes[k] = nodes_along(g, k);
-    out.box[n].first[axis] = first;
-    if (n + 1 < ranks)
-      out.box[n].nodes[axis] = 2;
-    else
-      out.box[n].nodes[axis] -= first;
-    first += out.box[n].nodes[axis];
-    out.owner[n] = (turn + step * n % ranks + ranks) % ranks;
-  }
+  int blocks[3] = {1, 1, 1};
+  blocks[g->dimension - 1] = us.ranks->count;
+  fg__partition out;
+  if (fg__partition_create(&out, us.context, us.ranks, g->dimension, g->cells,
+                           g->periodic, blocks, 2) != FG_STATUS_OK)
+    abort();
   return out;
 }
 
-/* The rank that has the slab `by` above this rank's. */
-static int neighbour(const grid *g, const shares *s, int by)
+/* The rank `by` above this one, as slabs follow each other. */
+static int neighbour(const grid *g, int by)
 {
-  for (int n = 0; n < s->count; ++n) {
-    int other = n + by;
-    if (s->owner[n] != us.ranks->rank)
-      continue;
-    if (g->periodic[last_axis(g)])
-      other = (other + s->count) % s->count;
-    return other < 0 || other >= s->count ? FG__NOBODY : s->owner[other];
-  }
-  return FG__NOBODY;
+  int count = us.ranks->count, other = us.ranks->rank + by;
+  if (g->periodic[g->dimension - 1])
+    return (other + count) % count;
+  return other < 0 || other >= count ? FG__NOBODY : other;
 }
 
 /* What rank r sends in a run. */
@@ -85,44 +66,33 @@ static void check_exchange(const fg__slabs *slabs)
 static void neighbours_get_what_is_sent_them(void **state)
 {
   (void)state;
-  for (int g = 0; g < GRID_COUNT && us.ranks->count > 1; ++g)
-    for (int turn = 0; turn < us.ranks->count; ++turn)
-      for (int step = -1; step <= 1; step += 2) {
-        shares s = in_slabs(&GRIDS[g], turn, step);
-        fg__partition partition = partition_of(&GRIDS[g], &s);
-        fg__slabs slabs;
-        expect(fg__slabs_find(&slabs, &partition));
-        expect(slabs.below == neighbour(&GRIDS[g], &s, -1));
-        expect(slabs.above == neighbour(&GRIDS[g], &s, 1));
-        check_exchange(&slabs);
-        fg__partition_clear(&partition);
-      }
+  for (int g = 0; g < GRID_COUNT && us.ranks->count > 1; ++g) {
+    fg__partition partition = in_slabs(&GRIDS[g]);
+    fg__slabs slabs;
+    expect(fg__slabs_find(&slabs, &partition));
+    expect(slabs.below == neighbour(&GRIDS[g], -1));
+    expect(slabs.above == neighbour(&GRIDS[g], 1));
+    check_exchange(&slabs);
+    fg__partition_clear(&partition);
+  }
   end_together();
 }
 
-/* One rank has no neighbour; pieces of slices and several boxes a rank are for
- * exchange.h. */
-static void other_boxes_are_no_slabs(void **state)
+/* One rank has no neighbour; pencils are for exchange.h. */
+static void other_blocks_are_no_slabs(void **state)
 {
   (void)state;
+  const fg__ranks *alone;
+  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
   for (int g = 0; g < GRID_COUNT; ++g) {
-    shares s = in_slabs(&GRIDS[g], 0, 1);
-    fg__box *cut = &s.box[s.count - 1];
-    for (int kind = 0; kind < 2; ++kind) {
-      shares other = s;
-      if (us.ranks->count > 1) {
-        int axis = kind == 0 ? 0 : last_axis(&GRIDS[g]);
-        fg__box *above = &other.box[other.count];
-        *above = *cut;
-        other.box[s.count - 1].nodes[axis] = 1;
-        above->first[axis] += 1;
-        above->nodes[axis] -= 1;
-        other.owner[other.count++] = other.owner[s.count - 1];
-      }
-      fg__partition partition = partition_of(&GRIDS[g], &other);
-      expect(!fg__slabs_find(&(fg__slabs){0}, &partition));
-      fg__partition_clear(&partition);
-    }
+    const fg__ranks *ranks = GRIDS[g].dimension == 3 ? us.ranks : alone;
+    const int blocks[3] = {1, ranks->count, 1};
+    fg__partition partition;
+    expect(fg__partition_create(&partition, us.context, ranks, GRIDS[g].dimension,
+                                GRIDS[g].cells, GRIDS[g].periodic, blocks,
+                                2) == FG_STATUS_OK);
+    expect(!fg__slabs_find(&(fg__slabs){0}, &partition));
+    fg__partition_clear(&partition);
   }
   end_together();
 }
@@ -132,7 +102,7 @@ int main(void)
   start_together();
   const struct CMUnitTest tests[] = {
       TOGETHER(neighbours_get_what_is_sent_them),
-      TOGETHER(other_boxes_are_no_slabs),
+      TOGETHER(other_blocks_are_no_slabs),
   };
   return cmocka_run_group_tests_name("mesh/slabs", tests, NULL, NULL);
 }

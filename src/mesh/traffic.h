@@ -1,8 +1,8 @@
 /* What a rank tells the others, counted where it is sent: exact, and by what it is for.
  *
  * A book belongs to the ranks that share it (ranks.h); it is NULL where there is one rank
- * only, which tells nobody anything, and then nothing is counted. What p4est sends when
- * it makes a forest is not counted. One thread of a rank sends. */
+ * only, which tells nobody anything, and then nothing is counted. One thread of a rank
+ * sends. */
 #ifndef FG__TRAFFIC_H
 #define FG__TRAFFIC_H
 

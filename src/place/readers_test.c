@@ -63,18 +63,17 @@ static void start(fg__place_tale *tale, const setting *s)
                    FG_STATUS_OK);
 }
 
-/* What the three readers of some lines make of a point, in lambda, by the definitions. */
+/* What two readers of some lines make of a point, in lambda, by the definitions. */
 typedef struct answer {
   double square;       /* to the nearest sample */
   double doubt;        /* how much farther the second nearest is */
-  double vector[3][3]; /* nearest, by inverse distance, by samples */
+  double vector[2][3]; /* nearest, by inverse distance */
 } answer;
 
 static answer ask(const setting *s, const double point[3])
 {
   const int dimension = s->scale.dimension;
-  const double reach = s->scale.reach / s->scale.lambda, epsilon = 0.05 * 0.05,
-               wider = 0.1 * 0.1;
+  const double reach = s->scale.reach / s->scale.lambda, epsilon = 0.05 * 0.05;
   answer a = {.square = reach * reach, .doubt = HUGE_VAL};
   for (int l = 0; l < s->lines; ++l) {
     const fg__place_line *line = &s->line[l];
@@ -85,10 +84,6 @@ static answer ask(const setting *s, const double point[3])
         square += pow(point[k] - (double)line->position[k][n], 2);
       if (square >= reach * reach)
         continue;
-      double weight = (double)line->share[n] * pow(1 - square / (reach * reach), 2) /
-                      pow(square + wider, dimension == 2 ? 2 : 3);
-      for (int k = 0; k < dimension; ++k)
-        a.vector[2][k] += weight * (double)line->tangent[k][n];
       a.doubt = fmin(a.doubt, fabs(square - fmin(least, a.square)));
       if (square < least) {
         least = square;
@@ -153,7 +148,7 @@ static void check(setting *s)
       continue;
     }
     assert_close((double)all.value[n], a.square, 1e-5);
-    for (int reader = 0; reader < 3; ++reader) {
+    for (int reader = 0; reader < 2; ++reader) {
       double size = sqrt(a.vector[reader][0] * a.vector[reader][0] +
                          a.vector[reader][1] * a.vector[reader][1] +
                          a.vector[reader][2] * a.vector[reader][2]);
@@ -163,7 +158,7 @@ static void check(setting *s)
                      5e-3 * size + 1e-6);
       }
       if (weight > 0.0)
-        angle += (reader == 2 ? 2 : 1) * degrees_of(a.vector[reader], flow, dimension);
+        angle += degrees_of(a.vector[reader], flow, dimension);
     }
     told += a.square < (double)(reach * reach);
     angles += weight * angle;
@@ -173,8 +168,9 @@ static void check(setting *s)
   assert_true(told > 200 && doubtful < told / 4);
   assert_close(sum, total, 1e-4 * total);
   assert_close(weights, s->scale.count, 1e-3 * s->scale.count);
-  assert_close(fg__place_mean_error(&s->raster, &all, (double)reach),
-               angles / weights / 4, 0.1);
+  const fg__place_price errors = {1.0F, 0.0F, reach};
+  assert_close(fg__place_cost(NULL, &s->raster, &box, &all, NULL, &errors) / weights,
+               angles / weights, 0.2);
   free(cost);
   fg__place_tale_clear(&all);
 }
@@ -234,6 +230,17 @@ static void two_tales_are_one_in_any_order(void **state)
   clear(&s);
 }
 
+/* Of the cells that nobody tells anything. */
+static double untold_weight(const setting *s, const fg__place_tale *told)
+{
+  const double reach = s->scale.reach / s->scale.lambda;
+  double sum = 0.0;
+  for (size_t n = 0; n < s->raster.count; ++n)
+    sum +=
+        (double)told->value[n] < reach * reach - 1e-4 ? 0.0 : (double)s->raster.weight[n];
+  return sum;
+}
+
 static void an_exact_picture_has_no_error(void **state)
 {
   setting s = set(*state, &PLAIN, slant, 2);
@@ -243,12 +250,15 @@ static void an_exact_picture_has_no_error(void **state)
   start(&all, &s);
   fg__place_tale_add(&all, &s.tale[0]);
   fg__place_tale_add(&all, &s.tale[1]);
-  double reach = s.scale.reach / s.scale.lambda;
-  assert_true(fg__place_mean_error(&s.raster, &all, reach) < 0.05);
+  const fg__place_price errors = {1.0F, 0.0F, (float)(s.scale.reach / s.scale.lambda)};
+  fg__place_box box = whole_box(&s);
+  double told = fg__place_cost(NULL, &s.raster, &box, &all, NULL, &errors);
+  assert_true(fabs(told - 180.0 * untold_weight(&s, &all)) < 0.1 * s.scale.count);
   /* nobody tells anything: a right angle everywhere */
   fg__place_tale none;
   start(&none, &s);
-  assert_close(fg__place_mean_error(&s.raster, &none, reach), 90, 0.05);
+  assert_close(fg__place_cost(NULL, &s.raster, &box, &none, NULL, &errors),
+               180.0 * s.scale.count, 0.2);
   fg__place_tale_clear(&all);
   fg__place_tale_clear(&none);
   clear(&s);

@@ -51,8 +51,6 @@ compare placed "2 3" "$wind" --nodes 65 --arrows 30,12 --effort 0 --formats svg 
 compare placed3d "2" synth:vortex3d --nodes 33 --arrows 20 --effort 0
 compare background "2" synth:benard --nodes 65 --clusters 8 --formats svg --background lic
 compare whole "3" synth:benard --nodes 65 --clusters 8 --formats svg --tint
-# boxes as many ranks have them: src/mesh/mesh.h
-FLOWGRAIN_SHARES=leaves compare leaves "3" "$wind" --nodes 65 --clusters 40,20 --formats svg --save-field
 compare tiny "4" synth:vortex3 --nodes 17 --clusters 3 --max-steps 60 --formats svg
 
 # files of which each rank reads its rows: packed blocks, and a volume
@@ -85,6 +83,14 @@ expect_code 0
 grep -q '^flowgrain: cycle ([0-9]*): exchanges [0-9.]* ([0-9.]*) messages' err ||
   fault "nothing said of cycles: $(head -c 600 err)"
 done_with "what ranks told each other is counted"
+
+# the globe's 32 rows of cells make eight blocks of four
+on 9 run "$wind" -o none --nodes 65 --quiet
+expect_code 1
+expect_one_message
+expect_error '8 ranks fit'
+expect_nothing_at none
+done_with "more ranks than the mesh has blocks for"
 
 on 3 run no-such.nc -o none
 expect_code 1

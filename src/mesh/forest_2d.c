@@ -1,1 +1,0 @@
-#include "mesh/forest_body.h"
