@@ -95,7 +95,7 @@ static fg_status try_seed(fg__place_search *search, const fg__place_seed *seed,
                                 &search->trial, &search->price);
   double diffusion;
   status = fg__place_diffusion_price(&diffusion, search, NULL, &line);
-  *fall = before - after - diffusion - fg__place_own_price(search, &line, &search->whole);
+  *fall = before - after - diffusion - fg__place_own_price(search, &line);
   return status;
 }
 

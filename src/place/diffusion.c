@@ -14,13 +14,13 @@ static const float HOLD_2D = 6.0F;
 static const float HOLD_3D = 30.0F;
 
 /* A window reaches so many lambda beyond the lines. */
-static const float MARGIN = 0.75F;
+static const float MARGIN = 0.6F;
 
 /* Steps of Chebyshev's iteration for a spectral radius that gaps of ten cells between
  * lines have; even, so that the values end where they began. With twice as many the
  * errors of placements stay. */
 static const float RADIUS = 0.95F;
-enum { STEPS = 10, WHOLE_STEPS = 80 };
+enum { STEPS = 8, WHOLE_STEPS = 80 };
 
 enum { SCALARS = 3, WINDOW_SCALARS = 3, PAD = 16 };
 

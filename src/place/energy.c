@@ -18,9 +18,18 @@ fg_status fg__place_gather(fg__place_tale *out, fg__place_search *search,
 {
   fg_status status = fg__place_tale_start(out, search->context, search->scale.dimension,
                                           box, (float)fg__place_reach(search));
+  int most = 0;
+  for (int n = 0; n < search->count; ++n)
+    if (n != except && fg__place_boxes_meet(box, &search->icon[n]->tale.box))
+      most += search->icon[n]->line.count;
+  if (status == FG_STATUS_OK)
+    status = fg__place_points_start(&search->beside, search->context,
+                                    search->scale.dimension, most);
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
-    if (n != except)
+    if (n != except && fg__place_boxes_meet(box, &search->icon[n]->tale.box)) {
       fg__place_tale_add(out, &search->icon[n]->tale);
+      fg__place_points_add(&search->beside, &search->icon[n]->line);
+    }
   return status;
 }
 
@@ -42,40 +51,35 @@ static double decay(double x)
 }
 
 /* A head that touches another arrow's tail makes one arrow of two. */
-static double price_of_ends(const fg__place_search *search, const fg__place_line *line,
-                            const fg__place_tale *others)
+static double price_of_end(const fg__place_scale *scale, float square)
 {
-  const fg__place_scale *scale = &search->scale;
-  double sum = 0.0;
-  for (int end = 0; end < 2; ++end) {
-    int n = end && line->count > 0 ? line->count - 1 : 0;
-    float position[3] = {line->position[0][n], line->position[1][n],
-                         line->position[2][n]};
-    double square =
-        (double)fg__place_near(&search->raster, others, position, search->price.reach);
-    double near = fmax(0.0, 1.0 - sqrt(square) * scale->lambda / scale->end_gap);
-    sum += scale->ends * near * near;
-  }
-  return sum;
+  double near = fmax(0.0, 1.0 - sqrt((double)square) * scale->lambda / scale->end_gap);
+  return scale->ends * near * near;
 }
 
-double fg__place_own_price(const fg__place_search *search, const fg__place_line *line,
-                           const fg__place_tale *others)
+/* A line that touches another one. */
+static double price_of_touch(const fg__place_scale *scale, float square)
+{
+  double near = fmax(0.0, 1.0 - sqrt((double)square) * scale->lambda / scale->touch_gap);
+  return scale->touch * near * near;
+}
+
+double fg__place_own_price(const fg__place_search *search, const fg__place_line *line)
 {
   const fg__place_scale *scale = &search->scale;
-  double range = scale->crowd_range / scale->lambda, crowd = 0.0;
+  double range = scale->crowd_range / scale->lambda, crowd = 0.0, ends = 0.0;
   double sampling = scale->sampling / scale->lambda,
          length = line->length / scale->lambda;
-  for (int n = 0; n < line->count; ++n) {
-    float position[3] = {line->position[0][n], line->position[1][n],
-                         line->position[2][n]};
-    double square =
-        (double)fg__place_near(&search->raster, others, position, search->price.reach);
-    crowd += (double)line->share[n] * sampling * decay(square / (2.0 * range * range));
-  }
+  float square[FG__PLACE_SAMPLES];
+  fg__place_points_nearest(square, &search->beside, line);
+  for (int n = 0; n < line->count; ++n)
+    crowd += (double)line->share[n] * sampling *
+             (2.0 * scale->crowding * decay((double)square[n] / (2.0 * range * range)) +
+              price_of_touch(scale, square[n]));
+  if (line->count > 0)
+    ends = price_of_end(scale, square[0]) + price_of_end(scale, square[line->count - 1]);
   double brief = fmax(0.0, BRIEF - length);
-  return 2.0 * scale->crowding * crowd + price_of_ends(search, line, others) +
-         scale->brevity * brief * brief + scale->ink * length;
+  return crowd + ends + scale->brevity * brief * brief + scale->ink * length;
 }
 
 static fg_status gather_whole(fg__place_search *search)
@@ -118,7 +122,7 @@ fg_status fg__place_energy(fg__place_search *search, double *energy)
     fg__place_icon *icon = search->icon[n];
     status = fg__place_gather(&search->others, search, &icon->tale.box, n);
     if (status == FG_STATUS_OK) /* a pair crowds once */
-      *energy += fg__place_own_price(search, &icon->line, &search->others);
+      *energy += fg__place_own_price(search, &icon->line);
   }
   return status;
 }

@@ -93,8 +93,7 @@ static fg_status price_of_loss(fg__place_search *search, int index, double *rise
       fg__place_cost(NULL, &search->raster, box, &search->others, NULL, &search->price);
   double diffusion;
   status = fg__place_diffusion_price(&diffusion, search, &icon->line, NULL);
-  *rise = without - with + diffusion -
-          fg__place_own_price(search, &icon->line, &search->others);
+  *rise = without - with + diffusion - fg__place_own_price(search, &icon->line);
   return status;
 }
 

@@ -370,3 +370,40 @@ double fg__place_angle_row(int dimension, float *out, const fg__place_angle_cell
 {
   return (dimension == 2 ? angle_2d : angle_3d)(out, cells, count);
 }
+
+INLINE void nearest_points(const int dimension, float *square, const fg__place_line *line,
+                           const float *position, size_t stride, int count)
+{
+  for (int n = 0; n < line->count; ++n) {
+    vector least = (vector){0} + 1e18F;
+    for (int i = 0; i < count; i += WIDTH) {
+      vector sum = {0};
+      for (int k = 0; k < dimension; ++k) {
+        vector way = load(position + (size_t)k * stride + i) - line->position[k][n];
+        sum += way * way;
+      }
+      least = choose(sum < least, sum, least);
+    }
+    square[n] = least[0];
+    for (int k = 1; k < WIDTH; ++k)
+      square[n] = least[k] < square[n] ? least[k] : square[n];
+  }
+}
+
+CLONES static void nearest_2d(float *square, const fg__place_line *line,
+                              const float *position, size_t stride, int count)
+{
+  nearest_points(2, square, line, position, stride, count);
+}
+
+CLONES static void nearest_3d(float *square, const fg__place_line *line,
+                              const float *position, size_t stride, int count)
+{
+  nearest_points(3, square, line, position, stride, count);
+}
+
+void fg__place_nearest_points(int dimension, float *square, const fg__place_line *line,
+                              const float *position, size_t stride, int count)
+{
+  (dimension == 2 ? nearest_2d : nearest_3d)(square, line, position, stride, count);
+}

@@ -58,4 +58,10 @@ typedef struct fg__place_angle_cells {
 double fg__place_angle_row(int dimension, float *out, const fg__place_angle_cells *cells,
                            int count);
 
+/* For each of a line's samples the square of the distance to the nearest of `count`
+ * points, whole vectors of them; their coordinates lie in arrays `stride` apart. 1e18
+ * without any. */
+void fg__place_nearest_points(int dimension, float *square, const fg__place_line *line,
+                              const float *position, size_t stride, int count);
+
 #endif

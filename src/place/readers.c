@@ -273,14 +273,49 @@ double fg__place_cost(float *cost, const fg__place_raster *raster,
   return sum;
 }
 
-float fg__place_near(const fg__place_raster *raster, const fg__place_tale *tale,
-                     const float position[3], float reach)
+enum { VECTOR = 16 };
+static const float BEYOND = 1e9F;
+
+void fg__place_points_clear(fg__place_points *points)
 {
-  int at[3] = {0};
-  for (int k = 0; k < raster->dimension; ++k) {
-    at[k] = (int)(position[k] / raster->cell);
-    if (at[k] < tale->box.low[k] || at[k] >= tale->box.low[k] + tale->box.size[k])
-      return reach * reach;
+  free(points->position);
+  *points = (fg__place_points){0};
+}
+
+fg_status fg__place_points_start(fg__place_points *points, fg_context *context,
+                                 int dimension, int most)
+{
+  size_t needed = ((size_t)most / VECTOR + 1) * VECTOR;
+  points->dimension = dimension;
+  points->count = 0;
+  if (needed > points->capacity) {
+    free(points->position);
+    points->capacity = needed;
+    points->position =
+        fg__allocate_aligned(needed * (size_t)dimension, sizeof *points->position);
+    if (!points->position) {
+      points->capacity = 0;
+      return fg__fail_memory(context, "samples of lines",
+                             needed * (size_t)dimension * sizeof *points->position);
+    }
   }
-  return tale->value[place_in(&tale->box, at[0], at[1], at[2])];
+  for (size_t n = 0; n < points->capacity * (size_t)dimension; ++n)
+    points->position[n] = BEYOND;
+  return FG_STATUS_OK;
+}
+
+void fg__place_points_add(fg__place_points *points, const fg__place_line *line)
+{
+  for (int k = 0; k < points->dimension; ++k)
+    memcpy(points->position + (size_t)k * points->capacity + points->count,
+           line->position[k], (size_t)line->count * sizeof *points->position);
+  points->count += line->count;
+}
+
+void fg__place_points_nearest(float square[FG__PLACE_SAMPLES],
+                              const fg__place_points *points, const fg__place_line *line)
+{
+  int count = (points->count + VECTOR - 1) / VECTOR * VECTOR;
+  fg__place_nearest_points(points->dimension, square, line, points->position,
+                           points->capacity, count);
 }

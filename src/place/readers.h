@@ -54,6 +54,26 @@ typedef struct fg__place_tale {
 
 void fg__place_tale_clear(fg__place_tale *tale);
 
+/* Samples of lines, in lambda. */
+typedef struct fg__place_points {
+  int dimension, count;
+  size_t capacity;
+  float *position; /* `dimension` arrays of `capacity`, padded to whole vectors with
+                      places beyond all reach */
+} fg__place_points;
+
+void fg__place_points_clear(fg__place_points *points);
+
+/* Starts over with no points, and room for so many. MEMORY. */
+fg_status fg__place_points_start(fg__place_points *points, fg_context *context,
+                                 int dimension, int most);
+void fg__place_points_add(fg__place_points *points, const fg__place_line *line);
+
+/* For each of a line's samples the square of the distance to the nearest point, lambda;
+ * huge without any. */
+void fg__place_points_nearest(float square[FG__PLACE_SAMPLES],
+                              const fg__place_points *points, const fg__place_line *line);
+
 /* Makes a tale of a box that nobody tells anything. MEMORY. */
 fg_status fg__place_tale_start(fg__place_tale *tale, fg_context *context, int dimension,
                                const fg__place_box *box, float reach);
@@ -82,10 +102,5 @@ typedef struct fg__place_price {
 double fg__place_cost(float *cost, const fg__place_raster *raster,
                       const fg__place_box *box, const fg__place_tale *one,
                       const fg__place_tale *other, const fg__place_price *price);
-
-/* Square of the distance to the nearest line of a tale at a place in lambda, as the cell
- * there has it; `reach` squared outside. */
-float fg__place_near(const fg__place_raster *raster, const fg__place_tale *tale,
-                     const float position[3], float reach);
 
 #endif

@@ -116,7 +116,7 @@ static double price(const fg__place_search *search, const fg__place_box *box,
 {
   return fg__place_cost(NULL, &search->raster, box, &search->others, tale,
                         &search->price) +
-         fg__place_own_price(search, line, &search->others);
+         fg__place_own_price(search, line);
 }
 
 /* A seed in a free placement has the ways that its line really goes. */

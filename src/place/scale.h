@@ -19,6 +19,8 @@ typedef struct fg__place_scale {
   double ends;        /* price of an end that lies on another line, */
   double end_gap;     /* and falls to 0 at this distance */
   double diffusion;   /* what a degree of the diffusion reader counts */
+  double touch;       /* price of a line as long as lambda that lies on another one, */
+  double touch_gap;   /* and falls to 0 at this distance */
   double far;         /* kappa: price of distance */
   double brevity;     /* nu */
   double ink;         /* p */

@@ -63,6 +63,7 @@ void fg__place_search_clear(fg__place_search *search)
   fg__place_tale_clear(&search->others);
   fg__place_tale_clear(&search->trial);
   fg__place_tale_clear(&search->whole);
+  fg__place_points_clear(&search->beside);
   *search = (fg__place_search){0};
 }
 

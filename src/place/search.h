@@ -27,7 +27,8 @@ typedef struct fg__place_search {
   int next_identity;
   /* Room to work in: */
   fg__place_tale others, trial, whole;
-  float *map, *smooth; /* a value a raster cell */
+  fg__place_points beside; /* samples of the icons that were gathered last */
+  float *map, *smooth;     /* a value a raster cell */
 } fg__place_search;
 
 /* Starts a search for `count` icons, with none yet. MEMORY. */
@@ -86,16 +87,16 @@ static inline double fg__place_reach(const fg__place_search *search)
   return search->scale.reach / search->scale.lambda;
 }
 
-/* What a line costs by itself beside others. */
-double fg__place_own_price(const fg__place_search *search, const fg__place_line *line,
-                           const fg__place_tale *others);
+/* What a line costs by itself, beside the icons that were gathered last. */
+double fg__place_own_price(const fg__place_search *search, const fg__place_line *line);
 
 /* What line `to` in place of line `from` (NULL: none) adds to the price of the diffusion
  * reader's errors. MEMORY. */
 fg_status fg__place_diffusion_price(double *price, fg__place_search *search,
                                     const fg__place_line *from, const fg__place_line *to);
 
-/* What all icons but `except` (-1: all) tell a box. MEMORY. */
+/* What all icons but `except` (-1: all) tell a box; search->beside gets the samples of
+ * those that tell it anything. MEMORY. */
 fg_status fg__place_gather(fg__place_tale *out, fg__place_search *search,
                            const fg__place_box *box, int except);
 
