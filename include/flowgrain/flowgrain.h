@@ -1,27 +1,35 @@
 /* flowgrain: simple pictures of complicated vector fields, at every scale.
  *
- * A field is read (fg_field), a density evolves on it by an anisotropic Cahn-Hilliard
- * equation (fg_evolution), the set {u > 0} of a moment (fg_density) falls into clusters,
- * each cluster becomes one curved arrow (fg_icons), and arrows become pictures and
- * tables. Method: Garcke, Preusser, Rumpf, Telea, Weikard and van Wijk, "A Continuous
- * Clustering Method for Vector Fields", IEEE Visualization 2000.
+ *     fg_context *context = NULL;  fg_field *field = NULL;  fg_icons *icons = NULL;
+ *     fg_status status = fg_context_create(&context);
+ *     if (!status)
+ *       status = fg_field_read(&field, context, "wind.nc", NULL);
+ *     if (!status)
+ *       status = fg_arrows_create(&icons, context, field, NULL);   // 40 arrows
+ *     if (!status)
+ *       status = fg_picture_write(context, "wind.svg", field, NULL, icons, NULL);
+ *     if (status)
+ *       fprintf(stderr, "%s\n", fg_context_message(context));
  *
- *     fg_context *ctx;  fg_field *field;  fg_evolution *evolution;
- *     fg_density *density;  fg_icons *icons;
- *     fg_context_create(&ctx);
- *     fg_field_read(&field, ctx, "wind.nc", NULL);
- *     fg_evolution_create(&evolution, ctx, field, NULL);
+ * fg_field_create takes arrays in memory instead of a file. fg_placement places scales,
+ * from many arrows to few. Arrows may start from clusters: a density evolves on the field
+ * by an anisotropic Cahn-Hilliard equation (fg_evolution), the set {u > 0} (fg_density)
+ * falls into clusters, each cluster becomes one curved arrow (fg_icons). Method: Garcke,
+ * Preusser, Rumpf, Telea, Weikard and van Wijk, "A Continuous Clustering Method for
+ * Vector Fields", IEEE Visualization 2000.
+ *
+ *     fg_evolution_create(&evolution, context, field, NULL);
  *     do
- *       fg_evolution_step(evolution, &step);
- *     while (step.clusters > 40 || !step.clusters);
+ *       status = fg_evolution_step(evolution, &step);
+ *     while (!status && !step.stationary && (step.clusters > 40 || !step.clusters));
  *     fg_density_create(&density, evolution);
- *     fg_icons_create(&icons, ctx, field, density, NULL);
- *     fg_picture_write(ctx, "wind.svg", field, density, icons, NULL);
+ *     fg_icons_create(&icons, context, field, density, NULL);
  *
  * The manual is the headers that this one includes: context.h (statuses, messages,
  * ranks), field.h and parts.h (in), evolution.h, energy.h and checkpoint.h (the work),
- * density.h and icons.h (its results), picture.h, solid.h, texture.h and brush.h (out),
- * rival.h (what to compare with), score.h (how good it is). Each can be included alone.
+ * density.h and icons.h (its results), placement.h (exactly N arrows), picture.h,
+ * solid.h, texture.h and brush.h (out), rival.h (what to compare with), score.h (how good
+ * it is). Each can be included alone.
  *
  * Conventions
  * - A function that can fail returns fg_status; its result comes first, through `out`,

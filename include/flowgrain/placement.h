@@ -27,6 +27,21 @@ typedef struct fg_placement_options {
   fg_effort effort;   /* [normal] */
 } fg_placement_options;
 
+typedef struct fg_arrows_options {
+  int count;          /* how many [40] */
+  fg_lengths lengths; /* [free] */
+  fg_effort effort;   /* [normal] */
+} fg_arrows_options;
+
+/* Places exactly options->count arrows on a field, 2D or 3D, in one call, from evenly
+ * distributed points; `options` may be NULL. An icon's points run from tail to head in
+ * the field's coordinates; all that icons have is set (fg_placement_icons). The same on
+ * any machine and any number of threads. ARGUMENT (so many have no room: the message says
+ * how many have), MEMORY, STOPPED. */
+FG_API fg_status fg_arrows_create(fg_icons **out, fg_context *context,
+                                  const fg_field *field,
+                                  const fg_arrows_options *options);
+
 /* Arrows on a field: one scale after another, from many arrows to few. */
 typedef struct fg_placement fg_placement;
 

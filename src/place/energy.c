@@ -121,7 +121,7 @@ fg_status fg__place_energy(fg__place_search *search, double *energy)
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
     fg__place_icon *icon = search->icon[n];
     status = fg__place_gather(&search->others, search, &icon->tale.box, n);
-    if (status == FG_STATUS_OK) /* a pair crowds once */
+    if (status == FG_STATUS_OK) /* both of a pair pay */
       *energy += fg__place_own_price(search, &icon->line);
   }
   return status;

@@ -181,6 +181,29 @@ static void placing_lowers_the_error(void **state)
   fg_field_destroy(field);
 }
 
+/* One call gives what placing in steps gives. */
+static void one_call_is_enough(void **state)
+{
+  fg_field *field = field_of(*state, &PLAIN, coast);
+  const fg_arrows_options options = {.count = 23, .effort = FG_EFFORT_QUICK};
+  fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
+  fg_icons *icons = NULL, *steps = place(*state, placement, 23);
+  assert_int_equal(fg_arrows_create(&icons, *state, field, &options), FG_STATUS_OK);
+  assert_same(icons, steps);
+  fg_icons_destroy(icons);
+  assert_int_equal(fg_arrows_create(&icons, *state, field, NULL), FG_STATUS_OK);
+  assert_int_equal(fg_icons_count(icons), 40);
+  fg_icons_destroy(icons);
+  const fg_arrows_options negative = {.count = -1}, many = {.count = 1000000};
+  assert_int_equal(fg_arrows_create(&icons, *state, field, &negative),
+                   FG_STATUS_ARGUMENT);
+  assert_int_equal(fg_arrows_create(&icons, *state, field, &many), FG_STATUS_ARGUMENT);
+  assert_null(icons);
+  fg_icons_destroy(steps);
+  fg_placement_destroy(placement);
+  fg_field_destroy(field);
+}
+
 static void icons_of_clusters_are_a_start(void **state)
 {
   fg_field *field = field_of(*state, &PLAIN, swirl);
@@ -235,7 +258,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(there_are_as_many_as_asked_for), CASE(a_field_has_one_picture),
       CASE(a_turned_field_is_read_as_well), CASE(placing_lowers_the_error),
-      CASE(icons_of_clusters_are_a_start),  CASE(wrong_arguments_are_refused),
+      CASE(icons_of_clusters_are_a_start),  CASE(one_call_is_enough),
+      CASE(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests_name("place/placement", tests, NULL, NULL);
 }

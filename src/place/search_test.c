@@ -127,7 +127,7 @@ static void a_move_is_priced_where_it_tells(void **state)
 {
   setting s;
   set_even(&s, *state, &PLAIN, swirl, 20, true);
-  s.search.scale.crowding = s.search.scale.ends = 0.0;
+  s.search.scale.crowding = s.search.scale.ends = s.search.scale.touch = 0.0;
   assert_int_equal(fg__place_weigh(&s.search), FG_STATUS_OK);
   unsigned random = 17;
   int moved = 0;
@@ -172,7 +172,7 @@ static void crowding_is_dear_and_so_are_short_lines(void **state)
   setting s;
   set(&s, *state, &PLAIN, slant, 12, true);
   const double lambda = s.search.scale.lambda;
-  s.search.scale.ends = 0.0;
+  s.search.scale.ends = s.search.scale.touch = 0.0;
   add(&s, -1, 7, true);
   add(&s, -1 - 0.1 * lambda * sin(SLANT), 7 + 0.1 * lambda * cos(SLANT), true);
   fg__place_box all = {{0}, {0}};
@@ -193,6 +193,23 @@ static void crowding_is_dear_and_so_are_short_lines(void **state)
   clear(&s);
 }
 
+static void lines_do_not_touch(void **state)
+{
+  setting s;
+  set(&s, *state, &PLAIN, slant, 12, true);
+  const double lambda = s.search.scale.lambda;
+  s.search.scale.crowding = s.search.scale.ends = 0.0;
+  add(&s, -1, 7, true);
+  add(&s, -1 - 0.06 * lambda * sin(SLANT), 7 + 0.06 * lambda * cos(SLANT), true);
+  fg__place_box all = {{0}, {0}};
+  memcpy(all.size, s.search.raster.cells, sizeof all.size);
+  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 1), FG_STATUS_OK);
+  const fg__place_line *line = &s.search.icon[1]->line;
+  double price = fg__place_own_price(&s.search, line), length = line->length / lambda;
+  assert_close(price, 6 * length * pow(1 - 0.06 / 0.15, 2), 0.1 * price);
+  clear(&s);
+}
+
 /* A line that ends a tenth of lambda before another begins: two ends, each half of the
  * gap away. */
 static void heads_keep_away_from_other_ends(void **state)
@@ -200,7 +217,7 @@ static void heads_keep_away_from_other_ends(void **state)
   setting s;
   set(&s, *state, &PLAIN, slant, 12, true);
   const double lambda = s.search.scale.lambda, step = 1.1 * lambda;
-  s.search.scale.crowding = 0.0;
+  s.search.scale.crowding = s.search.scale.touch = 0.0;
   add(&s, -1, 7, true);
   add(&s, -1 + step * cos(SLANT), 7 + step * sin(SLANT), true);
   fg__place_box all = {{0}, {0}};
@@ -259,6 +276,7 @@ int main(void)
       CASE(an_exchange_that_does_not_pay_is_undone),
       CASE(a_move_is_priced_where_it_tells),
       CASE(crowding_is_dear_and_so_are_short_lines),
+      CASE(lines_do_not_touch),
       CASE(heads_keep_away_from_other_ends),
       CASE(thinning_takes_the_ones_that_say_least),
       CASE(an_icon_comes_where_readers_err),
