@@ -136,7 +136,9 @@ static int read_field(fg_field **out, fg_context *context, const cli_settings *s
   if (!settings->input && report->input_absolute &&
       access(report->input_absolute, R_OK) == 0)
     input = report->input_absolute;
-  if (rehearse_reading(input, &report->reading))
+  const cli_settings reading = {.operand = input};
+  if (check_is_no_input(&reading, settings->output) ||
+      rehearse_reading(input, &report->reading))
     return EXIT_FAILED;
   fg_status status = fg_field_read(out, context, input, &report->reading);
   if (!status && !report_is_of_field(report, settings->operand, input, *out)) {
