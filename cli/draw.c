@@ -141,6 +141,8 @@ static int read_field(fg_field **out, fg_context *context, const cli_settings *s
       rehearse_reading(input, &report->reading))
     return EXIT_FAILED;
   fg_status status = fg_field_read(out, context, input, &report->reading);
+  if (!status)
+    say_infinite(input, *out);
   if (!status && !report_is_of_field(report, settings->operand, input, *out)) {
     fputs("Icons are drawn on the field that they were made of.\n", stderr);
     return EXIT_FAILED;

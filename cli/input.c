@@ -77,8 +77,10 @@ int input_join(cli_run *run)
   fg_status status = fg_field_join(run->context, run->field);
   if (status)
     return complain_of(run->context, status, run->settings->operand);
-  if (ranks_leader())
+  if (ranks_leader()) {
     say_choices(run);
+    say_infinite(run->settings->operand, run->field);
+  }
   return EXIT_DONE;
 }
 

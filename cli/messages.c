@@ -81,6 +81,14 @@ int complain_of_file(const char *path, const char *what)
   return EXIT_FAILED;
 }
 
+void say_infinite(const char *file, const fg_field *field)
+{
+  size_t count = fg_field_infinite(field);
+  if (count > 0)
+    complain("%s: %zu %s infinite and count%s as missing", file, count,
+             count == 1 ? "sample is" : "samples are", count == 1 ? "s" : "");
+}
+
 int create_context(fg_context **out)
 {
   if (fg_context_create(out) == FG_STATUS_OK)

@@ -97,6 +97,9 @@ int complain_of_partial(const fg_context *context, fg_status status, const char 
 /* Prints a file's error from errno, "flowgrain: PATH: No such file ..."; EXIT_FAILED. */
 int complain_of_file(const char *path, const char *what);
 
+/* Says how many samples of a field are missing because they are infinite, if any are. */
+void say_infinite(const char *file, const fg_field *field);
+
 /* Creates a context, or complains. Returns an exit code. */
 int create_context(fg_context **out);
 

@@ -251,6 +251,7 @@ static int prepare(rival_work *work)
                               .position_weight = fmax(said->position_weight, 0.0),
                               .elongation = said->elongation};
   if (!status) {
+    say_infinite(said->operand, work->field);
     int dimension = fg_field_contents(work->field)->dimension;
     int code = refuse_other_dimension("rival", said, dimension, said->operand);
     if (!code)

@@ -75,6 +75,8 @@ int command_texture(const cli_settings *settings)
   interrupt_start(context);
   fg_field *field = NULL;
   fg_status status = fg_field_read(&field, context, settings->operand, &reading);
+  if (!status)
+    say_infinite(settings->operand, field);
   code = status ? complain_of(context, status, settings->operand)
                 : paint(context, settings, field);
   interrupt_end();

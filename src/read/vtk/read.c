@@ -186,7 +186,7 @@ static fg_status count_missing(double *share, const fg__vtk *vtk,
     for (size_t i = 0; i < fg__vtk_grid_wanted(&some); ++i) {
       bool here = true;
       for (int k = 0; k < grid->dimension; ++k)
-        here = here && !isnan(velocity[k][i]);
+        here = here && isfinite(velocity[k][i]);
       missing += !here;
     }
     for (int k = 0; k < 3; ++k)
