@@ -81,6 +81,11 @@ void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The same of a second line, which says what to do about the complaint. */
 void advise(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* A text of a file without what a terminal would obey: control characters become '?'.
+ * Returns `out`; longer texts are cut. */
+enum { CLEAN_BYTES = 1024 };
+const char *clean_text(char out[CLEAN_BYTES], const char *text);
+
 /* What was last complained of, and advised on it; "" before. */
 const char *last_complaint(void);
 const char *last_advice(void);
