@@ -1,6 +1,7 @@
 /* Paints an image in brush strokes along its level sets. */
 #include <stdio.h>
 
+#include "folder.h"
 #include "interrupt.h"
 #include "output.h"
 #include "progress.h"
@@ -34,6 +35,8 @@ static fg_status paint(fg_context *context, const cli_settings *settings,
 int command_brush(const cli_settings *settings)
 {
   int code = check_picture_name(settings->output, "brush");
+  if (!code)
+    code = check_is_no_input(settings, settings->output);
   if (code)
     return code;
   fg_context *context;

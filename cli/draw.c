@@ -136,9 +136,13 @@ static int read_field(fg_field **out, fg_context *context, const cli_settings *s
   if (!settings->input && report->input_absolute &&
       access(report->input_absolute, R_OK) == 0)
     input = report->input_absolute;
-  if (rehearse_reading(input, &report->reading))
+  const cli_settings reading = {.operand = input};
+  if (check_is_no_input(&reading, settings->output) ||
+      rehearse_reading(input, &report->reading))
     return EXIT_FAILED;
   fg_status status = fg_field_read(out, context, input, &report->reading);
+  if (!status)
+    say_infinite(input, *out);
   if (!status && !report_is_of_field(report, settings->operand, input, *out)) {
     fputs("Icons are drawn on the field that they were made of.\n", stderr);
     return EXIT_FAILED;

@@ -141,7 +141,7 @@ int duplicate_file(const char *folder, const char *name, const char *from)
   char *source = join_path(from, name), *path = join_path(folder, name);
   int code = source && path ? EXIT_DONE : out_of_memory();
   /* some file systems know no second names */
-  if (!code && link(source, path) != 0 && !copy_file(path, source))
+  if (!code && link(source, path) != 0 && (errno == EEXIST || !copy_file(path, source)))
     code = complain_of_file(path, "cannot be written");
   free(source);
   free(path);
@@ -150,7 +150,7 @@ int duplicate_file(const char *folder, const char *name, const char *from)
 
 static int synchronise(const char *path)
 {
-  int file = open(path, O_RDONLY | O_CLOEXEC);
+  int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0)
     return complain_of_file(path, "cannot be read");
   bool failed = fsync(file) != 0 && errno != EINVAL && errno != ENOSYS;
@@ -193,14 +193,66 @@ static void cut_to_parent(char *path)
   slash[slash == path ? 1 : 0] = '\0';
 }
 
+/* A symbolic link is there even where it leads to nothing. */
+static bool is_absent(const char *path)
+{
+  struct stat found;
+  return lstat(path, &found) != 0 && errno == ENOENT;
+}
+
 char *nearest_existing(const char *path)
 {
   char *nearest = join_texts(path, "");
-  struct stat found;
-  while (nearest && stat(nearest, &found) != 0 && errno == ENOENT &&
-         strcmp(nearest, ".") != 0 && strcmp(nearest, "/") != 0)
+  for (size_t length = nearest ? strlen(nearest) : 0;
+       length > 1 && nearest[length - 1] == '/';)
+    nearest[--length] = '\0';
+  while (nearest && is_absent(nearest) && strcmp(nearest, ".") != 0 &&
+         strcmp(nearest, "/") != 0)
     cut_to_parent(nearest);
   return nearest;
+}
+
+static bool is_of_kind(const char *path, mode_t kind)
+{
+  struct stat found;
+  return lstat(path, &found) == 0 && (found.st_mode & S_IFMT) == kind;
+}
+
+bool is_plain_file(const char *path)
+{
+  return is_of_kind(path, S_IFREG);
+}
+
+bool is_plain_folder(const char *path)
+{
+  return is_of_kind(path, S_IFDIR);
+}
+
+static bool is_same_file(const char *path, const struct stat *about)
+{
+  struct stat found;
+  return path && stat(path, &found) == 0 && found.st_dev == about->st_dev &&
+         found.st_ino == about->st_ino;
+}
+
+static bool is_input(const cli_settings *settings, const struct stat *about)
+{
+  const char *const inputs[] = {settings->operand, settings->vars_from, settings->energy,
+                                settings->input};
+  bool same = false;
+  for (size_t k = 0; k < sizeof inputs / sizeof inputs[0]; ++k)
+    same = same || is_same_file(inputs[k], about);
+  return same;
+}
+
+int check_is_no_input(const cli_settings *settings, const char *path)
+{
+  struct stat found;
+  if (stat(path, &found) != 0 || !is_input(settings, &found))
+    return EXIT_DONE;
+  complain("%s: is an input, and would be overwritten", path);
+  advise("Choose another name with -o.");
+  return EXIT_FAILED;
 }
 
 int check_place_of_file(const char *path)
@@ -226,12 +278,19 @@ int check_place_of_file(const char *path)
   return code;
 }
 
+static bool is_folder(const struct stat *about)
+{
+  errno = ENOTDIR;
+  return S_ISDIR(about->st_mode);
+}
+
 int make_folders(const char *folder, char **topmost)
 {
   char *path = join_texts(folder, "");
   if (!path)
     return out_of_memory();
   int code = EXIT_DONE;
+  struct stat found;
   for (char *end = path + 1; !code; ++end) {
     if (*end && *end != '/')
       continue;
@@ -240,7 +299,7 @@ int make_folders(const char *folder, char **topmost)
     if (mkdir(path, 0777) == 0) {
       if (!*topmost)
         *topmost = join_texts(path, "");
-    } else if (errno != EEXIST)
+    } else if (errno != EEXIST || stat(path, &found) != 0 || !is_folder(&found))
       code = complain_of_file(path, "cannot be made");
     *end = kept;
     if (!kept)

@@ -53,6 +53,14 @@ char *nearest_existing(const char *path);
  * one that is a folder: before the work, not after it. Returns an exit code. */
 int check_place_of_file(const char *path);
 
+/* Refuses to write to a file that one of the command's inputs is. Returns an exit code.
+ */
+int check_is_no_input(const cli_settings *settings, const char *path);
+
+/* A regular file, or a folder, of that name itself, not by a symbolic link. */
+bool is_plain_file(const char *path);
+bool is_plain_folder(const char *path);
+
 /* Removes folders that are empty, from `folder` up to `topmost`. */
 void remove_empty_folders(const char *folder, const char *topmost);
 

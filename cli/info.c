@@ -17,14 +17,15 @@ static int name_count(const fg_inventory_vector *vector)
 static void print_vector(const fg_inventory_vector *vector)
 {
   static const char axis[] = "xyz";
+  char room[CLEAN_BYTES];
   printf("vectors: ");
   for (int k = 0; k < name_count(vector); ++k)
-    printf("%s%s", k ? "," : "", vector->name[k]);
-  printf("\n  found by: %s\n", vector->found_by);
+    printf("%s%s", k ? "," : "", clean_text(room, vector->name[k]));
+  printf("\n  found by: %s\n", clean_text(room, vector->found_by));
   if (*vector->units)
-    printf("  units: %s\n", vector->units);
+    printf("  units: %s\n", clean_text(room, vector->units));
   if (vector->unusable) { /* its grid is not known */
-    printf("  cannot be read: %s\n", vector->unusable);
+    printf("  cannot be read: %s\n", clean_text(room, vector->unusable));
     return;
   }
   printf("  grid:");

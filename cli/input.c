@@ -58,9 +58,10 @@ static void count_choices(cli_run *run)
 static void say_choice(const char *file, const char *kind, int index, int count,
                        const char *words)
 {
+  char room[CLEAN_BYTES];
   if (count > 1)
     fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", file, kind, index, count - 1,
-            words ? ": " : "", words ? words : "");
+            words ? ": " : "", clean_text(room, words ? words : ""));
 }
 
 static void say_choices(cli_run *run)
@@ -77,8 +78,10 @@ int input_join(cli_run *run)
   fg_status status = fg_field_join(run->context, run->field);
   if (status)
     return complain_of(run->context, status, run->settings->operand);
-  if (ranks_leader())
+  if (ranks_leader()) {
     say_choices(run);
+    say_infinite(run->settings->operand, run->field);
+  }
   return EXIT_DONE;
 }
 

@@ -15,12 +15,49 @@ void keep_complaints(void)
   silent = true;
 }
 
+/* Bytes of the character that begins here, as far as they belong to it. */
+static size_t character_bytes(const unsigned char *text)
+{
+  size_t wanted = *text >= 0xf0 ? 4 : *text >= 0xe0 ? 3 : *text >= 0xc2 ? 2 : 1;
+  size_t bytes = 1;
+  while (bytes < wanted && (text[bytes] & 0xc0) == 0x80)
+    ++bytes;
+  return bytes == wanted ? wanted : 1;
+}
+
+/* Of ASCII, and those that Unicode has from 0x80 to 0x9f, also as single bytes. */
+static bool is_control(const unsigned char *text, size_t bytes)
+{
+  unsigned char last = text[bytes - 1];
+  if (bytes == 1)
+    return last < 0x20 || last == 0x7f || (last >= 0x80 && last < 0xa0);
+  return bytes == 2 && text[0] == 0xc2 && last < 0xa0;
+}
+
+static void blank_controls(char *text)
+{
+  for (unsigned char *at = (unsigned char *)text; *at;) {
+    size_t bytes = character_bytes(at);
+    if (is_control(at, bytes))
+      memset(at, '?', bytes);
+    at += bytes;
+  }
+}
+
+const char *clean_text(char out[CLEAN_BYTES], const char *text)
+{
+  snprintf(out, CLEAN_BYTES, "%s", text);
+  blank_controls(out);
+  return out;
+}
+
 void complain(const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(complaint, sizeof complaint, format, arguments);
   va_end(arguments);
+  blank_controls(complaint);
   advice[0] = '\0';
   if (!silent)
     fprintf(stderr, "flowgrain: %s\n", complaint);
@@ -32,6 +69,7 @@ void advise(const char *format, ...)
   va_start(arguments, format);
   vsnprintf(advice, sizeof advice, format, arguments);
   va_end(arguments);
+  blank_controls(advice);
   if (!silent)
     fprintf(stderr, "%s\n", advice);
 }
@@ -79,6 +117,14 @@ int complain_of_file(const char *path, const char *what)
 {
   complain("%s: %s: %s", path, what, strerror(errno));
   return EXIT_FAILED;
+}
+
+void say_infinite(const char *file, const fg_field *field)
+{
+  size_t count = fg_field_infinite(field);
+  if (count > 0)
+    complain("%s: %zu %s infinite and count%s as missing", file, count,
+             count == 1 ? "sample is" : "samples are", count == 1 ? "s" : "");
 }
 
 int create_context(fg_context **out)

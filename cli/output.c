@@ -9,11 +9,15 @@
 #include <unistd.h>
 
 #include "folder.h"
+#include "made.h"
 #include "past_run.h"
 
 #define WORK_NAME ".flowgrain"
 #define LOCK_NAME "lock"
 #define PREVIOUS_NAME CHECKPOINT_NAME ".previous"
+/* There from the first change to DIR on: until DIR/run.json is there, too, every result
+ * in DIR is one of the run that was killed in publishing it. */
+#define MARK_NAME "publishing"
 
 static int out_of_memory(void)
 {
@@ -35,7 +39,7 @@ static int check_folder(const char *folder)
     return out_of_memory();
   int code = EXIT_DONE;
   if (stat(nearest, &found) != 0)
-    code = complain_of_file(nearest, "cannot be used");
+    code = complain_of_file(nearest, "is a symbolic link that cannot be followed");
   else if (!S_ISDIR(found.st_mode)) {
     complain("%s: is a file, a folder is needed for the results", nearest);
     code = EXIT_FAILED;
@@ -45,16 +49,36 @@ static int check_folder(const char *folder)
   return code;
 }
 
+static int refuse_kind(const char *path, const char *wanted)
+{
+  complain("%s: is no %s, as the program makes it", path, wanted);
+  advise("Choose another folder with -o, or move it away.");
+  return EXIT_FAILED;
+}
+
+/* What is not of the program's making may lead anywhere, or to nothing. */
+static int check_work(const char *work, const char *lock)
+{
+  struct stat found;
+  if (lstat(work, &found) == 0 && !is_plain_folder(work))
+    return refuse_kind(work, "folder");
+  if (lstat(lock, &found) == 0 && !is_plain_file(lock))
+    return refuse_kind(lock, "file");
+  return EXIT_DONE;
+}
+
 /* A run that is killed loses its lock. A file system without locks lets all pass. */
 static int check_lock(const char *folder, const char *work)
 {
   char *path = join_path(work, LOCK_NAME);
   if (!path)
     return out_of_memory();
-  int code = EXIT_DONE, file = open(path, O_RDWR | O_CLOEXEC);
+  int code = check_work(work, path), file = -1;
+  if (!code)
+    file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
   free(path);
   if (file < 0)
-    return EXIT_DONE;
+    return code;
   struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
   if (fcntl(file, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK)
     code = complain_of_rival(folder, &lock);
@@ -97,12 +121,25 @@ int output_check(const char *folder)
   return code;
 }
 
-int output_look(output_state *state, const char *folder)
+static bool is_half_published(const char *folder, const char *work)
 {
-  *state = OUTPUT_EMPTY;
+  return file_is_there(work, MARK_NAME) && !file_is_there(folder, REPORT_NAME);
+}
+
+int output_look(output_contents *out, const char *folder)
+{
+  *out = (output_contents){.state = OUTPUT_EMPTY};
+  output_state *state = &out->state;
   char *work = join_path(folder, WORK_NAME);
   if (!work)
     return out_of_memory();
+  if (!is_half_published(folder, work)) {
+    int code = made_find_foreign(out->foreign, folder);
+    if (code || out->foreign[0]) {
+      free(work);
+      return code;
+    }
+  }
   run_ending ending = report_ending(folder);
   bool complete = ending == ENDING_COMPLETE && report_is_published(folder, work);
   if (has_checkpoint(work) && !complete)
@@ -123,8 +160,12 @@ static int take_lock(cli_output *out, bool *again)
   char *path = join_path(out->work, LOCK_NAME);
   if (!path)
     return out_of_memory();
-  int code = EXIT_DONE;
-  out->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  int code = check_work(out->work, path);
+  if (code) {
+    free(path);
+    return code;
+  }
+  out->lock = open(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
   struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
   struct stat held, named;
   if (out->lock < 0 && errno == ENOENT)
@@ -146,6 +187,9 @@ static int take_lock(cli_output *out, bool *again)
   return code;
 }
 
+/* For a lock: each is lost to another run that ends. */
+enum { MOST_TRIES = 1000 };
+
 int output_open(cli_output *out, const char *folder)
 {
   *out = (cli_output){.lock = -1};
@@ -153,7 +197,7 @@ int output_open(cli_output *out, const char *folder)
   out->work = join_path(folder, WORK_NAME);
   if (!out->folder || !out->work)
     return out_of_memory();
-  int code;
+  int code, tries = 0;
   bool again;
   do {
     code = make_folders(folder, &out->made_from);
@@ -162,7 +206,11 @@ int output_open(cli_output *out, const char *folder)
     again = false;
     if (!code)
       code = take_lock(out, &again);
-  } while (again);
+  } while (again && ++tries < MOST_TRIES);
+  if (again) {
+    complain("%s: the lock of its runs does not stay where it was put", folder);
+    code = EXIT_FAILED;
+  }
   return code;
 }
 
@@ -194,12 +242,17 @@ static int clear_work(const cli_output *out)
     code = remove_file(out->work, PREVIOUS_NAME);
   if (!code)
     code = for_names(out->work, is_result_or_partial, remove_one, NULL);
+  if (!code)
+    code = remove_file(out->work, MARK_NAME);
   return code;
 }
 
 int output_start_anew(const cli_output *out)
 {
-  return clear_work(out);
+  int code = EXIT_DONE;
+  if (is_half_published(out->folder, out->work))
+    code = for_names(out->folder, is_result_or_partial, remove_one, NULL);
+  return code ? code : clear_work(out);
 }
 
 static int remove_later(const char *folder, const char *name, const void *data)
@@ -256,9 +309,37 @@ static int duplicate_one(const char *work, const char *name, const void *data)
   return duplicate_file(data, name, work);
 }
 
+static int make_mark(const cli_output *out)
+{
+  char *path = join_path(out->work, MARK_NAME);
+  if (!path)
+    return out_of_memory();
+  int code = EXIT_DONE,
+      file = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file < 0 || close(file) != 0)
+    code = complain_of_file(path, "cannot be written");
+  free(path);
+  return code;
+}
+
+/* Nothing but results of runs may be there to be replaced. */
+static int begin_to_publish(const cli_output *out)
+{
+  if (is_half_published(out->folder, out->work))
+    return EXIT_DONE;
+  char foreign[SCALE_NAME_BYTES];
+  int code = made_find_foreign(foreign, out->folder);
+  if (!code && foreign[0])
+    code = made_complain(out->folder, foreign);
+  return code ? code : make_mark(out);
+}
+
 int output_publish(const cli_output *out)
 {
-  int code = remove_file(out->folder, REPORT_NAME);
+  int code = begin_to_publish(out);
+  if (code)
+    return code;
+  code = remove_file(out->folder, REPORT_NAME);
   if (!code)
     code = for_names(out->folder, is_result_or_partial, remove_one, NULL);
   if (!code)

@@ -4,7 +4,7 @@
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
-#include "program.h"
+#include "folder.h"
 
 typedef struct cli_output {
   char *folder;    /* DIR */
@@ -13,7 +13,7 @@ typedef struct cli_output {
   int lock;        /* held while the run lasts; -1: not held */
 } cli_output;
 
-/* What an earlier run left. */
+/* What a folder holds. */
 typedef enum output_state {
   OUTPUT_EMPTY,       /* nothing that counts */
   OUTPUT_UNFINISHED,  /* a checkpoint to go on from */
@@ -21,13 +21,19 @@ typedef enum output_state {
   OUTPUT_FINISHED
 } output_state;
 
+typedef struct output_contents {
+  output_state state;
+  char
+      foreign[SCALE_NAME_BYTES]; /* a file named like a result that no run has made; "" */
+} output_contents;
+
 /* Refuses, with nothing written, a DIR that is no folder or can not be written to, and
  * one that another run is writing to. Not to be asked by the run that does (a process
  * that closes a file loses its lock). Returns an exit code. */
 int output_check(const char *folder);
 
 /* Says what DIR holds. Returns an exit code. */
-int output_look(output_state *state, const char *folder);
+int output_look(output_contents *out, const char *folder);
 
 /* Makes DIR, with its parents, and the folder of the work in it, for this run alone.
  * Returns an exit code. */
@@ -56,8 +62,9 @@ char *output_checkpoint_path(const char *folder);
 int output_synchronise(const cli_output *out);
 
 /* Gives every file its place in DIR, instead of those of an earlier run; run.json is the
- * last, so that a folder with it is whole. The folder of the work keeps them too, until
- * output_close. Returns an exit code. */
+ * last, so that a folder with it is whole. Refuses where that would replace what no run
+ * has made. The folder of the work keeps the files too, until output_close. Returns an
+ * exit code. */
 int output_publish(const cli_output *out);
 
 /* Ends the work. Where there is a checkpoint, and the run is not `finished`, all that is

@@ -1,19 +1,40 @@
 #include "past_run.h"
 
 #include <cjson/cJSON.h>
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "folder.h"
 #include "options.h"
 #include "said.h"
 
+/* A pipe would wait for ever, and a device might never end. */
+static FILE *open_regular(const char *path)
+{
+  int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  struct stat about;
+  FILE *stream = NULL;
+  if (file >= 0 && fstat(file, &about) == 0 && !S_ISREG(about.st_mode))
+    errno = S_ISDIR(about.st_mode) ? EISDIR : EINVAL;
+  else if (file >= 0)
+    stream = fdopen(file, "rb");
+  if (!stream && file >= 0) {
+    int error = errno;
+    close(file);
+    errno = error;
+  }
+  return stream;
+}
+
 char *read_text(const char *path)
 {
-  FILE *stream = fopen(path, "rb");
+  FILE *stream = open_regular(path);
   if (!stream) {
     complain_of_file(path, "cannot be read");
     return NULL;

@@ -47,7 +47,7 @@ bool report_is_of_field(const cli_report *report, const char *folder, const char
                         const fg_field *field);
 void report_clear(cli_report *report);
 
-/* Reads a whole file into a text; NULL: a complaint was printed. End with free. */
+/* Reads a regular file into a text; NULL: a complaint was printed. End with free. */
 char *read_text(const char *path);
 
 #endif

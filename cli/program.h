@@ -81,6 +81,11 @@ void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The same of a second line, which says what to do about the complaint. */
 void advise(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* A text of a file without what a terminal would obey: control characters become '?'.
+ * Returns `out`; longer texts are cut. */
+enum { CLEAN_BYTES = 1024 };
+const char *clean_text(char out[CLEAN_BYTES], const char *text);
+
 /* What was last complained of, and advised on it; "" before. */
 const char *last_complaint(void);
 const char *last_advice(void);
@@ -96,6 +101,9 @@ int complain_of_partial(const fg_context *context, fg_status status, const char 
 
 /* Prints a file's error from errno, "flowgrain: PATH: No such file ..."; EXIT_FAILED. */
 int complain_of_file(const char *path, const char *what);
+
+/* Says how many samples of a field are missing because they are infinite, if any are. */
+void say_infinite(const char *file, const fg_field *field);
 
 /* Creates a context, or complains. Returns an exit code. */
 int create_context(fg_context **out);

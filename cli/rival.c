@@ -63,6 +63,8 @@ static const result_file *new_file(rival_work *work, int count, const char *end)
   file->path = name_file(work->settings, count, end);
   if (!file->path)
     complain("out of memory for a file's name");
+  if (file->path && check_is_no_input(work->settings, file->path))
+    return NULL;
   file->partial = file->path ? temporary_name(file->path) : NULL;
   return file->partial ? file : NULL;
 }
@@ -249,6 +251,7 @@ static int prepare(rival_work *work)
                               .position_weight = fmax(said->position_weight, 0.0),
                               .elongation = said->elongation};
   if (!status) {
+    say_infinite(said->operand, work->field);
     int dimension = fg_field_contents(work->field)->dimension;
     int code = refuse_other_dimension("rival", said, dimension, said->operand);
     if (!code)
@@ -269,6 +272,8 @@ int command_rival(const cli_settings *settings)
   int code = check_method(settings);
   if (!code)
     code = check_name(settings->output);
+  if (!code)
+    code = check_is_no_input(settings, settings->output);
   if (!code)
     code = prepare(&work);
   for (int k = 0; !code && k < (count ? count : 1); ++k)

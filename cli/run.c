@@ -11,18 +11,22 @@
 #include "folder.h"
 #include "input.h"
 #include "interrupt.h"
+#include "made.h"
 #include "moment.h"
 #include "past_run.h"
 #include "placing.h"
 #include "ranks.h"
 #include "traffic.h"
 
-/* Whether there is anything to do, and whether it may be done. `state` is what the
- * folder holds; *done: a finished run, which --resume leaves as it is. */
-static int decide(const cli_run *run, output_state state, bool *done)
+/* Whether there is anything to do, and whether it may be done. *done: a finished run,
+ * which --resume leaves as it is. */
+static int decide(const cli_run *run, const output_contents *there, bool *done)
 {
   const cli_settings *said = run->settings;
+  const output_state state = there->state;
   *done = false;
+  if (there->foreign[0])
+    return made_complain(said->output, there->foreign);
   if (said->force || state == OUTPUT_EMPTY)
     return EXIT_DONE;
   if (said->resume && state == OUTPUT_FINISHED) {
@@ -38,10 +42,12 @@ static int decide(const cli_run *run, output_state state, bool *done)
   return EXIT_FAILED;
 }
 
-static int look(const cli_run *run, output_state *state, bool *done)
+static int look(const cli_run *run, output_contents *there, bool *done)
 {
-  int code = output_look(state, run->settings->output);
-  return code ? code : decide(run, *state, done);
+  int code = output_look(there, run->settings->output);
+  if (!code)
+    code = decide(run, there, done);
+  return code || *done ? code : made_check_inputs(run->settings, run->settings->output);
 }
 
 static int start_anew(cli_run *run)
@@ -73,8 +79,8 @@ static int open_results(cli_run *run, bool *done, bool *goes_on)
   if (code)
     return code;
   /* once more, as another run may have ended here since */
-  output_state state;
-  code = look(run, &state, done);
+  output_contents there;
+  code = look(run, &there, done);
   if (code || *done)
     return code;
   code = drawing_start(&run->drawing, run->settings, run->field, &run->output);
@@ -82,7 +88,7 @@ static int open_results(cli_run *run, bool *done, bool *goes_on)
   if (code)
     return code;
   interrupt_second(drawing_context(run->drawing));
-  *goes_on = run->settings->resume && state == OUTPUT_UNFINISHED;
+  *goes_on = run->settings->resume && there.state == OUTPUT_UNFINISHED;
   return *goes_on ? EXIT_DONE : start_anew(run);
 }
 
@@ -251,7 +257,7 @@ static int plan_scales(cli_run *run)
 /* All ranks read; rank 0 sees to the results' folder. *done: nothing is left to do. */
 static int prepare(cli_run *run, bool *done)
 {
-  output_state state;
+  output_contents there;
   int code = EXIT_DONE;
   run->checkpoint = output_checkpoint_path(run->settings->output);
   if (!run->checkpoint) {
@@ -261,7 +267,7 @@ static int prepare(cli_run *run, bool *done)
   if (!code && ranks_leader()) {
     code = output_check(run->settings->output);
     if (!code)
-      code = look(run, &state, done);
+      code = look(run, &there, done);
   }
   /* before the reading: a finished run does not need its input any more */
   code = ranks_agree(code);

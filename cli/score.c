@@ -42,6 +42,7 @@ static int prepare(score_work *work)
   fg_status status = fg_field_read(&work->field, work->context, said->operand, &reading);
   if (status)
     return complain_of(work->context, status, said->operand);
+  say_infinite(said->operand, work->field);
   work->scores = calloc((size_t)said->file_count, sizeof *work->scores);
   if (work->scores)
     return EXIT_DONE;

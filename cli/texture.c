@@ -1,4 +1,5 @@
 /* Paints a texture of a field. */
+#include "folder.h"
 #include "interrupt.h"
 #include "rehearse.h"
 #include "unfit.h"
@@ -56,7 +57,9 @@ static int check_options(const cli_settings *settings)
   else if (!code && settings->palette[0] == '#')
     code = refuse_unfit("texture", &key, 1, "not with --palette %s, which is one colour",
                         settings->palette);
-  return code ? code : check_picture_name(settings->output, "texture");
+  if (!code)
+    code = check_picture_name(settings->output, "texture");
+  return code ? code : check_is_no_input(settings, settings->output);
 }
 
 int command_texture(const cli_settings *settings)
@@ -73,6 +76,8 @@ int command_texture(const cli_settings *settings)
   interrupt_start(context);
   fg_field *field = NULL;
   fg_status status = fg_field_read(&field, context, settings->operand, &reading);
+  if (!status)
+    say_infinite(settings->operand, field);
   code = status ? complain_of(context, status, settings->operand)
                 : paint(context, settings, field);
   interrupt_end();

@@ -49,7 +49,7 @@ typedef struct fg_field_arrays {
   double period[3];           /* 0, or the length after which that axis repeats; then the
                                  last sample must lie before axis[0] + period */
   const float *velocity[3];   /* size[0] * size[1] (* size[2]) samples a component, x
-                                 fastest; NaN: missing */
+                                 fastest; NaN, infinite: missing */
   const unsigned char *valid; /* a byte a sample, 0 = missing; NULL: all but NaN */
   fg_scale scale;             /* AUTO means PLAIN */
   const char *velocity_name[3]; /* NULL: "u", "v", "w" */
@@ -61,8 +61,9 @@ typedef struct fg_field_arrays {
   const char *level;            /* the chosen level in words; NULL: none */
 } fg_field_arrays;
 
-/* Copies arrays into a new field. ARGUMENT (sizes, order of axes, no valid cell, infinite
- * values, a field that is zero everywhere), UNSUPPORTED (3D with scale GEO), MEMORY. */
+/* Copies arrays into a new field. ARGUMENT (sizes, order of axes, no valid cell, speeds
+ * beyond 1e15, a field that is zero everywhere), UNSUPPORTED (3D with scale GEO), MEMORY.
+ */
 FG_API fg_status fg_field_create(fg_field **out, fg_context *context,
                                  const fg_field_arrays *arrays);
 FG_API void fg_field_destroy(fg_field *field);
@@ -71,6 +72,10 @@ FG_API void fg_field_destroy(fg_field *field);
  * every sample counts), in 2D `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen).
  */
 FG_API const fg_field_arrays *fg_field_contents(const fg_field *field);
+
+/* How many of a field's samples are missing because a component is infinite: of a part
+ * those of its own rows, once it is joined those of all. */
+FG_API size_t fg_field_infinite(const fg_field *field);
 
 /* Velocity at a point in the input's units, bilinear or trilinear; false outside the
  * domain: beyond the border, or in a data cell with a missing corner. position and

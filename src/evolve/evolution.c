@@ -209,6 +209,8 @@ fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
     status = begin(e, context, ranks, field, options);
   else
     status = fg__fail_memory(context, "an evolution", sizeof *e);
+  if (!status)
+    status = fg__kernel_check(context);
   status = fg__ranks_agree(ranks, context, status);
   if (e && !status)
     status = fg__evolution_build(e, field);

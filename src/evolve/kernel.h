@@ -106,4 +106,7 @@ extern const fg__kernel fg__kernel_3d_avx2, fg__kernel_3d_avx512;
  * avx2, avx512) may ask for a narrower one. */
 const fg__kernel *fg__kernel_choose(int dimension);
 
+/* Fails where FLOWGRAIN_KERNEL is none of these words. ARGUMENT. */
+fg_status fg__kernel_check(fg_context *context);
+
 #endif

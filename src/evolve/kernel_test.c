@@ -426,12 +426,32 @@ static void the_environment_narrows_the_choice(void **state)
   }
 }
 
+static void words_that_are_no_kernel_are_refused(void **state)
+{
+  (void)state;
+  fg_context *context;
+  assert_int_equal(fg_context_create(&context), FG_STATUS_OK);
+  static const char *const wrong[] = {"bogus", "avx", "avx5120", "AVX2", " "};
+  for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; ++k) {
+    fg_context_clear(context);
+    assert_int_equal(setenv("FLOWGRAIN_KERNEL", wrong[k], 1), 0);
+    assert_int_equal(fg__kernel_check(context), FG_STATUS_ARGUMENT);
+    assert_non_null(strstr(fg_context_message(context), wrong[k]));
+  }
+  assert_int_equal(setenv("FLOWGRAIN_KERNEL", "generic", 1), 0);
+  assert_int_equal(fg__kernel_check(NULL), FG_STATUS_OK);
+  assert_int_equal(unsetenv("FLOWGRAIN_KERNEL"), 0);
+  assert_int_equal(fg__kernel_check(NULL), FG_STATUS_OK);
+  fg_context_destroy(context);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(all_widths_and_teams_give_the_same_bits),
       cmocka_unit_test(all_widths_and_teams_give_the_same_bits_with_a_mask),
       cmocka_unit_test(the_environment_narrows_the_choice),
+      cmocka_unit_test(words_that_are_no_kernel_are_refused),
   };
   return cmocka_run_group_tests_name("evolve/kernel", tests, NULL, NULL);
 }

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number_text.h"
+
 static size_t size_of(fg__value_kind kind)
 {
   switch (kind) {
@@ -181,7 +183,11 @@ void fg__value_describe(char text[FG__VALUE_TEXT_BYTES], const fg__named_value *
   }
   double number;
   memcpy(&number, at(value, from), sizeof number);
+  fg__number_locale locale; /* the user's may part numbers by a comma */
+  const bool plain = fg__number_locale_begin(&locale);
   snprintf(text, FG__VALUE_TEXT_BYTES, "%.15g", number);
   if (memcmp(&number, &(double){strtod(text, NULL)}, sizeof number) != 0)
     snprintf(text, FG__VALUE_TEXT_BYTES, "%.17g", number);
+  if (plain)
+    fg__number_locale_end(&locale);
 }

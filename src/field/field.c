@@ -149,6 +149,21 @@ static bool sample_is_valid(const fg_field_arrays *arrays, size_t i)
   return true;
 }
 
+static bool sample_is_infinite(const fg_field_arrays *arrays, size_t i)
+{
+  for (int k = 0; k < arrays->dimension; ++k)
+    if (isinf(arrays->velocity[k][i]))
+      return true;
+  return false;
+}
+
+/* Samples of its own; what follows them is another part's. */
+static size_t own_samples(const fg_field *field)
+{
+  const size_t rows = (size_t)field->held[fg__field_last_axis(field)];
+  return fg__field_held(field) / rows * (field->part ? (size_t)field->part->own : rows);
+}
+
 /* `i` counts those that the field has. */
 static fg_status fail_speed(const fg_field *field, fg_context *context, int k,
                             double value, size_t i)
@@ -180,6 +195,7 @@ static fg_status copy_samples(fg_field *field, fg_context *context,
                               size_t *missing)
 {
   const size_t count = fg__field_held(field); /* check_size: no overflow */
+  const size_t own = own_samples(field);
   for (int k = 0; k < arrays->dimension; ++k) {
     field->velocity[k] = taken ? taken[k] : fg__allocate(count, sizeof(float));
     if (!field->velocity[k])
@@ -189,12 +205,15 @@ static fg_status copy_samples(fg_field *field, fg_context *context,
       taken[k] = NULL;
   }
   for (size_t i = 0; i < count; ++i) {
-    const bool valid = sample_is_valid(arrays, i);
+    const bool present = sample_is_valid(arrays, i);
+    const bool infinite = present && sample_is_infinite(arrays, i);
+    const bool valid = present && !infinite;
     *missing += !valid;
+    field->infinite += infinite && i < own;
     for (int k = 0; k < arrays->dimension; ++k) {
       const float value = valid ? arrays->velocity[k][i] : NAN;
       field->velocity[k][i] = value;
-      if (isinf(value) || fabs((double)value) > LARGEST_SPEED)
+      if (fabs((double)value) > LARGEST_SPEED)
         return fail_speed(field, context, k, (double)value, i);
     }
   }
@@ -314,7 +333,8 @@ static fg_status fill_part(fg_field *field, fg_context *context,
   fg_status status = copy_samples(field, context, arrays, taken, &missing);
   if (status != FG_STATUS_OK)
     return status;
-  counts->samples = fg__field_held(field) / (size_t)field->held[last] * (size_t)part->own;
+  counts->samples = own_samples(field);
+  counts->infinite = field->infinite;
   for (size_t i = 0; i < counts->samples; ++i)
     counts->missing += isnan(field->velocity[0][i]) ? 1 : 0;
   find_cells(field, first, first + part->own, NULL, counts);
@@ -457,6 +477,11 @@ void fg_field_destroy(fg_field *field)
   free(field->valid);
   free(field->valid_cell);
   free(field);
+}
+
+size_t fg_field_infinite(const fg_field *field)
+{
+  return field ? (size_t)field->infinite : 0;
 }
 
 const fg_field_arrays *fg_field_contents(const fg_field *field)

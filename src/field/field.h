@@ -35,6 +35,7 @@ struct fg_field {
   unsigned char *valid_cell;   /* NULL: all, or a part or window */
   char *word[FG__FIELD_WORDS]; /* owned copies of the texts */
   int words;
+  uint64_t infinite;    /* samples that are missing for that */
   fg__field_part *part; /* of a part; else NULL */
   const fg_field *of;   /* of a window: whose axes and words it borrows; else NULL */
 };

@@ -378,11 +378,30 @@ static void bad_sizes_are_refused(void **state)
   assert_refused(set, "5 x 4 x 1 samples");
 }
 
+static void infinite_values_are_missing(void **state)
+{
+  sample_set *set = *state;
+  fg_field *field = make(set);
+  assert_int_equal(fg_field_infinite(field), 0);
+  fg_field_destroy(field);
+  set->u[7] = INFINITY;
+  set->v[7] = 1e30f; /* the same sample */
+  set->v[19] = -INFINITY;
+  set->u[3] = NAN;
+  field = make(set);
+  const fg_field_arrays *a = fg_field_contents(field);
+  assert_int_equal(fg_field_infinite(field), 2);
+  for (int i = 0; i < COUNT; ++i)
+    assert_int_equal(a->valid[i], i != 7 && i != 19 && i != 3);
+  assert_true(isnan(a->velocity[1][7]) && isnan(a->velocity[0][19]));
+  fg_field_destroy(field);
+  set->v[5] = 2e15f;
+  assert_refused(set, "v is 2e+15 at sample (0, 1)");
+}
+
 static void bad_values_are_refused(void **state)
 {
   sample_set *set = *state;
-  set->u[7] = INFINITY;
-  assert_refused(set, "inf");
   set->u[7] = 9.96921e36f;
   assert_refused(set, "u is 9.96921e+36 at sample (2, 1)");
   set->u[7] = -1e34f;
@@ -434,6 +453,7 @@ int main(void)
       CASE(words_are_copied),
       CASE(bad_axes_are_refused),
       CASE(bad_sizes_are_refused),
+      CASE(infinite_values_are_missing),
       CASE(bad_values_are_refused),
       CASE(motion_outside_the_cells_does_not_count),
       CASE(no_arrays_make_no_field),

@@ -7,6 +7,7 @@
 /* What is counted in each part and means something once it is added up. */
 typedef struct fg__part_counts {
   uint64_t samples, missing; /* of the part's own rows */
+  uint64_t infinite;         /* of those that are missing */
   uint64_t cells, valid_cells, moving_cells;
   uint64_t by_reason[3][3]; /* missing samples of each component as its file has them:
                                fill values, out of range, not a number */

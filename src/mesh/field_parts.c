@@ -129,6 +129,7 @@ fg_status fg__field_join(fg_context *context, const fg__ranks *ranks, fg_field *
   if (status != FG_STATUS_OK)
     return status;
   part->fingerprint = fg__field_fingerprint_grid(field) + all.fingerprint;
+  field->infinite = all.infinite;
   part->joined = true;
   return FG_STATUS_OK;
 }

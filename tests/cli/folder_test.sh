@@ -20,14 +20,105 @@ done_with "a finished run is not replaced"
 
 echo mine >a/b/c/notes.txt
 echo mine >a/b/c/scale-notes.svg
-echo old >a/b/c/scale-07.svg
 try run synth:vortex -o a/b/c "${quick[@]}" --seed 3 --force
 expect_code 0
 [ "$(cat a/b/c/notes.txt a/b/c/scale-notes.svg)" = "mine
 mine" ] || fault "foreign files have changed"
-expect_nothing_at a/b/c/scale-07.svg
 expect_json a/b/c/run.json '.parameters.seed == 3'
 done_with "--force replaces our files and no others"
+
+# what has the name of a result may be the user's all the same
+mkdir own
+for name in scale-99.png evolution.csv run.json; do
+  rm -rf own/*
+  echo mine >own/$name
+  for force in --quiet --force; do
+    try run synth:vortex -o own "${quick[@]}" $force
+    expect_code 1
+    expect_one_complaint
+    expect_error "holds $name, which no run of flowgrain"
+    [ "$(ls -A own)" = $name ] || fault "it has more: $(ls -A own)"
+    [ "$(cat own/$name)" = mine ] || fault "it was overwritten"
+  done
+done
+echo mine >a/b/c/scale-77.svg
+try run synth:vortex -o a/b/c "${quick[@]}" --seed 3 --force
+expect_code 1
+expect_error 'holds scale-77.svg'
+rm a/b/c/scale-77.svg
+done_with "a file that no run has made stays, --force or not"
+
+try run synth:vortex -o in "${quick[@]}" --save-field
+expect_code 0
+mkdir other
+for folder in in in/../in; do
+  before=$(cat in/* | cksum)
+  try run in/scale-00.vti -o $folder "${quick[@]}" --force
+  expect_code 1
+  expect_one_complaint
+  expect_error 'scale-00.vti: is an input'
+  [ "$(cat in/* | cksum)" = "$before" ] || fault "its files have changed"
+done
+printf 'P6 2 2 255\n123456789012' >photo.png
+ln -s photo.png alias.png
+for out in photo.png ./photo.png alias.png; do
+  try brush photo.png -o $out
+  expect_code 1
+  expect_one_complaint
+  expect_error 'is an input'
+  try texture photo.png -o $out
+  expect_error 'is an input'
+  try draw in --input photo.png -o $out
+  expect_error 'is an input'
+done
+[ "$(head -c 2 photo.png)" = P6 ] || fault "the image was overwritten"
+try synth saddle -o field.vti --nodes 17
+cp field.vti field.geojson
+before=$(cksum field.geojson field.vti)
+try rival field.geojson -o field.geojson --method hedgehog
+expect_code 1
+expect_error 'field.geojson: is an input'
+try rival field.vti -o field.geojson --method discrete --save-field --icons 5
+expect_code 1
+expect_error 'field.vti: is an input'
+[ "$(cksum field.geojson field.vti)" = "$before" ] || fault "the field was overwritten"
+done_with "no command writes over its input"
+
+# never: folder or lock lead nowhere, or to what is none
+never() {
+  timeout 20 "$program" run synth:vortex -o "$1" "${quick[@]}" >out 2>err
+  code=$?
+  expect_code 1
+  expect_one_complaint
+  expect_error "$2"
+}
+ln -s nowhere dangling
+mkdir d1 d2 d3 d4
+ln -s nowhere d1/.flowgrain
+mkdir d2/.flowgrain
+ln -s /nowhere/at/all d2/.flowgrain/lock
+mkfifo d3/run.json
+mkdir d4/.flowgrain
+mkfifo d4/.flowgrain/lock
+never dangling 'dangling: is a symbolic link'
+never dangling/ 'dangling: is a symbolic link'
+never dangling/sub 'dangling: is a symbolic link'
+never d1 'd1/.flowgrain: is no folder'
+never d2 'd2/.flowgrain/lock: is no file'
+never d3 'holds run.json, which no run'
+never d4 'd4/.flowgrain/lock: is no file'
+[ "$(ls -A d1 d2 d3)" = "$(printf 'd1:\n.flowgrain\n\nd2:\n.flowgrain\n\nd3:\nrun.json')" ] ||
+  fault "more than before: $(ls -A d1 d2 d3)"
+timeout 20 "$program" draw d3 -o x.svg >out 2>err
+code=$?
+expect_code 1
+expect_one_complaint
+mkdir real
+ln -s real alias
+try run synth:vortex -o alias "${quick[@]}"
+expect_code 0
+expect_file real/run.json
+done_with "links that lead nowhere and pipes end in a complaint"
 
 before=$(cat a/b/c/* | cksum)
 try run no-such.nc -o a/b/c --force

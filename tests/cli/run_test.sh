@@ -271,4 +271,26 @@ try run synth:vortex3 -o enough --nodes 65 --clusters 8 --quiet
 expect_code 0
 [ ! -s err ] || fault "standard error: $(head -c 200 err)"
 done_with "a mesh that begins with fewer clusters than were asked for is named"
+{
+  echo "<VTKFile type='ImageData'><ImageData WholeExtent='0 19 0 14 0 0'>"
+  echo "<Piece Extent='0 19 0 14 0 0'><PointData>"
+  echo "<DataArray type='Float64' Name='U' NumberOfComponents='2' format='ascii'>"
+  for n in {1..300}; do
+    case $n in 1 | 299) echo "inf 1" ;; 20) echo "nan 1" ;; *) echo "1 0.$n" ;; esac
+  done
+  echo "</DataArray></PointData></Piece></ImageData></VTKFile>"
+} >infinite.vti
+try run infinite.vti -o infinite --nodes 33 --clusters 3 --quiet
+expect_code 0
+expect_error 'infinite.vti: 2 samples are infinite and count as missing'
+[ "$(wc -l <err)" -le 2 ] || fault "more is said: $(cat err)"
+try texture infinite.vti -o infinite.png
+expect_code 0
+expect_one_complaint
+sed -i 's/^1 0\.44$/1 1e30/' infinite.vti
+try texture infinite.vti -o infinite.png
+expect_code 1
+expect_error 'speeds up to 1e\+15 are taken'
+done_with "infinite samples are missing, with a warning"
+
 finish

@@ -129,4 +129,28 @@ done_with "a full disk under standard output is noticed"
 code=$?
 expect_code 1
 done_with "a closed standard output is noticed"
+# names with ESC, the 8-bit CSI as UTF-8 and alone, and a letter that stays
+escape=$'\033[31m' csi=$'\302\2331m' byte=$'\2331m'
+cat >names.vtk <<END
+# vtk DataFile Version 3.0
+x
+ASCII
+DATASET STRUCTURED_POINTS
+DIMENSIONS 3 2 1
+ORIGIN 0 0 0
+SPACING 1 1 1
+POINT_DATA 6
+VECTORS é${escape}${csi}${byte} float
+1 2 0 1 3 0 1 4 0 1 5 0 2 1 0 2 2 0
+END
+try info names.vtk
+expect_code 0
+LC_ALL=C grep -q $'[\001-\010\016-\037\177]\|\2331' out && fault "control characters: $(cat -v out)"
+grep -q '^vectors: é?\[31m??1m?1m$' out || fault "$(cat -v out)"
+try run names.vtk -o x --vars "a$escape,b"
+expect_code 1
+expect_error 'a\?\[31m'
+LC_ALL=C grep -q $'[\001-\010\016-\037\177]' err && fault "control characters: $(cat -v err)"
+done_with "control characters of names stay off the terminal"
+
 finish

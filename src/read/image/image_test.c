@@ -219,6 +219,66 @@ static void jpeg_images_are_read(void **state)
   }
 }
 
+/* One for each frequency of each component. */
+static void use_many_scans(struct jpeg_compress_struct *jpeg, jpeg_scan_info scans[])
+{
+  jpeg->num_scans = 1;
+  scans[0] = (jpeg_scan_info){.comps_in_scan = 3, .component_index = {0, 1, 2}};
+  for (int k = 0; k < 3; ++k)
+    for (int n = 1; n < 64; ++n)
+      scans[jpeg->num_scans++] =
+          (jpeg_scan_info){.comps_in_scan = 1, .component_index = {k}, .Ss = n, .Se = n};
+  jpeg->scan_info = scans;
+}
+
+static file jpeg_of_many_scans(void)
+{
+  struct jpeg_compress_struct jpeg;
+  struct jpeg_error_mgr errors;
+  jpeg_scan_info scans[1 + 3 * 63];
+  unsigned char *bytes = NULL, line[16 * 3], *row = line;
+  unsigned long size = 0;
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&jpeg);
+  jpeg_mem_dest(&jpeg, &bytes, &size);
+  jpeg.image_width = jpeg.image_height = 16;
+  jpeg.input_components = 3;
+  jpeg.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&jpeg);
+  use_many_scans(&jpeg, scans);
+  jpeg_start_compress(&jpeg, TRUE);
+  for (int j = 0; j < 16; ++j) {
+    for (int i = 0; i < 16 * 3; ++i)
+      line[i] = (unsigned char)(i * (j + 3) % 251);
+    jpeg_write_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  jpeg_destroy_compress(&jpeg);
+  return (file){bytes, size};
+}
+
+static void a_jpeg_of_many_scans_is_refused(void **state)
+{
+  file f = jpeg_of_many_scans();
+  fg_image *image = NULL;
+  assert_int_equal(read(&image, *state, &f, f.size), FG_STATUS_UNSUPPORTED);
+  assert_null(image);
+  assert_non_null(strstr(fg_context_message(*state), "more than 100 scans"));
+  free(f.bytes);
+}
+
+static void reading_a_jpeg_can_be_stopped(void **state)
+{
+  for (int progressive = 0; progressive <= 1; ++progressive) {
+    file f = jpeg_of(3, progressive);
+    fg_image *image = NULL;
+    fg_context_stop(*state);
+    assert_int_equal(read(&image, *state, &f, f.size), FG_STATUS_STOPPED);
+    assert_null(image);
+    free(f.bytes);
+  }
+}
+
 static void refused(fg_context *context, const char *text, const char *part_of_message)
 {
   file f = {0};
@@ -266,6 +326,8 @@ int main(void)
       CASE(png_images_of_every_kind_are_read),
       CASE(pnm_images_of_every_kind_are_read),
       CASE(jpeg_images_are_read),
+      CASE(a_jpeg_of_many_scans_is_refused),
+      CASE(reading_a_jpeg_can_be_stopped),
       CASE(what_is_no_image_is_refused),
       CASE(damage_does_no_harm),
   };

@@ -27,9 +27,15 @@ typedef struct reading {
   float *inks; /* or other components of a row */
   unsigned char *profile;
   fg__colors *colors;
+  struct jpeg_progress_mgr progress;
+  fg_status status; /* of what ended it, unless libjpeg did */
   jmp_buf out;
   char message[JMSG_LENGTH_MAX];
 } reading;
+
+/* A progressive image is stored in scans, each of which goes over all pixels, however few
+ * bytes it has. Writers make about ten. */
+enum { MOST_SCANS = 100 };
 
 static void keep_message(reading *r)
 {
@@ -52,6 +58,19 @@ static void note(j_common_ptr jpeg, int level)
     keep_message((reading *)(void *)jpeg->err);
     ++jpeg->err->num_warnings;
   }
+}
+
+/* Called again and again; leaves what takes too long, or is not wanted any more. */
+static void watch(j_common_ptr common)
+{
+  reading *r = (reading *)(void *)common->err;
+  r->status = fg__check_stop(r->context);
+  if (r->status == FG_STATUS_OK && r->jpeg.input_scan_number > MOST_SCANS)
+    r->status =
+        fg__fail(r->context, FG_STATUS_UNSUPPORTED,
+                 "%s: a JPEG image of more than %d scans", r->source->path, MOST_SCANS);
+  if (r->status != FG_STATUS_OK)
+    longjmp(r->out, 1);
 }
 
 enum { EXIF_MARKER = JPEG_APP0 + 1, PROFILE_MARKER = JPEG_APP0 + 2, LONGEST = 0xffff };
@@ -109,6 +128,8 @@ static fg_status read_pixels(reading *r)
 {
   j_decompress_ptr jpeg = &r->jpeg;
   jpeg_create_decompress(jpeg);
+  r->progress.progress_monitor = watch;
+  jpeg->progress = &r->progress;
   jpeg_mem_src(jpeg, r->source->bytes, (unsigned long)r->source->size);
   jpeg_save_markers(jpeg, EXIF_MARKER, LONGEST);
   jpeg_save_markers(jpeg, PROFILE_MARKER, LONGEST);
@@ -156,8 +177,10 @@ static fg_status jpeg_read(fg_image **out, fg_context *context, const fg__source
   if (setjmp(r->out) == 0)
     status = read_pixels(r);
   else
-    status = fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: is no whole JPEG image: %s",
-                      source->path, r->message);
+    status = r->status
+                 ? r->status
+                 : fg__fail(context, FG_STATUS_FILE_FORMAT,
+                            "%s: is no whole JPEG image: %s", source->path, r->message);
   jpeg_destroy_decompress(&r->jpeg);
   fg__colors_destroy(r->colors);
   free(r->profile);

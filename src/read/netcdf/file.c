@@ -174,6 +174,9 @@ fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
   if (file->root_count == 2)
     return fg__fail(context, FG_STATUS_ARGUMENT, "%s: a third file", source->path);
   fg_status status = fg__nc_check_size(context, source);
+  if (status == FG_STATUS_OK &&
+      fg__nc_kind_of(source->bytes, source->size) == FG__NC_HDF5)
+    status = fg__nc_check_objects(context, source);
   if (status != FG_STATUS_OK)
     return status;
   char *path = fg__copy_text(source->path);

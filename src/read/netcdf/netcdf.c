@@ -404,7 +404,7 @@ static fg_status count_missing(fg_inventory_vector *vector, const fg__nc_file *f
     for (size_t i = 0; i < row * (size_t)own && status == FG_STATUS_OK; ++i) {
       bool missing = false;
       for (int k = 0; k < grid->dimension; ++k)
-        missing = missing || isnan(read.velocity[k][i]);
+        missing = missing || !isfinite(read.velocity[k][i]);
       count += missing;
     }
     fg__nc_samples_clear(&read);

@@ -11,6 +11,10 @@
 /* Compares the size of a file with what its header promises. FILE_FORMAT. */
 fg_status fg__nc_check_size(fg_context *context, const fg__source *source);
 
+/* Refuses a NetCDF-4 file whose links lead round, that takes data from other files, or
+ * whose pieces take more than 256 MiB each. UNSUPPORTED, MEMORY. */
+fg_status fg__nc_check_objects(fg_context *context, const fg__source *source);
+
 enum {
   FG__NC_RANK = 8,                  /* more dimensions than any field has */
   FG__NC_TEXT = 256,                /* bytes of an attribute that are looked at */

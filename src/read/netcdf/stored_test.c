@@ -132,7 +132,15 @@ static void bad_values_are_refused(void **state)
   stored[7] = HUGE_VAL;
   sample_put(f, id[1], stored);
   sample_end(f);
-  refuse_with(f, NULL, FG_STATUS_FILE_FORMAT, "v is inf at sample (2, 1)");
+  assert_missing(f, (int[]){7}, 1);
+  fg_field *field = read_with(f, NULL);
+  assert_int_equal(fg_field_infinite(field), 1);
+  fg_field_destroy(field);
+  fg_inventory *inventory;
+  assert_int_equal(fg_inventory_read(&inventory, f->context, f->path), FG_STATUS_OK);
+  assert_true(fabs(fg_inventory_vector_at(inventory, 0)->missing_share - 1.0 / COUNT) <
+              1e-12);
+  fg_inventory_destroy(inventory);
 
   make_plain(f, 0, NC_DOUBLE, id);
   stored[7] = 1e300;

@@ -1,5 +1,6 @@
 /* Times as dates: "hours since 1900-01-01 00:00" in the calendars of the CF conventions
  * (section 4.4.1). */
+#include "base/number_text.h"
 #include "read/netcdf/netcdf.h"
 
 #include <math.h>
@@ -169,8 +170,12 @@ static bool read_reference(const char *units, double *unit, date *day, double *s
   int minute = 0;
   double second = 0.0;
   char separator = ' ';
+  fg__number_locale locale;
+  if (!fg__number_locale_begin(&locale))
+    return false;
   const int found = sscanf(units, "%31s %7s %d-%d-%d%c%d:%d:%lf", word, since, &year,
                            &day->month, &day->day, &separator, &hour, &minute, &second);
+  fg__number_locale_end(&locale);
   if (found < 5 || strcasecmp(since, "since") != 0 || day->month < 1 || day->month > 12 ||
       day->day < 1 || day->day > 31 || year < -10000 || year > 100000)
     return false;

@@ -236,7 +236,7 @@ static void put_value(void *target, size_t index, double stored)
   const value_sink *to = target;
   const double value = unpack(to->packing, stored, to->missing);
   /* beyond float, but not infinite: it stays beyond every speed that is taken */
-  if (isfinite(value) && fabs(value) > (double)FLT_MAX)
+  if (!isinf(stored) && fabs(value) > (double)FLT_MAX)
     to->out[index] = value > 0.0 ? FLT_MAX : -FLT_MAX;
   else
     to->out[index] = (float)value;

@@ -168,12 +168,28 @@ static fg_status read_xml(fg_field **out, fg_context *context, const fg__source 
   return fg__vtk_read(out, context, source, options, dealt, fg__vtk_open_xml);
 }
 
+/* What can only be decoded together is so once, not again for each of its parts. */
+static size_t counted_at_once(const fg__vtk *vtk, const fg__vtk_vector *vector)
+{
+  size_t most = COUNTED_AT_ONCE;
+  for (size_t p = 0; p < vtk->piece_count; ++p)
+    for (int k = 0; k < vector->names; ++k) {
+      const fg__vtk_array *array = fg__vtk_find(vtk, p, vector->place, vector->name[k]);
+      size_t tuples, together = 0;
+      if (array && fg__vtk_tuples(&tuples, vtk, &vtk->pieces[p], vector->place))
+        together = fg__vtk_values_together(vtk, array, tuples);
+      most = together > most ? together : most;
+    }
+  return most;
+}
+
 static fg_status count_missing(double *share, const fg__vtk *vtk,
                                const fg__vtk_grid *grid, const fg__vtk_vector *vector)
 {
   const size_t all = grid->points[grid->dimension - 1];
   const size_t row = fg__vtk_grid_points(grid) / all;
-  const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
+  const size_t at_once = counted_at_once(vtk, vector);
+  const size_t most = row < at_once ? at_once / row : 1;
   size_t missing = 0;
   for (size_t first = 0; first < all; first += most) {
     float *velocity[3];
@@ -186,7 +202,7 @@ static fg_status count_missing(double *share, const fg__vtk *vtk,
     for (size_t i = 0; i < fg__vtk_grid_wanted(&some); ++i) {
       bool here = true;
       for (int k = 0; k < grid->dimension; ++k)
-        here = here && !isnan(velocity[k][i]);
+        here = here && isfinite(velocity[k][i]);
       missing += !here;
     }
     for (int k = 0; k < 3; ++k)

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "read/vtk/gather.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,8 +11,11 @@
 /* vtkDataSetAttributes: what a sample of vtkGhostType says by its bits. */
 enum { HIDDEN_POINT = 2, REFINED_CELL = 8, HIDDEN_CELL = 32 };
 
+/* Beyond float, but not infinite, a number stays beyond every speed that is taken. */
 static float as_velocity(double number)
 {
+  if (!isinf(number) && fabs(number) > (double)FLT_MAX)
+    return number > 0.0 ? FLT_MAX : -FLT_MAX;
   return (float)number;
 }
 
@@ -48,25 +52,6 @@ static float as_ghost_point(double number)
 static float as_ghost_cell(double number)
 {
   return as_flag(!has_bit(number, REFINED_CELL | HIDDEN_CELL));
-}
-
-/* A mean with them would be missing, or infinite, far from where they are. */
-static fg_status refuse_infinite(const fg__vtk_view *v, const fg__vtk_gathering *wanted,
-                                 size_t count)
-{
-  const bool cells = v->vtk->cells.count > 0;
-  size_t all = count;
-  if (!cells)
-    fg__vtk_count(&all, v->vtk->extent, v->place);
-  for (int c = 0; c < wanted->components; ++c)
-    for (size_t i = 0; i < count; ++i)
-      if (isinf(wanted->out[c][i]))
-        return fg__fail(
-            v->vtk->context, FG_STATUS_FILE_FORMAT,
-            "%s: array \"%.100s\" is infinite, or too large to be a velocity, "
-            "in sample %zu of %zu",
-            v->vtk->path, wanted->name, cells ? i : fg__vtk_place_in_whole(v, i), all);
-  return FG_STATUS_OK;
 }
 
 /* Mean over the layers of the flat axis, or all as it is in a volume; a NaN in one makes
@@ -212,8 +197,6 @@ static fg_status read_onto_points(float *out[], const fg__vtk *vtk,
   }
   if (status == FG_STATUS_OK)
     status = cells ? fg__vtk_gather_pieces(vtk, wanted) : fg__vtk_gather(&v, wanted);
-  if (status == FG_STATUS_OK)
-    status = refuse_infinite(&v, wanted, count);
   if (status == FG_STATUS_OK && any)
     for (int c = 1; c < wanted->components; ++c)
       for (size_t i = 0; i < count; ++i)

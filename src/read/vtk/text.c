@@ -77,7 +77,7 @@ static fg_status read_tokens(fg__vtk_values *out, const fg__vtk *vtk,
     word[length] = '\0';
     char *end = word;
     double number = strtod(word, &end);
-    good = length > 0 && end == word + (at - start);
+    good = length > 0 && (size_t)(end - word) == at - start;
     if (good)
       keep(out, found, number);
   }

@@ -278,6 +278,23 @@ fg_status fg__vtk_values_check(const fg__vtk *vtk, const fg__vtk_array *array,
   return status;
 }
 
+size_t fg__vtk_values_together(const fg__vtk *vtk, const fg__vtk_array *array,
+                               size_t tuples)
+{
+  size_t count;
+  block_layout layout;
+  if (is_text(array))
+    return tuples;
+  if (array->storage == FG__VTK_RAW || vtk->compression == FG__VTK_PLAIN ||
+      expected_count(&count, vtk, array, tuples) != FG_STATUS_OK)
+    return 1;
+  const size_t size = fg__vtk_size_of(array->type) * (size_t)array->components;
+  if (read_layout(&layout, vtk, array, tuples * size) != FG_STATUS_OK)
+    return 1; /* decoding it fails likewise */
+  const size_t block = (size_t)layout.block_size / size + 1;
+  return block < tuples ? block : tuples;
+}
+
 /* Bytes of an array: those that are wanted, and all there are. */
 typedef struct byte_range {
   size_t first, end, all;

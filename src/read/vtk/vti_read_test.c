@@ -377,6 +377,28 @@ static void every_vector_is_listed(void **state)
   fg_inventory_destroy(inventory);
 }
 
+static void infinite_samples_are_missing(void **state)
+{
+  char file[EXAMPLE_FILE_BYTES];
+  example_image(file, "", "0 3 0 2 0 0",
+                POINTS(PAIR_OF("U", "inf 2 1 2 1 2 1 -inf 1 2 1 2 1 2 1 nan 1 2 1 2 1 2 "
+                                    "1 2")));
+  fg_field *field = example_field(*state, file, NULL);
+  assert_missing(field, "011011101111");
+  assert_int_equal(fg_field_infinite(field), 2);
+  fg_field_destroy(field);
+  fg_inventory *inventory = inventory_of(*state, file);
+  assert_true(fg_inventory_vector_at(inventory, 0)->missing_share == 0.25);
+  fg_inventory_destroy(inventory);
+  /* one cell of six, at a corner of the grid: the four points round it */
+  example_image(file, "", "0 3 0 2 0 0",
+                CELLS(PAIR_OF("U", "inf 2 1 2 1 2 1 2 1 2 1 2")));
+  field = example_field(*state, file, NULL);
+  assert_missing(field, "001100111111");
+  assert_int_equal(fg_field_infinite(field), 4);
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -389,6 +411,7 @@ int main(void)
       cmocka_unit_test(only_one_moment_is_there),
       cmocka_unit_test(words_are_taken_from_the_file),
       cmocka_unit_test(missing_samples_are_known),
+      cmocka_unit_test(infinite_samples_are_missing),
       cmocka_unit_test(a_mask_is_zero_outside),
       cmocka_unit_test(every_vector_is_listed),
   };

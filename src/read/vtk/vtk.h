@@ -169,6 +169,11 @@ typedef struct fg__vtk_values {
 fg_status fg__vtk_values_check(const fg__vtk *vtk, const fg__vtk_array *array,
                                size_t tuples, size_t *stored);
 
+/* Tuples that can only be decoded together: of text all, of a compressed array those of a
+ * block, else 1. */
+size_t fg__vtk_values_together(const fg__vtk *vtk, const fg__vtk_array *array,
+                               size_t tuples);
+
 /* Decodes an array; checks as above first. */
 fg_status fg__vtk_values_create(fg__vtk_values *out, const fg__vtk *vtk,
                                 const fg__vtk_array *array, size_t tuples);

@@ -1,0 +1,152 @@
+/* NetCDF-4 files that lead round, into other files, or ask for more memory than they
+ * hold. */
+#define H5_USE_110_API
+#include <hdf5.h>
+#include <sys/stat.h>
+
+#include "read/netcdf/plain_test.h"
+
+static void must(hid_t id)
+{
+  if (id < 0)
+    abort();
+}
+
+/* Adds something to a good file of the variables u and v. */
+static hid_t begin(sample_file *f)
+{
+  int id[2];
+  double stored[COUNT];
+  for (int i = 0; i < COUNT; ++i)
+    stored[i] = 2 * i - 9;
+  make_plain(f, NC_NETCDF4, NC_FLOAT, id);
+  sample_put(f, id[0], stored);
+  sample_put(f, id[1], stored);
+  sample_end(f);
+  const hid_t file = H5Fopen(f->path, H5F_ACC_RDWR, H5P_DEFAULT);
+  must(file);
+  return file;
+}
+
+static void refused(sample_file *f, hid_t file, const char *words)
+{
+  must(H5Fclose(file));
+  refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, words);
+  fg_inventory *inventory = NULL;
+  fg_context_clear(f->context);
+  assert_int_equal(fg_inventory_read(&inventory, f->context, f->path),
+                   FG_STATUS_UNSUPPORTED);
+  assert_null(inventory);
+}
+
+static void links_that_lead_round_are_refused(void **state)
+{
+  sample_file *f = *state;
+  hid_t file = begin(f);
+  const hid_t group = H5Gcreate2(file, "part", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  must(group);
+  for (int k = 0; k < 12; ++k) {
+    char name[16];
+    snprintf(name, sizeof name, "way%d", k);
+    must(H5Lcreate_hard(file, "/", group, name, H5P_DEFAULT, H5P_DEFAULT));
+  }
+  H5Gclose(group);
+  refused(f, file, "is a group that another link leads to");
+
+  file = begin(f);
+  must(H5Lcreate_soft("/", file, "round", H5P_DEFAULT, H5P_DEFAULT));
+  refused(f, file, "'round' is a group that another link leads to");
+}
+
+static void a_second_name_of_a_variable_is_read(void **state)
+{
+  sample_file *f = *state;
+  const hid_t file = begin(f);
+  must(H5Lcreate_hard(file, "u", file, "zonal", H5P_DEFAULT, H5P_DEFAULT));
+  must(H5Fclose(file));
+  const fg_read_options options = {.vars = "u,v"};
+  fg_field_destroy(read_with(f, &options));
+}
+
+static void other_files_are_not_read(void **state)
+{
+  sample_file *f = *state;
+  char pipe[128];
+  snprintf(pipe, sizeof pipe, "%s/pipe", f->folder);
+  assert_int_equal(mkfifo(pipe, 0600), 0);
+  const hsize_t length[2] = {7, 5};
+  const hid_t space = H5Screate_simple(2, length, NULL);
+
+  hid_t file = begin(f);
+  must(H5Lcreate_external(pipe, "/u", file, "elsewhere", H5P_DEFAULT, H5P_DEFAULT));
+  refused(f, file, "'elsewhere' is a link into another file");
+
+  file = begin(f);
+  must(H5Lcreate_external(pipe, "/", file, "zzz", H5P_DEFAULT, H5P_DEFAULT));
+  must(H5Lcreate_soft("/zzz/u", file, "aaa", H5P_DEFAULT, H5P_DEFAULT));
+  refused(f, file, "'zzz' is a link into another file");
+
+  file = begin(f);
+  hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+  must(H5Pset_external(creation, pipe, 0, H5F_UNLIMITED));
+  hid_t set = H5Dcreate2(file, "outside", H5T_NATIVE_FLOAT, space, H5P_DEFAULT, creation,
+                         H5P_DEFAULT);
+  must(set);
+  H5Dclose(set);
+  H5Pclose(creation);
+  refused(f, file, "'outside' is stored outside of the file");
+
+  file = begin(f);
+  creation = H5Pcreate(H5P_DATASET_CREATE);
+  must(H5Pset_virtual(creation, space, pipe, "/u", space));
+  set = H5Dcreate2(file, "together", H5T_NATIVE_FLOAT, space, H5P_DEFAULT, creation,
+                   H5P_DEFAULT);
+  must(set);
+  H5Dclose(set);
+  H5Pclose(creation);
+  refused(f, file, "'together' is a virtual data set");
+  H5Sclose(space);
+  unlink(pipe);
+}
+
+static void add_chunked(hid_t file, hsize_t side)
+{
+  const hsize_t length[2] = {7, 5}, most[2] = {H5S_UNLIMITED, H5S_UNLIMITED};
+  const hsize_t chunk[2] = {side, side};
+  const hid_t space = H5Screate_simple(2, length, most);
+  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+  must(H5Pset_chunk(creation, 2, chunk));
+  const hid_t set = H5Dcreate2(file, "extra", H5T_NATIVE_FLOAT, space, H5P_DEFAULT,
+                               creation, H5P_DEFAULT);
+  must(set);
+  H5Dclose(set);
+  H5Pclose(creation);
+  H5Sclose(space);
+}
+
+static void large_chunks_are_refused(void **state)
+{
+  sample_file *f = *state;
+  hid_t file = begin(f);
+  add_chunked(file, 30000);
+  refused(f, file, "'extra' is stored in pieces of more than 268435456 bytes");
+  file = begin(f);
+  add_chunked(file, 8192);
+  must(H5Fclose(file));
+  fg_field_destroy(read_with(f, NULL));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(links_that_lead_round_are_refused, sample_set_up,
+                                      sample_tear_down),
+      cmocka_unit_test_setup_teardown(a_second_name_of_a_variable_is_read, sample_set_up,
+                                      sample_tear_down),
+      cmocka_unit_test_setup_teardown(other_files_are_not_read, sample_set_up,
+                                      sample_tear_down),
+      cmocka_unit_test_setup_teardown(large_chunks_are_refused, sample_set_up,
+                                      sample_tear_down),
+  };
+  return cmocka_run_group_tests_name("read/netcdf/objects", tests, NULL, NULL);
+}
