@@ -1,4 +1,4 @@
-/* File formats: one file a format, one line in the list of registry.c. */
+/* File formats: a folder each, and one line in the list of registry.c. */
 #ifndef FG__FORMAT_H
 #define FG__FORMAT_H
 
