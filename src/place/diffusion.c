@@ -20,7 +20,7 @@ static const float MARGIN = 0.6F;
  * lines have; even, so that the values end where they began. With twice as many the
  * errors of placements stay. */
 static const float RADIUS = 0.95F;
-enum { STEPS = 8, WHOLE_STEPS = 80 };
+enum { STEPS = 8, NEAR_STEPS = 32, WHOLE_STEPS = 80 };
 
 enum { SCALARS = 3, WINDOW_SCALARS = 3, PAD = 16 };
 
@@ -341,7 +341,8 @@ static void copy_back(fg__place_diffusion *reader)
     }
 }
 
-fg_status fg__place_diffusion_solve(fg__place_diffusion *reader, fg_context *context)
+fg_status fg__place_diffusion_solve(fg__place_diffusion *reader, fg_context *context,
+                                    bool near)
 {
   fg__place_window *window = &reader->window;
   memset(window->box.low, 0, sizeof window->box.low);
@@ -351,7 +352,7 @@ fg_status fg__place_diffusion_solve(fg__place_diffusion *reader, fg_context *con
     return status;
   copy_values(reader);
   copy_lines(reader);
-  solve_window(reader, WHOLE_STEPS);
+  solve_window(reader, near ? NEAR_STEPS : WHOLE_STEPS);
   copy_back(reader);
   return FG_STATUS_OK;
 }

@@ -39,8 +39,10 @@ void fg__place_diffusion_clear(fg__place_diffusion *reader);
 /* Adds a line without solving. */
 void fg__place_diffusion_add(fg__place_diffusion *reader, const fg__place_line *line);
 
-/* Solves for all cells. MEMORY. */
-fg_status fg__place_diffusion_solve(fg__place_diffusion *reader, fg_context *context);
+/* Solves for all cells; `near`: from a solution that single lines have changed since.
+ * MEMORY. */
+fg_status fg__place_diffusion_solve(fg__place_diffusion *reader, fg_context *context,
+                                    bool near);
 
 /* The sum of errors over all cells, degrees. */
 double fg__place_diffusion_sum(const fg__place_diffusion *reader);

@@ -58,7 +58,8 @@ static void share(fg__place_line *line, const setting *s, double length)
 static void solve(setting *s, int times)
 {
   for (int n = 0; n < times; ++n)
-    assert_int_equal(fg__place_diffusion_solve(&s->reader, s->context), FG_STATUS_OK);
+    assert_int_equal(fg__place_diffusion_solve(&s->reader, s->context, false),
+                     FG_STATUS_OK);
 }
 
 /* Between two lines that reach from wall to wall the harmonic field is linear; beyond
@@ -138,7 +139,7 @@ static void trials_tell_what_becomes(setting *s, const double place[][3], int li
   for (int n = 1; n < lines; ++n)
     fg__place_diffusion_add(&again, &line[n]);
   for (int n = 0; n < 12; ++n)
-    assert_int_equal(fg__place_diffusion_solve(&again, s->context), FG_STATUS_OK);
+    assert_int_equal(fg__place_diffusion_solve(&again, s->context, false), FG_STATUS_OK);
   assert_close(after, fg__place_diffusion_sum(&again), 2e-3 * after);
   fg__place_diffusion_clear(&again);
 }

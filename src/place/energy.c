@@ -94,7 +94,7 @@ fg_status fg__place_weigh(fg__place_search *search)
   fg_status status = gather_whole(search);
   if (status != FG_STATUS_OK)
     return status;
-  status = fg__place_diffusion_solve(&search->diffusion, search->context);
+  status = fg__place_diffusion_solve(&search->diffusion, search->context, false);
   if (status != FG_STATUS_OK)
     return status;
   fg__place_price errors = {1.0F, 0.0F, (float)fg__place_reach(search)};
@@ -111,7 +111,7 @@ fg_status fg__place_energy(fg__place_search *search, double *energy)
 {
   fg_status status = gather_whole(search);
   if (status == FG_STATUS_OK)
-    status = fg__place_diffusion_solve(&search->diffusion, search->context);
+    status = fg__place_diffusion_solve(&search->diffusion, search->context, true);
   *energy = 0.0;
   if (status == FG_STATUS_OK)
     *energy = fg__place_cost(NULL, &search->raster, &search->whole.box, &search->whole,

@@ -213,7 +213,7 @@ fg_status fg__place_relax(fg__place_search *search, int sweeps)
     moving = false;
     status = fg__check_stop(search->context);
     if (status == FG_STATUS_OK)
-      status = fg__place_diffusion_solve(&search->diffusion, search->context);
+      status = fg__place_diffusion_solve(&search->diffusion, search->context, true);
     for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
       if (search->icon[n]->step > SMALLEST_STEP * search->scale.lambda) {
         status = visit(search, n);

@@ -103,7 +103,7 @@ fg_status fg__place_search_rescale(fg__place_search *search, int count)
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
     fg__place_diffusion_add(&search->diffusion, &search->icon[n]->line);
   return status == FG_STATUS_OK
-             ? fg__place_diffusion_solve(&search->diffusion, search->context)
+             ? fg__place_diffusion_solve(&search->diffusion, search->context, false)
              : status;
 }
 
