@@ -19,7 +19,7 @@ typedef enum fg_lengths {
 typedef enum fg_effort {
   FG_EFFORT_NORMAL = 0,
   FG_EFFORT_QUICK,   /* descent alone: some per cent more error, half the time */
-  FG_EFFORT_THOROUGH /* more exchanges: several times the time, a per cent less error */
+  FG_EFFORT_THOROUGH /* more exchanges: more time, a per cent less error */
 } fg_effort;
 
 typedef struct fg_placement_options {

@@ -111,7 +111,7 @@ static void noise_of_the_usual_amplitude_begins_with_interfaces(void **state)
   assert_true(most > 2.0 * now_parts.gradient);
   subject same;
   begin(&same, 1.5);
-  fg_step other;
+  fg_step other = {0};
   for (long n = 0; n < now.step; ++n)
     step(&same, &other);
   assert_true(memcmp(&other.energy, &now.energy, sizeof now.energy) == 0);

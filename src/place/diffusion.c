@@ -41,7 +41,7 @@ static void count_faces(fg__place_diffusion *reader, const float *inside)
       for (int x = 0; x < raster->cells[0]; ++x, ++n) {
         const int at[3] = {x, y, z};
         float faces = 0.0F;
-        for (int k = 0; k < raster->dimension; ++k) {
+        for (int k = 0; k < 3 && k < raster->dimension; ++k) {
           faces += at[k] > 0 ? inside[n - step[k]] : 0.0F;
           faces += at[k] + 1 < raster->cells[k] ? inside[n + step[k]] : 0.0F;
         }
