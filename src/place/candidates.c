@@ -2,7 +2,6 @@
 #include "place/search.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Places that are tried for a new icon are at least this far apart in lambda, each with
  * offsets along the axes; the error is smoothed by this many passes of 1 2 1 (lambda/4 on
@@ -189,13 +188,11 @@ static fg_status try_cells(fg__place_search *search,
 fg_status fg__place_list_candidates(fg__place_candidate best[FG__PLACE_CANDIDATES],
                                     int *count, fg__place_search *search)
 {
-  fg__place_box all = {{0}, {0}};
-  memcpy(all.size, search->raster.cells, sizeof all.size);
   *count = 0;
-  fg_status status = fg__place_gather(&search->whole, search, &all, -1);
+  fg_status status = fg__place_gather_whole(search);
   if (status != FG_STATUS_OK)
     return status;
-  fg__place_cost(search->map, &search->raster, &all, &search->whole, NULL,
+  fg__place_cost(search->map, &search->raster, &search->whole.box, &search->whole, NULL,
                  &search->price);
   float diffusion = (float)search->scale.diffusion * search->price.inverse_error;
   for (size_t n = 0; n < search->raster.count; ++n)

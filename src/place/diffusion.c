@@ -24,11 +24,6 @@ enum { STEPS = 8, NEAR_STEPS = 32, WHOLE_STEPS = 80 };
 
 enum { SCALARS = 3, WINDOW_SCALARS = 3, PAD = 16 };
 
-static size_t volume_of(const int cells[3])
-{
-  return (size_t)cells[0] * (size_t)cells[1] * (size_t)cells[2];
-}
-
 /* Counts each cell's faces to other cells of the domain; `inside` is 1 there. */
 static void count_faces(fg__place_diffusion *reader, const float *inside)
 {
@@ -357,52 +352,34 @@ fg_status fg__place_diffusion_solve(fg__place_diffusion *reader, fg_context *con
   return FG_STATUS_OK;
 }
 
-/* The cells within the margin of either line. */
-static fg__place_box box_around(const fg__place_raster *raster,
-                                const fg__place_line *const line[2])
-{
-  fg__place_box box = {{0}, {1, 1, 1}};
-  for (int k = 0; k < raster->dimension; ++k) {
-    float least = HUGE_VALF, most = -HUGE_VALF;
-    for (int i = 0; i < 2; ++i)
-      for (int n = 0; line[i] && n < line[i]->count; ++n) {
-        least = fminf(least, line[i]->position[k][n]);
-        most = fmaxf(most, line[i]->position[k][n]);
-      }
-    if (!(least <= most))
-      return (fg__place_box){{0}, {0}};
-    int low = (int)((least - MARGIN) / raster->cell);
-    int end = (int)((most + MARGIN) / raster->cell) + 1;
-    low = low > 0 ? low : 0;
-    end = end < raster->cells[k] ? end : raster->cells[k];
-    box.low[k] = low;
-    box.size[k] = end > low ? end - low : 0;
-  }
-  return box;
-}
-
 fg_status fg__place_diffusion_try(double *growth, fg__place_diffusion *reader,
                                   fg_context *context, const fg__place_line *from,
                                   const fg__place_line *to)
 {
   fg__place_window *window = &reader->window;
   const int dimension = reader->raster.dimension;
-  window->box = box_around(&reader->raster, (const fg__place_line *const[2]){from, to});
+  const fg__place_line *const lines[2] = {from, to};
+  window->box = (fg__place_box){{0}, {0}};
+  for (int n = 0; n < 2; ++n)
+    if (lines[n]) {
+      fg__place_box box = fg__place_box_around(&reader->raster, lines[n], MARGIN);
+      fg__place_box_widen(&window->box, &box);
+    }
   *growth = 0.0;
   fg_status status = open_window(window, context, dimension);
-  if (status != FG_STATUS_OK || volume_of(window->box.size) == 0)
+  if (status != FG_STATUS_OK || fg__place_box_count(&window->box) == 0)
     return status;
   copy_values(reader);
   copy_lines(reader);
-  held lines = {.box = window->box,
-                .stride = {window->stride[0], window->stride[1]},
-                .strength = window->strength + window->origin};
+  held room = {.box = window->box,
+               .stride = {window->stride[0], window->stride[1]},
+               .strength = window->strength + window->origin};
   for (int k = 0; k < dimension; ++k)
-    lines.source[k] = window->source[k] + window->origin;
+    room.source[k] = window->source[k] + window->origin;
   if (from)
-    hold_line(&lines, &reader->raster, from, -reader->hold);
+    hold_line(&room, &reader->raster, from, -reader->hold);
   if (to)
-    hold_line(&lines, &reader->raster, to, reader->hold);
+    hold_line(&room, &reader->raster, to, reader->hold);
   *growth = solve_window(reader, STEPS);
   return FG_STATUS_OK;
 }

@@ -82,7 +82,7 @@ double fg__place_own_price(const fg__place_search *search, const fg__place_line 
   return crowd + ends + scale->brevity * brief * brief + scale->ink * length;
 }
 
-static fg_status gather_whole(fg__place_search *search)
+fg_status fg__place_gather_whole(fg__place_search *search)
 {
   fg__place_box all = {{0}, {0}};
   memcpy(all.size, search->raster.cells, sizeof all.size);
@@ -91,7 +91,7 @@ static fg_status gather_whole(fg__place_search *search)
 
 fg_status fg__place_weigh(fg__place_search *search)
 {
-  fg_status status = gather_whole(search);
+  fg_status status = fg__place_gather_whole(search);
   if (status != FG_STATUS_OK)
     return status;
   status = fg__place_diffusion_solve(&search->diffusion, search->context, false);
@@ -109,7 +109,7 @@ fg_status fg__place_weigh(fg__place_search *search)
 
 fg_status fg__place_energy(fg__place_search *search, double *energy)
 {
-  fg_status status = gather_whole(search);
+  fg_status status = fg__place_gather_whole(search);
   if (status == FG_STATUS_OK)
     status = fg__place_diffusion_solve(&search->diffusion, search->context, true);
   *energy = 0.0;

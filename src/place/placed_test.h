@@ -2,6 +2,7 @@
 #ifndef FG__PLACED_TEST_H
 #define FG__PLACED_TEST_H
 
+#include "icon/icons.h"
 #include "place/fields_test.h"
 #include "place/placement.h"
 
@@ -42,6 +43,23 @@ static inline double error_of(fg_context *context, const fg_field *field,
 {
   const fg_score_options options = {.lengths = FG_SCORE_FREE, .readers_only = true};
   return score_of(context, field, icons, &options).mean;
+}
+
+static inline void assert_same_icons(const fg_icons *a, const fg_icons *b)
+{
+  assert_int_equal(fg_icons_count(a), fg_icons_count(b));
+  assert_int_equal(fg__icons_next_id(a), fg__icons_next_id(b));
+  for (int n = 0; n < fg_icons_count(a); ++n) {
+    const fg_icon *one = fg_icons_at(a, n), *other = fg_icons_at(b, n);
+    assert_int_equal(one->id, other->id);
+    assert_int_equal(one->point_count, other->point_count);
+    assert_memory_equal(one->points, other->points,
+                        (size_t)one->point_count * sizeof *one->points);
+    assert_memory_equal(one->seed, other->seed, sizeof one->seed);
+    assert_memory_equal(one->way, other->way, sizeof one->way);
+    assert_true(one->area == other->area && one->speed == other->speed);
+    assert_true(one->width == other->width && one->kind == other->kind);
+  }
 }
 
 #endif

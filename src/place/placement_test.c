@@ -82,22 +82,6 @@ static void there_are_as_many_as_asked_for(void **state)
   }
 }
 
-static void assert_same(const fg_icons *a, const fg_icons *b)
-{
-  assert_int_equal(fg_icons_count(a), fg_icons_count(b));
-  for (int n = 0; n < fg_icons_count(a); ++n) {
-    const fg_icon *one = fg_icons_at(a, n), *other = fg_icons_at(b, n);
-    assert_int_equal(one->id, other->id);
-    assert_int_equal(one->point_count, other->point_count);
-    assert_memory_equal(one->points, other->points,
-                        (size_t)one->point_count * sizeof *one->points);
-    assert_memory_equal(one->seed, other->seed, sizeof one->seed);
-    assert_memory_equal(one->way, other->way, sizeof one->way);
-    assert_true(one->area == other->area && one->speed == other->speed);
-    assert_true(one->width == other->width && one->kind == other->kind);
-  }
-}
-
 static void a_field_has_one_picture(void **state)
 {
   for (int n = 0; n < CASE_COUNT; n += 3) {
@@ -114,7 +98,7 @@ static void a_field_has_one_picture(void **state)
         icons[0] = place(*state, placement, 18);
       fg_placement_destroy(placement);
     }
-    assert_same(icons[0], icons[1]);
+    assert_same_icons(icons[0], icons[1]);
     fg_icons_destroy(icons[0]);
     fg_icons_destroy(icons[1]);
     fg_field_destroy(field);
@@ -189,7 +173,7 @@ static void one_call_is_enough(void **state)
   fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
   fg_icons *icons = NULL, *steps = place(*state, placement, 23);
   assert_int_equal(fg_arrows_create(&icons, *state, field, &options), FG_STATUS_OK);
-  assert_same(icons, steps);
+  assert_same_icons(icons, steps);
   fg_icons_destroy(icons);
   assert_int_equal(fg_arrows_create(&icons, *state, field, NULL), FG_STATUS_OK);
   assert_int_equal(fg_icons_count(icons), 40);

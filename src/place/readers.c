@@ -147,11 +147,10 @@ fg_status fg__place_tale_start(fg__place_tale *tale, fg_context *context, int di
   return FG_STATUS_OK;
 }
 
-fg__place_box fg__place_box_of(const fg__place_raster *raster,
-                               const fg__place_scale *scale, const fg__place_line *line)
+fg__place_box fg__place_box_around(const fg__place_raster *raster,
+                                   const fg__place_line *line, float distance)
 {
   fg__place_box box = {{0}, {0}};
-  float reach = (float)(scale->reach / scale->lambda);
   for (int k = 0; k < 3 && line->count > 0; ++k) {
     box.size[k] = 1;
     if (k >= raster->dimension)
@@ -161,13 +160,32 @@ fg__place_box fg__place_box_of(const fg__place_raster *raster,
       least = fminf(least, line->position[k][n]);
       most = fmaxf(most, line->position[k][n]);
     }
-    int low = (int)((least - reach) / raster->cell);
-    int high = (int)((most + reach) / raster->cell) + 1;
+    int low = (int)((least - distance) / raster->cell);
+    int high = (int)((most + distance) / raster->cell) + 1;
     box.low[k] = low > 0 ? low : 0;
     high = high < raster->cells[k] ? high : raster->cells[k];
     box.size[k] = high > box.low[k] ? high - box.low[k] : 0;
   }
   return box;
+}
+
+fg__place_box fg__place_box_of(const fg__place_raster *raster,
+                               const fg__place_scale *scale, const fg__place_line *line)
+{
+  return fg__place_box_around(raster, line, (float)(scale->reach / scale->lambda));
+}
+
+void fg__place_box_widen(fg__place_box *box, const fg__place_box *by)
+{
+  if (fg__place_box_count(by) == 0)
+    return;
+  if (fg__place_box_count(box) == 0)
+    *box = *by;
+  for (int k = 0; k < 3; ++k) {
+    int end = box->low[k] + box->size[k], other = by->low[k] + by->size[k];
+    box->low[k] = box->low[k] < by->low[k] ? box->low[k] : by->low[k];
+    box->size[k] = (end > other ? end : other) - box->low[k];
+  }
 }
 
 /* Where row (y, z) of a box begins, from its own low corner. */

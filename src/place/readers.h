@@ -78,9 +78,16 @@ void fg__place_points_nearest(float square[FG__PLACE_SAMPLES],
 fg_status fg__place_tale_start(fg__place_tale *tale, fg_context *context, int dimension,
                                const fg__place_box *box, float reach);
 
+/* The cells within a distance, in lambda, of a line's own box; empty for no line. */
+fg__place_box fg__place_box_around(const fg__place_raster *raster,
+                                   const fg__place_line *line, float distance);
+
 /* The cells that a line can reach; empty for no line. */
 fg__place_box fg__place_box_of(const fg__place_raster *raster,
                                const fg__place_scale *scale, const fg__place_line *line);
+
+/* Makes a box hold another one, which may be empty. */
+void fg__place_box_widen(fg__place_box *box, const fg__place_box *by);
 
 /* Tells what a line tells, over its box. MEMORY. */
 fg_status fg__place_tell(fg__place_tale *out, fg_context *context,

@@ -92,17 +92,6 @@ static int list_trials(fg__place_seed trial[MOST_TRIALS], const fg__place_search
   return count;
 }
 
-static void widen(fg__place_box *box, const fg__place_box *by)
-{
-  if (fg__place_box_count(by) == 0)
-    return;
-  for (int k = 0; k < 3; ++k) {
-    int end = box->low[k] + box->size[k], other = by->low[k] + by->size[k];
-    box->low[k] = box->low[k] < by->low[k] ? box->low[k] : by->low[k];
-    box->size[k] = (end > other ? end : other) - box->low[k];
-  }
-}
-
 static void swap_tales(fg__place_tale *a, fg__place_tale *b)
 {
   fg__place_tale kept = *a;
@@ -132,7 +121,7 @@ static fg_status extend_region(fg__place_search *search, fg__place_box *region,
                                const fg__place_box *by, int index, double *now)
 {
   const fg__place_icon *icon = search->icon[index];
-  widen(region, by);
+  fg__place_box_widen(region, by);
   fg_status status = fg__place_gather(&search->others, search, region, index);
   if (status == FG_STATUS_OK)
     *now = price(search, region, &icon->tale, &icon->line);

@@ -100,6 +100,9 @@ fg_status fg__place_diffusion_price(double *price, fg__place_search *search,
 fg_status fg__place_gather(fg__place_tale *out, fg__place_search *search,
                            const fg__place_box *box, int except);
 
+/* What all icons tell all cells, to search->whole. MEMORY. */
+fg_status fg__place_gather_whole(fg__place_search *search);
+
 /* A seed for a new icon, and how much that would lower the energy. */
 typedef struct fg__place_candidate {
   fg__place_seed seed;

@@ -112,15 +112,6 @@ static double price_of(setting *s, const fg__place_box *box, int index)
          fg__place_own_price(search, &icon->line);
 }
 
-static void join(fg__place_box *box, const fg__place_box *by)
-{
-  for (int k = 0; k < 3; ++k) {
-    int end = box->low[k] + box->size[k], other = by->low[k] + by->size[k];
-    box->low[k] = box->low[k] < by->low[k] ? box->low[k] : by->low[k];
-    box->size[k] = (end > other ? end : other) - box->low[k];
-  }
-}
-
 /* Icons move one after the other, most of them by moves that the search would not take:
  * the region's price changes by as much as the energy of all. */
 static void a_move_is_priced_where_it_tells(void **state)
@@ -143,7 +134,7 @@ static void a_move_is_priced_where_it_tells(void **state)
       continue;
     fg__place_box region = icon->tale.box,
                   to = fg__place_box_of(&s.search.raster, &s.search.scale, &line);
-    join(&region, &to);
+    fg__place_box_widen(&region, &to);
     double all = energy_of(&s), here = price_of(&s, &region, n);
     icon->seed = seed;
     icon->line = line;
@@ -167,67 +158,66 @@ static void add(setting *s, double x, double y, bool expected)
   assert_true(added == expected);
 }
 
+/* Two lines of a lambda each, the second so many lambda along the flow and across. */
+static void set_two(setting *s, fg_context *context, double along, double across)
+{
+  set(s, context, &PLAIN, slant, 12, true);
+  const double lambda = s->search.scale.lambda;
+  add(s, -1, 7, true);
+  add(s, -1 + lambda * (along * cos(SLANT) - across * sin(SLANT)),
+      7 + lambda * (along * sin(SLANT) + across * cos(SLANT)), true);
+}
+
+/* What a line costs beside all icons but one. */
+static double price_beside(setting *s, const fg__place_line *line, int except)
+{
+  fg__place_box all = {{0}, {0}};
+  memcpy(all.size, s->search.raster.cells, sizeof all.size);
+  assert_int_equal(fg__place_gather(&s->search.others, &s->search, &all, except),
+                   FG_STATUS_OK);
+  return fg__place_own_price(&s->search, line);
+}
+
 static void crowding_is_dear_and_so_are_short_lines(void **state)
 {
   setting s;
-  set(&s, *state, &PLAIN, slant, 12, true);
-  const double lambda = s.search.scale.lambda;
+  set_two(&s, *state, 0.0, 0.1);
   s.search.scale.ends = s.search.scale.touch = 0.0;
-  add(&s, -1, 7, true);
-  add(&s, -1 - 0.1 * lambda * sin(SLANT), 7 + 0.1 * lambda * cos(SLANT), true);
-  fg__place_box all = {{0}, {0}};
-  memcpy(all.size, s.search.raster.cells, sizeof all.size);
-  fg__place_line *line = &s.search.icon[1]->line;
-  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 1), FG_STATUS_OK);
-  double near = fg__place_own_price(&s.search, line);
-  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 0), FG_STATUS_OK);
   /* 2 mu for each lambda */
-  assert_close(near, 2 * s.search.scale.crowding * exp(-0.01 / 0.18), 0.01);
+  assert_close(price_beside(&s, &s.search.icon[1]->line, 1),
+               2 * s.search.scale.crowding * exp(-0.01 / 0.18), 0.01);
   assert_int_equal(fg__place_drop(&s.search, 0), FG_STATUS_OK);
-  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 0), FG_STATUS_OK);
-  assert_true(fg__place_own_price(&s.search, line) < 1e-9);
-  fg__place_seed brief = {{2, 8}, {0.3 * lambda, 0.3 * lambda}};
+  assert_true(price_beside(&s, &s.search.icon[0]->line, 0) < 1e-9);
+  const double brief = 0.3 * s.search.scale.lambda;
+  const fg__place_seed seed = {{2, 8}, {brief, brief}};
   fg__place_line shorter;
-  fg__place_trace(&shorter, &s.domain, &s.search.scale, &brief);
-  assert_close(fg__place_own_price(&s.search, &shorter), 4 * 0.2 * 0.2, 1e-6);
+  fg__place_trace(&shorter, &s.domain, &s.search.scale, &seed);
+  assert_close(price_beside(&s, &shorter, 0), 4 * 0.2 * 0.2, 1e-6);
   clear(&s);
 }
 
 static void lines_do_not_touch(void **state)
 {
   setting s;
-  set(&s, *state, &PLAIN, slant, 12, true);
-  const double lambda = s.search.scale.lambda;
+  set_two(&s, *state, 0.0, 0.06);
   s.search.scale.crowding = s.search.scale.ends = 0.0;
-  add(&s, -1, 7, true);
-  add(&s, -1 - 0.06 * lambda * sin(SLANT), 7 + 0.06 * lambda * cos(SLANT), true);
-  fg__place_box all = {{0}, {0}};
-  memcpy(all.size, s.search.raster.cells, sizeof all.size);
-  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 1), FG_STATUS_OK);
   const fg__place_line *line = &s.search.icon[1]->line;
-  double price = fg__place_own_price(&s.search, line), length = line->length / lambda;
-  assert_close(price, 6 * length * pow(1 - 0.06 / 0.15, 2), 0.1 * price);
+  const double length = line->length / s.search.scale.lambda;
+  const double price = 6 * length * pow(1 - 0.06 / 0.15, 2);
+  assert_close(price_beside(&s, line, 1), price, 0.1 * price);
   clear(&s);
 }
 
-/* A line that ends a tenth of lambda before another begins: two ends, each half of the
+/* A line that begins a tenth of lambda behind another's head: two ends, each half of the
  * gap away. */
 static void heads_keep_away_from_other_ends(void **state)
 {
   setting s;
-  set(&s, *state, &PLAIN, slant, 12, true);
-  const double lambda = s.search.scale.lambda, step = 1.1 * lambda;
+  set_two(&s, *state, 1.1, 0.0);
   s.search.scale.crowding = s.search.scale.touch = 0.0;
-  add(&s, -1, 7, true);
-  add(&s, -1 + step * cos(SLANT), 7 + step * sin(SLANT), true);
-  fg__place_box all = {{0}, {0}};
-  memcpy(all.size, s.search.raster.cells, sizeof all.size);
-  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 1), FG_STATUS_OK);
-  double price = fg__place_own_price(&s.search, &s.search.icon[1]->line);
-  assert_close(price, 0.7 * 0.25, 0.02);
+  assert_close(price_beside(&s, &s.search.icon[1]->line, 1), 0.7 * 0.25, 0.02);
   assert_int_equal(fg__place_drop(&s.search, 0), FG_STATUS_OK);
-  assert_int_equal(fg__place_gather(&s.search.others, &s.search, &all, 0), FG_STATUS_OK);
-  assert_true(fg__place_own_price(&s.search, &s.search.icon[0]->line) < 1e-9);
+  assert_true(price_beside(&s, &s.search.icon[0]->line, 0) < 1e-9);
   clear(&s);
 }
 

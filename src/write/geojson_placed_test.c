@@ -167,21 +167,6 @@ static void wrong_placements_are_refused(void **state)
   fg_icons_destroy(icons);
 }
 
-static void assert_same(const fg_icons *a, const fg_icons *b)
-{
-  assert_int_equal(fg_icons_count(a), fg_icons_count(b));
-  assert_int_equal(fg__icons_next_id(a), fg__icons_next_id(b));
-  for (int n = 0; n < fg_icons_count(a); ++n) {
-    const fg_icon *one = fg_icons_at(a, n), *other = fg_icons_at(b, n);
-    assert_int_equal(one->id, other->id);
-    assert_int_equal(one->point_count, other->point_count);
-    assert_memory_equal(one->points, other->points,
-                        (size_t)one->point_count * sizeof *one->points);
-    assert_memory_equal(one->way, other->way, sizeof one->way);
-    assert_true(one->area == other->area && one->width == other->width);
-  }
-}
-
 /* Down to a third of the arrows, in 2D and in space, and where lines have to be short. */
 static void a_chain_goes_on_from_a_file(void **state)
 {
@@ -198,12 +183,12 @@ static void a_chain_goes_on_from_a_file(void **state)
                  *other = placement_of(f->context, field, FG_EFFORT_NORMAL);
     fg_icons *fine = place(f->context, one, cases[n].counts[0]);
     fg_icons *back = written_and_read(f, fine);
-    assert_same(fine, back);
+    assert_same_icons(fine, back);
     if (fg_placement_resume(other, back) != FG_STATUS_OK)
       fail_msg("%s", fg_context_message(f->context));
     fg_icons *there = place(f->context, one, cases[n].counts[1]),
              *here = place(f->context, other, cases[n].counts[1]);
-    assert_same(there, here);
+    assert_same_icons(there, here);
     fg_icons_destroy(fine);
     fg_icons_destroy(back);
     fg_icons_destroy(there);
