@@ -73,7 +73,7 @@ static void measure_small_pieces(fg__cutter *c)
       const struct fg__component_run *run = &components->run[n];
       if (piece[run->piece].size >= 0)
         continue;
-      const fg__stretch nodes = {run->first, run->last};
+      const fg__component_stretch nodes = {run->first, run->last};
       fg__share_plane(s, k - 1, nodes, c->space, c->plane[0]);
       fg__share_plane(s, k, nodes, c->space, c->plane[1]);
       fg__cutter_measure(c, 0, k, nodes);
@@ -150,7 +150,7 @@ fg_status fg__components_cut(fg__components *components, fg_context *context,
   fg__cutter c = {.components = components};
   fg_status status = take_memory(&c, context, box);
   int64_t covered = 0;
-  const fg__stretch all = {0, c.shape.nodes[0] - 1};
+  const fg__component_stretch all = {0, c.shape.nodes[0] - 1};
   if (!status && !c.enough)
     fg__share_plane(&c.shape, -1, all, c.space, c.plane[0]);
   for (int k = 0; !status && k < c.shape.nodes[2]; ++k) {

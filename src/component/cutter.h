@@ -35,7 +35,8 @@ int64_t fg__cutter_cut_row(fg__cutter *cutter, int j, int k);
 
 /* Finds the steps of a stretch of row (j, k), from the shares in `plane`; their sum over
  * a part of it. */
-void fg__cutter_measure(const fg__cutter *cutter, int j, int k, fg__stretch nodes);
+void fg__cutter_measure(const fg__cutter *cutter, int j, int k,
+                        fg__component_stretch nodes);
 int64_t fg__cutter_steps(const fg__cutter *cutter, int first, int last);
 
 /* Joins row (j, k) with row `beside` of its plane, across the row of cells `cell`. */

@@ -100,7 +100,7 @@ int fg__cutter_row_weight(const fg__shape *s, int j, int k)
 /* The share of every node of a row in whole steps; of no meaning where u is not positive.
  * Two loops, each of which compilers turn into vector instructions. */
 static void count_steps(const float *u, const float *before, const float *after,
-                        fg__stretch nodes, float *share, int *steps)
+                        fg__component_stretch nodes, float *share, int *steps)
 {
   for (int x = nodes.first; x <= nodes.last; ++x) {
     float of_node = u[x] * (before[x] + after[x]);
@@ -115,7 +115,7 @@ static int *steps_of(const fg__cutter *c)
   return c->ends + 2 * c->shape.nodes[0] + 2;
 }
 
-void fg__cutter_measure(const fg__cutter *c, int j, int k, fg__stretch nodes)
+void fg__cutter_measure(const fg__cutter *c, int j, int k, fg__component_stretch nodes)
 {
   ptrdiff_t row = (ptrdiff_t)j * c->shape.nodes[0];
   count_steps(fg__shape_row(&c->shape, j, k), c->plane[0] + row, c->plane[1] + row, nodes,
@@ -151,7 +151,7 @@ int64_t fg__cutter_cut_row(fg__cutter *c, int j, int k)
   if (ends == 0)
     return 0;
   if (!c->enough)
-    fg__cutter_measure(c, j, k, (fg__stretch){0, width - 1});
+    fg__cutter_measure(c, j, k, (fg__component_stretch){0, width - 1});
   int weight = fg__cutter_row_weight(s, j, k);
   int64_t covered = 0;
   for (int n = 0; n < ends; n += 2) {

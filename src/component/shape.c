@@ -81,7 +81,8 @@ bool fg__components_saddle_joins(float a, float b, float c, float d)
 
 /* |u| of a row of nodes and the one beyond it along the outer axis, added: a stretch of
  * sums, and a node more on each side that has one. */
-static void add_rows(const fg__shape *shape, int j, int k, fg__stretch at, float *sum)
+static void add_rows(const fg__shape *shape, int j, int k, fg__component_stretch at,
+                     float *sum)
 {
   const float *low = fg__shape_row(shape, j, fg__shape_node(shape, 2, k));
   const float *high = fg__shape_row(shape, j, fg__shape_node(shape, 2, k + 1));
@@ -103,8 +104,8 @@ static inline float reciprocal(float sum)
 /* One over the sum of |u| at the corners of each cell of a row, 0 where there is none, on
  * both sides of a stretch of nodes: inverse[first - 1 ... last]. In 2D `high` is not
  * looked at. */
-static void invert(const fg__shape *shape, int j, int k, fg__stretch at, const float *low,
-                   const float *high, float *inverse)
+static void invert(const fg__shape *shape, int j, int k, fg__component_stretch at,
+                   const float *low, const float *high, float *inverse)
 {
   if (shape->high[1] == FG__SIDE_FLAT)
     for (int x = at.first - 1; x <= at.last; ++x)
@@ -124,8 +125,8 @@ static void invert(const fg__shape *shape, int j, int k, fg__stretch at, const f
       inverse[x] = 0.0F;
 }
 
-void fg__share_plane(const fg__shape *shape, int k, fg__stretch nodes, float *space,
-                     float *shares)
+void fg__share_plane(const fg__shape *shape, int k, fg__component_stretch nodes,
+                     float *space, float *shares)
 {
   int width = shape->nodes[0], height = shape->nodes[1];
   ptrdiff_t pitch = width + 2;

@@ -91,14 +91,14 @@ fg__gate fg__gate_of(const fg__shape *shape, int j, int j_last, int k, int k_las
 bool fg__gate_open(const fg__gate *gate, const fg__shape *shape, int x, int x_last);
 
 /* Nodes first ... last of every row. */
-typedef struct fg__stretch {
+typedef struct fg__component_stretch {
   int first, last;
-} fg__stretch;
+} fg__component_stretch;
 
 /* Shares that each node of plane k takes of the cells round it in the plane of cells
  * between k and k + 1, over its value (see components.h): nodes[0] numbers a row, of
  * which those of a stretch are written. `space` has room for 3 rows of nodes[0] + 2. */
-void fg__share_plane(const fg__shape *shape, int k, fg__stretch nodes, float *space,
-                     float *shares);
+void fg__share_plane(const fg__shape *shape, int k, fg__component_stretch nodes,
+                     float *space, float *shares);
 
 #endif

@@ -211,6 +211,6 @@ int main(void)
   start_together();
   const struct CMUnitTest tests[] = {TOGETHER(in_2d), TOGETHER(with_a_mask),
                                      TOGETHER(of_parts_in_3d)};
-  return cmocka_run_group_tests_name("evolution/exhaustion_together", tests, name_checkpoint,
-                                     remove_checkpoint);
+  return cmocka_run_group_tests_name("evolution/exhaustion_together", tests,
+                                     name_checkpoint, remove_checkpoint);
 }

@@ -467,6 +467,6 @@ int main(void)
       CASE(the_previous_one_steps_in),
       CASE(a_failed_save_leaves_the_evolution),
   };
-  return cmocka_run_group_tests_name("evolution/checkpoint/checkpoint", tests, make_folder,
-                                     remove_folder);
+  return cmocka_run_group_tests_name("evolution/checkpoint/checkpoint", tests,
+                                     make_folder, remove_folder);
 }

@@ -386,6 +386,6 @@ int main(void)
       TOGETHER(a_rank_that_can_not_read),
       TOGETHER(ranks_that_find_different_files),
   };
-  return cmocka_run_group_tests_name("evolution/checkpoint/checkpoint_together", tests, make_folder,
-                                     remove_folder);
+  return cmocka_run_group_tests_name("evolution/checkpoint/checkpoint_together", tests,
+                                     make_folder, remove_folder);
 }

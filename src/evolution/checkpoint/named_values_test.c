@@ -149,5 +149,6 @@ int main(void)
       cmocka_unit_test(other_texts_are_refused),
       cmocka_unit_test(lines_end_at_the_first_empty_one),
   };
-  return cmocka_run_group_tests_name("evolution/checkpoint/named_values", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("evolution/checkpoint/named_values", tests, NULL,
+                                     NULL);
 }

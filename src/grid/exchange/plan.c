@@ -42,7 +42,7 @@ static fg__brick brick_of(const fg__box *nodes, const fg__box *sources)
   return out;
 }
 
-static bool add_piece(fg__pieces *list, const fg__piece *added)
+static bool add_piece(fg__pieces *list, const fg__exchange_piece *added)
 {
   void *memory = list->piece;
   bool grown = fg__grow(&memory, &list->capacity, list->count + 1, sizeof *list->piece);
@@ -69,9 +69,9 @@ static bool add_ghosts(fg__pieces *list, const fg__partition *level, int rank, i
         fg__box read = sources;
         for (int k = 0; k < 3; ++k)
           read.first[k] -= level->block[owner].first[k];
-        fg__piece found = {.to = brick_of(&ghosts, &sources),
-                           .from = brick_of(&read, &sources),
-                           .rank = other};
+        fg__exchange_piece found = {.to = brick_of(&ghosts, &sources),
+                                    .from = brick_of(&read, &sources),
+                                    .rank = other};
         if (!add_piece(list, &found))
           return false;
       }
@@ -100,7 +100,7 @@ static bool add_neighbours(fg__neighbours *out, const fg__pieces *list, bool sen
   if (!out->neighbour || !out->request)
     return false;
   for (size_t n = 0; n < list->count; ++n) {
-    const fg__piece *p = &list->piece[n];
+    const fg__exchange_piece *p = &list->piece[n];
     if (n == 0 || p->rank != list->piece[n - 1].rank)
       out->neighbour[out->count++] = (fg__neighbour){.rank = p->rank, .first = n};
     fg__neighbour *l = &out->neighbour[out->count - 1];

@@ -7,13 +7,13 @@
 #include "grid/exchange/exchange.h"
 
 /* Nodes to fill and where they come from, of which one may be another rank's. */
-typedef struct fg__piece {
+typedef struct fg__exchange_piece {
   fg__brick to, from;
   int rank; /* of the other side */
-} fg__piece;
+} fg__exchange_piece;
 
 typedef struct fg__pieces {
-  fg__piece *piece;
+  fg__exchange_piece *piece;
   size_t count, capacity;
 } fg__pieces;
 

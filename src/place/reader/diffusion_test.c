@@ -196,5 +196,5 @@ int main(void)
       CASE(trials_tell_what_becomes_in_space),
       CASE(nothing_is_read_without_lines),
   };
-  return cmocka_run_group_tests_name("place/reader/diffusion", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("place/reader/reader/diffusion", tests, NULL, NULL);
 }

@@ -272,5 +272,5 @@ int main(void)
       CASE(two_tales_are_one_in_any_order),
       CASE(an_exact_picture_has_no_error),
   };
-  return cmocka_run_group_tests_name("place/reader/readers", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("place/reader/reader/readers", tests, NULL, NULL);
 }

@@ -96,5 +96,5 @@ int main(void)
       CASE(seeds_lie_in_the_domain),
       CASE(there_is_one_even_start),
   };
-  return cmocka_run_group_tests_name("place/search/even", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("place/search/search/even", tests, NULL, NULL);
 }

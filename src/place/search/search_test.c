@@ -271,5 +271,5 @@ int main(void)
       CASE(thinning_takes_the_ones_that_say_least),
       CASE(an_icon_comes_where_readers_err),
   };
-  return cmocka_run_group_tests_name("place/search/search", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("place/search/search/search", tests, NULL, NULL);
 }

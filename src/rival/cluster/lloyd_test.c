@@ -253,5 +253,5 @@ int main(void)
       CASE(direction_parts_clusters),           CASE(exactly_so_many_arrows),
       CASE(no_more_than_there_are_cells),       CASE(a_turned_field_turns_the_seeds),
   };
-  return cmocka_run_group_tests_name("rival/cluster/lloyd", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("rival/cluster/cluster/lloyd", tests, NULL, NULL);
 }

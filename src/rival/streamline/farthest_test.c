@@ -180,5 +180,6 @@ int main(void)
       CASE(a_coarse_raster_is_made_finer),
       CASE(distances_are_those_to_the_nearest_point),
   };
-  return cmocka_run_group_tests_name("rival/streamline/farthest", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("rival/streamline/streamline/farthest", tests, NULL,
+                                     NULL);
 }
