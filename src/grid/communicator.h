@@ -1,4 +1,4 @@
-/* What MPI calls a group of ranks; for src/mesh only. */
+/* What MPI calls a group of ranks; for src/grid only. */
 #ifndef FG__COMMUNICATOR_H
 #define FG__COMMUNICATOR_H
 
