@@ -59,7 +59,7 @@ static double everywhere(double x, double y)
   return 1;
 }
 
-/* To the right of a slanting border: 0.8 x + 0.6 y = 14.2, linear like the window's
+/* To the right of a slanting boundary: 0.8 x + 0.6 y = 14.2, linear like the window's
  * cells. */
 static double beyond_line(double x, double y)
 {
@@ -73,10 +73,11 @@ static test_bench bench_of(velocity_of velocity, depth_of depth)
   bench.field = field_of(bench.context, velocity);
   fg__window *window = &bench.window;
   *window = (fg__window){.cluster = 1,
-                         .nodes = {SHAPE_NODES_X, SHAPE_NODES_Y},
+                         .dimension = 2,
+                         .nodes = {SHAPE_NODES_X, SHAPE_NODES_Y, 1},
                          .origin = {SHAPE_ORIGIN[0], SHAPE_ORIGIN[1]},
                          .spacing = {SHAPE_SPACING, SHAPE_SPACING},
-                         .at_border = {true, true, true, true}};
+                         .at_boundary = {true, true, true, true}};
   window->level = calloc((size_t)SHAPE_NODES_X * SHAPE_NODES_Y, sizeof(float));
   window->active = malloc((size_t)(SHAPE_NODES_X - 1) * (SHAPE_NODES_Y - 1));
   assert_non_null(window->level);
@@ -114,7 +115,7 @@ static double circle_error(test_bench *bench, double radius)
   int hint = 0;
   double length = fg__streamline_length(&bench->line);
   for (int i = 0; i <= 1000; i++) {
-    double p[2], t[2];
+    double p[3], t[3];
     fg__streamline_at(&bench->line, length * i / 1000, &hint, p, t);
     worst = fmax(worst, fabs(hypot(p[0] - CORE[0], p[1] - CORE[1]) - radius));
     /* the tangent is across the radius, anticlockwise */
@@ -156,7 +157,7 @@ static void is_of_third_order(void **state)
   end_bench(&bench);
 }
 
-static void follows_a_hyperbola_to_the_domain_border(void **state)
+static void follows_a_hyperbola_to_the_domain_boundary(void **state)
 {
   (void)state;
   test_bench bench = bench_of(saddle, everywhere);
@@ -169,7 +170,7 @@ static void follows_a_hyperbola_to_the_domain_border(void **state)
     double away = hypot(p[0] - CORE[0], p[1] - CORE[1]);
     assert_true(fabs(product - 0.9 * 1.3) / away < 2.5e-4 * SHAPE_SPACING);
   }
-  /* it comes from the upper border and leaves by the right one */
+  /* it comes from the upper boundary and leaves by the right one */
   assert_true(35 - line->node[0].position[1] < 0.02 * SHAPE_SPACING);
   assert_true(30 - line->node[line->count - 1].position[0] < 0.02 * SHAPE_SPACING);
   end_bench(&bench);
@@ -243,7 +244,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(follows_a_circle),
       cmocka_unit_test(is_of_third_order),
-      cmocka_unit_test(follows_a_hyperbola_to_the_domain_border),
+      cmocka_unit_test(follows_a_hyperbola_to_the_domain_boundary),
       cmocka_unit_test(ends_on_the_zero_set),
       cmocka_unit_test(ends_where_the_flow_does),
       cmocka_unit_test(ends_at_missing_data_and_masks),

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "picture/solid_field_test.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 static const double middle[3] = {4.1, -0.45, 10.8};
 

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "picture/stage.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 /* Views that are tried, degrees: every azimuth with every elevation. */
 enum { AZIMUTHS = 36, ELEVATIONS = 11 };

@@ -2,7 +2,7 @@
 
 #include "icon/icons.h"
 #include "picture/solid_field_test.h"
-#include "solid/slender.h"
+#include "icon/slender.h"
 
 static const double degree = 0.017453292519943295;
 

@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "icon/icons.h"
 #include "rival/method.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "rival/lattice.h"
 #include "rival/lines_test.h"
 #include "rival/lloyd.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 #include <stdlib.h>
 #include <string.h>

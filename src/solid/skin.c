@@ -7,7 +7,7 @@
 #include "base/context.h"
 #include "base/memory.h"
 #include "cluster/raster.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 /* Edges begin at a node and go to one of the seven others of the cell above it: bit k of
  * an edge's number is its step along axis k. */

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 enum { W = 36, H = 30, D = 24, NODES = W * H * D };
 

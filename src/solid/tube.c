@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "solid/frame.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 /* Corners of a cross-section: with smooth normals no edge shows in a picture where the
  * head is 100 pixels thick. */

@@ -3,7 +3,7 @@
 
 #include "base/context_test.h"
 #include "solid/tube.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 static const double PI = 3.141592653589793;
 

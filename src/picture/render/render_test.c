@@ -5,7 +5,7 @@
 #include "base/context_test.h"
 #include "icon/icons.h"
 #include "picture/render/render.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 enum { WIDTH = 150, HEIGHT = 120 };
 

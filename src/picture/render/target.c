@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "picture/arrow_speeds.h"
 #include "solid/tube.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 /* Numbers of a vertex besides its place: the normal, and the share of the colours. */
 enum { NORMAL, SHARE, ATTRIBUTES };

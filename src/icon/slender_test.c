@@ -1,7 +1,7 @@
-#include "solid/slender.h"
+#include "icon/slender.h"
 
 #include "base/context_test.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 enum { POINTS = 41 };
 
