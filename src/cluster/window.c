@@ -5,7 +5,7 @@
 
 #include "base/context.h"
 #include "base/memory.h"
-#include "evolve/components.h"
+#include "component/components.h"
 
 /* Two nodes beyond the cluster: one for the zero set, one more so that gradients next to
  * it can be taken. */

@@ -6,7 +6,7 @@
 
 #include "base/context.h"
 #include "base/memory.h"
-#include "evolve/components.h"
+#include "component/components.h"
 
 /* Searches try directions in this order, which decides between paths of the same cost. */
 static const int flat_step[8][2] = {{1, 0}, {0, 1},  {-1, 0},  {0, -1},
