@@ -239,10 +239,74 @@ static void gives_nothing_outside_and_at_rest(void **state)
   end_bench(&bench);
 }
 
+/* Round an upright axis at (0.1, -0.2), rising by 0.3 a radian; linear, so that samples
+ * carry it exactly. */
+static fg_field *helix_field(void)
+{
+  enum { SIDE = 5 };
+  static float sample[3][SIDE * SIDE * SIDE];
+  double axis[SIDE];
+  for (int n = 0; n < SIDE; n++)
+    axis[n] = -1 + 2.0 * n / (SIDE - 1);
+  for (int n = 0; n < SIDE * SIDE * SIDE; n++) {
+    sample[0][n] = (float)-(axis[n / SIDE % SIDE] + 0.2);
+    sample[1][n] = (float)(axis[n % SIDE] - 0.1);
+    sample[2][n] = 0.3F;
+  }
+  fg_field_arrays arrays = {.dimension = 3,
+                            .size = {SIDE, SIDE, SIDE},
+                            .axis = {axis, axis, axis},
+                            .velocity = {sample[0], sample[1], sample[2]}};
+  fg_field *field = NULL;
+  assert_int_equal(fg_field_create(&field, NULL, &arrays), FG_STATUS_OK);
+  return field;
+}
+
+/* The window is one cell that is positive below z = 0.61. In 3D the turning is curvature
+ * times length. */
+static void follows_a_helix(void **state)
+{
+  (void)state;
+  float level[8];
+  unsigned char active = 1;
+  for (int n = 0; n < 8; n++)
+    level[n] = n < 4 ? 1.51F : -0.29F;
+  const fg__window window = {.dimension = 3,
+                             .nodes = {2, 2, 2},
+                             .origin = {-0.9, -0.9, -0.9},
+                             .spacing = {1.8, 1.8, 1.8},
+                             .level = level,
+                             .active = &active};
+  const double start[3] = {0.1, 0.4, -0.23}, radius = 0.6;
+  const fg__streamline_limits limits = {0.05, 5, 20};
+  fg_field *field = helix_field();
+  fg__streamline line = {0};
+  assert_int_equal(fg__streamline_trace(&line, NULL, field, &window, start, &limits),
+                   FG_STATUS_OK);
+  double size = hypot(radius, 0.3), length = fg__streamline_length(&line);
+  double curvature = radius / (size * size), before = line.node[line.start].s;
+  assert_true(fabs(before - (0.9 - 0.23) * size / 0.3) < 2e-3);
+  assert_true(fabs(length - 1.51 * size / 0.3) < 3e-3);
+  assert_int_equal(line.end[0], FG__STREAMLINE_LEFT);
+  assert_int_equal(line.end[1], FG__STREAMLINE_LEFT);
+  int hint = 0;
+  for (int i = 0; i <= 300; i++) {
+    double p[3], t[3], s = length * i / 300;
+    double turning = fg__streamline_at(&line, s, &hint, p, t);
+    assert_true(fabs(hypot(p[0] - 0.1, p[1] + 0.2) - radius) < 1e-3);
+    assert_true(fabs(p[2] + 0.23 - (s - before) * 0.3 / size) < 1e-3);
+    assert_true(fabs(t[2] - 0.3 / size) < 2e-3);
+    assert_true(fabs(turning - curvature * s) < 0.02);
+  }
+  fg__streamline_clear(&line);
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(follows_a_circle),
+      cmocka_unit_test(follows_a_helix),
       cmocka_unit_test(is_of_third_order),
       cmocka_unit_test(follows_a_hyperbola_to_the_domain_boundary),
       cmocka_unit_test(ends_on_the_zero_set),
