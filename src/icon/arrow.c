@@ -369,7 +369,6 @@ fg_status fg__arrow_centerline(double (**points)[3], int *count, fg_context *con
   const fg__streamline_node *node = streamline->node;
   size_t capacity = 0, used = 0;
   double(*point)[3] = NULL;
-  double tangent[3];
   int hint = 0;
   /* pieces much shorter than a point's spacing come from steps cut at the ends */
   double least = 1e-3 * spacing;
@@ -385,14 +384,14 @@ fg_status fg__arrow_centerline(double (**points)[3], int *count, fg_context *con
     }
     for (int k = 0; k < pieces; k++, used++)
       fg__streamline_at(streamline, from + (to - from) * k / pieces, &hint, point[used],
-                        tangent);
+                        NULL);
   }
   if (!point) {
     *points = NULL;
     *count = 0;
     return FG_STATUS_OK;
   }
-  fg__streamline_at(streamline, arrow->tip, &hint, point[used], tangent);
+  fg__streamline_at(streamline, arrow->tip, &hint, point[used], NULL);
   used++;
   *points = point;
   *count = (int)used;

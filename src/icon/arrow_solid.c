@@ -166,7 +166,7 @@ fg_status fg__arrow_centerline_solid(double (**points)[3], int *count,
                                      const fg__streamline *streamline,
                                      const fg__arrow *arrow, double spacing)
 {
-  double tangent[3], length = arrow->tip - arrow->tail;
+  double length = arrow->tip - arrow->tail;
   int pieces = (int)ceil(fmax(length / spacing, arrow->turning / LARGEST_TURN));
   pieces = pieces < FEWEST_PIECES ? FEWEST_PIECES : pieces;
   *points = fg__allocate((size_t)pieces + 1, sizeof **points);
@@ -175,7 +175,7 @@ fg_status fg__arrow_centerline_solid(double (**points)[3], int *count,
   int hint = 0;
   for (int i = 0; i <= pieces; i++)
     fg__streamline_at(streamline, arrow->tail + length * i / pieces, &hint, (*points)[i],
-                      tangent);
+                      NULL);
   *count = pieces + 1;
   return FG_STATUS_OK;
 }

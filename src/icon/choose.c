@@ -89,11 +89,11 @@ static fg_status collect_points(const fg__choice *choice)
 static double cost_of(const fg__choice *choice, double tail, double tip, double width)
 {
   const fg__chooser *chooser = choice->chooser;
-  double line[ARROW_POINTS][3], tangent[3], sum = 0;
+  double line[ARROW_POINTS][3], sum = 0;
   int hint = 0;
   for (int k = 0; k < ARROW_POINTS; k++)
     fg__streamline_at(&chooser->tried, tail + (tip - tail) * k / (ARROW_POINTS - 1),
-                      &hint, line[k], tangent);
+                      &hint, line[k], NULL);
   for (int i = 0; i < chooser->point_count; i++) {
     double nearest = HUGE_VAL;
     for (int k = 0; k < ARROW_POINTS; k++) {

@@ -82,17 +82,33 @@ static bool try_step(const tracing *tracer, const double from[3], const double k
 /* Cubic Hermite between two points with unit tangents, a length apart along the curve. */
 static void interpolate(const double p[3], const double d[3], const double q[3],
                         const double e[3], double length, double fraction,
-                        double position[3], double tangent[3])
+                        double position[3])
 {
   double t = fraction, u = 1 - t;
-  for (int a = 0; a < 3; a++) {
+  for (int a = 0; a < 3; a++)
     position[a] = u * u * (1 + 2 * t) * p[a] + t * t * (3 - 2 * t) * q[a] +
                   length * (u * u * t * d[a] - t * t * u * e[a]);
+}
+
+/* Its unit tangent. */
+static void interpolate_tangent(const double p[3], const double d[3], const double q[3],
+                                const double e[3], double length, double fraction,
+                                double tangent[3])
+{
+  double t = fraction, u = 1 - t;
+  for (int a = 0; a < 3; a++)
     tangent[a] = 6 * t * u * (q[a] - p[a]) +
                  length * (u * (1 - 3 * t) * d[a] + t * (3 * t - 2) * e[a]);
-  }
   if (!fg__normalise(tangent))
     memcpy(tangent, d, 3 * sizeof *tangent);
+}
+
+/* The point at a fraction of a step. */
+static void point_after(const fg__streamline_node *from, const trial *to, double step,
+                        double fraction, double position[3])
+{
+  interpolate(from->position, from->tangent, to->position, to->direction, step, fraction,
+              position);
 }
 
 static bool is_inside(const tracing *tracer, const double position[3])
@@ -106,9 +122,8 @@ static double find_boundary(const tracing *tracer, const fg__streamline_node *fr
 {
   double inside = 0;
   for (int i = 0; i < BISECTIONS; i++) {
-    double middle = (inside + outside) / 2, position[3], tangent[3];
-    interpolate(from->position, from->tangent, to->position, to->direction, step, middle,
-                position, tangent);
+    double middle = (inside + outside) / 2, position[3];
+    point_after(from, to, step, middle, position);
     if (is_inside(tracer, position))
       inside = middle;
     else
@@ -133,8 +148,9 @@ static fg__streamline_node node_after(int dimension, const fg__streamline_node *
                                       const trial *to, double step, double fraction)
 {
   fg__streamline_node node = {.s = from->s + step * fraction};
-  interpolate(from->position, from->tangent, to->position, to->direction, step, fraction,
-              node.position, node.tangent);
+  point_after(from, to, step, fraction, node.position);
+  interpolate_tangent(from->position, from->tangent, to->position, to->direction, step,
+                      fraction, node.tangent);
   double across[3];
   fg__cross(from->tangent, node.tangent, across);
   double sine = dimension == 2 ? across[2] : fg__length(across);
@@ -162,9 +178,8 @@ static fg_status trace_one_way(fg__streamline *line, fg_context *context,
       }
       step = fmax(step / 2, SHORTEST_STEP * limits->step);
     }
-    double fraction = 1, middle[3], direction[3];
-    interpolate(last.position, last.tangent, next.position, next.direction, step, 0.5,
-                middle, direction);
+    double fraction = 1, middle[3];
+    point_after(&last, &next, step, 0.5, middle);
     if (!is_inside(tracer, middle))
       fraction = find_boundary(tracer, &last, &next, step, 0.5);
     else if (!is_inside(tracer, next.position))
@@ -272,15 +287,13 @@ double fg__streamline_at(const fg__streamline *streamline, double s, int *hint,
     i++;
   if (hint)
     *hint = i;
-  if (last == 0) {
-    memcpy(position, node[0].position, 3 * sizeof *position);
-    memcpy(tangent, node[0].tangent, 3 * sizeof *tangent);
-    return node[0].turning;
-  }
-  double length = node[i + 1].s - node[i].s;
-  double fraction = length > 0 ? (s - node[i].s) / length : 0;
-  fraction = fmin(fmax(fraction, 0), 1);
-  interpolate(node[i].position, node[i].tangent, node[i + 1].position,
-              node[i + 1].tangent, length, fraction, position, tangent);
-  return node[i].turning + fraction * (node[i + 1].turning - node[i].turning);
+  const fg__streamline_node *a = &node[i], *b = &node[i < last ? i + 1 : i];
+  double length = b->s - a->s;
+  double fraction = length > 0 ? fmin(fmax((s - a->s) / length, 0), 1) : 0;
+  interpolate(a->position, a->tangent, b->position, b->tangent, length, fraction,
+              position);
+  if (tangent)
+    interpolate_tangent(a->position, a->tangent, b->position, b->tangent, length,
+                        fraction, tangent);
+  return a->turning + fraction * (b->turning - a->turning);
 }

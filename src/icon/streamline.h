@@ -48,9 +48,9 @@ fg_status fg__streamline_trace(fg__streamline *out, fg_context *context,
                                const double start[], const fg__streamline_limits *limits);
 void fg__streamline_clear(fg__streamline *streamline);
 
-/* Position and unit tangent at arc length s, clamped to the line; `hint`, when not NULL,
- * is the index of a segment to start from and is kept up to date. Returns the turning
- * there. */
+/* Position and unit tangent, which may be NULL, at arc length s, clamped to the line;
+ * `hint`, when not NULL, is the index of a segment to start from and is kept up to date.
+ * Returns the turning there. */
 double fg__streamline_at(const fg__streamline *streamline, double s, int *hint,
                          double position[3], double tangent[3]);
 

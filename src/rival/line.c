@@ -55,9 +55,9 @@ void fg__line_at(const fg__line *line, double s, int *hint, double position[3],
 double fg__line_turning(const fg__line *line, double from, double to)
 {
   if (line->traced.dimension == 3) {
-    double position[3], tangent[3];
-    return fg__streamline_at(&line->traced, to, NULL, position, tangent) -
-           fg__streamline_at(&line->traced, from, NULL, position, tangent);
+    double position[3];
+    return fg__streamline_at(&line->traced, to, NULL, position, NULL) -
+           fg__streamline_at(&line->traced, from, NULL, position, NULL);
   }
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (int i = 0; i < line->count; i++) {
