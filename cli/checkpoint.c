@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "coarser.h"
+#include "coarsening.h"
 #include "folder.h"
 #include "options.h"
 #include "ranks.h"
@@ -86,28 +86,35 @@ static void add_scale(cJSON *scales, const scale_result *result)
   cJSON_AddItemToArray(scales, scale);
 }
 
+static void add_record(cJSON *root, const fg_run *scales)
+{
+  fg_run_record record;
+  fg_run_describe(&record, scales);
+  cJSON_AddItemToObject(root, "wanted",
+                        cJSON_CreateIntArray(record.wanted, record.count));
+  add_whole(root, "next", record.next);
+  add_whole(root, "taken", record.taken);
+  add_whole(root, "last_scale_clusters", record.last_clusters);
+  add_whole(root, "first_step", record.first.step);
+  add_whole(root, "first_clusters", record.first.clusters);
+  add_exact(root, "first_time", record.first.time);
+  add_exact(root, "first_seconds", record.first.seconds);
+}
+
 /* All that the program needs to go on, as JSON. NULL without memory; end with
  * cJSON_free. */
 static char *describe(const cli_run *run)
 {
   const run_facts *facts = &run->facts;
-  const fg_step *first = &run->first_counted;
   double now = clock_seconds();
   cJSON *root = cJSON_CreateObject();
   cJSON_AddItemToObject(root, "options", said_options(run->settings));
   add_whole(root, "table_bytes", (long)run->table.bytes);
-  cJSON_AddItemToObject(root, "wanted",
-                        cJSON_CreateIntArray(run->plan.wanted, run->plan.count));
-  add_whole(root, "next", run->plan.next);
-  add_whole(root, "last_scale_clusters", run->last_scale_clusters);
+  add_record(root, run->scales);
   add_whole(root, "rejected", facts->rejected);
   add_exact(root, "mass_drift", facts->mass_drift);
   cJSON_AddBoolToObject(root, "energy_monotone", facts->energy_monotone);
-  add_whole(root, "first_step", first->step);
-  add_whole(root, "first_clusters", first->clusters);
-  add_exact(root, "first_time", first->time);
-  add_exact(root, "first_seconds", first->seconds);
-  coarser_add(root, facts);
+  coarsening_add(root, facts);
   cJSON *scales = cJSON_AddArrayToObject(root, "scales");
   for (int k = 0; k < drawing_count(run->drawing); ++k)
     add_scale(scales, drawing_result(run->drawing, k));
@@ -167,7 +174,7 @@ static bool save(cli_run *run)
   char *note = NULL;
   bool prepared = !ranks_leader() || prepare(run, &note), saved = false;
   if (!ranks_any(!prepared)) {
-    saved = !fg_evolution_save(run->evolution, run->checkpoint, note);
+    saved = !fg_evolution_save(fg_run_evolution(run->scales), run->checkpoint, note);
     if (!saved)
       warn(run, fg_context_message(run->context));
     fg_context_clear(run->context);
@@ -284,23 +291,26 @@ static int restore_scales(cli_run *run, const cJSON *note)
   return output_go_on(&run->output, count);
 }
 
+static void restore_record(fg_run_record *out, const cJSON *note)
+{
+  *out = (fg_run_record){.next = (int)whole_of(note, "next"),
+                         .taken = (int)whole_of(note, "taken"),
+                         .last_clusters = (int)whole_of(note, "last_scale_clusters"),
+                         .first = {.step = whole_of(note, "first_step"),
+                                   .clusters = (int)whole_of(note, "first_clusters"),
+                                   .time = real_of(note, "first_time"),
+                                   .seconds = real_of(note, "first_seconds")}};
+  out->count = list_of(out->wanted, MAX_SCALES, note, "wanted");
+}
+
 /* What all ranks know. */
 static void restore_counts(cli_run *run, const cJSON *note)
 {
-  run->plan.count = list_of(run->plan.wanted, MAX_SCALES, note, "wanted");
-  run->plan.next = (int)whole_of(note, "next");
-  if (run->plan.next > run->plan.count)
-    run->plan.next = run->plan.count;
-  run->last_scale_clusters = (int)whole_of(note, "last_scale_clusters");
   run->facts.accepted = run->step.step;
   run->facts.rejected = whole_of(note, "rejected");
   run->facts.mass_drift = real_of(note, "mass_drift");
   run->facts.energy_monotone = cJSON_IsTrue(item_of(note, "energy_monotone"));
-  coarser_restore(&run->facts, note);
-  run->first_counted = (fg_step){.step = whole_of(note, "first_step"),
-                                 .clusters = (int)whole_of(note, "first_clusters"),
-                                 .time = real_of(note, "first_time"),
-                                 .seconds = real_of(note, "first_seconds")};
+  coarsening_restore(&run->facts, note);
   run->facts.seconds_read += real_of(note, "seconds_read");
   run->earlier_evolve = real_of(note, "seconds_evolve");
   run->earlier_total = real_of(note, "seconds_total");
@@ -334,15 +344,9 @@ static int resume(cli_run *run, const fg_checkpoint *checkpoint)
   cJSON *note = cJSON_Parse(fg_checkpoint_note(checkpoint));
   int code = ranks_agree(check_note(run, note));
   if (!code) {
-    /* another field's mesh may not be one to be halved */
-    fg_status status = fg_evolution_check(run->evolution, checkpoint);
-    if (status)
-      code = complain_of(run->context, status, run->settings->output);
-  }
-  if (!code)
-    code = coarser_as_before(run, checkpoint);
-  if (!code) {
-    fg_status status = fg_evolution_resume(run->evolution, &run->step, checkpoint);
+    fg_run_record record;
+    restore_record(&record, note);
+    fg_status status = fg_run_resume(&run->step, run->scales, checkpoint, &record);
     if (status)
       code = complain_of(run->context, status, run->settings->output);
   }

@@ -9,20 +9,20 @@
 
 bool ending_can_go_on(const cli_run *run)
 {
-  const char *ended = run->facts.ended;
-  return strcmp(ended, "scales") != 0 && strcmp(ended, "stationary") != 0;
+  fg_run_ending ended = run->facts.ended;
+  return ended != FG_RUN_ALL && ended != FG_RUN_STATIONARY;
 }
 
 static int complain_of_no_scale(const cli_run *run)
 {
   const char *operand = run->settings->operand;
   const fg_step *step = &run->step;
-  if (strcmp(run->facts.ended, "interrupted") == 0) {
+  if (run->facts.ended == FG_RUN_STOPPED) {
     complain("%s: interrupted at t = %.3g, before the first scale%s", operand, step->time,
              step->step ? "" : ": nothing was written");
     return EXIT_INTERRUPTED;
   }
-  bool settled = strcmp(run->facts.ended, "stationary") == 0;
+  bool settled = run->facts.ended == FG_RUN_STATIONARY;
   complain("%s: no clusters after %ld steps, at t = %.3g: %s", operand, step->step,
            step->time,
            settled ? "the pattern no longer changes" : "they are still forming");
@@ -35,7 +35,7 @@ int ending_draw(cli_run *run)
 {
   if (drawing_ready(run->drawing) < drawing_count(run->drawing))
     progress_stage(&run->progress, "drawing");
-  if (strcmp(run->facts.ended, "interrupted") != 0)
+  if (run->facts.ended != FG_RUN_STOPPED)
     drawing_heed_interrupts(run->drawing);
   fg_status status = drawing_finish(run->drawing);
   progress_wipe(&run->progress);
@@ -104,18 +104,19 @@ static void say_first_scale(const cli_run *run)
 static int say_ending(const cli_run *run)
 {
   const cli_settings *said = run->settings;
-  if (strcmp(run->facts.ended, "stationary") == 0 && !scale_plan_done(&run->plan))
+  const int *wanted;
+  int next, most = fg_run_wanted(&wanted, &next, run->scales);
+  if (run->facts.ended == FG_RUN_STATIONARY && next < most)
     complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
-             said->operand, run->plan.wanted[run->plan.next], run->step.clusters);
-  if (strcmp(run->facts.ended, "interrupted") != 0) {
+             said->operand, wanted[next], run->step.clusters);
+  if (run->facts.ended != FG_RUN_STOPPED) {
     say_first_scale(run);
     return EXIT_DONE;
   }
   int count = drawing_count(run->drawing);
   char reached[64];
-  if (run->plan.placed)
-    snprintf(reached, sizeof reached, "before the scale of %d arrows",
-             run->plan.wanted[count]);
+  if (settings_place(said))
+    snprintf(reached, sizeof reached, "before the scale of %d arrows", wanted[count]);
   else
     snprintf(reached, sizeof reached, "with %d clusters", run->step.clusters);
   complain("%s: interrupted at t = %.3g %s; the %d scale%s until then %s in %s",
@@ -128,7 +129,7 @@ int ending_finish(cli_run *run)
 {
   int code = ending_draw(run);
   if (!code && drawing_was_cut(run->drawing))
-    run->facts.ended = "interrupted";
+    run->facts.ended = FG_RUN_STOPPED;
   if (!code)
     code = write_results(run);
   if (code)

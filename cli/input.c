@@ -1,6 +1,5 @@
 #include "input.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -87,18 +86,18 @@ int input_join(cli_run *run)
 
 static const char *const scheme_names[] = {"BDF2", "implicit Euler", "theta"};
 
-void input_print_cells(const fg_mesh_info *mesh)
+void input_print_cells(int dimension, const int cells[3])
 {
-  fprintf(stderr, "mesh %d x %d", mesh->cells[0], mesh->cells[1]);
-  if (mesh->dimension == 3)
-    fprintf(stderr, " x %d", mesh->cells[2]);
+  fprintf(stderr, "mesh %d x %d", cells[0], cells[1]);
+  if (dimension == 3)
+    fprintf(stderr, " x %d", cells[2]);
   fprintf(stderr, " cells");
 }
 
 static void print_mesh(const fg_mesh_info *mesh, int scheme)
 {
   fprintf(stderr, "flowgrain: ");
-  input_print_cells(mesh);
+  input_print_cells(mesh->dimension, mesh->cells);
   fprintf(stderr, " (%ld active), a = %g, coverage %g, gamma %g, %s scheme, %s kernel\n",
           mesh->active_cells, mesh->anisotropy, mesh->coverage, mesh->gamma,
           scheme_names[scheme], mesh->kernel);
@@ -119,43 +118,17 @@ static int read_energy(fg_tensors **out, const cli_run *run)
   return ranks_agree(code);
 }
 
-/* Nodes along the longest side for the finest scale's clusters: in 2D some hundred nodes
- * in each where clusters cover 0.3 of the domain, in 3D a thousand; clusters below that
- * are lost before they are counted. Not below what shows a dozen well. */
-static int nodes_for(const cli_run *run)
+int input_create_scales(cli_run *run, fg_run_options *options)
 {
-  const fg_field_arrays *field = fg_field_contents(run->field);
-  double measure = 1.0, longest = 0.0;
-  for (int k = 0; k < field->dimension; ++k) {
-    const double *axis = field->axis[k];
-    double length =
-        field->period[k] > 0.0 ? field->period[k] : axis[field->size[k] - 1] - axis[0];
-    measure *= length;
-    longest = fmax(longest, length);
-  }
-  double boxes = run->plan.wanted[0] * pow(longest, field->dimension) / measure;
-  bool flat = field->dimension == 2;
-  double nodes = flat ? 18.0 * sqrt(boxes) : 16.0 * cbrt(boxes);
-  double least = flat ? 129.0 : 49.0, most = flat ? 2049.0 : 257.0;
-  return (int)fmin(fmax(nodes, least), most);
-}
-
-int input_create_evolution(cli_run *run)
-{
-  fg_evolution_options *options = &run->evolution_options;
-  *options = settings_evolution(run->settings);
-  if (!options->nodes && settings_place(run->settings))
-    options->nodes = nodes_for(run);
   int code = read_energy(&run->tensors, run);
   if (code)
     return code;
   if (run->tensors)
-    options->law = fg_tensors_law(run->tensors);
-  fg_status status =
-      fg_evolution_create(&run->evolution, run->context, run->field, options);
+    options->evolution.law = fg_tensors_law(run->tensors);
+  fg_status status = fg_run_create(&run->scales, run->context, run->field, options);
   if (status)
     return complain_of(run->context, status, run->settings->operand);
-  run->facts.mesh = *fg_evolution_mesh(run->evolution);
+  run->facts.mesh = *fg_evolution_mesh(fg_run_evolution(run->scales));
   if (run->settings->verbose && ranks_leader())
     print_mesh(&run->facts.mesh, run->settings->scheme);
   return EXIT_DONE;

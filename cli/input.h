@@ -12,11 +12,11 @@ int input_read(cli_run *run);
  * there were several. Collective. Returns an exit code, the same on all. */
 int input_join(cli_run *run);
 
-/* Creates the evolution, its energy read from a file where that is asked for. Collective.
- * Returns an exit code, the same on all. */
-int input_create_evolution(cli_run *run);
+/* Creates the run of scales, its energy read from a file where that is asked for.
+ * Collective. Returns an exit code, the same on all. */
+int input_create_scales(cli_run *run, fg_run_options *options);
 
 /* To stderr: "mesh 512 x 512 cells". */
-void input_print_cells(const fg_mesh_info *mesh);
+void input_print_cells(int dimension, const int cells[3]);
 
 #endif

@@ -1,6 +1,6 @@
 #include "json_report.h"
 
-#include "coarser.h"
+#include "coarsening.h"
 
 #include <cjson/cJSON.h>
 #include <errno.h>
@@ -84,7 +84,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   cJSON *object = cJSON_AddObjectToObject(root, "parameters");
   if (said->nodes)
     cJSON_AddNumberToObject(object, "nodes", said->nodes);
-  add_text(object, "mesh", settings_adapt_mesh(said) ? "adaptive" : "uniform");
+  add_text(object, "mesh", mesh->adaptive ? "adaptive" : "uniform");
   add_text(object, "scheme", scheme_words[said->scheme]);
   add_text(object, "energy", said->energy ? said->energy : "flow");
   if (!scales_are_solid(facts->field))
@@ -131,7 +131,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   cJSON_AddNumberToObject(made, "active_cells", (double)mesh->active_cells);
   cJSON_AddNumberToObject(made, "domain_measure", mesh->domain_measure);
   add_text(made, "kernel", mesh->kernel);
-  coarser_add(made, facts);
+  coarsening_add(made, facts);
 }
 
 static void add_files(cJSON *scale, const run_facts *facts, int index)
@@ -185,6 +185,15 @@ static void add_scale(cJSON *scales, const run_facts *facts, int index)
   cJSON_AddItemToArray(scales, scale);
 }
 
+const char *report_ending_word(fg_run_ending ended)
+{
+  static const char *const words[] = {
+      [FG_RUN_GO_ON] = "interrupted",     [FG_RUN_ALL] = "scales",
+      [FG_RUN_STATIONARY] = "stationary", [FG_RUN_AT_TIME] = "time",
+      [FG_RUN_AT_STEPS] = "steps",        [FG_RUN_STOPPED] = "interrupted"};
+  return words[ended];
+}
+
 static void add_outcome(cJSON *root, const run_facts *facts)
 {
   cJSON *scales = cJSON_AddArrayToObject(root, "scales");
@@ -193,13 +202,13 @@ static void add_outcome(cJSON *root, const run_facts *facts)
   add_numbers(root, "speed_range", drawing_look(facts->drawing)->speeds, 2);
   if (scales_are_solid(facts->field))
     add_numbers(root, "view", drawing_look(facts->drawing)->view, 2);
-  cJSON_AddStringToObject(root, "ended", facts->ended);
+  cJSON_AddStringToObject(root, "ended", report_ending_word(facts->ended));
   cJSON *steps = cJSON_AddObjectToObject(root, "steps");
   cJSON_AddNumberToObject(steps, "accepted", (double)facts->accepted);
   cJSON_AddNumberToObject(steps, "rejected", (double)facts->rejected);
   cJSON_AddNumberToObject(root, "mass_drift", facts->mass_drift);
   cJSON_AddBoolToObject(root, "energy_monotone",
-                        facts->energy_monotone && !coarser_raised_energy(facts));
+                        facts->energy_monotone && !coarsening_raised_energy(facts));
   cJSON_AddBoolToObject(root, "energy_monotone_between_coarsenings",
                         facts->energy_monotone);
   traffic_add(root, facts);

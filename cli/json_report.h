@@ -4,32 +4,27 @@
 
 #include "drawing.h"
 
-enum { MAX_MESH_CHANGES = 16 };
-
-/* A halving of the mesh: the state in which it was made, what it made of the energy, and
- * the cells since. */
-typedef struct mesh_change {
-  long step;
-  double time, energy_before, energy_after;
-  int clusters, cells[3];
-} mesh_change;
+enum { MOST_COARSENINGS = 16 };
 
 typedef struct run_facts {
   const cli_settings *settings;
   const fg_field *field;
   fg_mesh_info mesh; /* the first */
-  mesh_change change[MAX_MESH_CHANGES];
-  int change_count;
+  fg_coarsening coarsening[MOST_COARSENINGS];
+  int coarsening_count;
   cli_drawing *drawing;
-  const char *ended; /* "scales", "time", "steps", "stationary", "interrupted" */
+  fg_run_ending ended;
   int time_count, level_count; /* of the input; 0: not known */
   long accepted, rejected;
   double mass_drift;
-  bool energy_monotone; /* in steps, between changes of the mesh */
+  bool energy_monotone; /* in steps, between coarsenings */
   double seconds_read, seconds_evolve, seconds_total;
   int ranks;
   fg_traffic traffic[FG_ACTIVITIES], most_traffic[FG_ACTIVITIES];
 } run_facts;
+
+/* How it ended, in a word: "scales", "time", "steps", "stationary", "interrupted". */
+const char *report_ending_word(fg_run_ending ended);
 
 /* Writes run.json. Returns an exit code. */
 int report_write(const char *path, const run_facts *facts);

@@ -63,7 +63,7 @@ static int take_shared(scale_moment *moment, cli_run *run, const fg_density *sha
 int moment_take(scale_moment *out, cli_run *run)
 {
   fg_density *density;
-  fg_status status = fg_density_create(&density, run->evolution);
+  fg_status status = fg_density_create(&density, fg_run_evolution(run->scales));
   if (status)
     return complain_of(run->context, status, run->settings->operand);
   const fg_density_arrays *contents = fg_density_contents(density);

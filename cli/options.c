@@ -453,16 +453,11 @@ fg_read_options settings_reading(const cli_settings *settings)
   };
 }
 
-bool settings_adapt_mesh(const cli_settings *settings)
-{
-  return strcmp(mesh_words[settings->mesh], "adaptive") == 0 ||
-         (strcmp(mesh_words[settings->mesh], "auto") == 0 && settings->gamma == 0.0);
-}
-
 fg_evolution_options settings_evolution(const cli_settings *settings)
 {
   return (fg_evolution_options){
       .nodes = settings->nodes,
+      .mesh = (fg_mesh_kind)settings->mesh,
       .scheme = (fg_scheme)settings->scheme,
       .energy = (fg_energy)(energy_place(settings->energy) < 0
                                 ? 0
@@ -474,6 +469,20 @@ fg_evolution_options settings_evolution(const cli_settings *settings)
       .seed = settings->seed,
       .noise = settings->noise,
       .threads = settings->threads,
+  };
+}
+
+fg_run_options settings_scales(const cli_settings *settings)
+{
+  bool placed = settings_place(settings);
+  return (fg_run_options){
+      .kind = placed ? FG_RUN_ARROWS : FG_RUN_CLUSTERS,
+      .numbers = placed ? settings->arrows : settings->clusters,
+      .count = placed ? settings->arrow_count : settings->cluster_count,
+      .evolution = settings_evolution(settings),
+      .placement = settings_placement(settings),
+      .max_time = settings->max_time,
+      .max_steps = settings->max_steps,
   };
 }
 

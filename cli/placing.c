@@ -36,38 +36,15 @@ static fg_status begin(cli_placing *placing, const fg_icons *finer)
   return status;
 }
 
-/* Only the first scale starts from icons of clusters. */
-static fg_status place(cli_placing *placing, int count, const scale_moment *moment,
-                       bool first)
-{
-  fg_icons *clusters = NULL;
-  fg_status status = FG_STATUS_OK;
-  const cli_settings *said = placing->settings;
-  bool even = !first || said->start || said->tolerance > 0.0 || !moment->density;
-  if (!even)
-    status = fg_icons_create(&clusters, placing->context, placing->field, moment->density,
-                             NULL);
-  if (!status)
-    status = fg_placement_place(placing->placement, count, clusters);
-  fg_icons_destroy(clusters);
-  return status;
-}
-
 fg_status placing_make(fg_icons **out, cli_placing *placing, int count,
                        const scale_moment *moment, fg_icons *finer)
 {
+  const cli_settings *said = placing->settings;
   fg_status status = placing->placement ? FG_STATUS_OK : begin(placing, finer);
   if (!status)
-    status = place(placing, count, moment, !finer);
-  if (!status)
-    status = fg_placement_icons(out, placing->placement);
-  if (!status && moment->density)
-    status = fg_placement_find_clusters(placing->context, *out, moment->density);
-  if (!status)
-    status = placing_score(placing->context, placing->field, *out);
-  if (!status && finer)
-    fg_placement_find_parents(placing->placement, finer);
-  return status;
+    status = fg_run_place(out, placing->context, placing->placement, count,
+                          moment->density, said->start || said->tolerance > 0.0, finer);
+  return status ? status : placing_score(placing->context, placing->field, *out);
 }
 
 fg_status placing_regions(fg_density **out, const cli_placing *placing)

@@ -7,7 +7,7 @@
 /* Exit codes of every command. */
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
 
-enum { MAX_SCALES = 64 };
+enum { MAX_SCALES = FG_MOST_SCALES };
 
 /* Views of a picture in 3D. */
 enum { MAX_VIEWS = 8 };
@@ -27,7 +27,7 @@ typedef struct cli_settings {
   int scale; /* fg_scale */
 
   int nodes;
-  int mesh;           /* auto (0), adaptive, uniform */
+  int mesh;           /* fg_mesh_kind */
   int scheme;         /* fg_scheme */
   const char *energy; /* a word of energy_words or a file; NULL: flow */
   double anisotropy, isotropic_below, coverage, gamma, noise;
@@ -131,11 +131,9 @@ int command_gallery(const cli_settings *settings);
 int program_perform(int argc, char **argv);
 
 fg_read_options settings_reading(const cli_settings *settings);
+fg_run_options settings_scales(const cli_settings *settings);
 fg_evolution_options settings_evolution(const cli_settings *settings);
 
-/* Whether the mesh is halved as clusters grow; not where the user gives the width of
- * interfaces, unless they ask for it. */
-bool settings_adapt_mesh(const cli_settings *settings);
 fg_picture_options settings_picture(const cli_settings *settings);
 
 /* Whether arrows are placed, exactly so many; else they are their clusters' own. */

@@ -6,7 +6,7 @@
 
 #include "background.h"
 #include "checkpoint.h"
-#include "coarser.h"
+#include "coarsening.h"
 #include "ending.h"
 #include "folder.h"
 #include "input.h"
@@ -92,166 +92,117 @@ static int open_results(cli_run *run, bool *done, bool *goes_on)
   return *goes_on ? EXIT_DONE : start_anew(run);
 }
 
+/* Where the mesh was coarsened before the step, the energy may have grown by that. */
 static int record_step(cli_run *run, const fg_step *before)
 {
   const fg_step *step = &run->step;
   const fg_mesh_info *mesh = &run->facts.mesh;
+  double energy = before->energy;
+  if (step->coarsenings > before->coarsenings)
+    energy = coarsening_record(run)->energy_after;
   run->facts.accepted = step->step;
   run->facts.rejected += step->rejected;
-  if (before->step && step->energy > before->energy)
+  if (before->step && step->energy > energy)
     run->facts.energy_monotone = false;
   /* masses are in units of the longest side; the initial one is known by construction */
   double measure = mesh->domain_measure / pow(mesh->length, mesh->dimension);
   double drift = fabs(step->mass / measure - (2.0 * mesh->coverage - 1.0));
   if (drift > run->facts.mass_drift)
     run->facts.mass_drift = drift;
-  if (step->clusters && !run->first_counted.step)
-    run->first_counted = *step;
   return ranks_leader() ? table_add(&run->table, step) : EXIT_DONE;
 }
 
 /* Collective; rank 0 draws what all made of the density together. */
-static int take_scale(cli_run *run, const int *wanted, int wanted_count)
+static int draw_scale(cli_run *run, const fg_run_scale *scale)
 {
   scale_moment moment;
   int code = moment_take(&moment, run);
   if (code)
     return code;
-  run->last_scale_clusters = run->step.clusters;
   if (!ranks_leader())
     return ranks_agree(EXIT_DONE);
   if (run->settings->verbose) {
     progress_wipe(&run->progress);
     fprintf(stderr, "flowgrain: scale %02d: step %ld, t = %.3e, %d clusters, %.2f s\n",
-            drawing_count(run->drawing), run->step.step, run->step.time,
-            run->step.clusters, run->step.seconds);
+            scale->index, run->step.step, run->step.time, run->step.clusters,
+            run->step.seconds);
   }
   /* a failure of the drawing is complained of where the run ends */
-  bool added = drawing_add(run->drawing, &moment, wanted, wanted_count);
+  bool added = drawing_add(run->drawing, &moment, scale->wanted, scale->wanted_count);
   return ranks_agree(added ? EXIT_DONE : EXIT_FAILED);
 }
 
-/* The scales that a state answers: one of all numbers, or where arrows are placed one of
- * each. Collective. */
-static int take_scales(cli_run *run, int reached)
+/* The scales that the present state is. Collective. */
+static int draw_scales(cli_run *run)
 {
-  const int *wanted = &run->plan.wanted[run->plan.next - reached];
-  if (!run->plan.placed)
-    return take_scale(run, wanted, reached);
   int code = EXIT_DONE;
-  for (int k = 0; k < reached && !code; ++k)
-    code = take_scale(run, &wanted[k], 1);
+  fg_run_scale scale;
+  while (!code && fg_run_take(&scale, run->scales))
+    code = draw_scale(run, &scale);
   return code;
-}
-
-/* Where a run ends before its last scale it still shows how far it came; placed arrows
- * can be as few as is wanted all the same, even where no cluster has room. Collective. */
-static int take_last(cli_run *run)
-{
-  bool settled = strcmp(run->facts.ended, "stationary") == 0;
-  if (scale_plan_done(&run->plan) ||
-      (!run->step.clusters && !(run->plan.placed && settled)))
-    return EXIT_DONE;
-  if (run->plan.placed) {
-    int left = run->plan.count - run->plan.next;
-    if (strcmp(run->facts.ended, "interrupted") == 0)
-      return EXIT_DONE;
-    run->plan.next = run->plan.count;
-    return take_scales(run, left);
-  }
-  return run->last_scale_clusters == run->step.clusters ? EXIT_DONE
-                                                        : take_scale(run, NULL, 0);
-}
-
-static const char *reason_to_stop(const cli_run *run)
-{
-  const cli_settings *said = run->settings;
-  if (scale_plan_done(&run->plan))
-    return "scales";
-  if (said->max_time > 0.0 && run->step.time >= said->max_time)
-    return "time";
-  if (said->max_steps && run->step.step >= said->max_steps)
-    return "steps";
-  if (run->step.stationary)
-    return "stationary";
-  return NULL;
 }
 
 static void show_progress(cli_run *run)
 {
-  const fg_step *step = &run->step, *first = &run->first_counted;
-  double left = -1.0;
-  if (first->step)
-    left = scale_plan_seconds_left(&run->plan, step->clusters, step->time, step->seconds,
-                                   first->time, first->seconds);
-  double share = scale_plan_share(&run->plan, first->clusters, step->clusters);
-  progress_evolution(&run->progress, share, step->time, step->clusters, left);
+  double share, left;
+  fg_run_progress(&share, &left, run->scales);
+  progress_evolution(&run->progress, share, run->step.time, run->step.clusters, left);
 }
 
 static int advance(cli_run *run)
 {
-  /* before a step, not after: a checkpoint holds what the next step begins with */
-  int code = coarser_when_ample(run);
-  if (code)
-    return code;
   fg_step before = run->step;
-  fg_status status = fg_evolution_step(run->evolution, &run->step);
+  fg_status status = fg_run_step(&run->step, run->scales);
   if (status == FG_STATUS_STOPPED) {
     fg_context_clear(run->context);
-    run->step = before;
-    run->facts.ended = "interrupted";
     return EXIT_DONE;
   }
   if (status) {
     progress_wipe(&run->progress);
     return complain_of(run->context, status, run->settings->operand);
   }
-  code = ranks_agree(record_step(run, &before));
-  int reached = scale_plan_reach(&run->plan, run->step.clusters);
-  if (!code && reached)
-    code = take_scales(run, reached);
-  run->facts.ended = reason_to_stop(run);
-  return code;
+  int code = ranks_agree(record_step(run, &before));
+  return code ? code : draw_scales(run);
 }
 
 static int evolve(cli_run *run)
 {
   int code = EXIT_DONE;
   run->evolving_since = run->save_tried = clock_seconds();
-  if (run->step.step) /* resumed, perhaps at its end */
-    run->facts.ended = reason_to_stop(run);
-  while (!code && !run->facts.ended) {
+  while (!code && !fg_run_ended(run->scales)) {
     code = advance(run);
-    if (!code && !run->facts.ended && checkpoint_is_due(run))
+    if (!code && !fg_run_ended(run->scales) && checkpoint_is_due(run))
       code = checkpoint_save(run);
     show_progress(run);
   }
-  bool interrupted = !code && strcmp(run->facts.ended, "interrupted") == 0;
+  run->facts.ended = fg_run_ended(run->scales);
+  bool interrupted = run->facts.ended == FG_RUN_STOPPED;
   if (!code && run->step.step && ending_can_go_on(run) &&
       (interrupted || run->step.clusters))
     code = checkpoint_save(run);
-  if (!code)
-    code = take_last(run);
+  if (!code) {
+    fg_run_close(run->scales);
+    code = draw_scales(run);
+  }
   run->facts.seconds_evolve = run->earlier_evolve + clock_seconds() - run->evolving_since;
   return code;
 }
 
-/* Every rank finds the same number of arrows. */
-static int plan_scales(cli_run *run)
+/* Numbers of arrows or of clusters. Every rank finds the same number of arrows for
+ * --tolerance, which *found keeps. */
+static int choose_scales(cli_run *run, fg_run_options *out, int *found)
 {
   const cli_settings *said = run->settings;
-  int dimension = fg_field_contents(run->field)->dimension;
+  int code = EXIT_DONE;
+  *out = settings_scales(said);
   if (said->tolerance > 0.0) {
-    int count = 0;
     progress_stage(&run->progress, "counting arrows");
-    int code = ranks_agree(placing_find_count(&count, run->context, said, run->field));
+    code = ranks_agree(placing_find_count(found, run->context, said, run->field));
     progress_wipe(&run->progress);
-    scale_plan_start_placed(&run->plan, &count, 1, dimension);
-    return code;
+    out->numbers = found;
+    out->count = 1;
   }
-  if (settings_place(said))
-    scale_plan_start_placed(&run->plan, said->arrows, said->arrow_count, dimension);
-  return EXIT_DONE;
+  return code;
 }
 
 /* All ranks read; rank 0 sees to the results' folder. *done: nothing is left to do. */
@@ -280,11 +231,13 @@ static int prepare(cli_run *run, bool *done)
   code = input_join(run);
   if (code)
     return code;
-  code = plan_scales(run);
+  fg_run_options scales;
+  int found = 0;
+  code = choose_scales(run, &scales, &found);
   if (code)
     return code;
   run->facts.seconds_read = clock_seconds() - run->start;
-  return input_create_evolution(run);
+  return input_create_scales(run, &scales);
 }
 
 static int work(cli_run *run)
@@ -313,7 +266,7 @@ static int work(cli_run *run)
     return ending_draw(run);
   if (code)
     return code;
-  traffic_collect(&run->facts, run->evolution);
+  traffic_collect(&run->facts, fg_run_evolution(run->scales));
   if (run->settings->verbose && ranks_leader()) {
     progress_wipe(&run->progress);
     traffic_print(&run->facts);
@@ -329,7 +282,6 @@ int command_run(const cli_settings *settings)
                  .table = {.file = -1}};
   run.facts.settings = settings;
   run.facts.energy_monotone = true;
-  scale_plan_start(&run.plan, settings->clusters, settings->cluster_count);
   progress_start(&run.progress, settings->quiet || !ranks_leader());
   if (fg_context_create(&run.context)) {
     complain("out of memory");
@@ -345,7 +297,7 @@ int command_run(const cli_settings *settings)
   table_close(&run.table);
   bool resumable = output_close(&run.output, run.finished);
   ending_advise(&run, code, resumable);
-  fg_evolution_destroy(run.evolution);
+  fg_run_destroy(run.scales);
   fg_tensors_destroy(run.tensors);
   fg_field_destroy(run.field);
   fg_context_destroy(run.context);

@@ -6,26 +6,21 @@
 #include "json_report.h"
 #include "output.h"
 #include "progress.h"
-#include "scales.h"
 #include "table.h"
 
 typedef struct cli_run {
   const cli_settings *settings;
   fg_context *context;
   fg_field *field;
-  fg_evolution_options evolution_options;
   fg_tensors *tensors; /* of which the energy is, or NULL */
-  fg_evolution *evolution;
+  fg_run *scales;
   cli_drawing *drawing;
   cli_output output;
   char *checkpoint; /* its path */
   cli_table table;  /* evolution.csv */
   cli_progress progress;
-  scale_plan plan;
   run_facts facts;
   fg_step step;          /* the last accepted one */
-  fg_step first_counted; /* the first with a number of clusters; step 0: none yet */
-  int last_scale_clusters;
   double start;          /* of the process */
   double evolving_since; /* clock of the process */
   double earlier_evolve; /* seconds of the runs that this one goes on from */

@@ -61,6 +61,7 @@
 #include "flowgrain/picture.h"
 #include "flowgrain/placement.h"
 #include "flowgrain/rival.h"
+#include "flowgrain/run.h"
 #include "flowgrain/score.h"
 #include "flowgrain/solid.h"
 #include "flowgrain/texture.h"
