@@ -10,6 +10,7 @@
 
 #include "build_features.h"
 #include "folder/files.h"
+#include "folder/made.h"
 
 bool ends_with(const char *text, const char *end)
 {
@@ -87,6 +88,11 @@ char *temporary_name(const char *path)
 }
 
 int publish_file(char *partial, const char *path, int code)
+{
+  return replace_file(partial, path, code ? code : made_record(path));
+}
+
+int replace_file(char *partial, const char *path, int code)
 {
   if (!code && rename(partial, path) != 0)
     code = complain_of_file(path, "cannot be written");

@@ -15,9 +15,6 @@
 #define WORK_NAME ".flowgrain"
 #define LOCK_NAME "lock"
 #define PREVIOUS_NAME CHECKPOINT_NAME ".previous"
-/* There from the first change to DIR on: until DIR/run.json is there, too, every result
- * in DIR is one of the run that was killed in publishing it. */
-#define MARK_NAME "publishing"
 
 static int complain_of_rival(const char *folder, const struct flock *rival)
 {
@@ -85,24 +82,6 @@ static bool has_checkpoint(const char *work)
   return file_is_there(work, CHECKPOINT_NAME) || file_is_there(work, PREVIOUS_NAME);
 }
 
-/* Whether a run had published its report, and was killed in tidying up. */
-static bool report_is_published(const char *folder, const char *work)
-{
-  bool same = false;
-  if (file_is_there(folder, REPORT_NAME) && file_is_there(work, REPORT_NAME)) {
-    char *one_path = join_path(folder, REPORT_NAME);
-    char *other_path = join_path(work, REPORT_NAME);
-    char *one = one_path ? read_text(one_path) : NULL;
-    char *other = other_path ? read_text(other_path) : NULL;
-    same = one && other && strcmp(one, other) == 0;
-    free(one);
-    free(other);
-    free(one_path);
-    free(other_path);
-  }
-  return same;
-}
-
 int output_check(const char *folder)
 {
   int code = check_folder(folder);
@@ -115,74 +94,61 @@ int output_check(const char *folder)
   return code;
 }
 
-static bool is_half_published(const char *folder, const char *work)
-{
-  return file_is_there(work, MARK_NAME) && !file_is_there(folder, REPORT_NAME);
-}
-
 int output_look(output_contents *out, const char *folder)
 {
   *out = (output_contents){.state = OUTPUT_EMPTY};
-  output_state *state = &out->state;
   char *work = join_path(folder, WORK_NAME);
   if (!work)
     return complain_of_memory("a file's name");
-  if (!is_half_published(folder, work)) {
-    int code = made_find_foreign(out->foreign, folder);
-    if (code || out->foreign[0]) {
-      free(work);
-      return code;
-    }
-  }
-  run_ending ending = report_ending(folder);
-  bool complete = ending == ENDING_COMPLETE && report_is_published(folder, work);
-  if (has_checkpoint(work) && !complete)
-    *state = OUTPUT_UNFINISHED;
-  else if (ending == ENDING_INTERRUPTED)
-    *state = OUTPUT_INTERRUPTED;
-  else if (ending != ENDING_NONE)
-    *state = OUTPUT_FINISHED;
+  int code = made_find_foreign(out->foreign, folder, work);
+  bool has = has_checkpoint(work);
   free(work);
+  if (code || out->foreign[0])
+    return code;
+  run_ending ending = report_ending(folder);
+  if (has)
+    out->state = OUTPUT_UNFINISHED;
+  else if (ending == ENDING_INTERRUPTED)
+    out->state = OUTPUT_INTERRUPTED;
+  else if (ending != ENDING_NONE)
+    out->state = OUTPUT_FINISHED;
   return EXIT_DONE;
 }
 
-/* Takes the lock of the folder of the work. Its last owner may be about to remove file
- * and folder: a lock on what has no name any more is none, and *again says so. */
-static int take_lock(cli_output *out, bool *again)
+/* Its last owner may just have removed the file: a lock on what has no name is none. */
+static int set_lock(const cli_output *out)
 {
-  *again = false;
+  struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+  struct stat about;
+  if (fcntl(out->lock, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN))
+    return fcntl(out->lock, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK
+               ? complain_of_rival(out->folder, &lock)
+               : complain_of_file(out->folder, "another run is writing to it");
+  if (fstat(out->lock, &about) == 0 && about.st_nlink > 0)
+    return EXIT_DONE;
+  complain("%s: another run has ended there just now", out->folder);
+  advise("Start this one again.");
+  return EXIT_FAILED;
+}
+
+static int take_lock(cli_output *out)
+{
   char *path = join_path(out->work, LOCK_NAME);
   if (!path)
     return complain_of_memory("a file's name");
   int code = check_work(out->work, path);
-  if (code) {
-    free(path);
-    return code;
+  if (!code) {
+    out->lock = open(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+    code = out->lock < 0 ? complain_of_file(out->folder, "cannot be written to")
+                         : set_lock(out);
   }
-  out->lock = open(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-  struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-  struct stat held, named;
-  if (out->lock < 0 && errno == ENOENT)
-    *again = true;
-  else if (out->lock < 0)
-    code = complain_of_file(out->folder, "cannot be written to");
-  else if (fcntl(out->lock, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN))
-    code = fcntl(out->lock, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK
-               ? complain_of_rival(out->folder, &lock)
-               : complain_of_file(out->folder, "another run is writing to it");
-  else
-    *again = fstat(out->lock, &held) != 0 || stat(path, &named) != 0 ||
-             held.st_ino != named.st_ino || held.st_dev != named.st_dev;
   free(path);
-  if ((code || *again) && out->lock >= 0) {
+  if (code && out->lock >= 0) {
     close(out->lock);
     out->lock = -1;
   }
   return code;
 }
-
-/* For a lock: each is lost to another run that ends. */
-enum { MOST_TRIES = 1000 };
 
 int output_open(cli_output *out, const char *folder)
 {
@@ -191,21 +157,10 @@ int output_open(cli_output *out, const char *folder)
   out->work = join_path(folder, WORK_NAME);
   if (!out->folder || !out->work)
     return complain_of_memory("a file's name");
-  int code, tries = 0;
-  bool again;
-  do {
-    code = make_folders(folder, &out->made_from);
-    if (!code && mkdir(out->work, 0777) != 0 && errno != EEXIST && errno != ENOENT)
-      code = complain_of_file(folder, "cannot be written to");
-    again = false;
-    if (!code)
-      code = take_lock(out, &again);
-  } while (again && ++tries < MOST_TRIES);
-  if (again) {
-    complain("%s: the lock of its runs does not stay where it was put", folder);
-    code = EXIT_FAILED;
-  }
-  return code;
+  int code = make_folders(folder, &out->made_from);
+  if (!code && mkdir(out->work, 0777) != 0 && errno != EEXIST)
+    code = complain_of_file(folder, "cannot be written to");
+  return code ? code : take_lock(out);
 }
 
 char *output_path(const cli_output *out, const char *name)
@@ -237,15 +192,20 @@ static int clear_work(const cli_output *out)
   if (!code)
     code = for_names(out->work, is_result_or_partial, remove_one, NULL);
   if (!code)
-    code = remove_file(out->work, MARK_NAME);
+    code = remove_file(out->work, REPLACED_NAME);
   return code;
+}
+
+/* What a run was killed in publishing goes, while the reports that name it are there. */
+static int remove_half_published(const cli_output *out)
+{
+  return file_is_there(out->folder, REPORT_NAME) ? EXIT_DONE
+                                                 : made_remove(out->folder, out->work);
 }
 
 int output_start_anew(const cli_output *out)
 {
-  int code = EXIT_DONE;
-  if (is_half_published(out->folder, out->work))
-    code = for_names(out->folder, is_result_or_partial, remove_one, NULL);
+  int code = remove_half_published(out);
   return code ? code : clear_work(out);
 }
 
@@ -260,7 +220,8 @@ static int remove_later(const char *folder, const char *name, const void *data)
 
 int output_go_on(const cli_output *out, int scales)
 {
-  return for_names(out->work, is_result_or_partial, remove_later, &scales);
+  int code = remove_half_published(out);
+  return code ? code : for_names(out->work, is_result_or_partial, remove_later, &scales);
 }
 
 int output_use_previous(const cli_output *out)
@@ -303,46 +264,39 @@ static int duplicate_one(const char *work, const char *name, const void *data)
   return duplicate_file(data, name, work);
 }
 
-static int make_mark(const cli_output *out)
+/* The old report moves to the work's folder, where it goes on naming what it did. */
+static int set_aside(const cli_output *out)
 {
-  char *path = join_path(out->work, MARK_NAME);
-  if (!path)
-    return complain_of_memory("a file's name");
-  int code = EXIT_DONE,
-      file = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (file < 0 || close(file) != 0)
-    code = complain_of_file(path, "cannot be written");
-  free(path);
+  char *report = join_path(out->folder, REPORT_NAME);
+  char *replaced = join_path(out->work, REPLACED_NAME);
+  int code = EXIT_DONE;
+  if (!report || !replaced)
+    code = complain_of_memory("a file's name");
+  else if (rename(report, replaced) != 0 && errno != ENOENT)
+    code = complain_of_file(report, "cannot be replaced");
+  free(report);
+  free(replaced);
   return code;
 }
 
-/* Nothing but results of runs may be there to be replaced. */
-static int begin_to_publish(const cli_output *out)
-{
-  if (is_half_published(out->folder, out->work))
-    return EXIT_DONE;
-  char foreign[SCALE_NAME_BYTES];
-  int code = made_find_foreign(foreign, out->folder);
-  if (!code && foreign[0])
-    code = made_complain(out->folder, foreign);
-  return code ? code : make_mark(out);
-}
-
+/* The new report is in the work's folder already, and names what is linked to DIR. */
 int output_publish(const cli_output *out)
 {
-  int code = begin_to_publish(out);
+  char foreign[SCALE_NAME_BYTES];
+  int code = made_find_foreign(foreign, out->folder, NULL);
+  if (!code && foreign[0])
+    code = made_complain(out->folder, foreign);
+  if (!code)
+    code = set_aside(out);
   if (code)
     return code;
-  code = remove_file(out->folder, REPORT_NAME);
-  if (!code)
-    code = for_names(out->folder, is_result_or_partial, remove_one, NULL);
+  code = made_remove(out->folder, out->work);
   if (!code)
     code = for_names(out->work, is_result_but_report, duplicate_one, out->folder);
   if (!code)
     code = duplicate_file(out->folder, REPORT_NAME, out->work);
   if (code)
-    /* a failed run leaves no picture, not even half of its own */
-    for_names(out->folder, is_result_or_partial, remove_one, NULL);
+    made_remove(out->folder, out->work); /* a failed run leaves no picture */
   return code;
 }
 
@@ -351,9 +305,11 @@ bool output_close(cli_output *out, bool finished)
   bool can_go_on = false;
   if (out->lock >= 0) {
     can_go_on = !finished && has_checkpoint(out->work);
-    if (can_go_on)
+    if (can_go_on) {
       for_names(out->work, is_partial, remove_one, NULL);
-    else {
+      remove_file(out->work, REPORT_NAME); /* names what DIR may get from elsewhere */
+      remove_file(out->work, REPLACED_NAME);
+    } else {
       /* results must be on the disk before what they could be made from goes */
       if (finished && has_checkpoint(out->work)) {
         for_names(out->folder, is_result, synchronise_one, NULL);
