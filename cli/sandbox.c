@@ -95,7 +95,7 @@ static void be_child(pid_t parent, int to, void (*work)(void *), void *data,
   reset_signals();
   silence();
   keep_complaints();
-  complain("%s", ""); /* what was said before is not its own */
+  complain("%s", ""); /* earlier complaints are not its own */
   work(data);
   send_text(to, last_complaint());
   send_text(to, last_advice());
@@ -231,13 +231,13 @@ static int complain_of_child(const char *input, const child_ending *ending,
   return EXIT_FAILED;
 }
 
-int rehearse_reading(const char *input, const fg_read_options *options)
+int sandbox_reading(const char *input, const fg_read_options *options)
 {
-  return rehearse_reading_part(input, options, 0, 1);
+  return sandbox_reading_part(input, options, 0, 1);
 }
 
-int rehearse_reading_part(const char *input, const fg_read_options *options, int part,
-                          int parts)
+int sandbox_reading_part(const char *input, const fg_read_options *options, int part,
+                         int parts)
 {
   const size_t size = hdf5_size(input) + hdf5_size(options ? options->vars_from : NULL);
   if (size == 0)

@@ -27,10 +27,10 @@ void do_in_child(child_ending *out, void (*work)(void *), void *data,
  * of memory. So a file of that kind is first read by a child process: when that dies or
  * fails, complains and returns EXIT_FAILED, else EXIT_DONE. With options as fg_field_read
  * would, with NULL as fg_inventory_read. */
-int rehearse_reading(const char *input, const fg_read_options *options);
+int sandbox_reading(const char *input, const fg_read_options *options);
 
 /* The same for fg_field_read_part; options must not be NULL. */
-int rehearse_reading_part(const char *input, const fg_read_options *options, int part,
-                          int parts);
+int sandbox_reading_part(const char *input, const fg_read_options *options, int part,
+                         int parts);
 
 #endif

@@ -176,13 +176,13 @@ static void an_interrupt_ends_the_wait(void **state)
   close(ends[1]);
 }
 
-static void only_hdf5_files_are_rehearsed(void **state)
+static void only_hdf5_files_are_probed(void **state)
 {
   (void)state;
   fg_read_options options = {0};
-  assert_int_equal(rehearse_reading("synth:vortex", &options), EXIT_DONE);
-  assert_int_equal(rehearse_reading("/", NULL), EXIT_DONE);
-  assert_int_equal(rehearse_reading("no such file", &options), EXIT_DONE);
+  assert_int_equal(sandbox_reading("synth:vortex", &options), EXIT_DONE);
+  assert_int_equal(sandbox_reading("/", NULL), EXIT_DONE);
+  assert_int_equal(sandbox_reading("no such file", &options), EXIT_DONE);
 }
 
 int main(void)
@@ -196,7 +196,7 @@ int main(void)
       cmocka_unit_test(the_end_of_an_ignored_child_is_told),
       cmocka_unit_test(a_child_ends_with_its_parent),
       cmocka_unit_test(an_interrupt_ends_the_wait),
-      cmocka_unit_test(only_hdf5_files_are_rehearsed),
+      cmocka_unit_test(only_hdf5_files_are_probed),
   };
-  return cmocka_run_group_tests_name("cli/rehearse", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("cli/sandbox", tests, NULL, NULL);
 }

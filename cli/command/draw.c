@@ -18,14 +18,14 @@
 /* What only pictures have. */
 static int check_solids(const draw_settings *settings)
 {
-  const unfit_option unfit[] = {
+  const given_option of_pictures[] = {
       {"view", settings->picture.view_count > 0},
       {"width", settings->picture.width > 0.0},
       {"no-frame", settings->picture.no_frame},
       {"transparent", settings->picture.transparent},
       {"palette", settings->picture.palette && ends_with(settings->output, ".vtp")},
   };
-  int code = refuse_unfit("draw", unfit, sizeof unfit / sizeof unfit[0],
+  int code = refuse_given("draw", of_pictures, sizeof of_pictures / sizeof of_pictures[0],
                           "only in a picture, and %s is none", settings->output);
   return code ? code : check_place_of_file(settings->output);
 }
@@ -122,7 +122,7 @@ static int read_field(fg_field **out, fg_context *context, const draw_settings *
       access(report->input_absolute, R_OK) == 0)
     input = report->input_absolute;
   if (check_is_no_input(settings->output, &input, 1) ||
-      rehearse_reading(input, &report->reading))
+      sandbox_reading(input, &report->reading))
     return EXIT_FAILED;
   fg_status status = fg_field_read(out, context, input, &report->reading);
   if (!status)

@@ -97,7 +97,7 @@ static int print_json(const char *file, const fg_inventory *inventory)
 int command_info(const void *given)
 {
   const info_settings *settings = given;
-  if (rehearse_reading(settings->file, NULL))
+  if (sandbox_reading(settings->file, NULL))
     return EXIT_FAILED;
   fg_context *context;
   if (create_context(&context))

@@ -38,22 +38,22 @@ static int check_name(const char *path)
   return EXIT_USAGE;
 }
 
-static int is_input(const rival_settings *said, const char *path)
+static int is_input(const rival_settings *settings, const char *path)
 {
-  const char *const inputs[] = {said->reading.input, said->reading.vars_from};
+  const char *const inputs[] = {settings->reading.input, settings->reading.vars_from};
   return check_is_no_input(path, inputs, 2);
 }
 
 /* Where the picture of one count goes: FILE, or with several counts FILE-COUNT. */
-static char *name_file(const rival_settings *said, int count, const char *end)
+static char *name_file(const rival_settings *settings, int count, const char *end)
 {
-  int stem = (int)(strlen(said->output) - strlen(name_end));
-  size_t room = strlen(said->output) + 32;
+  int stem = (int)(strlen(settings->output) - strlen(name_end));
+  size_t room = strlen(settings->output) + 32;
   char *path = malloc(room);
-  if (path && said->icons.count > 1)
-    snprintf(path, room, "%.*s-%d.%s", stem, said->output, count, end);
+  if (path && settings->icons.count > 1)
+    snprintf(path, room, "%.*s-%d.%s", stem, settings->output, count, end);
   else if (path)
-    snprintf(path, room, "%.*s.%s", stem, said->output, end);
+    snprintf(path, room, "%.*s.%s", stem, settings->output, end);
   return path;
 }
 
@@ -160,9 +160,9 @@ static int write_pictures(const rival_files *files)
 static fg_status make(rival_work *work, int count, fg_icons **icons,
                       fg_density **clusters)
 {
-  const rival_settings *said = work->settings;
+  const rival_settings *settings = work->settings;
   fg_status status = fg_rival_icons(icons, work->rival, count);
-  if (!status && (said->picture.tint || said->save_field))
+  if (!status && (settings->picture.tint || settings->save_field))
     status = fg_rival_clusters(clusters, work->rival, count);
   return status;
 }
@@ -214,27 +214,28 @@ static bool has_length(fg_rival_method method)
          method == FG_RIVAL_RANDOM;
 }
 
-static int check_method(const rival_settings *said)
+static int check_method(const rival_settings *settings)
 {
-  fg_rival_method method = (fg_rival_method)said->method;
-  const unfit_option of_clusters[] = {{"tint", said->picture.tint},
-                                      {"save-field", said->save_field}};
-  const unfit_option of_discrete[] = {{"position-weight", said->position_weight >= 0.0},
-                                      {"elongation", said->elongation > 0.0}};
-  const unfit_option of_grids = {"lengths speed", said->by_speed != 0};
-  const unfit_option of_pieces = {"length", said->length > 0.0};
+  fg_rival_method method = (fg_rival_method)settings->method;
+  const given_option of_clusters[] = {{"tint", settings->picture.tint},
+                                      {"save-field", settings->save_field}};
+  const given_option of_discrete[] = {
+      {"position-weight", settings->position_weight >= 0.0},
+      {"elongation", settings->elongation > 0.0}};
+  const given_option of_grids = {"lengths speed", settings->by_speed != 0};
+  const given_option of_pieces = {"length", settings->length > 0.0};
   int code = EXIT_DONE;
   if (!fg_rival_divides(method))
-    code = refuse_unfit("rival", of_clusters, sizeof of_clusters / sizeof of_clusters[0],
+    code = refuse_given("rival", of_clusters, sizeof of_clusters / sizeof of_clusters[0],
                         "the method %s has no clusters", fg_rival_name(method));
   if (!code && method != FG_RIVAL_DISCRETE)
-    code = refuse_unfit("rival", of_discrete, sizeof of_discrete / sizeof of_discrete[0],
+    code = refuse_given("rival", of_discrete, sizeof of_discrete / sizeof of_discrete[0],
                         "only with --method discrete");
   if (!code && method != FG_RIVAL_HEDGEHOG && method != FG_RIVAL_GRID_CURVED)
     code =
-        refuse_unfit("rival", &of_grids, 1, "only with --method hedgehog or grid-curved");
+        refuse_given("rival", &of_grids, 1, "only with --method hedgehog or grid-curved");
   if (!code && !has_length(method))
-    code = refuse_unfit("rival", &of_pieces, 1,
+    code = refuse_given("rival", &of_pieces, 1,
                         "only with --method hedgehog, grid-curved, voronoi, k-means or "
                         "random");
   return code;
@@ -242,33 +243,33 @@ static int check_method(const rival_settings *said)
 
 static int prepare(rival_work *work)
 {
-  const rival_settings *said = work->settings;
-  fg_read_options reading = settings_reading(&said->reading);
-  if (rehearse_reading(said->reading.input, &reading))
+  const rival_settings *settings = work->settings;
+  fg_read_options reading = settings_reading(&settings->reading);
+  if (sandbox_reading(settings->reading.input, &reading))
     return EXIT_FAILED;
   if (create_context(&work->context))
     return EXIT_FAILED;
   fg_status status =
-      fg_field_read(&work->field, work->context, said->reading.input, &reading);
-  fg_rival_options options = {.method = (fg_rival_method)said->method,
-                              .nodes = said->nodes,
-                              .length_by_speed = said->by_speed != 0,
-                              .length = said->length,
-                              .direction_only = said->position_weight == 0.0,
-                              .position_weight = fmax(said->position_weight, 0.0),
-                              .elongation = said->elongation};
+      fg_field_read(&work->field, work->context, settings->reading.input, &reading);
+  fg_rival_options options = {.method = (fg_rival_method)settings->method,
+                              .nodes = settings->nodes,
+                              .length_by_speed = settings->by_speed != 0,
+                              .length = settings->length,
+                              .direction_only = settings->position_weight == 0.0,
+                              .position_weight = fmax(settings->position_weight, 0.0),
+                              .elongation = settings->elongation};
   if (!status) {
-    say_infinite(said->reading.input, work->field);
+    say_infinite(settings->reading.input, work->field);
     int dimension = fg_field_contents(work->field)->dimension;
-    int code =
-        refuse_other_dimension("rival", &said->picture, dimension, said->reading.input);
+    int code = refuse_other_dimension("rival", &settings->picture, dimension,
+                                      settings->reading.input);
     if (!code)
-      code = refuse_undrawable(said->formats, false, dimension == 3);
+      code = refuse_undrawable(settings->formats, false, dimension == 3);
     if (code)
       return code;
     status = fg_rival_create(&work->rival, work->context, work->field, &options);
   }
-  return status ? complain_of(work->context, status, said->reading.input) : EXIT_DONE;
+  return status ? complain_of(work->context, status, settings->reading.input) : EXIT_DONE;
 }
 
 int command_rival(const void *given)

@@ -18,12 +18,12 @@ typedef struct score_work {
 
 static int score_file(score_work *work, int number)
 {
-  const score_settings *said = work->settings;
-  const char *path = said->files[number];
+  const score_settings *settings = work->settings;
+  const char *path = settings->files[number];
   const fg_score_options options = {
-      .lengths = (fg_score_class)said->length_class,
-      .count = said->icons.count ? said->icons.number[0] : 0,
-      .ink = said->ink,
+      .lengths = (fg_score_class)settings->length_class,
+      .count = settings->icons.count ? settings->icons.number[0] : 0,
+      .ink = settings->ink,
   };
   fg_icons *icons = NULL;
   fg_status status = fg_icons_read(&icons, work->context, path);
@@ -36,19 +36,20 @@ static int score_file(score_work *work, int number)
 
 static int prepare(score_work *work)
 {
-  const score_settings *said = work->settings;
-  const fg_read_options reading = settings_reading(&said->reading);
-  if (rehearse_reading(said->reading.input, &reading) || create_context(&work->context))
+  const score_settings *settings = work->settings;
+  const fg_read_options reading = settings_reading(&settings->reading);
+  if (sandbox_reading(settings->reading.input, &reading) ||
+      create_context(&work->context))
     return EXIT_FAILED;
   fg_status status =
-      fg_field_read(&work->field, work->context, said->reading.input, &reading);
+      fg_field_read(&work->field, work->context, settings->reading.input, &reading);
   if (status)
-    return complain_of(work->context, status, said->reading.input);
-  say_infinite(said->reading.input, work->field);
-  work->scores = calloc((size_t)said->file_count, sizeof *work->scores);
+    return complain_of(work->context, status, settings->reading.input);
+  say_infinite(settings->reading.input, work->field);
+  work->scores = calloc((size_t)settings->file_count, sizeof *work->scores);
   if (work->scores)
     return EXIT_DONE;
-  complain("out of memory for %d scores", said->file_count);
+  complain("out of memory for %d scores", settings->file_count);
   return EXIT_FAILED;
 }
 

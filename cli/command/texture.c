@@ -36,7 +36,7 @@ static int paint(fg_context *context, const texture_settings *settings,
 
 static int check_options(const texture_settings *settings)
 {
-  const unfit_option of_clusters[] = {
+  const given_option of_clusters[] = {
       {"clusters", settings->number.count > 0},
       {"max-time", settings->max_time > 0.0},
       {"nodes", settings->evolution.nodes > 0},
@@ -48,20 +48,20 @@ static int check_options(const texture_settings *settings)
   };
   const char *const inputs[] = {settings->reading.input, settings->reading.vars_from,
                                 settings->evolution.energy};
-  const unfit_option length = {"length", settings->length > 0.0};
-  const unfit_option key = {"key", settings->key};
+  const given_option length = {"length", settings->length > 0.0};
+  const given_option key = {"key", settings->key};
   int code = EXIT_DONE;
   if (settings->kind == FG_TEXTURE_CLUSTERS)
-    code = refuse_unfit("texture", &length, 1, "not with --kind clusters");
+    code = refuse_given("texture", &length, 1, "not with --kind clusters");
   else
     code =
-        refuse_unfit("texture", of_clusters, sizeof of_clusters / sizeof of_clusters[0],
+        refuse_given("texture", of_clusters, sizeof of_clusters / sizeof of_clusters[0],
                      "only with --kind clusters");
   if (!code && !settings->palette)
     code =
-        refuse_unfit("texture", &key, 1, "only with --palette, whose colours it shows");
+        refuse_given("texture", &key, 1, "only with --palette, whose colours it shows");
   else if (!code && settings->palette[0] == '#')
-    code = refuse_unfit("texture", &key, 1, "not with --palette %s, which is one colour",
+    code = refuse_given("texture", &key, 1, "not with --palette %s, which is one colour",
                         settings->palette);
   if (!code)
     code = check_picture_name(settings->output, "texture");
@@ -73,7 +73,7 @@ int command_texture(const void *given)
   const texture_settings *settings = given;
   const fg_read_options reading = settings_reading(&settings->reading);
   int code = check_options(settings);
-  if (!code && rehearse_reading(settings->reading.input, &reading))
+  if (!code && sandbox_reading(settings->reading.input, &reading))
     code = EXIT_FAILED;
   if (code)
     return code;

@@ -31,9 +31,9 @@ static int out_of_memory(void)
 static char *find_data(void)
 {
   static const char *const beside[] = {"/../share/flowgrain", "/../data"};
-  const char *said = getenv("FLOWGRAIN_DATA");
-  if (said && *said)
-    return join_texts(said, "");
+  const char *given = getenv("FLOWGRAIN_DATA");
+  if (given && *given)
+    return join_texts(given, "");
   char *program = realpath("/proc/self/exe", NULL);
   char *found = NULL;
   if (program && strrchr(program, '/'))

@@ -59,7 +59,7 @@ static void print_formats(char *text, unsigned formats)
                                format_words[kind]);
 }
 
-/* The value as it could be said; "" when it was not. */
+/* The value as it could be given; "" when it was not. */
 static void print_value(char text[VALUE_BYTES], const run_settings *settings,
                         const option_entry *option)
 {
@@ -115,7 +115,7 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
   }
 }
 
-cJSON *said_options(const run_settings *settings)
+cJSON *options_record(const run_settings *settings)
 {
   cJSON *object = cJSON_CreateObject();
   for (size_t k = 0; object && k < option_count; ++k) {
@@ -137,7 +137,7 @@ static void print_phrase(char text[VALUE_BYTES + 64], const option_entry *option
            option->name, bare ? "" : " ", bare ? "" : value);
 }
 
-bool said_the_same(const cJSON *earlier, const run_settings *settings)
+bool options_match(const cJSON *earlier, const run_settings *settings)
 {
   for (size_t k = 0; k < option_count; ++k) {
     const option_entry *option = &option_table[k];

@@ -1,4 +1,4 @@
-/* What the command line said that a result depends on. */
+/* The options that a result depends on, as run.json and checkpoints record them. */
 #ifndef OPTION_RECORDED_H
 #define OPTION_RECORDED_H
 
@@ -6,12 +6,12 @@
 
 struct cJSON;
 
-/* An object with a text for every such option of `run` that was said, as it could be said
+/* An object with a text for every such option of `run` that was given, as it could be
  * again: {"seed": "2", "clusters": "60,20"}. NULL without memory. */
-struct cJSON *said_options(const run_settings *settings);
+struct cJSON *options_record(const run_settings *settings);
 
 /* Whether an earlier run was told the same; else complains, naming the first option that
  * differs, with both values. */
-bool said_the_same(const struct cJSON *earlier, const run_settings *settings);
+bool options_match(const struct cJSON *earlier, const run_settings *settings);
 
 #endif

@@ -1,5 +1,5 @@
-/* What a command line says: a struct for each command, made of the groups that several
- * have in common. Zero means "not said". */
+/* What a command line gives: a struct for each command, made of the groups that several
+ * have in common. Zero means "not given". */
 #ifndef OPTION_SETTINGS_H
 #define OPTION_SETTINGS_H
 
@@ -76,7 +76,7 @@ typedef struct draw_settings {
   const char *folder;           /* DIR, of a finished run */
   const char *output;           /* PICTURE */
   const char *input;            /* where the field is now */
-  int scale_index;              /* -1 when not said */
+  int scale_index;              /* -1 when not given */
   number_list arrows, clusters; /* the finest scale with at most so many */
 } draw_settings;
 
@@ -123,7 +123,7 @@ typedef struct rival_settings {
   int nodes;              /* of the raster that is clustered */
   double length;          /* of an arrow, fair shares */
   int by_speed;           /* lengths are equal (0), in proportion to the speed */
-  double position_weight; /* -1 when not said */
+  double position_weight; /* -1 when not given */
   double elongation;
   unsigned formats;
   bool save_field;

@@ -279,7 +279,8 @@ const option_entry option_table[] = {
      "in 3D: show the clusters' surfaces round the arrows, transparent; in .vtp and "
      ".glb, "
      "too"},
-    {"view", 0, "AZ,EL", PICTURES, OPTION_VIEW, GROUP_PICTURE, 0, 0, 0, false, false, NULL,
+    {"view", 0, "AZ,EL", PICTURES, OPTION_VIEW, GROUP_PICTURE, 0, 0, 0, false, false,
+     NULL,
      "in 3D: where the viewer stands, in degrees counter-clockwise from the front (the "
      "side of least y) and above the horizon; run takes several, a picture each [from "
      "where most of the finest scale's arrows is seen]"},

@@ -5,11 +5,11 @@
 
 enum { WHY_BYTES = 1024 };
 
-int refuse_unfit(const char *command, const unfit_option *option, size_t count,
+int refuse_given(const char *command, const given_option *option, size_t count,
                  const char *why, ...)
 {
   size_t k = 0;
-  while (k < count && !option[k].said)
+  while (k < count && !option[k].given)
     ++k;
   if (k == count)
     return EXIT_DONE;
@@ -26,18 +26,18 @@ int refuse_unfit(const char *command, const unfit_option *option, size_t count,
 int refuse_other_dimension(const char *command, const picture_settings *settings,
                            int dimension, const char *name)
 {
-  const unfit_option flat[] = {
+  const given_option flat[] = {
       {"tint", settings->tint},           {"background", settings->background != 0},
       {"skeletons", settings->skeletons}, {"centers", settings->centers},
       {"no-arrows", settings->no_arrows},
   };
-  const unfit_option solid[] = {
+  const given_option solid[] = {
       {"view", settings->view_count > 0},
       {"surfaces", settings->surfaces},
   };
   if (dimension == 3)
-    return refuse_unfit(command, flat, sizeof flat / sizeof flat[0],
+    return refuse_given(command, flat, sizeof flat / sizeof flat[0],
                         "only in 2D, and %s is in 3D", name);
-  return refuse_unfit(command, solid, sizeof solid / sizeof solid[0],
+  return refuse_given(command, solid, sizeof solid / sizeof solid[0],
                       "only in 3D, and %s is in 2D", name);
 }

@@ -1,18 +1,18 @@
-/* Options that were said, and say nothing about what is asked for, are wrong usage. */
+/* Options that have no effect on what is asked for are wrong usage. */
 #ifndef OPTION_VALIDATION_H
 #define OPTION_VALIDATION_H
 
 #include "option/settings.h"
 
-/* An option that does not fit, and whether it was said. */
-typedef struct unfit_option {
+/* An option that does not fit, and whether it was given. */
+typedef struct given_option {
   const char *name;
-  bool said;
-} unfit_option;
+  bool given;
+} given_option;
 
-/* Complains of the first of `count` options that was said: "--NAME: WHY". Returns an exit
- * code. */
-int refuse_unfit(const char *command, const unfit_option *option, size_t count,
+/* Complains of the first of `count` options that was given: "--NAME: WHY". Returns an
+ * exit code. */
+int refuse_given(const char *command, const given_option *option, size_t count,
                  const char *why, ...) __attribute__((format(printf, 4, 5)));
 
 /* Refuses what a picture of a field in so many dimensions can not show; `name` is what

@@ -127,7 +127,7 @@ bool report_is_of(const char *folder, const run_settings *settings)
   }
   if (same)
     same =
-        said_the_same(cJSON_GetObjectItemCaseSensitive(report.tree, "options"), settings);
+        options_match(cJSON_GetObjectItemCaseSensitive(report.tree, "options"), settings);
   report_clear(&report);
   return same;
 }

@@ -37,25 +37,26 @@ static void add_words(cJSON *object, const char *name, const char *const *words,
 
 static void add_input(cJSON *root, const run_facts *facts)
 {
-  const run_settings *said = facts->settings;
+  const run_settings *settings = facts->settings;
   const fg_field_arrays *field = fg_field_contents(facts->field);
   cJSON *input = cJSON_AddObjectToObject(root, "input");
-  add_text(input, "path", said->reading.input);
-  char *absolute = realpath(said->reading.input, NULL);
+  add_text(input, "path", settings->reading.input);
+  char *absolute = realpath(settings->reading.input, NULL);
   add_text(input, "absolute", absolute);
   free(absolute);
-  add_text(input, "vars", said->reading.vars);
-  absolute = said->reading.vars_from ? realpath(said->reading.vars_from, NULL) : NULL;
-  add_text(input, "vars_from", absolute ? absolute : said->reading.vars_from);
+  add_text(input, "vars", settings->reading.vars);
+  absolute =
+      settings->reading.vars_from ? realpath(settings->reading.vars_from, NULL) : NULL;
+  add_text(input, "vars_from", absolute ? absolute : settings->reading.vars_from);
   free(absolute);
-  add_text(input, "mask", said->reading.mask);
-  cJSON_AddNumberToObject(input, "time", said->reading.time);
-  cJSON_AddNumberToObject(input, "level", said->reading.level);
+  add_text(input, "mask", settings->reading.mask);
+  cJSON_AddNumberToObject(input, "time", settings->reading.time);
+  cJSON_AddNumberToObject(input, "level", settings->reading.level);
   if (facts->time_count) {
     cJSON_AddNumberToObject(input, "times", facts->time_count);
     cJSON_AddNumberToObject(input, "levels", facts->level_count);
   }
-  add_text(input, "scale", scale_words[said->reading.scale]);
+  add_text(input, "scale", scale_words[settings->reading.scale]);
 
   cJSON *read = cJSON_AddObjectToObject(root, "field");
   add_words(read, "velocity", field->velocity_name, field->dimension);
@@ -80,16 +81,17 @@ static void add_input(cJSON *root, const run_facts *facts)
 
 static void add_parameters(cJSON *root, const run_facts *facts)
 {
-  const run_settings *said = facts->settings;
+  const run_settings *settings = facts->settings;
   const fg_mesh_info *mesh = &facts->mesh;
   cJSON *object = cJSON_AddObjectToObject(root, "parameters");
-  if (said->evolution.nodes)
-    cJSON_AddNumberToObject(object, "nodes", said->evolution.nodes);
+  if (settings->evolution.nodes)
+    cJSON_AddNumberToObject(object, "nodes", settings->evolution.nodes);
   add_text(object, "mesh", mesh->adaptive ? "adaptive" : "uniform");
-  add_text(object, "scheme", scheme_words[said->evolution.scheme]);
-  add_text(object, "energy", said->evolution.energy ? said->evolution.energy : "flow");
+  add_text(object, "scheme", scheme_words[settings->evolution.scheme]);
+  add_text(object, "energy",
+           settings->evolution.energy ? settings->evolution.energy : "flow");
   if (!scales_are_solid(facts->field))
-    add_text(object, "extent", extent_words[said->extent]);
+    add_text(object, "extent", extent_words[settings->extent]);
   cJSON_AddNumberToObject(object, "anisotropy", mesh->anisotropy);
   cJSON_AddNumberToObject(object, "isotropic_below", mesh->isotropic_below);
   cJSON_AddNumberToObject(object, "coverage", mesh->coverage);
@@ -98,32 +100,34 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   /* a double would round a large seed */
   char seed[32];
   snprintf(seed, sizeof seed, "%llu",
-           (unsigned long long)(said->work.seed ? said->work.seed : 1));
+           (unsigned long long)(settings->work.seed ? settings->work.seed : 1));
   cJSON_AddItemToObject(object, "seed", cJSON_CreateRaw(seed));
-  if (settings_place(said)) {
-    cJSON_AddStringToObject(object, "lengths", said->lengths ? "fair" : "free");
+  if (settings_place(settings)) {
+    cJSON_AddStringToObject(object, "lengths", settings->lengths ? "fair" : "free");
     cJSON_AddStringToObject(object, "start",
-                            said->start || said->tolerance > 0.0 ? "even" : "clusters");
-    cJSON_AddStringToObject(object, "effort", effort_words[said->effort]);
-    if (said->tolerance > 0.0)
-      cJSON_AddNumberToObject(object, "tolerance", said->tolerance);
+                            settings->start || settings->tolerance > 0.0 ? "even"
+                                                                         : "clusters");
+    cJSON_AddStringToObject(object, "effort", effort_words[settings->effort]);
+    if (settings->tolerance > 0.0)
+      cJSON_AddNumberToObject(object, "tolerance", settings->tolerance);
   }
-  if (said->arrows.count)
-    cJSON_AddItemToObject(object, "arrows",
-                          cJSON_CreateIntArray(said->arrows.number, said->arrows.count));
-  if (said->clusters.count)
+  if (settings->arrows.count)
+    cJSON_AddItemToObject(
+        object, "arrows",
+        cJSON_CreateIntArray(settings->arrows.number, settings->arrows.count));
+  if (settings->clusters.count)
     cJSON_AddItemToObject(
         object, "clusters",
-        cJSON_CreateIntArray(said->clusters.number, said->clusters.count));
-  if (said->max_time > 0.0)
-    cJSON_AddNumberToObject(object, "max_time", said->max_time);
-  if (said->max_steps)
-    cJSON_AddNumberToObject(object, "max_steps", said->max_steps);
-  if (said->work.threads)
-    cJSON_AddNumberToObject(object, "threads", said->work.threads);
+        cJSON_CreateIntArray(settings->clusters.number, settings->clusters.count));
+  if (settings->max_time > 0.0)
+    cJSON_AddNumberToObject(object, "max_time", settings->max_time);
+  if (settings->max_steps)
+    cJSON_AddNumberToObject(object, "max_steps", settings->max_steps);
+  if (settings->work.threads)
+    cJSON_AddNumberToObject(object, "threads", settings->work.threads);
 
-  /* as they were said, so that --resume can tell whether this is its run */
-  cJSON_AddItemToObject(root, "options", said_options(said));
+  /* as they were given, so that --resume can tell whether this is its run */
+  cJSON_AddItemToObject(root, "options", options_record(settings));
 
   cJSON *made = cJSON_AddObjectToObject(root, "mesh");
   cJSON_AddNumberToObject(made, "dimension", mesh->dimension);

@@ -109,7 +109,7 @@ static char *describe(const cli_run *run)
   const run_facts *facts = &run->facts;
   double now = clock_seconds();
   cJSON *root = cJSON_CreateObject();
-  cJSON_AddItemToObject(root, "options", said_options(run->settings));
+  cJSON_AddItemToObject(root, "options", options_record(run->settings));
   add_whole(root, "table_bytes", (long)run->table.bytes);
   add_record(root, run->scales);
   add_whole(root, "rejected", facts->rejected);
@@ -331,7 +331,7 @@ static int restore_results(cli_run *run, const cJSON *note, bool is_previous)
 static int check_note(const cli_run *run, const cJSON *note)
 {
   if (note)
-    return said_the_same(item_of(note, "options"), run->settings) ? EXIT_DONE
+    return options_match(item_of(note, "options"), run->settings) ? EXIT_DONE
                                                                   : EXIT_FAILED;
   complain("%s: its checkpoint is not one of this program", run->settings->output);
   return EXIT_FAILED;

@@ -13,7 +13,7 @@ struct cli_drawing {
 
   pthread_mutex_t lock; /* guards what follows up to `results` */
   pthread_cond_t changed;
-  scale_moment waiting[MAX_SCALES + 1]; /* one more than wanted: a last state */
+  scale_snapshot waiting[MAX_SCALES + 1]; /* one more than wanted: a last state */
   int added, drawn;
   bool closed; /* no more snapshots will come */
   bool heeds;  /* interrupts, from now on */
@@ -38,12 +38,12 @@ static void *work(void *argument)
       break;
     }
     int index = drawing->drawn;
-    scale_moment moment = drawing->waiting[index];
-    drawing->waiting[index] = (scale_moment){0};
+    scale_snapshot snapshot = drawing->waiting[index];
+    drawing->waiting[index] = (scale_snapshot){0};
     pthread_mutex_unlock(&drawing->lock);
     fg_status status =
-        scale_make(&drawing->maker, index, &drawing->results[index], &moment);
-    snapshot_clear(&moment);
+        scale_make(&drawing->maker, index, &drawing->results[index], &snapshot);
+    snapshot_clear(&snapshot);
     pthread_mutex_lock(&drawing->lock);
     drawing->status = status;
     ++drawing->drawn;
@@ -99,7 +99,7 @@ int drawing_start(cli_drawing **out, const run_settings *settings, const fg_fiel
   return EXIT_DONE;
 }
 
-bool drawing_add(cli_drawing *drawing, const scale_moment *moment, const int *wanted,
+bool drawing_add(cli_drawing *drawing, const scale_snapshot *snapshot, const int *wanted,
                  int wanted_count)
 {
   pthread_mutex_lock(&drawing->lock);
@@ -109,13 +109,13 @@ bool drawing_add(cli_drawing *drawing, const scale_moment *moment, const int *wa
     result->wanted_count = wanted_count;
     for (int k = 0; k < wanted_count; ++k)
       result->wanted[k] = wanted[k];
-    drawing->waiting[drawing->added] = *moment;
+    drawing->waiting[drawing->added] = *snapshot;
     ++drawing->added;
     pthread_cond_broadcast(&drawing->changed);
   }
   pthread_mutex_unlock(&drawing->lock);
   if (!accepted) {
-    scale_moment refused = *moment;
+    scale_snapshot refused = *snapshot;
     snapshot_clear(&refused);
     return false;
   }

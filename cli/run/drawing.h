@@ -12,9 +12,9 @@ typedef struct cli_drawing cli_drawing;
 int drawing_start(cli_drawing **out, const run_settings *settings, const fg_field *field,
                   const cli_output *output);
 
-/* Takes over a moment: the next scale. False: an earlier one has failed, or there is no
+/* Takes over a snapshot: the next scale. False: an earlier one has failed, or there is no
  * memory; its parts are destroyed all the same. */
-bool drawing_add(cli_drawing *drawing, const scale_moment *moment, const int *wanted,
+bool drawing_add(cli_drawing *drawing, const scale_snapshot *snapshot, const int *wanted,
                  int wanted_count);
 
 /* Waits until all that was added is drawn. False: it has failed. */

@@ -8,7 +8,7 @@
 #include "ranks.h"
 #include "run/scale_files.h"
 
-bool ending_can_go_on(const cli_run *run)
+bool finish_can_go_on(const cli_run *run)
 {
   fg_run_ending ended = run->facts.ended;
   return ended != FG_RUN_ALL && ended != FG_RUN_STATIONARY;
@@ -32,7 +32,7 @@ static int complain_of_no_scale(const cli_run *run)
   return EXIT_FAILED;
 }
 
-int ending_draw(cli_run *run)
+int finish_drawing(cli_run *run)
 {
   if (drawing_ready(run->drawing) < drawing_count(run->drawing))
     progress_stage(&run->progress, "drawing");
@@ -59,7 +59,7 @@ static int write_results(cli_run *run)
   return code ? code : output_publish(&run->output);
 }
 
-/* What else is to be said of a scale's arrows; "" for nothing. */
+/* What else there is to tell of a scale's arrows; "" for nothing. */
 enum { ASIDE_BYTES = 64 };
 static const char *say_dropped(char out[ASIDE_BYTES], int dropped)
 {
@@ -91,60 +91,60 @@ static void print_summary(const cli_run *run)
 /* A coarse mesh begins with few clusters. */
 static void say_first_scale(const cli_run *run)
 {
-  const run_settings *said = run->settings;
-  if (said->clusters.count < 1 || drawing_count(run->drawing) < 1)
+  const run_settings *settings = run->settings;
+  if (settings->clusters.count < 1 || drawing_count(run->drawing) < 1)
     return;
-  int wanted = said->clusters.number[0],
+  int wanted = settings->clusters.number[0],
       first = drawing_result(run->drawing, 0)->clusters;
   if (first > wanted / 2)
     return;
   complain("%s: no scale of about %d clusters: the first that could be counted were %d",
-           said->reading.input, wanted, first);
+           settings->reading.input, wanted, first);
   advise("More --nodes begin with more clusters.");
 }
 
-/* What is said where a run ends early, or reached less than was wanted. */
+/* What is told where a run ends early, or reached less than was wanted. */
 static int say_ending(const cli_run *run)
 {
-  const run_settings *said = run->settings;
+  const run_settings *settings = run->settings;
   const int *wanted;
   int next, most = fg_run_wanted(&wanted, &next, run->scales);
   if (run->facts.ended == FG_RUN_STATIONARY && next < most)
     complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
-             said->reading.input, wanted[next], run->step.clusters);
+             settings->reading.input, wanted[next], run->step.clusters);
   if (run->facts.ended != FG_RUN_STOPPED) {
     say_first_scale(run);
     return EXIT_DONE;
   }
   int count = drawing_count(run->drawing);
   char reached[64];
-  if (settings_place(said))
+  if (settings_place(settings))
     snprintf(reached, sizeof reached, "before the scale of %d arrows", wanted[count]);
   else
     snprintf(reached, sizeof reached, "with %d clusters", run->step.clusters);
   complain("%s: interrupted at t = %.3g %s; the %d scale%s until then %s in %s",
-           said->reading.input, run->step.time, reached, count, count == 1 ? "" : "s",
-           count == 1 ? "is" : "are", said->output);
+           settings->reading.input, run->step.time, reached, count, count == 1 ? "" : "s",
+           count == 1 ? "is" : "are", settings->output);
   return EXIT_INTERRUPTED;
 }
 
-int ending_finish(cli_run *run)
+int finish_run(cli_run *run)
 {
-  int code = ending_draw(run);
+  int code = finish_drawing(run);
   if (!code && drawing_was_cut(run->drawing))
     run->facts.ended = FG_RUN_STOPPED;
   if (!code)
     code = write_results(run);
   if (code)
     return code;
-  run->finished = !ending_can_go_on(run);
+  run->finished = !finish_can_go_on(run);
   print_summary(run);
   return say_ending(run);
 }
 
 /* Unless something else was advised. The drawing's own context is gone; its failures
  * advise nothing. */
-void ending_advise(const cli_run *run, int code, bool resumable)
+void finish_advise(const cli_run *run, int code, bool resumable)
 {
   bool ended_here = run->saved_step && (code == EXIT_FAILED || code == EXIT_INTERRUPTED);
   if (!resumable || !ended_here || *fg_context_hint(run->context))

@@ -9,32 +9,32 @@
 #include "ranks.h"
 #include "sandbox.h"
 
-/* Parts, but where icons are made of the whole density (moment.c). */
+/* Parts, but where icons are made of the whole density (snapshot.c). */
 int input_read(cli_run *run)
 {
-  const run_settings *said = run->settings;
+  const run_settings *settings = run->settings;
   const bool whole =
-      said->tolerance > 0.0 || said->picture.tint || said->picture.background;
+      settings->tolerance > 0.0 || settings->picture.tint || settings->picture.background;
   const int part = whole ? 0 : ranks_number(), parts = whole ? 1 : ranks_count();
   progress_stage(&run->progress, "reading");
-  fg_read_options reading = settings_reading(&said->reading);
-  if (rehearse_reading_part(said->reading.input, &reading, part, parts))
+  fg_read_options reading = settings_reading(&settings->reading);
+  if (sandbox_reading_part(settings->reading.input, &reading, part, parts))
     return EXIT_FAILED;
-  fg_status status = fg_field_read_part(&run->field, run->context, said->reading.input,
-                                        &reading, part, parts);
+  fg_status status = fg_field_read_part(&run->field, run->context,
+                                        settings->reading.input, &reading, part, parts);
   progress_wipe(&run->progress);
   if (status)
     return complain_of(run->context, status, run->settings->reading.input);
   run->facts.field = run->field;
   int dimension = fg_field_contents(run->field)->dimension;
-  int code =
-      refuse_other_dimension("run", &said->picture, dimension, said->reading.input);
+  int code = refuse_other_dimension("run", &settings->picture, dimension,
+                                    settings->reading.input);
   return code ? code
-              : refuse_undrawable(said->formats, said->picture.background != 0,
+              : refuse_undrawable(settings->formats, settings->picture.background != 0,
                                   dimension == 3);
 }
 
-/* How many times and levels there were to choose from; nothing when that can't be said.
+/* How many times and levels there were to choose from; nothing when that is not known.
  */
 static void count_choices(cli_run *run)
 {
@@ -69,13 +69,13 @@ static void say_choice(const char *file, const char *kind, int index, int count,
 
 static void say_choices(cli_run *run)
 {
-  const run_settings *said = run->settings;
+  const run_settings *settings = run->settings;
   const fg_field_arrays *field = fg_field_contents(run->field);
   count_choices(run);
-  say_choice(said->reading.input, "time", said->reading.time, run->facts.time_count,
-             field->time);
-  say_choice(said->reading.input, "level", said->reading.level, run->facts.level_count,
-             field->level);
+  say_choice(settings->reading.input, "time", settings->reading.time,
+             run->facts.time_count, field->time);
+  say_choice(settings->reading.input, "level", settings->reading.level,
+             run->facts.level_count, field->level);
 }
 
 int input_join(cli_run *run)
@@ -116,7 +116,7 @@ static int read_energy(fg_tensors **out, const cli_run *run)
   *out = NULL;
   if (energy_place(path) >= 0)
     return EXIT_DONE;
-  int code = rehearse_reading(path, NULL);
+  int code = sandbox_reading(path, NULL);
   if (!code) {
     fg_status status = fg_tensors_read(out, run->context, path, run->field);
     code = status ? complain_of(run->context, status, path) : EXIT_DONE;

@@ -39,13 +39,14 @@ static fg_status begin(cli_placing *placing, const fg_icons *finer)
 }
 
 fg_status placing_make(fg_icons **out, cli_placing *placing, int count,
-                       const scale_moment *moment, fg_icons *finer)
+                       const scale_snapshot *snapshot, fg_icons *finer)
 {
-  const run_settings *said = placing->settings;
+  const run_settings *settings = placing->settings;
   fg_status status = placing->placement ? FG_STATUS_OK : begin(placing, finer);
   if (!status)
-    status = fg_run_place(out, placing->context, placing->placement, count,
-                          moment->density, said->start || said->tolerance > 0.0, finer);
+    status =
+        fg_run_place(out, placing->context, placing->placement, count, snapshot->density,
+                     settings->start || settings->tolerance > 0.0, finer);
   return status ? status : placing_score(placing->context, placing->field, *out);
 }
 

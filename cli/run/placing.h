@@ -4,16 +4,16 @@
 
 #include "option/settings.h"
 
-/* A moment to be drawn; whoever gets one ends its parts. */
-typedef struct scale_moment {
+/* A snapshot to be drawn; whoever gets one ends its parts. */
+typedef struct scale_snapshot {
   fg_density *density; /* NULL: what needs it has been done */
   fg_icons *icons;     /* NULL: to be made, unless the density is missing, too */
   double time, energy, area_fraction;
   int clusters;
   double icon_seconds, file_seconds; /* spent on it so far */
-} scale_moment;
+} scale_snapshot;
 
-void snapshot_clear(scale_moment *moment);
+void snapshot_clear(scale_snapshot *snapshot);
 
 typedef struct cli_placing {
   const run_settings *settings;
@@ -26,7 +26,7 @@ typedef struct cli_placing {
  * the scale before, whose parents it sets, or starts from the clusters of the moment's
  * density when that is NULL. */
 fg_status placing_make(fg_icons **out, cli_placing *placing, int count,
-                       const scale_moment *moment, fg_icons *finer);
+                       const scale_snapshot *snapshot, fg_icons *finer);
 
 /* What the picture's --tint shows of them; NULL in 3D or without --tint. */
 fg_status placing_regions(fg_density **out, const cli_placing *placing);

@@ -23,31 +23,31 @@
  * which --resume leaves as it is. */
 static int decide(const cli_run *run, const output_contents *there, bool *done)
 {
-  const run_settings *said = run->settings;
+  const run_settings *settings = run->settings;
   const output_state state = there->state;
   *done = false;
   if (there->foreign[0])
-    return made_complain(said->output, there->foreign);
-  if (said->force || state == OUTPUT_EMPTY)
+    return made_complain(settings->output, there->foreign);
+  if (settings->force || state == OUTPUT_EMPTY)
     return EXIT_DONE;
-  if (said->resume && state == OUTPUT_FINISHED) {
+  if (settings->resume && state == OUTPUT_FINISHED) {
     *done = true;
-    return report_is_of(said->output, said) ? EXIT_DONE : EXIT_FAILED;
+    return report_is_of(settings->output, settings) ? EXIT_DONE : EXIT_FAILED;
   }
-  if (said->resume)
+  if (settings->resume)
     return EXIT_DONE;
-  complain("%s: holds %s", said->output,
+  complain("%s: holds %s", settings->output,
            state == OUTPUT_UNFINISHED ? "a run that can go on" : "the results of a run");
   advise("Choose another folder with -o, or replace its results with --force%s.",
          state == OUTPUT_UNFINISHED ? ", or go on with --resume" : "");
   return EXIT_FAILED;
 }
 
-static int check_inputs(const run_settings *said)
+static int check_inputs(const run_settings *settings)
 {
-  const char *const inputs[] = {said->reading.input, said->reading.vars_from,
-                                said->evolution.energy};
-  return made_check_inputs(said->output, inputs, 3);
+  const char *const inputs[] = {settings->reading.input, settings->reading.vars_from,
+                                settings->evolution.energy};
+  return made_check_inputs(settings->output, inputs, 3);
 }
 
 static int look(const cli_run *run, output_contents *there, bool *done)
@@ -60,10 +60,10 @@ static int look(const cli_run *run, output_contents *there, bool *done)
 
 static int start_anew(cli_run *run)
 {
-  const run_settings *said = run->settings;
-  if (said->resume && !said->quiet)
+  const run_settings *settings = run->settings;
+  if (settings->resume && !settings->quiet)
     fprintf(stderr, "flowgrain: %s: no checkpoint: the run starts from the beginning\n",
-            said->output);
+            settings->output);
   int code = output_start_anew(&run->output);
   return code ? code : table_start(&run->table, output_path(&run->output, TABLE_NAME));
 }
@@ -123,8 +123,8 @@ static int record_step(cli_run *run, const fg_step *before)
 /* Collective; rank 0 draws what all made of the density together. */
 static int draw_scale(cli_run *run, const fg_run_scale *scale)
 {
-  scale_moment moment;
-  int code = moment_take(&moment, run);
+  scale_snapshot snapshot;
+  int code = snapshot_take(&snapshot, run);
   if (code)
     return code;
   if (!ranks_leader())
@@ -136,7 +136,7 @@ static int draw_scale(cli_run *run, const fg_run_scale *scale)
             run->step.seconds);
   }
   /* a failure of the drawing is complained of where the run ends */
-  bool added = drawing_add(run->drawing, &moment, scale->wanted, scale->wanted_count);
+  bool added = drawing_add(run->drawing, &snapshot, scale->wanted, scale->wanted_count);
   return ranks_agree(added ? EXIT_DONE : EXIT_FAILED);
 }
 
@@ -185,7 +185,7 @@ static int evolve(cli_run *run)
   }
   run->facts.ended = fg_run_ended(run->scales);
   bool interrupted = run->facts.ended == FG_RUN_STOPPED;
-  if (!code && run->step.step && ending_can_go_on(run) &&
+  if (!code && run->step.step && finish_can_go_on(run) &&
       (interrupted || run->step.clusters))
     code = checkpoint_save(run);
   if (!code) {
@@ -200,12 +200,12 @@ static int evolve(cli_run *run)
  * --tolerance, which *found keeps. */
 static int choose_scales(cli_run *run, fg_run_options *out, int *found)
 {
-  const run_settings *said = run->settings;
+  const run_settings *settings = run->settings;
   int code = EXIT_DONE;
-  *out = settings_run(said);
-  if (said->tolerance > 0.0) {
+  *out = settings_run(settings);
+  if (settings->tolerance > 0.0) {
     progress_stage(&run->progress, "counting arrows");
-    code = ranks_agree(placing_find_count(found, run->context, said, run->field));
+    code = ranks_agree(placing_find_count(found, run->context, settings, run->field));
     progress_wipe(&run->progress);
     out->numbers = found;
     out->count = 1;
@@ -271,7 +271,7 @@ static int work(cli_run *run)
     return code;
   code = evolve(run);
   if (code && ranks_leader() && drawing_failed(run->drawing))
-    return ending_draw(run);
+    return finish_drawing(run);
   if (code)
     return code;
   traffic_collect(&run->facts, fg_run_evolution(run->scales));
@@ -279,7 +279,7 @@ static int work(cli_run *run)
     progress_wipe(&run->progress);
     traffic_print(&run->facts);
   }
-  return ranks_agree(ranks_leader() ? ending_finish(run) : EXIT_DONE);
+  return ranks_agree(ranks_leader() ? finish_run(run) : EXIT_DONE);
 }
 
 int command_run(const void *given)
@@ -305,7 +305,7 @@ int command_run(const void *given)
   drawing_destroy(run.drawing);
   table_close(&run.table);
   bool resumable = output_close(&run.output, run.finished);
-  ending_advise(&run, code, resumable);
+  finish_advise(&run, code, resumable);
   fg_run_destroy(run.scales);
   fg_tensors_destroy(run.tensors);
   fg_field_destroy(run.field);

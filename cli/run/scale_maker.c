@@ -56,7 +56,7 @@ static int solid_view_of(const char *end)
 
 /* A picture for each view and format. */
 static fg_status write_renderings(scale_maker *maker, int index,
-                                  const scale_moment *moment, const fg_icons *icons,
+                                  const scale_snapshot *snapshot, const fg_icons *icons,
                                   const fg_surface *surface)
 {
   const run_settings *settings = maker->settings;
@@ -71,7 +71,7 @@ static fg_status write_renderings(scale_maker *maker, int index,
     options.speed_min = maker->look.speeds[0];
     options.speed_max = maker->look.speeds[1];
     if (!settings_place(settings)) /* the time of clusters */
-      options.scale_time = moment->time;
+      options.scale_time = snapshot->time;
     options.surface = surface;
     options.threads = settings->work.threads;
     char *path = scale_path(maker, index, ends[n]);
@@ -84,17 +84,17 @@ static fg_status write_renderings(scale_maker *maker, int index,
   return status;
 }
 
-static fg_status draw_solids(scale_maker *maker, int index, const scale_moment *moment,
-                             const fg_icons *icons)
+static fg_status draw_solids(scale_maker *maker, int index,
+                             const scale_snapshot *snapshot, const fg_icons *icons)
 {
   fg_surface *surface = NULL;
   fg_status status = FG_STATUS_OK;
-  if (maker->settings->picture.surfaces && moment->density)
-    status = fg_density_surface(&surface, maker->context, moment->density);
+  if (maker->settings->picture.surfaces && snapshot->density)
+    status = fg_density_surface(&surface, maker->context, snapshot->density);
   if (!status)
     status = write_solids(maker, index, icons, surface);
   if (!status)
-    status = write_renderings(maker, index, moment, icons, surface);
+    status = write_renderings(maker, index, snapshot, icons, surface);
   fg_surface_destroy(surface);
   return status;
 }
@@ -110,8 +110,9 @@ static fg_status write_density(scale_maker *maker, int index, const fg_density *
 }
 
 /* `regions`: what placed arrows stand for, in place of the clusters; NULL: none. */
-static fg_status write_pictures(scale_maker *maker, int index, const scale_moment *moment,
-                                const fg_icons *icons, const fg_density *regions)
+static fg_status write_pictures(scale_maker *maker, int index,
+                                const scale_snapshot *snapshot, const fg_icons *icons,
+                                const fg_density *regions)
 {
   static const char *const ends[FORMAT_KINDS] = {".svg", ".png", ".pdf"};
   unsigned formats = formats_to_draw(maker->settings->formats, false);
@@ -121,28 +122,28 @@ static fg_status write_pictures(scale_maker *maker, int index, const scale_momen
   options.speed_min = maker->look.speeds[0];
   options.speed_max = maker->look.speeds[1];
   if (!settings_place(maker->settings))
-    options.scale_time = moment->time;
+    options.scale_time = snapshot->time;
   fg_status status = background_choose(
       &options, &maker->background, maker->context, &maker->settings->picture,
-      maker->settings->work.threads, maker->field, moment->density, icons);
+      maker->settings->work.threads, maker->field, snapshot->density, icons);
   for (int kind = 0; !status && kind < FORMAT_KINDS; ++kind) {
     if (!(formats & (1U << kind)))
       continue;
     char *path = scale_path(maker, index, ends[kind]);
     if (!path)
       return FG_STATUS_MEMORY;
-    status = fg_picture_write(maker->context, path, maker->field,
-                              settings_place(maker->settings) ? regions : moment->density,
-                              icons, &options);
+    status = fg_picture_write(
+        maker->context, path, maker->field,
+        settings_place(maker->settings) ? regions : snapshot->density, icons, &options);
     free(path);
   }
   return status;
 }
 
-static fg_status make_icons(scale_maker *maker, scale_moment *moment)
+static fg_status make_icons(scale_maker *maker, scale_snapshot *snapshot)
 {
-  return fg_icons_create(&moment->icons, maker->context, maker->field, moment->density,
-                         NULL);
+  return fg_icons_create(&snapshot->icons, maker->context, maker->field,
+                         snapshot->density, NULL);
 }
 
 /* The last scale's icons, from its file after a resume. */
@@ -161,24 +162,25 @@ static fg_status find_finer(scale_maker *maker, int index)
 /* Exactly as many icons as the scale asks for. The finer scale's file is written again,
  * with the icons that its own went into. */
 static fg_status place_icons(scale_maker *maker, int index, int count,
-                             scale_moment *moment)
+                             scale_snapshot *snapshot)
 {
   fg_status status = find_finer(maker, index);
   if (!status)
-    status = placing_make(&moment->icons, &maker->placing, count, moment, maker->finer);
+    status =
+        placing_make(&snapshot->icons, &maker->placing, count, snapshot, maker->finer);
   if (!status && maker->finer)
     status = write_icons(maker, index - 1, maker->finer);
   return status;
 }
 
-static fg_status draw_flat(scale_maker *maker, int index, const scale_moment *moment)
+static fg_status draw_flat(scale_maker *maker, int index, const scale_snapshot *snapshot)
 {
   fg_density *regions = NULL;
   fg_status status = FG_STATUS_OK;
   if (maker->placing.placement)
     status = placing_regions(&regions, &maker->placing);
   if (!status)
-    status = write_pictures(maker, index, moment, moment->icons, regions);
+    status = write_pictures(maker, index, snapshot, snapshot->icons, regions);
   fg_density_destroy(regions);
   return status;
 }
@@ -200,17 +202,17 @@ static fg_status choose_look(scale_maker *maker, const fg_icons *icons)
 }
 
 static fg_status draw_icons(scale_maker *maker, int index, scale_result *result,
-                            scale_moment *moment)
+                            scale_snapshot *snapshot)
 {
   double start = clock_seconds();
   fg_status status = FG_STATUS_OK;
   if (settings_place(maker->settings))
-    status = place_icons(maker, index, result->wanted[0], moment);
-  else if (!moment->icons)
-    status = make_icons(maker, moment);
+    status = place_icons(maker, index, result->wanted[0], snapshot);
+  else if (!snapshot->icons)
+    status = make_icons(maker, snapshot);
   if (!status && !settings_place(maker->settings))
-    status = placing_score(maker->context, maker->field, moment->icons);
-  const fg_icons *icons = moment->icons;
+    status = placing_score(maker->context, maker->field, snapshot->icons);
+  const fg_icons *icons = snapshot->icons;
   if (!status)
     status = write_icons(maker, index, icons);
   double between = clock_seconds();
@@ -218,11 +220,11 @@ static fg_status draw_icons(scale_maker *maker, int index, scale_result *result,
   if (!status && index == 0)
     status = choose_look(maker, icons);
   if (!status)
-    status = scales_are_solid(maker->field) ? draw_solids(maker, index, moment, icons)
-                                            : draw_flat(maker, index, moment);
+    status = scales_are_solid(maker->field) ? draw_solids(maker, index, snapshot, icons)
+                                            : draw_flat(maker, index, snapshot);
   maker->picture_seconds += clock_seconds() - between;
   if (!status) {
-    if (!settings_place(maker->settings) || moment->density)
+    if (!settings_place(maker->settings) || snapshot->density)
       result->clusters = fg_icons_clusters(icons);
     result->icons = fg_icons_count(icons);
     const fg_score *score = fg_icons_kept_score(icons);
@@ -233,35 +235,35 @@ static fg_status draw_icons(scale_maker *maker, int index, scale_result *result,
   }
   if (!status && settings_place(maker->settings)) {
     fg_icons_destroy(maker->finer);
-    maker->finer = moment->icons;
-    moment->icons = NULL;
+    maker->finer = snapshot->icons;
+    snapshot->icons = NULL;
   }
   return status;
 }
 
 fg_status scale_make(scale_maker *maker, int index, scale_result *result,
-                     scale_moment *moment)
+                     scale_snapshot *snapshot)
 {
   fg_status status = FG_STATUS_OK;
-  result->clusters = moment->clusters;
-  result->time = moment->time;
-  result->energy = moment->energy;
-  result->area_fraction = moment->area_fraction;
-  maker->icon_seconds += moment->icon_seconds;
-  maker->picture_seconds += moment->file_seconds;
-  status = draw_icons(maker, index, result, moment);
+  result->clusters = snapshot->clusters;
+  result->time = snapshot->time;
+  result->energy = snapshot->energy;
+  result->area_fraction = snapshot->area_fraction;
+  maker->icon_seconds += snapshot->icon_seconds;
+  maker->picture_seconds += snapshot->file_seconds;
+  status = draw_icons(maker, index, result, snapshot);
   double start = clock_seconds();
-  if (!status && moment->density && scales_have_density(maker->settings, maker->field))
-    status = write_density(maker, index, moment->density);
+  if (!status && snapshot->density && scales_have_density(maker->settings, maker->field))
+    status = write_density(maker, index, snapshot->density);
   maker->picture_seconds += clock_seconds() - start;
   return status;
 }
 
-void snapshot_clear(scale_moment *moment)
+void snapshot_clear(scale_snapshot *snapshot)
 {
-  fg_density_destroy(moment->density);
-  fg_icons_destroy(moment->icons);
-  *moment = (scale_moment){0};
+  fg_density_destroy(snapshot->density);
+  fg_icons_destroy(snapshot->icons);
+  *snapshot = (scale_snapshot){0};
 }
 
 void scale_maker_clear(scale_maker *maker)

@@ -36,7 +36,7 @@ typedef struct scale_maker {
 
 /* Makes the files of a scale; its numbers wanted are in `result`, which gets the rest. */
 fg_status scale_make(scale_maker *maker, int index, scale_result *result,
-                     scale_moment *moment);
+                     scale_snapshot *snapshot);
 
 /* A file of a scale; NULL: no memory. End with free. */
 char *scale_path(const scale_maker *maker, int index, const char *end);

@@ -8,35 +8,36 @@
 /* What only the whole density can give. */
 static bool needs_all(const cli_run *run)
 {
-  const run_settings *said = run->settings;
+  const run_settings *settings = run->settings;
   if (scales_are_solid(run->field))
-    return said->picture.surfaces || settings_place(said);
-  return settings_place(said) || said->picture.tint || said->picture.background;
+    return settings->picture.surfaces || settings_place(settings);
+  return settings_place(settings) || settings->picture.tint ||
+         settings->picture.background;
 }
 
-static fg_status make_icons(scale_moment *moment, fg_context *context, const cli_run *run,
-                            const fg_density *shared)
+static fg_status make_icons(scale_snapshot *snapshot, fg_context *context,
+                            const cli_run *run, const fg_density *shared)
 {
   double start = clock_seconds();
-  fg_status status = fg_icons_create(&moment->icons, context, run->field, shared, NULL);
-  moment->icon_seconds = clock_seconds() - start;
+  fg_status status = fg_icons_create(&snapshot->icons, context, run->field, shared, NULL);
+  snapshot->icon_seconds = clock_seconds() - start;
   return status;
 }
 
-static fg_status write_density(scale_moment *moment, fg_context *context,
+static fg_status write_density(scale_snapshot *snapshot, fg_context *context,
                                const cli_run *run, const fg_density *shared)
 {
   double start = clock_seconds();
   char *path = ranks_leader() ? drawing_density_path(run->drawing) : NULL;
   fg_status status = fg_density_write(context, path, shared);
   free(path);
-  moment->file_seconds = clock_seconds() - start;
+  snapshot->file_seconds = clock_seconds() - start;
   return status;
 }
 
-/* With a context of its own: after an interrupt a moment that was reached is still drawn,
+/* With a context of its own: after an interrupt a scale that was reached is still drawn,
  * and the drawing's own is in use. */
-static int take_shared(scale_moment *moment, cli_run *run, const fg_density *shared)
+static int take_shared(scale_snapshot *snapshot, cli_run *run, const fg_density *shared)
 {
   fg_context *context;
   bool created = fg_context_create(&context) == FG_STATUS_OK;
@@ -49,11 +50,11 @@ static int take_shared(scale_moment *moment, cli_run *run, const fg_density *sha
   }
   fg_status status = FG_STATUS_OK;
   if (needs_all(run)) {
-    status = fg_density_gather(&moment->density, context, shared);
+    status = fg_density_gather(&snapshot->density, context, shared);
   } else {
-    status = make_icons(moment, context, run, shared);
+    status = make_icons(snapshot, context, run, shared);
     if (!status && scales_have_density(run->settings, run->field))
-      status = write_density(moment, context, run, shared);
+      status = write_density(snapshot, context, run, shared);
   }
   if (status)
     code = complain_of(context, status, run->settings->reading.input);
@@ -61,17 +62,17 @@ static int take_shared(scale_moment *moment, cli_run *run, const fg_density *sha
   return code;
 }
 
-int moment_take(scale_moment *out, cli_run *run)
+int snapshot_take(scale_snapshot *out, cli_run *run)
 {
   fg_density *density;
   fg_status status = fg_density_create(&density, fg_run_evolution(run->scales));
   if (status)
     return complain_of(run->context, status, run->settings->reading.input);
   const fg_density_arrays *contents = fg_density_contents(density);
-  *out = (scale_moment){.time = contents->time,
-                        .energy = contents->energy,
-                        .area_fraction = contents->area_fraction,
-                        .clusters = contents->clusters};
+  *out = (scale_snapshot){.time = contents->time,
+                          .energy = contents->energy,
+                          .area_fraction = contents->area_fraction,
+                          .clusters = contents->clusters};
   if (!fg_density_is_shared(density)) {
     out->density = density;
     return EXIT_DONE;
