@@ -3,6 +3,7 @@
 
 #include "command/command.h"
 #include "folder/file.h"
+#include "folder/made.h"
 #include "interrupt.h"
 #include "option/settings.h"
 #include "progress.h"
@@ -50,8 +51,8 @@ int command_brush(const void *given)
   if (!status)
     status = paint(context, settings, image);
   interrupt_end();
-  if (status)
-    code = complain_of(context, status, settings->image);
+  code = status ? complain_of(context, status, settings->image)
+                : made_record(settings->output);
   fg_image_destroy(image);
   fg_context_destroy(context);
   return code;

@@ -1,6 +1,7 @@
 /* Paints a texture of a field. */
 #include "command/command.h"
 #include "folder/file.h"
+#include "folder/made.h"
 #include "interrupt.h"
 #include "option/settings.h"
 #include "option/validation.h"
@@ -16,7 +17,8 @@ static int write_texture(fg_context *context, const texture_settings *settings,
       .key = settings->key,
   };
   fg_status status = fg_texture_write(context, settings->output, field, texture, &style);
-  return status ? complain_of(context, status, settings->output) : EXIT_DONE;
+  return status ? complain_of(context, status, settings->output)
+                : made_record(settings->output);
 }
 
 static int paint(fg_context *context, const texture_settings *settings,
