@@ -195,7 +195,6 @@ else
   done
   done_with "out of memory: one message, and nothing is left"
 
-  # Embree reserves 200 MB or so for a device
   (
     ulimit -v 300000
     try run synth:vortex3d --nodes 17 --clusters 3 -o solid --quiet --threads 1
