@@ -10,6 +10,7 @@
 #include "build_features.h"
 #include "drawing.h"
 #include "folder.h"
+#include "interrupt.h"
 #include "past_run.h"
 #include "rehearse.h"
 #include "unfit.h"
@@ -283,6 +284,7 @@ int command_draw(const cli_settings *settings)
     code = EXIT_FAILED;
     goto cleanup;
   }
+  interrupt_start(context);
   code = read_icons(&icons, context, settings, &report, index);
   if (!code)
     code = read_field(&field, context, settings, &report);
@@ -294,6 +296,7 @@ int command_draw(const cli_settings *settings)
     code =
         write_picture(context, settings, &report, index, field, density, regions, icons);
 cleanup:
+  interrupt_end();
   fg_density_destroy(regions);
   fg_density_destroy(density);
   fg_field_destroy(field);

@@ -1,9 +1,12 @@
 #include "drawing.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
+#include <unistd.h>
 
 #include "background.h"
 #include "build_features.h"
@@ -190,8 +193,8 @@ static fg_status find_finer(cli_drawing *drawing, int index)
   return status;
 }
 
-/* Exactly as many icons as the scale asks for. The finer scale's file is written again,
- * with the icons that its own went into. */
+/* Exactly as many icons as the scale asks for. The finer scale's icons are told which
+ * ones they went into. */
 static fg_status place_icons(cli_drawing *drawing, int index, scale_moment *moment)
 {
   int count = drawing->results[index].wanted[0];
@@ -199,8 +202,6 @@ static fg_status place_icons(cli_drawing *drawing, int index, scale_moment *mome
   if (!status)
     status =
         placing_make(&moment->icons, &drawing->placing, count, moment, drawing->finer);
-  if (!status && drawing->finer)
-    status = write_icons(drawing, index - 1, drawing->finer);
   return status;
 }
 
@@ -264,6 +265,9 @@ static fg_status draw_icons(cli_drawing *drawing, int index, scale_moment *momen
       result->score = *score;
     result->dropped = fg_icons_dropped(icons);
   }
+  /* now that there is a coarser scale, the finer one's file names its icons */
+  if (!status && settings_place(drawing->settings) && drawing->finer)
+    status = write_icons(drawing, index - 1, drawing->finer);
   if (!status && settings_place(drawing->settings)) {
     fg_icons_destroy(drawing->finer);
     drawing->finer = moment->icons;
@@ -298,6 +302,26 @@ static void moment_clear(scale_moment *moment)
   *moment = (scale_moment){0};
 }
 
+/* Removes what there is of a scale that was interrupted. */
+static void remove_scale(const cli_drawing *drawing, int index)
+{
+  char ends[SCALE_FILES][SCALE_END_BYTES];
+  int count = scale_file_ends(ends, drawing->settings, drawing->field);
+  for (int n = 0; n < count; ++n) {
+    char *path = scale_path(drawing, index, ends[n]);
+    if (path)
+      unlink(path);
+    free(path);
+  }
+}
+
+/* After an interrupt that is heeded: the scales from `index` on are left out. */
+static void cut(cli_drawing *drawing, int index)
+{
+  drawing->cut = true;
+  drawing->added = drawing->drawn = index;
+}
+
 static void *work(void *argument)
 {
   cli_drawing *drawing = argument;
@@ -308,8 +332,7 @@ static void *work(void *argument)
     if (drawing->drawn == drawing->added || drawing->status)
       break;
     if (drawing->heeds && drawing->drawn > 0 && interrupt_came()) {
-      drawing->cut = true;
-      drawing->added = drawing->drawn;
+      cut(drawing, drawing->drawn);
       break;
     }
     int index = drawing->drawn;
@@ -318,7 +341,15 @@ static void *work(void *argument)
     pthread_mutex_unlock(&drawing->lock);
     fg_status status = draw(drawing, index, &moment);
     moment_clear(&moment);
+    const bool interrupted = status == FG_STATUS_STOPPED && interrupt_came();
+    if (interrupted)
+      remove_scale(drawing, index);
     pthread_mutex_lock(&drawing->lock);
+    if (interrupted && drawing->heeds && index > 0) {
+      cut(drawing, index);
+      pthread_cond_broadcast(&drawing->changed);
+      break;
+    }
     drawing->status = status;
     ++drawing->drawn;
     pthread_cond_broadcast(&drawing->changed);
@@ -375,7 +406,7 @@ bool drawing_add(cli_drawing *drawing, const scale_moment *moment, const int *wa
                  int wanted_count)
 {
   pthread_mutex_lock(&drawing->lock);
-  bool accepted = drawing->added <= MAX_SCALES && !drawing->status;
+  bool accepted = drawing->added <= MAX_SCALES && !drawing->status && !drawing->cut;
   if (accepted) {
     scale_result *result = &drawing->results[drawing->added];
     result->wanted_count = wanted_count;
@@ -386,15 +417,18 @@ bool drawing_add(cli_drawing *drawing, const scale_moment *moment, const int *wa
     pthread_cond_broadcast(&drawing->changed);
   }
   pthread_mutex_unlock(&drawing->lock);
-  if (!accepted) {
+  if (!accepted || drawing->cut) {
     scale_moment refused = *moment;
     moment_clear(&refused);
-    return false;
+    return drawing->cut;
   }
   if (drawing->threaded)
     return true;
   drawing->closed = true; /* work returns when nothing waits */
+  drawing->heeds = true;  /* nothing else goes on meanwhile */
+  interrupt_second_at_once(true);
   work(drawing);
+  interrupt_second_at_once(false);
   return !drawing->status;
 }
 
@@ -426,6 +460,23 @@ void drawing_heed_interrupts(cli_drawing *drawing)
   pthread_mutex_lock(&drawing->lock);
   drawing->heeds = true;
   pthread_mutex_unlock(&drawing->lock);
+  interrupt_second_at_once(true);
+}
+
+bool drawing_wait_for(cli_drawing *drawing, double seconds)
+{
+  struct timespec until;
+  timespec_get(&until, TIME_UTC);
+  double end = (double)until.tv_nsec * 1e-9 + seconds;
+  until.tv_sec += (time_t)end;
+  until.tv_nsec = (long)((end - floor(end)) * 1e9);
+  pthread_mutex_lock(&drawing->lock);
+  int waited = 0;
+  while (waited == 0 && drawing->drawn < drawing->added && !drawing->status)
+    waited = pthread_cond_timedwait(&drawing->changed, &drawing->lock, &until);
+  bool all = drawing->drawn >= drawing->added || drawing->status;
+  pthread_mutex_unlock(&drawing->lock);
+  return all;
 }
 
 bool drawing_was_cut(const cli_drawing *drawing)

@@ -7,6 +7,9 @@
 #include "folder.h"
 #include "ranks.h"
 
+/* At the drawing's progress. */
+static const double seconds_between_looks = 0.2;
+
 bool ending_can_go_on(const cli_run *run)
 {
   const char *ended = run->facts.ended;
@@ -33,10 +36,12 @@ static int complain_of_no_scale(const cli_run *run)
 
 int ending_draw(cli_run *run)
 {
-  if (drawing_ready(run->drawing) < drawing_count(run->drawing))
-    progress_stage(&run->progress, "drawing");
   if (strcmp(run->facts.ended, "interrupted") != 0)
     drawing_heed_interrupts(run->drawing);
+  int count = drawing_count(run->drawing);
+  do
+    progress_drawing(&run->progress, drawing_ready(run->drawing), count);
+  while (!drawing_wait_for(run->drawing, seconds_between_looks));
   fg_status status = drawing_finish(run->drawing);
   progress_wipe(&run->progress);
   if (status)

@@ -55,7 +55,7 @@ typedef struct fg_solid_options {
  * of what is seen of the arrows is measured as it appears, without what others hide,
  * heads counted three times. Of the views within 4 % of the best it is the one nearest to
  * azimuth 30, elevation 22 (fg_solid_options); that one without icons. MEMORY, ARGUMENT
- * (2D). */
+ * (2D), STOPPED. */
 FG_API fg_status fg_solid_best_view(double *azimuth, double *elevation,
                                     fg_context *context, const fg_field *field,
                                     const fg_icons *icons);

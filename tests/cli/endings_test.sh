@@ -118,6 +118,26 @@ expect_json placing/run.json '.ended == "interrupted" and (.scales | length) >= 
 expect_json placing/run.json '[.scales[].icons] == [400,399,398,397,396,395][:(.scales | length)]'
 done_with "an interrupt while arrows are placed keeps the scales that are there"
 
+if "$program" --version | grep -q '[ ,]render'; then
+  # the evolution is short, the drawing of so many pixels is long
+  in_background run synth:vortex3d --nodes 33 --clusters 8,4,2 --width 2400 --quiet -o drawing
+  until_there drawing/.flowgrain/scale-01.glb
+  ends_by INT
+  expect_code 130
+  expect_one_complaint
+  expect_error 'interrupted at t = .* with [0-9]+ clusters; the 1 scale until then is in drawing$'
+  expect_json drawing/run.json '.ended == "interrupted" and (.scales | length) == 1'
+  expect_file drawing/scale-00.png
+  [ -z "$(find drawing -name 'scale-0[12]*')" ] || fault "of interrupted scales: $(ls drawing)"
+  in_background draw drawing -o large.png --width 2400
+  sleep 1
+  ends_by TERM
+  expect_code 130
+  expect_one_complaint
+  [ -z "$(find . -maxdepth 1 -name '*large.png*')" ] || fault "left: $(find . -name '*large.png*')"
+  done_with "an interrupt while pictures in 3D are drawn keeps the scales that are there"
+fi
+
 # checkpoints have 3 arrays of 129 x 129 floats and more; results are smaller
 limit_kib=150
 [ -z "$(find whole -size +${limit_kib}k)" ] || fault "too large: $(find whole -size +${limit_kib}k)"
