@@ -4,15 +4,15 @@
 
 #include "base/memory.h"
 
-fg__rows fg__rows_between(double low, double high, int height)
+fg__band_rows fg__rows_between(double low, double high, int height)
 {
   if (!(high >= 0.0) || !(low < height))
-    return (fg__rows){0, -1};
-  return (fg__rows){(int)fg__most(low, 0.0), (int)fg__least(high, height - 1.0)};
+    return (fg__band_rows){0, -1};
+  return (fg__band_rows){(int)fg__most(low, 0.0), (int)fg__least(high, height - 1.0)};
 }
 
 /* Counts the members of each band into first[b + 1]. */
-static void count_members(fg__bands *out, const fg__rows *rows, size_t triangles)
+static void count_members(fg__bands *out, const fg__band_rows *rows, size_t triangles)
 {
   for (size_t n = 0; n < triangles; ++n)
     if (rows[n].first <= rows[n].last)
@@ -23,7 +23,7 @@ static void count_members(fg__bands *out, const fg__rows *rows, size_t triangles
 }
 
 /* Writes the members; first[b] ends as first[b + 1] was, and is moved back. */
-static void write_members(fg__bands *out, const fg__rows *rows, size_t triangles)
+static void write_members(fg__bands *out, const fg__band_rows *rows, size_t triangles)
 {
   for (size_t n = 0; n < triangles; ++n)
     if (rows[n].first <= rows[n].last)
@@ -34,7 +34,7 @@ static void write_members(fg__bands *out, const fg__rows *rows, size_t triangles
   out->first[0] = 0;
 }
 
-fg_status fg__bands_make(fg__bands *out, fg_context *context, const fg__rows *rows,
+fg_status fg__bands_make(fg__bands *out, fg_context *context, const fg__band_rows *rows,
                          size_t triangles, int height)
 {
   *out = (fg__bands){.count = (height + FG__BAND - 1) / FG__BAND};

@@ -18,9 +18,9 @@ static inline double fg__most(double a, double b)
 }
 
 /* The rows that a triangle may touch; first > last: none. */
-typedef struct fg__rows {
+typedef struct fg__band_rows {
   int first, last;
-} fg__rows;
+} fg__band_rows;
 
 /* Triangles member[first[b]] to member[first[b + 1] - 1] touch band b; they keep their
  * order. */
@@ -32,11 +32,11 @@ typedef struct fg__bands {
 
 /* rows: of each of `triangles`; height: all rows. `out` is to be cleared also after a
  * failure. MEMORY. */
-fg_status fg__bands_make(fg__bands *out, fg_context *context, const fg__rows *rows,
+fg_status fg__bands_make(fg__bands *out, fg_context *context, const fg__band_rows *rows,
                          size_t triangles, int height);
 void fg__bands_clear(fg__bands *bands);
 
 /* The rows, of 0 to height - 1, that an interval touches. */
-fg__rows fg__rows_between(double low, double high, int height);
+fg__band_rows fg__rows_between(double low, double high, int height);
 
 #endif

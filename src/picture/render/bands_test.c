@@ -8,7 +8,7 @@ static void bands_have_what_touches_them(void **state)
 {
   (void)state;
   enum { COUNT = 500, HEIGHT = 61 };
-  fg__rows rows[COUNT];
+  fg__band_rows rows[COUNT];
   fg__bands bands;
   for (int n = 0; n < COUNT; ++n) {
     double low = n * 37 % 97 - 20.0;

@@ -20,9 +20,9 @@ enum { MOST_LAYERS = 63 };
 
 /* Room of one thread for a band. */
 typedef struct workspace {
-  fg__nearest *middle; /* [FG__BAND][width] */
+  fg__face_at *middle; /* [FG__BAND][width] */
   int *chosen;         /* likewise: numbers of pixels that are drawn finely, or -1 */
-  fg__nearest *sample; /* of those */
+  fg__face_at *sample; /* of those */
   size_t sample_capacity;
   fg__layers layers;
   uint32_t *marks;
@@ -44,7 +44,7 @@ typedef struct job {
 } job;
 
 /* Where the layers of a point lie. */
-static void set_layers(fg__point *p, const fg__layers *layers, int number)
+static void set_layers(fg__shade_at *p, const fg__layers *layers, int number)
 {
   p->layer = layers->layer + layers->first[number];
   p->layers = layers->first[number + 1] - layers->first[number];
@@ -55,12 +55,12 @@ static void set_layers(fg__point *p, const fg__layers *layers, int number)
 typedef struct group {
   int face, share, count;
   double x, y; /* sums */
-  const fg__nearest *nearest;
+  const fg__face_at *nearest;
 } group;
 
 /* Groups the samples of a pixel; what is behind the arrows makes a group of each sample.
  * Returns how many there are. */
-static int group_samples(const fg__nearest sample[FG__SAMPLES], const fg__layers *layers,
+static int group_samples(const fg__face_at sample[FG__SAMPLES], const fg__layers *layers,
                          int pixel, group out[FG__SAMPLES])
 {
   int count = 0;
@@ -90,7 +90,7 @@ static uint32_t draw_finely(const job *j, const workspace *w, int pixel, int x, 
                             groups);
   for (int n = 0; n < count; ++n) {
     const group *g = &groups[n];
-    fg__point p = {
+    fg__shade_at p = {
         .x = x + g->x / g->count, .y = y + g->y / g->count, .nearest = g->nearest};
     if (g->share >= 0)
       set_layers(&p, &w->layers, FG__SHARES * pixel + g->share);
@@ -164,7 +164,7 @@ static bool draw_coarsely(job *j, workspace *w, int band)
   if (!fg__view_layers(&j->view, band, &w->layers))
     return false;
   for (int n = 0; n < FG__BAND * width && top + n / width < j->about->height; ++n) {
-    fg__point p = {
+    fg__shade_at p = {
         .x = n % width + 0.5, .y = top + n / width + 0.5, .nearest = &w->middle[n]};
     fg__haze own = {.left = -1.0};
     set_layers(&p, &w->layers, n);

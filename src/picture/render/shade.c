@@ -63,7 +63,7 @@ static bool on_edge(const fg__rendering *about, int axis, const double place[3],
 }
 
 /* What is behind the arrows. */
-static fg__light light_ground(const fg__shading *s, fg__point *p)
+static fg__light light_ground(const fg__shading *s, fg__shade_at *p)
 {
   const fg__rendering *about = s->about;
   stay box;
@@ -102,7 +102,7 @@ static fg__light light_halo(const fg__shading *s)
   return (fg__light){paper, paper, paper, paper};
 }
 
-static fg__light light_face(const fg__shading *s, fg__point *p)
+static fg__light light_face(const fg__shading *s, fg__shade_at *p)
 {
   const fg__face *face = &s->view->geometry->solid.face[p->nearest->face];
   p->seen = FG__SEEN_ARROW + 2 * face->part + (face->kind == FG__FACE_HALO);
@@ -136,7 +136,7 @@ static fg__light light_layer(const fg__shading *s, const fg__layer *layer,
 }
 
 /* Of the transparent surfaces before what is seen at a point. */
-static fg__haze find_haze(const fg__shading *s, const fg__point *p)
+static fg__haze find_haze(const fg__shading *s, const fg__shade_at *p)
 {
   bool solid = p->nearest->face >= 0;
   fg__haze out = {.left = 1.0};
@@ -155,7 +155,7 @@ static fg__haze find_haze(const fg__shading *s, const fg__point *p)
   return out;
 }
 
-fg__light fg__shade_point(const fg__shading *s, fg__point *p, fg__haze *haze)
+fg__light fg__shade_point(const fg__shading *s, fg__shade_at *p, fg__haze *haze)
 {
   bool solid = p->nearest->face >= 0;
   stay box;

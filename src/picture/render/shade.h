@@ -25,14 +25,14 @@ void fg__shading_make(fg__shading *out, const fg__rendering *about, const fg__vi
  * or from FG__SEEN_ARROW on an arrow or its halo, two numbers each. */
 enum { FG__SEEN_PAGE, FG__SEEN_WALL, FG__SEEN_EDGE = FG__SEEN_WALL + 3, FG__SEEN_ARROW };
 
-typedef struct fg__point {
+typedef struct fg__shade_at {
   double x, y; /* pixels */
-  const fg__nearest *nearest;
+  const fg__face_at *nearest;
   const fg__layer *layer;
   int layers;
   int seen;            /* found */
   double direction[3]; /* likewise; unit */
-} fg__point;
+} fg__shade_at;
 
 /* Light of transparent surfaces, and the share of light that they let through. */
 typedef struct fg__haze {
@@ -42,6 +42,7 @@ typedef struct fg__haze {
 
 /* haze: of the point's transparent surfaces when it is known; where its `left` is
  * negative it is found. */
-fg__light fg__shade_point(const fg__shading *shading, fg__point *point, fg__haze *haze);
+fg__light fg__shade_point(const fg__shading *shading, fg__shade_at *point,
+                          fg__haze *haze);
 
 #endif

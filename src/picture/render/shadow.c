@@ -34,16 +34,16 @@ static void find_footprint(const fg__shadow *s, const fg__caster *caster, footpr
 }
 
 /* The texels whose places may lie in a triangle; first > last: none. */
-static inline fg__rows texels_between(const double at[3][2], int axis, int first,
-                                      int last)
+static inline fg__band_rows texels_between(const double at[3][2], int axis, int first,
+                                           int last)
 {
   double low = fg__least(fg__least(at[0][axis], at[1][axis]), at[2][axis]);
   double high = fg__most(fg__most(at[0][axis], at[1][axis]), at[2][axis]);
   if (!(high >= first) || !(low <= last))
-    return (fg__rows){0, -1};
+    return (fg__band_rows){0, -1};
   int begin = (int)low; /* towards 0 */
   begin += low > begin;
-  return (fg__rows){begin > first ? begin : first, (int)fg__least(high, last)};
+  return (fg__band_rows){begin > first ? begin : first, (int)fg__least(high, last)};
 }
 
 /* Whether the point above a texel that hides it from a lamp lies in the box. */
@@ -71,10 +71,10 @@ static void mark(const fg__shadow *s, int number, const footprint *f, int row, i
   for (int n = 0; n < 3; ++n)
     for (int k = 0; k < 2; ++k)
       at[n][k] = f->at[n][k] - f->above[n] * lamp->slope[k] - lamp->place[k];
-  fg__rows columns = texels_between((const double(*)[2])at, 0, 0, s->size[0] - 1);
+  fg__band_rows columns = texels_between((const double(*)[2])at, 0, 0, s->size[0] - 1);
   if (columns.first > columns.last)
     return;
-  fg__rows lines = texels_between((const double(*)[2])at, 1, row, row + rows - 1);
+  fg__band_rows lines = texels_between((const double(*)[2])at, 1, row, row + rows - 1);
   double area = (at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) -
                 (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]);
   if (lines.first > lines.last || !(f->clipped ? fabs(area) > 0.0 : area > 0.0))
@@ -122,7 +122,7 @@ void fg__shadow_fill(fg__shadow *s, int band, uint32_t *marks)
 }
 
 /* The rows that a triangle's shadow may touch, whatever the lamp. */
-static fg__rows rows_of(const fg__shadow *s, const fg__caster *caster)
+static fg__band_rows rows_of(const fg__shadow *s, const fg__caster *caster)
 {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (int n = 0; n < 3; ++n) {
@@ -136,7 +136,7 @@ static fg__rows rows_of(const fg__shadow *s, const fg__caster *caster)
 
 static fg_status sort_casters(fg__shadow *s, fg_context *context, size_t count)
 {
-  fg__rows *rows = fg__allocate(count, sizeof *rows);
+  fg__band_rows *rows = fg__allocate(count, sizeof *rows);
   if (!rows)
     return fg__fail_memory(context, "shadows", count * sizeof *rows);
   for (size_t n = 0; n < count; ++n)

@@ -84,8 +84,8 @@ static bool is_in_box(const fg__view *view, double x, double y, double depth)
   return true;
 }
 
-static fg__extent extent_of(const fg__view *view, const fg__faces *faces,
-                            const fg__face *face)
+static fg__face_extent extent_of(const fg__view *view, const fg__faces *faces,
+                                 const fg__face *face)
 {
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   for (int n = 0; n < 3; ++n) {
@@ -95,30 +95,31 @@ static fg__extent extent_of(const fg__view *view, const fg__faces *faces,
       high[k] = fg__most(high[k], at[k] / at[2]);
     }
   }
-  return (fg__extent){fg__rows_between(low[1], high[1], view->about->height),
-                      fg__rows_between(low[0], high[0], view->about->width)};
+  return (fg__face_extent){fg__rows_between(low[1], high[1], view->about->height),
+                           fg__rows_between(low[0], high[0], view->about->width)};
 }
 
 /* The rows of a triangle within a band. */
-static fg__rows rows_in_band(fg__rows rows, int band)
+static fg__band_rows rows_in_band(fg__band_rows rows, int band)
 {
   int first = band * FG__BAND, last = first + FG__BAND - 1;
-  return (fg__rows){rows.first > first ? rows.first : first,
-                    rows.last < last ? rows.last : last};
+  return (fg__band_rows){rows.first > first ? rows.first : first,
+                         rows.last < last ? rows.last : last};
 }
 
 /* Extents of all triangles, and the bands that they touch; *extents: free them also after
  * a failure. */
-static fg_status sort_faces(fg__bands *out, fg__extent **extents, fg_context *context,
-                            const fg__view *view, const fg__faces *faces)
+static fg_status sort_faces(fg__bands *out, fg__face_extent **extents,
+                            fg_context *context, const fg__view *view,
+                            const fg__faces *faces)
 {
-  fg__rows *rows = fg__allocate(faces->face_count, sizeof *rows);
+  fg__band_rows *rows = fg__allocate(faces->face_count, sizeof *rows);
   *extents = fg__allocate(faces->face_count, sizeof **extents);
   fg_status status = FG_STATUS_OK;
   if (!rows || !*extents)
     status = fg__fail_memory(context, "a picture", faces->face_count * sizeof **extents);
   for (size_t n = 0; n < faces->face_count && !status; ++n) {
-    fg__extent e = extent_of(view, faces, &faces->face[n]);
+    fg__face_extent e = extent_of(view, faces, &faces->face[n]);
     (*extents)[n] = e;
     rows[n] = e.columns.first <= e.columns.last ? e.rows : e.columns;
   }
@@ -151,7 +152,7 @@ void fg__view_clear(fg__view *view)
 /* A triangle on its way into a band: its rows there, and its columns. */
 typedef struct piece {
   int number;
-  fg__rows rows, columns;
+  fg__band_rows rows, columns;
   edges edges;
 } piece;
 
@@ -161,7 +162,7 @@ static bool find_piece(const fg__view *view, bool veil, int number, int band,
                        const int *chosen, piece *out)
 {
   const fg__faces *faces = veil ? &view->geometry->veil : &view->geometry->solid;
-  const fg__extent *at = &(veil ? view->veil_extent : view->solid_extent)[number];
+  const fg__face_extent *at = &(veil ? view->veil_extent : view->solid_extent)[number];
   bool wanted = !chosen;
   out->number = number;
   out->rows = rows_in_band(at->rows, band);
@@ -175,7 +176,7 @@ static bool find_piece(const fg__view *view, bool veil, int number, int band,
 /* Notes a triangle at a point of it where it is nearer than what was there; sum: of the
  * edges' functions. */
 INLINE void keep_nearer(const fg__view *view, const piece *p, double x, double y,
-                        double sum, fg__nearest *out)
+                        double sum, fg__face_at *out)
 {
   float depth = (float)(p->edges.volume / sum);
   if (!(depth < out->depth))
@@ -183,14 +184,14 @@ INLINE void keep_nearer(const fg__view *view, const piece *p, double x, double y
   if (view->geometry->solid.face[p->number].clipped &&
       !is_in_box(view, x, y, (double)depth))
     return;
-  *out = (fg__nearest){depth, p->number};
+  *out = (fg__face_at){depth, p->number};
 }
 
-void fg__view_middles(const fg__view *view, int band, fg__nearest *out)
+void fg__view_middles(const fg__view *view, int band, fg__face_at *out)
 {
   int width = view->about->width, top = band * FG__BAND;
   for (int n = 0; n < FG__BAND * width; ++n)
-    out[n] = (fg__nearest){INFINITY, -1};
+    out[n] = (fg__face_at){INFINITY, -1};
   for (size_t m = view->solid.first[band]; m < view->solid.first[band + 1]; ++m) {
     piece p;
     double weight[3];
@@ -206,7 +207,7 @@ void fg__view_middles(const fg__view *view, int band, fg__nearest *out)
 
 /* Notes a triangle at the samples of a pixel. */
 INLINE void keep_samples(const fg__view *view, const piece *p, int x, int y,
-                         fg__nearest out[FG__SAMPLES])
+                         fg__face_at out[FG__SAMPLES])
 {
   double weight[3][FG__SAMPLES];
   for (int k = 0; k < 3; ++k) {
@@ -232,11 +233,11 @@ INLINE void keep_samples(const fg__view *view, const piece *p, int x, int y,
 }
 
 CLONES void fg__view_samples(const fg__view *view, int band, const int *chosen, int count,
-                             fg__nearest *out)
+                             fg__face_at *out)
 {
   int width = view->about->width, top = band * FG__BAND;
   for (ptrdiff_t n = 0; n < (ptrdiff_t)count * FG__SAMPLES; ++n)
-    out[n] = (fg__nearest){INFINITY, -1};
+    out[n] = (fg__face_at){INFINITY, -1};
   for (size_t m = view->solid.first[band]; m < view->solid.first[band + 1]; ++m) {
     piece p;
     if (!find_piece(view, false, view->solid.member[m], band, chosen, &p))

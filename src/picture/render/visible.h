@@ -16,10 +16,10 @@ enum { FG__SHARING = 4, FG__SHARES = FG__SAMPLES / FG__SHARING };
 extern const double fg__sample_place[FG__SAMPLES][2];
 
 /* What is nearest at a point. */
-typedef struct fg__nearest {
+typedef struct fg__face_at {
   float depth; /* along the view; infinite: nothing is there */
   int face;    /* -1: nothing is there */
-} fg__nearest;
+} fg__face_at;
 
 /* A transparent surface at a point. */
 typedef struct fg__layer {
@@ -38,15 +38,15 @@ typedef struct fg__layers {
 } fg__layers;
 
 /* The pixels that a triangle may touch. */
-typedef struct fg__extent {
-  fg__rows rows, columns;
-} fg__extent;
+typedef struct fg__face_extent {
+  fg__band_rows rows, columns;
+} fg__face_extent;
 
 /* Triangles as the viewer sees them. */
 typedef struct fg__view {
   const fg__rendering *about;
   const fg__geometry *geometry;
-  fg__extent *solid_extent, *veil_extent;
+  fg__face_extent *solid_extent, *veil_extent;
   fg__bands solid, veil;
 } fg__view;
 
@@ -56,12 +56,12 @@ fg_status fg__view_make(fg__view *out, fg_context *context, const fg__rendering 
 void fg__view_clear(fg__view *view);
 
 /* The nearest arrow or halo in the middle of each pixel of a band: out[row][column]. */
-void fg__view_middles(const fg__view *view, int band, fg__nearest *out);
+void fg__view_middles(const fg__view *view, int band, fg__face_at *out);
 
 /* The same at the samples of some pixels: chosen[row][column] is a pixel's number, or -1;
  * `count` pixels are chosen. out[count][FG__SAMPLES]. */
 void fg__view_samples(const fg__view *view, int band, const int *chosen, int count,
-                      fg__nearest *out);
+                      fg__face_at *out);
 
 /* Transparent surfaces in the middle of each pixel of a band: point row * width + column.
  * MEMORY is reported as false. */
