@@ -62,6 +62,12 @@ static double orientation(const fg__corner *a, const fg__corner *b, const fg__co
   return fg__dot(a->at, normal);
 }
 
+/* What is not, as a part of a far arrow, lies beyond the box. */
+static bool is_before_eye(const fg__corner *a, const fg__corner *b, const fg__corner *c)
+{
+  return a->at[2] > 0.0 && b->at[2] > 0.0 && c->at[2] > 0.0;
+}
+
 /* Of an arrow only the side towards the viewer is seen, unless the box cuts it open; of a
  * halo only the other one, which is behind its arrow. */
 static bool is_seen(fg__face_kind kind, bool clipped, double orientation)
@@ -129,8 +135,8 @@ static fg_status add_faces(const maker *m, fg__faces *faces, const surface_use *
   const fg__corner *corner = faces->corner + faces->corner_count;
   for (int n = 0; n < surface->triangle_count; ++n) {
     const int *at = surface->triangle[n];
-    if (!is_seen(kind, use->clipped,
-                 orientation(&corner[at[0]], &corner[at[1]], &corner[at[2]])))
+    const fg__corner *a = &corner[at[0]], *b = &corner[at[1]], *c = &corner[at[2]];
+    if (!is_before_eye(a, b, c) || !is_seen(kind, use->clipped, orientation(a, b, c)))
       continue;
     fg__face *face = &faces->face[faces->face_count++];
     *face = (fg__face){.part = use->part, .kind = kind, .clipped = use->clipped};

@@ -340,6 +340,35 @@ static void arrows_have_no_holes(void **state)
   fg_icons_destroy(icons);
 }
 
+/* What another program's file has behind the viewer or far away is no matter. */
+static void far_arrows_take_nothing_away(void **state)
+{
+  (void)state;
+  fg_icons *near_one = make_icons(0.0, false), *both = make_icons(0.0, false);
+  fg__palette red;
+  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  const double points[2][3] = {{12.0, -4e9, 5.2}, {12.0, 3.0, 6.9}};
+  const fg_icon far_one = {.cluster = 2,
+                           .point_count = 2,
+                           .points = points,
+                           .width = 0.2,
+                           .tail_width = 0.2,
+                           .head_length = 0.5,
+                           .head_width = 0.5,
+                           .speed = 1.0};
+  assert_int_equal(fg__icons_add(both, NULL, &far_one), FG_STATUS_OK);
+  fg__rendering r = rendering_of(near_one, &red, 0.0, 60.0);
+  assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
+  r.icons = both;
+  assert_int_equal(fg__render(NULL, &r, other[0], WIDTH), FG_STATUS_OK);
+  int lost = 0;
+  for (int n = 0; n < WIDTH * HEIGHT; ++n)
+    lost += image[n / WIDTH][n % WIDTH] != 0 && other[n / WIDTH][n % WIDTH] == 0;
+  assert_int_equal(lost, 0); /* nothing hides or takes away what is there */
+  fg_icons_destroy(near_one);
+  fg_icons_destroy(both);
+}
+
 /* What a stopped context is given is not drawn. */
 static void a_stopped_context_stops_the_drawing(void **state)
 {
@@ -371,6 +400,7 @@ int main(void)
       cmocka_unit_test(threads_change_nothing),
       cmocka_unit_test(turning_all_changes_nothing),
       cmocka_unit_test(arrows_have_no_holes),
+      cmocka_unit_test(far_arrows_take_nothing_away),
       cmocka_unit_test(a_stopped_context_stops_the_drawing),
   };
   return cmocka_run_group_tests_name("picture/render/render", tests, NULL, NULL);

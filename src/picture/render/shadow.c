@@ -41,9 +41,9 @@ static inline fg__band_rows texels_between(const double at[3][2], int axis, int 
   double high = fg__most(fg__most(at[0][axis], at[1][axis]), at[2][axis]);
   if (!(high >= first) || !(low <= last))
     return (fg__band_rows){0, -1};
-  int begin = (int)low; /* towards 0 */
+  int begin = (int)fg__most(low, first);
   begin += low > begin;
-  return (fg__band_rows){begin > first ? begin : first, (int)fg__least(high, last)};
+  return (fg__band_rows){begin, (int)fg__least(high, last)};
 }
 
 /* Whether the point above a texel that hides it from a lamp lies in the box. */
