@@ -5,9 +5,9 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "picture/arrow_speeds.h"
 #include "solid/tube.h"
-#include "solid/vector.h"
 
 /* A head that is made larger to be seen takes no more of its arrow. */
 static const double head_share = 0.42;

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "solid/vector.h"
+#include "base/vector.h"
 
 /* Transparent surfaces before an arrow hide it less than what is behind it. */
 static const double veil_before_arrow = 0.45;

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "picture/render/light.h"
-#include "solid/vector.h"
 
 /* Texels along a side at most: no picture is larger. */
 static const double most_texels = 8192.0;

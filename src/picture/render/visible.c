@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 #define PLACE(column, row)                                                               \
   {                                                                                      \
