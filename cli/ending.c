@@ -44,6 +44,10 @@ int ending_draw(cli_run *run)
   while (!drawing_wait_for(run->drawing, seconds_between_looks));
   fg_status status = drawing_finish(run->drawing);
   progress_wipe(&run->progress);
+  if (status == FG_STATUS_STOPPED && drawing_ready(run->drawing) <= 1) {
+    run->facts.ended = "interrupted"; /* while the first scale was drawn */
+    return complain_of_no_scale(run);
+  }
   if (status)
     return complain_of(drawing_context(run->drawing), status, run->settings->operand);
   return drawing_count(run->drawing) ? EXIT_DONE : complain_of_no_scale(run);

@@ -110,7 +110,7 @@ done_with "an interrupted run of placed arrows says which are missing, and goes 
 
 # the evolution is short, the placing of so many is long
 in_background run synth:vortex3 --nodes 129 --arrows 400,399,398,397,396,395 --formats svg --quiet -o placing
-until_there placing/.flowgrain/scale-00.geojson
+until_there placing/.flowgrain/scale-00.svg
 ends_by INT
 expect_code 130
 expect_one_complaint
@@ -129,6 +129,13 @@ if "$program" --version | grep -q '[ ,]render'; then
   expect_json drawing/run.json '.ended == "interrupted" and (.scales | length) == 1'
   expect_file drawing/scale-00.png
   [ -z "$(find drawing -name 'scale-0[12]*')" ] || fault "of interrupted scales: $(ls drawing)"
+  in_background run synth:vortex3d --nodes 33 --clusters 8 --width 2400 --quiet -o first
+  until_there first/.flowgrain/scale-00.glb
+  sleep 0.5
+  ends_by TERM
+  expect_code 130
+  expect_one_complaint
+  [ -z "$(find first -name 'scale-*' 2>/dev/null)" ] || fault "of an interrupted scale: $(find first)"
   in_background draw drawing -o large.png --width 2400
   sleep 1
   ends_by TERM
