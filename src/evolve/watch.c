@@ -15,37 +15,20 @@ static const unsigned char *mask_of(const fg_evolution *e)
   return e->active_cells < (long)e->cells ? e->tensor.active : NULL;
 }
 
-static fg_status count_whole(fg_evolution *e, bool counting, double *covered)
-{
-  fg__team_clusters *c = &e->clusters_found;
-  const fg__multigrid *m = &e->stepper.multigrid;
-  fg__team *team = m->shared_levels > 0 ? m->team : NULL;
-  fg_status status =
-      fg__team_clusters_find(c, e->context, team, &m->level[0].layout, e->mesh.periodic,
-                             e->stepper.current, mask_of(e), e->debris_area, counting);
-  *covered = c->covered;
-  e->clusters = c->whole.count;
-  return status;
-}
-
-static fg_status count_spread(fg_evolution *e, bool counting, double *covered)
-{
-  fg__spread_clusters *c = &e->spread_clusters;
-  const fg__spread *finest = &e->stepper.multigrid.spread[0];
-  fg_status status =
-      fg__spread_clusters_find(c, e->context, finest, e->stepper.current,
-                               finest->residual[0], e->debris_area, counting);
-  *covered = c->covered;
-  e->clusters = c->whole.count;
-  return status;
-}
-
 static fg_status count(fg_evolution *e, bool counting)
 {
-  double covered = 0.0;
-  fg_status status = e->spread ? count_spread(e, counting, &covered)
-                               : count_whole(e, counting, &covered);
-  e->area_fraction = covered / (double)e->active_cells;
+  const fg__multigrid *m = &e->stepper.multigrid;
+  const fg__cluster_grid grid = {.partition = &e->mesh.partition,
+                                 .layout = &fg__multigrid_finest(m)->layout,
+                                 .active = e->mask.active,
+                                 .cell_row = e->mask.row,
+                                 .cell_plane = e->mask.plane,
+                                 .team = m->shared_levels > 0 ? m->team : NULL};
+  const fg__cluster_wish wish = {counting, e->debris_area, e->debris_area};
+  fg_status status = fg__clusters_find(&e->clusters_found, e->context, &grid,
+                                       e->stepper.current, &wish);
+  e->area_fraction = e->clusters_found.covered / (double)e->active_cells;
+  e->clusters = e->clusters_found.found.count;
   return status;
 }
 
