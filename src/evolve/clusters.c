@@ -99,8 +99,7 @@ static void pair(void *argument, const fg__share *share)
   if (slab >= c->slabs)
     return;
   fg__component_box box = box_of(c, slab);
-  c->status[slab] =
-      fg__components_pairs(&c->slab[slab], NULL, &box, numbers_of(c, slab));
+  c->status[slab] = fg__components_pairs(&c->slab[slab], NULL, &box, numbers_of(c, slab));
 }
 
 /* One failure of all slabs, of all ranks. Collective. */
@@ -112,9 +111,9 @@ static fg_status settle(const fg__clusters *c, fg_context *context)
     if (c->status[n] == FG_STATUS_MEMORY)
       status = lack(context, c);
     else if (c->status[n])
-      status = fg__fail(context, c->status[n],
-                        "clusters: %d x %d x %d nodes are too many", nodes[0], nodes[1],
-                        nodes[2]);
+      status =
+          fg__fail(context, c->status[n], "clusters: %d x %d x %d nodes are too many",
+                   nodes[0], nodes[1], nodes[2]);
   return fg__ranks_agree(c->halo.partition->ranks, context, status);
 }
 

@@ -112,6 +112,21 @@ static void describe(fg_evolution *e)
   e->debris_area = debris / fg__evolution_cell_volume(e);
 }
 
+static fg_status take_mask(fg_evolution *e, const fg__multigrid *multigrid)
+{
+  const fg__cells_of_box *cells = &fg__multigrid_finest(multigrid)->tensor;
+  if (e->active_cells == (long)e->cells)
+    return FG_STATUS_OK;
+  ptrdiff_t origin;
+  e->mask.memory = fg__cells_mask(cells, &origin);
+  if (!e->mask.memory)
+    return fg__fail_memory(e->context, "the mask", e->cells);
+  e->mask.active = e->mask.memory + origin;
+  e->mask.row = cells->row;
+  e->mask.plane = cells->plane;
+  return FG_STATUS_OK;
+}
+
 static fg_status create_stepper(fg_evolution *e, const fg_field *field)
 {
   fg__multigrid multigrid = {0};
@@ -131,7 +146,9 @@ static fg_status create_stepper(fg_evolution *e, const fg_field *field)
   if (status)
     return status;
   e->info.kernel = multigrid.kernel->name;
-  status = fg__evolution_fill(e, &multigrid);
+  status = fg__ranks_agree(e->ranks, e->context, take_mask(e, &multigrid));
+  if (!status)
+    status = fg__evolution_fill(e, &multigrid);
   if (!status)
     status = fg__stepper_create(&e->stepper, e->context, &multigrid, &description);
   if (status)
@@ -233,12 +250,12 @@ void fg__evolution_clear(fg_evolution *evolution)
   fg__stepper_clear(&e->stepper);
   fg__team_destroy(e->team);
   e->team = NULL;
-  fg__team_clusters_clear(&e->clusters_found);
-  fg__spread_clusters_clear(&e->spread_clusters);
+  fg__clusters_clear(&e->clusters_found);
   fg__mesh_clear(&e->mesh);
   fg__evolution_tensor_free(e);
-  free(e->tensor.active);
-  e->tensor.active = NULL;
+  free(e->mask.memory);
+  e->mask.memory = NULL;
+  e->mask.active = NULL;
   e->active_cells = 0;
 }
 

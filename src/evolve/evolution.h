@@ -4,10 +4,9 @@
 
 #include <time.h>
 
+#include "evolve/clusters.h"
 #include "evolve/halved.h"
-#include "evolve/spread_clusters.h"
 #include "evolve/stepper.h"
-#include "evolve/team_clusters.h"
 
 struct fg_evolution {
   fg_context *context;
@@ -18,11 +17,15 @@ struct fg_evolution {
   fg__team *team; /* NULL: one thread */
   fg__tensor tensor;
   fg__stepper stepper;
-  fg__team_clusters clusters_found; /* unless spread */
-  size_t nodes, cells;              /* of the whole mesh */
+  struct {
+    unsigned char *memory;
+    const unsigned char *active; /* the block's first cell; NULL: all are active */
+    ptrdiff_t row, plane;
+  } mask; /* of the block's cells, and of one more on each side */
+  fg__clusters clusters_found;
+  size_t nodes, cells; /* of the whole mesh */
   long active_cells;
-  bool spread; /* over several ranks */
-  fg__spread_clusters spread_clusters;
+  bool spread;        /* over several ranks */
   double debris_area; /* in cells */
   double area_fraction;
   int clusters;

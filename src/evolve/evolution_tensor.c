@@ -30,6 +30,8 @@ void fg__evolution_tensor_free(fg_evolution *e)
     free(*arrays[n]);
     *arrays[n] = NULL;
   }
+  free(e->tensor.active);
+  e->tensor.active = NULL;
 }
 
 static fg__tensor_recipe recipe_of(const fg_evolution *e, const fg_field *field)

@@ -14,6 +14,7 @@ enum { FG__MOST_LEVELS = 16 };
 typedef struct fg__multigrid {
   const fg__kernel *kernel;
   const fg__ranks *ranks;
+  fg__partition partition; /* of the finest level's nodes */
   int spread_count;
   fg__spread spread[FG__MOST_LEVELS];
   fg__gather

@@ -65,12 +65,13 @@ fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, const fg__tensor *tensor,
                                double gamma, fg__team *team)
 {
-  static const fg__ranks one = {.count = 1};
   *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension),
-                         .ranks = &one,
+                         .ranks = mesh->ranks,
                          .team = team,
                          .level_count = 1};
-  fg_status status = create_finest(out, context, mesh, tensor, gamma, team);
+  fg_status status = fg__partition_copy(&out->partition, context, &mesh->partition);
+  if (!status)
+    status = create_finest(out, context, mesh, tensor, gamma, team);
   if (!status)
     status = create_coarser(out, context, gamma);
   if (status) {
@@ -199,7 +200,10 @@ fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
 {
   *out =
       (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension), .ranks = mesh->ranks};
-  fg_status status = spread_levels(out, context, mesh, recipe, gamma);
+  fg_status status = fg__partition_copy(&out->partition, context, &mesh->partition);
+  status = fg__ranks_agree(mesh->ranks, context, status);
+  if (!status)
+    status = spread_levels(out, context, mesh, recipe, gamma);
   if (!status)
     status = create_first_whole(out, context, mesh, gamma);
   if (!status)
@@ -220,5 +224,6 @@ void fg__multigrid_clear(fg__multigrid *multigrid)
   for (int n = 0; n < FG__MOST_LEVELS; ++n)
     fg__spread_clear(&multigrid->spread[n]);
   fg__gather_destroy(multigrid->gather);
+  fg__partition_clear(&multigrid->partition);
   *multigrid = (fg__multigrid){0};
 }

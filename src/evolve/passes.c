@@ -44,9 +44,9 @@ static void run_on_finest(pass *p, level_work *work)
   run(p, work_on_finest);
 }
 
-static double node_count(const fg__spread *spread)
+static double node_count(const fg__multigrid *multigrid)
 {
-  const int *nodes = spread->partition.nodes;
+  const int *nodes = multigrid->partition.nodes;
   return (double)nodes[0] * nodes[1] * nodes[2];
 }
 
@@ -112,7 +112,7 @@ fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float
   }
   if (is_spread(multigrid)) {
     const fg__spread *spread = &multigrid->spread[0];
-    double rounding = fg__level_rounding(node_count(spread));
+    double rounding = fg__level_rounding(node_count(multigrid));
     fg__spread_exchange_ends(spread, 1, &w);
     /* halves of exact sums */
     add_over_ranks(multigrid, (double *const[]){&total.energy, &total.u},
@@ -173,7 +173,7 @@ fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
     total.along += p.changes[n].along;
   }
   if (is_spread(multigrid)) {
-    double nodes = node_count(&multigrid->spread[0]);
+    double nodes = node_count(multigrid);
     double rounding = fg__level_rounding(nodes), fine = fg__level_change_rounding(nodes);
     add_over_ranks(
         multigrid,

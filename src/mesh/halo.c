@@ -64,7 +64,8 @@ void fg__halo_fill(const fg__halo *halo, void *array)
   const fg__partition *partition = halo->partition;
   int last = partition->dimension - 1;
   size_t slice = (size_t)halo->slice;
-  float *low = (float *)array + slice, *high = low + (halo->nodes[last] - 1) * halo->slice;
+  float *low = (float *)array + slice,
+        *high = low + (halo->nodes[last] - 1) * halo->slice;
   if (halo->ghost_rows)
     fill_ghost_rows(halo, array);
   if (partition->blocks[last] > 1) {
