@@ -42,10 +42,14 @@ static size_t node_of(int i, int j, int k)
 
 static void create(subject *s, mask *inside)
 {
-  const fg__mesh mesh = {.dimension = 3,
-                         .cells = {W, H, D},
-                         .periodic = {true, false, false},
-                         .spacing = {0.0625, 0.07, 0.08}};
+  fg__mesh mesh = {.dimension = 3,
+                   .cells = {W, H, D},
+                   .periodic = {true, false, false},
+                   .spacing = {0.0625, 0.07, 0.08},
+                   .ranks = &fg__single_rank};
+  assert_int_equal(fg__partition_create(&mesh.partition, NULL, mesh.ranks, 3, mesh.cells,
+                                        mesh.periodic, (const int[3]){1, 1, 1}, 1),
+                   FG_STATUS_OK);
   float *values = calloc(6 * CELLS, sizeof *values);
   unsigned char *active = calloc(CELLS, 1);
   assert_non_null(values);
@@ -67,6 +71,7 @@ static void create(subject *s, mask *inside)
   }
   assert_int_equal(fg__multigrid_create(&s->multigrid, NULL, &mesh, &tensor, 1.0, NULL),
                    FG_STATUS_OK);
+  fg__mesh_clear(&mesh);
   free(values);
   free(active);
   float plain[NODES];

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "evolve/clusters.h"
 #include "evolve/noise.h"
-#include "evolve/spread_clusters.h"
 #include "evolve/stepper.h"
 
 enum {
@@ -218,25 +218,22 @@ static void gather(const run *r, outcome *out)
 static void count(const run *r, outcome *out)
 {
   const fg__multigrid *m = &r->stepper.multigrid;
-  if (m->spread_count > 0) {
-    fg__spread_clusters c = {0};
-    expect(fg__spread_clusters_find(&c, us.context, &m->spread[0], r->stepper.current,
-                                    m->spread[0].residual[0], 3.0, true) == FG_STATUS_OK);
-    out->clusters = c.whole.count;
-    out->covered = c.covered;
-    fg__spread_clusters_clear(&c);
-    return;
-  }
-  fg__components c = {0};
-  fg__component_grid grid = {.u = out->u, .active = r->active, .debris_area = 3.0};
-  for (int k = 0; k < 3; ++k) {
-    grid.nodes[k] = r->mesh.partition.nodes[k];
-    grid.periodic[k] = r->mesh.periodic[k];
-  }
-  expect(fg__components_count(&c, us.context, &grid) == FG_STATUS_OK);
-  out->clusters = c.count;
+  ptrdiff_t origin;
+  const fg__level *block = fg__multigrid_finest(m);
+  unsigned char *active = block->mass ? fg__cells_mask(&block->tensor, &origin) : NULL;
+  const fg__cluster_grid grid = {.partition = &m->partition,
+                                 .layout = &block->layout,
+                                 .active = active ? active + origin : NULL,
+                                 .cell_row = block->tensor.row,
+                                 .cell_plane = block->tensor.plane};
+  const fg__cluster_wish wish = {.counting = true, .debris_area = 3.0};
+  fg__clusters c = {0};
+  expect(fg__clusters_find(&c, us.context, &grid, r->stepper.current, &wish) ==
+         FG_STATUS_OK);
+  out->clusters = c.found.count;
   out->covered = c.covered;
-  fg__components_clear(&c);
+  fg__clusters_clear(&c);
+  free(active);
 }
 
 /* A step of the pockets alone, long enough to be worth it. */
