@@ -6,9 +6,9 @@
 #include <time.h>
 
 #include "base/memory.h"
-#include "mesh/blocks.h"
-#include "mesh/exchange_plan.h"
-#include "mesh/mesh.h"
+#include "grid/blocks.h"
+#include "grid/exchange/plan.h"
+#include "grid/mesh.h"
 
 static double now(void)
 {

@@ -3,12 +3,12 @@
 #ifndef FG__SHARED_DENSITY_TEST_H
 #define FG__SHARED_DENSITY_TEST_H
 
-#include "mesh/together_test.h"
+#include "grid/together_test.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "evolve/density.h"
+#include "density/density.h"
 
 typedef struct shape {
   const char *name;

@@ -3,7 +3,7 @@
 #define FG__PATCHES_H
 
 #include "cluster/raster.h"
-#include "evolve/density.h"
+#include "density/density.h"
 
 /* A patch and who wants it. */
 typedef struct fg__wanted_patch {

@@ -1,6 +1,6 @@
 /* Icons that ranks make of their blocks are those of the plain arrays, to the bit. */
 #include "cluster/divided_density_test.h"
-#include "mesh/parted_test.h"
+#include "grid/parted_test.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* A density, its clusters and its mask as VTK XML image data. Each rank packs some blocks
  * of every array, and rank 0 writes them as they come: the same bytes on any ranks. */
-#include "evolve/density.h"
+#include "density/density.h"
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "write/vti.h"

@@ -1,0 +1,300 @@
+/* Moves of single icons that lower the energy. */
+#include "place/search/search.h"
+
+#include "place/angle.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Steps of moves in lambda: where they begin, the largest, and below which an icon rests.
+ */
+static const double LARGEST_STEP = 0.35;
+static const double SMALLEST_STEP = 0.02;
+static const double GROWTH = 1.3;
+
+/* What is left of the step of an icon that found no lower place: the minimum of the
+ * parabolas through its trials was tried, too. */
+static const double SHRINKAGE = 0.35;
+
+/* Ways from the seed in a free placement, in lambda. */
+static const double SHORTEST_WAY = 0.1;
+
+/* A move is taken when it lowers a region's energy by this share of it: more than the
+ * sums' rounding. */
+static const double LEAST_FALL = 1e-6;
+
+/* A minimum of parabolas is tried where it promises this share. */
+static const double LEAST_HOPE = 1e-4;
+
+/* Icons whose seeds are so many lambda from a change are its neighbours. */
+static const double NEIGHBOURS = 1.3;
+
+/* The axes of moves: across (in 3D two directions), along, and the two ways. */
+enum { ALONG = 2, WAYS = 3, AXES = 5, MOST_TRIALS = 2 * AXES };
+
+typedef struct trial {
+  fg__place_seed seed;
+  int axis, sign;
+} trial;
+
+/* Two unit vectors across a direction; the second only in 3D. */
+static int across(double out[2][3], int dimension, const double direction[3])
+{
+  if (dimension == 2) {
+    out[0][0] = -direction[1];
+    out[0][1] = direction[0];
+    out[0][2] = 0.0;
+    return 1;
+  }
+  int least = 0;
+  for (int k = 1; k < 3; ++k)
+    if (fabs(direction[k]) < fabs(direction[least]))
+      least = k;
+  double axis[3] = {0};
+  axis[least] = 1.0;
+  fg__place_cross(out[0], direction, axis);
+  double size = fg__place_norm(out[0]);
+  for (int k = 0; k < 3; ++k)
+    out[0][k] /= size;
+  fg__place_cross(out[1], direction, out[0]);
+  return 2;
+}
+
+/* The place on a line an arc length from its seed, at its ends at most. */
+static void along(double out[3], const fg__place_search *search,
+                  const fg__place_line *line, double way)
+{
+  int n = line->seed;
+  double left = fabs(way) / search->scale.sampling;
+  while (left > 0.5 && n > 0 && n + 1 < line->count) {
+    n += way < 0.0 ? -1 : 1;
+    left -= 1.0;
+  }
+  for (int k = 0; k < 3; ++k)
+    out[k] = search->domain->low[k] + (double)line->position[k][n] * search->scale.lambda;
+}
+
+/* A seed moved along its axes. */
+static fg__place_seed moved(const fg__place_search *search, const fg__place_icon *icon,
+                            const double step[AXES])
+{
+  fg__place_seed seed = icon->seed;
+  double direction[3], side[2][3];
+  for (int k = 0; k < 3; ++k)
+    direction[k] = (double)icon->line.tangent[k][icon->line.seed];
+  int sides = across(side, search->scale.dimension, direction);
+  if (step[ALONG] != 0.0)
+    along(seed.position, search, &icon->line, step[ALONG]);
+  for (int n = 0; n < sides; ++n)
+    for (int k = 0; k < search->scale.dimension; ++k)
+      seed.position[k] += step[n] * side[n][k];
+  for (int n = 0; n < 2 && search->scale.free; ++n)
+    seed.way[n] = fmax(seed.way[n] + step[WAYS + n], SHORTEST_WAY * search->scale.lambda);
+  return seed;
+}
+
+/* The moves of one step that an icon may make. */
+static int list_trials(trial out[MOST_TRIALS], const fg__place_search *search,
+                       const fg__place_icon *icon)
+{
+  const fg__place_scale *scale = &search->scale;
+  int count = 0;
+  for (int axis = 0; axis < (scale->free ? AXES : WAYS); ++axis)
+    for (int sign = 0; sign < 2; ++sign) {
+      if (axis == 1 && scale->dimension == 2)
+        continue;
+      double step[AXES] = {0};
+      step[axis] = sign ? -icon->step : icon->step;
+      trial next = {moved(search, icon, step), axis, sign};
+      const double *way = next.seed.way;
+      if (axis >= WAYS && (way[axis - WAYS] == icon->seed.way[axis - WAYS] ||
+                           way[0] + way[1] > scale->longest))
+        continue;
+      out[count++] = next;
+    }
+  return count;
+}
+
+static void swap_tales(fg__place_tale *a, fg__place_tale *b)
+{
+  fg__place_tale kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
+/* The energy of a region, told by the others and a line. */
+static double price(const fg__place_search *search, const fg__place_box *box,
+                    const fg__place_tale *tale, const fg__place_line *line)
+{
+  return fg__place_cost(NULL, &search->raster, box, &search->others, tale,
+                        &search->price) +
+         fg__place_own_price(search, line);
+}
+
+/* A seed in a free placement has the ways that its line really goes. */
+static void settle(fg__place_icon *icon, const fg__place_scale *scale)
+{
+  for (int k = 0; k < 2 && scale->free; ++k)
+    icon->seed.way[k] =
+        fmax(fmin(icon->seed.way[k], icon->line.way[k]), SHORTEST_WAY * scale->lambda);
+}
+
+/* Makes a region hold a box; what the others tell it is then gathered again. */
+static fg_status extend_region(fg__place_search *search, fg__place_box *region,
+                               const fg__place_box *by, int index, double *now)
+{
+  const fg__place_icon *icon = search->icon[index];
+  fg__place_box_widen(region, by);
+  fg_status status = fg__place_gather(&search->others, search, region, index);
+  if (status == FG_STATUS_OK)
+    *now = price(search, region, &icon->tale, &icon->line);
+  return status;
+}
+
+static bool holds(const fg__place_box *box, const fg__place_box *other)
+{
+  for (int k = 0; k < 3; ++k)
+    if (other->low[k] < box->low[k] ||
+        other->low[k] + other->size[k] > box->low[k] + box->size[k])
+      return false;
+  return true;
+}
+
+/* The box with room for a move of the icon's step. */
+static fg__place_box room_of(const fg__place_search *search, const fg__place_icon *icon)
+{
+  const fg__place_raster *raster = &search->raster;
+  fg__place_box box = icon->tale.box;
+  int cells = (int)(icon->step / search->scale.cell) + 1;
+  for (int k = 0; k < raster->dimension; ++k) {
+    int low = box.low[k] - cells, end = box.low[k] + box.size[k] + cells;
+    box.low[k] = low > 0 ? low : 0;
+    box.size[k] = (end < raster->cells[k] ? end : raster->cells[k]) - box.low[k];
+  }
+  return box;
+}
+
+/* Tries a seed. *rise is what it adds to the energy; it is taken where that falls. */
+static fg_status attempt(double *rise, bool *taken, fg__place_search *search, int index,
+                         const fg__place_seed *seed, fg__place_box *region, double *now)
+{
+  fg__place_icon *icon = search->icon[index];
+  fg__place_line line;
+  *taken = false;
+  *rise = INFINITY;
+  fg__place_trace(&line, search->domain, &search->scale, seed);
+  if (line.count == 0)
+    return FG_STATUS_OK;
+  fg_status status = fg__place_tell(&search->trial, search->context, &search->raster,
+                                    &search->scale, &line);
+  if (status == FG_STATUS_OK && !holds(region, &search->trial.box))
+    status = extend_region(search, region, &search->trial.box, index, now);
+  if (status != FG_STATUS_OK)
+    return status;
+  *rise = price(search, region, &search->trial, &line) - *now;
+  double diffusion;
+  status = fg__place_diffusion_price(&diffusion, search, &icon->line, &line);
+  if (status != FG_STATUS_OK)
+    return status;
+  *rise += diffusion;
+  if (*rise < -LEAST_FALL * fabs(*now)) {
+    fg__place_diffusion_keep(&search->diffusion, &icon->line, &line);
+    icon->seed = *seed;
+    icon->line = line;
+    swap_tales(&icon->tale, &search->trial);
+    settle(icon, &search->scale);
+    *taken = true;
+  }
+  return FG_STATUS_OK;
+}
+
+/* The step to the minimum of the parabolas through the energies beside an icon, of all
+ * axes whose two trials are known; how much lower that lies. */
+static double lowest(double step[AXES], const fg__place_icon *icon, double rise[AXES][2])
+{
+  double fall = 0.0;
+  for (int axis = 0; axis < AXES; ++axis) {
+    double both = rise[axis][0] + rise[axis][1], more = rise[axis][0] - rise[axis][1];
+    step[axis] = 0.0;
+    if (!(both > 0.0 && isfinite(both)))
+      continue;
+    step[axis] = -0.5 * icon->step * more / both;
+    fall += 0.125 * more * more / both;
+  }
+  return fall;
+}
+
+/* Tries the icon's moves in turn, beginning with the one that was taken last, and takes
+ * the first that lowers the energy. Where none does, the one to the minimum of the
+ * parabolas through them. */
+static fg_status visit(fg__place_search *search, int index)
+{
+  fg__place_icon *icon = search->icon[index];
+  trial trials[MOST_TRIALS];
+  int count = list_trials(trials, search, icon);
+  double now, rise[AXES][2];
+  for (int axis = 0; axis < AXES; ++axis)
+    rise[axis][0] = rise[axis][1] = INFINITY;
+  bool taken = false;
+  fg__place_box region = room_of(search, icon);
+  fg_status status = extend_region(search, &region, &icon->tale.box, index, &now);
+  for (int k = 0; k < count && status == FG_STATUS_OK; ++k) {
+    int n = (k + icon->move) % count;
+    const trial *next = &trials[n];
+    status = attempt(&rise[next->axis][next->sign], &taken, search, index, &next->seed,
+                     &region, &now);
+    if (taken) {
+      icon->move = n;
+      icon->step = fmin(GROWTH * icon->step, LARGEST_STEP * search->scale.lambda);
+      return status;
+    }
+  }
+  double step[AXES], unused;
+  if (status == FG_STATUS_OK && lowest(step, icon, rise) > LEAST_HOPE * fabs(now)) {
+    fg__place_seed seed = moved(search, icon, step);
+    if (seed.way[0] + seed.way[1] <= search->scale.longest || !search->scale.free)
+      status = attempt(&unused, &taken, search, index, &seed, &region, &now);
+  }
+  icon->step *= SHRINKAGE;
+  return status;
+}
+
+fg_status fg__place_relax(fg__place_search *search, int sweeps)
+{
+  bool moving = true;
+  fg_status status = FG_STATUS_OK;
+  for (int sweep = 0; sweep < sweeps && moving && status == FG_STATUS_OK; ++sweep) {
+    moving = false;
+    status = fg__check_stop(search->context);
+    if (status == FG_STATUS_OK)
+      status = fg__place_diffusion_solve(&search->diffusion, search->context, true);
+    for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
+      if (search->icon[n]->step > SMALLEST_STEP * search->scale.lambda) {
+        status = visit(search, n);
+        moving = true;
+      }
+  }
+  return status;
+}
+
+void fg__place_wake(fg__place_search *search, const double place[3], double step)
+{
+  double near = NEIGHBOURS * search->scale.lambda;
+  for (int n = 0; n < search->count; ++n) {
+    fg__place_icon *icon = search->icon[n];
+    double way[3];
+    for (int k = 0; k < 3; ++k)
+      way[k] = icon->seed.position[k] - place[k];
+    if (fg__place_dot(way, way) < near * near)
+      icon->step = fmax(icon->step, step * search->scale.lambda);
+  }
+}
+
+void fg__place_wake_all(fg__place_search *search, double step)
+{
+  for (int n = 0; n < search->count; ++n) {
+    search->icon[n]->step = step * search->scale.lambda;
+    search->icon[n]->move = 0;
+  }
+}
