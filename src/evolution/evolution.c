@@ -127,7 +127,7 @@ static fg_status take_mask(fg_evolution *e, const fg__multigrid *multigrid)
   return FG_STATUS_OK;
 }
 
-static fg_status create_stepper(fg_evolution *e, const fg_field *field)
+static fg_status create_stepper(fg_evolution *e)
 {
   fg__multigrid multigrid = {0};
   fg__stepper_description description = {
@@ -142,7 +142,7 @@ static fg_status create_stepper(fg_evolution *e, const fg_field *field)
   fg_status status = fg__ranks_agree(e->ranks, e->context, check_initial(e));
   if (!status)
     status = fg__evolution_multigrid_create(
-        &multigrid, e, field, (1.0 - fg__evolution_alpha(e)) * e->info.gamma);
+        &multigrid, e, (1.0 - fg__evolution_alpha(e)) * e->info.gamma);
   if (status)
     return status;
   e->info.kernel = multigrid.kernel->name;
@@ -188,18 +188,17 @@ fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field)
     status = create_mesh(e, field);
   if (!status) {
     count_cells(e);
-    e->spread = e->ranks->count > 1;
-    if (!e->spread && (double)e->nodes >= fg__least_team_nodes)
+    if (e->ranks->count == 1 && (double)e->nodes >= fg__least_team_nodes)
       status = fg__team_create(&e->team, e->context, e->options.threads);
   }
   if (!status)
-    status = fg__evolution_tensor_create(e, field);
+    status = fg__evolution_cells_create(e, field);
   if (!status) {
     describe(e);
     status = check_interface(e);
   }
   if (!status)
-    status = create_stepper(e, field);
+    status = create_stepper(e);
   return status;
 }
 
@@ -252,7 +251,7 @@ void fg__evolution_clear(fg_evolution *evolution)
   e->team = NULL;
   fg__clusters_clear(&e->clusters_found);
   fg__mesh_clear(&e->mesh);
-  fg__evolution_tensor_free(e);
+  fg__cells_clear(&e->finest_cells);
   free(e->mask.memory);
   e->mask.memory = NULL;
   e->mask.active = NULL;

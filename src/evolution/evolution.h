@@ -14,8 +14,8 @@ struct fg_evolution {
   fg_mesh_info info;
   const fg__ranks *ranks; /* that share it */
   fg__mesh mesh;
-  fg__team *team; /* NULL: one thread */
-  fg__tensor tensor;
+  fg__team *team;                /* NULL: one thread */
+  fg__cells_of_box finest_cells; /* round the block, until stencils are made */
   fg__stepper stepper;
   struct {
     unsigned char *memory;
@@ -25,7 +25,7 @@ struct fg_evolution {
   fg__clusters clusters_found;
   size_t nodes, cells; /* of the whole mesh */
   long active_cells;
-  bool spread;        /* over several ranks */
+
   double debris_area; /* in cells */
   double area_fraction;
   int clusters;

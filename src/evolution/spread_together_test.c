@@ -7,6 +7,8 @@
 #include "component/clusters.h"
 #include "evolution/stepper.h"
 #include "field/noise.h"
+#include "solver/cells/field_boxes.h"
+#include "solver/multigrid_test.h"
 
 enum {
   STEPS = 8,
@@ -137,8 +139,7 @@ static void describe(run *r, const subject *s, const fg__ranks *ranks)
                                   .anisotropy = 0.15,
                                   .width = 2.0 * h,
                                   .dimension = s->dimension,
-                                  .cells = {1, 1, 1},
-                                  .masked = s->missing};
+                                  .cells = {1, 1, 1}};
   for (int k = 0; k < s->dimension; ++k) {
     r->recipe.cells[k] = r->mesh.cells[k];
     r->recipe.periodic[k] = r->mesh.periodic[k];
@@ -184,11 +185,23 @@ static void create_whole(run *r, fg__multigrid *multigrid)
          FG_STATUS_OK);
   expect(fg__tensor_smooth(&t, us.context, 0.15, &all, r->mesh.periodic, r->recipe.width,
                            NULL) == FG_STATUS_OK);
-  expect(fg__multigrid_create(multigrid, us.context, &r->mesh, &t, r->gamma, NULL) ==
+  expect(multigrid_of_tensor(multigrid, us.context, &r->mesh, &t, r->gamma, NULL) ==
          FG_STATUS_OK);
   for (int n = 0; n < 6; ++n)
     free(*components[n]);
   r->active = t.active;
+}
+
+/* A block a rank, each from the recipe. */
+static void create_blocks(const run *r, fg__multigrid *multigrid, bool masked)
+{
+  fg__wide_tensor wide = {0};
+  fg__cells_of_box cells;
+  expect(fg__cells_for_box(&cells, us.context, &r->recipe,
+                           fg__own_block(&r->mesh.partition), &wide,
+                           NULL) == FG_STATUS_OK);
+  expect(fg__multigrid_create(multigrid, us.context, &r->mesh, &cells, masked, r->gamma,
+                              NULL) == FG_STATUS_OK);
 }
 
 static void gather(const run *r, outcome *out)
@@ -262,8 +275,7 @@ static outcome outcome_of(const subject *s, const fg__ranks *ranks)
   if (r.mesh.ranks->count == 1)
     create_whole(&r, &multigrid);
   else
-    expect(fg__multigrid_create_spread(&multigrid, us.context, &r.mesh, &r.recipe,
-                                       r.gamma) == FG_STATUS_OK);
+    create_blocks(&r, &multigrid, s->missing);
   fill(&r, &multigrid);
   double h = r.mesh.spacing[0];
   fg__stepper_description description = {.cell_volume = volume_of(&r.mesh),

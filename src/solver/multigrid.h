@@ -33,17 +33,12 @@ typedef struct fg__multigrid {
  * would wait for each other longer than they work (docs/design/evolution.md). */
 extern const double fg__least_team_nodes;
 
-/* Builds all levels over a mesh of one block, with a team that will also work on them
- * (borrowed; NULL: one thread). MEMORY. */
+/* Builds all levels over a mesh from the cells round this rank's block, which it takes
+ * over. masked: some cell of the mesh is inactive, if not here. team: will also work on
+ * the levels of a process alone (borrowed; NULL: one thread). Collective. MEMORY. */
 fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
-                               const fg__mesh *mesh, const fg__tensor *tensor,
+                               const fg__mesh *mesh, fg__cells_of_box *cells, bool masked,
                                double gamma, fg__team *team);
-
-/* Builds all levels over a mesh that several ranks share. Collective. MEMORY, and what
- * the recipe meets. */
-fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
-                                      const fg__mesh *mesh,
-                                      const fg__tensor_recipe *recipe, double gamma);
 void fg__multigrid_clear(fg__multigrid *multigrid);
 
 /* The finest level, or this rank's block of it. */

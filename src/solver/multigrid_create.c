@@ -13,23 +13,23 @@ const double fg__least_team_nodes = 200000.0;
 /* A level is shared while each member gets so many nodes, or it is as large as that. */
 static const double least_nodes_of_member = 5000.0;
 
+/* The finest level of a process alone. */
 static fg_status create_finest(fg__multigrid *out, fg_context *context,
-                               const fg__mesh *mesh, const fg__tensor *tensor,
-                               double gamma, fg__team *team)
+                               const fg__mesh *mesh, fg__cells_of_box *cells, bool masked,
+                               double gamma)
 {
-  fg__cells_of_box cells;
-  fg_status status = fg__cells_from_tensor(&cells, context, tensor, mesh->dimension,
-                                           mesh->cells, mesh->periodic, team);
-  if (status)
-    return status;
-  fg__level_description description = {
-      .dimension = mesh->dimension, .gamma = gamma, .finest = true, .team = team};
+  fg__level_description description = {.dimension = mesh->dimension,
+                                       .gamma = gamma,
+                                       .finest = true,
+                                       .masked = masked,
+                                       .team = out->team};
   for (int k = 0; k < 3; ++k) {
     description.cells[k] = mesh->cells[k];
     description.periodic[k] = mesh->periodic[k];
     description.spacing[k] = mesh->spacing[k];
   }
-  return fg__level_create(&out->level[0], context, &description, &cells, NULL);
+  out->level_count = 1;
+  return fg__level_create(&out->level[0], context, &description, cells, NULL);
 }
 
 static void choose_coarsest_sweeps(fg__multigrid *multigrid)
@@ -61,34 +61,8 @@ static fg_status create_coarser(fg__multigrid *out, fg_context *context, double 
   return FG_STATUS_OK;
 }
 
-fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
-                               const fg__mesh *mesh, const fg__tensor *tensor,
-                               double gamma, fg__team *team)
-{
-  *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension),
-                         .ranks = mesh->ranks,
-                         .team = team,
-                         .level_count = 1};
-  fg_status status = fg__partition_copy(&out->partition, context, &mesh->partition);
-  if (!status)
-    status = create_finest(out, context, mesh, tensor, gamma, team);
-  if (!status)
-    status = create_coarser(out, context, gamma);
-  if (status) {
-    fg__multigrid_clear(out);
-    return status;
-  }
-  double least =
-      fmin(least_nodes_of_member * fg__team_members(team), fg__least_team_nodes);
-  while (out->team && out->shared_levels < out->level_count &&
-         out->level[out->shared_levels].nodes >= least)
-    ++out->shared_levels;
-  choose_coarsest_sweeps(out);
-  return FG_STATUS_OK;
-}
-
 static fg_status spread_levels(fg__multigrid *out, fg_context *context,
-                               const fg__mesh *mesh, const fg__tensor_recipe *recipe,
+                               const fg__mesh *mesh, fg__cells_of_box *cells, bool masked,
                                double gamma)
 {
   fg__partition partition;
@@ -99,8 +73,8 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
                     halvings + 1 < FG__MOST_LEVELS;
     fg__spread *spread = &out->spread[halvings];
     fg__spread_description description = {
-        halvings, gamma, halvings > 0 ? &out->spread[halvings - 1] : NULL};
-    status = fg__spread_create(spread, context, mesh, recipe, &partition, &description);
+        halvings, gamma, masked, halvings > 0 ? &out->spread[halvings - 1] : NULL};
+    status = fg__spread_create(spread, context, mesh, cells, &partition, &description);
     if (status || !workable)
       break;
     ++out->spread_count;
@@ -194,25 +168,40 @@ static fg_status create_first_whole(fg__multigrid *out, fg_context *context,
              : fg__level_create(&out->level[0], context, &description, &cells, NULL);
 }
 
-fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
-                                      const fg__mesh *mesh,
-                                      const fg__tensor_recipe *recipe, double gamma)
+static void choose_shared_levels(fg__multigrid *multigrid)
 {
-  *out =
-      (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension), .ranks = mesh->ranks};
+  double least = fmin(least_nodes_of_member * fg__team_members(multigrid->team),
+                      fg__least_team_nodes);
+  while (multigrid->team && multigrid->shared_levels < multigrid->level_count &&
+         multigrid->level[multigrid->shared_levels].nodes >= least)
+    ++multigrid->shared_levels;
+}
+
+fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
+                               const fg__mesh *mesh, fg__cells_of_box *cells, bool masked,
+                               double gamma, fg__team *team)
+{
+  const fg__ranks *ranks = mesh->ranks;
+  *out = (fg__multigrid){
+      .kernel = fg__kernel_choose(mesh->dimension), .ranks = ranks, .team = team};
   fg_status status = fg__partition_copy(&out->partition, context, &mesh->partition);
-  status = fg__ranks_agree(mesh->ranks, context, status);
-  if (!status)
-    status = spread_levels(out, context, mesh, recipe, gamma);
-  if (!status)
-    status = create_first_whole(out, context, mesh, gamma);
+  status = fg__ranks_agree(ranks, context, status);
+  if (!status && ranks->count > 1) {
+    status = spread_levels(out, context, mesh, cells, masked, gamma);
+    if (!status)
+      status = create_first_whole(out, context, mesh, gamma);
+  } else if (!status) {
+    status = create_finest(out, context, mesh, cells, masked, gamma);
+  }
   if (!status)
     status = create_coarser(out, context, gamma);
-  status = fg__ranks_agree(mesh->ranks, context, status);
+  status = fg__ranks_agree(ranks, context, status);
+  fg__cells_clear(cells); /* unless a level has taken them over */
   if (status) {
     fg__multigrid_clear(out);
     return status;
   }
+  choose_shared_levels(out);
   choose_coarsest_sweeps(out);
   return FG_STATUS_OK;
 }

@@ -25,14 +25,15 @@ typedef struct fg__spread {
 typedef struct fg__spread_description {
   int halvings; /* from the mesh's cells to this level's */
   double gamma;
+  bool masked;             /* somewhere on the mesh, if not here */
   const fg__spread *finer; /* the next finer level; NULL: this one is the finest */
 } fg__spread_description;
 
-/* Makes a level of the mesh's grid, takes over its partition, and computes stencils from
- * the tensor: the finest that `recipe` gives for each block, a coarser one from the means
- * of the finer level's. Collective. MEMORY, and what the recipe meets. */
+/* Makes a level of the mesh's grid, takes over its partition, and computes stencils: of
+ * the finest level from the block's cells, which it takes over, of a coarser one from the
+ * means of the finer level's. Collective. MEMORY. */
 fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh *mesh,
-                            const fg__tensor_recipe *recipe, fg__partition *partition,
+                            fg__cells_of_box *finest, fg__partition *partition,
                             const fg__spread_description *description);
 void fg__spread_clear(fg__spread *spread);
 

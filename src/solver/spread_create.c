@@ -1,7 +1,6 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "solver/cells/field_boxes.h"
 #include "solver/interpolation.h"
 #include "solver/spread.h"
 
@@ -105,8 +104,8 @@ static fg_status halve_block(const fg__spread *spread, fg_context *context,
   const fg__box *own = fg__own_block(partition);
   const fg__level *fine = &description->finer->block;
   if (!cells->by_elements)
-    return fg__cells_halve_box(&cells->tensor, context, &fine->tensor, own,
-                               partition->cells);
+    return fg__cells_coarsen(&cells->tensor, context, &fine->tensor, own,
+                             partition->cells, NULL);
   const fg__box below = fg__block_cells(partition, own);
   return fg__level_coarsen_cells(&cells->elements, context, fine, description->gamma,
                                  own->nodes, below.nodes, NULL);
@@ -152,34 +151,26 @@ static fg_status halve_cells(const fg__spread *spread, fg_context *context,
     exchange_cells(spread, &value, node + layout.first);
   }
   if (!status && cells->by_elements)
-    fg__elements_mirror_box(&cells->elements, own, partition->cells, partition->periodic);
+    fg__elements_fill_images(&cells->elements, own, partition->cells,
+                             partition->periodic);
   else if (!status)
-    fg__cells_mirror_box(&cells->tensor, own, partition->cells, partition->periodic);
+    fg__cells_fill_images(&cells->tensor, own, partition->cells, partition->periodic);
   free(node);
   return status;
 }
 
-/* The cells of the finest level. Collective. */
-static fg_status ask_for_cells(const fg__spread *spread, fg_context *context,
-                               const fg__tensor_recipe *recipe, fg__cells_of_box *cells)
-{
-  const fg__partition *partition = &spread->partition;
-  fg__wide_tensor wide;
-  fg_status status = fg__wide_of_block(&wide, context, recipe, partition);
-  if (status)
-    return status;
-  status = fg__cells_for_box(cells, context, recipe, fg__own_block(partition), &wide);
-  return fg__ranks_agree(partition->ranks, context, status);
-}
-
 static fg_status create_block(fg__spread *spread, fg_context *context,
-                              const fg__mesh *mesh, const fg__tensor_recipe *recipe,
+                              const fg__mesh *mesh, fg__cells_of_box *finest,
                               const fg__spread_description *description)
 {
   block_cells cells = {.by_elements = spread->masked && description->finer};
-  fg_status status = description->finer
-                         ? halve_cells(spread, context, description, &cells)
-                         : ask_for_cells(spread, context, recipe, &cells.tensor);
+  fg_status status = FG_STATUS_OK;
+  if (description->finer) {
+    status = halve_cells(spread, context, description, &cells);
+  } else {
+    cells.tensor = *finest;
+    *finest = (fg__cells_of_box){0};
+  }
   if (!status)
     status = create_level(spread, context, mesh, description, &cells);
   /* unless the level has taken them over */
@@ -209,20 +200,20 @@ static void find_interpolation(fg__spread *spread)
 }
 
 fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh *mesh,
-                            const fg__tensor_recipe *recipe, fg__partition *partition,
+                            fg__cells_of_box *finest, fg__partition *partition,
                             const fg__spread_description *description)
 {
-  *out = (fg__spread){.partition = *partition, .masked = recipe->masked};
+  *out = (fg__spread){.partition = *partition, .masked = description->masked};
   *partition = (fg__partition){0};
   out->in_slabs = fg__slabs_find(&out->slabs, &out->partition);
   fg_status status =
       fg__exchange_create(&out->exchange, context, &out->partition, FG__MOST_EXCHANGED);
   if (!status)
-    status = create_block(out, context, mesh, recipe, description);
+    status = create_block(out, context, mesh, finest, description);
   if (!status)
     status = take_arrays(out, context, !description->finer);
   status = fg__ranks_agree(mesh->ranks, context, status);
-  if (!status && recipe->masked) {
+  if (!status && out->masked) {
     exchange_masses(out);
     find_interpolation(out);
   }

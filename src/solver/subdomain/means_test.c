@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
+#include "solver/multigrid_test.h"
 #include "solver/subdomain/means.h"
 
 /* Rooms in a box that is periodic along x: a wall, a layer of cells along z, has a room
@@ -42,14 +43,10 @@ static size_t node_of(int i, int j, int k)
 
 static void create(subject *s, mask *inside)
 {
-  fg__mesh mesh = {.dimension = 3,
-                   .cells = {W, H, D},
-                   .periodic = {true, false, false},
-                   .spacing = {0.0625, 0.07, 0.08},
-                   .ranks = &fg__single_rank};
-  assert_int_equal(fg__partition_create(&mesh.partition, NULL, mesh.ranks, 3, mesh.cells,
-                                        mesh.periodic, (const int[3]){1, 1, 1}, 1),
-                   FG_STATUS_OK);
+  const fg__mesh mesh = {.dimension = 3,
+                         .cells = {W, H, D},
+                         .periodic = {true, false, false},
+                         .spacing = {0.0625, 0.07, 0.08}};
   float *values = calloc(6 * CELLS, sizeof *values);
   unsigned char *active = calloc(CELLS, 1);
   assert_non_null(values);
@@ -69,9 +66,8 @@ static void create(subject *s, mask *inside)
     for (int corner = 0; corner < 8 && active[n]; ++corner)
       s->mass[node_of((x + corner % 2) % W, y + corner / 2 % 2, z + corner / 4)] += 0.125;
   }
-  assert_int_equal(fg__multigrid_create(&s->multigrid, NULL, &mesh, &tensor, 1.0, NULL),
+  assert_int_equal(multigrid_of_tensor(&s->multigrid, NULL, &mesh, &tensor, 1.0, NULL),
                    FG_STATUS_OK);
-  fg__mesh_clear(&mesh);
   free(values);
   free(active);
   float plain[NODES];
