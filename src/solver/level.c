@@ -314,7 +314,7 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
                             &out->curvature, &out->relaxation};
   fg_status status =
       take_rows(out, context, description->team, description->finest, masked);
-  if (!status && !description->box)
+  if (!status)
     status = take_arrays(out, context, arrays, description->finest ? 3 : 10);
   if (!status)
     status = take_stencil(out, context, &out->energy);

@@ -4,13 +4,14 @@
 
 static const fg__level *level_at(const fg__multigrid *multigrid, int depth)
 {
-  return multigrid->spread_count > 0 ? &multigrid->spread[depth].block
-                                     : &multigrid->level[depth];
+  return multigrid->distributed_count > 0 ? &multigrid->distributed[depth].block
+                                          : &multigrid->level[depth];
 }
 
 static fg__level *finest_of(fg__multigrid *multigrid)
 {
-  return multigrid->spread_count > 0 ? &multigrid->spread[0].block : multigrid->level;
+  return multigrid->distributed_count > 0 ? &multigrid->distributed[0].block
+                                          : multigrid->level;
 }
 
 const fg__level *fg__multigrid_finest(const fg__multigrid *multigrid)
@@ -59,10 +60,10 @@ void fg__multigrid_weigh_gradient(fg__multigrid *multigrid, double weight)
   finest_of(multigrid)->gradient_weight = weight;
 }
 
-/* Whether whole level n is the finest, with its wells. */
+/* Whether replicated level n is the finest, with its wells. */
 static bool nonlinear(const fg__multigrid *multigrid, int n)
 {
-  return n == 0 && multigrid->spread_count == 0 && !multigrid->linear;
+  return n == 0 && multigrid->distributed_count == 0 && !multigrid->linear;
 }
 
 /* One of several cycles: what the last one has done for it, and whether it shall do so
@@ -121,9 +122,9 @@ static void cycle_alone(const fg__multigrid *multigrid, int n, const turn *now)
     ascend(multigrid, m, now, &alone);
 }
 
-/* The whole levels, alike on all ranks. */
-static void cycle_whole(const fg__multigrid *multigrid, const turn *now,
-                        const fg__share *share)
+/* The replicated levels, alike on all ranks: of a process alone all of them. */
+static void cycle_replicated(const fg__multigrid *multigrid, const turn *now,
+                             const fg__share *share)
 {
   int last = multigrid->level_count - 1;
   int shared = multigrid->shared_levels < last ? multigrid->shared_levels : last;
@@ -136,10 +137,10 @@ static void cycle_whole(const fg__multigrid *multigrid, const turn *now,
     ascend(multigrid, n, now, share);
 }
 
-/* From what the ranks share to level[0] and back. */
+/* From the blocks to level[0] and back. */
 static void cycle_gathered(const fg__multigrid *multigrid, const turn *now)
 {
-  const fg__level *image = &multigrid->spread[multigrid->spread_count].block;
+  const fg__level *image = &multigrid->distributed[multigrid->distributed_count].block;
   const fg__level *whole = &multigrid->level[0];
   fg__share alone = fg__alone();
   float *const sent[] = {image->p, image->q, image->coupling, image->shape_curvature};
@@ -150,30 +151,31 @@ static void cycle_gathered(const fg__multigrid *multigrid, const turn *now)
     memset(solution[n] - whole->layout.first, 0,
            whole->layout.array_size * sizeof(float));
   find_space(multigrid, 0, now->tau, &alone);
-  cycle_whole(multigrid, now, &alone);
+  cycle_replicated(multigrid, now, &alone);
   multigrid->kernel->unscale(whole, &alone);
   float *const own[] = {image->u, image->w};
   fg__gather_return(multigrid->gather, 2, solution, own);
 }
 
-static void cycle_spread(const fg__multigrid *multigrid, turn *now)
+static void cycle_distributed(const fg__multigrid *multigrid, turn *now)
 {
   const fg__kernel *kernel = multigrid->kernel;
-  const fg__spread *spread = multigrid->spread;
-  int count = multigrid->spread_count;
+  const fg__distributed *level = multigrid->distributed;
+  int count = multigrid->distributed_count;
   for (int n = 0; n < count; ++n) {
     if (n > 0 || !now->restricted)
-      fg__spread_descend(&spread[n], &spread[n + 1], kernel, now->tau,
-                         n > 0 || multigrid->linear);
+      fg__distributed_descend(&level[n], &level[n + 1], kernel, now->tau,
+                              n > 0 || multigrid->linear);
     if (n + 1 < count)
-      fg__spread_find_space(&spread[n + 1], kernel, now->tau);
+      fg__distributed_find_space(&level[n + 1], kernel, now->tau);
   }
   cycle_gathered(multigrid, now);
   for (int n = count - 1; n >= 0; --n) {
     if (n + 1 < count)
-      fg__spread_unscale(&spread[n + 1], kernel);
-    now->restricted = fg__spread_ascend(&spread[n + 1], &spread[n], kernel, now->tau,
-                                        n > 0 || multigrid->linear, n == 0 && now->more);
+      fg__distributed_unscale(&level[n + 1], kernel);
+    now->restricted =
+        fg__distributed_ascend(&level[n + 1], &level[n], kernel, now->tau,
+                               n > 0 || multigrid->linear, n == 0 && now->more);
   }
 }
 
@@ -206,13 +208,13 @@ void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
     now.more = n < cycles;
     if (before && n == cycles)
       fg__multigrid_copy(multigrid, fg__multigrid_u(multigrid), before, share);
-    if (multigrid->spread_count > 0) {
+    if (multigrid->distributed_count > 0) {
       fg__traffic_book *book = multigrid->ranks->book;
       fg_activity activity = fg__traffic_begin(book, FG_ACTIVITY_CYCLES);
-      cycle_spread(multigrid, &now);
+      cycle_distributed(multigrid, &now);
       fg__traffic_return(book, activity);
     } else {
-      cycle_whole(multigrid, &now, share);
+      cycle_replicated(multigrid, &now, share);
       now.restricted = now.more;
     }
   }

@@ -4,22 +4,22 @@
 #define FG__MULTIGRID_H
 
 #include "grid/exchange/gather.h"
-#include "solver/spread.h"
+#include "solver/distributed.h"
 
 enum { FG__MOST_LEVELS = 16 };
 
-/* The levels from fine to coarse: spread[0] ... spread[spread_count - 1] are shared by
- * several ranks; spread[spread_count] is the next one as they share it, and level[0] the
- * same whole on every rank, which all ranks cycle on alike. Where one rank has it all
- * there is nothing spread, and level[0] is the finest. */
+/* The levels from fine to coarse: distributed[0] ... distributed[distributed_count - 1]
+ * are divided into blocks among several ranks; distributed[distributed_count] is the next
+ * one in blocks, and level[0] the same replicated on every rank, which all ranks cycle on
+ * alike. Of a process alone no level is distributed, and level[0] is the finest. */
 typedef struct fg__multigrid {
   const fg__kernel *kernel;
   const fg__ranks *ranks;
   fg__partition partition; /* of the finest level's nodes */
-  int spread_count;
-  fg__spread spread[FG__MOST_LEVELS];
-  fg__gather
-      *gather; /* between spread[spread_count] and level[0]; NULL: nothing spread */
+  int distributed_count;
+  fg__distributed distributed[FG__MOST_LEVELS];
+  fg__gather *gather; /* between distributed[distributed_count] and level[0]; NULL: none
+                         is distributed */
 
   fg__team *team; /* the caller's; NULL: one thread */
   int level_count;

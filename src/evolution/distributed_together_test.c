@@ -209,14 +209,14 @@ static void gather(const run *r, outcome *out)
   const fg__multigrid *m = &r->stepper.multigrid;
   float *plain = allocate_or_end(out->nodes, sizeof *plain);
   out->u = plain;
-  if (m->spread_count == 0) {
+  if (m->distributed_count == 0) {
     fg__level_export(&m->level[0], r->stepper.current, plain);
     return;
   }
   fg__layout layout = fg__layout_of(r->mesh.dimension, r->mesh.partition.nodes);
   float *whole = allocate_or_end(layout.array_size, sizeof *whole);
   fg__gather *plan;
-  expect(fg__gather_create(&plan, us.context, &m->spread[0].partition, 1) ==
+  expect(fg__gather_create(&plan, us.context, &m->distributed[0].partition, 1) ==
          FG_STATUS_OK);
   float *const from = r->stepper.current, *const to = whole + layout.first;
   fg__gather_fill(plan, 1, &from, &to);
@@ -355,5 +355,5 @@ int main(void)
   const struct CMUnitTest tests[] = {
       TOGETHER(many_ranks_do_what_one_does),
   };
-  return cmocka_run_group_tests_name("evolution/spread", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("evolution/distributed", tests, NULL, NULL);
 }

@@ -1,49 +1,38 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "solver/distributed.h"
 #include "solver/interpolation.h"
-#include "solver/spread.h"
 
 /* Room for a slice as restriction gathers it: for the rank above, and of the one below.
  */
-static bool take_gathered(fg__spread *spread)
+static bool take_gathered(fg__distributed *level)
 {
-  fg__level *block = &spread->block;
+  fg__level *block = &level->block;
   size_t floats = FG__RESTRICTED * (size_t)fg__gathered_floats(block);
-  spread->handed = fg__allocate_aligned(2 * floats, sizeof *spread->handed);
-  if (!spread->handed)
+  level->sent = fg__allocate_aligned(2 * floats, sizeof *level->sent);
+  if (!level->sent)
     return false;
-  spread->taken = spread->handed + floats;
-  block->handed = spread->slabs.above == FG__NOBODY ? NULL : spread->handed;
-  block->taken = spread->slabs.below == FG__NOBODY ? NULL : spread->taken;
+  level->received = level->sent + floats;
+  block->sent = level->slabs.above == FG__NOBODY ? NULL : level->sent;
+  block->received = level->slabs.below == FG__NOBODY ? NULL : level->received;
   return true;
 }
 
-static fg_status take_arrays(fg__spread *spread, fg_context *context, bool finest)
+/* What a level needs beside its own arrays to be divided. */
+static fg_status take_arrays(fg__distributed *level, fg_context *context)
 {
-  fg__level *block = &spread->block;
-  size_t residuals = spread->in_slabs ? 1 : FG__RESTRICTED;
-  size_t arrays = (finest ? 3 : 10) + residuals;
+  const fg__level *block = &level->block;
+  size_t residuals = level->in_slabs ? 1 : FG__RESTRICTED;
   size_t apart = block->layout.array_size + FG__LANES;
-  float *memory = fg__allocate_aligned(arrays * apart, sizeof *memory);
-  spread->memory = memory;
-  if (!memory)
-    return fg__fail_memory(context, "a multigrid level", arrays * apart * sizeof *memory);
-  float **own[] = {&block->u,         &block->w,
-                   &block->p,         &block->q,
-                   &block->coupling,  &block->shape_curvature,
-                   &block->scale,     &block->scale_inverse,
-                   &block->curvature, &block->relaxation};
-  memory += block->layout.first;
-  for (size_t n = 0; n < arrays; ++n, memory += apart)
-    if (n < residuals)
-      spread->residual[n] = memory;
-    else
-      *own[n - residuals] = memory;
-  if (spread->in_slabs && !take_gathered(spread))
-    return fg__fail_memory(context, "a multigrid level",
-                           (size_t)fg__slice_floats(block) * sizeof *memory);
-  return FG_STATUS_OK;
+  float *memory = fg__allocate_aligned(residuals * apart, sizeof *memory);
+  level->memory = memory;
+  for (size_t n = 0; n < residuals && memory; ++n)
+    level->residual[n] = memory + block->layout.first + n * apart;
+  if (memory && (!level->in_slabs || take_gathered(level)))
+    return FG_STATUS_OK;
+  return fg__fail_memory(context, "a multigrid level",
+                         residuals * apart * sizeof *memory);
 }
 
 /* What the cells of a block are: the tensor, or element matrices. */
@@ -53,29 +42,29 @@ typedef struct block_cells {
   bool by_elements; /* with a mask, on coarse levels */
 } block_cells;
 
-static fg_status create_level(fg__spread *spread, fg_context *context,
+static fg_status create_level(fg__distributed *level, fg_context *context,
                               const fg__mesh *mesh,
-                              const fg__spread_description *description,
+                              const fg__distributed_description *description,
                               block_cells *cells)
 {
-  fg__level_description level = {.dimension = mesh->dimension,
-                                 .gamma = description->gamma,
-                                 .finest = !description->finer,
-                                 .masked = spread->masked,
-                                 .box = fg__own_block(&spread->partition)};
+  fg__level_description of = {.dimension = mesh->dimension,
+                              .gamma = description->gamma,
+                              .finest = !description->finer,
+                              .masked = level->masked,
+                              .box = fg__own_block(&level->partition)};
   for (int k = 0; k < 3; ++k) {
-    level.cells[k] = spread->partition.cells[k];
-    level.periodic[k] = mesh->periodic[k];
-    level.spacing[k] =
+    of.cells[k] = level->partition.cells[k];
+    of.periodic[k] = mesh->periodic[k];
+    of.spacing[k] =
         mesh->spacing[k] * (k < mesh->dimension ? 1 << description->halvings : 1);
   }
-  return fg__level_create(&spread->block, context, &level, &cells->tensor,
+  return fg__level_create(&level->block, context, &of, &cells->tensor,
                           cells->by_elements ? &cells->elements : NULL);
 }
 
 /* A value of the cells below the block: each travels as its lowest corner does. node: an
  * array of the block; c: how the cells lie there, with the value as their weight. */
-static void exchange_cells(const fg__spread *spread, const fg__cells_of_box *c,
+static void exchange_cells(const fg__distributed *level, const fg__cells_of_box *c,
                            float *node)
 {
   fg__layout layout = fg__layout_of(c->dimension, c->nodes);
@@ -92,15 +81,15 @@ static void exchange_cells(const fg__spread *spread, const fg__cells_of_box *c,
             c->weight[at] = node[corner];
         }
     if (pass == 0)
-      fg__exchange_fill(spread->exchange, 1, &node, FG__ALL_COLOURS);
+      fg__exchange_fill(level->exchange, 1, &node, FG__ALL_COLOURS);
   }
 }
 
-static fg_status halve_block(const fg__spread *spread, fg_context *context,
-                             const fg__spread_description *description,
+static fg_status halve_block(const fg__distributed *level, fg_context *context,
+                             const fg__distributed_description *description,
                              block_cells *cells)
 {
-  const fg__partition *partition = &spread->partition;
+  const fg__partition *partition = &level->partition;
   const fg__box *own = fg__own_block(partition);
   const fg__level *fine = &description->finer->block;
   if (!cells->by_elements)
@@ -130,16 +119,16 @@ static fg__cells_of_box view_cells(const block_cells *cells, int n)
 
 /* Cells of a coarser level from those of the finer one, which the same ranks share.
  * Collective. */
-static fg_status halve_cells(const fg__spread *spread, fg_context *context,
-                             const fg__spread_description *description,
+static fg_status halve_cells(const fg__distributed *level, fg_context *context,
+                             const fg__distributed_description *description,
                              block_cells *cells)
 {
-  const fg__partition *partition = &spread->partition;
+  const fg__partition *partition = &level->partition;
   const fg__box *own = fg__own_block(partition);
   int dimension = partition->dimension;
   fg__layout layout = fg__layout_of(dimension, own->nodes);
   float *node = fg__allocate(layout.array_size, sizeof *node);
-  fg_status status = node ? halve_block(spread, context, description, cells)
+  fg_status status = node ? halve_block(level, context, description, cells)
                           : fg__fail_memory(context, "the coarse tensor",
                                             layout.array_size * sizeof *node);
   status = fg__ranks_agree(partition->ranks, context, status);
@@ -148,7 +137,7 @@ static fg_status halve_cells(const fg__spread *spread, fg_context *context,
                                   : 4;
   for (int n = 0; n < values && !status; ++n) {
     fg__cells_of_box value = view_cells(cells, n);
-    exchange_cells(spread, &value, node + layout.first);
+    exchange_cells(level, &value, node + layout.first);
   }
   if (!status && cells->by_elements)
     fg__elements_fill_images(&cells->elements, own, partition->cells,
@@ -159,20 +148,20 @@ static fg_status halve_cells(const fg__spread *spread, fg_context *context,
   return status;
 }
 
-static fg_status create_block(fg__spread *spread, fg_context *context,
+static fg_status create_block(fg__distributed *level, fg_context *context,
                               const fg__mesh *mesh, fg__cells_of_box *finest,
-                              const fg__spread_description *description)
+                              const fg__distributed_description *description)
 {
-  block_cells cells = {.by_elements = spread->masked && description->finer};
+  block_cells cells = {.by_elements = level->masked && description->finer};
   fg_status status = FG_STATUS_OK;
   if (description->finer) {
-    status = halve_cells(spread, context, description, &cells);
+    status = halve_cells(level, context, description, &cells);
   } else {
     cells.tensor = *finest;
     *finest = (fg__cells_of_box){0};
   }
   if (!status)
-    status = create_level(spread, context, mesh, description, &cells);
+    status = create_level(level, context, mesh, description, &cells);
   /* unless the level has taken them over */
   fg__cells_clear(&cells.tensor);
   fg__elements_clear(&cells.elements);
@@ -180,30 +169,31 @@ static fg_status create_block(fg__spread *spread, fg_context *context,
 }
 
 /* Relative masses beyond the block come from their owners. */
-static void exchange_masses(const fg__spread *spread)
+static void exchange_masses(const fg__distributed *level)
 {
-  float *const both[] = {spread->block.mass, spread->block.mass_inverse};
-  fg__exchange_fill(spread->exchange, 2, both, FG__ALL_COLOURS);
+  float *const both[] = {level->block.mass, level->block.mass_inverse};
+  fg__exchange_fill(level->exchange, 2, both, FG__ALL_COLOURS);
 }
 
 /* So does what the nodes there follow, between the stages in which it is found. */
-static void find_interpolation(fg__spread *spread)
+static void find_interpolation(fg__distributed *level)
 {
-  int dimension = spread->partition.dimension;
+  int dimension = level->partition.dimension;
   for (int stage = 0; stage <= dimension; ++stage) {
-    fg__interpolation_find(&spread->block, stage);
+    fg__interpolation_find(&level->block, stage);
     for (int side = 0; side < 1 << dimension; ++side)
-      fg__exchange_fill(spread->exchange, 1, &spread->block.interpolation[side],
+      fg__exchange_fill(level->exchange, 1, &level->block.interpolation[side],
                         FG__ALL_COLOURS);
-    fg__interpolation_mirror(&spread->block);
+    fg__interpolation_mirror(&level->block);
   }
 }
 
-fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh *mesh,
-                            fg__cells_of_box *finest, fg__partition *partition,
-                            const fg__spread_description *description)
+fg_status fg__distributed_create(fg__distributed *out, fg_context *context,
+                                 const fg__mesh *mesh, fg__cells_of_box *finest,
+                                 fg__partition *partition,
+                                 const fg__distributed_description *description)
 {
-  *out = (fg__spread){.partition = *partition, .masked = description->masked};
+  *out = (fg__distributed){.partition = *partition, .masked = description->masked};
   *partition = (fg__partition){0};
   out->in_slabs = fg__slabs_find(&out->slabs, &out->partition);
   fg_status status =
@@ -211,7 +201,7 @@ fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh
   if (!status)
     status = create_block(out, context, mesh, finest, description);
   if (!status)
-    status = take_arrays(out, context, !description->finer);
+    status = take_arrays(out, context);
   status = fg__ranks_agree(mesh->ranks, context, status);
   if (!status && out->masked) {
     exchange_masses(out);
@@ -220,12 +210,12 @@ fg_status fg__spread_create(fg__spread *out, fg_context *context, const fg__mesh
   return status;
 }
 
-void fg__spread_clear(fg__spread *spread)
+void fg__distributed_clear(fg__distributed *level)
 {
-  fg__level_clear(&spread->block);
-  fg__exchange_destroy(spread->exchange);
-  fg__partition_clear(&spread->partition);
-  free(spread->memory);
-  free(spread->handed);
-  *spread = (fg__spread){0};
+  fg__level_clear(&level->block);
+  fg__exchange_destroy(level->exchange);
+  fg__partition_clear(&level->partition);
+  free(level->memory);
+  free(level->sent);
+  *level = (fg__distributed){0};
 }
