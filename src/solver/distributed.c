@@ -1,5 +1,6 @@
 #include "solver/distributed.h"
 
+#include <stdint.h>
 #include <string.h>
 
 void fg__distributed_exchange(const fg__distributed *level, int count,
@@ -40,21 +41,17 @@ void fg__distributed_exchange_ends(const fg__distributed *level, int count,
 }
 
 /* What a member on its own, whose neighbours are other ranks, has to tell them. */
-typedef struct meeting {
-  const fg__distributed *level;
-} meeting;
-
 static void meet(void *argument, unsigned slices)
 {
-  const meeting *m = argument;
-  float *const both[] = {m->level->block.u, m->level->block.w};
+  const fg__distributed *level = argument;
+  float *const both[] = {level->block.u, level->block.w};
   bool solution = slices & (FG__FIRST_SLICE | FG__LAST_SLICE);
-  pass_slices(m->level, solution ? 2 : 0, both, slices);
+  pass_slices(level, solution ? 2 : 0, both, slices);
 }
 
-static fg__share share_of(meeting *m)
+fg__share fg__distributed_share(const fg__distributed *level)
 {
-  return (fg__share){.members = 1, .meet = meet, .argument = m};
+  return (fg__share){.members = 1, .meet = meet, .argument = (void *)(uintptr_t)level};
 }
 
 static void smooth(const fg__distributed *level, const fg__kernel *kernel, float tau,
@@ -78,12 +75,6 @@ static void clear_solution(const fg__level *level)
 void fg__distributed_descend(const fg__distributed *fine, const fg__distributed *coarse,
                              const fg__kernel *kernel, float tau, bool linear)
 {
-  if (fine->in_slabs) {
-    fg__share share = share_of(&(meeting){fine});
-    (linear ? kernel->smooth_restrict_linear
-            : kernel->restrict_residuals)(&fine->block, &coarse->block, tau, &share);
-    return;
-  }
   if (linear)
     smooth(fine, kernel, tau, true);
   kernel->find_residuals(&fine->block, tau, linear, fine->residual);
@@ -95,36 +86,11 @@ void fg__distributed_descend(const fg__distributed *fine, const fg__distributed 
   clear_solution(&coarse->block);
 }
 
-void fg__distributed_find_space(const fg__distributed *coarse, const fg__kernel *kernel,
-                                float tau)
+void fg__distributed_ascend(const fg__distributed *coarse, const fg__distributed *fine,
+                            const fg__kernel *kernel, float tau, bool linear)
 {
-  float *const both[] = {coarse->block.scale, coarse->block.scale_inverse};
-  fg__share alone = fg__alone();
-  kernel->find_scale(&coarse->block, &alone);
-  fg__distributed_exchange_ends(coarse, 2, both);
-  kernel->find_curvature(&coarse->block, tau, &alone);
-}
-
-void fg__distributed_unscale(const fg__distributed *coarse, const fg__kernel *kernel)
-{
-  fg__share alone = fg__alone();
-  kernel->unscale(&coarse->block, &alone);
-}
-
-bool fg__distributed_ascend(const fg__distributed *coarse, const fg__distributed *fine,
-                            const fg__kernel *kernel, float tau, bool linear, bool more)
-{
-  if (fine->in_slabs) {
-    fg__share share = share_of(&(meeting){fine});
-    more = more && !linear;
-    (more     ? kernel->correct_smooth_restrict
-     : linear ? kernel->correct_smooth_linear
-              : kernel->correct_smooth)(&coarse->block, &fine->block, tau, &share);
-    return more;
-  }
   float *const both[] = {fine->block.u, fine->block.w};
   kernel->correct(&coarse->block, &fine->block, linear);
   fg__distributed_exchange(fine, 2, both, FG__ALL_COLOURS);
   smooth(fine, kernel, tau, linear);
-  return false;
 }

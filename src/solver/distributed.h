@@ -47,20 +47,16 @@ void fg__distributed_exchange(const fg__distributed *level, int count,
 void fg__distributed_exchange_ends(const fg__distributed *level, int count,
                                    float *const array[]);
 
-/* Restricts to a coarse level; its u and w become 0. A linear level is swept first. */
+/* In slabs: what kernels that sweep over slices are given, so that they exchange halos
+ * where threads would wait for each other. */
+fg__share fg__distributed_share(const fg__distributed *level);
+
+/* Of pencils, which exchange all ghosts between sweeps: restriction to a coarse level,
+ * whose u and w become 0, after a sweep of a linear level; and the coarse level's
+ * correction, then a sweep. */
 void fg__distributed_descend(const fg__distributed *fine, const fg__distributed *coarse,
                              const fg__kernel *kernel, float tau, bool linear);
-
-/* Makes a coarse level's system of what was restricted. */
-void fg__distributed_find_space(const fg__distributed *coarse, const fg__kernel *kernel,
-                                float tau);
-
-/* From scale * v to v: a coarse level's u, before it corrects. */
-void fg__distributed_unscale(const fg__distributed *coarse, const fg__kernel *kernel);
-
-/* The coarse level's correction; then a sweep. True when the next cycle's restriction is
- * done as well, for which there must be `more` cycles. */
-bool fg__distributed_ascend(const fg__distributed *coarse, const fg__distributed *fine,
-                            const fg__kernel *kernel, float tau, bool linear, bool more);
+void fg__distributed_ascend(const fg__distributed *coarse, const fg__distributed *fine,
+                            const fg__kernel *kernel, float tau, bool linear);
 
 #endif
