@@ -170,6 +170,9 @@ static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ra
   if (!status)
     e->law_identity = e->options.law->identity;
   e->mesh_nodes = e->options.nodes;
+  e->clusters_found = fg__allocate(1, sizeof *e->clusters_found);
+  if (!status && !e->clusters_found)
+    status = fg__fail_memory(context, "an evolution", sizeof *e->clusters_found);
   return status;
 }
 
@@ -249,7 +252,8 @@ void fg__evolution_clear(fg_evolution *evolution)
   fg__stepper_clear(&e->stepper);
   fg__team_destroy(e->team);
   e->team = NULL;
-  fg__clusters_clear(&e->clusters_found);
+  if (e->clusters_found)
+    fg__clusters_clear(e->clusters_found);
   fg__mesh_clear(&e->mesh);
   fg__cells_clear(&e->finest_cells);
   free(e->mask.memory);
@@ -263,6 +267,7 @@ void fg_evolution_destroy(fg_evolution *evolution)
   if (!evolution)
     return;
   fg__evolution_clear(evolution);
+  free(evolution->clusters_found);
   free(evolution);
 }
 

@@ -21,9 +21,9 @@ struct fg_evolution {
     unsigned char *memory;
     const unsigned char *active; /* the block's first cell; NULL: all are active */
     ptrdiff_t row, plane;
-  } mask; /* of the block's cells, and of one more on each side */
-  fg__clusters clusters_found;
-  size_t nodes, cells; /* of the whole mesh */
+  } mask;                       /* of the block's cells, and of one more on each side */
+  fg__clusters *clusters_found; /* working memory, for snapshots too */
+  size_t nodes, cells;          /* of the whole mesh */
   long active_cells;
 
   double debris_area; /* in cells */

@@ -25,9 +25,9 @@ static fg_status count(fg_evolution *e, bool counting)
   const fg__cluster_grid grid = grid_of(e);
   const fg__cluster_wish wish = {counting, e->debris_area, e->debris_area};
   fg_status status =
-      fg__clusters_find(&e->clusters_found, e->context, &grid, e->stepper.current, &wish);
-  e->area_fraction = e->clusters_found.covered / (double)e->active_cells;
-  e->clusters = e->clusters_found.found.count;
+      fg__clusters_find(e->clusters_found, e->context, &grid, e->stepper.current, &wish);
+  e->area_fraction = e->clusters_found->covered / (double)e->active_cells;
+  e->clusters = e->clusters_found->found.count;
   return status;
 }
 
@@ -87,18 +87,18 @@ static fg_status find_clusters(fg__density_block *out, const fg_evolution *e,
 {
   const fg__cluster_grid grid = grid_of(e);
   const fg__cluster_wish wish = {.counting = true, .debris_area = debris_cells};
-  fg__clusters clusters = {0};
+  fg__components *found = &e->clusters_found->found;
   fg_status status =
-      fg__clusters_find(&clusters, e->context, &grid, e->stepper.current, &wish);
-  if (!status) {
-    fg__clusters_label(&clusters, out->label);
-    out->count = clusters.found.count;
-    out->debris = clusters.found.debris;
-    out->area = clusters.found.area;
-    clusters.found.area = NULL;
-  }
-  fg__clusters_clear(&clusters);
-  return status;
+      fg__clusters_find(e->clusters_found, e->context, &grid, e->stepper.current, &wish);
+  if (status)
+    return status;
+  fg__clusters_label(e->clusters_found, out->label);
+  out->count = found->count;
+  out->debris = found->debris;
+  out->area = found->area; /* and another list is made for the next count */
+  found->area = NULL;
+  found->area_capacity = 0;
+  return FG_STATUS_OK;
 }
 
 static fg_status create(fg_density **out, const fg_evolution *e)
