@@ -30,18 +30,6 @@ static int node_count(double nodes)
   return (int)fmin(fmax(ceil(nodes), LEAST_NODES), MOST_NODES);
 }
 
-static fg_status take_density(fg_density **out, fg_context *context,
-                              const fg_evolution *evolution)
-{
-  fg_status status = fg_density_create(out, evolution);
-  if (status || !fg_density_is_shared(*out))
-    return status;
-  fg_density *shared = *out;
-  status = fg_density_gather(out, context, shared);
-  fg_density_destroy(shared);
-  return status;
-}
-
 /* Steps until `enough` says so, or nothing changes any more. */
 static fg_status evolve(fg_density **out, fg_context *context, const fg__canvas *canvas,
                         const fg_evolution_options *options,
@@ -63,7 +51,7 @@ static fg_status evolve(fg_density **out, fg_context *context, const fg__canvas 
   } while (!status && !step.stationary &&
            !enough(&step, fg_evolution_mesh(evolution), canvas));
   if (!status)
-    status = take_density(out, context, evolution);
+    status = fg_density_create(out, evolution);
   fg_evolution_destroy(evolution);
   return status;
 }
