@@ -97,6 +97,7 @@ static void describe(fg_evolution *e)
                            .isotropic_below = e->options.isotropic_below,
                            .coverage = e->options.coverage,
                            .noise = e->options.noise,
+                           .adaptive = fg__evolution_adapts(e),
                            .length = e->mesh.length};
   double cell = 1.0;
   for (int k = 0; k < dimension; ++k) {
@@ -112,7 +113,22 @@ static void describe(fg_evolution *e)
   e->debris_area = debris / fg__evolution_cell_volume(e);
 }
 
-static fg_status create_stepper(fg_evolution *e, const fg_field *field)
+static fg_status take_mask(fg_evolution *e, const fg__multigrid *multigrid)
+{
+  const fg__cells_of_box *cells = &fg__multigrid_finest(multigrid)->tensor;
+  if (e->active_cells == (long)e->cells)
+    return FG_STATUS_OK;
+  ptrdiff_t origin;
+  e->mask.memory = fg__cells_mask(cells, &origin);
+  if (!e->mask.memory)
+    return fg__fail_memory(e->context, "the mask", e->cells);
+  e->mask.active = e->mask.memory + origin;
+  e->mask.row = cells->row;
+  e->mask.plane = cells->plane;
+  return FG_STATUS_OK;
+}
+
+static fg_status create_stepper(fg_evolution *e)
 {
   fg__multigrid multigrid = {0};
   fg__stepper_description description = {
@@ -127,11 +143,13 @@ static fg_status create_stepper(fg_evolution *e, const fg_field *field)
   fg_status status = fg__ranks_agree(e->ranks, e->context, check_initial(e));
   if (!status)
     status = fg__evolution_multigrid_create(
-        &multigrid, e, field, (1.0 - fg__evolution_alpha(e)) * e->info.gamma);
+        &multigrid, e, (1.0 - fg__evolution_alpha(e)) * e->info.gamma);
   if (status)
     return status;
   e->info.kernel = multigrid.kernel->name;
-  status = fg__evolution_fill(e, &multigrid);
+  status = fg__ranks_agree(e->ranks, e->context, take_mask(e, &multigrid));
+  if (!status)
+    status = fg__evolution_fill(e, &multigrid);
   if (!status)
     status = fg__stepper_create(&e->stepper, e->context, &multigrid, &description);
   if (status)
@@ -144,26 +162,31 @@ static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ra
 {
   e->context = context;
   e->ranks = ranks;
+  e->field = field;
   clock_gettime(CLOCK_MONOTONIC, &e->start);
   if (options)
     e->options = *options;
   e->field_fingerprint = fg__field_fingerprint(field);
   fg_status status = fg__evolution_options_settle(&e->options, context,
                                                   fg_field_contents(field)->dimension);
-  if (!status)
-    e->law_identity = e->options.law->identity;
+  if (!status) {
+    e->law = *e->options.law;
+    e->law_identity = e->law.identity;
+    if (e->options.isotropic_below > 0.0)
+      e->law.data = &e->options.isotropic_below;
+    e->options.law = &e->law;
+  }
   e->mesh_nodes = e->options.nodes;
+  e->clusters_found = fg__allocate(1, sizeof *e->clusters_found);
+  if (!status && !e->clusters_found)
+    status = fg__fail_memory(context, "an evolution", sizeof *e->clusters_found);
   return status;
 }
 
-fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field)
+fg_status fg__evolution_build(fg_evolution *evolution)
 {
   fg_evolution *e = evolution;
-  if (e->options.isotropic_below > 0.0) {
-    e->slow_flow = *e->options.law;
-    e->slow_flow.data = &e->options.isotropic_below;
-    e->options.law = &e->slow_flow;
-  }
+  const fg_field *field = e->field;
   fg_status status = fg__field_check_shared(e->context, e->ranks, field);
   if (!status)
     status = fg__evolution_check_alike(e);
@@ -171,18 +194,17 @@ fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field)
     status = create_mesh(e, field);
   if (!status) {
     count_cells(e);
-    e->spread = e->ranks->count > 1;
-    if (!e->spread && (double)e->nodes >= fg__least_team_nodes)
+    if (e->ranks->count == 1 && (double)e->nodes >= fg__least_team_nodes)
       status = fg__team_create(&e->team, e->context, e->options.threads);
   }
   if (!status)
-    status = fg__evolution_tensor_create(e, field);
+    status = fg__evolution_cells_create(e, field);
   if (!status) {
     describe(e);
     status = check_interface(e);
   }
   if (!status)
-    status = create_stepper(e, field);
+    status = create_stepper(e);
   return status;
 }
 
@@ -213,12 +235,10 @@ fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
     status = fg__kernel_check(context);
   status = fg__ranks_agree(ranks, context, status);
   if (e && !status)
-    status = fg__evolution_build(e, field);
+    status = fg__evolution_build(e);
   fg__traffic_return(ranks->book, before);
-  if (e) {
+  if (e)
     e->options.initial = NULL; /* the caller's, and used up */
-    e->options.law = NULL;
-  }
   if (status) {
     fg_evolution_destroy(e);
     return status;
@@ -233,12 +253,13 @@ void fg__evolution_clear(fg_evolution *evolution)
   fg__stepper_clear(&e->stepper);
   fg__team_destroy(e->team);
   e->team = NULL;
-  fg__team_clusters_clear(&e->clusters_found);
-  fg__spread_clusters_clear(&e->spread_clusters);
+  if (e->clusters_found)
+    fg__clusters_clear(e->clusters_found);
   fg__mesh_clear(&e->mesh);
-  fg__evolution_tensor_free(e);
-  free(e->tensor.active);
-  e->tensor.active = NULL;
+  fg__cells_clear(&e->finest_cells);
+  free(e->mask.memory);
+  e->mask.memory = NULL;
+  e->mask.active = NULL;
   e->active_cells = 0;
 }
 
@@ -247,6 +268,7 @@ void fg_evolution_destroy(fg_evolution *evolution)
   if (!evolution)
     return;
   fg__evolution_clear(evolution);
+  free(evolution->clusters_found);
   free(evolution);
 }
 
@@ -279,6 +301,7 @@ fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int re
                    .cycles = cycles,
                    .rejected = rejected,
                    .cells = e->info.active_cells,
+                   .coarsenings = e->halvings,
                    .increment = s->increment,
                    .seconds = fg__evolution_seconds(e),
                    .stationary = fg__stepper_stationary(s)};
@@ -287,10 +310,14 @@ fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int re
 fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
 {
   fg_evolution *e = evolution;
-  long cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
+  fg_step coarsened;
   fg_activity before = fg__traffic_begin(e->ranks->book, FG_ACTIVITY_STEPS);
   /* asked once only: a step that has begun ends, so that it is the same when resumed */
   fg_status status = fg__ranks_agree(e->ranks, e->context, fg__check_stop(e->context));
+  /* before a step, not after: a checkpoint holds what the next step begins with */
+  if (!status && fg__evolution_adapts(e) && fg_evolution_should_coarsen(e))
+    status = fg_evolution_coarsen(e, &coarsened);
+  long cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
   if (!status)
     status = fg__stepper_advance(&e->stepper, e->context);
   if (!status)

@@ -4,10 +4,9 @@
 
 #include <time.h>
 
-#include "component/team_clusters.h"
+#include "component/clusters.h"
 #include "evolution/halved.h"
 #include "evolution/stepper.h"
-#include "solver/spread_clusters.h"
 
 struct fg_evolution {
   fg_context *context;
@@ -15,14 +14,18 @@ struct fg_evolution {
   fg_mesh_info info;
   const fg__ranks *ranks; /* that share it */
   fg__mesh mesh;
-  fg__team *team; /* NULL: one thread */
-  fg__tensor tensor;
+  fg__team *team;                /* NULL: one thread */
+  fg__cells_of_box finest_cells; /* round the block, until stencils are made */
   fg__stepper stepper;
-  fg__team_clusters clusters_found; /* unless spread */
-  size_t nodes, cells;              /* of the whole mesh */
+  struct {
+    unsigned char *memory;
+    const unsigned char *active; /* the block's first cell; NULL: all are active */
+    ptrdiff_t row, plane;
+  } mask;                       /* of the block's cells, and of one more on each side */
+  fg__clusters *clusters_found; /* working memory, for snapshots too */
+  size_t nodes, cells;          /* of the whole mesh */
   long active_cells;
-  bool spread; /* over several ranks */
-  fg__spread_clusters spread_clusters;
+
   double debris_area; /* in cells */
   double area_fraction;
   int clusters;
@@ -37,8 +40,11 @@ struct fg_evolution {
   double earlier_seconds; /* spent before a resumed evolution was created */
   /* Of the field, and of the initial density when one was given (else 0). */
   uint64_t field_fingerprint, initial_fingerprint;
-  uint64_t law_identity;   /* see fg_energy_law */
-  fg_energy_law slow_flow; /* that of the flow, with isotropic_below */
+  uint64_t law_identity; /* see fg_energy_law */
+  const fg_field *field;
+  fg_energy_law law;        /* options.law points here */
+  fg_coarsening coarsening; /* the last */
+  bool has_coarsening;
 };
 
 /* The public calls, for given ranks instead of all. */
@@ -64,7 +70,10 @@ double fg__evolution_alpha(const fg_evolution *evolution);
 double fg__evolution_unit(const fg_evolution *evolution);
 
 /* Makes everything that depends on the mesh, for options that are settled. Collective. */
-fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field);
+fg_status fg__evolution_build(fg_evolution *evolution);
+
+/* Whether steps coarsen the mesh by themselves. */
+bool fg__evolution_adapts(const fg_evolution *evolution);
 
 /* Frees it again; what the evolution remembers of its past stays. */
 void fg__evolution_clear(fg_evolution *evolution);

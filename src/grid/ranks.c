@@ -15,6 +15,7 @@ static pthread_once_t once = PTHREAD_ONCE_INIT;
 static int start_error;
 static size_t missing; /* bytes, for want of which MPI was not started */
 static fg__ranks all, alone;
+const fg__ranks fg__single_rank = {.count = 1};
 static fg__traffic_book book_of_all;
 static MPI_Comm communicator_of_all = MPI_COMM_NULL;
 

@@ -14,6 +14,9 @@ typedef struct fg__ranks {
   fg__traffic_book *book; /* of what this rank tells the others; NULL: not kept */
 } fg__ranks;
 
+/* This process on its own, without MPI: for grids that no other process has a part of. */
+extern const fg__ranks fg__single_rank;
+
 /* All processes that were started together. Starts MPI, unless it runs: quietly, and so
  * that it is finalised when the process ends. Borrowed. Collective in the first call.
  * MPI. */

@@ -30,18 +30,6 @@ static int node_count(double nodes)
   return (int)fmin(fmax(ceil(nodes), LEAST_NODES), MOST_NODES);
 }
 
-static fg_status take_density(fg_density **out, fg_context *context,
-                              const fg_evolution *evolution)
-{
-  fg_status status = fg_density_create(out, evolution);
-  if (status || !fg_density_is_shared(*out))
-    return status;
-  fg_density *shared = *out;
-  status = fg_density_gather(out, context, shared);
-  fg_density_destroy(shared);
-  return status;
-}
-
 /* Steps until `enough` says so, or nothing changes any more. */
 static fg_status evolve(fg_density **out, fg_context *context, const fg__canvas *canvas,
                         const fg_evolution_options *options,
@@ -52,16 +40,18 @@ static fg_status evolve(fg_density **out, fg_context *context, const fg__canvas 
   fg_evolution *evolution = NULL;
   fg_step step;
   *out = NULL;
+  fg_evolution_options uniform = *options; /* as fine as the pixels to the end */
+  uniform.mesh = FG_MESH_UNIFORM;
   fg_status status = fg__ranks_alone(&ranks, context);
   if (!status)
-    status = fg__evolution_create(&evolution, context, ranks, canvas->field, options);
+    status = fg__evolution_create(&evolution, context, ranks, canvas->field, &uniform);
   do {
     if (!status)
       status = fg_evolution_step(evolution, &step);
   } while (!status && !step.stationary &&
            !enough(&step, fg_evolution_mesh(evolution), canvas));
   if (!status)
-    status = take_density(out, context, evolution);
+    status = fg_density_create(out, evolution);
   fg_evolution_destroy(evolution);
   return status;
 }

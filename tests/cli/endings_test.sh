@@ -13,14 +13,6 @@ in_background() {
   env --default-signal=INT "$program" "$@" >out 2>err &
   pid=$!
 }
-# until FILE: waits until it is there, or the run has ended.
-until_there() {
-  for _ in $(seq 1200); do
-    [ -e "$1" ] && return
-    kill -0 "$pid" 2>/dev/null || return
-    sleep 0.02
-  done
-}
 # ends_by SIGNAL: the background run gets it.
 ends_by() {
   kill "-$1" "$pid"
@@ -41,7 +33,7 @@ try "${early[@]}" -o whole1
 expect_code 0
 for signal in INT TERM HUP; do
   in_background "${early[@]}" -o "early-$signal" --checkpoint 0
-  until_there "early-$signal/.flowgrain/checkpoint"
+  until_there "early-$signal/.flowgrain/checkpoint" "$pid"
   ends_by "$signal"
   expect_code 130
   expect_one_complaint
@@ -59,7 +51,7 @@ wide=(run synth:vortex3 --nodes 513 --clusters 200,12 --quiet)
 try "${wide[@]}" -o whole2
 expect_code 0
 in_background "${wide[@]}" -o stopped --checkpoint 0
-until_there stopped/.flowgrain/scale-00.geojson
+until_there stopped/.flowgrain/scale-00.geojson "$pid"
 ends_by INT
 expect_code 130
 expect_one_complaint
@@ -79,11 +71,11 @@ expect_only_results stopped
 done_with "an interrupted run writes the scales it has, and goes on from there"
 
 # its first scale is drawn while most of the evolution is still to come
-long=(run synth:vortex3 --nodes 1025 --mesh uniform --clusters 300,12 --formats svg --quiet)
+long=(run synth:vortex3 --nodes 513 --mesh uniform --clusters 300,6 --formats svg --quiet)
 try "${long[@]}" -o whole3
 expect_code 0
 in_background "${long[@]}" -o never
-until_there never/.flowgrain/scale-00.geojson
+until_there never/.flowgrain/scale-00.geojson "$pid"
 ends_by TERM
 expect_code 130
 expect_file never/.flowgrain/checkpoint
@@ -96,7 +88,7 @@ placed=(run synth:vortex3 --nodes 513 --arrows 60,12 --effort 0 --formats svg --
 try "${placed[@]}" -o whole4
 expect_code 0
 in_background "${placed[@]}" -o between --checkpoint 0
-until_there between/.flowgrain/scale-00.geojson
+until_there between/.flowgrain/scale-00.geojson "$pid"
 ends_by INT
 expect_code 130
 expect_one_complaint
@@ -110,13 +102,40 @@ done_with "an interrupted run of placed arrows says which are missing, and goes 
 
 # the evolution is short, the placing of so many is long
 in_background run synth:vortex3 --nodes 129 --arrows 400,399,398,397,396,395 --formats svg --quiet -o placing
-until_there placing/.flowgrain/scale-00.geojson
+until_there placing/.flowgrain/scale-00.svg "$pid"
 ends_by INT
 expect_code 130
 expect_one_complaint
 expect_json placing/run.json '.ended == "interrupted" and (.scales | length) >= 1 and (.scales | length) < 6'
 expect_json placing/run.json '[.scales[].icons] == [400,399,398,397,396,395][:(.scales | length)]'
 done_with "an interrupt while arrows are placed keeps the scales that are there"
+
+if "$program" --version | grep -q '[ ,]render'; then
+  # the evolution is short, the drawing of so many pixels is long
+  in_background run synth:vortex3d --nodes 33 --clusters 8,4,2 --width 2400 --quiet -o drawing
+  until_there drawing/.flowgrain/scale-01.glb "$pid"
+  ends_by INT
+  expect_code 130
+  expect_one_complaint
+  expect_error 'interrupted at t = .* with [0-9]+ clusters; the 1 scale until then is in drawing$'
+  expect_json drawing/run.json '.ended == "interrupted" and (.scales | length) == 1'
+  expect_file drawing/scale-00.png
+  [ -z "$(find drawing -name 'scale-0[12]*')" ] || fault "of interrupted scales: $(ls drawing)"
+  in_background run synth:vortex3d --nodes 33 --clusters 8 --width 2400 --quiet -o first
+  until_there first/.flowgrain/scale-00.glb "$pid"
+  sleep 0.5
+  ends_by TERM
+  expect_code 130
+  expect_one_complaint
+  [ -z "$(find first -name 'scale-*' 2>/dev/null)" ] || fault "of an interrupted scale: $(find first)"
+  in_background draw drawing -o large.png --width 2400
+  sleep 1
+  ends_by TERM
+  expect_code 130
+  expect_one_complaint
+  [ -z "$(find . -maxdepth 1 -name '*large.png*')" ] || fault "left: $(find . -name '*large.png*')"
+  done_with "an interrupt while pictures in 3D are drawn keeps the scales that are there"
+fi
 
 # checkpoints have 3 arrays of 129 x 129 floats and more; results are smaller
 limit_kib=150
@@ -166,7 +185,7 @@ done
 done_with "on a disk that is full from some moment on, nothing is lost"
 
 # Address space: the least in which a tiny run works is what libraries take.
-if ldd "$program" | grep -q libasan; then
+if [ -n "$sanitized" ]; then
   echo "# limits on memory are not tried with the address sanitizer, which reserves it all"
 else
   least=50000
@@ -195,7 +214,6 @@ else
   done
   done_with "out of memory: one message, and nothing is left"
 
-  # Embree reserves 200 MB or so for a device
   (
     ulimit -v 300000
     try run synth:vortex3d --nodes 17 --clusters 3 -o solid --quiet --threads 1
