@@ -18,11 +18,15 @@
  * one curved arrow (fg_icons). Method: Garcke, Preusser, Rumpf, Telea, Weikard and van
  * Wijk, "A Continuous Clustering Method for Vector Fields", IEEE Visualization 2000.
  *
- *     fg_run *run = NULL;  const fg_run_scale *scale = NULL;
- *     status = fg_run_create(&run, context, field, NULL);   // 200, 100, 50, 25, 12
- * arrows if (!status) status = fg_run_next(&scale, run); while (!status && scale) { //
- * NULL after the last status = show(scale->icons); if (!status) status =
- * fg_run_next(&scale, run);
+ *     fg_run *run = NULL;
+ *     const fg_run_scale *scale = NULL;
+ *     status = fg_run_create(&run, context, field, NULL);  // 200, 100, 50, 25, 12
+ *     if (!status)
+ *       status = fg_run_next(&scale, run);
+ *     while (!status && scale) {                           // NULL after the last
+ *       status = show(scale->icons);
+ *       if (!status)
+ *         status = fg_run_next(&scale, run);
  *     }
  *
  * All of this is made of parts that can be called alone; examples/ has programs.
@@ -35,11 +39,12 @@
  *
  * Conventions
  * - A function that can fail returns fg_status; its result comes first, through `out`,
- *   and belongs to the caller, who ends it with the matching destroy. Destroys accept
- *   NULL.
+ *   and belongs to the caller, who frees it with the matching destroy function. NULL is
+ *   accepted there.
  * - Pointers must not be NULL unless it is said that they may be. A context may be: what
  *   fails is then told by the status alone.
- * - Pointers returned to const are borrowed: they live as long as what they came from.
+ * - Returned pointers to const are borrowed: they are valid as long as the object that
+ *   they come from.
  * - Option structs: a zero field means the default; a NULL pointer means all defaults.
  * - On failure the context keeps one message (the first), with the numbers that show it.
  * - Arrays of samples run x fastest, then y, then z. Coordinates are the input's own.
