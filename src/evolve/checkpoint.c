@@ -292,9 +292,7 @@ fg_status fg_checkpoint_open(fg_checkpoint **out, fg_context *context, const cha
   if (!out || !path)
     return fg__fail(context, FG_STATUS_ARGUMENT, "checkpoint: a NULL argument");
   *out = NULL;
-  const fg__ranks *ranks;
-  fg_status status = fg__ranks_all(&ranks, context);
-  return status ? status : fg__checkpoint_open(out, context, path, ranks);
+  return fg__checkpoint_open(out, context, path, fg__ranks_of(context));
 }
 
 fg_status fg__checkpoint_open(fg_checkpoint **out, fg_context *context, const char *path,

@@ -192,9 +192,7 @@ fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
   if (!out || !field)
     return fg__fail(context, FG_STATUS_ARGUMENT, "evolution: a NULL argument");
   *out = NULL;
-  const fg__ranks *ranks;
-  fg_status status = fg__ranks_all(&ranks, context);
-  return status ? status : fg__evolution_create(out, context, ranks, field, options);
+  return fg__evolution_create(out, context, fg__ranks_of(context), field, options);
 }
 
 fg_status fg__evolution_create(fg_evolution **out, fg_context *context,

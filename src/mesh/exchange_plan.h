@@ -3,7 +3,6 @@
 #define FG__EXCHANGE_PLAN_H
 
 #include "mesh/brick.h"
-#include "mesh/communicator.h"
 #include "mesh/exchange.h"
 
 /* Nodes to fill and where they come from, of which one may be another rank's. */
@@ -27,7 +26,7 @@ typedef struct fg__neighbour {
 typedef struct fg__neighbours {
   fg__neighbour *neighbour;
   int count;
-  MPI_Request *request;
+  void *requests; /* of fg__requests_create */
 } fg__neighbours;
 
 struct fg__exchange {

@@ -97,9 +97,7 @@ fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
   fg_status status = check_description(context, description);
   if (!status)
     status = choose_cells(out, context, description);
-  out->ranks = description->ranks;
-  if (!status && !out->ranks)
-    status = fg__ranks_all(&out->ranks, context);
+  out->ranks = description->ranks ? description->ranks : fg__ranks_of(context);
   if (!status)
     status = share_nodes(out, context);
   if (status)
