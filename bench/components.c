@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "evolve/components.h"
-#include "evolve/noise.h"
+#include "component/components.h"
+#include "field/noise.h"
 
 static double now(void)
 {

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "evolve/passes.h"
 #include "floor.h"
+#include "solver/passes.h"
 
 enum { REPETITIONS = 30, CALLS = 5 };
 

@@ -7,9 +7,9 @@
 
 #include "base/memory.h"
 #include "flowgrain/mpi.h"
-#include "mesh/blocks.h"
-#include "mesh/exchange_plan.h"
-#include "mesh/mesh.h"
+#include "grid/blocks.h"
+#include "grid/exchange/plan.h"
+#include "grid/mesh.h"
 
 static double now(void)
 {

@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "evolve/passes.h"
 #include "problem.h"
+#include "solver/passes.h"
 
 enum { MOST_CYCLES = 500 };
 

@@ -21,7 +21,7 @@
 
 #include "problem.h"
 
-/* Control of step sizes: the limits of one change, as in src/evolve/stepper.c. */
+/* Control of step sizes: the limits of one change, as in src/evolution/stepper.c. */
 static const double most_growth = 2.0, most_shrinkage = 0.4, reject_factor = 0.5;
 static const double acceptable_increment = 3.0, after_reject = 0.75, relaxation = 1.3;
 static const double wanted_newton = 4.0; /* Newton steps that keep tau */

@@ -4,7 +4,7 @@
 #ifndef BENCH_SCHEMES_H
 #define BENCH_SCHEMES_H
 
-#include "evolve/stepper.h"
+#include "evolution/stepper.h"
 
 typedef enum scheme { EULER, BDF2, THETA, SCHEMES } scheme;
 extern const char *const scheme_names[SCHEMES];

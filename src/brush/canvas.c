@@ -7,11 +7,11 @@
 
 #include "base/memory.h"
 
-static fg_status allocate(fg__canvas *out, fg_context *context,
+static fg_status allocate(fg__brush_canvas *out, fg_context *context,
                           const fg_image_arrays *image)
 {
   size_t count = (size_t)image->width * (size_t)image->height;
-  *out = (fg__canvas){.width = image->width, .height = image->height};
+  *out = (fg__brush_canvas){.width = image->width, .height = image->height};
   for (int k = 0; k < 3; ++k)
     out->plane[k] = fg__allocate(count, sizeof *out->plane[k]);
   if (out->plane[0] && out->plane[1] && out->plane[2])
@@ -26,7 +26,8 @@ static float sample_of(const fg_image_arrays *image, size_t n, int k)
 }
 
 /* Where nothing is seen within reach of the average, no colour is known. */
-static void divide_by_alpha(fg__canvas *out, const float *alpha, const double other[3])
+static void divide_by_alpha(fg__brush_canvas *out, const float *alpha,
+                            const double other[3])
 {
   size_t count = (size_t)out->width * (size_t)out->height;
   for (size_t n = 0; n < count; ++n)
@@ -36,7 +37,7 @@ static void divide_by_alpha(fg__canvas *out, const float *alpha, const double ot
 }
 
 /* Colours count as much as they are seen: what lies under transparent pixels does not. */
-static bool average(fg__canvas *out, const fg_image_arrays *image, float *alpha,
+static bool average(fg__brush_canvas *out, const fg_image_arrays *image, float *alpha,
                     double deviation)
 {
   size_t count = (size_t)out->width * (size_t)out->height;
@@ -56,7 +57,7 @@ static bool average(fg__canvas *out, const fg_image_arrays *image, float *alpha,
   return true;
 }
 
-fg_status fg__canvas_of_image(fg__canvas *out, fg_context *context,
+fg_status fg__canvas_of_image(fg__brush_canvas *out, fg_context *context,
                               const fg_image_arrays *image, double deviation)
 {
   fg_status status = allocate(out, context, image);
@@ -92,7 +93,7 @@ void fg__image_mean(double color[3], const fg_image_arrays *image)
     color[k] = seen > 0.0 ? color[k] / seen : 1.0;
 }
 
-fg_status fg__canvas_blank(fg__canvas *out, fg_context *context,
+fg_status fg__canvas_blank(fg__brush_canvas *out, fg_context *context,
                            const fg_image_arrays *image)
 {
   fg_status status = allocate(out, context, image);
@@ -112,15 +113,15 @@ fg_status fg__canvas_blank(fg__canvas *out, fg_context *context,
   return status;
 }
 
-void fg__canvas_clear(fg__canvas *canvas)
+void fg__canvas_clear(fg__brush_canvas *canvas)
 {
   for (int k = 0; k < 3; ++k)
     free(canvas->plane[k]);
   free(canvas->painted);
-  *canvas = (fg__canvas){0};
+  *canvas = (fg__brush_canvas){0};
 }
 
-void fg__canvas_color(double color[3], const fg__canvas *canvas, const double at[2])
+void fg__canvas_color(double color[3], const fg__brush_canvas *canvas, const double at[2])
 {
   double x = fmin(fmax(at[0] - 0.5, 0.0), canvas->width - 1.0);
   double y = fmin(fmax(at[1] - 0.5, 0.0), canvas->height - 1.0);
@@ -141,7 +142,7 @@ static int limited(double value, int count)
   return (int)fmin(fmax(value, 0.0), (double)count);
 }
 
-void fg__canvas_dab(fg__canvas *canvas, const double at[2], double radius,
+void fg__canvas_dab(fg__brush_canvas *canvas, const double at[2], double radius,
                     const double color[3])
 {
   int left = limited(floor(at[0] - radius), canvas->width);
@@ -160,7 +161,7 @@ void fg__canvas_dab(fg__canvas *canvas, const double at[2], double radius,
     }
 }
 
-bool fg__canvas_is_bare(const fg__canvas *canvas, const double at[2])
+bool fg__canvas_is_bare(const fg__brush_canvas *canvas, const double at[2])
 {
   if (!(at[0] >= 0.0 && at[0] < canvas->width && at[1] >= 0.0 && at[1] < canvas->height))
     return false;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "evolve/evolution.h"
+#include "evolution/evolution.h"
 
 /* Share of the picture that clusters cover; more makes stripes of them. */
 static const double coverage = 0.34;

@@ -90,7 +90,7 @@ static void point_at(double out[2], double (*point)[2], int count, double arc)
 }
 
 /* Evenly spaced points from arc length `from` to `to`. */
-static void resample(fg__line *line, double (*point)[2], int count, double from,
+static void resample(fg__brush_line *line, double (*point)[2], int count, double from,
                      double to)
 {
   double pieces = ceil((to - from) / fmax(spacing_share * line->width, 0.5));
@@ -100,7 +100,8 @@ static void resample(fg__line *line, double (*point)[2], int count, double from,
 }
 
 /* Leaves the points about the middle whose colour is that of the middle. */
-static void cut_at_edges(fg__line *line, const fg__canvas *image, double tolerance)
+static void cut_at_edges(fg__brush_line *line, const fg__brush_canvas *image,
+                         double tolerance)
 {
   double middle[3], color[3];
   int center = line->count / 2, first = center, last = center;
@@ -119,7 +120,7 @@ static void cut_at_edges(fg__line *line, const fg__canvas *image, double toleran
   memmove(line->point, line->point + first, (size_t)line->count * sizeof line->point[0]);
 }
 
-static void find_color(fg__line *line, const fg__canvas *image)
+static void find_color(fg__brush_line *line, const fg__brush_canvas *image)
 {
   double color[3], sum[3] = {0.0, 0.0, 0.0};
   for (int n = 0; n < line->count; ++n) {
@@ -132,7 +133,7 @@ static void find_color(fg__line *line, const fg__canvas *image)
 }
 
 /* The point so many widths beside the n-th of a line. */
-static void point_beside(double out[2], const fg__line *line, int n, double offset)
+static void point_beside(double out[2], const fg__brush_line *line, int n, double offset)
 {
   const double *a = line->point[n > 0 ? n - 1 : n];
   const double *b = line->point[n + 1 < line->count ? n + 1 : n];
@@ -143,7 +144,7 @@ static void point_beside(double out[2], const fg__line *line, int n, double offs
 }
 
 /* By how much the mean colour along a side of the stroke differs from the line's. */
-static double difference_beside(const fg__line *line, const fg__canvas *image,
+static double difference_beside(const fg__brush_line *line, const fg__brush_canvas *image,
                                 double offset)
 {
   double color[3], at[2], sum = 0.0;
@@ -156,7 +157,8 @@ static double difference_beside(const fg__line *line, const fg__canvas *image,
 }
 
 /* Narrows the brush until both sides have the line's colour. */
-static void fit_width(fg__line *line, const fg__canvas *image, double tolerance)
+static void fit_width(fg__brush_line *line, const fg__brush_canvas *image,
+                      double tolerance)
 {
   double full = line->width;
   for (size_t n = 0; n < sizeof narrower / sizeof *narrower; ++n) {
@@ -167,8 +169,8 @@ static void fit_width(fg__line *line, const fg__canvas *image, double tolerance)
   }
 }
 
-static void shape_line(fg__line *line, double (*point)[2], int count,
-                       const fg__canvas *image, const fg__line_rule *rule)
+static void shape_line(fg__brush_line *line, double (*point)[2], int count,
+                       const fg__brush_canvas *image, const fg__line_rule *rule)
 {
   smooth(point, count);
   double length = length_of(point, count), more = overshoot * line->width;
@@ -186,8 +188,9 @@ static void shape_line(fg__line *line, double (*point)[2], int count,
   line->width = fmin(line->width, length / least_aspect);
 }
 
-fg_status fg__line_create(fg__line *out, fg_context *context, const fg__window *window,
-                          const fg__canvas *image, const fg__line_rule *rule)
+fg_status fg__line_create(fg__brush_line *out, fg_context *context,
+                          const fg__window *window, const fg__brush_canvas *image,
+                          const fg__line_rule *rule)
 {
   size_t nodes = (size_t)window->nodes[0] * (size_t)window->nodes[1];
   double *distance = fg__allocate(nodes, sizeof *distance);
@@ -213,8 +216,8 @@ fg_status fg__line_create(fg__line *out, fg_context *context, const fg__window *
   return status;
 }
 
-double fg__line_difference(const fg__line *line, const fg__canvas *one,
-                           const fg__canvas *other)
+double fg__line_difference(const fg__brush_line *line, const fg__brush_canvas *one,
+                           const fg__brush_canvas *other)
 {
   double a[3], b[3], at[2], most = 0.0;
   for (int side = -1; side <= 1; ++side) {
@@ -230,7 +233,7 @@ double fg__line_difference(const fg__line *line, const fg__canvas *one,
   return most;
 }
 
-bool fg__line_is_bare(const fg__line *line, const fg__canvas *painted)
+bool fg__line_is_bare(const fg__brush_line *line, const fg__brush_canvas *painted)
 {
   double at[2];
   for (int n = 1; n + 2 < line->count; ++n)

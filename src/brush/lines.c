@@ -8,9 +8,9 @@
 typedef struct search {
   const fg_density_arrays *density;
   const fg__labels *labels;
-  const fg__canvas *image;
+  const fg__brush_canvas *image;
   const fg__line_rule *rule;
-  fg__line *line;
+  fg__brush_line *line;
   fg_context *context;               /* the caller's */
   fg_context *own[FG__MOST_MEMBERS]; /* a context is for one thread */
   fg_status status[FG__MOST_MEMBERS];
@@ -63,8 +63,8 @@ static fg_status find_lines(search *s, fg__team *team)
   return status;
 }
 
-fg_status fg__layer_lines(fg__line **lines, int *count, fg_context *context,
-                          const fg_density_arrays *density, const fg__canvas *image,
+fg_status fg__layer_lines(fg__brush_line **lines, int *count, fg_context *context,
+                          const fg_density_arrays *density, const fg__brush_canvas *image,
                           const fg__line_rule *rule, int threads)
 {
   fg__labels labels;
@@ -74,7 +74,7 @@ fg_status fg__layer_lines(fg__line **lines, int *count, fg_context *context,
   if (status)
     return status;
   search *s = fg__allocate(1, sizeof *s);
-  fg__line *found = fg__allocate((size_t)labels.count + 1, sizeof *found);
+  fg__brush_line *found = fg__allocate((size_t)labels.count + 1, sizeof *found);
   *count = labels.count;
   if (!s || !found)
     status = fg__fail_memory(context, "strokes", (size_t)labels.count * sizeof *found);

@@ -49,8 +49,8 @@ typedef struct work {
   const fg_image_arrays *image;
   fg_brush_options options;
   int clusters[FG_MOST_BRUSH_SCALES]; /* ascending */
-  fg__canvas original;                /* averaged as suits the layer */
-  fg__canvas painted;
+  fg__brush_canvas original;          /* averaged as suits the layer */
+  fg__brush_canvas painted;
   fg_strokes *strokes;
 } work;
 
@@ -120,7 +120,7 @@ static fg_status settle(work *w)
   return FG_STATUS_OK;
 }
 
-static fg_status add_stroke(work *w, const fg__line *line, int layer)
+static fg_status add_stroke(work *w, const fg__brush_line *line, int layer)
 {
   fg_strokes *s = w->strokes;
   if (!fg__grow((void **)&s->entry, &s->entry_capacity, s->count + 1, sizeof *s->entry) ||
@@ -150,7 +150,7 @@ static fg_status add_stroke(work *w, const fg__line *line, int layer)
 }
 
 /* Lines where the painting is bare or differs from the image become strokes. */
-static fg_status paint_lines(work *w, const fg__line *lines, int count, int layer)
+static fg_status paint_lines(work *w, const fg__brush_line *lines, int count, int layer)
 {
   fg_status status = FG_STATUS_OK;
   for (int n = 0; n < count && !status; ++n)
@@ -170,7 +170,7 @@ static fg_status paint_pass(work *w, const fg__structure *structure,
       .widening = first_widening + share * (last_widening - first_widening),
       .tolerance = first_tolerance + share * (last_tolerance - first_tolerance)};
   fg_density *density;
-  fg__line *lines = NULL;
+  fg__brush_line *lines = NULL;
   fg_status status = fg__layer_density(&density, w->context, w->image, structure, plan);
   if (!status)
     status = fg__layer_lines(&lines, &count, w->context, fg_density_contents(density),
@@ -228,8 +228,8 @@ static void along_level_set(double out[2], const work *w, const fg__structure *s
 
 /* A touch along the level set through a block's middle, a little beside it, so that no
  * rows are seen. */
-static void place_touch(fg__line *line, const work *w, const fg__structure *structure,
-                        int left, int top)
+static void place_touch(fg__brush_line *line, const work *w,
+                        const fg__structure *structure, int left, int top)
 {
   uint64_t hash =
       fg__mix(w->options.seed ^ fg__mix((uint64_t)left << 32 | (uint64_t)top));
@@ -259,7 +259,7 @@ static fg_status touch_up(work *w)
     for (int i = 0; i < w->image->width && !status; i += TOUCH) {
       if (!block_is_bare(w, i, j))
         continue;
-      fg__line line;
+      fg__brush_line line;
       place_touch(&line, w, &structure, i, j);
       status = add_stroke(w, &line, 0);
     }

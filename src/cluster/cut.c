@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "evolve/components.h"
+#include "component/components.h"
 
 float fg__cut_turned_off(float u)
 {

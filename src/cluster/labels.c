@@ -6,7 +6,7 @@
 #include "base/context.h"
 #include "base/memory.h"
 #include "cluster/unwrap.h"
-#include "evolve/components.h"
+#include "component/components.h"
 
 /* Bounds inside the grid, and each cluster's first node. */
 static void find_bounds(fg__labels *labels, const int nodes[3], int *first)

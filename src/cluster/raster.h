@@ -9,7 +9,7 @@
 /* Labels of the nodes: 0 outside every cluster, else 1 ... count in the order of each
  * cluster's first node (x fastest). Nodes are joined when they are neighbours along an
  * axis or across a cell (in 3D a cell's face) whose bilinear density stays positive on
- * the diagonal, and an active cell joins them (evolve/components.h). A node without an
+ * the diagonal, and an active cell joins them (component/components.h). A node without an
  * active cell is outside. */
 typedef struct fg__labels {
   int *label;       /* a number a node of the density */

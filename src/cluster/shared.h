@@ -4,7 +4,7 @@
 #define FG__SHARED_H
 
 #include "cluster/raster.h"
-#include "evolve/density_share.h"
+#include "density/share.h"
 
 /* What fg__labels_create finds in the whole density, alike on all ranks, but for `label`:
  * each rank's share has those of its own nodes. Collective. MEMORY. */

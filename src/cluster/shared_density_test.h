@@ -3,11 +3,11 @@
 #ifndef FG__SHARED_DENSITY_TEST_H
 #define FG__SHARED_DENSITY_TEST_H
 
-#include "mesh/together_test.h"
+#include "grid/together_test.h"
 
 #include <math.h>
 
-#include "evolve/density_share.h"
+#include "density/share.h"
 
 typedef struct shape {
   const char *name;

@@ -85,7 +85,7 @@ static bool share_cell(const fg__component_grid *grid, const int from[3],
 }
 
 /* The node a step away, or -1 when the two are not joined directly: along an edge, or
- * across a face (evolve/components.h). */
+ * across a face (component/components.h). */
 static int joined_node(const fg__unwrap *unwrap, const int from[3], const int step[3])
 {
   const fg__component_grid *grid = unwrap->grid;

@@ -2,7 +2,7 @@
 #ifndef FG__UNWRAP_H
 #define FG__UNWRAP_H
 
-#include "evolve/components.h"
+#include "component/components.h"
 
 typedef struct fg__unwrap {
   const fg__component_grid *grid;

@@ -5,8 +5,8 @@
 
 #include "base/memory.h"
 #include "cluster/shared.h"
+#include "grid/field_parts.h"
 #include "icon/icons_make.h"
-#include "mesh/field_parts.h"
 
 /* Patches that a rank holds at a time have this share of its part of the grid, but for
  * one that is larger. */

@@ -1,6 +1,6 @@
 /* Icons that ranks make of their parts are those of the whole, to the bit. */
 #include "cluster/shared_density_test.h"
-#include "mesh/parted_test.h"
+#include "grid/parted_test.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "mesh/parted_test.h"
+#include "grid/parted_test.h"
 
 enum { CELLS = 32, FINE = 2, DATA = 12 * FINE };
 

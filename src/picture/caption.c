@@ -21,7 +21,7 @@ bool fg__speed_range(double range[2], const fg_icons *icons)
     range[0] = 0.0;
     range[1] = range[1] > 0.0 ? range[1] : 1.0;
   }
-  fg__axis plain = {.style = FG__TICKS_NUMBER, .factor = 1.0};
+  fg__tick_axis plain = {.style = FG__TICKS_NUMBER, .factor = 1.0};
   double step = fg__ticks_step(&plain, (range[1] - range[0]) / 6.0);
   range[0] = floor(range[0] / step * (1.0 + 1e-9)) * step;
   range[1] = ceil(range[1] / step * (1.0 - 1e-9)) * step;

@@ -103,10 +103,10 @@ static void append(char out[FG__AXIS_BYTES], const char *text)
     memcpy(out + used, text, length + 1);
 }
 
-void fg__axis_of_numbers(fg__axis *out, double low, double high, double extent,
+void fg__axis_of_numbers(fg__tick_axis *out, double low, double high, double extent,
                          const char *name, const char *units)
 {
-  *out = (fg__axis){FG__TICKS_NUMBER, low, high, 1.0, 0.0, "", ""};
+  *out = (fg__tick_axis){FG__TICKS_NUMBER, low, high, 1.0, 0.0, "", ""};
   char symbol[FG__UNITS_BYTES];
   fg__units_write(symbol, units);
   double metres = fg__units_metres(units);
@@ -148,9 +148,10 @@ void fg__axis_of_numbers(fg__axis *out, double low, double high, double extent,
     append(out->label, ")");
 }
 
-void fg__axis_of_degrees(fg__axis *out, double low, double high, fg__tick_style style)
+void fg__axis_of_degrees(fg__tick_axis *out, double low, double high,
+                         fg__tick_style style)
 {
-  *out = (fg__axis){style, low, high, 1.0, 0.0, "", DEGREE};
+  *out = (fg__tick_axis){style, low, high, 1.0, 0.0, "", DEGREE};
 }
 
 /* 1, 2, 5 times a power of ten, the smallest at least `least`. */
@@ -164,7 +165,7 @@ static double decimal_step(double least)
   return 10.0 * power;
 }
 
-double fg__ticks_step(const fg__axis *axis, double least)
+double fg__ticks_step(const fg__tick_axis *axis, double least)
 {
   if (axis->style == FG__TICKS_NUMBER)
     return decimal_step(least * axis->factor) / axis->factor;
@@ -177,7 +178,7 @@ double fg__ticks_step(const fg__axis *axis, double least)
   return 360.0 * ceil(least / 360.0);
 }
 
-double fg__ticks_step_below(const fg__axis *axis, double step)
+double fg__ticks_step_below(const fg__tick_axis *axis, double step)
 {
   /* Neighbours are at most a factor 2.5 apart and at least 4/3. */
   for (double share = 0.8; share > 0.3; share -= 0.05) {
@@ -188,7 +189,7 @@ double fg__ticks_step_below(const fg__axis *axis, double step)
   return 0.4 * step;
 }
 
-void fg__ticks_fill(fg__ticks *out, const fg__axis *axis, double step)
+void fg__ticks_fill(fg__ticks *out, const fg__tick_axis *axis, double step)
 {
   out->count = 0;
   out->step = step;
@@ -212,7 +213,8 @@ void fg__ticks_fill(fg__ticks *out, const fg__axis *axis, double step)
   }
 }
 
-void fg__axis_write_length(char out[FG__AXIS_BYTES], const fg__axis *axis, double length)
+void fg__axis_write_length(char out[FG__AXIS_BYTES], const fg__tick_axis *axis,
+                           double length)
 {
   char number[FG__TICK_BYTES];
   double value = length * axis->factor;

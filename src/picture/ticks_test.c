@@ -30,7 +30,7 @@ static void texts_read_back_as_positions(void **state)
                {-1e8, -1e8 + 7.0, "cm"},   {2.0, 90000.0, "mm"}};
   for (size_t c = 0; c < sizeof cases / sizeof *cases; ++c) {
     double low = cases[c].low, high = cases[c].high, range = high - low;
-    fg__axis axis;
+    fg__tick_axis axis;
     fg__axis_of_numbers(&axis, low, high, range, "x", cases[c].units);
     for (int parts = 2; parts <= 10; ++parts) {
       fg__ticks ticks;
@@ -52,7 +52,7 @@ static void texts_read_back_as_positions(void **state)
 static void steps_are_nice_and_large_enough(void **state)
 {
   (void)state;
-  fg__axis axis;
+  fg__tick_axis axis;
   fg__axis_of_numbers(&axis, 0.0, 1.0, 1.0, "x", "");
   for (double least = 3.3e-7; least < 1e6; least *= 1.17) {
     double step = fg__ticks_step(&axis, least);
@@ -69,7 +69,7 @@ static void steps_are_nice_and_large_enough(void **state)
 static void steps_of_degrees_divide_the_circle(void **state)
 {
   (void)state;
-  fg__axis axis;
+  fg__tick_axis axis;
   fg__axis_of_degrees(&axis, 0.0, 360.0, FG__TICKS_LONGITUDE);
   for (double least = 5.5; least < 180.0; least += 0.7) {
     double step = fg__ticks_step(&axis, least);
@@ -79,7 +79,8 @@ static void steps_of_degrees_divide_the_circle(void **state)
   }
 }
 
-static void expect_texts(const fg__axis *axis, double step, const char *const *expected)
+static void expect_texts(const fg__tick_axis *axis, double step,
+                         const char *const *expected)
 {
   fg__ticks ticks;
   fg__ticks_fill(&ticks, axis, step);
@@ -94,7 +95,7 @@ static void expect_texts(const fg__axis *axis, double step, const char *const *e
 static void longitudes_cross_the_date_line_and_the_circle(void **state)
 {
   (void)state;
-  fg__axis axis;
+  fg__tick_axis axis;
   fg__axis_of_degrees(&axis, 148.0, 215.0, FG__TICKS_LONGITUDE);
   expect_texts(&axis, 15.0,
                (const char *const[]){"150" DEGREE "E", "165" DEGREE "E", "180" DEGREE,
@@ -112,7 +113,7 @@ static void longitudes_cross_the_date_line_and_the_circle(void **state)
 static void latitudes_have_their_side(void **state)
 {
   (void)state;
-  fg__axis axis;
+  fg__tick_axis axis;
   fg__axis_of_degrees(&axis, -35.0, 31.0, FG__TICKS_LATITUDE);
   expect_texts(&axis, 30.0,
                (const char *const[]){"30" DEGREE "S", "0" DEGREE, "30" DEGREE "N", NULL});
@@ -121,7 +122,7 @@ static void latitudes_have_their_side(void **state)
 static void lengths_take_the_unit_that_suits(void **state)
 {
   (void)state;
-  fg__axis axis;
+  fg__tick_axis axis;
   fg__axis_of_numbers(&axis, -2e5, 3e5, 5e5, "x", "meters");
   assert_string_equal(axis.label, "x (km)");
   expect_texts(
@@ -138,7 +139,7 @@ static void lengths_take_the_unit_that_suits(void **state)
 static void unhandy_numbers_lose_a_power_or_an_offset(void **state)
 {
   (void)state;
-  fg__axis axis;
+  fg__tick_axis axis;
   fg__axis_of_numbers(&axis, 0.0, 7e-5, 7e-5, "x", "");
   assert_string_equal(axis.label, "x (\xC3\x97"
                                   "10" FG__TEXT_RAISE MINUS "5" FG__TEXT_LOWER ")");
@@ -152,7 +153,7 @@ static void lengths_are_written_with_their_unit(void **state)
 {
   (void)state;
   char text[FG__AXIS_BYTES];
-  fg__axis axis;
+  fg__tick_axis axis;
   fg__axis_of_degrees(&axis, 350.0, 400.0, FG__TICKS_LONGITUDE);
   fg__axis_write_length(text, &axis, 20.0);
   assert_string_equal(text, "20" DEGREE);
@@ -167,7 +168,7 @@ static void lengths_are_written_with_their_unit(void **state)
 static void too_many_ticks_are_none(void **state)
 {
   (void)state;
-  fg__axis axis;
+  fg__tick_axis axis;
   fg__axis_of_numbers(&axis, 0.0, 1.0, 1.0, "x", "");
   fg__ticks ticks;
   fg__ticks_fill(&ticks, &axis, 1e-9);

@@ -4,7 +4,7 @@
 #include "icon/icons.h"
 #include "icon/measure.h"
 #include "place/angle.h"
-#include "place/even.h"
+#include "place/search/even.h"
 
 #include <math.h>
 #include <stdlib.h>

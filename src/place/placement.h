@@ -2,7 +2,7 @@
 #ifndef FG__PLACEMENT_H
 #define FG__PLACEMENT_H
 
-#include "place/search.h"
+#include "place/search/search.h"
 
 fg_context *fg__placement_context(const fg_placement *placement);
 const fg_field *fg__placement_field(const fg_placement *placement);

@@ -2,7 +2,7 @@
 #ifndef FG__PLACE_REGIONS_H
 #define FG__PLACE_REGIONS_H
 
-#include "place/search.h"
+#include "place/search/search.h"
 
 /* What the points of an icon's region add up to. */
 typedef struct fg__place_share {

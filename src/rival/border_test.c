@@ -1,7 +1,7 @@
 /* No rival's arrow crosses a periodic border. */
-#include "rival/evenly.h"
+#include "rival/cluster/parts.h"
 #include "rival/fields_test.h"
-#include "rival/parts.h"
+#include "rival/streamline/evenly.h"
 
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 #ifndef FG__RIVAL_METHOD_H
 #define FG__RIVAL_METHOD_H
 
-#include "rival/merge_tree.h"
+#include "rival/cluster/merge_tree.h"
 
 struct fg_rival {
   fg_context *context;

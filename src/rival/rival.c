@@ -1,7 +1,7 @@
 /* The methods by name: a new one is a file and a line in the list. */
 #include "base/memory.h"
 #include "icon/icons.h"
-#include "rival/clusters.h"
+#include "rival/cluster/clusters.h"
 #include "rival/method.h"
 
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* The rivals in 3D. */
-#include "rival/evenly.h"
-#include "rival/farthest.h"
+#include "rival/cluster/lloyd.h"
 #include "rival/fields_test.h"
 #include "rival/lattice.h"
-#include "rival/lines_test.h"
-#include "rival/lloyd.h"
+#include "rival/streamline/evenly.h"
+#include "rival/streamline/farthest.h"
+#include "rival/streamline/lines_test.h"
 #include "solid/vector.h"
 
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "evolve/components.h"
+#include "component/components.h"
 
 /* Lowers the distances of the nodes from `low` to `high` to that from the segment p q,
  * all in node units. */

@@ -5,7 +5,7 @@
 
 #include "base/context.h"
 #include "base/memory.h"
-#include "evolve/components.h"
+#include "component/components.h"
 
 const int fg__graph_step[FG__GRAPH_DIRECTIONS][2] = {{1, 0}, {0, 1},  {-1, 0},  {0, -1},
                                                      {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};

@@ -8,13 +8,13 @@
 
 enum { FG__BLOCK = 128 }; /* pixels a side: a block fits into a second-level cache */
 
-typedef struct fg__blocks {
+typedef struct fg__texture_blocks {
   int size[2];  /* of the picture */
   int along[2]; /* blocks along x and y */
   atomic_int next;
-} fg__blocks;
+} fg__texture_blocks;
 
-static inline void fg__blocks_begin(fg__blocks *blocks, const fg__raster *raster)
+static inline void fg__blocks_begin(fg__texture_blocks *blocks, const fg__raster *raster)
 {
   for (int k = 0; k < 2; ++k) {
     blocks->size[k] = raster->size[k];
@@ -25,7 +25,7 @@ static inline void fg__blocks_begin(fg__blocks *blocks, const fg__raster *raster
 
 /* The lowest pixel and the size of a block that nobody has taken yet; false when there is
  * none. */
-static inline bool fg__blocks_take(fg__blocks *blocks, int first[2], int size[2])
+static inline bool fg__blocks_take(fg__texture_blocks *blocks, int first[2], int size[2])
 {
   int number = atomic_fetch_add_explicit(&blocks->next, 1, memory_order_relaxed);
   if (number >= blocks->along[0] * blocks->along[1])

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "evolve/evolution.h"
-#include "evolve/noise.h"
+#include "evolution/evolution.h"
 #include "field/field.h"
+#include "field/noise.h"
 #include "texture/contrast.h"
 
 enum { USUAL_CLUSTERS = 300, LEAST_NODES = 65, MOST_NODES = 1025 };

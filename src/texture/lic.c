@@ -32,7 +32,7 @@ typedef struct painting {
   const float *grain;
   float *value;
   int half; /* of the kernel: steps of a pixel */
-  fg__blocks blocks;
+  fg__texture_blocks blocks;
   struct block *block; /* one a member */
 } painting;
 

@@ -39,7 +39,7 @@ typedef struct painting {
   double cell[2]; /* of the lattice, pixels */
   int cells[2];   /* along a periodic axis */
   double reach;   /* of a spot from its centre, at most */
-  fg__blocks blocks;
+  fg__texture_blocks blocks;
   struct block *block;
 } painting;
 

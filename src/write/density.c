@@ -2,8 +2,8 @@
 #include "write/density.h"
 #include "base/memory.h"
 #include "base/number_text.h"
-#include "evolve/components.h"
-#include "evolve/density_share.h"
+#include "component/components.h"
+#include "density/share.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "base/number_text.h"
-#include "evolve/density_share.h"
+#include "density/share.h"
 #include "write/density.h"
 
 typedef struct writing {

@@ -51,7 +51,7 @@ void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color)
 }
 
 /* Pixels that are as large as those of the sheet are taken as they are. */
-static void draw_background(cairo_t *cairo, const fg__box *box,
+static void draw_background(cairo_t *cairo, const fg__page_box *box,
                             cairo_surface_t *background)
 {
   const double wide = cairo_image_surface_get_width(background);
@@ -128,7 +128,7 @@ static void draw_skeletons(cairo_t *cairo, const fg__scene *scene)
   cairo_restore(cairo);
 }
 
-static void add_box(cairo_t *cairo, const fg__box *box)
+static void add_box(cairo_t *cairo, const fg__page_box *box)
 {
   cairo_rectangle(cairo, box->x0, box->y0, box->x1 - box->x0, box->y1 - box->y0);
 }
@@ -136,7 +136,7 @@ static void add_box(cairo_t *cairo, const fg__box *box)
 /* The colour key's outline, with a point at an end beyond which there are speeds. */
 static void add_color_key(cairo_t *cairo, const fg__page *page)
 {
-  const fg__box *key = &page->color_key;
+  const fg__page_box *key = &page->color_key;
   bool upright = page->color_key_upright;
   const double *point = page->color_key_point;
   double middle = upright ? 0.5 * (key->x0 + key->x1) : 0.5 * (key->y0 + key->y1);
@@ -158,7 +158,7 @@ static void add_color_key(cairo_t *cairo, const fg__page *page)
 static void draw_color_key(cairo_t *cairo, const fg__page *page,
                            const fg__palette *palette)
 {
-  const fg__box *key = &page->color_key;
+  const fg__page_box *key = &page->color_key;
   cairo_pattern_t *ramp = page->color_key_upright
                               ? cairo_pattern_create_linear(0.0, key->y1, 0.0, key->y0)
                               : cairo_pattern_create_linear(key->x0, 0.0, key->x1, 0.0);

@@ -8,7 +8,7 @@ typedef struct fg__style {
   fg__color mask, tint;
   bool transparent;
   cairo_surface_t *background; /* NULL: none */
-  fg__box background_box;      /* of the domain, which may be wider than the frame */
+  fg__page_box background_box; /* of the domain, which may be wider than the frame */
 } fg__style;
 
 /* A light grey. */

@@ -100,8 +100,8 @@ static void place_caption(fg__page *page, fg__margins *room, const fg__page_plan
     added->x = start;
     added->y = y;
     double wide = fg__text_width(ruler, line[k], added->size, added->bold);
-    added->box = (fg__box){start, y - FG__TEXT_ASCENT * added->size, start + wide,
-                           y + FG__TEXT_DESCENT * added->size};
+    added->box = (fg__page_box){start, y - FG__TEXT_ASCENT * added->size, start + wide,
+                                y + FG__TEXT_DESCENT * added->size};
     y -= 1.3 * added->size;
     room->top = page->frame.y0 - added->box.y0;
   }

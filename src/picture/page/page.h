@@ -8,9 +8,9 @@
 #include "picture/ticks.h"
 
 /* Points of 1/72 inch from the page's upper left corner, y downwards. */
-typedef struct fg__box {
+typedef struct fg__page_box {
   double x0, y0, x1, y1;
-} fg__box;
+} fg__page_box;
 
 enum {
   FG__CAPTION_LINES = 4,
@@ -26,7 +26,7 @@ typedef struct fg__page_text {
   bool bold, quiet;
   bool upwards; /* reads from below to above */
   double x, y;  /* where its baseline begins */
-  fg__box box;
+  fg__page_box box;
 } fg__page_text;
 
 typedef struct fg__page_line {
@@ -36,7 +36,7 @@ typedef struct fg__page_line {
 typedef struct fg__page {
   double width, height;
   double font_size;
-  fg__box frame;
+  fg__page_box frame;
   double scale; /* points a coordinate unit */
   bool framed;
   fg__page_text text[FG__PAGE_TEXTS];
@@ -44,7 +44,7 @@ typedef struct fg__page {
   fg__page_line line[FG__PAGE_LINES];
   int line_count;
   bool has_color_key, color_key_upright;
-  fg__box color_key;
+  fg__page_box color_key;
   double color_key_point[2]; /* length of the points at its ends, for speeds beyond */
   bool has_size_key;
   double size_key[2];     /* where its arrow's tail is */
@@ -57,11 +57,11 @@ typedef struct fg__page_plan {
   double height;    /* points; 0: follows */
   double font_size; /* points; 0: follows from the page's size */
   bool no_frame;    /* the domain's box, nothing else */
-  fg__axis axis[2];
+  fg__tick_axis axis[2];
   char title[FG__PAGE_TEXT_BYTES];    /* "" none */
   char subtitle[FG__PAGE_TEXT_BYTES]; /* "" none */
   bool color_key;
-  fg__axis speed;        /* with the ends of the colour key */
+  fg__tick_axis speed;   /* with the ends of the colour key */
   bool speeds_beyond[2]; /* some arrows are slower or faster than these ends */
   bool size_key;
   double arrow_length; /* of a typical arrow, coordinates */
@@ -92,7 +92,7 @@ double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *tex
 void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y1);
 
 /* Ticks of an axis of `length` points whose labels keep a distance. */
-void fg__page_choose_ticks(fg__ticks *out, const fg__axis *axis, cairo_t *ruler,
+void fg__page_choose_ticks(fg__ticks *out, const fg__tick_axis *axis, cairo_t *ruler,
                            double length, double font_size, bool upright);
 
 /* Which parts a page has. */

@@ -16,7 +16,7 @@ static const double usual_spacing_upright = 4.2;
 static const double least_spacing_upright = 2.6;
 enum { USUAL_TICKS = 12, FEW_TICKS = 4, TRIES = 16 };
 
-static bool labels_fit(const fg__ticks *ticks, const fg__axis *axis, cairo_t *ruler,
+static bool labels_fit(const fg__ticks *ticks, const fg__tick_axis *axis, cairo_t *ruler,
                        double length, double font_size, bool upright)
 {
   double points = length / (axis->high - axis->low);
@@ -34,7 +34,7 @@ static bool labels_fit(const fg__ticks *ticks, const fg__axis *axis, cairo_t *ru
   return true;
 }
 
-void fg__page_choose_ticks(fg__ticks *out, const fg__axis *axis, cairo_t *ruler,
+void fg__page_choose_ticks(fg__ticks *out, const fg__tick_axis *axis, cairo_t *ruler,
                            double length, double font_size, bool upright)
 {
   double range = axis->high - axis->low;
@@ -63,7 +63,7 @@ static void place_x(fg__page *page, fg__margins *room, const fg__page_plan *plan
                     cairo_t *ruler)
 {
   const double em = page->font_size;
-  const fg__box *frame = &page->frame;
+  const fg__page_box *frame = &page->frame;
   fg__ticks ticks;
   fg__page_choose_ticks(&ticks, &plan->axis[0], ruler, frame->x1 - frame->x0, em, false);
   double baseline = frame->y1 + (tick_length + label_gap + FG__TEXT_ASCENT) * em;
@@ -83,7 +83,7 @@ static void place_y(fg__page *page, fg__margins *room, const fg__page_plan *plan
                     cairo_t *ruler)
 {
   const double em = page->font_size;
-  const fg__box *frame = &page->frame;
+  const fg__page_box *frame = &page->frame;
   fg__ticks ticks;
   fg__page_choose_ticks(&ticks, &plan->axis[1], ruler, frame->y1 - frame->y0, em, true);
   for (int k = 0; k < ticks.count; ++k) {
@@ -103,7 +103,7 @@ static void place_x_label(fg__page *page, fg__margins *room, const char *label,
                           cairo_t *ruler)
 {
   const double em = page->font_size;
-  const fg__box *frame = &page->frame;
+  const fg__page_box *frame = &page->frame;
   double middle = 0.5 * (frame->x0 + frame->x1);
   double baseline = frame->y1 + room->bottom + (0.15 + FG__TEXT_ASCENT) * em;
   double width =
@@ -119,7 +119,7 @@ static void place_y_label(fg__page *page, fg__margins *room, const char *label,
                           cairo_t *ruler)
 {
   const double em = page->font_size;
-  const fg__box *frame = &page->frame;
+  const fg__page_box *frame = &page->frame;
   double middle = 0.5 * (frame->y0 + frame->y1);
   double width = fg__text_width(ruler, label, em, false);
   if (width <= 2.0 * em || width > frame->y1 - frame->y0) {

@@ -29,8 +29,8 @@ double fg__page_add_text(fg__page *page, cairo_t *ruler, const char *text, doubl
   double width = fg__text_width(ruler, added->text, added->size, false);
   added->x = start_of(x, width, align);
   added->y = y;
-  added->box = (fg__box){added->x, y - FG__TEXT_ASCENT * added->size, added->x + width,
-                         y + FG__TEXT_DESCENT * added->size};
+  added->box = (fg__page_box){added->x, y - FG__TEXT_ASCENT * added->size,
+                              added->x + width, y + FG__TEXT_DESCENT * added->size};
   return width;
 }
 
@@ -44,8 +44,8 @@ double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *tex
   added->upwards = true;
   added->x = x;
   added->y = y + 0.5 * width;
-  added->box = (fg__box){x - FG__TEXT_ASCENT * added->size, added->y - width,
-                         x + FG__TEXT_DESCENT * added->size, added->y};
+  added->box = (fg__page_box){x - FG__TEXT_ASCENT * added->size, added->y - width,
+                              x + FG__TEXT_DESCENT * added->size, added->y};
   return width;
 }
 

@@ -81,13 +81,13 @@ static void bar_below(fg__page *page, fg__margins *room, const fg__page_plan *pl
                       cairo_t *ruler, double x0, double y0, double length)
 {
   const double em = page->font_size;
-  const fg__axis *speed = &plan->speed;
+  const fg__tick_axis *speed = &plan->speed;
   page->has_color_key = true;
   page->color_key_upright = false;
   double x1 = x0 + length;
   add_points(page, plan, &x0, &x1);
   length = x1 - x0;
-  page->color_key = (fg__box){x0, y0, x1, y0 + bar_thickness * em};
+  page->color_key = (fg__page_box){x0, y0, x1, y0 + bar_thickness * em};
   fg__ticks ticks;
   fg__page_choose_ticks(&ticks, speed, ruler, length, em, false);
   double y1 = page->color_key.y1;
@@ -130,7 +130,7 @@ static void place_below(fg__page *page, fg__margins *room, const fg__page_plan *
                         const fg__page_parts *parts, cairo_t *ruler)
 {
   const double em = page->font_size;
-  const fg__box *frame = &page->frame;
+  const fg__page_box *frame = &page->frame;
   double y0 = frame->y1 + room->bottom + 0.7 * em;
   double wide = frame->x1 - frame->x0;
   size_key key;
@@ -155,14 +155,14 @@ static double bar_beside(fg__page *page, fg__margins *room, const fg__page_plan 
                          cairo_t *ruler, double x0, double y0, double y1)
 {
   const double em = page->font_size;
-  const fg__axis *speed = &plan->speed;
+  const fg__tick_axis *speed = &plan->speed;
   page->has_color_key = true;
   page->color_key_upright = true;
   double above = -y0, below = -y1;
   add_points(page, plan, &below, &above);
   y0 = -above;
   y1 = -below;
-  page->color_key = (fg__box){x0, y0, x0 + bar_thickness * em, y1};
+  page->color_key = (fg__page_box){x0, y0, x0 + bar_thickness * em, y1};
   fg__ticks ticks;
   fg__page_choose_ticks(&ticks, speed, ruler, y1 - y0, em, true);
   double right = page->color_key.x1;
@@ -210,7 +210,7 @@ static void place_beside(fg__page *page, fg__margins *room, const fg__page_plan 
                          const fg__page_parts *parts, cairo_t *ruler)
 {
   const double em = page->font_size;
-  const fg__box *frame = &page->frame;
+  const fg__page_box *frame = &page->frame;
   const double size_height = 5.6 * em; /* arrow, two lines, and the gap above them */
   double x0 = frame->x1 + fmax(room->right + 0.5 * em, key_gap * em);
   double high = frame->y1 - frame->y0;

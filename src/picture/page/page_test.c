@@ -6,21 +6,22 @@
 #include "base/context_test.h"
 #include "picture/page/page.h"
 
-static bool boxes_meet(const fg__box *a, const fg__box *b)
+static bool boxes_meet(const fg__page_box *a, const fg__page_box *b)
 {
   return a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1;
 }
 
-static fg__box size_key_box(const fg__page *page)
+static fg__page_box size_key_box(const fg__page *page)
 {
-  return (fg__box){page->size_key[0], page->size_key[1] - 1.0,
-                   page->size_key[0] + page->size_key_length, page->size_key[1] + 1.0};
+  return (fg__page_box){page->size_key[0], page->size_key[1] - 1.0,
+                        page->size_key[0] + page->size_key_length,
+                        page->size_key[1] + 1.0};
 }
 
 /* With the points at its ends. */
-static fg__box color_key_box(const fg__page *page)
+static fg__page_box color_key_box(const fg__page *page)
 {
-  fg__box box = page->color_key;
+  fg__page_box box = page->color_key;
   if (page->color_key_upright) {
     box.y1 += page->color_key_point[0];
     box.y0 -= page->color_key_point[1];
@@ -31,7 +32,7 @@ static fg__box color_key_box(const fg__page *page)
   return box;
 }
 
-static void check_inside(const fg__page *page, const fg__box *box)
+static void check_inside(const fg__page *page, const fg__page_box *box)
 {
   const double slack = 1e-6 * (page->width + page->height);
   assert_true(box->x0 >= -slack && box->y0 >= -slack);
@@ -41,7 +42,7 @@ static void check_inside(const fg__page *page, const fg__box *box)
 /* No two things on the page touch; all lie on it; one unit is as long along x and y. */
 static void check_page(const fg__page *page, const fg__page_plan *plan)
 {
-  fg__box things[FG__PAGE_TEXTS + 3];
+  fg__page_box things[FG__PAGE_TEXTS + 3];
   int count = 0;
   for (int k = 0; k < page->text_count; ++k)
     things[count++] = page->text[k].box;
@@ -169,7 +170,7 @@ static void a_usual_page_has_everything(void **state)
   }
 }
 
-static double longer_side(const fg__box *box)
+static double longer_side(const fg__page_box *box)
 {
   return fmax(box->x1 - box->x0, box->y1 - box->y0);
 }
@@ -186,7 +187,7 @@ static void a_key_points_at_speeds_beyond(void **state)
       plan.speeds_beyond[1] = ends & 2;
       fg__page *pointed = lay_out(&plan);
       assert_true(plain->has_color_key && pointed->has_color_key);
-      fg__box without = color_key_box(plain), with = color_key_box(pointed);
+      fg__page_box without = color_key_box(plain), with = color_key_box(pointed);
       assert_true(fabs(longer_side(&with) - longer_side(&without)) < 1e-9);
       assert_true(longer_side(&pointed->color_key) < longer_side(&without) - 1.0);
       for (int k = 0; k < 2; ++k) {
@@ -208,7 +209,7 @@ static void ticks_mark_their_coordinates(void **state)
     double degrees = atof(page->text[k].text);
     size_t digits = strspn(page->text[k].text, "0123456789");
     const char *side = page->text[k].text + digits;
-    const fg__box *box = &page->text[k].box;
+    const fg__page_box *box = &page->text[k].box;
     if (strcmp(side, "\xC2\xB0"
                      "E") == 0) {
       double x = page->frame.x0 + page->scale * (degrees - plan.axis[0].low);

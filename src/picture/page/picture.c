@@ -170,15 +170,15 @@ static fg_status render(fg_context *context, const char *path, const picture *p)
 }
 
 /* Where the page has, or would have, the whole domain. */
-static fg__box domain_box(const picture *p, const fg_field_arrays *field)
+static fg__page_box domain_box(const picture *p, const fg_field_arrays *field)
 {
   double low[2], high[2];
   const fg__page *page = &p->page;
   fg__scene_box(low, high, field);
-  return (fg__box){page->frame.x0 + page->scale * (low[0] - p->low[0]),
-                   page->frame.y1 - page->scale * (high[1] - p->low[1]),
-                   page->frame.x0 + page->scale * (high[0] - p->low[0]),
-                   page->frame.y1 - page->scale * (low[1] - p->low[1])};
+  return (fg__page_box){page->frame.x0 + page->scale * (low[0] - p->low[0]),
+                        page->frame.y1 - page->scale * (high[1] - p->low[1]),
+                        page->frame.x0 + page->scale * (high[0] - p->low[0]),
+                        page->frame.y1 - page->scale * (low[1] - p->low[1])};
 }
 
 static fg_status prepare(picture *p, fg_context *context, const fg_field *field,
@@ -247,7 +247,7 @@ fg_status fg_picture_frame(int size[2], fg_context *context, const fg_field *fie
   if (!status)
     status = prepare(p, context, field, icons, options ? options : &usual);
   if (!status) {
-    const fg__box *box = &p->style.background_box, *frame = &p->page.frame;
+    const fg__page_box *box = &p->style.background_box, *frame = &p->page.frame;
     double wide = box->x1 - box->x0, high = box->y1 - box->y0;
     double most = background_beyond * (frame->x1 - frame->x0) * (frame->y1 - frame->y0);
     double pixels = p->pixels_per_point * fmin(sqrt(most / (wide * high)), 1.0);

@@ -73,7 +73,7 @@ void fg__scene_shown(double low[2], double high[2], const fg_field *field)
 typedef struct placement {
   double low[2];
   double scale;
-  const fg__box *frame;
+  const fg__page_box *frame;
 } placement;
 
 static void place(const placement *p, double point[2])
@@ -308,7 +308,7 @@ static fg_status make_reference(fg__polygons *out, fg_context *context,
                         .tail_width = typical->tail_width * share,
                         .head_length = typical->head_length * share,
                         .head_width = typical->head_width * share};
-  const fg__box at = {page->size_key[0], 0.0, 0.0, page->size_key[1]};
+  const fg__page_box at = {page->size_key[0], 0.0, 0.0, page->size_key[1]};
   const placement p = {{0.0, 0.0}, 1.0, &at};
   static const double nowhere[2] = {0.0, 0.0};
   return add_outline(out, &icon, &p, nowhere)

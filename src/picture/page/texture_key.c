@@ -20,7 +20,7 @@ void fg__texture_key_place(fg__page *page, const double range[2], const char *un
   const double length = fmin(page->width - 2.0 * indent * em, longest_bar * em);
   if (!(length >= shortest_bar * em))
     return;
-  fg__axis axis;
+  fg__tick_axis axis;
   fg__ticks ticks;
   cairo_t *ruler = fg__text_ruler();
   fg__axis_of_numbers(&axis, range[0], range[1], range[1] - range[0], "speed", units);
@@ -28,7 +28,7 @@ void fg__texture_key_place(fg__page *page, const double range[2], const char *un
   const double x0 = 0.5 * (page->width - length), y0 = page->frame.y1 + gap * em;
   const double y1 = y0 + thickness * em;
   page->has_color_key = true;
-  page->color_key = (fg__box){x0, y0, x0 + length, y1};
+  page->color_key = (fg__page_box){x0, y0, x0 + length, y1};
   double baseline = y1 + (tick_length + label_gap + FG__TEXT_ASCENT) * em;
   for (int k = 0; k < ticks.count; ++k) {
     const double share = (ticks.position[k] - axis.low) / (axis.high - axis.low);

@@ -62,7 +62,7 @@ static void choose_edge(int out[3], const fg__stage *stage, const fg__camera *ca
 static void choose_ticks(fg__box_axes *out, int axis, double pixels, cairo_t *ruler)
 {
   fg__ticks *ticks = &out->ticks[axis];
-  const fg__axis *of = &out->axis[axis];
+  const fg__tick_axis *of = &out->axis[axis];
   double range = of->high - of->low;
   double step = fg__ticks_step(of, range * fmin(least_step * out->em / pixels, 1.0));
   for (int turn = 0; turn < 6; ++turn) {
@@ -218,7 +218,7 @@ static double name_rise(double em, const bool beyond[2])
   return 0.8 * em + (beyond[1] ? bar_width * em : 0.0);
 }
 
-fg__pane fg__color_bar_box(const fg__pane *pane, double em, const fg__axis *speed,
+fg__pane fg__color_bar_box(const fg__pane *pane, double em, const fg__tick_axis *speed,
                            const bool beyond[2], cairo_t *ruler)
 {
   double label = fg__text_width(ruler, speed->label, em, false);
@@ -228,7 +228,7 @@ fg__pane fg__color_bar_box(const fg__pane *pane, double em, const fg__axis *spee
 }
 
 void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
-                        const fg__palette *palette, const fg__axis *speed,
+                        const fg__palette *palette, const fg__tick_axis *speed,
                         const bool beyond[2])
 {
   double height = pane->y1 - pane->y0, width = bar_width * em;

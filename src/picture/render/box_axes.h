@@ -18,7 +18,7 @@ enum { FG__BOX_TEXTS = 3 * (FG__TICK_LIMIT + 1) };
 
 /* Axes with their ticks, which are at least so far apart that their numbers fit. */
 typedef struct fg__box_axes {
-  fg__axis axis[3];
+  fg__tick_axis axis[3];
   fg__ticks ticks[3];
   int edge[3][3]; /* of axis k: the sides, -1 or 1, of the two others on which the edge
                      with the numbers lies; [k][k]: 0 when it is seen too short for any */
@@ -43,13 +43,13 @@ void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage
                        const fg__camera *camera);
 
 /* Where a colour bar in a pane is, with all that is written at it. */
-fg__pane fg__color_bar_box(const fg__pane *pane, double em, const fg__axis *speed,
+fg__pane fg__color_bar_box(const fg__pane *pane, double em, const fg__tick_axis *speed,
                            const bool beyond[2], cairo_t *ruler);
 
 /* An upright bar in a pane, with numbers at its right and the speed's name above; its end
  * is a point where there are speeds below or above. */
 void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
-                        const fg__palette *palette, const fg__axis *speed,
+                        const fg__palette *palette, const fg__tick_axis *speed,
                         const bool beyond[2]);
 
 #endif

@@ -40,7 +40,7 @@ static const double bar_share = 0.34;
 typedef struct solid_picture {
   fg__rendering rendering;
   fg__palette palette;
-  fg__axis speed;
+  fg__tick_axis speed;
   fg__box_axes axes;
   fg_surface *silhouette;
   double azimuth, elevation;

@@ -424,28 +424,6 @@ static fg_status read_piece(fg__vtk *vtk, const xmlNode *node)
   return status == FG_STATUS_OK ? read_piece_arrays(vtk, node) : status;
 }
 
-/* Pieces too small for the whole are refused before anything is allocated for it. They
- * may overlap: VTK writes the whole in every piece when its source cannot be divided. */
-static fg_status check_pieces(const fg__vtk *vtk)
-{
-  size_t whole, sum = 0;
-  if (vtk->kind == FG__VTK_UNSTRUCTURED)
-    return FG_STATUS_OK;
-  if (!fg__vtk_count(&whole, vtk->extent, FG__VTK_CELLS))
-    return FG_STATUS_FILE_FORMAT;
-  for (size_t p = 0; p < vtk->piece_count && sum < whole; ++p) {
-    size_t cells;
-    if (!fg__vtk_count(&cells, vtk->pieces[p].extent, FG__VTK_CELLS))
-      return FG_STATUS_FILE_FORMAT;
-    sum += cells;
-  }
-  if (sum < whole)
-    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
-                    "%s: its %zu pieces have %zu cells, the whole %zu", vtk->path,
-                    vtk->piece_count, sum, whole);
-  return FG_STATUS_OK;
-}
-
 static fg_status fail_type(fg__vtk *vtk, const xmlNode *root)
 {
   char *type = attribute(vtk, root, "type");
@@ -497,7 +475,7 @@ static fg_status read_document(fg__vtk *vtk)
        node = node->next)
     if (is_element(node, "Piece"))
       status = read_piece(vtk, node);
-  return status == FG_STATUS_OK ? check_pieces(vtk) : status;
+  return status == FG_STATUS_OK ? fg__vtk_check_pieces(vtk) : status;
 }
 
 fg_status fg__vtk_open_xml(fg__vtk *out, fg_context *context, const fg__source *source)

@@ -123,3 +123,23 @@ double fg__vtk_coordinate(const fg__vtk *vtk, int axis, size_t i)
   return vtk->origin[axis] +
          vtk->spacing[axis] * ((double)vtk->extent[2 * axis] + (double)i);
 }
+
+fg_status fg__vtk_check_pieces(const fg__vtk *vtk)
+{
+  size_t whole, sum = 0;
+  if (vtk->kind == FG__VTK_UNSTRUCTURED)
+    return FG_STATUS_OK;
+  if (!fg__vtk_count(&whole, vtk->extent, FG__VTK_CELLS))
+    return FG_STATUS_FILE_FORMAT;
+  for (size_t p = 0; p < vtk->piece_count && sum < whole; ++p) {
+    size_t cells;
+    if (!fg__vtk_count(&cells, vtk->pieces[p].extent, FG__VTK_CELLS))
+      return FG_STATUS_FILE_FORMAT;
+    sum += cells;
+  }
+  if (sum < whole)
+    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                    "%s: its %zu pieces have %zu cells, the whole %zu", vtk->path,
+                    vtk->piece_count, sum, whole);
+  return FG_STATUS_OK;
+}

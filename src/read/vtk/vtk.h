@@ -157,6 +157,10 @@ size_t fg__vtk_length(const int extent[6], int axis, fg__vtk_place place);
 /* Their product; false when it does not fit an int: no field is that large. */
 bool fg__vtk_count(size_t *count, const int extent[6], fg__vtk_place place);
 
+/* Pieces too small for the whole are refused before anything is allocated for it. They
+ * may overlap: VTK writes the whole in every piece when its source cannot be divided. */
+fg_status fg__vtk_check_pieces(const fg__vtk *vtk);
+
 /* Numbers of one array in this machine's byte order, or some of them in a row. */
 typedef struct fg__vtk_values {
   unsigned char *bytes;

@@ -1,0 +1,301 @@
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "evolution/options.h"
+#include "evolution/tensor.h"
+#include "field/fingerprint.h"
+#include "grid/field_parts.h"
+
+/* A thinner one lies between two nodes and can not move. */
+static const double least_interface_cells = 0.3;
+
+/* The wells are at -1 and 1; an initial density far beyond them is a mistake. */
+static const double most_initial = 10.0;
+
+/* Debris: less than this many squares (in 3D cubes) of the interface width across the
+ * stream, sqrt(gamma a); about a dozen cells by default, balls of the same radius in 3D.
+ * Such a drop is all interface. */
+static const double debris_squares = 10.0, debris_cubes = 24.0;
+
+/* The first step, as a share of the fastest growth time of linear theory; and the first
+ * on a coarser mesh, where interfaces are there. */
+static const double first_step_share = 1e-3, first_coarser_share = 0.1;
+
+/* tau gamma / h^4 (measured at 1025 nodes, docs/design/evolution.md). */
+static const double most_stiffness = 2e5;
+
+static fg_status create_mesh(fg_evolution *e, const fg_field *field)
+{
+  const fg_field_arrays *arrays = fg_field_contents(field);
+  fg__mesh_description description = {
+      .dimension = arrays->dimension, .nodes = e->mesh_nodes, .ranks = e->ranks};
+  for (int k = 0; k < arrays->dimension; ++k) {
+    description.origin[k] = arrays->axis[k][0];
+    description.periodic[k] = arrays->period[k] > 0.0;
+    description.side[k] = description.periodic[k]
+                              ? arrays->period[k]
+                              : arrays->axis[k][arrays->size[k] - 1] - arrays->axis[k][0];
+  }
+  return fg__mesh_create(&e->mesh, e->context, &description);
+}
+
+static fg_status check_interface(const fg_evolution *e)
+{
+  double cells = sqrt(e->info.gamma * e->options.anisotropy) / fg__evolution_spacing(e);
+  if (cells >= least_interface_cells)
+    return FG_STATUS_OK;
+  fg__fail(e->context, FG_STATUS_ARGUMENT,
+           "gamma %g makes interfaces %.3g cells wide; at least %g are needed",
+           e->info.gamma, cells, least_interface_cells);
+  fg__hint(e->context, "Take a larger gamma or more nodes.");
+  return FG_STATUS_ARGUMENT;
+}
+
+static fg_status check_initial(const fg_evolution *e)
+{
+  const float *u = e->options.initial;
+  for (size_t n = 0; u && n < e->nodes; ++n)
+    if (!(fabs((double)u[n]) <= most_initial))
+      return fg__fail(e->context, FG_STATUS_ARGUMENT,
+                      "initial density %g at node %zu; at most %g in size is possible",
+                      (double)u[n], n, most_initial);
+  return FG_STATUS_OK;
+}
+
+/* Beyond it the theta scheme is not stable, and the cycles of implicit steps move less of
+ * a pattern than such a step should, unseen. */
+static double most_step(const fg_evolution *e)
+{
+  double gamma = e->info.gamma;
+  if (e->options.scheme == FG_SCHEME_THETA) {
+    double least = fg__evolution_least_spacing(e);
+    return fg__theta_stable_step(fg__theta_alpha, e->options.anisotropy * gamma, gamma,
+                                 4.0 / (least * least));
+  }
+  double h = pow(fg__evolution_cell_volume(e), 1.0 / e->mesh.dimension);
+  double first = first_step_share / fg__evolution_growth_rate(e);
+  return fmax(most_stiffness * h * h * h * h / gamma, first);
+}
+
+static void count_cells(fg_evolution *e)
+{
+  e->nodes = e->cells = 1;
+  for (int k = 0; k < e->mesh.dimension; ++k) {
+    e->nodes *= (size_t)e->mesh.partition.nodes[k];
+    e->cells *= (size_t)e->mesh.cells[k];
+  }
+}
+
+static void describe(fg_evolution *e)
+{
+  int dimension = e->mesh.dimension;
+  e->info = (fg_mesh_info){.dimension = dimension,
+                           .cells = {1, 1, 1},
+                           .gamma = fg__evolution_interface_energy(e),
+                           .anisotropy = e->options.anisotropy,
+                           .isotropic_below = e->options.isotropic_below,
+                           .coverage = e->options.coverage,
+                           .noise = e->options.noise,
+                           .length = e->mesh.length};
+  double cell = 1.0;
+  for (int k = 0; k < dimension; ++k) {
+    e->info.cells[k] = e->mesh.cells[k];
+    e->info.spacing[k] = e->mesh.spacing[k] * e->mesh.length;
+    cell *= e->info.spacing[k];
+  }
+  e->info.active_cells = e->active_cells;
+  e->info.domain_measure = cell * (double)e->info.active_cells;
+  double width = sqrt(e->info.gamma * e->info.anisotropy);
+  double debris = dimension == 3 ? debris_cubes * width * width * width
+                                 : debris_squares * width * width;
+  e->debris_area = debris / fg__evolution_cell_volume(e);
+}
+
+static fg_status create_stepper(fg_evolution *e, const fg_field *field)
+{
+  fg__multigrid multigrid = {0};
+  fg__stepper_description description = {
+      .cell_volume = fg__evolution_cell_volume(e),
+      .first_tau = (e->halved ? first_coarser_share : first_step_share) /
+                   fg__evolution_growth_rate(e),
+      .most_tau = most_step(e),
+      .accuracy = e->options.accuracy,
+      .cycles = e->options.cycles,
+      .second_order = e->options.scheme == FG_SCHEME_BDF2,
+      .alpha = fg__evolution_alpha(e)};
+  fg_status status = fg__ranks_agree(e->ranks, e->context, check_initial(e));
+  if (!status)
+    status = fg__evolution_multigrid_create(
+        &multigrid, e, field, (1.0 - fg__evolution_alpha(e)) * e->info.gamma);
+  if (status)
+    return status;
+  e->info.kernel = multigrid.kernel->name;
+  status = fg__evolution_fill(e, &multigrid);
+  if (!status)
+    status = fg__stepper_create(&e->stepper, e->context, &multigrid, &description);
+  if (status)
+    fg__multigrid_clear(&multigrid);
+  return status;
+}
+
+static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ranks,
+                       const fg_field *field, const fg_evolution_options *options)
+{
+  e->context = context;
+  e->ranks = ranks;
+  clock_gettime(CLOCK_MONOTONIC, &e->start);
+  if (options)
+    e->options = *options;
+  e->field_fingerprint = fg__field_fingerprint(field);
+  fg_status status = fg__evolution_options_settle(&e->options, context,
+                                                  fg_field_contents(field)->dimension);
+  if (!status)
+    e->law_identity = e->options.law->identity;
+  e->mesh_nodes = e->options.nodes;
+  return status;
+}
+
+fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field)
+{
+  fg_evolution *e = evolution;
+  if (e->options.isotropic_below > 0.0) {
+    e->slow_flow = *e->options.law;
+    e->slow_flow.data = &e->options.isotropic_below;
+    e->options.law = &e->slow_flow;
+  }
+  fg_status status = fg__field_check_shared(e->context, e->ranks, field);
+  if (!status)
+    status = fg__evolution_check_alike(e);
+  if (!status)
+    status = create_mesh(e, field);
+  if (!status) {
+    count_cells(e);
+    e->spread = e->ranks->count > 1;
+    if (!e->spread && (double)e->nodes >= fg__least_team_nodes)
+      status = fg__team_create(&e->team, e->context, e->options.threads);
+  }
+  if (!status)
+    status = fg__evolution_tensor_create(e, field);
+  if (!status) {
+    describe(e);
+    status = check_interface(e);
+  }
+  if (!status)
+    status = create_stepper(e, field);
+  return status;
+}
+
+fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
+                              const fg_field *field, const fg_evolution_options *options)
+{
+  if (!out || !field)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "evolution: a NULL argument");
+  *out = NULL;
+  return fg__evolution_create(out, context, fg__ranks_of(context), field, options);
+}
+
+fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
+                               const fg__ranks *ranks, const fg_field *field,
+                               const fg_evolution_options *options)
+{
+  *out = NULL;
+  fg_status status;
+  fg_activity before = fg__traffic_begin(ranks->book, FG_ACTIVITY_SETUP);
+  fg_evolution *e = fg__allocate(1, sizeof *e);
+  if (e)
+    status = begin(e, context, ranks, field, options);
+  else
+    status = fg__fail_memory(context, "an evolution", sizeof *e);
+  if (!status)
+    status = fg__kernel_check(context);
+  status = fg__ranks_agree(ranks, context, status);
+  if (e && !status)
+    status = fg__evolution_build(e, field);
+  fg__traffic_return(ranks->book, before);
+  if (e) {
+    e->options.initial = NULL; /* the caller's, and used up */
+    e->options.law = NULL;
+  }
+  if (status) {
+    fg_evolution_destroy(e);
+    return status;
+  }
+  *out = e;
+  return FG_STATUS_OK;
+}
+
+void fg__evolution_clear(fg_evolution *evolution)
+{
+  fg_evolution *e = evolution;
+  fg__stepper_clear(&e->stepper);
+  fg__team_destroy(e->team);
+  e->team = NULL;
+  fg__team_clusters_clear(&e->clusters_found);
+  fg__spread_clusters_clear(&e->spread_clusters);
+  fg__mesh_clear(&e->mesh);
+  fg__evolution_tensor_free(e);
+  free(e->tensor.active);
+  e->tensor.active = NULL;
+  e->active_cells = 0;
+}
+
+void fg_evolution_destroy(fg_evolution *evolution)
+{
+  if (!evolution)
+    return;
+  fg__evolution_clear(evolution);
+  free(evolution);
+}
+
+const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution)
+{
+  return &evolution->info;
+}
+
+double fg__evolution_seconds(const fg_evolution *evolution)
+{
+  const struct timespec *start = &evolution->start;
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return evolution->earlier_seconds + (double)(now.tv_sec - start->tv_sec) +
+         1e-9 * (double)(now.tv_nsec - start->tv_nsec);
+}
+
+fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int rejected)
+{
+  const fg_evolution *e = evolution;
+  const fg__stepper *s = &e->stepper;
+  double unit = fg__evolution_unit(e);
+  return (fg_step){.step = e->earlier_steps + s->accepted,
+                   .time = unit * s->time,
+                   .tau = unit * s->last_tau,
+                   .energy = s->energy / unit,
+                   .mass = s->mass,
+                   .area_fraction = e->area_fraction,
+                   .clusters = e->clusters,
+                   .cycles = cycles,
+                   .rejected = rejected,
+                   .cells = e->info.active_cells,
+                   .increment = s->increment,
+                   .seconds = fg__evolution_seconds(e),
+                   .stationary = fg__stepper_stationary(s)};
+}
+
+fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
+{
+  fg_evolution *e = evolution;
+  long cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
+  fg_activity before = fg__traffic_begin(e->ranks->book, FG_ACTIVITY_STEPS);
+  /* asked once only: a step that has begun ends, so that it is the same when resumed */
+  fg_status status = fg__ranks_agree(e->ranks, e->context, fg__check_stop(e->context));
+  if (!status)
+    status = fg__stepper_advance(&e->stepper, e->context);
+  if (!status)
+    status = fg__evolution_count(e);
+  fg__traffic_return(e->ranks->book, before);
+  if (!status)
+    *step = fg__evolution_describe(e, (int)(e->stepper.cycles_spent - cycles),
+                                   (int)(e->stepper.rejected - rejected));
+  return status;
+}

@@ -1,0 +1,85 @@
+/* The inside of an evolution, for the files that make it up. */
+#ifndef FG__EVOLUTION_H
+#define FG__EVOLUTION_H
+
+#include <time.h>
+
+#include "component/team_clusters.h"
+#include "evolution/halved.h"
+#include "evolution/stepper.h"
+#include "solver/spread_clusters.h"
+
+struct fg_evolution {
+  fg_context *context;
+  fg_evolution_options options; /* with the defaults filled in */
+  fg_mesh_info info;
+  const fg__ranks *ranks; /* that share it */
+  fg__mesh mesh;
+  fg__team *team; /* NULL: one thread */
+  fg__tensor tensor;
+  fg__stepper stepper;
+  fg__team_clusters clusters_found; /* unless spread */
+  size_t nodes, cells;              /* of the whole mesh */
+  long active_cells;
+  bool spread; /* over several ranks */
+  fg__spread_clusters spread_clusters;
+  double debris_area; /* in cells */
+  double area_fraction;
+  int clusters;
+  bool counting;      /* nucleation is over */
+  int mesh_nodes;     /* wanted along the longest side of the present mesh */
+  int halvings;       /* of the mesh, since it was created */
+  long earlier_steps; /* accepted on finer meshes */
+  const fg__halved
+      *halved; /* NULL, or what a coarser mesh goes on from; while it is made */
+  double halved_mean;
+  struct timespec start;
+  double earlier_seconds; /* spent before a resumed evolution was created */
+  /* Of the field, and of the initial density when one was given (else 0). */
+  uint64_t field_fingerprint, initial_fingerprint;
+  uint64_t law_identity;   /* see fg_energy_law */
+  fg_energy_law slow_flow; /* that of the flow, with isotropic_below */
+};
+
+/* The public calls, for given ranks instead of all. */
+fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
+                               const fg__ranks *ranks, const fg_field *field,
+                               const fg_evolution_options *options);
+fg_status fg__checkpoint_open(fg_checkpoint **out, fg_context *context, const char *path,
+                              const fg__ranks *ranks);
+
+/* In units of the longest side: the cells' greatest and least side and volume, and gamma,
+ * as asked for or as the mesh has it. Rate at which the fastest mode grows. Alpha of the
+ * theta scheme; 0: an implicit one. */
+double fg__evolution_spacing(const fg_evolution *evolution);
+double fg__evolution_least_spacing(const fg_evolution *evolution);
+double fg__evolution_cell_volume(const fg_evolution *evolution);
+double fg__evolution_interface_energy(const fg_evolution *evolution);
+double fg__evolution_growth_rate(const fg_evolution *evolution);
+double fg__evolution_alpha(const fg_evolution *evolution);
+
+/* Times and energies of the first mesh in units of the present one's. With the mesh's
+ * spacing the width of interfaces doubles, and with it their energy and the speed of
+ * coarsening. */
+double fg__evolution_unit(const fg_evolution *evolution);
+
+/* Makes everything that depends on the mesh, for options that are settled. Collective. */
+fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field);
+
+/* Frees it again; what the evolution remembers of its past stays. */
+void fg__evolution_clear(fg_evolution *evolution);
+
+/* Puts noise, the caller's density or that of a finer mesh into the finest u. Collective.
+ * MEMORY, ARGUMENT (the caller's is not the same on all ranks). */
+fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multigrid);
+
+/* Finds the share covered and, once nucleation is over, the number of clusters.
+ * Collective. MEMORY. */
+fg_status fg__evolution_count(fg_evolution *evolution);
+
+double fg__evolution_seconds(const fg_evolution *evolution);
+
+/* The state as a step; it took these cycles and rejected attempts. */
+fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int rejected);
+
+#endif

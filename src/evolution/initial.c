@@ -1,0 +1,142 @@
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "base/mix.h"
+#include "evolution/evolution.h"
+#include "evolution/widen.h"
+#include "field/noise.h"
+
+/* The nodes of a block to be filled, of which members of a team take rows: with noise, or
+ * the caller's density. */
+typedef struct filling {
+  const fg_evolution *e;
+  const fg__level *level;
+  const fg__box *block;
+  const fg__noise *noise;
+  const float *values; /* of the block alone, x fastest; NULL: noise or the caller's */
+  float *row;          /* one a member */
+  float *u;
+} filling;
+
+static void fill_part(void *argument, const fg__share *share)
+{
+  const filling *f = argument;
+  const fg_evolution *e = f->e;
+  const fg__layout *layout = &f->level->layout;
+  const int *nodes = layout->nodes;
+  size_t columns = (size_t)(e->mesh.cells[0] + !e->mesh.periodic[0]);
+  size_t rows = (size_t)(e->mesh.cells[1] + !e->mesh.periodic[1]);
+  float *row = f->row + (size_t)share->member * (size_t)nodes[0];
+  int begin, end;
+  fg__team_part(share, nodes[1] * nodes[2], 1, &begin, &end);
+  for (int n = begin; n < end; ++n) {
+    int j = n % nodes[1], k = n / nodes[1];
+    int y = f->block->first[1] + j, z = f->block->first[2] + k;
+    const float *values = row;
+    if (f->values)
+      values = f->values + (size_t)n * (size_t)nodes[0];
+    else if (e->options.initial)
+      values = e->options.initial + ((size_t)z * rows + (size_t)y) * columns +
+               f->block->first[0];
+    else
+      fg__noise_row(f->noise, y, z, f->block->first[0], nodes[0], row);
+    float *to = fg__row(f->level, f->u, j, k);
+    for (int i = 0; i < nodes[0]; ++i)
+      to[fg__column(layout, i)] = values[i];
+  }
+}
+
+static fg_status fill_block(const fg_evolution *e, const fg__level *level,
+                            const fg__box *block, const fg__noise *noise,
+                            const float *values, float *u)
+{
+  size_t count = (size_t)fg__team_members(e->team) * (size_t)level->layout.nodes[0];
+  filling f = {
+      .e = e, .level = level, .block = block, .noise = noise, .values = values, .u = u};
+  f.row = fg__allocate(count, sizeof *f.row);
+  if (!f.row)
+    return fg__fail_memory(e->context, "the noise", count * sizeof *f.row);
+  fg__team_run(e->team, fill_part, &f);
+  free(f.row);
+  return FG_STATUS_OK;
+}
+
+/* Shifts the noise so that its mean is met exactly. Sums are exact: it does not matter
+ * who holds which nodes. Nodes without mass become 0. */
+static void settle_mean(const fg__multigrid *multigrid, double mean)
+{
+  fg__array_shape shape = fg__multigrid_shape(multigrid, 0);
+  float *u = fg__multigrid_u(multigrid), *ones = fg__multigrid_p(multigrid);
+  for (size_t n = 0; n < shape.size; ++n)
+    (ones - shape.first)[n] = 1.0F;
+  double weight = fg__pass_changes(multigrid, ones, ones, ones, ones).u;
+  double sum = fg__pass_changes(multigrid, u, u, u, u).u;
+  fg__pass_shift(multigrid, u, mean - sum / weight);
+}
+
+/* In a part of a few nodes behind a mask the noise may have a mean beyond the wells,
+ * which no evolution within the part could change: it becomes a pure phase. */
+static fg_status settle_parts(const fg_evolution *e, const fg__multigrid *multigrid,
+                              double mean)
+{
+  float *u = fg__multigrid_u(multigrid);
+  fg__means means;
+  fg_status status = fg__means_create(&means, e->context, multigrid, u);
+  if (!status && fg__means_bound(&means, -1.0, 1.0)) {
+    fg__means_restore(&means, multigrid, u);
+    settle_mean(multigrid, mean);
+  }
+  fg__means_clear(&means);
+  return status;
+}
+
+/* What the block gets of the density of a finer mesh; the caller frees it. */
+static fg_status take_halved(float **out, const fg_evolution *e)
+{
+  size_t count = (size_t)fg__box_count(fg__own_block(&e->mesh.partition));
+  float *values = *out = fg__allocate(count, sizeof *values);
+  fg_status status = FG_STATUS_OK;
+  if (!values)
+    status = fg__fail_memory(e->context, "a coarser density", count * sizeof *values);
+  status = fg__ranks_agree(e->mesh.ranks, e->context, status);
+  return status ? status
+                : fg__halved_deliver(e->halved, e->context, &e->mesh.partition, values);
+}
+
+fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multigrid)
+{
+  fg_evolution *e = evolution;
+  double mean = 2.0 * e->options.coverage - 1.0;
+  double correlation = sqrt(e->info.gamma * e->options.anisotropy);
+  fg__noise noise =
+      fg__noise_of(e->mesh.dimension, e->mesh.cells, e->mesh.spacing, e->mesh.periodic,
+                   mean, e->options.noise, correlation, e->options.seed);
+  float *u = fg__multigrid_u(multigrid), *values = NULL;
+  fg_status status = FG_STATUS_OK;
+  if (e->halved)
+    status = take_halved(&values, e);
+  if (!status)
+    status = fill_block(e, fg__multigrid_finest(multigrid),
+                        fg__own_block(&e->mesh.partition), &noise, values, u);
+  free(values);
+  status = fg__ranks_agree(e->mesh.ranks, e->context, status);
+  if (status)
+    return status;
+  fg__pass_fill_ghosts(multigrid, u);
+  if (e->halved) {
+    fg__widen_interfaces(multigrid, e->info.gamma, 1.0 - fg__evolution_alpha(e),
+                         fg__evolution_least_spacing(e));
+    settle_mean(multigrid, e->halved_mean);
+  } else if (e->options.initial) {
+    e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial, e->nodes);
+    if (!fg__ranks_alike(e->ranks, e->initial_fingerprint))
+      return fg__fail(e->context, FG_STATUS_ARGUMENT,
+                      "the %d ranks have different initial densities", e->ranks->count);
+    fg__pass_shift(multigrid, u, 0.0);
+  } else {
+    settle_mean(multigrid, mean);
+    status = settle_parts(e, multigrid, mean);
+  }
+  return status;
+}

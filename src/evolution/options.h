@@ -1,0 +1,19 @@
+/* What an evolution is asked for: defaults, limits, and the same on every rank. */
+#ifndef FG__EVOLUTION_OPTIONS_H
+#define FG__EVOLUTION_OPTIONS_H
+
+#include "evolution/evolution.h"
+
+/* Nodes along the longest side of a mesh when none are asked for. */
+int fg__default_nodes(int dimension);
+
+/* Fills in the defaults of a mesh in `dimension` dimensions, then checks every option.
+ * ARGUMENT. */
+fg_status fg__evolution_options_settle(fg_evolution_options *options, fg_context *context,
+                                       int dimension);
+
+/* Whether all ranks have the same field and settled options: with different meshes they
+ * would wait for messages that never come. Collective. ARGUMENT. */
+fg_status fg__evolution_check_alike(const fg_evolution *evolution);
+
+#endif

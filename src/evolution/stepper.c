@@ -1,0 +1,305 @@
+#include "evolution/stepper.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* The control (docs/design/interfaces.md): the last cycle's correction relative to the
+ * step's change says how well the cycles solved it. It is an estimate of the error before
+ * the last cycle, hence the large values. A step that is not good enough is given more
+ * cycles before it is given up. */
+static const double acceptable_correction = 1.0; /* delta above this rejects */
+static const double wanted_correction = 1.0;     /* delta that keeps tau */
+static const double hopeless_correction = 2.0;
+enum { MORE_CYCLES = 3 };
+static const double correction_floor = 0.2; /* of eta: least change it is compared to */
+static const double acceptable_increment = 3.0; /* in units of eta */
+static const double most_growth = 2.0, most_shrinkage = 0.4;
+static const double reject_factor = 0.5, after_reject = 0.75, relaxation = 1.3;
+static const double most_extrapolation = 2.0;
+
+/* Below this share of the first step something is wrong with the system itself. */
+static const double least_tau_share = 1e-9;
+
+/* Mass is held to the rounding of the stored precision. */
+static const double mass_tolerance = 1e-7;
+
+/* A step that moves the density by less than this and raises the energy, by less than
+ * this share, which is several times what rounding to floats moves it, leaves the density
+ * as it is: what moves would lower it. */
+static const double energy_rounding = 1e-7, rest_increment = 1e-4;
+
+/* A pattern at rest: so many steps in a row at whose rate u would change by less than
+ * this (rms) while time doubles; coarsening changes it by some tenths. Not before this
+ * many first steps, twenty growth times of linear theory (a halved mesh begins with
+ * longer steps: more), in which a weak perturbation may still be growing unseen. */
+enum { QUIET_STEPS = 12 };
+static const double quiet_change = 1e-3, quiet_after = 2e4;
+
+static double mean_of(const fg__stepper *s, const float *u)
+{
+  return fg__pass_changes(&s->multigrid, u, u, u, u).u / s->total_mass;
+}
+
+/* The sum of masses is the sum of u when u is 1 everywhere. */
+static double weigh_domain(const fg__stepper *s)
+{
+  fg__array_shape shape = fg__multigrid_shape(&s->multigrid, 0);
+  float *ones = s->first_iterate;
+  for (size_t n = 0; n < shape.size; ++n)
+    (ones - shape.first)[n] = 1.0F;
+  return fg__pass_changes(&s->multigrid, ones, ones, ones, ones).u;
+}
+
+fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
+                             fg__multigrid *multigrid,
+                             const fg__stepper_description *description)
+{
+  *out = (fg__stepper){.multigrid = *multigrid,
+                       .cell_volume = description->cell_volume,
+                       .accuracy = description->accuracy,
+                       .cycles = description->cycles,
+                       .second_order = description->second_order,
+                       .first_tau = description->first_tau,
+                       .most_tau = description->most_tau,
+                       .tau = description->first_tau,
+                       .tau_limit = (double)INFINITY};
+  *multigrid = (fg__multigrid){0};
+  fg__multigrid *m = &out->multigrid;
+  fg__array_shape finest = fg__multigrid_shape(m, 0);
+  size_t size = finest.size + FG__LANES, count = 3 * size;
+  float *memory = fg__allocate_aligned(count, sizeof *memory);
+  fg_status status = FG_STATUS_OK;
+  if (!memory)
+    status = fg__fail_memory(context, "the time steps", count * sizeof *memory);
+  status = fg__ranks_agree(m->ranks, context, status);
+  out->memory = memory;
+  if (!status && description->alpha > 0.0)
+    status = fg__theta_create(&out->theta, context, m, description->alpha);
+  if (status) {
+    fg__stepper_clear(out);
+    return status;
+  }
+  out->current = memory + finest.first;
+  out->previous = out->current + size;
+  out->first_iterate = out->previous + size;
+  out->total_mass = weigh_domain(out);
+  fg__pass_copy(m, fg__multigrid_u(m), out->current);
+  out->mean = mean_of(out, out->current);
+  status = fg__means_create(&out->means, context, m, out->current);
+  if (!status && !(description->alpha > 0.0))
+    status = fg__pockets_create(&out->pockets, context, m, &out->means);
+  if (status) {
+    fg__stepper_clear(out);
+    return status;
+  }
+  fg__sums sums = fg__pass_evaluate(m, out->current, fg__multigrid_w(m));
+  out->energy = out->cell_volume * sums.energy;
+  out->mass = out->cell_volume * sums.u;
+  return FG_STATUS_OK;
+}
+
+void fg__stepper_clear(fg__stepper *stepper)
+{
+  fg__multigrid_clear(&stepper->multigrid);
+  fg__means_clear(&stepper->means);
+  fg__pockets_clear(&stepper->pockets);
+  fg__theta_clear(&stepper->theta);
+  free(stepper->memory);
+  *stepper = (fg__stepper){0};
+}
+
+/* The first guess of u after a share of the step: with history, the last step's change
+ * continued. */
+static void guess(fg__stepper *s, double tau, double share)
+{
+  fg__multigrid *m = &s->multigrid;
+  float *u = fg__multigrid_u(m);
+  if (!s->history) {
+    fg__pass_copy(m, s->current, u);
+    return;
+  }
+  double omega = fmin(tau / s->last_tau, most_extrapolation);
+  omega *= share * s->persistence;
+  fg__pass_predict(m, s->current, s->previous, omega, u);
+}
+
+/* Keeps what the last cycle starts from. Parts get their means back after each cycle,
+ * before the next one restricts what they lack. */
+static fg__changes solve(fg__stepper *s, double tau, int cycles)
+{
+  fg__multigrid *m = &s->multigrid;
+  int at_once = s->means.count > 1 ? 1 : cycles;
+  for (int n = 0; n < cycles; n += at_once) {
+    fg__pass_solve(m, tau, at_once, s->first_iterate);
+    fg__pockets_put(&s->pockets, m, s->first_iterate);
+    fg__means_restore(&s->means, m, fg__multigrid_u(m));
+  }
+  s->cycles_spent += cycles;
+  return fg__pass_changes(m, fg__multigrid_u(m), s->current, s->first_iterate,
+                          s->previous);
+}
+
+/* Backward differences: over one step at first, and after a reject, when w is what the
+ * failed attempt left and starts again from the density; else of second order, over two
+ * steps of unequal size. */
+static double prepare_implicit(fg__stepper *s, double tau)
+{
+  fg__multigrid *m = &s->multigrid;
+  guess(s, tau, 1.0);
+  if (!s->history)
+    fg__pass_evaluate(m, s->current, fg__multigrid_w(m));
+  if (!s->history || !s->second_order) {
+    fg__pass_copy(m, s->current, fg__multigrid_p(m));
+    return tau;
+  }
+  double omega = tau / s->last_tau, both = 1.0 + 2.0 * omega;
+  fg__pass_extrapolate(m, s->current, s->previous, omega * omega / both,
+                       fg__multigrid_p(m));
+  return tau * (1.0 + omega) / both;
+}
+
+/* Its correction is that of the substep solved worst. */
+static fg__changes step_by_theta(fg__stepper *s, double tau)
+{
+  fg__changes sums = {0};
+  guess(s, tau, fg__theta_share(0));
+  for (int n = 0; n < FG__THETA_SUBSTEPS; ++n) {
+    double worst = sums.from_b;
+    double substep = fg__theta_prepare(&s->theta, &s->multigrid, n, tau, s->current);
+    sums = solve(s, substep, s->cycles);
+    sums.from_b = fmax(sums.from_b, worst);
+  }
+  return sums;
+}
+
+typedef struct outcome {
+  double increment, correction, energy, mean;
+  double persistence; /* how much of the last step's rate of change went on */
+  bool accepted;
+  bool at_rest; /* the change is within the rounding of the stored density */
+} outcome;
+
+/* What the cycles say of the step; its mean is set right. */
+static outcome judge(fg__stepper *s, double tau, fg__changes sums)
+{
+  fg__multigrid *m = &s->multigrid;
+  float *u = fg__multigrid_u(m);
+  fg__pass_shift(m, u, s->mean - sums.u / s->total_mass);
+  fg__means_restore(&s->means, m, u);
+  outcome result;
+  result.increment = sqrt(sums.from_a / s->total_mass);
+  result.correction = sqrt(sums.from_b / s->total_mass) /
+                      fmax(result.increment, correction_floor * s->accuracy);
+  result.persistence = 0.0;
+  if (s->increment > 0.0)
+    result.persistence =
+        sums.along * s->last_tau / (tau * s->increment * s->increment * s->total_mass);
+  fg__sums shifted = fg__pass_evaluate(m, u, s->first_iterate);
+  result.energy = s->cell_volume * shifted.energy;
+  result.mean = shifted.u / s->total_mass;
+  result.at_rest = result.increment < rest_increment && result.energy >= s->energy &&
+                   result.energy - s->energy <= energy_rounding * s->energy;
+  /* comparisons are false for NaN, which rejects */
+  result.accepted = result.correction <= acceptable_correction &&
+                    result.increment <= acceptable_increment * s->accuracy &&
+                    result.energy <= s->energy;
+  return result;
+}
+
+static outcome attempt(fg__stepper *s, double tau)
+{
+  if (s->theta.alpha > 0.0)
+    return judge(s, tau, step_by_theta(s, tau));
+  double effective = prepare_implicit(s, tau);
+  bool failed = s->tau_limit < s->most_tau; /* of late */
+  fg__pockets_solve(&s->pockets, &s->multigrid, tau, effective, s->current, failed);
+  outcome result = judge(s, tau, solve(s, effective, s->cycles));
+  for (int n = 0; n < MORE_CYCLES; ++n) {
+    if (result.accepted || result.at_rest || !(result.correction <= hopeless_correction))
+      break;
+    result = judge(s, tau, solve(s, effective, 1));
+  }
+  return result;
+}
+
+/* The accepted density becomes the current one. */
+static void keep(fg__stepper *s, double tau, const outcome *result)
+{
+  fg__multigrid *m = &s->multigrid;
+  float *oldest = s->previous;
+  s->previous = s->current;
+  s->current = fg__multigrid_u(m);
+  fg__multigrid_use(m, oldest);
+  s->energy = result->energy;
+  s->mass = s->cell_volume * s->total_mass * result->mean;
+  s->increment = result->increment;
+  s->persistence = s->accepted > 0 ? fmin(fmax(result->persistence, 0.0), 1.0) : 1.0;
+  s->history = true;
+  s->last_tau = tau;
+  s->time += tau;
+  ++s->accepted;
+}
+
+static void choose_next_tau(fg__stepper *s, double tau, const outcome *result)
+{
+  double by_increment = s->accuracy / result->increment;
+  double by_correction = sqrt(wanted_correction / result->correction);
+  double factor = fmin(by_increment, by_correction);
+  factor = fmin(fmax(factor, most_shrinkage), most_growth);
+  s->tau_limit *= relaxation;
+  s->tau = fmin(tau * factor, fmin(s->tau_limit, s->most_tau));
+  bool quiet = result->increment * s->time < quiet_change * tau &&
+               s->time > quiet_after * s->first_tau;
+  s->quiet_steps = quiet ? s->quiet_steps + 1 : 0;
+}
+
+/* A step in which nothing moves: time alone goes on. */
+static void pass_time(fg__stepper *s, double tau)
+{
+  s->history = false;
+  s->last_tau = tau;
+  s->time += tau;
+  ++s->accepted;
+  outcome nothing = {.correction = 0.0};
+  choose_next_tau(s, tau, &nothing);
+  s->increment = 0.0;
+}
+
+fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
+{
+  fg__stepper *s = stepper;
+  double tau = s->tau;
+  for (;;) {
+    outcome result = attempt(s, tau);
+    if (result.at_rest) {
+      pass_time(s, tau);
+      return FG_STATUS_OK;
+    }
+    if (result.accepted) {
+      keep(s, tau, &result);
+      choose_next_tau(s, tau, &result);
+      if (fabs(result.mean - s->mean) <= mass_tolerance)
+        return FG_STATUS_OK;
+      return fg__fail(context, FG_STATUS_NO_CONVERGENCE,
+                      "the mean density drifted by %g (allowed %g) in step %ld",
+                      result.mean - s->mean, mass_tolerance, s->accepted);
+    }
+    ++s->rejected;
+    s->history = false;
+    s->tau_limit = after_reject * tau;
+    tau *= reject_factor;
+    if (!(tau > least_tau_share * s->first_tau))
+      return fg__fail(context, FG_STATUS_NO_CONVERGENCE,
+                      "no time step is accepted after step %ld at t = %g: change %g, "
+                      "correction %g at tau = %g",
+                      s->accepted, s->time, result.increment, result.correction, tau);
+  }
+}
+
+bool fg__stepper_stationary(const fg__stepper *stepper)
+{
+  return stepper->quiet_steps >= QUIET_STEPS;
+}

@@ -1,0 +1,62 @@
+/* Time steps of the density, and how large they may be. */
+#ifndef FG__STEPPER_H
+#define FG__STEPPER_H
+
+#include "evolution/theta.h"
+#include "solver/passes.h"
+#include "solver/subdomain/means.h"
+#include "solver/subdomain/pockets.h"
+
+typedef struct fg__stepper {
+  fg__multigrid multigrid;
+  fg__theta theta;     /* alpha 0: implicit */
+  bool second_order;   /* backward differences over two steps, not one */
+  double accuracy;     /* eta */
+  int cycles;          /* a step, or a substep of the theta scheme */
+  double cell_volume;  /* hx hy (hz), units of the longest side */
+  double total_mass;   /* sum of the nodes' relative masses */
+  double mean;         /* of u, held */
+  fg__means means;     /* of the parts of the domain, each held too */
+  fg__pockets pockets; /* those of few nodes; the theta scheme has none */
+  double first_tau, most_tau;
+
+  long accepted, rejected, cycles_spent;
+  double time, tau;    /* tau: the next step to try */
+  double last_tau;     /* the last accepted one */
+  double tau_limit;    /* after a reject */
+  double energy, mass; /* of the current u, units of the longest side */
+  double increment;    /* rms of the last step's change */
+  double persistence;  /* share of the last change that the predictor continues */
+  bool history;        /* the last step's predecessor may be used */
+  long quiet_steps;    /* steps in a row that changed next to nothing */
+
+  /* Arrays of the finest level. A step is computed in the level's own u, which then
+   * becomes current: the three are passed round, never copied. */
+  float *current, *previous, *first_iterate;
+  void *memory;
+} fg__stepper;
+
+typedef struct fg__stepper_description {
+  double cell_volume;         /* units of the longest side */
+  double first_tau, most_tau; /* steps start with one and never exceed the other */
+  double accuracy;
+  int cycles;
+  bool second_order; /* implicit: backward differences over two steps, not one */
+  double alpha;      /* of the theta scheme; 0: implicit */
+} fg__stepper_description;
+
+/* Takes over a multigrid hierarchy (cleared with the stepper), for the theta scheme as
+ * theta.h wants it; the density starts as what the finest u holds, with ghosts, and its
+ * mean is kept. MEMORY. */
+fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
+                             fg__multigrid *multigrid,
+                             const fg__stepper_description *description);
+void fg__stepper_clear(fg__stepper *stepper);
+
+/* One accepted step; `current` is the new density. Collective. NO_CONVERGENCE. */
+fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context);
+
+/* Many steps in a row changed next to nothing although time went on. */
+bool fg__stepper_stationary(const fg__stepper *stepper);
+
+#endif

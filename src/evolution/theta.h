@@ -1,0 +1,46 @@
+/* The theta-splitting of Garcke et al. (2000), appendix, after Bristeau, Glowinski and
+ * Periaux (1987). A step tau is three substeps of theta, 1 - 2 theta and theta of it. Of
+ * the rate -L (K u + Psi'(u)) the first and last take alpha K implicitly, the middle one
+ * the rest, which is beta K and Psi', beta = 1 - alpha; each takes the other part
+ * explicitly, from the state before it. See docs/method/schemes.md.
+ *
+ * The multigrid has to be one for beta gamma in place of gamma: its K is the beta K of
+ * the middle substep, and alpha K is a multiple of it. */
+#ifndef FG__THETA_H
+#define FG__THETA_H
+
+#include "solver/passes.h"
+
+enum { FG__THETA_SUBSTEPS = 3 };
+
+/* 2 - sqrt 2, which gives all substeps the same alpha theta = beta (1 - 2 theta). */
+extern const double fg__theta_alpha;
+
+/* The longest step in which linear theory lets no ripple grow in the separated phases
+ * (docs/method/schemes.md), to 0.1 %: for all waves whose eigenvalue of L is at most
+ * `stiffest`, 4 / h^2 on a mesh, and whose K is that times an interface energy gamma
+ * from `least` to `most`. */
+double fg__theta_stable_step(double alpha, double least, double most, double stiffest);
+
+typedef struct fg__theta {
+  double alpha;         /* in (1/2, 1) */
+  fg__no_wells instead; /* in the linear substeps */
+  void *memory;
+} fg__theta;
+
+/* For a multigrid of (1 - alpha) gamma, whose energies become those of gamma. Collective.
+ * MEMORY. */
+fg_status fg__theta_create(fg__theta *out, fg_context *context, fg__multigrid *multigrid,
+                           double alpha);
+void fg__theta_clear(fg__theta *theta);
+
+/* Right-hand side and first guess of a substep, 0 to 2, of a step from the density
+ * `start`; then cycles for the returned tau solve it. The finest level's u holds the
+ * first substep's guess, and then, with w, what the substep before has left. */
+double fg__theta_prepare(const fg__theta *theta, fg__multigrid *multigrid, int substep,
+                         double tau, const float *start);
+
+/* The share of the step that a substep takes. */
+double fg__theta_share(int substep);
+
+#endif

@@ -1,9 +1,0 @@
-/* The inner loops in 3D with AVX512 instructions: the build sets the compiler's flags. */
-#if defined(__x86_64__)
-#define FG__DIMENSION 3
-#define FG__KERNEL fg__kernel_3d_avx512
-#define FG__KERNEL_NAME "avx512"
-#include "evolve/kernel_body.h"
-#else
-typedef int fg__no_3d_avx512; /* ISO C wants a declaration */
-#endif

@@ -1,0 +1,31 @@
+/* What ranks tell each other that have whole slices each (rows in 2D, planes in 3D), one
+ * behind the other along the last axis: runs of memory, as they lie there, for the rank
+ * above or below. exchange.h does pencils. */
+#ifndef FG__SLABS_H
+#define FG__SLABS_H
+
+#include "grid/partition.h"
+
+typedef struct fg__slabs {
+  const fg__ranks *ranks;
+  int below, above; /* ranks, FG__NOBODY at the domain's ends */
+} fg__slabs;
+
+/* Floats for the rank above (or below), and where those of the other side's neighbour
+ * go. */
+typedef struct fg__run {
+  const float *sent;
+  float *received;
+  size_t count;
+  bool up;
+} fg__run;
+
+/* Whether several ranks divide the last axis only. The same on all ranks; not collective.
+ */
+bool fg__slabs_find(fg__slabs *out, const fg__partition *partition);
+
+/* A run after the other. Collective: all ranks give as many, of the same directions and
+ * sizes. */
+void fg__slabs_exchange(const fg__slabs *slabs, const fg__run run[], int count);
+
+#endif

@@ -1,0 +1,339 @@
+#include "place/reader/readers.h"
+
+#include "base/memory.h"
+#include "place/reader/rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Slower than this share of the greatest speed a cell has no direction to be read. */
+static const double STILL = 1e-3;
+
+/* A part of the domain smaller than this many lambda squared (cubed) gets no icon, and
+ * does not count, unless it is the largest. */
+static const double SMALLEST_PART_2D = 0.25;
+static const double SMALLEST_PART_3D = 1.0;
+
+void fg__place_raster_center(double center[3], const fg__place_raster *raster,
+                             const fg__place_domain *domain, const fg__place_scale *scale,
+                             const int at[3])
+{
+  for (int k = 0; k < 3; ++k)
+    center[k] =
+        k < raster->dimension
+            ? domain->low[k] + (at[k] + 0.5) * (double)raster->cell * scale->lambda
+            : 0.0;
+}
+
+static double smallest_part(const fg__place_domain *domain, const fg__place_scale *scale)
+{
+  double largest = 0.0,
+         share = pow(scale->lambda, domain->dimension) *
+                 (domain->dimension == 2 ? SMALLEST_PART_2D : SMALLEST_PART_3D);
+  for (int n = 0; n < domain->part_count; ++n)
+    largest = fmax(largest, domain->parts[n].measure);
+  return fmin(share, largest);
+}
+
+static void fill_raster(fg__place_raster *raster, const fg__place_domain *domain,
+                        const fg__place_scale *scale)
+{
+  double sum = 0.0, part_share = smallest_part(domain, scale);
+  size_t cell = 0;
+  for (int z = 0; z < raster->cells[2]; ++z)
+    for (int y = 0; y < raster->cells[1]; ++y)
+      for (int x = 0; x < raster->cells[0]; ++x, ++cell) {
+        double center[3], direction[3];
+        fg__place_raster_center(center, raster, domain, scale, (const int[3]){x, y, z});
+        double speed = fg__place_speed(domain, center);
+        const fg__place_part *part = fg__place_part_at(domain, center);
+        if (!(speed > STILL * domain->greatest) || !part ||
+            !fg__place_direction(domain, center, direction))
+          continue;
+        for (int k = 0; k < raster->dimension; ++k)
+          raster->direction[k][cell] = (float)direction[k];
+        if (part->measure < part_share)
+          continue;
+        double weight = fg__place_weight(domain, speed);
+        raster->weight[cell] = (float)weight;
+        sum += weight;
+      }
+  float norm = sum > 0.0 ? (float)(scale->count / sum) : 0.0F;
+  for (size_t n = 0; n < raster->count; ++n)
+    raster->weight[n] *= norm;
+}
+
+fg_status fg__place_raster_create(fg__place_raster *out, fg_context *context,
+                                  const fg__place_domain *domain,
+                                  const fg__place_scale *scale)
+{
+  *out = (fg__place_raster){.dimension = domain->dimension,
+                            .cell = (float)(scale->cell / scale->lambda),
+                            .count = 1};
+  for (int k = 0; k < 3; ++k) {
+    double length = domain->high[k] - domain->low[k];
+    out->cells[k] = k < domain->dimension ? (int)(length / scale->cell + 0.999) : 1;
+    out->cells[k] = out->cells[k] > 1 ? out->cells[k] : 1;
+    out->count *= (size_t)out->cells[k];
+  }
+  out->weight = fg__allocate(out->count, sizeof *out->weight);
+  bool whole = out->weight != NULL;
+  for (int k = 0; k < domain->dimension; ++k) {
+    out->direction[k] = fg__allocate(out->count, sizeof *out->direction[k]);
+    whole = whole && out->direction[k];
+  }
+  if (!whole) {
+    fg__place_raster_clear(out);
+    return fg__fail_memory(context, "a raster for readers", out->count * 16);
+  }
+  fill_raster(out, domain, scale);
+  return FG_STATUS_OK;
+}
+
+void fg__place_raster_clear(fg__place_raster *raster)
+{
+  free(raster->weight);
+  for (int k = 0; k < 3; ++k)
+    free(raster->direction[k]);
+  raster->weight = raster->direction[0] = raster->direction[1] = raster->direction[2] =
+      NULL;
+}
+
+bool fg__place_boxes_meet(const fg__place_box *a, const fg__place_box *b)
+{
+  for (int k = 0; k < 3; ++k)
+    if (a->low[k] >= b->low[k] + b->size[k] || b->low[k] >= a->low[k] + a->size[k])
+      return false;
+  return true;
+}
+
+void fg__place_tale_clear(fg__place_tale *tale)
+{
+  free(tale->value);
+  *tale = (fg__place_tale){0};
+}
+
+static fg_status make_room(fg__place_tale *tale, fg_context *context, int dimension,
+                           const fg__place_box *box)
+{
+  size_t count = fg__place_box_count(box);
+  tale->box = *box;
+  tale->dimension = dimension;
+  if (count <= tale->capacity)
+    return FG_STATUS_OK;
+  free(tale->value);
+  tale->capacity = count + count / 4 + 16;
+  tale->value = fg__allocate_aligned(tale->capacity * FG__PLACE_ARRAYS((size_t)dimension),
+                                     sizeof(float));
+  if (tale->value)
+    return FG_STATUS_OK;
+  size_t bytes = tale->capacity * FG__PLACE_ARRAYS((size_t)dimension) * sizeof(float);
+  tale->capacity = 0;
+  return fg__fail_memory(context, "what icons tell", bytes);
+}
+
+fg_status fg__place_tale_start(fg__place_tale *tale, fg_context *context, int dimension,
+                               const fg__place_box *box, float reach)
+{
+  fg_status status = make_room(tale, context, dimension, box);
+  if (status != FG_STATUS_OK)
+    return status;
+  size_t count = fg__place_box_count(box);
+  for (size_t n = 0; n < count; ++n)
+    tale->value[n] = reach * reach;
+  for (int array = 1; array < FG__PLACE_ARRAYS(dimension); ++array)
+    memset(tale->value + (size_t)array * tale->capacity, 0, count * sizeof(float));
+  return FG_STATUS_OK;
+}
+
+fg__place_box fg__place_box_around(const fg__place_raster *raster,
+                                   const fg__place_line *line, float distance)
+{
+  fg__place_box box = {{0}, {0}};
+  for (int k = 0; k < 3 && line->count > 0; ++k) {
+    box.size[k] = 1;
+    if (k >= raster->dimension)
+      continue;
+    float least = line->position[k][0], most = least;
+    for (int n = 1; n < line->count; ++n) {
+      least = fminf(least, line->position[k][n]);
+      most = fmaxf(most, line->position[k][n]);
+    }
+    int low = (int)((least - distance) / raster->cell);
+    int high = (int)((most + distance) / raster->cell) + 1;
+    box.low[k] = low > 0 ? low : 0;
+    high = high < raster->cells[k] ? high : raster->cells[k];
+    box.size[k] = high > box.low[k] ? high - box.low[k] : 0;
+  }
+  return box;
+}
+
+fg__place_box fg__place_box_of(const fg__place_raster *raster,
+                               const fg__place_scale *scale, const fg__place_line *line)
+{
+  return fg__place_box_around(raster, line, (float)(scale->reach / scale->lambda));
+}
+
+void fg__place_box_widen(fg__place_box *box, const fg__place_box *by)
+{
+  if (fg__place_box_count(by) == 0)
+    return;
+  if (fg__place_box_count(box) == 0)
+    *box = *by;
+  for (int k = 0; k < 3; ++k) {
+    int end = box->low[k] + box->size[k], other = by->low[k] + by->size[k];
+    box->low[k] = box->low[k] < by->low[k] ? box->low[k] : by->low[k];
+    box->size[k] = (end > other ? end : other) - box->low[k];
+  }
+}
+
+/* Where row (y, z) of a box begins, from its own low corner. */
+static size_t row_place(const fg__place_box *box, int y, int z)
+{
+  return ((size_t)z * (size_t)box->size[1] + (size_t)y) * (size_t)box->size[0];
+}
+
+fg_status fg__place_tell(fg__place_tale *out, fg_context *context,
+                         const fg__place_raster *raster, const fg__place_scale *scale,
+                         const fg__place_line *line)
+{
+  float reach = (float)(scale->reach / scale->lambda);
+  fg__place_box box = fg__place_box_of(raster, scale, line);
+  fg_status status = fg__place_tale_start(out, context, raster->dimension, &box, reach);
+  if (status != FG_STATUS_OK)
+    return status;
+  fg__place_row_place place = {.x = (float)box.low[0] * raster->cell,
+                               .cell = raster->cell,
+                               .reach = reach,
+                               .inverse_square = 1.0F / (reach * reach)};
+  for (int z = 0; z < box.size[2]; ++z)
+    for (int y = 0; y < box.size[1]; ++y) {
+      place.y = ((float)(box.low[1] + y) + 0.5F) * raster->cell;
+      place.z = ((float)(box.low[2] + z) + 0.5F) * raster->cell;
+      fg__place_tell_row(raster->dimension, out->value + row_place(&box, y, z),
+                         out->capacity, box.size[0], line, &place);
+    }
+  return FG_STATUS_OK;
+}
+
+/* The common part of two boxes. */
+static bool common_box(fg__place_box *out, const fg__place_box *a, const fg__place_box *b)
+{
+  for (int k = 0; k < 3; ++k) {
+    int low = a->low[k] > b->low[k] ? a->low[k] : b->low[k];
+    int end_a = a->low[k] + a->size[k], end_b = b->low[k] + b->size[k];
+    out->low[k] = low;
+    out->size[k] = (end_a < end_b ? end_a : end_b) - low;
+    if (out->size[k] <= 0)
+      return false;
+  }
+  return true;
+}
+
+/* Where a cell (of the raster) lies in a box. */
+static size_t place_in(const fg__place_box *box, int x, int y, int z)
+{
+  return row_place(box, y - box->low[1], z - box->low[2]) + (size_t)(x - box->low[0]);
+}
+
+void fg__place_tale_add(fg__place_tale *to, const fg__place_tale *from)
+{
+  fg__place_box both;
+  if (!common_box(&both, &to->box, &from->box))
+    return;
+  for (int z = both.low[2]; z < both.low[2] + both.size[2]; ++z)
+    for (int y = both.low[1]; y < both.low[1] + both.size[1]; ++y)
+      fg__place_add_row(to->dimension, to->value + place_in(&to->box, both.low[0], y, z),
+                        to->capacity,
+                        from->value + place_in(&from->box, both.low[0], y, z),
+                        from->capacity, both.size[0]);
+}
+
+/* A row of a tale, or NULL where the tale has none there. */
+static const float *row_of(const fg__place_tale *tale, int y, int z)
+{
+  const fg__place_box *box = &tale->box;
+  if (y < box->low[1] || y >= box->low[1] + box->size[1] || z < box->low[2] ||
+      z >= box->low[2] + box->size[2] || box->size[0] == 0)
+    return NULL;
+  return tale->value + place_in(box, box->low[0], y, z);
+}
+
+double fg__place_cost(float *cost, const fg__place_raster *raster,
+                      const fg__place_box *box, const fg__place_tale *one,
+                      const fg__place_tale *other, const fg__place_price *price)
+{
+  double sum = 0.0;
+  for (int z = box->low[2]; z < box->low[2] + box->size[2]; ++z)
+    for (int y = box->low[1]; y < box->low[1] + box->size[1]; ++y) {
+      size_t cell =
+          ((size_t)z * (size_t)raster->cells[1] + (size_t)y) * (size_t)raster->cells[0] +
+          (size_t)box->low[0];
+      fg__place_row row = {
+          .weight = raster->weight + cell,
+          .direction = {raster->direction[0] + cell, raster->direction[1] + cell, NULL},
+          .price = *price};
+      if (raster->dimension == 3)
+        row.direction[2] = raster->direction[2] + cell;
+      const float *a = one ? row_of(one, y, z) : NULL;
+      const float *b = other ? row_of(other, y, z) : NULL;
+      fg__place_part_row parts[2] = {{0}, {0}};
+      if (a)
+        parts[0] = (fg__place_part_row){a, one->capacity, one->box.low[0] - box->low[0],
+                                        one->box.size[0]};
+      if (b)
+        parts[1] = (fg__place_part_row){
+            b, other->capacity, other->box.low[0] - box->low[0], other->box.size[0]};
+      float *kept = cost ? cost + place_in(box, box->low[0], y, z) : NULL;
+      sum += fg__place_cost_row(raster->dimension, kept, box->size[0], &row, parts);
+    }
+  return sum;
+}
+
+enum { VECTOR = 16 };
+static const float BEYOND = 1e9F;
+
+void fg__place_points_clear(fg__place_points *points)
+{
+  free(points->position);
+  *points = (fg__place_points){0};
+}
+
+fg_status fg__place_points_start(fg__place_points *points, fg_context *context,
+                                 int dimension, int most)
+{
+  size_t needed = ((size_t)most / VECTOR + 1) * VECTOR;
+  points->dimension = dimension;
+  points->count = 0;
+  if (needed > points->capacity) {
+    free(points->position);
+    points->capacity = needed;
+    points->position =
+        fg__allocate_aligned(needed * (size_t)dimension, sizeof *points->position);
+    if (!points->position) {
+      points->capacity = 0;
+      return fg__fail_memory(context, "samples of lines",
+                             needed * (size_t)dimension * sizeof *points->position);
+    }
+  }
+  for (size_t n = 0; n < points->capacity * (size_t)dimension; ++n)
+    points->position[n] = BEYOND;
+  return FG_STATUS_OK;
+}
+
+void fg__place_points_add(fg__place_points *points, const fg__place_line *line)
+{
+  for (int k = 0; k < points->dimension; ++k)
+    memcpy(points->position + (size_t)k * points->capacity + points->count,
+           line->position[k], (size_t)line->count * sizeof *points->position);
+  points->count += line->count;
+}
+
+void fg__place_points_nearest(float square[FG__PLACE_SAMPLES],
+                              const fg__place_points *points, const fg__place_line *line)
+{
+  int count = (points->count + VECTOR - 1) / VECTOR * VECTOR;
+  fg__place_nearest_points(points->dimension, square, line, points->position,
+                           points->capacity, count);
+}

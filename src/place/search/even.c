@@ -1,0 +1,171 @@
+#include "place/search/even.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LLOYD_STEPS = 12 };
+
+/* Ways of an icon in a free placement, in lambda. */
+static const double FREE_WAY = 0.6;
+
+typedef struct points {
+  const fg__place_raster *raster;
+  float (*place)[3]; /* a seed, in cells */
+  double (*sum)[4];  /* a seed: of its cells' places by weight, and the weight */
+  float *square;     /* a cell: distance to the nearest seed */
+  int *owner;        /* a cell: that seed */
+  int count;
+} points;
+
+static void cell_place(const fg__place_raster *raster, size_t cell, float place[3])
+{
+  for (int k = 0; k < 3; ++k) {
+    place[k] = (float)(cell % (size_t)raster->cells[k]);
+    cell /= (size_t)raster->cells[k];
+  }
+}
+
+/* Lets a seed own the cells within `within` cells of it that it is nearest to. */
+static void claim(points *all, int seed, float within)
+{
+  const fg__place_raster *raster = all->raster;
+  const float *at = all->place[seed];
+  int low[3], high[3];
+  for (int k = 0; k < 3; ++k) {
+    float first = at[k] - within, last = at[k] + within;
+    low[k] = first > 0.0F ? (int)first : 0;
+    high[k] = last < (float)raster->cells[k] - 1.0F ? (int)last + 1 : raster->cells[k];
+  }
+  for (int z = low[2]; z < high[2]; ++z)
+    for (int y = low[1]; y < high[1]; ++y) {
+      size_t row =
+          ((size_t)z * (size_t)raster->cells[1] + (size_t)y) * (size_t)raster->cells[0];
+      float dy = (float)y - at[1], dz = (float)z - at[2];
+      for (int x = low[0]; x < high[0]; ++x) {
+        float dx = (float)x - at[0], square = dx * dx + dy * dy + dz * dz;
+        size_t cell = row + (size_t)x;
+        if (square < all->square[cell]) {
+          all->square[cell] = square;
+          all->owner[cell] = seed;
+        }
+      }
+    }
+}
+
+static float far_away(const fg__place_raster *raster)
+{
+  float sum = 0.0F;
+  for (int k = 0; k < 3; ++k)
+    sum += (float)raster->cells[k] * (float)raster->cells[k];
+  return 4.0F * sum;
+}
+
+static void forget(points *all)
+{
+  for (size_t n = 0; n < all->raster->count; ++n) {
+    all->square[n] = far_away(all->raster);
+    all->owner[n] = -1;
+  }
+}
+
+/* The first seed is the cell that counts most, the first of such. */
+static void choose_farthest(points *all)
+{
+  const fg__place_raster *raster = all->raster;
+  forget(all);
+  for (int seed = 0; seed < all->count; ++seed) {
+    size_t best = 0;
+    float most = -1.0F;
+    for (size_t n = 0; n < raster->count; ++n) {
+      float worth = all->square[n] * raster->weight[n];
+      if (raster->weight[n] > 0.0F && worth > most) {
+        most = worth;
+        best = n;
+      }
+    }
+    cell_place(raster, best, all->place[seed]);
+    claim(all, seed, sqrtf(all->square[best]));
+  }
+}
+
+/* Moves each seed to the centroid of its cells. */
+static void move_to_centroids(points *all)
+{
+  const fg__place_raster *raster = all->raster;
+  size_t cell = 0;
+  memset(all->sum, 0, (size_t)all->count * sizeof *all->sum);
+  for (int z = 0; z < raster->cells[2]; ++z)
+    for (int y = 0; y < raster->cells[1]; ++y)
+      for (int x = 0; x < raster->cells[0]; ++x, ++cell) {
+        double weight = (double)raster->weight[cell];
+        if (!(weight > 0.0) || all->owner[cell] < 0)
+          continue;
+        double *sum = all->sum[all->owner[cell]];
+        sum[0] += weight * x;
+        sum[1] += weight * y;
+        sum[2] += weight * z;
+        sum[3] += weight;
+      }
+  for (int n = 0; n < all->count; ++n)
+    for (int k = 0; k < 3 && all->sum[n][3] > 0.0; ++k)
+      all->place[n][k] = (float)(all->sum[n][k] / all->sum[n][3]);
+}
+
+static void even_out(points *all)
+{
+  float within = 0.0F;
+  choose_farthest(all);
+  for (size_t n = 0; n < all->raster->count; ++n)
+    if (all->raster->weight[n] > 0.0F && all->square[n] > within)
+      within = all->square[n];
+  within = 2.0F * sqrtf(within) + 1.0F;
+  for (int step = 0; step < LLOYD_STEPS; ++step) {
+    move_to_centroids(all);
+    forget(all);
+    for (int n = 0; n < all->count; ++n)
+      claim(all, n, within);
+  }
+}
+
+static fg_status add_icons(fg__place_search *search, const points *all)
+{
+  const fg__place_scale *scale = &search->scale;
+  fg_status status = FG_STATUS_OK;
+  for (int n = 0; n < all->count && status == FG_STATUS_OK; ++n) {
+    fg__place_seed seed = {{0}, {0}};
+    bool added;
+    for (int k = 0; k < scale->dimension; ++k)
+      seed.position[k] =
+          search->domain->low[k] + ((double)all->place[n][k] + 0.5) * scale->cell;
+    seed.way[0] = seed.way[1] = (scale->free ? FREE_WAY : 0.5) * scale->lambda;
+    status = fg__place_add(search, &added, &seed, search->next_identity);
+    search->next_identity += added;
+  }
+  return status;
+}
+
+fg_status fg__place_start_even(fg__place_search *search)
+{
+  const fg__place_raster *raster = &search->raster;
+  points all = {.raster = raster, .count = search->scale.count};
+  all.place = fg__allocate((size_t)all.count, sizeof *all.place);
+  all.sum = fg__allocate((size_t)all.count, sizeof *all.sum);
+  all.square = fg__allocate(raster->count, sizeof *all.square);
+  all.owner = fg__allocate(raster->count, sizeof *all.owner);
+  fg_status status = FG_STATUS_OK;
+  if (!all.place || !all.sum || !all.square || !all.owner)
+    status = fg__fail_memory(search->context, "even seeds",
+                             raster->count * (sizeof *all.square + sizeof *all.owner));
+  if (status == FG_STATUS_OK) {
+    even_out(&all);
+    status = add_icons(search, &all);
+  }
+  free(all.place);
+  free(all.sum);
+  free(all.square);
+  free(all.owner);
+  return status;
+}

@@ -1,0 +1,13 @@
+/* An even start: seeds that need no random number. */
+#ifndef FG__PLACE_EVEN_H
+#define FG__PLACE_EVEN_H
+
+#include "place/search/search.h"
+
+/* Adds icons at evenly distributed points of the domain, as many as the scale has where
+ * lines can be: each the point farthest from those before, then moved to the centroids of
+ * their Voronoi regions (Lloyd, IEEE Transactions on Information Theory 28, 1982).
+ * MEMORY. */
+fg_status fg__place_start_even(fg__place_search *search);
+
+#endif

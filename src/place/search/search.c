@@ -1,0 +1,162 @@
+#include "place/search/search.h"
+
+#include "base/memory.h"
+#include "place/angle.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static fg_status set_scale(fg__place_search *search, int count, bool free)
+{
+  search->scale =
+      fg__place_scale_of(search->domain->dimension, count, search->domain->measure, free);
+  fg_status status = fg__place_raster_create(&search->raster, search->context,
+                                             search->domain, &search->scale);
+  if (status == FG_STATUS_OK)
+    status = fg__place_diffusion_create(&search->diffusion, search->context,
+                                        &search->raster, search->domain, &search->scale);
+  if (status != FG_STATUS_OK)
+    return status;
+  search->map = fg__allocate(search->raster.count, sizeof *search->map);
+  search->smooth = fg__allocate(search->raster.count, sizeof *search->smooth);
+  if (!search->map || !search->smooth)
+    return fg__fail_memory(search->context, "a map of errors",
+                           2 * search->raster.count * sizeof *search->map);
+  search->price = (fg__place_price){.inverse_error = (float)(1.0 / search->error),
+                                    .far = (float)search->scale.far,
+                                    .reach = (float)fg__place_reach(search)};
+  return FG_STATUS_OK;
+}
+
+static void clear_scale(fg__place_search *search)
+{
+  fg__place_raster_clear(&search->raster);
+  fg__place_diffusion_clear(&search->diffusion);
+  free(search->map);
+  free(search->smooth);
+  search->map = search->smooth = NULL;
+}
+
+fg_status fg__place_search_create(fg__place_search *out, fg_context *context,
+                                  const fg__place_domain *domain, int count, bool free)
+{
+  *out = (fg__place_search){.domain = domain, .context = context, .error = 30.0};
+  fg_status status = set_scale(out, count, free);
+  if (status != FG_STATUS_OK)
+    fg__place_search_clear(out);
+  return status;
+}
+
+static void free_icon(fg__place_icon *icon)
+{
+  fg__place_tale_clear(&icon->tale);
+  free(icon);
+}
+
+void fg__place_search_clear(fg__place_search *search)
+{
+  for (int n = 0; n < search->count; ++n)
+    free_icon(search->icon[n]);
+  free(search->icon);
+  clear_scale(search);
+  fg__place_tale_clear(&search->others);
+  fg__place_tale_clear(&search->trial);
+  fg__place_tale_clear(&search->whole);
+  fg__place_points_clear(&search->beside);
+  *search = (fg__place_search){0};
+}
+
+static fg_status tell(fg__place_search *search, fg__place_tale *out,
+                      const fg__place_line *line)
+{
+  return fg__place_tell(out, search->context, &search->raster, &search->scale, line);
+}
+
+/* Forgets an icon that the diffusion reader does not know. */
+static void forget(fg__place_search *search, int index)
+{
+  free_icon(search->icon[index]);
+  --search->count;
+  memmove(&search->icon[index], &search->icon[index + 1],
+          (size_t)(search->count - index) * sizeof(fg__place_icon *));
+}
+
+fg_status fg__place_search_rescale(fg__place_search *search, int count)
+{
+  double before = search->scale.lambda;
+  bool free = search->scale.free;
+  clear_scale(search);
+  fg_status status = set_scale(search, count, free);
+  double grown = search->scale.lambda / before;
+  for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
+    fg__place_icon *icon = search->icon[n];
+    for (int k = 0; k < 2; ++k)
+      icon->seed.way[k] *= grown;
+    icon->step *= grown;
+    fg__place_trace(&icon->line, search->domain, &search->scale, &icon->seed);
+    if (icon->line.count == 0)
+      forget(search, n--);
+    else
+      status = tell(search, &icon->tale, &icon->line);
+  }
+  for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
+    fg__place_diffusion_add(&search->diffusion, &search->icon[n]->line);
+  return status == FG_STATUS_OK
+             ? fg__place_diffusion_solve(&search->diffusion, search->context, false)
+             : status;
+}
+
+fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_seed *seed,
+                        int identity)
+{
+  *added = false;
+  fg__place_icon *icon = fg__allocate(1, sizeof *icon);
+  if (!icon || !fg__grow((void **)&search->icon, &search->capacity,
+                         (size_t)search->count + 1, sizeof(fg__place_icon *))) {
+    free(icon);
+    return fg__fail_memory(search->context, "an icon", sizeof *icon);
+  }
+  icon->seed = *seed;
+  icon->step = 0.25 * search->scale.lambda;
+  icon->identity = identity;
+  fg__place_trace(&icon->line, search->domain, &search->scale, seed);
+  fg_status status = FG_STATUS_OK;
+  if (icon->line.count > 0)
+    status = tell(search, &icon->tale, &icon->line);
+  if (status == FG_STATUS_OK && icon->line.count > 0) {
+    double growth;
+    status = fg__place_diffusion_try(&growth, &search->diffusion, search->context, NULL,
+                                     &icon->line);
+    if (status == FG_STATUS_OK)
+      fg__place_diffusion_keep(&search->diffusion, NULL, &icon->line);
+  }
+  if (status != FG_STATUS_OK || icon->line.count == 0) {
+    free_icon(icon);
+    return status;
+  }
+  search->icon[search->count++] = icon;
+  *added = true;
+  return FG_STATUS_OK;
+}
+
+fg_status fg__place_drop(fg__place_search *search, int index)
+{
+  double growth;
+  const fg__place_line *line = &search->icon[index]->line;
+  fg_status status =
+      fg__place_diffusion_try(&growth, &search->diffusion, search->context, line, NULL);
+  if (status == FG_STATUS_OK) {
+    fg__place_diffusion_keep(&search->diffusion, line, NULL);
+    forget(search, index);
+  }
+  return status;
+}
+
+double fg__place_ink(const fg__place_search *search)
+{
+  double sum = 0.0;
+  for (int n = 0; n < search->count; ++n)
+    sum += search->icon[n]->line.length;
+  return sum / (search->scale.count * search->scale.lambda);
+}

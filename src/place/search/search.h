@@ -1,0 +1,118 @@
+/* The descent: icons move to where readers get more of the field back. */
+#ifndef FG__PLACE_SEARCH_H
+#define FG__PLACE_SEARCH_H
+
+#include "place/reader/diffusion.h"
+
+typedef struct fg__place_icon {
+  fg__place_seed seed;
+  fg__place_line line;
+  fg__place_tale tale; /* what it tells */
+  double step;         /* of its moves, input coordinates */
+  int move;            /* which was taken last */
+  int identity;        /* stays as the icon moves, and from scale to scale */
+} fg__place_icon;
+
+typedef struct fg__place_search {
+  const fg__place_domain *domain;
+  fg_context *context;
+  fg__place_scale scale;
+  fg__place_raster raster;
+  fg__place_price price;
+  fg__place_diffusion diffusion;
+  double error;          /* E0, degrees */
+  fg__place_icon **icon; /* [count] */
+  int count;
+  size_t capacity;
+  int next_identity;
+  /* Room to work in: */
+  fg__place_tale others, trial, whole;
+  fg__place_points beside; /* samples of the icons that were gathered last */
+  float *map, *smooth;     /* a value a raster cell */
+} fg__place_search;
+
+/* Starts a search for `count` icons, with none yet. MEMORY. */
+fg_status fg__place_search_create(fg__place_search *out, fg_context *context,
+                                  const fg__place_domain *domain, int count, bool free);
+void fg__place_search_clear(fg__place_search *search);
+
+/* Goes over to another number of icons, with the icons it has: lengths follow lambda.
+ * MEMORY. */
+fg_status fg__place_search_rescale(fg__place_search *search, int count);
+
+/* Adds an icon at a seed; *added is false where no line can be. MEMORY. */
+fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_seed *seed,
+                        int identity);
+fg_status fg__place_drop(fg__place_search *search, int index);
+
+/* Up to `sweeps` times over all icons that still move, largest steps first tried. MEMORY,
+ * STOPPED. */
+fg_status fg__place_relax(fg__place_search *search, int sweeps);
+
+/* Lets the icons near a place, or all, try moves of `step` lambda again. */
+void fg__place_wake(fg__place_search *search, const double place[3], double step);
+void fg__place_wake_all(fg__place_search *search, double step);
+
+/* Adds the icon that lowers the energy most, of those where readers err most; the best
+ * `passed` ones are passed over. *inserted is false where there is no room. MEMORY. */
+fg_status fg__place_insert(fg__place_search *search, bool *inserted, int passed);
+
+/* Takes off the icons that are missed least until `count` are left; the neighbours of
+ * those that go move, and others that are not at rest. MEMORY, STOPPED. */
+fg_status fg__place_thin(fg__place_search *search, int count);
+
+/* Brings the number of icons to the scale's, by inserting and removing. Where no more fit
+ * the scale's shortest lines become shorter, and it ends early where that does not help.
+ * MEMORY, STOPPED. */
+fg_status fg__place_complete(fg__place_search *search);
+
+/* Up to `most` exchanges of an icon for one elsewhere, given up after `failures` that did
+ * not lower the energy. MEMORY, STOPPED. */
+fg_status fg__place_exchange(fg__place_search *search, int most, int failures);
+
+/* Sets E0 from the readers' mean error now. MEMORY. */
+fg_status fg__place_weigh(fg__place_search *search);
+
+/* The energy of all. MEMORY. */
+fg_status fg__place_energy(fg__place_search *search, double *energy);
+
+/* Sum of lengths in count * lambda. */
+double fg__place_ink(const fg__place_search *search);
+
+/* For the search's own files: */
+
+/* R in lambda. */
+static inline double fg__place_reach(const fg__place_search *search)
+{
+  return search->scale.reach / search->scale.lambda;
+}
+
+/* What a line costs by itself, beside the icons that were gathered last. */
+double fg__place_own_price(const fg__place_search *search, const fg__place_line *line);
+
+/* What line `to` in place of line `from` (NULL: none) adds to the price of the diffusion
+ * reader's errors. MEMORY. */
+fg_status fg__place_diffusion_price(double *price, fg__place_search *search,
+                                    const fg__place_line *from, const fg__place_line *to);
+
+/* What all icons but `except` (-1: all) tell a box; search->beside gets the samples of
+ * those that tell it anything. MEMORY. */
+fg_status fg__place_gather(fg__place_tale *out, fg__place_search *search,
+                           const fg__place_box *box, int except);
+
+/* What all icons tell all cells, to search->whole. MEMORY. */
+fg_status fg__place_gather_whole(fg__place_search *search);
+
+/* A seed for a new icon, and how much that would lower the energy. */
+typedef struct fg__place_candidate {
+  fg__place_seed seed;
+  double fall;
+} fg__place_candidate;
+
+enum { FG__PLACE_CANDIDATES = 30 };
+
+/* The best candidates where readers err most, in descending order. MEMORY. */
+fg_status fg__place_list_candidates(fg__place_candidate best[FG__PLACE_CANDIDATES],
+                                    int *count, fg__place_search *search);
+
+#endif

@@ -1,0 +1,86 @@
+/* The tensor of the cells round a box of nodes, those beyond its sides included. */
+#ifndef FG__CELLS_H
+#define FG__CELLS_H
+
+#include "base/context.h"
+#include "base/team.h"
+#include "grid/box.h"
+#include "tensor/tensor.h"
+
+enum { FG__TENSOR_COMPONENTS = 6 }; /* xx, xy, yy, zz, xz, yz; three in 2D */
+
+/* Laid out as solver/cells/images.h says. */
+typedef struct fg__cells_of_box {
+  int dimension;
+  int nodes[3];
+  ptrdiff_t row, plane;                    /* from a cell to the next along y and z */
+  float *component[FG__TENSOR_COMPONENTS]; /* times weight; points to cell (0, 0, 0) */
+  float *weight;                           /* the cell's active share */
+  void *memory;
+} fg__cells_of_box;
+
+static inline ptrdiff_t fg__cell_at(const fg__cells_of_box *cells, int i, int j, int k)
+{
+  return (ptrdiff_t)i + (ptrdiff_t)j * cells->row + (ptrdiff_t)k * cells->plane;
+}
+
+/* Whatever takes a team (NULL: one thread) gives the same with any. */
+
+/* The cells of the whole domain, with their images beyond its sides: mirrored at natural
+ * borders, where off-diagonal components change sign for each axis mirrored, or wrapped
+ * round. `cells` counts along each axis. MEMORY. */
+fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
+                                const fg__tensor *tensor, int dimension,
+                                const int cells[3], const bool periodic[3],
+                                fg__team *team);
+
+/* How to find the tensor of any cells of the domain. */
+typedef struct fg__tensor_recipe {
+  const fg_field *field;
+  const fg_energy_law *law;
+  double anisotropy, width; /* see fg__tensor_fill_box */
+  int dimension;
+  int cells[3]; /* of the domain */
+  bool periodic[3];
+  double origin[3], spacing[3]; /* input coordinates */
+  bool masked;                  /* some cell is inactive */
+} fg__tensor_recipe;
+
+/* The cells whose centres that takes the field at, for a box of nodes. */
+fg__cells fg__cells_asked(const fg__tensor_recipe *recipe, const fg__box *box);
+
+/* The cells round a box of nodes of the finest level. wide: the recipe's law at all cells
+ * asked, of which this is made, unless it is empty (solver/cells/field_boxes.h); it is
+ * cleared. MEMORY. */
+fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
+                            const fg__tensor_recipe *recipe, const fg__box *box,
+                            fg__wide_tensor *wide);
+
+/* The cells round a box of a coarser level, as means over 2 x 2 (x 2) of those of the box
+ * on the next finer level, which begins at even nodes: only those whose lowest corner the
+ * box owns. The ring below comes from the neighbours; what lies beyond natural borders
+ * from mirror_box then. MEMORY. */
+fg_status fg__cells_halve_box(fg__cells_of_box *out, fg_context *context,
+                              const fg__cells_of_box *fine, const fg__box *box,
+                              const int level_cells[3]);
+void fg__cells_mirror_box(const fg__cells_of_box *cells, const fg__box *box,
+                          const int level_cells[3], const bool periodic[3]);
+
+/* An array of all cells of a level, x fastest, as fg__cells_of_box with images: values[n]
+ * are the components, the last the weight. MEMORY. */
+fg_status fg__cells_from_arrays(fg__cells_of_box *out, fg_context *context,
+                                const float *const values[], int dimension,
+                                const int cells[3], const bool periodic[3]);
+
+/* The means over 2 x 2 (x 2) cells. MEMORY. */
+fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
+                            const fg__cells_of_box *fine, const int fine_cells[3],
+                            const bool periodic[3], fg__team *team);
+
+/* Which cells are active at all: a byte each, laid out like the cells, `origin` bytes
+ * from the start to cell (0, 0, 0). To be freed; NULL when there is no memory. */
+unsigned char *fg__cells_mask(const fg__cells_of_box *cells, ptrdiff_t *origin);
+
+void fg__cells_clear(fg__cells_of_box *cells);
+
+#endif

@@ -1,0 +1,113 @@
+/* The inner loops of the evolution, on the arrays of a level. solver/kernel/body.h is
+ * their one source; it is compiled for two and three dimensions and once for each vector
+ * width, and fg__kernel_choose takes the widest that the machine has. Neither widths nor
+ * threads change a bit of the results: every node's arithmetic is the same, a sweep keeps
+ * its order of colours, products and sums are not fused, and sums over nodes are exact.
+ */
+#ifndef FG__KERNEL_H
+#define FG__KERNEL_H
+
+#include "solver/level.h"
+
+/* The system of one time step, rows divided by the mass (docs/method/README.md):
+ *     u + tau L w = p,      w - Psi'(u) - K u = q,
+ * L the Laplacian, K = gamma L_A, Psi'(u) = 2 u (u^2 - 1); q = 0 on the finest level.
+ * Coarse levels correct it: u += d P v, w += P w, P multilinear and d the shape of a
+ * moving interface (solver/kernel/space.h); changes of u that lead past a well are
+ * bounded (solver/kernel/stencil.h). In scale * v, written u there, their system is m u +
+ * tau L w = p,      m w - (curvature + K) u = q,      m the coupling. */
+
+/* What is restricted: residuals of both equations, the second times d; d; and d J d. */
+enum { FG__RESTRICTED = 4 };
+
+/* Sums over nodes, m the relative mass. */
+typedef struct fg__changes {
+  double u;      /* m u */
+  double from_a; /* m (u - a)^2 */
+  double from_b; /* m (u - b)^2 */
+  double along;  /* m (u - a) (a - c) */
+} fg__changes;
+
+typedef struct fg__sums {
+  double energy; /* m (Psi(u) + u K u / 2), the last times the level's gradient_weight */
+  double u;      /* m u */
+} fg__sums;
+
+/* Every operation is called by all members of a team, each with its share of the slices,
+ * and returns when all are done with their parts; sums are those of the member's part. */
+typedef struct fg__kernel {
+  const char *name;
+  int dimension;
+  /* One collective Gauss-Seidel sweep by colours, a local Newton step for (u, w) at each
+   * node. Even planes come before odd ones, in a plane even rows before odd ones, in a
+   * row even columns before odd ones. */
+  void (*smooth)(const fg__level *level, float tau, const fg__share *share);
+  void (*smooth_linear)(const fg__level *level, float tau, const fg__share *share);
+  /* Restricts what is restricted to a coarse level's p, q, coupling and shape_curvature;
+   * its u and w become 0. find_scale and find_curvature then make the level's system of
+   * these. The linear one sweeps first. */
+  void (*restrict_residuals)(const fg__level *fine, const fg__level *coarse, float tau,
+                             const fg__share *share);
+  void (*smooth_restrict_linear)(const fg__level *fine, const fg__level *coarse,
+                                 float tau, const fg__share *share);
+  void (*find_scale)(const fg__level *coarse, const fg__share *share);
+  void (*find_curvature)(const fg__level *coarse, float tau, const fg__share *share);
+  /* What else a linear level's sweeps need; find_curvature has done it. */
+  void (*find_relaxation)(const fg__level *level, float tau, const fg__share *share);
+  /* From scale * v to v, ghosts and all: a coarse level's u, before it corrects. */
+  void (*unscale)(const fg__level *coarse, const fg__share *share);
+  /* Adds the coarse level's corrections to the fine u, w; then a sweep; then, where it is
+   * named so, the restriction for the next cycle. */
+  void (*correct_smooth)(const fg__level *coarse, const fg__level *fine, float tau,
+                         const fg__share *share);
+  void (*correct_smooth_linear)(const fg__level *coarse, const fg__level *fine, float tau,
+                                const fg__share *share);
+  void (*correct_smooth_restrict)(const fg__level *coarse, const fg__level *fine,
+                                  float tau, const fg__share *share);
+  /* w := Psi'(u) + K u, with ghosts, and the energy of u in the same pass. */
+  fg__sums (*evaluate)(const fg__level *level, const float *u, float *w,
+                       const fg__share *share);
+  /* p := u - tau L w, without ghosts. */
+  void (*explicit_part)(const fg__level *level, const float *u, const float *w, float tau,
+                        float *p, const fg__share *share);
+  /* Subtracts Psi'(u) from w, whole arrays. */
+  void (*subtract_wells)(const fg__level *level, const float *u, float *w,
+                         const fg__share *share);
+  fg__changes (*changes)(const fg__level *level, const float *u, const float *a,
+                         const float *b, const float *c, const fg__share *share);
+  /* out := now + omega (now - before), whole arrays. */
+  void (*extrapolate)(const fg__level *level, const float *now, const float *before,
+                      float omega, float *out, const fg__share *share);
+  /* The same, but between the wells where now is between them. */
+  void (*predict)(const fg__level *level, const float *now, const float *before,
+                  float omega, float *out, const fg__share *share);
+  /* Adds an amount to u wherever there is mass; elsewhere u becomes 0. */
+  void (*shift)(const fg__level *level, float *u, float amount, const fg__share *share);
+
+  /* Where ranks share a level in pencils, the same in pieces between which ghosts are
+   * exchanged, by one thread. The rows of a sweep that are alike (1 odd row + 2 odd
+   * plane): no neighbour of one has another's nodes to wait for. */
+  void (*smooth_rows_of)(const fg__level *level, float tau, bool linear, int rows);
+  /* What is to be restricted; and its restriction, once it has ghosts. */
+  void (*find_residuals)(const fg__level *level, float tau, bool linear,
+                         float *const out[FG__RESTRICTED]);
+  void (*restrict_arrays)(const fg__level *fine, const float *const from[FG__RESTRICTED],
+                          const fg__level *coarse);
+  /* Adds the coarse level's corrections. */
+  void (*correct)(const fg__level *coarse, const fg__level *fine, bool linear);
+} fg__kernel;
+
+extern const fg__kernel fg__kernel_2d_generic, fg__kernel_3d_generic;
+#if defined(__x86_64__)
+extern const fg__kernel fg__kernel_2d_avx2, fg__kernel_2d_avx512;
+extern const fg__kernel fg__kernel_3d_avx2, fg__kernel_3d_avx512;
+#endif
+
+/* The fastest kernel that runs here; the environment variable FLOWGRAIN_KERNEL (generic,
+ * avx2, avx512) may ask for a narrower one. */
+const fg__kernel *fg__kernel_choose(int dimension);
+
+/* Fails where FLOWGRAIN_KERNEL is none of these words. ARGUMENT. */
+fg_status fg__kernel_check(fg_context *context);
+
+#endif

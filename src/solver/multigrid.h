@@ -1,0 +1,91 @@
+/* The multigrid hierarchy and its cycle for the coupled (u, w) system of kernel.h. */
+#ifndef FG__MULTIGRID_H
+#define FG__MULTIGRID_H
+
+#include "grid/exchange/gather.h"
+#include "solver/spread.h"
+
+enum { FG__MOST_LEVELS = 16 };
+
+/* The levels from fine to coarse: spread[0] ... spread[spread_count - 1] are shared by
+ * several ranks; spread[spread_count] is the next one as they share it, and level[0] the
+ * same whole on every rank, which all ranks cycle on alike. Where one rank has it all
+ * there is nothing spread, and level[0] is the finest. */
+typedef struct fg__multigrid {
+  const fg__kernel *kernel;
+  const fg__ranks *ranks;
+  int spread_count;
+  fg__spread spread[FG__MOST_LEVELS];
+  fg__gather
+      *gather; /* between spread[spread_count] and level[0]; NULL: nothing spread */
+
+  fg__team *team; /* the caller's; NULL: one thread */
+  int level_count;
+  int shared_levels; /* large enough for the team; the others are left to one member */
+  fg__level level[FG__MOST_LEVELS];
+  int coarsest_sweeps;
+  bool linear; /* the finest level too */
+} fg__multigrid;
+
+/* A mesh of fewer nodes is one thread's: where other work wants the cores, too, several
+ * would wait for each other longer than they work (docs/design/evolution.md). */
+extern const double fg__least_team_nodes;
+
+/* Builds all levels over a mesh of one block, with a team that will also work on them
+ * (borrowed; NULL: one thread). MEMORY. */
+fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
+                               const fg__mesh *mesh, const fg__tensor *tensor,
+                               double gamma, fg__team *team);
+
+/* Builds all levels over a mesh that several ranks share. Collective. MEMORY, and what
+ * the recipe meets. */
+fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
+                                      const fg__mesh *mesh,
+                                      const fg__tensor_recipe *recipe, double gamma);
+void fg__multigrid_clear(fg__multigrid *multigrid);
+
+/* The finest level, or this rank's block of it. */
+const fg__level *fg__multigrid_finest(const fg__multigrid *multigrid);
+
+/* Nodal arrays of the finest (depth 0) and the next level (depth 1). Arrays are handled
+ * by the place of node (0, 0, 0), `first` floats behind their start. */
+typedef struct fg__array_shape {
+  size_t size;
+  ptrdiff_t first;
+} fg__array_shape;
+fg__array_shape fg__multigrid_shape(const fg__multigrid *multigrid, int depth);
+
+/* The finest level's own density, potential and right-hand side. */
+float *fg__multigrid_u(const fg__multigrid *multigrid);
+float *fg__multigrid_w(const fg__multigrid *multigrid);
+float *fg__multigrid_p(const fg__multigrid *multigrid);
+
+/* Makes another array the finest level's density; the former one is the caller's. */
+void fg__multigrid_use(fg__multigrid *multigrid, float *u);
+
+/* What the finest level has for the wells when it is linear: arrays of its shape. */
+typedef struct fg__no_wells {
+  float *zeros, *ones; /* which hold nothing else */
+  float *relaxation;   /* of its own */
+} fg__no_wells;
+
+/* Makes the finest level linear too; NULL: nonlinear again. */
+void fg__multigrid_leave_wells(fg__multigrid *multigrid, const fg__no_wells *instead);
+
+/* Copies an array of the finest level; by all members of the team. */
+void fg__multigrid_copy(const fg__multigrid *multigrid, const float *from, float *to,
+                        const fg__share *share);
+
+/* What the gradient part of the finest level's energies is multiplied by. */
+void fg__multigrid_weigh_gradient(fg__multigrid *multigrid, double weight);
+
+/* So many cycles for the step tau, from and to u, w of the finest level, whose p holds
+ * the right-hand side; `before`, unless NULL, takes a copy of u before the last. The
+ * finest level is nonlinear (full approximation) and smoothed after the correction only:
+ * the sweep at the end of one cycle prepares the next. Coarse levels are linear, V(1,1),
+ * in the space that is found in every cycle (solver/kernel/space.h). To be called by
+ * every member of the multigrid's team. Collective. */
+void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
+                         float *before, const fg__share *share);
+
+#endif

@@ -1,0 +1,219 @@
+#include "solver/passes.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+typedef struct pass pass;
+
+/* What is done to the finest level, or to this rank's block of it. */
+typedef void level_work(pass *p, const fg__level *level, const fg__share *share);
+
+/* What a pass works on; each uses what it needs. */
+struct pass {
+  const fg__multigrid *multigrid;
+  const float *from, *a, *b, *c;
+  float *to;
+  double number;
+  int cycles;
+  level_work *work;
+  fg__sums sums[FG__MOST_MEMBERS];
+  fg__changes changes[FG__MOST_MEMBERS];
+};
+
+static void run(pass *p, fg__team_work *work)
+{
+  fg__team_run(p->multigrid->shared_levels > 0 ? p->multigrid->team : NULL, work, p);
+}
+
+/* Several ranks work on a block each, with one thread, and add up their sums. */
+static bool is_spread(const fg__multigrid *multigrid)
+{
+  return multigrid->spread_count > 0;
+}
+
+static void work_on_finest(void *argument, const fg__share *share)
+{
+  pass *p = argument;
+  p->work(p, fg__multigrid_finest(p->multigrid), share);
+}
+
+static void run_on_finest(pass *p, level_work *work)
+{
+  p->work = work;
+  run(p, work_on_finest);
+}
+
+static double node_count(const fg__spread *spread)
+{
+  const int *nodes = spread->partition.nodes;
+  return (double)nodes[0] * nodes[1] * nodes[2];
+}
+
+static void add_over_ranks(const fg__multigrid *multigrid, double *const sums[],
+                           const double rounding[], int count)
+{
+  enum { MOST_SUMS = 4 };
+  uint64_t units[MOST_SUMS];
+  for (int n = 0; n < count; ++n)
+    units[n] = fg__level_units(*sums[n], rounding[n], multigrid->ranks->count);
+  fg__ranks_add(multigrid->ranks, units, count);
+  for (int n = 0; n < count; ++n)
+    *sums[n] = fg__level_sum(units[n], rounding[n]);
+}
+
+static void copy(void *argument, const fg__share *share)
+{
+  const pass *p = argument;
+  fg__multigrid_copy(p->multigrid, p->from, p->to, share);
+}
+
+void fg__pass_copy(const fg__multigrid *multigrid, const float *from, float *to)
+{
+  pass p = {.multigrid = multigrid, .from = from, .to = to};
+  run(&p, copy);
+}
+
+void fg__pass_fill_ghosts(const fg__multigrid *multigrid, float *u)
+{
+  if (is_spread(multigrid))
+    fg__spread_exchange(&multigrid->spread[0], 1, &u, FG__ALL_COLOURS);
+  else
+    fg__fill_ghosts(&multigrid->level[0], u);
+}
+
+static void solve(void *argument, const fg__share *share)
+{
+  const pass *p = argument;
+  fg__multigrid_solve(p->multigrid, p->number, p->cycles, p->to, share);
+}
+
+void fg__pass_solve(const fg__multigrid *multigrid, double tau, int cycles, float *before)
+{
+  pass p = {.multigrid = multigrid, .to = before, .number = tau, .cycles = cycles};
+  run(&p, solve);
+}
+
+static void evaluate(pass *p, const fg__level *level, const fg__share *share)
+{
+  fg__sums part = p->multigrid->kernel->evaluate(level, p->from, p->to, share);
+  p->sums[share->member].energy += part.energy;
+  p->sums[share->member].u += part.u;
+}
+
+fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float *w)
+{
+  pass p = {.multigrid = multigrid, .from = u, .to = w};
+  run_on_finest(&p, evaluate);
+  fg__sums total = {0.0, 0.0};
+  for (int n = 0; n < FG__MOST_MEMBERS; ++n) {
+    total.energy += p.sums[n].energy;
+    total.u += p.sums[n].u;
+  }
+  if (is_spread(multigrid)) {
+    const fg__spread *spread = &multigrid->spread[0];
+    double rounding = fg__level_rounding(node_count(spread));
+    fg__spread_exchange_ends(spread, 1, &w);
+    /* halves of exact sums */
+    add_over_ranks(multigrid, (double *const[]){&total.energy, &total.u},
+                   (const double[]){0.5 * rounding, rounding}, 2);
+  }
+  return total;
+}
+
+static void explicit_part(pass *p, const fg__level *level, const fg__share *share)
+{
+  p->multigrid->kernel->explicit_part(level, p->from, p->a, (float)p->number, p->to,
+                                      share);
+}
+
+void fg__pass_explicit_part(const fg__multigrid *multigrid, const float *u,
+                            const float *w, double tau)
+{
+  pass p = {.multigrid = multigrid,
+            .from = u,
+            .a = w,
+            .number = tau,
+            .to = fg__multigrid_p(multigrid)};
+  run_on_finest(&p, explicit_part);
+}
+
+static void subtract_wells(pass *p, const fg__level *level, const fg__share *share)
+{
+  p->multigrid->kernel->subtract_wells(level, p->from, p->to, share);
+}
+
+void fg__pass_subtract_wells(const fg__multigrid *multigrid, const float *u, float *w)
+{
+  pass p = {.multigrid = multigrid, .from = u, .to = w};
+  run_on_finest(&p, subtract_wells);
+}
+
+static void changes(pass *p, const fg__level *level, const fg__share *share)
+{
+  fg__changes part =
+      p->multigrid->kernel->changes(level, p->from, p->a, p->b, p->c, share);
+  fg__changes *sum = &p->changes[share->member];
+  sum->u += part.u;
+  sum->from_a += part.from_a;
+  sum->from_b += part.from_b;
+  sum->along += part.along;
+}
+
+fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
+                             const float *a, const float *b, const float *c)
+{
+  pass p = {.multigrid = multigrid, .from = u, .a = a, .b = b, .c = c};
+  run_on_finest(&p, changes);
+  fg__changes total = {0.0, 0.0, 0.0, 0.0};
+  for (int n = 0; n < FG__MOST_MEMBERS; ++n) {
+    total.u += p.changes[n].u;
+    total.from_a += p.changes[n].from_a;
+    total.from_b += p.changes[n].from_b;
+    total.along += p.changes[n].along;
+  }
+  if (is_spread(multigrid)) {
+    double nodes = node_count(&multigrid->spread[0]);
+    double rounding = fg__level_rounding(nodes), fine = fg__level_change_rounding(nodes);
+    add_over_ranks(
+        multigrid,
+        (double *const[]){&total.u, &total.from_a, &total.from_b, &total.along},
+        (const double[]){rounding, fine, fine, fine}, 4);
+  }
+  return total;
+}
+
+static void shift(pass *p, const fg__level *level, const fg__share *share)
+{
+  p->multigrid->kernel->shift(level, p->to, (float)p->number, share);
+}
+
+void fg__pass_shift(const fg__multigrid *multigrid, float *u, double amount)
+{
+  pass p = {.multigrid = multigrid, .to = u, .number = amount};
+  run_on_finest(&p, shift);
+}
+
+static void extrapolate(pass *p, const fg__level *level, const fg__share *share)
+{
+  p->multigrid->kernel->extrapolate(level, p->from, p->a, (float)p->number, p->to, share);
+}
+
+void fg__pass_extrapolate(const fg__multigrid *multigrid, const float *now,
+                          const float *before, double omega, float *out)
+{
+  pass p = {.multigrid = multigrid, .from = now, .a = before, .number = omega, .to = out};
+  run_on_finest(&p, extrapolate);
+}
+
+static void predict(pass *p, const fg__level *level, const fg__share *share)
+{
+  p->multigrid->kernel->predict(level, p->from, p->a, (float)p->number, p->to, share);
+}
+
+void fg__pass_predict(const fg__multigrid *multigrid, const float *now,
+                      const float *before, double omega, float *out)
+{
+  pass p = {.multigrid = multigrid, .from = now, .a = before, .number = omega, .to = out};
+  run_on_finest(&p, predict);
+}

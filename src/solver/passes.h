@@ -1,0 +1,29 @@
+/* Passes over the finest level by all members of a multigrid's team; see kernel.h for
+ * what each computes. Arrays are handled as fg__multigrid_shape says. */
+#ifndef FG__PASSES_H
+#define FG__PASSES_H
+
+#include "solver/multigrid.h"
+
+/* Cycles; `before`, unless NULL, takes a copy of u before the last. */
+void fg__pass_solve(const fg__multigrid *multigrid, double tau, int cycles,
+                    float *before);
+fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float *w);
+
+/* p of the finest level := u - tau L w. */
+void fg__pass_explicit_part(const fg__multigrid *multigrid, const float *u,
+                            const float *w, double tau);
+
+/* w := w - Psi'(u). */
+void fg__pass_subtract_wells(const fg__multigrid *multigrid, const float *u, float *w);
+fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
+                             const float *a, const float *b, const float *c);
+void fg__pass_shift(const fg__multigrid *multigrid, float *u, double amount);
+void fg__pass_extrapolate(const fg__multigrid *multigrid, const float *now,
+                          const float *before, double omega, float *out);
+void fg__pass_fill_ghosts(const fg__multigrid *multigrid, float *u);
+void fg__pass_predict(const fg__multigrid *multigrid, const float *now,
+                      const float *before, double omega, float *out);
+void fg__pass_copy(const fg__multigrid *multigrid, const float *from, float *to);
+
+#endif

@@ -1,0 +1,244 @@
+#include "solver/subdomain/means.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "solver/passes.h"
+#include "solver/spread_clusters.h"
+
+static float axis_mass(const fg__level *box, int axis, int at)
+{
+  bool low = box->border[axis][0] && at == 0;
+  bool high = box->border[axis][1] && at == box->layout.nodes[axis] - 1;
+  return low || high ? 0.5F : 1.0F;
+}
+
+/* Cuts a row's nodes into runs, by their labels from 1 (0: no part); with `run` NULL they
+ * are only counted. */
+static int cut_row(const fg__level *box, int j, int k, const int *label,
+                   fg__part_run *run)
+{
+  const fg__layout *at = &box->layout;
+  float row_mass = axis_mass(box, 1, j) * axis_mass(box, 2, k);
+  int count = 0;
+  for (int odd = 0; odd < 2; ++odd)
+    for (int i = odd, end; i < at->nodes[0]; i = end) {
+      end = i + 2;
+      while (end < at->nodes[0] && label[end] == label[i])
+        end += 2;
+      if (label[i] <= 0)
+        continue;
+      ptrdiff_t column = fg__column(at, i), node = fg__row_at(at, j, k) + column;
+      if (run)
+        run[count] = (fg__part_run){.at = node,
+                                    .nodes = (end - i) / 2,
+                                    .part = label[i] - 1,
+                                    .row_mass = row_mass,
+                                    .column_mass = box->column_mass + column,
+                                    .mass = box->mass + node};
+      ++count;
+    }
+  return count;
+}
+
+static int cut_box(const fg__level *box, const int *label, fg__part_run *run)
+{
+  const int *nodes = box->layout.nodes;
+  int count = 0;
+  for (int k = 0; k < nodes[2]; ++k)
+    for (int j = 0; j < nodes[1]; ++j, label += nodes[0])
+      count += cut_row(box, j, k, label, run ? run + count : NULL);
+  return count;
+}
+
+static fg_status take_runs(fg__means *out, fg_context *context, const fg__level *box,
+                           const int *label)
+{
+  int count = cut_box(box, label, NULL);
+  out->run = fg__allocate((size_t)count, sizeof *out->run);
+  if (!out->run)
+    return fg__fail_memory(context, "the parts of the domain",
+                           (size_t)count * sizeof *out->run);
+  out->run_count = cut_box(box, label, out->run);
+  return FG_STATUS_OK;
+}
+
+static size_t node_count(const fg__level *box)
+{
+  const int *nodes = box->layout.nodes;
+  return (size_t)nodes[0] * (size_t)nodes[1] * (size_t)nodes[2];
+}
+
+/* Labels the nodes of a box that is the whole level. */
+static fg_status label_whole(fg__components *parts, fg_context *context,
+                             const fg__level *box, int *label)
+{
+  const fg__cells_of_box *cells = &box->tensor;
+  ptrdiff_t origin, width = box->layout.nodes[0];
+  unsigned char *active = fg__cells_mask(cells, &origin);
+  if (!active)
+    return fg__fail_memory(context, "the mask", node_count(box));
+  fg__component_box grid = {.row = width,
+                            .plane = width * box->layout.nodes[1],
+                            .active = active + origin,
+                            .cell_row = cells->row,
+                            .cell_plane = cells->plane};
+  for (int k = 0; k < 3; ++k) {
+    grid.grid_nodes[k] = grid.nodes[k] = box->layout.nodes[k];
+    grid.periodic[k] = box->periodic[k];
+  }
+  fg_status status = fg__components_cut(parts, context, &grid);
+  if (!status)
+    status = fg__components_merge(parts, context, parts->piece, parts->piece_count, NULL,
+                                  0, 0.0);
+  if (!status)
+    fg__components_label(parts, &grid, parts->piece_label, 0, label);
+  free(active);
+  return status;
+}
+
+static fg_status find_in_whole(fg__means *out, fg_context *context, const fg__level *box)
+{
+  fg__components parts = {0};
+  int *label = fg__allocate(node_count(box), sizeof *label);
+  if (!label)
+    return fg__fail_memory(context, "the parts of the domain",
+                           node_count(box) * sizeof *label);
+  fg_status status = label_whole(&parts, context, box, label);
+  out->count = parts.count;
+  if (!status && out->count > 1)
+    status = take_runs(out, context, box, label);
+  fg__components_clear(&parts);
+  free(label);
+  return status;
+}
+
+static fg_status find_in_spread(fg__means *out, fg_context *context,
+                                const fg__spread *spread)
+{
+  fg__spread_clusters parts = {0};
+  fg_status status = fg__spread_clusters_find(&parts, context, spread, NULL,
+                                              spread->residual[0], 0.0, true);
+  out->count = parts.whole.count;
+  if (!status && out->count > 1) {
+    const fg__level *block = &spread->block;
+    int *label = fg__allocate(node_count(block), sizeof *label);
+    if (label) {
+      fg__spread_clusters_label(&parts, label);
+      status = take_runs(out, context, block, label);
+    } else {
+      status = fg__fail_memory(context, "the parts of the domain",
+                               node_count(block) * sizeof *label);
+    }
+    free(label);
+  }
+  fg__spread_clusters_clear(&parts);
+  return status;
+}
+
+static fg_status take_arrays(fg__means *out, fg_context *context)
+{
+  size_t count = (size_t)out->count;
+  out->mass = fg__allocate(count, sizeof *out->mass);
+  out->mean = fg__allocate(count, sizeof *out->mean);
+  out->sum = fg__allocate(count, sizeof *out->sum);
+  out->units = fg__allocate(count, sizeof *out->units);
+  if (out->mass && out->mean && out->sum && out->units)
+    return FG_STATUS_OK;
+  return fg__fail_memory(context, "the parts of the domain", 4 * count * sizeof(double));
+}
+
+/* Mass times u (times 1 when u is NULL); lanes are one vector's or several. */
+static double sum_of_run(const fg__part_run *run, const float *u, double rounding)
+{
+  double lane[FG__LANES] = {0.0}, sum = 0.0;
+  for (int n = 0; n < run->nodes; n += FG__LANES) {
+    int lanes = run->nodes - n < FG__LANES ? run->nodes - n : FG__LANES;
+    for (int m = 0; m < lanes; ++m) {
+      float mass = run->row_mass * run->column_mass[n + m] * run->mass[n + m];
+      double term = (double)(u ? mass * u[run->at + n + m] : mass);
+      lane[m] += (term + rounding) - rounding;
+    }
+  }
+  for (int m = 0; m < FG__LANES; ++m)
+    sum += lane[m];
+  return sum;
+}
+
+static void add_up(const fg__means *means, const fg__multigrid *multigrid, const float *u,
+                   double *sum)
+{
+  double rounding = means->rounding;
+  for (int n = 0; n < means->count; ++n)
+    sum[n] = 0.0;
+  for (int n = 0; n < means->run_count; ++n)
+    sum[means->run[n].part] += sum_of_run(&means->run[n], u, rounding);
+  for (int n = 0; n < means->count; ++n)
+    means->units[n] = fg__level_units(sum[n], rounding, multigrid->ranks->count);
+  fg__ranks_add(multigrid->ranks, means->units, means->count);
+  for (int n = 0; n < means->count; ++n)
+    sum[n] = fg__level_sum(means->units[n], rounding);
+}
+
+fg_status fg__means_create(fg__means *out, fg_context *context,
+                           const fg__multigrid *multigrid, const float *u)
+{
+  *out = (fg__means){.count = 1};
+  const fg__level *whole = &multigrid->level[0];
+  const fg__spread *spread = multigrid->spread_count > 0 ? &multigrid->spread[0] : NULL;
+  if (spread ? !spread->masked : !whole->mass)
+    return FG_STATUS_OK;
+  fg_status status =
+      spread ? find_in_spread(out, context, spread) : find_in_whole(out, context, whole);
+  if (!status && out->count > 1)
+    status = take_arrays(out, context);
+  status = fg__ranks_agree(multigrid->ranks, context, status);
+  if (status || out->count <= 1) {
+    fg__means_clear(out);
+    return status;
+  }
+  const int *nodes = spread ? spread->partition.nodes : whole->layout.nodes;
+  out->rounding = fg__level_rounding((double)nodes[0] * nodes[1] * nodes[2]);
+  add_up(out, multigrid, NULL, out->mass);
+  add_up(out, multigrid, u, out->mean);
+  for (int n = 0; n < out->count; ++n)
+    out->mean[n] /= out->mass[n];
+  return FG_STATUS_OK;
+}
+
+void fg__means_clear(fg__means *means)
+{
+  free(means->run);
+  free(means->mass);
+  free(means->mean);
+  free(means->sum);
+  free(means->units);
+  *means = (fg__means){.count = 1};
+}
+
+bool fg__means_bound(fg__means *means, double low, double high)
+{
+  bool changed = false;
+  for (int n = 0; means->count > 1 && n < means->count; ++n) {
+    double bounded = fmin(fmax(means->mean[n], low), high);
+    changed = changed || bounded != means->mean[n];
+    means->mean[n] = bounded;
+  }
+  return changed;
+}
+
+void fg__means_restore(const fg__means *means, const fg__multigrid *multigrid, float *u)
+{
+  if (means->count <= 1)
+    return;
+  add_up(means, multigrid, u, means->sum);
+  for (int n = 0; n < means->run_count; ++n) {
+    const fg__part_run *run = &means->run[n];
+    int part = run->part;
+    float shift = (float)(means->mean[part] - means->sum[part] / means->mass[part]);
+    for (int m = 0; m < run->nodes; ++m)
+      u[run->at + m] += shift;
+  }
+  fg__pass_fill_ghosts(multigrid, u);
+}
