@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "build_features.h"
+#include "vectors.h"
 
 /* getopt_long's value for a long option is this plus its place in option_table, beyond
  * every letter. */
@@ -474,6 +475,7 @@ fg_evolution_options settings_evolution(const cli_settings *settings)
       .seed = settings->seed,
       .noise = settings->noise,
       .threads = settings->threads,
+      .vectors = vectors_wanted(),
   };
 }
 
@@ -498,6 +500,7 @@ fg_texture_options settings_texture(const cli_settings *settings)
       .max_time = settings->max_time,
       .seed = settings->seed,
       .threads = settings->threads,
+      .vectors = vectors_wanted(),
   };
 }
 

@@ -27,6 +27,14 @@ typedef enum fg_scheme {
   FG_SCHEME_THETA     /* theta-splitting in three substeps: second order, small steps */
 } fg_scheme;
 
+/* Vector instructions of the inner loops; u has the same bits with all. */
+typedef enum fg_vectors {
+  FG_VECTORS_WIDEST = 0, /* that the machine has */
+  FG_VECTORS_GENERIC,    /* as the compiler vectorises for any machine of its kind */
+  FG_VECTORS_AVX2,       /* this or less: */
+  FG_VECTORS_AVX512
+} fg_vectors;
+
 typedef struct fg_evolution_options {
   int nodes;                /* nodes along the longest side of the mesh [257] */
   fg_energy energy;         /* [flow] */
@@ -46,12 +54,13 @@ typedef struct fg_evolution_options {
   int cycles;               /* multigrid cycles a step, or a substep [2; else 3] */
   fg_scheme scheme;         /* of the time steps [BDF2] */
   int threads;              /* [all cores] */
+  fg_vectors vectors;       /* the widest to use [widest] */
   const float *initial; /* NULL: noise; else u at the nodes of the mesh, as fg_density has
                            it: copied, then shifted nowhere: its mean is kept */
 } fg_evolution_options;
 
 typedef struct fg_step {
-  long step;            /* accepted steps so far */
+  int64_t step;         /* accepted steps so far */
   double time;          /* t, in units of (longest side)^2 */
   double tau;           /* size of this step */
   double energy;        /* E(u); like t and tau in the first mesh's units: see
@@ -62,7 +71,7 @@ typedef struct fg_step {
                            covered area is below 0.8 of the coverage */
   int cycles;           /* multigrid cycles spent on this step, rejects included */
   int rejected;         /* attempts rejected before this step was accepted */
-  long cells;           /* active cells of the mesh */
+  int64_t cells;        /* active cells of the mesh */
   double increment;     /* rms of the change of u */
   double seconds;       /* wall time since the evolution was created */
   bool stationary;      /* the pattern no longer changes */
@@ -107,8 +116,8 @@ typedef struct fg_mesh_info {
   double anisotropy, isotropic_below, coverage, noise; /* as used */
   double length;         /* the longest side in the input's coordinates */
   double domain_measure; /* area (volume) of the active cells, units of length squared */
-  long active_cells;
-  const char *kernel; /* which vector instructions run: "avx512", "avx2", "generic" */
+  int64_t active_cells;
+  const char *kernel; /* vector instructions that run: "avx512", "avx2", "generic" */
 } fg_mesh_info;
 
 FG_API const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution);

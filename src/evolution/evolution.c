@@ -1,6 +1,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "evolution/options.h"
 #include "evolution/tensor.h"
@@ -130,6 +131,7 @@ static fg_status create_stepper(fg_evolution *e, const fg_field *field)
         &multigrid, e, field, (1.0 - fg__evolution_alpha(e)) * e->info.gamma);
   if (status)
     return status;
+  multigrid.kernel = fg__kernel_choose(e->mesh.dimension, e->options.vectors);
   e->info.kernel = multigrid.kernel->name;
   status = fg__evolution_fill(e, &multigrid);
   if (!status)
@@ -144,7 +146,7 @@ static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ra
 {
   e->context = context;
   e->ranks = ranks;
-  clock_gettime(CLOCK_MONOTONIC, &e->start);
+  e->start = fg__clock_seconds();
   if (options)
     e->options = *options;
   e->field_fingerprint = fg__field_fingerprint(field);
@@ -207,8 +209,6 @@ fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
     status = begin(e, context, ranks, field, options);
   else
     status = fg__fail_memory(context, "an evolution", sizeof *e);
-  if (!status)
-    status = fg__kernel_check(context);
   status = fg__ranks_agree(ranks, context, status);
   if (e && !status)
     status = fg__evolution_build(e, field);
@@ -255,11 +255,7 @@ const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution)
 
 double fg__evolution_seconds(const fg_evolution *evolution)
 {
-  const struct timespec *start = &evolution->start;
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return evolution->earlier_seconds + (double)(now.tv_sec - start->tv_sec) +
-         1e-9 * (double)(now.tv_nsec - start->tv_nsec);
+  return evolution->earlier_seconds + fg__clock_seconds() - evolution->start;
 }
 
 fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int rejected)
@@ -285,7 +281,7 @@ fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int re
 fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
 {
   fg_evolution *e = evolution;
-  long cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
+  int64_t cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
   fg_activity before = fg__traffic_begin(e->ranks->book, FG_ACTIVITY_STEPS);
   /* asked once only: a step that has begun ends, so that it is the same when resumed */
   fg_status status = fg__ranks_agree(e->ranks, e->context, fg__check_stop(e->context));

@@ -38,7 +38,7 @@ static void for_all_meshes(check *holds)
 static void shares_out_its_nodes(const fg__mesh *mesh)
 {
   const fg__partition *p = &mesh->partition;
-  long sum = 0;
+  int64_t sum = 0;
   for (int n = 0; n < us.ranks->count; ++n) {
     const fg__box *block = &p->block[n];
     sum += fg__box_count(block);

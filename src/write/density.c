@@ -1,7 +1,7 @@
 /* A density, its clusters and its mask as VTK XML image data. */
 #include "write/density.h"
 #include "base/memory.h"
-#include "base/number_text.h"
+#include "file/number_text.h"
 #include "component/components.h"
 #include "density/share.h"
 

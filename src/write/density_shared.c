@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/number_text.h"
+#include "file/number_text.h"
 #include "density/share.h"
 #include "write/density.h"
 

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/checksum.h"
+#include "file/checksum.h"
 #include "base/context_test.h"
 #include "evolution/checkpoint/file.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "base/checksum.h"
+#include "file/checksum.h"
 #include "base/memory.h"
 #include "evolution/checkpoint/layout.h"
 #include "evolution/checkpoint/runs.h"

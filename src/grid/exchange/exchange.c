@@ -4,7 +4,7 @@ static void post_receives(fg__exchange *e)
 {
   for (int n = 0; n < e->receivers.count; ++n) {
     const fg__neighbour *l = &e->receivers.neighbour[n];
-    long nodes = fg__neighbour_nodes(l, e->colours) * e->arrays;
+    int64_t nodes = fg__neighbour_nodes(l, e->colours) * e->arrays;
     fg__request_receive(e->ranks, e->receivers.requests, n, l->buffer, (int)nodes,
                         l->rank);
   }

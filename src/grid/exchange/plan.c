@@ -112,9 +112,9 @@ static bool add_neighbours(fg__neighbours *out, const fg__ranks *ranks,
   return true;
 }
 
-long fg__neighbour_nodes(const fg__neighbour *l, unsigned colours)
+int64_t fg__neighbour_nodes(const fg__neighbour *l, unsigned colours)
 {
-  long sum = 0;
+  int64_t sum = 0;
   for (int colour = 0; colour < 8; ++colour)
     if (colours >> colour & 1U)
       sum += l->count[colour];
@@ -124,7 +124,7 @@ long fg__neighbour_nodes(const fg__neighbour *l, unsigned colours)
 static bool take_buffers(fg__exchange *e)
 {
   fg__neighbours *both[2] = {&e->senders, &e->receivers};
-  long size = 0;
+  int64_t size = 0;
   for (int s = 0; s < 2; ++s)
     for (int n = 0; n < both[s]->count; ++n)
       size +=

@@ -19,7 +19,7 @@ typedef struct fg__pieces {
 typedef struct fg__neighbour {
   int rank;
   size_t first, end; /* of pieces, sent or received */
-  long count[8];     /* nodes of each colour */
+  int64_t count[8];     /* nodes of each colour */
   float *buffer;
 } fg__neighbour;
 
@@ -43,6 +43,6 @@ struct fg__exchange {
 };
 
 /* Nodes whose values go to or come from a neighbour. */
-long fg__neighbour_nodes(const fg__neighbour *neighbour, unsigned colours);
+int64_t fg__neighbour_nodes(const fg__neighbour *neighbour, unsigned colours);
 
 #endif

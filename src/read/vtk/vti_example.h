@@ -2,7 +2,7 @@
 #ifndef FG__VTI_EXAMPLE_H
 #define FG__VTI_EXAMPLE_H
 
-#include "base/base64.h"
+#include "file/base64.h"
 #include "base/context_test.h"
 #include "read/format.h"
 #include "read/parts_alike_test.h"

@@ -1,7 +1,7 @@
 /* The checksum of a whole from the shares of its pieces. */
 #include <string.h>
 
-#include "base/checksum.h"
+#include "file/checksum.h"
 #include "base/context_test.h"
 
 enum { BYTES = 9001, RANKS = 3 };
@@ -102,5 +102,5 @@ int main(void)
       cmocka_unit_test(pieces_in_any_order),   cmocka_unit_test(rows_of_a_box),
       cmocka_unit_test(beyond_four_gigabytes),
   };
-  return cmocka_run_group_tests_name("base/checksum", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("file/checksum", tests, NULL, NULL);
 }
