@@ -31,7 +31,7 @@ bench: setup all
 	@echo
 	@bench/scaling build
 	@echo
-	@bench/rivals build $(if $(WHOLE),--whole)
+	@bench/contest/run build $(if $(WHOLE),--whole)
 
 # how well flowgrain and its rivals tell fields: docs/method/score.md
 score: all

@@ -6,7 +6,8 @@
 #include <stddef.h>
 
 /* Bytes a second, read and written, when `count` floats are changed in place again and
- * again, in vectors of the kernel of that name (kernel.h); 0: out of memory. */
+ * again, in vectors of the kernel of that name (solver/kernel/kernel.h); 0: out of
+ * memory. */
 double floor_traffic(const char *kernel, size_t count);
 
 /* Additions and multiplications, not fused, a second, of floats in such vectors. */

@@ -10,9 +10,12 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SIDE_2D = 81, SIDE_3D = 25, MOST = SIDE_2D * SIDE_2D > SIDE_3D * SIDE_3D * SIDE_3D
-                                              ? SIDE_2D * SIDE_2D
-                                              : SIDE_3D * SIDE_3D * SIDE_3D };
+enum {
+  SIDE_2D = 81,
+  SIDE_3D = 25,
+  MOST = SIDE_2D * SIDE_2D > SIDE_3D *SIDE_3D *SIDE_3D ? SIDE_2D *SIDE_2D
+                                                       : SIDE_3D *SIDE_3D *SIDE_3D
+};
 
 /* Two vortices that turn against each other and, in 3D, a rise between them. */
 static void fill(float *velocity[3], double *axis, int dimension)
@@ -103,7 +106,8 @@ static fg_status show(fg_context *context, int dimension, int count)
   if (!status)
     status = fg_icons_create(&icons, context, field, density, NULL);
   if (!status)
-    status = fg_arrows_create(&arrows, context, field, &(fg_arrows_options){.count = count});
+    status =
+        fg_arrows_create(&arrows, context, field, &(fg_arrows_options){.count = count});
   if (!status) {
     print_density(density);
     print_icons("arrow", arrows);

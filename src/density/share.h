@@ -15,7 +15,7 @@ typedef struct fg__density_share {
 
 typedef enum fg__share_kind {
   FG__SHARE_U,     /* float a node */
-  FG__SHARE_LABEL, /* int a node, as components.h labels */
+  FG__SHARE_LABEL, /* int a node, as component/components.h labels */
   FG__SHARE_ACTIVE /* a byte a cell, of which there is one less than nodes along a natural
                       axis */
 } fg__share_kind;
@@ -28,7 +28,8 @@ fg_status fg__density_share_create(fg__density_share **out, fg_context *context,
                                    float *scratch, double debris_cells, bool masked);
 void fg__density_share_destroy(fg__density_share *share); /* NULL-safe */
 
-/* Gives ranks their regions of the whole grid (regions.h). Collective. MEMORY. */
+/* Gives ranks their regions of the whole grid (grid/exchange/regions.h). Collective.
+ * MEMORY. */
 fg_status fg__density_share_fill(fg__density_share *share, fg_context *context,
                                  fg__share_kind kind, const fg__region *region, int count,
                                  void *const out[]);

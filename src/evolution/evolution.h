@@ -24,14 +24,14 @@ struct fg_evolution {
   double debris_area; /* in cells */
   double area_fraction;
   int clusters;
-  bool counting;      /* nucleation is over */
-  int mesh_nodes;     /* wanted along the longest side of the present mesh */
-  int halvings;       /* of the mesh, since it was created */
+  bool counting;         /* nucleation is over */
+  int mesh_nodes;        /* wanted along the longest side of the present mesh */
+  int halvings;          /* of the mesh, since it was created */
   int64_t earlier_steps; /* accepted on finer meshes */
   const fg__halved
       *halved; /* NULL, or what a coarser mesh goes on from; while it is made */
   double halved_mean;
-  double start; /* on the clock (clock.h) */
+  double start;           /* on the clock (clock.h) */
   double earlier_seconds; /* spent before a resumed evolution was created */
   /* Of the field, and of the initial density when one was given (else 0). */
   uint64_t field_fingerprint, initial_fingerprint;

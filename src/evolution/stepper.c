@@ -294,7 +294,8 @@ fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
     tau *= reject_factor;
     if (!(tau > least_tau_share * s->first_tau))
       return fg__fail(context, FG_STATUS_NO_CONVERGENCE,
-                      "no time step is accepted after step %" PRId64 " at t = %g: change %g, "
+                      "no time step is accepted after step %" PRId64
+                      " at t = %g: change %g, "
                       "correction %g at tau = %g",
                       s->accepted, s->time, result.increment, result.correction, tau);
   }

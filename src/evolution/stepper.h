@@ -28,7 +28,7 @@ typedef struct fg__stepper {
   double increment;    /* rms of the last step's change */
   double persistence;  /* share of the last change that the predictor continues */
   bool history;        /* the last step's predecessor may be used */
-  int64_t quiet_steps;    /* steps in a row that changed next to nothing */
+  int64_t quiet_steps; /* steps in a row that changed next to nothing */
 
   /* Arrays of the finest level. A step is computed in the level's own u, which then
    * becomes current: the three are passed round, never copied. */

@@ -1,7 +1,7 @@
 #include <string.h>
 
-#include "file/base64.h"
 #include "base/context_test.h"
+#include "file/base64.h"
 
 /* RFC 4648, section 10 */
 static const char *const CLEAR[] = {"", "f", "fo", "foo", "foob", "fooba", "foobar"};

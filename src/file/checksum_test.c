@@ -1,8 +1,8 @@
 /* The checksum of a whole from the shares of its pieces. */
 #include <string.h>
 
-#include "file/checksum.h"
 #include "base/context_test.h"
+#include "file/checksum.h"
 
 enum { BYTES = 9001, RANKS = 3 };
 

@@ -25,8 +25,8 @@ static int divisor_near_root(int number)
 
 /* As many blocks as ranks, at least `thickness` cells thick; false when they do not fit.
  * In 3D as near to a square as can be, or where one axis is too short for that, more of
- * them along the other. Fewer along y than along z: what is not cut along y is exchanged in whole
- * slices. */
+ * them along the other. Fewer along y than along z: what is not cut along y is exchanged
+ * in whole slices. */
 static bool arrange(int count[3], int ranks, int dimension, const int cells[3],
                     int thickness)
 {

@@ -4,8 +4,8 @@
  * A block owns the nodes of its cells' lower corners, and those that close the grid at
  * upper ends of natural axes. Everything that computes works on a block as a plain array
  * (layout.h) with a ring of ghosts: mirror images, the other end of a periodic axis,
- * nodes of neighbours (exchange.h). A process alone has one block, whose neighbours are
- * itself or the boundary. */
+ * nodes of neighbours (exchange/exchange.h). A process alone has one block, whose
+ * neighbours are itself or the boundary. */
 #ifndef FG__MESH_H
 #define FG__MESH_H
 

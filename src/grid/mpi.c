@@ -25,7 +25,8 @@ static void add(void *group, uint64_t *sum, int count)
 
 static void combine(void *group, uint32_t *word, int count)
 {
-  MPI_Allreduce(MPI_IN_PLACE, word, count, MPI_UINT32_T, MPI_BXOR, communicator_of(group));
+  MPI_Allreduce(MPI_IN_PLACE, word, count, MPI_UINT32_T, MPI_BXOR,
+                communicator_of(group));
 }
 
 static void greatest(void *group, double *value, int count)

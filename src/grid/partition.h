@@ -9,7 +9,7 @@
  * owns on the coarser level what it owns of these nodes on the finer. Where that leaves
  * blocks too thin, or not aligned, the level is replicated: every rank holds it whole,
  * and all compute the same (bit for bit). The distributed partition of that level still
- * serves to bring values there and back (gather.h). */
+ * serves to bring values there and back (exchange/gather.h). */
 #ifndef FG__PARTITION_H
 #define FG__PARTITION_H
 

@@ -162,7 +162,8 @@ void fg__ranks_deal(const fg__ranks *ranks, size_t size, const void *sent,
 
 void *fg__requests_create(const fg__ranks *ranks, int count)
 {
-  return fg__allocate((size_t)count, ranks->transport ? ranks->transport->request_size : 1);
+  return fg__allocate((size_t)count,
+                      ranks->transport ? ranks->transport->request_size : 1);
 }
 
 void fg__request_send(const fg__ranks *ranks, void *requests, int n, const float *sent,

@@ -13,9 +13,10 @@ typedef struct fg__transport fg__transport;
 /* A group of ranks; a rank's number goes from 0 to count - 1. */
 typedef struct fg__ranks {
   int rank, count;
-  fg__traffic_book *book;         /* of what this rank sends; NULL: not kept */
-  const fg__transport *transport; /* how (transport.h), and between whom; NULL: there is */
-  void *group;                    /* one rank, which sends nothing */
+  fg__traffic_book *book; /* of what this rank sends; NULL: not kept */
+  const fg__transport
+      *transport; /* how (transport.h), and between whom; NULL: there is */
+  void *group;    /* one rank, which sends nothing */
 } fg__ranks;
 
 /* The ranks that share what is made with a context; this process alone where it has none

@@ -329,7 +329,8 @@ fg_status fg__icons_make(fg_icon *icon, fg_context *context,
                          const fg__icon_source *source, int threads)
 {
   icon_job job = {.source = source, .icon = icon};
-  icon_worker workers[MOST_THREADS] = {{.job = &job, .context = context, .caller = context}};
+  icon_worker workers[MOST_THREADS] = {
+      {.job = &job, .context = context, .caller = context}};
   fg__team *team = NULL;
   fg_status status = FG_STATUS_OK;
   threads = threads < MOST_THREADS ? threads : MOST_THREADS;

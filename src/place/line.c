@@ -10,7 +10,7 @@
  * is linear between samples, with kinks at them. */
 static const double ERROR = 1e-3;
 static const double FINE_ERROR = 1e-5;
-static const double LONGEST_STEP = 1.5;
+static const double LONGEST_STEP = 4.0;
 
 /* A line ends before it turns by this angle over this share of lambda: a head there would
  * be broken. */

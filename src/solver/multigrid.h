@@ -1,4 +1,5 @@
-/* The multigrid hierarchy and its cycle for the coupled (u, w) system of kernel.h. */
+/* The multigrid hierarchy and its cycle for the coupled (u, w) system of kernel/kernel.h.
+ */
 #ifndef FG__MULTIGRID_H
 #define FG__MULTIGRID_H
 

@@ -1,5 +1,5 @@
-/* Passes over the finest level by all members of a multigrid's team; see kernel.h for
- * what each computes. Arrays are handled as fg__multigrid_shape says. */
+/* Passes over the finest level by all members of a multigrid's team; see kernel/kernel.h
+ * for what each computes. Arrays are handled as fg__multigrid_shape says. */
 #ifndef FG__PASSES_H
 #define FG__PASSES_H
 

@@ -161,7 +161,7 @@ static fg_status join(fg__spread_clusters *c, fg_context *context,
   return status;
 }
 
-/* Steps 2 to 5 of components.h. */
+/* Steps 2 to 5 of component/components.h. */
 static fg_status number_and_join(fg__spread_clusters *c, fg_context *context,
                                  const fg__spread *spread, float *scratch,
                                  double debris_area)

@@ -1,5 +1,5 @@
-/* Clusters of a density that several ranks share: components.h on every block, then
- * joined where blocks meet, alike on all ranks. */
+/* Clusters of a density that several ranks share: component/components.h on every block,
+ * then joined where blocks meet, alike on all ranks. */
 #ifndef FG__SPREAD_CLUSTERS_H
 #define FG__SPREAD_CLUSTERS_H
 
@@ -24,8 +24,8 @@ fg_status fg__spread_clusters_find(fg__spread_clusters *clusters, fg_context *co
                                    const fg__spread *spread, const float *u,
                                    float *scratch, double debris_area, bool counting);
 
-/* Writes the labels (components.h) of the block's nodes to a plain array, x fastest, once
- * clusters were counted. */
+/* Writes the labels (component/components.h) of the block's nodes to a plain array, x
+ * fastest, once clusters were counted. */
 void fg__spread_clusters_label(const fg__spread_clusters *clusters, int *label);
 void fg__spread_clusters_clear(fg__spread_clusters *clusters);
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* What the cells round an edge give its two nodes (elements.h). */
+/* What the cells round an edge give its two nodes (cells/elements.h). */
 typedef struct coupling {
   int cell[3];   /* of the node with the lesser index */
   int corner[2]; /* which the two nodes are of the cell */

@@ -40,8 +40,8 @@ static double center_of(const fg__cells *cells, int k, int n)
 }
 
 /* Fills one row of cells along x, from cell on; returns how many are active. */
-static int64_t fill_row(fg__tensor *tensor, const fg_energy_law *law, fg_energy_place *place,
-                     const fg__cells *cells, size_t cell)
+static int64_t fill_row(fg__tensor *tensor, const fg_energy_law *law,
+                        fg_energy_place *place, const fg__cells *cells, size_t cell)
 {
   int64_t active = 0;
   for (int i = 0; i < cells->count[0]; ++i, ++cell) {

@@ -1,7 +1,7 @@
 #include "write/vti.h"
 
-#include "file/base64.h"
 #include "base/memory.h"
+#include "file/base64.h"
 #include "file/number_text.h"
 #include "file/utf8.h"
 

@@ -139,7 +139,8 @@ static void written_by_any_read_by_any(void **state)
   for (int n = 0; n < SUBJECT_COUNT; ++n) {
     const subject *s = &SUBJECTS[n];
     fg_field *field = field_of(s);
-    fg_evolution *all = begin(s, field, us.ranks), *alone = begin(s, field, fg__ranks_alone());
+    fg_evolution *all = begin(s, field, us.ranks),
+                 *alone = begin(s, field, fg__ranks_alone());
     advance(all, BEFORE);
     fg_step left = advance(alone, BEFORE), step;
     expect(fg_evolution_save(all, path, "a note") == FG_STATUS_OK);

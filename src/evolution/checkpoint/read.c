@@ -6,10 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "file/checksum.h"
 #include "base/memory.h"
 #include "evolution/checkpoint/layout.h"
 #include "evolution/checkpoint/runs.h"
+#include "file/checksum.h"
 
 static fg_status fail_access(fg_context *context, const char *path)
 {
@@ -294,6 +294,7 @@ fg_status fg__checkpoint_read_box(const fg__checkpoint_file *file, fg_context *c
   if (found == fg__box_count(box))
     return FG_STATUS_OK;
   return fg__fail(context, FG_STATUS_FILE_FORMAT,
-                  "%s: has the values of '%s' at %" PRId64 " of the %" PRId64 " nodes wanted of grid %d",
+                  "%s: has the values of '%s' at %" PRId64 " of the %" PRId64
+                  " nodes wanted of grid %d",
                   file->path, array, found, fg__box_count(box), grid);
 }

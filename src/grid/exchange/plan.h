@@ -19,7 +19,7 @@ typedef struct fg__pieces {
 typedef struct fg__neighbour {
   int rank;
   size_t first, end; /* of pieces, sent or received */
-  int64_t count[8];     /* nodes of each colour */
+  int64_t count[8];  /* nodes of each colour */
   float *buffer;
 } fg__neighbour;
 

@@ -13,6 +13,10 @@ static const double LARGEST_STEP = 0.35;
 static const double SMALLEST_STEP = 0.02;
 static const double GROWTH = 1.3;
 
+/* What is left of the step of an icon that found no lower place: the minimum of the
+ * parabolas through its trials was tried, too. */
+static const double SHRINKAGE = 0.35;
+
 /* Ways from the seed in a free placement, in lambda. */
 static const double SHORTEST_WAY = 0.1;
 
@@ -20,11 +24,19 @@ static const double SHORTEST_WAY = 0.1;
  * sums' rounding. */
 static const double LEAST_FALL = 1e-6;
 
+/* A minimum of parabolas is tried where it promises this share. */
+static const double LEAST_HOPE = 1e-4;
+
 /* Icons whose seeds are so many lambda from a change are its neighbours. */
 static const double NEIGHBOURS = 1.3;
 
-/* Along, across, and the two ways; in 3D two directions across. */
-enum { MOST_TRIALS = 10 };
+/* The axes of moves: across (in 3D two directions), along, and the two ways. */
+enum { ALONG = 2, WAYS = 3, AXES = 5, MOST_TRIALS = 2 * AXES };
+
+typedef struct trial {
+  fg__place_seed seed;
+  int axis, sign;
+} trial;
 
 /* Two unit vectors across a direction; the second only in 3D. */
 static int across(double out[2][3], int dimension, const double direction[3])
@@ -63,32 +75,44 @@ static void along(double out[3], const fg__place_search *search,
     out[k] = search->domain->low[k] + (double)line->position[k][n] * search->scale.lambda;
 }
 
-/* The seeds that an icon may move to. */
-static int list_trials(fg__place_seed trial[MOST_TRIALS], const fg__place_search *search,
+/* A seed moved along its axes. */
+static fg__place_seed moved(const fg__place_search *search, const fg__place_icon *icon,
+                            const double step[AXES])
+{
+  fg__place_seed seed = icon->seed;
+  double direction[3], side[2][3];
+  for (int k = 0; k < 3; ++k)
+    direction[k] = (double)icon->line.tangent[k][icon->line.seed];
+  int sides = across(side, search->scale.dimension, direction);
+  if (step[ALONG] != 0.0)
+    along(seed.position, search, &icon->line, step[ALONG]);
+  for (int n = 0; n < sides; ++n)
+    for (int k = 0; k < search->scale.dimension; ++k)
+      seed.position[k] += step[n] * side[n][k];
+  for (int n = 0; n < 2 && search->scale.free; ++n)
+    seed.way[n] = fmax(seed.way[n] + step[WAYS + n], SHORTEST_WAY * search->scale.lambda);
+  return seed;
+}
+
+/* The moves of one step that an icon may make. */
+static int list_trials(trial out[MOST_TRIALS], const fg__place_search *search,
                        const fg__place_icon *icon)
 {
   const fg__place_scale *scale = &search->scale;
-  double direction[3], side[2][3];
   int count = 0;
-  for (int k = 0; k < 3; ++k)
-    direction[k] = (double)icon->line.tangent[k][icon->line.seed];
-  int sides = across(side, scale->dimension, direction);
-  for (int n = 0; n < 2 * sides; ++n, ++count) {
-    trial[count] = icon->seed;
-    for (int k = 0; k < scale->dimension; ++k)
-      trial[count].position[k] += (n & 1 ? -icon->step : icon->step) * side[n / 2][k];
-  }
-  for (int n = 0; n < 2; ++n, ++count) {
-    trial[count] = icon->seed;
-    along(trial[count].position, search, &icon->line, n ? -icon->step : icon->step);
-  }
-  for (int n = 0; n < 4 && scale->free; ++n) {
-    fg__place_seed next = icon->seed;
-    double *way = &next.way[n / 2];
-    *way = fmax(*way + (n & 1 ? -icon->step : icon->step), SHORTEST_WAY * scale->lambda);
-    if (*way != icon->seed.way[n / 2] && next.way[0] + next.way[1] <= scale->longest)
-      trial[count++] = next;
-  }
+  for (int axis = 0; axis < (scale->free ? AXES : WAYS); ++axis)
+    for (int sign = 0; sign < 2; ++sign) {
+      if (axis == 1 && scale->dimension == 2)
+        continue;
+      double step[AXES] = {0};
+      step[axis] = sign ? -icon->step : icon->step;
+      trial next = {moved(search, icon, step), axis, sign};
+      const double *way = next.seed.way;
+      if (axis >= WAYS && (way[axis - WAYS] == icon->seed.way[axis - WAYS] ||
+                           way[0] + way[1] > scale->longest))
+        continue;
+      out[count++] = next;
+    }
   return count;
 }
 
@@ -151,46 +175,88 @@ static fg__place_box room_of(const fg__place_search *search, const fg__place_ico
   return box;
 }
 
+/* Tries a seed. *rise is what it adds to the energy; it is taken where that falls. */
+static fg_status attempt(double *rise, bool *taken, fg__place_search *search, int index,
+                         const fg__place_seed *seed, fg__place_box *region, double *now)
+{
+  fg__place_icon *icon = search->icon[index];
+  fg__place_line line;
+  *taken = false;
+  *rise = INFINITY;
+  fg__place_trace(&line, search->domain, &search->scale, seed);
+  if (line.count == 0)
+    return FG_STATUS_OK;
+  fg_status status = fg__place_tell(&search->trial, search->context, &search->raster,
+                                    &search->scale, &line);
+  if (status == FG_STATUS_OK && !holds(region, &search->trial.box))
+    status = extend_region(search, region, &search->trial.box, index, now);
+  if (status != FG_STATUS_OK)
+    return status;
+  *rise = price(search, region, &search->trial, &line) - *now;
+  double diffusion;
+  status = fg__place_diffusion_price(&diffusion, search, &icon->line, &line);
+  if (status != FG_STATUS_OK)
+    return status;
+  *rise += diffusion;
+  if (*rise < -LEAST_FALL * fabs(*now)) {
+    fg__place_diffusion_keep(&search->diffusion, &icon->line, &line);
+    icon->seed = *seed;
+    icon->line = line;
+    swap_tales(&icon->tale, &search->trial);
+    settle(icon, &search->scale);
+    *taken = true;
+  }
+  return FG_STATUS_OK;
+}
+
+/* The step to the minimum of the parabolas through the energies beside an icon, of all
+ * axes whose two trials are known; how much lower that lies. */
+static double lowest(double step[AXES], const fg__place_icon *icon, double rise[AXES][2])
+{
+  double fall = 0.0;
+  for (int axis = 0; axis < AXES; ++axis) {
+    double both = rise[axis][0] + rise[axis][1], more = rise[axis][0] - rise[axis][1];
+    step[axis] = 0.0;
+    if (!(both > 0.0 && isfinite(both)))
+      continue;
+    step[axis] = -0.5 * icon->step * more / both;
+    fall += 0.125 * more * more / both;
+  }
+  return fall;
+}
+
 /* Tries the icon's moves in turn, beginning with the one that was taken last, and takes
- * the first that lowers the energy. */
+ * the first that lowers the energy. Where none does, the one to the minimum of the
+ * parabolas through them. */
 static fg_status visit(fg__place_search *search, int index)
 {
   fg__place_icon *icon = search->icon[index];
-  fg__place_seed trial[MOST_TRIALS];
-  fg__place_line line;
-  int count = list_trials(trial, search, icon);
-  double now, after;
+  trial trials[MOST_TRIALS];
+  int count = list_trials(trials, search, icon);
+  double now, rise[AXES][2];
+  for (int axis = 0; axis < AXES; ++axis)
+    rise[axis][0] = rise[axis][1] = INFINITY;
+  bool taken = false;
   fg__place_box region = room_of(search, icon);
   fg_status status = extend_region(search, &region, &icon->tale.box, index, &now);
   for (int k = 0; k < count && status == FG_STATUS_OK; ++k) {
     int n = (k + icon->move) % count;
-    fg__place_trace(&line, search->domain, &search->scale, &trial[n]);
-    if (line.count == 0)
-      continue;
-    status = fg__place_tell(&search->trial, search->context, &search->raster,
-                            &search->scale, &line);
-    if (status == FG_STATUS_OK && !holds(&region, &search->trial.box))
-      status = extend_region(search, &region, &search->trial.box, index, &now);
-    if (status != FG_STATUS_OK)
-      return status;
-    after = price(search, &region, &search->trial, &line);
-    double diffusion;
-    status = fg__place_diffusion_price(&diffusion, search, &icon->line, &line);
-    if (status != FG_STATUS_OK)
-      return status;
-    after += diffusion;
-    if (after < now - LEAST_FALL * fabs(now)) {
-      fg__place_diffusion_keep(&search->diffusion, &icon->line, &line);
-      icon->seed = trial[n];
-      icon->line = line;
+    const trial *next = &trials[n];
+    status = attempt(&rise[next->axis][next->sign], &taken, search, index, &next->seed,
+                     &region, &now);
+    if (taken) {
       icon->move = n;
-      swap_tales(&icon->tale, &search->trial);
-      settle(icon, &search->scale);
       icon->step = fmin(GROWTH * icon->step, LARGEST_STEP * search->scale.lambda);
-      return FG_STATUS_OK;
+      return status;
     }
   }
-  icon->step /= 2.0;
+  double step[AXES], unused;
+  if (status == FG_STATUS_OK && lowest(step, icon, rise) > LEAST_HOPE * fabs(now)) {
+    fg__place_seed seed = moved(search, icon, step);
+    if (seed.way[0] + seed.way[1] <= search->scale.longest || !search->scale.free)
+      status = attempt(&unused, &taken, search, index, &seed, &region, &now);
+  }
+  icon->step *= SHRINKAGE;
   return status;
 }
 

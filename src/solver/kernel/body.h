@@ -1,5 +1,5 @@
-/* The one source of the inner loops; see kernel.h. Included by kernel_*.c only, each of
- * which is compiled for one vector width. */
+/* The one source of the inner loops; see kernel.h. Included by generic_*.c, avx2_*.c and
+ * avx512_*.c only, each of which is compiled for one vector width. */
 #include "solver/kernel/boxes.h"
 #include "solver/kernel/pass.h"
 #include "solver/kernel/space.h"

@@ -2,9 +2,10 @@
  * level whose one node stands for a part all that is missing would be put where the
  * density is between the wells.
  *
- * The parts are the components of a density that is 1 everywhere (components.h): two
- * nodes are of one part when a chain of active cells joins them, whoever owns them. Sums
- * are exact (level.h), so that the means are the same bits on any ranks. */
+ * The parts are the components of a density that is 1 everywhere
+ * (component/components.h): two nodes are of one part when a chain of active cells joins
+ * them, whoever owns them. Sums are exact (level.h), so that the means are the same bits
+ * on any ranks. */
 #ifndef FG__MEANS_H
 #define FG__MEANS_H
 

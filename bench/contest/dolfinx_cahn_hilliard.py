@@ -23,7 +23,7 @@ from petsc4py import PETSc
 
 
 def read_problem(path):
-    """The file that bench/problem.h describes: header, tensor a cell, u a node."""
+    """The file that bench/contest/problem.h describes: header, tensor a cell, u a node."""
     header = {}
     with open(path, "rb") as file:
         for line in iter(file.readline, b"data\n"):
