@@ -500,7 +500,6 @@ fg_texture_options settings_texture(const cli_settings *settings)
       .max_time = settings->max_time,
       .seed = settings->seed,
       .threads = settings->threads,
-      .vectors = vectors_wanted(),
   };
 }
 
