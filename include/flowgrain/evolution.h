@@ -144,8 +144,9 @@ typedef struct fg_traffic {
   double reductions, reduced; /* sums and the like over all ranks; bytes given */
 } fg_traffic;
 
-/* What the ranks of an evolution told each other since the program began, exact: the mean
- * over ranks and the greatest of each number, all 0 with one rank. Collective. */
+/* What the ranks of an evolution sent each other since its context was given a
+ * communicator, exact: the mean over ranks and the greatest of each number, all 0 with
+ * one rank. Collective. */
 FG_API void fg_evolution_traffic(const fg_evolution *evolution, fg_traffic mean[],
                                  fg_traffic greatest[]);
 
