@@ -55,9 +55,8 @@ static fg_status add_icon(fg_icons *icons, fg_context *context,
                   .id = placed->identity + 1,
                   .area = read->measure,
                   .speed = read->speed};
-  fg_status status =
-      fg__place_trace_fine(&points, &icon.point_count, context, search->domain,
-                           &search->scale, placed->seed.position, placed->line.way);
+  fg_status status = fg__place_trace_fine(&points, &icon.point_count, context,
+                                          search->domain, &search->scale, &placed->line);
   if (status != FG_STATUS_OK)
     return status;
   if (icon.point_count < 2) {

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "place/angle.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,6 +23,10 @@ static const double BREAK_RANGE = 0.15;
 static const double HEAD_BEND = 40.0 * FG__PLACE_PI / 180.0;
 static const double UNEVEN = 1.5;
 enum { MOST_HEAD_CUTS = 4 };
+
+/* A line traced finely that ends farther than so many lambda from the coarse one has met
+ * a place where the flow turns over within a step. */
+static const double MOST_APART = 0.05;
 
 /* A sample that can not be reached is tried at halves of the way, this often. */
 enum { HALVINGS = 3, MOST_STEPS = 64, FINE_EVERY = 8 };
@@ -276,37 +281,82 @@ void fg__place_trace(fg__place_line *out, const fg__place_domain *domain,
   out->length = out->way[0] + out->way[1];
 }
 
-fg_status fg__place_trace_fine(double (**points)[3], int *count, fg_context *context,
-                               const fg__place_domain *domain,
-                               const fg__place_scale *scale, const double position[3],
-                               const double way[2])
+/* The place of a line's sample. */
+static void place_of(double out[3], const fg__place_domain *domain,
+                     const fg__place_scale *scale, const fg__place_line *line, int n)
 {
-  fg_status status = FG_STATUS_OK;
-  double sampling = scale->sampling / FINE_EVERY;
+  for (int k = 0; k < 3; ++k)
+    out[k] = domain->low[k] + (double)line->position[k][n] * scale->lambda;
+}
+
+/* Both sides of a line in small steps; false where they do not end as the line does. */
+static bool trace_finely(side both[2], const fg__place_domain *domain,
+                         const fg__place_scale *scale, const fg__place_line *line)
+{
+  double sampling = scale->sampling / FINE_EVERY, end[3];
   tracing with = {domain, scale, FINE_ERROR * scale->lambda, sampling, 0.0, true};
   tip start = {{0}, {0}, 0, {0}};
+  place_of(start.position, domain, scale, line, line->seed);
+  if (!fg__place_direction(domain, start.position, start.direction))
+    return false;
+  for (int n = 0; n < 2; ++n) {
+    with.step = sampling;
+    trace_side(&both[n], &with, &start, n ? 1.0 : -1.0, line->way[n], sampling);
+    place_of(end, domain, scale, line, n ? line->count - 1 : 0);
+    for (int k = 0; k < 3; ++k)
+      end[k] -= both[n].sample[both[n].count - 1].position[k];
+    if (fg__place_norm(end) > MOST_APART * scale->lambda)
+      return false;
+  }
+  return true;
+}
+
+/* A point of the cubic through two samples with their tangents, `t` from 0 to 1. */
+static void point_between(double out[3], const fg__place_domain *domain,
+                          const fg__place_scale *scale, const fg__place_line *line, int n,
+                          double t)
+{
+  double chord = 0.0, s = 1.0 - t;
+  for (int k = 0; k < 3; ++k) {
+    double off = (double)line->position[k][n + 1] - (double)line->position[k][n];
+    chord += off * off;
+  }
+  chord = sqrt(chord);
+  for (int k = 0; k < 3; ++k) {
+    double from = (double)line->position[k][n], to = (double)line->position[k][n + 1];
+    double slope = s * (double)line->tangent[k][n] - t * (double)line->tangent[k][n + 1];
+    double at = s * s * (1.0 + 2.0 * t) * from + t * t * (1.0 + 2.0 * s) * to +
+                s * t * chord * slope;
+    out[k] = domain->low[k] + at * scale->lambda;
+  }
+}
+
+fg_status fg__place_trace_fine(double (**points)[3], int *count, fg_context *context,
+                               const fg__place_domain *domain,
+                               const fg__place_scale *scale, const fg__place_line *line)
+{
+  fg_status status = FG_STATUS_OK;
   *points = NULL;
   *count = 0;
   side *both = fg__allocate(2, sizeof *both);
   if (!both)
     return fg__fail_memory(context, "a line", 2 * sizeof *both);
-  memcpy(start.position, position, sizeof start.position);
-  if (!fg__place_direction(domain, start.position, start.direction))
-    goto cleanup;
-  for (int n = 0; n < 2; ++n) {
-    with.step = sampling;
-    trace_side(&both[n], &with, &start, n ? 1.0 : -1.0, way[n], sampling);
-  }
-  int all = both[0].count + both[1].count - 1;
+  bool fine = trace_finely(both, domain, scale, line);
+  int all = fine ? both[0].count + both[1].count - 1 : (line->count - 1) * FINE_EVERY + 1;
   *points = fg__allocate((size_t)all, sizeof **points);
   if (!*points) {
     status = fg__fail_memory(context, "a line", (size_t)all * sizeof **points);
     goto cleanup;
   }
-  for (int n = both[0].count - 1; n >= 0; --n, ++*count)
+  for (int n = both[0].count - 1; fine && n >= 0; --n, ++*count)
     memcpy((*points)[*count], both[0].sample[n].position, sizeof **points);
-  for (int n = 1; n < both[1].count; ++n, ++*count)
+  for (int n = 1; fine && n < both[1].count; ++n, ++*count)
     memcpy((*points)[*count], both[1].sample[n].position, sizeof **points);
+  for (; *count < all; ++*count) {
+    int n = *count / FINE_EVERY < line->count - 1 ? *count / FINE_EVERY : line->count - 2;
+    point_between((*points)[*count], domain, scale, line, n,
+                  (double)(*count - n * FINE_EVERY) / FINE_EVERY);
+  }
 cleanup:
   free(both);
   return status;

@@ -32,13 +32,13 @@ typedef struct fg__place_line {
 void fg__place_trace(fg__place_line *out, const fg__place_domain *domain,
                      const fg__place_scale *scale, const fg__place_seed *seed);
 
-/* A line for a picture: through a point, `way` against the flow and along it, which a
- * search has found to be free. Eight times as many samples, with a hundredth of the
- * error. *points is allocated, from tail to tip: free it. MEMORY. */
+/* A line for a picture: that which a search has found, with eight times as many points
+ * and a hundredth of the error; where the flow turns over within a step, as in noise, the
+ * cubics through the line's samples. *points is allocated, from tail to tip: free it.
+ * MEMORY. */
 fg_status fg__place_trace_fine(double (**points)[3], int *count, fg_context *context,
                                const fg__place_domain *domain,
-                               const fg__place_scale *scale, const double position[3],
-                               const double way[2]);
+                               const fg__place_scale *scale, const fg__place_line *line);
 
 /* The angle by which a polyline turns, radians: of the sum of its turns as vectors. */
 double fg__place_turning(const double (*points)[3], int count);
