@@ -32,6 +32,9 @@
  * it is); and mpi.h (several processes), which it does not include. Each can be included
  * alone.
  *
+ * The library flowgrain_core is this one without files: what reads or writes them,
+ * checkpoints and all of picture.h, texture.h, brush.h and rival.h are not in it.
+ *
  * Conventions
  * - A function that can fail returns fg_status; its result comes first, through `out`,
  *   and belongs to the caller, who ends it with the matching destroy. Destroys accept
