@@ -192,7 +192,7 @@ fg_status fg__line_create(fg__brush_line *out, fg_context *context,
                           const fg__window *window, const fg__brush_canvas *image,
                           const fg__line_rule *rule)
 {
-  size_t nodes = (size_t)window->nodes[0] * (size_t)window->nodes[1];
+  size_t nodes = fg__window_count(window);
   double *distance = fg__allocate(nodes, sizeof *distance);
   double(*point)[2] = NULL;
   fg__spine spine = {0};

@@ -3,7 +3,7 @@
 #define FG__LINE_H
 
 #include "brush/canvas.h"
-#include "cluster/raster.h"
+#include "cluster/window.h"
 
 /* Points evenly spaced, in pixels from the upper left corner; at most FG__LINE_POINTS. */
 enum { FG__LINE_POINTS = 160 };

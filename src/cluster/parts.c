@@ -14,7 +14,7 @@ double fg__part_least(double cluster, double mean)
 
 /* The stretch number n, from 0 on; false when there are fewer. */
 static bool find_stretch(fg__stretch *out, const fg_density_arrays *density,
-                         const fg__window_view *window, int axis, int n)
+                         const fg__window *window, int axis, int n)
 {
   int last = window->nodes[axis] - 1;
   *out = (fg__stretch){0, last, 0};
@@ -33,8 +33,8 @@ static bool find_stretch(fg__stretch *out, const fg_density_arrays *density,
   return out->first < last;
 }
 
-static int count_stretches(const fg_density_arrays *density,
-                           const fg__window_view *window, int axis)
+static int count_stretches(const fg_density_arrays *density, const fg__window *window,
+                           int axis)
 {
   fg__stretch range;
   int count = 0;
@@ -43,7 +43,7 @@ static int count_stretches(const fg_density_arrays *density,
   return count;
 }
 
-static double count_nodes(const fg__window_view *window, const fg__stretch range[3])
+static double count_nodes(const fg__window *window, const fg__stretch range[3])
 {
   size_t wide = (size_t)window->nodes[0], high = (size_t)window->nodes[1], count = 0;
   for (int z = range[2].first; z <= range[2].last; ++z)
@@ -58,7 +58,7 @@ static double count_nodes(const fg__window_view *window, const fg__stretch range
 /* All pieces of a window, x fastest. */
 typedef struct pieces {
   const fg_density_arrays *density;
-  const fg__window_view *window;
+  const fg__window *window;
   int along[3], count;
 } pieces;
 
@@ -100,7 +100,7 @@ static double mean_area(const fg__labels *labels)
 }
 
 int fg__pieces_find(fg__piece out[FG__WINDOW_PARTS], const fg_density_arrays *density,
-                    const fg__labels *labels, const fg__window_view *window)
+                    const fg__labels *labels, const fg__window *window)
 {
   pieces all = {.density = density, .window = window, .count = 1};
   int count = 0, largest = 0;
@@ -129,11 +129,60 @@ int fg__pieces_find(fg__piece out[FG__WINDOW_PARTS], const fg_density_arrays *de
   return count;
 }
 
-void fg__stretch_cut(const fg__stretch *range, const fg_density_arrays *density, int axis,
-                     int *nodes, double *origin, bool at_border[2])
+/* Takes over what is known of a window along one axis for a piece of it. */
+static void cut_along(fg__window *out, const fg__stretch *range,
+                      const fg_density_arrays *density, int axis)
 {
-  at_border[0] = at_border[0] || range->first > 0;
-  at_border[1] = at_border[1] || range->last < *nodes - 1;
-  *nodes = range->last - range->first + 1;
-  *origin = density->origin[axis] + range->start * density->spacing[axis];
+  bool *at_boundary = &out->at_boundary[2 * axis];
+  at_boundary[0] = at_boundary[0] || range->first > 0;
+  at_boundary[1] = at_boundary[1] || range->last < out->nodes[axis] - 1;
+  out->nodes[axis] = range->last - range->first + 1;
+  out->origin[axis] = density->origin[axis] + range->start * density->spacing[axis];
+}
+
+/* Copies a box of the window. */
+static fg_status take(fg__window *out, fg_context *context,
+                      const fg_density_arrays *density, const fg__window *whole,
+                      const fg__stretch range[3])
+{
+  *out = *whole;
+  for (int k = 0; k < whole->dimension; ++k)
+    cut_along(out, &range[k], density, k);
+  fg_status status = fg__window_allocate(out, context);
+  if (status)
+    return status;
+  size_t wide = (size_t)out->nodes[0];
+  int first = range[0].first, layers = out->dimension == 3 ? out->nodes[2] - 1 : 1;
+  for (int z = 0; z < out->nodes[2]; ++z)
+    for (int y = 0; y < out->nodes[1]; ++y) {
+      int from_y = range[1].first + y, from_z = range[2].first + z;
+      memcpy(out->level + fg__window_node(out, 0, y, z),
+             whole->level + fg__window_node(whole, first, from_y, from_z),
+             wide * sizeof *out->level);
+      if (y + 1 < out->nodes[1] && z < layers)
+        memcpy(out->active + fg__window_cell(out, 0, y, z),
+               whole->active + fg__window_cell(whole, first, from_y, from_z), wide - 1);
+    }
+  return fg__window_keep_largest(out, context);
+}
+
+fg_status fg__window_divide(fg__window_part part[FG__WINDOW_PARTS], int *count,
+                            fg_context *context, const fg_density_arrays *density,
+                            const fg__labels *labels, fg__window *whole)
+{
+  fg__piece piece[FG__WINDOW_PARTS];
+  int found = fg__pieces_find(piece, density, labels, whole);
+  fg_status status = FG_STATUS_OK;
+  *count = 0;
+  if (found == 0) {
+    part[(*count)++] = (fg__window_part){*whole, 1.0};
+    *whole = (fg__window){0};
+  }
+  for (; *count < found && !status; ++*count) {
+    fg__window_part *next = &part[*count];
+    next->share = piece[*count].share;
+    status = take(&next->window, context, density, whole, piece[*count].range);
+  }
+  fg__window_clear(whole);
+  return status;
 }

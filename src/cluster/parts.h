@@ -1,11 +1,11 @@
-/* Where a cluster's window crosses periodic borders of the domain, and which of the
+/* Where a cluster's window crosses periodic boundaries of the domain, and which of the
  * pieces between them get icons of their own. In 2D and 3D alike. */
 #ifndef FG__PARTS_H
 #define FG__PARTS_H
 
-#include "cluster/raster.h"
+#include "cluster/window.h"
 
-/* Nodes of a window along one axis between two neighbouring borders of the domain. */
+/* Nodes of a window along one axis between two neighbouring boundaries of the domain. */
 typedef struct fg__stretch {
   int first, last; /* of the window, both included */
   int start;       /* the first on the density's grid, in [0, period] */
@@ -18,24 +18,11 @@ typedef struct fg__piece {
   double share;
 } fg__piece;
 
-/* A window as the search sees it: level > 0 in the cluster, x fastest; one node along z
- * in 2D. */
-typedef struct fg__window_view {
-  int cluster, nodes[3];
-  const double *origin; /* [dimension] */
-  const float *level;
-} fg__window_view;
-
 /* Finds the largest piece, and the larger ones of those that hold a quarter of the
  * cluster, or of the mean cluster; in the window's order. Returns how many; 0 when the
- * window crosses no border. */
+ * window crosses no boundary. */
 int fg__pieces_find(fg__piece out[FG__WINDOW_PARTS], const fg_density_arrays *density,
-                    const fg__labels *labels, const fg__window_view *window);
-
-/* Changes what is known of a window along one axis to what holds for a piece of it. A cut
- * end is at_border. */
-void fg__stretch_cut(const fg__stretch *range, const fg_density_arrays *density, int axis,
-                     int *nodes, double *origin, bool at_border[2]);
+                    const fg__labels *labels, const fg__window *window);
 
 /* The least size of a part of a cluster that gets an icon beside that of the largest
  * part, when the cluster and the mean cluster have these sizes. */

@@ -16,7 +16,7 @@ static const int along_y[STRETCHES][2] = {{0, 3}, {3, 8}, {8, 13}, {13, 18}, {18
 
 static float level[WIDE * HIGH];
 
-/* Nodes of the cluster in each piece, off the borders. */
+/* Nodes of the cluster in each piece, off the boundaries. */
 static const int nodes_in[STRETCHES * STRETCHES] = {0, 3, 1, 4, 0, 2, 5, 0, 3, 7,
                                                     0, 3, 8, 0, 4, 6, 0, 3, 0, 0};
 
@@ -44,8 +44,11 @@ static int find(fg__piece out[FG__WINDOW_PARTS], double area, double other_areas
                                .spacing = {SPACING[0], SPACING[1]},
                                .periodic = {true, true}};
   fg__labels labels = {.count = CLUSTERS, .area = areas};
-  fg__window_view window = {
-      .cluster = 2, .nodes = {WIDE, HIGH, 1}, .origin = origin, .level = level};
+  const fg__window window = {.cluster = 2,
+                             .dimension = 2,
+                             .nodes = {WIDE, HIGH, 1},
+                             .origin = {origin[0], origin[1]},
+                             .level = level};
   return fg__pieces_find(out, &density, &labels, &window);
 }
 

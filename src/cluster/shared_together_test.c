@@ -1,4 +1,5 @@
 #include "cluster/shared.h"
+#include "cluster/window.h"
 
 #include <string.h>
 
@@ -53,7 +54,7 @@ static void compare_windows(const fg__labels *labels, const subject *s)
     size_t cells = (size_t)(other.nodes[0] - 1) * (size_t)(other.nodes[1] - 1);
     expect(one.nodes[0] == other.nodes[0] && one.nodes[1] == other.nodes[1]);
     expect(one.origin[0] == other.origin[0] && one.origin[1] == other.origin[1]);
-    expect(memcmp(one.at_border, other.at_border, sizeof one.at_border) == 0);
+    expect(memcmp(one.at_boundary, other.at_boundary, sizeof one.at_boundary) == 0);
     expect(memcmp(one.level, other.level, nodes * sizeof *one.level) == 0);
     expect(memcmp(one.active, other.active, cells) == 0);
     fg__window_clear(&one);

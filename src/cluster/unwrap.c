@@ -20,7 +20,7 @@ fg_status fg__unwrap_create(fg__unwrap *out, fg_context *context,
   if (out->place && out->seen && out->queue)
     return FG_STATUS_OK;
   fg__unwrap_clear(out);
-  return fg__fail_memory(context, "clusters across a periodic border",
+  return fg__fail_memory(context, "clusters across a periodic boundary",
                          nodes * (sizeof *out->place + sizeof *out->queue + 1));
 }
 
@@ -37,7 +37,8 @@ static int wrap(int index, int period)
   return index < 0 ? index + period : index >= period ? index - period : index;
 }
 
-/* The node at `place`, which may lie a step beyond a periodic border; -1: there is none.
+/* The node at `place`, which may lie a step beyond a periodic boundary; -1: there is
+ * none.
  */
 static int node_at(const fg__component_grid *grid, const int place[3])
 {

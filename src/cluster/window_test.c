@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "cluster/raster.h"
+#include "cluster/window.h"
 
 #define assert_near(value, expected, tolerance)                                          \
   assert_true(fabs((value) - (expected)) <= (tolerance))
@@ -64,10 +64,10 @@ static void test_bounds_and_rim(void **state)
   assert_int_equal(window.nodes[1], 5);  /* 0 ... 4 */
   assert_near(window.origin[0], 10 + 13 * 0.5, 1e-12);
   assert_near(window.origin[1], -3.0, 1e-12);
-  assert_false(window.at_border[0]);
-  assert_true(window.at_border[1]);
-  assert_true(window.at_border[2]);
-  assert_false(window.at_border[3]);
+  assert_false(window.at_boundary[0]);
+  assert_true(window.at_boundary[1]);
+  assert_true(window.at_boundary[2]);
+  assert_false(window.at_boundary[3]);
   assert_int_equal(positive_nodes(&window), 16);
   fg__window_clear(&window);
   assert_int_equal(fg__window_create(&window, NULL, &density, &labels, 3),
@@ -91,7 +91,8 @@ static void test_neighbours_do_not_appear(void **state)
   fg__window window;
   assert_int_equal(fg__window_create(&window, NULL, &density, &labels, 1), FG_STATUS_OK);
   assert_int_equal(positive_nodes(&window), 9);
-  /* everywhere but in the cell that both touch, this cluster's border is where it was */
+  /* everywhere but in the cell that both touch, this cluster's boundary is where it was
+   */
   double least_moved = 0.0;
   for (int i = 0; i <= 100; ++i) {
     for (int j = 0; j <= 100; ++j) {
@@ -142,7 +143,7 @@ static void test_mask_is_outside(void **state)
   fg__labels_clear(&labels);
 }
 
-static void test_across_a_periodic_border(void **state)
+static void test_across_a_periodic_boundary(void **state)
 {
   (void)state;
   fg_density_arrays density = empty(true);
@@ -159,7 +160,7 @@ static void test_across_a_periodic_border(void **state)
   assert_int_equal(window.nodes[0], 10);
   assert_near(window.origin[0], 10 + 19 * 0.5, 1e-12);
   assert_int_equal(positive_nodes(&window), 18);
-  assert_false(window.at_border[0] || window.at_border[1]);
+  assert_false(window.at_boundary[0] || window.at_boundary[1]);
   const double beyond[2] = {10 + 0.5 * 25.3, -3 + 0.25 * 4.0};
   assert_near(fg__window_level(&window, beyond), 0.5, 1e-6);
   fg__window_clear(&window);
@@ -182,7 +183,7 @@ static void test_band_round_the_period(void **state)
   fg__window window;
   assert_int_equal(fg__window_create(&window, NULL, &density, &labels, 1), FG_STATUS_OK);
   assert_int_equal(window.nodes[0], W + 1);
-  assert_true(window.at_border[0] && window.at_border[1]);
+  assert_true(window.at_boundary[0] && window.at_boundary[1]);
   assert_int_equal(positive_nodes(&window), 3 * W + 1);
   fg__window_clear(&window);
   fg__labels_clear(&labels);
@@ -223,7 +224,7 @@ int main(void)
       cmocka_unit_test(test_bounds_and_rim),
       cmocka_unit_test(test_neighbours_do_not_appear),
       cmocka_unit_test(test_mask_is_outside),
-      cmocka_unit_test(test_across_a_periodic_border),
+      cmocka_unit_test(test_across_a_periodic_boundary),
       cmocka_unit_test(test_band_round_the_period),
       cmocka_unit_test(test_stripe_longer_than_the_period),
   };

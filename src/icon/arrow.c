@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Readability (in spacings): shorter or narrower is a speck in print. */
+/* Readability (in spacings): shorter or narrower is too small to read in print. */
 static const double SHORTEST = 3.0;
 static const double NARROWEST_HEAD = 1.2;
 
@@ -21,7 +21,8 @@ static const double SLIMMEST = 0.03;
  * what a reader needs to see which way it points. */
 static const double SMALL_ARROW_WIDTH = 0.11;
 
-/* Shares of the free way to the border that a body's and a head's half width may take. */
+/* Shares of the free way to the boundary that a body's and a head's half width may take.
+ */
 static const double BODY_SHARE = 0.5;
 static const double HEAD_SHARE = 0.85;
 
@@ -34,8 +35,8 @@ static const double HEAD_TURNING = 0.5;
  */
 enum { HEAD_CHECKS = 3 };
 
-/* Share of the barbs' room that the line must have where the head begins. */
-static const double ROOM_ENOUGH = 0.8;
+/* Share of the barbs' clearance that the line must have where the head begins. */
+static const double CLEARANCE_ENOUGH = 0.8;
 
 /* Within a head the line stays within this share of its half width: its triangle is
  * straight. */
@@ -45,9 +46,9 @@ static const double HEAD_BOW = 0.55;
  * what shows the flow. */
 static const double WIDTH_WORTH = 0.4;
 
-/* What uneven bending costs (see unrest_of): a right angle within a tenth of the arrow
+/* What uneven bending costs (see bending_of): a right angle within a tenth of the arrow
  * costs 40 % of its worth, a smooth S of 60 degrees to either side a tenth. */
-static const double UNREST_COST = 0.03;
+static const double UNEVEN_COST = 0.03;
 
 /* Beyond this turning (radians) an arrow must deserve it: each radian more costs. */
 static const double LONG_TURNING = 2.4;
@@ -79,8 +80,8 @@ static const double POINT_SPACING = 1.0;
 
 /* One streamline's search for its best arrow. */
 typedef struct arrow_search {
-  fg__stations *stations;
-  const fg__room *room;
+  fg__arc_samples *samples;
+  const fg__interior *interior;
   double narrowest; /* width */
   double rolled_up; /* the most that any part of the line may be longer, see below */
   double width;     /* tried now */
@@ -89,39 +90,42 @@ typedef struct arrow_search {
   double worth;
 } arrow_search;
 
-double fg__arrow_widest(double length, double spacing)
+double fg__arrow_widest(double length, const fg__interior *interior)
 {
-  return fmax(LARGEST_WIDTH * length, NARROWEST_HEAD * spacing / FG__HEAD_WIDTH);
+  if (interior->window->dimension == 3)
+    return fg__arrow_widest_solid(length);
+  return fmax(LARGEST_WIDTH * length,
+              NARROWEST_HEAD * interior->spacing / FG__HEAD_WIDTH);
 }
 
-/* Whether the straight head fits with its tip at a station; *base is the station where it
+/* Whether the straight head fits with its tip at a sample; *base is the sample where it
  * begins. */
 static bool head_fits(const arrow_search *search, int first, int tip, int *base)
 {
-  const fg__station *station = search->stations->station;
+  const fg__arc_sample *sample = search->samples->sample;
   double width = search->width, length = FG__HEAD_LENGTH * width;
-  int i = tip - (int)lround(length / search->stations->step);
+  int i = tip - (int)lround(length / search->samples->step);
   if (i < first || i >= tip)
     return false;
-  /* the barbs have little more room than the line beside them */
-  if (station[i].room < ROOM_ENOUGH * FG__HEAD_WIDTH / 2 * width / HEAD_SHARE ||
-      fabs(station[tip].turning - station[i].turning) > HEAD_TURNING)
+  /* the barbs have little more clearance than the line beside them */
+  if (sample[i].clearance < CLEARANCE_ENOUGH * FG__HEAD_WIDTH / 2 * width / HEAD_SHARE ||
+      fabs(sample[tip].turning - sample[i].turning) > HEAD_TURNING)
     return false;
-  const double *p = station[i].position, *q = station[tip].position;
+  const double *p = sample[i].position, *q = sample[tip].position;
   double dx = q[0] - p[0], dy = q[1] - p[1], chord = sqrt(dx * dx + dy * dy);
   if (!(chord > 0.8 * length))
     return false;
   dx /= chord;
   dy /= chord;
   for (int k = i + 1; k < tip; k++) {
-    double x = station[k].position[0] - p[0], y = station[k].position[1] - p[1];
+    double x = sample[k].position[0] - p[0], y = sample[k].position[1] - p[1];
     double left = 1 - (x * dx + y * dy) / chord;
     if (fabs(y * dx - x * dy) > HEAD_BOW * FG__HEAD_WIDTH / 2 * width * left)
       return false;
   }
-  const fg__room *room = search->room;
-  double margin = room->margin;
-  if (!fg__room_has(room, q[0] + margin * dx, q[1] + margin * dy))
+  const fg__interior *interior = search->interior;
+  double margin = interior->margin;
+  if (!fg__interior_has(interior, q[0] + margin * dx, q[1] + margin * dy))
     return false;
   *base = i;
   for (int k = 0; k <= HEAD_CHECKS; k++) { /* from the barbs to the tip */
@@ -129,23 +133,23 @@ static bool head_fits(const arrow_search *search, int first, int tip, int *base)
     double half = FG__HEAD_WIDTH / 2 * width * left / HEAD_SHARE + margin;
     double along = k == 0 ? -FG__HEAD_SWEEP * length : chord * (1 - left);
     double x = p[0] + along * dx, y = p[1] + along * dy;
-    if (!fg__room_has(room, x - half * dy, y + half * dx) ||
-        !fg__room_has(room, x + half * dy, y - half * dx))
+    if (!fg__interior_has(interior, x - half * dy, y + half * dx) ||
+        !fg__interior_has(interior, x + half * dy, y - half * dx))
       return false;
   }
   return true;
 }
 
-/* Sets how much of the taper fits at each station. */
+/* Sets how much of the taper fits at each sample. */
 static void find_shares(const arrow_search *search)
 {
-  fg__station *station = search->stations->station;
-  double half = search->width / 2, radii = BODY_BEND * search->stations->bend_window;
-  for (int i = 0; i < search->stations->count; i++) {
-    double limit = BODY_SHARE * station[i].room;
-    if (station[i].bend * limit > radii)
-      limit = radii / station[i].bend;
-    station[i].share = (limit / half - FG__TAIL_WIDTH) / (1 - FG__TAIL_WIDTH);
+  fg__arc_sample *sample = search->samples->sample;
+  double half = search->width / 2, radii = BODY_BEND * search->samples->bend_window;
+  for (int i = 0; i < search->samples->count; i++) {
+    double limit = BODY_SHARE * sample[i].clearance;
+    if (sample[i].bend * limit > radii)
+      limit = radii / sample[i].bend;
+    sample[i].share = (limit / half - FG__TAIL_WIDTH) / (1 - FG__TAIL_WIDTH);
   }
 }
 
@@ -154,29 +158,29 @@ static void find_shares(const arrow_search *search)
  * from upstream. */
 static int find_tail(const arrow_search *search, int first, int base)
 {
-  const fg__station *station = search->stations->station;
-  double end = station[base].s, bound = station[first].s;
+  const fg__arc_sample *sample = search->samples->sample;
+  double end = sample[base].s, bound = sample[first].s;
   int tail = base;
-  if (station[base].share < 1)
+  if (sample[base].share < 1)
     return base;
   for (int i = base - 1; i >= first; i--) {
-    double share = station[i].share;
+    double share = sample[i].share;
     if (share < 0)
       break;
     if (share < 1)
-      bound = fmax(bound, (station[i].s - share * end) / (1 - share));
-    if (station[i].s < bound)
+      bound = fmax(bound, (sample[i].s - share * end) / (1 - share));
+    if (sample[i].s < bound)
       break;
     tail = i;
   }
-  /* a bound found late may lie beyond stations already taken */
-  while (tail < base && station[tail].s < bound)
+  /* a bound found late may lie beyond samples already taken */
+  while (tail < base && sample[tail].s < bound)
     tail++;
   return tail;
 }
 
-/* Whether two stations may be on the same arrow. */
-static bool go_together(const fg__station *a, const fg__station *b, double width)
+/* Whether two samples may be on the same arrow. */
+static bool go_together(const fg__arc_sample *a, const fg__arc_sample *b, double width)
 {
   double turn = fabs(a->turning - b->turning);
   if (turn < AGAINST)
@@ -192,18 +196,18 @@ static bool go_together(const fg__station *a, const fg__station *b, double width
 /* Sets the earliest tail for every tip. */
 static void find_earliest(const arrow_search *search)
 {
-  fg__station *station = search->stations->station;
-  int count = search->stations->count;
+  fg__arc_sample *sample = search->samples->sample;
+  int count = search->samples->count;
   double lowest = 0, highest = 0;
   for (int i = 0; i < count; i++) {
-    lowest = fmin(lowest, station[i].turning);
-    highest = fmax(highest, station[i].turning);
-    station[i].earliest = i > 0 ? station[i - 1].earliest : 0;
+    lowest = fmin(lowest, sample[i].turning);
+    highest = fmax(highest, sample[i].turning);
+    sample[i].earliest = i > 0 ? sample[i - 1].earliest : 0;
     if (highest - lowest < AGAINST)
       continue;
-    for (int k = i - 1; k >= station[i].earliest; k -= 2)
-      if (!go_together(&station[k], &station[i], search->width)) {
-        station[i].earliest = k + 1;
+    for (int k = i - 1; k >= sample[i].earliest; k -= 2)
+      if (!go_together(&sample[k], &sample[i], search->width)) {
+        sample[i].earliest = k + 1;
         break;
       }
   }
@@ -212,38 +216,37 @@ static void find_earliest(const arrow_search *search)
 /* How unevenly an arrow bends: length times the integral of squared curvature, over
  * windows of two widths, less the square of all it turns, which is what an even bend has.
  */
-static double unrest_of(const arrow_search *search, int tail, int tip)
+static double bending_of(const arrow_search *search, int tail, int tip)
 {
-  const fg__station *station = search->stations->station;
-  double length = station[tip].s - station[tail].s,
-         window = search->stations->bend_window;
-  double turning = station[tip].turning - station[tail].turning;
-  double squares = (station[tip].bend_sum - station[tail].bend_sum) / (window * window);
-  double uneven = length * search->stations->step * squares - turning * turning;
-  return 1 + UNREST_COST * fmax(uneven, 0) +
+  const fg__arc_sample *sample = search->samples->sample;
+  double length = sample[tip].s - sample[tail].s, window = search->samples->bend_window;
+  double turning = sample[tip].turning - sample[tail].turning;
+  double squares = (sample[tip].bend_sum - sample[tail].bend_sum) / (window * window);
+  double uneven = length * search->samples->step * squares - turning * turning;
+  return 1 + UNEVEN_COST * fmax(uneven, 0) +
          TURNING_COST * fmax(fabs(turning) - LONG_TURNING, 0);
 }
 
 static void consider(arrow_search *search, int tail, int tip)
 {
-  const fg__station *station = search->stations->station;
-  double length = station[tip].s - station[tail].s;
+  const fg__arc_sample *sample = search->samples->sample;
+  double length = sample[tip].s - sample[tail].s;
   double visible = length * search->weight;
   if (visible <= search->worth)
     return;
-  double total = station[search->stations->count - 1].s;
-  double aside = fabs(station[tail].s + station[tip].s - total) / total;
+  double total = sample[search->samples->count - 1].s;
+  double aside = fabs(sample[tail].s + sample[tip].s - total) / total;
   visible *= 1 - ASIDE_COST * aside;
-  double unrest = unrest_of(search, tail, tip);
-  if (visible / unrest <= search->worth)
+  double bending = bending_of(search, tail, tip);
+  if (visible / bending <= search->worth)
     return;
-  search->worth = visible / unrest;
+  search->worth = visible / bending;
   search->best = (fg__arrow){
-      .tail = station[tail].s,
-      .tip = station[tip].s,
+      .tail = sample[tail].s,
+      .tip = sample[tip].s,
       .width = search->width,
-      .turning = fabs(station[tip].turning - station[tail].turning),
-      .unrest = unrest,
+      .turning = fabs(sample[tip].turning - sample[tail].turning),
+      .bending = bending,
   };
 }
 
@@ -255,23 +258,23 @@ static double rolled_up(double turning)
 
 static bool is_too_long(const arrow_search *search, int tail, int tip, double slim)
 {
-  const fg__station *station = search->stations->station;
-  double length = station[tip].s - station[tail].s;
-  double turning = fabs(station[tip].turning - station[tail].turning);
+  const fg__arc_sample *sample = search->samples->sample;
+  double length = sample[tip].s - sample[tail].s;
+  double turning = fabs(sample[tip].turning - sample[tail].turning);
   return length > slim * rolled_up(turning) || turning > FG__LARGEST_TURNING;
 }
 
-/* Tries the arrows of one width that end at a station and begin at `tail` or later. */
+/* Tries the arrows of one width that end at a sample and begin at `tail` or later. */
 static void try_tails(arrow_search *search, int tail, int base, int tip, double least,
                       double slim)
 {
-  const fg__station *station = search->stations->station;
+  const fg__arc_sample *sample = search->samples->sample;
   while (tail < base && is_too_long(search, tail, tip, slim))
     tail++;
-  double length = station[tip].s - station[tail].s;
+  double length = sample[tip].s - sample[tail].s;
   for (size_t k = 0; k < sizeof CUTS / sizeof *CUTS; k++) {
-    int begin = tail + (int)(CUTS[k] * length / search->stations->step);
-    if (begin >= base || station[tip].s - station[begin].s < least)
+    int begin = tail + (int)(CUTS[k] * length / search->samples->step);
+    if (begin >= base || sample[tip].s - sample[begin].s < least)
       return;
     consider(search, begin, tip);
   }
@@ -280,66 +283,70 @@ static void try_tails(arrow_search *search, int tail, int base, int tip, double 
 /* Tries all arrows of one width. */
 static void try_width(arrow_search *search, double width, double end_gap)
 {
-  const fg__station *station = search->stations->station;
-  int count = search->stations->count;
-  double total = station[count - 1].s;
+  const fg__arc_sample *sample = search->samples->sample;
+  int count = search->samples->count;
+  double total = sample[count - 1].s;
   double ratio = width > search->narrowest ? LARGEST_WIDTH : SMALL_ARROW_WIDTH;
-  double least = fmax(SHORTEST * search->room->spacing, width / ratio);
+  double least = fmax(SHORTEST * search->interior->spacing, width / ratio);
   double slim = width / SLIMMEST, most = slim * search->rolled_up;
-  double weight = pow(width / search->room->spacing, WIDTH_WORTH);
+  double weight = pow(width / search->interior->spacing, WIDTH_WORTH);
   if (fmin(most, total) * weight <= search->worth)
     return;
   search->width = width;
   search->weight = weight;
-  fg__stations_bend(search->stations, width);
+  fg__arc_samples_bend(search->samples, width);
   find_shares(search);
   find_earliest(search);
-  int gap = (int)ceil(end_gap / search->stations->step), last = count - 1 - gap;
+  int gap = (int)ceil(end_gap / search->samples->step), last = count - 1 - gap;
   for (int tip = last; tip > gap + 1; tip--) {
-    double length = station[tip].s - station[gap].s;
+    double length = sample[tip].s - sample[gap].s;
     if (fmin(length, most) * weight <= search->worth)
       break;
-    double aside = fabs(station[gap].s + station[tip].s - total) / total;
+    double aside = fabs(sample[gap].s + sample[tip].s - total) / total;
     if (length < most && length * weight * (1 - ASIDE_COST * aside) <= search->worth)
       continue;
     int base = tip;
     if (!head_fits(search, gap, tip, &base))
       continue;
-    int earliest = station[tip].earliest > gap ? station[tip].earliest : gap;
+    int earliest = sample[tip].earliest > gap ? sample[tip].earliest : gap;
     int tail = find_tail(search, earliest < base ? earliest : base, base);
     try_tails(search, tail, base, tip, least, slim);
   }
 }
 
 fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
-                        const fg__streamline *streamline, const fg__room *room,
-                        fg__stations *stations)
+                        const fg__streamline *streamline, const fg__interior *interior,
+                        fg__arc_samples *samples)
 {
+  if (interior->window->dimension == 3)
+    return fg__arrow_fit_solid(out, context, streamline, interior, samples);
   *out = (fg__arrow){0};
   double length = fg__streamline_length(streamline);
-  if (length < SHORTEST * room->spacing)
+  if (length < SHORTEST * interior->spacing)
     return FG_STATUS_OK;
-  double widest = fg__arrow_widest(length, room->spacing);
-  fg_status status = fg__stations_place(stations, context, streamline, room,
-                                        widest * FG__HEAD_WIDTH / 2 / HEAD_SHARE);
+  double widest = fg__arrow_widest(length, interior);
+  fg_status status = fg__arc_samples_place_flat(samples, context, streamline, interior,
+                                                widest * FG__HEAD_WIDTH / 2 / HEAD_SHARE);
   if (status != FG_STATUS_OK)
     return status;
-  arrow_search search = {.stations = stations,
-                         .room = room,
-                         .narrowest = NARROWEST_HEAD * room->spacing / FG__HEAD_WIDTH};
-  double room_found = 0, lowest = 0, highest = 0;
-  for (int i = 0; i < stations->count; i++) {
-    const fg__station *station = &stations->station[i];
-    room_found = fmax(room_found, station->room);
-    lowest = fmin(lowest, station->turning);
-    highest = fmax(highest, station->turning);
+  arrow_search search = {.samples = samples,
+                         .interior = interior,
+                         .narrowest =
+                             NARROWEST_HEAD * interior->spacing / FG__HEAD_WIDTH};
+  double clearance_found = 0, lowest = 0, highest = 0;
+  for (int i = 0; i < samples->count; i++) {
+    const fg__arc_sample *sample = &samples->sample[i];
+    clearance_found = fmax(clearance_found, sample->clearance);
+    lowest = fmin(lowest, sample->turning);
+    highest = fmax(highest, sample->turning);
   }
   search.rolled_up = rolled_up(fmin(highest - lowest, FG__LARGEST_TURNING));
-  widest = fmin(widest, room_found * HEAD_SHARE / (ROOM_ENOUGH * FG__HEAD_WIDTH / 2));
+  widest = fmin(widest,
+                clearance_found * HEAD_SHARE / (CLEARANCE_ENOUGH * FG__HEAD_WIDTH / 2));
   for (double width = widest; width > search.narrowest * (1 + 1e-9); width *= WIDTH_STEP)
-    try_width(&search, width, room->margin);
+    try_width(&search, width, interior->margin);
   if (widest >= search.narrowest)
-    try_width(&search, search.narrowest, room->margin);
+    try_width(&search, search.narrowest, interior->margin);
   *out = search.best;
   return FG_STATUS_OK;
 }
@@ -357,10 +364,11 @@ fg_status fg__arrow_centerline(double (**points)[3], int *count, fg_context *con
                                const fg__streamline *streamline, const fg__arrow *arrow,
                                double spacing)
 {
+  if (streamline->dimension == 3)
+    return fg__arrow_centerline_solid(points, count, context, streamline, arrow, spacing);
   const fg__streamline_node *node = streamline->node;
   size_t capacity = 0, used = 0;
   double(*point)[3] = NULL;
-  double tangent[2];
   int hint = 0;
   /* pieces much shorter than a point's spacing come from steps cut at the ends */
   double least = 1e-3 * spacing;
@@ -376,17 +384,15 @@ fg_status fg__arrow_centerline(double (**points)[3], int *count, fg_context *con
     }
     for (int k = 0; k < pieces; k++, used++)
       fg__streamline_at(streamline, from + (to - from) * k / pieces, &hint, point[used],
-                        tangent);
+                        NULL);
   }
   if (!point) {
     *points = NULL;
     *count = 0;
     return FG_STATUS_OK;
   }
-  fg__streamline_at(streamline, arrow->tip, &hint, point[used], tangent);
+  fg__streamline_at(streamline, arrow->tip, &hint, point[used], NULL);
   used++;
-  for (size_t i = 0; i < used; i++)
-    point[i][2] = 0;
   *points = point;
   *count = (int)used;
   return FG_STATUS_OK;

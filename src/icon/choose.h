@@ -1,28 +1,51 @@
-/* Which streamline stands for a cluster. */
+/* Which streamline stands for a cluster, in 2D or 3D. */
 #ifndef FG__CHOOSE_H
 #define FG__CHOOSE_H
 
 #include "icon/arrow.h"
 #include "skeleton/spine.h"
 
-/* What a choice works with, to be kept from cluster to cluster; all zero at first. */
+/* What choices work with, to be kept from cluster to cluster; all zero at first. */
 typedef struct fg__chooser {
   fg__streamline best, tried;
-  fg__stations stations;
-  double (*sample)[2]; /* points of the cluster, evenly spread */
-  size_t sample_capacity;
-  int sample_count;
-  unsigned char *passed; /* nodes near which a line was tried */
+  fg__arc_samples samples;
+  double (*point)[3]; /* of the cluster, evenly distributed */
+  size_t point_capacity;
+  int point_count;
+  unsigned char *passed; /* 2D: nodes near which a line was tried */
   size_t passed_capacity;
 } fg__chooser;
 
-/* Tries streamlines through the spine's centre, through other points of it and through
+/* Tries streamlines through the spine's middle, through other points of it and through
  * points beside it, fits an arrow to each, and keeps in chooser->best the one whose arrow
  * lies nearest to all of the cluster: the smallest mean square distance, which asks for a
  * long arrow through the middle at once. No arrow fits: arrow->width is 0. MEMORY. */
 fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *context,
-                           const fg_field *field, const fg__room *room,
+                           const fg_field *field, const fg__interior *interior,
                            const fg__spine *spine);
 void fg__chooser_clear(fg__chooser *chooser);
+
+/* A choice under way. */
+typedef struct fg__choice {
+  fg__chooser *chooser;
+  fg_context *context;
+  const fg_field *field;
+  const fg__interior *interior;
+  fg__streamline_limits limits;
+  double radius;    /* distance from the spine's middle to the boundary */
+  double reach;     /* square of the distance that an arrow stands for */
+  int passed_reach; /* in nodes */
+  fg__arrow arrow;  /* best so far */
+  double cost;
+} fg__choice;
+
+/* Tries the streamline through a point. MEMORY. */
+fg_status fg__choice_try(fg__choice *choice, const double start[3]);
+
+/* Whether a line in 2D has passed near a point, or the point lies outside the window. */
+bool fg__choice_has_passed(const fg__choice *choice, const double point[2]);
+
+/* starts.c: where streamlines begin. Tries them all. MEMORY. */
+fg_status fg__choice_try_starts(fg__choice *choice, const fg__spine *spine);
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef FG__ICONS_MAKE_H
 #define FG__ICONS_MAKE_H
 
-#include "cluster/volume.h"
+#include "cluster/window.h"
 
 /* What icons are made from. */
 typedef struct fg__icon_source {
@@ -16,7 +16,7 @@ typedef struct fg__icon_source {
   const fg__patch *patch; /* [count] with cluster, else one for all */
 } fg__icon_source;
 
-/* Places for a cluster's icons: one across a periodic border may have several. */
+/* Places for a cluster's icons: one across a periodic boundary may have several. */
 enum { FG__ICON_PARTS = FG__WINDOW_PARTS };
 
 /* [clusters * FG__ICON_PARTS], zeroed; NULL when there is no memory. fg__icons_free ends

@@ -24,7 +24,7 @@ static void assert_same_line(const fg_icon *a, const fg_icon *b, bool mirror,
 {
   assert_int_equal(a->kind, b->kind);
   assert_true(fabs(fg__icon_length(a) - fg__icon_length(b)) <= tolerance);
-  /* a head's room changes at once where a barb meets the border */
+  /* a head's clearance changes at once where a barb meets the boundary */
   assert_true(fabs(a->width - b->width) <= 0.2 * a->width);
   for (int end = 0; end < 2; end++) {
     const double *p = a->points[end * (a->point_count - 1)];

@@ -1,45 +1,59 @@
 #include "icon/measure.h"
 
+#include "base/vector.h"
 #include "icon/arrow.h"
 
 #include <math.h>
+#include <string.h>
 
 /* An arrow round more than seven tenths of a turn is a ring, less is a horseshoe. */
 static const double RING_TURNING = 4.4;
 
-void fg__icon_set_width(fg_icon *icon, double width)
+void fg__icon_set_width(fg_icon *icon, int dimension, double width)
 {
+  bool flat = dimension == 2;
   icon->width = width;
-  icon->tail_width = FG__TAIL_WIDTH * width;
-  icon->head_length = FG__HEAD_LENGTH * width;
-  icon->head_width = FG__HEAD_WIDTH * width;
+  icon->tail_width = (flat ? FG__TAIL_WIDTH : FG__SOLID_TAIL_WIDTH) * width;
+  icon->head_length = (flat ? FG__HEAD_LENGTH : FG__SOLID_HEAD_LENGTH) * width;
+  icon->head_width = (flat ? FG__HEAD_WIDTH : FG__SOLID_HEAD_WIDTH) * width;
 }
 
-void fg__icon_set_center(fg_icon *icon, const double center[2])
+static double hypot3(const double a[3])
+{
+  return hypot(hypot(a[0], a[1]), a[2]);
+}
+
+void fg__icon_set_center(fg_icon *icon, const double center[3])
 {
   double nearest = HUGE_VAL;
   for (int i = 0; i + 1 < icon->point_count; i++) {
     const double *p = icon->points[i], *q = icon->points[i + 1];
-    double dx = q[0] - p[0], dy = q[1] - p[1];
-    double t = ((center[0] - p[0]) * dx + (center[1] - p[1]) * dy) / (dx * dx + dy * dy);
-    t = fmin(fmax(t, 0), 1);
-    double x = p[0] + t * dx, y = p[1] + t * dy;
-    double distance = hypot(center[0] - x, center[1] - y);
+    double along[3], to[3], on[3], off[3];
+    fg__along(q, -1, p, along);
+    fg__along(center, -1, p, to);
+    double t = fmin(fmax(fg__dot(to, along) / fg__dot(along, along), 0), 1);
+    fg__along(p, t, along, on);
+    fg__along(center, -1, on, off);
+    double distance = hypot3(off);
     if (distance < nearest) {
       nearest = distance;
-      icon->center[0] = x;
-      icon->center[1] = y;
+      memcpy(icon->center, on, sizeof on);
     }
   }
+}
+
+static double piece_of(const fg_icon *icon, int n)
+{
+  double along[3];
+  fg__along(icon->points[n], -1, icon->points[n - 1], along);
+  return hypot3(along);
 }
 
 double fg__icon_length(const fg_icon *icon)
 {
   double length = 0.0;
-  for (int i = 1; i < icon->point_count; i++) {
-    const double *a = icon->points[i - 1], *b = icon->points[i];
-    length += hypot(hypot(b[0] - a[0], b[1] - a[1]), b[2] - a[2]);
-  }
+  for (int i = 1; i < icon->point_count; i++)
+    length += piece_of(icon, i);
   return length;
 }
 
@@ -49,10 +63,9 @@ double fg__icon_mean_speed(const fg_field *field, const fg_icon *icon)
   for (int i = 0; i < icon->point_count; i++) {
     double velocity[3] = {0}, speed = before;
     if (fg_field_velocity(field, icon->points[i], velocity))
-      speed = hypot(velocity[0], velocity[1]);
+      speed = hypot3(velocity);
     if (i > 0) {
-      double piece = hypot(icon->points[i][0] - icon->points[i - 1][0],
-                           icon->points[i][1] - icon->points[i - 1][1]);
+      double piece = piece_of(icon, i);
       sum += piece * (speed + before) / 2;
       length += piece;
     }

@@ -16,7 +16,7 @@ static const double SHAPE_SPACING = 0.25;
 static const double DATA_SPACING = 1.0;
 
 typedef void (*velocity_of)(double x, double y, double velocity[2]);
-typedef double (*depth_of)(double x, double y); /* distance to the border, > 0 inside */
+typedef double (*depth_of)(double x, double y); /* distance to the boundary, > 0 inside */
 
 /* The field of a formula; linear ones are met exactly by the bilinear samples. Samples
  * that are NAN are missing. */

@@ -1,9 +1,11 @@
 #include "icon/streamline.h"
 
 #include "base/memory.h"
+#include "base/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Local error allowed a step, in longest steps. A step is at most a cell of the raster,
  * so 100 steps stray by less than 0.03 cells: far below what a print shows. */
@@ -30,103 +32,98 @@ typedef struct tracing {
 } tracing;
 
 typedef struct trial {
-  double position[2];
-  double direction[2];
+  double position[3];
+  double direction[3];
   double error;
 } trial;
 
-static double dot(const double a[2], const double b[2])
-{
-  return a[0] * b[0] + a[1] * b[1];
-}
-
-/* Speeds stay below 1e15, coordinates below 1e18: squares are far from overflow, and
- * hypot took an eighth of the time of all icons. */
-static double length_of(const double a[2])
-{
-  return sqrt(dot(a, a));
-}
-
 /* Unit vector of the way to go; false outside the domain and where the flow stands still.
  */
-static bool find_direction(const tracing *tracer, const double position[2],
-                           double direction[2])
+static bool find_direction(const tracing *tracer, const double position[3],
+                           double direction[3])
 {
   double tangent[3] = {0};
   if (!fg_field_tangent(tracer->field, position, tangent))
     return false;
-  double speed = length_of(tangent);
+  double speed = fg__length(tangent);
   if (!(speed > tracer->standstill))
     return false;
-  direction[0] = tracer->sign * tangent[0] / speed;
-  direction[1] = tracer->sign * tangent[1] / speed;
+  for (int a = 0; a < 3; a++)
+    direction[a] = tracer->sign * tangent[a] / speed;
   return true;
 }
 
 /* One step of the 3(2) pair from a position with known direction; false when a stage has
  * no direction or turns too far. */
-static bool try_step(const tracing *tracer, const double from[2], const double k1[2],
+static bool try_step(const tracing *tracer, const double from[3], const double k1[3],
                      double step, trial *out)
 {
-  double k2[2], k3[2], point[2];
-  for (int a = 0; a < 2; a++)
-    point[a] = from[a] + step * k1[a] / 2;
-  if (!find_direction(tracer, point, k2) || dot(k1, k2) < LARGEST_TURN_COSINE)
+  double k2[3], k3[3], point[3];
+  fg__along(from, step / 2, k1, point);
+  if (!find_direction(tracer, point, k2) || fg__dot(k1, k2) < LARGEST_TURN_COSINE)
     return false;
-  for (int a = 0; a < 2; a++)
+  for (int a = 0; a < 3; a++)
     point[a] = from[a] + step * k2[a] * 3 / 4;
-  if (!find_direction(tracer, point, k3) || dot(k1, k3) < LARGEST_TURN_COSINE)
+  if (!find_direction(tracer, point, k3) || fg__dot(k1, k3) < LARGEST_TURN_COSINE)
     return false;
-  for (int a = 0; a < 2; a++)
+  for (int a = 0; a < 3; a++)
     out->position[a] = from[a] + step * (2 * k1[a] + 3 * k2[a] + 4 * k3[a]) / 9;
   const double *k4 = out->direction;
   if (!find_direction(tracer, out->position, out->direction) ||
-      dot(k1, k4) < LARGEST_TURN_COSINE)
+      fg__dot(k1, k4) < LARGEST_TURN_COSINE)
     return false;
-  double error[2];
-  for (int a = 0; a < 2; a++)
+  double error[3];
+  for (int a = 0; a < 3; a++)
     error[a] = step * (-5 * k1[a] + 6 * k2[a] + 8 * k3[a] - 9 * k4[a]) / 72;
-  out->error = length_of(error);
+  out->error = fg__length(error);
   return true;
 }
 
 /* Cubic Hermite between two points with unit tangents, a length apart along the curve. */
-static void interpolate(const double p[2], const double d[2], const double q[2],
-                        const double e[2], double length, double fraction,
-                        double position[2], double tangent[2])
+static void interpolate(const double p[3], const double d[3], const double q[3],
+                        const double e[3], double length, double fraction,
+                        double position[3])
 {
   double t = fraction, u = 1 - t;
-  double slope[2];
-  for (int a = 0; a < 2; a++) {
+  for (int a = 0; a < 3; a++)
     position[a] = u * u * (1 + 2 * t) * p[a] + t * t * (3 - 2 * t) * q[a] +
                   length * (u * u * t * d[a] - t * t * u * e[a]);
-    slope[a] = 6 * t * u * (q[a] - p[a]) +
-               length * (u * (1 - 3 * t) * d[a] + t * (3 * t - 2) * e[a]);
-  }
-  double size = length_of(slope);
-  if (!(size > 0)) {
-    slope[0] = d[0];
-    slope[1] = d[1];
-    size = 1;
-  }
-  tangent[0] = slope[0] / size;
-  tangent[1] = slope[1] / size;
 }
 
-static bool is_inside(const tracing *tracer, const double position[2])
+/* Its unit tangent. */
+static void interpolate_tangent(const double p[3], const double d[3], const double q[3],
+                                const double e[3], double length, double fraction,
+                                double tangent[3])
+{
+  double t = fraction, u = 1 - t;
+  for (int a = 0; a < 3; a++)
+    tangent[a] = 6 * t * u * (q[a] - p[a]) +
+                 length * (u * (1 - 3 * t) * d[a] + t * (3 * t - 2) * e[a]);
+  if (!fg__normalise(tangent))
+    memcpy(tangent, d, 3 * sizeof *tangent);
+}
+
+/* The point at a fraction of a step. */
+static void point_after(const fg__streamline_node *from, const trial *to, double step,
+                        double fraction, double position[3])
+{
+  interpolate(from->position, from->tangent, to->position, to->direction, step, fraction,
+              position);
+}
+
+static bool is_inside(const tracing *tracer, const double position[3])
 {
   return fg__window_level(tracer->window, position) > 0;
 }
 
 /* Largest fraction of the step that is still inside, by bisection on the dense output. */
-static double find_border(const tracing *tracer, const fg__streamline_node *from,
-                          const trial *to, double step, double outside)
+static double find_boundary(const tracing *tracer, const fg__streamline_node *from,
+                            const trial *to, double step, double outside)
 {
   double inside = 0;
   for (int i = 0; i < BISECTIONS; i++) {
-    double middle = (inside + outside) / 2, position[2], tangent[2];
-    interpolate(from->position, from->tangent, to->position, to->direction, step, middle,
-                position, tangent);
+    double middle = (inside + outside) / 2, position[3];
+    point_after(from, to, step, middle, position);
     if (is_inside(tracer, position))
       inside = middle;
     else
@@ -147,14 +144,17 @@ static fg_status add_node(fg__streamline *line, fg_context *context,
 }
 
 /* The node that ends a step, at a fraction of it. */
-static fg__streamline_node node_after(const fg__streamline_node *from, const trial *to,
-                                      double step, double fraction)
+static fg__streamline_node node_after(int dimension, const fg__streamline_node *from,
+                                      const trial *to, double step, double fraction)
 {
   fg__streamline_node node = {.s = from->s + step * fraction};
-  interpolate(from->position, from->tangent, to->position, to->direction, step, fraction,
-              node.position, node.tangent);
-  double cross = from->tangent[0] * node.tangent[1] - from->tangent[1] * node.tangent[0];
-  node.turning = from->turning + atan2(cross, dot(from->tangent, node.tangent));
+  point_after(from, to, step, fraction, node.position);
+  interpolate_tangent(from->position, from->tangent, to->position, to->direction, step,
+                      fraction, node.tangent);
+  double across[3];
+  fg__cross(from->tangent, node.tangent, across);
+  double sine = dimension == 2 ? across[2] : fg__length(across);
+  node.turning = from->turning + atan2(sine, fg__dot(from->tangent, node.tangent));
   return node;
 }
 
@@ -178,14 +178,13 @@ static fg_status trace_one_way(fg__streamline *line, fg_context *context,
       }
       step = fmax(step / 2, SHORTEST_STEP * limits->step);
     }
-    double fraction = 1, middle[2], direction[2];
-    interpolate(last.position, last.tangent, next.position, next.direction, step, 0.5,
-                middle, direction);
+    double fraction = 1, middle[3];
+    point_after(&last, &next, step, 0.5, middle);
     if (!is_inside(tracer, middle))
-      fraction = find_border(tracer, &last, &next, step, 0.5);
+      fraction = find_boundary(tracer, &last, &next, step, 0.5);
     else if (!is_inside(tracer, next.position))
-      fraction = find_border(tracer, &last, &next, step, 1);
-    fg__streamline_node node = node_after(&last, &next, step, fraction);
+      fraction = find_boundary(tracer, &last, &next, step, 1);
+    fg__streamline_node node = node_after(line->dimension, &last, &next, step, fraction);
     if (fraction > 0) {
       fg_status status = add_node(line, context, &node);
       if (status != FG_STATUS_OK)
@@ -217,6 +216,8 @@ static void reverse(fg__streamline *line)
 {
   double length = line->node[line->count - 1].s;
   double turned = line->node[line->count - 1].turning;
+  /* the angle of the reversed tangent in 2D is half a turn more: the same differences */
+  double sense = line->dimension == 2 ? 1 : -1;
   for (int i = 0, j = line->count - 1; i <= j; i++, j--) {
     fg__streamline_node first = line->node[i], last = line->node[j];
     line->node[i] = last;
@@ -225,31 +226,34 @@ static void reverse(fg__streamline *line)
   for (int i = 0; i < line->count; i++) {
     fg__streamline_node *node = &line->node[i];
     node->s = length - node->s;
-    /* the angle of the reversed tangent is half a turn more: the same differences */
-    node->turning = node->turning - turned;
-    node->tangent[0] = -node->tangent[0];
-    node->tangent[1] = -node->tangent[1];
+    node->turning = sense * (node->turning - turned);
+    for (int a = 0; a < 3; a++)
+      node->tangent[a] = -node->tangent[a];
   }
 }
 
 fg_status fg__streamline_trace(fg__streamline *out, fg_context *context,
                                const fg_field *field, const fg__window *window,
-                               const double start[2], const fg__streamline_limits *limits)
+                               const double start[], const fg__streamline_limits *limits)
 {
   out->count = 0;
   out->start = 0;
+  out->dimension = window->dimension;
   if (!(fg__window_level(window, start) > 0))
     return FG_STATUS_OK;
   double tangent[3] = {0};
   if (!fg_field_tangent(field, start, tangent))
     return FG_STATUS_OK;
-  double speed = length_of(tangent);
+  double speed = fg__length(tangent);
   if (!(speed > 0) || !isfinite(speed))
     return FG_STATUS_OK;
 
   tracing tracer = {field, window, limits, STANDSTILL * speed, -1};
-  fg__streamline_node first = {.position = {start[0], start[1]},
-                               .tangent = {-tangent[0] / speed, -tangent[1] / speed}};
+  fg__streamline_node first = {0};
+  for (int a = 0; a < window->dimension; a++) {
+    first.position[a] = start[a];
+    first.tangent[a] = -tangent[a] / speed;
+  }
   fg_status status = add_node(out, context, &first);
   if (status != FG_STATUS_OK)
     return status;
@@ -273,8 +277,8 @@ double fg__streamline_length(const fg__streamline *streamline)
   return streamline->count > 0 ? streamline->node[streamline->count - 1].s : 0;
 }
 
-void fg__streamline_at(const fg__streamline *streamline, double s, int *hint,
-                       double position[2], double tangent[2])
+double fg__streamline_at(const fg__streamline *streamline, double s, int *hint,
+                         double position[3], double tangent[3])
 {
   const fg__streamline_node *node = streamline->node;
   int last = streamline->count - 1;
@@ -283,16 +287,13 @@ void fg__streamline_at(const fg__streamline *streamline, double s, int *hint,
     i++;
   if (hint)
     *hint = i;
-  if (last == 0) {
-    for (int a = 0; a < 2; a++) {
-      position[a] = node[0].position[a];
-      tangent[a] = node[0].tangent[a];
-    }
-    return;
-  }
-  double length = node[i + 1].s - node[i].s;
-  double fraction = length > 0 ? (s - node[i].s) / length : 0;
-  fraction = fmin(fmax(fraction, 0), 1);
-  interpolate(node[i].position, node[i].tangent, node[i + 1].position,
-              node[i + 1].tangent, length, fraction, position, tangent);
+  const fg__streamline_node *a = &node[i], *b = &node[i < last ? i + 1 : i];
+  double length = b->s - a->s;
+  double fraction = length > 0 ? fmin(fmax((s - a->s) / length, 0), 1) : 0;
+  interpolate(a->position, a->tangent, b->position, b->tangent, length, fraction,
+              position);
+  if (tangent)
+    interpolate_tangent(a->position, a->tangent, b->position, b->tangent, length,
+                        fraction, tangent);
+  return a->turning + fraction * (b->turning - a->turning);
 }

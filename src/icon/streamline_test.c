@@ -59,7 +59,7 @@ static double everywhere(double x, double y)
   return 1;
 }
 
-/* To the right of a slanting border: 0.8 x + 0.6 y = 14.2, linear like the window's
+/* To the right of a slanting boundary: 0.8 x + 0.6 y = 14.2, linear like the window's
  * cells. */
 static double beyond_line(double x, double y)
 {
@@ -73,10 +73,11 @@ static test_bench bench_of(velocity_of velocity, depth_of depth)
   bench.field = field_of(bench.context, velocity);
   fg__window *window = &bench.window;
   *window = (fg__window){.cluster = 1,
-                         .nodes = {SHAPE_NODES_X, SHAPE_NODES_Y},
+                         .dimension = 2,
+                         .nodes = {SHAPE_NODES_X, SHAPE_NODES_Y, 1},
                          .origin = {SHAPE_ORIGIN[0], SHAPE_ORIGIN[1]},
                          .spacing = {SHAPE_SPACING, SHAPE_SPACING},
-                         .at_border = {true, true, true, true}};
+                         .at_boundary = {true, true, true, true}};
   window->level = calloc((size_t)SHAPE_NODES_X * SHAPE_NODES_Y, sizeof(float));
   window->active = malloc((size_t)(SHAPE_NODES_X - 1) * (SHAPE_NODES_Y - 1));
   assert_non_null(window->level);
@@ -114,7 +115,7 @@ static double circle_error(test_bench *bench, double radius)
   int hint = 0;
   double length = fg__streamline_length(&bench->line);
   for (int i = 0; i <= 1000; i++) {
-    double p[2], t[2];
+    double p[3], t[3];
     fg__streamline_at(&bench->line, length * i / 1000, &hint, p, t);
     worst = fmax(worst, fabs(hypot(p[0] - CORE[0], p[1] - CORE[1]) - radius));
     /* the tangent is across the radius, anticlockwise */
@@ -156,7 +157,7 @@ static void is_of_third_order(void **state)
   end_bench(&bench);
 }
 
-static void follows_a_hyperbola_to_the_domain_border(void **state)
+static void follows_a_hyperbola_to_the_domain_boundary(void **state)
 {
   (void)state;
   test_bench bench = bench_of(saddle, everywhere);
@@ -169,7 +170,7 @@ static void follows_a_hyperbola_to_the_domain_border(void **state)
     double away = hypot(p[0] - CORE[0], p[1] - CORE[1]);
     assert_true(fabs(product - 0.9 * 1.3) / away < 2.5e-4 * SHAPE_SPACING);
   }
-  /* it comes from the upper border and leaves by the right one */
+  /* it comes from the upper boundary and leaves by the right one */
   assert_true(35 - line->node[0].position[1] < 0.02 * SHAPE_SPACING);
   assert_true(30 - line->node[line->count - 1].position[0] < 0.02 * SHAPE_SPACING);
   end_bench(&bench);
@@ -238,12 +239,76 @@ static void gives_nothing_outside_and_at_rest(void **state)
   end_bench(&bench);
 }
 
+/* Round an upright axis at (0.1, -0.2), rising by 0.3 a radian; linear, so that samples
+ * carry it exactly. */
+static fg_field *helix_field(void)
+{
+  enum { SIDE = 5 };
+  static float sample[3][SIDE * SIDE * SIDE];
+  double axis[SIDE];
+  for (int n = 0; n < SIDE; n++)
+    axis[n] = -1 + 2.0 * n / (SIDE - 1);
+  for (int n = 0; n < SIDE * SIDE * SIDE; n++) {
+    sample[0][n] = (float)-(axis[n / SIDE % SIDE] + 0.2);
+    sample[1][n] = (float)(axis[n % SIDE] - 0.1);
+    sample[2][n] = 0.3F;
+  }
+  fg_field_arrays arrays = {.dimension = 3,
+                            .size = {SIDE, SIDE, SIDE},
+                            .axis = {axis, axis, axis},
+                            .velocity = {sample[0], sample[1], sample[2]}};
+  fg_field *field = NULL;
+  assert_int_equal(fg_field_create(&field, NULL, &arrays), FG_STATUS_OK);
+  return field;
+}
+
+/* The window is one cell that is positive below z = 0.61. In 3D the turning is curvature
+ * times length. */
+static void follows_a_helix(void **state)
+{
+  (void)state;
+  float level[8];
+  unsigned char active = 1;
+  for (int n = 0; n < 8; n++)
+    level[n] = n < 4 ? 1.51F : -0.29F;
+  const fg__window window = {.dimension = 3,
+                             .nodes = {2, 2, 2},
+                             .origin = {-0.9, -0.9, -0.9},
+                             .spacing = {1.8, 1.8, 1.8},
+                             .level = level,
+                             .active = &active};
+  const double start[3] = {0.1, 0.4, -0.23}, radius = 0.6;
+  const fg__streamline_limits limits = {0.05, 5, 20};
+  fg_field *field = helix_field();
+  fg__streamline line = {0};
+  assert_int_equal(fg__streamline_trace(&line, NULL, field, &window, start, &limits),
+                   FG_STATUS_OK);
+  double size = hypot(radius, 0.3), length = fg__streamline_length(&line);
+  double curvature = radius / (size * size), before = line.node[line.start].s;
+  assert_true(fabs(before - (0.9 - 0.23) * size / 0.3) < 2e-3);
+  assert_true(fabs(length - 1.51 * size / 0.3) < 3e-3);
+  assert_int_equal(line.end[0], FG__STREAMLINE_LEFT);
+  assert_int_equal(line.end[1], FG__STREAMLINE_LEFT);
+  int hint = 0;
+  for (int i = 0; i <= 300; i++) {
+    double p[3], t[3], s = length * i / 300;
+    double turning = fg__streamline_at(&line, s, &hint, p, t);
+    assert_true(fabs(hypot(p[0] - 0.1, p[1] + 0.2) - radius) < 1e-3);
+    assert_true(fabs(p[2] + 0.23 - (s - before) * 0.3 / size) < 1e-3);
+    assert_true(fabs(t[2] - 0.3 / size) < 2e-3);
+    assert_true(fabs(turning - curvature * s) < 0.02);
+  }
+  fg__streamline_clear(&line);
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(follows_a_circle),
+      cmocka_unit_test(follows_a_helix),
       cmocka_unit_test(is_of_third_order),
-      cmocka_unit_test(follows_a_hyperbola_to_the_domain_border),
+      cmocka_unit_test(follows_a_hyperbola_to_the_domain_boundary),
       cmocka_unit_test(ends_on_the_zero_set),
       cmocka_unit_test(ends_where_the_flow_does),
       cmocka_unit_test(ends_at_missing_data_and_masks),

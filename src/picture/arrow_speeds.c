@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 /* Of the arrows' length, slower and faster than the ends of the colours. */
 static const double left_out = 0.02;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 /* Nodes along the longest side, and at most that many times those of the data. */
 enum { NODES = 121, FINER = 2 };

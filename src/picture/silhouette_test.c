@@ -2,8 +2,8 @@
 
 #include <math.h>
 
+#include "base/vector.h"
 #include "picture/solid_field_test.h"
-#include "solid/vector.h"
 
 static const double middle[3] = {4.1, -0.45, 10.8};
 

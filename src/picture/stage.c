@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "solid/vector.h"
+#include "base/vector.h"
 
 /* The viewer's distance in half diagonals of the box: near enough that what is behind
  * looks smaller, far enough that parallels look so. */

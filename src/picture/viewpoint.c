@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "picture/stage.h"
-#include "solid/vector.h"
 
 /* Views that are tried, degrees: every azimuth with every elevation. */
 enum { AZIMUTHS = 36, ELEVATIONS = 11 };

@@ -1,8 +1,8 @@
 #include <math.h>
 
 #include "icon/icons.h"
+#include "icon/slender.h"
 #include "picture/solid_field_test.h"
-#include "solid/slender.h"
 
 static const double degree = 0.017453292519943295;
 

@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "icon/icons.h"
 #include "icon/measure.h"
+#include "icon/slender.h"
 #include "place/angle.h"
 #include "place/regions.h"
-#include "solid/slender.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -71,7 +71,7 @@ static fg_status add_icon(fg_icons *icons, fg_context *context,
   if (search->scale.dimension == 3)
     fg__solid_set_slender(&icon, search->scale.lambda);
   else
-    fg__icon_set_width(&icon, width_of(search, icon.speed, fg__icon_length(&icon)));
+    fg__icon_set_width(&icon, 2, width_of(search, icon.speed, fg__icon_length(&icon)));
   for (int k = 0; k < 3; ++k) {
     icon.center[k] = points[icon.point_count / 2][k];
     icon.seed[k] = placed->seed.position[k];

@@ -1,11 +1,9 @@
 #include "rival/arrows.h"
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "icon/arrow.h"
 #include "icon/measure.h"
-#include "solid/measure.h"
-#include "solid/shaft.h"
-#include "solid/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -50,15 +48,11 @@ static double free_way(const fg__domain *domain, const double from[],
 static void finish(fg_icon *icon, const fg__domain *domain, const double middle[],
                    double width)
 {
-  if (domain->dimension == 2) {
-    fg__icon_set_width(icon, width);
-    fg__icon_set_center(icon, middle);
-    icon->speed = fg__icon_mean_speed(domain->field, icon);
-  } else {
-    fg__solid_set_width(icon, width);
-    fg__solid_set_center(icon, middle);
-    icon->speed = fg__solid_mean_speed(domain->field, icon);
-  }
+  double near[3] = {0};
+  memcpy(near, middle, (size_t)domain->dimension * sizeof *near);
+  fg__icon_set_width(icon, domain->dimension, width);
+  fg__icon_set_center(icon, near);
+  icon->speed = fg__icon_mean_speed(domain->field, icon);
 }
 
 fg_status fg__rival_straight(fg_icon *icon, fg_context *context, const fg__domain *domain,
@@ -163,11 +157,9 @@ fg_status fg__rival_piece(fg_icon *icon, fg_context *context, const fg__domain *
 fg_status fg__rival_curved(fg_icon *icon, fg_context *context, const fg__domain *domain,
                            const double middle[], double length, fg__line *line)
 {
-  bool flat = domain->dimension == 2;
-  fg__line_limits limits = {.length = length / 2,
-                            .turning =
-                                (flat ? FG__LARGEST_TURNING : FG__SOLID_TURNING) / 2};
-  double head = flat ? FG__HEAD_WIDTH : FG__SOLID_HEAD_WIDTH;
+  const fg__line_limits limits = {.length = length / 2,
+                                  .turning = FG__LARGEST_TURNING / 2};
+  double head = domain->dimension == 2 ? FG__HEAD_WIDTH : FG__SOLID_HEAD_WIDTH;
   fg__extent room = fg__domain_room(domain, middle, head / 2 * FG__RIVAL_WIDTH * length);
   icon->points = NULL;
   fg_status status = fg__line_trace(line, context, domain, &room, middle, &limits);

@@ -4,12 +4,9 @@
 
 #include "icon/streamline.h"
 #include "rival/domain.h"
-#include "solid/path.h"
 
 typedef struct fg__line {
-  int dimension; /* 2: `flat` is the line, 3: `solid` */
-  fg__streamline flat;
-  fg__path solid;
+  fg__streamline traced;
   int count;       /* nodes; below 2 there is no line */
   double start;    /* arc length of the start point; 0 at the upstream end */
   bool goes_on[2]; /* upstream, downstream: the limit of length alone has ended it */

@@ -1,11 +1,11 @@
 /* The rivals in 3D. */
+#include "base/vector.h"
 #include "rival/cluster/lloyd.h"
 #include "rival/fields_test.h"
 #include "rival/lattice.h"
 #include "rival/streamline/evenly.h"
 #include "rival/streamline/farthest.h"
 #include "rival/streamline/lines_test.h"
-#include "solid/vector.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,19 +2,20 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
-#include "skeleton/border.h"
+#include "skeleton/boundary.h"
 
 fg_status fg__signed_distance_create(fg__signed_distance *out, fg_context *context,
                                      const fg__window *window, const double *distance)
 {
-  size_t nodes = (size_t)window->nodes[0] * (size_t)window->nodes[1];
+  size_t nodes = fg__window_count(window);
   *out = (fg__signed_distance){.window = window};
   out->value = fg__allocate(nodes, sizeof *out->value);
   if (!out->value)
     return fg__fail_memory(context, "a signed distance", nodes * sizeof *out->value);
-  fg__border_distance(out->value, window, false);
+  fg__boundary_distance(out->value, window, false);
   double farthest = fmax(window->spacing[0], window->spacing[1]);
   for (size_t k = 0; k < nodes; ++k) {
     if (window->level[k] > 0.0F)
@@ -31,28 +32,13 @@ void fg__signed_distance_clear(fg__signed_distance *field)
   *field = (fg__signed_distance){0};
 }
 
-double fg__signed_distance_at(const fg__signed_distance *field, const double position[2])
+double fg__signed_distance_at(const fg__signed_distance *field, const double position[])
 {
-  const fg__window *window = field->window;
-  int cell[2];
-  double share[2];
-  for (int k = 0; k < 2; ++k) {
-    double place = (position[k] - window->origin[k]) / window->spacing[k];
-    place = fmin(fmax(place, 0.0), window->nodes[k] - 1);
-    cell[k] = (int)place;
-    if (cell[k] == window->nodes[k] - 1)
-      --cell[k];
-    share[k] = place - cell[k];
-  }
-  const double *low = field->value + cell[1] * window->nodes[0] + cell[0];
-  const double *high = low + window->nodes[0];
-  double bottom = (1.0 - share[0]) * low[0] + share[0] * low[1];
-  double top = (1.0 - share[0]) * high[0] + share[0] * high[1];
-  return (1.0 - share[1]) * bottom + share[1] * top;
+  return fg__window_value(field->window, field->value, position);
 }
 
 bool fg__signed_distance_to_domain(const fg__signed_distance *field,
-                                   const double position[2])
+                                   const double position[])
 {
   const fg__window *window = field->window;
   double near = fg__signed_distance_at(field, position) +
@@ -61,7 +47,7 @@ bool fg__signed_distance_to_domain(const fg__signed_distance *field,
     int axis = side / 2;
     int node = side % 2 == 0 ? 0 : window->nodes[axis] - 1;
     double edge = window->origin[axis] + node * window->spacing[axis];
-    if (window->at_border[side] && fabs(position[axis] - edge) <= near)
+    if (window->at_boundary[side] && fabs(position[axis] - edge) <= near)
       return true;
   }
   return false;
@@ -97,7 +83,7 @@ static double value_off(const fg__signed_distance *field, const double point[2],
 
 /* How far along the normal the ridge lies. On the two sides of a ridge the distance falls
  * with slope one, so half the difference of two values off the ridge is the way there.
- * Where the line runs straight towards a border or away from it, as in a disc and at
+ * Where the line runs straight towards a boundary or away from it, as in a disc and at
  * blunt ends, that difference says nothing about a ridge and follows the line's own tilt:
  * the square of the slope along the line, 1 there and 0 on a level ridge, takes the way
  * back. */
@@ -114,7 +100,7 @@ static double way_to_ridge(const fg__signed_distance *field, const double point[
 }
 
 /* Moves point k to the ridge, at most by half the points' spacing, so that they keep
- * their order. Values are taken half way to the border, and half a cell off at least,
+ * their order. Values are taken half way to the boundary, and half a cell off at least,
  * where they are not those of the ridge's own blunt top. */
 static void center_point(const fg__polyline *line, const fg__signed_distance *field,
                          int k, double spacing, double moved[2])
@@ -137,7 +123,7 @@ static double kept_in_window(const fg__window *window, int axis, double coordina
   return fmin(fmax(coordinate, window->origin[axis]), last);
 }
 
-static void smooth(fg__polyline *line, double (*moved)[2])
+static void smooth(fg__polyline *line, double (*moved)[3])
 {
   int last = line->count - 1;
   for (int k = 0; k <= last; ++k) {
@@ -157,15 +143,14 @@ fg_status fg__polyline_center(fg__polyline *line, fg_context *context,
 {
   if (line->count < 2)
     return FG_STATUS_OK;
-  double(*moved)[2] = fg__allocate((size_t)line->count, sizeof *moved);
+  double(*moved)[3] = fg__allocate((size_t)line->count, sizeof *moved);
   if (!moved)
     return fg__fail_memory(context, "a spine", (size_t)line->count * sizeof *moved);
   int segments = line->closed ? line->count : line->count - 1;
   double spacing = fg__polyline_length(line) / segments;
   for (int round = 0; round < rounds; ++round) {
     for (int k = 0; k < line->count; ++k) {
-      moved[k][0] = line->point[k][0];
-      moved[k][1] = line->point[k][1];
+      memcpy(moved[k], line->point[k], sizeof *moved);
       if (k >= held[0] && k < line->count - held[1])
         center_point(line, field, k, spacing, moved[k]);
       for (int axis = 0; axis < 2; ++axis)

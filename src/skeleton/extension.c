@@ -26,7 +26,7 @@ static double length_inside(const fg__window *window, const double from[2],
   bool beyond = false;
   while (!beyond || outside - inside > 4e-3 * step) {
     double length = beyond ? 0.5 * (inside + outside) : outside;
-    const double point[2] = {from[0] + length * direction[0],
+    const double point[3] = {from[0] + length * direction[0],
                              from[1] + length * direction[1]};
     if (is_inside(window, point)) {
       inside = length;
@@ -107,7 +107,7 @@ static void flood(beyond *region)
       int low_y = next_y < y ? next_y : y;
       if (low_x < 0 || low_y < 0 || next_x >= window->nodes[0] ||
           next_y >= window->nodes[1] ||
-          !fg__window_edge_active(window, low_x, low_y, axis))
+          !fg__window_edge_active(window, (const int[3]){low_x, low_y, 0}, axis))
         continue;
       add_node(region, next_x, next_y);
     }
@@ -145,7 +145,7 @@ static fg_status aim(double direction[2], const fg__polyline *line, fg_context *
                      const fg__signed_distance *field, double base)
 {
   const fg__window *window = field->window;
-  size_t nodes = (size_t)window->nodes[0] * (size_t)window->nodes[1];
+  size_t nodes = fg__window_count(window);
   const double *end = line->point[line->count - 1];
   beyond region = {.window = window,
                    .end = end,
@@ -172,18 +172,18 @@ cleanup:
   return status;
 }
 
-/* Adds points a cell apart on the ray from the last point to the border. */
+/* Adds points a cell apart on the ray from the last point to the boundary. */
 static bool add_ray(fg__polyline *line, const fg__window *window,
                     const double direction[2])
 {
-  const double from[2] = {line->point[line->count - 1][0],
+  const double from[3] = {line->point[line->count - 1][0],
                           line->point[line->count - 1][1]};
   double length = length_inside(window, from, direction);
   double h = fmax(window->spacing[0], window->spacing[1]);
   int pieces = (int)fmin(ceil(length / h), 1e6);
   for (int k = 1; k <= pieces; ++k) {
     double at = length * k / pieces;
-    const double point[2] = {from[0] + at * direction[0], from[1] + at * direction[1]};
+    const double point[3] = {from[0] + at * direction[0], from[1] + at * direction[1]};
     if (!fg__polyline_add(line, point))
       return false;
   }
@@ -234,7 +234,7 @@ fg_status fg__polyline_extend(fg__polyline *line, fg_context *context,
   return status;
 }
 
-/* Direction in which the nodes of the cluster lie spread widest. */
+/* Direction in which the nodes of the cluster lie farthest apart. */
 static void principal_axis(const fg__window *window, double direction[2])
 {
   double count = 0.0;
@@ -256,7 +256,7 @@ static void principal_axis(const fg__window *window, double direction[2])
   double xx = moment[0] - mean[0] * mean[0] / count;
   double xy = moment[1] - mean[0] * mean[1] / count;
   double yy = moment[2] - mean[1] * mean[1] / count;
-  /* the grid alone spreads the nodes of a disc of ten cells by half a per cent */
+  /* the grid alone draws a disc of ten cells out by half a per cent */
   bool is_round = hypot(2.0 * xy, xx - yy) <= 0.01 * (xx + yy);
   double angle = is_round ? 0.0 : 0.5 * atan2(2.0 * xy, xx - yy);
   direction[0] = cos(angle);
@@ -268,7 +268,7 @@ bool fg__polyline_make_chord(fg__polyline *line, const fg__window *window,
 {
   double direction[2];
   principal_axis(window, direction);
-  const double from[2] = {middle[0], middle[1]};
+  const double from[3] = {middle[0], middle[1], 0.0};
   line->count = 0;
   for (int side = 0; side < 2; ++side) {
     fg__polyline_reverse(line);

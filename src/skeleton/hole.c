@@ -57,7 +57,7 @@ static void fill_rest(complement *rest, const fg__graph *graph)
 }
 
 /* Marks all that hangs together with a place; returns how much that is. */
-static int flood(complement *rest, int start)
+static int flood(complement *rest, const fg__graph *graph, int start)
 {
   int tail = 0;
   rest->open[start] = 2;
@@ -66,8 +66,8 @@ static int flood(complement *rest, int start)
     int x = rest->queue[head] % rest->width;
     int y = rest->queue[head] / rest->width;
     for (int k = 0; k < 4; ++k) {
-      int next_x = x + fg__graph_step[k][0];
-      int next_y = y + fg__graph_step[k][1];
+      int next_x = x + graph->step[k][0];
+      int next_y = y + graph->step[k][1];
       if (next_x < 0 || next_y < 0 || next_x >= rest->width || next_y >= rest->height)
         continue;
       int next = next_y * rest->width + next_x;
@@ -108,12 +108,12 @@ fg_status fg__hole_find(int cell[2], fg_context *context, const fg__graph *graph
     goto cleanup;
   }
   fill_rest(&rest, graph);
-  flood(&rest, 0);
+  flood(&rest, graph, 0);
   int largest = 0;
   for (int k = 0; k < (int)places; ++k) {
     if (rest.open[k] != 1)
       continue;
-    int size = flood(&rest, k);
+    int size = flood(&rest, graph, k);
     if (size > largest) {
       largest = size;
       rightmost_cell(&rest, size, cell);

@@ -1,4 +1,4 @@
-/* The holes of a cluster. */
+/* The holes of a cluster in 2D. */
 #ifndef FG__HOLE_H
 #define FG__HOLE_H
 

@@ -17,7 +17,7 @@ typedef struct marched_window {
   double *distance;
 } marched_window;
 
-static marched_window march(shape *level, int nodes_x, int nodes_y, bool border_counts)
+static marched_window march(shape *level, int nodes_x, int nodes_y, bool boundary_counts)
 {
   float *u = malloc((size_t)(nodes_x * nodes_y) * sizeof *u);
   double h_x = 1.5 / (nodes_x - 1);
@@ -36,7 +36,7 @@ static marched_window march(shape *level, int nodes_x, int nodes_y, bool border_
                    FG_STATUS_OK);
   size_t nodes = (size_t)(result.window.nodes[0] * result.window.nodes[1]);
   result.distance = malloc(nodes * sizeof *result.distance);
-  assert_int_equal(fg__march(result.distance, NULL, &result.window, border_counts),
+  assert_int_equal(fg__march(result.distance, NULL, &result.window, boundary_counts),
                    FG_STATUS_OK);
   fg__labels_clear(&labels);
   free(u);
@@ -77,7 +77,7 @@ static void errors(const marched_window *marched, shape *exact, double *largest,
 }
 
 /* Errors at h = 1/40 and h = 1/160 (twice that along x when `stretched`). */
-static void assert_order(shape *exact, bool border_counts, bool stretched,
+static void assert_order(shape *exact, bool boundary_counts, bool stretched,
                          double mean_order, double largest_in_cells)
 {
   double largest[2];
@@ -85,7 +85,7 @@ static void assert_order(shape *exact, bool border_counts, bool stretched,
   for (int k = 0; k < 2; ++k) {
     int cells = k == 0 ? 40 : 160;
     marched_window marched = march(exact, (stretched ? cells * 3 / 4 : cells * 3 / 2) + 1,
-                                   cells + 1, border_counts);
+                                   cells + 1, boundary_counts);
     errors(&marched, exact, &largest[k], &mean[k]);
     assert_true(largest[k] < largest_in_cells / cells);
     clear(&marched);
@@ -137,8 +137,8 @@ static void test_unequal_spacing(void **state)
   assert_order(ring, false, true, 1.5, 1.0);
 }
 
-/* On the long axis of an ellipse with half axes a > b the nearest point of the border is
- * at b sqrt(1 - x^2/(a^2 - b^2)), up to x = (a^2 - b^2)/a. */
+/* On the long axis of an ellipse with half axes a > b the nearest point of the boundary
+ * is at b sqrt(1 - x^2/(a^2 - b^2)), up to x = (a^2 - b^2)/a. */
 static double ellipse(double x, double y)
 {
   double along = 0.96 * (x - 0.75) + 0.28 * (y - 0.5);
@@ -169,18 +169,18 @@ static void test_turned_ellipse(void **state)
   clear(&marched);
 }
 
-/* A half disc at the domain's lower border, centre on it. */
+/* A half disc at the domain's lower boundary, centre on it. */
 static double half_disc(double x, double y)
 {
   return 0.4 - hypot(x - 0.7, y);
 }
 
-static double half_disc_with_border(double x, double y)
+static double half_disc_with_boundary(double x, double y)
 {
   return fmin(y, 0.4 - hypot(x - 0.7, y));
 }
 
-static void test_domain_border(void **state)
+static void test_domain_boundary(void **state)
 {
   (void)state;
   double largest;
@@ -190,7 +190,7 @@ static void test_domain_border(void **state)
   assert_true(largest < 0.3 / 80); /* at the middle, where the front collapses */
   clear(&marched);
   marched = march(half_disc, 121, 81, true);
-  errors(&marched, half_disc_with_border, &largest, &mean);
+  errors(&marched, half_disc_with_boundary, &largest, &mean);
   assert_true(largest < 0.4 / 80);
   clear(&marched);
 }
@@ -209,8 +209,8 @@ static void test_cluster_that_is_the_domain(void **state)
   clear(&marched);
 }
 
-/* A masked cell in the middle of a wide cluster is a border of its own, the square of its
- * four edges. */
+/* A masked cell in the middle of a wide cluster is a boundary of its own, the square of
+ * its four edges. */
 static void test_mask(void **state)
 {
   (void)state;
@@ -292,7 +292,7 @@ int main(void)
       cmocka_unit_test(test_turned_rectangle),
       cmocka_unit_test(test_unequal_spacing),
       cmocka_unit_test(test_turned_ellipse),
-      cmocka_unit_test(test_domain_border),
+      cmocka_unit_test(test_domain_boundary),
       cmocka_unit_test(test_cluster_that_is_the_domain),
       cmocka_unit_test(test_mask),
       cmocka_unit_test(test_turns_with_the_shape),

@@ -3,30 +3,26 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 
-bool fg__polyline_add(fg__polyline *line, const double point[2])
+bool fg__polyline_add(fg__polyline *line, const double point[3])
 {
   if (line->count == INT_MAX || !fg__grow((void **)&line->point, &line->capacity,
                                           (size_t)line->count + 1, sizeof *line->point))
     return false;
-  line->point[line->count][0] = point[0];
-  line->point[line->count][1] = point[1];
-  ++line->count;
+  memcpy(line->point[line->count++], point, sizeof *line->point);
   return true;
 }
 
 void fg__polyline_reverse(fg__polyline *line)
 {
   for (int k = 0; k < line->count / 2; ++k) {
-    double *a = line->point[k];
-    double *b = line->point[line->count - 1 - k];
-    for (int axis = 0; axis < 2; ++axis) {
-      double kept = a[axis];
-      a[axis] = b[axis];
-      b[axis] = kept;
-    }
+    double *a = line->point[k], *b = line->point[line->count - 1 - k], kept[3];
+    memcpy(kept, a, sizeof kept);
+    memcpy(a, b, sizeof kept);
+    memcpy(b, kept, sizeof kept);
   }
 }
 
@@ -39,7 +35,7 @@ static double segment_length(const fg__polyline *line, int segment)
 {
   const double *a = line->point[segment];
   const double *b = line->point[(segment + 1) % line->count];
-  return hypot(b[0] - a[0], b[1] - a[1]);
+  return hypot(hypot(b[0] - a[0], b[1] - a[1]), b[2] - a[2]);
 }
 
 double fg__polyline_length(const fg__polyline *line)
@@ -70,7 +66,8 @@ bool fg__polyline_resample(fg__polyline *line, double step)
     double share = here > 0.0 ? fmin((at - before) / here, 1.0) : 0.0;
     const double *a = line->point[segment];
     const double *b = line->point[(segment + 1) % line->count];
-    const double point[2] = {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+    const double point[3] = {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]),
+                             a[2] + share * (b[2] - a[2])};
     if (!fg__polyline_add(&even, point)) {
       fg__polyline_clear(&even);
       return false;

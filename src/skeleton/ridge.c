@@ -60,7 +60,7 @@ static fg_status find_open_path(fg__ridge *ridge, fg_context *context, fg__graph
 }
 
 /* Among the edges that the ray crosses before it leaves the cluster again, a node of the
- * one farthest from the border: every way round the hole comes by there. */
+ * one farthest from the boundary: every way round the hole comes by there. */
 static int first_on_ray(const fg__graph *graph, const double *distance)
 {
   int width = graph->window->nodes[0];
@@ -144,7 +144,7 @@ fg_status fg__ridge_create(fg__ridge *out, fg_context *context, const fg__window
                       "ridge: the window of cluster %d is empty", window->cluster);
   if (!status)
     status = find_open_path(out, context, &graph, middle, &length);
-  if (!status && fg__graph_holes(&graph) > 0)
+  if (!status && window->dimension == 2 && fg__graph_holes(&graph) > 0)
     status = find_closed_path(out, context, &graph, distance, length);
   if (status)
     fg__ridge_clear(out);

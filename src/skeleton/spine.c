@@ -2,25 +2,31 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/context.h"
 #include "base/memory.h"
+#include "base/vector.h"
 #include "skeleton/centering.h"
 #include "skeleton/extension.h"
 #include "skeleton/ridge.h"
 
 /* The ridge forks at a blunt end and runs into the corners. What the disc of `reach`
- * times the distance to the border covers belongs to such an end: sqrt(2) for a right
- * angle. A stripe that the domain's border cuts ends in a sharper corner, so there it is
- * the angle of 47 degrees that just counts as an end. */
+ * times the distance to the boundary covers belongs to such an end: sqrt(2) for a right
+ * angle. A stripe that the domain's boundary cuts ends in a sharper corner, so there it
+ * is the angle of 47 degrees that just counts as an end. */
 static const double reach = 1.5;
-static const double reach_at_border = 2.5;
+static const double reach_at_boundary = 2.5;
 
 /* A line is centred with points half the cluster's half-width apart first, because where
  * the ridge is blunt a path of nodes bends by the directions of the grid, over many
  * cells; then cell by cell. Each round halves what is left of an error of the points' own
  * spacing. */
 enum { ROUNDS = 8 };
+
+/* Rounds in 3D, where no line is centred: a staircase of unit steps then stays within a
+ * third of a step of a straight line. */
+enum { SMOOTHINGS = 6 };
 
 static double cell_size(const fg__window *window)
 {
@@ -37,9 +43,8 @@ static bool copy_ridge(fg__polyline *line, const fg__window *window,
 {
   line->closed = ridge->closed;
   for (int k = 0; k < ridge->count; ++k) {
-    const double point[2] = {
-        window->origin[0] + ridge->node[k] % window->nodes[0] * window->spacing[0],
-        window->origin[1] + ridge->node[k] / window->nodes[0] * window->spacing[1]};
+    double point[3];
+    fg__window_position(window, (size_t)ridge->node[k], point);
     if (!fg__polyline_add(line, point))
       return false;
   }
@@ -47,7 +52,7 @@ static bool copy_ridge(fg__polyline *line, const fg__window *window,
 }
 
 /* The last point whose disc reaches the line's first point along the line, and half its
- * distance to the border further, since a path turns into a corner before the fork. */
+ * distance to the boundary further, since a path turns into a corner before the fork. */
 static int covered_end(const fg__polyline *line, const fg__signed_distance *field)
 {
   int end = 0;
@@ -55,7 +60,7 @@ static int covered_end(const fg__polyline *line, const fg__signed_distance *fiel
   for (int k = 1; k < line->count; ++k) {
     length += between(line->point[k - 1], line->point[k]);
     double factor =
-        fg__signed_distance_to_domain(field, line->point[k]) ? reach_at_border : reach;
+        fg__signed_distance_to_domain(field, line->point[k]) ? reach_at_boundary : reach;
     if (length <= factor * (fg__signed_distance_at(field, line->point[k]) +
                             0.5 * cell_size(field->window)))
       end = k;
@@ -71,10 +76,8 @@ static int covered_end(const fg__polyline *line, const fg__signed_distance *fiel
 /* Keeps the points first ... last. */
 static void cut(fg__polyline *line, int first, int last)
 {
-  for (int k = first; k <= last; ++k) {
-    line->point[k - first][0] = line->point[k][0];
-    line->point[k - first][1] = line->point[k][1];
-  }
+  memmove(line->point, line->point + first,
+          (size_t)(last - first + 1) * sizeof *line->point);
   line->count = last - first + 1;
 }
 
@@ -111,8 +114,7 @@ static const double nothing_held[2] = {0.0, 0.0};
  * shorter than a quarter of the cluster's width when there is no ridge to speak of: then
  * false.
  */
-static bool cut_to_core(fg__polyline *line, const fg__signed_distance *field,
-                        double radius)
+static bool cut_ends(fg__polyline *line, const fg__signed_distance *field, double radius)
 {
   int first = covered_end(line, field);
   fg__polyline_reverse(line);
@@ -124,7 +126,7 @@ static bool cut_to_core(fg__polyline *line, const fg__signed_distance *field,
   return fg__polyline_length(line) >= fmax(0.5 * radius, cell_size(field->window));
 }
 
-/* Makes an open path of nodes into a line from border to border. */
+/* Makes an open path of nodes into a line from boundary to boundary. */
 static fg_status refine_open(fg__polyline *line, fg_context *context,
                              const fg__signed_distance *field)
 {
@@ -138,10 +140,10 @@ static fg_status refine_open(fg__polyline *line, fg_context *context,
       fg__polyline_center(line, context, field, ROUNDS, (int[2]){line->count, 0});
   if (status)
     return status;
-  bool room = true;
+  bool enough = true;
   double held[2];
-  if (!cut_to_core(line, field, radius)) {
-    room = fg__polyline_make_chord(line, field->window, middle);
+  if (!cut_ends(line, field, radius)) {
+    enough = fg__polyline_make_chord(line, field->window, middle);
   } else {
     status = center(line, context, field, fmax(0.5 * radius, step), nothing_held);
     if (!status)
@@ -153,13 +155,13 @@ static fg_status refine_open(fg__polyline *line, fg_context *context,
     if (!status)
       status = fg__polyline_extend(line, context, field, false, NULL);
   }
-  if (!status && !room)
+  if (!status && !enough)
     status = fg__fail_memory(context, "a spine", line->capacity * sizeof *line->point);
   return status;
 }
 
-static fg_status refine(fg__polyline *line, fg_context *context,
-                        const fg__signed_distance *field)
+static fg_status refine_flat(fg__polyline *line, fg_context *context,
+                             const fg__signed_distance *field)
 {
   double step = cell_size(field->window);
   fg_status status = FG_STATUS_OK;
@@ -176,8 +178,54 @@ static fg_status refine(fg__polyline *line, fg_context *context,
   return status;
 }
 
+/* Of a staircase of nodes: each point but the ends becomes the mean of its neighbours and
+ * itself, where that lies in the cluster. */
+static void smooth(fg__polyline *line, const fg__window *window)
+{
+  for (int round = 0; round < SMOOTHINGS; ++round) {
+    double before[3];
+    memcpy(before, line->point[0], sizeof before);
+    for (int n = 1; n + 1 < line->count; ++n) {
+      double mean[3];
+      for (int k = 0; k < 3; ++k)
+        mean[k] = (before[k] + line->point[n][k] + line->point[n + 1][k]) / 3.0;
+      memcpy(before, line->point[n], sizeof before);
+      if (fg__window_level(window, mean) > 0.0)
+        memcpy(line->point[n], mean, sizeof mean);
+    }
+  }
+}
+
+/* The middle by length, on the piece after point `center`. */
+static void find_middle(fg__spine *spine)
+{
+  double left = spine->length / 2.0;
+  memcpy(spine->middle, spine->point[0], sizeof spine->middle);
+  for (int n = 1; n < spine->count; ++n) {
+    const double *a = spine->point[n - 1], *b = spine->point[n];
+    double piece = fg__apart(a, b);
+    if (piece >= left && piece > 0.0) {
+      fg__between(a, left / piece, b, spine->middle);
+      spine->center = n - 1;
+      return;
+    }
+    left -= piece;
+  }
+}
+
+static void find_center(fg__spine *spine)
+{
+  spine->center = (spine->count - 1) / 2;
+  for (int k = 0; spine->closed && k < spine->count; ++k) {
+    if (spine->distance[k] > spine->distance[spine->center])
+      spine->center = k;
+  }
+  memcpy(spine->middle, spine->point[spine->center], sizeof spine->middle);
+}
+
+/* Takes the line's points. */
 static fg_status set_spine(fg__spine *spine, fg_context *context, fg__polyline *line,
-                           const fg__signed_distance *field)
+                           const fg__window *window, const double *distance)
 {
   spine->distance = fg__allocate((size_t)line->count, sizeof *spine->distance);
   if (!spine->distance)
@@ -188,13 +236,26 @@ static fg_status set_spine(fg__spine *spine, fg_context *context, fg__polyline *
   spine->point = line->point;
   *line = (fg__polyline){0};
   for (int k = 0; k < spine->count; ++k)
-    spine->distance[k] = fmax(fg__signed_distance_at(field, spine->point[k]), 0.0);
-  spine->center = (spine->count - 1) / 2;
-  for (int k = 0; spine->closed && k < spine->count; ++k) {
-    if (spine->distance[k] > spine->distance[spine->center])
-      spine->center = k;
-  }
+    spine->distance[k] = fmax(fg__window_value(window, distance, spine->point[k]), 0.0);
+  if (window->dimension == 2)
+    find_center(spine);
+  else
+    find_middle(spine);
   return FG_STATUS_OK;
+}
+
+/* In 2D from the signed distance, which is there outside the cluster as well. */
+static fg_status make_flat(fg__spine *spine, fg_context *context, fg__polyline *line,
+                           const fg__window *window, const double *distance)
+{
+  fg__signed_distance field = {0};
+  fg_status status = fg__signed_distance_create(&field, context, window, distance);
+  if (!status)
+    status = refine_flat(line, context, &field);
+  if (!status)
+    status = set_spine(spine, context, line, window, field.value);
+  fg__signed_distance_clear(&field);
+  return status;
 }
 
 fg_status fg__spine_create(fg__spine *out, fg_context *context, const fg__window *window,
@@ -203,11 +264,7 @@ fg_status fg__spine_create(fg__spine *out, fg_context *context, const fg__window
   *out = (fg__spine){0};
   fg__ridge ridge = {0};
   fg__polyline line = {0};
-  fg__signed_distance field = {0};
   fg_status status = fg__ridge_create(&ridge, context, window, distance);
-  if (status)
-    goto cleanup;
-  status = fg__signed_distance_create(&field, context, window, distance);
   if (status)
     goto cleanup;
   if (!copy_ridge(&line, window, &ridge)) {
@@ -215,14 +272,16 @@ fg_status fg__spine_create(fg__spine *out, fg_context *context, const fg__window
         fg__fail_memory(context, "a spine", (size_t)ridge.count * sizeof *line.point);
     goto cleanup;
   }
-  status = refine(&line, context, &field);
-  if (!status)
-    status = set_spine(out, context, &line, &field);
+  if (window->dimension == 2) {
+    status = make_flat(out, context, &line, window, distance);
+  } else {
+    smooth(&line, window);
+    status = set_spine(out, context, &line, window, distance);
+  }
 
 cleanup:
   fg__ridge_clear(&ridge);
   fg__polyline_clear(&line);
-  fg__signed_distance_clear(&field);
   return status;
 }
 

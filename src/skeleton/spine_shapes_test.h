@@ -110,7 +110,7 @@ static inline void assert_sound(const made *made_spine)
     if (!end)
       assert_true(level > -0.5);
     else if (spine->count > 2)
-      assert_true(spine->distance[k] < H); /* it goes on to the border */
+      assert_true(spine->distance[k] < H); /* it goes on to the boundary */
   }
   if (!spine->closed)
     assert_in_range(2 * spine->center, spine->count - 2, spine->count);

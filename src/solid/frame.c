@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "solid/vector.h"
+#include "base/vector.h"
 
 /* Second order at points that are unevenly apart: the parabola through three of them. */
 static void find_tangent(const double (*point)[3], int count, int n, double tangent[3])

@@ -1,6 +1,6 @@
 #include "base/context_test.h"
+#include "base/vector.h"
 #include "solid/frame.h"
-#include "solid/vector.h"
 
 enum { LARGEST = 241 };
 static const double RADIUS = 1.7, PITCH = 0.6; /* of height a radian */

@@ -6,8 +6,8 @@
 
 #include "base/context.h"
 #include "base/memory.h"
+#include "base/vector.h"
 #include "cluster/raster.h"
-#include "solid/vector.h"
 
 /* Edges begin at a node and go to one of the seven others of the cell above it: bit k of
  * an edge's number is its step along axis k. */
@@ -46,7 +46,7 @@ static bool cell_active(const skin *s, const int at[3])
   return !s->density->active || s->density->active[cell];
 }
 
-/* Central differences, one-sided at a border. */
+/* Central differences, one-sided at a boundary. */
 static void gradient_at(const skin *s, const int at[3], double out[3])
 {
   for (int k = 0; k < 3; ++k) {

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 enum { W = 36, H = 30, D = 24, NODES = W * H * D };
 
@@ -22,7 +22,7 @@ static double ring(double x, double y, double z)
 }
 
 /* A shape round the middle of the grid, `shift` nodes further along x and round. */
-static fg_surface *surface_of(depth_of depth, int shift, bool speck)
+static fg_surface *surface_of(depth_of depth, int shift, bool debris)
 {
   static float u[NODES];
   for (int n = 0; n < NODES; ++n) {
@@ -31,7 +31,7 @@ static fg_surface *surface_of(depth_of depth, int shift, bool speck)
     double z = (n / W / H - 0.48 * D) * SPACING[2];
     u[n] = (float)fmax(fmin(3 * depth(x, y, z), 1.0), -1.0);
   }
-  if (speck)
+  if (debris)
     u[(3 * H + 3) * W + 3] = 0.5F;
   fg_density_arrays arrays = {.dimension = 3,
                               .nodes = {W, H, D},
@@ -89,7 +89,7 @@ static double volume_of(const fg_surface *s)
 static void a_ball_is_a_closed_surface(void **state)
 {
   (void)state;
-  fg_surface *s = surface_of(ball, 0, true); /* a speck is no cluster */
+  fg_surface *s = surface_of(ball, 0, true); /* debris is no cluster */
   assert_int_equal(characteristic(s), 2);
   double full = 4.0 / 3.0 * 3.141592653589793 * 1.1 * 1.1 * 1.1;
   assert_true(fabs(volume_of(s) / full - 1.0) < 0.01);

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "solid/frame.h"
-#include "solid/vector.h"
 
 /* Corners of a cross-section: with smooth normals no edge shows in a picture where the
  * head is 100 pixels thick. */
@@ -246,7 +246,7 @@ static bool is_drawable(const fg_icon *icon)
          icon->head_width > icon->width && length_of(icon) > 0;
 }
 
-/* With room for so much, all counts 0. */
+/* With memory for so much, all counts 0. */
 static fg_status create(fg_surface **out, fg_context *context, size_t vertices,
                         size_t corners, size_t triangles)
 {

@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "base/context_test.h"
+#include "base/vector.h"
 #include "solid/tube.h"
-#include "solid/vector.h"
 
 static const double PI = 3.141592653589793;
 

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/mix.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 /* Shares of the light, chosen by eye so that a lit face has the colour of the key. */
 static const double lamp_share = 0.62, sky_share = 0.42, viewer_share = 0.14;

@@ -6,9 +6,9 @@
 
 #include "base/memory.h"
 #include "base/team.h"
+#include "base/vector.h"
 #include "picture/render/light.h"
 #include "picture/render/target.h"
-#include "solid/vector.h"
 
 /* Rays through a pixel where the picture is uneven, in rows and columns: edges have 16
  * shades between. Elsewhere one through the middle will do. */

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "base/context_test.h"
+#include "base/vector.h"
 #include "icon/icons.h"
 #include "picture/render/render.h"
-#include "solid/vector.h"
 
 enum { WIDTH = 150, HEIGHT = 120 };
 

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "picture/arrow_speeds.h"
 #include "solid/tube.h"
-#include "solid/vector.h"
 
 /* Numbers of a vertex besides its place: the normal, and the share of the colours. */
 enum { NORMAL, SHARE, ATTRIBUTES };

@@ -1,9 +1,9 @@
 #include "rival/streamline/evenly.h"
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "icon/icons.h"
 #include "rival/method.h"
-#include "solid/vector.h"
 
 #include <math.h>
 #include <stdlib.h>

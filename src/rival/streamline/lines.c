@@ -63,7 +63,7 @@ static fg_status find_points(fg__placing *placing)
   const fg__line *line = &placing->line;
   fg__lines_points *points = &placing->points;
   points->step = placing->lines->separation *
-                 (line->dimension == 2 ? POINT_SPACING : POINT_SPACING_IN_SPACE);
+                 (line->traced.dimension == 2 ? POINT_SPACING : POINT_SPACING_IN_SPACE);
   points->seed = (int)floor(line->start / points->step);
   double length = fg__line_length(line);
   points->count = points->seed + 1 + (int)floor((length - line->start) / points->step);

@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "solid/make.h"
-#include "solid/vector.h"
+#include "base/vector.h"
+#include "icon/make.h"
 
 /* Fields and clusters by formula on [-1, 1]^3, turned about an axis by quarters. */
 typedef struct turn {
@@ -72,12 +72,13 @@ static fg_field *field_of(const turn *t)
   return field;
 }
 
-static void volume_of(fg__volume *out, const turn *t)
+static void window_of(fg__window *out, const turn *t)
 {
   static float level[NODES * NODES * NODES];
   static unsigned char active[NODES * NODES * NODES];
   double spacing = 2.0 / (NODES - 1);
-  *out = (fg__volume){.cluster = 3,
+  *out = (fg__window){.cluster = 3,
+                      .dimension = 3,
                       .nodes = {NODES, NODES, NODES},
                       .origin = {-1.0, -1.0, -1.0},
                       .spacing = {spacing, spacing, spacing},
@@ -96,17 +97,16 @@ static void volume_of(fg__volume *out, const turn *t)
 
 static fg_icon make(const turn *t, fg_surface **solid)
 {
-  fg__solid_maker maker = {0};
-  fg__volume volume;
+  fg__chooser chooser = {0};
+  fg__window window;
   fg_icon icon;
   fg_field *field = field_of(t);
-  volume_of(&volume, t);
-  assert_int_equal(fg__solid_icon_make(&icon, NULL, &maker, field, &volume),
-                   FG_STATUS_OK);
+  window_of(&window, t);
+  assert_int_equal(fg__icon_make(&icon, NULL, &chooser, field, &window), FG_STATUS_OK);
   assert_true(icon.point_count > 8);
   assert_int_equal(fg_icon_solid(solid, NULL, &icon), FG_STATUS_OK);
   fg_field_destroy(field);
-  fg__solid_maker_clear(&maker);
+  fg__chooser_clear(&chooser);
   return icon;
 }
 
@@ -124,10 +124,10 @@ static void an_arrow_lies_in_its_cluster_along_the_flow(void **state)
   const turn none = {0, 0};
   fg_surface *solid;
   fg_icon icon = make(&none, &solid);
-  fg__volume volume;
-  volume_of(&volume, &none);
+  fg__window window;
+  window_of(&window, &none);
   for (int n = 0; n < solid->vertex_count; ++n)
-    assert_true(fg__volume_level(&volume, solid->vertex[n]) > 0.0);
+    assert_true(fg__window_level(&window, solid->vertex[n]) > 0.0);
   double length = length_of(icon.points, icon.point_count), angle = 0.0;
   for (int n = 1; n < icon.point_count; ++n) {
     double middle[3], along[3], v[3], across[3];
@@ -156,7 +156,7 @@ static void an_arrow_lies_in_its_cluster_along_the_flow(void **state)
     nearest = fmin(nearest, fg__apart(icon.center, icon.points[n]));
   assert_true(nearest < 2.0 / (NODES - 1));
   fg_surface_destroy(solid);
-  fg__solid_icon_free(&icon);
+  fg__icon_free(&icon);
 }
 
 /* The grid's samples of the cluster are its own again after a quarter turn, but for
@@ -181,10 +181,10 @@ static void a_turned_field_has_turned_icons(void **state)
       assert_true(worst < 1e-6);
       assert_true(fabs(after.speed - before.speed) < 1e-6);
       fg_surface_destroy(other);
-      fg__solid_icon_free(&after);
+      fg__icon_free(&after);
     }
   fg_surface_destroy(first);
-  fg__solid_icon_free(&before);
+  fg__icon_free(&before);
 }
 
 int main(void)
@@ -193,5 +193,5 @@ int main(void)
       cmocka_unit_test(an_arrow_lies_in_its_cluster_along_the_flow),
       cmocka_unit_test(a_turned_field_has_turned_icons),
   };
-  return cmocka_run_group_tests_name("solid/make", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("icon/make_solid", tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-#include "skeleton/border.h"
+#include "skeleton/boundary.h"
 
 #include <math.h>
 
@@ -141,23 +141,26 @@ static bool cell_active(const fg__window *window, int x, int y)
 }
 
 /* Whether what lies on the two sides of a cell's side is domain on one and none on the
- * other: beyond the window only the domain's border makes a difference. */
+ * other: beyond the window only the domain's boundary makes a difference. */
 static bool is_end_of_domain(const fg__window *window, int x, int y, int side,
-                             bool domain_border_counts)
+                             bool domain_boundary_counts)
 {
   int beyond_x = x + (side == 0 ? -1 : side == 1 ? 1 : 0);
   int beyond_y = y + (side == 2 ? -1 : side == 3 ? 1 : 0);
   if (beyond_x < 0 || beyond_x >= window->nodes[0] - 1 || beyond_y < 0 ||
       beyond_y >= window->nodes[1] - 1)
-    return domain_border_counts && window->at_border[side];
+    return domain_boundary_counts && window->at_boundary[side];
   return !cell_active(window, beyond_x, beyond_y);
 }
 
-void fg__border_distance(double *distance, const fg__window *window,
-                         bool domain_border_counts)
+void fg__boundary_distance(double *distance, const fg__window *window,
+                           bool domain_boundary_counts)
 {
-  size_t nodes = (size_t)window->nodes[0] * (size_t)window->nodes[1];
-  for (size_t k = 0; k < nodes; ++k)
+  if (window->dimension == 3) {
+    fg__boundary_distance_solid(distance, window, domain_boundary_counts);
+    return;
+  }
+  for (size_t k = 0; k < fg__window_count(window); ++k)
     distance[k] = HUGE_VAL;
   for (int y = 0; y < window->nodes[1] - 1; ++y) {
     for (int x = 0; x < window->nodes[0] - 1; ++x) {
@@ -165,7 +168,7 @@ void fg__border_distance(double *distance, const fg__window *window,
         continue;
       add_cell(distance, window, x, y);
       for (int side = 0; side < 4; ++side) {
-        if (is_end_of_domain(window, x, y, side, domain_border_counts))
+        if (is_end_of_domain(window, x, y, side, domain_boundary_counts))
           add_edge(distance, window, x + (side == 1), y + (side == 3), side < 2);
       }
     }

@@ -1,7 +1,7 @@
-#include "solid/slender.h"
+#include "icon/slender.h"
 
 #include "base/context_test.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 enum { POINTS = 41 };
 
@@ -115,5 +115,5 @@ int main(void)
       cmocka_unit_test(plump_arrows_become_slim),
       cmocka_unit_test(what_has_no_length_has_no_width),
   };
-  return cmocka_run_group_tests_name("solid/slender", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("icon/slender", tests, NULL, NULL);
 }

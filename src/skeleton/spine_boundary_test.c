@@ -19,7 +19,8 @@ static void test_corner(void **state)
   clear(&made_spine);
 }
 
-/* Askew across the whole domain: the spine meets its borders in the middle of the cut. */
+/* Askew across the whole domain: the spine meets its boundaries in the middle of the cut.
+ */
 static double across_domain(double x, double y)
 {
   return 0.1 - fabs((y - 0.45) * 0.9 + (x - 0.5) * 0.43589);
@@ -39,8 +40,9 @@ static void test_stripe_cut_by_the_domain(void **state)
   clear(&made_spine);
 }
 
-/* Along the border: the spine runs half way between it and the cluster's own border. */
-static double along_border(double x, double y)
+/* Along the boundary: the spine runs half way between it and the cluster's own boundary.
+ */
+static double along_boundary(double x, double y)
 {
   return 0.16 - hypot(0.16 / 0.42 * (x - 0.5), y);
 }
@@ -48,7 +50,7 @@ static double along_border(double x, double y)
 static void test_cluster_along_the_domain(void **state)
 {
   (void)state;
-  made made_spine = make(along_border);
+  made made_spine = make(along_boundary);
   const fg__spine *spine = &made_spine.spine;
   const double *center = spine->point[spine->center];
   assert_near(center[0], 0.5, 1.5 * H);
@@ -88,5 +90,5 @@ int main(void)
       cmocka_unit_test(test_cluster_along_the_domain),
       cmocka_unit_test(test_cut_by_a_mask),
   };
-  return cmocka_run_group_tests_name("skeleton/spine_border", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("skeleton/spine_boundary", tests, NULL, NULL);
 }

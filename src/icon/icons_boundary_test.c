@@ -1,4 +1,4 @@
-/* Arrows of clusters across periodic borders. */
+/* Arrows of clusters across periodic boundaries. */
 #include "icon/bench_test.h"
 
 #include <string.h>
@@ -91,9 +91,9 @@ static double judge_all(const test_bench *bench, round_depth depth,
   return length;
 }
 
-/* Wherever the grain lies: where the border leaves a good part on either side each gets
- * an arrow of its own, else the larger part does, and no arrow crosses the border. */
-static void no_arrow_crosses_a_periodic_border(void **state)
+/* Wherever the grain lies: where the boundary leaves a good part on either side each gets
+ * an arrow of its own, else the larger part does, and no arrow crosses the boundary. */
+static void no_arrow_crosses_a_periodic_boundary(void **state)
 {
   (void)state;
   for (int n = 0; n < 40; n++) {
@@ -152,7 +152,7 @@ static void nor_a_corner_of_two(void **state)
   end_bench(&bench);
 }
 
-static void a_band_is_cut_at_the_border_too(void **state)
+static void a_band_is_cut_at_the_boundary_too(void **state)
 {
   (void)state;
   const double center[2] = {20, 1}; /* cut here: 17 to one side, 23 to the other */
@@ -166,10 +166,10 @@ static void a_band_is_cut_at_the_border_too(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(no_arrow_crosses_a_periodic_border),
+      cmocka_unit_test(no_arrow_crosses_a_periodic_boundary),
       cmocka_unit_test(nor_a_corner_of_two),
       cmocka_unit_test(a_part_as_large_as_other_clusters_has_an_arrow),
-      cmocka_unit_test(a_band_is_cut_at_the_border_too),
+      cmocka_unit_test(a_band_is_cut_at_the_boundary_too),
   };
-  return cmocka_run_group_tests_name("icon/icons_border", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("icon/icons_boundary", tests, NULL, NULL);
 }

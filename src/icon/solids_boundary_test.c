@@ -1,9 +1,9 @@
-/* No solid crosses a periodic border: a picture of the domain ends there. */
+/* No solid crosses a periodic boundary: a picture of the domain ends there. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/context_test.h"
-#include "solid/vector.h"
+#include "base/vector.h"
 
 enum { N = 48, M = 40, L = 36, MOST = N };
 
@@ -18,7 +18,7 @@ static double side_of(int k)
   return NODES[k] * SPACING[k];
 }
 
-/* Depth in an ellipsoid, round the periods; about right near its border. */
+/* Depth in an ellipsoid, round the periods; about right near its boundary. */
 static double depth_at(const double p[3], const double center[3])
 {
   double square = 0.0;
@@ -92,9 +92,9 @@ static double judge(const fg_icons *icons, fg_context *context, const double cen
   return volume / (4.0 / 3.0 * PI * HALF[0] * HALF[1] * HALF[2]);
 }
 
-/* Along the flow: where the border leaves a good part on either side, each has an arrow
+/* Along the flow: where the boundary leaves a good part on either side, each has an arrow
  * of its own, else the larger has. */
-static void a_grain_across_a_border_is_cut_there(void **state)
+static void a_grain_across_a_boundary_is_cut_there(void **state)
 {
   (void)state;
   fg_context *context;
@@ -135,8 +135,8 @@ static void so_is_one_at_an_edge_and_a_corner(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_grain_across_a_border_is_cut_there),
+      cmocka_unit_test(a_grain_across_a_boundary_is_cut_there),
       cmocka_unit_test(so_is_one_at_an_edge_and_a_corner),
   };
-  return cmocka_run_group_tests_name("icon/solids_border", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("icon/solids_boundary", tests, NULL, NULL);
 }

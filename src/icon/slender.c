@@ -1,6 +1,6 @@
-#include "solid/slender.h"
+#include "icon/slender.h"
 
-#include "solid/vector.h"
+#include "base/vector.h"
 
 /* The head's length: of lambda, and at most of the arrow's length. */
 static const double head_of_share = 0.2, head_of_length = 0.42;

@@ -36,6 +36,14 @@ static inline void fg__along(const double a[3], double t, const double b[3],
     out[k] = a[k] + t * b[k];
 }
 
+/* The point that is a share of the way from one to another. */
+static inline void fg__between(const double a[3], double share, const double b[3],
+                               double out[3])
+{
+  for (int k = 0; k < 3; ++k)
+    out[k] = a[k] + share * (b[k] - a[k]);
+}
+
 /* Makes a vector one long; false, and unchanged, when it has no direction. */
 static inline int fg__normalise(double a[3])
 {
