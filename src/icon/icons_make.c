@@ -82,7 +82,6 @@ static void work(void *argument, const fg__share *share)
   if (worker->status != FG_STATUS_OK)
     atomic_store(&job->halted, true);
   fg__chooser_clear(&chooser);
-  fg__solid_maker_clear(&maker);
 }
 
 /* The caller's thread is the first worker, and the only one where no threads are to be
