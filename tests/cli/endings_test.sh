@@ -13,14 +13,6 @@ in_background() {
   env --default-signal=INT "$program" "$@" >out 2>err &
   pid=$!
 }
-# until FILE: waits until it is there, or the run has ended.
-until_there() {
-  for _ in $(seq 1200); do
-    [ -e "$1" ] && return
-    kill -0 "$pid" 2>/dev/null || return
-    sleep 0.02
-  done
-}
 # ends_by SIGNAL: the background run gets it.
 ends_by() {
   kill "-$1" "$pid"
@@ -41,7 +33,7 @@ try "${early[@]}" -o whole1
 expect_code 0
 for signal in INT TERM HUP; do
   in_background "${early[@]}" -o "early-$signal" --checkpoint 0
-  until_there "early-$signal/.flowgrain/checkpoint"
+  until_there "early-$signal/.flowgrain/checkpoint" "$pid"
   ends_by "$signal"
   expect_code 130
   expect_one_complaint
@@ -59,7 +51,7 @@ wide=(run synth:vortex3 --nodes 513 --clusters 200,12 --quiet)
 try "${wide[@]}" -o whole2
 expect_code 0
 in_background "${wide[@]}" -o stopped --checkpoint 0
-until_there stopped/.flowgrain/scale-00.geojson
+until_there stopped/.flowgrain/scale-00.geojson "$pid"
 ends_by INT
 expect_code 130
 expect_one_complaint
@@ -79,11 +71,11 @@ expect_only_results stopped
 done_with "an interrupted run writes the scales it has, and goes on from there"
 
 # its first scale is drawn while most of the evolution is still to come
-long=(run synth:vortex3 --nodes 1025 --mesh uniform --clusters 300,12 --formats svg --quiet)
+long=(run synth:vortex3 --nodes 513 --mesh uniform --clusters 300,6 --formats svg --quiet)
 try "${long[@]}" -o whole3
 expect_code 0
 in_background "${long[@]}" -o never
-until_there never/.flowgrain/scale-00.geojson
+until_there never/.flowgrain/scale-00.geojson "$pid"
 ends_by TERM
 expect_code 130
 expect_file never/.flowgrain/checkpoint
@@ -96,7 +88,7 @@ placed=(run synth:vortex3 --nodes 513 --arrows 60,12 --effort 0 --formats svg --
 try "${placed[@]}" -o whole4
 expect_code 0
 in_background "${placed[@]}" -o between --checkpoint 0
-until_there between/.flowgrain/scale-00.geojson
+until_there between/.flowgrain/scale-00.geojson "$pid"
 ends_by INT
 expect_code 130
 expect_one_complaint
@@ -110,7 +102,7 @@ done_with "an interrupted run of placed arrows says which are missing, and goes 
 
 # the evolution is short, the placing of so many is long
 in_background run synth:vortex3 --nodes 129 --arrows 400,399,398,397,396,395 --formats svg --quiet -o placing
-until_there placing/.flowgrain/scale-00.geojson
+until_there placing/.flowgrain/scale-00.geojson "$pid"
 ends_by INT
 expect_code 130
 expect_one_complaint
@@ -166,7 +158,7 @@ done
 done_with "on a disk that is full from some moment on, nothing is lost"
 
 # Address space: the least in which a tiny run works is what libraries take.
-if ldd "$program" | grep -q libasan; then
+if [ -n "$sanitized" ]; then
   echo "# limits on memory are not tried with the address sanitizer, which reserves it all"
 else
   least=50000

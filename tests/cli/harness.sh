@@ -9,6 +9,9 @@ cd "$work" || exit 1
 case_number=0
 any_failed=0
 complaint=
+# sanitizers look for misuse of memory on each way through the program: one turn will do
+sanitized=
+! ldd "$program" | grep -q libasan || sanitized=yes
 
 # try ARGUMENTS...: runs the program; sets code, out and err (files).
 try() {
@@ -108,6 +111,14 @@ need_ranks() {
   forget_launchers
   # two ranks would be bound to the first two cores, whatever else runs there
   export OMPI_MCA_hwloc_base_binding_policy=none
+}
+
+# until_there FILE PID: waits until it is there, or the process has ended; however slow the
+# machine, for ctest ends what hangs.
+until_there() {
+  until [ -e "$1" ] || ! kill -0 "$2" 2>/dev/null; do
+    sleep 0.02
+  done
 }
 
 # Once what was killed has ended.

@@ -6,7 +6,7 @@ source "$(dirname "$0")/harness.sh"
 
 # with the address sanitizer, which makes it six times slower, at every fourth only
 every=1
-ldd "$program" | grep -q libasan && every=4
+[ -z "$sanitized" ] || every=4
 
 run=(run synth:vortex3 --nodes 65 --clusters 20,8 --quiet --threads 1 --checkpoint 0)
 try "${run[@]}" -o whole

@@ -39,7 +39,7 @@ one_other() {
     [ "$rank" != "$which" ] || command+=("${wrapper[@]}")
     command+=("$program" "$@")
   done
-  timeout 60 mpirun "${command[@]}" >out 2>err
+  timeout 300 mpirun "${command[@]}" >out 2>err
   code=$?
 }
 
@@ -85,11 +85,7 @@ try "${run[@]}" -o whole2
 killed() {
   mpirun -n "$2" "$program" "${run[@]}" -o "$1" --resume >out 2>err &
   local mpirun=$! rank
-  for _ in $(seq 600); do
-    [ -e "$1/.flowgrain/checkpoint" ] && break
-    kill -0 $mpirun 2>/dev/null || break
-    sleep 0.02
-  done
+  until_there "$1/.flowgrain/checkpoint" $mpirun
   sleep "$(printf '0.%02d' $((RANDOM % 40)))"
   local ranks
   ranks=$(pgrep -P $mpirun)
@@ -101,7 +97,7 @@ killed() {
   esac 2>/dev/null
   wait_at_most 10 $mpirun
   for rank in $ranks; do # what is left of them still holds the lock
-    for _ in $(seq 600); do
+    for _ in $(seq 2400); do
       kill -0 "$rank" 2>/dev/null || break
       sleep 0.05
     done
@@ -178,7 +174,7 @@ one_other 1 3 env -C elsewhere -- "${run[@]}" -o part --resume
 refused 'part/.flowgrain/checkpoint: cannot be read: No such file'
 done_with "a rank that can not read the checkpoint"
 
-timeout 60 mpirun -n 1 "$program" "${run[@]}" -o part --resume : \
+timeout 300 mpirun -n 1 "$program" "${run[@]}" -o part --resume : \
   -n 1 "$program" "${run[@]}" -o part --resume --palette '#102030' >out 2>err
 code=$?
 refused 'was begun without --palette; this command goes with --palette #102030'
@@ -225,10 +221,7 @@ done_with "a damaged checkpoint is refused, and the previous one used"
 ends_by() {
   env --default-signal=INT,TERM mpirun -n 3 "$program" "${run[@]}" -o "$3" >out 2>err &
   local mpirun=$! target=$!
-  for _ in $(seq 600); do
-    [ -e "$3/.flowgrain/checkpoint" ] && break
-    sleep 0.02
-  done
+  until_there "$3/.flowgrain/checkpoint" $mpirun
   [ "$2" != rank ] || target=$(pgrep -P $mpirun | tail -n 1)
   kill "-$1" "$target"
   wait_at_most 60 $mpirun

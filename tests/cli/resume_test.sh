@@ -277,10 +277,7 @@ done_with "a run in 3D goes on"
 
 "$program" run synth:vortex3 -o busy --nodes 1025 --quiet --checkpoint 0 >/dev/null 2>&1 &
 pid=$!
-for _ in $(seq 600); do
-  [ -e busy/.flowgrain/checkpoint ] && break
-  sleep 0.05
-done
+until_there busy/.flowgrain/checkpoint "$pid"
 for how in --resume --force --quiet; do
   try run synth:vortex3 -o busy --nodes 1025 "$how"
   expect_code 1

@@ -75,10 +75,12 @@ for method in hedgehog grid-curved streamlines voronoi k-means farthest random; 
   xmllint --noout $method.vtp 2>fault.txt || fault "$(head -1 fault.txt)"
   expect_file $method.glb
   expect_nothing_at $method.svg
-  cp $method.geojson first.geojson
-  try rival synth:vortex3d -o $method.geojson --method $method --icons 28 --width 72 --view 10,70
-  expect_code 0
-  cmp -s $method.geojson first.geojson || fault "two runs differ"
+  if [ -z "$sanitized" ] || [ $method = hedgehog ]; then
+    cp $method.geojson first.geojson
+    try rival synth:vortex3d -o $method.geojson --method $method --icons 28 --width 72 --view 10,70
+    expect_code 0
+    cmp -s $method.geojson first.geojson || fault "two runs differ"
+  fi
   rm -f $method.* first.geojson
   done_with "rival: $method in 3D"
 done

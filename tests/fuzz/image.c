@@ -1,14 +1,17 @@
-/* Any bytes as an image: libFuzzer's target. What is read has the promised shape. */
+/* Any bytes as an image: what is read has the promised shape. */
+#include "fuzz.h"
+
 #include <assert.h>
 
 #include "read/image/image.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
+bool fg__fuzz_was_read;
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
   fg_context *context;
   fg_image *image = NULL;
+  fg__fuzz_was_read = false;
   if (fg_context_create(&context))
     return 0;
   const fg__source source = {.path = "fuzz.img", .bytes = bytes, .size = size};
@@ -24,6 +27,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     for (size_t n = 0; n < pixels && a->alpha; ++n)
       assert(a->alpha[n] >= 0.0F && a->alpha[n] <= 1.0F);
   }
+  fg__fuzz_was_read = image != NULL;
   fg_image_destroy(image);
   fg_context_destroy(context);
   return 0;

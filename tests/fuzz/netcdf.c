@@ -1,0 +1,12 @@
+/* Any bytes as a NetCDF file, classic or NetCDF-4. */
+#include "fuzz.h"
+
+#include "fields.h"
+
+bool fg__fuzz_was_read;
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+  fg__fuzz_was_read = try_format(&fg__format_netcdf, "fuzz.nc", bytes, size);
+  return 0;
+}
