@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "floor.h"
+#include "solver/multigrid_test.h"
 #include "solver/passes.h"
 
 enum { REPETITIONS = 30, CALLS = 5 };
@@ -115,7 +116,7 @@ static fg_status create_multigrid(subject *s, fg_context *context, int cells,
     fg__mesh mesh = {.dimension = dimension,
                      .cells = {cells, cells, dimension == 3 ? cells : 1},
                      .spacing = {h, h, h}};
-    status = fg__multigrid_create(&s->multigrid, context, &mesh, &tensor, gamma, NULL);
+    status = multigrid_of_tensor(&s->multigrid, context, &mesh, &tensor, gamma, NULL);
   }
   for (int n = 0; n < 6; ++n)
     free(*components[n]);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "solver/multigrid_test.h"
 
 const char *const scheme_names[SCHEMES] = {"Euler", "BDF2", "θ"};
 static const int wanted_clusters[MOMENTS] = {150, 40, 12};
@@ -69,7 +70,7 @@ void domain_create(domain *d, fg_field *field)
     check((*components[k] = fg__allocate(count, sizeof(float))) != NULL, "memory");
   check((d->tensor.active = fg__allocate(count, 1)) != NULL, "memory");
   check(!fg__tensor_fill_box(&d->tensor, NULL, field, &fg__law_flow, anisotropy, &cells,
-                             d->mesh.periodic, sqrt(d->gamma)),
+                             d->mesh.periodic, sqrt(d->gamma), NULL),
         "the tensor");
 }
 
@@ -84,8 +85,8 @@ void domain_clear(domain *d)
 
 void create_multigrid(fg__multigrid *out, const domain *d, double alpha)
 {
-  check(!fg__multigrid_create(out, NULL, &d->mesh, &d->tensor, (1.0 - alpha) * d->gamma,
-                              NULL),
+  check(!multigrid_of_tensor(out, NULL, &d->mesh, &d->tensor, (1.0 - alpha) * d->gamma,
+                             NULL),
         "a multigrid");
 }
 

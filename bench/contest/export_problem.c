@@ -42,7 +42,7 @@ static fg_status take_tensor(problem *p, fg_context *context, const fg_field *fi
     }
     status = fg__tensor_fill_box(&tensor, context, field, &fg__law_flow, mesh->anisotropy,
                                  &cells, (const bool[3]){false},
-                                 sqrt(mesh->gamma) * mesh->length);
+                                 sqrt(mesh->gamma) * mesh->length, NULL);
     for (size_t n = 0; n < entries * count; ++n)
       p->tensor[n] = entry[n % entries][n / entries];
   }

@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "problem.h"
+#include "solver/multigrid_test.h"
 #include "solver/passes.h"
 
 enum { MOST_CYCLES = 500 };
@@ -38,7 +39,7 @@ static fg_status create(fg__multigrid *out, fg_context *context, const problem *
       mesh.cells[k] = p->cells[k];
       mesh.spacing[k] = p->spacing[k];
     }
-    status = fg__multigrid_create(out, context, &mesh, &tensor, p->gamma, NULL);
+    status = multigrid_of_tensor(out, context, &mesh, &tensor, p->gamma, NULL);
   }
   free(memory);
   free(active);

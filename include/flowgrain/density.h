@@ -27,7 +27,7 @@ typedef struct fg_density_arrays {
   int clusters;
 } fg_density_arrays;
 
-/* Takes a snapshot. Where several ranks evolve, each gets its share: `u` and `active` of
+/* Takes a snapshot. Where several ranks evolve, each gets its block: `u` and `active` of
  * its contents are NULL, and what takes a shared density is collective. MEMORY. */
 FG_API fg_status fg_density_create(fg_density **out, const fg_evolution *evolution);
 

@@ -152,8 +152,7 @@ fg_status fg__layer_density(fg_density **out, fg_context *context,
                                     .cycles = CYCLES,
                                     .seed = plan->seed,
                                     .threads = plan->threads};
-    status =
-        fg__evolution_create(&evolution, context, fg__ranks_alone(), field, &options);
+    status = fg__evolution_create(&evolution, context, &fg__single_rank, field, &options);
   }
   if (!status)
     status = evolve(out, evolution, plan->clusters);

@@ -29,7 +29,7 @@ fg_status fg__layer_density(fg_density **out, fg_context *context,
 /* The lines of a density's clusters, in their order, on several threads. *lines is to be
  * freed. MEMORY, STOPPED. */
 fg_status fg__layer_lines(fg__brush_line **lines, int *count, fg_context *context,
-                          const fg_density_arrays *density, const fg__brush_canvas *image,
+                          const fg_density *density, const fg__brush_canvas *image,
                           const fg__line_rule *rule, int threads);
 
 #endif

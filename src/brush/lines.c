@@ -64,7 +64,7 @@ static fg_status find_lines(search *s, fg__team *team)
 }
 
 fg_status fg__layer_lines(fg__brush_line **lines, int *count, fg_context *context,
-                          const fg_density_arrays *density, const fg__brush_canvas *image,
+                          const fg_density *density, const fg__brush_canvas *image,
                           const fg__line_rule *rule, int threads)
 {
   fg__labels labels;
@@ -81,7 +81,7 @@ fg_status fg__layer_lines(fg__brush_line **lines, int *count, fg_context *contex
   else
     status = fg__team_create(&team, context, threads);
   if (!status) {
-    *s = (search){.density = density,
+    *s = (search){.density = fg_density_contents(density),
                   .labels = &labels,
                   .image = image,
                   .rule = rule,

@@ -173,8 +173,8 @@ static fg_status paint_pass(work *w, const fg__structure *structure,
   fg__brush_line *lines = NULL;
   fg_status status = fg__layer_density(&density, w->context, w->image, structure, plan);
   if (!status)
-    status = fg__layer_lines(&lines, &count, w->context, fg_density_contents(density),
-                             &w->original, &rule, plan->threads);
+    status = fg__layer_lines(&lines, &count, w->context, density, &w->original, &rule,
+                             plan->threads);
   if (!status)
     status = paint_lines(w, lines, count, layer);
   free(lines);

@@ -1,7 +1,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "cluster/shared.h"
+#include "cluster/patches.h"
 
 enum { KINDS = 3 };
 
@@ -28,21 +28,22 @@ static bool allocate(fg__patch *patch, void *array[KINDS], const fg__region *nod
   int *label = fg__allocate(count, sizeof *label);
   unsigned char *active =
       masked ? fg__allocate((size_t)fg__box_count(&cells->nodes), 1) : NULL;
-  array[FG__SHARE_U] = u;
-  array[FG__SHARE_LABEL] = label;
-  array[FG__SHARE_ACTIVE] = active;
+  array[FG__DENSITY_U] = u;
+  array[FG__DENSITY_LABEL] = label;
+  array[FG__DENSITY_ACTIVE] = active;
   patch->u = u;
   patch->label = label;
   patch->active = active;
+  patch->owned = true;
   return u && label && (active || !masked);
 }
 
-fg_status fg__patches_fill(fg_context *context, const fg_density *density,
-                           fg__wanted_patch *wanted, int count)
+static fg_status fill(fg_context *context, const fg_density *density,
+                      fg__wanted_patch *wanted, int count)
 {
   const fg_density_arrays *arrays = fg_density_contents(density);
-  fg__density_share *share = fg__density_share_of(density);
-  const fg__ranks *ranks = share->partition.ranks;
+  const fg__density_block *block = fg__density_block_of(density);
+  const fg__ranks *ranks = block->partition.ranks;
   size_t all = (size_t)count;
   fg__region *region = fg__allocate(2 * all, sizeof *region);
   void **array = fg__allocate(KINDS * all, sizeof *array);
@@ -53,7 +54,7 @@ fg_status fg__patches_fill(fg_context *context, const fg_density *density,
     void *own[KINDS] = {0};
     if (wanted[n].rank == ranks->rank)
       whole =
-          allocate(&wanted[n].patch, own, &region[n], &region[count + n], share->masked);
+          allocate(&wanted[n].patch, own, &region[n], &region[count + n], block->masked);
     for (size_t kind = 0; kind < KINDS; ++kind)
       array[kind * all + (size_t)n] = own[kind];
   }
@@ -62,10 +63,10 @@ fg_status fg__patches_fill(fg_context *context, const fg_density *density,
     status = fg__fail_memory(context, "clusters' windows", all * sizeof *region);
   status = fg__ranks_agree(ranks, context, status);
   for (size_t kind = 0; kind < KINDS && !status; ++kind)
-    if (kind != FG__SHARE_ACTIVE || share->masked)
-      status = fg__density_share_fill(share, context, (fg__share_kind)kind,
-                                      region + (kind == FG__SHARE_ACTIVE ? count : 0),
-                                      count, array + kind * all);
+    if (kind != FG__DENSITY_ACTIVE || block->masked)
+      status = fg__density_fill(density, context, (fg__density_kind)kind,
+                                region + (kind == FG__DENSITY_ACTIVE ? count : 0), count,
+                                array + kind * all);
   for (int n = 0; n < count && status; ++n)
     fg__patch_clear(&wanted[n].patch);
   free(region);
@@ -73,11 +74,24 @@ fg_status fg__patches_fill(fg_context *context, const fg_density *density,
   return status;
 }
 
+fg_status fg__patches_fill(fg_context *context, const fg_density *density,
+                           fg__wanted_patch *wanted, int count)
+{
+  if (fg_density_is_shared(density))
+    return fill(context, density, wanted, count);
+  const fg__labels labels = {.label = fg__density_block_of(density)->label};
+  for (int n = 0; n < count; ++n)
+    wanted[n].patch = fg__patch_of(fg_density_contents(density), &labels);
+  return FG_STATUS_OK;
+}
+
 void fg__patch_clear(fg__patch *patch)
 {
-  free((void *)(uintptr_t)patch->u);
-  free((void *)(uintptr_t)patch->label);
-  free((void *)(uintptr_t)patch->active);
+  if (patch->owned) {
+    free((void *)(uintptr_t)patch->u);
+    free((void *)(uintptr_t)patch->label);
+    free((void *)(uintptr_t)patch->active);
+  }
   patch->u = NULL;
   patch->label = NULL;
   patch->active = NULL;

@@ -12,7 +12,7 @@
  * the diagonal, and an active cell joins them (component/components.h). A node without an
  * active cell is outside. */
 typedef struct fg__labels {
-  int *label;       /* a number a node of the density */
+  const int *label; /* a number a node of this rank's block, the density's own */
   int count;        /* clusters, debris not counted */
   double *area;     /* [count], input coordinates squared (cubed), sub-cell: area (volume)
                        of {u > 0} */
@@ -24,8 +24,9 @@ typedef struct fg__labels {
   int debris;        /* components too small to be clusters: labelled -1 */
 } fg__labels;
 
+/* The same on all ranks, but for `label`; the density is borrowed. Collective. MEMORY. */
 fg_status fg__labels_create(fg__labels *out, fg_context *context,
-                            const fg_density_arrays *density);
+                            const fg_density *density);
 void fg__labels_clear(fg__labels *labels);
 
 /* Part of a density's grid with its labels: what one cluster's window is cut from. */
@@ -36,6 +37,7 @@ typedef struct fg__patch {
   const int *label;
   const unsigned char *active; /* cells, nodes[k] - 1 along an axis, or nodes[k] when it
                                   is all of a period; NULL: all active */
+  bool owned;                  /* fg__patch_clear frees these arrays */
 } fg__patch;
 
 /* The whole grid as a patch. */

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
+#include "cluster/labels_test.h"
 #include "cluster/window.h"
 
 enum { W = 14, H = 10, D = 9 };
@@ -56,7 +57,7 @@ static void a_window_holds_its_cluster_and_a_rim(void **state)
   fill((int[]){2, 1, 0}, (int[]){3, 3, 2}, 0.25F);
   fill((int[]){10, 6, 7}, (int[]){12, 8, 8}, 0.75F); /* touches the first at a corner */
   fg__labels labels;
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(labels.count, 3);
   const int expected[6] = {7, 9, 4, 5, 3, 6};
   assert_memory_equal(labels.bounds[1], expected, sizeof expected);
@@ -87,7 +88,7 @@ static void masked_cells_are_outside(void **state)
   fill((int[]){4, 3, 2}, (int[]){8, 6, 6}, 0.5F);
   active[(4 * (H - 1) + 4) * (W - 1) + 6] = 0;
   fg__labels labels;
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(labels.count, 1);
   fg__window window;
   cut(&window, &labels, &density, 1);
@@ -112,7 +113,7 @@ static void clusters_are_followed_across_periods(void **state)
     high[axis] = nodes[axis] + 2;
     fill(low, high, 0.5F);
     fg__labels labels;
-    assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+    label_arrays(&labels, &density);
     assert_int_equal(labels.count, 1);
     assert_int_equal(labels.bounds[0][2 * axis], nodes[axis] - 2);
     assert_int_equal(labels.bounds[0][2 * axis + 1], nodes[axis] + 2);
@@ -135,7 +136,7 @@ static void clusters_are_followed_across_periods(void **state)
     thin[axis] = thin_end[axis] = 5;
     thin_end[other] = thin[other];
     fill(thin, thin_end, -0.5F);
-    assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+    label_arrays(&labels, &density);
     assert_int_equal(labels.count, 1);
     assert_true(labels.closed[0][axis]);
     assert_int_equal(labels.bounds[0][2 * axis], 5);
@@ -152,7 +153,7 @@ static void divide(fg__window_part part[FG__WINDOW_PARTS], int *count, fg__label
                    const fg_density_arrays *density)
 {
   fg__window window;
-  assert_int_equal(fg__labels_create(labels, NULL, density), FG_STATUS_OK);
+  label_arrays(labels, density);
   cut(&window, labels, density, 1);
   assert_int_equal(fg__window_divide(part, count, NULL, density, labels, &window),
                    FG_STATUS_OK);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
+#include "cluster/labels_test.h"
 #include "cluster/window.h"
 
 #define assert_near(value, expected, tolerance)                                          \
@@ -49,7 +50,7 @@ static void test_bounds_and_rim(void **state)
   fill(7, 9, 4, 5, 0.5F);
   fill(15, 22, 1, 2, 0.25F);
   fg__labels labels;
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(labels.count, 2);
   assert_int_equal(labels.label[1 * W + 15], 1);
   const int expected[4] = {15, 22, 1, 2};
@@ -85,7 +86,7 @@ static void test_neighbours_do_not_appear(void **state)
   fill(7, 10, 5, 7, 0.8F);
   u[2 * W + 8] = 0.4F; /* debris */
   fg__labels labels;
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(labels.count, 2);
   assert_int_equal(labels.debris, 1);
   fg__window window;
@@ -128,7 +129,7 @@ static void test_mask_is_outside(void **state)
     active[y * (W - 1) + 7] = 0; /* cells between nodes 7 and 8 */
   u[4 * W + 2] = NAN;
   fg__labels labels;
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(labels.count, 2);
   fg__window window;
   assert_int_equal(fg__window_create(&window, NULL, &density, &labels, 1), FG_STATUS_OK);
@@ -150,7 +151,7 @@ static void test_across_a_periodic_boundary(void **state)
   fill(21, 21 + 5, 3, 5, 0.5F); /* 21, 22, 23, 0, 1, 2 */
   fill(10, 12, 3, 3, 0.5F);
   fg__labels labels;
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(labels.count, 2);
   const int expected[4] = {21, 26, 3, 5};
   assert_memory_equal(labels.bounds[0], expected, sizeof expected);
@@ -175,7 +176,7 @@ static void test_band_round_the_period(void **state)
   fill(0, W - 1, 4, 6, 0.5F);
   u[4 * W + 17] = -1.0F;
   fg__labels labels;
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(labels.count, 1);
   assert_true(labels.closed[0][0]);
   assert_int_equal(labels.bounds[0][0], 17);
@@ -205,7 +206,7 @@ static void test_stripe_longer_than_the_period(void **state)
     }
   }
   fg__labels labels;
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(labels.count, 1);
   assert_false(labels.closed[0][0]);
   assert_int_equal(labels.bounds[0][0], 5);

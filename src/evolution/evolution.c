@@ -113,7 +113,22 @@ static void describe(fg_evolution *e)
   e->debris_area = debris / fg__evolution_cell_volume(e);
 }
 
-static fg_status create_stepper(fg_evolution *e, const fg_field *field)
+static fg_status take_mask(fg_evolution *e, const fg__multigrid *multigrid)
+{
+  const fg__cells_of_box *cells = &fg__multigrid_finest(multigrid)->tensor;
+  if (e->active_cells == (int64_t)e->cells)
+    return FG_STATUS_OK;
+  ptrdiff_t origin;
+  e->mask.memory = fg__cells_mask(cells, &origin);
+  if (!e->mask.memory)
+    return fg__fail_memory(e->context, "the mask", e->cells);
+  e->mask.active = e->mask.memory + origin;
+  e->mask.row = cells->row;
+  e->mask.plane = cells->plane;
+  return FG_STATUS_OK;
+}
+
+static fg_status create_stepper(fg_evolution *e)
 {
   fg__multigrid multigrid = {0};
   fg__stepper_description description = {
@@ -128,12 +143,14 @@ static fg_status create_stepper(fg_evolution *e, const fg_field *field)
   fg_status status = fg__ranks_agree(e->ranks, e->context, check_initial(e));
   if (!status)
     status = fg__evolution_multigrid_create(
-        &multigrid, e, field, (1.0 - fg__evolution_alpha(e)) * e->info.gamma);
+        &multigrid, e, (1.0 - fg__evolution_alpha(e)) * e->info.gamma);
   if (status)
     return status;
   multigrid.kernel = fg__kernel_choose(e->mesh.dimension, e->options.vectors);
   e->info.kernel = multigrid.kernel->name;
-  status = fg__evolution_fill(e, &multigrid);
+  status = fg__ranks_agree(e->ranks, e->context, take_mask(e, &multigrid));
+  if (!status)
+    status = fg__evolution_fill(e, &multigrid);
   if (!status)
     status = fg__stepper_create(&e->stepper, e->context, &multigrid, &description);
   if (status)
@@ -155,6 +172,9 @@ static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ra
   if (!status)
     e->law_identity = e->options.law->identity;
   e->mesh_nodes = e->options.nodes;
+  e->clusters_found = fg__allocate(1, sizeof *e->clusters_found);
+  if (!status && !e->clusters_found)
+    status = fg__fail_memory(context, "an evolution", sizeof *e->clusters_found);
   return status;
 }
 
@@ -173,18 +193,17 @@ fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field)
     status = create_mesh(e, field);
   if (!status) {
     count_cells(e);
-    e->spread = e->ranks->count > 1;
-    if (!e->spread && (double)e->nodes >= fg__least_team_nodes)
+    if (e->ranks->count == 1 && (double)e->nodes >= fg__least_team_nodes)
       status = fg__team_create(&e->team, e->context, e->options.threads);
   }
   if (!status)
-    status = fg__evolution_tensor_create(e, field);
+    status = fg__evolution_cells_create(e, field);
   if (!status) {
     describe(e);
     status = check_interface(e);
   }
   if (!status)
-    status = create_stepper(e, field);
+    status = create_stepper(e);
   return status;
 }
 
@@ -231,12 +250,13 @@ void fg__evolution_clear(fg_evolution *evolution)
   fg__stepper_clear(&e->stepper);
   fg__team_destroy(e->team);
   e->team = NULL;
-  fg__team_clusters_clear(&e->clusters_found);
-  fg__spread_clusters_clear(&e->spread_clusters);
+  if (e->clusters_found)
+    fg__clusters_clear(e->clusters_found);
   fg__mesh_clear(&e->mesh);
-  fg__evolution_tensor_free(e);
-  free(e->tensor.active);
-  e->tensor.active = NULL;
+  fg__cells_clear(&e->finest_cells);
+  free(e->mask.memory);
+  e->mask.memory = NULL;
+  e->mask.active = NULL;
   e->active_cells = 0;
 }
 
@@ -245,6 +265,7 @@ void fg_evolution_destroy(fg_evolution *evolution)
   if (!evolution)
     return;
   fg__evolution_clear(evolution);
+  free(evolution->clusters_found);
   free(evolution);
 }
 

@@ -2,10 +2,9 @@
 #ifndef FG__EVOLUTION_H
 #define FG__EVOLUTION_H
 
-#include "component/team_clusters.h"
+#include "component/clusters.h"
 #include "evolution/halved.h"
 #include "evolution/stepper.h"
-#include "solver/spread_clusters.h"
 
 struct fg_evolution {
   fg_context *context;
@@ -13,14 +12,17 @@ struct fg_evolution {
   fg_mesh_info info;
   const fg__ranks *ranks; /* that share it */
   fg__mesh mesh;
-  fg__team *team; /* NULL: one thread */
-  fg__tensor tensor;
+  fg__team *team;                /* NULL: one thread */
+  fg__cells_of_box finest_cells; /* round the block, until stencils are made */
   fg__stepper stepper;
-  fg__team_clusters clusters_found; /* unless spread */
-  size_t nodes, cells;              /* of the whole mesh */
+  struct {
+    unsigned char *memory;
+    const unsigned char *active; /* the block's first cell; NULL: all are active */
+    ptrdiff_t row, plane;
+  } mask;                       /* of the block's cells, and of one more on each side */
+  fg__clusters *clusters_found; /* working memory, for snapshots too */
+  size_t nodes, cells;          /* of the whole mesh */
   int64_t active_cells;
-  bool spread; /* over several ranks */
-  fg__spread_clusters spread_clusters;
   double debris_area; /* in cells */
   double area_fraction;
   int clusters;

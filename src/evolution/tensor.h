@@ -1,21 +1,18 @@
 /* The tensor over an evolution's mesh, as the field and the energy make it, and the
- * multigrid hierarchy over both. A process alone holds the tensor of all cells until
- * stencils are made; several ranks make it block by block, from the same recipe. */
+ * multigrid hierarchy over both. Each rank holds the cells round its block until stencils
+ * are made of them. */
 #ifndef FG__EVOLUTION_TENSOR_H
 #define FG__EVOLUTION_TENSOR_H
 
 #include "evolution/evolution.h"
 
-/* Fills the tensor unless the mesh is spread, and counts the active cells; the mesh and
- * the options are there. Collective. ARGUMENT (no active cell), MEMORY. */
-fg_status fg__evolution_tensor_create(fg_evolution *evolution, const fg_field *field);
+/* Finds the cells round this rank's block and counts the active ones of all; the mesh
+ * and the options are there. Collective. ARGUMENT (no active cell), MEMORY. */
+fg_status fg__evolution_cells_create(fg_evolution *evolution, const fg_field *field);
 
-/* Builds the levels with gamma as the weight of gradients, and frees the tensor, which
- * they hold from then on. Collective. MEMORY. */
+/* Builds the levels with gamma as the weight of gradients; they take over the cells.
+ * Collective. MEMORY. */
 fg_status fg__evolution_multigrid_create(fg__multigrid *out, fg_evolution *evolution,
-                                         const fg_field *field, double gamma);
-
-/* Leaves the byte a cell that says which are active. */
-void fg__evolution_tensor_free(fg_evolution *evolution);
+                                         double gamma);
 
 #endif

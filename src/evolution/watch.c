@@ -1,8 +1,7 @@
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
-#include "base/memory.h"
-#include "density/share.h"
+#include "density/density.h"
 #include "evolution/evolution.h"
 
 /* Nucleation is over, and clusters are counted, once this share of the wanted area is
@@ -10,42 +9,25 @@
  * theory. */
 static const double nucleated = 0.8;
 
-static const unsigned char *mask_of(const fg_evolution *e)
+static fg__cluster_grid grid_of(const fg_evolution *e)
 {
-  return e->active_cells < (int64_t)e->cells ? e->tensor.active : NULL;
-}
-
-static fg_status count_whole(fg_evolution *e, bool counting, double *covered)
-{
-  fg__team_clusters *c = &e->clusters_found;
   const fg__multigrid *m = &e->stepper.multigrid;
-  fg__team *team = m->shared_levels > 0 ? m->team : NULL;
-  fg_status status =
-      fg__team_clusters_find(c, e->context, team, &m->level[0].layout, e->mesh.periodic,
-                             e->stepper.current, mask_of(e), e->debris_area, counting);
-  *covered = c->covered;
-  e->clusters = c->whole.count;
-  return status;
-}
-
-static fg_status count_spread(fg_evolution *e, bool counting, double *covered)
-{
-  fg__spread_clusters *c = &e->spread_clusters;
-  const fg__spread *finest = &e->stepper.multigrid.spread[0];
-  fg_status status =
-      fg__spread_clusters_find(c, e->context, finest, e->stepper.current,
-                               finest->residual[0], e->debris_area, counting);
-  *covered = c->covered;
-  e->clusters = c->whole.count;
-  return status;
+  return (fg__cluster_grid){.partition = &e->mesh.partition,
+                            .layout = &fg__multigrid_finest(m)->layout,
+                            .active = e->mask.active,
+                            .cell_row = e->mask.row,
+                            .cell_plane = e->mask.plane,
+                            .team = m->shared_levels > 0 ? m->team : NULL};
 }
 
 static fg_status count(fg_evolution *e, bool counting)
 {
-  double covered = 0.0;
-  fg_status status = e->spread ? count_spread(e, counting, &covered)
-                               : count_whole(e, counting, &covered);
-  e->area_fraction = covered / (double)e->active_cells;
+  const fg__cluster_grid grid = grid_of(e);
+  const fg__cluster_wish wish = {counting, e->debris_area, e->debris_area};
+  fg_status status =
+      fg__clusters_find(e->clusters_found, e->context, &grid, e->stepper.current, &wish);
+  e->area_fraction = e->clusters_found->covered / (double)e->active_cells;
+  e->clusters = e->clusters_found->found.count;
   return status;
 }
 
@@ -89,47 +71,62 @@ static fg_density_arrays describe_density(const fg_evolution *e)
   return arrays;
 }
 
-static fg_status create_shared(fg_density **out, const fg_evolution *e)
+/* The block's own cells, which the mask has one more of on each side. */
+static void copy_mask(fg__density_block *out, const fg_evolution *e)
 {
-  const fg__spread *finest = &e->stepper.multigrid.spread[0];
-  fg_density_arrays arrays = describe_density(e);
-  double cell = 1.0; /* as whoever labels a density whole takes it */
-  for (int k = 0; k < arrays.dimension; ++k)
-    cell *= arrays.spacing[k];
-  fg__density_share *share;
-  fg_status status = fg__density_share_create(
-      &share, e->context, finest, e->stepper.current, finest->residual[0],
-      arrays.debris_area / cell, e->active_cells < (int64_t)e->cells);
+  unsigned char *to = out->active;
+  fg__box own = fg__block_cells(&out->partition, fg__own_block(&out->partition));
+  size_t width = (size_t)own.nodes[0];
+  for (int k = 0; k < own.nodes[2]; ++k)
+    for (int j = 0; j < own.nodes[1]; ++j, to += width)
+      memcpy(to, e->mask.active + j * e->mask.row + k * e->mask.plane, width);
+}
+
+static fg_status find_clusters(fg__density_block *out, const fg_evolution *e,
+                               double debris_cells)
+{
+  const fg__cluster_grid grid = grid_of(e);
+  const fg__cluster_wish wish = {.counting = true, .debris_area = debris_cells};
+  fg__components *found = &e->clusters_found->found;
+  fg_status status =
+      fg__clusters_find(e->clusters_found, e->context, &grid, e->stepper.current, &wish);
   if (status)
     return status;
-  status = fg__density_create_shared(out, e->context, &arrays, share);
-  if (status)
-    fg__density_share_destroy(share);
-  status = fg__ranks_agree(e->mesh.ranks, e->context, status);
+  fg__clusters_label(e->clusters_found, out->label);
+  out->count = found->count;
+  out->debris = found->debris;
+  out->area = found->area; /* and another list is made for the next count */
+  found->area = NULL;
+  found->area_capacity = 0;
+  return FG_STATUS_OK;
+}
+
+static fg_status create(fg_density **out, const fg_evolution *e)
+{
+  const fg__multigrid *m = &e->stepper.multigrid;
+  fg_density_arrays arrays = describe_density(e);
+  double cell = 1.0;
+  for (int k = 0; k < arrays.dimension; ++k)
+    cell *= arrays.spacing[k];
+  fg__density_block block;
+  fg_status status = fg__density_block_create(&block, e->context, &e->mesh.partition,
+                                              e->active_cells < (int64_t)e->cells);
+  status = fg__ranks_agree(e->ranks, e->context, status);
+  if (!status) {
+    fg__level_export(fg__multigrid_finest(m), e->stepper.current, block.u);
+    if (block.masked)
+      copy_mask(&block, e);
+    status = find_clusters(&block, e, arrays.debris_area / cell);
+  }
+  if (!status)
+    status = fg__ranks_agree(e->ranks, e->context,
+                             fg__density_create(out, e->context, &arrays, &block));
+  fg__density_block_clear(&block);
   if (status) {
     fg_density_destroy(*out);
     *out = NULL;
   }
   return status;
-}
-
-static fg_status create_whole(fg_density **out, const fg_evolution *e)
-{
-  fg_density_arrays arrays = describe_density(e);
-  float *plain = fg__allocate(e->nodes, sizeof *plain);
-  if (!plain)
-    return fg__fail_memory(e->context, "the density", e->nodes * sizeof *plain);
-  fg__level_export(&e->stepper.multigrid.level[0], e->stepper.current, plain);
-  arrays.u = plain;
-  arrays.active = mask_of(e);
-  fg_status status = fg_density_create_from_arrays(out, e->context, &arrays);
-  free(plain);
-  return status;
-}
-
-static fg_status create(fg_density **out, const fg_evolution *e)
-{
-  return e->spread ? create_shared(out, e) : create_whole(out, e);
 }
 
 fg_status fg_density_create(fg_density **out, const fg_evolution *evolution)

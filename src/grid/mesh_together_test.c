@@ -122,7 +122,7 @@ static void too_many_ranks_are_refused(void **state)
 static void a_rank_can_have_a_mesh_of_its_own(void **state)
 {
   (void)state;
-  const fg__ranks *alone = fg__ranks_alone();
+  const fg__ranks *alone = &fg__single_rank;
   fg__mesh_description description = {
       .dimension = 2, .side = {1.0, 0.5}, .nodes = 65, .ranks = alone};
   fg__mesh mesh;

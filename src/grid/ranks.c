@@ -21,17 +21,12 @@ void fg__ranks_share(fg_context *context, fg__ranks *ranks)
   fg__context_share(context, ranks, end_sharing);
 }
 
-static const fg__ranks alone = {.count = 1};
-
-const fg__ranks *fg__ranks_alone(void)
-{
-  return &alone;
-}
+const fg__ranks fg__single_rank = {.count = 1};
 
 const fg__ranks *fg__ranks_of(const fg_context *context)
 {
   const fg__ranks *shared = fg__context_shared(context);
-  return shared ? shared : &alone;
+  return shared ? shared : &fg__single_rank;
 }
 
 void fg__ranks_add(const fg__ranks *ranks, uint64_t *sum, int count)

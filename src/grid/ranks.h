@@ -24,7 +24,7 @@ typedef struct fg__ranks {
 const fg__ranks *fg__ranks_of(const fg_context *context);
 
 /* This process alone, whatever the others do. */
-const fg__ranks *fg__ranks_alone(void);
+extern const fg__ranks fg__single_rank;
 
 /* Makes a context's work that of these ranks, whose transport frees them with the
  * context. */

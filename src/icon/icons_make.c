@@ -42,14 +42,13 @@ static fg_status make_icons(icon_job *job, fg_context *context, fg__chooser *cho
                             int index)
 {
   const fg__icon_source *source = job->source;
-  int cluster = source->cluster ? source->cluster[index] : index + 1;
+  int cluster = source->cluster[index];
   fg_icon *icon = &job->icon[(size_t)index * FG__ICON_PARTS];
   fg__window whole;
   fg__window_part part[FG__WINDOW_PARTS] = {{{0}, 0.0}};
   int parts = 0;
-  fg_status status =
-      fg__window_cut(&whole, context, source->density, source->labels,
-                     source->cluster ? &source->patch[index] : source->patch, cluster);
+  fg_status status = fg__window_cut(&whole, context, source->density, source->labels,
+                                    &source->patch[index], cluster);
   if (status == FG_STATUS_OK)
     status =
         fg__window_divide(part, &parts, context, source->density, source->labels, &whole);

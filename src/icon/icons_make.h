@@ -1,4 +1,4 @@
-/* Making the icons of some clusters, from the whole density or from parts of it. */
+/* Making the icons of some clusters, from patches of the density. */
 #ifndef FG__ICONS_MAKE_H
 #define FG__ICONS_MAKE_H
 
@@ -7,13 +7,13 @@
 /* What icons are made from. */
 typedef struct fg__icon_source {
   const fg_field *field;
-  fg_field *const *field_window; /* [count] with cluster: what serves in place of a field
+  fg_field *const *field_window; /* [count] what serves in place of a field
                                     that ranks share; else NULL */
   const fg_density_arrays *density;
   const fg__labels *labels;
   int count;              /* of icons wanted */
-  const int *cluster;     /* [count] their labels; NULL: 1 ... count */
-  const fg__patch *patch; /* [count] with cluster, else one for all */
+  const int *cluster;     /* [count] their labels */
+  const fg__patch *patch; /* [count] */
 } fg__icon_source;
 
 /* Places for a cluster's icons: one across a periodic boundary may have several. */
@@ -32,10 +32,5 @@ fg_status fg__icons_make(fg_icon *icon, fg_context *context,
 /* The list of those that have points, in their order. MEMORY. */
 fg_status fg__icons_collect(fg_icons **out, fg_context *context, const fg_icon *icon,
                             int clusters);
-
-/* icons_shared.c. fg_icons_create of a shared density. */
-fg_status fg__icons_create_shared(fg_icons **out, fg_context *context,
-                                  const fg_field *field, const fg_density *density,
-                                  const fg_icon_options *options);
 
 #endif

@@ -49,7 +49,7 @@ fg_status fg_placement_find_clusters(fg_context *context, fg_icons *icons,
                     icons ? "density" : "icons");
   fg__labels labels;
   const fg_density_arrays *arrays = fg_density_contents(density);
-  fg_status status = fg__labels_create(&labels, context, arrays);
+  fg_status status = fg__labels_create(&labels, context, density);
   if (status != FG_STATUS_OK)
     return status;
   int most = 1;

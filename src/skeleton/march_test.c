@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
+#include "cluster/labels_test.h"
 #include "skeleton/spine.h"
 
 #define assert_near(value, expected, tolerance)                                          \
@@ -30,7 +31,7 @@ static marched_window march(shape *level, int nodes_x, int nodes_y, bool boundar
       .dimension = 2, .nodes = {nodes_x, nodes_y}, .spacing = {h_x, h_y}, .u = u};
   fg__labels labels;
   marched_window result;
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(labels.count, 1);
   assert_int_equal(fg__window_create(&result.window, NULL, &density, &labels, 1),
                    FG_STATUS_OK);
@@ -226,7 +227,7 @@ static void test_mask(void **state)
   fg__labels labels;
   fg__window window;
   double distance[N * N];
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(fg__window_create(&window, NULL, &density, &labels, 1), FG_STATUS_OK);
   assert_int_equal(fg__march(distance, NULL, &window, false), FG_STATUS_OK);
   for (int y = 0; y < N; ++y) {
@@ -263,7 +264,7 @@ static void test_turns_with_the_shape(void **state)
         .dimension = 2, .nodes = {N, N}, .spacing = {1.0, 1.0}, .u = u[k]};
     density.debris_area = 200.0; /* the largest piece alone */
     fg__labels labels;
-    assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+    label_arrays(&labels, &density);
     assert_int_equal(labels.count, 1);
     assert_int_equal(fg__window_create(&window[k], NULL, &density, &labels, 1),
                      FG_STATUS_OK);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
+#include "cluster/labels_test.h"
 #include "skeleton/spine.h"
 
 #define assert_near(value, expected, tolerance)                                          \
@@ -46,7 +47,7 @@ static inline made make_masked(shape *level, int turn, const unsigned char *acti
                                .debris_area = 2 * H * H};
   fg__labels labels;
   made result;
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(labels.count, 1);
   assert_int_equal(fg__window_create(&result.window, NULL, &density, &labels, 1),
                    FG_STATUS_OK);

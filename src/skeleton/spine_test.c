@@ -188,7 +188,7 @@ static void test_single_node(void **state)
   fg__labels labels;
   made made_spine;
   double distance[25];
-  assert_int_equal(fg__labels_create(&labels, NULL, &density), FG_STATUS_OK);
+  label_arrays(&labels, &density);
   assert_int_equal(fg__window_create(&made_spine.window, NULL, &density, &labels, 1),
                    FG_STATUS_OK);
   assert_int_equal(fg__march(distance, NULL, &made_spine.window, true), FG_STATUS_OK);

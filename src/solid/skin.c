@@ -205,7 +205,7 @@ fg_status fg_density_surface(fg_surface **out, fg_context *context,
   skin s = {.density = fg_density_contents(density)};
   fg__labels labels;
   *out = NULL;
-  fg_status status = fg__labels_create(&labels, context, s.density);
+  fg_status status = fg__labels_create(&labels, context, density);
   if (status)
     return status;
   s.label = labels.label;

@@ -184,17 +184,6 @@ static fg__team *worth_while(const fg__level *level, fg__team *team)
   return level->nodes >= 20000.0 ? team : NULL;
 }
 
-static bool has_mask(const fg__cells_of_box *tensor)
-{
-  int solid = tensor->dimension == 3;
-  for (int k = -solid; k < tensor->nodes[2]; ++k)
-    for (int j = -1; j < tensor->nodes[1]; ++j)
-      for (int i = -1; i < tensor->nodes[0]; ++i)
-        if (tensor->weight[fg__cell_at(tensor, i, j, k)] < 1.0F)
-          return true;
-  return false;
-}
-
 /* Relative mass of a node from the cells round it; beyond one of several blocks it
  * comes from those who own it. */
 static void weigh_nodes(const fg__level *level)
@@ -310,7 +299,6 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
   if (tensor) {
     out->tensor = *tensor;
     *tensor = (fg__cells_of_box){0};
-    masked = masked || has_mask(&out->tensor);
   }
   for (int k = 0; k < 3; ++k) {
     bool used = k < description->dimension;
@@ -326,7 +314,7 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
                             &out->curvature, &out->relaxation};
   fg_status status =
       take_rows(out, context, description->team, description->finest, masked);
-  if (!status && !description->box)
+  if (!status)
     status = take_arrays(out, context, arrays, description->finest ? 3 : 10);
   if (!status)
     status = take_stencil(out, context, &out->energy);
@@ -371,26 +359,27 @@ fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
   }
   *out = (fg__level){0};
   fg_status status;
+  fg__box whole = {{0, 0, 0}, {1, 1, 1}};
+  int count[3] = {1, 1, 1};
+  for (int k = 0; k < description.dimension; ++k) {
+    count[k] = description.cells[k];
+    whole.nodes[k] = count[k] + !fine->periodic[k];
+  }
   if (fine->mass) {
     fg__elements elements;
-    int nodes[3], count[3];
-    for (int k = 0; k < 3; ++k) {
-      bool used = k < description.dimension;
-      count[k] = used ? description.cells[k] : 1;
-      nodes[k] = used ? count[k] + !fine->periodic[k] : 1;
-    }
-    status = fg__level_coarsen_cells(&elements, context, fine, gamma, nodes, count,
+    status = fg__level_coarsen_cells(&elements, context, fine, gamma, whole.nodes, count,
                                      worth_while(fine, team));
     if (status)
       return status;
-    fg__elements_fill_images(&elements, count, fine->periodic);
+    fg__elements_fill_images(&elements, &whole, count, fine->periodic);
     return fg__level_create(out, context, &description, NULL, &elements);
   }
   fg__cells_of_box tensor;
-  status = fg__cells_coarsen(&tensor, context, &fine->tensor, fine->cells, fine->periodic,
+  status = fg__cells_coarsen(&tensor, context, &fine->tensor, &whole, count,
                              worth_while(fine, team));
   if (status)
     return status;
+  fg__cells_fill_images(&tensor, &whole, count, fine->periodic);
   return fg__level_create(out, context, &description, &tensor, NULL);
 }
 

@@ -1,6 +1,6 @@
 /* One level of the multigrid hierarchy: the arrays of a box of nodes (grid/layout.h) and
  * the equations' coefficients there. The box is the whole level, or this rank's block of
- * it (spread.h).
+ * it (distributed.h).
  *
  * Scaling. Rows of the equations are divided by the lumped mass; the cell's volume is
  * divided out of everything, so a node's relative mass is 1 inside, and with a mask the
@@ -85,7 +85,7 @@ typedef struct fg__level {
   /* Of ranks that have a slab each: this one's last slice gathered
    * (solver/kernel/restrict.h), for the rank above, and that of the rank below; NULL
    * where there is none. */
-  float *handed, *taken;
+  float *sent, *received;
   float *mass,
       *mass_inverse; /* relative; NULL without a mask; inverse 0 where mass is 0 */
 
@@ -145,7 +145,7 @@ static inline ptrdiff_t fg__gathered_floats(const fg__level *level)
 enum {
   FG__FIRST_SLICE = 1,   /* of u and w, for the rank below */
   FG__LAST_SLICE = 2,    /* of u and w, for the rank above */
-  FG__GATHERED_SLICE = 4 /* level->handed */
+  FG__GATHERED_SLICE = 4 /* level->sent */
 };
 
 static inline float *fg__row(const fg__level *level, float *array, int j, int k)
@@ -159,9 +159,8 @@ static inline float *fg__node(const fg__level *level, float *array, int i, int j
 }
 
 /* Lays out a level and computes its stencils from the cells' tensor times weight or from
- * their element matrices (the other NULL), which it takes over. A block of several gets
- * no such arrays of its own, and its masses and interpolation lack ghosts (spread.h).
- * MEMORY. */
+ * their element matrices (the other NULL), which it takes over. The masses and the
+ * interpolation of a block of several lack ghosts (distributed.h). MEMORY. */
 fg_status fg__level_create(fg__level *out, fg_context *context,
                            const fg__level_description *description,
                            fg__cells_of_box *tensor, fg__elements *elements);

@@ -4,13 +4,14 @@
 
 static const fg__level *level_at(const fg__multigrid *multigrid, int depth)
 {
-  return multigrid->spread_count > 0 ? &multigrid->spread[depth].block
-                                     : &multigrid->level[depth];
+  return multigrid->distributed_count > 0 ? &multigrid->distributed[depth].block
+                                          : &multigrid->level[depth];
 }
 
 static fg__level *finest_of(fg__multigrid *multigrid)
 {
-  return multigrid->spread_count > 0 ? &multigrid->spread[0].block : multigrid->level;
+  return multigrid->distributed_count > 0 ? &multigrid->distributed[0].block
+                                          : multigrid->level;
 }
 
 const fg__level *fg__multigrid_finest(const fg__multigrid *multigrid)
@@ -59,10 +60,10 @@ void fg__multigrid_weigh_gradient(fg__multigrid *multigrid, double weight)
   finest_of(multigrid)->gradient_weight = weight;
 }
 
-/* Whether whole level n is the finest, with its wells. */
+/* Whether replicated level n is the finest, with its wells. */
 static bool nonlinear(const fg__multigrid *multigrid, int n)
 {
-  return n == 0 && multigrid->spread_count == 0 && !multigrid->linear;
+  return n == 0 && multigrid->distributed_count == 0 && !multigrid->linear;
 }
 
 /* One of several cycles: what the last one has done for it, and whether it shall do so
@@ -72,36 +73,55 @@ typedef struct turn {
   bool restricted, more;
 } turn;
 
-static void find_space(const fg__multigrid *multigrid, int n, float tau,
+/* Makes a coarse level's system of what was restricted. */
+static void find_space(const fg__multigrid *multigrid, const fg__level *level, float tau,
                        const fg__share *share)
 {
-  multigrid->kernel->find_scale(&multigrid->level[n], share);
-  multigrid->kernel->find_curvature(&multigrid->level[n], tau, share);
+  multigrid->kernel->find_scale(level, share);
+  multigrid->kernel->find_curvature(level, tau, share);
 }
 
-static void descend(const fg__multigrid *multigrid, int n, const turn *now,
+/* Restricts to the coarse level; its u and w become 0. A linear level is swept first. */
+static void descend(const fg__multigrid *multigrid, const fg__level *fine,
+                    const fg__level *coarse, bool linear, const turn *now,
                     const fg__share *share)
 {
-  const fg__level *level = &multigrid->level[n];
-  if (!nonlinear(multigrid, n))
-    multigrid->kernel->smooth_restrict_linear(level, level + 1, now->tau, share);
+  const fg__kernel *kernel = multigrid->kernel;
+  if (linear)
+    kernel->smooth_restrict_linear(fine, coarse, now->tau, share);
   else if (!now->restricted)
-    multigrid->kernel->restrict_residuals(level, level + 1, now->tau, share);
-  find_space(multigrid, n + 1, now->tau, share);
+    kernel->restrict_residuals(fine, coarse, now->tau, share);
 }
 
-static void ascend(const fg__multigrid *multigrid, int n, const turn *now,
+/* The coarse level's correction; then a sweep, and perhaps the next restriction. */
+static void ascend(const fg__multigrid *multigrid, const fg__level *coarse,
+                   const fg__level *fine, bool linear, const turn *now,
                    const fg__share *share)
 {
   const fg__kernel *kernel = multigrid->kernel;
-  const fg__level *level = &multigrid->level[n];
-  kernel->unscale(level + 1, share);
-  if (!nonlinear(multigrid, n))
-    kernel->correct_smooth_linear(level + 1, level, now->tau, share);
+  if (linear)
+    kernel->correct_smooth_linear(coarse, fine, now->tau, share);
   else if (now->more)
-    kernel->correct_smooth_restrict(level + 1, level, now->tau, share);
+    kernel->correct_smooth_restrict(coarse, fine, now->tau, share);
   else
-    kernel->correct_smooth(level + 1, level, now->tau, share);
+    kernel->correct_smooth(coarse, fine, now->tau, share);
+}
+
+/* The same for level n of the replicated ones. */
+static void go_down(const fg__multigrid *multigrid, int n, const turn *now,
+                    const fg__share *share)
+{
+  const fg__level *level = &multigrid->level[n];
+  descend(multigrid, level, level + 1, !nonlinear(multigrid, n), now, share);
+  find_space(multigrid, level + 1, now->tau, share);
+}
+
+static void go_up(const fg__multigrid *multigrid, int n, const turn *now,
+                  const fg__share *share)
+{
+  const fg__level *level = &multigrid->level[n];
+  multigrid->kernel->unscale(level + 1, share);
+  ascend(multigrid, level + 1, level, !nonlinear(multigrid, n), now, share);
 }
 
 /* Levels n and coarser, by one thread. */
@@ -111,70 +131,91 @@ static void cycle_alone(const fg__multigrid *multigrid, int n, const turn *now)
   int last = multigrid->level_count - 1;
   fg__share alone = fg__alone();
   for (int m = n; m < last; ++m)
-    descend(multigrid, m, now, &alone);
+    go_down(multigrid, m, now, &alone);
   for (int sweep = 0; sweep < multigrid->coarsest_sweeps; ++sweep)
     if (nonlinear(multigrid, last)) /* too small a mesh to coarsen */
       kernel->smooth(&multigrid->level[0], now->tau, &alone);
     else
       kernel->smooth_linear(&multigrid->level[last], now->tau, &alone);
   for (int m = last - 1; m >= n; --m)
-    ascend(multigrid, m, now, &alone);
+    go_up(multigrid, m, now, &alone);
 }
 
-/* The whole levels, alike on all ranks. */
-static void cycle_whole(const fg__multigrid *multigrid, const turn *now,
-                        const fg__share *share)
+/* The replicated levels, alike on all ranks: of a process alone all of them. */
+static void cycle_replicated(const fg__multigrid *multigrid, const turn *now,
+                             const fg__share *share)
 {
   int last = multigrid->level_count - 1;
   int shared = multigrid->shared_levels < last ? multigrid->shared_levels : last;
   for (int n = 0; n < shared; ++n)
-    descend(multigrid, n, now, share);
+    go_down(multigrid, n, now, share);
   if (share->member == 0)
     cycle_alone(multigrid, shared, now);
   fg__team_barrier(share);
   for (int n = shared - 1; n >= 0; --n)
-    ascend(multigrid, n, now, share);
+    go_up(multigrid, n, now, share);
 }
 
-/* From what the ranks share to level[0] and back. */
+/* From the blocks to level[0] and back. */
 static void cycle_gathered(const fg__multigrid *multigrid, const turn *now)
 {
-  const fg__level *image = &multigrid->spread[multigrid->spread_count].block;
-  const fg__level *whole = &multigrid->level[0];
+  const fg__level *image = &multigrid->distributed[multigrid->distributed_count].block;
+  const fg__level *replicated = &multigrid->level[0];
   fg__share alone = fg__alone();
   float *const sent[] = {image->p, image->q, image->coupling, image->shape_curvature};
-  float *const received[] = {whole->p, whole->q, whole->coupling, whole->shape_curvature};
+  float *const received[] = {replicated->p, replicated->q, replicated->coupling,
+                             replicated->shape_curvature};
   fg__gather_fill(multigrid->gather, FG__RESTRICTED, sent, received);
-  float *const solution[] = {whole->u, whole->w};
+  float *const solution[] = {replicated->u, replicated->w};
   for (int n = 0; n < 2; ++n)
-    memset(solution[n] - whole->layout.first, 0,
-           whole->layout.array_size * sizeof(float));
-  find_space(multigrid, 0, now->tau, &alone);
-  cycle_whole(multigrid, now, &alone);
-  multigrid->kernel->unscale(whole, &alone);
+    memset(solution[n] - replicated->layout.first, 0,
+           replicated->layout.array_size * sizeof(float));
+  find_space(multigrid, replicated, now->tau, &alone);
+  cycle_replicated(multigrid, now, &alone);
+  multigrid->kernel->unscale(replicated, &alone);
   float *const own[] = {image->u, image->w};
   fg__gather_return(multigrid->gather, 2, solution, own);
 }
 
-static void cycle_spread(const fg__multigrid *multigrid, turn *now)
+/* The same as find_space for a block, whose neighbours' scales are needed between. */
+static void find_space_of_block(const fg__multigrid *multigrid,
+                                const fg__distributed *level, float tau)
+{
+  float *const both[] = {level->block.scale, level->block.scale_inverse};
+  fg__share alone = fg__alone();
+  multigrid->kernel->find_scale(&level->block, &alone);
+  fg__distributed_exchange_ends(level, 2, both);
+  multigrid->kernel->find_curvature(&level->block, tau, &alone);
+}
+
+static void cycle_distributed(const fg__multigrid *multigrid, turn *now)
 {
   const fg__kernel *kernel = multigrid->kernel;
-  const fg__spread *spread = multigrid->spread;
-  int count = multigrid->spread_count;
+  const fg__distributed *level = multigrid->distributed;
+  int count = multigrid->distributed_count;
+  fg__share alone = fg__alone();
   for (int n = 0; n < count; ++n) {
-    if (n > 0 || !now->restricted)
-      fg__spread_descend(&spread[n], &spread[n + 1], kernel, now->tau,
-                         n > 0 || multigrid->linear);
+    bool linear = n > 0 || multigrid->linear;
+    fg__share share = fg__distributed_share(&level[n]);
+    if (level[n].in_slabs)
+      descend(multigrid, &level[n].block, &level[n + 1].block, linear, now, &share);
+    else
+      fg__distributed_descend(&level[n], &level[n + 1], kernel, now->tau, linear);
     if (n + 1 < count)
-      fg__spread_find_space(&spread[n + 1], kernel, now->tau);
+      find_space_of_block(multigrid, &level[n + 1], now->tau);
   }
   cycle_gathered(multigrid, now);
   for (int n = count - 1; n >= 0; --n) {
+    bool linear = n > 0 || multigrid->linear;
+    fg__share share = fg__distributed_share(&level[n]);
     if (n + 1 < count)
-      fg__spread_unscale(&spread[n + 1], kernel);
-    now->restricted = fg__spread_ascend(&spread[n + 1], &spread[n], kernel, now->tau,
-                                        n > 0 || multigrid->linear, n == 0 && now->more);
+      kernel->unscale(&level[n + 1].block, &alone);
+    if (level[n].in_slabs)
+      ascend(multigrid, &level[n + 1].block, &level[n].block, linear, now, &share);
+    else
+      fg__distributed_ascend(&level[n + 1], &level[n], kernel, now->tau, linear);
   }
+  now->restricted = now->more && level[0].in_slabs && !multigrid->linear;
 }
 
 /* A member's share of an array's rows. */
@@ -206,13 +247,13 @@ void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
     now.more = n < cycles;
     if (before && n == cycles)
       fg__multigrid_copy(multigrid, fg__multigrid_u(multigrid), before, share);
-    if (multigrid->spread_count > 0) {
+    if (multigrid->distributed_count > 0) {
       fg__traffic_book *book = multigrid->ranks->book;
       fg_activity activity = fg__traffic_begin(book, FG_ACTIVITY_CYCLES);
-      cycle_spread(multigrid, &now);
+      cycle_distributed(multigrid, &now);
       fg__traffic_return(book, activity);
     } else {
-      cycle_whole(multigrid, &now, share);
+      cycle_replicated(multigrid, &now, share);
       now.restricted = now.more;
     }
   }

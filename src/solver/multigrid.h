@@ -4,21 +4,22 @@
 #define FG__MULTIGRID_H
 
 #include "grid/exchange/gather.h"
-#include "solver/spread.h"
+#include "solver/distributed.h"
 
 enum { FG__MOST_LEVELS = 16 };
 
-/* The levels from fine to coarse: spread[0] ... spread[spread_count - 1] are shared by
- * several ranks; spread[spread_count] is the next one as they share it, and level[0] the
- * same whole on every rank, which all ranks cycle on alike. Where one rank has it all
- * there is nothing spread, and level[0] is the finest. */
+/* The levels from fine to coarse: distributed[0] ... distributed[distributed_count - 1]
+ * are divided into blocks among several ranks; distributed[distributed_count] is the next
+ * one in blocks, and level[0] the same replicated on every rank, which all ranks cycle on
+ * alike. Of a process alone no level is distributed, and level[0] is the finest. */
 typedef struct fg__multigrid {
   const fg__kernel *kernel;
   const fg__ranks *ranks;
-  int spread_count;
-  fg__spread spread[FG__MOST_LEVELS];
-  fg__gather
-      *gather; /* between spread[spread_count] and level[0]; NULL: nothing spread */
+  fg__partition partition; /* of the finest level's nodes */
+  int distributed_count;
+  fg__distributed distributed[FG__MOST_LEVELS];
+  fg__gather *gather; /* between distributed[distributed_count] and level[0]; NULL: none
+                         is distributed */
 
   fg__team *team; /* the caller's; NULL: one thread */
   int level_count;
@@ -32,17 +33,12 @@ typedef struct fg__multigrid {
  * would wait for each other longer than they work (docs/design/evolution.md). */
 extern const double fg__least_team_nodes;
 
-/* Builds all levels over a mesh of one block, with a team that will also work on them
- * (borrowed; NULL: one thread). MEMORY. */
+/* Builds all levels over a mesh from the cells round this rank's block, which it takes
+ * over. masked: some cell of the mesh is inactive, if not here. team: will also work on
+ * the levels of a process alone (borrowed; NULL: one thread). Collective. MEMORY. */
 fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
-                               const fg__mesh *mesh, const fg__tensor *tensor,
+                               const fg__mesh *mesh, fg__cells_of_box *cells, bool masked,
                                double gamma, fg__team *team);
-
-/* Builds all levels over a mesh that several ranks share. Collective. MEMORY, and what
- * the recipe meets. */
-fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
-                                      const fg__mesh *mesh,
-                                      const fg__tensor_recipe *recipe, double gamma);
 void fg__multigrid_clear(fg__multigrid *multigrid);
 
 /* The finest level, or this rank's block of it. */

@@ -13,23 +13,23 @@ const double fg__least_team_nodes = 200000.0;
 /* A level is shared while each member gets so many nodes, or it is as large as that. */
 static const double least_nodes_of_member = 5000.0;
 
+/* The finest level of a process alone. */
 static fg_status create_finest(fg__multigrid *out, fg_context *context,
-                               const fg__mesh *mesh, const fg__tensor *tensor,
-                               double gamma, fg__team *team)
+                               const fg__mesh *mesh, fg__cells_of_box *cells, bool masked,
+                               double gamma)
 {
-  fg__cells_of_box cells;
-  fg_status status = fg__cells_from_tensor(&cells, context, tensor, mesh->dimension,
-                                           mesh->cells, mesh->periodic, team);
-  if (status)
-    return status;
-  fg__level_description description = {
-      .dimension = mesh->dimension, .gamma = gamma, .finest = true, .team = team};
+  fg__level_description description = {.dimension = mesh->dimension,
+                                       .gamma = gamma,
+                                       .finest = true,
+                                       .masked = masked,
+                                       .team = out->team};
   for (int k = 0; k < 3; ++k) {
     description.cells[k] = mesh->cells[k];
     description.periodic[k] = mesh->periodic[k];
     description.spacing[k] = mesh->spacing[k];
   }
-  return fg__level_create(&out->level[0], context, &description, &cells, NULL);
+  out->level_count = 1;
+  return fg__level_create(&out->level[0], context, &description, cells, NULL);
 }
 
 static void choose_coarsest_sweeps(fg__multigrid *multigrid)
@@ -61,34 +61,9 @@ static fg_status create_coarser(fg__multigrid *out, fg_context *context, double 
   return FG_STATUS_OK;
 }
 
-fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
-                               const fg__mesh *mesh, const fg__tensor *tensor,
-                               double gamma, fg__team *team)
-{
-  static const fg__ranks one = {.count = 1};
-  *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension, FG_VECTORS_WIDEST),
-                         .ranks = &one,
-                         .team = team,
-                         .level_count = 1};
-  fg_status status = create_finest(out, context, mesh, tensor, gamma, team);
-  if (!status)
-    status = create_coarser(out, context, gamma);
-  if (status) {
-    fg__multigrid_clear(out);
-    return status;
-  }
-  double least =
-      fmin(least_nodes_of_member * fg__team_members(team), fg__least_team_nodes);
-  while (out->team && out->shared_levels < out->level_count &&
-         out->level[out->shared_levels].nodes >= least)
-    ++out->shared_levels;
-  choose_coarsest_sweeps(out);
-  return FG_STATUS_OK;
-}
-
-static fg_status spread_levels(fg__multigrid *out, fg_context *context,
-                               const fg__mesh *mesh, const fg__tensor_recipe *recipe,
-                               double gamma)
+static fg_status create_distributed(fg__multigrid *out, fg_context *context,
+                                    const fg__mesh *mesh, fg__cells_of_box *cells,
+                                    bool masked, double gamma)
 {
   fg__partition partition;
   fg_status status = fg__partition_copy(&partition, context, &mesh->partition);
@@ -96,27 +71,28 @@ static fg_status spread_levels(fg__multigrid *out, fg_context *context,
   for (int halvings = 0; !status; ++halvings) {
     bool workable = fg__partition_is_workable(&partition, FG__LEAST_BLOCK_NODES) &&
                     halvings + 1 < FG__MOST_LEVELS;
-    fg__spread *spread = &out->spread[halvings];
-    fg__spread_description description = {
-        halvings, gamma, halvings > 0 ? &out->spread[halvings - 1] : NULL};
-    status = fg__spread_create(spread, context, mesh, recipe, &partition, &description);
+    fg__distributed *level = &out->distributed[halvings];
+    fg__distributed_description description = {
+        halvings, gamma, masked, halvings > 0 ? &out->distributed[halvings - 1] : NULL};
+    status =
+        fg__distributed_create(level, context, mesh, cells, &partition, &description);
     if (status || !workable)
       break;
-    ++out->spread_count;
+    ++out->distributed_count;
     if (halvings > 0)
-      fg__elements_clear(&spread[-1].block.elements);
-    status = fg__partition_coarsen(&partition, context, &spread->partition);
+      fg__elements_clear(&level[-1].block.elements);
+    status = fg__partition_coarsen(&partition, context, &level->partition);
     status = fg__ranks_agree(mesh->ranks, context, status);
   }
   fg__partition_clear(&partition); /* what no level has taken over */
   return status;
 }
 
-/* The tensor of the first whole level from all ranks' blocks: a cell's values travel as
- * those of its lowest corner. */
+/* The tensor of the first replicated level from all ranks' blocks: a cell's values travel
+ * as those of its lowest corner. */
 static fg_status gather_cells(fg__cells_of_box *out, fg__elements *elements,
                               fg_context *context, const fg__multigrid *multigrid,
-                              const fg__spread *image)
+                              const fg__distributed *image)
 {
   int dimension = image->partition.dimension, arrays = dimension == 3 ? 7 : 4;
   if (image->masked)
@@ -167,10 +143,10 @@ static fg_status gather_cells(fg__cells_of_box *out, fg__elements *elements,
   return status;
 }
 
-static fg_status create_first_whole(fg__multigrid *out, fg_context *context,
-                                    const fg__mesh *mesh, double gamma)
+static fg_status create_first_replicated(fg__multigrid *out, fg_context *context,
+                                         const fg__mesh *mesh, double gamma)
 {
-  const fg__spread *image = &out->spread[out->spread_count];
+  const fg__distributed *image = &out->distributed[out->distributed_count];
   fg_status status =
       fg__gather_create(&out->gather, context, &image->partition, FG__MOST_EXCHANGED);
   if (status)
@@ -185,7 +161,7 @@ static fg_status create_first_whole(fg__multigrid *out, fg_context *context,
     description.cells[k] = image->partition.cells[k];
     description.periodic[k] = mesh->periodic[k];
     description.spacing[k] =
-        mesh->spacing[k] * (k < mesh->dimension ? 1 << out->spread_count : 1);
+        mesh->spacing[k] * (k < mesh->dimension ? 1 << out->distributed_count : 1);
   }
   out->level_count = 1;
   return image->masked
@@ -193,22 +169,41 @@ static fg_status create_first_whole(fg__multigrid *out, fg_context *context,
              : fg__level_create(&out->level[0], context, &description, &cells, NULL);
 }
 
-fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
-                                      const fg__mesh *mesh,
-                                      const fg__tensor_recipe *recipe, double gamma)
+static void choose_shared_levels(fg__multigrid *multigrid)
 {
+  double least = fmin(least_nodes_of_member * fg__team_members(multigrid->team),
+                      fg__least_team_nodes);
+  while (multigrid->team && multigrid->shared_levels < multigrid->level_count &&
+         multigrid->level[multigrid->shared_levels].nodes >= least)
+    ++multigrid->shared_levels;
+}
+
+fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
+                               const fg__mesh *mesh, fg__cells_of_box *cells, bool masked,
+                               double gamma, fg__team *team)
+{
+  const fg__ranks *ranks = mesh->ranks;
   *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension, FG_VECTORS_WIDEST),
-                         .ranks = mesh->ranks};
-  fg_status status = spread_levels(out, context, mesh, recipe, gamma);
-  if (!status)
-    status = create_first_whole(out, context, mesh, gamma);
+                         .ranks = ranks,
+                         .team = team};
+  fg_status status = fg__partition_copy(&out->partition, context, &mesh->partition);
+  status = fg__ranks_agree(ranks, context, status);
+  if (!status && ranks->count > 1) {
+    status = create_distributed(out, context, mesh, cells, masked, gamma);
+    if (!status)
+      status = create_first_replicated(out, context, mesh, gamma);
+  } else if (!status) {
+    status = create_finest(out, context, mesh, cells, masked, gamma);
+  }
   if (!status)
     status = create_coarser(out, context, gamma);
-  status = fg__ranks_agree(mesh->ranks, context, status);
+  status = fg__ranks_agree(ranks, context, status);
+  fg__cells_clear(cells); /* unless a level has taken them over */
   if (status) {
     fg__multigrid_clear(out);
     return status;
   }
+  choose_shared_levels(out);
   choose_coarsest_sweeps(out);
   return FG_STATUS_OK;
 }
@@ -218,7 +213,8 @@ void fg__multigrid_clear(fg__multigrid *multigrid)
   for (int n = 0; n < multigrid->level_count; ++n)
     fg__level_clear(&multigrid->level[n]);
   for (int n = 0; n < FG__MOST_LEVELS; ++n)
-    fg__spread_clear(&multigrid->spread[n]);
+    fg__distributed_clear(&multigrid->distributed[n]);
   fg__gather_destroy(multigrid->gather);
+  fg__partition_clear(&multigrid->partition);
   *multigrid = (fg__multigrid){0};
 }

@@ -27,9 +27,9 @@ static void run(pass *p, fg__team_work *work)
 }
 
 /* Several ranks work on a block each, with one thread, and add up their sums. */
-static bool is_spread(const fg__multigrid *multigrid)
+static bool is_distributed(const fg__multigrid *multigrid)
 {
-  return multigrid->spread_count > 0;
+  return multigrid->distributed_count > 0;
 }
 
 static void work_on_finest(void *argument, const fg__share *share)
@@ -44,9 +44,9 @@ static void run_on_finest(pass *p, level_work *work)
   run(p, work_on_finest);
 }
 
-static double node_count(const fg__spread *spread)
+static double node_count(const fg__multigrid *multigrid)
 {
-  const int *nodes = spread->partition.nodes;
+  const int *nodes = multigrid->partition.nodes;
   return (double)nodes[0] * nodes[1] * nodes[2];
 }
 
@@ -76,8 +76,8 @@ void fg__pass_copy(const fg__multigrid *multigrid, const float *from, float *to)
 
 void fg__pass_fill_ghosts(const fg__multigrid *multigrid, float *u)
 {
-  if (is_spread(multigrid))
-    fg__spread_exchange(&multigrid->spread[0], 1, &u, FG__ALL_COLOURS);
+  if (is_distributed(multigrid))
+    fg__distributed_exchange(&multigrid->distributed[0], 1, &u, FG__ALL_COLOURS);
   else
     fg__fill_ghosts(&multigrid->level[0], u);
 }
@@ -110,10 +110,10 @@ fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float
     total.energy += p.sums[n].energy;
     total.u += p.sums[n].u;
   }
-  if (is_spread(multigrid)) {
-    const fg__spread *spread = &multigrid->spread[0];
-    double rounding = fg__level_rounding(node_count(spread));
-    fg__spread_exchange_ends(spread, 1, &w);
+  if (is_distributed(multigrid)) {
+    const fg__distributed *finest = &multigrid->distributed[0];
+    double rounding = fg__level_rounding(node_count(multigrid));
+    fg__distributed_exchange_ends(finest, 1, &w);
     /* halves of exact sums */
     add_over_ranks(multigrid, (double *const[]){&total.energy, &total.u},
                    (const double[]){0.5 * rounding, rounding}, 2);
@@ -172,8 +172,8 @@ fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
     total.from_b += p.changes[n].from_b;
     total.along += p.changes[n].along;
   }
-  if (is_spread(multigrid)) {
-    double nodes = node_count(&multigrid->spread[0]);
+  if (is_distributed(multigrid)) {
+    double nodes = node_count(multigrid);
     double rounding = fg__level_rounding(nodes), fine = fg__level_change_rounding(nodes);
     add_over_ranks(
         multigrid,

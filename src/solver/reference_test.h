@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "solver/multigrid.h"
+#include "solver/multigrid_test.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -173,8 +173,8 @@ static inline void problem_create(problem *p, const problem_description *of)
   integrate_cell(p);
   fill_tensor(p);
   assert_int_equal(fg__team_create(&p->team, p->context, MOST_THREADS), FG_STATUS_OK);
-  assert_int_equal(fg__multigrid_create(&p->multigrid, p->context, &p->mesh, &p->tensor,
-                                        of->gamma, p->team),
+  assert_int_equal(multigrid_of_tensor(&p->multigrid, p->context, &p->mesh, &p->tensor,
+                                       of->gamma, p->team),
                    FG_STATUS_OK);
 }
 

@@ -143,17 +143,17 @@ fg_status fg__wide_tensor_finish(fg__tensor *tensor, fg_context *context,
 fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
                               const fg_field *field, const fg_energy_law *law,
                               double anisotropy, const fg__cells *cells,
-                              const bool periodic[3], double width)
+                              const bool periodic[3], double width, fg__team *team)
 {
   if (!law || !law->axes || !(width > 0.0))
-    return fg__tensor_fill(tensor, context, field, law, anisotropy, cells, NULL);
+    return fg__tensor_fill(tensor, context, field, law, anisotropy, cells, team);
   fg__cells reach = widened(cells, periodic, width);
   if (is_same(cells, &reach)) {
     fg_status status =
-        fg__tensor_fill(tensor, context, field, law, anisotropy, cells, NULL);
+        fg__tensor_fill(tensor, context, field, law, anisotropy, cells, team);
     return status ? status
                   : fg__tensor_smooth(tensor, context, anisotropy, cells, periodic, width,
-                                      NULL);
+                                      team);
   }
   fg__wide_tensor wide;
   fg_status status = fg__wide_tensor_create(&wide, context, &reach);

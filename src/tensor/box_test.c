@@ -141,7 +141,7 @@ static void boxes_get_what_the_whole_has(void **state)
         fg__cells box = box_of(&domain, boxes[b].first, boxes[b].count);
         owned_tensor part = tensor_for(&box);
         assert_int_equal(fg__tensor_fill_box(&part.tensor, context, field, &fg__law_flow,
-                                             ANISOTROPY, &box, periodic, width[w]),
+                                             ANISOTROPY, &box, periodic, width[w], NULL),
                          FG_STATUS_OK);
         assert_same(&domain, &whole, &box, &part);
         tensor_free(&part);

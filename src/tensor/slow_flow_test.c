@@ -61,7 +61,7 @@ static grid fill(fg_context *context, const fg_field *field, int dimension,
   fg__tensor tensor = {g.value[0], g.value[1], g.value[2], g.value[3],
                        g.value[4], g.value[5], g.active};
   assert_int_equal(fg__tensor_fill_box(&tensor, context, field, law, anisotropy, &g.cells,
-                                       periodic, 0.06),
+                                       periodic, 0.06, NULL),
                    FG_STATUS_OK);
   return g;
 }

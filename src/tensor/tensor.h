@@ -54,13 +54,14 @@ fg_status fg__tensor_smooth(fg__tensor *tensor, fg_context *context, double anis
 /* Both for any box of the domain, which may go on beyond the ends of a periodic axis:
  * fills and, for a law with axes and a width above 0, smooths; what lies round the box
  * within the Gaussian's reach is computed again for that, so that each rank asks for its
- * own boxes alone and gets what the whole domain would have there. A box without an
+ * own boxes alone and gets what the whole domain would have there; the team (NULL: one
+ * thread) works on a box that is the whole domain. A box without an
  * active cell is no failure unless it is the whole domain. Statuses as fg__tensor_fill;
  * MEMORY. */
 fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
                               const fg_field *field, const fg_energy_law *law,
                               double anisotropy, const fg__cells *cells,
-                              const bool periodic[3], double width);
+                              const bool periodic[3], double width, fg__team *team);
 
 /* The same in steps, for a field that comes window by window: a box's tensor with what
  * smoothing reaches round it. MEMORY. */

@@ -30,18 +30,6 @@ static int node_count(double nodes)
   return (int)fmin(fmax(ceil(nodes), LEAST_NODES), MOST_NODES);
 }
 
-static fg_status take_density(fg_density **out, fg_context *context,
-                              const fg_evolution *evolution)
-{
-  fg_status status = fg_density_create(out, evolution);
-  if (status || !fg_density_is_shared(*out))
-    return status;
-  fg_density *shared = *out;
-  status = fg_density_gather(out, context, shared);
-  fg_density_destroy(shared);
-  return status;
-}
-
 /* Steps until `enough` says so, or nothing changes any more. */
 static fg_status evolve(fg_density **out, fg_context *context, const fg__canvas *canvas,
                         const fg_evolution_options *options,
@@ -51,15 +39,15 @@ static fg_status evolve(fg_density **out, fg_context *context, const fg__canvas 
   fg_evolution *evolution = NULL;
   fg_step step;
   *out = NULL;
-  fg_status status = fg__evolution_create(&evolution, context, fg__ranks_alone(),
-                                          canvas->field, options);
+  fg_status status =
+      fg__evolution_create(&evolution, context, &fg__single_rank, canvas->field, options);
   do {
     if (!status)
       status = fg_evolution_step(evolution, &step);
   } while (!status && !step.stationary &&
            !enough(&step, fg_evolution_mesh(evolution), canvas));
   if (!status)
-    status = take_density(out, context, evolution);
+    status = fg_density_create(out, evolution);
   fg_evolution_destroy(evolution);
   return status;
 }
@@ -122,7 +110,7 @@ static fg_status find_mesh(fg__mesh *out, fg_context *context, const fg_field *f
                            int nodes)
 {
   fg__mesh_description description = {
-      .dimension = 2, .nodes = nodes, .ranks = fg__ranks_alone()};
+      .dimension = 2, .nodes = nodes, .ranks = &fg__single_rank};
   for (int k = 0; k < 2; ++k) {
     const fg__axis *axis = &field->axis[k];
     description.origin[k] = axis->coordinate[0];

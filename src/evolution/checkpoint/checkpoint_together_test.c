@@ -140,7 +140,7 @@ static void written_by_any_read_by_any(void **state)
     const subject *s = &SUBJECTS[n];
     fg_field *field = field_of(s);
     fg_evolution *all = begin(s, field, us.ranks),
-                 *alone = begin(s, field, fg__ranks_alone());
+                 *alone = begin(s, field, &fg__single_rank);
     advance(all, BEFORE);
     fg_step left = advance(alone, BEFORE), step;
     expect(fg_evolution_save(all, path, "a note") == FG_STATUS_OK);
@@ -154,7 +154,7 @@ static void written_by_any_read_by_any(void **state)
     expect_same(&step, &left);
     step = advance(by_all, AFTER);
     expect_same(&step, &expected);
-    fg_evolution *by_one = resume(s, field, fg__ranks_alone(), path, &step);
+    fg_evolution *by_one = resume(s, field, &fg__single_rank, path, &step);
     expect_same(&step, &left);
     step = advance(by_one, AFTER);
     expect_same(&step, &expected);

@@ -3,6 +3,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "solver/passes.h"
+
 #define VALUE(name, kind)                                                                \
   {                                                                                      \
     "stepper." #name, FG__VALUE_##kind, offsetof(fg__stepper, name)                      \
@@ -21,19 +23,15 @@ const size_t fg__stepper_value_count =
     sizeof fg__stepper_values / sizeof fg__stepper_values[0];
 
 static fg__state_array array_of(const fg__multigrid *multigrid, const char *name,
-                                int grid, float *values)
+                                float *values)
 {
-  fg__state_array array = {.name = name, .grid = grid, .values = values};
-  if (multigrid->spread_count > 0) {
-    array.spread = &multigrid->spread[grid];
-    array.level = &array.spread->block;
-    array.block = *fg__own_block(&array.spread->partition);
-    memcpy(array.whole.nodes, array.spread->partition.nodes, sizeof array.whole.nodes);
-  } else {
-    array.level = &multigrid->level[grid];
-    memcpy(array.whole.nodes, array.level->layout.nodes, sizeof array.whole.nodes);
-    array.block = array.whole;
-  }
+  const fg__partition *partition = &multigrid->partition;
+  fg__state_array array = {.name = name,
+                           .block = *fg__own_block(partition),
+                           .level = fg__multigrid_finest(multigrid),
+                           .multigrid = multigrid,
+                           .values = values};
+  memcpy(array.whole.nodes, partition->nodes, sizeof array.whole.nodes);
   return array;
 }
 
@@ -42,9 +40,9 @@ static fg__state_array array_of(const fg__multigrid *multigrid, const char *name
 void fg__stepper_arrays(fg__stepper *stepper, fg__state_array out[FG__STATE_ARRAYS])
 {
   const fg__multigrid *m = &stepper->multigrid;
-  out[0] = array_of(m, "current", 0, stepper->current);
-  out[1] = array_of(m, "previous", 0, stepper->previous);
-  out[2] = array_of(m, "potential", 0, fg__multigrid_w(m));
+  out[0] = array_of(m, "current", stepper->current);
+  out[1] = array_of(m, "previous", stepper->previous);
+  out[2] = array_of(m, "potential", fg__multigrid_w(m));
 }
 
 void fg__state_export(const fg__state_array *array, float *plain)
@@ -59,9 +57,5 @@ void fg__state_import(const fg__state_array *array, const float *plain)
 
 void fg__state_fill_ghosts(const fg__state_array *array)
 {
-  float *values = array->values;
-  if (array->spread)
-    fg__spread_exchange(array->spread, 1, &values, FG__ALL_COLOURS);
-  else
-    fg__fill_ghosts(array->level, values);
+  fg__pass_fill_ghosts(array->multigrid, array->values);
 }

@@ -13,11 +13,11 @@ extern const size_t fg__stepper_value_count;
 /* An array of a level, of which this rank has a block. */
 typedef struct fg__state_array {
   const char *name;
-  int grid;                 /* the level's number, 0 the finest */
-  fg__box whole;            /* all nodes of the level */
-  fg__box block;            /* those of this rank */
-  const fg__level *level;   /* of them */
-  const fg__spread *spread; /* who has the others; NULL: there are none */
+  int grid;               /* the level's number, 0 the finest */
+  fg__box whole;          /* all nodes of the level */
+  fg__box block;          /* those of this rank */
+  const fg__level *level; /* of them */
+  const fg__multigrid *multigrid;
   float *values;
 } fg__state_array;
 

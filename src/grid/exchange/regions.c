@@ -114,6 +114,18 @@ static bool count_pieces(int *counts, int *offsets, size_t *total,
   return true;
 }
 
+/* Counts and offsets of what goes to and comes from each rank: of [ranks] each. */
+static void exchange(const fg__ranks *ranks, size_t size, const void *to_send,
+                     const int *sent, void *to_receive, const int *received)
+{
+  for (int r = 0; r < ranks->count; ++r)
+    if (r != ranks->rank && sent[r] > 0)
+      fg__traffic_add_message(ranks->book, (size_t)sent[r] * size);
+  fg__traffic_add_exchange(ranks->book);
+  fg__ranks_deal(ranks, size, to_send, sent, sent + ranks->count, to_receive, received,
+                 received + ranks->count);
+}
+
 fg_status fg__regions_fill(fg_context *context, const fg__partition *partition,
                            const fg__region *region, int count,
                            const fg__region_source *source, void *const out[])
@@ -130,10 +142,11 @@ fg_status fg__regions_fill(fg_context *context, const fg__partition *partition,
                          count, false))
     status = fg__fail(context, FG_STATUS_UNSUPPORTED,
                       "more than %d nodes for one rank at a time", INT_MAX);
+  bool alone = ranks->count == 1;
   if (!status) {
     to_send = fg__allocate(sent, source->size);
-    to_receive = fg__allocate(received, source->size);
-    if (!to_send || !to_receive)
+    to_receive = alone ? NULL : fg__allocate(received, source->size);
+    if (!to_send || !(to_receive || alone))
       status = fg__fail_memory(context, "regions of the mesh",
                                (sent + received) * source->size);
   }
@@ -142,13 +155,9 @@ fg_status fg__regions_fill(fg_context *context, const fg__partition *partition,
     packing p = {partition, region, source, out, to_send};
     for (int r = 0; r < ranks->count; ++r)
       for_pieces(partition, region, count, ranks->rank, r, pack, &p);
-    for (int r = 0; r < ranks->count; ++r)
-      if (r != ranks->rank && table[r] > 0)
-        fg__traffic_add_message(ranks->book, (size_t)table[r] * source->size);
-    fg__traffic_add_exchange(ranks->book);
-    fg__ranks_deal(ranks, source->size, to_send, table, table + all, to_receive,
-                   table + 2 * all, table + 3 * all);
-    p.at = to_receive;
+    if (!alone)
+      exchange(ranks, source->size, to_send, table, to_receive, table + 2 * all);
+    p.at = alone ? to_send : to_receive;
     for (int r = 0; r < ranks->count; ++r)
       for_pieces(partition, region, count, r, ranks->rank, unpack, &p);
   }

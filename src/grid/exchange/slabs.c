@@ -1,17 +1,22 @@
 #include "grid/exchange/slabs.h"
 
-bool fg__slabs_find(fg__slabs *out, const fg__partition *partition)
+fg__slabs fg__slabs_along(const fg__partition *partition, int axis)
 {
   const fg__ranks *ranks = partition->ranks;
-  int last = partition->dimension - 1, up[3] = {0, 0, 0}, down[3] = {0, 0, 0};
-  *out = (fg__slabs){.ranks = ranks, .below = FG__NOBODY, .above = FG__NOBODY};
-  if (ranks->count == 1 || partition->blocks[last] != ranks->count)
-    return false;
-  up[last] = 1;
-  down[last] = -1;
-  out->below = fg__block_neighbour(partition, ranks->rank, down);
-  out->above = fg__block_neighbour(partition, ranks->rank, up);
-  return true;
+  int up[3] = {0, 0, 0}, down[3] = {0, 0, 0};
+  up[axis] = 1;
+  down[axis] = -1;
+  return (fg__slabs){.ranks = ranks,
+                     .below = fg__block_neighbour(partition, ranks->rank, down),
+                     .above = fg__block_neighbour(partition, ranks->rank, up)};
+}
+
+bool fg__slabs_find(fg__slabs *out, const fg__partition *partition)
+{
+  int last = partition->dimension - 1;
+  *out = fg__slabs_along(partition, last);
+  return partition->ranks->count > 1 &&
+         partition->blocks[last] == partition->ranks->count;
 }
 
 /* With two ranks and a periodic axis the same neighbour is on both sides: tags tell

@@ -20,8 +20,11 @@ typedef struct fg__run {
   bool up;
 } fg__run;
 
-/* Whether several ranks divide the last axis only. The same on all ranks; not collective.
- */
+/* The neighbours of this rank's block along an axis. Not collective. */
+fg__slabs fg__slabs_along(const fg__partition *partition, int axis);
+
+/* The neighbours along the last axis; whether several ranks divide that axis only, which
+ * is the same on all ranks. Not collective. */
 bool fg__slabs_find(fg__slabs *out, const fg__partition *partition);
 
 /* A run after the other. Collective: all ranks give as many, of the same directions and

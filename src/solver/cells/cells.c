@@ -34,13 +34,13 @@ static fg_status allocate(fg__cells_of_box *out, fg_context *context, int dimens
   return FG_STATUS_OK;
 }
 
-static fg_status allocate_whole(fg__cells_of_box *out, fg_context *context, int dimension,
-                                const int cells[3], const bool periodic[3])
+/* The nodes of a whole level. */
+static fg__box box_of_level(int dimension, const int cells[3], const bool periodic[3])
 {
-  int nodes[3];
-  for (int k = 0; k < 3; ++k)
-    nodes[k] = cells[k] + !periodic[k];
-  return allocate(out, context, dimension, nodes);
+  fg__box out = {{0, 0, 0}, {1, 1, 1}};
+  for (int k = 0; k < dimension; ++k)
+    out.nodes[k] = cells[k] + !periodic[k];
+  return out;
 }
 
 static void copy_image(const void *argument, ptrdiff_t to, ptrdiff_t from, int axis,
@@ -56,17 +56,17 @@ static void copy_image(const void *argument, ptrdiff_t to, ptrdiff_t from, int a
   cells->weight[to] = cells->weight[from];
 }
 
-static void fill_all_images(const fg__cells_of_box *cells, const int count[3],
-                            const bool periodic[3])
+void fg__cells_fill_images(const fg__cells_of_box *cells, const fg__box *box,
+                           const int level_cells[3], const bool periodic[3])
 {
   fg__cell_layout layout = fg__cell_layout_of(cells->dimension, cells->nodes);
-  fg__cell_images_fill(&layout, count, periodic, copy_image, cells);
+  fg__cell_images_fill(&layout, box, level_cells, periodic, copy_image, cells);
 }
 
 /* Cells to be filled, of which members take slices along the outermost axis. */
 typedef struct filling {
   const fg__cells_of_box *out;
-  int count[3];
+  int first[3], count[3];       /* cells of `out` */
   const fg__tensor *tensor;     /* from this, */
   const fg__cells_of_box *fine; /* or by means over these */
 } filling;
@@ -92,7 +92,7 @@ static void fill_from_tensor(void *argument, const fg__share *share)
   for (int k = begin[2]; k < end[2]; ++k)
     for (int j = begin[1]; j < end[1]; ++j) {
       size_t n = ((size_t)k * (size_t)f->count[1] + (size_t)j) * (size_t)f->count[0];
-      ptrdiff_t at = fg__cell_at(out, 0, j, k);
+      ptrdiff_t at = fg__cell_at(out, f->first[0], f->first[1] + j, f->first[2] + k);
       for (int i = 0; i < f->count[0]; ++i, ++n, ++at) {
         bool active = t->active[n];
         for (int c = 0; c < component_count(out->dimension); ++c)
@@ -107,14 +107,15 @@ fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
                                 const int cells[3], const bool periodic[3],
                                 fg__team *team)
 {
-  fg_status status = allocate_whole(out, context, dimension, cells, periodic);
+  const fg__box whole = box_of_level(dimension, cells, periodic);
+  fg_status status = allocate(out, context, dimension, whole.nodes);
   if (status)
     return status;
   filling f = {.out = out,
                .count = {cells[0], cells[1], dimension == 3 ? cells[2] : 1},
                .tensor = tensor};
   fg__team_run(team, fill_from_tensor, &f);
-  fill_all_images(out, f.count, periodic);
+  fg__cells_fill_images(out, &whole, cells, periodic);
   return FG_STATUS_OK;
 }
 
@@ -122,7 +123,8 @@ fg_status fg__cells_from_arrays(fg__cells_of_box *out, fg_context *context,
                                 const float *const values[], int dimension,
                                 const int cells[3], const bool periodic[3])
 {
-  fg_status status = allocate_whole(out, context, dimension, cells, periodic);
+  const fg__box whole = box_of_level(dimension, cells, periodic);
+  fg_status status = allocate(out, context, dimension, whole.nodes);
   if (status)
     return status;
   int count[3] = {cells[0], cells[1], dimension == 3 ? cells[2] : 1};
@@ -135,7 +137,7 @@ fg_status fg__cells_from_arrays(fg__cells_of_box *out, fg_context *context,
           out->component[c][at] = values[c][n];
         out->weight[at] = values[component_count(dimension)][n];
       }
-  fill_all_images(out, count, periodic);
+  fg__cells_fill_images(out, &whole, cells, periodic);
   return FG_STATUS_OK;
 }
 
@@ -174,24 +176,24 @@ static void fill_with_means(void *argument, const fg__share *share)
 }
 
 fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
-                            const fg__cells_of_box *fine, const int fine_cells[3],
-                            const bool periodic[3], fg__team *team)
+                            const fg__cells_of_box *fine, const fg__box *box,
+                            const int level_cells[3], fg__team *team)
 {
-  int dimension = fine->dimension;
-  filling f = {.out = out,
-               .count = {fine_cells[0] / 2, fine_cells[1] / 2,
-                         dimension == 3 ? fine_cells[2] / 2 : 1},
-               .fine = fine};
-  fg_status status = allocate_whole(out, context, dimension, f.count, periodic);
+  fg_status status = allocate(out, context, fine->dimension, box->nodes);
   if (status)
     return status;
+  filling f = {.out = out, .count = {1, 1, 1}, .fine = fine};
+  for (int k = 0; k < fine->dimension; ++k) {
+    int left = level_cells[k] - box->first[k]; /* the last node begins no cell */
+    f.count[k] = box->nodes[k] < left ? box->nodes[k] : left;
+  }
   fg__team_run(team, fill_with_means, &f);
-  fill_all_images(out, f.count, periodic);
   return FG_STATUS_OK;
 }
 
 /* True cells [low, low + count) of a level along each axis, those of a box and one
- * beyond; beyond natural borders there are none. */
+ * beyond; beyond natural boundaries there are none, nor beyond a box that is all of a
+ * period. */
 typedef struct range {
   int low[3], count[3];
 } range;
@@ -202,9 +204,10 @@ static range range_of(int dimension, const bool periodic[3], const fg__box *box,
   range r = {{0, 0, 0}, {1, 1, 1}};
   for (int k = 0; k < dimension; ++k) {
     int low = box->first[k] - 1, high = box->first[k] + box->nodes[k];
-    if (!periodic[k] && low < 0)
+    bool ends = !periodic[k] || box->nodes[k] == level_cells[k];
+    if (ends && low < 0)
       low = 0;
-    if (!periodic[k] && high > level_cells[k])
+    if (ends && high > level_cells[k])
       high = level_cells[k];
     r.low[k] = low;
     r.count[k] = high - low;
@@ -232,98 +235,63 @@ fg__cells fg__cells_asked(const fg__tensor_recipe *recipe, const fg__box *box)
   return fg__tensor_reach(recipe->law, &cells, recipe->periodic, recipe->width);
 }
 
-/* The cells of a range, tensor (0 where inactive) and weight. */
-static fg_status fill_range(float *const values[], fg_context *context,
-                            const fg__tensor_recipe *recipe, fg__wide_tensor *wide,
-                            const range *r)
+/* Arrays for the tensor of so many cells. */
+static fg_status take_tensor(fg__tensor *out, fg_context *context, int dimension,
+                             size_t count)
 {
-  fg__cells cells = cells_of(recipe, r);
-  size_t count = fg__cell_count(&cells);
-  int components = component_count(recipe->dimension);
-  fg__tensor tensor = {.xx = values[0], .xy = values[1], .yy = values[2]};
-  if (recipe->dimension == 3) {
-    tensor.zz = values[3];
-    tensor.xz = values[4];
-    tensor.yz = values[5];
+  size_t components = (size_t)component_count(dimension);
+  float *memory = fg__allocate(count, components * sizeof *memory + 1);
+  *out = (fg__tensor){.xx = memory};
+  if (!memory)
+    return fg__fail_memory(context, "the tensor",
+                           count * (components * sizeof *memory + 1));
+  out->xy = memory + count;
+  out->yy = memory + 2 * count;
+  if (dimension == 3) {
+    out->zz = memory + 3 * count;
+    out->xz = memory + 4 * count;
+    out->yz = memory + 5 * count;
   }
-  tensor.active = fg__allocate(count, 1);
-  if (!tensor.active)
-    return fg__fail_memory(context, "the tensor", count);
-  fg_status status = wide->memory
-                         ? fg__wide_tensor_finish(&tensor, context, wide, recipe->law,
-                                                  recipe->anisotropy, &cells,
-                                                  recipe->periodic, recipe->width)
-                         : fg__tensor_fill_box(&tensor, context, recipe->field,
-                                               recipe->law, recipe->anisotropy, &cells,
-                                               recipe->periodic, recipe->width);
-  for (size_t n = 0; n < count && !status; ++n) {
-    values[components][n] = tensor.active[n] ? 1.0F : 0.0F;
-    for (int c = 0; c < components && !tensor.active[n]; ++c)
-      values[c][n] = 0.0F;
-  }
-  free(tensor.active);
-  return status;
-}
-
-fg_status fg__cells_halve_box(fg__cells_of_box *out, fg_context *context,
-                              const fg__cells_of_box *fine, const fg__box *box,
-                              const int level_cells[3])
-{
-  fg_status status = allocate(out, context, fine->dimension, box->nodes);
-  if (status)
-    return status;
-  filling f = {.out = out, .count = {1, 1, 1}, .fine = fine};
-  for (int k = 0; k < fine->dimension; ++k) {
-    int left = level_cells[k] - box->first[k]; /* the last node begins no cell */
-    f.count[k] = box->nodes[k] < left ? box->nodes[k] : left;
-  }
-  fg__share alone = fg__alone();
-  fill_with_means(&f, &alone);
+  out->active = (unsigned char *)(memory + components * count);
   return FG_STATUS_OK;
 }
 
-void fg__cells_mirror_box(const fg__cells_of_box *cells, const fg__box *box,
-                          const int level_cells[3], const bool periodic[3])
+static fg_status ask(fg__tensor *out, fg_context *context,
+                     const fg__tensor_recipe *recipe, fg__wide_tensor *wide,
+                     const fg__cells *cells, fg__team *team)
 {
-  fg__cell_layout layout = fg__cell_layout_of(cells->dimension, cells->nodes);
-  fg__cell_images_mirror(&layout, box, level_cells, periodic, copy_image, cells);
+  if (wide->memory)
+    return fg__wide_tensor_finish(out, context, wide, recipe->law, recipe->anisotropy,
+                                  cells, recipe->periodic, recipe->width);
+  return fg__tensor_fill_box(out, context, recipe->field, recipe->law, recipe->anisotropy,
+                             cells, recipe->periodic, recipe->width, team);
 }
 
 fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
                             const fg__tensor_recipe *recipe, const fg__box *box,
-                            fg__wide_tensor *wide)
+                            fg__wide_tensor *wide, fg__team *team)
 {
-  int dimension = recipe->dimension, components = component_count(dimension);
+  int dimension = recipe->dimension;
   range r = range_of(dimension, recipe->periodic, box, recipe->cells);
-  size_t count = 1;
-  for (int k = 0; k < dimension; ++k)
-    count *= (size_t)r.count[k];
-  float *memory = fg__allocate(count * (size_t)(components + 1), sizeof *memory);
+  fg__cells cells = cells_of(recipe, &r);
+  fg__tensor tensor;
   *out = (fg__cells_of_box){0};
-  float *values[FG__TENSOR_COMPONENTS + 1] = {NULL};
-  for (int c = 0; c <= components && memory; ++c)
-    values[c] = memory + (size_t)c * count;
-  fg_status status =
-      memory ? fill_range(values, context, recipe, wide, &r)
-             : fg__fail_memory(context, "the tensor",
-                               count * (size_t)(components + 1) * sizeof *memory);
+  fg_status status = take_tensor(&tensor, context, dimension, fg__cell_count(&cells));
+  if (!status)
+    status = ask(&tensor, context, recipe, wide, &cells, team);
   fg__wide_tensor_clear(wide);
   if (!status)
     status = allocate(out, context, dimension, box->nodes);
-  size_t from = 0;
-  for (int k = 0; k < r.count[2] && !status; ++k)
-    for (int j = 0; j < r.count[1]; ++j)
-      for (int i = 0; i < r.count[0]; ++i, ++from) {
-        ptrdiff_t at =
-            fg__cell_at(out, r.low[0] - box->first[0] + i, r.low[1] - box->first[1] + j,
-                        dimension == 3 ? r.low[2] - box->first[2] + k : 0);
-        for (int c = 0; c < components; ++c)
-          out->component[c][at] = values[c][from];
-        out->weight[at] = values[components][from];
-      }
-  free(memory);
-  if (!status)
-    fg__cells_mirror_box(out, box, recipe->cells, recipe->periodic);
+  if (!status) {
+    filling f = {.out = out, .tensor = &tensor};
+    for (int k = 0; k < 3; ++k) {
+      f.first[k] = k < dimension ? r.low[k] - box->first[k] : 0;
+      f.count[k] = r.count[k];
+    }
+    fg__team_run(team, fill_from_tensor, &f);
+    fg__cells_fill_images(out, box, recipe->cells, recipe->periodic);
+  }
+  free(tensor.xx);
   return status;
 }
 

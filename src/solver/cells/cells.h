@@ -43,7 +43,6 @@ typedef struct fg__tensor_recipe {
   int cells[3]; /* of the domain */
   bool periodic[3];
   double origin[3], spacing[3]; /* input coordinates */
-  bool masked;                  /* some cell is inactive */
 } fg__tensor_recipe;
 
 /* The cells whose centres that takes the field at, for a box of nodes. */
@@ -51,31 +50,28 @@ fg__cells fg__cells_asked(const fg__tensor_recipe *recipe, const fg__box *box);
 
 /* The cells round a box of nodes of the finest level. wide: the recipe's law at all cells
  * asked, of which this is made, unless it is empty (solver/cells/field_boxes.h); it is
- * cleared. MEMORY. */
+ * cleared. MEMORY, and what the law meets. */
 fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
                             const fg__tensor_recipe *recipe, const fg__box *box,
-                            fg__wide_tensor *wide);
+                            fg__wide_tensor *wide, fg__team *team);
 
-/* The cells round a box of a coarser level, as means over 2 x 2 (x 2) of those of the box
- * on the next finer level, which begins at even nodes: only those whose lowest corner the
- * box owns. The ring below comes from the neighbours; what lies beyond natural borders
- * from mirror_box then. MEMORY. */
-fg_status fg__cells_halve_box(fg__cells_of_box *out, fg_context *context,
-                              const fg__cells_of_box *fine, const fg__box *box,
-                              const int level_cells[3]);
-void fg__cells_mirror_box(const fg__cells_of_box *cells, const fg__box *box,
-                          const int level_cells[3], const bool periodic[3]);
+/* The cells round a box of a coarser level of so many cells, as means over 2 x 2 (x 2) of
+ * those of the box on the next finer level, which begins at even nodes: only those whose
+ * lowest corner the box owns. The ring below comes from the neighbours; what lies beyond
+ * the level's boundary from fill_images then. MEMORY. */
+fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
+                            const fg__cells_of_box *fine, const fg__box *box,
+                            const int level_cells[3], fg__team *team);
+
+/* Images beyond the sides of a box, as fg__cell_images_fill. */
+void fg__cells_fill_images(const fg__cells_of_box *cells, const fg__box *box,
+                           const int level_cells[3], const bool periodic[3]);
 
 /* An array of all cells of a level, x fastest, as fg__cells_of_box with images: values[n]
  * are the components, the last the weight. MEMORY. */
 fg_status fg__cells_from_arrays(fg__cells_of_box *out, fg_context *context,
                                 const float *const values[], int dimension,
                                 const int cells[3], const bool periodic[3]);
-
-/* The means over 2 x 2 (x 2) cells. MEMORY. */
-fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
-                            const fg__cells_of_box *fine, const int fine_cells[3],
-                            const bool periodic[3], fg__team *team);
 
 /* Which cells are active at all: a byte each, laid out like the cells, `origin` bytes
  * from the start to cell (0, 0, 0). To be freed; NULL when there is no memory. */

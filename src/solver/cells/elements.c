@@ -259,18 +259,11 @@ static void copy_image(const void *argument, ptrdiff_t to, ptrdiff_t from, int a
   }
 }
 
-void fg__elements_fill_images(const fg__elements *elements, const int count[3],
-                              const bool periodic[3])
+void fg__elements_fill_images(const fg__elements *elements, const fg__box *box,
+                              const int level_cells[3], const bool periodic[3])
 {
   fg__cell_layout layout = fg__cell_layout_of(elements->dimension, elements->nodes);
-  fg__cell_images_fill(&layout, count, periodic, copy_image, elements);
-}
-
-void fg__elements_mirror_box(const fg__elements *elements, const fg__box *box,
-                             const int level_cells[3], const bool periodic[3])
-{
-  fg__cell_layout layout = fg__cell_layout_of(elements->dimension, elements->nodes);
-  fg__cell_images_mirror(&layout, box, level_cells, periodic, copy_image, elements);
+  fg__cell_images_fill(&layout, box, level_cells, periodic, copy_image, elements);
 }
 
 fg_status fg__elements_from_arrays(fg__elements *out, fg_context *context,
@@ -291,7 +284,8 @@ fg_status fg__elements_from_arrays(fg__elements *out, fg_context *context,
       for (int i = 0; i < count[0]; ++i, ++n)
         for (int v = 0; v < fg__element_values(dimension); ++v)
           out->value[v][fg__element_at(out, i, j, k)] = values[v][n];
-  fg__elements_fill_images(out, count, periodic);
+  const fg__box whole = {{0, 0, 0}, {nodes[0], nodes[1], nodes[2]}};
+  fg__elements_fill_images(out, &whole, count, periodic);
   return FG_STATUS_OK;
 }
 

@@ -65,13 +65,9 @@ fg_status fg__elements_coarsen(fg__elements *out, fg_context *context,
                                const fg__fine_cells *fine, const int nodes[3],
                                const int count[3], fg__team *team);
 
-/* Images beyond the sides of the whole level, `count` cells along each axis. */
-void fg__elements_fill_images(const fg__elements *elements, const int count[3],
-                              const bool periodic[3]);
-
-/* The same for what lies beyond natural borders, for a box of several. */
-void fg__elements_mirror_box(const fg__elements *elements, const fg__box *box,
-                             const int level_cells[3], const bool periodic[3]);
+/* Images beyond the sides of a box, as fg__cell_images_fill. */
+void fg__elements_fill_images(const fg__elements *elements, const fg__box *box,
+                              const int level_cells[3], const bool periodic[3]);
 
 /* The cells of a whole level, images included, from arrays of all its cells, x fastest.
  * MEMORY. */

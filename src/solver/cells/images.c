@@ -31,37 +31,23 @@ static void copy_along(const fg__cell_layout *layout, const int low[3], const in
 }
 
 /* Axis after axis: each copies the images along those before, too. */
-void fg__cell_images_fill(const fg__cell_layout *layout, const int count[3],
-                          const bool periodic[3], fg__copy_cell *copy, const void *cells)
+void fg__cell_images_fill(const fg__cell_layout *layout, const fg__box *box,
+                          const int level_cells[3], const bool periodic[3],
+                          fg__copy_cell *copy, const void *cells)
 {
   int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
-  for (int k = 0; k < 3 && k < layout->dimension; ++k)
-    high[k] = count[k] - 1;
-  for (int k = 0; k < 3 && k < layout->dimension; ++k) {
-    int last = count[k] - 1;
-    const int to[2] = {-1, periodic[k] ? -1 : last + 1};
-    const int from[2] = {periodic[k] ? last : 0, periodic[k] ? -1 : last};
-    copy_along(layout, low, high, k, to, from, !periodic[k], copy, cells);
-    low[k] = -1;
-    high[k] = layout->nodes[k] - 1;
-  }
-}
-
-void fg__cell_images_mirror(const fg__cell_layout *layout, const fg__box *box,
-                            const int level_cells[3], const bool periodic[3],
-                            fg__copy_cell *copy, const void *cells)
-{
-  int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+  bool spans[3] = {false, false, false};
   for (int k = 0; k < 3 && k < layout->dimension; ++k) {
     int first = box->first[k], end = first + box->nodes[k];
-    low[k] = !periodic[k] && first == 0 ? 0 : -1;
+    spans[k] = periodic[k] && box->nodes[k] == level_cells[k];
+    low[k] = spans[k] || (!periodic[k] && first == 0) ? 0 : -1;
     high[k] = (!periodic[k] && end > level_cells[k] ? level_cells[k] : end) - first - 1;
   }
   for (int k = 0; k < 3 && k < layout->dimension; ++k) {
     bool below = low[k] == 0, above = high[k] < layout->nodes[k] - 1;
     const int to[2] = {below ? -1 : 0, high[k] + above};
-    const int from[2] = {0, high[k]};
-    copy_along(layout, low, high, k, to, from, true, copy, cells);
+    const int from[2] = {spans[k] ? high[k] : 0, high[k]};
+    copy_along(layout, low, high, k, to, from, !spans[k], copy, cells);
     low[k] = -1;
     high[k] = layout->nodes[k] - 1;
   }

@@ -26,15 +26,11 @@ fg__cell_layout fg__cell_layout_of(int dimension, const int nodes[3]);
 typedef void fg__copy_cell(const void *cells, ptrdiff_t to, ptrdiff_t from, int axis,
                            bool mirrored);
 
-/* Fills what lies beyond the sides of a whole level, `count` cells along each axis (1
- * along z in 2D): mirrored at natural borders, or wrapped round. */
-void fg__cell_images_fill(const fg__cell_layout *layout, const int count[3],
-                          const bool periodic[3], fg__copy_cell *copy, const void *cells);
-
-/* Fills what lies beyond natural borders, for a box of a level: the others' cells are
- * there already. */
-void fg__cell_images_mirror(const fg__cell_layout *layout, const fg__box *box,
-                            const int level_cells[3], const bool periodic[3],
-                            fg__copy_cell *copy, const void *cells);
+/* Fills what lies beyond the sides of a box of a level of so many cells: mirrored at
+ * natural boundaries, wrapped round where the box is all of a period. The cells of other
+ * boxes are there already. */
+void fg__cell_images_fill(const fg__cell_layout *layout, const fg__box *box,
+                          const int level_cells[3], const bool periodic[3],
+                          fg__copy_cell *copy, const void *cells);
 
 #endif

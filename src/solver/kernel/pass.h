@@ -21,15 +21,15 @@ static void hand_over(const fg__level *fine, const lines *gathered)
 {
   ptrdiff_t floats = fg__gathered_floats(fine);
   for (int n = 0; n < FG__RESTRICTED; ++n)
-    memcpy(fine->handed + n * floats, gathered->value[n],
-           (size_t)floats * sizeof *fine->handed);
+    memcpy(fine->sent + n * floats, gathered->value[n],
+           (size_t)floats * sizeof *fine->sent);
 }
 
 /* The slice before the first comes from the rank below. */
 static void take_over(const fg__level *fine, lines *gathered)
 {
   for (int n = 0; n < FG__RESTRICTED; ++n)
-    gathered->value[n] = fine->taken + n * fg__gathered_floats(fine);
+    gathered->value[n] = fine->received + n * fg__gathered_floats(fine);
 }
 
 /* Slice s is smoothed when those up to s + 1 are corrected. Once slices up to s = 2 S + 2
@@ -45,8 +45,8 @@ static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool
   part mine = part_of(fine, share);
   int first = mine.begin / 2, last = (mine.end + 1) / 2; /* coarse slices */
   bool together = todo.sweep && todo.restriction &&
-                  (!fine->periodic[FG__DIMENSION - 1] || fine->taken);
-  int started = together && mine.begin == 0 && !fine->taken ? first : first + 1;
+                  (!fine->periodic[FG__DIMENSION - 1] || fine->received);
+  int started = together && mine.begin == 0 && !fine->received ? first : first + 1;
   if (todo.correct)
     correct_ends(coarse, fine, mine, linear, share);
   if (todo.sweep)
@@ -59,7 +59,7 @@ static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool
     if (together && S >= started)
       restrict_slice(&r, S, S == started, out, linear);
   }
-  if (todo.restriction && fine->handed) {
+  if (todo.restriction && fine->sent) {
     if (!together)
       take_slice(&r, mine.end - 1, &r.slice[0], linear);
     hand_over(fine, &r.slice[0]);
@@ -69,10 +69,10 @@ static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool
   if (!todo.restriction)
     return;
   int end = together ? started : last;
-  if (fine->taken)
+  if (fine->received)
     take_over(fine, &r.slice[0]);
   for (int S = first; S < end && S < last; ++S)
-    restrict_slice(&r, S, S == first && !fine->taken, out, linear);
+    restrict_slice(&r, S, S == first && !fine->received, out, linear);
   if (share->member == 0)
     clear(coarse, coarse->u);
   if (share->member == share->members - 1)

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "component/clusters.h"
 #include "solver/passes.h"
-#include "solver/spread_clusters.h"
 
 static float axis_mass(const fg__level *box, int axis, int at)
 {
@@ -70,62 +70,39 @@ static size_t node_count(const fg__level *box)
   return (size_t)nodes[0] * (size_t)nodes[1] * (size_t)nodes[2];
 }
 
-/* Labels the nodes of a box that is the whole level. */
-static fg_status label_whole(fg__components *parts, fg_context *context,
-                             const fg__level *box, int *label)
+static fg_status find_parts(fg__clusters *parts, fg_context *context,
+                            const fg__multigrid *multigrid)
 {
-  const fg__cells_of_box *cells = &box->tensor;
-  ptrdiff_t origin, width = box->layout.nodes[0];
-  unsigned char *active = fg__cells_mask(cells, &origin);
+  const fg__level *block = fg__multigrid_finest(multigrid);
+  ptrdiff_t origin;
+  unsigned char *active = fg__cells_mask(&block->tensor, &origin);
+  fg_status status = FG_STATUS_OK;
   if (!active)
-    return fg__fail_memory(context, "the mask", node_count(box));
-  fg__component_box grid = {.row = width,
-                            .plane = width * box->layout.nodes[1],
-                            .active = active + origin,
-                            .cell_row = cells->row,
-                            .cell_plane = cells->plane};
-  for (int k = 0; k < 3; ++k) {
-    grid.grid_nodes[k] = grid.nodes[k] = box->layout.nodes[k];
-    grid.periodic[k] = box->periodic[k];
+    status = fg__fail_memory(context, "the mask", node_count(block));
+  status = fg__ranks_agree(multigrid->ranks, context, status);
+  if (!status) {
+    const fg__cluster_grid grid = {.partition = &multigrid->partition,
+                                   .layout = &block->layout,
+                                   .active = active + origin,
+                                   .cell_row = block->tensor.row,
+                                   .cell_plane = block->tensor.plane};
+    status = fg__clusters_find(parts, context, &grid, NULL,
+                               &(fg__cluster_wish){.counting = true});
   }
-  fg_status status = fg__components_cut(parts, context, &grid);
-  if (!status)
-    status = fg__components_merge(parts, context, parts->piece, parts->piece_count, NULL,
-                                  0, 0.0);
-  if (!status)
-    fg__components_label(parts, &grid, parts->piece_label, 0, label);
   free(active);
   return status;
 }
 
-static fg_status find_in_whole(fg__means *out, fg_context *context, const fg__level *box)
+static fg_status find(fg__means *out, fg_context *context, const fg__multigrid *multigrid)
 {
-  fg__components parts = {0};
-  int *label = fg__allocate(node_count(box), sizeof *label);
-  if (!label)
-    return fg__fail_memory(context, "the parts of the domain",
-                           node_count(box) * sizeof *label);
-  fg_status status = label_whole(&parts, context, box, label);
-  out->count = parts.count;
-  if (!status && out->count > 1)
-    status = take_runs(out, context, box, label);
-  fg__components_clear(&parts);
-  free(label);
-  return status;
-}
-
-static fg_status find_in_spread(fg__means *out, fg_context *context,
-                                const fg__spread *spread)
-{
-  fg__spread_clusters parts = {0};
-  fg_status status = fg__spread_clusters_find(&parts, context, spread, NULL,
-                                              spread->residual[0], 0.0, true);
-  out->count = parts.whole.count;
+  const fg__level *block = fg__multigrid_finest(multigrid);
+  fg__clusters parts = {0};
+  fg_status status = find_parts(&parts, context, multigrid);
+  out->count = parts.found.count;
   if (!status && out->count > 1) {
-    const fg__level *block = &spread->block;
     int *label = fg__allocate(node_count(block), sizeof *label);
     if (label) {
-      fg__spread_clusters_label(&parts, label);
+      fg__clusters_label(&parts, label);
       status = take_runs(out, context, block, label);
     } else {
       status = fg__fail_memory(context, "the parts of the domain",
@@ -133,7 +110,7 @@ static fg_status find_in_spread(fg__means *out, fg_context *context,
     }
     free(label);
   }
-  fg__spread_clusters_clear(&parts);
+  fg__clusters_clear(&parts);
   return status;
 }
 
@@ -185,12 +162,9 @@ fg_status fg__means_create(fg__means *out, fg_context *context,
                            const fg__multigrid *multigrid, const float *u)
 {
   *out = (fg__means){.count = 1};
-  const fg__level *whole = &multigrid->level[0];
-  const fg__spread *spread = multigrid->spread_count > 0 ? &multigrid->spread[0] : NULL;
-  if (spread ? !spread->masked : !whole->mass)
+  if (!fg__multigrid_finest(multigrid)->mass)
     return FG_STATUS_OK;
-  fg_status status =
-      spread ? find_in_spread(out, context, spread) : find_in_whole(out, context, whole);
+  fg_status status = find(out, context, multigrid);
   if (!status && out->count > 1)
     status = take_arrays(out, context);
   status = fg__ranks_agree(multigrid->ranks, context, status);
@@ -198,7 +172,7 @@ fg_status fg__means_create(fg__means *out, fg_context *context,
     fg__means_clear(out);
     return status;
   }
-  const int *nodes = spread ? spread->partition.nodes : whole->layout.nodes;
+  const int *nodes = multigrid->partition.nodes;
   out->rounding = fg__level_rounding((double)nodes[0] * nodes[1] * nodes[2]);
   add_up(out, multigrid, NULL, out->mass);
   add_up(out, multigrid, u, out->mean);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
+#include "solver/multigrid_test.h"
 #include "solver/subdomain/means.h"
 
 /* Rooms in a box that is periodic along x: a wall, a layer of cells along z, has a room
@@ -65,7 +66,7 @@ static void create(subject *s, mask *inside)
     for (int corner = 0; corner < 8 && active[n]; ++corner)
       s->mass[node_of((x + corner % 2) % W, y + corner / 2 % 2, z + corner / 4)] += 0.125;
   }
-  assert_int_equal(fg__multigrid_create(&s->multigrid, NULL, &mesh, &tensor, 1.0, NULL),
+  assert_int_equal(multigrid_of_tensor(&s->multigrid, NULL, &mesh, &tensor, 1.0, NULL),
                    FG_STATUS_OK);
   free(values);
   free(active);

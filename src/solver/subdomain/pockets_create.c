@@ -391,16 +391,14 @@ fg_status fg__pockets_create(fg__pockets *out, fg_context *context,
   *out = (fg__pockets){0};
   if (means->count <= 1)
     return FG_STATUS_OK;
-  static const int origin[3] = {0, 0, 0};
   const fg__level *block = fg__multigrid_finest(multigrid);
-  const fg__partition *shared =
-      multigrid->spread_count > 0 ? &multigrid->spread[0].partition : NULL;
+  const fg__partition *partition = &multigrid->partition;
   collection c = {.out = out,
                   .multigrid = multigrid,
                   .means = means,
                   .block = block,
-                  .first = shared ? fg__own_block(shared)->first : origin,
-                  .nodes = shared ? shared->nodes : block->layout.nodes,
+                  .first = fg__own_block(partition)->first,
+                  .nodes = partition->nodes,
                   .periodic = block->periodic};
   out->entries = block->layout.dimension == 3 ? MOST_ENTRIES : 9;
   c.size = fg__allocate((size_t)means->count, sizeof *c.size);

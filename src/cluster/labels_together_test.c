@@ -1,34 +1,71 @@
-#include "cluster/shared.h"
+#include "cluster/patches.h"
 #include "cluster/window.h"
 
 #include <string.h>
 
-#include "cluster/shared_density_test.h"
+#include "cluster/divided_density_test.h"
+#include "cluster/unwrap.h"
 
 typedef struct tally {
   int clusters, unwrapped, closed;
 } tally;
 
+/* First and last node of a cluster along each axis on the plain grid, and its first node.
+ */
+static void bounds_of(const fg__density_block *block, int cluster, int bounds[6],
+                      int *first)
+{
+  const int *nodes = block->partition.nodes;
+  *first = -1;
+  for (int n = 0; n < nodes[0] * nodes[1]; ++n) {
+    const int place[3] = {n % nodes[0], n / nodes[0], 0};
+    if (block->label[n] != cluster)
+      continue;
+    for (int k = 0; k < 3; ++k) {
+      if (*first < 0 || place[k] < bounds[2 * k])
+        bounds[2 * k] = place[k];
+      if (*first < 0 || place[k] > bounds[2 * k + 1])
+        bounds[2 * k + 1] = place[k];
+    }
+    *first = *first < 0 ? n : *first;
+  }
+}
+
+/* Compares with bounds that are found by following each cluster over the plain grid. */
 static void compare_labels(const fg__labels *got, const subject *s, const shape *about,
                            tally *sum)
 {
-  fg__labels want;
-  expect(fg__labels_create(&want, us.context, fg_density_contents(s->whole)) ==
-         FG_STATUS_OK);
-  expect(got->count == want.count && got->debris == want.debris);
-  for (int n = 0; n < want.count && got->count == want.count; ++n) {
-    bool same = memcmp(got->bounds[n], want.bounds[n], sizeof *want.bounds) == 0 &&
-                memcmp(got->closed[n], want.closed[n], sizeof *want.closed) == 0;
-    expect(got->area[n] == want.area[n]);
+  const fg_density_arrays *arrays = fg_density_contents(s->whole);
+  const fg__density_block *block = fg__density_block_of(s->whole);
+  const fg__component_grid grid = {
+      .nodes = {arrays->nodes[0], arrays->nodes[1], 1},
+      .periodic = {arrays->periodic[0], arrays->periodic[1], false},
+      .u = arrays->u,
+      .active = arrays->active};
+  fg__unwrap unwrap;
+  expect(fg__unwrap_create(&unwrap, us.context, &grid, block->label) == FG_STATUS_OK);
+  expect(got->count == block->count && got->debris == block->debris);
+  for (int n = 0; n < block->count && got->count == block->count; ++n) {
+    int bounds[6], first;
+    bool closed[3] = {false, false, false}, both = false;
+    bounds_of(block, n + 1, bounds, &first);
+    for (int k = 0; k < 2; ++k)
+      both = both || (grid.periodic[k] && bounds[2 * k] == 0 &&
+                      bounds[2 * k + 1] == grid.nodes[k] - 1);
+    if (both)
+      fg__unwrap_bounds(&unwrap, first, bounds, closed);
+    bool same = memcmp(got->bounds[n], bounds, sizeof bounds) == 0 &&
+                memcmp(got->closed[n], closed, sizeof closed) == 0;
+    expect(got->area[n] == block->area[n] * (arrays->spacing[0] * arrays->spacing[1]));
     expect(same);
     if (!same)
       fprintf(stderr, "%s: cluster %d: x %d to %d, y %d to %d\n", about->name, n + 1,
               got->bounds[n][0], got->bounds[n][1], got->bounds[n][2], got->bounds[n][3]);
     sum->clusters++;
-    sum->unwrapped += want.bounds[n][1] >= COLUMNS || want.bounds[n][3] >= ROWS;
-    sum->closed += want.closed[n][0] || want.closed[n][1];
+    sum->unwrapped += bounds[1] >= COLUMNS || bounds[3] >= ROWS;
+    sum->closed += closed[0] || closed[1];
   }
-  fg__labels_clear(&want);
+  fg__unwrap_clear(&unwrap);
 }
 
 /* What a rank that has patches sees of each cluster, compared with the whole's window. */
@@ -42,8 +79,7 @@ static void compare_windows(const fg__labels *labels, const subject *s)
   expect(fg__patches_fill(us.context, s->shared, wanted, labels->count) == FG_STATUS_OK);
   fg__labels want = {0};
   if (s->whole)
-    expect(fg__labels_create(&want, us.context, fg_density_contents(s->whole)) ==
-           FG_STATUS_OK);
+    expect(fg__labels_create(&want, us.context, s->whole) == FG_STATUS_OK);
   for (int n = 0; n < labels->count && s->whole; ++n) {
     fg__window one, other;
     expect(fg__window_cut(&one, us.context, grid, labels, &wanted[n].patch, n + 1) ==
@@ -66,17 +102,17 @@ static void compare_windows(const fg__labels *labels, const subject *s)
   free(wanted);
 }
 
-static void shares_show_what_the_whole_shows(void **state)
+static void blocks_show_what_the_plain_grid_shows(void **state)
 {
   (void)state;
   tally sum = {0};
-  for (int n = 0; n < SHAPE_COUNT && us.ranks->count > 1; ++n)
+  for (int n = 0; n < SHAPE_COUNT; ++n)
     for (int way = 0; way < 4; ++way) {
       bool periodic[2];
       set_periods(periodic, way);
       subject s = subject_of(&SHAPES[n], periodic, (n + way) % 3 == 0);
       fg__labels labels;
-      expect(fg__labels_create_shared(&labels, us.context, s.shared) == FG_STATUS_OK);
+      expect(fg__labels_create(&labels, us.context, s.shared) == FG_STATUS_OK);
       if (s.whole)
         compare_labels(&labels, &s, &SHAPES[n], &sum);
       compare_windows(&labels, &s);
@@ -84,7 +120,7 @@ static void shares_show_what_the_whole_shows(void **state)
       subject_clear(&s);
     }
   /* the shapes are what they are meant to be */
-  if (us.ranks->count > 1 && us.ranks->rank == 0)
+  if (us.ranks->rank == 0)
     expect(sum.clusters > 150 && sum.unwrapped > 20 && sum.closed > 10);
   end_together();
 }
@@ -107,8 +143,8 @@ int main(void)
 {
   start_together();
   const struct CMUnitTest tests[] = {
-      TOGETHER(shares_show_what_the_whole_shows),
+      TOGETHER(blocks_show_what_the_plain_grid_shows),
       TOGETHER(a_density_in_one_piece_is_not_gathered),
   };
-  return cmocka_run_group_tests_name("cluster/shared", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("cluster/labels", tests, NULL, NULL);
 }

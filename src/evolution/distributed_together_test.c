@@ -4,9 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "component/clusters.h"
 #include "evolution/stepper.h"
 #include "field/noise.h"
-#include "solver/spread_clusters.h"
+#include "solver/cells/field_boxes.h"
+#include "solver/multigrid_test.h"
 
 enum {
   STEPS = 8,
@@ -137,8 +139,7 @@ static void describe(run *r, const subject *s, const fg__ranks *ranks)
                                   .anisotropy = 0.15,
                                   .width = 2.0 * h,
                                   .dimension = s->dimension,
-                                  .cells = {1, 1, 1},
-                                  .masked = s->missing};
+                                  .cells = {1, 1, 1}};
   for (int k = 0; k < s->dimension; ++k) {
     r->recipe.cells[k] = r->mesh.cells[k];
     r->recipe.periodic[k] = r->mesh.periodic[k];
@@ -184,11 +185,23 @@ static void create_whole(run *r, fg__multigrid *multigrid)
          FG_STATUS_OK);
   expect(fg__tensor_smooth(&t, us.context, 0.15, &all, r->mesh.periodic, r->recipe.width,
                            NULL) == FG_STATUS_OK);
-  expect(fg__multigrid_create(multigrid, us.context, &r->mesh, &t, r->gamma, NULL) ==
+  expect(multigrid_of_tensor(multigrid, us.context, &r->mesh, &t, r->gamma, NULL) ==
          FG_STATUS_OK);
   for (int n = 0; n < 6; ++n)
     free(*components[n]);
   r->active = t.active;
+}
+
+/* A block a rank, each from the recipe. */
+static void create_blocks(const run *r, fg__multigrid *multigrid, bool masked)
+{
+  fg__wide_tensor wide = {0};
+  fg__cells_of_box cells;
+  expect(fg__cells_for_box(&cells, us.context, &r->recipe,
+                           fg__own_block(&r->mesh.partition), &wide,
+                           NULL) == FG_STATUS_OK);
+  expect(fg__multigrid_create(multigrid, us.context, &r->mesh, &cells, masked, r->gamma,
+                              NULL) == FG_STATUS_OK);
 }
 
 static void gather(const run *r, outcome *out)
@@ -196,14 +209,14 @@ static void gather(const run *r, outcome *out)
   const fg__multigrid *m = &r->stepper.multigrid;
   float *plain = allocate_or_end(out->nodes, sizeof *plain);
   out->u = plain;
-  if (m->spread_count == 0) {
+  if (m->distributed_count == 0) {
     fg__level_export(&m->level[0], r->stepper.current, plain);
     return;
   }
   fg__layout layout = fg__layout_of(r->mesh.dimension, r->mesh.partition.nodes);
   float *whole = allocate_or_end(layout.array_size, sizeof *whole);
   fg__gather *plan;
-  expect(fg__gather_create(&plan, us.context, &m->spread[0].partition, 1) ==
+  expect(fg__gather_create(&plan, us.context, &m->distributed[0].partition, 1) ==
          FG_STATUS_OK);
   float *const from = r->stepper.current, *const to = whole + layout.first;
   fg__gather_fill(plan, 1, &from, &to);
@@ -218,25 +231,22 @@ static void gather(const run *r, outcome *out)
 static void count(const run *r, outcome *out)
 {
   const fg__multigrid *m = &r->stepper.multigrid;
-  if (m->spread_count > 0) {
-    fg__spread_clusters c = {0};
-    expect(fg__spread_clusters_find(&c, us.context, &m->spread[0], r->stepper.current,
-                                    m->spread[0].residual[0], 3.0, true) == FG_STATUS_OK);
-    out->clusters = c.whole.count;
-    out->covered = c.covered;
-    fg__spread_clusters_clear(&c);
-    return;
-  }
-  fg__components c = {0};
-  fg__component_grid grid = {.u = out->u, .active = r->active, .debris_area = 3.0};
-  for (int k = 0; k < 3; ++k) {
-    grid.nodes[k] = r->mesh.partition.nodes[k];
-    grid.periodic[k] = r->mesh.periodic[k];
-  }
-  expect(fg__components_count(&c, us.context, &grid) == FG_STATUS_OK);
-  out->clusters = c.count;
+  ptrdiff_t origin;
+  const fg__level *block = fg__multigrid_finest(m);
+  unsigned char *active = block->mass ? fg__cells_mask(&block->tensor, &origin) : NULL;
+  const fg__cluster_grid grid = {.partition = &m->partition,
+                                 .layout = &block->layout,
+                                 .active = active ? active + origin : NULL,
+                                 .cell_row = block->tensor.row,
+                                 .cell_plane = block->tensor.plane};
+  const fg__cluster_wish wish = {.counting = true, .debris_area = 3.0};
+  fg__clusters c = {0};
+  expect(fg__clusters_find(&c, us.context, &grid, r->stepper.current, &wish) ==
+         FG_STATUS_OK);
+  out->clusters = c.found.count;
   out->covered = c.covered;
-  fg__components_clear(&c);
+  fg__clusters_clear(&c);
+  free(active);
 }
 
 /* A step of the pockets alone, long enough to be worth it. */
@@ -265,8 +275,7 @@ static outcome outcome_of(const subject *s, const fg__ranks *ranks)
   if (r.mesh.ranks->count == 1)
     create_whole(&r, &multigrid);
   else
-    expect(fg__multigrid_create_spread(&multigrid, us.context, &r.mesh, &r.recipe,
-                                       r.gamma) == FG_STATUS_OK);
+    create_blocks(&r, &multigrid, s->missing);
   fill(&r, &multigrid);
   double h = r.mesh.spacing[0];
   fg__stepper_description description = {.cell_volume = volume_of(&r.mesh),
@@ -317,7 +326,7 @@ static const subject SUBJECTS[] = {{"vortex3", 2, 65, false, NULL, 1},
 static void many_ranks_do_what_one_does(void **state)
 {
   (void)state;
-  const fg__ranks *alone = fg__ranks_alone();
+  const fg__ranks *alone = &fg__single_rank;
   for (size_t n = 0; n < sizeof SUBJECTS / sizeof *SUBJECTS; ++n) {
     outcome one = outcome_of(&SUBJECTS[n], alone);
     outcome all = outcome_of(&SUBJECTS[n], us.ranks);
@@ -345,5 +354,5 @@ int main(void)
   const struct CMUnitTest tests[] = {
       TOGETHER(many_ranks_do_what_one_does),
   };
-  return cmocka_run_group_tests_name("evolution/spread", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("evolution/distributed", tests, NULL, NULL);
 }

@@ -1,13 +1,14 @@
-/* Densities shared by all ranks, of shapes that cross the borders between ranks and the
- * seams of periodic axes in every way, beside the same in one piece. */
+/* Densities that all ranks divide, of shapes that cross the boundaries between blocks and
+ * the seams of periodic axes in every way, beside the same made of plain arrays. */
 #ifndef FG__SHARED_DENSITY_TEST_H
 #define FG__SHARED_DENSITY_TEST_H
 
 #include "grid/together_test.h"
 
 #include <math.h>
+#include <string.h>
 
-#include "density/share.h"
+#include "density/density.h"
 
 typedef struct shape {
   const char *name;
@@ -100,7 +101,8 @@ enum { SHAPE_COUNT = sizeof SHAPES / sizeof *SHAPES, COLUMNS = 144, ROWS = 96 };
 
 typedef struct subject {
   fg_field *field;
-  fg_density *shared, *whole; /* the same on one rank; whole elsewhere NULL */
+  fg_density *shared; /* of all ranks */
+  fg_density *whole;  /* the same of arrays; NULL but on rank 0 */
 } subject;
 
 /* A flow with a turning direction on [0, 3] x [1, 3], of 48 x 40 samples; a mask takes
@@ -133,6 +135,27 @@ static inline fg_field *field_with_periods(const bool periodic[2], bool masked)
   return out;
 }
 
+/* On rank 0 the density made of the arrays of all ranks, whose labels are the same. */
+static inline fg_density *whole_of(const fg_density *divided)
+{
+  fg_density *gathered = NULL, *whole = NULL;
+  if (us.ranks->count > 1)
+    expect(fg_density_gather(&gathered, us.context, divided) == FG_STATUS_OK);
+  expect(us.ranks->count == 1 || !gathered == (us.ranks->rank > 0));
+  const fg_density *all = us.ranks->count > 1 ? gathered : divided;
+  if (us.ranks->rank > 0 || !all)
+    return NULL;
+  expect(fg_density_create_from_arrays(&whole, us.context, fg_density_contents(all)) ==
+         FG_STATUS_OK);
+  const fg__density_block *got = fg__density_block_of(all);
+  const fg__density_block *want = fg__density_block_of(whole);
+  size_t nodes = (size_t)fg__box_count(fg__own_block(&want->partition));
+  expect(got->count == want->count && got->debris == want->debris);
+  expect(memcmp(got->label, want->label, nodes * sizeof *want->label) == 0);
+  fg_density_destroy(gathered);
+  return whole;
+}
+
 /* An evolution that has not begun holds what it is given. */
 static inline subject subject_of(const shape *s, const bool periodic[2], bool masked)
 {
@@ -153,9 +176,7 @@ static inline subject subject_of(const shape *s, const bool periodic[2], bool ma
   expect(fg_density_create(&out.shared, evolution) == FG_STATUS_OK);
   expect(fg_density_is_shared(out.shared) == (us.ranks->count > 1));
   fg_evolution_destroy(evolution);
-  if (us.ranks->count > 1)
-    expect(fg_density_gather(&out.whole, us.context, out.shared) == FG_STATUS_OK);
-  expect(!out.whole == (us.ranks->rank > 0 || us.ranks->count == 1));
+  out.whole = whole_of(out.shared);
   const fg_density_arrays *got = out.whole ? fg_density_contents(out.whole) : NULL;
   int differ = 0;
   for (int n = 0; n < nodes[0] * nodes[1] && got; ++n)
