@@ -175,7 +175,7 @@ static fg_status prepare(const task *t, fg_context *context, int slabs)
     c->slabs = slabs;
   }
   for (int n = 0; n <= slabs; ++n)
-    c->first[n] = (int)((long)t->slices * n / slabs);
+    c->first[n] = (int)((int64_t)t->slices * n / slabs);
   return FG_STATUS_OK;
 }
 

@@ -39,7 +39,7 @@ static fg__tensor_recipe recipe_of(const fg_evolution *e, const fg_field *field)
                          .anisotropy = e->options.anisotropy,
                          .dimension = e->mesh.dimension,
                          .cells = {1, 1, 1},
-                         .masked = e->active_cells < (long)e->cells};
+                         .masked = e->active_cells < (int64_t)e->cells};
   /* an interface across the stream is sqrt(gamma) wide */
   if (e->options.law->axes)
     r.width = sqrt(fg__evolution_interface_energy(e)) * e->mesh.length;
@@ -85,7 +85,7 @@ static fg_status count_active_cells(fg_evolution *e, const fg_field *field)
   if (status)
     return status;
   fg__ranks_add(e->mesh.ranks, &active, 1);
-  e->active_cells = (long)active;
+  e->active_cells = (int64_t)active;
   if (active == 0)
     return fg__fail(e->context, FG_STATUS_ARGUMENT, "the field is missing everywhere");
   return FG_STATUS_OK;

@@ -12,7 +12,7 @@ static const double nucleated = 0.8;
 
 static const unsigned char *mask_of(const fg_evolution *e)
 {
-  return e->active_cells < (long)e->cells ? e->tensor.active : NULL;
+  return e->active_cells < (int64_t)e->cells ? e->tensor.active : NULL;
 }
 
 static fg_status count_whole(fg_evolution *e, bool counting, double *covered)
@@ -99,7 +99,7 @@ static fg_status create_shared(fg_density **out, const fg_evolution *e)
   fg__density_share *share;
   fg_status status = fg__density_share_create(
       &share, e->context, finest, e->stepper.current, finest->residual[0],
-      arrays.debris_area / cell, e->active_cells < (long)e->cells);
+      arrays.debris_area / cell, e->active_cells < (int64_t)e->cells);
   if (status)
     return status;
   status = fg__density_create_shared(out, e->context, &arrays, share);

@@ -66,7 +66,7 @@ fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
                                double gamma, fg__team *team)
 {
   static const fg__ranks one = {.count = 1};
-  *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension),
+  *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension, FG_VECTORS_WIDEST),
                          .ranks = &one,
                          .team = team,
                          .level_count = 1};
@@ -197,8 +197,8 @@ fg_status fg__multigrid_create_spread(fg__multigrid *out, fg_context *context,
                                       const fg__mesh *mesh,
                                       const fg__tensor_recipe *recipe, double gamma)
 {
-  *out =
-      (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension), .ranks = mesh->ranks};
+  *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension, FG_VECTORS_WIDEST),
+                         .ranks = mesh->ranks};
   fg_status status = spread_levels(out, context, mesh, recipe, gamma);
   if (!status)
     status = create_first_whole(out, context, mesh, gamma);

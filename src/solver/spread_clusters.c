@@ -131,14 +131,14 @@ static fg_status join(fg__spread_clusters *c, fg_context *context,
                       double debris_area)
 {
   const fg__ranks *ranks = spread->partition.ranks;
-  uint64_t *words = fg__allocate(pair_count, sizeof *words);
-  fg__component_piece *piece = fg__allocate(piece_count, sizeof *piece);
-  fg__component_pair *pair = fg__allocate(pair_count, sizeof *pair);
+  uint64_t *words = fg__allocate((size_t)pair_count, sizeof *words);
+  fg__component_piece *piece = fg__allocate((size_t)piece_count, sizeof *piece);
+  fg__component_pair *pair = fg__allocate((size_t)pair_count, sizeof *pair);
   fg_status status = FG_STATUS_OK;
   if (!words || !piece || !pair)
     status = fg__fail_memory(context, "the clusters",
-                             pair_count * (sizeof *words + sizeof *pair) +
-                                 piece_count * sizeof *piece);
+                             (size_t)pair_count * (sizeof *words + sizeof *pair) +
+                                 (size_t)piece_count * sizeof *piece);
   status = fg__ranks_agree(ranks, context, status);
   if (!status) {
     const fg__components *own = &c->pieces;
@@ -152,7 +152,7 @@ static fg_status join(fg__spread_clusters *c, fg_context *context,
       piece[n] =
           (fg__component_piece){(int64_t)pieces[2 * n], (int64_t)pieces[2 * n + 1]};
     status = fg__components_merge(&c->whole, context, piece, (int)piece_count, pair,
-                                  pair_count, debris_area);
+                                  (size_t)pair_count, debris_area);
     status = fg__ranks_agree(ranks, context, status);
   }
   free(words);
@@ -182,9 +182,9 @@ static fg_status number_and_join(fg__spread_clusters *c, fg_context *context,
   fg__spread_exchange_ends(spread, 1, &scratch);
   copy_sides(block, scratch, c->number, true);
   status = fg__components_pairs(&c->pieces, context, &c->grid, number);
-  uint64_t *pieces = fg__allocate(2 * total, sizeof *pieces);
+  uint64_t *pieces = fg__allocate(2 * (size_t)total, sizeof *pieces);
   if (!status && !pieces)
-    status = fg__fail_memory(context, "the clusters", 2 * total * sizeof *pieces);
+    status = fg__fail_memory(context, "the clusters", 2 * (size_t)total * sizeof *pieces);
   status = fg__ranks_agree(ranks, context, status);
   if (!status)
     status = find_places(context, ranks, (uint64_t)own->pair_count, &before_pairs,

@@ -1,9 +1,9 @@
 /* A density, its clusters and its mask as VTK XML image data. */
 #include "write/density.h"
 #include "base/memory.h"
-#include "base/number_text.h"
 #include "component/components.h"
 #include "density/share.h"
+#include "file/number_text.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/number_text.h"
 #include "density/share.h"
+#include "file/number_text.h"
 #include "write/density.h"
 
 typedef struct writing {

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "grid/communicator.h"
 
 /* What one block holds of a region, or of its image a period on. */
 typedef struct piece {
@@ -147,12 +146,8 @@ fg_status fg__regions_fill(fg_context *context, const fg__partition *partition,
       if (r != ranks->rank && table[r] > 0)
         fg__traffic_add_message(ranks->book, (size_t)table[r] * source->size);
     fg__traffic_add_exchange(ranks->book);
-    MPI_Datatype type;
-    MPI_Type_contiguous((int)source->size, MPI_BYTE, &type);
-    MPI_Type_commit(&type);
-    MPI_Alltoallv(to_send, table, table + all, type, to_receive, table + 2 * all,
-                  table + 3 * all, type, fg__communicator(ranks));
-    MPI_Type_free(&type);
+    fg__ranks_deal(ranks, source->size, to_send, table, table + all, to_receive,
+                   table + 2 * all, table + 3 * all);
     p.at = to_receive;
     for (int r = 0; r < ranks->count; ++r)
       for_pieces(partition, region, count, r, ranks->rank, unpack, &p);

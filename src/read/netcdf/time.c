@@ -1,6 +1,6 @@
 /* Times as dates: "hours since 1900-01-01 00:00" in the calendars of the CF conventions
  * (section 4.4.1). */
-#include "base/number_text.h"
+#include "file/number_text.h"
 #include "read/netcdf/netcdf.h"
 
 #include <math.h>
