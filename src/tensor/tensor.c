@@ -1,6 +1,7 @@
 #include <math.h>
 
 #include "tensor/eigenvalues.h"
+#include "tensor/length.h"
 #include "tensor/tensor.h"
 
 /* in the order of fg_energy */
@@ -110,7 +111,7 @@ static bool ends_of(const fg__tensor *t, size_t n, int dimension, double *least,
 {
   double a[6] = {(double)t->xx[n], (double)t->xy[n], (double)t->yy[n], 0.0, 0.0, 0.0};
   if (dimension == 2) {
-    double mean = 0.5 * (a[0] + a[2]), half = hypot(0.5 * (a[0] - a[2]), a[1]);
+    double mean = 0.5 * (a[0] + a[2]), half = fg__length(0.5 * (a[0] - a[2]), a[1], 0.0);
     *least = mean - half;
     *greatest = mean + half;
   } else {
