@@ -17,6 +17,7 @@ static void a_resumed_run_takes_the_same_scales(void **state)
   int file = mkstemp(path);
   assert_true(file >= 0);
   close(file);
+  unlink(path);
   fg_run *run = run_of(context, field, &options), *later;
   const fg_run_scale *scale, *other;
   fg_step step;
