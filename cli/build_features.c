@@ -38,20 +38,20 @@ static fg_feature feature_of(bool solid)
   return solid ? FG_FEATURE_RENDER : FG_FEATURE_PICTURES;
 }
 
-unsigned formats_to_draw(const cli_settings *settings, bool solid)
+unsigned formats_to_draw(unsigned asked, bool solid)
 {
   if (!fg_has_feature(feature_of(solid)))
     return 0;
-  if (settings->formats)
-    return settings->formats;
+  if (asked)
+    return asked;
   return solid ? FORMAT_PNG : FORMAT_SVG | FORMAT_PNG;
 }
 
-int refuse_undrawable(const cli_settings *settings, bool solid)
+int refuse_undrawable(unsigned asked, bool background, bool solid)
 {
-  if (settings->formats)
+  if (asked)
     return require_feature("--formats", feature_of(solid));
-  if (settings->background)
+  if (background)
     return require_feature("--background", feature_of(solid));
   return EXIT_DONE;
 }

@@ -2,7 +2,7 @@
 #ifndef BUILD_FEATURES_H
 #define BUILD_FEATURES_H
 
-#include "program.h"
+#include "option/settings.h"
 
 /* Prints the version, the features that are there and those that are not. */
 void print_version(void);
@@ -10,11 +10,11 @@ void print_version(void);
 /* Complains of `what` where a feature is lacking; an exit code. */
 int require_feature(const char *what, fg_feature feature);
 
-/* The formats of pictures (bits, FORMAT_SVG, ...) that each scale gets: those asked for,
- * or the usual ones; none where pictures cannot be drawn. */
-unsigned formats_to_draw(const cli_settings *settings, bool solid);
+/* The formats of pictures (bits, FORMAT_SVG, ...) that each scale gets: those `asked`
+ * for, or the usual ones; none where pictures cannot be drawn. */
+unsigned formats_to_draw(unsigned asked, bool solid);
 
 /* Complains where pictures are asked for that cannot be drawn; an exit code. */
-int refuse_undrawable(const cli_settings *settings, bool solid);
+int refuse_undrawable(unsigned asked, bool background, bool solid);
 
 #endif

@@ -119,6 +119,12 @@ int complain_of_file(const char *path, const char *what)
   return EXIT_FAILED;
 }
 
+int complain_of_memory(const char *what)
+{
+  complain("out of memory for %s", what);
+  return EXIT_FAILED;
+}
+
 void say_infinite(const char *file, const fg_field *field)
 {
   size_t count = fg_field_infinite(field);

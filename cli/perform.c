@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "build_features.h"
-#include "options.h"
+#include "command/command.h"
+#include "option/parse.h"
 #include "ranks.h"
 #include "vectors.h"
 
@@ -31,7 +32,7 @@ static parse_result help(const char *word)
   return PARSE_DONE;
 }
 
-static parse_result parse(const cli_command **command, cli_settings *settings, int argc,
+static parse_result parse(const cli_command **command, any_settings *settings, int argc,
                           char **argv)
 {
   if (argc < 2) {
@@ -62,7 +63,7 @@ static parse_result parse(const cli_command **command, cli_settings *settings, i
 int program_perform(int argc, char **argv)
 {
   const cli_command *command = NULL;
-  cli_settings settings;
+  any_settings settings;
   parse_result parsed = parse(&command, &settings, argc, argv);
   int code = ranks_agree(parsed == PARSE_WRONG ? EXIT_USAGE : EXIT_DONE);
   if (code || ranks_any(parsed == PARSE_DONE))

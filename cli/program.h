@@ -1,4 +1,4 @@
-/* What the files of the program share: exit codes, settings, messages. */
+/* What the files of the program share: exit codes and messages. */
 #ifndef PROGRAM_H
 #define PROGRAM_H
 
@@ -6,70 +6,6 @@
 
 /* Exit codes of every command. */
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
-
-enum { MAX_SCALES = 64 };
-
-/* Views of a picture in 3D. */
-enum { MAX_VIEWS = 8 };
-
-/* Picture formats, as bits of settings.formats. */
-enum { FORMAT_SVG = 1, FORMAT_PNG = 2, FORMAT_PDF = 4, FORMAT_KINDS = 3 };
-
-/* Everything a command line can say. Zero means "not said". */
-typedef struct cli_settings {
-  const char *operand; /* INPUT, FILE, DIR or NAME */
-  char *const *files;  /* score: the operands after it */
-  int file_count;
-  const char *output;
-
-  const char *vars, *vars_from, *mask;
-  int time, level;
-  int scale; /* fg_scale */
-
-  int nodes;
-  int mesh;           /* auto (0), adaptive, uniform */
-  int scheme;         /* fg_scheme */
-  const char *energy; /* a word of energy_words or a file; NULL: flow */
-  double anisotropy, isotropic_below, coverage, gamma, noise;
-  uint64_t seed;
-  double max_time;
-  int max_steps;
-  int threads;
-  int clusters[MAX_SCALES]; /* descending */
-  int cluster_count;
-  int arrows[MAX_SCALES]; /* descending; none and no clusters: the default list */
-  int arrow_count;
-  double tolerance;  /* degrees; 0: not said */
-  int start;         /* of a placement: clusters (0), even */
-  int effort;        /* fg_effort */
-  int extent;        /* cluster (0), the only one */
-  double checkpoint; /* seconds between checkpoints; 0: after every step */
-
-  unsigned formats; /* 0: the default, SVG and PNG, in 3D PNG */
-  double width;
-  const char *palette;
-  bool tint, skeletons, centers, no_arrows, no_frame, transparent;
-  bool surfaces;
-  bool key;
-  double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
-  int view_count;             /* 0: one, the usual */
-
-  int method;       /* rival: fg_rival_method */
-  int lengths;      /* run: fg_lengths; rival: 1 with the speed */
-  int length_class; /* score: fg_score_class */
-  double ink;       /* score: 0: no limit */
-  int kind;         /* fg_texture_kind */
-  int background;   /* 0: none; 1 more than fg_texture_kind */
-  int longest;      /* pixels */
-  double length, fade;
-  double position_weight, elongation;
-
-  const char *input; /* draw: the field, where it is now */
-  int scale_index;   /* draw: -1 when not said */
-  int figure;        /* gallery: the only one; 0: all */
-
-  bool save_field, resume, force, quiet, verbose, json;
-} cli_settings;
 
 /* From now on complaints are kept, not printed: on ranks other than 0, for all to agree
  * on (ranks.h). */
@@ -102,6 +38,9 @@ int complain_of_partial(const fg_context *context, fg_status status, const char 
 /* Prints a file's error from errno, "flowgrain: PATH: No such file ..."; EXIT_FAILED. */
 int complain_of_file(const char *path, const char *what);
 
+/* "out of memory for WHAT"; EXIT_FAILED. */
+int complain_of_memory(const char *what);
+
 /* Says how many samples of a field are missing because they are infinite, if any are. */
 void say_infinite(const char *file, const fg_field *field);
 
@@ -113,39 +52,7 @@ int create_context(fg_context **out);
 char *join_texts(const char *first, const char *second);
 char *join_path(const char *folder, const char *name);
 
-/* Complains of a picture whose name has not the end of a known format, or that can not be
- * put where it shall be; an exit code. */
-int check_picture_name(const char *path, const char *command);
-
-int command_run(const cli_settings *settings);
-int command_draw(const cli_settings *settings);
-int command_info(const cli_settings *settings);
-int command_synth(const cli_settings *settings);
-int command_rival(const cli_settings *settings);
-int command_score(const cli_settings *settings);
-int command_texture(const cli_settings *settings);
-int command_brush(const cli_settings *settings);
-int command_gallery(const cli_settings *settings);
-
 /* Does what a command line says, argv[0] being the program; returns its exit code. */
 int program_perform(int argc, char **argv);
-
-fg_read_options settings_reading(const cli_settings *settings);
-fg_evolution_options settings_evolution(const cli_settings *settings);
-
-/* Whether the mesh is halved as clusters grow; not where the user gives the width of
- * interfaces, unless they ask for it. */
-bool settings_adapt_mesh(const cli_settings *settings);
-fg_picture_options settings_picture(const cli_settings *settings);
-
-/* Whether arrows are placed, exactly so many; else they are their clusters' own. */
-bool settings_place(const cli_settings *settings);
-fg_placement_options settings_placement(const cli_settings *settings);
-
-/* The options of one of the views in 3D, from 0. usual: azimuth and elevation where none
- * is asked for, or NULL. */
-fg_solid_options settings_solid(const cli_settings *settings, int view,
-                                const double usual[2]);
-fg_texture_options settings_texture(const cli_settings *settings);
 
 #endif

@@ -101,12 +101,12 @@ int ranks_agree(int code)
   return code_of(status);
 }
 
-bool ranks_any(bool said)
+bool ranks_any(bool one)
 {
   if (count == 1)
-    return said;
+    return one;
   fg_status status =
-      fg_ranks_agree(context, said ? FG_STATUS_STOPPED : FG_STATUS_OK, "", NULL);
+      fg_ranks_agree(context, one ? FG_STATUS_STOPPED : FG_STATUS_OK, "", NULL);
   fg_context_clear(context);
   return status != FG_STATUS_OK;
 }

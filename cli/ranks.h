@@ -27,7 +27,7 @@ int ranks_count(void);
  * wait for ever. */
 int ranks_agree(int code);
 
-/* Whether any rank says so; collective likewise. */
-bool ranks_any(bool said);
+/* Whether it is so on any rank; collective likewise. */
+bool ranks_any(bool one);
 
 #endif

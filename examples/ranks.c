@@ -1,68 +1,53 @@
 /* Clusters of a field, found by several processes that share one evolution; the first of
- * them writes their arrows: ranks INPUT PICTURE.
+ * them draws an arrow in each of about 40: ranks INPUT PICTURE.
  *
  *     mpicc ranks.c $(pkg-config --cflags --libs flowgrain) -o ranks
  *     mpirun -n 4 ./ranks synth:vortex3 vortices.svg
+ *
+ * Every rank makes the same calls, and reads its part of the field.
  */
 #include <flowgrain/flowgrain.h>
 #include <flowgrain/mpi.h>
 #include <stdio.h>
 
-static fg_status evolve(fg_evolution *evolution, int clusters)
+static fg_status draw(fg_context *context, const char *input, const char *picture)
 {
-  fg_step step;
-  fg_status status;
-  do
-    status = fg_evolution_step(evolution, &step);
-  while (!status && !step.stationary && (step.clusters == 0 || step.clusters > clusters));
+  static const int clusters[] = {40};
+  const fg_run_options options = {
+      .kind = FG_RUN_CLUSTERS, .numbers = clusters, .count = 1};
+  int rank, count;
+  fg_field *field = NULL;
+  fg_run *run = NULL;
+  const fg_run_scale *scale = NULL;
+  fg_ranks(context, &rank, &count);
+  fg_status status = fg_field_read_part(&field, context, input, NULL, rank, count);
+  status = fg_ranks_agree(context, status, NULL, NULL);
+  if (!status)
+    status = fg_field_join(context, field);
+  if (!status)
+    status = fg_run_create(&run, context, field, &options);
+  if (!status)
+    status = fg_run_next(&scale, run);
+  if (!status && scale && rank == 0) { /* the others have no icons */
+    status = fg_picture_write(context, picture, field, NULL, scale->icons, NULL);
+    printf("%d arrows in %s\n", fg_icons_count(scale->icons), picture);
+  }
+  if (status && rank == 0)
+    fprintf(stderr, "%s: %s\n", fg_status_name(status), fg_context_message(context));
+  fg_run_destroy(run);
+  fg_field_destroy(field);
   return status;
-}
-
-/* Icons of a shared density are found by all ranks, and come to rank 0. */
-static fg_status draw(fg_context *context, const char *path, const fg_field *field,
-                      const fg_density *density, int rank)
-{
-  fg_icons *icons = NULL;
-  fg_status status = fg_icons_create(&icons, context, field, density, NULL);
-  if (!status && rank == 0)
-    status = fg_picture_write(context, path, field, NULL, icons, NULL);
-  if (!status && rank == 0)
-    printf("%d arrows in %s\n", fg_icons_count(icons), path);
-  fg_icons_destroy(icons);
-  return fg_ranks_agree(context, status, NULL, NULL);
 }
 
 int main(int argc, char **argv)
 {
-  int rank, count;
   fg_context *context = NULL;
-  fg_field *field = NULL;
-  fg_evolution *evolution = NULL;
-  fg_density *density = NULL;
-
   MPI_Init(&argc, &argv);
-  fg_status status = fg_context_create(&context);
+  fg_status status = argc == 3 ? fg_context_create(&context) : FG_STATUS_ARGUMENT;
   if (!status)
     status = fg_context_set_communicator(context, MPI_COMM_WORLD);
-  fg_ranks(context, &rank, &count);
-  if (!status && argc != 3)
-    status = FG_STATUS_ARGUMENT;
   if (!status)
-    status = fg_field_read(&field, context, argv[1], NULL);
-  if (!status)
-    status = fg_evolution_create(&evolution, context, field, NULL);
-  if (!status)
-    status = evolve(evolution, 40);
-  if (!status)
-    status = fg_density_create(&density, evolution);
-  if (!status)
-    status = draw(context, argv[2], field, density, rank);
-  if (status && rank == 0)
-    fprintf(stderr, "%s: %s\n", fg_status_name(status), fg_context_message(context));
-
-  fg_density_destroy(density);
-  fg_evolution_destroy(evolution);
-  fg_field_destroy(field);
+    status = draw(context, argv[1], argv[2]);
   fg_context_destroy(context);
   MPI_Finalize();
   return status ? 1 : 0;

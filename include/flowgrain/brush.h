@@ -39,6 +39,7 @@ FG_API const fg_image_arrays *fg_image_contents(const fg_image *image);
 
 enum { FG_MOST_BRUSH_SCALES = 16 };
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_brush_options {
   const int *clusters; /* numbers of clusters, descending or not: a layer of strokes each,
                           few and broad ones first [NULL: by the image's size] */
@@ -70,6 +71,7 @@ FG_API int fg_strokes_count(const fg_strokes *strokes);
 FG_API const fg_stroke *fg_strokes_at(const fg_strokes *strokes, int index);
 FG_API int fg_strokes_layers(const fg_strokes *strokes);
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_painting_options {
   double width;            /* in points of 1/72 inch [a point a pixel of the image] */
   double pixels_per_point; /* for PNG [2] */

@@ -29,23 +29,12 @@ FG_API const char *fg_checkpoint_note(const fg_checkpoint *checkpoint);
 /* Why the previous checkpoint was opened, "PATH: damaged: ...", or "". */
 FG_API const char *fg_checkpoint_damage(const fg_checkpoint *checkpoint);
 
-/* How often fg_evolution_coarsen has halved the mesh before: an evolution has to be made
- * coarser as often before it can resume. */
-FG_API int fg_checkpoint_halvings(const fg_checkpoint *checkpoint);
-
-/* Whether a checkpoint is of the same field and options, however often its mesh was
- * halved: to be asked before a new evolution is made coarser for it. ARGUMENT (the
- * message names what differs with both values), UNSUPPORTED (written by another version),
- * FILE_FORMAT. */
-FG_API fg_status fg_evolution_check(const fg_evolution *evolution,
-                                    const fg_checkpoint *checkpoint);
-
 /* Puts an evolution, just created from the same field with the same options (threads may
- * differ), into the state of a checkpoint: every later step is the same to the last bit
- * as without the interruption. `step` becomes the last accepted one; it counts no cycles
- * and rejections. After a failure the evolution is of no use. ARGUMENT (another field or
- * option: the message names it with both values), UNSUPPORTED (written by another
- * version), FILE_ACCESS, FILE_FORMAT, MEMORY. */
+ * differ), into the state of a checkpoint, its mesh coarsened as often: every later step
+ * is the same to the last bit as without the interruption. `step` becomes the last
+ * accepted one; it counts no cycles and rejections. After a failure the evolution is of
+ * no use. ARGUMENT (another field or option: the message names it with both values),
+ * UNSUPPORTED (written by another version), FILE_ACCESS, FILE_FORMAT, MEMORY. */
 FG_API fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
                                      const fg_checkpoint *checkpoint);
 

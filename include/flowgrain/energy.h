@@ -29,8 +29,8 @@ typedef struct fg_energy_place {
 typedef void fg_energy_tensor(double tensor[6], const fg_energy_place *place,
                               const void *data);
 
-/* An energy, for `law` in fg_evolution_options. It is borrowed until fg_evolution_create
- * has returned. */
+/* An energy, for `law` in fg_evolution_options. fg_evolution_create copies it, but not
+ * `data`, which must outlive the evolution. */
 struct fg_energy_law {
   const char *name; /* for messages */
   fg_energy_tensor *tensor;

@@ -27,6 +27,13 @@ typedef enum fg_scheme {
   FG_SCHEME_THETA     /* theta-splitting in three substeps: second order, small steps */
 } fg_scheme;
 
+/* Whether the mesh is coarsened as clusters grow: fg_evolution_should_coarsen. */
+typedef enum fg_mesh_kind {
+  FG_MESH_AUTO = 0, /* adaptive unless gamma is given */
+  FG_MESH_ADAPTIVE,
+  FG_MESH_UNIFORM /* stays as it is */
+} fg_mesh_kind;
+
 /* Vector instructions of the inner loops; u has the same bits with all. */
 typedef enum fg_vectors {
   FG_VECTORS_WIDEST = 0, /* that the machine has */
@@ -35,8 +42,10 @@ typedef enum fg_vectors {
   FG_VECTORS_AVX512
 } fg_vectors;
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_evolution_options {
   int nodes;                /* nodes along the longest side of the mesh [257] */
+  fg_mesh_kind mesh;        /* [auto] */
   fg_energy energy;         /* [flow] */
   const fg_energy_law *law; /* NULL: none; else in place of `energy` */
   double anisotropy;        /* a, in (0, 1] [0.15] */
@@ -64,7 +73,7 @@ typedef struct fg_step {
   double time;          /* t, in units of (longest side)^2 */
   double tau;           /* size of this step */
   double energy;        /* E(u); like t and tau in the first mesh's units: see
-                           fg_evolution_coarsen */
+                           fg_evolution_coarsen; it grows at coarsenings only */
   double mass;          /* integral of u over the domain, in double */
   double area_fraction; /* share of the domain where u > 0 */
   int clusters;         /* components of {u > 0} above the size of debris; 0 while the
@@ -72,20 +81,23 @@ typedef struct fg_step {
   int cycles;           /* multigrid cycles spent on this step, rejects included */
   int rejected;         /* attempts rejected before this step was accepted */
   int64_t cells;        /* active cells of the mesh */
+  int coarsenings;      /* of the mesh, since the evolution began */
   double increment;     /* rms of the change of u */
   double seconds;       /* wall time since the evolution was created */
   bool stationary;      /* the pattern no longer changes */
 } fg_step;
 
 /* Builds mesh, tensor and initial density. nodes is rounded up so that the mesh can be
- * coarsened; fg_evolution_mesh says what it became. ARGUMENT (options out of range,
+ * coarsened; fg_evolution_mesh says what it became. The field, and what a law's `data`
+ * points to, must outlive the evolution. ARGUMENT (options out of range,
  * ranks that disagree on field or options), MEMORY, MPI. */
 FG_API fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
                                      const fg_field *field,
                                      const fg_evolution_options *options);
 FG_API void fg_evolution_destroy(fg_evolution *evolution);
 
-/* Makes one accepted time step and describes it. NO_CONVERGENCE when no step small enough
+/* Makes one accepted time step and describes it. The mesh is coarsened before the step
+ * where the options and the clusters ask for it. NO_CONVERGENCE when no step small enough
  * is accepted, or mass or energy break their promise; STOPPED. */
 FG_API fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step);
 
@@ -93,7 +105,7 @@ FG_API fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step);
  * side would show them as well: 4096 cells of the domain (in 3D 32768) to a cluster, and
  * more nodes a side than a mesh has by default. False in a domain with missing values,
  * whose narrow parts a coarser mesh would lose. */
-FG_API bool fg_evolution_is_ample(const fg_evolution *evolution);
+FG_API bool fg_evolution_should_coarsen(const fg_evolution *evolution);
 
 /* Goes on with half the cells along each side, and interfaces twice as wide: gamma is
  * four times what it was. u becomes its mean round every other node, smoothed until
@@ -101,12 +113,21 @@ FG_API bool fg_evolution_is_ample(const fg_evolution *evolution);
  * and move faster: energies are divided, times and time steps multiplied by two, so that
  * they go on as on the first mesh, but for a jump of the energy, by some per cent up or
  * down. `step` becomes the present state; it counts no cycles.
- * `field` and the energy of `options` (NULL: the default) are those of the evolution's
- * creation; all other options stay what they were. Collective. ARGUMENT (they are not,
- * the cells can not be halved, or by fewer ranks only; the field has missing values):
- * nothing has changed; MEMORY, MPI: the evolution is of no use any more. */
-FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, const fg_field *field,
-                                      const fg_evolution_options *options, fg_step *step);
+ * fg_evolution_step does it by itself. Collective. ARGUMENT (the cells can not be halved,
+ * or by fewer ranks only; the field has missing values): nothing has changed; MEMORY,
+ * MPI: the evolution is of no use any more. */
+FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step);
+
+/* A coarsening of the mesh: the step after which it was made, that step's time, what it
+ * made of the energy, and clusters and cells on the new mesh. */
+typedef struct fg_coarsening {
+  long step;
+  double time, energy_before, energy_after;
+  int clusters, cells[3];
+} fg_coarsening;
+
+/* The last one since the evolution was created or resumed; NULL: there was none. */
+FG_API const fg_coarsening *fg_evolution_coarsening(const fg_evolution *evolution);
 
 typedef struct fg_mesh_info {
   int dimension;
@@ -117,6 +138,7 @@ typedef struct fg_mesh_info {
   double length;         /* the longest side in the input's coordinates */
   double domain_measure; /* area (volume) of the active cells, units of length squared */
   int64_t active_cells;
+  bool adaptive;      /* it is coarsened as clusters grow */
   const char *kernel; /* vector instructions that run: "avx512", "avx2", "generic" */
 } fg_mesh_info;
 

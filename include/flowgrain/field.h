@@ -17,6 +17,7 @@ typedef enum fg_scale {
   FG_SCALE_PLAIN     /* axes without a known unit */
 } fg_scale;
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_read_options {
   const char *vars;      /* "U,V", "U,V,W" or one vector variable; NULL: found */
   const char *vars_from; /* second file with the other component(s) */

@@ -11,26 +11,28 @@
  *     if (status)
  *       fprintf(stderr, "%s\n", fg_context_message(context));
  *
- * fg_field_create takes arrays in memory instead of a file. fg_placement places scales,
- * from many arrows to few. Arrows may start from clusters: a density evolves on the field
- * by an anisotropic Cahn-Hilliard equation (fg_evolution), the set {u > 0} (fg_density)
- * falls into clusters, each cluster becomes one curved arrow (fg_icons). Method: Garcke,
- * Preusser, Rumpf, Telea, Weikard and van Wijk, "A Continuous Clustering Method for
- * Vector Fields", IEEE Visualization 2000.
+ * fg_field_create takes arrays in memory instead of a file. A run of scales goes from
+ * many arrows to few: a density evolves on the field by an anisotropic Cahn-Hilliard
+ * equation (fg_evolution), the set {u > 0} (fg_density) falls into ever fewer clusters,
+ * and the first scale's arrows start from these (fg_placement); or each cluster becomes
+ * one curved arrow (fg_icons). Method: Garcke, Preusser, Rumpf, Telea, Weikard and van
+ * Wijk, "A Continuous Clustering Method for Vector Fields", IEEE Visualization 2000.
  *
- *     fg_evolution_create(&evolution, context, field, NULL);
- *     do
- *       status = fg_evolution_step(evolution, &step);
- *     while (!status && !step.stationary && (step.clusters > 40 || !step.clusters));
- *     fg_density_create(&density, evolution);
- *     fg_icons_create(&icons, context, field, density, NULL);
+ *     fg_run *run = NULL;  const fg_run_scale *scale = NULL;
+ *     status = fg_run_create(&run, context, field, NULL);   // 200, 100, 50, 25, 12
+ * arrows if (!status) status = fg_run_next(&scale, run); while (!status && scale) { //
+ * NULL after the last status = show(scale->icons); if (!status) status =
+ * fg_run_next(&scale, run);
+ *     }
+ *
+ * All of this is made of parts that can be called alone; examples/ has programs.
  *
  * The manual is the headers that this one includes: context.h (statuses, messages,
  * ranks), field.h and parts.h (in), evolution.h, energy.h and checkpoint.h (the work),
- * density.h and icons.h (its results), placement.h (exactly N arrows), picture.h,
- * solid.h, texture.h and brush.h (out), rival.h (what to compare with), score.h (how good
- * it is); and mpi.h (several processes), which it does not include. Each can be included
- * alone.
+ * density.h and icons.h (its results), placement.h (exactly N arrows), run.h (scales),
+ * picture.h, solid.h, texture.h and brush.h (out), rival.h (what to compare with),
+ * score.h (how good it is); and mpi.h (several processes), which it does not include.
+ * Each can be included alone.
  *
  * The library flowgrain_core is this one without files: what reads or writes them,
  * checkpoints and all of picture.h, texture.h, brush.h and rival.h are not in it.
@@ -65,6 +67,7 @@
 #include "flowgrain/picture.h"
 #include "flowgrain/placement.h"
 #include "flowgrain/rival.h"
+#include "flowgrain/run.h"
 #include "flowgrain/score.h"
 #include "flowgrain/solid.h"
 #include "flowgrain/texture.h"

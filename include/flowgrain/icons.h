@@ -42,6 +42,7 @@ typedef struct fg_icon {
   const double (*spine)[3], (*streamline)[3];
 } fg_icon;
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_icon_options {
   int threads; /* [1] */
 } fg_icon_options;

@@ -8,6 +8,7 @@
 extern "C" {
 #endif
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_picture_options {
   double width;            /* of the whole picture, in points of 1/72 inch [480] */
   double height;           /* [0: follows from the domain's shape] */
@@ -40,6 +41,14 @@ FG_API const char *const *fg_picture_palettes(void);
  * ARGUMENT, MEMORY. */
 FG_API fg_status fg_picture_write(fg_context *context, const char *path,
                                   const fg_field *field, const fg_density *density,
+                                  const fg_icons *icons,
+                                  const fg_picture_options *options);
+
+/* Pixels that the whole domain has in the picture that fg_picture_write would draw with
+ * these options, whose frame may show less of it: the size of a background that needs no
+ * stretching. Where that is more than 16 times the frame's pixels, so many of its shape.
+ * ARGUMENT, MEMORY. */
+FG_API fg_status fg_picture_frame(int size[2], fg_context *context, const fg_field *field,
                                   const fg_icons *icons,
                                   const fg_picture_options *options);
 

@@ -22,11 +22,13 @@ typedef enum fg_effort {
   FG_EFFORT_THOROUGH /* more exchanges: more time, a per cent less error */
 } fg_effort;
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_placement_options {
   fg_lengths lengths; /* [free] */
   fg_effort effort;   /* [normal] */
 } fg_placement_options;
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_arrows_options {
   int count;          /* how many [40] */
   fg_lengths lengths; /* [free] */

@@ -22,6 +22,7 @@ typedef enum fg_rival_method {
   FG_RIVAL_RANDOM    /* pieces of streamlines through random points, always the same */
 } fg_rival_method;
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_rival_options {
   fg_rival_method method; /* [hedgehog] */
   int nodes; /* of the raster that the method works on, along the longest side [257, in 3D

@@ -19,6 +19,7 @@ typedef enum fg_score_class {
   FG_SCORE_FREE        /* lines count as long as they are */
 } fg_score_class;
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_score_options {
   fg_score_class lengths; /* [arrows] */
   int count;              /* the nominal N [the number of icons] */

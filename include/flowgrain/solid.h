@@ -31,6 +31,7 @@ FG_API void fg_surface_destroy(fg_surface *surface);
 FG_API fg_status fg_density_surface(fg_surface **out, fg_context *context,
                                     const fg_density *density);
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_solid_options {
   const char *palette; /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
   double speed_min, speed_max; /* ends of the colours; equal: of pictures those of

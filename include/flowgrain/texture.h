@@ -26,6 +26,7 @@ typedef enum fg_texture_kind {
                           1999) */
 } fg_texture_kind;
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_texture_options {
   fg_texture_kind kind; /* [line integral convolution] */
   int longest;          /* pixels along the longest side, 16 to 16384 [1024] */
@@ -65,6 +66,7 @@ FG_API fg_status fg_texture_create(fg_texture **out, fg_context *context,
 FG_API void fg_texture_destroy(fg_texture *texture);
 FG_API const fg_texture_arrays *fg_texture_contents(const fg_texture *texture);
 
+/* A zero field means its default, in brackets. */
 typedef struct fg_texture_style {
   const char *palette; /* NULL: grey; else a colour map that shows the speed, as for
                           pictures, or "#rrggbb" for one colour */
@@ -81,14 +83,6 @@ typedef struct fg_texture_style {
 FG_API fg_status fg_texture_write(fg_context *context, const char *path,
                                   const fg_field *field, const fg_texture *texture,
                                   const fg_texture_style *style);
-
-/* Pixels that the whole domain has in the picture that fg_picture_write would draw with
- * these options, whose frame may show less of it: the size of a background that needs no
- * stretching. Where that is more than 16 times the frame's pixels, so many of its shape.
- * ARGUMENT, MEMORY. */
-FG_API fg_status fg_picture_frame(int size[2], fg_context *context, const fg_field *field,
-                                  const fg_icons *icons,
-                                  const fg_picture_options *options);
 
 #ifdef __cplusplus
 }

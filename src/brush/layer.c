@@ -145,6 +145,7 @@ fg_status fg__layer_density(fg_density **out, fg_context *context,
                          .tensor = fg__structure_tensor,
                          .data = structure};
     fg_evolution_options options = {.nodes = nodes_for(image, plan->clusters),
+                                    .mesh = FG_MESH_UNIFORM,
                                     .law = &law,
                                     .anisotropy = plan->anisotropy,
                                     .coverage = coverage,

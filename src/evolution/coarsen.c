@@ -1,10 +1,9 @@
 /* A mesh that follows its clusters: when they have grown, half the nodes along each side
  * show them as well. docs/design/adaptive.md has the measurements. */
-#include <math.h>
+#include <string.h>
 
 #include "evolution/evolution.h"
 #include "evolution/options.h"
-#include "field/fingerprint.h"
 #include "grid/blocks.h"
 
 /* Cells a cluster, of all the domain's, from which on the mesh is finer than needed: each
@@ -12,7 +11,7 @@
  * these are drawn. */
 static const double ample_cells_2d = 64.0 * 64.0, ample_cells_3d = 32.0 * 32.0 * 32.0;
 
-bool fg_evolution_is_ample(const fg_evolution *evolution)
+bool fg_evolution_should_coarsen(const fg_evolution *evolution)
 {
   const fg_evolution *e = evolution;
   double ample = e->mesh.dimension == 3 ? ample_cells_3d : ample_cells_2d;
@@ -23,12 +22,8 @@ bool fg_evolution_is_ample(const fg_evolution *evolution)
          fg__mesh_can_be_halved(&e->mesh);
 }
 
-static fg_status check(const fg_evolution *e, const fg_field *field,
-                       const fg_evolution_options *options)
+static fg_status check(const fg_evolution *e)
 {
-  if (e->field_fingerprint != fg__field_fingerprint(field))
-    return fg__fail(e->context, FG_STATUS_ARGUMENT,
-                    "coarser mesh: the field is not that of the evolution");
   if (e->active_cells < (int64_t)e->cells)
     return fg__fail(e->context, FG_STATUS_ARGUMENT,
                     "coarser mesh: the field is missing in places, which a coarser mesh "
@@ -40,21 +35,12 @@ static fg_status check(const fg_evolution *e, const fg_field *field,
   int cells[3];
   for (int k = 0; k < 3; ++k)
     cells[k] = e->mesh.cells[k] / 2;
-  fg_status status = fg__blocks_choose(&(fg__blocks){.unit = 0}, e->context, e->ranks,
-                                       e->mesh.dimension, cells);
-  fg_evolution_options settled = *options;
-  if (!status)
-    status = fg__evolution_options_settle(&settled, e->context, e->mesh.dimension);
-  if (!status &&
-      (settled.energy != e->options.energy || settled.law->identity != e->law_identity))
-    status = fg__fail(e->context, FG_STATUS_ARGUMENT,
-                      "coarser mesh: the energy is not that of the evolution");
-  return status;
+  return fg__blocks_choose(&(fg__blocks){.unit = 0}, e->context, e->ranks,
+                           e->mesh.dimension, cells);
 }
 
 /* Leaves one mesh for the next. */
-static fg_status change_mesh(fg_evolution *e, const fg_field *field,
-                             const fg_energy_law *law, const fg__halved *halved)
+static fg_status change_mesh(fg_evolution *e, const fg__halved *halved)
 {
   double time = e->stepper.time;
   e->halved = halved;
@@ -63,38 +49,54 @@ static fg_status change_mesh(fg_evolution *e, const fg_field *field,
   e->mesh_nodes = fg__mesh_most_cells(&e->mesh) / 2 + 1;
   ++e->halvings;
   fg__evolution_clear(e);
-  e->options.law = law;
-  fg_status status = fg__evolution_build(e, field);
-  e->options.law = NULL;
+  fg_status status = fg__evolution_build(e);
   e->halved = NULL;
   e->stepper.mean = e->halved_mean; /* to the last bit, as a resumed run will have it */
   e->stepper.time = 0.5 * time;     /* its unit is twice as long */
   return status;
 }
 
-fg_status fg_evolution_coarsen(fg_evolution *evolution, const fg_field *field,
-                               const fg_evolution_options *options, fg_step *step)
+static void remember(fg_evolution *e, double energy_before, const fg_step *step)
+{
+  e->coarsening = (fg_coarsening){.step = step->step,
+                                  .time = step->time,
+                                  .energy_before = energy_before,
+                                  .energy_after = step->energy,
+                                  .clusters = step->clusters};
+  memcpy(e->coarsening.cells, e->info.cells, sizeof e->coarsening.cells);
+  e->has_coarsening = true;
+}
+
+fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step)
 {
   fg_evolution *e = evolution;
-  const fg_evolution_options none = {.nodes = 0};
-  if (!options)
-    options = &none;
+  double energy = fg__evolution_describe(e, 0, 0).energy;
   fg_activity before = fg__traffic_begin(e->ranks->book, FG_ACTIVITY_SETUP);
   fg__halved halved = {.values = NULL};
-  fg_status status = fg__ranks_agree(e->ranks, e->context, check(e, field, options));
+  fg_status status = fg__ranks_agree(e->ranks, e->context, check(e));
   if (!status)
     status = fg__halved_create(&halved, e->context, &e->stepper.multigrid,
                                &e->mesh.partition, e->stepper.current);
-  if (!status) {
-    fg_evolution_options settled = *options;
-    fg__evolution_options_settle(&settled, e->context, e->mesh.dimension);
-    status = change_mesh(e, field, settled.law, &halved);
-  }
+  if (!status)
+    status = change_mesh(e, &halved);
   if (!status)
     status = fg__evolution_count(e);
   fg__halved_clear(&halved);
   fg__traffic_return(e->ranks->book, before);
-  if (!status)
+  if (!status) {
     *step = fg__evolution_describe(e, 0, 0);
+    remember(e, energy, step);
+  }
   return status;
+}
+
+const fg_coarsening *fg_evolution_coarsening(const fg_evolution *evolution)
+{
+  return evolution->has_coarsening ? &evolution->coarsening : NULL;
+}
+
+bool fg__evolution_adapts(const fg_evolution *evolution)
+{
+  const fg_evolution_options *o = &evolution->options;
+  return o->mesh == FG_MESH_ADAPTIVE || (o->mesh == FG_MESH_AUTO && o->gamma == 0.0);
 }

@@ -108,7 +108,7 @@ static void damps(fg_context *context, const char *name, int samples, int nodes)
 
   const fg_mesh_info mesh = *fg_evolution_mesh(evolution);
   fg_step step;
-  assert_int_equal(fg_evolution_coarsen(evolution, field, &options, &step), FG_STATUS_OK);
+  assert_int_equal(fg_evolution_coarsen(evolution, &step), FG_STATUS_OK);
   coarse = density_of(evolution);
   c = fg_density_contents(coarse);
   same_domain(f, c);
@@ -181,7 +181,7 @@ static void widens(fg_context *context, bool along)
   test_free(initial);
 
   fg_step step;
-  assert_int_equal(fg_evolution_coarsen(evolution, field, &options, &step), FG_STATUS_OK);
+  assert_int_equal(fg_evolution_coarsen(evolution, &step), FG_STATUS_OK);
   fg_density *density = density_of(evolution);
   const fg_density_arrays *after = fg_density_contents(density);
   assert_int_equal(after->nodes[0], COARSER);
@@ -239,8 +239,7 @@ static void clusters_on_a_coarser_mesh_are_those_of_the_finer(void **state)
 
     evolution = begin(context, field, &options);
     run_to(evolution, HALVED, &measure);
-    assert_int_equal(fg_evolution_coarsen(evolution, field, &options, &after),
-                     FG_STATUS_OK);
+    assert_int_equal(fg_evolution_coarsen(evolution, &after), FG_STATUS_OK);
     assert_true(after.energy < before.energy && after.energy > 0.9 * before.energy);
     fg_step next;
     assert_int_equal(fg_evolution_step(evolution, &next), FG_STATUS_OK);
@@ -278,8 +277,7 @@ static void clusters_are_counted_on_the_coarser_mesh(void **state)
   fg_evolution *evolution = begin(context, field, &options);
   double measure;
   fg_step before = run_to(evolution, 30, &measure), after;
-  assert_int_equal(fg_evolution_coarsen(evolution, field, &options, &after),
-                   FG_STATUS_OK);
+  assert_int_equal(fg_evolution_coarsen(evolution, &after), FG_STATUS_OK);
   fg_density *density = density_of(evolution);
   double covered = share_covered(fg_density_contents(density));
   assert_true(fabs(before.area_fraction - covered) > 5e-3);
@@ -296,32 +294,85 @@ static void the_mesh_is_ample_for_large_clusters_only(void **state)
   enum { AMPLE = 4096, CLUSTERS = 60 };
   fg_context *context = *state;
   fg_field *field = field_of(context, "vortex3", 65);
-  const fg_evolution_options options = {.nodes = 513};
+  const fg_evolution_options options = {.nodes = 513, .mesh = FG_MESH_UNIFORM};
   fg_evolution *evolution = begin(context, field, &options);
   fg_step step;
-  assert_false(fg_evolution_is_ample(evolution)); /* nothing is counted yet */
+  assert_false(fg_evolution_should_coarsen(evolution)); /* nothing is counted yet */
   do {
     assert_int_equal(fg_evolution_step(evolution, &step), FG_STATUS_OK);
     bool large = step.clusters > 0 && step.cells >= (long)AMPLE * step.clusters;
-    assert_true(fg_evolution_is_ample(evolution) == large);
+    assert_true(fg_evolution_should_coarsen(evolution) == large);
   } while (step.clusters == 0 || step.clusters > CLUSTERS);
-  assert_true(fg_evolution_is_ample(evolution));
-  assert_int_equal(fg_evolution_coarsen(evolution, field, &options, &step), FG_STATUS_OK);
+  assert_true(fg_evolution_should_coarsen(evolution));
+  assert_int_equal(fg_evolution_coarsen(evolution, &step), FG_STATUS_OK);
   assert_int_equal(step.cells, 256 * 256);
   fg_evolution_destroy(evolution);
   fg_field_destroy(field);
 }
 
-static void refused(fg_context *context, fg_evolution *evolution, const fg_field *field,
-                    const fg_evolution_options *options, const char *words)
+static void refused(fg_context *context, fg_evolution *evolution, const char *words)
 {
   fg_step step, next;
-  assert_int_equal(fg_evolution_coarsen(evolution, field, options, &step),
-                   FG_STATUS_ARGUMENT);
+  assert_int_equal(fg_evolution_coarsen(evolution, &step), FG_STATUS_ARGUMENT);
   if (!strstr(fg_context_message(context), words))
     fail_msg("\"%s\" does not say \"%s\"", fg_context_message(context), words);
   fg_context_clear(context);
   assert_int_equal(fg_evolution_step(evolution, &next), FG_STATUS_OK); /* it goes on */
+}
+
+/* As told before each step that the mesh is finer than needed, and to the same bits. */
+static void steps_coarsen_the_mesh_by_themselves(void **state)
+{
+  enum { CLUSTERS = 50 };
+  fg_context *context = *state;
+  fg_field *field = field_of(context, "vortex3", 65);
+  fg_evolution_options options = {.nodes = 513};
+  fg_evolution *by_itself = begin(context, field, &options);
+  options.mesh = FG_MESH_UNIFORM;
+  fg_evolution *by_hand = begin(context, field, &options);
+  fg_step step = {0}, other, coarsened = {0}, last;
+  assert_null(fg_evolution_coarsening(by_itself));
+  do {
+    last = step;
+    if (fg_evolution_should_coarsen(by_hand))
+      assert_int_equal(fg_evolution_coarsen(by_hand, &coarsened), FG_STATUS_OK);
+    assert_int_equal(fg_evolution_step(by_itself, &step), FG_STATUS_OK);
+    assert_int_equal(fg_evolution_step(by_hand, &other), FG_STATUS_OK);
+    assert_int_equal(step.cells, other.cells);
+    assert_int_equal(step.coarsenings, other.coarsenings);
+    assert_true(step.energy == other.energy && step.time == other.time);
+    if (step.coarsenings > last.coarsenings) {
+      const fg_coarsening *c = fg_evolution_coarsening(by_itself);
+      assert_true(c && c->step == last.step && c->energy_before == last.energy);
+      assert_true(c->energy_after == coarsened.energy && step.energy < c->energy_after);
+      assert_true(c->time == last.time && c->cells[0] == 256 && c->cells[1] == 256);
+      assert_int_equal(c->clusters, coarsened.clusters);
+    }
+  } while (step.clusters == 0 || step.clusters > CLUSTERS);
+  assert_int_equal(step.coarsenings, 1);
+  fg_evolution_destroy(by_itself);
+  fg_evolution_destroy(by_hand);
+  fg_field_destroy(field);
+}
+
+/* The width of interfaces that is asked for stays, unless the mesh shall follow. */
+static void a_given_gamma_keeps_the_mesh(void **state)
+{
+  fg_context *context = *state;
+  fg_field *field = field_of(context, "vortex3", 33);
+  const fg_mesh_kind kinds[] = {FG_MESH_AUTO, FG_MESH_ADAPTIVE, FG_MESH_UNIFORM};
+  for (int n = 0; n < 3; ++n) {
+    const fg_evolution_options options = {.nodes = 513, .gamma = 2e-4, .mesh = kinds[n]};
+    fg_evolution *evolution = begin(context, field, &options);
+    fg_step step;
+    do
+      assert_int_equal(fg_evolution_step(evolution, &step), FG_STATUS_OK);
+    while (!fg_evolution_should_coarsen(evolution));
+    assert_int_equal(fg_evolution_step(evolution, &step), FG_STATUS_OK);
+    assert_int_equal(step.coarsenings, kinds[n] == FG_MESH_ADAPTIVE);
+    fg_evolution_destroy(evolution);
+  }
+  fg_field_destroy(field);
 }
 
 /* 16 clusters on the mesh that is the default have 4096 cells each, and keep them. */
@@ -333,7 +384,7 @@ static void the_default_mesh_is_never_ample(void **state)
   fg_evolution *evolution = begin(context, field, NULL);
   fg_step step = run_to(evolution, 14, &measure);
   assert_true(step.cells >= 4096L * step.clusters);
-  assert_false(fg_evolution_is_ample(evolution));
+  assert_false(fg_evolution_should_coarsen(evolution));
   fg_evolution_destroy(evolution);
   fg_field_destroy(field);
 }
@@ -342,18 +393,10 @@ static void what_can_not_be_halved_stays(void **state)
 {
   fg_context *context = *state;
   fg_field *field = field_of(context, "vortex3", 33);
-  fg_field *other = field_of(context, "vortex", 33);
-  fg_evolution_options options = {.nodes = 65};
-  fg_evolution *evolution = begin(context, field, &options);
-  refused(context, evolution, other, &options, "not that of the evolution");
-  options.energy = FG_ENERGY_ISOTROPIC;
-  refused(context, evolution, field, &options, "energy is not that of the evolution");
-  fg_evolution_destroy(evolution);
-
+  fg_evolution *evolution;
   evolution = begin(context, field, &(fg_evolution_options){.nodes = 17});
-  refused(context, evolution, field, NULL, "16 cells along the longest side");
+  refused(context, evolution, "16 cells along the longest side");
   fg_evolution_destroy(evolution);
-  fg_field_destroy(other);
 
   unsigned char valid[33 * 33];
   for (int n = 0; n < 33 * 33; ++n)
@@ -363,7 +406,7 @@ static void what_can_not_be_halved_stays(void **state)
   fg_field *masked;
   assert_int_equal(fg_field_create(&masked, context, &arrays), FG_STATUS_OK);
   evolution = begin(context, masked, &(fg_evolution_options){.nodes = 65});
-  refused(context, evolution, masked, NULL, "missing in places");
+  refused(context, evolution, "missing in places");
   fg_evolution_destroy(evolution);
   fg_field_destroy(masked);
   fg_field_destroy(field);
@@ -379,8 +422,7 @@ static void a_given_gamma_grows_like_the_default(void **state)
   fg_step step;
   for (int n = 1; n <= 2; ++n) {
     assert_int_equal(fg_evolution_step(evolution, &step), FG_STATUS_OK);
-    assert_int_equal(fg_evolution_coarsen(evolution, field, &options, &step),
-                     FG_STATUS_OK);
+    assert_int_equal(fg_evolution_coarsen(evolution, &step), FG_STATUS_OK);
     assert_true(fg_evolution_mesh(evolution)->gamma == 4.0e-3 * (1 << (2 * n)));
   }
   assert_int_equal(step.step, 2);
@@ -401,6 +443,10 @@ int main(void)
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(the_mesh_is_ample_for_large_clusters_only,
                                       context_set_up, context_tear_down),
+      cmocka_unit_test_setup_teardown(steps_coarsen_the_mesh_by_themselves,
+                                      context_set_up, context_tear_down),
+      cmocka_unit_test_setup_teardown(a_given_gamma_keeps_the_mesh, context_set_up,
+                                      context_tear_down),
       cmocka_unit_test_setup_teardown(the_default_mesh_is_never_ample, context_set_up,
                                       context_tear_down),
       cmocka_unit_test_setup_teardown(what_can_not_be_halved_stays, context_set_up,

@@ -22,22 +22,15 @@ static void compare(const char *name, const fg_evolution_options *options)
                *all = begin(field, us.ranks, options);
   fg_step a = advance(one, BEFORE), b = advance(all, BEFORE), resumed;
   expect_same(&a, &b);
-  expect(fg_evolution_coarsen(one, field, options, &a) == FG_STATUS_OK);
-  expect(fg_evolution_coarsen(all, field, options, &b) == FG_STATUS_OK);
+  expect(fg_evolution_coarsen(one, &a) == FG_STATUS_OK);
+  expect(fg_evolution_coarsen(all, &b) == FG_STATUS_OK);
   expect_same(&a, &b);
   advance(all, BETWEEN);
   expect(fg_evolution_save(all, path, "halved") == FG_STATUS_OK);
 
   fg_checkpoint *checkpoint;
   expect(fg__checkpoint_open(&checkpoint, us.context, path, us.ranks) == FG_STATUS_OK);
-  expect(fg_checkpoint_halvings(checkpoint) == 1);
   fg_evolution *later = begin(field, us.ranks, options);
-  expect(fg_evolution_resume(later, &resumed, checkpoint) == FG_STATUS_ARGUMENT);
-  expect(strstr(fg_context_message(us.context), "halvings") != NULL);
-  fg_context_clear(us.context);
-  fg_evolution_destroy(later);
-  later = begin(field, us.ranks, options);
-  expect(fg_evolution_coarsen(later, field, options, &resumed) == FG_STATUS_OK);
   expect(fg_evolution_resume(later, &resumed, checkpoint) == FG_STATUS_OK);
   fg_checkpoint_destroy(checkpoint);
   resumed = advance(later, AFTER);
@@ -94,7 +87,7 @@ static void more_ranks_than_the_halved_mesh_has_blocks_for_are_refused(void **st
                *all = begin(field, us.ranks, &options);
   fg_step a = advance(one, BEFORE), b = advance(all, BEFORE), halved;
   expect_same(&a, &b);
-  fg_status status = fg_evolution_coarsen(all, field, &options, &halved);
+  fg_status status = fg_evolution_coarsen(all, &halved);
   expect(status == (us.ranks->count > 2 ? FG_STATUS_ARGUMENT : FG_STATUS_OK));
   if (status) {
     expect(strstr(fg_context_message(us.context), "2 ranks fit") != NULL);

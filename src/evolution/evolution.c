@@ -98,6 +98,7 @@ static void describe(fg_evolution *e)
                            .isotropic_below = e->options.isotropic_below,
                            .coverage = e->options.coverage,
                            .noise = e->options.noise,
+                           .adaptive = fg__evolution_adapts(e),
                            .length = e->mesh.length};
   double cell = 1.0;
   for (int k = 0; k < dimension; ++k) {
@@ -163,14 +164,20 @@ static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ra
 {
   e->context = context;
   e->ranks = ranks;
+  e->field = field;
   e->start = fg__clock_seconds();
   if (options)
     e->options = *options;
   e->field_fingerprint = fg__field_fingerprint(field);
   fg_status status = fg__evolution_options_settle(&e->options, context,
                                                   fg_field_contents(field)->dimension);
-  if (!status)
-    e->law_identity = e->options.law->identity;
+  if (!status) {
+    e->law = *e->options.law;
+    e->law_identity = e->law.identity;
+    if (e->options.isotropic_below > 0.0)
+      e->law.data = &e->options.isotropic_below;
+    e->options.law = &e->law;
+  }
   e->mesh_nodes = e->options.nodes;
   e->clusters_found = fg__allocate(1, sizeof *e->clusters_found);
   if (!status && !e->clusters_found)
@@ -178,14 +185,10 @@ static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ra
   return status;
 }
 
-fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field)
+fg_status fg__evolution_build(fg_evolution *evolution)
 {
   fg_evolution *e = evolution;
-  if (e->options.isotropic_below > 0.0) {
-    e->slow_flow = *e->options.law;
-    e->slow_flow.data = &e->options.isotropic_below;
-    e->options.law = &e->slow_flow;
-  }
+  const fg_field *field = e->field;
   fg_status status = fg__field_check_shared(e->context, e->ranks, field);
   if (!status)
     status = fg__evolution_check_alike(e);
@@ -230,12 +233,10 @@ fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
     status = fg__fail_memory(context, "an evolution", sizeof *e);
   status = fg__ranks_agree(ranks, context, status);
   if (e && !status)
-    status = fg__evolution_build(e, field);
+    status = fg__evolution_build(e);
   fg__traffic_return(ranks->book, before);
-  if (e) {
+  if (e)
     e->options.initial = NULL; /* the caller's, and used up */
-    e->options.law = NULL;
-  }
   if (status) {
     fg_evolution_destroy(e);
     return status;
@@ -294,6 +295,7 @@ fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int re
                    .cycles = cycles,
                    .rejected = rejected,
                    .cells = e->info.active_cells,
+                   .coarsenings = e->halvings,
                    .increment = s->increment,
                    .seconds = fg__evolution_seconds(e),
                    .stationary = fg__stepper_stationary(s)};
@@ -302,10 +304,14 @@ fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int re
 fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
 {
   fg_evolution *e = evolution;
-  int64_t cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
+  fg_step coarsened;
   fg_activity before = fg__traffic_begin(e->ranks->book, FG_ACTIVITY_STEPS);
   /* asked once only: a step that has begun ends, so that it is the same when resumed */
   fg_status status = fg__ranks_agree(e->ranks, e->context, fg__check_stop(e->context));
+  /* before a step, not after: a checkpoint holds what the next step begins with */
+  if (!status && fg__evolution_adapts(e) && fg_evolution_should_coarsen(e))
+    status = fg_evolution_coarsen(e, &coarsened);
+  int64_t cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
   if (!status)
     status = fg__stepper_advance(&e->stepper, e->context);
   if (!status)

@@ -37,8 +37,11 @@ struct fg_evolution {
   double earlier_seconds; /* spent before a resumed evolution was created */
   /* Of the field, and of the initial density when one was given (else 0). */
   uint64_t field_fingerprint, initial_fingerprint;
-  uint64_t law_identity;   /* see fg_energy_law */
-  fg_energy_law slow_flow; /* that of the flow, with isotropic_below */
+  uint64_t law_identity; /* see fg_energy_law */
+  const fg_field *field;
+  fg_energy_law law;        /* options.law points here */
+  fg_coarsening coarsening; /* the last */
+  bool has_coarsening;
 };
 
 /* The public calls, for given ranks instead of all. */
@@ -64,7 +67,10 @@ double fg__evolution_alpha(const fg_evolution *evolution);
 double fg__evolution_unit(const fg_evolution *evolution);
 
 /* Makes everything that depends on the mesh, for options that are settled. Collective. */
-fg_status fg__evolution_build(fg_evolution *evolution, const fg_field *field);
+fg_status fg__evolution_build(fg_evolution *evolution);
+
+/* Whether steps coarsen the mesh by themselves. */
+bool fg__evolution_adapts(const fg_evolution *evolution);
 
 /* Frees it again; what the evolution remembers of its past stays. */
 void fg__evolution_clear(fg_evolution *evolution);

@@ -50,7 +50,7 @@ static float *initial_density(const fg_evolution *evolution)
   return u;
 }
 
-/* A checkpoint goes on, in an evolution that is halved as often. */
+/* A checkpoint goes on; its mesh is coarsened as often. */
 static void resume(const example *x, const fg_evolution_options *options)
 {
   fg_checkpoint *checkpoint = NULL;
@@ -58,8 +58,6 @@ static void resume(const example *x, const fg_evolution_options *options)
   fg_step step;
   again_if_need_be(fg_checkpoint_open(&checkpoint, us.context, path));
   bool ready = done(fg_evolution_create(&later, us.context, x->field, options));
-  for (int n = fg_checkpoint_halvings(checkpoint); n > 0 && ready; --n)
-    ready = done(fg_evolution_coarsen(later, x->field, options, &step));
   if (ready && done(fg_evolution_resume(later, &step, checkpoint)))
     again_if_need_be(fg_evolution_step(later, &step));
   fg_evolution_destroy(later);
@@ -93,7 +91,7 @@ static void halve_and_resume(const example *x, const fg_evolution_options *optio
   bool good = done(fg_evolution_create(&evolution, us.context, x->field, options));
   created = asked;
   if (good && !x->masked)
-    good = done(fg_evolution_coarsen(evolution, x->field, options, &step));
+    good = done(fg_evolution_coarsen(evolution, &step));
   if (good) {
     again_if_need_be(fg_evolution_save(evolution, path, "half"));
     resume(x, options);

@@ -45,6 +45,8 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
                                        int dimension)
 {
   fg_status status = check_range(context, "scheme", o->scheme, 0, FG_SCHEME_THETA, true);
+  if (!status)
+    status = check_range(context, "mesh", o->mesh, 0, FG_MESH_UNIFORM, true);
   if (status)
     return status;
   if (o->nodes == 0)
@@ -96,11 +98,11 @@ fg_status fg__evolution_check_alike(const fg_evolution *e)
   const fg_evolution_options *o = &e->options;
   const double numbers[] = {o->anisotropy, o->isotropic_below, o->coverage,
                             o->gamma,      o->accuracy,        o->noise};
-  const int words[] = {o->nodes, o->cycles, (int)o->energy, (int)o->scheme,
-                       o->initial != NULL};
+  const int words[] = {o->nodes,       o->cycles,    (int)o->energy,
+                       (int)o->scheme, (int)o->mesh, o->initial != NULL};
   uint64_t key = fg__mix(e->field_fingerprint ^ fg__mix(o->seed));
   key = fg__mix(key ^ e->law_identity);
-  for (int n = 0; n < 5; ++n)
+  for (size_t n = 0; n < sizeof words / sizeof *words; ++n)
     key = fg__mix(key ^ (uint64_t)words[n]);
   for (size_t n = 0; n < sizeof numbers / sizeof *numbers; ++n) {
     uint64_t bits;

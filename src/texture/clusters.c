@@ -39,8 +39,10 @@ static fg_status evolve(fg_density **out, fg_context *context, const fg__canvas 
   fg_evolution *evolution = NULL;
   fg_step step;
   *out = NULL;
-  fg_status status =
-      fg__evolution_create(&evolution, context, &fg__single_rank, canvas->field, options);
+  fg_evolution_options uniform = *options; /* as fine as the pixels to the end */
+  uniform.mesh = FG_MESH_UNIFORM;
+  fg_status status = fg__evolution_create(&evolution, context, &fg__single_rank,
+                                          canvas->field, &uniform);
   do {
     if (!status)
       status = fg_evolution_step(evolution, &step);

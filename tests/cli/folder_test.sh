@@ -48,6 +48,21 @@ expect_error 'holds scale-77.svg'
 rm a/b/c/scale-77.svg
 done_with "a file that no run has made stays, --force or not"
 
+# a picture that the program itself has drawn there is one of its own
+try draw a/b/c -o a/b/c/scale-05.svg
+expect_code 0
+try draw a/b/c -o a/b/c/again.svg
+expect_code 0
+try draw a/b/c -o a/b/c/scale-00.png # one of the results, in another style
+expect_code 0
+expect_json a/b/c/run.json '.drawn == ["scale-05.svg"]'
+try run synth:vortex -o a/b/c "${quick[@]}" --seed 4 --force
+expect_code 0
+[ ! -e a/b/c/scale-05.svg ] || fault "an old picture is left"
+expect_file a/b/c/again.svg
+expect_json a/b/c/run.json '.drawn == null'
+done_with "a picture drawn into a run's folder does not keep --force from it"
+
 try run synth:vortex -o in "${quick[@]}" --save-field
 expect_code 0
 mkdir other

@@ -111,7 +111,8 @@ size=$(stat -c %s kept/checkpoint)
 [ "$size" -gt 50000 ] || fault "$size bytes"
 for at in 3 10 50 64 $((size / 2)) $((size - 400)) $((size - 1)); do
   restore
-  printf '\252' | dd of=part/.flowgrain/checkpoint bs=1 seek="$at" conv=notrunc 2>/dev/null
+  old=$(od -An -tu1 -j "$at" -N 1 kept/checkpoint)
+  printf "\\$(printf %o $((255 - old)))" | dd of=part/.flowgrain/checkpoint bs=1 seek="$at" conv=notrunc 2>/dev/null
   cmp -s kept/checkpoint part/.flowgrain/checkpoint && fault "byte $at is the same"
   try "${input[@]}" "${options[@]}" -o part --resume
   [ "$code" = 0 ] || fault "byte $at: code $code"

@@ -336,7 +336,8 @@ const char *fg_checkpoint_damage(const fg_checkpoint *checkpoint)
   return checkpoint->damage;
 }
 
-int fg_checkpoint_halvings(const fg_checkpoint *checkpoint)
+/* How often the mesh has been coarsened. */
+static int halvings_of(const fg_checkpoint *checkpoint)
 {
   size_t length;
   const char *value = fg__value_find(checkpoint->file.text, "halvings", &length);
@@ -420,14 +421,13 @@ static fg_status load(fg_evolution *e, counts *counted, const fg__checkpoint_fil
   return status;
 }
 
-fg_status fg_evolution_check(const fg_evolution *evolution,
-                             const fg_checkpoint *checkpoint)
+/* Whether it is of the same field and options, however often its mesh was coarsened. */
+static fg_status check_origin(const fg_evolution *e, const fg_checkpoint *checkpoint)
 {
-  const fg_evolution *e = evolution;
   fg_status status = check_version(&checkpoint->file, e->context);
   if (!status)
     status = check_parameters(e, &checkpoint->file, PARAMETERS - MESH_PARAMETERS);
-  return fg__ranks_agree(e->ranks, e->context, status);
+  return status;
 }
 
 fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
@@ -435,7 +435,13 @@ fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
 {
   fg_evolution *e = evolution;
   counts counted;
-  fg_status status = load(e, &counted, &checkpoint->file);
+  /* another field's mesh may not be one to be coarsened */
+  fg_status status = fg__ranks_agree(e->ranks, e->context, check_origin(e, checkpoint));
+  for (int n = halvings_of(checkpoint) - e->halvings; !status && n > 0; --n)
+    status = fg_evolution_coarsen(e, step);
+  e->has_coarsening = false;
+  if (!status)
+    status = load(e, &counted, &checkpoint->file);
   if (status)
     return status;
   e->area_fraction = counted.area_fraction;

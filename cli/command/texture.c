@@ -1,0 +1,96 @@
+/* Paints a texture of a field. */
+#include "command/command.h"
+#include "folder/file.h"
+#include "folder/made.h"
+#include "interrupt.h"
+#include "option/settings.h"
+#include "option/validation.h"
+#include "sandbox.h"
+
+static int write_texture(fg_context *context, const texture_settings *settings,
+                         const fg_field *field, const fg_texture *texture)
+{
+  const fg_texture_style style = {
+      .palette = settings->palette,
+      .fade = settings->fade,
+      .transparent = settings->transparent,
+      .key = settings->key,
+  };
+  fg_status status = fg_texture_write(context, settings->output, field, texture, &style);
+  return status ? complain_of(context, status, settings->output)
+                : made_record(settings->output);
+}
+
+static int paint(fg_context *context, const texture_settings *settings,
+                 const fg_field *field)
+{
+  const fg_evolution_options evolution =
+      settings_evolution(&settings->evolution, &settings->work);
+  fg_texture_options options = settings_texture(settings);
+  options.evolution = &evolution;
+  fg_texture *texture = NULL;
+  fg_status status = fg_texture_create(&texture, context, field, &options);
+  int code = status ? complain_of(context, status, settings->reading.input)
+                    : write_texture(context, settings, field, texture);
+  fg_texture_destroy(texture);
+  return code;
+}
+
+static int check_options(const texture_settings *settings)
+{
+  const given_option of_clusters[] = {
+      {"clusters", settings->number.count > 0},
+      {"max-time", settings->max_time > 0.0},
+      {"nodes", settings->evolution.nodes > 0},
+      {"energy", settings->evolution.energy != NULL},
+      {"anisotropy", settings->evolution.anisotropy > 0.0},
+      {"coverage", settings->evolution.coverage > 0.0},
+      {"gamma", settings->evolution.gamma > 0.0},
+      {"noise", settings->evolution.noise > 0.0},
+  };
+  const char *const inputs[] = {settings->reading.input, settings->reading.vars_from,
+                                settings->evolution.energy};
+  const given_option length = {"length", settings->length > 0.0};
+  const given_option key = {"key", settings->key};
+  int code = EXIT_DONE;
+  if (settings->kind == FG_TEXTURE_CLUSTERS)
+    code = refuse_given("texture", &length, 1, "not with --kind clusters");
+  else
+    code =
+        refuse_given("texture", of_clusters, sizeof of_clusters / sizeof of_clusters[0],
+                     "only with --kind clusters");
+  if (!code && !settings->palette)
+    code =
+        refuse_given("texture", &key, 1, "only with --palette, whose colours it shows");
+  else if (!code && settings->palette[0] == '#')
+    code = refuse_given("texture", &key, 1, "not with --palette %s, which is one colour",
+                        settings->palette);
+  if (!code)
+    code = check_picture_name(settings->output, "texture");
+  return code ? code : check_is_no_input(settings->output, inputs, 3);
+}
+
+int command_texture(const void *given)
+{
+  const texture_settings *settings = given;
+  const fg_read_options reading = settings_reading(&settings->reading);
+  int code = check_options(settings);
+  if (!code && sandbox_reading(settings->reading.input, &reading))
+    code = EXIT_FAILED;
+  if (code)
+    return code;
+  fg_context *context;
+  if (create_context(&context))
+    return EXIT_FAILED;
+  interrupt_start(context);
+  fg_field *field = NULL;
+  fg_status status = fg_field_read(&field, context, settings->reading.input, &reading);
+  if (!status)
+    say_infinite(settings->reading.input, field);
+  code = status ? complain_of(context, status, settings->reading.input)
+                : paint(context, settings, field);
+  interrupt_end();
+  fg_field_destroy(field);
+  fg_context_destroy(context);
+  return code;
+}

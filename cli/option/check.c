@@ -1,0 +1,71 @@
+#include "option/check.h"
+
+#include <string.h>
+
+#include "option/value.h"
+
+/* A word that no file is likely to be called is a wrong one. */
+static bool check_energy(const evolution_settings *settings, const cli_command *command)
+{
+  if (settings->anisotropy > 0.0 && energy_place(settings->energy) == FG_ENERGY_ISOTROPIC)
+    return usage_error(command,
+                       "--anisotropy %g: not with --energy isotropic, which has none",
+                       settings->anisotropy);
+  if (settings->isotropic_below > 0.0 && energy_place(settings->energy) != FG_ENERGY_FLOW)
+    return usage_error(command, "--isotropic-below %g: only with --energy flow",
+                       settings->isotropic_below);
+  if (energy_place(settings->energy) >= 0)
+    return true;
+  char words[128];
+  list_words(words, sizeof words, energy_words);
+  bool takes_file = command->bit == COMMAND_RUN;
+  if (!takes_file || !strpbrk(settings->energy, "./"))
+    return usage_error(command, "--energy %s: not known; the choice is: %s%s",
+                       settings->energy, words, takes_file ? ", or a file" : "");
+  if (settings->anisotropy > 0.0)
+    return usage_error(command, "--anisotropy %g: that is for --energy to say, %s",
+                       settings->anisotropy, settings->energy);
+  return true;
+}
+
+/* Arrows are counted, or clusters, or found by their error. */
+static bool check_placement(const run_settings *settings, const cli_command *command)
+{
+  if (settings->arrows.count && settings->clusters.count)
+    return usage_error(command,
+                       "--arrows and --clusters: say one; --clusters draws an arrow in "
+                       "each cluster, however many they are");
+  if (settings->tolerance > 0.0 && (settings->arrows.count || settings->clusters.count))
+    return usage_error(
+        command, "--tolerance %g: finds the number of arrows; not with --%s",
+        settings->tolerance, settings->arrows.count ? "arrows" : "clusters");
+  if (settings->picture.no_arrows &&
+      (settings->arrows.count || settings->tolerance > 0.0))
+    return usage_error(command, "--%s and --no-arrows: say one",
+                       settings->arrows.count ? "arrows" : "tolerance");
+  const char *placed = settings->start     ? "start"
+                       : settings->effort  ? "effort"
+                       : settings->lengths ? "lengths"
+                                           : NULL;
+  if (placed && !settings_place(settings))
+    return usage_error(command, "--%s: says nothing with --%s: no arrows are placed",
+                       placed, settings->clusters.count ? "clusters" : "no-arrows");
+  if (settings_place(settings) &&
+      (settings->picture.skeletons || settings->picture.centers))
+    return usage_error(command, "--%s: of clusters; say how many with --clusters",
+                       settings->picture.skeletons ? "skeletons" : "centers");
+  return true;
+}
+
+bool options_check(const any_settings *settings, const cli_command *command)
+{
+  const run_settings *run = &settings->run;
+  if (command->bit == COMMAND_TEXTURE)
+    return check_energy(&settings->texture.evolution, command);
+  if (command->bit != COMMAND_RUN)
+    return true;
+  if (run->resume && run->force)
+    return usage_error(command,
+                       "--resume goes on with what --force would replace: say one");
+  return check_placement(run, command) && check_energy(&run->evolution, command);
+}

@@ -1,0 +1,149 @@
+#include "option/parse.h"
+
+#include <getopt.h>
+#include <string.h>
+
+#include "build_features.h"
+#include "option/check.h"
+#include "option/value.h"
+
+/* getopt_long's value for a long option is this plus its place in option_table, beyond
+ * every letter. */
+enum { LONG_BASE = 256, MAX_OPTIONS = 64 };
+
+enum { TYPED_BYTES = 40 };
+
+/* An option as it was typed, "-o" or "--output"; `code` is what getopt_long made of it.
+ */
+static const char *typed_name(char out[TYPED_BYTES], const option_entry *option, int code)
+{
+  if (code >= LONG_BASE)
+    snprintf(out, TYPED_BYTES, "--%s", option->name);
+  else
+    snprintf(out, TYPED_BYTES, "-%c", option->letter);
+  return out;
+}
+
+/* getopt_long's two descriptions of the options that a command knows. */
+typedef struct getopt_tables {
+  struct option longs[MAX_OPTIONS + 1];
+  char shorts[2 * MAX_OPTIONS + 2];
+} getopt_tables;
+
+static void fill_tables(getopt_tables *tables, const cli_command *command)
+{
+  memset(tables, 0, sizeof *tables);
+  size_t longs = 0, shorts = 0;
+  tables->shorts[shorts++] = ':'; /* a missing argument is reported as ':' */
+  for (size_t k = 0; k < option_count && longs < MAX_OPTIONS; ++k) {
+    const option_entry *option = &option_table[k];
+    if (!(option->commands & command->bit))
+      continue;
+    tables->longs[longs].name = option->name;
+    tables->longs[longs].has_arg = option->argument ? required_argument : no_argument;
+    tables->longs[longs++].val = LONG_BASE + (int)k;
+    if (option->letter) {
+      tables->shorts[shorts++] = option->letter;
+      if (option->argument)
+        tables->shorts[shorts++] = ':';
+    }
+  }
+}
+
+static const option_entry *find_option(const cli_command *command, int code)
+{
+  if (code >= LONG_BASE)
+    return &option_table[code - LONG_BASE];
+  for (size_t k = 0; k < option_count; ++k)
+    if ((option_table[k].commands & command->bit) && option_table[k].letter == code)
+      return &option_table[k];
+  return NULL;
+}
+
+static const void *at(const any_settings *settings, size_t place)
+{
+  return (const char *)settings + place;
+}
+
+static bool check_operands(any_settings *out, const cli_command *command, int count,
+                           char **operands)
+{
+  if (!command->operand && count)
+    return usage_error(command, "%s: takes no operand, and '%s' is one", command->name,
+                       operands[0]);
+  if (command->operand && !count)
+    return usage_error(command, "%s: %s is missing", command->name, command->operand);
+  if (command->more && count == 1)
+    return usage_error(command, "%s: %s is missing", command->name, command->more);
+  if (count > 1 && !command->more)
+    return usage_error(command, "%s: one %s is expected, and '%s' is one more",
+                       command->name, command->operand, operands[1]);
+  for (int k = 0; k < count; ++k)
+    if (!*operands[k])
+      return usage_error(command, "%s: %s is empty", command->name,
+                         k ? command->more : command->operand);
+  const char *const *output = at(out, command->output_place);
+  if (command->output_place && !*output)
+    return usage_error(command, "%s: -o is missing", command->name);
+  if (count)
+    memcpy((char *)out + command->operand_place, operands, sizeof *operands);
+  if (command->more) {
+    out->score.files = operands + 1;
+    out->score.file_count = count - 1;
+  }
+  return options_check(out, command);
+}
+
+static void set_defaults(any_settings *out, const cli_command *command)
+{
+  memset(out, 0, sizeof *out);
+  if (command->bit == COMMAND_DRAW)
+    out->draw.scale_index = -1;
+  else if (command->bit == COMMAND_RIVAL)
+    out->rival.position_weight = -1.0;
+  else if (command->bit == COMMAND_RUN)
+    out->run.checkpoint = 60.0;
+}
+
+parse_result options_parse(any_settings *out, const cli_command *command, int argc,
+                           char **argv)
+{
+  getopt_tables tables;
+  fill_tables(&tables, command);
+  set_defaults(out, command);
+  opterr = 0;
+  optind = 0; /* the C library's way to start afresh */
+  for (;;) {
+    int code = getopt_long(argc, argv, tables.shorts, tables.longs, NULL);
+    if (code == -1)
+      break;
+    if (code == '?' || code == ':') {
+      const option_entry *known = optopt ? find_option(command, optopt) : NULL;
+      char typed[TYPED_BYTES];
+      if (known && known->argument)
+        usage_error(command, "%s: its %s is missing", typed_name(typed, known, optopt),
+                    known->argument);
+      else if (known)
+        usage_error(command, "%s: takes no argument", typed_name(typed, known, optopt));
+      else if (optopt)
+        usage_error(command, "%s: unknown option -%c", command->name, optopt);
+      else
+        usage_error(command, "%s: unknown option %s", command->name, argv[optind - 1]);
+      return PARSE_WRONG;
+    }
+    const option_entry *option = find_option(command, code);
+    if (option->kind == OPTION_HELP) {
+      print_command_help(stdout, command);
+      return PARSE_DONE;
+    }
+    if (option->kind == OPTION_VERSION) {
+      print_version();
+      return PARSE_DONE;
+    }
+    char typed[TYPED_BYTES];
+    if (!value_set(out, command, option, typed_name(typed, option, code), optarg))
+      return PARSE_WRONG;
+  }
+  return check_operands(out, command, argc - optind, argv + optind) ? PARSE_GO
+                                                                    : PARSE_WRONG;
+}

@@ -1,0 +1,113 @@
+/* What the library is told of a command's settings. */
+#include "option/settings.h"
+
+#include <math.h>
+
+#include "option/table.h"
+#include "vectors.h"
+
+fg_read_options settings_reading(const reading_settings *settings)
+{
+  return (fg_read_options){
+      .vars = settings->vars,
+      .vars_from = settings->vars_from,
+      .time = settings->time,
+      .level = settings->level,
+      .mask = settings->mask,
+      .scale = (fg_scale)settings->scale,
+  };
+}
+
+fg_evolution_options settings_evolution(const evolution_settings *settings,
+                                        const work_settings *work)
+{
+  return (fg_evolution_options){
+      .nodes = settings->nodes,
+      .mesh = (fg_mesh_kind)settings->mesh,
+      .scheme = (fg_scheme)settings->scheme,
+      .energy = (fg_energy)(energy_place(settings->energy) < 0
+                                ? 0
+                                : energy_place(settings->energy)),
+      .anisotropy = settings->anisotropy,
+      .isotropic_below = settings->isotropic_below,
+      .coverage = settings->coverage,
+      .gamma = settings->gamma,
+      .seed = work->seed,
+      .noise = settings->noise,
+      .threads = work->threads,
+      .vectors = vectors_wanted(),
+  };
+}
+
+fg_run_options settings_run(const run_settings *settings)
+{
+  bool placed = settings_place(settings);
+  const number_list *numbers = placed ? &settings->arrows : &settings->clusters;
+  return (fg_run_options){
+      .kind = placed ? FG_RUN_ARROWS : FG_RUN_CLUSTERS,
+      .numbers = numbers->number,
+      .count = numbers->count,
+      .evolution = settings_evolution(&settings->evolution, &settings->work),
+      .placement = settings_placement(settings),
+      .max_time = settings->max_time,
+      .max_steps = settings->max_steps,
+  };
+}
+
+bool settings_place(const run_settings *settings)
+{
+  return settings->clusters.count == 0 && !settings->picture.no_arrows;
+}
+
+fg_placement_options settings_placement(const run_settings *settings)
+{
+  return (fg_placement_options){.lengths = (fg_lengths)settings->lengths,
+                                .effort = (fg_effort)settings->effort};
+}
+
+fg_texture_options settings_texture(const texture_settings *settings)
+{
+  return (fg_texture_options){
+      .kind = (fg_texture_kind)settings->kind,
+      .longest = settings->pixels,
+      .length = settings->length,
+      .clusters = settings->number.count ? settings->number.number[0] : 0,
+      .max_time = settings->max_time,
+      .seed = settings->work.seed,
+      .threads = settings->work.threads,
+  };
+}
+
+fg_picture_options settings_picture(const picture_settings *settings)
+{
+  return (fg_picture_options){
+      .width = settings->width,
+      .palette = settings->palette,
+      .no_frame = settings->no_frame,
+      .transparent = settings->transparent,
+      .tint = settings->tint,
+      .skeletons = settings->skeletons,
+      .centers = settings->centers,
+      .no_arrows = settings->no_arrows,
+  };
+}
+
+fg_solid_options settings_solid(const picture_settings *settings, int view,
+                                const double usual[2])
+{
+  /* pictures in 3D are 1200 pixels wide where those in 2D are 480 points */
+  int pixels = (int)lround(2.5 * settings->width);
+  fg_solid_options out = {
+      .palette = settings->palette,
+      .width = pixels,
+      .no_frame = settings->no_frame,
+      .transparent = settings->transparent,
+  };
+  const double *from = view < settings->view_count ? settings->views[view] : usual;
+  if (from) {
+    out.has_view = true;
+    out.azimuth = from[0];
+    out.elevation = from[1];
+  }
+  return out;
+}

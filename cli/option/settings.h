@@ -1,0 +1,178 @@
+/* What a command line gives: a struct for each command, made of the groups that several
+ * have in common. Zero means "not given". */
+#ifndef OPTION_SETTINGS_H
+#define OPTION_SETTINGS_H
+
+#include "program.h"
+
+enum { MAX_SCALES = FG_MOST_SCALES };
+
+/* Views of a picture in 3D. */
+enum { MAX_VIEWS = 8 };
+
+/* Picture formats, as bits of `formats`. */
+enum { FORMAT_SVG = 1, FORMAT_PNG = 2, FORMAT_PDF = 4, FORMAT_KINDS = 3 };
+
+/* Numbers of arrows or clusters, descending. */
+typedef struct number_list {
+  int number[MAX_SCALES];
+  int count;
+} number_list;
+
+/* A field to be read: INPUT and what is taken of it. */
+typedef struct reading_settings {
+  const char *input;
+  const char *vars, *vars_from, *mask;
+  int time, level;
+  int scale; /* fg_scale */
+} reading_settings;
+
+typedef struct evolution_settings {
+  int nodes;
+  int mesh;           /* fg_mesh_kind */
+  int scheme;         /* fg_scheme */
+  const char *energy; /* a word of energy_words or a file; NULL: flow */
+  double anisotropy, isotropic_below, coverage, gamma, noise;
+} evolution_settings;
+
+typedef struct work_settings {
+  uint64_t seed;
+  int threads;
+} work_settings;
+
+/* How icons look. */
+typedef struct picture_settings {
+  double width; /* points */
+  const char *palette;
+  bool tint, skeletons, centers, no_arrows, no_frame, transparent;
+  bool surfaces;
+  int background;             /* 0: none; 1 more than fg_texture_kind */
+  double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
+  int view_count;             /* 0: one, the usual */
+} picture_settings;
+
+typedef struct run_settings {
+  reading_settings reading;
+  evolution_settings evolution;
+  work_settings work;
+  picture_settings picture;
+  const char *output;           /* DIR */
+  number_list arrows, clusters; /* none of both: the default numbers of arrows */
+  double tolerance;             /* degrees */
+  int start;                    /* of a placement: clusters (0), even */
+  int effort;                   /* fg_effort */
+  int lengths;                  /* fg_lengths */
+  int extent;                   /* cluster (0), the only one */
+  double max_time;
+  int max_steps;
+  unsigned formats; /* 0: the default, SVG and PNG, in 3D PNG */
+  bool save_field;
+  double checkpoint; /* seconds between checkpoints; 0: after every step */
+  bool resume, force, quiet, verbose;
+} run_settings;
+
+typedef struct draw_settings {
+  picture_settings picture;
+  const char *folder;           /* DIR, of a finished run */
+  const char *output;           /* PICTURE */
+  const char *input;            /* where the field is now */
+  int scale_index;              /* -1 when not given */
+  number_list arrows, clusters; /* the finest scale with at most so many */
+} draw_settings;
+
+typedef struct texture_settings {
+  reading_settings reading;
+  evolution_settings evolution; /* of clusters */
+  work_settings work;
+  const char *output;
+  int kind;           /* fg_texture_kind */
+  int pixels;         /* along the longest side */
+  double length;      /* of streaks, pixels */
+  number_list number; /* of clusters: one */
+  double max_time;
+  const char *palette;
+  double fade;
+  bool transparent, key;
+} texture_settings;
+
+typedef struct brush_settings {
+  work_settings work;
+  const char *image, *output;
+  number_list clusters;
+  double anisotropy;
+  double width; /* points */
+  bool transparent, verbose;
+} brush_settings;
+
+typedef struct info_settings {
+  const char *file;
+  bool json;
+} info_settings;
+
+typedef struct synth_settings {
+  const char *name, *output;
+  int nodes; /* samples a side */
+} synth_settings;
+
+typedef struct rival_settings {
+  reading_settings reading;
+  picture_settings picture;
+  const char *output;
+  int method;             /* fg_rival_method */
+  number_list icons;      /* how many */
+  int nodes;              /* of the raster that is clustered */
+  double length;          /* of an arrow, fair shares */
+  int by_speed;           /* lengths are equal (0), in proportion to the speed */
+  double position_weight; /* -1 when not given */
+  double elongation;
+  unsigned formats;
+  bool save_field;
+} rival_settings;
+
+typedef struct score_settings {
+  reading_settings reading;
+  char *const *files; /* of icons */
+  int file_count;
+  int length_class;  /* fg_score_class */
+  number_list icons; /* the nominal number: one */
+  double ink;        /* 0: no limit */
+  bool json;
+} score_settings;
+
+typedef struct gallery_settings {
+  int figure;         /* the only one; 0: all */
+  const char *output; /* DIR */
+  bool force, quiet;
+} gallery_settings;
+
+/* Room for those of any command. */
+typedef union any_settings {
+  run_settings run;
+  draw_settings draw;
+  texture_settings texture;
+  brush_settings brush;
+  info_settings info;
+  synth_settings synth;
+  rival_settings rival;
+  score_settings score;
+  gallery_settings gallery;
+} any_settings;
+
+/* Whether arrows are placed, exactly so many; else they are their clusters' own. */
+bool settings_place(const run_settings *settings);
+
+/* What the library is told of them. */
+fg_read_options settings_reading(const reading_settings *settings);
+fg_evolution_options settings_evolution(const evolution_settings *settings,
+                                        const work_settings *work);
+fg_placement_options settings_placement(const run_settings *settings);
+fg_run_options settings_run(const run_settings *settings);
+fg_texture_options settings_texture(const texture_settings *settings);
+fg_picture_options settings_picture(const picture_settings *settings);
+
+/* The options of one of the views in 3D, from 0. usual: azimuth and elevation where none
+ * is asked for, or NULL. */
+fg_solid_options settings_solid(const picture_settings *settings, int view,
+                                const double usual[2]);
+
+#endif

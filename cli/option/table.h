@@ -1,0 +1,102 @@
+/* The tables of commands and options: parsing, --help and the manual page all follow
+ * them. */
+#ifndef OPTION_TABLE_H
+#define OPTION_TABLE_H
+
+#include <stdio.h>
+
+#include "option/settings.h"
+
+enum {
+  COMMAND_RUN = 1,
+  COMMAND_DRAW = 2,
+  COMMAND_INFO = 4,
+  COMMAND_SYNTH = 8,
+  COMMAND_RIVAL = 16,
+  COMMAND_TEXTURE = 32,
+  COMMAND_BRUSH = 64,
+  COMMAND_GALLERY = 128,
+  COMMAND_SCORE = 256
+};
+
+/* The struct that an option's value lies in: the command's own, or a group of it. */
+typedef enum option_group {
+  GROUP_OWN = 0,
+  GROUP_READING,
+  GROUP_EVOLUTION,
+  GROUP_WORK,
+  GROUP_PICTURE,
+  GROUPS
+} option_group;
+
+typedef struct cli_command {
+  unsigned bit;
+  const char *name;
+  const char *operand;  /* the one operand's name; NULL: takes none */
+  const char *more;     /* name of one or more operands after it; NULL: takes none */
+  const char *synopsis; /* after the name */
+  const char *summary;  /* a clause for the list of commands */
+  const char *text;     /* a paragraph for its own help */
+  int (*work)(const void *settings);
+  /* Offsets in its settings: of the groups that it has, of the operand, and of the -o
+   * that it needs, which is never the first (0: it needs none). */
+  size_t group[GROUPS], operand_place, output_place;
+  size_t most_numbers; /* in a list of arrows or clusters */
+} cli_command;
+
+typedef enum option_kind {
+  OPTION_TEXT,    /* const char * */
+  OPTION_WHOLE,   /* int, least to most */
+  OPTION_SEED,    /* uint64_t */
+  OPTION_NUMBER,  /* double, least to most; the ends as `open` says */
+  OPTION_FLAG,    /* bool */
+  OPTION_CHOICE,  /* int: value of the word's place in `words` */
+  OPTION_NUMBERS, /* number_list */
+  OPTION_FORMATS, /* unsigned: bits */
+  OPTION_PALETTE, /* const char *: a palette's name or #rrggbb */
+  OPTION_VIEW,    /* views of picture_settings, one more */
+  OPTION_HELP,
+  OPTION_VERSION
+} option_kind;
+
+typedef struct option_entry {
+  const char *name;
+  char letter;          /* 0: none */
+  const char *argument; /* NULL: takes none */
+  unsigned commands;    /* which know it */
+  option_kind kind;
+  option_group group;
+  size_t place; /* offset in the group */
+  double least, most;
+  bool open_below, open_above; /* least, most themselves are not allowed */
+  const char *const *words;    /* ended by NULL */
+  const char *help;            /* a clause; the default in [brackets] */
+} option_entry;
+
+extern const cli_command command_table[];
+extern const size_t command_count;
+extern const option_entry option_table[];
+extern const size_t option_count;
+
+/* Where the value of an option lies in a command's settings. */
+size_t option_place(const cli_command *command, const option_entry *option);
+
+/* Names of the picture formats, in the order of their bits. */
+extern const char *const format_words[FORMAT_KINDS];
+
+/* Words of options, in the order of what they mean (fg_scale, fg_mesh_kind, fg_scheme;
+ * energies that are no files: fg_energy), ended by NULL; and the place of an energy's
+ * word, -1 for a file. */
+extern const char *const energy_words[],
+    *const mesh_words[], *const scale_words[], *const scheme_words[],
+                                                   *const effort_words[],
+                                                       *const extent_words[];
+int energy_place(const char *word);
+
+/* Finds a command by its name; NULL when there is none. */
+const cli_command *command_find(const char *name);
+
+void print_program_help(FILE *stream);
+void print_command_help(FILE *stream, const cli_command *command);
+
+#endif

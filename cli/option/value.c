@@ -1,0 +1,239 @@
+#include "option/value.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool usage_error(const cli_command *command, const char *format, ...)
+{
+  char text[512];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  complain("%s", text);
+  advise("Try 'flowgrain %s --help'.", command->name);
+  return false;
+}
+
+static bool parse_number(double *out, const char *text)
+{
+  char *end;
+  errno = 0;
+  *out = strtod(text, &end);
+  return end != text && !*end && !isspace((unsigned char)text[0]) && isfinite(*out);
+}
+
+static bool parse_whole(intmax_t *out, const char *text)
+{
+  char *end;
+  errno = 0;
+  *out = strtoimax(text, &end, 10);
+  return end != text && !*end && !isspace((unsigned char)text[0]) && !errno;
+}
+
+static bool set_number(void *out, const cli_command *command, const option_entry *option,
+                       const char *text)
+{
+  double value;
+  bool known = parse_number(&value, text);
+  if (!known || value < option->least || value > option->most ||
+      (option->open_below && value <= option->least) ||
+      (option->open_above && value >= option->most))
+    return usage_error(command, "--%s %s: a number in %c%g, %g%c is needed", option->name,
+                       text, option->open_below ? '(' : '[', option->least, option->most,
+                       option->open_above ? ')' : ']');
+  memcpy(out, &value, sizeof value);
+  return true;
+}
+
+static bool set_whole(void *out, const cli_command *command, const option_entry *option,
+                      const char *text)
+{
+  intmax_t value;
+  if (!parse_whole(&value, text) || value < (intmax_t)option->least ||
+      value > (intmax_t)option->most)
+    return usage_error(command, "--%s %s: a whole number from %.0f to %.0f is needed",
+                       option->name, text, option->least, option->most);
+  int number = (int)value;
+  memcpy(out, &number, sizeof number);
+  return true;
+}
+
+static bool set_seed(void *out, const cli_command *command, const option_entry *option,
+                     const char *text)
+{
+  char *end;
+  errno = 0;
+  uintmax_t value = strtoumax(text, &end, 10);
+  if (!isdigit((unsigned char)text[0]) || *end || errno || value < 1 ||
+      value > UINT64_MAX)
+    return usage_error(command, "--%s %s: a whole number from 1 to %" PRIu64 " is needed",
+                       option->name, text, UINT64_MAX);
+  uint64_t seed = (uint64_t)value;
+  memcpy(out, &seed, sizeof seed);
+  return true;
+}
+
+void list_words(char *text, size_t room, const char *const *words)
+{
+  text[0] = '\0';
+  for (size_t k = 0; words[k]; ++k) {
+    size_t used = strlen(text);
+    snprintf(text + used, room - used, "%s%s", k ? ", " : "", words[k]);
+  }
+}
+
+static bool set_choice(void *out, const cli_command *command, const option_entry *option,
+                       const char *text)
+{
+  for (int k = 0; option->words[k]; ++k)
+    if (strcmp(option->words[k], text) == 0) {
+      memcpy(out, &k, sizeof k);
+      return true;
+    }
+  char words[128];
+  list_words(words, sizeof words, option->words);
+  return usage_error(command, "--%s %s: not known; the choice is: %s", option->name, text,
+                     words);
+}
+
+/* The next item of a list with commas, copied to `item`; NULL after the last. */
+static const char *next_item(char *item, size_t room, const char *list)
+{
+  size_t length = strcspn(list, ",");
+  snprintf(item, room, "%.*s", length < room ? (int)length : (int)room - 1, list);
+  return list[length] ? list + length + 1 : NULL;
+}
+
+static bool set_numbers(void *out, const cli_command *command, const option_entry *option,
+                        const char *text)
+{
+  number_list numbers = {.count = 0};
+  for (const char *rest = text; rest;) {
+    char item[32];
+    rest = next_item(item, sizeof item, rest);
+    intmax_t value;
+    if (!parse_whole(&value, item) || value < (intmax_t)option->least ||
+        value > (intmax_t)option->most)
+      return usage_error(command, "--%s %s: '%s' is no number of %s from %.0f to %.0f",
+                         option->name, text, item, option->name, option->least,
+                         option->most);
+    if (numbers.count == (int)command->most_numbers)
+      return usage_error(command, "--%s %s: more than %d number%s", option->name, text,
+                         numbers.count, numbers.count == 1 ? "" : "s");
+    if (numbers.count && value >= numbers.number[numbers.count - 1])
+      return usage_error(command, "--%s %s: the numbers must descend, and %s follows %d",
+                         option->name, text, item, numbers.number[numbers.count - 1]);
+    numbers.number[numbers.count++] = (int)value;
+  }
+  memcpy(out, &numbers, sizeof numbers);
+  return true;
+}
+
+static bool set_formats(void *out, const cli_command *command, const option_entry *option,
+                        const char *text)
+{
+  unsigned formats = 0;
+  for (const char *rest = text; rest;) {
+    char item[32];
+    rest = next_item(item, sizeof item, rest);
+    int kind = 0;
+    while (kind < FORMAT_KINDS && strcmp(item, format_words[kind]) != 0)
+      ++kind;
+    if (kind == FORMAT_KINDS)
+      return usage_error(command, "--%s %s: '%s' is not one of svg, png, pdf",
+                         option->name, text, item);
+    formats |= 1U << kind;
+  }
+  memcpy(out, &formats, sizeof formats);
+  return true;
+}
+
+static bool is_color(const char *text)
+{
+  return text[0] == '#' && strlen(text) == 7 &&
+         strspn(text + 1, "0123456789abcdefABCDEF") == 6;
+}
+
+static bool set_palette(void *out, const cli_command *command, const option_entry *option,
+                        const char *text)
+{
+  const char *const *names = fg_picture_palettes();
+  bool known = is_color(text);
+  for (size_t k = 0; !known && names[k]; ++k)
+    known = strcmp(names[k], text) == 0;
+  char words[256];
+  list_words(words, sizeof words, names);
+  if (!known)
+    return usage_error(command, "--%s %s: not known; the choice is: %s, or #rrggbb",
+                       option->name, text, words);
+  memcpy(out, &text, sizeof text);
+  return true;
+}
+
+static bool set_view(picture_settings *out, const cli_command *command,
+                     const option_entry *option, const char *text)
+{
+  int most = command->bit == COMMAND_RUN ? MAX_VIEWS : 1;
+  char azimuth[32], elevation[32];
+  double view[2];
+  const char *rest = next_item(azimuth, sizeof azimuth, text);
+  if (rest)
+    rest = next_item(elevation, sizeof elevation, rest);
+  else
+    elevation[0] = '\0';
+  if (rest || !parse_number(&view[0], azimuth) || !parse_number(&view[1], elevation) ||
+      !(fabs(view[0]) <= 360.0) || !(fabs(view[1]) <= 90.0))
+    return usage_error(
+        command,
+        "--%s %s: AZIMUTH,ELEVATION is needed, in degrees, from -360 to 360 and "
+        "from -90 to 90",
+        option->name, text);
+  if (out->view_count == most)
+    return usage_error(command, "--%s %s: more than %d view%s", option->name, text, most,
+                       most == 1 ? "" : "s");
+  memcpy(out->views[out->view_count++], view, sizeof view);
+  return true;
+}
+
+bool value_set(void *settings, const cli_command *command, const option_entry *option,
+               const char *typed, const char *text)
+{
+  const bool yes = true;
+  void *out = (char *)settings + option_place(command, option);
+  switch (option->kind) {
+  case OPTION_TEXT:
+    if (!*text)
+      return usage_error(command, "%s: its %s is empty", typed, option->argument);
+    memcpy(out, &text, sizeof text);
+    return true;
+  case OPTION_FLAG:
+    memcpy(out, &yes, sizeof yes);
+    return true;
+  case OPTION_WHOLE:
+    return set_whole(out, command, option, text);
+  case OPTION_SEED:
+    return set_seed(out, command, option, text);
+  case OPTION_NUMBER:
+    return set_number(out, command, option, text);
+  case OPTION_CHOICE:
+    return set_choice(out, command, option, text);
+  case OPTION_NUMBERS:
+    return set_numbers(out, command, option, text);
+  case OPTION_FORMATS:
+    return set_formats(out, command, option, text);
+  case OPTION_PALETTE:
+    return set_palette(out, command, option, text);
+  case OPTION_VIEW:
+    return set_view(out, command, option, text);
+  case OPTION_HELP:
+  case OPTION_VERSION:
+    break;
+  }
+  return true;
+}

@@ -1,0 +1,19 @@
+/* The value of an option, from its text. */
+#ifndef OPTION_VALUE_H
+#define OPTION_VALUE_H
+
+#include "option/table.h"
+
+/* Prints a usage error of a command; returns false. */
+bool usage_error(const cli_command *command, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Sets the value in a command's settings. typed: the option as it was typed. False: a
+ * usage error was printed. */
+bool value_set(void *settings, const cli_command *command, const option_entry *option,
+               const char *typed, const char *text);
+
+/* "a, b, c", as far as there is room. */
+void list_words(char *text, size_t room, const char *const *words);
+
+#endif

@@ -1,0 +1,153 @@
+#include "run/finish.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "folder/files.h"
+#include "ranks.h"
+#include "run/scale_files.h"
+
+bool finish_can_go_on(const cli_run *run)
+{
+  fg_run_ending ended = run->facts.ended;
+  return ended != FG_RUN_ALL && ended != FG_RUN_STATIONARY;
+}
+
+static int complain_of_no_scale(const cli_run *run)
+{
+  const char *operand = run->settings->reading.input;
+  const fg_step *step = &run->step;
+  if (run->facts.ended == FG_RUN_STOPPED) {
+    complain("%s: interrupted at t = %.3g, before the first scale%s", operand, step->time,
+             step->step ? "" : ": nothing was written");
+    return EXIT_INTERRUPTED;
+  }
+  bool settled = run->facts.ended == FG_RUN_STATIONARY;
+  complain("%s: no clusters after %ld steps, at t = %.3g: %s", operand, step->step,
+           step->time,
+           settled ? "the pattern no longer changes" : "they are still forming");
+  advise("%s",
+         settled ? "Raise --nodes or --coverage." : "Raise --max-steps or --max-time.");
+  return EXIT_FAILED;
+}
+
+int finish_drawing(cli_run *run)
+{
+  if (drawing_ready(run->drawing) < drawing_count(run->drawing))
+    progress_stage(&run->progress, "drawing");
+  if (run->facts.ended != FG_RUN_STOPPED)
+    drawing_heed_interrupts(run->drawing);
+  fg_status status = drawing_finish(run->drawing);
+  progress_wipe(&run->progress);
+  if (status)
+    return complain_of(drawing_context(run->drawing), status,
+                       run->settings->reading.input);
+  return drawing_count(run->drawing) ? EXIT_DONE : complain_of_no_scale(run);
+}
+
+static int write_results(cli_run *run)
+{
+  if (!table_flush(&run->table, false))
+    return complain_of_file(run->settings->output, "evolution.csv cannot be written");
+  char *path = output_path(&run->output, REPORT_NAME);
+  if (!path)
+    return EXIT_FAILED;
+  run->facts.seconds_total = run->earlier_total + clock_seconds() - run->start;
+  int code = report_write(path, &run->facts);
+  free(path);
+  return code ? code : output_publish(&run->output);
+}
+
+/* What else there is to tell of a scale's arrows; "" for nothing. */
+enum { ASIDE_BYTES = 64 };
+static const char *say_dropped(char out[ASIDE_BYTES], int dropped)
+{
+  out[0] = '\0';
+  if (dropped > 0)
+    snprintf(out, ASIDE_BYTES, ", %d cluster%s too small for one", dropped,
+             dropped == 1 ? "" : "s");
+  return out;
+}
+
+static void print_summary(const cli_run *run)
+{
+  char ends[SCALE_FILES][SCALE_END_BYTES];
+  int count = scale_file_ends(ends, run->settings, run->field);
+  for (int k = 0; k < drawing_count(run->drawing); ++k) {
+    const scale_result *result = drawing_result(run->drawing, k);
+    char name[SCALE_NAME_BYTES], aside[ASIDE_BYTES];
+    scale_name(name, k, ends[count > 1 ? 1 : 0]); /* its first picture, if any */
+    char *path = join_path(run->settings->output, name);
+    if (settings_place(run->settings))
+      printf("%4d arrows  %s\n", result->icons, path ? path : name);
+    else
+      printf("%4d clusters %4d icons%s  %s\n", result->clusters, result->icons,
+             say_dropped(aside, result->dropped), path ? path : name);
+    free(path);
+  }
+}
+
+/* A coarse mesh begins with few clusters. */
+static void say_first_scale(const cli_run *run)
+{
+  const run_settings *settings = run->settings;
+  if (settings->clusters.count < 1 || drawing_count(run->drawing) < 1)
+    return;
+  int wanted = settings->clusters.number[0],
+      first = drawing_result(run->drawing, 0)->clusters;
+  if (first > wanted / 2)
+    return;
+  complain("%s: no scale of about %d clusters: the first that could be counted were %d",
+           settings->reading.input, wanted, first);
+  advise("More --nodes begin with more clusters.");
+}
+
+/* What is told where a run ends early, or reached less than was wanted. */
+static int say_ending(const cli_run *run)
+{
+  const run_settings *settings = run->settings;
+  const int *wanted;
+  int next, most = fg_run_wanted(&wanted, &next, run->scales);
+  if (run->facts.ended == FG_RUN_STATIONARY && next < most)
+    complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
+             settings->reading.input, wanted[next], run->step.clusters);
+  if (run->facts.ended != FG_RUN_STOPPED) {
+    say_first_scale(run);
+    return EXIT_DONE;
+  }
+  int count = drawing_count(run->drawing);
+  char reached[64];
+  if (settings_place(settings))
+    snprintf(reached, sizeof reached, "before the scale of %d arrows", wanted[count]);
+  else
+    snprintf(reached, sizeof reached, "with %d clusters", run->step.clusters);
+  complain("%s: interrupted at t = %.3g %s; the %d scale%s until then %s in %s",
+           settings->reading.input, run->step.time, reached, count, count == 1 ? "" : "s",
+           count == 1 ? "is" : "are", settings->output);
+  return EXIT_INTERRUPTED;
+}
+
+int finish_run(cli_run *run)
+{
+  int code = finish_drawing(run);
+  if (!code && drawing_was_cut(run->drawing))
+    run->facts.ended = FG_RUN_STOPPED;
+  if (!code)
+    code = write_results(run);
+  if (code)
+    return code;
+  run->finished = !finish_can_go_on(run);
+  print_summary(run);
+  return say_ending(run);
+}
+
+/* Unless something else was advised. The drawing's own context is gone; its failures
+ * advise nothing. */
+void finish_advise(const cli_run *run, int code, bool resumable)
+{
+  bool ended_here = run->saved_step && (code == EXIT_FAILED || code == EXIT_INTERRUPTED);
+  if (!resumable || !ended_here || *fg_context_hint(run->context))
+    return;
+  advise("The same command with --resume goes on from step %ld.", run->saved_step);
+}

@@ -1,0 +1,141 @@
+#include "run/input.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "build_features.h"
+#include "option/table.h"
+#include "option/validation.h"
+#include "ranks.h"
+#include "sandbox.h"
+
+/* Parts, but where icons are made of the whole density (snapshot.c). */
+int input_read(cli_run *run)
+{
+  const run_settings *settings = run->settings;
+  const bool whole =
+      settings->tolerance > 0.0 || settings->picture.tint || settings->picture.background;
+  const int part = whole ? 0 : ranks_number(), parts = whole ? 1 : ranks_count();
+  progress_stage(&run->progress, "reading");
+  fg_read_options reading = settings_reading(&settings->reading);
+  if (sandbox_reading_part(settings->reading.input, &reading, part, parts))
+    return EXIT_FAILED;
+  fg_status status = fg_field_read_part(&run->field, run->context,
+                                        settings->reading.input, &reading, part, parts);
+  progress_wipe(&run->progress);
+  if (status)
+    return complain_of(run->context, status, run->settings->reading.input);
+  run->facts.field = run->field;
+  int dimension = fg_field_contents(run->field)->dimension;
+  int code = refuse_other_dimension("run", &settings->picture, dimension,
+                                    settings->reading.input);
+  return code ? code
+              : refuse_undrawable(settings->formats, settings->picture.background != 0,
+                                  dimension == 3);
+}
+
+/* How many times and levels there were to choose from; nothing when that is not known.
+ */
+static void count_choices(cli_run *run)
+{
+  const fg_field_arrays *field = fg_field_contents(run->field);
+  if (!field->time && !field->level)
+    return;
+  fg_context *context;
+  fg_inventory *inventory = NULL;
+  if (fg_context_create(&context))
+    return;
+  if (!fg_inventory_read(&inventory, context, run->settings->reading.input))
+    for (int k = 0; k < fg_inventory_vector_count(inventory); ++k) {
+      const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, k);
+      if (vector->name[0] && strcmp(vector->name[0], field->velocity_name[0]) == 0) {
+        run->facts.time_count = vector->times;
+        run->facts.level_count = vector->levels;
+        break;
+      }
+    }
+  fg_inventory_destroy(inventory);
+  fg_context_destroy(context);
+}
+
+static void say_choice(const char *file, const char *kind, int index, int count,
+                       const char *words)
+{
+  char room[CLEAN_BYTES];
+  if (count > 1)
+    fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", file, kind, index, count - 1,
+            words ? ": " : "", clean_text(room, words ? words : ""));
+}
+
+static void say_choices(cli_run *run)
+{
+  const run_settings *settings = run->settings;
+  const fg_field_arrays *field = fg_field_contents(run->field);
+  count_choices(run);
+  say_choice(settings->reading.input, "time", settings->reading.time,
+             run->facts.time_count, field->time);
+  say_choice(settings->reading.input, "level", settings->reading.level,
+             run->facts.level_count, field->level);
+}
+
+int input_join(cli_run *run)
+{
+  fg_status status = fg_field_join(run->context, run->field);
+  if (status)
+    return complain_of(run->context, status, run->settings->reading.input);
+  if (ranks_leader()) {
+    say_choices(run);
+    say_infinite(run->settings->reading.input, run->field);
+  }
+  return EXIT_DONE;
+}
+
+static const char *const scheme_names[] = {"BDF2", "implicit Euler", "theta"};
+
+void input_print_cells(int dimension, const int cells[3])
+{
+  fprintf(stderr, "mesh %d x %d", cells[0], cells[1]);
+  if (dimension == 3)
+    fprintf(stderr, " x %d", cells[2]);
+  fprintf(stderr, " cells");
+}
+
+static void print_mesh(const fg_mesh_info *mesh, int scheme)
+{
+  fprintf(stderr, "flowgrain: ");
+  input_print_cells(mesh->dimension, mesh->cells);
+  fprintf(stderr, " (%ld active), a = %g, coverage %g, gamma %g, %s scheme, %s kernel\n",
+          mesh->active_cells, mesh->anisotropy, mesh->coverage, mesh->gamma,
+          scheme_names[scheme], mesh->kernel);
+}
+
+/* Of a file that says the energy; complains and returns the exit code. All ranks. */
+static int read_energy(fg_tensors **out, const cli_run *run)
+{
+  const char *path = run->settings->evolution.energy;
+  *out = NULL;
+  if (energy_place(path) >= 0)
+    return EXIT_DONE;
+  int code = sandbox_reading(path, NULL);
+  if (!code) {
+    fg_status status = fg_tensors_read(out, run->context, path, run->field);
+    code = status ? complain_of(run->context, status, path) : EXIT_DONE;
+  }
+  return ranks_agree(code);
+}
+
+int input_create_scales(cli_run *run, fg_run_options *options)
+{
+  int code = read_energy(&run->tensors, run);
+  if (code)
+    return code;
+  if (run->tensors)
+    options->evolution.law = fg_tensors_law(run->tensors);
+  fg_status status = fg_run_create(&run->scales, run->context, run->field, options);
+  if (status)
+    return complain_of(run->context, status, run->settings->reading.input);
+  run->facts.mesh = *fg_evolution_mesh(fg_run_evolution(run->scales));
+  if (run->settings->verbose && ranks_leader())
+    print_mesh(&run->facts.mesh, run->settings->evolution.scheme);
+  return EXIT_DONE;
+}

@@ -1,0 +1,34 @@
+/* A run of the main job while it goes on, for the files that do it. */
+#ifndef RUN_RUN_H
+#define RUN_RUN_H
+
+#include "folder/results.h"
+#include "progress.h"
+#include "report/report.h"
+#include "report/table.h"
+#include "run/drawing.h"
+
+typedef struct cli_run {
+  const run_settings *settings;
+  fg_context *context;
+  fg_field *field;
+  fg_tensors *tensors; /* of which the energy is, or NULL */
+  fg_run *scales;
+  cli_drawing *drawing;
+  cli_output output;
+  char *checkpoint; /* its path */
+  cli_table table;  /* evolution.csv */
+  cli_progress progress;
+  run_facts facts;
+  fg_step step;          /* the last accepted one */
+  double start;          /* of the process */
+  double evolving_since; /* clock of the process */
+  double earlier_evolve; /* seconds of the runs that this one goes on from */
+  double earlier_total;
+  double save_tried; /* clock when a checkpoint was last tried */
+  long saved_step;   /* of the last checkpoint; 0: none */
+  bool finished;     /* nothing is left to go on from */
+  bool save_failed;  /* the last try failed, and the user was told */
+} cli_run;
+
+#endif

@@ -1,0 +1,275 @@
+#include "run/scale_maker.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "build_features.h"
+#include "progress.h"
+#include "run/background.h"
+#include "run/scale_files.h"
+
+char *scale_path(const scale_maker *maker, int index, const char *end)
+{
+  char name[SCALE_NAME_BYTES];
+  scale_name(name, index, end);
+  return output_path(maker->output, name);
+}
+
+static fg_status write_icons(scale_maker *maker, int index, const fg_icons *icons)
+{
+  char *path = scale_path(maker, index, ".geojson");
+  if (!path)
+    return FG_STATUS_MEMORY;
+  fg_status status = fg_icons_write(maker->context, path, icons);
+  free(path);
+  return status;
+}
+
+static fg_status write_solids(scale_maker *maker, int index, const fg_icons *icons,
+                              const fg_surface *surface)
+{
+  static const char *const ends[] = {".vtp", ".glb"};
+  fg_solid_options options = {.palette = maker->settings->picture.palette,
+                              .speed_min = maker->look.speeds[0],
+                              .speed_max = maker->look.speeds[1],
+                              .surface = surface};
+  fg_status status = FG_STATUS_OK;
+  for (size_t k = 0; k < sizeof ends / sizeof *ends && !status; ++k) {
+    char *path = scale_path(maker, index, ends[k]);
+    if (!path)
+      return FG_STATUS_MEMORY;
+    status = fg_solid_write(maker->context, path, NULL, icons, &options);
+    free(path);
+  }
+  return status;
+}
+
+/* Which view a file of that end shows, from 0; -1: it is no picture. In 3D. Files of
+ * views are called scale-NN.png, scale-NN-2.png, ... */
+static int solid_view_of(const char *end)
+{
+  if (strcmp(end, ".vtp") == 0 || strcmp(end, ".glb") == 0 || strcmp(end, ".vti") == 0 ||
+      strcmp(end, ".geojson") == 0)
+    return -1;
+  return end[0] == '-' ? atoi(end + 1) - 1 : 0;
+}
+
+/* A picture for each view and format. */
+static fg_status write_renderings(scale_maker *maker, int index,
+                                  const scale_snapshot *snapshot, const fg_icons *icons,
+                                  const fg_surface *surface)
+{
+  const run_settings *settings = maker->settings;
+  char ends[SCALE_FILES][SCALE_END_BYTES];
+  int files = scale_file_ends(ends, settings, maker->field);
+  fg_status status = FG_STATUS_OK;
+  for (int n = 1; n < files && !status; ++n) {
+    int view = solid_view_of(ends[n]);
+    if (view < 0)
+      continue;
+    fg_solid_options options = settings_solid(&settings->picture, view, maker->look.view);
+    options.speed_min = maker->look.speeds[0];
+    options.speed_max = maker->look.speeds[1];
+    if (!settings_place(settings)) /* the time of clusters */
+      options.scale_time = snapshot->time;
+    options.surface = surface;
+    options.threads = settings->work.threads;
+    char *path = scale_path(maker, index, ends[n]);
+    if (!path)
+      status = FG_STATUS_MEMORY;
+    else
+      status = fg_solid_write(maker->context, path, maker->field, icons, &options);
+    free(path);
+  }
+  return status;
+}
+
+static fg_status draw_solids(scale_maker *maker, int index,
+                             const scale_snapshot *snapshot, const fg_icons *icons)
+{
+  fg_surface *surface = NULL;
+  fg_status status = FG_STATUS_OK;
+  if (maker->settings->picture.surfaces && snapshot->density)
+    status = fg_density_surface(&surface, maker->context, snapshot->density);
+  if (!status)
+    status = write_solids(maker, index, icons, surface);
+  if (!status)
+    status = write_renderings(maker, index, snapshot, icons, surface);
+  fg_surface_destroy(surface);
+  return status;
+}
+
+static fg_status write_density(scale_maker *maker, int index, const fg_density *density)
+{
+  char *path = scale_path(maker, index, ".vti");
+  if (!path)
+    return FG_STATUS_MEMORY;
+  fg_status status = fg_density_write(maker->context, path, density);
+  free(path);
+  return status;
+}
+
+/* `regions`: what placed arrows stand for, in place of the clusters; NULL: none. */
+static fg_status write_pictures(scale_maker *maker, int index,
+                                const scale_snapshot *snapshot, const fg_icons *icons,
+                                const fg_density *regions)
+{
+  static const char *const ends[FORMAT_KINDS] = {".svg", ".png", ".pdf"};
+  unsigned formats = formats_to_draw(maker->settings->formats, false);
+  if (!formats)
+    return FG_STATUS_OK;
+  fg_picture_options options = settings_picture(&maker->settings->picture);
+  options.speed_min = maker->look.speeds[0];
+  options.speed_max = maker->look.speeds[1];
+  if (!settings_place(maker->settings))
+    options.scale_time = snapshot->time;
+  fg_status status = background_choose(
+      &options, &maker->background, maker->context, &maker->settings->picture,
+      maker->settings->work.threads, maker->field, snapshot->density, icons);
+  for (int kind = 0; !status && kind < FORMAT_KINDS; ++kind) {
+    if (!(formats & (1U << kind)))
+      continue;
+    char *path = scale_path(maker, index, ends[kind]);
+    if (!path)
+      return FG_STATUS_MEMORY;
+    status = fg_picture_write(
+        maker->context, path, maker->field,
+        settings_place(maker->settings) ? regions : snapshot->density, icons, &options);
+    free(path);
+  }
+  return status;
+}
+
+static fg_status make_icons(scale_maker *maker, scale_snapshot *snapshot)
+{
+  return fg_icons_create(&snapshot->icons, maker->context, maker->field,
+                         snapshot->density, NULL);
+}
+
+/* The last scale's icons, from its file after a resume. */
+static fg_status find_finer(scale_maker *maker, int index)
+{
+  if (index == 0 || maker->finer)
+    return FG_STATUS_OK;
+  char *path = scale_path(maker, index - 1, ".geojson");
+  if (!path)
+    return FG_STATUS_MEMORY;
+  fg_status status = fg_icons_read(&maker->finer, maker->context, path);
+  free(path);
+  return status;
+}
+
+/* Exactly as many icons as the scale asks for. The finer scale's file is written again,
+ * with the icons that its own went into. */
+static fg_status place_icons(scale_maker *maker, int index, int count,
+                             scale_snapshot *snapshot)
+{
+  fg_status status = find_finer(maker, index);
+  if (!status)
+    status =
+        placing_make(&snapshot->icons, &maker->placing, count, snapshot, maker->finer);
+  if (!status && maker->finer)
+    status = write_icons(maker, index - 1, maker->finer);
+  return status;
+}
+
+static fg_status draw_flat(scale_maker *maker, int index, const scale_snapshot *snapshot)
+{
+  fg_density *regions = NULL;
+  fg_status status = FG_STATUS_OK;
+  if (maker->placing.placement)
+    status = placing_regions(&regions, &maker->placing);
+  if (!status)
+    status = write_pictures(maker, index, snapshot, snapshot->icons, regions);
+  fg_density_destroy(regions);
+  return status;
+}
+
+/* Of the finest scale. */
+static fg_status choose_look(scale_maker *maker, const fg_icons *icons)
+{
+  common_look *look = &maker->look;
+  if (!scales_are_solid(maker->field)) {
+    fg_icons_speed_range(look->speeds, icons);
+    return FG_STATUS_OK;
+  }
+  fg_status status =
+      fg_solid_speed_range(look->speeds, maker->context, maker->field, icons);
+  if (!status)
+    status = fg_solid_best_view(&look->view[0], &look->view[1], maker->context,
+                                maker->field, icons);
+  return status;
+}
+
+static fg_status draw_icons(scale_maker *maker, int index, scale_result *result,
+                            scale_snapshot *snapshot)
+{
+  double start = clock_seconds();
+  fg_status status = FG_STATUS_OK;
+  if (settings_place(maker->settings))
+    status = place_icons(maker, index, result->wanted[0], snapshot);
+  else if (!snapshot->icons)
+    status = make_icons(maker, snapshot);
+  if (!status && !settings_place(maker->settings))
+    status = placing_score(maker->context, maker->field, snapshot->icons);
+  const fg_icons *icons = snapshot->icons;
+  if (!status)
+    status = write_icons(maker, index, icons);
+  double between = clock_seconds();
+  maker->icon_seconds += between - start;
+  if (!status && index == 0)
+    status = choose_look(maker, icons);
+  if (!status)
+    status = scales_are_solid(maker->field) ? draw_solids(maker, index, snapshot, icons)
+                                            : draw_flat(maker, index, snapshot);
+  maker->picture_seconds += clock_seconds() - between;
+  if (!status) {
+    if (!settings_place(maker->settings) || snapshot->density)
+      result->clusters = fg_icons_clusters(icons);
+    result->icons = fg_icons_count(icons);
+    const fg_score *score = fg_icons_kept_score(icons);
+    result->has_score = score != NULL;
+    if (score)
+      result->score = *score;
+    result->dropped = fg_icons_dropped(icons);
+  }
+  if (!status && settings_place(maker->settings)) {
+    fg_icons_destroy(maker->finer);
+    maker->finer = snapshot->icons;
+    snapshot->icons = NULL;
+  }
+  return status;
+}
+
+fg_status scale_make(scale_maker *maker, int index, scale_result *result,
+                     scale_snapshot *snapshot)
+{
+  fg_status status = FG_STATUS_OK;
+  result->clusters = snapshot->clusters;
+  result->time = snapshot->time;
+  result->energy = snapshot->energy;
+  result->area_fraction = snapshot->area_fraction;
+  maker->icon_seconds += snapshot->icon_seconds;
+  maker->picture_seconds += snapshot->file_seconds;
+  status = draw_icons(maker, index, result, snapshot);
+  double start = clock_seconds();
+  if (!status && snapshot->density && scales_have_density(maker->settings, maker->field))
+    status = write_density(maker, index, snapshot->density);
+  maker->picture_seconds += clock_seconds() - start;
+  return status;
+}
+
+void snapshot_clear(scale_snapshot *snapshot)
+{
+  fg_density_destroy(snapshot->density);
+  fg_icons_destroy(snapshot->icons);
+  *snapshot = (scale_snapshot){0};
+}
+
+void scale_maker_clear(scale_maker *maker)
+{
+  placing_clear(&maker->placing);
+  fg_icons_destroy(maker->finer);
+  fg_texture_destroy(maker->background);
+  fg_context_destroy(maker->context);
+}

@@ -1,0 +1,252 @@
+#include "sandbox.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include "interrupt.h"
+
+/* A loop in a damaged file takes for ever. A good one takes some time for each byte, and
+ * its arrays are at most a thousand times as large: what deflate can do. */
+enum { MOST_SECONDS = 10, BYTES_A_SECOND = 20000000, TIMES_LARGER = 4096 };
+static const size_t MOST_BYTES = (size_t)1 << 30;
+
+/* Between looks at whether an interrupt came, milliseconds: one may come just before. */
+enum { LONGEST_WAIT = 100 };
+
+static void silence(void)
+{
+  int nowhere = open("/dev/null", O_WRONLY);
+  if (nowhere < 0)
+    return;
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+}
+
+/* Bytes of addresses that this process has; 0: not known. */
+static size_t own_bytes(void)
+{
+  unsigned long pages = 0;
+  FILE *stream = fopen("/proc/self/statm", "r");
+  if (!stream)
+    return 0;
+  int got = fscanf(stream, "%lu", &pages);
+  fclose(stream);
+  return got == 1 ? pages * (size_t)sysconf(_SC_PAGESIZE) : 0;
+}
+
+static void set_bounds(const child_bounds *bounds)
+{
+  struct rlimit no_core = {0, 0}, time = {bounds->seconds, bounds->seconds + 1}, space;
+  setrlimit(RLIMIT_CORE, &no_core);
+  setrlimit(RLIMIT_CPU, &time);
+  size_t own = own_bytes();
+  if (!bounds->bytes || !own || getrlimit(RLIMIT_AS, &space) != 0)
+    return;
+  if (space.rlim_cur == RLIM_INFINITY || space.rlim_cur > own + bounds->bytes)
+    space.rlim_cur = own + bounds->bytes;
+  setrlimit(RLIMIT_AS, &space);
+}
+
+/* Signals do what they do by default, but what this process was told to ignore. */
+static void reset_signals(void)
+{
+  const int numbers[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE,
+                         SIGILL,  SIGINT, SIGTERM, SIGHUP};
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; ++k) {
+    struct sigaction before;
+    if (sigaction(numbers[k], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+      signal(numbers[k], SIG_DFL);
+  }
+}
+
+/* Otherwise a child would go on where this process is killed. */
+static void end_with_parent(pid_t parent)
+{
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+  if (getppid() != parent)
+    _exit(0);
+}
+
+static void send_text(int to, const char *text)
+{
+  size_t length = strlen(text) + 1; /* less than a pipe takes at once */
+  if (write(to, text, length) != (ssize_t)length)
+    _exit(0);
+}
+
+static void be_child(pid_t parent, int to, void (*work)(void *), void *data,
+                     const child_bounds *bounds)
+{
+  end_with_parent(parent);
+  set_bounds(bounds);
+  reset_signals();
+  silence();
+  keep_complaints();
+  complain("%s", ""); /* earlier complaints are not its own */
+  work(data);
+  send_text(to, last_complaint());
+  send_text(to, last_advice());
+  _exit(0);
+}
+
+/* Reads what the child sends, until it has ended or an interrupt comes. */
+static size_t receive(char *out, size_t size, int from, pid_t child)
+{
+  size_t used = 0;
+  while (used < size) {
+    struct pollfd wait = {.fd = from, .events = POLLIN};
+    int ready = poll(&wait, 1, LONGEST_WAIT);
+    if (interrupt_came()) {
+      kill(child, SIGKILL);
+      break;
+    }
+    if (ready <= 0)
+      continue;
+    ssize_t got = read(from, out + used, size - used);
+    if (got == 0 || (got < 0 && errno != EINTR))
+      break;
+    used += got > 0 ? (size_t)got : 0;
+  }
+  return used;
+}
+
+static void take_texts(child_ending *out, char *text, size_t used)
+{
+  text[used] = '\0';
+  size_t first = strlen(text);
+  snprintf(out->complaint, sizeof out->complaint, "%.*s", CHILD_TEXT_BYTES - 1, text);
+  if (first + 1 < used)
+    snprintf(out->advice, sizeof out->advice, "%.*s", CHILD_TEXT_BYTES - 1,
+             text + first + 1);
+}
+
+static void await(child_ending *out, int from, pid_t child)
+{
+  char text[2 * CHILD_TEXT_BYTES + 1];
+  size_t used = receive(text, sizeof text - 1, from, child);
+  int how = 0;
+  pid_t ended;
+  do
+    ended = waitpid(child, &how, 0);
+  while (ended < 0 && errno == EINTR);
+  if (ended == child && WIFSIGNALED(how))
+    out->signal = WTERMSIG(how);
+  take_texts(out, text, used);
+}
+
+void do_in_child(child_ending *out, void (*work)(void *), void *data,
+                 const child_bounds *bounds)
+{
+  memset(out, 0, sizeof *out);
+  int ends[2];
+  if (pipe(ends) != 0)
+    return; /* no process to be had: the reading itself will show */
+  /* where this process was told to ignore it, a child's end would not be told */
+  struct sigaction before, usual = {.sa_handler = SIG_DFL};
+  sigemptyset(&usual.sa_mask);
+  sigaction(SIGCHLD, &usual, &before);
+  fflush(stdout);
+  pid_t own = getpid(), child = fork();
+  if (child == 0) {
+    close(ends[0]);
+    be_child(own, ends[1], work, data, bounds);
+  }
+  close(ends[1]);
+  if (child > 0)
+    await(out, ends[0], child);
+  close(ends[0]);
+  sigaction(SIGCHLD, &before, NULL);
+}
+
+typedef struct reading {
+  const char *input;
+  const fg_read_options *options;
+  int part, parts;
+} reading;
+
+static void read_once(void *data)
+{
+  const reading *r = data;
+  fg_context *context;
+  fg_field *field;
+  fg_inventory *inventory;
+  if (create_context(&context))
+    return;
+  fg_status status = r->options ? fg_field_read_part(&field, context, r->input,
+                                                     r->options, r->part, r->parts)
+                                : fg_inventory_read(&inventory, context, r->input);
+  if (status)
+    complain_of(context, status, r->input);
+}
+
+/* The size of a file of HDF5; 0: it is none. */
+static size_t hdf5_size(const char *path)
+{
+  static const char magic[8] = "\211HDF\r\n\032\n";
+  char start[sizeof magic];
+  struct stat about;
+  if (!path || stat(path, &about) != 0 || !S_ISREG(about.st_mode))
+    return 0;
+  int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0)
+    return 0;
+  ssize_t got = read(file, start, sizeof start);
+  close(file);
+  bool found = got == (ssize_t)sizeof start && memcmp(start, magic, sizeof magic) == 0;
+  return found ? (size_t)about.st_size : 0;
+}
+
+static child_bounds bounds_for(size_t size)
+{
+  size_t most = (SIZE_MAX / 4 - MOST_BYTES) / TIMES_LARGER;
+  return (child_bounds){.seconds = MOST_SECONDS + (unsigned)(size / BYTES_A_SECOND),
+                        .bytes = MOST_BYTES + TIMES_LARGER * (size < most ? size : most)};
+}
+
+static int complain_of_child(const char *input, const child_ending *ending,
+                             const child_bounds *bounds)
+{
+  if (ending->complaint[0])
+    complain("%s", ending->complaint);
+  else if (ending->signal == SIGXCPU)
+    complain("%s: damaged: reading it takes more than %u s", input, bounds->seconds);
+  else
+    complain("%s: damaged: the HDF5 library does not survive reading it (signal %d)",
+             input, ending->signal);
+  if (ending->advice[0])
+    advise("%s", ending->advice);
+  return EXIT_FAILED;
+}
+
+int sandbox_reading(const char *input, const fg_read_options *options)
+{
+  return sandbox_reading_part(input, options, 0, 1);
+}
+
+int sandbox_reading_part(const char *input, const fg_read_options *options, int part,
+                         int parts)
+{
+  const size_t size = hdf5_size(input) + hdf5_size(options ? options->vars_from : NULL);
+  if (size == 0)
+    return EXIT_DONE;
+  reading r = {input, options, part, parts};
+  const child_bounds bounds = bounds_for(size);
+  child_ending ending;
+  do_in_child(&ending, read_once, &r, &bounds);
+  if (interrupt_came() || (!ending.signal && !ending.complaint[0]))
+    return EXIT_DONE; /* an interrupt ends the reading itself */
+  return complain_of_child(input, &ending, &bounds);
+}

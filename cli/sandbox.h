@@ -1,0 +1,36 @@
+/* A first reading in a process of its own. */
+#ifndef SANDBOX_H
+#define SANDBOX_H
+
+#include "program.h"
+
+/* What a child process may use, and how it ended. */
+typedef struct child_bounds {
+  unsigned seconds; /* of CPU time */
+  size_t bytes;     /* beyond those that this process has; 0: any number */
+} child_bounds;
+
+enum { CHILD_TEXT_BYTES = 2048 };
+
+typedef struct child_ending {
+  int signal;                                                 /* that ended it, or 0 */
+  char complaint[CHILD_TEXT_BYTES], advice[CHILD_TEXT_BYTES]; /* "" for none */
+} child_ending;
+
+/* Does the work in a child process, which prints nothing; what it complains of is kept.
+ * An interrupt, or the end of this process, ends it. Must be called before there are
+ * threads. */
+void do_in_child(child_ending *out, void (*work)(void *), void *data,
+                 const child_bounds *bounds);
+
+/* The HDF5 library under NetCDF-4 can crash on damaged metadata, and ask for any amount
+ * of memory. So a file of that kind is first read by a child process: when that dies or
+ * fails, complains and returns EXIT_FAILED, else EXIT_DONE. With options as fg_field_read
+ * would, with NULL as fg_inventory_read. */
+int sandbox_reading(const char *input, const fg_read_options *options);
+
+/* The same for fg_field_read_part; options must not be NULL. */
+int sandbox_reading_part(const char *input, const fg_read_options *options, int part,
+                         int parts);
+
+#endif

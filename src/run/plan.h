@@ -1,0 +1,39 @@
+/* Which states of an evolution become scales. */
+#ifndef FG__PLAN_H
+#define FG__PLAN_H
+
+#include "flowgrain/run.h"
+
+/* Numbers at which to take a scale, descending, and how many are behind. */
+typedef struct fg__plan {
+  int wanted[FG_MOST_SCALES];
+  int count;
+  int next;    /* wanted[next] has not been reached; count: all have */
+  bool placed; /* these are numbers of arrows: each is a scale of its own */
+} fg__plan;
+
+/* Starts with a list, or with none: the default one follows from the first number of
+ * clusters seen, or is that of placed arrows in 2D or 3D. */
+void fg__plan_start(fg__plan *plan, const int *list, int count);
+void fg__plan_start_placed(fg__plan *plan, const int *list, int count, int dimension);
+
+/* Says how many wanted numbers the state with `clusters` clusters is the first at or
+ * below; 0: it is no scale. One state is one scale, however many numbers it passes at
+ * once. `clusters` 0 means that nucleation still goes on. */
+int fg__plan_reach(fg__plan *plan, int clusters);
+
+bool fg__plan_done(const fg__plan *plan);
+
+/* Share of the way from `first` clusters, the first number seen, to the plan's last: the
+ * logarithm of the number falls about evenly. 0 when nothing can be said yet. */
+double fg__plan_share(const fg__plan *plan, int first, int clusters);
+
+/* Seconds left, by N ~ t^-0.43, from a state and the first with a number of clusters;
+ * negative when nothing can be said yet. */
+double fg__plan_seconds_left(const fg__plan *plan, const fg_step *now,
+                             const fg_step *first);
+
+/* Nodes along the longest side of the mesh for clusters of that number. */
+int fg__plan_nodes(const fg_field *field, int clusters);
+
+#endif

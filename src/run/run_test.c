@@ -1,0 +1,150 @@
+/* A run of scales: what it gives is what its parts give, and it always ends. */
+#include "run/run_test.h"
+
+/* Clusters: each scale is the first state at or below its number, with the icons of its
+ * density. */
+static void clusters_are_those_of_the_evolution(void **state)
+{
+  static const int numbers[] = {40, 25, 24, 9};
+  fg_context *context = *state;
+  fg_field *field = field_of(context, "vortex3");
+  const fg_run_options options = {.kind = FG_RUN_CLUSTERS,
+                                  .numbers = numbers,
+                                  .count = 4,
+                                  .evolution = {.nodes = 129, .seed = 5}};
+  fg_run *run = run_of(context, field, &options);
+  fg_evolution *evolution = NULL;
+  assert_int_equal(fg_evolution_create(&evolution, context, field, &options.evolution),
+                   FG_STATUS_OK);
+  const fg_run_scale *scale;
+  fg_step step = {0};
+  int answered = 0, scales = 0;
+  for (;;) {
+    assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+    if (!scale)
+      break;
+    while (!step.clusters || step.clusters > numbers[answered])
+      assert_int_equal(fg_evolution_step(evolution, &step), FG_STATUS_OK);
+    assert_int_equal(scale->index, scales++);
+    assert_int_equal(scale->step.step, step.step);
+    for (int k = 0; k < scale->wanted_count; ++k)
+      assert_int_equal(scale->wanted[k], numbers[answered++]);
+    assert_true(answered == 4 || step.clusters > numbers[answered]);
+    fg_density *density = NULL;
+    fg_icons *icons = NULL;
+    assert_int_equal(fg_density_create(&density, evolution), FG_STATUS_OK);
+    assert_int_equal(fg_icons_create(&icons, context, field, density, NULL),
+                     FG_STATUS_OK);
+    same_icons(scale->icons, icons);
+    assert_int_equal(fg_density_contents(scale->density)->clusters, step.clusters);
+    assert_null(scale->finer);
+    fg_icons_destroy(icons);
+    fg_density_destroy(density);
+  }
+  assert_int_equal(answered, 4);
+  assert_int_equal(fg_run_ended(run), FG_RUN_ALL);
+  fg_evolution_destroy(evolution);
+  fg_run_destroy(run);
+  fg_field_destroy(field);
+}
+
+static bool has_id(const fg_icons *icons, int id)
+{
+  for (int n = 0; n < fg_icons_count(icons); ++n)
+    if (fg_icons_at(icons, n)->id == id)
+      return true;
+  return false;
+}
+
+/* Arrows: exactly as many as are wanted, and each goes into one of the next scale. */
+static void arrows_are_as_many_as_are_wanted(void **state)
+{
+  static const int numbers[] = {30, 29, 11};
+  fg_context *context = *state;
+  fg_field *field = field_of(context, "saddle");
+  const fg_run_options options = {
+      .numbers = numbers, .count = 3, .placement = {.effort = FG_EFFORT_QUICK}};
+  fg_run *run = run_of(context, field, &options);
+  const fg_run_scale *scale;
+  for (int k = 0; k < 3; ++k) {
+    assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+    assert_non_null(scale);
+    assert_int_equal(fg_icons_count(scale->icons), numbers[k]);
+    assert_int_equal(scale->wanted_count, 1);
+    assert_int_equal(scale->wanted[0], numbers[k]);
+    assert_true((scale->finer != NULL) == (k > 0));
+    for (int n = 0; k > 0 && n < numbers[k - 1]; ++n)
+      assert_true(has_id(scale->icons, fg_icons_at(scale->finer, n)->parent));
+  }
+  assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+  assert_null(scale);
+  fg_run_destroy(run);
+  fg_field_destroy(field);
+}
+
+/* A number that is never reached: the run ends at its limit, with the state there. */
+static void a_run_that_falls_short_shows_what_it_has(void **state)
+{
+  static const int numbers[] = {1};
+  fg_context *context = *state;
+  fg_field *field = field_of(context, "vortex");
+  fg_run_options options = {.kind = FG_RUN_CLUSTERS,
+                            .numbers = numbers,
+                            .count = 1,
+                            .evolution = {.nodes = 65},
+                            .max_steps = 60};
+  fg_run *run = run_of(context, field, &options);
+  const fg_run_scale *scale;
+  assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+  assert_non_null(scale);
+  assert_int_equal(scale->wanted_count, 0);
+  assert_int_equal(scale->step.step, 60);
+  assert_int_equal(fg_run_ended(run), FG_RUN_AT_STEPS);
+  assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+  assert_null(scale);
+  fg_run_destroy(run);
+
+  options.max_steps = 1; /* before there is any cluster */
+  run = run_of(context, field, &options);
+  assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+  assert_null(scale);
+  fg_run_destroy(run);
+  fg_field_destroy(field);
+}
+
+static void wrong_numbers_are_refused(void **state)
+{
+  static const int rising[] = {20, 21}, none[] = {5, 0};
+  fg_context *context = *state;
+  fg_field *field = field_of(context, "vortex");
+  const fg_run_options wrong[] = {{.numbers = rising, .count = 2},
+                                  {.numbers = none, .count = 2},
+                                  {.numbers = rising, .count = FG_MOST_SCALES + 1},
+                                  {.count = 1},
+                                  {.kind = (fg_run_kind)7},
+                                  {.max_time = -1.0},
+                                  {.evolution = {.mesh = (fg_mesh_kind)5}}};
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
+    fg_run *run = NULL;
+    assert_int_equal(fg_run_create(&run, context, field, &wrong[k]), FG_STATUS_ARGUMENT);
+    assert_null(run);
+    assert_true(*fg_context_message(context));
+    fg_context_clear(context);
+  }
+  fg_field_destroy(field);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(clusters_are_those_of_the_evolution, context_set_up,
+                                      context_tear_down),
+      cmocka_unit_test_setup_teardown(arrows_are_as_many_as_are_wanted, context_set_up,
+                                      context_tear_down),
+      cmocka_unit_test_setup_teardown(a_run_that_falls_short_shows_what_it_has,
+                                      context_set_up, context_tear_down),
+      cmocka_unit_test_setup_teardown(wrong_numbers_are_refused, context_set_up,
+                                      context_tear_down),
+  };
+  return cmocka_run_group_tests_name("run/run", tests, NULL, NULL);
+}
