@@ -7,6 +7,7 @@
 static _Atomic(fg_context *) stop_first;
 static _Atomic(fg_context *) stop_second;
 static volatile sig_atomic_t interrupts;
+static atomic_bool second_at_once;
 
 static void handle_signal(int number)
 {
@@ -16,7 +17,7 @@ static void handle_signal(int number)
   fg_context *second = atomic_load(&stop_second);
   if (first)
     fg_context_stop(first);
-  if (interrupts > 1 && second)
+  if ((interrupts > 1 || atomic_load(&second_at_once)) && second)
     fg_context_stop(second);
 }
 
@@ -37,6 +38,11 @@ void interrupt_start(fg_context *first)
 void interrupt_second(fg_context *second)
 {
   atomic_store(&stop_second, second);
+}
+
+void interrupt_second_at_once(bool at_once)
+{
+  atomic_store(&second_at_once, at_once);
 }
 
 bool interrupt_came(void)

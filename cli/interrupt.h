@@ -12,6 +12,9 @@ void interrupt_start(fg_context *first);
 /* What the second stops; NULL: nothing. */
 void interrupt_second(fg_context *second);
 
+/* Whether the first signal from now on stops that, too. */
+void interrupt_second_at_once(bool at_once);
+
 /* Whether a signal has come. */
 bool interrupt_came(void);
 

@@ -51,6 +51,25 @@ static void describe_seconds(char *text, size_t room, double seconds)
     snprintf(text, room, "%.1f h", seconds / 3600.0);
 }
 
+/* Writes a bar that is full by a share. */
+static void draw_bar(char bar[BAR_COLUMNS + 1], double share)
+{
+  int full = (int)(share * BAR_COLUMNS);
+  for (int k = 0; k < BAR_COLUMNS; ++k)
+    bar[k] = k < full ? '=' : ' ';
+  bar[BAR_COLUMNS] = '\0';
+}
+
+void progress_drawing(cli_progress *progress, int ready, int count)
+{
+  char text[160], bar[BAR_COLUMNS + 1];
+  if (!progress->shown || ready >= count)
+    return;
+  draw_bar(bar, (double)ready / count);
+  snprintf(text, sizeof text, "drawing  [%s] scale %d of %d", bar, ready + 1, count);
+  draw(progress, text);
+}
+
 void progress_evolution(cli_progress *progress, double share, double time, int clusters,
                         double seconds_left)
 {
@@ -60,10 +79,7 @@ void progress_evolution(cli_progress *progress, double share, double time, int c
   describe_seconds(left, sizeof left, seconds_left);
   if (clusters > 0)
     snprintf(count, sizeof count, "%d clusters", clusters);
-  int full = (int)(share * BAR_COLUMNS);
-  for (int k = 0; k < BAR_COLUMNS; ++k)
-    bar[k] = k < full ? '=' : ' ';
-  bar[BAR_COLUMNS] = '\0';
+  draw_bar(bar, share);
   snprintf(text, sizeof text, "evolving [%s] t = %.2e  %s  %s left", bar, time, count,
            left);
   draw(progress, text);

@@ -20,6 +20,9 @@ void progress_stage(cli_progress *progress, const char *text);
 void progress_evolution(cli_progress *progress, double share, double time, int clusters,
                         double seconds_left);
 
+/* Shows how many of the scales are drawn; nothing when all are. */
+void progress_drawing(cli_progress *progress, int ready, int count);
+
 /* Wipes the line, before a message and at the end. */
 void progress_wipe(cli_progress *progress);
 

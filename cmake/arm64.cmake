@@ -1,5 +1,5 @@
-# Cross build for arm64 on Debian, without Embree:
-# cmake -B build-arm64 --toolchain cmake/arm64.cmake -DFLOWGRAIN_RENDER=OFF
+# Cross build for arm64 on Debian:
+# cmake -B build-arm64 --toolchain cmake/arm64.cmake
 # FLOWGRAIN_SYSROOT in the environment names a folder of unpacked arm64 packages: all is
 # built, and tests run under qemu. Without it headers are this machine's, none of which is
 # particular to its processor, and only objects can be built (.ci/run does).

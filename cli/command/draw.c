@@ -8,6 +8,7 @@
 #include "build_features.h"
 #include "command/command.h"
 #include "folder/file.h"
+#include "interrupt.h"
 #include "option/settings.h"
 #include "option/validation.h"
 #include "report/past_run.h"
@@ -269,6 +270,7 @@ int command_draw(const void *given)
     code = EXIT_FAILED;
     goto cleanup;
   }
+  interrupt_start(context);
   code = read_icons(&icons, context, settings, &report, index);
   if (!code)
     code = read_field(&field, context, settings, &report);
@@ -280,6 +282,7 @@ int command_draw(const void *given)
     code =
         write_picture(context, settings, &report, index, field, density, regions, icons);
 cleanup:
+  interrupt_end();
   fg_density_destroy(regions);
   fg_density_destroy(density);
   fg_field_destroy(field);

@@ -1,7 +1,9 @@
 #include "run/drawing.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "interrupt.h"
 
@@ -23,6 +25,13 @@ struct cli_drawing {
   scale_result results[MAX_SCALES + 1]; /* written by the worker, read after it ended */
 };
 
+/* After an interrupt that is heeded: the scales from `index` on are left out. */
+static void cut(cli_drawing *drawing, int index)
+{
+  drawing->cut = true;
+  drawing->added = drawing->drawn = index;
+}
+
 static void *work(void *argument)
 {
   cli_drawing *drawing = argument;
@@ -33,8 +42,7 @@ static void *work(void *argument)
     if (drawing->drawn == drawing->added || drawing->status)
       break;
     if (drawing->heeds && drawing->drawn > 0 && interrupt_came()) {
-      drawing->cut = true;
-      drawing->added = drawing->drawn;
+      cut(drawing, drawing->drawn);
       break;
     }
     int index = drawing->drawn;
@@ -44,7 +52,15 @@ static void *work(void *argument)
     fg_status status =
         scale_make(&drawing->maker, index, &drawing->results[index], &snapshot);
     snapshot_clear(&snapshot);
+    const bool interrupted = status == FG_STATUS_STOPPED && interrupt_came();
+    if (interrupted)
+      scale_remove(&drawing->maker, index);
     pthread_mutex_lock(&drawing->lock);
+    if (interrupted && drawing->heeds && index > 0) {
+      cut(drawing, index);
+      pthread_cond_broadcast(&drawing->changed);
+      break;
+    }
     drawing->status = status;
     ++drawing->drawn;
     pthread_cond_broadcast(&drawing->changed);
@@ -103,7 +119,7 @@ bool drawing_add(cli_drawing *drawing, const scale_snapshot *snapshot, const int
                  int wanted_count)
 {
   pthread_mutex_lock(&drawing->lock);
-  bool accepted = drawing->added <= MAX_SCALES && !drawing->status;
+  bool accepted = drawing->added <= MAX_SCALES && !drawing->status && !drawing->cut;
   if (accepted) {
     scale_result *result = &drawing->results[drawing->added];
     result->wanted_count = wanted_count;
@@ -114,15 +130,18 @@ bool drawing_add(cli_drawing *drawing, const scale_snapshot *snapshot, const int
     pthread_cond_broadcast(&drawing->changed);
   }
   pthread_mutex_unlock(&drawing->lock);
-  if (!accepted) {
+  if (!accepted || drawing->cut) {
     scale_snapshot refused = *snapshot;
     snapshot_clear(&refused);
-    return false;
+    return drawing->cut;
   }
   if (drawing->threaded)
     return true;
   drawing->closed = true; /* work returns when nothing waits */
+  drawing->heeds = true;  /* nothing else goes on meanwhile */
+  interrupt_second_at_once(true);
   work(drawing);
+  interrupt_second_at_once(false);
   return !drawing->status;
 }
 
@@ -154,6 +173,23 @@ void drawing_heed_interrupts(cli_drawing *drawing)
   pthread_mutex_lock(&drawing->lock);
   drawing->heeds = true;
   pthread_mutex_unlock(&drawing->lock);
+  interrupt_second_at_once(true);
+}
+
+bool drawing_wait_for(cli_drawing *drawing, double seconds)
+{
+  struct timespec until;
+  timespec_get(&until, TIME_UTC);
+  double end = (double)until.tv_nsec * 1e-9 + seconds;
+  until.tv_sec += (time_t)end;
+  until.tv_nsec = (long)((end - floor(end)) * 1e9);
+  pthread_mutex_lock(&drawing->lock);
+  int waited = 0;
+  while (waited == 0 && drawing->drawn < drawing->added && !drawing->status)
+    waited = pthread_cond_timedwait(&drawing->changed, &drawing->lock, &until);
+  bool all = drawing->drawn >= drawing->added || drawing->status;
+  pthread_mutex_unlock(&drawing->lock);
+  return all;
 }
 
 bool drawing_was_cut(const cli_drawing *drawing)

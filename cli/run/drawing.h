@@ -26,10 +26,13 @@ void drawing_restore(cli_drawing *drawing, const scale_result *results, int coun
                      const common_look *look, double icon_seconds,
                      double picture_seconds);
 
-/* From here on an interrupt leaves out the scales that are not begun, but for the first;
- * once the evolution has ended nothing else would stop. */
+/* From here on an interrupt leaves out the scales that are not finished; once the evolution
+ * has ended nothing else would stop. */
 void drawing_heed_interrupts(cli_drawing *drawing);
 bool drawing_was_cut(const cli_drawing *drawing); /* after drawing_finish */
+
+/* Waits until all is drawn or some time has passed; returns whether all is. */
+bool drawing_wait_for(cli_drawing *drawing, double seconds);
 
 /* Waits until all is drawn; the failure, if there was one, is in the context. */
 fg_status drawing_finish(cli_drawing *drawing);

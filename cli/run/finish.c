@@ -8,6 +8,9 @@
 #include "ranks.h"
 #include "run/scale_files.h"
 
+/* At the drawing's progress. */
+static const double seconds_between_looks = 0.2;
+
 bool finish_can_go_on(const cli_run *run)
 {
   fg_run_ending ended = run->facts.ended;
@@ -34,12 +37,18 @@ static int complain_of_no_scale(const cli_run *run)
 
 int finish_drawing(cli_run *run)
 {
-  if (drawing_ready(run->drawing) < drawing_count(run->drawing))
-    progress_stage(&run->progress, "drawing");
   if (run->facts.ended != FG_RUN_STOPPED)
     drawing_heed_interrupts(run->drawing);
+  int count = drawing_count(run->drawing);
+  do
+    progress_drawing(&run->progress, drawing_ready(run->drawing), count);
+  while (!drawing_wait_for(run->drawing, seconds_between_looks));
   fg_status status = drawing_finish(run->drawing);
   progress_wipe(&run->progress);
+  if (status == FG_STATUS_STOPPED && drawing_ready(run->drawing) <= 1) {
+    run->facts.ended = FG_RUN_STOPPED; /* while the first scale was drawn */
+    return complain_of_no_scale(run);
+  }
   if (status)
     return complain_of(drawing_context(run->drawing), status,
                        run->settings->reading.input);

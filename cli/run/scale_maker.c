@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "build_features.h"
 #include "progress.h"
@@ -159,8 +160,8 @@ static fg_status find_finer(scale_maker *maker, int index)
   return status;
 }
 
-/* Exactly as many icons as the scale asks for. The finer scale's file is written again,
- * with the icons that its own went into. */
+/* Exactly as many icons as the scale asks for. The finer scale's icons are told which
+ * ones they went into. */
 static fg_status place_icons(scale_maker *maker, int index, int count,
                              scale_snapshot *snapshot)
 {
@@ -168,8 +169,6 @@ static fg_status place_icons(scale_maker *maker, int index, int count,
   if (!status)
     status =
         placing_make(&snapshot->icons, &maker->placing, count, snapshot, maker->finer);
-  if (!status && maker->finer)
-    status = write_icons(maker, index - 1, maker->finer);
   return status;
 }
 
@@ -233,6 +232,9 @@ static fg_status draw_icons(scale_maker *maker, int index, scale_result *result,
       result->score = *score;
     result->dropped = fg_icons_dropped(icons);
   }
+  /* now that there is a coarser scale, the finer one's file names its icons */
+  if (!status && settings_place(maker->settings) && maker->finer)
+    status = write_icons(maker, index - 1, maker->finer);
   if (!status && settings_place(maker->settings)) {
     fg_icons_destroy(maker->finer);
     maker->finer = snapshot->icons;
@@ -264,6 +266,18 @@ void snapshot_clear(scale_snapshot *snapshot)
   fg_density_destroy(snapshot->density);
   fg_icons_destroy(snapshot->icons);
   *snapshot = (scale_snapshot){0};
+}
+
+void scale_remove(const scale_maker *maker, int index)
+{
+  char ends[SCALE_FILES][SCALE_END_BYTES];
+  int count = scale_file_ends(ends, maker->settings, maker->field);
+  for (int n = 0; n < count; ++n) {
+    char *path = scale_path(maker, index, ends[n]);
+    if (path)
+      unlink(path);
+    free(path);
+  }
 }
 
 void scale_maker_clear(scale_maker *maker)

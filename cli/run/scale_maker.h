@@ -38,6 +38,9 @@ typedef struct scale_maker {
 fg_status scale_make(scale_maker *maker, int index, scale_result *result,
                      scale_snapshot *snapshot);
 
+/* Removes what there is of a scale that was interrupted. */
+void scale_remove(const scale_maker *maker, int index);
+
 /* A file of a scale; NULL: no memory. End with free. */
 char *scale_path(const scale_maker *maker, int index, const char *end);
 

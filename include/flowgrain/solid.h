@@ -56,7 +56,7 @@ typedef struct fg_solid_options {
  * of what is seen of the arrows is measured as it appears, without what others hide,
  * heads counted three times. Of the views within 4 % of the best it is the one nearest to
  * azimuth 30, elevation 22 (fg_solid_options); that one without icons. MEMORY, ARGUMENT
- * (2D). */
+ * (2D), STOPPED. */
 FG_API fg_status fg_solid_best_view(double *azimuth, double *elevation,
                                     fg_context *context, const fg_field *field,
                                     const fg_icons *icons);
@@ -70,7 +70,8 @@ FG_API fg_status fg_solid_speed_range(double range[2], fg_context *context,
 
 /* Writes icons in 3D; the format follows the name's end.
  * .vtp: VTK polydata in input coordinates, with the cells' array `part` (0 a centre, 1 a
- * spine, 2 a streamline, 3 an arrow, 4 the clusters' surface) and those of their cluster.
+ * spine, 2 a streamline, 3 an arrow, 4 the clusters' surface) and those of their cluster;
+ * the clusters' surface belongs to none: there `cluster`, `speed` and `volume` are 0.
  * .glb: glTF 2.0 in one file: a node with a mesh for each arrow, coloured by its speed,
  * and for all spines, streamlines, centres and clusters' surfaces; z is turned upwards as
  * glTF has y. .png, .svg, .pdf: a rendered picture, the same to the bit on any number of

@@ -18,39 +18,22 @@ uint32_t fg__checksum(uint32_t before, const void *bytes, size_t size)
   return (uint32_t)sum;
 }
 
-/* Polynomials over the bits, modulo that of CRC-32, the coefficient of x^0 in the highest
- * bit; zero bytes behind a register multiply it by x^8 each (as in zlib's
- * crc32_combine). */
-static const uint32_t polynomial = 0xedb88320U, one = 0x80000000U, x_to_8 = 0x00800000U;
-
-static uint32_t times(uint32_t a, uint32_t b)
+/* The register behind `zeros` more bytes that are 0. */
+static uint32_t behind_zeros(uint32_t reg, uint64_t zeros)
 {
-  uint32_t product = 0;
-  for (; a; a <<= 1) {
-    if (a & one)
-      product ^= b;
-    b = b & 1U ? b >> 1 ^ polynomial : b >> 1;
-  }
-  return product;
-}
-
-static uint32_t factor_of(uint64_t zeros)
-{
-  uint32_t factor = one;
-  for (uint32_t power = x_to_8; zeros; zeros >>= 1, power = times(power, power))
-    if (zeros & 1U)
-      factor = times(factor, power);
-  return factor;
+  for (; zeros > MOST_AT_ONCE; zeros -= MOST_AT_ONCE)
+    reg = (uint32_t)crc32_combine(reg, 0, MOST_AT_ONCE);
+  return (uint32_t)crc32_combine(reg, 0, (z_off_t)zeros);
 }
 
 fg__checksum_share fg__checksum_share_of(uint64_t size)
 {
-  return (fg__checksum_share){.size = size, .gap_factor = one};
+  return (fg__checksum_share){.size = size};
 }
 
 uint32_t fg__checksum_share_sum(const fg__checksum_share *share)
 {
-  return share->share ^ times(factor_of(share->size - share->end), share->run);
+  return share->share ^ behind_zeros(share->run, share->size - share->end);
 }
 
 void fg__checksum_share_add(fg__checksum_share *share, uint64_t offset, const void *bytes,
@@ -61,18 +44,13 @@ void fg__checksum_share_add(fg__checksum_share *share, uint64_t offset, const vo
     share->run = 0;
     share->end = offset;
   }
-  uint64_t gap = offset - share->end;
-  if (gap > 0 && gap != share->gap) {
-    share->gap = gap;
-    share->gap_factor = factor_of(gap);
-  }
-  if (gap > 0)
-    share->run = times(share->gap_factor, share->run);
+  if (offset > share->end)
+    share->run = behind_zeros(share->run, offset - share->end);
   share->run = ~fg__checksum(~share->run, bytes, count);
   share->end = offset + count;
 }
 
 uint32_t fg__checksum_of_zeros(uint64_t size)
 {
-  return ~times(factor_of(size), UINT32_MAX);
+  return ~behind_zeros(UINT32_MAX, size);
 }

@@ -13,18 +13,16 @@ uint32_t fg__checksum(uint32_t before, const void *bytes, size_t size);
  * CRC-32 is linear: the checksum of the whole is the exclusive or of that of as many zero
  * bytes and of every piece's share, which depends on its bytes and on how many follow. */
 typedef struct fg__checksum_share {
-  uint64_t size;       /* of the whole */
-  uint64_t end;        /* of the last piece */
-  uint64_t gap;        /* the last one between pieces */
-  uint32_t gap_factor; /* what it multiplies the register by */
-  uint32_t run;        /* register behind the last piece, of those in ascending order */
-  uint32_t share;      /* of the runs before */
+  uint64_t size;  /* of the whole */
+  uint64_t end;   /* of the last piece */
+  uint32_t run;   /* register behind the last piece, of those in ascending order */
+  uint32_t share; /* of the runs before */
 } fg__checksum_share;
 
 /* No piece yet of `size` bytes. */
 fg__checksum_share fg__checksum_share_of(uint64_t size);
 
-/* Adds the piece that begins at `offset`. Least work when pieces ascend, at even gaps. */
+/* Adds the piece that begins at `offset`. Least work when pieces ascend. */
 void fg__checksum_share_add(fg__checksum_share *share, uint64_t offset, const void *bytes,
                             size_t count);
 

@@ -30,6 +30,11 @@ static const double open_side = 0.15;
 /* What is smaller than this share of the raster is a crumb. */
 static const double crumb = 2e-4;
 
+/* Where a field is valid everywhere and less than this share of a few samples is slow,
+ * most of it moves. */
+static const double hardly_dead = 0.42;
+enum { PROBES = 41 }; /* along the longest side */
+
 enum { BISECTIONS = 40 };
 
 typedef struct raster {
@@ -66,7 +71,8 @@ static bool next_node(const raster *r, int at[3])
   return false;
 }
 
-static void lay_out(raster *r, const fg_field_arrays *field)
+/* A raster of `nodes` along the longest side. */
+static void lay_out(raster *r, const fg_field_arrays *field, int nodes)
 {
   double low[3], side[3], longest = 0.0;
   for (int k = 0; k < 3; ++k) {
@@ -78,7 +84,7 @@ static void lay_out(raster *r, const fg_field_arrays *field)
   }
   r->count = 1;
   for (int k = 0; k < 3; ++k) {
-    double wanted = fmin(side[k] / longest * (NODES - 1), FINER * field->size[k]);
+    double wanted = fmin(side[k] / longest * (nodes - 1), FINER * field->size[k]);
     int cells = (int)fmax(ceil(wanted), 4.0);
     r->spacing[k] = side[k] / cells;
     r->rim[k] = r->periodic[k] ? 0 : RIM;
@@ -125,23 +131,34 @@ static double strong_speed(const raster *r, double squares, double fastest)
   return high;
 }
 
+/* The share of what is valid that is slow. */
+static double slow_share(const raster *r)
+{
+  double squares = 0.0;
+  size_t valid = 0, slow = 0;
+  for (size_t i = 0; i < r->count; ++i)
+    if (r->value[i] >= 0.0F) {
+      ++valid;
+      squares += (double)r->value[i] * (double)r->value[i];
+    }
+  double limit = dead_speed * sqrt(squares / (double)valid);
+  for (size_t i = 0; i < r->count; ++i)
+    slow += r->value[i] >= 0.0F && (double)r->value[i] < limit;
+  return valid > 0 ? (double)slow / (double)valid : 0.0;
+}
+
 /* The level of speed that bounds what moves; 0 where most of the field does. */
 static double find_level(const raster *r)
 {
   double squares = 0.0, fastest = 0.0;
-  size_t valid = 0, slow = 0;
-  for (size_t i = 0; i < r->count; ++i) {
-    double speed = (double)r->value[i];
-    if (speed < 0.0)
-      continue;
-    ++valid;
-    squares += speed * speed;
-    fastest = fmax(fastest, speed);
-  }
-  double limit = dead_speed * sqrt(squares / (double)valid);
+  if (!(slow_share(r) > 0.5))
+    return 0.0;
   for (size_t i = 0; i < r->count; ++i)
-    slow += r->value[i] >= 0.0F && (double)r->value[i] < limit;
-  return 2 * slow > valid ? level_share * strong_speed(r, squares, fastest) : 0.0;
+    if (r->value[i] >= 0.0F) {
+      squares += (double)r->value[i] * (double)r->value[i];
+      fastest = fmax(fastest, (double)r->value[i]);
+    }
+  return level_share * strong_speed(r, squares, fastest);
 }
 
 /* The share of a side's nodes that have a speed. */
@@ -171,20 +188,36 @@ static void extend(raster *r, int axis, int side)
   } while (next_node(r, at));
 }
 
+/* The binomial filter along an axis; rows of x at a time. */
 static void filter(raster *r, int axis)
 {
-  int at[3] = {0, 0, 0}, last = r->nodes[axis] - 1;
-  do {
-    int before[3] = {at[0], at[1], at[2]}, after[3] = {at[0], at[1], at[2]};
-    before[axis] = at[axis] > 0 ? at[axis] - 1 : r->periodic[axis] ? last : 0;
-    after[axis] = at[axis] < last ? at[axis] + 1 : r->periodic[axis] ? 0 : last;
-    size_t own = index_of(r, at);
-    r->spare[own] = 0.25F * r->value[index_of(r, before)] + 0.5F * r->value[own] +
-                    0.25F * r->value[index_of(r, after)];
-  } while (next_node(r, at));
+  const ptrdiff_t step[3] = {1, r->nodes[0], (ptrdiff_t)r->nodes[0] * r->nodes[1]};
+  const int last = r->nodes[axis] - 1;
+  ptrdiff_t own = 0;
+  for (int z = 0; z < r->nodes[2]; ++z)
+    for (int y = 0; y < r->nodes[1]; ++y)
+      for (int x = 0; x < r->nodes[0]; ++x, ++own) {
+        int at = axis == 0 ? x : axis == 1 ? y : z;
+        ptrdiff_t round = r->periodic[axis] ? last * step[axis] : 0;
+        ptrdiff_t before = at > 0 ? own - step[axis] : own + round;
+        ptrdiff_t after = at < last ? own + step[axis] : own - round;
+        r->spare[own] =
+            0.25F * r->value[before] + 0.5F * r->value[own] + 0.25F * r->value[after];
+      }
   float *swap = r->value;
   r->value = r->spare;
   r->spare = swap;
+}
+
+/* Whether there is a speed everywhere in the box. */
+static bool is_full(const raster *r)
+{
+  int at[3] = {0, 0, 0};
+  do {
+    if (r->value[index_of(r, at)] < 0.0F && is_in_box(r, at))
+      return false;
+  } while (next_node(r, at));
+  return true;
 }
 
 /* Makes the values positive inside, smooth, and closed but where the box is. Returns
@@ -192,7 +225,9 @@ static void filter(raster *r, int axis)
 static bool find_inside(raster *r)
 {
   double level = find_level(r);
-  bool open[3][2], all = true;
+  bool open[3][2];
+  if (!(level > 0.0) && is_full(r))
+    return false;
   for (int k = 0; k < 3; ++k)
     for (int side = 0; side < 2; ++side) {
       int layer = side ? r->nodes[k] - 1 - r->rim[k] : r->rim[k];
@@ -202,7 +237,6 @@ static bool find_inside(raster *r)
   int at[3] = {0, 0, 0};
   do {
     float *value = &r->value[index_of(r, at)];
-    all = all && (*value >= 0.0F || !is_in_box(r, at));
     *value = level > 0.0 ? fmaxf(*value, 0.0F) / (float)level : *value >= 0.0F;
     *value -= level > 0.0 ? 1.0F : 0.5F;
   } while (next_node(r, at));
@@ -213,7 +247,7 @@ static bool find_inside(raster *r)
   for (int n = 0; n < PASSES; ++n)
     for (int k = 0; k < 3; ++k)
       filter(r, k);
-  return level > 0.0 || !all;
+  return true;
 }
 
 static fg_status make_surface(fg_surface **out, fg_context *context, const raster *r)
@@ -247,14 +281,40 @@ static void press(fg_surface *surface, const fg_field_arrays *field)
                                      field->axis[k][field->size[k] - 1]);
 }
 
+static bool is_complete(const fg_field_arrays *field)
+{
+  size_t count = (size_t)field->size[0] * (size_t)field->size[1] * (size_t)field->size[2];
+  for (size_t n = 0; n < count; ++n)
+    if ((field->valid && !field->valid[n]) || !isfinite(field->velocity[0][n]) ||
+        !isfinite(field->velocity[1][n]) || !isfinite(field->velocity[2][n]))
+      return false;
+  return true;
+}
+
+/* Whether a few samples show already that there is nothing to draw. */
+static bool is_all_moving(const fg_field *field)
+{
+  raster r = {.value = NULL};
+  if (!is_complete(fg_field_contents(field)))
+    return false;
+  lay_out(&r, fg_field_contents(field), PROBES);
+  r.value = fg__allocate(r.count, sizeof *r.value);
+  if (!r.value)
+    return false; /* the larger raster will say so */
+  sample(&r, field);
+  bool moving = slow_share(&r) < hardly_dead;
+  free(r.value);
+  return moving;
+}
+
 fg_status fg__silhouette_create(fg_surface **out, fg_context *context,
                                 const fg_field *field)
 {
   *out = NULL;
-  if (fg_field_is_part(field, NULL, NULL))
+  if (fg_field_is_part(field, NULL, NULL) || is_all_moving(field))
     return FG_STATUS_OK;
   raster r = {.value = NULL};
-  lay_out(&r, fg_field_contents(field));
+  lay_out(&r, fg_field_contents(field), NODES);
   r.value = fg__allocate(r.count, sizeof *r.value);
   r.spare = fg__allocate(r.count, sizeof *r.spare);
   fg_status status = FG_STATUS_OK;

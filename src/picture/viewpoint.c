@@ -194,6 +194,7 @@ fg_status fg_solid_best_view(double *azimuth, double *elevation, fg_context *con
     fg__camera_look(&camera, &stage, azimuth_step * (n % AZIMUTHS),
                     lowest + elevation_step * (n / AZIMUTHS), &pane);
     merit[n] = merit_of(&all, &camera, seen, depth);
+    status = fg__check_stop(context);
   }
   if (!status)
     choose(azimuth, elevation, merit);

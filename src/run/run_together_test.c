@@ -60,7 +60,7 @@ static void check(const char *name, fg_run_kind kind)
   const fg_run_scale *scale = NULL;
   reference r = {.evolution = NULL};
   expect(fg_field_create_analytic(&field, us.context, name, 33) == FG_STATUS_OK);
-  expect(fg__evolution_create(&r.evolution, us.context, fg__ranks_alone(), field,
+  expect(fg__evolution_create(&r.evolution, us.context, &fg__single_rank, field,
                               &options.evolution) == FG_STATUS_OK);
   expect(fg_placement_create(&r.placement, us.context, field, &options.placement) ==
          FG_STATUS_OK);

@@ -6,7 +6,6 @@
 #include "write/vti.h"
 
 #include <limits.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -218,8 +217,8 @@ static fg_status write_polydata(FILE *stream, fg_context *context, const polydat
 fg_status fg__vtp_write(fg_context *context, const char *path, const fg_icons *icons,
                         const fg_surface *surface)
 {
-  /* of no one cluster */
-  static const fg_icon none = {.speed = (double)NAN, .area = (double)NAN};
+  /* of all clusters, and of none: its numbers are 0 */
+  static const fg_icon none = {0};
   polydata data = {0};
   fg__number_locale locale;
   fg__whole_file file;

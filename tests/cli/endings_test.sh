@@ -102,13 +102,40 @@ done_with "an interrupted run of placed arrows says which are missing, and goes 
 
 # the evolution is short, the placing of so many is long
 in_background run synth:vortex3 --nodes 129 --arrows 400,399,398,397,396,395 --formats svg --quiet -o placing
-until_there placing/.flowgrain/scale-00.geojson "$pid"
+until_there placing/.flowgrain/scale-00.svg "$pid"
 ends_by INT
 expect_code 130
 expect_one_complaint
 expect_json placing/run.json '.ended == "interrupted" and (.scales | length) >= 1 and (.scales | length) < 6'
 expect_json placing/run.json '[.scales[].icons] == [400,399,398,397,396,395][:(.scales | length)]'
 done_with "an interrupt while arrows are placed keeps the scales that are there"
+
+if "$program" --version | grep -q '[ ,]render'; then
+  # the evolution is short, the drawing of so many pixels is long
+  in_background run synth:vortex3d --nodes 33 --clusters 8,4,2 --width 2400 --quiet -o drawing
+  until_there drawing/.flowgrain/scale-01.glb "$pid"
+  ends_by INT
+  expect_code 130
+  expect_one_complaint
+  expect_error 'interrupted at t = .* with [0-9]+ clusters; the 1 scale until then is in drawing$'
+  expect_json drawing/run.json '.ended == "interrupted" and (.scales | length) == 1'
+  expect_file drawing/scale-00.png
+  [ -z "$(find drawing -name 'scale-0[12]*')" ] || fault "of interrupted scales: $(ls drawing)"
+  in_background run synth:vortex3d --nodes 33 --clusters 8 --width 2400 --quiet -o first
+  until_there first/.flowgrain/scale-00.glb "$pid"
+  sleep 0.5
+  ends_by TERM
+  expect_code 130
+  expect_one_complaint
+  [ -z "$(find first -name 'scale-*' 2>/dev/null)" ] || fault "of an interrupted scale: $(find first)"
+  in_background draw drawing -o large.png --width 2400
+  sleep 1
+  ends_by TERM
+  expect_code 130
+  expect_one_complaint
+  [ -z "$(find . -maxdepth 1 -name '*large.png*')" ] || fault "left: $(find . -name '*large.png*')"
+  done_with "an interrupt while pictures in 3D are drawn keeps the scales that are there"
+fi
 
 # checkpoints have 3 arrays of 129 x 129 floats and more; results are smaller
 limit_kib=150
@@ -187,7 +214,6 @@ else
   done
   done_with "out of memory: one message, and nothing is left"
 
-  # Embree reserves 200 MB or so for a device
   (
     ulimit -v 300000
     try run synth:vortex3d --nodes 17 --clusters 3 -o solid --quiet --threads 1

@@ -300,6 +300,8 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
   if (!status && options->background)
     status = make_background(p, context, options);
   if (!status)
+    status = fg__check_stop(context);
+  if (!status)
     status = render(context, path, p);
   cairo_surface_destroy(p->style.background);
   fg__scene_clear(&p->scene);

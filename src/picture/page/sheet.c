@@ -4,8 +4,12 @@
 #include <cairo-svg.h>
 #include <errno.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+
+#include "base/memory.h"
+#include "picture/page/svg_ids.h"
 
 fg__sheet_format fg__sheet_format_of(const char *path)
 {
@@ -38,12 +42,24 @@ static cairo_status_t write_bytes(void *closure, const unsigned char *bytes,
   return CAIRO_STATUS_WRITE_ERROR;
 }
 
+/* The same of SVG, with the sheet. */
+static cairo_status_t keep_bytes(void *closure, const unsigned char *bytes,
+                                 unsigned int count)
+{
+  fg__sheet *sheet = closure;
+  if (!fg__grow((void **)&sheet->svg, &sheet->svg_capacity, sheet->svg_length + count, 1))
+    return CAIRO_STATUS_NO_MEMORY;
+  memcpy(sheet->svg + sheet->svg_length, bytes, count);
+  sheet->svg_length += count;
+  return CAIRO_STATUS_SUCCESS;
+}
+
 static cairo_surface_t *create_surface(fg__sheet *sheet, double width, double height,
                                        double pixels, const char *title)
 {
   if (sheet->format == FG__SHEET_SVG) {
     cairo_surface_t *surface =
-        cairo_svg_surface_create_for_stream(write_bytes, &sheet->file, width, height);
+        cairo_svg_surface_create_for_stream(keep_bytes, sheet, width, height);
     cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PT);
     return surface;
   }
@@ -101,6 +117,13 @@ fg_status fg__sheet_close(fg__sheet *sheet, fg_context *context, fg_status statu
   if (!trouble)
     trouble = cairo_surface_status(sheet->surface);
   cairo_surface_destroy(sheet->surface);
+  errno = 0;
+  if (!status && !trouble && sheet->format == FG__SHEET_SVG &&
+      !fg__svg_ids_write(sheet->file.stream, sheet->svg, sheet->svg_length))
+    trouble = CAIRO_STATUS_NO_MEMORY;
+  if (!sheet->file.error && ferror(sheet->file.stream))
+    sheet->file.error = errno ? errno : EIO;
+  free(sheet->svg);
   if (!status)
     status = status_of(context, trouble, &sheet->file);
   return fg__whole_file_close(&sheet->file, context, status);

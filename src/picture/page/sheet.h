@@ -21,6 +21,8 @@ typedef struct fg__sheet {
   fg__whole_file file;
   cairo_surface_t *surface;
   cairo_t *cairo; /* draws in points */
+  char *svg;      /* the file as Cairo writes it */
+  size_t svg_length, svg_capacity;
 } fg__sheet;
 
 /* Opens a sheet of width x height points, which in PNG has pixels_per_point. title: for

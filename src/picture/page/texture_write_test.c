@@ -298,6 +298,30 @@ static void test_refusals(void **state)
   assert_int_equal(access(e->path, F_OK), -1);
 }
 
+/* What a process has drawn before does not show in a file, as it would in a resumed run.
+ */
+static void test_a_second_file_is_the_same(void **state)
+{
+  example *e = *state;
+  static unsigned char bytes[2][1 << 18];
+  size_t length[2];
+  char path[64];
+  snprintf(path, sizeof path, "/tmp/flowgrain-texture-%d.svg", (int)getpid());
+  for (int n = 0; n < 2; ++n) {
+    cairo_surface_destroy(cairo_image_surface_create(CAIRO_FORMAT_A8, 3, 3));
+    assert_int_equal(fg_texture_write(e->context, path, e->field, e->texture, NULL),
+                     FG_STATUS_OK);
+    FILE *stream = fopen(path, "rb");
+    assert_non_null(stream);
+    length[n] = fread(bytes[n], 1, sizeof bytes[n], stream);
+    fclose(stream);
+  }
+  unlink(path);
+  assert_true(length[0] > 100 && length[0] < sizeof bytes[0]);
+  assert_int_equal(length[0], length[1]);
+  assert_memory_equal(bytes[0], bytes[1], length[0]);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -309,6 +333,7 @@ int main(void)
       cmocka_unit_test_setup_teardown(test_background_fills_the_frame, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_stripes_are_not_darker_than_land, set_up,
                                       tear_down),
+      cmocka_unit_test_setup_teardown(test_a_second_file_is_the_same, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_refusals, set_up, tear_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

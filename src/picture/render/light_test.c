@@ -11,7 +11,10 @@ static void levels_of(double out[3], fg__color color, double depth)
                        .to_viewer = {0.0, -0.6, 0.8},
                        .lamp = {0.0, 0.8, 0.6},
                        .depth = depth};
-  const uint32_t pixel = fg__light_pixel(fg__light_arrow(color, &lit), false);
+  static fg__tones tones;
+  fg__tones_make(&tones);
+  const uint32_t pixel =
+      fg__light_pixel(&tones, fg__light_arrow(&tones, color, &lit), false);
   for (int k = 0; k < 3; ++k)
     out[k] = pixel >> (16 - 8 * k) & 255;
 }
@@ -40,81 +43,58 @@ static void far_colors_keep_apart_alike(void **state)
   }
 }
 
-static void samples_of_a_pixel_are_evenly_spread(void **state)
+/* The tables against the formulas of IEC 61966-2-1, between their entries. */
+static void tables_are_exact_to_a_hundredth_of_a_level(void **state)
 {
   (void)state;
-  for (int pixel = 0; pixel < 50; ++pixel) {
-    int quarter[4] = {0};
-    for (int n = 0; n < 16; ++n) {
-      double number[2];
-      fg__light_numbers(16 * fg__light_order(3 * pixel, 7 * pixel + 1) + (unsigned)n, 1,
-                        number);
-      for (int k = 0; k < 2; ++k)
-        assert_true(number[k] >= 0.0 && number[k] < 1.0);
-      ++quarter[2 * (number[0] < 0.5) + (number[1] < 0.5)];
+  static fg__tones tones;
+  fg__tones_make(&tones);
+  for (int n = 0; n < 3000; ++n) {
+    double light = pow((n + 0.37) / 3000.0, 2.0);
+    double level =
+        light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1.0 / 2.4) - 0.055;
+    for (int shown = 0; shown < 2; ++shown) {
+      const fg__light white = {light, light, light, 1.0};
+      const uint32_t pixel = fg__light_pixel(&tones, white, shown);
+      double nearest = floor(255.0 * level + 0.5), rest = fabs(255.0 * level - nearest);
+      if (rest < 0.49) /* else the neighbour is as near */
+        assert_int_equal(pixel & 255U, (int)nearest);
+      assert_int_equal(pixel >> 24, 255);
     }
-    for (int n = 0; n < 4; ++n)
-      assert_true(quarter[n] >= 2 && quarter[n] <= 7);
   }
 }
 
-/* Squares whose side and corner are multiples of a power of two are each one stretch of
- * the curve, from neighbour to neighbour. */
-static void the_order_of_pixels_is_a_hilbert_curve(void **state)
+/* The disc overhead: each ring and each half has its share of the places. */
+static void places_fill_the_disc(void **state)
 {
   (void)state;
-  enum { SIDE = 16 };
-  const int corner[2] = {5 * SIDE, 83 * SIDE};
-  int place[SIDE * SIDE][2];
-  bool met[SIDE * SIDE] = {false};
-  uint64_t first = fg__light_order(corner[0], corner[1]) / (SIDE * SIDE) * (SIDE * SIDE);
-  for (int n = 0; n < SIDE * SIDE; ++n) {
-    int x = corner[0] + n % SIDE, y = corner[1] + n / SIDE;
-    uint64_t at = fg__light_order(x, y) - first;
-    assert_true(at < SIDE * SIDE && !met[at]);
-    met[at] = true;
-    place[at][0] = x;
-    place[at][1] = y;
-  }
-  for (int n = 1; n < SIDE * SIDE; ++n)
-    assert_int_equal(
-        abs(place[n][0] - place[n - 1][0]) + abs(place[n][1] - place[n - 1][1]), 1);
-}
-
-/* A disc's share of the square, by the numbers of one pixel and of 4 x 4 together: what
- * one has too much others have too little. */
-static void pixels_make_up_for_each_other(void **state)
-{
-  (void)state;
-  const double share = 3.141592653589793 * 0.09;
-  double single = 0.0, together = 0.0;
-  for (int block = 0; block < 64; ++block) {
-    int seen = 0;
-    for (int n = 0; n < 16; ++n) {
-      int x = 4 * block + n % 4, y = 4 * (block % 7) + n / 4, own = 0;
-      for (int m = 0; m < 16; ++m) {
-        double number[2];
-        fg__light_numbers(16 * fg__light_order(x, y) + (unsigned)m, 1, number);
-        own += hypot(number[0] - 0.45, number[1] - 0.52) < 0.3;
-      }
-      seen += own;
-      single += pow(own / 16.0 - share, 2.0) / (64 * 16);
+  enum { COUNT = 64 };
+  int inner = 0, half[2] = {0}, quarter[4] = {0};
+  for (int n = 0; n < COUNT; ++n) {
+    double slope[2], place[2];
+    fg__overhead_place(n, COUNT, slope, place);
+    double radius = hypot(slope[0], slope[1]) / fg__overhead_size;
+    assert_true(radius < 1.0);
+    inner += radius < sqrt(0.5);
+    for (int k = 0; k < 2; ++k) {
+      assert_true(place[k] >= 0.0 && place[k] < 1.0);
+      half[k] += slope[k] > 0.0;
     }
-    together += pow(seen / 256.0 - share, 2.0) / 64;
+    ++quarter[2 * (place[0] < 0.5) + (place[1] < 0.5)];
   }
-  assert_true(single > 0.0);
-  /* independent sets would leave a quarter, and 16 numbers by chance 0.11 */
-  assert_true(sqrt(together) < 0.2 * sqrt(single));
-  assert_true(sqrt(single) < 0.07);
+  assert_int_equal(inner, COUNT / 2);
+  for (int k = 0; k < 2; ++k)
+    assert_true(abs(half[k] - COUNT / 2) <= 2);
+  for (int n = 0; n < 4; ++n)
+    assert_true(abs(quarter[n] - COUNT / 4) <= 3);
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(far_colors_keep_apart_alike),
-      cmocka_unit_test(samples_of_a_pixel_are_evenly_spread),
-      cmocka_unit_test(the_order_of_pixels_is_a_hilbert_curve),
-      cmocka_unit_test(pixels_make_up_for_each_other),
+      cmocka_unit_test(tables_are_exact_to_a_hundredth_of_a_level),
+      cmocka_unit_test(places_fill_the_disc),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

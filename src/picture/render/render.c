@@ -6,358 +6,337 @@
 
 #include "base/memory.h"
 #include "base/team.h"
-#include "base/vector.h"
-#include "picture/render/light.h"
-#include "picture/render/target.h"
+#include "picture/render/shade.h"
 
-/* Rays through a pixel where the picture is uneven, in rows and columns: edges have 16
- * shades between. Elsewhere one through the middle will do. */
-enum { GRID = 4, SAMPLES = GRID * GRID };
-
-/* A pixel is uneven when a level of a neighbour, of 255, differs by more. */
-enum { TOLERANCE = 4 };
+/* A pixel at an edge is drawn finely when a level of a neighbour, of 255, differs by
+ * more; one within a surface when levels bend by more from neighbour to neighbour. */
+enum { TOLERANCE = 4, BEND = 8 };
 
 /* In smaller pictures arrows are as thin as pixels: all are drawn finely. */
 enum { SMALL_PICTURE = 400 * 400 };
 
-/* Rows of pixels that a thread takes at a time. */
-enum { ROWS = 4 };
+/* Layers of transparent surfaces that are told from others. */
+enum { MOST_LAYERS = 63 };
 
-/* Samples in turn, a row of a pixel, that take floor light and transparent surfaces from
- * the first of them: both vary little within a pixel, and are what takes most time. The
- * first ones of the rows lie in different columns. */
-enum { SHARED = GRID };
-static const int first_column[GRID] = {1, 3, 0, 2};
+/* Room of one thread for a band. */
+typedef struct workspace {
+  fg__face_at *middle; /* [FG__BAND][width] */
+  int *chosen;         /* likewise: numbers of pixels that are drawn finely, or -1 */
+  fg__face_at *sample; /* of those */
+  size_t sample_capacity;
+  fg__layers layers;
+  uint32_t *marks;
+} workspace;
 
-/* Transparent surfaces before an arrow hide it less than what is behind it. */
-static const double veil_before_arrow = 0.45;
-
-/* A surface that lies along a side of the box, by its normal, is not cut by it. */
-static const double upright = 0.8;
-
-/* Rays start from this far off the floor, in longest sides of the box. */
-static const double off_floor = 2e-5;
-
-/* Half the width of the box's edges, pixels. */
-static const double half_line = 0.6;
-
-typedef struct shop {
+typedef struct job {
   const fg__rendering *about;
   fg_context *context;
-  fg__target target;
-  double lamp[3];
-  double nearest, farthest; /* distances of the box's corners from the eye */
-  double margin;            /* round the box, within which halos are looked for */
-  uint32_t *image, *coarse; /* coarse: drawn with one ray a pixel */
+  fg__geometry geometry;
+  fg__view view;
+  fg__shadow shadow;
+  fg__shading shading;
+  uint32_t *image, *coarse; /* coarse: drawn by the pixels' middles */
+  int *seen;                /* what is there, and behind how many layers */
   int stride;
-  atomic_int next_row, next_fine_row;
-  atomic_bool stopped;
-} shop;
+  workspace *workspace; /* of each thread */
+  atomic_int next_band;
+  atomic_bool stopped, failed; /* failed: no memory */
+} job;
 
-/* What samples of a pixel share. */
-typedef struct glance {
-  uint64_t number; /* of all rays: for what they scatter */
-  bool has_floor, has_veils;
-  double floor; /* the share of the light overhead that comes there */
-  int veils;
-  fg__veil veil[FG__MOST_VEILS];
-} glance;
-
-static double depth_of(const shop *s, double distance)
+/* Where the layers of a point lie. */
+static void set_layers(fg__shade_at *p, const fg__layers *layers, int number)
 {
-  double share = (distance - s->nearest) / (s->farthest - s->nearest);
-  return fmin(fmax(share, 0.0), 1.0);
+  p->layer = layers->layer + layers->first[number];
+  p->layers = layers->first[number + 1] - layers->first[number];
 }
 
-/* Where a ray is in the box. */
-typedef struct stay {
-  double enter, leave; /* distances */
-  int door, exit;      /* the axes across which the sides there lie */
-} stay;
+/* Samples of a pixel that see the same triangle behind the same layers: they are shaded
+ * once, in their middle. */
+typedef struct group {
+  int face, share, count;
+  double x, y; /* sums */
+  const fg__face_at *nearest;
+} group;
 
-/* Of a box that is larger by a margin; false when the ray misses it. */
-static bool cross_box(const fg__rendering *about, const double direction[3],
-                      double margin, stay *out)
+/* Groups the samples of a pixel; what is behind the arrows makes a group of each sample.
+ * Returns how many there are. */
+static int group_samples(const fg__face_at sample[FG__SAMPLES], const fg__layers *layers,
+                         int pixel, group out[FG__SAMPLES])
 {
-  *out = (stay){.leave = HUGE_VAL};
-  for (int k = 0; k < 3; ++k) {
-    double half = about->stage.half[k] + margin, eye = about->camera.eye[k];
-    if (!(fabs(direction[k]) > 0.0)) {
-      if (fabs(eye) > half)
-        return false;
-      continue;
-    }
-    double one = (-half - eye) / direction[k], other = (half - eye) / direction[k];
-    if (fmin(one, other) > out->enter) {
-      out->enter = fmin(one, other);
-      out->door = k;
-    }
-    if (fmax(one, other) < out->leave) {
-      out->leave = fmax(one, other);
-      out->exit = k;
-    }
+  int count = 0;
+  for (int s = 0; s < FG__SAMPLES; ++s) {
+    int number = FG__SHARES * pixel + s / FG__SHARING, at = 0;
+    int share = layers->first[number + 1] > layers->first[number] ? s / FG__SHARING : -1;
+    while (at < count && (sample[s].face < 0 || out[at].face != sample[s].face ||
+                          out[at].share != share))
+      ++at;
+    if (at == count)
+      out[count++] = (group){sample[s].face, share, 0, 0.0, 0.0, &sample[s]};
+    ++out[at].count;
+    out[at].x += fg__sample_place[s][0];
+    out[at].y += fg__sample_place[s][1];
   }
-  return out->enter < out->leave;
+  return count;
 }
 
-/* Whether a point of the side across `axis` lies on an edge of the box. */
-static bool on_edge(const fg__rendering *about, int axis, const double place[3],
-                    double distance)
-{
-  double width = 2.0 * half_line * distance / about->camera.factor;
-  for (int k = 0; k < 3; ++k)
-    if (k != axis && fabs(place[k]) > about->stage.half[k] - width)
-      return true;
-  return false;
-}
-
-/* The share of the light overhead that comes to a point of the floor. */
-static double light_floor(const shop *s, const double place[3], glance *shared)
-{
-  if (shared->has_floor)
-    return shared->floor;
-  double to[FG__PACKET][3];
-  const double from[3] = {place[0], place[1], place[2] + off_floor};
-  for (unsigned n = 0; n < FG__PACKET; ++n) {
-    double at[2];
-    fg__light_numbers(shared->number * FG__PACKET + n, 1, at);
-    fg__overhead_sample(at, to[n]);
-  }
-  int seen = fg__target_unhidden(&s->target, from, (const double(*)[3])to);
-  shared->has_floor = true;
-  return shared->floor = (double)seen / FG__PACKET;
-}
-
-/* What is behind the arrows. */
-static fg__light light_ground(const shop *s, const double direction[3], glance *shared)
-{
-  const fg__rendering *about = s->about;
-  stay box;
-  double place[3];
-  if (!about->walls || !cross_box(about, direction, 0.0, &box))
-    return (fg__light){0};
-  fg__along(about->camera.eye, box.enter, direction, place);
-  if (on_edge(about, box.door, place, box.enter))
-    return fg__light_edge(depth_of(s, box.enter));
-  fg__along(about->camera.eye, box.leave, direction, place);
-  if (on_edge(about, box.exit, place, box.leave))
-    return fg__light_edge(depth_of(s, box.leave));
-  bool floor = box.exit == 2 && direction[2] < 0.0;
-  return fg__light_wall(box.exit, floor ? light_floor(s, place, shared) : 1.0);
-}
-
-static fg__lit lit_of(const shop *s, const double normal[3], const double direction[3],
-                      double distance)
-{
-  fg__lit lit = {.depth = depth_of(s, distance)};
-  for (int k = 0; k < 3; ++k) {
-    lit.normal[k] = normal[k];
-    lit.to_viewer[k] = -direction[k];
-    lit.lamp[k] = s->lamp[k];
-  }
-  return lit;
-}
-
-/* White, as the page, or nothing where there is no page. */
-static fg__light light_halo(const shop *s)
-{
-  double paper = s->about->transparent && !s->about->walls ? 0.0 : 1.0;
-  return (fg__light){paper, paper, paper, paper};
-}
-
-static fg__light light_hit(const shop *s, const fg__hit *hit, const double direction[3])
-{
-  if (hit->halo)
-    return light_halo(s);
-  const fg__lit lit = lit_of(s, hit->normal, direction, hit->distance);
-  return fg__light_arrow(fg__palette_color(s->about->palette, hit->share), &lit);
-}
-
-/* What a transparent surface sends; where the box cuts it, the line of the cut. */
-static fg__light light_veil(const shop *s, const fg__veil *veil,
-                            const double direction[3])
-{
-  const fg__lit lit = lit_of(s, veil->normal, direction, veil->distance);
-  if (!veil->silhouette)
-    return fg__light_skin(&lit);
-  const fg__rendering *about = s->about;
-  double place[3], width = 2.0 * half_line * veil->distance / about->camera.factor;
-  fg__along(about->camera.eye, veil->distance, direction, place);
-  bool cut = false;
-  for (int k = 0; k < 3; ++k)
-    cut = cut || (!(about->stage.period[k] > 0.0) && fabs(veil->normal[k]) < upright &&
-                  fabs(place[k]) > about->stage.half[k] - width);
-  return fg__light_silhouette(&lit, cut);
-}
-
-/* Transparent surfaces up to what a ray meets, before what is seen there. */
-static fg__light look_through(const shop *s, const double direction[3],
-                              const fg__hit *hit, const fg__light *behind, glance *shared)
-{
-  fg__light out = {0};
-  double left = 1.0, strength = hit->part >= 0 ? veil_before_arrow : 1.0;
-  if (!shared->has_veils)
-    shared->veils =
-        fg__target_veils(&s->target, s->about->camera.eye, direction, shared->veil);
-  shared->has_veils = true;
-  for (int n = 0; n < shared->veils && shared->veil[n].distance < hit->distance; ++n) {
-    fg__light skin = light_veil(s, &shared->veil[n], direction);
-    double share = left * strength;
-    out.red += share * skin.red;
-    out.green += share * skin.green;
-    out.blue += share * skin.blue;
-    out.alpha += share * skin.alpha;
-    left *= 1.0 - strength * skin.alpha;
-  }
-  return (fg__light){out.red + left * behind->red, out.green + left * behind->green,
-                     out.blue + left * behind->blue, out.alpha + left * behind->alpha};
-}
-
-/* Of a ray through a place in the picture. */
-static fg__light trace(const shop *s, double x, double y, glance *shared)
-{
-  const fg__rendering *about = s->about;
-  double direction[3];
-  stay box;
-  fg__camera_ray(&about->camera, x, y, direction);
-  if (!cross_box(about, direction, s->margin, &box))
-    return (fg__light){0};
-  fg__hit hit = fg__target_hit(&s->target, about->camera.eye, direction);
-  fg__light light =
-      hit.part >= 0 ? light_hit(s, &hit, direction) : light_ground(s, direction, shared);
-  if (!about->surface && !about->silhouette)
-    return light;
-  return look_through(s, direction, &hit, &light, shared);
-}
-
-static uint32_t trace_finely(const shop *s, int x, int y)
+static uint32_t draw_finely(const job *j, const workspace *w, int pixel, int x, int y)
 {
   fg__light sum = {0};
-  uint64_t order = fg__light_order(x, y);
-  glance shared;
-  shared.number = order * (SAMPLES / SHARED);
-  for (int sample = 0; sample < SAMPLES; ++sample) {
-    double number[2];
-    int row = sample / GRID, column = (sample + first_column[row]) % GRID;
-    if (sample % SHARED == 0) {
-      shared.has_floor = shared.has_veils = false;
-      shared.number += sample > 0;
-    }
-    fg__light_numbers(order * SAMPLES + (unsigned)sample, 0, number);
-    fg__light light =
-        trace(s, x + (column + number[0]) / GRID, y + (row + number[1]) / GRID, &shared);
-    sum.red += light.red / SAMPLES;
-    sum.green += light.green / SAMPLES;
-    sum.blue += light.blue / SAMPLES;
-    sum.alpha += light.alpha / SAMPLES;
+  group groups[FG__SAMPLES];
+  fg__haze ground[FG__SHARES]; /* before what is behind the arrows */
+  for (int n = 0; n < FG__SHARES; ++n)
+    ground[n].left = -1.0;
+  int count = group_samples(&w->sample[(ptrdiff_t)pixel * FG__SAMPLES], &w->layers, pixel,
+                            groups);
+  for (int n = 0; n < count; ++n) {
+    const group *g = &groups[n];
+    fg__shade_at p = {
+        .x = x + g->x / g->count, .y = y + g->y / g->count, .nearest = g->nearest};
+    if (g->share >= 0)
+      set_layers(&p, &w->layers, FG__SHARES * pixel + g->share);
+    fg__haze own = {.left = -1.0};
+    fg__light light = fg__shade_point(
+        &j->shading, &p, g->face < 0 && g->share >= 0 ? &ground[g->share] : &own);
+    double weight = (double)g->count / FG__SAMPLES;
+    sum.red += weight * light.red;
+    sum.green += weight * light.green;
+    sum.blue += weight * light.blue;
+    sum.alpha += weight * light.alpha;
   }
-  return fg__light_pixel(sum, s->about->transparent);
+  return fg__light_pixel(&j->shading.tones, sum, j->about->transparent);
+}
+
+static int level_of(uint32_t pixel, int channel)
+{
+  return (int)(pixel >> 8 * channel & 255U);
 }
 
 static bool differ(uint32_t one, uint32_t other)
 {
-  for (int shift = 0; shift < 32; shift += 8)
-    if (abs((int)(one >> shift & 255U) - (int)(other >> shift & 255U)) > TOLERANCE)
+  for (int k = 0; k < 4; ++k)
+    if (abs(level_of(one, k) - level_of(other, k)) > TOLERANCE)
       return true;
   return false;
 }
 
-/* Whether a pixel of the coarse image differs from one beside it. */
-static bool is_uneven(const shop *s, int x, int y)
+/* Whether levels bend from a pixel through the next to the third. */
+static bool bend(uint32_t one, uint32_t middle, uint32_t other)
 {
-  int wide = s->about->width, high = s->about->height;
-  uint32_t own = s->coarse[(ptrdiff_t)y * wide + x];
-  for (int n = 0; n < 9; ++n) {
-    int i = x + n % 3 - 1, j = y + n / 3 - 1;
-    if (i >= 0 && i < wide && j >= 0 && j < high &&
-        differ(own, s->coarse[(ptrdiff_t)j * wide + i]))
+  for (int k = 0; k < 4; ++k)
+    if (abs(level_of(one, k) - 2 * level_of(middle, k) + level_of(other, k)) > BEND)
+      return true;
+  return false;
+}
+
+/* Whether one colour in a pixel's middle will not do for it: neighbours show something
+ * else and look otherwise, or the same surface in colours whose mean is not there. */
+static bool is_uneven(const job *j, int x, int y)
+{
+  static const int way[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+  int wide = j->about->width, high = j->about->height;
+  ptrdiff_t own = (ptrdiff_t)y * wide + x;
+  for (int n = 0; n < 4; ++n) {
+    uint32_t level[2] = {j->coarse[own], j->coarse[own]};
+    bool same = true;
+    for (int side = 0; side < 2; ++side) {
+      int i = x + (side ? way[n][0] : -way[n][0]),
+          k = y + (side ? way[n][1] : -way[n][1]);
+      if (i < 0 || i >= wide || k < 0 || k >= high)
+        continue;
+      ptrdiff_t at = (ptrdiff_t)k * wide + i;
+      level[side] = j->coarse[at];
+      same = same && j->seen[at] == j->seen[own];
+    }
+    if (level[0] == j->coarse[own] && level[1] == j->coarse[own])
+      continue;
+    if (same ? bend(level[0], j->coarse[own], level[1])
+             : differ(level[0], j->coarse[own]) || differ(level[1], j->coarse[own]))
       return true;
   }
   return false;
 }
 
-/* Gives rows out until there are none or the work is stopped; `draw` makes one. */
-static void share_rows(shop *s, const fg__share *share, atomic_int *next,
-                       void (*draw)(const shop *s, int y))
+/* Draws the middles of a band's pixels. */
+static bool draw_coarsely(job *j, workspace *w, int band)
+{
+  int width = j->about->width, top = band * FG__BAND;
+  fg__view_middles(&j->view, band, w->middle);
+  if (!fg__view_layers(&j->view, band, &w->layers))
+    return false;
+  for (int n = 0; n < FG__BAND * width && top + n / width < j->about->height; ++n) {
+    fg__shade_at p = {
+        .x = n % width + 0.5, .y = top + n / width + 0.5, .nearest = &w->middle[n]};
+    fg__haze own = {.left = -1.0};
+    set_layers(&p, &w->layers, n);
+    ptrdiff_t at = (ptrdiff_t)top * width + n;
+    j->coarse[at] = fg__light_pixel(
+        &j->shading.tones, fg__shade_point(&j->shading, &p, &own), j->about->transparent);
+    j->seen[at] =
+        p.seen * (MOST_LAYERS + 1) + (p.layers < MOST_LAYERS ? p.layers : MOST_LAYERS);
+  }
+  return true;
+}
+
+/* Numbers the pixels of a band that are drawn finely; returns how many. */
+static int choose_pixels(const job *j, workspace *w, int band)
+{
+  int width = j->about->width, height = j->about->height, count = 0;
+  bool small = width * height < SMALL_PICTURE;
+  for (int n = 0; n < FG__BAND * width; ++n) {
+    int y = band * FG__BAND + n / width;
+    w->chosen[n] = -1;
+    if (y < height && (small || is_uneven(j, n % width, y)))
+      w->chosen[n] = count++;
+  }
+  return count;
+}
+
+/* Draws a band into the image. */
+static bool draw_band(job *j, workspace *w, int band)
+{
+  int width = j->about->width, top = band * FG__BAND;
+  int count = choose_pixels(j, w, band);
+  if (!fg__grow((void **)&w->sample, &w->sample_capacity, (size_t)count * FG__SAMPLES + 1,
+                sizeof *w->sample))
+    return false;
+  fg__view_samples(&j->view, band, w->chosen, count, w->sample);
+  if (!fg__view_sample_layers(&j->view, band, w->chosen, count, &w->layers))
+    return false;
+  for (int n = 0; n < FG__BAND * width && top + n / width < j->about->height; ++n) {
+    int x = n % width, y = top + n / width;
+    j->image[(ptrdiff_t)y * j->stride + x] = w->chosen[n] < 0
+                                                 ? j->coarse[(ptrdiff_t)y * width + x]
+                                                 : draw_finely(j, w, w->chosen[n], x, y);
+  }
+  return true;
+}
+
+static bool draw_shadows(job *j, workspace *w, int band)
+{
+  fg__shadow_fill(&j->shadow, band, w->marks);
+  return true;
+}
+
+/* Gives bands out until there are none or the work is stopped; `draw` makes one. */
+static void share_bands(job *j, const fg__share *share, int bands,
+                        bool (*draw)(job *j, workspace *w, int band))
 {
   for (;;) {
-    int first = atomic_fetch_add(next, ROWS), high = s->about->height;
-    if (first >= high || atomic_load(&s->stopped))
+    int band = atomic_fetch_add(&j->next_band, 1);
+    if (band >= bands || atomic_load(&j->stopped) || atomic_load(&j->failed))
       return;
-    for (int y = first; y < first + ROWS && y < high; ++y)
-      draw(s, y);
-    if (share->member == 0 && fg__check_stop(s->context))
-      atomic_store(&s->stopped, true);
+    if (!draw(j, &j->workspace[share->member], band))
+      atomic_store(&j->failed, true);
+    if (share->member == 0 && fg__check_stop(j->context))
+      atomic_store(&j->stopped, true);
   }
 }
 
-static void draw_coarse_row(const shop *s, int y)
+static void work_on_shadows(void *argument, const fg__share *share)
 {
-  for (int x = 0; x < s->about->width; ++x) {
-    glance alone; /* its veils are written when there are any */
-    alone.number = fg__light_order(x, y);
-    alone.has_floor = alone.has_veils = false;
-    s->coarse[(ptrdiff_t)y * s->about->width + x] =
-        fg__light_pixel(trace(s, x + 0.5, y + 0.5, &alone), s->about->transparent);
-  }
-}
-
-static void draw_row(const shop *s, int y)
-{
-  bool small = s->about->width * s->about->height < SMALL_PICTURE;
-  for (int x = 0; x < s->about->width; ++x)
-    s->image[(ptrdiff_t)y * s->stride + x] =
-        small || is_uneven(s, x, y) ? trace_finely(s, x, y)
-                                    : s->coarse[(ptrdiff_t)y * s->about->width + x];
+  job *j = argument;
+  share_bands(j, share, j->shadow.bands.count, draw_shadows);
 }
 
 static void work_coarsely(void *argument, const fg__share *share)
 {
-  shop *s = argument;
-  share_rows(s, share, &s->next_row, draw_coarse_row);
+  job *j = argument;
+  share_bands(j, share, j->view.solid.count, draw_coarsely);
 }
 
 static void work_finely(void *argument, const fg__share *share)
 {
-  shop *s = argument;
-  share_rows(s, share, &s->next_fine_row, draw_row);
+  job *j = argument;
+  share_bands(j, share, j->view.solid.count, draw_band);
 }
 
-static void find_depths(shop *s)
+static fg_status make_workspaces(job *j, int members)
 {
-  s->nearest = HUGE_VAL;
-  for (int c = 0; c < 8; ++c) {
-    double corner[3];
-    for (int k = 0; k < 3; ++k)
-      corner[k] = c >> k & 1 ? s->about->stage.half[k] : -s->about->stage.half[k];
-    double distance = fg__apart(corner, s->about->camera.eye);
-    s->nearest = fmin(s->nearest, distance);
-    s->farthest = fmax(s->farthest, distance);
+  size_t band = (size_t)FG__BAND * (size_t)j->about->width;
+  size_t texels = (size_t)FG__BAND * (size_t)j->shadow.size[0];
+  size_t pixels = (size_t)j->about->width * (size_t)j->about->height;
+  j->coarse = fg__allocate(pixels, sizeof *j->coarse);
+  j->seen = fg__allocate(pixels, sizeof *j->seen);
+  j->workspace = fg__allocate((size_t)members, sizeof *j->workspace);
+  bool good = j->coarse && j->seen && j->workspace;
+  for (int n = 0; n < members && good; ++n) {
+    workspace *w = &j->workspace[n];
+    w->middle = fg__allocate(band, sizeof *w->middle);
+    w->chosen = fg__allocate(band, sizeof *w->chosen);
+    w->marks = fg__allocate(texels, sizeof *w->marks);
+    good = w->middle && w->chosen && w->marks;
   }
-  s->margin = 2.0 * s->about->halo * s->farthest / s->about->camera.factor;
+  if (good)
+    return FG_STATUS_OK;
+  return fg__fail_memory(j->context, "a picture", pixels * 2 * sizeof *j->coarse);
+}
+
+static void free_workspaces(job *j, int members)
+{
+  for (int n = 0; n < members && j->workspace; ++n) {
+    workspace *w = &j->workspace[n];
+    free(w->middle);
+    free(w->chosen);
+    free(w->marks);
+    free(w->sample);
+    fg__layers_clear(&w->layers);
+  }
+  free(j->workspace);
+  free(j->coarse);
+  free(j->seen);
+}
+
+/* Runs one of the steps on all threads. */
+static fg_status run(job *j, fg__team *team, fg__team_work *work)
+{
+  atomic_store(&j->next_band, 0);
+  fg__team_run(team, work, j);
+  if (atomic_load(&j->failed))
+    return fg__fail_memory(j->context, "a picture", (size_t)j->about->width);
+  return fg__check_stop(j->context);
+}
+
+static fg_status prepare(job *j)
+{
+  fg__shading_make(&j->shading, j->about, &j->view, &j->shadow);
+  fg_status status = fg__geometry_make(&j->geometry, j->context, j->about);
+  if (!status)
+    status = fg__view_make(&j->view, j->context, j->about, &j->geometry);
+  if (!status)
+    status = fg__shadow_make(&j->shadow, j->context, j->about, &j->geometry);
+  return status;
+}
+
+static fg_status draw_all(job *j, fg__team *team)
+{
+  fg_status status = run(j, team, work_on_shadows);
+  if (!status)
+    status = run(j, team, work_coarsely);
+  if (!status)
+    status = run(j, team, work_finely);
+  return status;
 }
 
 fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32_t *image,
                      int stride)
 {
-  shop s = {.about = rendering, .context = context, .image = image, .stride = stride};
+  job *j = fg__allocate(1, sizeof *j);
   fg__team *team = NULL;
-  size_t pixels = (size_t)rendering->width * (size_t)rendering->height;
-  fg__lamp_direction(&rendering->camera, s.lamp);
-  find_depths(&s);
-  fg_status status = fg__target_open(&s.target, context, rendering);
-  s.coarse = fg__allocate(pixels, sizeof *s.coarse);
-  if (!status && !s.coarse)
-    status = fg__fail_memory(context, "a picture", pixels * sizeof *s.coarse);
+  if (!j)
+    return fg__fail_memory(context, "a picture", sizeof *j);
+  *j = (job){.about = rendering, .context = context, .image = image, .stride = stride};
+  fg_status status = prepare(j);
   if (!status)
     status = fg__team_create(&team, context, rendering->threads);
-  if (!status) {
-    fg__team_run(team, work_coarsely, &s);
-    fg__team_run(team, work_finely, &s);
-    status = fg__check_stop(context);
-  }
+  if (!status)
+    status = make_workspaces(j, fg__team_members(team));
+  if (!status)
+    status = draw_all(j, team);
+  free_workspaces(j, fg__team_members(team));
   fg__team_destroy(team);
-  fg__target_close(&s.target);
-  free(s.coarse);
+  fg__shadow_clear(&j->shadow);
+  fg__view_clear(&j->view);
+  fg__geometry_clear(&j->geometry);
+  free(j);
   return status;
 }

@@ -1,4 +1,6 @@
-/* Arrows in a box, rendered: rays are traced by Embree. */
+/* Arrows in a box, rendered: triangles are sorted into bands of rows, and in each band
+ * the nearest is found at the middle of each pixel and, where the picture is uneven, at
+ * 16 points of it. */
 #ifndef FG__RENDER_H
 #define FG__RENDER_H
 

@@ -241,7 +241,7 @@ static void colors_follow_the_speed(void **state)
   fg_field_destroy(field);
 }
 
-/* What goes on across a period comes in at the other side, and is cut at the border. */
+/* What goes on across a period comes in at the other side, and is cut at the boundary. */
 static void arrows_go_round_periods(void **state)
 {
   (void)state;
@@ -298,6 +298,96 @@ static void turning_all_changes_nothing(void **state)
   fg_icons_destroy(turned);
 }
 
+/* Between triangles there is no gap: what lies amid pixels of a thick arrow is one. */
+static void arrows_have_no_holes(void **state)
+{
+  (void)state;
+  fg_icons *icons = NULL;
+  fg__palette red;
+  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
+  double points[17][3];
+  for (int n = 0; n < 17; ++n) {
+    points[n][0] = 11.0 + 0.12 * n;
+    points[n][1] = -3.6 + 0.07 * n;
+    points[n][2] = 6.0 + 0.4 * sin(0.2 * n);
+  }
+  const fg_icon icon = {.cluster = 1,
+                        .point_count = 17,
+                        .points = (const double(*)[3])points,
+                        .width = 0.9,
+                        .tail_width = 0.5,
+                        .head_length = 0.6,
+                        .head_width = 1.3,
+                        .speed = 1.0};
+  assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
+  int covered = 0;
+  for (int view = 0; view < 5; ++view) {
+    fg__rendering r = rendering_of(icons, &red, 17.0 + 71.0 * view, 31.0 * view - 60.0);
+    assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
+    for (int y = 1; y + 1 < HEIGHT; ++y)
+      for (int x = 1; x + 1 < WIDTH; ++x) {
+        bool amid = true;
+        for (int n = 0; n < 9; ++n)
+          amid =
+              amid && (n == 4 || channel(image[y + n / 3 - 1][x + n % 3 - 1], 24) == 255);
+        covered += amid;
+        if (amid)
+          assert_int_equal(channel(image[y][x], 24), 255);
+      }
+  }
+  assert_true(covered > 2000);
+  fg_icons_destroy(icons);
+}
+
+/* What another program's file has behind the viewer or far away is no matter. */
+static void far_arrows_take_nothing_away(void **state)
+{
+  (void)state;
+  fg_icons *near_one = make_icons(0.0, false), *both = make_icons(0.0, false);
+  fg__palette red;
+  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  const double points[2][3] = {{12.0, -4e9, 5.2}, {12.0, 3.0, 6.9}};
+  const fg_icon far_one = {.cluster = 2,
+                           .point_count = 2,
+                           .points = points,
+                           .width = 0.2,
+                           .tail_width = 0.2,
+                           .head_length = 0.5,
+                           .head_width = 0.5,
+                           .speed = 1.0};
+  assert_int_equal(fg__icons_add(both, NULL, &far_one), FG_STATUS_OK);
+  fg__rendering r = rendering_of(near_one, &red, 0.0, 60.0);
+  assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
+  r.icons = both;
+  assert_int_equal(fg__render(NULL, &r, other[0], WIDTH), FG_STATUS_OK);
+  int lost = 0;
+  for (int n = 0; n < WIDTH * HEIGHT; ++n)
+    lost += image[n / WIDTH][n % WIDTH] != 0 && other[n / WIDTH][n % WIDTH] == 0;
+  assert_int_equal(lost, 0); /* nothing hides or takes away what is there */
+  fg_icons_destroy(near_one);
+  fg_icons_destroy(both);
+}
+
+/* What a stopped context is given is not drawn. */
+static void a_stopped_context_stops_the_drawing(void **state)
+{
+  (void)state;
+  fg_icons *icons = make_icons(0.0, false);
+  fg__palette colors;
+  fg_context *context;
+  assert_int_equal(fg__palette_create(&colors, NULL, NULL), FG_STATUS_OK);
+  assert_int_equal(fg_context_create(&context), FG_STATUS_OK);
+  fg__rendering r = rendering_of(icons, &colors, 20.0, 20.0);
+  memset(image, 0, sizeof image);
+  fg_context_stop(context);
+  assert_int_equal(fg__render(context, &r, image[0], WIDTH), FG_STATUS_STOPPED);
+  for (int n = 0; n < WIDTH * HEIGHT; ++n)
+    assert_int_equal(image[n / WIDTH][n % WIDTH], 0);
+  fg_context_destroy(context);
+  fg_icons_destroy(icons);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -309,6 +399,9 @@ int main(void)
       cmocka_unit_test(arrows_go_round_periods),
       cmocka_unit_test(threads_change_nothing),
       cmocka_unit_test(turning_all_changes_nothing),
+      cmocka_unit_test(arrows_have_no_holes),
+      cmocka_unit_test(far_arrows_take_nothing_away),
+      cmocka_unit_test(a_stopped_context_stops_the_drawing),
   };
   return cmocka_run_group_tests_name("picture/render/render", tests, NULL, NULL);
 }

@@ -12,13 +12,21 @@
 #include <string.h>
 
 enum {
-  MOST_OBJECTS = 1 << 16, /* data sets and groups; files of models have hundreds */
+  MOST_OBJECTS = 1 << 15, /* data sets and groups; files of models have hundreds */
   DEEPEST = 64            /* groups within groups */
 };
 
 /* A chunk is in memory as a whole, twice while it is inflated. Writers make chunks of a
  * few megabytes. */
 static const hsize_t LARGEST_CHUNK = (hsize_t)1 << 28;
+
+/* Inflated data are at most 1032 times as large as stored ones (RFC 1951): what takes
+ * less than this becomes no gigabyte. */
+static const hsize_t SMALL_STORAGE = (hsize_t)1 << 20;
+
+/* HDF5 1.10 looks for a chunk by its number in all of them: of more only the sum is
+ * looked at. */
+enum { CHUNKS_LOOKED_AT = 256 };
 
 typedef struct walk {
   fg_context *context;
@@ -37,6 +45,29 @@ static fg_status refuse(walk *w, const char *name, const char *why)
                   why);
 }
 
+/* Filters make data larger by little: what is stored in far more bytes than it has when
+ * it is read would be inflated to any size. */
+static bool is_swollen(hsize_t stored, hsize_t bytes)
+{
+  return stored > SMALL_STORAGE && stored - SMALL_STORAGE > bytes + bytes / 8;
+}
+
+/* bytes: of a chunk in memory. */
+static fg_status check_storage(walk *w, const char *name, hid_t set, hsize_t bytes)
+{
+  const hid_t space = H5Dget_space(set);
+  hsize_t chunks = 0, stored = H5Dget_storage_size(set), all = stored;
+  bool swollen = false;
+  if (stored > SMALL_STORAGE && H5Dget_num_chunks(set, space, &chunks) >= 0) {
+    swollen = chunks < SIZE_MAX / 2 / (bytes + 1) && is_swollen(all, chunks * bytes);
+    for (hsize_t n = 0; n < chunks && chunks <= CHUNKS_LOOKED_AT && !swollen; ++n)
+      swollen = H5Dget_chunk_info(set, space, n, NULL, NULL, NULL, &stored) >= 0 &&
+                is_swollen(stored, bytes);
+  }
+  H5Sclose(space);
+  return swollen ? refuse(w, name, "is stored in more bytes than it has") : FG_STATUS_OK;
+}
+
 static fg_status check_chunk(walk *w, const char *name, hid_t set, hid_t creation)
 {
   hsize_t length[H5S_MAX_RANK];
@@ -51,7 +82,7 @@ static fg_status check_chunk(walk *w, const char *name, hid_t set, hid_t creatio
                       name, (unsigned long long)LARGEST_CHUNK);
     bytes *= length[k];
   }
-  return FG_STATUS_OK;
+  return check_storage(w, name, set, bytes);
 }
 
 static fg_status check_set(walk *w, const char *name, hid_t set)

@@ -2,7 +2,9 @@
  * hold. */
 #define H5_USE_110_API
 #include <hdf5.h>
+#include <stdlib.h>
 #include <sys/stat.h>
+#include <zlib.h>
 
 #include "read/netcdf/plain_test.h"
 
@@ -136,6 +138,49 @@ static void large_chunks_are_refused(void **state)
   fg_field_destroy(read_with(f, NULL));
 }
 
+/* A chunk of 100 kB that is stored in a stream of far more, which HDF5 would inflate
+ * to its end, whatever that takes. */
+static void swollen_chunks_are_refused(void **state)
+{
+  enum { NOISE = 3 << 20, SIDE = 160 };
+  sample_file *f = *state;
+  const hsize_t length[2] = {SIDE, SIDE}, origin[2] = {0, 0};
+  unsigned char *noise = malloc(NOISE), *packed = malloc(NOISE + NOISE / 8);
+  assert_true(noise && packed);
+  uint64_t number = 88172645463325252U;
+  for (int n = 0; n < NOISE; ++n) {
+    number ^= number << 13;
+    number ^= number >> 7;
+    number ^= number << 17;
+    noise[n] = (unsigned char)(number >> 24);
+  }
+  for (int large = 0; large < 2; ++large) {
+    uLongf packed_size = NOISE + NOISE / 8;
+    assert_int_equal(
+        compress2(packed, &packed_size, noise, large ? NOISE : 4 * SIDE * SIDE, 1), Z_OK);
+    const hid_t file = begin(f);
+    const hid_t space = H5Screate_simple(2, length, NULL);
+    const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    must(H5Pset_chunk(creation, 2, length));
+    must(H5Pset_deflate(creation, 1));
+    const hid_t set = H5Dcreate2(file, "extra", H5T_NATIVE_FLOAT, space, H5P_DEFAULT,
+                                 creation, H5P_DEFAULT);
+    must(set);
+    must(H5Dwrite_chunk(set, H5P_DEFAULT, 0, origin, (size_t)packed_size, packed));
+    H5Dclose(set);
+    H5Pclose(creation);
+    H5Sclose(space);
+    if (large) {
+      refused(f, file, "'extra' is stored in more bytes than it has");
+    } else {
+      must(H5Fclose(file));
+      fg_field_destroy(read_with(f, NULL));
+    }
+  }
+  free(noise);
+  free(packed);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -146,6 +191,8 @@ int main(void)
       cmocka_unit_test_setup_teardown(other_files_are_not_read, sample_set_up,
                                       sample_tear_down),
       cmocka_unit_test_setup_teardown(large_chunks_are_refused, sample_set_up,
+                                      sample_tear_down),
+      cmocka_unit_test_setup_teardown(swollen_chunks_are_refused, sample_set_up,
                                       sample_tear_down),
   };
   return cmocka_run_group_tests_name("read/netcdf/objects", tests, NULL, NULL);

@@ -1,190 +1,72 @@
-/* Times as dates: "hours since 1900-01-01 00:00" in the calendars of the CF conventions
- * (section 4.4.1). */
+/* Times as dates: "hours since 1900-01-01 00:00" (CF conventions, section 4.4). */
 #include "file/number_text.h"
+#include "read/netcdf/calendar.h"
 #include "read/netcdf/netcdf.h"
 
+#include <ctype.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-
-typedef enum calendar_kind {
-  GREGORIAN,
-  MIXED,
-  JULIAN,
-  NOLEAP,
-  ALLLEAP,
-  DAYS360
-} calendar_kind;
-
-typedef struct date {
-  int64_t year;
-  int month; /* 1 ... 12 */
-  int day;   /* 1 ... 31 */
-} date;
 
 static const int64_t SECONDS_PER_DAY = 86400;
 
 /* Farther dates are no dates: a wrong unit or damage. */
 static const double LARGEST_DAYS = 1e8;
 
-static bool find_calendar(const char *name, calendar_kind *out)
+/* Reads "15:30", "15:15:42.5", "-6", "-6:00" or "+0530"; false when there is none. */
+static bool read_clock(const char **text, double *seconds)
 {
-  static const struct {
-    const char *name;
-    calendar_kind kind;
-  } known[] = {
-      {"", MIXED},          {"standard", MIXED},   {"gregorian", MIXED},
-      {"julian", JULIAN},   {"noleap", NOLEAP},    {"proleptic_gregorian", GREGORIAN},
-      {"365_day", NOLEAP},  {"all_leap", ALLLEAP}, {"366_day", ALLLEAP},
-      {"360_day", DAYS360},
-  };
-  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
-    if (strcasecmp(known[i].name, name) == 0) {
-      *out = known[i].kind;
-      return true;
-    }
-  return false;
-}
-
-static bool is_leap(int64_t year, calendar_kind calendar)
-{
-  if (calendar == GREGORIAN)
-    return year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-  return calendar == ALLLEAP || (calendar == JULIAN && year % 4 == 0);
-}
-
-static int month_length(int64_t year, int month, calendar_kind calendar)
-{
-  static const int length[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-  if (calendar == DAYS360)
-    return 30;
-  return length[month - 1] + (month == 2 && is_leap(year, calendar));
-}
-
-static int64_t floor_divide(int64_t a, int64_t b)
-{
-  return a / b - (a % b < 0);
-}
-
-/* Days from 1 January of year 0 to that of `year`. */
-static int64_t days_before(int64_t year, calendar_kind calendar)
-{
-  const int64_t last = year - 1; /* leap years in 0 ... last, year 0 among them */
-  switch (calendar) {
-  case DAYS360:
-    return 360 * year;
-  case NOLEAP:
-    return 365 * year;
-  case ALLLEAP:
-    return 366 * year;
-  case JULIAN:
-    return 365 * year + floor_divide(last, 4) + 1;
-  default:
-    return 365 * year + floor_divide(last, 4) - floor_divide(last, 100) +
-           floor_divide(last, 400) + 1;
+  const char *at = *text + strspn(*text, " Tt");
+  const double sign = *at == '-' ? -1.0 : 1.0;
+  at += *at == '-' || *at == '+';
+  if (!isdigit((unsigned char)*at))
+    return false;
+  char *end;
+  long hour = strtol(at, &end, 10);
+  long minute = 0;
+  double second = 0.0;
+  if (end - at > 2) {
+    minute = hour % 100;
+    hour /= 100;
   }
+  if (*end == ':')
+    minute = strtol(end + 1, &end, 10);
+  if (*end == ':')
+    second = strtod(end + 1, &end);
+  *text = end;
+  *seconds = sign * ((double)hour * 3600.0 + (double)minute * 60.0 + second);
+  return isfinite(*seconds);
 }
 
-static int64_t day_number(date d, calendar_kind calendar)
-{
-  int64_t days = days_before(d.year, calendar) + d.day - 1;
-  for (int month = 1; month < d.month; ++month)
-    days += month_length(d.year, month, calendar);
-  return days;
-}
-
-static date date_of(int64_t days, calendar_kind calendar)
-{
-  /* not after the day: no year is longer than 366 days, none shorter than 360 */
-  date d = {.year = floor_divide(days, days < 0 ? 360 : 366) - 1, .month = 1};
-  while (days_before(d.year + 1, calendar) <= days)
-    ++d.year;
-  days -= days_before(d.year, calendar);
-  while (days >= month_length(d.year, d.month, calendar))
-    days -= month_length(d.year, d.month++, calendar);
-  d.day = (int)days + 1;
-  return d;
-}
-
-/* The standard calendar is Julian up to 4 October 1582, Gregorian from 15 October, the
- * next day: both count from there. */
-static int64_t mixed_day_number(date d)
-{
-  const date reform = {1582, 10, 15};
-  const date old_style = {1582, 10, 5};
-  const bool gregorian =
-      d.year > 1582 ||
-      (d.year == 1582 && (d.month > 10 || (d.month == 10 && d.day >= 15)));
-  return gregorian ? day_number(d, GREGORIAN) - day_number(reform, GREGORIAN)
-                   : day_number(d, JULIAN) - day_number(old_style, JULIAN);
-}
-
-static date mixed_date_of(int64_t days)
-{
-  const date reform = {1582, 10, 15};
-  const date old_style = {1582, 10, 5};
-  return days >= 0 ? date_of(days + day_number(reform, GREGORIAN), GREGORIAN)
-                   : date_of(days + day_number(old_style, JULIAN), JULIAN);
-}
-
-static double unit_seconds(const char *word)
-{
-  static const struct {
-    const char *word;
-    double seconds;
-  } known[] = {
-      {"second", 1},
-      {"seconds", 1},
-      {"sec", 1},
-      {"s", 1},
-      {"minute", 60},
-      {"minutes", 60},
-      {"min", 60},
-      {"hour", 3600},
-      {"hours", 3600},
-      {"hr", 3600},
-      {"hrs", 3600},
-      {"h", 3600},
-      {"day", 86400},
-      {"days", 86400},
-      {"d", 86400},
-      {"msec", 1e-3},
-      {"mins", 60},
-      {"secs", 1},
-      {"milliseconds", 1e-3},
-  };
-  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
-    if (strcasecmp(known[i].word, word) == 0)
-      return known[i].seconds;
-  return 0.0;
-}
-
-static bool read_reference(const char *units, double *unit, date *day, double *seconds)
+/* Reads the unit, and the time that is counted from: a date, perhaps the time of day, and
+ * perhaps how far its clock is ahead of UTC. */
+static bool read_reference(const char *units, double *unit, fg__date *date,
+                           double *seconds)
 {
   char word[32];
   char since[8];
   int year;
-  int hour = 0;
-  int minute = 0;
-  double second = 0.0;
-  char separator = ' ';
+  int used = 0;
+  if (sscanf(units, "%31s %7s %d-%d-%d%n", word, since, &year, &date->month, &date->day,
+             &used) != 5 ||
+      strcasecmp(since, "since") != 0 || !fg__nc_seconds(word, unit) || date->month < 1 ||
+      date->month > 12 || date->day < 1 || date->day > 31 || year < -10000 ||
+      year > 100000 || !strchr(" Tt", units[used]))
+    return false;
+  date->year = year;
   fg__number_locale locale;
   if (!fg__number_locale_begin(&locale))
     return false;
-  const int found = sscanf(units, "%31s %7s %d-%d-%d%c%d:%d:%lf", word, since, &year,
-                           &day->month, &day->day, &separator, &hour, &minute, &second);
+  const char *rest = units + used;
+  double clock = 0.0;
+  double ahead = 0.0;
+  if (read_clock(&rest, &clock))
+    read_clock(&rest, &ahead);
   fg__number_locale_end(&locale);
-  if (found < 5 || strcasecmp(since, "since") != 0 || day->month < 1 || day->month > 12 ||
-      day->day < 1 || day->day > 31 || year < -10000 || year > 100000)
-    return false;
-  if (separator != ' ' && separator != 'T' && separator != 't')
-    return false;
-  day->year = year;
-  *seconds = hour * 3600.0 + minute * 60.0 + second;
-  *unit = unit_seconds(word);
-  return *unit > 0.0 && isfinite(*seconds) && fabs(*seconds) <= 2.0 * 86400.0;
+  *seconds = clock - ahead;
+  return fabs(*seconds) <= 2.0 * (double)SECONDS_PER_DAY;
 }
 
 bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
@@ -193,21 +75,20 @@ bool fg__nc_date(double value, const char *units, const char *calendar, char *ou
   static const char *const month_name[] = {
       "January", "February", "March",     "April",   "May",      "June",
       "July",    "August",   "September", "October", "November", "December"};
-  calendar_kind kind;
+  fg__calendar kind;
   double unit;
-  date reference;
+  fg__date reference;
   double offset;
-  if (!find_calendar(calendar, &kind) ||
+  if (!fg__calendar_find(&kind, calendar) ||
       !read_reference(units, &unit, &reference, &offset))
     return false;
   const double elapsed = value * unit + offset;
   if (!(fabs(elapsed) <= LARGEST_DAYS * (double)SECONDS_PER_DAY))
     return false;
   const int64_t seconds = llround(elapsed);
-  const int64_t days = floor_divide(seconds, SECONDS_PER_DAY);
-  const int64_t rest = seconds - days * SECONDS_PER_DAY;
-  const date d = kind == MIXED ? mixed_date_of(mixed_day_number(reference) + days)
-                               : date_of(day_number(reference, kind) + days, kind);
+  const int64_t rest = (seconds % SECONDS_PER_DAY + SECONDS_PER_DAY) % SECONDS_PER_DAY;
+  const fg__date d = fg__calendar_date(kind, fg__calendar_day(kind, reference) +
+                                                 (seconds - rest) / SECONDS_PER_DAY);
   /* COARDS: a reference in year 0 marks a climatology, whose year means nothing */
   if (reference.year == 0 && d.year <= 1)
     snprintf(out, size, "%d %s (climatology)", d.day, month_name[d.month - 1]);

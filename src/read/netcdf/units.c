@@ -4,179 +4,187 @@
 
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-typedef struct unit_word {
-  const char *word;
+typedef enum unit_kind {
+  LENGTH,
+  TIME,
+  DEGREE,
+  RADIAN,
+  SPEED,
+  PRESSURE,
+  EAST,
+  NORTH
+} unit_kind;
+
+typedef struct unit {
+  unit_kind kind;
+  double seconds; /* of a time */
   const char *label;
-} unit_word;
+  const char *words; /* parted by |, in small letters, singular */
+} unit;
 
-static const unit_word LENGTHS[] = {
-    {"m", "m"},
-    {"meter", "m"},
-    {"metre", "m"},
-    {"meters", "m"},
-    {"metres", "m"},
-    {"cm", "cm"},
-    {"centimeter", "cm"},
-    {"centimetre", "cm"},
-    {"centimeters", "cm"},
-    {"centimetres", "cm"},
-    {"mm", "mm"},
-    {"millimeter", "mm"},
-    {"millimetre", "mm"},
-    {"millimeters", "mm"},
-    {"millimetres", "mm"},
-    {"um", "µm"},
-    {"km", "km"},
-    {"kilometer", "km"},
-    {"kilometre", "km"},
-    {"kilometers", "km"},
-    {"kilometres", "km"},
-    {"ft", "ft"},
-    {"feet", "ft"},
-    {"foot", "ft"},
-    {"mile", "mi"},
-    {"miles", "mi"},
+static const unit UNITS[] = {
+    {LENGTH, 0.0, "m", "m|meter|metre"},
+    {LENGTH, 0.0, "km", "km|kilometer|kilometre"},
+    {LENGTH, 0.0, "dm", "dm|decimeter|decimetre"},
+    {LENGTH, 0.0, "cm", "cm|centimeter|centimetre"},
+    {LENGTH, 0.0, "mm", "mm|millimeter|millimetre"},
+    {LENGTH, 0.0, "µm", "um|micrometer|micrometre|micron"},
+    {LENGTH, 0.0, "ft", "ft|foot|feet"},
+    {LENGTH, 0.0, "mi", "mi|mile"},
+    {LENGTH, 0.0, "nmi", "nmi|nautical_mile|nautical mile"},
+    {TIME, 1.0, "s", "s|sec|second"},
+    {TIME, 1e-3, "ms", "ms|msec|millisec|millisecond"},
+    {TIME, 60.0, "min", "min|minute"},
+    {TIME, 3600.0, "h", "h|hr|hour"},
+    {TIME, 86400.0, "d", "d|day"},
+    {DEGREE, 0.0, "°", "deg|degree|arc_degree"},
+    {RADIAN, 0.0, "rad", "rad|radian"},
+    {SPEED, 0.0, "kn", "kn|kt|knot"},
+    {PRESSURE, 0.0, "Pa", "pa|pascal"},
+    {PRESSURE, 0.0, "hPa", "hpa|hectopascal|mb|mbar|millibar"},
+    {PRESSURE, 0.0, "kPa", "kpa|kilopascal"},
+    {PRESSURE, 0.0, "dbar", "dbar|decibar"},
+    {PRESSURE, 0.0, "bar", "bar"},
+    {EAST, 0.0, "°E",
+     "degree_east|degrees_east|degrees "
+     "east|degreeseast|degree_e|degrees_e|degreee|degreese"},
+    {NORTH, 0.0, "°N",
+     "degree_north|degrees_north|degrees "
+     "north|degreesnorth|degree_n|degrees_n|degreen|degreesn"},
 };
 
-static const unit_word TIMES[] = {
-    {"s", "s"},       {"sec", "s"},   {"secs", "s"},     {"second", "s"},
-    {"seconds", "s"}, {"min", "min"}, {"minute", "min"}, {"minutes", "min"},
-    {"h", "h"},       {"hr", "h"},    {"hour", "h"},     {"hours", "h"},
-    {"d", "d"},       {"day", "d"},   {"days", "d"},
-};
-
-static const unit_word ANGLES[] = {
-    {"degree", "°"}, {"degrees", "°"},  {"deg", "°"},
-    {"rad", "rad"},  {"radian", "rad"}, {"radians", "rad"},
-};
-
-static const unit_word KNOTS[] = {
-    {"knot", "kn"}, {"knots", "kn"}, {"kt", "kn"}, {"kts", "kn"}, {"kn", "kn"},
-};
-
-static const unit_word PRESSURES[] = {
-    {"pa", "Pa"},     {"pascal", "Pa"},     {"pascals", "Pa"}, {"hpa", "hPa"},
-    {"kpa", "kPa"},   {"mb", "hPa"},        {"mbar", "hPa"},   {"millibar", "hPa"},
-    {"dbar", "dbar"}, {"millibars", "hPa"}, {"bar", "bar"},    {"mbars", "hPa"},
-};
-
-static const unit_word EAST[] = {
-    {"degrees_east", ""}, {"degree_east", ""}, {"degreese", ""},    {"degreee", ""},
-    {"degrees_e", ""},    {"degree_e", ""},    {"degreeseast", ""}, {"degrees east", ""},
-};
-
-static const unit_word NORTH[] = {
-    {"degrees_north", ""}, {"degree_north", ""},  {"degreesn", ""},
-    {"degreen", ""},       {"degrees_n", ""},     {"degree_n", ""},
-    {"degreesnorth", ""},  {"degrees north", ""},
-};
-
-#define FIND(table, word) find(table, sizeof(table) / sizeof *(table), word)
-
-static const char *find(const unit_word *table, size_t count, const char *word)
+static bool is_one_of(const char *words, const char *word, size_t length)
 {
-  for (size_t i = 0; i < count; ++i)
-    if (strcmp(table[i].word, word) == 0)
-      return table[i].label;
+  for (size_t n; *words; words += n + (words[n] == '|')) {
+    n = strcspn(words, "|");
+    if (n == length && memcmp(words, word, n) == 0)
+      return true;
+  }
+  return false;
+}
+
+/* The unit of a word, perhaps in the plural; NULL where it is not known. */
+static const unit *find_unit(const char *word)
+{
+  const size_t length = strlen(word);
+  const bool plural = length > 2 && word[length - 1] == 's';
+  for (size_t i = 0; i < sizeof UNITS / sizeof *UNITS; ++i)
+    if (is_one_of(UNITS[i].words, word, length) ||
+        (plural && is_one_of(UNITS[i].words, word, length - 1)))
+      return &UNITS[i];
   return NULL;
+}
+
+/* Copies units in small letters, signs beyond ASCII as what stands for them in it. */
+static void simplify(const char *units, char out[FG__NC_TEXT])
+{
+  static const struct {
+    const char *sign;
+    const char *plain;
+  } signs[] = {{"°", "deg"}, {"µ", "u"}, {"μ", "u"}, {"·", "."}, {"⁻", "-"}, {"¹", "1"}};
+  enum { SIGNS = sizeof signs / sizeof *signs, LONGEST = 3 };
+  size_t n = 0;
+  while (*units && n + LONGEST < FG__NC_TEXT) {
+    size_t s = 0;
+    while (s < SIGNS && strncmp(units, signs[s].sign, strlen(signs[s].sign)) != 0)
+      ++s;
+    if (s < SIGNS) {
+      memcpy(out + n, signs[s].plain, strlen(signs[s].plain));
+      n += strlen(signs[s].plain);
+      units += strlen(signs[s].sign);
+    } else {
+      out[n++] = (char)tolower((unsigned char)*units++);
+    }
+  }
+  out[n] = '\0';
 }
 
 /* Splits "centimeter/s", "m s-1", "m.s^-1", "m per second" into what is above and what is
  * below the line; false when it is not one word over one word. */
-static bool split_quotient(const char *units, char above[FG__NC_TEXT],
+static bool split_quotient(const char *c, char above[FG__NC_TEXT],
                            char below[FG__NC_TEXT])
 {
-  char words[3][FG__NC_TEXT] = {"", "", ""};
-  int count = 0;
-  bool divided = false;
-  const char *c = units;
-  while (*c) {
-    size_t length = 0;
-    while (isalpha((unsigned char)c[length]) || c[length] == '_')
-      ++length;
-    if (length > 0) {
-      if (length == 3 && memcmp(c, "per", 3) == 0) {
-        divided = true;
-      } else {
-        if (count == 2 || length >= FG__NC_TEXT)
-          return false;
-        memcpy(words[count], c, length);
-        words[count++][length] = '\0';
-      }
-      c += length;
-    } else if (*c == '/') {
-      divided = true;
+  int sign = 1; /* of the next word's power */
+  above[0] = below[0] = '\0';
+  while (*(c += strspn(c, " .*(){}"))) {
+    if (*c == '/') {
+      sign = -1;
       ++c;
-    } else if (count == 2 && !divided && (strncmp(c, "-1", 2) == 0)) {
-      divided = true;
-      c += 2;
-    } else if (strchr(" .*^()", *c)) {
-      ++c;
-    } else {
-      return false;
+      continue;
     }
+    const char *word = c;
+    while (isalpha((unsigned char)*c) || *c == '_')
+      ++c;
+    const size_t length = (size_t)(c - word);
+    if (length == 0)
+      return false;
+    if (length == 3 && memcmp(word, "per", 3) == 0) {
+      sign = -1;
+      continue;
+    }
+    const char *number = c + strspn(c, "*^({");
+    long power = 1;
+    if (isdigit((unsigned char)*number) || *number == '-') {
+      char *end;
+      power = strtol(number, &end, 10);
+      c = end > number ? end : number + 1;
+    }
+    char *part = power == sign ? above : power == -sign ? below : NULL;
+    if (!part || part[0] || length >= FG__NC_TEXT)
+      return false;
+    memcpy(part, word, length);
+    part[length] = '\0';
+    sign = 1;
   }
-  memcpy(above, words[0], FG__NC_TEXT);
-  memcpy(below, words[1], FG__NC_TEXT);
-  return count == 2 && divided;
+  return above[0] && below[0];
 }
 
-static fg__nc_quantity find_quotient(const char *lower, char *label, size_t size)
+static fg__nc_quantity find_quotient(const char *plain, char *label, size_t size)
 {
   char above[FG__NC_TEXT];
   char below[FG__NC_TEXT];
-  if (!split_quotient(lower, above, below))
+  if (!split_quotient(plain, above, below))
     return FG__NC_UNKNOWN;
-  const char *time = FIND(TIMES, below);
-  const char *length = FIND(LENGTHS, above);
-  const char *angle = FIND(ANGLES, above);
-  if (!time || (!length && !angle))
+  const unit *way = find_unit(above);
+  const unit *time = find_unit(below);
+  if (!way || !time || time->kind != TIME)
     return FG__NC_UNKNOWN;
-  snprintf(label, size, "%s/%s", length ? length : angle, time);
-  return length ? FG__NC_SPEED : FG__NC_ANGULAR_SPEED;
+  const bool angle = way->kind == DEGREE || way->kind == RADIAN;
+  if (!angle && way->kind != LENGTH)
+    return FG__NC_UNKNOWN;
+  snprintf(label, size, "%s/%s", way->label, time->label);
+  return angle ? FG__NC_ANGULAR_SPEED : FG__NC_SPEED;
 }
 
-static bool is_date(const char *lower)
+bool fg__nc_seconds(const char *units, double *out)
 {
-  return strstr(lower, " since ") != NULL;
+  char plain[FG__NC_TEXT];
+  simplify(units, plain);
+  const unit *found = find_unit(plain);
+  *out = found ? found->seconds : 0.0;
+  return *out > 0.0;
 }
 
 fg__nc_quantity fg__nc_units(const char *units, char *label, size_t size)
 {
-  char lower[FG__NC_TEXT];
-  size_t n = 0;
-  for (; n < sizeof lower - 1 && units[n]; ++n)
-    lower[n] = (char)tolower((unsigned char)units[n]);
-  lower[n] = '\0';
+  static const fg__nc_quantity quantity[] = {
+      [LENGTH] = FG__NC_LENGTH,     [TIME] = FG__NC_UNKNOWN,
+      [DEGREE] = FG__NC_DEGREES,    [RADIAN] = FG__NC_UNKNOWN,
+      [SPEED] = FG__NC_SPEED,       [PRESSURE] = FG__NC_PRESSURE,
+      [EAST] = FG__NC_DEGREES_EAST, [NORTH] = FG__NC_DEGREES_NORTH,
+  };
+  char plain[FG__NC_TEXT];
+  simplify(units, plain);
   snprintf(label, size, "%s", units);
-  const char *word;
-  if (FIND(EAST, lower)) {
-    snprintf(label, size, "°E");
-    return FG__NC_DEGREES_EAST;
-  }
-  if (FIND(NORTH, lower)) {
-    snprintf(label, size, "°N");
-    return FG__NC_DEGREES_NORTH;
-  }
-  if (is_date(lower))
+  if (strstr(plain, " since "))
     return FG__NC_DATE;
-  if ((word = FIND(LENGTHS, lower))) {
-    snprintf(label, size, "%s", word);
-    return FG__NC_LENGTH;
-  }
-  if ((word = FIND(KNOTS, lower))) {
-    snprintf(label, size, "%s", word);
-    return FG__NC_SPEED;
-  }
-  if ((word = FIND(PRESSURES, lower))) {
-    snprintf(label, size, "%s", word);
-    return FG__NC_PRESSURE;
-  }
-  if ((word = FIND(ANGLES, lower)) && strcmp(word, "rad") != 0) {
-    snprintf(label, size, "%s", word);
-    return FG__NC_DEGREES;
-  }
-  return find_quotient(lower, label, size);
+  const unit *found = find_unit(plain);
+  if (!found)
+    return find_quotient(plain, label, size);
+  if (quantity[found->kind] != FG__NC_UNKNOWN)
+    snprintf(label, size, "%s", found->label);
+  return quantity[found->kind];
 }

@@ -24,23 +24,45 @@ static void units_are_classified_and_written_shortly(void **state)
       {"centimeter/s", FG__NC_SPEED, "cm/s"},
       {"km h-1", FG__NC_SPEED, "km/h"},
       {"m day-1", FG__NC_SPEED, "m/d"},
+      {"m·s-1", FG__NC_SPEED, "m/s"},
+      {"m s⁻¹", FG__NC_SPEED, "m/s"},
+      {"m s^{-1}", FG__NC_SPEED, "m/s"},
+      {"s-1 m", FG__NC_SPEED, "m/s"},
+      {"dm/s", FG__NC_SPEED, "dm/s"},
+      {"nautical_miles/hour", FG__NC_SPEED, "nmi/h"},
       {"knots", FG__NC_SPEED, "kn"},
+      {"kts", FG__NC_SPEED, "kn"},
+      {"°/s", FG__NC_ANGULAR_SPEED, "°/s"},
       {"degrees/day", FG__NC_ANGULAR_SPEED, "°/d"},
       {"rad s-1", FG__NC_ANGULAR_SPEED, "rad/s"},
       {"m", FG__NC_LENGTH, "m"},
       {"kilometers", FG__NC_LENGTH, "km"},
       {"degrees", FG__NC_DEGREES, "°"},
+      {"micron", FG__NC_LENGTH, "µm"},
+      {"μm", FG__NC_LENGTH, "µm"},
+      {"DEGREES EAST", FG__NC_DEGREES_EAST, "°E"},
       {"degrees_east", FG__NC_DEGREES_EAST, "°E"},
       {"degree_N", FG__NC_DEGREES_NORTH, "°N"},
       {"millibar", FG__NC_PRESSURE, "hPa"},
+      {"PA", FG__NC_PRESSURE, "Pa"},
+      {"hectopascals", FG__NC_PRESSURE, "hPa"},
+      {"decibar", FG__NC_PRESSURE, "dbar"},
       {"hours since 1900-01-01", FG__NC_DATE, "hours since 1900-01-01"},
       {"", FG__NC_UNKNOWN, ""},
       {"1", FG__NC_UNKNOWN, "1"},
+      {"degrees_west", FG__NC_UNKNOWN, "degrees_west"},
+      {"days", FG__NC_UNKNOWN, "days"},
+      {"s-1", FG__NC_UNKNOWN, "s-1"},
+      {"s/m", FG__NC_UNKNOWN, "s/m"},
       {"m2 s-2", FG__NC_UNKNOWN, "m2 s-2"},
       {"N m-2", FG__NC_UNKNOWN, "N m-2"},
       {"m s-2", FG__NC_UNKNOWN, "m s-2"},
       {"m s", FG__NC_UNKNOWN, "m s"},
       {"m/", FG__NC_UNKNOWN, "m/"},
+      {"m s-99999999999999999999", FG__NC_UNKNOWN, "m s-99999999999999999999"},
+      {"m per per", FG__NC_UNKNOWN, "m per per"},
+      {"m s-", FG__NC_UNKNOWN, "m s-"},
+      {"m s-1 s-1", FG__NC_UNKNOWN, "m s-1 s-1"},
       {"m/s/s", FG__NC_UNKNOWN, "m/s/s"},
       {"\xff\xfe", FG__NC_UNKNOWN, "\xff\xfe"},
   };
@@ -71,6 +93,14 @@ static void dates_follow_the_calendar(void **state)
   assert_date(-1.0, "hours since 2000-03-01", "gregorian", "2000-02-29 23:00");
   assert_date(90.0, "minutes since 1999-12-31T23:00:00Z", "", "2000-01-01 00:30");
   assert_date(1.0, "days since 1900-02-28", "", "1900-03-01");
+  /* the conventions' own example: 6 hours behind UTC */
+  assert_date(0.0, "seconds since 1992-10-8 15:15:42.5 -6:00", "", "1992-10-08 21:15");
+  assert_date(0.0, "hours since 2001-03-01 03:00 +05:30", "", "2001-02-28 21:30");
+  assert_date(0.0, "hours since 2001-03-01 03:00 +0530", "noleap", "2001-02-28 21:30");
+  assert_date(0.0, "hours since 2001-03-01 23 -2", "360_day", "2001-03-02 01:00");
+  assert_date(0.0, "hours since 2001-03-01 12:00 UTC", "", "2001-03-01 12:00");
+  assert_date(3.0, "milliseconds since 2001-03-01T12:00:59.9995Z", "",
+              "2001-03-01 12:01");
   assert_date(1.0, "days since 1900-02-28", "julian", "1900-02-29");
   /* the day after 4 October 1582 was 15 October */
   assert_date(1.0, "days since 1582-10-04", "standard", "1582-10-15");
@@ -118,6 +148,15 @@ static void what_is_no_date_is_left_alone(void **state)
   assert_date(1e30, "days since 1970-01-01", "", NULL);
   assert_date((double)NAN, "days since 1970-01-01", "", NULL);
   assert_date(1.0, "days", "", NULL);
+  assert_date(1.0, "days since 1970-01-01 99999999999:00", "", NULL);
+  assert_date(1.0, "days since 1970-01-01 00:00:1e999", "", NULL);
+  assert_date(1.0, "days since 1970-01-01 00:00:nan", "", NULL);
+  assert_date(1.0, "days since 1970-01-01 00:00 -9999999999999999999999", "", NULL);
+  assert_date(1.0, "days since 999999999-01-01", "", NULL);
+  assert_date(1.0, "days since 1970-01-01#", "", NULL);
+  assert_date(1.0, "meters since 1970-01-01", "", NULL);
+  assert_date((double)INFINITY, "days since 1970-01-01", "noleap", NULL);
+  assert_date(-1e300, "milliseconds since 1970-01-01", "360_day", NULL);
 }
 
 int main(void)

@@ -1,0 +1,96 @@
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include "file/base64.h"
+#include "base/context_test.h"
+#include "icon/icons.h"
+#include "write/vtp.h"
+
+static const char *const path = "vtp_test.vtp";
+
+static char *read_text(void)
+{
+  FILE *stream = fopen(path, "rb");
+  assert_non_null(stream);
+  char *text = calloc(1, 1 << 20);
+  assert_non_null(text);
+  assert_true(fread(text, 1, (1 << 20) - 1, stream) < (1 << 20) - 1);
+  fclose(stream);
+  return text;
+}
+
+/* Decodes an array of one block by its name; returns how many bytes it has. */
+static size_t read_array(const char *text, const char *name, void *out, size_t room)
+{
+  char tag[64];
+  snprintf(tag, sizeof tag, "Name=\"%s\"", name);
+  const char *at = strstr(text, tag);
+  assert_non_null(at);
+  at = strchr(at, '>') + 1;
+  fg__base64 base64 = {.text = (const unsigned char *)at,
+                       .size = (size_t)(strchr(at, '<') - at)};
+  uint64_t header[4]; /* blocks, bytes of one, of the last, of it compressed */
+  assert_true(fg__base64_read(&base64, (unsigned char *)header, sizeof header));
+  assert_int_equal(header[0], 1);
+  unsigned char *packed = malloc((size_t)header[3]);
+  assert_non_null(packed);
+  assert_true(fg__base64_read(&base64, packed, (size_t)header[3]));
+  uLongf bytes = (uLongf)room;
+  assert_int_equal(uncompress(out, &bytes, packed, (uLong)header[3]), Z_OK);
+  free(packed);
+  return (size_t)bytes;
+}
+
+/* The clusters' surface belongs to none of them: all its numbers are 0, and `part` tells
+ * it from the icons, which keep theirs. */
+static void a_surface_has_numbers(void **state)
+{
+  (void)state;
+  enum { MOST = 4096 };
+  static double speed[MOST], volume[MOST];
+  static unsigned char part[MOST];
+  static int cluster[MOST];
+  const double points[3][3] = {{0, 0, 0}, {1, 0.2, 0}, {2, 0.6, 0.1}};
+  const fg_icon icon = {.cluster = 7,
+                        .point_count = 3,
+                        .points = points,
+                        .width = 0.2,
+                        .tail_width = 0.1,
+                        .head_length = 0.5,
+                        .head_width = 0.4,
+                        .speed = 2.5,
+                        .area = 0.75};
+  fg_icons *icons = NULL;
+  fg_surface *surface = NULL;
+  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
+  assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
+  assert_int_equal(fg_icon_solid(&surface, NULL, &icon), FG_STATUS_OK);
+  assert_int_equal(fg__vtp_write(NULL, path, icons, surface), FG_STATUS_OK);
+  char *text = read_text();
+  size_t count = read_array(text, "part", part, sizeof part);
+  assert_int_equal(read_array(text, "speed", speed, sizeof speed), 8 * count);
+  assert_int_equal(read_array(text, "volume", volume, sizeof volume), 8 * count);
+  assert_int_equal(read_array(text, "cluster", cluster, sizeof cluster), 4 * count);
+  size_t of_surface = 0;
+  for (size_t n = 0; n < count; ++n) {
+    const bool clusters = part[n] == FG__VTP_CLUSTER;
+    of_surface += clusters;
+    assert_true(speed[n] == (clusters ? 0.0 : 2.5));
+    assert_true(volume[n] == (clusters ? 0.0 : 0.75));
+    assert_int_equal(cluster[n], clusters ? 0 : 7);
+  }
+  assert_int_equal(of_surface, surface->triangle_count);
+  free(text);
+  unlink(path);
+  fg_surface_destroy(surface);
+  fg_icons_destroy(icons);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_surface_has_numbers)};
+  return cmocka_run_group_tests_name("write/vtp", tests, NULL, NULL);
+}
