@@ -121,7 +121,7 @@ FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step);
 /* A coarsening of the mesh: the step after which it was made, that step's time, what it
  * made of the energy, and clusters and cells on the new mesh. */
 typedef struct fg_coarsening {
-  long step;
+  int64_t step;
   double time, energy_before, energy_after;
   int clusters, cells[3];
 } fg_coarsening;

@@ -1,5 +1,6 @@
 #include "run/run.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 
 #include "base/context.h"
@@ -21,8 +22,9 @@ static fg_status check(fg_context *context, const fg_run_options *o)
                       "scales: number %d is %d; they must descend, to 1 at least", k,
                       o->numbers[k]);
   if (!(o->max_time >= 0.0) || o->max_steps < 0)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "scales: limits of t = %g, %ld steps",
-                    o->max_time, o->max_steps);
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "scales: limits of t = %g, %" PRId64 " steps", o->max_time,
+                    o->max_steps);
   return FG_STATUS_OK;
 }
 

@@ -16,7 +16,7 @@ struct fg_run {
   bool closed;
   int taken, last_clusters;
   double max_time;
-  long max_steps;
+  int64_t max_steps;
   fg_run_ending ending;
   bool even_start;
   fg_placement_options how;
