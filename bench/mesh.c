@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "base/memory.h"
+#include "flowgrain/mpi.h"
 #include "grid/blocks.h"
 #include "grid/exchange/plan.h"
 #include "grid/mesh.h"
@@ -32,11 +33,12 @@ static void check(fg_status status)
 }
 
 /* Two arrays, all nodes; seconds an exchange, and what this rank sent. */
-static void time_exchange(int dimension, int nodes)
+static void time_exchange(const fg__ranks *ranks, int dimension, int nodes)
 {
   fg__mesh mesh;
   check(fg__mesh_create(&mesh, NULL,
                         &(fg__mesh_description){.dimension = dimension,
+                                                .ranks = ranks,
                                                 .side = {1.0, 1.0, 1.0},
                                                 .nodes = nodes}));
   fg__exchange *exchange;
@@ -109,17 +111,22 @@ static void count_neighbours(int dimension, int nodes, int rank_count)
 
 int main(void)
 {
-  const fg__ranks *all;
-  check(fg__ranks_all(&all, NULL));
-  time_exchange(2, 1025);
-  time_exchange(3, 129);
-  if (all->count > 1)
-    return 0;
-  count_neighbours(2, 8193, 64);
-  count_neighbours(2, 8193, 256);
-  count_neighbours(2, 8193, 1000);
-  count_neighbours(3, 1025, 64);
-  count_neighbours(3, 1025, 1000);
-  count_neighbours(3, 2049, 1024);
+  fg_context *context;
+  MPI_Init(NULL, NULL);
+  check(fg_context_create(&context));
+  check(fg_context_set_communicator(context, MPI_COMM_WORLD));
+  const fg__ranks *all = fg__ranks_of(context);
+  time_exchange(all, 2, 1025);
+  time_exchange(all, 3, 129);
+  if (all->count == 1) {
+    count_neighbours(2, 8193, 64);
+    count_neighbours(2, 8193, 256);
+    count_neighbours(2, 8193, 1000);
+    count_neighbours(3, 1025, 64);
+    count_neighbours(3, 1025, 1000);
+    count_neighbours(3, 2049, 1024);
+  }
+  fg_context_destroy(context);
+  MPI_Finalize();
   return 0;
 }

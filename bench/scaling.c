@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #include "flowgrain/flowgrain.h"
+#include "flowgrain/mpi.h"
 
 enum { MOST_STEPS = 1000 };
 
@@ -88,10 +89,14 @@ int main(int argc, char **argv)
     fprintf(stderr, "usage: bench_scaling DIMENSION NODES COPIES STEPS THREADS\n");
     return 2;
   }
+  fg_context *context;
+  check(!MPI_Init(&argc, &argv), "MPI");
+  check(!fg_context_create(&context), "a context");
+  check(!fg_context_set_communicator(context, MPI_COMM_WORLD), "a communicator");
   fg_field *field = make_field(dimension, copies);
   fg_evolution *evolution;
   fg_evolution_options options = {.nodes = (nodes - 1) * copies + 1, .threads = given[4]};
-  check(!fg_evolution_create(&evolution, NULL, field, &options), "the evolution");
+  check(!fg_evolution_create(&evolution, context, field, &options), "the evolution");
   static double seconds[MOST_STEPS];
   fg_step step;
   double before = 0.0;
@@ -103,11 +108,13 @@ int main(int argc, char **argv)
   double setup = seconds[0];
   qsort(seconds + 1, (size_t)steps - 1, sizeof *seconds, compare);
   int rank, count;
-  check(!fg_ranks(NULL, &rank, &count), "MPI");
+  fg_ranks(context, &rank, &count);
   if (rank == 0)
     printf("%.3f %.3f %.3f %.9e\n", setup, 1e3 * seconds[1],
            1e3 * seconds[1 + (steps - 1) / 2], step.energy);
   fg_evolution_destroy(evolution);
   fg_field_destroy(field);
+  fg_context_destroy(context);
+  MPI_Finalize();
   return 0;
 }

@@ -137,7 +137,7 @@ int main(void)
   for (int n = 0; n < MOMENTS; ++n)
     settle(&d, &moments[n]);
   printf("h² = %.4g, γ = %.3g h², %s\n", d.h * d.h, d.gamma / (d.h * d.h),
-         fg__kernel_choose(2)->name);
+         fg__kernel_choose(2, FG_VECTORS_WIDEST)->name);
   compare_lengths(&d, moments);
   compare_limits(&d, moments);
   compare_accuracy(&d, moments);

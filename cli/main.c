@@ -38,5 +38,7 @@ int main(int argc, char **argv)
   hold_standard_streams();
   take_file_limits_as_errors();
   int code = ranks_start();
-  return finish(code ? code : program_perform(argc, argv));
+  code = finish(code ? code : program_perform(argc, argv));
+  ranks_end();
+  return code;
 }

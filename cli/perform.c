@@ -6,6 +6,7 @@
 #include "command/command.h"
 #include "option/parse.h"
 #include "ranks.h"
+#include "vectors.h"
 
 static parse_result usage(void)
 {
@@ -69,6 +70,9 @@ int program_perform(int argc, char **argv)
     return code;
   if (!command)
     return EXIT_USAGE;
+  code = ranks_agree(vectors_check());
+  if (code)
+    return code;
   if (command->work != command_run && !ranks_leader())
     return EXIT_DONE; /* work for one */
   return command->work(&settings);

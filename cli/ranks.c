@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 
+#include "launch.h"
 #include "program.h"
 
 static int rank, count = 1;
@@ -9,18 +10,35 @@ static fg_context *context;
 
 int ranks_start(void)
 {
-  if (create_context(&context))
-    return EXIT_FAILED;
-  fg_status status = fg_ranks(context, &rank, &count);
-  if (status) {
-    complain("%s", fg_context_message(context));
-    return EXIT_FAILED;
-  }
+  int code = launch_start();
+  if (!code)
+    code = create_context(&context);
+  if (!code)
+    code = ranks_share(context);
+  if (code)
+    return code;
+  fg_ranks(context, &rank, &count);
   if (rank > 0)
     keep_complaints();
   if (rank > 0 && !freopen("/dev/null", "w", stdout))
     return complain_of_file("/dev/null", "cannot be written");
   return EXIT_DONE;
+}
+
+void ranks_end(void)
+{
+  fg_context_destroy(context);
+  context = NULL;
+  launch_end();
+}
+
+int ranks_share(fg_context *shared)
+{
+  fg_status status = launch_share(shared);
+  if (!status)
+    return EXIT_DONE;
+  complain("%s", fg_context_message(shared));
+  return EXIT_FAILED;
 }
 
 bool ranks_leader(void)

@@ -6,8 +6,16 @@
 
 #include <stdbool.h>
 
-/* Finds out which rank this is. Returns an exit code. */
+#include "flowgrain/context.h"
+
+/* Finds out which rank this is. Returns an exit code. Ended at last, by all ranks,
+ * whatever it returned. */
 int ranks_start(void);
+void ranks_end(void);
+
+/* Makes what a context is used for the work of all ranks. Collective. Returns an exit
+ * code. */
+int ranks_share(fg_context *context);
 
 bool ranks_leader(void); /* this is rank 0, maybe the only one */
 int ranks_number(void);  /* this one's, from 0 */

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "option/table.h"
+#include "vectors.h"
 
 fg_read_options settings_reading(const reading_settings *settings)
 {
@@ -34,6 +35,7 @@ fg_evolution_options settings_evolution(const evolution_settings *settings,
       .seed = work->seed,
       .noise = settings->noise,
       .threads = work->threads,
+      .vectors = vectors_wanted(),
   };
 }
 

@@ -296,8 +296,10 @@ int command_run(const void *given)
     complain("out of memory");
     return EXIT_FAILED;
   }
+  int code = ranks_share(run.context);
   interrupt_start(run.context);
-  int code = background_check(&settings->picture, ranks_count());
+  if (!code)
+    code = background_check(&settings->picture, ranks_count());
   if (!code)
     code = work(&run);
   interrupt_end();

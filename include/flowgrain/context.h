@@ -46,6 +46,7 @@ typedef enum fg_feature {
   FG_FEATURE_IMAGES,     /* reading PNG, JPEG, PGM and PPM */
   FG_FEATURE_PICTURES,   /* drawing SVG, PDF and PNG */
   FG_FEATURE_RENDER,     /* drawing fields in 3D */
+  FG_FEATURE_MPI,        /* several processes: flowgrain/mpi.h */
   FG_FEATURES            /* how many there are */
 } fg_feature;
 
@@ -82,19 +83,19 @@ FG_API void fg_context_clear(fg_context *context);
  * point. The only function that may be called from a signal handler or another thread. */
 FG_API void fg_context_stop(fg_context *context);
 
-/* Ranks: processes that a launcher such as mpirun started together share one evolution.
+/* Ranks: processes that share one evolution. A context has the ranks of the communicator
+ * that it was given (mpi.h), and this process alone without one.
  *
- * fg_evolution_create, fg_checkpoint_open and the calls that take an evolution are
- * collective: every rank makes them in the same order, with the same field (each has it
- * whole, or all their parts of it: parts.h), options and path, and all get the same
- * status; when one fails, every context holds its message. Densities are shared likewise
- * (fg_density_create). All else is the business of the rank that calls it. A program that
- * MPI does not know of has one rank and need not care. */
+ * fg_evolution_create, fg_checkpoint_open, fg_field_join and the calls that take an
+ * evolution are collective: every rank makes them in the same order, with the same field
+ * (each has it whole, or all their parts of it: parts.h), options and path, and all get
+ * the same status; when one fails, every context holds its message. Densities are shared
+ * likewise (fg_density_create). All else is the business of the rank that calls it. What
+ * is shared ends before the context that it was made with. */
 
-/* This rank's number, from 0, and how many there are. Starts MPI when a launcher started
- * this process, and ends it when the process exits; a program that uses MPI itself starts
- * and ends it itself. Collective in the first call. MPI. */
-FG_API fg_status fg_ranks(fg_context *context, int *rank, int *count);
+/* This rank's number, from 0, and how many there are: 0 of 1 for a context without a
+ * communicator, or NULL. */
+FG_API void fg_ranks(const fg_context *context, int *rank, int *count);
 
 /* Makes one failure of many, for what ranks do each on its own: when `status` is one on
  * some rank, all return that of the lowest such rank, and every context holds that rank's

@@ -34,6 +34,14 @@ typedef enum fg_mesh_kind {
   FG_MESH_UNIFORM /* stays as it is */
 } fg_mesh_kind;
 
+/* Vector instructions of the inner loops; u has the same bits with all. */
+typedef enum fg_vectors {
+  FG_VECTORS_WIDEST = 0, /* that the machine has */
+  FG_VECTORS_GENERIC,    /* as the compiler vectorises for any machine of its kind */
+  FG_VECTORS_AVX2,       /* this or less: */
+  FG_VECTORS_AVX512
+} fg_vectors;
+
 /* A zero field means its default, in brackets. */
 typedef struct fg_evolution_options {
   int nodes;                /* nodes along the longest side of the mesh [257] */
@@ -55,12 +63,13 @@ typedef struct fg_evolution_options {
   int cycles;               /* multigrid cycles a step, or a substep [2; else 3] */
   fg_scheme scheme;         /* of the time steps [BDF2] */
   int threads;              /* [all cores] */
+  fg_vectors vectors;       /* the widest to use [widest] */
   const float *initial; /* NULL: noise; else u at the nodes of the mesh, as fg_density has
                            it: copied, then shifted nowhere: its mean is kept */
 } fg_evolution_options;
 
 typedef struct fg_step {
-  long step;            /* accepted steps so far */
+  int64_t step;         /* accepted steps so far */
   double time;          /* t, in units of (longest side)^2 */
   double tau;           /* size of this step */
   double energy;        /* E(u); like t and tau in the first mesh's units: see
@@ -71,7 +80,7 @@ typedef struct fg_step {
                            covered area is below 0.8 of the coverage */
   int cycles;           /* multigrid cycles spent on this step, rejects included */
   int rejected;         /* attempts rejected before this step was accepted */
-  long cells;           /* active cells of the mesh */
+  int64_t cells;        /* active cells of the mesh */
   int coarsenings;      /* of the mesh, since the evolution began */
   double increment;     /* rms of the change of u */
   double seconds;       /* wall time since the evolution was created */
@@ -112,7 +121,7 @@ FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step);
 /* A coarsening of the mesh: the step after which it was made, that step's time, what it
  * made of the energy, and clusters and cells on the new mesh. */
 typedef struct fg_coarsening {
-  long step;
+  int64_t step;
   double time, energy_before, energy_after;
   int clusters, cells[3];
 } fg_coarsening;
@@ -128,9 +137,9 @@ typedef struct fg_mesh_info {
   double anisotropy, isotropic_below, coverage, noise; /* as used */
   double length;         /* the longest side in the input's coordinates */
   double domain_measure; /* area (volume) of the active cells, units of length squared */
-  long active_cells;
+  int64_t active_cells;
   bool adaptive;      /* it is coarsened as clusters grow */
-  const char *kernel; /* which vector instructions run: "avx512", "avx2", "generic" */
+  const char *kernel; /* vector instructions that run: "avx512", "avx2", "generic" */
 } fg_mesh_info;
 
 FG_API const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution);
@@ -157,8 +166,9 @@ typedef struct fg_traffic {
   double reductions, reduced; /* sums and the like over all ranks; bytes given */
 } fg_traffic;
 
-/* What the ranks of an evolution told each other since the program began, exact: the mean
- * over ranks and the greatest of each number, all 0 with one rank. Collective. */
+/* What the ranks of an evolution sent each other since its context was given a
+ * communicator, exact: the mean over ranks and the greatest of each number, all 0 with
+ * one rank. Collective. */
 FG_API void fg_evolution_traffic(const fg_evolution *evolution, fg_traffic mean[],
                                  fg_traffic greatest[]);
 

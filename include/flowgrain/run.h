@@ -28,7 +28,7 @@ typedef struct fg_run_options {
   bool even_start; /* the first scale's arrows start from evenly distributed points [from
                       clusters] */
   double max_time; /* ends the run at this t; the state there is the last scale [none] */
-  long max_steps;  /* the same at a number of steps [none] */
+  int64_t max_steps; /* the same at a number of steps [none] */
 } fg_run_options;
 
 /* Why a run has ended. */

@@ -1,6 +1,5 @@
 #include "base/context.h"
 
-#include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -18,6 +17,8 @@ struct fg_context {
   char hint[MESSAGE_BYTES];
   bool hint_open; /* the last failure is the one recorded, and has no hint yet */
   atomic_int stop;
+  void *shared; /* see fg__context_share */
+  void (*end_sharing)(void *shared);
 };
 
 #define TEXT_OF(x) #x
@@ -63,7 +64,20 @@ fg_status fg_context_create(fg_context **out)
 
 void fg_context_destroy(fg_context *context)
 {
+  if (context && context->end_sharing)
+    context->end_sharing(context->shared);
   free(context);
+}
+
+void fg__context_share(fg_context *context, void *shared, void (*end)(void *shared))
+{
+  context->shared = shared;
+  context->end_sharing = end;
+}
+
+void *fg__context_shared(const fg_context *context)
+{
+  return context ? context->shared : NULL;
 }
 
 const char *fg_context_message(const fg_context *context)

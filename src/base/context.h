@@ -25,6 +25,11 @@ fg_status fg__fail_memory(fg_context *context, const char *what, size_t bytes);
 void fg__hint(fg_context *context, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* What the ranks are that share the context's work (ranks.h); ended with the context.
+ * NULL: none. */
+void fg__context_share(fg_context *context, void *shared, void (*end)(void *shared));
+void *fg__context_shared(const fg_context *context);
+
 /* FG_STATUS_STOPPED once fg_context_stop was called, else FG_STATUS_OK. */
 fg_status fg__check_stop(fg_context *context);
 

@@ -3,7 +3,10 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#if defined(__linux__)
 #include <sys/mman.h>
+#endif
 
 enum { VECTOR_BYTES = 64, FIRST_CAPACITY = 16 };
 

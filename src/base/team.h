@@ -26,8 +26,8 @@ static inline fg__share fg__alone(void)
 }
 
 /* Starts members - 1 threads, which sleep until there is work; the caller is member 0.
- * *out is NULL when members is 1; more than FG__MOST_MEMBERS are cut to that. MEMORY (no
- * thread to be had counts as such). */
+ * *out is NULL when members is 1, and in a build without threads; more than
+ * FG__MOST_MEMBERS are cut to that. MEMORY (no thread to be had counts as such). */
 fg_status fg__team_create(fg__team **out, fg_context *context, int members);
 void fg__team_destroy(fg__team *team);
 

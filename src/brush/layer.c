@@ -138,11 +138,8 @@ fg_status fg__layer_density(fg_density **out, fg_context *context,
 {
   fg_field *field = NULL;
   fg_evolution *evolution = NULL;
-  const fg__ranks *alone;
   *out = NULL;
   fg_status status = field_of(&field, context, image);
-  if (!status)
-    status = fg__ranks_alone(&alone, context);
   if (!status) {
     fg_energy_law law = {.name = "gradient of the image",
                          .tensor = fg__structure_tensor,
@@ -156,7 +153,7 @@ fg_status fg__layer_density(fg_density **out, fg_context *context,
                                     .cycles = CYCLES,
                                     .seed = plan->seed,
                                     .threads = plan->threads};
-    status = fg__evolution_create(&evolution, context, alone, field, &options);
+    status = fg__evolution_create(&evolution, context, &fg__single_rank, field, &options);
   }
   if (!status)
     status = evolve(out, evolution, plan->clusters);

@@ -245,7 +245,7 @@ static fg_status prepare(fg__clusters *c, fg_context *context,
   }
   c->slabs = slabs;
   for (int n = 0; n <= slabs; ++n)
-    c->first[n] = (int)((long)slices * n / slabs);
+    c->first[n] = (int)((int64_t)slices * n / slabs);
   return FG_STATUS_OK;
 }
 

@@ -15,7 +15,7 @@ bool fg_evolution_should_coarsen(const fg_evolution *evolution)
 {
   const fg_evolution *e = evolution;
   double ample = e->mesh.dimension == 3 ? ample_cells_3d : ample_cells_2d;
-  bool masked = e->active_cells < (long)e->cells;
+  bool masked = e->active_cells < (int64_t)e->cells;
   int least = 2 * (fg__default_nodes(e->mesh.dimension) - 1);
   return e->clusters > 0 && !masked && fg__mesh_most_cells(&e->mesh) >= least &&
          (double)e->active_cells >= ample * e->clusters &&
@@ -24,7 +24,7 @@ bool fg_evolution_should_coarsen(const fg_evolution *evolution)
 
 static fg_status check(const fg_evolution *e)
 {
-  if (e->active_cells < (long)e->cells)
+  if (e->active_cells < (int64_t)e->cells)
     return fg__fail(e->context, FG_STATUS_ARGUMENT,
                     "coarser mesh: the field is missing in places, which a coarser mesh "
                     "would not show as they are");

@@ -15,8 +15,7 @@ static fg_evolution *begin(const fg_field *field, const fg__ranks *ranks,
 
 static void compare(const char *name, const fg_evolution_options *options)
 {
-  const fg__ranks *alone;
-  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
+  const fg__ranks *alone = &fg__single_rank;
   fg_field *field;
   expect(fg_field_create_analytic(&field, us.context, name, SAMPLES) == FG_STATUS_OK);
   fg_evolution *one = begin(field, alone, options),
@@ -81,8 +80,7 @@ static fg_field *strip(void)
 static void more_ranks_than_the_halved_mesh_has_blocks_for_are_refused(void **state)
 {
   (void)state;
-  const fg__ranks *alone;
-  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
+  const fg__ranks *alone = &fg__single_rank;
   const fg_evolution_options options = {.nodes = 65};
   fg_field *field = strip();
   fg_evolution *one = begin(field, alone, &options),

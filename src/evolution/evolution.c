@@ -1,6 +1,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "evolution/options.h"
 #include "evolution/tensor.h"
@@ -116,7 +117,7 @@ static void describe(fg_evolution *e)
 static fg_status take_mask(fg_evolution *e, const fg__multigrid *multigrid)
 {
   const fg__cells_of_box *cells = &fg__multigrid_finest(multigrid)->tensor;
-  if (e->active_cells == (long)e->cells)
+  if (e->active_cells == (int64_t)e->cells)
     return FG_STATUS_OK;
   ptrdiff_t origin;
   e->mask.memory = fg__cells_mask(cells, &origin);
@@ -146,6 +147,7 @@ static fg_status create_stepper(fg_evolution *e)
         &multigrid, e, (1.0 - fg__evolution_alpha(e)) * e->info.gamma);
   if (status)
     return status;
+  multigrid.kernel = fg__kernel_choose(e->mesh.dimension, e->options.vectors);
   e->info.kernel = multigrid.kernel->name;
   status = fg__ranks_agree(e->ranks, e->context, take_mask(e, &multigrid));
   if (!status)
@@ -163,7 +165,7 @@ static fg_status begin(fg_evolution *e, fg_context *context, const fg__ranks *ra
   e->context = context;
   e->ranks = ranks;
   e->field = field;
-  clock_gettime(CLOCK_MONOTONIC, &e->start);
+  e->start = fg__clock_seconds();
   if (options)
     e->options = *options;
   e->field_fingerprint = fg__field_fingerprint(field);
@@ -214,9 +216,7 @@ fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
   if (!out || !field)
     return fg__fail(context, FG_STATUS_ARGUMENT, "evolution: a NULL argument");
   *out = NULL;
-  const fg__ranks *ranks;
-  fg_status status = fg__ranks_all(&ranks, context);
-  return status ? status : fg__evolution_create(out, context, ranks, field, options);
+  return fg__evolution_create(out, context, fg__ranks_of(context), field, options);
 }
 
 fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
@@ -231,8 +231,6 @@ fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
     status = begin(e, context, ranks, field, options);
   else
     status = fg__fail_memory(context, "an evolution", sizeof *e);
-  if (!status)
-    status = fg__kernel_check(context);
   status = fg__ranks_agree(ranks, context, status);
   if (e && !status)
     status = fg__evolution_build(e);
@@ -279,11 +277,7 @@ const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution)
 
 double fg__evolution_seconds(const fg_evolution *evolution)
 {
-  const struct timespec *start = &evolution->start;
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return evolution->earlier_seconds + (double)(now.tv_sec - start->tv_sec) +
-         1e-9 * (double)(now.tv_nsec - start->tv_nsec);
+  return evolution->earlier_seconds + fg__clock_seconds() - evolution->start;
 }
 
 fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int rejected)
@@ -317,7 +311,7 @@ fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
   /* before a step, not after: a checkpoint holds what the next step begins with */
   if (!status && fg__evolution_adapts(e) && fg_evolution_should_coarsen(e))
     status = fg_evolution_coarsen(e, &coarsened);
-  long cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
+  int64_t cycles = e->stepper.cycles_spent, rejected = e->stepper.rejected;
   if (!status)
     status = fg__stepper_advance(&e->stepper, e->context);
   if (!status)

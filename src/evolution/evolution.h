@@ -2,8 +2,6 @@
 #ifndef FG__EVOLUTION_H
 #define FG__EVOLUTION_H
 
-#include <time.h>
-
 #include "component/clusters.h"
 #include "evolution/halved.h"
 #include "evolution/stepper.h"
@@ -24,19 +22,18 @@ struct fg_evolution {
   } mask;                       /* of the block's cells, and of one more on each side */
   fg__clusters *clusters_found; /* working memory, for snapshots too */
   size_t nodes, cells;          /* of the whole mesh */
-  long active_cells;
-
+  int64_t active_cells;
   double debris_area; /* in cells */
   double area_fraction;
   int clusters;
-  bool counting;      /* nucleation is over */
-  int mesh_nodes;     /* wanted along the longest side of the present mesh */
-  int halvings;       /* of the mesh, since it was created */
-  long earlier_steps; /* accepted on finer meshes */
+  bool counting;         /* nucleation is over */
+  int mesh_nodes;        /* wanted along the longest side of the present mesh */
+  int halvings;          /* of the mesh, since it was created */
+  int64_t earlier_steps; /* accepted on finer meshes */
   const fg__halved
       *halved; /* NULL, or what a coarser mesh goes on from; while it is made */
   double halved_mean;
-  struct timespec start;
+  double start;           /* on the clock (clock.h) */
   double earlier_seconds; /* spent before a resumed evolution was created */
   /* Of the field, and of the initial density when one was given (else 0). */
   uint64_t field_fingerprint, initial_fingerprint;

@@ -86,6 +86,8 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
     status = check_range(context, "cycles", o->cycles, 1, 1000, true);
   if (!status && o->gamma != 0.0)
     status = check_range(context, "gamma", o->gamma, 0.0, 1.0, false);
+  if (!status)
+    status = check_range(context, "vectors", o->vectors, 0, FG_VECTORS_AVX512, true);
   if (!status && o->threads < 0)
     status = fg__fail(context, FG_STATUS_ARGUMENT, "%d threads", o->threads);
   return status;

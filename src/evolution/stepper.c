@@ -1,5 +1,6 @@
 #include "evolution/stepper.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -284,7 +285,7 @@ fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
       if (fabs(result.mean - s->mean) <= mass_tolerance)
         return FG_STATUS_OK;
       return fg__fail(context, FG_STATUS_NO_CONVERGENCE,
-                      "the mean density drifted by %g (allowed %g) in step %ld",
+                      "the mean density drifted by %g (allowed %g) in step %" PRId64,
                       result.mean - s->mean, mass_tolerance, s->accepted);
     }
     ++s->rejected;
@@ -293,7 +294,8 @@ fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
     tau *= reject_factor;
     if (!(tau > least_tau_share * s->first_tau))
       return fg__fail(context, FG_STATUS_NO_CONVERGENCE,
-                      "no time step is accepted after step %ld at t = %g: change %g, "
+                      "no time step is accepted after step %" PRId64
+                      " at t = %g: change %g, "
                       "correction %g at tau = %g",
                       s->accepted, s->time, result.increment, result.correction, tau);
   }

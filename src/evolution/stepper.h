@@ -20,7 +20,7 @@ typedef struct fg__stepper {
   fg__pockets pockets; /* those of few nodes; the theta scheme has none */
   double first_tau, most_tau;
 
-  long accepted, rejected, cycles_spent;
+  int64_t accepted, rejected, cycles_spent;
   double time, tau;    /* tau: the next step to try */
   double last_tau;     /* the last accepted one */
   double tau_limit;    /* after a reject */
@@ -28,7 +28,7 @@ typedef struct fg__stepper {
   double increment;    /* rms of the last step's change */
   double persistence;  /* share of the last change that the predictor continues */
   bool history;        /* the last step's predecessor may be used */
-  long quiet_steps;    /* steps in a row that changed next to nothing */
+  int64_t quiet_steps; /* steps in a row that changed next to nothing */
 
   /* Arrays of the finest level. A step is computed in the level's own u, which then
    * becomes current: the three are passed round, never copied. */

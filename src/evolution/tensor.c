@@ -45,7 +45,7 @@ fg_status fg__evolution_cells_create(fg_evolution *e, const fg_field *field)
       for (int i = 0; i < own.nodes[0]; ++i)
         active += e->finest_cells.weight[fg__cell_at(&e->finest_cells, i, j, k)] > 0.0F;
   fg__ranks_add(e->mesh.ranks, &active, 1);
-  e->active_cells = (long)active;
+  e->active_cells = (int64_t)active;
   if (active == 0)
     return fg__fail(e->context, FG_STATUS_ARGUMENT, "the field is missing everywhere");
   return FG_STATUS_OK;
@@ -55,5 +55,5 @@ fg_status fg__evolution_multigrid_create(fg__multigrid *out, fg_evolution *e,
                                          double gamma)
 {
   return fg__multigrid_create(out, e->context, &e->mesh, &e->finest_cells,
-                              e->active_cells < (long)e->cells, gamma, e->team);
+                              e->active_cells < (int64_t)e->cells, gamma, e->team);
 }

@@ -110,7 +110,7 @@ static fg_status create(fg_density **out, const fg_evolution *e)
     cell *= arrays.spacing[k];
   fg__density_block block;
   fg_status status = fg__density_block_create(&block, e->context, &e->mesh.partition,
-                                              e->active_cells < (long)e->cells);
+                                              e->active_cells < (int64_t)e->cells);
   status = fg__ranks_agree(e->ranks, e->context, status);
   if (!status) {
     fg__level_export(fg__multigrid_finest(m), e->stepper.current, block.u);

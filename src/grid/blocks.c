@@ -1,7 +1,5 @@
 #include "grid/blocks.h"
 
-#include <mpi.h>
-
 /* In the time that a node of the finest level takes a cycle: a node of the first whole
  * level (docs/design/distribution.md). */
 static const double whole_cost_2d = 0.8, whole_cost_3d = 1.7;
@@ -16,17 +14,26 @@ static int greatest_divisor_below(int number, int most)
   return divisor;
 }
 
+/* The greatest divisor up to the square root. */
+static int divisor_near_root(int number)
+{
+  int root = 1;
+  while ((root + 1) <= number / (root + 1))
+    ++root;
+  return greatest_divisor_below(number, root);
+}
+
 /* As many blocks as ranks, at least `thickness` cells thick; false when they do not fit.
- * In 3D as MPI deals them, or where one axis is too short for that, more of them along
- * the other. Fewer along y than along z: what is not cut along y is exchanged in whole
- * slices. */
+ * In 3D as near to a square as can be, or where one axis is too short for that, more of
+ * them along the other. Fewer along y than along z: what is not cut along y is exchanged
+ * in whole slices. */
 static bool arrange(int count[3], int ranks, int dimension, const int cells[3],
                     int thickness)
 {
   int dims[2] = {ranks, 1}, room[3] = {1, 1, 1};
-  if (dimension == 3 && ranks > 1) {
-    dims[0] = dims[1] = 0;
-    MPI_Dims_create(ranks, 2, dims);
+  if (dimension == 3) {
+    dims[1] = divisor_near_root(ranks);
+    dims[0] = ranks / dims[1];
   }
   for (int k = 1; k < dimension; ++k)
     room[k] = cells[k] / thickness;

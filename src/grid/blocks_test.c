@@ -96,14 +96,6 @@ static void thick_units_leave_small_whole_levels(void **state)
   assert_true(b.unit <= 16);
 }
 
-/* MPI deals ranks out only where it runs. */
-static int start_mpi(void **state)
-{
-  const fg__ranks *alone;
-  (void)state;
-  return fg__ranks_alone(&alone, NULL) != FG_STATUS_OK;
-}
-
 int main(void)
 {
 #define CASE(name)                                                                       \
@@ -114,5 +106,5 @@ int main(void)
       CASE(pencils_are_as_thick_as_can_be),
       CASE(thick_units_leave_small_whole_levels),
   };
-  return cmocka_run_group_tests_name("grid/blocks", tests, start_mpi, NULL);
+  return cmocka_run_group_tests_name("grid/blocks", tests, NULL, NULL);
 }

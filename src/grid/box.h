@@ -2,6 +2,8 @@
 #ifndef FG__BOX_H
 #define FG__BOX_H
 
+#include <stdint.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -17,9 +19,9 @@ static inline bool fg__box_is_empty(const fg__box *box)
   return box->nodes[0] <= 0 || box->nodes[1] <= 0 || box->nodes[2] <= 0;
 }
 
-static inline long fg__box_count(const fg__box *box)
+static inline int64_t fg__box_count(const fg__box *box)
 {
-  return (long)box->nodes[0] * box->nodes[1] * box->nodes[2];
+  return (int64_t)box->nodes[0] * box->nodes[1] * box->nodes[2];
 }
 
 /* The box's nodes with even indices, as nodes of the grid with half as many cells along

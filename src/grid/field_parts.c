@@ -138,12 +138,9 @@ fg_status fg_field_join(fg_context *context, fg_field *field)
 {
   if (!field)
     return fg__fail(context, FG_STATUS_ARGUMENT, "field: none to join");
-  const fg__ranks *ranks;
-  fg_status status = fg__ranks_all(&ranks, context);
-  if (status != FG_STATUS_OK)
-    return status;
+  const fg__ranks *ranks = fg__ranks_of(context);
   fg_activity before = fg__traffic_continue(ranks->book, FG_ACTIVITY_SETUP);
-  status = fg__field_join(context, ranks, field);
+  fg_status status = fg__field_join(context, ranks, field);
   fg__traffic_return(ranks->book, before);
   return status;
 }

@@ -2,6 +2,8 @@
 
 #include "grid/blocks.h"
 #include <math.h>
+#include <stddef.h>
+#include <stdint.h>
 
 /* Cells longer than twice their width resolve an interface in one direction only: a thin
  * domain gets more nodes along it than asked for. */
@@ -72,6 +74,12 @@ static fg_status choose_cells(fg__mesh *mesh, fg_context *context,
     mesh->origin[k] = description->origin[k];
     mesh->spacing[k] = description->side[k] / mesh->length / mesh->cells[k];
   }
+  double bytes = sizeof(float);
+  for (int k = 0; k < mesh->dimension; ++k)
+    bytes *= mesh->cells[k] + 1.0;
+  if (bytes > (double)PTRDIFF_MAX) /* where addresses have 32 bits */
+    return fg__fail(context, FG_STATUS_MEMORY, "out of memory: %.0f bytes for a mesh",
+                    bytes);
   return FG_STATUS_OK;
 }
 
@@ -97,9 +105,7 @@ fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
   fg_status status = check_description(context, description);
   if (!status)
     status = choose_cells(out, context, description);
-  out->ranks = description->ranks;
-  if (!status && !out->ranks)
-    status = fg__ranks_all(&out->ranks, context);
+  out->ranks = description->ranks ? description->ranks : fg__ranks_of(context);
   if (!status)
     status = share_nodes(out, context);
   if (status)

@@ -42,7 +42,7 @@ static int first_node(const fg__partition *partition, int axis, int place, int u
   int count = partition->blocks[axis];
   if (place == count)
     return partition->nodes[axis];
-  return (int)((long)(partition->cells[axis] / unit) * place / count) * unit;
+  return (int)((int64_t)(partition->cells[axis] / unit) * place / count) * unit;
 }
 
 fg_status fg__partition_create(fg__partition *out, fg_context *context,

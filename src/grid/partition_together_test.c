@@ -143,8 +143,7 @@ static void a_level_of_odd_cells_is_not_workable(void **state)
 {
   (void)state;
   const grid g = {2, {12, 6, 1}, {false, false, false}};
-  const fg__ranks *alone;
-  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
+  const fg__ranks *alone = &fg__single_rank;
   fg__partition partition, coarse;
   expect(fg__partition_create(&partition, us.context, alone, 2, g.cells, g.periodic,
                               (const int[3]){1, 1, 1}, 8) == FG_STATUS_OK);
@@ -201,8 +200,7 @@ static void check_gather(const grid *g, uint64_t seed, const fg__ranks *alone)
 static void replicated_levels_hold_all_and_give_it_back(void **state)
 {
   (void)state;
-  const fg__ranks *alone;
-  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
+  const fg__ranks *alone = &fg__single_rank;
   for (int g = 0; g < GRID_COUNT; ++g)
     for (uint64_t seed = 0; seed < SEEDS; ++seed)
       check_gather(&GRIDS[g], seed, alone);

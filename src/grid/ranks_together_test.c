@@ -166,14 +166,71 @@ static void bytes_come_in_the_order_of_ranks(void **state)
 static void a_rank_alone_asks_nobody(void **state)
 {
   (void)state;
-  const fg__ranks *alone;
-  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
+  const fg__ranks *alone = &fg__single_rank;
   expect(alone->rank == 0 && alone->count == 1);
   if (us.ranks->rank == 0) { /* would hang if it waited for the others */
     uint64_t sum = 3;
     fg__ranks_add(alone, &sum, 1);
     expect(sum == 3);
     expect(fg__ranks_agree(alone, us.context, FG_STATUS_MPI) == FG_STATUS_MPI);
+  }
+  end_together();
+}
+
+static void a_context_without_a_communicator_is_alone(void **state)
+{
+  (void)state;
+  fg_context *context;
+  int rank = 7, count = 7;
+  fg_ranks(NULL, &rank, &count);
+  expect(rank == 0 && count == 1);
+  expect(fg_context_create(&context) == FG_STATUS_OK);
+  rank = count = 7;
+  fg_ranks(context, &rank, &count);
+  expect(rank == 0 && count == 1);
+  fg_context_destroy(context);
+  fg_ranks(us.context, &rank, &count);
+  expect(rank == us.ranks->rank && count == us.ranks->count);
+  end_together();
+}
+
+static void no_communicator_and_a_second_one_are_refused(void **state)
+{
+  (void)state;
+  fg_context *context;
+  expect(fg_context_set_communicator(NULL, MPI_COMM_WORLD) == FG_STATUS_ARGUMENT);
+  expect(fg_context_create(&context) == FG_STATUS_OK);
+  expect(fg_context_set_communicator(context, MPI_COMM_NULL) == FG_STATUS_ARGUMENT);
+  fg_context_destroy(context);
+  fg_context_clear(us.context);
+  if (us.ranks->count > 1 || !is_launched())
+    expect(fg_context_set_communicator(us.context, MPI_COMM_WORLD) == FG_STATUS_ARGUMENT);
+  expect(strstr(fg_context_message(us.context), "ranks: ") != NULL ||
+         us.ranks->count == 1);
+  end_together();
+}
+
+/* The first rank by itself, the others together: what they exchange stays among them. */
+static void a_communicator_may_be_a_part_of_all(void **state)
+{
+  (void)state;
+  if (is_launched()) {
+    MPI_Comm part;
+    fg_context *context;
+    int rank, count, first = us.ranks->rank == 0;
+    MPI_Comm_split(MPI_COMM_WORLD, first, 0, &part);
+    expect(fg_context_create(&context) == FG_STATUS_OK);
+    expect(fg_context_set_communicator(context, part) == FG_STATUS_OK);
+    MPI_Comm_free(&part); /* the context has its own */
+    fg_ranks(context, &rank, &count);
+    expect(count == (first ? 1 : us.ranks->count - 1));
+    expect(rank == (first ? 0 : us.ranks->rank - 1));
+    uint64_t sum = (uint64_t)us.ranks->rank + 1, whole = 1;
+    fg__ranks_add(fg__ranks_of(context), &sum, 1);
+    for (int r = 1; r < us.ranks->count && !first; ++r)
+      whole = r == 1 ? 2 : whole + (uint64_t)r + 1;
+    expect(sum == whole);
+    fg_context_destroy(context);
   }
   end_together();
 }
@@ -191,6 +248,9 @@ int main(void)
       TOGETHER(a_stop_gives_way_to_a_failure),
       TOGETHER(bytes_come_in_the_order_of_ranks),
       TOGETHER(a_rank_alone_asks_nobody),
+      TOGETHER(a_context_without_a_communicator_is_alone),
+      TOGETHER(no_communicator_and_a_second_one_are_refused),
+      TOGETHER(a_communicator_may_be_a_part_of_all),
   };
   return cmocka_run_group_tests_name("grid/ranks", tests, NULL, NULL);
 }

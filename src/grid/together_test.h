@@ -9,11 +9,12 @@
 #include <unistd.h>
 
 #include "base/context_test.h"
+#include "flowgrain/mpi.h"
 #include "grid/ranks.h"
 
 typedef struct together {
-  fg_context *context;
-  const fg__ranks *ranks;
+  fg_context *context, *every_case;
+  const fg__ranks *ranks; /* of the context, between cases of every_case */
   int faults;
 } together;
 
@@ -28,16 +29,29 @@ static together us;
     }                                                                                    \
   } while (0)
 
+/* Without a launcher there is one rank, which needs no MPI. */
+static inline bool is_launched(void)
+{
+  return getenv("OMPI_COMM_WORLD_SIZE") || getenv("PMI_SIZE") || getenv("PMIX_RANK");
+}
+
 static inline int together_set_up(void **state)
 {
   (void)state;
   us.faults = 0;
-  return fg_context_create(&us.context) != FG_STATUS_OK;
+  if (fg_context_create(&us.context) != FG_STATUS_OK)
+    return 1;
+  if (is_launched() &&
+      fg_context_set_communicator(us.context, MPI_COMM_WORLD) != FG_STATUS_OK)
+    return 1;
+  us.ranks = fg__ranks_of(us.context);
+  return 0;
 }
 
 static inline int together_tear_down(void **state)
 {
   (void)state;
+  us.ranks = fg__ranks_of(us.every_case);
   fg_context_destroy(us.context);
   return 0;
 }
@@ -70,10 +84,22 @@ static inline void name_folder(char *out, size_t room)
            (unsigned long long)process);
 }
 
+static void end_all(void)
+{
+  fg_context_destroy(us.every_case);
+  if (is_launched())
+    MPI_Finalize();
+}
+
 static inline void start_together(void)
 {
-  if (fg__ranks_all(&us.ranks, NULL) != FG_STATUS_OK)
+  int provided;
+  if (is_launched() && MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided))
     abort();
+  if (together_set_up(NULL))
+    abort();
+  us.every_case = us.context;
+  atexit(end_all);
   if (us.ranks->rank != 0 && !freopen("/dev/null", "w", stdout))
     abort();
 }

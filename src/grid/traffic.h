@@ -12,7 +12,7 @@
 
 typedef struct fg__traffic_book {
   fg_activity now;
-  fg_traffic of[FG_ACTIVITIES]; /* totals since the program's start */
+  fg_traffic of[FG_ACTIVITIES]; /* totals since the context has ranks */
 } fg__traffic_book;
 
 /* What is sent from now on is for `activity`, begun once more. Returns the former one, to

@@ -5,9 +5,9 @@
 #include "icon/slender.h"
 
 #include "base/memory.h"
+#include "base/team.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
@@ -30,8 +30,6 @@ typedef struct icon_worker {
   fg_context *context; /* its own: a context is for one thread at a time */
   fg_context *caller;  /* the caller's, on the caller's own thread, else NULL */
   fg_status status;
-  pthread_t thread;
-  bool started;
 } icon_worker;
 
 static const fg_field *field_of(const fg__icon_source *source, int index)
@@ -66,9 +64,9 @@ static fg_status make_icons(icon_job *job, fg_context *context, fg__chooser *cho
   return status;
 }
 
-static void *work(void *argument)
+static void work(void *argument, const fg__share *share)
 {
-  icon_worker *worker = argument;
+  icon_worker *worker = &((icon_worker *)argument)[share->member];
   icon_job *job = worker->job;
   fg__chooser chooser = {0};
   while (worker->status == FG_STATUS_OK && !atomic_load(&job->halted)) {
@@ -83,37 +81,37 @@ static void *work(void *argument)
   if (worker->status != FG_STATUS_OK)
     atomic_store(&job->halted, true);
   fg__chooser_clear(&chooser);
-  return NULL;
 }
 
-/* The caller's thread is the first worker; one that cannot be started is done without. */
+/* The caller's thread is the first worker, and the only one where no threads are to be
+ * had. */
 fg_status fg__icons_make(fg_icon *icon, fg_context *context,
                          const fg__icon_source *source, int threads)
 {
-  icon_job all = {.source = source, .icon = icon}, *job = &all;
+  icon_job job = {.source = source, .icon = icon};
+  icon_worker workers[MOST_THREADS] = {
+      {.job = &job, .context = context, .caller = context}};
+  fg__team *team = NULL;
+  fg_status status = FG_STATUS_OK;
   threads = threads < MOST_THREADS ? threads : MOST_THREADS;
   threads = threads < source->count ? threads : source->count;
-  icon_worker workers[MOST_THREADS] = {0};
-  workers[0] = (icon_worker){.job = job, .context = context, .caller = context};
-  fg_status status = FG_STATUS_OK;
+  (void)fg__team_create(&team, NULL, threads);
+  threads = fg__team_members(team);
   for (int i = 1; i < threads; i++) {
-    icon_worker *worker = &workers[i];
-    worker->job = job;
-    if (fg_context_create(&worker->context) != FG_STATUS_OK)
-      continue;
-    worker->started = pthread_create(&worker->thread, NULL, work, worker) == 0;
+    workers[i].job = &job;
+    (void)fg_context_create(&workers[i].context); /* without one messages are lost */
   }
-  work(&workers[0]);
-  status = workers[0].status;
-  for (int i = 1; i < threads; i++) {
-    icon_worker *worker = &workers[i];
-    if (worker->started)
-      pthread_join(worker->thread, NULL);
+  fg__team_run(team, work, workers);
+  for (int i = 0; i < threads; i++) {
+    const icon_worker *worker = &workers[i];
     if (worker->status != FG_STATUS_OK && status == FG_STATUS_OK)
-      status =
-          fg__fail(context, worker->status, "%s", fg_context_message(worker->context));
-    fg_context_destroy(worker->context);
+      status = i == 0 ? worker->status
+                      : fg__fail(context, worker->status, "%s",
+                                 fg_context_message(worker->context));
+    if (i > 0)
+      fg_context_destroy(worker->context);
   }
+  fg__team_destroy(team);
   return status;
 }
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "base/folder_test.h"
+#include "file/folder_test.h"
 #include "flowgrain/energy.h"
 
 /* Samples and eigenvalues are kept in float. */

@@ -19,7 +19,7 @@ static int nearest_label(const fg_density_arrays *density, const int *label,
                          const int node[3], int reach)
 {
   int low[3], high[3], found = 0;
-  long least = 0;
+  int64_t least = 0;
   for (int k = 0; k < 3; ++k) {
     low[k] = node[k] > reach ? node[k] - reach : 0;
     high[k] =
@@ -31,8 +31,8 @@ static int nearest_label(const fg_density_arrays *density, const int *label,
         size_t at = ((size_t)z * (size_t)density->nodes[1] + (size_t)y) *
                         (size_t)density->nodes[0] +
                     (size_t)x;
-        long dx = x - node[0], dy = y - node[1], dz = z - node[2];
-        long square = dx * dx + dy * dy + dz * dz;
+        int64_t dx = x - node[0], dy = y - node[1], dz = z - node[2];
+        int64_t square = dx * dx + dy * dy + dz * dz;
         if (label[at] > 0 && (!found || square < least)) {
           least = square;
           found = label[at];

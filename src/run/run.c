@@ -1,35 +1,11 @@
-#include "flowgrain/run.h"
+#include "run/run.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 
 #include "base/context.h"
 #include "base/memory.h"
 #include "place/placement.h"
-#include "run/plan.h"
-
-struct fg_run {
-  fg_context *context;
-  const fg_field *field;
-  fg_evolution *evolution;
-  fg__plan plan;
-  fg_step step;  /* the last accepted one */
-  fg_step first; /* the first with a number of clusters; step 0: none yet */
-  int due;       /* numbers that the present state is the scale of, still to be taken */
-  bool rest;     /* the present state is one more, of no number */
-  bool closed;
-  int taken, last_clusters;
-  double max_time;
-  long max_steps;
-  fg_run_ending ending;
-  bool even_start;
-  fg_placement_options how;
-
-  /* of fg_run_next */
-  fg_placement *placement; /* NULL: not begun */
-  fg_run_scale scale;
-  fg_density *density;
-  fg_icons *icons, *finer;
-};
 
 static fg_status check(fg_context *context, const fg_run_options *o)
 {
@@ -46,8 +22,9 @@ static fg_status check(fg_context *context, const fg_run_options *o)
                       "scales: number %d is %d; they must descend, to 1 at least", k,
                       o->numbers[k]);
   if (!(o->max_time >= 0.0) || o->max_steps < 0)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "scales: limits of t = %g, %ld steps",
-                    o->max_time, o->max_steps);
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "scales: limits of t = %g, %" PRId64 " steps", o->max_time,
+                    o->max_steps);
   return FG_STATUS_OK;
 }
 
@@ -106,7 +83,7 @@ void fg_run_destroy(fg_run *run)
   free(run);
 }
 
-static fg_run_ending ending_of(const fg_run *s)
+fg_run_ending fg__run_ending(const fg_run *s)
 {
   if (fg__plan_done(&s->plan))
     return FG_RUN_ALL;
@@ -133,7 +110,7 @@ fg_status fg_run_step(fg_step *step, fg_run *run)
   if (s->step.clusters && !s->first.step)
     s->first = s->step;
   s->due = fg__plan_reach(&s->plan, s->step.clusters);
-  s->ending = ending_of(s);
+  s->ending = fg__run_ending(s);
   *step = s->step;
   return FG_STATUS_OK;
 }
@@ -194,42 +171,6 @@ void fg_run_progress(double *share, double *seconds_left, const fg_run *run)
 fg_evolution *fg_run_evolution(const fg_run *run)
 {
   return run->evolution;
-}
-
-void fg_run_describe(fg_run_record *out, const fg_run *run)
-{
-  const fg_run *s = run;
-  *out = (fg_run_record){.count = s->plan.count,
-                         .next = s->plan.next,
-                         .taken = s->taken,
-                         .last_clusters = s->last_clusters,
-                         .first = s->first};
-  for (int k = 0; k < s->plan.count; ++k)
-    out->wanted[k] = s->plan.wanted[k];
-}
-
-fg_status fg_run_resume(fg_step *step, fg_run *run, const fg_checkpoint *checkpoint,
-                        const fg_run_record *record)
-{
-  fg_run *s = run;
-  if (record->count < 0 || record->count > FG_MOST_SCALES || record->next < 0 ||
-      record->next > record->count)
-    return fg__fail(s->context, FG_STATUS_ARGUMENT,
-                    "scales: a record of %d numbers, %d of them behind", record->count,
-                    record->next);
-  fg_status status = fg_evolution_resume(s->evolution, &s->step, checkpoint);
-  if (status)
-    return status;
-  for (int k = 0; k < record->count; ++k)
-    s->plan.wanted[k] = record->wanted[k];
-  s->plan.count = record->count;
-  s->plan.next = record->next;
-  s->taken = record->taken;
-  s->last_clusters = record->last_clusters;
-  s->first = record->first;
-  s->ending = ending_of(s);
-  *step = s->step;
-  return FG_STATUS_OK;
 }
 
 fg_status fg_run_place(fg_icons **out, fg_context *context, fg_placement *placement,

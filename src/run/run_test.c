@@ -1,38 +1,5 @@
 /* A run of scales: what it gives is what its parts give, and it always ends. */
-#include "flowgrain/run.h"
-
-#include "base/context_test.h"
-
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-static fg_field *field_of(fg_context *context, const char *name)
-{
-  fg_field *field = NULL;
-  assert_int_equal(fg_field_create_analytic(&field, context, name, 33), FG_STATUS_OK);
-  return field;
-}
-
-static fg_run *run_of(fg_context *context, const fg_field *field,
-                      const fg_run_options *options)
-{
-  fg_run *run = NULL;
-  assert_int_equal(fg_run_create(&run, context, field, options), FG_STATUS_OK);
-  return run;
-}
-
-static void same_icons(const fg_icons *a, const fg_icons *b)
-{
-  assert_int_equal(fg_icons_count(a), fg_icons_count(b));
-  for (int n = 0; n < fg_icons_count(a); ++n) {
-    const fg_icon *one = fg_icons_at(a, n), *other = fg_icons_at(b, n);
-    assert_int_equal(one->point_count, other->point_count);
-    assert_memory_equal(one->points, other->points,
-                        (size_t)one->point_count * sizeof *one->points);
-    assert_int_equal(one->cluster, other->cluster);
-  }
-}
+#include "run/run_test.h"
 
 /* Clusters: each scale is the first state at or below its number, with the icons of its
  * density. */
@@ -145,50 +112,6 @@ static void a_run_that_falls_short_shows_what_it_has(void **state)
   fg_field_destroy(field);
 }
 
-/* A record and a checkpoint hold all that later scales follow from. */
-static void a_resumed_run_takes_the_same_scales(void **state)
-{
-  static const int numbers[] = {50, 20, 14};
-  fg_context *context = *state;
-  fg_field *field = field_of(context, "vortex3");
-  const fg_run_options options = {.kind = FG_RUN_CLUSTERS,
-                                  .numbers = numbers,
-                                  .count = 3,
-                                  .evolution = {.nodes = 97}};
-  char path[] = "run-test-XXXXXX";
-  int file = mkstemp(path);
-  assert_true(file >= 0);
-  close(file);
-  unlink(path);
-  fg_run *run = run_of(context, field, &options), *later;
-  const fg_run_scale *scale, *other;
-  fg_step step;
-  fg_run_record record;
-  fg_checkpoint *checkpoint = NULL;
-  assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
-  assert_int_equal(fg_run_step(&step, run), FG_STATUS_OK);
-  fg_run_describe(&record, run);
-  assert_int_equal(fg_evolution_save(fg_run_evolution(run), path, ""), FG_STATUS_OK);
-  assert_int_equal(fg_checkpoint_open(&checkpoint, context, path), FG_STATUS_OK);
-  later = run_of(context, field, &options);
-  assert_int_equal(fg_run_resume(&step, later, checkpoint, &record), FG_STATUS_OK);
-  do {
-    assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
-    assert_int_equal(fg_run_next(&other, later), FG_STATUS_OK);
-    assert_true(!scale == !other);
-    if (scale) {
-      assert_int_equal(scale->index, other->index);
-      assert_int_equal(scale->step.step, other->step.step);
-      same_icons(scale->icons, other->icons);
-    }
-  } while (scale);
-  fg_checkpoint_destroy(checkpoint);
-  fg_run_destroy(later);
-  fg_run_destroy(run);
-  fg_field_destroy(field);
-  unlink(path);
-}
-
 static void wrong_numbers_are_refused(void **state)
 {
   static const int rising[] = {20, 21}, none[] = {5, 0};
@@ -220,8 +143,6 @@ int main(void)
                                       context_tear_down),
       cmocka_unit_test_setup_teardown(a_run_that_falls_short_shows_what_it_has,
                                       context_set_up, context_tear_down),
-      cmocka_unit_test_setup_teardown(a_resumed_run_takes_the_same_scales, context_set_up,
-                                      context_tear_down),
       cmocka_unit_test_setup_teardown(wrong_numbers_are_refused, context_set_up,
                                       context_tear_down),
   };

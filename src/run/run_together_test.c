@@ -55,14 +55,12 @@ static void check(const char *name, fg_run_kind kind)
                                   .count = NUMBERS,
                                   .evolution = {.nodes = 97, .seed = 3},
                                   .placement = {.effort = FG_EFFORT_QUICK}};
-  const fg__ranks *alone;
   fg_field *field = NULL;
   fg_run *run = NULL;
   const fg_run_scale *scale = NULL;
   reference r = {.evolution = NULL};
-  expect(fg__ranks_alone(&alone, us.context) == FG_STATUS_OK);
   expect(fg_field_create_analytic(&field, us.context, name, 33) == FG_STATUS_OK);
-  expect(fg__evolution_create(&r.evolution, us.context, alone, field,
+  expect(fg__evolution_create(&r.evolution, us.context, &fg__single_rank, field,
                               &options.evolution) == FG_STATUS_OK);
   expect(fg_placement_create(&r.placement, us.context, field, &options.placement) ==
          FG_STATUS_OK);

@@ -183,8 +183,9 @@ fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
                                double gamma, fg__team *team)
 {
   const fg__ranks *ranks = mesh->ranks;
-  *out = (fg__multigrid){
-      .kernel = fg__kernel_choose(mesh->dimension), .ranks = ranks, .team = team};
+  *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension, FG_VECTORS_WIDEST),
+                         .ranks = ranks,
+                         .team = team};
   fg_status status = fg__partition_copy(&out->partition, context, &mesh->partition);
   status = fg__ranks_agree(ranks, context, status);
   if (!status && ranks->count > 1) {

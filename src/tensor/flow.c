@@ -1,12 +1,13 @@
 #include <math.h>
 
+#include "tensor/length.h"
 #include "tensor/tensor.h"
 
 /* Garcke et al. 2000, section 3: an interface across the streamline costs 1, along it a.
  * Where the velocity vanishes there is no direction to prefer, and a tends to 1. */
 void fg__tensor_along(double tensor[6], const double direction[3], double anisotropy)
 {
-  double speed = hypot(hypot(direction[0], direction[1]), direction[2]);
+  double speed = fg__length(direction[0], direction[1], direction[2]);
   if (!(speed > 0.0)) {
     fg__tensor_unit(tensor);
     return;
@@ -27,7 +28,7 @@ static double weight_of(const fg_energy_place *place, double isotropic_below)
 {
   double v[3] = {0.0, 0.0, 0.0};
   fg_field_velocity(place->field, place->position, v);
-  double speed = hypot(hypot(v[0], v[1]), v[2]);
+  double speed = fg__length(v[0], v[1], v[2]);
   return fmin(fg__full_coherence * speed / isotropic_below, 1.0);
 }
 

@@ -1,5 +1,6 @@
 #include <math.h>
 
+#include "tensor/length.h"
 #include "tensor/tensor.h"
 
 /* Samples are floats: a change of the speed below some units of their last place is none.
@@ -16,7 +17,7 @@ static double speed_beside(const fg_energy_place *place, int axis, double step,
   at[axis] += step;
   bool inside = fg_field_velocity(place->field, at, v);
   *reached = inside ? step : 0.0;
-  return inside ? hypot(hypot(v[0], v[1]), v[2]) : here;
+  return inside ? fg__length(v[0], v[1], v[2]) : here;
 }
 
 /* The paper's closing section: along the level sets of a scalar interfaces cost a, across
@@ -28,7 +29,7 @@ static void tensor_at(double tensor[6], const fg_energy_place *place, const void
   int dimension = fg_field_contents(place->field)->dimension;
   double v[3] = {0.0, 0.0, 0.0}, e[3] = {0.0, 0.0, 0.0};
   fg_field_velocity(place->field, place->position, v);
-  double here = hypot(hypot(v[0], v[1]), v[2]), change = 0.0;
+  double here = fg__length(v[0], v[1], v[2]), change = 0.0;
   for (int k = 0; k < 3 && k < dimension; ++k) {
     double low, high, half = 0.5 * place->spacing[k];
     double above = speed_beside(place, k, half, here, &high);
@@ -37,7 +38,7 @@ static void tensor_at(double tensor[6], const fg_energy_place *place, const void
     if (high > low)
       e[k] = (above - below) / (high - low);
   }
-  double slope = hypot(hypot(e[0], e[1]), e[2]);
+  double slope = fg__length(e[0], e[1], e[2]);
   fg__tensor_unit(tensor);
   if (!(slope > 0.0 && change > least_change * here))
     return;

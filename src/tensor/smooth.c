@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "tensor/eigenvalues.h"
+#include "tensor/length.h"
 #include "tensor/tensor.h"
 
 /* Beyond three standard deviations a Gaussian holds 0.3 % of its weight. */
@@ -140,11 +141,11 @@ static void rebuild_2d(fg__tensor *tensor, size_t n, double anisotropy)
 {
   double x = (double)(tensor->xx[n] / tensor->yy[n]);
   double y = (double)(tensor->xy[n] / tensor->yy[n]);
-  double length = hypot(x, y) / (1.0 - anisotropy);
+  double length = fg__length(x, y, 0.0) / (1.0 - anisotropy);
   double share = fmin(length / fg__full_coherence, 1.0);
   double contrast = (1.0 - anisotropy) * share;
-  double cosine = length > 0.0 ? x / hypot(x, y) : 0.0;
-  double sine = length > 0.0 ? y / hypot(x, y) : 0.0;
+  double cosine = length > 0.0 ? x / fg__length(x, y, 0.0) : 0.0;
+  double sine = length > 0.0 ? y / fg__length(x, y, 0.0) : 0.0;
   tensor->xx[n] = (float)(1.0 - 0.5 * contrast * (1.0 - cosine));
   tensor->yy[n] = (float)(1.0 - 0.5 * contrast * (1.0 + cosine));
   tensor->xy[n] = (float)(0.5 * contrast * sine);

@@ -1,6 +1,7 @@
 #include <math.h>
 
 #include "tensor/eigenvalues.h"
+#include "tensor/length.h"
 #include "tensor/tensor.h"
 
 /* in the order of fg_energy */
@@ -40,10 +41,10 @@ static double center_of(const fg__cells *cells, int k, int n)
 }
 
 /* Fills one row of cells along x, from cell on; returns how many are active. */
-static long fill_row(fg__tensor *tensor, const fg_energy_law *law, fg_energy_place *place,
-                     const fg__cells *cells, size_t cell)
+static int64_t fill_row(fg__tensor *tensor, const fg_energy_law *law,
+                        fg_energy_place *place, const fg__cells *cells, size_t cell)
 {
-  long active = 0;
+  int64_t active = 0;
   for (int i = 0; i < cells->count[0]; ++i, ++cell) {
     double a[6] = {0.0};
     place->position[0] = center_of(cells, 0, i);
@@ -79,7 +80,7 @@ typedef struct filling {
   const fg_energy_law *law;
   double anisotropy;
   const fg__cells *cells;
-  long active[FG__MOST_MEMBERS];
+  int64_t active[FG__MOST_MEMBERS];
 } filling;
 
 static void fill_part(void *argument, const fg__share *share)
@@ -87,7 +88,7 @@ static void fill_part(void *argument, const fg__share *share)
   filling *f = argument;
   const fg__cells *cells = f->cells;
   int begin, end, height = cells->count[1];
-  long active = 0;
+  int64_t active = 0;
   fg__team_part(share, height * fg__layers(cells), 1, &begin, &end);
   for (int row = begin; row < end; ++row) {
     fg_energy_place place = {.field = f->field,
@@ -110,7 +111,7 @@ static bool ends_of(const fg__tensor *t, size_t n, int dimension, double *least,
 {
   double a[6] = {(double)t->xx[n], (double)t->xy[n], (double)t->yy[n], 0.0, 0.0, 0.0};
   if (dimension == 2) {
-    double mean = 0.5 * (a[0] + a[2]), half = hypot(0.5 * (a[0] - a[2]), a[1]);
+    double mean = 0.5 * (a[0] + a[2]), half = fg__length(0.5 * (a[0] - a[2]), a[1], 0.0);
     *least = mean - half;
     *greatest = mean + half;
   } else {
@@ -174,7 +175,7 @@ fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_fiel
                .anisotropy = anisotropy,
                .cells = cells};
   fg__team_run(team, fill_part, &f);
-  long active = 0;
+  int64_t active = 0;
   for (int n = 0; n < FG__MOST_MEMBERS; ++n)
     active += f.active[n];
   if (active > 0 || !is_whole(cells))

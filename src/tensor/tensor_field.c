@@ -1,4 +1,5 @@
 #include "tensor/tensor_field.h"
+#include "tensor/length.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -35,7 +36,7 @@ static bool sample_at(double a[6], const fg_tensors *t, size_t n)
 static void ends_of(const double a[6], int dimension, double *least, double *greatest)
 {
   if (dimension == 2) {
-    double half = hypot(0.5 * (a[0] - a[2]), a[1]), mean = 0.5 * (a[0] + a[2]);
+    double half = fg__length(0.5 * (a[0] - a[2]), a[1], 0.0), mean = 0.5 * (a[0] + a[2]);
     *least = mean - half;
     *greatest = mean + half;
     return;

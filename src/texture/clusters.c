@@ -36,15 +36,13 @@ static fg_status evolve(fg_density **out, fg_context *context, const fg__canvas 
                         bool (*enough)(const fg_step *step, const fg_mesh_info *mesh,
                                        const fg__canvas *canvas))
 {
-  const fg__ranks *ranks;
   fg_evolution *evolution = NULL;
   fg_step step;
   *out = NULL;
   fg_evolution_options uniform = *options; /* as fine as the pixels to the end */
   uniform.mesh = FG_MESH_UNIFORM;
-  fg_status status = fg__ranks_alone(&ranks, context);
-  if (!status)
-    status = fg__evolution_create(&evolution, context, ranks, canvas->field, &uniform);
+  fg_status status = fg__evolution_create(&evolution, context, &fg__single_rank,
+                                          canvas->field, &uniform);
   do {
     if (!status)
       status = fg_evolution_step(evolution, &step);
@@ -113,15 +111,15 @@ fg_status fg__clusters_paint(float *value, fg_context *context, const fg__canvas
 static fg_status find_mesh(fg__mesh *out, fg_context *context, const fg_field *field,
                            int nodes)
 {
-  fg__mesh_description description = {.dimension = 2, .nodes = nodes};
-  fg_status status = fg__ranks_alone(&description.ranks, context);
+  fg__mesh_description description = {
+      .dimension = 2, .nodes = nodes, .ranks = &fg__single_rank};
   for (int k = 0; k < 2; ++k) {
     const fg__axis *axis = &field->axis[k];
     description.origin[k] = axis->coordinate[0];
     description.side[k] = axis->coordinate[axis->cells] - axis->coordinate[0];
     description.periodic[k] = axis->period > 0.0;
   }
-  return status ? status : fg__mesh_create(out, context, &description);
+  return fg__mesh_create(out, context, &description);
 }
 
 /* Noise of weak_noise about 0, at every node. */

@@ -2,7 +2,7 @@
  * of every array, and rank 0 writes them as they come: the same bytes on any ranks. */
 #include "density/density.h"
 #include "base/memory.h"
-#include "base/number_text.h"
+#include "file/number_text.h"
 #include "write/vti.h"
 
 #include <limits.h>

@@ -1,4 +1,4 @@
-#include "base/folder_test.h"
+#include "file/folder_test.h"
 #include "read/vtk/vtk.h"
 
 static fg__vtk_values values_of(const fg__vtk *vti, fg__vtk_place place, const char *name)

@@ -1,6 +1,6 @@
 /* Fields as VTK XML image data or as NetCDF. */
 #include "base/memory.h"
-#include "base/number_text.h"
+#include "file/number_text.h"
 #include "write/field_close.h"
 #include "write/netcdf/netcdf.h"
 #include "write/vti.h"

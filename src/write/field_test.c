@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "base/folder_test.h"
+#include "file/folder_test.h"
 
 /* More than one zlib block, and not a whole number of them. */
 enum { NX = 131, NY = 77, COUNT = NX * NY };

@@ -1,7 +1,7 @@
 /* Icons as GeoJSON (RFC 7946): a LineString each, from tail to head. Coordinates are the
  * input's own, which the RFC wants to be longitude and latitude only. */
-#include "base/number_text.h"
-#include "base/whole_file.h"
+#include "file/number_text.h"
+#include "file/whole_file.h"
 #include "icon/icons.h"
 
 #include <math.h>

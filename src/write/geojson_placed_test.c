@@ -1,5 +1,5 @@
 /* What placed icons have in their file beyond those of clusters. */
-#include "base/folder_test.h"
+#include "file/folder_test.h"
 #include "icon/icons.h"
 #include "place/placed_test.h"
 

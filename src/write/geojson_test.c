@@ -1,7 +1,7 @@
 #include <dirent.h>
 #include <math.h>
 
-#include "base/folder_test.h"
+#include "file/folder_test.h"
 #include "icon/icons.h"
 
 static int set_up(void **state)

@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/number_text.h"
-#include "base/whole_file.h"
+#include "file/number_text.h"
+#include "file/whole_file.h"
 #include "picture/caption.h"
 #include "picture/palette.h"
 

@@ -2,7 +2,7 @@
 
 #include <cjson/cJSON.h>
 
-#include "base/folder_test.h"
+#include "file/folder_test.h"
 #include "icon/icons.h"
 
 static int set_up(void **state)

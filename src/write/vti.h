@@ -4,7 +4,7 @@
 #define FG__VTI_WRITE_H
 
 #include "base/context.h"
-#include "base/whole_file.h"
+#include "file/whole_file.h"
 
 #include <stdint.h>
 

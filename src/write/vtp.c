@@ -1,8 +1,8 @@
 #include "write/vtp.h"
 
 #include "base/memory.h"
-#include "base/number_text.h"
-#include "base/whole_file.h"
+#include "file/number_text.h"
+#include "file/whole_file.h"
 #include "write/vti.h"
 
 #include <limits.h>

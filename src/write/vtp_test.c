@@ -4,7 +4,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "base/base64.h"
+#include "file/base64.h"
 #include "base/context_test.h"
 #include "icon/icons.h"
 #include "write/vtp.h"

@@ -35,6 +35,11 @@ wrong 'say one' run a -o x --resume --force
 done_with "--resume and --force exclude each other"
 wrong 'checkpoint -1: a number in .0, 1e.09.' run a -o x --checkpoint -1
 done_with "seconds between checkpoints are not negative"
+FLOWGRAIN_KERNEL=bogus try run synth:vortex -o x
+expect_code 1
+expect_error 'FLOWGRAIN_KERNEL=bogus: generic, avx2 and avx512 are known'
+expect_nothing_at x
+done_with "vector instructions that nobody knows"
 wrong '--nodes.*missing' run a -o x --nodes
 done_with "missing argument"
 wrong '^flowgrain: -o: its DIR is missing$' run a -o

@@ -53,7 +53,7 @@ enum {
 /* The evolution's own state, beside the stepper's. */
 typedef struct counts {
   double area_fraction, seconds;
-  long earlier_steps;
+  int64_t earlier_steps;
   int clusters;
   bool counting;
 } counts;
@@ -62,7 +62,7 @@ static const fg__named_value count_values[] = {
     {"evolution.area_fraction", FG__VALUE_REAL, offsetof(counts, area_fraction)},
     {"evolution.clusters", FG__VALUE_INTEGER, offsetof(counts, clusters)},
     {"evolution.counting", FG__VALUE_FLAG, offsetof(counts, counting)},
-    {"evolution.earlier_steps", FG__VALUE_LONG, offsetof(counts, earlier_steps)},
+    {"evolution.earlier_steps", FG__VALUE_INT64, offsetof(counts, earlier_steps)},
     {"evolution.seconds", FG__VALUE_REAL, offsetof(counts, seconds)},
 };
 enum { COUNTS = sizeof count_values / sizeof count_values[0] };
@@ -292,9 +292,7 @@ fg_status fg_checkpoint_open(fg_checkpoint **out, fg_context *context, const cha
   if (!out || !path)
     return fg__fail(context, FG_STATUS_ARGUMENT, "checkpoint: a NULL argument");
   *out = NULL;
-  const fg__ranks *ranks;
-  fg_status status = fg__ranks_all(&ranks, context);
-  return status ? status : fg__checkpoint_open(out, context, path, ranks);
+  return fg__checkpoint_open(out, context, path, fg__ranks_of(context));
 }
 
 fg_status fg__checkpoint_open(fg_checkpoint **out, fg_context *context, const char *path,
@@ -343,7 +341,7 @@ static int halvings_of(const fg_checkpoint *checkpoint)
 {
   size_t length;
   const char *value = fg__value_find(checkpoint->file.text, "halvings", &length);
-  long halvings = value ? strtol(value, NULL, 10) : 0;
+  int64_t halvings = value ? strtol(value, NULL, 10) : 0;
   return halvings > 0 && halvings < 32 ? (int)halvings : 0;
 }
 

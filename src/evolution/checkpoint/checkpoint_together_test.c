@@ -35,14 +35,6 @@ enum {
 /* Names in a folder that rank 0 makes, the same on all ranks. */
 static char folder[64], path[96], previous[128], part[128], other[128];
 
-static const fg__ranks *one(void)
-{
-  const fg__ranks *alone;
-  if (fg__ranks_alone(&alone, us.context) != FG_STATUS_OK)
-    abort();
-  return alone;
-}
-
 static void forget(void)
 {
   fg__ranks_agree(us.ranks, us.context, FG_STATUS_OK); /* wait for all */
@@ -147,7 +139,8 @@ static void written_by_any_read_by_any(void **state)
   for (int n = 0; n < SUBJECT_COUNT; ++n) {
     const subject *s = &SUBJECTS[n];
     fg_field *field = field_of(s);
-    fg_evolution *all = begin(s, field, us.ranks), *alone = begin(s, field, one());
+    fg_evolution *all = begin(s, field, us.ranks),
+                 *alone = begin(s, field, &fg__single_rank);
     advance(all, BEFORE);
     fg_step left = advance(alone, BEFORE), step;
     expect(fg_evolution_save(all, path, "a note") == FG_STATUS_OK);
@@ -161,7 +154,7 @@ static void written_by_any_read_by_any(void **state)
     expect_same(&step, &left);
     step = advance(by_all, AFTER);
     expect_same(&step, &expected);
-    fg_evolution *by_one = resume(s, field, one(), path, &step);
+    fg_evolution *by_one = resume(s, field, &fg__single_rank, path, &step);
     expect_same(&step, &left);
     step = advance(by_one, AFTER);
     expect_same(&step, &expected);

@@ -6,9 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/checksum.h"
 #include "base/context_test.h"
 #include "evolution/checkpoint/file.h"
+#include "file/checksum.h"
 
 /* A grid of 7 x 5 x 3 nodes cut into three boxes, and a coarser one in a single box. */
 enum { NX = 7, NY = 5, NZ = 3, COARSE_NX = 4, COARSE_NY = 2, BOXES = 3, RECORDS = 4 };

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number_text.h"
+#include "file/number_text.h"
 
 static size_t size_of(fg__value_kind kind)
 {
@@ -15,8 +15,8 @@ static size_t size_of(fg__value_kind kind)
     return sizeof(double);
   case FG__VALUE_INTEGER:
     return sizeof(int);
-  case FG__VALUE_LONG:
-    return sizeof(long);
+  case FG__VALUE_INT64:
+    return sizeof(int64_t);
   case FG__VALUE_FLAG:
     return sizeof(bool);
   case FG__VALUE_COUNT:
@@ -35,7 +35,7 @@ static void print(char text[FG__VALUE_TEXT_BYTES], const fg__named_value *value,
                   const void *from)
 {
   uint64_t bits = 0;
-  long number = 0;
+  int64_t number = 0;
   const void *source = at(value, from);
   switch (value->kind) {
   case FG__VALUE_REAL:
@@ -50,14 +50,14 @@ static void print(char text[FG__VALUE_TEXT_BYTES], const fg__named_value *value,
   case FG__VALUE_INTEGER:
     number = *(const int *)source;
     break;
-  case FG__VALUE_LONG:
-    number = *(const long *)source;
+  case FG__VALUE_INT64:
+    number = *(const int64_t *)source;
     break;
   case FG__VALUE_FLAG:
     number = *(const bool *)source;
     break;
   }
-  snprintf(text, FG__VALUE_TEXT_BYTES, "%ld", number);
+  snprintf(text, FG__VALUE_TEXT_BYTES, "%" PRId64, number);
 }
 
 void fg__values_print(FILE *stream, const fg__named_value *values, size_t count,
@@ -102,11 +102,11 @@ static bool scan_count(uint64_t *count, const char *text)
          value <= UINT64_MAX;
 }
 
-static bool scan_number(long *number, long least, long most, const char *text)
+static bool scan_number(int64_t *number, int64_t least, int64_t most, const char *text)
 {
   char *end;
   errno = 0;
-  *number = strtol(text, &end, 10);
+  *number = strtoll(text, &end, 10);
   return end != text && !*end && !errno && *number >= least && *number <= most;
 }
 
@@ -114,7 +114,7 @@ static bool scan(const char *text, const fg__named_value *value, void *to)
 {
   void *target = (char *)to + value->place;
   uint64_t bits;
-  long number;
+  int64_t number;
   switch (value->kind) {
   case FG__VALUE_REAL:
   case FG__VALUE_BITS:
@@ -132,10 +132,10 @@ static bool scan(const char *text, const fg__named_value *value, void *to)
       return false;
     *(int *)target = (int)number;
     return true;
-  case FG__VALUE_LONG:
-    if (!scan_number(&number, LONG_MIN, LONG_MAX, text))
+  case FG__VALUE_INT64:
+    if (!scan_number(&number, INT64_MIN, INT64_MAX, text))
       return false;
-    *(long *)target = number;
+    *(int64_t *)target = number;
     return true;
   case FG__VALUE_FLAG:
     if (!scan_number(&number, 0, 1, text))

@@ -10,7 +10,7 @@
 typedef enum fg__value_kind {
   FG__VALUE_REAL,    /* double: the 16 hexadecimal digits of its bits */
   FG__VALUE_INTEGER, /* int, in decimals */
-  FG__VALUE_LONG,    /* long, in decimals */
+  FG__VALUE_INT64,   /* int64_t, in decimals */
   FG__VALUE_COUNT,   /* uint64_t, in decimals */
   FG__VALUE_FLAG,    /* bool: 0 or 1 */
   FG__VALUE_BITS     /* uint64_t that means nothing to people, 16 hexadecimal digits */

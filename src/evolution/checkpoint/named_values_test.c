@@ -11,7 +11,7 @@
 typedef struct sample {
   double real;
   int integer;
-  long number;
+  int64_t number;
   uint64_t count, bits;
   bool flag;
 } sample;
@@ -19,7 +19,7 @@ typedef struct sample {
 static const fg__named_value values[] = {
     {"real", FG__VALUE_REAL, offsetof(sample, real)},
     {"integer", FG__VALUE_INTEGER, offsetof(sample, integer)},
-    {"long", FG__VALUE_LONG, offsetof(sample, number)},
+    {"long", FG__VALUE_INT64, offsetof(sample, number)},
     {"count", FG__VALUE_COUNT, offsetof(sample, count)},
     {"bits", FG__VALUE_BITS, offsetof(sample, bits)},
     {"flag", FG__VALUE_FLAG, offsetof(sample, flag)},

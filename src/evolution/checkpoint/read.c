@@ -1,14 +1,15 @@
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/checksum.h"
 #include "base/memory.h"
 #include "evolution/checkpoint/layout.h"
 #include "evolution/checkpoint/runs.h"
+#include "file/checksum.h"
 
 static fg_status fail_access(fg_context *context, const char *path)
 {
@@ -271,7 +272,7 @@ fg_status fg__checkpoint_read_box(const fg__checkpoint_file *file, fg_context *c
                                   const char *array, int grid, const fg__box *box,
                                   float *values)
 {
-  long found = 0;
+  int64_t found = 0;
   fg_status status = FG_STATUS_OK;
   for (size_t n = 0; n < file->record_count; ++n) {
     const fg__box_record *r = &file->record[n];
@@ -293,6 +294,7 @@ fg_status fg__checkpoint_read_box(const fg__checkpoint_file *file, fg_context *c
   if (found == fg__box_count(box))
     return FG_STATUS_OK;
   return fg__fail(context, FG_STATUS_FILE_FORMAT,
-                  "%s: has the values of '%s' at %ld of the %ld nodes wanted of grid %d",
+                  "%s: has the values of '%s' at %" PRId64 " of the %" PRId64
+                  " nodes wanted of grid %d",
                   file->path, array, found, fg__box_count(box), grid);
 }

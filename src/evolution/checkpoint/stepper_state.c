@@ -13,10 +13,10 @@
 /* What is not here follows from field and options: sums over the domain, the mean that is
  * held, the bounds of steps. */
 const fg__named_value fg__stepper_values[] = {
-    VALUE(accepted, LONG),    VALUE(rejected, LONG), VALUE(cycles_spent, LONG),
-    VALUE(quiet_steps, LONG), VALUE(history, FLAG),  VALUE(time, REAL),
-    VALUE(tau, REAL),         VALUE(last_tau, REAL), VALUE(tau_limit, REAL),
-    VALUE(energy, REAL),      VALUE(mass, REAL),     VALUE(increment, REAL),
+    VALUE(accepted, INT64),    VALUE(rejected, INT64), VALUE(cycles_spent, INT64),
+    VALUE(quiet_steps, INT64), VALUE(history, FLAG),   VALUE(time, REAL),
+    VALUE(tau, REAL),          VALUE(last_tau, REAL),  VALUE(tau_limit, REAL),
+    VALUE(energy, REAL),       VALUE(mass, REAL),      VALUE(increment, REAL),
     VALUE(persistence, REAL),
 };
 const size_t fg__stepper_value_count =

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "base/checksum.h"
 #include "base/memory.h"
 #include "evolution/checkpoint/layout.h"
 #include "evolution/checkpoint/runs.h"
+#include "file/checksum.h"
 
 static fg_status fail(fg_context *context, const char *path)
 {

@@ -32,13 +32,13 @@ static int share(int count, int first_odd, int odd)
   return (count + (first_odd == odd)) / 2;
 }
 
-long fg__brick_count(const fg__brick *brick, unsigned colours)
+int64_t fg__brick_count(const fg__brick *brick, unsigned colours)
 {
   const int *nodes = brick->nodes.nodes;
-  long sum = 0;
+  int64_t sum = 0;
   for (int colour = 0; colour < 8; ++colour)
     if (colours >> colour & 1U)
-      sum += (long)share(nodes[0], brick->odd[0], colour & 1) *
+      sum += (int64_t)share(nodes[0], brick->odd[0], colour & 1) *
              share(nodes[1], brick->odd[1], colour >> 1 & 1) *
              share(nodes[2], brick->odd[2], colour >> 2 & 1);
   return sum;

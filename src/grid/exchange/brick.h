@@ -2,6 +2,8 @@
 #ifndef FG__BRICK_H
 #define FG__BRICK_H
 
+#include <stdint.h>
+
 #include "grid/box.h"
 #include "grid/layout.h"
 
@@ -12,7 +14,7 @@ typedef struct fg__brick {
 } fg__brick;
 
 /* How many of a brick's nodes have a colour of the set (layout.h). */
-long fg__brick_count(const fg__brick *brick, unsigned colours);
+int64_t fg__brick_count(const fg__brick *brick, unsigned colours);
 
 /* Writes those nodes one after the other; returns the end of what was written. */
 float *fg__brick_pack(const fg__brick *brick, const fg__layout *layout,

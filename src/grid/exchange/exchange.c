@@ -1,23 +1,17 @@
 #include "grid/exchange/plan.h"
 
-enum { TAG = 1 };
-
 static void post_receives(fg__exchange *e)
 {
-  MPI_Comm communicator = fg__communicator(e->ranks);
   for (int n = 0; n < e->receivers.count; ++n) {
     const fg__neighbour *l = &e->receivers.neighbour[n];
-    long nodes = fg__neighbour_nodes(l, e->colours) * e->arrays;
-    e->receivers.request[n] = MPI_REQUEST_NULL;
-    if (nodes > 0)
-      MPI_Irecv(l->buffer, (int)nodes, MPI_FLOAT, l->rank, TAG, communicator,
-                &e->receivers.request[n]);
+    int64_t nodes = fg__neighbour_nodes(l, e->colours) * e->arrays;
+    fg__request_receive(e->ranks, e->receivers.requests, n, l->buffer, (int)nodes,
+                        l->rank);
   }
 }
 
 static void post_sends(fg__exchange *e)
 {
-  MPI_Comm communicator = fg__communicator(e->ranks);
   for (int n = 0; n < e->senders.count; ++n) {
     const fg__neighbour *l = &e->senders.neighbour[n];
     float *end = l->buffer;
@@ -27,12 +21,9 @@ static void post_sends(fg__exchange *e)
         end = fg__brick_pack(from, &e->layout, e->array[a], e->colours, end);
       }
     ptrdiff_t nodes = end - l->buffer;
-    e->senders.request[n] = MPI_REQUEST_NULL;
-    if (nodes == 0)
-      continue;
-    MPI_Isend(l->buffer, (int)nodes, MPI_FLOAT, l->rank, TAG, communicator,
-              &e->senders.request[n]);
-    fg__traffic_add_message(e->ranks->book, (size_t)nodes * sizeof(float));
+    fg__request_send(e->ranks, e->senders.requests, n, l->buffer, (int)nodes, l->rank);
+    if (nodes > 0)
+      fg__traffic_add_message(e->ranks->book, (size_t)nodes * sizeof(float));
   }
 }
 
@@ -56,7 +47,7 @@ void fg__exchange_begin(fg__exchange *exchange, int count, float *const array[],
 void fg__exchange_finish(fg__exchange *exchange)
 {
   fg__exchange *e = exchange;
-  MPI_Waitall(e->receivers.count, e->receivers.request, MPI_STATUSES_IGNORE);
+  fg__requests_wait(e->ranks, e->receivers.requests, e->receivers.count);
   for (int n = 0; n < e->receivers.count; ++n) {
     const fg__neighbour *l = &e->receivers.neighbour[n];
     const float *next = l->buffer;
@@ -66,5 +57,5 @@ void fg__exchange_finish(fg__exchange *exchange)
         next = fg__brick_unpack(to, &e->layout, e->array[a], e->colours, next);
       }
   }
-  MPI_Waitall(e->senders.count, e->senders.request, MPI_STATUSES_IGNORE);
+  fg__requests_wait(e->ranks, e->senders.requests, e->senders.count);
 }

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "grid/communicator.h"
 #include "grid/exchange/brick.h"
 
 struct fg__gather {
@@ -95,8 +94,7 @@ void fg__gather_fill(fg__gather *gather, int count, float *const array[],
   }
   fg__traffic_add_gather(g->ranks->book, (size_t)(offset - g->count[g->ranks->rank]) *
                                              sizeof *g->received);
-  MPI_Allgatherv(g->sent, g->count[g->ranks->rank], MPI_FLOAT, g->received, g->count,
-                 g->offset, MPI_FLOAT, fg__communicator(g->ranks));
+  fg__ranks_gather(g->ranks, g->sent, g->received, g->count, g->offset);
   const float *next = g->received;
   for (int rank = 0; rank < g->ranks->count; ++rank)
     for (int a = 0; a < count; ++a)

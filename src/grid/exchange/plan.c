@@ -90,14 +90,15 @@ static bool find_pieces(fg__exchange *e, const fg__partition *level)
   return done;
 }
 
-static bool add_neighbours(fg__neighbours *out, const fg__pieces *list, bool sent)
+static bool add_neighbours(fg__neighbours *out, const fg__ranks *ranks,
+                           const fg__pieces *list, bool sent)
 {
   int count = 0;
   for (size_t n = 0; n < list->count; ++n)
     count += n == 0 || list->piece[n].rank != list->piece[n - 1].rank;
   out->neighbour = fg__allocate((size_t)count, sizeof *out->neighbour);
-  out->request = fg__allocate((size_t)count, sizeof(MPI_Request));
-  if (!out->neighbour || !out->request)
+  out->requests = fg__requests_create(ranks, count);
+  if (!out->neighbour || !out->requests)
     return false;
   for (size_t n = 0; n < list->count; ++n) {
     const fg__exchange_piece *p = &list->piece[n];
@@ -111,9 +112,9 @@ static bool add_neighbours(fg__neighbours *out, const fg__pieces *list, bool sen
   return true;
 }
 
-long fg__neighbour_nodes(const fg__neighbour *l, unsigned colours)
+int64_t fg__neighbour_nodes(const fg__neighbour *l, unsigned colours)
 {
-  long sum = 0;
+  int64_t sum = 0;
   for (int colour = 0; colour < 8; ++colour)
     if (colours >> colour & 1U)
       sum += l->count[colour];
@@ -123,7 +124,7 @@ long fg__neighbour_nodes(const fg__neighbour *l, unsigned colours)
 static bool take_buffers(fg__exchange *e)
 {
   fg__neighbours *both[2] = {&e->senders, &e->receivers};
-  long size = 0;
+  int64_t size = 0;
   for (int s = 0; s < 2; ++s)
     for (int n = 0; n < both[s]->count; ++n)
       size +=
@@ -144,8 +145,8 @@ static bool take_buffers(fg__exchange *e)
 static bool make_plan(fg__exchange *e, const fg__partition *level)
 {
   e->layout = fg__layout_of(level->dimension, fg__own_block(level)->nodes);
-  return find_pieces(e, level) && add_neighbours(&e->senders, &e->sent, true) &&
-         add_neighbours(&e->receivers, &e->received, false) && take_buffers(e);
+  return find_pieces(e, level) && add_neighbours(&e->senders, e->ranks, &e->sent, true) &&
+         add_neighbours(&e->receivers, e->ranks, &e->received, false) && take_buffers(e);
 }
 
 fg_status fg__exchange_create(fg__exchange **out, fg_context *context,
@@ -175,9 +176,9 @@ void fg__exchange_destroy(fg__exchange *exchange)
   free(exchange->sent.piece);
   free(exchange->received.piece);
   free(exchange->senders.neighbour);
-  free(exchange->senders.request);
+  free(exchange->senders.requests);
   free(exchange->receivers.neighbour);
-  free(exchange->receivers.request);
+  free(exchange->receivers.requests);
   free(exchange->buffers);
   free(exchange);
 }

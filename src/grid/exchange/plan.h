@@ -2,7 +2,6 @@
 #ifndef FG__EXCHANGE_PLAN_H
 #define FG__EXCHANGE_PLAN_H
 
-#include "grid/communicator.h"
 #include "grid/exchange/brick.h"
 #include "grid/exchange/exchange.h"
 
@@ -20,14 +19,14 @@ typedef struct fg__pieces {
 typedef struct fg__neighbour {
   int rank;
   size_t first, end; /* of pieces, sent or received */
-  long count[8];     /* nodes of each colour */
+  int64_t count[8];  /* nodes of each colour */
   float *buffer;
 } fg__neighbour;
 
 typedef struct fg__neighbours {
   fg__neighbour *neighbour;
   int count;
-  MPI_Request *request;
+  void *requests; /* of fg__requests_create */
 } fg__neighbours;
 
 struct fg__exchange {
@@ -44,6 +43,6 @@ struct fg__exchange {
 };
 
 /* Nodes whose values go to or come from a neighbour. */
-long fg__neighbour_nodes(const fg__neighbour *neighbour, unsigned colours);
+int64_t fg__neighbour_nodes(const fg__neighbour *neighbour, unsigned colours);
 
 #endif

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "grid/communicator.h"
 
 /* What one block holds of a region, or of its image a period on. */
 typedef struct piece {
@@ -123,12 +122,8 @@ static void exchange(const fg__ranks *ranks, size_t size, const void *to_send,
     if (r != ranks->rank && sent[r] > 0)
       fg__traffic_add_message(ranks->book, (size_t)sent[r] * size);
   fg__traffic_add_exchange(ranks->book);
-  MPI_Datatype type;
-  MPI_Type_contiguous((int)size, MPI_BYTE, &type);
-  MPI_Type_commit(&type);
-  MPI_Alltoallv(to_send, sent, sent + ranks->count, type, to_receive, received,
-                received + ranks->count, type, fg__communicator(ranks));
-  MPI_Type_free(&type);
+  fg__ranks_deal(ranks, size, to_send, sent, sent + ranks->count, to_receive, received,
+                 received + ranks->count);
 }
 
 fg_status fg__regions_fill(fg_context *context, const fg__partition *partition,

@@ -1,7 +1,5 @@
 #include "grid/exchange/slabs.h"
 
-#include "grid/communicator.h"
-
 fg__slabs fg__slabs_along(const fg__partition *partition, int axis)
 {
   const fg__ranks *ranks = partition->ranks;
@@ -26,17 +24,14 @@ bool fg__slabs_find(fg__slabs *out, const fg__partition *partition)
 void fg__slabs_exchange(const fg__slabs *slabs, const fg__run run[], int count)
 {
   enum { UP = 2, DOWN = 3 };
-  MPI_Comm communicator = fg__communicator(slabs->ranks);
-  int below = slabs->below == FG__NOBODY ? MPI_PROC_NULL : slabs->below;
-  int above = slabs->above == FG__NOBODY ? MPI_PROC_NULL : slabs->above;
   fg__traffic_add_exchange(slabs->ranks->book);
   for (int n = 0; n < count; ++n) {
     const fg__run *r = &run[n];
-    int to = r->up ? above : below, from = r->up ? below : above;
-    int tag = r->up ? UP : DOWN;
-    MPI_Sendrecv(r->sent, (int)r->count, MPI_FLOAT, to, tag, r->received, (int)r->count,
-                 MPI_FLOAT, from, tag, communicator, MPI_STATUS_IGNORE);
-    if (to != MPI_PROC_NULL)
+    int to = r->up ? slabs->above : slabs->below;
+    int from = r->up ? slabs->below : slabs->above;
+    fg__ranks_swap(slabs->ranks, r->up ? UP : DOWN, (int)r->count, r->sent, to,
+                   r->received, from);
+    if (to != FG__NOBODY)
       fg__traffic_add_message(slabs->ranks->book, r->count * sizeof(float));
   }
 }

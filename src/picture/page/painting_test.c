@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "base/folder_test.h"
+#include "file/folder_test.h"
 #include "flowgrain/brush.h"
 
 enum { WIDTH = 90, HEIGHT = 70 };

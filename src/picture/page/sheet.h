@@ -4,7 +4,7 @@
 
 #include <cairo.h>
 
-#include "base/whole_file.h"
+#include "file/whole_file.h"
 
 typedef enum fg__sheet_format {
   FG__SHEET_SVG,

@@ -182,7 +182,7 @@ static fg_status attempt(double *rise, bool *taken, fg__place_search *search, in
   fg__place_icon *icon = search->icon[index];
   fg__place_line line;
   *taken = false;
-  *rise = INFINITY;
+  *rise = HUGE_VAL;
   fg__place_trace(&line, search->domain, &search->scale, seed);
   if (line.count == 0)
     return FG_STATUS_OK;
@@ -235,7 +235,7 @@ static fg_status visit(fg__place_search *search, int index)
   int count = list_trials(trials, search, icon);
   double now, rise[AXES][2];
   for (int axis = 0; axis < AXES; ++axis)
-    rise[axis][0] = rise[axis][1] = INFINITY;
+    rise[axis][0] = rise[axis][1] = HUGE_VAL;
   bool taken = false;
   fg__place_box region = room_of(search, icon);
   fg_status status = extend_region(search, &region, &icon->tale.box, index, &now);

@@ -1,5 +1,5 @@
 /* Times as dates: "hours since 1900-01-01 00:00" (CF conventions, section 4.4). */
-#include "base/number_text.h"
+#include "file/number_text.h"
 #include "read/netcdf/calendar.h"
 #include "read/netcdf/netcdf.h"
 

@@ -1,6 +1,6 @@
 /* What the elements and attributes of a VTK XML grid say. */
 #include "base/memory.h"
-#include "base/number_text.h"
+#include "file/number_text.h"
 #include "read/vtk/vtk.h"
 
 #include <errno.h>

@@ -1,6 +1,6 @@
 #include "read/vtk/legacy_scan.h"
 
-#include "base/number_text.h"
+#include "file/number_text.h"
 
 #include <limits.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* VTK grids along the axes as fields, and VTK XML files as a format. */
 #include "base/memory.h"
-#include "base/number_text.h"
+#include "file/number_text.h"
 #include "read/vtk/vtk.h"
 
 #include <math.h>

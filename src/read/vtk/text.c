@@ -1,5 +1,5 @@
 /* The numbers of one array that are written as text. */
-#include "base/number_text.h"
+#include "file/number_text.h"
 #include "read/vtk/vtk.h"
 
 #include <stdlib.h>

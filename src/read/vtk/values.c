@@ -1,6 +1,6 @@
 /* The numbers of one array: base64 or raw, plain or in blocks of zlib or LZ4. */
-#include "base/base64.h"
 #include "base/memory.h"
+#include "file/base64.h"
 #include "read/vtk/vtk.h"
 
 #include <limits.h>

@@ -2,8 +2,8 @@
 #ifndef FG__VTI_EXAMPLE_H
 #define FG__VTI_EXAMPLE_H
 
-#include "base/base64.h"
 #include "base/context_test.h"
+#include "file/base64.h"
 #include "read/format.h"
 #include "read/parts_alike_test.h"
 

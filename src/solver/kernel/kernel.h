@@ -103,11 +103,7 @@ extern const fg__kernel fg__kernel_2d_avx2, fg__kernel_2d_avx512;
 extern const fg__kernel fg__kernel_3d_avx2, fg__kernel_3d_avx512;
 #endif
 
-/* The fastest kernel that runs here; the environment variable FLOWGRAIN_KERNEL (generic,
- * avx2, avx512) may ask for a narrower one. */
-const fg__kernel *fg__kernel_choose(int dimension);
-
-/* Fails where FLOWGRAIN_KERNEL is none of these words. ARGUMENT. */
-fg_status fg__kernel_check(fg_context *context);
+/* The fastest kernel that runs here, of vectors no wider than `most`. */
+const fg__kernel *fg__kernel_choose(int dimension, fg_vectors most);
 
 #endif

@@ -409,40 +409,20 @@ static void all_widths_and_teams_give_the_same_bits_with_a_mask(void **state)
   compare_on_all_sizes(outside_holes);
 }
 
-/* The environment asks for less than the machine has, never for more. */
-static void the_environment_narrows_the_choice(void **state)
+/* Options ask for less than the machine has, never for more. */
+static void narrower_vectors_can_be_asked_for(void **state)
 {
   (void)state;
+  static const fg_vectors widths[] = {FG_VECTORS_GENERIC, FG_VECTORS_AVX2,
+                                      FG_VECTORS_AVX512};
   for (int dimension = 2; dimension <= 3; ++dimension) {
     const fg__kernel *kernels[MOST_KERNELS];
     int count = kernels_of_this_machine(dimension, kernels);
-    assert_int_equal(unsetenv("FLOWGRAIN_KERNEL"), 0);
-    assert_ptr_equal(fg__kernel_choose(dimension), kernels[count - 1]);
-    for (int k = 0; k < count; ++k) {
-      assert_int_equal(setenv("FLOWGRAIN_KERNEL", kernels[k]->name, 1), 0);
-      assert_ptr_equal(fg__kernel_choose(dimension), kernels[k]);
-    }
-    assert_int_equal(unsetenv("FLOWGRAIN_KERNEL"), 0);
+    assert_ptr_equal(fg__kernel_choose(dimension, FG_VECTORS_WIDEST), kernels[count - 1]);
+    for (int k = 0; k < 3; ++k)
+      assert_ptr_equal(fg__kernel_choose(dimension, widths[k]),
+                       kernels[k < count ? k : count - 1]);
   }
-}
-
-static void words_that_are_no_kernel_are_refused(void **state)
-{
-  (void)state;
-  fg_context *context;
-  assert_int_equal(fg_context_create(&context), FG_STATUS_OK);
-  static const char *const wrong[] = {"bogus", "avx", "avx5120", "AVX2", " "};
-  for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; ++k) {
-    fg_context_clear(context);
-    assert_int_equal(setenv("FLOWGRAIN_KERNEL", wrong[k], 1), 0);
-    assert_int_equal(fg__kernel_check(context), FG_STATUS_ARGUMENT);
-    assert_non_null(strstr(fg_context_message(context), wrong[k]));
-  }
-  assert_int_equal(setenv("FLOWGRAIN_KERNEL", "generic", 1), 0);
-  assert_int_equal(fg__kernel_check(NULL), FG_STATUS_OK);
-  assert_int_equal(unsetenv("FLOWGRAIN_KERNEL"), 0);
-  assert_int_equal(fg__kernel_check(NULL), FG_STATUS_OK);
-  fg_context_destroy(context);
 }
 
 int main(void)
@@ -450,8 +430,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(all_widths_and_teams_give_the_same_bits),
       cmocka_unit_test(all_widths_and_teams_give_the_same_bits_with_a_mask),
-      cmocka_unit_test(the_environment_narrows_the_choice),
-      cmocka_unit_test(words_that_are_no_kernel_are_refused),
+      cmocka_unit_test(narrower_vectors_can_be_asked_for),
   };
   return cmocka_run_group_tests_name("solver/kernel/kernel", tests, NULL, NULL);
 }

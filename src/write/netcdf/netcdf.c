@@ -1,7 +1,7 @@
 #include "write/netcdf/netcdf.h"
 
 #include "base/memory.h"
-#include "base/whole_file.h"
+#include "file/whole_file.h"
 #include "write/field_close.h"
 
 #include <stdlib.h>

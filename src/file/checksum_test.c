@@ -1,8 +1,8 @@
 /* The checksum of a whole from the shares of its pieces. */
 #include <string.h>
 
-#include "base/checksum.h"
 #include "base/context_test.h"
+#include "file/checksum.h"
 
 enum { BYTES = 9001, RANKS = 3 };
 
@@ -102,5 +102,5 @@ int main(void)
       cmocka_unit_test(pieces_in_any_order),   cmocka_unit_test(rows_of_a_box),
       cmocka_unit_test(beyond_four_gigabytes),
   };
-  return cmocka_run_group_tests_name("base/checksum", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("file/checksum", tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-#include "base/checksum.h"
+#include "file/checksum.h"
 
 #include <zlib.h>
 

@@ -1,7 +1,7 @@
 #include <string.h>
 
-#include "base/base64.h"
 #include "base/context_test.h"
+#include "file/base64.h"
 
 /* RFC 4648, section 10 */
 static const char *const CLEAR[] = {"", "f", "fo", "foo", "foob", "fooba", "foobar"};
@@ -84,5 +84,5 @@ int main(void)
       cmocka_unit_test(parts_encoded_by_themselves_follow_each_other),
       cmocka_unit_test(wrong_text_is_refused),
   };
-  return cmocka_run_group_tests_name("base/base64", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("file/base64", tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-#include "base/whole_file.h"
+#include "file/whole_file.h"
 
 #include "base/memory.h"
 

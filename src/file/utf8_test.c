@@ -1,7 +1,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "base/utf8.h"
+#include "file/utf8.h"
 
 /* Every code point in its shortest form, by the definition of RFC 3629, section 3. */
 static size_t encode(char out[5], unsigned long point)
@@ -49,5 +49,5 @@ int main(void)
       cmocka_unit_test(every_character_is_known),
       cmocka_unit_test(texts_are_valid_as_a_whole),
   };
-  return cmocka_run_group_tests_name("base/utf8", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("file/utf8", tests, NULL, NULL);
 }

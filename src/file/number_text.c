@@ -1,4 +1,4 @@
-#include "base/number_text.h"
+#include "file/number_text.h"
 
 #include <errno.h>
 #include <limits.h>

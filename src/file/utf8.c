@@ -1,4 +1,4 @@
-#include "base/utf8.h"
+#include "file/utf8.h"
 
 size_t fg__utf8_bytes(const unsigned char *text)
 {
