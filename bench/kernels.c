@@ -14,7 +14,7 @@
 
 enum { REPETITIONS = 30, CALLS = 5 };
 
-static const fg__share ALONE = {.members = 1};
+static const fg__thread ALONE = {.count = 1};
 
 typedef struct subject {
   fg__multigrid multigrid;

@@ -49,13 +49,13 @@ static void time_exchange(const fg__ranks *ranks, int dimension, int nodes)
       (float *)take(layout.array_size, sizeof(float)) + layout.first};
   enum { TIMES = 200 };
   fg__exchange_fill(exchange, 2, arrays, FG__ALL_COLOURS);
-  fg__traffic_book *book = mesh.ranks->book;
-  fg_traffic first = book ? book->of[book->now] : (fg_traffic){0};
+  fg__counters *counters = mesh.ranks->counters;
+  fg_communication first = counters ? counters->of[counters->now] : (fg_communication){0};
   double start = now();
   for (int n = 0; n < TIMES; ++n)
     fg__exchange_fill(exchange, 2, arrays, FG__ALL_COLOURS);
   double seconds = (now() - start) / TIMES;
-  fg_traffic sent = book ? book->of[book->now] : (fg_traffic){0};
+  fg_communication sent = counters ? counters->of[counters->now] : (fg_communication){0};
   double most[3] = {seconds * 1e6, (sent.messages - first.messages) / TIMES,
                     (sent.bytes - first.bytes) / TIMES};
   fg__ranks_greatest(mesh.ranks, most, 3);

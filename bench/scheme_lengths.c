@@ -155,8 +155,8 @@ static double largest(answer *holds, question *q, double low)
 /* The largest steps two of which have an error against the tight solution of at most 1 %
  * of u, and 10 % of the change: found by going up with that solution. Very short steps
  * say nothing: what they change is near the rounding of floats. */
-static void find_accurate_steps(const domain *d, const moment *m, engine engines[SCHEMES],
-                                double found[SCHEMES][2])
+static void find_accurate_steps(const domain *d, const snapshot *m,
+                                engine engines[SCHEMES], double found[SCHEMES][2])
 {
   static const double allowed[2] = {0.01, 0.1}, factor = 1.1, first = 1e-6;
   float *exact = plain_array(), *u = plain_array();
@@ -200,7 +200,7 @@ static void print_energy_limit(question *q, double unit)
   printf(q->unsolved ? "> %.3g" : "%.3g", limit);
 }
 
-void compare_lengths(const domain *d, const moment moments[MOMENTS])
+void compare_lengths(const domain *d, const snapshot snapshots[SNAPSHOTS])
 {
   engine schemes[SCHEMES];
   double h2 = d->h * d->h;
@@ -210,13 +210,13 @@ void compare_lengths(const domain *d, const moment moments[MOMENTS])
   puts("| state | scheme | energy falls | two steps can be solved | error of u ≤ 1 % | "
        "error of "
        "the change ≤ 10 % |\n|---|---|---|---|---|---|");
-  for (int n = 0; n < MOMENTS; ++n) {
+  for (int n = 0; n < SNAPSHOTS; ++n) {
     double found[SCHEMES][2];
-    find_accurate_steps(d, &moments[n], schemes, found);
+    find_accurate_steps(d, &snapshots[n], schemes, found);
     for (int k = 0; k < SCHEMES; ++k) {
-      question q = {&schemes[k], moments[n].u, false};
-      printf("| %s, N = %d, t = %.3g | %s | ", moments[n].name, moments[n].clusters,
-             moments[n].time, scheme_names[k]);
+      question q = {&schemes[k], snapshots[n].u, false};
+      printf("| %s, N = %d, t = %.3g | %s | ", snapshots[n].name, snapshots[n].clusters,
+             snapshots[n].time, scheme_names[k]);
       print_energy_limit(&q, h2);
       printf(" | %.3g | %.3g | %.3g |\n", largest(converges, &q, 1e-7) / h2,
              found[k][0] / h2, found[k][1] / h2);
@@ -231,7 +231,7 @@ void compare_lengths(const domain *d, const moment moments[MOMENTS])
   for (size_t n = 0; n < sizeof alphas / sizeof alphas[0]; ++n) {
     engine s;
     create_engine(&s, d, THETA, alphas[n]);
-    question q = {&s, moments[1].u, false};
+    question q = {&s, snapshots[1].u, false};
     printf("| %g | %.3g | ", alphas[n], stable_step(d, alphas[n]) / h2);
     print_energy_limit(&q, h2);
     printf(" | %.3g |\n", largest(converges, &q, 1e-7) / h2);

@@ -9,8 +9,8 @@
 #include "solver/multigrid_test.h"
 
 const char *const scheme_names[SCHEMES] = {"Euler", "BDF2", "θ"};
-static const int wanted_clusters[MOMENTS] = {150, 40, 12};
-static const char *const names[MOMENTS] = {"early", "middle", "late"};
+static const int wanted_clusters[SNAPSHOTS] = {150, 40, 12};
+static const char *const names[SNAPSHOTS] = {"early", "middle", "late"};
 static const double anisotropy = 0.15;
 
 void check(bool good, const char *what)
@@ -21,7 +21,7 @@ void check(bool good, const char *what)
   exit(1);
 }
 
-static void keep_moment(moment *m, const fg_evolution *evolution, const fg_step *step)
+static void keep_snapshot(snapshot *m, const fg_evolution *evolution, const fg_step *step)
 {
   fg_density *density;
   check(!fg_density_create(&density, evolution), "a snapshot");
@@ -33,18 +33,18 @@ static void keep_moment(moment *m, const fg_evolution *evolution, const fg_step 
   fg_density_destroy(density);
 }
 
-void take_moments(moment moments[MOMENTS], fg_field *field)
+void take_snapshots(snapshot snapshots[SNAPSHOTS], fg_field *field)
 {
   fg_evolution *evolution;
   fg_evolution_options options = {
       .nodes = NODES, .threads = 1, .accuracy = 0.01, .cycles = 6};
   check(!fg_evolution_create(&evolution, NULL, field, &options), "an evolution");
-  for (int next = 0; next < MOMENTS;) {
+  for (int next = 0; next < SNAPSHOTS;) {
     fg_step step;
     check(!fg_evolution_step(evolution, &step), "a step");
     if (step.clusters && step.clusters <= wanted_clusters[next]) {
-      moments[next].name = names[next];
-      keep_moment(&moments[next++], evolution, &step);
+      snapshots[next].name = names[next];
+      keep_snapshot(&snapshots[next++], evolution, &step);
     }
   }
   fg_evolution_destroy(evolution);

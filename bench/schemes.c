@@ -6,7 +6,7 @@
 
 /* Takes a density along for a few tight steps: what the run's own errors have left then
  * no longer counts as change. */
-static void settle(const domain *d, moment *m)
+static void settle(const domain *d, snapshot *m)
 {
   fg__stepper s;
   double time = 40.0 * exact_step(d);
@@ -20,7 +20,7 @@ static void settle(const domain *d, moment *m)
 /* A step, or a substep of the theta scheme; as the program has it. */
 enum { CYCLES = 3 };
 
-static error run_steps(const domain *d, const moment *m, scheme by, double time,
+static error run_steps(const domain *d, const snapshot *m, scheme by, double time,
                        int steps, const float *exact, long *cycles)
 {
   fg__stepper s;
@@ -39,14 +39,14 @@ static error run_steps(const domain *d, const moment *m, scheme by, double time,
  * late in the run, where that is a thousand stable steps, over this many. */
 static const double most_stable_steps = 150.0;
 
-static void compare_accuracy(const domain *d, const moment moments[MOMENTS])
+static void compare_accuracy(const domain *d, const snapshot snapshots[SNAPSHOTS])
 {
   puts("\n## Accuracy at equal cost\n");
   puts("| state, time | scheme | steps | cycles | error of u % | of the change % "
        "|\n|---|---|---|---|---|---|");
   float *exact = plain_array(), *coarser = plain_array();
-  for (int n = 0; n < MOMENTS; ++n) {
-    const moment *m = &moments[n];
+  for (int n = 0; n < SNAPSHOTS; ++n) {
+    const snapshot *m = &snapshots[n];
     double longest = stable_step(d, fg__theta_alpha);
     double time = fmin(m->time / 8.0, most_stable_steps * longest);
     for (int half = 0; half < 2; ++half) {
@@ -86,7 +86,7 @@ static void compare_accuracy(const domain *d, const moment moments[MOMENTS])
 
 /* From the early to the middle state with the step chosen by the control: what the limit
  * of linear theory spares. */
-static void compare_limits(const domain *d, const moment moments[MOMENTS])
+static void compare_limits(const domain *d, const snapshot snapshots[SNAPSHOTS])
 {
   puts("\n## The control, from early to middle\n");
   puts("| scheme | most τ, h² | steps | rejected | cycles |\n|---|---|---|---|---|");
@@ -103,7 +103,7 @@ static void compare_limits(const domain *d, const moment moments[MOMENTS])
     double alpha = runs[k].by == THETA ? fg__theta_alpha : 0.0;
     double limit = runs[k].limited ? stable_step(d, alpha) : 1.0;
     create_multigrid(&multigrid, d, alpha);
-    fg__level_import(&multigrid.level[0], multigrid.level[0].u, moments[0].u);
+    fg__level_import(&multigrid.level[0], multigrid.level[0].u, snapshots[0].u);
     fg__fill_ghosts(&multigrid.level[0], multigrid.level[0].u);
     fg__stepper_description description = {.cell_volume = d->volume,
                                            .first_tau = 1e-6,
@@ -114,7 +114,7 @@ static void compare_limits(const domain *d, const moment moments[MOMENTS])
                                            .alpha = alpha};
     fg__stepper s;
     check(!fg__stepper_create(&s, NULL, &multigrid, &description), "a stepper");
-    while (s.time < moments[1].time - moments[0].time)
+    while (s.time < snapshots[1].time - snapshots[0].time)
       check(!fg__stepper_advance(&s, NULL), "a step");
     printf("| %s | ", scheme_names[runs[k].by]);
     if (runs[k].limited)
@@ -130,19 +130,19 @@ int main(void)
 {
   fg_field *field;
   check(!fg_field_create_analytic(&field, NULL, "vortex3", NODES), "the field");
-  moment moments[MOMENTS];
-  take_moments(moments, field);
+  snapshot snapshots[SNAPSHOTS];
+  take_snapshots(snapshots, field);
   domain d;
   domain_create(&d, field);
-  for (int n = 0; n < MOMENTS; ++n)
-    settle(&d, &moments[n]);
+  for (int n = 0; n < SNAPSHOTS; ++n)
+    settle(&d, &snapshots[n]);
   printf("h² = %.4g, γ = %.3g h², %s\n", d.h * d.h, d.gamma / (d.h * d.h),
          fg__kernel_choose(2, FG_VECTORS_WIDEST)->name);
-  compare_lengths(&d, moments);
-  compare_limits(&d, moments);
-  compare_accuracy(&d, moments);
-  for (int n = 0; n < MOMENTS; ++n)
-    free(moments[n].u);
+  compare_lengths(&d, snapshots);
+  compare_limits(&d, snapshots);
+  compare_accuracy(&d, snapshots);
+  for (int n = 0; n < SNAPSHOTS; ++n)
+    free(snapshots[n].u);
   domain_clear(&d);
   fg_field_destroy(field);
   return 0;

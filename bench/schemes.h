@@ -9,20 +9,20 @@
 typedef enum scheme { EULER, BDF2, THETA, SCHEMES } scheme;
 extern const char *const scheme_names[SCHEMES];
 
-enum { NODES = 257, COUNT = NODES * NODES, MOMENTS = 3 };
+enum { NODES = 257, COUNT = NODES * NODES, SNAPSHOTS = 3 };
 
 /* Ends the program, with a message, when something is not good. */
 void check(bool good, const char *what);
 
-typedef struct moment {
+typedef struct snapshot {
   const char *name;
   double time;
   int clusters;
   float *u; /* COUNT values, x fastest */
-} moment;
+} snapshot;
 
 /* Of one run by BDF2 with eta = 0.01 and six cycles a step. */
-void take_moments(moment moments[MOMENTS], fg_field *field);
+void take_snapshots(snapshot snapshots[SNAPSHOTS], fg_field *field);
 
 /* The equation, as fg_evolution_create sets it up; lengths in units of the side. */
 typedef struct domain {
@@ -61,6 +61,6 @@ typedef struct error {
 error error_of(const float *u, const float *exact, const float *start);
 
 /* Prints how long steps can be. */
-void compare_lengths(const domain *d, const moment moments[MOMENTS]);
+void compare_lengths(const domain *d, const snapshot snapshots[SNAPSHOTS]);
 
 #endif

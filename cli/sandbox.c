@@ -123,7 +123,7 @@ static size_t receive(char *out, size_t size, int from, pid_t child)
   return used;
 }
 
-static void take_texts(child_ending *out, char *text, size_t used)
+static void take_texts(child_outcome *out, char *text, size_t used)
 {
   text[used] = '\0';
   size_t first = strlen(text);
@@ -133,7 +133,7 @@ static void take_texts(child_ending *out, char *text, size_t used)
              text + first + 1);
 }
 
-static void await(child_ending *out, int from, pid_t child)
+static void await(child_outcome *out, int from, pid_t child)
 {
   char text[2 * CHILD_TEXT_BYTES + 1];
   size_t used = receive(text, sizeof text - 1, from, child);
@@ -147,7 +147,7 @@ static void await(child_ending *out, int from, pid_t child)
   take_texts(out, text, used);
 }
 
-void do_in_child(child_ending *out, void (*work)(void *), void *data,
+void do_in_child(child_outcome *out, void (*work)(void *), void *data,
                  const child_bounds *bounds)
 {
   memset(out, 0, sizeof *out);
@@ -174,7 +174,7 @@ void do_in_child(child_ending *out, void (*work)(void *), void *data,
 typedef struct reading {
   const char *input;
   const fg_read_options *options;
-  int part, parts;
+  int slab, slabs;
 } reading;
 
 static void read_once(void *data)
@@ -185,8 +185,8 @@ static void read_once(void *data)
   fg_inventory *inventory;
   if (create_context(&context))
     return;
-  fg_status status = r->options ? fg_field_read_part(&field, context, r->input,
-                                                     r->options, r->part, r->parts)
+  fg_status status = r->options ? fg_field_read_slab(&field, context, r->input,
+                                                     r->options, r->slab, r->slabs)
                                 : fg_inventory_read(&inventory, context, r->input);
   if (status)
     complain_of(context, status, r->input);
@@ -216,18 +216,18 @@ static child_bounds bounds_for(size_t size)
                         .bytes = MOST_BYTES + TIMES_LARGER * (size < most ? size : most)};
 }
 
-static int complain_of_child(const char *input, const child_ending *ending,
+static int complain_of_child(const char *input, const child_outcome *outcome,
                              const child_bounds *bounds)
 {
-  if (ending->complaint[0])
-    complain("%s", ending->complaint);
-  else if (ending->signal == SIGXCPU)
+  if (outcome->complaint[0])
+    complain("%s", outcome->complaint);
+  else if (outcome->signal == SIGXCPU)
     complain("%s: damaged: reading it takes more than %u s", input, bounds->seconds);
   else
     complain("%s: damaged: the HDF5 library does not survive reading it (signal %d)",
-             input, ending->signal);
-  if (ending->advice[0])
-    advise("%s", ending->advice);
+             input, outcome->signal);
+  if (outcome->advice[0])
+    advise("%s", outcome->advice);
   return EXIT_FAILED;
 }
 
@@ -236,17 +236,17 @@ int sandbox_reading(const char *input, const fg_read_options *options)
   return sandbox_reading_part(input, options, 0, 1);
 }
 
-int sandbox_reading_part(const char *input, const fg_read_options *options, int part,
-                         int parts)
+int sandbox_reading_part(const char *input, const fg_read_options *options, int slab,
+                         int slabs)
 {
   const size_t size = hdf5_size(input) + hdf5_size(options ? options->vars_from : NULL);
   if (size == 0)
     return EXIT_DONE;
-  reading r = {input, options, part, parts};
+  reading r = {input, options, slab, slabs};
   const child_bounds bounds = bounds_for(size);
-  child_ending ending;
-  do_in_child(&ending, read_once, &r, &bounds);
-  if (interrupt_came() || (!ending.signal && !ending.complaint[0]))
+  child_outcome outcome;
+  do_in_child(&outcome, read_once, &r, &bounds);
+  if (interrupt_came() || (!outcome.signal && !outcome.complaint[0]))
     return EXIT_DONE; /* an interrupt ends the reading itself */
-  return complain_of_child(input, &ending, &bounds);
+  return complain_of_child(input, &outcome, &bounds);
 }

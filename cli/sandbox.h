@@ -1,10 +1,10 @@
-/* A first reading in a process of its own. */
+/* A sandboxed probe: a file is first read by a child process. */
 #ifndef SANDBOX_H
 #define SANDBOX_H
 
 #include "program.h"
 
-/* What a child process may use, and how it ended. */
+/* Bounds of a child process, and its outcome. */
 typedef struct child_bounds {
   unsigned seconds; /* of CPU time */
   size_t bytes;     /* beyond those that this process has; 0: any number */
@@ -12,15 +12,15 @@ typedef struct child_bounds {
 
 enum { CHILD_TEXT_BYTES = 2048 };
 
-typedef struct child_ending {
+typedef struct child_outcome {
   int signal;                                                 /* that ended it, or 0 */
   char complaint[CHILD_TEXT_BYTES], advice[CHILD_TEXT_BYTES]; /* "" for none */
-} child_ending;
+} child_outcome;
 
 /* Does the work in a child process, which prints nothing; what it complains of is kept.
  * An interrupt, or the end of this process, ends it. Must be called before there are
  * threads. */
-void do_in_child(child_ending *out, void (*work)(void *), void *data,
+void do_in_child(child_outcome *out, void (*work)(void *), void *data,
                  const child_bounds *bounds);
 
 /* The HDF5 library under NetCDF-4 can crash on damaged metadata, and ask for any amount
@@ -29,8 +29,8 @@ void do_in_child(child_ending *out, void (*work)(void *), void *data,
  * would, with NULL as fg_inventory_read. */
 int sandbox_reading(const char *input, const fg_read_options *options);
 
-/* The same for fg_field_read_part; options must not be NULL. */
-int sandbox_reading_part(const char *input, const fg_read_options *options, int part,
-                         int parts);
+/* The same for fg_field_read_slab; options must not be NULL. */
+int sandbox_reading_part(const char *input, const fg_read_options *options, int slab,
+                         int slabs);
 
 #endif

@@ -50,9 +50,9 @@ static void complain_twice(void *data)
 
 static int signal_that_ends(void (*work)(void *), void *data, unsigned seconds)
 {
-  child_ending ending;
-  do_in_child(&ending, work, data, &(child_bounds){.seconds = seconds});
-  return ending.signal;
+  child_outcome outcome;
+  do_in_child(&outcome, work, data, &(child_bounds){.seconds = seconds});
+  return outcome.signal;
 }
 
 static void a_child_reports_how_it_ended(void **state)
@@ -72,14 +72,14 @@ static void its_last_complaint_is_kept(void **state)
   (void)state;
   char words[] = "second";
   int number = 0;
-  child_ending ending;
-  do_in_child(&ending, complain_twice, words, &some);
-  assert_int_equal(ending.signal, 0);
-  assert_string_equal(ending.complaint, "second");
-  assert_string_equal(ending.advice, "do otherwise");
-  do_in_child(&ending, end_well, &number, &some);
-  assert_string_equal(ending.complaint, "");
-  assert_string_equal(ending.advice, "");
+  child_outcome outcome;
+  do_in_child(&outcome, complain_twice, words, &some);
+  assert_int_equal(outcome.signal, 0);
+  assert_string_equal(outcome.complaint, "second");
+  assert_string_equal(outcome.advice, "do otherwise");
+  do_in_child(&outcome, end_well, &number, &some);
+  assert_string_equal(outcome.complaint, "");
+  assert_string_equal(outcome.advice, "");
 }
 
 #ifndef __SANITIZE_ADDRESS__
@@ -95,11 +95,11 @@ static void its_memory_is_bounded(void **state)
   (void)state;
   size_t most = (size_t)1 << 28, wanted[] = {most / 2, 2 * most};
   const child_bounds bounds = {.seconds = 5, .bytes = most};
-  child_ending ending;
-  do_in_child(&ending, take_memory, &wanted[0], &bounds);
-  assert_string_equal(ending.complaint, "had");
-  do_in_child(&ending, take_memory, &wanted[1], &bounds);
-  assert_string_equal(ending.complaint, "had not");
+  child_outcome outcome;
+  do_in_child(&outcome, take_memory, &wanted[0], &bounds);
+  assert_string_equal(outcome.complaint, "had");
+  do_in_child(&outcome, take_memory, &wanted[1], &bounds);
+  assert_string_equal(outcome.complaint, "had not");
 }
 
 #endif
@@ -131,9 +131,9 @@ static void a_child_ends_with_its_parent(void **state)
   assert_int_equal(pipe(ends), 0);
   pid_t parent = fork();
   if (parent == 0) {
-    child_ending ending;
+    child_outcome outcome;
     close(ends[0]);
-    do_in_child(&ending, stay, &ends[1], &some);
+    do_in_child(&outcome, stay, &ends[1], &some);
     _exit(0);
   }
   close(ends[1]);
@@ -157,13 +157,13 @@ static void an_interrupt_ends_the_wait(void **state)
   pid_t parent = fork();
   if (parent == 0) {
     fg_context *context;
-    child_ending ending;
+    child_outcome outcome;
     alarm(20);
     if (fg_context_create(&context))
       _exit(1);
     interrupt_start(context);
-    do_in_child(&ending, stay, &ends[1], &some);
-    _exit(interrupt_came() && ending.signal == SIGKILL ? 7 : 2);
+    do_in_child(&outcome, stay, &ends[1], &some);
+    _exit(interrupt_came() && outcome.signal == SIGKILL ? 7 : 2);
   }
   pid_t child;
   assert_int_equal(read(ends[0], &child, sizeof child), sizeof child);

@@ -72,9 +72,9 @@ static double long_stripe(point p)
 static double slivers(point p)
 {
   double corner = disc(p, 0.0, 0.0, 0.022),
-         border = capsule(p, (point){0.6, 1.003}, (point){0.9, 1.003}, 0.009);
+         boundary = capsule(p, (point){0.6, 1.003}, (point){0.9, 1.003}, 0.009);
   return fmax(corner,
-              fmax(border, capsule(p, (point){0.3, 0.45}, (point){0.7, 0.55}, 0.05)));
+              fmax(boundary, capsule(p, (point){0.3, 0.45}, (point){0.7, 0.55}, 0.05)));
 }
 
 static double masked_stripe(point p)
@@ -82,7 +82,7 @@ static double masked_stripe(point p)
   return capsule(p, (point){0.1, 0.5}, (point){0.9, 0.5}, 0.09);
 }
 
-static double border_half(point p)
+static double boundary_half(point p)
 {
   return fmax(disc(p, 0.0, 0.55, 0.3),
               capsule(p, (point){0.75, 0.0}, (point){0.75, 0.45}, 0.08));
@@ -117,7 +117,7 @@ static point eastward(point p)
   return (point){1.0, 0.4 * sin(PI * p.x) * (0.5 - p.x)};
 }
 
-static point past_the_border(point p)
+static point past_the_boundary(point p)
 {
   return (point){0.25 * (0.5 - p.y), 0.6};
 }
@@ -135,7 +135,7 @@ static const hard_case CASES[] = {
     {"long-stripe", long_stripe, across_the_stripe, NULL},
     {"slivers", slivers, eastward, NULL},
     {"mask", masked_stripe, eastward, island},
-    {"border", border_half, past_the_border, NULL},
+    {"boundary", boundary_half, past_the_boundary, NULL},
 };
 
 static fg_status make_field(fg_field **out, fg_context *context, const hard_case *c)

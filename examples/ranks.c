@@ -20,7 +20,7 @@ static fg_status draw(fg_context *context, const char *input, const char *pictur
   fg_run *run = NULL;
   const fg_run_scale *scale = NULL;
   fg_ranks(context, &rank, &count);
-  fg_status status = fg_field_read_part(&field, context, input, NULL, rank, count);
+  fg_status status = fg_field_read_slab(&field, context, input, NULL, rank, count);
   status = fg_ranks_agree(context, status, NULL, NULL);
   if (!status)
     status = fg_field_join(context, field);

@@ -6,8 +6,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Lengths in units of the domain's longest side; natural borders, no mask. On file: lines
- * "name value ..." up to a line "data"; then tensor and u as the machine's floats. */
+/* Lengths in units of the domain's longest side; natural boundaries, no mask. On file:
+ * lines "name value ..." up to a line "data"; then tensor and u as the machine's floats.
+ */
 typedef struct problem {
   int dimension;
   int cells[3], nodes[3]; /* cells[2] = nodes[2] = 1 in 2D */
@@ -26,7 +27,7 @@ static inline int problem_tensor_entries(const problem *p)
 size_t problem_cell_count(const problem *p);
 size_t problem_node_count(const problem *p);
 
-/* Lumped mass of a node, in units of a cell: 1 inside, halved at each border. */
+/* Lumped mass of a node, in units of a cell: 1 inside, halved at each boundary. */
 double problem_node_mass(const problem *p, size_t node);
 
 /* sqrt(sum m (a - b)^2 / sum m) over the nodes, m the lumped mass. */

@@ -105,12 +105,12 @@ int output_look(output_contents *out, const char *folder)
   free(work);
   if (code || out->foreign[0])
     return code;
-  run_ending ending = report_ending(folder);
+  run_outcome outcome = report_outcome(folder);
   if (has)
     out->state = OUTPUT_UNFINISHED;
-  else if (ending == ENDING_INTERRUPTED)
+  else if (outcome == OUTCOME_INTERRUPTED)
     out->state = OUTPUT_INTERRUPTED;
-  else if (ending != ENDING_NONE)
+  else if (outcome != OUTCOME_NONE)
     out->state = OUTPUT_FINISHED;
   return EXIT_DONE;
 }

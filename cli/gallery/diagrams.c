@@ -26,7 +26,7 @@ static void text(FILE *svg, double x, double y, const char *words)
 }
 
 /* Psi(u) = (u^2 - 1)^2 / 2 from u = -1.6 to 1.6, and where Psi'' < 0. */
-void gallery_draw_wells(FILE *svg)
+void gallery_draw_double_well(FILE *svg)
 {
   const double left = 60.0, right = 580.0, base = 330.0, unit = 300.0;
   const double most = 1.55, a_unit = (right - left) / (2.0 * most);

@@ -5,7 +5,7 @@ const char *const gallery_data[] = {"convection_cells.nc", "convection_plumes.nc
                                     "monalisa.png"};
 const int gallery_data_count = sizeof gallery_data / sizeof gallery_data[0];
 
-/* A texture of the clusters at one moment of the evolution. */
+/* A texture of the clusters of one snapshot of the evolution. */
 #define CLUSTERS(picture, options)                                                       \
   "texture synth:vortex3 -o " picture " --kind clusters --nodes 257 --pixels "           \
   "768 " options
@@ -37,8 +37,8 @@ const gallery_figure gallery_figures[] = {
                  {"fig-02-c.png", "20 clusters: fewer and larger"}}},
     {.number = 3,
      .title = "The double well",
-     .paper = "The energy of the separation, with its two minima at the wells.",
-     .draw = gallery_draw_wells,
+     .paper = "The energy of the separation, with its two minima.",
+     .draw = gallery_draw_double_well,
      .picture = {{"fig-03.svg",
                   "\xCE\xA8(u) = (u\xC2\xB2 \xE2\x88\x92 \xCE\xB2\xC2\xB2)\xC2\xB2/2, "
                   "\xCE\xB2 = 1; where it is concave, phases separate"}}},
@@ -87,7 +87,7 @@ const gallery_figure gallery_figures[] = {
      .row = {2, 2}},
     {.number = 7,
      .title = "Two successive times with their icons",
-     .paper = "Curved arrows at two moments of one evolution, the second coarser.",
+     .paper = "Curved arrows in two snapshots of one evolution, the second coarser.",
      .command = {"run synth:vortex3 -o fig-07 --clusters 80,20 --tint"},
      .picture = {{"fig-07/scale-00.png", "80 clusters"},
                  {"fig-07/scale-01.png", "20 clusters: the same evolution, later"}}},
@@ -121,9 +121,9 @@ const gallery_figure gallery_figures[] = {
     {.number = 10,
      .title = "A circular vortex in three dimensions",
      .paper = "Curved arrows of a vortex in 3D, from two viewpoints: a swirl that rises "
-              "in the middle, and turns level along the borders.",
+              "in the middle, and turns level along the boundaries.",
      .differs = "The paper gives no formula of its field. Some flat clusters at the "
-                "borders have no room for a solid arrow.",
+                "boundaries have no room for a solid arrow.",
      .command =
          {"run synth:vortex3d -o fig-10 --clusters 40,12 --view 30,22 --view 75,50"},
      .picture = {{"fig-10/scale-00.png", "40 clusters"},

@@ -42,7 +42,7 @@ bool gallery_shows(const gallery_figure *figure, int number);
 void gallery_print_page(FILE *page, const gallery_settings *settings);
 
 /* The double well, and the substeps of the theta-scheme. */
-void gallery_draw_wells(FILE *svg);
+void gallery_draw_double_well(FILE *svg);
 void gallery_draw_substeps(FILE *svg);
 
 #endif

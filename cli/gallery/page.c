@@ -27,7 +27,7 @@ static const char head[] =
     "<em>A Continuous Clustering Method for Vector Fields</em>, IEEE Visualization 2000. "
     "Under each figure: what the paper shows there, what differs, and the commands that "
     "make it again, to be called in this folder. A number of clusters is the one asked "
-    "for: the first moment with no more of them is shown. Clusters too small for an "
+    "for: the first snapshot with no more of them is shown. Clusters too small for an "
     "arrow "
     "have none.</p>\n";
 

@@ -130,7 +130,7 @@ const option_entry option_table[] = {
      "pixels [a 25th of the longest side, of spots an 18th, of diffusion a 20th]"},
     {"clusters", 0, "N", COMMAND_TEXTURE, OPTION_NUMBERS, OWN(texture, number), 1,
      1000000, false, false, NULL,
-     "--kind clusters: the first moment with at most N of them [300]"},
+     "--kind clusters: the first snapshot with at most N of them [300]"},
     {"nodes", 0, "N", COMMAND_TEXTURE, OPTION_WHOLE, EVOLUTION(nodes), 17, 16385, false,
      false, NULL,
      "--kind clusters: nodes of the mesh along its longest side [two pixels a cell]"},
@@ -206,7 +206,7 @@ const option_entry option_table[] = {
     {"clusters", 0, "LIST", COMMAND_RUN, OPTION_NUMBERS, OWN(run, clusters), 1, 1000000,
      false, false, NULL,
      "instead of --arrows an arrow inside each cluster, as in the paper: numbers of "
-     "clusters, descending, as 200,50,12; a scale is the first moment at or below the "
+     "clusters, descending, as 200,50,12; a scale is the first snapshot at or below the "
      "number"},
     {"clusters", 0, "LIST", COMMAND_BRUSH, OPTION_NUMBERS, OWN(brush, clusters), 1,
      1000000, false, false, NULL,
@@ -228,7 +228,7 @@ const option_entry option_table[] = {
      "stop when the simulated scale t reaches T; its state is the last scale"},
     {"max-time", 0, "T", COMMAND_TEXTURE, OPTION_NUMBER, OWN(texture, max_time), 0, 1e300,
      true, false, NULL,
-     "--kind clusters: the first moment from the simulated scale t = T on"},
+     "--kind clusters: the first snapshot from the simulated scale t = T on"},
     {"max-steps", 0, "K", COMMAND_RUN, OPTION_WHOLE, OWN(run, max_steps), 1, INT_MAX,
      false, false, NULL, "stop after K time steps; the state reached is the last scale"},
     {"threads", 0, "N", SEEDED, OPTION_WHOLE, WORK(threads), 1, 4096, false, false, NULL,

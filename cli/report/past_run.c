@@ -82,23 +82,23 @@ static double number_of(const cJSON *object, const char *name, double least, dou
   return item->valuedouble;
 }
 
-run_ending report_ending(const char *folder)
+run_outcome report_outcome(const char *folder)
 {
   if (!file_is_there(folder, REPORT_NAME))
-    return ENDING_NONE;
+    return OUTCOME_NONE;
   char *path = join_path(folder, REPORT_NAME);
   char *text = path ? read_text(path) : NULL;
   cJSON *tree = text ? cJSON_Parse(text) : NULL;
   const char *ended = text_of(tree, "ended");
-  run_ending ending = ENDING_COMPLETE;
+  run_outcome outcome = OUTCOME_COMPLETE;
   if (ended && strcmp(ended, "interrupted") == 0)
-    ending = ENDING_INTERRUPTED;
+    outcome = OUTCOME_INTERRUPTED;
   if (ended && (strcmp(ended, "time") == 0 || strcmp(ended, "steps") == 0))
-    ending = ENDING_LIMIT;
+    outcome = OUTCOME_LIMIT;
   cJSON_Delete(tree);
   free(text);
   free(path);
-  return ending;
+  return outcome;
 }
 
 /* Paths of one file may differ; synth:NAME has no path. */

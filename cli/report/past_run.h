@@ -5,14 +5,14 @@
 #include "option/settings.h"
 
 /* How the run ended that a folder's run.json tells of. */
-typedef enum run_ending {
-  ENDING_NONE, /* there is no run.json */
-  ENDING_INTERRUPTED,
-  ENDING_LIMIT,   /* by --max-time or --max-steps */
-  ENDING_COMPLETE /* or in a way that is not known here */
-} run_ending;
+typedef enum run_outcome {
+  OUTCOME_NONE, /* there is no run.json */
+  OUTCOME_INTERRUPTED,
+  OUTCOME_LIMIT,   /* by --max-time or --max-steps */
+  OUTCOME_COMPLETE /* or in a way that is not known here */
+} run_outcome;
 
-run_ending report_ending(const char *folder);
+run_outcome report_outcome(const char *folder);
 
 /* Whether the finished run in a folder is the one that is asked for now: the same input
  * and options. Else complains. */

@@ -11,7 +11,7 @@
 #include "folder/files.h"
 #include "option/recorded.h"
 #include "option/table.h"
-#include "report/traffic.h"
+#include "report/communication.h"
 #include "run/scale_files.h"
 
 static void add_text(cJSON *object, const char *name, const char *text)
@@ -192,7 +192,7 @@ static void add_scale(cJSON *scales, const run_facts *facts, int index)
   cJSON_AddItemToArray(scales, scale);
 }
 
-const char *report_ending_word(fg_run_ending ended)
+const char *report_ending_word(fg_run_outcome ended)
 {
   static const char *const words[] = {
       [FG_RUN_GO_ON] = "interrupted",     [FG_RUN_ALL] = "scales",
@@ -218,7 +218,7 @@ static void add_outcome(cJSON *root, const run_facts *facts)
                         facts->energy_monotone && !coarsening_raised_energy(facts));
   cJSON_AddBoolToObject(root, "energy_monotone_between_coarsenings",
                         facts->energy_monotone);
-  traffic_add(root, facts);
+  communication_add(root, facts);
   cJSON *seconds = cJSON_AddObjectToObject(root, "seconds");
   cJSON_AddNumberToObject(seconds, "read", facts->seconds_read);
   cJSON_AddNumberToObject(seconds, "evolve", facts->seconds_evolve);

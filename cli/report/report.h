@@ -13,18 +13,18 @@ typedef struct run_facts {
   fg_coarsening coarsening[MOST_COARSENINGS];
   int coarsening_count;
   cli_drawing *drawing;
-  fg_run_ending ended;
+  fg_run_outcome ended;
   int time_count, level_count; /* of the input; 0: not known */
   long accepted, rejected;
   double mass_drift;
   bool energy_monotone; /* in steps, between coarsenings */
   double seconds_read, seconds_evolve, seconds_total;
   int ranks;
-  fg_traffic traffic[FG_ACTIVITIES], most_traffic[FG_ACTIVITIES];
+  fg_communication communication[FG_PHASES], most_communication[FG_PHASES];
 } run_facts;
 
 /* How it ended, in a word: "scales", "time", "steps", "stationary", "interrupted". */
-const char *report_ending_word(fg_run_ending ended);
+const char *report_ending_word(fg_run_outcome ended);
 
 /* Writes run.json. Returns an exit code. */
 int report_write(const char *path, const run_facts *facts);

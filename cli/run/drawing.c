@@ -72,7 +72,7 @@ static void *work(void *argument)
 /* Reads what other ranks have of a field: placing, scoring and pictures in 3D need it. */
 static int read_whole(cli_drawing *drawing)
 {
-  if (!fg_field_is_part(drawing->maker.field, NULL, NULL))
+  if (!fg_field_is_slab(drawing->maker.field, NULL, NULL))
     return EXIT_DONE;
   const char *input = drawing->maker.settings->reading.input;
   fg_read_options reading = settings_reading(&drawing->maker.settings->reading);

@@ -26,8 +26,8 @@ void drawing_restore(cli_drawing *drawing, const scale_result *results, int coun
                      const common_look *look, double icon_seconds,
                      double picture_seconds);
 
-/* From here on an interrupt leaves out the scales that are not finished; once the evolution
- * has ended nothing else would stop. */
+/* From here on an interrupt leaves out the scales that are not finished; once the
+ * evolution has ended nothing else would stop. */
 void drawing_heed_interrupts(cli_drawing *drawing);
 bool drawing_was_cut(const cli_drawing *drawing); /* after drawing_finish */
 

@@ -13,7 +13,7 @@ static const double seconds_between_looks = 0.2;
 
 bool finish_can_go_on(const cli_run *run)
 {
-  fg_run_ending ended = run->facts.ended;
+  fg_run_outcome ended = run->facts.ended;
   return ended != FG_RUN_ALL && ended != FG_RUN_STATIONARY;
 }
 
@@ -113,7 +113,7 @@ static void say_first_scale(const cli_run *run)
 }
 
 /* What is told where a run ends early, or reached less than was wanted. */
-static int say_ending(const cli_run *run)
+static int say_outcome(const cli_run *run)
 {
   const run_settings *settings = run->settings;
   const int *wanted;
@@ -148,7 +148,7 @@ int finish_run(cli_run *run)
     return code;
   run->finished = !finish_can_go_on(run);
   print_summary(run);
-  return say_ending(run);
+  return say_outcome(run);
 }
 
 /* Unless something else was advised. The drawing's own context is gone; its failures

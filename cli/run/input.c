@@ -15,13 +15,13 @@ int input_read(cli_run *run)
   const run_settings *settings = run->settings;
   const bool whole =
       settings->tolerance > 0.0 || settings->picture.tint || settings->picture.background;
-  const int part = whole ? 0 : ranks_number(), parts = whole ? 1 : ranks_count();
+  const int slab = whole ? 0 : ranks_number(), slabs = whole ? 1 : ranks_count();
   progress_stage(&run->progress, "reading");
   fg_read_options reading = settings_reading(&settings->reading);
-  if (sandbox_reading_part(settings->reading.input, &reading, part, parts))
+  if (sandbox_reading_part(settings->reading.input, &reading, slab, slabs))
     return EXIT_FAILED;
-  fg_status status = fg_field_read_part(&run->field, run->context,
-                                        settings->reading.input, &reading, part, parts);
+  fg_status status = fg_field_read_slab(&run->field, run->context,
+                                        settings->reading.input, &reading, slab, slabs);
   progress_wipe(&run->progress);
   if (status)
     return complain_of(run->context, status, run->settings->reading.input);

@@ -23,7 +23,7 @@ typedef struct cli_placing {
 } cli_placing;
 
 /* Makes the icons of a scale of exactly `count` arrows; it goes on from `finer`, those of
- * the scale before, whose parents it sets, or starts from the clusters of the moment's
+ * the scale before, whose parents it sets, or starts from the clusters of the snapshot's
  * density when that is NULL. */
 fg_status placing_make(fg_icons **out, cli_placing *placing, int count,
                        const scale_snapshot *snapshot, fg_icons *finer);

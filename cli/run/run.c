@@ -10,8 +10,8 @@
 #include "interrupt.h"
 #include "ranks.h"
 #include "report/coarsening.h"
+#include "report/communication.h"
 #include "report/past_run.h"
-#include "report/traffic.h"
 #include "run/background.h"
 #include "run/checkpoint.h"
 #include "run/finish.h"
@@ -274,10 +274,10 @@ static int work(cli_run *run)
     return finish_drawing(run);
   if (code)
     return code;
-  traffic_collect(&run->facts, fg_run_evolution(run->scales));
+  communication_collect(&run->facts, fg_run_evolution(run->scales));
   if (run->settings->verbose && ranks_leader()) {
     progress_wipe(&run->progress);
-    traffic_print(&run->facts);
+    communication_print(&run->facts);
   }
   return ranks_agree(ranks_leader() ? finish_run(run) : EXIT_DONE);
 }

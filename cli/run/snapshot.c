@@ -73,7 +73,7 @@ int snapshot_take(scale_snapshot *out, cli_run *run)
                           .energy = contents->energy,
                           .area_fraction = contents->area_fraction,
                           .clusters = contents->clusters};
-  if (!fg_density_is_shared(density)) {
+  if (!fg_density_is_distributed(density)) {
     out->density = density;
     return EXIT_DONE;
   }

@@ -1,5 +1,5 @@
-/* Checkpoints: an evolution goes on in other processes, on any number of ranks, as if it
- * had never ended. All ranks need the file: a file system of their own will not do. */
+/* Checkpoints: an evolution resumes in other processes, on any number of ranks, with the
+ * same bits. All ranks must see the file. */
 #ifndef FLOWGRAIN_CHECKPOINT_H
 #define FLOWGRAIN_CHECKPOINT_H
 
@@ -32,9 +32,9 @@ FG_API const char *fg_checkpoint_damage(const fg_checkpoint *checkpoint);
 /* Puts an evolution, just created from the same field with the same options (threads may
  * differ), into the state of a checkpoint, its mesh coarsened as often: every later step
  * is the same to the last bit as without the interruption. `step` becomes the last
- * accepted one; it counts no cycles and rejections. After a failure the evolution is of
- * no use. ARGUMENT (another field or option: the message names it with both values),
- * UNSUPPORTED (written by another version), FILE_ACCESS, FILE_FORMAT, MEMORY. */
+ * accepted one; it counts no cycles and rejections. After a failure the evolution can
+ * only be destroyed. ARGUMENT (another field or option: the message names it with both
+ * values), UNSUPPORTED (written by another version), FILE_ACCESS, FILE_FORMAT, MEMORY. */
 FG_API fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
                                      const fg_checkpoint *checkpoint);
 

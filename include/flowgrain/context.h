@@ -24,11 +24,12 @@ extern "C" {
 typedef enum fg_status {
   FG_STATUS_OK = 0,
   FG_STATUS_MEMORY,         /* an allocation failed */
-  FG_STATUS_ARGUMENT,       /* the caller asked for something impossible */
+  FG_STATUS_ARGUMENT,       /* an argument is out of range or contradicts another */
   FG_STATUS_FILE_ACCESS,    /* a file cannot be opened, read or written */
   FG_STATUS_FILE_FORMAT,    /* a file is damaged or not what it claims to be */
-  FG_STATUS_UNSUPPORTED,    /* well-formed, but nothing here can handle it */
-  FG_STATUS_NO_CONVERGENCE, /* the evolution broke one of its promises */
+  FG_STATUS_UNSUPPORTED,    /* well-formed, but not supported */
+  FG_STATUS_NO_CONVERGENCE, /* mass is not conserved, the energy grows, or no step
+                               converges */
   FG_STATUS_STOPPED,        /* fg_context_stop was called */
   FG_STATUS_MPI             /* the message-passing layer failed */
 } fg_status;
@@ -75,12 +76,12 @@ FG_API const char *fg_context_message(const fg_context *context);
 /* A second line that says what to do about the failure, or "". */
 FG_API const char *fg_context_hint(const fg_context *context);
 
-/* Forgets the failure, so that the context can be used again. One that was asked to stop
- * stays so: what follows needs another. */
+/* Clears the failure, so that the context can be used again. A context that was asked to
+ * stop remains stopped. */
 FG_API void fg_context_clear(fg_context *context);
 
-/* Asks the work going on with this context to end with FG_STATUS_STOPPED at its next safe
- * point. The only function that may be called from a signal handler or another thread. */
+/* Asks the functions running with this context to return FG_STATUS_STOPPED soon. The only
+ * function that may be called from a signal handler or another thread. */
 FG_API void fg_context_stop(fg_context *context);
 
 /* Ranks: processes that share one evolution. A context has the ranks of the communicator
@@ -88,20 +89,20 @@ FG_API void fg_context_stop(fg_context *context);
  *
  * fg_evolution_create, fg_checkpoint_open, fg_field_join and the calls that take an
  * evolution are collective: every rank makes them in the same order, with the same field
- * (each has it whole, or all their parts of it: parts.h), options and path, and all get
- * the same status; when one fails, every context holds its message. Densities are shared
- * likewise (fg_density_create). All else is the business of the rank that calls it. What
- * is shared ends before the context that it was made with. */
+ * (each the whole field, or each its slab: slabs.h), options and path, and all get the
+ * same status; when one fails, every context holds its message. Densities are distributed
+ * likewise (fg_density_create). All other calls concern one rank. Distributed objects
+ * must be destroyed before their context. */
 
 /* This rank's number, from 0, and how many there are: 0 of 1 for a context without a
  * communicator, or NULL. */
 FG_API void fg_ranks(const fg_context *context, int *rank, int *count);
 
-/* Makes one failure of many, for what ranks do each on its own: when `status` is one on
- * some rank, all return that of the lowest such rank, and every context holds that rank's
- * message and hint in place of its own. FG_STATUS_STOPPED gives way to other failures.
- * message: what to tell of this rank's failure instead of what the context holds (hint:
- * NULL, none), or NULL. Collective. */
+/* Makes ranks agree on a failure: when `status` is a failure on some rank, all return
+ * that of the lowest such rank, and every context holds that rank's message and hint in
+ * place of its own. FG_STATUS_STOPPED gives way to other failures. message: what to tell
+ * of this rank's failure instead of the context's message (hint: NULL, none), or NULL.
+ * Collective. */
 FG_API fg_status fg_ranks_agree(fg_context *context, fg_status status,
                                 const char *message, const char *hint);
 

@@ -1,4 +1,4 @@
-/* A moment of the evolution. */
+/* A snapshot of the evolution. */
 #ifndef FLOWGRAIN_DENSITY_H
 #define FLOWGRAIN_DENSITY_H
 
@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* The density at the nodes of a uniform grid over the field's box; a snapshot that stays
- * as it is while the evolution goes on. */
+/* The density at the nodes of a uniform grid over the field's box. A snapshot: later
+ * steps do not change it. */
 typedef struct fg_density fg_density;
 
 typedef struct fg_density_arrays {
@@ -28,14 +28,14 @@ typedef struct fg_density_arrays {
 } fg_density_arrays;
 
 /* Takes a snapshot. Where several ranks evolve, each gets its block: `u` and `active` of
- * its contents are NULL, and what takes a shared density is collective. MEMORY. */
+ * its contents are NULL, and what takes a distributed density is collective. MEMORY. */
 FG_API fg_status fg_density_create(fg_density **out, const fg_evolution *evolution);
 
-/* Whether a density is shared by several ranks. */
-FG_API bool fg_density_is_shared(const fg_density *density);
+/* Whether a density is distributed among several ranks. */
+FG_API bool fg_density_is_distributed(const fg_density *density);
 
-/* Puts a shared density together on rank 0; on other ranks *out becomes NULL. Collective.
- * MEMORY, ARGUMENT (it is not shared). */
+/* Puts a distributed density together on rank 0; on other ranks *out becomes NULL.
+ * Collective. MEMORY, ARGUMENT (it is not distributed). */
 FG_API fg_status fg_density_gather(fg_density **out, fg_context *context,
                                    const fg_density *density);
 
@@ -46,14 +46,14 @@ FG_API void fg_density_destroy(fg_density *density);
 FG_API const fg_density_arrays *fg_density_contents(const fg_density *density);
 
 /* Writes u, the number of each node's cluster (0 outside, -1 in components too small to
- * be clusters) and the mask as .vti. Of a shared density rank 0 writes what the others
- * send it, packed and part by part; `path` is not read elsewhere. FILE_ACCESS,
+ * be clusters) and the mask as .vti. Of a distributed density rank 0 writes what the
+ * others send it, packed and part by part; `path` is not read elsewhere. FILE_ACCESS,
  * UNSUPPORTED, MEMORY. */
 FG_API fg_status fg_density_write(fg_context *context, const char *path,
                                   const fg_density *density);
 
-/* Reads what fg_density_write has written of the evolution on that field, which says what
- * is periodic. Its energy and area are not known. FILE_ACCESS, FILE_FORMAT (among them a
+/* Reads a file of fg_density_write. `field`, on which the density evolved, tells which
+ * axes are periodic. Energy and area are not known. FILE_ACCESS, FILE_FORMAT (also a
  * density of another kind of field), MEMORY. */
 FG_API fg_status fg_density_read(fg_density **out, fg_context *context, const char *path,
                                  const fg_field *field);

@@ -1,5 +1,5 @@
-/* Interfacial energies of one's own: what an interface costs, by place and direction.
- * docs/method/energies.md says what each of ours is, and how to add one. */
+/* Interfacial energies of the caller's own: the cost of an interface by place and
+ * direction. docs/method/energies.md says what each of ours is, and how to add one. */
 #ifndef FLOWGRAIN_ENERGY_H
 #define FLOWGRAIN_ENERGY_H
 
@@ -24,8 +24,8 @@ typedef struct fg_energy_place {
  * fg_evolution_create asks for it. A piece of interface of normal n costs sqrt(n.A n), so
  * clusters grow long along A's eigenvectors of large eigenvalues. The eigenvalues must
  * lie between a and 1. It is called by several threads at once, on each rank for its own
- * part of the domain and the cells round it, and for one cell more than once; so what it
- * gives must follow from the place and `data` alone. */
+ * part of the domain and the cells round it, and for one cell more than once; so its
+ * result must depend on the place and `data` alone. */
 typedef void fg_energy_tensor(double tensor[6], const fg_energy_place *place,
                               const void *data);
 

@@ -1,4 +1,5 @@
-/* The evolution: a density whose positive parts become ever fewer, larger clusters. */
+/* The evolution of a density u whose positive components become ever fewer, larger
+ * clusters. */
 #ifndef FLOWGRAIN_EVOLUTION_H
 #define FLOWGRAIN_EVOLUTION_H
 
@@ -19,7 +20,7 @@ typedef enum fg_energy {
 
 typedef struct fg_energy_law fg_energy_law; /* flowgrain/energy.h */
 
-/* All solve the same equation, docs/method/schemes.md compares them. */
+/* Time schemes of the same equation; docs/method/schemes.md compares them. */
 typedef enum fg_scheme {
   FG_SCHEME_BDF2 = 0, /* backward differences of second order: steps as large as the
                          change of u allows */
@@ -65,7 +66,7 @@ typedef struct fg_evolution_options {
   int threads;              /* [all cores] */
   fg_vectors vectors;       /* the widest to use [widest] */
   const float *initial; /* NULL: noise; else u at the nodes of the mesh, as fg_density has
-                           it: copied, then shifted nowhere: its mean is kept */
+                           it: copied, and not shifted: its mean is kept */
 } fg_evolution_options;
 
 typedef struct fg_step {
@@ -98,24 +99,23 @@ FG_API void fg_evolution_destroy(fg_evolution *evolution);
 
 /* Makes one accepted time step and describes it. The mesh is coarsened before the step
  * where the options and the clusters ask for it. NO_CONVERGENCE when no step small enough
- * is accepted, or mass or energy break their promise; STOPPED. */
+ * is accepted, or mass is not conserved or the energy grows; STOPPED. */
 FG_API fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step);
 
-/* Whether the clusters have grown so large that a mesh with half the cells along each
- * side would show them as well: 4096 cells of the domain (in 3D 32768) to a cluster, and
- * more nodes a side than a mesh has by default. False in a domain with missing values,
- * whose narrow parts a coarser mesh would lose. */
+/* Whether a mesh with half the cells along each side resolves the clusters: 4096 cells of
+ * the domain (in 3D 32768) to a cluster, and more nodes a side than a mesh has by
+ * default. False in a domain with missing values, whose narrow parts a coarser mesh would
+ * lose. */
 FG_API bool fg_evolution_should_coarsen(const fg_evolution *evolution);
 
-/* Goes on with half the cells along each side, and interfaces twice as wide: gamma is
- * four times what it was. u becomes its mean round every other node, smoothed until
- * interfaces are as wide as they will be; its integral stays. Wider interfaces cost more
- * and move faster: energies are divided, times and time steps multiplied by two, so that
- * they go on as on the first mesh, but for a jump of the energy, by some per cent up or
- * down. `step` becomes the present state; it counts no cycles.
- * fg_evolution_step does it by itself. Collective. ARGUMENT (the cells can not be halved,
- * or by fewer ranks only; the field has missing values): nothing has changed; MEMORY,
- * MPI: the evolution is of no use any more. */
+/* Coarsens the mesh: half the cells along each side, interfaces twice as wide, four times
+ * gamma. u is restricted to every other node and smoothed to the new interface width; its
+ * integral is conserved. Wider interfaces cost more and move faster: energies are
+ * divided, times and time steps multiplied by two, so that they go on as on the first
+ * mesh, but for a jump of the energy, by some per cent up or down. `step` becomes the
+ * present state; it counts no cycles. fg_evolution_step does it by itself. Collective.
+ * ARGUMENT (the cells can not be coarsened, or by fewer ranks only; the field has missing
+ * values): nothing has changed; MEMORY, MPI: the evolution can only be destroyed. */
 FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step);
 
 /* A coarsening of the mesh: the step after which it was made, that step's time, what it
@@ -144,33 +144,34 @@ typedef struct fg_mesh_info {
 
 FG_API const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution);
 
-/* What ranks tell each other, by what it is for. */
-typedef enum fg_activity {
-  FG_ACTIVITY_OTHER = 0, /* agreements and whatever else is outside of these: */
-  FG_ACTIVITY_SETUP,     /* fg_evolution_create */
-  FG_ACTIVITY_STEPS,     /* fg_evolution_step, apart from its cycles and the counting */
-  FG_ACTIVITY_CYCLES,    /* multigrid cycles */
-  FG_ACTIVITY_COUNTING,  /* clusters and the area covered, at every step */
-  FG_ACTIVITY_SNAPSHOTS  /* fg_density_create, and icons and files of shared densities */
-} fg_activity;
+/* Phases of an evolution, by which communication is counted. */
+typedef enum fg_phase {
+  FG_PHASE_OTHER = 0, /* agreements, and all that is outside of these: */
+  FG_PHASE_SETUP,     /* fg_evolution_create */
+  FG_PHASE_STEPS,     /* fg_evolution_step, apart from its cycles and the counting */
+  FG_PHASE_CYCLES,    /* multigrid cycles */
+  FG_PHASE_COUNTING,  /* clusters and the area covered, at every step */
+  FG_PHASE_SNAPSHOTS /* fg_density_create, and icons and files of distributed densities */
+} fg_phase;
 
-enum { FG_ACTIVITIES = FG_ACTIVITY_SNAPSHOTS + 1 };
+enum { FG_PHASES = FG_PHASE_SNAPSHOTS + 1 };
 
-/* Numbers of one rank. An exchange is a round of messages, one to each neighbour that
- * needs anything, which wait for each other only at its end. */
-typedef struct fg_traffic {
-  double times; /* that the activity was begun; 0 for OTHER */
+/* Communication counters of one rank. An exchange is one round of messages to the
+ * neighbours. */
+typedef struct fg_communication {
+  double times; /* that the phase was begun; 0 for OTHER */
   double exchanges;
   double messages, bytes;     /* sent to single ranks */
   double gathers, gathered;   /* all ranks' pieces on each; bytes received from others */
   double reductions, reduced; /* sums and the like over all ranks; bytes given */
-} fg_traffic;
+} fg_communication;
 
-/* What the ranks of an evolution sent each other since its context was given a
+/* Communication among the ranks of an evolution since its context was given a
  * communicator, exact: the mean over ranks and the greatest of each number, all 0 with
  * one rank. Collective. */
-FG_API void fg_evolution_traffic(const fg_evolution *evolution, fg_traffic mean[],
-                                 fg_traffic greatest[]);
+FG_API void fg_evolution_communication(const fg_evolution *evolution,
+                                       fg_communication mean[],
+                                       fg_communication greatest[]);
 
 #ifdef __cplusplus
 }

@@ -74,12 +74,12 @@ FG_API void fg_field_destroy(fg_field *field);
  */
 FG_API const fg_field_arrays *fg_field_contents(const fg_field *field);
 
-/* How many of a field's samples are missing because a component is infinite: of a part
+/* How many of a field's samples are missing because a component is infinite: of a slab
  * those of its own rows, once it is joined those of all. */
 FG_API size_t fg_field_infinite(const fg_field *field);
 
 /* Velocity at a point in the input's units, bilinear or trilinear; false outside the
- * domain: beyond the border, or in a data cell with a missing corner. position and
+ * domain: beyond the boundary, or in a data cell with a missing corner. position and
  * velocity: dimension numbers. */
 FG_API bool fg_field_velocity(const fg_field *field, const double position[],
                               double velocity[]);
@@ -115,8 +115,8 @@ typedef struct fg_inventory_vector {
                            interpolated onto that grid; outside them is missing */
 } fg_inventory_vector;
 
-/* Says what a file holds, without reading a whole field where that can be avoided.
- * Statuses as fg_field_read. */
+/* Lists the vectors in a file, without reading whole fields where possible. Statuses as
+ * fg_field_read. */
 FG_API fg_status fg_inventory_read(fg_inventory **out, fg_context *context,
                                    const char *input);
 FG_API void fg_inventory_destroy(fg_inventory *inventory);

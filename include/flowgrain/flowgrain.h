@@ -32,7 +32,7 @@
  * All of this is made of parts that can be called alone; examples/ has programs.
  *
  * The manual is the headers that this one includes: context.h (statuses, messages,
- * ranks), field.h and parts.h (in), evolution.h, energy.h and checkpoint.h (the work),
+ * ranks), field.h and slabs.h (in), evolution.h, energy.h and checkpoint.h (the work),
  * density.h and icons.h (its results), placement.h (exactly N arrows), run.h (scales),
  * picture.h, solid.h, texture.h and brush.h (out), rival.h (what to compare with),
  * score.h (how good it is); and mpi.h (several processes), which it does not include.
@@ -45,12 +45,12 @@
  * - A function that can fail returns fg_status; its result comes first, through `out`,
  *   and belongs to the caller, who frees it with the matching destroy function. NULL is
  *   accepted there.
- * - Pointers must not be NULL unless it is said that they may be. A context may be: what
- *   fails is then told by the status alone.
+ * - Pointers must not be NULL unless the function allows it. A context may be: what
+ *   fails is then reported by the status alone.
  * - Returned pointers to const are borrowed: they are valid as long as the object that
  *   they come from.
  * - Option structs: a zero field means the default; a NULL pointer means all defaults.
- * - On failure the context keeps one message (the first), with the numbers that show it.
+ * - On failure the context keeps the first message, with the numbers that show the cause.
  * - Arrays of samples run x fastest, then y, then z. Coordinates are the input's own.
  * - A context, and what was made with it, is used by one thread at a time; a finished
  *   fg_field or fg_density may be read by several threads that hold a context each.
@@ -68,12 +68,12 @@
 #include "flowgrain/evolution.h"
 #include "flowgrain/field.h"
 #include "flowgrain/icons.h"
-#include "flowgrain/parts.h"
 #include "flowgrain/picture.h"
 #include "flowgrain/placement.h"
 #include "flowgrain/rival.h"
 #include "flowgrain/run.h"
 #include "flowgrain/score.h"
+#include "flowgrain/slabs.h"
 #include "flowgrain/solid.h"
 #include "flowgrain/texture.h"
 

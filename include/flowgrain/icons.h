@@ -22,7 +22,7 @@ typedef struct fg_icon {
   int point_count;           /* of the centreline, at least 2 */
   const double (*points)[3]; /* from tail to the tip of the head; z = 0 in 2D; in 3D, and
                                 from files, the coordinate may go on past a periodic
-                                border */
+                                boundary */
   double width;              /* body's full width where the head begins */
   double tail_width;         /* body's full width at the tail */
   double head_length;        /* along the centreline */
@@ -53,9 +53,9 @@ typedef struct fg_icons fg_icons;
  * Telea, Weikard and van Wijk 2000): label, march, spine, streamline, arrow. Clusters too
  * small for a readable arrow give none; fg_icons_dropped counts them. No arrow crosses a
  * periodic boundary: a cluster with a quarter of itself, or of the mean cluster, on
- * either side gives an icon on each, with the same `cluster`. Of a shared density each
- * rank makes the icons of some clusters, from what lies round them, and rank 0 gets all,
- * the same as of the whole; on other ranks *out becomes NULL. MEMORY, STOPPED. */
+ * either side gives an icon on each, with the same `cluster`. Of a distributed density
+ * each rank makes the icons of some clusters, from what lies round them, and rank 0 gets
+ * all, the same as of the whole; on other ranks *out becomes NULL. MEMORY, STOPPED. */
 FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
                                  const fg_field *field, const fg_density *density,
                                  const fg_icon_options *options);

@@ -37,8 +37,8 @@ typedef struct fg_picture_options {
 FG_API const char *const *fg_picture_palettes(void);
 
 /* Draws icons; the format follows the name's end: .svg, .pdf or .png. density may be NULL
- * without tint, and must not be shared; options may be NULL. FILE_ACCESS, UNSUPPORTED,
- * ARGUMENT, MEMORY, STOPPED. */
+ * without tint, and must not be distributed; options may be NULL. FILE_ACCESS,
+ * UNSUPPORTED, ARGUMENT, MEMORY, STOPPED. */
 FG_API fg_status fg_picture_write(fg_context *context, const char *path,
                                   const fg_field *field, const fg_density *density,
                                   const fg_icons *icons,

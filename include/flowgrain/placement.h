@@ -1,5 +1,5 @@
-/* Exactly N arrows, placed so that a reader gets the field back. Included by flowgrain.h.
- */
+/* Exactly N arrows, placed so that readers can reconstruct the field from them. Included
+ * by flowgrain.h. */
 #ifndef FLOWGRAIN_PLACEMENT_H
 #define FLOWGRAIN_PLACEMENT_H
 
@@ -81,8 +81,8 @@ FG_API fg_status fg_placement_icons(fg_icons **out, const fg_placement *placemen
  * MEMORY, UNSUPPORTED. */
 FG_API fg_status fg_placement_regions(fg_density **out, const fg_placement *placement);
 
-/* Sets each icon's `cluster` to that of a density, not shared, which is nearest to its
- * middle; fg_icons_clusters then says how many there are. MEMORY, ARGUMENT. */
+/* Sets each icon's `cluster` to the cluster of a density, not distributed, that is
+ * nearest to its middle; fg_icons_clusters is then their number. MEMORY, ARGUMENT. */
 FG_API fg_status fg_placement_find_clusters(fg_context *context, fg_icons *icons,
                                             const fg_density *density);
 

@@ -1,5 +1,5 @@
-/* The methods that a user would compare with, each after its paper (docs/method): a
- * picture with about as many arrows, of the same look. Included by flowgrain.h. */
+/* Other methods to compare with, each after its paper (docs/method), drawn in the same
+ * style. Included by flowgrain.h. */
 #ifndef FLOWGRAIN_RIVAL_H
 #define FLOWGRAIN_RIVAL_H
 
@@ -47,12 +47,12 @@ FG_API fg_status fg_rival_create(fg_rival **out, fg_context *context,
                                  const fg_field *field, const fg_rival_options *options);
 FG_API void fg_rival_destroy(fg_rival *rival);
 
-/* Makes the picture of about `count` arrows, as often as wanted: a grid has as near to as
- * many points as its shape allows, and evenly spaced streamlines as their spacing;
- * discrete and top-down clusters are as many, and nested from count to count; other
- * methods give exactly `count` where there is room. No centreline leaves the domain.
- * Where the flow stands still there is none; fg_icons_dropped counts them. ARGUMENT
- * (count below 1), MEMORY, STOPPED. */
+/* Makes about `count` arrows; it can be called again with other counts: a grid has as
+ * near to as many points as its shape allows, and evenly spaced streamlines as their
+ * spacing; discrete and top-down clusters are as many, and nested from count to count;
+ * other methods give exactly `count` where there is room. No centreline leaves the
+ * domain. Where the flow stands still there is none; fg_icons_dropped counts them.
+ * ARGUMENT (count below 1), MEMORY, STOPPED. */
 FG_API fg_status fg_rival_icons(fg_icons **out, fg_rival *rival, int count);
 
 /* The clusters that these arrows stand for, u > 0 inside each and below on the lines

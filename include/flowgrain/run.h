@@ -32,14 +32,14 @@ typedef struct fg_run_options {
 } fg_run_options;
 
 /* Why a run has ended. */
-typedef enum fg_run_ending {
+typedef enum fg_run_outcome {
   FG_RUN_GO_ON = 0,  /* it has not */
   FG_RUN_ALL,        /* all scales are taken */
   FG_RUN_STATIONARY, /* the pattern no longer changes */
   FG_RUN_AT_TIME,
   FG_RUN_AT_STEPS,
   FG_RUN_STOPPED /* fg_context_stop was called */
-} fg_run_ending;
+} fg_run_outcome;
 
 /* One scale; all is borrowed until the next call for the same run. */
 typedef struct fg_run_scale {
@@ -71,7 +71,7 @@ FG_API void fg_run_destroy(fg_run *run);
 FG_API fg_status fg_run_next(const fg_run_scale **out, fg_run *run);
 
 /* Why the run has ended, or that it has not. */
-FG_API fg_run_ending fg_run_ended(const fg_run *run);
+FG_API fg_run_outcome fg_run_ended(const fg_run *run);
 
 /* The parts of fg_run_next, for programs that do more between steps: make a step; take
  * the scales that its state is; and when the run has ended, close it and take what is
@@ -99,10 +99,10 @@ FG_API void fg_run_progress(double *share, double *seconds_left, const fg_run *r
 /* The run's evolution, to be saved, described and asked for densities. */
 FG_API fg_evolution *fg_run_evolution(const fg_run *run);
 
-/* Makes the icons of a scale of exactly `count` arrows. density: not shared; the first
- * scale's arrows start from its clusters unless `even_start`, and each icon's `cluster`
- * is of it; NULL: there is none. finer: the icons of the scale before, whose `parent` is
- * set; NULL: this is the first. ARGUMENT, MEMORY, STOPPED. */
+/* Makes the icons of a scale of exactly `count` arrows. density: not distributed; the
+ * first scale's arrows start from its clusters unless `even_start`, and each icon's
+ * `cluster` is of it; NULL: there is none. finer: the icons of the scale before, whose
+ * `parent` is set; NULL: this is the first. ARGUMENT, MEMORY, STOPPED. */
 FG_API fg_status fg_run_place(fg_icons **out, fg_context *context,
                               fg_placement *placement, int count,
                               const fg_density *density, bool even_start,

@@ -1,5 +1,5 @@
-/* How well icons tell a field: what readers get back from them. Included by flowgrain.h.
- */
+/* How well icons tell a field: the errors of readers that reconstruct it from them.
+ * Included by flowgrain.h. */
 #ifndef FLOWGRAIN_SCORE_H
 #define FLOWGRAIN_SCORE_H
 
@@ -63,17 +63,17 @@ typedef struct fg_score {
 /* Scores icons as a picture of a field; `options` may be NULL. The readers see the lines
  * inside the domain on a raster of sqrt(|domain|) / 256, in 3D cbrt(|domain|) / 64. A
  * part of the domain that no icon enters counts 90 degrees for the diffusion reader, and
- * without icons all do. ARGUMENT (options out of range), UNSUPPORTED (a part of a field,
+ * without icons all do. ARGUMENT (options out of range), UNSUPPORTED (a slab of a field,
  * a domain that fills less than 1/256 of its box), MEMORY, STOPPED. Definitions:
  * docs/method/score.md; after Laidlaw et al. 2005 (advection) and Xu, Lee and Shen 2010
  * (reconstruct, then compare). */
 FG_API fg_status fg_icons_score(fg_score *out, fg_context *context, const fg_field *field,
                                 const fg_icons *icons, const fg_score_options *options);
 
-/* Lets icons keep a score: their file and their picture then say it. NULL: none. */
+/* Stores a score with icons; their file and picture then show it. NULL: none. */
 FG_API void fg_icons_keep_score(fg_icons *icons, const fg_score *score);
 
-/* The score that icons keep, borrowed; NULL: none. From a file it has the readers'
+/* The score stored with icons, borrowed; NULL: none. From a file it has the readers'
  * errors, the rest is NaN. */
 FG_API const fg_score *fg_icons_kept_score(const fg_icons *icons);
 

@@ -27,7 +27,7 @@ FG_API fg_status fg_icon_solid(fg_surface **out, fg_context *context,
 FG_API void fg_surface_destroy(fg_surface *surface);
 
 /* The surface {u = 0} of all clusters of a density in 3D, open where they end at the
- * border of the domain or of a mask. MEMORY, ARGUMENT (2D, a shared density). */
+ * boundary of the domain or of a mask. MEMORY, ARGUMENT (2D, a distributed density). */
 FG_API fg_status fg_density_surface(fg_surface **out, fg_context *context,
                                     const fg_density *density);
 
@@ -63,23 +63,23 @@ FG_API fg_status fg_solid_best_view(double *azimuth, double *elevation,
 
 /* The speeds along the arrows of icons in 3D, the ends of a colour key: of all their
  * length 2 % is slower than range[0] and 2 % is faster than range[1], input units. Of a
- * field of which other processes hold parts, or NULL, each arrow has its mean speed. 0, 0
- * without icons. MEMORY, ARGUMENT. */
+ * field that ranks share, or NULL, each arrow has its mean speed. 0, 0 without icons.
+ * MEMORY, ARGUMENT. */
 FG_API fg_status fg_solid_speed_range(double range[2], fg_context *context,
                                       const fg_field *field, const fg_icons *icons);
 
-/* Writes icons in 3D; the format follows the name's end.
- * .vtp: VTK polydata in input coordinates, with the cells' array `part` (0 a centre, 1 a
- * spine, 2 a streamline, 3 an arrow, 4 the clusters' surface) and those of their cluster;
- * the clusters' surface belongs to none: there `cluster`, `speed` and `volume` are 0.
- * .glb: glTF 2.0 in one file: a node with a mesh for each arrow, coloured by its speed,
- * and for all spines, streamlines, centres and clusters' surfaces; z is turned upwards as
- * glTF has y. .png, .svg, .pdf: a rendered picture, the same to the bit on any number of
- * threads; 2.5 pixels a point; colours follow the speed along each arrow, and the surface
- * of where the field is valid, or of what moves in a field that hardly does, is seen as a
- * faint outline, unless other processes hold parts of the field. The field is needed for
- * pictures only, else NULL. options may be NULL. FILE_ACCESS, UNSUPPORTED (another end; a
- * picture without FG_FEATURE_RENDER), ARGUMENT, MEMORY, STOPPED. */
+/* Writes icons in 3D; the format follows the name's end. .vtp: VTK polydata in input
+ * coordinates, with the cells' array `part` (0 a centre, 1 a spine, 2 a streamline, 3 an
+ * arrow, 4 the clusters' surface) and those of their cluster; the clusters' surface
+ * belongs to none: there `cluster`, `speed` and `volume` are 0. .glb: glTF 2.0 in one
+ * file: a node with a mesh for each arrow, coloured by its speed, and for all spines,
+ * streamlines, centres and clusters' surfaces; z is turned upwards as glTF has y. .png,
+ * .svg, .pdf: a rendered picture, the same to the bit on any number of threads; 2.5
+ * pixels a point; colours follow the speed along each arrow, and the surface of where the
+ * field is valid, or of what moves in a field that hardly does, is seen as a faint
+ * outline, unless ranks share the field. The field is needed for pictures only, else
+ * NULL. options may be NULL. FILE_ACCESS, UNSUPPORTED (another end; a picture without
+ * FG_FEATURE_RENDER), ARGUMENT, MEMORY, STOPPED. */
 FG_API fg_status fg_solid_write(fg_context *context, const char *path,
                                 const fg_field *field, const fg_icons *icons,
                                 const fg_solid_options *options);

@@ -35,14 +35,14 @@ typedef struct fg_texture_options {
   double length; /* of streaks (LIC), the longest spots, four stripes' width together, in
                     pixels, 2 to 400 [a 25th of the longest side, of spots an 18th, of
                     DIFFUSION a 20th; 20 at least]; not for CLUSTERS */
-  int clusters;  /* CLUSTERS: the first moment with no more of them [300; with max_time:
+  int clusters;  /* CLUSTERS: the first snapshot with no more of them [300; with max_time:
                     none] */
-  double max_time; /* CLUSTERS: no later than the first moment from this t on [never] */
+  double max_time; /* CLUSTERS: no later than the first snapshot from this t on [never] */
   const fg_evolution_options *evolution; /* CLUSTERS: how they evolve; its `nodes`, when
                                             0, follow the pixels; seed and threads are
                                             those below [NULL: defaults] */
-  const fg_density *density; /* CLUSTERS: these instead, not shared; borrowed while the
-                                texture is made [NULL: an evolution of its own] */
+  const fg_density *density; /* CLUSTERS: these instead, not distributed; borrowed while
+                                the texture is made [NULL: an evolution of its own] */
   uint64_t seed;             /* of the noise [1] */
   int threads;               /* the texture does not depend on it [all cores] */
 } fg_texture_options;

@@ -8,8 +8,8 @@
  * A request for nothing returns a pointer that can be freed. End with free. */
 void *fg__allocate(size_t count, size_t size);
 
-/* The same on a 64-byte border, for vector code, in large pages where there are such. End
- * with free. */
+/* The same on a 64-byte boundary, for vector code, in large pages where there are such.
+ * End with free. */
 void *fg__allocate_aligned(size_t count, size_t size);
 
 /* The same without touching large pieces: a page comes in with whoever first uses it, so

@@ -46,9 +46,9 @@ void *__wrap_calloc(size_t number, size_t size)
   return refuses() ? NULL : count(__real_calloc(number, size));
 }
 
-void *__wrap_aligned_alloc(size_t border, size_t bytes)
+void *__wrap_aligned_alloc(size_t alignment, size_t bytes)
 {
-  return refuses() ? NULL : count(__real_aligned_alloc(border, bytes));
+  return refuses() ? NULL : count(__real_aligned_alloc(alignment, bytes));
 }
 
 void *__wrap_realloc(void *memory, size_t bytes)

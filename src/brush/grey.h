@@ -10,7 +10,7 @@
 float *fg__image_grey(const fg_image_arrays *image);
 
 /* Averages rows and columns of a plane over a Gaussian of standard deviation `width` in
- * pixels, in place; beyond the border the plane is mirrored. False without memory. */
+ * pixels, in place; beyond the boundary the plane is mirrored. False without memory. */
 bool fg__image_blur(float *plane, int width, int height, double deviation);
 
 #endif

@@ -37,8 +37,8 @@ static int power_of_two_in(long a, long b)
   return power;
 }
 
-/* Of the meshes with up to so many cells the one whose sides can be halved most often:
- * coarse levels that can not be halved cost more than all the rest. */
+/* Of the meshes with up to so many cells the one whose sides can be coarsened most often:
+ * coarse levels that can not be coarsened cost more than all the rest. */
 static int nodes_for(const fg_image_arrays *image, int clusters)
 {
   double longest = fmax(image->width, image->height);

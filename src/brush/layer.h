@@ -19,8 +19,8 @@ double fg__layer_brush(const fg_image_arrays *image, int clusters);
 fg_status fg__layer_structure(fg__structure *out, fg_context *context,
                               const fg_image_arrays *image, const fg__layer_plan *plan);
 
-/* Clusters along the level sets of an image with that structure: the first moment with at
- * most so many. To be ended with fg_density_destroy. NO_CONVERGENCE, ARGUMENT, MEMORY,
+/* Clusters along the level sets of an image with that structure: the first snapshot with
+ * at most so many. To be ended with fg_density_destroy. NO_CONVERGENCE, ARGUMENT, MEMORY,
  * STOPPED. */
 fg_status fg__layer_density(fg_density **out, fg_context *context,
                             const fg_image_arrays *image, const fg__structure *structure,

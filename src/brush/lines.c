@@ -1,10 +1,10 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "base/team.h"
+#include "base/threads.h"
 #include "brush/layer.h"
 
-/* Clusters whose lines are to be found; members take every so manyth. */
+/* Clusters whose lines are to be found; each thread takes every so manyth. */
 typedef struct search {
   const fg_density_arrays *density;
   const fg__labels *labels;
@@ -12,8 +12,8 @@ typedef struct search {
   const fg__line_rule *rule;
   fg__brush_line *line;
   fg_context *context;               /* the caller's */
-  fg_context *own[FG__MOST_MEMBERS]; /* a context is for one thread */
-  fg_status status[FG__MOST_MEMBERS];
+  fg_context *own[FG__MOST_THREADS]; /* a context is for one thread */
+  fg_status status[FG__MOST_THREADS];
 } search;
 
 static fg_status find_line(const search *s, fg_context *context, int cluster)
@@ -27,31 +27,31 @@ static fg_status find_line(const search *s, fg_context *context, int cluster)
   return status;
 }
 
-static void find_part(void *argument, const fg__share *share)
+static void find_part(void *argument, const fg__thread *thread)
 {
   search *s = argument;
-  int member = share->member;
+  int index = thread->index;
   fg_status status = FG_STATUS_OK;
-  for (int cluster = 1 + member; cluster <= s->labels->count && !status;
-       cluster += share->members) {
-    if (member == 0)
+  for (int cluster = 1 + index; cluster <= s->labels->count && !status;
+       cluster += thread->count) {
+    if (index == 0)
       status = fg__check_stop(s->context);
     if (!status)
-      status = find_line(s, s->own[member], cluster);
+      status = find_line(s, s->own[index], cluster);
   }
-  s->status[member] = status;
+  s->status[index] = status;
 }
 
-static fg_status find_lines(search *s, fg__team *team)
+static fg_status find_lines(search *s, fg__threads *threads)
 {
-  int members = fg__team_members(team), made = 0;
+  int thread_count = fg__threads_count(threads), made = 0;
   fg_status status = FG_STATUS_OK;
-  for (; made < members && !status; ++made)
+  for (; made < thread_count && !status; ++made)
     status = fg_context_create(&s->own[made]);
   if (status)
     status = fg__fail_memory(s->context, "a context", 0);
   else
-    fg__team_run(team, find_part, s);
+    fg__threads_run(threads, find_part, s);
   for (int n = 0; n < made; ++n) {
     if (!status && s->status[n])
       status =
@@ -65,10 +65,10 @@ static fg_status find_lines(search *s, fg__team *team)
 
 fg_status fg__layer_lines(fg__brush_line **lines, int *count, fg_context *context,
                           const fg_density *density, const fg__brush_canvas *image,
-                          const fg__line_rule *rule, int threads)
+                          const fg__line_rule *rule, int thread_count)
 {
   fg__labels labels;
-  fg__team *team = NULL;
+  fg__threads *threads = NULL;
   *lines = NULL;
   fg_status status = fg__labels_create(&labels, context, density);
   if (status)
@@ -79,7 +79,7 @@ fg_status fg__layer_lines(fg__brush_line **lines, int *count, fg_context *contex
   if (!s || !found)
     status = fg__fail_memory(context, "strokes", (size_t)labels.count * sizeof *found);
   else
-    status = fg__team_create(&team, context, threads);
+    status = fg__threads_create(&threads, context, thread_count);
   if (!status) {
     *s = (search){.density = fg_density_contents(density),
                   .labels = &labels,
@@ -87,9 +87,9 @@ fg_status fg__layer_lines(fg__brush_line **lines, int *count, fg_context *contex
                   .rule = rule,
                   .line = found,
                   .context = context};
-    status = find_lines(s, team);
+    status = find_lines(s, threads);
   }
-  fg__team_destroy(team);
+  fg__threads_destroy(threads);
   fg__labels_clear(&labels);
   free(s);
   if (status)

@@ -174,7 +174,7 @@ static inline subject subject_of(const shape *s, const bool periodic[2], bool ma
   const fg_mesh_info *mesh = fg_evolution_mesh(evolution);
   expect(mesh->cells[0] == COLUMNS && mesh->cells[1] == ROWS);
   expect(fg_density_create(&out.shared, evolution) == FG_STATUS_OK);
-  expect(fg_density_is_shared(out.shared) == (us.ranks->count > 1));
+  expect(fg_density_is_distributed(out.shared) == (us.ranks->count > 1));
   fg_evolution_destroy(evolution);
   out.whole = whole_of(out.shared);
   const fg_density_arrays *got = out.whole ? fg_density_contents(out.whole) : NULL;

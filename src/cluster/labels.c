@@ -1,5 +1,5 @@
 /* Bounds without the whole grid. Those inside the grid are greatest and least indices.
- * What lies on both sides of a periodic border is followed across it: where some column
+ * What lies on both sides of a periodic boundary is followed across it: where some column
  * holds nothing of the cluster, the columns that do are one arc of the circle. Where all
  * do, one rank takes the rows concerned and floods the cluster as if it had the whole. */
 #include <stdlib.h>
@@ -100,7 +100,7 @@ static fg_status follow_arcs(finding *f, fg_context *context, int *full_count)
   f->filled = fg__allocate(f->filled_count, sizeof *f->filled);
   fg_status status = FG_STATUS_OK;
   if (!f->filled)
-    status = fg__fail_memory(context, "clusters across a periodic border",
+    status = fg__fail_memory(context, "clusters across a periodic boundary",
                              f->filled_count * sizeof *f->filled);
   status = fg__ranks_agree(f->ranks, context, status);
   if (status)
@@ -172,7 +172,7 @@ static fg_status flood_full_ones(finding *f, fg_context *context, int count)
   uint64_t *number = fg__allocate((size_t)count * NUMBERS, sizeof *number);
   fg_status status = FG_STATUS_OK;
   if (!wanted || !cluster || !number)
-    status = fg__fail_memory(context, "clusters across a periodic border",
+    status = fg__fail_memory(context, "clusters across a periodic boundary",
                              (size_t)count * sizeof *wanted);
   status = fg__ranks_agree(f->ranks, context, status);
   if (status)

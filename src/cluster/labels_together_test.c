@@ -133,7 +133,7 @@ static void a_density_in_one_piece_is_not_gathered(void **state)
       .dimension = 2, .nodes = {2, 2}, .spacing = {1.0, 1.0}, .u = u};
   fg_density *density, *out;
   expect(fg_density_create_from_arrays(&density, us.context, &arrays) == FG_STATUS_OK);
-  expect(!fg_density_is_shared(density));
+  expect(!fg_density_is_distributed(density));
   expect(fg_density_gather(&out, us.context, density) == FG_STATUS_ARGUMENT);
   fg_density_destroy(density);
   end_together();

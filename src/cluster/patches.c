@@ -77,7 +77,7 @@ static fg_status fill(fg_context *context, const fg_density *density,
 fg_status fg__patches_fill(fg_context *context, const fg_density *density,
                            fg__wanted_patch *wanted, int count)
 {
-  if (fg_density_is_shared(density))
+  if (fg_density_is_distributed(density))
     return fill(context, density, wanted, count);
   const fg__labels labels = {.label = fg__density_block_of(density)->label};
   for (int n = 0; n < count; ++n)

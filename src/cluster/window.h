@@ -85,12 +85,12 @@ fg_status fg__window_keep_largest(fg__window *window, fg_context *context);
 
 /* A part of a cluster that gets an icon of its own, of at most so many, in 2D and 3D: a
  * box has eight corners. */
-enum { FG__WINDOW_PARTS = 8 };
+enum { FG__WINDOW_PIECES = 8 };
 
-typedef struct fg__window_part {
+typedef struct fg__window_piece {
   fg__window window;
   double share; /* of the cluster: those of all parts are 1 together */
-} fg__window_part;
+} fg__window_piece;
 
 /* Cuts a cluster's window where it crosses periodic boundaries, since a map ends there:
  * the largest part, and the larger ones of those that hold a quarter of the cluster, or
@@ -98,7 +98,7 @@ typedef struct fg__window_part {
  * fastest. A cut edge is at_boundary. One that crosses none is the only part. Takes
  * `whole`, which is empty afterwards; *count parts are to be cleared, also after a
  * failure. MEMORY. */
-fg_status fg__window_divide(fg__window_part part[FG__WINDOW_PARTS], int *count,
+fg_status fg__window_divide(fg__window_piece part[FG__WINDOW_PIECES], int *count,
                             fg_context *context, const fg_density_arrays *density,
                             const fg__labels *labels, fg__window *whole);
 

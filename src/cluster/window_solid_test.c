@@ -149,8 +149,8 @@ static void clusters_are_followed_across_periods(void **state)
   }
 }
 
-static void divide(fg__window_part part[FG__WINDOW_PARTS], int *count, fg__labels *labels,
-                   const fg_density_arrays *density)
+static void divide(fg__window_piece part[FG__WINDOW_PIECES], int *count,
+                   fg__labels *labels, const fg_density_arrays *density)
 {
   fg__window window;
   label_arrays(labels, density);
@@ -170,7 +170,7 @@ static void clusters_are_cut_at_periodic_boundaries(void **state)
   fill((int[]){W - 3, 3, D - 3}, (int[]){W + 3, 6, D + 1}, 0.5F);
   active[(3 * (H - 1) + 4) * W + 2] = 0; /* in the part that begins at x = 0, z = 0 */
   fg__labels labels;
-  fg__window_part part[FG__WINDOW_PARTS];
+  fg__window_piece part[FG__WINDOW_PIECES];
   int count;
   divide(part, &count, &labels, &density);
   assert_int_equal(count, 2);
@@ -196,7 +196,7 @@ static void a_cluster_within_the_boundaries_is_one_part(void **state)
   fg_density_arrays density = empty(true, true, true);
   fill((int[]){3, 3, 2}, (int[]){6, 5, 5}, 0.5F);
   fg__labels labels;
-  fg__window_part part[FG__WINDOW_PARTS];
+  fg__window_piece part[FG__WINDOW_PIECES];
   int count;
   divide(part, &count, &labels, &density);
   assert_int_equal(count, 1);
@@ -214,7 +214,7 @@ static void a_small_rest_is_left_out(void **state)
   fg_density_arrays density = empty(true, false, false);
   fill((int[]){W - 5, 3, 2}, (int[]){W, 5, 5}, 0.5F);
   fg__labels labels;
-  fg__window_part part[FG__WINDOW_PARTS];
+  fg__window_piece part[FG__WINDOW_PIECES];
   int count;
   divide(part, &count, &labels, &density);
   assert_int_equal(count, 1);

@@ -53,7 +53,7 @@ static world make_world(int dimension)
   return w;
 }
 
-/* Index of a node or a cell of the whole grid; -1 beyond its border. */
+/* Index of a node or a cell of the whole grid; -1 beyond its boundary. */
 static ptrdiff_t index_in(const world *w, const int size[3], const int place[3])
 {
   int at[3];
@@ -68,7 +68,7 @@ static ptrdiff_t index_in(const world *w, const int size[3], const int place[3])
 }
 
 /* Fills a part's array, ring included, from one of the whole grid; what lies beyond the
- * border must not matter. */
+ * boundary must not matter. */
 static void fill_part(part *p, const world *w)
 {
   for (int k = -1; k <= p->nodes[2]; ++k)

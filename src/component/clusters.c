@@ -55,15 +55,15 @@ static fg__component_box box_of(const fg__clusters *c, int slab)
 }
 
 /* Failures are looked into by the caller, who has a context. */
-static void cut(void *argument, const fg__share *share)
+static void cut(void *argument, const fg__thread *thread)
 {
   const task *t = argument;
   fg__clusters *c = t->clusters;
-  int slab = share->member, slices = c->first[c->slabs];
+  int slab = thread->index, slices = c->first[c->slabs];
   if (slab < c->slabs && t->u)
     export_slices(t, slab == 0 ? -1 : c->first[slab],
                   slab == c->slabs - 1 ? slices + 1 : c->first[slab + 1]);
-  fg__team_barrier(share);
+  fg__threads_barrier(thread);
   if (slab >= c->slabs)
     return;
   fg__component_box box = box_of(c, slab);
@@ -77,25 +77,25 @@ static int *numbers_of(const fg__clusters *c, int slab)
 }
 
 /* Numbers follow each other from slab to slab. */
-static void number(void *argument, const fg__share *share)
+static void number(void *argument, const fg__thread *thread)
 {
   const task *t = argument;
   const fg__clusters *c = t->clusters;
-  if (share->member >= c->slabs)
+  if (thread->index >= c->slabs)
     return;
-  fg__component_box box = box_of(c, share->member);
+  fg__component_box box = box_of(c, thread->index);
   int before = c->before;
-  for (int n = 0; n < share->member; ++n)
+  for (int n = 0; n < thread->index; ++n)
     before += c->slab[n].piece_count;
-  fg__components_number(&c->slab[share->member], &box, before, false,
-                        numbers_of(c, share->member));
+  fg__components_number(&c->slab[thread->index], &box, before, false,
+                        numbers_of(c, thread->index));
 }
 
-static void pair(void *argument, const fg__share *share)
+static void pair(void *argument, const fg__thread *thread)
 {
   const task *t = argument;
   const fg__clusters *c = t->clusters;
-  int slab = share->member;
+  int slab = thread->index;
   if (slab >= c->slabs)
     return;
   fg__component_box box = box_of(c, slab);
@@ -185,9 +185,9 @@ static fg_status join(task *t, fg_context *context, double debris_area)
   find_place(c, own, &before, &total);
   c->before = (int)before;
   if (c->number) {
-    fg__team_run(t->grid->team, number, t);
+    fg__threads_run(t->grid->threads, number, t);
     fg__halo_fill(&c->halo, c->number);
-    fg__team_run(t->grid->team, pair, t);
+    fg__threads_run(t->grid->threads, pair, t);
     fg_status status = settle(c, context);
     if (status)
       return status;
@@ -230,7 +230,7 @@ static fg_status prepare(fg__clusters *c, fg_context *context,
                          const fg__cluster_grid *grid)
 {
   int slices = grid->layout->nodes[grid->partition->dimension - 1];
-  int most = slices / LEAST_SLICES, slabs = fg__team_members(grid->team);
+  int most = slices / LEAST_SLICES, slabs = fg__threads_count(grid->threads);
   slabs = slabs < most ? slabs : most;
   slabs = slabs < 1 ? 1 : slabs;
   if (c->slabs == slabs)
@@ -262,7 +262,7 @@ fg_status fg__clusters_find(fg__clusters *clusters, fg_context *context,
   describe(&c->block, grid, &c->halo);
   c->block.u = u ? c->u + c->halo.first : NULL;
   c->block.enough = wish->enough;
-  fg__team_run(grid->team, cut, &t);
+  fg__threads_run(grid->threads, cut, &t);
   status = settle(c, context);
   if (status)
     return status;

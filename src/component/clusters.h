@@ -5,7 +5,7 @@
 #ifndef FG__CLUSTERS_H
 #define FG__CLUSTERS_H
 
-#include "base/team.h"
+#include "base/threads.h"
 #include "component/components.h"
 #include "grid/exchange/halo.h"
 #include "grid/layout.h"
@@ -17,7 +17,7 @@ typedef struct fg__cluster_grid {
   const unsigned char *active; /* the cell whose lowest corner is node (0, 0, 0), with one
                                   cell more beyond each side; NULL: all are active */
   ptrdiff_t cell_row, cell_plane;
-  fg__team *team; /* NULL: one thread */
+  fg__threads *threads; /* NULL: one thread */
 } fg__cluster_grid;
 
 /* Result and working memory; zero it before the first use, use it again and again on the

@@ -174,18 +174,18 @@ static void any_blocks_and_threads_find_the_same(void **state)
   (void)state;
   uint64_t seed = 11;
   int bounded = 0;
-  for (int threads = 1; threads <= MOST_THREADS; threads += 2) {
-    fg__team *team;
-    expect(fg__team_create(&team, us.context, threads) == FG_STATUS_OK);
+  for (int thread_count = 1; thread_count <= MOST_THREADS; thread_count += 2) {
+    fg__threads *threads;
+    expect(fg__threads_create(&threads, us.context, thread_count) == FG_STATUS_OK);
     for (int trial = 0; trial < TRIALS * GRID_COUNT; ++trial) {
       world w = {.g = &GRIDS[trial % GRID_COUNT]};
       make_plain(&w, &seed);
       make_block(&w, seed);
-      w.block.team = team;
+      w.block.threads = threads;
       bounded += compare(&w, trial / GRID_COUNT % 4 == 0 ? 0.0 : 1.5);
       clear_world(&w);
     }
-    fg__team_destroy(team);
+    fg__threads_destroy(threads);
   }
   expect(bounded > 0);
   end_together();
@@ -201,7 +201,7 @@ static void memory_is_used_again(void **state)
   free(w.active);
   w.active = NULL;
   make_block(&w, seed);
-  expect(fg__team_create(&w.block.team, us.context, 3) == FG_STATUS_OK);
+  expect(fg__threads_create(&w.block.threads, us.context, 3) == FG_STATUS_OK);
   const fg__cluster_wish wish = {.counting = true};
   fg__clusters found = {0};
   int count[3] = {0};
@@ -214,7 +214,7 @@ static void memory_is_used_again(void **state)
   }
   expect(count[0] > 0 && count[1] != count[0] && count[2] == count[0]);
   fg__clusters_clear(&found);
-  fg__team_destroy(w.block.team);
+  fg__threads_destroy(w.block.threads);
   clear_world(&w);
   end_together();
 }

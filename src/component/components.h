@@ -1,14 +1,14 @@
 /* Connected components of the set {u > 0} on a grid of nodes: plain arrays in, labels,
  * sizes and a count out. The evolution counts clusters after every step; the stages after
- * it label the same components, so that both mean the same thing by a cluster.
+ * it label the same components, so that a cluster is the same for both.
  *
- * What belongs together. Two positive nodes are neighbours along an axis and an active
+ * Connectivity. Two positive nodes are neighbours along an axis and an active
  * cell adjoins the edge between them; or they face each other across a face of an active
  * cell (in 2D the cell itself) whose bilinear density is positive at its saddle point. So
  * the components are those of {u > 0} on the faces of the active cells. Opposite corners
  * of a 3D cell meet through its faces only, never through its inside. A node without an
- * active cell is outside. (Where u is 1 everywhere these are the parts of the domain that
- * a mask separates.)
+ * active cell is outside. (Where u is 1 everywhere, these are the subdomains that a mask
+ * separates.)
  *
  * Size. A positive node takes, in each active cell round it, the share u / sum |u| over
  * the cell's corners: a cell that is positive throughout counts whole, and the shares of
@@ -23,7 +23,8 @@
  *      of the box's outermost nodes to an array laid out like its u;
  *   3. the ring of that array is exchanged between boxes and ranks like that of u: 4
  *      bytes a ghost node, only copied;
- *   4. fg__components_pairs lists the pairs of numbers that meet across the box's border;
+ *   4. fg__components_pairs lists the pairs of numbers that meet across the box's
+ * boundary;
  *   5. all pieces (16 bytes each, in the order of their numbers) and all pairs (8 bytes
  *      each, in any order) are brought together, on every rank alike or on one that
  *      passes on the result, and fg__components_merge gives each number its label. */
@@ -44,8 +45,8 @@ typedef struct fg__component_grid {
 } fg__component_grid;
 
 /* A box of a grid. On each side where the grid goes on (into another box, or across a
- * periodic border unless the box spans the whole period), u and active reach one node and
- * one cell further, edges and corners of the ring included. */
+ * periodic boundary unless the box spans the whole period), u and active reach one node
+ * and one cell further, edges and corners of the ring included. */
 typedef struct fg__component_box {
   int grid_nodes[3];
   bool periodic[3];
@@ -58,7 +59,7 @@ typedef struct fg__component_box {
                     its size (2D without a mask); 0: all are measured */
 } fg__component_box;
 
-/* What a box holds of a component. */
+/* The part of a component in a box. */
 typedef struct fg__component_piece {
   int64_t first; /* index of its first node in the whole grid, x fastest */
   int64_t size;  /* in 2^-24 cells */
@@ -109,8 +110,8 @@ fg_status fg__components_count(fg__components *components, fg_context *context,
 
 void fg__components_clear(fg__components *components);
 
-/* `covered` of a box alone, for moments when nothing need be counted. Sums of several
- * boxes are exact. MEMORY. */
+/* `covered` of a box alone, without counting components. Sums of several boxes are exact.
+ * MEMORY. */
 fg_status fg__components_cover(fg__components *components, fg_context *context,
                                const fg__component_box *box);
 
@@ -124,7 +125,7 @@ fg_status fg__components_cut(fg__components *components, fg_context *context,
 void fg__components_number(const fg__components *components, const fg__component_box *box,
                            int before, bool all, int *number);
 
-/* Lists the pairs of pieces that meet across the box's border, each pair once; of two
+/* Lists the pairs of pieces that meet across the box's boundary, each pair once; of two
  * boxes the one whose piece has the higher number lists it. MEMORY. */
 fg_status fg__components_pairs(fg__components *components, fg_context *context,
                                const fg__component_box *box, const int *number);

@@ -152,7 +152,7 @@ static void test_agrees_with_flood_fill(void **state)
 }
 
 /* A wide row, so that whole words of eight nodes lie inside, outside and across. The
- * shares of u and -u make up the domain, and a straight border has no bias. */
+ * shares of u and -u make up the domain, and a straight boundary has no bias. */
 static void test_area_under_a_plane(void **state)
 {
   (void)state;

@@ -195,8 +195,8 @@ fg_status fg__components_cover(fg__components *components, fg_context *context,
       for (int x = 0; x < s->nodes[0]; ++x)
         sum += c.marks[x];
       sum *= 2;
-      sum -= s->low[0] == FG__SIDE_BORDER && c.marks[0];
-      sum -= s->high[0] == FG__SIDE_BORDER && c.marks[s->nodes[0] - 1];
+      sum -= s->low[0] == FG__SIDE_BOUNDARY && c.marks[0];
+      sum -= s->high[0] == FG__SIDE_BOUNDARY && c.marks[s->nodes[0] - 1];
       covered += sum * fg__cutter_row_weight(s, j, k);
     }
   components->covered = cells_of(s, covered);

@@ -79,9 +79,9 @@ static int64_t covered_by(const fg__cutter *c, const struct fg__component_run *r
   }
   const fg__shape *s = &c->shape;
   int64_t halves = 2 * ((int64_t)run->last - run->first + 1);
-  if (run->first == 0 && s->low[0] == FG__SIDE_BORDER)
+  if (run->first == 0 && s->low[0] == FG__SIDE_BOUNDARY)
     --halves;
-  if (run->last == s->nodes[0] - 1 && s->high[0] == FG__SIDE_BORDER)
+  if (run->last == s->nodes[0] - 1 && s->high[0] == FG__SIDE_BOUNDARY)
     --halves;
   return halves * row_weight;
 }

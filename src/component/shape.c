@@ -8,9 +8,9 @@ static void set_sides(fg__shape *shape, int axis, const fg__component_box *box, 
   int nodes = box->nodes[of], first = box->first[of];
   bool spans = nodes == box->grid_nodes[of];
   shape->nodes[axis] = nodes;
-  shape->low[axis] = first > 0 ? FG__SIDE_RING : FG__SIDE_BORDER;
+  shape->low[axis] = first > 0 ? FG__SIDE_RING : FG__SIDE_BOUNDARY;
   shape->high[axis] =
-      first + nodes < box->grid_nodes[of] ? FG__SIDE_RING : FG__SIDE_BORDER;
+      first + nodes < box->grid_nodes[of] ? FG__SIDE_RING : FG__SIDE_BOUNDARY;
   if (box->periodic[of])
     shape->low[axis] = shape->high[axis] = spans ? FG__SIDE_WRAP : FG__SIDE_RING;
 }

@@ -9,10 +9,10 @@
 #include "component/components.h"
 
 typedef enum fg__side {
-  FG__SIDE_BORDER, /* nothing */
-  FG__SIDE_RING,   /* a ghost node, in memory */
-  FG__SIDE_WRAP,   /* the box's own node at the other end */
-  FG__SIDE_FLAT    /* 2D, middle axis: the cell, but no node */
+  FG__SIDE_BOUNDARY, /* nothing */
+  FG__SIDE_RING,     /* a ghost node, in memory */
+  FG__SIDE_WRAP,     /* the box's own node at the other end */
+  FG__SIDE_FLAT      /* 2D, middle axis: the cell, but no node */
 } fg__side;
 
 typedef struct fg__shape {
@@ -50,7 +50,7 @@ static inline int fg__shape_cell(const fg__shape *shape, int axis, int index)
   if (index >= 0 && index < nodes - 1)
     return index;
   fg__side side = index < 0 ? shape->low[axis] : shape->high[axis];
-  if (side == FG__SIDE_BORDER)
+  if (side == FG__SIDE_BOUNDARY)
     return FG__NOWHERE;
   return side == FG__SIDE_WRAP ? nodes - 1 : index;
 }

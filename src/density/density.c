@@ -177,7 +177,7 @@ const fg__density_block *fg__density_block_of(const fg_density *density)
   return &density->block;
 }
 
-bool fg_density_is_shared(const fg_density *density)
+bool fg_density_is_distributed(const fg_density *density)
 {
   return density->block.partition.ranks->count > 1;
 }
@@ -217,14 +217,14 @@ static fg_status gather(const fg_density *density, fg_context *context,
   }
   void *const values[] = {to->u}, *const labels[] = {to->label};
   void *const flags[] = {to->active};
-  fg__traffic_book *book = partition->ranks->book;
-  fg_activity before = fg__traffic_continue(book, FG_ACTIVITY_SNAPSHOTS);
+  fg__counters *counters = partition->ranks->counters;
+  fg_phase before = fg__phase_continue(counters, FG_PHASE_SNAPSHOTS);
   fg_status status = fg__density_fill(density, context, FG__DENSITY_U, &nodes, 1, values);
   if (!status)
     status = fg__density_fill(density, context, FG__DENSITY_LABEL, &nodes, 1, labels);
   if (!status && density->block.masked)
     status = fg__density_fill(density, context, FG__DENSITY_ACTIVE, &cells, 1, flags);
-  fg__traffic_return(book, before);
+  fg__phase_return(counters, before);
   return status;
 }
 
@@ -256,7 +256,7 @@ static fg_status create_whole(fg__density_block *out, fg_context *context,
 fg_status fg_density_gather(fg_density **out, fg_context *context,
                             const fg_density *density)
 {
-  if (!out || !density || !fg_density_is_shared(density))
+  if (!out || !density || !fg_density_is_distributed(density))
     return fg__fail(context, FG_STATUS_ARGUMENT, "density: %s",
                     out && density ? "all of it is here" : "a NULL argument");
   *out = NULL;

@@ -9,17 +9,18 @@
 /* Cells a cluster, of all the domain's, from which on the mesh is finer than needed: each
  * keeps what clusters have on the meshes that are the default, at the scales at which
  * these are drawn. */
-static const double ample_cells_2d = 64.0 * 64.0, ample_cells_3d = 32.0 * 32.0 * 32.0;
+static const double coarsening_cells_2d = 64.0 * 64.0,
+                    coarsening_cells_3d = 32.0 * 32.0 * 32.0;
 
 bool fg_evolution_should_coarsen(const fg_evolution *evolution)
 {
   const fg_evolution *e = evolution;
-  double ample = e->mesh.dimension == 3 ? ample_cells_3d : ample_cells_2d;
+  double needed = e->mesh.dimension == 3 ? coarsening_cells_3d : coarsening_cells_2d;
   bool masked = e->active_cells < (int64_t)e->cells;
   int least = 2 * (fg__default_nodes(e->mesh.dimension) - 1);
   return e->clusters > 0 && !masked && fg__mesh_most_cells(&e->mesh) >= least &&
-         (double)e->active_cells >= ample * e->clusters &&
-         fg__mesh_can_be_halved(&e->mesh);
+         (double)e->active_cells >= needed * e->clusters &&
+         fg__mesh_can_coarsen(&e->mesh);
 }
 
 static fg_status check(const fg_evolution *e)
@@ -28,7 +29,7 @@ static fg_status check(const fg_evolution *e)
     return fg__fail(e->context, FG_STATUS_ARGUMENT,
                     "coarser mesh: the field is missing in places, which a coarser mesh "
                     "would not show as they are");
-  if (!fg__mesh_can_be_halved(&e->mesh))
+  if (!fg__mesh_can_coarsen(&e->mesh))
     return fg__fail(e->context, FG_STATUS_ARGUMENT,
                     "coarser mesh: %d cells along the longest side can not be halved",
                     fg__mesh_most_cells(&e->mesh));
@@ -40,19 +41,20 @@ static fg_status check(const fg_evolution *e)
 }
 
 /* Leaves one mesh for the next. */
-static fg_status change_mesh(fg_evolution *e, const fg__halved *halved)
+static fg_status change_mesh(fg_evolution *e, const fg__coarsened *coarsened)
 {
   double time = e->stepper.time;
-  e->halved = halved;
-  e->halved_mean = e->stepper.mean;
+  e->coarsened = coarsened;
+  e->coarsened_mean = e->stepper.mean;
   e->earlier_steps += e->stepper.accepted;
   e->mesh_nodes = fg__mesh_most_cells(&e->mesh) / 2 + 1;
   ++e->halvings;
   fg__evolution_clear(e);
   fg_status status = fg__evolution_build(e);
-  e->halved = NULL;
-  e->stepper.mean = e->halved_mean; /* to the last bit, as a resumed run will have it */
-  e->stepper.time = 0.5 * time;     /* its unit is twice as long */
+  e->coarsened = NULL;
+  e->stepper.mean =
+      e->coarsened_mean;        /* to the last bit, as a resumed run will have it */
+  e->stepper.time = 0.5 * time; /* its unit is twice as long */
   return status;
 }
 
@@ -71,18 +73,18 @@ fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step)
 {
   fg_evolution *e = evolution;
   double energy = fg__evolution_describe(e, 0, 0).energy;
-  fg_activity before = fg__traffic_begin(e->ranks->book, FG_ACTIVITY_SETUP);
-  fg__halved halved = {.values = NULL};
+  fg_phase before = fg__phase_begin(e->ranks->counters, FG_PHASE_SETUP);
+  fg__coarsened coarsened = {.values = NULL};
   fg_status status = fg__ranks_agree(e->ranks, e->context, check(e));
   if (!status)
-    status = fg__halved_create(&halved, e->context, &e->stepper.multigrid,
-                               &e->mesh.partition, e->stepper.current);
+    status = fg__coarsened_create(&coarsened, e->context, &e->stepper.multigrid,
+                                  &e->mesh.partition, e->stepper.current);
   if (!status)
-    status = change_mesh(e, &halved);
+    status = change_mesh(e, &coarsened);
   if (!status)
     status = fg__evolution_count(e);
-  fg__halved_clear(&halved);
-  fg__traffic_return(e->ranks->book, before);
+  fg__coarsened_clear(&coarsened);
+  fg__phase_return(e->ranks->counters, before);
   if (!status) {
     *step = fg__evolution_describe(e, 0, 0);
     remember(e, energy, step);

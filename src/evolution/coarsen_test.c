@@ -1,4 +1,4 @@
-/* A mesh that is halved as clusters grow: what stays, what the coarser density is, and
+/* A mesh that is coarsened as clusters grow: what stays, what the coarser density is, and
  * when it may be. */
 #include "base/context_test.h"
 
@@ -37,18 +37,18 @@ static double phase_of(const fg_density_arrays *density, int axis)
 static double damping_of(const fg_mesh_info *mesh, const double phase[3])
 {
   const double time = 0.26;
-  double means = 1.0, stiffness = 0.0, least = (double)INFINITY;
+  double masses = 1.0, stiffness = 0.0, least = (double)INFINITY;
   for (int k = 0; k < mesh->dimension; ++k) {
     double h = mesh->spacing[k] / mesh->length;
     double part = 2.0 * (1.0 - cos(phase[k])) / (h * h);
     for (int l = 0; l < 3; ++l)
       part *= l == k ? 1.0 : (2.0 + cos(phase[l])) / 3.0;
     stiffness += mesh->gamma * part;
-    means *= 0.5 * (1.0 + cos(0.5 * phase[k]));
+    masses *= 0.5 * (1.0 + cos(0.5 * phase[k]));
     least = fmin(least, h);
   }
   double steps = ceil(4.0 * time * mesh->gamma / (least * least));
-  return means * pow(1.0 - time * stiffness / steps, steps);
+  return masses * pow(1.0 - time * stiffness / steps, steps);
 }
 
 static double wave_at(const int at[3], const double phase[3])
@@ -255,7 +255,8 @@ static void clusters_on_a_coarser_mesh_are_those_of_the_finer(void **state)
   fg_field_destroy(field);
 }
 
-/* Share of the nodes of a square in {u > 0}, those of its border by half or a quarter. */
+/* Share of the nodes of a square in {u > 0}, those of its boundary by half or a quarter.
+ */
 static double share_covered(const fg_density_arrays *density)
 {
   int side = density->nodes[0];
@@ -289,7 +290,7 @@ static void clusters_are_counted_on_the_coarser_mesh(void **state)
   fg_field_destroy(field);
 }
 
-static void the_mesh_is_ample_for_large_clusters_only(void **state)
+static void the_mesh_is_coarsened_for_large_clusters_only(void **state)
 {
   enum { AMPLE = 4096, CLUSTERS = 60 };
   fg_context *context = *state;
@@ -376,7 +377,7 @@ static void a_given_gamma_keeps_the_mesh(void **state)
 }
 
 /* 16 clusters on the mesh that is the default have 4096 cells each, and keep them. */
-static void the_default_mesh_is_never_ample(void **state)
+static void the_default_mesh_is_never_coarsened(void **state)
 {
   fg_context *context = *state;
   fg_field *field = field_of(context, "vortex3", 33);
@@ -389,7 +390,7 @@ static void the_default_mesh_is_never_ample(void **state)
   fg_field_destroy(field);
 }
 
-static void what_can_not_be_halved_stays(void **state)
+static void what_can_not_be_coarsened_stays(void **state)
 {
   fg_context *context = *state;
   fg_field *field = field_of(context, "vortex3", 33);
@@ -441,15 +442,15 @@ int main(void)
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(clusters_are_counted_on_the_coarser_mesh,
                                       context_set_up, context_tear_down),
-      cmocka_unit_test_setup_teardown(the_mesh_is_ample_for_large_clusters_only,
+      cmocka_unit_test_setup_teardown(the_mesh_is_coarsened_for_large_clusters_only,
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(steps_coarsen_the_mesh_by_themselves,
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(a_given_gamma_keeps_the_mesh, context_set_up,
                                       context_tear_down),
-      cmocka_unit_test_setup_teardown(the_default_mesh_is_never_ample, context_set_up,
+      cmocka_unit_test_setup_teardown(the_default_mesh_is_never_coarsened, context_set_up,
                                       context_tear_down),
-      cmocka_unit_test_setup_teardown(what_can_not_be_halved_stays, context_set_up,
+      cmocka_unit_test_setup_teardown(what_can_not_be_coarsened_stays, context_set_up,
                                       context_tear_down),
       cmocka_unit_test_setup_teardown(a_given_gamma_grows_like_the_default,
                                       context_set_up, context_tear_down),

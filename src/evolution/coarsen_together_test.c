@@ -1,4 +1,4 @@
-/* A mesh that is halved, on several ranks: the bits of one rank alone, also after a
+/* A mesh that is coarsened, on several ranks: the bits of one rank alone, also after a
  * checkpoint. */
 #include "evolution/checkpoint/place_test.h"
 #include "evolution/steps_test.h"
@@ -44,7 +44,7 @@ static void compare(const char *name, const fg_evolution_options *options)
   fg_field_destroy(field);
 }
 
-static void a_halved_mesh_has_the_bits_of_one_rank(void **state)
+static void a_coarsened_mesh_has_the_bits_of_one_rank(void **state)
 {
   (void)state;
   compare("vortex3", &(fg_evolution_options){.nodes = 129, .seed = 3});
@@ -77,7 +77,7 @@ static fg_field *strip(void)
 }
 
 /* 64 x 16 cells are enough for four ranks, half as many for two. */
-static void more_ranks_than_the_halved_mesh_has_blocks_for_are_refused(void **state)
+static void more_ranks_than_the_coarsened_mesh_has_blocks_for_are_refused(void **state)
 {
   (void)state;
   const fg__ranks *alone = &fg__single_rank;
@@ -85,9 +85,9 @@ static void more_ranks_than_the_halved_mesh_has_blocks_for_are_refused(void **st
   fg_field *field = strip();
   fg_evolution *one = begin(field, alone, &options),
                *all = begin(field, us.ranks, &options);
-  fg_step a = advance(one, BEFORE), b = advance(all, BEFORE), halved;
+  fg_step a = advance(one, BEFORE), b = advance(all, BEFORE), coarsened;
   expect_same(&a, &b);
-  fg_status status = fg_evolution_coarsen(all, &halved);
+  fg_status status = fg_evolution_coarsen(all, &coarsened);
   expect(status == (us.ranks->count > 2 ? FG_STATUS_ARGUMENT : FG_STATUS_OK));
   if (status) {
     expect(strstr(fg_context_message(us.context), "2 ranks fit") != NULL);
@@ -105,8 +105,8 @@ int main(void)
 {
   start_together();
   const struct CMUnitTest tests[] = {
-      TOGETHER(a_halved_mesh_has_the_bits_of_one_rank),
-      TOGETHER(more_ranks_than_the_halved_mesh_has_blocks_for_are_refused),
+      TOGETHER(a_coarsened_mesh_has_the_bits_of_one_rank),
+      TOGETHER(more_ranks_than_the_coarsened_mesh_has_blocks_for_are_refused),
   };
   return cmocka_run_group_tests_name("evolution/coarsen_together", tests, name_checkpoint,
                                      remove_checkpoint);

@@ -75,7 +75,7 @@ static void isotropic_patterns_are_not_pinned(void **state)
   destroy_curve(c);
 }
 
-/* Second moments of the clusters that touch no border. */
+/* Second moments of the clusters that touch no boundary. */
 typedef struct elongation {
   double aspect, degrees;
   int clusters;

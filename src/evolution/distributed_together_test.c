@@ -33,8 +33,8 @@ typedef struct outcome {
   double energy[STEPS], tau[STEPS], mass[STEPS];
   int clusters;
   double covered;
-  int parts, pockets, solved; /* nodes of pockets */
-  double mean[MOST_PARTS];    /* of u in each part, held */
+  int parts, subdomains, solved; /* nodes of subdomains */
+  double mean[MOST_PARTS];       /* of u in each part, held */
 } outcome;
 
 typedef struct run {
@@ -54,7 +54,7 @@ static bool wall_and_moat(double x, double y, double z)
   return fabs(x - 0.4 - 0.1 * y) < 0.025 || (r > 0.1 && r < 0.16) || y > 0.94;
 }
 
-/* Columns: most ranks' borders are crossed by each part. */
+/* Columns: most ranks' boundaries are crossed by each part. */
 static bool slats(double x, double y, double z)
 {
   (void)y;
@@ -249,18 +249,18 @@ static void count(const run *r, outcome *out)
   free(active);
 }
 
-/* A step of the pockets alone, long enough to be worth it. */
-static int step_pockets(fg__stepper *s, double tau)
+/* A step of the subdomains alone, long enough to be worth it. */
+static int step_subdomains(fg__stepper *s, double tau)
 {
   fg__multigrid *m = &s->multigrid;
   int solved = 0;
   fg__pass_copy(m, s->current, fg__multigrid_u(m));
   fg__pass_copy(m, s->current, fg__multigrid_p(m));
-  fg__pockets_solve(&s->pockets, m, tau, tau, s->current, true);
-  fg__pockets_put(&s->pockets, m, s->first_iterate);
+  fg__subdomains_solve(&s->subdomains, m, tau, tau, s->current, true);
+  fg__subdomains_apply(&s->subdomains, m, s->first_iterate);
   fg__pass_copy(m, fg__multigrid_u(m), s->current);
-  for (int n = 0; n < s->pockets.nodes; ++n)
-    solved += s->pockets.done[n];
+  for (int n = 0; n < s->subdomains.nodes; ++n)
+    solved += s->subdomains.done[n];
   return solved;
 }
 
@@ -286,19 +286,19 @@ static outcome outcome_of(const subject *s, const fg__ranks *ranks)
                                          .alpha = s->theta ? fg__theta_alpha : 0.0};
   expect(fg__stepper_create(&r.stepper, us.context, &multigrid, &description) ==
          FG_STATUS_OK);
-  const fg__means *means = &r.stepper.means;
-  out.parts = means->count;
-  out.pockets = r.stepper.pockets.count;
+  const fg__mass_constraint *masses = &r.stepper.masses;
+  out.parts = masses->count;
+  out.subdomains = r.stepper.subdomains.count;
   expect(out.parts <= MOST_PARTS);
   for (int n = 0; n < MOST_PARTS && out.parts > 1 && n < out.parts; ++n)
-    out.mean[n] = means->mean[n];
+    out.mean[n] = masses->mean[n];
   for (int n = 0; n < (s->theta ? THETA_STEPS : STEPS); ++n) {
     expect(fg__stepper_advance(&r.stepper, us.context) == FG_STATUS_OK);
     out.energy[n] = r.stepper.energy;
     out.tau[n] = r.stepper.last_tau;
     out.mass[n] = r.stepper.mass;
   }
-  out.solved = step_pockets(&r.stepper, 1e4 * h * h);
+  out.solved = step_subdomains(&r.stepper, 1e4 * h * h);
   gather(&r, &out);
   count(&r, &out);
   fg__stepper_clear(&r.stepper);
@@ -337,8 +337,8 @@ static void many_ranks_do_what_one_does(void **state)
     expect(one.clusters > 0 && one.clusters == all.clusters);
     expect(one.covered == all.covered);
     expect(one.parts == SUBJECTS[n].parts && all.parts == SUBJECTS[n].parts);
-    expect(all.pockets == one.pockets);
-    expect(one.parts < 20 || (one.pockets > 10 && one.solved > 50));
+    expect(all.subdomains == one.subdomains);
+    expect(one.parts < 20 || (one.subdomains > 10 && one.solved > 50));
     expect(one.solved == all.solved);
     expect(memcmp(one.mean, all.mean, sizeof one.mean) == 0);
     expect(one.energy[THETA_STEPS - 1] < one.energy[0]);

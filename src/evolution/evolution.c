@@ -6,12 +6,13 @@
 #include "evolution/options.h"
 #include "evolution/tensor.h"
 #include "field/fingerprint.h"
-#include "grid/field_parts.h"
+#include "grid/field_slabs.h"
 
 /* A thinner one lies between two nodes and can not move. */
 static const double least_interface_cells = 0.3;
 
-/* The wells are at -1 and 1; an initial density far beyond them is a mistake. */
+/* The minima of the double well are at -1 and 1; an initial density far beyond them is a
+ * mistake. */
 static const double most_initial = 10.0;
 
 /* Debris: less than this many squares (in 3D cubes) of the interface width across the
@@ -21,7 +22,7 @@ static const double debris_squares = 10.0, debris_cubes = 24.0;
 
 /* The first step, as a share of the fastest growth time of linear theory; and the first
  * on a coarser mesh, where interfaces are there. */
-static const double first_step_share = 1e-3, first_coarser_share = 0.1;
+static const double first_step_share = 1e-3, first_coarsened_fraction = 0.1;
 
 /* tau gamma / h^4 (measured at 1025 nodes, docs/design/evolution.md). */
 static const double most_stiffness = 2e5;
@@ -134,7 +135,7 @@ static fg_status create_stepper(fg_evolution *e)
   fg__multigrid multigrid = {0};
   fg__stepper_description description = {
       .cell_volume = fg__evolution_cell_volume(e),
-      .first_tau = (e->halved ? first_coarser_share : first_step_share) /
+      .first_tau = (e->coarsened ? first_coarsened_fraction : first_step_share) /
                    fg__evolution_growth_rate(e),
       .most_tau = most_step(e),
       .accuracy = e->options.accuracy,
@@ -196,8 +197,8 @@ fg_status fg__evolution_build(fg_evolution *evolution)
     status = create_mesh(e, field);
   if (!status) {
     count_cells(e);
-    if (e->ranks->count == 1 && (double)e->nodes >= fg__least_team_nodes)
-      status = fg__team_create(&e->team, e->context, e->options.threads);
+    if (e->ranks->count == 1 && (double)e->nodes >= fg__least_threaded_nodes)
+      status = fg__threads_create(&e->threads, e->context, e->options.threads);
   }
   if (!status)
     status = fg__evolution_cells_create(e, field);
@@ -225,7 +226,7 @@ fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
 {
   *out = NULL;
   fg_status status;
-  fg_activity before = fg__traffic_begin(ranks->book, FG_ACTIVITY_SETUP);
+  fg_phase before = fg__phase_begin(ranks->counters, FG_PHASE_SETUP);
   fg_evolution *e = fg__allocate(1, sizeof *e);
   if (e)
     status = begin(e, context, ranks, field, options);
@@ -234,7 +235,7 @@ fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
   status = fg__ranks_agree(ranks, context, status);
   if (e && !status)
     status = fg__evolution_build(e);
-  fg__traffic_return(ranks->book, before);
+  fg__phase_return(ranks->counters, before);
   if (e)
     e->options.initial = NULL; /* the caller's, and used up */
   if (status) {
@@ -249,8 +250,8 @@ void fg__evolution_clear(fg_evolution *evolution)
 {
   fg_evolution *e = evolution;
   fg__stepper_clear(&e->stepper);
-  fg__team_destroy(e->team);
-  e->team = NULL;
+  fg__threads_destroy(e->threads);
+  e->threads = NULL;
   if (e->clusters_found)
     fg__clusters_clear(e->clusters_found);
   fg__mesh_clear(&e->mesh);
@@ -305,7 +306,7 @@ fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
 {
   fg_evolution *e = evolution;
   fg_step coarsened;
-  fg_activity before = fg__traffic_begin(e->ranks->book, FG_ACTIVITY_STEPS);
+  fg_phase before = fg__phase_begin(e->ranks->counters, FG_PHASE_STEPS);
   /* asked once only: a step that has begun ends, so that it is the same when resumed */
   fg_status status = fg__ranks_agree(e->ranks, e->context, fg__check_stop(e->context));
   /* before a step, not after: a checkpoint holds what the next step begins with */
@@ -316,7 +317,7 @@ fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
     status = fg__stepper_advance(&e->stepper, e->context);
   if (!status)
     status = fg__evolution_count(e);
-  fg__traffic_return(e->ranks->book, before);
+  fg__phase_return(e->ranks->counters, before);
   if (!status)
     *step = fg__evolution_describe(e, (int)(e->stepper.cycles_spent - cycles),
                                    (int)(e->stepper.rejected - rejected));

@@ -1,9 +1,9 @@
-/* The inside of an evolution, for the files that make it up. */
+/* The state of an evolution, for the files of this folder. */
 #ifndef FG__EVOLUTION_H
 #define FG__EVOLUTION_H
 
 #include "component/clusters.h"
-#include "evolution/halved.h"
+#include "evolution/coarsened.h"
 #include "evolution/stepper.h"
 
 struct fg_evolution {
@@ -12,7 +12,7 @@ struct fg_evolution {
   fg_mesh_info info;
   const fg__ranks *ranks; /* that share it */
   fg__mesh mesh;
-  fg__team *team;                /* NULL: one thread */
+  fg__threads *threads;          /* NULL: one thread */
   fg__cells_of_box finest_cells; /* round the block, until stencils are made */
   fg__stepper stepper;
   struct {
@@ -30,9 +30,9 @@ struct fg_evolution {
   int mesh_nodes;        /* wanted along the longest side of the present mesh */
   int halvings;          /* of the mesh, since it was created */
   int64_t earlier_steps; /* accepted on finer meshes */
-  const fg__halved
-      *halved; /* NULL, or what a coarser mesh goes on from; while it is made */
-  double halved_mean;
+  const fg__coarsened
+      *coarsened; /* NULL, or what a coarser mesh goes on from; while it is made */
+  double coarsened_mean;
   double start;           /* on the clock (clock.h) */
   double earlier_seconds; /* spent before a resumed evolution was created */
   /* Of the field, and of the initial density when one was given (else 0). */

@@ -9,7 +9,7 @@
 
 enum { COLUMNS = 22, ROWS = 18, STEPS = 40 };
 
-/* Walls divide it, into a pocket too. */
+/* Walls divide it, into a small subdomain too. */
 static fg_status make_masked(fg_field **out, fg_context *context)
 {
   static float u[ROWS][COLUMNS], v[ROWS][COLUMNS];

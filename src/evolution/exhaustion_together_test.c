@@ -4,7 +4,7 @@
 #include "base/refusal_test.h"
 #include "evolution/checkpoint/place_test.h"
 #include "evolution/evolution.h"
-#include "grid/parted_test.h"
+#include "grid/slabs_test.h"
 
 #include <math.h>
 
@@ -76,7 +76,7 @@ static void grow_and_show(const example *x, const fg_evolution_options *options)
     again_if_need_be(fg_evolution_step(evolution, &step));
     expect(step.clusters > 0);
     again_if_need_be(fg_density_create(&density, evolution));
-    if (fg_density_is_shared(density))
+    if (fg_density_is_distributed(density))
       again_if_need_be(fg_density_gather(&whole, us.context, density));
   }
   fg_density_destroy(density);
@@ -133,7 +133,7 @@ static void fail_in_turn(life *live, const example *x,
   }
 }
 
-/* Of rank 0 until clusters are there, of the last while the mesh is halved. */
+/* Of rank 0 until clusters are there, of the last while the mesh is coarsened. */
 static void fail_all(const example *x, bool growing)
 {
   fg_evolution_options options = {.nodes = x->nodes, .threads = 1, .coverage = 0.2};
@@ -148,7 +148,7 @@ static void fail_all(const example *x, bool growing)
   free(u);
 }
 
-/* Walls divide it, when it is masked, into a pocket too. */
+/* Walls divide it, when it is masked, into a small subdomain too. */
 static fg_field *field_of(int dimension, bool masked)
 {
   static float sample[3][COLUMNS * ROWS * LAYERS];
@@ -197,7 +197,7 @@ static void with_a_mask(void **state)
 static void of_parts_in_3d(void **state)
 {
   (void)state;
-  fg_field *whole = field_of(3, false), *part = joined_part_of(whole);
+  fg_field *whole = field_of(3, false), *part = joined_slab_of(whole);
   fail_all(&(example){part ? part : whole, 33, false}, false);
   fg_field_destroy(part);
   fg_field_destroy(whole);

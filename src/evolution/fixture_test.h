@@ -1,5 +1,5 @@
 /* A field that tests may spoil, and what they ask of it: shared by limits_test.c and
- * rest_test.c. */
+ * stationary_test.c. */
 #ifndef FG__FIXTURE_TEST_H
 #define FG__FIXTURE_TEST_H
 

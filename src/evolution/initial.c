@@ -7,19 +7,19 @@
 #include "evolution/widen.h"
 #include "field/noise.h"
 
-/* The nodes of a block to be filled, of which members of a team take rows: with noise, or
- * the caller's density. */
+/* The nodes of a block to be filled, of which threads take rows: with noise, or the
+ * caller's density. */
 typedef struct filling {
   const fg_evolution *e;
   const fg__level *level;
   const fg__box *block;
   const fg__noise *noise;
   const float *values; /* of the block alone, x fastest; NULL: noise or the caller's */
-  float *row;          /* one a member */
+  float *row;          /* one a thread */
   float *u;
 } filling;
 
-static void fill_part(void *argument, const fg__share *share)
+static void fill_part(void *argument, const fg__thread *thread)
 {
   const filling *f = argument;
   const fg_evolution *e = f->e;
@@ -27,9 +27,9 @@ static void fill_part(void *argument, const fg__share *share)
   const int *nodes = layout->nodes;
   size_t columns = (size_t)(e->mesh.cells[0] + !e->mesh.periodic[0]);
   size_t rows = (size_t)(e->mesh.cells[1] + !e->mesh.periodic[1]);
-  float *row = f->row + (size_t)share->member * (size_t)nodes[0];
+  float *row = f->row + (size_t)thread->index * (size_t)nodes[0];
   int begin, end;
-  fg__team_part(share, nodes[1] * nodes[2], 1, &begin, &end);
+  fg__threads_range(thread, nodes[1] * nodes[2], 1, &begin, &end);
   for (int n = begin; n < end; ++n) {
     int j = n % nodes[1], k = n / nodes[1];
     int y = f->block->first[1] + j, z = f->block->first[2] + k;
@@ -51,13 +51,13 @@ static fg_status fill_block(const fg_evolution *e, const fg__level *level,
                             const fg__box *block, const fg__noise *noise,
                             const float *values, float *u)
 {
-  size_t count = (size_t)fg__team_members(e->team) * (size_t)level->layout.nodes[0];
+  size_t count = (size_t)fg__threads_count(e->threads) * (size_t)level->layout.nodes[0];
   filling f = {
       .e = e, .level = level, .block = block, .noise = noise, .values = values, .u = u};
   f.row = fg__allocate(count, sizeof *f.row);
   if (!f.row)
     return fg__fail_memory(e->context, "the noise", count * sizeof *f.row);
-  fg__team_run(e->team, fill_part, &f);
+  fg__threads_run(e->threads, fill_part, &f);
   free(f.row);
   return FG_STATUS_OK;
 }
@@ -75,19 +75,19 @@ static void settle_mean(const fg__multigrid *multigrid, double mean)
   fg__pass_shift(multigrid, u, mean - sum / weight);
 }
 
-/* In a part of a few nodes behind a mask the noise may have a mean beyond the wells,
+/* In a part of a few nodes behind a mask the noise may have a mean beyond the minima,
  * which no evolution within the part could change: it becomes a pure phase. */
 static fg_status settle_parts(const fg_evolution *e, const fg__multigrid *multigrid,
                               double mean)
 {
   float *u = fg__multigrid_u(multigrid);
-  fg__means means;
-  fg_status status = fg__means_create(&means, e->context, multigrid, u);
-  if (!status && fg__means_bound(&means, -1.0, 1.0)) {
-    fg__means_restore(&means, multigrid, u);
+  fg__mass_constraint masses;
+  fg_status status = fg__mass_constraint_create(&masses, e->context, multigrid, u);
+  if (!status && fg__mass_constraint_bound(&masses, -1.0, 1.0)) {
+    fg__mass_constraint_restore(&masses, multigrid, u);
     settle_mean(multigrid, mean);
   }
-  fg__means_clear(&means);
+  fg__mass_constraint_clear(&masses);
   return status;
 }
 
@@ -101,7 +101,8 @@ static fg_status take_halved(float **out, const fg_evolution *e)
     status = fg__fail_memory(e->context, "a coarser density", count * sizeof *values);
   status = fg__ranks_agree(e->mesh.ranks, e->context, status);
   return status ? status
-                : fg__halved_deliver(e->halved, e->context, &e->mesh.partition, values);
+                : fg__coarsened_deliver(e->coarsened, e->context, &e->mesh.partition,
+                                        values);
 }
 
 fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multigrid)
@@ -114,7 +115,7 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
                    mean, e->options.noise, correlation, e->options.seed);
   float *u = fg__multigrid_u(multigrid), *values = NULL;
   fg_status status = FG_STATUS_OK;
-  if (e->halved)
+  if (e->coarsened)
     status = take_halved(&values, e);
   if (!status)
     status = fill_block(e, fg__multigrid_finest(multigrid),
@@ -124,10 +125,10 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
   if (status)
     return status;
   fg__pass_fill_ghosts(multigrid, u);
-  if (e->halved) {
+  if (e->coarsened) {
     fg__widen_interfaces(multigrid, e->info.gamma, 1.0 - fg__evolution_alpha(e),
                          fg__evolution_least_spacing(e));
-    settle_mean(multigrid, e->halved_mean);
+    settle_mean(multigrid, e->coarsened_mean);
   } else if (e->options.initial) {
     e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial, e->nodes);
     if (!fg__ranks_alike(e->ranks, e->initial_fingerprint))

@@ -58,7 +58,7 @@ static void a_domain_finer_than_the_mesh_is_refused(void **state)
   refuses(f, &(fg_evolution_options){.nodes = 9}, "no cell");
 }
 
-/* Takes at most 80 steps. The values stay within reach of the wells and the initial
+/* Takes at most 80 steps. The values stay within reach of the minima and the initial
  * noise, the energy is a sum of squares and falls, the mass stays. */
 static void runs(fixture *f, int nodes)
 {
@@ -109,7 +109,7 @@ static void thin_boxes_run(void **state)
 static void disconnected_domains_run(void **state)
 {
   fixture *f = *state;
-  for (int j = 0; j < SIDE; ++j) /* columns without a cell, a border without one */
+  for (int j = 0; j < SIDE; ++j) /* columns without a cell, a boundary without one */
     for (int i = 0; i < SIDE; ++i)
       f->valid[j * SIDE + i] = i != 30 && i != 31 && i < 50;
   runs(f, 65);

@@ -51,7 +51,7 @@ double fg__evolution_alpha(const fg_evolution *e)
 }
 
 /* In linear theory the mode k grows at k^2 (c - a gamma k^2), c = -Psi''(mean): at most
- * at this rate. Where the mean itself is stable the wells' own curvature sets the pace.
+ * at this rate. Where the mean itself is stable the minima's own curvature sets the pace.
  */
 double fg__evolution_growth_rate(const fg_evolution *e)
 {

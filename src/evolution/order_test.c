@@ -9,8 +9,8 @@
 enum { CYCLES = 14 };
 
 /* u = mean + g_1(t) phi_1 + g_2(t) phi_2 with modes phi = cos cos. Natural axes: every
- * wave has a node or an extremum on the border, so that u is even, the tensor's angle odd
- * about it; then A grad u . n = 0 and grad w . n = 0 hold by symmetry. */
+ * wave has a node or an extremum on the boundary, so that u is even, the tensor's angle
+ * odd about it; then A grad u . n = 0 and grad w . n = 0 hold by symmetry. */
 typedef struct axis {
   double wave_number;             /* of the first mode */
   double mode_phase, angle_phase; /* 0 on natural axes */
@@ -168,7 +168,7 @@ static double rate_at(const setting *s, size_t n, double t)
   return rate;
 }
 
-/* f = u_t - Laplacian w of the equation itself; of w's wells the Laplacian is
+/* f = u_t - Laplacian w of the equation itself; of the double well in w the Laplacian is
  * (6 u^2 - 2) Laplacian u + 12 u |grad u|^2. */
 static void source(const setting *s, double t, double *f)
 {
@@ -292,21 +292,21 @@ static void assert_order_in_space(const bool periodic[2], int cells_x)
   assert_true(fabs(order - 2.0) < 0.15);
 }
 
-static void natural_borders_have_order_two(void **state)
+static void natural_boundaries_have_order_two(void **state)
 {
   (void)state;
   assert_order_in_space((bool[]){false, false}, 32);
   assert_order_in_space((bool[]){false, false}, 64);
 }
 
-static void periodic_borders_have_order_two(void **state)
+static void periodic_boundaries_have_order_two(void **state)
 {
   (void)state;
   assert_order_in_space((bool[]){true, false}, 64);
   assert_order_in_space((bool[]){true, true}, 64);
 }
 
-/* A solution near a well, where errors do not grow. */
+/* A solution near a minimum, where errors do not grow. */
 static void assert_order_in_time(bool periodic, double alpha, double frequency,
                                  double end, int first, double order)
 {
@@ -451,8 +451,8 @@ static void a_notched_domain_loses_energy_and_keeps_mass(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(natural_borders_have_order_two),
-      cmocka_unit_test(periodic_borders_have_order_two),
+      cmocka_unit_test(natural_boundaries_have_order_two),
+      cmocka_unit_test(periodic_boundaries_have_order_two),
       cmocka_unit_test(implicit_euler_has_order_one),
       cmocka_unit_test(theta_has_order_two),
       cmocka_unit_test(steps_have_the_order_of_their_scheme),

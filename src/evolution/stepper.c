@@ -34,7 +34,7 @@ static const double energy_rounding = 1e-7, rest_increment = 1e-4;
 
 /* A pattern at rest: so many steps in a row at whose rate u would change by less than
  * this (rms) while time doubles; coarsening changes it by some tenths. Not before this
- * many first steps, twenty growth times of linear theory (a halved mesh begins with
+ * many first steps, twenty growth times of linear theory (a coarsened mesh begins with
  * longer steps: more), in which a weak perturbation may still be growing unseen. */
 enum { QUIET_STEPS = 12 };
 static const double quiet_change = 1e-3, quiet_after = 2e4;
@@ -89,9 +89,9 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   out->total_mass = weigh_domain(out);
   fg__pass_copy(m, fg__multigrid_u(m), out->current);
   out->mean = mean_of(out, out->current);
-  status = fg__means_create(&out->means, context, m, out->current);
+  status = fg__mass_constraint_create(&out->masses, context, m, out->current);
   if (!status && !(description->alpha > 0.0))
-    status = fg__pockets_create(&out->pockets, context, m, &out->means);
+    status = fg__subdomains_create(&out->subdomains, context, m, &out->masses);
   if (status) {
     fg__stepper_clear(out);
     return status;
@@ -105,8 +105,8 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
 void fg__stepper_clear(fg__stepper *stepper)
 {
   fg__multigrid_clear(&stepper->multigrid);
-  fg__means_clear(&stepper->means);
-  fg__pockets_clear(&stepper->pockets);
+  fg__mass_constraint_clear(&stepper->masses);
+  fg__subdomains_clear(&stepper->subdomains);
   fg__theta_clear(&stepper->theta);
   free(stepper->memory);
   *stepper = (fg__stepper){0};
@@ -132,11 +132,11 @@ static void guess(fg__stepper *s, double tau, double share)
 static fg__changes solve(fg__stepper *s, double tau, int cycles)
 {
   fg__multigrid *m = &s->multigrid;
-  int at_once = s->means.count > 1 ? 1 : cycles;
+  int at_once = s->masses.count > 1 ? 1 : cycles;
   for (int n = 0; n < cycles; n += at_once) {
     fg__pass_solve(m, tau, at_once, s->first_iterate);
-    fg__pockets_put(&s->pockets, m, s->first_iterate);
-    fg__means_restore(&s->means, m, fg__multigrid_u(m));
+    fg__subdomains_apply(&s->subdomains, m, s->first_iterate);
+    fg__mass_constraint_restore(&s->masses, m, fg__multigrid_u(m));
   }
   s->cycles_spent += cycles;
   return fg__pass_changes(m, fg__multigrid_u(m), s->current, s->first_iterate,
@@ -189,7 +189,7 @@ static outcome judge(fg__stepper *s, double tau, fg__changes sums)
   fg__multigrid *m = &s->multigrid;
   float *u = fg__multigrid_u(m);
   fg__pass_shift(m, u, s->mean - sums.u / s->total_mass);
-  fg__means_restore(&s->means, m, u);
+  fg__mass_constraint_restore(&s->masses, m, u);
   outcome result;
   result.increment = sqrt(sums.from_a / s->total_mass);
   result.correction = sqrt(sums.from_b / s->total_mass) /
@@ -216,7 +216,7 @@ static outcome attempt(fg__stepper *s, double tau)
     return judge(s, tau, step_by_theta(s, tau));
   double effective = prepare_implicit(s, tau);
   bool failed = s->tau_limit < s->most_tau; /* of late */
-  fg__pockets_solve(&s->pockets, &s->multigrid, tau, effective, s->current, failed);
+  fg__subdomains_solve(&s->subdomains, &s->multigrid, tau, effective, s->current, failed);
   outcome result = judge(s, tau, solve(s, effective, s->cycles));
   for (int n = 0; n < MORE_CYCLES; ++n) {
     if (result.accepted || result.at_rest || !(result.correction <= hopeless_correction))

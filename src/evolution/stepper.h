@@ -1,23 +1,23 @@
-/* Time steps of the density, and how large they may be. */
+/* Time steps of the density, and their step control. */
 #ifndef FG__STEPPER_H
 #define FG__STEPPER_H
 
 #include "evolution/theta.h"
 #include "solver/passes.h"
-#include "solver/subdomain/means.h"
-#include "solver/subdomain/pockets.h"
+#include "solver/subdomain/mass.h"
+#include "solver/subdomain/subdomains.h"
 
 typedef struct fg__stepper {
   fg__multigrid multigrid;
-  fg__theta theta;     /* alpha 0: implicit */
-  bool second_order;   /* backward differences over two steps, not one */
-  double accuracy;     /* eta */
-  int cycles;          /* a step, or a substep of the theta scheme */
-  double cell_volume;  /* hx hy (hz), units of the longest side */
-  double total_mass;   /* sum of the nodes' relative masses */
-  double mean;         /* of u, held */
-  fg__means means;     /* of the parts of the domain, each held too */
-  fg__pockets pockets; /* those of few nodes; the theta scheme has none */
+  fg__theta theta;            /* alpha 0: implicit */
+  bool second_order;          /* backward differences over two steps, not one */
+  double accuracy;            /* eta */
+  int cycles;                 /* a step, or a substep of the theta scheme */
+  double cell_volume;         /* hx hy (hz), units of the longest side */
+  double total_mass;          /* sum of the nodes' relative masses */
+  double mean;                /* of u, held */
+  fg__mass_constraint masses; /* of each subdomain */
+  fg__subdomains subdomains;  /* those of few nodes; the theta scheme has none */
   double first_tau, most_tau;
 
   int64_t accepted, rejected, cycles_spent;
@@ -56,7 +56,7 @@ void fg__stepper_clear(fg__stepper *stepper);
 /* One accepted step; `current` is the new density. Collective. NO_CONVERGENCE. */
 fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context);
 
-/* Many steps in a row changed next to nothing although time went on. */
+/* Many steps in a row changed almost nothing although time went on. */
 bool fg__stepper_stationary(const fg__stepper *stepper);
 
 #endif

@@ -34,7 +34,7 @@ fg_status fg__evolution_cells_create(fg_evolution *e, const fg_field *field)
   if (status)
     return status;
   status =
-      fg__cells_for_box(&e->finest_cells, e->context, &recipe, block, &wide, e->team);
+      fg__cells_for_box(&e->finest_cells, e->context, &recipe, block, &wide, e->threads);
   status = fg__ranks_agree(e->mesh.ranks, e->context, status);
   if (status)
     return status;
@@ -55,5 +55,5 @@ fg_status fg__evolution_multigrid_create(fg__multigrid *out, fg_evolution *e,
                                          double gamma)
 {
   return fg__multigrid_create(out, e->context, &e->mesh, &e->finest_cells,
-                              e->active_cells < (int64_t)e->cells, gamma, e->team);
+                              e->active_cells < (int64_t)e->cells, gamma, e->threads);
 }

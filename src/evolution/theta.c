@@ -25,7 +25,7 @@ fg_status fg__theta_create(fg__theta *out, fg_context *context, fg__multigrid *m
     fg__theta_clear(out);
     return status;
   }
-  out->instead = (fg__no_wells){.zeros = memory + shape.first};
+  out->instead = (fg__linear_terms){.zeros = memory + shape.first};
   out->instead.ones = out->instead.zeros + shape.size;
   out->instead.relaxation = out->instead.ones + shape.size;
   for (size_t n = shape.size; n < 2 * shape.size; ++n)
@@ -100,9 +100,9 @@ double fg__theta_prepare(const fg__theta *theta, fg__multigrid *multigrid, int s
     double since_start = substep == 1 ? theta_share : 1.0 - theta_share;
     fg__pass_extrapolate(multigrid, u, start, share / since_start, u);
   }
-  fg__multigrid_leave_wells(multigrid, linear ? &theta->instead : NULL);
+  fg__multigrid_linearise(multigrid, linear ? &theta->instead : NULL);
   fg__pass_evaluate(multigrid, u, w);
   if (linear)
-    fg__pass_subtract_wells(multigrid, u, w);
+    fg__pass_subtract_potential_derivative(multigrid, u, w);
   return linear ? alpha_of_beta * share * tau : share * tau;
 }

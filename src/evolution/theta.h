@@ -23,8 +23,8 @@ extern const double fg__theta_alpha;
 double fg__theta_stable_step(double alpha, double least, double most, double stiffest);
 
 typedef struct fg__theta {
-  double alpha;         /* in (1/2, 1) */
-  fg__no_wells instead; /* in the linear substeps */
+  double alpha;             /* in (1/2, 1) */
+  fg__linear_terms instead; /* in the linear substeps */
   void *memory;
 } fg__theta;
 

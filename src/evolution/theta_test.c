@@ -59,12 +59,12 @@ static void substep(setting *s, int n, double tau, double *u)
 
 /* out := M^-1 L M^-1 gamma L_A u, or M^-1 L Psi'(u): the rates of the paper's two terms.
  */
-static void rate_of(const problem *p, bool wells, const double *u, double *out)
+static void rate_of(const problem *p, bool double_well, const double *u, double *out)
 {
   double *w = values_of(p);
   apply_stiffness(p, false, u, w);
   for (size_t n = 0; n < p->nodes; ++n)
-    if (wells)
+    if (double_well)
       w[n] = 2.0 * u[n] * (u[n] * u[n] - 1.0);
     else
       w[n] = p->mass[n] > 0.0 ? p->of.gamma * w[n] / p->mass[n] : 0.0;

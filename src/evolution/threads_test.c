@@ -1,5 +1,5 @@
 /* Any number of threads gives the same density, from the tensor to the count of clusters:
- * meshes just large enough for a team. */
+ * meshes just large enough for several threads. */
 #include "evolution/fixture_test.h"
 
 typedef struct outcome {
@@ -27,7 +27,7 @@ static void compare(fixture *f, const fg_field *field, int nodes)
   outcome one = evolve(f, field, nodes, 1);
   const fg_density_arrays *a = fg_density_contents(one.density);
   size_t count = (size_t)a->nodes[0] * (size_t)a->nodes[1] * (size_t)a->nodes[2];
-  assert_true(count >= 200000); /* as many as a team wants */
+  assert_true(count >= 200000); /* as many as threads are used for */
   for (int threads = 2; threads <= 3; ++threads) {
     outcome several = evolve(f, field, nodes, threads);
     const fg_density_arrays *b = fg_density_contents(several.density);

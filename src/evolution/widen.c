@@ -27,7 +27,7 @@ void fg__widen_interfaces(const fg__multigrid *multigrid, double gamma, double s
   float step = (float)(smoothing_time / (share * steps));
   for (int k = 0; k < steps; ++k) {
     fg__pass_evaluate(multigrid, u, w);
-    fg__pass_subtract_wells(multigrid, u, w);
+    fg__pass_subtract_potential_derivative(multigrid, u, w);
     for (size_t n = 0; n < shape.size; ++n)
       to[n] -= step * slope[n];
   }

@@ -1,4 +1,4 @@
-#include "field/part.h"
+#include "field/slab.h"
 
 #include "base/memory.h"
 #include "field/fingerprint.h"
@@ -161,7 +161,7 @@ static bool sample_is_infinite(const fg_field_arrays *arrays, size_t i)
 static size_t own_samples(const fg_field *field)
 {
   const size_t rows = (size_t)field->held[fg__field_last_axis(field)];
-  return fg__field_held(field) / rows * (field->part ? (size_t)field->part->own : rows);
+  return fg__field_held(field) / rows * (field->slab ? (size_t)field->slab->own : rows);
 }
 
 /* `i` counts those that the field has. */
@@ -243,7 +243,7 @@ static bool moves(const fg_field *field, size_t i)
 
 /* Adds up a row of cells; marks them in valid_cell unless that is NULL. */
 static void find_row(const fg_field *field, int j, int k, unsigned char *valid_cell,
-                     fg__part_counts *counts)
+                     fg__slab_counts *counts)
 {
   for (int i = 0; i < field->axis[0].cells; ++i) {
     size_t corner[FG__FIELD_CORNERS];
@@ -264,7 +264,7 @@ static void find_row(const fg_field *field, int j, int k, unsigned char *valid_c
 
 /* The cells whose lower corners lie in rows [first, end) along the last axis. */
 static void find_cells(const fg_field *field, int first, int end,
-                       unsigned char *valid_cell, fg__part_counts *counts)
+                       unsigned char *valid_cell, fg__slab_counts *counts)
 {
   const int dimension = field->contents.dimension, columns = field->axis[0].cells;
   const int cells = field->axis[dimension - 1].cells;
@@ -279,7 +279,7 @@ static void find_cells(const fg_field *field, int first, int end,
 
 /* A cell counts when all its corners do; at least one must, and the velocity must not be
  * zero in all of them. */
-fg_status fg__field_check_counts(fg_context *context, const fg__part_counts *counts)
+fg_status fg__field_check_counts(fg_context *context, const fg__slab_counts *counts)
 {
   if (counts->missing == counts->samples)
     return fg__fail(context, FG_STATUS_ARGUMENT,
@@ -298,7 +298,7 @@ fg_status fg__field_check_counts(fg_context *context, const fg__part_counts *cou
 static fg_status fill_whole(fg_field *field, fg_context *context,
                             const fg_field_arrays *arrays, float *taken[3])
 {
-  fg__part_counts counts = {.samples = fg__field_held(field)};
+  fg__slab_counts counts = {.samples = fg__field_held(field)};
   size_t missing = 0, cells = 1;
   fg_status status = copy_samples(field, context, arrays, taken, &missing);
   if (status != FG_STATUS_OK)
@@ -325,8 +325,8 @@ static fg_status fill_whole(fg_field *field, fg_context *context,
 static fg_status fill_part(fg_field *field, fg_context *context,
                            const fg_field_arrays *arrays, float *taken[3])
 {
-  fg__field_part *part = field->part;
-  fg__part_counts *counts = &part->counts;
+  fg__field_slab *slab = field->slab;
+  fg__slab_counts *counts = &slab->counts;
   const int last = fg__field_last_axis(field);
   const int first = field->first[last];
   size_t missing = 0;
@@ -337,9 +337,9 @@ static fg_status fill_part(fg_field *field, fg_context *context,
   counts->infinite = field->infinite;
   for (size_t i = 0; i < counts->samples; ++i)
     counts->missing += isnan(field->velocity[0][i]) ? 1 : 0;
-  find_cells(field, first, first + part->own, NULL, counts);
+  find_cells(field, first, first + slab->own, NULL, counts);
   counts->fingerprint = fg__field_fingerprint_samples(field);
-  part->key = fg__field_fingerprint_grid(field);
+  slab->key = fg__field_fingerprint_grid(field);
   return FG_STATUS_OK;
 }
 
@@ -383,13 +383,13 @@ static fg_status copy_words(fg_field *field, fg_context *context,
 static fg_status begin_part(fg_field *field, fg_context *context, int number, int count)
 {
   const int last = fg__field_last_axis(field), rows = field->axis[last].samples;
-  fg__field_part *part = field->part = fg__allocate(1, sizeof *part);
-  if (!part)
-    return fg__fail_memory(context, "a part of a field", sizeof *part);
-  part->number = number;
-  part->count = count;
-  fg__part_rows(&field->first[last], &part->own, rows, number, count);
-  field->held[last] = fg__part_rows_held(rows, field->first[last], part->own,
+  fg__field_slab *slab = field->slab = fg__allocate(1, sizeof *slab);
+  if (!slab)
+    return fg__fail_memory(context, "a part of a field", sizeof *slab);
+  slab->number = number;
+  slab->count = count;
+  fg__slab_rows(&field->first[last], &slab->own, rows, number, count);
+  field->held[last] = fg__slab_rows_held(rows, field->first[last], slab->own,
                                          field->axis[last].period > 0.0);
   return FG_STATUS_OK;
 }
@@ -449,7 +449,7 @@ fg_status fg__field_take(fg_field **out, fg_context *context,
   return create(out, context, arrays, taken, -1, 1);
 }
 
-fg_status fg__field_create_part(fg_field **out, fg_context *context,
+fg_status fg__field_create_slab(fg_field **out, fg_context *context,
                                 const fg_field_arrays *arrays, float *taken[3],
                                 int number, int count)
 {
@@ -469,10 +469,10 @@ void fg_field_destroy(fg_field *field)
   }
   for (int i = 0; i < field->words; ++i)
     free(field->word[i]);
-  if (field->part) {
-    free(field->part->input);
-    free(field->part->valid);
-    free(field->part);
+  if (field->slab) {
+    free(field->slab->input);
+    free(field->slab->valid);
+    free(field->slab);
   }
   free(field->valid);
   free(field->valid_cell);

@@ -20,7 +20,7 @@ typedef struct fg__axis {
   double inverse_spacing;
 } fg__axis;
 
-typedef struct fg__field_part fg__field_part;
+typedef struct fg__field_slab fg__field_slab;
 
 /* A field has all samples of its grid; or it is a part, rows along the last axis; or a
  * window, a box of samples that was asked of the parts. Indices are always the whole
@@ -36,13 +36,13 @@ struct fg_field {
   char *word[FG__FIELD_WORDS]; /* owned copies of the texts */
   int words;
   uint64_t infinite;    /* samples that are missing for that */
-  fg__field_part *part; /* of a part; else NULL */
+  fg__field_slab *slab; /* of a part; else NULL */
   const fg_field *of;   /* of a window: whose axes and words it borrows; else NULL */
 };
 
 static inline bool fg__field_is_whole(const fg_field *field)
 {
-  return !field->part && !field->of;
+  return !field->slab && !field->of;
 }
 
 /* Whether the field has sample n along axis k, and which of those it has it is. */

@@ -86,7 +86,7 @@ static void trilinear_functions_come_back(void **state)
   fg_field_destroy(field);
 }
 
-static void nothing_lies_beyond_the_border(void **state)
+static void nothing_lies_beyond_the_boundary(void **state)
 {
   fg_field *field = make(*state);
   const double inside[3] = {0.75, 3.0, -2.0};
@@ -233,7 +233,7 @@ int main(void)
 #define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
   const struct CMUnitTest tests[] = {
       CASE(trilinear_functions_come_back),
-      CASE(nothing_lies_beyond_the_border),
+      CASE(nothing_lies_beyond_the_boundary),
       CASE(a_missing_corner_spoils_its_cells),
       CASE(a_periodic_axis_has_one_more_cell),
       CASE(contents_are_complete),

@@ -101,7 +101,7 @@ static void samples_come_back_bit_for_bit(void **state)
   fg_field_destroy(field);
 }
 
-static void nothing_lies_beyond_the_border(void **state)
+static void nothing_lies_beyond_the_boundary(void **state)
 {
   fg_field *field = make(*state);
   const double beyond[][2] = {{-1.5000001, 3.0}, {3.2500001, 3.0},   {0.0, 1.9999},
@@ -442,7 +442,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(bilinear_functions_come_back),
       CASE(samples_come_back_bit_for_bit),
-      CASE(nothing_lies_beyond_the_border),
+      CASE(nothing_lies_beyond_the_boundary),
       CASE(a_missing_corner_spoils_its_cells),
       CASE(masked_values_do_not_matter),
       CASE(a_periodic_axis_has_one_more_cell),

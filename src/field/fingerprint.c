@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/mix.h"
-#include "field/part.h"
+#include "field/slab.h"
 
 /* Keys of what enters: each kind has its own. */
 enum { KEY_SHAPE, KEY_AXIS, KEY_PERIOD, KEY_VALID, KEY_VELOCITY = 8 };
@@ -36,7 +36,7 @@ uint64_t fg__field_fingerprint_grid(const fg_field *field)
 uint64_t fg__field_fingerprint_samples(const fg_field *field)
 {
   const int last = fg__field_last_axis(field);
-  const int rows = field->part ? field->part->own : field->held[last];
+  const int rows = field->slab ? field->slab->own : field->held[last];
   const uint64_t row = fg__field_held(field) / (uint64_t)field->held[last];
   const uint64_t first = row * (uint64_t)field->first[last];
   const uint64_t samples = row * (uint64_t)rows;
@@ -52,7 +52,7 @@ uint64_t fg__field_fingerprint_samples(const fg_field *field)
 
 uint64_t fg__field_fingerprint(const fg_field *field)
 {
-  if (field->part)
-    return field->part->fingerprint;
+  if (field->slab)
+    return field->slab->fingerprint;
   return fg__field_fingerprint_grid(field) + fg__field_fingerprint_samples(field);
 }

@@ -64,7 +64,7 @@ static bool can_be_halved_again(const fg__blocks *blocks, int dimension,
   return true;
 }
 
-/* Nodes of the first level that is not shared. */
+/* Nodes of the first level that is not distributed. */
 static double whole_nodes(const fg__blocks *blocks, int dimension, const int cells[3])
 {
   int halvings = 0;

@@ -9,8 +9,8 @@ typedef struct fg__blocks {
   int unit;     /* blocks begin at multiples of so many cells, a power of two */
 } fg__blocks;
 
-/* A block has so many cells at least along the axes that are divided: what a shared level
- * of the multigrid needs (FG__LEAST_BLOCK_NODES). */
+/* A block has so many cells at least along the axes that are divided: what a distributed
+ * level of the multigrid needs (FG__LEAST_BLOCK_NODES). */
 enum { FG__LEAST_BLOCK_CELLS = 4 };
 
 /* Chooses blocks for a mesh of cells[], so that the rank with most to do has least: small

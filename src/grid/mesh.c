@@ -128,7 +128,7 @@ int fg__mesh_most_cells(const fg__mesh *mesh)
   return most;
 }
 
-bool fg__mesh_can_be_halved(const fg__mesh *mesh)
+bool fg__mesh_can_coarsen(const fg__mesh *mesh)
 {
   fg__mesh half = {.dimension = mesh->dimension};
   fg__mesh_description description = {.dimension = mesh->dimension,

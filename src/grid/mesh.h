@@ -33,7 +33,7 @@ typedef struct fg__mesh_description {
 
 /* Builds a mesh. The cells along the longest side are nodes - 1 rounded up to a multiple
  * of 16, every other side gets the multiple of 8 (16 when periodic) that makes cells most
- * nearly cubes; so all can be halved at least three times; a domain so thin that this
+ * nearly cubes; so all can be coarsened at least three times; a domain so thin that this
  * makes cells more than twice as wide as long gets more cells along it. Collective.
  * ARGUMENT (fewer than 9 or too many nodes, an empty box, more ranks than blocks),
  * MEMORY, MPI. */
@@ -43,7 +43,7 @@ void fg__mesh_clear(fg__mesh *mesh);
 
 /* Whether there is a mesh of the same domain with exactly half the cells along each axis:
  * fg__mesh_create makes it for half as many, and one, nodes along the longest side. */
-bool fg__mesh_can_be_halved(const fg__mesh *mesh);
+bool fg__mesh_can_coarsen(const fg__mesh *mesh);
 
 /* Cells along the longest side. */
 int fg__mesh_most_cells(const fg__mesh *mesh);

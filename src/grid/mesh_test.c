@@ -27,13 +27,13 @@ enum {
 typedef void check(const fg__mesh *mesh, const fg__mesh_description *description);
 
 static void check_mesh(fg_context *context, check *holds, int dimension,
-                       const double side[], int nodes, int borders)
+                       const double side[], int nodes, int boundaries)
 {
   fg__mesh_description description = {
       .dimension = dimension, .origin = {-12.25, 3.5, 0.125}, .nodes = nodes};
   for (int k = 0; k < dimension; ++k) {
     description.side[k] = side[k];
-    description.periodic[k] = (borders >> k & 1) != 0;
+    description.periodic[k] = (boundaries >> k & 1) != 0;
   }
   fg__mesh mesh;
   assert_int_equal(fg__mesh_create(&mesh, context, &description), FG_STATUS_OK);
@@ -42,17 +42,17 @@ static void check_mesh(fg_context *context, check *holds, int dimension,
   fg__mesh_clear(&mesh);
 }
 
-/* Meshes of all shapes, sizes and kinds of borders. */
+/* Meshes of all shapes, sizes and kinds of boundaries. */
 static void for_all_meshes(fg_context *context, check *holds)
 {
   for (int s = 0; s < SIDE_COUNT; ++s)
     for (int n = 0; n < NODE_COUNT; ++n)
-      for (int borders = 0; borders < 4; ++borders)
-        check_mesh(context, holds, 2, SIDES[s], NODES[n], borders);
+      for (int boundaries = 0; boundaries < 4; ++boundaries)
+        check_mesh(context, holds, 2, SIDES[s], NODES[n], boundaries);
   for (int s = 0; s < BRICK_COUNT; ++s)
     for (int n = 0; n < BRICK_NODE_COUNT; ++n)
-      for (int borders = 0; borders < 8; ++borders)
-        check_mesh(context, holds, 3, BRICKS[s], BRICK_NODES[n], borders);
+      for (int boundaries = 0; boundaries < 8; ++boundaries)
+        check_mesh(context, holds, 3, BRICKS[s], BRICK_NODES[n], boundaries);
 }
 
 static int longest_axis(const fg__mesh_description *description)

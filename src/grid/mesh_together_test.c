@@ -5,12 +5,12 @@
 #include "grid/exchange/slabs.h"
 #include "grid/grids_test.h"
 
-static fg__mesh mesh_of(int dimension, const double side[3], int nodes, int borders)
+static fg__mesh mesh_of(int dimension, const double side[3], int nodes, int boundaries)
 {
   fg__mesh_description description = {.dimension = dimension, .nodes = nodes};
   for (int k = 0; k < dimension; ++k) {
     description.side[k] = side[k];
-    description.periodic[k] = (borders >> k & 1) != 0;
+    description.periodic[k] = (boundaries >> k & 1) != 0;
   }
   fg__mesh mesh;
   if (fg__mesh_create(&mesh, us.context, &description) != FG_STATUS_OK)

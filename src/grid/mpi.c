@@ -10,7 +10,7 @@ enum { TAG = 1 };
 typedef struct mpi_group {
   MPI_Comm communicator; /* a copy, whose messages are the library's alone */
   fg__ranks ranks;
-  fg__traffic_book book;
+  fg__counters counters;
 } mpi_group;
 
 static MPI_Comm communicator_of(const void *group)
@@ -187,7 +187,7 @@ fg_status fg_context_set_communicator(fg_context *context, MPI_Comm communicator
   MPI_Comm_set_errhandler(group->communicator, MPI_ERRORS_ARE_FATAL);
   group->ranks = (fg__ranks){.rank = rank,
                              .count = count,
-                             .book = &group->book,
+                             .counters = &group->counters,
                              .transport = &by_mpi,
                              .group = group};
   fg__ranks_share(context, &group->ranks);

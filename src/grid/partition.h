@@ -41,13 +41,13 @@ fg_status fg__partition_copy(fg__partition *out, fg_context *context,
 fg_status fg__partition_coarsen(fg__partition *out, fg_context *context,
                                 const fg__partition *fine);
 
-/* Levels are shared while blocks have so many nodes a side. */
+/* Levels are distributed while blocks have so many nodes a side. */
 enum { FG__LEAST_BLOCK_NODES = 4 };
 
-/* True when the level is good to work on as it is shared, and to be coarsened: its cells
- * are even along each axis, every block has `least_nodes` or more a side and begins at
- * even indices, so that an even row of a block is even everywhere. (A block may end
- * anywhere.) The same on all ranks; not collective. */
+/* True when the level can be distributed and coarsened: its cells are even along each
+ * axis, every block has `least_nodes` or more a side and begins at even indices, so that
+ * an even row of a block is even everywhere. (A block may end anywhere.) The same on all
+ * ranks; not collective. */
 bool fg__partition_is_workable(const fg__partition *partition, int least_nodes);
 void fg__partition_clear(fg__partition *partition);
 

@@ -33,7 +33,7 @@ void fg__ranks_add(const fg__ranks *ranks, uint64_t *sum, int count)
 {
   if (!ranks->transport)
     return;
-  fg__traffic_add_reduction(ranks->book, (size_t)count * sizeof *sum);
+  fg__count_reduction(ranks->counters, (size_t)count * sizeof *sum);
   ranks->transport->add(ranks->group, sum, count);
 }
 
@@ -41,7 +41,7 @@ void fg__ranks_combine(const fg__ranks *ranks, uint32_t *word, int count)
 {
   if (!ranks->transport)
     return;
-  fg__traffic_add_reduction(ranks->book, (size_t)count * sizeof *word);
+  fg__count_reduction(ranks->counters, (size_t)count * sizeof *word);
   ranks->transport->combine(ranks->group, word, count);
 }
 
@@ -49,7 +49,7 @@ void fg__ranks_greatest(const fg__ranks *ranks, double *value, int count)
 {
   if (!ranks->transport)
     return;
-  fg__traffic_add_reduction(ranks->book, (size_t)count * sizeof *value);
+  fg__count_reduction(ranks->counters, (size_t)count * sizeof *value);
   ranks->transport->greatest(ranks->group, value, count);
 }
 
@@ -58,7 +58,7 @@ bool fg__ranks_alike(const fg__ranks *ranks, uint64_t number)
   if (!ranks->transport)
     return true;
   uint64_t ends[] = {number, ~number}; /* the greatest complement is the least's */
-  fg__traffic_add_reduction(ranks->book, sizeof ends);
+  fg__count_reduction(ranks->counters, sizeof ends);
   ranks->transport->greatest_word(ranks->group, ends, 2);
   return ends[0] == ~ends[1];
 }
@@ -80,7 +80,7 @@ void fg__ranks_pass(const fg__ranks *ranks, const void *bytes, size_t count,
   if (ranks->rank > 0) {
     for (size_t at = 0; at <= count; at += PIECE_BYTES) { /* a short one ends them */
       size_t bytes_now = count - at < PIECE_BYTES ? count - at : PIECE_BYTES;
-      fg__traffic_add_message(ranks->book, bytes_now);
+      fg__count_message(ranks->counters, bytes_now);
       ranks->transport->send(ranks->group, own + at, (int)bytes_now, 0);
     }
     return;
@@ -95,8 +95,8 @@ void fg__ranks_pass(const fg__ranks *ranks, const void *bytes, size_t count,
 }
 
 /* Replaces what the context holds by what it holds on rank `from`. */
-static void spread_message(const fg__ranks *ranks, fg_context *context, fg_status status,
-                           int from)
+static void broadcast_message(const fg__ranks *ranks, fg_context *context,
+                              fg_status status, int from)
 {
   enum { TEXT_BYTES = 2048 };
   char text[2][TEXT_BYTES] = {{0}};
@@ -119,11 +119,11 @@ fg_status fg__ranks_agree(const fg__ranks *ranks, fg_context *context, fg_status
               : status == FG_STATUS_STOPPED ? ranks->count + ranks->rank
                                             : ranks->rank;
   int first[2] = {order, (int)status};
-  fg__traffic_add_reduction(ranks->book, sizeof first);
+  fg__count_reduction(ranks->counters, sizeof first);
   ranks->transport->first(ranks->group, first);
   if (first[0] == INT_MAX)
     return FG_STATUS_OK;
-  spread_message(ranks, context, (fg_status)first[1], first[0] % ranks->count);
+  broadcast_message(ranks, context, (fg_status)first[1], first[0] % ranks->count);
   return (fg_status)first[1];
 }
 

@@ -6,14 +6,14 @@
 #define FG__RANKS_H
 
 #include "base/context.h"
-#include "grid/traffic.h"
+#include "grid/counters.h"
 
 typedef struct fg__transport fg__transport;
 
 /* A group of ranks; a rank's number goes from 0 to count - 1. */
 typedef struct fg__ranks {
   int rank, count;
-  fg__traffic_book *book; /* of what this rank sends; NULL: not kept */
+  fg__counters *counters; /* of what this rank sends; NULL: not kept */
   const fg__transport
       *transport; /* how (transport.h), and between whom; NULL: there is */
   void *group;    /* one rank, which sends nothing */

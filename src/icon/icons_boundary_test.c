@@ -128,7 +128,7 @@ static double among_small_ones(double x, double y, const double center[2])
 }
 
 /* What is a small part of a large cluster is worth an arrow where most are small. */
-static void a_part_as_large_as_other_clusters_has_an_arrow(void **state)
+static void a_piece_as_large_as_other_clusters_has_an_arrow(void **state)
 {
   (void)state;
   const double center[2] = {6.8, 0.7};
@@ -168,7 +168,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(no_arrow_crosses_a_periodic_boundary),
       cmocka_unit_test(nor_a_corner_of_two),
-      cmocka_unit_test(a_part_as_large_as_other_clusters_has_an_arrow),
+      cmocka_unit_test(a_piece_as_large_as_other_clusters_has_an_arrow),
       cmocka_unit_test(a_band_is_cut_at_the_boundary_too),
   };
   return cmocka_run_group_tests_name("icon/icons_boundary", tests, NULL, NULL);

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "cluster/patches.h"
-#include "grid/field_parts.h"
+#include "grid/field_slabs.h"
 #include "icon/icons_make.h"
 
 /* Patches that a rank holds at a time have this share of its part of the grid, but for
@@ -18,8 +18,8 @@ typedef struct making {
   const fg__ranks *ranks;
   fg__labels labels;
   fg__wanted_patch *wanted; /* [labels.count] */
-  fg_icon *icon;            /* [labels.count * FG__ICON_PARTS] those of this rank; on rank
-                               0 at last all */
+  fg_icon *icon; /* [labels.count * FG__ICON_PIECES] those of this rank; on rank
+                    0 at last all */
 } making;
 
 static size_t nodes_of(const fg__patch *patch)
@@ -92,7 +92,7 @@ static fg_status take_windows(fg_field ***out, const making *s, fg_context *cont
                               int first, int count)
 {
   *out = NULL;
-  if (!s->field->part)
+  if (!s->field->slab)
     return FG_STATUS_OK;
   size_t all = (size_t)count;
   fg__region *region = fg__allocate(all, sizeof *region);
@@ -115,7 +115,7 @@ static fg_status take_windows(fg_field ***out, const making *s, fg_context *cont
 
 static fg_icon *icons_of(const making *s, int cluster)
 {
-  return s->icon + (size_t)(cluster - 1) * FG__ICON_PARTS;
+  return s->icon + (size_t)(cluster - 1) * FG__ICON_PIECES;
 }
 
 /* The icons of this rank among `count` clusters whose patches are there. */
@@ -146,8 +146,8 @@ static fg_status make_own(making *s, fg_context *context, fg_field *const *windo
     }
   status = fg__icons_make(icon, context, &source, threads);
   for (int n = 0; n < source.count; ++n)
-    memcpy(icons_of(s, cluster[n]), icon + (size_t)n * FG__ICON_PARTS,
-           FG__ICON_PARTS * sizeof *icon);
+    memcpy(icons_of(s, cluster[n]), icon + (size_t)n * FG__ICON_PIECES,
+           FG__ICON_PIECES * sizeof *icon);
 cleanup:
   free(cluster);
   free(patch);
@@ -247,7 +247,7 @@ static fg_status bring_together(making *s, fg_context *context)
 {
   letters own = {0}, all = {0};
   bool sends = s->ranks->rank > 0;
-  for (int n = 0; n < s->labels.count * FG__ICON_PARTS && sends; ++n)
+  for (int n = 0; n < s->labels.count * FG__ICON_PIECES && sends; ++n)
     if (s->icon[n].points) {
       take(&own, (const unsigned char *)&s->icon[n], sizeof s->icon[n]);
       take_line(&own, s->icon[n].points, s->icon[n].point_count);
@@ -318,12 +318,12 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "icons: a density in %d dimensions of a field in %d", dimension,
                     fg_field_contents(field)->dimension);
-  if (fg_field_is_part(field, NULL, NULL) && !fg_density_is_shared(density))
+  if (fg_field_is_slab(field, NULL, NULL) && !fg_density_is_distributed(density))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "icons: a field that ranks share, of a density that they do not");
-  fg__traffic_book *book = fg__density_block_of(density)->partition.ranks->book;
-  fg_activity before = fg__traffic_continue(book, FG_ACTIVITY_SNAPSHOTS);
+  fg__counters *counters = fg__density_block_of(density)->partition.ranks->counters;
+  fg_phase before = fg__phase_continue(counters, FG_PHASE_SNAPSHOTS);
   fg_status status = create(out, context, field, density, options);
-  fg__traffic_return(book, before);
+  fg__phase_return(counters, before);
   return status;
 }

@@ -73,15 +73,15 @@ static double stripe(double x, double y)
   return capsule(x, y, -5, 20, 25, 20, 1.5);
 }
 
-static double border_slivers(double x, double y)
+static double boundary_slivers(double x, double y)
 {
-  double strip = 0.2 - fmax(y - 5, fabs(x - 4) - 2);       /* along the lower border */
+  double strip = 0.2 - fmax(y - 5, fabs(x - 4) - 2);       /* along the lower boundary */
   double corner = (1.1 - (30 - x) - (35 - y)) / sqrt(2.0); /* in the upper right one */
   double side = capsule(x, y, -10, 20, -10, 24, 0.3);      /* half of it outside */
   return fmax(strip, fmax(corner, side));
 }
 
-static double border_grain(double x, double y)
+static double boundary_grain(double x, double y)
 {
   return fmax(ellipse(x, y, -10, 21, 7, 3, 0.3), ellipse(x, y, 14, 5, 6, 2.5, 0.2));
 }
@@ -218,7 +218,7 @@ static void takes_the_longest_way_through_a_stripe(void **state)
 static void drops_slivers_and_counts_them(void **state)
 {
   (void)state;
-  test_bench bench = bench_of(uniform, border_slivers);
+  test_bench bench = bench_of(uniform, boundary_slivers);
   assert_int_equal(fg_icons_count(bench.icons), 0);
   assert_int_equal(fg_icons_clusters(bench.icons), 3);
   assert_int_equal(fg_icons_dropped(bench.icons), 3);
@@ -246,7 +246,7 @@ static void each_cluster_has_one_however_large(void **state)
 static void stays_inside_the_domain(void **state)
 {
   (void)state;
-  test_bench bench = bench_of(uniform, border_grain);
+  test_bench bench = bench_of(uniform, boundary_grain);
   assert_int_equal(fg_icons_count(bench.icons), 2);
   for (int i = 0; i < 2; i++)
     assert_true(fg__icon_length(fg_icons_at(bench.icons, i)) > 4);

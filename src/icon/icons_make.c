@@ -5,7 +5,7 @@
 #include "icon/slender.h"
 
 #include "base/memory.h"
-#include "base/team.h"
+#include "base/threads.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -20,7 +20,7 @@ static const double USUAL_COVERAGE = 0.3;
 /* What all threads share; each takes the next cluster until there is none. */
 typedef struct icon_job {
   const fg__icon_source *source;
-  fg_icon *icon; /* [source->count * FG__ICON_PARTS] */
+  fg_icon *icon; /* [source->count * FG__ICON_PIECES] */
   atomic_int next;
   atomic_bool halted; /* a thread failed or the caller wants to stop */
 } icon_job;
@@ -43,9 +43,9 @@ static fg_status make_icons(icon_job *job, fg_context *context, fg__chooser *cho
 {
   const fg__icon_source *source = job->source;
   int cluster = source->cluster[index];
-  fg_icon *icon = &job->icon[(size_t)index * FG__ICON_PARTS];
+  fg_icon *icon = &job->icon[(size_t)index * FG__ICON_PIECES];
   fg__window whole;
-  fg__window_part part[FG__WINDOW_PARTS] = {{{0}, 0.0}};
+  fg__window_piece part[FG__WINDOW_PIECES] = {{{0}, 0.0}};
   int parts = 0;
   fg_status status = fg__window_cut(&whole, context, source->density, source->labels,
                                     &source->patch[index], cluster);
@@ -64,9 +64,9 @@ static fg_status make_icons(icon_job *job, fg_context *context, fg__chooser *cho
   return status;
 }
 
-static void work(void *argument, const fg__share *share)
+static void work(void *argument, const fg__thread *thread)
 {
-  icon_worker *worker = &((icon_worker *)argument)[share->member];
+  icon_worker *worker = &((icon_worker *)argument)[thread->index];
   icon_job *job = worker->job;
   fg__chooser chooser = {0};
   while (worker->status == FG_STATUS_OK && !atomic_load(&job->halted)) {
@@ -86,23 +86,23 @@ static void work(void *argument, const fg__share *share)
 /* The caller's thread is the first worker, and the only one where no threads are to be
  * had. */
 fg_status fg__icons_make(fg_icon *icon, fg_context *context,
-                         const fg__icon_source *source, int threads)
+                         const fg__icon_source *source, int thread_count)
 {
   icon_job job = {.source = source, .icon = icon};
   icon_worker workers[MOST_THREADS] = {
       {.job = &job, .context = context, .caller = context}};
-  fg__team *team = NULL;
+  fg__threads *threads = NULL;
   fg_status status = FG_STATUS_OK;
-  threads = threads < MOST_THREADS ? threads : MOST_THREADS;
-  threads = threads < source->count ? threads : source->count;
-  (void)fg__team_create(&team, NULL, threads);
-  threads = fg__team_members(team);
-  for (int i = 1; i < threads; i++) {
+  thread_count = thread_count < MOST_THREADS ? thread_count : MOST_THREADS;
+  thread_count = thread_count < source->count ? thread_count : source->count;
+  (void)fg__threads_create(&threads, NULL, thread_count);
+  thread_count = fg__threads_count(threads);
+  for (int i = 1; i < thread_count; i++) {
     workers[i].job = &job;
     (void)fg_context_create(&workers[i].context); /* without one messages are lost */
   }
-  fg__team_run(team, work, workers);
-  for (int i = 0; i < threads; i++) {
+  fg__threads_run(threads, work, workers);
+  for (int i = 0; i < thread_count; i++) {
     const icon_worker *worker = &workers[i];
     if (worker->status != FG_STATUS_OK && status == FG_STATUS_OK)
       status = i == 0 ? worker->status
@@ -111,7 +111,7 @@ fg_status fg__icons_make(fg_icon *icon, fg_context *context,
     if (i > 0)
       fg_context_destroy(worker->context);
   }
-  fg__team_destroy(team);
+  fg__threads_destroy(threads);
   return status;
 }
 
@@ -122,9 +122,9 @@ fg_status fg__icons_collect(fg_icons **out, fg_context *context, const fg_icon *
   fg_status status = fg__icons_create_empty(&icons, context);
   int drawn = 0;
   for (int i = 0; i < clusters && status == FG_STATUS_OK; i++) {
-    const fg_icon *part = &icon[(size_t)i * FG__ICON_PARTS];
+    const fg_icon *part = &icon[(size_t)i * FG__ICON_PIECES];
     bool has_icon = false;
-    for (int k = 0; k < FG__ICON_PARTS && status == FG_STATUS_OK; k++)
+    for (int k = 0; k < FG__ICON_PIECES && status == FG_STATUS_OK; k++)
       if (part[k].points) {
         status = fg__icons_add(icons, context, &part[k]);
         has_icon = true;
@@ -142,12 +142,12 @@ fg_status fg__icons_collect(fg_icons **out, fg_context *context, const fg_icon *
 
 fg_icon *fg__icons_allocate(int clusters)
 {
-  return fg__allocate((size_t)clusters * FG__ICON_PARTS, sizeof(fg_icon));
+  return fg__allocate((size_t)clusters * FG__ICON_PIECES, sizeof(fg_icon));
 }
 
 void fg__icons_free(fg_icon *icon, int clusters)
 {
-  for (int i = 0; icon && i < clusters * FG__ICON_PARTS; i++)
+  for (int i = 0; icon && i < clusters * FG__ICON_PIECES; i++)
     fg__icon_free(&icon[i]);
   free(icon);
 }

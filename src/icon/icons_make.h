@@ -17,15 +17,16 @@ typedef struct fg__icon_source {
 } fg__icon_source;
 
 /* Places for a cluster's icons: one across a periodic boundary may have several. */
-enum { FG__ICON_PARTS = FG__WINDOW_PARTS };
+enum { FG__ICON_PIECES = FG__WINDOW_PIECES };
 
-/* [clusters * FG__ICON_PARTS], zeroed; NULL when there is no memory. fg__icons_free ends
+/* [clusters * FG__ICON_PIECES], zeroed; NULL when there is no memory. fg__icons_free ends
  * them with their points. */
 fg_icon *fg__icons_allocate(int clusters);
 void fg__icons_free(fg_icon *icon, int clusters);
 
-/* Makes icons by up to `threads` threads into icon[source->count * FG__ICON_PARTS]. Where
- * no arrow fits, and where a cluster has fewer icons, points is NULL. MEMORY, STOPPED. */
+/* Makes icons by up to `threads` threads into icon[source->count * FG__ICON_PIECES].
+ * Where no arrow fits, and where a cluster has fewer icons, points is NULL. MEMORY,
+ * STOPPED. */
 fg_status fg__icons_make(fg_icon *icon, fg_context *context,
                          const fg__icon_source *source, int threads);
 

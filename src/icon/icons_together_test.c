@@ -1,6 +1,6 @@
 /* Icons that ranks make of their blocks are those of the plain arrays, to the bit. */
 #include "cluster/divided_density_test.h"
-#include "grid/parted_test.h"
+#include "grid/slabs_test.h"
 
 #include <string.h>
 
@@ -49,7 +49,7 @@ static void parts_give_the_icons_of_the_whole(void **state)
       subject s = subject_of(&SHAPES[n], periodic, (n + way) % 3 == 0);
       fg_icons *icons;
       fg_icon_options options = {.threads = 1 + way};
-      fg_field *part = n % 2 == way % 2 ? joined_part_of(s.field) : NULL;
+      fg_field *part = n % 2 == way % 2 ? joined_slab_of(s.field) : NULL;
       expect(fg_icons_create(&icons, us.context, part ? part : s.field, s.shared,
                              &options) == FG_STATUS_OK);
       fg_field_destroy(part);

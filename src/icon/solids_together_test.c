@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "grid/parted_test.h"
+#include "grid/slabs_test.h"
 
 enum { CELLS = 32, FINE = 2, DATA = 12 * FINE };
 
@@ -121,7 +121,7 @@ static void parts_give_the_icons_of_the_whole(void **state)
       const bool periodic[3] = {way & 1, way & 2, way & 4};
       subject s = subject_of(kind, periodic, way % 3 == 1);
       fg_icons *icons;
-      fg_field *part = way % 2 == kind % 2 ? joined_part_of(s.field) : NULL;
+      fg_field *part = way % 2 == kind % 2 ? joined_slab_of(s.field) : NULL;
       expect(fg_icons_create(&icons, us.context, part ? part : s.field, s.shared, NULL) ==
              FG_STATUS_OK);
       fg_field_destroy(part);

@@ -17,7 +17,7 @@ fg_status fg__arrow_speeds(double **out, fg_context *context, const fg_field *fi
   double *speed = *out = fg__allocate((size_t)count, sizeof **out);
   if (!speed)
     return fg__fail_memory(context, "an arrow's speeds", (size_t)count * sizeof *speed);
-  bool known = field && !fg_field_is_part(field, NULL, NULL);
+  bool known = field && !fg_field_is_slab(field, NULL, NULL);
   for (int n = 0; n < count; ++n) {
     double velocity[3];
     if (known && fg_field_velocity(field, icon->points[n], velocity)) {

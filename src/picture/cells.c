@@ -1,4 +1,4 @@
-/* Outlines of masked cells: the border between masked and other cells is followed along
+/* Outlines of masked cells: the boundary between masked and other cells is followed along
  * the grid's lines, then smoothed, because its steps belong to the grid and not to the
  * coast: passes of Taubin's filter ("A Signal Processing Approach to Fair Surface
  * Design", SIGGRAPH 1995), which keeps areas, and a quadratic B-spline through the
@@ -38,7 +38,7 @@ static bool masked(const grid *g, int i, int j)
          g->mask[(size_t)j * (size_t)g->size[0] + (size_t)i];
 }
 
-/* Whether the border leaves corner (i, j) in a direction: a masked cell to its left and
+/* Whether the boundary leaves corner (i, j) in a direction: a masked cell to its left and
  * none to its right. */
 static bool leads(const grid *g, int i, int j, int direction)
 {
@@ -49,7 +49,8 @@ static bool leads(const grid *g, int i, int j, int direction)
          !masked(g, i + left_x[right], j + left_y[right]);
 }
 
-/* Where two masked cells touch at a corner only, the border turns left: they stay apart.
+/* Where two masked cells touch at a corner only, the boundary turns left: they stay
+ * apart.
  */
 static int turn(const grid *g, int i, int j, int direction)
 {
@@ -64,7 +65,7 @@ static void corner(const grid *g, int i, int j, double point[2])
   point[1] = g->edges[1][j];
 }
 
-static bool on_border(const grid *g, const double point[2])
+static bool on_boundary(const grid *g, const double point[2])
 {
   for (int k = 0; k < 2; ++k)
     if (point[k] == g->edges[k][0] || point[k] == g->edges[k][g->size[k]])
@@ -73,14 +74,14 @@ static bool on_border(const grid *g, const double point[2])
 }
 
 /* One half of a pass: every vertex moves by a share of the way to its neighbours' middle,
- * but for those on the border, which the frame shows to be straight. */
+ * but for those on the boundary, which the frame shows to be straight. */
 static void smooth_once(const grid *g, double (*to)[2], double (*from)[2], size_t count,
                         double share)
 {
   for (size_t n = 0; n < count; ++n) {
     const double *before = from[n ? n - 1 : count - 1];
     const double *after = from[n + 1 < count ? n + 1 : 0];
-    double weight = on_border(g, from[n]) ? 0.0 : share;
+    double weight = on_boundary(g, from[n]) ? 0.0 : share;
     for (int k = 0; k < 2; ++k)
       to[n][k] = from[n][k] + weight * (0.5 * (before[k] + after[k]) - from[n][k]);
   }
@@ -91,7 +92,7 @@ static bool add_piece(const grid *g, double (*point)[2], size_t count, size_t n)
 {
   const double *before = point[n ? n - 1 : count - 1], *at = point[n];
   const double *after = point[n + 1 < count ? n + 1 : 0];
-  if (on_border(g, at))
+  if (on_boundary(g, at))
     return fg__polygons_add(g->out, at);
   for (int k = 0; k < SPLINE_PIECES; ++k) {
     double t = (double)k / SPLINE_PIECES;

@@ -7,13 +7,13 @@
 #include "picture/polygons.h"
 
 /* The density with its repeated last column or row where it is periodic, and a rim of
- * negative nodes that lie on the border itself: every line of u = 0 is then closed, along
- * the border where the domain ends. Cell (i, j) has its lower left corner in node
+ * negative nodes that lie on the boundary itself: every line of u = 0 is then closed,
+ * along the boundary where the domain ends. Cell (i, j) has its lower left corner in node
  * (i - 1, j - 1). */
-typedef struct sheet {
+typedef struct level_grid {
   const fg_density_arrays *density;
   int nodes[2]; /* without the rim */
-} sheet;
+} level_grid;
 
 static int wrapped(int index, int count)
 {
@@ -44,7 +44,7 @@ static bool touches_active(const fg_density_arrays *density, int i, int j)
   return false;
 }
 
-static double level_at(const sheet *s, int i, int j)
+static double level_at(const level_grid *s, int i, int j)
 {
   if (i < 0 || j < 0 || i >= s->nodes[0] || j >= s->nodes[1])
     return -1.0;
@@ -57,7 +57,7 @@ static double level_at(const sheet *s, int i, int j)
   return level;
 }
 
-static double coordinate(const sheet *s, int axis, int index)
+static double coordinate(const level_grid *s, int axis, int index)
 {
   int inside = index < 0 ? 0 : index >= s->nodes[axis] ? s->nodes[axis] - 1 : index;
   return s->density->origin[axis] + inside * s->density->spacing[axis];
@@ -73,7 +73,7 @@ typedef struct walker {
   int edge; /* along it, against the clock, the level falls through zero */
 } walker;
 
-static void corner_levels(const sheet *s, const int cell[2], double level[4])
+static void corner_levels(const level_grid *s, const int cell[2], double level[4])
 {
   for (int k = 0; k < 4; ++k)
     level[k] = level_at(s, cell[0] - 1 + corner_x[k], cell[1] - 1 + corner_y[k]);
@@ -110,7 +110,7 @@ static int exit_edge(const double level[4], int entry)
   return (entry + 2) & 3;
 }
 
-static void crossing(const sheet *s, const walker *at, const double level[4],
+static void crossing(const level_grid *s, const walker *at, const double level[4],
                      double point[2])
 {
   int a = at->edge, b = (at->edge + 1) & 3;
@@ -124,7 +124,8 @@ static void crossing(const sheet *s, const walker *at, const double level[4],
 }
 
 /* Follows one line of u = 0 with the positive side to its left. */
-static bool follow(fg__polygons *out, const sheet *s, unsigned char *visited, walker at)
+static bool follow(fg__polygons *out, const level_grid *s, unsigned char *visited,
+                   walker at)
 {
   static const int step_x[4] = {0, 1, 0, -1};
   static const int step_y[4] = {-1, 0, 1, 0};
@@ -148,7 +149,8 @@ static bool follow(fg__polygons *out, const sheet *s, unsigned char *visited, wa
   }
 }
 
-static bool at_periodic_border(const sheet *s, const fg__polygons *polygons, size_t loop)
+static bool at_periodic_boundary(const level_grid *s, const fg__polygons *polygons,
+                                 size_t loop)
 {
   for (int k = 0; k < 2; ++k) {
     if (!s->density->periodic[k])
@@ -164,9 +166,9 @@ static bool at_periodic_border(const sheet *s, const fg__polygons *polygons, siz
 fg_status fg__contour_positive(fg__polygons *out, fg_context *context,
                                const fg_density_arrays *density)
 {
-  sheet s = {density,
-             {density->nodes[0] + density->periodic[0],
-              density->nodes[1] + density->periodic[1]}};
+  level_grid s = {density,
+                  {density->nodes[0] + density->periodic[0],
+                   density->nodes[1] + density->periodic[1]}};
   size_t cells = ((size_t)s.nodes[0] + 1) * ((size_t)s.nodes[1] + 1);
   unsigned char *visited = fg__allocate(cells, 1);
   *out = (fg__polygons){0};
@@ -188,7 +190,7 @@ fg_status fg__contour_positive(fg__polygons *out, fg_context *context,
         size_t loop = out->count - 1;
         double area = fg__polygon_area(out, loop);
         if (area >= 0.0 && area < density->debris_area &&
-            !at_periodic_border(&s, out, loop))
+            !at_periodic_boundary(&s, out, loop))
           fg__polygons_drop_last(out);
       }
     }

@@ -22,13 +22,13 @@ double fg__polygon_area(const fg__polygons *polygons, size_t loop);
 void fg__polygons_simplify(fg__polygons *polygons, double tolerance);
 
 /* The area where u > 0, by marching squares with linear interpolation along the edges of
- * the grid, closed along the domain's border. Loops smaller than the density's debris are
- * left out, unless a periodic border cuts them. Coordinates of the input. */
+ * the grid, closed along the domain's boundary. Loops smaller than the density's debris
+ * are left out, unless a periodic boundary cuts them. Coordinates of the input. */
 fg_status fg__contour_positive(fg__polygons *out, fg_context *context,
                                const fg_density_arrays *density);
 
 /* The cells with a non-zero byte in `mask` (size[0] * size[1], x fastest) as polygons
- * whose corners are rounded within half a cell, but for those on the grid's border.
+ * whose corners are rounded within half a cell, but for those on the grid's boundary.
  * edges[k] holds size[k] + 1 coordinates. */
 fg_status fg__contour_cells(fg__polygons *out, fg_context *context,
                             const unsigned char *mask, const int size[2],

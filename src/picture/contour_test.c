@@ -317,7 +317,7 @@ static void a_staircase_becomes_a_slope(void **state)
   fg__polygons_clear(&polygons);
 }
 
-static void borders_of_the_grid_stay_straight(void **state)
+static void boundaries_of_the_grid_stay_straight(void **state)
 {
   (void)state;
   mask_grid grid;
@@ -383,7 +383,7 @@ int main(void)
       cmocka_unit_test(simplifying_keeps_the_shape),
       cmocka_unit_test(masks_keep_their_area),
       cmocka_unit_test(a_staircase_becomes_a_slope),
-      cmocka_unit_test(borders_of_the_grid_stay_straight),
+      cmocka_unit_test(boundaries_of_the_grid_stay_straight),
       cmocka_unit_test(lone_cells_stay_visible),
       cmocka_unit_test(random_masks_close_and_stay_near),
   };

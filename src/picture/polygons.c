@@ -6,7 +6,7 @@
 #include "base/memory.h"
 
 /* Vertices that one straight piece may replace: keeps simplification linear in the number
- * of vertices, and a straight border costs one vertex in so many. */
+ * of vertices, and a straight boundary costs one vertex in so many. */
 enum { LONGEST_SKIP = 200 };
 
 void fg__polygons_clear(fg__polygons *polygons)

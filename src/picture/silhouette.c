@@ -311,7 +311,7 @@ fg_status fg__silhouette_create(fg_surface **out, fg_context *context,
                                 const fg_field *field)
 {
   *out = NULL;
-  if (fg_field_is_part(field, NULL, NULL) || is_all_moving(field))
+  if (fg_field_is_slab(field, NULL, NULL) || is_all_moving(field))
     return FG_STATUS_OK;
   raster r = {.value = NULL};
   lay_out(&r, fg_field_contents(field), NODES);

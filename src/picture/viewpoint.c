@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
-#include "picture/stage.h"
+#include "picture/camera.h"
 
 /* Views that are tried, degrees: every azimuth with every elevation. */
 enum { AZIMUTHS = 36, ELEVATIONS = 11 };
@@ -28,7 +28,7 @@ static const double radians_per_degree = 0.017453292519943295;
 
 /* A point of a line: a ball of the arrow. */
 typedef struct ball {
-  double place[3], radius; /* on the stage */
+  double place[3], radius; /* in the view box */
   double counts;           /* of the piece to the next one; 0: none */
 } ball;
 
@@ -51,12 +51,12 @@ static fg_status add_ball(crowd *out, fg_context *context, const ball *one)
 }
 
 /* Brings a point into the box, along the axes with a period. */
-static void wrap(const fg__stage *stage, double place[3])
+static void wrap(const fg__view_box *view_box, double place[3])
 {
   for (int k = 0; k < 3; ++k)
-    if (stage->period[k] > 0.0)
-      place[k] -=
-          stage->period[k] * floor((place[k] + stage->half[k]) / stage->period[k]);
+    if (view_box->period[k] > 0.0)
+      place[k] -= view_box->period[k] *
+                  floor((place[k] + view_box->half[k]) / view_box->period[k]);
 }
 
 static double length_of(const fg_icon *icon)
@@ -67,7 +67,7 @@ static double length_of(const fg_icon *icon)
   return length;
 }
 
-static fg_status add_icon(crowd *out, fg_context *context, const fg__stage *stage,
+static fg_status add_icon(crowd *out, fg_context *context, const fg__view_box *view_box,
                           const fg_icon *icon)
 {
   double base = length_of(icon) - icon->head_length, passed = 0.0;
@@ -75,17 +75,17 @@ static fg_status add_icon(crowd *out, fg_context *context, const fg__stage *stag
   for (int n = 0; n + 1 < icon->point_count && !status; ++n) {
     const double *from = icon->points[n], *to = icon->points[n + 1];
     double piece = fg__apart(from, to);
-    int parts = (int)fmin(fmax(ceil(piece * stage->scale / longest_step), 1.0), 1e4);
+    int parts = (int)fmin(fmax(ceil(piece * view_box->scale / longest_step), 1.0), 1e4);
     for (int m = 0; m < parts && !status; ++m) {
       double t = (double)m / parts, at = passed + t * piece;
       double width = at <= base
                          ? icon->width
                          : icon->head_width * (1.0 - (at - base) / icon->head_length);
-      ball one = {.radius = stage->scale * width / 2.0,
+      ball one = {.radius = view_box->scale * width / 2.0,
                   .counts = at > base ? head_counts : 1.0};
       for (int k = 0; k < 3; ++k)
-        one.place[k] = fg__stage_place(stage, k, from[k] + t * (to[k] - from[k]));
-      wrap(stage, one.place);
+        one.place[k] = fg__view_box_place(view_box, k, from[k] + t * (to[k] - from[k]));
+      wrap(view_box, one.place);
       status = add_ball(out, context, &one);
     }
     passed += piece;
@@ -118,7 +118,7 @@ static bool is_seen(float depth[SIDE][SIDE], const shade *one)
   return one->depth < (double)depth[y][x] + slack;
 }
 
-/* Length of what is seen, as it is seen, on the stage. */
+/* Length of what is seen, as it is seen, in the view box. */
 static double merit_of(const crowd *all, const fg__camera *camera, shade *seen,
                        float depth[SIDE][SIDE])
 {
@@ -178,12 +178,12 @@ fg_status fg_solid_best_view(double *azimuth, double *elevation, fg_context *con
                     "a view: a field in 3 dimensions, icons and places for the angles "
                     "are needed");
   const fg__pane pane = {0.0, 0.0, SIDE, SIDE};
-  fg__stage stage;
-  fg__stage_of(&stage, fg_field_contents(field));
+  fg__view_box view_box;
+  fg__view_box_of(&view_box, fg_field_contents(field));
   crowd all = {.ball = NULL};
   fg_status status = FG_STATUS_OK;
   for (int n = 0; n < fg_icons_count(icons) && !status; ++n)
-    status = add_icon(&all, context, &stage, fg_icons_at(icons, n));
+    status = add_icon(&all, context, &view_box, fg_icons_at(icons, n));
   float(*depth)[SIDE] = fg__allocate(SIDE, sizeof *depth);
   shade *seen = fg__allocate(all.count, sizeof *seen);
   if (!status && (!depth || !seen))
@@ -191,7 +191,7 @@ fg_status fg_solid_best_view(double *azimuth, double *elevation, fg_context *con
   double merit[AZIMUTHS * ELEVATIONS];
   for (int n = 0; n < AZIMUTHS * ELEVATIONS && !status; ++n) {
     fg__camera camera;
-    fg__camera_look(&camera, &stage, azimuth_step * (n % AZIMUTHS),
+    fg__camera_look(&camera, &view_box, azimuth_step * (n % AZIMUTHS),
                     lowest + elevation_step * (n / AZIMUTHS), &pane);
     merit[n] = merit_of(&all, &camera, seen, depth);
     status = fg__check_stop(context);

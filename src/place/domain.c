@@ -57,16 +57,16 @@ static bool is_in_box(const fg__place_domain *domain, const double position[3])
   return true;
 }
 
-const fg__place_part *fg__place_part_at(const fg__place_domain *domain,
-                                        const double position[3])
+const fg__place_subdomain *fg__place_subdomain_at(const fg__place_domain *domain,
+                                                  const double position[3])
 {
   if (!is_in_box(domain, position))
     return NULL;
   size_t cell = 0;
   for (int k = domain->dimension - 1; k >= 0; --k)
     cell = cell * (size_t)domain->cells[k] + (size_t)cell_along(domain, k, position[k]);
-  int part = domain->part[cell];
-  return part ? &domain->parts[part - 1] : NULL;
+  int subdomain = domain->subdomain[cell];
+  return subdomain ? &domain->subdomains[subdomain - 1] : NULL;
 }
 
 double fg__place_clearance(const fg__place_domain *domain, const double position[3])
@@ -146,7 +146,7 @@ static int compare_speeds(const void *a, const void *b)
   return (one > other) - (one < other);
 }
 
-/* Marks the domain's cells with part 1, and keeps their speeds. */
+/* Marks the domain's cells with subdomain 1, and keeps their speeds. */
 static size_t mark_domain(fg__place_domain *domain, float *speed)
 {
   size_t cell = 0, count = 0;
@@ -157,7 +157,7 @@ static size_t mark_domain(fg__place_domain *domain, float *speed)
         cell_center(domain, (const int[3]){x, y, z}, center);
         if (!fg_field_velocity(domain->field, center, v))
           continue;
-        domain->part[cell] = 1;
+        domain->subdomain[cell] = 1;
         speed[count++] = (float)sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
       }
   return count;
@@ -189,20 +189,21 @@ static fg_status measure_speeds(fg__place_domain *domain, fg_context *context,
   return FG_STATUS_OK;
 }
 
-/* Numbers the part of a cell, by a stack of cells. */
-static void fill_part(fg__place_domain *domain, size_t first, int number, size_t *stack)
+/* Numbers the subdomain of a cell, by a stack of cells. */
+static void fill_subdomain(fg__place_domain *domain, size_t first, int number,
+                           size_t *stack)
 {
   size_t stride[3] = {1, (size_t)domain->cells[0],
                       (size_t)domain->cells[0] * (size_t)domain->cells[1]};
   size_t depth = 0;
-  fg__place_part *part = &domain->parts[number - 1];
+  fg__place_subdomain *subdomain = &domain->subdomains[number - 1];
   double cell_measure = pow(domain->spacing, domain->dimension);
   stack[depth++] = first;
-  domain->part[first] = number;
+  domain->subdomain[first] = number;
   while (depth > 0) {
     size_t cell = stack[--depth], rest = cell;
-    part->measure += cell_measure;
-    part->widest = fmax(part->widest, (double)domain->clearance[cell]);
+    subdomain->measure += cell_measure;
+    subdomain->widest = fmax(subdomain->widest, (double)domain->clearance[cell]);
     for (int k = 0; k < domain->dimension; ++k) {
       int at = (int)(rest % (size_t)domain->cells[k]);
       rest /= (size_t)domain->cells[k];
@@ -210,8 +211,8 @@ static void fill_part(fg__place_domain *domain, size_t first, int number, size_t
         if (at + side < 0 || at + side >= domain->cells[k])
           continue;
         size_t next = side < 0 ? cell - stride[k] : cell + stride[k];
-        if (domain->part[next] == -1) {
-          domain->part[next] = number;
+        if (domain->subdomain[next] == -1) {
+          domain->subdomain[next] = number;
           stack[depth++] = next;
         }
       }
@@ -219,7 +220,7 @@ static void fill_part(fg__place_domain *domain, size_t first, int number, size_t
   }
 }
 
-static fg_status number_parts(fg__place_domain *domain, fg_context *context)
+static fg_status number_subdomains(fg__place_domain *domain, fg_context *context)
 {
   size_t count = map_count(domain), capacity = 0;
   size_t *stack = fg__allocate(count, sizeof *stack);
@@ -227,17 +228,17 @@ static fg_status number_parts(fg__place_domain *domain, fg_context *context)
     return fg__fail_memory(context, "a stack of cells", count * sizeof *stack);
   fg_status status = FG_STATUS_OK;
   for (size_t n = 0; n < count; ++n)
-    domain->part[n] = -domain->part[n];
+    domain->subdomain[n] = -domain->subdomain[n];
   for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n) {
-    if (domain->part[n] != -1)
+    if (domain->subdomain[n] != -1)
       continue;
-    if (!fg__grow((void **)&domain->parts, &capacity, (size_t)domain->part_count + 1,
-                  sizeof *domain->parts)) {
+    if (!fg__grow((void **)&domain->subdomains, &capacity,
+                  (size_t)domain->subdomain_count + 1, sizeof *domain->subdomains)) {
       status = fg__fail_memory(context, "parts of the domain", capacity);
       break;
     }
-    domain->parts[domain->part_count++] = (fg__place_part){0};
-    fill_part(domain, n, domain->part_count, stack);
+    domain->subdomains[domain->subdomain_count++] = (fg__place_subdomain){0};
+    fill_subdomain(domain, n, domain->subdomain_count, stack);
   }
   free(stack);
   return status;
@@ -250,19 +251,19 @@ fg_status fg__place_domain_create(fg__place_domain *out, fg_context *context,
                             .dimension = fg_field_contents(field)->dimension};
   choose_map(out);
   size_t count = map_count(out);
-  out->part = fg__allocate(count, sizeof *out->part);
+  out->subdomain = fg__allocate(count, sizeof *out->subdomain);
   out->clearance = fg__allocate(count, sizeof *out->clearance);
   fg_status status = FG_STATUS_OK;
-  if (!out->part || !out->clearance)
+  if (!out->subdomain || !out->clearance)
     status = fg__fail_memory(context, "the map of a domain",
-                             count * (sizeof *out->part + sizeof *out->clearance));
+                             count * (sizeof *out->subdomain + sizeof *out->clearance));
   if (status == FG_STATUS_OK) /* the clearance's place holds speeds for a while */
     status = measure_speeds(out, context, out->clearance);
   if (status == FG_STATUS_OK)
-    status = fg__place_distance(out->clearance, context, out->part, out->cells,
+    status = fg__place_distance(out->clearance, context, out->subdomain, out->cells,
                                 out->dimension, out->spacing);
   if (status == FG_STATUS_OK)
-    status = number_parts(out, context);
+    status = number_subdomains(out, context);
   if (status == FG_STATUS_OK)
     status = fg__check_stop(context);
   if (status != FG_STATUS_OK)
@@ -273,7 +274,7 @@ fg_status fg__place_domain_create(fg__place_domain *out, fg_context *context,
 void fg__place_domain_clear(fg__place_domain *domain)
 {
   free(domain->clearance);
-  free(domain->part);
-  free(domain->parts);
+  free(domain->subdomain);
+  free(domain->subdomains);
   *domain = (fg__place_domain){0};
 }

@@ -5,11 +5,11 @@
 
 #include "base/context.h"
 
-/* A connected part of the domain. */
-typedef struct fg__place_part {
+/* A connected subdomain. */
+typedef struct fg__place_subdomain {
   double measure; /* area or volume */
   double widest;  /* greatest clearance in it */
-} fg__place_part;
+} fg__place_subdomain;
 
 typedef struct fg__place_domain {
   const fg_field *field;
@@ -21,9 +21,9 @@ typedef struct fg__place_domain {
   double spacing;
   float *clearance; /* a cell: from its centre to the nearest wall, mask or frame; 0
                        outside the domain */
-  int *part;        /* a cell: which part from 1 on, 0 outside */
-  fg__place_part *parts;
-  int part_count;
+  int *subdomain;   /* a cell: which subdomain from 1 on, 0 outside */
+  fg__place_subdomain *subdomains;
+  int subdomain_count;
   double whole;    /* area or volume of the domain */
   double measure;  /* of what counts: less than the whole where much of it is dead */
   double greatest; /* speed */
@@ -47,9 +47,9 @@ double fg__place_speed(const fg__place_domain *domain, const double position[3])
 /* Distance to the nearest wall, interpolated; 0 outside the box. */
 double fg__place_clearance(const fg__place_domain *domain, const double position[3]);
 
-/* The part that holds a point, NULL outside the domain. */
-const fg__place_part *fg__place_part_at(const fg__place_domain *domain,
-                                        const double position[3]);
+/* The subdomain that holds a point, NULL outside the domain. */
+const fg__place_subdomain *fg__place_subdomain_at(const fg__place_domain *domain,
+                                                  const double position[3]);
 
 /* What a point counts in (0, 1], by its speed. */
 double fg__place_weight(const fg__place_domain *domain, double speed);

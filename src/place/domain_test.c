@@ -18,21 +18,23 @@ static void rooms(const double position[3], double v[3])
     v[1] = (double)NAN;
 }
 
-static void parts_are_told_apart(void **state)
+static void subdomains_are_told_apart(void **state)
 {
   const sampling box = {
       .dimension = 2, .nodes = {37, 25}, .low = {-4, 3}, .high = {5, 9}};
   fg_field *field = field_of(*state, &box, rooms);
   fg__place_domain domain = domain_of(*state, field);
-  assert_int_equal(domain.part_count, 2);
-  const fg__place_part *left = fg__place_part_at(&domain, (const double[3]){-1, 5}),
-                       *right = fg__place_part_at(&domain, (const double[3]){4, 8});
+  assert_int_equal(domain.subdomain_count, 2);
+  const fg__place_subdomain *left =
+                                fg__place_subdomain_at(&domain, (const double[3]){-1, 5}),
+                            *right =
+                                fg__place_subdomain_at(&domain, (const double[3]){4, 8});
   assert_non_null(left);
   assert_non_null(right);
   assert_ptr_not_equal(left, right);
-  assert_ptr_equal(left, fg__place_part_at(&domain, (const double[3]){-3.9, 8.9}));
-  assert_null(fg__place_part_at(&domain, (const double[3]){1.5, 5}));
-  assert_null(fg__place_part_at(&domain, (const double[3]){-4.01, 5}));
+  assert_ptr_equal(left, fg__place_subdomain_at(&domain, (const double[3]){-3.9, 8.9}));
+  assert_null(fg__place_subdomain_at(&domain, (const double[3]){1.5, 5}));
+  assert_null(fg__place_subdomain_at(&domain, (const double[3]){-4.01, 5}));
   /* cells touching a missing corner are outside: the left room ends at 0.75 */
   assert_close(left->measure, 4.75 * 6, 0.5);
   assert_close(right->measure, 2.75 * 6, 0.3);
@@ -53,14 +55,14 @@ static void winding(const double position[3], double v[3])
     v[1] = (double)NAN;
 }
 
-static void a_winding_domain_is_one_part(void **state)
+static void a_winding_domain_is_one_subdomain(void **state)
 {
   const sampling box = {
       .dimension = 2, .nodes = {37, 25}, .low = {-4, 3}, .high = {5, 9}};
   fg_field *field = field_of(*state, &box, winding);
   fg__place_domain domain = domain_of(*state, field);
-  assert_int_equal(domain.part_count, 1);
-  assert_close(domain.parts[0].measure, domain.whole, 1e-6 * domain.whole);
+  assert_int_equal(domain.subdomain_count, 1);
+  assert_close(domain.subdomains[0].measure, domain.whole, 1e-6 * domain.whole);
   fg__place_domain_clear(&domain);
   fg_field_destroy(field);
 }
@@ -142,8 +144,8 @@ static void dead_volume_hardly_counts(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(parts_are_told_apart),
-      CASE(a_winding_domain_is_one_part),
+      CASE(subdomains_are_told_apart),
+      CASE(a_winding_domain_is_one_subdomain),
       CASE(clearance_is_that_to_the_frame_or_a_wall),
       CASE(a_period_belongs_to_the_domain),
       CASE(dead_volume_hardly_counts),

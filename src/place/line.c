@@ -187,8 +187,8 @@ static void trace_side(side *line, tracing *with, const tip *seed, double sign,
 double fg__place_least_clearance(const fg__place_domain *domain,
                                  const fg__place_scale *scale, const double position[3])
 {
-  const fg__place_part *part = fg__place_part_at(domain, position);
-  return part ? fmin(scale->clearance, 0.5 * part->widest) : HUGE_VAL;
+  const fg__place_subdomain *subdomain = fg__place_subdomain_at(domain, position);
+  return subdomain ? fmin(scale->clearance, 0.5 * subdomain->widest) : HUGE_VAL;
 }
 
 /* The sample a range before another one. */

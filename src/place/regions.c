@@ -36,7 +36,7 @@ static void clear(owners *all)
 static void claim(owners *all, const fg__place_search *search, int index)
 {
   const fg__place_line *line = &search->icon[index]->line;
-  const fg__place_box *box = &search->icon[index]->tale.box;
+  const fg__place_box *box = &search->icon[index]->contribution.box;
   double lambda = search->scale.lambda;
   int low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
   for (int k = 0; k < search->scale.dimension; ++k) {
@@ -127,7 +127,7 @@ fg_status fg__place_find_shares(fg__place_share *out, fg_context *context,
         double point[3] = {0};
         for (int k = 0; k < search->scale.dimension; ++k)
           point[k] = all.low[k] + node[k] * all.spacing[k];
-        if (all.owner[at] < 0 || !fg__place_part_at(search->domain, point))
+        if (all.owner[at] < 0 || !fg__place_subdomain_at(search->domain, point))
           continue;
         out[all.owner[at]].measure += cell;
         out[all.owner[at]].speed += cell * fg__place_speed(search->domain, point);
@@ -159,7 +159,7 @@ static void fill_active(unsigned char *active, const fg_density_arrays *arrays,
     for (int x = 0; x + 1 < arrays->nodes[0]; ++x) {
       double center[3] = {arrays->origin[0] + (x + 0.5) * arrays->spacing[0],
                           arrays->origin[1] + (y + 0.5) * arrays->spacing[1], 0.0};
-      active[at++] = fg__place_part_at(domain, center) != NULL;
+      active[at++] = fg__place_subdomain_at(domain, center) != NULL;
     }
 }
 

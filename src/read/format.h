@@ -13,25 +13,25 @@ typedef struct fg__source {
   size_t size;
 } fg__source;
 
-/* What a reader is to read: part `number` of `count` (field/part.h), or with a count of 1
+/* What a reader is to read: slab `number` of `count` (field/slab.h), or with a count of 1
  * all. */
-typedef struct fg__dealt {
+typedef struct fg__slab_index {
   int number, count;
-} fg__dealt;
+} fg__slab_index;
 
 /* Rows along the last axis: [first, first + own) and up to `held` what follows. */
 typedef struct fg__rows {
   int first, own, held;
 } fg__rows;
 
-/* The rows of a part; all when there are fewer than parts: then `dealt` becomes that. */
-fg__rows fg__rows_of(fg__dealt *dealt, int rows, bool periodic);
+/* The rows of a slab; all when there are fewer than slabs: then `slab` becomes that. */
+fg__rows fg__rows_of(fg__slab_index *slab, int rows, bool periodic);
 
 /* The field of the arrays of such rows; velocity[k], which is arrays->velocity[k],
  * becomes NULL where the field takes it over. */
 fg_status fg__field_of_rows(fg_field **out, fg_context *context,
                             const fg_field_arrays *arrays, float *velocity[3],
-                            const fg__dealt *dealt);
+                            const fg__slab_index *slab);
 
 typedef struct fg__format {
   const char *name;  /* as `flowgrain info` shows it */
@@ -40,7 +40,7 @@ typedef struct fg__format {
   fg_status (*inventory)(fg_inventory *inventory, fg_context *context,
                          const fg__source *source);
   fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
-                    const fg_read_options *options, fg__dealt dealt);
+                    const fg_read_options *options, fg__slab_index slab);
   /* The file's array of tensors as two fields (tensor_rows.h); *found: there is one. NULL
    * where the format has none. */
   fg_status (*tensors)(fg_field *row[2], bool *found, fg_context *context,

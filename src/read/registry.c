@@ -1,6 +1,6 @@
 #include "base/memory.h"
 #include "base/mix.h"
-#include "field/part.h"
+#include "field/slab.h"
 #include "read/format.h"
 
 #include <stdint.h>
@@ -104,8 +104,8 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
   return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
 }
 
-static fg_status read_dealt(fg_field **out, fg_context *context, const char *input,
-                            const fg_read_options *options, fg__dealt dealt)
+static fg_status read_slab(fg_field **out, fg_context *context, const char *input,
+                           const fg_read_options *options, fg__slab_index slab)
 {
   if (!out || !input)
     return fg__fail(context, FG_STATUS_ARGUMENT, "no input to read a field from");
@@ -118,8 +118,8 @@ static fg_status read_dealt(fg_field **out, fg_context *context, const char *inp
   fg_status status = open_known(&source, &format, context, input);
   if (status == FG_STATUS_OK)
     status = name_the_file(
-        context,
-        format->read(out, context, &source, options ? options : &defaults, dealt), input);
+        context, format->read(out, context, &source, options ? options : &defaults, slab),
+        input);
   fg__source_close(&source);
   return status;
 }
@@ -127,7 +127,7 @@ static fg_status read_dealt(fg_field **out, fg_context *context, const char *inp
 fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
                         const fg_read_options *options)
 {
-  return read_dealt(out, context, input, options, (fg__dealt){0, 1});
+  return read_slab(out, context, input, options, (fg__slab_index){0, 1});
 }
 
 static uint64_t mix_text(uint64_t key, const char *text)
@@ -148,16 +148,17 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
   return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
 }
 
-fg_status fg_field_read_part(fg_field **out, fg_context *context, const char *input,
-                             const fg_read_options *options, int part, int parts)
+fg_status fg_field_read_slab(fg_field **out, fg_context *context, const char *input,
+                             const fg_read_options *options, int slab, int slabs)
 {
-  if (part < 0 || part >= parts)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "no part %d of %d of a field", part,
-                    parts);
-  fg_status status = read_dealt(out, context, input, options, (fg__dealt){part, parts});
-  if (status != FG_STATUS_OK || !(*out)->part)
+  if (slab < 0 || slab >= slabs)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "no slab %d of %d of a field", slab,
+                    slabs);
+  fg_status status =
+      read_slab(out, context, input, options, (fg__slab_index){slab, slabs});
+  if (status != FG_STATUS_OK || !(*out)->slab)
     return status;
-  fg__field_part *own = (*out)->part;
+  fg__field_slab *own = (*out)->slab;
   own->key ^= key_of_reading(input, options);
   own->input = fg__copy_text(input);
   if (own->input)

@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A shorter arrow is a speck, in cells. */
+/* A shorter arrow is too small, in cells. */
 static const double SHORTEST = 1.0;
 
-/* What straight pieces of a bent arrow are shorter by, at most, for which it is no speck.
- */
+/* What straight pieces of a bent arrow are shorter by, at most, for which it is not too
+ * small. */
 static const double ROUNDING = 0.01;
 
 /* Where a straight arrow meets a mask is found by steps of this share of a cell. */

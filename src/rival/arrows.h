@@ -15,7 +15,8 @@ fg_status fg__rival_straight(fg_icon *icon, fg_context *context, const fg__domai
                              const double middle[], double length);
 
 /* The piece of a streamline whose middle is a point of the box; as above. It turns by 300
- * degrees at most and ends at periodic borders. `line` is kept from call to call. MEMORY.
+ * degrees at most and ends at periodic boundaries. `line` is kept from call to call.
+ * MEMORY.
  */
 fg_status fg__rival_curved(fg_icon *icon, fg_context *context, const fg__domain *domain,
                            const double middle[], double length, fg__line *line);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Streamlines may go on past a periodic border by so many periods either way. */
+/* Streamlines may go on past a periodic boundary by so many periods either way. */
 enum { SPARE_PERIODS = 2 };
 
 static void place(fg__domain *domain, const fg_field_arrays *field, int nodes)

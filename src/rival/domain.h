@@ -36,8 +36,8 @@ void fg__domain_clear(fg__domain *domain);
 fg__extent fg__domain_all(const fg__domain *domain);
 
 /* The part of the box in which an arrow of this half width through `middle` may lie: it
- * keeps off periodic borders, since a map ends there, by that or half of the middle's own
- * way to them. Where an axis is open the field ends by itself. */
+ * keeps off periodic boundaries, since a map ends there, by that or half of the middle's
+ * own way to them. Where an axis is open the field ends by itself. */
 fg__extent fg__domain_room(const fg__domain *domain, const double middle[],
                            double half_width);
 

@@ -104,7 +104,7 @@ fg_status fg_rival_create(fg_rival **out, fg_context *context, const fg_field *f
     return fg__fail(context, FG_STATUS_ARGUMENT, "rival: no %s given",
                     out ? "field" : "place for the result");
   *out = NULL;
-  if (fg_field_is_part(field, NULL, NULL))
+  if (fg_field_is_slab(field, NULL, NULL))
     return fg__fail(context, FG_STATUS_ARGUMENT, "rival: of a field that ranks share");
   fg_rival *rival = fg__allocate(1, sizeof *rival);
   if (!rival)

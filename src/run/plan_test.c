@@ -87,7 +87,7 @@ static void time_left_follows_the_power_law(void **state)
   fg__plan plan;
   fg__plan_start(&plan, list, 1);
   const fg_step first = {.clusters = 80, .time = 3e-6, .seconds = 2.0};
-  /* nothing is known at the first moment */
+  /* nothing is known at the first snapshot */
   assert_true(fg__plan_seconds_left(&plan, &first, &first) < 0.0);
   /* with N = t^-0.43 and the same work for every factor of t, half of the way in log N
    * takes half of the time */

@@ -33,7 +33,7 @@ fg_status fg_run_resume(fg_step *step, fg_run *run, const fg_checkpoint *checkpo
   s->taken = record->taken;
   s->last_clusters = record->last_clusters;
   s->first = record->first;
-  s->ending = fg__run_ending(s);
+  s->outcome = fg__run_ending(s);
   *step = s->step;
   return FG_STATUS_OK;
 }

@@ -83,7 +83,7 @@ void fg_run_destroy(fg_run *run)
   free(run);
 }
 
-fg_run_ending fg__run_ending(const fg_run *s)
+fg_run_outcome fg__run_ending(const fg_run *s)
 {
   if (fg__plan_done(&s->plan))
     return FG_RUN_ALL;
@@ -94,9 +94,9 @@ fg_run_ending fg__run_ending(const fg_run *s)
   return s->step.stationary ? FG_RUN_STATIONARY : FG_RUN_GO_ON;
 }
 
-fg_run_ending fg_run_ended(const fg_run *run)
+fg_run_outcome fg_run_ended(const fg_run *run)
 {
-  return run->ending;
+  return run->outcome;
 }
 
 fg_status fg_run_step(fg_step *step, fg_run *run)
@@ -104,13 +104,13 @@ fg_status fg_run_step(fg_step *step, fg_run *run)
   fg_run *s = run;
   fg_status status = fg_evolution_step(s->evolution, &s->step);
   if (status == FG_STATUS_STOPPED)
-    s->ending = FG_RUN_STOPPED;
+    s->outcome = FG_RUN_STOPPED;
   if (status)
     return status;
   if (s->step.clusters && !s->first.step)
     s->first = s->step;
   s->due = fg__plan_reach(&s->plan, s->step.clusters);
-  s->ending = fg__run_ending(s);
+  s->outcome = fg__run_ending(s);
   *step = s->step;
   return FG_STATUS_OK;
 }
@@ -137,7 +137,7 @@ bool fg_run_take(fg_run_scale *out, fg_run *run)
 void fg_run_close(fg_run *run)
 {
   fg_run *s = run;
-  bool settled = s->ending == FG_RUN_STATIONARY;
+  bool settled = s->outcome == FG_RUN_STATIONARY;
   if (s->closed)
     return;
   s->closed = true;
@@ -147,7 +147,7 @@ void fg_run_close(fg_run *run)
     s->rest = s->last_clusters != s->step.clusters;
     return;
   }
-  if (s->ending == FG_RUN_STOPPED)
+  if (s->outcome == FG_RUN_STOPPED)
     return;
   s->due = s->plan.count - s->plan.next;
   s->plan.next = s->plan.count;
@@ -209,12 +209,12 @@ static fg_status place(fg_run *s, int count)
                                s->even_start, s->finer);
 }
 
-/* Of the present state; of a shared density rank 0 places what it has gathered. */
+/* Of the present state; of a distributed density rank 0 places what it has gathered. */
 static fg_status make_icons(fg_run *s, const fg_run_scale *scale)
 {
   if (!s->plan.placed)
     return fg_icons_create(&s->icons, s->context, s->field, s->density, NULL);
-  if (!fg_density_is_shared(s->density))
+  if (!fg_density_is_distributed(s->density))
     return place(s, scale->wanted[0]);
   fg_density *shared = s->density;
   s->density = NULL;
@@ -250,7 +250,7 @@ fg_status fg_run_next(const fg_run_scale **out, fg_run *run)
   while (!fg_run_take(&s->scale, s)) {
     if (s->closed)
       return FG_STATUS_OK;
-    if (s->ending) {
+    if (s->outcome) {
       fg_run_close(s);
       continue;
     }

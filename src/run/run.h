@@ -17,7 +17,7 @@ struct fg_run {
   int taken, last_clusters;
   double max_time;
   int64_t max_steps;
-  fg_run_ending ending;
+  fg_run_outcome outcome;
   bool even_start;
   fg_placement_options how;
 
@@ -29,6 +29,6 @@ struct fg_run {
 };
 
 /* Why the present state ends it, if it does. */
-fg_run_ending fg__run_ending(const fg_run *run);
+fg_run_outcome fg__run_ending(const fg_run *run);
 
 #endif

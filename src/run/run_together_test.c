@@ -75,7 +75,7 @@ static void check(const char *name, fg_run_kind kind)
     if (placed)
       expect((scale->density != NULL) == (us.ranks->rank == 0));
     else
-      expect(fg_density_is_shared(scale->density) == (us.ranks->count > 1));
+      expect(fg_density_is_distributed(scale->density) == (us.ranks->count > 1));
   }
   expect(fg_run_next(&scale, run) == FG_STATUS_OK && !scale);
   fg_run_destroy(run);

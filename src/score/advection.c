@@ -134,17 +134,17 @@ static void follow(double end[3], const work *w, const double start[3])
   }
 }
 
-static void follow_all(void *argument, const fg__share *share)
+static void follow_all(void *argument, const fg__thread *thread)
 {
   const work *w = argument;
   int n, end;
-  fg__team_part(share, w->count, 1, &n, &end);
+  fg__threads_range(thread, w->count, 1, &n, &end);
   for (; n < end; ++n)
     follow(w->end[n], w, w->start[n]);
 }
 
 double fg__score_advection(const fg__score_raster *raster, const fg__harmonic *harmonic,
-                           fg__team *team)
+                           fg__threads *threads)
 {
   double start[PARTICLES][3], end[2][PARTICLES][3], sum = 0.0;
   const int count = place_particles(start, raster);
@@ -154,7 +154,7 @@ double fg__score_advection(const fg__score_raster *raster, const fg__harmonic *h
               .start = (const double(*)[3])start,
               .end = end[n],
               .count = count};
-    fg__team_run(team, follow_all, &w);
+    fg__threads_run(threads, follow_all, &w);
   }
   for (int n = 0; n < count; ++n)
     sum += distance(end[0][n], end[1][n]);

@@ -106,13 +106,13 @@ typedef struct pass {
 } pass;
 
 /* Division by the smoothed mask is left out: it changes no direction. */
-static void smooth_rows(void *argument, const fg__share *share)
+static void smooth_rows(void *argument, const fg__thread *thread)
 {
   const pass *work = argument;
   const plane *p = work->plane;
   const size_t columns = (size_t)p->raster->size[0];
   int row, end;
-  fg__team_part(share, p->raster->size[1], 1, &row, &end);
+  fg__threads_range(thread, p->raster->size[1], 1, &row, &end);
   for (; row < end; ++row)
     for (int k = 0; k < 2; ++k) {
       const size_t place = (size_t)row * columns;
@@ -146,13 +146,13 @@ static int index_of(const plane *p, size_t place)
 
 /* The merged critical points of the field or of the reader. */
 static fg_status find_points(fg__points *points, plane *p, fg_context *context,
-                             const fg__harmonic *harmonic, fg__team *team)
+                             const fg__harmonic *harmonic, fg__threads *threads)
 {
   const fg__score_raster *raster = p->raster;
   fg_status status = FG_STATUS_OK;
   fill(p, harmonic);
-  fg__team_run(team, smooth_rows, &(pass){.plane = p});
-  fg__team_run(team, smooth_rows, &(pass){.plane = p, .across = true});
+  fg__threads_run(threads, smooth_rows, &(pass){.plane = p});
+  fg__threads_run(threads, smooth_rows, &(pass){.plane = p, .across = true});
   for (int j = 0; j + 1 < raster->size[1]; ++j)
     for (int i = 0; i + 1 < raster->size[0] && status == FG_STATUS_OK; ++i) {
       const size_t place = (size_t)j * (size_t)raster->size[0] + (size_t)i;
@@ -167,7 +167,7 @@ static fg_status find_points(fg__points *points, plane *p, fg_context *context,
 
 fg_status fg__score_critical(double *f1, fg_context *context,
                              const fg__score_raster *raster, const fg__harmonic *harmonic,
-                             double lambda, fg__team *team)
+                             double lambda, fg__threads *threads)
 {
   double high[2];
   plane p;
@@ -179,7 +179,7 @@ fg_status fg__score_critical(double *f1, fg_context *context,
   for (int n = 0; n < 2 && status == FG_STATUS_OK; ++n) {
     status = fg__points_create(&found[n], context, raster->origin, high, REACH * lambda);
     if (status == FG_STATUS_OK)
-      status = find_points(&found[n], &p, context, n ? harmonic : NULL, team);
+      status = find_points(&found[n], &p, context, n ? harmonic : NULL, threads);
   }
   if (status == FG_STATUS_OK)
     status = fg__points_match(&matched, context, &found[0], &found[1]);

@@ -8,13 +8,13 @@
  * diffusion, over the radius that they are followed in: 0.15 of the domain's side, from
  * the first 500 points of the Halton sequence that lie in the domain. */
 double fg__score_advection(const fg__score_raster *raster, const fg__harmonic *harmonic,
-                           fg__team *team);
+                           fg__threads *threads);
 
 /* F1 measure of the field's critical points that the reader by diffusion shows, in 2D.
  * MEMORY. */
 fg_status fg__score_critical(double *f1, fg_context *context,
                              const fg__score_raster *raster, const fg__harmonic *harmonic,
-                             double lambda, fg__team *team);
+                             double lambda, fg__threads *threads);
 
 /* Share of the samples nearer than a tenth of lambda to another icon. MEMORY. */
 fg_status fg__score_clutter(double *share, fg_context *context,

@@ -31,7 +31,7 @@ typedef struct work {
   site *sites;    /* each icon's by x */
   double scale;   /* units of the field in one of ours */
   double epsilon; /* squared */
-  row_work *rows; /* one a member */
+  row_work *rows; /* one a thread */
   size_t most;    /* samples of an icon */
   fg__nearest *out;
 } work;
@@ -257,13 +257,13 @@ static void read_row(const work *w, row_work *row, int number)
   write_row(w, row, first);
 }
 
-static void read_rows(void *argument, const fg__share *share)
+static void read_rows(void *argument, const fg__thread *thread)
 {
   const work *w = argument;
   int row, end;
-  fg__team_part(share, (int)fg__score_raster_rows(w->raster), 1, &row, &end);
+  fg__threads_range(thread, (int)fg__score_raster_rows(w->raster), 1, &row, &end);
   for (; row < end; ++row)
-    read_row(w, &w->rows[share->member], row);
+    read_row(w, &w->rows[thread->index], row);
 }
 
 static fg_status allocate(fg__nearest *out, fg_context *context, size_t cells)
@@ -278,10 +278,10 @@ static fg_status allocate(fg__nearest *out, fg_context *context, size_t cells)
 
 fg_status fg__nearest_create(fg__nearest *out, fg_context *context,
                              const fg__score_raster *raster, const fg__samples *samples,
-                             double lambda, fg__team *team)
+                             double lambda, fg__threads *threads)
 {
   const double rounding = 0.05 * lambda / raster->spacing;
-  const int members = fg__team_members(team);
+  const int thread_count = fg__threads_count(threads);
   work w = {.raster = raster,
             .samples = samples,
             .scale = raster->spacing,
@@ -291,15 +291,15 @@ fg_status fg__nearest_create(fg__nearest *out, fg_context *context,
   fg_status status = allocate(out, context, raster->cells);
   if (status == FG_STATUS_OK)
     status = sort_sites(&w, context);
-  w.rows = fg__allocate((size_t)members, sizeof *w.rows);
+  w.rows = fg__allocate((size_t)thread_count, sizeof *w.rows);
   bool rows = w.rows != NULL;
-  for (int n = 0; n < members && rows && status == FG_STATUS_OK; ++n)
+  for (int n = 0; n < thread_count && rows && status == FG_STATUS_OK; ++n)
     rows = row_create(&w.rows[n], &w);
   if (!rows && status == FG_STATUS_OK)
     status = fg__fail_memory(context, "rows of a score", 0);
   if (status == FG_STATUS_OK)
-    fg__team_run(team, read_rows, &w);
-  for (int n = 0; w.rows && n < members; ++n)
+    fg__threads_run(threads, read_rows, &w);
+  for (int n = 0; w.rows && n < thread_count; ++n)
     row_clear(&w.rows[n]);
   free(w.rows);
   free(w.sites);

@@ -12,22 +12,22 @@ typedef struct bench {
 } bench;
 
 static void set_up(bench *b, fg_context *context, const sampling *box,
-                   velocity_of velocity, int count, int threads)
+                   velocity_of velocity, int count, int thread_count)
 {
-  fg__team *team = NULL;
+  fg__threads *threads = NULL;
   *b = (bench){.field = field_of(context, box, velocity), .icons = no_icons(context)};
-  assert_int_equal(fg__team_create(&team, context, threads), FG_STATUS_OK);
-  assert_int_equal(fg__score_raster_create(&b->raster, context, b->field, team),
+  assert_int_equal(fg__threads_create(&threads, context, thread_count), FG_STATUS_OK);
+  assert_int_equal(fg__score_raster_create(&b->raster, context, b->field, threads),
                    FG_STATUS_OK);
   b->lambda = b->raster.side / (box->dimension == 3 ? cbrt(count) : sqrt(count));
   add_scribbles(b->icons, context, box, count, 0.4 * b->lambda);
   assert_int_equal(
       fg__samples_create(&b->samples, context, &b->raster, b->icons, b->lambda, HUGE_VAL),
       FG_STATUS_OK);
-  assert_int_equal(
-      fg__nearest_create(&b->nearest, context, &b->raster, &b->samples, b->lambda, team),
-      FG_STATUS_OK);
-  fg__team_destroy(team);
+  assert_int_equal(fg__nearest_create(&b->nearest, context, &b->raster, &b->samples,
+                                      b->lambda, threads),
+                   FG_STATUS_OK);
+  fg__threads_destroy(threads);
 }
 
 static void tear_down(bench *b)

@@ -133,11 +133,11 @@ static void fill_cell(fg__score_raster *raster, size_t place, const double posit
     raster->direction[k][place] = (float)(tangent[k] / length);
 }
 
-static void fill_rows(void *argument, const fg__share *share)
+static void fill_rows(void *argument, const fg__thread *thread)
 {
   fg__score_raster *raster = argument;
   int row, end;
-  fg__team_part(share, (int)fg__score_raster_rows(raster), 1, &row, &end);
+  fg__threads_range(thread, (int)fg__score_raster_rows(raster), 1, &row, &end);
   for (; row < end; ++row) {
     int at[3] = {0, row % raster->size[1], row / raster->size[1]};
     for (; at[0] < raster->size[0]; ++at[0]) {
@@ -159,7 +159,7 @@ static void count_cells(fg__score_raster *raster)
 }
 
 fg_status fg__score_raster_create(fg__score_raster *out, fg_context *context,
-                                  const fg_field *field, fg__team *team)
+                                  const fg_field *field, fg__threads *threads)
 {
   *out = (fg__score_raster){.field = field, .dimension = field->contents.dimension};
   if (!fg__field_is_whole(field))
@@ -174,7 +174,7 @@ fg_status fg__score_raster_create(fg__score_raster *out, fg_context *context,
     status = allocate(out, context);
   if (status != FG_STATUS_OK)
     return status;
-  fg__team_run(team, fill_rows, out);
+  fg__threads_run(threads, fill_rows, out);
   count_cells(out);
   return fg__check_stop(context);
 }

@@ -2,7 +2,7 @@
 #ifndef FG__SCORE_RASTER_H
 #define FG__SCORE_RASTER_H
 
-#include "base/team.h"
+#include "base/threads.h"
 #include "field/field.h"
 
 /* The bounding box of the domain in cells of about side / 256, in 3D side / 64; x
@@ -21,10 +21,10 @@ typedef struct fg__score_raster {
   float *direction[3], *speed;    /* unit tangents (0 where it stands still) and |v| */
 } fg__score_raster;
 
-/* Ends with fg__score_raster_clear, also after a failure. UNSUPPORTED (a part of a field,
+/* Ends with fg__score_raster_clear, also after a failure. UNSUPPORTED (a slab of a field,
  * a domain far smaller than its box), MEMORY, STOPPED. */
 fg_status fg__score_raster_create(fg__score_raster *out, fg_context *context,
-                                  const fg_field *field, fg__team *team);
+                                  const fg_field *field, fg__threads *threads);
 void fg__score_raster_clear(fg__score_raster *raster);
 
 static inline size_t fg__score_raster_rows(const fg__score_raster *raster)

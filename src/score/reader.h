@@ -23,7 +23,7 @@ typedef struct fg__nearest {
 
 fg_status fg__nearest_create(fg__nearest *out, fg_context *context,
                              const fg__score_raster *raster, const fg__samples *samples,
-                             double lambda, fg__team *team);
+                             double lambda, fg__threads *threads);
 void fg__nearest_clear(fg__nearest *nearest);
 
 /* The reader that continues the tangents harmonically. */

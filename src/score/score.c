@@ -7,7 +7,7 @@
 
 typedef struct scoring {
   const fg_score_options *options;
-  fg__team *team;
+  fg__threads *threads;
   fg__score_raster raster;
   fg__samples samples;
   fg__nearest nearest;
@@ -62,7 +62,7 @@ static fg_status take_samples(scoring *s, fg_score *out, fg_context *context,
 static fg_status read_nearest(scoring *s, fg_score *out, fg_context *context)
 {
   fg_status status = fg__nearest_create(&s->nearest, context, &s->raster, &s->samples,
-                                        out->count_length, s->team);
+                                        out->count_length, s->threads);
   if (status == FG_STATUS_OK)
     status = fg__reader_error(&out->nearest, context, &s->raster, s->nearest.angle);
   if (status == FG_STATUS_OK)
@@ -95,12 +95,12 @@ static fg_status measure_rest(scoring *s, fg_score *out, fg_context *context)
   fg_status status = fg__check_stop(context);
   if (status == FG_STATUS_OK && raster->dimension == 2)
     status = fg__score_critical(&out->critical_f1, context, raster, &s->harmonic, lambda,
-                                s->team);
+                                s->threads);
   if (status == FG_STATUS_OK)
     status = fg__score_clutter(&out->clutter, context, raster, samples, lambda);
   if (status != FG_STATUS_OK)
     return status;
-  out->advection = fg__score_advection(raster, &s->harmonic, s->team);
+  out->advection = fg__score_advection(raster, &s->harmonic, s->threads);
   out->tangency = fg__score_tangency(raster, samples);
   out->outside = all ? (double)samples->outside / (double)all : 0.0;
   fg__score_voids(&out->void_mean, &out->void_max, raster, s->nearest.distance, lambda);
@@ -110,7 +110,7 @@ static fg_status measure_rest(scoring *s, fg_score *out, fg_context *context)
 static fg_status score(scoring *s, fg_score *out, fg_context *context,
                        const fg_field *field, const fg_icons *icons)
 {
-  fg_status status = fg__score_raster_create(&s->raster, context, field, s->team);
+  fg_status status = fg__score_raster_create(&s->raster, context, field, s->threads);
   if (status == FG_STATUS_OK)
     status = take_samples(s, out, context, icons);
   if (status == FG_STATUS_OK)
@@ -144,14 +144,15 @@ fg_status fg_icons_score(fg_score *out, fg_context *context, const fg_field *fie
                .count = options->count   ? options->count
                         : icon_count > 0 ? icon_count
                                          : 1};
-  status = fg__team_create(&s.team, context, options->threads ? options->threads : 1);
+  status =
+      fg__threads_create(&s.threads, context, options->threads ? options->threads : 1);
   if (status == FG_STATUS_OK)
     status = score(&s, out, context, field, icons);
   fg__harmonic_clear(&s.harmonic);
   fg__nearest_clear(&s.nearest);
   fg__samples_clear(&s.samples);
   fg__score_raster_clear(&s.raster);
-  fg__team_destroy(s.team);
+  fg__threads_destroy(s.threads);
   if (status != FG_STATUS_OK)
     *out = (fg_score){0};
   return status;

@@ -40,8 +40,8 @@ void fg__distributed_exchange_ends(const fg__distributed *level, int count,
     fg__distributed_exchange(level, count, array, FG__ALL_COLOURS);
 }
 
-/* What a member on its own, whose neighbours are other ranks, has to tell them. */
-static void meet(void *argument, unsigned slices)
+/* What a single thread, whose neighbours are other ranks, sends them. */
+static void exchange_slices(void *argument, unsigned slices)
 {
   const fg__distributed *level = argument;
   float *const both[] = {level->block.u, level->block.w};
@@ -49,9 +49,10 @@ static void meet(void *argument, unsigned slices)
   pass_slices(level, solution ? 2 : 0, both, slices);
 }
 
-fg__share fg__distributed_share(const fg__distributed *level)
+fg__thread fg__distributed_share(const fg__distributed *level)
 {
-  return (fg__share){.members = 1, .meet = meet, .argument = (void *)(uintptr_t)level};
+  return (fg__thread){
+      .count = 1, .exchange = exchange_slices, .argument = (void *)(uintptr_t)level};
 }
 
 static void smooth(const fg__distributed *level, const fg__kernel *kernel, float tau,

@@ -29,9 +29,9 @@ typedef struct fg__distributed_description {
   const fg__distributed *finer; /* the next finer level; NULL: this one is the finest */
 } fg__distributed_description;
 
-/* Makes a level of the mesh's grid, takes over its partition, and computes stencils: of
- * the finest level from the block's cells, which it takes over, of a coarser one from the
- * means of the finer level's. Collective. MEMORY. */
+/* Makes a level of the mesh's grid, takes ownership of its partition, and computes
+ * stencils: of the finest level from the block's cells, which it takes over, of a coarser
+ * one from the means of the finer level's. Collective. MEMORY. */
 fg_status fg__distributed_create(fg__distributed *out, fg_context *context,
                                  const fg__mesh *mesh, fg__cells_of_box *finest,
                                  fg__partition *partition,
@@ -49,7 +49,7 @@ void fg__distributed_exchange_ends(const fg__distributed *level, int count,
 
 /* In slabs: what kernels that sweep over slices are given, so that they exchange halos
  * where threads would wait for each other. */
-fg__share fg__distributed_share(const fg__distributed *level);
+fg__thread fg__distributed_share(const fg__distributed *level);
 
 /* Of pencils, which exchange all ghosts between sweeps: restriction to a coarse level,
  * whose u and w become 0, after a sweep of a linear level; and the coarse level's

@@ -85,9 +85,9 @@ static void exchange_cells(const fg__distributed *level, const fg__cells_of_box 
   }
 }
 
-static fg_status halve_block(const fg__distributed *level, fg_context *context,
-                             const fg__distributed_description *description,
-                             block_cells *cells)
+static fg_status coarsen_block(const fg__distributed *level, fg_context *context,
+                               const fg__distributed_description *description,
+                               block_cells *cells)
 {
   const fg__partition *partition = &level->partition;
   const fg__box *own = fg__own_block(partition);
@@ -119,16 +119,16 @@ static fg__cells_of_box view_cells(const block_cells *cells, int n)
 
 /* Cells of a coarser level from those of the finer one, which the same ranks share.
  * Collective. */
-static fg_status halve_cells(const fg__distributed *level, fg_context *context,
-                             const fg__distributed_description *description,
-                             block_cells *cells)
+static fg_status coarsen_cells(const fg__distributed *level, fg_context *context,
+                               const fg__distributed_description *description,
+                               block_cells *cells)
 {
   const fg__partition *partition = &level->partition;
   const fg__box *own = fg__own_block(partition);
   int dimension = partition->dimension;
   fg__layout layout = fg__layout_of(dimension, own->nodes);
   float *node = fg__allocate(layout.array_size, sizeof *node);
-  fg_status status = node ? halve_block(level, context, description, cells)
+  fg_status status = node ? coarsen_block(level, context, description, cells)
                           : fg__fail_memory(context, "the coarse tensor",
                                             layout.array_size * sizeof *node);
   status = fg__ranks_agree(partition->ranks, context, status);
@@ -155,7 +155,7 @@ static fg_status create_block(fg__distributed *level, fg_context *context,
   block_cells cells = {.by_elements = level->masked && description->finer};
   fg_status status = FG_STATUS_OK;
   if (description->finer) {
-    status = halve_cells(level, context, description, &cells);
+    status = coarsen_cells(level, context, description, &cells);
   } else {
     cells.tensor = *finest;
     *finest = (fg__cells_of_box){0};

@@ -121,9 +121,9 @@ static void swap_ghosts(const fg__level *level, int axis, int ghost)
 void fg__interpolation_mirror(const fg__level *level)
 {
   for (int axis = 0; axis < level->layout.dimension; ++axis) {
-    if (level->border[axis][0])
+    if (level->boundary[axis][0])
       swap_ghosts(level, axis, -1);
-    if (level->border[axis][1])
+    if (level->boundary[axis][1])
       swap_ghosts(level, axis, level->layout.nodes[axis]);
   }
 }

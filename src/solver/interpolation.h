@@ -1,4 +1,4 @@
-/* How the nodes of a level with a mask follow the next coarser level's.
+/* Interpolation from the next coarser level on a level with a mask.
  *
  * A node between coarse nodes follows those that the Laplacian couples it to, straight or
  * by way of its neighbours between them, each by its share of the couplings: nothing is
@@ -16,8 +16,8 @@
  * of dimensions. */
 void fg__interpolation_find(const fg__level *level, int stage);
 
-/* Ghosts beyond natural borders follow the mirror images of what their sources follow:
- * puts right what was copied. */
+/* Corrects copied ghosts beyond natural boundaries: they follow the mirror images of
+ * their sources' coarse nodes. */
 void fg__interpolation_mirror(const fg__level *level);
 
 #endif

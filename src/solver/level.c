@@ -88,9 +88,9 @@ static void find_images(const fg__level *level, const fg__box *box, int axis, in
     source[0] = nodes - 1;
     source[1] = 0;
   }
-  if (level->border[axis][0] && nodes > 1)
+  if (level->boundary[axis][0] && nodes > 1)
     source[0] = 1;
-  if (level->border[axis][1] && nodes > 1)
+  if (level->boundary[axis][1] && nodes > 1)
     source[1] = nodes - 2;
 }
 
@@ -114,8 +114,8 @@ static void lay_out(fg__level *level, const fg__box *box)
     whole[k] = level->periodic[k] ? level->cells[k] : level->cells[k] + 1;
     level->nodes *= whole[k];
     level->cell_volume *= level->spacing[k];
-    level->border[k][0] = !level->periodic[k] && (!box || box->first[k] == 0);
-    level->border[k][1] =
+    level->boundary[k][0] = !level->periodic[k] && (!box || box->first[k] == 0);
+    level->boundary[k][1] =
         !level->periodic[k] && (!box || box->first[k] + box->nodes[k] == whole[k]);
   }
   const int *nodes = box ? box->nodes : whole;
@@ -178,10 +178,10 @@ void fg__level_export(const fg__level *level, const float *array, float *plain)
       fg__row_export(&level->layout, array, j, k, plain);
 }
 
-/* The team, where there is more than a millisecond of work (some 60 ns a node). */
-static fg__team *worth_while(const fg__level *level, fg__team *team)
+/* Threads, where there is more than a millisecond of work (some 60 ns a node). */
+static fg__threads *worth_while(const fg__level *level, fg__threads *threads)
 {
-  return level->nodes >= 20000.0 ? team : NULL;
+  return level->nodes >= 20000.0 ? threads : NULL;
 }
 
 /* Relative mass of a node from the cells round it; beyond one of several blocks it
@@ -214,8 +214,8 @@ static void weigh_nodes(const fg__level *level)
   fg__fill_ghosts(level, level->mass_inverse);
 }
 
-static fg_status take_rows(fg__level *level, fg_context *context, const fg__team *team,
-                           bool finest, bool masked)
+static fg_status take_rows(fg__level *level, fg_context *context,
+                           const fg__threads *threads, bool finest, bool masked)
 {
   size_t stride = (size_t)level->layout.stride;
   size_t slice = stride; /* of the next coarser level, and room to spare */
@@ -227,8 +227,8 @@ static fg_status take_rows(fg__level *level, fg_context *context, const fg__team
       (masked ? CORRECTION_LINES : 1) * stride;
   size_t slices = level->layout.dimension == 3 ? (size_t)level->layout.plane : stride;
   slices = finest ? SHAPE_SLICES * slices : 0;
-  size_t members = (size_t)fg__team_members(team);
-  size_t count = 3 * stride + members * (level->scratch_size + slices);
+  size_t thread_count = (size_t)fg__threads_count(threads);
+  size_t count = 3 * stride + thread_count * (level->scratch_size + slices);
   float *memory = fg__allocate_aligned(count, sizeof *memory);
   if (!memory)
     return fg__fail_memory(context, "a multigrid level", count * sizeof *memory);
@@ -238,11 +238,11 @@ static fg_status take_rows(fg__level *level, fg_context *context, const fg__team
   level->column_west = level->column_east + stride;
   level->scratch = memory + 3 * stride;
   if (finest)
-    level->shapes = level->scratch + members * level->scratch_size;
+    level->shapes = level->scratch + thread_count * level->scratch_size;
   int columns = level->layout.nodes[0];
   for (int i = 0; i < columns; ++i) {
-    bool first = level->border[0][0] && i == 0;
-    bool last = level->border[0][1] && i == columns - 1;
+    bool first = level->boundary[0][0] && i == 0;
+    bool last = level->boundary[0][1] && i == columns - 1;
     ptrdiff_t n = fg__column(&level->layout, i);
     level->column_mass[n] = first || last ? 0.5F : 1.0F;
     level->column_east[n] = last ? 0.0F : 1.0F;
@@ -262,7 +262,7 @@ static fg_status take_stencil(fg__level *level, fg_context *context, fg__stencil
 }
 
 static fg_status take_mask(fg__level *level, fg_context *context, bool masked,
-                           fg__team *team)
+                           fg__threads *threads)
 {
   if (!masked)
     return FG_STATUS_OK;
@@ -275,7 +275,7 @@ static fg_status take_mask(fg__level *level, fg_context *context, bool masked,
     status = take_stencil(level, context, &level->laplacian);
   if (status)
     return status;
-  fg__stencil_assemble(level, &level->laplacian, 1.0, true, worth_while(level, team));
+  fg__stencil_assemble(level, &level->laplacian, 1.0, true, worth_while(level, threads));
   weigh_nodes(level);
   for (int stage = 0; stage <= level->layout.dimension && !level->boxed; ++stage) {
     fg__interpolation_find(level, stage);
@@ -313,7 +313,7 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
                             &out->scale,     &out->scale_inverse,
                             &out->curvature, &out->relaxation};
   fg_status status =
-      take_rows(out, context, description->team, description->finest, masked);
+      take_rows(out, context, description->threads, description->finest, masked);
   if (!status)
     status = take_arrays(out, context, arrays, description->finest ? 3 : 10);
   if (!status)
@@ -321,9 +321,9 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
   if (status)
     return status;
   fg__stencil_assemble(out, &out->energy, description->gamma, false,
-                       worth_while(out, description->team));
+                       worth_while(out, description->threads));
   fg__stencil_set_constants(out);
-  return take_mask(out, context, masked, description->team);
+  return take_mask(out, context, masked, description->threads);
 }
 
 bool fg__level_can_coarsen(const fg__level *level)
@@ -336,7 +336,7 @@ bool fg__level_can_coarsen(const fg__level *level)
 
 fg_status fg__level_coarsen_cells(fg__elements *out, fg_context *context,
                                   const fg__level *fine, double gamma, const int nodes[3],
-                                  const int count[3], fg__team *team)
+                                  const int count[3], fg__threads *threads)
 {
   fg__fine_cells cells = {.tensor = fine->elements.memory ? NULL : &fine->tensor,
                           .elements = &fine->elements,
@@ -344,14 +344,15 @@ fg_status fg__level_coarsen_cells(fg__elements *out, fg_context *context,
                           .gamma = gamma,
                           .layout = &fine->layout,
                           .interpolation = fine->interpolation};
-  return fg__elements_coarsen(out, context, &cells, nodes, count, team);
+  return fg__elements_coarsen(out, context, &cells, nodes, count, threads);
 }
 
 fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
-                                   const fg__level *fine, double gamma, fg__team *team)
+                                   const fg__level *fine, double gamma,
+                                   fg__threads *threads)
 {
   fg__level_description description = {
-      .dimension = fine->layout.dimension, .gamma = gamma, .team = team};
+      .dimension = fine->layout.dimension, .gamma = gamma, .threads = threads};
   for (int k = 0; k < 3; ++k) {
     description.cells[k] = fine->cells[k] / 2;
     description.periodic[k] = fine->periodic[k];
@@ -368,7 +369,7 @@ fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
   if (fine->mass) {
     fg__elements elements;
     status = fg__level_coarsen_cells(&elements, context, fine, gamma, whole.nodes, count,
-                                     worth_while(fine, team));
+                                     worth_while(fine, threads));
     if (status)
       return status;
     fg__elements_fill_images(&elements, &whole, count, fine->periodic);
@@ -376,7 +377,7 @@ fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
   }
   fg__cells_of_box tensor;
   status = fg__cells_coarsen(&tensor, context, &fine->tensor, &whole, count,
-                             worth_while(fine, team));
+                             worth_while(fine, threads));
   if (status)
     return status;
   fg__cells_fill_images(&tensor, &whole, count, fine->periodic);

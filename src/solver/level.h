@@ -1,17 +1,18 @@
-/* One level of the multigrid hierarchy: the arrays of a box of nodes (grid/layout.h) and
- * the equations' coefficients there. The box is the whole level, or this rank's block of
- * it (distributed.h).
+/* One level of the multigrid hierarchy: nodal arrays and coefficients of a box of nodes
+ * (grid/layout.h). The box is the whole level, or this rank's block of it
+ * (distributed.h).
  *
  * Scaling. Rows of the equations are divided by the lumped mass; the cell's volume is
  * divided out of everything, so a node's relative mass is 1 inside, and with a mask the
- * active share of the cells round it, mirrored at borders. The stiffness coefficients are
- * the off-diagonal entries of the node's row, with mirrored cells beyond natural borders:
- * a mirrored row over a mirrored mass equals the true row over the true mass. */
+ * active share of the cells round it, mirrored at boundaries. The stiffness coefficients
+ * are the off-diagonal entries of the node's row, with mirrored cells beyond natural
+ * boundaries: a mirrored row over a mirrored mass equals the true row over the true mass.
+ */
 #ifndef FG__LEVEL_H
 #define FG__LEVEL_H
 
 #include "base/context.h"
-#include "base/team.h"
+#include "base/threads.h"
 #include "grid/box.h"
 #include "grid/layout.h"
 #include "solver/cells/elements.h"
@@ -56,8 +57,8 @@ typedef struct fg__level {
   ptrdiff_t ghost_column[2], ghost_column_source[2]; /* offsets in a row */
   int ghost_row_source[2];   /* rows that rows -1 and nodes[1] are copies of */
   int ghost_plane_source[2]; /* the same for planes */
-  bool boxed; /* a block of several: ghosts that are no images are filled from outside */
-  bool border[3][2]; /* a natural border at the low, the high end of an axis */
+  bool boxed; /* one block of several: ghosts that are not images come from an exchange */
+  bool boundary[3][2]; /* a natural boundary at the low, the high end of an axis */
   /* Terms are rounded to multiples of a fixed small number before they are added, so that
    * a sum does not depend on its order: (x + rounding) - rounding. The first for terms
    * whose mean is at most 8, the other for squares of changes, at most 1/8. */
@@ -65,8 +66,9 @@ typedef struct fg__level {
 
   float *u, *w; /* density and chemical potential; corrections on coarse levels */
   float *p, *q; /* right-hand sides of the first and second equation */
-  /* The space of a coarse level's corrections, and Psi'' in it (solver/kernel/space.h).
-   * Between restriction and find_scale the coupling holds the restricted d. */
+  /* The space of a coarse level's corrections, and Psi'' in it
+   * (solver/kernel/coarse_space.h). Between restriction and find_scale the coupling holds
+   * the restricted d. */
   float *coupling, *shape_curvature, *scale, *scale_inverse, *curvature, *relaxation;
   float bulk;             /* d in the pure phases */
   fg__stencil energy;     /* gamma L_A / volume */
@@ -76,12 +78,12 @@ typedef struct fg__level {
   float laplacian_center, laplacian_east;
   float laplacian_middle[FG__MOST_UPPER_ROWS], laplacian_side[FG__MOST_UPPER_ROWS];
   fg__stencil laplacian;
-  /* Weights of columns in sums over nodes, one row each: 1/2 at natural borders; 0 for
+  /* Weights of columns in sums over nodes, one row each: 1/2 at natural boundaries; 0 for
    * couplings to the east (west) that leave the domain. */
   float *column_mass, *column_east, *column_west;
-  float *scratch;      /* for the kernels' own use, one piece a member of the team */
+  float *scratch;      /* for the kernels' own use, one piece a thread */
   size_t scratch_size; /* floats of one piece */
-  float *shapes; /* finest levels: three slices a member (solver/kernel/restrict.h) */
+  float *shapes; /* finest levels: three slices a thread (solver/kernel/restrict.h) */
   /* Of ranks that have a slab each: this one's last slice gathered
    * (solver/kernel/restrict.h), for the rank above, and that of the rank below; NULL
    * where there is none. */
@@ -105,10 +107,10 @@ typedef struct fg__level_description {
   bool periodic[3];
   double spacing[3];
   double gamma;
-  bool finest;        /* no second right-hand side and space of corrections */
-  bool masked;        /* somewhere on the level, if not here */
-  fg__team *team;     /* that builds it and will work on it; NULL: one thread */
-  const fg__box *box; /* the block, when there are several; NULL: all nodes */
+  bool finest;          /* no second right-hand side and space of corrections */
+  bool masked;          /* somewhere on the level, if not here */
+  fg__threads *threads; /* that builds it and will work on it; NULL: one thread */
+  const fg__box *box;   /* the block, when there are several; NULL: all nodes */
 } fg__level_description;
 
 /* Both roundings for a level of so many nodes. */
@@ -120,7 +122,7 @@ double fg__level_change_rounding(double nodes);
 uint64_t fg__level_units(double sum, double rounding, int ranks);
 double fg__level_sum(uint64_t units, double rounding);
 
-/* Slices are what a team shares out: rows in 2D, planes in 3D. */
+/* Slices are what threads share: rows in 2D, planes in 3D. */
 static inline int fg__slices(const fg__level *level)
 {
   return level->layout.nodes[level->layout.dimension - 1];
@@ -140,8 +142,7 @@ static inline ptrdiff_t fg__gathered_floats(const fg__level *level)
   return level->layout.odd_offset * ((level->layout.nodes[1] + 1) / 2);
 }
 
-/* What slices are exchanged for where members of a team meet; a member on its own is told
- * what its neighbours need by then. */
+/* Occasions of fg__threads_exchange: which slices the neighbouring ranks need by then. */
 enum {
   FG__FIRST_SLICE = 1,   /* of u and w, for the rank below */
   FG__LAST_SLICE = 2,    /* of u and w, for the rank above */
@@ -170,13 +171,14 @@ fg_status fg__level_create(fg__level *out, fg_context *context,
  * MEMORY. */
 fg_status fg__level_coarsen_cells(fg__elements *out, fg_context *context,
                                   const fg__level *fine, double gamma, const int nodes[3],
-                                  const int count[3], fg__team *team);
+                                  const int count[3], fg__threads *threads);
 
 /* The next coarser level: half the cells, tensor averaged, or with a mask P' A P. */
 fg_status fg__level_create_coarser(fg__level *out, fg_context *context,
-                                   const fg__level *fine, double gamma, fg__team *team);
+                                   const fg__level *fine, double gamma,
+                                   fg__threads *threads);
 
-/* True when all sides can be halved and something is left. */
+/* True when all sides can be coarsened and something is left. */
 bool fg__level_can_coarsen(const fg__level *level);
 void fg__level_clear(fg__level *level);
 

@@ -45,7 +45,7 @@ void fg__multigrid_use(fg__multigrid *multigrid, float *u)
   finest_of(multigrid)->u = u;
 }
 
-void fg__multigrid_leave_wells(fg__multigrid *multigrid, const fg__no_wells *instead)
+void fg__multigrid_linearise(fg__multigrid *multigrid, const fg__linear_terms *instead)
 {
   fg__level *level = finest_of(multigrid);
   multigrid->linear = instead;
@@ -60,7 +60,7 @@ void fg__multigrid_weigh_gradient(fg__multigrid *multigrid, double weight)
   finest_of(multigrid)->gradient_weight = weight;
 }
 
-/* Whether replicated level n is the finest, with its wells. */
+/* Whether replicated level n is the finest, with its double well. */
 static bool nonlinear(const fg__multigrid *multigrid, int n)
 {
   return n == 0 && multigrid->distributed_count == 0 && !multigrid->linear;
@@ -73,55 +73,55 @@ typedef struct turn {
   bool restricted, more;
 } turn;
 
-/* Makes a coarse level's system of what was restricted. */
+/* Makes a coarse level's system from the restricted quantities. */
 static void find_space(const fg__multigrid *multigrid, const fg__level *level, float tau,
-                       const fg__share *share)
+                       const fg__thread *thread)
 {
-  multigrid->kernel->find_scale(level, share);
-  multigrid->kernel->find_curvature(level, tau, share);
+  multigrid->kernel->find_scale(level, thread);
+  multigrid->kernel->find_curvature(level, tau, thread);
 }
 
 /* Restricts to the coarse level; its u and w become 0. A linear level is swept first. */
 static void descend(const fg__multigrid *multigrid, const fg__level *fine,
                     const fg__level *coarse, bool linear, const turn *now,
-                    const fg__share *share)
+                    const fg__thread *thread)
 {
   const fg__kernel *kernel = multigrid->kernel;
   if (linear)
-    kernel->smooth_restrict_linear(fine, coarse, now->tau, share);
+    kernel->smooth_restrict_linear(fine, coarse, now->tau, thread);
   else if (!now->restricted)
-    kernel->restrict_residuals(fine, coarse, now->tau, share);
+    kernel->restrict_residuals(fine, coarse, now->tau, thread);
 }
 
 /* The coarse level's correction; then a sweep, and perhaps the next restriction. */
 static void ascend(const fg__multigrid *multigrid, const fg__level *coarse,
                    const fg__level *fine, bool linear, const turn *now,
-                   const fg__share *share)
+                   const fg__thread *thread)
 {
   const fg__kernel *kernel = multigrid->kernel;
   if (linear)
-    kernel->correct_smooth_linear(coarse, fine, now->tau, share);
+    kernel->correct_smooth_linear(coarse, fine, now->tau, thread);
   else if (now->more)
-    kernel->correct_smooth_restrict(coarse, fine, now->tau, share);
+    kernel->correct_smooth_restrict(coarse, fine, now->tau, thread);
   else
-    kernel->correct_smooth(coarse, fine, now->tau, share);
+    kernel->correct_smooth(coarse, fine, now->tau, thread);
 }
 
 /* The same for level n of the replicated ones. */
 static void go_down(const fg__multigrid *multigrid, int n, const turn *now,
-                    const fg__share *share)
+                    const fg__thread *thread)
 {
   const fg__level *level = &multigrid->level[n];
-  descend(multigrid, level, level + 1, !nonlinear(multigrid, n), now, share);
-  find_space(multigrid, level + 1, now->tau, share);
+  descend(multigrid, level, level + 1, !nonlinear(multigrid, n), now, thread);
+  find_space(multigrid, level + 1, now->tau, thread);
 }
 
 static void go_up(const fg__multigrid *multigrid, int n, const turn *now,
-                  const fg__share *share)
+                  const fg__thread *thread)
 {
   const fg__level *level = &multigrid->level[n];
-  multigrid->kernel->unscale(level + 1, share);
-  ascend(multigrid, level + 1, level, !nonlinear(multigrid, n), now, share);
+  multigrid->kernel->unscale(level + 1, thread);
+  ascend(multigrid, level + 1, level, !nonlinear(multigrid, n), now, thread);
 }
 
 /* Levels n and coarser, by one thread. */
@@ -129,7 +129,7 @@ static void cycle_alone(const fg__multigrid *multigrid, int n, const turn *now)
 {
   const fg__kernel *kernel = multigrid->kernel;
   int last = multigrid->level_count - 1;
-  fg__share alone = fg__alone();
+  fg__thread alone = fg__single_thread();
   for (int m = n; m < last; ++m)
     go_down(multigrid, m, now, &alone);
   for (int sweep = 0; sweep < multigrid->coarsest_sweeps; ++sweep)
@@ -143,17 +143,17 @@ static void cycle_alone(const fg__multigrid *multigrid, int n, const turn *now)
 
 /* The replicated levels, alike on all ranks: of a process alone all of them. */
 static void cycle_replicated(const fg__multigrid *multigrid, const turn *now,
-                             const fg__share *share)
+                             const fg__thread *thread)
 {
   int last = multigrid->level_count - 1;
-  int shared = multigrid->shared_levels < last ? multigrid->shared_levels : last;
+  int shared = multigrid->threaded_levels < last ? multigrid->threaded_levels : last;
   for (int n = 0; n < shared; ++n)
-    go_down(multigrid, n, now, share);
-  if (share->member == 0)
+    go_down(multigrid, n, now, thread);
+  if (thread->index == 0)
     cycle_alone(multigrid, shared, now);
-  fg__team_barrier(share);
+  fg__threads_barrier(thread);
   for (int n = shared - 1; n >= 0; --n)
-    go_up(multigrid, n, now, share);
+    go_up(multigrid, n, now, thread);
 }
 
 /* From the blocks to level[0] and back. */
@@ -161,7 +161,7 @@ static void cycle_gathered(const fg__multigrid *multigrid, const turn *now)
 {
   const fg__level *image = &multigrid->distributed[multigrid->distributed_count].block;
   const fg__level *replicated = &multigrid->level[0];
-  fg__share alone = fg__alone();
+  fg__thread alone = fg__single_thread();
   float *const sent[] = {image->p, image->q, image->coupling, image->shape_curvature};
   float *const received[] = {replicated->p, replicated->q, replicated->coupling,
                              replicated->shape_curvature};
@@ -182,7 +182,7 @@ static void find_space_of_block(const fg__multigrid *multigrid,
                                 const fg__distributed *level, float tau)
 {
   float *const both[] = {level->block.scale, level->block.scale_inverse};
-  fg__share alone = fg__alone();
+  fg__thread alone = fg__single_thread();
   multigrid->kernel->find_scale(&level->block, &alone);
   fg__distributed_exchange_ends(level, 2, both);
   multigrid->kernel->find_curvature(&level->block, tau, &alone);
@@ -193,12 +193,12 @@ static void cycle_distributed(const fg__multigrid *multigrid, turn *now)
   const fg__kernel *kernel = multigrid->kernel;
   const fg__distributed *level = multigrid->distributed;
   int count = multigrid->distributed_count;
-  fg__share alone = fg__alone();
+  fg__thread alone = fg__single_thread();
   for (int n = 0; n < count; ++n) {
     bool linear = n > 0 || multigrid->linear;
-    fg__share share = fg__distributed_share(&level[n]);
+    fg__thread thread = fg__distributed_share(&level[n]);
     if (level[n].in_slabs)
-      descend(multigrid, &level[n].block, &level[n + 1].block, linear, now, &share);
+      descend(multigrid, &level[n].block, &level[n + 1].block, linear, now, &thread);
     else
       fg__distributed_descend(&level[n], &level[n + 1], kernel, now->tau, linear);
     if (n + 1 < count)
@@ -207,53 +207,53 @@ static void cycle_distributed(const fg__multigrid *multigrid, turn *now)
   cycle_gathered(multigrid, now);
   for (int n = count - 1; n >= 0; --n) {
     bool linear = n > 0 || multigrid->linear;
-    fg__share share = fg__distributed_share(&level[n]);
+    fg__thread thread = fg__distributed_share(&level[n]);
     if (n + 1 < count)
       kernel->unscale(&level[n + 1].block, &alone);
     if (level[n].in_slabs)
-      ascend(multigrid, &level[n + 1].block, &level[n].block, linear, now, &share);
+      ascend(multigrid, &level[n + 1].block, &level[n].block, linear, now, &thread);
     else
       fg__distributed_ascend(&level[n + 1], &level[n], kernel, now->tau, linear);
   }
   now->restricted = now->more && level[0].in_slabs && !multigrid->linear;
 }
 
-/* A member's share of an array's rows. */
+/* A thread's share of an array's rows. */
 static void copy_rows(const fg__level *level, const float *from, float *to,
-                      const fg__share *share)
+                      const fg__thread *thread)
 {
   int rows = (int)((ptrdiff_t)level->layout.array_size / level->layout.stride);
   int begin, end;
-  fg__team_part(share, rows, 1, &begin, &end);
+  fg__threads_range(thread, rows, 1, &begin, &end);
   ptrdiff_t at = begin * level->layout.stride - level->layout.first;
   memcpy(to + at, from + at,
          (size_t)(end - begin) * (size_t)level->layout.stride * sizeof *to);
 }
 
 void fg__multigrid_copy(const fg__multigrid *multigrid, const float *from, float *to,
-                        const fg__share *share)
+                        const fg__thread *thread)
 {
-  copy_rows(fg__multigrid_finest(multigrid), from, to, share);
-  fg__team_barrier(share);
+  copy_rows(fg__multigrid_finest(multigrid), from, to, thread);
+  fg__threads_barrier(thread);
 }
 
 void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
-                         float *before, const fg__share *share)
+                         float *before, const fg__thread *thread)
 {
   turn now = {.tau = (float)tau};
   if (multigrid->linear)
-    multigrid->kernel->find_relaxation(fg__multigrid_finest(multigrid), now.tau, share);
+    multigrid->kernel->find_relaxation(fg__multigrid_finest(multigrid), now.tau, thread);
   for (int n = 1; n <= cycles; ++n) {
     now.more = n < cycles;
     if (before && n == cycles)
-      fg__multigrid_copy(multigrid, fg__multigrid_u(multigrid), before, share);
+      fg__multigrid_copy(multigrid, fg__multigrid_u(multigrid), before, thread);
     if (multigrid->distributed_count > 0) {
-      fg__traffic_book *book = multigrid->ranks->book;
-      fg_activity activity = fg__traffic_begin(book, FG_ACTIVITY_CYCLES);
+      fg__counters *counters = multigrid->ranks->counters;
+      fg_phase phase = fg__phase_begin(counters, FG_PHASE_CYCLES);
       cycle_distributed(multigrid, &now);
-      fg__traffic_return(book, activity);
+      fg__phase_return(counters, phase);
     } else {
-      cycle_replicated(multigrid, &now, share);
+      cycle_replicated(multigrid, &now, thread);
       now.restricted = now.more;
     }
   }

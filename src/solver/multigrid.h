@@ -21,24 +21,24 @@ typedef struct fg__multigrid {
   fg__gather *gather; /* between distributed[distributed_count] and level[0]; NULL: none
                          is distributed */
 
-  fg__team *team; /* the caller's; NULL: one thread */
+  fg__threads *threads; /* the caller's; NULL: one thread */
   int level_count;
-  int shared_levels; /* large enough for the team; the others are left to one member */
+  int threaded_levels; /* large enough for all threads; one thread has the others */
   fg__level level[FG__MOST_LEVELS];
   int coarsest_sweeps;
   bool linear; /* the finest level too */
 } fg__multigrid;
 
-/* A mesh of fewer nodes is one thread's: where other work wants the cores, too, several
- * would wait for each other longer than they work (docs/design/evolution.md). */
-extern const double fg__least_team_nodes;
+/* A mesh of fewer nodes is left to one thread: beside other work several threads would
+ * wait longer than they work (docs/design/evolution.md). */
+extern const double fg__least_threaded_nodes;
 
 /* Builds all levels over a mesh from the cells round this rank's block, which it takes
- * over. masked: some cell of the mesh is inactive, if not here. team: will also work on
- * the levels of a process alone (borrowed; NULL: one thread). Collective. MEMORY. */
+ * over. masked: some cell of the mesh is inactive, if not here. threads: will also work
+ * on the levels of a process alone (borrowed; NULL: one thread). Collective. MEMORY. */
 fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, fg__cells_of_box *cells, bool masked,
-                               double gamma, fg__team *team);
+                               double gamma, fg__threads *threads);
 void fg__multigrid_clear(fg__multigrid *multigrid);
 
 /* The finest level, or this rank's block of it. */
@@ -57,21 +57,22 @@ float *fg__multigrid_u(const fg__multigrid *multigrid);
 float *fg__multigrid_w(const fg__multigrid *multigrid);
 float *fg__multigrid_p(const fg__multigrid *multigrid);
 
-/* Makes another array the finest level's density; the former one is the caller's. */
+/* Makes another array the finest level's density; the caller owns the former one. */
 void fg__multigrid_use(fg__multigrid *multigrid, float *u);
 
-/* What the finest level has for the wells when it is linear: arrays of its shape. */
-typedef struct fg__no_wells {
+/* Arrays of the finest level's shape that replace the double well when the level is
+ * linear. */
+typedef struct fg__linear_terms {
   float *zeros, *ones; /* which hold nothing else */
   float *relaxation;   /* of its own */
-} fg__no_wells;
+} fg__linear_terms;
 
 /* Makes the finest level linear too; NULL: nonlinear again. */
-void fg__multigrid_leave_wells(fg__multigrid *multigrid, const fg__no_wells *instead);
+void fg__multigrid_linearise(fg__multigrid *multigrid, const fg__linear_terms *instead);
 
-/* Copies an array of the finest level; by all members of the team. */
+/* Copies an array of the finest level, by all threads. */
 void fg__multigrid_copy(const fg__multigrid *multigrid, const float *from, float *to,
-                        const fg__share *share);
+                        const fg__thread *thread);
 
 /* What the gradient part of the finest level's energies is multiplied by. */
 void fg__multigrid_weigh_gradient(fg__multigrid *multigrid, double weight);
@@ -80,9 +81,9 @@ void fg__multigrid_weigh_gradient(fg__multigrid *multigrid, double weight);
  * the right-hand side; `before`, unless NULL, takes a copy of u before the last. The
  * finest level is nonlinear (full approximation) and smoothed after the correction only:
  * the sweep at the end of one cycle prepares the next. Coarse levels are linear, V(1,1),
- * in the space that is found in every cycle (solver/kernel/space.h). To be called by
- * every member of the multigrid's team. Collective. */
+ * in the space that is found in every cycle (solver/kernel/coarse_space.h). Called by
+ * every thread of the multigrid. Collective. */
 void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
-                         float *before, const fg__share *share);
+                         float *before, const fg__thread *thread);
 
 #endif

@@ -8,9 +8,9 @@
  * be halved further needs more, in proportion. */
 enum { COARSEST_SWEEPS = 12, COARSEST_CELLS = 4 };
 
-const double fg__least_team_nodes = 200000.0;
+const double fg__least_threaded_nodes = 200000.0;
 
-/* A level is shared while each member gets so many nodes, or it is as large as that. */
+/* A level is shared while each thread gets so many nodes, or it is as large as that. */
 static const double least_nodes_of_member = 5000.0;
 
 /* The finest level of a process alone. */
@@ -22,7 +22,7 @@ static fg_status create_finest(fg__multigrid *out, fg_context *context,
                                        .gamma = gamma,
                                        .finest = true,
                                        .masked = masked,
-                                       .team = out->team};
+                                       .threads = out->threads};
   for (int k = 0; k < 3; ++k) {
     description.cells[k] = mesh->cells[k];
     description.periodic[k] = mesh->periodic[k];
@@ -51,7 +51,7 @@ static fg_status create_coarser(fg__multigrid *out, fg_context *context, double 
     fg__level *fine = &out->level[out->level_count - 1];
     ++out->level_count;
     fg_status status =
-        fg__level_create_coarser(fine + 1, context, fine, gamma, out->team);
+        fg__level_create_coarser(fine + 1, context, fine, gamma, out->threads);
     if (status)
       return status;
     if (out->level_count > 2 || !fine->mass)
@@ -171,21 +171,21 @@ static fg_status create_first_replicated(fg__multigrid *out, fg_context *context
 
 static void choose_shared_levels(fg__multigrid *multigrid)
 {
-  double least = fmin(least_nodes_of_member * fg__team_members(multigrid->team),
-                      fg__least_team_nodes);
-  while (multigrid->team && multigrid->shared_levels < multigrid->level_count &&
-         multigrid->level[multigrid->shared_levels].nodes >= least)
-    ++multigrid->shared_levels;
+  double least = fmin(least_nodes_of_member * fg__threads_count(multigrid->threads),
+                      fg__least_threaded_nodes);
+  while (multigrid->threads && multigrid->threaded_levels < multigrid->level_count &&
+         multigrid->level[multigrid->threaded_levels].nodes >= least)
+    ++multigrid->threaded_levels;
 }
 
 fg_status fg__multigrid_create(fg__multigrid *out, fg_context *context,
                                const fg__mesh *mesh, fg__cells_of_box *cells, bool masked,
-                               double gamma, fg__team *team)
+                               double gamma, fg__threads *threads)
 {
   const fg__ranks *ranks = mesh->ranks;
   *out = (fg__multigrid){.kernel = fg__kernel_choose(mesh->dimension, FG_VECTORS_WIDEST),
                          .ranks = ranks,
-                         .team = team};
+                         .threads = threads};
   fg_status status = fg__partition_copy(&out->partition, context, &mesh->partition);
   status = fg__ranks_agree(ranks, context, status);
   if (!status && ranks->count > 1) {

@@ -2,7 +2,7 @@
  * definitions. docs/design quotes the factors printed here. */
 #include "solver/passes.h"
 #include "solver/reference_test.h"
-#include "solver/subdomain/means.h"
+#include "solver/subdomain/mass.h"
 
 enum { CYCLES = 5 };
 
@@ -134,17 +134,18 @@ static double factor(const problem *p, const double *density, double scaled_tau)
   put(p, level->p, density);
   free(w);
   double before = residual(p, tau, density);
-  fg__means means;
-  assert_int_equal(fg__means_create(&means, NULL, &p->multigrid, level->u), FG_STATUS_OK);
+  fg__mass_constraint means;
+  assert_int_equal(fg__mass_constraint_create(&means, NULL, &p->multigrid, level->u),
+                   FG_STATUS_OK);
   double after = before, least = 4.0 * rounding_of(p, tau, density);
   int cycles = 0;
   while (cycles < CYCLES && after > least) {
     fg__pass_solve(&p->multigrid, tau, 1, NULL);
-    fg__means_restore(&means, &p->multigrid, level->u);
+    fg__mass_constraint_restore(&means, &p->multigrid, level->u);
     after = residual(p, tau, density);
     ++cycles;
   }
-  fg__means_clear(&means);
+  fg__mass_constraint_clear(&means);
   return pow(after / before, 1.0 / cycles);
 }
 
@@ -192,19 +193,19 @@ static void assert_factors(const shape *shapes, size_t shape_count, const char *
   }
 }
 
-static double *density_near_a_well(const problem *p)
+static double *density_near_a_minimum(const problem *p)
 {
   return random_density(p, 0.9, 0.2);
 }
 
-/* Where both wells' curvature is positive the solution is unique, and any step will do.
+/* Where both minima's curvature is positive the solution is unique, and any step will do.
  */
-static void cycles_converge_near_a_well_for_any_step(void **state)
+static void cycles_converge_near_a_minimum_for_any_step(void **state)
 {
   (void)state;
   const demand demands[] = {
       {1.0, 0.33}, {1e1, 0.33}, {1e2, 0.33}, {1e3, 0.33}, {1e4, 0.33}};
-  assert_factors(SHAPES, OPEN, "near a well", density_near_a_well, demands, 5);
+  assert_factors(SHAPES, OPEN, "near a well", density_near_a_minimum, demands, 5);
 }
 
 static double *strong_noise(const problem *p)
@@ -235,7 +236,7 @@ static void cycles_converge_in_rooms(void **state)
   const demand well[] = {{1.0, 0.3}, {1e1, 0.4}, {1e2, 0.5}, {1e3, 0.7}, {1e4, 0.9}};
   const demand noise[] = {{0.1, 0.3}, {1.0, 0.35}, {1e1, 0.45}};
   const demand phases[] = {{1.0, 0.36}, {1e1, 0.5}, {1e2, 0.78}};
-  assert_factors(ROOMS, SHUT, "near a well", density_near_a_well, well, 5);
+  assert_factors(ROOMS, SHUT, "near a well", density_near_a_minimum, well, 5);
   assert_factors(ROOMS, SHUT, "strong noise", strong_noise, noise, 3);
   assert_factors(ROOMS, SHUT, "separated phases", separated_density, phases, 3);
 }
@@ -248,7 +249,7 @@ static void a_solution_is_a_fixed_point(void **state)
     problem p;
     create(&p, &SHAPES[s]);
     const fg__level *level = &p.multigrid.level[0];
-    double *density = density_near_a_well(&p), *u = values_of(&p), *v = values_of(&p);
+    double *density = density_near_a_minimum(&p), *u = values_of(&p), *v = values_of(&p);
     factor(&p, density, 30.0);
     double tau = 30.0 * pow(square_of_spacing(&p), 2.0) / p.of.gamma;
     fg__pass_solve(&p.multigrid, tau, 15, NULL);
@@ -267,7 +268,7 @@ static void a_solution_is_a_fixed_point(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cycles_converge_near_a_well_for_any_step),
+      cmocka_unit_test(cycles_converge_near_a_minimum_for_any_step),
       cmocka_unit_test(cycles_converge_on_strong_noise),
       cmocka_unit_test(cycles_converge_on_separated_phases),
       cmocka_unit_test(cycles_converge_in_rooms),

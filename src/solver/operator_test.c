@@ -1,7 +1,7 @@
 /* The finest level's operator and sums against their definitions. */
 #include "solver/reference_test.h"
 
-static const fg__share ALONE = {.members = 1};
+static const fg__thread ALONE = {.count = 1};
 
 /* Sums of nine float products: a few units in the last place of the largest. */
 static const double ROUNDING = 1e-6;
@@ -20,7 +20,7 @@ static bool outside_a_hole_and_a_notch(double x, double y)
   return !hole && !notch && !lone_cells;
 }
 
-/* Unequal cells, odd and even numbers of vectors, all kinds of borders, masks. */
+/* Unequal cells, odd and even numbers of vectors, all kinds of boundaries, masks. */
 static const problem_description PROBLEMS[] = {
     {{24, 16}, {1.0, 0.53}, {false, false}, 0.013, 0.15, turning, NULL, NULL},
     {{38, 22}, {1.0, 0.69}, {true, false}, 0.0071, 0.4, turning, NULL, NULL},
@@ -171,10 +171,10 @@ static void linear_functions_have_no_divergence(void **state)
     int inner = 0;
     for (size_t k = 0; k < p.nodes; ++k) {
       size_t i = k % columns, j = k / columns % rows, plane = k / columns / rows;
-      bool border = i == 0 || i + 1 == columns || j == 0 || j + 1 == rows;
+      bool boundary = i == 0 || i + 1 == columns || j == 0 || j + 1 == rows;
       if (p.dimension == 3)
-        border = border || plane == 0 || plane + 1 == (size_t)p.planes;
-      if (border || p.mass[k] < 0.99 * volume_of(&p))
+        boundary = boundary || plane == 0 || plane + 1 == (size_t)p.planes;
+      if (boundary || p.mass[k] < 0.99 * volume_of(&p))
         continue;
       ++inner;
       assert_true(fabs(w[k] - 2.0 * u[k] * (u[k] * u[k] - 1.0)) <

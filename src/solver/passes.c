@@ -7,7 +7,7 @@
 typedef struct pass pass;
 
 /* What is done to the finest level, or to this rank's block of it. */
-typedef void level_work(pass *p, const fg__level *level, const fg__share *share);
+typedef void level_work(pass *p, const fg__level *level, const fg__thread *thread);
 
 /* What a pass works on; each uses what it needs. */
 struct pass {
@@ -17,25 +17,26 @@ struct pass {
   double number;
   int cycles;
   level_work *work;
-  fg__sums sums[FG__MOST_MEMBERS];
-  fg__changes changes[FG__MOST_MEMBERS];
+  fg__sums sums[FG__MOST_THREADS];
+  fg__changes changes[FG__MOST_THREADS];
 };
 
-static void run(pass *p, fg__team_work *work)
+static void run(pass *p, fg__threads_work *work)
 {
-  fg__team_run(p->multigrid->shared_levels > 0 ? p->multigrid->team : NULL, work, p);
+  fg__threads_run(p->multigrid->threaded_levels > 0 ? p->multigrid->threads : NULL, work,
+                  p);
 }
 
-/* Several ranks work on a block each, with one thread, and add up their sums. */
+/* Each of several ranks works on its block with one thread; their sums are added. */
 static bool is_distributed(const fg__multigrid *multigrid)
 {
   return multigrid->distributed_count > 0;
 }
 
-static void work_on_finest(void *argument, const fg__share *share)
+static void work_on_finest(void *argument, const fg__thread *thread)
 {
   pass *p = argument;
-  p->work(p, fg__multigrid_finest(p->multigrid), share);
+  p->work(p, fg__multigrid_finest(p->multigrid), thread);
 }
 
 static void run_on_finest(pass *p, level_work *work)
@@ -62,10 +63,10 @@ static void add_over_ranks(const fg__multigrid *multigrid, double *const sums[],
     *sums[n] = fg__level_sum(units[n], rounding[n]);
 }
 
-static void copy(void *argument, const fg__share *share)
+static void copy(void *argument, const fg__thread *thread)
 {
   const pass *p = argument;
-  fg__multigrid_copy(p->multigrid, p->from, p->to, share);
+  fg__multigrid_copy(p->multigrid, p->from, p->to, thread);
 }
 
 void fg__pass_copy(const fg__multigrid *multigrid, const float *from, float *to)
@@ -82,10 +83,10 @@ void fg__pass_fill_ghosts(const fg__multigrid *multigrid, float *u)
     fg__fill_ghosts(&multigrid->level[0], u);
 }
 
-static void solve(void *argument, const fg__share *share)
+static void solve(void *argument, const fg__thread *thread)
 {
   const pass *p = argument;
-  fg__multigrid_solve(p->multigrid, p->number, p->cycles, p->to, share);
+  fg__multigrid_solve(p->multigrid, p->number, p->cycles, p->to, thread);
 }
 
 void fg__pass_solve(const fg__multigrid *multigrid, double tau, int cycles, float *before)
@@ -94,11 +95,11 @@ void fg__pass_solve(const fg__multigrid *multigrid, double tau, int cycles, floa
   run(&p, solve);
 }
 
-static void evaluate(pass *p, const fg__level *level, const fg__share *share)
+static void evaluate(pass *p, const fg__level *level, const fg__thread *thread)
 {
-  fg__sums part = p->multigrid->kernel->evaluate(level, p->from, p->to, share);
-  p->sums[share->member].energy += part.energy;
-  p->sums[share->member].u += part.u;
+  fg__sums part = p->multigrid->kernel->evaluate(level, p->from, p->to, thread);
+  p->sums[thread->index].energy += part.energy;
+  p->sums[thread->index].u += part.u;
 }
 
 fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float *w)
@@ -106,7 +107,7 @@ fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float
   pass p = {.multigrid = multigrid, .from = u, .to = w};
   run_on_finest(&p, evaluate);
   fg__sums total = {0.0, 0.0};
-  for (int n = 0; n < FG__MOST_MEMBERS; ++n) {
+  for (int n = 0; n < FG__MOST_THREADS; ++n) {
     total.energy += p.sums[n].energy;
     total.u += p.sums[n].u;
   }
@@ -121,10 +122,10 @@ fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float
   return total;
 }
 
-static void explicit_part(pass *p, const fg__level *level, const fg__share *share)
+static void explicit_part(pass *p, const fg__level *level, const fg__thread *thread)
 {
   p->multigrid->kernel->explicit_part(level, p->from, p->a, (float)p->number, p->to,
-                                      share);
+                                      thread);
 }
 
 void fg__pass_explicit_part(const fg__multigrid *multigrid, const float *u,
@@ -138,22 +139,24 @@ void fg__pass_explicit_part(const fg__multigrid *multigrid, const float *u,
   run_on_finest(&p, explicit_part);
 }
 
-static void subtract_wells(pass *p, const fg__level *level, const fg__share *share)
+static void subtract_potential_derivative(pass *p, const fg__level *level,
+                                          const fg__thread *thread)
 {
-  p->multigrid->kernel->subtract_wells(level, p->from, p->to, share);
+  p->multigrid->kernel->subtract_potential_derivative(level, p->from, p->to, thread);
 }
 
-void fg__pass_subtract_wells(const fg__multigrid *multigrid, const float *u, float *w)
+void fg__pass_subtract_potential_derivative(const fg__multigrid *multigrid,
+                                            const float *u, float *w)
 {
   pass p = {.multigrid = multigrid, .from = u, .to = w};
-  run_on_finest(&p, subtract_wells);
+  run_on_finest(&p, subtract_potential_derivative);
 }
 
-static void changes(pass *p, const fg__level *level, const fg__share *share)
+static void changes(pass *p, const fg__level *level, const fg__thread *thread)
 {
   fg__changes part =
-      p->multigrid->kernel->changes(level, p->from, p->a, p->b, p->c, share);
-  fg__changes *sum = &p->changes[share->member];
+      p->multigrid->kernel->changes(level, p->from, p->a, p->b, p->c, thread);
+  fg__changes *sum = &p->changes[thread->index];
   sum->u += part.u;
   sum->from_a += part.from_a;
   sum->from_b += part.from_b;
@@ -166,7 +169,7 @@ fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
   pass p = {.multigrid = multigrid, .from = u, .a = a, .b = b, .c = c};
   run_on_finest(&p, changes);
   fg__changes total = {0.0, 0.0, 0.0, 0.0};
-  for (int n = 0; n < FG__MOST_MEMBERS; ++n) {
+  for (int n = 0; n < FG__MOST_THREADS; ++n) {
     total.u += p.changes[n].u;
     total.from_a += p.changes[n].from_a;
     total.from_b += p.changes[n].from_b;
@@ -183,9 +186,9 @@ fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
   return total;
 }
 
-static void shift(pass *p, const fg__level *level, const fg__share *share)
+static void shift(pass *p, const fg__level *level, const fg__thread *thread)
 {
-  p->multigrid->kernel->shift(level, p->to, (float)p->number, share);
+  p->multigrid->kernel->shift(level, p->to, (float)p->number, thread);
 }
 
 void fg__pass_shift(const fg__multigrid *multigrid, float *u, double amount)
@@ -194,9 +197,10 @@ void fg__pass_shift(const fg__multigrid *multigrid, float *u, double amount)
   run_on_finest(&p, shift);
 }
 
-static void extrapolate(pass *p, const fg__level *level, const fg__share *share)
+static void extrapolate(pass *p, const fg__level *level, const fg__thread *thread)
 {
-  p->multigrid->kernel->extrapolate(level, p->from, p->a, (float)p->number, p->to, share);
+  p->multigrid->kernel->extrapolate(level, p->from, p->a, (float)p->number, p->to,
+                                    thread);
 }
 
 void fg__pass_extrapolate(const fg__multigrid *multigrid, const float *now,
@@ -206,9 +210,9 @@ void fg__pass_extrapolate(const fg__multigrid *multigrid, const float *now,
   run_on_finest(&p, extrapolate);
 }
 
-static void predict(pass *p, const fg__level *level, const fg__share *share)
+static void predict(pass *p, const fg__level *level, const fg__thread *thread)
 {
-  p->multigrid->kernel->predict(level, p->from, p->a, (float)p->number, p->to, share);
+  p->multigrid->kernel->predict(level, p->from, p->a, (float)p->number, p->to, thread);
 }
 
 void fg__pass_predict(const fg__multigrid *multigrid, const float *now,

@@ -1,5 +1,5 @@
-/* Passes over the finest level by all members of a multigrid's team; see kernel/kernel.h
- * for what each computes. Arrays are handled as fg__multigrid_shape says. */
+/* Passes over the finest level by all threads of a multigrid (kernel/kernel.h). Arrays
+ * have the shape fg__multigrid_shape. */
 #ifndef FG__PASSES_H
 #define FG__PASSES_H
 
@@ -15,7 +15,8 @@ void fg__pass_explicit_part(const fg__multigrid *multigrid, const float *u,
                             const float *w, double tau);
 
 /* w := w - Psi'(u). */
-void fg__pass_subtract_wells(const fg__multigrid *multigrid, const float *u, float *w);
+void fg__pass_subtract_potential_derivative(const fg__multigrid *multigrid,
+                                            const float *u, float *w);
 fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
                              const float *a, const float *b, const float *c);
 void fg__pass_shift(const fg__multigrid *multigrid, float *u, double amount);

@@ -13,7 +13,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Members of the largest team that may work on a problem. */
+/* The most threads that may work on a problem. */
 enum { MOST_THREADS = 3 };
 
 typedef struct problem_description {
@@ -39,7 +39,7 @@ typedef struct problem {
   double *mass;                 /* lumped: the integral of each node's basis function */
   double stiffness[8][8][3][3]; /* integral of d_i phi_a d_j phi_b over a cell */
   fg__mesh mesh;
-  fg__team *team; /* of MOST_THREADS */
+  fg__threads *threads; /* of MOST_THREADS */
   fg__multigrid multigrid;
 } problem;
 
@@ -172,16 +172,17 @@ static inline void problem_create(problem *p, const problem_description *of)
   p->mass = values_of(p);
   integrate_cell(p);
   fill_tensor(p);
-  assert_int_equal(fg__team_create(&p->team, p->context, MOST_THREADS), FG_STATUS_OK);
+  assert_int_equal(fg__threads_create(&p->threads, p->context, MOST_THREADS),
+                   FG_STATUS_OK);
   assert_int_equal(multigrid_of_tensor(&p->multigrid, p->context, &p->mesh, &p->tensor,
-                                       of->gamma, p->team),
+                                       of->gamma, p->threads),
                    FG_STATUS_OK);
 }
 
 static inline void problem_clear(problem *p)
 {
   fg__multigrid_clear(&p->multigrid);
-  fg__team_destroy(p->team);
+  fg__threads_destroy(p->threads);
   free(p->tensor.xx);
   free(p->tensor.xy);
   free(p->tensor.yy);

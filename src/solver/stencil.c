@@ -91,18 +91,18 @@ static void couple_row(const assembly *a, const coupling *c, int cells, int low,
   }
 }
 
-/* A member's slices of those from low to high along the outermost axis. */
-static void part_of(const fg__share *share, int axis, int low[3], int high[3])
+/* A thread's slices of those from low to high along the outermost axis. */
+static void part_of(const fg__thread *thread, int axis, int low[3], int high[3])
 {
   int begin, end;
-  fg__team_part(share, high[axis] - low[axis] + 1, 1, &begin, &end);
+  fg__threads_range(thread, high[axis] - low[axis] + 1, 1, &begin, &end);
   high[axis] = low[axis] + end - 1;
   low[axis] += begin;
 }
 
 /* Couplings from the cells, also of the ghosts before and after the box along axes where
  * a true node reads them. */
-static void assemble_coupling(const assembly *a, int n, const fg__share *share)
+static void assemble_coupling(const assembly *a, int n, const fg__thread *thread)
 {
   const fg__level *level = a->level;
   const fg__layout *at = &level->layout;
@@ -116,8 +116,8 @@ static void assemble_coupling(const assembly *a, int n, const fg__share *share)
     low[k] = offset[k] > 0 ? -1 : 0;
     high[k] = at->nodes[k] - 1 + (offset[k] < 0);
   }
-  part_of(share, at->dimension - 1, low, high);
-  void *scratch = level->scratch + (size_t)share->member * level->scratch_size;
+  part_of(thread, at->dimension - 1, low, high);
+  void *scratch = level->scratch + (size_t)thread->index * level->scratch_size;
   double *row = scratch;
   for (int k = low[2]; k <= high[2]; ++k)
     for (int j = low[1]; j <= high[1]; ++j) {
@@ -130,12 +130,12 @@ static void assemble_coupling(const assembly *a, int n, const fg__share *share)
 }
 
 /* Rows sum to zero. */
-static void assemble_diagonals(const assembly *a, const fg__share *share)
+static void assemble_diagonals(const assembly *a, const fg__thread *thread)
 {
   const fg__layout *at = &a->level->layout;
   int low[3] = {0, 0, 0};
   int high[3] = {at->nodes[0] - 1, at->nodes[1] - 1, at->nodes[2] - 1};
-  part_of(share, at->dimension - 1, low, high);
+  part_of(thread, at->dimension - 1, low, high);
   int couplings = fg__coupling_count(a->level->layout.dimension);
   ptrdiff_t back[FG__MOST_COUPLINGS]
                 [2]; /* to the other node, from even and odd columns */
@@ -157,20 +157,20 @@ static void assemble_diagonals(const assembly *a, const fg__share *share)
       }
 }
 
-static void assemble_part(void *argument, const fg__share *share)
+static void assemble_part(void *argument, const fg__thread *thread)
 {
   const assembly *a = argument;
   for (int n = 0; n < fg__coupling_count(a->level->layout.dimension); ++n)
-    assemble_coupling(a, n, share);
-  fg__team_barrier(share); /* diagonals read couplings of the slices before */
-  assemble_diagonals(a, share);
+    assemble_coupling(a, n, thread);
+  fg__threads_barrier(thread); /* diagonals read couplings of the slices before */
+  assemble_diagonals(a, thread);
 }
 
 void fg__stencil_assemble(const fg__level *level, const fg__stencil *out, double gamma,
-                          bool laplacian, fg__team *team)
+                          bool laplacian, fg__threads *threads)
 {
   assembly a = {level, out, gamma, laplacian};
-  fg__team_run(team, assemble_part, &a);
+  fg__threads_run(threads, assemble_part, &a);
 }
 
 void fg__stencil_set_constants(fg__level *level)

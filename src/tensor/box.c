@@ -4,8 +4,8 @@
 #include "base/memory.h"
 #include "tensor/tensor.h"
 
-/* The box with what smoothing reaches round it: up to the border of the domain, or beyond
- * the ends of a periodic axis unless that makes it the whole axis. */
+/* The box with what smoothing reaches round it: up to the boundary of the domain, or
+ * beyond the ends of a periodic axis unless that makes it the whole axis. */
 static fg__cells widened(const fg__cells *cells, const bool periodic[3], double width)
 {
   fg__cells wide = *cells;
@@ -143,17 +143,17 @@ fg_status fg__wide_tensor_finish(fg__tensor *tensor, fg_context *context,
 fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
                               const fg_field *field, const fg_energy_law *law,
                               double anisotropy, const fg__cells *cells,
-                              const bool periodic[3], double width, fg__team *team)
+                              const bool periodic[3], double width, fg__threads *threads)
 {
   if (!law || !law->axes || !(width > 0.0))
-    return fg__tensor_fill(tensor, context, field, law, anisotropy, cells, team);
+    return fg__tensor_fill(tensor, context, field, law, anisotropy, cells, threads);
   fg__cells reach = widened(cells, periodic, width);
   if (is_same(cells, &reach)) {
     fg_status status =
-        fg__tensor_fill(tensor, context, field, law, anisotropy, cells, team);
+        fg__tensor_fill(tensor, context, field, law, anisotropy, cells, threads);
     return status ? status
                   : fg__tensor_smooth(tensor, context, anisotropy, cells, periodic, width,
-                                      team);
+                                      threads);
   }
   fg__wide_tensor wide;
   fg_status status = fg__wide_tensor_create(&wide, context, &reach);

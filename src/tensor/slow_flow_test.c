@@ -108,7 +108,7 @@ static void assert_anisotropy(int dimension)
     int i = (int)(n % CELLS_X);
     double speed = speed_at(5.0 + 0.05 * (i + 0.5));
     double a = 1.0 - (1.0 - anisotropy) * fmin(speed / below, 1.0);
-    /* at the border the mean is one-sided, and at the bend it is rounded */
+    /* at the boundary the mean is one-sided, and at the bend it is rounded */
     bool clear = i > 4 && fabs(speed - below) > 0.3 * below;
     assert_true(fabs(cost(&slow, n, dimension, false) - 1.0) < 1e-5);
     assert_true(fabs(cost(&slow, n, dimension, true) - a) < (clear ? 2e-5 : 0.1));

@@ -55,7 +55,7 @@ typedef struct smoothing {
   gaussian kernel[3];
   bool wraps[3];
   float *scratch; /* a plane */
-  float *row;     /* one a member */
+  float *row;     /* one a thread */
 } smoothing;
 
 /* The axes of the separable sum, in place; in each the inner loop is contiguous. A cell's
@@ -107,13 +107,13 @@ static void sum_rows(float *values, size_t columns, int rows, size_t stride,
   }
 }
 
-static void sum_along_axes(float *values, const smoothing *s, const fg__share *share)
+static void sum_along_axes(float *values, const smoothing *s, const fg__thread *thread)
 {
   const fg__cells *cells = s->cells;
   int height = cells->count[1], layers = fg__layers(cells);
   size_t width = (size_t)cells->count[0], plane = width * (size_t)height;
   int begin, end;
-  fg__team_part(share, cells->count[0], 1, &begin, &end);
+  fg__threads_range(thread, cells->count[0], 1, &begin, &end);
   int tallest = height > layers ? height : layers;
   float *scratch = s->scratch + (size_t)begin * (size_t)tallest;
   size_t columns = (size_t)(end - begin);
@@ -213,14 +213,14 @@ static void rebuild(fg__tensor *tensor, size_t n, double anisotropy, int dimensi
   }
 }
 
-static void smooth_part(void *argument, const fg__share *share)
+static void smooth_part(void *argument, const fg__thread *thread)
 {
   const smoothing *s = argument;
   const fg__cells *cells = s->cells;
   fg__tensor *t = s->tensor;
   float *parts[6] = {t->xx, t->xy, t->yy, t->zz, t->xz, t->yz};
   int count = cells->dimension == 3 ? 6 : 3, begin, end;
-  fg__team_part(share, cells->count[1] * fg__layers(cells), 1, &begin, &end);
+  fg__threads_range(thread, cells->count[1] * fg__layers(cells), 1, &begin, &end);
   size_t width = (size_t)cells->count[0];
   size_t first = (size_t)begin * width, last = (size_t)end * width;
   for (size_t n = first; n < last; ++n)
@@ -229,25 +229,25 @@ static void smooth_part(void *argument, const fg__share *share)
     else
       take_apart_2d(t, n);
   for (int part = 0; part < count; ++part)
-    sum_along_x(parts[part], s, begin, end, s->row + (size_t)share->member * width);
-  fg__team_barrier(share);
+    sum_along_x(parts[part], s, begin, end, s->row + (size_t)thread->index * width);
+  fg__threads_barrier(thread);
   for (int part = 0; part < count; ++part)
-    sum_along_axes(parts[part], s, share);
-  fg__team_barrier(share);
+    sum_along_axes(parts[part], s, thread);
+  fg__threads_barrier(thread);
   for (size_t n = first; n < last; ++n)
     rebuild(t, n, s->anisotropy, cells->dimension);
 }
 
 fg_status fg__tensor_smooth(fg__tensor *tensor, fg_context *context, double anisotropy,
                             const fg__cells *cells, const bool periodic[3], double width,
-                            fg__team *team)
+                            fg__threads *threads)
 {
   if (!(anisotropy < 1.0))
     return FG_STATUS_OK; /* nothing is preferred */
   int layers = fg__layers(cells);
   size_t rows = (size_t)(cells->count[1] > layers ? cells->count[1] : layers);
-  size_t members = (size_t)fg__team_members(team);
-  size_t scratch = (size_t)cells->count[0] * (rows + members);
+  size_t thread_count = (size_t)fg__threads_count(threads);
+  size_t scratch = (size_t)cells->count[0] * (rows + thread_count);
   smoothing s = {.tensor = tensor, .anisotropy = anisotropy, .cells = cells};
   s.scratch = fg__allocate(scratch, sizeof *s.scratch);
   fg_status status = FG_STATUS_OK;
@@ -260,7 +260,7 @@ fg_status fg__tensor_smooth(fg__tensor *tensor, fg_context *context, double anis
     status = fg__fail_memory(context, "the smoothed tensor", scratch * sizeof(float));
   } else {
     s.row = s.scratch + (size_t)cells->count[0] * rows;
-    fg__team_run(team, smooth_part, &s);
+    fg__threads_run(threads, smooth_part, &s);
   }
   free(s.scratch);
   for (int k = 0; k < 3; ++k)

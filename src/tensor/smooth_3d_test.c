@@ -296,7 +296,7 @@ static void a_mask_separates(void **state)
   grid_free(g);
 }
 
-static void a_periodic_seam_is_no_border(void **state)
+static void a_periodic_seam_is_no_boundary(void **state)
 {
   (void)state;
   grid *open = grid_of(SIDE, 6, 5, left_and_right);
@@ -305,13 +305,13 @@ static void a_periodic_seam_is_no_border(void **state)
   smooth(closed, (const bool[3]){true, false, false}, 1.5);
   /* by symmetry the seam of the closed grid looks like its middle */
   double seam = xx_at(closed, 0, 2, 2), middle = xx_at(closed, SIDE / 2 - 1, 2, 2);
-  double border = xx_at(open, 0, 2, 2);
+  double boundary = xx_at(open, 0, 2, 2);
   double e[3], alone[ENTRIES];
   left_and_right(0, 0, 0, e);
   fg__tensor_along(alone, e, ANISOTROPY);
   assert_true(fabs(seam - middle) < 1e-5);
-  assert_true(fabs(border - alone[0]) < 1e-5);
-  assert_true(fabs(seam - border) > 0.05);
+  assert_true(fabs(boundary - alone[0]) < 1e-5);
+  assert_true(fabs(seam - boundary) > 0.05);
   grid_free(open);
   grid_free(closed);
 }
@@ -353,7 +353,7 @@ int main(void)
       cmocka_unit_test(a_planar_flow_is_that_of_2d),
       cmocka_unit_test(axes_may_change_places),
       cmocka_unit_test(a_mask_separates),
-      cmocka_unit_test(a_periodic_seam_is_no_border),
+      cmocka_unit_test(a_periodic_seam_is_no_boundary),
       cmocka_unit_test(slow_turns_are_followed),
   };
   return cmocka_run_group_tests_name("tensor/smooth_3d", tests, NULL, NULL);

@@ -177,7 +177,7 @@ static void a_mask_separates(void **state)
   free(g);
 }
 
-static void a_periodic_seam_is_no_border(void **state)
+static void a_periodic_seam_is_no_boundary(void **state)
 {
   (void)state;
   grid *open = grid_of(left_and_right_angle), *closed = grid_of(left_and_right_angle);
@@ -201,7 +201,7 @@ int main(void)
       cmocka_unit_test(directions_that_cancel_leave_no_preference),
       cmocka_unit_test(tensors_stay_between_the_two_costs),
       cmocka_unit_test(a_mask_separates),
-      cmocka_unit_test(a_periodic_seam_is_no_border),
+      cmocka_unit_test(a_periodic_seam_is_no_boundary),
   };
   return cmocka_run_group_tests_name("tensor/smooth", tests, NULL, NULL);
 }

@@ -73,23 +73,23 @@ static bool is_whole(const fg__cells *cells)
   return true;
 }
 
-/* A tensor to be filled, of which members take rows. */
+/* A tensor to be filled, of which threads take rows. */
 typedef struct filling {
   fg__tensor *tensor;
   const fg_field *field;
   const fg_energy_law *law;
   double anisotropy;
   const fg__cells *cells;
-  int64_t active[FG__MOST_MEMBERS];
+  int64_t active[FG__MOST_THREADS];
 } filling;
 
-static void fill_part(void *argument, const fg__share *share)
+static void fill_part(void *argument, const fg__thread *thread)
 {
   filling *f = argument;
   const fg__cells *cells = f->cells;
   int begin, end, height = cells->count[1];
   int64_t active = 0;
-  fg__team_part(share, height * fg__layers(cells), 1, &begin, &end);
+  fg__threads_range(thread, height * fg__layers(cells), 1, &begin, &end);
   for (int row = begin; row < end; ++row) {
     fg_energy_place place = {.field = f->field,
                              .position = {0.0, center_of(cells, 1, row % height), 0.0},
@@ -102,7 +102,7 @@ static void fill_part(void *argument, const fg__share *share)
     active +=
         fill_row(f->tensor, f->law, &place, cells, (size_t)row * (size_t)cells->count[0]);
   }
-  f->active[share->member] = active;
+  f->active[thread->index] = active;
 }
 
 /* The least and the greatest eigenvalue of a cell; false: some entry is no number. */
@@ -161,7 +161,7 @@ static fg_status check_law(const filling *f, fg_context *context)
 
 fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_field *field,
                           const fg_energy_law *law, double anisotropy,
-                          const fg__cells *cells, fg__team *team)
+                          const fg__cells *cells, fg__threads *threads)
 {
   if (!law || !law->tensor)
     return fg__fail(context, FG_STATUS_ARGUMENT, "there is no such energy");
@@ -174,9 +174,9 @@ fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_fiel
                .law = law,
                .anisotropy = anisotropy,
                .cells = cells};
-  fg__team_run(team, fill_part, &f);
+  fg__threads_run(threads, fill_part, &f);
   int64_t active = 0;
-  for (int n = 0; n < FG__MOST_MEMBERS; ++n)
+  for (int n = 0; n < FG__MOST_THREADS; ++n)
     active += f.active[n];
   if (active > 0 || !is_whole(cells))
     return check_law(&f, context);

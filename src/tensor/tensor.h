@@ -3,7 +3,7 @@
 #define FG__TENSOR_H
 
 #include "base/context.h"
-#include "base/team.h"
+#include "base/threads.h"
 
 /* The cells to give a tensor to: a box of cells of a uniform grid that fills the domain,
  * in the input's coordinates. What a cell gets does not depend, to the bit, on the box it
@@ -28,13 +28,13 @@ typedef struct fg__tensor {
 /* The law of one of our own energies; NULL: there is none of that number. */
 const fg_energy_law *fg__energy(fg_energy energy);
 
-/* Fills the arrays, which the caller has allocated with one element a cell of the box,
- * by the law of an energy; the same with any team (NULL: one thread). ARGUMENT
+/* Fills the arrays, which the caller has allocated with one element a cell of the box, by
+ * the law of an energy; the same with any number of threads (NULL: one thread). ARGUMENT
  * (anisotropy outside (0, 1]; no active cell in a box that is the whole domain; a law
  * whose eigenvalues are not between the anisotropy and 1). */
 fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_field *field,
                           const fg_energy_law *law, double anisotropy,
-                          const fg__cells *cells, fg__team *team);
+                          const fg__cells *cells, fg__threads *threads);
 
 /* Length of a mean of directions from which on the full anisotropy comes back. */
 extern const double fg__full_coherence;
@@ -49,19 +49,18 @@ extern const double fg__full_coherence;
  */
 fg_status fg__tensor_smooth(fg__tensor *tensor, fg_context *context, double anisotropy,
                             const fg__cells *cells, const bool periodic[3], double width,
-                            fg__team *team);
+                            fg__threads *threads);
 
 /* Both for any box of the domain, which may go on beyond the ends of a periodic axis:
  * fills and, for a law with axes and a width above 0, smooths; what lies round the box
  * within the Gaussian's reach is computed again for that, so that each rank asks for its
- * own boxes alone and gets what the whole domain would have there; the team (NULL: one
- * thread) works on a box that is the whole domain. A box without an
- * active cell is no failure unless it is the whole domain. Statuses as fg__tensor_fill;
- * MEMORY. */
+ * own boxes alone and gets what the whole domain would have there; the threads (NULL: one
+ * thread) works on a box that is the whole domain. A box without an active cell is no
+ * failure unless it is the whole domain. Statuses as fg__tensor_fill; MEMORY. */
 fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
                               const fg_field *field, const fg_energy_law *law,
                               double anisotropy, const fg__cells *cells,
-                              const bool periodic[3], double width, fg__team *team);
+                              const bool periodic[3], double width, fg__threads *threads);
 
 /* The same in steps, for a field that comes window by window: a box's tensor with what
  * smoothing reaches round it. MEMORY. */

@@ -1,4 +1,4 @@
-/* The square blocks that a picture falls into, which members paint in any order. */
+/* The square blocks that a picture falls into, which threads paint in any order. */
 #ifndef FG__BLOCKS_H
 #define FG__BLOCKS_H
 

@@ -58,11 +58,11 @@ static fg_status paint(float *value, fg_context *context, const fg__canvas *canv
                        const fg_density *density)
 {
   return fg__density_paint(value, context, &canvas->raster, fg_density_contents(density),
-                           canvas->team);
+                           canvas->threads);
 }
 
-/* Clusters are dark. Densities of 0.6 and more are as dark as those of the well:
- * interfaces get crisp, and places on their way between the wells do not look dull. */
+/* Clusters are dark. Densities of 0.6 and more are as dark as those at the minimum:
+ * interfaces get crisp, and places on their way between the minima do not look dull. */
 static void bend(float *value, const fg__canvas *canvas)
 {
   const size_t count = (size_t)canvas->raster.size[0] * (size_t)canvas->raster.size[1];
@@ -94,7 +94,7 @@ fg_status fg__clusters_paint(float *value, fg_context *context, const fg__canvas
   if (options.nodes == 0)
     options.nodes = node_count(longest_of(canvas) / pixels_a_cell + 1.0);
   options.seed = canvas->seed;
-  options.threads = fg__team_members(canvas->team);
+  options.threads = fg__threads_count(canvas->threads);
   fg_density *density = NULL;
   fg_status status = FG_STATUS_OK;
   if (!canvas->density)
@@ -151,7 +151,7 @@ static float *make_noise(fg_context *context, const fg__mesh *mesh, uint64_t see
 }
 
 /* In the middle of linear growth the energy a unit of area is 1/2; they are as black and
- * white as the wells, and still as narrow as they grew, when they have come down to this
+ * white as the minima, and still as narrow as they grew, when they have come down to this
  * (measured on vortex3 and benard: 0.36 at the end of fast growth, then slow coarsening).
  */
 static const double ripe_energy = 0.37;
@@ -170,7 +170,7 @@ fg_status fg__stripes_paint(float *value, fg_context *context, const fg__canvas 
       .nodes = node_count(cells_a_stripe * longest_of(canvas) / stripe + 1.0),
       .coverage = 0.5,
       .seed = canvas->seed,
-      .threads = fg__team_members(canvas->team)};
+      .threads = fg__threads_count(canvas->threads)};
   fg__mesh mesh;
   fg_status status = find_mesh(&mesh, context, canvas->field, options.nodes);
   if (status)

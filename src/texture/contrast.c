@@ -48,7 +48,7 @@ typedef struct evening {
   float *value;
   float *along;  /* means along rows */
   float *around; /* means over windows */
-  float *row;    /* one a member */
+  float *row;    /* one a thread */
   bool squares;  /* of values that are differences from the mean by now */
 } evening;
 
@@ -67,13 +67,13 @@ static void mean_row(float *out, const float *in, const window *w)
   }
 }
 
-static void mean_rows(void *argument, const fg__share *share)
+static void mean_rows(void *argument, const fg__thread *thread)
 {
   const evening *e = argument;
   const size_t columns = (size_t)e->raster->size[0];
-  float *row = e->row + (size_t)share->member * columns;
+  float *row = e->row + (size_t)thread->index * columns;
   int begin, end;
-  fg__team_part(share, e->raster->size[1], 1, &begin, &end);
+  fg__threads_range(thread, e->raster->size[1], 1, &begin, &end);
   for (int j = begin; j < end; ++j) {
     const float *in = e->value + (size_t)j * columns;
     for (size_t i = 0; i < columns; ++i)
@@ -112,20 +112,20 @@ static void mean_strip(const evening *e, int first, int count)
   }
 }
 
-static void mean_columns(void *argument, const fg__share *share)
+static void mean_columns(void *argument, const fg__thread *thread)
 {
   const evening *e = argument;
   int begin, end;
-  fg__team_part(share, e->raster->size[0], COLUMNS, &begin, &end);
+  fg__threads_range(thread, e->raster->size[0], COLUMNS, &begin, &end);
   for (int i = begin; i < end; i += COLUMNS)
     mean_strip(e, i, end - i < COLUMNS ? end - i : COLUMNS);
 }
 
-static void find_means(evening *e, fg__team *team, bool squares)
+static void find_means(evening *e, fg__threads *threads, bool squares)
 {
   e->squares = squares;
-  fg__team_run(team, mean_rows, e);
-  fg__team_run(team, mean_columns, e);
+  fg__threads_run(threads, mean_rows, e);
+  fg__threads_run(threads, mean_columns, e);
 }
 
 /* Serial, so that it does not depend on who sums what. */
@@ -148,11 +148,11 @@ static void settle(evening *e, size_t count, float cut)
 }
 
 fg_status fg__contrast_even(float *value, fg_context *context, const fg__raster *raster,
-                            int radius, double cut, fg__team *team)
+                            int radius, double cut, fg__threads *threads)
 {
   const size_t columns = (size_t)raster->size[0];
   const size_t count = columns * (size_t)raster->size[1];
-  const size_t rows = (size_t)fg__team_members(team);
+  const size_t rows = (size_t)fg__threads_count(threads);
   evening e = {.raster = raster, .value = value};
   for (int k = 0; k < 2; ++k)
     e.window[k] = window_of(raster, k, radius);
@@ -164,10 +164,10 @@ fg_status fg__contrast_even(float *value, fg_context *context, const fg__raster 
     status = fg__fail_memory(context, "a picture's contrast",
                              (2 * count + rows * columns) * sizeof *e.row);
   } else {
-    find_means(&e, team, false);
+    find_means(&e, threads, false);
     for (size_t n = 0; n < count; ++n)
       value[n] -= e.around[n];
-    find_means(&e, team, true);
+    find_means(&e, threads, true);
     settle(&e, count, (float)cut);
   }
   free(e.along);

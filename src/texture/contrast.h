@@ -10,7 +10,7 @@
  * a bell curve cut at 2 all greys occur about equally often, 4.6 % at the ends. "Round"
  * is a window of about `radius` pixels, which goes round periodic axes. MEMORY. */
 fg_status fg__contrast_even(float *value, fg_context *context, const fg__raster *raster,
-                            int radius, double cut, fg__team *team);
+                            int radius, double cut, fg__threads *threads);
 
 /* That bend, of numbers that are not to be evened. */
 static inline float fg__contrast_bend(float r)

@@ -19,7 +19,7 @@ typedef struct painting {
   const fg__raster *raster;
   const fg_density_arrays *density;
   taps *axis[2];
-  float *row; /* a row of nodes a member */
+  float *row; /* a row of nodes a thread */
 } painting;
 
 static taps *find_taps(const fg_density_arrays *density, int k, int pixels)
@@ -39,7 +39,7 @@ static taps *find_taps(const fg_density_arrays *density, int k, int pixels)
       int node = cell + n - 1;
       if (periodic)
         node = (node % nodes + nodes) % nodes;
-      else if (node < 0 || node >= nodes) /* the border's condition: no slope */
+      else if (node < 0 || node >= nodes) /* the boundary's condition: no slope */
         node = node < 0 ? -node : 2 * (nodes - 1) - node;
       out[i].node[n] = node < nodes && node >= 0 ? node : 0;
       out[i].weight[n] = weight[n];
@@ -48,14 +48,14 @@ static taps *find_taps(const fg_density_arrays *density, int k, int pixels)
   return out;
 }
 
-static void paint_part(void *argument, const fg__share *share)
+static void paint_part(void *argument, const fg__thread *thread)
 {
   const painting *p = argument;
   const fg_density_arrays *density = p->density;
   const size_t nodes = (size_t)density->nodes[0];
-  float *row = p->row + (size_t)share->member * nodes;
+  float *row = p->row + (size_t)thread->index * nodes;
   int begin, end;
-  fg__team_part(share, p->raster->size[1], 1, &begin, &end);
+  fg__threads_range(thread, p->raster->size[1], 1, &begin, &end);
   for (int j = begin; j < end; ++j) {
     const taps *y = &p->axis[1][j];
     for (size_t i = 0; i < nodes; ++i) {
@@ -76,16 +76,16 @@ static void paint_part(void *argument, const fg__share *share)
 }
 
 fg_status fg__density_paint(float *value, fg_context *context, const fg__raster *raster,
-                            const fg_density_arrays *density, fg__team *team)
+                            const fg_density_arrays *density, fg__threads *threads)
 {
   painting p = {.value = value, .raster = raster, .density = density};
-  const size_t row = (size_t)density->nodes[0] * (size_t)fg__team_members(team);
+  const size_t row = (size_t)density->nodes[0] * (size_t)fg__threads_count(threads);
   for (int k = 0; k < 2; ++k)
     p.axis[k] = find_taps(density, k, raster->size[k]);
   p.row = fg__allocate(row, sizeof *p.row);
   fg_status status = FG_STATUS_OK;
   if (p.axis[0] && p.axis[1] && p.row)
-    fg__team_run(team, paint_part, &p);
+    fg__threads_run(threads, paint_part, &p);
   else
     status = fg__fail_memory(context, "a density's pixels", row * sizeof *p.row);
   free(p.axis[0]);

@@ -60,7 +60,7 @@ typedef struct diffusion {
   float *state[3];
   const float *now, *before;
   float *out;
-  float *flux; /* six rows of cells a member */
+  float *flux; /* six rows of cells a thread */
   float rate;  /* c */
   stage stage;
 } diffusion;
@@ -78,7 +78,7 @@ static void close_row(const diffusion *d, float *row)
   row[d->columns + 1] = row[periodic ? 1 : d->columns];
 }
 
-/* Whether a cell, numbered from -1, lies inside the picture or across a border that is
+/* Whether a cell, numbered from -1, lies inside the picture or across a boundary that is
  * none. */
 static bool conducts(const diffusion *d, int k, int cell)
 {
@@ -112,21 +112,21 @@ static void direct_cell(const diffusion *d, int i, int j)
   d->along[1][cell] = directed ? sum[1] / size : 0.0F;
 }
 
-static void direct_part(void *argument, const fg__share *share)
+static void direct_part(void *argument, const fg__thread *thread)
 {
   const diffusion *d = argument;
   int begin, end;
-  fg__team_part(share, d->rows + 1, 1, &begin, &end);
+  fg__threads_range(thread, d->rows + 1, 1, &begin, &end);
   for (int j = begin - 1; j < end - 1; ++j)
     for (int i = -1; i < d->columns; ++i)
       direct_cell(d, i, j);
 }
 
-static void start_part(void *argument, const fg__share *share)
+static void start_part(void *argument, const fg__thread *thread)
 {
   const diffusion *d = argument;
   int begin, end;
-  fg__team_part(share, d->rows, 1, &begin, &end);
+  fg__threads_range(thread, d->rows, 1, &begin, &end);
   for (int j = begin; j < end; ++j) {
     const float *noise = d->before + (size_t)j * (size_t)d->columns;
     float *row = d->out + (size_t)j * d->stride;
@@ -137,11 +137,11 @@ static void start_part(void *argument, const fg__share *share)
 }
 
 /* u_s: neighbours weigh 1, 2, 1 along both axes. */
-static void smooth_part(void *argument, const fg__share *share)
+static void smooth_part(void *argument, const fg__thread *thread)
 {
   const diffusion *d = argument;
   int begin, end;
-  fg__team_part(share, d->rows, 1, &begin, &end);
+  fg__threads_range(thread, d->rows, 1, &begin, &end);
   for (int j = begin; j < end; ++j) {
     const float *lower = row_of(d, d->now, j - 1), *at = row_of(d, d->now, j),
                 *upper = row_of(d, d->now, j + 1);
@@ -156,12 +156,12 @@ static void smooth_part(void *argument, const fg__share *share)
   }
 }
 
-static void widen_part(void *argument, const fg__share *share)
+static void widen_part(void *argument, const fg__thread *thread)
 {
   const diffusion *d = argument;
   const float sharp = 1.0F / (edge * edge);
   int begin, end;
-  fg__team_part(share, d->rows + 1, 1, &begin, &end);
+  fg__threads_range(thread, d->rows + 1, 1, &begin, &end);
   for (int j = begin - 1; j < end - 1; ++j) {
     const float *lower = row_of(d, d->now, j), *upper = row_of(d, d->now, j + 1);
     float *width = d->width + (size_t)(j + 1) * d->cells;
@@ -225,15 +225,15 @@ static void step_row(const diffusion *d, int j, float *const lower[3],
   close_row(d, d->out + (size_t)j * d->stride);
 }
 
-static void stage_part(void *argument, const fg__share *share)
+static void stage_part(void *argument, const fg__thread *thread)
 {
   const diffusion *d = argument;
-  float *own = d->flux + (size_t)share->member * 6 * d->cells;
+  float *own = d->flux + (size_t)thread->index * 6 * d->cells;
   float *rows[2][3];
   for (int n = 0; n < 6; ++n)
     rows[n / 3][n % 3] = own + (size_t)n * d->cells;
   int begin, end;
-  fg__team_part(share, d->rows, 1, &begin, &end);
+  fg__threads_range(thread, d->rows, 1, &begin, &end);
   if (begin < end)
     find_flux(d, begin - 1, rows[0]);
   for (int j = begin; j < end; ++j) {
@@ -251,7 +251,7 @@ static int stage_count(double tau)
 
 /* One step of length tau from state[0] to state[0]. Chebyshev polynomials T_j and their
  * slopes at w0 by their recurrences. */
-static void make_step(diffusion *d, double tau, fg__team *team)
+static void make_step(diffusion *d, double tau, fg__threads *threads)
 {
   const int stages = stage_count(tau);
   const double w0 = 1.0 + damping / ((double)stages * stages);
@@ -268,7 +268,7 @@ static void make_step(diffusion *d, double tau, fg__team *team)
   d->stage = (stage){1.0F, 0.0F, (float)(w1 / w0 * tau)};
   d->now = d->before = d->state[0];
   d->out = d->state[1];
-  fg__team_run(team, stage_part, d);
+  fg__threads_run(threads, stage_part, d);
   t = w0;
   t_before = 1.0;
   for (int j = 2; j <= stages; ++j) {
@@ -278,7 +278,7 @@ static void make_step(diffusion *d, double tau, fg__team *team)
     d->before = d->state[(j + 1) % 3];
     d->now = d->state[(j + 2) % 3];
     d->out = d->state[j % 3];
-    fg__team_run(team, stage_part, d);
+    fg__threads_run(threads, stage_part, d);
     t_before = t;
     t = next;
   }
@@ -288,18 +288,18 @@ static void make_step(diffusion *d, double tau, fg__team *team)
 }
 
 /* state[1] from state[0]. */
-static void smooth(diffusion *d, fg__team *team)
+static void smooth(diffusion *d, fg__threads *threads)
 {
   d->now = d->state[0];
   d->out = d->state[1];
-  fg__team_run(team, smooth_part, d);
+  fg__threads_run(threads, smooth_part, d);
 }
 
-static void update_width(diffusion *d, fg__team *team)
+static void update_width(diffusion *d, fg__threads *threads)
 {
-  smooth(d, team);
+  smooth(d, threads);
   d->now = d->state[1];
-  fg__team_run(team, widen_part, d);
+  fg__threads_run(threads, widen_part, d);
 }
 
 static void swap(diffusion *d)
@@ -319,7 +319,7 @@ static fg_status start(diffusion *d, float *value, fg_context *context,
   if (!grain)
     return fg__fail_memory(context, "noise", padded * sizeof *grain);
   fg_status status =
-      fg__grain_fill(grain, context, d->raster, canvas->seed, canvas->team);
+      fg__grain_fill(grain, context, d->raster, canvas->seed, canvas->threads);
   for (int j = 0; j < d->rows && !status; ++j)
     memcpy(value + (size_t)j * (size_t)d->columns, grain + fg__raster_at(d->raster, 0, j),
            (size_t)d->columns * sizeof *value);
@@ -327,15 +327,15 @@ static fg_status start(diffusion *d, float *value, fg_context *context,
   const double widest = fmax(widest_share * canvas->length, 1.0);
   if (!status)
     status = fg__contrast_even(value, context, d->raster, (int)widest, noise_cut,
-                               canvas->team);
+                               canvas->threads);
   if (status)
     return status;
   d->before = value;
   d->out = d->state[0];
-  fg__team_run(canvas->team, start_part, d);
-  smooth(d, canvas->team);
+  fg__threads_run(canvas->threads, start_part, d);
+  smooth(d, canvas->threads);
   swap(d);
-  fg__team_run(canvas->team, direct_part, d);
+  fg__threads_run(canvas->threads, direct_part, d);
   return FG_STATUS_OK;
 }
 
@@ -377,16 +377,16 @@ fg_status fg__diffusion_paint(float *value, fg_context *context, const fg__canva
                  .stride = (size_t)r->size[0] + 2,
                  .cells = (size_t)r->size[0] + 1,
                  .rate = (float)(growth / time)};
-  fg_status status = allocate(&d, context, (size_t)fg__team_members(canvas->team));
+  fg_status status = allocate(&d, context, (size_t)fg__threads_count(canvas->threads));
   if (!status)
     status = start(&d, value, context, canvas);
   for (int n = 0; n < STEPS && !status; ++n) {
-    update_width(&d, canvas->team);
-    make_step(&d, time / STEPS, canvas->team);
+    update_width(&d, canvas->threads);
+    make_step(&d, time / STEPS, canvas->threads);
     status = fg__check_stop(context);
   }
   if (!status)
-    smooth(&d, canvas->team); /* what is left of the checkerboard */
+    smooth(&d, canvas->threads); /* what is left of the checkerboard */
   for (int j = 0; j < d.rows && !status; ++j)
     for (int i = 0; i < d.columns; ++i)
       value[(size_t)j * (size_t)d.columns + (size_t)i] =

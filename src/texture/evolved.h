@@ -7,6 +7,6 @@
 /* Writes u at every pixel, between the density's nodes by cubics. The density must not be
  * shared. MEMORY. */
 fg_status fg__density_paint(float *value, fg_context *context, const fg__raster *raster,
-                            const fg_density_arrays *density, fg__team *team);
+                            const fg_density_arrays *density, fg__threads *threads);
 
 #endif

@@ -9,10 +9,10 @@ typedef struct filling {
   float *grain;
   const fg__raster *raster;
   uint64_t key;
-  float *rows; /* three a member */
+  float *rows; /* three a thread */
 } filling;
 
-/* Beyond a border that is not periodic the noise simply goes on. */
+/* Beyond a boundary that is not periodic the noise simply goes on. */
 static int place_of(const fg__raster *r, int k, int index)
 {
   return r->periodic[k] ? fg__raster_wrap(r, k, index) : index;
@@ -41,14 +41,14 @@ static void make_row(float *out, const filling *f, int j)
 }
 
 /* Each row is smoothed with those beside it as it comes: three are kept, in turn. */
-static void fill_part(void *argument, const fg__share *share)
+static void fill_part(void *argument, const fg__thread *thread)
 {
   const filling *f = argument;
   const fg__raster *r = f->raster;
   const size_t stride = (size_t)r->stride;
-  float *const ring = f->rows + (size_t)share->member * 3 * stride;
+  float *const ring = f->rows + (size_t)thread->index * 3 * stride;
   int begin, end;
-  fg__team_part(share, r->rows, 1, &begin, &end);
+  fg__threads_range(thread, r->rows, 1, &begin, &end);
   for (int j = begin - 1; j <= end; ++j) {
     make_row(ring + (size_t)((j + 3) % 3) * stride, f, j - r->margin);
     if (j <= begin)
@@ -63,13 +63,13 @@ static void fill_part(void *argument, const fg__share *share)
 }
 
 fg_status fg__grain_fill(float *grain, fg_context *context, const fg__raster *raster,
-                         uint64_t seed, fg__team *team)
+                         uint64_t seed, fg__threads *threads)
 {
-  size_t count = (size_t)fg__team_members(team) * 3 * (size_t)raster->stride;
+  size_t count = (size_t)fg__threads_count(threads) * 3 * (size_t)raster->stride;
   filling f = {grain, raster, fg__mix(seed), fg__allocate(count, sizeof *f.rows)};
   if (!f.rows)
     return fg__fail_memory(context, "noise", count * sizeof *f.rows);
-  fg__team_run(team, fill_part, &f);
+  fg__threads_run(threads, fill_part, &f);
   free(f.rows);
   return FG_STATUS_OK;
 }

@@ -8,6 +8,6 @@
  * so that what is drawn with it has soft edges. Round a periodic axis it repeats.
  * MEMORY. */
 fg_status fg__grain_fill(float *grain, fg_context *context, const fg__raster *raster,
-                         uint64_t seed, fg__team *team);
+                         uint64_t seed, fg__threads *threads);
 
 #endif

@@ -33,7 +33,7 @@ typedef struct painting {
   float *value;
   int half; /* of the kernel: steps of a pixel */
   fg__texture_blocks blocks;
-  struct block *block; /* one a member */
+  struct block *block; /* one a thread */
 } painting;
 
 typedef struct block {
@@ -163,10 +163,10 @@ static void write_block(const block *b)
   }
 }
 
-static void paint_part(void *argument, const fg__share *share)
+static void paint_part(void *argument, const fg__thread *thread)
 {
   painting *p = argument;
-  block *b = &p->block[share->member];
+  block *b = &p->block[thread->index];
   b->p = p;
   while (fg__blocks_take(&p->blocks, b->first, b->size)) {
     serve_all(b);
@@ -216,20 +216,20 @@ fg_status fg__lic_paint(float *value, fg_context *context, const fg__canvas *can
 {
   const fg__raster *r = &canvas->raster;
   const size_t padded = (size_t)r->stride * (size_t)r->rows;
-  const size_t members = (size_t)fg__team_members(canvas->team);
+  const size_t thread_count = (size_t)fg__threads_count(canvas->threads);
   float *grain = fg__allocate(padded, sizeof *grain);
   painting p = {.raster = r, .grain = grain, .value = value};
   p.half = half_of(canvas->length);
-  p.block = fg__allocate(members, sizeof *p.block);
+  p.block = fg__allocate(thread_count, sizeof *p.block);
   fg__blocks_begin(&p.blocks, r);
   fg_status status = FG_STATUS_OK;
   if (!grain || !p.block)
     status = fg__fail_memory(context, "noise",
-                             padded * sizeof *grain + members * sizeof *p.block);
+                             padded * sizeof *grain + thread_count * sizeof *p.block);
   if (!status)
-    status = fg__grain_fill(grain, context, r, canvas->seed, canvas->team);
+    status = fg__grain_fill(grain, context, r, canvas->seed, canvas->threads);
   if (!status) {
-    fg__team_run(canvas->team, paint_part, &p);
+    fg__threads_run(canvas->threads, paint_part, &p);
     if (!r->all_moving)
       leave_still(value, r, grain);
   }

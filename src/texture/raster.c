@@ -53,7 +53,7 @@ typedef struct sampling {
   const fg_field *field;
   places axis[2];
   double pixels_a_unit[2]; /* but for a common factor */
-  float *row;              /* two rows of samples a member */
+  float *row;              /* two rows of samples a thread */
 } sampling;
 
 /* The samples of a component between two rows of the grid. */
@@ -103,14 +103,14 @@ static void sample_row(const sampling *s, float *const row[2], int j)
   }
 }
 
-static void sample_part(void *argument, const fg__share *share)
+static void sample_part(void *argument, const fg__thread *thread)
 {
   const sampling *s = argument;
   const size_t samples = (size_t)s->field->axis[0].samples + 1;
-  float *own = s->row + (size_t)share->member * 2 * samples;
+  float *own = s->row + (size_t)thread->index * 2 * samples;
   float *const row[2] = {own, own + samples};
   int begin, end;
-  fg__team_part(share, s->raster->size[1], 1, &begin, &end);
+  fg__threads_range(thread, s->raster->size[1], 1, &begin, &end);
   for (int j = begin; j < end; ++j)
     sample_row(s, row, j);
 }
@@ -175,7 +175,7 @@ static fg_status allocate(fg__raster *r, fg_context *context)
 }
 
 fg_status fg__raster_create(fg__raster *out, fg_context *context, const fg_field *field,
-                            const int size[2], int margin, fg__team *team)
+                            const int size[2], int margin, fg__threads *threads)
 {
   *out = (fg__raster){.margin = margin};
   sampling s = {.raster = out, .field = field};
@@ -193,7 +193,7 @@ fg_status fg__raster_create(fg__raster *out, fg_context *context, const fg_field
   out->stride = size[0] + 2 * margin;
   out->rows = size[1] + 2 * margin;
   size_t samples =
-      (size_t)fg__team_members(team) * 2 * ((size_t)field->axis[0].samples + 1);
+      (size_t)fg__threads_count(threads) * 2 * ((size_t)field->axis[0].samples + 1);
   s.row = fg__allocate(samples, sizeof *s.row);
   fg_status status = FG_STATUS_OK;
   if (!placed || !s.row)
@@ -201,7 +201,7 @@ fg_status fg__raster_create(fg__raster *out, fg_context *context, const fg_field
   else
     status = allocate(out, context);
   if (!status) {
-    fg__team_run(team, sample_part, &s);
+    fg__threads_run(threads, sample_part, &s);
     out->all_moving = finds_all_moving(out);
     if (!out->all_moving)
       status = fill(out, context);

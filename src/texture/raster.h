@@ -2,7 +2,7 @@
 #ifndef FG__RASTER_H
 #define FG__RASTER_H
 
-#include "base/team.h"
+#include "base/threads.h"
 
 typedef enum fg__pixel {
   FG__PIXEL_MASKED = 0, /* nothing is known */
@@ -11,7 +11,7 @@ typedef enum fg__pixel {
 } fg__pixel;
 
 /* Pixel (0, 0) is the lower left one, x fastest. Padded arrays reach `margin` pixels
- * beyond the picture on every side: round a periodic axis, else with the border's own
+ * beyond the picture on every side: round a periodic axis, else with the boundary's own
  * values. */
 typedef struct fg__raster {
   int size[2];
@@ -27,7 +27,7 @@ typedef struct fg__raster {
 
 /* size: pixels; margin: at least 0. MEMORY. */
 fg_status fg__raster_create(fg__raster *out, fg_context *context, const fg_field *field,
-                            const int size[2], int margin, fg__team *team);
+                            const int size[2], int margin, fg__threads *threads);
 void fg__raster_clear(fg__raster *raster);
 
 /* Place of the picture's pixel in padded arrays. */

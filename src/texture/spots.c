@@ -240,10 +240,10 @@ static void paint_block(block *b)
                (size_t)(b->first[0] + x)] = b->sum[y * BLOCK + x];
 }
 
-static void paint_part(void *argument, const fg__share *share)
+static void paint_part(void *argument, const fg__thread *thread)
 {
   painting *p = argument;
-  block *b = &p->block[share->member];
+  block *b = &p->block[thread->index];
   b->p = p;
   while (fg__blocks_take(&p->blocks, b->first, b->size))
     paint_block(b);
@@ -266,7 +266,7 @@ fg_status fg__spots_paint(float *value, fg_context *context, const fg__canvas *c
 {
   const fg__raster *r = &canvas->raster;
   const double radius = radius_of(canvas->length);
-  const size_t members = (size_t)fg__team_members(canvas->team);
+  const size_t thread_count = (size_t)fg__threads_count(canvas->threads);
   painting p = {.raster = r,
                 .value = value,
                 .key = fg__mix(canvas->seed ^ 0x73706f7473U), /* "spots" */
@@ -279,10 +279,10 @@ fg_status fg__spots_paint(float *value, fg_context *context, const fg__canvas *c
     p.cell[k] = r->periodic[k] ? (double)r->size[k] / p.cells[k] : spacing;
   }
   fg__blocks_begin(&p.blocks, r);
-  p.block = fg__allocate(members, sizeof *p.block);
+  p.block = fg__allocate(thread_count, sizeof *p.block);
   if (!p.block)
-    return fg__fail_memory(context, "spots", members * sizeof *p.block);
-  fg__team_run(canvas->team, paint_part, &p);
+    return fg__fail_memory(context, "spots", thread_count * sizeof *p.block);
+  fg__threads_run(canvas->threads, paint_part, &p);
   free(p.block);
   return FG_STATUS_OK;
 }

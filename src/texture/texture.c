@@ -101,7 +101,7 @@ static int choose_threads(const fg_texture_options *o)
   if (o->threads)
     return o->threads;
   const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-  return cores < 1 ? 1 : (cores > FG__MOST_MEMBERS ? FG__MOST_MEMBERS : (int)cores);
+  return cores < 1 ? 1 : (cores > FG__MOST_THREADS ? FG__MOST_THREADS : (int)cores);
 }
 
 static fg_status paint(fg_texture *texture, fg_context *context, const fg__canvas *canvas)
@@ -117,7 +117,7 @@ static fg_status paint(fg_texture *texture, fg_context *context, const fg__canva
   const double cut = kinds[texture->contents.kind].cut;
   if (!status && cut > 0.0)
     status = fg__contrast_even(texture->value, context, &canvas->raster, (int)radius, cut,
-                               canvas->team);
+                               canvas->threads);
   return status;
 }
 
@@ -134,12 +134,13 @@ static fg_status make(fg_texture *texture, fg_context *context, const fg_field *
   choose_size(size, fg_field_contents(field), o);
   canvas.length = choose_length(size, o);
   const int margin = kinds[o->kind].margin(canvas.length);
-  fg_status status = fg__team_create(&canvas.team, context, choose_threads(o));
+  fg_status status = fg__threads_create(&canvas.threads, context, choose_threads(o));
   if (!status)
-    status = fg__raster_create(&canvas.raster, context, field, size, margin, canvas.team);
+    status =
+        fg__raster_create(&canvas.raster, context, field, size, margin, canvas.threads);
   if (!status)
     status = paint(texture, context, &canvas);
-  fg__team_destroy(canvas.team);
+  fg__threads_destroy(canvas.threads);
   texture->speed = canvas.raster.speed;
   canvas.raster.speed = NULL;
   fg__raster_clear(&canvas.raster);
@@ -167,7 +168,7 @@ fg_status fg_texture_create(fg_texture **out, fg_context *context, const fg_fiel
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "a field in %d dimensions; textures are made of those in 2",
                     dimension);
-  if (fg_field_is_part(field, NULL, NULL))
+  if (fg_field_is_slab(field, NULL, NULL))
     return fg__fail(context, FG_STATUS_ARGUMENT, "texture: of a field that ranks share");
   fg_texture *texture = fg__allocate(1, sizeof *texture);
   if (!texture)

@@ -15,7 +15,7 @@ typedef struct fg__canvas {
   const fg_evolution_options *evolution; /* of the clusters; NULL: defaults */
   const fg_density *density;             /* of the clusters to show; NULL: evolve them */
   uint64_t seed;
-  fg__team *team;
+  fg__threads *threads;
 } fg__canvas;
 
 /* One kind: fills value (a number a pixel of the picture, not padded) with what it likes;

@@ -121,7 +121,7 @@ static double step_between(const fg_texture_arrays *t, int i, int other)
   return sum / t->size[1];
 }
 
-static void test_periodic_border_has_no_seam(void **state)
+static void test_periodic_boundary_has_no_seam(void **state)
 {
   for (int k = 0; k < KINDS; ++k) {
     const fg_texture_options options = options_of(&promises[k], 600);
@@ -133,7 +133,7 @@ static void test_periodic_border_has_no_seam(void **state)
       most = fmax(most, step_between(t, i, i + 1));
     const double seam = step_between(t, t->size[0] - 1, 0);
     if (seam > most)
-      fail_msg("%s: a step of %g at the border, of at most %g inside", promises[k].name,
+      fail_msg("%s: a step of %g at the boundary, of at most %g inside", promises[k].name,
                seam, most);
     fg_texture_destroy(texture);
   }
@@ -248,7 +248,7 @@ int main(void)
       cmocka_unit_test(test_turns_with_the_field),
       cmocka_unit_test(test_follows_a_curved_stream),
       cmocka_unit_test(test_contrast_is_even),
-      cmocka_unit_test(test_periodic_border_has_no_seam),
+      cmocka_unit_test(test_periodic_boundary_has_no_seam),
       cmocka_unit_test(test_missing_and_still_places),
       cmocka_unit_test(test_threads_and_seeds),
       cmocka_unit_test(test_refusals),

@@ -262,9 +262,9 @@ fg_status fg_density_write(fg_context *context, const char *path,
 {
   if (!density)
     return fg__fail(context, FG_STATUS_ARGUMENT, "density: none to write");
-  fg__traffic_book *book = fg__density_block_of(density)->partition.ranks->book;
-  fg_activity before = fg__traffic_continue(book, FG_ACTIVITY_SNAPSHOTS);
+  fg__counters *counters = fg__density_block_of(density)->partition.ranks->counters;
+  fg_phase before = fg__phase_continue(counters, FG_PHASE_SNAPSHOTS);
   fg_status status = write_density(context, path, density);
-  fg__traffic_return(book, before);
+  fg__phase_return(counters, before);
   return status;
 }

@@ -39,7 +39,8 @@ static void close_written(written *w)
   fg__source_close(&w->source);
 }
 
-/* 6 x 5 nodes, periodic along x: a cluster across the border, one within, a masked cell.
+/* 6 x 5 nodes, periodic along x: a cluster across the boundary, one within, a masked
+ * cell.
  */
 static void a_density_shows_clusters_and_mask(void **state)
 {
@@ -89,7 +90,7 @@ static void a_density_shows_clusters_and_mask(void **state)
   fg_density_destroy(density);
 }
 
-/* Three drops in 7 x 4 x 6 nodes, periodic along z: one across that border, one within,
+/* Three drops in 7 x 4 x 6 nodes, periodic along z: one across that boundary, one within,
  * one that is debris; a masked cell. */
 static void a_density_in_space_comes_back(void **state)
 {

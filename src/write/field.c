@@ -133,7 +133,7 @@ fg_status fg_field_write(fg_context *context, const char *path, const fg_field *
   if (!path || !field)
     return fg__fail(context, FG_STATUS_ARGUMENT, "field: %s to write",
                     path ? "none" : "no file name");
-  if (fg_field_is_part(field, NULL, NULL))
+  if (fg_field_is_slab(field, NULL, NULL))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "%s: a field that ranks share cannot be written", path);
   bool image = ends_with(path, ".vti");

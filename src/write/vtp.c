@@ -140,7 +140,7 @@ static fg_status write_array(FILE *stream, fg_context *context, const char *name
                                                .components = components});
 }
 
-/* An array of all cells, put together from those of the kinds; `offset` is a member of
+/* An array of all cells, put together from those of the kinds; `offset` is a thread of
  * cells. */
 static fg_status write_of_cells(FILE *stream, fg_context *context, const polydata *data,
                                 const char *name, const char *type, size_t offset,

@@ -4,8 +4,8 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "file/base64.h"
 #include "base/context_test.h"
+#include "file/base64.h"
 #include "icon/icons.h"
 #include "write/vtp.h"
 

@@ -23,7 +23,7 @@ static void post_sends(fg__exchange *e)
     ptrdiff_t nodes = end - l->buffer;
     fg__request_send(e->ranks, e->senders.requests, n, l->buffer, (int)nodes, l->rank);
     if (nodes > 0)
-      fg__traffic_add_message(e->ranks->book, (size_t)nodes * sizeof(float));
+      fg__count_message(e->ranks->counters, (size_t)nodes * sizeof(float));
   }
 }
 
@@ -34,7 +34,7 @@ void fg__exchange_begin(fg__exchange *exchange, int count, float *const array[],
   e->arrays = count;
   e->array = array;
   e->colours = colours;
-  fg__traffic_add_exchange(e->ranks->book);
+  fg__count_exchange(e->ranks->counters);
   post_receives(e);
   post_sends(e);
   for (size_t n = 0; n < e->copied.count; ++n) {

@@ -1,13 +1,13 @@
-/* Filling the ghosts of a level's blocks, from whoever owns what they stand for.
+/* Halo exchange: fills the ghosts of a level's blocks from the owners of their sources.
  *
  * A ghost at index -1 or n of an axis stands for the next node of the whole grid; beyond
  * a natural boundary for its mirror image (-1 for 1, n for n - 2 of the grid), beyond a
- * periodic one for the node at the other end. Ghosts at edges and corners of a block
- * stand for what all their axes say together. Every ghost is copied straight from its
- * owner: within the rank by memory, between ranks in one message per neighbouring rank
- * and exchange, whatever the number of arrays. A ghost's column, row and plane are even
- * or odd as its source's are, so an exchange can be confined to a set of colours: after a
- * Gauss-Seidel sweep has changed one colour, that is all there is to send.
+ * periodic one for the node at the other end. A ghost at an edge or corner of a block is
+ * found axis by axis. Every ghost is copied straight from its owner: within the rank by
+ * memory, between ranks in one message per neighbouring rank and exchange, whatever the
+ * number of arrays. A ghost's column, row and plane are even or odd as its source's are,
+ * so an exchange can be confined to a set of colours: after a Gauss-Seidel sweep has
+ * changed one colour, that is all there is to send.
  *
  *     float *const arrays[] = {u, w};  // node (0, 0, 0) of the own block, layout.h
  *     fg__exchange_fill(exchange, 2, arrays, FG__ALL_COLOURS);

@@ -92,8 +92,8 @@ void fg__gather_fill(fg__gather *gather, int count, float *const array[],
     g->count[rank] = g->nodes[rank] * count;
     offset += g->count[rank];
   }
-  fg__traffic_add_gather(g->ranks->book, (size_t)(offset - g->count[g->ranks->rank]) *
-                                             sizeof *g->received);
+  fg__count_gather(g->ranks->counters,
+                   (size_t)(offset - g->count[g->ranks->rank]) * sizeof *g->received);
   fg__ranks_gather(g->ranks, g->sent, g->received, g->count, g->offset);
   const float *next = g->received;
   for (int rank = 0; rank < g->ranks->count; ++rank)

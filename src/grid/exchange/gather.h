@@ -1,8 +1,8 @@
-/* Between the blocks of a shared level and the same level whole on every rank: the way
- * into the replicated part of a multigrid and back.
+/* Between the blocks of a distributed level and the same level whole on every rank: the
+ * way into the replicated part of a multigrid and back.
  *
- * All ranks receive all nodes: n floats a level and array, at once. That bounds
- * how fine a replicated level may be: (1/16)^3 of 1025^3 nodes are 1 MB an array. */
+ * All ranks receive all nodes: n floats a level and array, at once. That bounds how fine
+ * a replicated level may be: (1/16)^3 of 1025^3 nodes are 1 MB an array. */
 #ifndef FG__GATHER_H
 #define FG__GATHER_H
 

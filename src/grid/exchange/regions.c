@@ -120,8 +120,8 @@ static void exchange(const fg__ranks *ranks, size_t size, const void *to_send,
 {
   for (int r = 0; r < ranks->count; ++r)
     if (r != ranks->rank && sent[r] > 0)
-      fg__traffic_add_message(ranks->book, (size_t)sent[r] * size);
-  fg__traffic_add_exchange(ranks->book);
+      fg__count_message(ranks->counters, (size_t)sent[r] * size);
+  fg__count_exchange(ranks->counters);
   fg__ranks_deal(ranks, size, to_send, sent, sent + ranks->count, to_receive, received,
                  received + ranks->count);
 }

@@ -1,8 +1,8 @@
-/* Regions of a level's grid, put together from all ranks' blocks on the ranks that want
- * them: the window round a cluster, the rows of a file.
+/* Gathers regions of a grid from the blocks of all ranks on the ranks that ask for them:
+ * the window round a cluster, the rows of a file.
  *
- * Every rank knows all blocks and all regions, so each finds for itself what it has to
- * send and to whom; one exchange takes all of it. */
+ * Every rank knows all blocks and all regions, so each finds by itself what to send to
+ * whom. One exchange is enough. */
 #ifndef FG__REGIONS_H
 #define FG__REGIONS_H
 

@@ -24,7 +24,7 @@ bool fg__slabs_find(fg__slabs *out, const fg__partition *partition)
 void fg__slabs_exchange(const fg__slabs *slabs, const fg__run run[], int count)
 {
   enum { UP = 2, DOWN = 3 };
-  fg__traffic_add_exchange(slabs->ranks->book);
+  fg__count_exchange(slabs->ranks->counters);
   for (int n = 0; n < count; ++n) {
     const fg__run *r = &run[n];
     int to = r->up ? slabs->above : slabs->below;
@@ -32,6 +32,6 @@ void fg__slabs_exchange(const fg__slabs *slabs, const fg__run run[], int count)
     fg__ranks_swap(slabs->ranks, r->up ? UP : DOWN, (int)r->count, r->sent, to,
                    r->received, from);
     if (to != FG__NOBODY)
-      fg__traffic_add_message(slabs->ranks->book, r->count * sizeof(float));
+      fg__count_message(slabs->ranks->counters, r->count * sizeof(float));
   }
 }

@@ -1,6 +1,5 @@
-/* What ranks tell each other that have whole slices each (rows in 2D, planes in 3D), one
- * behind the other along the last axis: runs of memory, as they lie there, for the rank
- * above or below. exchange.h does pencils. */
+/* Halo exchange for slabs: ranks with whole slices (rows in 2D, planes in 3D) along the
+ * last axis send runs of memory to the rank above or below. Pencils use exchange.h. */
 #ifndef FG__SLABS_H
 #define FG__SLABS_H
 

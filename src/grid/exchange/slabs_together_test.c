@@ -46,7 +46,8 @@ static void check_exchange(const fg__slabs *slabs)
     received[r][MOST_FLOATS] = UNTOUCHED;
     run[r] = (fg__run){sent[r], received[r], floats[r], up[r]};
   }
-  const fg_traffic *book = &us.ranks->book->of[us.ranks->book->now], before = *book;
+  const fg_communication *counters = &us.ranks->counters->of[us.ranks->counters->now],
+                         before = *counters;
   fg__slabs_exchange(slabs, run, RUNS);
   double messages = 0.0, bytes = 0.0;
   for (int r = 0; r < RUNS; ++r) {
@@ -58,9 +59,9 @@ static void check_exchange(const fg__slabs *slabs)
       expect(received[r][n] ==
              (from == FG__NOBODY || n >= floats[r] ? UNTOUCHED : sent_by(from, r, n)));
   }
-  expect(book->exchanges - before.exchanges == 1.0);
-  expect(book->messages - before.messages == messages);
-  expect(book->bytes - before.bytes == bytes);
+  expect(counters->exchanges - before.exchanges == 1.0);
+  expect(counters->messages - before.messages == messages);
+  expect(counters->bytes - before.bytes == bytes);
 }
 
 static void neighbours_get_what_is_sent_them(void **state)

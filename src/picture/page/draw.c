@@ -50,7 +50,7 @@ void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color)
   cairo_stroke(cairo);
 }
 
-/* Pixels that are as large as those of the sheet are taken as they are. */
+/* Pixels that are as large as those of the surface are taken as they are. */
 static void draw_background(cairo_t *cairo, const fg__page_box *box,
                             cairo_surface_t *background)
 {

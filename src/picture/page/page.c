@@ -13,7 +13,7 @@ static const double usual_font = 9.0;
 static const double smallest_font = 7.0;
 
 /* Without a wish for a height, a frame is at most so many page widths high: it then fits
- * on a sheet. */
+ * on a page. */
 static const double tallest_frame = 1.4;
 
 /* Wider domains have their keys below, others beside them: the page then comes out nearer

@@ -3,7 +3,7 @@
 
 #include "brush/canvas.h"
 #include "picture/page/bristles.h"
-#include "picture/page/sheet.h"
+#include "picture/page/surface.h"
 
 /* A0 paper is 3370 points high; a page six times that is a mistake. */
 static const double largest_page = 20000.0;
@@ -116,12 +116,13 @@ fg_status fg_painting_write(fg_context *context, const char *path, const fg_imag
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "painting: %g x %g pixels, at most %g in all are drawn",
                     ceil(width * pixels), ceil(height * pixels), most_pixels);
-  if (fg__sheet_format_of(path) == FG__SHEET_SVG)
+  if (fg__surface_file_format_of(path) == FG__SURFACE_SVG)
     return write_svg(context, path, &p, width, height);
-  fg__sheet sheet;
-  fg_status status = fg__sheet_open(&sheet, context, path, width, height, pixels, NULL);
+  fg__surface_file surface;
+  fg_status status =
+      fg__surface_file_open(&surface, context, path, width, height, pixels, NULL);
   if (status)
     return status;
-  paint(sheet.cairo, &p);
-  return fg__sheet_close(&sheet, context, FG_STATUS_OK);
+  paint(surface.cairo, &p);
+  return fg__surface_file_close(&surface, context, FG_STATUS_OK);
 }

@@ -8,7 +8,7 @@
 
 enum { WIDTH = 90, HEIGHT = 70 };
 
-/* A red and a blue half with a soft border, and shades across. */
+/* A red and a blue half with a soft boundary, and shades across. */
 static fg_image *two_halves(fg_context *context)
 {
   static float sample[WIDTH * HEIGHT * 3];

@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "picture/caption.h"
-#include "picture/page/sheet.h"
+#include "picture/page/surface.h"
 #include "picture/page/texture_image.h"
 
 /* A0 paper is 3370 points high; a page six times that is a mistake. */
@@ -160,13 +160,14 @@ static fg_status check_pixels(fg_context *context, const picture *p)
 static fg_status render(fg_context *context, const char *path, const picture *p)
 {
   const fg__page *page = &p->page;
-  fg__sheet sheet;
-  fg_status status = fg__sheet_open(&sheet, context, path, page->width, page->height,
-                                    p->pixels_per_point, p->plan.title);
+  fg__surface_file surface;
+  fg_status status =
+      fg__surface_file_open(&surface, context, path, page->width, page->height,
+                            p->pixels_per_point, p->plan.title);
   if (status)
     return status;
-  fg__draw(sheet.cairo, page, &p->scene, &p->palette, &p->style);
-  return fg__sheet_close(&sheet, context, FG_STATUS_OK);
+  fg__draw(surface.cairo, page, &p->scene, &p->palette, &p->style);
+  return fg__surface_file_close(&surface, context, FG_STATUS_OK);
 }
 
 /* Where the page has, or would have, the whole domain. */
@@ -270,7 +271,7 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
   if (density && settled.scale_time == 0.0)
     settled.scale_time = fg_density_contents(density)->time;
   options = &settled;
-  fg_status status = fg__sheet_format_check(context, path);
+  fg_status status = fg__surface_file_format_check(context, path);
   if (status)
     return status;
   if (options->tint && !density)
@@ -287,7 +288,7 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
   status = check_room(context);
   if (!status)
     status = prepare(p, context, field, icons, options);
-  if (!status && fg__sheet_format_of(path) == FG__SHEET_PNG)
+  if (!status && fg__surface_file_format_of(path) == FG__SURFACE_PNG)
     status = check_pixels(context, p);
   const double range[2] = {p->plan.speed.low, p->plan.speed.high};
   if (!status)

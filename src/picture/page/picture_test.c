@@ -122,7 +122,7 @@ static void a_transparent_png_has_no_background(void **state)
   write_picture(e, "b.png", &options);
 }
 
-static void an_arrow_across_a_periodic_border_shows_on_both_sides(void **state)
+static void an_arrow_across_a_periodic_boundary_shows_on_both_sides(void **state)
 {
   example *e = *state;
   fg_field_destroy(e->field);
@@ -159,7 +159,7 @@ int main(void)
       TEST(skeletons_are_shown_when_asked_for),
       TEST(arrows_and_their_keys_can_be_left_out),
       TEST(a_transparent_png_has_no_background),
-      TEST(an_arrow_across_a_periodic_border_shows_on_both_sides),
+      TEST(an_arrow_across_a_periodic_boundary_shows_on_both_sides),
       TEST(odd_icons_are_drawn_without_trouble),
   };
   return cmocka_run_group_tests_name("picture/page/picture", tests, NULL, NULL);

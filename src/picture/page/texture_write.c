@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "picture/page/draw.h"
-#include "picture/page/sheet.h"
+#include "picture/page/surface.h"
 #include "picture/page/texture_image.h"
 #include "picture/page/texture_key.h"
 
@@ -82,21 +82,21 @@ static fg_status write(fg_context *context, const char *path, cairo_surface_t *i
                        fg__color mask_color, const fg__page *page,
                        const fg__palette *palette)
 {
-  fg__sheet sheet;
-  fg_status status = fg__sheet_open(&sheet, context, path, page->width, page->height,
-                                    pixels_per_point, NULL);
+  fg__surface_file surface;
+  fg_status status = fg__surface_file_open(&surface, context, path, page->width,
+                                           page->height, pixels_per_point, NULL);
   if (status)
     return status;
   if (page->has_color_key) {
     if (!style->transparent) {
-      cairo_set_source_rgb(sheet.cairo, 1.0, 1.0, 1.0);
-      cairo_paint(sheet.cairo);
+      cairo_set_source_rgb(surface.cairo, 1.0, 1.0, 1.0);
+      cairo_paint(surface.cairo);
     }
-    fg__draw_key(sheet.cairo, page, palette);
+    fg__draw_key(surface.cairo, page, palette);
   }
-  cairo_scale(sheet.cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
-  paint(sheet.cairo, image, mask, style, mask_color);
-  return fg__sheet_close(&sheet, context, FG_STATUS_OK);
+  cairo_scale(surface.cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
+  paint(surface.cairo, image, mask, style, mask_color);
+  return fg__surface_file_close(&surface, context, FG_STATUS_OK);
 }
 
 fg_status fg_texture_write(fg_context *context, const char *path, const fg_field *field,
@@ -115,7 +115,7 @@ fg_status fg_texture_write(fg_context *context, const char *path, const fg_field
   fg__page *page = fg__allocate(1, sizeof *page);
   if (!page)
     return fg__fail_memory(context, "a page", sizeof *page);
-  fg_status status = fg__sheet_format_check(context, path);
+  fg_status status = fg__surface_file_format_check(context, path);
   if (!status)
     status = check_style(context, &settled);
   if (!status)

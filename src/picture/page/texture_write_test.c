@@ -81,7 +81,7 @@ static rgba pixel_at(cairo_surface_t *image, int x, int y)
                 (pixel & 255) / 255.0, opaque ? 1.0 : (pixel >> 24) / 255.0};
 }
 
-/* The mask's border is at the middle, rounded within a cell of two pixels. */
+/* The mask's boundary is at the middle, rounded within a cell of two pixels. */
 static void test_pixels_are_the_textures(void **state)
 {
   example *e = *state;

@@ -11,7 +11,7 @@ fg__band_rows fg__rows_between(double low, double high, int height)
   return (fg__band_rows){(int)fg__most(low, 0.0), (int)fg__least(high, height - 1.0)};
 }
 
-/* Counts the members of each band into first[b + 1]. */
+/* Counts the threads of each band into first[b + 1]. */
 static void count_members(fg__bands *out, const fg__band_rows *rows, size_t triangles)
 {
   for (size_t n = 0; n < triangles; ++n)
@@ -22,7 +22,7 @@ static void count_members(fg__bands *out, const fg__band_rows *rows, size_t tria
     out->first[b + 1] += out->first[b];
 }
 
-/* Writes the members; first[b] ends as first[b + 1] was, and is moved back. */
+/* Writes the threads; first[b] ends as first[b + 1] was, and is moved back. */
 static void write_members(fg__bands *out, const fg__band_rows *rows, size_t triangles)
 {
   for (size_t n = 0; n < triangles; ++n)

@@ -22,7 +22,7 @@ typedef struct fg__band_rows {
   int first, last;
 } fg__band_rows;
 
-/* Triangles member[first[b]] to member[first[b + 1] - 1] touch band b; they keep their
+/* Triangles thread[first[b]] to thread[first[b + 1] - 1] touch band b; they keep their
  * order. */
 typedef struct fg__bands {
   int count;

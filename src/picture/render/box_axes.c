@@ -19,25 +19,25 @@ static const double aside_step = 0.25, most_aside = 1.5;
 
 static const double ink = 0.22;
 
-/* An end of the edge with an axis' numbers, on the stage. */
-static void edge_end(const fg__stage *stage, const int edge[3], int axis, double along,
-                     double out[3])
+/* An end of the edge with an axis' numbers, in the view box. */
+static void edge_end(const fg__view_box *view_box, const int edge[3], int axis,
+                     double along, double out[3])
 {
   for (int k = 0; k < 3; ++k)
-    out[k] = k == axis ? along : edge[k] * stage->half[k];
+    out[k] = k == axis ? along : edge[k] * view_box->half[k];
 }
 
-static void pixel_at(const fg__stage *stage, const fg__camera *camera, const int edge[3],
-                     int axis, double along, double out[2])
+static void pixel_at(const fg__view_box *view_box, const fg__camera *camera,
+                     const int edge[3], int axis, double along, double out[2])
 {
   double point[3];
-  edge_end(stage, edge, axis, along, point);
+  edge_end(view_box, edge, axis, along, point);
   fg__camera_project(camera, point, out);
 }
 
 /* The lowest edge of the outline, or the leftmost for z. */
-static void choose_edge(int out[3], const fg__stage *stage, const fg__camera *camera,
-                        int axis)
+static void choose_edge(int out[3], const fg__view_box *view_box,
+                        const fg__camera *camera, int axis)
 {
   int a = (axis + 1) % 3, b = (axis + 2) % 3;
   double best = -HUGE_VAL;
@@ -46,10 +46,10 @@ static void choose_edge(int out[3], const fg__stage *stage, const fg__camera *ca
     double middle[2];
     edge[a] = n & 1 ? 1 : -1;
     edge[b] = n & 2 ? 1 : -1;
-    if (fg__camera_sees_inside(camera, stage, a, edge[a]) ==
-        fg__camera_sees_inside(camera, stage, b, edge[b]))
+    if (fg__camera_sees_inside(camera, view_box, a, edge[a]) ==
+        fg__camera_sees_inside(camera, view_box, b, edge[b]))
       continue;
-    pixel_at(stage, camera, edge, axis, 0.0, middle);
+    pixel_at(view_box, camera, edge, axis, 0.0, middle);
     double merit = axis == 2 ? -middle[0] : middle[1] - 1e-3 * middle[0];
     if (merit > best) {
       best = merit;
@@ -77,22 +77,22 @@ static void choose_ticks(fg__box_axes *out, int axis, double pixels, cairo_t *ru
 }
 
 void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
-                     const fg__stage *stage, const fg__camera *camera, double em,
+                     const fg__view_box *view_box, const fg__camera *camera, double em,
                      cairo_t *ruler)
 {
   memset(out, 0, sizeof *out);
   out->em = em;
   for (int k = 0; k < 3; ++k) {
-    double extent = stage->high[k] - stage->low[k];
+    double extent = view_box->high[k] - view_box->low[k];
     for (int m = 0; m < 3; ++m)
       if (strcmp(field->axis_units[k], field->axis_units[m]) == 0)
-        extent = fmax(extent, stage->high[m] - stage->low[m]);
-    fg__axis_of_numbers(&out->axis[k], stage->low[k], stage->high[k], extent,
+        extent = fmax(extent, view_box->high[m] - view_box->low[m]);
+    fg__axis_of_numbers(&out->axis[k], view_box->low[k], view_box->high[k], extent,
                         field->axis_name[k], field->axis_units[k]);
     double from[2], to[2];
-    choose_edge(out->edge[k], stage, camera, k);
-    pixel_at(stage, camera, out->edge[k], k, -stage->half[k], from);
-    pixel_at(stage, camera, out->edge[k], k, stage->half[k], to);
+    choose_edge(out->edge[k], view_box, camera, k);
+    pixel_at(view_box, camera, out->edge[k], k, -view_box->half[k], from);
+    pixel_at(view_box, camera, out->edge[k], k, view_box->half[k], to);
     double pixels = hypot(to[0] - from[0], to[1] - from[1]);
     out->edge[k][k] = pixels > shortest_axis * em;
     choose_ticks(out, k, fmax(pixels, 1.0), ruler);
@@ -131,15 +131,15 @@ static void place_text(fg__box_axes *axes, const char *text, const double at[2],
 }
 
 /* The ends of an axis' edge, pixels, and the direction away from the box there. */
-static void find_edge(const fg__box_axes *axes, const fg__stage *stage,
+static void find_edge(const fg__box_axes *axes, const fg__view_box *view_box,
                       const fg__camera *camera, int axis, double end[2][2],
                       double away[2])
 {
   const int *edge = axes->edge[axis];
   const double origin[3] = {0.0, 0.0, 0.0};
   double middle[2];
-  pixel_at(stage, camera, edge, axis, -stage->half[axis], end[0]);
-  pixel_at(stage, camera, edge, axis, stage->half[axis], end[1]);
+  pixel_at(view_box, camera, edge, axis, -view_box->half[axis], end[0]);
+  pixel_at(view_box, camera, edge, axis, view_box->half[axis], end[1]);
   fg__camera_project(camera, origin, middle);
   double length = hypot(end[1][0] - end[0][0], end[1][1] - end[0][1]);
   away[0] = (end[1][1] - end[0][1]) / length;
@@ -149,21 +149,21 @@ static void find_edge(const fg__box_axes *axes, const fg__stage *stage,
     away[k] = side < 0.0 ? -away[k] : away[k];
 }
 
-static void tick_at(const fg__box_axes *axes, const fg__stage *stage,
+static void tick_at(const fg__box_axes *axes, const fg__view_box *view_box,
                     const fg__camera *camera, int axis, int n, double out[2])
 {
-  pixel_at(stage, camera, axes->edge[axis], axis,
-           fg__stage_place(stage, axis, axes->ticks[axis].position[n]), out);
+  pixel_at(view_box, camera, axes->edge[axis], axis,
+           fg__view_box_place(view_box, axis, axes->ticks[axis].position[n]), out);
 }
 
-static void place_axis(fg__box_axes *axes, const fg__stage *stage,
+static void place_axis(fg__box_axes *axes, const fg__view_box *view_box,
                        const fg__camera *camera, int axis, cairo_t *ruler)
 {
   const fg__ticks *ticks = &axes->ticks[axis];
   double end[2][2], away[2], at[2], em = axes->em, widest = 0.0;
-  find_edge(axes, stage, camera, axis, end, away);
+  find_edge(axes, view_box, camera, axis, end, away);
   for (int n = 0; n < ticks->count; ++n) {
-    tick_at(axes, stage, camera, axis, n, at);
+    tick_at(axes, view_box, camera, axis, n, at);
     for (int k = 0; k < 2; ++k)
       at[k] += (tick_length + number_gap) * em * away[k];
     place_text(axes, ticks->text[n], at, away, ruler);
@@ -176,21 +176,21 @@ static void place_axis(fg__box_axes *axes, const fg__stage *stage,
   place_text(axes, axes->axis[axis].label, at, away, ruler);
 }
 
-double fg__box_axes_place(fg__box_axes *axes, const fg__stage *stage,
+double fg__box_axes_place(fg__box_axes *axes, const fg__view_box *view_box,
                           const fg__camera *camera, cairo_t *ruler)
 {
   double lowest = 0.0;
   axes->texts = 0;
   for (int k = 0; k < 3; ++k)
     if (axes->edge[k][k])
-      place_axis(axes, stage, camera, k, ruler);
+      place_axis(axes, view_box, camera, k, ruler);
   for (int n = 0; n < axes->texts; ++n)
     lowest = fmax(lowest, axes->text[n].box.y1);
   return lowest;
 }
 
-void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
-                       const fg__camera *camera)
+void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes,
+                       const fg__view_box *view_box, const fg__camera *camera)
 {
   double end[2][2], away[2], at[2], tick = tick_length * axes->em;
   cairo_set_source_rgb(cairo, ink, ink, ink);
@@ -198,9 +198,9 @@ void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage
   for (int k = 0; k < 3; ++k) {
     if (!axes->edge[k][k])
       continue;
-    find_edge(axes, stage, camera, k, end, away);
+    find_edge(axes, view_box, camera, k, end, away);
     for (int n = 0; n < axes->ticks[k].count; ++n) {
-      tick_at(axes, stage, camera, k, n, at);
+      tick_at(axes, view_box, camera, k, n, at);
       cairo_move_to(cairo, at[0], at[1]);
       cairo_line_to(cairo, at[0] + tick * away[0], at[1] + tick * away[1]);
     }

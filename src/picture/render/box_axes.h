@@ -4,8 +4,8 @@
 
 #include <cairo.h>
 
+#include "picture/camera.h"
 #include "picture/palette.h"
-#include "picture/stage.h"
 #include "picture/ticks.h"
 
 /* A number or a name: its box, whose lower left corner is where it is drawn. */
@@ -30,17 +30,17 @@ typedef struct fg__box_axes {
 
 /* Chooses edges of the box's outline: below for x and y, at the left for z. */
 void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
-                     const fg__stage *stage, const fg__camera *camera, double em,
+                     const fg__view_box *view_box, const fg__camera *camera, double em,
                      cairo_t *ruler);
 
 /* Chooses where the numbers and names go: one that would touch another, or the kept
  * place, stands farther off the box, and is left out where that does not help. Returns
  * how low they reach, in pixels from above. The axes must stay where they are. */
-double fg__box_axes_place(fg__box_axes *axes, const fg__stage *stage,
+double fg__box_axes_place(fg__box_axes *axes, const fg__view_box *view_box,
                           const fg__camera *camera, cairo_t *ruler);
 
-void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes, const fg__stage *stage,
-                       const fg__camera *camera);
+void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes,
+                       const fg__view_box *view_box, const fg__camera *camera);
 
 /* Where a colour bar in a pane is, with all that is written at it. */
 fg__pane fg__color_bar_box(const fg__pane *pane, double em, const fg__tick_axis *speed,

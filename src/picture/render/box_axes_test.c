@@ -10,7 +10,7 @@ static const double EM = 20.0;
 static const fg__pane PANE = {84.0, 82.0, 1030.0, 720.0};
 
 typedef struct scenery {
-  fg__stage stage;
+  fg__view_box view_box;
   fg__camera camera;
   fg__box_axes axes;
   double lowest;
@@ -31,13 +31,13 @@ static void look(scenery *s, const double side[3], double azimuth, double elevat
     field.axis_name[k] = k == 0 ? "x" : k == 1 ? "latitude" : "z";
     field.axis_units[k] = "";
   }
-  fg__stage_of(&s->stage, &field);
-  fg__camera_look(&s->camera, &s->stage, azimuth, elevation, &PANE);
+  fg__view_box_of(&s->view_box, &field);
+  fg__camera_look(&s->camera, &s->view_box, azimuth, elevation, &PANE);
   s->ruler = fg__text_ruler();
-  fg__box_axes_of(&s->axes, &field, &s->stage, &s->camera, EM, s->ruler);
+  fg__box_axes_of(&s->axes, &field, &s->view_box, &s->camera, EM, s->ruler);
   if (kept)
     s->axes.kept = *kept;
-  s->lowest = fg__box_axes_place(&s->axes, &s->stage, &s->camera, s->ruler);
+  s->lowest = fg__box_axes_place(&s->axes, &s->view_box, &s->camera, s->ruler);
   cairo_destroy(s->ruler);
 }
 

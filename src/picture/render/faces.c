@@ -33,7 +33,7 @@ typedef struct maker {
 typedef struct surface_use {
   const fg_surface *surface;
   const float *share; /* of its vertices; NULL: 0 */
-  double shift[3];    /* on the stage */
+  double shift[3];    /* in the view box */
   int part;
   bool clipped;
 } surface_use;
@@ -42,7 +42,7 @@ static void place_of(const maker *m, const surface_use *use, int corner, double 
 {
   const double *vertex = use->surface->vertex[use->surface->corner[corner]];
   for (int k = 0; k < 3; ++k)
-    out[k] = fg__stage_place(&m->about->stage, k, vertex[k]) + use->shift[k];
+    out[k] = fg__view_box_place(&m->about->view_box, k, vertex[k]) + use->shift[k];
 }
 
 static void project(const fg__camera *camera, const double place[3], double out[3])
@@ -189,20 +189,20 @@ static fg_status add_casters(const maker *m, const surface_use *use)
  */
 static void find_copies(const maker *m, const fg_surface *solid, int axis, int copies[2])
 {
-  const fg__stage *stage = &m->about->stage;
+  const fg__view_box *view_box = &m->about->view_box;
   double low = HUGE_VAL, high = -HUGE_VAL;
   copies[0] = copies[1] = 0;
   for (int n = 0; n < solid->vertex_count; ++n) {
-    double at = fg__stage_place(stage, axis, solid->vertex[n][axis]);
+    double at = fg__view_box_place(view_box, axis, solid->vertex[n][axis]);
     low = fmin(low, at);
     high = fmax(high, at);
   }
-  if (!(stage->period[axis] > 0.0) || solid->vertex_count == 0)
+  if (!(view_box->period[axis] > 0.0) || solid->vertex_count == 0)
     return;
-  copies[0] =
-      (int)fmax(ceil((-stage->half[axis] - high) / stage->period[axis]), -most_copies);
-  copies[1] =
-      (int)fmin(floor((stage->half[axis] - low) / stage->period[axis]), most_copies);
+  copies[0] = (int)fmax(ceil((-view_box->half[axis] - high) / view_box->period[axis]),
+                        -most_copies);
+  copies[1] = (int)fmin(floor((view_box->half[axis] - low) / view_box->period[axis]),
+                        most_copies);
 }
 
 static fg_status add_arrow(const maker *m, const surface_use *use)
@@ -229,7 +229,7 @@ static fg_status add_copies(const maker *m, const fg_surface *solid, const float
     for (at[1] = copies[1][0]; at[1] <= copies[1][1]; ++at[1])
       for (at[0] = copies[0][0]; at[0] <= copies[0][1] && !status; ++at[0]) {
         for (int k = 0; k < 3; ++k)
-          use.shift[k] = at[k] * m->about->stage.period[k];
+          use.shift[k] = at[k] * m->about->view_box.period[k];
         if (number)
           use.part = (*number)++;
         status = number ? add_arrow(m, &use) : add_casters(m, &use);
@@ -246,7 +246,7 @@ static fg_icon legible(const fg__rendering *about, const fg_icon *icon)
   for (int n = 0; n + 1 < icon->point_count; ++n)
     length += fg__apart(icon->points[n], icon->points[n + 1]);
   double least =
-      fmin(about->least_head * pixel / about->stage.scale, head_share * length);
+      fmin(about->least_head * pixel / about->view_box.scale, head_share * length);
   double factor = icon->head_length > 0.0 ? fmax(least / icon->head_length, 1.0) : 1.0;
   out.width *= factor;
   out.tail_width *= factor;
@@ -294,7 +294,7 @@ static fg_status add_shadow(const maker *m, const fg_icon *icon)
   double(*points)[3] = fg__allocate((size_t)icon->point_count, sizeof *points);
   if (!points)
     return fg__fail_memory(m->context, "a shadow", (size_t)icon->point_count);
-  double pixel = fg__length(camera->eye) / camera->factor / m->about->stage.scale;
+  double pixel = fg__length(camera->eye) / camera->factor / m->about->view_box.scale;
   fg_icon thin = *icon;
   thin.point_count = thin_line(icon, pixel, points);
   thin.points = (const double(*)[3])points;
@@ -335,7 +335,7 @@ static fg_status add_veil(const maker *m, const fg_surface *surface, fg__face_ki
   const surface_use use = {.surface = surface};
   if (!surface || surface->triangle_count == 0)
     return FG_STATUS_OK;
-  return add_faces(m, &m->out->veil, &use, kind, NULL);
+  return add_faces(m, &m->out->layer, &use, kind, NULL);
 }
 
 fg_status fg__geometry_make(fg__geometry *out, fg_context *context,
@@ -358,8 +358,8 @@ void fg__geometry_clear(fg__geometry *geometry)
 {
   free(geometry->solid.corner);
   free(geometry->solid.face);
-  free(geometry->veil.corner);
-  free(geometry->veil.face);
+  free(geometry->layer.corner);
+  free(geometry->layer.face);
   free(geometry->caster);
   *geometry = (fg__geometry){.caster = NULL};
 }

@@ -24,7 +24,7 @@ typedef struct fg__face {
  * depth. Functions that are linear in such coordinates are linear in the picture. */
 typedef struct fg__corner {
   double at[3];
-  float normal[3]; /* unit, on the stage */
+  float normal[3]; /* unit, in the view box */
   float share;     /* of the way through the colours; of an arrow */
 } fg__corner;
 
@@ -34,7 +34,7 @@ typedef struct fg__faces {
   size_t corner_count, corner_capacity, face_count, face_capacity;
 } fg__faces;
 
-/* A triangle that hides the light overhead, on the stage. */
+/* A triangle that hides the light overhead, in the view box. */
 typedef struct fg__caster {
   double at[3][3];
   bool clipped;
@@ -42,7 +42,7 @@ typedef struct fg__caster {
 
 typedef struct fg__geometry {
   fg__faces solid;    /* arrows and halos, without triangles that are never seen */
-  fg__faces veil;     /* transparent surfaces */
+  fg__faces layer;    /* transparent surfaces */
   fg__caster *caster; /* without triangles that face down */
   size_t caster_count, caster_capacity;
 } fg__geometry;

@@ -19,8 +19,8 @@ static const double edge_tone = 0.66, shadow_depth = 0.27;
 
 /* Of the clusters' surfaces: what they hide where they face the viewer, and at the rim.
  */
-static const double skin_alpha = 0.10, skin_rim = 0.62;
-static const double skin_color[3] = {0.62, 0.74, 0.88};
+static const double isosurface_alpha = 0.10, isosurface_rim = 0.62;
+static const double isosurface_color[3] = {0.62, 0.74, 0.88};
 
 /* Likewise of the domain's or the moving volume's outline; at the rim only what is seen
  * from very near its side counts. */
@@ -121,13 +121,15 @@ fg__light fg__light_edge(const fg__tones *tones, double depth)
   return (fg__light){tone, tone, tone, 1.0};
 }
 
-fg__light fg__light_skin(const fg__lit *lit)
+fg__light fg__light_isosurface(const fg__lit *lit)
 {
   double facing = fabs(fg__dot(lit->normal, lit->to_viewer)), side = 1.0 - facing;
-  double alpha = skin_alpha + (skin_rim - skin_alpha) * side * side * side;
+  double alpha =
+      isosurface_alpha + (isosurface_rim - isosurface_alpha) * side * side * side;
   double light = 0.72 + 0.28 * fg__dot(lit->normal, lit->lamp);
-  return (fg__light){alpha * skin_color[0] * light, alpha * skin_color[1] * light,
-                     alpha * skin_color[2] * light, alpha};
+  return (fg__light){alpha * isosurface_color[0] * light,
+                     alpha * isosurface_color[1] * light,
+                     alpha * isosurface_color[2] * light, alpha};
 }
 
 fg__light fg__light_silhouette(const fg__tones *tones, const fg__lit *lit, bool cut)

@@ -50,7 +50,7 @@ fg__light fg__light_edge(const fg__tones *tones, double depth);
 
 /* Light that a transparent surface sends itself; alpha: what it hides of what is behind,
  * more where it is seen from the side. */
-fg__light fg__light_skin(const fg__lit *lit);
+fg__light fg__light_isosurface(const fg__lit *lit);
 
 /* The same of a surface that is to be seen as an outline alone, almost; cut: at its end.
  */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "base/team.h"
+#include "base/threads.h"
 #include "picture/render/shade.h"
 
 /* A pixel at an edge is drawn finely when a level of a neighbour, of 255, differs by
@@ -218,36 +218,36 @@ static bool draw_shadows(job *j, workspace *w, int band)
 }
 
 /* Gives bands out until there are none or the work is stopped; `draw` makes one. */
-static void share_bands(job *j, const fg__share *share, int bands,
+static void share_bands(job *j, const fg__thread *thread, int bands,
                         bool (*draw)(job *j, workspace *w, int band))
 {
   for (;;) {
     int band = atomic_fetch_add(&j->next_band, 1);
     if (band >= bands || atomic_load(&j->stopped) || atomic_load(&j->failed))
       return;
-    if (!draw(j, &j->workspace[share->member], band))
+    if (!draw(j, &j->workspace[thread->index], band))
       atomic_store(&j->failed, true);
-    if (share->member == 0 && fg__check_stop(j->context))
+    if (thread->index == 0 && fg__check_stop(j->context))
       atomic_store(&j->stopped, true);
   }
 }
 
-static void work_on_shadows(void *argument, const fg__share *share)
+static void work_on_shadows(void *argument, const fg__thread *thread)
 {
   job *j = argument;
-  share_bands(j, share, j->shadow.bands.count, draw_shadows);
+  share_bands(j, thread, j->shadow.bands.count, draw_shadows);
 }
 
-static void work_coarsely(void *argument, const fg__share *share)
+static void work_coarsely(void *argument, const fg__thread *thread)
 {
   job *j = argument;
-  share_bands(j, share, j->view.solid.count, draw_coarsely);
+  share_bands(j, thread, j->view.solid.count, draw_coarsely);
 }
 
-static void work_finely(void *argument, const fg__share *share)
+static void work_finely(void *argument, const fg__thread *thread)
 {
   job *j = argument;
-  share_bands(j, share, j->view.solid.count, draw_band);
+  share_bands(j, thread, j->view.solid.count, draw_band);
 }
 
 static fg_status make_workspaces(job *j, int members)
@@ -287,10 +287,10 @@ static void free_workspaces(job *j, int members)
 }
 
 /* Runs one of the steps on all threads. */
-static fg_status run(job *j, fg__team *team, fg__team_work *work)
+static fg_status run(job *j, fg__threads *threads, fg__threads_work *work)
 {
   atomic_store(&j->next_band, 0);
-  fg__team_run(team, work, j);
+  fg__threads_run(threads, work, j);
   if (atomic_load(&j->failed))
     return fg__fail_memory(j->context, "a picture", (size_t)j->about->width);
   return fg__check_stop(j->context);
@@ -307,13 +307,13 @@ static fg_status prepare(job *j)
   return status;
 }
 
-static fg_status draw_all(job *j, fg__team *team)
+static fg_status draw_all(job *j, fg__threads *threads)
 {
-  fg_status status = run(j, team, work_on_shadows);
+  fg_status status = run(j, threads, work_on_shadows);
   if (!status)
-    status = run(j, team, work_coarsely);
+    status = run(j, threads, work_coarsely);
   if (!status)
-    status = run(j, team, work_finely);
+    status = run(j, threads, work_finely);
   return status;
 }
 
@@ -321,19 +321,19 @@ fg_status fg__render(fg_context *context, const fg__rendering *rendering, uint32
                      int stride)
 {
   job *j = fg__allocate(1, sizeof *j);
-  fg__team *team = NULL;
+  fg__threads *threads = NULL;
   if (!j)
     return fg__fail_memory(context, "a picture", sizeof *j);
   *j = (job){.about = rendering, .context = context, .image = image, .stride = stride};
   fg_status status = prepare(j);
   if (!status)
-    status = fg__team_create(&team, context, rendering->threads);
+    status = fg__threads_create(&threads, context, rendering->threads);
   if (!status)
-    status = make_workspaces(j, fg__team_members(team));
+    status = make_workspaces(j, fg__threads_count(threads));
   if (!status)
-    status = draw_all(j, team);
-  free_workspaces(j, fg__team_members(team));
-  fg__team_destroy(team);
+    status = draw_all(j, threads);
+  free_workspaces(j, fg__threads_count(threads));
+  fg__threads_destroy(threads);
   fg__shadow_clear(&j->shadow);
   fg__view_clear(&j->view);
   fg__geometry_clear(&j->geometry);

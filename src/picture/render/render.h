@@ -6,12 +6,12 @@
 
 #include <stdint.h>
 
+#include "picture/camera.h"
 #include "picture/palette.h"
-#include "picture/stage.h"
 
 typedef struct fg__rendering {
   int width, height; /* pixels */
-  fg__stage stage;
+  fg__view_box view_box;
   fg__camera camera;
   const fg_icons *icons;
   const fg_field *field; /* where an arrow's colour follows the speed; NULL: each has the

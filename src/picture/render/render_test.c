@@ -35,7 +35,7 @@ static fg_icons *make_icons(double turned, bool beyond)
   return icons;
 }
 
-static void set_stage(fg__stage *stage, double period)
+static void set_view_box(fg__view_box *view_box, double period)
 {
   static const float one[8] = {1, 1, 1, 1, 1, 1, 1, 1};
   static const double axis[3][2] = {{10.0, 14.0}, {-5.0, -1.0}, {5.0, 7.0}};
@@ -44,7 +44,7 @@ static void set_stage(fg__stage *stage, double period)
                            .axis = {axis[0], axis[1], axis[2]},
                            .period = {period, 0.0, 0.0},
                            .velocity = {one, one, one}};
-  fg__stage_of(stage, &field);
+  fg__view_box_of(view_box, &field);
 }
 
 static fg__rendering rendering_of(const fg_icons *icons, const fg__palette *palette,
@@ -58,8 +58,8 @@ static fg__rendering rendering_of(const fg_icons *icons, const fg__palette *pale
                        .transparent = true,
                        .threads = 1};
   const fg__pane pane = {10.0, 5.0, 140.0, 115.0};
-  set_stage(&out.stage, 0.0);
-  fg__camera_look(&out.camera, &out.stage, azimuth, elevation, &pane);
+  set_view_box(&out.view_box, 0.0);
+  fg__camera_look(&out.camera, &out.view_box, azimuth, elevation, &pane);
   return out;
 }
 
@@ -71,9 +71,9 @@ static int channel(uint32_t pixel, int shift)
 /* The pixel of a point in input coordinates. */
 static uint32_t pixel_at(const fg__rendering *r, double x, double y, double z)
 {
-  const double place[3] = {fg__stage_place(&r->stage, 0, x),
-                           fg__stage_place(&r->stage, 1, y),
-                           fg__stage_place(&r->stage, 2, z)};
+  const double place[3] = {fg__view_box_place(&r->view_box, 0, x),
+                           fg__view_box_place(&r->view_box, 1, y),
+                           fg__view_box_place(&r->view_box, 2, z)};
   double at[2];
   fg__camera_project(&r->camera, place, at);
   assert_true(at[0] >= 0 && at[0] < WIDTH && at[1] >= 0 && at[1] < HEIGHT);
@@ -161,10 +161,10 @@ static void halos_part_arrows(void **state)
       r.transparent = !page;
       assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
       uint32_t paper = page ? 0xffffffffU : 0;
-      double front = 0.1 * r.camera.factor * r.stage.scale /
-                     (fg__length(r.camera.eye) - 1.3 * r.stage.scale);
+      double front = 0.1 * r.camera.factor * r.view_box.scale /
+                     (fg__length(r.camera.eye) - 1.3 * r.view_box.scale);
       double at[2];
-      const double middle[3] = {0.0, -1.3 * r.stage.scale, 0.0};
+      const double middle[3] = {0.0, -1.3 * r.view_box.scale, 0.0};
       fg__camera_project(&r.camera, middle, at);
       int x = (int)at[0], y = (int)at[1];
       int beside = (int)floor(at[0] + front + 2.0);
@@ -206,7 +206,7 @@ static void outlines_are_darkest_at_the_rim(void **state)
   for (x = (int)at[0]; image[y][x] != 0; ++x)
     rim = channel(image[y][x], 24) > rim ? channel(image[y][x], 24) : rim;
   double radius = (x - at[0]) / (r.camera.factor / fg__length(r.camera.eye));
-  assert_true(fabs(radius - 0.5 * r.stage.scale) < 0.02);
+  assert_true(fabs(radius - 0.5 * r.view_box.scale) < 0.02);
   assert_true(front > 5 && front < 60 && rim > 2 * front);
   fg_surface_destroy(body);
   fg_icons_destroy(none);
@@ -249,7 +249,7 @@ static void arrows_go_round_periods(void **state)
   fg__palette red;
   assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
   fg__rendering r = rendering_of(icons, &red, 10.0, 15.0);
-  set_stage(&r.stage, 4.0);
+  set_view_box(&r.view_box, 4.0);
   assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
   assert_true(channel(pixel_at(&r, 13.8, -3.86, 5.6), 24) > 100);
   assert_int_equal(pixel_at(&r, 14.15, -3.72, 6.8), 0);

@@ -5,7 +5,7 @@
 #include "base/vector.h"
 
 /* Transparent surfaces before an arrow hide it less than what is behind it. */
-static const double veil_before_arrow = 0.45;
+static const double layer_before_arrow = 0.45;
 
 /* A surface that lies along a side of the box, by its normal, is not cut by it. */
 static const double upright = 0.8;
@@ -31,7 +31,7 @@ static bool cross_box(const fg__rendering *about, const double direction[3],
 {
   *out = (stay){.leave = HUGE_VAL};
   for (int k = 0; k < 3; ++k) {
-    double half = about->stage.half[k] + margin, eye = about->camera.eye[k];
+    double half = about->view_box.half[k] + margin, eye = about->camera.eye[k];
     if (!(fabs(direction[k]) > 0.0)) {
       if (fabs(eye) > half)
         return false;
@@ -57,7 +57,7 @@ static bool on_edge(const fg__rendering *about, int axis, const double place[3],
 {
   double width = 2.0 * half_line * distance / about->camera.factor;
   for (int k = 0; k < 3; ++k)
-    if (k != axis && fabs(place[k]) > about->stage.half[k] - width)
+    if (k != axis && fabs(place[k]) > about->view_box.half[k] - width)
       return true;
   return false;
 }
@@ -124,14 +124,14 @@ static fg__light light_layer(const fg__shading *s, const fg__layer *layer,
     normal[k] = (double)layer->normal[k];
   const fg__lit lit = lit_of(s, normal, direction, distance);
   if (!layer->silhouette)
-    return fg__light_skin(&lit);
+    return fg__light_isosurface(&lit);
   const fg__rendering *about = s->about;
   double width = 2.0 * half_line * distance / about->camera.factor;
   fg__along(about->camera.eye, distance, direction, place);
   bool cut = false;
   for (int k = 0; k < 3; ++k)
-    cut = cut || (!(about->stage.period[k] > 0.0) && fabs(normal[k]) < upright &&
-                  fabs(place[k]) > about->stage.half[k] - width);
+    cut = cut || (!(about->view_box.period[k] > 0.0) && fabs(normal[k]) < upright &&
+                  fabs(place[k]) > about->view_box.half[k] - width);
   return fg__light_silhouette(&s->tones, &lit, cut);
 }
 
@@ -140,17 +140,17 @@ static fg__haze find_haze(const fg__shading *s, const fg__shade_at *p)
 {
   bool solid = p->nearest->face >= 0;
   fg__haze out = {.left = 1.0};
-  double strength = solid ? veil_before_arrow : 1.0, end = HUGE_VAL;
+  double strength = solid ? layer_before_arrow : 1.0, end = HUGE_VAL;
   if (solid)
     end = (double)p->nearest->depth / fg__dot(p->direction, s->about->camera.forward);
   for (int n = 0; n < p->layers && (double)p->layer[n].distance < end; ++n) {
-    fg__light skin = light_layer(s, &p->layer[n], p->direction);
+    fg__light isosurface = light_layer(s, &p->layer[n], p->direction);
     double share = out.left * strength;
-    out.light.red += share * skin.red;
-    out.light.green += share * skin.green;
-    out.light.blue += share * skin.blue;
-    out.light.alpha += share * skin.alpha;
-    out.left *= 1.0 - strength * skin.alpha;
+    out.light.red += share * isosurface.red;
+    out.light.green += share * isosurface.green;
+    out.light.blue += share * isosurface.blue;
+    out.light.alpha += share * isosurface.alpha;
+    out.left *= 1.0 - strength * isosurface.alpha;
   }
   return out;
 }
@@ -184,7 +184,7 @@ static void find_depths(fg__shading *s)
   for (int c = 0; c < 8; ++c) {
     double corner[3], at[2];
     for (int k = 0; k < 3; ++k)
-      corner[k] = c >> k & 1 ? s->about->stage.half[k] : -s->about->stage.half[k];
+      corner[k] = c >> k & 1 ? s->about->view_box.half[k] : -s->about->view_box.half[k];
     fg__camera_project(&s->about->camera, corner, at);
     for (int k = 0; k < 2; ++k) {
       s->low[k] = c > 0 ? fg__least(s->low[k], at[k]) : at[k];

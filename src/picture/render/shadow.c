@@ -149,7 +149,7 @@ static fg_status sort_casters(fg__shadow *s, fg_context *context, size_t count)
 fg_status fg__shadow_make(fg__shadow *out, fg_context *context,
                           const fg__rendering *about, const fg__geometry *geometry)
 {
-  const double *half = about->stage.half;
+  const double *half = about->view_box.half;
   double pixel = fg__length(about->camera.eye) / about->camera.factor;
   *out = (fg__shadow){.caster = geometry->caster, .bound = half, .height = -half[2]};
   if (geometry->caster_count == 0)

@@ -15,8 +15,8 @@ typedef struct fg__lamp {
 
 /* A raster over the floor: from how many places of the disc no light comes there. */
 typedef struct fg__shadow {
-  double low[2], height; /* of the floor, on the stage */
-  double texel;          /* side of a texel, on the stage */
+  double low[2], height; /* of the floor, in the view box */
+  double texel;          /* side of a texel, in the view box */
   int size[2];
   uint8_t *hidden; /* [size[1]][size[0]]; NULL: from none */
   fg__lamp lamp[FG__LAMPS];

@@ -10,8 +10,8 @@
 static fg__rendering make_box(void)
 {
   fg__rendering out = {.width = 400, .height = 400};
-  out.stage.half[0] = out.stage.half[1] = 0.5;
-  out.stage.half[2] = 0.4;
+  out.view_box.half[0] = out.view_box.half[1] = 0.5;
+  out.view_box.half[2] = 0.4;
   out.camera.eye[1] = -5.0;
   out.camera.factor = 2500.0;
   return out;

@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "picture/caption.h"
-#include "picture/page/sheet.h"
+#include "picture/page/surface.h"
 #include "picture/page/text.h"
 #include "picture/render/box_axes.h"
 #include "picture/render/render.h"
@@ -96,7 +96,7 @@ static void box_rows(const fg__rendering *r, double *highest, double *lowest)
   for (int c = 0; c < 8; ++c) {
     double corner[3], at[2];
     for (int k = 0; k < 3; ++k)
-      corner[k] = c >> k & 1 ? r->stage.half[k] : -r->stage.half[k];
+      corner[k] = c >> k & 1 ? r->view_box.half[k] : -r->view_box.half[k];
     fg__camera_project(&r->camera, corner, at);
     low = fmin(low, at[1]);
     high = fmax(high, at[1]);
@@ -111,7 +111,7 @@ static void trim(solid_picture *p, cairo_t *ruler)
   fg__rendering *r = &p->rendering;
   double highest, lowest, least = flattest * r->width;
   box_rows(r, &highest, &lowest);
-  lowest = fmax(lowest, fg__box_axes_place(&p->axes, &r->stage, &r->camera, ruler));
+  lowest = fmax(lowest, fg__box_axes_place(&p->axes, &r->view_box, &r->camera, ruler));
   r->height = (int)fmin(r->height, fmax(ceil(lowest + edge * p->em), least));
 }
 
@@ -121,18 +121,18 @@ static void lay_out(solid_picture *p, const fg_field_arrays *field,
   fg__rendering *r = &p->rendering;
   fg__pane pane = box_pane(p);
   double azimuth = p->azimuth, elevation = p->elevation;
-  fg__stage_of(&r->stage, field);
-  fg__camera_look(&r->camera, &r->stage, azimuth, elevation, &pane);
+  fg__view_box_of(&r->view_box, field);
+  fg__camera_look(&r->camera, &r->view_box, azimuth, elevation, &pane);
   if (options->height == 0) { /* no more of it than a flat box needs */
     double highest, lowest;
     box_rows(r, &highest, &lowest);
     double unused = pane.y1 - pane.y0 - (lowest - highest);
     r->height -= (int)fmin(unused, (1.0 - flattest) * r->width);
     pane = box_pane(p);
-    fg__camera_look(&r->camera, &r->stage, azimuth, elevation, &pane);
+    fg__camera_look(&r->camera, &r->view_box, azimuth, elevation, &pane);
   }
   cairo_t *ruler = fg__text_ruler();
-  fg__box_axes_of(&p->axes, field, &r->stage, &r->camera, p->em, ruler);
+  fg__box_axes_of(&p->axes, field, &r->view_box, &r->camera, p->em, ruler);
   if (options->height == 0 && p->framed)
     trim(p, ruler);
   cairo_destroy(ruler);
@@ -224,8 +224,8 @@ static void draw_words(cairo_t *cairo, solid_picture *p)
   const fg__rendering *r = &p->rendering;
   double em = p->em, y = 0.4 * em, width = r->width - 2.0 * edge * em;
   draw_key(cairo, p);
-  fg__box_axes_place(&p->axes, &r->stage, &r->camera, cairo);
-  fg__box_axes_draw(cairo, &p->axes, &r->stage, &r->camera);
+  fg__box_axes_place(&p->axes, &r->view_box, &r->camera, cairo);
+  fg__box_axes_draw(cairo, &p->axes, &r->view_box, &r->camera);
   cairo_set_source_rgb(cairo, 0.1, 0.1, 0.1);
   draw_line_of_text(cairo, p->title, em, width, true, &y);
   cairo_set_source_rgb(cairo, 0.4, 0.4, 0.4);
@@ -251,18 +251,19 @@ static fg_status draw(fg_context *context, const char *path, solid_picture *p)
 {
   const fg__rendering *r = &p->rendering;
   cairo_surface_t *image;
-  fg__sheet sheet;
+  fg__surface_file surface;
   fg_status status = render(&image, context, p);
   if (!status)
-    status = fg__sheet_open(&sheet, context, path, r->width / pixels_per_point,
-                            r->height / pixels_per_point, pixels_per_point, p->title);
+    status =
+        fg__surface_file_open(&surface, context, path, r->width / pixels_per_point,
+                              r->height / pixels_per_point, pixels_per_point, p->title);
   if (!status) {
-    cairo_scale(sheet.cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
-    cairo_set_source_surface(sheet.cairo, image, 0.0, 0.0);
-    cairo_paint(sheet.cairo);
+    cairo_scale(surface.cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
+    cairo_set_source_surface(surface.cairo, image, 0.0, 0.0);
+    cairo_paint(surface.cairo);
     if (p->framed)
-      draw_words(sheet.cairo, p);
-    status = fg__sheet_close(&sheet, context, FG_STATUS_OK);
+      draw_words(surface.cairo, p);
+    status = fg__surface_file_close(&surface, context, FG_STATUS_OK);
   }
   cairo_surface_destroy(image);
   return status;
@@ -273,7 +274,7 @@ fg_status fg__solid_picture_write(fg_context *context, const char *path,
                                   const fg_solid_options *options)
 {
   const fg_field_arrays *contents = fg_field_contents(field);
-  fg_status status = fg__sheet_format_check(context, path);
+  fg_status status = fg__surface_file_format_check(context, path);
   if (status)
     return status;
   if (contents->dimension != 3)

@@ -79,7 +79,8 @@ static bool is_in_box(const fg__view *view, double x, double y, double depth)
   double way[3];
   way_to(&view->about->camera, x, y, depth, way);
   for (int k = 0; k < 3; ++k)
-    if (fabs(view->about->camera.eye[k] + way[k]) > view->about->stage.half[k] * rounding)
+    if (fabs(view->about->camera.eye[k] + way[k]) >
+        view->about->view_box.half[k] * rounding)
       return false;
   return true;
 }
@@ -136,16 +137,16 @@ fg_status fg__view_make(fg__view *out, fg_context *context, const fg__rendering 
   fg_status status =
       sort_faces(&out->solid, &out->solid_extent, context, out, &geometry->solid);
   if (!status)
-    status = sort_faces(&out->veil, &out->veil_extent, context, out, &geometry->veil);
+    status = sort_faces(&out->layer, &out->layer_extent, context, out, &geometry->layer);
   return status;
 }
 
 void fg__view_clear(fg__view *view)
 {
   free(view->solid_extent);
-  free(view->veil_extent);
+  free(view->layer_extent);
   fg__bands_clear(&view->solid);
-  fg__bands_clear(&view->veil);
+  fg__bands_clear(&view->layer);
   *view = (fg__view){.about = NULL};
 }
 
@@ -158,11 +159,11 @@ typedef struct piece {
 
 /* chosen: numbers of pixels, or NULL. False when nothing of a triangle is seen in a band,
  * or not in the chosen pixels. */
-static bool find_piece(const fg__view *view, bool veil, int number, int band,
+static bool find_piece(const fg__view *view, bool layer, int number, int band,
                        const int *chosen, piece *out)
 {
-  const fg__faces *faces = veil ? &view->geometry->veil : &view->geometry->solid;
-  const fg__face_extent *at = &(veil ? view->veil_extent : view->solid_extent)[number];
+  const fg__faces *faces = layer ? &view->geometry->layer : &view->geometry->solid;
+  const fg__face_extent *at = &(layer ? view->layer_extent : view->solid_extent)[number];
   bool wanted = !chosen;
   out->number = number;
   out->rows = rows_in_band(at->rows, band);
@@ -279,7 +280,7 @@ static double distance_of(const fg__camera *camera, double x, double y, double d
 static bool add_layer(const fg__view *view, const piece *p, double x, double y, int point,
                       fg__layers *out)
 {
-  const fg__faces *faces = &view->geometry->veil;
+  const fg__faces *faces = &view->geometry->layer;
   const fg__corner *corner[3];
   double weight[3], normal[3];
   if (!weigh(&p->edges, x, y, weight))
@@ -357,9 +358,9 @@ bool fg__view_layers(const fg__view *view, int band, fg__layers *out)
   int width = view->about->width, top = band * FG__BAND;
   bool good = true;
   out->count = 0;
-  for (size_t m = view->veil.first[band]; m < view->veil.first[band + 1]; ++m) {
+  for (size_t m = view->layer.first[band]; m < view->layer.first[band + 1]; ++m) {
     piece p;
-    if (!find_piece(view, true, view->veil.member[m], band, NULL, &p))
+    if (!find_piece(view, true, view->layer.member[m], band, NULL, &p))
       continue;
     for (int y = p.rows.first; y <= p.rows.last; ++y)
       for (int x = p.columns.first; x <= p.columns.last && good; ++x)
@@ -374,9 +375,9 @@ bool fg__view_sample_layers(const fg__view *view, int band, const int *chosen, i
   int width = view->about->width, top = band * FG__BAND;
   bool good = true;
   out->count = 0;
-  for (size_t m = view->veil.first[band]; m < view->veil.first[band + 1]; ++m) {
+  for (size_t m = view->layer.first[band]; m < view->layer.first[band + 1]; ++m) {
     piece p;
-    if (!find_piece(view, true, view->veil.member[m], band, chosen, &p))
+    if (!find_piece(view, true, view->layer.member[m], band, chosen, &p))
       continue;
     for (int y = p.rows.first; y <= p.rows.last; ++y)
       for (int x = p.columns.first; x <= p.columns.last; ++x) {

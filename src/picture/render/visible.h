@@ -46,8 +46,8 @@ typedef struct fg__face_extent {
 typedef struct fg__view {
   const fg__rendering *about;
   const fg__geometry *geometry;
-  fg__face_extent *solid_extent, *veil_extent;
-  fg__bands solid, veil;
+  fg__face_extent *solid_extent, *layer_extent;
+  fg__bands solid, layer;
 } fg__view;
 
 /* Sorts the triangles into bands. `out` is to be cleared also after a failure. MEMORY. */

@@ -10,8 +10,8 @@
 /* Slower than this share of the greatest speed a cell has no direction to be read. */
 static const double STILL = 1e-3;
 
-/* A part of the domain smaller than this many lambda squared (cubed) gets no icon, and
- * does not count, unless it is the largest. */
+/* A subdomain smaller than this many lambda squared (cubed) gets no icon, and does not
+ * count, unless it is the largest. */
 static const double SMALLEST_PART_2D = 0.25;
 static const double SMALLEST_PART_3D = 1.0;
 
@@ -26,20 +26,21 @@ void fg__place_raster_center(double center[3], const fg__place_raster *raster,
             : 0.0;
 }
 
-static double smallest_part(const fg__place_domain *domain, const fg__place_scale *scale)
+static double smallest_subdomain(const fg__place_domain *domain,
+                                 const fg__place_scale *scale)
 {
   double largest = 0.0,
          share = pow(scale->lambda, domain->dimension) *
                  (domain->dimension == 2 ? SMALLEST_PART_2D : SMALLEST_PART_3D);
-  for (int n = 0; n < domain->part_count; ++n)
-    largest = fmax(largest, domain->parts[n].measure);
+  for (int n = 0; n < domain->subdomain_count; ++n)
+    largest = fmax(largest, domain->subdomains[n].measure);
   return fmin(share, largest);
 }
 
 static void fill_raster(fg__place_raster *raster, const fg__place_domain *domain,
                         const fg__place_scale *scale)
 {
-  double sum = 0.0, part_share = smallest_part(domain, scale);
+  double sum = 0.0, subdomain_fraction = smallest_subdomain(domain, scale);
   size_t cell = 0;
   for (int z = 0; z < raster->cells[2]; ++z)
     for (int y = 0; y < raster->cells[1]; ++y)
@@ -47,13 +48,13 @@ static void fill_raster(fg__place_raster *raster, const fg__place_domain *domain
         double center[3], direction[3];
         fg__place_raster_center(center, raster, domain, scale, (const int[3]){x, y, z});
         double speed = fg__place_speed(domain, center);
-        const fg__place_part *part = fg__place_part_at(domain, center);
-        if (!(speed > STILL * domain->greatest) || !part ||
+        const fg__place_subdomain *subdomain = fg__place_subdomain_at(domain, center);
+        if (!(speed > STILL * domain->greatest) || !subdomain ||
             !fg__place_direction(domain, center, direction))
           continue;
         for (int k = 0; k < raster->dimension; ++k)
           raster->direction[k][cell] = (float)direction[k];
-        if (part->measure < part_share)
+        if (subdomain->measure < subdomain_fraction)
           continue;
         double weight = fg__place_weight(domain, speed);
         raster->weight[cell] = (float)weight;
@@ -108,42 +109,45 @@ bool fg__place_boxes_meet(const fg__place_box *a, const fg__place_box *b)
   return true;
 }
 
-void fg__place_tale_clear(fg__place_tale *tale)
+void fg__place_contribution_clear(fg__place_contribution *contribution)
 {
-  free(tale->value);
-  *tale = (fg__place_tale){0};
+  free(contribution->value);
+  *contribution = (fg__place_contribution){0};
 }
 
-static fg_status make_room(fg__place_tale *tale, fg_context *context, int dimension,
-                           const fg__place_box *box)
+static fg_status make_room(fg__place_contribution *contribution, fg_context *context,
+                           int dimension, const fg__place_box *box)
 {
   size_t count = fg__place_box_count(box);
-  tale->box = *box;
-  tale->dimension = dimension;
-  if (count <= tale->capacity)
+  contribution->box = *box;
+  contribution->dimension = dimension;
+  if (count <= contribution->capacity)
     return FG_STATUS_OK;
-  free(tale->value);
-  tale->capacity = count + count / 4 + 16;
-  tale->value = fg__allocate_aligned(tale->capacity * FG__PLACE_ARRAYS((size_t)dimension),
-                                     sizeof(float));
-  if (tale->value)
+  free(contribution->value);
+  contribution->capacity = count + count / 4 + 16;
+  contribution->value = fg__allocate_aligned(
+      contribution->capacity * FG__PLACE_ARRAYS((size_t)dimension), sizeof(float));
+  if (contribution->value)
     return FG_STATUS_OK;
-  size_t bytes = tale->capacity * FG__PLACE_ARRAYS((size_t)dimension) * sizeof(float);
-  tale->capacity = 0;
+  size_t bytes =
+      contribution->capacity * FG__PLACE_ARRAYS((size_t)dimension) * sizeof(float);
+  contribution->capacity = 0;
   return fg__fail_memory(context, "what icons tell", bytes);
 }
 
-fg_status fg__place_tale_start(fg__place_tale *tale, fg_context *context, int dimension,
-                               const fg__place_box *box, float reach)
+fg_status fg__place_contribution_start(fg__place_contribution *contribution,
+                                       fg_context *context, int dimension,
+                                       const fg__place_box *box, float reach)
 {
-  fg_status status = make_room(tale, context, dimension, box);
+  fg_status status = make_room(contribution, context, dimension, box);
   if (status != FG_STATUS_OK)
     return status;
   size_t count = fg__place_box_count(box);
   for (size_t n = 0; n < count; ++n)
-    tale->value[n] = reach * reach;
+    contribution->value[n] = reach * reach;
   for (int array = 1; array < FG__PLACE_ARRAYS(dimension); ++array)
-    memset(tale->value + (size_t)array * tale->capacity, 0, count * sizeof(float));
+    memset(contribution->value + (size_t)array * contribution->capacity, 0,
+           count * sizeof(float));
   return FG_STATUS_OK;
 }
 
@@ -194,13 +198,14 @@ static size_t row_place(const fg__place_box *box, int y, int z)
   return ((size_t)z * (size_t)box->size[1] + (size_t)y) * (size_t)box->size[0];
 }
 
-fg_status fg__place_tell(fg__place_tale *out, fg_context *context,
+fg_status fg__place_tell(fg__place_contribution *out, fg_context *context,
                          const fg__place_raster *raster, const fg__place_scale *scale,
                          const fg__place_line *line)
 {
   float reach = (float)(scale->reach / scale->lambda);
   fg__place_box box = fg__place_box_of(raster, scale, line);
-  fg_status status = fg__place_tale_start(out, context, raster->dimension, &box, reach);
+  fg_status status =
+      fg__place_contribution_start(out, context, raster->dimension, &box, reach);
   if (status != FG_STATUS_OK)
     return status;
   fg__place_row_place place = {.x = (float)box.low[0] * raster->cell,
@@ -237,7 +242,8 @@ static size_t place_in(const fg__place_box *box, int x, int y, int z)
   return row_place(box, y - box->low[1], z - box->low[2]) + (size_t)(x - box->low[0]);
 }
 
-void fg__place_tale_add(fg__place_tale *to, const fg__place_tale *from)
+void fg__place_contribution_add(fg__place_contribution *to,
+                                const fg__place_contribution *from)
 {
   fg__place_box both;
   if (!common_box(&both, &to->box, &from->box))
@@ -250,19 +256,19 @@ void fg__place_tale_add(fg__place_tale *to, const fg__place_tale *from)
                         from->capacity, both.size[0]);
 }
 
-/* A row of a tale, or NULL where the tale has none there. */
-static const float *row_of(const fg__place_tale *tale, int y, int z)
+/* A row of a contribution, or NULL where the contribution has none there. */
+static const float *row_of(const fg__place_contribution *contribution, int y, int z)
 {
-  const fg__place_box *box = &tale->box;
+  const fg__place_box *box = &contribution->box;
   if (y < box->low[1] || y >= box->low[1] + box->size[1] || z < box->low[2] ||
       z >= box->low[2] + box->size[2] || box->size[0] == 0)
     return NULL;
-  return tale->value + place_in(box, box->low[0], y, z);
+  return contribution->value + place_in(box, box->low[0], y, z);
 }
 
 double fg__place_cost(float *cost, const fg__place_raster *raster,
-                      const fg__place_box *box, const fg__place_tale *one,
-                      const fg__place_tale *other, const fg__place_price *price)
+                      const fg__place_box *box, const fg__place_contribution *one,
+                      const fg__place_contribution *other, const fg__place_price *price)
 {
   double sum = 0.0;
   for (int z = box->low[2]; z < box->low[2] + box->size[2]; ++z)
@@ -278,12 +284,12 @@ double fg__place_cost(float *cost, const fg__place_raster *raster,
         row.direction[2] = raster->direction[2] + cell;
       const float *a = one ? row_of(one, y, z) : NULL;
       const float *b = other ? row_of(other, y, z) : NULL;
-      fg__place_part_row parts[2] = {{0}, {0}};
+      fg__place_told_row parts[2] = {{0}, {0}};
       if (a)
-        parts[0] = (fg__place_part_row){a, one->capacity, one->box.low[0] - box->low[0],
+        parts[0] = (fg__place_told_row){a, one->capacity, one->box.low[0] - box->low[0],
                                         one->box.size[0]};
       if (b)
-        parts[1] = (fg__place_part_row){
+        parts[1] = (fg__place_told_row){
             b, other->capacity, other->box.low[0] - box->low[0], other->box.size[0]};
       float *kept = cost ? cost + place_in(box, box->low[0], y, z) : NULL;
       sum += fg__place_cost_row(raster->dimension, kept, box->size[0], &row, parts);

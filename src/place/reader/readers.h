@@ -1,6 +1,6 @@
-/* What readers make of icons: the field they take back from the lines around a point, and
- * its error. Two readers follow the nearest line, and the lines by inverse distance; a
- * third one is in diffusion.h (docs/method/placement.md). */
+/* Readers of icons: the field that they reconstruct from the lines round a point, and its
+ * error. Two readers follow the nearest line, and the lines by inverse distance; a third
+ * one is in diffusion.h (docs/method/placement.md). */
 #ifndef FG__PLACE_READERS_H
 #define FG__PLACE_READERS_H
 
@@ -39,20 +39,20 @@ static inline size_t fg__place_box_count(const fg__place_box *box)
 
 bool fg__place_boxes_meet(const fg__place_box *a, const fg__place_box *b);
 
-/* What some icons tell the cells of a box. */
+/* The contribution of some icons to the readers in a box of cells. */
 enum { FG__PLACE_NEAR = 1 };
 #define FG__PLACE_ARRAYS(dimension) (FG__PLACE_NEAR + 2 * (dimension))
 
-typedef struct fg__place_tale {
+typedef struct fg__place_contribution {
   fg__place_box box;
   int dimension;
   size_t capacity; /* cells */
   float *value;    /* FG__PLACE_ARRAYS arrays of `capacity`: square of the distance to the
                       nearest sample; from NEAR on its tangent, then the sum over icons of
                       the nearest tangent by inverse distance */
-} fg__place_tale;
+} fg__place_contribution;
 
-void fg__place_tale_clear(fg__place_tale *tale);
+void fg__place_contribution_clear(fg__place_contribution *contribution);
 
 /* Samples of lines, in lambda. */
 typedef struct fg__place_points {
@@ -74,9 +74,10 @@ void fg__place_points_add(fg__place_points *points, const fg__place_line *line);
 void fg__place_points_nearest(float square[FG__PLACE_SAMPLES],
                               const fg__place_points *points, const fg__place_line *line);
 
-/* Makes a tale of a box that nobody tells anything. MEMORY. */
-fg_status fg__place_tale_start(fg__place_tale *tale, fg_context *context, int dimension,
-                               const fg__place_box *box, float reach);
+/* Makes the contribution of no icons to a box. MEMORY. */
+fg_status fg__place_contribution_start(fg__place_contribution *contribution,
+                                       fg_context *context, int dimension,
+                                       const fg__place_box *box, float reach);
 
 /* The cells within a distance, in lambda, of a line's own box; empty for no line. */
 fg__place_box fg__place_box_around(const fg__place_raster *raster,
@@ -90,12 +91,13 @@ fg__place_box fg__place_box_of(const fg__place_raster *raster,
 void fg__place_box_widen(fg__place_box *box, const fg__place_box *by);
 
 /* Tells what a line tells, over its box. MEMORY. */
-fg_status fg__place_tell(fg__place_tale *out, fg_context *context,
+fg_status fg__place_tell(fg__place_contribution *out, fg_context *context,
                          const fg__place_raster *raster, const fg__place_scale *scale,
                          const fg__place_line *line);
 
-/* Adds one tale to another, where both have cells. */
-void fg__place_tale_add(fg__place_tale *to, const fg__place_tale *from);
+/* Adds one contribution to another, where both have cells. */
+void fg__place_contribution_add(fg__place_contribution *to,
+                                const fg__place_contribution *from);
 
 /* Weighs the readers' errors. */
 typedef struct fg__place_price {
@@ -104,10 +106,10 @@ typedef struct fg__place_price {
   float reach;         /* R in lambda */
 } fg__place_price;
 
-/* The price of each cell of `box`, told by both tales (either may be NULL, or end within
- * the box), summed up; kept in `cost` unless NULL. */
+/* The price of each cell of `box`, told by both contributions (either may be NULL, or end
+ * within the box), summed up; kept in `cost` unless NULL. */
 double fg__place_cost(float *cost, const fg__place_raster *raster,
-                      const fg__place_box *box, const fg__place_tale *one,
-                      const fg__place_tale *other, const fg__place_price *price);
+                      const fg__place_box *box, const fg__place_contribution *one,
+                      const fg__place_contribution *other, const fg__place_price *price);
 
 #endif

@@ -11,7 +11,7 @@ typedef struct setting {
   fg__place_scale scale;
   fg__place_raster raster;
   fg__place_line line[MOST_LINES];
-  fg__place_tale tale[MOST_LINES];
+  fg__place_contribution contribution[MOST_LINES];
   int lines;
 } setting;
 
@@ -29,7 +29,7 @@ static setting set(fg_context *context, const sampling *box, velocity_of velocit
 static void clear(setting *s)
 {
   for (int n = 0; n < s->lines; ++n)
-    fg__place_tale_clear(&s->tale[n]);
+    fg__place_contribution_clear(&s->contribution[n]);
   fg__place_raster_clear(&s->raster);
   fg__place_domain_clear(&s->domain);
   fg_field_destroy(s->field);
@@ -42,9 +42,9 @@ static void add(setting *s, double x, double y, double z)
   fg__place_line *line = &s->line[s->lines];
   fg__place_trace(line, &s->domain, &s->scale, &seed);
   assert_true(line->count > 0);
-  assert_int_equal(
-      fg__place_tell(&s->tale[s->lines++], s->context, &s->raster, &s->scale, line),
-      FG_STATUS_OK);
+  assert_int_equal(fg__place_tell(&s->contribution[s->lines++], s->context, &s->raster,
+                                  &s->scale, line),
+                   FG_STATUS_OK);
 }
 
 static fg__place_box whole_box(const setting *s)
@@ -54,13 +54,14 @@ static fg__place_box whole_box(const setting *s)
   return box;
 }
 
-static void start(fg__place_tale *tale, const setting *s)
+static void start(fg__place_contribution *contribution, const setting *s)
 {
   fg__place_box box = whole_box(s);
-  *tale = (fg__place_tale){0};
-  assert_int_equal(fg__place_tale_start(tale, s->context, s->raster.dimension, &box,
-                                        (float)(s->scale.reach / s->scale.lambda)),
-                   FG_STATUS_OK);
+  *contribution = (fg__place_contribution){0};
+  assert_int_equal(
+      fg__place_contribution_start(contribution, s->context, s->raster.dimension, &box,
+                                   (float)(s->scale.reach / s->scale.lambda)),
+      FG_STATUS_OK);
 }
 
 /* What two readers of some lines make of a point, in lambda, by the definitions. */
@@ -118,10 +119,10 @@ static void check(setting *s)
 {
   const int dimension = s->raster.dimension;
   const float far = 3.0F, reach = (float)(s->scale.reach / s->scale.lambda);
-  fg__place_tale all;
+  fg__place_contribution all;
   start(&all, s);
   for (int l = 0; l < s->lines; ++l)
-    fg__place_tale_add(&all, &s->tale[l]);
+    fg__place_contribution_add(&all, &s->contribution[l]);
   fg__place_box box = whole_box(s);
   const fg__place_price price = {1 / 20.0F, far, reach};
   float *cost = calloc(s->raster.count, sizeof *cost);
@@ -172,7 +173,7 @@ static void check(setting *s)
   assert_close(fg__place_cost(NULL, &s->raster, &box, &all, NULL, &errors) / weights,
                angles / weights, 0.2);
   free(cost);
-  fg__place_tale_clear(&all);
+  fg__place_contribution_clear(&all);
 }
 
 static void readers_are_told_by_their_definitions(void **state)
@@ -195,18 +196,18 @@ static void readers_in_space_too(void **state)
   clear(&s);
 }
 
-static void two_tales_are_one_in_any_order(void **state)
+static void two_contributions_are_one_in_any_order(void **state)
 {
   setting s = set(*state, &PLAIN, swirl, 17);
   add(&s, 1.3, 8.1, 0);
   add(&s, 2.2, 6.9, 0);
-  fg__place_tale one, other;
+  fg__place_contribution one, other;
   start(&one, &s);
   start(&other, &s);
-  fg__place_tale_add(&one, &s.tale[0]);
-  fg__place_tale_add(&one, &s.tale[1]);
-  fg__place_tale_add(&other, &s.tale[1]);
-  fg__place_tale_add(&other, &s.tale[0]);
+  fg__place_contribution_add(&one, &s.contribution[0]);
+  fg__place_contribution_add(&one, &s.contribution[1]);
+  fg__place_contribution_add(&other, &s.contribution[1]);
+  fg__place_contribution_add(&other, &s.contribution[0]);
   for (int array = 0; array < FG__PLACE_ARRAYS(2); ++array)
     assert_memory_equal(one.value + (size_t)array * one.capacity,
                         other.value + (size_t)array * other.capacity,
@@ -214,24 +215,25 @@ static void two_tales_are_one_in_any_order(void **state)
   /* priced apart they cost what they cost together */
   const fg__place_price price = {1 / 30.0F, 5.0F,
                                  (float)(s.scale.reach / s.scale.lambda)};
-  fg__place_box box = whole_box(&s), inner = s.tale[0].box;
+  fg__place_box box = whole_box(&s), inner = s.contribution[0].box;
   double together = fg__place_cost(NULL, &s.raster, &box, &one, NULL, &price);
-  double apart = fg__place_cost(NULL, &s.raster, &box, &s.tale[0], &s.tale[1], &price);
+  double apart = fg__place_cost(NULL, &s.raster, &box, &s.contribution[0],
+                                &s.contribution[1], &price);
   assert_true(together == apart);
   double untold = fg__place_cost(NULL, &s.raster, &box, NULL, NULL, &price);
-  double alone = fg__place_cost(NULL, &s.raster, &box, &s.tale[0], NULL, &price);
+  double alone = fg__place_cost(NULL, &s.raster, &box, &s.contribution[0], NULL, &price);
   assert_true(together < alone && alone < untold);
   /* a line costs nothing outside its box */
   double fall = fg__place_cost(NULL, &s.raster, &inner, NULL, NULL, &price) -
-                fg__place_cost(NULL, &s.raster, &inner, &s.tale[0], NULL, &price);
+                fg__place_cost(NULL, &s.raster, &inner, &s.contribution[0], NULL, &price);
   assert_close(fall, untold - alone, 1e-4 * untold);
-  fg__place_tale_clear(&one);
-  fg__place_tale_clear(&other);
+  fg__place_contribution_clear(&one);
+  fg__place_contribution_clear(&other);
   clear(&s);
 }
 
 /* Of the cells that nobody tells anything. */
-static double untold_weight(const setting *s, const fg__place_tale *told)
+static double untold_weight(const setting *s, const fg__place_contribution *told)
 {
   const double reach = s->scale.reach / s->scale.lambda;
   double sum = 0.0;
@@ -246,21 +248,21 @@ static void an_exact_picture_has_no_error(void **state)
   setting s = set(*state, &PLAIN, slant, 2);
   add(&s, -3.6, 6.9, 0);
   add(&s, 2.1, 7.2, 0);
-  fg__place_tale all;
+  fg__place_contribution all;
   start(&all, &s);
-  fg__place_tale_add(&all, &s.tale[0]);
-  fg__place_tale_add(&all, &s.tale[1]);
+  fg__place_contribution_add(&all, &s.contribution[0]);
+  fg__place_contribution_add(&all, &s.contribution[1]);
   const fg__place_price errors = {1.0F, 0.0F, (float)(s.scale.reach / s.scale.lambda)};
   fg__place_box box = whole_box(&s);
   double told = fg__place_cost(NULL, &s.raster, &box, &all, NULL, &errors);
   assert_true(fabs(told - 180.0 * untold_weight(&s, &all)) < 0.1 * s.scale.count);
   /* nobody tells anything: a right angle everywhere */
-  fg__place_tale none;
+  fg__place_contribution none;
   start(&none, &s);
   assert_close(fg__place_cost(NULL, &s.raster, &box, &none, NULL, &errors),
                180.0 * s.scale.count, 0.2);
-  fg__place_tale_clear(&all);
-  fg__place_tale_clear(&none);
+  fg__place_contribution_clear(&all);
+  fg__place_contribution_clear(&none);
   clear(&s);
 }
 
@@ -269,7 +271,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(readers_are_told_by_their_definitions),
       CASE(readers_in_space_too),
-      CASE(two_tales_are_one_in_any_order),
+      CASE(two_contributions_are_one_in_any_order),
       CASE(an_exact_picture_has_no_error),
   };
   return cmocka_run_group_tests_name("place/reader/reader/readers", tests, NULL, NULL);

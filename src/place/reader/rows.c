@@ -190,7 +190,7 @@ typedef struct gathered {
 } gathered;
 
 INLINE void gather(const int dimension, gathered *out, int first, int count,
-                   float reach_square, const fg__place_part_row parts[2])
+                   float reach_square, const fg__place_told_row parts[2])
 {
   for (int i = 0; i < count; ++i)
     out->value[0][i] = reach_square;
@@ -198,7 +198,7 @@ INLINE void gather(const int dimension, gathered *out, int first, int count,
     for (int i = 0; i < count; ++i)
       out->value[k][i] = 0.0F;
   for (int n = 0; n < 2; ++n) {
-    const fg__place_part_row *part = &parts[n];
+    const fg__place_told_row *part = &parts[n];
     int from = part->first > first ? part->first : first;
     int end = part->first + part->count;
     end = end < first + count ? end : first + count;
@@ -258,7 +258,7 @@ INLINE double price_cells(const int dimension, float *cost, int first, int count
 }
 
 INLINE double cost_row(const int dimension, float *cost, int count,
-                       const fg__place_row *row, const fg__place_part_row parts[2])
+                       const fg__place_row *row, const fg__place_told_row parts[2])
 {
   double sum = 0.0;
   gathered told;
@@ -271,19 +271,19 @@ INLINE double cost_row(const int dimension, float *cost, int count,
 }
 
 CLONES static double cost_2d(float *cost, int count, const fg__place_row *row,
-                             const fg__place_part_row parts[2])
+                             const fg__place_told_row parts[2])
 {
   return cost_row(2, cost, count, row, parts);
 }
 
 CLONES static double cost_3d(float *cost, int count, const fg__place_row *row,
-                             const fg__place_part_row parts[2])
+                             const fg__place_told_row parts[2])
 {
   return cost_row(3, cost, count, row, parts);
 }
 
 double fg__place_cost_row(int dimension, float *cost, int count, const fg__place_row *row,
-                          const fg__place_part_row parts[2])
+                          const fg__place_told_row parts[2])
 {
   return (dimension == 2 ? cost_2d : cost_3d)(cost, count, row, parts);
 }

@@ -21,12 +21,12 @@ void fg__place_tell_row(int dimension, float *value, size_t stride, int count,
 void fg__place_add_row(int dimension, float *to, size_t to_stride, const float *from,
                        size_t from_stride, int count);
 
-/* A row that a tale has, from cell `first` of the row that is asked on. */
-typedef struct fg__place_part_row {
+/* A row that a contribution has, from cell `first` of the row that is asked on. */
+typedef struct fg__place_told_row {
   const float *value; /* NULL: nothing */
   size_t stride;
   int first, count;
-} fg__place_part_row;
+} fg__place_told_row;
 
 typedef struct fg__place_row {
   const float *weight;
@@ -36,7 +36,7 @@ typedef struct fg__place_row {
 
 /* The sum of the cells' prices, kept in `cost` unless NULL. */
 double fg__place_cost_row(int dimension, float *cost, int count, const fg__place_row *row,
-                          const fg__place_part_row parts[2]);
+                          const fg__place_told_row parts[2]);
 
 /* One step of Chebyshev's iteration for the diffusion reader: `out` has the values of the
  * step before the last, `in` those of the last. */

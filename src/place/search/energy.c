@@ -13,21 +13,21 @@ static const double LEAST_ERROR = 8.0;
 /* Shorter than this many lambda costs nu times the square of what is missing. */
 static const double BRIEF = 0.8;
 
-fg_status fg__place_gather(fg__place_tale *out, fg__place_search *search,
+fg_status fg__place_gather(fg__place_contribution *out, fg__place_search *search,
                            const fg__place_box *box, int except)
 {
-  fg_status status = fg__place_tale_start(out, search->context, search->scale.dimension,
-                                          box, (float)fg__place_reach(search));
+  fg_status status = fg__place_contribution_start(
+      out, search->context, search->scale.dimension, box, (float)fg__place_reach(search));
   int most = 0;
   for (int n = 0; n < search->count; ++n)
-    if (n != except && fg__place_boxes_meet(box, &search->icon[n]->tale.box))
+    if (n != except && fg__place_boxes_meet(box, &search->icon[n]->contribution.box))
       most += search->icon[n]->line.count;
   if (status == FG_STATUS_OK)
     status = fg__place_points_start(&search->beside, search->context,
                                     search->scale.dimension, most);
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
-    if (n != except && fg__place_boxes_meet(box, &search->icon[n]->tale.box)) {
-      fg__place_tale_add(out, &search->icon[n]->tale);
+    if (n != except && fg__place_boxes_meet(box, &search->icon[n]->contribution.box)) {
+      fg__place_contribution_add(out, &search->icon[n]->contribution);
       fg__place_points_add(&search->beside, &search->icon[n]->line);
     }
   return status;
@@ -120,7 +120,7 @@ fg_status fg__place_energy(fg__place_search *search, double *energy)
                   fg__place_diffusion_sum(&search->diffusion);
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
     fg__place_icon *icon = search->icon[n];
-    status = fg__place_gather(&search->others, search, &icon->tale.box, n);
+    status = fg__place_gather(&search->others, search, &icon->contribution.box, n);
     if (status == FG_STATUS_OK) /* both of a pair pay */
       *energy += fg__place_own_price(search, &icon->line);
   }

@@ -83,12 +83,12 @@ static fg_status fill(fg__place_search *search)
 static fg_status price_of_loss(fg__place_search *search, int index, double *rise)
 {
   fg__place_icon *icon = search->icon[index];
-  const fg__place_box *box = &icon->tale.box;
+  const fg__place_box *box = &icon->contribution.box;
   fg_status status = fg__place_gather(&search->others, search, box, index);
   if (status != FG_STATUS_OK)
     return status;
-  double with = fg__place_cost(NULL, &search->raster, box, &search->others, &icon->tale,
-                               &search->price);
+  double with = fg__place_cost(NULL, &search->raster, box, &search->others,
+                               &icon->contribution, &search->price);
   double without =
       fg__place_cost(NULL, &search->raster, box, &search->others, NULL, &search->price);
   double diffusion;

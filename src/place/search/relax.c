@@ -116,18 +116,19 @@ static int list_trials(trial out[MOST_TRIALS], const fg__place_search *search,
   return count;
 }
 
-static void swap_tales(fg__place_tale *a, fg__place_tale *b)
+static void swap_contributions(fg__place_contribution *a, fg__place_contribution *b)
 {
-  fg__place_tale kept = *a;
+  fg__place_contribution kept = *a;
   *a = *b;
   *b = kept;
 }
 
 /* The energy of a region, told by the others and a line. */
 static double price(const fg__place_search *search, const fg__place_box *box,
-                    const fg__place_tale *tale, const fg__place_line *line)
+                    const fg__place_contribution *contribution,
+                    const fg__place_line *line)
 {
-  return fg__place_cost(NULL, &search->raster, box, &search->others, tale,
+  return fg__place_cost(NULL, &search->raster, box, &search->others, contribution,
                         &search->price) +
          fg__place_own_price(search, line);
 }
@@ -148,7 +149,7 @@ static fg_status extend_region(fg__place_search *search, fg__place_box *region,
   fg__place_box_widen(region, by);
   fg_status status = fg__place_gather(&search->others, search, region, index);
   if (status == FG_STATUS_OK)
-    *now = price(search, region, &icon->tale, &icon->line);
+    *now = price(search, region, &icon->contribution, &icon->line);
   return status;
 }
 
@@ -165,7 +166,7 @@ static bool holds(const fg__place_box *box, const fg__place_box *other)
 static fg__place_box room_of(const fg__place_search *search, const fg__place_icon *icon)
 {
   const fg__place_raster *raster = &search->raster;
-  fg__place_box box = icon->tale.box;
+  fg__place_box box = icon->contribution.box;
   int cells = (int)(icon->step / search->scale.cell) + 1;
   for (int k = 0; k < raster->dimension; ++k) {
     int low = box.low[k] - cells, end = box.low[k] + box.size[k] + cells;
@@ -202,7 +203,7 @@ static fg_status attempt(double *rise, bool *taken, fg__place_search *search, in
     fg__place_diffusion_keep(&search->diffusion, &icon->line, &line);
     icon->seed = *seed;
     icon->line = line;
-    swap_tales(&icon->tale, &search->trial);
+    swap_contributions(&icon->contribution, &search->trial);
     settle(icon, &search->scale);
     *taken = true;
   }
@@ -238,7 +239,7 @@ static fg_status visit(fg__place_search *search, int index)
     rise[axis][0] = rise[axis][1] = HUGE_VAL;
   bool taken = false;
   fg__place_box region = room_of(search, icon);
-  fg_status status = extend_region(search, &region, &icon->tale.box, index, &now);
+  fg_status status = extend_region(search, &region, &icon->contribution.box, index, &now);
   for (int k = 0; k < count && status == FG_STATUS_OK; ++k) {
     int n = (k + icon->move) % count;
     const trial *next = &trials[n];

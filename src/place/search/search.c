@@ -50,7 +50,7 @@ fg_status fg__place_search_create(fg__place_search *out, fg_context *context,
 
 static void free_icon(fg__place_icon *icon)
 {
-  fg__place_tale_clear(&icon->tale);
+  fg__place_contribution_clear(&icon->contribution);
   free(icon);
 }
 
@@ -60,14 +60,14 @@ void fg__place_search_clear(fg__place_search *search)
     free_icon(search->icon[n]);
   free(search->icon);
   clear_scale(search);
-  fg__place_tale_clear(&search->others);
-  fg__place_tale_clear(&search->trial);
-  fg__place_tale_clear(&search->whole);
+  fg__place_contribution_clear(&search->others);
+  fg__place_contribution_clear(&search->trial);
+  fg__place_contribution_clear(&search->whole);
   fg__place_points_clear(&search->beside);
   *search = (fg__place_search){0};
 }
 
-static fg_status tell(fg__place_search *search, fg__place_tale *out,
+static fg_status tell(fg__place_search *search, fg__place_contribution *out,
                       const fg__place_line *line)
 {
   return fg__place_tell(out, search->context, &search->raster, &search->scale, line);
@@ -98,7 +98,7 @@ fg_status fg__place_search_rescale(fg__place_search *search, int count)
     if (icon->line.count == 0)
       forget(search, n--);
     else
-      status = tell(search, &icon->tale, &icon->line);
+      status = tell(search, &icon->contribution, &icon->line);
   }
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
     fg__place_diffusion_add(&search->diffusion, &search->icon[n]->line);
@@ -123,7 +123,7 @@ fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_s
   fg__place_trace(&icon->line, search->domain, &search->scale, seed);
   fg_status status = FG_STATUS_OK;
   if (icon->line.count > 0)
-    status = tell(search, &icon->tale, &icon->line);
+    status = tell(search, &icon->contribution, &icon->line);
   if (status == FG_STATUS_OK && icon->line.count > 0) {
     double growth;
     status = fg__place_diffusion_try(&growth, &search->diffusion, search->context, NULL,

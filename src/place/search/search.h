@@ -7,10 +7,10 @@
 typedef struct fg__place_icon {
   fg__place_seed seed;
   fg__place_line line;
-  fg__place_tale tale; /* what it tells */
-  double step;         /* of its moves, input coordinates */
-  int move;            /* which was taken last */
-  int identity;        /* stays as the icon moves, and from scale to scale */
+  fg__place_contribution contribution; /* what it tells */
+  double step;                         /* of its moves, input coordinates */
+  int move;                            /* which was taken last */
+  int identity; /* stays as the icon moves, and from scale to scale */
 } fg__place_icon;
 
 typedef struct fg__place_search {
@@ -26,7 +26,7 @@ typedef struct fg__place_search {
   size_t capacity;
   int next_identity;
   /* Room to work in: */
-  fg__place_tale others, trial, whole;
+  fg__place_contribution others, trial, whole;
   fg__place_points beside; /* samples of the icons that were gathered last */
   float *map, *smooth;     /* a value a raster cell */
 } fg__place_search;
@@ -97,7 +97,7 @@ fg_status fg__place_diffusion_price(double *price, fg__place_search *search,
 
 /* What all icons but `except` (-1: all) tell a box; search->beside gets the samples of
  * those that tell it anything. MEMORY. */
-fg_status fg__place_gather(fg__place_tale *out, fg__place_search *search,
+fg_status fg__place_gather(fg__place_contribution *out, fg__place_search *search,
                            const fg__place_box *box, int except);
 
 /* What all icons tell all cells, to search->whole. MEMORY. */

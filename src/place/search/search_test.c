@@ -107,7 +107,7 @@ static double price_of(setting *s, const fg__place_box *box, int index)
   fg__place_search *search = &s->search;
   fg__place_icon *icon = search->icon[index];
   assert_int_equal(fg__place_gather(&search->others, search, box, index), FG_STATUS_OK);
-  return fg__place_cost(NULL, &search->raster, box, &search->others, &icon->tale,
+  return fg__place_cost(NULL, &search->raster, box, &search->others, &icon->contribution,
                         &search->price) +
          fg__place_own_price(search, &icon->line);
 }
@@ -132,15 +132,15 @@ static void a_move_is_priced_where_it_tells(void **state)
     fg__place_trace(&line, &s.domain, &s.search.scale, &seed);
     if (line.count == 0)
       continue;
-    fg__place_box region = icon->tale.box,
+    fg__place_box region = icon->contribution.box,
                   to = fg__place_box_of(&s.search.raster, &s.search.scale, &line);
     fg__place_box_widen(&region, &to);
     double all = energy_of(&s), here = price_of(&s, &region, n);
     icon->seed = seed;
     icon->line = line;
-    assert_int_equal(
-        fg__place_tell(&icon->tale, *state, &s.search.raster, &s.search.scale, &line),
-        FG_STATUS_OK);
+    assert_int_equal(fg__place_tell(&icon->contribution, *state, &s.search.raster,
+                                    &s.search.scale, &line),
+                     FG_STATUS_OK);
     assert_close(price_of(&s, &region, n) - here, energy_of(&s) - all, 1e-5 * all);
     ++moved;
   }

@@ -16,9 +16,9 @@ static fg__cell_set warped_box(fg_context *context, double amount)
   for (int n = 0; n < NODES; ++n) {
     const int at[3] = {n % N, n / N % N, n / N / N};
     for (int k = 0; k < 3; ++k) {
-      const bool border = at[k] == 0 || at[k] == N - 1;
+      const bool boundary = at[k] == 0 || at[k] == N - 1;
       position[3 * n + k] =
-          (k + 1.0) * at[k] + (border ? 0.0 : amount * sin(5.0 * n + k));
+          (k + 1.0) * at[k] + (boundary ? 0.0 : amount * sin(5.0 * n + k));
     }
   }
   fg__cell_set set = set_of(context, position, NODES);

@@ -17,10 +17,10 @@ static fg_status refuse_to_describe(fg_inventory *inventory, fg_context *context
 
 static fg_status refuse_to_read(fg_field **out, fg_context *context,
                                 const fg__source *source, const fg_read_options *options,
-                                fg__dealt dealt)
+                                fg__slab_index slab)
 {
   (void)options;
-  (void)dealt;
+  (void)slab;
   *out = NULL;
   return fg__fail_absent(context, source->path, FG_FEATURE_NETCDF);
 }

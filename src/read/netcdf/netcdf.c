@@ -2,7 +2,7 @@
 #include "read/netcdf/netcdf.h"
 
 #include "base/memory.h"
-#include "field/part.h"
+#include "field/slab.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -279,18 +279,18 @@ static fg_status check_missing(const fg__nc_file *file, const fg__nc_variable *v
 /* What is missing of a part is judged with all others. */
 static void keep_missing(const fg_field *field, const fg__nc_samples *read)
 {
-  fg__field_part *part = field->part;
-  part->has_reasons = true;
+  fg__field_slab *slab = field->slab;
+  slab->has_reasons = true;
   for (int k = 0; k < field->contents.dimension; ++k) {
-    part->counts.by_reason[k][0] = read->missing[k].fill;
-    part->counts.by_reason[k][1] = read->missing[k].range;
-    part->counts.by_reason[k][2] = read->missing[k].not_a_number;
+    slab->counts.by_reason[k][0] = read->missing[k].fill;
+    slab->counts.by_reason[k][1] = read->missing[k].range;
+    slab->counts.by_reason[k][2] = read->missing[k].not_a_number;
   }
 }
 
 static fg_status make_field(fg_field **out, const fg__nc_file *file,
                             const fg__nc_pair *pair, const fg__nc_grid *grid,
-                            const fg_read_options *options, fg__dealt dealt)
+                            const fg_read_options *options, fg__slab_index slab)
 {
   char title[FG__NC_TEXT];
   char units[FG__NC_TEXT];
@@ -301,8 +301,8 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
   fg__nc_samples read = {0};
   const fg__nc_axis *last = &grid->axis[grid->dimension - 1];
   if (last->period > 0.0)
-    dealt = (fg__dealt){0, 1};
-  const fg__rows rows = fg__rows_of(&dealt, (int)last->size, false);
+    slab = (fg__slab_index){0, 1};
+  const fg__rows rows = fg__rows_of(&slab, (int)last->size, false);
   if (grid->time >= 0)
     status = fg__nc_index_words(file, grid->time_variable, grid->time_name,
                                 (size_t)options->time, time, sizeof time);
@@ -312,7 +312,7 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
   if (status == FG_STATUS_OK)
     status = fg__nc_samples_read(&read, file, pair, grid, &rows, (size_t)options->time,
                                  (size_t)options->level, options->mask);
-  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK && dealt.count == 1; ++k)
+  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK && slab.count == 1; ++k)
     status = check_missing(file, pair->component[k], &read.missing[k], grid->samples);
   if (status == FG_STATUS_OK) {
     fg__nc_title(pair, grid->dimension, title, sizeof title);
@@ -338,8 +338,8 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
       arrays.axis_name[k] = grid->axis[k].name;
       arrays.axis_units[k] = grid->axis[k].units;
     }
-    status = fg__field_of_rows(out, file->context, &arrays, read.velocity, &dealt);
-    if (status == FG_STATUS_OK && dealt.count > 1)
+    status = fg__field_of_rows(out, file->context, &arrays, read.velocity, &slab);
+    if (status == FG_STATUS_OK && slab.count > 1)
       keep_missing(*out, &read);
   }
   fg__nc_samples_clear(&read);
@@ -361,7 +361,7 @@ static fg_status check_level(const fg__nc_file *file, const fg__nc_grid *grid, i
 }
 
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
-                            const fg_read_options *options, fg__dealt dealt)
+                            const fg_read_options *options, fg__slab_index slab)
 {
   fg__nc_file file = {0};
   fg__nc_pair pair = {0};
@@ -379,7 +379,7 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
   if (status == FG_STATUS_OK)
     status = check_level(&file, &grid, options->level);
   if (status == FG_STATUS_OK)
-    status = make_field(out, &file, &pair, &grid, options, dealt);
+    status = make_field(out, &file, &pair, &grid, options, slab);
   status = fg__nc_status(&file, status);
   fg__nc_grid_clear(&grid);
   fg__nc_file_close(&file);

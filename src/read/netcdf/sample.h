@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "read/parts_alike_test.h"
+#include "read/slabs_alike_test.h"
 
 typedef struct sample_file {
   char folder[64];
@@ -123,7 +123,7 @@ static inline void sample_put(const sample_file *f, int variable, const double *
   nc_must(nc_put_var_double(f->id, variable, values));
 }
 
-static inline void assert_parts_of_file(const sample_file *f,
+static inline void assert_slabs_of_file(const sample_file *f,
                                         const fg_read_options *options,
                                         const fg_field *whole)
 {
@@ -131,7 +131,7 @@ static inline void assert_parts_of_file(const sample_file *f,
   fg__source source;
   if (fg__source_open(&source, NULL, f->path) != FG_STATUS_OK)
     return;
-  assert_parts_alike(&fg__format_netcdf, &source, options ? options : &none, whole);
+  assert_slabs_alike(&fg__format_netcdf, &source, options ? options : &none, whole);
   fg__source_close(&source);
 }
 
@@ -141,7 +141,7 @@ static inline fg_field *read_with(sample_file *f, const fg_read_options *options
   const fg_status status = fg_field_read(&field, f->context, f->path, options);
   if (status != FG_STATUS_OK)
     fail_msg("%s", fg_context_message(f->context));
-  assert_parts_of_file(f, options, field);
+  assert_slabs_of_file(f, options, field);
   return field;
 }
 
@@ -152,7 +152,7 @@ static inline void refuse_with(sample_file *f, const fg_read_options *options,
   fg_context_clear(f->context);
   assert_int_equal(fg_field_read(&field, f->context, f->path, options), status);
   assert_null(field);
-  assert_parts_of_file(f, options, NULL);
+  assert_slabs_of_file(f, options, NULL);
   const char *message = fg_context_message(f->context);
   if (!strstr(message, words) || strncmp(message, f->path, strlen(f->path)) != 0)
     fail_msg("\"%s\" lacks \"%s\" or the file's name", message, words);

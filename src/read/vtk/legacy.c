@@ -480,9 +480,9 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
 }
 
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
-                            const fg_read_options *options, fg__dealt dealt)
+                            const fg_read_options *options, fg__slab_index slab)
 {
-  return fg__vtk_read(out, context, source, options, dealt, fg__vtk_open_legacy);
+  return fg__vtk_read(out, context, source, options, slab, fg__vtk_open_legacy);
 }
 
 const fg__format fg__format_vtk_legacy = {.name = "VTK legacy",

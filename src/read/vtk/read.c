@@ -87,7 +87,7 @@ static fg_status create_axes(double *out[3], const fg__vtk *vtk, const fg__vtk_g
 static fg_status create_field(fg_field **out, const fg__vtk *vtk,
                               const fg__vtk_grid *grid, const fg__vtk_vector *vector,
                               fg_field_arrays arrays, float *velocity[3],
-                              double *const axis[3], const fg__dealt *dealt)
+                              double *const axis[3], const fg__slab_index *slab)
 {
   char component[3][NAME_BYTES], axis_name[3][2] = {"", "", ""};
   arrays.dimension = grid->dimension;
@@ -105,15 +105,14 @@ static fg_status create_field(fg_field **out, const fg__vtk *vtk,
     arrays.velocity_name[k] = component[k];
     arrays.axis_name[k] = axis_name[k];
   }
-  return fg__field_of_rows(out, vtk->context, &arrays, velocity, dealt);
+  return fg__field_of_rows(out, vtk->context, &arrays, velocity, slab);
 }
 
 static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,
                        const fg__vtk_vector *vector, const fg_read_options *options,
-                       fg__dealt dealt)
+                       fg__slab_index slab)
 {
-  const fg__rows rows =
-      fg__rows_of(&dealt, (int)grid->points[grid->dimension - 1], false);
+  const fg__rows rows = fg__rows_of(&slab, (int)grid->points[grid->dimension - 1], false);
   grid->first_row = (size_t)rows.first;
   grid->rows = (size_t)rows.held;
   float *velocity[3] = {NULL, NULL, NULL};
@@ -127,7 +126,7 @@ static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,
   if (status == FG_STATUS_OK)
     status = create_field(out, vtk, grid, vector,
                           (fg_field_arrays){.scale = options->scale, .time = time},
-                          velocity, axis, &dealt);
+                          velocity, axis, &slab);
   for (int k = 0; k < 3; ++k) {
     free(velocity[k]);
     free(axis[k]);
@@ -137,7 +136,7 @@ static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,
 }
 
 fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *source,
-                       const fg_read_options *options, fg__dealt dealt,
+                       const fg_read_options *options, fg__slab_index slab,
                        fg__vtk_opener *opener)
 {
   *out = NULL;
@@ -156,16 +155,16 @@ fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *so
   if (status == FG_STATUS_OK)
     status = fg__vtk_grid_find(&grid, &vtk);
   if (status == FG_STATUS_OK)
-    status = build(out, &vtk, &grid, &vector, options, dealt);
+    status = build(out, &vtk, &grid, &vector, options, slab);
   free(names);
   fg__vtk_close(&vtk);
   return status;
 }
 
 static fg_status read_xml(fg_field **out, fg_context *context, const fg__source *source,
-                          const fg_read_options *options, fg__dealt dealt)
+                          const fg_read_options *options, fg__slab_index slab)
 {
-  return fg__vtk_read(out, context, source, options, dealt, fg__vtk_open_xml);
+  return fg__vtk_read(out, context, source, options, slab, fg__vtk_open_xml);
 }
 
 /* What can only be decoded together is so once, not again for each of its parts. */

@@ -5,7 +5,7 @@
 #include "base/context_test.h"
 #include "file/base64.h"
 #include "read/format.h"
-#include "read/parts_alike_test.h"
+#include "read/slabs_alike_test.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -248,8 +248,8 @@ static inline fg_status example_read_as(fg_field **out, fg_context *context,
   fg_context_clear(context);
   options = options ? options : &none;
   *out = NULL;
-  fg_status status = format->read(out, context, &source, options, (fg__dealt){0, 1});
-  assert_parts_alike(format, &source, options, *out);
+  fg_status status = format->read(out, context, &source, options, (fg__slab_index){0, 1});
+  assert_slabs_alike(format, &source, options, *out);
   free(copy);
   return status;
 }

@@ -231,7 +231,7 @@ static void what_cannot_be_chosen_is_explained(void **state)
                     FG_STATUS_FILE_FORMAT, "two arrays");
 }
 
-static void only_one_moment_is_there(void **state)
+static void only_one_snapshot_is_there(void **state)
 {
   char file[EXAMPLE_FILE_BYTES];
   example_image(file, "", "0 2 0 1 0 0", POINTS(VECTOR("U", SIX)));
@@ -408,7 +408,7 @@ int main(void)
       cmocka_unit_test(pieces_make_the_same_field_as_the_whole),
       cmocka_unit_test(the_vector_is_found),
       cmocka_unit_test(what_cannot_be_chosen_is_explained),
-      cmocka_unit_test(only_one_moment_is_there),
+      cmocka_unit_test(only_one_snapshot_is_there),
       cmocka_unit_test(words_are_taken_from_the_file),
       cmocka_unit_test(missing_samples_are_known),
       cmocka_unit_test(infinite_samples_are_missing),

@@ -253,7 +253,7 @@ fg_status fg__vtk_samples_read(float *out[3], const fg__vtk *vtk,
 
 /* What fg__format asks for, of a file opened by `opener`. */
 fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *source,
-                       const fg_read_options *options, fg__dealt dealt,
+                       const fg_read_options *options, fg__slab_index slab,
                        fg__vtk_opener *opener);
 fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
                             const fg__source *source, fg__vtk_opener *opener);

@@ -4,7 +4,7 @@
 #include "icon/icons.h"
 #include "icon/measure.h"
 #include "rival/arrows.h"
-#include "rival/cluster/parts.h"
+#include "rival/cluster/pieces.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,26 +23,26 @@ typedef struct place {
 
 /* A part bent like a bow has its mean outside. */
 static void find_places(place *places, const fg__domain *domain,
-                        const fg__rival_parts *parts)
+                        const fg__rival_pieces *pieces)
 {
   int raster = domain->cells[0] * domain->cells[1];
   double center[2];
   for (int i = 0; i < raster; i++) {
     fg__domain_center(domain, i, center);
-    for (int k = 0; k < 2 && parts->label[i] > 0; k++)
-      places[parts->label[i] - 1].sum[k] += center[k];
+    for (int k = 0; k < 2 && pieces->label[i] > 0; k++)
+      places[pieces->label[i] - 1].sum[k] += center[k];
   }
-  for (int n = 0; n < parts->count; n++) {
+  for (int n = 0; n < pieces->count; n++) {
     place *p = &places[n];
     for (int k = 0; k < 2; k++)
-      p->center[k] = p->sum[k] /= parts->cells[n];
+      p->center[k] = p->sum[k] /= pieces->cells[n];
     int cell = fg__domain_cell(domain, p->sum);
-    p->nearest = cell >= 0 && parts->label[cell] == n + 1 ? 0 : HUGE_VAL;
+    p->nearest = cell >= 0 && pieces->label[cell] == n + 1 ? 0 : HUGE_VAL;
   }
   for (int i = 0; i < raster; i++) {
-    if (parts->label[i] < 1 || places[parts->label[i] - 1].nearest <= 0)
+    if (pieces->label[i] < 1 || places[pieces->label[i] - 1].nearest <= 0)
       continue;
-    place *p = &places[parts->label[i] - 1];
+    place *p = &places[pieces->label[i] - 1];
     fg__domain_center(domain, i, center);
     double x = center[0] - p->sum[0], y = center[1] - p->sum[1];
     double distance = x * x + y * y;
@@ -61,13 +61,13 @@ static double length_of(const fg_icon *icon)
 
 /* The arrow through a part's centre, or a longer one beside it. */
 static fg_status make_icon(fg_icon *icon, fg_context *context, const fg__domain *domain,
-                           const fg__rival_parts *parts, int part, const double center[2],
-                           fg__line *line)
+                           const fg__rival_pieces *pieces, int part,
+                           const double center[2], fg__line *line)
 {
   static const int side[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-  double area = parts->cells[part] * domain->spacing[0] * domain->spacing[1];
+  double area = pieces->cells[part] * domain->spacing[0] * domain->spacing[1];
   double wanted = sqrt(area);
-  *icon = (fg_icon){.cluster = parts->cluster[part], .area = area};
+  *icon = (fg_icon){.cluster = pieces->cluster[part], .area = area};
   fg_status status = fg__rival_curved(icon, context, domain, center, wanted, line);
   double length = length_of(icon);
   for (int d = 0; d < 4 && status == FG_STATUS_OK && length < SHORT * wanted; d++) {
@@ -75,7 +75,7 @@ static fg_status make_icon(fg_icon *icon, fg_context *context, const fg__domain 
                         center[1] + ASIDE * wanted * side[d][1]};
     int cell = fg__domain_cell(domain, beside), turns[2];
     fg__domain_turns(domain, beside, turns);
-    if (cell < 0 || turns[0] || turns[1] || parts->label[cell] != part + 1)
+    if (cell < 0 || turns[0] || turns[1] || pieces->label[cell] != part + 1)
       continue;
     fg_icon other = *icon;
     status = fg__rival_curved(&other, context, domain, beside, wanted, line);
@@ -90,15 +90,15 @@ static fg_status make_icon(fg_icon *icon, fg_context *context, const fg__domain 
 }
 
 static fg_status draw_parts(fg_icons *icons, fg_context *context,
-                            const fg__domain *domain, const fg__rival_parts *parts,
+                            const fg__domain *domain, const fg__rival_pieces *pieces,
                             const place *places, int *drawn)
 {
   fg__line line = {0};
   fg_status status = FG_STATUS_OK;
   int last = 0;
-  for (int n = 0; n < parts->count && status == FG_STATUS_OK; n++) {
+  for (int n = 0; n < pieces->count && status == FG_STATUS_OK; n++) {
     fg_icon icon;
-    status = make_icon(&icon, context, domain, parts, n, places[n].center, &line);
+    status = make_icon(&icon, context, domain, pieces, n, places[n].center, &line);
     if (status == FG_STATUS_OK && icon.points) {
       status = fg__icons_add(icons, context, &icon);
       *drawn += icon.cluster != last;
@@ -116,20 +116,20 @@ fg_status fg__clusters_draw(fg_icons *icons, fg_context *context,
                             const fg__domain *domain, const int *label, int count,
                             int left_out)
 {
-  fg__rival_parts parts;
+  fg__rival_pieces pieces;
   int drawn = 0;
-  fg_status status = fg__rival_parts_create(&parts, context, domain, label, count);
+  fg_status status = fg__rival_pieces_create(&pieces, context, domain, label, count);
   if (status != FG_STATUS_OK)
     return status;
-  place *places = fg__allocate((size_t)parts.count, sizeof *places);
+  place *places = fg__allocate((size_t)pieces.count, sizeof *places);
   if (places) {
-    find_places(places, domain, &parts);
-    status = draw_parts(icons, context, domain, &parts, places, &drawn);
+    find_places(places, domain, &pieces);
+    status = draw_parts(icons, context, domain, &pieces, places, &drawn);
   } else
-    status = fg__fail_memory(context, "clusters", (size_t)parts.count * sizeof *places);
+    status = fg__fail_memory(context, "clusters", (size_t)pieces.count * sizeof *places);
   fg__icons_set_clusters(icons, count + left_out, count + left_out - drawn);
   free(places);
-  fg__rival_parts_clear(&parts);
+  fg__rival_pieces_clear(&pieces);
   return status;
 }
 

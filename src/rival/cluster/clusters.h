@@ -6,7 +6,7 @@
 
 /* Adds a curved arrow a cluster, as long as the root of its area, through its centre: the
  * mean of its cells, or the cell of the cluster nearest to it. A cluster across a
- * periodic border has one for each of its parts (rival/cluster/parts.h), and all end
+ * periodic boundary has one for each of its parts (rival/cluster/pieces.h), and all end
  * there. label: a number a cell of the raster, 0 none, 1 ... count. MEMORY, STOPPED. */
 fg_status fg__clusters_draw(fg_icons *icons, fg_context *context,
                             const fg__domain *domain, const int *label, int count,

@@ -162,7 +162,7 @@ static void clusters_are_connected(void **state)
   tear_down(&b);
 }
 
-/* Four regions, each of one direction, with borders on the raster's lines. */
+/* Four regions, each of one direction, with boundaries on the raster's lines. */
 static int region_of(double x, double y)
 {
   return x < 8 ? y < 10 ? 0 : 1 : y < 7 ? 2 : 3;
@@ -274,7 +274,7 @@ static void elongation_draws_clusters_out(void **state)
   assert_true(ellipses > 2 * circles);
 }
 
-static void clusters_go_across_a_periodic_border(void **state)
+static void clusters_go_across_a_periodic_boundary(void **state)
 {
   bench b;
   set_up(&b, *state, slant, true, 62, &usual);
@@ -296,7 +296,7 @@ static void waters(double x, double y, double v[2])
     v[0] = (double)NAN;
 }
 
-static void specks_take_no_place(void **state)
+static void small_lines_take_no_place(void **state)
 {
   bench b;
   set_up(&b, *state, waters, false, 61, &usual);
@@ -359,8 +359,8 @@ int main(void)
       CASE(a_piecewise_constant_field_is_recovered),
       CASE(the_most_alike_are_merged),
       CASE(elongation_draws_clusters_out),
-      CASE(clusters_go_across_a_periodic_border),
-      CASE(specks_take_no_place),
+      CASE(clusters_go_across_a_periodic_boundary),
+      CASE(small_lines_take_no_place),
       CASE(icons_and_clusters_of_the_public_calls),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -7,7 +7,7 @@
 
 /* A part of the domain below this share of |domain| / count is no cluster of the wanted
  * ones: an inlet of one cell would take the place of an ocean's cluster. */
-static const double SPECK = 0.05;
+static const double LEAST_SHARE = 0.05;
 
 /* Who is counted: `whole` is the part of the domain that a node lies in, its root. */
 typedef struct counting {
@@ -47,7 +47,7 @@ static fg_status choose_parts(counting *work, fg_context *context, int count, in
   qsort(ranked, (size_t)roots, sizeof *ranked, compare_sizes);
   *chosen = 0;
   for (int i = 0; i < roots && *chosen < count; i++)
-    if (ranked[i][0] >= SPECK * tree->cells / count) {
+    if (ranked[i][0] >= LEAST_SHARE * tree->cells / count) {
       work->counted[ranked[i][1]] = 1;
       ++*chosen;
     }

@@ -100,7 +100,7 @@ static void lines_keep_their_distance(void **state)
   }
 }
 
-static void also_across_a_periodic_border(void **state)
+static void also_across_a_periodic_boundary(void **state)
 {
   bench b;
   set_up(&b, *state, swirl, true, 1.9);
@@ -183,7 +183,7 @@ static void the_number_is_nearly_met(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(lines_keep_their_distance),       CASE(also_across_a_periodic_border),
+      CASE(lines_keep_their_distance),       CASE(also_across_a_periodic_boundary),
       CASE(lines_stay_away_from_themselves), CASE(a_uniform_flow_is_covered),
       CASE(the_number_is_nearly_met),
   };

@@ -5,7 +5,7 @@
 #include "rival/line.h"
 #include "rival/near.h"
 
-/* Shorter lines, in separations, are specks. */
+/* Shorter lines, in separations, are left out. */
 #define FG__LINES_SHORTEST 1.0
 
 /* The part of the streamline through a seed between two arc lengths from there. */

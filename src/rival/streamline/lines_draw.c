@@ -10,7 +10,7 @@
  * line at d_test. Short lines are as slim as other arrows. */
 static const double WIDTH = 0.1;
 
-/* Places where lines cross a periodic border are looked for at steps of this share of a
+/* Places where lines cross a periodic boundary are looked for at steps of this share of a
  * cell, and met by so many bisections. */
 static const double CUT_STEP = 0.5;
 enum { BISECTIONS = 40 };
@@ -34,7 +34,7 @@ static bool same_turns(const fg__domain *domain, const fg__line *line, double a,
   return same;
 }
 
-/* The last place of a line, from `from` on, before it crosses a periodic border; *next:
+/* The last place of a line, from `from` on, before it crosses a periodic boundary; *next:
  * the first behind it, or `to` when there is none. */
 static double find_cut(const fg__domain *domain, const fg__line *line, double from,
                        double to, double *next)

@@ -63,7 +63,7 @@ void fg__cells_fill_images(const fg__cells_of_box *cells, const fg__box *box,
   fg__cell_images_fill(&layout, box, level_cells, periodic, copy_image, cells);
 }
 
-/* Cells to be filled, of which members take slices along the outermost axis. */
+/* Cells to be filled, of which threads take slices along the outermost axis. */
 typedef struct filling {
   const fg__cells_of_box *out;
   int first[3], count[3];       /* cells of `out` */
@@ -71,24 +71,24 @@ typedef struct filling {
   const fg__cells_of_box *fine; /* or by means over these */
 } filling;
 
-static void part_of(const filling *f, const fg__share *share, int begin[3], int end[3])
+static void part_of(const filling *f, const fg__thread *thread, int begin[3], int end[3])
 {
   int axis = f->out->dimension - 1;
   for (int k = 0; k < 3; ++k) {
     begin[k] = 0;
     end[k] = f->count[k];
   }
-  fg__team_part(share, f->count[axis], 1, &begin[axis], &end[axis]);
+  fg__threads_range(thread, f->count[axis], 1, &begin[axis], &end[axis]);
 }
 
-static void fill_from_tensor(void *argument, const fg__share *share)
+static void fill_from_tensor(void *argument, const fg__thread *thread)
 {
   const filling *f = argument;
   const fg__cells_of_box *out = f->out;
   const fg__tensor *t = f->tensor;
   const float *source[FG__TENSOR_COMPONENTS] = {t->xx, t->xy, t->yy, t->zz, t->xz, t->yz};
   int begin[3], end[3];
-  part_of(f, share, begin, end);
+  part_of(f, thread, begin, end);
   for (int k = begin[2]; k < end[2]; ++k)
     for (int j = begin[1]; j < end[1]; ++j) {
       size_t n = ((size_t)k * (size_t)f->count[1] + (size_t)j) * (size_t)f->count[0];
@@ -105,7 +105,7 @@ static void fill_from_tensor(void *argument, const fg__share *share)
 fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
                                 const fg__tensor *tensor, int dimension,
                                 const int cells[3], const bool periodic[3],
-                                fg__team *team)
+                                fg__threads *threads)
 {
   const fg__box whole = box_of_level(dimension, cells, periodic);
   fg_status status = allocate(out, context, dimension, whole.nodes);
@@ -114,7 +114,7 @@ fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
   filling f = {.out = out,
                .count = {cells[0], cells[1], dimension == 3 ? cells[2] : 1},
                .tensor = tensor};
-  fg__team_run(team, fill_from_tensor, &f);
+  fg__threads_run(threads, fill_from_tensor, &f);
   fg__cells_fill_images(out, &whole, cells, periodic);
   return FG_STATUS_OK;
 }
@@ -159,12 +159,12 @@ static float mean_of_cells(const fg__cells_of_box *fine, const float *values, in
                          fine->plane, fine->dimension);
 }
 
-static void fill_with_means(void *argument, const fg__share *share)
+static void fill_with_means(void *argument, const fg__thread *thread)
 {
   const filling *f = argument;
   const fg__cells_of_box *out = f->out, *fine = f->fine;
   int begin[3], end[3];
-  part_of(f, share, begin, end);
+  part_of(f, thread, begin, end);
   for (int k = begin[2]; k < end[2]; ++k)
     for (int j = begin[1]; j < end[1]; ++j)
       for (int i = 0; i < end[0]; ++i) {
@@ -177,7 +177,7 @@ static void fill_with_means(void *argument, const fg__share *share)
 
 fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
                             const fg__cells_of_box *fine, const fg__box *box,
-                            const int level_cells[3], fg__team *team)
+                            const int level_cells[3], fg__threads *threads)
 {
   fg_status status = allocate(out, context, fine->dimension, box->nodes);
   if (status)
@@ -187,7 +187,7 @@ fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
     int left = level_cells[k] - box->first[k]; /* the last node begins no cell */
     f.count[k] = box->nodes[k] < left ? box->nodes[k] : left;
   }
-  fg__team_run(team, fill_with_means, &f);
+  fg__threads_run(threads, fill_with_means, &f);
   return FG_STATUS_OK;
 }
 
@@ -258,18 +258,18 @@ static fg_status take_tensor(fg__tensor *out, fg_context *context, int dimension
 
 static fg_status ask(fg__tensor *out, fg_context *context,
                      const fg__tensor_recipe *recipe, fg__wide_tensor *wide,
-                     const fg__cells *cells, fg__team *team)
+                     const fg__cells *cells, fg__threads *threads)
 {
   if (wide->memory)
     return fg__wide_tensor_finish(out, context, wide, recipe->law, recipe->anisotropy,
                                   cells, recipe->periodic, recipe->width);
   return fg__tensor_fill_box(out, context, recipe->field, recipe->law, recipe->anisotropy,
-                             cells, recipe->periodic, recipe->width, team);
+                             cells, recipe->periodic, recipe->width, threads);
 }
 
 fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
                             const fg__tensor_recipe *recipe, const fg__box *box,
-                            fg__wide_tensor *wide, fg__team *team)
+                            fg__wide_tensor *wide, fg__threads *threads)
 {
   int dimension = recipe->dimension;
   range r = range_of(dimension, recipe->periodic, box, recipe->cells);
@@ -278,7 +278,7 @@ fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
   *out = (fg__cells_of_box){0};
   fg_status status = take_tensor(&tensor, context, dimension, fg__cell_count(&cells));
   if (!status)
-    status = ask(&tensor, context, recipe, wide, &cells, team);
+    status = ask(&tensor, context, recipe, wide, &cells, threads);
   fg__wide_tensor_clear(wide);
   if (!status)
     status = allocate(out, context, dimension, box->nodes);
@@ -288,7 +288,7 @@ fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
       f.first[k] = k < dimension ? r.low[k] - box->first[k] : 0;
       f.count[k] = r.count[k];
     }
-    fg__team_run(team, fill_from_tensor, &f);
+    fg__threads_run(threads, fill_from_tensor, &f);
     fg__cells_fill_images(out, box, recipe->cells, recipe->periodic);
   }
   free(tensor.xx);

@@ -3,7 +3,7 @@
 #define FG__CELLS_H
 
 #include "base/context.h"
-#include "base/team.h"
+#include "base/threads.h"
 #include "grid/box.h"
 #include "tensor/tensor.h"
 
@@ -24,17 +24,17 @@ static inline ptrdiff_t fg__cell_at(const fg__cells_of_box *cells, int i, int j,
   return (ptrdiff_t)i + (ptrdiff_t)j * cells->row + (ptrdiff_t)k * cells->plane;
 }
 
-/* Whatever takes a team (NULL: one thread) gives the same with any. */
+/* Functions that take threads (NULL: one) give the same result with any number. */
 
 /* The cells of the whole domain, with their images beyond its sides: mirrored at natural
- * borders, where off-diagonal components change sign for each axis mirrored, or wrapped
- * round. `cells` counts along each axis. MEMORY. */
+ * boundaries, where off-diagonal components change sign for each axis mirrored, or
+ * wrapped round. `cells` counts along each axis. MEMORY. */
 fg_status fg__cells_from_tensor(fg__cells_of_box *out, fg_context *context,
                                 const fg__tensor *tensor, int dimension,
                                 const int cells[3], const bool periodic[3],
-                                fg__team *team);
+                                fg__threads *threads);
 
-/* How to find the tensor of any cells of the domain. */
+/* What is needed to compute the tensor of any cells. */
 typedef struct fg__tensor_recipe {
   const fg_field *field;
   const fg_energy_law *law;
@@ -50,10 +50,10 @@ fg__cells fg__cells_asked(const fg__tensor_recipe *recipe, const fg__box *box);
 
 /* The cells round a box of nodes of the finest level. wide: the recipe's law at all cells
  * asked, of which this is made, unless it is empty (solver/cells/field_boxes.h); it is
- * cleared. MEMORY, and what the law meets. */
+ * cleared. MEMORY, and the statuses of the law. */
 fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
                             const fg__tensor_recipe *recipe, const fg__box *box,
-                            fg__wide_tensor *wide, fg__team *team);
+                            fg__wide_tensor *wide, fg__threads *threads);
 
 /* The cells round a box of a coarser level of so many cells, as means over 2 x 2 (x 2) of
  * those of the box on the next finer level, which begins at even nodes: only those whose
@@ -61,7 +61,7 @@ fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
  * the level's boundary from fill_images then. MEMORY. */
 fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
                             const fg__cells_of_box *fine, const fg__box *box,
-                            const int level_cells[3], fg__team *team);
+                            const int level_cells[3], fg__threads *threads);
 
 /* Images beyond the sides of a box, as fg__cell_images_fill. */
 void fg__cells_fill_images(const fg__cells_of_box *cells, const fg__box *box,

@@ -194,11 +194,12 @@ typedef struct coarsening {
   unit unit;
 } coarsening;
 
-INLINE void coarsen_part(const coarsening *c, int dimension, const fg__share *share)
+INLINE void coarsen_part(const coarsening *c, int dimension, const fg__thread *thread)
 {
   int corners = 1 << dimension, begin[3] = {0, 0, 0};
   int end[3] = {c->count[0], c->count[1], c->count[2]};
-  fg__team_part(share, end[dimension - 1], 1, &begin[dimension - 1], &end[dimension - 1]);
+  fg__threads_range(thread, end[dimension - 1], 1, &begin[dimension - 1],
+                    &end[dimension - 1]);
   for (int k = begin[2]; k < end[2]; ++k)
     for (int j = begin[1]; j < end[1]; ++j)
       for (int i = 0; i < end[0]; ++i) {
@@ -216,19 +217,19 @@ INLINE void coarsen_part(const coarsening *c, int dimension, const fg__share *sh
       }
 }
 
-static void coarsen_in_2d(void *argument, const fg__share *share)
+static void coarsen_in_2d(void *argument, const fg__thread *thread)
 {
-  coarsen_part(argument, 2, share);
+  coarsen_part(argument, 2, thread);
 }
 
-static void coarsen_in_3d(void *argument, const fg__share *share)
+static void coarsen_in_3d(void *argument, const fg__thread *thread)
 {
-  coarsen_part(argument, 3, share);
+  coarsen_part(argument, 3, thread);
 }
 
 fg_status fg__elements_coarsen(fg__elements *out, fg_context *context,
                                const fg__fine_cells *fine, const int nodes[3],
-                               const int count[3], fg__team *team)
+                               const int count[3], fg__threads *threads)
 {
   int dimension = fine->layout->dimension, corners = 1 << dimension;
   fg_status status = allocate(out, context, dimension, nodes);
@@ -238,7 +239,7 @@ fg_status fg__elements_coarsen(fg__elements *out, fg_context *context,
   for (int a = 0; a < corners; ++a)
     for (int b = 0; b < corners; ++b)
       fg__cell_coupling(a, b, dimension, fine->spacing, c.unit.weight[a][b]);
-  fg__team_run(team, dimension == 3 ? coarsen_in_3d : coarsen_in_2d, &c);
+  fg__threads_run(threads, dimension == 3 ? coarsen_in_3d : coarsen_in_2d, &c);
   return FG_STATUS_OK;
 }
 

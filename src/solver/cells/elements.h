@@ -1,7 +1,7 @@
-/* What the cells of a coarse level are where there is a mask: Galerkin's element
- * matrices. The mean tensor of fine cells, which does without a mask, is wrong for a
- * coarse cell of which only a corner is active: a correction that begins at this corner
- * has up to three times the energy there that the mean says, and cycles diverge. */
+/* Cells of a coarse level with a mask: Galerkin element matrices. The mean tensor of fine
+ * cells, which does without a mask, is wrong for a coarse cell of which only a corner is
+ * active: a correction that begins at this corner has up to three times the energy there
+ * that the mean says, and cycles diverge. */
 #ifndef FG__ELEMENTS_H
 #define FG__ELEMENTS_H
 
@@ -63,7 +63,7 @@ typedef struct fg__fine_cells {
  * The ring below comes from the neighbours. MEMORY. */
 fg_status fg__elements_coarsen(fg__elements *out, fg_context *context,
                                const fg__fine_cells *fine, const int nodes[3],
-                               const int count[3], fg__team *team);
+                               const int count[3], fg__threads *threads);
 
 /* Images beyond the sides of a box, as fg__cell_images_fill. */
 void fg__elements_fill_images(const fg__elements *elements, const fg__box *box,

@@ -72,7 +72,7 @@ static fg_status plan(rounds *r, fg_context *context, const fg__tensor_recipe *r
 static bool has_layers(const rounds *r, int rank, int round, int *first, int *count)
 {
   const fg__cells *cells = &r->asked[rank];
-  fg__part_rows(first, count, cells->count[cells->dimension - 1], round, r->count);
+  fg__slab_rows(first, count, cells->count[cells->dimension - 1], round, r->count);
   return *count > 0;
 }
 
@@ -108,7 +108,7 @@ fg_status fg__wide_of_block(fg__wide_tensor *out, fg_context *context,
                             const fg__partition *partition)
 {
   *out = (fg__wide_tensor){0};
-  if (!recipe->field->part)
+  if (!recipe->field->slab)
     return FG_STATUS_OK;
   const fg__ranks *ranks = partition->ranks;
   rounds r;

@@ -1,5 +1,5 @@
-/* How values of the cells round a box of nodes lie in memory, and those cells that lie
- * beyond its sides: tensors (cells.h) and element matrices (elements.h) alike. */
+/* Layout of cell values round a box of nodes, and the images beyond its sides: tensors
+ * (cells.h) and element matrices (elements.h) alike. */
 #ifndef FG__CELL_IMAGES_H
 #define FG__CELL_IMAGES_H
 

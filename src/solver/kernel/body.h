@@ -1,8 +1,8 @@
 /* The one source of the inner loops; see kernel.h. Included by generic_*.c, avx2_*.c and
  * avx512_*.c only, each of which is compiled for one vector width. */
 #include "solver/kernel/boxes.h"
+#include "solver/kernel/coarse_space.h"
 #include "solver/kernel/pass.h"
-#include "solver/kernel/space.h"
 #include "solver/kernel/sums.h"
 #include "solver/kernel/sweep.h"
 
@@ -21,7 +21,8 @@ const fg__kernel FG__KERNEL = {.name = FG__KERNEL_NAME,
                                .correct_smooth_restrict = correct_smooth_restrict,
                                .evaluate = evaluate,
                                .explicit_part = explicit_part,
-                               .subtract_wells = subtract_wells,
+                               .subtract_potential_derivative =
+                                   subtract_potential_derivative,
                                .changes = changes,
                                .extrapolate = extrapolate,
                                .predict = predict,

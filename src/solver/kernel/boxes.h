@@ -18,7 +18,7 @@ static void smooth_rows_of(const fg__level *level, float tau, bool linear, int r
 static void find_residuals(const fg__level *level, float tau, bool linear,
                            float *const out[FG__RESTRICTED])
 {
-  fg__share alone = fg__alone();
+  fg__thread alone = fg__single_thread();
   laplacian l = laplacian_times(level, tau);
   shapes of_u = {0};
   const float *shape_round[3];
@@ -39,7 +39,7 @@ static void find_residuals(const fg__level *level, float tau, bool linear,
 static void restrict_arrays(const fg__level *fine, const float *const from[],
                             const fg__level *coarse)
 {
-  fg__share alone = fg__alone();
+  fg__thread alone = fg__single_thread();
   restriction r = restriction_of(fine, coarse, 0.0F, &alone);
   float *const out[] = {coarse->p, coarse->q, coarse->coupling, coarse->shape_curvature};
   r.given = from;
@@ -49,7 +49,7 @@ static void restrict_arrays(const fg__level *fine, const float *const from[],
 
 static void correct(const fg__level *coarse, const fg__level *fine, bool linear)
 {
-  fg__share alone = fg__alone();
+  fg__thread alone = fg__single_thread();
   for (int s = 0; s < fg__slices(fine); ++s)
     correct_slice(coarse, fine, s, linear, &alone);
 }

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "solver/kernel/space.h"
+#include "solver/kernel/coarse_space.h"
 
 /* The mean of coarse rows in natural order, with one ghost at its end: of the two (in 3D
  * four) rows round a fine row, which are the same where it lies on one. */
@@ -180,9 +180,9 @@ static void correct_row(const fg__level *coarse, const fg__level *fine, int j, i
 }
 
 static void correct_slice(const fg__level *coarse, const fg__level *fine, int s,
-                          bool linear, const fg__share *share)
+                          bool linear, const fg__thread *thread)
 {
-  float *natural = fine->scratch + (size_t)(share->member + 1) * fine->scratch_size -
+  float *natural = fine->scratch + (size_t)(thread->index + 1) * fine->scratch_size -
                    fine->layout.stride;
 #if FG__DIMENSION == 3
   for (int j = 0; j < fine->layout.nodes[1]; ++j)
@@ -199,15 +199,15 @@ static void correct_slice(const fg__level *coarse, const fg__level *fine, int s,
 
 /* The slices at either end of a part are corrected before all others, because the
  * neighbours' sweeps need them. */
-static void correct_ends(const fg__level *coarse, const fg__level *fine, part mine,
-                         bool linear, const fg__share *share)
+static void correct_ends(const fg__level *coarse, const fg__level *fine, slab mine,
+                         bool linear, const fg__thread *thread)
 {
   int last = mine.end - 1;
   for (int s = mine.begin; s < mine.end && s < mine.begin + 2; ++s)
-    correct_slice(coarse, fine, s, linear, share);
+    correct_slice(coarse, fine, s, linear, thread);
   if (last >= mine.begin + 2)
-    correct_slice(coarse, fine, last, linear, share);
-  fg__team_meet(share, FG__FIRST_SLICE | FG__LAST_SLICE);
+    correct_slice(coarse, fine, last, linear, thread);
+  fg__threads_exchange(thread, FG__FIRST_SLICE | FG__LAST_SLICE);
 }
 
 #endif

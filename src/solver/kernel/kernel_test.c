@@ -20,7 +20,7 @@ static int kernels_of_this_machine(int dimension, const fg__kernel *kernels[MOST
 
 /* An entry of the table put to use on two levels, the finest or the two after it. */
 typedef void operation(const fg__kernel *kernel, const fg__level *fine,
-                       const fg__level *coarse, const fg__share *share,
+                       const fg__level *coarse, const fg__thread *thread,
                        double sums[SUMS]);
 
 /* Of the order of the diffusion time of a cell. */
@@ -30,122 +30,123 @@ static float step_of(const fg__level *level)
 }
 
 static void smooth(const fg__kernel *kernel, const fg__level *fine,
-                   const fg__level *coarse, const fg__share *share, double sums[SUMS])
+                   const fg__level *coarse, const fg__thread *thread, double sums[SUMS])
 {
   (void)coarse, (void)sums;
-  kernel->smooth(fine, step_of(fine), share);
+  kernel->smooth(fine, step_of(fine), thread);
 }
 
 static void smooth_linear(const fg__kernel *kernel, const fg__level *fine,
-                          const fg__level *coarse, const fg__share *share,
+                          const fg__level *coarse, const fg__thread *thread,
                           double sums[SUMS])
 {
   (void)coarse, (void)sums;
-  kernel->smooth_linear(fine, step_of(fine), share);
+  kernel->smooth_linear(fine, step_of(fine), thread);
 }
 
 static void restrict_residuals(const fg__kernel *kernel, const fg__level *fine,
-                               const fg__level *coarse, const fg__share *share,
+                               const fg__level *coarse, const fg__thread *thread,
                                double sums[SUMS])
 {
   (void)sums;
-  kernel->restrict_residuals(fine, coarse, step_of(fine), share);
+  kernel->restrict_residuals(fine, coarse, step_of(fine), thread);
 }
 
 static void smooth_restrict_linear(const fg__kernel *kernel, const fg__level *fine,
-                                   const fg__level *coarse, const fg__share *share,
+                                   const fg__level *coarse, const fg__thread *thread,
                                    double sums[SUMS])
 {
   (void)sums;
-  kernel->smooth_restrict_linear(fine, coarse, step_of(fine), share);
+  kernel->smooth_restrict_linear(fine, coarse, step_of(fine), thread);
 }
 
 static void find_scale(const fg__kernel *kernel, const fg__level *fine,
-                       const fg__level *coarse, const fg__share *share, double sums[SUMS])
+                       const fg__level *coarse, const fg__thread *thread,
+                       double sums[SUMS])
 {
   (void)fine, (void)sums;
-  kernel->find_scale(coarse, share);
+  kernel->find_scale(coarse, thread);
 }
 
 static void find_curvature(const fg__kernel *kernel, const fg__level *fine,
-                           const fg__level *coarse, const fg__share *share,
+                           const fg__level *coarse, const fg__thread *thread,
                            double sums[SUMS])
 {
   (void)fine, (void)sums;
-  kernel->find_curvature(coarse, step_of(fine), share);
+  kernel->find_curvature(coarse, step_of(fine), thread);
 }
 
 static void find_relaxation(const fg__kernel *kernel, const fg__level *fine,
-                            const fg__level *coarse, const fg__share *share,
+                            const fg__level *coarse, const fg__thread *thread,
                             double sums[SUMS])
 {
   (void)sums;
-  kernel->find_relaxation(coarse, step_of(fine), share);
+  kernel->find_relaxation(coarse, step_of(fine), thread);
 }
 
 static void unscale(const fg__kernel *kernel, const fg__level *fine,
-                    const fg__level *coarse, const fg__share *share, double sums[SUMS])
+                    const fg__level *coarse, const fg__thread *thread, double sums[SUMS])
 {
   (void)fine, (void)sums;
-  kernel->unscale(coarse, share);
+  kernel->unscale(coarse, thread);
 }
 
 static void correct_smooth(const fg__kernel *kernel, const fg__level *fine,
-                           const fg__level *coarse, const fg__share *share,
+                           const fg__level *coarse, const fg__thread *thread,
                            double sums[SUMS])
 {
   (void)sums;
-  kernel->correct_smooth(coarse, fine, step_of(fine), share);
+  kernel->correct_smooth(coarse, fine, step_of(fine), thread);
 }
 
 static void correct_smooth_linear(const fg__kernel *kernel, const fg__level *fine,
-                                  const fg__level *coarse, const fg__share *share,
+                                  const fg__level *coarse, const fg__thread *thread,
                                   double sums[SUMS])
 {
   (void)sums;
-  kernel->correct_smooth_linear(coarse, fine, step_of(fine), share);
+  kernel->correct_smooth_linear(coarse, fine, step_of(fine), thread);
 }
 
 static void correct_smooth_restrict(const fg__kernel *kernel, const fg__level *fine,
-                                    const fg__level *coarse, const fg__share *share,
+                                    const fg__level *coarse, const fg__thread *thread,
                                     double sums[SUMS])
 {
   (void)sums;
-  kernel->correct_smooth_restrict(coarse, fine, step_of(fine), share);
+  kernel->correct_smooth_restrict(coarse, fine, step_of(fine), thread);
 }
 
 static void evaluate(const fg__kernel *kernel, const fg__level *fine,
-                     const fg__level *coarse, const fg__share *share, double sums[SUMS])
+                     const fg__level *coarse, const fg__thread *thread, double sums[SUMS])
 {
   (void)coarse;
-  fg__sums result = kernel->evaluate(fine, fine->u, fine->w, share);
+  fg__sums result = kernel->evaluate(fine, fine->u, fine->w, thread);
   sums[0] = result.energy;
   sums[1] = result.u;
 }
 
 static void explicit_part(const fg__kernel *kernel, const fg__level *fine,
-                          const fg__level *coarse, const fg__share *share,
+                          const fg__level *coarse, const fg__thread *thread,
                           double sums[SUMS])
 {
   (void)coarse, (void)sums;
-  kernel->explicit_part(fine, fine->u, fine->w, step_of(fine), fine->p, share);
+  kernel->explicit_part(fine, fine->u, fine->w, step_of(fine), fine->p, thread);
 }
 
-static void subtract_wells(const fg__kernel *kernel, const fg__level *fine,
-                           const fg__level *coarse, const fg__share *share,
-                           double sums[SUMS])
+static void subtract_potential_derivative(const fg__kernel *kernel, const fg__level *fine,
+                                          const fg__level *coarse,
+                                          const fg__thread *thread, double sums[SUMS])
 {
   (void)coarse, (void)sums;
-  kernel->subtract_wells(fine, fine->u, fine->w, share);
+  kernel->subtract_potential_derivative(fine, fine->u, fine->w, thread);
 }
 
 static void changes(const fg__kernel *kernel, const fg__level *fine,
-                    const fg__level *coarse, const fg__share *share, double sums[SUMS])
+                    const fg__level *coarse, const fg__thread *thread, double sums[SUMS])
 {
   (void)coarse;
   /* changes of a tenth, as steps have them */
-  kernel->extrapolate(fine, fine->u, fine->w, 0.1F, fine->p, share);
-  fg__changes result = kernel->changes(fine, fine->u, fine->p, fine->p, fine->u, share);
+  kernel->extrapolate(fine, fine->u, fine->w, 0.1F, fine->p, thread);
+  fg__changes result = kernel->changes(fine, fine->u, fine->p, fine->p, fine->u, thread);
   sums[0] = result.u;
   sums[1] = result.from_a;
   sums[2] = result.from_b;
@@ -153,25 +154,25 @@ static void changes(const fg__kernel *kernel, const fg__level *fine,
 }
 
 static void extrapolate(const fg__kernel *kernel, const fg__level *fine,
-                        const fg__level *coarse, const fg__share *share,
+                        const fg__level *coarse, const fg__thread *thread,
                         double sums[SUMS])
 {
   (void)coarse, (void)sums;
-  kernel->extrapolate(fine, fine->w, fine->p, 1.37F, fine->u, share);
+  kernel->extrapolate(fine, fine->w, fine->p, 1.37F, fine->u, thread);
 }
 
 static void predict(const fg__kernel *kernel, const fg__level *fine,
-                    const fg__level *coarse, const fg__share *share, double sums[SUMS])
+                    const fg__level *coarse, const fg__thread *thread, double sums[SUMS])
 {
   (void)coarse, (void)sums;
-  kernel->predict(fine, fine->w, fine->p, 1.37F, fine->u, share);
+  kernel->predict(fine, fine->w, fine->p, 1.37F, fine->u, thread);
 }
 
 static void shift(const fg__kernel *kernel, const fg__level *fine,
-                  const fg__level *coarse, const fg__share *share, double sums[SUMS])
+                  const fg__level *coarse, const fg__thread *thread, double sums[SUMS])
 {
   (void)coarse, (void)sums;
-  kernel->shift(fine, fine->u, -0.0321F, share);
+  kernel->shift(fine, fine->u, -0.0321F, thread);
 }
 
 static const struct {
@@ -193,7 +194,7 @@ static const struct {
     {"correct_smooth_restrict", correct_smooth_restrict, true, false},
     {"evaluate", evaluate, false, false},
     {"explicit_part", explicit_part, false, false},
-    {"subtract_wells", subtract_wells, false, false},
+    {"subtract_potential_derivative", subtract_potential_derivative, false, false},
     {"changes", changes, false, false},
     {"extrapolate", extrapolate, false, false},
     {"predict", predict, false, false},
@@ -273,7 +274,7 @@ static size_t save(const problem *p, float *to)
   return count;
 }
 
-/* One operation, as a team's work. */
+/* One operation, by several threads. */
 typedef struct call {
   operation *run;
   const fg__kernel *kernel;
@@ -281,15 +282,15 @@ typedef struct call {
   double sums[MEMBERS][SUMS];
 } call;
 
-static void run_share(void *argument, const fg__share *share)
+static void run_share(void *argument, const fg__thread *thread)
 {
   call *c = argument;
-  c->run(c->kernel, c->fine, c->fine + 1, share, c->sums[share->member]);
+  c->run(c->kernel, c->fine, c->fine + 1, thread, c->sums[thread->index]);
 }
 
 /* Results of one operation with one kernel; the length of what was saved. */
 static size_t result_of(const problem *p, size_t operation_index,
-                        const fg__kernel *kernel, fg__team *team, float *values,
+                        const fg__kernel *kernel, fg__threads *threads, float *values,
                         double sums[SUMS])
 {
   call c = {OPERATIONS[operation_index].run,
@@ -297,7 +298,7 @@ static size_t result_of(const problem *p, size_t operation_index,
             &p->multigrid.level[OPERATIONS[operation_index].linear],
             {{0.0}}};
   load(p);
-  fg__team_run(team, run_share, &c);
+  fg__threads_run(threads, run_share, &c);
   for (int n = 0; n < SUMS; ++n) {
     sums[n] = 0.0;
     for (int m = 0; m < MEMBERS; ++m)
@@ -307,12 +308,12 @@ static size_t result_of(const problem *p, size_t operation_index,
 }
 
 /* Sweep and restriction in one pass give what they give one after the other. */
-static void compare_passes(const problem *p, fg__team *team)
+static void compare_passes(const problem *p, fg__threads *threads)
 {
   size_t room = 60 * p->nodes + 10000;
   float *expected = allocate_or_fail(room, sizeof *expected);
   float *values = allocate_or_fail(room, sizeof *values);
-  fg__share alone = fg__alone();
+  fg__thread alone = fg__single_thread();
   const fg__level *level = p->multigrid.level;
   const fg__kernel *kernel = p->multigrid.kernel;
   double sums[SUMS];
@@ -324,7 +325,7 @@ static void compare_passes(const problem *p, fg__team *team)
   kernel->restrict_residuals(level, level + 1, step_of(level), &alone);
   size_t count = save(p, expected);
   for (int n = 0; n < 2; ++n) {
-    result_of(p, fused, kernel, n ? team : NULL, values, sums);
+    result_of(p, fused, kernel, n ? threads : NULL, values, sums);
     if (memcmp(values, expected, count * sizeof *values) != 0)
       fail_msg("one pass is not two on %d x %d x %d cells", p->of.cells[0],
                p->of.cells[1], p->of.cells[2]);
@@ -333,8 +334,8 @@ static void compare_passes(const problem *p, fg__team *team)
   free(values);
 }
 
-/* Every kernel, by one thread and by a team, gives what the first does by one. */
-static void compare_kernels(const problem *p, fg__team *team)
+/* Every kernel, by one thread and by several, gives what the first does by one. */
+static void compare_kernels(const problem *p, fg__threads *threads)
 {
   const fg__kernel *kernels[MOST_KERNELS];
   int kernel_count = kernels_of_this_machine(p->dimension, kernels);
@@ -354,11 +355,11 @@ static void compare_kernels(const problem *p, fg__team *team)
                 expected_sums[0] != 0.0);
     for (int k = 0; k < 2 * kernel_count; ++k) {
       const fg__kernel *kernel = kernels[k / 2];
-      result_of(p, n, kernel, k % 2 ? team : NULL, values, sums);
+      result_of(p, n, kernel, k % 2 ? threads : NULL, values, sums);
       if (memcmp(values, expected, count * sizeof *values) != 0 ||
           memcmp(sums, expected_sums, sizeof sums) != 0)
         fail_msg("%s of %s by %s differs on %d x %d x %d cells", OPERATIONS[n].name,
-                 kernel->name, k % 2 ? "a team" : "one thread", p->of.cells[0],
+                 kernel->name, k % 2 ? "several threads" : "one thread", p->of.cells[0],
                  p->of.cells[1], p->of.cells[2]);
     }
   }
@@ -374,10 +375,10 @@ static const int SIZES[][3] = {{8, 8},       {16, 24},     {30, 14},    {34, 18}
 
 static void compare_on_all_sizes(bool (*inside)(double, double))
 {
-  fg__team *team;
-  assert_int_equal(fg__team_create(&team, NULL, MEMBERS), FG_STATUS_OK);
+  fg__threads *threads;
+  assert_int_equal(fg__threads_create(&threads, NULL, MEMBERS), FG_STATUS_OK);
   for (size_t n = 0; n < sizeof SIZES / sizeof *SIZES; ++n)
-    for (int borders = 0; borders < (SIZES[n][2] > 0 ? 8 : 4); ++borders) {
+    for (int boundaries = 0; boundaries < (SIZES[n][2] > 0 ? 8 : 4); ++boundaries) {
       problem p;
       problem_description of = {.cells = {SIZES[n][0], SIZES[n][1], SIZES[n][2]},
                                 .side = {1.0, 0.93 * SIZES[n][1] / SIZES[n][0],
@@ -387,23 +388,23 @@ static void compare_on_all_sizes(bool (*inside)(double, double))
                                 .angle = turning,
                                 .inside = inside};
       for (int k = 0; k < 3; ++k)
-        of.periodic[k] = borders >> k & 1;
+        of.periodic[k] = boundaries >> k & 1;
       problem_create(&p, &of);
-      compare_kernels(&p, team);
+      compare_kernels(&p, threads);
       if (p.multigrid.level_count > 1)
-        compare_passes(&p, team);
+        compare_passes(&p, threads);
       problem_clear(&p);
     }
-  fg__team_destroy(team);
+  fg__threads_destroy(threads);
 }
 
-static void all_widths_and_teams_give_the_same_bits(void **state)
+static void all_widths_and_threads_give_the_same_bits(void **state)
 {
   (void)state;
   compare_on_all_sizes(NULL);
 }
 
-static void all_widths_and_teams_give_the_same_bits_with_a_mask(void **state)
+static void all_widths_and_threads_give_the_same_bits_with_a_mask(void **state)
 {
   (void)state;
   compare_on_all_sizes(outside_holes);
@@ -428,8 +429,8 @@ static void narrower_vectors_can_be_asked_for(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(all_widths_and_teams_give_the_same_bits),
-      cmocka_unit_test(all_widths_and_teams_give_the_same_bits_with_a_mask),
+      cmocka_unit_test(all_widths_and_threads_give_the_same_bits),
+      cmocka_unit_test(all_widths_and_threads_give_the_same_bits_with_a_mask),
       cmocka_unit_test(narrower_vectors_can_be_asked_for),
   };
   return cmocka_run_group_tests_name("solver/kernel/kernel", tests, NULL, NULL);

@@ -35,26 +35,26 @@ static void take_over(const fg__level *fine, lines *gathered)
 /* Slice s is smoothed when those up to s + 1 are corrected. Once slices up to s = 2 S + 2
  * are smoothed, those up to 2 S + 1 have their final residuals, while they are still
  * near. Not so at the start of a part, whose neighbour may be at work still, nor across a
- * periodic border within a part, where slice 0 needs the last. */
+ * periodic boundary within a part, where slice 0 needs the last. */
 static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool linear,
-                 work todo, const fg__share *share)
+                 work todo, const fg__thread *thread)
 {
   laplacian l = laplacian_times(fine, tau);
-  restriction r = restriction_of(fine, coarse, tau, share);
+  restriction r = restriction_of(fine, coarse, tau, thread);
   float *const out[] = {coarse->p, coarse->q, coarse->coupling, coarse->shape_curvature};
-  part mine = part_of(fine, share);
+  slab mine = slab_of(fine, thread);
   int first = mine.begin / 2, last = (mine.end + 1) / 2; /* coarse slices */
   bool together = todo.sweep && todo.restriction &&
                   (!fine->periodic[FG__DIMENSION - 1] || fine->received);
   int started = together && mine.begin == 0 && !fine->received ? first : first + 1;
   if (todo.correct)
-    correct_ends(coarse, fine, mine, linear, share);
+    correct_ends(coarse, fine, mine, linear, thread);
   if (todo.sweep)
-    begin_sweep(fine, mine, &l, linear, share);
+    begin_sweep(fine, mine, &l, linear, thread);
   for (int s = mine.begin + 2; todo.sweep && s <= mine.end + 1; s += 2) {
     int S = s / 2 - 1;
     for (int next = s; todo.correct && next <= s + 1 && next < mine.end - 1; ++next)
-      correct_slice(coarse, fine, next, linear, share);
+      correct_slice(coarse, fine, next, linear, thread);
     continue_sweep(fine, s, mine, &l, linear);
     if (together && S >= started)
       restrict_slice(&r, S, S == started, out, linear);
@@ -64,8 +64,8 @@ static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool
       take_slice(&r, mine.end - 1, &r.slice[0], linear);
     hand_over(fine, &r.slice[0]);
   }
-  fg__team_meet(share, (todo.sweep ? FG__LAST_SLICE : 0U) |
-                           (todo.restriction ? FG__GATHERED_SLICE : 0U));
+  fg__threads_exchange(thread, (todo.sweep ? FG__LAST_SLICE : 0U) |
+                                   (todo.restriction ? FG__GATHERED_SLICE : 0U));
   if (!todo.restriction)
     return;
   int end = together ? started : last;
@@ -73,41 +73,41 @@ static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool
     take_over(fine, &r.slice[0]);
   for (int S = first; S < end && S < last; ++S)
     restrict_slice(&r, S, S == first && !fine->received, out, linear);
-  if (share->member == 0)
+  if (thread->index == 0)
     clear(coarse, coarse->u);
-  if (share->member == share->members - 1)
+  if (thread->index == thread->count - 1)
     clear(coarse, coarse->w);
-  fg__team_barrier(share);
+  fg__threads_barrier(thread);
 }
 
 static void restrict_residuals(const fg__level *fine, const fg__level *coarse, float tau,
-                               const fg__share *share)
+                               const fg__thread *thread)
 {
-  pass(fine, coarse, tau, false, (work){.restriction = true}, share);
+  pass(fine, coarse, tau, false, (work){.restriction = true}, thread);
 }
 
 static void smooth_restrict_linear(const fg__level *fine, const fg__level *coarse,
-                                   float tau, const fg__share *share)
+                                   float tau, const fg__thread *thread)
 {
-  pass(fine, coarse, tau, true, (work){.sweep = true, .restriction = true}, share);
+  pass(fine, coarse, tau, true, (work){.sweep = true, .restriction = true}, thread);
 }
 
 static void correct_smooth(const fg__level *coarse, const fg__level *fine, float tau,
-                           const fg__share *share)
+                           const fg__thread *thread)
 {
-  pass(fine, coarse, tau, false, (work){.correct = true, .sweep = true}, share);
+  pass(fine, coarse, tau, false, (work){.correct = true, .sweep = true}, thread);
 }
 
 static void correct_smooth_linear(const fg__level *coarse, const fg__level *fine,
-                                  float tau, const fg__share *share)
+                                  float tau, const fg__thread *thread)
 {
-  pass(fine, coarse, tau, true, (work){.correct = true, .sweep = true}, share);
+  pass(fine, coarse, tau, true, (work){.correct = true, .sweep = true}, thread);
 }
 
 static void correct_smooth_restrict(const fg__level *coarse, const fg__level *fine,
-                                    float tau, const fg__share *share)
+                                    float tau, const fg__thread *thread)
 {
-  pass(fine, coarse, tau, false, (work){true, true, true}, share);
+  pass(fine, coarse, tau, false, (work){true, true, true}, thread);
 }
 
 #endif

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "solver/kernel/space.h"
+#include "solver/kernel/coarse_space.h"
 
 /* What is restricted, each a line in the level's own layout, or a slice of lines gathered
  * to coarse columns (and in 3D to coarse rows). */
@@ -27,11 +27,11 @@ INLINE ptrdiff_t row_in_slice(const fg__level *level)
   return FG__DIMENSION == 3 ? level->layout.stride : 0;
 }
 
-static shapes shapes_of(const fg__level *level, const fg__share *share)
+static shapes shapes_of(const fg__level *level, const fg__thread *thread)
 {
   shapes x = {.level = level, .held = {-2, -2, -2}};
   float *space =
-      level->shapes + (size_t)share->member * 3 * (size_t)fg__slice_floats(level);
+      level->shapes + (size_t)thread->index * 3 * (size_t)fg__slice_floats(level);
   for (int n = 0; n < 3; ++n)
     x.slot[n] = space + n * fg__slice_floats(level);
   return x;
@@ -426,19 +426,19 @@ static void restrict_slice(restriction *r, int S, bool first, float *const out[]
   swap_lines(&r->slice[0], &r->slice[2]);
 }
 
-/* Cuts all lines from the member's piece of the fine level's scratch space. */
+/* Cuts all lines from the thread's piece of the fine level's scratch space. */
 static restriction restriction_of(const fg__level *fine, const fg__level *coarse,
-                                  float tau, const fg__share *share)
+                                  float tau, const fg__thread *thread)
 {
   restriction r = {.fine = fine,
                    .coarse = coarse,
                    .l = laplacian_times(fine, tau),
                    .line = fine->layout.odd_offset};
   if (fine->shapes)
-    r.shapes = shapes_of(fine, share);
+    r.shapes = shapes_of(fine, thread);
   ptrdiff_t stride = fine->layout.stride;
   ptrdiff_t slice = fg__gathered_floats(fine);
-  float *space = fine->scratch + (size_t)share->member * fine->scratch_size;
+  float *space = fine->scratch + (size_t)thread->index * fine->scratch_size;
   for (int n = 0; n < FG__RESTRICTED; ++n) {
     r.fine_line.value[n] = space;
     space += stride;

@@ -107,13 +107,13 @@ INLINE float interface_shape(float u)
 }
 
 /* Where a droplet vanishes the equations are next to singular, and a change that is found
- * from them as linear ones would carry u far past the well that it moves to. So neither a
- * coarse correction nor a sweep takes a node past a well by more than this, which is what
- * the curvature of interfaces does there. Near a solution changes are smaller, and it is
- * the same solution (docs/design/evolution.md). */
+ * from them as linear ones would carry u far past the minimum that it moves to. So
+ * neither a coarse correction nor a sweep takes a node past a minimum by more than this,
+ * which is what the curvature of interfaces does there. Near a solution changes are
+ * smaller, and it is the same solution (docs/design/evolution.md). */
 static const float leeway = 0.02F;
 
-/* For a correction: a node past a well goes no farther than the leeway, either. */
+/* For a correction: a node past a minimum goes no farther than the leeway, either. */
 INLINE float bounded_change(float u, float change)
 {
   float up = greater(1.0F - u, 0.0F) + leeway, down = -greater(1.0F + u, 0.0F) - leeway;

@@ -4,8 +4,8 @@
 
 #include "solver/kernel/sweep.h"
 
-/* Weights of a row that make sums over nodes integrals: halves at natural borders, and no
- * coupling twice or to a ghost. */
+/* Weights of a row that make sums over nodes integrals: halves at natural boundaries, and
+ * no coupling twice or to a ghost. */
 typedef struct row_weights {
   const float *mass, *east, *west; /* by column */
   const float *masked;             /* relative mass, or NULL */
@@ -15,8 +15,8 @@ typedef struct row_weights {
 /* Along one axis, for couplings by d = -1, 0 or 1. */
 INLINE float axis_weight(const fg__level *level, int axis, int at, int d)
 {
-  bool low = level->border[axis][0] && at == 0;
-  bool high = level->border[axis][1] && at == level->layout.nodes[axis] - 1;
+  bool low = level->boundary[axis][0] && at == 0;
+  bool high = level->boundary[axis][1] && at == level->layout.nodes[axis] - 1;
   if (d == 0)
     return low || high ? 0.5F : 1.0F;
   return (d < 0 && low) || (d > 0 && high) ? 0.0F : 1.0F;
@@ -185,17 +185,17 @@ static void fill_ghosts_of_slice(const fg__level *level, float *array, int s)
 }
 
 static fg__sums evaluate(const fg__level *level, const float *u, float *w,
-                         const fg__share *share)
+                         const fg__thread *thread)
 {
   double sum[2][FG__LANES] = {{0.0}};
-  part mine = part_of(level, share);
+  slab mine = slab_of(level, thread);
   for (int s = mine.begin; s < mine.end; ++s) {
     for (int n = 0; n < rows_of_slice(level); ++n)
       (level->mass ? evaluate_masked : evaluate_plain)(level, u, w, row_index(s, n),
                                                        plane_index(s), sum);
     fill_ghosts_of_slice(level, w, s);
   }
-  fg__team_barrier(share);
+  fg__threads_barrier(thread);
   return (fg__sums){0.5 * total(sum[0]), total(sum[1])};
 }
 
@@ -232,17 +232,17 @@ ROW_LOOP void explicit_masked(const fg__level *level, const float *u, const floa
 }
 
 static void explicit_part(const fg__level *level, const float *u, const float *w,
-                          float tau, float *p, const fg__share *share)
+                          float tau, float *p, const fg__thread *thread)
 {
   laplacian l = laplacian_times(level, tau);
-  part mine = part_of(level, share);
+  slab mine = slab_of(level, thread);
   for (int s = mine.begin; s < mine.end; ++s)
     for (int n = 0; n < rows_of_slice(level); ++n)
       for (int colour = EVEN; colour <= ODD; ++colour)
         (level->mass ? explicit_masked : explicit_plain)(
             level, u, w, fg__row_at(&level->layout, row_index(s, n), plane_index(s)),
             colour, &l, p);
-  fg__team_barrier(share);
+  fg__threads_barrier(thread);
 }
 
 INLINE void add_changes(const row_weights *r, const float *u, const float *a,
@@ -291,71 +291,72 @@ ROW_LOOP void changes_masked(const fg__level *level, const float *u, const float
 }
 
 static fg__changes changes(const fg__level *level, const float *u, const float *a,
-                           const float *b, const float *c, const fg__share *share)
+                           const float *b, const float *c, const fg__thread *thread)
 {
   double sum[4][FG__LANES] = {{0.0}};
-  part mine = part_of(level, share);
+  slab mine = slab_of(level, thread);
   for (int s = mine.begin; s < mine.end; ++s)
     for (int n = 0; n < rows_of_slice(level); ++n)
       (level->mass ? changes_masked : changes_plain)(level, u, a, b, c, row_index(s, n),
                                                      plane_index(s), sum);
-  fg__team_barrier(share);
+  fg__threads_barrier(thread);
   return (fg__changes){total(sum[0]), total(sum[1]), total(sum[2]), total(sum[3])};
 }
 
-/* A member's floats of an array, ghosts and all, from its first one. */
-INLINE void floats_of(const fg__level *level, const fg__share *share, ptrdiff_t *begin,
+/* A thread's floats of an array, ghosts and all, from its first one. */
+INLINE void floats_of(const fg__level *level, const fg__thread *thread, ptrdiff_t *begin,
                       ptrdiff_t *end)
 {
   ptrdiff_t rows = (ptrdiff_t)level->layout.array_size / level->layout.stride;
   *begin =
-      rows * share->member / share->members * level->layout.stride - level->layout.first;
-  *end = rows * (share->member + 1) / share->members * level->layout.stride -
+      rows * thread->index / thread->count * level->layout.stride - level->layout.first;
+  *end = rows * (thread->index + 1) / thread->count * level->layout.stride -
          level->layout.first;
 }
 
 static void extrapolate(const fg__level *level, const float *now, const float *before,
-                        float omega, float *out, const fg__share *share)
+                        float omega, float *out, const fg__thread *thread)
 {
   ptrdiff_t begin, end;
-  floats_of(level, share, &begin, &end);
+  floats_of(level, thread, &begin, &end);
   INDEPENDENT
   for (ptrdiff_t n = begin; n < end; ++n)
     out[n] = now[n] + omega * (now[n] - before[n]);
-  fg__team_barrier(share);
+  fg__threads_barrier(thread);
 }
 
-/* As it is extrapolated no node passes a well, unless it is there already: what follows
- * an interface, or a droplet that has just vanished, is pure phase. */
+/* As it is extrapolated no node passes a minimum, unless it is there already: what
+ * follows an interface, or a droplet that has just vanished, is pure phase. */
 static void predict(const fg__level *level, const float *now, const float *before,
-                    float omega, float *out, const fg__share *share)
+                    float omega, float *out, const fg__thread *thread)
 {
   ptrdiff_t begin, end;
-  floats_of(level, share, &begin, &end);
+  floats_of(level, thread, &begin, &end);
   INDEPENDENT
   for (ptrdiff_t n = begin; n < end; ++n) {
     float u = now[n], high = greater(u, 1.0F), low = -greater(-u, 1.0F);
     float x = u + omega * (u - before[n]);
     out[n] = greater(x < high ? x : high, low);
   }
-  fg__team_barrier(share);
+  fg__threads_barrier(thread);
 }
 
-static void subtract_wells(const fg__level *level, const float *u, float *w,
-                           const fg__share *share)
+static void subtract_potential_derivative(const fg__level *level, const float *u,
+                                          float *w, const fg__thread *thread)
 {
   ptrdiff_t begin, end;
-  floats_of(level, share, &begin, &end);
+  floats_of(level, thread, &begin, &end);
   INDEPENDENT
   for (ptrdiff_t n = begin; n < end; ++n)
     w[n] -= 2.0F * u[n] * (u[n] * u[n] - 1.0F);
-  fg__team_barrier(share);
+  fg__threads_barrier(thread);
 }
 
-static void shift(const fg__level *level, float *u, float amount, const fg__share *share)
+static void shift(const fg__level *level, float *u, float amount,
+                  const fg__thread *thread)
 {
   ptrdiff_t begin, end;
-  floats_of(level, share, &begin, &end);
+  floats_of(level, thread, &begin, &end);
   const float *mass = level->mass;
   if (mass) {
     INDEPENDENT
@@ -366,7 +367,7 @@ static void shift(const fg__level *level, float *u, float amount, const fg__shar
     for (ptrdiff_t n = begin; n < end; ++n)
       u[n] += amount;
   }
-  fg__team_barrier(share);
+  fg__threads_barrier(thread);
 }
 
 #endif

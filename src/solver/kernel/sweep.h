@@ -4,13 +4,13 @@
 
 #include "solver/kernel/row.h"
 
-/* For a sweep: a node past a well, where Psi'' is 4 and more, may go as far again, so
- * that noise beyond the wells is smoothed as fast as other noise. */
+/* For a sweep: a node past a minimum, where Psi'' is 4 and more, may go as far again, so
+ * that noise beyond the minima is smoothed as fast as other noise. */
 INLINE vector bounded_changes(vector u, vector change)
 {
   lanes_mask sign = sign_of_lanes(change);
-  vector to_well = size_of_lanes(1.0F - (vector)((lanes_mask)u ^ sign));
-  vector size = at_most_lanes(size_of_lanes(change), to_well + leeway);
+  vector to_minimum = size_of_lanes(1.0F - (vector)((lanes_mask)u ^ sign));
+  vector size = at_most_lanes(size_of_lanes(change), to_minimum + leeway);
   return (vector)((lanes_mask)size | sign);
 }
 
@@ -145,30 +145,30 @@ static void smooth_slice(const fg__level *level, int j, const laplacian *l, bool
 }
 #endif
 
-/* A member's slices in a sweep: [begin, end), begin even. */
-typedef struct part {
+/* A thread's slices in a sweep: [begin, end), begin even. */
+typedef struct slab {
   int begin, end;
-} part;
+} slab;
 
-static part part_of(const fg__level *level, const fg__share *share)
+static slab slab_of(const fg__level *level, const fg__thread *thread)
 {
-  part p;
-  fg__team_part(share, fg__slices(level), 2, &p.begin, &p.end);
+  slab p;
+  fg__threads_range(thread, fg__slices(level), 2, &p.begin, &p.end);
   return p;
 }
 
 /* The first slice of each part comes first: the last one of the part before needs it. */
-static void begin_sweep(const fg__level *level, part mine, const laplacian *l,
-                        bool linear, const fg__share *share)
+static void begin_sweep(const fg__level *level, slab mine, const laplacian *l,
+                        bool linear, const fg__thread *thread)
 {
   if (mine.begin < mine.end)
     smooth_slice(level, mine.begin, l, linear);
-  fg__team_meet(share, FG__FIRST_SLICE);
+  fg__threads_exchange(thread, FG__FIRST_SLICE);
 }
 
 /* Slices s (even, not the first) and s - 1, as far as they are of the part: again even
  * ones run ahead. */
-static void continue_sweep(const fg__level *level, int s, part mine, const laplacian *l,
+static void continue_sweep(const fg__level *level, int s, slab mine, const laplacian *l,
                            bool linear)
 {
   if (s < mine.end)
@@ -177,24 +177,25 @@ static void continue_sweep(const fg__level *level, int s, part mine, const lapla
     smooth_slice(level, s - 1, l, linear);
 }
 
-static void sweep(const fg__level *level, float tau, bool linear, const fg__share *share)
+static void sweep(const fg__level *level, float tau, bool linear,
+                  const fg__thread *thread)
 {
   laplacian l = laplacian_times(level, tau);
-  part mine = part_of(level, share);
-  begin_sweep(level, mine, &l, linear, share);
+  slab mine = slab_of(level, thread);
+  begin_sweep(level, mine, &l, linear, thread);
   for (int s = mine.begin + 2; s <= mine.end + 1; s += 2)
     continue_sweep(level, s, mine, &l, linear);
-  fg__team_meet(share, FG__LAST_SLICE);
+  fg__threads_exchange(thread, FG__LAST_SLICE);
 }
 
-static void smooth_linear(const fg__level *level, float tau, const fg__share *share)
+static void smooth_linear(const fg__level *level, float tau, const fg__thread *thread)
 {
-  sweep(level, tau, true, share);
+  sweep(level, tau, true, thread);
 }
 
-static void smooth(const fg__level *level, float tau, const fg__share *share)
+static void smooth(const fg__level *level, float tau, const fg__thread *thread)
 {
-  sweep(level, tau, false, share);
+  sweep(level, tau, false, thread);
 }
 
 #endif

@@ -1,0 +1,133 @@
+#include "picture/page/surface.h"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/memory.h"
+#include "picture/page/svg_ids.h"
+
+fg__surface_file_format fg__surface_file_format_of(const char *path)
+{
+  static const char *const ends[] = {".svg", ".pdf", ".png"};
+  size_t length = strlen(path);
+  for (int k = 0; k < FG__SURFACE_UNKNOWN; ++k)
+    if (length > 4 && strcasecmp(path + length - 4, ends[k]) == 0)
+      return (fg__surface_file_format)k;
+  return FG__SURFACE_UNKNOWN;
+}
+
+fg_status fg__surface_file_format_check(fg_context *context, const char *path)
+{
+  if (fg__surface_file_format_of(path) != FG__SURFACE_UNKNOWN)
+    return FG_STATUS_OK;
+  return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                  "%s: pictures are written as .svg, .pdf or .png", path);
+}
+
+/* What Cairo's streams call, with the file as their closure. */
+static cairo_status_t write_bytes(void *closure, const unsigned char *bytes,
+                                  unsigned int count)
+{
+  fg__whole_file *file = closure;
+  if (file->error)
+    return CAIRO_STATUS_WRITE_ERROR;
+  if (fwrite(bytes, 1, count, file->stream) == count)
+    return CAIRO_STATUS_SUCCESS;
+  file->error = errno ? errno : EIO;
+  return CAIRO_STATUS_WRITE_ERROR;
+}
+
+/* The same of SVG, with the sheet. */
+static cairo_status_t keep_bytes(void *closure, const unsigned char *bytes,
+                                 unsigned int count)
+{
+  fg__surface_file *page_surface = closure;
+  if (!fg__grow((void **)&page_surface->svg, &page_surface->svg_capacity,
+                page_surface->svg_length + count, 1))
+    return CAIRO_STATUS_NO_MEMORY;
+  memcpy(page_surface->svg + page_surface->svg_length, bytes, count);
+  page_surface->svg_length += count;
+  return CAIRO_STATUS_SUCCESS;
+}
+
+static cairo_surface_t *create_surface(fg__surface_file *page_surface, double width,
+                                       double height, double pixels, const char *title)
+{
+  if (page_surface->format == FG__SURFACE_SVG) {
+    cairo_surface_t *surface =
+        cairo_svg_surface_create_for_stream(keep_bytes, page_surface, width, height);
+    cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PT);
+    return surface;
+  }
+  if (page_surface->format == FG__SURFACE_PDF) {
+    cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
+        write_bytes, &page_surface->file, width, height);
+    /* Two runs shall give the same bytes. */
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
+    if (title)
+      cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
+    return surface;
+  }
+  return cairo_image_surface_create(CAIRO_FORMAT_ARGB32,
+                                    (int)fmax(ceil(width * pixels), 1.0),
+                                    (int)fmax(ceil(height * pixels), 1.0));
+}
+
+static fg_status status_of(fg_context *context, cairo_status_t trouble,
+                           const fg__whole_file *output)
+{
+  if (trouble == CAIRO_STATUS_SUCCESS || output->error)
+    return FG_STATUS_OK; /* closing the output reports its own error */
+  if (trouble == CAIRO_STATUS_NO_MEMORY)
+    return fg__fail_memory(context, "a picture", 0);
+  return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: cannot be drawn: %s", output->path,
+                  cairo_status_to_string(trouble));
+}
+
+fg_status fg__surface_file_open(fg__surface_file *out, fg_context *context,
+                                const char *path, double width, double height,
+                                double pixels_per_point, const char *title)
+{
+  *out = (fg__surface_file){.format = fg__surface_file_format_of(path)};
+  fg_status status = fg__surface_file_format_check(context, path);
+  if (!status)
+    status = fg__whole_file_open(&out->file, context, path);
+  if (status)
+    return status;
+  out->target = create_surface(out, width, height, pixels_per_point, title);
+  out->cairo = cairo_create(out->target);
+  if (out->format == FG__SURFACE_PNG)
+    cairo_scale(out->cairo, pixels_per_point, pixels_per_point);
+  return FG_STATUS_OK;
+}
+
+fg_status fg__surface_file_close(fg__surface_file *page_surface, fg_context *context,
+                                 fg_status status)
+{
+  cairo_show_page(page_surface->cairo);
+  cairo_status_t trouble = cairo_status(page_surface->cairo);
+  cairo_destroy(page_surface->cairo);
+  if (!status && !trouble && page_surface->format == FG__SURFACE_PNG)
+    trouble = cairo_surface_write_to_png_stream(page_surface->target, write_bytes,
+                                                &page_surface->file);
+  cairo_surface_finish(page_surface->target);
+  if (!trouble)
+    trouble = cairo_surface_status(page_surface->target);
+  cairo_surface_destroy(page_surface->target);
+  errno = 0;
+  if (!status && !trouble && page_surface->format == FG__SURFACE_SVG &&
+      !fg__svg_ids_write(page_surface->file.stream, page_surface->svg,
+                         page_surface->svg_length))
+    trouble = CAIRO_STATUS_NO_MEMORY;
+  if (!page_surface->file.error && ferror(page_surface->file.stream))
+    page_surface->file.error = errno ? errno : EIO;
+  free(page_surface->svg);
+  if (!status)
+    status = status_of(context, trouble, &page_surface->file);
+  return fg__whole_file_close(&page_surface->file, context, status);
+}
