@@ -191,7 +191,7 @@ try "${large[@]}" --max-steps 2
 rm -rf part
 mv large part
 before=$(cat part/.flowgrain/checkpoint* | cksum)
-one_other 1 2 bash -c 'ulimit -v 345000; exec "$@"' limited -- \
+one_other 1 2 bash -c 'ulimit -v 290000; exec "$@"' limited -- \
   "${large[@]}" -o part --resume --max-steps 3
 refused 'out of memory: [0-9]+ bytes for'
 rm -rf part

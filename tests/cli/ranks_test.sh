@@ -159,7 +159,7 @@ done_with "rank 0 must not write"
 
 # Memory for the libraries and a small mesh, not for a large one.
 timeout 300 mpirun -n 1 "$program" run synth:vortex3 -o none --nodes 2049 --max-steps 1 --quiet : \
-  -n 1 bash -c 'ulimit -v 500000; exec "$@"' limited \
+  -n 1 bash -c 'ulimit -v 400000; exec "$@"' limited \
   "$program" run synth:vortex3 -o none --nodes 2049 --max-steps 1 --quiet >out 2>err
 code=$?
 expect_code 1
@@ -172,7 +172,7 @@ done_with "one rank is out of memory"
 # mpirun passes on its end after GRACE seconds, and waits as long again before it kills.
 interrupt() {
   env --default-signal=INT mpirun -n 2 --mca odls_base_sigkill_timeout "$3" \
-    "$program" run synth:vortex3 -o "$2" --nodes 97 --scheme theta --clusters 1000,2 \
+    "$program" run synth:vortex3 -o "$2" --nodes 193 --scheme theta --clusters 1000,2 \
     --quiet >out 2>err &
   local mpirun=$! target=$! pid
   until_there "$2/.flowgrain/scale-00.geojson" $mpirun
@@ -196,7 +196,7 @@ expect_file stopped/.flowgrain/checkpoint
 done_with "an interrupt of one rank stops all"
 
 # where much else is running, two ranks may need longer to end than mpirun usually waits
-interrupt launcher ended 20
+interrupt launcher ended 10
 [ "$code" != 0 ] || fault "exit code 0"
 expect_json ended/run.json '.ended == "interrupted" and (.scales | length) >= 1'
 expect_file ended/.flowgrain/checkpoint
