@@ -133,9 +133,11 @@ static bool copy_file(const char *path, const char *source)
 int duplicate_file(const char *folder, const char *name, const char *from)
 {
   char *source = join_path(from, name), *path = join_path(folder, name);
-  int code = source && path ? EXIT_DONE : complain_of_memory("a file's name");
+  int code = EXIT_DONE;
   /* some file systems know no second names */
-  if (!code && link(source, path) != 0 && (errno == EEXIST || !copy_file(path, source)))
+  if (!source || !path)
+    code = complain_of_memory("a file's name");
+  else if (link(source, path) != 0 && (errno == EEXIST || !copy_file(path, source)))
     code = complain_of_file(path, "cannot be written");
   free(source);
   free(path);

@@ -311,8 +311,8 @@ static double value_in_face(const double *low, int width, const double share[3])
 double fg__window_value(const fg__window *window, const double *value,
                         const double position[])
 {
-  int at[3], width = window->nodes[0];
-  double share[3];
+  int at[3] = {0}, width = window->nodes[0];
+  double share[3] = {0};
   fg__window_find(window, position, at, share);
   value += fg__window_node(window, at[0], at[1], at[2]);
   double low = value_in_face(value, width, share);

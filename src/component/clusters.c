@@ -256,7 +256,8 @@ fg_status fg__clusters_find(fg__clusters *clusters, fg_context *context,
   fg__clusters *c = clusters;
   const fg__ranks *ranks = grid->partition->ranks;
   task t = {.clusters = c, .grid = grid, .u = u, .counting = wish->counting};
-  fg_status status = fg__ranks_agree(ranks, context, prepare(c, context, grid));
+  fg_status status = prepare(c, context, grid);
+  status = fg__ranks_agree(ranks, context, status);
   if (status)
     return status;
   describe(&c->block, grid, &c->halo);

@@ -139,7 +139,7 @@ static fg_status create_block(fg__density_block *out, fg_context *context,
     fg__box own = fg__block_cells(&partition, fg__own_block(&partition));
     size_t nodes = (size_t)fg__box_count(fg__own_block(&partition));
     memcpy(out->u, arrays->u, nodes * sizeof *out->u);
-    if (arrays->active)
+    if (arrays->active && out->active)
       memcpy(out->active, arrays->active, (size_t)fg__box_count(&own));
     status = find_clusters(out, context, arrays);
   }

@@ -93,7 +93,7 @@ static double arrival(const march *front, ptrdiff_t node, const int place[3])
   for (int order = 2; order >= 1; --order) {
     fg__upwind term[3];
     int terms = 0;
-    for (int axis = 0; axis < front->window->dimension; ++axis)
+    for (int axis = 0; axis < 3 && axis < front->window->dimension; ++axis)
       terms += look_upwind(front, node, place, axis, order == 2, &term[terms]);
     double value;
     if (terms > 0 && fg__upwind_solve(term, terms, &value))
@@ -110,9 +110,9 @@ static double arrival(const march *front, ptrdiff_t node, const int place[3])
 /* Renews the neighbours of a node that has just become known. */
 static bool renew_neighbours(march *front, ptrdiff_t node)
 {
-  int place[3];
+  int place[3] = {0};
   fg__window_place(front->window, (size_t)node, place);
-  for (int axis = 0; axis < front->window->dimension; ++axis)
+  for (int axis = 0; axis < 3 && axis < front->window->dimension; ++axis)
     for (int step = -1; step <= 1; step += 2) {
       int at = place[axis] + step;
       if (at < 0 || at >= front->window->nodes[axis])

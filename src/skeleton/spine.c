@@ -267,7 +267,7 @@ fg_status fg__spine_create(fg__spine *out, fg_context *context, const fg__window
   fg_status status = fg__ridge_create(&ridge, context, window, distance);
   if (status)
     goto cleanup;
-  if (!copy_ridge(&line, window, &ridge)) {
+  if (!copy_ridge(&line, window, &ridge) || !line.point) {
     status =
         fg__fail_memory(context, "a spine", (size_t)ridge.count * sizeof *line.point);
     goto cleanup;

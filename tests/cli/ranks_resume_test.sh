@@ -186,12 +186,12 @@ refused 'out of memory: [0-9]+ bytes for the start of MPI'
 goes_on part 3
 done_with "a rank without the memory to start"
 
-large=(run synth:vortex3 --nodes 1025 --quiet --checkpoint 0 -o large)
+large=(run synth:vortex3 --nodes 1281 --quiet --checkpoint 0 -o large)
 try "${large[@]}" --max-steps 2
 rm -rf part
 mv large part
 before=$(cat part/.flowgrain/checkpoint* | cksum)
-one_other 1 2 bash -c 'ulimit -v 290000; exec "$@"' limited -- \
+one_other 1 2 bash -c 'ulimit -v 310000; exec "$@"' limited -- \
   "${large[@]}" -o part --resume --max-steps 3
 refused 'out of memory: [0-9]+ bytes for'
 rm -rf part

@@ -82,7 +82,7 @@ static int group_samples(const fg__face_at sample[FG__SAMPLES], const fg__layers
 static uint32_t draw_finely(const job *j, const workspace *w, int pixel, int x, int y)
 {
   fg__light sum = {0};
-  group groups[FG__SAMPLES];
+  group groups[FG__SAMPLES] = {{0}};
   fg__haze ground[FG__SHARES]; /* before what is behind the arrows */
   for (int n = 0; n < FG__SHARES; ++n)
     ground[n].left = -1.0;

@@ -405,7 +405,7 @@ void fg__view_seen(const fg__view *view, int face, double x, double y, fg__seen 
   const fg__faces *faces = &view->geometry->solid;
   const fg__corner *corner[3];
   double weight[3] = {0.0};
-  edges e;
+  edges e = {.volume = 0.0};
   find_edges(faces, &faces->face[face], &e);
   weigh(&e, x, y, weight);
   double sum = weight[0] + weight[1] + weight[2];
