@@ -69,6 +69,9 @@ static inline int fg__field_last_axis(const fg_field *field)
   return field->contents.dimension - 1;
 }
 
+/* The cell of an axis that holds x, or -1 outside, and where in it x lies, in [0, 1]. */
+int fg__axis_cell(const fg__axis *axis, double x, double *fraction);
+
 /* Places of the corners of cell (i, j, k), k = 0 in 2D, among the samples that the field
  * has; x fastest. */
 void fg__field_corners_of(const fg_field *field, int i, int j, int k,
