@@ -60,6 +60,8 @@ typedef struct fg_field_arrays {
   const char *title;            /* what it is, for captions; NULL: "" */
   const char *time;             /* the chosen time in words; NULL: none */
   const char *level;            /* the chosen level in words; NULL: none */
+  const char *projection; /* scale MAP: a PROJ string that takes longitude and latitude to
+                             the axes' coordinates; NULL: not known */
 } fg_field_arrays;
 
 /* Copies arrays into a new field. ARGUMENT (sizes, order of axes, no valid cell, speeds
@@ -70,8 +72,8 @@ FG_API fg_status fg_field_create(fg_field **out, fg_context *context,
 FG_API void fg_field_destroy(fg_field *field);
 
 /* The field's own arrays and words, borrowed; no pointer in it is NULL but `valid` (then
- * every sample counts), in 2D `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen).
- */
+ * every sample counts), in 2D `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen),
+ * `projection`. */
 FG_API const fg_field_arrays *fg_field_contents(const fg_field *field);
 
 /* How many of a field's samples are missing because a component is infinite: of a slab

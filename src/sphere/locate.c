@@ -43,13 +43,15 @@ static bool cover(double low[2], double high[2], const fg__sphere *sphere, size_
 {
   int point[4];
   const int corners = fg__sphere_corners(sphere, n, point);
+  low[0] = low[1] = HUGE_VAL;
+  high[0] = high[1] = -HUGE_VAL;
   for (int k = 0; k < corners; ++k) {
     double at[2];
     if (!project(at, position_of(sphere, point[k]), f))
       return false;
     for (int c = 0; c < 2; ++c) {
-      low[c] = k == 0 || at[c] < low[c] ? at[c] : low[c];
-      high[c] = k == 0 || at[c] > high[c] ? at[c] : high[c];
+      low[c] = at[c] < low[c] ? at[c] : low[c];
+      high[c] = at[c] > high[c] ? at[c] : high[c];
     }
   }
   for (int c = 0; c < 2; ++c) {
@@ -314,7 +316,7 @@ static bool weigh_quadrilateral(double weight[4], const flat_point q[4])
 static bool try_cell(fg__sphere_place *out, const fg__sphere *sphere, int n,
                      const double up[3])
 {
-  flat_point seen[4];
+  flat_point seen[4] = {{0.0, 0.0}};
   const int corners = fg__sphere_corners(sphere, (size_t)n, out->point);
   if (!look(seen, sphere, out->point, corners, up))
     return false;

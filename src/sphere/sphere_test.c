@@ -206,8 +206,8 @@ static void sides_belong_to_both(void **state)
 {
   fg_context *context = *state;
   fg__sphere_cells cells = displaced(61, 21, false);
-  double longitude[61 * 21], latitude[61 * 21];
-  float east[61 * 21], u[61 * 21], v[61 * 21];
+  double longitude[61 * 21] = {0.0}, latitude[61 * 21] = {0.0};
+  float east[61 * 21] = {0.0f}, u[61 * 21], v[61 * 21];
   for (size_t n = 0; n < cells.points; ++n) {
     longitude[n] = cells.longitude[n];
     latitude[n] = cells.latitude[n];
