@@ -50,6 +50,10 @@ typedef struct fg__format {
   bool (*is_mine)(const unsigned char *bytes, size_t size);
   fg_status (*inventory)(fg_inventory *inventory, fg_context *context,
                          const fg__source *source);
+  /* The same of the one vector that `read` would give, without its missing share; NULL:
+   * found among all by --vars, or the first that can be read. */
+  fg_status (*inventory_chosen)(fg_inventory *inventory, fg_context *context,
+                                const fg__source *source, const fg_read_options *options);
   fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
                     const fg_read_options *options, fg__slab_index slab);
   /* Vectors whose points lie on no two axes, as a field on the sphere; *out stays NULL
@@ -77,6 +81,10 @@ const fg__format *fg__format_find(const unsigned char *bytes, size_t size);
 /* Makes an empty inventory of a file in a format of that name. MEMORY. */
 fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
                                const char *format);
+
+/* Leaves in an inventory the one vector that options->vars names, or the first that can
+ * be read; perhaps none. */
+void fg__inventory_choose(fg_inventory *inventory, const fg_read_options *options);
 
 /* Adds a copy of a vector (texts included) to an inventory. MEMORY. */
 fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
