@@ -189,7 +189,7 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
     return key;
   key =
       mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
-  key = mix_text(key, options->slice);
+  key = fg__mix(mix_text(key, options->slice) ^ (uint64_t)options->frame);
   return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
 }
 
