@@ -17,6 +17,8 @@ typedef enum fg_scale {
   FG_SCALE_PLAIN     /* axes without a known unit */
 } fg_scale;
 
+typedef struct fg_map_options fg_map_options; /* map.h */
+
 /* A zero field means its default, in brackets. */
 typedef struct fg_read_options {
   const char *vars;      /* "U,V", "U,V,W" or one vector variable; NULL: found */
