@@ -27,6 +27,7 @@ typedef struct fg_read_options {
   int level;             /* index along level, from 0 */
   const char *mask; /* variable that is zero (negative, missing) outside the domain */
   fg_scale scale;
+  const char *slice; /* a plane to cut a field in 3D by (fg_plane_parse); NULL: none */
 } fg_read_options;
 
 /* Reads a field from a file, or makes an analytic one from "synth:NAME" (sampled at 257
@@ -92,6 +93,38 @@ FG_API bool fg_field_velocity(const fg_field *field, const double position[],
  * but (u / cos latitude, v) on a longitude-latitude grid. False as above. */
 FG_API bool fg_field_tangent(const fg_field *field, const double position[],
                              double tangent[]);
+
+/* A plane in space, in the coordinates of a field's axes. */
+typedef struct fg_plane {
+  double normal[3]; /* of any length */
+  double point[3];  /* one that lies in it */
+} fg_plane;
+
+/* Cuts a field in 3D: the field in 2D of the velocity's components in the plane. A plane
+ * along two axes keeps them, with all their samples, names, units and periods, and the
+ * samples are the volume's own where the plane goes through them, else linear between the
+ * two planes beside it. Any other plane becomes an even raster, about a sample wherever
+ * an axis has one, interpolated (fg_field_velocity) and missing outside the volume. Its
+ * axes: of the three the one nearest to the normal is left out; of the other two the one
+ * nearer to the plane gives one direction, its projection; the other direction is
+ * perpendicular to that; both are in the order of their axes, point their way, and
+ * measure from the origin, so that a direction which is an axis has its coordinates. A
+ * turned axis or component has the name of the nearest with a prime. level says where the
+ * cut is. ARGUMENT (2D, a field that ranks share, a normal of no length, a plane that
+ * misses the field, a tilted one where axes differ in units; and as fg_field_create),
+ * MEMORY. */
+FG_API fg_status fg_field_slice(fg_field **out, fg_context *context,
+                                const fg_field *volume, const fg_plane *plane);
+
+/* Reads a plane from "NAME=VALUE", the name of an axis or x, y, z, or from
+ * "NX,NY,NZ@X,Y,Z", normal and point. With a NULL volume any name will do: the words
+ * alone are checked. ARGUMENT. */
+FG_API fg_status fg_plane_parse(fg_plane *out, fg_context *context, const char *text,
+                                const fg_field *volume);
+
+/* Of a field that is a plane in space: which share of the mean square of the velocity is
+ * that of its component normal to the plane, from 0 to 1; 0 for other fields. */
+FG_API double fg_field_normal_share(const fg_field *field);
 
 /* Writes a field as .vti (VTK XML image data; axes must be evenly spaced) or .nc
  * (NetCDF, CF). UNSUPPORTED for other names' ends, FILE_ACCESS, MEMORY. */

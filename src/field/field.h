@@ -20,6 +20,9 @@ typedef struct fg__axis {
   double inverse_spacing;
 } fg__axis;
 
+/* The cell that holds x, or -1 outside the axis, and where in it x lies, in [0, 1]. */
+int fg__axis_cell(const fg__axis *axis, double x, double *fraction);
+
 typedef struct fg__field_slab fg__field_slab;
 
 /* A field has all samples of its grid; or it is a part, rows along the last axis; or a
@@ -36,6 +39,7 @@ struct fg_field {
   char *word[FG__FIELD_WORDS]; /* owned copies of the texts */
   int words;
   uint64_t infinite;    /* samples that are missing for that */
+  double normal_share;  /* of a plane in space: fg_field_normal_share */
   fg__field_slab *slab; /* of a part; else NULL */
   const fg_field *of;   /* of a window: whose axes and words it borrows; else NULL */
 };

@@ -33,6 +33,11 @@ fg_status fg__field_of_rows(fg_field **out, fg_context *context,
                             const fg_field_arrays *arrays, float *velocity[3],
                             const fg__slab_index *slab);
 
+/* The rows of a slab of a field that is there whole, or a copy of all of it where it has
+ * fewer rows than there are slabs. */
+fg_status fg__field_slab_of(fg_field **out, fg_context *context, const fg_field *whole,
+                            fg__slab_index slab);
+
 typedef struct fg__format {
   const char *name;  /* as `flowgrain info` shows it */
   const char *files; /* which ones it reads; NULL: another says it, or none are read */
