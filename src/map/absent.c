@@ -109,8 +109,9 @@ bool fg__map_is_asked(const fg_map_options *options)
 
 bool fg__map_is_named(const fg_map_options *options)
 {
-  return options && options->projection && strcmp(options->projection, "none") != 0 &&
-         strcmp(options->projection, "auto") != 0;
+  const char *asked = options && options->projection ? options->projection : "auto";
+  return options && strcmp(asked, "none") != 0 &&
+         (options->has_center || options->has_region || strcmp(asked, "auto") != 0);
 }
 
 fg_status fg__sphere_project(fg_field **out, fg_context *context,

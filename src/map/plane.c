@@ -88,18 +88,38 @@ static void include_area(box *out, const fg__map *map, double reach,
   }
 }
 
+/* The length of the image of a line of positions, as far as it is to be seen. */
+static double length_of(const fg__map *map, double reach, const double from[2],
+                        const double to[2])
+{
+  double length = 0.0, last[2] = {(double)NAN, (double)NAN};
+  for (int i = 0; i < ACROSS; ++i) {
+    box one = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    const double share = (double)i / (ACROSS - 1);
+    include(&one, map, reach, from[0] + (to[0] - from[0]) * share,
+            from[1] + (to[1] - from[1]) * share);
+    const double piece = hypot(one.low[0] - last[0], one.low[1] - last[1]);
+    length += isfinite(piece) ? piece : 0.0;
+    memcpy(last, one.low, sizeof last);
+  }
+  return length;
+}
+
 /* As long as the middle parallel, as high as the middle meridian. */
 static void include_middle(box *out, const fg__map *map, double reach,
                            const fg__map_area *area)
 {
   const double longitude = 0.5 * (area->west + area->east);
   const double latitude = 0.5 * (area->south + area->north);
-  for (int i = 0; i < ACROSS; ++i)
-    include(out, map, reach, area->west + (area->east - area->west) * i / (ACROSS - 1),
-            latitude);
-  for (int j = 0; j < ALONG; ++j)
-    include(out, map, reach, longitude,
-            area->south + (area->north - area->south) * j / (ALONG - 1));
+  const double length[] = {length_of(map, reach, (double[2]){area->west, latitude},
+                                     (double[2]){area->east, latitude}),
+                           length_of(map, reach, (double[2]){longitude, area->south},
+                                     (double[2]){longitude, area->north})};
+  include(out, map, reach, longitude, latitude);
+  for (int k = 0; k < 2; ++k) {
+    out->low[k] -= 0.5 * length[k];
+    out->high[k] += 0.5 * length[k];
+  }
 }
 
 static double reach_of(const fg__map *map, bool is_region)

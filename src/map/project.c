@@ -28,30 +28,31 @@ bool fg__map_is_asked(const fg_map_options *options)
 
 bool fg__map_is_named(const fg_map_options *options)
 {
-  return fg__map_is_asked(options) && options->projection &&
-         strcmp(options->projection, "auto") != 0;
+  return fg__map_is_asked(options) &&
+         (options->has_center || options->has_region ||
+          (options->projection && strcmp(options->projection, "auto") != 0));
 }
 
-typedef struct work {
+typedef struct sampling {
   const fg__sphere *sphere;
   const fg__map_plane *plane;
   const char *projection;
-  int first, rows; /* along y */
-  int parts;       /* of a sample's side that are averaged */
-  float *velocity[2];
+  int first, rows;    /* along y */
+  int parts;          /* of a sample's side that are averaged */
+  float *velocity[3]; /* the third NULL */
   fg_status failed[FG__MOST_THREADS];
-} work;
+} sampling;
 
 /* A row of positions, and what is found there. */
-typedef struct row {
+typedef struct line {
   double *x, *y, *longitude, *latitude;
   float *east, *north;
   double (*sum)[4]; /* vectors in space, and how many */
-} row;
+} line;
 
-static bool create_row(row *out, size_t n)
+static bool create_row(line *out, size_t n)
 {
-  *out = (row){0};
+  *out = (line){0};
   out->x = fg__allocate(n, sizeof(double));
   out->y = fg__allocate(n, sizeof(double));
   out->longitude = fg__allocate(n, sizeof(double));
@@ -63,7 +64,7 @@ static bool create_row(row *out, size_t n)
          out->sum;
 }
 
-static void destroy_row(row *row)
+static void destroy_row(line *row)
 {
   free(row->x);
   free(row->y);
@@ -75,7 +76,7 @@ static void destroy_row(row *row)
 }
 
 /* Positions of row j, moved by parts of a sample. */
-static void locate(row *out, const work *work, const fg__map *map, int j,
+static void locate(line *out, const sampling *work, const fg__map *map, int j,
                    const double moved[2])
 {
   const fg__map_plane *plane = work->plane;
@@ -104,7 +105,7 @@ static void find_axes(double east[3], double north[3], double longitude, double 
   north[2] = cos(latitude * DEGREE);
 }
 
-static void add_part(row *at, int n)
+static void add_part(line *at, int n)
 {
   for (int i = 0; i < n; ++i) {
     double east[3], north[3];
@@ -118,7 +119,7 @@ static void add_part(row *at, int n)
 }
 
 /* The mean of a sample's parts, components at its middle. Missing where the middle is. */
-static void average(row *at, const work *work, const fg__map *map, int j)
+static void average(line *at, const sampling *work, const fg__map *map, int j)
 {
   const int n = work->plane->size[0], parts = work->parts;
   memset(at->sum, 0, (size_t)n * sizeof *at->sum);
@@ -147,7 +148,7 @@ static void average(row *at, const work *work, const fg__map *map, int j)
   }
 }
 
-static void sample_row(row *at, const work *work, const fg__map *map, int j)
+static void sample_row(line *at, const sampling *work, const fg__map *map, int j)
 {
   const size_t n = (size_t)work->plane->size[0];
   if (work->parts > 1) {
@@ -169,9 +170,9 @@ static void sample_row(row *at, const work *work, const fg__map *map, int j)
  * has a map of its own. */
 static void sample_rows(void *argument, const fg__thread *thread)
 {
-  work *work = argument;
+  sampling *work = argument;
   fg__map *map = NULL;
-  row at;
+  line at;
   fg_status status =
       create_row(&at, (size_t)work->plane->size[0]) ? FG_STATUS_OK : FG_STATUS_MEMORY;
   if (status == FG_STATUS_OK)
@@ -185,7 +186,7 @@ static void sample_rows(void *argument, const fg__thread *thread)
   destroy_row(&at);
 }
 
-static fg_status sample(work *work, fg_context *context, int thread_count)
+static fg_status sample(sampling *work, fg_context *context, int thread_count)
 {
   fg__threads *threads = NULL;
   fg_status status = fg__threads_create(&threads, context, thread_count);
@@ -216,7 +217,7 @@ static fg_status fill_axes(fg_field_arrays *arrays, fg_context *context,
 }
 
 /* Whether a slab, or any sample of all, has a value; other slabs may. */
-static fg_status check_values(const work *work, fg_context *context, bool all)
+static fg_status check_values(const sampling *work, fg_context *context, bool all)
 {
   const size_t n = (size_t)work->plane->size[0] * (size_t)work->rows;
   size_t i = 0;
@@ -238,7 +239,7 @@ static fg_status make(fg_field **out, fg_context *context, const fg__sphere *sph
                       const fg__map_plane *plane, const char *projection, int parts,
                       int threads, int number, int count)
 {
-  work work = {
+  sampling work = {
       .sphere = sphere, .plane = plane, .projection = projection, .parts = parts};
   fg_field_arrays arrays = *fg__sphere_words(sphere);
   int own = 0;

@@ -9,7 +9,7 @@
 /* Whether a map is asked for: not NULL, not "none". */
 bool fg__map_is_asked(const fg_map_options *options);
 
-/* Whether it is asked for by the user, not by "auto". */
+/* Whether more than "auto" is asked for, which takes a field as it comes. */
 bool fg__map_is_named(const fg_map_options *options);
 
 /* Slab `number` of `count` (field/slab.h; with a count of 1 all) of the sphere's field on

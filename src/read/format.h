@@ -3,6 +3,7 @@
 #define FG__FORMAT_H
 
 #include "base/context.h"
+#include "sphere/sphere.h"
 
 /* A file to read: its bytes are mapped or in memory, so that a reader can be fuzzed. A
  * library that wants to open the file itself may use `path` when `on_disk`. */
@@ -46,6 +47,10 @@ typedef struct fg__format {
                          const fg__source *source);
   fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
                     const fg_read_options *options, fg__slab_index slab);
+  /* A pair whose points are on no rectilinear grid, as a field on the sphere, for maps;
+   * *out stays NULL where `read` serves. NULL: the format has none. */
+  fg_status (*sphere)(fg__sphere **out, fg_context *context, const fg__source *source,
+                      const fg_read_options *options);
   /* The file's array of tensors as two fields (tensor_rows.h); *found: there is one. NULL
    * where the format has none. */
   fg_status (*tensors)(fg_field *row[2], bool *found, fg_context *context,

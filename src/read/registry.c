@@ -1,7 +1,9 @@
 #include "base/memory.h"
 #include "base/mix.h"
 #include "field/slab.h"
+#include "map/project.h"
 #include "read/format.h"
+#include "read/mapped.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -101,6 +103,9 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
   if (options && (options->scale == FG_SCALE_GEO || options->scale == FG_SCALE_MAP))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "%s: an analytic field is neither on the globe nor on a map", input);
+  if (options && fg__map_is_named(options->map))
+    return fg__fail(context, FG_STATUS_ARGUMENT, "%s: an analytic field is on no map",
+                    input);
   return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
 }
 
@@ -116,10 +121,13 @@ static fg_status read_slab(fg_field **out, fg_context *context, const char *inpu
   fg__source source;
   const fg__format *format;
   fg_status status = open_known(&source, &format, context, input);
-  if (status == FG_STATUS_OK)
-    status = name_the_file(
-        context, format->read(out, context, &source, options ? options : &defaults, slab),
-        input);
+  if (!options)
+    options = &defaults;
+  if (status == FG_STATUS_OK && fg__map_is_asked(options->map))
+    status = fg__field_read_mapped(out, context, format, &source, options, slab);
+  else if (status == FG_STATUS_OK)
+    status = format->read(out, context, &source, options, slab);
+  status = name_the_file(context, status, input);
   fg__source_close(&source);
   return status;
 }
@@ -175,6 +183,7 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
   key =
       mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
   key = mix_text(key, options->slice);
+  key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);
   return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
 }
 
