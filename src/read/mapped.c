@@ -44,23 +44,11 @@ static fg_status project(fg_field **out, fg_context *context, const fg__format *
   return status;
 }
 
-fg_status fg__field_read_mapped(fg_field **out, fg_context *context,
-                                const fg__format *format, const fg__source *source,
-                                const fg_read_options *options, fg__slab_index slab)
+static fg_status read_on_map(fg_field **out, fg_context *context,
+                             const fg__format *format, const fg__source *source,
+                             const fg_read_options *options, fg__slab_index slab)
 {
-  const bool degrees = options->scale == FG_SCALE_AUTO || options->scale == FG_SCALE_GEO;
-  fg__sphere *sphere = NULL;
   fg_status status = FG_STATUS_OK;
-  *out = NULL;
-  if (degrees && format->sphere) {
-    status = format->sphere(&sphere, context, source, options);
-    if (status == FG_STATUS_OK && sphere)
-      status =
-          fg__sphere_project(out, context, sphere, options->map, slab.number, slab.count);
-    fg__sphere_destroy(sphere);
-    if (status != FG_STATUS_OK || *out)
-      return status;
-  }
   if (slab.count > 1) {
     status = format->read(out, context, source, options, slab);
     if (status == FG_STATUS_OK && is_on_globe(*out)) {
@@ -76,5 +64,29 @@ fg_status fg__field_read_mapped(fg_field **out, fg_context *context,
     fg_field_destroy(*out);
     *out = NULL;
   }
+  return status;
+}
+
+fg_status fg__field_read_known(fg_field **out, fg_context *context,
+                               const fg__format *format, const fg__source *source,
+                               const fg_read_options *options, fg__slab_index slab)
+{
+  const bool on_map = fg__map_is_asked(options->map);
+  fg__sphere *sphere = NULL;
+  *out = NULL;
+  fg_status status =
+      format->sphere ? format->sphere(&sphere, context, source, options) : FG_STATUS_OK;
+  if (status != FG_STATUS_OK)
+    return status;
+  if (sphere && on_map)
+    status =
+        fg__sphere_project(out, context, sphere, options->map, slab.number, slab.count);
+  else if (sphere)
+    status = fg__globe_field(out, context, sphere, slab);
+  else if (on_map)
+    status = read_on_map(out, context, format, source, options, slab);
+  else
+    status = format->read(out, context, source, options, slab);
+  fg__sphere_destroy(sphere);
   return status;
 }
