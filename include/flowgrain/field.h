@@ -17,6 +17,8 @@ typedef enum fg_scale {
   FG_SCALE_PLAIN     /* axes without a known unit */
 } fg_scale;
 
+typedef struct fg_map_options fg_map_options; /* map.h */
+
 /* What the components of a vector on a model's grid are along. */
 typedef enum fg_frame {
   FG_FRAME_AUTO = 0, /* from names, attributes and the grid (docs/method/model-grids.md) */
@@ -34,6 +36,8 @@ typedef struct fg_read_options {
   fg_scale scale;
   fg_frame frame;
   const char *slice; /* a plane to cut a field in 3D by (fg_plane_parse); NULL: none */
+  const fg_map_options *map; /* what is in longitude and latitude is laid on this map;
+                                NULL: it stays so */
 } fg_read_options;
 
 /* Reads a field from a file, or makes an analytic one from "synth:NAME" (sampled at 257
