@@ -73,6 +73,7 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
   switch (option->kind) {
   case OPTION_TEXT:
   case OPTION_PALETTE:
+  case OPTION_COLOR:
     memcpy(&words, place, sizeof words);
     snprintf(text, VALUE_BYTES, "%s", words ? words : "");
     break;

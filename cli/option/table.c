@@ -317,6 +317,14 @@ const option_entry option_table[] = {
      false, NULL,
      "in 2D: show clusters, and leave the arrows out of the picture; --tint, --skeletons "
      "and the others remain"},
+    {"no-coast", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_coast), 0, 0, false, false,
+     NULL,
+     "of a field on the Earth: neither land nor coasts, lakes, borders; grey where the "
+     "field is missing"},
+    {"land", 0, "COLOR", PICTURES, OPTION_COLOR, PICTURE(land), 0, 0, false, false, NULL,
+     "of a field on the Earth: colour of land, #rrggbb [#ececea]"},
+    {"borders", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(borders), 0, 0, false, false,
+     NULL, "of a field on the Earth: borders of countries, too"},
     {"no-frame", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_frame), 0, 0, false, false,
      NULL, "only mask and arrows: no axes, no keys, no caption"},
     {"transparent", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, OWN(texture, transparent), 0,

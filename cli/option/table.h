@@ -54,6 +54,7 @@ typedef enum option_kind {
   OPTION_NUMBERS, /* number_list */
   OPTION_FORMATS, /* unsigned: bits */
   OPTION_PALETTE, /* const char *: a palette's name or #rrggbb */
+  OPTION_COLOR,   /* const char *: #rrggbb */
   OPTION_VIEW,    /* views of picture_settings, one more */
   OPTION_HELP,
   OPTION_VERSION

@@ -29,7 +29,8 @@ int refuse_other_dimension(const char *command, const picture_settings *settings
   const given_option flat[] = {
       {"tint", settings->tint},           {"background", settings->background != 0},
       {"skeletons", settings->skeletons}, {"centers", settings->centers},
-      {"no-arrows", settings->no_arrows},
+      {"no-arrows", settings->no_arrows}, {"no-coast", settings->no_coast},
+      {"land", settings->land != NULL},   {"borders", settings->borders},
   };
   const given_option solid[] = {
       {"view", settings->view_count > 0},

@@ -176,6 +176,16 @@ static bool set_palette(void *out, const cli_command *command, const option_entr
   return true;
 }
 
+static bool set_color(void *out, const cli_command *command, const option_entry *option,
+                      const char *text)
+{
+  if (!is_color(text))
+    return usage_error(command, "--%s %s: no colour; it is written #rrggbb", option->name,
+                       text);
+  memcpy(out, &text, sizeof text);
+  return true;
+}
+
 static bool set_view(picture_settings *out, const cli_command *command,
                      const option_entry *option, const char *text)
 {
@@ -229,6 +239,8 @@ bool value_set(void *settings, const cli_command *command, const option_entry *o
     return set_formats(out, command, option, text);
   case OPTION_PALETTE:
     return set_palette(out, command, option, text);
+  case OPTION_COLOR:
+    return set_color(out, command, option, text);
   case OPTION_VIEW:
     return set_view(out, command, option, text);
   case OPTION_HELP:

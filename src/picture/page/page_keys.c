@@ -26,7 +26,7 @@ static double reference_length(const fg__page *page, const fg__page_plan *plan)
   double most = widest_arrow * em / page->scale;
   /* nice lengths are at most a factor 2.5 apart: from 0.65 to 1.6 of the typical */
   double length =
-      fg__ticks_step(&plan->axis[0], 0.65 * fmin(plan->arrow_length, most / 1.6));
+      fg__ticks_step(&plan->length, 0.65 * fmin(plan->arrow_length, most / 1.6));
   return length * page->scale >= shortest_arrow * em ? length : 0.0;
 }
 
@@ -43,7 +43,7 @@ static bool measure_size_key(size_key *out, const fg__page *page,
   if (!(length > 0.0))
     return false;
   out->length = length * page->scale;
-  fg__axis_write_length(out->text, &plan->axis[0], length);
+  fg__axis_write_length(out->text, &plan->length, length);
   double text = fg__text_width(ruler, out->text, page->font_size, false);
   double words = fg__text_width(ruler, size_words, page->font_size, false);
   out->width = fmax(out->length, fmax(text, words));
