@@ -15,6 +15,9 @@ static const double world_parallels = 30.0, world_meridians = 60.0;
 /* On discs. */
 static const double disc_lines = 4.5, disc_meridians = 30.0;
 
+/* Nearer to a pole meridians are too close to be told apart, degrees of latitude. */
+static const double nearest_pole = 75.0;
+
 static const double longest_step = 1.0, steps_in_frame = 90.0;
 
 typedef enum side { SIDE_LEFT, SIDE_RIGHT, SIDE_BOTTOM, SIDE_TOP } side;
@@ -202,6 +205,8 @@ static void label_within(fg__graticule *out, const family *f, int n, int line)
   for (int k = 0; k < 12; ++k) {
     const double offset = (k % 2 ? -1.0 : 1.0) * (k / 2 + 0.5) * step;
     double at[2];
+    if (f->k == 0 && fabs(plane->center[1] + offset) > nearest_pole)
+      continue;
     if (f->k == 0)
       project(plane, position, plane->center[1] + offset, at);
     else
@@ -285,7 +290,7 @@ fg_status fg__graticule_create(fg__graticule *out, fg_context *context,
                                const fg__plane *plane)
 {
   family f[2];
-  places where;
+  places where = {{{0}}};
   memset(out, 0, sizeof *out);
   out->plane = plane;
   fg_status status = FG_STATUS_OK;

@@ -12,13 +12,13 @@ static const double longest_step = 1.0, steps_in_frame = 60.0;
 /* Edges so near to the antimeridian are the data's own cut. */
 static const double cut_slack = 0.02;
 
-static fg__part part_of(const fg__coast_lines *lines, size_t k, bool closed)
+static fg__coast_part part_of(const fg__coast_lines *lines, size_t k, bool closed)
 {
-  fg__part p = {.point = (const double(*)[2])(lines->point + lines->start[k]),
-                .count = lines->start[k + 1] - lines->start[k],
-                .closed = closed,
-                .low = {HUGE_VAL, HUGE_VAL},
-                .high = {-HUGE_VAL, -HUGE_VAL}};
+  fg__coast_part p = {.point = (const double(*)[2])(lines->point + lines->start[k]),
+                      .count = lines->start[k + 1] - lines->start[k],
+                      .closed = closed,
+                      .low = {HUGE_VAL, HUGE_VAL},
+                      .high = {-HUGE_VAL, -HUGE_VAL}};
   for (size_t n = 0; n < p.count; ++n)
     for (int i = 0; i < 2; ++i) {
       p.low[i] = fmin(p.low[i], p.point[n][i]);
@@ -29,7 +29,7 @@ static fg__part part_of(const fg__coast_lines *lines, size_t k, bool closed)
   return p;
 }
 
-void fg__part_turns(int turns[2], const fg__part *p, const fg__plane *plane)
+void fg__part_turns(int turns[2], const fg__coast_part *p, const fg__plane *plane)
 {
   const bool apart = p->high[1] < plane->south || p->low[1] > plane->north;
   const double reach = fabs(p->turn);
@@ -50,7 +50,7 @@ bool fg__edge_is_cut(const double a[2], const double b[2])
   return on_antimeridian(a) && on_antimeridian(b) && fabs(a[0] - b[0]) < 2.0 * cut_slack;
 }
 
-void fg__part_edge(const fg__part *p, size_t n, double a[2], double b[2])
+void fg__part_edge(const fg__coast_part *p, size_t n, double a[2], double b[2])
 {
   const bool last = n + 1 == p->count;
   const double *to = p->point[last ? 0 : n + 1];
@@ -60,7 +60,7 @@ void fg__part_edge(const fg__part *p, size_t n, double a[2], double b[2])
   b[1] = to[1];
 }
 
-size_t fg__part_edges(const fg__part *p)
+size_t fg__part_edges(const fg__coast_part *p)
 {
   return p->closed ? p->count : p->count - 1;
 }
@@ -79,7 +79,7 @@ fg_status fg__land_trace(fg__polygons *areas, fg__polygons *lines, fg_context *c
                        .lines = lines,
                        .step = fmin(longest_step, frame / steps_in_frame)};
   for (size_t k = 0; k < data.count && !tracer.failed; ++k) {
-    const fg__part p = part_of(&data, k, layer != FG__COAST_BORDERS);
+    const fg__coast_part p = part_of(&data, k, layer != FG__COAST_BORDERS);
     if (plane->kind == FG__PLANE_AZIMUTHAL)
       fg__trace_round(&tracer, &p);
     else

@@ -46,7 +46,7 @@ static size_t clip_loop(fg__tracer *t, size_t count, int k, double sign, double 
 }
 
 /* A ring round a pole is closed through the pole. */
-static void trace_area(fg__tracer *t, const fg__part *p, double shift)
+static void trace_area(fg__tracer *t, const fg__coast_part *p, double shift)
 {
   const fg__plane *plane = t->plane;
   /* a window cuts an edge into three at most, four times */
@@ -100,7 +100,7 @@ static bool clip_edge(const fg__plane *plane, const double a[2], const double b[
   return share[0] < share[1];
 }
 
-static void trace_lines(fg__tracer *t, const fg__part *p, double shift)
+static void trace_lines(fg__tracer *t, const fg__coast_part *p, double shift)
 {
   bool going = false;
   for (size_t n = 0; n < fg__part_edges(p); ++n) {
@@ -125,7 +125,7 @@ static void trace_lines(fg__tracer *t, const fg__part *p, double shift)
   fg__stroke_end(&t->stroke, t->lines, t->plane, false);
 }
 
-void fg__trace_flat(fg__tracer *t, const fg__part *p)
+void fg__trace_flat(fg__tracer *t, const fg__coast_part *p)
 {
   int turns[2];
   fg__part_turns(turns, p, t->plane);

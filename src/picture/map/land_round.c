@@ -99,7 +99,7 @@ static void place_on(double out[2], const double a[2], const double b[2], double
 
 /* Whether a place lies inside a ring: crossings of its meridian on the way north, of all
  * turns of the ring that has, and of the way to the pole where a ring goes round it. */
-static bool ring_contains(const fg__part *p, const double place[2])
+static bool ring_contains(const fg__coast_part *p, const double place[2])
 {
   bool inside = p->turn != 0.0 && p->low[1] + p->high[1] > 0.0;
   for (size_t n = 0; n < p->count; ++n) {
@@ -124,7 +124,7 @@ static void add_circle(fg__tracer *t)
 }
 
 /* A ring round the antipode comes out inside out: the circle turns it right again. */
-static void trace_area(fg__tracer *t, const fg__part *p)
+static void trace_area(fg__tracer *t, const fg__coast_part *p)
 {
   const fg__plane *plane = t->plane;
   walk w = walk_of(t);
@@ -147,7 +147,7 @@ static void trace_area(fg__tracer *t, const fg__part *p)
 }
 
 /* One place beyond the circle is kept at either end of a line. */
-static void trace_lines(fg__tracer *t, const fg__part *p)
+static void trace_lines(fg__tracer *t, const fg__coast_part *p)
 {
   const walk w = walk_of(t);
   double before[2] = {p->point[0][0], p->point[0][1]}, direction;
@@ -175,7 +175,7 @@ static void trace_lines(fg__tracer *t, const fg__part *p)
   fg__stroke_end(&t->stroke, t->lines, t->plane, false);
 }
 
-void fg__trace_round(fg__tracer *t, const fg__part *p)
+void fg__trace_round(fg__tracer *t, const fg__coast_part *p)
 {
   int turns[2];
   fg__part_turns(turns, p, t->plane);

@@ -85,7 +85,6 @@ static void describe_axes(fg__page_plan *plan, const fg_field_arrays *field,
  * can tell them. */
 static void describe_length(fg__page_plan *plan, const fg__plane *plane)
 {
-  plan->length = plan->axis[0];
   if (plane->kind == FG__PLANE_NONE)
     return;
   const double kilometres = 1e-3 * fg__plane_true_metres(plane);
