@@ -40,6 +40,9 @@ static void print_vector(const fg_inventory_vector *vector)
            vector->bounds[2 * k + 1], vector->periodic[k] ? ", periodic" : "");
   printf("  times: %d\n  levels: %d\n", vector->times, vector->levels);
   printf("  missing: %.1f %%\n", 100.0 * vector->missing_share);
+  if (vector->normal_share > 0.0)
+    printf("  normal to the plane: %.1f %% of the mean square\n",
+           100.0 * vector->normal_share);
   printf("  scale: %s\n", scale_words[vector->scale]);
 }
 
@@ -72,6 +75,8 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
   cJSON_AddNumberToObject(object, "times", vector->times);
   cJSON_AddNumberToObject(object, "levels", vector->levels);
   cJSON_AddNumberToObject(object, "missing_share", vector->missing_share);
+  if (vector->normal_share > 0.0)
+    cJSON_AddNumberToObject(object, "normal_share", vector->normal_share);
   cJSON_AddStringToObject(object, "scale", scale_words[vector->scale]);
 }
 

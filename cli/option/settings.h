@@ -25,7 +25,7 @@ typedef struct reading_settings {
   const char *vars, *vars_from, *mask;
   int time, level;
   int scale;         /* fg_scale */
-  const char *slice; /* a plane */
+  const char *block, *slice; /* a plane */
 } reading_settings;
 
 typedef struct evolution_settings {
