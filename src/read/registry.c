@@ -8,7 +8,7 @@
 #include <string.h>
 
 static const fg__format *const FORMATS[] = {&fg__format_netcdf, &fg__format_vti,
-                                            &fg__format_vtk_legacy};
+                                            &fg__format_vtk_legacy, &fg__format_table};
 static const char SYNTHETIC[] = "synth:";
 enum { MESSAGE_BYTES = 2048, KNOWN_BYTES = 512 };
 
@@ -104,6 +104,20 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
   return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
 }
 
+static fg_status read_known(fg_field **out, fg_context *context, const fg__format *format,
+                            const fg__source *source, const fg_read_options *options,
+                            fg__slab_index slab)
+{
+  fg__sphere *sphere = NULL;
+  fg_status status =
+      format->sphere ? format->sphere(&sphere, context, source, options) : FG_STATUS_OK;
+  if (status == FG_STATUS_OK)
+    status = sphere ? fg__globe_field(out, context, sphere, slab)
+                    : format->read(out, context, source, options, slab);
+  fg__sphere_destroy(sphere);
+  return status;
+}
+
 static fg_status read_slab(fg_field **out, fg_context *context, const char *input,
                            const fg_read_options *options, fg__slab_index slab)
 {
@@ -118,7 +132,8 @@ static fg_status read_slab(fg_field **out, fg_context *context, const char *inpu
   fg_status status = open_known(&source, &format, context, input);
   if (status == FG_STATUS_OK)
     status = name_the_file(
-        context, format->read(out, context, &source, options ? options : &defaults, slab),
+        context,
+        read_known(out, context, format, &source, options ? options : &defaults, slab),
         input);
   fg__source_close(&source);
   return status;
@@ -225,20 +240,27 @@ static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,
   return status;
 }
 
-static fg_status describe_file(fg_inventory **out, fg_context *context, const char *path)
+/* options: NULL for all vectors, else those of the one to be read. */
+static fg_status describe_file(fg_inventory **out, fg_context *context, const char *path,
+                               const fg_read_options *options)
 {
   fg__source source;
   const fg__format *format;
   fg_status status = open_known(&source, &format, context, path);
   if (status == FG_STATUS_OK)
     status = fg__inventory_create(out, context, format->name);
-  if (status == FG_STATUS_OK)
+  if (status == FG_STATUS_OK && options && format->inventory_chosen)
+    status = format->inventory_chosen(*out, context, &source, options);
+  else if (status == FG_STATUS_OK)
     status = format->inventory(*out, context, &source);
+  if (status == FG_STATUS_OK && options && !format->inventory_chosen)
+    fg__inventory_choose(*out, options);
   fg__source_close(&source);
   return status;
 }
 
-fg_status fg_inventory_read(fg_inventory **out, fg_context *context, const char *input)
+static fg_status read_inventory(fg_inventory **out, fg_context *context,
+                                const char *input, const fg_read_options *options)
 {
   if (!out || !input)
     return fg__fail(context, FG_STATUS_ARGUMENT, "no input to describe");
@@ -250,11 +272,23 @@ fg_status fg_inventory_read(fg_inventory **out, fg_context *context, const char 
     if (status == FG_STATUS_OK)
       status = describe_analytic(inventory, context, input + sizeof SYNTHETIC - 1);
   } else {
-    status = describe_file(&inventory, context, input);
+    status = describe_file(&inventory, context, input, options);
   }
   if (status == FG_STATUS_OK)
     *out = inventory;
   else
     fg_inventory_destroy(inventory);
   return status;
+}
+
+fg_status fg_inventory_read(fg_inventory **out, fg_context *context, const char *input)
+{
+  return read_inventory(out, context, input, NULL);
+}
+
+fg_status fg_inventory_read_chosen(fg_inventory **out, fg_context *context,
+                                   const char *input, const fg_read_options *options)
+{
+  static const fg_read_options defaults = {0};
+  return read_inventory(out, context, input, options ? options : &defaults);
 }

@@ -95,7 +95,7 @@ static const middle_of MIDDLES_20[] = {
     {4, 4, {4, 5, 6, 7, 12, 13, 14, 15}},
     {8, 12, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19}}};
 
-#define PARTS(list) (int)(sizeof list / sizeof list[0]), list
+#define PARTS(list) (int)(sizeof(list) / sizeof((list)[0])), (list)
 
 static const cell_type TYPES[] = {
     {5, "triangle", 3, PARTS(TRIANGLE), 0, NULL},

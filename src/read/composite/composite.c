@@ -137,7 +137,6 @@ static bool has_grid(const fg__vtk *vtk)
 static fg_status open_file(composite *c, fg__vtk *by, const char *name, file_kind above)
 {
   fg__vtk *whole = c->whole;
-  void *files = whole->files;
   fg__vtk_file file = {0};
   fg_status status = fg__vtk_names_path(&file.path, c->whole->context, by->path, name);
   if (status == FG_STATUS_OK)
@@ -151,7 +150,8 @@ static fg_status open_file(composite *c, fg__vtk *by, const char *name, file_kin
     status = read_file(c, &file, above);
   if (file.vtk && file.vtk->exhausted)
     status = FG_STATUS_MEMORY;
-  if (status == FG_STATUS_OK && has_grid(file.vtk)) {
+  if (status == FG_STATUS_OK && file.vtk && has_grid(file.vtk)) {
+    void *files = whole->files; /* those that the file named may have moved it */
     if (fg__grow(&files, &whole->file_capacity, whole->file_count + 1, sizeof file)) {
       whole->files = files;
       whole->files[whole->file_count++] = file;

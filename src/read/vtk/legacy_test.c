@@ -337,7 +337,7 @@ static void the_format_is_known_by_its_first_line(void **state)
   (void)state;
   assert_ptr_equal(fg__format_find((const unsigned char *)GOOD, strlen(GOOD)),
                    &fg__format_vtk_legacy);
-  assert_null(fg__format_find((const unsigned char *)GOOD, 12));
+  assert_false(fg__format_vtk_legacy.is_mine((const unsigned char *)GOOD, 12));
 }
 
 int main(void)

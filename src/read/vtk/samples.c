@@ -292,13 +292,13 @@ static fg_status read_components(float *out[3], const fg__vtk *vtk,
 {
   fg_status status = FG_STATUS_OK;
   const bool one = vector->names == 1;
-  for (int k = 0; k < (one ? 1 : count) && status == FG_STATUS_OK; ++k) {
+  for (int k = 0; k < (one ? 1 : count) && k < 3 && status == FG_STATUS_OK; ++k) {
     fg__vtk_gathering wanted = {.name = vector->name[one ? 0 : which[k]],
                                 .place = vector->place,
                                 .components = one ? count : 1,
                                 .means = as_velocity,
                                 .absent = NAN};
-    for (int c = 0; one && c < count; ++c)
+    for (int c = 0; one && c < count && c < 3; ++c)
       wanted.component[c] = which[c];
     status = read_onto_points(out + k, vtk, grid, &wanted, false);
   }
@@ -309,7 +309,7 @@ static fg_status read_components(float *out[3], const fg__vtk *vtk,
 static void turn(float *out[3], const fg__vtk *vtk, const fg__vtk_grid *grid)
 {
   const fg__plane_basis *basis = &vtk->cells.basis;
-  for (size_t n = 0; n < fg__vtk_grid_wanted(grid); ++n) {
+  for (size_t n = 0; out[2] && n < fg__vtk_grid_wanted(grid); ++n) {
     const double u[3] = {(double)out[0][n], (double)out[1][n], (double)out[2][n]};
     out[0][n] = (float)fg__plane_product(u, basis->direction[0]);
     out[1][n] = (float)fg__plane_product(u, basis->direction[1]);
