@@ -19,6 +19,13 @@ typedef enum fg_scale {
 
 typedef struct fg_map_options fg_map_options; /* map.h */
 
+/* What the components of a vector on a model's grid are along. */
+typedef enum fg_frame {
+  FG_FRAME_AUTO = 0, /* from names, attributes and the grid (docs/method/model-grids.md) */
+  FG_FRAME_EAST,     /* east and north */
+  FG_FRAME_GRID      /* the directions of the grid's indices or axes */
+} fg_frame;
+
 /* A zero field means its default, in brackets. */
 typedef struct fg_read_options {
   const char *vars;      /* "U,V", "U,V,W" or one vector variable; NULL: found */
@@ -29,6 +36,7 @@ typedef struct fg_read_options {
   fg_scale scale;
   const char *block; /* of several in a file the one, or those within it, of this name;
                         NULL: all together */
+  fg_frame frame;
   const char *slice; /* a plane to cut a field in 3D by (fg_plane_parse); NULL: none */
   const fg_map_options *map; /* what is in longitude and latitude is laid on this map;
                                 NULL: it stays so */
@@ -162,6 +170,8 @@ typedef struct fg_inventory_vector {
   bool periodic[3];     /* whether each axis closes (longitude, say) */
   const char *unusable; /* NULL, or why this pair can not be read yet */
   double normal_share;  /* of a plane in space: fg_field_normal_share at the first time */
+  const char *frame;    /* of a model's grid: what the components are along, and which rule
+                           says so; NULL: along the axes */
   size_t cells;         /* 0, or how many cells, which are not along the axes, are
                            interpolated onto that grid; outside them is missing */
   const fg_axis_value *time_value, *level_value; /* [times], [levels]; NULL: not known */
