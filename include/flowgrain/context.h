@@ -48,6 +48,7 @@ typedef enum fg_feature {
   FG_FEATURE_PICTURES,   /* drawing SVG, PDF and PNG */
   FG_FEATURE_RENDER,     /* drawing fields in 3D */
   FG_FEATURE_MPI,        /* several processes: flowgrain/mpi.h */
+  FG_FEATURE_GRIB,       /* reading GRIB */
   FG_FEATURES            /* how many there are */
 } fg_feature;
 
