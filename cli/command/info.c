@@ -1,5 +1,6 @@
 /* Says what a file holds. */
 #include <cjson/cJSON.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -13,6 +14,21 @@ static int name_count(const fg_inventory_vector *vector)
   while (count < 3 && vector->name[count])
     ++count;
   return count;
+}
+
+/* All of them, or the first and last few. */
+static void print_values(const char *what, const fg_axis_value *values, int count)
+{
+  enum { MOST = 12, FIRST = 8, LAST = 2 };
+  char room[CLEAN_BYTES];
+  printf("  %s: %d\n", what, count);
+  for (int n = 0; n < count && values && count > 0; ++n) {
+    printf("    %d: %s\n", n, clean_text(room, values[n].words));
+    if (count > MOST && n == FIRST - 1) {
+      puts("    ...");
+      n = count - LAST - 1;
+    }
+  }
 }
 
 static void print_vector(const fg_inventory_vector *vector)
@@ -38,9 +54,24 @@ static void print_vector(const fg_inventory_vector *vector)
   for (int k = 0; k < vector->dimension; ++k)
     printf("  %c: %.6g to %.6g%s\n", axis[k], vector->bounds[2 * k],
            vector->bounds[2 * k + 1], vector->periodic[k] ? ", periodic" : "");
-  printf("  times: %d\n  levels: %d\n", vector->times, vector->levels);
+  print_values("times", vector->time_value, vector->times);
+  print_values("levels", vector->level_value, vector->levels);
   printf("  missing: %.1f %%\n", 100.0 * vector->missing_share);
   printf("  scale: %s\n", scale_words[vector->scale]);
+}
+
+static void add_values(cJSON *object, const char *name, const fg_axis_value *values,
+                       int count)
+{
+  cJSON *array = values ? cJSON_AddArrayToObject(object, name) : NULL;
+  for (int n = 0; n < count && array; ++n) {
+    cJSON *one = cJSON_CreateObject();
+    if (isfinite(values[n].value))
+      cJSON_AddNumberToObject(one, "value", values[n].value);
+    cJSON_AddStringToObject(one, "units", values[n].units);
+    cJSON_AddStringToObject(one, "words", values[n].words);
+    cJSON_AddItemToArray(array, one);
+  }
 }
 
 static void add_vector(cJSON *array, const fg_inventory_vector *vector)
@@ -71,6 +102,8 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
     cJSON_AddItemToArray(axes, cJSON_CreateBool(vector->periodic[k]));
   cJSON_AddNumberToObject(object, "times", vector->times);
   cJSON_AddNumberToObject(object, "levels", vector->levels);
+  add_values(object, "time_values", vector->time_value, vector->times);
+  add_values(object, "level_values", vector->level_value, vector->levels);
   cJSON_AddNumberToObject(object, "missing_share", vector->missing_share);
   cJSON_AddStringToObject(object, "scale", scale_words[vector->scale]);
 }

@@ -57,9 +57,22 @@ static bool check_placement(const run_settings *settings, const cli_command *com
   return true;
 }
 
+static bool check_slice(const reading_settings *settings, const cli_command *command)
+{
+  fg_plane plane;
+  return !settings->slice || !fg_plane_parse(&plane, NULL, settings->slice, NULL) ||
+         usage_error(command,
+                     "--slice %s: no plane; say NAME=VALUE, as z=0.5, or NX,NY,NZ@X,Y,Z",
+                     settings->slice);
+}
+
 bool options_check(const any_settings *settings, const cli_command *command)
 {
   const run_settings *run = &settings->run;
+  const void *reading = (const char *)settings + command->group[GROUP_READING];
+  if ((command->bit & (COMMAND_RUN | COMMAND_TEXTURE | COMMAND_RIVAL | COMMAND_SCORE)) &&
+      !check_slice(reading, command))
+    return false;
   if (command->bit == COMMAND_TEXTURE)
     return check_energy(&settings->texture.evolution, command);
   if (command->bit != COMMAND_RUN)

@@ -15,6 +15,7 @@ fg_read_options settings_reading(const reading_settings *settings)
       .level = settings->level,
       .mask = settings->mask,
       .scale = (fg_scale)settings->scale,
+      .slice = settings->slice,
   };
 }
 

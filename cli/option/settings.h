@@ -24,7 +24,8 @@ typedef struct reading_settings {
   const char *input;
   const char *vars, *vars_from, *mask;
   int time, level;
-  int scale; /* fg_scale */
+  int scale;         /* fg_scale */
+  const char *slice; /* a plane */
 } reading_settings;
 
 typedef struct evolution_settings {

@@ -112,6 +112,9 @@ const option_entry option_table[] = {
      NULL, "index along level, from 0 [0]"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask), 0, 0, false, false, NULL,
      "variable that is zero (or negative, or missing) outside the domain"},
+    {"slice", 0, "PLANE", READERS, OPTION_TEXT, READING(slice), 0, 0, false, false, NULL,
+     "cut a field in 3D: NAME=VALUE, as z=0.5, across an axis, or NX,NY,NZ@X,Y,Z, a "
+     "normal and a point; the components in the plane become a field in 2D"},
     {"scale", 0, "KIND", READERS, OPTION_CHOICE, READING(scale), 0, 0, false, false,
      scale_words,
      "what the axes are: `geo` (degrees, velocity along east and north), `map` (a "

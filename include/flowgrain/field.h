@@ -25,6 +25,7 @@ typedef struct fg_read_options {
   int level;             /* index along level, from 0 */
   const char *mask; /* variable that is zero (negative, missing) outside the domain */
   fg_scale scale;
+  const char *slice; /* a plane to cut a field in 3D by (fg_plane_parse); NULL: none */
 } fg_read_options;
 
 /* Reads a field from a file, or makes an analytic one from "synth:NAME" (sampled at 257
@@ -60,6 +61,8 @@ typedef struct fg_field_arrays {
   const char *title;            /* what it is, for captions; NULL: "" */
   const char *time;             /* the chosen time in words; NULL: none */
   const char *level;            /* the chosen level in words; NULL: none */
+  const char *projection; /* scale MAP: a PROJ string that takes longitude and latitude to
+                             the axes' coordinates; NULL: not known */
 } fg_field_arrays;
 
 /* Copies arrays into a new field. ARGUMENT (sizes, order of axes, no valid cell, speeds
@@ -70,8 +73,8 @@ FG_API fg_status fg_field_create(fg_field **out, fg_context *context,
 FG_API void fg_field_destroy(fg_field *field);
 
 /* The field's own arrays and words, borrowed; no pointer in it is NULL but `valid` (then
- * every sample counts), in 2D `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen).
- */
+ * every sample counts), in 2D `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen),
+ * `projection`. */
 FG_API const fg_field_arrays *fg_field_contents(const fg_field *field);
 
 /* How many of a field's samples are missing because a component is infinite: of a slab
@@ -89,6 +92,38 @@ FG_API bool fg_field_velocity(const fg_field *field, const double position[],
 FG_API bool fg_field_tangent(const fg_field *field, const double position[],
                              double tangent[]);
 
+/* A plane in space, in the coordinates of a field's axes. */
+typedef struct fg_plane {
+  double normal[3]; /* of any length */
+  double point[3];  /* one that lies in it */
+} fg_plane;
+
+/* Cuts a field in 3D: the field in 2D of the velocity's components in the plane. A plane
+ * along two axes keeps them, with all their samples, names, units and periods, and the
+ * samples are the volume's own where the plane goes through them, else linear between the
+ * two planes beside it. Any other plane becomes an even raster, about a sample wherever
+ * an axis has one, interpolated (fg_field_velocity) and missing outside the volume. Its
+ * axes: of the three the one nearest to the normal is left out; of the other two the one
+ * nearer to the plane gives one direction, its projection; the other direction is
+ * perpendicular to that; both are in the order of their axes, point their way, and
+ * measure from the origin, so that a direction which is an axis has its coordinates. A
+ * turned axis or component has the name of the nearest with a prime. level says where the
+ * cut is. ARGUMENT (2D, a field that ranks share, a normal of no length, a plane that
+ * misses the field, a tilted one where axes differ in units; and as fg_field_create),
+ * MEMORY. */
+FG_API fg_status fg_field_slice(fg_field **out, fg_context *context,
+                                const fg_field *volume, const fg_plane *plane);
+
+/* Reads a plane from "NAME=VALUE", the name of an axis or x, y, z, or from
+ * "NX,NY,NZ@X,Y,Z", normal and point. With a NULL volume any name will do: the words
+ * alone are checked. ARGUMENT. */
+FG_API fg_status fg_plane_parse(fg_plane *out, fg_context *context, const char *text,
+                                const fg_field *volume);
+
+/* Of a field that is a plane in space: which share of the mean square of the velocity is
+ * that of its component normal to the plane, from 0 to 1; 0 for other fields. */
+FG_API double fg_field_normal_share(const fg_field *field);
+
 /* Writes a field as .vti (VTK XML image data; axes must be evenly spaced) or .nc
  * (NetCDF, CF). UNSUPPORTED for other names' ends, FILE_ACCESS, MEMORY. */
 FG_API fg_status fg_field_write(fg_context *context, const char *path,
@@ -97,6 +132,14 @@ FG_API fg_status fg_field_write(fg_context *context, const char *path,
 /* What a file holds. */
 
 typedef struct fg_inventory fg_inventory;
+
+/* A time or a level of a file. */
+typedef struct fg_axis_value {
+  double value;      /* in its units; NaN: it has none, only its place */
+  const char *units; /* "hPa", "m", "hours since 1900-01-01"; "" none */
+  const char *words; /* as captions have it: "850 hPa"; of a date they begin as ISO 8601,
+                        "1982-07-16" or "1982-07-16 12:00[:30]", in the file's calendar */
+} fg_axis_value;
 
 typedef struct fg_inventory_vector {
   int components;       /* 2 or 3 */
@@ -113,17 +156,53 @@ typedef struct fg_inventory_vector {
   const char *unusable; /* NULL, or why this pair can not be read yet */
   size_t cells;         /* 0, or how many cells, which are not along the axes, are
                            interpolated onto that grid; outside them is missing */
+  const fg_axis_value *time_value, *level_value; /* [times], [levels]; NULL: not known */
 } fg_inventory_vector;
 
 /* Lists the vectors in a file, without reading whole fields where possible. Statuses as
  * fg_field_read. */
 FG_API fg_status fg_inventory_read(fg_inventory **out, fg_context *context,
                                    const char *input);
+/* The same of the one vector that fg_field_read would read with these options, whose time
+ * and level do not count; its missing_share is not found. options may be NULL. */
+FG_API fg_status fg_inventory_read_chosen(fg_inventory **out, fg_context *context,
+                                          const char *input,
+                                          const fg_read_options *options);
 FG_API void fg_inventory_destroy(fg_inventory *inventory);
 FG_API const char *fg_inventory_format(const fg_inventory *inventory);
 FG_API int fg_inventory_vector_count(const fg_inventory *inventory);
 FG_API const fg_inventory_vector *fg_inventory_vector_at(const fg_inventory *inventory,
                                                          int index);
+
+/* Times or levels that a text asks for. */
+typedef struct fg_selection {
+  int *index;   /* [count] ascending */
+  int count;    /* at least 1 */
+  bool several; /* the text is a range, a list or "all", also where that comes to one */
+  bool nearest; /* what was asked for is not there, and the nearest to it was taken */
+} fg_selection;
+
+/* Finds which of `count` times (what: "time") or levels ("level") a text asks for, items
+ * with commas between them:
+ *   7            a plain whole number is an index, from 0
+ *   300hPa 2.5h 0.995 850.   a number with a unit or a decimal point or exponent is a
+ *                value, without a unit in the file's; pressures, lengths and times are
+ *                converted
+ *   1982-07 1982-07-16 1982-07-16T12:00[:30]   a date is the first time within that
+ *                month, day, hour, minute or second
+ *   0:11 1982-01:1982-06 100hPa:850hPa 1982-07-16T12:00/1982-07-17   a range, both ends
+ *                with all of their month or day; one end may be left out
+ *   surface July words that the file has for it, or a part of them that it has only once;
+ *                any case, spaces perhaps as _
+ *   all          every one
+ * Of a single value or date that is not there the nearest is taken, unless it lies beyond
+ * the first or the last by more than their distance to the next. values may be NULL: then
+ * they have indices only. With count 0 only the spelling is checked. ARGUMENT (spelling),
+ * UNSUPPORTED (not there), MEMORY. End with fg_selection_clear. */
+FG_API fg_status fg_selection_find(fg_selection *out, fg_context *context,
+                                   const char *what, const char *text,
+                                   const fg_axis_value *values, int count);
+FG_API void fg_selection_clear(fg_selection *selection);
 
 #ifdef __cplusplus
 }

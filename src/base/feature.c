@@ -15,6 +15,7 @@ static const struct about {
                              "FLOWGRAIN_PICTURES"},
     [FG_FEATURE_RENDER] = {FG__RENDER != 0, "render", "pictures in 3D",
                            "FLOWGRAIN_RENDER"},
+    [FG_FEATURE_MAPS] = {FG__MAPS != 0, "maps", "map projections", "FLOWGRAIN_MAPS"},
     [FG_FEATURE_MPI] = {FG__MPI != 0, "mpi", "MPI", "FLOWGRAIN_MPI"},
     [FG_FEATURE_GRIB] = {FG__GRIB != 0, "grib", "reader of GRIB files", "FLOWGRAIN_GRIB"},
 };

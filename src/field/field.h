@@ -6,7 +6,7 @@
 
 #include "base/context.h"
 
-enum { FG__FIELD_CORNERS = 8, FG__FIELD_WORDS = 13 };
+enum { FG__FIELD_CORNERS = 8, FG__FIELD_WORDS = 14 };
 
 /* One axis as the lookup sees it: `cells` intervals between cells + 1 coordinates; on a
  * periodic axis the last interval ends at the first sample's repetition. */
@@ -19,6 +19,9 @@ typedef struct fg__axis {
   bool even; /* every sample within a quarter of a cell of the even spacing */
   double inverse_spacing;
 } fg__axis;
+
+/* The cell that holds x, or -1 outside the axis, and where in it x lies, in [0, 1]. */
+int fg__axis_cell(const fg__axis *axis, double x, double *fraction);
 
 typedef struct fg__field_slab fg__field_slab;
 
@@ -36,6 +39,7 @@ struct fg_field {
   char *word[FG__FIELD_WORDS]; /* owned copies of the texts */
   int words;
   uint64_t infinite;    /* samples that are missing for that */
+  double normal_share;  /* of a plane in space: fg_field_normal_share */
   fg__field_slab *slab; /* of a part; else NULL */
   const fg_field *of;   /* of a window: whose axes and words it borrows; else NULL */
 };

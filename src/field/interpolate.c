@@ -58,8 +58,7 @@ static double wrap(const fg__axis *axis, double x)
   return x < axis->coordinate[axis->cells] ? x : first;
 }
 
-/* The cell that holds x, or -1 outside the axis, and where in it x lies, in [0, 1]. */
-static int find_cell(const fg__axis *axis, double x, double *fraction)
+int fg__axis_cell(const fg__axis *axis, double x, double *fraction)
 {
   const double *coordinate = axis->coordinate;
   if (axis->period > 0.0 && isfinite(x))
@@ -94,7 +93,7 @@ static int find_cell(const fg__axis *axis, double x, double *fraction)
 static int cell_of(const fg__axis *axis, const fg__field_points *points, int n)
 {
   double ignored, x = points->origin + n * points->spacing;
-  const int cell = find_cell(axis, x, &ignored);
+  const int cell = fg__axis_cell(axis, x, &ignored);
   return cell >= 0 ? cell : x < axis->coordinate[0] ? 0 : axis->cells - 1;
 }
 
@@ -157,7 +156,7 @@ bool fg_field_velocity(const fg_field *field, const double position[], double ve
   int at[3] = {0};
   size_t cell = 0;
   for (int k = 0; k < dimension; ++k) {
-    at[k] = find_cell(&field->axis[k], position[k], &inside[k]);
+    at[k] = fg__axis_cell(&field->axis[k], position[k], &inside[k]);
     if (at[k] < 0)
       return false;
   }

@@ -33,12 +33,21 @@ fg_status fg__field_of_rows(fg_field **out, fg_context *context,
                             const fg_field_arrays *arrays, float *velocity[3],
                             const fg__slab_index *slab);
 
+/* The rows of a slab of a field that is there whole, or a copy of all of it where it has
+ * fewer rows than there are slabs. */
+fg_status fg__field_slab_of(fg_field **out, fg_context *context, const fg_field *whole,
+                            fg__slab_index slab);
+
 typedef struct fg__format {
   const char *name;  /* as `flowgrain info` shows it */
   const char *files; /* which ones it reads; NULL: another says it, or none are read */
   bool (*is_mine)(const unsigned char *bytes, size_t size);
   fg_status (*inventory)(fg_inventory *inventory, fg_context *context,
                          const fg__source *source);
+  /* The same of the one vector that `read` would give, without its missing share; NULL:
+   * found among all by --vars, or the first that can be read. */
+  fg_status (*inventory_chosen)(fg_inventory *inventory, fg_context *context,
+                                const fg__source *source, const fg_read_options *options);
   fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
                     const fg_read_options *options, fg__slab_index slab);
   /* The file's array of tensors as two fields (tensor_rows.h); *found: there is one. NULL
@@ -63,6 +72,10 @@ const fg__format *fg__format_find(const unsigned char *bytes, size_t size);
 /* Makes an empty inventory of a file in a format of that name. MEMORY. */
 fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
                                const char *format);
+
+/* Leaves in an inventory the one vector that options->vars names, or the first that can
+ * be read; perhaps none. */
+void fg__inventory_choose(fg_inventory *inventory, const fg_read_options *options);
 
 /* Adds a copy of a vector (texts included) to an inventory. MEMORY. */
 fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,

@@ -2,6 +2,12 @@
 #include "read/format.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+typedef struct value_list {
+  fg_axis_value *value; /* NULL: none */
+  char *text;
+} value_list;
 
 typedef struct entry {
   fg_inventory_vector vector;
@@ -9,6 +15,7 @@ typedef struct entry {
   char *units;
   char *found_by;
   char *unusable;
+  value_list time, level;
 } entry;
 
 struct fg_inventory {
@@ -32,8 +39,34 @@ fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
   return FG_STATUS_OK;
 }
 
+/* False: no memory; NULL stays NULL. All texts lie in one. */
+static bool copy_values(value_list *out, const fg_axis_value *values, int count)
+{
+  if (!values || count < 1)
+    return true;
+  size_t bytes = 0;
+  for (int n = 0; n < count; ++n)
+    bytes += strlen(values[n].units) + strlen(values[n].words) + 2;
+  out->value = fg__allocate((size_t)count, sizeof *out->value);
+  out->text = fg__allocate(bytes, 1);
+  if (!out->value || !out->text)
+    return false;
+  char *next = out->text;
+  for (int n = 0; n < count; ++n) {
+    out->value[n] = (fg_axis_value){.value = values[n].value, .units = next};
+    next = stpcpy(next, values[n].units) + 1;
+    out->value[n].words = next;
+    next = stpcpy(next, values[n].words) + 1;
+  }
+  return true;
+}
+
 static void clear_entry(entry *e)
 {
+  free(e->time.value);
+  free(e->time.text);
+  free(e->level.value);
+  free(e->level.text);
   for (int k = 0; k < 3; ++k)
     free(e->name[k]);
   free(e->units);
@@ -51,6 +84,10 @@ fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
     copied = copied && (e.name[k] || !vector->name[k]);
     e.vector.name[k] = e.name[k];
   }
+  copied = copied && copy_values(&e.time, vector->time_value, vector->times) &&
+           copy_values(&e.level, vector->level_value, vector->levels);
+  e.vector.time_value = e.time.value;
+  e.vector.level_value = e.level.value;
   e.units = fg__copy_text(vector->units ? vector->units : "");
   e.found_by = fg__copy_text(vector->found_by ? vector->found_by : "");
   e.unusable = fg__copy_text(vector->unusable);
@@ -67,6 +104,41 @@ fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
   inventory->entries = entries;
   inventory->entries[inventory->count++] = e;
   return FG_STATUS_OK;
+}
+
+/* Whether `vars` is a vector's name, or its names with commas. */
+static bool is_named(const fg_inventory_vector *vector, const char *vars)
+{
+  const char *rest = vars;
+  for (int k = 0; k < 3 && vector->name[k]; ++k) {
+    const size_t length = strlen(vector->name[k]);
+    if (strncmp(rest, vector->name[k], length) != 0)
+      return false;
+    rest += length;
+    if (k < 2 && vector->name[k + 1] && *rest++ != ',')
+      return false;
+  }
+  return rest > vars && !*rest;
+}
+
+void fg__inventory_choose(fg_inventory *inventory, const fg_read_options *options)
+{
+  size_t kept = inventory->count;
+  for (size_t n = inventory->count; n-- > 0;) {
+    const fg_inventory_vector *vector = &inventory->entries[n].vector;
+    if (options->vars ? is_named(vector, options->vars) : !vector->unusable)
+      kept = n;
+  }
+  for (size_t n = 0; n < inventory->count; ++n)
+    if (n != kept)
+      clear_entry(&inventory->entries[n]);
+  if (kept < inventory->count) {
+    const entry only = inventory->entries[kept];
+    inventory->entries[0] = only;
+    inventory->count = 1;
+  } else {
+    inventory->count = 0;
+  }
 }
 
 void fg_inventory_destroy(fg_inventory *inventory)

@@ -124,10 +124,39 @@ static fg_status read_slab(fg_field **out, fg_context *context, const char *inpu
   return status;
 }
 
+/* Each rank cuts the whole field, and keeps its rows of the cut. */
+static fg_status read_slice(fg_field **out, fg_context *context, const char *input,
+                            const fg_read_options *options, fg__slab_index slab)
+{
+  fg_field *volume = NULL, *whole = NULL;
+  fg_plane plane;
+  *out = NULL;
+  fg_status status = read_slab(&volume, context, input, options, (fg__slab_index){0, 1});
+  if (status == FG_STATUS_OK)
+    status = fg_plane_parse(&plane, context, options->slice, volume);
+  if (status == FG_STATUS_OK)
+    status = fg_field_slice(&whole, context, volume, &plane);
+  fg_field_destroy(volume);
+  if (status == FG_STATUS_OK && slab.count > 1) {
+    status = fg__field_slab_of(out, context, whole, slab);
+    fg_field_destroy(whole);
+  } else {
+    *out = whole;
+  }
+  return name_the_file(context, status, input);
+}
+
+static fg_status read_part(fg_field **out, fg_context *context, const char *input,
+                           const fg_read_options *options, fg__slab_index slab)
+{
+  return (options && out && options->slice ? read_slice : read_slab)(out, context, input,
+                                                                     options, slab);
+}
+
 fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
                         const fg_read_options *options)
 {
-  return read_slab(out, context, input, options, (fg__slab_index){0, 1});
+  return read_part(out, context, input, options, (fg__slab_index){0, 1});
 }
 
 static uint64_t mix_text(uint64_t key, const char *text)
@@ -145,6 +174,7 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
     return key;
   key =
       mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
+  key = mix_text(key, options->slice);
   return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
 }
 
@@ -155,7 +185,7 @@ fg_status fg_field_read_slab(fg_field **out, fg_context *context, const char *in
     return fg__fail(context, FG_STATUS_ARGUMENT, "no slab %d of %d of a field", slab,
                     slabs);
   fg_status status =
-      read_slab(out, context, input, options, (fg__slab_index){slab, slabs});
+      read_part(out, context, input, options, (fg__slab_index){slab, slabs});
   if (status != FG_STATUS_OK || !(*out)->slab)
     return status;
   fg__field_slab *own = (*out)->slab;
@@ -195,20 +225,27 @@ static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,
   return status;
 }
 
-static fg_status describe_file(fg_inventory **out, fg_context *context, const char *path)
+/* options: NULL for all vectors, else those of the one to be read. */
+static fg_status describe_file(fg_inventory **out, fg_context *context, const char *path,
+                               const fg_read_options *options)
 {
   fg__source source;
   const fg__format *format;
   fg_status status = open_known(&source, &format, context, path);
   if (status == FG_STATUS_OK)
     status = fg__inventory_create(out, context, format->name);
-  if (status == FG_STATUS_OK)
+  if (status == FG_STATUS_OK && options && format->inventory_chosen)
+    status = format->inventory_chosen(*out, context, &source, options);
+  else if (status == FG_STATUS_OK)
     status = format->inventory(*out, context, &source);
+  if (status == FG_STATUS_OK && options && !format->inventory_chosen)
+    fg__inventory_choose(*out, options);
   fg__source_close(&source);
   return status;
 }
 
-fg_status fg_inventory_read(fg_inventory **out, fg_context *context, const char *input)
+static fg_status read_inventory(fg_inventory **out, fg_context *context,
+                                const char *input, const fg_read_options *options)
 {
   if (!out || !input)
     return fg__fail(context, FG_STATUS_ARGUMENT, "no input to describe");
@@ -220,11 +257,23 @@ fg_status fg_inventory_read(fg_inventory **out, fg_context *context, const char 
     if (status == FG_STATUS_OK)
       status = describe_analytic(inventory, context, input + sizeof SYNTHETIC - 1);
   } else {
-    status = describe_file(&inventory, context, input);
+    status = describe_file(&inventory, context, input, options);
   }
   if (status == FG_STATUS_OK)
     *out = inventory;
   else
     fg_inventory_destroy(inventory);
   return status;
+}
+
+fg_status fg_inventory_read(fg_inventory **out, fg_context *context, const char *input)
+{
+  return read_inventory(out, context, input, NULL);
+}
+
+fg_status fg_inventory_read_chosen(fg_inventory **out, fg_context *context,
+                                   const char *input, const fg_read_options *options)
+{
+  static const fg_read_options defaults = {0};
+  return read_inventory(out, context, input, options ? options : &defaults);
 }

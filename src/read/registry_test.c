@@ -168,6 +168,57 @@ static void analytic_fields_offer_no_choice(void **state)
   }
 }
 
+static void planes_are_read_from_words(void **state)
+{
+  place *p = *state;
+  static const struct {
+    const char *words;
+    fg_plane plane;
+  } good[] = {{"z=0.5", {{0, 0, 1}, {0, 0, 0.5}}},
+              {"X=-2e-1", {{1, 0, 0}, {-0.2, 0, 0}}},
+              {"1,0,-1@0.25,.5,3", {{1, 0, -1}, {0.25, 0.5, 3}}}};
+  static const char *const bad[] = {
+      "",    "z",         "=1",      "z=",          "z=1 2",         "z=nan",
+      "q=1", "1,2@1,2,3", "1,2,3@1", "0,0,0@1,1,1", "1,2,3,4@1,1,1", "@"};
+  fg_field *volume = NULL, *cut = NULL;
+  fg_plane plane;
+  assert_int_equal(fg_field_create_analytic(&volume, p->context, "abc", 5), FG_STATUS_OK);
+  for (size_t k = 0; k < sizeof good / sizeof *good; ++k) {
+    assert_int_equal(fg_plane_parse(&plane, p->context, good[k].words, volume),
+                     FG_STATUS_OK);
+    for (int n = 0; n < 3; ++n)
+      assert_true(plane.normal[n] == good[k].plane.normal[n] &&
+                  plane.point[n] == good[k].plane.point[n]);
+  }
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k)
+    assert_int_equal(fg_plane_parse(&plane, p->context, bad[k], volume),
+                     FG_STATUS_ARGUMENT);
+  fg_field_destroy(volume);
+  fg_context_clear(p->context);
+  /* each of two slabs has its rows of the cut */
+  const fg_read_options options = {.slice = "y=0.5"};
+  assert_int_equal(fg_field_read(&volume, p->context, "synth:vortex3d", &options),
+                   FG_STATUS_OK);
+  assert_int_equal(fg_field_read_slab(&cut, p->context, "synth:vortex3d", &options, 1, 2),
+                   FG_STATUS_OK);
+  int first = 0, count = 0;
+  assert_true(fg_field_is_slab(cut, &first, &count));
+  const fg_field_arrays *all = fg_field_contents(volume), *own = fg_field_contents(cut);
+  assert_int_equal(all->dimension, 2);
+  assert_string_equal(own->axis_name[1], "z");
+  assert_int_equal(first + count, all->size[1]);
+  assert_memory_equal(own->velocity[1],
+                      all->velocity[1] + (size_t)first * (size_t)all->size[0],
+                      (size_t)count * (size_t)all->size[0] * sizeof(float));
+  fg_field_destroy(cut);
+  fg_field_destroy(volume);
+  cut = NULL;
+  assert_int_equal(fg_field_read(&cut, p->context, "synth:vortex", &options),
+                   FG_STATUS_FILE_FORMAT);
+  assert_string_equal(fg_context_message(p->context),
+                      "synth:vortex: a cut through a field in 2 dimensions; it needs 3");
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
@@ -179,6 +230,7 @@ int main(void)
       CASE(analytic_fields_are_inputs_too),
       CASE(inventories_own_their_words),
       CASE(analytic_fields_offer_no_choice),
+      CASE(planes_are_read_from_words),
   };
   return cmocka_run_group_tests_name("read/registry", tests, NULL, NULL);
 }

@@ -46,138 +46,6 @@ static fg_status open_file(fg__grib_file *file, fg_context *context,
   return status == FG_STATUS_OK ? fg__grib_tell_all(file) : status;
 }
 
-static void list_pairs(const fg__grib_pairs *pairs, char *out, size_t size)
-{
-  size_t used = 0;
-  out[0] = '\0';
-  for (size_t i = 0; i < pairs->count; ++i) {
-    const fg__grib_pair *pair = &pairs->pair[i];
-    const size_t more = strlen(pair->name[0]) + strlen(pair->name[1]) + 3;
-    if (used + more >= size)
-      return;
-    used += (size_t)snprintf(out + used, size - used, "%s%s,%s", used ? "; " : "",
-                             pair->name[0], pair->name[1]);
-  }
-}
-
-static fg_status fail_none(const fg__grib_file *file, const char *vars)
-{
-  fg__grib_pairs all;
-  char list[1024];
-  if (vars)
-    fg__fail(file->context, FG_STATUS_ARGUMENT,
-             "%s: has no fields '%s' at a time and level that both have", file->path[0],
-             vars);
-  else
-    fg__fail(file->context, FG_STATUS_UNSUPPORTED,
-             "%s: no vectors found among its %zu kind%s of fields", file->path[0],
-             file->kinds, file->kinds == 1 ? "" : "s");
-  if (vars && fg__grib_pairs_find(&all, file) == FG_STATUS_OK) {
-    list_pairs(&all, list, sizeof list);
-    if (list[0])
-      fg__hint(file->context, "pairs in it: %s", list);
-    fg__grib_pairs_clear(&all);
-  } else if (!vars) {
-    fg__hint(file->context, "name the components with --vars U,V as grib_ls does; when "
-                            "the other one is in a second file, add --vars-from FILE");
-  }
-  return vars ? FG_STATUS_ARGUMENT : FG_STATUS_UNSUPPORTED;
-}
-
-static fg_status fail_ambiguous(const fg__grib_file *file, const fg__grib_pairs *pairs)
-{
-  char list[1024];
-  list_pairs(pairs, list, sizeof list);
-  fg_status status =
-      fg__fail(file->context, FG_STATUS_ARGUMENT,
-               "%s: holds %zu vectors, and it is not clear which is meant: %s",
-               file->path[0], pairs->count, list);
-  fg__hint(file->context, "choose one with --vars U,V");
-  return status;
-}
-
-static fg_status find_named(fg__grib_pairs *out, const fg__grib_file *file,
-                            const char *vars)
-{
-  char u[FG__GRIB_TEXT], v[FG__GRIB_TEXT];
-  const char *comma = strchr(vars, ',');
-  *out = (fg__grib_pairs){0};
-  if (!comma || comma == vars || !comma[1] || strchr(comma + 1, ',') ||
-      strlen(vars) >= sizeof u) {
-    fg__fail(file->context, FG_STATUS_ARGUMENT,
-             "%s: '%.200s' are not the names of two components", file->path[0], vars);
-    fg__hint(file->context, "name two fields: --vars U,V");
-    return FG_STATUS_ARGUMENT;
-  }
-  snprintf(u, sizeof u, "%.*s", (int)(comma - vars), vars);
-  snprintf(v, sizeof v, "%s", comma + 1);
-  return fg__grib_pairs_named(out, file, u, v);
-}
-
-/* Velocities come first; what else there is counts where there is none. */
-static void drop_others(fg__grib_pairs *pairs)
-{
-  while (pairs->count > 1 && pairs->pair[0].is_velocity &&
-         !pairs->pair[pairs->count - 1].is_velocity) {
-    fg__grib_pairs last = {.pair = NULL};
-    last.pair = &pairs->pair[--pairs->count];
-    free(last.pair->place);
-    free(last.pair->time);
-    free(last.pair->level);
-  }
-}
-
-static fg_status choose(fg__grib_pairs *out, const fg__grib_file *file,
-                        const fg_read_options *options)
-{
-  fg_status status = options->vars ? find_named(out, file, options->vars)
-                                   : fg__grib_pairs_find(out, file);
-  if (status != FG_STATUS_OK)
-    return status;
-  if (!options->vars)
-    drop_others(out);
-  if (out->count == 0)
-    return fail_none(file, options->vars);
-  return out->count > 1 ? fail_ambiguous(file, out) : FG_STATUS_OK;
-}
-
-static fg_status check_index(const fg__grib_file *file, const char *what, int index,
-                             size_t count)
-{
-  if (index >= 0 && (size_t)index < count)
-    return FG_STATUS_OK;
-  return fg__fail(file->context, FG_STATUS_ARGUMENT,
-                  "%s: %s %d asked for, but there are %zu: 0 to %zu", file->path[0], what,
-                  index, count, count - 1);
-}
-
-/* The place at a time and level; not every time has every level. */
-static fg_status find_place(const fg__grib_place **out, const fg__grib_file *file,
-                            const fg__grib_pair *pair, const fg_read_options *options)
-{
-  char time[FG__GRIB_TEXT], level[FG__GRIB_TEXT];
-  fg_status status = check_index(file, "time", options->time, pair->times);
-  if (status == FG_STATUS_OK)
-    status = check_index(file, "level", options->level, pair->levels);
-  if (status != FG_STATUS_OK)
-    return status;
-  const fg__grib_moment *moment = &pair->time[options->time];
-  for (size_t i = 0; i < pair->places; ++i) {
-    const fg__grib_place *p = &pair->place[i];
-    if (p->moment.time == moment->time && p->moment.started == moment->started &&
-        p->level == pair->level[options->level]) {
-      *out = p;
-      return FG_STATUS_OK;
-    }
-  }
-  fg__grib_time_words(pair, (size_t)options->time, time, sizeof time);
-  fg__grib_level_words(pair, pair->level[options->level], level, sizeof level);
-  return fg__fail(file->context, FG_STATUS_ARGUMENT,
-                  "%s: has no %s and %s at time %d (%s) and level %d (%s)", file->path[0],
-                  pair->name[0], pair->name[1], options->time, time, options->level,
-                  level);
-}
-
 static fg_scale scale_of(const fg__grib_grid *grid)
 {
   return grid->layout == FG__GRIB_PLANE ? FG_SCALE_MAP : FG_SCALE_GEO;
@@ -315,6 +183,8 @@ static fg_status make_field(fg_field **out, const fg__grib_file *file,
   keep_rows(velocity, grid, columns, &rows);
   write_captions(&words, &arrays, pair, options);
   arrays.scale = options->scale == FG_SCALE_PLAIN ? FG_SCALE_PLAIN : scale_of(grid);
+  if (arrays.scale == FG_SCALE_MAP)
+    arrays.projection = grid->projection;
   arrays.size[0] = (int)columns;
   arrays.size[1] = (int)grid->size[1];
   for (int k = 0; k < 2; ++k) {
@@ -341,9 +211,9 @@ static fg_status open_pair(opened *o, fg_context *context, const fg__source *sou
   memset(o, 0, sizeof *o);
   fg_status status = open_file(&o->file, context, source, options->vars_from);
   if (status == FG_STATUS_OK)
-    status = choose(&o->pairs, &o->file, options);
+    status = fg__grib_choose(&o->pairs, &o->file, options);
   if (status == FG_STATUS_OK)
-    status = find_place(&o->place, &o->file, o->pairs.pair, options);
+    status = fg__grib_find_place(&o->place, &o->file, o->pairs.pair, options);
   if (status == FG_STATUS_OK)
     status = fg__grib_grid_find(&o->grid, &o->file, o->place->component[0]);
   if (status == FG_STATUS_OK)
@@ -396,39 +266,90 @@ static fg_status count_missing(fg_inventory_vector *vector, const fg__grib_file 
   return status;
 }
 
+/* Times and levels by value. */
+typedef struct axis_values {
+  fg_axis_value *value;
+  char *text; /* FG__GRIB_TEXT bytes each */
+} axis_values;
+
+static fg_status make_values(axis_values *out, fg_context *context, size_t count)
+{
+  out->value = fg__allocate(count, sizeof *out->value);
+  out->text = fg__allocate(count, FG__GRIB_TEXT);
+  if (!out->value || !out->text)
+    return fg__fail_memory(context, "times and levels", count * FG__GRIB_TEXT);
+  for (size_t n = 0; n < count; ++n)
+    out->value[n].words = out->text + n * FG__GRIB_TEXT;
+  return FG_STATUS_OK;
+}
+
+static fg_status list_values(axis_values out[2], fg_context *context,
+                             const fg__grib_pair *pair)
+{
+  fg_status status = make_values(&out[0], context, pair->times);
+  if (status == FG_STATUS_OK)
+    status = make_values(&out[1], context, pair->levels);
+  for (size_t n = 0; n < pair->times && status == FG_STATUS_OK; ++n) {
+    out[0].value[n].value = (double)pair->time[n].time / 60.0;
+    out[0].value[n].units = "hours since 1970-01-01";
+    fg__grib_time_words(pair, n, out[0].text + n * FG__GRIB_TEXT, FG__GRIB_TEXT);
+  }
+  for (size_t n = 0; n < pair->levels && status == FG_STATUS_OK; ++n) {
+    out[1].value[n].value = pair->level[n];
+    out[1].value[n].units = fg__grib_level_units(pair);
+    fg__grib_level_words(pair, pair->level[n], out[1].text + n * FG__GRIB_TEXT,
+                         FG__GRIB_TEXT);
+  }
+  return status;
+}
+
+static void describe_grid(fg_inventory_vector *vector, fg__grib_grid *grid)
+{
+  vector->size[0] = (int)grid->size[0];
+  vector->size[1] = (int)grid->size[1];
+  if (grid->axis[0])
+    vector->size[0] = (int)count_columns(grid, &grid->period);
+  vector->periodic[0] = grid->period > 0.0;
+  for (int k = 0; k < 2; ++k)
+    if (grid->axis[k]) {
+      vector->bounds[2 * k] = grid->axis[k][0];
+      vector->bounds[2 * k + 1] = grid->axis[k][vector->size[k] - 1];
+    }
+}
+
 static fg_status describe_pair(fg_inventory *inventory, const fg__grib_file *file,
-                               const fg__grib_pair *pair)
+                               const fg__grib_pair *pair, bool counted)
 {
   fg__grib_grid grid;
+  axis_values values[2] = {{NULL, NULL}, {NULL, NULL}};
   char units[FG__GRIB_TEXT];
   fg_status status = fg__grib_grid_find(&grid, file, pair->place[0].component[0]);
-  if (status != FG_STATUS_OK)
-    return status;
   fg__grib_units(pair->kind[0]->units, units, sizeof units);
   fg_inventory_vector vector = {.components = 2,
                                 .name = {pair->name[0], pair->name[1]},
                                 .units = units,
                                 .found_by = "parameters",
                                 .dimension = 2,
-                                .size = {(int)grid.size[0], (int)grid.size[1], 1},
+                                .size = {0, 0, 1},
                                 .times = (int)pair->times,
                                 .levels = (int)pair->levels,
                                 .scale = scale_of(&grid)};
-  if (grid.unusable[0]) {
+  if (status == FG_STATUS_OK)
+    status = list_values(values, file->context, pair);
+  vector.time_value = values[0].value;
+  vector.level_value = values[1].value;
+  if (grid.unusable[0])
     vector.unusable = grid.unusable;
-  } else {
-    if (grid.axis[0])
-      vector.size[0] = (int)count_columns(&grid, &grid.period);
-    vector.periodic[0] = grid.period > 0.0;
-    for (int k = 0; k < 2; ++k)
-      if (grid.axis[k]) {
-        vector.bounds[2 * k] = grid.axis[k][0];
-        vector.bounds[2 * k + 1] = grid.axis[k][vector.size[k] - 1];
-      }
+  else if (status == FG_STATUS_OK)
+    describe_grid(&vector, &grid);
+  if (status == FG_STATUS_OK && counted && !vector.unusable)
     status = count_missing(&vector, file, pair, &grid);
-  }
   if (status == FG_STATUS_OK)
     status = fg__inventory_add(inventory, file->context, &vector);
+  for (int k = 0; k < 2; ++k) {
+    free(values[k].value);
+    free(values[k].text);
+  }
   fg__grib_grid_clear(&grid);
   return status;
 }
@@ -442,10 +363,25 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
   if (status == FG_STATUS_OK)
     status = fg__grib_pairs_find(&pairs, &file);
   for (size_t i = 0; i < pairs.count && status == FG_STATUS_OK; ++i) {
-    status = describe_pair(inventory, &file, &pairs.pair[i]);
+    status = describe_pair(inventory, &file, &pairs.pair[i], true);
     if (status == FG_STATUS_OK)
       status = fg__check_stop(context);
   }
+  fg__grib_pairs_clear(&pairs);
+  close_file(&file);
+  return status;
+}
+
+static fg_status describe_chosen(fg_inventory *inventory, fg_context *context,
+                                 const fg__source *source, const fg_read_options *options)
+{
+  fg__grib_file file;
+  fg__grib_pairs pairs = {0};
+  fg_status status = open_file(&file, context, source, options->vars_from);
+  if (status == FG_STATUS_OK)
+    status = fg__grib_choose(&pairs, &file, options);
+  if (status == FG_STATUS_OK)
+    status = describe_pair(inventory, &file, pairs.pair, false);
   fg__grib_pairs_clear(&pairs);
   close_file(&file);
   return status;
@@ -455,4 +391,5 @@ const fg__format fg__format_grib = {.name = "GRIB",
                                     .files = "GRIB (editions 1 and 2)",
                                     .is_mine = fg__is_grib,
                                     .inventory = describe,
+                                    .inventory_chosen = describe_chosen,
                                     .read = read_field};

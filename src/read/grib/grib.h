@@ -136,6 +136,17 @@ void fg__grib_level_words(const fg__grib_pair *pair, double level, char *out,
 void fg__grib_title(const fg__grib_pair *pair, char *out, size_t size);
 void fg__grib_units(const char *units, char *out, size_t size);
 
+/* The units of a pair's levels, "" when they have none. */
+const char *fg__grib_level_units(const fg__grib_pair *pair);
+
+/* choice.c: the one pair that is asked for; and its place at a time and level, where not
+ * every time has every level. To be cleared even after a failure. ARGUMENT, UNSUPPORTED,
+ * MEMORY. */
+fg_status fg__grib_choose(fg__grib_pairs *out, const fg__grib_file *file,
+                          const fg_read_options *options);
+fg_status fg__grib_find_place(const fg__grib_place **out, const fg__grib_file *file,
+                              const fg__grib_pair *pair, const fg_read_options *options);
+
 /* grid.c: where the values are. */
 
 typedef enum fg__grib_layout {

@@ -141,25 +141,44 @@ void fg__grib_time_words(const fg__grib_pair *pair, size_t time, char *out, size
 }
 
 typedef struct level_words {
-  const char *type, *before, *after; /* the number */
+  const char *type, *before, *units; /* the number between them */
 } level_words;
+
+static const level_words LEVELS[] = {
+    {"isobaricInhPa", "", "hPa"},
+    {"isobaricInPa", "", "Pa"},
+    {"heightAboveGround", "height ", "m"},
+    {"heightAboveSea", "altitude ", "m"},
+    {"depthBelowSea", "depth ", "m"},
+    {"depthBelowLand", "depth ", "m"},
+    {"theta", "", "K"},
+    {"hybrid", "model level ", ""},
+    {"generalVertical", "level ", ""},
+    {"generalVerticalLayer", "layer ", ""},
+};
+
+static const level_words *find_level(const fg__grib_pair *pair)
+{
+  for (size_t i = 0; i < sizeof LEVELS / sizeof *LEVELS; ++i)
+    if (strcmp(pair->kind[0]->level_type, LEVELS[i].type) == 0)
+      return &LEVELS[i];
+  return NULL;
+}
+
+const char *fg__grib_level_units(const fg__grib_pair *pair)
+{
+  const level_words *known = find_level(pair);
+  return known ? known->units : "";
+}
 
 void fg__grib_level_words(const fg__grib_pair *pair, double level, char *out, size_t size)
 {
-  static const level_words known[] = {
-      {"isobaricInhPa", "", " hPa"},          {"isobaricInPa", "", " Pa"},
-      {"heightAboveGround", "height ", " m"}, {"heightAboveSea", "altitude ", " m"},
-      {"depthBelowSea", "depth ", " m"},      {"depthBelowLand", "depth ", " m"},
-      {"hybrid", "model level ", ""},         {"theta", "", " K"},
-      {"generalVertical", "level ", ""},      {"generalVerticalLayer", "layer ", ""},
-  };
   const char *type = pair->kind[0]->level_type;
-  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
-    if (strcmp(type, known[i].type) == 0) {
-      snprintf(out, size, "%s%g%s", known[i].before, level, known[i].after);
-      return;
-    }
-  if (pair->levels > 1)
+  const level_words *known = find_level(pair);
+  if (known)
+    snprintf(out, size, "%s%g%s%s", known->before, level, known->units[0] ? " " : "",
+             known->units);
+  else if (pair->levels > 1)
     snprintf(out, size, "%s %g", type[0] ? type : "level", level);
   else
     snprintf(out, size, "%s", strcmp(type, "unknown") == 0 ? "" : type);

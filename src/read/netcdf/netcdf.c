@@ -1,7 +1,6 @@
 /* NetCDF: classic, 64-bit offset, CDF-5 and NetCDF-4, through NetCDF-C. */
 #include "read/netcdf/netcdf.h"
 
-#include "base/memory.h"
 #include "field/slab.h"
 
 #include <math.h>
@@ -24,210 +23,6 @@ static fg_status add_second_file(fg__nc_file *file, fg_context *context, const c
   if (status == FG_STATUS_OK)
     status = fg__nc_file_open(file, context, &source);
   fg__source_close(&source);
-  return status;
-}
-
-typedef struct candidates {
-  fg__nc_pair *pair;
-  size_t count;
-} candidates;
-
-/* Writes "u,v", or "u,v,w" of a volume. */
-static int write_names(char *out, size_t size, const fg__nc_pair *pair, bool volume)
-{
-  return snprintf(out, size, "%s,%s%s%s", pair->component[0]->name,
-                  pair->component[1]->name, volume ? "," : "",
-                  volume ? pair->component[2]->name : "");
-}
-
-/* Lists pairs as "u,v; u10,v10", as many as fit: all, or those whose dimension is not 0.
- */
-static void list_pairs(const candidates *all, const int *dimension, char *out,
-                       size_t size)
-{
-  size_t n = 0;
-  out[0] = '\0';
-  for (size_t i = 0; i < all->count; ++i) {
-    if (dimension && dimension[i] == 0)
-      continue;
-    const char *between = n > 0 ? "; " : "";
-    if (n + strlen(between) >= size)
-      return;
-    strcpy(out + n, between);
-    const size_t start = n + strlen(between);
-    const int written = write_names(out + start, size - start, &all->pair[i],
-                                    dimension && dimension[i] == 3);
-    if (written < 0 || (size_t)written >= size - start) {
-      out[n] = '\0';
-      return;
-    }
-    n = start + (size_t)written;
-  }
-}
-
-static const fg__nc_variable *find_named(const fg__nc_file *file, const char *name,
-                                         int preferred)
-{
-  for (size_t i = 0; i < file->variable_count; ++i) {
-    const fg__nc_variable *v = &file->variables[i];
-    if (v->file == preferred &&
-        (strcmp(v->name, name) == 0 || strcmp(v->plain_name, name) == 0))
-      return v;
-  }
-  return fg__nc_find(file, name);
-}
-
-static fg_status fail_unknown_name(const fg__nc_file *file, const candidates *all,
-                                   const char *name)
-{
-  char list[1024];
-  fg_status status =
-      fg__fail(file->context, FG_STATUS_ARGUMENT, "%s: has no variable '%s'",
-               file->paths[file->root_count - 1], name);
-  list_pairs(all, NULL, list, sizeof list);
-  if (list[0])
-    fg__hint(file->context, "pairs in it: %s", list);
-  return status;
-}
-
-static fg_status fail_names(const fg__nc_file *file, const char *vars)
-{
-  fg__fail(file->context, FG_STATUS_ARGUMENT,
-           "%s: '%s' are not the names of two or three components", file->paths[0], vars);
-  fg__hint(file->context, "name two variables: --vars U,V; or three: --vars U,V,W");
-  return FG_STATUS_ARGUMENT;
-}
-
-/* Parts "u,v" or "u,v,w"; returns how many, 0 for anything else. */
-static int split_names(char name[3][FG__NC_NAME], const char *vars)
-{
-  int count = 0;
-  while (count < 3) {
-    const size_t length = strcspn(vars, ",");
-    if (length == 0 || length >= FG__NC_NAME)
-      return 0;
-    memcpy(name[count], vars, length);
-    name[count++][length] = '\0';
-    if (!vars[length])
-      return count > 1 ? count : 0;
-    vars += length + 1;
-  }
-  return 0;
-}
-
-static fg_status choose_named(fg__nc_pair *out, const fg__nc_file *file,
-                              const candidates *all, const char *vars)
-{
-  char name[3][FG__NC_NAME];
-  const int count = split_names(name, vars);
-  if (count == 0)
-    return fail_names(file, vars);
-  *out = (fg__nc_pair){.found_by = "request", .volume = count == 3};
-  for (int k = 0; k < count; ++k) {
-    out->component[k] = find_named(file, name[k], k > 0 ? file->root_count - 1 : 0);
-    if (!out->component[k])
-      return fail_unknown_name(file, all, name[k]);
-  }
-  for (int k = 0; k < count; ++k)
-    if (out->component[k] == out->component[(k + 1) % count])
-      return fg__fail(file->context, FG_STATUS_ARGUMENT, "%s: %s components are '%s'",
-                      file->paths[0], count == 2 ? "both" : "two", name[k]);
-  return FG_STATUS_OK;
-}
-
-static fg_status fail_unusable(const fg__nc_file *file, const fg__nc_pair *pair,
-                               const fg__nc_grid *grid)
-{
-  char names[3 * FG__NC_NAME];
-  write_names(names, sizeof names, pair, pair->volume);
-  fg_status status = fg__fail(file->context, FG_STATUS_UNSUPPORTED, "%s: %s: %s",
-                              file->paths[0], names, grid->unusable);
-  if (grid->hint[0])
-    fg__hint(file->context, "%s", grid->hint);
-  return status;
-}
-
-static fg_status fail_no_vectors(const fg__nc_file *file)
-{
-  fg_status status =
-      fg__fail(file->context, FG_STATUS_UNSUPPORTED,
-               "%s: no vectors found among its %zu variable%s", file->paths[0],
-               file->variable_count, file->variable_count == 1 ? "" : "s");
-  if (file->root_count == 1)
-    fg__hint(file->context, "name the components with --vars U,V; when the other one is "
-                            "in a second file, add --vars-from FILE");
-  else
-    fg__hint(file->context, "name the components with --vars U,V");
-  return status;
-}
-
-static fg_status fail_ambiguous(const fg__nc_file *file, const candidates *all,
-                                const int *usable, int count)
-{
-  char list[1024];
-  list_pairs(all, usable, list, sizeof list);
-  fg_status status =
-      fg__fail(file->context, FG_STATUS_ARGUMENT,
-               "%s: holds %d vectors, and it is not clear which is meant: %s",
-               file->paths[0], count, list);
-  fg__hint(file->context, "choose one with --vars U,V");
-  return status;
-}
-
-/* The only usable pair of the best rank that has one; the grid found on the way is kept.
- */
-static fg_status choose_best(fg__nc_pair *out, fg__nc_grid *grid, const fg__nc_file *file,
-                             const candidates *all, fg_scale scale)
-{
-  if (all->count == 0)
-    return fail_no_vectors(file);
-  int *usable = fg__allocate(all->count, sizeof *usable);
-  if (!usable)
-    return fg__fail_memory(file->context, "a choice", all->count * sizeof *usable);
-  fg_status status = FG_STATUS_OK;
-  fg__nc_grid first_unusable = {0};
-  int count = 0;
-  for (size_t i = 0; i < all->count && status == FG_STATUS_OK; ++i) {
-    /* an unusable velocity is said, not silently replaced by another kind of vector */
-    if (all->pair[0].is_velocity && !all->pair[i].is_velocity)
-      break;
-    if (count > 0 && all->pair[i].rank > out->rank)
-      break;
-    fg__nc_grid found;
-    status = fg__nc_grid_find(&found, file, &all->pair[i], scale);
-    usable[i] = status == FG_STATUS_OK && !found.unusable[0] ? found.dimension : 0;
-    if (i == 0)
-      memcpy(&first_unusable, &found, sizeof found);
-    if (usable[i] > 0 && count++ == 0) {
-      *out = all->pair[i];
-      *grid = found;
-    } else {
-      fg__nc_grid_clear(&found);
-    }
-  }
-  if (status == FG_STATUS_OK && count == 0)
-    status = fail_unusable(file, &all->pair[0], &first_unusable);
-  else if (status == FG_STATUS_OK && count > 1)
-    status = fail_ambiguous(file, all, usable, count);
-  free(usable);
-  return status;
-}
-
-static fg_status choose(fg__nc_pair *pair, fg__nc_grid *grid, const fg__nc_file *file,
-                        const fg_read_options *options)
-{
-  candidates all = {0};
-  fg_status status = fg__nc_pairs(&all.pair, &all.count, file);
-  if (status == FG_STATUS_OK && options->vars) {
-    status = choose_named(pair, file, &all, options->vars);
-    if (status == FG_STATUS_OK)
-      status = fg__nc_grid_find(grid, file, pair, options->scale);
-    if (status == FG_STATUS_OK && grid->unusable[0])
-      status = fail_unusable(file, pair, grid);
-  } else if (status == FG_STATUS_OK) {
-    status = choose_best(pair, grid, file, &all, options->scale);
-  }
-  free(all.pair);
   return status;
 }
 
@@ -370,7 +165,7 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
   if (status == FG_STATUS_OK && options->vars_from)
     status = add_second_file(&file, context, options->vars_from);
   if (status == FG_STATUS_OK)
-    status = choose(&pair, &grid, &file, options);
+    status = fg__nc_choose(&pair, &grid, &file, options);
   if (status == FG_STATUS_OK)
     status = check_second(&file, &pair, options->mask);
   if (status == FG_STATUS_OK)
@@ -414,13 +209,39 @@ static fg_status count_missing(fg_inventory_vector *vector, const fg__nc_file *f
   return status;
 }
 
-static fg_status describe_pair(fg_inventory *inventory, const fg__nc_file *file,
-                               const fg__nc_pair *pair)
+/* Adds the vector, with its times and levels. */
+static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector,
+                            const fg__nc_file *file, const fg__nc_grid *grid)
+{
+  fg_axis_value *times = NULL, *levels = NULL;
+  char *time_text = NULL, *level_text = NULL;
+  fg_status status = FG_STATUS_OK;
+  if (!vector->unusable)
+    status = fg__nc_axis_values(&times, &time_text, file, grid->time_variable,
+                                (size_t)vector->times);
+  if (!vector->unusable && grid->dimension == 2 && status == FG_STATUS_OK)
+    status = fg__nc_axis_values(&levels, &level_text, file, grid->level_variable,
+                                (size_t)vector->levels);
+  vector->time_value = times;
+  vector->level_value = levels;
+  if (status == FG_STATUS_OK)
+    status = fg__inventory_add(inventory, file->context, vector);
+  free(times);
+  free(levels);
+  free(time_text);
+  free(level_text);
+  return status;
+}
+
+/* counts: also the missing samples of the first time and level. */
+static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
+                               const fg__nc_pair *pair, const fg__nc_grid *found,
+                               bool counts)
 {
   char text[FG__NC_TEXT];
   char units[FG__NC_TEXT];
-  fg__nc_grid grid;
-  fg_status status = fg__nc_grid_find(&grid, file, pair, FG_SCALE_AUTO);
+  fg_status status = FG_STATUS_OK;
+  const fg__nc_grid grid = *found;
   if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
     fg__nc_text(pair->component[1], "units", text, sizeof text);
   fg__nc_units(text, units, sizeof units);
@@ -448,10 +269,18 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__nc_file *file,
            grid.hint);
   if (grid.unusable[0])
     vector.unusable = reason;
-  else if (status == FG_STATUS_OK)
-    status = count_missing(&vector, file, pair, &grid);
+  else if (counts)
+    status = count_missing(&vector, file, pair, found);
+  return status == FG_STATUS_OK ? add_vector(inventory, &vector, file, found) : status;
+}
+
+static fg_status describe_pair(fg_inventory *inventory, const fg__nc_file *file,
+                               const fg__nc_pair *pair)
+{
+  fg__nc_grid grid;
+  fg_status status = fg__nc_grid_find(&grid, file, pair, FG_SCALE_AUTO);
   if (status == FG_STATUS_OK)
-    status = fg__inventory_add(inventory, file->context, &vector);
+    status = describe_grid(inventory, file, pair, &grid, true);
   fg__nc_grid_clear(&grid);
   return status;
 }
@@ -460,14 +289,35 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
                           const fg__source *source)
 {
   fg__nc_file file = {0};
-  candidates all = {0};
+  fg__nc_pair *pairs = NULL;
+  size_t count = 0;
   fg_status status = fg__nc_file_open(&file, context, source);
   if (status == FG_STATUS_OK)
-    status = fg__nc_pairs(&all.pair, &all.count, &file);
-  for (size_t i = 0; i < all.count && status == FG_STATUS_OK; ++i)
-    status = describe_pair(inventory, &file, &all.pair[i]);
+    status = fg__nc_pairs(&pairs, &count, &file);
+  for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i)
+    status = describe_pair(inventory, &file, &pairs[i]);
   status = fg__nc_status(&file, status);
-  free(all.pair);
+  free(pairs);
+  fg__nc_file_close(&file);
+  return status;
+}
+
+/* The pair that these options would read. */
+static fg_status describe_chosen(fg_inventory *inventory, fg_context *context,
+                                 const fg__source *source, const fg_read_options *options)
+{
+  fg__nc_file file = {0};
+  fg__nc_pair pair = {0};
+  fg__nc_grid grid = {0};
+  fg_status status = fg__nc_file_open(&file, context, source);
+  if (status == FG_STATUS_OK && options->vars_from)
+    status = add_second_file(&file, context, options->vars_from);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_choose(&pair, &grid, &file, options);
+  if (status == FG_STATUS_OK)
+    status = describe_grid(inventory, &file, &pair, &grid, false);
+  status = fg__nc_status(&file, status);
+  fg__nc_grid_clear(&grid);
   fg__nc_file_close(&file);
   return status;
 }
@@ -477,4 +327,5 @@ const fg__format fg__format_netcdf = {
     .files = "NetCDF (classic, 64-bit offset, CDF-5, NetCDF-4)",
     .is_mine = is_netcdf,
     .inventory = describe,
+    .inventory_chosen = describe_chosen,
     .read = read_field};

@@ -99,7 +99,7 @@ fg__nc_quantity fg__nc_units(const char *units, char *label, size_t size);
 /* The length of a unit of time, "hours"; false where it is none. */
 bool fg__nc_seconds(const char *units, double *out);
 
-/* Writes a time as a date of its calendar in UTC, "2014-01-31 03:00"; false when units or
+/* Writes a time as a date of its calendar in UTC, "2014-01-31 03:00[:30]"; false when units or
  * calendar are not known. */
 bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
                  size_t size);
@@ -212,6 +212,12 @@ fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_pair *pair, fg_scale scale);
 void fg__nc_grid_clear(fg__nc_grid *grid);
 
+/* choice.c. Finds the pair that the options ask for, or the only one of the best rank
+ * that can be read, with its grid, to be cleared even after a failure. ARGUMENT,
+ * UNSUPPORTED, FILE_ACCESS, MEMORY. */
+fg_status fg__nc_choose(fg__nc_pair *pair, fg__nc_grid *grid, const fg__nc_file *file,
+                        const fg_read_options *options);
+
 typedef struct fg__nc_missing {
   size_t fill, range, not_a_number; /* samples that are missing, by reason */
 } fg__nc_missing;
@@ -250,5 +256,10 @@ void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t siz
 /* Describes an index along time or level; name is the dimension's. */
 fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,
                              const char *name, size_t index, char *out, size_t size);
+
+/* The values of a time or level axis, their texts in `text`; both end with free. NULL
+ * where there is no coordinate, or more values than anyone would choose from. */
+fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file *file,
+                             const fg__nc_variable *coordinate, size_t count);
 
 #endif

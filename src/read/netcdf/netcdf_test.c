@@ -334,6 +334,50 @@ static void inventories_tell_what_reading_gives(void **state)
   fg_inventory_destroy(inventory);
 }
 
+/* With a second pair, of one time and level only: what is chosen is what is read. */
+static void inventories_tell_times_and_levels(void **state)
+{
+  sample_file *f = *state;
+  static const double t[] = {0.0, 6.0, 12.008333}, z[] = {85000.0, 30000.0};
+  sample_begin(f, 0);
+  const int dimension[] = {sample_axis(f, "time", NT, t, "hours since 2001-02-28 12:00"),
+                           sample_axis(f, "lev", NZ, z, "Pa"),
+                           sample_axis(f, "y", NY, Y, "km"),
+                           sample_axis(f, "x", NX, X, "km")};
+  sample_variable(f, "u", NC_FLOAT, 4, dimension);
+  sample_variable(f, "v", NC_FLOAT, 4, dimension);
+  sample_variable(f, "u10", NC_FLOAT, 2, dimension + 2);
+  sample_variable(f, "v10", NC_FLOAT, 2, dimension + 2);
+  sample_end(f);
+  fg_inventory *inventory = NULL;
+  fg_read_options options = {.vars = "u,v"};
+  assert_int_equal(fg_inventory_read_chosen(&inventory, f->context, f->path, &options),
+                   FG_STATUS_OK);
+  assert_int_equal(fg_inventory_vector_count(inventory), 1);
+  const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
+  assert_int_equal(v->times, NT);
+  assert_int_equal(v->levels, NZ);
+  assert_string_equal(v->time_value[1].words, "2001-02-28 18:00");
+  assert_string_equal(v->time_value[2].words, "2001-03-01 00:00:30");
+  assert_true(v->time_value[1].value == 6.0);
+  assert_string_equal(v->level_value[1].words, "30000 Pa");
+  assert_string_equal(v->level_value[1].units, "Pa");
+  fg_selection found;
+  assert_int_equal(
+      fg_selection_find(&found, f->context, "level", "300hPa", v->level_value, v->levels),
+      FG_STATUS_OK);
+  assert_int_equal(found.index[0], 1);
+  fg_selection_clear(&found);
+  fg_inventory_destroy(inventory);
+  options.vars = "v10,u10";
+  assert_int_equal(fg_inventory_read_chosen(&inventory, f->context, f->path, &options),
+                   FG_STATUS_OK);
+  v = fg_inventory_vector_at(inventory, 0);
+  assert_string_equal(v->name[0], "v10");
+  assert_null(v->time_value);
+  fg_inventory_destroy(inventory);
+}
+
 /* The demonstration's own file: 65160 packed samples, none missing, round the globe. */
 static void the_demonstration_file_is_read(void **state)
 {
@@ -367,6 +411,7 @@ int main(void)
       CASE(only_possible_requests_are_met),
       CASE(files_without_vectors_say_so),
       CASE(inventories_tell_what_reading_gives),
+      CASE(inventories_tell_times_and_levels),
       CASE(the_demonstration_file_is_read),
   };
   return cmocka_run_group_tests_name("read/netcdf/netcdf", tests, NULL, NULL);

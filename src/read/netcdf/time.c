@@ -94,8 +94,11 @@ bool fg__nc_date(double value, const char *units, const char *calendar, char *ou
     snprintf(out, size, "%d %s (climatology)", d.day, month_name[d.month - 1]);
   else if (rest == 0)
     snprintf(out, size, "%04lld-%02d-%02d", (long long)d.year, d.month, d.day);
-  else
+  else if (rest % 60 == 0)
     snprintf(out, size, "%04lld-%02d-%02d %02d:%02d", (long long)d.year, d.month, d.day,
              (int)(rest / 3600), (int)(rest / 60 % 60));
+  else
+    snprintf(out, size, "%04lld-%02d-%02d %02d:%02d:%02d", (long long)d.year, d.month,
+             d.day, (int)(rest / 3600), (int)(rest / 60 % 60), (int)(rest % 60));
   return true;
 }

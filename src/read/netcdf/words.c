@@ -1,9 +1,11 @@
 /* Words for captions: what a pair is, which time, which level. */
+#include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -139,6 +141,30 @@ static const char *kind_of_height(const fg__nc_variable *coordinate)
   return coordinate->plain_name;
 }
 
+/* What a coordinate's value is called. */
+static void write_words(const fg__nc_variable *coordinate, double value, char *out,
+                        size_t size)
+{
+  char units[FG__NC_TEXT];
+  char label[FG__NC_TEXT];
+  char calendar[FG__NC_TEXT];
+  fg__nc_text(coordinate, "units", units, sizeof units);
+  fg__nc_text(coordinate, "calendar", calendar, sizeof calendar);
+  const fg__nc_quantity quantity = fg__nc_units(units, label, sizeof label);
+  if (quantity == FG__NC_DATE && fg__nc_date(value, units, calendar, out, size))
+    return;
+  if (quantity == FG__NC_PRESSURE)
+    snprintf(out, size, "%g %s", value, label);
+  else if (quantity == FG__NC_LENGTH)
+    snprintf(out, size, "%s %g %s", kind_of_height(coordinate), value, label);
+  else if (strncasecmp(units, "month", 5) == 0)
+    snprintf(out, size, "month %g", value);
+  else if (units[0] == '\0' || strcmp(units, "1") == 0)
+    snprintf(out, size, "%s %g", coordinate->plain_name, value);
+  else
+    snprintf(out, size, "%s %g %s", coordinate->plain_name, value, units);
+}
+
 fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,
                              const char *name, size_t index, char *out, size_t size)
 {
@@ -150,23 +176,60 @@ fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coo
   const int error = nc_get_var1_double(coordinate->group, coordinate->id, &index, &value);
   if (error)
     return fg__nc_fail(file->context, coordinate->path, coordinate->name, error);
-  char units[FG__NC_TEXT];
-  char label[FG__NC_TEXT];
-  char calendar[FG__NC_TEXT];
-  fg__nc_text(coordinate, "units", units, sizeof units);
-  fg__nc_text(coordinate, "calendar", calendar, sizeof calendar);
-  const fg__nc_quantity quantity = fg__nc_units(units, label, sizeof label);
-  if (quantity == FG__NC_DATE && fg__nc_date(value, units, calendar, out, size))
-    return FG_STATUS_OK;
-  if (quantity == FG__NC_PRESSURE)
-    snprintf(out, size, "%g %s", value, label);
-  else if (quantity == FG__NC_LENGTH)
-    snprintf(out, size, "%s %g %s", kind_of_height(coordinate), value, label);
-  else if (strncasecmp(units, "month", 5) == 0)
-    snprintf(out, size, "month %g", value);
-  else if (units[0] == '\0' || strcmp(units, "1") == 0)
-    snprintf(out, size, "%s %g", coordinate->plain_name, value);
-  else
-    snprintf(out, size, "%s %g %s", coordinate->plain_name, value, units);
+  write_words(coordinate, value, out, size);
   return FG_STATUS_OK;
+}
+
+/* A century of hours. */
+enum { MOST_VALUES = 1000000 };
+
+/* The texts of all values one after the other, after their units. */
+static bool write_texts(char **text, size_t *starts, const fg__nc_variable *coordinate,
+                        const double *number, size_t count)
+{
+  char units[FG__NC_TEXT], words[FG__NC_TEXT];
+  size_t used = 0, capacity = 0;
+  fg__nc_text(coordinate, "units", units, sizeof units);
+  fg__nc_units(units, words, sizeof words);
+  for (size_t n = 0; n <= count; ++n) {
+    const size_t length = strlen(words) + 1;
+    if (!fg__grow((void **)text, &capacity, used + length, 1))
+      return false;
+    memcpy(*text + used, words, length);
+    starts[n] = used;
+    used += length;
+    if (n < count)
+      write_words(coordinate, number[n], words, sizeof words);
+  }
+  return true;
+}
+
+fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file *file,
+                             const fg__nc_variable *coordinate, size_t count)
+{
+  *out = NULL;
+  *text = NULL;
+  if (!coordinate || count < 1 || count > MOST_VALUES || coordinate->type == NC_CHAR ||
+      coordinate->type > NC_UINT64)
+    return FG_STATUS_OK;
+  fg_status status = FG_STATUS_OK;
+  double *number = fg__allocate(count, sizeof *number);
+  size_t *starts = fg__allocate(count + 1, sizeof *starts);
+  *out = fg__allocate(count, sizeof **out);
+  const int error =
+      number ? nc_get_var_double(coordinate->group, coordinate->id, number) : 0;
+  if (error)
+    status = fg__nc_fail(file->context, coordinate->path, coordinate->name, error);
+  else if (!number || !starts || !*out ||
+           !write_texts(text, starts, coordinate, number, count))
+    status = fg__fail_memory(file->context, "an axis' values", count * sizeof **out);
+  for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n)
+    (*out)[n] = (fg_axis_value){number[n], *text, *text + starts[n + 1]};
+  if (status != FG_STATUS_OK) {
+    free(*out);
+    *out = NULL;
+  }
+  free(starts);
+  free(number);
+  return status;
 }

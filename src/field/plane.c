@@ -1,0 +1,63 @@
+#include "field/plane.h"
+
+#include <math.h>
+
+double fg__plane_product(const double a[3], const double b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static bool scale_to_one(double out[3], const double v[3])
+{
+  double largest = 0.0;
+  for (int k = 0; k < 3; ++k)
+    largest = fabs(v[k]) > largest || isnan(v[k]) ? fabs(v[k]) : largest;
+  if (!(largest > 0.0) || isinf(largest))
+    return false;
+  for (int k = 0; k < 3; ++k)
+    out[k] = v[k] / largest;
+  const double length = sqrt(fg__plane_product(out, out));
+  for (int k = 0; k < 3; ++k)
+    out[k] /= length;
+  return true;
+}
+
+static void cross(double out[3], const double a[3], const double b[3])
+{
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    out[k] = a[i] * b[j] - a[j] * b[i];
+  }
+}
+
+bool fg__plane_basis_of(fg__plane_basis *out, const double normal[3])
+{
+  double *n = out->normal;
+  if (!scale_to_one(n, normal))
+    return false;
+  out->across = 2;
+  for (int k = 1; k >= 0; --k)
+    if (fabs(n[k]) > fabs(n[out->across]))
+      out->across = k;
+  out->axis[0] = out->across == 0 ? 1 : 0;
+  out->axis[1] = out->across == 2 ? 1 : 2;
+  const int first = fabs(n[out->axis[1]]) < fabs(n[out->axis[0]]) ? 1 : 0;
+  const int nearer = out->axis[first], other = out->axis[1 - first];
+  double along[3], *second = out->direction[1 - first];
+  for (int k = 0; k < 3; ++k)
+    along[k] = (k == nearer ? 1.0 : 0.0) - n[nearer] * n[k];
+  scale_to_one(out->direction[first], along);
+  cross(along, n, out->direction[first]);
+  scale_to_one(second, along);
+  if (second[other] < 0.0)
+    for (int k = 0; k < 3; ++k)
+      second[k] = -second[k];
+  for (int k = 0; k < 3; ++k) /* no negative zeros */
+    second[k] += 0.0;
+  return true;
+}
+
+bool fg__plane_is_axis(const fg__plane_basis *basis, int k)
+{
+  return basis->direction[k][basis->axis[k]] >= 1.0;
+}

@@ -1,0 +1,101 @@
+/* In builds without PROJ: there are no projections. */
+#include "base/feature.h"
+#include "map/map.h"
+
+#include <math.h>
+
+fg_status fg__map_create(fg__map **out, fg_context *context, const char *projection)
+{
+  *out = NULL;
+  return fg__fail_absent(context, projection, FG_FEATURE_MAPS);
+}
+
+/* No map can be made: what follows is never called, and is there to be linked. */
+
+void fg__map_destroy(fg__map *map)
+{
+  (void)map;
+}
+
+const char *fg__map_projection(const fg__map *map)
+{
+  (void)map;
+  return "";
+}
+
+static void fill(size_t n, double *one, double *other)
+{
+  for (size_t i = 0; i < n; ++i)
+    one[i] = other[i] = (double)NAN;
+}
+
+void fg__map_forward(const fg__map *map, size_t n, const double *longitude,
+                     const double *latitude, double *x, double *y)
+{
+  (void)map;
+  (void)longitude;
+  (void)latitude;
+  fill(n, x, y);
+}
+
+void fg__map_inverse(const fg__map *map, size_t n, const double *x, const double *y,
+                     double *longitude, double *latitude)
+{
+  (void)map;
+  (void)x;
+  (void)y;
+  fill(n, longitude, latitude);
+}
+
+void fg__map_turn(const fg__map *map, size_t n, const double *longitude,
+                  const double *latitude, float *east, float *north)
+{
+  (void)map;
+  (void)longitude;
+  (void)latitude;
+  for (size_t i = 0; i < n; ++i)
+    east[i] = north[i] = NAN;
+}
+
+double fg__map_area_scale(const fg__map *map, double longitude, double latitude)
+{
+  (void)map;
+  (void)longitude;
+  (void)latitude;
+  return (double)NAN;
+}
+
+double fg__map_length_scale(const fg__map *map, double longitude, double latitude)
+{
+  return fg__map_area_scale(map, longitude, latitude);
+}
+
+double fg__map_unit(const fg__map *map)
+{
+  (void)map;
+  return 1.0;
+}
+
+double fg__map_center(const fg__map *map)
+{
+  (void)map;
+  return 0.0;
+}
+
+double fg__map_center_latitude(const fg__map *map)
+{
+  (void)map;
+  return 0.0;
+}
+
+fg__map_kind fg__map_kind_of(const fg__map *map)
+{
+  (void)map;
+  return FG__MAP_OTHER;
+}
+
+bool fg__map_is_world(const fg__map *map)
+{
+  (void)map;
+  return false;
+}

@@ -1,0 +1,450 @@
+/* Which times or levels a text asks for: by index, value, date, range, words, or all. */
+#include "base/context.h"
+#include "base/memory.h"
+#include "file/number_text.h"
+#include "read/moment.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* Values that differ by less than this share of theirs are the same: files round them to
+ * 24 bits. */
+static const double same_share = 1e-6;
+
+enum { WISH_BYTES = 256, UNIT_BYTES = 32, MOST_INDEX_DIGITS = 9 };
+
+typedef enum wish_kind {
+  WISH_NONE,
+  WISH_INDEX,
+  WISH_VALUE,
+  WISH_DATE,
+  WISH_WORDS
+} wish_kind;
+
+/* One end of a range, or an item by itself. */
+typedef struct wish {
+  wish_kind kind;
+  int index;
+  double value;
+  char unit[UNIT_BYTES]; /* "": the file's */
+  fg__period period;     /* of a date */
+  char text[WISH_BYTES]; /* as it was typed */
+} wish;
+
+typedef struct asked {
+  fg_context *context;
+  const char *what; /* "time", "level" */
+  const fg_axis_value *values;
+  int count;
+} asked;
+
+/* Units that can be told from each other: what they measure, and how many of its base
+ * unit they are. */
+typedef struct known_unit {
+  const char *name;
+  int measure;
+  double factor;
+} known_unit;
+
+static const known_unit *find_unit(const char *name)
+{
+  static const known_unit known[] = {
+      {"Pa", 1, 1.0},       {"hPa", 1, 100.0},   {"mb", 1, 100.0},
+      {"mbar", 1, 100.0},   {"kPa", 1, 1000.0},  {"dbar", 1, 1e4},
+      {"bar", 1, 1e5},      {"m", 2, 1.0},       {"km", 2, 1000.0},
+      {"dm", 2, 0.1},       {"cm", 2, 0.01},     {"mm", 2, 0.001},
+      {"ft", 2, 0.3048},    {"s", 3, 1.0},       {"ms", 3, 0.001},
+      {"min", 3, 60.0},     {"h", 3, 3600.0},    {"d", 3, 86400.0},
+      {"sec", 3, 1.0},      {"seconds", 3, 1.0}, {"minutes", 3, 60.0},
+      {"hours", 3, 3600.0}, {"days", 3, 86400.0}};
+  for (size_t k = 0; k < sizeof known / sizeof *known; ++k)
+    if (strcasecmp(known[k].name, name) == 0)
+      return &known[k];
+  return NULL;
+}
+
+/* The factor from one unit to the other; 0: they measure different things. */
+static double unit_factor(const char *from, const char *to)
+{
+  if (!from[0] || strcasecmp(from, to) == 0)
+    return 1.0;
+  const known_unit *one = find_unit(from), *other = find_unit(to);
+  return one && other && one->measure == other->measure ? one->factor / other->factor
+                                                        : 0.0;
+}
+
+/* A number with a unit, a point or an exponent. */
+static bool read_value(wish *out, const char *text)
+{
+  fg__number_locale locale;
+  if (!strchr("+-.0123456789", text[0]) || !fg__number_locale_begin(&locale))
+    return false;
+  char *end;
+  out->value = strtod(text, &end);
+  fg__number_locale_end(&locale);
+  if (end == text || !isfinite(out->value))
+    return false;
+  const bool pointed = strcspn(text, ".eE") < (size_t)(end - text);
+  const char *unit = end + strspn(end, " ");
+  if (!*unit)
+    return pointed;
+  if (!isalpha((unsigned char)*unit) || strlen(unit) >= UNIT_BYTES ||
+      strpbrk(unit, ":/-"))
+    return false;
+  snprintf(out->unit, sizeof out->unit, "%s", unit);
+  return true;
+}
+
+static bool read_index(wish *out, const char *text)
+{
+  const size_t digits = strspn(text, "0123456789");
+  if (digits == 0 || text[digits] || digits > MOST_INDEX_DIGITS)
+    return false;
+  out->index = atoi(text);
+  return true;
+}
+
+/* Words that could be nothing else. */
+static bool are_words(const char *text)
+{
+  return (isalpha((unsigned char)text[0]) || strchr(text, '_')) && !strpbrk(text, ":/");
+}
+
+static bool read_wish(wish *out, const char *text)
+{
+  *out = (wish){.kind = WISH_NONE};
+  snprintf(out->text, sizeof out->text, "%s", text);
+  if (!*text)
+    return true;
+  if (read_index(out, text))
+    out->kind = WISH_INDEX;
+  else if (fg__period_read(&out->period, text))
+    out->kind = WISH_DATE;
+  else if (read_value(out, text))
+    out->kind = WISH_VALUE;
+  else if (are_words(text))
+    out->kind = WISH_WORDS;
+  return out->kind != WISH_NONE;
+}
+
+/* Parts "A:B" or "A/B" where both ends can be read and are of one kind; a colon may also
+ * be a time of day's. */
+static bool read_range(wish ends[2], const char *text)
+{
+  char first[WISH_BYTES];
+  for (const char *at = text; (at = strpbrk(at, ":/")); ++at) {
+    snprintf(first, sizeof first, "%.*s", (int)(at - text), text);
+    if (read_wish(&ends[0], first) && read_wish(&ends[1], at + 1) &&
+        (ends[0].kind || ends[1].kind) && ends[0].kind != WISH_WORDS &&
+        ends[1].kind != WISH_WORDS &&
+        (!ends[0].kind || !ends[1].kind || ends[0].kind == ends[1].kind))
+      return true;
+  }
+  return false;
+}
+
+/* "12 times, 1982-01-16 to 1982-12-16" for messages. */
+static const char *describe_values(char *out, size_t room, const asked *a)
+{
+  const int last = a->count - 1;
+  if (!a->values)
+    snprintf(out, room, "they have no values, only the indices 0 to %d", last);
+  else if (last == 0)
+    snprintf(out, room, "the only one is %s", a->values[0].words);
+  else
+    snprintf(out, room, "0 is %s, %d is %s", a->values[0].words, last,
+             a->values[last].words);
+  return out;
+}
+
+static fg_status fail_absent(const asked *a, const char *text, const char *why)
+{
+  char held[2 * WISH_BYTES];
+  return fg__fail(a->context, FG_STATUS_UNSUPPORTED, "no %s %s: %s%s", a->what, text, why,
+                  describe_values(held, sizeof held, a));
+}
+
+static fg_status fail_index(const asked *a, const wish *w)
+{
+  char held[2 * WISH_BYTES];
+  fg__fail(a->context, FG_STATUS_UNSUPPORTED, "%s %d asked for, and there %s %d: %s",
+           a->what, w->index, a->count == 1 ? "is" : "are", a->count,
+           describe_values(held, sizeof held, a));
+  fg__hint(a->context,
+           "a whole number is an index, from 0; a value has its unit or a "
+           "point: %s",
+           strcmp(a->what, "time") == 0 ? "1982-07-16, 2.5" : "850hPa, 850.");
+  return FG_STATUS_UNSUPPORTED;
+}
+
+/* Where value number n lies on the line that the wish's own place is on; NaN: not on it.
+ */
+static double place_of(const asked *a, const wish *w, int n)
+{
+  fg__period period;
+  if (!a->values)
+    return (double)NAN;
+  if (w->kind == WISH_DATE)
+    return fg__period_read_start(&period, a->values[n].words) ? period.seconds
+                                                              : (double)NAN;
+  const double factor = unit_factor(w->unit, a->values[n].units);
+  return factor > 0.0 ? a->values[n].value / factor : (double)NAN;
+}
+
+static double own_place(const wish *w)
+{
+  return w->kind == WISH_DATE ? w->period.seconds : w->value;
+}
+
+static double slack_of(const wish *w)
+{
+  return w->kind == WISH_DATE ? 0.0 : same_share * fabs(w->value);
+}
+
+/* Whether value number n is what the wish names. */
+static bool is_named(const asked *a, const wish *w, int n)
+{
+  fg__period period;
+  if (w->kind == WISH_DATE)
+    return a->values && fg__period_read_start(&period, a->values[n].words) &&
+           period.key >= w->period.key && period.key < w->period.end_key;
+  return fabs(place_of(a, w, n) - own_place(w)) <= slack_of(w);
+}
+
+/* The largest distance of a value to the one next to it on this line. */
+static double end_spacing(const asked *a, const wish *w, double end)
+{
+  double spacing = HUGE_VAL;
+  for (int n = 0; n < a->count; ++n) {
+    const double d = fabs(place_of(a, w, n) - end);
+    if (d > 0.0 && d < spacing)
+      spacing = d;
+  }
+  return isfinite(spacing) ? spacing : 0.0;
+}
+
+static fg_status find_nearest(int *index, const asked *a, const wish *w)
+{
+  double least = HUGE_VAL, low = HUGE_VAL, high = -HUGE_VAL;
+  const double wanted = own_place(w);
+  for (int n = 0; n < a->count; ++n) {
+    const double place = place_of(a, w, n);
+    if (!isfinite(place))
+      continue;
+    low = fmin(low, place);
+    high = fmax(high, place);
+    if (fabs(place - wanted) < least) {
+      least = fabs(place - wanted);
+      *index = n;
+    }
+  }
+  if (!isfinite(least))
+    return fail_absent(a, w->text,
+                       w->kind == WISH_DATE ? "none of them is a date; "
+                       : w->unit[0]         ? "none of them is in such a unit; "
+                                            : "");
+  const double beyond = wanted < low ? low - wanted : wanted > high ? wanted - high : 0.0;
+  if (beyond > 0.0 && beyond > end_spacing(a, w, wanted < low ? low : high))
+    return fail_absent(a, w->text, "");
+  return FG_STATUS_OK;
+}
+
+/* Spaces and underscores are alike, and small letters and large. */
+static int plain_letter(char letter)
+{
+  return letter == '_' ? ' ' : tolower((unsigned char)letter);
+}
+
+/* Whether other words are a part of one's. */
+static bool has_words(const char *one, const char *other)
+{
+  const size_t length = strlen(other), all = strlen(one);
+  for (size_t at = 0; at + length <= all; ++at) {
+    size_t k = 0;
+    while (k < length && plain_letter(one[at + k]) == plain_letter(other[k]))
+      ++k;
+    if (k == length)
+      return true;
+  }
+  return false;
+}
+
+/* All of the words; or a part of them that only one has. */
+static bool choose_words(bool *chosen, const asked *a, const wish *w)
+{
+  bool found = false;
+  int with_part = 0, index = 0;
+  for (int n = 0; n < a->count && a->values; ++n) {
+    if (!has_words(a->values[n].words, w->text))
+      continue;
+    if (strlen(a->values[n].words) == strlen(w->text))
+      found = chosen[n] = true;
+    ++with_part;
+    index = n;
+  }
+  if (!found && w->kind == WISH_WORDS && with_part == 1)
+    found = chosen[index] = true;
+  return found;
+}
+
+static fg_status choose_one(bool *chosen, bool *nearest, const asked *a, const wish *w)
+{
+  if (w->kind == WISH_INDEX) {
+    if (w->index >= a->count)
+      return fail_index(a, w);
+    chosen[w->index] = true;
+    return FG_STATUS_OK;
+  }
+  if (choose_words(chosen, a, w))
+    return FG_STATUS_OK;
+  if (w->kind == WISH_WORDS)
+    return fail_absent(a, w->text, "");
+  for (int n = 0; n < a->count; ++n)
+    if (is_named(a, w, n)) {
+      chosen[n] = true;
+      return FG_STATUS_OK;
+    }
+  int index = 0;
+  fg_status status = find_nearest(&index, a, w);
+  if (status)
+    return status;
+  chosen[index] = *nearest = true;
+  return FG_STATUS_OK;
+}
+
+static bool in_index_range(const wish ends[2], int n)
+{
+  return (!ends[0].kind || n >= ends[0].index) && (!ends[1].kind || n <= ends[1].index);
+}
+
+static bool in_date_range(const asked *a, const wish ends[2], int n)
+{
+  fg__period period;
+  return a->values && fg__period_read_start(&period, a->values[n].words) &&
+         (!ends[0].kind || period.key >= ends[0].period.key) &&
+         (!ends[1].kind || period.key < ends[1].period.end_key);
+}
+
+/* Levels of pressure descend: the ends may stand in either order. */
+static bool in_value_range(const asked *a, const wish ends[2], int n)
+{
+  double side[2] = {-HUGE_VAL, HUGE_VAL};
+  for (int k = 0; k < 2; ++k)
+    if (ends[k].kind)
+      side[k] = place_of(a, &ends[k], n) - ends[k].value;
+  if (isnan(side[0]) || isnan(side[1]))
+    return false;
+  if (!ends[0].kind || !ends[1].kind) {
+    const int k = ends[0].kind ? 0 : 1;
+    return k == 0 ? side[0] >= -slack_of(&ends[0]) : side[1] <= slack_of(&ends[1]);
+  }
+  for (int k = 0; k < 2; ++k)
+    if (fabs(side[k]) <= slack_of(&ends[k]))
+      return true;
+  return (side[0] > 0.0) != (side[1] > 0.0);
+}
+
+static fg_status choose_range(bool *chosen, const asked *a, const wish ends[2],
+                              const char *text)
+{
+  const wish_kind kind = ends[0].kind ? ends[0].kind : ends[1].kind;
+  for (int k = 0; k < 2 && kind == WISH_INDEX; ++k)
+    if (ends[k].kind && ends[k].index >= a->count)
+      return fail_index(a, &ends[k]);
+  bool found = false;
+  for (int n = 0; n < a->count; ++n) {
+    const bool within = kind == WISH_INDEX  ? in_index_range(ends, n)
+                        : kind == WISH_DATE ? in_date_range(a, ends, n)
+                                            : in_value_range(a, ends, n);
+    chosen[n] = chosen[n] || within;
+    found = found || within;
+  }
+  return found ? FG_STATUS_OK : fail_absent(a, text, "");
+}
+
+static fg_status fail_spelling(const asked *a, const char *text)
+{
+  return fg__fail(a->context, FG_STATUS_ARGUMENT,
+                  "'%s' is no index, value, date, range or `all`", text);
+}
+
+static bool is_descending(const wish ends[2])
+{
+  if (!ends[0].kind || !ends[1].kind)
+    return false;
+  return ends[0].kind == WISH_INDEX  ? ends[0].index > ends[1].index
+         : ends[0].kind == WISH_DATE ? ends[0].period.key >= ends[1].period.end_key
+                                     : false;
+}
+
+static fg_status choose_item(fg_selection *out, bool *chosen, const asked *a,
+                             const char *item)
+{
+  wish one, ends[2];
+  if (strcasecmp(item, "all") == 0) {
+    out->several = true;
+    for (int n = 0; n < a->count; ++n)
+      chosen[n] = true;
+    return FG_STATUS_OK;
+  }
+  if (*item && read_wish(&one, item))
+    return a->count ? choose_one(chosen, &out->nearest, a, &one) : FG_STATUS_OK;
+  if (!read_range(ends, item))
+    return fail_spelling(a, item);
+  if (is_descending(ends))
+    return fg__fail(a->context, FG_STATUS_ARGUMENT, "'%s' ends before it begins", item);
+  out->several = true;
+  return a->count ? choose_range(chosen, a, ends, item) : FG_STATUS_OK;
+}
+
+static fg_status collect(fg_selection *out, const asked *a, const bool *chosen)
+{
+  for (int n = 0; n < a->count; ++n)
+    out->count += chosen[n];
+  out->index = fg__allocate((size_t)out->count, sizeof *out->index);
+  if (!out->index)
+    return fg__fail_memory(a->context, "a selection",
+                           (size_t)out->count * sizeof *out->index);
+  int *next = out->index;
+  for (int n = 0; n < a->count; ++n)
+    if (chosen[n])
+      *next++ = n;
+  return FG_STATUS_OK;
+}
+
+fg_status fg_selection_find(fg_selection *out, fg_context *context, const char *what,
+                            const char *text, const fg_axis_value *values, int count)
+{
+  if (!out || !what || !text || count < 0)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "a selection without its text");
+  *out = (fg_selection){.index = NULL};
+  const asked a = {context, what, values, count};
+  bool *chosen = fg__allocate((size_t)count, sizeof *chosen);
+  if (!chosen)
+    return fg__fail_memory(context, "a selection", (size_t)count * sizeof *chosen);
+  fg_status status = FG_STATUS_OK;
+  out->several = strchr(text, ',') != NULL;
+  for (const char *rest = text; rest && !status;) {
+    char item[WISH_BYTES];
+    const size_t length = strcspn(rest, ",");
+    snprintf(item, sizeof item, "%.*s", (int)(length < WISH_BYTES ? length : 0), rest);
+    status = choose_item(out, chosen, &a, item);
+    rest = rest[length] ? rest + length + 1 : NULL;
+  }
+  if (!status)
+    status = collect(out, &a, chosen);
+  free(chosen);
+  return status;
+}
+
+void fg_selection_clear(fg_selection *selection)
+{
+  if (!selection)
+    return;
+  free(selection->index);
+  *selection = (fg_selection){.index = NULL};
+}

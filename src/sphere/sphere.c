@@ -1,0 +1,181 @@
+/* Vectors of points as vectors in space, what is missing of them, and samples between. */
+#include "base/memory.h"
+#include "sphere/inside.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void fg__sphere_destroy(fg__sphere *sphere)
+{
+  if (!sphere)
+    return;
+  for (int i = 0; i < sphere->texts; ++i)
+    free(sphere->word[i]);
+  for (int f = 0; f < FG__SPHERE_FACES; ++f) {
+    free(sphere->face[f].start);
+    free(sphere->face[f].cell);
+  }
+  free(sphere->vector);
+  free(sphere->missing);
+  free(sphere->position);
+  free(sphere->corner);
+  free(sphere);
+}
+
+static bool keep_text(fg__sphere *sphere, const char **slot, const char *text)
+{
+  *slot = NULL;
+  if (!text)
+    return true;
+  char *copy = fg__copy_text(text);
+  if (!copy)
+    return false;
+  sphere->word[sphere->texts++] = copy;
+  *slot = copy;
+  return true;
+}
+
+static bool keep_texts(fg__sphere *sphere, const fg_field_arrays *words)
+{
+  fg_field_arrays *own = &sphere->words;
+  bool kept = true;
+  for (int k = 0; k < 3; ++k)
+    kept = kept && keep_text(sphere, &own->velocity_name[k], words->velocity_name[k]);
+  return kept && keep_text(sphere, &own->velocity_units, words->velocity_units) &&
+         keep_text(sphere, &own->title, words->title) &&
+         keep_text(sphere, &own->time, words->time) &&
+         keep_text(sphere, &own->level, words->level);
+}
+
+fg_status fg__sphere_begin(fg__sphere *sphere, fg_context *context, size_t points,
+                           const fg_field_arrays *words)
+{
+  sphere->points = points;
+  sphere->vector = fg__allocate(points, 3 * sizeof *sphere->vector);
+  if (!sphere->vector)
+    return fg__fail_memory(context, "vectors on the sphere",
+                           points * 3 * sizeof *sphere->vector);
+  if (words && !keep_texts(sphere, words))
+    return fg__fail_memory(context, "the field's words", 0);
+  return FG_STATUS_OK;
+}
+
+fg_status fg__sphere_set(fg__sphere *sphere, fg_context *context, size_t n,
+                         const fg__sphere_frame *at, float east, float north)
+{
+  if (isfinite(east) && isfinite(north)) {
+    for (int k = 0; k < 3; ++k)
+      sphere->vector[3 * n + (size_t)k] =
+          (float)((double)east * at->east[k] + (double)north * at->north[k]);
+    return FG_STATUS_OK;
+  }
+  if (!sphere->missing)
+    sphere->missing = fg__allocate(sphere->points, 1);
+  if (!sphere->missing)
+    return fg__fail_memory(context, "the mask", sphere->points);
+  sphere->missing[n] = 1;
+  return FG_STATUS_OK;
+}
+
+/* Adds the corners of a cell that are not missing to those that are. */
+static void share_in_cell(fg__sphere *sphere, unsigned *shares, const int point[4],
+                          int corners)
+{
+  float *vector = sphere->vector;
+  for (int a = 0; a < corners; ++a) {
+    const size_t to = (size_t)point[a];
+    if (!sphere->missing[to])
+      continue;
+    for (int b = 0; b < corners; ++b) {
+      const size_t from = (size_t)point[b];
+      if (sphere->missing[from])
+        continue;
+      for (size_t k = 0; k < 3; ++k)
+        vector[3 * to + k] += vector[3 * from + k];
+      ++shares[to];
+    }
+  }
+}
+
+fg_status fg__sphere_fill(fg__sphere *sphere, fg_context *context)
+{
+  if (!sphere->missing)
+    return FG_STATUS_OK;
+  unsigned *shares = fg__allocate(sphere->points, sizeof *shares);
+  if (!shares)
+    return fg__fail_memory(context, "points beside missing ones",
+                           sphere->points * sizeof *shares);
+  for (size_t n = 0; n < sphere->count; ++n) {
+    int point[4];
+    const int corners = fg__sphere_corners(sphere, n, point);
+    share_in_cell(sphere, shares, point, corners);
+  }
+  for (size_t n = 0; n < sphere->points; ++n)
+    for (size_t k = 0; k < 3 && sphere->missing[n]; ++k)
+      sphere->vector[3 * n + k] =
+          shares[n] > 0 ? sphere->vector[3 * n + k] / (float)shares[n] : NAN;
+  free(shares);
+  return FG_STATUS_OK;
+}
+
+bool fg__sphere_place_is_missing(const fg__sphere *sphere, const fg__sphere_place *place)
+{
+  int nearest = 0;
+  for (int k = 1; k < 4; ++k)
+    if (place->weight[k] > place->weight[nearest])
+      nearest = k;
+  const int point = place->point[nearest];
+  return sphere->missing && point >= 0 && sphere->missing[point];
+}
+
+static const float *vector_of(const fg__sphere *sphere, int point)
+{
+  if (point < 0)
+    return sphere->pole[point == FG__SPHERE_NORTH];
+  return sphere->vector + 3 * (size_t)point;
+}
+
+static void interpolate(float *east, float *north, const fg__sphere *sphere,
+                        const fg__sphere_place *place, const fg__sphere_frame *at)
+{
+  double w[3] = {0.0, 0.0, 0.0};
+  for (int k = 0; k < 4; ++k) {
+    if (place->weight[k] == 0.0)
+      continue;
+    const float *vector = vector_of(sphere, place->point[k]);
+    for (int c = 0; c < 3; ++c)
+      w[c] += place->weight[k] * (double)vector[c];
+  }
+  *east = (float)fg__dot(w, at->east);
+  *north = (float)fg__dot(w, at->north);
+}
+
+void fg__sphere_sample(float *east, float *north, const fg__sphere *sphere, size_t n,
+                       const double *longitude, const double *latitude)
+{
+  int hint = -1;
+  for (size_t i = 0; i < n; ++i) {
+    east[i] = north[i] = NAN;
+    if (!isfinite(longitude[i]) || !(fabs(latitude[i]) <= 90.0))
+      continue;
+    const fg__sphere_frame at = fg__sphere_frame_at(longitude[i], latitude[i]);
+    fg__sphere_place place;
+    const bool found =
+        sphere->field
+            ? fg__sphere_place_in_grid(&place, sphere, longitude[i], latitude[i]) &&
+                  !fg__sphere_place_is_missing(sphere, &place)
+            : fg__sphere_place_in_cells(&place, sphere, at.up, &hint);
+    if (found)
+      interpolate(&east[i], &north[i], sphere, &place, &at);
+  }
+}
+
+void fg__sphere_extent_of(fg__sphere_extent *out, const fg__sphere *sphere)
+{
+  *out = sphere->extent;
+}
+
+const fg_field_arrays *fg__sphere_words(const fg__sphere *sphere)
+{
+  return &sphere->words;
+}
