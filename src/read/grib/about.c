@@ -182,14 +182,16 @@ static void tell(codes_handle *handle, void *data)
   if (codes_get_double(handle, "level", &t->level) != CODES_SUCCESS ||
       !isfinite(t->level))
     t->level = 0.0;
-  for (int k = 0; k < 4; ++k)
+  for (int k = 0; k < 4; ++k) /* an image has no forecast, and is valid when it began */
     if (codes_get_long(handle, dates[k], &t->dates[k]) != CODES_SUCCESS)
-      t->error = t->error ? t->error : CODES_NOT_FOUND;
+      t->dates[k] = k < 2 ? 0 : t->dates[k - 2];
 }
 
 /* 20140131 and 1830 */
 static int64_t minutes_at(long date, long clock)
 {
+  if (date < 0 || date > 99999999 || clock < 0 || clock > 9999)
+    return 0;
   return (day_of(date / 10000, date / 100 % 100, date % 100) * 24 + clock / 100) * 60 +
          clock % 100;
 }
@@ -201,7 +203,7 @@ static fg_status ask(telling *t, const fg__grib_file *file, const fg__grib_field
   fg_status status = fg__grib_guard(file, field, MOST_BYTES + field->size, tell, t);
   if (status == FG_STATUS_OK && t->error)
     return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
-                    "%s: message %zu does not say its parameter and time: %s",
+                    "%s: message %zu does not say what it is of: %s",
                     file->path[field->file], field->number,
                     codes_get_error_message(t->error));
   t->kind.grid = grid_key(field);

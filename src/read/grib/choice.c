@@ -27,6 +27,12 @@ static fg_status fail_none(const fg__grib_file *file, const char *vars)
     fg__fail(file->context, FG_STATUS_ARGUMENT,
              "%s: has no fields '%s' at a time and level that both have", file->path[0],
              vars);
+  else if (file->without_grid > 0)
+    fg__fail(
+        file->context, FG_STATUS_UNSUPPORTED,
+        "%s: no vectors found among its %zu kinds of fields; %zu messages more do not "
+        "say their grids",
+        file->path[0], file->kinds, file->without_grid);
   else
     fg__fail(file->context, FG_STATUS_UNSUPPORTED,
              "%s: no vectors found among its %zu kind%s of fields", file->path[0],

@@ -55,6 +55,7 @@ typedef struct fg__grib_file {
   int count;
   fg__grib_field *field;
   size_t fields, field_capacity;
+  size_t without_grid; /* messages that are left out, for they do not say their grids */
   fg__grib_about *about;
   size_t abouts, about_capacity;
   fg__grib_kind *kind;

@@ -92,13 +92,9 @@ static fg_status scan_first_edition(scan *s, fg__grib_field *field)
     field->section[n] = at;
     at += (size_t)length;
   }
-  if (!there[2]) {
-    fg_status status =
-        fg__fail(s->file->context, FG_STATUS_UNSUPPORTED,
-                 "%s: message %zu does not say its grid, but the number %d of one",
-                 s->path, s->number, message[8 + 6]);
-    fg__hint(s->file->context, "ecCodes' grib_set writes grids in full");
-    return status;
+  if (!there[2]) { /* it says the number of one in a catalogue */
+    ++s->file->without_grid;
+    return FG_STATUS_OK;
   }
   field->alone = true;
   return add_field(s, field);
