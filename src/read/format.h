@@ -3,6 +3,7 @@
 #define FG__FORMAT_H
 
 #include "base/context.h"
+#include "sphere/sphere.h"
 
 /* A file to read: its bytes are mapped or in memory, so that a reader can be fuzzed. A
  * library that wants to open the file itself may use `path` when `on_disk`. */
@@ -38,6 +39,11 @@ fg_status fg__field_of_rows(fg_field **out, fg_context *context,
 fg_status fg__field_slab_of(fg_field **out, fg_context *context, const fg_field *whole,
                             fg__slab_index slab);
 
+/* The rows of a slab of a longitude-latitude grid that has a sphere's mean spacing and
+ * covers what the sphere covers. FILE_FORMAT (its cells have no area), MEMORY. */
+fg_status fg__globe_field(fg_field **out, fg_context *context, const fg__sphere *sphere,
+                          fg__slab_index slab);
+
 typedef struct fg__format {
   const char *name;  /* as `flowgrain info` shows it */
   const char *files; /* which ones it reads; NULL: another says it, or none are read */
@@ -50,6 +56,10 @@ typedef struct fg__format {
                                 const fg__source *source, const fg_read_options *options);
   fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
                     const fg_read_options *options, fg__slab_index slab);
+  /* Vectors whose points lie on no two axes, as a field on the sphere; *out stays NULL
+   * where `read` serves. NULL: the format has none. */
+  fg_status (*sphere)(fg__sphere **out, fg_context *context, const fg__source *source,
+                      const fg_read_options *options);
   /* The file's array of tensors as two fields (tensor_rows.h); *found: there is one. NULL
    * where the format has none. */
   fg_status (*tensors)(fg_field *row[2], bool *found, fg_context *context,

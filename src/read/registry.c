@@ -104,6 +104,20 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
   return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
 }
 
+static fg_status read_known(fg_field **out, fg_context *context, const fg__format *format,
+                            const fg__source *source, const fg_read_options *options,
+                            fg__slab_index slab)
+{
+  fg__sphere *sphere = NULL;
+  fg_status status =
+      format->sphere ? format->sphere(&sphere, context, source, options) : FG_STATUS_OK;
+  if (status == FG_STATUS_OK)
+    status = sphere ? fg__globe_field(out, context, sphere, slab)
+                    : format->read(out, context, source, options, slab);
+  fg__sphere_destroy(sphere);
+  return status;
+}
+
 static fg_status read_slab(fg_field **out, fg_context *context, const char *input,
                            const fg_read_options *options, fg__slab_index slab)
 {
@@ -118,7 +132,8 @@ static fg_status read_slab(fg_field **out, fg_context *context, const char *inpu
   fg_status status = open_known(&source, &format, context, input);
   if (status == FG_STATUS_OK)
     status = name_the_file(
-        context, format->read(out, context, &source, options ? options : &defaults, slab),
+        context,
+        read_known(out, context, format, &source, options ? options : &defaults, slab),
         input);
   fg__source_close(&source);
   return status;

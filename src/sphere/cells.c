@@ -31,14 +31,15 @@ int fg__sphere_corners(const fg__sphere *sphere, size_t cell, int point[4])
 static fg_status check_cells(fg_context *context, const fg__sphere_cells *cells)
 {
   if (cells->points >= INT_MAX || cells->count >= INT_MAX)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "%zu points and %zu cells are more than the %d that are handled",
-                    cells->points, cells->count, INT_MAX - 1);
+    return fg__fail(
+        context, FG_STATUS_UNSUPPORTED,
+        "field: %zu points and %zu cells are more than the %d that are handled",
+        cells->points, cells->count, INT_MAX - 1);
   for (size_t n = 0; n < 4 * cells->count; ++n)
     if (cells->corner[n] >= (int)cells->points ||
         cells->corner[n] < (n % 4 == 3 ? -1 : 0))
       return fg__fail(context, FG_STATUS_FILE_FORMAT,
-                      "cell %zu has corner %d, but there are %zu points", n / 4,
+                      "field: cell %zu has corner %d, but there are %zu points", n / 4,
                       cells->corner[n], cells->points);
   return FG_STATUS_OK;
 }
@@ -95,7 +96,8 @@ static fg_status keep_cells(fg__sphere *sphere, fg_context *context)
   if (kept > 0)
     return FG_STATUS_OK;
   return fg__fail(context, FG_STATUS_FILE_FORMAT,
-                  "none of %zu cells has a value and corners within 30 degrees", all);
+                  "field: none of %zu cells has a value and corners within 30 degrees",
+                  all);
 }
 
 static fg_status make(fg__sphere *sphere, fg_context *context, fg__sphere_cells *cells)

@@ -179,6 +179,7 @@ void fg__sphere_measure(fg__sphere *sphere, const double *longitude,
   out->south = sphere->has_pole[0] ? -90.0 : sum.south;
   out->north = sphere->has_pole[1] ? 90.0 : sum.north;
   out->share = fmin(sum.area / WHOLE_AREA, 1.0);
+  out->points = sum.present;
   out->spacing =
       sqrt(sum.area / (double)(sum.present > 0 ? sum.present : 1)) / FG__RADIANS;
 }

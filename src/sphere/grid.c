@@ -77,8 +77,9 @@ fg_status fg__sphere_of_field(fg__sphere **out, fg_context *context,
   const fg_field_arrays *arrays = fg_field_contents(field);
   if (arrays->scale != FG_SCALE_GEO || arrays->dimension != 2 ||
       !fg__field_is_whole(field))
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "a sphere needs all of a field in 2D in longitude and latitude");
+    return fg__fail(
+        context, FG_STATUS_ARGUMENT,
+        "field: a sphere needs all of a field in 2D in longitude and latitude");
   fg__sphere *sphere = fg__allocate(1, sizeof *sphere);
   if (!sphere)
     return fg__fail_memory(context, "a sphere", sizeof *sphere);
