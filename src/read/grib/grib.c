@@ -251,6 +251,39 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
   return status;
 }
 
+/* Grids whose rows are along no axes; *out stays NULL for others. */
+static fg_status read_sphere(fg__sphere **out, fg_context *context,
+                             const fg__source *source, const fg_read_options *options)
+{
+  opened o;
+  float *velocity[2] = {NULL, NULL};
+  fg__sphere_cells cells = {0};
+  captions words;
+  fg_field_arrays arrays = {.dimension = 2};
+  *out = NULL;
+  fg_status status = open_pair(&o, context, source, options);
+  const bool mine = o.grid.layout == FG__GRIB_ROWS || o.grid.layout == FG__GRIB_REDUCED;
+  if (status == FG_STATUS_OK && mine && options->scale == FG_SCALE_PLAIN)
+    status = fg__fail(context, FG_STATUS_UNSUPPORTED,
+                      "%s: its grid is of type '%s', whose rows are not along the axes",
+                      source->path, o.grid.type);
+  if (status == FG_STATUS_OK && mine)
+    status =
+        read_values(velocity, &o.file, o.pairs.pair, o.place, &o.grid, options->mask);
+  if (status == FG_STATUS_OK && mine) {
+    const float *const both[2] = {velocity[0], velocity[1]};
+    write_captions(&words, &arrays, o.pairs.pair, options);
+    status = fg__grib_cells(&cells, context, &o.grid, both);
+  }
+  cells.words = &arrays;
+  if (status == FG_STATUS_OK && mine)
+    status = fg__sphere_of_cells(out, context, &cells);
+  free(velocity[0]);
+  free(velocity[1]);
+  close_pair(&o);
+  return status;
+}
+
 static fg_status count_missing(fg_inventory_vector *vector, const fg__grib_file *file,
                                const fg__grib_pair *pair, const fg__grib_grid *grid)
 {
@@ -392,4 +425,5 @@ const fg__format fg__format_grib = {.name = "GRIB",
                                     .is_mine = fg__is_grib,
                                     .inventory = describe,
                                     .inventory_chosen = describe_chosen,
-                                    .read = read_field};
+                                    .read = read_field,
+                                    .sphere = read_sphere};

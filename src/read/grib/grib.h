@@ -5,6 +5,7 @@
 
 #include "read/format.h"
 #include "read/signature.h"
+#include "sphere/sphere.h"
 
 #include <eccodes.h>
 
@@ -189,7 +190,7 @@ void fg__grib_unusable(fg__grib_grid *grid, const char *format, ...)
 /* The numbers that say a grid, as ecCodes tells them; NAN where there is none. */
 typedef struct fg__grib_numbers {
   char type[FG__GRIB_WORD];
-  double points, columns, rows, x_descends, y_ascends, along_y, alternates, relative;
+  double points, columns, rows, x_descends, y_ascends, along_y, alternates, flags;
   double first[2], last[2], step[2]; /* longitude, latitude; degrees */
   double gaussian;                   /* rows between a pole and the equator */
   double pole[2], pole_angle;        /* longitude, latitude of the south pole */
@@ -218,7 +219,14 @@ void fg__grib_forward(const fg__grib_projection *projection, double longitude,
 fg_status fg__grib_values(float *out, const fg__grib_file *file,
                           const fg__grib_field *field, const fg__grib_grid *grid);
 
-/* Turns components to the axes of a plane where they are to east and north. */
+/* Turns components to the axes of a plane (plane.c) where they are to east and north. */
 void fg__grib_turn(float *u, float *v, const fg__grib_grid *grid);
+
+/* sphere.c: points and cells of a grid of ROWS or REDUCED, with the components to east
+ * and north, and the poles where rows close round them. To be taken by
+ * fg__sphere_of_cells, or cleared. MEMORY. */
+fg_status fg__grib_cells(fg__sphere_cells *out, fg_context *context,
+                         const fg__grib_grid *grid, const float *const velocity[2]);
+void fg__grib_cells_clear(fg__sphere_cells *cells);
 
 #endif

@@ -17,6 +17,9 @@ enum { POINTS = 1 << 21, POINTS_A_BYTE = 1024 };
 
 enum { MOST_GAUSSIAN = 10000 };
 
+/* Of the flags of resolution and components. */
+enum { ALONG_GRID = 8 };
+
 /* A circle of longitude is closed when what is missing to 360 degrees is a step like the
  * others, within so much of it. */
 static const double CLOSING_TOLERANCE = 0.25;
@@ -78,7 +81,7 @@ static void ask_numbers(codes_handle *handle, void *data)
                 {"jScansPositively", &n->y_ascends},
                 {"jPointsAreConsecutive", &n->along_y},
                 {"alternativeRowScanning", &n->alternates},
-                {"uvRelativeToGrid", &n->relative},
+                {"resolutionAndComponentFlags", &n->flags},
                 {"longitudeOfFirstGridPointInDegrees", &n->first[0]},
                 {"latitudeOfFirstGridPointInDegrees", &n->first[1]},
                 {"longitudeOfLastGridPointInDegrees", &n->last[0]},
@@ -248,47 +251,75 @@ static fg_status find_regular(fg__grib_grid *grid, const fg__grib_file *file,
   return status;
 }
 
-/* The points of a row: all round, or those from the first to the last longitude. */
-static size_t place_row(fg__grib_grid *grid, size_t j, long count, bool part,
-                        const fg__grib_numbers *n)
+typedef enum row_kind {
+  ALL_ROUND, /* from the first longitude on */
+  CUT_OUT,   /* those of all round that lie from the first to the last longitude */
+  BETWEEN    /* evenly from the first to the last longitude */
+} row_kind;
+
+/* The points of a row that is said to have `count`. */
+static size_t place_row(fg__grib_grid *grid, size_t j, long count, row_kind kind,
+                        double first, double last)
 {
+  long points = 0, begin = 0, end = 0;
   grid->step[j] = 360.0 / (double)count;
-  grid->west[j] = n->first[0];
-  if (!part)
+  grid->west[j] = first;
+  if (kind == BETWEEN && count > 1)
+    grid->step[j] = (last - first) / (double)(count - 1);
+  if (kind != CUT_OUT)
     return (size_t)count;
-  long points = 0, first = 0, last = 0;
-  codes_get_reduced_row(count, n->first[0], n->last[0], &points, &first, &last);
-  grid->west[j] = (double)first * grid->step[j];
+  codes_get_reduced_row(count, first, last, &points, &begin, &end);
+  grid->west[j] = (double)begin * grid->step[j];
   return points > 0 && points <= count ? (size_t)points : 0;
 }
 
-static fg_status place_rows(fg__grib_grid *grid, fg_context *context, const asking *a)
+/* Returns how many points there are in all rows. */
+static size_t place_rows(fg__grib_grid *grid, const asking *a, row_kind kind)
 {
-  const size_t rows = a->rows;
-  size_t points = 0, all = 0;
-  grid->row = fg__allocate(rows, sizeof *grid->row);
-  grid->west = fg__allocate(rows, sizeof *grid->west);
-  grid->step = fg__allocate(rows, sizeof *grid->step);
+  const double first = a->numbers.first[0];
+  double last = a->numbers.last[0];
+  last += last <= first ? 360.0 * (floor((first - last) / 360.0) + 1.0) : 0.0;
+  size_t points = 0;
+  grid->size[0] = 0;
+  grid->period = kind == ALL_ROUND ? 360.0 : 0.0;
+  for (size_t j = 0; j < a->rows; ++j) {
+    const long count = a->row[grid->y_descends ? a->rows - 1 - j : j];
+    grid->row[j] = place_row(grid, j, count, kind, first, last);
+    grid->size[0] = grid->row[j] > grid->size[0] ? grid->row[j] : grid->size[0];
+    points += grid->row[j];
+  }
+  return points;
+}
+
+/* Whether the longest row closes: from its last point it is a step to the first. */
+static bool goes_round(const asking *a, long longest)
+{
+  const double width = a->numbers.last[0] - a->numbers.first[0];
+  const double rest = 360.0 - (width - 360.0 * floor(width / 360.0));
+  return rest <= (1.0 + CLOSING_TOLERANCE) * 360.0 / (double)longest + ROUNDING;
+}
+
+static fg_status find_rows(fg__grib_grid *grid, fg_context *context, const asking *a)
+{
+  long longest = 1;
+  grid->row = fg__allocate(a->rows, sizeof *grid->row);
+  grid->west = fg__allocate(a->rows, sizeof *grid->west);
+  grid->step = fg__allocate(a->rows, sizeof *grid->step);
   if (!grid->row || !grid->west || !grid->step)
-    return fg__fail_memory(context, "rows", 3 * rows * sizeof *grid->step);
-  for (size_t j = 0; j < rows; ++j) {
+    return fg__fail_memory(context, "rows", 3 * a->rows * sizeof *grid->step);
+  for (size_t j = 0; j < a->rows; ++j) {
     if (a->row[j] < 1 || a->row[j] > 1 << 20) {
       fg__grib_unusable(grid, "a row of it has %ld points", a->row[j]);
       return FG_STATUS_OK;
     }
-    all += (size_t)a->row[j];
+    longest = a->row[j] > longest ? a->row[j] : longest;
   }
-  const bool part = all != grid->points;
-  for (size_t j = 0; j < rows; ++j) {
-    const size_t from = grid->y_descends ? rows - 1 - j : j;
-    grid->row[j] = place_row(grid, j, a->row[from], part, &a->numbers);
-    grid->size[0] = grid->row[j] > grid->size[0] ? grid->row[j] : grid->size[0];
-    points += grid->row[j];
-  }
-  grid->period = part ? 0.0 : 360.0;
-  if (points != grid->points)
-    fg__grib_unusable(grid, "its rows have %zu points, its field %zu", points,
-                      grid->points);
+  if ((goes_round(a, longest) && place_rows(grid, a, ALL_ROUND) == grid->points) ||
+      place_rows(grid, a, CUT_OUT) == grid->points ||
+      place_rows(grid, a, BETWEEN) == grid->points)
+    return FG_STATUS_OK;
+  fg__grib_unusable(grid, "its %zu rows do not have its %zu points together", a->rows,
+                    grid->points);
   return FG_STATUS_OK;
 }
 
@@ -297,14 +328,15 @@ static fg_status find_reduced(fg__grib_grid *grid, const fg__grib_file *file,
 {
   if (a->rows < 2 || a->rows != grid->size[1] || grid->x_descends || grid->along_y ||
       grid->alternates || !isfinite(a->numbers.first[0]) ||
-      !isfinite(a->numbers.last[0])) {
+      !isfinite(a->numbers.last[0]) || fabs(a->numbers.first[0]) > 720.0 ||
+      fabs(a->numbers.last[0]) > 720.0) {
     fg__grib_unusable(grid, "a reduced grid of %zu rows, of which %zu say their points",
                       grid->size[1], a->rows);
     return FG_STATUS_OK;
   }
   fg_status status = fill_latitudes(grid, file, field, &a->numbers);
   if (status == FG_STATUS_OK && !grid->unusable[0])
-    status = place_rows(grid, file->context, a);
+    status = find_rows(grid, file->context, a);
   return status;
 }
 
@@ -367,7 +399,7 @@ static fg_status find(fg__grib_grid *grid, const fg__grib_file *file,
   grid->y_descends = !is_set(n->y_ascends);
   grid->along_y = is_set(n->along_y);
   grid->alternates = is_set(n->alternates);
-  grid->relative = is_set(n->relative);
+  grid->relative = n->flags >= 0.0 && n->flags < 256.0 && ((int)n->flags & ALONG_GRID);
   grid->pole_longitude = n->pole[0];
   grid->pole_latitude = n->pole[1];
   grid->pole_angle = isfinite(n->pole_angle) ? n->pole_angle : 0.0;

@@ -80,6 +80,20 @@ static inline void flow_at(double longitude, double latitude, double *east, doub
   *north = -w[0] * sin(p) * cos(l) - w[1] * sin(p) * sin(l) + w[2] * cos(p);
 }
 
+/* The sphere spins about an axis through `south`, longitude and latitude of its own south
+ * pole: east and north at a place. Along parallels about that pole it has the length that
+ * is returned. */
+static inline double spin_at(const double south[2], double longitude, double latitude,
+                             double *east, double *north)
+{
+  const double degree = acos(-1.0) / 180.0;
+  const double l = (longitude - south[0]) * degree, p = latitude * degree;
+  const double pole = south[1] * degree;
+  *east = -10.0 * (sin(pole) * cos(p) - cos(pole) * sin(p) * cos(l));
+  *north = 10.0 * cos(pole) * sin(l) * -1.0;
+  return hypot(*east, *north);
+}
+
 /* Turns every other run of values: ecCodes says the places of a longitude-latitude grid
  * as if it had not alternating rows. */
 static inline void grib_alternate(double *values, size_t count, size_t run)
@@ -93,9 +107,10 @@ static inline void grib_alternate(double *values, size_t count, size_t run)
 }
 
 /* Values of a component at each of a message's points, in its order. run: how many before
- * they turn, 0 never. */
+ * they turn, 0 never. south: NULL, or of the spin, whose components are along the grid.
+ */
 static inline double *grib_flow(size_t *count, codes_handle *handle, int component,
-                                size_t run)
+                                size_t run, const double *south)
 {
   int error = 0;
   long all = 0;
@@ -110,6 +125,10 @@ static inline double *grib_flow(size_t *count, codes_handle *handle, int compone
   for (size_t n = 0; codes_grib_iterator_next(points, &latitude, &longitude, &old); ++n) {
     double vector[2];
     flow_at(longitude, latitude, &vector[0], &vector[1]);
+    if (south) {
+      vector[0] = spin_at(south, longitude, latitude, &vector[0], &vector[1]);
+      vector[1] = 0.0;
+    }
     values[n] = vector[component];
   }
   codes_grib_iterator_delete(points);
@@ -121,14 +140,15 @@ static inline double *grib_flow(size_t *count, codes_handle *handle, int compone
 /* Adds the flow's components to a file: messages of a sample with such a grid, packed so,
  * and the parameters u and v. */
 static inline void grib_add(const grib_file *f, const char *sample, const char *grid,
-                            size_t run, const char *packing, const char *u, const char *v)
+                            size_t run, const char *packing, const char *u, const char *v,
+                            const double *south)
 {
   for (int k = 0; k < 2; ++k) {
     size_t count;
     codes_handle *handle = codes_grib_handle_new_from_samples(NULL, sample);
     assert_non_null(handle);
     grib_set(handle, grid);
-    double *values = grib_flow(&count, handle, k, run);
+    double *values = grib_flow(&count, handle, k, run, south);
     grib_set(handle, packing);
     grib_set(handle, k ? v : u);
     codes_must(codes_set_double_array(handle, "values", values, count), "values");
@@ -138,13 +158,20 @@ static inline void grib_add(const grib_file *f, const char *sample, const char *
   }
 }
 
+static inline fg_field *grib_read_whole(grib_file *f, const fg_read_options *options)
+{
+  fg_field *field = NULL;
+  if (fg_field_read(&field, f->context, f->path, options) != FG_STATUS_OK)
+    fail_msg("%s", fg_context_message(f->context));
+  return field;
+}
+
+/* And by slabs. */
 static inline fg_field *grib_read(grib_file *f, const fg_read_options *options)
 {
   static const fg_read_options none = {0};
-  fg_field *field = NULL;
+  fg_field *field = grib_read_whole(f, options);
   fg__source source;
-  if (fg_field_read(&field, f->context, f->path, options) != FG_STATUS_OK)
-    fail_msg("%s", fg_context_message(f->context));
   if (fg__source_open(&source, NULL, f->path) == FG_STATUS_OK)
     assert_slabs_alike(&fg__format_grib, &source, options ? options : &none, field);
   fg__source_close(&source);
