@@ -22,6 +22,9 @@ static int check_solids(const draw_settings *settings)
   const given_option of_pictures[] = {
       {"view", settings->picture.view_count > 0},
       {"width", settings->picture.width > 0.0},
+      {"height", settings->picture.height > 0.0},
+      {"dpi", settings->picture.dpi > 0.0},
+      {"title", settings->picture.title != NULL},
       {"no-frame", settings->picture.no_frame},
       {"transparent", settings->picture.transparent},
       {"palette", settings->picture.palette && ends_with(settings->output, ".vtp")},
@@ -212,8 +215,10 @@ static fg_status write_solid(fg_context *context, const char *path,
   fg_solid_options options =
       settings_solid(&settings->picture, 0, report->has_view ? report->view : NULL);
   options.surface = surface;
-  options.speed_min = report->speeds[0];
-  options.speed_max = report->speeds[1];
+  double speeds[2] = {report->speeds[0], report->speeds[1]};
+  settings_speeds(speeds, &settings->picture);
+  options.speed_min = speeds[0];
+  options.speed_max = speeds[1];
   options.scale_time = caption_time(report, index);
   status = fg_solid_write(context, path, field, icons, &options);
   fg_surface_destroy(surface);
@@ -226,8 +231,10 @@ static int write_picture(fg_context *context, const draw_settings *settings,
                          const fg_icons *icons)
 {
   fg_picture_options options = settings_picture(&settings->picture);
-  options.speed_min = report->speeds[0];
-  options.speed_max = report->speeds[1];
+  double speeds[2] = {report->speeds[0], report->speeds[1]};
+  settings_speeds(speeds, &settings->picture);
+  options.speed_min = speeds[0];
+  options.speed_max = speeds[1];
   options.scale_time = caption_time(report, index);
   char *partial = temporary_name(settings->output);
   if (!partial)

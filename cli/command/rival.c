@@ -167,6 +167,12 @@ static fg_status make(rival_work *work, int count, fg_icons **icons,
   return status;
 }
 
+static void choose_speeds(rival_work *work, const fg_icons *icons)
+{
+  fg_icons_speed_range(work->speeds, icons);
+  settings_speeds(work->speeds, &work->settings->picture);
+}
+
 static int draw(rival_work *work, int count)
 {
   fg_icons *icons = NULL;
@@ -177,7 +183,7 @@ static int draw(rival_work *work, int count)
   if (status)
     code = complain_of(work->context, status, work->settings->reading.input);
   if (!code && !work->files)
-    fg_icons_speed_range(work->speeds, icons);
+    choose_speeds(work, icons);
   if (!code)
     code = write_icons(work, count, icons);
   if (!code)

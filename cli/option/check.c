@@ -66,12 +66,34 @@ static bool check_slice(const reading_settings *settings, const cli_command *com
                      settings->slice);
 }
 
+/* What would say nothing. */
+static bool check_picture(const picture_settings *settings, const cli_command *command)
+{
+  const char *framed = settings->title      ? "title"
+                       : settings->subtitle ? "subtitle"
+                       : settings->label    ? "label"
+                                            : NULL;
+  if (settings->no_frame && framed)
+    return usage_error(command, "--%s: not with --no-frame, which has no texts", framed);
+  if (settings->tint_color && !settings->tint)
+    return usage_error(command, "--tint-color %s: only with --tint",
+                       settings->tint_color);
+  if (settings->background_fade > 0.0 && !settings->background)
+    return usage_error(command, "--background-fade %g: only with --background",
+                       settings->background_fade);
+  return true;
+}
+
 bool options_check(const any_settings *settings, const cli_command *command)
 {
   const run_settings *run = &settings->run;
   const void *reading = (const char *)settings + command->group[GROUP_READING];
   if ((command->bit & (COMMAND_RUN | COMMAND_TEXTURE | COMMAND_RIVAL | COMMAND_SCORE)) &&
       !check_slice(reading, command))
+    return false;
+  const void *picture = (const char *)settings + command->group[GROUP_PICTURE];
+  if ((command->bit & (COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL)) &&
+      !check_picture(picture, command))
     return false;
   if (command->bit == COMMAND_TEXTURE)
     return check_energy(&settings->texture.evolution, command);

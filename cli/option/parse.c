@@ -9,7 +9,7 @@
 
 /* getopt_long's value for a long option is this plus its place in option_table, beyond
  * every letter. */
-enum { LONG_BASE = 256, MAX_OPTIONS = 64 };
+enum { LONG_BASE = 256, MAX_OPTIONS = 128 };
 
 enum { TYPED_BYTES = 40 };
 

@@ -34,6 +34,14 @@ static void print_number(char *text, double value)
     snprintf(text, VALUE_BYTES, "%.17g", value);
 }
 
+static void print_range(char *text, const void *place)
+{
+  double ends[2];
+  memcpy(ends, place, sizeof ends);
+  if (ends[1] > ends[0])
+    snprintf(text, VALUE_BYTES, "%.17g,%.17g", ends[0], ends[1]);
+}
+
 static void print_numbers(char *text, const number_list *list)
 {
   size_t used = 0;
@@ -71,8 +79,13 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
   int whole;
   bool flag;
   switch (option->kind) {
+  case OPTION_WORDS: /* an empty one is not none */
+    memcpy(&words, place, sizeof words);
+    snprintf(text, VALUE_BYTES, "%s", !words ? "" : *words ? words : "''");
+    break;
   case OPTION_TEXT:
   case OPTION_PALETTE:
+  case OPTION_COLOR:
     memcpy(&words, place, sizeof words);
     snprintf(text, VALUE_BYTES, "%s", words ? words : "");
     break;
@@ -86,7 +99,11 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
     if (seed)
       snprintf(text, VALUE_BYTES, "%" PRIu64, seed);
     break;
+  case OPTION_RANGE:
+    print_range(text, place);
+    break;
   case OPTION_NUMBER:
+  case OPTION_LENGTH:
     memcpy(&number, place, sizeof number);
     if (number > 0.0 || number < 0.0)
       print_number(text, number);

@@ -6,6 +6,8 @@
 #include "option/table.h"
 #include "vectors.h"
 
+static const double POINTS_AN_INCH = 72.0;
+
 fg_read_options settings_reading(const reading_settings *settings)
 {
   return (fg_read_options){
@@ -83,7 +85,18 @@ fg_picture_options settings_picture(const picture_settings *settings)
 {
   return (fg_picture_options){
       .width = settings->width,
+      .height = settings->height,
+      .font_size = settings->font_size,
+      .pixels_per_point = settings->dpi / POINTS_AN_INCH,
+      .title = settings->title,
+      .subtitle = settings->subtitle,
+      .label = settings->label,
       .palette = settings->palette,
+      .mask_color = settings->mask_color,
+      .tint_color = settings->tint_color,
+      .background_fade = settings->background_fade,
+      .no_keys = settings->no_keys,
+      .outline_text = settings->outline_text,
       .no_frame = settings->no_frame,
       .transparent = settings->transparent,
       .tint = settings->tint,
@@ -93,14 +106,25 @@ fg_picture_options settings_picture(const picture_settings *settings)
   };
 }
 
+void settings_speeds(double speeds[2], const picture_settings *settings)
+{
+  for (int k = 0; k < 2 && settings->speed_range[1] > settings->speed_range[0]; ++k)
+    speeds[k] = settings->speed_range[k];
+}
+
 fg_solid_options settings_solid(const picture_settings *settings, int view,
                                 const double usual[2])
 {
   /* pictures in 3D are 1200 pixels wide where those in 2D are 480 points */
-  int pixels = (int)lround(2.5 * settings->width);
+  const double dpi = settings->dpi > 0.0 ? settings->dpi : 2.5 * POINTS_AN_INCH;
+  const double width = settings->width > 0.0 ? settings->width
+                       : settings->dpi > 0.0 ? 480.0
+                                             : 0.0;
   fg_solid_options out = {
       .palette = settings->palette,
-      .width = pixels,
+      .width = (int)lround(width * dpi / POINTS_AN_INCH),
+      .height = (int)lround(settings->height * dpi / POINTS_AN_INCH),
+      .title = settings->title,
       .no_frame = settings->no_frame,
       .transparent = settings->transparent,
   };

@@ -43,8 +43,13 @@ typedef struct work_settings {
 
 /* How icons look. */
 typedef struct picture_settings {
-  double width; /* points */
-  const char *palette;
+  double width, height, font_size;      /* points */
+  double dpi;                           /* of pixels */
+  const char *title, *subtitle, *label; /* NULL: not given */
+  const char *palette, *mask_color, *tint_color;
+  double speed_range[2]; /* equal: not given */
+  double background_fade;
+  bool no_keys, outline_text;
   bool tint, skeletons, centers, no_arrows, no_frame, transparent;
   bool surfaces;
   int background;             /* 0: none; 1 more than fg_texture_kind */
@@ -170,6 +175,9 @@ fg_placement_options settings_placement(const run_settings *settings);
 fg_run_options settings_run(const run_settings *settings);
 fg_texture_options settings_texture(const texture_settings *settings);
 fg_picture_options settings_picture(const picture_settings *settings);
+
+/* The ends of the colour key, where they are given; else `speeds` stay. */
+void settings_speeds(double speeds[2], const picture_settings *settings);
 
 /* The options of one of the views in 3D, from 0. usual: azimuth and elevation where none
  * is asked for, or NULL. */

@@ -270,13 +270,40 @@ const option_entry option_table[] = {
     {"formats", 0, "LIST", COMMAND_RIVAL, OPTION_FORMATS, OWN(rival, formats), 0, 0,
      false, false, NULL, "picture formats, of svg, png and pdf [svg,png; in 3D png]"},
     /* 14400 points are the largest page that PDF readers promise to show. */
-    {"width", 0, "POINTS", PICTURES, OPTION_NUMBER, PICTURE(width), 36, 14400, false,
-     false, NULL, "width of the picture in points of 1/72 inch [480]"},
-    {"width", 0, "POINTS", COMMAND_BRUSH, OPTION_NUMBER, OWN(brush, width), 36, 14400,
+    {"width", 0, "LENGTH", PICTURES, OPTION_LENGTH, PICTURE(width), 36, 14400, false,
+     false, NULL,
+     "width of the picture, in points of 1/72 inch or with a unit: 252, 89mm, 8.9cm, "
+     "3.5in [480]"},
+    {"width", 0, "LENGTH", COMMAND_BRUSH, OPTION_LENGTH, OWN(brush, width), 36, 14400,
      false, false, NULL,
-     "width of the picture in points of 1/72 inch; a .png has two pixels a point [a "
-     "point "
-     "for every pixel of the image]"},
+     "width of the picture, in points of 1/72 inch or with a unit: 252, 89mm, 8.9cm, "
+     "3.5in; a .png has two pixels a point [a point for every pixel of the image]"},
+    {"height", 0, "LENGTH", PICTURES, OPTION_LENGTH, PICTURE(height), 36, 14400, false,
+     false, NULL, "height of the picture, likewise [from the domain's shape]"},
+    {"dpi", 0, "N", PICTURES, OPTION_NUMBER, PICTURE(dpi), 10, 2400, false, false, NULL,
+     "pixels an inch of a .png [144; in 3D, whose pictures are all of pixels, 180]"},
+    {"title", 0, "TEXT", PICTURES, OPTION_WORDS, PICTURE(title), 0, 0, false, false, NULL,
+     "title of the picture, '' for none; {title}, {time}, {level}, {names} and {arrows} "
+     "stand for what the field says of itself and the number of arrows [from the field]"},
+    {"subtitle", 0, "TEXT", PICTURES, OPTION_WORDS, PICTURE(subtitle), 0, 0, false, false,
+     NULL,
+     "in 2D: the line below the title, likewise [from the field; none with --title]"},
+    {"label", 0, "TEXT", PICTURES, OPTION_WORDS, PICTURE(label), 0, 0, false, false, NULL,
+     "in 2D: label of the colour key, '' for none; {units} stands for its units [mean "
+     "speed ({units})]"},
+    {"font-size", 0, "LENGTH", PICTURES, OPTION_LENGTH, PICTURE(font_size), 2, 200, false,
+     false, NULL,
+     "in 2D: size of the texts, in points or with a unit [9 at a width of 480 points, "
+     "growing with its root]"},
+    {"outline-text", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(outline_text), 0, 0, false,
+     false, NULL,
+     "in 2D: texts of .svg and .pdf as shapes, which look the same without their font, "
+     "instead of texts, which can be searched and edited"},
+    {"speed-range", 0, "A,B", PICTURES, OPTION_RANGE, PICTURE(speed_range), 0, 1e15,
+     false, false, NULL,
+     "speeds at the ends of the colour key; what is slower or faster has the end's "
+     "colour "
+     "[those of the arrows]"},
     {"surfaces", 0, NULL, COMMAND_RUN | COMMAND_DRAW, OPTION_FLAG, PICTURE(surfaces), 0,
      0, false, false, NULL,
      "in 3D: show the clusters' surfaces round the arrows, transparent; in .vtp and "
@@ -317,6 +344,15 @@ const option_entry option_table[] = {
      false, NULL,
      "in 2D: show clusters, and leave the arrows out of the picture; --tint, --skeletons "
      "and the others remain"},
+    {"no-keys", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_keys), 0, 0, false, false,
+     NULL, "in 2D: no colour key, and no arrow that tells lengths"},
+    {"mask-color", 0, "#RRGGBB", PICTURES, OPTION_COLOR, PICTURE(mask_color), 0, 0, false,
+     false, NULL, "in 2D: colour of where the field is missing [#dadad7]"},
+    {"tint-color", 0, "#RRGGBB", PICTURES, OPTION_COLOR, PICTURE(tint_color), 0, 0, false,
+     false, NULL, "in 2D, with --tint: its colour [#d7e4f2]"},
+    {"background-fade", 0, "F", COMMAND_RUN | COMMAND_DRAW, OPTION_NUMBER,
+     PICTURE(background_fade), 0, 1, true, false, NULL,
+     "with --background: share of its way to white, in (0,1] [0.7, stripes 0.85]"},
     {"no-frame", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_frame), 0, 0, false, false,
      NULL, "only mask and arrows: no axes, no keys, no caption"},
     {"transparent", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, OWN(texture, transparent), 0,

@@ -54,6 +54,10 @@ typedef enum option_kind {
   OPTION_NUMBERS, /* number_list */
   OPTION_FORMATS, /* unsigned: bits */
   OPTION_PALETTE, /* const char *: a palette's name or #rrggbb */
+  OPTION_WORDS,   /* const char *: a text, which may be empty */
+  OPTION_COLOR,   /* const char *: #rrggbb */
+  OPTION_LENGTH,  /* double: points, least to most; typed in pt, mm, cm or in */
+  OPTION_RANGE,   /* double[2]: two ascending numbers */
   OPTION_VIEW,    /* views of picture_settings, one more */
   OPTION_HELP,
   OPTION_VERSION

@@ -27,9 +27,19 @@ int refuse_other_dimension(const char *command, const picture_settings *settings
                            int dimension, const char *name)
 {
   const given_option flat[] = {
-      {"tint", settings->tint},           {"background", settings->background != 0},
-      {"skeletons", settings->skeletons}, {"centers", settings->centers},
+      {"tint", settings->tint},
+      {"background", settings->background != 0},
+      {"skeletons", settings->skeletons},
+      {"centers", settings->centers},
       {"no-arrows", settings->no_arrows},
+      {"subtitle", settings->subtitle != NULL},
+      {"label", settings->label != NULL},
+      {"font-size", settings->font_size > 0.0},
+      {"outline-text", settings->outline_text},
+      {"no-keys", settings->no_keys},
+      {"mask-color", settings->mask_color != NULL},
+      {"tint-color", settings->tint_color != NULL},
+      {"background-fade", settings->background_fade > 0.0},
   };
   const given_option solid[] = {
       {"view", settings->view_count > 0},

@@ -160,6 +160,61 @@ static bool is_color(const char *text)
          strspn(text + 1, "0123456789abcdefABCDEF") == 6;
 }
 
+static bool set_color(void *out, const cli_command *command, const option_entry *option,
+                      const char *text)
+{
+  if (!is_color(text))
+    return usage_error(command, "--%s %s: a colour as #rrggbb is needed", option->name,
+                       text);
+  memcpy(out, &text, sizeof text);
+  return true;
+}
+
+/* Points, or a length in a unit. */
+static bool set_length(void *out, const cli_command *command, const option_entry *option,
+                       const char *text)
+{
+  static const struct {
+    const char *name;
+    double points;
+  } units[] = {
+      {"", 1.0}, {"pt", 1.0}, {"mm", 72.0 / 25.4}, {"cm", 72.0 / 2.54}, {"in", 72.0}};
+  enum { UNITS = sizeof units / sizeof *units };
+  char *end;
+  const double number = strtod(text, &end);
+  size_t k = 0;
+  while (k < UNITS && strcmp(end, units[k].name) != 0)
+    ++k;
+  const double points = k < UNITS ? units[k].points * number : -1.0;
+  const bool known = end != text && k < UNITS && !isspace((unsigned char)text[0]);
+  if (!known || !(points >= option->least && points <= option->most))
+    return usage_error(command,
+                       "--%s %s: a length from %g to %g points is needed, as 252, 89mm, "
+                       "8.9cm or 3.5in",
+                       option->name, text, option->least, option->most);
+  memcpy(out, &points, sizeof points);
+  return true;
+}
+
+static bool set_range(void *out, const cli_command *command, const option_entry *option,
+                      const char *text)
+{
+  char first[32], second[32];
+  double ends[2];
+  const char *rest = next_item(first, sizeof first, text);
+  if (rest)
+    rest = next_item(second, sizeof second, rest);
+  else
+    second[0] = '\0';
+  if (rest || !parse_number(&ends[0], first) || !parse_number(&ends[1], second) ||
+      ends[0] < option->least || ends[1] > option->most || !(ends[1] > ends[0]))
+    return usage_error(command,
+                       "--%s %s: two ascending numbers are needed, from %g to %g",
+                       option->name, text, option->least, option->most);
+  memcpy(out, ends, sizeof ends);
+  return true;
+}
+
 static bool set_palette(void *out, const cli_command *command, const option_entry *option,
                         const char *text)
 {
@@ -212,6 +267,9 @@ bool value_set(void *settings, const cli_command *command, const option_entry *o
       return usage_error(command, "%s: its %s is empty", typed, option->argument);
     memcpy(out, &text, sizeof text);
     return true;
+  case OPTION_WORDS:
+    memcpy(out, &text, sizeof text);
+    return true;
   case OPTION_FLAG:
     memcpy(out, &yes, sizeof yes);
     return true;
@@ -229,6 +287,12 @@ bool value_set(void *settings, const cli_command *command, const option_entry *o
     return set_formats(out, command, option, text);
   case OPTION_PALETTE:
     return set_palette(out, command, option, text);
+  case OPTION_COLOR:
+    return set_color(out, command, option, text);
+  case OPTION_LENGTH:
+    return set_length(out, command, option, text);
+  case OPTION_RANGE:
+    return set_range(out, command, option, text);
   case OPTION_VIEW:
     return set_view(out, command, option, text);
   case OPTION_HELP:

@@ -190,6 +190,7 @@ static fg_status choose_look(scale_maker *maker, const fg_icons *icons)
   common_look *look = &maker->look;
   if (!scales_are_solid(maker->field)) {
     fg_icons_speed_range(look->speeds, icons);
+    settings_speeds(look->speeds, &maker->settings->picture);
     return FG_STATUS_OK;
   }
   fg_status status =
@@ -197,6 +198,7 @@ static fg_status choose_look(scale_maker *maker, const fg_icons *icons)
   if (!status)
     status = fg_solid_best_view(&look->view[0], &look->view[1], maker->context,
                                 maker->field, icons);
+  settings_speeds(look->speeds, &maker->settings->picture);
   return status;
 }
 

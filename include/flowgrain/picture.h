@@ -8,7 +8,9 @@
 extern "C" {
 #endif
 
-/* A zero field means its default, in brackets. */
+/* A zero field means its default, in brackets. Texts are UTF-8; in those of the caption
+ * {title}, {time}, {level}, {names} and {arrows} stand for what the field says of itself
+ * and for the number of arrows, in the colour key's {units} for its units. */
 typedef struct fg_picture_options {
   double width;            /* of the whole picture, in points of 1/72 inch [480] */
   double height;           /* [0: follows from the domain's shape] */
@@ -21,13 +23,17 @@ typedef struct fg_picture_options {
   const struct fg_texture *background; /* behind all, in pale greys (texture.h) [none] */
   double background_fade;              /* share of its way to white, 0 to 1 [0.7,
                                           stripes 0.85] */
-  bool skeletons;    /* mark the clusters' spines and centres, where icons have
-                        them */
-  bool centers;      /* mark the centres alone, where icons have them */
-  bool no_arrows;    /* nor keys for them: mask, tint, background and marks alone */
-  const char *title; /* caption; NULL: from the field; "" none */
-  double font_size;  /* points [0: follows from the size; 9 at 480 points] */
-  bool no_keys;      /* no colour key, no arrow for the size */
+  bool skeletons;       /* mark the clusters' spines and centres, where icons have
+                           them */
+  bool centers;         /* mark the centres alone, where icons have them */
+  bool no_arrows;       /* nor keys for them: mask, tint, background and marks alone */
+  const char *title;    /* caption; NULL: from the field; "" none */
+  const char *subtitle; /* the line below; NULL: from the field, none where there is a
+                           `title`; "" none */
+  const char *label;    /* of the colour key; NULL: "mean speed" and the units; "" none */
+  double font_size;     /* points [0: follows from the size; 9 at 480 points] */
+  bool no_keys;         /* no colour key, no arrow for the size */
+  bool outline_text;    /* texts are drawn as shapes [in SVG and PDF they stay texts] */
   const char *mask_color, *tint_color; /* "#rrggbb" [light grey, light blue] */
   double
       scale_time; /* t of the scale, for the caption [the density's; none without it] */

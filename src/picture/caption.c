@@ -61,35 +61,78 @@ static const char *say_error(char *words, size_t room, const fg_score *score)
   return words;
 }
 
-void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_BYTES],
-                       const fg_field_arrays *field, const fg_icons *icons,
-                       const char *wanted, double scale_time)
+static void append(char out[FG__CAPTION_BYTES], const char *text, size_t length)
 {
-  title[0] = subtitle[0] = '\0';
-  if (wanted) {
-    fg__text_clean(title, FG__CAPTION_BYTES, wanted);
-    return;
+  const size_t used = strlen(out);
+  /* a text that has no room is cut before a whole character */
+  if (used + length >= FG__CAPTION_BYTES)
+    length = FG__CAPTION_BYTES - 1 - used;
+  while (length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80)
+    --length;
+  memcpy(out + used, text, length);
+  out[used + length] = '\0';
+}
+
+void fg__caption_fill(char out[FG__CAPTION_BYTES], const char *wanted,
+                      const fg__caption_value *values, size_t count)
+{
+  char clean[FG__CAPTION_BYTES];
+  fg__text_clean(clean, sizeof clean, wanted);
+  out[0] = '\0';
+  for (const char *at = clean; *at;) {
+    const size_t plain = strcspn(at, "{");
+    append(out, at, plain);
+    at += plain;
+    size_t k = 0;
+    while (*at && k < count && strncmp(at, values[k].name, strlen(values[k].name)) != 0)
+      ++k;
+    if (*at && k < count) {
+      const char *text = values[k].text ? values[k].text : "";
+      append(out, text, strlen(text));
+      at += strlen(values[k].name);
+    } else if (*at) {
+      append(out, at++, 1);
+    }
   }
+}
+
+/* What a field and its icons say of themselves, cleaned. */
+typedef struct told_words {
+  char title[FG__CAPTION_BYTES], names[FG__CAPTION_BYTES], time[FG__CAPTION_BYTES],
+      level[FG__CAPTION_BYTES], arrows[32];
+  bool telling; /* the names are more than u and v */
+} told_words;
+
+static void collect_words(told_words *out, const fg_field_arrays *field,
+                          const fg_icons *icons)
+{
   char names[FG__CAPTION_BYTES];
   snprintf(names, sizeof names, "%.100s, %.100s", field->velocity_name[0],
            field->velocity_name[1]);
-  bool telling = strcmp(names, "u, v") != 0 &&
+  out->telling = strcmp(names, "u, v") != 0 &&
                  strcmp(field->velocity_name[0], field->velocity_name[1]) != 0;
-  if (telling && field->dimension == 3) {
+  if (out->telling && field->dimension == 3) {
     size_t used = strlen(names);
     snprintf(names + used, sizeof names - used, ", %.100s", field->velocity_name[2]);
   }
-  fg__text_clean(title, FG__CAPTION_BYTES, field->title);
-  if (!title[0] && telling)
-    fg__text_clean(title, FG__CAPTION_BYTES, names);
-  else if (telling)
-    add_part(subtitle, names);
-  add_part(subtitle, field->time);
-  add_part(subtitle, field->level);
+  fg__text_clean(out->names, sizeof out->names, names);
+  fg__text_clean(out->title, sizeof out->title, field->title);
+  fg__text_clean(out->time, sizeof out->time, field->time ? field->time : "");
+  fg__text_clean(out->level, sizeof out->level, field->level ? field->level : "");
+  snprintf(out->arrows, sizeof out->arrows, "%d", icons ? fg_icons_count(icons) : 0);
+}
+
+static void write_subtitle(char subtitle[FG__CAPTION_BYTES], const told_words *told,
+                           const fg_icons *icons, double scale_time)
+{
   char words[64];
+  if (told->title[0] && told->telling)
+    add_part(subtitle, told->names);
+  add_part(subtitle, told->time);
+  add_part(subtitle, told->level);
   if (icons) {
-    int arrows = fg_icons_count(icons);
-    snprintf(words, sizeof words, "%d arrow%s", arrows, arrows == 1 ? "" : "s");
+    snprintf(words, sizeof words, "%s arrow%s", told->arrows,
+             fg_icons_count(icons) == 1 ? "" : "s");
     add_part(subtitle, words);
     if (fg_icons_kept_score(icons))
       add_part(subtitle, say_error(words, sizeof words, fg_icons_kept_score(icons)));
@@ -98,4 +141,27 @@ void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_
     snprintf(words, sizeof words, "scale t = %.3g", scale_time);
     add_part(subtitle, words);
   }
+}
+
+void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_BYTES],
+                       const fg_field_arrays *field, const fg_icons *icons,
+                       const char *const wanted[2], double scale_time)
+{
+  told_words told;
+  collect_words(&told, field, icons);
+  const fg__caption_value values[] = {{"{title}", told.title},
+                                      {"{names}", told.names},
+                                      {"{time}", told.time},
+                                      {"{level}", told.level},
+                                      {"{arrows}", told.arrows}};
+  const size_t count = sizeof values / sizeof *values;
+  title[0] = subtitle[0] = '\0';
+  if (wanted[0])
+    fg__caption_fill(title, wanted[0], values, count);
+  else if (told.title[0] || told.telling)
+    snprintf(title, FG__CAPTION_BYTES, "%s", told.title[0] ? told.title : told.names);
+  if (wanted[1])
+    fg__caption_fill(subtitle, wanted[1], values, count);
+  else if (!wanted[0])
+    write_subtitle(subtitle, &told, icons, scale_time);
 }

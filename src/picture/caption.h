@@ -11,12 +11,22 @@ bool fg__speed_range(double range[2], const fg_icons *icons);
 /* Whether some icons are slower, or faster, than the ends of the colour key. */
 void fg__speeds_beyond(bool beyond[2], const fg_icons *icons, const double range[2]);
 
-/* The caption: `wanted` as the title when that is not NULL, else what the field says of
- * itself. icons NULL, scale_time 0: not told. Icons that
- * keep a score tell it. */
+/* The caption: `wanted`, the title and the line below it, where they are not NULL, else
+ * what the field says of itself; under a wanted title nothing. icons NULL, scale_time 0:
+ * not told. Icons that keep a score tell it. */
 enum { FG__CAPTION_BYTES = 320 };
 void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_BYTES],
                        const fg_field_arrays *field, const fg_icons *icons,
-                       const char *wanted, double scale_time);
+                       const char *const wanted[2], double scale_time);
+
+/* A name in braces, and what stands for it. */
+typedef struct fg__caption_value {
+  const char *name; /* "{time}" */
+  const char *text; /* clean; NULL: "" */
+} fg__caption_value;
+
+/* Copies a wish, cleaned, with what stands for the names in it; cut to its room. */
+void fg__caption_fill(char out[FG__CAPTION_BYTES], const char *wanted,
+                      const fg__caption_value *values, size_t count);
 
 #endif

@@ -50,6 +50,21 @@ expect_error '--tint needs the density of scale 1, which was not saved'
 expect_nothing_at x.svg
 done_with "draw: numbers of arrows and tints that there are not"
 
+try draw placed -o texts.svg --title 'A <title> of {arrows} & {time}' --subtitle 'below' --label 'fast' \
+  --width 89mm --height 3in --font-size 2.5mm --speed-range 11,13
+expect_code 0
+grep -q 'width="252.28[0-9]*pt" height="216pt"' texts.svg || fault "the size is not 89mm by 3in"
+for text in 'A &lt;title&gt; of 10 &amp; ' below fast 11.0 13.0; do
+  grep -q "<text.*>$text</text>" texts.svg || fault "no text '$text'"
+done
+try draw placed -o texts.png --dpi 300 --width 1in
+expect_code 0
+od -An -tu1 -j18 -N2 texts.png | grep -q '1  *44' || fault "an inch has not 300 pixels"
+try draw placed -o shapes.svg --outline-text --no-keys --title '' --mask-color '#ff0000'
+expect_code 0
+grep -q '<text' shapes.svg && fault "--outline-text leaves texts"
+done_with "draw: texts, sizes in units, colours and the colour key's ends as they are asked for"
+
 try draw run -o x.svg --scale-index 5
 expect_code 1
 expect_one_complaint

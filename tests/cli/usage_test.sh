@@ -57,7 +57,9 @@ for bad in "--nodes 3" "--nodes 100000" "--nodes 1e2" "--nodes= 65" "--anisotrop
   "--max-steps 0" "--threads 0" "--clusters 10,20" "--clusters 20,,10" "--clusters 5,5" \
   "--clusters 0" "--clusters abc" "--formats gif" "--formats svg," "--scale polar" \
   "--mesh adapted" "--energy uphill" "--time -1" "--width 3" "--palette no-such-map" \
-  "--palette #12345" "--vars="; do
+  "--palette #12345" "--vars=" "--width 89furlong" "--height 1mm" "--dpi 5" "--font-size -1" \
+  "--speed-range 5" "--speed-range 5,5" "--speed-range 1,nan" "--mask-color red" "--tint-color #000000" \
+  "--background-fade 0.5" "--no-frame --title x"; do
   # shellcheck disable=SC2086
   wrong "^flowgrain: --" run synth:vortex -o x $bad
   done_with "run $bad"

@@ -189,18 +189,31 @@ static void draw_lines(cairo_t *cairo, const fg__page *page)
   cairo_stroke(cairo);
 }
 
-static void draw_texts(cairo_t *cairo, const fg__page *page)
+static void draw_text(cairo_t *cairo, const fg__page_text *text, bool shapes)
 {
+  set_color(cairo, text->quiet ? quiet_ink : ink);
+  cairo_save(cairo);
+  cairo_translate(cairo, text->x, text->y);
+  if (text->upwards)
+    cairo_rotate(cairo, -0.5 * acos(-1.0));
+  cairo_move_to(cairo, 0.0, 0.0);
+  if (shapes)
+    fg__text_draw_shapes(cairo, text->text, text->size, text->bold);
+  else
+    fg__text_draw(cairo, text->text, text->size, text->bold);
+  cairo_restore(cairo);
+}
+
+void fg__draw_texts(fg__surface_file *surface, const fg__page *page, bool shapes)
+{
+  const bool written = surface->format == FG__SURFACE_SVG && !shapes;
   for (int k = 0; k < page->text_count; ++k) {
     const fg__page_text *text = &page->text[k];
-    set_color(cairo, text->quiet ? quiet_ink : ink);
-    cairo_save(cairo);
-    cairo_translate(cairo, text->x, text->y);
-    if (text->upwards)
-      cairo_rotate(cairo, -0.5 * acos(-1.0));
-    cairo_move_to(cairo, 0.0, 0.0);
-    fg__text_draw(cairo, text->text, text->size, text->bold);
-    cairo_restore(cairo);
+    if (written)
+      fg__svg_texts_add(&surface->texts, surface->cairo, text,
+                        text->quiet ? quiet_ink : ink);
+    else
+      draw_text(surface->cairo, text, shapes);
   }
 }
 
@@ -210,7 +223,6 @@ void fg__draw_key(cairo_t *cairo, const fg__page *page, const fg__palette *palet
   if (page->has_color_key)
     draw_color_key(cairo, page, palette);
   draw_lines(cairo, page);
-  draw_texts(cairo, page);
 }
 
 void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
@@ -239,5 +251,4 @@ void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
     set_color(cairo, quiet_ink);
     cairo_fill(cairo);
   }
-  draw_texts(cairo, page);
 }

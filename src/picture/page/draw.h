@@ -3,6 +3,7 @@
 #define FG__DRAW_H
 
 #include "picture/page/scene.h"
+#include "picture/surface/surface.h"
 
 typedef struct fg__style {
   fg__color mask, tint;
@@ -20,10 +21,13 @@ void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color);
 /* Adds polygons to the path. */
 void fg__draw_path(cairo_t *cairo, const fg__polygons *polygons);
 
-/* The bar of a page's colour key, its ticks and all texts of the page. */
+/* The bar of a page's colour key and its ticks. */
 void fg__draw_key(cairo_t *cairo, const fg__page *page, const fg__palette *palette);
 
-/* Draws in points; what went wrong is in the context's status. */
+/* All texts of a page, above what was drawn before; in SVG as texts unless as shapes. */
+void fg__draw_texts(fg__surface_file *surface, const fg__page *page, bool shapes);
+
+/* Draws all but texts, in points; what went wrong is in the context's status. */
 void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
               const fg__palette *palette, const fg__style *style);
 

@@ -44,33 +44,23 @@ static double extent(const fg__page_plan *plan, int k)
   return plan->axis[k].high - plan->axis[k].low;
 }
 
-/* One style of the caption, broken at spaces into lines of at most `width`; what exceeds
- * `limit` lines is shortened. Returns the number of lines. */
-static int break_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, cairo_t *ruler,
-                       const char *text, double size, bool bold, double width)
+/* Lines of a caption, the title's first. */
+typedef struct caption {
+  char line[FG__CAPTION_LINES][FG__PAGE_TEXT_BYTES];
+  int titles, count;
+  double title_size, size;
+} caption;
+
+/* Titles that are too long for their lines shrink, so far as they are still read. */
+static void break_caption(caption *out, const fg__page_plan *plan, cairo_t *ruler,
+                          double em, double width)
 {
-  int count = 0;
-  const char *rest = text + strspn(text, " ");
-  while (*rest && count < limit) {
-    char *out = line[count++];
-    snprintf(out, FG__PAGE_TEXT_BYTES, "%s", rest);
-    if (count == limit)
-      break;
-    size_t length = strlen(out);
-    while (length > 0 && fg__text_width(ruler, out, size, bold) > width) {
-      while (length > 0 && out[length - 1] != ' ')
-        --length;
-      while (length > 0 && out[length - 1] == ' ')
-        --length;
-      if (length > 0)
-        out[length] = '\0';
-    }
-    rest += strlen(out);
-    rest += strspn(rest, " ");
-  }
-  for (int k = 0; k < count; ++k)
-    fg__text_shorten(ruler, line[k], FG__PAGE_TEXT_BYTES, size, bold, width);
-  return count;
+  out->title_size = fg__page_fit_lines(out->line, FG__TITLE_LINES, &out->titles, ruler,
+                                       plan->title, 1.1 * em, true, width);
+  out->size =
+      fg__page_fit_lines(out->line + out->titles, FG__CAPTION_LINES - FG__TITLE_LINES,
+                         &out->count, ruler, plan->subtitle, em, false, width);
+  out->count += out->titles;
 }
 
 /* The caption stands above whatever else stands above the frame. */
@@ -80,26 +70,21 @@ static void place_caption(fg__page *page, fg__margins *room, const fg__page_plan
   const double em = page->font_size, pad = 0.6 * em;
   double start = fmin(fmax(page->frame.x0, pad), 0.35 * page->width);
   double width = page->width - pad - start;
+  caption lines;
   if (width < shortest_caption * em)
     return;
-  char line[FG__CAPTION_LINES][FG__PAGE_TEXT_BYTES];
-  int titles =
-      break_lines(line, FG__CAPTION_LINES / 2, ruler, plan->title, 1.1 * em, true, width);
-  int count = titles + break_lines(line + titles, FG__CAPTION_LINES / 2, ruler,
-                                   plan->subtitle, em, false, width);
-  if (count == 0)
-    return;
+  break_caption(&lines, plan, ruler, em, width);
   double y = page->frame.y0 - room->top - 0.7 * em - FG__TEXT_DESCENT * em;
-  for (int k = count - 1; k >= 0; --k) {
-    fg__page_text *added = fg__page_next_text(page, line[k]);
+  for (int k = lines.count - 1; k >= 0; --k) {
+    fg__page_text *added = fg__page_next_text(page, lines.line[k]);
     if (!added)
       return;
-    added->bold = k < titles;
+    added->bold = k < lines.titles;
     added->quiet = !added->bold;
-    added->size = added->bold ? 1.1 * em : em;
+    added->size = added->bold ? lines.title_size : lines.size;
     added->x = start;
     added->y = y;
-    double wide = fg__text_width(ruler, line[k], added->size, added->bold);
+    double wide = fg__text_width(ruler, lines.line[k], added->size, added->bold);
     added->box = (fg__page_box){start, y - FG__TEXT_ASCENT * added->size, start + wide,
                                 y + FG__TEXT_DESCENT * added->size};
     y -= 1.3 * added->size;

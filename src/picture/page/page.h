@@ -13,19 +13,24 @@ typedef struct fg__page_box {
 } fg__page_box;
 
 enum {
-  FG__CAPTION_LINES = 4,
+  FG__TITLE_LINES = 3,
+  FG__CAPTION_LINES = FG__TITLE_LINES + 2,
+  FG__LABEL_LINES = 3, /* of the colour key */
   FG__PAGE_TEXT_BYTES = FG__CAPTION_BYTES,
   /* ticks of two axes and of the colour key, their labels, the caption, the size key */
-  FG__PAGE_TEXTS = 3 * FG__TICK_LIMIT + FG__CAPTION_LINES + 8,
+  FG__PAGE_TEXTS = 3 * FG__TICK_LIMIT + FG__CAPTION_LINES + FG__LABEL_LINES + 8,
   FG__PAGE_LINES = 3 * FG__TICK_LIMIT
 };
+
+typedef enum fg__align { FG__ALIGN_START, FG__ALIGN_MIDDLE, FG__ALIGN_END } fg__align;
 
 typedef struct fg__page_text {
   char text[FG__PAGE_TEXT_BYTES];
   double size;
   bool bold, quiet;
-  bool upwards; /* reads from below to above */
-  double x, y;  /* where its baseline begins */
+  bool upwards;    /* reads from below to above */
+  fg__align align; /* what of it keeps its place in another font */
+  double x, y;     /* where its baseline begins */
   fg__page_box box;
 } fg__page_text;
 
@@ -71,8 +76,6 @@ typedef struct fg__page_plan {
  * needed first; no two texts touch, and none leaves the page. `ruler` measures. */
 void fg__page_layout(fg__page *out, const fg__page_plan *plan, cairo_t *ruler);
 
-typedef enum fg__align { FG__ALIGN_START, FG__ALIGN_MIDDLE, FG__ALIGN_END } fg__align;
-
 /* Room round the frame, points. */
 typedef struct fg__margins {
   double left, right, top, bottom;
@@ -89,6 +92,12 @@ double fg__page_add_text(fg__page *page, cairo_t *ruler, const char *text, doubl
  * y. */
 double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *text,
                                  double x, double y);
+/* Breaks a text at spaces into at most `limit` lines of a width, in a size that is so far
+ * below `size` as it must, at least two thirds of it; what is too long even then ends
+ * with an ellipsis. Returns the size. */
+double fg__page_fit_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
+                          cairo_t *ruler, const char *text, double size, bool bold,
+                          double width);
 void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y1);
 
 /* Ticks of an axis of `length` points whose labels keep a distance. */

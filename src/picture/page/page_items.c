@@ -2,6 +2,7 @@
 #include "picture/page/page.h"
 
 #include <stdio.h>
+#include <string.h>
 
 fg__page_text *fg__page_next_text(fg__page *page, const char *text)
 {
@@ -27,6 +28,7 @@ double fg__page_add_text(fg__page *page, cairo_t *ruler, const char *text, doubl
   if (!added)
     return 0.0;
   double width = fg__text_width(ruler, added->text, added->size, false);
+  added->align = align;
   added->x = start_of(x, width, align);
   added->y = y;
   added->box = (fg__page_box){added->x, y - FG__TEXT_ASCENT * added->size,
@@ -42,6 +44,7 @@ double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *tex
     return 0.0;
   double width = fg__text_width(ruler, added->text, added->size, false);
   added->upwards = true;
+  added->align = FG__ALIGN_MIDDLE;
   added->x = x;
   added->y = y + 0.5 * width;
   added->box = (fg__page_box){x - FG__TEXT_ASCENT * added->size, added->y - width,
@@ -53,4 +56,48 @@ void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y
 {
   if (page->line_count < FG__PAGE_LINES)
     page->line[page->line_count++] = (fg__page_line){x0, y0, x1, y1};
+}
+
+/* Fills lines of a width with as many words as fit; the last, where there are `limit`,
+ * takes the rest. Whether all are as narrow as they should be. */
+static bool break_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
+                        cairo_t *ruler, const char *text, double size, bool bold,
+                        double width)
+{
+  bool fits = true;
+  const char *rest = text + strspn(text, " ");
+  for (*count = 0; *rest && *count < limit; rest += strspn(rest, " ")) {
+    char *out = line[(*count)++];
+    snprintf(out, FG__PAGE_TEXT_BYTES, "%s", rest);
+    size_t kept = strlen(out);
+    while (*count < limit && fg__text_width(ruler, out, size, bold) > width) {
+      size_t length = strlen(out);
+      while (length > 0 && out[length - 1] != ' ')
+        --length;
+      while (length > 0 && out[length - 1] == ' ')
+        --length;
+      if (length == 0)
+        break; /* one long word */
+      out[length] = '\0';
+      kept = length;
+    }
+    fits = fits && fg__text_width(ruler, out, size, bold) <= width;
+    rest += kept;
+  }
+  return fits;
+}
+
+double fg__page_fit_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
+                          cairo_t *ruler, const char *text, double size, bool bold,
+                          double width)
+{
+  static const double share[] = {1.0, 0.9, 0.8, 0.67};
+  enum { SHARES = sizeof share / sizeof *share };
+  int k = 0;
+  while (!break_lines(line, limit, count, ruler, text, share[k] * size, bold, width) &&
+         k < SHARES - 1)
+    ++k;
+  for (int n = 0; n < *count; ++n)
+    fg__text_shorten(ruler, line[n], FG__PAGE_TEXT_BYTES, share[k] * size, bold, width);
+  return share[k] * size;
 }

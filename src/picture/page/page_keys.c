@@ -1,7 +1,6 @@
 #include "picture/page/page.h"
 
 #include <math.h>
-#include <string.h>
 
 /* In units of the font size. */
 static const double bar_thickness = 0.85;
@@ -55,15 +54,42 @@ static void make_quiet(fg__page *page)
   page->text[page->text_count - 1].quiet = true;
 }
 
-/* The speed's name and unit; where that is too long for the bar its unit; or nothing. */
-static const char *color_label(const fg__page_plan *plan, cairo_t *ruler,
-                               double font_size, double length)
+/* The colour key's label in lines. The usual one gives way to its unit where it is longer
+ * than the bar; one that was asked for, which has no unit by itself, is broken. */
+typedef struct bar_label {
+  char line[FG__LABEL_LINES][FG__PAGE_TEXT_BYTES];
+  int count;
+  double size;
+} bar_label;
+
+static void break_label(bar_label *out, const fg__page_plan *plan, cairo_t *ruler,
+                        double font_size, double length)
 {
-  const char *choice[] = {plan->speed.label, plan->speed.units};
-  for (int k = 0; k < 2; ++k)
-    if (fg__text_width(ruler, choice[k], font_size, false) <= length)
-      return choice[k];
-  return "";
+  const char *text = plan->speed.label;
+  out->count = 0;
+  if (plan->speed.units[0] && fg__text_width(ruler, text, font_size, false) > length)
+    text = plan->speed.units;
+  if (plan->speed.units[0] && fg__text_width(ruler, text, font_size, false) > length)
+    return;
+  out->size = fg__page_fit_lines(out->line, FG__LABEL_LINES, &out->count, ruler, text,
+                                 font_size, false, length);
+}
+
+/* Gives the text just added the label's size; its baseline stays. */
+static void set_size(fg__page *page, cairo_t *ruler, double size)
+{
+  fg__page_text *text = &page->text[page->text_count - 1];
+  const double width = fg__text_width(ruler, text->text, size, false);
+  text->size = size;
+  if (text->upwards) {
+    text->y = 0.5 * (text->box.y0 + text->box.y1 + width);
+    text->box = (fg__page_box){text->x - FG__TEXT_ASCENT * size, text->y - width,
+                               text->x + FG__TEXT_DESCENT * size, text->y};
+    return;
+  }
+  text->x = 0.5 * (text->box.x0 + text->box.x1 - width);
+  text->box = (fg__page_box){text->x, text->y - FG__TEXT_ASCENT * size, text->x + width,
+                             text->y + FG__TEXT_DESCENT * size};
 }
 
 /* An end beyond which there are speeds is a point; the bar is that much shorter. */
@@ -101,10 +127,13 @@ static void bar_below(fg__page *page, fg__margins *room, const fg__page_plan *pl
     room->left = fmax(room->left, page->frame.x0 - x + 0.5 * width);
     room->right = fmax(room->right, x + 0.5 * width - page->frame.x1);
   }
-  const char *label = color_label(plan, ruler, em, length);
-  if (label[0]) {
-    baseline += line_height * em;
-    fg__page_add_text(page, ruler, label, x0 + 0.5 * length, baseline, FG__ALIGN_MIDDLE);
+  bar_label label;
+  break_label(&label, plan, ruler, em, length);
+  for (int k = 0; k < label.count; ++k) {
+    baseline += line_height * (k ? label.size : em);
+    fg__page_add_text(page, ruler, label.line[k], x0 + 0.5 * length, baseline,
+                      FG__ALIGN_MIDDLE);
+    set_size(page, ruler, label.size);
   }
   room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
 }
@@ -179,10 +208,12 @@ static double bar_beside(fg__page *page, fg__margins *room, const fg__page_plan 
     room->top = fmax(room->top, page->frame.y0 - baseline + FG__TEXT_ASCENT * em);
     room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
   }
-  const char *label = color_label(plan, ruler, em, y1 - y0);
-  if (label[0]) {
-    double x = end + (0.35 + FG__TEXT_ASCENT) * em;
-    fg__page_add_text_upwards(page, ruler, label, x, 0.5 * (y0 + y1));
+  bar_label label;
+  break_label(&label, plan, ruler, em, y1 - y0);
+  for (int k = 0; k < label.count; ++k) {
+    double x = end + (k ? 0.0 : 0.35 * em) + FG__TEXT_ASCENT * em;
+    fg__page_add_text_upwards(page, ruler, label.line[k], x, 0.5 * (y0 + y1));
+    set_size(page, ruler, label.size);
     end = x + FG__TEXT_DESCENT * em;
   }
   return end;

@@ -89,6 +89,10 @@ static fg__page_plan plan_of(double width, double height, double x, double y, in
     fg__axis_of_numbers(&plan.axis[1], 0.1 * y, 1.1 * y, larger, "y", units);
   }
   fg__axis_of_numbers(&plan.speed, 0.0, 13.7, 13.7, "mean speed", "m s-1");
+  if (style == 2) { /* a label that was asked for, without units */
+    snprintf(plan.speed.label, sizeof plan.speed.label, "%s", title);
+    plan.speed.units[0] = '\0';
+  }
   plan.color_key = plan.size_key = true;
   plan.speeds_beyond[0] = style == 1;
   plan.speeds_beyond[1] = style > 0;
@@ -168,6 +172,33 @@ static void a_usual_page_has_everything(void **state)
     assert_true(page->frame.x1 - page->frame.x0 > 0.55 * page->width);
     free(page);
   }
+}
+
+/* What was asked for is written whole, in as many lines and as small as that takes. */
+static void long_titles_and_labels_are_broken_or_shrink(void **state)
+{
+  (void)state;
+  fg__page_plan plan = plan_of(300, 0, 30, 30, 2, titles[3]);
+  fg__page *page = lay_out(&plan);
+  const char *title = plan.title, *label = plan.title;
+  double least = 100.0;
+  /* a caption's last line comes first */
+  for (int k = page->text_count - 1; k >= 0; --k) {
+    const fg__page_text *text = &page->text[k];
+    const size_t length = strlen(text->text);
+    if (text->bold && strncmp(title, text->text, length) == 0)
+      title += length + strspn(title + length, " ");
+    least = fmin(least, text->size);
+  }
+  for (int k = 0; k < page->text_count; ++k) {
+    const size_t length = strlen(page->text[k].text);
+    if (page->text[k].upwards && strncmp(label, page->text[k].text, length) == 0)
+      label += length + strspn(label + length, " ");
+  }
+  assert_string_equal(title, "");
+  assert_string_equal(label, "");
+  assert_true(least > 0.66 * page->font_size);
+  free(page);
 }
 
 static double longer_side(const fg__page_box *box)
@@ -267,6 +298,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(nothing_collides_on_any_page),
       cmocka_unit_test(a_usual_page_has_everything),
+      cmocka_unit_test(long_titles_and_labels_are_broken_or_shrink),
       cmocka_unit_test(a_key_points_at_speeds_beyond),
       cmocka_unit_test(ticks_mark_their_coordinates),
       cmocka_unit_test(the_reference_arrow_has_its_length),

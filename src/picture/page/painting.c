@@ -3,7 +3,7 @@
 
 #include "brush/canvas.h"
 #include "picture/page/bristles.h"
-#include "picture/page/surface.h"
+#include "picture/surface/surface.h"
 
 /* A0 paper is 3370 points high; a page six times that is a mistake. */
 static const double largest_page = 20000.0;

@@ -7,8 +7,8 @@
 
 #include "base/memory.h"
 #include "picture/caption.h"
-#include "picture/page/surface.h"
 #include "picture/page/texture_image.h"
+#include "picture/surface/surface.h"
 
 /* A0 paper is 3370 points high; a page six times that is a mistake. */
 static const double largest_page = 20000.0;
@@ -90,7 +90,30 @@ typedef struct picture {
   fg__scene scene;
   double low[2], high[2]; /* what the frame shows, in the field's coordinates */
   double pixels_per_point;
+  bool outline_text;
 } picture;
+
+/* A label of one's own still tells what was taken out of the numbers. */
+static void label_colors(fg__page_plan *plan, const char *wanted,
+                         const char *velocity_units)
+{
+  fg__tick_axis *speed = &plan->speed;
+  char label[FG__CAPTION_BYTES];
+  if (!wanted)
+    return;
+  if (speed->offset != 0.0) {
+    fg__text_clean(label, sizeof label, wanted);
+    fg__axis_of_numbers(speed, speed->low, speed->high, speed->high - speed->low, label,
+                        velocity_units);
+    return;
+  }
+  const fg__caption_value units = {"{units}", speed->units};
+  snprintf(label, sizeof label, "%.250s%s", wanted,
+           *wanted && speed->factor != 1.0 && !strstr(wanted, units.name) ? " ({units})"
+                                                                          : "");
+  fg__caption_fill(speed->label, label, &units, 1);
+  speed->units[0] = '\0';
+}
 
 static fg_status plan_picture(picture *out, fg_context *context, const fg_field *whole,
                               const fg_icons *icons, const fg_picture_options *options)
@@ -110,13 +133,15 @@ static fg_status plan_picture(picture *out, fg_context *context, const fg_field 
   plan->color_key = has_speeds && !out->palette.uniform && keys;
   fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0], "mean speed",
                       field->velocity_units);
+  label_colors(plan, options->label, field->velocity_units);
   if (options->no_frame)
     fg__scene_box(out->low, out->high, field);
   else
     fg__scene_shown(out->low, out->high, whole);
   describe_axes(plan, field, out->low, out->high);
+  const char *const wanted[2] = {options->title, options->subtitle};
   fg__caption_write(plan->title, plan->subtitle, field, options->no_arrows ? NULL : icons,
-                    options->title, options->scale_time);
+                    wanted, options->scale_time);
   fg__typical_icon typical;
   fg_status status = fg__scene_typical_icon(&typical, context, icons);
   if (status)
@@ -167,6 +192,7 @@ static fg_status render(fg_context *context, const char *path, const picture *p)
   if (status)
     return status;
   fg__draw(surface.cairo, page, &p->scene, &p->palette, &p->style);
+  fg__draw_texts(&surface, page, p->outline_text);
   return fg__surface_file_close(&surface, context, FG_STATUS_OK);
 }
 
@@ -195,6 +221,7 @@ static fg_status prepare(picture *p, fg_context *context, const fg_field *field,
     status = fg__color_choose(&p->style.tint, context, options->tint_color,
                               options->no_arrows ? lone_tint : usual_tint);
   p->style.transparent = options->transparent;
+  p->outline_text = options->outline_text;
   p->pixels_per_point = options->pixels_per_point > 0.0 ? options->pixels_per_point
                                                         : usual_pixels_per_point;
   if (!status)

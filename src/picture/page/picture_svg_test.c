@@ -1,5 +1,6 @@
 /* Pictures as SVG. */
 #include "picture/page/picture_example.h"
+#include "picture/page/text.h"
 #include "picture/palette.h"
 
 /* The box of the numbers in an SVG path's d attribute. */
@@ -69,18 +70,14 @@ static void an_svg_has_one_path_an_arrow_in_its_colour(void **state)
   free(text);
 }
 
-/* Every element that opens also closes, in order; attributes hold no raw marks. */
-static void framed_svgs_are_well_formed(void **state)
+/* Every element that opens also closes, in order; attributes hold no raw marks. Returns
+ * how many elements begin so. */
+static int count_elements(const char *text, const char *start)
 {
-  const example *e = *state;
-  fg_picture_options options = {.tint = true};
-  write_picture(e, "a.svg", &options);
-  size_t size;
-  char *text = read_file(e, "a.svg", &size);
   const char *open[64] = {NULL};
-  int depth = 0, texts = 0;
-  for (char *at = text; (at = strchr(at, '<')); ++at) {
-    char *end = strchr(at, '>');
+  int depth = 0, count = 0;
+  for (const char *at = text; (at = strchr(at, '<')); ++at) {
+    const char *end = strchr(at, '>');
     assert_non_null(end);
     if (at[1] == '?')
       continue;
@@ -90,14 +87,62 @@ static void framed_svgs_are_well_formed(void **state)
       assert_memory_equal(at + 2, open[--depth], length);
       continue;
     }
-    texts += strncmp(at, "<use", 4) == 0;
+    count += strncmp(at, start, strlen(start)) == 0;
     if (end[-1] != '/') {
       assert_true(depth < 64);
       open[depth++] = at + 1;
     }
   }
   assert_int_equal(depth, 0);
-  assert_true(texts > 40); /* a glyph each */
+  return count;
+}
+
+static void framed_svgs_are_well_formed(void **state)
+{
+  const example *e = *state;
+  fg_picture_options options = {.tint = true, .outline_text = true};
+  write_picture(e, "a.svg", &options);
+  size_t size;
+  char *text = read_file(e, "a.svg", &size);
+  assert_true(count_elements(text, "<path") > 20);
+  assert_int_equal(count_elements(text, "<text"), 0);
+  free(text);
+}
+
+static double attribute(const char *element, const char *name)
+{
+  const char *at = strstr(element, name);
+  assert_non_null(at);
+  return atof(at + strlen(name));
+}
+
+/* As wide as they were measured, whatever the viewer's font; what XML means otherwise is
+ * escaped. */
+static void texts_of_an_svg_are_texts(void **state)
+{
+  const example *e = *state;
+  fg_picture_options options = {.label = "\"fast\" & {units}",
+                                .subtitle = "\xC3\xA9t\xC3\xA9"};
+  write_picture(e, "a.svg", &options);
+  size_t size;
+  char *text = read_file(e, "a.svg", &size);
+  assert_int_equal(count_elements(text, "<use"), 0);
+  assert_true(count_elements(text, "<text") > 10);
+  assert_non_null(strstr(text, ">Wind &amp; waves &lt;1 ?</text>"));
+  assert_non_null(strstr(text, ">\xC3\xA9t\xC3\xA9</text>"));
+  /* m s^-1: the exponent is raised, and what would follow is not */
+  const char *label = strstr(text, ">&quot;fast&quot; &amp; m/s</text>");
+  const char *raised = strstr(text, "<tspan dy=\"-");
+  assert_true(label || (raised && strstr(raised, ">\xE2\x88\x92"
+                                                 "1</tspan></text>")));
+  cairo_t *ruler = fg__text_ruler();
+  const char *title = strstr(text, ">Wind &amp;");
+  while (strncmp(title, "<text", 5) != 0)
+    --title;
+  const double width =
+      fg__text_width(ruler, "Wind & waves <1 ?", attribute(title, "font-size=\""), true);
+  assert_true(fabs(attribute(title, "textLength=\"") - width) < 0.01);
+  cairo_destroy(ruler);
   free(text);
 }
 
@@ -108,6 +153,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       TEST(an_svg_has_one_path_an_arrow_in_its_colour),
       TEST(framed_svgs_are_well_formed),
+      TEST(texts_of_an_svg_are_texts),
   };
   return cmocka_run_group_tests_name("picture/page/picture_svg", tests, NULL, NULL);
 }

@@ -2,12 +2,6 @@
 
 #include <string.h>
 
-enum { PIECE_BYTES = 256 };
-
-/* An exponent's size and height, in units of the font size: usual typography. */
-static const double raised_size = 0.7;
-static const double raised_height = 0.36;
-
 static void choose_font(cairo_t *cairo, double size, bool bold)
 {
   cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
@@ -31,8 +25,8 @@ cairo_t *fg__text_ruler(void)
   return cairo;
 }
 
-/* Copies the text up to the next mark; returns what follows. */
-static const char *next_piece(const char *text, char piece[PIECE_BYTES], bool *raised)
+const char *fg__text_next_piece(const char *text, char piece[FG__TEXT_PIECE_BYTES],
+                                bool *raised)
 {
   if (*text == FG__TEXT_RAISE[0] || *text == FG__TEXT_LOWER[0]) {
     *raised = *text == FG__TEXT_RAISE[0];
@@ -40,8 +34,8 @@ static const char *next_piece(const char *text, char piece[PIECE_BYTES], bool *r
   }
   size_t length = strcspn(text, FG__TEXT_RAISE FG__TEXT_LOWER);
   size_t kept = length;
-  if (kept > PIECE_BYTES - 1) {
-    kept = PIECE_BYTES - 1;
+  if (kept > FG__TEXT_PIECE_BYTES - 1) {
+    kept = FG__TEXT_PIECE_BYTES - 1;
     while (kept > 0 && ((unsigned char)text[kept] & 0xC0) == 0x80)
       --kept;
     length = kept;
@@ -56,9 +50,9 @@ double fg__text_width(cairo_t *cairo, const char *text, double size, bool bold)
   double width = 0.0;
   bool raised = false;
   while (*text) {
-    char piece[PIECE_BYTES];
-    text = next_piece(text, piece, &raised);
-    choose_font(cairo, raised ? raised_size * size : size, bold);
+    char piece[FG__TEXT_PIECE_BYTES];
+    text = fg__text_next_piece(text, piece, &raised);
+    choose_font(cairo, raised ? FG__TEXT_RAISED_SIZE * size : size, bold);
     cairo_text_extents_t extents;
     cairo_text_extents(cairo, piece, &extents);
     width += extents.x_advance;
@@ -66,21 +60,36 @@ double fg__text_width(cairo_t *cairo, const char *text, double size, bool bold)
   return width;
 }
 
-void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold)
+static void draw(cairo_t *cairo, const char *text, double size, bool bold, bool shapes)
 {
   double x, y;
   cairo_get_current_point(cairo, &x, &y);
   bool raised = false;
   while (*text) {
-    char piece[PIECE_BYTES];
-    text = next_piece(text, piece, &raised);
-    choose_font(cairo, raised ? raised_size * size : size, bold);
-    cairo_move_to(cairo, x, raised ? y - raised_height * size : y);
-    cairo_show_text(cairo, piece);
+    char piece[FG__TEXT_PIECE_BYTES];
+    text = fg__text_next_piece(text, piece, &raised);
+    choose_font(cairo, raised ? FG__TEXT_RAISED_SIZE * size : size, bold);
+    cairo_move_to(cairo, x, raised ? y - FG__TEXT_RAISED_HEIGHT * size : y);
+    if (shapes) {
+      cairo_text_path(cairo, piece);
+      cairo_fill(cairo);
+    } else {
+      cairo_show_text(cairo, piece);
+    }
     cairo_text_extents_t extents;
     cairo_text_extents(cairo, piece, &extents);
     x += extents.x_advance;
   }
+}
+
+void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold)
+{
+  draw(cairo, text, size, bold, false);
+}
+
+void fg__text_draw_shapes(cairo_t *cairo, const char *text, double size, bool bold)
+{
+  draw(cairo, text, size, bold, true);
 }
 
 void fg__text_shorten(cairo_t *cairo, char *text, size_t capacity, double size, bool bold,

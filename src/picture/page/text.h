@@ -14,6 +14,16 @@
 #define FG__TEXT_ASCENT 0.86
 #define FG__TEXT_DESCENT 0.24
 
+/* An exponent's size and height, in units of the font size: usual typography. */
+#define FG__TEXT_RAISED_SIZE 0.7
+#define FG__TEXT_RAISED_HEIGHT 0.36
+
+/* Copies the text up to the next mark of an exponent's beginning or end; *raised follows
+ * the marks. Returns what comes after. */
+enum { FG__TEXT_PIECE_BYTES = 256 };
+const char *fg__text_next_piece(const char *text, char piece[FG__TEXT_PIECE_BYTES],
+                                bool *raised);
+
 /* A drawing context to measure with, or one whose status says why there is none. End with
  * cairo_destroy. */
 cairo_t *fg__text_ruler(void);
@@ -21,8 +31,10 @@ cairo_t *fg__text_ruler(void);
 /* Width of a text in the units of the font size. */
 double fg__text_width(cairo_t *cairo, const char *text, double size, bool bold);
 
-/* Draws a text from the current point on, along the x axis of the current transform. */
+/* Draws a text from the current point on, along the x axis of the current transform; or
+ * its shapes. */
 void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold);
+void fg__text_draw_shapes(cairo_t *cairo, const char *text, double size, bool bold);
 
 /* Cuts a text without marks and ends it with an ellipsis, so that it is at most `width`
  * wide; it may become empty. */

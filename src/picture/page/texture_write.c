@@ -6,9 +6,9 @@
 
 #include "base/memory.h"
 #include "picture/page/draw.h"
-#include "picture/page/surface.h"
 #include "picture/page/texture_image.h"
 #include "picture/page/texture_key.h"
+#include "picture/surface/surface.h"
 
 /* In files without pixels of their own: what the arrows' pictures have in PNG. */
 static const double pixels_per_point = 2.0;
@@ -93,6 +93,7 @@ static fg_status write(fg_context *context, const char *path, cairo_surface_t *i
       cairo_paint(surface.cairo);
     }
     fg__draw_key(surface.cairo, page, palette);
+    fg__draw_texts(&surface, page, false);
   }
   cairo_scale(surface.cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
   paint(surface.cairo, image, mask, style, mask_color);

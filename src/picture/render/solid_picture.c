@@ -7,11 +7,11 @@
 
 #include "base/memory.h"
 #include "picture/caption.h"
-#include "picture/page/surface.h"
 #include "picture/page/text.h"
 #include "picture/render/box_axes.h"
 #include "picture/render/render.h"
 #include "picture/silhouette.h"
+#include "picture/surface/surface.h"
 
 enum { USUAL_SIZE = 1200, LEAST_SIZE = 64, LARGEST_SIZE = 8192 };
 
@@ -186,9 +186,9 @@ static fg_status prepare(solid_picture *p, fg_context *context, const fg_field *
   p->em = fmax(font_share * fmin(r->width, r->height), least_font);
   fg__axis_of_numbers(&p->speed, r->range[0], r->range[1], r->range[1] - r->range[0],
                       "speed", about->velocity_units);
+  const char *const wanted[2] = {options->title, NULL};
   if (p->framed)
-    fg__caption_write(p->title, p->subtitle, about, icons, options->title,
-                      options->scale_time);
+    fg__caption_write(p->title, p->subtitle, about, icons, wanted, options->scale_time);
   lay_out(p, about, options);
   return FG_STATUS_OK;
 }

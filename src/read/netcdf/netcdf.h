@@ -99,8 +99,8 @@ fg__nc_quantity fg__nc_units(const char *units, char *label, size_t size);
 /* The length of a unit of time, "hours"; false where it is none. */
 bool fg__nc_seconds(const char *units, double *out);
 
-/* Writes a time as a date of its calendar in UTC, "2014-01-31 03:00[:30]"; false when units or
- * calendar are not known. */
+/* Writes a time as a date of its calendar in UTC, "2014-01-31 03:00[:30]"; false when
+ * units or calendar are not known. */
 bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
                  size_t size);
 

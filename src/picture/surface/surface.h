@@ -5,6 +5,7 @@
 #include <cairo.h>
 
 #include "file/whole_file.h"
+#include "picture/surface/svg_text.h"
 
 typedef enum fg__surface_file_format {
   FG__SURFACE_SVG,
@@ -23,6 +24,7 @@ typedef struct fg__surface_file {
   cairo_t *cairo; /* draws in points */
   char *svg;      /* the file as Cairo writes it */
   size_t svg_length, svg_capacity;
+  fg__svg_texts texts; /* that follow it */
 } fg__surface_file;
 
 /* Opens a surface of width x height points, which in PNG has pixels_per_point. title: for

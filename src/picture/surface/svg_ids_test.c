@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "picture/page/svg_ids.h"
+#include "picture/surface/svg_ids.h"
 
 static void expect(const char *given, const char *wanted)
 {

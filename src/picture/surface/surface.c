@@ -1,4 +1,4 @@
-#include "picture/page/surface.h"
+#include "picture/surface/surface.h"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
@@ -9,7 +9,7 @@
 #include <strings.h>
 
 #include "base/memory.h"
-#include "picture/page/svg_ids.h"
+#include "picture/surface/svg_ids.h"
 
 fg__surface_file_format fg__surface_file_format_of(const char *path)
 {
@@ -106,6 +106,23 @@ fg_status fg__surface_file_open(fg__surface_file *out, fg_context *context,
   return FG_STATUS_OK;
 }
 
+/* The texts come last, before the document's end. */
+static bool write_svg(const fg__surface_file *page_surface)
+{
+  static const char end[] = "</svg>";
+  size_t drawn = page_surface->svg_length;
+  while (drawn > 0 && (page_surface->svg_length - drawn < sizeof end - 1 ||
+                       memcmp(page_surface->svg + drawn, end, sizeof end - 1) != 0))
+    --drawn;
+  FILE *stream = page_surface->file.stream;
+  if (page_surface->texts.lacks_memory ||
+      !fg__svg_ids_write(stream, page_surface->svg, drawn))
+    return false;
+  fwrite(page_surface->texts.bytes, 1, page_surface->texts.length, stream);
+  fwrite(page_surface->svg + drawn, 1, page_surface->svg_length - drawn, stream);
+  return true;
+}
+
 fg_status fg__surface_file_close(fg__surface_file *page_surface, fg_context *context,
                                  fg_status status)
 {
@@ -121,12 +138,12 @@ fg_status fg__surface_file_close(fg__surface_file *page_surface, fg_context *con
   cairo_surface_destroy(page_surface->target);
   errno = 0;
   if (!status && !trouble && page_surface->format == FG__SURFACE_SVG &&
-      !fg__svg_ids_write(page_surface->file.stream, page_surface->svg,
-                         page_surface->svg_length))
+      !write_svg(page_surface))
     trouble = CAIRO_STATUS_NO_MEMORY;
   if (!page_surface->file.error && ferror(page_surface->file.stream))
     page_surface->file.error = errno ? errno : EIO;
   free(page_surface->svg);
+  fg__svg_texts_clear(&page_surface->texts);
   if (!status)
     status = status_of(context, trouble, &page_surface->file);
   return fg__whole_file_close(&page_surface->file, context, status);

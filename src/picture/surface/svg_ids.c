@@ -1,4 +1,4 @@
-#include "picture/page/svg_ids.h"
+#include "picture/surface/svg_ids.h"
 
 #include <stdlib.h>
 #include <string.h>
