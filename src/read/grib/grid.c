@@ -273,7 +273,7 @@ static size_t place_row(fg__grib_grid *grid, size_t j, long count, row_kind kind
   return points > 0 && points <= count ? (size_t)points : 0;
 }
 
-/* Returns how many points there are in all rows. */
+/* Returns how many points there are in all rows; 0 where a row has none. */
 static size_t place_rows(fg__grib_grid *grid, const asking *a, row_kind kind)
 {
   const double first = a->numbers.first[0];
@@ -286,6 +286,8 @@ static size_t place_rows(fg__grib_grid *grid, const asking *a, row_kind kind)
     const long count = a->row[grid->y_descends ? a->rows - 1 - j : j];
     grid->row[j] = place_row(grid, j, count, kind, first, last);
     grid->size[0] = grid->row[j] > grid->size[0] ? grid->row[j] : grid->size[0];
+    if (grid->row[j] == 0)
+      return 0;
     points += grid->row[j];
   }
   return points;

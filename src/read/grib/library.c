@@ -140,9 +140,10 @@ static size_t copy_message(unsigned char *out, const fg__grib_field *field)
     memcpy(out + used, section, size);
     used += size;
   }
-  memcpy(out + used, "7777", 4);
-  put_number(out + 8, used + 4, 8);
-  return used + 4;
+  for (int k = 0; k < 4; ++k)
+    out[used++] = '7';
+  put_number(out + 8, used, 8);
+  return used;
 }
 
 fg_status fg__grib_guard(const fg__grib_file *file, const fg__grib_field *field,

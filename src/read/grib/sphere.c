@@ -166,28 +166,32 @@ static void join_equal_rows(building *b, size_t j)
     add_cell(b->cells, below + columns - 1, below, above, (int)(above + columns - 1));
 }
 
+/* Point i of a row; after its last one comes its first. */
+static size_t point_of(const building *b, size_t j, size_t i)
+{
+  return b->start[j] + (i < row_length(b, j) ? i : 0);
+}
+
 /* Triangles between rows of different lengths: each takes the next point to the east. */
 static void join_rows(building *b, size_t j)
 {
-  const bool round = b->grid->period > 0.0;
-  const size_t n = row_length(b, j), m = row_length(b, j + 1);
-  const size_t last_n = round ? n : n - 1, last_m = round ? m : m - 1;
+  const size_t open = b->grid->period > 0.0 ? 0 : 1;
+  const size_t last_i = row_length(b, j) - open, last_k = row_length(b, j + 1) - open;
   size_t i = 0, k = 0;
-  while (i < last_n || k < last_m) {
-    const size_t below = b->start[j] + i % n, above = b->start[j + 1] + k % m;
-    if (k == last_m ||
-        (i < last_n && longitude_in(b, j, i + 1) <= longitude_in(b, j + 1, k + 1)))
-      add_cell(b->cells, below, b->start[j] + ++i % n, above, -1);
+  while (i < last_i || k < last_k) {
+    const size_t below = point_of(b, j, i), above = point_of(b, j + 1, k);
+    if (k == last_k ||
+        (i < last_i && longitude_in(b, j, i + 1) <= longitude_in(b, j + 1, k + 1)))
+      add_cell(b->cells, below, point_of(b, j, ++i), above, -1);
     else
-      add_cell(b->cells, below, b->start[j + 1] + ++k % m, above, -1);
+      add_cell(b->cells, below, point_of(b, j + 1, ++k), above, -1);
   }
 }
 
 static void join_pole(building *b, size_t n, size_t row)
 {
-  const size_t count = row_length(b, row);
-  for (size_t i = 0; i < count; ++i)
-    add_cell(b->cells, b->start[row] + i, b->start[row] + (i + 1) % count, n, -1);
+  for (size_t i = 0; i < row_length(b, row); ++i)
+    add_cell(b->cells, b->start[row] + i, point_of(b, row, i + 1), n, -1);
 }
 
 /* Whether all longitudes of the last row are there, and the pole is next to it. */
