@@ -185,8 +185,10 @@ static void read_once(void *data)
   fg_inventory *inventory;
   if (create_context(&context))
     return;
-  fg_status status = r->options ? fg_field_read_slab(&field, context, r->input,
-                                                     r->options, r->slab, r->slabs)
+  fg_read_options options = r->options ? *r->options : (fg_read_options){0};
+  options.map = NULL; /* no work of the library in question */
+  fg_status status = r->options ? fg_field_read_slab(&field, context, r->input, &options,
+                                                     r->slab, r->slabs)
                                 : fg_inventory_read(&inventory, context, r->input);
   if (status)
     complain_of(context, status, r->input);

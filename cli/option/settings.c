@@ -16,6 +16,7 @@ fg_read_options settings_reading(const reading_settings *settings)
       .time = settings->time,
       .level = settings->level,
       .mask = settings->mask,
+      .map = &settings->map,
       .scale = (fg_scale)settings->scale,
       .slice = settings->slice,
   };

@@ -26,6 +26,7 @@ typedef struct reading_settings {
   int time, level;
   int scale;         /* fg_scale */
   const char *slice; /* a plane */
+  fg_map_options map;
 } reading_settings;
 
 typedef struct evolution_settings {

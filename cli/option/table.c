@@ -120,6 +120,19 @@ const option_entry option_table[] = {
      "what the axes are: `geo` (degrees, velocity along east and north), `map` (a "
      "projected plane) or `plain` [auto: from units and axes]"},
 
+    {"projection", 0, "MAP", READERS, OPTION_TEXT, READING(map.projection), 0, 0, false,
+     false, NULL,
+     "plane that a field in longitude and latitude is laid on: `auto`, by what it covers "
+     "(the globe on Equal Earth, a polar cap on Lambert's azimuthal, others on a "
+     "conformal one); `none`, degrees as they are; a name, as robinson, mercator or "
+     "polar; \"+proj=...\", a PROJ string; or EPSG:N [auto]"},
+    {"center", 0, "LON[,LAT]", READERS, OPTION_CENTER, READING(map), 0, 0, false, false,
+     NULL, "middle of the map, degrees [from what the field or --region covers]"},
+    {"region", 0, "W,E,S,N", READERS, OPTION_REGION, READING(map), 0, 0, false, false,
+     NULL,
+     "part of the globe to show: west, east, south, north in degrees [all that the field "
+     "covers]"},
+
     {"kind", 0, "KIND", COMMAND_TEXTURE, OPTION_CHOICE, OWN(texture, kind), 0, 0, false,
      false, kind_words,
      "kind of texture: `lic` (line integral convolution), `spots` (spot noise, which "

@@ -22,6 +22,7 @@ bool report_is_of(const char *folder, const run_settings *settings);
 typedef struct cli_report {
   void *tree;
   fg_read_options reading;
+  fg_map_options map;         /* of `reading` */
   const char *input;          /* as it was given */
   const char *input_absolute; /* NULL: an analytic field */
   int dimension;
