@@ -25,6 +25,7 @@ typedef struct reading_settings {
   const char *vars, *vars_from, *mask;
   int time, level;
   int scale;         /* fg_scale */
+  int frame;         /* fg_frame */
   const char *slice; /* a plane */
   fg_map_options map;
 } reading_settings;

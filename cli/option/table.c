@@ -13,6 +13,7 @@
 #define NOWHERE GROUP_OWN, 0
 
 const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
+const char *const frame_words[] = {"auto", "east", "grid", NULL};
 const char *const mesh_words[] = {"auto", "adaptive", "uniform", NULL};
 const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
@@ -119,6 +120,11 @@ const option_entry option_table[] = {
      scale_words,
      "what the axes are: `geo` (degrees, velocity along east and north), `map` (a "
      "projected plane) or `plain` [auto: from units and axes]"},
+    {"frame", 0, "KIND", READERS, OPTION_CHOICE, READING(frame), 0, 0, false, false,
+     frame_words,
+     "what the components on a model's grid are along: `east` (and north) or `grid` (the "
+     "directions of its indices) [auto: from names, attributes and the grid, as `info` "
+     "says]"},
 
     {"projection", 0, "MAP", READERS, OPTION_TEXT, READING(map.projection), 0, 0, false,
      false, NULL,

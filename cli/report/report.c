@@ -71,6 +71,8 @@ static void add_input(cJSON *root, const run_facts *facts)
     cJSON_AddNumberToObject(input, "levels", facts->level_count);
   }
   add_text(input, "scale", scale_words[settings->reading.scale]);
+  if (settings->reading.frame != FG_FRAME_AUTO)
+    add_text(input, "frame", frame_words[settings->reading.frame]);
   add_map(input, &settings->reading.map);
 
   cJSON *read = cJSON_AddObjectToObject(root, "field");
