@@ -27,6 +27,7 @@ typedef struct reading_settings {
   int scale;         /* fg_scale */
   int frame;         /* fg_frame */
   const char *slice; /* a plane */
+  const char *block;
   fg_map_options map;
 } reading_settings;
 

@@ -113,6 +113,9 @@ const option_entry option_table[] = {
      NULL, "index along level, from 0 [0]"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask), 0, 0, false, false, NULL,
      "variable that is zero (or negative, or missing) outside the domain"},
+    {"block", 0, "NAME", READERS, OPTION_TEXT, READING(block), 0, 0, false, false, NULL,
+     "of a file of several blocks (.vtm), the one of this name or those in it [all "
+     "together]"},
     {"slice", 0, "PLANE", READERS, OPTION_TEXT, READING(slice), 0, 0, false, false, NULL,
      "cut a field in 3D: NAME=VALUE, as z=0.5, across an axis, or NX,NY,NZ@X,Y,Z, a "
      "normal and a point; the components in the plane become a field in 2D"},

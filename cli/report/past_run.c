@@ -172,6 +172,7 @@ static void fill_reading(cli_report *out, const cJSON *input)
   out->reading.vars = text_of(input, "vars");
   out->reading.vars_from = text_of(input, "vars_from");
   out->reading.mask = text_of(input, "mask");
+  out->reading.block = text_of(input, "block");
   out->reading.slice = text_of(input, "slice");
   out->reading.time = (int)number_of(input, "time", 0.0, 1e9, 0.0);
   out->reading.level = (int)number_of(input, "level", 0.0, 1e9, 0.0);

@@ -34,6 +34,8 @@ typedef struct fg_read_options {
   int level;             /* index along level, from 0 */
   const char *mask; /* variable that is zero (negative, missing) outside the domain */
   fg_scale scale;
+  const char *block; /* of several in a file the one, or those within it, of this name;
+                        NULL: all together */
   fg_frame frame;
   const char *slice; /* a plane to cut a field in 3D by (fg_plane_parse); NULL: none */
   const fg_map_options *map; /* what is in longitude and latitude is laid on this map;
@@ -132,8 +134,9 @@ FG_API fg_status fg_field_slice(fg_field **out, fg_context *context,
 FG_API fg_status fg_plane_parse(fg_plane *out, fg_context *context, const char *text,
                                 const fg_field *volume);
 
-/* Of a field that is a plane in space: which share of the mean square of the velocity is
- * that of its component normal to the plane, from 0 to 1; 0 for other fields. */
+/* Of a field that is a plane in space, cut or read with three components: which share of
+ * the mean square of the velocity its component normal to the plane has, from 0 to 1; 0
+ * for other fields and for slabs. */
 FG_API double fg_field_normal_share(const fg_field *field);
 
 /* Writes a field as .vti (VTK XML image data; axes must be evenly spaced) or .nc
@@ -166,6 +169,7 @@ typedef struct fg_inventory_vector {
   double bounds[6];     /* xmin, xmax, ymin, ymax, zmin, zmax */
   bool periodic[3];     /* whether each axis closes (longitude, say) */
   const char *unusable; /* NULL, or why this pair can not be read yet */
+  double normal_share;  /* of a plane in space: fg_field_normal_share at the first time */
   const char *frame;    /* of a model's grid: what the components are along, and which rule
                            says so; NULL: along the axes */
   size_t cells;         /* 0, or how many cells, which are not along the axes, are
