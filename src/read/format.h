@@ -70,6 +70,7 @@ typedef struct fg__format {
 } fg__format;
 
 extern const fg__format fg__format_netcdf;
+extern const fg__format fg__format_grib;
 extern const fg__format fg__format_vti;
 extern const fg__format fg__format_vtk_legacy;
 extern const fg__format fg__format_npy;
