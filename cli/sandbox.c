@@ -14,6 +14,7 @@
 #include <sys/prctl.h>
 #endif
 
+#include "inputs.h"
 #include "interrupt.h"
 
 /* A loop in a damaged file takes for ever. A good one takes some time for each byte, and
@@ -200,6 +201,11 @@ static size_t hdf5_size(const char *path)
   static const char magic[8] = "\211HDF\r\n\032\n";
   char start[sizeof magic];
   struct stat about;
+  if (inputs_is_standard(path)) {
+    size_t size;
+    const unsigned char *bytes = inputs_bytes(&size);
+    return size > sizeof magic && memcmp(bytes, magic, sizeof magic) == 0 ? size : 0;
+  }
   if (!path || stat(path, &about) != 0 || !S_ISREG(about.st_mode))
     return 0;
   int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);

@@ -7,6 +7,7 @@
 #include "command/command.h"
 #include "folder/files.h"
 #include "folder/made.h"
+#include "inputs.h"
 #include "interrupt.h"
 #include "ranks.h"
 #include "report/coarsening.h"
@@ -296,6 +297,7 @@ int command_run(const void *given)
     complain("out of memory");
     return EXIT_FAILED;
   }
+  inputs_give(run.context);
   int code = ranks_share(run.context);
   interrupt_start(run.context);
   if (!code)
