@@ -12,7 +12,7 @@
  * depend on where one stands: their content is compared. */
 static const char *const no_part[] = {
     "output", "vars-from", "max-memory", "max-time", "max-steps", "threads", "checkpoint",
-    "resume", "force",     "quiet",    "verbose",   "help",    "version",
+    "resume", "force",     "quiet",      "verbose",  "help",      "version",
 };
 
 enum { VALUE_BYTES = 1024 };

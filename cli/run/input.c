@@ -65,8 +65,8 @@ static void say_choice(const char *file, const char *kind, int index, int count,
 {
   char room[CLEAN_BYTES];
   if (count > 1)
-    fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", inputs_name(file), kind, index, count - 1,
-            words ? ": " : "", clean_text(room, words ? words : ""));
+    fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", inputs_name(file), kind,
+            index, count - 1, words ? ": " : "", clean_text(room, words ? words : ""));
 }
 
 static void say_choices(cli_run *run)

@@ -49,6 +49,7 @@ typedef enum fg_feature {
   FG_FEATURE_RENDER,     /* drawing fields in 3D */
   FG_FEATURE_MAPS,       /* map projections: flowgrain/map.h */
   FG_FEATURE_MPI,        /* several processes: flowgrain/mpi.h */
+  FG_FEATURE_GRIB,       /* reading GRIB */
   FG_FEATURES            /* how many there are */
 } fg_feature;
 
@@ -88,9 +89,9 @@ FG_API void fg_context_stop(fg_context *context);
 /* What reading files with a context may use. A zero field means its default, in brackets.
  */
 typedef struct fg_input_options {
-  const void *bytes;  /* what an input called "-" stands for, until the context ends; NULL:
-                         a file's name like any other */
-  size_t size;        /* of these */
+  const void *bytes; /* what an input called "-" stands for, until the context ends; NULL:
+                        a file's name like any other */
+  size_t size;       /* of these */
   const char *format; /* the format of fields, as fg_inventory_format says it, in small
                          letters with dashes; "vtk": either of VTK's [found from the
                          content] */

@@ -100,8 +100,8 @@ fg_status fg__check_memory(fg_context *context, const char *name, double samples
   if (!(most > 0.0) || samples * bytes <= most)
     return FG_STATUS_OK;
   fg__fail(context, FG_STATUS_UNSUPPORTED,
-           "%s: a field of %.0f samples takes %.4g MB; %.4g MB may be used", name, samples,
-           samples * bytes / 1e6, most / 1e6);
+           "%s: a field of %.0f samples takes %.4g MB; %.4g MB may be used", name,
+           samples, samples * bytes / 1e6, most / 1e6);
   fg__hint(context, "--max-memory SIZE allows more");
   return FG_STATUS_UNSUPPORTED;
 }

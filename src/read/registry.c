@@ -10,8 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const fg__format *const FORMATS[] = {&fg__format_netcdf, &fg__format_vti,
-                                            &fg__format_vtk_legacy, &fg__format_table};
+static const fg__format *const FORMATS[] = {
+    &fg__format_netcdf, &fg__format_grib, &fg__format_vti,  &fg__format_vtk_legacy,
+    &fg__format_npy,    &fg__format_npz,  &fg__format_table};
 static const char SYNTHETIC[] = "synth:";
 enum { MESSAGE_BYTES = 2048, KNOWN_BYTES = 512 };
 
@@ -53,8 +54,8 @@ static fg_status find_named(const fg__format **out, fg_context *context, const c
   if (*out)
     return FG_STATUS_OK;
   for (char *letter = known; *letter; ++letter)
-    *letter = *letter == ' ' && letter[-1] != ',' ? '-'
-                                                  : (char)tolower((unsigned char)*letter);
+    *letter =
+        *letter == ' ' && letter[-1] != ',' ? '-' : (char)tolower((unsigned char)*letter);
   fg__fail(context, FG_STATUS_ARGUMENT, "%s: no format is called \"%.100s\"",
            source->path, word);
   fg__hint(context, "formats: %s", known);

@@ -156,11 +156,11 @@ static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,
                        fg__slab_index slab)
 {
   const fg__rows rows = fg__rows_of(&slab, (int)grid->points[grid->dimension - 1], false);
-  fg_status status = fg__check_memory(
-      vtk->context, vtk->path,
-      (double)fg__vtk_grid_points(grid) / (double)grid->points[grid->dimension - 1] *
-          rows.held,
-      grid->dimension * (double)sizeof(float));
+  fg_status status =
+      fg__check_memory(vtk->context, vtk->path,
+                       (double)fg__vtk_grid_points(grid) /
+                           (double)grid->points[grid->dimension - 1] * rows.held,
+                       grid->dimension * (double)sizeof(float));
   if (status != FG_STATUS_OK)
     return status;
   grid->first_row = (size_t)rows.first;
