@@ -210,15 +210,31 @@ static const char *library_of(const char *start, size_t size)
   return NULL;
 }
 
+static void add(const char **library, size_t *size, const char *found, size_t bytes)
+{
+  if (!found)
+    return;
+  *library = found;
+  *size += bytes;
+}
+
+static void look_at_standard(const char **library, size_t *size)
+{
+  size_t bytes;
+  const unsigned char *start = inputs_bytes(&bytes);
+  if (start)
+    add(library, size,
+        library_of((const char *)start, bytes < LOOKED_AT ? bytes : LOOKED_AT), bytes);
+}
+
 /* Adds the size of a file that such a library reads, and says which. */
 static void look_at(const char **library, size_t *size, const char *path)
 {
   char start[LOOKED_AT];
   struct stat about;
   if (inputs_is_standard(path)) {
-    size_t size;
-    const unsigned char *bytes = inputs_bytes(&size);
-    return size > sizeof magic && memcmp(bytes, magic, sizeof magic) == 0 ? size : 0;
+    look_at_standard(library, size);
+    return;
   }
   if (!path || stat(path, &about) != 0 || !S_ISREG(about.st_mode))
     return;
@@ -227,11 +243,7 @@ static void look_at(const char **library, size_t *size, const char *path)
     return;
   ssize_t got = read(file, start, sizeof start);
   close(file);
-  const char *found = library_of(start, got > 0 ? (size_t)got : 0);
-  if (!found)
-    return;
-  *library = found;
-  *size += (size_t)about.st_size;
+  add(library, size, library_of(start, got > 0 ? (size_t)got : 0), (size_t)about.st_size);
 }
 
 static child_bounds bounds_for(size_t size)
@@ -247,10 +259,11 @@ static int complain_of_child(const char *input, const char *library,
   if (outcome->complaint[0])
     complain("%s", outcome->complaint);
   else if (outcome->signal == SIGXCPU)
-    complain("%s: damaged: reading it takes more than %u s", input, bounds->seconds);
+    complain("%s: damaged: reading it takes more than %u s", inputs_name(input),
+             bounds->seconds);
   else
-    complain("%s: damaged: the %s library does not survive reading it (signal %d)", input,
-             library, outcome->signal);
+    complain("%s: damaged: the %s library does not survive reading it (signal %d)",
+             inputs_name(input), library, outcome->signal);
   if (outcome->advice[0])
     advise("%s", outcome->advice);
   return EXIT_FAILED;
