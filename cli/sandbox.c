@@ -185,11 +185,13 @@ static void read_once(void *data)
   fg_inventory *inventory;
   if (create_context(&context))
     return;
+  fg_read_options options = r->options ? *r->options : (fg_read_options){0};
+  options.map = NULL; /* no work of the library in question */
   fg_status status;
   if (r->options && r->slabs)
-    status = fg_field_read_slab(&field, context, r->input, r->options, r->slab, r->slabs);
+    status = fg_field_read_slab(&field, context, r->input, &options, r->slab, r->slabs);
   else if (r->options)
-    status = fg_inventory_read_chosen(&inventory, context, r->input, r->options);
+    status = fg_inventory_read_chosen(&inventory, context, r->input, &options);
   else
     status = fg_inventory_read(&inventory, context, r->input);
   if (status)

@@ -127,6 +127,19 @@ const option_entry option_table[] = {
      "what the axes are: `geo` (degrees, velocity along east and north), `map` (a "
      "projected plane) or `plain` [auto: from units and axes]"},
 
+    {"projection", 0, "MAP", READERS, OPTION_TEXT, READING(map.projection), 0, 0, false,
+     false, NULL,
+     "plane that a field in longitude and latitude is laid on: `auto`, by what it covers "
+     "(the globe on Equal Earth, a polar cap on Lambert's azimuthal, others on a "
+     "conformal one); `none`, degrees as they are; a name, as robinson, mercator or "
+     "polar; \"+proj=...\", a PROJ string; or EPSG:N [auto]"},
+    {"center", 0, "LON[,LAT]", READERS, OPTION_CENTER, READING(map), 0, 0, false, false,
+     NULL, "middle of the map, degrees [from what the field or --region covers]"},
+    {"region", 0, "W,E,S,N", READERS, OPTION_REGION, READING(map), 0, 0, false, false,
+     NULL,
+     "part of the globe to show: west, east, south, north in degrees [all that the field "
+     "covers]"},
+
     {"kind", 0, "KIND", COMMAND_TEXTURE, OPTION_CHOICE, OWN(texture, kind), 0, 0, false,
      false, kind_words,
      "kind of texture: `lic` (line integral convolution), `spots` (spot noise, which "
@@ -360,6 +373,14 @@ const option_entry option_table[] = {
     {"background-fade", 0, "F", COMMAND_RUN | COMMAND_DRAW, OPTION_NUMBER,
      PICTURE(background_fade), 0, 1, true, false, NULL,
      "with --background: share of its way to white, in (0,1] [0.7, stripes 0.85]"},
+    {"no-coast", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_coast), 0, 0, false, false,
+     NULL,
+     "of a field on the Earth: neither land nor coasts, lakes, borders; grey where the "
+     "field is missing"},
+    {"land", 0, "#RRGGBB", PICTURES, OPTION_COLOR, PICTURE(land), 0, 0, false, false,
+     NULL, "of a field on the Earth: colour of land, #rrggbb [#ececea]"},
+    {"borders", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(borders), 0, 0, false, false,
+     NULL, "of a field on the Earth: borders of countries, too"},
     {"no-frame", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_frame), 0, 0, false, false,
      NULL, "only mask and arrows: no axes, no keys, no caption"},
     {"transparent", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, OWN(texture, transparent), 0,

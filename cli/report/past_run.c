@@ -145,6 +145,35 @@ static const cJSON *scale_at(const cli_report *report, int index)
                             index);
 }
 
+/* Up to `most` numbers; returns how many there are. */
+static int fill_numbers(double *out, int most, const cJSON *list)
+{
+  const int count = cJSON_GetArraySize(list);
+  for (int k = 0; k < count && k < most; ++k) {
+    const cJSON *item = cJSON_GetArrayItem(list, k);
+    if (!cJSON_IsNumber(item))
+      return 0;
+    out[k] = item->valuedouble;
+  }
+  return count <= most ? count : 0;
+}
+
+/* Runs before maps were on none. */
+static void fill_map(cli_report *out, const cJSON *map)
+{
+  const char *projection = text_of(map, "projection");
+  out->map.projection = projection ? projection : map ? "auto" : "none";
+  const int numbers =
+      fill_numbers(out->map.center, 2, cJSON_GetObjectItemCaseSensitive(map, "center"));
+  out->map.has_center = numbers > 0;
+  out->map.has_center_latitude = numbers == 2;
+  out->map.has_region =
+      fill_numbers(out->map.region, 4, cJSON_GetObjectItemCaseSensitive(map, "region")) ==
+      4;
+  out->map.samples = (int)number_of(map, "samples", 0.0, 1e9, 0.0);
+  out->reading.map = &out->map;
+}
+
 static void fill_reading(cli_report *out, const cJSON *input)
 {
   out->reading.vars = text_of(input, "vars");
@@ -157,6 +186,7 @@ static void fill_reading(cli_report *out, const cJSON *input)
   for (int k = 0; scale && scale_words[k]; ++k)
     if (strcmp(scale, scale_words[k]) == 0)
       out->reading.scale = (fg_scale)k;
+  fill_map(out, cJSON_GetObjectItemCaseSensitive(input, "map"));
   out->input = text_of(input, "path");
   out->input_absolute = text_of(input, "absolute");
 }

@@ -25,6 +25,7 @@ bool report_same_input(const void *input, const char *operand, const char *folde
 typedef struct cli_report {
   void *tree;
   fg_read_options reading;
+  fg_map_options map;         /* of `reading` */
   const char *input;          /* as it was given */
   const char *input_absolute; /* NULL: an analytic field */
   int dimension;

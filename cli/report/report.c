@@ -35,6 +35,19 @@ static void add_words(cJSON *object, const char *name, const char *const *words,
     cJSON_AddItemToArray(array, cJSON_CreateString(words[k]));
 }
 
+/* As it was asked for; "field" has what came of it. */
+static void add_map(cJSON *input, const fg_map_options *map)
+{
+  cJSON *object = cJSON_AddObjectToObject(input, "map");
+  add_text(object, "projection", map->projection ? map->projection : "auto");
+  if (map->has_center)
+    add_numbers(object, "center", map->center, map->has_center_latitude ? 2 : 1);
+  if (map->has_region)
+    add_numbers(object, "region", map->region, 4);
+  if (map->samples)
+    cJSON_AddNumberToObject(object, "samples", map->samples);
+}
+
 static void add_input(cJSON *root, const run_facts *facts)
 {
   const run_settings *settings = facts->settings;
@@ -58,6 +71,7 @@ static void add_input(cJSON *root, const run_facts *facts)
     cJSON_AddNumberToObject(input, "levels", facts->level_count);
   }
   add_text(input, "scale", scale_words[settings->reading.scale]);
+  add_map(input, &settings->reading.map);
 
   cJSON *read = cJSON_AddObjectToObject(root, "field");
   add_words(read, "velocity", field->velocity_name, field->dimension);
@@ -75,6 +89,7 @@ static void add_input(cJSON *root, const run_facts *facts)
   add_numbers(read, "bounds", bounds, 2 * field->dimension);
   add_numbers(read, "period", periods, field->dimension);
   add_text(read, "scale", scale_words[field->scale]);
+  add_text(read, "projection", field->projection);
   add_text(read, "title", field->title);
   add_text(read, "time", field->time);
   add_text(read, "level", field->level);

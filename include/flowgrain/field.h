@@ -17,6 +17,8 @@ typedef enum fg_scale {
   FG_SCALE_PLAIN     /* axes without a known unit */
 } fg_scale;
 
+typedef struct fg_map_options fg_map_options; /* map.h */
+
 /* A zero field means its default, in brackets. */
 typedef struct fg_read_options {
   const char *vars;      /* "U,V", "U,V,W" or one vector variable; NULL: found */
@@ -26,6 +28,8 @@ typedef struct fg_read_options {
   const char *mask; /* variable that is zero (negative, missing) outside the domain */
   fg_scale scale;
   const char *slice; /* a plane to cut a field in 3D by (fg_plane_parse); NULL: none */
+  const fg_map_options *map; /* what is in longitude and latitude is laid on this map;
+                                NULL: it stays so */
 } fg_read_options;
 
 /* Reads a field from a file, or makes an analytic one from "synth:NAME" (sampled at 257

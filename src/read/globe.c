@@ -8,6 +8,9 @@
 /* Samples per point: a grid round points that fill little of it is coarser. */
 static const double MOST_SAMPLES = 16.0;
 
+/* Between scattered points samples are finer, each way, as long as they are not many. */
+static const double FINEST = 8.0, MANY = 262144.0;
+
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
 typedef struct raster {
@@ -38,10 +41,14 @@ static raster raster_of(const fg__sphere_extent *extent)
                height = extent->north - extent->south;
   const double wider = least_cosine_inverse(extent);
   double spacing = extent->spacing;
-  const double samples = (width / (spacing * wider) + 1.0) * (height / spacing + 1.0);
+  double samples = (width / (spacing * wider) + 1.0) * (height / spacing + 1.0);
   const double most = MOST_SAMPLES * (double)extent->points + 4.0;
-  if (samples > most)
+  if (samples > most) {
     spacing *= sqrt(samples / most);
+    samples = most;
+  }
+  if (extent->scattered)
+    spacing /= fmin(FINEST, fmax(1.0, sqrt(MANY / samples)));
   raster out = {.closed = width >= 360.0, .first = {extent->west, extent->south}};
   out.size[0] = count_along(width, spacing * wider);
   out.size[1] = count_along(height, spacing);

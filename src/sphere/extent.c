@@ -18,6 +18,7 @@ typedef struct cover {
   double south, north;
   double area; /* of the parts of cells that have values */
   size_t present;
+  bool has_quads;
 } cover;
 
 typedef struct cell_shape {
@@ -125,6 +126,7 @@ static void add_cells(cover *sum, const fg__sphere *sphere, const double *longit
   for (size_t n = 0; n < sphere->count; ++n) {
     int point[4], present = 0;
     cell_shape shape = {.corners = fg__sphere_corners(sphere, n, point)};
+    sum->has_quads = sum->has_quads || shape.corners > 3;
     for (int k = 0; k < shape.corners; ++k)
       present += !sphere->missing || !sphere->missing[point[k]];
     if (present == 0)
@@ -180,6 +182,7 @@ void fg__sphere_measure(fg__sphere *sphere, const double *longitude,
   out->north = sphere->has_pole[1] ? 90.0 : sum.north;
   out->share = fmin(sum.area / WHOLE_AREA, 1.0);
   out->points = sum.present;
+  out->scattered = !sum.has_quads;
   out->spacing =
       sqrt(sum.area / (double)(sum.present > 0 ? sum.present : 1)) / FG__RADIANS;
 }

@@ -47,6 +47,7 @@ typedef struct fg__sphere_extent {
   double spacing; /* degrees: root of the mean area of a point that is not missing */
   double share;   /* of the sphere's area that has values */
   size_t points;  /* that are not missing */
+  bool scattered; /* all cells are triangles: the spacing varies from place to place */
 } fg__sphere_extent;
 
 void fg__sphere_extent_of(fg__sphere_extent *out, const fg__sphere *sphere);

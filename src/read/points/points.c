@@ -1,0 +1,337 @@
+#include "read/points/points.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "read/cells/set.h"
+#include "read/points/delaunay.h"
+
+/* Of the points: so many at most may have another value than one at their place. */
+static const double FEW = 0.1;
+
+/* Degrees: longitudes are cut there rather than where their numbers end. */
+static const double WIDE_GAP = 30.0;
+
+/* Coordinates whose products are far from overflow. */
+static const double FARTHEST = 1e60;
+
+void fg__scatter_clear(fg__scatter *points)
+{
+  for (int k = 0; k < 3; ++k) {
+    free(points->position[k]);
+    free(points->velocity[k]);
+  }
+  free(points->record);
+  *points = (fg__scatter){0};
+}
+
+static int record_of(const fg__scatter *points, size_t i)
+{
+  return points->record ? points->record[i] : (int)i;
+}
+
+static fg_status check_places(const fg__scatter *points)
+{
+  if (points->count > FG__DELAUNAY_MOST)
+    return fg__fail(points->context, FG_STATUS_UNSUPPORTED,
+                    "%s: %zu points; at most %d can be read", points->path, points->count,
+                    FG__DELAUNAY_MOST);
+  if (points->count < 3)
+    return fg__fail(points->context, FG_STATUS_FILE_FORMAT,
+                    "%s: %zu points with a place; a field needs three at least",
+                    points->path, points->count);
+  for (int k = 0; k < points->dimension && k < 3; ++k)
+    for (size_t i = 0; i < points->count; ++i)
+      if (!(fabs(points->position[k][i]) < FARTHEST))
+        return fg__fail(points->context, FG_STATUS_FILE_FORMAT,
+                        "%s: %s %d: the point's coordinate %d is %g", points->path,
+                        points->records, record_of(points, i), k + 1,
+                        points->position[k][i]);
+  for (size_t i = 0; i < points->count && points->geographic; ++i)
+    if (fabs(points->position[1][i]) > 90.0 || fabs(points->position[0][i]) > 720.0)
+      return fg__fail(points->context, FG_STATUS_FILE_FORMAT,
+                      "%s: %s %d: longitude %g, latitude %g is no place on the globe",
+                      points->path, points->records, record_of(points, i),
+                      points->position[0][i], points->position[1][i]);
+  return FG_STATUS_OK;
+}
+
+static int by_size(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* Longitudes begin behind their widest gap, where it is wide, so that those round the
+ * antimeridian hang together. */
+static fg_status unwrap(const fg__scatter *points)
+{
+  double *longitude = points->position[0];
+  double *order = fg__allocate(points->count, sizeof *order);
+  if (!order)
+    return fg__fail_memory(points->context, "longitudes", points->count * sizeof *order);
+  memcpy(order, longitude, points->count * sizeof *order);
+  qsort(order, points->count, sizeof *order, by_size);
+  double widest = 360.0 - (order[points->count - 1] - order[0]), first = order[0];
+  const bool goes_round = widest >= 0.0;
+  widest = fmax(WIDE_GAP, widest);
+  for (size_t i = 1; i < points->count && goes_round; ++i)
+    if (order[i] - order[i - 1] > widest) {
+      widest = order[i] - order[i - 1];
+      first = order[i];
+    }
+  free(order);
+  for (size_t i = 0; i < points->count; ++i)
+    if (longitude[i] < first)
+      longitude[i] += 360.0;
+  return FG_STATUS_OK;
+}
+
+/* A plane whose points have a third coordinate all the same. */
+static void drop_flat(fg__scatter *points)
+{
+  if (points->dimension < 3)
+    return;
+  for (size_t i = 1; i < points->count; ++i)
+    if (points->position[2][i] != points->position[2][0])
+      return;
+  points->dimension = 2;
+}
+
+typedef struct spot {
+  double at[3];
+  size_t point;
+} spot;
+
+static int by_spot(const void *a, const void *b)
+{
+  const spot *p = a, *q = b;
+  for (int k = 0; k < 3; ++k)
+    if (p->at[k] != q->at[k])
+      return p->at[k] > q->at[k] ? 1 : -1;
+  return (p->point > q->point) - (p->point < q->point);
+}
+
+static bool is_same_place(const spot *a, const spot *b)
+{
+  return a->at[0] == b->at[0] && a->at[1] == b->at[1] && a->at[2] == b->at[2];
+}
+
+static bool is_same_value(const fg__scatter *points, size_t a, size_t b)
+{
+  for (int k = 0; k < points->dimension && k < 3; ++k) {
+    const float x = points->velocity[k][a], y = points->velocity[k][b];
+    if (!(x == y || (isnan(x) && isnan(y))))
+      return false;
+  }
+  return true;
+}
+
+/* The first of points at one place gets the mean of those that have a value. */
+static void take_mean(const fg__scatter *points, const spot *spots, size_t count)
+{
+  for (int k = 0; k < points->dimension && k < 3; ++k) {
+    double sum = 0.0, values = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+      const double value = (double)points->velocity[k][spots[i].point];
+      sum += isfinite(value) ? value : 0.0;
+      values += isfinite(value);
+    }
+    if (values > 0.0)
+      points->velocity[k][spots[0].point] = (float)(sum / values);
+  }
+}
+
+static fg_status fail_doubled(const fg__scatter *points, size_t doubled, size_t a,
+                              size_t b)
+{
+  fg__fail(points->context, FG_STATUS_FILE_FORMAT,
+           "%s: %zu of %zu points lie where another does and have other values: %ss %d "
+           "and %d, both at (%g, %g)",
+           points->path, doubled, points->count, points->records, record_of(points, a),
+           record_of(points, b), points->position[0][a], points->position[1][a]);
+  fg__hint(points->context, "leave one time and one level in the file");
+  return FG_STATUS_FILE_FORMAT;
+}
+
+static void keep(fg__scatter *points, const unsigned char *is_kept)
+{
+  size_t kept = 0;
+  for (size_t i = 0; i < points->count; ++i) {
+    if (!is_kept[i])
+      continue;
+    for (int k = 0; k < points->dimension && k < 3; ++k) {
+      points->position[k][kept] = points->position[k][i];
+      points->velocity[k][kept] = points->velocity[k][i];
+    }
+    if (points->record)
+      points->record[kept] = points->record[i];
+    ++kept;
+  }
+  points->count = kept;
+}
+
+static fg_status merge_doubled(fg__scatter *points)
+{
+  const size_t count = points->count;
+  spot *spots = fg__allocate(count, sizeof *spots);
+  unsigned char *is_kept = fg__allocate(count, 1);
+  fg_status status = FG_STATUS_OK;
+  if (!spots || !is_kept)
+    status = fg__fail_memory(points->context, "points", count * sizeof *spots);
+  for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i) {
+    spots[i].point = i;
+    for (int k = 0; k < points->dimension && k < 3; ++k)
+      spots[i].at[k] = points->position[k][i];
+  }
+  size_t doubled = 0, example[2] = {0, 0};
+  if (status == FG_STATUS_OK)
+    qsort(spots, count, sizeof *spots, by_spot);
+  for (size_t i = 0, end; i < count && status == FG_STATUS_OK; i = end) {
+    is_kept[spots[i].point] = 1;
+    for (end = i + 1; end < count && is_same_place(&spots[i], &spots[end]); ++end)
+      if (!is_same_value(points, spots[i].point, spots[end].point) && ++doubled == 1) {
+        example[0] = spots[i].point;
+        example[1] = spots[end].point;
+      }
+  }
+  if (status == FG_STATUS_OK && (double)doubled > FEW * (double)count)
+    status = fail_doubled(points, doubled, example[0], example[1]);
+  for (size_t i = 0, end; i < count && status == FG_STATUS_OK; i = end) {
+    for (end = i + 1; end < count && is_same_place(&spots[i], &spots[end]);)
+      ++end;
+    if (end > i + 1)
+      take_mean(points, spots + i, end - i);
+  }
+  if (status == FG_STATUS_OK)
+    keep(points, is_kept);
+  free(spots);
+  free(is_kept);
+  return status;
+}
+
+static fg_status add_cells(fg__cell_set *set, const fg__triangles *triangles)
+{
+  const fg__cell_points all = {0, set->points};
+  fg_status status = FG_STATUS_OK;
+  for (size_t t = 0; t < triangles->count && status == FG_STATUS_OK; ++t) {
+    double corner[3];
+    for (int k = 0; k < 3; ++k)
+      corner[k] = (double)triangles->corner[3 * t + (size_t)k];
+    status = fg__cell_set_add(set, FG__CELL_TRIANGLE, corner, &all, (int)t);
+  }
+  set->numbers = triangles->count;
+  return status;
+}
+
+static fg_status triangulate(fg__cell_set *set, const fg__scatter *points)
+{
+  fg__triangles triangles = {0};
+  set->position = fg__allocate(3 * points->count, sizeof *set->position);
+  if (!set->position)
+    return fg__fail_memory(points->context, "points", 3 * points->count * 8);
+  set->points = points->count;
+  for (size_t i = 0; i < points->count; ++i)
+    for (int k = 0; k < 2; ++k)
+      set->position[3 * i + (size_t)k] = points->position[k][i];
+  fg_status status = fg__scatter_triangulate(&triangles, points, points->position[0],
+                                             points->position[1], set->position, -1);
+  if (status == FG_STATUS_OK)
+    status = add_cells(set, &triangles);
+  fg__triangles_clear(&triangles);
+  return status;
+}
+
+static fg_status sample(fg__point_grid *out, const fg__cell_set *set,
+                        const fg__scatter *points)
+{
+  *out = (fg__point_grid){.dimension = 2, .cells = set->count};
+  const size_t samples = (size_t)set->size[0] * (size_t)set->size[1];
+  for (int k = 0; k < 2; ++k) {
+    out->size[k] = set->size[k];
+    out->axis[k] = fg__allocate((size_t)set->size[k], sizeof *out->axis[k]);
+    out->velocity[k] = fg__allocate(samples, sizeof *out->velocity[k]);
+    if (!out->axis[k] || !out->velocity[k])
+      return fg__fail_memory(points->context, "a field's samples", samples * 4);
+    for (int i = 0; i < set->size[k]; ++i)
+      out->axis[k][i] = set->origin[k] + set->spacing[k] * i;
+    fg__cell_set_sample(out->velocity[k], set, points->velocity[k], 0, samples);
+  }
+  return FG_STATUS_OK;
+}
+
+static fg_status interpolate(fg__point_grid *out, const fg__scatter *points)
+{
+  fg__cell_set set = {.context = points->context, .path = points->path};
+  fg_status status = triangulate(&set, points);
+  if (status == FG_STATUS_OK)
+    status = fg__cell_set_locate(&set);
+  if (status == FG_STATUS_OK)
+    status = sample(out, &set, points);
+  fg__cell_set_clear(&set);
+  return status;
+}
+
+/* Puts points in order, and on their grid when there is one. */
+static fg_status arrange(fg__point_grid *out, bool *found, fg__scatter *points)
+{
+  *out = (fg__point_grid){0};
+  *found = false;
+  drop_flat(points);
+  fg_status status = check_places(points);
+  if (status == FG_STATUS_OK && points->geographic)
+    status = unwrap(points);
+  if (status == FG_STATUS_OK)
+    status = merge_doubled(points);
+  if (status == FG_STATUS_OK)
+    status = fg__scatter_find_grid(out, found, points);
+  if (status == FG_STATUS_OK && !*found && points->dimension == 3)
+    status = fg__fail(points->context, FG_STATUS_UNSUPPORTED,
+                      "%s: its %zu points in space lie on no grid along the axes",
+                      points->path, points->count);
+  return status;
+}
+
+fg_status fg__scatter_field(fg_field **out, size_t *cells, fg__scatter *points,
+                            const fg_field_arrays *words, fg__slab_index slab)
+{
+  fg__point_grid grid;
+  fg__sphere *sphere = NULL;
+  bool found;
+  *cells = 0;
+  fg_status status = arrange(&grid, &found, points);
+  if (status == FG_STATUS_OK && !found && points->geographic) {
+    status = fg__scatter_on_sphere(&sphere, cells, points, words);
+    if (status == FG_STATUS_OK)
+      status = fg__globe_field(out, points->context, sphere, slab);
+    fg__sphere_destroy(sphere);
+    return status;
+  }
+  if (status == FG_STATUS_OK && !found)
+    status = interpolate(&grid, points);
+  *cells = grid.cells;
+  if (status == FG_STATUS_OK)
+    status = fg__point_grid_straighten(&grid, points->context, points->path,
+                                       points->geographic);
+  if (status == FG_STATUS_OK)
+    status = fg__point_grid_field(out, points->context, &grid, words, slab);
+  fg__point_grid_clear(&grid);
+  return status;
+}
+
+fg_status fg__scatter_sphere(fg__sphere **out, fg__scatter *points,
+                             const fg_field_arrays *words)
+{
+  fg__point_grid grid;
+  bool found;
+  size_t cells;
+  *out = NULL;
+  fg_status status = arrange(&grid, &found, points);
+  fg__point_grid_clear(&grid);
+  return status == FG_STATUS_OK && !found
+             ? fg__scatter_on_sphere(out, &cells, points, words)
+             : status;
+}

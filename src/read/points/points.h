@@ -1,0 +1,78 @@
+/* Vectors at points: on the grid that the points lie on, whichever their order, or
+ * interpolated between them (docs/design/points.md). */
+#ifndef FG__POINTS_H
+#define FG__POINTS_H
+
+#include "read/format.h"
+#include "read/points/delaunay.h"
+
+/* Points with a velocity each, as a file lists them. Two components are x and y's; with
+ * three, dimension is 3. */
+typedef struct fg__scatter {
+  fg_context *context;
+  const char *path;
+  size_t count;
+  int dimension;       /* coordinates a point has */
+  double *position[3]; /* [count] each */
+  float *velocity[3];  /* [count] each; NaN: missing */
+  int *record;         /* [count], where each stands in the file, or NULL */
+  const char *records; /* what that is: "line" */
+  bool geographic;     /* longitude and latitude in degrees; east and north */
+} fg__scatter;
+
+void fg__scatter_clear(fg__scatter *points);
+
+/* Samples where lines along the axes cross; `cells` is 0 where each sample is one of the
+ * file's, else they are interpolated from so many triangles. */
+typedef struct fg__point_grid {
+  int dimension, size[3];
+  double *axis[3]; /* [size[k]], ascending */
+  double period;   /* of the first axis, or 0 */
+  float *velocity[3];
+  size_t cells;
+} fg__point_grid;
+
+void fg__point_grid_clear(fg__point_grid *grid);
+size_t fg__point_grid_samples(const fg__point_grid *grid);
+
+/* The field of points, whose arrays it may change; the words are those of
+ * fg_field_arrays. Points at one place become their mean. *cells: 0, or how many
+ * triangles the samples are interpolated from. FILE_FORMAT (no numbers, more places with
+ * several values than a slip explains), UNSUPPORTED (points on one line; in space, on no
+ * grid), ARGUMENT, MEMORY, STOPPED. */
+fg_status fg__scatter_field(fg_field **out, size_t *cells, fg__scatter *points,
+                            const fg_field_arrays *words, fg__slab_index slab);
+
+/* The same of longitudes and latitudes as a field on the sphere; *out stays NULL where
+ * they are a grid's. */
+fg_status fg__scatter_sphere(fg__sphere **out, fg__scatter *points,
+                             const fg_field_arrays *words);
+
+/* The steps of both. Triangles between points that were made flat, x and y, those round
+ * large empty circles in space left out; `far`: the number of the point that went to
+ * infinity and is not among x and y, or -1. */
+fg_status fg__scatter_triangulate(fg__triangles *out, const fg__scatter *points,
+                                  const double *x, const double *y,
+                                  const double *position, int far);
+fg_status fg__scatter_on_sphere(fg__sphere **out, size_t *cells, fg__scatter *points,
+                                const fg_field_arrays *words);
+
+/* The grid of points that are where its lines cross; *found: there is one. Of those lines
+ * none may lack more crossings than have a point, but in holes. */
+fg_status fg__scatter_find_grid(fg__point_grid *out, bool *found,
+                                const fg__scatter *points);
+
+/* Makes the axes ascend, and finds out whether the longitudes go round. */
+fg_status fg__point_grid_straighten(fg__point_grid *grid, fg_context *context,
+                                    const char *path, bool geographic);
+
+/* The field of a grid, whose samples it takes over; the words are those of
+ * fg_field_arrays. */
+fg_status fg__point_grid_field(fg_field **out, fg_context *context, fg__point_grid *grid,
+                               const fg_field_arrays *words, fg__slab_index slab);
+
+/* Adds a field to an inventory; names, units, found_by and cells are given. */
+fg_status fg__scatter_describe(fg_inventory *inventory, fg_context *context,
+                               const fg_field *field, fg_inventory_vector vector);
+
+#endif

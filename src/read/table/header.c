@@ -1,0 +1,333 @@
+/* What stands before the data: names of columns, with units. */
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/memory.h"
+#include "file/number_text.h"
+#include "file/utf8.h"
+#include "read/table/table.h"
+
+enum { LOOKED_AT = 8 };
+
+/* Copies text of any bytes as UTF-8: what is none is Latin-1, as programs on Windows
+ * write ° and µ. Control characters become blanks. */
+static void copy_text(char out[FG__TABLE_NAME], const char *text, size_t size)
+{
+  char raw[FG__TABLE_NAME];
+  size_t n = 0;
+  if (size >= sizeof raw)
+    size = sizeof raw - 1;
+  memcpy(raw, text, size);
+  raw[size] = '\0';
+  const bool utf8 = fg__utf8_is_valid(raw);
+  for (size_t i = 0; i < size && n + 2 < FG__TABLE_NAME; ++i) {
+    const unsigned char c = (unsigned char)raw[i];
+    if (utf8 || c < 0x80) {
+      out[n++] = c < ' ' || c == 0x7f ? ' ' : (char)c;
+    } else {
+      out[n++] = (char)(0xc0 | c >> 6);
+      out[n++] = (char)(0x80 | (c & 0x3f));
+    }
+  }
+  out[n] = '\0';
+  while (!fg__utf8_is_valid(out)) /* a sign was cut in two */
+    out[--n] = '\0';
+  while (n > 0 && out[n - 1] == ' ')
+    out[--n] = '\0';
+}
+
+/* Small letters and figures, everything else one _ between them. */
+static void simplify(char out[FG__TABLE_NAME], const char *name)
+{
+  size_t n = 0;
+  for (const char *c = name; *c && n + 1 < FG__TABLE_NAME; ++c)
+    if (isalnum((unsigned char)*c))
+      out[n++] = (char)tolower((unsigned char)*c);
+    else if (n > 0 && out[n - 1] != '_')
+      out[n++] = '_';
+  while (n > 0 && out[n - 1] == '_')
+    --n;
+  out[n] = '\0';
+}
+
+/* What Insight and others write without brackets: "X mm", "U m/s". */
+static bool is_unit(const char *text)
+{
+  static const char *const known[] = {"m",   "mm",  "cm",    "km",     "um",      "px",
+                                      "deg", "pix", "pixel", "pixels", "degrees", "kn"};
+  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
+    if (strcasecmp(text, known[i]) == 0)
+      return true;
+  return strchr(text, '/') != NULL;
+}
+
+void fg__table_name(fg__table_column *column, const char *text, size_t size)
+{
+  size_t open = 0, end;
+  while (open < size && !strchr("[(", text[open]))
+    ++open;
+  for (end = open; end < size && !strchr("])", text[end]);)
+    ++end;
+  copy_text(column->units, "", 0);
+  if (open > 0 && open < size) {
+    copy_text(column->units, text + open + 1, end - open - 1);
+    while (open > 0 && text[open - 1] == ' ')
+      --open;
+    copy_text(column->name, text, open);
+  } else {
+    copy_text(column->name, text, size);
+    char *blank = strchr(column->name, ' ');
+    if (blank && is_unit(blank + 1)) {
+      copy_text(column->units, blank + 1, strlen(blank + 1));
+      *blank = '\0';
+    }
+  }
+  if (strcmp(column->units, "-") == 0)
+    column->units[0] = '\0';
+  simplify(column->plain, column->name);
+}
+
+/* Splits names at blanks, and leaves "[mm]" with the name before it. */
+static bool next_name(fg__table_field *name, const fg__table_line *line, size_t *at)
+{
+  static const fg__table_style blanks = {0, '.'};
+  fg__table_field unit;
+  if (!fg__table_split(name, line, at, blanks))
+    return false;
+  for (size_t next = *at; fg__table_split(&unit, line, &next, blanks) && unit.size > 0 &&
+                          strchr("[(", unit.text[0]);
+       *at = next)
+    name->size = (size_t)(unit.text + unit.size - name->text);
+  return true;
+}
+
+/* Splits a line into names, as the data are parted or, `at_blanks`, at blanks; false when
+ * they are not as many as the columns, or more numbers than a name may look like. */
+static bool split_names(fg__table_column *out, const fg__table *table,
+                        fg__table_line line, bool at_blanks, int *numbers)
+{
+  while (line.size > 0 && strchr("#% \t", line.text[0])) {
+    ++line.text;
+    --line.size;
+  }
+  fg__table_field field;
+  int count = 0;
+  *numbers = 0;
+  for (size_t at = 0; count <= table->columns &&
+                      (at_blanks ? next_name(&field, &line, &at)
+                                 : fg__table_split(&field, &line, &at, table->style));
+       ++count) {
+    double value;
+    *numbers +=
+        fg__table_number(&value, &field, table->style.decimal) == FG__TABLE_NUMBER_VALUE;
+    if (count < table->columns)
+      fg__table_name(&out[count], field.text, field.size);
+  }
+  /* "x,y,u,v," has an empty name too many, or the data have */
+  return count == table->columns;
+}
+
+static const char *find_word(const char *text, const char *end, const char *word)
+{
+  const size_t length = strlen(word);
+  for (; text + length <= end; ++text)
+    if (strncasecmp(text, word, length) == 0)
+      return text;
+  return NULL;
+}
+
+static bool is_part(char c)
+{
+  return c == ' ' || c == '\t' || c == ',' || c == '\n' || c == '\r';
+}
+
+/* The names behind VARIABLES =, quoted or not, up to the next word before a =. */
+static int read_variables(fg__table_column *out, int most, const char *at,
+                          const char *end)
+{
+  int count = 0;
+  while (at < end) {
+    while (at < end && is_part(*at))
+      ++at;
+    if (at >= end)
+      break;
+    const char *start = at, *stop;
+    if (*at == '"') {
+      start = ++at;
+      stop = memchr(at, '"', (size_t)(end - at));
+      at = stop ? stop + 1 : end;
+    } else {
+      while (at < end && !is_part(*at) && *at != '=')
+        ++at;
+      stop = at;
+      const char *next = at;
+      while (next < end && (*next == ' ' || *next == '\t'))
+        ++next;
+      const size_t length = (size_t)(stop - start);
+      if ((next < end && *next == '=') ||
+          (length == 4 && strncasecmp(start, "ZONE", 4) == 0) ||
+          (length == 14 && strncasecmp(start, "DATASETAUXDATA", 14) == 0))
+        break;
+    }
+    if (count < most)
+      fg__table_name(&out[count], start, (size_t)((stop ? stop : end) - start));
+    ++count;
+  }
+  return count;
+}
+
+/* A Tecplot file's header, up to `end`; *found: it is one. */
+static fg_status read_tecplot(bool *found, fg__table *table, const char *text,
+                              const char *end)
+{
+  static const char *const others[] = {"BLOCK",   "FEPOINT", "FETRI", "FEQUAD",
+                                       "FEBRICK", "FETET",   "FEPOLY"};
+  const char *variables = find_word(text, end, "VARIABLES");
+  const char *at = variables ? variables + strlen("VARIABLES") : end;
+  while (at < end && is_part(*at))
+    ++at;
+  *found = at < end && *at == '=';
+  if (!*found)
+    return FG_STATUS_OK;
+  table->kind = FG__TABLE_TECPLOT;
+  const char *zone = find_word(at, end, "ZONE");
+  for (size_t i = 0; zone && i < sizeof others / sizeof *others; ++i)
+    if (find_word(zone, end, others[i]))
+      return fg__fail(table->context, FG_STATUS_UNSUPPORTED,
+                      "%s: a Tecplot zone in %s; only ordered zones in POINT format can "
+                      "be read",
+                      table->path, others[i]);
+  const int count = read_variables(table->column, table->columns, at + 1, end);
+  if (count != table->columns)
+    return fg__fail(table->context, FG_STATUS_FILE_FORMAT,
+                    "%s: %d variables in the header, and %d columns in line %d",
+                    table->path, count, table->columns, table->data.line + 1);
+  table->named = true;
+  return FG_STATUS_OK;
+}
+
+/* #DaVis 8.1.2 2D-vector 8 205 324 "position" "mm" "position" "mm" "velocity" "m/s" */
+static bool read_davis(fg__table *table, const char *text, const char *end)
+{
+  static const char *const names[] = {"x", "y", "u", "v"};
+  static const int unit_of[] = {1, 3, 5, 5};
+  if (table->columns != 4 || text == end || *text != '#' ||
+      !find_word(text, end, "DaVis") || !find_word(text, end, "vector"))
+    return false;
+  const char *quoted[6] = {NULL};
+  size_t size[6] = {0};
+  int count = 0;
+  for (const char *at = text; count < 6; ++count) {
+    const char *open = memchr(at, '"', (size_t)(end - at));
+    const char *close = open ? memchr(open + 1, '"', (size_t)(end - open - 1)) : NULL;
+    if (!close)
+      break;
+    quoted[count] = open + 1;
+    size[count] = (size_t)(close - open - 1);
+    at = close + 1;
+  }
+  for (int c = 0; c < 4; ++c) {
+    fg__table_name(&table->column[c], names[c], 1);
+    if (unit_of[c] < count)
+      copy_text(table->column[c].units, quoted[unit_of[c]], size[unit_of[c]]);
+  }
+  table->kind = FG__TABLE_DAVIS;
+  table->named = true;
+  return true;
+}
+
+/* Whether names are those of a vector and its place. */
+static bool tell_vectors(const fg__table *table, fg__table_column *names)
+{
+  fg__table_vector found[FG__TABLE_VECTORS];
+  fg__table named = *table;
+  named.column = names;
+  named.named = true;
+  return fg__table_vectors(found, &named) > 0;
+}
+
+static fg_status fail_first(const fg__table *table, const fg__table_line *line)
+{
+  fg__table_field field;
+  double value;
+  int column = 1;
+  for (size_t at = 0; fg__table_split(&field, line, &at, table->style); ++column)
+    if (fg__table_number(&value, &field, table->style.decimal) == FG__TABLE_NO_NUMBER)
+      return fg__fail(table->context, FG_STATUS_FILE_FORMAT,
+                      "%s: line %d, column %d: \"%.*s\" is no number", table->path,
+                      line->number, column, (int)(field.size < 40 ? field.size : 40),
+                      field.text);
+  return FG_STATUS_OK;
+}
+
+/* Looks through the lines right before the data, the last first: for one that names a
+ * vector, else for one with as many names. The line below names may have units. */
+static fg_status read_line_of_names(fg__table *table, const fg__table_line *line,
+                                    int lines)
+{
+  const size_t bytes = (size_t)table->columns * sizeof *table->column;
+  fg__table_column *names = fg__allocate(1, bytes), *below = fg__allocate(1, bytes);
+  fg_status status = FG_STATUS_OK;
+  bool has_below = false, done = false;
+  if (!names || !below)
+    status = fg__fail_memory(table->context, "names of columns", 2 * bytes);
+  for (int i = lines - 1; i >= 0 && status == FG_STATUS_OK && !done; --i)
+    for (int at_blanks = 0; at_blanks < 2 && !done; ++at_blanks) {
+      int numbers = 0;
+      if (!split_names(names, table, line[i], at_blanks == 1, &numbers))
+        continue;
+      if (2 * numbers >= table->columns) {
+        if (!fg__table_is_comment(&line[i]) && i == lines - 1)
+          status = fail_first(table, &line[i]);
+        continue;
+      }
+      done = tell_vectors(table, names);
+      if (done || !table->named)
+        memcpy(table->column, names, bytes);
+      table->named = true;
+      for (int c = 0; done && has_below && c < table->columns; ++c)
+        if (!table->column[c].units[0])
+          memcpy(table->column[c].units, below[c].name, FG__TABLE_NAME);
+      if (!has_below)
+        memcpy(below, names, bytes);
+      has_below = true;
+    }
+  free(names);
+  free(below);
+  return status;
+}
+
+fg_status fg__table_find_names(fg__table *table, const fg__source *source)
+{
+  fg__table_cursor cursor = fg__table_begin(source);
+  fg__table_line line[LOOKED_AT], next;
+  int lines = 0;
+  const char *text = cursor.text + cursor.at, *end = cursor.text + table->data.at;
+  for (int c = 0; c < table->columns; ++c) {
+    char number[16];
+    snprintf(number, sizeof number, "%d", c + 1);
+    fg__table_name(&table->column[c], number, strlen(number));
+  }
+  bool found = false;
+  fg_status status = FG_STATUS_OK;
+  if (end > text)
+    status = read_tecplot(&found, table, text, end);
+  if (status != FG_STATUS_OK || found || (end > text && read_davis(table, text, end)))
+    return status;
+  while (cursor.at < table->data.at && fg__table_next(&next, &cursor)) {
+    if (fg__table_is_blank(&next) || next.size > FG__TABLE_LINE)
+      continue;
+    if (lines == LOOKED_AT)
+      memmove(line, line + 1, (size_t)--lines * sizeof *line);
+    line[lines++] = next;
+  }
+  fg__number_locale locale;
+  if (!fg__number_locale_begin(&locale))
+    return fg__fail_memory(table->context, "a locale", 1);
+  status = read_line_of_names(table, line, lines);
+  fg__number_locale_end(&locale);
+  return status;
+}

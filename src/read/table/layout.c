@@ -1,0 +1,186 @@
+/* How a table is laid out: what the lines in its middle have in common. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "file/number_text.h"
+#include "read/table/table.h"
+
+enum {
+  LOOKED_AT = 64, /* lines */
+  SHORT_FILE = 1 << 16,
+  LEAST = 4 /* columns: a place and a velocity */
+};
+
+/* Where several fit a line alike, the first is meant. */
+static const fg__table_style STYLES[] = {{'\t', '.'}, {'\t', ','}, {';', '.'}, {';', ','},
+                                         {',', '.'},  {'|', '.'},  {0, '.'},   {0, ','}};
+enum { STYLE_COUNT = sizeof STYLES / sizeof *STYLES };
+
+typedef struct fit {
+  int columns; /* that most lines have; 0: none */
+  double numbers;
+} fit;
+
+/* Counts fields and how many are numbers; fields past `most` are not looked at. */
+static int count_fields(int *numbers, const fg__table_line *line, fg__table_style style)
+{
+  fg__table_field field;
+  double value;
+  int count = 0;
+  *numbers = 0;
+  for (size_t at = 0;
+       count <= FG__TABLE_COLUMNS && fg__table_split(&field, line, &at, style); ++count)
+    *numbers += fg__table_number(&value, &field, style.decimal) == FG__TABLE_NUMBER_VALUE;
+  return count;
+}
+
+static int by_size(const void *a, const void *b)
+{
+  return *(const int *)a - *(const int *)b;
+}
+
+static fit fit_style(const fg__table_line *line, int lines, fg__table_style style)
+{
+  int fields[LOOKED_AT] = {0}, sorted[LOOKED_AT] = {0}, numbers[LOOKED_AT] = {0};
+  for (int i = 0; i < lines; ++i)
+    sorted[i] = fields[i] = count_fields(&numbers[i], &line[i], style);
+  qsort(sorted, (size_t)lines, sizeof *sorted, by_size);
+  fit out = {.columns = sorted[lines / 2]};
+  for (int i = 0; i < lines; ++i)
+    out.numbers += fields[i] == out.columns ? numbers[i] : 0;
+  return out;
+}
+
+/* Lines of data: some from the middle of the file on, which no header reaches. */
+static int collect(fg__table_line line[LOOKED_AT], const fg__source *source)
+{
+  fg__table_cursor cursor = fg__table_begin(source);
+  fg__table_line next;
+  int count = 0;
+  if (source->size > SHORT_FILE) {
+    cursor.at = source->size / 2;
+    fg__table_next(&next, &cursor); /* the rest of one */
+  } else {
+    int all = 0;
+    while (fg__table_next(&next, &cursor))
+      all += !fg__table_is_blank(&next) && !fg__table_is_comment(&next);
+    cursor = fg__table_begin(source);
+    for (int skipped = 0; skipped < all / 2 && fg__table_next(&next, &cursor);)
+      skipped += !fg__table_is_blank(&next) && !fg__table_is_comment(&next);
+  }
+  while (count < LOOKED_AT && fg__table_next(&next, &cursor))
+    if (!fg__table_is_blank(&next) && !fg__table_is_comment(&next) &&
+        next.size <= FG__TABLE_LINE)
+      line[count++] = next;
+  return count;
+}
+
+/* Whether a line has all columns, and numbers where the sampled line has them. */
+static bool is_data(const fg__table *table, const fg__table_line *line,
+                    const bool *is_number)
+{
+  fg__table_field field;
+  int count = 0, numbers = 0;
+  for (size_t at = 0;
+       count <= table->columns && fg__table_split(&field, line, &at, table->style);
+       ++count) {
+    double value;
+    const fg__table_value kind = fg__table_number(&value, &field, table->style.decimal);
+    numbers += kind == FG__TABLE_NUMBER_VALUE;
+    if (count < table->columns && is_number[count] && kind == FG__TABLE_NO_NUMBER)
+      return false;
+  }
+  return count == table->columns && numbers > 0;
+}
+
+/* Columns that have a number in one of the lines, and a number or none in all. */
+static void find_numbers(bool *is_number, const fg__table *table,
+                         const fg__table_line *lines, int count)
+{
+  bool is_text[FG__TABLE_COLUMNS] = {false};
+  for (int i = 0; i < count; ++i) {
+    fg__table_field field;
+    size_t at = 0;
+    for (int c = 0;
+         c < table->columns && fg__table_split(&field, &lines[i], &at, table->style);
+         ++c) {
+      double value;
+      const fg__table_value kind = fg__table_number(&value, &field, table->style.decimal);
+      is_number[c] = is_number[c] || kind == FG__TABLE_NUMBER_VALUE;
+      is_text[c] = is_text[c] || kind == FG__TABLE_NO_NUMBER;
+    }
+  }
+  for (int c = 0; c < table->columns; ++c)
+    is_number[c] = is_number[c] && !is_text[c];
+}
+
+static fg_status fail_no_table(const fg__table *table, const fg__source *source)
+{
+  fg__table_cursor cursor = fg__table_begin(source);
+  fg__table_line line = {"", 0, 0};
+  while (fg__table_next(&line, &cursor) &&
+         (fg__table_is_blank(&line) || fg__table_is_comment(&line)))
+    ;
+  int best = 0, numbers = 0;
+  for (int s = 0; s < STYLE_COUNT; ++s) {
+    int found;
+    const int fields = count_fields(&found, &line, STYLES[s]);
+    if (fields > best) {
+      best = fields;
+      numbers = found;
+    }
+  }
+  fg__fail(table->context, FG_STATUS_FILE_FORMAT,
+           "%s: is text, but no table of points: line %d has %d column%s, %d of them "
+           "numbers",
+           table->path, line.number, best, best == 1 ? "" : "s", numbers);
+  fg__hint(table->context, "a line a point, with %d columns at least: x, y, u, v", LEAST);
+  return FG_STATUS_FILE_FORMAT;
+}
+
+static fg_status find_style(fg__table *table, const fg__source *source,
+                            bool is_number[FG__TABLE_COLUMNS])
+{
+  fg__table_line line[LOOKED_AT];
+  const int lines = collect(line, source);
+  double most = 0.0;
+  for (int s = 0; s < STYLE_COUNT && lines > 0; ++s) {
+    const fit found = fit_style(line, lines, STYLES[s]);
+    if (found.columns > FG__TABLE_COLUMNS)
+      return fg__fail(table->context, FG_STATUS_UNSUPPORTED,
+                      "%s: line %d has more than %d columns", table->path, line[0].number,
+                      FG__TABLE_COLUMNS);
+    if (found.columns >= LEAST && found.numbers > most) {
+      most = found.numbers;
+      table->style = STYLES[s];
+      table->columns = found.columns;
+    }
+  }
+  if (most < LEAST)
+    return fail_no_table(table, source);
+  find_numbers(is_number, table, line, lines);
+  return FG_STATUS_OK;
+}
+
+fg_status fg__table_find_layout(fg__table *table, const fg__source *source)
+{
+  bool is_number[FG__TABLE_COLUMNS] = {false};
+  fg__number_locale locale;
+  if (!fg__number_locale_begin(&locale))
+    return fg__fail_memory(table->context, "a locale", 1);
+  fg_status status = find_style(table, source, is_number);
+  fg__table_line line;
+  fg__table_cursor cursor = fg__table_begin(source);
+  bool found = false;
+  while (status == FG_STATUS_OK && !found) {
+    table->data = cursor;
+    if (!fg__table_next(&line, &cursor))
+      status = fail_no_table(table, source);
+    else
+      found = !fg__table_is_blank(&line) && !fg__table_is_comment(&line) &&
+              is_data(table, &line, is_number);
+  }
+  fg__number_locale_end(&locale);
+  return status;
+}

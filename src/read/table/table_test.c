@@ -1,0 +1,276 @@
+/* Tables in memory: what is found in them, and where they are refused. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/context_test.h"
+#include "read/format.h"
+
+static fg__source source_of(const char *text)
+{
+  return (fg__source){
+      .path = "table.txt", .bytes = (const unsigned char *)text, .size = strlen(text)};
+}
+
+static fg_field *read_with(fg_context *context, const char *text,
+                           const fg_read_options *options)
+{
+  const fg__source source = source_of(text);
+  fg_field *field = NULL;
+  assert_true(fg__format_table.is_mine(source.bytes, source.size));
+  if (fg__format_table.read(&field, context, &source, options, (fg__slab_index){0, 1}))
+    fail_msg("%s\nof\n%s", fg_context_message(context), text);
+  return field;
+}
+
+static fg_field *read_text(fg_context *context, const char *text)
+{
+  static const fg_read_options options = {0};
+  return read_with(context, text, &options);
+}
+
+/* A grid of 3 x 2: x 1.5 2.5 3.5, y 10 20; u = x + y, v = -0.25 but where it is missing.
+ */
+static void check_small(fg_field *field, int missing)
+{
+  const fg_field_arrays *f = fg_field_contents(field);
+  assert_int_equal(f->size[0], 3);
+  assert_int_equal(f->size[1], 2);
+  for (int n = 0; n < 6; ++n) {
+    const double x = f->axis[0][n % 3], y = f->axis[1][n / 3];
+    assert_true(x == 1.5 + n % 3 && y == 10.0 + 10.0 * (double)(n / 3));
+    assert_int_equal(f->valid == NULL || f->valid[n] != 0, n != missing);
+    if (n != missing) {
+      assert_true((double)f->velocity[0][n] == x + y);
+      assert_true(f->velocity[1][n] == -0.25f);
+    }
+  }
+  fg_field_destroy(field);
+}
+
+static void the_layout_is_found(void **state)
+{
+  static const char *const same[] = {
+      /* commas, rows in any order */
+      "x,y,u,v\n3.5,20,23.5,-.25\n1.5,10,11.5,-0.25\n2.5,10,12.5,-25e-2\n"
+      "3.5,10,13.5,-0.25\n1.5,20,21.5,-0.25\n2.5,20,22.5,-0.25\n",
+      /* semicolons and decimal commas, a mark of UTF-8, ends of lines as in DOS */
+      "\xEF\xBB\xBFX (mm);Y (mm);Vx (m/s);Vy (m/s)\r\n1,5;10;11,5;-0,25\r\n"
+      "2,5;10;12,5;-0,25\r\n3,5;10;13,5;-0,25\r\n1,5;20;21,5;-0,25\r\n"
+      "2,5;20;22,5;-0,25\r\n3,5;20;23,5;-0,25\r\n",
+      /* blanks, comments, a name with a unit, more columns, no end of the last line */
+      "# made by hand\n#  x [mm]  y [mm]  p [Pa]  u [m/s] v [m/s]\n"
+      "1.5 10.0 7 1.15E+01 -2.5e-1\n2.5 10.0 7 12.5 -0.25\n\n3.5 10.0 nan 13.5 -0.25\n"
+      "% half\n  1.5 20.0 7 2.15D1 -0.25\n2.5 20.0 7 22.5 -0.25\n3.5 20 7 23.5 -0.25",
+      /* tabs, quotes, text among the numbers, decimal commas */
+      "\"name\"\t\"u\"\t\"v\"\t\"x\"\t\"y\"\n\"a \"\"b\"\"\"\t11,5\t-0,25\t1,5\t10\n"
+      "b\t12,5\t-0,25\t2,5\t10\nc\t13,5\t-0,25\t3,5\t10\nd\t21,5\t-0,25\t1,5\t20\n"
+      "e\t22,5\t-0,25\t2,5\t20\n\"f\"\t23,5\t-0,25\t3,5\t20\n",
+      /* no names: x, y, u, v; blanks round decimal commas */
+      "1,5  10  11,5 -0,25\n2,5  10  12,5 -0,25\n3,5  10  13,5 -0,25\n"
+      "1,5  20  21,5 -0,25\n2,5  20  22,5 -0,25\n3,5  20  23,5 -0,25\n",
+      /* names, then units */
+      "x,y,u,v\nmm,mm,m/s,m/s\n1.5,10,11.5,-0.25\n2.5,10,12.5,-0.25\n"
+      "3.5,10,13.5,-0.25\n1.5,20,21.5,-0.25\n2.5,20,22.5,-0.25\n3.5,20,23.5,-0.25\n",
+      /* a coordinate of space that is the same everywhere */
+      "Points:0,Points:1,Points:2,U:0,U:1,U:2\n1.5,10,3,11.5,-0.25,9\n"
+      "2.5,10,3,12.5,-0.25,9\n3.5,10,3,13.5,-0.25,9\n1.5,20,3,21.5,-0.25,9\n"
+      "2.5,20,3,22.5,-0.25,9\n3.5,20,3,23.5,-0.25,9\n",
+  };
+  for (size_t i = 0; i < sizeof same / sizeof *same; ++i)
+    check_small(read_text(*state, same[i]), -1);
+}
+
+/* What PIV programs write, each with its word for an invalid vector. */
+static void exports_of_piv_are_known(void **state)
+{
+  static const char *const same[] = {
+      /* Insight */
+      "TITLE=\"E:\\Run1\" VARIABLES=\"X mm\", \"Y mm\", \"U m/s\", \"V m/s\", \"CHC\", "
+      "DATASETAUXDATA Application=\"PIV\" ZONE I=3, J=2, F=POINT\n"
+      "1.5, 20.0, 21.5, -0.25, 1\n2.5, 20.0, 22.5, -0.25, 2\n3.5, 20.0, 23.5, -0.25, 1\n"
+      "2.5, 10.0, 12.5, -0.25, 1\n1.5, 10.0, 0.0, -0.0, -3\n3.5, 10.0, 13.5, -0.25, 1\n",
+      /* DaVis */
+      "#DaVis 8.1.2 2D-vector 8 2 3 \"position\" \"mm\" \"position\" \"mm\" \"velocity\" "
+      "\"m/"
+      "s\"\r\n1,5\t20\t21,5\t-0,25\r\n2,5\t20\t22,5\t-0,25\r\n3,5\t20\t23,5\t-0,25\r\n"
+      "2,5\t10\t12,5\t-0,25\r\n1,5\t10\t0\t-0\r\n3,5\t10\t13,5\t-0,25\r\n",
+      /* OpenPIV, without units */
+      "# "
+      "x\ty\tu\tv\tflags\tmask\n1.5\t20\t21.5\t-0.25\t0\t0\n2.5\t20\t22.5\t-0.25\t0\t0\n"
+      "3.5\t20\t23.5\t-0.25\t0\t0\n2.5\t10\t12.5\t-0.25\t0\t0\n1.5\t10\t5\t5\t1\t0\n"
+      "3.5\t10\t13.5\t-0.25\t0\t0\n",
+      /* PIVlab */
+      "PIVlab, ASCII chart output - 01-Jan-2020\nFRAME: 1, filenames: A.jpg & B.jpg, "
+      "conversion factor xy (px -> m): 1, conversion factor uv (px/frame -> m/s): 1\n"
+      "x [mm],y [mm],u [m/s],v [m/s],Vector type [-]\n1.5,20,21.5,-0.25,1\n"
+      "2.5,20,22.5,-0.25,2\n3.5,20,23.5,-0.25,1\n2.5,10,12.5,-0.25,1\n1.5,10,NaN,NaN,0\n"
+      "3.5,10,13.5,-0.25,1\n",
+      /* Tecplot */
+      "TITLE = \"a table\"\nVARIABLES = \"x (mm)\"\n\"y (mm)\"\n\"u (m/s)\"\n\"v "
+      "(m/s)\"\n"
+      "\"isValid\"\nZONE T=\"one\", I=3, J=2,\n DATAPACKING=POINT\n1.5 20 21.5 -0.25 1\n"
+      "2.5 20 22.5 -0.25 1\n3.5 20 23.5 -0.25 1\n2.5 10 12.5 -0.25 1\n1.5 10 1 1 0\n"
+      "3.5 10 13.5 -0.25 1\n",
+  };
+  for (size_t i = 0; i < sizeof same / sizeof *same; ++i) {
+    fg_field *field = read_text(*state, same[i]);
+    const fg_field_arrays *f = fg_field_contents(field);
+    assert_string_equal(f->velocity_units, i == 2 ? "" : "m/s");
+    assert_string_equal(f->axis_units[1], i == 2 ? "" : "mm");
+    check_small(field, 0);
+  }
+}
+
+/* Where wind comes from, and where a current goes to; a closed circle of longitudes. */
+static void directions_are_turned_by_what_they_mean(void **state)
+{
+  static const char *const head[] = {"lon,lat,wind_speed (m/s),wind_direction\n",
+                                     "Latitude,Longitude,current speed,current dir\n"};
+  for (int way = 0; way < 2; ++way) {
+    char text[2048];
+    size_t n = (size_t)snprintf(text, sizeof text, "%s", head[way]);
+    for (int j = -1; j <= 1; ++j)
+      for (int i = 0; i < 12; ++i)
+        n += (size_t)snprintf(text + n, sizeof text - n, "%d,%d,2,30\n",
+                              way ? 30 * j : 30 * i, way ? 30 * i : 30 * j);
+    fg_field *field = read_text(*state, text);
+    const fg_field_arrays *f = fg_field_contents(field);
+    const double sign = way ? 1.0 : -1.0;
+    assert_int_equal(f->scale, FG_SCALE_GEO);
+    assert_true(f->period[0] == 360.0 && f->size[0] == 12 && f->size[1] == 3);
+    assert_true(fabs((double)f->velocity[0][5] - sign) < 1e-6);
+    assert_true(fabs((double)f->velocity[1][5] - sign * sqrt(3.0)) < 1e-6);
+    fg_field_destroy(field);
+  }
+}
+
+static void columns_are_chosen_by_name_and_number(void **state)
+{
+  static const char text[] =
+      "a,b,wind_u,wind_v,wave_u,wave_v,ice\n"
+      "1,1,1,2,5,6,1\n2,1,1,2,5,6,1\n1,2,1,2,5,6,0\n2,2,1,2,5,6,1\n";
+  static const struct {
+    const char *vars, *mask;
+    float u;
+  } chosen[] = {{"a,b,wave_u,wave_v", NULL, 5.0f}, {"1,2,4,3", "ice", 2.0f}};
+  for (int i = 0; i < 2; ++i) {
+    const fg_read_options options = {.vars = chosen[i].vars, .mask = chosen[i].mask};
+    const fg__source source = source_of(text);
+    fg_field *field = NULL;
+    const fg_status status =
+        fg__format_table.read(&field, *state, &source, &options, (fg__slab_index){0, 1});
+    if (chosen[i].mask) { /* the only cell has a corner of no sea */
+      assert_int_equal(status, FG_STATUS_ARGUMENT);
+      fg_context_clear(*state);
+      continue;
+    }
+    assert_int_equal(status, FG_STATUS_OK);
+    assert_true(fg_field_contents(field)->velocity[0][0] == chosen[i].u);
+    fg_field_destroy(field);
+  }
+}
+
+typedef struct refusal {
+  const char *text, *vars;
+  fg_status status;
+  const char *words;
+} refusal;
+
+static void what_is_wrong_is_told_by_its_place(void **state)
+{
+  static const refusal refusals[] = {
+      {"x,y,u,v\n1,2,3,4\n1,3,abc,4\n2,2,3,4\n2,3,3,4\n", NULL, FG_STATUS_FILE_FORMAT,
+       "line 3, column 3 (u): \"abc\" is no number"},
+      {"x,y,u,v\n1,2,oops,4\n1,3,3,4\n2,2,3,4\n2,3,3,4\n", NULL, FG_STATUS_FILE_FORMAT,
+       "line 2, column 3: \"oops\" is no number"},
+      {"x,y,u,v\n1,2,3,4\n1,3,3\n2,2,3,4\n2,3,3,4\n", NULL, FG_STATUS_FILE_FORMAT,
+       "line 3 has 3 columns, not 4"},
+      {"x,y,u,v\n1,2,3,4\n1,3,3,4\n2,2,3,4,5\n2,3,3,4\n", NULL, FG_STATUS_FILE_FORMAT,
+       "line 4 has more than 4 columns"},
+      {"Dear reader,\nthis is a letter.\n", NULL, FG_STATUS_FILE_FORMAT,
+       "is text, but no table of points: line 1 has 2 columns, 0 of them numbers"},
+      {"1 2 3\n4 5 6\n", NULL, FG_STATUS_FILE_FORMAT, "line 1 has 3 columns, 3 of them"},
+      {"1 2 3 4 5\n2 3 4 5 6\n1 3 4 5 6\n", NULL, FG_STATUS_UNSUPPORTED,
+       "5 columns without names"},
+      {"x,y,p,q\n1,2,3,4\n1,3,3,4\n2,2,3,4\n", NULL, FG_STATUS_UNSUPPORTED,
+       "4 columns, x, y, p, q"},
+      {"x,y,u,v\n1,2,3,4\n1,3,3,4\n2,2,3,4\n", "u,w", FG_STATUS_ARGUMENT,
+       "no column \"w\""},
+      {"x,y,a_u,a_v,b_u,b_v\n1,2,3,4,5,6\n1,3,3,4,5,6\n2,2,3,4,5,6\n", NULL,
+       FG_STATUS_ARGUMENT, "2 vectors could be meant: a_u,a_v | b_u,b_v"},
+      {"lon,lat,u,v\n1,2,3,4\n1,3,3,4\n2,92,3,4\n2,3,3,4\n", NULL, FG_STATUS_FILE_FORMAT,
+       "line 4: longitude 2, latitude 92"},
+      {"VARIABLES = x y u v\nZONE I=2 J=2 DATAPACKING=BLOCK\n1 2 3 4\n1 3 3 4\n", NULL,
+       FG_STATUS_UNSUPPORTED, "a Tecplot zone in BLOCK"},
+      {"VARIABLES = x y u v\nZONE I=2 J=2\n1 2 3 4\n2 2 3 4\n1 3 3 4\n2 3 3 4\n"
+       "ZONE I=2 J=2\n1 2 3 4\n",
+       NULL, FG_STATUS_UNSUPPORTED, "line 7 begins a second zone"},
+      {"x,y,u,v\n1,2,3,4\n1,3,3,4\n1e400,2,3,4\n", NULL, FG_STATUS_FILE_FORMAT,
+       "line 4: the point's coordinate 1 is inf"},
+  };
+  for (size_t i = 0; i < sizeof refusals / sizeof *refusals; ++i) {
+    const refusal *r = &refusals[i];
+    const fg__source source = source_of(r->text);
+    const fg_read_options options = {.vars = r->vars};
+    fg_field *field = NULL;
+    const fg_status status =
+        fg__format_table.read(&field, *state, &source, &options, (fg__slab_index){0, 1});
+    if (status != r->status || !strstr(fg_context_message(*state), r->words))
+      fail_msg("\"%s\" (%d) lacks \"%s\"", fg_context_message(*state), status, r->words);
+    assert_null(field);
+    fg_context_clear(*state);
+  }
+}
+
+static void other_formats_are_left_alone(void **state)
+{
+  static const char *const others[] = {"<?xml version=\"1.0\"?>", "{\"type\": 1}",
+                                       " \n\t", "CDF\001", "\x89PNG\r\n\x1a"};
+  for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
+    assert_false(
+        fg__format_table.is_mine((const unsigned char *)others[i], strlen(others[i])));
+  (void)state;
+}
+
+/* A file cut off anywhere is a shorter table or refused. */
+static void a_file_may_end_anywhere(void **state)
+{
+  static const char text[] =
+      "lon [deg];lat [deg];u (m/s);v (m/s)\n1,5;2,5;0,5;1e-1\n3;2;\"1\";-1\n"
+      "2;3;1;inf\n1;5;NaN;2\n7;1;2;2\n4;2;3;8\n";
+  static const fg_read_options options = {0};
+  int were_read = 0;
+  for (size_t size = 1; size < sizeof text; ++size) {
+    char *copy = malloc(size);
+    assert_non_null(copy);
+    memcpy(copy, text, size);
+    const fg__source source = {
+        .path = "cut", .bytes = (const unsigned char *)copy, .size = size};
+    fg_field *field = NULL;
+    const fg_status status =
+        fg__format_table.read(&field, *state, &source, &options, (fg__slab_index){0, 1});
+    assert_int_equal(status == FG_STATUS_OK, field != NULL);
+    assert_true(status == FG_STATUS_OK || fg_context_message(*state)[0]);
+    were_read += status == FG_STATUS_OK;
+    fg_field_destroy(field);
+    fg_context_clear(*state);
+    free(copy);
+  }
+  assert_true(were_read > 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_layout_is_found),
+      cmocka_unit_test(exports_of_piv_are_known),
+      cmocka_unit_test(directions_are_turned_by_what_they_mean),
+      cmocka_unit_test(columns_are_chosen_by_name_and_number),
+      cmocka_unit_test(what_is_wrong_is_told_by_its_place),
+      cmocka_unit_test(other_formats_are_left_alone),
+      cmocka_unit_test(a_file_may_end_anywhere),
+  };
+  return cmocka_run_group_tests(tests, context_set_up, context_tear_down);
+}
