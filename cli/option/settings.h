@@ -26,7 +26,9 @@ typedef struct reading_settings {
   const char *time_wish, *level_wish; /* as they are given; NULL: not */
   int time, level;                    /* their indices, once they are found */
   int scale;                          /* fg_scale */
+  int frame;                          /* fg_frame */
   const char *slice;                  /* a plane */
+  const char *block;
   fg_map_options map;
 } reading_settings;
 

@@ -13,6 +13,7 @@
 #define NOWHERE GROUP_OWN, 0
 
 const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
+const char *const frame_words[] = {"auto", "east", "grid", NULL};
 const char *const mesh_words[] = {"auto", "adaptive", "uniform", NULL};
 const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
@@ -119,6 +120,9 @@ const option_entry option_table[] = {
      "surface [0]"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask), 0, 0, false, false, NULL,
      "variable that is zero (or negative, or missing) outside the domain"},
+    {"block", 0, "NAME", READERS, OPTION_TEXT, READING(block), 0, 0, false, false, NULL,
+     "of a file of several blocks (.vtm), the one of this name or those in it [all "
+     "together]"},
     {"slice", 0, "PLANE", READERS, OPTION_TEXT, READING(slice), 0, 0, false, false, NULL,
      "cut a field in 3D: NAME=VALUE, as z=0.5, across an axis, or NX,NY,NZ@X,Y,Z, a "
      "normal and a point; the components in the plane become a field in 2D"},
@@ -126,6 +130,11 @@ const option_entry option_table[] = {
      scale_words,
      "what the axes are: `geo` (degrees, velocity along east and north), `map` (a "
      "projected plane) or `plain` [auto: from units and axes]"},
+    {"frame", 0, "KIND", READERS, OPTION_CHOICE, READING(frame), 0, 0, false, false,
+     frame_words,
+     "what the components on a model's grid are along: `east` (and north) or `grid` (the "
+     "directions of its indices) [auto: from names, attributes and the grid, as `info` "
+     "says]"},
 
     {"projection", 0, "MAP", READERS, OPTION_TEXT, READING(map.projection), 0, 0, false,
      false, NULL,

@@ -95,9 +95,10 @@ extern const char *const format_words[FORMAT_KINDS];
  * energies that are no files: fg_energy), ended by NULL; and the place of an energy's
  * word, -1 for a file. */
 extern const char *const energy_words[],
-    *const mesh_words[], *const scale_words[], *const scheme_words[],
-                                                   *const effort_words[],
-                                                       *const extent_words[];
+    *const mesh_words[], *const scale_words[], *const frame_words[],
+                                                   *const scheme_words[],
+                                                       *const effort_words[],
+                                                           *const extent_words[];
 int energy_place(const char *word);
 
 /* Finds a command by its name; NULL when there is none. */

@@ -179,6 +179,7 @@ static void fill_reading(cli_report *out, const cJSON *input)
   out->reading.vars = text_of(input, "vars");
   out->reading.vars_from = text_of(input, "vars_from");
   out->reading.mask = text_of(input, "mask");
+  out->reading.block = text_of(input, "block");
   out->reading.slice = text_of(input, "slice");
   out->reading.time = (int)number_of(input, "time", 0.0, 1e9, 0.0);
   out->reading.level = (int)number_of(input, "level", 0.0, 1e9, 0.0);
@@ -186,6 +187,10 @@ static void fill_reading(cli_report *out, const cJSON *input)
   for (int k = 0; scale && scale_words[k]; ++k)
     if (strcmp(scale, scale_words[k]) == 0)
       out->reading.scale = (fg_scale)k;
+  const char *frame = text_of(input, "frame");
+  for (int k = 0; frame && frame_words[k]; ++k)
+    if (strcmp(frame, frame_words[k]) == 0)
+      out->reading.frame = (fg_frame)k;
   fill_map(out, cJSON_GetObjectItemCaseSensitive(input, "map"));
   out->input = text_of(input, "path");
   out->input_absolute = text_of(input, "absolute");

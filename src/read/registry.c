@@ -183,6 +183,7 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
       mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
   key = mix_text(key, options->slice);
   key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);
+  key = fg__mix(key ^ (uint64_t)options->frame);
   return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
 }
 

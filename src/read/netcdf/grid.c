@@ -1,6 +1,6 @@
 /* The grid of a pair: dimensions, coordinates, units and scale. */
 #include "base/memory.h"
-#include "read/netcdf/netcdf.h"
+#include "read/mesh/mesh.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -204,25 +204,16 @@ static void settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
                     x->units, y->name, y->units);
 }
 
-fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
-                           const fg__nc_pair *pair, fg_scale scale)
+/* What lies on axes: their coordinates, units and scale. */
+static fg_status find_on_axes(fg__nc_grid *grid, const fg__nc_file *file,
+                              const fg__nc_pair *pair, fg_scale scale)
 {
   const fg__nc_variable *u = pair->component[0];
-  const fg__nc_variable *v = pair->component[1];
-  *grid = (fg__nc_grid){
-      .dimension = 2, .time = -1, .level = -1, .times = 1, .levels = 1, .scale = scale};
-  fg__nc_check_variable(grid, u);
-  fg__nc_check_variable(grid, v);
-  if (is_usable(grid))
-    fg__nc_check_shapes(grid, file, u, v);
-  if (is_usable(grid))
-    check_lengths(grid, file, u);
-  if (is_usable(grid))
-    find_dimensions(grid, file, u);
+  fg__nc_check_shapes(grid, file, u, pair->component[1]);
   if (!is_usable(grid))
     return FG_STATUS_OK;
   fg_status status = read_axes(grid, file, u);
-  if (status != FG_STATUS_OK)
+  if (status != FG_STATUS_OK || !is_usable(grid))
     return status;
   set_positions(grid, u);
   grid->samples = grid->axis[0].size * grid->axis[1].size;
@@ -230,8 +221,36 @@ fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
   check_units(grid, pair, &velocity);
   if (is_usable(grid))
     settle_scale(grid, file, pair, velocity, scale);
-  return is_usable(grid) && pair->component[2] ? fg__nc_volume_find(grid, file, pair)
-                                               : FG_STATUS_OK;
+  if (is_usable(grid) && pair->component[2])
+    status = fg__nc_volume_find(grid, file, pair);
+  grid->off_axes = false; /* the third component may be */
+  return status;
+}
+
+fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_pair *pair, const fg_read_options *options)
+{
+  *grid = (fg__nc_grid){.dimension = 2,
+                        .time = -1,
+                        .level = -1,
+                        .times = 1,
+                        .levels = 1,
+                        .scale = options->scale};
+  for (int k = 0; k < 2; ++k)
+    fg__nc_check_variable(grid, pair->component[k]);
+  for (int k = 0; k < 2 && is_usable(grid); ++k)
+    check_lengths(grid, file, pair->component[k]);
+  if (is_usable(grid))
+    find_dimensions(grid, file, pair->component[0]);
+  if (!is_usable(grid))
+    return FG_STATUS_OK;
+  fg_status status = find_on_axes(grid, file, pair, options->scale);
+  if (status == FG_STATUS_OK && grid->off_axes)
+    status = fg__nc_mesh_find(grid, file, pair, options);
+  fg__nc_quantity velocity;
+  if (status == FG_STATUS_OK && grid->mesh && is_usable(grid))
+    check_units(grid, pair, &velocity);
+  return status;
 }
 
 void fg__nc_grid_clear(fg__nc_grid *grid)
@@ -240,4 +259,6 @@ void fg__nc_grid_clear(fg__nc_grid *grid)
     free(grid->axis[k].coordinate);
     grid->axis[k].coordinate = NULL;
   }
+  fg__nc_mesh_destroy(grid->mesh);
+  grid->mesh = NULL;
 }
