@@ -70,8 +70,11 @@ typedef struct fg__format {
 } fg__format;
 
 extern const fg__format fg__format_netcdf;
+extern const fg__format fg__format_grib;
 extern const fg__format fg__format_vti;
 extern const fg__format fg__format_vtk_legacy;
+extern const fg__format fg__format_npy;
+extern const fg__format fg__format_npz;
 extern const fg__format fg__format_table; /* any text: the last */
 
 /* Maps a regular file that can be read and is not empty. FILE_ACCESS, FILE_FORMAT

@@ -16,10 +16,12 @@ static bool starts_with(const char *text, const char *start)
 static int by_standard_name(const fg__nc_variable *u, char *name, size_t size)
 {
   fg__nc_text(u, "standard_name", name, size);
+  if (starts_with(name, "grid_"))
+    return -1; /* grid_eastward_wind */
   if (strstr(name, "eastward") || strstr(name, "northward"))
     return 1;
-  if (starts_with(name, "x_") || starts_with(name, "y_") || starts_with(name, "grid_") ||
-      strstr(name, "_x_") || strstr(name, "_y_"))
+  if (starts_with(name, "x_") || starts_with(name, "y_") || strstr(name, "_x_") ||
+      strstr(name, "_y_"))
     return -1;
   return 0;
 }

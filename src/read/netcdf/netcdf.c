@@ -86,6 +86,11 @@ static void keep_missing(const fg_field *field, const fg__nc_samples *read)
   }
 }
 
+static const char *projection_of(const fg__nc_grid *grid)
+{
+  return grid->dimension == 2 && grid->projection[0] ? grid->projection : NULL;
+}
+
 static fg_status make_field(fg_field **out, const fg__nc_file *file,
                             const fg__nc_pair *pair, const fg__nc_grid *grid,
                             const fg_read_options *options, fg__slab_index slab)
@@ -100,12 +105,15 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
   if (status == FG_STATUS_OK)
     status = fg__nc_samples_read(&read, file, pair, grid, &rows, (size_t)options->time,
                                  (size_t)options->level, options->mask);
+  if (status == FG_STATUS_OK && grid->dimension == 2)
+    status = fg__nc_projection_turn(read.velocity, file, grid, &rows);
   for (int k = 0; k < grid->dimension && status == FG_STATUS_OK && slab.count == 1; ++k)
     status = check_missing(file, pair->component[k], &read.missing[k], grid->samples);
   if (status == FG_STATUS_OK) {
     fg_field_arrays arrays = {.dimension = grid->dimension,
                               .valid = read.valid,
                               .scale = grid->scale,
+                              .projection = projection_of(grid),
                               .velocity_units = words.units,
                               .title = words.title,
                               .time = words.time[0] ? words.time : NULL,
@@ -272,6 +280,12 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
       .levels = grid.dimension == 3 ? 1 : (int)grid.levels,
       .scale = grid.scale,
       .periodic = {grid.axis[0].period > 0.0}};
+  char frame[sizeof grid.projection + FG__NC_TEXT];
+  snprintf(frame, sizeof frame, "%s of %s",
+           grid.points_east ? "east and north, turned to the axes" : "along the axes",
+           grid.projection);
+  if (grid.projection[0])
+    vector.frame = frame;
   if (grid.mesh && !grid.unusable[0])
     status = fg__nc_mesh_describe(&vector, file, pair, found);
   for (int k = 0; k < grid.dimension && !grid.mesh; ++k) {

@@ -170,8 +170,10 @@ typedef struct fg__nc_grid {
   const fg__nc_variable *time_variable, *level_variable; /* or NULL */
   char time_name[NC_MAX_NAME + 1], level_name[NC_MAX_NAME + 1];
   fg_scale scale;
-  size_t samples;                 /* of the axes together */
-  char unusable[2 * FG__NC_TEXT]; /* "" or why the pair cannot be read */
+  char projection[2 * FG__NC_TEXT]; /* of scale MAP: a PROJ string; "" not known */
+  bool points_east;                 /* components along east and north, not the axes */
+  size_t samples;                   /* of the axes together */
+  char unusable[2 * FG__NC_TEXT];   /* "" or why the pair cannot be read */
   char hint[FG__NC_TEXT];
 } fg__nc_grid;
 
@@ -211,6 +213,16 @@ const fg__nc_variable *fg__nc_plane_coordinate(const fg__nc_grid *grid,
                                                const fg__nc_file *file,
                                                const fg__nc_variable *variable,
                                                fg__nc_role role);
+
+/* projection.c. Finds the PROJ string of axes along x and y, or about a rotated pole,
+ * from the variable's grid mapping; where the file's longitudes and latitudes are not
+ * those of the projection, the grid is off its axes. MEMORY, FILE_ACCESS. */
+fg_status fg__nc_projection_find(fg__nc_grid *grid, const fg__nc_file *file,
+                                 const fg__nc_variable *u);
+
+/* Turns samples of some rows to the directions of the projection's plane. */
+fg_status fg__nc_projection_turn(float *const velocity[2], const fg__nc_file *file,
+                                 const fg__nc_grid *grid, const fg__rows *rows);
 
 /* volume.c. Makes a grid found for the first two components one in 3D when there
  * is a third, all levels are one axis in space, and space has one measure; when the third
