@@ -16,6 +16,9 @@ static int write_texture(fg_context *context, const texture_settings *settings,
       .fade = settings->fade,
       .transparent = settings->transparent,
       .key = settings->key,
+      .no_coast = settings->no_coast,
+      .borders = settings->borders,
+      .land = settings->land,
   };
   fg_status status = fg_texture_write(context, settings->output, field, texture, &style);
   return status ? complain_of(context, status, settings->output)

@@ -106,6 +106,8 @@ typedef struct texture_settings {
   const char *palette;
   double fade;
   bool transparent, key;
+  bool no_coast, borders;
+  const char *land; /* a colour */
 } texture_settings;
 
 typedef struct brush_settings {
