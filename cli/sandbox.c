@@ -14,6 +14,7 @@
 #include <sys/prctl.h>
 #endif
 
+#include "inputs.h"
 #include "interrupt.h"
 
 /* A loop in a damaged file takes for ever. A good one takes some time for each byte, and
@@ -174,7 +175,7 @@ void do_in_child(child_outcome *out, void (*work)(void *), void *data,
 typedef struct reading {
   const char *input;
   const fg_read_options *options;
-  int slab, slabs;
+  int slab, slabs; /* none: the inventory */
 } reading;
 
 static void read_once(void *data)
@@ -187,9 +188,13 @@ static void read_once(void *data)
     return;
   fg_read_options options = r->options ? *r->options : (fg_read_options){0};
   options.map = NULL; /* no work of the library in question */
-  fg_status status = r->options ? fg_field_read_slab(&field, context, r->input, &options,
-                                                     r->slab, r->slabs)
-                                : fg_inventory_read(&inventory, context, r->input);
+  fg_status status;
+  if (r->options && r->slabs)
+    status = fg_field_read_slab(&field, context, r->input, &options, r->slab, r->slabs);
+  else if (r->options)
+    status = fg_inventory_read_chosen(&inventory, context, r->input, &options);
+  else
+    status = fg_inventory_read(&inventory, context, r->input);
   if (status)
     complain_of(context, status, r->input);
 }
@@ -209,11 +214,32 @@ static const char *library_of(const char *start, size_t size)
   return NULL;
 }
 
+static void add(const char **library, size_t *size, const char *found, size_t bytes)
+{
+  if (!found)
+    return;
+  *library = found;
+  *size += bytes;
+}
+
+static void look_at_standard(const char **library, size_t *size)
+{
+  size_t bytes;
+  const unsigned char *start = inputs_bytes(&bytes);
+  if (start)
+    add(library, size,
+        library_of((const char *)start, bytes < LOOKED_AT ? bytes : LOOKED_AT), bytes);
+}
+
 /* Adds the size of a file that such a library reads, and says which. */
 static void look_at(const char **library, size_t *size, const char *path)
 {
   char start[LOOKED_AT];
   struct stat about;
+  if (inputs_is_standard(path)) {
+    look_at_standard(library, size);
+    return;
+  }
   if (!path || stat(path, &about) != 0 || !S_ISREG(about.st_mode))
     return;
   int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -221,11 +247,7 @@ static void look_at(const char **library, size_t *size, const char *path)
     return;
   ssize_t got = read(file, start, sizeof start);
   close(file);
-  const char *found = library_of(start, got > 0 ? (size_t)got : 0);
-  if (!found)
-    return;
-  *library = found;
-  *size += (size_t)about.st_size;
+  add(library, size, library_of(start, got > 0 ? (size_t)got : 0), (size_t)about.st_size);
 }
 
 static child_bounds bounds_for(size_t size)
@@ -241,10 +263,11 @@ static int complain_of_child(const char *input, const char *library,
   if (outcome->complaint[0])
     complain("%s", outcome->complaint);
   else if (outcome->signal == SIGXCPU)
-    complain("%s: damaged: reading it takes more than %u s", input, bounds->seconds);
+    complain("%s: damaged: reading it takes more than %u s", inputs_name(input),
+             bounds->seconds);
   else
-    complain("%s: damaged: the %s library does not survive reading it (signal %d)", input,
-             library, outcome->signal);
+    complain("%s: damaged: the %s library does not survive reading it (signal %d)",
+             inputs_name(input), library, outcome->signal);
   if (outcome->advice[0])
     advise("%s", outcome->advice);
   return EXIT_FAILED;
@@ -253,6 +276,11 @@ static int complain_of_child(const char *input, const char *library,
 int sandbox_reading(const char *input, const fg_read_options *options)
 {
   return sandbox_reading_part(input, options, 0, 1);
+}
+
+int sandbox_inventory(const char *input, const fg_read_options *options)
+{
+  return sandbox_reading_part(input, options, 0, 0);
 }
 
 int sandbox_reading_part(const char *input, const fg_read_options *options, int slab,

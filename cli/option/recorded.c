@@ -11,8 +11,8 @@
 /* Where a result goes, how fast and how long it is worked at; and files, whose names
  * depend on where one stands: their content is compared. */
 static const char *const no_part[] = {
-    "output", "vars-from", "max-time", "max-steps", "threads", "checkpoint",
-    "resume", "force",     "quiet",    "verbose",   "help",    "version",
+    "output", "vars-from", "max-memory", "max-time", "max-steps", "threads", "checkpoint",
+    "resume", "force",     "quiet",      "verbose",  "help",      "version",
 };
 
 enum { VALUE_BYTES = 1024 };
@@ -94,6 +94,12 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
   int whole;
   bool flag;
   switch (option->kind) {
+  case OPTION_PLACES: /* its index, however it was said */
+    whole = strcmp(option->name, "time") == 0 ? settings->reading.time
+                                              : settings->reading.level;
+    if (whole)
+      snprintf(text, VALUE_BYTES, "%d", whole);
+    break;
   case OPTION_WORDS: /* an empty one is not none */
     memcpy(&words, place, sizeof words);
     snprintf(text, VALUE_BYTES, "%s", !words ? "" : *words ? words : "''");

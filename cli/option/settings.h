@@ -19,14 +19,21 @@ typedef struct number_list {
   int count;
 } number_list;
 
+/* How inputs are read. */
+typedef struct input_settings {
+  const char *format;     /* NULL: found from the content */
+  const char *max_memory; /* NULL: the usual */
+} input_settings;
+
 /* A field to be read: INPUT and what is taken of it. */
 typedef struct reading_settings {
   const char *input;
   const char *vars, *vars_from, *mask;
-  int time, level;
-  int scale;         /* fg_scale */
-  int frame;         /* fg_frame */
-  const char *slice; /* a plane */
+  const char *time_wish, *level_wish; /* as they are given; NULL: not */
+  int time, level;                    /* their indices, once they are found */
+  int scale;                          /* fg_scale */
+  int frame;                          /* fg_frame */
+  const char *slice;                  /* a plane */
   const char *block;
   fg_map_options map;
 } reading_settings;
@@ -63,6 +70,7 @@ typedef struct picture_settings {
 } picture_settings;
 
 typedef struct run_settings {
+  input_settings inputs;
   reading_settings reading;
   evolution_settings evolution;
   work_settings work;
@@ -80,9 +88,11 @@ typedef struct run_settings {
   bool save_field;
   double checkpoint; /* seconds between checkpoints; 0: after every step */
   bool resume, force, quiet, verbose;
+  bool member; /* of a series, which tells of it */
 } run_settings;
 
 typedef struct draw_settings {
+  input_settings inputs;
   picture_settings picture;
   const char *folder;           /* DIR, of a finished run */
   const char *output;           /* PICTURE */
@@ -92,6 +102,7 @@ typedef struct draw_settings {
 } draw_settings;
 
 typedef struct texture_settings {
+  input_settings inputs;
   reading_settings reading;
   evolution_settings evolution; /* of clusters */
   work_settings work;
@@ -118,6 +129,7 @@ typedef struct brush_settings {
 } brush_settings;
 
 typedef struct info_settings {
+  input_settings inputs;
   const char *file;
   bool json;
 } info_settings;
@@ -128,6 +140,7 @@ typedef struct synth_settings {
 } synth_settings;
 
 typedef struct rival_settings {
+  input_settings inputs;
   reading_settings reading;
   picture_settings picture;
   const char *output;
@@ -143,6 +156,7 @@ typedef struct rival_settings {
 } rival_settings;
 
 typedef struct score_settings {
+  input_settings inputs;
   reading_settings reading;
   char *const *files; /* of icons */
   int file_count;

@@ -10,6 +10,7 @@
 #define EVOLUTION(member) GROUP_EVOLUTION, offsetof(evolution_settings, member)
 #define WORK(member) GROUP_WORK, offsetof(work_settings, member)
 #define PICTURE(member) GROUP_PICTURE, offsetof(picture_settings, member)
+#define INPUT(member) GROUP_INPUTS, offsetof(input_settings, member)
 #define NOWHERE GROUP_OWN, 0
 
 const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
@@ -37,6 +38,7 @@ enum {
   EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL |
           COMMAND_TEXTURE | COMMAND_GALLERY | COMMAND_BRUSH | COMMAND_SCORE,
   READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE | COMMAND_SCORE,
+  INPUTS = READERS | COMMAND_INFO | COMMAND_DRAW,
   SEEDED = COMMAND_RUN | COMMAND_TEXTURE | COMMAND_BRUSH,
   PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL,
 };
@@ -107,12 +109,26 @@ const option_entry option_table[] = {
      "an ambiguous choice is an error that lists the choices]"},
     {"vars-from", 0, "FILE", READERS, OPTION_TEXT, READING(vars_from), 0, 0, false, false,
      NULL, "second file, which holds the other component"},
-    {"time", 0, "I", READERS, OPTION_WHOLE, READING(time), 0, INT_MAX, false, false, NULL,
-     "index along time, from 0 [0]"},
-    {"level", 0, "I", READERS, OPTION_WHOLE, READING(level), 0, INT_MAX, false, false,
-     NULL, "index along level, from 0 [0]"},
+    {"time", 0, "TIME", READERS, OPTION_PLACES, READING(time_wish), 0, 0, false, false,
+     NULL,
+     "which time: a whole number is an index, from 0; a number with a unit or a point is "
+     "a "
+     "value, 3.5h; a date is the first time within it, 1982-07, 1982-07-16, "
+     "1982-07-16T12:00. What is not there is the nearest. run takes several, a folder "
+     "each: 0:11, 1982-01:1982-06, 0,6, all [0]"},
+    {"level", 0, "LEVEL", READERS, OPTION_PLACES, READING(level_wish), 0, 0, false, false,
+     NULL,
+     "which level, likewise: 2 is an index, 850hPa or 850. a value; its words, too: "
+     "surface [0]"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask), 0, 0, false, false, NULL,
      "variable that is zero (or negative, or missing) outside the domain"},
+    {"format", 0, "NAME", INPUTS, OPTION_TEXT, INPUT(format), 0, 0, false, false, NULL,
+     "read INPUT as netcdf, vtk, table or another format by its name [found from the "
+     "content]"},
+    {"max-memory", 0, "SIZE", INPUTS, OPTION_TEXT, INPUT(max_memory), 0, 0, false, false,
+     NULL,
+     "bytes that the samples of a field may take, as 500M or 2G; what declares more is "
+     "refused [three quarters of the machine's]"},
     {"block", 0, "NAME", READERS, OPTION_TEXT, READING(block), 0, 0, false, false, NULL,
      "of a file of several blocks (.vtm), the one of this name or those in it [all "
      "together]"},

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "folder/files.h"
+#include "inputs.h"
 #include "option/recorded.h"
 #include "option/table.h"
 
@@ -104,7 +105,7 @@ run_outcome report_outcome(const char *folder)
 /* Paths of one file may differ; synth:NAME has no path. */
 static bool same_input(const cJSON *input, const char *operand)
 {
-  char *absolute = realpath(operand, NULL);
+  char *absolute = inputs_is_standard(operand) ? NULL : realpath(operand, NULL);
   const char *earlier = text_of(input, "absolute");
   const char *name = text_of(input, "path");
   bool same = absolute && earlier ? strcmp(absolute, earlier) == 0
@@ -113,17 +114,24 @@ static bool same_input(const cJSON *input, const char *operand)
   return same;
 }
 
+bool report_same_input(const void *input, const char *operand, const char *folder)
+{
+  if (same_input(input, operand))
+    return true;
+  const char *earlier = text_of(input, "path");
+  complain("%s: holds the results of a run on %s", folder,
+           earlier ? earlier : "another input");
+  advise("Choose another folder with -o, or replace its results with --force.");
+  return false;
+}
+
 bool report_is_of(const char *folder, const run_settings *settings)
 {
   cli_report report;
   bool same = !report_read(&report, folder);
   if (same) {
     const cJSON *input = cJSON_GetObjectItemCaseSensitive(report.tree, "input");
-    same = same_input(input, settings->reading.input);
-    if (!same) {
-      complain("%s: holds the results of a run on %s", folder, report.input);
-      advise("Choose another folder with -o, or replace its results with --force.");
-    }
+    same = report_same_input(input, settings->reading.input, folder);
   }
   if (same)
     same =

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "build_features.h"
+#include "inputs.h"
 #include "option/table.h"
 #include "option/validation.h"
 #include "ranks.h"
@@ -45,15 +46,15 @@ static void count_choices(cli_run *run)
   fg_inventory *inventory = NULL;
   if (fg_context_create(&context))
     return;
-  if (!fg_inventory_read(&inventory, context, run->settings->reading.input))
-    for (int k = 0; k < fg_inventory_vector_count(inventory); ++k) {
-      const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, k);
-      if (vector->name[0] && strcmp(vector->name[0], field->velocity_name[0]) == 0) {
-        run->facts.time_count = vector->times;
-        run->facts.level_count = vector->levels;
-        break;
-      }
-    }
+  inputs_give(context);
+  const fg_read_options reading = settings_reading(&run->settings->reading);
+  if (!fg_inventory_read_chosen(&inventory, context, run->settings->reading.input,
+                                &reading) &&
+      fg_inventory_vector_count(inventory) > 0) {
+    const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, 0);
+    run->facts.time_count = vector->times;
+    run->facts.level_count = vector->levels;
+  }
   fg_inventory_destroy(inventory);
   fg_context_destroy(context);
 }
@@ -63,8 +64,8 @@ static void say_choice(const char *file, const char *kind, int index, int count,
 {
   char room[CLEAN_BYTES];
   if (count > 1)
-    fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", file, kind, index, count - 1,
-            words ? ": " : "", clean_text(room, words ? words : ""));
+    fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", inputs_name(file), kind,
+            index, count - 1, words ? ": " : "", clean_text(room, words ? words : ""));
 }
 
 static void say_choices(cli_run *run)
