@@ -174,7 +174,7 @@ void do_in_child(child_outcome *out, void (*work)(void *), void *data,
 typedef struct reading {
   const char *input;
   const fg_read_options *options;
-  int slab, slabs;
+  int slab, slabs; /* none: the inventory */
 } reading;
 
 static void read_once(void *data)
@@ -187,9 +187,13 @@ static void read_once(void *data)
     return;
   fg_read_options options = r->options ? *r->options : (fg_read_options){0};
   options.map = NULL; /* no work of the library in question */
-  fg_status status = r->options ? fg_field_read_slab(&field, context, r->input, &options,
-                                                     r->slab, r->slabs)
-                                : fg_inventory_read(&inventory, context, r->input);
+  fg_status status;
+  if (r->options && r->slabs)
+    status = fg_field_read_slab(&field, context, r->input, &options, r->slab, r->slabs);
+  else if (r->options)
+    status = fg_inventory_read_chosen(&inventory, context, r->input, &options);
+  else
+    status = fg_inventory_read(&inventory, context, r->input);
   if (status)
     complain_of(context, status, r->input);
 }
@@ -253,6 +257,11 @@ static int complain_of_child(const char *input, const char *library,
 int sandbox_reading(const char *input, const fg_read_options *options)
 {
   return sandbox_reading_part(input, options, 0, 1);
+}
+
+int sandbox_inventory(const char *input, const fg_read_options *options)
+{
+  return sandbox_reading_part(input, options, 0, 0);
 }
 
 int sandbox_reading_part(const char *input, const fg_read_options *options, int slab,

@@ -29,6 +29,9 @@ void do_in_child(child_outcome *out, void (*work)(void *), void *data,
  * would, with NULL as fg_inventory_read. */
 int sandbox_reading(const char *input, const fg_read_options *options);
 
+/* The same for fg_inventory_read_chosen; options must not be NULL. */
+int sandbox_inventory(const char *input, const fg_read_options *options);
+
 /* The same for fg_field_read_slab; options must not be NULL. */
 int sandbox_reading_part(const char *input, const fg_read_options *options, int slab,
                          int slabs);

@@ -107,10 +107,17 @@ const option_entry option_table[] = {
      "an ambiguous choice is an error that lists the choices]"},
     {"vars-from", 0, "FILE", READERS, OPTION_TEXT, READING(vars_from), 0, 0, false, false,
      NULL, "second file, which holds the other component"},
-    {"time", 0, "I", READERS, OPTION_WHOLE, READING(time), 0, INT_MAX, false, false, NULL,
-     "index along time, from 0 [0]"},
-    {"level", 0, "I", READERS, OPTION_WHOLE, READING(level), 0, INT_MAX, false, false,
-     NULL, "index along level, from 0 [0]"},
+    {"time", 0, "TIME", READERS, OPTION_PLACES, READING(time_wish), 0, 0, false, false,
+     NULL,
+     "which time: a whole number is an index, from 0; a number with a unit or a point is "
+     "a "
+     "value, 3.5h; a date is the first time within it, 1982-07, 1982-07-16, "
+     "1982-07-16T12:00. What is not there is the nearest. run takes several, a folder "
+     "each: 0:11, 1982-01:1982-06, 0,6, all [0]"},
+    {"level", 0, "LEVEL", READERS, OPTION_PLACES, READING(level_wish), 0, 0, false, false,
+     NULL,
+     "which level, likewise: 2 is an index, 850hPa or 850. a value; its words, too: "
+     "surface [0]"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask), 0, 0, false, false, NULL,
      "variable that is zero (or negative, or missing) outside the domain"},
     {"block", 0, "NAME", READERS, OPTION_TEXT, READING(block), 0, 0, false, false, NULL,

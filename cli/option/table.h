@@ -54,6 +54,7 @@ typedef enum option_kind {
   OPTION_NUMBERS, /* number_list */
   OPTION_FORMATS, /* unsigned: bits */
   OPTION_PALETTE, /* const char *: a palette's name or #rrggbb */
+  OPTION_PLACES,  /* const char *: a time or a level, or several for run */
   OPTION_CENTER,  /* of fg_map_options: one or two numbers */
   OPTION_REGION,  /* of fg_map_options: four numbers */
   OPTION_WORDS,   /* const char *: a text, which may be empty */

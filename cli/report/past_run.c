@@ -113,17 +113,24 @@ static bool same_input(const cJSON *input, const char *operand)
   return same;
 }
 
+bool report_same_input(const void *input, const char *operand, const char *folder)
+{
+  if (same_input(input, operand))
+    return true;
+  const char *earlier = text_of(input, "path");
+  complain("%s: holds the results of a run on %s", folder,
+           earlier ? earlier : "another input");
+  advise("Choose another folder with -o, or replace its results with --force.");
+  return false;
+}
+
 bool report_is_of(const char *folder, const run_settings *settings)
 {
   cli_report report;
   bool same = !report_read(&report, folder);
   if (same) {
     const cJSON *input = cJSON_GetObjectItemCaseSensitive(report.tree, "input");
-    same = same_input(input, settings->reading.input);
-    if (!same) {
-      complain("%s: holds the results of a run on %s", folder, report.input);
-      advise("Choose another folder with -o, or replace its results with --force.");
-    }
+    same = report_same_input(input, settings->reading.input, folder);
   }
   if (same)
     same =

@@ -139,6 +139,12 @@ FG_API fg_status fg_plane_parse(fg_plane *out, fg_context *context, const char *
  * for other fields and for slabs. */
 FG_API double fg_field_normal_share(const fg_field *field);
 
+/* The speeds between which a whole field lies but for the slowest and the fastest
+ * hundredth of its area (volume): what the ends of a colour key for several fields are
+ * found from. Input units. ARGUMENT (a slab), MEMORY. */
+FG_API fg_status fg_field_speed_range(double range[2], fg_context *context,
+                                      const fg_field *field);
+
 /* Writes a field as .vti (VTK XML image data; axes must be evenly spaced) or .nc
  * (NetCDF, CF). UNSUPPORTED for other names' ends, FILE_ACCESS, MEMORY. */
 FG_API fg_status fg_field_write(fg_context *context, const char *path,

@@ -53,9 +53,13 @@ static fg_status check_index(const fg__nc_file *file, const char *what, int inde
     return fg__fail(file->context, FG_STATUS_ARGUMENT,
                     "%s: %s %d asked for, but the field has no %s axis", file->paths[0],
                     what, index, what);
-  return fg__fail(file->context, FG_STATUS_ARGUMENT,
-                  "%s: %s %d asked for, but '%s' has %zu: 0 to %zu", file->paths[0], what,
-                  index, name, count, count - 1);
+  fg__fail(file->context, FG_STATUS_ARGUMENT,
+           "%s: %s %d asked for, but '%s' has %zu: 0 to %zu", file->paths[0], what, index,
+           name, count, count - 1);
+  fg__hint(file->context,
+           "a whole number is an index, from 0; a value has its unit or a point: %s",
+           strcmp(what, "time") == 0 ? "1982-07-16, 2.5" : "850hPa, 850.");
+  return FG_STATUS_ARGUMENT;
 }
 
 static fg_status check_missing(const fg__nc_file *file, const fg__nc_variable *v,
