@@ -104,6 +104,9 @@ fg_picture_options settings_picture(const picture_settings *settings)
       .skeletons = settings->skeletons,
       .centers = settings->centers,
       .no_arrows = settings->no_arrows,
+      .no_coast = settings->no_coast,
+      .borders = settings->borders,
+      .land = settings->land,
   };
 }
 

@@ -53,6 +53,8 @@ typedef struct picture_settings {
   bool no_keys, outline_text;
   bool tint, skeletons, centers, no_arrows, no_frame, transparent;
   bool surfaces;
+  bool no_coast, borders;
+  const char *land;           /* a colour */
   int background;             /* 0: none; 1 more than fg_texture_kind */
   double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
   int view_count;             /* 0: one, the usual */

@@ -35,6 +35,9 @@ typedef struct fg_picture_options {
   bool no_keys;         /* no colour key, no arrow for the size */
   bool outline_text;    /* texts are drawn as shapes [in SVG and PDF they stay texts] */
   const char *mask_color, *tint_color; /* "#rrggbb" [light grey, light blue] */
+  bool no_coast;    /* of a field on the Earth: no land, coasts, lakes, borders */
+  const char *land; /* "#rrggbb", colour of land [a pale grey] */
+  bool borders;     /* of a field on the Earth: also borders of countries */
   double
       scale_time; /* t of the scale, for the caption [the density's; none without it] */
 } fg_picture_options;
