@@ -52,7 +52,8 @@ static void begin_part(fg__line_parts *out, double longitude, double latitude)
 
 /* Goes from the last position to one within half a turn of it, longitude in the turn of
  * `*turn` degrees. */
-static void go_on(fg__line_parts *out, double *turn, const double last[2], const double to[2])
+static void go_on(fg__line_parts *out, double *turn, const double last[2],
+                  const double to[2])
 {
   const double longitude = to[0] - *turn;
   if (fabs(longitude) <= 180.0) {
