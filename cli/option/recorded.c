@@ -94,6 +94,12 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
   int whole;
   bool flag;
   switch (option->kind) {
+  case OPTION_PLACES: /* its index, however it was said */
+    whole = strcmp(option->name, "time") == 0 ? settings->reading.time
+                                              : settings->reading.level;
+    if (whole)
+      snprintf(text, VALUE_BYTES, "%d", whole);
+    break;
   case OPTION_WORDS: /* an empty one is not none */
     memcpy(&words, place, sizeof words);
     snprintf(text, VALUE_BYTES, "%s", !words ? "" : *words ? words : "''");

@@ -18,6 +18,8 @@ fg_read_options settings_reading(const reading_settings *settings)
       .mask = settings->mask,
       .map = &settings->map,
       .scale = (fg_scale)settings->scale,
+      .block = settings->block,
+      .frame = (fg_frame)settings->frame,
       .slice = settings->slice,
   };
 }

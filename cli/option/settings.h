@@ -23,9 +23,12 @@ typedef struct number_list {
 typedef struct reading_settings {
   const char *input;
   const char *vars, *vars_from, *mask;
-  int time, level;
-  int scale;         /* fg_scale */
-  const char *slice; /* a plane */
+  const char *time_wish, *level_wish; /* as they are given; NULL: not */
+  int time, level;                    /* their indices, once they are found */
+  int scale;                          /* fg_scale */
+  int frame;                          /* fg_frame */
+  const char *slice;                  /* a plane */
+  const char *block;
   fg_map_options map;
 } reading_settings;
 
@@ -78,6 +81,7 @@ typedef struct run_settings {
   bool save_field;
   double checkpoint; /* seconds between checkpoints; 0: after every step */
   bool resume, force, quiet, verbose;
+  bool member; /* of a series, which tells of it */
 } run_settings;
 
 typedef struct draw_settings {
@@ -103,6 +107,8 @@ typedef struct texture_settings {
   const char *palette;
   double fade;
   bool transparent, key;
+  bool no_coast, borders;
+  const char *land; /* a colour */
 } texture_settings;
 
 typedef struct brush_settings {

@@ -170,6 +170,23 @@ static bool set_color(void *out, const cli_command *command, const option_entry 
   return true;
 }
 
+/* Only their spelling can be known before the input is. */
+static bool set_places(void *out, const cli_command *command, const option_entry *option,
+                       const char *text)
+{
+  fg_selection found;
+  if (fg_selection_find(&found, NULL, option->name, text, NULL, 0))
+    return usage_error(command, "--%s %s: no index, value, date, range or `all`",
+                       option->name, text);
+  const bool several = found.several;
+  fg_selection_clear(&found);
+  if (several && command->bit != COMMAND_RUN)
+    return usage_error(command, "--%s %s: %s takes one %s", option->name, text,
+                       command->name, option->name);
+  memcpy(out, &text, sizeof text);
+  return true;
+}
+
 /* Points, or a length in a unit. */
 static bool set_length(void *out, const cli_command *command, const option_entry *option,
                        const char *text)
@@ -317,6 +334,8 @@ bool value_set(void *settings, const cli_command *command, const option_entry *o
   case OPTION_WORDS:
     memcpy(out, &text, sizeof text);
     return true;
+  case OPTION_PLACES:
+    return set_places(out, command, option, text);
   case OPTION_FLAG:
     memcpy(out, &yes, sizeof yes);
     return true;

@@ -113,17 +113,24 @@ static bool same_input(const cJSON *input, const char *operand)
   return same;
 }
 
+bool report_same_input(const void *input, const char *operand, const char *folder)
+{
+  if (same_input(input, operand))
+    return true;
+  const char *earlier = text_of(input, "path");
+  complain("%s: holds the results of a run on %s", folder,
+           earlier ? earlier : "another input");
+  advise("Choose another folder with -o, or replace its results with --force.");
+  return false;
+}
+
 bool report_is_of(const char *folder, const run_settings *settings)
 {
   cli_report report;
   bool same = !report_read(&report, folder);
   if (same) {
     const cJSON *input = cJSON_GetObjectItemCaseSensitive(report.tree, "input");
-    same = same_input(input, settings->reading.input);
-    if (!same) {
-      complain("%s: holds the results of a run on %s", folder, report.input);
-      advise("Choose another folder with -o, or replace its results with --force.");
-    }
+    same = report_same_input(input, settings->reading.input, folder);
   }
   if (same)
     same =
@@ -172,6 +179,7 @@ static void fill_reading(cli_report *out, const cJSON *input)
   out->reading.vars = text_of(input, "vars");
   out->reading.vars_from = text_of(input, "vars_from");
   out->reading.mask = text_of(input, "mask");
+  out->reading.block = text_of(input, "block");
   out->reading.slice = text_of(input, "slice");
   out->reading.time = (int)number_of(input, "time", 0.0, 1e9, 0.0);
   out->reading.level = (int)number_of(input, "level", 0.0, 1e9, 0.0);
@@ -179,6 +187,10 @@ static void fill_reading(cli_report *out, const cJSON *input)
   for (int k = 0; scale && scale_words[k]; ++k)
     if (strcmp(scale, scale_words[k]) == 0)
       out->reading.scale = (fg_scale)k;
+  const char *frame = text_of(input, "frame");
+  for (int k = 0; frame && frame_words[k]; ++k)
+    if (strcmp(frame, frame_words[k]) == 0)
+      out->reading.frame = (fg_frame)k;
   fill_map(out, cJSON_GetObjectItemCaseSensitive(input, "map"));
   out->input = text_of(input, "path");
   out->input_absolute = text_of(input, "absolute");

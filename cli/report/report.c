@@ -63,6 +63,7 @@ static void add_input(cJSON *root, const run_facts *facts)
   add_text(input, "vars_from", absolute ? absolute : settings->reading.vars_from);
   free(absolute);
   add_text(input, "mask", settings->reading.mask);
+  add_text(input, "block", settings->reading.block);
   add_text(input, "slice", settings->reading.slice);
   cJSON_AddNumberToObject(input, "time", settings->reading.time);
   cJSON_AddNumberToObject(input, "level", settings->reading.level);
@@ -71,6 +72,8 @@ static void add_input(cJSON *root, const run_facts *facts)
     cJSON_AddNumberToObject(input, "levels", facts->level_count);
   }
   add_text(input, "scale", scale_words[settings->reading.scale]);
+  if (settings->reading.frame != FG_FRAME_AUTO)
+    add_text(input, "frame", frame_words[settings->reading.frame]);
   add_map(input, &settings->reading.map);
 
   cJSON *read = cJSON_AddObjectToObject(root, "field");
@@ -93,7 +96,7 @@ static void add_input(cJSON *root, const run_facts *facts)
   add_text(read, "title", field->title);
   add_text(read, "time", field->time);
   add_text(read, "level", field->level);
-  if (settings->reading.slice)
+  if (fg_field_normal_share(facts->field) > 0.0)
     cJSON_AddNumberToObject(read, "normal_share", fg_field_normal_share(facts->field));
 }
 

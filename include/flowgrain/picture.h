@@ -45,6 +45,10 @@ typedef struct fg_picture_options {
 /* Names of the colour maps, ended by NULL. */
 FG_API const char *const *fg_picture_palettes(void);
 
+/* Rounds the ends of a colour key out to ticks; equal ones become those of a range that
+ * has them in it. */
+FG_API void fg_picture_round_speeds(double range[2]);
+
 /* Draws icons; the format follows the name's end: .svg, .pdf or .png. density may be NULL
  * without tint, and must not be distributed; options may be NULL. FILE_ACCESS,
  * UNSUPPORTED, ARGUMENT, MEMORY, STOPPED. */

@@ -9,8 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const fg__format *const FORMATS[] = {&fg__format_netcdf, &fg__format_vti,
-                                            &fg__format_vtk_legacy, &fg__format_table};
+static const fg__format *const FORMATS[] = {
+    &fg__format_netcdf, &fg__format_grib, &fg__format_vti,  &fg__format_vtk_legacy,
+    &fg__format_npy,    &fg__format_npz,  &fg__format_table};
 static const char SYNTHETIC[] = "synth:";
 enum { MESSAGE_BYTES = 2048, KNOWN_BYTES = 512 };
 
@@ -183,6 +184,7 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
       mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
   key = mix_text(key, options->slice);
   key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);
+  key = fg__mix(key ^ (uint64_t)options->frame);
   return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
 }
 

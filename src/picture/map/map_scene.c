@@ -12,7 +12,7 @@ static const double coarse_from = 20e3, middle_from = 2.5e3;
 
 /* Points: vertices that move a line by less are dropped; what is smaller than a speck is
  * not drawn; coordinates are multiples of a grain, which have few digits in SVG. */
-static const double line_tolerance = 0.18, rim_tolerance = 0.4;
+static const double line_tolerance = 0.18, rim_tolerance = 0.4, arrow_tolerance = 0.05;
 static const double speck = 0.7;
 static const double grain = 1.0 / 8.0;
 
@@ -148,6 +148,17 @@ fg_status fg__map_scene_create(fg__map_scene *out, fg_context *context,
   if (status)
     fg__map_scene_clear(out);
   return status;
+}
+
+fg_status fg__map_scene_rim(fg__map_scene *scene, fg_context *context,
+                            const fg__polygons *arrows)
+{
+  if (!copy(&scene->arrow_rims, arrows))
+    return fg__fail_memory(context, "the arrows' rims",
+                           arrows->point_count * sizeof *arrows->point);
+  fg__polygons_simplify(&scene->arrow_rims, arrow_tolerance);
+  tidy(&scene->arrow_rims, true);
+  return FG_STATUS_OK;
 }
 
 static bool boxes_touch(const fg__page_box *a, const fg__page_box *b)
@@ -306,4 +317,5 @@ void fg__map_scene_clear(fg__map_scene *scene)
   fg__polygons_clear(&scene->rim);
   fg__polygons_clear(&scene->graticule);
   fg__polygons_clear(&scene->outline);
+  fg__polygons_clear(&scene->arrow_rims);
 }

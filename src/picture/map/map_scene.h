@@ -17,6 +17,7 @@ typedef struct fg__map_scene {
   fg__polygons rim;          /* lines where the data end */
   fg__polygons graticule;    /* lines */
   fg__polygons outline;      /* a closed loop; empty where the frame is a box */
+  fg__polygons arrow_rims;   /* a loop an arrow: its outline, less finely */
   fg__page_box backing[FG__MAP_BACKINGS]; /* white, under texts inside the map */
   int backings;
 } fg__map_scene;
@@ -29,6 +30,10 @@ typedef struct fg__map_wishes {
 fg_status fg__map_scene_create(fg__map_scene *out, fg_context *context,
                                const fg__page *page, const fg__graticule *graticule,
                                const fg_field *field, const fg__map_wishes *wishes);
+
+/* Takes the arrows' outlines. MEMORY. */
+fg_status fg__map_scene_rim(fg__map_scene *scene, fg_context *context,
+                            const fg__polygons *arrows);
 
 /* Whether a loop lies inside the frame and the outline: nothing of it would be clipped.
  */

@@ -193,14 +193,21 @@ static void spread(raster *r, int reach)
   spread_along(r, 1, reach);
 }
 
-/* A morphological opening (Matheron 1975): beyond frame and outline counts as missing. */
+static bool near_frame(const raster *r, size_t n)
+{
+  const int i = (int)(n % (size_t)r->size[0]), j = (int)(n / (size_t)r->size[0]);
+  return i < STRIP || j < STRIP || i >= r->size[0] - STRIP || j >= r->size[1] - STRIP;
+}
+
+/* A morphological opening (Matheron 1975): beyond the outline counts as missing, beyond
+ * the frame as there. */
 static void open_up(raster *r)
 {
   for (size_t n = 0; n < nodes_of(r); ++n)
     r->scratch[n] = r->node[n] & INSIDE && !(r->node[n] & MISSING);
   spread(r, STRIP);
   for (size_t n = 0; n < nodes_of(r); ++n)
-    r->scratch[n] = !r->scratch[n];
+    r->scratch[n] = !r->scratch[n] && !near_frame(r, n);
   spread(r, STRIP);
   for (size_t n = 0; n < nodes_of(r); ++n)
     if (r->scratch[n] && r->node[n] & MISSING)

@@ -12,11 +12,15 @@ static const fg__color coast_color = {0.56, 0.56, 0.56};
 static const fg__color border_color = {0.70, 0.70, 0.70};
 static const fg__color grid_color = {0.83, 0.83, 0.83};
 static const fg__color outline_color = {0.333, 0.333, 0.333};
+static const fg__color strong_coast = {0.20, 0.20, 0.20};
 static const fg__color white = {1.0, 1.0, 1.0};
 
 /* Points. */
 static const double coast_width = 0.45, border_width = 0.35, grid_width = 0.45;
 static const double outline_width = 0.7, rim_width = 0.5;
+
+/* Coasts on a texture: dark with a pale rim. */
+static const double strong_width = 0.6, strong_rim = 1.8, strong_opacity = 0.6;
 static const double rim_dashes[] = {3.0, 2.0};
 
 /* What lies outside of the data, through which land is still to be seen. */
@@ -155,11 +159,11 @@ void fg__map_draw_land(cairo_t *cairo, const fg__map_scene *scene,
   cairo_save(cairo);
   if (within) {
     add_lines(cairo, within, true);
-    set_color(cairo, white);
+    set_color(cairo, style->missing);
     cairo_fill_preserve(cairo);
     cairo_clip(cairo);
   }
-  if (!scene->missing_on_land)
+  if (!scene->missing_on_land && !within)
     fill_missing(cairo, scene, style);
   cairo_set_fill_rule(cairo, CAIRO_FILL_RULE_EVEN_ODD);
   add_lines(cairo, &scene->land, true);
@@ -181,13 +185,32 @@ static void draw_rim(cairo_t *cairo, const fg__map_scene *scene)
   cairo_restore(cairo);
 }
 
+static void draw_strong(cairo_t *cairo, const fg__map_scene *scene)
+{
+  add_lines(cairo, &scene->banks, false);
+  add_lines(cairo, &scene->shore, false);
+  cairo_set_line_width(cairo, strong_rim);
+  cairo_set_source_rgba(cairo, 1.0, 1.0, 1.0, strong_opacity);
+  cairo_stroke_preserve(cairo);
+  cairo_set_line_width(cairo, strong_width);
+  set_color(cairo, strong_coast);
+  cairo_stroke(cairo);
+  stroke(cairo, &scene->borders, border_width, strong_coast);
+}
+
 void fg__map_draw_lines(cairo_t *cairo, const fg__map_scene *scene,
                         const fg__map_style *style)
 {
   stroke(cairo, &scene->graticule, grid_width, grid_color);
-  stroke(cairo, &scene->borders, border_width, border_color);
-  stroke(cairo, &scene->banks, coast_width, coast_color);
-  stroke(cairo, &scene->shore, coast_width, coast_color);
+  if (style->on_texture) {
+    draw_strong(cairo, scene);
+  } else {
+    stroke(cairo, &scene->borders, border_width, border_color);
+    stroke(cairo, &scene->banks, coast_width, coast_color);
+    stroke(cairo, &scene->shore, coast_width, coast_color);
+  }
+  if (style->on_texture) /* which ends where the data do */
+    return;
   if (scene->missing_on_land)
     fill_missing(cairo, scene, style);
   draw_rim(cairo, scene);

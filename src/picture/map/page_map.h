@@ -15,6 +15,7 @@ typedef struct fg__map_style {
   fg__color land;
   fg__color missing;
   bool transparent; /* no white under anything */
+  bool on_texture;  /* coasts must stand out from one */
 } fg__map_style;
 
 extern const fg__color fg__usual_land, fg__usual_missing;
@@ -22,8 +23,8 @@ extern const fg__color fg__usual_land, fg__usual_missing;
 /* Adds the outline to the clip, where there is one. */
 void fg__map_clip(cairo_t *cairo, const fg__map_scene *scene);
 
-/* Land and lakes. within: only inside these loops (winding rule), which become white
- * before; NULL: everywhere. */
+/* Land and lakes. within: only inside these loops (winding rule), where data are
+ * missing; NULL: everywhere. */
 void fg__map_draw_land(cairo_t *cairo, const fg__map_scene *scene,
                        const fg__map_style *style, const fg__polygons *within);
 

@@ -14,7 +14,7 @@ static const double coast_width = 0.4;
 static const double rim_width = 0.9;
 static const double rim_width_on_map = 0.25;
 
-/* Opacity of a tint through which a texture is still to be seen. */
+/* Opacity of a tint through which a texture, or land, is still to be seen. */
 static const double tint_on_texture = 0.55;
 
 static void set_color(cairo_t *cairo, fg__color color)
@@ -81,7 +81,7 @@ static void draw_areas(cairo_t *cairo, const fg__scene *scene, const fg__style *
   if (scene->tint.count) {
     fg__draw_path(cairo, &scene->tint);
     cairo_set_source_rgba(cairo, style->tint.red, style->tint.green, style->tint.blue,
-                          style->background ? tint_on_texture : 1.0);
+                          style->background || coasts ? tint_on_texture : 1.0);
     cairo_fill(cairo);
   }
   if (scene->mask.count && !coasts)
@@ -91,13 +91,16 @@ static void draw_areas(cairo_t *cairo, const fg__scene *scene, const fg__style *
 }
 
 /* On a texture or a map each has a pale rim, which sets it off. */
-static void draw_arrow(cairo_t *cairo, const fg__scene *scene, size_t loop, double rim)
+static void draw_arrow(cairo_t *cairo, const fg__scene *scene, size_t loop,
+                       const fg__polygons *rims, double rim)
 {
-  add_loop(cairo, &scene->arrows, loop);
   if (rim > 0.0) {
+    add_loop(cairo, rims, loop);
+    cairo_set_line_width(cairo, 2.0 * rim);
     cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
-    cairo_stroke_preserve(cairo);
+    cairo_stroke(cairo);
   }
+  add_loop(cairo, &scene->arrows, loop);
   set_color(cairo, scene->arrow_color[loop]);
   cairo_fill(cairo);
 }
@@ -108,14 +111,14 @@ static void draw_arrows(cairo_t *cairo, const fg__page *page, const fg__scene *s
                         const fg__style *style)
 {
   const double rim = style->background ? rim_width : style->map ? rim_width_on_map : 0.0;
-  cairo_set_line_width(cairo, 2.0 * rim);
+  const fg__polygons *rims = style->map ? &style->map->arrow_rims : &scene->arrows;
   for (size_t loop = 0; loop < scene->arrows.count; ++loop) {
     const bool whole =
         style->map && fg__map_scene_holds(style->map, page, &scene->arrows, loop);
     cairo_save(cairo);
     if (whole)
       cairo_reset_clip(cairo);
-    draw_arrow(cairo, scene, loop, rim);
+    draw_arrow(cairo, scene, loop, rims, rim);
     cairo_restore(cairo);
   }
 }

@@ -299,7 +299,11 @@ static fg_status make_map(picture *p, fg_context *context, const fg_field *field
       fg__map_scene_create(&p->map, context, &p->page, &p->graticule, field, &wishes);
   if (status)
     return status;
+  status = fg__map_scene_rim(&p->map, context, &p->scene.arrows);
+  if (status)
+    return status;
   p->style.map = &p->map;
+  p->style.map_style.on_texture = options->background != NULL;
   if (options->no_frame)
     return FG_STATUS_OK;
   cairo_t *ruler = fg__text_ruler();
