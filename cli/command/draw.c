@@ -8,6 +8,7 @@
 #include "build_features.h"
 #include "command/command.h"
 #include "folder/file.h"
+#include "inputs.h"
 #include "interrupt.h"
 #include "option/settings.h"
 #include "option/validation.h"
@@ -145,6 +146,11 @@ static int read_field(fg_field **out, fg_context *context, const draw_settings *
                       const cli_report *report)
 {
   const char *input = settings->input ? settings->input : report->input;
+  if (!settings->input && inputs_is_standard(input)) {
+    complain("%s: its input was standard input, which is gone", settings->folder);
+    advise("Say with --input where the field is now.");
+    return EXIT_FAILED;
+  }
   if (!settings->input && report->input_absolute &&
       access(report->input_absolute, R_OK) == 0)
     input = report->input_absolute;

@@ -10,6 +10,7 @@
 #define EVOLUTION(member) GROUP_EVOLUTION, offsetof(evolution_settings, member)
 #define WORK(member) GROUP_WORK, offsetof(work_settings, member)
 #define PICTURE(member) GROUP_PICTURE, offsetof(picture_settings, member)
+#define INPUT(member) GROUP_INPUTS, offsetof(input_settings, member)
 #define NOWHERE GROUP_OWN, 0
 
 const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
@@ -37,6 +38,7 @@ enum {
   EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL |
           COMMAND_TEXTURE | COMMAND_GALLERY | COMMAND_BRUSH | COMMAND_SCORE,
   READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE | COMMAND_SCORE,
+  INPUTS = READERS | COMMAND_INFO | COMMAND_DRAW,
   SEEDED = COMMAND_RUN | COMMAND_TEXTURE | COMMAND_BRUSH,
   PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL,
 };
@@ -120,6 +122,13 @@ const option_entry option_table[] = {
      "surface [0]"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask), 0, 0, false, false, NULL,
      "variable that is zero (or negative, or missing) outside the domain"},
+    {"format", 0, "NAME", INPUTS, OPTION_TEXT, INPUT(format), 0, 0, false, false, NULL,
+     "read INPUT as netcdf, vtk, table or another format by its name [found from the "
+     "content]"},
+    {"max-memory", 0, "SIZE", INPUTS, OPTION_TEXT, INPUT(max_memory), 0, 0, false, false,
+     NULL,
+     "bytes that the samples of a field may take, as 500M or 2G; what declares more is "
+     "refused [three quarters of the machine's]"},
     {"block", 0, "NAME", READERS, OPTION_TEXT, READING(block), 0, 0, false, false, NULL,
      "of a file of several blocks (.vtm), the one of this name or those in it [all "
      "together]"},
