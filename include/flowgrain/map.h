@@ -24,7 +24,7 @@ struct fg_map_options {
   bool has_region;  /* [all that the field covers] */
   double region[4]; /* west, east, south, north in degrees; an east that is not beyond
                        west is a turn farther */
-  int samples;      /* along the plane's longer side [1024] */
+  int samples;      /* along the plane's longer side [768] */
   int threads;      /* [1] */
 };
 

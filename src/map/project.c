@@ -11,8 +11,8 @@
 
 static const double DEGREE = 0.017453292519943295;
 
-/* Samples along the longer side: two a node of the mesh for 400 arrows. */
-enum { SAMPLES = 1024, FEWEST_SAMPLES = 16, MOST_SAMPLES = 16384 };
+/* Samples along the longer side: two a node of the mesh for 200 arrows on the globe. */
+enum { SAMPLES = 768, FEWEST_SAMPLES = 16, MOST_SAMPLES = 16384 };
 
 /* Where the data are finer than the plane's samples, so many of them a side at most are
  * averaged. */
