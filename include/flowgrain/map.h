@@ -25,7 +25,7 @@ struct fg_map_options {
   double region[4]; /* west, east, south, north in degrees; an east that is not beyond
                        west is a turn farther */
   int samples;      /* along the plane's longer side [768] */
-  int threads;      /* [1] */
+  int threads;      /* [as many as there are cores, where there is work for them] */
 };
 
 /* Lays a field on a longitude-latitude grid (2D, scale GEO) on the plane of a projection:
