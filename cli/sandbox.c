@@ -174,7 +174,7 @@ void do_in_child(child_outcome *out, void (*work)(void *), void *data,
 typedef struct reading {
   const char *input;
   const fg_read_options *options;
-  int slab, slabs;
+  int slab, slabs; /* none: the inventory */
 } reading;
 
 static void read_once(void *data)
@@ -185,28 +185,51 @@ static void read_once(void *data)
   fg_inventory *inventory;
   if (create_context(&context))
     return;
-  fg_status status = r->options ? fg_field_read_slab(&field, context, r->input,
-                                                     r->options, r->slab, r->slabs)
-                                : fg_inventory_read(&inventory, context, r->input);
+  fg_read_options options = r->options ? *r->options : (fg_read_options){0};
+  options.map = NULL; /* no work of the library in question */
+  fg_status status;
+  if (r->options && r->slabs)
+    status = fg_field_read_slab(&field, context, r->input, &options, r->slab, r->slabs);
+  else if (r->options)
+    status = fg_inventory_read_chosen(&inventory, context, r->input, &options);
+  else
+    status = fg_inventory_read(&inventory, context, r->input);
   if (status)
     complain_of(context, status, r->input);
 }
 
-/* The size of a file of HDF5; 0: it is none. */
-static size_t hdf5_size(const char *path)
+/* Where a message of GRIB begins at the latest, behind a heading. */
+enum { LOOKED_AT = 256 };
+
+/* The library that reads a file which begins with these bytes, where it can crash. */
+static const char *library_of(const char *start, size_t size)
 {
-  static const char magic[8] = "\211HDF\r\n\032\n";
-  char start[sizeof magic];
+  static const char hdf5[8] = "\211HDF\r\n\032\n";
+  if (size >= sizeof hdf5 && memcmp(start, hdf5, sizeof hdf5) == 0)
+    return "HDF5";
+  for (size_t at = 0; at + 8 <= size; ++at)
+    if (memcmp(start + at, "GRIB", 4) == 0)
+      return "ecCodes";
+  return NULL;
+}
+
+/* Adds the size of a file that such a library reads, and says which. */
+static void look_at(const char **library, size_t *size, const char *path)
+{
+  char start[LOOKED_AT];
   struct stat about;
   if (!path || stat(path, &about) != 0 || !S_ISREG(about.st_mode))
-    return 0;
+    return;
   int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0)
-    return 0;
+    return;
   ssize_t got = read(file, start, sizeof start);
   close(file);
-  bool found = got == (ssize_t)sizeof start && memcmp(start, magic, sizeof magic) == 0;
-  return found ? (size_t)about.st_size : 0;
+  const char *found = library_of(start, got > 0 ? (size_t)got : 0);
+  if (!found)
+    return;
+  *library = found;
+  *size += (size_t)about.st_size;
 }
 
 static child_bounds bounds_for(size_t size)
@@ -216,16 +239,16 @@ static child_bounds bounds_for(size_t size)
                         .bytes = MOST_BYTES + TIMES_LARGER * (size < most ? size : most)};
 }
 
-static int complain_of_child(const char *input, const child_outcome *outcome,
-                             const child_bounds *bounds)
+static int complain_of_child(const char *input, const char *library,
+                             const child_outcome *outcome, const child_bounds *bounds)
 {
   if (outcome->complaint[0])
     complain("%s", outcome->complaint);
   else if (outcome->signal == SIGXCPU)
     complain("%s: damaged: reading it takes more than %u s", input, bounds->seconds);
   else
-    complain("%s: damaged: the HDF5 library does not survive reading it (signal %d)",
-             input, outcome->signal);
+    complain("%s: damaged: the %s library does not survive reading it (signal %d)", input,
+             library, outcome->signal);
   if (outcome->advice[0])
     advise("%s", outcome->advice);
   return EXIT_FAILED;
@@ -236,11 +259,19 @@ int sandbox_reading(const char *input, const fg_read_options *options)
   return sandbox_reading_part(input, options, 0, 1);
 }
 
+int sandbox_inventory(const char *input, const fg_read_options *options)
+{
+  return sandbox_reading_part(input, options, 0, 0);
+}
+
 int sandbox_reading_part(const char *input, const fg_read_options *options, int slab,
                          int slabs)
 {
-  const size_t size = hdf5_size(input) + hdf5_size(options ? options->vars_from : NULL);
-  if (size == 0)
+  const char *library = NULL;
+  size_t size = 0;
+  look_at(&library, &size, input);
+  look_at(&library, &size, options ? options->vars_from : NULL);
+  if (!library)
     return EXIT_DONE;
   reading r = {input, options, slab, slabs};
   const child_bounds bounds = bounds_for(size);
@@ -248,5 +279,5 @@ int sandbox_reading_part(const char *input, const fg_read_options *options, int 
   do_in_child(&outcome, read_once, &r, &bounds);
   if (interrupt_came() || (!outcome.signal && !outcome.complaint[0]))
     return EXIT_DONE; /* an interrupt ends the reading itself */
-  return complain_of_child(input, &outcome, &bounds);
+  return complain_of_child(input, library, &outcome, &bounds);
 }

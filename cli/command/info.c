@@ -57,7 +57,12 @@ static void print_vector(const fg_inventory_vector *vector)
   print_values("times", vector->time_value, vector->times);
   print_values("levels", vector->level_value, vector->levels);
   printf("  missing: %.1f %%\n", 100.0 * vector->missing_share);
+  if (vector->normal_share > 0.0)
+    printf("  normal to the plane: %.1f %% of the mean square\n",
+           100.0 * vector->normal_share);
   printf("  scale: %s\n", scale_words[vector->scale]);
+  if (vector->frame)
+    printf("  components: %s\n", clean_text(room, vector->frame));
 }
 
 static void add_values(cJSON *object, const char *name, const fg_axis_value *values,
@@ -105,7 +110,11 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
   add_values(object, "time_values", vector->time_value, vector->times);
   add_values(object, "level_values", vector->level_value, vector->levels);
   cJSON_AddNumberToObject(object, "missing_share", vector->missing_share);
+  if (vector->normal_share > 0.0)
+    cJSON_AddNumberToObject(object, "normal_share", vector->normal_share);
   cJSON_AddStringToObject(object, "scale", scale_words[vector->scale]);
+  if (vector->frame)
+    cJSON_AddStringToObject(object, "frame", vector->frame);
 }
 
 static int print_json(const char *file, const fg_inventory *inventory)

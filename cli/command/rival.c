@@ -10,6 +10,7 @@
 #include "option/table.h"
 #include "option/validation.h"
 #include "sandbox.h"
+#include "series/places.h"
 
 static const char name_end[] = ".geojson";
 
@@ -250,8 +251,9 @@ static int check_method(const rival_settings *settings)
 static int prepare(rival_work *work)
 {
   const rival_settings *settings = work->settings;
-  fg_read_options reading = settings_reading(&settings->reading);
-  if (sandbox_reading(settings->reading.input, &reading))
+  fg_read_options reading;
+  if (places_reading(&reading, &settings->reading) ||
+      sandbox_reading(settings->reading.input, &reading))
     return EXIT_FAILED;
   if (create_context(&work->context))
     return EXIT_FAILED;

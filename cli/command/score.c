@@ -8,6 +8,7 @@
 #include "command/command.h"
 #include "option/table.h"
 #include "sandbox.h"
+#include "series/places.h"
 
 typedef struct score_work {
   const score_settings *settings;
@@ -37,8 +38,9 @@ static int score_file(score_work *work, int number)
 static int prepare(score_work *work)
 {
   const score_settings *settings = work->settings;
-  const fg_read_options reading = settings_reading(&settings->reading);
-  if (sandbox_reading(settings->reading.input, &reading) ||
+  fg_read_options reading;
+  if (places_reading(&reading, &settings->reading) ||
+      sandbox_reading(settings->reading.input, &reading) ||
       create_context(&work->context))
     return EXIT_FAILED;
   fg_status status =

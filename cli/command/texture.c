@@ -6,6 +6,7 @@
 #include "option/settings.h"
 #include "option/validation.h"
 #include "sandbox.h"
+#include "series/places.h"
 
 static int write_texture(fg_context *context, const texture_settings *settings,
                          const fg_field *field, const fg_texture *texture)
@@ -15,6 +16,9 @@ static int write_texture(fg_context *context, const texture_settings *settings,
       .fade = settings->fade,
       .transparent = settings->transparent,
       .key = settings->key,
+      .no_coast = settings->no_coast,
+      .borders = settings->borders,
+      .land = settings->land,
   };
   fg_status status = fg_texture_write(context, settings->output, field, texture, &style);
   return status ? complain_of(context, status, settings->output)
@@ -73,8 +77,10 @@ static int check_options(const texture_settings *settings)
 int command_texture(const void *given)
 {
   const texture_settings *settings = given;
-  const fg_read_options reading = settings_reading(&settings->reading);
+  fg_read_options reading;
   int code = check_options(settings);
+  if (!code)
+    code = places_reading(&reading, &settings->reading);
   if (!code && sandbox_reading(settings->reading.input, &reading))
     code = EXIT_FAILED;
   if (code)

@@ -66,6 +66,16 @@ static bool check_slice(const reading_settings *settings, const cli_command *com
                      settings->slice);
 }
 
+static bool check_map(const reading_settings *settings, const cli_command *command)
+{
+  const fg_map_options *map = &settings->map;
+  const bool none = map->projection && strcmp(map->projection, "none") == 0;
+  if (none && (map->has_center || map->has_region))
+    return usage_error(command, "--%s: not with --projection none",
+                       map->has_center ? "center" : "region");
+  return true;
+}
+
 /* What would say nothing. */
 static bool check_picture(const picture_settings *settings, const cli_command *command)
 {
@@ -89,7 +99,7 @@ bool options_check(const any_settings *settings, const cli_command *command)
   const run_settings *run = &settings->run;
   const void *reading = (const char *)settings + command->group[GROUP_READING];
   if ((command->bit & (COMMAND_RUN | COMMAND_TEXTURE | COMMAND_RIVAL | COMMAND_SCORE)) &&
-      !check_slice(reading, command))
+      (!check_slice(reading, command) || !check_map(reading, command)))
     return false;
   const void *picture = (const char *)settings + command->group[GROUP_PICTURE];
   if ((command->bit & (COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL)) &&

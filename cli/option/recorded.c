@@ -67,6 +67,21 @@ static void print_formats(char *text, unsigned formats)
                                format_words[kind]);
 }
 
+static void print_center(char *text, const fg_map_options *map)
+{
+  if (map->has_center)
+    snprintf(text, VALUE_BYTES, map->has_center_latitude ? "%.15g,%.15g" : "%.15g",
+             map->center[0], map->center[1]);
+}
+
+static void print_region(char *text, const fg_map_options *map)
+{
+  const double *region = map->region;
+  if (map->has_region)
+    snprintf(text, VALUE_BYTES, "%.15g,%.15g,%.15g,%.15g", region[0], region[1],
+             region[2], region[3]);
+}
+
 /* The value as it could be given; "" when it was not. */
 static void print_value(char text[VALUE_BYTES], const run_settings *settings,
                         const option_entry *option)
@@ -79,6 +94,12 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
   int whole;
   bool flag;
   switch (option->kind) {
+  case OPTION_PLACES: /* its index, however it was said */
+    whole = strcmp(option->name, "time") == 0 ? settings->reading.time
+                                              : settings->reading.level;
+    if (whole)
+      snprintf(text, VALUE_BYTES, "%d", whole);
+    break;
   case OPTION_WORDS: /* an empty one is not none */
     memcpy(&words, place, sizeof words);
     snprintf(text, VALUE_BYTES, "%s", !words ? "" : *words ? words : "''");
@@ -122,6 +143,12 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
     break;
   case OPTION_FORMATS:
     print_formats(text, settings->formats);
+    break;
+  case OPTION_CENTER:
+    print_center(text, place);
+    break;
+  case OPTION_REGION:
+    print_region(text, place);
     break;
   case OPTION_VIEW:
     print_views(text, &settings->picture);

@@ -16,7 +16,10 @@ fg_read_options settings_reading(const reading_settings *settings)
       .time = settings->time,
       .level = settings->level,
       .mask = settings->mask,
+      .map = &settings->map,
       .scale = (fg_scale)settings->scale,
+      .block = settings->block,
+      .frame = (fg_frame)settings->frame,
       .slice = settings->slice,
   };
 }
@@ -103,6 +106,9 @@ fg_picture_options settings_picture(const picture_settings *settings)
       .skeletons = settings->skeletons,
       .centers = settings->centers,
       .no_arrows = settings->no_arrows,
+      .no_coast = settings->no_coast,
+      .borders = settings->borders,
+      .land = settings->land,
   };
 }
 

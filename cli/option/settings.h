@@ -23,9 +23,13 @@ typedef struct number_list {
 typedef struct reading_settings {
   const char *input;
   const char *vars, *vars_from, *mask;
-  int time, level;
-  int scale;         /* fg_scale */
-  const char *slice; /* a plane */
+  const char *time_wish, *level_wish; /* as they are given; NULL: not */
+  int time, level;                    /* their indices, once they are found */
+  int scale;                          /* fg_scale */
+  int frame;                          /* fg_frame */
+  const char *slice;                  /* a plane */
+  const char *block;
+  fg_map_options map;
 } reading_settings;
 
 typedef struct evolution_settings {
@@ -52,6 +56,8 @@ typedef struct picture_settings {
   bool no_keys, outline_text;
   bool tint, skeletons, centers, no_arrows, no_frame, transparent;
   bool surfaces;
+  bool no_coast, borders;
+  const char *land;           /* a colour */
   int background;             /* 0: none; 1 more than fg_texture_kind */
   double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
   int view_count;             /* 0: one, the usual */
@@ -75,6 +81,7 @@ typedef struct run_settings {
   bool save_field;
   double checkpoint; /* seconds between checkpoints; 0: after every step */
   bool resume, force, quiet, verbose;
+  bool member; /* of a series, which tells of it */
 } run_settings;
 
 typedef struct draw_settings {
@@ -99,6 +106,8 @@ typedef struct texture_settings {
   const char *palette;
   double fade;
   bool transparent, key;
+  bool no_coast, borders;
+  const char *land; /* a colour */
 } texture_settings;
 
 typedef struct brush_settings {

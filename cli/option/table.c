@@ -13,6 +13,7 @@
 #define NOWHERE GROUP_OWN, 0
 
 const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
+const char *const frame_words[] = {"auto", "east", "grid", NULL};
 const char *const mesh_words[] = {"auto", "adaptive", "uniform", NULL};
 const char *const energy_words[] = {"flow", "isotropic", "gradient", NULL};
 const char *const scheme_words[] = {"bdf2", "euler", "theta", NULL};
@@ -106,12 +107,22 @@ const option_entry option_table[] = {
      "an ambiguous choice is an error that lists the choices]"},
     {"vars-from", 0, "FILE", READERS, OPTION_TEXT, READING(vars_from), 0, 0, false, false,
      NULL, "second file, which holds the other component"},
-    {"time", 0, "I", READERS, OPTION_WHOLE, READING(time), 0, INT_MAX, false, false, NULL,
-     "index along time, from 0 [0]"},
-    {"level", 0, "I", READERS, OPTION_WHOLE, READING(level), 0, INT_MAX, false, false,
-     NULL, "index along level, from 0 [0]"},
+    {"time", 0, "TIME", READERS, OPTION_PLACES, READING(time_wish), 0, 0, false, false,
+     NULL,
+     "which time: a whole number is an index, from 0; a number with a unit or a point is "
+     "a "
+     "value, 3.5h; a date is the first time within it, 1982-07, 1982-07-16, "
+     "1982-07-16T12:00. What is not there is the nearest. run takes several, a folder "
+     "each: 0:11, 1982-01:1982-06, 0,6, all [0]"},
+    {"level", 0, "LEVEL", READERS, OPTION_PLACES, READING(level_wish), 0, 0, false, false,
+     NULL,
+     "which level, likewise: 2 is an index, 850hPa or 850. a value; its words, too: "
+     "surface [0]"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask), 0, 0, false, false, NULL,
      "variable that is zero (or negative, or missing) outside the domain"},
+    {"block", 0, "NAME", READERS, OPTION_TEXT, READING(block), 0, 0, false, false, NULL,
+     "of a file of several blocks (.vtm), the one of this name or those in it [all "
+     "together]"},
     {"slice", 0, "PLANE", READERS, OPTION_TEXT, READING(slice), 0, 0, false, false, NULL,
      "cut a field in 3D: NAME=VALUE, as z=0.5, across an axis, or NX,NY,NZ@X,Y,Z, a "
      "normal and a point; the components in the plane become a field in 2D"},
@@ -119,6 +130,24 @@ const option_entry option_table[] = {
      scale_words,
      "what the axes are: `geo` (degrees, velocity along east and north), `map` (a "
      "projected plane) or `plain` [auto: from units and axes]"},
+    {"frame", 0, "KIND", READERS, OPTION_CHOICE, READING(frame), 0, 0, false, false,
+     frame_words,
+     "what the components on a model's grid are along: `east` (and north) or `grid` (the "
+     "directions of its indices) [auto: from names, attributes and the grid, as `info` "
+     "says]"},
+
+    {"projection", 0, "MAP", READERS, OPTION_TEXT, READING(map.projection), 0, 0, false,
+     false, NULL,
+     "plane that a field in longitude and latitude is laid on: `auto`, by what it covers "
+     "(the globe on Equal Earth, a polar cap on Lambert's azimuthal, others on a "
+     "conformal one); `none`, degrees as they are; a name, as robinson, mercator or "
+     "polar; \"+proj=...\", a PROJ string; or EPSG:N [auto]"},
+    {"center", 0, "LON[,LAT]", READERS, OPTION_CENTER, READING(map), 0, 0, false, false,
+     NULL, "middle of the map, degrees [from what the field or --region covers]"},
+    {"region", 0, "W,E,S,N", READERS, OPTION_REGION, READING(map), 0, 0, false, false,
+     NULL,
+     "part of the globe to show: west, east, south, north in degrees [all that the field "
+     "covers]"},
 
     {"kind", 0, "KIND", COMMAND_TEXTURE, OPTION_CHOICE, OWN(texture, kind), 0, 0, false,
      false, kind_words,
@@ -353,6 +382,22 @@ const option_entry option_table[] = {
     {"background-fade", 0, "F", COMMAND_RUN | COMMAND_DRAW, OPTION_NUMBER,
      PICTURE(background_fade), 0, 1, true, false, NULL,
      "with --background: share of its way to white, in (0,1] [0.7, stripes 0.85]"},
+    {"no-coast", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_coast), 0, 0, false, false,
+     NULL,
+     "of a field on the Earth: neither land nor coasts, lakes, borders; grey where the "
+     "field is missing"},
+    {"land", 0, "#RRGGBB", PICTURES, OPTION_COLOR, PICTURE(land), 0, 0, false, false,
+     NULL, "of a field on the Earth: colour of land, #rrggbb [#ececea]"},
+    {"borders", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(borders), 0, 0, false, false,
+     NULL, "of a field on the Earth: borders of countries, too"},
+    {"no-coast", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, OWN(texture, no_coast), 0, 0,
+     false, false, NULL,
+     "of a field on the Earth: no coasts on it, and grey where it is missing"},
+    {"land", 0, "#RRGGBB", COMMAND_TEXTURE, OPTION_COLOR, OWN(texture, land), 0, 0, false,
+     false, NULL,
+     "of a field on the Earth: colour of land where it is missing [#ececea]"},
+    {"borders", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, OWN(texture, borders), 0, 0, false,
+     false, NULL, "of a field on the Earth: borders of countries, too"},
     {"no-frame", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_frame), 0, 0, false, false,
      NULL, "only mask and arrows: no axes, no keys, no caption"},
     {"transparent", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, OWN(texture, transparent), 0,

@@ -54,6 +54,9 @@ typedef enum option_kind {
   OPTION_NUMBERS, /* number_list */
   OPTION_FORMATS, /* unsigned: bits */
   OPTION_PALETTE, /* const char *: a palette's name or #rrggbb */
+  OPTION_PLACES,  /* const char *: a time or a level, or several for run */
+  OPTION_CENTER,  /* of fg_map_options: one or two numbers */
+  OPTION_REGION,  /* of fg_map_options: four numbers */
   OPTION_WORDS,   /* const char *: a text, which may be empty */
   OPTION_COLOR,   /* const char *: #rrggbb */
   OPTION_LENGTH,  /* double: points, least to most; typed in pt, mm, cm or in */
@@ -92,9 +95,10 @@ extern const char *const format_words[FORMAT_KINDS];
  * energies that are no files: fg_energy), ended by NULL; and the place of an energy's
  * word, -1 for a file. */
 extern const char *const energy_words[],
-    *const mesh_words[], *const scale_words[], *const scheme_words[],
-                                                   *const effort_words[],
-                                                       *const extent_words[];
+    *const mesh_words[], *const scale_words[], *const frame_words[],
+                                                   *const scheme_words[],
+                                                       *const effort_words[],
+                                                           *const extent_words[];
 int energy_place(const char *word);
 
 /* Finds a command by its name; NULL when there is none. */

@@ -40,6 +40,9 @@ int refuse_other_dimension(const char *command, const picture_settings *settings
       {"mask-color", settings->mask_color != NULL},
       {"tint-color", settings->tint_color != NULL},
       {"background-fade", settings->background_fade > 0.0},
+      {"no-coast", settings->no_coast},
+      {"land", settings->land != NULL},
+      {"borders", settings->borders},
   };
   const given_option solid[] = {
       {"view", settings->view_count > 0},

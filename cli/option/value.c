@@ -170,6 +170,23 @@ static bool set_color(void *out, const cli_command *command, const option_entry 
   return true;
 }
 
+/* Only their spelling can be known before the input is. */
+static bool set_places(void *out, const cli_command *command, const option_entry *option,
+                       const char *text)
+{
+  fg_selection found;
+  if (fg_selection_find(&found, NULL, option->name, text, NULL, 0))
+    return usage_error(command, "--%s %s: no index, value, date, range or `all`",
+                       option->name, text);
+  const bool several = found.several;
+  fg_selection_clear(&found);
+  if (several && command->bit != COMMAND_RUN)
+    return usage_error(command, "--%s %s: %s takes one %s", option->name, text,
+                       command->name, option->name);
+  memcpy(out, &text, sizeof text);
+  return true;
+}
+
 /* Points, or a length in a unit. */
 static bool set_length(void *out, const cli_command *command, const option_entry *option,
                        const char *text)
@@ -256,6 +273,53 @@ static bool set_view(picture_settings *out, const cli_command *command,
   return true;
 }
 
+/* Numbers parted by commas; returns how many, -1 for anything else or more than `most`.
+ */
+static int parse_numbers(double *out, int most, const char *text)
+{
+  int count = 0;
+  for (const char *rest = text; rest; ++count) {
+    char item[32];
+    rest = next_item(item, sizeof item, rest);
+    if (count == most || !parse_number(&out[count], item))
+      return -1;
+  }
+  return count;
+}
+
+static bool set_center(fg_map_options *out, const cli_command *command,
+                       const option_entry *option, const char *text)
+{
+  double center[2] = {0.0, 0.0};
+  const int count = parse_numbers(center, 2, text);
+  if (count < 1 || !(fabs(center[0]) <= 360.0) || !(fabs(center[1]) <= 90.0))
+    return usage_error(command,
+                       "--%s %s: LON or LON,LAT is needed, in degrees, from -360 to 360 "
+                       "and from -90 to 90",
+                       option->name, text);
+  out->has_center = true;
+  out->has_center_latitude = count == 2;
+  memcpy(out->center, center, sizeof center);
+  return true;
+}
+
+static bool set_region(fg_map_options *out, const cli_command *command,
+                       const option_entry *option, const char *text)
+{
+  double region[4];
+  if (parse_numbers(region, 4, text) != 4 || !(fabs(region[0]) <= 360.0) ||
+      !(fabs(region[1]) <= 540.0) || !(region[1] - region[0] <= 360.0) ||
+      !(fabs(region[2]) <= 90.0) || !(fabs(region[3]) <= 90.0) ||
+      !(region[2] < region[3]))
+    return usage_error(command,
+                       "--%s %s: WEST,EAST,SOUTH,NORTH is needed, in degrees, 360 of "
+                       "longitude at most, and south below north",
+                       option->name, text);
+  out->has_region = true;
+  memcpy(out->region, region, sizeof region);
+  return true;
+}
+
 bool value_set(void *settings, const cli_command *command, const option_entry *option,
                const char *typed, const char *text)
 {
@@ -270,6 +334,8 @@ bool value_set(void *settings, const cli_command *command, const option_entry *o
   case OPTION_WORDS:
     memcpy(out, &text, sizeof text);
     return true;
+  case OPTION_PLACES:
+    return set_places(out, command, option, text);
   case OPTION_FLAG:
     memcpy(out, &yes, sizeof yes);
     return true;
@@ -287,6 +353,10 @@ bool value_set(void *settings, const cli_command *command, const option_entry *o
     return set_formats(out, command, option, text);
   case OPTION_PALETTE:
     return set_palette(out, command, option, text);
+  case OPTION_CENTER:
+    return set_center(out, command, option, text);
+  case OPTION_REGION:
+    return set_region(out, command, option, text);
   case OPTION_COLOR:
     return set_color(out, command, option, text);
   case OPTION_LENGTH:

@@ -113,17 +113,24 @@ static bool same_input(const cJSON *input, const char *operand)
   return same;
 }
 
+bool report_same_input(const void *input, const char *operand, const char *folder)
+{
+  if (same_input(input, operand))
+    return true;
+  const char *earlier = text_of(input, "path");
+  complain("%s: holds the results of a run on %s", folder,
+           earlier ? earlier : "another input");
+  advise("Choose another folder with -o, or replace its results with --force.");
+  return false;
+}
+
 bool report_is_of(const char *folder, const run_settings *settings)
 {
   cli_report report;
   bool same = !report_read(&report, folder);
   if (same) {
     const cJSON *input = cJSON_GetObjectItemCaseSensitive(report.tree, "input");
-    same = same_input(input, settings->reading.input);
-    if (!same) {
-      complain("%s: holds the results of a run on %s", folder, report.input);
-      advise("Choose another folder with -o, or replace its results with --force.");
-    }
+    same = report_same_input(input, settings->reading.input, folder);
   }
   if (same)
     same =
@@ -138,11 +145,41 @@ static const cJSON *scale_at(const cli_report *report, int index)
                             index);
 }
 
+/* Up to `most` numbers; returns how many there are. */
+static int fill_numbers(double *out, int most, const cJSON *list)
+{
+  const int count = cJSON_GetArraySize(list);
+  for (int k = 0; k < count && k < most; ++k) {
+    const cJSON *item = cJSON_GetArrayItem(list, k);
+    if (!cJSON_IsNumber(item))
+      return 0;
+    out[k] = item->valuedouble;
+  }
+  return count <= most ? count : 0;
+}
+
+/* Runs before maps were on none. */
+static void fill_map(cli_report *out, const cJSON *map)
+{
+  const char *projection = text_of(map, "projection");
+  out->map.projection = projection ? projection : map ? "auto" : "none";
+  const int numbers =
+      fill_numbers(out->map.center, 2, cJSON_GetObjectItemCaseSensitive(map, "center"));
+  out->map.has_center = numbers > 0;
+  out->map.has_center_latitude = numbers == 2;
+  out->map.has_region =
+      fill_numbers(out->map.region, 4, cJSON_GetObjectItemCaseSensitive(map, "region")) ==
+      4;
+  out->map.samples = (int)number_of(map, "samples", 0.0, 1e9, 0.0);
+  out->reading.map = &out->map;
+}
+
 static void fill_reading(cli_report *out, const cJSON *input)
 {
   out->reading.vars = text_of(input, "vars");
   out->reading.vars_from = text_of(input, "vars_from");
   out->reading.mask = text_of(input, "mask");
+  out->reading.block = text_of(input, "block");
   out->reading.slice = text_of(input, "slice");
   out->reading.time = (int)number_of(input, "time", 0.0, 1e9, 0.0);
   out->reading.level = (int)number_of(input, "level", 0.0, 1e9, 0.0);
@@ -150,6 +187,11 @@ static void fill_reading(cli_report *out, const cJSON *input)
   for (int k = 0; scale && scale_words[k]; ++k)
     if (strcmp(scale, scale_words[k]) == 0)
       out->reading.scale = (fg_scale)k;
+  const char *frame = text_of(input, "frame");
+  for (int k = 0; frame && frame_words[k]; ++k)
+    if (strcmp(frame, frame_words[k]) == 0)
+      out->reading.frame = (fg_frame)k;
+  fill_map(out, cJSON_GetObjectItemCaseSensitive(input, "map"));
   out->input = text_of(input, "path");
   out->input_absolute = text_of(input, "absolute");
 }

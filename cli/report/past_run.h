@@ -18,10 +18,14 @@ run_outcome report_outcome(const char *folder);
  * and options. Else complains. */
 bool report_is_of(const char *folder, const run_settings *settings);
 
+/* Whether a report's `input` is the file that is given now; if not, complains. */
+bool report_same_input(const void *input, const char *operand, const char *folder);
+
 /* A finished run as `draw` needs it; texts are owned by it. */
 typedef struct cli_report {
   void *tree;
   fg_read_options reading;
+  fg_map_options map;         /* of `reading` */
   const char *input;          /* as it was given */
   const char *input_absolute; /* NULL: an analytic field */
   int dimension;

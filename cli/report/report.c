@@ -35,6 +35,19 @@ static void add_words(cJSON *object, const char *name, const char *const *words,
     cJSON_AddItemToArray(array, cJSON_CreateString(words[k]));
 }
 
+/* As it was asked for; "field" has what came of it. */
+static void add_map(cJSON *input, const fg_map_options *map)
+{
+  cJSON *object = cJSON_AddObjectToObject(input, "map");
+  add_text(object, "projection", map->projection ? map->projection : "auto");
+  if (map->has_center)
+    add_numbers(object, "center", map->center, map->has_center_latitude ? 2 : 1);
+  if (map->has_region)
+    add_numbers(object, "region", map->region, 4);
+  if (map->samples)
+    cJSON_AddNumberToObject(object, "samples", map->samples);
+}
+
 static void add_input(cJSON *root, const run_facts *facts)
 {
   const run_settings *settings = facts->settings;
@@ -50,6 +63,7 @@ static void add_input(cJSON *root, const run_facts *facts)
   add_text(input, "vars_from", absolute ? absolute : settings->reading.vars_from);
   free(absolute);
   add_text(input, "mask", settings->reading.mask);
+  add_text(input, "block", settings->reading.block);
   add_text(input, "slice", settings->reading.slice);
   cJSON_AddNumberToObject(input, "time", settings->reading.time);
   cJSON_AddNumberToObject(input, "level", settings->reading.level);
@@ -58,6 +72,9 @@ static void add_input(cJSON *root, const run_facts *facts)
     cJSON_AddNumberToObject(input, "levels", facts->level_count);
   }
   add_text(input, "scale", scale_words[settings->reading.scale]);
+  if (settings->reading.frame != FG_FRAME_AUTO)
+    add_text(input, "frame", frame_words[settings->reading.frame]);
+  add_map(input, &settings->reading.map);
 
   cJSON *read = cJSON_AddObjectToObject(root, "field");
   add_words(read, "velocity", field->velocity_name, field->dimension);
@@ -75,10 +92,11 @@ static void add_input(cJSON *root, const run_facts *facts)
   add_numbers(read, "bounds", bounds, 2 * field->dimension);
   add_numbers(read, "period", periods, field->dimension);
   add_text(read, "scale", scale_words[field->scale]);
+  add_text(read, "projection", field->projection);
   add_text(read, "title", field->title);
   add_text(read, "time", field->time);
   add_text(read, "level", field->level);
-  if (settings->reading.slice)
+  if (fg_field_normal_share(facts->field) > 0.0)
     cJSON_AddNumberToObject(read, "normal_share", fg_field_normal_share(facts->field));
 }
 

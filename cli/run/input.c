@@ -45,15 +45,14 @@ static void count_choices(cli_run *run)
   fg_inventory *inventory = NULL;
   if (fg_context_create(&context))
     return;
-  if (!fg_inventory_read(&inventory, context, run->settings->reading.input))
-    for (int k = 0; k < fg_inventory_vector_count(inventory); ++k) {
-      const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, k);
-      if (vector->name[0] && strcmp(vector->name[0], field->velocity_name[0]) == 0) {
-        run->facts.time_count = vector->times;
-        run->facts.level_count = vector->levels;
-        break;
-      }
-    }
+  const fg_read_options reading = settings_reading(&run->settings->reading);
+  if (!fg_inventory_read_chosen(&inventory, context, run->settings->reading.input,
+                                &reading) &&
+      fg_inventory_vector_count(inventory) > 0) {
+    const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, 0);
+    run->facts.time_count = vector->times;
+    run->facts.level_count = vector->levels;
+  }
   fg_inventory_destroy(inventory);
   fg_context_destroy(context);
 }

@@ -18,6 +18,7 @@
 #include "run/input.h"
 #include "run/placing.h"
 #include "run/snapshot.h"
+#include "series/series.h"
 
 /* Whether there is anything to do, and whether it may be done. *done: a finished run,
  * which --resume leaves as it is. */
@@ -61,7 +62,7 @@ static int look(const cli_run *run, output_contents *there, bool *done)
 static int start_anew(cli_run *run)
 {
   const run_settings *settings = run->settings;
-  if (settings->resume && !settings->quiet)
+  if (settings->resume && !settings->quiet && !settings->member)
     fprintf(stderr, "flowgrain: %s: no checkpoint: the run starts from the beginning\n",
             settings->output);
   int code = output_start_anew(&run->output);
@@ -261,7 +262,7 @@ static int work(cli_run *run)
   done = ranks_any(done);
   if (!code && done) {
     run->finished = true; /* what its end left undone is done where this one ends */
-    if (ranks_leader())
+    if (ranks_leader() && !run->settings->member)
       fprintf(stderr, "flowgrain: %s: the run is finished\n", run->settings->output);
     return EXIT_DONE;
   }
@@ -282,9 +283,9 @@ static int work(cli_run *run)
   return ranks_agree(ranks_leader() ? finish_run(run) : EXIT_DONE);
 }
 
-int command_run(const void *given)
+/* On one time and level. */
+static int run_once(const run_settings *settings)
 {
-  const run_settings *settings = given;
   cli_run run = {.settings = settings,
                  .start = clock_seconds(),
                  .output = {.lock = -1},
@@ -313,5 +314,23 @@ int command_run(const void *given)
   fg_field_destroy(run.field);
   fg_context_destroy(run.context);
   free(run.checkpoint);
+  return code;
+}
+
+int command_run(const void *given)
+{
+  run_settings settings = *(const run_settings *)given;
+  chosen_places places;
+  int code = ranks_agree(places_find(&places, &settings.reading, !ranks_leader()));
+  if (!code && (places.time.several || places.level.several)) {
+    code = series_run(&settings, &places, run_once);
+  } else if (!code) {
+    settings.reading.time = places.time.index[0];
+    settings.reading.level = places.level.index[0];
+    code = ranks_agree(ranks_leader() ? series_refuse(settings.output) : EXIT_DONE);
+    if (!code)
+      code = run_once(&settings);
+  }
+  places_clear(&places);
   return code;
 }

@@ -49,6 +49,7 @@ typedef enum fg_feature {
   FG_FEATURE_RENDER,     /* drawing fields in 3D */
   FG_FEATURE_MAPS,       /* map projections: flowgrain/map.h */
   FG_FEATURE_MPI,        /* several processes: flowgrain/mpi.h */
+  FG_FEATURE_GRIB,       /* reading GRIB */
   FG_FEATURES            /* how many there are */
 } fg_feature;
 

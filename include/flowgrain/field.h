@@ -17,6 +17,15 @@ typedef enum fg_scale {
   FG_SCALE_PLAIN     /* axes without a known unit */
 } fg_scale;
 
+typedef struct fg_map_options fg_map_options; /* map.h */
+
+/* What the components of a vector on a model's grid are along. */
+typedef enum fg_frame {
+  FG_FRAME_AUTO = 0, /* from names, attributes and the grid (docs/method/model-grids.md) */
+  FG_FRAME_EAST,     /* east and north */
+  FG_FRAME_GRID      /* the directions of the grid's indices or axes */
+} fg_frame;
+
 /* A zero field means its default, in brackets. */
 typedef struct fg_read_options {
   const char *vars;      /* "U,V", "U,V,W" or one vector variable; NULL: found */
@@ -25,7 +34,12 @@ typedef struct fg_read_options {
   int level;             /* index along level, from 0 */
   const char *mask; /* variable that is zero (negative, missing) outside the domain */
   fg_scale scale;
+  const char *block; /* of several in a file the one, or those within it, of this name;
+                        NULL: all together */
+  fg_frame frame;
   const char *slice; /* a plane to cut a field in 3D by (fg_plane_parse); NULL: none */
+  const fg_map_options *map; /* what is in longitude and latitude is laid on this map;
+                                NULL: it stays so */
 } fg_read_options;
 
 /* Reads a field from a file, or makes an analytic one from "synth:NAME" (sampled at 257
@@ -120,9 +134,16 @@ FG_API fg_status fg_field_slice(fg_field **out, fg_context *context,
 FG_API fg_status fg_plane_parse(fg_plane *out, fg_context *context, const char *text,
                                 const fg_field *volume);
 
-/* Of a field that is a plane in space: which share of the mean square of the velocity is
- * that of its component normal to the plane, from 0 to 1; 0 for other fields. */
+/* Of a field that is a plane in space, cut or read with three components: which share of
+ * the mean square of the velocity its component normal to the plane has, from 0 to 1; 0
+ * for other fields and for slabs. */
 FG_API double fg_field_normal_share(const fg_field *field);
+
+/* The speeds between which a whole field lies but for the slowest and the fastest
+ * hundredth of its area (volume): what the ends of a colour key for several fields are
+ * found from. Input units. ARGUMENT (a slab), MEMORY. */
+FG_API fg_status fg_field_speed_range(double range[2], fg_context *context,
+                                      const fg_field *field);
 
 /* Writes a field as .vti (VTK XML image data; axes must be evenly spaced) or .nc
  * (NetCDF, CF). UNSUPPORTED for other names' ends, FILE_ACCESS, MEMORY. */
@@ -154,6 +175,9 @@ typedef struct fg_inventory_vector {
   double bounds[6];     /* xmin, xmax, ymin, ymax, zmin, zmax */
   bool periodic[3];     /* whether each axis closes (longitude, say) */
   const char *unusable; /* NULL, or why this pair can not be read yet */
+  double normal_share;  /* of a plane in space: fg_field_normal_share at the first time */
+  const char *frame;    /* of a model's grid: what the components are along, and which rule
+                           says so; NULL: along the axes */
   size_t cells;         /* 0, or how many cells, which are not along the axes, are
                            interpolated onto that grid; outside them is missing */
   const fg_axis_value *time_value, *level_value; /* [times], [levels]; NULL: not known */

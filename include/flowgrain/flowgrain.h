@@ -68,6 +68,7 @@
 #include "flowgrain/evolution.h"
 #include "flowgrain/field.h"
 #include "flowgrain/icons.h"
+#include "flowgrain/map.h"
 #include "flowgrain/picture.h"
 #include "flowgrain/placement.h"
 #include "flowgrain/rival.h"

@@ -35,12 +35,19 @@ typedef struct fg_picture_options {
   bool no_keys;         /* no colour key, no arrow for the size */
   bool outline_text;    /* texts are drawn as shapes [in SVG and PDF they stay texts] */
   const char *mask_color, *tint_color; /* "#rrggbb" [light grey, light blue] */
+  bool no_coast;    /* of a field on the Earth: no land, coasts, lakes, borders */
+  const char *land; /* "#rrggbb", colour of land [a pale grey] */
+  bool borders;     /* of a field on the Earth: also borders of countries */
   double
       scale_time; /* t of the scale, for the caption [the density's; none without it] */
 } fg_picture_options;
 
 /* Names of the colour maps, ended by NULL. */
 FG_API const char *const *fg_picture_palettes(void);
+
+/* Rounds the ends of a colour key out to ticks; equal ones become those of a range that
+ * has them in it. */
+FG_API void fg_picture_round_speeds(double range[2]);
 
 /* Draws icons; the format follows the name's end: .svg, .pdf or .png. density may be NULL
  * without tint, and must not be distributed; options may be NULL. FILE_ACCESS,

@@ -74,11 +74,16 @@ typedef struct fg_texture_style {
   double fade;            /* share of the way to white, 0 to 1: a quiet background [0] */
   const char *mask_color; /* "#rrggbb" [light grey] */
   bool transparent;       /* where nothing is known, instead of the mask's colour */
+  bool no_coast;          /* of a field on the Earth: no coasts on it, no land where it is
+                             missing */
+  const char *land;       /* "#rrggbb", colour of land [a pale grey] */
+  bool borders;           /* of a field on the Earth: also borders of countries */
   bool key; /* with a colour map: a key below the texture, whose pixels come on top */
 } fg_texture_style;
 
 /* Writes a texture: .png has its very pixels (and below them the key), .svg and .pdf hold
- * them as an image, half a point a pixel. What is masked in the field is covered.
+ * them as an image, half a point a pixel. What is masked in the field is covered; coasts
+ * of a field on the Earth are drawn above.
  * FILE_ACCESS, UNSUPPORTED, ARGUMENT, MEMORY. */
 FG_API fg_status fg_texture_write(fg_context *context, const char *path,
                                   const fg_field *field, const fg_texture *texture,

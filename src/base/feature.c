@@ -17,6 +17,7 @@ static const struct about {
                            "FLOWGRAIN_RENDER"},
     [FG_FEATURE_MAPS] = {FG__MAPS != 0, "maps", "map projections", "FLOWGRAIN_MAPS"},
     [FG_FEATURE_MPI] = {FG__MPI != 0, "mpi", "MPI", "FLOWGRAIN_MPI"},
+    [FG_FEATURE_GRIB] = {FG__GRIB != 0, "grib", "reader of GRIB files", "FLOWGRAIN_GRIB"},
 };
 
 static bool is_feature(fg_feature feature)

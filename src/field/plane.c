@@ -30,6 +30,10 @@ static void cross(double out[3], const double a[3], const double b[3])
   }
 }
 
+/* Of components that differ by less the first, or the last, counts as the largest: those
+ * of a fitted normal are rounded. */
+static const double ALIKE = 1.0 + 1e-4;
+
 bool fg__plane_basis_of(fg__plane_basis *out, const double normal[3])
 {
   double *n = out->normal;
@@ -37,11 +41,11 @@ bool fg__plane_basis_of(fg__plane_basis *out, const double normal[3])
     return false;
   out->across = 2;
   for (int k = 1; k >= 0; --k)
-    if (fabs(n[k]) > fabs(n[out->across]))
+    if (fabs(n[k]) > ALIKE * fabs(n[out->across]))
       out->across = k;
   out->axis[0] = out->across == 0 ? 1 : 0;
   out->axis[1] = out->across == 2 ? 1 : 2;
-  const int first = fabs(n[out->axis[1]]) < fabs(n[out->axis[0]]) ? 1 : 0;
+  const int first = ALIKE * fabs(n[out->axis[1]]) < fabs(n[out->axis[0]]) ? 1 : 0;
   const int nearer = out->axis[first], other = out->axis[1 - first];
   double along[3], *second = out->direction[1 - first];
   for (int k = 0; k < 3; ++k)

@@ -244,7 +244,7 @@ static void come_in(double at[3], const fg_field *volume)
     if (at[k] > last && at[k] - last <= most)
       at[k] = last;
     if (volume->axis[k].period > 0.0 && (at[k] < first || at[k] > last))
-      at[k] = NAN; /* the cut ends where the box does */
+      at[k] = (double)NAN; /* the cut ends where the box does */
   }
 }
 

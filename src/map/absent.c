@@ -1,8 +1,10 @@
 /* In builds without PROJ: there are no projections. */
 #include "base/feature.h"
 #include "map/map.h"
+#include "map/project.h"
 
 #include <math.h>
+#include <string.h>
 
 fg_status fg__map_create(fg__map **out, fg_context *context, const char *projection)
 {
@@ -98,4 +100,38 @@ bool fg__map_is_world(const fg__map *map)
 {
   (void)map;
   return false;
+}
+
+bool fg__map_is_asked(const fg_map_options *options)
+{
+  return fg__map_is_named(options);
+}
+
+bool fg__map_is_named(const fg_map_options *options)
+{
+  const char *asked = options && options->projection ? options->projection : "auto";
+  return options && strcmp(asked, "none") != 0 &&
+         (options->has_center || options->has_region || strcmp(asked, "auto") != 0);
+}
+
+fg_status fg__sphere_project(fg_field **out, fg_context *context,
+                             const fg__sphere *sphere, const fg_map_options *options,
+                             int number, int count)
+{
+  (void)sphere;
+  (void)options;
+  (void)number;
+  (void)count;
+  *out = NULL;
+  return fg__fail_absent(context, "projection", FG_FEATURE_MAPS);
+}
+
+fg_status fg_field_project(fg_field **out, fg_context *context, const fg_field *field,
+                           const fg_map_options *options)
+{
+  (void)field;
+  (void)options;
+  if (out)
+    *out = NULL;
+  return fg__fail_absent(context, "projection", FG_FEATURE_MAPS);
 }

@@ -171,6 +171,7 @@ static void what_is_no_map_is_refused(void **state)
       "",
       "eqearth",
       "+proj=nothing",
+      "+proj=adams_hemi",
       "+proj=lcc +lat_1=91",
       "+proj=laea +proj=merc",
       "+proj=pipeline +step +proj=merc",

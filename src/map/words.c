@@ -23,6 +23,26 @@ static const char *const NUMBERS[] = {
     "x_0",   "y_0",   "R",      "a",     "b",       "rf",      "f",
     "h",     "zone",  "azi",    "tilt",  "o_lat_p", "o_lon_p", "to_meter"};
 
+/* A datum's ellipsoid: the way from one datum to another is no part of a plane, and some
+ * need files for it. */
+static const char *const DATUMS[][2] = {
+    {"WGS84", "WGS84"},          {"GGRS87", "GRS80"},   {"NAD83", "GRS80"},
+    {"NAD27", "clrk66"},         {"potsdam", "bessel"}, {"carthage", "clrk80ign"},
+    {"hermannskogel", "bessel"}, {"ire65", "mod_airy"}, {"nzgd49", "intl"},
+    {"OSGB36", "airy"}};
+
+static void take_ellipsoid(char *parameter)
+{
+  static const char key[] = "datum=";
+  if (strncmp(parameter, key, sizeof key - 1) != 0)
+    return;
+  for (size_t k = 0; k < sizeof DATUMS / sizeof *DATUMS; ++k)
+    if (strcmp(parameter + sizeof key - 1, DATUMS[k][0]) == 0) {
+      snprintf(parameter, FG__MAP_PARAMETER_BYTES, "ellps=%s", DATUMS[k][1]);
+      return;
+    }
+}
+
 static bool is_one_of(const char *key, const char *const *keys, size_t count)
 {
   for (size_t k = 0; k < count; ++k)
@@ -116,6 +136,7 @@ static fg_status add(fg__map_words *out, fg_context *context, const char *string
   char *parameter = out->parameter[out->count];
   memcpy(parameter, start, length);
   parameter[length] = '\0';
+  take_ellipsoid(parameter);
   char key[FG__MAP_PARAMETER_BYTES];
   snprintf(key, sizeof key, "%.*s", (int)key_length(parameter), parameter);
   if (strcmp(parameter, "nadgrids=@null") == 0 ||

@@ -7,15 +7,8 @@
 #include "picture/plain_text.h"
 #include "picture/ticks.h"
 
-bool fg__speed_range(double range[2], const fg_icons *icons)
+void fg_picture_round_speeds(double range[2])
 {
-  if (range[1] > range[0])
-    return true;
-  fg_icons_speed_range(range, icons);
-  if (fg_icons_count(icons) == 0) {
-    range[1] = 1.0;
-    return false;
-  }
   /* Speeds that differ by rounding are equal: nothing to tell apart. */
   if (!(range[1] - range[0] > 1e-6 * range[1])) {
     range[0] = 0.0;
@@ -25,6 +18,18 @@ bool fg__speed_range(double range[2], const fg_icons *icons)
   double step = fg__ticks_step(&plain, (range[1] - range[0]) / 6.0);
   range[0] = floor(range[0] / step * (1.0 + 1e-9)) * step;
   range[1] = ceil(range[1] / step * (1.0 - 1e-9)) * step;
+}
+
+bool fg__speed_range(double range[2], const fg_icons *icons)
+{
+  if (range[1] > range[0])
+    return true;
+  fg_icons_speed_range(range, icons);
+  if (fg_icons_count(icons) == 0) {
+    range[1] = 1.0;
+    return false;
+  }
+  fg_picture_round_speeds(range);
   return true;
 }
 

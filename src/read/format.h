@@ -44,6 +44,9 @@ fg_status fg__field_slab_of(fg_field **out, fg_context *context, const fg_field 
 fg_status fg__globe_field(fg_field **out, fg_context *context, const fg__sphere *sphere,
                           fg__slab_index slab);
 
+/* The size of that grid; zeros where the cells have no area. */
+void fg__globe_size(int size[2], const fg__sphere_extent *extent);
+
 typedef struct fg__format {
   const char *name;  /* as `flowgrain info` shows it */
   const char *files; /* which ones it reads; NULL: another says it, or none are read */
@@ -67,8 +70,11 @@ typedef struct fg__format {
 } fg__format;
 
 extern const fg__format fg__format_netcdf;
+extern const fg__format fg__format_grib;
 extern const fg__format fg__format_vti;
 extern const fg__format fg__format_vtk_legacy;
+extern const fg__format fg__format_npy;
+extern const fg__format fg__format_npz;
 extern const fg__format fg__format_table; /* any text: the last */
 
 /* Maps a regular file that can be read and is not empty. FILE_ACCESS, FILE_FORMAT

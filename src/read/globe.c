@@ -105,12 +105,25 @@ static fg_status sample(samples *out, fg_context *context, const raster *r,
   return status;
 }
 
+static bool has_area(const fg__sphere_extent *extent)
+{
+  return extent->spacing > 0.0 && extent->north > extent->south &&
+         extent->east > extent->west;
+}
+
+void fg__globe_size(int size[2], const fg__sphere_extent *extent)
+{
+  const raster r = has_area(extent) ? raster_of(extent) : (raster){0};
+  size[0] = r.size[0];
+  size[1] = r.size[1];
+}
+
 fg_status fg__globe_field(fg_field **out, fg_context *context, const fg__sphere *sphere,
                           fg__slab_index slab)
 {
   fg__sphere_extent extent;
   fg__sphere_extent_of(&extent, sphere);
-  if (!(extent.spacing > 0.0 && extent.north > extent.south && extent.east > extent.west))
+  if (!has_area(&extent))
     return fg__fail(context, FG_STATUS_FILE_FORMAT,
                     "field: its cells have no area: longitudes %g to %g, latitudes %g "
                     "to %g",

@@ -14,7 +14,7 @@ typedef struct entry {
   char *name[3];
   char *units;
   char *found_by;
-  char *unusable;
+  char *unusable, *frame;
   value_list time, level;
 } entry;
 
@@ -72,6 +72,7 @@ static void clear_entry(entry *e)
   free(e->units);
   free(e->found_by);
   free(e->unusable);
+  free(e->frame);
 }
 
 fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
@@ -91,10 +92,13 @@ fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
   e.units = fg__copy_text(vector->units ? vector->units : "");
   e.found_by = fg__copy_text(vector->found_by ? vector->found_by : "");
   e.unusable = fg__copy_text(vector->unusable);
-  copied = copied && e.units && e.found_by && (e.unusable || !vector->unusable);
+  e.frame = fg__copy_text(vector->frame);
+  copied = copied && e.units && e.found_by && (e.unusable || !vector->unusable) &&
+           (e.frame || !vector->frame);
   e.vector.units = e.units;
   e.vector.found_by = e.found_by;
   e.vector.unusable = e.unusable;
+  e.vector.frame = e.frame;
   void *entries = inventory->entries;
   if (!copied ||
       !fg__grow(&entries, &inventory->capacity, inventory->count + 1, sizeof e)) {

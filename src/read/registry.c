@@ -1,14 +1,17 @@
 #include "base/memory.h"
 #include "base/mix.h"
 #include "field/slab.h"
+#include "map/project.h"
 #include "read/format.h"
+#include "read/mapped.h"
 
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-static const fg__format *const FORMATS[] = {&fg__format_netcdf, &fg__format_vti,
-                                            &fg__format_vtk_legacy, &fg__format_table};
+static const fg__format *const FORMATS[] = {
+    &fg__format_netcdf, &fg__format_grib, &fg__format_vti,  &fg__format_vtk_legacy,
+    &fg__format_npy,    &fg__format_npz,  &fg__format_table};
 static const char SYNTHETIC[] = "synth:";
 enum { MESSAGE_BYTES = 2048, KNOWN_BYTES = 512 };
 
@@ -101,21 +104,10 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
   if (options && (options->scale == FG_SCALE_GEO || options->scale == FG_SCALE_MAP))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "%s: an analytic field is neither on the globe nor on a map", input);
+  if (options && fg__map_is_named(options->map))
+    return fg__fail(context, FG_STATUS_ARGUMENT, "%s: an analytic field is on no map",
+                    input);
   return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
-}
-
-static fg_status read_known(fg_field **out, fg_context *context, const fg__format *format,
-                            const fg__source *source, const fg_read_options *options,
-                            fg__slab_index slab)
-{
-  fg__sphere *sphere = NULL;
-  fg_status status =
-      format->sphere ? format->sphere(&sphere, context, source, options) : FG_STATUS_OK;
-  if (status == FG_STATUS_OK)
-    status = sphere ? fg__globe_field(out, context, sphere, slab)
-                    : format->read(out, context, source, options, slab);
-  fg__sphere_destroy(sphere);
-  return status;
 }
 
 static fg_status read_slab(fg_field **out, fg_context *context, const char *input,
@@ -130,10 +122,11 @@ static fg_status read_slab(fg_field **out, fg_context *context, const char *inpu
   fg__source source;
   const fg__format *format;
   fg_status status = open_known(&source, &format, context, input);
+  if (!options)
+    options = &defaults;
   if (status == FG_STATUS_OK)
     status = name_the_file(
-        context,
-        read_known(out, context, format, &source, options ? options : &defaults, slab),
+        context, fg__field_read_known(out, context, format, &source, options, slab),
         input);
   fg__source_close(&source);
   return status;
@@ -190,6 +183,8 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
   key =
       mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
   key = mix_text(key, options->slice);
+  key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);
+  key = fg__mix(key ^ (uint64_t)options->frame);
   return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
 }
 

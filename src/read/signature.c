@@ -5,6 +5,9 @@
 /* A file's first tag begins this early, comments before it included. */
 enum { MARK_WITHIN = 4096 };
 
+/* A GRIB message follows a heading this early. */
+enum { GRIB_WITHIN = 256 };
+
 fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size)
 {
   static const unsigned char hdf5[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
@@ -41,4 +44,20 @@ bool fg__is_vtk_legacy(const unsigned char *bytes, size_t size)
 {
   static const char mark[] = "# vtk DataFile Version";
   return size >= sizeof mark - 1 && memcmp(bytes, mark, sizeof mark - 1) == 0;
+}
+
+bool fg__is_grib_start(const unsigned char *bytes, size_t size)
+{
+  return size >= 8 && memcmp(bytes, "GRIB", 4) == 0;
+}
+
+bool fg__is_grib(const unsigned char *bytes, size_t size)
+{
+  if (fg__is_grib_start(bytes, size))
+    return true;
+  for (size_t at = 0; at + 8 <= size && at < GRIB_WITHIN; ++at)
+    if (fg__is_grib_start(bytes + at, size - at) &&
+        (bytes[at + 7] == 1 || bytes[at + 7] == 2))
+      return true;
+  return false;
 }

@@ -20,4 +20,9 @@ fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size);
 bool fg__is_vtk_xml(const unsigned char *bytes, size_t size);
 bool fg__is_vtk_legacy(const unsigned char *bytes, size_t size);
 
+/* Whether a GRIB message begins at these bytes; and whether they are a file of such: a
+ * heading of telecommunication may stand before the first. */
+bool fg__is_grib_start(const unsigned char *bytes, size_t size);
+bool fg__is_grib(const unsigned char *bytes, size_t size);
+
 #endif

@@ -37,8 +37,9 @@ struct fg__sphere {
   float pole[2][3];      /* south, north */
   bool has_pole[2];      /* beyond the last row */
 
-  double *position; /* of points in cells: [3 * points] unit vectors */
-  int *corner;      /* [4 * count] */
+  double *position;     /* of points in cells: [3 * points] unit vectors */
+  int *corner;          /* [4 * count] */
+  unsigned char *faces; /* [count] while cells are sorted: a bit for each face */
   fg__sphere_face face[FG__SPHERE_FACES]; /* +x, -x, +y, -y, +z, -z */
 };
 

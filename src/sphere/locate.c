@@ -38,8 +38,8 @@ static bool project(double out[2], const double up[3], int f)
 }
 
 /* The rectangle of a cell on face f; false when it has no part there. */
-static bool cover(double low[2], double high[2], const fg__sphere *sphere, size_t n,
-                  int f)
+static bool cover_all(double low[2], double high[2], const fg__sphere *sphere, size_t n,
+                      int f)
 {
   int point[4];
   const int corners = fg__sphere_corners(sphere, n, point);
@@ -61,6 +61,24 @@ static bool cover(double low[2], double high[2], const fg__sphere *sphere, size_
     high[c] = high[c] < 1.0 ? high[c] : 1.0;
   }
   return true;
+}
+
+/* The same once mark_faces has told which faces a cell has a part on. */
+static bool cover(double low[2], double high[2], const fg__sphere *sphere, size_t n,
+                  int f)
+{
+  return (sphere->faces[n] >> f & 1) && cover_all(low, high, sphere, n, f);
+}
+
+static void mark_faces(fg__sphere *sphere)
+{
+  for (size_t n = 0; n < sphere->count; ++n) {
+    unsigned marks = 0;
+    double low[2], high[2];
+    for (int f = 0; f < FG__SPHERE_FACES; ++f)
+      marks |= cover_all(low, high, sphere, n, f) ? 1U << f : 0U;
+    sphere->faces[n] = (unsigned char)marks;
+  }
 }
 
 static int clamped(double x, int count)
@@ -201,8 +219,14 @@ static fg_status sort_face(fg__sphere *sphere, fg_context *context, int f)
 fg_status fg__sphere_sort_cells(fg__sphere *sphere, fg_context *context)
 {
   fg_status status = FG_STATUS_OK;
+  sphere->faces = fg__allocate(sphere->count, 1);
+  if (!sphere->faces)
+    return fg__fail_memory(context, "faces of cells", sphere->count);
+  mark_faces(sphere);
   for (int f = 0; f < FG__SPHERE_FACES && status == FG_STATUS_OK; ++f)
     status = sort_face(sphere, context, f);
+  free(sphere->faces);
+  sphere->faces = NULL;
   return status;
 }
 

@@ -24,7 +24,8 @@ static void write_and_open(written *out, folder *f, const fg_density *density)
   assert_int_equal(fg_density_write(f->context, path_of(f, "u.vti"), density),
                    FG_STATUS_OK);
   assert_int_equal(fg__source_open(&out->source, f->context, f->path), FG_STATUS_OK);
-  assert_int_equal(fg__vtk_open_xml(&out->vti, f->context, &out->source), FG_STATUS_OK);
+  assert_int_equal(fg__vtk_open_xml(&out->vti, f->context, &out->source, NULL),
+                   FG_STATUS_OK);
   out->u = values_of(&out->vti, FG__VTK_POINTS, "u");
   out->cluster = values_of(&out->vti, FG__VTK_POINTS, "cluster");
   out->ghost = values_of(&out->vti, FG__VTK_CELLS, "vtkGhostType");

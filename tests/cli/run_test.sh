@@ -177,7 +177,7 @@ cmp -s out9uniform/scale-01.geojson out9auto/scale-01.geojson && fault "the mesh
   fault "evolution.csv: $(cut -d, -f9 out9auto/evolution.csv | sort -u | tr '\n' ' ')"
 done_with "an adaptive mesh is halved as clusters grow"
 # over measured wind the directions of a coarser mesh are others
-try run "$root/data/gfs_20140131.nc" -o out9wind --nodes 513 --clusters 60,24 --no-arrows --quiet
+try run "$root/data/gfs_20140131.nc" -o out9wind --projection none --nodes 513 --clusters 60,24 --no-arrows --quiet
 expect_code 0
 expect_json out9wind/run.json '.energy_monotone == false and .energy_monotone_between_coarsenings
   and (.mesh.coarser | length) == 1 and .mesh.coarser[0].energy_after > .mesh.coarser[0].energy_before'
@@ -228,7 +228,7 @@ expect_code 0
 [ ! -s err ] || fault "standard error: $(head -c 200 err)"
 done_with "a run on its own needs no folder for temporary files"
 
-try run "$root/data/gfs_20140131.nc" -o gfs --nodes 129 --clusters 40 --quiet
+try run "$root/data/gfs_20140131.nc" -o gfs --projection none --nodes 129 --clusters 40 --quiet
 expect_code 0
 expect_json gfs/run.json '.field.scale == "geo" and .field.period[0] == 360 and .field.velocity == ["u10", "v10"]'
 expect_json gfs/scale-00.geojson '[.features[].geometry.coordinates[] | .[1] >= -90 and .[1] <= 90] | all'

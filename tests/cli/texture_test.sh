@@ -35,7 +35,7 @@ expect_code 0
 cmp -s early.png timed.png && fault "the same clusters at t = 1e-3 and $moment"
 done_with "texture: clusters at a time"
 
-try texture "$root/data/gfs_20140131.nc" -o wind.png --pixels 300 --palette deep
+try texture "$root/data/gfs_20140131.nc" -o wind.png --projection none --pixels 300 --palette deep
 expect_code 0
 [ "$(png_size wind.png)" = "300 150" ] || fault "size $(png_size wind.png)"
 done_with "texture: the domain's shape"

@@ -194,6 +194,67 @@ static void make_netcdf(const char *name, int mode)
   sample_end(&f);
 }
 
+typedef struct staggered_variable {
+  const char *name, *row, *column, *units;
+  size_t rows, columns;
+  double first, step_row, step_column;
+} staggered_variable;
+
+static int dimension_named(const sample_file *f, const char *name, size_t length)
+{
+  int id;
+  return nc_inq_dimid(f->id, name, &id) ? sample_dimension(f, name, length) : id;
+}
+
+/* A model's grid: components on the sides of cells, an angle and a mask. */
+static void make_staggered(const char *name)
+{
+  static const staggered_variable all[] = {
+      {"lon_rho", "eta_rho", "xi_rho", "degrees_east", 5, 6, 176.0, 0.3, 1.5},
+      {"lat_rho", "eta_rho", "xi_rho", "degrees_north", 5, 6, 40.0, 1.0, -0.2},
+      {"angle", "eta_rho", "xi_rho", "radians", 5, 6, -0.2, 0.001, 0.002},
+      {"mask_rho", "eta_rho", "xi_rho", "1", 5, 6, 0.0, 1.0, 1.0},
+      {"u", "eta_rho", "xi_u", "m s-1", 5, 5, 0.5, 0.1, -0.05},
+      {"v", "eta_v", "xi_rho", "m s-1", 4, 6, -0.3, 0.07, 0.2}};
+  sample_file f;
+  snprintf(f.path, sizeof f.path, "%.90s", name);
+  sample_begin(&f, NC_CLASSIC_MODEL);
+  for (size_t n = 0; n < sizeof all / sizeof *all; ++n) {
+    const staggered_variable *v = &all[n];
+    double values[30];
+    const int plane[2] = {dimension_named(&f, v->row, v->rows),
+                          dimension_named(&f, v->column, v->columns)};
+    const int id = sample_variable(&f, v->name, NC_FLOAT, 2, plane);
+    sample_text(&f, id, "units", v->units);
+    for (size_t k = 0; k < v->rows * v->columns; ++k)
+      values[k] = v->first + v->step_row * (double)(k / v->columns) +
+                  v->step_column * (double)(k % v->columns);
+    sample_put(&f, id, values);
+  }
+  sample_end(&f);
+}
+
+/* Axes of a projection. */
+static void make_projected(const char *name)
+{
+  sample_file f;
+  make_netcdf(name, NC_CLASSIC_MODEL);
+  nc_must(nc_open(name, NC_WRITE, &f.id));
+  const int crs = sample_variable(&f, "crs", NC_INT, 0, NULL);
+  sample_text(&f, crs, "grid_mapping_name", "lambert_conformal_conic");
+  sample_number(&f, crs, "latitude_of_projection_origin", NC_DOUBLE, 63.0);
+  sample_number(&f, crs, "longitude_of_central_meridian", NC_DOUBLE, 15.0);
+  sample_number(&f, crs, "standard_parallel", NC_DOUBLE, 63.0);
+  sample_number(&f, crs, "earth_radius", NC_DOUBLE, 6371000.0);
+  for (int k = 0; k < 2; ++k) {
+    int id;
+    nc_must(nc_inq_varid(f.id, k ? "v" : "u", &id));
+    sample_text(&f, id, "grid_mapping", "crs");
+    sample_text(&f, id, "standard_name", k ? "northward_wind" : "eastward_wind");
+  }
+  sample_end(&f);
+}
+
 /* The same with something added. */
 static hid_t open_another(const char *name)
 {
@@ -273,6 +334,8 @@ static void make_netcdfs(void)
   make_netcdf("netcdf/seed-64-bit-offset.nc", NC_64BIT_OFFSET);
   make_netcdf("netcdf/seed-cdf5.nc", NC_64BIT_DATA);
   make_netcdf("netcdf/seed-netcdf4.nc", NC_NETCDF4);
+  make_staggered("netcdf/seed-staggered.nc");
+  make_projected("netcdf/seed-projected.nc");
   make_endless("netcdf/fault-endless-dimension.nc");
   make_links();
   make_set("netcdf/fault-stored-outside.nc", OUTSIDE);

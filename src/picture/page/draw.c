@@ -12,8 +12,9 @@ const fg__color fg__usual_mask = {0.855, 0.855, 0.845};
 static const double frame_width = 0.6;
 static const double coast_width = 0.4;
 static const double rim_width = 0.9;
+static const double rim_width_on_map = 0.25;
 
-/* Opacity of a tint through which a texture is still to be seen. */
+/* Opacity of a tint through which a texture, or land, is still to be seen. */
 static const double tint_on_texture = 0.55;
 
 static void set_color(cairo_t *cairo, fg__color color)
@@ -73,28 +74,52 @@ static void draw_background(cairo_t *cairo, const fg__page_box *box,
 
 static void draw_areas(cairo_t *cairo, const fg__scene *scene, const fg__style *style)
 {
+  const bool coasts = style->map && style->map->coasts;
+  if (coasts)
+    fg__map_draw_land(cairo, style->map, &style->map_style,
+                      style->background ? &scene->mask : NULL);
   if (scene->tint.count) {
     fg__draw_path(cairo, &scene->tint);
     cairo_set_source_rgba(cairo, style->tint.red, style->tint.green, style->tint.blue,
-                          style->background ? tint_on_texture : 1.0);
+                          style->background || coasts ? tint_on_texture : 1.0);
     cairo_fill(cairo);
   }
-  if (scene->mask.count)
+  if (scene->mask.count && !coasts)
     fg__draw_mask(cairo, &scene->mask, style->mask);
+  if (style->map)
+    fg__map_draw_lines(cairo, style->map, &style->map_style);
 }
 
-/* On a texture each has a pale rim, which sets it off. */
-static void draw_arrows(cairo_t *cairo, const fg__scene *scene, bool rims)
+/* On a texture or a map each has a pale rim, which sets it off. */
+static void draw_arrow(cairo_t *cairo, const fg__scene *scene, size_t loop,
+                       const fg__polygons *rims, double rim)
 {
-  cairo_set_line_width(cairo, 2.0 * rim_width);
+  if (rim > 0.0) {
+    add_loop(cairo, rims, loop);
+    cairo_set_line_width(cairo, 2.0 * rim);
+    cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+    cairo_stroke(cairo);
+  }
+  add_loop(cairo, &scene->arrows, loop);
+  set_color(cairo, scene->arrow_color[loop]);
+  cairo_fill(cairo);
+}
+
+/* A clip is written once for each path in SVG, and that of a map is long: only the arrows
+ * that it cuts have it. */
+static void draw_arrows(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
+                        const fg__style *style)
+{
+  const double rim = style->background ? rim_width : style->map ? rim_width_on_map : 0.0;
+  const fg__polygons *rims = style->map ? &style->map->arrow_rims : &scene->arrows;
   for (size_t loop = 0; loop < scene->arrows.count; ++loop) {
-    add_loop(cairo, &scene->arrows, loop);
-    if (rims) {
-      cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
-      cairo_stroke_preserve(cairo);
-    }
-    set_color(cairo, scene->arrow_color[loop]);
-    cairo_fill(cairo);
+    const bool whole =
+        style->map && fg__map_scene_holds(style->map, page, &scene->arrows, loop);
+    cairo_save(cairo);
+    if (whole)
+      cairo_reset_clip(cairo);
+    draw_arrow(cairo, scene, loop, rims, rim);
+    cairo_restore(cairo);
   }
 }
 
@@ -236,15 +261,19 @@ void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
   cairo_save(cairo);
   add_box(cairo, &page->frame);
   cairo_clip(cairo);
+  if (style->map)
+    fg__map_clip(cairo, style->map);
   if (style->background)
     draw_background(cairo, &style->background_box, style->background);
   draw_areas(cairo, scene, style);
-  draw_arrows(cairo, scene, style->background != NULL);
+  draw_arrows(cairo, page, scene, style);
   draw_skeletons(cairo, scene);
   cairo_restore(cairo);
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
   if (page->has_color_key)
     draw_color_key(cairo, page, palette);
+  if (style->map)
+    fg__map_draw_outline(cairo, style->map, &style->map_style);
   draw_lines(cairo, page);
   if (page->has_size_key && scene->reference.count) {
     fg__draw_path(cairo, &scene->reference);

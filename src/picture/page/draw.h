@@ -2,6 +2,7 @@
 #ifndef FG__DRAW_H
 #define FG__DRAW_H
 
+#include "picture/map/page_map.h"
 #include "picture/page/scene.h"
 #include "picture/surface/surface.h"
 
@@ -10,6 +11,8 @@ typedef struct fg__style {
   bool transparent;
   cairo_surface_t *background; /* NULL: none */
   fg__page_box background_box; /* of the domain, which may be wider than the frame */
+  fg__map_style map_style;
+  const fg__map_scene *map; /* NULL: what is drawn lies on no map */
 } fg__style;
 
 /* A light grey. */

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "picture/map/page_map.h"
+
 /* A figure's usual size in a journal, between one and two columns. */
 static const double usual_width = 480.0;
 
@@ -137,7 +139,9 @@ static bool lay_out(fg__page *page, const fg__page_plan *plan,
     if (!place_frame(page, plan, &margins, parts->caption ? 24.0 * em : 0.0))
       return false;
     fg__margins room = {0.0, 0.0, 0.0, 0.0};
-    if (parts->axes)
+    if (parts->axes && plan->graticule)
+      fg__page_place_graticule(page, &room, plan, ruler);
+    else if (parts->axes)
       fg__page_place_axes(page, &room, plan, parts, ruler);
     if (parts->color_key || parts->size_key)
       fg__page_place_keys(page, &room, plan, parts, ruler);
@@ -178,7 +182,8 @@ static bool keys_below(fg__page *page, const fg__page_plan *plan, fg__page_parts
 
 void fg__page_layout(fg__page *out, const fg__page_plan *plan, cairo_t *ruler)
 {
-  *out = (fg__page){.font_size = font_size(plan), .framed = !plan->no_frame};
+  *out = (fg__page){.font_size = font_size(plan),
+                    .framed = !plan->no_frame && !plan->outlined};
   fg__page_parts parts = {.axes = !plan->no_frame,
                           .axis_labels = !plan->no_frame,
                           .color_key = plan->color_key && !plan->no_frame,

@@ -69,7 +69,11 @@ typedef struct fg__page_plan {
   fg__tick_axis speed;   /* with the ends of the colour key */
   bool speeds_beyond[2]; /* some arrows are slower or faster than these ends */
   bool size_key;
-  double arrow_length; /* of a typical arrow, coordinates */
+  fg__tick_axis length; /* how the size key's length is written; factor 0: as along x */
+  double arrow_length;  /* of a typical arrow, coordinates */
+  const struct fg__graticule *graticule; /* of a map: degrees where lines end, instead of
+                                            axes; NULL: axes */
+  bool outlined; /* the frame is no box: what lies in it has an outline of its own */
 } fg__page_plan;
 
 /* Lays out a page. What would leave the domain too little room is left out, the least

@@ -17,6 +17,11 @@ static const double shortest_arrow = 0.8;
 /* What the size of an arrow stands for: the cluster that it was made from. */
 static const char size_words[] = "region length";
 
+static const fg__tick_axis *length_axis(const fg__page_plan *plan)
+{
+  return plan->length.factor > 0.0 ? &plan->length : &plan->axis[0];
+}
+
 /* The reference arrow: a nice length near that of a typical arrow, as far as there is
  * room. Returns its length in coordinates, 0 when it would be too short to see. */
 static double reference_length(const fg__page *page, const fg__page_plan *plan)
@@ -25,7 +30,7 @@ static double reference_length(const fg__page *page, const fg__page_plan *plan)
   double most = widest_arrow * em / page->scale;
   /* nice lengths are at most a factor 2.5 apart: from 0.65 to 1.6 of the typical */
   double length =
-      fg__ticks_step(&plan->axis[0], 0.65 * fmin(plan->arrow_length, most / 1.6));
+      fg__ticks_step(length_axis(plan), 0.65 * fmin(plan->arrow_length, most / 1.6));
   return length * page->scale >= shortest_arrow * em ? length : 0.0;
 }
 
@@ -42,7 +47,7 @@ static bool measure_size_key(size_key *out, const fg__page *page,
   if (!(length > 0.0))
     return false;
   out->length = length * page->scale;
-  fg__axis_write_length(out->text, &plan->axis[0], length);
+  fg__axis_write_length(out->text, length_axis(plan), length);
   double text = fg__text_width(ruler, out->text, page->font_size, false);
   double words = fg__text_width(ruler, size_words, page->font_size, false);
   out->width = fmax(out->length, fmax(text, words));

@@ -81,6 +81,19 @@ static void describe_axes(fg__page_plan *plan, const fg_field_arrays *field,
                         field->axis_units[k]);
 }
 
+/* Lengths in kilometres on the ground, where a map has about one scale; elsewhere no key
+ * can tell them. */
+static void describe_length(fg__page_plan *plan, const fg__plane *plane)
+{
+  if (plane->kind == FG__PLANE_NONE)
+    return;
+  const double kilometres = 1e-3 * fg__plane_true_metres(plane);
+  const double extent = kilometres * (plane->high[0] - plane->low[0]);
+  plan->size_key = plan->size_key && kilometres > 0.0;
+  fg__axis_of_numbers(&plan->length, 0.0, extent, extent, "", "km");
+  plan->length.factor *= kilometres;
+}
+
 /* Everything that one picture is made from. */
 typedef struct picture {
   fg__page_plan plan;
@@ -88,6 +101,9 @@ typedef struct picture {
   fg__palette palette;
   fg__style style;
   fg__scene scene;
+  fg__plane plane; /* of a field on the Earth */
+  fg__graticule graticule;
+  fg__map_scene map;
   double low[2], high[2]; /* what the frame shows, in the field's coordinates */
   double pixels_per_point;
   bool outline_text;
@@ -138,16 +154,24 @@ static fg_status plan_picture(picture *out, fg_context *context, const fg_field 
     fg__scene_box(out->low, out->high, field);
   else
     fg__scene_shown(out->low, out->high, whole);
+  fg_status status = fg__plane_create(&out->plane, context, whole, out->low, out->high);
+  if (!status && out->plane.kind != FG__PLANE_NONE)
+    status = fg__graticule_create(&out->graticule, context, &out->plane);
+  if (status)
+    return status;
+  plan->graticule = out->graticule.plane ? &out->graticule : NULL;
+  plan->outlined = out->plane.whole;
   describe_axes(plan, field, out->low, out->high);
   const char *const wanted[2] = {options->title, options->subtitle};
   fg__caption_write(plan->title, plan->subtitle, field, options->no_arrows ? NULL : icons,
                     wanted, options->scale_time);
   fg__typical_icon typical;
-  fg_status status = fg__scene_typical_icon(&typical, context, icons);
+  status = fg__scene_typical_icon(&typical, context, icons);
   if (status)
     return status;
   plan->size_key = typical.length > 0.0 && keys;
   plan->arrow_length = typical.length;
+  describe_length(plan, &out->plane);
   return FG_STATUS_OK;
 }
 
@@ -220,7 +244,13 @@ static fg_status prepare(picture *p, fg_context *context, const fg_field *field,
   if (!status)
     status = fg__color_choose(&p->style.tint, context, options->tint_color,
                               options->no_arrows ? lone_tint : usual_tint);
-  p->style.transparent = options->transparent;
+  if (!status)
+    status = fg__color_choose(&p->style.map_style.land, context, options->land,
+                              fg__usual_land);
+  if (!status)
+    status = fg__color_choose(&p->style.map_style.missing, context, options->mask_color,
+                              fg__usual_missing);
+  p->style.transparent = p->style.map_style.transparent = options->transparent;
   p->outline_text = options->outline_text;
   p->pixels_per_point = options->pixels_per_point > 0.0 ? options->pixels_per_point
                                                         : usual_pixels_per_point;
@@ -256,6 +286,42 @@ static fg_status make_background(picture *p, fg_context *context,
   return fg__texture_image(&p->style.background, context, texture, &style);
 }
 
+/* Coasts and the other lines of a map, once it is known where arrows lie. */
+static fg_status make_map(picture *p, fg_context *context, const fg_field *field,
+                          const fg_picture_options *options)
+{
+  if (p->plane.kind == FG__PLANE_NONE)
+    return FG_STATUS_OK;
+  const fg__map_wishes wishes = {.no_coast = options->no_coast,
+                                 .borders = options->borders,
+                                 .no_graticule = options->no_frame};
+  fg_status status =
+      fg__map_scene_create(&p->map, context, &p->page, &p->graticule, field, &wishes);
+  if (status)
+    return status;
+  status = fg__map_scene_rim(&p->map, context, &p->scene.arrows);
+  if (status)
+    return status;
+  p->style.map = &p->map;
+  p->style.map_style.on_texture = options->background != NULL;
+  if (options->no_frame)
+    return FG_STATUS_OK;
+  cairo_t *ruler = fg__text_ruler();
+  fg__map_scene_label(&p->map, &p->page, &p->graticule, &p->scene.arrows, ruler);
+  cairo_destroy(ruler);
+  return FG_STATUS_OK;
+}
+
+static void end(picture *p)
+{
+  cairo_surface_destroy(p->style.background);
+  fg__scene_clear(&p->scene);
+  fg__map_scene_clear(&p->map);
+  fg__graticule_clear(&p->graticule);
+  fg__plane_clear(&p->plane);
+  free(p);
+}
+
 static int pixels_of(double length)
 {
   return (int)fmin(fmax(floor(length + 0.5), 1.0), most_background);
@@ -282,7 +348,7 @@ fg_status fg_picture_frame(int size[2], fg_context *context, const fg_field *fie
     size[0] = pixels_of(pixels * wide);
     size[1] = pixels_of(pixels * high);
   }
-  free(p);
+  end(p);
   return status;
 }
 
@@ -325,14 +391,14 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
   if (!status && (options->skeletons || options->centers))
     status = fg__scene_add_skeletons(&p->scene, context, &p->page, contents, p->low,
                                      p->high, icons, options->skeletons);
+  if (!status)
+    status = make_map(p, context, field, options);
   if (!status && options->background)
     status = make_background(p, context, options);
   if (!status)
     status = fg__check_stop(context);
   if (!status)
     status = render(context, path, p);
-  cairo_surface_destroy(p->style.background);
-  fg__scene_clear(&p->scene);
-  free(p);
+  end(p);
   return status;
 }

@@ -42,21 +42,97 @@ static fg_status find_mask(fg__polygons *out, fg_context *context, const fg_fiel
   return status;
 }
 
-static void paint(cairo_t *cairo, cairo_surface_t *image, const fg__polygons *mask,
-                  const fg_texture_style *style, fg__color mask_color)
+/* What is painted: an image, and what covers it. */
+typedef struct painted {
+  cairo_surface_t *image;
+  fg__polygons mask; /* pixels; of a map points */
+  fg__color mask_color;
+  bool transparent;
+  bool on_map;
+  fg__map_scene map;
+  fg__map_style map_style;
+} painted;
+
+/* Of a field on the Earth: coasts on a page that is as large as the image. */
+static fg_status find_coasts(painted *out, fg_context *context, const fg_field *field,
+                             const int size[2], const fg_texture_style *style)
 {
-  cairo_set_source_surface(cairo, image, 0.0, 0.0);
-  if (style->transparent && mask->count) {
-    /* all but the mask: the rectangle less its polygons */
-    cairo_set_fill_rule(cairo, CAIRO_FILL_RULE_EVEN_ODD);
-    cairo_rectangle(cairo, 0.0, 0.0, cairo_image_surface_get_width(image),
-                    cairo_image_surface_get_height(image));
-    fg__draw_path(cairo, mask);
-    cairo_clip(cairo);
+  double low[2], high[2];
+  fg__plane plane;
+  const fg__map_wishes wishes = {
+      .no_coast = style->no_coast, .borders = style->borders, .no_graticule = true};
+  fg__scene_box(low, high, fg_field_contents(field));
+  const double wide = size[0] / pixels_per_point, tall = size[1] / pixels_per_point;
+  const fg__page page = {.scale = wide / (high[0] - low[0]),
+                         .frame = {0.0, 0.0, wide, tall}};
+  const double field_low[2] = {low[0], low[1]}, field_high[2] = {high[0], high[1]};
+  fg_status status = fg__plane_create(&plane, context, field, low, high);
+  fg__graticule *graticule = fg__allocate(1, sizeof *graticule);
+  if (!status && !graticule)
+    status = fg__fail_memory(context, "a map", sizeof *graticule);
+  if (!status && plane.kind != FG__PLANE_NONE && !style->no_coast) {
+    for (int k = 0; k < 2; ++k) {
+      plane.low[k] = field_low[k];
+      plane.high[k] = field_high[k];
+    }
+    graticule->plane = &plane;
+    status = fg__map_scene_create(&out->map, context, &page, graticule, field, &wishes);
+    out->on_map = !status;
+    for (size_t n = 0; n < out->mask.point_count; ++n)
+      for (int k = 0; k < 2; ++k)
+        out->mask.point[n][k] /= pixels_per_point;
   }
+  free(graticule);
+  fg__plane_clear(&plane);
+  return status;
+}
+
+static void paint_image(cairo_t *cairo, const painted *p)
+{
+  cairo_set_source_surface(cairo, p->image, 0.0, 0.0);
   cairo_paint(cairo);
-  if (!style->transparent && mask->count)
-    fg__draw_mask(cairo, mask, mask_color);
+}
+
+/* All but the mask: a rectangle of width and height less its polygons. */
+static void clip_to_known(cairo_t *cairo, const painted *p, double wide, double high)
+{
+  cairo_set_fill_rule(cairo, CAIRO_FILL_RULE_EVEN_ODD);
+  cairo_rectangle(cairo, 0.0, 0.0, wide, high);
+  fg__draw_path(cairo, &p->mask);
+  cairo_clip(cairo);
+}
+
+static void paint(cairo_t *cairo, const painted *p)
+{
+  cairo_scale(cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
+  if (p->transparent && p->mask.count)
+    clip_to_known(cairo, p, cairo_image_surface_get_width(p->image),
+                  cairo_image_surface_get_height(p->image));
+  paint_image(cairo, p);
+  if (!p->transparent && p->mask.count)
+    fg__draw_mask(cairo, &p->mask, p->mask_color);
+}
+
+static void paint_map(cairo_t *cairo, const painted *p)
+{
+  const double wide = cairo_image_surface_get_width(p->image) / pixels_per_point;
+  const double high = cairo_image_surface_get_height(p->image) / pixels_per_point;
+  cairo_rectangle(cairo, 0.0, 0.0, wide, high);
+  cairo_clip(cairo);
+  if (!p->transparent) {
+    cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+    cairo_paint(cairo);
+  }
+  fg__map_clip(cairo, &p->map);
+  cairo_save(cairo);
+  if (p->transparent && p->mask.count)
+    clip_to_known(cairo, p, wide, high);
+  cairo_scale(cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
+  paint_image(cairo, p);
+  cairo_restore(cairo);
+  if (!p->transparent)
+    fg__map_draw_land(cairo, &p->map, &p->map_style, &p->mask);
+  fg__map_draw_lines(cairo, &p->map, &p->map_style);
 }
 
 /* A page as large as the image; with a key when the style wants it. */
@@ -77,10 +153,8 @@ static fg_status plan_page(fg__page *page, fg__palette *palette, fg_context *con
   return status;
 }
 
-static fg_status write(fg_context *context, const char *path, cairo_surface_t *image,
-                       const fg__polygons *mask, const fg_texture_style *style,
-                       fg__color mask_color, const fg__page *page,
-                       const fg__palette *palette)
+static fg_status write(fg_context *context, const char *path, const painted *p,
+                       const fg__page *page, const fg__palette *palette)
 {
   fg__surface_file surface;
   fg_status status = fg__surface_file_open(&surface, context, path, page->width,
@@ -88,16 +162,33 @@ static fg_status write(fg_context *context, const char *path, cairo_surface_t *i
   if (status)
     return status;
   if (page->has_color_key) {
-    if (!style->transparent) {
+    if (!p->transparent) {
       cairo_set_source_rgb(surface.cairo, 1.0, 1.0, 1.0);
       cairo_paint(surface.cairo);
     }
     fg__draw_key(surface.cairo, page, palette);
     fg__draw_texts(&surface, page, false);
   }
-  cairo_scale(surface.cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
-  paint(surface.cairo, image, mask, style, mask_color);
+  if (p->on_map)
+    paint_map(surface.cairo, p);
+  else
+    paint(surface.cairo, p);
   return fg__surface_file_close(&surface, context, FG_STATUS_OK);
+}
+
+static fg_status choose_colors(painted *p, fg_context *context,
+                               const fg_texture_style *style)
+{
+  p->transparent = style->transparent;
+  p->map_style = (fg__map_style){.transparent = style->transparent, .on_texture = true};
+  fg_status status =
+      fg__color_choose(&p->mask_color, context, style->mask_color, fg__usual_mask);
+  if (!status)
+    status = fg__color_choose(&p->map_style.missing, context, style->mask_color,
+                              fg__usual_missing);
+  if (!status)
+    status = fg__color_choose(&p->map_style.land, context, style->land, fg__usual_land);
+  return status;
 }
 
 fg_status fg_texture_write(fg_context *context, const char *path, const fg_field *field,
@@ -109,9 +200,7 @@ fg_status fg_texture_write(fg_context *context, const char *path, const fg_field
   if (style)
     settled = *style;
   const fg_texture_arrays *contents = fg_texture_contents(texture);
-  fg__color mask_color = fg__usual_mask;
-  fg__polygons mask = {0};
-  cairo_surface_t *image = NULL;
+  painted p = {.image = NULL};
   fg__palette palette;
   fg__page *page = fg__allocate(1, sizeof *page);
   if (!page)
@@ -120,17 +209,20 @@ fg_status fg_texture_write(fg_context *context, const char *path, const fg_field
   if (!status)
     status = check_style(context, &settled);
   if (!status)
-    status = fg__color_choose(&mask_color, context, settled.mask_color, fg__usual_mask);
+    status = choose_colors(&p, context, &settled);
   if (!status)
-    status = find_mask(&mask, context, field, contents->size);
+    status = find_mask(&p.mask, context, field, contents->size);
   if (!status)
-    status = fg__texture_image(&image, context, contents, &settled);
+    status = find_coasts(&p, context, field, contents->size, &settled);
+  if (!status)
+    status = fg__texture_image(&p.image, context, contents, &settled);
   if (!status)
     status = plan_page(page, &palette, context, field, contents, &settled);
   if (!status)
-    status = write(context, path, image, &mask, &settled, mask_color, page, &palette);
+    status = write(context, path, &p, page, &palette);
   free(page);
-  cairo_surface_destroy(image);
-  fg__polygons_clear(&mask);
+  cairo_surface_destroy(p.image);
+  fg__polygons_clear(&p.mask);
+  fg__map_scene_clear(&p.map);
   return status;
 }

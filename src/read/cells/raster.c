@@ -88,34 +88,50 @@ static bool is_layer(const fg__cell_set *set, const cell_box *box, int axis)
   return true;
 }
 
-/* The axis that a plane or a layer lies across; -1 in a volume. */
+/* Widths of a box along the axes that are below rounding of the widest. */
+static int count_thin(bool thin[3], const cell_box *box)
+{
+  double widest = 0.0;
+  int count = 0;
+  for (int k = 0; k < 3; ++k)
+    widest = fmax(widest, box->high[k] - box->low[k]);
+  for (int k = 0; k < 3; ++k) {
+    thin[k] = box->high[k] - box->low[k] <= FLAT * widest;
+    count += thin[k];
+  }
+  return count;
+}
+
+/* The axis that a plane or a layer lies across; -1 in a volume, and of a plane that lies
+ * across none. */
 static fg_status find_flat(int *out, const fg__cell_set *set, const cell_box *box)
 {
   const bool plane = fg__cell_dimension(set->shape[0]) == 2;
-  double width[3], widest = 0.0;
-  int flat = 0;
+  bool thin[3];
   *out = -1;
-  for (int k = 0; k < 3; ++k) {
-    width[k] = box->high[k] - box->low[k];
-    widest = fmax(widest, width[k]);
-  }
-  for (int k = 0; k < 3; ++k) {
-    const bool thin = width[k] <= FLAT * widest;
-    flat += thin;
-    if (thin || (!plane && is_layer(set, box, k)))
-      *out = k;
-  }
-  if (flat > (plane ? 1 : 0) || widest == 0.0)
+  if (count_thin(thin, box) > (plane ? 1 : 0))
     return fg__fail(set->context, FG_STATUS_UNSUPPORTED,
                     "%s: its cells fill no %s: all are within %g x %g x %g", set->path,
-                    plane ? "area" : "volume", width[0], width[1], width[2]);
-  if (!plane || *out >= 0)
-    return FG_STATUS_OK;
-  fg__fail(set->context, FG_STATUS_UNSUPPORTED,
-           "%s: a surface that lies in no plane of two axes, but within %g x %g x %g",
-           set->path, width[0], width[1], width[2]);
-  fg__hint(set->context, "cut or turn it in ParaView, and save that");
-  return FG_STATUS_UNSUPPORTED;
+                    plane ? "area" : "volume", box->high[0] - box->low[0],
+                    box->high[1] - box->low[1], box->high[2] - box->low[2]);
+  for (int k = 0; k < 3; ++k)
+    if (thin[k] || (!plane && is_layer(set, box, k)))
+      *out = k;
+  return FG_STATUS_OK;
+}
+
+/* The same after a tilted plane has been turned into its own coordinates. */
+static fg_status find_box_and_flat(cell_box *box, fg__cell_set *set)
+{
+  fg_status status = find_box(box, set);
+  if (status == FG_STATUS_OK)
+    status = find_flat(&set->flat, set, box);
+  if (status != FG_STATUS_OK || set->flat >= 0 || fg__cell_dimension(set->shape[0]) == 3)
+    return status;
+  status = fg__cell_set_turn(set);
+  if (status == FG_STATUS_OK)
+    status = find_box(box, set);
+  return status == FG_STATUS_OK ? find_flat(&set->flat, set, box) : status;
 }
 
 static int by_size(const void *a, const void *b)
@@ -170,9 +186,7 @@ fg_status fg__cell_set_choose_raster(fg__cell_set *set)
   cell_box box;
   double intervals[3] = {0.0, 0.0, 0.0};
   int fitted[3];
-  fg_status status = find_box(&box, set);
-  if (status == FG_STATUS_OK)
-    status = find_flat(&set->flat, set, &box);
+  fg_status status = find_box_and_flat(&box, set);
   for (int k = 0; k < 3 && status == FG_STATUS_OK; ++k)
     if (k != set->flat)
       status = count_intervals(&intervals[k], set, k, box.high[k] - box.low[k]);

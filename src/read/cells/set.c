@@ -15,6 +15,8 @@ void fg__cell_set_clear(fg__cell_set *set)
   free(set->first);
   free(set->corner);
   free(set->place);
+  free(set->middle);
+  free(set->parent);
   *set = (fg__cell_set){0};
 }
 
@@ -37,8 +39,8 @@ static bool grow_cells(fg__cell_set *set)
   return grown;
 }
 
-fg_status fg__cell_set_add(fg__cell_set *set, fg__cell_shape shape, const double *corner,
-                           const fg__cell_points *points, int number)
+fg_status fg__cell_set_add_points(fg__cell_set *set, fg__cell_shape shape,
+                                  const int *point, int number)
 {
   const size_t corners = (size_t)fg__cell_corners(shape);
   void *all = set->corner;
@@ -49,18 +51,90 @@ fg_status fg__cell_set_add(fg__cell_set *set, fg__cell_shape shape, const double
                                     sizeof *set->corner))
     return fg__fail_memory(set->context, "cells", set->corners * sizeof *set->corner);
   set->corner = all;
-  for (size_t i = 0; i < corners; ++i) {
-    if (!(corner[i] >= 0.0 && corner[i] < (double)points->count))
-      return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
-                      "%s: corner %zu of cell %d is point %g of %zu", set->path, i,
-                      number, corner[i], points->count);
-    set->corner[set->corners + i] = (int)(points->first + (size_t)corner[i]);
-  }
+  memcpy(set->corner + set->corners, point, corners * sizeof *point);
   set->shape[set->count] = (unsigned char)shape;
   set->number[set->count] = number;
   set->first[set->count++] = set->corners;
   set->corners += corners;
   return FG_STATUS_OK;
+}
+
+fg_status fg__cell_set_add(fg__cell_set *set, fg__cell_shape shape, const double *corner,
+                           const fg__cell_points *points, int number)
+{
+  int point[FG__CELL_CORNERS];
+  for (int i = 0; i < fg__cell_corners(shape); ++i) {
+    if (!(corner[i] >= 0.0 && corner[i] < (double)points->count))
+      return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
+                      "%s: corner %d of cell %d is point %g of %zu", set->path, i, number,
+                      corner[i], points->count);
+    point[i] = (int)(points->first + (size_t)corner[i]);
+  }
+  return fg__cell_set_add_points(set, shape, point, number);
+}
+
+/* How much of a middle's value each of its corners has, and each of the points between
+ * two: serendipity functions of a quad (4, 4) and of a hexahedron (8, 12). */
+static const double SHARE_OF_CORNER = -0.25;
+
+static double share_of_between(const fg__cell_middle *middle)
+{
+  return (1.0 + 0.25 * middle->corners) / middle->betweens;
+}
+
+void fg__cell_set_fill_middles(float *of_point, const fg__cell_set *set)
+{
+  for (size_t m = 0; m < set->middles; ++m) {
+    const fg__cell_middle *middle = &set->middle[m];
+    const int *parent = set->parent + middle->first;
+    double sum = 0.0;
+    for (int i = 0; i < middle->corners + middle->betweens; ++i)
+      sum += (i < middle->corners ? SHARE_OF_CORNER : share_of_between(middle)) *
+             (double)of_point[parent[i]];
+    of_point[set->file_points + m] = (float)sum;
+  }
+}
+
+static void place_middle(double out[3], const fg__cell_set *set,
+                         const fg__cell_middle *middle)
+{
+  const int *parent = set->parent + middle->first;
+  out[0] = out[1] = out[2] = 0.0;
+  for (int i = 0; i < middle->corners + middle->betweens; ++i)
+    for (int k = 0; k < 3; ++k)
+      out[k] += (i < middle->corners ? SHARE_OF_CORNER : share_of_between(middle)) *
+                set->position[3 * (size_t)parent[i] + (size_t)k];
+}
+
+/* The middles become points after the file's. */
+static fg_status place_middles(fg__cell_set *set)
+{
+  set->file_points = set->points;
+  if (set->middles == 0)
+    return FG_STATUS_OK;
+  if (set->middles > INT_MAX - set->points)
+    return fg__fail(set->context, FG_STATUS_UNSUPPORTED, "%s: more than %d points",
+                    set->path, INT_MAX);
+  const size_t points = set->points + set->middles;
+  double *position = realloc(set->position, points * 3 * sizeof *position);
+  if (!position)
+    return fg__fail_memory(set->context, "points", points * 3 * sizeof *position);
+  set->position = position;
+  for (size_t m = 0; m < set->middles; ++m)
+    place_middle(position + 3 * (set->points + m), set, &set->middle[m]);
+  for (size_t i = 0; i < set->corners; ++i)
+    if (set->corner[i] < 0)
+      set->corner[i] = (int)(set->points + (size_t)(-1 - set->corner[i]));
+  set->points = points;
+  return FG_STATUS_OK;
+}
+
+size_t fg__cell_set_count(const fg__cell_set *set)
+{
+  size_t count = 0;
+  for (size_t c = 0; c < set->count; ++c)
+    count += c == 0 || set->number[c] != set->number[c - 1];
+  return count;
 }
 
 /* Keeps cells of the largest dimension alone. */
@@ -87,7 +161,9 @@ fg_status fg__cell_set_locate(fg__cell_set *set)
                     "%s: none of its %zu cells has an area or a volume", set->path,
                     set->numbers);
   drop_lower(set);
-  fg_status status = fg__cell_set_choose_raster(set);
+  fg_status status = place_middles(set);
+  if (status == FG_STATUS_OK)
+    status = fg__cell_set_choose_raster(set);
   return status == FG_STATUS_OK ? fg__cell_set_find_places(set) : status;
 }
 

@@ -5,6 +5,7 @@
 #define FG__CELL_SET_H
 
 #include "base/context.h"
+#include "field/plane.h"
 
 enum { FG__CELL_CORNERS = 8 };
 
@@ -26,19 +27,34 @@ typedef struct fg__cell_place {
   float at[3];
 } fg__cell_place;
 
+/* A point that no file has: in the middle of a face or a body of a quadratic cell, where
+ * the cell's own functions have so much of its corners and of the points between them. */
+typedef struct fg__cell_middle {
+  size_t first; /* of its parents: first corners, then points between two */
+  int corners, betweens;
+} fg__cell_middle;
+
 /* Cells of fewer dimensions than the largest are left out: edges, faces of volumes. */
 typedef struct fg__cell_set {
   fg_context *context;
   const char *path;
-  size_t points;
-  double *position; /* [3 * points], x y z of a point together */
+  size_t points;      /* once located with the middles, which follow the file's */
+  size_t file_points; /* once located: those of the file */
+  double *position;   /* [3 * points], x y z of a point together */
+  fg__cell_middle *middle;
+  size_t middles, middles_capacity;
+  int *parent; /* of the middles: points */
+  size_t parents, parents_capacity;
   size_t count, capacity, corners_capacity;
   unsigned char *shape; /* [count], fg__cell_shape */
   int *number;          /* [count], which of the file's cells it is */
   size_t *first;        /* [count], its first corner's place in `corner` */
-  int *corner;          /* points */
+  int *corner;          /* points; until located -1 - n: the n-th middle */
   size_t corners;
   size_t numbers; /* cells of the file, those left out included */
+  bool tilted;    /* a plane that is along no two axes: positions are in the plane's own
+                     coordinates, x and y, at z = 0 */
+  fg__plane_basis basis; /* of it */
   /* of the raster: */
   int dimension;
   int flat; /* in 2D the axis that it has one sample along; else -1 */
@@ -63,10 +79,25 @@ typedef struct fg__cell_points {
 fg_status fg__cell_set_add(fg__cell_set *set, fg__cell_shape shape, const double *corner,
                            const fg__cell_points *points, int number);
 
-/* Leaves out cells of fewer dimensions than the largest, chooses the raster and finds
- * each of its samples. UNSUPPORTED (no cell with an area or a volume, a surface that lies
- * in no plane of two axes), FILE_FORMAT (coordinates that are no numbers, cells that lie
- * over each other many times), MEMORY. */
+/* Adds a cell of a type of VTK's (vtkCellType.h) by its points, which are numbered as VTK
+ * numbers them: linear cells as they are, strips, prisms and convex polygons in parts,
+ * quadratic ones as linear cells between all their points and middles; vertices and lines
+ * are left out. UNSUPPORTED (other types, polygons that are not convex), else as above.
+ */
+fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const double *node,
+                              size_t nodes, const fg__cell_points *points, int number);
+
+/* The same with the points' places in `position` for corners, which are not checked. */
+fg_status fg__cell_set_add_points(fg__cell_set *set, fg__cell_shape shape,
+                                  const int *point, int number);
+
+/* How many of the file's cells there are in it, whole or in parts. */
+size_t fg__cell_set_count(const fg__cell_set *set);
+
+/* Leaves out cells of fewer dimensions than the largest, turns a tilted plane into its
+ * own, chooses the raster and finds each of its samples. UNSUPPORTED (no cell with an
+ * area or a volume, a surface that is not plane), FILE_FORMAT (coordinates that are no
+ * numbers, cells that lie over each other many times), MEMORY. */
 fg_status fg__cell_set_locate(fg__cell_set *set);
 
 /* The steps of that, apart for their tests' sake: the raster alone; then its samples. */
@@ -77,6 +108,13 @@ fg_status fg__cell_set_find_places(fg__cell_set *set);
  * one of them makes it one. of_cell[numbers], of_point[points]. MEMORY. */
 fg_status fg__cell_set_to_points(float *of_point, const fg__cell_set *set,
                                  const float *of_cell);
+
+/* Of an array of all points whose first file_points are known, the middles. */
+void fg__cell_set_fill_middles(float *of_point, const fg__cell_set *set);
+
+/* Turns positions into those in the plane that the cells lie in. UNSUPPORTED (not plane).
+ */
+fg_status fg__cell_set_turn(fg__cell_set *set);
 
 /* Samples [first, first + count) of the raster, interpolated between points; NaN outside
  * all cells, and in those with a corner that is NaN. */

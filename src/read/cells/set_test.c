@@ -174,8 +174,9 @@ static void sets_that_fill_nothing_are_refused(void **state)
   set.numbers = 12;
   refuse(&set, FG_STATUS_UNSUPPORTED, "none of its 12 cells");
   set = set_of(*state, position, 8);
+  set.position[11] = 0.5;
   add(&set, FG__CELL_QUAD, corner);
-  refuse(&set, FG_STATUS_UNSUPPORTED, "no plane of two axes");
+  refuse(&set, FG_STATUS_UNSUPPORTED, "that is not plane");
   set = set_of(*state, position, 8);
   add(&set, FG__CELL_HEXAHEDRON, same);
   refuse(&set, FG_STATUS_UNSUPPORTED, "fill no volume");

@@ -193,11 +193,14 @@ static void grids_in_disguise_are_recognised(void **state)
   }
 }
 
-static void curvilinear_grids_are_refused_with_a_way_out(void **state)
+static void curvilinear_grids_need_a_frame(void **state)
 {
   sample_file *f = *state;
   make_plane(f, 2.0, false, false);
-  refuse(f, "curvilinear");
+  refuse(f, "nothing says whether 'u' and 'v' point east");
+  assert_non_null(strstr(fg_context_hint(f->context), "--frame grid"));
+  refuse_with(f, &(fg_read_options){.scale = FG_SCALE_MAP}, FG_STATUS_UNSUPPORTED,
+              "curvilinear");
   assert_non_null(strstr(fg_context_hint(f->context), "--scale plain"));
   fg_context_clear(f->context);
   fg_field *field = NULL;
@@ -369,7 +372,7 @@ int main(void)
       CASE(longitudes_that_jump_go_on),
       CASE(axes_out_of_order_are_refused),
       CASE(grids_in_disguise_are_recognised),
-      CASE(curvilinear_grids_are_refused_with_a_way_out),
+      CASE(curvilinear_grids_need_a_frame),
       CASE(components_must_run_along_the_axes),
       CASE(a_rotated_pole_has_a_sphere_of_its_own),
       CASE(bare_arrays_are_read_on_their_indices),

@@ -156,7 +156,7 @@ static fg_status fail_ambiguous(const fg__nc_file *file, const candidates *all,
 /* The only usable pair of the best rank that has one; the grid found on the way is kept.
  */
 static fg_status choose_best(fg__nc_pair *out, fg__nc_grid *grid, const fg__nc_file *file,
-                             const candidates *all, fg_scale scale)
+                             const candidates *all, const fg_read_options *options)
 {
   if (all->count == 0)
     return fail_no_vectors(file);
@@ -173,7 +173,7 @@ static fg_status choose_best(fg__nc_pair *out, fg__nc_grid *grid, const fg__nc_f
     if (count > 0 && all->pair[i].rank > out->rank)
       break;
     fg__nc_grid found;
-    status = fg__nc_grid_find(&found, file, &all->pair[i], scale);
+    status = fg__nc_grid_find(&found, file, &all->pair[i], options);
     usable[i] = status == FG_STATUS_OK && !found.unusable[0] ? found.dimension : 0;
     if (i == 0)
       memcpy(&first_unusable, &found, sizeof found);
@@ -200,11 +200,11 @@ fg_status fg__nc_choose(fg__nc_pair *pair, fg__nc_grid *grid, const fg__nc_file 
   if (status == FG_STATUS_OK && options->vars) {
     status = choose_named(pair, file, &all, options->vars);
     if (status == FG_STATUS_OK)
-      status = fg__nc_grid_find(grid, file, pair, options->scale);
+      status = fg__nc_grid_find(grid, file, pair, options);
     if (status == FG_STATUS_OK && grid->unusable[0])
       status = fail_unusable(file, pair, grid);
   } else if (status == FG_STATUS_OK) {
-    status = choose_best(pair, grid, file, &all, options->scale);
+    status = choose_best(pair, grid, file, &all, options);
   }
   free(all.pair);
   return status;

@@ -86,16 +86,19 @@ void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
   write_shape(of_u, sizeof of_u, file, u);
   write_shape(of_v, sizeof of_v, file, v);
   if (strcmp(of_u, of_v) != 0) {
+    grid->off_axes = true;
     fg__nc_unusable(grid, "'%.60s' is %s, '%.60s' is %s samples: a staggered grid",
                     u->plain_name, of_u, v->plain_name, of_v);
     return;
   }
   for (int k = 0; k < u->rank; ++k)
-    if (u->dimension[k] != v->dimension[k] && !same_coordinates(file, u, v, k))
+    if (u->dimension[k] != v->dimension[k] && !same_coordinates(file, u, v, k)) {
+      grid->off_axes = true;
       fg__nc_unusable(
           grid, "'%.60s' runs along '%.60s', '%.60s' along '%.60s': a staggered grid",
           u->plain_name, file->dimensions[u->dimension[k]].name, v->plain_name,
           file->dimensions[v->dimension[k]].name);
+    }
 }
 
 void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,

@@ -1,6 +1,6 @@
 /* The grid of a pair: dimensions, coordinates, units and scale. */
 #include "base/memory.h"
-#include "read/netcdf/netcdf.h"
+#include "read/mesh/mesh.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -162,17 +162,23 @@ static fg_scale natural_scale(const fg__nc_grid *grid, fg__nc_quantity velocity)
 }
 
 /* Components along east and north are not components along the axes of a projection or of
- * a rotated pole; on Mercator's and its kin's they are. */
+ * a rotated pole; on Mercator's and its kin's they are. Without the projection they can
+ * not be turned. */
 static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
-                             const fg__nc_variable *u)
+                             const fg__nc_variable *u, fg_frame frame)
 {
   static const char *const upright[] = {"mercator", "latitude_longitude",
                                         "lambert_cylindrical_equal_area"};
   char text[FG__NC_TEXT];
   char mapping[FG__NC_TEXT];
   fg__nc_text(u, "standard_name", text, sizeof text);
-  if (!strstr(text, "eastward"))
+  const bool east = strstr(text, "eastward") && strncmp(text, "grid_", 5) != 0;
+  if (frame == FG_FRAME_GRID || (frame == FG_FRAME_AUTO && !east))
     return;
+  if (grid->projection[0]) {
+    grid->points_east = true;
+    return;
+  }
   fg__nc_text(u, "grid_mapping", mapping, sizeof mapping);
   const fg__nc_variable *described = mapping[0] ? fg__nc_find(file, mapping) : NULL;
   if (!described || !fg__nc_text(described, "grid_mapping_name", mapping, sizeof mapping))
@@ -186,15 +192,27 @@ static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
            "--scale map or plain takes the components as if they were along the axes");
 }
 
-static void settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
-                         const fg__nc_pair *pair, fg__nc_quantity velocity,
-                         fg_scale wanted)
+static bool is_rotated(const fg__nc_grid *grid)
+{
+  return strcmp(grid->axis[0].name, "grid longitude") == 0 &&
+         strcmp(grid->axis[1].name, "grid latitude") == 0;
+}
+
+static fg_status settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
+                              const fg__nc_pair *pair, fg__nc_quantity velocity,
+                              const fg_read_options *options)
 {
   const fg__nc_axis *x = &grid->axis[0];
   const fg__nc_axis *y = &grid->axis[1];
+  const fg_scale wanted = options->scale;
+  fg_status status = FG_STATUS_OK;
   grid->scale = wanted == FG_SCALE_AUTO ? natural_scale(grid, velocity) : wanted;
-  if (wanted == FG_SCALE_AUTO || wanted == FG_SCALE_GEO)
-    check_directions(grid, file, pair->component[0]);
+  if (grid->scale == FG_SCALE_MAP || (wanted == FG_SCALE_AUTO && is_rotated(grid)))
+    status = fg__nc_projection_find(grid, file, pair->component[0]);
+  if (grid->projection[0])
+    grid->scale = FG_SCALE_MAP;
+  if ((wanted == FG_SCALE_AUTO || wanted == FG_SCALE_GEO) && is_usable(grid))
+    check_directions(grid, file, pair->component[0], options->frame);
   if (grid->scale == FG_SCALE_GEO &&
       (x->quantity == FG__NC_LENGTH || y->quantity == FG__NC_LENGTH))
     fg__nc_unusable(grid, "scale geo needs axes in degrees; '%.60s' is in %.40s", x->name,
@@ -202,36 +220,58 @@ static void settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
   if (grid->scale == FG_SCALE_MAP && strcmp(x->units, y->units) != 0)
     fg__nc_unusable(grid, "'%.60s' is in %.40s, '%.60s' in %.40s: no plane", x->name,
                     x->units, y->name, y->units);
+  return status;
 }
 
-fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
-                           const fg__nc_pair *pair, fg_scale scale)
+/* What lies on axes: their coordinates, units and scale. */
+static fg_status find_on_axes(fg__nc_grid *grid, const fg__nc_file *file,
+                              const fg__nc_pair *pair, const fg_read_options *options)
 {
   const fg__nc_variable *u = pair->component[0];
-  const fg__nc_variable *v = pair->component[1];
-  *grid = (fg__nc_grid){
-      .dimension = 2, .time = -1, .level = -1, .times = 1, .levels = 1, .scale = scale};
-  fg__nc_check_variable(grid, u);
-  fg__nc_check_variable(grid, v);
-  if (is_usable(grid))
-    fg__nc_check_shapes(grid, file, u, v);
-  if (is_usable(grid))
-    check_lengths(grid, file, u);
-  if (is_usable(grid))
-    find_dimensions(grid, file, u);
+  fg__nc_check_shapes(grid, file, u, pair->component[1]);
   if (!is_usable(grid))
     return FG_STATUS_OK;
   fg_status status = read_axes(grid, file, u);
-  if (status != FG_STATUS_OK)
+  if (status != FG_STATUS_OK || !is_usable(grid))
     return status;
   set_positions(grid, u);
   grid->samples = grid->axis[0].size * grid->axis[1].size;
   fg__nc_quantity velocity;
   check_units(grid, pair, &velocity);
   if (is_usable(grid))
-    settle_scale(grid, file, pair, velocity, scale);
-  return is_usable(grid) && pair->component[2] ? fg__nc_volume_find(grid, file, pair)
-                                               : FG_STATUS_OK;
+    status = settle_scale(grid, file, pair, velocity, options);
+  if (status != FG_STATUS_OK || !is_usable(grid))
+    return status;
+  if (pair->component[2])
+    status = fg__nc_volume_find(grid, file, pair);
+  grid->off_axes = false; /* the third component may be */
+  return status;
+}
+
+fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_pair *pair, const fg_read_options *options)
+{
+  *grid = (fg__nc_grid){.dimension = 2,
+                        .time = -1,
+                        .level = -1,
+                        .times = 1,
+                        .levels = 1,
+                        .scale = options->scale};
+  for (int k = 0; k < 2; ++k)
+    fg__nc_check_variable(grid, pair->component[k]);
+  for (int k = 0; k < 2 && is_usable(grid); ++k)
+    check_lengths(grid, file, pair->component[k]);
+  if (is_usable(grid))
+    find_dimensions(grid, file, pair->component[0]);
+  if (!is_usable(grid))
+    return FG_STATUS_OK;
+  fg_status status = find_on_axes(grid, file, pair, options);
+  if (status == FG_STATUS_OK && grid->off_axes)
+    status = fg__nc_mesh_find(grid, file, pair, options);
+  fg__nc_quantity velocity;
+  if (status == FG_STATUS_OK && grid->mesh && is_usable(grid))
+    check_units(grid, pair, &velocity);
+  return status;
 }
 
 void fg__nc_grid_clear(fg__nc_grid *grid)
@@ -240,4 +280,6 @@ void fg__nc_grid_clear(fg__nc_grid *grid)
     free(grid->axis[k].coordinate);
     grid->axis[k].coordinate = NULL;
   }
+  fg__nc_mesh_destroy(grid->mesh);
+  grid->mesh = NULL;
 }

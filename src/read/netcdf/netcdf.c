@@ -1,7 +1,6 @@
 /* NetCDF: classic, 64-bit offset, CDF-5 and NetCDF-4, through NetCDF-C. */
-#include "read/netcdf/netcdf.h"
-
 #include "field/slab.h"
+#include "read/mesh/mesh.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -54,9 +53,13 @@ static fg_status check_index(const fg__nc_file *file, const char *what, int inde
     return fg__fail(file->context, FG_STATUS_ARGUMENT,
                     "%s: %s %d asked for, but the field has no %s axis", file->paths[0],
                     what, index, what);
-  return fg__fail(file->context, FG_STATUS_ARGUMENT,
-                  "%s: %s %d asked for, but '%s' has %zu: 0 to %zu", file->paths[0], what,
-                  index, name, count, count - 1);
+  fg__fail(file->context, FG_STATUS_ARGUMENT,
+           "%s: %s %d asked for, but '%s' has %zu: 0 to %zu", file->paths[0], what, index,
+           name, count, count - 1);
+  fg__hint(file->context,
+           "a whole number is an index, from 0; a value has its unit or a point: %s",
+           strcmp(what, "time") == 0 ? "1982-07-16, 2.5" : "850hPa, 850.");
+  return FG_STATUS_ARGUMENT;
 }
 
 static fg_status check_missing(const fg__nc_file *file, const fg__nc_variable *v,
@@ -83,47 +86,38 @@ static void keep_missing(const fg_field *field, const fg__nc_samples *read)
   }
 }
 
+static const char *projection_of(const fg__nc_grid *grid)
+{
+  return grid->dimension == 2 && grid->projection[0] ? grid->projection : NULL;
+}
+
 static fg_status make_field(fg_field **out, const fg__nc_file *file,
                             const fg__nc_pair *pair, const fg__nc_grid *grid,
                             const fg_read_options *options, fg__slab_index slab)
 {
-  char title[FG__NC_TEXT];
-  char units[FG__NC_TEXT];
-  char text[FG__NC_TEXT];
-  char time[FG__NC_TEXT] = "";
-  char level[FG__NC_TEXT] = "";
-  fg_status status = FG_STATUS_OK;
+  fg__nc_words words;
   fg__nc_samples read = {0};
   const fg__nc_axis *last = &grid->axis[grid->dimension - 1];
   if (last->period > 0.0)
     slab = (fg__slab_index){0, 1};
   const fg__rows rows = fg__rows_of(&slab, (int)last->size, false);
-  if (grid->time >= 0)
-    status = fg__nc_index_words(file, grid->time_variable, grid->time_name,
-                                (size_t)options->time, time, sizeof time);
-  if (grid->level >= 0 && grid->dimension == 2 && status == FG_STATUS_OK)
-    status = fg__nc_index_words(file, grid->level_variable, grid->level_name,
-                                (size_t)options->level, level, sizeof level);
+  fg_status status = fg__nc_words_find(&words, file, pair, grid, options);
   if (status == FG_STATUS_OK)
     status = fg__nc_samples_read(&read, file, pair, grid, &rows, (size_t)options->time,
                                  (size_t)options->level, options->mask);
+  if (status == FG_STATUS_OK && grid->dimension == 2)
+    status = fg__nc_projection_turn(read.velocity, file, grid, &rows);
   for (int k = 0; k < grid->dimension && status == FG_STATUS_OK && slab.count == 1; ++k)
     status = check_missing(file, pair->component[k], &read.missing[k], grid->samples);
-  if (status == FG_STATUS_OK) {
-    fg__nc_title(pair, grid->dimension, title, sizeof title);
-    if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
-      fg__nc_text(pair->component[1], "units", text, sizeof text);
-    fg__nc_units(text, units, sizeof units);
-    status = fg__nc_status(file, status);
-  }
   if (status == FG_STATUS_OK) {
     fg_field_arrays arrays = {.dimension = grid->dimension,
                               .valid = read.valid,
                               .scale = grid->scale,
-                              .velocity_units = units,
-                              .title = title,
-                              .time = time[0] ? time : NULL,
-                              .level = level[0] ? level : NULL};
+                              .projection = projection_of(grid),
+                              .velocity_units = words.units,
+                              .title = words.title,
+                              .time = words.time[0] ? words.time : NULL,
+                              .level = words.level[0] ? words.level : NULL};
     for (int k = 0; k < grid->dimension; ++k) {
       arrays.size[k] = (int)grid->axis[k].size;
       arrays.axis[k] = grid->axis[k].coordinate;
@@ -155,26 +149,55 @@ static fg_status check_level(const fg__nc_file *file, const fg__nc_grid *grid, i
   return FG_STATUS_ARGUMENT;
 }
 
+/* What the options ask for; grid and file are to be cleared even after a failure. */
+static fg_status open_chosen(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
+                             fg_context *context, const fg__source *source,
+                             const fg_read_options *options)
+{
+  fg_status status = fg__nc_file_open(file, context, source);
+  if (status == FG_STATUS_OK && options->vars_from)
+    status = add_second_file(file, context, options->vars_from);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_choose(pair, grid, file, options);
+  if (status == FG_STATUS_OK)
+    status = check_second(file, pair, options->mask);
+  if (status == FG_STATUS_OK)
+    status = check_index(file, "time", options->time, grid->time, grid->times,
+                         grid->time_name);
+  return status == FG_STATUS_OK ? check_level(file, grid, options->level) : status;
+}
+
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
                             const fg_read_options *options, fg__slab_index slab)
 {
   fg__nc_file file = {0};
   fg__nc_pair pair = {0};
   fg__nc_grid grid = {0};
-  fg_status status = fg__nc_file_open(&file, context, source);
-  if (status == FG_STATUS_OK && options->vars_from)
-    status = add_second_file(&file, context, options->vars_from);
-  if (status == FG_STATUS_OK)
-    status = fg__nc_choose(&pair, &grid, &file, options);
-  if (status == FG_STATUS_OK)
-    status = check_second(&file, &pair, options->mask);
-  if (status == FG_STATUS_OK)
-    status =
-        check_index(&file, "time", options->time, grid.time, grid.times, grid.time_name);
-  if (status == FG_STATUS_OK)
-    status = check_level(&file, &grid, options->level);
-  if (status == FG_STATUS_OK)
+  fg__sphere *sphere = NULL;
+  fg_status status = open_chosen(&file, &pair, &grid, context, source, options);
+  if (status == FG_STATUS_OK && grid.mesh) {
+    status = fg__nc_sphere_read(&sphere, &file, &pair, &grid, options);
+    if (status == FG_STATUS_OK)
+      status = fg__globe_field(out, context, sphere, slab);
+  } else if (status == FG_STATUS_OK) {
     status = make_field(out, &file, &pair, &grid, options, slab);
+  }
+  status = fg__nc_status(&file, status);
+  fg__sphere_destroy(sphere);
+  fg__nc_grid_clear(&grid);
+  fg__nc_file_close(&file);
+  return status;
+}
+
+static fg_status read_sphere(fg__sphere **out, fg_context *context,
+                             const fg__source *source, const fg_read_options *options)
+{
+  fg__nc_file file = {0};
+  fg__nc_pair pair = {0};
+  fg__nc_grid grid = {0};
+  fg_status status = open_chosen(&file, &pair, &grid, context, source, options);
+  if (status == FG_STATUS_OK && grid.mesh)
+    status = fg__nc_sphere_read(out, &file, &pair, &grid, options);
   status = fg__nc_status(&file, status);
   fg__nc_grid_clear(&grid);
   fg__nc_file_close(&file);
@@ -257,7 +280,15 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
       .levels = grid.dimension == 3 ? 1 : (int)grid.levels,
       .scale = grid.scale,
       .periodic = {grid.axis[0].period > 0.0}};
-  for (int k = 0; k < grid.dimension; ++k) {
+  char frame[sizeof grid.projection + FG__NC_TEXT];
+  snprintf(frame, sizeof frame, "%s of %s",
+           grid.points_east ? "east and north, turned to the axes" : "along the axes",
+           grid.projection);
+  if (grid.projection[0])
+    vector.frame = frame;
+  if (grid.mesh && !grid.unusable[0])
+    status = fg__nc_mesh_describe(&vector, file, pair, found);
+  for (int k = 0; k < grid.dimension && !grid.mesh; ++k) {
     vector.size[k] = (int)grid.axis[k].size;
     if (grid.axis[k].coordinate) {
       vector.bounds[2 * k] = grid.axis[k].coordinate[0];
@@ -269,7 +300,7 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
            grid.hint);
   if (grid.unusable[0])
     vector.unusable = reason;
-  else if (counts)
+  else if (counts && !grid.mesh)
     status = count_missing(&vector, file, pair, found);
   return status == FG_STATUS_OK ? add_vector(inventory, &vector, file, found) : status;
 }
@@ -277,8 +308,9 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
 static fg_status describe_pair(fg_inventory *inventory, const fg__nc_file *file,
                                const fg__nc_pair *pair)
 {
+  static const fg_read_options defaults = {0};
   fg__nc_grid grid;
-  fg_status status = fg__nc_grid_find(&grid, file, pair, FG_SCALE_AUTO);
+  fg_status status = fg__nc_grid_find(&grid, file, pair, &defaults);
   if (status == FG_STATUS_OK)
     status = describe_grid(inventory, file, pair, &grid, true);
   fg__nc_grid_clear(&grid);
@@ -328,4 +360,5 @@ const fg__format fg__format_netcdf = {
     .is_mine = is_netcdf,
     .inventory = describe,
     .inventory_chosen = describe_chosen,
+    .sphere = read_sphere,
     .read = read_field};

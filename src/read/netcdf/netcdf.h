@@ -158,7 +158,11 @@ typedef struct fg__nc_axis {
   char units[FG__NC_TEXT];
 } fg__nc_axis;
 
+typedef struct fg__nc_mesh fg__nc_mesh; /* mesh/mesh.h */
+
 typedef struct fg__nc_grid {
+  fg__nc_mesh *mesh;    /* NULL: axes place its points */
+  bool off_axes;        /* they do not: it is a mesh or unusable */
   int dimension;        /* 2: a plane at one level; 3 */
   fg__nc_axis axis[3];  /* x, y; the levels as z in 3D */
   int time, level;      /* positions among the dimensions, or -1 */
@@ -166,8 +170,10 @@ typedef struct fg__nc_grid {
   const fg__nc_variable *time_variable, *level_variable; /* or NULL */
   char time_name[NC_MAX_NAME + 1], level_name[NC_MAX_NAME + 1];
   fg_scale scale;
-  size_t samples;                 /* of the axes together */
-  char unusable[2 * FG__NC_TEXT]; /* "" or why the pair cannot be read */
+  char projection[2 * FG__NC_TEXT]; /* of scale MAP: a PROJ string; "" not known */
+  bool points_east;                 /* components along east and north, not the axes */
+  size_t samples;                   /* of the axes together */
+  char unusable[2 * FG__NC_TEXT];   /* "" or why the pair cannot be read */
   char hint[FG__NC_TEXT];
 } fg__nc_grid;
 
@@ -200,6 +206,24 @@ fg_status fg__nc_axis_count(fg__nc_grid *grid, const fg__nc_file *file, int k);
 fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
                             const fg__nc_variable *variable, bool *found);
 
+/* The two-dimensional longitude (X) or latitude (Y) of a variable that lies on a grid's
+ * dimensions, perhaps for each time; one that the variable names among its coordinates
+ * goes before others. NULL: there is none. */
+const fg__nc_variable *fg__nc_plane_coordinate(const fg__nc_grid *grid,
+                                               const fg__nc_file *file,
+                                               const fg__nc_variable *variable,
+                                               fg__nc_role role);
+
+/* projection.c. Finds the PROJ string of axes along x and y, or about a rotated pole,
+ * from the variable's grid mapping; where the file's longitudes and latitudes are not
+ * those of the projection, the grid is off its axes. MEMORY, FILE_ACCESS. */
+fg_status fg__nc_projection_find(fg__nc_grid *grid, const fg__nc_file *file,
+                                 const fg__nc_variable *u);
+
+/* Turns samples of some rows to the directions of the projection's plane. */
+fg_status fg__nc_projection_turn(float *const velocity[2], const fg__nc_file *file,
+                                 const fg__nc_grid *grid, const fg__rows *rows);
+
 /* volume.c. Makes a grid found for the first two components one in 3D when there
  * is a third, all levels are one axis in space, and space has one measure; when the third
  * is asked for, what is in the way makes the pair unusable. */
@@ -209,7 +233,7 @@ fg_status fg__nc_volume_find(fg__nc_grid *grid, const fg__nc_file *file,
 /* Finds the grid of a pair. What makes it unusable goes to `unusable`; only failures to
  * read or a lack of memory are statuses. */
 fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
-                           const fg__nc_pair *pair, fg_scale scale);
+                           const fg__nc_pair *pair, const fg_read_options *options);
 void fg__nc_grid_clear(fg__nc_grid *grid);
 
 /* choice.c. Finds the pair that the options ask for, or the only one of the best rank
@@ -233,6 +257,24 @@ fg_status fg__nc_values(float *out, fg__nc_missing *missing, const fg__nc_file *
 fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
                       const fg__nc_variable *variable, const fg__nc_grid *grid,
                       const fg__nc_variable *component, size_t time, size_t level);
+
+/* Whether it holds numbers along 1 to FG__NC_RANK dimensions. */
+bool fg__nc_is_array(const fg__nc_variable *v);
+
+/* Whether a variable has both dimensions of a grid, and no others but the component's
+ * time and level and those of length 1. */
+bool fg__nc_lies_on(const fg__nc_file *file, const fg__nc_variable *v,
+                    const fg__nc_grid *grid, const fg__nc_variable *component);
+
+/* Reads the numbers of such a variable into out, x fastest; NaN where they are missing.
+ * FILE_FORMAT (it does not lie on the grid), FILE_ACCESS, MEMORY. */
+fg_status fg__nc_doubles(double *out, const fg__nc_file *file,
+                         const fg__nc_variable *variable, const fg__nc_grid *grid,
+                         const fg__nc_variable *component, size_t time, size_t level);
+
+/* The same of a variable with one dimension. */
+fg_status fg__nc_line(double *out, const fg__nc_file *file,
+                      const fg__nc_variable *variable);
 
 /* The samples of some rows of a field. */
 typedef struct fg__nc_samples {
@@ -261,5 +303,15 @@ fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coo
  * where there is no coordinate, or more values than anyone would choose from. */
 fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file *file,
                              const fg__nc_variable *coordinate, size_t count);
+
+/* What captions say of the samples that options choose. */
+typedef struct fg__nc_words {
+  char title[FG__NC_TEXT], units[FG__NC_TEXT];
+  char time[FG__NC_TEXT], level[FG__NC_TEXT]; /* "": none */
+} fg__nc_words;
+
+fg_status fg__nc_words_find(fg__nc_words *out, const fg__nc_file *file,
+                            const fg__nc_pair *pair, const fg__nc_grid *grid,
+                            const fg_read_options *options);
 
 #endif

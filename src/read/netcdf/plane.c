@@ -40,11 +40,10 @@ static bool lies_in_plane(const fg__nc_variable *v, int x, int y)
   return (last[0] == x && last[1] == y) || (last[0] == y && last[1] == x);
 }
 
-/* The two-dimensional longitude (x) or latitude (y) of a variable; one that the variable
- * names among its coordinates goes before others. */
-static const fg__nc_variable *find_plane(const fg__nc_grid *grid, const fg__nc_file *file,
-                                         const fg__nc_variable *variable,
-                                         fg__nc_role role)
+const fg__nc_variable *fg__nc_plane_coordinate(const fg__nc_grid *grid,
+                                               const fg__nc_file *file,
+                                               const fg__nc_variable *variable,
+                                               fg__nc_role role)
 {
   char listed[FG__NC_TEXT];
   fg__nc_text(variable, "coordinates", listed, sizeof listed);
@@ -112,8 +111,8 @@ fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
                             const fg__nc_variable *variable, bool *found)
 {
   *found = false;
-  plane longitude = {find_plane(grid, file, variable, FG__NC_X), NULL};
-  plane latitude = {find_plane(grid, file, variable, FG__NC_Y), NULL};
+  plane longitude = {fg__nc_plane_coordinate(grid, file, variable, FG__NC_X), NULL};
+  plane latitude = {fg__nc_plane_coordinate(grid, file, variable, FG__NC_Y), NULL};
   if (!longitude.variable || !latitude.variable || grid->scale == FG_SCALE_PLAIN)
     return FG_STATUS_OK;
   const int *dimension = last_dimensions(longitude.variable);
@@ -131,6 +130,7 @@ fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
                            : direction_of(&latitude, n1, n0, false);
   const int y_dimension = y < 0 ? -1 : other[y];
   if (x < 0 || y < 0 || dimension[x] == y_dimension) {
+    grid->off_axes = true;
     fg__nc_unusable(grid,
                     "a curvilinear grid: '%s' and '%s' vary along both of its dimensions",
                     longitude.variable->name, latitude.variable->name);

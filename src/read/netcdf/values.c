@@ -270,43 +270,80 @@ static void put_mask(void *target, size_t index, double stored)
   to->out[index] = value > 0.0; /* false for NaN */
 }
 
-/* The mask's own dimension that matches one of the component's, or -1. */
-static int matching(const fg__nc_file *file, const fg__nc_variable *mask, int dimension)
+typedef struct number_sink {
+  const packing *packing;
+  double *out;
+} number_sink;
+
+static void put_number(void *target, size_t index, double stored)
+{
+  const number_sink *to = target;
+  fg__nc_missing ignored = {0};
+  to->out[index] = unpack(to->packing, stored, &ignored);
+}
+
+/* The variable's own dimension that matches one of the component's, or -1. */
+static int matching(const fg__nc_file *file, const fg__nc_variable *v, int dimension)
 {
   const fg__nc_dimension *wanted = &file->dimensions[dimension];
-  for (int k = 0; k < mask->rank; ++k) {
-    const fg__nc_dimension *own = &file->dimensions[mask->dimension[k]];
-    if (mask->dimension[k] == dimension ||
+  for (int k = 0; k < v->rank; ++k) {
+    const fg__nc_dimension *own = &file->dimensions[v->dimension[k]];
+    if (v->dimension[k] == dimension ||
         (strcmp(own->name, wanted->name) == 0 && own->length == wanted->length))
       return k;
   }
   return -1;
 }
 
-fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
-                      const fg__nc_variable *variable, const fg__nc_grid *grid,
-                      const fg__nc_variable *component, size_t time, size_t level)
+/* Where the dimensions of a component's grid are among a variable's; false where it lacks
+ * one of the plane's or has others. */
+static bool find_places(int position[FG__NC_ROLES], const fg__nc_file *file,
+                        const fg__nc_variable *v, const fg__nc_grid *grid,
+                        const fg__nc_variable *component)
 {
-  if (variable->rank < 2 || variable->rank > FG__NC_RANK || variable->type == NC_CHAR ||
-      variable->type > NC_UINT64)
-    return fg__fail(file->context, FG_STATUS_ARGUMENT,
-                    "%s: the mask '%s' is no array of numbers", variable->path,
-                    variable->name);
-  int position[FG__NC_ROLES] = {-1, -1, -1, -1};
   bool placed = true;
+  for (int role = 0; role < FG__NC_ROLES; ++role)
+    position[role] = -1;
   for (int k = 0; k < 2; ++k)
-    position[k] = matching(file, variable, grid->axis[k].dimension);
+    position[k] = matching(file, v, grid->axis[k].dimension);
   if (grid->time >= 0)
-    position[FG__NC_TIME] = matching(file, variable, component->dimension[grid->time]);
+    position[FG__NC_TIME] = matching(file, v, component->dimension[grid->time]);
   if (grid->level >= 0)
-    position[FG__NC_LEVEL] = matching(file, variable, component->dimension[grid->level]);
-  for (int k = 0; k < variable->rank; ++k) {
-    bool known = file->dimensions[variable->dimension[k]].length == 1;
+    position[FG__NC_LEVEL] = matching(file, v, component->dimension[grid->level]);
+  for (int k = 0; k < v->rank; ++k) {
+    bool known = file->dimensions[v->dimension[k]].length == 1;
     for (int role = 0; role < FG__NC_ROLES; ++role)
       known = known || position[role] == k;
     placed = placed && known;
   }
-  if (position[FG__NC_X] < 0 || position[FG__NC_Y] < 0 || !placed)
+  return placed && position[FG__NC_X] >= 0 && position[FG__NC_Y] >= 0 &&
+         position[FG__NC_X] != position[FG__NC_Y];
+}
+
+bool fg__nc_is_array(const fg__nc_variable *v)
+{
+  return v->rank >= 1 && v->rank <= FG__NC_RANK && v->type >= NC_BYTE &&
+         v->type <= NC_UINT64 && v->type != NC_CHAR;
+}
+
+bool fg__nc_lies_on(const fg__nc_file *file, const fg__nc_variable *v,
+                    const fg__nc_grid *grid, const fg__nc_variable *component)
+{
+  int position[FG__NC_ROLES];
+  return fg__nc_is_array(v) && v->rank >= 2 &&
+         find_places(position, file, v, grid, component);
+}
+
+fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
+                      const fg__nc_variable *variable, const fg__nc_grid *grid,
+                      const fg__nc_variable *component, size_t time, size_t level)
+{
+  if (variable->rank < 2 || !fg__nc_is_array(variable))
+    return fg__fail(file->context, FG_STATUS_ARGUMENT,
+                    "%s: the mask '%s' is no array of numbers", variable->path,
+                    variable->name);
+  int position[FG__NC_ROLES];
+  if (!find_places(position, file, variable, grid, component))
     return fg__fail(file->context, FG_STATUS_ARGUMENT,
                     "%s: the mask '%s' does not lie on the grid of '%s'", variable->path,
                     variable->name, component->name);
@@ -317,4 +354,41 @@ fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
   if (file->exhausted)
     return FG_STATUS_MEMORY;
   return read_slab(&s, file, variable, put_mask, &to);
+}
+
+fg_status fg__nc_doubles(double *out, const fg__nc_file *file,
+                         const fg__nc_variable *variable, const fg__nc_grid *grid,
+                         const fg__nc_variable *component, size_t time, size_t level)
+{
+  int position[FG__NC_ROLES];
+  if (!fg__nc_is_array(variable) ||
+      !find_places(position, file, variable, grid, component))
+    return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
+                    "%s: '%s' does not lie on the grid of '%s'", variable->path,
+                    variable->name, component->name);
+  const packing p = find_packing(variable);
+  slab s;
+  set_slab(&s, variable, grid, position, time, level);
+  number_sink to = {&p, out};
+  if (file->exhausted)
+    return FG_STATUS_MEMORY;
+  return read_slab(&s, file, variable, put_number, &to);
+}
+
+fg_status fg__nc_line(double *out, const fg__nc_file *file,
+                      const fg__nc_variable *variable)
+{
+  const packing p = find_packing(variable);
+  const size_t count = file->dimensions[variable->dimension[0]].length;
+  const size_t start = 0;
+  if (file->exhausted)
+    return FG_STATUS_MEMORY;
+  const int error =
+      nc_get_vara_double(variable->group, variable->id, &start, &count, out);
+  if (error)
+    return fg__nc_fail(file->context, variable->path, variable->name, error);
+  number_sink to = {&p, out};
+  for (size_t n = 0; n < count; ++n)
+    put_number(&to, n, out[n]);
+  return FG_STATUS_OK;
 }

@@ -169,7 +169,7 @@ fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coo
                              const char *name, size_t index, char *out, size_t size)
 {
   if (!coordinate) {
-    snprintf(out, size, "%s %zu", name, index);
+    snprintf(out, size, "%.200s %zu", name, index);
     return FG_STATUS_OK;
   }
   double value = 0.0;
@@ -232,4 +232,26 @@ fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file
   free(starts);
   free(number);
   return status;
+}
+
+fg_status fg__nc_words_find(fg__nc_words *out, const fg__nc_file *file,
+                            const fg__nc_pair *pair, const fg__nc_grid *grid,
+                            const fg_read_options *options)
+{
+  char text[FG__NC_TEXT];
+  fg_status status = FG_STATUS_OK;
+  *out = (fg__nc_words){{0}, {0}, {0}, {0}};
+  if (grid->time >= 0)
+    status = fg__nc_index_words(file, grid->time_variable, grid->time_name,
+                                (size_t)options->time, out->time, sizeof out->time);
+  if (grid->level >= 0 && grid->dimension == 2 && status == FG_STATUS_OK)
+    status = fg__nc_index_words(file, grid->level_variable, grid->level_name,
+                                (size_t)options->level, out->level, sizeof out->level);
+  if (status != FG_STATUS_OK)
+    return status;
+  fg__nc_title(pair, grid->dimension, out->title, sizeof out->title);
+  if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
+    fg__nc_text(pair->component[1], "units", text, sizeof text);
+  fg__nc_units(text, out->units, sizeof out->units);
+  return fg__nc_status(file, status);
 }

@@ -130,7 +130,8 @@ fg_status fg__scatter_describe(fg_inventory *inventory, fg_context *context,
   for (size_t n = 0; n < samples && a->valid; ++n)
     missing += !a->valid[n];
   vector.dimension = vector.components = a->dimension;
-  vector.times = vector.levels = 1;
+  vector.times = vector.times > 0 ? vector.times : 1;
+  vector.levels = 1;
   vector.missing_share = (double)missing / (double)samples;
   vector.scale = a->scale;
   return fg__inventory_add(inventory, context, &vector);

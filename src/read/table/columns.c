@@ -97,7 +97,7 @@ static int find_like(const fg__table *table, const char *plain, const char *at,
 }
 
 /* The places of points; the first two or three columns where none have names. */
-static void find_places(fg__table_vector *out, const fg__table *table)
+void fg__table_places(fg__table_vector *out, const fg__table *table)
 {
   const int lon = find_listed(table, GLOBE[0]), lat = find_listed(table, GLOBE[1]);
   out->geographic = lon >= 0 && lat >= 0;
@@ -119,11 +119,12 @@ static void add(fg__table_vector *list, int *count, const fg__table *table,
                 const int velocity[3], const char *found_by)
 {
   fg__table_vector v = {.found_by = found_by};
-  find_places(&v, table);
+  fg__table_places(&v, table);
   find_validity(&v, table);
-  if (*count == FG__TABLE_VECTORS || v.position[0] < 0 || v.position[1] < 0)
+  const bool placed = v.position[0] >= 0 && v.position[1] >= 0;
+  if (*count == FG__TABLE_VECTORS || (!placed && !table->placeless))
     return;
-  v.dimension = velocity[2] >= 0 && v.position[2] >= 0 ? 3 : 2;
+  v.dimension = velocity[2] >= 0 && (v.position[2] >= 0 || !placed) ? 3 : 2;
   for (int k = 0; k < 3; ++k) {
     v.velocity[k] = k < v.dimension ? velocity[k] : -1;
     for (int d = 0; d < 3; ++d)
@@ -281,7 +282,7 @@ static fg_status choose_named(fg__table_vector *out, const fg__table *table,
   const bool with_places = count > 3;
   *out = (fg__table_vector){.dimension = with_places ? count / 2 : count,
                             .found_by = "vars"};
-  find_places(out, table);
+  fg__table_places(out, table);
   find_validity(out, table);
   for (int k = 0; k < 3; ++k) {
     const int at = with_places ? out->dimension + k : k;
@@ -294,8 +295,8 @@ static fg_status choose_named(fg__table_vector *out, const fg__table *table,
   if (with_places)
     out->geographic = is_one_of(GLOBE[0], table->column[column[0]].plain) &&
                       is_one_of(GLOBE[1], table->column[column[1]].plain);
-  if (out->position[0] >= 0 && out->position[1] >= 0 &&
-      (out->dimension == 2 || out->position[2] >= 0))
+  if (table->placeless || (out->position[0] >= 0 && out->position[1] >= 0 &&
+                           (out->dimension == 2 || out->position[2] >= 0)))
     return FG_STATUS_OK;
   fg__fail(table->context, FG_STATUS_ARGUMENT,
            "%s: no column is known to have the points' coordinates", table->path);

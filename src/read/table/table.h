@@ -78,7 +78,8 @@ typedef struct fg__table {
   fg__table_cursor data; /* the first line of data is next */
   fg__table_style style;
   fg__table_kind kind;
-  bool named; /* columns have names of the file's; else their numbers from 1 */
+  bool placeless; /* a velocity needs no columns of places */
+  bool named;     /* columns have names of the file's; else their numbers from 1 */
   int columns;
   fg__table_column *column; /* [columns] */
 } fg__table;
@@ -115,6 +116,9 @@ enum { FG__TABLE_VECTORS = 16 };
 /* columns.c. Lists the vectors that columns may be; in the order of the columns. At most
  * FG__TABLE_VECTORS. */
 int fg__table_vectors(fg__table_vector out[FG__TABLE_VECTORS], const fg__table *table);
+
+/* The columns of places alone. */
+void fg__table_places(fg__table_vector *out, const fg__table *table);
 
 /* Picks the one that vars names (U,V; U,V,W; X,Y,U,V; X,Y,Z,U,V,W), or the only one.
  * ARGUMENT, UNSUPPORTED. */

@@ -11,9 +11,10 @@ static fg_status check_coordinates(const fg__vtk *vtk, int axis)
   size_t whole = fg__vtk_length(vtk->extent, axis, FG__VTK_POINTS), sum = 0, bytes = 0;
   for (size_t p = 0; p < vtk->piece_count; ++p) {
     const fg__vtk_piece *piece = &vtk->pieces[p];
-    const fg__vtk_array *array = &vtk->arrays[piece->coordinates + (size_t)axis];
+    const fg__vtk *file = fg__vtk_home(vtk, p);
+    const fg__vtk_array *array = &file->arrays[piece->coordinates + (size_t)axis];
     size_t length = fg__vtk_length(piece->extent, axis, FG__VTK_POINTS), stored = 0;
-    fg_status status = fg__vtk_values_check(vtk, array, length, &stored);
+    fg_status status = fg__vtk_values_check(file, array, length, &stored);
     if (status != FG_STATUS_OK)
       return status;
     if (array->components != 1 || stored > vtk->file_size - bytes)
@@ -42,9 +43,10 @@ static fg_status read_axis(fg__vtk *vtk, int axis)
   for (size_t p = 0; p < vtk->piece_count; ++p) {
     const fg__vtk_piece *piece = &vtk->pieces[p];
     size_t length = fg__vtk_length(piece->extent, axis, FG__VTK_POINTS);
+    const fg__vtk *file = fg__vtk_home(vtk, p);
     fg__vtk_values values;
     fg_status status = fg__vtk_values_create(
-        &values, vtk, &vtk->arrays[piece->coordinates + (size_t)axis], length);
+        &values, file, &file->arrays[piece->coordinates + (size_t)axis], length);
     if (status != FG_STATUS_OK)
       return status;
     double *first = out + ((int64_t)piece->extent[2 * axis] - vtk->extent[2 * axis]);

@@ -7,74 +7,6 @@
 #include "base/memory.h"
 #include "read/vtk/vtk.h"
 
-/* vtkCellType.h */
-typedef struct cell_type {
-  int number;
-  const char *name;
-  int corners; /* 0: cannot be read; else of `shape` */
-  fg__cell_shape shape;
-} cell_type;
-
-static const cell_type TYPES[] = {
-    {5, "triangle", 3, FG__CELL_TRIANGLE},
-    {6, "triangle strip", 0, 0},
-    {7, "polygon", 0, 0}, /* but for those of 3 or 4 corners */
-    {8, "pixel", 4, FG__CELL_QUAD},
-    {9, "quad", 4, FG__CELL_QUAD},
-    {10, "tetrahedron", 4, FG__CELL_TETRAHEDRON},
-    {11, "voxel", 8, FG__CELL_HEXAHEDRON},
-    {12, "hexahedron", 8, FG__CELL_HEXAHEDRON},
-    {13, "wedge", 6, FG__CELL_WEDGE},
-    {14, "pyramid", 5, FG__CELL_PYRAMID},
-    {15, "pentagonal prism", 0, 0},
-    {16, "hexagonal prism", 0, 0},
-    {21, "quadratic edge", 0, 0},
-    {22, "quadratic triangle", 0, 0},
-    {23, "quadratic quad", 0, 0},
-    {24, "quadratic tetrahedron", 0, 0},
-    {25, "quadratic hexahedron", 0, 0},
-    {26, "quadratic wedge", 0, 0},
-    {27, "quadratic pyramid", 0, 0},
-    {28, "biquadratic quad", 0, 0},
-    {29, "triquadratic hexahedron", 0, 0},
-    {34, "biquadratic triangle", 0, 0},
-    {36, "quadratic polygon", 0, 0},
-    {41, "convex point set", 0, 0},
-    {42, "polyhedron", 0, 0},
-    {69, "Lagrange triangle", 0, 0},
-    {70, "Lagrange quadrilateral", 0, 0},
-    {71, "Lagrange tetrahedron", 0, 0},
-    {72, "Lagrange hexahedron", 0, 0},
-    {73, "Lagrange wedge", 0, 0},
-    {74, "Lagrange pyramid", 0, 0},
-};
-
-enum { LAST_LINE = 4, POLYGON = 7, PIXEL = 8, VOXEL = 11 };
-
-/* Corners of pixels and voxels lie in rows, those of quads and hexahedra go round. */
-static void go_round(double *corner, int corners)
-{
-  for (int i = 0; i < corners; i += 4) {
-    const double third = corner[i + 2];
-    corner[i + 2] = corner[i + 3];
-    corner[i + 3] = third;
-  }
-}
-
-static fg_status fail_type(const fg__vtk *vtk, double type, size_t cell)
-{
-  const char *name = "type that is not known";
-  for (size_t i = 0; i < sizeof TYPES / sizeof TYPES[0]; ++i)
-    if (TYPES[i].number == type)
-      name = TYPES[i].name;
-  fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
-           "%s: cell %zu is a %s (VTK's number %g); only linear cells of up to 8 corners "
-           "can be read",
-           vtk->path, cell, name, type);
-  fg__hint(vtk->context, "%s", FG__VTK_RESAMPLE);
-  return FG_STATUS_UNSUPPORTED;
-}
-
 /* Which numbers are the corners of the cells, one after the other. */
 typedef struct topology {
   fg__vtk_values corners, types, ends;
@@ -106,32 +38,25 @@ static fg_status next_cell(topology *t, const fg__vtk *vtk, size_t cell)
   return FG_STATUS_OK;
 }
 
-static fg_status add_cell(fg__vtk *vtk, const topology *t, size_t cell,
-                          const fg__cell_points *points, int number)
+/* Room for a cell's corners, any number for polygons. */
+typedef struct corner_room {
+  double *corner;
+  size_t capacity;
+} corner_room;
+
+static fg_status add_cell(fg__vtk *vtk, const topology *t, double type,
+                          const fg__cell_points *points, int number, corner_room *room)
 {
-  const double type = fg__vtk_value(&t->types, cell);
   const size_t corners = t->end - t->at;
-  double corner[FG__CELL_CORNERS] = {0.0};
-  for (size_t i = 0; i < corners && i < FG__CELL_CORNERS; ++i)
-    corner[i] = fg__vtk_value(&t->corners, t->at + i);
-  if (type >= 0.0 && type <= LAST_LINE) /* neither area nor volume */
-    return FG_STATUS_OK;
-  if (type == POLYGON && (corners == 3 || corners == 4))
-    return fg__cell_set_add(&vtk->cells, corners == 3 ? FG__CELL_TRIANGLE : FG__CELL_QUAD,
-                            corner, points, number);
-  for (size_t i = 0; i < sizeof TYPES / sizeof TYPES[0]; ++i) {
-    const cell_type *known = &TYPES[i];
-    if (known->number != type || known->corners == 0)
-      continue;
-    if ((size_t)known->corners != corners)
-      return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
-                      "%s: cell %zu is a %s with %zu corners, not %d", vtk->path, cell,
-                      known->name, corners, known->corners);
-    if (known->number == PIXEL || known->number == VOXEL)
-      go_round(corner, known->corners);
-    return fg__cell_set_add(&vtk->cells, known->shape, corner, points, number);
-  }
-  return fail_type(vtk, type, cell);
+  void *all = room->corner;
+  if (!fg__grow(&all, &room->capacity, corners, sizeof *room->corner))
+    return fg__fail_memory(vtk->context, "a cell", corners * sizeof *room->corner);
+  room->corner = all;
+  for (size_t i = 0; i < corners; ++i)
+    room->corner[i] = fg__vtk_value(&t->corners, t->at + i);
+  return fg__cell_set_add_as(
+      &vtk->cells, type >= 0.0 && type <= 255.0 && floor(type) >= type ? (int)type : 255,
+      room->corner, corners, points, number);
 }
 
 /* Reads an array of a piece that no other may share bytes with: *room is what the file
@@ -139,6 +64,9 @@ static fg_status add_cell(fg__vtk *vtk, const topology *t, size_t cell,
 static fg_status read_own(fg__vtk_values *out, const fg__vtk *vtk, size_t array,
                           size_t tuples, size_t *room)
 {
+  if (array >= vtk->array_count)
+    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: a piece lacks an array",
+                    vtk->path);
   size_t stored = 0;
   fg_status status = fg__vtk_values_check(vtk, &vtk->arrays[array], tuples, &stored);
   if (status == FG_STATUS_OK && stored > *room)
@@ -152,42 +80,62 @@ static fg_status read_own(fg__vtk_values *out, const fg__vtk *vtk, size_t array,
 }
 
 /* How many corners an XML piece has is what the last end says. */
-static fg_status find_corner_count(size_t *out, const fg__vtk *vtk,
-                                   const fg__vtk_piece *piece, const topology *t)
+static fg_status find_corner_count(size_t *out, const fg__vtk *file,
+                                   const fg__vtk_list *list, const topology *t)
 {
-  *out = piece->corner_numbers;
+  *out = list->corner_numbers;
   if (*out > 0)
     return FG_STATUS_OK;
   const double last = fg__vtk_value(&t->ends, t->ends.count - 1);
   if (!(last >= 0.0 && last <= INT_MAX))
-    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
-                    "%s: a piece's cells have %g corners", vtk->path, last);
+    return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
+                    "%s: a piece's cells have %g corners", file->path, last);
   *out = (size_t)last;
   return FG_STATUS_OK;
 }
 
-static fg_status read_listed(fg__vtk *vtk, const fg__vtk_piece *piece,
-                             const fg__cell_points *points, size_t *room)
+/* `number` becomes that of the next list's first cell. */
+static fg_status read_list(fg__vtk *vtk, const fg__vtk *file, const fg__vtk_list *list,
+                           const fg__cell_points *points, int *number, size_t *room)
 {
-  topology t = {.counted = piece->ends == FG__VTK_NONE,
-                .first_end = piece->end_numbers > piece->cells ? 1 : 0};
+  topology t = {.counted = list->ends == FG__VTK_NONE,
+                .first_end = list->end_numbers > list->cells ? 1 : 0};
+  corner_room of_cell = {NULL, 0};
   size_t corners = 0;
-  fg_status status = read_own(&t.types, vtk, piece->types, piece->cells, room);
+  const bool typed = list->types != FG__VTK_NONE;
+  fg_status status = FG_STATUS_OK;
+  if (typed)
+    status = read_own(&t.types, file, list->types, list->cells, room);
   if (status == FG_STATUS_OK && !t.counted)
-    status = read_own(&t.ends, vtk, piece->ends,
-                      piece->end_numbers > 0 ? piece->end_numbers : piece->cells, room);
+    status = read_own(&t.ends, file, list->ends,
+                      list->end_numbers > 0 ? list->end_numbers : list->cells, room);
   if (status == FG_STATUS_OK)
-    status = find_corner_count(&corners, vtk, piece, &t);
+    status = find_corner_count(&corners, file, list, &t);
   if (status == FG_STATUS_OK)
-    status = read_own(&t.corners, vtk, piece->corners, corners, room);
-  for (size_t c = 0; c < piece->cells && status == FG_STATUS_OK; ++c) {
-    status = next_cell(&t, vtk, c);
+    status = read_own(&t.corners, file, list->corners, corners, room);
+  for (size_t c = 0; c < list->cells && status == FG_STATUS_OK; ++c) {
+    status = next_cell(&t, file, c);
     if (status == FG_STATUS_OK)
-      status = add_cell(vtk, &t, c, points, (int)(vtk->cells.numbers + c));
+      status = add_cell(vtk, &t, typed ? fg__vtk_value(&t.types, c) : list->type, points,
+                        *number + (int)c, &of_cell);
   }
+  *number += (int)list->cells;
+  free(of_cell.corner);
   fg__vtk_values_clear(&t.types);
   fg__vtk_values_clear(&t.ends);
   fg__vtk_values_clear(&t.corners);
+  return status;
+}
+
+static fg_status read_listed(fg__vtk *vtk, const fg__vtk *file,
+                             const fg__vtk_piece *piece, const fg__cell_points *points,
+                             size_t *room)
+{
+  int number = (int)vtk->cells.numbers;
+  fg_status status = FG_STATUS_OK;
+  for (int k = 0; k < FG__VTK_LISTS && status == FG_STATUS_OK; ++k)
+    if (piece->list[k].cells > 0)
+      status = read_list(vtk, file, &piece->list[k], points, &number, room);
   return status;
 }
 
@@ -288,12 +236,37 @@ static fg_status count_points(fg__vtk *vtk)
   return FG_STATUS_OK;
 }
 
-static fg_status read_positions(fg__vtk *vtk, const fg__vtk_piece *piece, size_t points,
-                                size_t *room)
+/* Where the points of a grid are that has no list of them. */
+static void imply_positions(double *out, const fg__vtk *file, const fg__vtk_piece *piece)
+{
+  const int *e = piece->extent;
+  for (int64_t k = e[4]; k <= e[5]; ++k)
+    for (int64_t j = e[2]; j <= e[3]; ++j)
+      for (int64_t i = e[0]; i <= e[1]; ++i, out += 3) {
+        const int64_t at[3] = {i, j, k};
+        double along[3];
+        for (int a = 0; a < 3; ++a)
+          along[a] =
+              file->turned
+                  ? file->spacing[a] * (double)at[a]
+                  : fg__vtk_coordinate(file, a, (size_t)(at[a] - file->extent[2 * a]));
+        for (int a = 0; a < 3; ++a)
+          out[a] = file->turned ? file->origin[a] + file->direction[3 * a] * along[0] +
+                                      file->direction[3 * a + 1] * along[1] +
+                                      file->direction[3 * a + 2] * along[2]
+                                : along[a];
+      }
+}
+
+static fg_status read_positions(fg__vtk *vtk, const fg__vtk *file,
+                                const fg__vtk_piece *piece, size_t points, size_t *room)
 {
   fg__cell_set *set = &vtk->cells;
   fg__vtk_values values = {0};
-  fg_status status = read_own(&values, vtk, piece->positions, points, room);
+  const bool implied = file->turned || file->kind == FG__VTK_ALONG_AXES;
+  fg_status status = FG_STATUS_OK;
+  if (!implied)
+    status = read_own(&values, file, piece->positions, points, room);
   if (status != FG_STATUS_OK)
     return status;
   double *position = realloc(set->position, (set->points + points) * 3 * sizeof(double));
@@ -301,34 +274,39 @@ static fg_status read_positions(fg__vtk *vtk, const fg__vtk_piece *piece, size_t
     set->position = position;
   else
     status = fg__fail_memory(vtk->context, "points", points * 3 * sizeof(double));
-  for (size_t i = 0; position && i < 3 * points; ++i)
+  if (position && implied)
+    imply_positions(position + 3 * set->points, file, piece);
+  for (size_t i = 0; position && !implied && i < 3 * points; ++i)
     position[3 * set->points + i] = fg__vtk_value(&values, i);
   fg__vtk_values_clear(&values);
   return status;
 }
 
-static fg_status read_piece(fg__vtk *vtk, const fg__vtk_piece *piece, size_t *room)
+static fg_status read_piece(fg__vtk *vtk, size_t number, size_t *room)
 {
   fg__cell_set *set = &vtk->cells;
+  const fg__vtk_piece *piece = &vtk->pieces[number];
+  const fg__vtk *file = fg__vtk_home(vtk, number);
   size_t points = 0, cells = 0;
   fg__vtk_tuples(&points, vtk, piece, FG__VTK_POINTS);
   fg__vtk_tuples(&cells, vtk, piece, FG__VTK_CELLS);
-  fg_status status = read_positions(vtk, piece, points, room);
+  fg_status status = read_positions(vtk, file, piece, points, room);
   if (status != FG_STATUS_OK)
     return status;
   const fg__cell_points own = {set->points, points};
   set->points += points;
   bool along_axes = false;
-  if (vtk->kind == FG__VTK_CURVILINEAR) {
-    status = find_axes(&along_axes, vtk);
+  if (file->kind == FG__VTK_UNSTRUCTURED) {
+    status = read_listed(vtk, file, piece, &own, room);
+  } else {
+    if (vtk->kind == FG__VTK_CURVILINEAR)
+      status = find_axes(&along_axes, vtk);
     if (along_axes) {
       vtk->kind = FG__VTK_ALONG_AXES;
       vtk->uneven = true;
     } else if (status == FG_STATUS_OK) {
       status = add_implied(vtk, piece, &own);
     }
-  } else {
-    status = read_listed(vtk, piece, &own, room);
   }
   set->numbers += cells;
   return status;
@@ -352,7 +330,7 @@ fg_status fg__vtk_read_cells(fg__vtk *vtk)
   vtk->cells = (fg__cell_set){.context = vtk->context, .path = vtk->path};
   fg_status status = count_points(vtk);
   for (size_t p = 0; p < vtk->piece_count && status == FG_STATUS_OK; ++p)
-    status = read_piece(vtk, &vtk->pieces[p], &room);
+    status = read_piece(vtk, p, &room);
   if (status != FG_STATUS_OK)
     return status;
   if (vtk->uneven) {

@@ -10,7 +10,7 @@
 static const fg__vtk_array *arrays_of_file(const fg__vtk *vtk, size_t *count)
 {
   *count = vtk->piece_count > 0 ? vtk->pieces[0].array_count : 0;
-  return *count > 0 ? vtk->arrays + vtk->pieces[0].first_array : NULL;
+  return *count > 0 ? fg__vtk_home(vtk, 0)->arrays + vtk->pieces[0].first_array : NULL;
 }
 
 static bool is_float(const fg__vtk_array *array)
@@ -25,7 +25,8 @@ static bool is_of_grid(const fg__vtk_array *array)
 
 static bool is_active(const fg__vtk *vtk, const fg__vtk_array *array)
 {
-  const char *name = is_of_grid(array) ? vtk->vectors[array->place] : NULL;
+  const char *name =
+      is_of_grid(array) ? fg__vtk_home(vtk, 0)->vectors[array->place] : NULL;
   return name && strcmp(name, array->name) == 0;
 }
 
@@ -298,7 +299,7 @@ static int rank(const fg__vtk *vtk, const fg__vtk_vector *vector)
 {
   if (vector->names > 1)
     return 2;
-  const char *active = vtk->vectors[vector->place];
+  const char *active = fg__vtk_home(vtk, 0)->vectors[vector->place];
   return active && strcmp(active, vector->name[0]) == 0 ? 0 : 1;
 }
 

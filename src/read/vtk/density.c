@@ -151,7 +151,7 @@ fg_status fg__density_file_read(fg__density_file *out, fg_context *context,
 {
   *out = (fg__density_file){0};
   reading r = {.context = context};
-  fg_status status = fg__vtk_open_xml(&r.vtk, context, source);
+  fg_status status = fg__vtk_open_xml(&r.vtk, context, source, NULL);
   if (!status)
     status = describe(&r, field);
   if (!status)

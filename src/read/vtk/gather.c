@@ -42,6 +42,8 @@ static fg_status find_in_piece(const fg__vtk_array **out, const fg__vtk *vtk,
   const fg__vtk_array *array = fg__vtk_find(vtk, piece, wanted->place, wanted->name);
   const fg__vtk_array *first = fg__vtk_find(vtk, 0, wanted->place, wanted->name);
   *out = array;
+  if (vtk->merged && !array)
+    return FG_STATUS_OK;
   if (!array || !first || array->components != first->components)
     return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                     "%s: piece %zu of %zu has no array \"%.100s\" like the first's",
@@ -66,7 +68,9 @@ fg_status fg__vtk_gather_check(const fg__vtk *vtk, const fg__vtk_gathering *want
       return status;
     if (!fg__vtk_tuples(&tuples, vtk, &vtk->pieces[p], wanted->place))
       return FG_STATUS_FILE_FORMAT;
-    status = fg__vtk_values_check(vtk, array, tuples, &stored);
+    if (!array)
+      continue;
+    status = fg__vtk_values_check(fg__vtk_home(vtk, p), array, tuples, &stored);
     if (status != FG_STATUS_OK)
       return status;
     if (stored > vtk->file_size - stored_sum)
@@ -89,14 +93,17 @@ fg_status fg__vtk_gather_pieces(const fg__vtk *vtk, const fg__vtk_gathering *wan
     if (status == FG_STATUS_OK &&
         !fg__vtk_tuples(&tuples, vtk, &vtk->pieces[p], wanted->place))
       status = FG_STATUS_FILE_FORMAT;
-    if (status == FG_STATUS_OK)
-      status = fg__vtk_values_create(&values, vtk, array, tuples);
+    if (status == FG_STATUS_OK && array)
+      status = fg__vtk_values_create(&values, fg__vtk_home(vtk, p), array, tuples);
     if (status != FG_STATUS_OK)
       return status;
     for (size_t n = 0; n < tuples; ++n, ++to)
       for (int c = 0; c < wanted->components; ++c)
-        wanted->out[c][to] = wanted->means(fg__vtk_value(
-            &values, n * (size_t)array->components + (size_t)wanted->component[c]));
+        wanted->out[c][to] =
+            array
+                ? wanted->means(fg__vtk_value(&values, n * (size_t)array->components +
+                                                           (size_t)wanted->component[c]))
+                : wanted->absent;
     fg__vtk_values_clear(&values);
   }
   return FG_STATUS_OK;
@@ -177,7 +184,7 @@ static fg_status gather_piece(const fg__vtk_view *v, const fg__vtk_gathering *wa
     some.high[2] = by_plane ? z + 1 : all.high[2];
     fg__vtk_values values = {0};
     status = fg__vtk_values_create_some(
-        &values, v->vtk, array, tuples,
+        &values, fg__vtk_home(v->vtk, piece), array, tuples,
         tuple_at(&some, some.low[0], some.low[1], some.low[2]),
         tuple_at(&some, some.high[0] - 1, some.high[1] - 1, some.high[2] - 1) + 1);
     if (status == FG_STATUS_OK)

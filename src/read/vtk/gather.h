@@ -32,6 +32,7 @@ typedef struct fg__vtk_gathering {
   int component[3];
   float *out[3];
   fg__vtk_meaning *means;
+  float absent; /* of a grid among several that has no such array */
 } fg__vtk_gathering;
 
 /* Every piece must be there with all its bytes, and no byte may serve two pieces: then

@@ -14,7 +14,7 @@ enum { MOST_ARRAYS = 1000 };
 typedef struct legacy_file {
   fg__vtk *vtk;
   fg__legacy_cursor cursor;
-  bool sized, in_piece;
+  bool sized, in_piece, polygons;
   fg__vtk_place place; /* of the section that is read */
   size_t tuples;       /* of each of its arrays */
   int named_vectors[2];
@@ -293,13 +293,8 @@ static fg_status read_geometry_line(legacy_file *file, const char *keyword, bool
       (file->sized || vtk->kind == FG__VTK_UNSTRUCTURED) &&
       fg__legacy_is(keyword, "POINTS"))
     return fg__legacy_points(vtk, &file->cursor);
-  if (vtk->kind == FG__VTK_UNSTRUCTURED && vtk->piece_count > 0) {
-    const fg__vtk_piece *piece = &vtk->pieces[0];
-    if (piece->corners == FG__VTK_NONE && fg__legacy_is(keyword, "CELLS"))
-      return fg__legacy_cells(vtk, &file->cursor);
-    if (piece->types == FG__VTK_NONE && fg__legacy_is(keyword, "CELL_TYPES"))
-      return fg__legacy_cell_types(vtk, &file->cursor);
-  }
+  if (vtk->kind == FG__VTK_UNSTRUCTURED && vtk->piece_count > 0)
+    return fg__legacy_cells_line(vtk, &file->cursor, file->polygons, keyword, known);
   *known = false;
   return FG_STATUS_OK;
 }
@@ -309,13 +304,13 @@ static fg_status begin_piece_of_cells(legacy_file *file)
 {
   fg__vtk *vtk = file->vtk;
   fg__vtk_piece *piece = vtk->piece_count > 0 ? &vtk->pieces[0] : NULL;
-  const bool listed = vtk->kind == FG__VTK_UNSTRUCTURED;
-  if (!piece ||
-      (listed && (piece->corners == FG__VTK_NONE || piece->types == FG__VTK_NONE)))
+  const bool listed = vtk->kind == FG__VTK_UNSTRUCTURED && !file->polygons;
+  const fg__vtk_list *list = piece ? &piece->list[0] : NULL;
+  if (!list || (listed && (list->corners == FG__VTK_NONE || list->types == FG__VTK_NONE)))
     return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: has no %s", vtk->path,
-                    !piece                           ? "POINTS"
-                    : piece->corners == FG__VTK_NONE ? "CELLS"
-                                                     : "CELL_TYPES");
+                    !list                           ? "POINTS"
+                    : list->corners == FG__VTK_NONE ? "CELLS"
+                                                    : "CELL_TYPES");
   piece->first_array = vtk->array_count;
   file->in_piece = true;
   return FG_STATUS_OK;
@@ -424,7 +419,7 @@ static fg_status fail_dataset(const fg__vtk *vtk, const char *kind)
 {
   fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
            "%s: a legacy VTK file of a %.40s; only STRUCTURED_POINTS, RECTILINEAR_GRID, "
-           "STRUCTURED_GRID and UNSTRUCTURED_GRID can be read yet",
+           "STRUCTURED_GRID, UNSTRUCTURED_GRID and POLYDATA can be read",
            vtk->path, kind);
   fg__hint(vtk->context, "%s", FG__VTK_RESAMPLE);
   return FG_STATUS_UNSUPPORTED;
@@ -446,17 +441,20 @@ static fg_status read_header(legacy_file *file)
   if (!fg__legacy_word(c, word))
     return fg__legacy_fail(c, "no kind of DATASET but", word);
   file->vtk->uneven = fg__legacy_is(word, "RECTILINEAR_GRID");
+  file->polygons = fg__legacy_is(word, "POLYDATA");
   if (fg__legacy_is(word, "STRUCTURED_GRID"))
     file->vtk->kind = FG__VTK_CURVILINEAR;
-  else if (fg__legacy_is(word, "UNSTRUCTURED_GRID"))
+  else if (fg__legacy_is(word, "UNSTRUCTURED_GRID") || file->polygons)
     file->vtk->kind = FG__VTK_UNSTRUCTURED;
   else if (!file->vtk->uneven && !fg__legacy_is(word, "STRUCTURED_POINTS"))
     return fail_dataset(file->vtk, word);
   return FG_STATUS_OK;
 }
 
-fg_status fg__vtk_open_legacy(fg__vtk *out, fg_context *context, const fg__source *source)
+fg_status fg__vtk_open_legacy(fg__vtk *out, fg_context *context, const fg__source *source,
+                              const fg_read_options *options)
 {
+  (void)options;
   const uint16_t one = 1;
   *out = (fg__vtk){.context = context,
                    .path = source->path,

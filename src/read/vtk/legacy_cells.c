@@ -37,62 +37,87 @@ fg_status fg__legacy_points(fg__vtk *vtk, fg__legacy_cursor *c)
   fg__vtk_piece *piece = &vtk->pieces[0];
   piece->positions = positions;
   piece->points = (size_t)count;
-  piece->corners = piece->types = piece->ends = FG__VTK_NONE;
   return FG_STATUS_OK;
 }
 
 /* OFFSETS TYPE and CONNECTIVITY TYPE, of version 5.1. */
-static fg_status take_with_offsets(fg__vtk *vtk, fg__legacy_cursor *c, int ends,
-                                   int corners)
+static fg_status take_with_offsets(fg__vtk *vtk, fg__vtk_list *list, fg__legacy_cursor *c,
+                                   int ends, int corners)
 {
-  fg__vtk_piece *piece = &vtk->pieces[0];
   char word[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
   fg_status status = FG_STATUS_OK;
   if (!fg__legacy_word(c, word) || !fg__legacy_word(c, type))
     return fg__legacy_fail(c, "no type of OFFSETS after", word);
-  status = take(&piece->ends, vtk, c, "offsets", type, (size_t)ends);
+  status = take(&list->ends, vtk, c, "offsets", type, (size_t)ends);
   if (status != FG_STATUS_OK)
     return status;
   if (!fg__legacy_word(c, word) || !fg__legacy_is(word, "CONNECTIVITY") ||
       !fg__legacy_word(c, type))
     return fg__legacy_fail(c, "no CONNECTIVITY but", word);
-  piece->cells = (size_t)ends - 1;
-  piece->end_numbers = (size_t)ends;
-  piece->corner_numbers = (size_t)corners;
-  return take(&piece->corners, vtk, c, "connectivity", type, (size_t)corners);
+  list->cells = (size_t)ends - 1;
+  list->end_numbers = (size_t)ends;
+  list->corner_numbers = (size_t)corners;
+  return take(&list->corners, vtk, c, "connectivity", type, (size_t)corners);
 }
 
 /* COUNT SIZE, then of each cell the number of its corners and these; since version 5.1
  * OFFSETS come first, one more than cells, and then what they part. */
-fg_status fg__legacy_cells(fg__vtk *vtk, fg__legacy_cursor *c)
+static fg_status read_cells(fg__vtk *vtk, fg__legacy_cursor *c, int number, int type)
 {
   int count = 0, size = 0;
   char word[FG__LEGACY_WORD];
-  fg_status status = fg__legacy_whole(c, &count, 1, "a number of cells");
+  fg__vtk_list *list = &vtk->pieces[0].list[number];
+  fg_status status = fg__legacy_whole(c, &count, type ? 0 : 1, "a number of cells");
   if (status == FG_STATUS_OK)
-    status = fg__legacy_whole(c, &size, 1, "a number of corners");
+    status = fg__legacy_whole(c, &size, type ? 0 : 1, "a number of corners");
   if (status != FG_STATUS_OK)
     return status;
+  list->type = type;
   fg__legacy_cursor ahead = *c;
   fg__legacy_skip_line(&ahead);
-  if (fg__legacy_word_of_line(&ahead, word) && fg__legacy_is(word, "OFFSETS"))
-    return take_with_offsets(vtk, c, count, size);
-  vtk->pieces[0].cells = (size_t)count;
-  vtk->pieces[0].corner_numbers = (size_t)size;
-  return take(&vtk->pieces[0].corners, vtk, c, "cells", "int", (size_t)size);
+  if (count > 0 && fg__legacy_word_of_line(&ahead, word) &&
+      fg__legacy_is(word, "OFFSETS")) {
+    status = take_with_offsets(vtk, list, c, count, size);
+  } else {
+    list->cells = (size_t)count;
+    list->corner_numbers = (size_t)size;
+    status = take(&list->corners, vtk, c, "cells", "int", (size_t)size);
+  }
+  vtk->pieces[0].cells += list->cells;
+  return status;
 }
 
 /* COUNT, then the type of each cell. */
-fg_status fg__legacy_cell_types(fg__vtk *vtk, fg__legacy_cursor *c)
+static fg_status read_types(fg__vtk *vtk, fg__legacy_cursor *c)
 {
-  fg__vtk_piece *piece = &vtk->pieces[0];
+  fg__vtk_list *list = &vtk->pieces[0].list[0];
   int count = 0;
   fg_status status = fg__legacy_whole(c, &count, 0, "a number of cells");
   if (status != FG_STATUS_OK)
     return status;
-  if (piece->corners == FG__VTK_NONE || (size_t)count != piece->cells)
+  if (list->corners == FG__VTK_NONE || (size_t)count != list->cells)
     return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                     "%s: CELL_TYPES of %d cells, CELLS of %zu", vtk->path, count,
-                    piece->corners == FG__VTK_NONE ? (size_t)0 : piece->cells);
-  return take(&piece->types, vtk, c, "types", "int", (size_t)count);
+                    list->corners == FG__VTK_NONE ? (size_t)0 : list->cells);
+  return take(&list->types, vtk, c, "types", "int", (size_t)count);
+}
+
+fg_status fg__legacy_cells_line(fg__vtk *vtk, fg__legacy_cursor *cursor, bool polygons,
+                                const char *keyword, bool *known)
+{
+  static const struct {
+    const char *keyword;
+    int type;
+  } lists[FG__VTK_LISTS] = {
+      {"VERTICES", 2}, {"LINES", 4}, {"POLYGONS", 7}, {"TRIANGLE_STRIPS", 6}};
+  const fg__vtk_list *list = vtk->pieces[0].list;
+  for (int k = 0; polygons && k < FG__VTK_LISTS; ++k)
+    if (list[k].corners == FG__VTK_NONE && fg__legacy_is(keyword, lists[k].keyword))
+      return read_cells(vtk, cursor, k, lists[k].type);
+  if (!polygons && list->corners == FG__VTK_NONE && fg__legacy_is(keyword, "CELLS"))
+    return read_cells(vtk, cursor, 0, 0);
+  if (!polygons && list->types == FG__VTK_NONE && fg__legacy_is(keyword, "CELL_TYPES"))
+    return read_types(vtk, cursor);
+  *known = false;
+  return FG_STATUS_OK;
 }

@@ -42,10 +42,13 @@ fg_status fg__legacy_fail(const fg__legacy_cursor *cursor, const char *what,
 fg_status fg__legacy_take(fg__legacy_cursor *cursor, fg__vtk_array *array,
                           const char *type, size_t count);
 
-/* Reads POINTS, with which the file's one piece begins, CELLS and CELL_TYPES, the word
- * itself left behind. FILE_FORMAT, MEMORY. */
+/* Reads POINTS, with which the file's one piece begins, the word itself left behind.
+ * FILE_FORMAT, MEMORY. */
 fg_status fg__legacy_points(fg__vtk *vtk, fg__legacy_cursor *cursor);
-fg_status fg__legacy_cells(fg__vtk *vtk, fg__legacy_cursor *cursor);
-fg_status fg__legacy_cell_types(fg__vtk *vtk, fg__legacy_cursor *cursor);
+
+/* The same of CELLS and CELL_TYPES, or of polygonal data VERTICES, LINES, POLYGONS and
+ * TRIANGLE_STRIPS; for other words *known becomes false. */
+fg_status fg__legacy_cells_line(fg__vtk *vtk, fg__legacy_cursor *cursor, bool polygons,
+                                const char *keyword, bool *known);
 
 #endif

@@ -198,7 +198,7 @@ static void wrong_words_are_refused(void **state)
   static const example_change cases[] = {
       {"ASCII", "TEXT", FG_STATUS_FILE_FORMAT, "neither ASCII nor BINARY but \"TEXT\""},
       {"DATASET", "DATASAT", FG_STATUS_FILE_FORMAT, "no DATASET but \"DATASAT\""},
-      {"STRUCTURED_POINTS", "POLYDATA", FG_STATUS_UNSUPPORTED, "POLYDATA"},
+      {"STRUCTURED_POINTS", "TABLE", FG_STATUS_UNSUPPORTED, "TABLE"},
       {"STRUCTURED_POINTS", "STRUCTURED_GRID", FG_STATUS_FILE_FORMAT, "has no POINTS"},
       {"STRUCTURED_POINTS", "UNSTRUCTURED_GRID", FG_STATUS_FILE_FORMAT, "has no POINTS"},
       {"STRUCTURED_POINTS", "RECTILINEAR_GRID", FG_STATUS_FILE_FORMAT,
@@ -337,7 +337,7 @@ static void the_format_is_known_by_its_first_line(void **state)
   (void)state;
   assert_ptr_equal(fg__format_find((const unsigned char *)GOOD, strlen(GOOD)),
                    &fg__format_vtk_legacy);
-  assert_null(fg__format_find((const unsigned char *)GOOD, 12));
+  assert_false(fg__format_vtk_legacy.is_mine((const unsigned char *)GOOD, 12));
 }
 
 int main(void)

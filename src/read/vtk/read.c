@@ -1,5 +1,6 @@
 /* VTK grids along the axes as fields, and VTK XML files as a format. */
 #include "base/memory.h"
+#include "field/field.h"
 #include "file/number_text.h"
 #include "read/vtk/vtk.h"
 
@@ -19,13 +20,18 @@ static const char LETTERS[] = "xyz";
 /* The moment that FieldData tells in TimeValue, as "t = 2.5"; *out stays NULL without. */
 static fg_status read_time(char **out, const fg__vtk *vtk)
 {
-  const fg__vtk_array *array = fg__vtk_find(vtk, 0, FG__VTK_FIELD, "TimeValue");
+  const fg__vtk *file = vtk->file_count > 0 ? vtk->files[0].vtk : vtk;
+  const fg__vtk_array *array = fg__vtk_find(file, 0, FG__VTK_FIELD, "TimeValue");
   if (!array && !vtk->document) /* VisIt's name for it in legacy files */
-    array = fg__vtk_find(vtk, 0, FG__VTK_FIELD, "TIME");
+    array = fg__vtk_find(file, 0, FG__VTK_FIELD, "TIME");
+  if (vtk->time) {
+    *out = fg__copy_text(vtk->time);
+    return *out ? FG_STATUS_OK : fg__fail_memory(vtk->context, "words", 0);
+  }
   if (!array)
     return FG_STATUS_OK;
   fg__vtk_values values;
-  fg_status status = fg__vtk_values_create(&values, vtk, array, 1);
+  fg_status status = fg__vtk_values_create(&values, file, array, 1);
   if (status != FG_STATUS_OK)
     return status;
   char number[FG__NUMBER_BYTES], words[FG__NUMBER_BYTES + 8];
@@ -42,12 +48,12 @@ static fg_status read_time(char **out, const fg__vtk *vtk)
 
 /* "U_x" for a vector variable U; a scalar's own name. */
 static void name_component(char name[NAME_BYTES], const fg__vtk_vector *vector, int axis,
-                           int component)
+                           int component, const char *prime)
 {
   if (vector->names > 1)
-    snprintf(name, NAME_BYTES, "%.200s", vector->name[component]);
+    snprintf(name, NAME_BYTES, "%.200s%s", vector->name[component], prime);
   else
-    snprintf(name, NAME_BYTES, "%.200s_%c", vector->name[0], LETTERS[axis]);
+    snprintf(name, NAME_BYTES, "%.200s_%c%s", vector->name[0], LETTERS[axis], prime);
 }
 
 static fg_status check_options(fg_context *context, const fg__source *source,
@@ -58,11 +64,24 @@ static fg_status check_options(fg_context *context, const fg__source *source,
                     "%s: a second file with the other component cannot be used with VTK "
                     "files",
                     source->path);
-  if (options->time != 0 || options->level != 0)
+  if (options->level != 0)
     return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "%s: %s %d is asked for, but the file holds one only, number 0",
-                    source->path, options->time != 0 ? "time" : "level",
-                    options->time != 0 ? options->time : options->level);
+                    "%s: level %d is asked for, but the file holds one only, number 0",
+                    source->path, options->level);
+  return FG_STATUS_OK;
+}
+
+/* What only files that name others leave to choose from. */
+static fg_status check_choice(const fg__vtk *vtk, const fg_read_options *options)
+{
+  if (options->time != 0 && vtk->times == 0)
+    return fg__fail(vtk->context, FG_STATUS_ARGUMENT,
+                    "%s: time %d is asked for, but the file holds one only, number 0",
+                    vtk->path, options->time);
+  if (options->block && !vtk->has_blocks)
+    return fg__fail(vtk->context, FG_STATUS_ARGUMENT,
+                    "%s: block \"%.100s\" is asked for, but the file has no blocks",
+                    vtk->path, options->block);
   return FG_STATUS_OK;
 }
 
@@ -89,16 +108,21 @@ static fg_status create_field(fg_field **out, const fg__vtk *vtk,
                               fg_field_arrays arrays, float *velocity[3],
                               double *const axis[3], const fg__slab_index *slab)
 {
-  char component[3][NAME_BYTES], axis_name[3][2] = {"", "", ""};
+  char component[3][NAME_BYTES], axis_name[3][3] = {"", "", ""};
+  const fg__cell_set *cells = &vtk->cells;
   arrays.dimension = grid->dimension;
   arrays.velocity_units = vector->units;
   arrays.title = vector->names == 1 ? vector->name[0] : NULL;
   if (arrays.scale == FG_SCALE_AUTO)
     arrays.scale = FG_SCALE_PLAIN;
   for (int k = 0; k < grid->dimension; ++k) {
-    name_component(component[k], vector, grid->axis[k],
-                   vector->components == 3 ? grid->axis[k] : k);
-    axis_name[k][0] = LETTERS[grid->axis[k]];
+    const int along = cells->tilted && k < 2 ? cells->basis.axis[k] : grid->axis[k];
+    const char *prime =
+        cells->tilted && !fg__plane_is_axis(&cells->basis, k < 2 ? k : 0) ? "'" : "";
+    name_component(component[k], vector, along, vector->components == 3 ? along : k,
+                   prime);
+    axis_name[k][0] = LETTERS[along];
+    axis_name[k][1] = *prime;
     arrays.size[k] = (int)grid->points[k];
     arrays.axis[k] = axis[k];
     arrays.velocity[k] = velocity[k];
@@ -106,6 +130,25 @@ static fg_status create_field(fg_field **out, const fg__vtk *vtk,
     arrays.axis_name[k] = axis_name[k];
   }
   return fg__field_of_rows(out, vtk->context, &arrays, velocity, slab);
+}
+
+/* Adds up squares: of the normal component, and of all. */
+static void add_squares(double sum[2], float *const velocity[3], size_t i)
+{
+  double all = 0.0;
+  for (int k = 0; k < 3; ++k)
+    all += (double)velocity[k][i] * (double)velocity[k][i];
+  sum[0] += isfinite(all) ? (double)velocity[2][i] * (double)velocity[2][i] : 0.0;
+  sum[1] += isfinite(all) ? all : 0.0;
+}
+
+/* The share of the normal component where all samples are there. */
+static double find_normal_share(float *const velocity[3], const fg__vtk_grid *grid)
+{
+  double sum[2] = {0.0, 0.0};
+  for (size_t i = 0; velocity[2] && i < fg__vtk_grid_wanted(grid); ++i)
+    add_squares(sum, velocity, i);
+  return sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
 }
 
 static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,
@@ -118,15 +161,21 @@ static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,
   float *velocity[3] = {NULL, NULL, NULL};
   double *axis[3] = {NULL, NULL, NULL};
   char *time = NULL;
+  double normal_share = 0.0;
+  const bool plane = grid->dimension == 2 && vector->components == 3 && slab.count == 1;
   fg_status status = create_axes(axis, vtk, grid);
   if (status == FG_STATUS_OK)
     status = read_time(&time, vtk);
   if (status == FG_STATUS_OK)
-    status = fg__vtk_samples_read(velocity, vtk, grid, vector, options->mask);
+    status = fg__vtk_samples_read(velocity, vtk, grid, vector, options->mask, plane);
+  if (status == FG_STATUS_OK && plane)
+    normal_share = find_normal_share(velocity, grid);
   if (status == FG_STATUS_OK)
     status = create_field(out, vtk, grid, vector,
                           (fg_field_arrays){.scale = options->scale, .time = time},
                           velocity, axis, &slab);
+  if (status == FG_STATUS_OK)
+    (*out)->normal_share = normal_share;
   for (int k = 0; k < 3; ++k) {
     free(velocity[k]);
     free(axis[k]);
@@ -147,7 +196,9 @@ fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *so
   fg__vtk_grid grid;
   fg__vtk_vector vector;
   char *names = NULL;
-  status = opener(&vtk, context, source);
+  status = opener(&vtk, context, source, options);
+  if (status == FG_STATUS_OK)
+    status = check_choice(&vtk, options);
   if (status == FG_STATUS_OK) /* first: the grid of cells is not known before */
     status = fg__vtk_read_coordinates(&vtk);
   if (status == FG_STATUS_OK)
@@ -164,7 +215,7 @@ fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *so
 static fg_status read_xml(fg_field **out, fg_context *context, const fg__source *source,
                           const fg_read_options *options, fg__slab_index slab)
 {
-  return fg__vtk_read(out, context, source, options, slab, fg__vtk_open_xml);
+  return fg__vtk_read(out, context, source, options, slab, fg__vtk_open_any);
 }
 
 /* What can only be decoded together is so once, not again for each of its parts. */
@@ -176,15 +227,18 @@ static size_t counted_at_once(const fg__vtk *vtk, const fg__vtk_vector *vector)
       const fg__vtk_array *array = fg__vtk_find(vtk, p, vector->place, vector->name[k]);
       size_t tuples, together = 0;
       if (array && fg__vtk_tuples(&tuples, vtk, &vtk->pieces[p], vector->place))
-        together = fg__vtk_values_together(vtk, array, tuples);
+        together = fg__vtk_values_together(fg__vtk_home(vtk, p), array, tuples);
       most = together > most ? together : most;
     }
   return most;
 }
 
-static fg_status count_missing(double *share, const fg__vtk *vtk,
+/* Counts missing samples, and in a plane what is normal to it. */
+static fg_status count_samples(fg_inventory_vector *entry, const fg__vtk *vtk,
                                const fg__vtk_grid *grid, const fg__vtk_vector *vector)
 {
+  const bool normal = grid->dimension == 2 && vector->components == 3;
+  double sum[2] = {0.0, 0.0};
   const size_t all = grid->points[grid->dimension - 1];
   const size_t row = fg__vtk_grid_points(grid) / all;
   const size_t at_once = counted_at_once(vtk, vector);
@@ -195,7 +249,7 @@ static fg_status count_missing(double *share, const fg__vtk *vtk,
     fg__vtk_grid some = *grid;
     some.first_row = first;
     some.rows = all - first < most ? all - first : most;
-    fg_status status = fg__vtk_samples_read(velocity, vtk, &some, vector, NULL);
+    fg_status status = fg__vtk_samples_read(velocity, vtk, &some, vector, NULL, normal);
     if (status != FG_STATUS_OK)
       return status;
     for (size_t i = 0; i < fg__vtk_grid_wanted(&some); ++i) {
@@ -203,11 +257,14 @@ static fg_status count_missing(double *share, const fg__vtk *vtk,
       for (int k = 0; k < grid->dimension; ++k)
         here = here && isfinite(velocity[k][i]);
       missing += !here;
+      if (normal && velocity[2])
+        add_squares(sum, velocity, i);
     }
     for (int k = 0; k < 3; ++k)
       free(velocity[k]);
   }
-  *share = (double)missing / (double)fg__vtk_grid_points(grid);
+  entry->missing_share = (double)missing / (double)fg__vtk_grid_points(grid);
+  entry->normal_share = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
   return FG_STATUS_OK;
 }
 
@@ -218,14 +275,14 @@ static fg_status describe(fg_inventory_vector *entry, const fg__vtk *vtk,
   fg__vtk_grid grid;
   fg_status status = fg__vtk_grid_find(&grid, vtk);
   entry->dimension = grid.dimension;
-  entry->cells = vtk->cells.count;
+  entry->cells = fg__cell_set_count(&vtk->cells);
   for (int k = 0; k < grid.dimension && status == FG_STATUS_OK; ++k) {
     entry->size[k] = (int)grid.points[k];
     entry->bounds[2 * k] = fg__vtk_coordinate(vtk, grid.axis[k], 0);
     entry->bounds[2 * k + 1] = fg__vtk_coordinate(vtk, grid.axis[k], grid.points[k] - 1);
   }
   if (with_samples && status == FG_STATUS_OK)
-    status = count_missing(&entry->missing_share, vtk, &grid, vector);
+    status = count_samples(entry, vtk, &grid, vector);
   return status;
 }
 
@@ -235,7 +292,7 @@ fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
   fg__vtk vtk;
   fg__vtk_vector *vectors = NULL;
   size_t count = 0;
-  fg_status status = opener(&vtk, context, source);
+  fg_status status = opener(&vtk, context, source, NULL);
   if (status == FG_STATUS_OK)
     status = fg__vtk_read_coordinates(&vtk);
   if (status == FG_STATUS_OK)
@@ -244,7 +301,7 @@ fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
     fg_inventory_vector entry = {.components = vectors[i].components,
                                  .units = vectors[i].units ? vectors[i].units : "",
                                  .found_by = vectors[i].found_by,
-                                 .times = 1,
+                                 .times = vtk.times > 0 ? vtk.times : 1,
                                  .levels = 1,
                                  .scale = FG_SCALE_PLAIN};
     for (int k = 0; k < vectors[i].names; ++k)
@@ -271,13 +328,15 @@ fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
 static fg_status describe_xml(fg_inventory *inventory, fg_context *context,
                               const fg__source *source)
 {
-  return fg__vtk_inventory(inventory, context, source, fg__vtk_open_xml);
+  return fg__vtk_inventory(inventory, context, source, fg__vtk_open_any);
 }
 
 const fg__format fg__format_vti = {
     .name = "VTK XML",
-    .files = "VTK XML images, rectilinear, curvilinear and unstructured grids (.vti, "
-             ".vtr, .vts, .vtu) and VTK legacy files of them (.vtk)",
+    .files =
+        "VTK XML images, rectilinear, curvilinear and unstructured grids and planes "
+        "(.vti, .vtr, .vts, .vtu, .vtp), legacy files of them (.vtk), and files that "
+        "name such in parallel, as blocks or over time (.pvti, ..., .vtm, .pvd)",
     .is_mine = fg__is_vtk_xml,
     .inventory = describe_xml,
     .read = read_xml,

@@ -197,6 +197,9 @@ static fg_status read_onto_points(float *out[], const fg__vtk *vtk,
   }
   if (status == FG_STATUS_OK)
     status = cells ? fg__vtk_gather_pieces(vtk, wanted) : fg__vtk_gather(&v, wanted);
+  for (int c = 0; c < wanted->components && status == FG_STATUS_OK; ++c)
+    if (cells && wanted->place == FG__VTK_POINTS)
+      fg__cell_set_fill_middles(wanted->out[c], &vtk->cells);
   if (status == FG_STATUS_OK && any)
     for (int c = 1; c < wanted->components; ++c)
       for (size_t i = 0; i < count; ++i)
@@ -241,7 +244,8 @@ static fg_status apply_known_marks(float *velocity[3], const fg__vtk *vtk,
     fg__vtk_gathering wanted = {.name = known[k].name,
                                 .place = known[k].place,
                                 .components = 1,
-                                .means = known[k].means};
+                                .means = known[k].means,
+                                .absent = 1.0f};
     fg_status status = apply_marks(velocity, vtk, grid, &wanted);
     if (status != FG_STATUS_OK)
       return status;
@@ -268,8 +272,9 @@ static fg_status apply_mask(float *velocity[3], const fg__vtk *vtk,
                               .place = place,
                               .components = array->components,
                               .component = {0, 1, 2},
-                              .means = array->components > 1 ? as_vector_mask
-                                                             : as_scalar_mask};
+                              .means =
+                                  array->components > 1 ? as_vector_mask : as_scalar_mask,
+                              .absent = NAN};
   return apply_marks(velocity, vtk, grid, &wanted);
 }
 
@@ -280,44 +285,86 @@ static int component_along(const fg__vtk_vector *vector, const fg__vtk_grid *gri
   return vector->components == 3 ? grid->axis[k] : k;
 }
 
-static fg_status read_vector(float *out[3], const fg__vtk *vtk, const fg__vtk_grid *grid,
-                             const fg__vtk_vector *vector)
+/* Reads `count` components of a vector, which[k] as out[k]. */
+static fg_status read_components(float *out[3], const fg__vtk *vtk,
+                                 const fg__vtk_grid *grid, const fg__vtk_vector *vector,
+                                 const int which[3], int count)
 {
-  if (grid->dimension > vector->components) {
-    fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
-             "%s: a volume of %zu x %zu x %zu points needs three components, \"%.100s\" "
-             "has two",
-             vtk->path, grid->points[0], grid->points[1], grid->points[2],
-             vector->name[0]);
-    fg__hint(vtk->context, "name three variables: --vars U,V,W");
-    return FG_STATUS_UNSUPPORTED;
-  }
-  if (vector->names == 1) {
-    fg__vtk_gathering wanted = {.name = vector->name[0],
-                                .place = vector->place,
-                                .components = grid->dimension,
-                                .means = as_velocity};
-    for (int k = 0; k < grid->dimension; ++k)
-      wanted.component[k] = component_along(vector, grid, k);
-    return read_onto_points(out, vtk, grid, &wanted, false);
-  }
   fg_status status = FG_STATUS_OK;
-  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k) {
-    fg__vtk_gathering wanted = {.name = vector->name[component_along(vector, grid, k)],
+  const bool one = vector->names == 1;
+  for (int k = 0; k < (one ? 1 : count) && k < 3 && status == FG_STATUS_OK; ++k) {
+    fg__vtk_gathering wanted = {.name = vector->name[one ? 0 : which[k]],
                                 .place = vector->place,
-                                .components = 1,
-                                .means = as_velocity};
-    status = read_onto_points(&out[k], vtk, grid, &wanted, false);
+                                .components = one ? count : 1,
+                                .means = as_velocity,
+                                .absent = NAN};
+    for (int c = 0; one && c < count && c < 3; ++c)
+      wanted.component[c] = which[c];
+    status = read_onto_points(out + k, vtk, grid, &wanted, false);
+  }
+  return status;
+}
+
+/* Keeps the components along a plane's two directions. */
+static void turn(float *out[3], const fg__vtk *vtk, const fg__vtk_grid *grid)
+{
+  const fg__plane_basis *basis = &vtk->cells.basis;
+  for (size_t n = 0; out[2] && n < fg__vtk_grid_wanted(grid); ++n) {
+    const double u[3] = {(double)out[0][n], (double)out[1][n], (double)out[2][n]};
+    out[0][n] = (float)fg__plane_product(u, basis->direction[0]);
+    out[1][n] = (float)fg__plane_product(u, basis->direction[1]);
+    out[2][n] = (float)fg__plane_product(u, basis->normal);
+  }
+}
+
+static fg_status check_components(const fg__vtk *vtk, const fg__vtk_grid *grid,
+                                  const fg__vtk_vector *vector)
+{
+  if (vtk->cells.tilted && vector->components < 3)
+    return fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
+                    "%s: a tilted plane needs three components, \"%.100s\" has two",
+                    vtk->path, vector->name[0]);
+  if (grid->dimension <= vector->components)
+    return FG_STATUS_OK;
+  fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
+           "%s: a volume of %zu x %zu x %zu points needs three components, \"%.100s\" "
+           "has two",
+           vtk->path, grid->points[0], grid->points[1], grid->points[2], vector->name[0]);
+  fg__hint(vtk->context, "name three variables: --vars U,V,W");
+  return FG_STATUS_UNSUPPORTED;
+}
+
+/* With `normal`, of a plane the component normal to it, as out[2], too. */
+static fg_status read_vector(float *out[3], const fg__vtk *vtk, const fg__vtk_grid *grid,
+                             const fg__vtk_vector *vector, bool normal)
+{
+  const bool tilted = vtk->cells.tilted;
+  const bool across =
+      grid->dimension == 2 && vector->components == 3 && (normal || tilted);
+  int which[3] = {0, 1, 2};
+  fg_status status = check_components(vtk, grid, vector);
+  for (int k = 0; k < 3 && k < grid->dimension && !tilted; ++k)
+    which[k] = component_along(vector, grid, k);
+  if (across && !tilted)
+    which[2] = grid->flat;
+  if (status == FG_STATUS_OK)
+    status = read_components(out, vtk, grid, vector, which,
+                             grid->dimension + (across ? 1 : 0));
+  if (status == FG_STATUS_OK && tilted)
+    turn(out, vtk, grid);
+  if (status == FG_STATUS_OK && across && !normal) {
+    free(out[2]);
+    out[2] = NULL;
   }
   return status;
 }
 
 fg_status fg__vtk_samples_read(float *out[3], const fg__vtk *vtk,
                                const fg__vtk_grid *grid, const fg__vtk_vector *vector,
-                               const char *mask)
+                               const char *mask, bool normal)
 {
   out[0] = out[1] = out[2] = NULL;
-  fg_status status = read_vector(out, vtk, grid, vector);
+  fg_status status = read_vector(out, vtk, grid, vector, normal);
   if (status == FG_STATUS_OK)
     status = apply_known_marks(out, vtk, grid);
   if (status == FG_STATUS_OK && mask)

@@ -116,8 +116,8 @@ fg_status fg__tensors_of_vtk(fg_field *row[2], bool *found, fg_context *context,
 {
   fg__vtk vtk;
   bool legacy = source->bytes[0] == '#';
-  fg_status status = legacy ? fg__vtk_open_legacy(&vtk, context, source)
-                            : fg__vtk_open_xml(&vtk, context, source);
+  fg_status status = legacy ? fg__vtk_open_legacy(&vtk, context, source, NULL)
+                            : fg__vtk_open_xml(&vtk, context, source, NULL);
   if (!status)
     status = fg__vtk_read_coordinates(&vtk);
   const fg__vtk_array *array = status ? NULL : find_array(&vtk);

@@ -35,7 +35,9 @@ fg_status fg__vtk_add_piece(fg__vtk *vtk, const int extent[6])
     return fg__fail_memory(vtk->context, "a list of pieces", vtk->piece_count);
   vtk->pieces = pieces;
   fg__vtk_piece *piece = &vtk->pieces[vtk->piece_count++];
-  *piece = (fg__vtk_piece){.first_array = vtk->array_count};
+  *piece = (fg__vtk_piece){.first_array = vtk->array_count, .positions = FG__VTK_NONE};
+  for (int k = 0; k < FG__VTK_LISTS; ++k)
+    piece->list[k].corners = piece->list[k].types = piece->list[k].ends = FG__VTK_NONE;
   memcpy(piece->extent, extent, sizeof piece->extent);
   return FG_STATUS_OK;
 }
@@ -65,6 +67,16 @@ void fg__vtk_close(fg__vtk *vtk)
   free(vtk->vectors[0]);
   free(vtk->vectors[1]);
   free(vtk->compressor);
+  free(vtk->time);
+  for (size_t i = 0; i < vtk->file_count; ++i) {
+    fg__vtk_file *file = &vtk->files[i];
+    if (file->vtk)
+      fg__vtk_close(file->vtk);
+    free(file->vtk);
+    fg__source_close(&file->source);
+    free(file->path);
+  }
+  free(vtk->files);
   fg__cell_set_clear(&vtk->cells);
   if (vtk->document)
     xmlFreeDoc(vtk->document);
@@ -81,9 +93,11 @@ const fg__vtk_array *fg__vtk_find(const fg__vtk *vtk, size_t piece, fg__vtk_plac
     first = vtk->pieces[piece].first_array;
     count = vtk->pieces[piece].array_count;
   }
+  const fg__vtk_array *arrays =
+      (place == FG__VTK_FIELD ? vtk : fg__vtk_home(vtk, piece))->arrays;
   for (size_t i = first; i < first + count; ++i)
-    if (vtk->arrays[i].place == place && strcmp(vtk->arrays[i].name, name) == 0)
-      return &vtk->arrays[i];
+    if (arrays[i].place == place && strcmp(arrays[i].name, name) == 0)
+      return &arrays[i];
   return NULL;
 }
 
@@ -110,7 +124,7 @@ bool fg__vtk_count(size_t *count, const int extent[6], fg__vtk_place place)
 bool fg__vtk_tuples(size_t *count, const fg__vtk *vtk, const fg__vtk_piece *piece,
                     fg__vtk_place place)
 {
-  if (vtk->kind != FG__VTK_UNSTRUCTURED)
+  if ((piece->file ? piece->file : vtk)->kind != FG__VTK_UNSTRUCTURED)
     return fg__vtk_count(count, piece->extent, place);
   *count = place == FG__VTK_CELLS ? piece->cells : piece->points;
   return true;

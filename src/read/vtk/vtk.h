@@ -63,16 +63,29 @@ typedef struct fg__vtk_array {
   size_t offset;     /* appended: where it begins */
 } fg__vtk_array;
 
-typedef struct fg__vtk_piece {
-  int extent[6];
-  size_t first_array, array_count;    /* of points and cells */
-  size_t coordinates;                 /* the first of three arrays, on an uneven grid */
-  size_t positions;                   /* the array of its points, of cells */
-  size_t points, cells;               /* of an unstructured grid */
-  size_t corners, types, ends;        /* arrays that say what these are; ends: NONE where
-                                         each cell's corners follow their number */
+/* Cells that a file lists: each by its points. */
+typedef struct fg__vtk_list {
+  size_t cells;
+  size_t corners, types, ends;        /* arrays that say what these are; types: NONE where
+                                         all have one type; ends: NONE where each cell's
+                                         corners follow their number */
   size_t corner_numbers, end_numbers; /* of these arrays; 0: as the last end says, as
                                          many as cells */
+  int type;                           /* VTK's number of the one type */
+} fg__vtk_list;
+
+/* Of polygonal data: vertices, lines, polygons and strips, in the order of the cells'
+ * data; an unstructured grid has one list. */
+enum { FG__VTK_LISTS = 4 };
+
+typedef struct fg__vtk_piece {
+  int extent[6];
+  size_t first_array, array_count; /* of points and cells */
+  size_t coordinates;              /* the first of three arrays, on an uneven grid */
+  size_t positions;                /* the array of its points, of cells */
+  size_t points, cells;            /* of an unstructured grid */
+  fg__vtk_list list[FG__VTK_LISTS];
+  struct fg__vtk *file; /* that it is in; NULL: in the one that has this */
 } fg__vtk_piece;
 
 #define FG__VTK_NONE SIZE_MAX
@@ -80,7 +93,7 @@ typedef struct fg__vtk_piece {
 typedef enum fg__vtk_kind {
   FG__VTK_ALONG_AXES = 0,
   FG__VTK_CURVILINEAR,
-  FG__VTK_UNSTRUCTURED
+  FG__VTK_UNSTRUCTURED /* and polygons, and several grids together */
 } fg__vtk_kind;
 
 typedef struct fg__vtk {
@@ -96,6 +109,10 @@ typedef struct fg__vtk {
   size_t appended_size;
   bool appended_base64;
   fg__vtk_kind kind;
+  bool polygons; /* unstructured, and its cells are polygonal data */
+  bool merged;   /* several grids: one may lack another's arrays */
+  bool turned;   /* a curvilinear grid that is an image whose axes are turned */
+  double direction[9];
   fg__cell_set cells; /* count is 0: the grid is along the axes, or not read yet */
   int extent[6];      /* first and last point along x, y, z */
   double origin[3], spacing[3];
@@ -106,6 +123,11 @@ typedef struct fg__vtk {
   fg__vtk_array *arrays;
   size_t array_count, array_capacity; /* FieldData's first, then the pieces' */
   size_t field_array_count;
+  struct fg__vtk_file *files; /* that this one names, and whose pieces it has */
+  size_t file_count, file_capacity;
+  int times;        /* to choose from; 0: not said */
+  bool has_blocks;  /* to choose from */
+  char *time;       /* the chosen one in words; NULL: as FieldData says */
   char *vectors[2]; /* the Vectors attribute of the points' and of the cells' data */
   bool exhausted;   /* memory for what the markup says was lacking; the context says so */
 } fg__vtk;
@@ -113,10 +135,31 @@ typedef struct fg__vtk {
 /* Parses the markup into `document` and finds the appended data. */
 fg_status fg__vtk_parse(fg__vtk *vtk, const fg__source *source);
 
-/* How a file is opened. The result is to be closed even after a failure. */
+/* How a file is opened, with what is wanted of it where it names others; NULL: nothing.
+ * The result is to be closed even after a failure. */
 typedef fg_status fg__vtk_opener(fg__vtk *out, fg_context *context,
-                                 const fg__source *source);
+                                 const fg__source *source,
+                                 const fg_read_options *options);
 fg__vtk_opener fg__vtk_open_xml, fg__vtk_open_legacy;
+
+/* The same of files that name others (composite.c), too; of others as fg__vtk_open_xml.
+ */
+fg__vtk_opener fg__vtk_open_any;
+
+/* A file that another one names. */
+typedef struct fg__vtk_file {
+  char *path;
+  fg__source source;
+  fg__vtk *vtk;
+} fg__vtk_file;
+
+/* The file that a piece is in. */
+static inline const fg__vtk *fg__vtk_home(const fg__vtk *vtk, size_t piece)
+{
+  const fg__vtk *file = piece < vtk->piece_count ? vtk->pieces[piece].file : NULL;
+  return file ? file : vtk;
+}
+
 void fg__vtk_close(fg__vtk *vtk);
 
 /* Adds an array of one component and unknown type, named by a copy of `name`. *out is
@@ -240,11 +283,12 @@ size_t fg__vtk_grid_wanted(const fg__vtk_grid *grid);
  * in 2D a mean over two layers of points; of cells a mean over those round a point (VTK's
  * CellDataToPointData); NaN where anything that goes into it is missing, hidden
  * (vtkGhostType, vtkValidPointMask), or not positive in the array `mask` (a vector:
- * zero), which may be NULL. End them with free; those beyond the dimension are NULL.
- * UNSUPPORTED for two components in a volume. */
+ * zero), which may be NULL. With `normal`, of three components in a plane that normal to
+ * it becomes out[2]. End them with free; those beyond the dimension are NULL otherwise.
+ * UNSUPPORTED for two components in a volume or a tilted plane. */
 fg_status fg__vtk_samples_read(float *out[3], const fg__vtk *vtk,
                                const fg__vtk_grid *grid, const fg__vtk_vector *vector,
-                               const char *mask);
+                               const char *mask, bool normal);
 
 /* What to do about cells that cannot be read. */
 #define FG__VTK_RESAMPLE                                                                 \

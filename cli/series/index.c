@@ -1,0 +1,187 @@
+#include "series/index.h"
+
+#include <cjson/cJSON.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "folder/files.h"
+#include "option/recorded.h"
+#include "report/past_run.h"
+
+static void add_place(cJSON *object, const char *name, const char *words_name, int index,
+                      const fg_axis_value *values)
+{
+  cJSON_AddNumberToObject(object, name, index);
+  if (values)
+    cJSON_AddStringToObject(object, words_name, values[index].words);
+}
+
+static void add_members(cJSON *root, const series_index *index)
+{
+  const fg_inventory_vector *vector = index->places->vector;
+  cJSON *members = cJSON_AddArrayToObject(root, "members");
+  for (int n = 0; n < index->count; ++n) {
+    const series_member *member = &index->member[n];
+    cJSON *object = cJSON_CreateObject();
+    cJSON_AddStringToObject(object, "folder", member->name);
+    add_place(object, "time", "time_words", member->time,
+              vector ? vector->time_value : NULL);
+    add_place(object, "level", "level_words", member->level,
+              vector ? vector->level_value : NULL);
+    cJSON_AddItemToArray(members, object);
+  }
+}
+
+static cJSON *describe(const series_index *index)
+{
+  const run_settings *settings = index->settings;
+  cJSON *root = cJSON_CreateObject();
+  cJSON_AddStringToObject(root, "program", "flowgrain");
+  cJSON_AddStringToObject(root, "version", fg_version());
+  cJSON *input = cJSON_AddObjectToObject(root, "input");
+  cJSON_AddStringToObject(input, "path", settings->reading.input);
+  char *absolute = realpath(settings->reading.input, NULL);
+  if (absolute)
+    cJSON_AddStringToObject(input, "absolute", absolute);
+  free(absolute);
+  cJSON_AddItemToObject(root, "options", options_record(settings));
+  cJSON *range = cJSON_AddArrayToObject(root, "speed_range");
+  for (int k = 0; k < 2; ++k) {
+    char text[32]; /* cJSON rounds to 15 digits where it thinks that near enough */
+    snprintf(text, sizeof text, "%.17g", index->speeds[k]);
+    cJSON_AddItemToArray(range, cJSON_CreateRaw(text));
+  }
+  add_members(root, index);
+  return root;
+}
+
+static int write_text(const char *path, const char *text)
+{
+  char *part = join_texts(path, ".part");
+  if (!part)
+    return complain_of_memory("a file's name");
+  FILE *stream = fopen(part, "w");
+  bool written = stream && fputs(text, stream) >= 0 && fputc('\n', stream) != EOF;
+  written = stream && fclose(stream) == 0 && written;
+  int code = EXIT_DONE;
+  if (!written || rename(part, path) != 0) {
+    code = complain_of_file(path, "cannot be written");
+    unlink(part);
+  }
+  free(part);
+  return code;
+}
+
+int index_write(const series_index *index)
+{
+  cJSON *root = describe(index);
+  char *text = cJSON_Print(root), *path = join_path(index->settings->output, SERIES_NAME);
+  int code = text && path ? write_text(path, text) : complain_of_memory(SERIES_NAME);
+  free(path);
+  cJSON_free(text);
+  cJSON_Delete(root);
+  return code;
+}
+
+/* NULL: there is none, or a complaint was printed. */
+static cJSON *read_index(const char *folder)
+{
+  char *path = join_path(folder, SERIES_NAME);
+  char *text = path ? read_text(path) : NULL;
+  cJSON *root = text ? cJSON_Parse(text) : NULL;
+  const char *program =
+      cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(root, "program"));
+  if (text && (!program || strcmp(program, "flowgrain") != 0)) {
+    complain("%s: is not the index of a series of runs", path);
+    cJSON_Delete(root);
+    root = NULL;
+  }
+  free(text);
+  free(path);
+  return root;
+}
+
+static bool take_speeds(double speeds[2], const cJSON *root)
+{
+  const cJSON *range = cJSON_GetObjectItemCaseSensitive(root, "speed_range");
+  for (int k = 0; k < 2; ++k)
+    speeds[k] = cJSON_GetNumberValue(cJSON_GetArrayItem(range, k));
+  return speeds[1] > speeds[0];
+}
+
+int index_read_speeds(double speeds[2], const char *folder)
+{
+  cJSON *root = read_index(folder);
+  bool taken = root && take_speeds(speeds, root);
+  cJSON_Delete(root);
+  if (root && !taken)
+    complain("%s: its %s has no colour range", folder, SERIES_NAME);
+  return taken ? EXIT_DONE : EXIT_FAILED;
+}
+
+static const char *name_at(const cJSON *root, int n)
+{
+  const cJSON *members = cJSON_GetObjectItemCaseSensitive(root, "members");
+  return cJSON_GetStringValue(
+      cJSON_GetObjectItemCaseSensitive(cJSON_GetArrayItem(members, n), "folder"));
+}
+
+static bool has_members(const series_index *index, const cJSON *root)
+{
+  const cJSON *members = cJSON_GetObjectItemCaseSensitive(root, "members");
+  bool same = cJSON_GetArraySize(members) == index->count;
+  for (int n = 0; n < index->count && same; ++n) {
+    const char *name = name_at(root, n);
+    same = name && strcmp(name, index->member[n].name) == 0;
+  }
+  if (!same) {
+    complain("%s: holds a series of other times or levels", index->settings->output);
+    advise("Say the same to go on, or start anew with --force.");
+  }
+  return same;
+}
+
+bool index_matches(series_index *index)
+{
+  const run_settings *settings = index->settings;
+  cJSON *root = read_index(settings->output);
+  const cJSON *options = cJSON_GetObjectItemCaseSensitive(root, "options");
+  bool same = root &&
+              report_same_input(cJSON_GetObjectItemCaseSensitive(root, "input"),
+                                settings->reading.input, settings->output) &&
+              options_match(options, settings) && has_members(index, root) &&
+              take_speeds(index->speeds, root);
+  cJSON_Delete(root);
+  return same;
+}
+
+/* "time-0001", "level-012", or both: nothing that leads elsewhere. */
+static bool is_member_name(const char *name)
+{
+  return (strncmp(name, "time-", 5) == 0 || strncmp(name, "level-", 6) == 0) &&
+         strlen(name) < MEMBER_NAME_BYTES &&
+         strspn(name, "time-lv0123456789") == strlen(name);
+}
+
+int index_names(char (**names)[MEMBER_NAME_BYTES], int *count, const char *folder)
+{
+  *names = NULL;
+  *count = 0;
+  if (!series_is_there(folder))
+    return EXIT_DONE;
+  cJSON *root = read_index(folder);
+  const int all = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(root, "members"));
+  if (root)
+    *names = calloc((size_t)all + 1, sizeof **names);
+  for (int n = 0; n < all && *names; ++n) {
+    const char *name = name_at(root, n);
+    if (name && is_member_name(name))
+      snprintf((*names)[(*count)++], MEMBER_NAME_BYTES, "%s", name);
+  }
+  int code = !root ? EXIT_FAILED : *names ? EXIT_DONE : complain_of_memory("names");
+  cJSON_Delete(root);
+  return code;
+}

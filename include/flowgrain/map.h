@@ -1,0 +1,44 @@
+/* Maps: fields in longitude and latitude laid on the plane of a map projection. Included
+ * by flowgrain.h. */
+#ifndef FLOWGRAIN_MAP_H
+#define FLOWGRAIN_MAP_H
+
+#include "flowgrain/field.h"
+#include "flowgrain/icons.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A zero field means its default, in brackets. */
+struct fg_map_options {
+  /* "auto": by what the field covers; "none": longitude and latitude stay as they are; a
+   * name, PROJ's or a usual one ("robinson", "polar"), whose parameters follow from what
+   * the field covers; a PROJ string, "+proj=laea +lat_0=52 +lon_0=10"; or "EPSG:3035".
+   * ["auto"] */
+  const char *projection;
+  bool has_center; /* [from what the field covers] */
+  bool has_center_latitude;
+  double center[2]; /* longitude and latitude in the middle, degrees; not of strings and
+                       codes, which have theirs */
+  bool has_region;  /* [all that the field covers] */
+  double region[4]; /* west, east, south, north in degrees; an east that is not beyond
+                       west is a turn farther */
+  int samples;      /* along the plane's longer side [1024] */
+  int threads;      /* [1] */
+};
+
+/* Lays a field on a longitude-latitude grid (2D, scale GEO) on the plane of a projection:
+ * a field of scale MAP in kilometres, whose velocity lies along the plane's axes and
+ * keeps its length, with square samples; missing outside the outline. The same bits on
+ * any number of threads. Projections of our own stand on a sphere of 6371 km. ARGUMENT
+ * (no such projection, a region without values, a field of another scale), UNSUPPORTED (a
+ * build without maps), MEMORY. */
+FG_API fg_status fg_field_project(fg_field **out, fg_context *context,
+                                  const fg_field *field, const fg_map_options *options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,389 @@
+#include "map/project.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/threads.h"
+#include "field/slab.h"
+#include "map/plane.h"
+
+static const double DEGREE = 0.017453292519943295;
+
+/* Samples along the longer side: two a node of the mesh for 400 arrows. */
+enum { SAMPLES = 1024, FEWEST_SAMPLES = 16, MOST_SAMPLES = 16384 };
+
+/* Where the data are finer than the plane's samples, so many of them a side at most are
+ * averaged. */
+enum { MOST_PARTS = 8 };
+
+/* Kilometres in a degree, of the spacing of data. */
+static const double DEGREE_METRES = 111195.0;
+
+bool fg__map_is_asked(const fg_map_options *options)
+{
+  return options && !(options->projection && strcmp(options->projection, "none") == 0);
+}
+
+bool fg__map_is_named(const fg_map_options *options)
+{
+  return fg__map_is_asked(options) &&
+         (options->has_center || options->has_region ||
+          (options->projection && strcmp(options->projection, "auto") != 0));
+}
+
+typedef struct sampling {
+  const fg__sphere *sphere;
+  const fg__map_plane *plane;
+  const char *projection;
+  int first, rows;    /* along y */
+  int parts;          /* of a sample's side that are averaged */
+  float *velocity[3]; /* the third NULL */
+  fg_status failed[FG__MOST_THREADS];
+} sampling;
+
+/* A row of positions, and what is found there. */
+typedef struct line {
+  double *x, *y, *longitude, *latitude;
+  float *east, *north;
+  double (*sum)[4]; /* vectors in space, and how many */
+} line;
+
+static bool create_row(line *out, size_t n)
+{
+  *out = (line){0};
+  out->x = fg__allocate(n, sizeof(double));
+  out->y = fg__allocate(n, sizeof(double));
+  out->longitude = fg__allocate(n, sizeof(double));
+  out->latitude = fg__allocate(n, sizeof(double));
+  out->east = fg__allocate(n, sizeof(float));
+  out->north = fg__allocate(n, sizeof(float));
+  out->sum = fg__allocate(n, sizeof *out->sum);
+  return out->x && out->y && out->longitude && out->latitude && out->east && out->north &&
+         out->sum;
+}
+
+static void destroy_row(line *row)
+{
+  free(row->x);
+  free(row->y);
+  free(row->longitude);
+  free(row->latitude);
+  free(row->east);
+  free(row->north);
+  free(row->sum);
+}
+
+/* Positions of row j, moved by parts of a sample. */
+static void locate(line *out, const sampling *work, const fg__map *map, int j,
+                   const double moved[2])
+{
+  const fg__map_plane *plane = work->plane;
+  const int n = plane->size[0];
+  for (int i = 0; i < n; ++i) {
+    out->x[i] = plane->first[0] + (i + moved[0]) * plane->spacing;
+    out->y[i] = plane->first[1] + (j + moved[1]) * plane->spacing;
+  }
+  fg__map_inverse(map, (size_t)n, out->x, out->y, out->longitude, out->latitude);
+  for (int i = 0; i < n; ++i)
+    if (isfinite(out->longitude[i]) &&
+        !fg__map_plane_shows(plane, map, out->longitude[i], out->latitude[i]))
+      out->longitude[i] = (double)NAN;
+}
+
+/* East and north at a position as vectors in space. */
+static void find_axes(double east[3], double north[3], double longitude, double latitude)
+{
+  const double c = cos(longitude * DEGREE), s = sin(longitude * DEGREE);
+  const double z = sin(latitude * DEGREE);
+  east[0] = -s;
+  east[1] = c;
+  east[2] = 0.0;
+  north[0] = -z * c;
+  north[1] = -z * s;
+  north[2] = cos(latitude * DEGREE);
+}
+
+static void add_part(line *at, int n)
+{
+  for (int i = 0; i < n; ++i) {
+    double east[3], north[3];
+    if (!isfinite(at->east[i]) || !isfinite(at->north[i]))
+      continue;
+    find_axes(east, north, at->longitude[i], at->latitude[i]);
+    for (int k = 0; k < 3; ++k)
+      at->sum[i][k] += (double)at->east[i] * east[k] + (double)at->north[i] * north[k];
+    at->sum[i][3] += 1.0;
+  }
+}
+
+/* The mean of a sample's parts, components at its middle. Missing where the middle is. */
+static void average(line *at, const sampling *work, const fg__map *map, int j)
+{
+  const int n = work->plane->size[0], parts = work->parts;
+  memset(at->sum, 0, (size_t)n * sizeof *at->sum);
+  for (int part = 0; part < parts * parts; ++part) {
+    const double moved[2] = {(part % parts + 0.5) / parts - 0.5,
+                             (part / parts + 0.5) / parts - 0.5};
+    locate(at, work, map, j, moved);
+    fg__sphere_sample(at->east, at->north, work->sphere, (size_t)n, at->longitude,
+                      at->latitude);
+    add_part(at, n);
+  }
+  locate(at, work, map, j, (const double[2]){0.0, 0.0});
+  fg__sphere_sample(at->east, at->north, work->sphere, (size_t)n, at->longitude,
+                    at->latitude);
+  for (int i = 0; i < n; ++i) {
+    double east[3], north[3], u = 0.0, v = 0.0;
+    if (!isfinite(at->east[i]) || !isfinite(at->north[i]) || !(at->sum[i][3] > 0.0))
+      continue;
+    find_axes(east, north, at->longitude[i], at->latitude[i]);
+    for (int k = 0; k < 3; ++k) {
+      u += at->sum[i][k] * east[k] / at->sum[i][3];
+      v += at->sum[i][k] * north[k] / at->sum[i][3];
+    }
+    at->east[i] = (float)u;
+    at->north[i] = (float)v;
+  }
+}
+
+static void sample_row(line *at, const sampling *work, const fg__map *map, int j)
+{
+  const size_t n = (size_t)work->plane->size[0];
+  if (work->parts > 1) {
+    average(at, work, map, j);
+  } else {
+    locate(at, work, map, j, (const double[2]){0.0, 0.0});
+    fg__sphere_sample(at->east, at->north, work->sphere, n, at->longitude, at->latitude);
+  }
+  fg__map_turn(map, n, at->longitude, at->latitude, at->east, at->north);
+  for (size_t i = 0; i < n; ++i)
+    if (isnan(at->longitude[i]) || isnan(at->east[i]) || isnan(at->north[i]))
+      at->east[i] = at->north[i] = NAN;
+  const size_t place = (size_t)(j - work->first) * n;
+  memcpy(work->velocity[0] + place, at->east, n * sizeof(float));
+  memcpy(work->velocity[1] + place, at->north, n * sizeof(float));
+}
+
+/* Threads take rows in turn, so that the poles' and the equator's are shared alike; each
+ * has a map of its own. */
+static void sample_rows(void *argument, const fg__thread *thread)
+{
+  sampling *work = argument;
+  fg__map *map = NULL;
+  line at;
+  fg_status status =
+      create_row(&at, (size_t)work->plane->size[0]) ? FG_STATUS_OK : FG_STATUS_MEMORY;
+  if (status == FG_STATUS_OK)
+    status = fg__map_create(&map, NULL, work->projection);
+  const int height = work->plane->size[1];
+  for (int k = thread->index; k < work->rows && status == FG_STATUS_OK;
+       k += thread->count)
+    sample_row(&at, work, map, (work->first + k) % height);
+  work->failed[thread->index] = status;
+  fg__map_destroy(map);
+  destroy_row(&at);
+}
+
+static fg_status sample(sampling *work, fg_context *context, int thread_count)
+{
+  fg__threads *threads = NULL;
+  fg_status status = fg__threads_create(&threads, context, thread_count);
+  if (status != FG_STATUS_OK)
+    return status;
+  fg__threads_run(threads, sample_rows, work);
+  for (int k = 0; k < fg__threads_count(threads) && status == FG_STATUS_OK; ++k)
+    if (work->failed[k] != FG_STATUS_OK)
+      status = fg__fail_memory(context, "a row of a map",
+                               (size_t)work->plane->size[0] * 8 * sizeof(double));
+  fg__threads_destroy(threads);
+  return status;
+}
+
+static fg_status fill_axes(fg_field_arrays *arrays, fg_context *context,
+                           const fg__map_plane *plane)
+{
+  for (int k = 0; k < 2; ++k) {
+    double *axis = fg__allocate((size_t)plane->size[k], sizeof *axis);
+    if (!axis)
+      return fg__fail_memory(context, "an axis", (size_t)plane->size[k] * sizeof *axis);
+    for (int i = 0; i < plane->size[k]; ++i)
+      axis[i] = plane->first[k] + i * plane->spacing;
+    arrays->axis[k] = axis;
+    arrays->size[k] = plane->size[k];
+  }
+  return FG_STATUS_OK;
+}
+
+/* Whether a slab, or any sample of all, has a value; other slabs may. */
+static fg_status check_values(const sampling *work, fg_context *context, bool all)
+{
+  const size_t n = (size_t)work->plane->size[0] * (size_t)work->rows;
+  size_t i = 0;
+  while (i < n && isnan(work->velocity[0][i]))
+    ++i;
+  if (i < n || !all)
+    return FG_STATUS_OK;
+  fg__sphere_extent extent;
+  fg__sphere_extent_of(&extent, work->sphere);
+  const fg__map_area *area = &work->plane->area;
+  return fg__fail(context, FG_STATUS_ARGUMENT,
+                  "field: the map of longitudes %g to %g and latitudes %g to %g has no "
+                  "values; there are some from %g to %g and from %g to %g",
+                  area->west, area->east, area->south, area->north, extent.west,
+                  extent.east, extent.south, extent.north);
+}
+
+static fg_status make(fg_field **out, fg_context *context, const fg__sphere *sphere,
+                      const fg__map_plane *plane, const char *projection, int parts,
+                      int threads, int number, int count)
+{
+  sampling work = {
+      .sphere = sphere, .plane = plane, .projection = projection, .parts = parts};
+  fg_field_arrays arrays = *fg__sphere_words(sphere);
+  int own = 0;
+  if (count > plane->size[1])
+    count = 1;
+  fg__slab_rows(&work.first, &own, plane->size[1], count > 1 ? number : 0, count);
+  work.rows = fg__slab_rows_held(plane->size[1], work.first, own, false);
+  const size_t samples = (size_t)plane->size[0] * (size_t)work.rows;
+  arrays.dimension = 2;
+  arrays.scale = FG_SCALE_MAP;
+  arrays.projection = projection;
+  arrays.axis[0] = arrays.axis[1] = arrays.axis[2] = NULL;
+  arrays.period[0] = arrays.period[1] = 0.0;
+  arrays.valid = NULL;
+  arrays.velocity[2] = NULL;
+  for (int k = 0; k < 2; ++k) {
+    arrays.velocity[k] = work.velocity[k] = fg__allocate(samples, sizeof(float));
+    arrays.axis_name[k] = k ? "y" : "x";
+    arrays.axis_units[k] = "km";
+  }
+  fg_status status = FG_STATUS_OK;
+  if (!work.velocity[0] || !work.velocity[1])
+    status = fg__fail_memory(context, "a map", 2 * samples * sizeof(float));
+  if (status == FG_STATUS_OK)
+    status = fill_axes(&arrays, context, plane);
+  if (status == FG_STATUS_OK)
+    status = sample(&work, context, threads > 0 ? threads : 1);
+  if (status == FG_STATUS_OK)
+    status = check_values(&work, context, count == 1);
+  if (status == FG_STATUS_OK)
+    status = count == 1 ? fg__field_take(out, context, &arrays, work.velocity)
+                        : fg__field_create_slab(out, context, &arrays, work.velocity,
+                                                number, count);
+  for (int k = 0; k < 2; ++k) {
+    free((void *)(uintptr_t)arrays.axis[k]);
+    free(work.velocity[k]);
+  }
+  return status;
+}
+
+static fg_status check_options(fg_context *context, const fg_map_options *options)
+{
+  const double *region = options->region, *center = options->center;
+  if (options->has_region &&
+      !(fabs(region[0]) <= 720.0 && fabs(region[1]) <= 720.0 &&
+        region[1] - region[0] <= 360.0 && fabs(region[2]) <= 90.0 &&
+        fabs(region[3]) <= 90.0 && region[2] < region[3]))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "region %g,%g,%g,%g: west, east, south, north in degrees are needed, "
+                    "south below north, of 360 degrees at most",
+                    region[0], region[1], region[2], region[3]);
+  if ((options->has_center && !(fabs(center[0]) <= 360.0)) ||
+      (options->has_center_latitude && !(fabs(center[1]) <= 90.0)))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "centre %g,%g: a longitude and a latitude are needed", center[0],
+                    center[1]);
+  if (options->samples &&
+      (options->samples < FEWEST_SAMPLES || options->samples > MOST_SAMPLES))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "map: %d samples along the longer side; %d to %d are possible",
+                    options->samples, FEWEST_SAMPLES, MOST_SAMPLES);
+  return FG_STATUS_OK;
+}
+
+/* Whether there are values at sea alone: none at all but one of these places inland. */
+static bool is_of_the_sea(const fg__sphere *sphere)
+{
+  static const double longitude[] = {20, 100, -105, -58, 25, 133, 45, 80};
+  static const double latitude[] = {15, 50, 45, -12, -22, -24, 24, 60};
+  enum { PLACES = 8 };
+  float east[PLACES], north[PLACES];
+  int present = 0;
+  fg__sphere_sample(east, north, sphere, PLACES, longitude, latitude);
+  for (int k = 0; k < PLACES; ++k)
+    present += isfinite(east[k]) && isfinite(north[k]);
+  return present <= 1;
+}
+
+static void find_area(fg__map_area *out, const fg__sphere *sphere,
+                      const fg_map_options *options)
+{
+  fg__sphere_extent extent;
+  fg__sphere_extent_of(&extent, sphere);
+  *out = (fg__map_area){extent.west, extent.east, extent.south, extent.north, false};
+  if (options->has_region) {
+    const double west = options->region[0];
+    double east = options->region[1];
+    while (east <= west)
+      east += 360.0;
+    *out = (fg__map_area){west, east, options->region[2], options->region[3], false};
+  }
+  out->sea = out->east - out->west >= 300.0 && is_of_the_sea(sphere);
+}
+
+fg_status fg__sphere_project(fg_field **out, fg_context *context,
+                             const fg__sphere *sphere, const fg_map_options *options,
+                             int number, int count)
+{
+  fg__map_area area;
+  fg__map_plane plane;
+  fg__map *map = NULL;
+  char projection[FG__MAP_STRING_BYTES];
+  *out = NULL;
+  fg_status status = check_options(context, options);
+  if (status != FG_STATUS_OK)
+    return status;
+  find_area(&area, sphere, options);
+  status = fg__map_choose(projection, context, options, &area);
+  if (status == FG_STATUS_OK)
+    status = fg__map_create(&map, context, projection);
+  if (status == FG_STATUS_OK)
+    status = fg__map_plane_find(&plane, context, map, &area, options->has_region,
+                                options->samples ? options->samples : SAMPLES);
+  if (status == FG_STATUS_OK) {
+    fg__sphere_extent extent;
+    fg__sphere_extent_of(&extent, sphere);
+    const double pixel = plane.spacing * fg__map_unit(map) / DEGREE_METRES;
+    const double parts = ceil(pixel / extent.spacing - 0.25);
+    status = make(out, context, sphere, &plane, fg__map_projection(map),
+                  parts > 1.0 ? (int)fmin(parts, MOST_PARTS) : 1, options->threads,
+                  number, count);
+  }
+  fg__map_destroy(map);
+  return status;
+}
+
+fg_status fg_field_project(fg_field **out, fg_context *context, const fg_field *field,
+                           const fg_map_options *options)
+{
+  static const fg_map_options defaults = {0};
+  if (!out || !field)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "map: no field to lay on it");
+  *out = NULL;
+  const fg_field_arrays *arrays = fg_field_contents(field);
+  if (arrays->dimension != 2 || arrays->scale != FG_SCALE_GEO ||
+      !fg__field_is_whole(field) || (options && !fg__map_is_asked(options)))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "map: a whole field in longitude and latitude is needed, and a "
+                    "projection");
+  fg__sphere *sphere = NULL;
+  fg_status status = fg__sphere_of_field(&sphere, context, field);
+  if (status == FG_STATUS_OK)
+    status =
+        fg__sphere_project(out, context, sphere, options ? options : &defaults, 0, 1);
+  fg__sphere_destroy(sphere);
+  return status;
+}

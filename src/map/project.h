@@ -1,0 +1,21 @@
+/* A field on the sphere as one on the plane of a map. */
+#ifndef FG__MAP_PROJECT_H
+#define FG__MAP_PROJECT_H
+
+#include "base/context.h"
+#include "flowgrain/map.h"
+#include "sphere/sphere.h"
+
+/* Whether a map is asked for: not NULL, not "none". */
+bool fg__map_is_asked(const fg_map_options *options);
+
+/* Whether more than "auto" is asked for, which takes a field as it comes. */
+bool fg__map_is_named(const fg_map_options *options);
+
+/* Slab `number` of `count` (field/slab.h; with a count of 1 all) of the sphere's field on
+ * the plane of a map, as fg_field_project. */
+fg_status fg__sphere_project(fg_field **out, fg_context *context,
+                             const fg__sphere *sphere, const fg_map_options *options,
+                             int number, int count);
+
+#endif

@@ -1,0 +1,321 @@
+#include "picture/map/map_scene.h"
+
+#include <math.h>
+
+#include "picture/map/land.h"
+#include "picture/map/missing.h"
+#include "picture/polygons.h"
+
+/* Metres on the ground in a point from which on coasts are generalised for 1 to 110, and
+ * to 50 million: a world map 480 points wide has 76 km in a point, one of Europe 10. */
+static const double coarse_from = 20e3, middle_from = 2.5e3;
+
+/* Points: vertices that move a line by less are dropped; what is smaller than a speck is
+ * not drawn; coordinates are multiples of a grain, which have few digits in SVG. */
+static const double line_tolerance = 0.18, rim_tolerance = 0.4, arrow_tolerance = 0.05;
+static const double speck = 0.7;
+static const double grain = 1.0 / 8.0;
+
+/* What is drawn about an arrow, its rim. */
+static const double clip_slack = 0.5;
+
+/* Of degrees inside a map, in units of the font size. */
+static const double inside_size = 0.88;
+
+typedef struct placing {
+  const fg__page *page;
+  const fg__plane *plane;
+} placing;
+
+static double rounded(double x)
+{
+  return grain * floor(x / grain + 0.5);
+}
+
+static void place_all(const placing *p, fg__polygons *polygons)
+{
+  const fg__page_box *frame = &p->page->frame;
+  for (size_t n = 0; n < polygons->point_count; ++n) {
+    double *at = polygons->point[n];
+    at[0] = frame->x0 + p->page->scale * (at[0] - p->plane->low[0]);
+    at[1] = frame->y1 - p->page->scale * (at[1] - p->plane->low[1]);
+  }
+}
+
+static bool is_speck(const fg__polygons *polygons, size_t k)
+{
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (size_t n = polygons->start[k]; n < polygons->start[k + 1]; ++n)
+    for (int i = 0; i < 2; ++i) {
+      low[i] = fmin(low[i], polygons->point[n][i]);
+      high[i] = fmax(high[i], polygons->point[n][i]);
+    }
+  return fmax(high[0] - low[0], high[1] - low[1]) < speck;
+}
+
+/* Drops specks, and rounds. */
+static void tidy(fg__polygons *polygons, bool specks_too)
+{
+  size_t lines = 0, points = 0;
+  for (size_t k = 0; k < polygons->count; ++k) {
+    const size_t first = polygons->start[k], end = polygons->start[k + 1];
+    if (!specks_too && is_speck(polygons, k))
+      continue;
+    polygons->start[lines++] = points;
+    for (size_t n = first; n < end; ++n, ++points)
+      for (int i = 0; i < 2; ++i)
+        polygons->point[points][i] = rounded(polygons->point[n][i]);
+  }
+  if (polygons->count)
+    polygons->start[lines] = points;
+  polygons->count = lines;
+  polygons->point_count = points;
+}
+
+static void finish(const placing *p, fg__polygons *polygons, double tolerance,
+                   bool specks_too)
+{
+  place_all(p, polygons);
+  fg__polygons_simplify(polygons, tolerance);
+  tidy(polygons, specks_too);
+}
+
+static fg__coast_detail detail_of(const placing *p)
+{
+  const double metres = p->plane->metres / p->page->scale;
+  return metres >= coarse_from   ? FG__COAST_110M
+         : metres >= middle_from ? FG__COAST_50M
+                                 : FG__COAST_10M;
+}
+
+/* Loops and lines of another go to the end of these. */
+static bool copy(fg__polygons *out, const fg__polygons *from)
+{
+  for (size_t k = 0; k < from->count; ++k) {
+    if (!fg__polygons_begin(out))
+      return false;
+    for (size_t n = from->start[k]; n < from->start[k + 1]; ++n)
+      if (!fg__polygons_add(out, from->point[n]))
+        return false;
+  }
+  return true;
+}
+
+static fg_status add_coasts(fg__map_scene *out, fg_context *context, const placing *p,
+                            const fg_field *field, bool borders)
+{
+  const fg__coast_detail detail = detail_of(p);
+  fg__missing missing = {.area = {.point = NULL}};
+  fg_status status =
+      fg__land_trace(&out->land, &out->shore, context, p->plane, FG__COAST_LAND, detail);
+  if (!status)
+    status = fg__land_trace(&out->lakes, &out->banks, context, p->plane, FG__COAST_LAKES,
+                            detail);
+  if (!status && borders)
+    status =
+        fg__land_trace(NULL, &out->borders, context, p->plane, FG__COAST_BORDERS, detail);
+  if (!status)
+    status = fg__missing_find(&missing, context, p->plane, field, &out->land);
+  out->coasts = true;
+  out->missing = missing.area;
+  out->missing_on_land = missing.on_land;
+  out->rim = missing.rim;
+  finish(p, &out->land, line_tolerance, false);
+  finish(p, &out->lakes, line_tolerance, false);
+  finish(p, &out->shore, line_tolerance, false);
+  finish(p, &out->banks, line_tolerance, false);
+  finish(p, &out->borders, line_tolerance, true);
+  finish(p, &out->missing, rim_tolerance, true);
+  finish(p, &out->rim, rim_tolerance, false);
+  return status;
+}
+
+fg_status fg__map_scene_create(fg__map_scene *out, fg_context *context,
+                               const fg__page *page, const fg__graticule *graticule,
+                               const fg_field *field, const fg__map_wishes *wishes)
+{
+  const placing p = {page, graticule->plane};
+  fg_status status = FG_STATUS_OK;
+  *out = (fg__map_scene){.coasts = false};
+  if (!copy(&out->outline, &graticule->plane->outline) ||
+      (!wishes->no_graticule && !copy(&out->graticule, &graticule->line)))
+    status = fg__fail_memory(context, "a map's lines",
+                             graticule->line.point_count * sizeof(double[2]));
+  finish(&p, &out->outline, 0.02, true);
+  finish(&p, &out->graticule, 0.05, true);
+  if (!status && !wishes->no_coast)
+    status = add_coasts(out, context, &p, field, wishes->borders);
+  if (status)
+    fg__map_scene_clear(out);
+  return status;
+}
+
+fg_status fg__map_scene_rim(fg__map_scene *scene, fg_context *context,
+                            const fg__polygons *arrows)
+{
+  if (!copy(&scene->arrow_rims, arrows))
+    return fg__fail_memory(context, "the arrows' rims",
+                           arrows->point_count * sizeof *arrows->point);
+  fg__polygons_simplify(&scene->arrow_rims, arrow_tolerance);
+  tidy(&scene->arrow_rims, true);
+  return FG_STATUS_OK;
+}
+
+static bool boxes_touch(const fg__page_box *a, const fg__page_box *b)
+{
+  return a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1;
+}
+
+/* Whether an edge comes into a box, after Liang and Barsky (1984). */
+static bool edge_in_box(const double a[2], const double b[2], const fg__page_box *box)
+{
+  const double low[2] = {box->x0, box->y0}, high[2] = {box->x1, box->y1};
+  double from = 0.0, to = 1.0;
+  for (int k = 0; k < 2; ++k) {
+    const double d = b[k] - a[k];
+    if (d == 0.0 && (a[k] < low[k] || a[k] > high[k]))
+      return false;
+    if (d == 0.0)
+      continue;
+    const double one = (low[k] - a[k]) / d, other = (high[k] - a[k]) / d;
+    from = fmax(from, fmin(one, other));
+    to = fmin(to, fmax(one, other));
+  }
+  return from <= to;
+}
+
+static bool loops_touch_box(const fg__polygons *loops, const fg__page_box *box)
+{
+  for (size_t k = 0; k < loops->count; ++k)
+    for (size_t n = loops->start[k]; n < loops->start[k + 1]; ++n) {
+      const size_t next = n + 1 < loops->start[k + 1] ? n + 1 : loops->start[k];
+      if (edge_in_box(loops->point[n], loops->point[next], box))
+        return true;
+    }
+  return false;
+}
+
+/* By the even-odd rule. */
+static bool loop_contains(const fg__polygons *loops, size_t k, double x, double y)
+{
+  bool inside = false;
+  for (size_t n = loops->start[k]; n < loops->start[k + 1]; ++n) {
+    const size_t next = n + 1 < loops->start[k + 1] ? n + 1 : loops->start[k];
+    const double *a = loops->point[n], *b = loops->point[next];
+    if ((a[1] > y) != (b[1] > y) && x < a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]))
+      inside = !inside;
+  }
+  return inside;
+}
+
+bool fg__map_scene_holds(const fg__map_scene *scene, const fg__page *page,
+                         const fg__polygons *loops, size_t loop)
+{
+  const fg__page_box *frame = &page->frame;
+  for (size_t n = loops->start[loop]; n < loops->start[loop + 1]; ++n) {
+    const double x = loops->point[n][0], y = loops->point[n][1];
+    if (x < frame->x0 + clip_slack || x > frame->x1 - clip_slack ||
+        y < frame->y0 + clip_slack || y > frame->y1 - clip_slack ||
+        (scene->outline.count && !loop_contains(&scene->outline, 0, x, y)))
+      return false;
+  }
+  return true;
+}
+
+/* Free of arrows, of the outline and of other texts, inside of the frame. */
+static bool is_free(const fg__map_scene *scene, const fg__page *page,
+                    const fg__polygons *arrows, const fg__page_box *box)
+{
+  const fg__page_box *frame = &page->frame;
+  if (box->x0 < frame->x0 || box->y0 < frame->y0 || box->x1 > frame->x1 ||
+      box->y1 > frame->y1)
+    return false;
+  for (int k = 0; k < page->text_count; ++k)
+    if (boxes_touch(&page->text[k].box, box))
+      return false;
+  if (scene->outline.count &&
+      !loop_contains(&scene->outline, 0, 0.5 * (box->x0 + box->x1),
+                     0.5 * (box->y0 + box->y1)))
+    return false;
+  return !loops_touch_box(&scene->outline, box) && !loops_touch_box(arrows, box);
+}
+
+/* Where a label's text would stand, with a little room round it. */
+static fg__page_box box_of(const fg__page *page, const fg__map_label *label,
+                           const fg__plane *plane, cairo_t *ruler)
+{
+  const double size = inside_size * page->font_size, pad = 0.12 * size;
+  const double half = 0.5 * fg__text_width(ruler, label->text, size, false) + pad;
+  const double x = page->frame.x0 + page->scale * (label->at[0] - plane->low[0]);
+  const double y = page->frame.y1 - page->scale * (label->at[1] - plane->low[1]);
+  return (fg__page_box){x - half, y - 0.5 * size - pad, x + half, y + 0.5 * size + pad};
+}
+
+static void add_label(fg__map_scene *scene, fg__page *page, const fg__map_label *label,
+                      const fg__page_box *box)
+{
+  fg__page_text *text = fg__page_next_text(page, label->text);
+  if (!text)
+    return;
+  text->size = inside_size * page->font_size;
+  text->quiet = true;
+  text->x = box->x0 + 0.12 * text->size;
+  text->y = 0.5 * (box->y0 + box->y1) + 0.36 * text->size;
+  text->box = *box;
+  scene->backing[scene->backings++] = *box;
+}
+
+/* Which of the places that each line has is free for most lines: labels in a row. */
+static int best_place(const fg__map_scene *scene, const fg__page *page,
+                      const fg__graticule *graticule, const fg__polygons *arrows,
+                      cairo_t *ruler)
+{
+  int free_places[FG__MAP_LABELS] = {0}, best = 0;
+  for (int k = 0, place = 0; k < graticule->insides; ++k, ++place) {
+    const fg__map_label *label = &graticule->inside[k];
+    if (k > 0 && label->line != label[-1].line)
+      place = 0;
+    const fg__page_box box = box_of(page, label, graticule->plane, ruler);
+    free_places[place] += is_free(scene, page, arrows, &box);
+  }
+  for (int place = 1; place < FG__MAP_LABELS; ++place)
+    if (free_places[place] > free_places[best])
+      best = place;
+  return best;
+}
+
+void fg__map_scene_label(fg__map_scene *scene, fg__page *page,
+                         const fg__graticule *graticule, const fg__polygons *arrows,
+                         cairo_t *ruler)
+{
+  const int best = best_place(scene, page, graticule, arrows, ruler);
+  for (int first = 0, end; first < graticule->insides; first = end) {
+    const fg__map_label *label = &graticule->inside[first];
+    int count = 1;
+    while (first + count < graticule->insides && label[count].line == label->line)
+      ++count;
+    end = first + count;
+    for (int k = -1; k < count && scene->backings < FG__MAP_BACKINGS; ++k) {
+      const fg__map_label *choice = &label[k < 0 ? (best < count ? best : 0) : k];
+      const fg__page_box box = box_of(page, choice, graticule->plane, ruler);
+      if (is_free(scene, page, arrows, &box)) {
+        add_label(scene, page, choice, &box);
+        break;
+      }
+    }
+  }
+}
+
+void fg__map_scene_clear(fg__map_scene *scene)
+{
+  fg__polygons_clear(&scene->land);
+  fg__polygons_clear(&scene->lakes);
+  fg__polygons_clear(&scene->shore);
+  fg__polygons_clear(&scene->banks);
+  fg__polygons_clear(&scene->borders);
+  fg__polygons_clear(&scene->missing);
+  fg__polygons_clear(&scene->rim);
+  fg__polygons_clear(&scene->graticule);
+  fg__polygons_clear(&scene->outline);
+  fg__polygons_clear(&scene->arrow_rims);
+}

@@ -1,0 +1,415 @@
+/* What is drawn of the Earth, on planes of all kinds. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cairo.h>
+
+#include "base/context_test.h"
+#include "flowgrain/flowgrain.h"
+#include "picture/map/land.h"
+#include "picture/map/map_scene.h"
+#include "picture/map/missing.h"
+#include "picture/map/page_map.h"
+
+enum { SIDE = 61 };
+
+typedef struct view {
+  const char *projection; /* NULL: degrees */
+  double low[2], high[2]; /* of the field's axes */
+  bool disc;              /* corners are missing */
+} view;
+
+static const view world = {
+    "+proj=eqearth +R=6371000 +units=km", {-17300, -8400}, {17300, 8400}, false};
+static const view pacific = {"+proj=eqearth +lon_0=200 +R=6371000 +units=km",
+                             {-17300, -8400},
+                             {17300, 8400},
+                             false};
+static const view south = {
+    "+proj=laea +lat_0=-90 +R=6371000 +units=km", {-7000, -7000}, {7000, 7000}, true};
+static const view north = {"+proj=stere +lat_0=90 +lon_0=-30 +R=6371000 +units=km",
+                           {-5000, -5000},
+                           {5000, 5000},
+                           true};
+static const view atlantic = {
+    "+proj=lcc +lat_1=28 +lat_2=62 +lat_0=45 +lon_0=-35 +R=6371000 +units=m",
+    {-4e6, -3.6e6},
+    {4e6, 3.5e6},
+    false};
+/* its antipode lies in Asia */
+static const view oblique = {"+proj=laea +lat_0=-35 +lon_0=-100 +R=6371000 +units=km",
+                             {-12742, -12742},
+                             {12742, 12742},
+                             true};
+static const view globe = {"+proj=ortho +lat_0=40 +lon_0=10 +R=6371000 +units=km",
+                           {-6371, -6371},
+                           {6371, 6371},
+                           true};
+/* inside one continent: no coast is to be seen */
+static const view sahara = {"+proj=laea +lat_0=22 +lon_0=10 +R=6371000 +units=km",
+                            {-300, -300},
+                            {300, 300},
+                            false};
+static const view degrees = {NULL, {21.0, -89.0}, {379.0, 89.0}, false};
+
+static const view *const views[] = {&world,   &pacific, &south,  &north,  &atlantic,
+                                    &oblique, &globe,   &sahara, &degrees};
+enum { VIEWS = sizeof views / sizeof *views };
+
+static const struct {
+  double longitude, latitude;
+  bool land;
+} places[] = {
+    {10.0, 22.0, true},   /* Sahara */
+    {-100.0, 45.0, true}, /* Dakota */
+    {-55.0, -12.0, true}, /* Mato Grosso */
+    {135.0, -25.0, true}, /* Australia */
+    {100.0, 60.0, true},  /* Siberia */
+    {179.0, 67.0, true},  /* Chukotka, on either side of the antimeridian */
+    {-175.5, 66.5, true},   {0.0, -80.0, true}, /* Antarctica, all round the pole */
+    {100.0, -80.0, true},   {40.0, -89.0, true},   {-42.0, 72.0, true}, /* Greenland */
+    {47.0, -19.0, true},                                                /* Madagascar */
+    {-30.0, 30.0, false},                                               /* the Atlantic */
+    {-25.0, -30.0, false},  {-150.0, 20.0, false}, /* the Pacific, on either side of the
+                                                      antimeridian */
+    {170.0, -10.0, false},  {80.0, -20.0, false},  /* the Indian Ocean */
+    {51.0, 41.0, false},                           /* the Caspian Sea */
+    {0.0, 88.0, false},                            /* the Arctic Ocean */
+    {-140.0, -60.0, false},                        /* the Southern Ocean */
+};
+enum { PLACES = sizeof places / sizeof *places };
+
+static fg_field *make_field(fg_context *context, const view *v,
+                            bool (*there)(double x, double y))
+{
+  static double axis[2][SIDE];
+  static float u[SIDE * SIDE], zero[SIDE * SIDE];
+  for (int k = 0; k < 2; ++k)
+    for (int n = 0; n < SIDE; ++n)
+      axis[k][n] = v->low[k] + (v->high[k] - v->low[k]) * n / (SIDE - 1);
+  const double radius = 0.5 * (v->high[0] - v->low[0]);
+  for (int n = 0; n < SIDE * SIDE; ++n) {
+    const double x = axis[0][n % SIDE], y = axis[1][n / SIDE];
+    const bool inside = !v->disc || hypot(x, y) <= radius;
+    u[n] = inside && (!there || there(x, y)) ? 1.0F : NAN;
+  }
+  const fg_field_arrays arrays = {.dimension = 2,
+                                  .size = {SIDE, SIDE, 0},
+                                  .axis = {axis[0], axis[1], NULL},
+                                  .velocity = {u, zero, NULL},
+                                  .scale = v->projection ? FG_SCALE_MAP : FG_SCALE_GEO,
+                                  .projection = v->projection};
+  fg_field *field = NULL;
+  assert_int_equal(fg_field_create(&field, context, &arrays), FG_STATUS_OK);
+  return field;
+}
+
+static void make_plane(fg__plane *plane, fg_context *context, const view *v)
+{
+  double low[2] = {v->low[0], v->low[1]}, high[2] = {v->high[0], v->high[1]};
+  fg_field *field = make_field(context, v, NULL);
+  assert_int_equal(fg__plane_create(plane, context, field, low, high), FG_STATUS_OK);
+  assert_int_equal(plane->kind == FG__PLANE_DEGREES, v->projection == NULL);
+  assert_int_equal(plane->disc, v->disc);
+  fg_field_destroy(field);
+}
+
+/* By the even-odd rule. */
+static bool contains(const fg__polygons *loops, const double at[2])
+{
+  bool inside = false;
+  for (size_t k = 0; k < loops->count; ++k)
+    for (size_t n = loops->start[k]; n < loops->start[k + 1]; ++n) {
+      const size_t next = n + 1 < loops->start[k + 1] ? n + 1 : loops->start[k];
+      const double *a = loops->point[n], *b = loops->point[next];
+      if ((a[1] > at[1]) != (b[1] > at[1]) &&
+          at[0] < a[0] + (b[0] - a[0]) * (at[1] - a[1]) / (b[1] - a[1]))
+        inside = !inside;
+    }
+  return inside;
+}
+
+/* Whether the frame, and the disc in it, shows a place, and where. */
+static bool shows(const fg__plane *plane, double longitude, double latitude, double at[2])
+{
+  if (!plane->map)
+    longitude += 360.0 * ceil((plane->low[0] - longitude) / 360.0);
+  fg__plane_forward(plane, 1, &longitude, &latitude, &at[0], &at[1]);
+  if (!isfinite(at[0]) || !isfinite(at[1]))
+    return false;
+  for (int k = 0; k < 2; ++k)
+    if (at[k] < plane->low[k] || at[k] > plane->high[k])
+      return false;
+  return !plane->whole || contains(&plane->outline, at);
+}
+
+static void land_is_where_it_is(void **state)
+{
+  fg_context *context = *state;
+  int shown = 0;
+  for (int k = 0; k < VIEWS; ++k)
+    for (int detail = FG__COAST_110M; detail <= FG__COAST_10M; ++detail) {
+      fg__plane plane;
+      fg__polygons land = {0};
+      make_plane(&plane, context, views[k]);
+      assert_int_equal(fg__land_trace(&land, NULL, context, &plane, FG__COAST_LAND,
+                                      (fg__coast_detail)detail),
+                       FG_STATUS_OK);
+      for (int n = 0; n < PLACES; ++n) {
+        double at[2];
+        if (!shows(&plane, places[n].longitude, places[n].latitude, at))
+          continue;
+        ++shown;
+        if (contains(&land, at) != places[n].land)
+          fail_msg("view %d, detail %d: %g, %g", k, detail, places[n].longitude,
+                   places[n].latitude);
+      }
+      fg__polygons_clear(&land);
+      fg__plane_clear(&plane);
+    }
+  assert_true(shown > 3 * 80);
+}
+
+/* Coasts are lines of short edges: none leads across the map or along its cut. */
+static void coasts_do_not_cross_the_map(void **state)
+{
+  fg_context *context = *state;
+  for (int k = 0; k < VIEWS; ++k) {
+    fg__plane plane;
+    fg__polygons lines = {0};
+    make_plane(&plane, context, views[k]);
+    assert_int_equal(
+        fg__land_trace(NULL, &lines, context, &plane, FG__COAST_LAND, FG__COAST_50M),
+        FG_STATUS_OK);
+    assert_true(views[k] == &sahara ? lines.count == 0 : lines.count > 20);
+    const double longest = 0.04 * (plane.high[0] - plane.low[0]);
+    for (size_t line = 0; line < lines.count; ++line)
+      for (size_t n = lines.start[line]; n + 1 < lines.start[line + 1]; ++n) {
+        const double *a = lines.point[n], *b = lines.point[n + 1];
+        double place[2][2];
+        bool shown = true;
+        for (int i = 0; i < 2; ++i) {
+          const double *p = i ? b : a;
+          fg__plane_inverse(&plane, 1, &p[0], &p[1], &place[i][0], &place[i][1]);
+          shown = shown && shows(&plane, place[i][0], place[i][1], (double[2]){0.0, 0.0});
+        }
+        if (!shown)
+          continue;
+        assert_true(hypot(b[0] - a[0], b[1] - a[1]) < longest);
+        for (int i = 0; i < 2 && plane.kind == FG__PLANE_CUT; ++i)
+          assert_false(fabs(place[0][1] - place[1][1]) > 0.5 &&
+                       fabs(fabs(place[0][0] - plane.center[0]) - 180.0) < 1e-3 &&
+                       fabs(fabs(place[1][0] - plane.center[0]) - 180.0) < 1e-3);
+      }
+    fg__polygons_clear(&lines);
+    fg__plane_clear(&plane);
+  }
+}
+
+/* What a label says of where it stands: degrees, north and east positive. */
+static bool read_degrees(const fg__map_label *label, double *value, bool *is_latitude)
+{
+  const char last = label->text[strlen(label->text) - 1];
+  *value = atof(label->text) * (last == 'S' || last == 'W' ? -1.0 : 1.0);
+  *is_latitude = last == 'N' || last == 'S';
+  return last == 'N' || last == 'S' || last == 'W' || last == 'E';
+}
+
+static void labels_say_where_lines_end(void **state)
+{
+  fg_context *context = *state;
+  for (int k = 0; k < VIEWS; ++k) {
+    fg__plane plane;
+    fg__graticule *graticule = calloc(1, sizeof *graticule);
+    assert_non_null(graticule);
+    make_plane(&plane, context, views[k]);
+    assert_int_equal(fg__graticule_create(graticule, context, &plane), FG_STATUS_OK);
+    assert_true(graticule->labels + graticule->insides > 5);
+    for (int n = 0; n < graticule->labels + graticule->insides; ++n) {
+      const fg__map_label *label = n < graticule->labels
+                                       ? &graticule->label[n]
+                                       : &graticule->inside[n - graticule->labels];
+      double said, place[2];
+      bool is_latitude;
+      /* a little inwards: on the rim itself there need be no way back */
+      const double inwards =
+          n < graticule->labels ? 1e-4 * (plane.high[0] - plane.low[0]) : 0.0;
+      const double x = label->at[0] - inwards * label->out[0];
+      const double y = label->at[1] - inwards * label->out[1];
+      fg__plane_inverse(&plane, 1, &x, &y, &place[0], &place[1]);
+      if (!read_degrees(label, &said, &is_latitude) || !isfinite(place[0]))
+        continue;
+      const double off =
+          is_latitude ? said - place[1] : remainder(said - place[0], 360.0);
+      if (!(fabs(off) < 0.6))
+        fail_msg("view %d: %s stands at %g, %g", k, label->text, place[0], place[1]);
+    }
+    fg__graticule_clear(graticule);
+    fg__plane_clear(&plane);
+    free(graticule);
+  }
+}
+
+/* A page of 480 points: no two texts touch, and all are on it. */
+static void no_two_labels_touch(void **state)
+{
+  fg_context *context = *state;
+  for (int k = 0; k < VIEWS; ++k) {
+    fg__plane plane;
+    fg__graticule *graticule = calloc(1, sizeof *graticule);
+    fg__page *page = calloc(1, sizeof *page);
+    assert_non_null(graticule);
+    assert_non_null(page);
+    make_plane(&plane, context, views[k]);
+    assert_int_equal(fg__graticule_create(graticule, context, &plane), FG_STATUS_OK);
+    fg__page_plan plan = {.title = "A title",
+                          .color_key = true,
+                          .graticule = graticule,
+                          .outlined = plane.whole};
+    for (int i = 0; i < 2; ++i) {
+      plan.axis[i].low = plane.low[i];
+      plan.axis[i].high = plane.high[i];
+    }
+    fg__axis_of_numbers(&plan.speed, 0.0, 10.0, 10.0, "mean speed", "m/s");
+    cairo_t *ruler = fg__text_ruler();
+    fg__page_layout(page, &plan, ruler);
+    fg__map_scene scene = {.coasts = false};
+    const fg__polygons none = {0};
+    fg__map_scene_label(&scene, page, graticule, &none, ruler);
+    cairo_destroy(ruler);
+    assert_true(page->text_count > 8);
+    assert_int_equal(page->framed, !plane.whole);
+    for (int n = 0; n < page->text_count; ++n) {
+      const fg__page_box *a = &page->text[n].box;
+      assert_true(a->x0 >= 0.0 && a->y0 >= 0.0 && a->x1 <= page->width &&
+                  a->y1 <= page->height);
+      for (int m = 0; m < n; ++m) {
+        const fg__page_box *b = &page->text[m].box;
+        assert_false(a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1);
+      }
+    }
+    fg__map_scene_clear(&scene);
+    fg__graticule_clear(graticule);
+    fg__plane_clear(&plane);
+    free(graticule);
+    free(page);
+  }
+}
+
+/* Of a sea's field with data up to x = 2000 km, on a plane without land in it. */
+static bool in_the_west(double x, double y)
+{
+  (void)y;
+  return x < 2000.0;
+}
+
+static double area_of(const fg__polygons *loops)
+{
+  double area = 0.0;
+  for (size_t k = 0; k < loops->count; ++k)
+    area += fg__polygon_area(loops, k);
+  return area;
+}
+
+static void the_rim_is_where_data_end(void **state)
+{
+  static const view sea = {"+proj=laea +lat_0=-35 +lon_0=-120 +R=6371000 +units=km",
+                           {-3000, -3000},
+                           {3000, 3000},
+                           false};
+  fg_context *context = *state;
+  double low[2] = {-3000, -3000}, high[2] = {3000, 3000};
+  fg_field *field = make_field(context, &sea, in_the_west);
+  fg__plane plane;
+  fg__missing missing;
+  const fg__polygons no_land = {0};
+  assert_int_equal(fg__plane_create(&plane, context, field, low, high), FG_STATUS_OK);
+  assert_int_equal(fg__missing_find(&missing, context, &plane, field, &no_land),
+                   FG_STATUS_OK);
+  /* samples lie 100 km apart: data reach to between 1900 and 2000 */
+  assert_true(fabs(area_of(&missing.area) - 1050.0 * 6000.0) < 60.0 * 6000.0);
+  assert_int_equal(missing.rim.count, 1);
+  for (size_t n = 0; n < missing.rim.point_count; ++n)
+    assert_true(fabs(missing.rim.point[n][0] - 1950.0) < 60.0);
+  fg__missing_clear(&missing);
+  /* what land explains is not missing: the same field with land where it ends */
+  const double corner[][2] = {{1900, -4000}, {4000, -4000}, {4000, 4000}, {1900, 4000}};
+  fg__polygons land = {.point = calloc(4, sizeof *land.point),
+                       .start = calloc(2, sizeof *land.start),
+                       .count = 1,
+                       .point_count = 4};
+  assert_non_null(land.point);
+  assert_non_null(land.start);
+  memcpy(land.point, corner, sizeof corner);
+  land.start[1] = 4;
+  assert_int_equal(fg__missing_find(&missing, context, &plane, field, &land),
+                   FG_STATUS_OK);
+  assert_int_equal(missing.area.count, 0);
+  fg__polygons_clear(&land);
+  fg__missing_clear(&missing);
+  fg__plane_clear(&plane);
+  fg_field_destroy(field);
+}
+
+static uint32_t pixel_of(const char *path, double x, double y)
+{
+  cairo_surface_t *image = cairo_image_surface_create_from_png(path);
+  assert_int_equal(cairo_surface_status(image), CAIRO_STATUS_SUCCESS);
+  uint32_t pixel;
+  const int column = (int)(x * cairo_image_surface_get_width(image));
+  const int row = (int)(y * cairo_image_surface_get_height(image));
+  memcpy(&pixel,
+         cairo_image_surface_get_data(image) +
+             row * cairo_image_surface_get_stride(image) + 4 * column,
+         sizeof pixel);
+  cairo_surface_destroy(image);
+  return pixel & 0xffffff;
+}
+
+static void pictures_show_land(void **state)
+{
+  fg_context *context = *state;
+  char folder[] = "/tmp/flowgrain-map-XXXXXX", path[64];
+  assert_non_null(mkdtemp(folder));
+  snprintf(path, sizeof path, "%s/map.png", folder);
+  fg_field *field = make_field(context, &degrees, NULL);
+  fg_icons *icons = NULL;
+  assert_int_equal(
+      fg_arrows_create(&icons, context, field, &(fg_arrows_options){.count = 2}),
+      FG_STATUS_OK);
+  fg_picture_options options = {
+      .no_frame = true, .no_arrows = true, .pixels_per_point = 1.0, .land = "#804020"};
+  /* Australia and the Pacific, from 21 to 379 degrees east and 89 north to 89 south */
+  const double land[2] = {(135.0 - 21.0) / 358.0, (89.0 + 25.0) / 178.0};
+  const double sea[2] = {(200.0 - 21.0) / 358.0, (89.0 + 25.0) / 178.0};
+  assert_int_equal(fg_picture_write(context, path, field, NULL, icons, &options),
+                   FG_STATUS_OK);
+  assert_int_equal(pixel_of(path, land[0], land[1]), 0x804020);
+  assert_int_equal(pixel_of(path, sea[0], sea[1]), 0xffffff);
+  options.no_coast = true;
+  assert_int_equal(fg_picture_write(context, path, field, NULL, icons, &options),
+                   FG_STATUS_OK);
+  assert_int_equal(pixel_of(path, land[0], land[1]), 0xffffff);
+  options.land = "brown";
+  assert_int_equal(fg_picture_write(context, path, field, NULL, icons, &options),
+                   FG_STATUS_ARGUMENT);
+  unlink(path);
+  rmdir(folder);
+  fg_icons_destroy(icons);
+  fg_field_destroy(field);
+}
+
+int main(void)
+{
+#define TEST(name)                                                                       \
+  cmocka_unit_test_setup_teardown(name, context_set_up, context_tear_down)
+  const struct CMUnitTest tests[] = {
+      TEST(land_is_where_it_is),        TEST(coasts_do_not_cross_the_map),
+      TEST(labels_say_where_lines_end), TEST(no_two_labels_touch),
+      TEST(the_rim_is_where_data_end),  TEST(pictures_show_land),
+  };
+  return cmocka_run_group_tests_name("picture/map/map", tests, NULL, NULL);
+}

@@ -1,0 +1,378 @@
+#include "picture/map/missing.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "field/mask.h"
+#include "picture/polygons.h"
+
+/* Nodes along the frame's longer side. */
+enum { NODES = 400 };
+
+/* Nodes: strips of twice this width vanish; what is averaged for a smooth outline. */
+enum { STRIP = 3, SMOOTH = 2 };
+
+/* Areas of less than this share of the frame are specks. */
+static const double speck_share = 0.004;
+
+/* A field with values on more than this share of the land is there on land, too: ocean
+ * models on coarse grids have them near coasts. */
+static const double land_share = 0.3;
+
+enum { INSIDE = 1, VALID = 2, LAND = 4, MISSING = 8, KEPT = 16 };
+
+typedef struct raster {
+  int size[2];
+  double low[2], spacing[2];
+  unsigned char *node, *scratch;
+  float *level;
+} raster;
+
+static size_t at(const raster *r, int i, int j)
+{
+  return (size_t)j * (size_t)r->size[0] + (size_t)i;
+}
+
+static size_t nodes_of(const raster *r)
+{
+  return (size_t)r->size[0] * (size_t)r->size[1];
+}
+
+static bool create(raster *r, const fg__plane *plane)
+{
+  const double wide[2] = {plane->high[0] - plane->low[0], plane->high[1] - plane->low[1]};
+  const double step = fmax(wide[0], wide[1]) / (NODES - 1);
+  for (int k = 0; k < 2; ++k) {
+    r->size[k] = (int)fmax(ceil(wide[k] / step), 1.0) + 1;
+    r->low[k] = plane->low[k];
+    r->spacing[k] = wide[k] / (r->size[k] - 1);
+  }
+  r->node = fg__allocate(nodes_of(r), 1);
+  r->scratch = fg__allocate(nodes_of(r), 1);
+  r->level = fg__allocate(nodes_of(r), sizeof *r->level);
+  return r->node && r->scratch && r->level;
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+  const double one = *(const double *)a, other = *(const double *)b;
+  return (one > other) - (one < other);
+}
+
+/* Places along row j where polygons cross it, ascending. False: no memory. */
+static bool crossings_of(double **list, size_t *capacity, size_t *count,
+                         const fg__polygons *polygons, double y)
+{
+  *count = 0;
+  for (size_t k = 0; k < polygons->count; ++k) {
+    const size_t first = polygons->start[k], end = polygons->start[k + 1];
+    for (size_t n = first; n < end; ++n) {
+      const double *a = polygons->point[n];
+      const double *b = polygons->point[n + 1 < end ? n + 1 : first];
+      if ((a[1] > y) == (b[1] > y))
+        continue;
+      void *grown = *list;
+      if (!fg__grow(&grown, capacity, *count + 1, sizeof **list))
+        return false;
+      *list = grown;
+      (*list)[(*count)++] = a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]);
+    }
+  }
+  if (*count)
+    qsort(*list, *count, sizeof **list, compare_numbers);
+  return true;
+}
+
+/* Marks the nodes that lie in polygons, by the even-odd rule. */
+static bool mark(raster *r, const fg__polygons *polygons, unsigned char what)
+{
+  double *list = NULL;
+  size_t capacity = 0, count = 0;
+  bool good = true;
+  for (int j = 0; j < r->size[1] && good; ++j) {
+    good = crossings_of(&list, &capacity, &count, polygons,
+                        r->low[1] + j * r->spacing[1] + 1e-7 * r->spacing[1]);
+    for (size_t n = 0; good && n + 1 < count; n += 2) {
+      const double from = ceil((list[n] - r->low[0]) / r->spacing[0]);
+      const double to = floor((list[n + 1] - r->low[0]) / r->spacing[0]);
+      for (int i = (int)fmax(from, 0.0); i <= fmin(to, r->size[0] - 1.0); ++i)
+        r->node[at(r, i, j)] |= what;
+    }
+  }
+  free(list);
+  return good;
+}
+
+/* The sample nearest to a coordinate along axis k, -1 where the field has none. */
+static int nearest_sample(const fg_field_arrays *field, int k, double x)
+{
+  const double *axis = field->axis[k];
+  const double period = field->period[k];
+  const int last = field->size[k] - 1;
+  if (period > 0.0)
+    x -= period * floor((x - axis[0]) / period);
+  if (x < axis[0] - 1e-9 * fabs(axis[last] - axis[0]) ||
+      (period == 0.0 && x > axis[last] + 1e-9 * fabs(axis[last] - axis[0])))
+    return -1;
+  int low = 0, high = last;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    if (axis[middle] <= x)
+      low = middle;
+    else
+      high = middle;
+  }
+  if (period > 0.0 && x > axis[last])
+    return x - axis[last] < axis[0] + period - x ? last : 0;
+  return x - axis[low] < axis[high] - x ? low : high;
+}
+
+static void mark_valid(raster *r, const fg_field *field)
+{
+  const fg_field_arrays *grid = fg_field_contents(field);
+  for (int j = 0; j < r->size[1]; ++j) {
+    const int y = nearest_sample(grid, 1, r->low[1] + j * r->spacing[1]);
+    for (int i = 0; i < r->size[0] && y >= 0; ++i) {
+      const int x = nearest_sample(grid, 0, r->low[0] + i * r->spacing[0]);
+      if (x >= 0 && fg__field_sample_is_valid(field, x, y))
+        r->node[at(r, i, j)] |= VALID;
+    }
+  }
+}
+
+/* Marks what is missing. Returns whether land counts. */
+static bool mark_missing(raster *r)
+{
+  size_t land = 0, both = 0;
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    if (r->node[n] & INSIDE && r->node[n] & LAND) {
+      ++land;
+      both += r->node[n] & VALID ? 1 : 0;
+    }
+  const bool on_land = land == 0 || (double)both > land_share * (double)land;
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    if (r->node[n] & INSIDE && !(r->node[n] & VALID) && (on_land || !(r->node[n] & LAND)))
+      r->node[n] |= MISSING;
+  return on_land;
+}
+
+/* scratch becomes 1 wherever it was within `reach` nodes along axis k. */
+static void spread_along(raster *r, int k, int reach)
+{
+  const int lines = r->size[1 - k], count = r->size[k];
+  const size_t step = k == 0 ? 1 : (size_t)r->size[0];
+  for (int line = 0; line < lines; ++line) {
+    unsigned char *first = r->scratch + (k == 0 ? at(r, 0, line) : at(r, line, 0));
+    int last = -2 * count;
+    for (int n = 0; n < count; ++n) { /* 2: reached from behind, was 0 */
+      unsigned char *here = first + (size_t)n * step;
+      if (*here == 1)
+        last = n;
+      else if (n - last <= reach)
+        *here = 2;
+    }
+    last = 3 * count;
+    for (int n = count - 1; n >= 0; --n) {
+      unsigned char *here = first + (size_t)n * step;
+      if (*here == 1)
+        last = n;
+      else if (last - n <= reach)
+        *here = 2;
+    }
+    for (int n = 0; n < count; ++n)
+      if (first[(size_t)n * step])
+        first[(size_t)n * step] = 1;
+  }
+}
+
+static void spread(raster *r, int reach)
+{
+  spread_along(r, 0, reach);
+  spread_along(r, 1, reach);
+}
+
+static bool near_frame(const raster *r, size_t n)
+{
+  const int i = (int)(n % (size_t)r->size[0]), j = (int)(n / (size_t)r->size[0]);
+  return i < STRIP || j < STRIP || i >= r->size[0] - STRIP || j >= r->size[1] - STRIP;
+}
+
+/* A morphological opening (Matheron 1975): beyond the outline counts as missing, beyond
+ * the frame as there. */
+static void open_up(raster *r)
+{
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    r->scratch[n] = r->node[n] & INSIDE && !(r->node[n] & MISSING);
+  spread(r, STRIP);
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    r->scratch[n] = !r->scratch[n] && !near_frame(r, n);
+  spread(r, STRIP);
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    if (r->scratch[n] && r->node[n] & MISSING)
+      r->node[n] |= KEPT;
+}
+
+/* Clears a connected area of KEPT nodes when it is small. stack: room for all nodes. */
+static void drop_speck(raster *r, size_t from, int *stack, size_t least)
+{
+  size_t count = 1;
+  stack[0] = (int)from;
+  r->scratch[from] = 1;
+  for (size_t done = 0; done < count; ++done) {
+    const int i = stack[done] % r->size[0], j = stack[done] / r->size[0];
+    static const int ways[][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    for (int k = 0; k < 4; ++k) {
+      const int x = i + ways[k][0], y = j + ways[k][1];
+      if (x < 0 || y < 0 || x >= r->size[0] || y >= r->size[1])
+        continue;
+      const size_t n = at(r, x, y);
+      if (!(r->node[n] & KEPT) || r->scratch[n])
+        continue;
+      r->scratch[n] = 1;
+      stack[count++] = (int)n;
+    }
+  }
+  for (size_t done = 0; done < count && count < least; ++done)
+    r->node[stack[done]] &= (unsigned char)~KEPT;
+}
+
+static bool drop_specks(raster *r)
+{
+  size_t inside = 0;
+  int *stack = fg__allocate(nodes_of(r), sizeof *stack);
+  if (!stack)
+    return false;
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    inside += r->node[n] & INSIDE;
+  memset(r->scratch, 0, nodes_of(r));
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    if (r->node[n] & KEPT && !r->scratch[n])
+      drop_speck(r, n, stack, (size_t)(speck_share * (double)inside) + 1);
+  free(stack);
+  return true;
+}
+
+/* Averages, of which the outline is the line of one half; beyond the Earth's outline what
+ * lies at it goes on. */
+static bool smooth(raster *r)
+{
+  bool any = false;
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    any = (r->scratch[n] = r->node[n] & KEPT ? 1 : 0) || any;
+  spread(r, 2 * SMOOTH + 1);
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    r->scratch[n] = r->node[n] & INSIDE ? (r->node[n] & KEPT) != 0 : r->scratch[n];
+  for (int j = 0; j < r->size[1]; ++j)
+    for (int i = 0; i < r->size[0]; ++i) {
+      int sum = 0;
+      for (int dj = -SMOOTH; dj <= SMOOTH; ++dj)
+        for (int di = -SMOOTH; di <= SMOOTH; ++di) {
+          const int x = i + di, y = j + dj;
+          sum += r->scratch[at(r,
+                               x < 0            ? 0
+                               : x < r->size[0] ? x
+                                                : r->size[0] - 1,
+                               y < 0            ? 0
+                               : y < r->size[1] ? y
+                                                : r->size[1] - 1)];
+        }
+      const int all = (2 * SMOOTH + 1) * (2 * SMOOTH + 1);
+      r->level[at(r, i, j)] = (float)sum / (float)all - 0.5F;
+    }
+  return any;
+}
+
+static bool valid_near(const raster *r, double x, double y)
+{
+  const int i = (int)floor((x - r->low[0]) / r->spacing[0] + 0.5);
+  const int j = (int)floor((y - r->low[1]) / r->spacing[1] + 0.5);
+  for (int dj = -SMOOTH; dj <= SMOOTH; ++dj)
+    for (int di = -SMOOTH; di <= SMOOTH; ++di)
+      if (i + di >= 0 && j + dj >= 0 && i + di < r->size[0] && j + dj < r->size[1] &&
+          r->node[at(r, i + di, j + dj)] & VALID)
+        return true;
+  return false;
+}
+
+static bool on_frame(const raster *r, const double a[2], const double b[2])
+{
+  for (int k = 0; k < 2; ++k) {
+    const double slack = 0.01 * r->spacing[k];
+    const double high = r->low[k] + r->spacing[k] * (r->size[k] - 1);
+    if ((fabs(a[k] - r->low[k]) < slack && fabs(b[k] - r->low[k]) < slack) ||
+        (fabs(a[k] - high) < slack && fabs(b[k] - high) < slack))
+      return true;
+  }
+  return false;
+}
+
+static bool add_rim(fg__missing *out, const raster *r)
+{
+  bool good = true;
+  for (size_t k = 0; k < out->area.count && good; ++k) {
+    const size_t first = out->area.start[k], end = out->area.start[k + 1];
+    bool going = false;
+    for (size_t n = first; n < end && good; ++n) {
+      const double *a = out->area.point[n];
+      const double *b = out->area.point[n + 1 < end ? n + 1 : first];
+      const bool wanted =
+          !on_frame(r, a, b) && valid_near(r, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]));
+      if (wanted && !going)
+        good = fg__polygons_begin(&out->rim) && fg__polygons_add(&out->rim, a);
+      if (wanted && good)
+        good = fg__polygons_add(&out->rim, b);
+      going = wanted;
+    }
+  }
+  return good;
+}
+
+static fg_status contour(fg__missing *out, fg_context *context, const raster *r)
+{
+  const fg_density_arrays level = {.dimension = 2,
+                                   .nodes = {r->size[0], r->size[1], 1},
+                                   .origin = {r->low[0], r->low[1], 0.0},
+                                   .spacing = {r->spacing[0], r->spacing[1], 1.0},
+                                   .u = r->level};
+  fg_status status = fg__contour_positive(&out->area, context, &level);
+  if (!status && !add_rim(out, r))
+    status = fg__fail_memory(context, "the rim of the data", nodes_of(r));
+  return status;
+}
+
+fg_status fg__missing_find(fg__missing *out, fg_context *context, const fg__plane *plane,
+                           const fg_field *field, const fg__polygons *land)
+{
+  raster r = {.node = NULL};
+  fg_status status = FG_STATUS_OK;
+  *out = (fg__missing){.area = {.point = NULL}};
+  bool good = create(&r, plane);
+  if (good && !plane->whole)
+    memset(r.node, INSIDE, nodes_of(&r));
+  good = good && (!plane->whole || mark(&r, &plane->outline, INSIDE)) &&
+         mark(&r, land, LAND);
+  if (good) {
+    mark_valid(&r, field);
+    out->on_land = mark_missing(&r);
+    open_up(&r);
+    good = drop_specks(&r);
+  }
+  if (!good)
+    status = fg__fail_memory(context, "where a field is missing", nodes_of(&r));
+  else if (smooth(&r))
+    status = contour(out, context, &r);
+  free(r.node);
+  free(r.scratch);
+  free(r.level);
+  if (status)
+    fg__missing_clear(out);
+  return status;
+}
+
+void fg__missing_clear(fg__missing *missing)
+{
+  fg__polygons_clear(&missing->area);
+  fg__polygons_clear(&missing->rim);
+}

@@ -1,0 +1,20 @@
+/* Where a field on a map has no data, as far as land does not explain it. */
+#ifndef FG__MISSING_H
+#define FG__MISSING_H
+
+#include "picture/map/plane.h"
+
+typedef struct fg__missing {
+  fg__polygons area; /* closed loops, winding rule; field's coordinates */
+  bool on_land;      /* some of it is land that other data of the field cover */
+  fg__polygons rim;  /* open lines where the data end: none along coasts and the frame */
+} fg__missing;
+
+/* Of a field that is there on the sea alone, the sea without data; of others all places
+ * without. Strips of less than about a hundredth of the frame, which grids leave along
+ * coasts, and small specks do not count. land: as fg__land_trace gives areas. MEMORY. */
+fg_status fg__missing_find(fg__missing *out, fg_context *context, const fg__plane *plane,
+                           const fg_field *field, const fg__polygons *land);
+void fg__missing_clear(fg__missing *missing);
+
+#endif

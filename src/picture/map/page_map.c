@@ -1,0 +1,234 @@
+#include "picture/map/page_map.h"
+
+#include <math.h>
+
+/* In units of the font size: from a line's end to its degrees; between two labels; the
+ * height of a digit, and from its middle to its baseline. */
+static const double label_gap = 0.45, between = 0.5, digit = 0.72, half_digit = 0.36;
+
+const fg__color fg__usual_land = {0.925, 0.925, 0.918};
+const fg__color fg__usual_missing = {0.955, 0.958, 0.965};
+static const fg__color coast_color = {0.56, 0.56, 0.56};
+static const fg__color border_color = {0.70, 0.70, 0.70};
+static const fg__color grid_color = {0.83, 0.83, 0.83};
+static const fg__color outline_color = {0.333, 0.333, 0.333};
+static const fg__color strong_coast = {0.20, 0.20, 0.20};
+static const fg__color white = {1.0, 1.0, 1.0};
+
+/* Points. */
+static const double coast_width = 0.45, border_width = 0.35, grid_width = 0.45;
+static const double outline_width = 0.7, rim_width = 0.5;
+
+/* Coasts on a texture: dark with a pale rim. */
+static const double strong_width = 0.6, strong_rim = 1.8, strong_opacity = 0.6;
+static const double rim_dashes[] = {3.0, 2.0};
+
+/* What lies outside of the data, through which land is still to be seen. */
+static const double fade = 0.72;
+
+typedef struct anchor {
+  double x, y;   /* on the page */
+  double out[2]; /* y upwards */
+  double width;  /* of the text */
+} anchor;
+
+/* How far left the outline comes beside a label at the left rim. */
+static double rim_left_of(const fg__page *page, const fg__plane *plane, const anchor *a)
+{
+  double left = a->x;
+  for (size_t n = 0; n < plane->outline.point_count; ++n) {
+    const double *at = plane->outline.point[n];
+    const double x = page->frame.x0 + page->scale * (at[0] - plane->low[0]);
+    const double y = page->frame.y1 - page->scale * (at[1] - plane->low[1]);
+    if (fabs(y - a->y) < 0.55 * page->font_size && x < left)
+      left = x;
+  }
+  return left;
+}
+
+static fg__page_box box_of(const fg__page *page, const fg__plane *plane, anchor a)
+{
+  const double em = page->font_size;
+  if (plane->whole && !plane->disc && a.out[0] < -0.5)
+    a.x = rim_left_of(page, plane, &a);
+  const double x = a.x + a.out[0] * (label_gap * em + 0.5 * a.width);
+  const double y = a.y - a.out[1] * (label_gap + 0.5 * digit) * em;
+  const double half[2] = {0.5 * a.width, half_digit * em};
+  return (fg__page_box){x - half[0], y - half[1], x + half[0], y + half[1]};
+}
+
+static bool is_free(const fg__page *page, int from, const fg__page_box *box)
+{
+  const double gap = between * page->font_size;
+  for (int k = from; k < page->text_count; ++k) {
+    const fg__page_box *other = &page->text[k].box;
+    if (box->x0 - gap < other->x1 && other->x0 < box->x1 + gap &&
+        box->y0 - 0.3 * gap < other->y1 && other->y0 < box->y1 + 0.3 * gap)
+      return false;
+  }
+  return true;
+}
+
+static void grow(fg__margins *room, const fg__page_box *frame, const fg__page_box *box)
+{
+  room->left = fmax(room->left, frame->x0 - box->x0);
+  room->right = fmax(room->right, box->x1 - frame->x1);
+  room->top = fmax(room->top, frame->y0 - box->y0);
+  room->bottom = fmax(room->bottom, box->y1 - frame->y1);
+}
+
+void fg__page_place_graticule(fg__page *page, fg__margins *room,
+                              const fg__page_plan *plan, cairo_t *ruler)
+{
+  const fg__graticule *graticule = plan->graticule;
+  const fg__plane *plane = graticule->plane;
+  const int from = page->text_count;
+  bool done[2 * FG__TICK_LIMIT] = {false};
+  for (int k = 0; k < graticule->labels; ++k) {
+    const fg__map_label *label = &graticule->label[k];
+    const anchor a = {.x = page->frame.x0 + page->scale * (label->at[0] - plane->low[0]),
+                      .y = page->frame.y1 - page->scale * (label->at[1] - plane->low[1]),
+                      .out = {label->out[0], label->out[1]},
+                      .width =
+                          fg__text_width(ruler, label->text, page->font_size, false)};
+    const fg__page_box box = box_of(page, plane, a);
+    if (done[label->line] || !is_free(page, from, &box))
+      continue;
+    fg__page_text *text = fg__page_next_text(page, label->text);
+    if (!text)
+      return;
+    text->quiet = true;
+    text->x = box.x0;
+    text->y = box.y1;
+    text->box = (fg__page_box){box.x0, text->y - FG__TEXT_ASCENT * page->font_size,
+                               box.x1, text->y + FG__TEXT_DESCENT * page->font_size};
+    grow(room, &page->frame, &text->box);
+    done[label->line] = true;
+  }
+}
+
+static void set_color(cairo_t *cairo, fg__color color)
+{
+  cairo_set_source_rgb(cairo, color.red, color.green, color.blue);
+}
+
+static void add_lines(cairo_t *cairo, const fg__polygons *lines, bool closed)
+{
+  for (size_t k = 0; k < lines->count; ++k) {
+    cairo_new_sub_path(cairo);
+    for (size_t n = lines->start[k]; n < lines->start[k + 1]; ++n)
+      cairo_line_to(cairo, lines->point[n][0], lines->point[n][1]);
+    if (closed)
+      cairo_close_path(cairo);
+  }
+}
+
+static void stroke(cairo_t *cairo, const fg__polygons *lines, double width,
+                   fg__color color)
+{
+  if (!lines->count)
+    return;
+  add_lines(cairo, lines, false);
+  cairo_set_line_width(cairo, width);
+  set_color(cairo, color);
+  cairo_stroke(cairo);
+}
+
+void fg__map_clip(cairo_t *cairo, const fg__map_scene *scene)
+{
+  if (!scene->outline.count)
+    return;
+  add_lines(cairo, &scene->outline, true);
+  cairo_clip(cairo);
+}
+
+static void fill_missing(cairo_t *cairo, const fg__map_scene *scene,
+                         const fg__map_style *style)
+{
+  if (!scene->missing.count)
+    return;
+  add_lines(cairo, &scene->missing, true);
+  cairo_set_source_rgba(cairo, style->missing.red, style->missing.green,
+                        style->missing.blue, scene->missing_on_land ? fade : 1.0);
+  cairo_fill(cairo);
+}
+
+void fg__map_draw_land(cairo_t *cairo, const fg__map_scene *scene,
+                       const fg__map_style *style, const fg__polygons *within)
+{
+  cairo_save(cairo);
+  if (within) {
+    add_lines(cairo, within, true);
+    set_color(cairo, style->missing);
+    cairo_fill_preserve(cairo);
+    cairo_clip(cairo);
+  }
+  if (!scene->missing_on_land && !within)
+    fill_missing(cairo, scene, style);
+  cairo_set_fill_rule(cairo, CAIRO_FILL_RULE_EVEN_ODD);
+  add_lines(cairo, &scene->land, true);
+  set_color(cairo, style->land);
+  cairo_fill(cairo);
+  if (!style->transparent && scene->lakes.count) {
+    add_lines(cairo, &scene->lakes, true);
+    set_color(cairo, white);
+    cairo_fill(cairo);
+  }
+  cairo_restore(cairo);
+}
+
+static void draw_rim(cairo_t *cairo, const fg__map_scene *scene)
+{
+  cairo_save(cairo);
+  cairo_set_dash(cairo, rim_dashes, 2, 0.0);
+  stroke(cairo, &scene->rim, rim_width, coast_color);
+  cairo_restore(cairo);
+}
+
+static void draw_strong(cairo_t *cairo, const fg__map_scene *scene)
+{
+  add_lines(cairo, &scene->banks, false);
+  add_lines(cairo, &scene->shore, false);
+  cairo_set_line_width(cairo, strong_rim);
+  cairo_set_source_rgba(cairo, 1.0, 1.0, 1.0, strong_opacity);
+  cairo_stroke_preserve(cairo);
+  cairo_set_line_width(cairo, strong_width);
+  set_color(cairo, strong_coast);
+  cairo_stroke(cairo);
+  stroke(cairo, &scene->borders, border_width, strong_coast);
+}
+
+void fg__map_draw_lines(cairo_t *cairo, const fg__map_scene *scene,
+                        const fg__map_style *style)
+{
+  stroke(cairo, &scene->graticule, grid_width, grid_color);
+  if (style->on_texture) {
+    draw_strong(cairo, scene);
+  } else {
+    stroke(cairo, &scene->borders, border_width, border_color);
+    stroke(cairo, &scene->banks, coast_width, coast_color);
+    stroke(cairo, &scene->shore, coast_width, coast_color);
+  }
+  if (style->on_texture) /* which ends where the data do */
+    return;
+  if (scene->missing_on_land)
+    fill_missing(cairo, scene, style);
+  draw_rim(cairo, scene);
+}
+
+void fg__map_draw_outline(cairo_t *cairo, const fg__map_scene *scene,
+                          const fg__map_style *style)
+{
+  if (scene->outline.count) {
+    add_lines(cairo, &scene->outline, true);
+    cairo_set_line_width(cairo, outline_width);
+    set_color(cairo, outline_color);
+    cairo_stroke(cairo);
+  }
+  for (int k = 0; k < scene->backings && !style->transparent; ++k) {
+    const fg__page_box *box = &scene->backing[k];
+    cairo_rectangle(cairo, box->x0, box->y0, box->x1 - box->x0, box->y1 - box->y0);
+    cairo_set_source_rgba(cairo, 1.0, 1.0, 1.0, 0.8);
+    cairo_fill(cairo);
+  }
+}

@@ -1,0 +1,280 @@
+/* Cells of all types in linear parts, and planes that are tilted. */
+#include "read/cells/set_example.h"
+
+enum { MOST = 27 };
+
+/* Points between the corners of a cell, and in the middle of faces and of all, each of so
+ * many corners; VTK's numbering. */
+typedef struct quadratic {
+  int type, corners, nodes;
+  double corner[8][3];
+  int round[19][8], of[19]; /* the nodes from `corners` on */
+  double size;              /* area or volume */
+} quadratic;
+
+#define CUBE                                                                             \
+  {                                                                                      \
+    {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1},         \
+    {                                                                                    \
+      0, 1, 1                                                                            \
+    }                                                                                    \
+  }
+#define CUBE_EDGES                                                                       \
+  {0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5},        \
+      {2, 6},                                                                            \
+  {                                                                                      \
+    3, 7                                                                                 \
+  }
+#define CUBE_FACES                                                                       \
+  {0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 1, 2, 3}, {4, 5, 6, 7},    \
+  {                                                                                      \
+    0, 1, 2, 3, 4, 5, 6, 7                                                               \
+  }
+#define PRISM                                                                            \
+  {                                                                                      \
+    {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1},                               \
+    {                                                                                    \
+      0, 1, 1                                                                            \
+    }                                                                                    \
+  }
+
+static const quadratic CELLS[] = {
+    {22,
+     3,
+     6,
+     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+     {{0, 1}, {1, 2}, {2, 0}},
+     {2, 2, 2},
+     0.5},
+    {34,
+     3,
+     7,
+     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+     {{0, 1}, {1, 2}, {2, 0}, {0, 1, 2}},
+     {2, 2, 2, 3},
+     0.5},
+    {23,
+     4,
+     8,
+     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+     {{0, 1}, {1, 2}, {2, 3}, {3, 0}},
+     {2, 2, 2, 2},
+     1.0},
+    {28,
+     4,
+     9,
+     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 1, 2, 3}},
+     {2, 2, 2, 2, 4},
+     1.0},
+    {30,
+     4,
+     6,
+     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+     {{0, 1}, {2, 3}},
+     {2, 2},
+     1.0},
+    {24,
+     4,
+     10,
+     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
+     {2, 2, 2, 2, 2, 2},
+     1.0 / 6.0},
+    {25, 8, 20, CUBE, {CUBE_EDGES}, {2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2}, 1.0},
+    {29,
+     8,
+     27,
+     CUBE,
+     {CUBE_EDGES, CUBE_FACES},
+     {2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 4, 4, 4, 4, 4, 4, 8},
+     1.0},
+    {26,
+     6,
+     15,
+     PRISM,
+     {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
+     {2, 2, 2, 2, 2, 2, 2, 2, 2},
+     0.5},
+    {32,
+     6,
+     18,
+     PRISM,
+     {{0, 1},
+      {1, 2},
+      {2, 0},
+      {3, 4},
+      {4, 5},
+      {5, 3},
+      {0, 3},
+      {1, 4},
+      {2, 5},
+      {0, 1, 4, 3},
+      {1, 2, 5, 4},
+      {2, 0, 3, 5}},
+     {2, 2, 2, 2, 2, 2, 2, 2, 2, 4, 4, 4},
+     0.5},
+    {31,
+     6,
+     12,
+     PRISM,
+     {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}},
+     {2, 2, 2, 2, 2, 2},
+     0.5},
+    {27,
+     5,
+     13,
+     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}},
+     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},
+     {2, 2, 2, 2, 2, 2, 2, 2},
+     1.0 / 3.0},
+};
+
+static void place_nodes(double position[3 * MOST], const quadratic *cell)
+{
+  for (int n = 0; n < cell->nodes; ++n)
+    for (int k = 0; k < 3; ++k) {
+      double sum = n < cell->corners ? cell->corner[n][k] : 0.0;
+      const int between = n - cell->corners;
+      for (int i = 0; between >= 0 && i < cell->of[between]; ++i)
+        sum += cell->corner[cell->round[between][i]][k] / cell->of[between];
+      position[3 * n + k] = sum;
+    }
+}
+
+static void add_nodes(fg__cell_set *set, int type, int nodes)
+{
+  double node[MOST];
+  for (int i = 0; i < nodes; ++i)
+    node[i] = i;
+  const fg__cell_points all = {0, set->points};
+  if (fg__cell_set_add_as(set, type, node, (size_t)nodes, &all, 0))
+    fail_msg("%d: %s", type, fg_context_message(set->context));
+  set->numbers = 1;
+}
+
+/* x y z of the points, and a product of two of them, which the points between corners
+ * tell: the square of a linear function is quadratic. */
+static double square(const double p[3])
+{
+  const double l = 0.5 + p[0] + 0.5 * p[1] - 0.25 * p[2];
+  return l * l;
+}
+
+/* Parts leave no gap and nothing out, whichever corners are given first: their share of
+ * the box is the cell's. */
+static void parts_fill_their_cell(void **state)
+{
+  for (size_t c = 0; c < sizeof CELLS / sizeof CELLS[0]; ++c) {
+    const quadratic *cell = &CELLS[c];
+    double position[3 * MOST];
+    place_nodes(position, cell);
+    fg__cell_set set = set_of(*state, position, (size_t)cell->nodes);
+    add_nodes(&set, cell->type, cell->nodes);
+    locate(&set);
+    float *of_point = malloc(set.points * sizeof *of_point);
+    float *value = malloc(samples_of(&set) * sizeof *value);
+    assert_true(of_point && value);
+    for (size_t p = 0; p < set.file_points; ++p)
+      of_point[p] = (float)square(set.position + 3 * p);
+    fg__cell_set_fill_middles(of_point, &set);
+    fg__cell_set_sample(value, &set, of_point, 0, samples_of(&set));
+    double inside = 0.0, worst = 0.0;
+    for (size_t n = 0; n < samples_of(&set); ++n) {
+      double at[3];
+      position_of(at, &set, n);
+      inside += !isnan(value[n]);
+      if (!isnan(value[n])) /* linear in cells half as wide: h^2 / 8 of the curvature */
+        worst = fmax(worst, fabs((double)value[n] - square(at)));
+    }
+    const double share = inside / (double)samples_of(&set);
+    /* a raster's samples on slanting sides count whole */
+    if (share < cell->size - 1e-9 || share > cell->size + 0.25 || worst > 0.2)
+      fail_msg("type %d: share %g of %g, off by %g", cell->type, share, cell->size,
+               worst);
+    for (size_t p = 0; of_point && p < set.points;
+         ++p) /* the middles are in their places */
+      assert_true(fabs((double)of_point[p] - square(set.position + 3 * p)) < 1e-6);
+    free(of_point);
+    free(value);
+    fg__cell_set_clear(&set);
+  }
+}
+
+static void polygons_and_strips_are_triangles(void **state)
+{
+  static const double hexagon[] = {2, 0, 0, 4, 0, 0, 5, 2, 0, 4, 4, 0, 2, 4, 0, 1, 2, 0};
+  static const double strip[] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 2, 0, 0};
+  double dent[18];
+  memcpy(dent, hexagon, sizeof dent);
+  dent[6] = 3.0; /* (5, 2) comes in, past the line between its neighbours */
+  fg__cell_set set = set_of(*state, hexagon, 6);
+  add_nodes(&set, 7, 6);
+  assert_int_equal(set.count, 4);
+  assert_int_equal(fg__cell_set_count(&set), 1);
+  fg__cell_set_clear(&set);
+  set = set_of(*state, strip, 5);
+  add_nodes(&set, 6, 5);
+  assert_int_equal(set.count, 3);
+  fg__cell_set_clear(&set);
+  static const double node[] = {0, 1, 2, 3, 4, 5, 9};
+  set = set_of(*state, dent, 6);
+  const fg__cell_points all = {0, 6};
+  assert_int_equal(fg__cell_set_add_as(&set, 7, node, 6, &all, 3), FG_STATUS_UNSUPPORTED);
+  assert_non_null(strstr(fg_context_message(*state), "cell 3 is a polygon of 6"));
+  fg_context_clear(*state);
+  assert_int_equal(fg__cell_set_add_as(&set, 7, node, 7, &all, 3), FG_STATUS_FILE_FORMAT);
+  assert_int_equal(fg__cell_set_add_as(&set, 68, node, 3, &all, 3), FG_STATUS_OK);
+  assert_int_equal(set.count, 0);
+  fg__cell_set_clear(&set);
+}
+
+/* A rectangle however it is turned keeps its lengths, and linear fields on it. */
+static void tilted_planes_are_turned(void **state)
+{
+  static const double normals[][3] = {{1, 2, 3}, {1, 0, 1}, {-3, 0.5, 0.25}};
+  static const int corner[] = {0, 1, 2, 3};
+  for (int n = 0; n < 3; ++n) {
+    fg__plane_basis basis;
+    assert_true(fg__plane_basis_of(&basis, normals[n]));
+    double position[12];
+    for (int i = 0; i < 4; ++i)
+      for (int k = 0; k < 3; ++k)
+        position[3 * i + k] = 7.0 * basis.normal[k] +
+                              (i == 1 || i == 2 ? 5.0 : 1.0) * basis.direction[0][k] +
+                              (i >= 2 ? 4.0 : 2.0) * basis.direction[1][k];
+    fg__cell_set set = set_of(*state, position, 4);
+    add(&set, FG__CELL_QUAD, corner);
+    float of_point[4];
+    for (int p = 0; p < 4; ++p)
+      of_point[p] = (float)linear(position + 3 * p);
+    locate(&set);
+    assert_true(set.tilted && set.dimension == 2 && set.flat == 2);
+    assert_true(fabs(set.origin[0] - 1.0) < 1e-9 && fabs(set.origin[1] - 2.0) < 1e-9);
+    float *out = malloc(samples_of(&set) * sizeof *out);
+    assert_non_null(out);
+    fg__cell_set_sample(out, &set, of_point, 0, samples_of(&set));
+    for (size_t s = 0; s < samples_of(&set); ++s) {
+      double at[3], in_space[3];
+      position_of(at, &set, s);
+      for (int k = 0; k < 3; ++k)
+        in_space[k] = 7.0 * basis.normal[k] + at[0] * basis.direction[0][k] +
+                      at[1] * basis.direction[1][k];
+      assert_true(fabs((double)out[s] - linear(in_space)) < 1e-4);
+    }
+    free(out);
+    fg__cell_set_clear(&set);
+  }
+}
+
+#define CASE(f) cmocka_unit_test_setup_teardown(f, context_set_up, context_tear_down)
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      CASE(parts_fill_their_cell),
+      CASE(polygons_and_strips_are_triangles),
+      CASE(tilted_planes_are_turned),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

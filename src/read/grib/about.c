@@ -1,0 +1,315 @@
+/* What each field is of: parameter, level, time, member, grid. Most fields of a file
+ * differ in their time alone, so ecCodes is asked once for what the others share. */
+#include "base/memory.h"
+#include "base/mix.h"
+#include "read/grib/grib.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What ecCodes may ask for to tell a field's keys. */
+enum { MOST_BYTES = 256 << 20 };
+
+/* Days from 1970-01-01 to a day of the Gregorian calendar. */
+static int64_t day_of(int64_t year, int64_t month, int64_t day)
+{
+  const int64_t y = month <= 2 ? year - 1 : year;
+  const int64_t era = (y >= 0 ? y : y - 399) / 400;
+  const int64_t of_era = y - era * 400;
+  const int64_t of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+  return era * 146097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
+}
+
+/* Bytes of a section that say a time; they do not tell fields apart. */
+typedef struct time_bytes {
+  size_t first, count;
+} time_bytes;
+
+static uint64_t mix_bytes(uint64_t key, const unsigned char *bytes, size_t size,
+                          const time_bytes *left_out, int count)
+{
+  for (size_t i = 0; i < size; ++i) {
+    bool is_time = false;
+    for (int k = 0; k < count; ++k)
+      is_time = is_time ||
+                (i >= left_out[k].first && i < left_out[k].first + left_out[k].count);
+    if (!is_time)
+      key = fg__mix(key ^ bytes[i]);
+  }
+  return fg__mix(key ^ size);
+}
+
+/* Minutes of a unit of time; 0: it is none that has always as many. */
+static int64_t minutes_of(unsigned unit)
+{
+  switch (unit) {
+  case 0:
+    return 1;
+  case 1:
+    return 60;
+  case 2:
+    return 24 * 60;
+  case 10:
+    return 3 * 60;
+  case 11:
+    return 6 * 60;
+  case 12:
+    return 12 * 60;
+  default:
+    return 0;
+  }
+}
+
+/* Whether a date can be one; ecCodes judges others. */
+static bool tell_start(int64_t *out, int64_t year, const unsigned char clock[4])
+{
+  *out = (day_of(year, clock[0], clock[1]) * 24 + clock[2]) * 60 + clock[3];
+  return clock[0] >= 1 && clock[0] <= 12 && clock[1] >= 1 && clock[1] <= 31 &&
+         clock[2] < 24 && clock[3] < 60;
+}
+
+/* The times of a field at one instant; false: it is of another kind. */
+static bool tell_first_edition(fg__grib_field *field, const unsigned char *one)
+{
+  const int64_t unit = minutes_of(one[17]);
+  const unsigned char range = one[20];
+  const int64_t steps = range == 10  ? (int64_t)fg__grib_number(one + 18, 2)
+                        : range == 0 ? one[18]
+                                     : 0;
+  const int64_t year = ((int64_t)one[24] - 1) * 100 + one[12];
+  field->time = 0;
+  if (unit == 0 || (range != 0 && range != 1 && range != 10) || one[24] == 0 ||
+      one[12] > 100 || !tell_start(&field->started, year, one + 13))
+    return false;
+  field->time = field->started + steps * unit;
+  return true;
+}
+
+static bool tell_second_edition(fg__grib_field *field, const unsigned char *one,
+                                const unsigned char *four, size_t size)
+{
+  const uint64_t template = fg__grib_number(four + 7, 2);
+  field->time = 0;
+  if (size < 34 || template > 2 || minutes_of(four[17]) == 0 || four[18] & 128 ||
+      one[18] != 0 ||
+      !tell_start(&field->started, (int64_t)fg__grib_number(one + 12, 2), one + 14))
+    return false;
+  field->time =
+      field->started + (int64_t)fg__grib_number(four + 18, 4) * minutes_of(four[17]);
+  return true;
+}
+
+/* The key of what a field shares with others. *timed: its times are told, too. */
+static uint64_t key_of(fg__grib_field *field, bool *timed)
+{
+  static const time_bytes first_date[] = {{12, 5}, {18, 2}, {24, 1}, {26, 2}};
+  static const time_bytes second_date[] = {{12, 7}}, second_step[] = {{18, 4}};
+  size_t one_size, four_size, grid_size;
+  const unsigned char *one = fg__grib_section(field, 1, &one_size);
+  uint64_t key = fg__mix(field->edition);
+  if (field->edition == 1) {
+    const unsigned char *grid = fg__grib_section(field, 2, &grid_size);
+    *timed = tell_first_edition(field, one);
+    key = mix_bytes(key, one, one_size, first_date, *timed ? 4 : 0);
+    return mix_bytes(key, grid, grid_size, NULL, 0);
+  }
+  const unsigned char *four = fg__grib_section(field, 4, &four_size),
+                      *grid = fg__grib_section(field, 3, &grid_size);
+  *timed = tell_second_edition(field, one, four, four_size);
+  key = fg__mix(key ^ field->message[6]);
+  key = mix_bytes(key, one, one_size, second_date, *timed ? 1 : 0);
+  key = mix_bytes(key, grid, grid_size, NULL, 0);
+  return mix_bytes(key, four, four_size, second_step, *timed ? 1 : 0);
+}
+
+static uint64_t grid_key(const fg__grib_field *field)
+{
+  size_t size;
+  const unsigned char *grid = fg__grib_section(field, field->edition == 1 ? 2 : 3, &size);
+  return mix_bytes(field->edition, grid, size, NULL, 0);
+}
+
+typedef struct telling {
+  const fg__grib_field *field;
+  fg__grib_kind kind;
+  double level;
+  long dates[4]; /* date and time of the start, and of when it is valid */
+  int error;
+} telling;
+
+static void get_word(codes_handle *handle, const char *key, char *out, size_t size)
+{
+  char text[FG__GRIB_TEXT] = "";
+  size_t length = sizeof text;
+  out[0] = '\0';
+  if (codes_get_string(handle, key, text, &length) == CODES_SUCCESS)
+    snprintf(out, size, "%.*s", (int)size - 1, text);
+}
+
+/* Names of ecCodes' tables are plain; what else a message gave would be its bytes. */
+static void name_by_numbers(fg__grib_kind *kind, const fg__grib_field *field)
+{
+  size_t size;
+  const unsigned char *at = fg__grib_section(field, field->edition == 1 ? 1 : 4, &size);
+  if (field->edition == 1)
+    snprintf(kind->name, sizeof kind->name, "%d.%d", at[3], at[8]);
+  else
+    snprintf(kind->name, sizeof kind->name, "%d.%d.%d", field->message[6], at[9], at[10]);
+  kind->other_name[0] = kind->title[0] = '\0';
+}
+
+static void tell(codes_handle *handle, void *data)
+{
+  static const char *const dates[] = {"dataDate", "dataTime", "validityDate",
+                                      "validityTime"};
+  telling *t = data;
+  fg__grib_kind *kind = &t->kind;
+  t->error = handle ? CODES_SUCCESS : CODES_INVALID_MESSAGE;
+  if (!handle)
+    return;
+  get_word(handle, "shortName", kind->name, sizeof kind->name);
+  get_word(handle, "cfVarName", kind->other_name, sizeof kind->other_name);
+  get_word(handle, "name", kind->title, sizeof kind->title);
+  get_word(handle, "units", kind->units, sizeof kind->units);
+  get_word(handle, "typeOfLevel", kind->level_type, sizeof kind->level_type);
+  get_word(handle, "stepType", kind->step_type, sizeof kind->step_type);
+  if (!kind->name[0] || strcmp(kind->name, "unknown") == 0 || kind->name[0] == '~')
+    name_by_numbers(kind, t->field);
+  if (codes_get_long(handle, "perturbationNumber", &kind->member) != CODES_SUCCESS)
+    kind->member = -1;
+  if (codes_get_double(handle, "level", &t->level) != CODES_SUCCESS ||
+      !isfinite(t->level))
+    t->level = 0.0;
+  for (int k = 0; k < 4; ++k) /* an image has no forecast, and is valid when it began */
+    if (codes_get_long(handle, dates[k], &t->dates[k]) != CODES_SUCCESS)
+      t->dates[k] = k < 2 ? 0 : t->dates[k - 2];
+}
+
+/* 20140131 and 1830 */
+static int64_t minutes_at(long date, long clock)
+{
+  if (date < 0 || date > 99999999 || clock < 0 || clock > 9999)
+    return 0;
+  return (day_of(date / 10000, date / 100 % 100, date % 100) * 24 + clock / 100) * 60 +
+         clock % 100;
+}
+
+static fg_status ask(telling *t, const fg__grib_file *file, const fg__grib_field *field)
+{
+  memset(t, 0, sizeof *t);
+  t->field = field;
+  fg_status status = fg__grib_guard(file, field, MOST_BYTES + field->size, tell, t);
+  if (status == FG_STATUS_OK && t->error)
+    return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
+                    "%s: message %zu does not say what it is of: %s",
+                    file->path[field->file], field->number,
+                    codes_get_error_message(t->error));
+  t->kind.grid = grid_key(field);
+  return status;
+}
+
+static int grid_number(const fg__grib_file *file, uint64_t grid)
+{
+  int most = 0;
+  for (size_t i = 0; i < file->kinds; ++i) {
+    if (file->kind[i].grid == grid)
+      return file->kind[i].grid_number;
+    most = file->kind[i].grid_number > most ? file->kind[i].grid_number : most;
+  }
+  return most + 1;
+}
+
+static fg_status intern_kind(int *out, fg__grib_file *file, const fg__grib_kind *kind)
+{
+  for (size_t i = file->kinds; i-- > 0;) {
+    const fg__grib_kind *k = &file->kind[i];
+    if (k->grid == kind->grid && k->member == kind->member &&
+        strcmp(k->name, kind->name) == 0 &&
+        strcmp(k->level_type, kind->level_type) == 0 &&
+        strcmp(k->step_type, kind->step_type) == 0 &&
+        strcmp(k->units, kind->units) == 0) {
+      *out = (int)i;
+      return FG_STATUS_OK;
+    }
+  }
+  void *kinds = file->kind;
+  if (!fg__grow(&kinds, &file->kind_capacity, file->kinds + 1, sizeof *kind))
+    return fg__fail_memory(file->context, "kinds of fields",
+                           (file->kinds + 1) * sizeof *kind);
+  file->kind = kinds;
+  file->kind[file->kinds] = *kind;
+  file->kind[file->kinds].grid_number = grid_number(file, kind->grid);
+  *out = (int)file->kinds++;
+  return FG_STATUS_OK;
+}
+
+static fg_status add_about(fg__grib_file *file, const fg__grib_field *field, uint64_t key,
+                           const telling *t)
+{
+  void *abouts = file->about;
+  if (!fg__grow(&abouts, &file->about_capacity, file->abouts + 1, sizeof *file->about))
+    return fg__fail_memory(file->context, "what fields are",
+                           (file->abouts + 1) * sizeof *file->about);
+  file->about = abouts;
+  fg__grib_about *about = &file->about[file->abouts];
+  *about = (fg__grib_about){.key = key, .level = t->level, .of = field};
+  ++file->abouts;
+  return intern_kind(&about->kind, file, &t->kind);
+}
+
+/* An open hash of keys; slots hold an about's number and 1. */
+typedef struct key_table {
+  size_t *slot;
+  size_t size; /* a power of two */
+} key_table;
+
+static size_t *find_slot(const key_table *table, const fg__grib_file *file, uint64_t key)
+{
+  size_t at = (size_t)key & (table->size - 1);
+  while (table->slot[at] && file->about[table->slot[at] - 1].key != key)
+    at = (at + 1) & (table->size - 1);
+  return &table->slot[at];
+}
+
+static fg_status tell_field(fg__grib_file *file, const key_table *table,
+                            fg__grib_field *field)
+{
+  bool timed;
+  telling t;
+  const uint64_t key = key_of(field, &timed);
+  size_t *slot = find_slot(table, file, key);
+  fg_status status = FG_STATUS_OK;
+  if (*slot == 0 || !timed)
+    status = ask(&t, file, field);
+  if (status == FG_STATUS_OK && *slot == 0) {
+    status = add_about(file, field, key, &t);
+    *slot = file->abouts;
+  }
+  if (status == FG_STATUS_OK && !timed) {
+    field->started = minutes_at(t.dates[0], t.dates[1]);
+    field->time = minutes_at(t.dates[2], t.dates[3]);
+  }
+  field->about = (int)*slot - 1;
+  return status;
+}
+
+fg_status fg__grib_tell_all(fg__grib_file *file)
+{
+  key_table table = {.size = 16};
+  while (table.size < 2 * file->fields)
+    table.size *= 2;
+  table.slot = fg__allocate(table.size, sizeof *table.slot);
+  if (!table.slot)
+    return fg__fail_memory(file->context, "a table of fields",
+                           table.size * sizeof *table.slot);
+  fg_status status = FG_STATUS_OK;
+  for (size_t i = 0; i < file->fields && status == FG_STATUS_OK; ++i) {
+    status = tell_field(file, &table, &file->field[i]);
+    if (status == FG_STATUS_OK)
+      status = fg__check_stop(file->context);
+  }
+  free(table.slot);
+  return status;
+}

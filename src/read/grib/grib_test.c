@@ -1,0 +1,254 @@
+#include "read/grib/sample.h"
+
+static const char U[] = "indicatorOfParameter=33,table2Version=2",
+                  V[] = "indicatorOfParameter=34,table2Version=2",
+                  WIND_U[] = "parameterCategory=2,parameterNumber=2",
+                  WIND_V[] = "parameterCategory=2,parameterNumber=3";
+
+/* Each sample of a field on a longitude-latitude grid has the flow of its place, or the
+ * spin. Returns how many are missing. */
+static size_t assert_flow(const fg_field *field, const double *south, double tolerance)
+{
+  const fg_field_arrays *a = fg_field_contents(field);
+  size_t missing = 0;
+  assert_int_equal(a->scale, FG_SCALE_GEO);
+  for (int j = 0; j < a->size[1]; ++j)
+    for (int i = 0; i < a->size[0]; ++i) {
+      const size_t n = (size_t)j * (size_t)a->size[0] + (size_t)i;
+      double east, north;
+      if (isnan(a->velocity[0][n]) && ++missing)
+        continue;
+      if (south)
+        spin_at(south, a->axis[0][i], a->axis[1][j], &east, &north);
+      else
+        flow_at(a->axis[0][i], a->axis[1][j], &east, &north);
+      if (!(fabs((double)a->velocity[0][n] - east) <= tolerance &&
+            fabs((double)a->velocity[1][n] - north) <= tolerance))
+        fail_msg("at %g, %g: %g, %g instead of %g, %g", a->axis[0][i], a->axis[1][j],
+                 (double)a->velocity[0][n], (double)a->velocity[1][n], east, north);
+    }
+  return missing;
+}
+
+/* All orders of scanning, and packings, of edition 2. */
+static void a_longitude_latitude_grid(void **state)
+{
+  grib_file *f = *state;
+  static const char *const packings[] = {"grid_simple", "grid_ccsds", "grid_jpeg",
+                                         "grid_ieee", "grid_second_order"};
+  for (int order = 0; order < 16; ++order) {
+    char keys[512];
+    const bool west = order & 1, north = order & 2;
+    const size_t run = order < 8 ? 0 : order & 4 ? 7 : 12;
+    unlink(f->path);
+    snprintf(keys, sizeof keys,
+             "Ni=12,Nj=7,numberOfDataPoints=84,longitudeOfFirstGridPointInDegrees=%s,"
+             "longitudeOfLastGridPointInDegrees=%s,latitudeOfFirstGridPointInDegrees=%s,"
+             "latitudeOfLastGridPointInDegrees=%s,iDirectionIncrementInDegrees=5,"
+             "jDirectionIncrementInDegrees=10,iScansNegatively=%d,jScansPositively=%d,"
+             "jPointsAreConsecutive=%d,alternativeRowScanning=%d",
+             west ? "25" : "330", west ? "330" : "25", north ? "-20" : "40",
+             north ? "40" : "-20", west, north, order >> 2 & 1, order >> 3);
+    char packing[64];
+    snprintf(packing, sizeof packing, "bitsPerValue=16,packingType=%s",
+             packings[order % (int)(sizeof packings / sizeof *packings)]);
+    grib_add(f, "regular_ll_pl_grib2", keys, run, packing, WIND_U, WIND_V, NULL);
+    fg_field *field = grib_read(f, NULL);
+    const fg_field_arrays *a = fg_field_contents(field);
+    assert_int_equal(a->size[0], 12);
+    assert_int_equal(a->size[1], 7);
+    assert_true(a->period[0] == 0.0);
+    assert_int_equal(assert_flow(field, NULL, 1e-3), 0);
+    fg_field_destroy(field);
+  }
+}
+
+static void a_gaussian_grid(void **state)
+{
+  grib_file *f = *state;
+  grib_add(f, "regular_gg_pl_grib1", "", 0, "bitsPerValue=20", U, V, NULL);
+  fg_field *field = grib_read(f, NULL);
+  const fg_field_arrays *a = fg_field_contents(field);
+  assert_true(a->period[0] == 360.0);
+  assert_int_equal(a->size[0], 128);
+  assert_int_equal(a->size[1], 64);
+  assert_int_equal(assert_flow(field, NULL, 1e-4), 0);
+  fg_field_destroy(field);
+}
+
+/* Sampled on the sphere by triangles between rows, or cells of a grid with another pole.
+ * ecCodes says the places of rotated Gaussian grids as if they were not. */
+static void grids_on_the_sphere(void **state)
+{
+  static const double south[2] = {15.0, -40.0}, own[2] = {0.0, -90.0};
+  static const struct {
+    const char *sample, *u, *v;
+    const double *filled, *expected;
+    size_t missing;
+  } cases[] = {
+      {"reduced_gg_pl_32_grib2", WIND_U, WIND_V, NULL, NULL, 0},
+      {"rotated_ll_pl_grib2", WIND_U, WIND_V, NULL, NULL, 1000},
+      {"rotated_ll_pl_grib2", WIND_U, WIND_V, south, south, 1000},
+      {"reduced_rotated_gg_pl_32_grib1", U, V, own, south, 0},
+  };
+  grib_file *f = *state;
+  for (int k = 0; k < 4; ++k) {
+    unlink(f->path);
+    grib_add(f, cases[k].sample,
+             k == 0   ? ""
+             : k == 1 ? "latitudeOfSouthernPoleInDegrees=-40,"
+                        "longitudeOfSouthernPoleInDegrees=15,uvRelativeToGrid=0"
+                      : "latitudeOfSouthernPoleInDegrees=-40,"
+                        "longitudeOfSouthernPoleInDegrees=15,uvRelativeToGrid=1",
+             0, "bitsPerValue=20", cases[k].u, cases[k].v, cases[k].filled);
+    fg_field *field = grib_read_whole(f, NULL);
+    assert_in_range(assert_flow(field, cases[k].expected, 0.06), 0, cases[k].missing);
+    fg_field_destroy(field);
+  }
+}
+
+enum { COLUMNS = 21, ROWS = 16, POINTS = COLUMNS * ROWS };
+
+/* Where ecCodes says the points of a file's first message are. */
+static void read_places(const grib_file *f, double *longitude, double *latitude)
+{
+  int error = 0;
+  size_t count = POINTS;
+  FILE *stream = fopen(f->path, "rb");
+  codes_handle *handle = codes_grib_handle_new_from_file(NULL, stream, &error);
+  codes_must(error, f->path);
+  codes_must(codes_get_double_array(handle, "longitudes", longitude, &count), "places");
+  codes_must(codes_get_double_array(handle, "latitudes", latitude, &count), "places");
+  assert_int_equal(count, POINTS);
+  codes_handle_delete(handle);
+  fclose(stream);
+}
+
+/* The length of a step between points, and the flow's component along it. */
+static double along(const double *longitude, const double *latitude, size_t from,
+                    size_t to, double *length)
+{
+  const double degree = acos(-1.0) / 180.0;
+  const double middle = 0.5 * (latitude[from] + latitude[to]);
+  const double turn = remainder(longitude[to] - longitude[from], 360.0);
+  const double east = turn * cos(middle * degree), north = latitude[to] - latitude[from];
+  double flow[2];
+  flow_at(longitude[from] + 0.5 * turn, middle, &flow[0], &flow[1]);
+  *length = hypot(east, north) * degree;
+  return (flow[0] * east + flow[1] * north) / hypot(east, north);
+}
+
+/* Components are along the plane's axes, steps between points as long as the projection
+ * makes all lengths near them. */
+static void assert_plane(const grib_file *f, const fg_field *field, bool relative)
+{
+  const fg_field_arrays *a = fg_field_contents(field);
+  double longitude[POINTS], latitude[POINTS];
+  assert_int_equal(a->scale, FG_SCALE_MAP);
+  assert_int_equal(a->size[0] * a->size[1], POINTS);
+  read_places(f, longitude, latitude);
+  for (size_t j = 1; j + 1 < ROWS; ++j)
+    for (size_t i = 1; i + 1 < COLUMNS; ++i) {
+      const size_t n = j * COLUMNS + i;
+      double flow[2], step[2];
+      double x = along(longitude, latitude, n - 1, n + 1, &step[0]);
+      double y = along(longitude, latitude, n - COLUMNS, n + COLUMNS, &step[1]);
+      flow_at(longitude[n], latitude[n], &flow[0], &flow[1]);
+      if (relative)
+        x = flow[0], y = flow[1];
+      assert_true(fabs((double)a->velocity[0][n] - x) < 0.05);
+      assert_true(fabs((double)a->velocity[1][n] - y) < 0.05);
+      assert_true(fabs(step[0] / step[1] - 1.0) < 0.01);
+      assert_true(fabs(a->axis[0][i + 1] - a->axis[0][i] - 100000.0) < 1e-3);
+      assert_true(fabs(a->axis[1][j + 1] - a->axis[1][j] - 100000.0) < 1e-3);
+    }
+}
+
+/* The first point's coordinates are what PROJ makes of its longitude and latitude. Of
+ * southern cones and the oblate Earth ecCodes does not say points rightly, or not at all.
+ */
+static void projected_grids(void **state)
+{
+  static const char north_cone[] =
+      "gridType=lambert,latitudeOfFirstGridPointInDegrees=30,"
+      "longitudeOfFirstGridPointInDegrees=350,LoVInDegrees=10,LaDInDegrees=45,"
+      "Latin1InDegrees=40,Latin2InDegrees=50,shapeOfTheEarth=6";
+  static const struct {
+    const char *grid, *packing, *projection;
+    double first[2];
+    bool first_only;
+  } cases[] = {
+      {north_cone,
+       "bitsPerValue=20",
+       "+proj=lcc +lat_1=40 +lat_2=50 +lat_0=45 +lon_0=10 +R=6371229 +units=m +no_defs",
+       {-1961707.198, -1436429.762},
+       false},
+      {north_cone,
+       "bitsPerValue=20,shapeOfTheEarth=5",
+       "+proj=lcc +lat_1=40 +lat_2=50 +lat_0=45 +lon_0=10 +a=6378137 +b=6356752.314 "
+       "+units=m +no_defs",
+       {-1965226.721, -1432748.077},
+       true},
+      {"gridType=lambert,latitudeOfFirstGridPointInDegrees=-50,"
+       "longitudeOfFirstGridPointInDegrees=130,LoVInDegrees=140,LaDInDegrees=-40,"
+       "Latin1InDegrees=-40,Latin2InDegrees=-40,shapeOfTheEarth=6",
+       "bitsPerValue=20",
+       "+proj=lcc +lat_1=-40 +lat_2=-40 +lat_0=-40 +lon_0=140 +R=6371229 +units=m "
+       "+no_defs",
+       {-724894.688, -1158614.926},
+       true},
+      {"gridType=polar_stereographic,latitudeOfFirstGridPointInDegrees=60,"
+       "longitudeOfFirstGridPointInDegrees=300,orientationOfTheGridInDegrees=340,"
+       "LaDInDegrees=60,southPoleOnProjectionPlane=0,shapeOfTheEarth=6",
+       "bitsPerValue=20",
+       "+proj=stere +lat_0=90 +lat_ts=60 +lon_0=340 +R=6371229 +units=m +no_defs",
+       {-2047673.53, -2440322.286},
+       false},
+      {"gridType=polar_stereographic,latitudeOfFirstGridPointInDegrees=-60,"
+       "longitudeOfFirstGridPointInDegrees=300,orientationOfTheGridInDegrees=0,"
+       "LaDInDegrees=-60,southPoleOnProjectionPlane=1,shapeOfTheEarth=6",
+       "bitsPerValue=20",
+       "+proj=stere +lat_0=-90 +lat_ts=-60 +lon_0=0 +R=6371229 +units=m +no_defs",
+       {-2758823.084, 1592807.25},
+       false},
+      {"gridType=mercator,latitudeOfFirstGridPointInDegrees=-10,"
+       "longitudeOfFirstGridPointInDegrees=350,LaDInDegrees=20,"
+       "orientationOfTheGridInDegrees=0,shapeOfTheEarth=6",
+       "bitsPerValue=20",
+       "+proj=merc +lat_ts=20 +lon_0=-0.4",
+       {-1000000.0, -1050273.894},
+       false},
+  };
+  grib_file *f = *state;
+  for (size_t k = 0; k < 2 * sizeof cases / sizeof *cases; ++k) {
+    const size_t c = k / 2;
+    const bool relative = k % 2;
+    char grid[512];
+    snprintf(grid, sizeof grid,
+             "%s,Ni=21,Nj=16,numberOfDataPoints=336,DxInMetres=100000,DyInMetres=100000,"
+             "iScansNegatively=0,jScansPositively=1,resolutionAndComponentFlags=%d",
+             cases[c].grid, relative ? 8 : 0);
+    unlink(f->path);
+    grib_add(f, "regular_ll_pl_grib2", grid, 0, cases[c].packing, WIND_U, WIND_V, NULL);
+    fg_field *field = grib_read(f, NULL);
+    const fg_field_arrays *a = fg_field_contents(field);
+    assert_memory_equal(a->projection, cases[c].projection, strlen(cases[c].projection));
+    for (int axis = 0; axis < 2; ++axis)
+      assert_true(fabs(a->axis[axis][0] - cases[c].first[axis]) < 2e-3);
+    if (!cases[c].first_only)
+      assert_plane(f, field, relative);
+    fg_field_destroy(field);
+  }
+}
+
+int main(void)
+{
+#define CASE(name) cmocka_unit_test_setup_teardown(name, grib_set_up, grib_tear_down)
+  const struct CMUnitTest tests[] = {
+      CASE(a_longitude_latitude_grid),
+      CASE(a_gaussian_grid),
+      CASE(grids_on_the_sphere),
+      CASE(projected_grids),
+  };
+  return cmocka_run_group_tests_name("read/grib", tests, NULL, NULL);
+}

@@ -1,0 +1,105 @@
+/* Cells between the points of a grid in the plane of its indices, closed round the world
+ * and across a fold. */
+#include "base/memory.h"
+#include "read/mesh/mesh.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Points that lie nearer than this part of a step repeat each other. */
+static const double SAME_PLACE = 0.1;
+
+/* Neighbours across the seam lie within so many steps. */
+static const double NEXT_PLACE = 1.6;
+
+enum { MOST_REPEATED = 3, LOOKED_AT = 60 };
+
+static double distance(const double *unit, size_t a, size_t b)
+{
+  double sum = 0.0;
+  for (size_t c = 0; c < 3; ++c) {
+    const double d = unit[3 * a + c] - unit[3 * b + c];
+    sum += d * d;
+  }
+  return sqrt(sum);
+}
+
+/* The distance of the first column's points from those of another, in steps along i: the
+ * mean over rows. */
+static double seam(const double *unit, const size_t size[2], size_t column)
+{
+  double sum = 0.0;
+  size_t count = 0;
+  for (size_t j = 0; j < size[1]; j += size[1] / LOOKED_AT + 1) {
+    const size_t row = j * size[0];
+    const double step = distance(unit, row, row + 1);
+    const double off = distance(unit, row, row + column);
+    if (!(step > 0.0) || !isfinite(off))
+      continue;
+    sum += off / step;
+    ++count;
+  }
+  return count > 0 ? sum / (double)count : HUGE_VAL;
+}
+
+void fg__nc_closure(size_t *repeated, bool *closed, const double *unit,
+                    const size_t size[2])
+{
+  *repeated = 0;
+  *closed = false;
+  for (size_t r = 1; r <= MOST_REPEATED && size[0] > 2 * r + 2; ++r)
+    if (seam(unit, size, size[0] - r) < SAME_PLACE) {
+      *repeated = r;
+      *closed = true;
+      return;
+    }
+  *closed = size[0] > 3 && seam(unit, size, size[0] - 1) < NEXT_PLACE;
+}
+
+/* Whether the last row lies beside itself, column i beside the last but i. */
+static bool is_folded(const double *unit, const size_t size[2], size_t columns)
+{
+  double across = 0.0, steps = 0.0;
+  const size_t last = (size[1] - 1) * size[0];
+  for (size_t i = 0; i < columns; i += columns / LOOKED_AT + 1) {
+    const double off = distance(unit, last + i, last + columns - 1 - i);
+    const double step = distance(unit, last + i, last + i - size[0]);
+    if (!isfinite(off) || !isfinite(step))
+      continue;
+    across += off;
+    steps += step;
+  }
+  return steps > 0.0 && across < NEXT_PLACE * steps && across > SAME_PLACE * steps;
+}
+
+static void put(int *corner, size_t n, size_t a, size_t b, size_t c, size_t d)
+{
+  corner[4 * n] = (int)a;
+  corner[4 * n + 1] = (int)b;
+  corner[4 * n + 2] = (int)c;
+  corner[4 * n + 3] = (int)d;
+}
+
+fg_status fg__nc_cells_make(int **corner, size_t *count, const fg__nc_file *file,
+                            const double *unit, const size_t size[2], size_t repeated,
+                            bool closed)
+{
+  const size_t columns = size[0] - repeated, across = closed ? columns : columns - 1;
+  const bool folded = is_folded(unit, size, columns);
+  const size_t most = across * size[1];
+  size_t n = 0;
+  *corner = fg__allocate(most, 4 * sizeof **corner);
+  if (!*corner)
+    return fg__fail_memory(file->context, "cells", most * 4 * sizeof **corner);
+  for (size_t j = 0; j + 1 < size[1]; ++j)
+    for (size_t i = 0; i < across; ++i) {
+      const size_t a = j * size[0] + i, b = j * size[0] + (i + 1) % columns;
+      put(*corner, n++, a, b, b + size[0], a + size[0]);
+    }
+  const size_t last = (size[1] - 1) * size[0];
+  for (size_t i = 0; i + 1 < columns / 2 && folded; ++i)
+    put(*corner, n++, last + i, last + i + 1, last + columns - 2 - i,
+        last + columns - 1 - i);
+  *count = n;
+  return FG_STATUS_OK;
+}

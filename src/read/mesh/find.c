@@ -1,0 +1,246 @@
+/* How the points of a pair lie, where no two axes place them. */
+#include "base/memory.h"
+#include "read/mesh/mesh.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+void fg__nc_mesh_destroy(fg__nc_mesh *mesh)
+{
+  free(mesh);
+}
+
+/* The plane's dimensions of a variable, its time and level. */
+static bool set_part(fg__nc_part *part, const fg__nc_file *file,
+                     const fg__nc_variable *variable)
+{
+  int position[FG__NC_ROLES];
+  part->variable = variable;
+  part->grid.dimension = 2;
+  if (fg__nc_roles(position, file, variable) >= 0 || position[FG__NC_X] < 0 ||
+      position[FG__NC_Y] < 0)
+    return false;
+  for (int k = 0; k < 2; ++k) {
+    fg__nc_axis *axis = &part->grid.axis[k];
+    axis->position = position[k];
+    axis->dimension = variable->dimension[position[k]];
+    axis->size = file->dimensions[axis->dimension].length;
+    if (axis->size < 2)
+      return false;
+  }
+  part->grid.samples = part->grid.axis[0].size * part->grid.axis[1].size;
+  part->grid.time = position[FG__NC_TIME];
+  part->grid.level = position[FG__NC_LEVEL];
+  return true;
+}
+
+/* Longitude and latitude of a part's dimensions: arrays of both, or a line along each. */
+static void find_positions(fg__nc_part *part, const fg__nc_file *file)
+{
+  const fg__nc_variable *u = part->variable;
+  const fg__nc_variable *x = fg__nc_plane_coordinate(&part->grid, file, u, FG__NC_X);
+  const fg__nc_variable *y = fg__nc_plane_coordinate(&part->grid, file, u, FG__NC_Y);
+  if (x && y && fg__nc_lies_on(file, x, &part->grid, u) &&
+      fg__nc_lies_on(file, y, &part->grid, u)) {
+    part->longitude = x;
+    part->latitude = y;
+    return;
+  }
+  x = fg__nc_coordinate(file, u, part->grid.axis[0].position);
+  y = fg__nc_coordinate(file, u, part->grid.axis[1].position);
+  if (x && y && fg__nc_geographic(x) == FG__NC_X && fg__nc_geographic(y) == FG__NC_Y) {
+    part->longitude = x;
+    part->latitude = y;
+  }
+}
+
+static bool has_dimensions(const fg__nc_part *part, const int dimension[2])
+{
+  return part->grid.axis[0].dimension == dimension[0] &&
+         part->grid.axis[1].dimension == dimension[1];
+}
+
+static bool names_centres(const fg__nc_variable *v)
+{
+  const size_t length = strlen(v->plain_name);
+  return length > 4 && strcmp(v->plain_name + length - 4, "_rho") == 0;
+}
+
+/* Longitudes of the centres: in the dimensions that each component has across its own
+ * direction, or (ROMS, whose components name theirs otherwise) of these sizes. */
+static bool find_centres(fg__nc_mesh *mesh, const fg__nc_file *file)
+{
+  const int dimension[2] = {mesh->part[1].grid.axis[0].dimension,
+                            mesh->part[0].grid.axis[1].dimension};
+  for (int strict = 1; strict >= 0; --strict)
+    for (size_t i = 0; i < file->variable_count; ++i) {
+      const fg__nc_variable *v = &file->variables[i];
+      fg__nc_part part = {0};
+      if (v->rank < 2 || v->rank > 3 || !fg__nc_is_array(v) ||
+          fg__nc_geographic(v) != FG__NC_X || !set_part(&part, file, v))
+        continue;
+      if (strict ? !has_dimensions(&part, dimension)
+                 : part.grid.axis[0].size != mesh->size[0] ||
+                       part.grid.axis[1].size != mesh->size[1] || !names_centres(v))
+        continue;
+      part.longitude = v;
+      part.latitude = fg__nc_plane_coordinate(&part.grid, file, v, FG__NC_Y);
+      if (!part.latitude || !fg__nc_lies_on(file, part.latitude, &part.grid, v))
+        continue;
+      mesh->centre = part;
+      return true;
+    }
+  return false;
+}
+
+/* Staggered along axes: each component lies on the other's line in its own direction. */
+static bool find_centre_lines(fg__nc_mesh *mesh, const fg__nc_file *file)
+{
+  const fg__nc_part *u = &mesh->part[0], *v = &mesh->part[1];
+  const fg__nc_variable *x =
+      fg__nc_coordinate(file, v->variable, v->grid.axis[0].position);
+  const fg__nc_variable *y =
+      fg__nc_coordinate(file, u->variable, u->grid.axis[1].position);
+  if (!x || !y || fg__nc_geographic(x) != FG__NC_X || fg__nc_geographic(y) != FG__NC_Y)
+    return false;
+  mesh->centre = *u;
+  mesh->centre.grid.axis[0] = v->grid.axis[0];
+  mesh->centre.longitude = x;
+  mesh->centre.latitude = y;
+  return true;
+}
+
+static bool is_same_place(const fg__nc_part *a, const fg__nc_part *b)
+{
+  return a->grid.axis[0].dimension == b->grid.axis[0].dimension &&
+         a->grid.axis[1].dimension == b->grid.axis[1].dimension &&
+         a->longitude == b->longitude && a->latitude == b->latitude;
+}
+
+/* Whether components have the same times, or the same levels. */
+static bool runs_alike(const fg__nc_file *file, const fg__nc_part *u, int of_u,
+                       const fg__nc_part *v, int of_v)
+{
+  if (of_u < 0 || of_v < 0)
+    return of_u == of_v;
+  const int a = u->variable->dimension[of_u], b = v->variable->dimension[of_v];
+  const fg__nc_dimension *of = file->dimensions;
+  return a == b || (of[a].length == of[b].length && strcmp(of[a].name, of[b].name) == 0);
+}
+
+static bool fits(const fg__nc_mesh *mesh)
+{
+  for (int k = 0; k < 2; ++k) {
+    const size_t own = mesh->part[k].grid.axis[k].size, centres = mesh->size[k];
+    const size_t across = mesh->part[k].grid.axis[1 - k].size;
+    if (own + 1 < centres || own > centres + 1 || across != mesh->size[1 - k])
+      return false;
+  }
+  return mesh->size[0] < INT_MAX / 4 / mesh->size[1];
+}
+
+/* Variables of the centres that are 0 on land, where models say no fill values. */
+static void find_mask(fg__nc_mesh *mesh, const fg__nc_file *file)
+{
+  static const char *const known[] = {"wetdry_mask_rho", "mask_rho", "tmask", "maskC",
+                                      "hFacC",           "wet",      "wet_c"};
+  const fg__nc_part *at = mesh->centre.variable ? &mesh->centre : &mesh->part[0];
+  for (size_t n = 0; n < sizeof known / sizeof *known && !mesh->mask; ++n) {
+    const fg__nc_variable *v = fg__nc_find(file, known[n]);
+    if (v && strcmp(v->plain_name, known[n]) == 0 &&
+        fg__nc_lies_on(file, v, &at->grid, at->variable))
+      mesh->mask = v;
+  }
+}
+
+static void check_storage(fg__nc_grid *grid, const fg__nc_file *file,
+                          const fg__nc_mesh *mesh)
+{
+  const fg__nc_part *parts[] = {&mesh->part[0], &mesh->part[1], &mesh->centre};
+  for (int n = 0; n < 3; ++n) {
+    fg__nc_grid one = {.samples = parts[n]->grid.samples};
+    if (!parts[n]->variable)
+      continue;
+    fg__nc_check_storage(&one, file, n < 2 ? parts[n]->variable : parts[n]->longitude);
+    if (parts[n]->longitude && parts[n]->longitude->rank > 1) {
+      fg__nc_check_storage(&one, file, parts[n]->longitude);
+      fg__nc_check_storage(&one, file, parts[n]->latitude);
+    }
+    if (one.unusable[0])
+      snprintf(grid->unusable, sizeof grid->unusable, "%s", one.unusable);
+  }
+}
+
+static fg_status find_shift(bool *found, fg__nc_mesh *mesh, const fg__nc_file *file)
+{
+  *found = true;
+  if (is_same_place(&mesh->part[0], &mesh->part[1]) && mesh->part[0].longitude)
+    return FG_STATUS_OK; /* both on one point */
+  if (!find_centres(mesh, file) && !find_centre_lines(mesh, file) &&
+      (!mesh->part[0].longitude || !mesh->part[1].longitude)) {
+    *found = false;
+    return FG_STATUS_OK;
+  }
+  return fg__nc_shift_find(found, mesh, file);
+}
+
+static fg_status recognise(fg__nc_mesh *mesh, fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_pair *pair, fg_frame frame, bool *found)
+{
+  *found = false;
+  for (int k = 0; k < 2; ++k) {
+    if (!set_part(&mesh->part[k], file, pair->component[k]))
+      return FG_STATUS_OK;
+    find_positions(&mesh->part[k], file);
+  }
+  mesh->size[0] = mesh->part[1].grid.axis[0].size;
+  mesh->size[1] = mesh->part[0].grid.axis[1].size;
+  const fg__nc_part *u = &mesh->part[0], *v = &mesh->part[1];
+  if (!fits(mesh) || !runs_alike(file, u, u->grid.time, v, v->grid.time) ||
+      !runs_alike(file, u, u->grid.level, v, v->grid.level))
+    return FG_STATUS_OK;
+  fg__nc_grid storage = {0};
+  check_storage(&storage, file, mesh);
+  if (storage.unusable[0])
+    return FG_STATUS_OK;
+  fg_status status = find_shift(found, mesh, file);
+  if (status != FG_STATUS_OK || !*found)
+    return status;
+  grid->unusable[0] = grid->hint[0] = '\0';
+  check_storage(grid, file, mesh);
+  find_mask(mesh, file);
+  if (!fg__nc_frame_find(mesh, file, pair, frame)) {
+    fg__nc_unusable(grid,
+                    "nothing says whether '%.60s' and '%.60s' point east and north or "
+                    "along the grid",
+                    pair->component[0]->plain_name, pair->component[1]->plain_name);
+    snprintf(grid->hint, sizeof grid->hint,
+             "--frame east or --frame grid says so; --scale plain reads it on its index "
+             "grid");
+  }
+  return status;
+}
+
+fg_status fg__nc_mesh_find(fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_pair *pair, const fg_read_options *options)
+{
+  if (options->scale != FG_SCALE_AUTO && options->scale != FG_SCALE_GEO)
+    return FG_STATUS_OK;
+  fg__nc_mesh *mesh = fg__allocate(1, sizeof *mesh);
+  if (!mesh)
+    return fg__fail_memory(file->context, "a mesh", sizeof *mesh);
+  bool found;
+  const fg_status status = recognise(mesh, grid, file, pair, options->frame, &found);
+  if (status != FG_STATUS_OK || !found) {
+    fg__nc_mesh_destroy(mesh);
+    return status;
+  }
+  grid->mesh = mesh;
+  grid->scale = FG_SCALE_GEO;
+  grid->dimension = 2;
+  grid->samples = mesh->size[0] * mesh->size[1];
+  return FG_STATUS_OK;
+}

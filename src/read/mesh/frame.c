@@ -1,0 +1,169 @@
+/* Whether components point east and north or along the grid: the first of four rules that
+ * applies (docs/method/model-grids.md). */
+#include "read/mesh/mesh.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+static bool starts_with(const char *text, const char *start)
+{
+  return strncmp(text, start, strlen(start)) == 0;
+}
+
+/* The first rule: standard names. Returns 1 for east, -1 for the grid, 0 for neither. */
+static int by_standard_name(const fg__nc_variable *u, char *name, size_t size)
+{
+  fg__nc_text(u, "standard_name", name, size);
+  if (starts_with(name, "grid_"))
+    return -1; /* grid_eastward_wind */
+  if (strstr(name, "eastward") || strstr(name, "northward"))
+    return 1;
+  if (starts_with(name, "x_") || starts_with(name, "y_") || strstr(name, "_x_") ||
+      strstr(name, "_y_"))
+    return -1;
+  return 0;
+}
+
+static bool contains(const char *text, const char *word)
+{
+  const size_t length = strlen(word);
+  for (; *text; ++text)
+    if (strncasecmp(text, word, length) == 0)
+      return true;
+  return false;
+}
+
+/* A word of the second rule in the names of a component. */
+static const char *geographic_word(const fg__nc_variable *v)
+{
+  static const char *const words[] = {"zonal", "meridional", "eastward", "northward"};
+  char text[FG__NC_TEXT];
+  fg__nc_text(v, "long_name", text, sizeof text);
+  for (size_t n = 0; n < sizeof words / sizeof *words; ++n)
+    if (contains(v->plain_name, words[n]) || contains(text, words[n]))
+      return words[n];
+  return NULL;
+}
+
+static const fg__nc_variable *find_on(const fg__nc_mesh *mesh, const fg__nc_file *file,
+                                      const char *name)
+{
+  const fg__nc_part *at = mesh->centre.variable ? &mesh->centre : &mesh->part[0];
+  for (size_t i = 0; i < file->variable_count; ++i) {
+    const fg__nc_variable *v = &file->variables[i];
+    if (strcmp(v->plain_name, name) == 0 &&
+        fg__nc_lies_on(file, v, &at->grid, at->variable))
+      return v;
+  }
+  return NULL;
+}
+
+static void find_angle(fg__nc_mesh *mesh, const fg__nc_file *file)
+{
+  static const char *const pairs[][2] = {{"COSALPHA", "SINALPHA"},
+                                         {"AngleCS", "AngleSN"},
+                                         {"CS", "SN"},
+                                         {"cos_rot", "sin_rot"},
+                                         {"cosrot", "sinrot"}};
+  static const char *const angles[] = {"angle",  "ANGLE",      "Angle",     "ANGLET",
+                                       "anglet", "grid_angle", "gridrot_0", "pang"};
+  for (size_t n = 0; n < sizeof angles / sizeof *angles; ++n) {
+    const fg__nc_variable *v = find_on(mesh, file, angles[n]);
+    if (!v)
+      continue;
+    mesh->angle[0] = v;
+    mesh->turn = FG__NC_TURN_ANGLE;
+    return;
+  }
+  for (size_t n = 0; n < sizeof pairs / sizeof *pairs; ++n) {
+    const fg__nc_variable *c = find_on(mesh, file, pairs[n][0]);
+    const fg__nc_variable *s = find_on(mesh, file, pairs[n][1]);
+    if (!c || !s)
+      continue;
+    mesh->angle[0] = c;
+    mesh->angle[1] = s;
+    mesh->turn = FG__NC_TURN_COSINES;
+    return;
+  }
+}
+
+static bool counts_cells(const char *name)
+{
+  static const char *const known[] = {"i", "j", "ni", "nj"};
+  if (starts_with(name, "xi_") || starts_with(name, "eta_"))
+    return true;
+  for (size_t n = 0; n < sizeof known / sizeof *known; ++n)
+    if (strcmp(name, known[n]) == 0)
+      return true;
+  return false;
+}
+
+/* u and v along dimensions that models name after their grid's own directions. */
+static bool is_on_indices(const fg__nc_mesh *mesh, const fg__nc_file *file)
+{
+  for (int k = 0; k < 2; ++k)
+    if (!counts_cells(file->dimensions[mesh->part[0].grid.axis[k].dimension].name))
+      return false;
+  return true;
+}
+
+/* NEMO's names are of its grid's directions. */
+static bool is_of_nemo(const fg__nc_variable *u)
+{
+  return starts_with(u->plain_name, "vozo") || starts_with(u->plain_name, "sozo");
+}
+
+static bool is_staggered(const fg__nc_mesh *mesh)
+{
+  return mesh->shift[0] != 0 || mesh->shift[1] != 0;
+}
+
+static void say(fg__nc_mesh *mesh, const char *why)
+{
+  if (mesh->turn == FG__NC_TURN_NONE)
+    snprintf(mesh->rule, sizeof mesh->rule, "east and north (%.200s)", why);
+  else if (mesh->turn == FG__NC_TURN_GEOMETRY)
+    snprintf(mesh->rule, sizeof mesh->rule,
+             "along the grid, turned by its positions (%.200s)", why);
+  else
+    snprintf(mesh->rule, sizeof mesh->rule, "along the grid, turned by '%.60s' (%.200s)",
+             mesh->angle[0]->plain_name, why);
+}
+
+bool fg__nc_frame_find(fg__nc_mesh *mesh, const fg__nc_file *file,
+                       const fg__nc_pair *pair, fg_frame wanted)
+{
+  char name[FG__NC_TEXT], why[2 * FG__NC_TEXT];
+  const fg__nc_variable *u = pair->component[0];
+  mesh->turn = FG__NC_TURN_GEOMETRY;
+  find_angle(mesh, file);
+  const int standard = by_standard_name(u, name, sizeof name);
+  const char *word =
+      geographic_word(u) ? geographic_word(u) : geographic_word(pair->component[1]);
+  const bool angle = mesh->turn != FG__NC_TURN_GEOMETRY;
+  int frame = 0; /* 1: east, -1: grid */
+  if (wanted != FG_FRAME_AUTO) {
+    frame = wanted == FG_FRAME_EAST ? 1 : -1;
+    snprintf(why, sizeof why, "as asked");
+  } else if (standard != 0) {
+    frame = standard;
+    snprintf(why, sizeof why, "standard_name %.120s", name);
+  } else if (word && !angle && !is_staggered(mesh)) {
+    frame = 1;
+    snprintf(why, sizeof why, "its name says %s", word);
+  } else if (angle || is_staggered(mesh) || is_of_nemo(u) || is_on_indices(mesh, file)) {
+    frame = -1;
+    snprintf(why, sizeof why, "%s",
+             is_staggered(mesh) ? "a staggered grid"
+             : angle            ? "the file has the grid's angle"
+             : is_of_nemo(u)    ? "NEMO's names"
+                                : "its dimensions count cells");
+  }
+  if (frame > 0)
+    mesh->turn = FG__NC_TURN_NONE;
+  if (frame != 0)
+    say(mesh, why);
+  return frame != 0;
+}

@@ -1,0 +1,345 @@
+/* Where the samples of a grid lie, and on which side of the centres components are. */
+#include "base/memory.h"
+#include "read/mesh/mesh.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double RADIANS_PER_DEGREE = 0.017453292519943295;
+
+/* Points that lie nearer than this part of a cell are one. */
+static const double SAME_PLACE = 0.1;
+
+void fg__nc_positions_clear(fg__nc_positions *positions)
+{
+  free(positions->longitude);
+  free(positions->latitude);
+  *positions = (fg__nc_positions){0};
+}
+
+static size_t count_of(const fg__nc_part *part)
+{
+  return part->grid.axis[0].size * part->grid.axis[1].size;
+}
+
+/* A coordinate with one dimension is the same all along the other. */
+static fg_status read_line(double *out, const fg__nc_file *file, const fg__nc_part *part,
+                           const fg__nc_variable *v)
+{
+  const size_t columns = part->grid.axis[0].size, rows = part->grid.axis[1].size;
+  const bool along_x = v->dimension[0] == part->grid.axis[0].dimension;
+  const size_t count = along_x ? columns : rows;
+  double *line = fg__allocate(count, sizeof *line);
+  if (!line)
+    return fg__fail_memory(file->context, "a coordinate", count * sizeof *line);
+  fg_status status = fg__nc_line(line, file, v);
+  for (size_t n = 0; n < columns * rows && status == FG_STATUS_OK; ++n)
+    out[n] = line[along_x ? n % columns : n / columns];
+  free(line);
+  return status;
+}
+
+static double degrees_of(const fg__nc_variable *v)
+{
+  char units[FG__NC_TEXT];
+  fg__nc_text(v, "units", units, sizeof units);
+  return strncmp(units, "rad", 3) == 0 ? 1.0 / RADIANS_PER_DEGREE : 1.0;
+}
+
+static fg_status read_coordinate(double **out, const fg__nc_file *file,
+                                 const fg__nc_part *part, const fg__nc_variable *v,
+                                 size_t time)
+{
+  const size_t count = count_of(part);
+  *out = fg__allocate(count, sizeof **out);
+  if (!*out)
+    return fg__fail_memory(file->context, "a coordinate", count * sizeof **out);
+  const fg_status status =
+      v->rank == 1 ? read_line(*out, file, part, v)
+                   : fg__nc_doubles(*out, file, v, &part->grid, part->variable, time, 0);
+  const double factor = degrees_of(v);
+  for (size_t n = 0; n < count && status == FG_STATUS_OK && factor != 1.0; ++n)
+    (*out)[n] *= factor;
+  return status;
+}
+
+fg_status fg__nc_positions_read(fg__nc_positions *out, const fg__nc_file *file,
+                                const fg__nc_part *part, size_t time)
+{
+  *out = (fg__nc_positions){0};
+  const fg_status status =
+      read_coordinate(&out->longitude, file, part, part->longitude, time);
+  return status == FG_STATUS_OK
+             ? read_coordinate(&out->latitude, file, part, part->latitude, time)
+             : status;
+}
+
+fg_status fg__nc_unit_vectors(double **out, const fg__nc_file *file,
+                              const fg__nc_positions *positions, size_t count)
+{
+  double *unit = *out = fg__allocate(count, 3 * sizeof *unit);
+  if (!unit)
+    return fg__fail_memory(file->context, "positions", count * 3 * sizeof *unit);
+  for (size_t n = 0; n < count; ++n) {
+    const double longitude = positions->longitude[n] * RADIANS_PER_DEGREE;
+    const double latitude = positions->latitude[n] * RADIANS_PER_DEGREE;
+    const bool there = fabs(positions->latitude[n]) <= 90.0 && isfinite(longitude);
+    unit[3 * n] = there ? cos(latitude) * cos(longitude) : (double)NAN;
+    unit[3 * n + 1] = cos(latitude) * sin(longitude);
+    unit[3 * n + 2] = sin(latitude);
+  }
+  return FG_STATUS_OK;
+}
+
+/* A lattice of positions as unit vectors. */
+typedef struct lattice {
+  double *unit;
+  size_t size[2];
+} lattice;
+
+static fg_status read_lattice(lattice *out, const fg__nc_file *file,
+                              const fg__nc_part *part)
+{
+  fg__nc_positions at;
+  *out = (lattice){NULL, {part->grid.axis[0].size, part->grid.axis[1].size}};
+  fg_status status = fg__nc_positions_read(&at, file, part, 0);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_unit_vectors(&out->unit, file, &at, count_of(part));
+  fg__nc_positions_clear(&at);
+  return status;
+}
+
+/* The point half way between two samples along direction k: of (i, j) and the one before
+ * or after it; false where there is none. */
+static bool half_way(double out[3], const lattice *of, size_t i, size_t j, int k,
+                     int side)
+{
+  const size_t at[2] = {i, j};
+  if (at[0] >= of->size[0] || at[1] >= of->size[1] ||
+      (side < 0 ? at[k] == 0 : at[k] + 1 >= of->size[k]))
+    return false;
+  const size_t here = j * of->size[0] + i;
+  const size_t step = k == 0 ? 1 : of->size[0];
+  const size_t there = side < 0 ? here - step : here + step;
+  for (size_t c = 0; c < 3; ++c)
+    out[c] = 0.5 * (of->unit[3 * here + c] + of->unit[3 * there + c]);
+  return isfinite(out[0]);
+}
+
+static double distance(const double a[3], const double b[3])
+{
+  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+              (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+/* Points looked at along each direction. */
+enum { LOOKED_AT = 40 };
+
+static size_t stride(size_t size)
+{
+  return size / LOOKED_AT + 1;
+}
+
+/* The mean distance of a component's samples from the points between the centres (i, j)
+ * and the next on that side. */
+static double misfit(const lattice *component, const lattice *centre, int k, int side)
+{
+  double sum = 0.0;
+  size_t count = 0;
+  for (size_t j = 0; j < component->size[1]; j += stride(component->size[1]))
+    for (size_t i = 0; i < component->size[0]; i += stride(component->size[0])) {
+      double between[3];
+      const double *own = component->unit + 3 * (j * component->size[0] + i);
+      if (!half_way(between, centre, i, j, k, side) || !isfinite(own[0]))
+        continue;
+      sum += distance(own, between);
+      ++count;
+    }
+  return count > 0 ? sum / (double)count : HUGE_VAL;
+}
+
+/* The mean distance of points of equal index, or of those half way to the neighbours of
+ * each on the given sides. */
+static double misfit_between(const lattice *u, const lattice *v, const int side[2])
+{
+  double sum = 0.0;
+  size_t count = 0;
+  for (size_t j = 0; j < u->size[1]; j += stride(u->size[1]))
+    for (size_t i = 0; i < u->size[0]; i += stride(u->size[0])) {
+      double a[3], b[3];
+      if (!half_way(a, u, i, j, 0, side[0]) || !half_way(b, v, i, j, 1, side[1]))
+        continue;
+      sum += distance(a, b);
+      ++count;
+    }
+  return count > 0 ? sum / (double)count : HUGE_VAL;
+}
+
+/* The mean distance of points of equal index, in steps along i. */
+static double apart(const lattice *u, const lattice *v)
+{
+  double sum = 0.0, steps = 0.0;
+  for (size_t j = 0; j < u->size[1]; j += stride(u->size[1]))
+    for (size_t i = 0; i + 1 < u->size[0]; i += stride(u->size[0])) {
+      const size_t n = 3 * (j * u->size[0] + i);
+      const double here = distance(u->unit + n, v->unit + n);
+      const double step = distance(u->unit + n, u->unit + n + 3);
+      if (!isfinite(here) || !isfinite(step))
+        continue;
+      sum += here;
+      steps += step;
+    }
+  return steps > 0.0 ? sum / steps : HUGE_VAL;
+}
+
+/* Without centres: they lie between samples of u as between samples of v. */
+static void shift_by_both(bool *found, fg__nc_mesh *mesh, const lattice of[2])
+{
+  if (of[0].size[0] != of[1].size[0] || of[0].size[1] != of[1].size[1])
+    return;
+  if (apart(&of[0], &of[1]) < SAME_PLACE) {
+    mesh->shift[0] = mesh->shift[1] = 0;
+    *found = true;
+    return;
+  }
+  double least = HUGE_VAL;
+  for (int n = 0; n < 4; ++n) {
+    const int side[2] = {n & 1 ? 1 : -1, n & 2 ? 1 : -1};
+    const double off = misfit_between(&of[0], &of[1], side);
+    if (off >= least)
+      continue;
+    least = off;
+    /* samples before and on the index: the component lies after its centre */
+    mesh->shift[0] = -side[0];
+    mesh->shift[1] = -side[1];
+    *found = true;
+  }
+}
+
+static void shift_by_centre(bool *found, fg__nc_mesh *mesh, const lattice *component,
+                            const lattice *centre, int k)
+{
+  if (component->size[0] == centre->size[0] && component->size[1] == centre->size[1] &&
+      apart(centre, component) < SAME_PLACE) {
+    mesh->shift[k] = 0;
+    *found = true;
+    return;
+  }
+  const double before = misfit(component, centre, k, -1);
+  const double after = misfit(component, centre, k, 1);
+  if (before == after)
+    return;
+  mesh->shift[k] = before < after ? -1 : 1;
+  *found = true;
+}
+
+/* What the dimension's coordinate says (ROMS, CROCO), or its name. */
+static void shift_by_words(bool *found, fg__nc_mesh *mesh, const fg__nc_file *file, int k)
+{
+  static const struct {
+    const char *name;
+    int shift;
+  } known[] = {{"xq", 1},   {"yq", 1},  {"xi_u", 1}, {"eta_v", 1}, {"i_g", -1},
+               {"j_g", -1}, {"XG", -1}, {"YG", -1},  {"XU", -1},   {"YV", -1}};
+  const fg__nc_part *part = &mesh->part[k];
+  const int position = part->grid.axis[k].position;
+  const fg__nc_variable *along = fg__nc_coordinate(file, part->variable, position);
+  double value;
+  nc_type type;
+  if (along && fg__nc_numbers(along, "c_grid_axis_shift", &value, 1, &type) == 1 &&
+      fabs(value) == 0.5) {
+    mesh->shift[k] = value < 0.0 ? -1 : 1;
+    *found = true;
+    return;
+  }
+  const char *name = file->dimensions[part->grid.axis[k].dimension].name;
+  for (size_t n = 0; n < sizeof known / sizeof *known && !*found; ++n)
+    if (strcmp(name, known[n].name) == 0) {
+      mesh->shift[k] = known[n].shift;
+      *found = true;
+    }
+}
+
+static fg_status find_one(bool *found, fg__nc_mesh *mesh, const fg__nc_file *file, int k)
+{
+  const size_t own = mesh->part[k].grid.axis[k].size, centres = mesh->size[k];
+  *found = false;
+  if (own != centres) { /* one more: at both ends; one less: inside */
+    mesh->shift[k] = own > centres ? -1 : 1;
+    *found = own == centres + 1 || own + 1 == centres;
+    return FG_STATUS_OK;
+  }
+  lattice centre = {0}, component = {0};
+  fg_status status = FG_STATUS_OK;
+  if (mesh->centre.variable && mesh->part[k].longitude) {
+    status = read_lattice(&centre, file, &mesh->centre);
+    if (status == FG_STATUS_OK)
+      status = read_lattice(&component, file, &mesh->part[k]);
+    if (status == FG_STATUS_OK)
+      shift_by_centre(found, mesh, &component, &centre, k);
+  }
+  if (!*found && status == FG_STATUS_OK)
+    shift_by_words(found, mesh, file, k);
+  free(centre.unit);
+  free(component.unit);
+  return status;
+}
+
+fg_status fg__nc_shift_find(bool *found, fg__nc_mesh *mesh, const fg__nc_file *file)
+{
+  fg_status status = FG_STATUS_OK;
+  if (mesh->centre.variable) {
+    bool one[2] = {false, false};
+    for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k)
+      status = find_one(&one[k], mesh, file, k);
+    *found = one[0] && one[1];
+    return status;
+  }
+  lattice of[2] = {{0}, {0}};
+  for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k)
+    status = read_lattice(&of[k], file, &mesh->part[k]);
+  if (status == FG_STATUS_OK)
+    shift_by_both(found, mesh, of);
+  free(of[0].unit);
+  free(of[1].unit);
+  return status;
+}
+
+/* Between the samples of u: where the first or last centre has one neighbour only, as far
+ * beyond it. */
+static fg_status centres_between(fg__nc_positions *out, const fg__nc_file *file,
+                                 const fg__nc_mesh *mesh)
+{
+  lattice u;
+  fg_status status = read_lattice(&u, file, &mesh->part[0]);
+  const size_t columns = mesh->size[0], count = columns * mesh->size[1];
+  *out = (fg__nc_positions){fg__allocate(count, sizeof(double)),
+                            fg__allocate(count, sizeof(double))};
+  if (status == FG_STATUS_OK && (!out->longitude || !out->latitude))
+    status = fg__fail_memory(file->context, "positions", 2 * count * sizeof(double));
+  const int side = -mesh->shift[0]; /* of the other neighbour */
+  for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n) {
+    double at[3], beyond[3];
+    const size_t i = n % columns, j = n / columns;
+    if (!half_way(at, &u, i, j, 0, side)) {
+      for (size_t c = 0; c < 3; ++c)
+        at[c] = half_way(beyond, &u, i, j, 0, -side) ? 2.0 * u.unit[3 * n + c] - beyond[c]
+                                                     : (double)NAN;
+    }
+    out->longitude[n] = atan2(at[1], at[0]) / RADIANS_PER_DEGREE;
+    out->latitude[n] = atan2(at[2], hypot(at[0], at[1])) / RADIANS_PER_DEGREE;
+  }
+  free(u.unit);
+  return status;
+}
+
+fg_status fg__nc_centres_read(fg__nc_positions *out, const fg__nc_file *file,
+                              const fg__nc_mesh *mesh, size_t time)
+{
+  if (mesh->centre.variable)
+    return fg__nc_positions_read(out, file, &mesh->centre, time);
+  if (mesh->shift[0] == 0)
+    return fg__nc_positions_read(out, file, &mesh->part[0], time);
+  return centres_between(out, file, mesh);
+}

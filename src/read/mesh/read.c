@@ -1,0 +1,321 @@
+/* Points and cells of a mesh: components brought to the centres and turned to east and
+ * north. */
+#include "base/memory.h"
+#include "read/mesh/mesh.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const double RADIANS_PER_DEGREE = 0.017453292519943295;
+
+/* A given angle is of the other sense where its opposite fits the grid, and of another
+ * meaning where neither does: cosines of the mean difference. */
+static const double FITS = 0.985; /* 10 degrees */
+
+typedef struct centre_values {
+  const fg__nc_mesh *mesh;
+  size_t count;
+  float *component[2];
+  unsigned char *wet; /* NULL: not told */
+  fg__nc_positions at;
+  double *unit; /* [3 * count] */
+  size_t repeated;
+  bool closed;
+} centre_values;
+
+static void clear(centre_values *all)
+{
+  free(all->component[0]);
+  free(all->component[1]);
+  free(all->wet);
+  free(all->unit);
+  fg__nc_positions_clear(&all->at);
+}
+
+static fg_status read_part(float **out, const fg__nc_file *file, const fg__nc_part *part,
+                           size_t time, size_t level)
+{
+  fg__nc_missing ignored = {0};
+  *out = fg__allocate(part->grid.samples, sizeof **out);
+  if (!*out)
+    return fg__fail_memory(file->context, "the velocity",
+                           part->grid.samples * sizeof **out);
+  return fg__nc_values(*out, &ignored, file, part->variable, &part->grid,
+                       part->grid.time >= 0 ? time : 0,
+                       part->grid.level >= 0 ? level : 0);
+}
+
+/* The faces of a centre along direction k: places in the component, or -1 beyond its
+ * ends.
+ */
+static void faces_of(ptrdiff_t face[2], const centre_values *all, int k, size_t i,
+                     size_t j)
+{
+  const fg__nc_mesh *mesh = all->mesh;
+  const fg__nc_axis *axis = mesh->part[k].grid.axis;
+  const size_t at[2] = {i, j};
+  const ptrdiff_t length = (ptrdiff_t)axis[k].size;
+  const ptrdiff_t turn = (ptrdiff_t)(mesh->size[0] - all->repeated);
+  for (int side = 0; side < 2; ++side) {
+    ptrdiff_t n = (ptrdiff_t)at[k] + side - (mesh->shift[k] > 0 ? 1 : 0);
+    const bool round = k == 0 && all->closed && axis[0].size == mesh->size[0];
+    if (round && n < 0)
+      n += turn;
+    if (round && n >= length)
+      n -= turn;
+    face[side] = n < 0 || n >= length ? -1
+                 : k == 0             ? (ptrdiff_t)(j * axis[0].size) + n
+                                      : n * (ptrdiff_t)axis[0].size + (ptrdiff_t)i;
+  }
+}
+
+/* The mean of both faces; NaN where the grid ends at one. A missing face beside one that
+ * is not is a wall: *any becomes true where one is not. */
+static float mean_of(const float *component, const ptrdiff_t face[2], bool *any)
+{
+  double sum = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    if (face[side] < 0)
+      return NAN;
+    const float value = component[face[side]];
+    sum += isfinite(value) ? (double)value : 0.0;
+    *any = *any || isfinite(value);
+  }
+  return (float)(sum / 2.0);
+}
+
+/* A centre at the grid's end has no second face: the field ends before it. */
+static void bring_to_centre(centre_values *all, float *const part[2], size_t n)
+{
+  const fg__nc_mesh *mesh = all->mesh;
+  const size_t i = n % mesh->size[0], j = n / mesh->size[0];
+  bool any = false;
+  for (int k = 0; k < 2; ++k) {
+    ptrdiff_t face[2] = {(ptrdiff_t)n, (ptrdiff_t)n};
+    if (mesh->shift[k] != 0)
+      faces_of(face, all, k, i, j);
+    if (face[0] < 0 || face[1] < 0) {
+      all->at.longitude[n] = (double)NAN;
+      any = false;
+      break;
+    }
+    all->component[k][n] = mean_of(part[k], face, &any);
+  }
+  if (!any)
+    all->component[0][n] = NAN;
+}
+
+/* Both components at the centres; those that are there are taken over. */
+static fg_status bring_to_centres(centre_values *all, const fg__nc_file *file,
+                                  float *part[2])
+{
+  const fg__nc_mesh *mesh = all->mesh;
+  if (mesh->shift[0] == 0 && mesh->shift[1] == 0) {
+    for (int k = 0; k < 2; ++k) {
+      all->component[k] = part[k];
+      part[k] = NULL;
+    }
+    return FG_STATUS_OK;
+  }
+  for (int k = 0; k < 2; ++k) {
+    all->component[k] = fg__allocate(all->count, sizeof *all->component[k]);
+    if (!all->component[k])
+      return fg__fail_memory(file->context, "the velocity",
+                             all->count * sizeof *all->component[k]);
+  }
+  for (size_t n = 0; n < all->count; ++n)
+    bring_to_centre(all, part, n);
+  return FG_STATUS_OK;
+}
+
+static fg_status read_mask(centre_values *all, const fg__nc_file *file, const char *name,
+                           size_t time, size_t level)
+{
+  const fg__nc_mesh *mesh = all->mesh;
+  const fg__nc_part *at = mesh->centre.variable ? &mesh->centre : &mesh->part[0];
+  const fg__nc_variable *mask = name ? fg__nc_find(file, name) : mesh->mask;
+  if (name && !mask)
+    return fg__fail(file->context, FG_STATUS_ARGUMENT,
+                    "%s: has no variable '%s' for the mask", file->paths[0], name);
+  if (!mask)
+    return FG_STATUS_OK;
+  all->wet = fg__allocate(all->count, 1);
+  if (!all->wet)
+    return fg__fail_memory(file->context, "the mask", all->count);
+  return fg__nc_mask(all->wet, file, mask, &at->grid, at->variable, time, level);
+}
+
+/* The derivative of the position along i: across both neighbours, or of the parabola
+ * through two on one side where there are such. */
+static void differ(double along[3], const centre_values *all, size_t n)
+{
+  const size_t columns = all->mesh->size[0], i = n % columns;
+  const size_t round = all->closed ? columns - all->repeated - 1 : 0;
+  const double *unit = all->unit;
+  size_t low = i > 0 ? n - 1 : n + round;
+  size_t high = i + 1 < columns ? n + 1 : n - (all->repeated ? 0 : round);
+  low = isfinite(unit[3 * low]) ? low : n;
+  high = isfinite(unit[3 * high]) ? high : n;
+  const bool after = low == n && i + 2 < columns && isfinite(unit[3 * (n + 2)]);
+  const bool before = high == n && i >= 2 && isfinite(unit[3 * (n - 2)]);
+  for (size_t c = 0; c < 3; ++c) {
+    along[c] = unit[3 * high + c] - unit[3 * low + c];
+    if (high != low && after)
+      along[c] = 4.0 * along[c] - (unit[3 * (n + 2) + c] - unit[3 * n + c]);
+    else if (high != low && before)
+      along[c] = 4.0 * along[c] - (unit[3 * n + c] - unit[3 * (n - 2) + c]);
+  }
+}
+
+/* The direction of i at a point: cosine and sine of its angle from east; false where it
+ * has no neighbour. */
+static bool direction_at(double turn[2], const centre_values *all, size_t n)
+{
+  double along[3];
+  differ(along, all, n);
+  const double longitude = all->at.longitude[n] * RADIANS_PER_DEGREE;
+  const double latitude = all->at.latitude[n] * RADIANS_PER_DEGREE;
+  const double s = sin(longitude), c = cos(longitude);
+  const double east = c * along[1] - s * along[0];
+  const double north =
+      cos(latitude) * along[2] - sin(latitude) * (c * along[0] + s * along[1]);
+  const double length = hypot(east, north);
+  turn[0] = east / length;
+  turn[1] = north / length;
+  return length > 0.0;
+}
+
+/* Cosines and sines of the angle that the file gives; NULL where it gives none. */
+static fg_status read_angle(double *given[2], const centre_values *all,
+                            const fg__nc_file *file, size_t time)
+{
+  const fg__nc_mesh *mesh = all->mesh;
+  const fg__nc_part *at = mesh->centre.variable ? &mesh->centre : &mesh->part[0];
+  fg_status status = FG_STATUS_OK;
+  for (int k = 0; k < 2 && mesh->turn >= FG__NC_TURN_ANGLE; ++k) {
+    given[k] = fg__allocate(all->count, sizeof *given[k]);
+    if (!given[k])
+      return fg__fail_memory(file->context, "angles", all->count * sizeof *given[k]);
+    if (mesh->angle[k] && status == FG_STATUS_OK)
+      status = fg__nc_doubles(given[k], file, mesh->angle[k], &at->grid, at->variable,
+                              time, 0);
+  }
+  if (status != FG_STATUS_OK || mesh->turn != FG__NC_TURN_ANGLE)
+    return status;
+  char units[FG__NC_TEXT], label[FG__NC_TEXT];
+  fg__nc_text(mesh->angle[0], "units", units, sizeof units);
+  const bool degrees = fg__nc_units(units, label, sizeof label) == FG__NC_DEGREES;
+  for (size_t n = 0; n < all->count; ++n) {
+    const double angle = given[0][n] * (degrees ? RADIANS_PER_DEGREE : 1.0);
+    given[0][n] = cos(angle);
+    given[1][n] = sin(angle);
+  }
+  return FG_STATUS_OK;
+}
+
+/* Compares the given angle with the grid's own: 1 as it is, -1 its opposite, 0 neither.
+ */
+static int sense_of(double *const given[2], const centre_values *all)
+{
+  double same = 0.0, opposite = 0.0;
+  size_t count = 0;
+  for (size_t n = 0; n < all->count; ++n) {
+    double turn[2];
+    if (!isfinite(given[0][n]) || !isfinite(given[1][n]) || !direction_at(turn, all, n))
+      continue;
+    same += given[0][n] * turn[0] + given[1][n] * turn[1];
+    opposite += given[0][n] * turn[0] - given[1][n] * turn[1];
+    ++count;
+  }
+  if (count == 0 || (same < FITS * (double)count && opposite < FITS * (double)count))
+    return 0;
+  return same >= opposite ? 1 : -1;
+}
+
+static void turn_components(const centre_values *all, double *const given[2], int sense)
+{
+  for (size_t n = 0; n < all->count; ++n) {
+    double turn[2] = {0.0, 0.0};
+    bool known = false;
+    if (sense != 0) {
+      turn[0] = given[0][n];
+      turn[1] = sense * given[1][n];
+      known = isfinite(turn[0]) && isfinite(turn[1]);
+    }
+    known = known || direction_at(turn, all, n);
+    const double u = known ? (double)all->component[0][n] : (double)NAN;
+    const double v = (double)all->component[1][n];
+    all->component[0][n] = (float)(u * turn[0] - v * turn[1]);
+    all->component[1][n] = (float)(u * turn[1] + v * turn[0]);
+  }
+}
+
+static fg_status turn(centre_values *all, fg__nc_mesh *mesh, const fg__nc_file *file,
+                      size_t time)
+{
+  if (mesh->turn == FG__NC_TURN_NONE)
+    return FG_STATUS_OK;
+  double *given[2] = {NULL, NULL};
+  const fg_status status = read_angle(given, all, file, time);
+  if (status == FG_STATUS_OK) {
+    const int sense = given[0] ? sense_of(given, all) : 0;
+    turn_components(all, given, sense);
+    if (given[0] && sense <= 0)
+      snprintf(mesh->rule, sizeof mesh->rule,
+               sense < 0 ? "along the grid, turned by '%.60s', which is the angle from "
+                           "the grid to east"
+                         : "along the grid, turned by its positions: '%.60s' is not its "
+                           "angle from east",
+               mesh->angle[0]->plain_name);
+  }
+  free(given[0]);
+  free(given[1]);
+  return status;
+}
+
+static fg_status fill(centre_values *all, fg__nc_mesh *mesh, const fg__nc_file *file,
+                      size_t time, size_t level, const char *mask)
+{
+  float *part[2] = {NULL, NULL};
+  fg_status status = fg__nc_centres_read(&all->at, file, mesh, time);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_unit_vectors(&all->unit, file, &all->at, all->count);
+  if (status == FG_STATUS_OK)
+    fg__nc_closure(&all->repeated, &all->closed, all->unit, mesh->size);
+  for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k)
+    status = read_part(&part[k], file, &mesh->part[k], time, level);
+  if (status == FG_STATUS_OK)
+    status = bring_to_centres(all, file, part);
+  free(part[0]);
+  free(part[1]);
+  if (status == FG_STATUS_OK)
+    status = read_mask(all, file, mask, time, level);
+  for (size_t n = 0; n < all->count && status == FG_STATUS_OK && all->wet; ++n)
+    if (!all->wet[n])
+      all->component[0][n] = NAN;
+  return status == FG_STATUS_OK ? turn(all, mesh, file, time) : status;
+}
+
+fg_status fg__nc_mesh_read(fg__sphere_cells *out, fg__nc_mesh *mesh,
+                           const fg__nc_file *file, size_t time, size_t level,
+                           const char *mask)
+{
+  centre_values all = {.mesh = mesh, .count = mesh->size[0] * mesh->size[1]};
+  *out = (fg__sphere_cells){0};
+  fg_status status = fill(&all, mesh, file, time, level, mask);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_cells_make(&out->corner, &out->count, file, all.unit, mesh->size,
+                               all.repeated, all.closed);
+  if (status == FG_STATUS_OK) {
+    out->points = all.count;
+    out->longitude = all.at.longitude;
+    out->latitude = all.at.latitude;
+    out->east = all.component[0];
+    out->north = all.component[1];
+    all.at = (fg__nc_positions){0};
+    all.component[0] = all.component[1] = NULL;
+  }
+  clear(&all);
+  return status;
+}

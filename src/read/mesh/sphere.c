@@ -1,0 +1,54 @@
+/* A pair of a mesh as a field on the sphere, and what is said of it. */
+#include "read/mesh/mesh.h"
+
+#include <math.h>
+
+fg_status fg__nc_sphere_read(fg__sphere **out, const fg__nc_file *file,
+                             const fg__nc_pair *pair, const fg__nc_grid *grid,
+                             const fg_read_options *options)
+{
+  fg__nc_words words;
+  fg__sphere_cells cells = {0};
+  fg_status status = fg__nc_words_find(&words, file, pair, grid, options);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_mesh_read(&cells, grid->mesh, file, (size_t)options->time,
+                              (size_t)options->level, options->mask);
+  if (status != FG_STATUS_OK)
+    return status;
+  const fg_field_arrays of_field = {
+      .velocity_name = {pair->component[0]->name, pair->component[1]->name},
+      .velocity_units = words.units,
+      .title = words.title,
+      .time = words.time[0] ? words.time : NULL,
+      .level = words.level[0] ? words.level : NULL};
+  cells.words = &of_field;
+  return fg__sphere_of_cells(out, file->context, &cells);
+}
+
+fg_status fg__nc_mesh_describe(fg_inventory_vector *vector, const fg__nc_file *file,
+                               const fg__nc_pair *pair, const fg__nc_grid *grid)
+{
+  static const fg_read_options first = {0};
+  fg__sphere *sphere = NULL;
+  fg__sphere_extent extent;
+  const fg_status status = fg__nc_sphere_read(&sphere, file, pair, grid, &first);
+  vector->frame = grid->mesh->rule;
+  vector->missing_share = 1.0;
+  if (status == FG_STATUS_FILE_FORMAT) { /* nothing at the first time; others may have */
+    fg_context_clear(file->context);
+    return FG_STATUS_OK;
+  }
+  if (status != FG_STATUS_OK)
+    return status;
+  fg__sphere_extent_of(&extent, sphere);
+  fg__globe_size(vector->size, &extent);
+  vector->bounds[0] = extent.west;
+  vector->bounds[1] = extent.east;
+  vector->bounds[2] = extent.south;
+  vector->bounds[3] = extent.north;
+  vector->periodic[0] = extent.east - extent.west >= 360.0;
+  vector->missing_share = 1.0 - (double)extent.points / (double)grid->samples;
+  vector->cells = grid->samples;
+  fg__sphere_destroy(sphere);
+  return status;
+}

@@ -1,0 +1,155 @@
+#!/usr/bin/env bash
+# Times and levels by index, value, date and range; a run on several of them.
+# shellcheck disable=SC2012 # names of our own
+source "$(dirname "$0")/harness.sh"
+need_ranks
+
+# A classic NetCDF file: u and v on three times, two levels and a grid of 33 x 17; the
+# speeds double from time to time. The last time of the file dead.nc has none.
+make_wind() {
+  perl -e '
+    my ($dead) = @ARGV;
+    my @dims = (["time", 3], ["lev", 2], ["y", 17], ["x", 33]);
+    sub name { my $n = shift; pack("N a*", length $n, $n) . "\0" x (-length($n) % 4) }
+    sub text { my ($n, $v) = @_; name($n) . pack("N", 2) . name($v) }
+    my @vars = (
+      ["time", [0], 6, "hours since 1982-07-16 00:00", [0, 6, 30]],
+      ["lev", [1], 6, "hPa", [850, 300]],
+      ["y", [2], 6, "km", [map { 10 * $_ } 0 .. 16]],
+      ["x", [3], 6, "km", [map { 10 * $_ } 0 .. 32]]);
+    for my $c (0, 1) {
+      my @v;
+      for my $t (0 .. 2) { for my $l (0 .. 1) { for my $j (0 .. 16) { for my $i (0 .. 32) {
+        my ($x, $y) = ($i / 16 - 1, $j / 16 - 0.5);
+        my $s = $dead && $t == 2 ? 0 : 2 ** $t * (1 + $l);
+        push @v, $s * ($c ? 0.3 + $x : 1 - 2 * $y + 0.2 * $t * $x);
+      } } } }
+      push @vars, [("u", "v")[$c], [0, 1, 2, 3], 5, "m s-1", \@v];
+    }
+    my ($head, $data, $at) = ("", "", 0);
+    for my $pass (0, 1) {
+      my $begin = $pass * $at;
+      ($head, $data) = ("CDF\1" . pack("N N N", 0, 10, scalar @dims), "");
+      $head .= name($_->[0]) . pack("N", $_->[1]) for @dims;
+      $head .= pack("N N N N", 0, 0, 11, scalar @vars);
+      for (@vars) {
+        my ($n, $d, $type, $units, $v) = @$_;
+        my $bytes = pack($type == 5 ? "f>*" : "d>*", @$v);
+        $head .= name($n) . pack("N*", scalar @$d, @$d) . pack("N N", 12, 1) . text("units", $units);
+        $head .= pack("N N N", $type, length $bytes, $begin + length $data);
+        $data .= $bytes;
+      }
+      $at = length $head;
+    }
+    binmode STDOUT;
+    print $head, $data;' "$1"
+}
+make_wind 0 >wind.nc
+make_wind 1 >dead.nc
+
+try info wind.nc
+expect_code 0
+grep -q '    2: 1982-07-17 06:00' out || fault "no third time: $(cat out)"
+try info wind.nc --json
+expect_json out '.vectors[0].level_values == [{value: 850, units: "hPa", words: "850 hPa"}, {value: 300, units: "hPa", words: "300 hPa"}]'
+done_with "info tells times and levels by value"
+
+small=(--arrows 8 --effort 0 --nodes 65 --formats svg)
+chosen() { # PATTERN-OF-STDERR TIME LEVEL OPTIONS...: what run.json says was read
+  local pattern=$1 time=$2 level=$3
+  shift 3
+  try run wind.nc -o one --force "${small[@]}" "$@"
+  expect_code 0
+  expect_json one/run.json ".input.time == $time and .input.level == $level"
+  expect_error "$pattern"
+}
+chosen '^flowgrain: wind.nc: time 1 of 0 to 2: 1982-07-16 06:00$' 1 1 --time 1982-07-16T06:00 --level 300hPa
+grep -q 'nearest' err && fault "nearest: $(cat err)"
+chosen '^flowgrain: wind.nc: no time 1982-07-16T12:00: the nearest is 1982-07-16 06:00$' 1 0 --time 1982-07-16T12:00
+chosen '^flowgrain: wind.nc: no level 800.: the nearest is 850 hPa$' 2 0 --time 2 --level 800.
+try run wind.nc -o one --resume "${small[@]}" --time 1982-07-17 --level 85000Pa
+expect_code 0
+expect_error 'one: the run is finished'
+done_with "a time and a level by index, value and date"
+
+refuse() { # CODE PATTERN ARGUMENTS...
+  local wanted=$1 pattern=$2
+  shift 2
+  try "$@"
+  expect_code "$wanted"
+  expect_error "$pattern"
+  expect_one_complaint
+  expect_nothing_at x
+  expect_nothing_at x.svg
+}
+refuse 1 'no time 1990-01-01: 0 is 1982-07-16, 2 is 1982-07-17 06:00' run wind.nc -o x --time 1990-01-01
+refuse 1 'no level 10m: none of them is in such a unit' run wind.nc -o x --level 10m
+refuse 1 "level 850 asked for, but 'lev' has 2: 0 to 1" run wind.nc -o x --level 850
+grep -q 'a value has its unit or a point: 850hPa' err || fault "no hint: $(cat err)"
+refuse 2 '--time noon:1: no index, value' run wind.nc -o x --time noon:1
+refuse 2 '--time all: texture takes one time' texture wind.nc -o x.svg --time all
+try texture wind.nc -o late.png --pixels 64 --time 1982-07-17 --level 300hPa
+expect_code 0
+try texture wind.nc -o same.png --pixels 64 --time 2 --level 1
+cmp -s late.png same.png || fault "--time 2 is another than 1982-07-17"
+done_with "what is not there is refused with what is; other commands take one"
+
+try run wind.nc -o series "${small[@]}" --time all --level 300hPa:1000hPa --quiet
+expect_code 0
+[ "$(ls -A series | xargs)" = "series.json time-0000-level-000 time-0000-level-001 time-0001-level-000 \
+time-0001-level-001 time-0002-level-000 time-0002-level-001" ] || fault "it holds $(ls -A series | xargs)"
+expect_json series/series.json '.members[3] == {folder: "time-0001-level-001", time: 1, time_words: "1982-07-16 06:00", level: 1, level_words: "300 hPa"}'
+for member in series/time*; do
+  expect_only_results "$member"
+  expect_json "$member/run.json" ".speed_range == $(jq -c .speed_range series/series.json)"
+done
+expect_json series/series.json '.speed_range[0] < 0.5 and .speed_range[1] > 8'
+try run wind.nc -o alone "${small[@]}" --time 1 --level 1 --quiet --speed-range "$(jq -r '.speed_range | join(",")' series/series.json)"
+expect_same_results alone series/time-0001-level-001
+done_with "a series is a folder each, as a run by itself leaves it, with one colour range"
+
+series=(run wind.nc "${small[@]}" --time 0:2 --quiet)
+refuse 1 'series: holds a series of runs' "${series[@]}" -o series
+refuse 1 'series: holds a series of other times or levels' "${series[@]}" -o series --resume
+refuse 1 'series: holds a series of runs' run wind.nc "${small[@]}" -o series --quiet
+refuse 1 'one: holds the results of a run' "${series[@]}" -o one --force
+try "${series[@]}" -o series --force
+expect_code 0
+[ "$(ls -A series | xargs)" = "series.json time-0000 time-0001 time-0002" ] || fault "left: $(ls -A series | xargs)"
+touch -d 2001-01-01 series/*/scale-00.svg
+try "${series[@]}" -o series --resume
+expect_code 0
+[ -z "$(find series -name 'scale-00.svg' -newermt 2002-01-01)" ] || fault "finished runs were done again"
+done_with "a series is not replaced unasked, and finished runs are not done again"
+
+with_calls kill 0 "${series[@]}" -o counted --threads 1
+all=$(cat calls)
+for at in 1 2 4 $((all / 4)) $((all / 2)) $((3 * all / 4)) $((all - 2)); do
+  rm -rf part
+  with_calls kill "$at" "${series[@]}" -o part --threads 1
+  [ "$code" = 137 ] || fault "call $at: not killed: code $code"
+  try "${series[@]}" -o part --threads 1 --resume
+  [ "$code" = 0 ] || fault "call $at: resumed: code $code: $(head -c 300 err)"
+  [ "$(ls -A part | xargs)" = "series.json time-0000 time-0001 time-0002" ] || fault "call $at: $(ls -A part | xargs)"
+  for member in time-0000 time-0001 time-0002; do
+    expect_same_results "counted/$member" "part/$member"
+    expect_only_results "part/$member"
+  done
+done
+done_with "a series that was killed goes on"
+
+try run dead.nc -o dead "${small[@]}" --time all --quiet
+expect_code 1
+expect_error 'dead: 1 of 3 fields could not be done'
+expect_file dead/time-0001/run.json
+expect_nothing_at dead/time-0002
+done_with "a time without wind does not keep the others from being drawn"
+
+on 2 "${series[@]}" -o ranks --threads 1
+expect_code 0
+for member in time-0000 time-0001 time-0002; do
+  expect_same_results "counted/$member" "ranks/$member"
+done
+cmp -s ranks/series.json counted/series.json || fault "another index"
+done_with "ranks make the same series"
+finish
