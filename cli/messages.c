@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "inputs.h"
 #include "program.h"
 
 enum { TEXT_BYTES = 2048 }; /* of a context's message */
@@ -97,6 +98,7 @@ int complain_of(const fg_context *context, fg_status status, const char *file)
 int complain_of_partial(const fg_context *context, fg_status status, const char *partial,
                         const char *file)
 {
+  file = inputs_name(file);
   const char *message = fg_context_message(context);
   const char *hint = fg_context_hint(context);
   if (!*message)
@@ -129,14 +131,16 @@ void say_infinite(const char *file, const fg_field *field)
 {
   size_t count = fg_field_infinite(field);
   if (count > 0)
-    complain("%s: %zu %s infinite and count%s as missing", file, count,
+    complain("%s: %zu %s infinite and count%s as missing", inputs_name(file), count,
              count == 1 ? "sample is" : "samples are", count == 1 ? "s" : "");
 }
 
 int create_context(fg_context **out)
 {
-  if (fg_context_create(out) == FG_STATUS_OK)
+  if (fg_context_create(out) == FG_STATUS_OK) {
+    inputs_give(*out);
     return EXIT_DONE;
+  }
   complain("out of memory");
   return EXIT_FAILED;
 }

@@ -4,6 +4,7 @@
 
 #include "build_features.h"
 #include "command/command.h"
+#include "inputs.h"
 #include "option/parse.h"
 #include "ranks.h"
 #include "vectors.h"
@@ -60,6 +61,22 @@ static parse_result parse(const cli_command **command, any_settings *settings, i
   return options_parse(settings, *command, argc - 1, argv + 1);
 }
 
+/* Of a command that reads fields. */
+static int prepare_inputs(const any_settings *settings, const cli_command *command)
+{
+  const unsigned bits = COMMAND_RUN | COMMAND_TEXTURE | COMMAND_RIVAL | COMMAND_SCORE |
+                        COMMAND_INFO | COMMAND_DRAW;
+  if (!(command->bit & bits))
+    return EXIT_DONE;
+  const char *const place = (const char *)settings;
+  const char *input = settings->draw.input;
+  if (command->bit != COMMAND_DRAW)
+    memcpy(&input, place + command->operand_place, sizeof input);
+  input_settings given;
+  memcpy(&given, place + command->group[GROUP_INPUTS], sizeof given);
+  return inputs_prepare(&given, &input, 1);
+}
+
 int program_perform(int argc, char **argv)
 {
   const cli_command *command = NULL;
@@ -75,5 +92,10 @@ int program_perform(int argc, char **argv)
     return code;
   if (command->work != command_run && !ranks_leader())
     return EXIT_DONE; /* work for one */
+  code = prepare_inputs(&settings, command);
+  if (command->work == command_run)
+    code = ranks_agree(code);
+  if (code)
+    return code;
   return command->work(&settings);
 }

@@ -14,6 +14,7 @@
 #include <sys/prctl.h>
 #endif
 
+#include "inputs.h"
 #include "interrupt.h"
 
 /* A loop in a damaged file takes for ever. A good one takes some time for each byte, and
@@ -213,11 +214,32 @@ static const char *library_of(const char *start, size_t size)
   return NULL;
 }
 
+static void add(const char **library, size_t *size, const char *found, size_t bytes)
+{
+  if (!found)
+    return;
+  *library = found;
+  *size += bytes;
+}
+
+static void look_at_standard(const char **library, size_t *size)
+{
+  size_t bytes;
+  const unsigned char *start = inputs_bytes(&bytes);
+  if (start)
+    add(library, size,
+        library_of((const char *)start, bytes < LOOKED_AT ? bytes : LOOKED_AT), bytes);
+}
+
 /* Adds the size of a file that such a library reads, and says which. */
 static void look_at(const char **library, size_t *size, const char *path)
 {
   char start[LOOKED_AT];
   struct stat about;
+  if (inputs_is_standard(path)) {
+    look_at_standard(library, size);
+    return;
+  }
   if (!path || stat(path, &about) != 0 || !S_ISREG(about.st_mode))
     return;
   int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -225,11 +247,7 @@ static void look_at(const char **library, size_t *size, const char *path)
     return;
   ssize_t got = read(file, start, sizeof start);
   close(file);
-  const char *found = library_of(start, got > 0 ? (size_t)got : 0);
-  if (!found)
-    return;
-  *library = found;
-  *size += (size_t)about.st_size;
+  add(library, size, library_of(start, got > 0 ? (size_t)got : 0), (size_t)about.st_size);
 }
 
 static child_bounds bounds_for(size_t size)
@@ -245,10 +263,11 @@ static int complain_of_child(const char *input, const char *library,
   if (outcome->complaint[0])
     complain("%s", outcome->complaint);
   else if (outcome->signal == SIGXCPU)
-    complain("%s: damaged: reading it takes more than %u s", input, bounds->seconds);
+    complain("%s: damaged: reading it takes more than %u s", inputs_name(input),
+             bounds->seconds);
   else
-    complain("%s: damaged: the %s library does not survive reading it (signal %d)", input,
-             library, outcome->signal);
+    complain("%s: damaged: the %s library does not survive reading it (signal %d)",
+             inputs_name(input), library, outcome->signal);
   if (outcome->advice[0])
     advise("%s", outcome->advice);
   return EXIT_FAILED;

@@ -1,5 +1,7 @@
 #include "option/check.h"
 
+#include "inputs.h"
+
 #include <string.h>
 
 #include "option/value.h"
@@ -94,9 +96,23 @@ static bool check_picture(const picture_settings *settings, const cli_command *c
   return true;
 }
 
+static bool check_inputs(const input_settings *settings, const cli_command *command)
+{
+  double size;
+  return !settings->max_memory || inputs_read_size(&size, settings->max_memory) ||
+         usage_error(command,
+                     "--max-memory %s: no number of bytes; say 500M or 2G, for example",
+                     settings->max_memory);
+}
+
 bool options_check(const any_settings *settings, const cli_command *command)
 {
   const run_settings *run = &settings->run;
+  if ((command->bit & (COMMAND_RUN | COMMAND_TEXTURE | COMMAND_RIVAL | COMMAND_SCORE |
+                       COMMAND_INFO | COMMAND_DRAW)) &&
+      !check_inputs((const void *)((const char *)settings + command->group[GROUP_INPUTS]),
+                    command))
+    return false;
   const void *reading = (const char *)settings + command->group[GROUP_READING];
   if ((command->bit & (COMMAND_RUN | COMMAND_TEXTURE | COMMAND_RIVAL | COMMAND_SCORE)) &&
       (!check_slice(reading, command) || !check_map(reading, command)))

@@ -20,13 +20,14 @@ const cli_command command_table[] = {
          "plane "
          "(.vti, .vtr, .vts, .vtu, .vtp, .vtk), what names such in parallel, as blocks "
          "or "
-         "over time (.pvti, ..., .vtm, .pvd), or synth:NAME for an analytic field (see "
-         "flowgrain synth "
+         "over time (.pvti, ..., .vtm, .pvd), `-` for one of these on standard input, or "
+         "synth:NAME for an analytic field (see flowgrain synth "
          "--help). In 3D a scale is the icons as GeoJSON, VTK polydata (.vtp) and glTF "
          "(.glb), "
          "a rendered picture for each --view, and the density u and its clusters (.vti).",
      .work = command_run,
      .group = {[GROUP_READING] = offsetof(run_settings, reading),
+               [GROUP_INPUTS] = offsetof(run_settings, inputs),
                [GROUP_EVOLUTION] = offsetof(run_settings, evolution),
                [GROUP_WORK] = offsetof(run_settings, work),
                [GROUP_PICTURE] = offsetof(run_settings, picture)},
@@ -45,7 +46,8 @@ const cli_command command_table[] = {
          "again from the input that "
          "run.json names.",
      .work = command_draw,
-     .group = {[GROUP_PICTURE] = offsetof(draw_settings, picture)},
+     .group = {[GROUP_PICTURE] = offsetof(draw_settings, picture),
+               [GROUP_INPUTS] = offsetof(draw_settings, inputs)},
      .operand_place = offsetof(draw_settings, folder),
      .output_place = offsetof(draw_settings, output),
      .most_numbers = 1},
@@ -61,6 +63,7 @@ const cli_command command_table[] = {
              "format by the end of its name: .png (the pixels themselves), .svg or .pdf.",
      .work = command_texture,
      .group = {[GROUP_READING] = offsetof(texture_settings, reading),
+               [GROUP_INPUTS] = offsetof(texture_settings, inputs),
                [GROUP_EVOLUTION] = offsetof(texture_settings, evolution),
                [GROUP_WORK] = offsetof(texture_settings, work)},
      .operand_place = offsetof(texture_settings, reading.input),
@@ -94,6 +97,7 @@ const cli_command command_table[] = {
              "--vars "
              "takes it, with its grid, share of missing values, times and levels.",
      .work = command_info,
+     .group = {[GROUP_INPUTS] = offsetof(info_settings, inputs)},
      .operand_place = offsetof(info_settings, file)},
     {.bit = COMMAND_SYNTH,
      .name = "synth",
@@ -139,6 +143,7 @@ const cli_command command_table[] = {
          "dimensions.",
      .work = command_rival,
      .group = {[GROUP_READING] = offsetof(rival_settings, reading),
+               [GROUP_INPUTS] = offsetof(rival_settings, inputs),
                [GROUP_PICTURE] = offsetof(rival_settings, picture)},
      .operand_place = offsetof(rival_settings, reading.input),
      .output_place = offsetof(rival_settings, output),
@@ -166,7 +171,8 @@ const cli_command command_table[] = {
              "lines to "
              "the field; and what lies outside. INPUT is as in flowgrain run.",
      .work = command_score,
-     .group = {[GROUP_READING] = offsetof(score_settings, reading)},
+     .group = {[GROUP_READING] = offsetof(score_settings, reading),
+               [GROUP_INPUTS] = offsetof(score_settings, inputs)},
      .operand_place = offsetof(score_settings, reading.input),
      .most_numbers = 1},
     {.bit = COMMAND_GALLERY,

@@ -11,8 +11,8 @@
 /* Where a result goes, how fast and how long it is worked at; and files, whose names
  * depend on where one stands: their content is compared. */
 static const char *const no_part[] = {
-    "output", "vars-from", "max-time", "max-steps", "threads", "checkpoint",
-    "resume", "force",     "quiet",    "verbose",   "help",    "version",
+    "output", "vars-from", "max-memory", "max-time", "max-steps", "threads", "checkpoint",
+    "resume", "force",     "quiet",      "verbose",  "help",      "version",
 };
 
 enum { VALUE_BYTES = 1024 };

@@ -19,6 +19,12 @@ typedef struct number_list {
   int count;
 } number_list;
 
+/* How inputs are read. */
+typedef struct input_settings {
+  const char *format;     /* NULL: found from the content */
+  const char *max_memory; /* NULL: the usual */
+} input_settings;
+
 /* A field to be read: INPUT and what is taken of it. */
 typedef struct reading_settings {
   const char *input;
@@ -64,6 +70,7 @@ typedef struct picture_settings {
 } picture_settings;
 
 typedef struct run_settings {
+  input_settings inputs;
   reading_settings reading;
   evolution_settings evolution;
   work_settings work;
@@ -85,15 +92,18 @@ typedef struct run_settings {
 } run_settings;
 
 typedef struct draw_settings {
+  input_settings inputs;
   picture_settings picture;
   const char *folder;           /* DIR, of a finished run */
   const char *output;           /* PICTURE */
   const char *input;            /* where the field is now */
+  fg_map_options map;           /* another one than the run's */
   int scale_index;              /* -1 when not given */
   number_list arrows, clusters; /* the finest scale with at most so many */
 } draw_settings;
 
 typedef struct texture_settings {
+  input_settings inputs;
   reading_settings reading;
   evolution_settings evolution; /* of clusters */
   work_settings work;
@@ -120,6 +130,7 @@ typedef struct brush_settings {
 } brush_settings;
 
 typedef struct info_settings {
+  input_settings inputs;
   const char *file;
   bool json;
 } info_settings;
@@ -130,6 +141,7 @@ typedef struct synth_settings {
 } synth_settings;
 
 typedef struct rival_settings {
+  input_settings inputs;
   reading_settings reading;
   picture_settings picture;
   const char *output;
@@ -145,6 +157,7 @@ typedef struct rival_settings {
 } rival_settings;
 
 typedef struct score_settings {
+  input_settings inputs;
   reading_settings reading;
   char *const *files; /* of icons */
   int file_count;

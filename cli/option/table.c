@@ -10,6 +10,7 @@
 #define EVOLUTION(member) GROUP_EVOLUTION, offsetof(evolution_settings, member)
 #define WORK(member) GROUP_WORK, offsetof(work_settings, member)
 #define PICTURE(member) GROUP_PICTURE, offsetof(picture_settings, member)
+#define INPUT(member) GROUP_INPUTS, offsetof(input_settings, member)
 #define NOWHERE GROUP_OWN, 0
 
 const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
@@ -37,6 +38,7 @@ enum {
   EVERY = COMMAND_RUN | COMMAND_DRAW | COMMAND_INFO | COMMAND_SYNTH | COMMAND_RIVAL |
           COMMAND_TEXTURE | COMMAND_GALLERY | COMMAND_BRUSH | COMMAND_SCORE,
   READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE | COMMAND_SCORE,
+  INPUTS = READERS | COMMAND_INFO | COMMAND_DRAW,
   SEEDED = COMMAND_RUN | COMMAND_TEXTURE | COMMAND_BRUSH,
   PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL,
 };
@@ -120,6 +122,13 @@ const option_entry option_table[] = {
      "surface [0]"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask), 0, 0, false, false, NULL,
      "variable that is zero (or negative, or missing) outside the domain"},
+    {"format", 0, "NAME", INPUTS, OPTION_TEXT, INPUT(format), 0, 0, false, false, NULL,
+     "read INPUT as netcdf, vtk, table or another format by its name [found from the "
+     "content]"},
+    {"max-memory", 0, "SIZE", INPUTS, OPTION_TEXT, INPUT(max_memory), 0, 0, false, false,
+     NULL,
+     "bytes that the samples of a field may take, as 500M or 2G; what declares more is "
+     "refused [three quarters of the machine's]"},
     {"block", 0, "NAME", READERS, OPTION_TEXT, READING(block), 0, 0, false, false, NULL,
      "of a file of several blocks (.vtm), the one of this name or those in it [all "
      "together]"},
@@ -148,6 +157,15 @@ const option_entry option_table[] = {
      NULL,
      "part of the globe to show: west, east, south, north in degrees [all that the field "
      "covers]"},
+
+    {"projection", 0, "MAP", COMMAND_DRAW, OPTION_TEXT, OWN(draw, map.projection), 0, 0,
+     false, false, NULL,
+     "draw on another map, as `flowgrain run` has them; arrows keep their lines on the "
+     "globe [the run's]"},
+    {"center", 0, "LON[,LAT]", COMMAND_DRAW, OPTION_CENTER, OWN(draw, map), 0, 0, false,
+     false, NULL, "middle of another map, degrees"},
+    {"region", 0, "W,E,S,N", COMMAND_DRAW, OPTION_REGION, OWN(draw, map), 0, 0, false,
+     false, NULL, "part of the globe that another map shows, degrees"},
 
     {"kind", 0, "KIND", COMMAND_TEXTURE, OPTION_CHOICE, OWN(texture, kind), 0, 0, false,
      false, kind_words,

@@ -23,6 +23,7 @@ enum {
 typedef enum option_group {
   GROUP_OWN = 0,
   GROUP_READING,
+  GROUP_INPUTS,
   GROUP_EVOLUTION,
   GROUP_WORK,
   GROUP_PICTURE,

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "folder/files.h"
+#include "inputs.h"
 #include "option/recorded.h"
 #include "option/table.h"
 
@@ -104,7 +105,7 @@ run_outcome report_outcome(const char *folder)
 /* Paths of one file may differ; synth:NAME has no path. */
 static bool same_input(const cJSON *input, const char *operand)
 {
-  char *absolute = realpath(operand, NULL);
+  char *absolute = inputs_is_standard(operand) ? NULL : realpath(operand, NULL);
   const char *earlier = text_of(input, "absolute");
   const char *name = text_of(input, "path");
   bool same = absolute && earlier ? strcmp(absolute, earlier) == 0

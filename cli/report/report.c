@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "folder/files.h"
+#include "inputs.h"
 #include "option/recorded.h"
 #include "option/table.h"
 #include "report/communication.h"
@@ -54,7 +55,8 @@ static void add_input(cJSON *root, const run_facts *facts)
   const fg_field_arrays *field = fg_field_contents(facts->field);
   cJSON *input = cJSON_AddObjectToObject(root, "input");
   add_text(input, "path", settings->reading.input);
-  char *absolute = realpath(settings->reading.input, NULL);
+  const bool standard = inputs_is_standard(settings->reading.input);
+  char *absolute = standard ? NULL : realpath(settings->reading.input, NULL);
   add_text(input, "absolute", absolute);
   free(absolute);
   add_text(input, "vars", settings->reading.vars);

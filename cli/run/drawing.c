@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "inputs.h"
 #include "interrupt.h"
 
 struct cli_drawing {
@@ -95,6 +96,7 @@ int drawing_start(cli_drawing **out, const run_settings *settings, const fg_fiel
     complain("out of memory");
     return EXIT_FAILED;
   }
+  inputs_give(drawing->maker.context);
   drawing->maker.settings = settings;
   drawing->maker.field = field;
   drawing->maker.output = output;

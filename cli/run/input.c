@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "build_features.h"
+#include "inputs.h"
 #include "option/table.h"
 #include "option/validation.h"
 #include "ranks.h"
@@ -45,6 +46,7 @@ static void count_choices(cli_run *run)
   fg_inventory *inventory = NULL;
   if (fg_context_create(&context))
     return;
+  inputs_give(context);
   const fg_read_options reading = settings_reading(&run->settings->reading);
   if (!fg_inventory_read_chosen(&inventory, context, run->settings->reading.input,
                                 &reading) &&
@@ -62,8 +64,8 @@ static void say_choice(const char *file, const char *kind, int index, int count,
 {
   char room[CLEAN_BYTES];
   if (count > 1)
-    fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", file, kind, index, count - 1,
-            words ? ": " : "", clean_text(room, words ? words : ""));
+    fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", inputs_name(file), kind,
+            index, count - 1, words ? ": " : "", clean_text(room, words ? words : ""));
 }
 
 static void say_choices(cli_run *run)

@@ -7,6 +7,7 @@
 #include "command/command.h"
 #include "folder/files.h"
 #include "folder/made.h"
+#include "inputs.h"
 #include "interrupt.h"
 #include "ranks.h"
 #include "report/coarsening.h"
@@ -297,6 +298,7 @@ static int run_once(const run_settings *settings)
     complain("out of memory");
     return EXIT_FAILED;
   }
+  inputs_give(run.context);
   int code = ranks_share(run.context);
   interrupt_start(run.context);
   if (!code)

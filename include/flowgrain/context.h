@@ -86,6 +86,21 @@ FG_API void fg_context_clear(fg_context *context);
  * function that may be called from a signal handler or another thread. */
 FG_API void fg_context_stop(fg_context *context);
 
+/* What reading files with a context may use. A zero field means its default, in brackets.
+ */
+typedef struct fg_input_options {
+  const void *bytes; /* what an input called "-" stands for, until the context ends; NULL:
+                        a file's name like any other */
+  size_t size;       /* of these */
+  const char *format; /* the format of fields, as fg_inventory_format says it, in small
+                         letters with dashes; "vtk": either of VTK's [found from the
+                         content] */
+  double most_memory; /* bytes that the samples of a field may take [any number] */
+} fg_input_options;
+
+/* Sets them; what they point to is borrowed. NULL: the defaults. */
+FG_API void fg_context_set_input(fg_context *context, const fg_input_options *options);
+
 /* Ranks: processes that share one evolution. A context has the ranks of the communicator
  * that it was given (mpi.h), and this process alone without one.
  *

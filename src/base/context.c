@@ -17,6 +17,7 @@ struct fg_context {
   char hint[MESSAGE_BYTES];
   bool hint_open; /* the last failure is the one recorded, and has no hint yet */
   atomic_int stop;
+  fg_input_options input;
   void *shared; /* see fg__context_share */
   void (*end_sharing)(void *shared);
 };
@@ -78,6 +79,31 @@ void fg__context_share(fg_context *context, void *shared, void (*end)(void *shar
 void *fg__context_shared(const fg_context *context)
 {
   return context ? context->shared : NULL;
+}
+
+void fg_context_set_input(fg_context *context, const fg_input_options *options)
+{
+  if (context)
+    context->input = options ? *options : (fg_input_options){0};
+}
+
+const fg_input_options *fg__context_input(const fg_context *context)
+{
+  static const fg_input_options none = {0};
+  return context ? &context->input : &none;
+}
+
+fg_status fg__check_memory(fg_context *context, const char *name, double samples,
+                           double bytes)
+{
+  const double most = fg__context_input(context)->most_memory;
+  if (!(most > 0.0) || samples * bytes <= most)
+    return FG_STATUS_OK;
+  fg__fail(context, FG_STATUS_UNSUPPORTED,
+           "%s: a field of %.0f samples takes %.4g MB; %.4g MB may be used", name,
+           samples, samples * bytes / 1e6, most / 1e6);
+  fg__hint(context, "--max-memory SIZE allows more");
+  return FG_STATUS_UNSUPPORTED;
 }
 
 const char *fg_context_message(const fg_context *context)

@@ -30,6 +30,14 @@ void fg__hint(fg_context *context, const char *format, ...)
 void fg__context_share(fg_context *context, void *shared, void (*end)(void *shared));
 void *fg__context_shared(const fg_context *context);
 
+/* What fg_context_set_input has set; of a NULL context the defaults. */
+const fg_input_options *fg__context_input(const fg_context *context);
+
+/* Refuses a field whose samples, so many of so many bytes, take more memory than the
+ * context allows: "NAME: ...". UNSUPPORTED. */
+fg_status fg__check_memory(fg_context *context, const char *name, double samples,
+                           double bytes);
+
 /* FG_STATUS_STOPPED once fg_context_stop was called, else FG_STATUS_OK. */
 fg_status fg__check_stop(fg_context *context);
 

@@ -409,6 +409,13 @@ static fg_status create(fg_field **out, fg_context *context,
                       arrays->size[arrays->dimension - 1]);
   if (status != FG_STATUS_OK)
     return status;
+  double samples = number < 0 ? 1.0 : 1.0 / count;
+  for (int k = 0; k < 3 && k < arrays->dimension; ++k)
+    samples *= arrays->size[k];
+  status = fg__check_memory(context, "field", samples,
+                            arrays->dimension * (double)sizeof(float));
+  if (status != FG_STATUS_OK)
+    return status;
   fg_field *field = fg__allocate(1, sizeof *field);
   if (!field)
     return fg__fail_memory(context, "a field", sizeof *field);

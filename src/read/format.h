@@ -77,10 +77,13 @@ extern const fg__format fg__format_npy;
 extern const fg__format fg__format_npz;
 extern const fg__format fg__format_table; /* any text: the last */
 
-/* Maps a regular file that can be read and is not empty. FILE_ACCESS, FILE_FORMAT
- * (empty). */
+/* Maps a regular file that can be read and is not empty; or gives the context's bytes, as
+ * no file, for "-" (fg_context_set_input). FILE_ACCESS, FILE_FORMAT (empty). */
 fg_status fg__source_open(fg__source *out, fg_context *context, const char *path);
 void fg__source_close(fg__source *source);
+
+/* How an input is called in messages. */
+const char *fg__input_name(const fg_context *context, const char *input);
 
 /* Finds the format of bytes; NULL when no reader knows them. */
 const fg__format *fg__format_find(const unsigned char *bytes, size_t size);

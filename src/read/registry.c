@@ -5,6 +5,7 @@
 #include "read/format.h"
 #include "read/mapped.h"
 
+#include <ctype.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,6 +24,44 @@ const fg__format *fg__format_find(const unsigned char *bytes, size_t size)
   return NULL;
 }
 
+/* A format's name in small letters, with dashes; whether it is `word`, or begins so. */
+static bool is_called(const fg__format *format, const char *word)
+{
+  const char *name = format->name;
+  for (; *word; ++word, ++name) {
+    const int letter = *name == ' ' ? '-' : tolower((unsigned char)*name);
+    if (letter != *word)
+      return false;
+  }
+  return *name == '\0' || *name == ' ';
+}
+
+/* The format that is asked for; of two of a name the one that knows the bytes. */
+static fg_status find_named(const fg__format **out, fg_context *context, const char *word,
+                            const fg__source *source)
+{
+  char known[KNOWN_BYTES] = "";
+  size_t used = 0;
+  *out = NULL;
+  for (size_t i = 0; i < sizeof FORMATS / sizeof *FORMATS; ++i) {
+    if (used < sizeof known)
+      used += (size_t)snprintf(known + used, sizeof known - used, "%s%s",
+                               used ? ", " : "", FORMATS[i]->name);
+    if (is_called(FORMATS[i], word) &&
+        (!*out || FORMATS[i]->is_mine(source->bytes, source->size)))
+      *out = FORMATS[i];
+  }
+  if (*out)
+    return FG_STATUS_OK;
+  for (char *letter = known; *letter; ++letter)
+    *letter =
+        *letter == ' ' && letter[-1] != ',' ? '-' : (char)tolower((unsigned char)*letter);
+  fg__fail(context, FG_STATUS_ARGUMENT, "%s: no format is called \"%.100s\"",
+           source->path, word);
+  fg__hint(context, "formats: %s", known);
+  return FG_STATUS_ARGUMENT;
+}
+
 static void hint_at_known(fg_context *context)
 {
   char known[KNOWN_BYTES] = "";
@@ -37,6 +76,9 @@ static void hint_at_known(fg_context *context)
 static fg_status find_format(const fg__format **out, fg_context *context,
                              const fg__source *source)
 {
+  const char *wanted = fg__context_input(context)->format;
+  if (wanted)
+    return find_named(out, context, wanted, source);
   *out = fg__format_find(source->bytes, source->size);
   if (*out)
     return FG_STATUS_OK;
@@ -85,7 +127,7 @@ static fg_status name_the_file(fg_context *context, fg_status status, const char
   fg_context_clear(context);
   if (status == FG_STATUS_ARGUMENT)
     status = FG_STATUS_FILE_FORMAT;
-  fg__fail(context, status, "%s: %s", input, words);
+  fg__fail(context, status, "%s: %s", fg__input_name(context, input), words);
   if (hint[0])
     fg__hint(context, "%s", hint);
   return status;

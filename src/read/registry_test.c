@@ -219,6 +219,50 @@ static void planes_are_read_from_words(void **state)
                       "synth:vortex: a cut through a field in 2 dimensions; it needs 3");
 }
 
+/* Bytes that a context was given are what "-" stands for, in the format asked for. */
+static void bytes_are_an_input(void **state)
+{
+  place *p = *state;
+  static const char words[] =
+      "<VTKFile type='ImageData'><ImageData WholeExtent='0 2 0 1 0 0'><Piece "
+      "Extent='0 2 0 1 0 0'><PointData><DataArray type='Float64' Name='U' "
+      "NumberOfComponents='2' format='ascii'>1 2 3 4 5 6 7 8 9 10 11 12</DataArray>"
+      "</PointData></Piece></ImageData></VTKFile>";
+  static const struct {
+    fg_input_options input;
+    fg_status status;
+    const char *message;
+  } cases[] = {
+      {{words, sizeof words - 1, NULL, 0.0}, FG_STATUS_OK, ""},
+      {{words, sizeof words - 1, "vtk", 0.0}, FG_STATUS_OK, ""},
+      {{words, sizeof words - 1, "vtk-xml", 48.0}, FG_STATUS_OK, ""},
+      {{words, sizeof words - 1, NULL, 47.0},
+       FG_STATUS_UNSUPPORTED,
+       "standard input: a field of 6 samples takes"},
+      {{words, sizeof words - 1, "netcdf", 0.0},
+       FG_STATUS_FILE_FORMAT,
+       "standard input: "},
+      {{words, sizeof words - 1, "vt", 0.0},
+       FG_STATUS_ARGUMENT,
+       "standard input: no format is called \"vt\""},
+      {{words, 0, NULL, 0.0}, FG_STATUS_FILE_FORMAT, "standard input: is empty"},
+      {{NULL, 0, NULL, 0.0}, FG_STATUS_FILE_ACCESS, "-: No such file"},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+    fg_field *field = NULL;
+    fg_context_clear(p->context);
+    fg_context_set_input(p->context, &cases[k].input);
+    const fg_status status = fg_field_read(&field, p->context, "-", NULL);
+    if (status != cases[k].status ||
+        strncmp(fg_context_message(p->context), cases[k].message,
+                strlen(cases[k].message)) != 0)
+      fail_msg("%zu: %d, %s", k, status, fg_context_message(p->context));
+    if (field)
+      assert_true(fg_field_contents(field)->velocity[1][5] == 12.0f);
+    fg_field_destroy(field);
+  }
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
@@ -231,6 +275,7 @@ int main(void)
       CASE(inventories_own_their_words),
       CASE(analytic_fields_offer_no_choice),
       CASE(planes_are_read_from_words),
+      CASE(bytes_are_an_input),
   };
   return cmocka_run_group_tests_name("read/registry", tests, NULL, NULL);
 }

@@ -29,8 +29,29 @@ static fg_status check_kind(fg_context *context, const char *path,
   return FG_STATUS_OK;
 }
 
+static bool is_given(const fg_context *context, const char *input)
+{
+  return fg__context_input(context)->bytes && strcmp(input, "-") == 0;
+}
+
+const char *fg__input_name(const fg_context *context, const char *input)
+{
+  return is_given(context, input) ? "standard input" : input;
+}
+
+static fg_status open_given(fg__source *out, fg_context *context, const char *name)
+{
+  const fg_input_options *input = fg__context_input(context);
+  *out = (fg__source){.path = name, .bytes = input->bytes, .size = input->size};
+  return input->size > 0
+             ? FG_STATUS_OK
+             : fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: is empty (0 bytes)", name);
+}
+
 fg_status fg__source_open(fg__source *out, fg_context *context, const char *path)
 {
+  if (is_given(context, path))
+    return open_given(out, context, fg__input_name(context, path));
   *out = (fg__source){.path = path};
   /* O_NONBLOCK: opening a pipe that nobody writes to must not wait */
   const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -56,7 +77,7 @@ fg_status fg__source_open(fg__source *out, fg_context *context, const char *path
 
 void fg__source_close(fg__source *source)
 {
-  if (source->bytes)
+  if (source->bytes && source->on_disk)
     munmap((void *)(uintptr_t)source->bytes, source->size);
   source->bytes = NULL;
 }

@@ -169,6 +169,36 @@ expect_code 1
 expect_one_complaint
 expect_error '^`flowgrain run --vars U,V`'
 done_with "info: no vectors"
+
+# standard input, the format that is forced, and a bound of memory
+cells=$root/data/convection_cells.nc
+try info - < "$cells"
+expect_code 0
+sed -n '2,$p' out > given
+try info "$cells"
+sed -n '2,$p' out | cmp -s - given || fault "standard input is another file"
+try rival - -o given.geojson --icons 20 < "$cells"
+expect_code 0
+try rival "$cells" -o named.geojson --icons 20
+cmp -s given.geojson named.geojson || fault "other arrows from standard input"
+try info - < /dev/null
+expect_error "standard input: is empty"
+try info - --format vtk-xml < "$cells"
+expect_error "standard input: line 1: not XML"
+try info "$cells" --format speech
+expect_error "no format is called \"speech\""
+try rival - -o no.geojson --max-memory 100K < "$cells"
+expect_error "standard input: more than 102400 bytes"
+try rival "$cells" -o no.geojson --max-memory 100K
+expect_error "a field of 18721 samples takes 0.14"
+expect_nothing_at no.geojson
+try run - -o piped --arrows 9 --formats svg --quiet < "$cells"
+expect_code 0
+try draw piped -o again.svg
+expect_error "its input was standard input, which is gone"
+try draw piped -o again.svg --input - < "$cells"
+expect_code 0
+done_with "standard input, format and memory"
 try info no-such-file.nc
 expect_code 1
 expect_one_complaint

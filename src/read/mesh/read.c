@@ -37,6 +37,10 @@ static fg_status read_part(float **out, const fg__nc_file *file, const fg__nc_pa
                            size_t time, size_t level)
 {
   fg__nc_missing ignored = {0};
+  fg_status room = fg__check_memory(file->context, file->paths[0],
+                                    (double)part->grid.samples, 2.0 * sizeof **out);
+  if (room != FG_STATUS_OK)
+    return room;
   *out = fg__allocate(part->grid.samples, sizeof **out);
   if (!*out)
     return fg__fail_memory(file->context, "the velocity",

@@ -64,6 +64,11 @@ static fg_status read_component(fg__nc_samples *out, const source *from, int k)
   const fg__rows *rows = from->rows;
   const fg__nc_variable *variable = from->pair->component[k];
   const size_t row = row_size(from->grid), samples = row * (size_t)rows->held;
+  fg_status room =
+      fg__check_memory(from->file->context, from->file->paths[0], (double)samples,
+                       from->grid->dimension * (double)sizeof(float));
+  if (room != FG_STATUS_OK)
+    return room;
   out->velocity[k] = fg__allocate(samples, sizeof *out->velocity[k]);
   if (!out->velocity[k])
     return fg__fail_memory(from->file->context, "the velocity",

@@ -156,6 +156,13 @@ static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,
                        fg__slab_index slab)
 {
   const fg__rows rows = fg__rows_of(&slab, (int)grid->points[grid->dimension - 1], false);
+  fg_status status =
+      fg__check_memory(vtk->context, vtk->path,
+                       (double)fg__vtk_grid_points(grid) /
+                           (double)grid->points[grid->dimension - 1] * rows.held,
+                       grid->dimension * (double)sizeof(float));
+  if (status != FG_STATUS_OK)
+    return status;
   grid->first_row = (size_t)rows.first;
   grid->rows = (size_t)rows.held;
   float *velocity[3] = {NULL, NULL, NULL};
@@ -163,7 +170,7 @@ static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,
   char *time = NULL;
   double normal_share = 0.0;
   const bool plane = grid->dimension == 2 && vector->components == 3 && slab.count == 1;
-  fg_status status = create_axes(axis, vtk, grid);
+  status = create_axes(axis, vtk, grid);
   if (status == FG_STATUS_OK)
     status = read_time(&time, vtk);
   if (status == FG_STATUS_OK)

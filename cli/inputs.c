@@ -1,0 +1,122 @@
+#include "inputs.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "ranks.h"
+
+static fg_input_options given;
+static unsigned char *bytes;
+
+enum { LEAST_ROOM = 1 << 20 };
+
+bool inputs_is_standard(const char *input)
+{
+  return input && strcmp(input, "-") == 0;
+}
+
+const char *inputs_name(const char *input)
+{
+  return inputs_is_standard(input) ? "standard input" : input;
+}
+
+bool inputs_read_size(double *out, const char *text)
+{
+  static const char letters[] = "KMGT";
+  char *end = NULL;
+  *out = strtod(text, &end);
+  if (end == text || !isfinite(*out))
+    return false;
+  const char *letter = *end ? strchr(letters, *end) : NULL;
+  if (letter && *end) {
+    *out *= pow(1024.0, (double)(letter - letters + 1));
+    ++end;
+  }
+  if (*end == 'B')
+    ++end;
+  return *end == '\0' && *out >= 1.0 && *out < 9e18;
+}
+
+/* Three quarters of the machine's. */
+static double usual_memory(void)
+{
+  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+  return pages > 0 && size > 0 ? 0.75 * (double)pages * (double)size : 0.0;
+}
+
+static bool has_room(size_t *room, size_t used)
+{
+  if (used < *room)
+    return true;
+  const size_t more = *room ? *room + *room / 2 : LEAST_ROOM;
+  unsigned char *grown = more > *room ? realloc(bytes, more) : NULL;
+  if (!grown)
+    return false;
+  bytes = grown;
+  *room = more;
+  return true;
+}
+
+static int read_all(void)
+{
+  size_t room = 0, used = 0;
+  for (;;) {
+    if (!has_room(&room, used))
+      return complain_of_memory("standard input");
+    const ssize_t got = read(STDIN_FILENO, bytes + used, room - used);
+    if (got == 0)
+      break;
+    if (got < 0 && errno != EINTR)
+      return complain_of_file("standard input", "cannot be read");
+    used += got > 0 ? (size_t)got : 0;
+    if (given.most_memory > 0.0 && (double)used > given.most_memory) {
+      complain("standard input: more than %.0f bytes", given.most_memory);
+      advise("--max-memory SIZE allows more.");
+      return EXIT_FAILED;
+    }
+  }
+  given.bytes = bytes;
+  given.size = used;
+  return EXIT_DONE;
+}
+
+static int read_standard_input(void)
+{
+  if (ranks_count() > 1) {
+    complain("standard input: cannot be an input of several processes");
+    advise("Name a file, which each of them reads.");
+    return EXIT_FAILED;
+  }
+  if (isatty(STDIN_FILENO)) {
+    complain("standard input: is a terminal");
+    advise("Say which file, as in: flowgrain info - <FILE");
+    return EXIT_FAILED;
+  }
+  return read_all();
+}
+
+int inputs_prepare(const input_settings *settings, const char *const *inputs, int count)
+{
+  given = (fg_input_options){.format = settings->format, .most_memory = usual_memory()};
+  if (settings->max_memory)
+    inputs_read_size(&given.most_memory, settings->max_memory);
+  for (int k = 0; k < count; ++k)
+    if (inputs_is_standard(inputs[k]))
+      return read_standard_input();
+  return EXIT_DONE;
+}
+
+void inputs_give(fg_context *context)
+{
+  fg_context_set_input(context, &given);
+}
+
+const unsigned char *inputs_bytes(size_t *size)
+{
+  *size = given.size;
+  return given.bytes;
+}
