@@ -399,6 +399,7 @@ static void make_gribs(void)
   make_grib("grib/seed-rotated.grb", "rotated_ll_pl_grib2", "grid_simple", false);
   make_grib("grib/seed-plane.grb", "polar_stereographic_pl_grib1", "grid_simple", false);
   make_damaged_grib("grib/fault-edition.grb", "grib/seed-simple.grb", 7, 3);
+  make_damaged_grib("grib/fault-unit-of-time.grb", "grib/seed-bitmap.grb", 8 + 17, 200);
   make_damaged_grib("grib/fault-end.grb", "grib/seed-simple.grb", -1, '8');
   make_damaged_grib("grib/fault-points.grb", "grib/seed-simple.grb", 16 + 21 + 6, 255);
 }
