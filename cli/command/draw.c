@@ -119,6 +119,29 @@ static int read_icons(fg_icons **out, fg_context *context, const draw_settings *
   return status ? complain_of(context, status, settings->folder) : EXIT_DONE;
 }
 
+static bool is_on_another_map(const draw_settings *settings)
+{
+  return settings->map.projection || settings->map.has_center || settings->map.has_region;
+}
+
+/* Of a density: it is of the run's own map. */
+static int check_map(const draw_settings *settings)
+{
+  const given_option of_density[] = {
+      {"tint", settings->picture.tint && is_on_another_map(settings)},
+      {"background",
+       background_needs_density(&settings->picture) && is_on_another_map(settings)},
+  };
+  return refuse_given("draw", of_density, 2, "not on another map than the run's");
+}
+
+static int project_icons(fg_icons **icons, fg_context *context,
+                         const draw_settings *settings, const fg_field *field)
+{
+  fg_status status = fg_icons_project(icons, context, field);
+  return status ? complain_of(context, status, settings->folder) : EXIT_DONE;
+}
+
 static int read_field(fg_field **out, fg_context *context, const draw_settings *settings,
                       const cli_report *report)
 {
@@ -131,13 +154,16 @@ static int read_field(fg_field **out, fg_context *context, const draw_settings *
   if (!settings->input && report->input_absolute &&
       access(report->input_absolute, R_OK) == 0)
     input = report->input_absolute;
-  if (check_is_no_input(settings->output, &input, 1) ||
-      sandbox_reading(input, &report->reading))
+  fg_read_options reading = report->reading;
+  if (is_on_another_map(settings))
+    reading.map = &settings->map;
+  if (check_is_no_input(settings->output, &input, 1) || sandbox_reading(input, &reading))
     return EXIT_FAILED;
-  fg_status status = fg_field_read(out, context, input, &report->reading);
+  fg_status status = fg_field_read(out, context, input, &reading);
   if (!status)
     say_infinite(input, *out);
-  if (!status && !report_is_of_field(report, settings->folder, input, *out)) {
+  if (!status && !is_on_another_map(settings) &&
+      !report_is_of_field(report, settings->folder, input, *out)) {
     fputs("Icons are drawn on the field that they were made of.\n", stderr);
     return EXIT_FAILED;
   }
@@ -276,6 +302,8 @@ int command_draw(const void *given)
     code = report_read(&report, settings->folder);
   if (!code)
     code = check_dimension(settings, report.dimension);
+  if (!code)
+    code = check_map(settings);
   if (code)
     goto cleanup;
   int index = choose_scale(settings, &report);
@@ -287,6 +315,8 @@ int command_draw(const void *given)
   code = read_icons(&icons, context, settings, &report, index);
   if (!code)
     code = read_field(&field, context, settings, &report);
+  if (!code)
+    code = project_icons(&icons, context, settings, field);
   if (!code)
     code = read_density(&density, context, settings, &report, index, field);
   if (!code)

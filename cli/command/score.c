@@ -29,6 +29,8 @@ static int score_file(score_work *work, int number)
   fg_icons *icons = NULL;
   fg_status status = fg_icons_read(&icons, work->context, path);
   if (!status)
+    status = fg_icons_project(&icons, work->context, work->field);
+  if (!status)
     status = fg_icons_score(&work->scores[number], work->context, work->field, icons,
                             &options);
   fg_icons_destroy(icons);

@@ -97,6 +97,7 @@ typedef struct draw_settings {
   const char *folder;           /* DIR, of a finished run */
   const char *output;           /* PICTURE */
   const char *input;            /* where the field is now */
+  fg_map_options map;           /* another one than the run's */
   int scale_index;              /* -1 when not given */
   number_list arrows, clusters; /* the finest scale with at most so many */
 } draw_settings;

@@ -158,6 +158,15 @@ const option_entry option_table[] = {
      "part of the globe to show: west, east, south, north in degrees [all that the field "
      "covers]"},
 
+    {"projection", 0, "MAP", COMMAND_DRAW, OPTION_TEXT, OWN(draw, map.projection), 0, 0,
+     false, false, NULL,
+     "draw on another map, as `flowgrain run` has them; arrows keep their lines on the "
+     "globe [the run's]"},
+    {"center", 0, "LON[,LAT]", COMMAND_DRAW, OPTION_CENTER, OWN(draw, map), 0, 0, false,
+     false, NULL, "middle of another map, degrees"},
+    {"region", 0, "W,E,S,N", COMMAND_DRAW, OPTION_REGION, OWN(draw, map), 0, 0, false,
+     false, NULL, "part of the globe that another map shows, degrees"},
+
     {"kind", 0, "KIND", COMMAND_TEXTURE, OPTION_CHOICE, OWN(texture, kind), 0, 0, false,
      false, kind_words,
      "kind of texture: `lic` (line integral convolution), `spots` (spot noise, which "

@@ -140,7 +140,7 @@ FG_API fg_status fg_plane_parse(fg_plane *out, fg_context *context, const char *
 FG_API double fg_field_normal_share(const fg_field *field);
 
 /* The speeds between which a whole field lies but for the slowest and the fastest
- * hundredth of its area (volume): what the ends of a colour key for several fields are
+ * twentieth of its area (volume): what the ends of a colour key for several fields are
  * found from. Input units. ARGUMENT (a slab), MEMORY. */
 FG_API fg_status fg_field_speed_range(double range[2], fg_context *context,
                                       const fg_field *field);

@@ -65,6 +65,10 @@ FG_API const fg_icon *fg_icons_at(const fg_icons *icons, int index);
 FG_API int fg_icons_clusters(const fg_icons *icons); /* clusters, drawn or dropped */
 FG_API int fg_icons_dropped(const fg_icons *icons);
 
+/* The plane that the icons' coordinates are of: a PROJ string (fg_field_arrays), degrees
+ * as "+proj=longlat"; NULL: of no map. */
+FG_API const char *fg_icons_projection(const fg_icons *icons);
+
 /* Least and largest speed, the ends of a colour key. Of 8 icons or more, one that is far
  * out does not count, so that it leaves the others their colours: faster than the upper
  * quartile by more than 3 times the distance between the quartiles (Tukey 1977). Without
@@ -75,8 +79,11 @@ FG_API void fg_icons_speed_range(double range[2], const fg_icons *icons);
  * allocated with malloc: free it. MEMORY. */
 FG_API fg_status fg_icon_outline(const fg_icon *icon, double (**vertices)[2], int *count);
 
-/* Writes icons as GeoJSON (a LineString each, coordinates of the input), or reads them
- * back. FILE_ACCESS, FILE_FORMAT, MEMORY. */
+/* Writes icons as GeoJSON (RFC 7946), or reads them back, bit for bit. Icons of a map or
+ * of a longitude-latitude grid are lines in longitude and latitude within 180 degrees,
+ * cut at the antimeridian, with the plane's coordinates as a property; their areas are
+ * those on the globe. Others are LineStrings in the input's coordinates. FILE_ACCESS,
+ * FILE_FORMAT, MEMORY. */
 FG_API fg_status fg_icons_write(fg_context *context, const char *path,
                                 const fg_icons *icons);
 FG_API fg_status fg_icons_read(fg_icons **out, fg_context *context, const char *path);

@@ -37,6 +37,15 @@ struct fg_map_options {
 FG_API fg_status fg_field_project(fg_field **out, fg_context *context,
                                   const fg_field *field, const fg_map_options *options);
 
+/* Takes icons to the plane of a field: they become others where that is not theirs. Icons
+ * of no known plane are taken for longitudes and latitudes where the field is on a map;
+ * a field of no map leaves all as they are. Widths change by the root of the areas'
+ * scales; of a line across the new map's cut the longer part stays, and an icon without
+ * an image goes. ARGUMENT (a projection that is none), UNSUPPORTED (a build without
+ * maps), MEMORY. */
+FG_API fg_status fg_icons_project(fg_icons **icons, fg_context *context,
+                                  const fg_field *field);
+
 #ifdef __cplusplus
 }
 #endif

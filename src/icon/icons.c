@@ -16,7 +16,8 @@ struct fg_icons {
   entry **entries;
   size_t count, capacity;
   int clusters, dropped;
-  int next_id; /* 0: they were not placed */
+  int next_id;      /* 0: they were not placed */
+  char *projection; /* NULL: of no map */
   bool has_score;
   fg_score score;
 };
@@ -36,6 +37,7 @@ void fg_icons_destroy(fg_icons *icons)
   for (size_t i = 0; i < icons->count; i++)
     free(icons->entries[i]);
   free(icons->entries);
+  free(icons->projection);
   free(icons);
 }
 
@@ -72,6 +74,30 @@ fg_status fg__icons_add(fg_icons *icons, fg_context *context, const fg_icon *ico
       add_line(added, &used, icon->streamline, icon->streamline_count);
   icons->entries[icons->count++] = added;
   return FG_STATUS_OK;
+}
+
+fg_status fg__icons_set_projection(fg_icons *icons, fg_context *context,
+                                   const char *projection)
+{
+  char *copy = fg__copy_text(projection);
+  if (projection && !copy)
+    return fg__fail_memory(context, "a projection", strlen(projection) + 1);
+  free(icons->projection);
+  icons->projection = copy;
+  return FG_STATUS_OK;
+}
+
+const char *fg__icons_plane_of(const fg_field *field)
+{
+  const fg_field_arrays *arrays = fg_field_contents(field);
+  if (arrays->dimension == 2 && arrays->scale == FG_SCALE_GEO)
+    return FG__DEGREES;
+  return arrays->dimension == 2 ? arrays->projection : NULL;
+}
+
+const char *fg_icons_projection(const fg_icons *icons)
+{
+  return icons ? icons->projection : NULL;
 }
 
 void fg__icons_set_clusters(fg_icons *icons, int clusters, int dropped)

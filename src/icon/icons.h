@@ -10,6 +10,16 @@ fg_status fg__icons_create_empty(fg_icons **out, fg_context *context);
 /* Adds a copy of an icon, its points included. MEMORY. */
 fg_status fg__icons_add(fg_icons *icons, fg_context *context, const fg_icon *icon);
 
+/* Of icons in degrees. */
+#define FG__DEGREES "+proj=longlat"
+
+/* Says which plane the icons are of: a PROJ string or NULL. MEMORY. */
+fg_status fg__icons_set_projection(fg_icons *icons, fg_context *context,
+                                   const char *projection);
+
+/* The plane of a field, as icons have it; NULL: none. */
+const char *fg__icons_plane_of(const fg_field *field);
+
 /* Says how many clusters there were, and how many of them gave no icon. */
 void fg__icons_set_clusters(fg_icons *icons, int clusters, int dropped);
 

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "cluster/patches.h"
 #include "grid/field_slabs.h"
+#include "icon/icons.h"
 #include "icon/icons_make.h"
 
 /* Patches that a rank holds at a time have this share of its part of the grid, but for
@@ -293,6 +294,8 @@ static fg_status create(fg_icons **out, fg_context *context, const fg_field *fie
     status = bring_together(&s, context);
   if (!status && s.ranks->rank == 0)
     status = fg__icons_collect(out, context, s.icon, s.labels.count);
+  if (status == FG_STATUS_OK && *out)
+    status = fg__icons_set_projection(*out, context, fg__icons_plane_of(field));
   status = fg__ranks_agree(s.ranks, context, status);
   if (status) {
     fg_icons_destroy(*out);

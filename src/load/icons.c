@@ -11,6 +11,11 @@ static fg_status fill(fg_icons *icons, fg_context *context, const fg__icon_list 
   }
   fg__icons_set_clusters(icons, list->clusters, list->dropped);
   fg__icons_set_next_id(icons, list->next_id);
+  if (list->projection) {
+    fg_status status = fg__icons_set_projection(icons, context, list->projection);
+    if (status != FG_STATUS_OK)
+      return status;
+  }
   if (list->scored)
     fg_icons_keep_score(icons, &list->score);
   return FG_STATUS_OK;

@@ -270,6 +270,13 @@ fg_status fg__map_choose(char out[FG__MAP_STRING_BYTES], fg_context *context,
   fg_status status = read_asked(&words, context, options, area);
   if (status != FG_STATUS_OK)
     return status;
+  if (fg__map_words_are_degrees(&words)) {
+    status = fg__fail(context, FG_STATUS_ARGUMENT,
+                      "projection \"%.200s\": degrees, and no plane",
+                      options->projection ? options->projection : "");
+    fg__hint(context, "--projection none leaves longitude and latitude as they are");
+    return status;
+  }
   fg__map_words_drop(&words, "to_meter");
   if (fg__map_words_set(&words, "units", "km") && fg__map_words_write(out, &words))
     return FG_STATUS_OK;

@@ -29,7 +29,8 @@ struct fg__map {
   double unit;
   double center[2];
   double radius, flatness; /* a in metres and e squared of the ellipsoid */
-  bool angular;            /* the plane's coordinates are angles */
+  bool degrees; /* the plane's coordinates are longitude and latitude, in any turn */
+  bool angular; /* the plane's coordinates are angles */
   bool is_world;
   fg__map_kind kind;
 };
@@ -108,6 +109,12 @@ void fg__map_forward(const fg__map *map, size_t n, const double *longitude,
   }
 }
 
+/* A longitude within half a turn of the centre. */
+static double turned(const fg__map *map, double longitude)
+{
+  return longitude - 360.0 * nearbyint((longitude - map->center[0]) / 360.0);
+}
+
 static void inverse(const fg__map *map, double x, double y, double out[2])
 {
   const double factor = map->angular ? DEGREE : 1.0;
@@ -115,10 +122,15 @@ static void inverse(const fg__map *map, double x, double y, double out[2])
   PJ_COORD to = transform(map, PJ_INV, x * factor, y * factor);
   double longitude = to.xy.x / DEGREE, latitude = to.xy.y / DEGREE, back[2];
   out[0] = out[1] = (double)NAN;
+  if (map->degrees && fabs(x) <= 1e4 && fabs(y) <= 90.0 + slack) {
+    out[0] = turned(map, x);
+    out[1] = fmin(fmax(y, -90.0), 90.0);
+    return;
+  }
   if (!(fabs(latitude) <= 90.0 + slack))
     return;
   if (fabs(longitude - map->center[0]) > 180.0 + slack)
-    longitude -= 360.0 * nearbyint((longitude - map->center[0]) / 360.0);
+    longitude = turned(map, longitude);
   forward(map, longitude, latitude, back);
   if (!(hypot(back[0] - x, back[1] - y) * map->unit <= ROUND_TRIP))
     return;
@@ -323,19 +335,6 @@ static bool has_image(const fg__map *map)
   return found && map->radius > 0.0 && isfinite(map->radius);
 }
 
-/* Degrees, or those about a pole of its own. */
-static bool is_angular(const fg__map_words *words)
-{
-  static const char *const names[] = {"longlat", "latlong", "lonlat", "latlon"};
-  const char *name = fg__map_words_find(words, "proj");
-  if (strcmp(name, "ob_tran") == 0)
-    name = fg__map_words_find(words, "o_proj");
-  for (size_t k = 0; name && k < sizeof names / sizeof *names; ++k)
-    if (strcmp(name, names[k]) == 0)
-      return true;
-  return false;
-}
-
 static fg_status open_map(fg__map *map, fg_context *context, const fg__map_words *words,
                           const char *given)
 {
@@ -351,7 +350,9 @@ static fg_status open_map(fg__map *map, fg_context *context, const fg__map_words
   if (!map->over || !proj_pj_info(map->over).has_inverse ||
       !proj_angular_input(map->over, PJ_FWD))
     return fail(map, context, given);
-  map->angular = is_angular(words);
+  map->angular = fg__map_words_are_degrees(words);
+  map->degrees =
+      map->angular && strcmp(fg__map_words_find(words, "proj"), "ob_tran") != 0;
   find_center(map, words);
   find_ellipsoid(map);
   if (!has_image(map))

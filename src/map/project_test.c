@@ -299,6 +299,7 @@ static void what_no_map_can_show_is_refused(void **state)
       {{.projection = "equal earth"}, "not a name"},
       {{.projection = "none"}, "a projection"},
       {{.projection = "EPSG:4326"}, "no plane"},
+      {{.projection = "+proj=longlat"}, "no plane"},
       {{.projection = "EPSG:999999"}, "no projected system"},
       {{.projection = "EPSG:3e5"}, "a number"},
       {{.projection = "+proj=laea", .has_center = true}, "centre of its own"},

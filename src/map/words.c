@@ -182,3 +182,15 @@ fg_status fg__map_words_read(fg__map_words *out, fg_context *context, const char
     status = refuse(context, string, "it has no +proj=NAME");
   return status;
 }
+
+bool fg__map_words_are_degrees(const fg__map_words *words)
+{
+  static const char *const names[] = {"longlat", "latlong", "lonlat", "latlon"};
+  const char *name = fg__map_words_find(words, "proj");
+  if (strcmp(name, "ob_tran") == 0)
+    name = fg__map_words_find(words, "o_proj");
+  for (size_t k = 0; name && k < sizeof names / sizeof *names; ++k)
+    if (strcmp(name, names[k]) == 0)
+      return true;
+  return false;
+}

@@ -28,6 +28,10 @@ const char *fg__map_words_find(const fg__map_words *words, const char *key);
 void fg__map_words_drop(fg__map_words *words, const char *key);
 bool fg__map_words_set(fg__map_words *words, const char *key, const char *value);
 
+/* Whether the plane's coordinates are degrees, of the globe or about a pole of their own.
+ */
+bool fg__map_words_are_degrees(const fg__map_words *words);
+
 /* "+proj=laea +lat_0=90". False: it does not fit. */
 bool fg__map_words_write(char out[FG__MAP_STRING_BYTES], const fg__map_words *words);
 

@@ -95,6 +95,9 @@ fg_status fg_placement_icons(fg_icons **out, const fg_placement *placement)
   fg_status status = fg__place_find_shares(read, context, search);
   if (status == FG_STATUS_OK)
     status = fg__icons_create_empty(&icons, context);
+  if (status == FG_STATUS_OK)
+    status = fg__icons_set_projection(icons, context,
+                                      fg__icons_plane_of(fg__placement_field(placement)));
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
     status = add_icon(icons, context, search, n, &read[n]);
   free(read);

@@ -18,7 +18,8 @@ enum { LARGEST_FILE = 256 << 20 };
 typedef struct reading {
   fg_context *context;
   const char *path;
-  int feature; /* the one being read, from 0; -1: none */
+  int feature;                 /* the one being read, from 0; -1: none */
+  bool has_projection, on_map; /* of the file; on_map: not degrees */
 } reading;
 
 static fg_status fail(const reading *at, const char *what)
@@ -58,11 +59,41 @@ static fg_status read_position(double out[3], const reading *at, const cJSON *po
   return FG_STATUS_OK;
 }
 
+/* A property of the plane, where the file tells which plane that is. */
+static const cJSON *plane_of(const reading *at, const cJSON *feature, const char *name)
+{
+  const cJSON *properties = cJSON_GetObjectItemCaseSensitive(feature, "properties");
+  return at->has_projection ? cJSON_GetObjectItemCaseSensitive(properties, name) : NULL;
+}
+
 /* *points is allocated; end it with free. */
+static fg_status read_positions(double (**points)[3], int *count, const reading *at,
+                                const cJSON *positions, const char *member)
+{
+  *count = cJSON_IsArray(positions) ? cJSON_GetArraySize(positions) : 0;
+  if (*count < 2)
+    return fail_member(at, member, "an array of at least 2 positions");
+  *points = fg__allocate((size_t)*count, sizeof **points);
+  if (!*points)
+    return fg__fail_memory(at->context, "an icon's points",
+                           (size_t)*count * sizeof **points);
+  const cJSON *position = positions->child;
+  for (int i = 0; i < *count; ++i, position = position->next) {
+    fg_status status = read_position((*points)[i], at, position, member);
+    if (status != FG_STATUS_OK)
+      return status;
+  }
+  return FG_STATUS_OK;
+}
+
+/* The plane's coordinates where the file tells its projection, else the geometry's. */
 static fg_status read_line(double (**points)[3], int *count, const reading *at,
                            const cJSON *feature)
 {
   const cJSON *geometry = cJSON_GetObjectItemCaseSensitive(feature, "geometry");
+  const cJSON *plane = plane_of(at, feature, "plane");
+  if (plane)
+    return read_positions(points, count, at, plane, "plane");
   if (!has_type(geometry, "LineString")) {
     const fg_status status = fail_member(at, "geometry", "a LineString");
     if (has_type(geometry, "MultiLineString"))
@@ -71,21 +102,11 @@ static fg_status read_line(double (**points)[3], int *count, const reading *at,
                "-explodecollections makes them so");
     return status;
   }
-  const cJSON *positions = cJSON_GetObjectItemCaseSensitive(geometry, "coordinates");
-  *count = cJSON_IsArray(positions) ? cJSON_GetArraySize(positions) : 0;
-  if (*count < 2)
-    return fail_member(at, "coordinates", "an array of at least 2 positions");
-  *points = fg__allocate((size_t)*count, sizeof **points);
-  if (!*points)
-    return fg__fail_memory(at->context, "an icon's points",
-                           (size_t)*count * sizeof **points);
-  const cJSON *position = positions->child;
-  for (int i = 0; i < *count; ++i, position = position->next) {
-    fg_status status = read_position((*points)[i], at, position, "coordinates");
-    if (status != FG_STATUS_OK)
-      return status;
-  }
-  return FG_STATUS_OK;
+  if (at->on_map)
+    return fail_member(at, "plane", "there, and the file's projection says it is");
+  return read_positions(points, count, at,
+                        cJSON_GetObjectItemCaseSensitive(geometry, "coordinates"),
+                        "coordinates");
 }
 
 /* A number that may be left out, then *out stays as it is. */
@@ -186,7 +207,11 @@ static fg_status read_properties(fg_icon *icon, const reading *at, const cJSON *
       status = read_number(numbers[i].number, at, properties, numbers[i].member);
   if (status == FG_STATUS_OK)
     status = read_kind(&icon->kind, at, properties);
-  const cJSON *center = cJSON_GetObjectItemCaseSensitive(properties, "center");
+  if (status == FG_STATUS_OK && plane_of(at, feature, "plane_area"))
+    status = read_number(&icon->area, at, properties, "plane_area");
+  const cJSON *center = plane_of(at, feature, "plane_center");
+  if (!center && !plane_of(at, feature, "plane"))
+    center = cJSON_GetObjectItemCaseSensitive(properties, "center");
   if (status == FG_STATUS_OK && center)
     status = read_position(icon->center, at, center, "center");
   if (status == FG_STATUS_OK)
@@ -269,11 +294,31 @@ static fg_status read_error(fg__icon_list *list, const reading *at, const cJSON 
   return status;
 }
 
+static fg_status read_projection(fg__icon_list *list, reading *at, const cJSON *root)
+{
+  enum { LONGEST = 1000 };
+  const cJSON *item = cJSON_GetObjectItemCaseSensitive(root, "projection");
+  const char *projection = cJSON_GetStringValue(item);
+  if (!item)
+    return FG_STATUS_OK;
+  if (!projection || strlen(projection) > LONGEST)
+    return fail(at, "\"projection\" is not a PROJ string");
+  list->projection = fg__copy_text(projection);
+  if (!list->projection)
+    return fg__fail_memory(at->context, "a projection", strlen(projection) + 1);
+  at->has_projection = true;
+  at->on_map = strcmp(projection, "+proj=longlat") != 0;
+  return FG_STATUS_OK;
+}
+
 static fg_status read_collection(fg__icon_list *list, reading *at, const cJSON *root)
 {
   const cJSON *features = cJSON_GetObjectItemCaseSensitive(root, "features");
   if (!has_type(root, "FeatureCollection") || !cJSON_IsArray(features))
     return fail(at, "JSON, but no GeoJSON FeatureCollection");
+  fg_status projected = read_projection(list, at, root);
+  if (projected != FG_STATUS_OK)
+    return projected;
   const cJSON *feature;
   cJSON_ArrayForEach(feature, features)
   {
@@ -336,5 +381,6 @@ void fg__icon_list_clear(fg__icon_list *list)
   for (size_t n = 0; n < list->count; ++n)
     free((void *)(uintptr_t)list->icon[n].points);
   free(list->icon);
+  free(list->projection);
   *list = (fg__icon_list){0};
 }

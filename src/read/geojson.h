@@ -9,7 +9,8 @@ typedef struct fg__icon_list {
   fg_icon *icon; /* owned, as the points of each are */
   size_t count, capacity;
   int clusters, dropped, next_id;
-  bool scored; /* the file tells the error of its icons: */
+  char *projection; /* of the plane that the points are of, owned; NULL: not told */
+  bool scored;      /* the file tells the error of its icons: */
   fg_score score;
 } fg__icon_list;
 

@@ -179,6 +179,9 @@ fg_status fg_rival_icons(fg_icons **out, fg_rival *rival, int count)
   fg_status status = check_count(rival, count);
   if (status == FG_STATUS_OK)
     status = fg__icons_create_empty(&icons, rival->context);
+  if (status == FG_STATUS_OK)
+    status = fg__icons_set_projection(icons, rival->context,
+                                      fg__icons_plane_of(rival->domain.field));
   if (status == FG_STATUS_OK && methods[rival->options.method].draw)
     status = methods[rival->options.method].draw(icons, rival, count);
   else if (status == FG_STATUS_OK)

@@ -61,7 +61,7 @@ static fg_status set_points(fg__sphere *sphere, fg_context *context,
     status = fg__sphere_set(sphere, context, n, &at, there ? cells->east[n] : NAN,
                             cells->north[n]);
     if (!there)
-      sphere->position[3 * n] = NAN;
+      sphere->position[3 * n] = (double)NAN;
   }
   return status;
 }

@@ -49,7 +49,7 @@ static void add_longitude(cover *sum, double longitude, double reach)
  * times they go round the pole: 0, 1 or -1. */
 static int unwrap(cell_shape *shape, double *low, double *high)
 {
-  double first = NAN, last = NAN, round = 0.0;
+  double first = (double)NAN, last = (double)NAN, round = 0.0;
   for (int k = 0; k <= shape->corners; ++k) {
     const double longitude = shape->longitude[k % shape->corners];
     if (fabs(shape->latitude[k % shape->corners]) > 90.0 - 1e-9)

@@ -231,7 +231,9 @@ done_with "a run on its own needs no folder for temporary files"
 try run "$root/data/gfs_20140131.nc" -o gfs --projection none --nodes 129 --clusters 40 --quiet
 expect_code 0
 expect_json gfs/run.json '.field.scale == "geo" and .field.period[0] == 360 and .field.velocity == ["u10", "v10"]'
-expect_json gfs/scale-00.geojson '[.features[].geometry.coordinates[] | .[1] >= -90 and .[1] <= 90] | all'
+expect_json gfs/scale-00.geojson '.projection == "+proj=longlat" and ([.features[].geometry
+  | if .type == "LineString" then .coordinates[] else .coordinates[][] end
+  | (.[0] | fabs) <= 180 and (.[1] | fabs) <= 90] | all)'
 expect_json gfs/run.json '.mass_drift >= 0 and .mass_drift < 1e-7'
 done_with "a global wind field, periodic in longitude"
 

@@ -196,11 +196,28 @@ static int64_t minutes_at(long date, long clock)
          clock % 100;
 }
 
+/* ecCodes divides by the length of a unit of time, and by zero where it knows none. */
+static fg_status check_unit(const fg__grib_file *file, const fg__grib_field *field)
+{
+  size_t size;
+  const unsigned char *at = fg__grib_section(field, field->edition == 1 ? 1 : 4, &size);
+  if (field->edition == 2 && (size < 22 || fg__grib_number(at + 7, 2) > 15))
+    return FG_STATUS_OK;
+  const unsigned unit = at[17];
+  if (unit <= 3 || (unit >= 10 && unit <= 14) || unit == 254)
+    return FG_STATUS_OK;
+  return fg__fail(file->context, FG_STATUS_UNSUPPORTED,
+                  "%s: message %zu counts time in units of a kind that is not known, %u",
+                  file->path[field->file], field->number, unit);
+}
+
 static fg_status ask(telling *t, const fg__grib_file *file, const fg__grib_field *field)
 {
   memset(t, 0, sizeof *t);
   t->field = field;
-  fg_status status = fg__grib_guard(file, field, MOST_BYTES + field->size, tell, t);
+  fg_status status = check_unit(file, field);
+  if (status == FG_STATUS_OK)
+    status = fg__grib_guard(file, field, MOST_BYTES + field->size, tell, t);
   if (status == FG_STATUS_OK && t->error)
     return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
                     "%s: message %zu does not say what it is of: %s",

@@ -214,6 +214,9 @@ typedef struct fg__grib_projection {
 void fg__grib_forward(const fg__grib_projection *projection, double longitude,
                       double latitude, double *x, double *y);
 
+/* png.c: whether an image is whole, one that libpng unpacks without complaint. */
+bool fg__grib_is_png(const unsigned char *png, size_t size);
+
 /* values.c: fills out[points] in the order of the axes, x fastest; REDUCED: in that of
  * the file. NAN: missing. FILE_FORMAT, UNSUPPORTED, MEMORY. */
 fg_status fg__grib_values(float *out, const fg__grib_file *file,

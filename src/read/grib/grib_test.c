@@ -241,6 +241,126 @@ static void projected_grids(void **state)
   }
 }
 
+/* A file of `count` bytes of another. */
+static void cut_file(const grib_file *f, size_t count)
+{
+  char bytes[1 << 16];
+  FILE *stream = fopen(f->path, "rb");
+  assert_in_range(fread(bytes, 1, sizeof bytes, stream), count, sizeof bytes - 1);
+  fclose(stream);
+  stream = fopen(f->path, "wb");
+  assert_int_equal(fwrite(bytes, 1, count, stream), count);
+  fclose(stream);
+}
+
+/* Two levels at two times, of which one level is there once; and another parameter. */
+static void times_and_levels(void **state)
+{
+  grib_file *f = *state;
+  static const char *const places[] = {"dataDate=20140201,level=500",
+                                       "dataDate=20140131,level=500",
+                                       "dataDate=20140201,level=300"};
+  for (int k = 0; k < 3; ++k) {
+    char u[128], v[128];
+    snprintf(u, sizeof u, "%s,%s", WIND_U, places[k]);
+    snprintf(v, sizeof v, "%s,%s", WIND_V, places[k]);
+    grib_add(f, "regular_ll_pl_grib2", "dataTime=600", 0, "bitsPerValue=16", u, v, NULL);
+  }
+  grib_add(f, "regular_ll_sfc_grib2", "", 0, "bitsPerValue=16",
+           "typeOfLevel=heightAboveGround,level=10,parameterCategory=2,parameterNumber=2",
+           "typeOfLevel=heightAboveGround,level=10,parameterCategory=2,parameterNumber=3",
+           NULL);
+  fg_inventory *inventory = NULL;
+  assert_int_equal(fg_inventory_read(&inventory, f->context, f->path), FG_STATUS_OK);
+  assert_int_equal(fg_inventory_vector_count(inventory), 2);
+  const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, 0);
+  assert_string_equal(vector->name[0], "u");
+  assert_int_equal(vector->times, 2);
+  assert_int_equal(vector->levels, 2);
+  assert_string_equal(vector->time_value[0].words, "2014-01-31 06:00");
+  assert_string_equal(vector->level_value[1].words, "500 hPa");
+  assert_string_equal(fg_inventory_vector_at(inventory, 1)->name[0], "10u");
+  fg_inventory_destroy(inventory);
+  grib_refuse(f, NULL, FG_STATUS_ARGUMENT, "u,v; 10u,10v");
+  grib_refuse(f, &(fg_read_options){.vars = "u,v"}, FG_STATUS_ARGUMENT,
+              "at time 0 (2014-01-31 06:00) and level 0 (300 hPa)");
+  grib_refuse(f, &(fg_read_options){.vars = "u,w"}, FG_STATUS_ARGUMENT, "'u,w'");
+  fg_field *field = grib_read(f, &(fg_read_options){.vars = "u,v", .time = 1});
+  assert_string_equal(fg_field_contents(field)->level, "300 hPa");
+  assert_string_equal(fg_field_contents(field)->time, "2014-02-01 06:00");
+  fg_field_destroy(field);
+  field = grib_read(f, &(fg_read_options){.vars = "u10,v10"});
+  assert_string_equal(fg_field_contents(field)->velocity_name[0], "10u");
+  assert_string_equal(fg_field_contents(field)->velocity_units, "m/s");
+  fg_field_destroy(field);
+}
+
+/* Both components in one message; and without its last bytes, or those between. */
+static void a_message_of_two_fields(void **state)
+{
+  grib_file *f = *state;
+  unsigned char bytes[1 << 15];
+  grib_add(f, "regular_ll_pl_grib2", "", 0, "bitsPerValue=16", WIND_U, WIND_V, NULL);
+  FILE *stream = fopen(f->path, "rb");
+  const size_t size = fread(bytes, 1, sizeof bytes, stream);
+  fclose(stream);
+  const size_t one = (size_t)bytes[14] * 256 + bytes[15];
+  assert_int_equal(2 * one, size);
+  size_t skipped = one + 16; /* the second message's sections 4 to 7 */
+  while (bytes[skipped + 4] < 4)
+    skipped += (size_t)bytes[skipped + 2] * 256 + bytes[skipped + 3];
+  memmove(bytes + one - 4, bytes + skipped, size - skipped);
+  const size_t joined = one - 4 + size - skipped;
+  bytes[14] = (unsigned char)(joined / 256);
+  bytes[15] = (unsigned char)(joined % 256);
+  stream = fopen(f->path, "wb");
+  assert_int_equal(fwrite(bytes, 1, joined, stream), joined);
+  fclose(stream);
+  fg_field *field = grib_read(f, NULL);
+  assert_int_equal(assert_flow(field, NULL, 1e-3), 0);
+  fg_field_destroy(field);
+  cut_file(f, joined - 1);
+  grib_refuse(f, NULL, FG_STATUS_FILE_FORMAT, "from byte 0 on");
+}
+
+/* A bitmap leaves out values; a mask leaves out more. */
+static void missing_values(void **state)
+{
+  grib_file *f = *state;
+  grib_add(f, "regular_ll_pl_grib1", "", 0, "bitsPerValue=16,bitmapPresent=1", U, V,
+           NULL);
+  FILE *stream = fopen(f->path, "rb");
+  int error = 0;
+  codes_handle *handle = codes_grib_handle_new_from_file(NULL, stream, &error);
+  codes_must(error, f->path);
+  fclose(stream);
+  double values[16 * 31];
+  size_t count = 16 * 31;
+  codes_must(codes_get_double_array(handle, "values", values, &count), "values");
+  values[5] = 9999.0;
+  grib_set(handle, "indicatorOfParameter=49");
+  codes_must(codes_set_double_array(handle, "values", values, count), "values");
+  codes_must(codes_write_message(handle, f->path, "a"), f->path);
+  grib_set(handle, "indicatorOfParameter=50");
+  codes_must(codes_write_message(handle, f->path, "a"), f->path);
+  for (size_t n = 0; n < count; ++n)
+    values[n] = n < 100 ? 0.0 : 1.0;
+  grib_set(handle, "indicatorOfParameter=81");
+  codes_must(codes_set_double_array(handle, "values", values, count), "values");
+  codes_must(codes_write_message(handle, f->path, "a"), f->path);
+  codes_handle_delete(handle);
+  for (int masked = 0; masked < 2; ++masked) {
+    const fg_read_options options = {.vars = "ucurr,vcurr",
+                                     .mask = masked ? "lsm" : NULL};
+    size_t missing = 0;
+    fg_field *field = grib_read(f, &options);
+    for (size_t n = 0; n < count; ++n)
+      missing += isnan(fg_field_contents(field)->velocity[0][n]) ? 1 : 0;
+    assert_int_equal(missing, masked ? 100 : 1);
+    fg_field_destroy(field);
+  }
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, grib_set_up, grib_tear_down)
@@ -249,6 +369,9 @@ int main(void)
       CASE(a_gaussian_grid),
       CASE(grids_on_the_sphere),
       CASE(projected_grids),
+      CASE(times_and_levels),
+      CASE(a_message_of_two_fields),
+      CASE(missing_values),
   };
   return cmocka_run_group_tests_name("read/grib", tests, NULL, NULL);
 }

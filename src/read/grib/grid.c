@@ -51,7 +51,7 @@ static double number_of(codes_handle *handle, const char *key)
   int error = CODES_SUCCESS;
   if (codes_is_missing(handle, key, &error) || error != CODES_SUCCESS ||
       codes_get_double(handle, key, &number) != CODES_SUCCESS)
-    return NAN;
+    return (double)NAN;
   return number;
 }
 

@@ -77,7 +77,7 @@ static void make_mercator(fg__grib_projection *p, const fg__grib_grid *grid,
   p->meridian = n->first[0] + (grid->x_descends ? -0.5 : 0.5) * width;
   p->meridian -= 360.0 * floor((p->meridian + 180.0) / 360.0);
   if (!(width <= 360.0 + 1e-3))
-    p->scale = NAN;
+    p->scale = (double)NAN;
 }
 
 static bool are_finite(const double *numbers, int count)

@@ -47,8 +47,8 @@ static const char *check_second_edition(const fg__grib_field *field, size_t poin
   size_t size, bitmap_size, data_size;
   const unsigned char *packing = fg__grib_section(field, 5, &size),
                       *bitmap = fg__grib_section(field, 6, &bitmap_size);
-  fg__grib_section(field, 7, &data_size);
-  if (!packing || !bitmap)
+  const unsigned char *data = fg__grib_section(field, 7, &data_size);
+  if (!packing || !bitmap || !data)
     return "it has no packed values";
   const uint64_t count = fg__grib_number(packing + 5, 4);
   const uint64_t template = fg__grib_number(packing + 9, 2);
@@ -67,6 +67,9 @@ static const char *check_second_edition(const fg__grib_field *field, size_t poin
     return "its values are cut off";
   if (template == 4 && (size < 12 || (data_size - 5) / 4 < count))
     return "its values are cut off";
+  if (template == 41 && size >= 21 && packing[19] > 0 && count > 0 &&
+      !fg__grib_is_png(data + 5, data_size - 5))
+    return "its values are an image that is damaged";
   return NULL;
 }
 

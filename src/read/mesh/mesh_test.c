@@ -429,14 +429,57 @@ static void frames_may_be_said(void **state)
   fg_field_destroy(field);
 }
 
+/* A tripolar grid: confocal ellipses about a segment through the pole, in the
+ * stereographic plane. Its rows close, and the last one lies beside itself. */
+static void seams_close(void **state)
+{
+  enum { AROUND = 72, ACROSS = 20 };
+  static double lon[ACROSS * AROUND], lat[ACROSS * AROUND], u[ACROSS * AROUND],
+      v[ACROSS * AROUND];
+  sample_file *f = *state;
+  for (int n = 0; n < ACROSS * AROUND; ++n) {
+    const double turn = 360.0 * RADIANS * (n % AROUND + 0.5) / AROUND;
+    const double row = 0.09 * (ACROSS - n / AROUND - 0.5);
+    const double x = 0.2 * cosh(row) * cos(turn), y = 0.2 * sinh(row) * sin(turn);
+    double flow[2];
+    lon[n] = atan2(y, x) / RADIANS;
+    lat[n] = 90.0 - 2.0 * atan(hypot(x, y)) / RADIANS;
+    exact(flow, lon[n], lat[n]);
+    u[n] = flow[0];
+    v[n] = flow[1];
+  }
+  sample_begin(f, 0);
+  const int plane[2] = {sample_dimension(f, "nj", ACROSS),
+                        sample_dimension(f, "ni", AROUND)};
+  const double *const values[] = {lon, lat, u, v};
+  static const char *const words[][3] = {
+      {"TLON", "units", "degrees_east"},
+      {"TLAT", "units", "degrees_north"},
+      {"uo", "standard_name", "eastward_sea_water_velocity"},
+      {"vo", "standard_name", "northward_sea_water_velocity"}};
+  for (int k = 0; k < 4; ++k) {
+    const int id = sample_variable(f, words[k][0], NC_DOUBLE, 2, plane);
+    sample_text(f, id, words[k][1], words[k][2]);
+    sample_put(f, id, values[k]);
+  }
+  sample_end(f);
+  fg_field *field = read_with(f, NULL);
+  assert_near(field, 1000, 2e-2);
+  const fg_field_arrays *a = fg_field_contents(field);
+  assert_true(a->period[0] == 360.0);
+  for (int j = 0; j < a->size[1]; ++j)
+    for (int i = 0; i < a->size[0] && a->axis[1][j] > 60.0; ++i)
+      assert_true(isfinite(a->velocity[0][j * a->size[0] + i]));
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
-      CASE(models_are_read),
-      CASE(two_files_of_one_shape),
-      CASE(masks_keep_land_out),
-      CASE(frames_may_be_said),
+      CASE(models_are_read),     CASE(two_files_of_one_shape),
+      CASE(masks_keep_land_out), CASE(frames_may_be_said),
+      CASE(seams_close),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
