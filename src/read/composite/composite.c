@@ -58,8 +58,9 @@ static fg_status choose_time(composite *c, fg__vtk_names *list, const char *path
 {
   double time = 0.0;
   fg__vtk *whole = c->whole;
-  fg_status status = fg__vtk_names_choose_time(&time, &whole->times, list, whole->context,
-                                               path, c->options ? c->options->time : 0);
+  fg_status status =
+      fg__vtk_names_choose_time(&time, &whole->times, &whole->time_list, list,
+                                whole->context, path, c->options ? c->options->time : 0);
   return status == FG_STATUS_OK && whole->times > 0 ? say_time(c, time) : status;
 }
 

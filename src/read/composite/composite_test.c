@@ -178,7 +178,10 @@ static void a_collection_has_times(void **state)
   fg_inventory *inventory = NULL;
   assert_int_equal(fg_inventory_read(&inventory, f->context, path_in(f, "all.pvd")),
                    FG_STATUS_OK);
-  assert_int_equal(fg_inventory_vector_at(inventory, 0)->times, 3);
+  const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, 0);
+  assert_int_equal(vector->times, 3);
+  for (int t = 0; t < 3; ++t)
+    assert_string_equal(vector->time_value[t].words, words[t]);
   fg_inventory_destroy(inventory);
 }
 

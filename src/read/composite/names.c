@@ -127,18 +127,22 @@ static int by_number(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-static void drop(fg__vtk_names *list, size_t i)
+/* Moves an entry to the end of those kept so far, or drops it. */
+static void keep_or_drop(fg__vtk_names *list, size_t *kept, size_t i, bool kept_too)
 {
-  free(list->entry[i].file);
-  free(list->entry[i].block);
-  memmove(&list->entry[i], &list->entry[i + 1],
-          (list->count - i - 1) * sizeof *list->entry);
-  --list->count;
+  const fg__vtk_name entry = list->entry[i];
+  if (kept_too) {
+    list->entry[(*kept)++] = entry;
+    return;
+  }
+  free(entry.file);
+  free(entry.block);
 }
 
 /* Keeps the files of the chosen time, of all those that there are in ascending order. */
-fg_status fg__vtk_names_choose_time(double *out, int *count, fg__vtk_names *list,
-                                    fg_context *context, const char *path, int wanted)
+fg_status fg__vtk_names_choose_time(double *out, int *count, double **all,
+                                    fg__vtk_names *list, fg_context *context,
+                                    const char *path, int wanted)
 {
   double *time = fg__allocate(list->count, sizeof *time);
   if (!time)
@@ -158,12 +162,14 @@ fg_status fg__vtk_names_choose_time(double *out, int *count, fg__vtk_names *list
   *count = (int)times;
   if (status == FG_STATUS_OK && times > 0) {
     const double chosen = time[wanted];
-    for (size_t i = list->count; i-- > 0;)
-      if (list->entry[i].time > chosen || list->entry[i].time < chosen)
-        drop(list, i);
+    size_t kept = 0;
+    for (size_t i = 0; i < list->count; ++i)
+      keep_or_drop(list, &kept, i,
+                   list->entry[i].time <= chosen && list->entry[i].time >= chosen);
+    list->count = kept;
     *out = chosen;
   }
-  free(time);
+  *all = time;
   return status;
 }
 
@@ -188,9 +194,10 @@ fg_status fg__vtk_names_choose_block(fg__vtk_names *list, fg_context *context,
   for (size_t i = 0; i < list->count && used < sizeof names; ++i)
     used += (size_t)snprintf(names + used, sizeof names - used, "%s%.60s", i ? ", " : "",
                              list->entry[i].block);
-  for (size_t i = list->count; i-- > 0;)
-    if (!*wanted || !is_in(list->entry[i].block, wanted))
-      drop(list, i);
+  size_t kept = 0;
+  for (size_t i = 0; i < list->count; ++i)
+    keep_or_drop(list, &kept, i, *wanted && is_in(list->entry[i].block, wanted));
+  list->count = kept;
   if (list->count > 0)
     return FG_STATUS_OK;
   fg__fail(context, FG_STATUS_ARGUMENT, "%s: there is no block \"%.100s\"", path, wanted);

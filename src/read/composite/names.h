@@ -28,9 +28,10 @@ fg_status fg__vtk_names_of_times(fg__vtk_names *out, fg__vtk *vtk,
                                  const xmlNode *collection);
 
 /* Keeps the files of one of the times, ascending from 0 on; *time becomes it, *count how
- * many there are. ARGUMENT, MEMORY. */
-fg_status fg__vtk_names_choose_time(double *time, int *count, fg__vtk_names *names,
-                                    fg_context *context, const char *path, int wanted);
+ * many there are, *all all of them, to be freed. ARGUMENT, MEMORY. */
+fg_status fg__vtk_names_choose_time(double *time, int *count, double **all,
+                                    fg__vtk_names *names, fg_context *context,
+                                    const char *path, int wanted);
 
 /* Keeps the files of a block: its own name, its path, or one that it is in; NULL: all.
  * ARGUMENT. */

@@ -265,7 +265,7 @@ static void places_of_no_area_are_refused(void **state)
   }
   refuse(&g, FG_STATUS_FILE_FORMAT, "20 of 40 points lie where another does");
   g = make_points(*state, 40);
-  g.x[7] = INFINITY;
+  g.x[7] = HUGE_VAL;
   refuse(&g, FG_STATUS_FILE_FORMAT, "line 7: the point's coordinate 1 is inf");
   g = make_points(*state, 2);
   refuse(&g, FG_STATUS_FILE_FORMAT, "2 points");

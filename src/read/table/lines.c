@@ -189,7 +189,7 @@ static bool read_short(double *out, const char *text)
 fg__table_value fg__table_number(double *out, const fg__table_field *field, char decimal)
 {
   char number[FG__TABLE_NUMBER];
-  *out = NAN;
+  *out = (double)NAN;
   if (is_missing(field))
     return FG__TABLE_MISSING;
   if (!copy_number(number, field, decimal)) {

@@ -82,7 +82,7 @@ static fg_status read_row(row_reader *r, const fg__table_line *line)
   fg__table_field field;
   int count = 0;
   for (int k = 0; k < ROLES; ++k)
-    r->value[k] = NAN;
+    r->value[k] = (double)NAN;
   fg_status status = check_line(table, line);
   if (status != FG_STATUS_OK)
     return status;

@@ -293,22 +293,47 @@ static fg_status describe(fg_inventory_vector *entry, const fg__vtk *vtk,
   return status;
 }
 
+/* The times of a collection with their words, which take `words`. */
+static fg_status list_times(fg_axis_value **out, char (**words)[FG__NUMBER_BYTES + 8],
+                            const fg__vtk *vtk)
+{
+  const size_t count = (size_t)(vtk->time_list ? vtk->times : 0);
+  char number[FG__NUMBER_BYTES];
+  fg__number_locale locale;
+  *out = fg__allocate(count, sizeof **out);
+  *words = fg__allocate(count, sizeof **words);
+  if (!*out || !*words || !fg__number_locale_begin(&locale))
+    return fg__fail_memory(vtk->context, "times", count * sizeof **out);
+  for (size_t i = 0; i < count; ++i) {
+    fg__number_write(number, vtk->time_list[i]);
+    snprintf((*words)[i], sizeof **words, "t = %s", number);
+    (*out)[i] = (fg_axis_value){vtk->time_list[i], "", (*words)[i]};
+  }
+  fg__number_locale_end(&locale);
+  return FG_STATUS_OK;
+}
+
 fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
                             const fg__source *source, fg__vtk_opener *opener)
 {
   fg__vtk vtk;
   fg__vtk_vector *vectors = NULL;
+  fg_axis_value *times = NULL;
+  char(*words)[FG__NUMBER_BYTES + 8] = NULL;
   size_t count = 0;
   fg_status status = opener(&vtk, context, source, NULL);
   if (status == FG_STATUS_OK)
     status = fg__vtk_read_coordinates(&vtk);
   if (status == FG_STATUS_OK)
     status = fg__vtk_vectors(&vectors, &count, &vtk);
+  if (status == FG_STATUS_OK)
+    status = list_times(&times, &words, &vtk);
   for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i) {
     fg_inventory_vector entry = {.components = vectors[i].components,
                                  .units = vectors[i].units ? vectors[i].units : "",
                                  .found_by = vectors[i].found_by,
                                  .times = vtk.times > 0 ? vtk.times : 1,
+                                 .time_value = vtk.time_list ? times : NULL,
                                  .levels = 1,
                                  .scale = FG_SCALE_PLAIN};
     for (int k = 0; k < vectors[i].names; ++k)
@@ -327,6 +352,8 @@ fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
       status = fg__inventory_add(inventory, context, &entry);
     free(unusable);
   }
+  free(times);
+  free(words);
   free(vectors);
   fg__vtk_close(&vtk);
   return status;

@@ -125,11 +125,12 @@ typedef struct fg__vtk {
   size_t field_array_count;
   struct fg__vtk_file *files; /* that this one names, and whose pieces it has */
   size_t file_count, file_capacity;
-  int times;        /* to choose from; 0: not said */
-  bool has_blocks;  /* to choose from */
-  char *time;       /* the chosen one in words; NULL: as FieldData says */
-  char *vectors[2]; /* the Vectors attribute of the points' and of the cells' data */
-  bool exhausted;   /* memory for what the markup says was lacking; the context says so */
+  int times;         /* to choose from; 0: not said */
+  double *time_list; /* of these; NULL: not said */
+  bool has_blocks;   /* to choose from */
+  char *time;        /* the chosen one in words; NULL: as FieldData says */
+  char *vectors[2];  /* the Vectors attribute of the points' and of the cells' data */
+  bool exhausted; /* memory for what the markup says was lacking; the context says so */
 } fg__vtk;
 
 /* Parses the markup into `document` and finds the appended data. */
