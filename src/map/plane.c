@@ -20,6 +20,9 @@ typedef struct box {
   double low[2], high[2];
 } box;
 
+static const box NOTHING = {{(double)INFINITY, (double)INFINITY},
+                            {-(double)INFINITY, -(double)INFINITY}};
+
 static double distance(const fg__map *map, double longitude, double latitude)
 {
   const double at = latitude * DEGREE, of = fg__map_center_latitude(map) * DEGREE;
@@ -94,7 +97,7 @@ static double length_of(const fg__map *map, double reach, const double from[2],
 {
   double length = 0.0, last[2] = {(double)NAN, (double)NAN};
   for (int i = 0; i < ACROSS; ++i) {
-    box one = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    box one = NOTHING;
     const double share = (double)i / (ACROSS - 1);
     include(&one, map, reach, from[0] + (to[0] - from[0]) * share,
             from[1] + (to[1] - from[1]) * share);
@@ -137,7 +140,7 @@ fg_status fg__map_plane_find(fg__map_plane *out, fg_context *context, const fg__
                              const fg__map_area *area, bool is_region, int samples)
 {
   const bool all_round = area->east - area->west >= ALL_ROUND;
-  box found = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  box found = NOTHING;
   *out = (fg__map_plane){.area = *area, .bounded = is_region && all_round};
   out->reach = reach_of(map, is_region);
   if (is_region && !all_round)
