@@ -24,9 +24,9 @@ void do_in_child(child_outcome *out, void (*work)(void *), void *data,
                  const child_bounds *bounds);
 
 /* The HDF5 library under NetCDF-4 can crash on damaged metadata, and ask for any amount
- * of memory, and ecCodes can on damaged messages. So a file of these kinds is first read by a child process: when that dies or
- * fails, complains and returns EXIT_FAILED, else EXIT_DONE. With options as fg_field_read
- * would, with NULL as fg_inventory_read. */
+ * of memory, and ecCodes can on damaged messages. So a file of these kinds is first read
+ * by a child process: when that dies or fails, complains and returns EXIT_FAILED, else
+ * EXIT_DONE. With options as fg_field_read would, with NULL as fg_inventory_read. */
 int sandbox_reading(const char *input, const fg_read_options *options);
 
 /* The same for fg_inventory_read_chosen; options must not be NULL. */

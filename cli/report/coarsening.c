@@ -1,6 +1,7 @@
 #include "report/coarsening.h"
 
 #include <cjson/cJSON.h>
+#include <inttypes.h>
 #include <stdio.h>
 
 #include "ranks.h"
@@ -14,7 +15,8 @@ const fg_coarsening *coarsening_record(cli_run *run)
     facts->coarsening[facts->coarsening_count++] = *last;
   if (run->settings->verbose && ranks_leader()) {
     progress_wipe(&run->progress);
-    fprintf(stderr, "flowgrain: step %ld, %d clusters: ", last->step, last->clusters);
+    fprintf(stderr, "flowgrain: step %" PRId64 ", %d clusters: ", last->step,
+            last->clusters);
     input_print_cells(facts->mesh.dimension, last->cells);
     fprintf(stderr, "\n");
   }

@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -130,10 +131,10 @@ int table_resume(cli_table *out, char *path, long long bytes)
 int table_add(cli_table *table, const fg_step *step)
 {
   char row[ROW_BYTES];
-  int bytes = snprintf(row, sizeof row, "%ld,%.9g,%.9g,%.12g,%.12g,%.6g,%d,%d,%ld,%.6f\n",
-                       step->step, step->time, step->tau, step->energy, step->mass,
-                       step->area_fraction, step->clusters, step->cycles, step->cells,
-                       step->seconds);
+  int bytes = snprintf(
+      row, sizeof row, "%" PRId64 ",%.9g,%.9g,%.12g,%.12g,%.6g,%d,%d,%" PRId64 ",%.6f\n",
+      step->step, step->time, step->tau, step->energy, step->mass, step->area_fraction,
+      step->clusters, step->cycles, step->cells, step->seconds);
   if (!append(table, row, (size_t)bytes))
     return EXIT_FAILED;
   if (table->used >= ENOUGH_BYTES)

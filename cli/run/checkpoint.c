@@ -2,6 +2,7 @@
 
 #include <cjson/cJSON.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -139,7 +140,7 @@ static void warn(cli_run *run, const char *what)
   if (!run->save_failed) {
     progress_wipe(&run->progress);
     if (run->saved_step)
-      complain("%s; the checkpoint of step %ld stays, and the run goes on", what,
+      complain("%s; the checkpoint of step %" PRId64 " stays, and the run goes on", what,
                run->saved_step);
     else
       complain("%s; the run goes on without a checkpoint", what);
@@ -202,7 +203,8 @@ int checkpoint_save(cli_run *run)
   run->save_failed = false;
   if (run->settings->verbose && ranks_leader()) {
     progress_wipe(&run->progress);
-    fprintf(stderr, "flowgrain: checkpoint: step %ld, t = %.3e, %.3f s to write\n",
+    fprintf(stderr,
+            "flowgrain: checkpoint: step %" PRId64 ", t = %.3e, %.3f s to write\n",
             run->step.step, run->step.time, run->save_tried - before);
   }
   return EXIT_DONE;

@@ -1,5 +1,6 @@
 #include "run/finish.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,8 +28,8 @@ static int complain_of_no_scale(const cli_run *run)
     return EXIT_INTERRUPTED;
   }
   bool settled = run->facts.ended == FG_RUN_STATIONARY;
-  complain("%s: no clusters after %ld steps, at t = %.3g: %s", operand, step->step,
-           step->time,
+  complain("%s: no clusters after %" PRId64 " steps, at t = %.3g: %s", operand,
+           step->step, step->time,
            settled ? "the pattern no longer changes" : "they are still forming");
   advise("%s",
          settled ? "Raise --nodes or --coverage." : "Raise --max-steps or --max-time.");
@@ -158,5 +159,6 @@ void finish_advise(const cli_run *run, int code, bool resumable)
   bool ended_here = run->saved_step && (code == EXIT_FAILED || code == EXIT_INTERRUPTED);
   if (!resumable || !ended_here || *fg_context_hint(run->context))
     return;
-  advise("The same command with --resume goes on from step %ld.", run->saved_step);
+  advise("The same command with --resume goes on from step %" PRId64 ".",
+         run->saved_step);
 }

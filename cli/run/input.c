@@ -1,5 +1,6 @@
 #include "run/input.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -105,7 +106,8 @@ static void print_mesh(const fg_mesh_info *mesh, int scheme)
 {
   fprintf(stderr, "flowgrain: ");
   input_print_cells(mesh->dimension, mesh->cells);
-  fprintf(stderr, " (%ld active), a = %g, coverage %g, gamma %g, %s scheme, %s kernel\n",
+  fprintf(stderr,
+          " (%" PRId64 " active), a = %g, coverage %g, gamma %g, %s scheme, %s kernel\n",
           mesh->active_cells, mesh->anisotropy, mesh->coverage, mesh->gamma,
           scheme_names[scheme], mesh->kernel);
 }

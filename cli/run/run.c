@@ -1,4 +1,5 @@
 /* The main job: read, evolve, take scales, draw them, and leave a folder of results. */
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -77,7 +78,8 @@ static int go_on(cli_run *run)
     return code;
   run->saved_step = run->step.step;
   if (!run->settings->quiet && ranks_leader())
-    fprintf(stderr, "flowgrain: %s: goes on from step %ld, t = %.3g, after %.0f s\n",
+    fprintf(stderr,
+            "flowgrain: %s: goes on from step %" PRId64 ", t = %.3g, after %.0f s\n",
             run->settings->output, run->step.step, run->step.time, run->earlier_total);
   return EXIT_DONE;
 }
@@ -133,7 +135,8 @@ static int draw_scale(cli_run *run, const fg_run_scale *scale)
     return ranks_agree(EXIT_DONE);
   if (run->settings->verbose) {
     progress_wipe(&run->progress);
-    fprintf(stderr, "flowgrain: scale %02d: step %ld, t = %.3e, %d clusters, %.2f s\n",
+    fprintf(stderr,
+            "flowgrain: scale %02d: step %" PRId64 ", t = %.3e, %d clusters, %.2f s\n",
             scale->index, run->step.step, run->step.time, run->step.clusters,
             run->step.seconds);
   }

@@ -25,10 +25,10 @@ typedef struct cli_run {
   double evolving_since; /* clock of the process */
   double earlier_evolve; /* seconds of the runs that this one goes on from */
   double earlier_total;
-  double save_tried; /* clock when a checkpoint was last tried */
-  long saved_step;   /* of the last checkpoint; 0: none */
-  bool finished;     /* nothing is left to go on from */
-  bool save_failed;  /* the last try failed, and the user was told */
+  double save_tried;  /* clock when a checkpoint was last tried */
+  int64_t saved_step; /* of the last checkpoint; 0: none */
+  bool finished;      /* nothing is left to go on from */
+  bool save_failed;   /* the last try failed, and the user was told */
 } cli_run;
 
 #endif

@@ -21,9 +21,10 @@ typedef struct fg_map_options fg_map_options; /* map.h */
 
 /* What the components of a vector on a model's grid are along. */
 typedef enum fg_frame {
-  FG_FRAME_AUTO = 0, /* from names, attributes and the grid (docs/method/model-grids.md) */
-  FG_FRAME_EAST,     /* east and north */
-  FG_FRAME_GRID      /* the directions of the grid's indices or axes */
+  FG_FRAME_AUTO =
+      0,         /* from names, attributes and the grid (docs/method/model-grids.md) */
+  FG_FRAME_EAST, /* east and north */
+  FG_FRAME_GRID  /* the directions of the grid's indices or axes */
 } fg_frame;
 
 /* A zero field means its default, in brackets. */
@@ -176,10 +177,10 @@ typedef struct fg_inventory_vector {
   bool periodic[3];     /* whether each axis closes (longitude, say) */
   const char *unusable; /* NULL, or why this pair can not be read yet */
   double normal_share;  /* of a plane in space: fg_field_normal_share at the first time */
-  const char *frame;    /* of a model's grid: what the components are along, and which rule
-                           says so; NULL: along the axes */
-  size_t cells;         /* 0, or how many cells, which are not along the axes, are
-                           interpolated onto that grid; outside them is missing */
+  const char *frame; /* of a model's grid: what the components are along, and which rule
+                        says so; NULL: along the axes */
+  size_t cells;      /* 0, or how many cells, which are not along the axes, are
+                        interpolated onto that grid; outside them is missing */
   const fg_axis_value *time_value, *level_value; /* [times], [levels]; NULL: not known */
 } fg_inventory_vector;
 
