@@ -1,6 +1,7 @@
 #include "option/parse.h"
 
 #include <getopt.h>
+#include <math.h>
 #include <string.h>
 
 #include "build_features.h"
@@ -94,6 +95,17 @@ static bool check_operands(any_settings *out, const cli_command *command, int co
   return options_check(out, command);
 }
 
+/* A map has two samples for each node of the mesh, which follows from the number of
+ * arrows: 18 sqrt(2 N) nodes on a globe. */
+static void set_samples(run_settings *run)
+{
+  enum { USUAL = 768, MOST = 8192 };
+  const double arrows = run->arrows.count ? run->arrows.number[0] : 0.0;
+  const double nodes = fmax(run->evolution.nodes, 18.0 * sqrt(2.1 * arrows));
+  if (2.0 * nodes > USUAL)
+    run->reading.map.samples = (int)fmin(2.0 * nodes, MOST);
+}
+
 static void set_defaults(any_settings *out, const cli_command *command)
 {
   memset(out, 0, sizeof *out);
@@ -144,6 +156,8 @@ parse_result options_parse(any_settings *out, const cli_command *command, int ar
     if (!value_set(out, command, option, typed_name(typed, option, code), optarg))
       return PARSE_WRONG;
   }
+  if (command->bit == COMMAND_RUN)
+    set_samples(&out->run);
   return check_operands(out, command, argc - optind, argv + optind) ? PARSE_GO
                                                                     : PARSE_WRONG;
 }

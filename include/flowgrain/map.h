@@ -24,8 +24,8 @@ struct fg_map_options {
   bool has_region;  /* [all that the field covers] */
   double region[4]; /* west, east, south, north in degrees; an east that is not beyond
                        west is a turn farther */
-  int samples;      /* along the plane's longer side [1024] */
-  int threads;      /* [1] */
+  int samples;      /* along the plane's longer side [768] */
+  int threads;      /* [as many as there are cores, where there is work for them] */
 };
 
 /* Lays a field on a longitude-latitude grid (2D, scale GEO) on the plane of a projection:

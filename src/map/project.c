@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 #include "base/threads.h"
@@ -11,12 +12,17 @@
 
 static const double DEGREE = 0.017453292519943295;
 
-/* Samples along the longer side: two a node of the mesh for 400 arrows. */
-enum { SAMPLES = 1024, FEWEST_SAMPLES = 16, MOST_SAMPLES = 16384 };
+/* Samples along the longer side: two a node of the mesh for 200 arrows on the globe. */
+enum { SAMPLES = 768, FEWEST_SAMPLES = 16, MOST_SAMPLES = 16384 };
 
-/* Where the data are finer than the plane's samples, so many of them a side at most are
- * averaged. */
-enum { MOST_PARTS = 8 };
+/* Where the data are finer than the plane's samples, so many places in each, a side, are
+ * averaged at most; they lie 1.5 steps of the data apart, and each is the mean of the
+ * four data round it. */
+enum { MOST_PARTS = 16 };
+static const double PART_STEPS = 1.5;
+
+/* Places that are worth a thread. */
+static const double THREAD_PLACES = 1e6;
 
 /* Kilometres in a degree, of the spacing of data. */
 static const double DEGREE_METRES = 111195.0;
@@ -280,6 +286,16 @@ static fg_status make(fg_field **out, fg_context *context, const fg__sphere *sph
   return status;
 }
 
+static int threads_for(const fg_map_options *options, const fg__map_plane *plane,
+                       int parts)
+{
+  const double places = (double)plane->size[0] * plane->size[1] * parts * parts;
+  const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+  if (options->threads > 0)
+    return options->threads;
+  return (int)fmax(1.0, fmin((double)cores, places / THREAD_PLACES));
+}
+
 static fg_status check_options(fg_context *context, const fg_map_options *options)
 {
   const double *region = options->region, *center = options->center;
@@ -357,10 +373,10 @@ fg_status fg__sphere_project(fg_field **out, fg_context *context,
     fg__sphere_extent extent;
     fg__sphere_extent_of(&extent, sphere);
     const double pixel = plane.spacing * fg__map_unit(map) / DEGREE_METRES;
-    const double parts = ceil(pixel / extent.spacing - 0.25);
-    status = make(out, context, sphere, &plane, fg__map_projection(map),
-                  parts > 1.0 ? (int)fmin(parts, MOST_PARTS) : 1, options->threads,
-                  number, count);
+    const double parts = ceil(pixel / (PART_STEPS * extent.spacing) - 0.25);
+    const int across = parts > 1.0 ? (int)fmin(parts, MOST_PARTS) : 1;
+    status = make(out, context, sphere, &plane, fg__map_projection(map), across,
+                  threads_for(options, &plane, across), number, count);
   }
   fg__map_destroy(map);
   return status;

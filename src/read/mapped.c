@@ -11,6 +11,10 @@ static bool is_on_globe(const fg_field *field)
 static fg_status refuse(fg_context *context, const char *path, const fg_field *field)
 {
   const fg_field_arrays *arrays = fg_field_contents(field);
+  if (arrays->projection)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: it is on a plane of its own, \"%s\", and cannot go to another",
+                    path, arrays->projection);
   fg_status status = fg__fail(
       context, FG_STATUS_ARGUMENT,
       "%s: no map can be made of it: its axes are '%s' (%s) and '%s' (%s), not longitude "
@@ -21,10 +25,11 @@ static fg_status refuse(fg_context *context, const char *path, const fg_field *f
   return status;
 }
 
-/* All ranks need the whole field, for their rows of the map lie across its own. */
-static fg_status project(fg_field **out, fg_context *context, const fg__format *format,
-                         const fg__source *source, const fg_read_options *options,
-                         fg__slab_index slab)
+/* All ranks need the whole field, for their rows of the map lie across its own. *on_map:
+ * it was laid on the map, else *out is as it was read. */
+static fg_status project(fg_field **out, bool *on_map, fg_context *context,
+                         const fg__format *format, const fg__source *source,
+                         const fg_read_options *options, fg__slab_index slab)
 {
   fg_field *field = NULL;
   fg__sphere *sphere = NULL;
@@ -34,6 +39,7 @@ static fg_status project(fg_field **out, fg_context *context, const fg__format *
     *out = field;
     return FG_STATUS_OK;
   }
+  *on_map = true;
   if (status == FG_STATUS_OK)
     status = fg__sphere_of_field(&sphere, context, field);
   if (status == FG_STATUS_OK)
@@ -49,6 +55,7 @@ static fg_status read_on_map(fg_field **out, fg_context *context,
                              const fg_read_options *options, fg__slab_index slab)
 {
   fg_status status = FG_STATUS_OK;
+  bool on_map = false;
   if (slab.count > 1) {
     status = format->read(out, context, source, options, slab);
     if (status == FG_STATUS_OK && is_on_globe(*out)) {
@@ -57,9 +64,8 @@ static fg_status read_on_map(fg_field **out, fg_context *context,
     }
   }
   if (status == FG_STATUS_OK && !*out)
-    status = project(out, context, format, source, options, slab);
-  if (status == FG_STATUS_OK && fg__map_is_named(options->map) &&
-      !fg_field_contents(*out)->projection) {
+    status = project(out, &on_map, context, format, source, options, slab);
+  if (status == FG_STATUS_OK && fg__map_is_named(options->map) && !on_map) {
     status = refuse(context, source->path, *out);
     fg_field_destroy(*out);
     *out = NULL;
