@@ -189,7 +189,8 @@ typedef struct fg_inventory_vector {
 FG_API fg_status fg_inventory_read(fg_inventory **out, fg_context *context,
                                    const char *input);
 /* The same of the one vector that fg_field_read would read with these options, whose time
- * and level do not count; its missing_share is not found. options may be NULL. */
+ * and level do not count; what takes the reading of samples or of a mesh is not found:
+ * missing_share, and of meshes size, bounds, cells and frame. options may be NULL. */
 FG_API fg_status fg_inventory_read_chosen(fg_inventory **out, fg_context *context,
                                           const char *input,
                                           const fg_read_options *options);

@@ -293,7 +293,7 @@ static fg_status describe_file(fg_inventory **out, fg_context *context, const ch
   if (status == FG_STATUS_OK && options && !format->inventory_chosen)
     fg__inventory_choose(*out, options);
   fg__source_close(&source);
-  return status;
+  return name_the_file(context, status, path);
 }
 
 static fg_status read_inventory(fg_inventory **out, fg_context *context,

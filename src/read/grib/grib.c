@@ -284,6 +284,29 @@ static fg_status read_sphere(fg__sphere **out, fg_context *context,
   return status;
 }
 
+/* Where points on the sphere lie, longitudes within a turn round the first one. */
+static fg_status find_bounds(fg_inventory_vector *vector, fg_context *context,
+                             const fg__grib_grid *grid, const float *const velocity[2])
+{
+  fg__sphere_cells cells;
+  fg_status status = fg__grib_cells(&cells, context, grid, velocity);
+  double *bounds = vector->bounds;
+  if (status != FG_STATUS_OK)
+    return status;
+  vector->cells = cells.count;
+  for (size_t n = 0; n < cells.points; ++n) {
+    const double x =
+        cells.longitude[0] + remainder(cells.longitude[n] - cells.longitude[0], 360.0);
+    const double y = cells.latitude[n];
+    bounds[0] = n == 0 ? x : fmin(bounds[0], x);
+    bounds[1] = n == 0 ? x : fmax(bounds[1], x);
+    bounds[2] = n == 0 ? y : fmin(bounds[2], y);
+    bounds[3] = n == 0 ? y : fmax(bounds[3], y);
+  }
+  fg__grib_cells_clear(&cells);
+  return FG_STATUS_OK;
+}
+
 static fg_status count_missing(fg_inventory_vector *vector, const fg__grib_file *file,
                                const fg__grib_pair *pair, const fg__grib_grid *grid)
 {
@@ -294,6 +317,10 @@ static fg_status count_missing(fg_inventory_vector *vector, const fg__grib_file 
     missing += !isfinite(velocity[0][n]) || !isfinite(velocity[1][n]);
   if (status == FG_STATUS_OK)
     vector->missing_share = (double)missing / (double)grid->points;
+  const float *const both[2] = {velocity[0], velocity[1]};
+  if (status == FG_STATUS_OK &&
+      (grid->layout == FG__GRIB_ROWS || grid->layout == FG__GRIB_REDUCED))
+    status = find_bounds(vector, file->context, grid, both);
   free(velocity[0]);
   free(velocity[1]);
   return status;
@@ -343,7 +370,7 @@ static void describe_grid(fg_inventory_vector *vector, fg__grib_grid *grid)
   if (grid->axis[0])
     vector->size[0] = (int)count_columns(grid, &grid->period);
   vector->periodic[0] = grid->period > 0.0;
-  for (int k = 0; k < 2; ++k)
+  for (int k = 0; k < 2 && !grid->row && !grid->rotated; ++k)
     if (grid->axis[k]) {
       vector->bounds[2 * k] = grid->axis[k][0];
       vector->bounds[2 * k + 1] = grid->axis[k][vector->size[k] - 1];

@@ -256,7 +256,7 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
   return status;
 }
 
-/* counts: also the missing samples of the first time and level. */
+/* counts: also what takes the reading of samples or of a mesh. */
 static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
                                const fg__nc_pair *pair, const fg__nc_grid *found,
                                bool counts)
@@ -286,7 +286,7 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
            grid.projection);
   if (grid.projection[0])
     vector.frame = frame;
-  if (grid.mesh && !grid.unusable[0])
+  if (grid.mesh && counts && !grid.unusable[0])
     status = fg__nc_mesh_describe(&vector, file, pair, found);
   for (int k = 0; k < grid.dimension && !grid.mesh; ++k) {
     vector.size[k] = (int)grid.axis[k].size;
