@@ -69,10 +69,9 @@ sed 's/RECTILINEAR_GRID/POLYDATA/' grid.vtk >cells.vtk
 try run cells.vtk -o out-cells
 expect_code 1
 expect_one_complaint
-expect_error 'POLYDATA'
-expect_error 'esample'
+expect_error 'X_COORDINATES'
 expect_nothing_at out-cells
-done_with "a short file and one of surfaces are refused in a line and a hint"
+done_with "a short file and one of a wrong kind are refused in a line and a hint"
 
 # Hexahedra in two rows, one thick along x: a plane of y and z, where the flow is linear.
 {

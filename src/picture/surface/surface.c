@@ -118,7 +118,8 @@ static bool write_svg(const fg__surface_file *page_surface)
   if (page_surface->texts.lacks_memory ||
       !fg__svg_ids_write(stream, page_surface->svg, drawn))
     return false;
-  fwrite(page_surface->texts.bytes, 1, page_surface->texts.length, stream);
+  if (page_surface->texts.length)
+    fwrite(page_surface->texts.bytes, 1, page_surface->texts.length, stream);
   fwrite(page_surface->svg + drawn, 1, page_surface->svg_length - drawn, stream);
   return true;
 }

@@ -9,10 +9,11 @@
 
 enum { LOOKED_AT = 4096 };
 
-/* Text, but no markup: the last format that is tried. */
+/* Text with a digit, but no markup: the last format that is tried. */
 static bool is_text(const unsigned char *bytes, size_t size)
 {
   size_t first = 0, shown = 0;
+  bool digit = false;
   if (size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0)
     first = 3;
   for (size_t i = first; i < size && i < LOOKED_AT; ++i) {
@@ -22,8 +23,9 @@ static bool is_text(const unsigned char *bytes, size_t size)
     if (shown == 0 && strchr("<{[", bytes[i]))
       return false;
     shown += bytes[i] > ' ';
+    digit = digit || (bytes[i] >= '0' && bytes[i] <= '9');
   }
-  return shown > 0;
+  return digit;
 }
 
 fg_status fg__table_open(fg__table *out, fg_context *context, const fg__source *source)
