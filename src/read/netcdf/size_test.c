@@ -186,7 +186,7 @@ static void wrong_magic_is_refused(void **state)
   sample_file *f = *state;
   static const char *const start[] = {
       "CDF",      "CDF\003", "CDF\004aaaaaaaaaaaaaa", "\x89HDF", "\x89HDF\r\n\x1a\n",
-      "GRIB....", "x"};
+      "GRUB....", "x"};
   for (size_t i = 0; i < sizeof start / sizeof *start; ++i) {
     fg_field *field;
     store(f->path, (const unsigned char *)start[i], strlen(start[i]));
