@@ -306,7 +306,7 @@ static void what_no_map_can_show_is_refused(void **state)
       {{.projection = "adams_hemi"}, "PROJ refuses"},
       {{.has_region = true, .region = {100, 120, 0, 20}}, "has no values"},
       {{.has_region = true, .region = {0, 10, 50, 50}}, "south below north"},
-      {{.has_center = true, .center = {NAN, 0}}, "centre"},
+      {{.has_center = true, .center = {(double)NAN, 0}}, "centre"},
       {{.samples = 3}, "3 samples"},
   };
   fg_context *context;
