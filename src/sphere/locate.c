@@ -207,9 +207,11 @@ static fg_status sort_face(fg__sphere *sphere, fg_context *context, int f)
     return fg__fail_memory(context, "squares of the sphere",
                            (squares + 1) * sizeof *face->start);
   const uint64_t entries = visit_squares(sphere, f, false);
-  face->cell = entries < UINT32_MAX ? fg__allocate(entries, sizeof *face->cell) : NULL;
+  face->cell =
+      entries < UINT32_MAX ? fg__allocate((size_t)entries, sizeof *face->cell) : NULL;
   if (!face->cell)
-    return fg__fail_memory(context, "the squares' cells", entries * sizeof *face->cell);
+    return fg__fail_memory(context, "the squares' cells",
+                           (size_t)entries * sizeof *face->cell);
   for (size_t n = 1; n <= squares; ++n)
     face->start[n] += face->start[n - 1];
   visit_squares(sphere, f, true);

@@ -103,30 +103,30 @@ for at in $turns; do
 done
 done_with "killed, it goes on to the same results"
 
-try run "$wind" --arrows 9,8 --start even --formats svg --quiet -o one
+try run synth:vortex3 --nodes 65 --arrows 9,8 --start even --formats svg --quiet -o one
 expect_code 0
 expect_counts one 9 8
-try run "$wind" --arrows 9,8 --start even --formats svg --quiet -o other --threads 1 --seed 5
+try run synth:vortex3 --nodes 65 --arrows 9,8 --start even --formats svg --quiet -o other --threads 1 --seed 5
 expect_code 0
 for name in scale-00.geojson scale-01.geojson; do
   cmp -s <(jq 'del(.clusters, .features[].properties.cluster)' one/$name) \
     <(jq 'del(.clusters, .features[].properties.cluster)' other/$name) || fault "$name differs"
 done
 # two scales of one state
-try run "$wind" --arrows 60,58,55 --formats svg --quiet -o many
+try run synth:vortex3 --nodes 65 --arrows 60,58,55 --formats svg --quiet -o many
 expect_code 0
 expect_counts many 60 58 55
 expect_json many/run.json '[.scales[].time] | .[0] == .[1] and .[1] == .[2]'
 done_with "an even start has no seed, and one state has several scales"
 
-try run "$wind" --arrows 9 --lengths fair --effort 0 --formats svg --quiet -o fair
+try run synth:vortex3 --nodes 65 --arrows 9 --lengths fair --effort 0 --formats svg --quiet -o fair
 expect_code 0
 expect_counts fair 9
-try score "$wind" fair/scale-00.geojson --class free --json
+try score synth:vortex3 fair/scale-00.geojson --class free --json
 expect_json out '.[0].longest < 1.01'
-try run "$wind" --arrows 9 --effort 0 --formats svg --quiet -o tinted --tint
+try run synth:vortex3 --nodes 65 --arrows 9 --effort 0 --formats svg --quiet -o tinted --tint
 expect_code 0
-try run "$wind" --arrows 9 --effort 0 --formats svg --quiet -o plain
+try run synth:vortex3 --nodes 65 --arrows 9 --effort 0 --formats svg --quiet -o plain
 [ "$(stat -c %s tinted/scale-00.svg)" -gt $(($(stat -c %s plain/scale-00.svg) + 2000)) ] || fault "--tint draws nothing"
 cmp -s plain/scale-00.geojson tinted/scale-00.geojson || fault "--tint changes the arrows"
 done_with "lengths, effort, and regions behind the arrows"

@@ -59,7 +59,7 @@ static bool read_header(rows_of_bytes *out, const chunk *c)
 static bool check_filters(z_stream *stream, const rows_of_bytes *image, uint64_t *at,
                           int *state)
 {
-  unsigned char room[4096];
+  unsigned char room[4096] = {0};
   do {
     stream->next_out = room;
     stream->avail_out = sizeof room;

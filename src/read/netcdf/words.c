@@ -204,6 +204,22 @@ static bool write_texts(char **text, size_t *starts, const fg__nc_variable *coor
   return true;
 }
 
+/* With room for the numbers, and for where each one's text starts. */
+static fg_status read_axis_values(fg_axis_value *out, char **text, double *number,
+                                  size_t *starts, const fg__nc_variable *coordinate,
+                                  size_t count)
+{
+  fg_context *context = coordinate->owner->context;
+  const int error = nc_get_var_double(coordinate->group, coordinate->id, number);
+  if (error)
+    return fg__nc_fail(context, coordinate->path, coordinate->name, error);
+  if (!write_texts(text, starts, coordinate, number, count))
+    return fg__fail_memory(context, "an axis' values", count * sizeof *out);
+  for (size_t n = 0; n < count; ++n)
+    out[n] = (fg_axis_value){number[n], *text, *text + starts[n + 1]};
+  return FG_STATUS_OK;
+}
+
 fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file *file,
                              const fg__nc_variable *coordinate, size_t count)
 {
@@ -216,15 +232,10 @@ fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file
   double *number = fg__allocate(count, sizeof *number);
   size_t *starts = fg__allocate(count + 1, sizeof *starts);
   *out = fg__allocate(count, sizeof **out);
-  const int error =
-      number ? nc_get_var_double(coordinate->group, coordinate->id, number) : 0;
-  if (error)
-    status = fg__nc_fail(file->context, coordinate->path, coordinate->name, error);
-  else if (!number || !starts || !*out ||
-           !write_texts(text, starts, coordinate, number, count))
+  if (number && starts && *out)
+    status = read_axis_values(*out, text, number, starts, coordinate, count);
+  else
     status = fg__fail_memory(file->context, "an axis' values", count * sizeof **out);
-  for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n)
-    (*out)[n] = (fg_axis_value){number[n], *text, *text + starts[n + 1]};
   if (status != FG_STATUS_OK) {
     free(*out);
     *out = NULL;
