@@ -57,10 +57,11 @@ FG_API void fg_placement_destroy(fg_placement *placement);
 
 /* Places exactly `count` arrows. The first time they start from `clusters`, one for each
  * of these icons and more or fewer until there are `count`; NULL: from evenly distributed
- * points. Scales of fewer arrows go on from the one before, and `clusters` is not looked
- * at; one of more begins anew. The
- * same on any machine and any number of threads. ARGUMENT (count below 1; so many have
- * no room: the message says how many have), MEMORY, STOPPED. */
+ * points. Icons of another placement, of an earlier frame of an animation, may stand in
+ * place of those of clusters: then arrows stay near them. Scales of fewer arrows go on
+ * from the one before, and `clusters` is not looked at; one of more begins anew. The same
+ * on any machine and any number of threads. ARGUMENT (count below 1; so many have no
+ * room: the message says how many have), MEMORY, STOPPED. */
 FG_API fg_status fg_placement_place(fg_placement *placement, int count,
                                     const fg_icons *clusters);
 

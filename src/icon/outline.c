@@ -14,9 +14,13 @@ static const double LARGEST_BEND = 0.9;
  * over bends that are tighter than itself, as a brush does. */
 static const double CHORD_REACH = 0.75;
 
-/* A head is a straight triangle as long as the line stays within this share of its half
- * width; round a tighter bend it turns with the line. */
-static const double STRAIGHT_HEAD = 0.6;
+/* A head is a straight triangle as long as its ends lie apart by this share of the line
+ * between them; round a tighter bend it turns with the line. */
+static const double STRAIGHT_HEAD = 0.7;
+
+/* Below this share, a bend of 75 degrees, swept barbs would cut the body: they are not
+ * swept. */
+static const double SWEPT_HEAD = 0.93;
 
 /* Vertices that round the tail's end, on each side: 18 degrees each. */
 enum { TAIL_VERTICES = 5 };
@@ -192,19 +196,15 @@ static bool add_straight_head(outline_sides *sides, const centerline *line, doub
   const double *tip = line->point[last];
   double axis[2] = {tip[0] - base[0], tip[1] - base[1]};
   double length = hypot(axis[0], axis[1]);
-  if (!(length > 0))
+  const double share = length / (line->s[last] - body);
+  if (!(share > STRAIGHT_HEAD))
     return false;
+  const double sweep = share > SWEPT_HEAD ? FG__HEAD_SWEEP : 0.0;
   axis[0] /= length;
   axis[1] /= length;
-  for (int i = segment + 1; i < last; i++) {
-    double dx = line->point[i][0] - base[0], dy = line->point[i][1] - base[1];
-    double along = dx * axis[0] + dy * axis[1], across = dy * axis[0] - dx * axis[1];
-    if (fabs(across) > STRAIGHT_HEAD * width / 2 * (length - along) / length)
-      return false;
-  }
   for (int a = 0; a < 2; a++) {
     double normal = a == 0 ? -axis[1] : axis[0];
-    double barb = base[a] - FG__HEAD_SWEEP * length * axis[a];
+    double barb = base[a] - sweep * length * axis[a];
     sides->left[sides->count][a] = barb + width / 2 * normal;
     sides->right[sides->count][a] = barb - width / 2 * normal;
   }

@@ -118,8 +118,30 @@ static void bends_with_the_line(void **state)
       double away = hypot(drawing.vertex[i][0] - 3, drawing.vertex[i][1] + 7);
       assert_true(fabs(away - cases[k].radius) < 2.7 * cases[k].width / 2 * 1.2);
     }
-    for (int i = 2; i < 118; i++)
+    const double body =
+        1 - 3.1 * cases[k].width / fabs(cases[k].radius * cases[k].turning);
+    for (int i = 2; i < 119 * body; i++)
       assert_true(contains(&drawing, drawing.point[i][0], drawing.point[i][1]));
+    free(drawing.vertex);
+  }
+}
+
+static void heads_are_straight_in_bends(void **state)
+{
+  (void)state;
+  /* radii of the line in lengths of a head, 3.1 widths: bends of 29 to 90 degrees */
+  for (double radius = 2.0; radius > 0.63; radius -= 0.03) {
+    test_drawing drawing = {0};
+    set_arc(&drawing, radius * 3.1, 0.3, 3.2 / radius, 160, 1.0);
+    outline(&drawing);
+    assert_true(is_simple((const double(*)[2])drawing.vertex, drawing.count));
+    int tip = 0;
+    for (int i = 1; i < drawing.count; i++)
+      if (hypot(drawing.vertex[i][0] - drawing.point[159][0],
+                drawing.vertex[i][1] - drawing.point[159][1]) < 1e-12)
+        tip = i;
+    const double *a = drawing.vertex[tip - 1], *b = drawing.vertex[tip + 1];
+    assert_true(fabs(hypot(a[0] - b[0], a[1] - b[1]) - 2.7) < 1e-9);
     free(drawing.vertex);
   }
 }
@@ -194,6 +216,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(has_the_sizes_it_says),
       cmocka_unit_test(bends_with_the_line),
+      cmocka_unit_test(heads_are_straight_in_bends),
       cmocka_unit_test(turns_and_mirrors_with_its_points),
       cmocka_unit_test(stays_simple_on_foreign_icons),
       cmocka_unit_test(refuses_what_is_no_arrow),

@@ -4,7 +4,9 @@
 #include "place/distance.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Cells of the map along the longest side: two to a sample's distance, within these. */
 enum { FEWEST_2D = 128, MOST_2D = 512, FEWEST_3D = 48, MOST_3D = 112 };
@@ -140,10 +142,26 @@ static void cell_center(const fg__place_domain *domain, const int at[3], double 
     center[k] = fmin(center[k], domain->high[k]);
 }
 
-static int compare_speeds(const void *a, const void *b)
+/* Of numbers that are not negative the one that `rank` others come before, found by
+ * counting their bits' bytes, the highest first: such floats order as their bits do. */
+static float value_of_rank(const float *value, size_t count, size_t rank)
 {
-  float one = *(const float *)a, other = *(const float *)b;
-  return (one > other) - (one < other);
+  uint32_t found = 0, bits;
+  for (int shift = 24; shift >= 0; shift -= 8) {
+    size_t tally[256] = {0};
+    uint32_t byte = 0;
+    for (size_t n = 0; n < count; ++n) {
+      memcpy(&bits, &value[n], sizeof bits);
+      if ((uint64_t)bits >> (shift + 8) == found)
+        ++tally[bits >> shift & 255];
+    }
+    while (byte < 255 && rank >= tally[byte])
+      rank -= tally[byte++];
+    found = found << 8 | byte;
+  }
+  float out;
+  memcpy(&out, &found, sizeof out);
+  return out;
 }
 
 /* Marks the domain's cells with subdomain 1, and keeps their speeds. */
@@ -172,12 +190,13 @@ static fg_status measure_speeds(fg__place_domain *domain, fg_context *context,
                     "the field has no cell with a velocity on a raster of %zu cells",
                     map_count(domain));
   double squares = 0.0, weights = 0.0;
-  qsort(speed, count, sizeof *speed, compare_speeds);
-  for (size_t n = 0; n < count; ++n)
+  domain->greatest = 0.0;
+  for (size_t n = 0; n < count; ++n) {
     squares += (double)speed[n] * (double)speed[n];
-  domain->greatest = (double)speed[count - 1];
-  domain->median = (double)speed[count / 2];
-  domain->fast = (double)speed[count - 1 - count / 20];
+    domain->greatest = fmax(domain->greatest, (double)speed[n]);
+  }
+  domain->median = (double)value_of_rank(speed, count, count / 2);
+  domain->fast = (double)value_of_rank(speed, count, count - 1 - count / 20);
   domain->root_mean_square = sqrt(squares / (double)count);
   domain->dead =
       domain->dimension == 3 && domain->median < DEAD_SHARE * domain->root_mean_square;

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sweeps of descent; exchanges, and how many may fail before they end: so many, and one
- * more for so many icons (0: none). */
+/* Sweeps of descent; exchanges, so many and one more for so many icons (0: none), and how
+ * many may fail before they end. */
 typedef struct effort {
   int sweeps, exchanges, icons_an_exchange, failures;
 } effort;
@@ -20,6 +20,10 @@ static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5},
                                  [FG_EFFORT_QUICK] = {8, 0, 0, 0},
                                  [FG_EFFORT_THOROUGH] = {14, 40, 3, 8}};
 
+/* Beyond so many icons there are fewer exchanges, each of which looks at all icons and
+ * changes less and less of the picture. */
+enum { MOST_EXCHANGED = 1500 };
+
 /* The least fair-share length in distances between samples, and a number of icons that
  * any field may have. */
 static const double FINEST = 0.125;
@@ -27,6 +31,13 @@ enum { FEW = 200 };
 
 /* Sweeps after the first scale is complete. */
 enum { SETTLING = 3 };
+
+/* Up to so many icons in 2D a second placement is made: what errors the few have depends
+ * much on where they began. It comes down from a finer scale by another ratio, if that
+ * had so many times as many icons, or for a first scale from so many of them. */
+enum { MOST_TWICE = 40, MOST_TWICE_FAIR = 80 };
+static const double OTHER_RATIO = 0.65;
+static const double MANY_MORE = 1.5;
 
 /* A scale is reached by numbers of icons that fall by this factor. */
 static const double CHAIN_RATIO = 0.8;
@@ -99,10 +110,22 @@ void fg_placement_destroy(fg_placement *placement)
   free(placement);
 }
 
-/* An icon of a cluster as a seed: its middle, and half its length either way. */
+/* Whether an icon comes from a placement, not from a cluster. */
+static bool is_placed(const fg_icon *icon)
+{
+  return icon->way[0] + icon->way[1] > 0.0;
+}
+
+/* The seed of an icon that was placed; of a cluster's its middle, and half its length
+ * either way. */
 static fg__place_seed seed_of(const fg_icon *icon, const fg__place_scale *scale)
 {
   fg__place_seed seed = {{0}, {0}};
+  if (is_placed(icon)) {
+    memcpy(seed.position, icon->seed, sizeof seed.position);
+    memcpy(seed.way, icon->way, sizeof seed.way);
+    return seed;
+  }
   double length = fg__icon_length(icon), half = length / 2.0, done = 0.0;
   memcpy(seed.position, icon->points[0], sizeof seed.position);
   for (int n = 1; n < icon->point_count && done < half; ++n) {
@@ -120,13 +143,17 @@ static fg__place_seed seed_of(const fg_icon *icon, const fg__place_scale *scale)
   return seed;
 }
 
-/* Refuses icons far smaller than what the data can tell: their number is a mistake, and
- * would take hours. */
+/* Refuses icons far smaller than what the data can tell, and more than can be placed in
+ * a while: their number is a mistake. */
 static fg_status check_fineness(const fg_placement *placement, int count)
 {
   const fg__place_domain *domain = &placement->domain;
   double least = FINEST * domain->data_step;
   double most = domain->measure / pow(least, domain->dimension);
+  if (count > FG__MOST_ARROWS)
+    return fg__fail(placement->context, FG_STATUS_ARGUMENT,
+                    "%d arrows are too many to be placed: %d can be", count,
+                    FG__MOST_ARROWS);
   if (count <= most || count <= FEW)
     return FG_STATUS_OK;
   return fg__fail(placement->context, FG_STATUS_ARGUMENT,
@@ -236,15 +263,22 @@ static fg_status settle(fg__place_search *search)
   return status;
 }
 
+static int count_exchanges(const effort *much, int icons)
+{
+  if (icons <= MOST_EXCHANGED)
+    return much->exchanges + icons / much->icons_an_exchange;
+  const int most = much->exchanges + MOST_EXCHANGED / much->icons_an_exchange;
+  return (int)((int64_t)most * MOST_EXCHANGED / icons);
+}
+
 static fg_status polish(fg_placement *placement)
 {
   fg__place_search *search = &placement->search;
   const effort *much = &EFFORTS[placement->options.effort];
   fg_status status = FG_STATUS_OK;
   if (much->exchanges > 0)
-    status = fg__place_exchange(search,
-                                much->exchanges + search->count / much->icons_an_exchange,
-                                much->failures);
+    status =
+        fg__place_exchange(search, count_exchanges(much, search->count), much->failures);
   if (status == FG_STATUS_OK) {
     fg__place_wake_all(search, 0.1);
     status = descend(search, much->sweeps);
@@ -273,12 +307,12 @@ static fg_status go_on(fg__place_search *search, int count)
   return status;
 }
 
-static fg_status go_down(fg_placement *placement, int count)
+static fg_status go_down(fg_placement *placement, int count, double ratio)
 {
   fg__place_search *search = &placement->search;
   fg_status status = FG_STATUS_OK;
   for (int now = search->count; now > count && status == FG_STATUS_OK;) {
-    int next = (int)(CHAIN_RATIO * now);
+    int next = (int)(ratio * now);
     now = next > count ? next : count;
     status = go_on(search, now);
   }
@@ -306,21 +340,98 @@ fg_status fg__placement_begin_again(fg_placement *placement, int count)
   return status == FG_STATUS_OK ? polish(placement) : status;
 }
 
+/* To `count` icons from those of the finer scale `from`, or without one from evenly
+ * distributed points. */
+static fg_status place_otherwise(fg_placement *placement, int count,
+                                 const fg__place_snapshot *from)
+{
+  fg__place_search *search = &placement->search;
+  fg_status status;
+  if (from->count > 0) {
+    status = fg__place_search_rescale(search, from->count);
+    if (status == FG_STATUS_OK)
+      status = fg__place_restore(search, from);
+  } else {
+    status = place_first(placement, (int)(MANY_MORE * count), NULL);
+  }
+  if (status == FG_STATUS_OK)
+    status = go_down(placement, count, OTHER_RATIO);
+  return status == FG_STATUS_OK ? polish(placement) : status;
+}
+
+/* Looks for another placement, and goes back where it is no better. */
+static fg_status improve(fg_placement *placement, int count,
+                         const fg__place_snapshot *from)
+{
+  fg__place_search *search = &placement->search;
+  fg__place_snapshot best = {0};
+  double before, after = HUGE_VAL;
+  int next_identity = search->next_identity;
+  fg_status status = fg__place_error(search, &before);
+  if (status == FG_STATUS_OK)
+    status = fg__place_remember(&best, search);
+  if (status == FG_STATUS_OK)
+    status = place_otherwise(placement, count, from);
+  if (search->next_identity < next_identity) /* it began anew */
+    search->next_identity = next_identity;
+  if (status == FG_STATUS_OK)
+    status = fg__place_error(search, &after);
+  if (status == FG_STATUS_OK && (search->count < best.count || !(after < before))) {
+    status = fg__place_search_rescale(search, best.count);
+    if (status == FG_STATUS_OK)
+      status = fg__place_restore(search, &best);
+  }
+  fg__place_snapshot_clear(&best);
+  return status;
+}
+
+/* A first scale's icons have numbers without gaps. */
+static void number_icons(fg__place_search *search)
+{
+  for (int n = 0; n < search->count; ++n)
+    search->icon[n]->identity = n;
+  search->next_identity = search->count;
+}
+
+static bool is_made_twice(const fg_placement *placement, int count)
+{
+  bool fair = placement->options.lengths == FG_LENGTHS_FAIR;
+  return placement->domain.dimension == 2 &&
+         placement->options.effort != FG_EFFORT_QUICK &&
+         count <= (fair ? MOST_TWICE_FAIR : MOST_TWICE);
+}
+
 fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons *clusters)
 {
   if (!placement || count < 1)
     return fg__fail(placement ? placement->context : NULL, FG_STATUS_ARGUMENT,
                     "placement: %d arrows", count);
   fg__place_search *search = &placement->search;
+  fg__place_snapshot finer = {0};
   fg_status status = FG_STATUS_OK;
-  if (!placement->begun || count > search->count) {
+  bool twice = is_made_twice(placement, count);
+  bool is_first = !placement->begun || count > search->count;
+  if (is_first) {
+    if (clusters && fg_icons_count(clusters) > 0)
+      twice = twice && !is_placed(fg_icons_at(clusters, 0));
     status = place_first(placement, count, clusters);
   } else {
-    status = go_down(placement, count);
+    twice = twice && search->count >= MANY_MORE * count;
+    if (twice)
+      status = fg__place_remember(&finer, search);
+    if (status == FG_STATUS_OK)
+      status = go_down(placement, count, CHAIN_RATIO);
   }
   if (status == FG_STATUS_OK)
     status = polish(placement);
-  return status == FG_STATUS_OK ? check_count(placement, count) : status;
+  if (status == FG_STATUS_OK)
+    status = check_count(placement, count);
+  if (status == FG_STATUS_OK && twice)
+    status = improve(placement, count, &finer);
+  if (status == FG_STATUS_OK && is_first)
+    number_icons(search);
+  fg__place_snapshot_clear(&finer);
+  return status;
 }
 
 /* Square of the distance from a point to a line, lambda. */

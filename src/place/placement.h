@@ -4,6 +4,9 @@
 
 #include "place/search/search.h"
 
+/* More take minutes and a gigabyte. */
+enum { FG__MOST_ARROWS = 20000 };
+
 fg_context *fg__placement_context(const fg_placement *placement);
 const fg_field *fg__placement_field(const fg_placement *placement);
 

@@ -237,13 +237,64 @@ static void wrong_arguments_are_refused(void **state)
   fg_field_destroy(field);
 }
 
+/* The message says how many are too many. */
+static void more_than_can_be_placed_are_refused(void **state)
+{
+  const sampling coarse = {
+      .dimension = 2, .nodes = {9, 7}, .low = {-3, 4}, .high = {5, 11}};
+  const struct {
+    const sampling *box;
+    int count;
+    const char *message;
+  } cases[] = {
+      {&PLAIN, 20001, "20001 arrows are too many to be placed: 20000 can be"},
+      {&PLAIN, INT_MAX, "2147483647 arrows are too many"},
+      {&coarse, 4000, "4000 arrows do not fit into this field: 3"},
+  };
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    fg_field *field = field_of(*state, cases[n].box, swirl);
+    fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
+    assert_int_equal(fg_placement_place(placement, cases[n].count, NULL),
+                     FG_STATUS_ARGUMENT);
+    assert_ptr_equal(strstr(fg_context_message(*state), cases[n].message),
+                     fg_context_message(*state));
+    fg_context_clear(*state);
+    fg_placement_destroy(placement);
+    fg_field_destroy(field);
+  }
+}
+
+/* A narrow water that winds through a wide field. */
+static void river(const double position[3], double v[3])
+{
+  const double slope = 0.9 * cos(0.6 * position[0]);
+  const double off = position[1] - 7 - 1.5 * sin(0.6 * position[0]);
+  v[0] = fabs(off) < 0.06 * sqrt(1 + slope * slope) ? 1.0 : (double)NAN;
+  v[1] = slope;
+}
+
+static void a_river_gets_its_arrows(void **state)
+{
+  const sampling box = {
+      .dimension = 2, .nodes = {301, 201}, .low = {-7, 3}, .high = {5, 11}};
+  fg_field *field = field_of(*state, &box, river);
+  fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
+  fg_icons *icons = place(*state, placement, 70);
+  assert_int_equal(fg_icons_count(icons), 70);
+  check_lines(placement, icons, 0.17);
+  fg_icons_destroy(icons);
+  fg_placement_destroy(placement);
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       CASE(there_are_as_many_as_asked_for), CASE(a_field_has_one_picture),
       CASE(a_turned_field_is_read_as_well), CASE(placing_lowers_the_error),
       CASE(icons_of_clusters_are_a_start),  CASE(one_call_is_enough),
-      CASE(wrong_arguments_are_refused),
+      CASE(wrong_arguments_are_refused),    CASE(more_than_can_be_placed_are_refused),
+      CASE(a_river_gets_its_arrows),
   };
   return cmocka_run_group_tests_name("place/placement", tests, NULL, NULL);
 }

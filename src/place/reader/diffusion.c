@@ -22,7 +22,7 @@ static const float MARGIN = 0.6F;
 static const float RADIUS = 0.95F;
 enum { STEPS = 8, NEAR_STEPS = 32, WHOLE_STEPS = 80 };
 
-enum { SCALARS = 3, WINDOW_SCALARS = 3, PAD = 16 };
+enum { SCALARS = 3, WINDOW_SCALARS = 3, PAD = FG__PLACE_PAD };
 
 /* Counts each cell's faces to other cells of the domain; `inside` is 1 there. */
 static void count_faces(fg__place_diffusion *reader, const float *inside)
@@ -71,11 +71,10 @@ fg_status fg__place_diffusion_create(fg__place_diffusion *out, fg_context *conte
   *out = (fg__place_diffusion){.raster = *raster};
   out->hold =
       (dimension == 2 ? HOLD_2D : HOLD_3D) * (float)(scale->sampling / scale->cell);
-  out->cells = fg__allocate(count * arrays, sizeof *out->cells);
+  out->cells = fg__allocate(count * arrays + PAD, sizeof *out->cells);
   if (!out->cells)
     return fg__fail_memory(context, "a reader by diffusion",
                            count * arrays * sizeof *out->cells);
-  memset(out->cells, 0, count * arrays * sizeof *out->cells);
   out->faces = out->cells;
   out->strength = out->cells + count;
   out->error = out->cells + 2 * count;
@@ -91,6 +90,7 @@ void fg__place_diffusion_clear(fg__place_diffusion *reader)
 {
   free(reader->cells);
   free(reader->window.room);
+  free(reader->window.run);
   *reader = (fg__place_diffusion){0};
 }
 
@@ -176,7 +176,7 @@ static fg_status open_window(fg__place_window *window, fg_context *context, int 
   size_t plane = wide * ((size_t)size[1] + 2);
   size_t deep = dimension == 3 ? (size_t)size[2] + 2 : 1;
   /* a row is read in whole vectors, from one cell before to one behind */
-  size_t count = plane * deep + 2 * PAD;
+  size_t needed = plane * deep + 2 * PAD, count = fg__place_apart(needed);
   size_t arrays = WINDOW_SCALARS + 3 * (size_t)dimension;
   window->stride[0] = wide;
   window->stride[1] = plane;
@@ -191,6 +191,10 @@ static fg_status open_window(fg__place_window *window, fg_context *context, int 
                              count * arrays * sizeof *window->room);
     }
   }
+  /* of a row's vectors every other one may begin a run */
+  const size_t runs = (wide / PAD + 1) / 2 * (size_t)size[1] * (size_t)size[2];
+  if (!fg__grow((void **)&window->run, &window->run_capacity, runs, sizeof *window->run))
+    return fg__fail_memory(context, "runs of cells", runs * sizeof *window->run);
   float *next = window->room;
   float **const scalars[WINDOW_SCALARS] = {&window->inverse, &window->strength,
                                            &window->error};
@@ -200,7 +204,8 @@ static fg_status open_window(fg__place_window *window, fg_context *context, int 
     window->source[k] = next;
     window->value[k] = next + count;
     window->last[k] = next + 2 * count;
-    memset(window->value[k], 0, 2 * count * sizeof *next);
+    memset(window->value[k], 0, needed * sizeof *next);
+    memset(window->last[k], 0, needed * sizeof *next);
   }
   return FG_STATUS_OK;
 }
@@ -267,26 +272,60 @@ static void copy_lines(fg__place_diffusion *reader)
     }
 }
 
+static fg__place_window_rows rows_of(const fg__place_diffusion *reader)
+{
+  const fg__place_window *window = &reader->window;
+  fg__place_window_rows rows = {.dimension = reader->raster.dimension,
+                                .stride = {window->stride[0], window->stride[1]},
+                                .origin = window->origin,
+                                .inverse = window->inverse,
+                                .run = window->run,
+                                .run_count = window->run_count};
+  memcpy(rows.size, window->box.size, sizeof rows.size);
+  for (int k = 0; k < 3; ++k) {
+    rows.value[k] = window->value[k];
+    rows.last[k] = window->last[k];
+    rows.source[k] = window->source[k];
+  }
+  return rows;
+}
+
+static bool is_of_domain(const float *inverse, int count)
+{
+  float sum = 0.0F;
+  for (int n = 0; n < count; ++n)
+    sum += inverse[n];
+  return sum > 0.0F;
+}
+
+/* Adds the runs of a row, in whole vectors. */
+static void add_runs(fg__place_window *window, size_t row)
+{
+  const int length = window->box.size[0];
+  bool before = false;
+  for (int first = 0; first < length; first += PAD) {
+    const int count = length - first < PAD ? length - first : PAD;
+    const bool active = is_of_domain(window->inverse + row + first, count);
+    if (active && before)
+      window->run[window->run_count - 1].count += count;
+    else if (active)
+      window->run[window->run_count++] = (fg__place_run){row + (size_t)first, count};
+    before = active;
+  }
+}
+
 /* Chebyshev's semi-iteration on Jacobi's (Golub and Varga 1961). */
 static void iterate(fg__place_diffusion *reader, int steps)
 {
   fg__place_window *window = &reader->window;
-  const fg__place_box *box = &window->box;
-  const int dimension = reader->raster.dimension;
   const float square = RADIUS * RADIUS;
   float omega = 1.0F;
   for (int step = 0; step < steps; ++step) {
-    for (int k = 0; k < dimension; ++k) {
-      for (int z = 0; z < box->size[2]; ++z)
-        for (int y = 0; y < box->size[1]; ++y) {
-          size_t at = row_at(reader, y, z).window;
-          fg__place_diffuse_row(dimension, window->last[k] + at, window->value[k] + at,
-                                window->stride, window->source[k] + at,
-                                window->inverse + at, box->size[0], omega);
-        }
-      float *value = window->last[k];
-      window->last[k] = window->value[k];
-      window->value[k] = value;
+    const fg__place_window_rows rows = rows_of(reader);
+    fg__place_diffuse_rows(&rows, omega);
+    for (int k = 0; k < 3; ++k) {
+      window->last[k] = rows.value[k];
+      window->value[k] = rows.last[k];
     }
     omega = 1.0F / (1.0F - (step == 0 ? 0.5F : 0.25F * omega) * square);
   }
@@ -297,28 +336,17 @@ static double solve_window(fg__place_diffusion *reader, int steps)
 {
   const fg__place_raster *raster = &reader->raster;
   fg__place_window *window = &reader->window;
-  const fg__place_box *box = &window->box;
-  double growth = 0.0;
-  for (int z = 0; z < box->size[2]; ++z)
-    for (int y = 0; y < box->size[1]; ++y) {
-      row_place at = row_at(reader, y, z);
-      fg__place_inverse_row(window->inverse + at.window, reader->faces + at.raster,
-                            window->strength + at.window, box->size[0]);
-    }
+  const size_t row = (size_t)raster->cells[0], plane = row * (size_t)raster->cells[1];
+  const fg__place_raster_rows at = {{row, plane}, row_at(reader, 0, 0).raster};
+  fg__place_window_rows rows = rows_of(reader);
+  fg__place_inverse_rows(&rows, window->strength, &at, reader->faces);
+  window->run_count = 0;
+  for (int z = 0; z < window->box.size[2]; ++z)
+    for (int y = 0; y < window->box.size[1]; ++y)
+      add_runs(window, row_at(reader, y, z).window);
   iterate(reader, steps);
-  for (int z = 0; z < box->size[2]; ++z)
-    for (int y = 0; y < box->size[1]; ++y) {
-      row_place at = row_at(reader, y, z);
-      fg__place_angle_cells cells = {.weight = raster->weight + at.raster,
-                                     .before = reader->error + at.raster};
-      for (int k = 0; k < raster->dimension; ++k) {
-        cells.value[k] = window->value[k] + at.window;
-        cells.direction[k] = raster->direction[k] + at.raster;
-      }
-      growth += fg__place_angle_row(raster->dimension, window->error + at.window, &cells,
-                                    box->size[0]);
-    }
-  return growth;
+  rows = rows_of(reader);
+  return fg__place_angle_rows(window->error, &rows, &at, raster, reader->error);
 }
 
 /* Takes the window's solution over. */

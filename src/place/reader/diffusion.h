@@ -5,7 +5,7 @@
 #ifndef FG__PLACE_DIFFUSION_H
 #define FG__PLACE_DIFFUSION_H
 
-#include "place/reader/readers.h"
+#include "place/reader/rows.h"
 
 /* The part of the raster that a trial solves for, with one cell more on each side. */
 typedef struct fg__place_window {
@@ -15,6 +15,8 @@ typedef struct fg__place_window {
   size_t capacity;
   float *room; /* what all below points to */
   float *inverse, *strength, *source[3], *value[3], *last[3], *error;
+  fg__place_run *run; /* those with cells of the domain: most of a raster may have none */
+  size_t run_count, run_capacity;
 } fg__place_window;
 
 typedef struct fg__place_diffusion {

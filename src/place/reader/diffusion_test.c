@@ -164,6 +164,45 @@ static void trials_tell_what_becomes_in_space(void **state)
   clear(&s);
 }
 
+/* Five channels across the box, as wide as they are far apart, or not. */
+static void channels(const double position[3], double v[3])
+{
+  static const double edge[][2] = {
+      {0.3, 0.8}, {2.1, 2.5}, {2.9, 5.2}, {7.7, 8.1}, {11.0, 11.6}};
+  v[0] = (double)NAN;
+  v[1] = 1.0;
+  for (size_t n = 0; n < sizeof edge / sizeof *edge; ++n)
+    if (position[0] > edge[n][0] - 0.01 && position[0] < edge[n][1] + 0.01)
+      v[0] = 0.5;
+}
+
+/* Where one line holds a channel, its tangent is all that is read there; all channels are
+ * solved, wherever in a row they begin. */
+static void every_part_of_a_domain_is_read(void **state)
+{
+  static const sampling box = {
+      .dimension = 2, .nodes = {121, 11}, .low = {0, 0}, .high = {12, 1}};
+  setting s;
+  set(&s, *state, &box, channels, 12);
+  const double width = 12.0 / s.scale.lambda;
+  fg__place_line line =
+      line_at(0.4 / s.scale.lambda, 0, width, 0, (const double[3]){0.6, 0.8, 0});
+  share(&line, &s, width);
+  fg__place_diffusion_add(&s.reader, &line);
+  solve(&s, 12);
+  int inside = 0, first = 0;
+  for (size_t n = 0; n < s.raster.count; ++n) {
+    const bool in = s.reader.faces[n] > 0.0F;
+    inside += in;
+    first += in && (n == 0 || !(s.reader.faces[n - 1] > 0.0F));
+    assert_close((double)s.reader.value[0][n], in ? 0.6 : 0.0, 0.01);
+    assert_close((double)s.reader.value[1][n], in ? 0.8 : 0.0, 0.01);
+  }
+  assert_true(s.raster.cells[0] > 100 && inside > 300);
+  assert_true(first >= 5 * (s.raster.cells[1] - 2));
+  clear(&s);
+}
+
 /* Without lines nothing is read: a right angle everywhere, and no value outside. */
 static void nothing_is_read_without_lines(void **state)
 {
@@ -194,6 +233,7 @@ int main(void)
       CASE(fields_between_two_lines_are_linear),
       CASE(trials_tell_what_becomes_in_the_plane),
       CASE(trials_tell_what_becomes_in_space),
+      CASE(every_part_of_a_domain_is_read),
       CASE(nothing_is_read_without_lines),
   };
   return cmocka_run_group_tests_name("place/reader/reader/diffusion", tests, NULL, NULL);

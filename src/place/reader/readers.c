@@ -78,10 +78,11 @@ fg_status fg__place_raster_create(fg__place_raster *out, fg_context *context,
     out->cells[k] = out->cells[k] > 1 ? out->cells[k] : 1;
     out->count *= (size_t)out->cells[k];
   }
-  out->weight = fg__allocate(out->count, sizeof *out->weight);
+  const size_t room = out->count + FG__PLACE_PAD;
+  out->weight = fg__allocate(room, sizeof *out->weight);
   bool whole = out->weight != NULL;
   for (int k = 0; k < domain->dimension; ++k) {
-    out->direction[k] = fg__allocate(out->count, sizeof *out->direction[k]);
+    out->direction[k] = fg__allocate(room, sizeof *out->direction[k]);
     whole = whole && out->direction[k];
   }
   if (!whole) {
@@ -101,38 +102,31 @@ void fg__place_raster_clear(fg__place_raster *raster)
       NULL;
 }
 
-bool fg__place_boxes_meet(const fg__place_box *a, const fg__place_box *b)
-{
-  for (int k = 0; k < 3; ++k)
-    if (a->low[k] >= b->low[k] + b->size[k] || b->low[k] >= a->low[k] + a->size[k])
-      return false;
-  return true;
-}
-
 void fg__place_contribution_clear(fg__place_contribution *contribution)
 {
-  free(contribution->value);
+  free(contribution->room);
   *contribution = (fg__place_contribution){0};
 }
 
 static fg_status make_room(fg__place_contribution *contribution, fg_context *context,
                            int dimension, const fg__place_box *box)
 {
-  size_t count = fg__place_box_count(box);
+  size_t count = fg__place_box_count(box) + FG__PLACE_PAD;
   contribution->box = *box;
   contribution->dimension = dimension;
   if (count <= contribution->capacity)
     return FG_STATUS_OK;
-  free(contribution->value);
-  contribution->capacity = count + count / 4 + 16;
-  contribution->value = fg__allocate_aligned(
-      contribution->capacity * FG__PLACE_ARRAYS((size_t)dimension), sizeof(float));
-  if (contribution->value)
+  free(contribution->room);
+  contribution->capacity = fg__place_apart(count + count / 4);
+  size_t values = contribution->capacity * FG__PLACE_ARRAYS((size_t)dimension) +
+                  2 * (size_t)FG__PLACE_PAD;
+  contribution->room = fg__allocate_aligned(values, sizeof(float));
+  if (contribution->room) {
+    contribution->value = contribution->room + FG__PLACE_PAD;
     return FG_STATUS_OK;
-  size_t bytes =
-      contribution->capacity * FG__PLACE_ARRAYS((size_t)dimension) * sizeof(float);
+  }
   contribution->capacity = 0;
-  return fg__fail_memory(context, "what icons tell", bytes);
+  return fg__fail_memory(context, "what icons tell", values * sizeof(float));
 }
 
 fg_status fg__place_contribution_start(fg__place_contribution *contribution,
@@ -192,34 +186,16 @@ void fg__place_box_widen(fg__place_box *box, const fg__place_box *by)
   }
 }
 
-/* Where row (y, z) of a box begins, from its own low corner. */
-static size_t row_place(const fg__place_box *box, int y, int z)
-{
-  return ((size_t)z * (size_t)box->size[1] + (size_t)y) * (size_t)box->size[0];
-}
-
 fg_status fg__place_tell(fg__place_contribution *out, fg_context *context,
                          const fg__place_raster *raster, const fg__place_scale *scale,
                          const fg__place_line *line)
 {
   float reach = (float)(scale->reach / scale->lambda);
   fg__place_box box = fg__place_box_of(raster, scale, line);
-  fg_status status =
-      fg__place_contribution_start(out, context, raster->dimension, &box, reach);
-  if (status != FG_STATUS_OK)
-    return status;
-  fg__place_row_place place = {.x = (float)box.low[0] * raster->cell,
-                               .cell = raster->cell,
-                               .reach = reach,
-                               .inverse_square = 1.0F / (reach * reach)};
-  for (int z = 0; z < box.size[2]; ++z)
-    for (int y = 0; y < box.size[1]; ++y) {
-      place.y = ((float)(box.low[1] + y) + 0.5F) * raster->cell;
-      place.z = ((float)(box.low[2] + z) + 0.5F) * raster->cell;
-      fg__place_tell_row(raster->dimension, out->value + row_place(&box, y, z),
-                         out->capacity, box.size[0], line, &place);
-    }
-  return FG_STATUS_OK;
+  fg_status status = make_room(out, context, raster->dimension, &box);
+  if (status == FG_STATUS_OK)
+    fg__place_tell_rows(out, raster, line, reach);
+  return status;
 }
 
 /* The common part of two boxes. */
@@ -236,68 +212,22 @@ static bool common_box(fg__place_box *out, const fg__place_box *a, const fg__pla
   return true;
 }
 
-/* Where a cell (of the raster) lies in a box. */
-static size_t place_in(const fg__place_box *box, int x, int y, int z)
-{
-  return row_place(box, y - box->low[1], z - box->low[2]) + (size_t)(x - box->low[0]);
-}
-
 void fg__place_contribution_add(fg__place_contribution *to,
                                 const fg__place_contribution *from)
 {
   fg__place_box both;
-  if (!common_box(&both, &to->box, &from->box))
-    return;
-  for (int z = both.low[2]; z < both.low[2] + both.size[2]; ++z)
-    for (int y = both.low[1]; y < both.low[1] + both.size[1]; ++y)
-      fg__place_add_row(to->dimension, to->value + place_in(&to->box, both.low[0], y, z),
-                        to->capacity,
-                        from->value + place_in(&from->box, both.low[0], y, z),
-                        from->capacity, both.size[0]);
-}
-
-/* A row of a contribution, or NULL where the contribution has none there. */
-static const float *row_of(const fg__place_contribution *contribution, int y, int z)
-{
-  const fg__place_box *box = &contribution->box;
-  if (y < box->low[1] || y >= box->low[1] + box->size[1] || z < box->low[2] ||
-      z >= box->low[2] + box->size[2] || box->size[0] == 0)
-    return NULL;
-  return contribution->value + place_in(box, box->low[0], y, z);
+  if (common_box(&both, &to->box, &from->box))
+    fg__place_add_rows(to, from, &both);
 }
 
 double fg__place_cost(float *cost, const fg__place_raster *raster,
                       const fg__place_box *box, const fg__place_contribution *one,
                       const fg__place_contribution *other, const fg__place_price *price)
 {
-  double sum = 0.0;
-  for (int z = box->low[2]; z < box->low[2] + box->size[2]; ++z)
-    for (int y = box->low[1]; y < box->low[1] + box->size[1]; ++y) {
-      size_t cell =
-          ((size_t)z * (size_t)raster->cells[1] + (size_t)y) * (size_t)raster->cells[0] +
-          (size_t)box->low[0];
-      fg__place_row row = {
-          .weight = raster->weight + cell,
-          .direction = {raster->direction[0] + cell, raster->direction[1] + cell, NULL},
-          .price = *price};
-      if (raster->dimension == 3)
-        row.direction[2] = raster->direction[2] + cell;
-      const float *a = one ? row_of(one, y, z) : NULL;
-      const float *b = other ? row_of(other, y, z) : NULL;
-      fg__place_told_row parts[2] = {{0}, {0}};
-      if (a)
-        parts[0] = (fg__place_told_row){a, one->capacity, one->box.low[0] - box->low[0],
-                                        one->box.size[0]};
-      if (b)
-        parts[1] = (fg__place_told_row){
-            b, other->capacity, other->box.low[0] - box->low[0], other->box.size[0]};
-      float *kept = cost ? cost + place_in(box, box->low[0], y, z) : NULL;
-      sum += fg__place_cost_row(raster->dimension, kept, box->size[0], &row, parts);
-    }
-  return sum;
+  const fg__place_contribution *const parts[2] = {one, other};
+  return fg__place_cost_rows(cost, raster, box, parts, price);
 }
 
-enum { VECTOR = 16 };
 static const float BEYOND = 1e9F;
 
 void fg__place_points_clear(fg__place_points *points)
@@ -309,7 +239,7 @@ void fg__place_points_clear(fg__place_points *points)
 fg_status fg__place_points_start(fg__place_points *points, fg_context *context,
                                  int dimension, int most)
 {
-  size_t needed = ((size_t)most / VECTOR + 1) * VECTOR;
+  size_t needed = ((size_t)most / FG__PLACE_PAD + 1) * FG__PLACE_PAD;
   points->dimension = dimension;
   points->count = 0;
   if (needed > points->capacity) {
@@ -323,8 +253,9 @@ fg_status fg__place_points_start(fg__place_points *points, fg_context *context,
                              needed * (size_t)dimension * sizeof *points->position);
     }
   }
-  for (size_t n = 0; n < points->capacity * (size_t)dimension; ++n)
-    points->position[n] = BEYOND;
+  for (int k = 0; k < dimension; ++k)
+    for (size_t n = 0; n < needed; ++n)
+      points->position[(size_t)k * points->capacity + n] = BEYOND;
   return FG_STATUS_OK;
 }
 
@@ -339,7 +270,7 @@ void fg__place_points_add(fg__place_points *points, const fg__place_line *line)
 void fg__place_points_nearest(float square[FG__PLACE_SAMPLES],
                               const fg__place_points *points, const fg__place_line *line)
 {
-  int count = (points->count + VECTOR - 1) / VECTOR * VECTOR;
+  int count = (points->count + FG__PLACE_PAD - 1) / FG__PLACE_PAD * FG__PLACE_PAD;
   fg__place_nearest_points(points->dimension, square, line, points->position,
                            points->capacity, count);
 }

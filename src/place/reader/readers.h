@@ -27,6 +27,18 @@ void fg__place_raster_center(double center[3], const fg__place_raster *raster,
                              const fg__place_domain *domain, const fg__place_scale *scale,
                              const int at[3]);
 
+/* Elements that arrays of cells have more than they need, on the side where they are
+ * read in whole vectors (rows.h). */
+enum { FG__PLACE_PAD = 16 };
+
+/* How far apart arrays of so many elements begin. Where that is about a multiple of a
+ * page of memory, to write one while others are read takes many times as long: they begin
+ * a seventh of a page on. */
+static inline size_t fg__place_apart(size_t count)
+{
+  return count / 1024 * 1024 + 1024 + 144;
+}
+
 /* A box of cells. */
 typedef struct fg__place_box {
   int low[3], size[3];
@@ -37,7 +49,13 @@ static inline size_t fg__place_box_count(const fg__place_box *box)
   return (size_t)box->size[0] * (size_t)box->size[1] * (size_t)box->size[2];
 }
 
-bool fg__place_boxes_meet(const fg__place_box *a, const fg__place_box *b);
+static inline bool fg__place_boxes_meet(const fg__place_box *a, const fg__place_box *b)
+{
+  bool meet = true;
+  for (int k = 0; k < 3; ++k)
+    meet &= a->low[k] < b->low[k] + b->size[k] && b->low[k] < a->low[k] + a->size[k];
+  return meet;
+}
 
 /* The contribution of some icons to the readers in a box of cells. */
 enum { FG__PLACE_NEAR = 1 };
@@ -46,7 +64,8 @@ enum { FG__PLACE_NEAR = 1 };
 typedef struct fg__place_contribution {
   fg__place_box box;
   int dimension;
-  size_t capacity; /* cells */
+  size_t capacity; /* cells, FG__PLACE_PAD of them to spare */
+  float *room;     /* what `value` lies in, with more before and behind */
   float *value;    /* FG__PLACE_ARRAYS arrays of `capacity`: square of the distance to the
                       nearest sample; from NEAR on its tangent, then the sum over icons of
                       the nearest tangent by inverse distance */

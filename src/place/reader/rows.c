@@ -7,8 +7,6 @@
 /* Square of epsilon in lambda: of the inverse distance, as the score has it. */
 #define PULL_EPSILON 0.0025F
 
-enum { LANES = 8, MOST_CELLS = 64 };
-
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && defined(__GNUC__) &&        \
     !defined(__clang__)
 #define CLONES __attribute__((target_clones("default", "avx2", "avx512f")))
@@ -23,18 +21,11 @@ INLINE int pull_array(const int dimension)
   return FG__PLACE_NEAR + dimension;
 }
 
-/* (1 - d^2 / R^2)^2, 0 beyond R. */
-INLINE float taper(float square, float inverse_square)
-{
-  float f = 1.0F - square * inverse_square;
-  f = f > 0.0F ? f : 0.0F;
-  return f * f;
-}
-
 /* Sixteen cells at once; narrower instructions take them in pieces. */
+enum { WIDTH = FG__PLACE_PAD };
 typedef float vector __attribute__((vector_size(64)));
+typedef double wide __attribute__((vector_size(128)));
 typedef int32_t mask __attribute__((vector_size(64)));
-enum { WIDTH = 16 };
 
 INLINE vector load(const float *from)
 {
@@ -43,16 +34,63 @@ INLINE vector load(const float *from)
   return out;
 }
 
-/* The first `count` of a vector. */
-INLINE void store(float *to, vector from, int count)
+INLINE void store(float *to, vector from)
 {
-  memcpy(to, &from, (size_t)count * sizeof *to);
+  memcpy(to, &from, sizeof from);
 }
 
 INLINE vector choose(mask which, vector yes, vector no)
 {
   return (vector)((which & (mask)yes) | (~which & (mask)no));
 }
+
+/* The first `count` lanes: of a table, for comparisons that are no part of a choice GCC
+ * takes apart lane by lane. */
+INLINE mask lanes_below(int count)
+{
+  static const int32_t table[2 * WIDTH] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                           -1, -1, -1, -1, -1, -1, -1, -1};
+  mask lanes;
+  count = count < 0 ? 0 : count < WIDTH ? count : WIDTH;
+  memcpy(&lanes, table + WIDTH - count, sizeof lanes);
+  return lanes;
+}
+
+INLINE vector root(vector of)
+{
+  float lane[WIDTH];
+  store(lane, of);
+  for (int k = 0; k < WIDTH; ++k)
+    lane[k] = sqrtf(lane[k]);
+  return load(lane);
+}
+
+INLINE double sum_of(wide sums)
+{
+  double sum = 0.0;
+  for (int k = 0; k < WIDTH; ++k)
+    sum += sums[k];
+  return sum;
+}
+
+/* Where row (y, z) of the raster begins in a contribution, which has it. */
+INLINE size_t row_in(const fg__place_contribution *in, int y, int z)
+{
+  const fg__place_box *box = &in->box;
+  return ((size_t)(z - box->low[2]) * (size_t)box->size[1] + (size_t)(y - box->low[1])) *
+         (size_t)box->size[0];
+}
+
+INLINE size_t row_of_raster(const fg__place_raster *raster, int y, int z)
+{
+  return ((size_t)z * (size_t)raster->cells[1] + (size_t)y) * (size_t)raster->cells[0];
+}
+
+/* Where a row of cells lies, in lambda. */
+typedef struct row_place {
+  float x, y, z; /* its low end, its middle */
+  float cell, reach;
+} row_place;
 
 /* What a line tells some cells: the nearest sample's tangent. */
 typedef struct line_told {
@@ -63,7 +101,7 @@ typedef struct line_told {
  * to the row. */
 INLINE void tell_sample(const int dimension, line_told *out, vector x,
                         const fg__place_line *line, int n, float aside,
-                        const fg__place_row_place *row)
+                        const row_place *row)
 {
   const vector zero = {0};
   vector dx = x - (line->position[0][n] - row->x);
@@ -74,301 +112,342 @@ INLINE void tell_sample(const int dimension, line_told *out, vector x,
     out->tangent[k] = choose(nearer, zero + line->tangent[k][n], out->tangent[k]);
 }
 
+/* Each sample tells the cells that lie within its reach: their own tangents, and the pull
+ * of the icon as a whole. */
 INLINE void tell_cells(const int dimension, float *value, size_t stride, int first,
-                       int count, const fg__place_line *line,
-                       const fg__place_row_place *row)
+                       const fg__place_line *line, const row_place *row)
 {
   static const float steps[WIDTH] = {0, 1, 2,  3,  4,  5,  6,  7,
                                      8, 9, 10, 11, 12, 13, 14, 15};
-  line_told out = {.near = (vector){0} + row->reach * row->reach};
+  const float reach_square = row->reach * row->reach;
+  line_told out = {.near = (vector){0} + reach_square};
   vector x = (load(steps) + ((float)first + 0.5F)) * row->cell;
   for (int n = 0; n < line->count; ++n) {
     float dy = row->y - line->position[1][n];
     float dz = dimension == 3 ? row->z - line->position[2][n] : 0.0F;
     float aside = dy * dy + dz * dz;
-    if (aside < row->reach * row->reach)
+    if (aside < reach_square)
       tell_sample(dimension, &out, x, line, n, aside, row);
   }
-  int cells = count - first < WIDTH ? count - first : WIDTH;
-  store(value + first, out.near, cells);
-  for (int k = 0; k < dimension; ++k)
-    store(value + (size_t)(FG__PLACE_NEAR + k) * stride + first, out.tangent[k], cells);
-}
-
-/* Each sample tells the cells of the row that lie within its reach. */
-INLINE void tell_row(const int dimension, float *restrict value, size_t stride, int count,
-                     const fg__place_line *line, const fg__place_row_place *row)
-{
-  for (int first = 0; first < count; first += WIDTH)
-    tell_cells(dimension, value, stride, first, count, line, row);
-  for (int i = 0; i < count; ++i) { /* the pull of the icon as a whole */
-    float square = value[i], q = square + PULL_EPSILON;
-    float power = dimension == 2 ? q * sqrtf(q) : q * q;
-    float weight = taper(square, row->inverse_square) / power;
-    for (int k = 0; k < dimension; ++k)
-      value[(size_t)(pull_array(dimension) + k) * stride + (size_t)i] =
-          weight * value[(size_t)(FG__PLACE_NEAR + k) * stride + (size_t)i];
-  }
-}
-
-CLONES static void tell_2d(float *value, size_t stride, int count,
-                           const fg__place_line *line, const fg__place_row_place *row)
-{
-  tell_row(2, value, stride, count, line, row);
-}
-
-CLONES static void tell_3d(float *value, size_t stride, int count,
-                           const fg__place_line *line, const fg__place_row_place *row)
-{
-  tell_row(3, value, stride, count, line, row);
-}
-
-void fg__place_tell_row(int dimension, float *value, size_t stride, int count,
-                        const fg__place_line *line, const fg__place_row_place *row)
-{
-  (dimension == 2 ? tell_2d : tell_3d)(value, stride, count, line, row);
-}
-
-INLINE void add_row(const int dimension, float *restrict to, size_t to_stride,
-                    const float *restrict from, size_t from_stride, int count)
-{
+  vector q = out.near + PULL_EPSILON;
+  vector power = dimension == 2 ? q * root(q) : q * q;
+  vector f = 1.0F - out.near * (1.0F / reach_square); /* (1 - d^2 / R^2)^2, 0 beyond R */
+  f = choose(f > 0.0F, f, (vector){0});
+  vector weight = f * f / power;
+  store(value + first, out.near);
   for (int k = 0; k < dimension; ++k) {
-    float *restrict mine = to + (size_t)(FG__PLACE_NEAR + k) * to_stride;
-    const float *restrict other = from + (size_t)(FG__PLACE_NEAR + k) * from_stride;
-    for (int i = 0; i < count; ++i)
-      mine[i] = from[i] < to[i] ? other[i] : mine[i];
-  }
-  for (int i = 0; i < count; ++i)
-    to[i] = from[i] < to[i] ? from[i] : to[i];
-  for (int k = pull_array(dimension); k < FG__PLACE_ARRAYS(dimension); ++k) {
-    float *restrict mine = to + (size_t)k * to_stride;
-    const float *restrict other = from + (size_t)k * from_stride;
-    for (int i = 0; i < count; ++i)
-      mine[i] += other[i];
+    store(value + (size_t)(FG__PLACE_NEAR + k) * stride + first, out.tangent[k]);
+    store(value + (size_t)(pull_array(dimension) + k) * stride + first,
+          weight * out.tangent[k]);
   }
 }
 
-CLONES static void add_2d(float *to, size_t to_stride, const float *from,
-                          size_t from_stride, int count)
+INLINE void tell_rows(const int dimension, fg__place_contribution *to,
+                      const fg__place_raster *raster, const fg__place_line *line,
+                      float reach)
 {
-  add_row(2, to, to_stride, from, from_stride, count);
+  const fg__place_box *box = &to->box;
+  row_place row = {
+      .x = (float)box->low[0] * raster->cell, .cell = raster->cell, .reach = reach};
+  float *value = to->value;
+  for (int z = 0; z < box->size[2]; ++z)
+    for (int y = 0; y < box->size[1]; ++y, value += box->size[0]) {
+      row.y = ((float)(box->low[1] + y) + 0.5F) * raster->cell;
+      row.z = ((float)(box->low[2] + z) + 0.5F) * raster->cell;
+      /* what is told beyond a row's end, the next row overwrites */
+      for (int first = 0; first < box->size[0]; first += WIDTH)
+        tell_cells(dimension, value, to->capacity, first, line, &row);
+    }
 }
 
-CLONES static void add_3d(float *to, size_t to_stride, const float *from,
-                          size_t from_stride, int count)
+CLONES static void tell_2d(fg__place_contribution *to, const fg__place_raster *raster,
+                           const fg__place_line *line, float reach)
 {
-  add_row(3, to, to_stride, from, from_stride, count);
+  tell_rows(2, to, raster, line, reach);
 }
 
-void fg__place_add_row(int dimension, float *to, size_t to_stride, const float *from,
-                       size_t from_stride, int count)
+CLONES static void tell_3d(fg__place_contribution *to, const fg__place_raster *raster,
+                           const fg__place_line *line, float reach)
 {
-  (dimension == 2 ? add_2d : add_3d)(to, to_stride, from, from_stride, count);
+  tell_rows(3, to, raster, line, reach);
+}
+
+void fg__place_tell_rows(fg__place_contribution *to, const fg__place_raster *raster,
+                         const fg__place_line *line, float reach)
+{
+  (raster->dimension == 2 ? tell_2d : tell_3d)(to, raster, line, reach);
+}
+
+/* What some cells are told by all. */
+typedef struct cells_told {
+  vector value[FG__PLACE_ARRAYS(3)];
+} cells_told;
+
+/* Joins to it what the cells of `have` are told. */
+INLINE void join(const int dimension, cells_told *to, const float *value, size_t stride,
+                 mask have)
+{
+  vector square = choose(have, load(value), to->value[0]);
+  mask nearer = square < to->value[0];
+  to->value[0] = choose(nearer, square, to->value[0]);
+  for (int k = FG__PLACE_NEAR; k < pull_array(dimension); ++k)
+    to->value[k] = choose(nearer, load(value + (size_t)k * stride), to->value[k]);
+  for (int k = pull_array(dimension); k < FG__PLACE_ARRAYS(dimension); ++k)
+    to->value[k] += (vector)(have & (mask)load(value + (size_t)k * stride));
+}
+
+INLINE void add_rows(const int dimension, fg__place_contribution *to,
+                     const fg__place_contribution *from, const fg__place_box *box)
+{
+  for (int z = box->low[2]; z < box->low[2] + box->size[2]; ++z)
+    for (int y = box->low[1]; y < box->low[1] + box->size[1]; ++y) {
+      float *mine = to->value + row_in(to, y, z) + (box->low[0] - to->box.low[0]);
+      const float *other =
+          from->value + row_in(from, y, z) + (box->low[0] - from->box.low[0]);
+      for (int i = 0; i < box->size[0]; i += WIDTH) {
+        cells_told all = {{{0}}};
+        for (int k = 0; k < FG__PLACE_ARRAYS(dimension); ++k)
+          all.value[k] = load(mine + (size_t)k * to->capacity + i);
+        join(dimension, &all, other + i, from->capacity, lanes_below(box->size[0] - i));
+        for (int k = 0; k < FG__PLACE_ARRAYS(dimension); ++k)
+          store(mine + (size_t)k * to->capacity + i, all.value[k]);
+      }
+    }
+}
+
+CLONES static void add_2d(fg__place_contribution *to, const fg__place_contribution *from,
+                          const fg__place_box *box)
+{
+  add_rows(2, to, from, box);
+}
+
+CLONES static void add_3d(fg__place_contribution *to, const fg__place_contribution *from,
+                          const fg__place_box *box)
+{
+  add_rows(3, to, from, box);
+}
+
+void fg__place_add_rows(fg__place_contribution *to, const fg__place_contribution *from,
+                        const fg__place_box *box)
+{
+  (to->dimension == 2 ? add_2d : add_3d)(to, from, box);
 }
 
 /* Degrees between a vector and a unit one; 90 for no vector. arccos by Abramowitz and
  * Stegun 4.4.45, in degrees, to 0.004. */
-INLINE float angle_to(const int dimension, float x, float y, float z, float vx, float vy,
-                      float vz)
+INLINE vector angle_to(const int dimension, const vector value[3],
+                       const vector direction[3])
 {
-  float square = x * x + y * y, dot = x * vx + y * vy;
+  vector square = value[0] * value[0] + value[1] * value[1];
+  vector dot = value[0] * direction[0] + value[1] * direction[1];
   if (dimension == 3) {
-    square += z * z;
-    dot += z * vz;
+    square += value[2] * value[2];
+    dot += value[2] * direction[2];
   }
-  float cosine = dot / sqrtf(square + 1e-30F);
-  float a = cosine < 0.0F ? -cosine : cosine;
-  a = a < 1.0F ? a : 1.0F;
-  float angle = sqrtf(1.0F - a) *
-                (89.996090F + a * (-12.153260F + a * (4.2548420F + a * -1.0731100F)));
-  return cosine < 0.0F ? 180.0F - angle : angle;
+  vector cosine = dot / root(square + 1e-30F);
+  vector a = choose(cosine < 0.0F, -cosine, cosine);
+  a = choose(a < 1.0F, a, (vector){0} + 1.0F);
+  vector angle = root(1.0F - a) *
+                 (89.996090F + a * (-12.153260F + a * (4.2548420F + a * -1.0731100F)));
+  return choose(cosine < 0.0F, 180.0F - angle, angle);
 }
 
-/* Cells as a row is priced: what is told there, gathered from both parts. */
-typedef struct gathered {
-  float value[FG__PLACE_ARRAYS(3)][MOST_CELLS];
-} gathered;
+/* A part's cells in a row, from cell `first` on. */
+typedef struct told_row {
+  const float *value; /* NULL: none */
+  size_t stride;
+  int first, end;
+} told_row;
 
-INLINE void gather(const int dimension, gathered *out, int first, int count,
-                   float reach_square, const fg__place_told_row parts[2])
+INLINE told_row row_of(const fg__place_contribution *part, int low, int y, int z)
 {
-  for (int i = 0; i < count; ++i)
-    out->value[0][i] = reach_square;
-  for (int k = 1; k < FG__PLACE_ARRAYS(dimension); ++k)
-    for (int i = 0; i < count; ++i)
-      out->value[k][i] = 0.0F;
-  for (int n = 0; n < 2; ++n) {
-    const fg__place_told_row *part = &parts[n];
-    int from = part->first > first ? part->first : first;
-    int end = part->first + part->count;
-    end = end < first + count ? end : first + count;
-    if (!part->value || from >= end)
-      continue;
-    const float *restrict value = part->value + (from - part->first);
-    int shift = from - first, cells = end - from;
-    float *restrict near = out->value[0] + shift;
-    for (int k = FG__PLACE_NEAR; k < pull_array(dimension); ++k) {
-      const float *restrict other = value + (size_t)k * part->stride;
-      float *restrict mine = out->value[k] + shift;
-      for (int i = 0; i < cells; ++i)
-        mine[i] = value[i] < near[i] ? other[i] : mine[i];
+  told_row row = {0};
+  if (!part || part->box.size[0] == 0 || y < part->box.low[1] ||
+      y >= part->box.low[1] + part->box.size[1] || z < part->box.low[2] ||
+      z >= part->box.low[2] + part->box.size[2])
+    return row;
+  row.first = part->box.low[0] - low;
+  row.end = row.first + part->box.size[0];
+  row.stride = part->capacity;
+  row.value = part->value + row_in(part, y, z);
+  return row;
+}
+
+/* Prices of cells i to i + WIDTH of a row of a box. */
+INLINE vector price_cells(const int dimension, int i, const fg__place_raster *raster,
+                          size_t cell, const told_row rows[2],
+                          const fg__place_price *price)
+{
+  cells_told told = {{{0}}};
+  vector direction[3] = {{0}};
+  told.value[0] += price->reach * price->reach;
+  for (int n = 0; n < 2; ++n)
+    if (rows[n].value && rows[n].first < i + WIDTH && rows[n].end > i)
+      join(dimension, &told, rows[n].value + (i - rows[n].first), rows[n].stride,
+           lanes_below(rows[n].end - i) & ~lanes_below(rows[n].first - i));
+  for (int k = 0; k < dimension; ++k)
+    direction[k] = load(raster->direction[k] + cell);
+  vector angles = angle_to(dimension, told.value + FG__PLACE_NEAR, direction) +
+                  angle_to(dimension, told.value + pull_array(dimension), direction);
+  return load(raster->weight + cell) *
+         (angles * price->inverse_error + price->far * told.value[0]);
+}
+
+INLINE double cost_rows(const int dimension, float *cost, const fg__place_raster *raster,
+                        const fg__place_box *box,
+                        const fg__place_contribution *const parts[2],
+                        const fg__place_price *price)
+{
+  wide sums = {0};
+  for (int z = box->low[2]; z < box->low[2] + box->size[2]; ++z)
+    for (int y = box->low[1]; y < box->low[1] + box->size[1]; ++y) {
+      const told_row rows[2] = {row_of(parts[0], box->low[0], y, z),
+                                row_of(parts[1], box->low[0], y, z)};
+      size_t cell = row_of_raster(raster, y, z) + (size_t)box->low[0];
+      for (int i = 0; i < box->size[0]; i += WIDTH) {
+        int count = box->size[0] - i < WIDTH ? box->size[0] - i : WIDTH;
+        vector cells = price_cells(dimension, i, raster, cell + (size_t)i, rows, price);
+        cells = (vector)(lanes_below(count) & (mask)cells);
+        sums += __builtin_convertvector(cells, wide);
+        if (cost) {
+          memcpy(cost, &cells, (size_t)count * sizeof *cost);
+          cost += count;
+        }
+      }
     }
-    for (int i = 0; i < cells; ++i)
-      near[i] = value[i] < near[i] ? value[i] : near[i];
-    for (int k = pull_array(dimension); k < FG__PLACE_ARRAYS(dimension); ++k) {
-      const float *restrict other = value + (size_t)k * part->stride;
-      float *restrict mine = out->value[k] + shift;
-      for (int i = 0; i < cells; ++i)
-        mine[i] += other[i];
+  return sum_of(sums);
+}
+
+CLONES static double cost_2d(float *cost, const fg__place_raster *raster,
+                             const fg__place_box *box,
+                             const fg__place_contribution *const parts[2],
+                             const fg__place_price *price)
+{
+  return cost_rows(2, cost, raster, box, parts, price);
+}
+
+CLONES static double cost_3d(float *cost, const fg__place_raster *raster,
+                             const fg__place_box *box,
+                             const fg__place_contribution *const parts[2],
+                             const fg__place_price *price)
+{
+  return cost_rows(3, cost, raster, box, parts, price);
+}
+
+double fg__place_cost_rows(float *cost, const fg__place_raster *raster,
+                           const fg__place_box *box,
+                           const fg__place_contribution *const parts[2],
+                           const fg__place_price *price)
+{
+  return (raster->dimension == 2 ? cost_2d : cost_3d)(cost, raster, box, parts, price);
+}
+
+INLINE size_t row_of_window(const fg__place_window_rows *window, int y, int z)
+{
+  return window->origin + (size_t)z * window->stride[1] + (size_t)y * window->stride[0];
+}
+
+INLINE void diffuse_rows(const int dimension, const fg__place_window_rows *window,
+                         float omega)
+{
+  const size_t row = window->stride[0], plane = window->stride[1];
+  for (size_t n = 0; n < window->run_count; ++n)
+    for (int i = 0; i < window->run[n].count; i += WIDTH) {
+      size_t cell = window->run[n].first + (size_t)i;
+      mask inside = lanes_below(window->run[n].count - i);
+      vector inverse = load(window->inverse + cell);
+      for (int k = 0; k < dimension; ++k) {
+        const float *at = window->value[k] + cell;
+        float *out = window->last[k] + cell;
+        vector sum = load(at - 1) + load(at + 1) + load(at - row) + load(at + row);
+        if (dimension == 3)
+          sum += load(at - plane) + load(at + plane);
+        vector before = load(out);
+        vector change = (sum + load(window->source[k] + cell)) * inverse - before;
+        store(out, choose(inside, before + omega * change, before));
+      }
     }
-  }
 }
 
-INLINE double price_cells(const int dimension, float *cost, int first, int count,
-                          const fg__place_row *row, const gathered *told)
+CLONES static void diffuse_2d(const fg__place_window_rows *window, float omega)
 {
-  const float(*value)[MOST_CELLS] = told->value;
-  const float *weight = row->weight + first;
-  const float *vx = row->direction[0] + first, *vy = row->direction[1] + first;
-  const float *vz = dimension == 3 ? row->direction[2] + first : vx;
-  float price[MOST_CELLS], lane[LANES] = {0};
-  for (int i = 0; i < count; ++i) {
-    float angles = 0.0F;
-    for (int reader = 0; reader < 2; ++reader) {
-      int at = FG__PLACE_NEAR + reader * dimension;
-      angles += angle_to(dimension, value[at][i], value[at + 1][i],
-                         dimension == 3 ? value[at + 2][i] : 0.0F, vx[i], vy[i], vz[i]);
+  diffuse_rows(2, window, omega);
+}
+
+CLONES static void diffuse_3d(const fg__place_window_rows *window, float omega)
+{
+  diffuse_rows(3, window, omega);
+}
+
+void fg__place_diffuse_rows(const fg__place_window_rows *window, float omega)
+{
+  (window->dimension == 2 ? diffuse_2d : diffuse_3d)(window, omega);
+}
+
+CLONES void fg__place_inverse_rows(const fg__place_window_rows *window,
+                                   const float *strength, const fg__place_raster_rows *at,
+                                   const float *faces)
+{
+  for (int z = 0; z < window->size[2]; ++z)
+    for (int y = 0; y < window->size[1]; ++y) {
+      size_t to = row_of_window(window, y, z);
+      size_t from = at->origin + (size_t)z * at->stride[1] + (size_t)y * at->stride[0];
+      for (size_t i = 0; i < (size_t)window->size[0]; i += WIDTH) {
+        vector sides = load(faces + from + i);
+        vector inverse = 1.0F / (sides + load(strength + to + i));
+        store(window->inverse + to + i, choose(sides > 0.0F, inverse, (vector){0}));
+      }
     }
-    price[i] =
-        weight[i] * (angles * row->price.inverse_error + row->price.far * value[0][i]);
-  }
-  if (cost)
-    for (int i = 0; i < count; ++i)
-      cost[first + i] = price[i];
-  int i = 0;
-  for (; i + LANES <= count; i += LANES)
-    for (int k = 0; k < LANES; ++k)
-      lane[k] += price[i + k];
-  for (int k = 0; i < count; ++i, ++k)
-    lane[k] += price[i]; /* cppcheck-suppress uninitvar */
-  double sum = 0.0;
-  for (int k = 0; k < LANES; ++k)
-    sum += (double)lane[k];
-  return sum;
 }
 
-INLINE double cost_row(const int dimension, float *cost, int count,
-                       const fg__place_row *row, const fg__place_told_row parts[2])
+INLINE double angle_rows(const int dimension, float *error,
+                         const fg__place_window_rows *window,
+                         const fg__place_raster_rows *at, const fg__place_raster *raster,
+                         const float *before)
 {
-  double sum = 0.0;
-  gathered told;
-  for (int first = 0; first < count; first += MOST_CELLS) {
-    int cells = count - first < MOST_CELLS ? count - first : MOST_CELLS;
-    gather(dimension, &told, first, cells, row->price.reach * row->price.reach, parts);
-    sum += price_cells(dimension, cost, first, cells, row, &told);
-  }
-  return sum;
+  wide sums = {0};
+  for (int z = 0; z < window->size[2]; ++z)
+    for (int y = 0; y < window->size[1]; ++y) {
+      size_t row = row_of_window(window, y, z);
+      size_t from = at->origin + (size_t)z * at->stride[1] + (size_t)y * at->stride[0];
+      for (int i = 0; i < window->size[0]; i += WIDTH) {
+        vector value[3] = {{0}}, direction[3] = {{0}};
+        size_t cell = from + (size_t)i, in = row + (size_t)i;
+        for (int k = 0; k < dimension; ++k) {
+          value[k] = load(window->value[k] + in);
+          direction[k] = load(raster->direction[k] + cell);
+        }
+        vector angles =
+            load(raster->weight + cell) * angle_to(dimension, value, direction);
+        vector growth = angles - load(before + cell);
+        store(error + in, angles);
+        growth = (vector)(lanes_below(window->size[0] - i) & (mask)growth);
+        sums += __builtin_convertvector(growth, wide);
+      }
+    }
+  return sum_of(sums);
 }
 
-CLONES static double cost_2d(float *cost, int count, const fg__place_row *row,
-                             const fg__place_told_row parts[2])
+CLONES static double angle_2d(float *error, const fg__place_window_rows *window,
+                              const fg__place_raster_rows *at,
+                              const fg__place_raster *raster, const float *before)
 {
-  return cost_row(2, cost, count, row, parts);
+  return angle_rows(2, error, window, at, raster, before);
 }
 
-CLONES static double cost_3d(float *cost, int count, const fg__place_row *row,
-                             const fg__place_told_row parts[2])
+CLONES static double angle_3d(float *error, const fg__place_window_rows *window,
+                              const fg__place_raster_rows *at,
+                              const fg__place_raster *raster, const float *before)
 {
-  return cost_row(3, cost, count, row, parts);
+  return angle_rows(3, error, window, at, raster, before);
 }
 
-double fg__place_cost_row(int dimension, float *cost, int count, const fg__place_row *row,
-                          const fg__place_told_row parts[2])
+double fg__place_angle_rows(float *error, const fg__place_window_rows *window,
+                            const fg__place_raster_rows *at,
+                            const fg__place_raster *raster, const float *before)
 {
-  return (dimension == 2 ? cost_2d : cost_3d)(cost, count, row, parts);
-}
-
-INLINE void diffuse_row(const int dimension, float *out, const float *in,
-                        const size_t stride[2], const float *source, const float *inverse,
-                        int count, float omega)
-{
-  for (int i = 0; i < count; i += WIDTH) {
-    const float *at = in + i;
-    vector sum =
-        load(at - 1) + load(at + 1) + load(at - stride[0]) + load(at + stride[0]);
-    if (dimension == 3)
-      sum += load(at - stride[1]) + load(at + stride[1]);
-    vector before = load(out + i);
-    vector change = (sum + load(source + i)) * load(inverse + i) - before;
-    store(out + i, before + omega * change, count - i < WIDTH ? count - i : WIDTH);
-  }
-}
-
-CLONES static void diffuse_2d(float *out, const float *in, const size_t stride[2],
-                              const float *source, const float *inverse, int count,
-                              float omega)
-{
-  diffuse_row(2, out, in, stride, source, inverse, count, omega);
-}
-
-CLONES static void diffuse_3d(float *out, const float *in, const size_t stride[2],
-                              const float *source, const float *inverse, int count,
-                              float omega)
-{
-  diffuse_row(3, out, in, stride, source, inverse, count, omega);
-}
-
-void fg__place_diffuse_row(int dimension, float *out, const float *in,
-                           const size_t stride[2], const float *source,
-                           const float *inverse, int count, float omega)
-{
-  (dimension == 2 ? diffuse_2d : diffuse_3d)(out, in, stride, source, inverse, count,
-                                             omega);
-}
-
-CLONES void fg__place_inverse_row(float *restrict out, const float *restrict faces,
-                                  const float *restrict strength, int count)
-{
-  for (int i = 0; i < count; ++i)
-    out[i] = faces[i] > 0.0F ? 1.0F / (faces[i] + strength[i]) : 0.0F;
-}
-
-INLINE double angle_row(const int dimension, float *restrict out,
-                        const fg__place_angle_cells *cells, int count)
-{
-  const float *const *value = cells->value, *const *direction = cells->direction;
-  const float *z = dimension == 3 ? value[2] : value[0];
-  const float *dz = dimension == 3 ? direction[2] : direction[0];
-  float lane[LANES] = {0};
-  for (int i = 0; i < count; ++i)
-    out[i] = cells->weight[i] * angle_to(dimension, value[0][i], value[1][i], z[i],
-                                         direction[0][i], direction[1][i], dz[i]);
-  int i = 0;
-  for (; i + LANES <= count; i += LANES)
-    for (int k = 0; k < LANES; ++k)
-      lane[k] += out[i + k] - cells->before[i + k];
-  for (int k = 0; i < count; ++i, ++k)
-    lane[k] += out[i] - cells->before[i]; /* cppcheck-suppress uninitvar */
-  double sum = 0.0;
-  for (int k = 0; k < LANES; ++k)
-    sum += (double)lane[k];
-  return sum;
-}
-
-CLONES static double angle_2d(float *out, const fg__place_angle_cells *cells, int count)
-{
-  return angle_row(2, out, cells, count);
-}
-
-CLONES static double angle_3d(float *out, const fg__place_angle_cells *cells, int count)
-{
-  return angle_row(3, out, cells, count);
-}
-
-double fg__place_angle_row(int dimension, float *out, const fg__place_angle_cells *cells,
-                           int count)
-{
-  return (dimension == 2 ? angle_2d : angle_3d)(out, cells, count);
+  return (window->dimension == 2 ? angle_2d : angle_3d)(error, window, at, raster,
+                                                        before);
 }
 
 INLINE void nearest_points(const int dimension, float *square, const fg__place_line *line,

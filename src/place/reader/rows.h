@@ -1,62 +1,63 @@
-/* The inner loops of reading: rows of cells, compiled for several vector widths. Every
- * width gives the same bits: products and sums stay apart, and sums go in eight fixed
- * lanes. */
+/* The inner loops of reading: boxes of cells, row by row, compiled for several vector
+ * widths. Every width gives the same bits: products and sums stay apart, and sums go in
+ * sixteen fixed lanes. Rows are read and written in whole vectors: arrays have
+ * FG__PLACE_PAD more elements behind, what lies there does not count. */
 #ifndef FG__PLACE_READER_ROWS_H
 #define FG__PLACE_READER_ROWS_H
 
 #include "place/reader/readers.h"
 
-/* Where a row of cells lies, in lambda. */
-typedef struct fg__place_row_place {
-  float x, y, z;                     /* its low end, its middle */
-  float cell, reach, inverse_square; /* 1 / reach^2 */
-} fg__place_row_place;
+/* Tells the untold cells of `to`, its whole box, what a line tells. */
+void fg__place_tell_rows(fg__place_contribution *to, const fg__place_raster *raster,
+                         const fg__place_line *line, float reach);
 
-/* Tells `count` untold cells from `value` on, arrays `stride` apart, what a line tells.
- */
-void fg__place_tell_row(int dimension, float *value, size_t stride, int count,
-                        const fg__place_line *line, const fg__place_row_place *row);
+/* Joins what other icons tell to the cells of a box that both have: the nearer of two,
+ * the sums of the rest. */
+void fg__place_add_rows(fg__place_contribution *to, const fg__place_contribution *from,
+                        const fg__place_box *box);
 
-/* Joins what other icons tell: the nearer of two, the sums of the rest. */
-void fg__place_add_row(int dimension, float *to, size_t to_stride, const float *from,
-                       size_t from_stride, int count);
+/* fg__place_cost. */
+double fg__place_cost_rows(float *cost, const fg__place_raster *raster,
+                           const fg__place_box *box,
+                           const fg__place_contribution *const parts[2],
+                           const fg__place_price *price);
 
-/* A row that a contribution has, from cell `first` of the row that is asked on. */
-typedef struct fg__place_told_row {
-  const float *value; /* NULL: nothing */
-  size_t stride;
-  int first, count;
-} fg__place_told_row;
+/* Cells in a row. */
+typedef struct fg__place_run {
+  size_t first;
+  int count;
+} fg__place_run;
 
-typedef struct fg__place_row {
-  const float *weight;
-  const float *direction[3];
-  fg__place_price price;
-} fg__place_row;
+/* The cells of a window of the diffusion reader, with one more on each side, which stay:
+ * values that are worked on, and those of the step before. */
+typedef struct fg__place_window_rows {
+  int dimension, size[3];
+  size_t stride[2]; /* of rows and planes */
+  size_t origin;    /* of the first cell */
+  float *value[3], *last[3];
+  const float *source[3];
+  float *inverse;
+  const fg__place_run *run; /* of rows, those with cells of the domain */
+  size_t run_count;
+} fg__place_window_rows;
 
-/* The sum of the cells' prices, kept in `cost` unless NULL. */
-double fg__place_cost_row(int dimension, float *cost, int count, const fg__place_row *row,
-                          const fg__place_told_row parts[2]);
+/* One step of Chebyshev's iteration: `last` becomes what follows on `value`. */
+void fg__place_diffuse_rows(const fg__place_window_rows *window, float omega);
 
-/* One step of Chebyshev's iteration for the diffusion reader: `out` has the values of the
- * step before the last, `in` those of the last. */
-void fg__place_diffuse_row(int dimension, float *out, const float *in,
-                           const size_t stride[2], const float *source,
-                           const float *inverse, int count, float omega);
+/* Where the window's first cell lies in arrays of a raster. */
+typedef struct fg__place_raster_rows {
+  size_t stride[2], origin;
+} fg__place_raster_rows;
 
 /* 1 / (faces + strength), what a cell's value follows from; 0 outside the domain. */
-void fg__place_inverse_row(float *out, const float *faces, const float *strength,
-                           int count);
+void fg__place_inverse_rows(const fg__place_window_rows *window, const float *strength,
+                            const fg__place_raster_rows *at, const float *faces);
 
-typedef struct fg__place_angle_cells {
-  const float *value[3], *direction[3]; /* directions are unit vectors */
-  const float *weight, *before;
-} fg__place_angle_cells;
-
-/* Angles between values and directions times weight, degrees; returns the sum of what
- * they are more than `before`. */
-double fg__place_angle_row(int dimension, float *out, const fg__place_angle_cells *cells,
-                           int count);
+/* Angles between the window's values and the flow times weight, degrees, to `error` (of
+ * the window); returns the sum of what they are more than `before` (of the raster). */
+double fg__place_angle_rows(float *error, const fg__place_window_rows *window,
+                            const fg__place_raster_rows *at,
+                            const fg__place_raster *raster, const float *before);
 
 /* For each of a line's samples the square of the distance to the nearest of `count`
  * points, whole vectors of them; their coordinates lie in arrays `stride` apart. 1e18

@@ -1,4 +1,5 @@
 /* Where a new icon would lower the energy most. */
+#include "place/search/peaks.h"
 #include "place/search/search.h"
 
 #include <math.h>
@@ -46,31 +47,28 @@ static void smooth_map(fg__place_search *search)
 
 /* The raster's cell with the largest value, which and those near it are then struck out;
  * false when all are. */
-static bool take_maximum(fg__place_search *search, float position[3])
+static bool take_maximum(fg__place_search *search, fg__place_peaks *peaks,
+                         float position[3])
 {
   const fg__place_raster *raster = &search->raster;
-  size_t best = 0;
-  for (size_t n = 1; n < raster->count; ++n)
-    if (search->map[n] > search->map[best])
-      best = n;
-  if (!(search->map[best] > 0.0F))
+  size_t best;
+  if (!(fg__place_peaks_top(&best, peaks) > 0.0F))
     return false;
-  size_t rest = best;
-  int at[3];
+  int low[3], high[3], apart = (int)(APART / (double)raster->cell + 0.5);
   for (int k = 0; k < 3; ++k) {
-    at[k] = (int)(rest % (size_t)raster->cells[k]);
-    rest /= (size_t)raster->cells[k];
-    position[k] = ((float)at[k] + 0.5F) * raster->cell;
+    int at = (int)(best % (size_t)raster->cells[k]);
+    best /= (size_t)raster->cells[k];
+    position[k] = ((float)at + 0.5F) * raster->cell;
+    low[k] = at > apart ? at - apart : 0;
+    high[k] = at + apart < raster->cells[k] ? at + apart + 1 : raster->cells[k];
   }
-  int apart = (int)(APART / (double)raster->cell + 0.5);
-  for (int z = at[2] - apart; z <= at[2] + apart; ++z)
-    for (int y = at[1] - apart; y <= at[1] + apart; ++y)
-      for (int x = at[0] - apart; x <= at[0] + apart; ++x)
-        if (x >= 0 && x < raster->cells[0] && y >= 0 && y < raster->cells[1] && z >= 0 &&
-            z < raster->cells[2])
-          search->map[((size_t)z * (size_t)raster->cells[1] + (size_t)y) *
-                          (size_t)raster->cells[0] +
-                      (size_t)x] = 0.0F;
+  for (int z = low[2]; z < high[2]; ++z)
+    for (int y = low[1]; y < high[1]; ++y)
+      for (int x = low[0]; x < high[0]; ++x)
+        search->map[((size_t)z * (size_t)raster->cells[1] + (size_t)y) *
+                        (size_t)raster->cells[0] +
+                    (size_t)x] = 0.0F;
+  fg__place_peaks_renew(peaks, low, high);
   return true;
 }
 
@@ -128,42 +126,41 @@ static fg_status try_place(fg__place_search *search, const float position[3],
   return status;
 }
 
-/* Puts a candidate in its place among the `count` best, which descend. */
-static void rank(fg__place_candidate best[FG__PLACE_CANDIDATES], int *count,
-                 const fg__place_candidate *next)
+/* Puts a candidate in its place among the best, which descend. */
+static void rank(fg__place_candidates *best, const fg__place_candidate *next)
 {
-  if (*count == FG__PLACE_CANDIDATES && best[FG__PLACE_CANDIDATES - 1].fall >= next->fall)
+  if (best->count == best->most && best->list[best->most - 1].fall >= next->fall)
     return;
-  int n = *count < FG__PLACE_CANDIDATES ? (*count)++ : FG__PLACE_CANDIDATES - 1;
-  for (; n > 0 && best[n - 1].fall < next->fall; --n)
-    best[n] = best[n - 1];
-  best[n] = *next;
+  int n = best->count < best->most ? best->count++ : best->most - 1;
+  for (; n > 0 && best->list[n - 1].fall < next->fall; --n)
+    best->list[n] = best->list[n - 1];
+  best->list[n] = *next;
 }
 
 /* The best of the places where readers err most. */
-static fg_status try_maxima(fg__place_search *search,
-                            fg__place_candidate best[FG__PLACE_CANDIDATES], int *count)
+static fg_status try_maxima(fg__place_search *search, fg__place_candidates *best)
 {
-  fg_status status = FG_STATUS_OK;
   float position[3];
+  fg__place_peaks peaks;
   smooth_map(search);
+  fg_status status =
+      fg__place_peaks_create(&peaks, search->context, &search->raster, search->map, NULL);
   /* where nothing fits at the first places, all others are tried */
-  for (int n = 0; status == FG_STATUS_OK && (n < FG__PLACE_CANDIDATES || *count == 0);
-       ++n) {
+  for (int n = 0; status == FG_STATUS_OK && (n < best->most || best->count == 0); ++n) {
     fg__place_candidate next = {{{0}, {0}}, -HUGE_VAL};
-    if (!take_maximum(search, position))
+    if (!take_maximum(search, &peaks, position))
       break;
     status = try_place(search, position, &next.seed, &next.fall);
     if (next.fall > -HUGE_VAL)
-      rank(best, count, &next);
+      rank(best, &next);
   }
+  fg__place_peaks_clear(&peaks);
   return status;
 }
 
 /* The best of all cells. Where the flow is narrow beside lambda, lines fit at few seeds.
  */
-static fg_status try_cells(fg__place_search *search,
-                           fg__place_candidate best[FG__PLACE_CANDIDATES], int *count)
+static fg_status try_cells(fg__place_search *search, fg__place_candidates *best)
 {
   const fg__place_raster *raster = &search->raster;
   fg_status status = FG_STATUS_OK;
@@ -180,15 +177,14 @@ static fg_status try_cells(fg__place_search *search,
     next.seed = seed_at(search, position);
     status = try_seed(search, &next.seed, &next.fall);
     if (next.fall > -HUGE_VAL)
-      rank(best, count, &next);
+      rank(best, &next);
   }
   return status;
 }
 
-fg_status fg__place_list_candidates(fg__place_candidate best[FG__PLACE_CANDIDATES],
-                                    int *count, fg__place_search *search)
+fg_status fg__place_list_candidates(fg__place_candidates *best, fg__place_search *search)
 {
-  *count = 0;
+  best->count = 0;
   fg_status status = fg__place_gather_whole(search);
   if (status != FG_STATUS_OK)
     return status;
@@ -198,8 +194,8 @@ fg_status fg__place_list_candidates(fg__place_candidate best[FG__PLACE_CANDIDATE
   for (size_t n = 0; n < search->raster.count; ++n)
     search->map[n] = (search->map[n] + diffusion * search->diffusion.error[n]) *
                      search->whole.value[n] / (search->whole.value[n] + BESIDE);
-  status = try_maxima(search, best, count);
-  if (status == FG_STATUS_OK && *count == 0)
-    status = try_cells(search, best, count);
+  status = try_maxima(search, best);
+  if (status == FG_STATUS_OK && best->count == 0)
+    status = try_cells(search, best);
   return status;
 }

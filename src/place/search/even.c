@@ -1,6 +1,7 @@
 #include "place/search/even.h"
 
 #include "base/memory.h"
+#include "place/search/peaks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -28,17 +29,22 @@ static void cell_place(const fg__place_raster *raster, size_t cell, float place[
   }
 }
 
-/* Lets a seed own the cells within `within` cells of it that it is nearest to. */
-static void claim(points *all, int seed, float within)
+/* The cells within `within` cells of a seed: from low to below high. */
+static void box_round(const points *all, int seed, float within, int low[3], int high[3])
+{
+  for (int k = 0; k < 3; ++k) {
+    float first = all->place[seed][k] - within, last = all->place[seed][k] + within;
+    int cells = all->raster->cells[k];
+    low[k] = first > 0.0F ? (int)first : 0;
+    high[k] = last < (float)cells - 1.0F ? (int)last + 1 : cells;
+  }
+}
+
+/* Lets a seed own the cells of a box that it is nearest to. */
+static void claim(points *all, int seed, const int low[3], const int high[3])
 {
   const fg__place_raster *raster = all->raster;
   const float *at = all->place[seed];
-  int low[3], high[3];
-  for (int k = 0; k < 3; ++k) {
-    float first = at[k] - within, last = at[k] + within;
-    low[k] = first > 0.0F ? (int)first : 0;
-    high[k] = last < (float)raster->cells[k] - 1.0F ? (int)last + 1 : raster->cells[k];
-  }
   for (int z = low[2]; z < high[2]; ++z)
     for (int y = low[1]; y < high[1]; ++y) {
       size_t row =
@@ -72,23 +78,24 @@ static void forget(points *all)
 }
 
 /* The first seed is the cell that counts most, the first of such. */
-static void choose_farthest(points *all)
+static fg_status choose_farthest(points *all, fg_context *context)
 {
   const fg__place_raster *raster = all->raster;
+  fg__place_peaks peaks;
   forget(all);
-  for (int seed = 0; seed < all->count; ++seed) {
-    size_t best = 0;
-    float most = -1.0F;
-    for (size_t n = 0; n < raster->count; ++n) {
-      float worth = all->square[n] * raster->weight[n];
-      if (raster->weight[n] > 0.0F && worth > most) {
-        most = worth;
-        best = n;
-      }
-    }
+  fg_status status =
+      fg__place_peaks_create(&peaks, context, raster, all->square, raster->weight);
+  for (int seed = 0; seed < all->count && status == FG_STATUS_OK; ++seed) {
+    size_t best;
+    int low[3], high[3];
+    fg__place_peaks_top(&best, &peaks);
     cell_place(raster, best, all->place[seed]);
-    claim(all, seed, sqrtf(all->square[best]));
+    box_round(all, seed, sqrtf(all->square[best]), low, high);
+    claim(all, seed, low, high);
+    fg__place_peaks_renew(&peaks, low, high);
   }
+  fg__place_peaks_clear(&peaks);
+  return status;
 }
 
 /* Moves each seed to the centroid of its cells. */
@@ -114,20 +121,25 @@ static void move_to_centroids(points *all)
       all->place[n][k] = (float)(all->sum[n][k] / all->sum[n][3]);
 }
 
-static void even_out(points *all)
+static fg_status even_out(points *all, fg_context *context)
 {
   float within = 0.0F;
-  choose_farthest(all);
+  fg_status status = choose_farthest(all, context);
   for (size_t n = 0; n < all->raster->count; ++n)
     if (all->raster->weight[n] > 0.0F && all->square[n] > within)
       within = all->square[n];
   within = 2.0F * sqrtf(within) + 1.0F;
-  for (int step = 0; step < LLOYD_STEPS; ++step) {
+  for (int step = 0; step < LLOYD_STEPS && status == FG_STATUS_OK; ++step) {
     move_to_centroids(all);
     forget(all);
-    for (int n = 0; n < all->count; ++n)
-      claim(all, n, within);
+    for (int n = 0; n < all->count; ++n) {
+      int low[3], high[3];
+      box_round(all, n, within, low, high);
+      claim(all, n, low, high);
+    }
+    status = fg__check_stop(context);
   }
+  return status;
 }
 
 static fg_status add_icons(fg__place_search *search, const points *all)
@@ -159,10 +171,10 @@ fg_status fg__place_start_even(fg__place_search *search)
   if (!all.place || !all.sum || !all.square || !all.owner)
     status = fg__fail_memory(search->context, "even seeds",
                              raster->count * (sizeof *all.square + sizeof *all.owner));
-  if (status == FG_STATUS_OK) {
-    even_out(&all);
+  if (status == FG_STATUS_OK)
+    status = even_out(&all, search->context);
+  if (status == FG_STATUS_OK)
     status = add_icons(search, &all);
-  }
   free(all.place);
   free(all.sum);
   free(all.square);

@@ -7,7 +7,7 @@
 /* Adds icons at evenly distributed points of the domain, as many as the scale has where
  * lines can be: each the point farthest from those before, then moved to the centroids of
  * their Voronoi regions (Lloyd, IEEE Transactions on Information Theory 28, 1982).
- * MEMORY. */
+ * MEMORY, STOPPED. */
 fg_status fg__place_start_even(fg__place_search *search);
 
 #endif

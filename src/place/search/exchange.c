@@ -22,17 +22,9 @@ static const double FRESH = 0.1; /* first step of the neighbours, in lambda */
 static const double APART_IN_A_ROUND = 1.3;
 enum { THIN_SWEEPS = 2 };
 
-fg_status fg__place_insert(fg__place_search *search, bool *inserted, int passed)
-{
-  fg__place_candidate best[FG__PLACE_CANDIDATES];
-  int count;
-  *inserted = false;
-  fg_status status = fg__place_list_candidates(best, &count, search);
-  if (status == FG_STATUS_OK && passed < count)
-    status = fg__place_add(search, inserted, &best[passed].seed, search->next_identity);
-  search->next_identity += *inserted;
-  return status;
-}
+/* Of the icons that are missing one in so many is a candidate of the next round, at
+ * least FG__PLACE_CANDIDATES. */
+enum { ROUNDS = 8 };
 
 static bool is_near(const fg__place_search *search, const double a[3], const double b[3])
 {
@@ -44,22 +36,41 @@ static bool is_near(const fg__place_search *search, const double a[3], const dou
 
 /* Adds the better half of the candidates that are not near each other, as many as there
  * is room for in the scale. */
-static fg_status add_round(fg__place_search *search, int *added)
+static fg_status add_better(fg__place_search *search, const fg__place_candidates *best,
+                            int *added)
 {
-  fg__place_candidate best[FG__PLACE_CANDIDATES];
-  int count, first = search->count;
-  *added = 0;
-  fg_status status = fg__place_list_candidates(best, &count, search);
-  for (int n = 0; n < (count + 1) / 2 && status == FG_STATUS_OK; ++n) {
+  const int first = search->count;
+  fg_status status = FG_STATUS_OK;
+  for (int n = 0; n < (best->count + 1) / 2 && status == FG_STATUS_OK; ++n) {
+    const fg__place_seed *seed = &best->list[n].seed;
     bool beside = false, inserted = false;
     for (int k = first; k < search->count && !beside; ++k)
-      beside = is_near(search, search->icon[k]->seed.position, best[n].seed.position);
+      beside = is_near(search, search->icon[k]->seed.position, seed->position);
     if (beside || search->count >= search->scale.count)
       continue;
-    status = fg__place_add(search, &inserted, &best[n].seed, search->next_identity);
+    status = fg__place_add(search, &inserted, seed, search->next_identity);
     search->next_identity += inserted;
     *added += inserted;
   }
+  return status;
+}
+
+/* A round looks at more candidates where many icons are missing, so that there are few
+ * rounds. */
+static fg_status add_round(fg__place_search *search, int *added)
+{
+  const int share = (search->scale.count - search->count) / ROUNDS;
+  fg__place_candidates best = {
+      .most = share > FG__PLACE_CANDIDATES ? share : FG__PLACE_CANDIDATES};
+  *added = 0;
+  best.list = fg__allocate((size_t)best.most, sizeof *best.list);
+  if (!best.list)
+    return fg__fail_memory(search->context, "places for icons",
+                           (size_t)best.most * sizeof *best.list);
+  fg_status status = fg__place_list_candidates(&best, search);
+  if (status == FG_STATUS_OK)
+    status = add_better(search, &best, added);
+  free(best.list);
   return status;
 }
 
@@ -80,10 +91,12 @@ static fg_status fill(fg__place_search *search)
 }
 
 /* What the energy rises by when an icon goes. */
-static fg_status price_of_loss(fg__place_search *search, int index, double *rise)
+static fg_status rate(fg__place_search *search, int index)
 {
   fg__place_icon *icon = search->icon[index];
   const fg__place_box *box = &icon->contribution.box;
+  if (icon->is_rated)
+    return FG_STATUS_OK;
   fg_status status = fg__place_gather(&search->others, search, box, index);
   if (status != FG_STATUS_OK)
     return status;
@@ -93,7 +106,8 @@ static fg_status price_of_loss(fg__place_search *search, int index, double *rise
       fg__place_cost(NULL, &search->raster, box, &search->others, NULL, &search->price);
   double diffusion;
   status = fg__place_diffusion_price(&diffusion, search, &icon->line, NULL);
-  *rise = without - with + diffusion - fg__place_own_price(search, &icon->line);
+  icon->worth = without - with + diffusion - fg__place_own_price(search, &icon->line);
+  icon->is_rated = status == FG_STATUS_OK;
   return status;
 }
 
@@ -130,8 +144,10 @@ fg_status fg__place_thin(fg__place_search *search, int count)
     return fg__fail_memory(search->context, "the worth of icons",
                            (size_t)search->count * sizeof *rise);
   while (status == FG_STATUS_OK && search->count > count) {
-    for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
-      status = price_of_loss(search, n, &rise[n]);
+    for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
+      status = rate(search, n);
+      rise[n] = search->icon[n]->worth;
+    }
     while (status == FG_STATUS_OK && search->count > count) {
       int least = least_of(rise, search->count);
       if (!(rise[least] < HUGE_VAL))
@@ -148,19 +164,16 @@ fg_status fg__place_thin(fg__place_search *search, int count)
 /* Takes off the icon that is missed least, from where others may come. */
 static fg_status remove_least(fg__place_search *search, double place[3])
 {
-  double least = HUGE_VAL, rise;
-  int index = 0;
+  int least = 0;
   for (int n = 0; n < search->count; ++n) {
-    fg_status status = price_of_loss(search, n, &rise);
+    fg_status status = rate(search, n);
     if (status != FG_STATUS_OK)
       return status;
-    if (rise < least) {
-      least = rise;
-      index = n;
-    }
+    if (search->icon[n]->worth < search->icon[least]->worth)
+      least = n;
   }
-  memcpy(place, search->icon[index]->seed.position, 3 * sizeof *place);
-  return fg__place_drop(search, index);
+  memcpy(place, search->icon[least]->seed.position, 3 * sizeof *place);
+  return fg__place_drop(search, least);
 }
 
 fg_status fg__place_complete(fg__place_search *search)
@@ -174,76 +187,39 @@ fg_status fg__place_complete(fg__place_search *search)
   return status;
 }
 
-/* The icons' seeds, to come back to. */
-typedef struct snapshot {
-  struct {
-    fg__place_seed seed;
-    double step;
-    int identity;
-  } * icon;
+/* Places for new icons; they stay the best ones while exchanges are undone. */
+typedef struct choice {
+  fg__place_candidate list[FG__PLACE_CANDIDATES];
   int count;
-} snapshot;
+  bool is_made;
+} choice;
 
-static fg_status take_snapshot(snapshot *out, fg__place_search *search)
+static fg_status choose(choice *out, fg__place_search *search)
 {
-  out->count = search->count;
-  out->icon = fg__allocate((size_t)search->count, sizeof *out->icon);
-  if (!out->icon)
-    return fg__fail_memory(search->context, "a copy of the icons",
-                           (size_t)search->count * sizeof *out->icon);
-  for (int n = 0; n < search->count; ++n) {
-    out->icon[n].seed = search->icon[n]->seed;
-    out->icon[n].step = search->icon[n]->step;
-    out->icon[n].identity = search->icon[n]->identity;
-  }
-  return FG_STATUS_OK;
-}
-
-static fg_status restore(fg__place_search *search, const snapshot *from)
-{
-  fg_status status = FG_STATUS_OK;
-  /* those that stayed where they were keep their place, the rest are made again */
-  for (int n = search->count - 1; n >= 0 && status == FG_STATUS_OK; --n) {
-    fg__place_icon *icon = search->icon[n];
-    bool same = false;
-    for (int k = 0; k < from->count && !same; ++k)
-      same = from->icon[k].identity == icon->identity &&
-             memcmp(&from->icon[k].seed, &icon->seed, sizeof icon->seed) == 0;
-    if (!same)
-      status = fg__place_drop(search, n);
-  }
-  for (int k = 0; k < from->count && status == FG_STATUS_OK; ++k) {
-    int n = k;
-    while (n < search->count && search->icon[n]->identity != from->icon[k].identity)
-      ++n;
-    bool added = true;
-    if (n >= search->count)
-      status = fg__place_add(search, &added, &from->icon[k].seed, from->icon[k].identity);
-    if (status != FG_STATUS_OK || !added)
-      continue;
-    fg__place_icon *icon = search->icon[n];
-    memmove(&search->icon[k + 1], &search->icon[k],
-            (size_t)(n - k) * sizeof(fg__place_icon *));
-    search->icon[k] = icon;
-    icon->step = from->icon[k].step;
-  }
+  if (out->is_made)
+    return FG_STATUS_OK;
+  fg__place_candidates best = {.list = out->list, .most = FG__PLACE_CANDIDATES};
+  fg_status status = fg__place_list_candidates(&best, search);
+  out->count = best.count;
+  out->is_made = status == FG_STATUS_OK;
   return status;
 }
 
-static fg_status exchange_one(fg__place_search *search, int passed)
+static fg_status exchange_one(fg__place_search *search, const fg__place_seed *seed)
 {
   bool inserted;
   double place[3];
-  fg_status status = fg__place_insert(search, &inserted, passed);
+  fg_status status = fg__place_add(search, &inserted, seed, search->next_identity);
   if (status != FG_STATUS_OK || !inserted)
     return status;
+  ++search->next_identity;
   fg__place_wake(search, search->icon[search->count - 1]->seed.position, FRESH);
-  status = fg__place_relax(search, EXCHANGE_SWEEPS);
+  status = fg__place_relax_some(search, EXCHANGE_SWEEPS);
   if (status == FG_STATUS_OK)
     status = remove_least(search, place);
   if (status == FG_STATUS_OK) {
     fg__place_wake(search, place, FRESH);
-    status = fg__place_relax(search, EXCHANGE_SWEEPS);
+    status = fg__place_relax_some(search, EXCHANGE_SWEEPS);
   }
   return status;
 }
@@ -251,24 +227,29 @@ static fg_status exchange_one(fg__place_search *search, int passed)
 fg_status fg__place_exchange(fg__place_search *search, int most, int failures)
 {
   double energy;
+  choice places = {.is_made = false};
   fg_status status = fg__place_energy(search, &energy);
   for (int n = 0, failed = 0; n < most && failed < failures && status == FG_STATUS_OK;
        ++n) {
-    snapshot before = {0};
+    fg__place_snapshot before = {0};
     double now = HUGE_VAL;
-    status = take_snapshot(&before, search);
+    status = choose(&places, search);
+    if (status != FG_STATUS_OK || failed >= places.count)
+      break;
+    status = fg__place_remember(&before, search);
     if (status == FG_STATUS_OK)
-      status = exchange_one(search, failed);
+      status = exchange_one(search, &places.list[failed].seed);
     if (status == FG_STATUS_OK)
       status = fg__place_energy(search, &now);
     if (status == FG_STATUS_OK && now < energy) {
       failed = now < energy * (1.0 - LITTLE_GAIN) ? 0 : failed + 1;
       energy = now;
+      places.is_made = false;
     } else if (status == FG_STATUS_OK) {
-      status = restore(search, &before);
+      status = fg__place_restore(search, &before);
       ++failed;
     }
-    free(before.icon);
+    fg__place_snapshot_clear(&before);
   }
   return status;
 }

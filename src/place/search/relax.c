@@ -201,9 +201,12 @@ static fg_status attempt(double *rise, bool *taken, fg__place_search *search, in
   *rise += diffusion;
   if (*rise < -LEAST_FALL * fabs(*now)) {
     fg__place_diffusion_keep(&search->diffusion, &icon->line, &line);
+    fg__place_forget_worth(search, &icon->contribution.box);
+    fg__place_forget_worth(search, &search->trial.box);
     icon->seed = *seed;
     icon->line = line;
     swap_contributions(&icon->contribution, &search->trial);
+    search->box[index] = icon->contribution.box;
     settle(icon, &search->scale);
     *taken = true;
   }
@@ -261,14 +264,14 @@ static fg_status visit(fg__place_search *search, int index)
   return status;
 }
 
-fg_status fg__place_relax(fg__place_search *search, int sweeps)
+static fg_status relax(fg__place_search *search, int sweeps, bool solve)
 {
   bool moving = true;
   fg_status status = FG_STATUS_OK;
   for (int sweep = 0; sweep < sweeps && moving && status == FG_STATUS_OK; ++sweep) {
     moving = false;
     status = fg__check_stop(search->context);
-    if (status == FG_STATUS_OK)
+    if (status == FG_STATUS_OK && solve)
       status = fg__place_diffusion_solve(&search->diffusion, search->context, true);
     for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
       if (search->icon[n]->step > SMALLEST_STEP * search->scale.lambda) {
@@ -277,6 +280,16 @@ fg_status fg__place_relax(fg__place_search *search, int sweeps)
       }
   }
   return status;
+}
+
+fg_status fg__place_relax(fg__place_search *search, int sweeps)
+{
+  return relax(search, sweeps, true);
+}
+
+fg_status fg__place_relax_some(fg__place_search *search, int sweeps)
+{
+  return relax(search, sweeps, false);
 }
 
 void fg__place_wake(fg__place_search *search, const double place[3], double step)

@@ -59,6 +59,7 @@ void fg__place_search_clear(fg__place_search *search)
   for (int n = 0; n < search->count; ++n)
     free_icon(search->icon[n]);
   free(search->icon);
+  free(search->box);
   clear_scale(search);
   fg__place_contribution_clear(&search->others);
   fg__place_contribution_clear(&search->trial);
@@ -80,6 +81,8 @@ static void forget(fg__place_search *search, int index)
   --search->count;
   memmove(&search->icon[index], &search->icon[index + 1],
           (size_t)(search->count - index) * sizeof(fg__place_icon *));
+  memmove(&search->box[index], &search->box[index + 1],
+          (size_t)(search->count - index) * sizeof *search->box);
 }
 
 fg_status fg__place_search_rescale(fg__place_search *search, int count)
@@ -94,11 +97,14 @@ fg_status fg__place_search_rescale(fg__place_search *search, int count)
     for (int k = 0; k < 2; ++k)
       icon->seed.way[k] *= grown;
     icon->step *= grown;
+    icon->is_rated = false;
     fg__place_trace(&icon->line, search->domain, &search->scale, &icon->seed);
-    if (icon->line.count == 0)
+    if (icon->line.count == 0) {
       forget(search, n--);
-    else
-      status = tell(search, &icon->contribution, &icon->line);
+      continue;
+    }
+    status = tell(search, &icon->contribution, &icon->line);
+    search->box[n] = icon->contribution.box;
   }
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
     fg__place_diffusion_add(&search->diffusion, &search->icon[n]->line);
@@ -107,13 +113,24 @@ fg_status fg__place_search_rescale(fg__place_search *search, int count)
              : status;
 }
 
+void fg__place_forget_worth(fg__place_search *search, const fg__place_box *box)
+{
+  for (int n = 0; n < search->count; ++n)
+    if (fg__place_boxes_meet(box, &search->box[n]))
+      search->icon[n]->is_rated = false;
+}
+
 fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_seed *seed,
                         int identity)
 {
   *added = false;
   fg__place_icon *icon = fg__allocate(1, sizeof *icon);
-  if (!icon || !fg__grow((void **)&search->icon, &search->capacity,
-                         (size_t)search->count + 1, sizeof(fg__place_icon *))) {
+  const size_t needed = (size_t)search->count + 1;
+  if (!icon ||
+      !fg__grow((void **)&search->icon, &search->capacity, needed,
+                sizeof(fg__place_icon *)) ||
+      !fg__grow((void **)&search->box, &search->box_capacity, needed,
+                sizeof *search->box)) {
     free(icon);
     return fg__fail_memory(search->context, "an icon", sizeof *icon);
   }
@@ -135,6 +152,8 @@ fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_s
     free_icon(icon);
     return status;
   }
+  fg__place_forget_worth(search, &icon->contribution.box);
+  search->box[search->count] = icon->contribution.box;
   search->icon[search->count++] = icon;
   *added = true;
   return FG_STATUS_OK;
@@ -148,6 +167,7 @@ fg_status fg__place_drop(fg__place_search *search, int index)
       fg__place_diffusion_try(&growth, &search->diffusion, search->context, line, NULL);
   if (status == FG_STATUS_OK) {
     fg__place_diffusion_keep(&search->diffusion, line, NULL);
+    fg__place_forget_worth(search, &search->icon[index]->contribution.box);
     forget(search, index);
   }
   return status;

@@ -10,7 +10,9 @@ typedef struct fg__place_icon {
   fg__place_contribution contribution; /* what it tells */
   double step;                         /* of its moves, input coordinates */
   int move;                            /* which was taken last */
-  int identity; /* stays as the icon moves, and from scale to scale */
+  int identity;  /* stays as the icon moves, and from scale to scale */
+  double worth;  /* what the energy rises by when it goes, */
+  bool is_rated; /* where that is known */
 } fg__place_icon;
 
 typedef struct fg__place_search {
@@ -22,8 +24,9 @@ typedef struct fg__place_search {
   fg__place_diffusion diffusion;
   double error;          /* E0, degrees */
   fg__place_icon **icon; /* [count] */
+  fg__place_box *box;    /* [count] where each tells something: its contribution's */
   int count;
-  size_t capacity;
+  size_t capacity, box_capacity;
   int next_identity;
   /* Room to work in: */
   fg__place_contribution others, trial, whole;
@@ -49,13 +52,13 @@ fg_status fg__place_drop(fg__place_search *search, int index);
  * STOPPED. */
 fg_status fg__place_relax(fg__place_search *search, int sweeps);
 
+/* The same after a change at few places: the diffusion reader's field is not solved again
+ * as a whole. MEMORY, STOPPED. */
+fg_status fg__place_relax_some(fg__place_search *search, int sweeps);
+
 /* Lets the icons near a place, or all, try moves of `step` lambda again. */
 void fg__place_wake(fg__place_search *search, const double place[3], double step);
 void fg__place_wake_all(fg__place_search *search, double step);
-
-/* Adds the icon that lowers the energy most, of those where readers err most; the best
- * `passed` ones are passed over. *inserted is false where there is no room. MEMORY. */
-fg_status fg__place_insert(fg__place_search *search, bool *inserted, int passed);
 
 /* Takes off the icons that are missed least until `count` are left; the neighbours of
  * those that go move, and others that are not at rest. MEMORY, STOPPED. */
@@ -70,7 +73,27 @@ fg_status fg__place_complete(fg__place_search *search);
  * not lower the energy. MEMORY, STOPPED. */
 fg_status fg__place_exchange(fg__place_search *search, int most, int failures);
 
-/* Sets E0 from the readers' mean error now. MEMORY. */
+/* The icons' seeds and the price of ink, to come back to. */
+typedef struct fg__place_snapshot {
+  struct fg__place_remembered {
+    fg__place_seed seed;
+    double step, worth;
+    int identity;
+    bool is_rated;
+  } * icon; /* [count] */
+  int count;
+  double ink, shortest;
+} fg__place_snapshot;
+
+/* Keeps the state in place of what is in `out`. MEMORY. */
+fg_status fg__place_remember(fg__place_snapshot *out, fg__place_search *search);
+fg_status fg__place_restore(fg__place_search *search, const fg__place_snapshot *from);
+void fg__place_snapshot_clear(fg__place_snapshot *snapshot);
+
+/* The readers' mean error now, degrees. MEMORY. */
+fg_status fg__place_error(fg__place_search *search, double *error);
+
+/* Sets E0 from that. MEMORY. */
 fg_status fg__place_weigh(fg__place_search *search);
 
 /* The energy of all. MEMORY. */
@@ -95,6 +118,9 @@ double fg__place_own_price(const fg__place_search *search, const fg__place_line 
 fg_status fg__place_diffusion_price(double *price, fg__place_search *search,
                                     const fg__place_line *from, const fg__place_line *to);
 
+/* Forgets the worth of icons that tell a box anything, before or after a change there. */
+void fg__place_forget_worth(fg__place_search *search, const fg__place_box *box);
+
 /* What all icons but `except` (-1: all) tell a box; search->beside gets the samples of
  * those that tell it anything. MEMORY. */
 fg_status fg__place_gather(fg__place_contribution *out, fg__place_search *search,
@@ -111,8 +137,12 @@ typedef struct fg__place_candidate {
 
 enum { FG__PLACE_CANDIDATES = 30 };
 
+typedef struct fg__place_candidates {
+  fg__place_candidate *list; /* [most], of which `count` are there */
+  int most, count;
+} fg__place_candidates;
+
 /* The best candidates where readers err most, in descending order. MEMORY. */
-fg_status fg__place_list_candidates(fg__place_candidate best[FG__PLACE_CANDIDATES],
-                                    int *count, fg__place_search *search);
+fg_status fg__place_list_candidates(fg__place_candidates *best, fg__place_search *search);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "place/fields_test.h"
 #include "place/search/even.h"
+#include "place/search/peaks.h"
 
 typedef struct setting {
   fg_field *field;
@@ -87,15 +88,12 @@ static void an_exchange_that_does_not_pay_is_undone(void **state)
     double before = energy_of(&s);
     assert_int_equal(fg__place_exchange(&s.search, 1, 1), FG_STATUS_OK);
     assert_int_equal(s.search.count, COUNT);
-    if (energy_of(&s) < before) {
-      ++paid;
-      continue;
-    }
-    for (int k = 0; k < COUNT; ++k) {
-      assert_memory_equal(&seed[k], &s.search.icon[k]->seed, sizeof *seed);
-      assert_int_equal(identity[k], s.search.icon[k]->identity);
-    }
-    ++undone;
+    bool same = true;
+    for (int k = 0; k < COUNT; ++k)
+      same = same && identity[k] == s.search.icon[k]->identity &&
+             memcmp(&seed[k], &s.search.icon[k]->seed, sizeof *seed) == 0;
+    assert_true(same || energy_of(&s) < before * (1 + 1e-5));
+    ++*(same ? &undone : &paid);
   }
   assert_true(paid > 0 && undone > 0);
   clear(&s);
@@ -242,6 +240,49 @@ static void thinning_takes_the_ones_that_say_least(void **state)
 }
 
 /* Half of the domain is empty: a new icon comes there. */
+/* A box of new values after the other: the rows know the largest cell of all. */
+static void peaks_follow_changes(void **state)
+{
+  enum { WIDE = 7, TALL = 5, DEEP = 3, COUNT = WIDE * TALL * DEEP };
+  float value[COUNT], weight[COUNT];
+  const fg__place_raster raster = {.dimension = 3, .cells = {WIDE, TALL, DEEP}};
+  unsigned seed = 1;
+  for (int n = 0; n < COUNT; ++n) {
+    value[n] = 5.0F;
+    weight[n] = n % 4 ? (float)(n % 3) : 1.0F;
+  }
+  fg__place_peaks peaks;
+  assert_int_equal(fg__place_peaks_create(&peaks, *state, &raster, value, weight),
+                   FG_STATUS_OK);
+  for (int round = 0; round < 100; ++round) {
+    int low[3], high[3], best = 1; /* which counts */
+    for (int k = 0; k < 3; ++k) {
+      seed = seed * 1664525U + 1013904223U;
+      low[k] = (int)(seed >> 20) % raster.cells[k];
+      high[k] = low[k] + 1 + (int)(seed >> 26) % 3; /* may stick out */
+    }
+    for (int n = 0; n < COUNT; ++n) {
+      const int at[3] = {n % WIDE, n / WIDE % TALL, n / (WIDE * TALL)};
+      bool in = true;
+      for (int k = 0; k < 3; ++k)
+        in = in && at[k] >= low[k] && at[k] < high[k];
+      seed = seed * 1664525U + 1013904223U;
+      if (in) /* few different values, so that some are equal */
+        value[n] = (float)((seed >> 24) % 9);
+    }
+    for (int n = 0; n < COUNT; ++n) {
+      const float ahead = value[n] * weight[n] - value[best] * weight[best];
+      if (weight[n] > 0.0F && (ahead > 0.0F || (ahead >= 0.0F && n < best)))
+        best = n;
+    }
+    size_t top;
+    fg__place_peaks_renew(&peaks, low, high);
+    assert_true(fg__place_peaks_top(&top, &peaks) == value[best] * weight[best]);
+    assert_int_equal(top, best);
+  }
+  fg__place_peaks_clear(&peaks);
+}
+
 static void an_icon_comes_where_readers_err(void **state)
 {
   setting s;
@@ -250,8 +291,12 @@ static void an_icon_comes_where_readers_err(void **state)
   add(&s, -5, 9, true);
   add(&s, -2.5, 7, true);
   double before = energy_of(&s);
+  fg__place_candidate list[FG__PLACE_CANDIDATES] = {{{{0}, {0}}, 0.0}};
+  fg__place_candidates best = {.list = list, .most = FG__PLACE_CANDIDATES};
   bool inserted;
-  assert_int_equal(fg__place_insert(&s.search, &inserted, 0), FG_STATUS_OK);
+  assert_int_equal(fg__place_list_candidates(&best, &s.search), FG_STATUS_OK);
+  assert_true(best.count > 1 && list[0].fall > list[1].fall);
+  assert_int_equal(fg__place_add(&s.search, &inserted, &list[0].seed, 3), FG_STATUS_OK);
   assert_true(inserted);
   assert_int_equal(s.search.count, 4);
   assert_true(s.search.icon[3]->seed.position[0] > 0);
@@ -270,6 +315,7 @@ int main(void)
       CASE(heads_keep_away_from_other_ends),
       CASE(thinning_takes_the_ones_that_say_least),
       CASE(an_icon_comes_where_readers_err),
+      CASE(peaks_follow_changes),
   };
   return cmocka_run_group_tests_name("place/search/search/search", tests, NULL, NULL);
 }

@@ -1,0 +1,32 @@
+/* The largest value of a raster that changes in boxes: each row knows its own. */
+#ifndef FG__PLACE_PEAKS_H
+#define FG__PLACE_PEAKS_H
+
+#include "place/reader/readers.h"
+
+typedef struct fg__place_peak {
+  float worth; /* of the row's best cell; negative: it has none */
+  int column;
+} fg__place_peak;
+
+typedef struct fg__place_peaks {
+  const fg__place_raster *raster; /* borrowed, as what follows */
+  const float *value;             /* [cells] */
+  const float *weight; /* by which values count, where it is positive; NULL: 1 */
+  fg__place_peak *row;
+} fg__place_peaks;
+
+/* MEMORY. */
+fg_status fg__place_peaks_create(fg__place_peaks *out, fg_context *context,
+                                 const fg__place_raster *raster, const float *value,
+                                 const float *weight);
+void fg__place_peaks_clear(fg__place_peaks *peaks);
+
+/* Looks again at the rows from low to below high, along y and z. */
+void fg__place_peaks_renew(fg__place_peaks *peaks, const int low[3], const int high[3]);
+
+/* The cell whose value times weight is largest, the first of such; negative: the worth
+ * where no cell counts, *cell is then 0. */
+float fg__place_peaks_top(size_t *cell, const fg__place_peaks *peaks);
+
+#endif

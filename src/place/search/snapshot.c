@@ -1,0 +1,73 @@
+/* States of a search to come back to. */
+#include "place/search/search.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void fg__place_snapshot_clear(fg__place_snapshot *snapshot)
+{
+  free(snapshot->icon);
+  *snapshot = (fg__place_snapshot){0};
+}
+
+fg_status fg__place_remember(fg__place_snapshot *out, fg__place_search *search)
+{
+  free(out->icon);
+  out->count = search->count;
+  out->ink = search->scale.ink;
+  out->shortest = search->scale.shortest;
+  out->icon = fg__allocate((size_t)search->count, sizeof *out->icon);
+  if (!out->icon)
+    return fg__fail_memory(search->context, "a copy of the icons",
+                           (size_t)search->count * sizeof *out->icon);
+  for (int n = 0; n < search->count; ++n) {
+    out->icon[n].seed = search->icon[n]->seed;
+    out->icon[n].step = search->icon[n]->step;
+    out->icon[n].identity = search->icon[n]->identity;
+    out->icon[n].worth = search->icon[n]->worth;
+    out->icon[n].is_rated = search->icon[n]->is_rated;
+  }
+  return FG_STATUS_OK;
+}
+
+fg_status fg__place_restore(fg__place_search *search, const fg__place_snapshot *from)
+{
+  fg_status status = FG_STATUS_OK;
+  search->scale.ink = from->ink;
+  search->scale.shortest = from->shortest;
+  /* those that stayed where they were keep their place, the rest are made again */
+  for (int n = search->count - 1; n >= 0 && status == FG_STATUS_OK; --n) {
+    fg__place_icon *icon = search->icon[n];
+    bool same = false;
+    for (int k = 0; k < from->count && !same; ++k)
+      same = from->icon[k].identity == icon->identity &&
+             memcmp(&from->icon[k].seed, &icon->seed, sizeof icon->seed) == 0;
+    if (!same)
+      status = fg__place_drop(search, n);
+  }
+  for (int k = 0; k < from->count && status == FG_STATUS_OK; ++k) {
+    int n = k;
+    while (n < search->count && search->icon[n]->identity != from->icon[k].identity)
+      ++n;
+    bool added = true;
+    if (n >= search->count)
+      status = fg__place_add(search, &added, &from->icon[k].seed, from->icon[k].identity);
+    if (status != FG_STATUS_OK || !added)
+      continue;
+    fg__place_icon *icon = search->icon[n];
+    memmove(&search->icon[k + 1], &search->icon[k],
+            (size_t)(n - k) * sizeof(fg__place_icon *));
+    search->icon[k] = icon;
+    fg__place_box box = search->box[n];
+    memmove(&search->box[k + 1], &search->box[k], (size_t)(n - k) * sizeof box);
+    search->box[k] = box;
+    icon->step = from->icon[k].step;
+  }
+  for (int k = 0; k < search->count && status == FG_STATUS_OK; ++k) {
+    search->icon[k]->worth = from->icon[k].worth;
+    search->icon[k]->is_rated = from->icon[k].is_rated;
+  }
+  return status;
+}
