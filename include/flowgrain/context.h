@@ -50,6 +50,7 @@ typedef enum fg_feature {
   FG_FEATURE_MAPS,       /* map projections: flowgrain/map.h */
   FG_FEATURE_MPI,        /* several processes: flowgrain/mpi.h */
   FG_FEATURE_GRIB,       /* reading GRIB */
+  FG_FEATURE_VIEWER,     /* the page for browsers: flowgrain/view.h */
   FG_FEATURES            /* how many there are */
 } fg_feature;
 

@@ -45,6 +45,10 @@ FG_API fg_status fg_density_create_from_arrays(fg_density **out, fg_context *con
 FG_API void fg_density_destroy(fg_density *density);
 FG_API const fg_density_arrays *fg_density_contents(const fg_density *density);
 
+/* The number of each node's cluster, from 1; 0 outside, -1 in components too small to be
+ * clusters. Borrowed; NULL: the density is distributed. */
+FG_API const int *fg_density_labels(const fg_density *density);
+
 /* Writes u, the number of each node's cluster (0 outside, -1 in components too small to
  * be clusters) and the mask as .vti. Of a distributed density rank 0 writes what the
  * others send it, packed and part by part; `path` is not read elsewhere. FILE_ACCESS,

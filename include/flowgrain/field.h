@@ -146,8 +146,9 @@ FG_API double fg_field_normal_share(const fg_field *field);
 FG_API fg_status fg_field_speed_range(double range[2], fg_context *context,
                                       const fg_field *field);
 
-/* Writes a field as .vti (VTK XML image data; axes must be evenly spaced) or .nc
- * (NetCDF, CF). UNSUPPORTED for other names' ends, FILE_ACCESS, MEMORY. */
+/* Writes a field as .vti (VTK XML image data; axes must be evenly spaced; scale,
+ * projection, time and level as FieldData) or .nc (NetCDF, CF). UNSUPPORTED for other
+ * names' ends, FILE_ACCESS, MEMORY. */
 FG_API fg_status fg_field_write(fg_context *context, const char *path,
                                 const fg_field *field);
 
@@ -182,6 +183,9 @@ typedef struct fg_inventory_vector {
   size_t cells;      /* 0, or how many cells, which are not along the axes, are
                         interpolated onto that grid; outside them is missing */
   const fg_axis_value *time_value, *level_value; /* [times], [levels]; NULL: not known */
+  int usual_level;                               /* fg_usual.level */
+  const char *absent;                            /* fg_usual.absent; NULL: none */
+  const char *axis_name[3];                      /* of a plane in space; NULL: x, y, z */
 } fg_inventory_vector;
 
 /* Lists the vectors in a file, without reading whole fields where possible. Statuses as
@@ -190,10 +194,25 @@ FG_API fg_status fg_inventory_read(fg_inventory **out, fg_context *context,
                                    const char *input);
 /* The same of the one vector that fg_field_read would read with these options, whose time
  * and level do not count; what takes the reading of samples or of a mesh is not found:
- * missing_share, and of meshes size, bounds, cells and frame. options may be NULL. */
+ * missing_share, and of meshes size, bounds and cells. options may be NULL. */
 FG_API fg_status fg_inventory_read_chosen(fg_inventory **out, fg_context *context,
                                           const char *input,
                                           const fg_read_options *options);
+
+/* What options should be, and what there is to say, before a field is read. */
+typedef struct fg_usual {
+  int level;        /* of an ocean's levels the one at the surface, which has the greatest
+                       height or the least depth; else 0 */
+  char absent[256]; /* "lat, lon": coordinates that the components name and the file
+                       lacks, so that the grid is read on its indices; "" none */
+} fg_usual;
+
+/* Finds these for the vector that fg_field_read would read with these options, whose
+ * level does not count. Reads no samples; only NetCDF tells anything. Statuses as
+ * fg_field_read; options may be NULL. */
+FG_API fg_status fg_usual_find(fg_usual *out, fg_context *context, const char *input,
+                               const fg_read_options *options);
+
 FG_API void fg_inventory_destroy(fg_inventory *inventory);
 FG_API const char *fg_inventory_format(const fg_inventory *inventory);
 FG_API int fg_inventory_vector_count(const fg_inventory *inventory);

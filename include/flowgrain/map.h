@@ -28,6 +28,10 @@ struct fg_map_options {
   int threads;      /* [as many as there are cores, where there is work for them] */
 };
 
+/* The name, PROJ's, of the projection that "auto" takes for a vector of a file; NULL
+ * where it lies on no globe, and in builds without maps. */
+FG_API const char *fg_map_auto(const fg_inventory_vector *vector);
+
 /* Lays a field on a longitude-latitude grid (2D, scale GEO) on the plane of a projection:
  * a field of scale MAP in kilometres, whose velocity lies along the plane's axes and
  * keeps its length, with square samples; missing outside the outline. The same bits on
@@ -41,8 +45,8 @@ FG_API fg_status fg_field_project(fg_field **out, fg_context *context,
  * of no known plane are taken for longitudes and latitudes where the field is on a map;
  * a field of no map leaves all as they are. Widths change by the root of the areas'
  * scales; of a line across the new map's cut the longer part stays, and an icon without
- * an image goes. ARGUMENT (a projection that is none), UNSUPPORTED (a build without
- * maps), MEMORY. */
+ * an image goes. A score is of the old plane: it is not kept there. ARGUMENT (a
+ * projection that is none), UNSUPPORTED (a build without maps), MEMORY. */
 FG_API fg_status fg_icons_project(fg_icons **icons, fg_context *context,
                                   const fg_field *field);
 

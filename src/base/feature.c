@@ -18,6 +18,8 @@ static const struct about {
     [FG_FEATURE_MAPS] = {FG__MAPS != 0, "maps", "map projections", "FLOWGRAIN_MAPS"},
     [FG_FEATURE_MPI] = {FG__MPI != 0, "mpi", "MPI", "FLOWGRAIN_MPI"},
     [FG_FEATURE_GRIB] = {FG__GRIB != 0, "grib", "reader of GRIB files", "FLOWGRAIN_GRIB"},
+    [FG_FEATURE_VIEWER] = {FG__VIEWER != 0, "viewer", "page for browsers",
+                           "FLOWGRAIN_VIEWER"},
 };
 
 static bool is_feature(fg_feature feature)

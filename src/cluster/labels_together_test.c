@@ -134,6 +134,8 @@ static void a_density_in_one_piece_is_not_gathered(void **state)
   fg_density *density, *out;
   expect(fg_density_create_from_arrays(&density, us.context, &arrays) == FG_STATUS_OK);
   expect(!fg_density_is_distributed(density));
+  const int *label = fg_density_labels(density);
+  expect(label && label[0] == 1 && label[1] == 0 && label[2] == 1 && label[3] == 1);
   expect(fg_density_gather(&out, us.context, density) == FG_STATUS_ARGUMENT);
   fg_density_destroy(density);
   end_together();

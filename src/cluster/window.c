@@ -290,8 +290,8 @@ static double level_in_face(const float *low, int width, const double share[3])
 
 double fg__window_level(const fg__window *window, const double position[])
 {
-  int at[3], width = window->nodes[0];
-  double share[3];
+  int at[3] = {0}, width = window->nodes[0];
+  double share[3] = {0};
   if (!fg__window_find(window, position, at, share) ||
       !window->active[fg__window_cell(window, at[0], at[1], at[2])])
     return (double)OUTSIDE;

@@ -283,3 +283,8 @@ const fg_density_arrays *fg_density_contents(const fg_density *density)
 {
   return &density->arrays;
 }
+
+const int *fg_density_labels(const fg_density *density)
+{
+  return density->arrays.u ? density->block.label : NULL;
+}

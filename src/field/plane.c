@@ -2,11 +2,6 @@
 
 #include <math.h>
 
-double fg__plane_product(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static bool scale_to_one(double out[3], const double v[3])
 {
   double largest = 0.0;
@@ -16,18 +11,10 @@ static bool scale_to_one(double out[3], const double v[3])
     return false;
   for (int k = 0; k < 3; ++k)
     out[k] = v[k] / largest;
-  const double length = sqrt(fg__plane_product(out, out));
+  const double length = fg__length(out);
   for (int k = 0; k < 3; ++k)
     out[k] /= length;
   return true;
-}
-
-static void cross(double out[3], const double a[3], const double b[3])
-{
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    out[k] = a[i] * b[j] - a[j] * b[i];
-  }
 }
 
 /* Of components that differ by less the first, or the last, counts as the largest: those
@@ -51,7 +38,7 @@ bool fg__plane_basis_of(fg__plane_basis *out, const double normal[3])
   for (int k = 0; k < 3; ++k)
     along[k] = (k == nearer ? 1.0 : 0.0) - n[nearer] * n[k];
   scale_to_one(out->direction[first], along);
-  cross(along, n, out->direction[first]);
+  fg__cross(n, out->direction[first], along);
   scale_to_one(second, along);
   if (second[other] < 0.0)
     for (int k = 0; k < 3; ++k)

@@ -3,6 +3,7 @@
 #define FG__PLANE_H
 
 #include "base/context.h"
+#include "base/vector.h"
 
 /* Two directions of length 1 in a plane, perpendicular to each other, and the axes of
  * space that they are nearest to, ascending. A point's coordinates in the plane are its
@@ -23,7 +24,5 @@ bool fg__plane_basis_of(fg__plane_basis *out, const double normal[3]);
 
 /* Whether a direction of the basis is the very axis it is nearest to. */
 bool fg__plane_is_axis(const fg__plane_basis *basis, int k);
-
-double fg__plane_product(const double a[3], const double b[3]);
 
 #endif

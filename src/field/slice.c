@@ -46,11 +46,11 @@ static bool is_sample(const fg_field *volume, size_t n)
 /* In-plane components of a velocity, and what is normal to it. */
 static void keep(cut *c, size_t to, const double velocity[3])
 {
-  const double normal = fg__plane_product(velocity, c->basis.normal);
+  const double normal = fg__dot(velocity, c->basis.normal);
   c->normal_sum += normal * normal;
-  c->sum += fg__plane_product(velocity, velocity);
+  c->sum += fg__dot(velocity, velocity);
   for (int k = 0; k < 2; ++k)
-    c->velocity[k][to] = (float)fg__plane_product(velocity, c->basis.direction[k]);
+    c->velocity[k][to] = (float)fg__dot(velocity, c->basis.direction[k]);
 }
 
 static void miss(cut *c, size_t to)
@@ -142,8 +142,8 @@ static void meet_edge(double low[2], double high[2], const cut *c, const double 
                       const double b[3])
 {
   const double *n = c->basis.normal;
-  const double from = fg__plane_product(a, n) - c->offset;
-  const double to = fg__plane_product(b, n) - c->offset;
+  const double from = fg__dot(a, n) - c->offset;
+  const double to = fg__dot(b, n) - c->offset;
   if (!(from * to <= 0.0))
     return;
   const double share = from - to > 0.0 || from - to < 0.0 ? from / (from - to) : 0.0;
@@ -151,7 +151,7 @@ static void meet_edge(double low[2], double high[2], const cut *c, const double 
   for (int k = 0; k < 3; ++k)
     at[k] = a[k] + share * (b[k] - a[k]);
   for (int k = 0; k < 2; ++k) {
-    const double s = fg__plane_product(at, c->basis.direction[k]);
+    const double s = fg__dot(at, c->basis.direction[k]);
     low[k] = fmin(low[k], s);
     high[k] = fmax(high[k], s);
   }
@@ -339,9 +339,9 @@ static fg_status begin(cut *c, const fg_plane *plane)
                     "field: a cut with normal (%g, %g, %g) through (%g, %g, %g)",
                     plane->normal[0], plane->normal[1], plane->normal[2], plane->point[0],
                     plane->point[1], plane->point[2]);
-  c->offset = fg__plane_product(plane->point, c->basis.normal);
+  c->offset = fg__dot(plane->point, c->basis.normal);
   c->along_axes = fg__plane_is_axis(&c->basis, 0) && fg__plane_is_axis(&c->basis, 1);
-  if (c->along_axes) /* as it was said, unrounded */
+  if (c->along_axes) /* as given, unrounded */
     c->offset = plane->point[c->basis.across] * c->basis.normal[c->basis.across];
   c->arrays = *a;
   c->arrays.dimension = 2;

@@ -138,7 +138,7 @@ static void a_tilted_plane_has_its_components(void **state)
     assert_true(fg__plane_basis_of(&basis, planes[p].normal));
     fg_field *field = cut(v, &planes[p]);
     const fg_field_arrays *a = fg_field_contents(field);
-    const double offset = fg__plane_product(planes[p].point, basis.normal);
+    const double offset = fg__dot(planes[p].point, basis.normal);
     int inside = 0;
     for (int n = 0; n < a->size[0] * a->size[1]; ++n) {
       double at[3], u[3];
@@ -155,8 +155,8 @@ static void a_tilted_plane_has_its_components(void **state)
       for (int c = 0; c < 3; ++c)
         u[c] = component_at(c, at);
       for (int d = 0; d < 2; ++d)
-        assert_true(fabs((double)a->velocity[d][n] -
-                         fg__plane_product(u, basis.direction[d])) < 2e-5);
+        assert_true(fabs((double)a->velocity[d][n] - fg__dot(u, basis.direction[d])) <
+                    2e-5);
     }
     assert_true(inside > 15 && inside < a->size[0] * a->size[1]);
     if (p == 0) { /* y lies in the plane */
@@ -178,12 +178,12 @@ static void directions_are_natural(void **state)
   for (int n = 0; n < 6; ++n) {
     fg__plane_basis b;
     assert_true(fg__plane_basis_of(&b, normals[n]));
-    assert_true(fabs(fg__plane_product(b.direction[0], b.direction[1])) < 1e-15);
+    assert_true(fabs(fg__dot(b.direction[0], b.direction[1])) < 1e-15);
     for (int k = 0; k < 2; ++k) {
       assert_int_equal(b.axis[k], axes[n][k]);
       assert_true(b.direction[k][b.axis[k]] > 0.0);
-      assert_true(fabs(fg__plane_product(b.direction[k], b.normal)) < 1e-15);
-      assert_true(fabs(fg__plane_product(b.direction[k], b.direction[k]) - 1.0) < 1e-15);
+      assert_true(fabs(fg__dot(b.direction[k], b.normal)) < 1e-15);
+      assert_true(fabs(fg__dot(b.direction[k], b.direction[k]) - 1.0) < 1e-15);
     }
     assert_int_equal(fg__plane_is_axis(&b, 0) && fg__plane_is_axis(&b, 1), n < 3);
   }

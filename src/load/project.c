@@ -101,8 +101,6 @@ static fg_status fill(fg_icons *out, fg_context *context, const planes *between,
   }
   fg__icons_set_clusters(out, fg_icons_clusters(icons), fg_icons_dropped(icons));
   fg__icons_set_next_id(out, fg__icons_next_id(icons));
-  if (fg_icons_kept_score(icons))
-    fg_icons_keep_score(out, fg_icons_kept_score(icons));
   return status;
 }
 

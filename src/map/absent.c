@@ -59,6 +59,12 @@ void fg__map_turn(const fg__map *map, size_t n, const double *longitude,
     east[i] = north[i] = NAN;
 }
 
+void fg__map_turn_row(const fg__map *map, size_t n, const double *longitude,
+                      const double *latitude, float *east, float *north)
+{
+  fg__map_turn(map, n, longitude, latitude, east, north);
+}
+
 double fg__map_area_scale(const fg__map *map, double longitude, double latitude)
 {
   (void)map;
@@ -134,4 +140,10 @@ fg_status fg_field_project(fg_field **out, fg_context *context, const fg_field *
   if (out)
     *out = NULL;
   return fg__fail_absent(context, "projection", FG_FEATURE_MAPS);
+}
+
+const char *fg_map_auto(const fg_inventory_vector *vector)
+{
+  (void)vector;
+  return NULL;
 }

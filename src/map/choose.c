@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* An arc of that many degrees is all round. */
-static const double ALL_ROUND = 300.0;
+#include "sphere/sphere.h"
 
 /* Mean radius of the Earth in metres: what we project stands on a sphere. */
 static const char RADIUS[] = "6371000";
@@ -93,8 +92,8 @@ static bool is_polar(const fg__map_area *area)
 const char *fg__map_auto(const fg__map_area *area)
 {
   const double width = width_of(area), height = height_of(area);
-  const double middle = middle_of(area), cosine = cos(middle * 0.017453292519943295);
-  if (width >= ALL_ROUND)
+  const double middle = middle_of(area), cosine = cos(middle * FG__RADIANS);
+  if (width >= FG__MAP_ALL_ROUND)
     return is_cap(area) ? "laea" : "eqearth";
   if (is_polar(area))
     return "laea";
@@ -105,6 +104,17 @@ const char *fg__map_auto(const fg__map_area *area)
   if (fabs(middle) < 15.0)
     return "merc";
   return height > 2.0 * width * cosine ? "tmerc" : "lcc";
+}
+
+const char *fg_map_auto(const fg_inventory_vector *vector)
+{
+  if (!vector || vector->unusable || vector->dimension != 2 ||
+      vector->scale != FG_SCALE_GEO || !(vector->bounds[2] < vector->bounds[3]))
+    return NULL;
+  const double west = vector->bounds[0];
+  const double east = vector->periodic[0] ? west + 360.0 : vector->bounds[1];
+  const fg__map_area area = {west, east, vector->bounds[2], vector->bounds[3], false};
+  return fg__map_auto(&area);
 }
 
 /* A middle in few digits: within a fortieth of the width. */
@@ -138,7 +148,7 @@ static double latitude_of(const fg_map_options *options, const fg__map_area *are
   if (options->has_center_latitude)
     return options->center[1];
   const double middle = middle_of(area);
-  if (at_pole || is_polar(area) || (width_of(area) >= ALL_ROUND && is_cap(area)))
+  if (at_pole || is_polar(area) || (width_of(area) >= FG__MAP_ALL_ROUND && is_cap(area)))
     return middle < 0.0 ? -90.0 : 90.0;
   return rounded(middle, height_of(area));
 }
@@ -184,7 +194,7 @@ static bool set_true_parallel(fg__map_words *words, const fg_map_options *option
 {
   if (options->has_center_latitude)
     return set_angle(words, "lat_ts", options->center[1]);
-  if (width_of(area) < ALL_ROUND && fabs(middle_of(area)) < 75.0)
+  if (width_of(area) < FG__MAP_ALL_ROUND && fabs(middle_of(area)) < 75.0)
     return set_angle(words, "lat_ts", rounded(middle_of(area), height_of(area)));
   return strcmp(fg__map_words_find(words, "proj"), "cea") != 0 ||
          fg__map_words_set(words, "lat_ts", CYLINDER_LATITUDE);

@@ -5,6 +5,9 @@
 #include "flowgrain/map.h"
 #include "map/words.h"
 
+/* An arc of so many degrees is all round. */
+enum { FG__MAP_ALL_ROUND = 300 };
+
 /* What is to be shown, in degrees: east - west in (0, 360]. */
 typedef struct fg__map_area {
   double west, east, south, north;

@@ -7,8 +7,9 @@
 
 #include "base/memory.h"
 #include "map/words.h"
+#include "sphere/sphere.h"
 
-static const double DEGREE = 0.017453292519943295;
+static const double DEGREE = FG__RADIANS;
 
 /* Step of differences, in degrees: they agree with proj_factors to some 1e-10. */
 static const double STEP = 1e-4;
@@ -16,9 +17,6 @@ static const double STEP = 1e-4;
 /* A way there and back may be so many metres off; libproj answers outside the outline of
  * several projections, far off. */
 static const double ROUND_TRIP = 1000.0;
-
-/* Metres in a degree of a great circle, for planes in degrees. */
-static const double DEGREE_METRES = 111195.0;
 
 enum { CHUNK = 256 };
 
@@ -84,10 +82,10 @@ static PJ_COORD transform(const fg__map *map, PJ_DIRECTION direction, double x, 
   if (!isfinite(x) || !isfinite(y))
     return nowhere;
   const PJ_COORD out = proj_trans(map->over, direction, proj_coord(x, y, 0.0, 0.0));
+  if (isfinite(out.xy.x) && isfinite(out.xy.y) && out.xy.x < 1e30 && out.xy.y < 1e30)
+    return out;
   proj_errno_reset(map->over);
-  return isfinite(out.xy.x) && isfinite(out.xy.y) && out.xy.x < 1e30 && out.xy.y < 1e30
-             ? out
-             : nowhere;
+  return nowhere;
 }
 
 static void forward(const fg__map *map, double longitude, double latitude, double out[2])
@@ -172,20 +170,85 @@ static void differentiate(const fg__map *map, double longitude, double latitude,
   }
 }
 
+static void turn_by(double by[2][2], float *east, float *north)
+{
+  const double u = (double)*east, v = (double)*north, speed = sqrt(u * u + v * v);
+  const double x = by[0][0] * u + by[0][1] * v, y = by[1][0] * u + by[1][1] * v;
+  const double factor = speed / sqrt(x * x + y * y);
+  if (!(speed > 0.0) && !isnan(speed)) /* calm wherever there is an image */
+    return;
+  *east = isfinite(factor) ? (float)(x * factor) : NAN;
+  *north = isfinite(factor) ? (float)(y * factor) : NAN;
+}
+
 void fg__map_turn(const fg__map *map, size_t n, const double *longitude,
                   const double *latitude, float *east, float *north)
 {
   for (size_t i = 0; i < n; ++i) {
-    const double u = (double)east[i], v = (double)north[i], speed = sqrt(u * u + v * v);
     double by[2][2];
-    if (!(speed > 0.0) && !isnan(speed)) /* calm wherever there is an image */
-      continue;
     differentiate(map, longitude[i], latitude[i], by);
-    const double x = by[0][0] * u + by[0][1] * v, y = by[1][0] * u + by[1][1] * v;
-    const double factor = speed / sqrt(x * x + y * y);
-    east[i] = isfinite(factor) ? (float)(x * factor) : NAN;
-    north[i] = isfinite(factor) ? (float)(y * factor) : NAN;
+    turn_by(by, &east[i], &north[i]);
   }
+}
+
+/* Derivatives at every fourth position, of which quartics go through five. */
+enum { STRIDE = 4, NODES = 5, SPAN = STRIDE * (NODES - 1) };
+
+/* Fourth differences of derivatives, over their size: what they are interpolated from is
+ * smooth enough for errors of some 1e-8. */
+static const double SMOOTH = 1e-6;
+
+/* Derivatives at the nodes of a span; false where they are not smooth. */
+static bool find_nodes(double by[NODES][2][2], const fg__map *map,
+                       const double *longitude, const double *latitude)
+{
+  double size = 0.0, rough = 0.0;
+  for (int k = 0; k < NODES; ++k)
+    differentiate(map, longitude[STRIDE * k], latitude[STRIDE * k], by[k]);
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b < 2; ++b) {
+      const double fourth = by[0][a][b] - 4.0 * by[1][a][b] + 6.0 * by[2][a][b] -
+                            4.0 * by[3][a][b] + by[4][a][b];
+      size += by[2][a][b] * by[2][a][b];
+      rough += fourth * fourth;
+    }
+  return rough <= SMOOTH * SMOOTH * size; /* not where there is no image: NaN */
+}
+
+/* Weights of the nodes at position i of a span, after Lagrange. */
+static void weigh_nodes(double weight[NODES], int i)
+{
+  for (int k = 0; k < NODES; ++k) {
+    weight[k] = 1.0;
+    for (int other = 0; other < NODES; ++other)
+      if (other != k)
+        weight[k] *= ((double)i / STRIDE - other) / (k - other);
+  }
+}
+
+void fg__map_turn_row(const fg__map *map, size_t n, const double *longitude,
+                      const double *latitude, float *east, float *north)
+{
+  double weight[SPAN][NODES], node[NODES][2][2];
+  for (int i = 0; i < SPAN; ++i)
+    weigh_nodes(weight[i], i);
+  size_t first = 0;
+  for (; first + SPAN < n; first += SPAN) {
+    if (!find_nodes(node, map, longitude + first, latitude + first)) {
+      fg__map_turn(map, SPAN, longitude + first, latitude + first, east + first,
+                   north + first);
+      continue;
+    }
+    for (size_t i = 0; i < SPAN; ++i) {
+      double by[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
+      for (int k = 0; k < NODES; ++k)
+        for (int a = 0; a < 4; ++a)
+          by[a / 2][a % 2] += weight[i][k] * node[k][a / 2][a % 2];
+      turn_by(by, &east[first + i], &north[first + i]);
+    }
+  }
+  fg__map_turn(map, n - first, longitude + first, latitude + first, east + first,
+               north + first);
 }
 
 double fg__map_area_scale(const fg__map *map, double longitude, double latitude)
@@ -213,7 +276,7 @@ static double find_unit(const fg__map *map, const fg__map_words *given)
   fg__map_words words = *given;
   char string[FG__MAP_STRING_BYTES];
   if (map->angular)
-    return DEGREE_METRES;
+    return FG__DEGREE_METRES;
   fg__map_words_drop(&words, "units");
   fg__map_words_drop(&words, "to_meter");
   if (words.count == given->count || !fg__map_words_write(string, &words))

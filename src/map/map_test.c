@@ -81,6 +81,37 @@ static void vectors_turn_as_proj_says(void **state)
   }
 }
 
+/* Rows 300 km apart of places 40 km apart, which go over poles and beyond outlines. */
+static void rows_turn_as_their_places_do(void **state)
+{
+  (void)state;
+  enum { PLACES = 401 };
+  for (size_t k = 0; k < sizeof SOME / sizeof *SOME; ++k) {
+    fg__map *map = make(SOME[k]);
+    double x[PLACES], y[PLACES], longitude[PLACES], latitude[PLACES], middle[2];
+    float u[2][PLACES], v[2][PLACES];
+    fg__map_forward(map, 1, (double[]){fg__map_center(map)},
+                    (double[]){fg__map_center_latitude(map)}, &middle[0], &middle[1]);
+    for (int row = -30; row <= 30; ++row) {
+      for (int n = 0; n < PLACES; ++n) {
+        x[n] = middle[0] + (n - 200) * 40e3 / fg__map_unit(map);
+        y[n] = middle[1] + row * 300e3 / fg__map_unit(map);
+        u[0][n] = u[1][n] = (float)cos(0.3 * n);
+        v[0][n] = v[1][n] = (float)sin(0.3 * n);
+      }
+      fg__map_inverse(map, PLACES, x, y, longitude, latitude);
+      fg__map_turn(map, PLACES, longitude, latitude, u[0], v[0]);
+      fg__map_turn_row(map, PLACES, longitude, latitude, u[1], v[1]);
+      for (int n = 0; n < PLACES; ++n) {
+        assert_int_equal(isnan(u[0][n]), isnan(u[1][n]));
+        assert_false(fabsf(u[0][n] - u[1][n]) > 1.5e-7f);
+        assert_false(fabsf(v[0][n] - v[1][n]) > 1.5e-7f);
+      }
+    }
+    fg__map_destroy(map);
+  }
+}
+
 /* A wind over the pole keeps its direction from one side to the other, and one at the cut
  * is turned as one beside it. */
 static void poles_and_the_cut_are_no_exceptions(void **state)
@@ -206,6 +237,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(there_and_back),
       cmocka_unit_test(vectors_turn_as_proj_says),
+      cmocka_unit_test(rows_turn_as_their_places_do),
       cmocka_unit_test(poles_and_the_cut_are_no_exceptions),
       cmocka_unit_test(outside_the_outline_is_nothing),
       cmocka_unit_test(a_line_may_go_on_past_the_cut),

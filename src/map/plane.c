@@ -3,12 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-static const double DEGREE = 0.017453292519943295;
+#include "sphere/sphere.h"
 
 /* Positions in a direction at which the area's image is looked at. */
 enum { ACROSS = 241, ALONG = 121, FEWEST = 3 };
-
-static const double ALL_ROUND = 300.0;
 
 /* Lengths may be enlarged so many times before the map ends. */
 static const double LARGEST = 3.0, LARGEST_CYLINDRICAL = 5.76; /* 1 / cos 80 degrees */
@@ -25,11 +23,8 @@ static const box NOTHING = {{(double)INFINITY, (double)INFINITY},
 
 static double distance(const fg__map *map, double longitude, double latitude)
 {
-  const double at = latitude * DEGREE, of = fg__map_center_latitude(map) * DEGREE;
-  const double cosine =
-      sin(at) * sin(of) +
-      cos(at) * cos(of) * cos((longitude - fg__map_center(map)) * DEGREE);
-  return acos(fmin(fmax(cosine, -1.0), 1.0)) / DEGREE;
+  const double center[2] = {fg__map_center(map), fg__map_center_latitude(map)};
+  return fg__sphere_distance(center, (const double[2]){longitude, latitude});
 }
 
 /* Longitude in some turn, within the area's. */
@@ -43,7 +38,7 @@ bool fg__map_plane_shows(const fg__map_plane *plane, const fg__map *map, double 
                          double latitude)
 {
   const fg__map_area *area = &plane->area;
-  if (plane->reach > 0.0 && !(distance(map, longitude, latitude) <= plane->reach))
+  if (plane->reach > 0.0 && !(distance(map, longitude, latitude) <= plane->reach + 1e-9))
     return false;
   if (!plane->bounded)
     return true;
@@ -139,7 +134,7 @@ static double reach_of(const fg__map *map, bool is_region)
 fg_status fg__map_plane_find(fg__map_plane *out, fg_context *context, const fg__map *map,
                              const fg__map_area *area, bool is_region, int samples)
 {
-  const bool all_round = area->east - area->west >= ALL_ROUND;
+  const bool all_round = area->east - area->west >= FG__MAP_ALL_ROUND;
   box found = NOTHING;
   *out = (fg__map_plane){.area = *area, .bounded = is_region && all_round};
   out->reach = reach_of(map, is_region);

@@ -7,10 +7,9 @@
 
 #include "base/memory.h"
 #include "base/threads.h"
+#include "base/vector.h"
 #include "field/slab.h"
 #include "map/plane.h"
-
-static const double DEGREE = 0.017453292519943295;
 
 /* Samples along the longer side: two a node of the mesh for 200 arrows on the globe. */
 enum { SAMPLES = 768, FEWEST_SAMPLES = 16, MOST_SAMPLES = 16384 };
@@ -21,11 +20,12 @@ enum { SAMPLES = 768, FEWEST_SAMPLES = 16, MOST_SAMPLES = 16384 };
 enum { MOST_PARTS = 16 };
 static const double PART_STEPS = 1.5;
 
+/* Between a sample's corners its parts are placed linearly, where its middle is theirs to
+ * so much of its diagonal. */
+static const double STRAIGHT = 0.02;
+
 /* Places that are worth a thread. */
 static const double THREAD_PLACES = 1e6;
-
-/* Kilometres in a degree, of the spacing of data. */
-static const double DEGREE_METRES = 111195.0;
 
 bool fg__map_is_asked(const fg_map_options *options)
 {
@@ -53,21 +53,24 @@ typedef struct sampling {
 typedef struct line {
   double *x, *y, *longitude, *latitude;
   float *east, *north;
-  double (*sum)[4]; /* vectors in space, and how many */
+  double (*corner[2])[3]; /* of the samples, below and above: unit vectors; NaN: none */
+  int hint;
 } line;
 
-static bool create_row(line *out, size_t n)
+static bool create_row(line *out, int samples)
 {
-  *out = (line){0};
+  const size_t n = (size_t)samples + 1;
+  *out = (line){.hint = -1};
   out->x = fg__allocate(n, sizeof(double));
   out->y = fg__allocate(n, sizeof(double));
   out->longitude = fg__allocate(n, sizeof(double));
   out->latitude = fg__allocate(n, sizeof(double));
   out->east = fg__allocate(n, sizeof(float));
   out->north = fg__allocate(n, sizeof(float));
-  out->sum = fg__allocate(n, sizeof *out->sum);
+  for (int k = 0; k < 2; ++k)
+    out->corner[k] = fg__allocate(n, sizeof *out->corner[k]);
   return out->x && out->y && out->longitude && out->latitude && out->east && out->north &&
-         out->sum;
+         out->corner[0] && out->corner[1];
 }
 
 static void destroy_row(line *row)
@@ -78,18 +81,18 @@ static void destroy_row(line *row)
   free(row->latitude);
   free(row->east);
   free(row->north);
-  free(row->sum);
+  free(row->corner[0]);
+  free(row->corner[1]);
 }
 
-/* Positions of row j, moved by parts of a sample. */
-static void locate(line *out, const sampling *work, const fg__map *map, int j,
-                   const double moved[2])
+/* n positions from (x, y) on, in samples. */
+static void locate(line *out, const sampling *work, const fg__map *map, int n, double x,
+                   double y)
 {
   const fg__map_plane *plane = work->plane;
-  const int n = plane->size[0];
   for (int i = 0; i < n; ++i) {
-    out->x[i] = plane->first[0] + (i + moved[0]) * plane->spacing;
-    out->y[i] = plane->first[1] + (j + moved[1]) * plane->spacing;
+    out->x[i] = plane->first[0] + (i + x) * plane->spacing;
+    out->y[i] = plane->first[1] + y * plane->spacing;
   }
   fg__map_inverse(map, (size_t)n, out->x, out->y, out->longitude, out->latitude);
   for (int i = 0; i < n; ++i)
@@ -98,59 +101,86 @@ static void locate(line *out, const sampling *work, const fg__map *map, int j,
       out->longitude[i] = (double)NAN;
 }
 
-/* East and north at a position as vectors in space. */
-static void find_axes(double east[3], double north[3], double longitude, double latitude)
+static void find_corners(line *at, const sampling *work, const fg__map *map, int j)
 {
-  const double c = cos(longitude * DEGREE), s = sin(longitude * DEGREE);
-  const double z = sin(latitude * DEGREE);
-  east[0] = -s;
-  east[1] = c;
-  east[2] = 0.0;
-  north[0] = -z * c;
-  north[1] = -z * s;
-  north[2] = cos(latitude * DEGREE);
+  const int n = work->plane->size[0] + 1;
+  for (int side = 0; side < 2; ++side) {
+    locate(at, work, map, n, -0.5, j + side - 0.5);
+    for (int i = 0; i < n; ++i) {
+      const fg__sphere_frame to = fg__sphere_frame_at(at->longitude[i], at->latitude[i]);
+      memcpy(at->corner[side][i], to.up, sizeof to.up);
+    }
+  }
 }
 
-static void add_part(line *at, int n)
+/* Parts of sample i between its corners; false where these do not lie round its middle,
+ * as at the outline and at cuts. */
+static bool place_parts(double (*up)[3], const line *at, int i, int parts,
+                        const double middle[3])
 {
-  for (int i = 0; i < n; ++i) {
-    double east[3], north[3];
-    if (!isfinite(at->east[i]) || !isfinite(at->north[i]))
-      continue;
-    find_axes(east, north, at->longitude[i], at->latitude[i]);
+  const double *a = at->corner[0][i], *b = at->corner[0][i + 1];
+  const double *c = at->corner[1][i], *d = at->corner[1][i + 1];
+  double mean[3];
+  for (int k = 0; k < 3; ++k)
+    mean[k] = 0.25 * (a[k] + b[k] + c[k] + d[k]);
+  if (!(fg__apart(mean, middle) < STRAIGHT * fg__apart(a, d)))
+    return false;
+  for (int part = 0; part < parts * parts; ++part) {
+    const double s = (part % parts + 0.5) / parts, t = (part / parts + 0.5) / parts;
     for (int k = 0; k < 3; ++k)
-      at->sum[i][k] += (double)at->east[i] * east[k] + (double)at->north[i] * north[k];
-    at->sum[i][3] += 1.0;
+      up[part][k] =
+          (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * c[k] + s * d[k]);
+    const double length = fg__length(up[part]);
+    for (int k = 0; k < 3; ++k)
+      up[part][k] /= length;
   }
+  return true;
+}
+
+/* The same by the projection; those without an image are left out. Returns how many. */
+static size_t locate_parts(double (*up)[3], const sampling *work, const fg__map *map,
+                           int i, int j)
+{
+  const int parts = work->parts;
+  size_t count = 0;
+  for (int part = 0; part < parts * parts; ++part) {
+    const fg__map_plane *plane = work->plane;
+    const double x =
+        plane->first[0] + (i + (part % parts + 0.5) / parts - 0.5) * plane->spacing;
+    const double y =
+        plane->first[1] + (j + (part / parts + 0.5) / parts - 0.5) * plane->spacing;
+    double longitude, latitude;
+    fg__map_inverse(map, 1, &x, &y, &longitude, &latitude);
+    if (!isfinite(longitude) || !fg__map_plane_shows(plane, map, longitude, latitude))
+      continue;
+    const fg__sphere_frame to = fg__sphere_frame_at(longitude, latitude);
+    memcpy(up[count++], to.up, sizeof to.up);
+  }
+  return count;
 }
 
 /* The mean of a sample's parts, components at its middle. Missing where the middle is. */
 static void average(line *at, const sampling *work, const fg__map *map, int j)
 {
-  const int n = work->plane->size[0], parts = work->parts;
-  memset(at->sum, 0, (size_t)n * sizeof *at->sum);
-  for (int part = 0; part < parts * parts; ++part) {
-    const double moved[2] = {(part % parts + 0.5) / parts - 0.5,
-                             (part / parts + 0.5) / parts - 0.5};
-    locate(at, work, map, j, moved);
-    fg__sphere_sample(at->east, at->north, work->sphere, (size_t)n, at->longitude,
-                      at->latitude);
-    add_part(at, n);
-  }
-  locate(at, work, map, j, (const double[2]){0.0, 0.0});
+  const int n = work->plane->size[0];
+  find_corners(at, work, map, j);
+  locate(at, work, map, n, 0.0, j);
   fg__sphere_sample(at->east, at->north, work->sphere, (size_t)n, at->longitude,
                     at->latitude);
   for (int i = 0; i < n; ++i) {
-    double east[3], north[3], u = 0.0, v = 0.0;
-    if (!isfinite(at->east[i]) || !isfinite(at->north[i]) || !(at->sum[i][3] > 0.0))
+    double up[MOST_PARTS * MOST_PARTS][3], sum[3] = {0.0, 0.0, 0.0};
+    if (!isfinite(at->east[i]) || !isfinite(at->north[i]))
       continue;
-    find_axes(east, north, at->longitude[i], at->latitude[i]);
-    for (int k = 0; k < 3; ++k) {
-      u += at->sum[i][k] * east[k] / at->sum[i][3];
-      v += at->sum[i][k] * north[k] / at->sum[i][3];
-    }
-    at->east[i] = (float)u;
-    at->north[i] = (float)v;
+    const fg__sphere_frame to = fg__sphere_frame_at(at->longitude[i], at->latitude[i]);
+    const size_t count = place_parts(up, at, i, work->parts, to.up)
+                             ? (size_t)(work->parts * work->parts)
+                             : locate_parts(up, work, map, i, j);
+    const size_t found =
+        fg__sphere_add(sum, work->sphere, count, (const double(*)[3])up, &at->hint);
+    if (found == 0)
+      continue;
+    at->east[i] = (float)(fg__dot(sum, to.east) / (double)found);
+    at->north[i] = (float)(fg__dot(sum, to.north) / (double)found);
   }
 }
 
@@ -160,10 +190,10 @@ static void sample_row(line *at, const sampling *work, const fg__map *map, int j
   if (work->parts > 1) {
     average(at, work, map, j);
   } else {
-    locate(at, work, map, j, (const double[2]){0.0, 0.0});
+    locate(at, work, map, (int)n, 0.0, j);
     fg__sphere_sample(at->east, at->north, work->sphere, n, at->longitude, at->latitude);
   }
-  fg__map_turn(map, n, at->longitude, at->latitude, at->east, at->north);
+  fg__map_turn_row(map, n, at->longitude, at->latitude, at->east, at->north);
   for (size_t i = 0; i < n; ++i)
     if (isnan(at->longitude[i]) || isnan(at->east[i]) || isnan(at->north[i]))
       at->east[i] = at->north[i] = NAN;
@@ -180,7 +210,7 @@ static void sample_rows(void *argument, const fg__thread *thread)
   fg__map *map = NULL;
   line at;
   fg_status status =
-      create_row(&at, (size_t)work->plane->size[0]) ? FG_STATUS_OK : FG_STATUS_MEMORY;
+      create_row(&at, work->plane->size[0]) ? FG_STATUS_OK : FG_STATUS_MEMORY;
   if (status == FG_STATUS_OK)
     status = fg__map_create(&map, NULL, work->projection);
   const int height = work->plane->size[1];
@@ -254,6 +284,10 @@ static fg_status make(fg_field **out, fg_context *context, const fg__sphere *sph
   fg__slab_rows(&work.first, &own, plane->size[1], count > 1 ? number : 0, count);
   work.rows = fg__slab_rows_held(plane->size[1], work.first, own, false);
   const size_t samples = (size_t)plane->size[0] * (size_t)work.rows;
+  fg_status status =
+      fg__check_memory(context, "field", (double)samples, 2.0 * sizeof(float));
+  if (status != FG_STATUS_OK)
+    return status;
   arrays.dimension = 2;
   arrays.scale = FG_SCALE_MAP;
   arrays.projection = projection;
@@ -266,7 +300,6 @@ static fg_status make(fg_field **out, fg_context *context, const fg__sphere *sph
     arrays.axis_name[k] = k ? "y" : "x";
     arrays.axis_units[k] = "km";
   }
-  fg_status status = FG_STATUS_OK;
   if (!work.velocity[0] || !work.velocity[1])
     status = fg__fail_memory(context, "a map", 2 * samples * sizeof(float));
   if (status == FG_STATUS_OK)
@@ -347,7 +380,7 @@ static void find_area(fg__map_area *out, const fg__sphere *sphere,
       east += 360.0;
     *out = (fg__map_area){west, east, options->region[2], options->region[3], false};
   }
-  out->sea = out->east - out->west >= 300.0 && is_of_the_sea(sphere);
+  out->sea = out->east - out->west >= FG__MAP_ALL_ROUND && is_of_the_sea(sphere);
 }
 
 fg_status fg__sphere_project(fg_field **out, fg_context *context,
@@ -372,7 +405,7 @@ fg_status fg__sphere_project(fg_field **out, fg_context *context,
   if (status == FG_STATUS_OK) {
     fg__sphere_extent extent;
     fg__sphere_extent_of(&extent, sphere);
-    const double pixel = plane.spacing * fg__map_unit(map) / DEGREE_METRES;
+    const double pixel = plane.spacing * fg__map_unit(map) / FG__DEGREE_METRES;
     const double parts = ceil(pixel / (PART_STEPS * extent.spacing) - 0.25);
     const int across = parts > 1.0 ? (int)fmin(parts, MOST_PARTS) : 1;
     status = make(out, context, sphere, &plane, fg__map_projection(map), across,

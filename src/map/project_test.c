@@ -323,6 +323,10 @@ static void what_no_map_can_show_is_refused(void **state)
   assert_int_equal(fg_field_project(&out, context, field, NULL), FG_STATUS_OK);
   fg_field *again;
   assert_int_equal(fg_field_project(&again, context, out, NULL), FG_STATUS_ARGUMENT);
+  fg_context_clear(context);
+  fg_context_set_input(context, &(fg_input_options){.most_memory = 1e6});
+  assert_int_equal(fg_field_project(&again, context, field, NULL), FG_STATUS_UNSUPPORTED);
+  assert_non_null(strstr(fg_context_message(context), "1 MB may be used"));
   fg_field_destroy(out);
   fg_field_destroy(field);
   fg_context_destroy(context);

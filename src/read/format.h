@@ -48,7 +48,9 @@ fg_status fg__globe_field(fg_field **out, fg_context *context, const fg__sphere 
 void fg__globe_size(int size[2], const fg__sphere_extent *extent);
 
 typedef struct fg__format {
-  const char *name;  /* as `flowgrain info` shows it */
+  const char *name; /* as `flowgrain info` shows it */
+  bool is_absent;   /* this build cannot read it: it lacks `feature` */
+  fg_feature feature;
   const char *files; /* which ones it reads; NULL: another says it, or none are read */
   bool (*is_mine)(const unsigned char *bytes, size_t size);
   fg_status (*inventory)(fg_inventory *inventory, fg_context *context,
@@ -57,6 +59,9 @@ typedef struct fg__format {
    * found among all by --vars, or the first that can be read. */
   fg_status (*inventory_chosen)(fg_inventory *inventory, fg_context *context,
                                 const fg__source *source, const fg_read_options *options);
+  /* fg_usual_find; NULL: there is nothing to say. */
+  fg_status (*usual)(fg_usual *out, fg_context *context, const fg__source *source,
+                     const fg_read_options *options);
   fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
                     const fg_read_options *options, fg__slab_index slab);
   /* Vectors whose points lie on no two axes, as a field on the sphere; *out stays NULL
@@ -69,6 +74,7 @@ typedef struct fg__format {
                        const fg__source *source);
 } fg__format;
 
+extern const fg__format fg__format_exodus; /* of NetCDF files: before these */
 extern const fg__format fg__format_netcdf;
 extern const fg__format fg__format_grib;
 extern const fg__format fg__format_vti;
@@ -82,11 +88,26 @@ extern const fg__format fg__format_table; /* any text: the last */
 fg_status fg__source_open(fg__source *out, fg_context *context, const char *path);
 void fg__source_close(fg__source *source);
 
+/* Fails for a second file or a level, where the format has neither; `files`: how its
+ * files are called. UNSUPPORTED, ARGUMENT. */
+fg_status fg__check_one_file(fg_context *context, const fg__source *source,
+                             const fg_read_options *options, const char *files);
+
+/* A velocity of a number: beyond float, but not infinite, it stays beyond every speed
+ * that is taken. */
+float fg__as_velocity(double number);
+
 /* How an input is called in messages. */
 const char *fg__input_name(const fg_context *context, const char *input);
 
 /* Finds the format of bytes; NULL when no reader knows them. */
 const fg__format *fg__format_find(const unsigned char *bytes, size_t size);
+
+/* Opens a file and finds its format, the one that is asked for or that knows its bytes.
+ * To be closed even after a failure. FILE_ACCESS, FILE_FORMAT (unknown), ARGUMENT (no
+ * such name), UNSUPPORTED (not in this build). */
+fg_status fg__source_open_known(fg__source *out, const fg__format **format,
+                                fg_context *context, const char *path);
 
 /* Makes an empty inventory of a file in a format of that name. MEMORY. */
 fg_status fg__inventory_create(fg_inventory **out, fg_context *context,

@@ -11,6 +11,9 @@ static const double MOST_SAMPLES = 16.0;
 /* Between scattered points samples are finer, each way, as long as they are not many. */
 static const double FINEST = 8.0, MANY = 262144.0;
 
+/* Samples along an axis: no model has so many; a sliver may ask for any number. */
+static const double MOST_ALONG = 1 << 22;
+
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
 typedef struct raster {
@@ -23,7 +26,7 @@ typedef struct raster {
 static int count_along(double length, double spacing)
 {
   const double cells = ceil(length / spacing - 1e-6);
-  return cells < 1.0 ? 2 : 1 + (int)cells;
+  return !(cells >= 1.0) ? 2 : 1 + (int)fmin(cells, MOST_ALONG);
 }
 
 static double least_cosine_inverse(const fg__sphere_extent *extent)
@@ -84,6 +87,10 @@ static fg_status sample(samples *out, fg_context *context, const raster *r,
                         const fg__sphere *sphere, const fg__rows *rows)
 {
   const size_t columns = (size_t)r->size[0], count = columns * (size_t)rows->held;
+  fg_status status =
+      fg__check_memory(context, "field", (double)count, 2.0 * sizeof(float));
+  if (status != FG_STATUS_OK)
+    return status;
   out->latitude = fg__allocate(columns, sizeof *out->latitude);
   for (int k = 0; k < 2; ++k) {
     out->axis[k] = make_axis(r, k);
@@ -92,7 +99,6 @@ static fg_status sample(samples *out, fg_context *context, const raster *r,
   if (!out->latitude || !out->axis[0] || !out->axis[1] || !out->velocity[0] ||
       !out->velocity[1])
     return fg__fail_memory(context, "samples of the sphere", 2 * count * sizeof(float));
-  fg_status status = FG_STATUS_OK;
   for (int j = 0; j < rows->held && status == FG_STATUS_OK; ++j) {
     const size_t start = (size_t)j * columns;
     const double latitude = fmin(out->axis[1][rows->first + j], 90.0);

@@ -14,7 +14,7 @@ typedef struct entry {
   char *name[3];
   char *units;
   char *found_by;
-  char *unusable, *frame;
+  char *unusable, *frame, *absent;
   value_list time, level;
 } entry;
 
@@ -73,6 +73,7 @@ static void clear_entry(entry *e)
   free(e->found_by);
   free(e->unusable);
   free(e->frame);
+  free(e->absent);
 }
 
 fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
@@ -93,12 +94,14 @@ fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
   e.found_by = fg__copy_text(vector->found_by ? vector->found_by : "");
   e.unusable = fg__copy_text(vector->unusable);
   e.frame = fg__copy_text(vector->frame);
+  e.absent = fg__copy_text(vector->absent);
   copied = copied && e.units && e.found_by && (e.unusable || !vector->unusable) &&
-           (e.frame || !vector->frame);
+           (e.frame || !vector->frame) && (e.absent || !vector->absent);
   e.vector.units = e.units;
   e.vector.found_by = e.found_by;
   e.vector.unusable = e.unusable;
   e.vector.frame = e.frame;
+  e.vector.absent = e.absent;
   void *entries = inventory->entries;
   if (!copied ||
       !fg__grow(&entries, &inventory->capacity, inventory->count + 1, sizeof e)) {

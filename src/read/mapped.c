@@ -1,6 +1,9 @@
 #include "read/mapped.h"
 
+#include "map/map.h"
 #include "map/project.h"
+
+#include <stdio.h>
 
 static bool is_on_globe(const fg_field *field)
 {
@@ -73,6 +76,24 @@ static fg_status read_on_map(fg_field **out, fg_context *context,
   return status;
 }
 
+/* A projection that a file tells must be one, and name no files. */
+static fg_status check_projection(fg_context *context, const char *path,
+                                  const char *projection)
+{
+  enum { MESSAGE = 512 };
+  char message[MESSAGE];
+  fg__map *map = NULL;
+  if (!projection || !fg_has_feature(FG_FEATURE_MAPS))
+    return FG_STATUS_OK;
+  const fg_status status = fg__map_create(&map, context, projection);
+  fg__map_destroy(map);
+  if (status == FG_STATUS_OK || status == FG_STATUS_MEMORY)
+    return status;
+  snprintf(message, sizeof message, "%s", fg_context_message(context));
+  fg_context_clear(context);
+  return fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: %s", path, message);
+}
+
 fg_status fg__field_read_known(fg_field **out, fg_context *context,
                                const fg__format *format, const fg__source *source,
                                const fg_read_options *options, fg__slab_index slab)
@@ -94,5 +115,11 @@ fg_status fg__field_read_known(fg_field **out, fg_context *context,
   else
     status = format->read(out, context, source, options, slab);
   fg__sphere_destroy(sphere);
+  if (status == FG_STATUS_OK)
+    status = check_projection(context, source->path, fg_field_contents(*out)->projection);
+  if (status != FG_STATUS_OK) {
+    fg_field_destroy(*out);
+    *out = NULL;
+  }
   return status;
 }

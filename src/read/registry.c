@@ -1,3 +1,4 @@
+#include "base/feature.h"
 #include "base/memory.h"
 #include "base/mix.h"
 #include "field/slab.h"
@@ -11,8 +12,8 @@
 #include <string.h>
 
 static const fg__format *const FORMATS[] = {
-    &fg__format_netcdf, &fg__format_grib, &fg__format_vti,  &fg__format_vtk_legacy,
-    &fg__format_npy,    &fg__format_npz,  &fg__format_table};
+    &fg__format_exodus,     &fg__format_netcdf, &fg__format_grib, &fg__format_vti,
+    &fg__format_vtk_legacy, &fg__format_npy,    &fg__format_npz,  &fg__format_table};
 static const char SYNTHETIC[] = "synth:";
 enum { MESSAGE_BYTES = 2048, KNOWN_BYTES = 512 };
 
@@ -99,12 +100,15 @@ static fg_status find_format(const fg__format **out, fg_context *context,
   return status;
 }
 
-/* To be closed even after a failure. */
-static fg_status open_known(fg__source *source, const fg__format **format,
-                            fg_context *context, const char *path)
+fg_status fg__source_open_known(fg__source *out, const fg__format **format,
+                                fg_context *context, const char *path)
 {
-  fg_status status = fg__source_open(source, context, path);
-  return status == FG_STATUS_OK ? find_format(format, context, source) : status;
+  fg_status status = fg__source_open(out, context, path);
+  if (status == FG_STATUS_OK)
+    status = find_format(format, context, out);
+  if (status == FG_STATUS_OK && (*format)->is_absent)
+    status = fg__fail_absent(context, out->path, (*format)->feature);
+  return status;
 }
 
 static bool is_synthetic(const char *input)
@@ -163,7 +167,7 @@ static fg_status read_slab(fg_field **out, fg_context *context, const char *inpu
   static const fg_read_options defaults = {0};
   fg__source source;
   const fg__format *format;
-  fg_status status = open_known(&source, &format, context, input);
+  fg_status status = fg__source_open_known(&source, &format, context, input);
   if (!options)
     options = &defaults;
   if (status == FG_STATUS_OK)
@@ -283,7 +287,7 @@ static fg_status describe_file(fg_inventory **out, fg_context *context, const ch
 {
   fg__source source;
   const fg__format *format;
-  fg_status status = open_known(&source, &format, context, path);
+  fg_status status = fg__source_open_known(&source, &format, context, path);
   if (status == FG_STATUS_OK)
     status = fg__inventory_create(out, context, format->name);
   if (status == FG_STATUS_OK && options && format->inventory_chosen)
@@ -328,4 +332,22 @@ fg_status fg_inventory_read_chosen(fg_inventory **out, fg_context *context,
 {
   static const fg_read_options defaults = {0};
   return read_inventory(out, context, input, options ? options : &defaults);
+}
+
+fg_status fg_usual_find(fg_usual *out, fg_context *context, const char *input,
+                        const fg_read_options *options)
+{
+  static const fg_read_options defaults = {0};
+  if (!out || !input)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "no input to look at");
+  *out = (fg_usual){0};
+  if (is_synthetic(input))
+    return FG_STATUS_OK;
+  fg__source source;
+  const fg__format *format;
+  fg_status status = fg__source_open_known(&source, &format, context, input);
+  if (status == FG_STATUS_OK && format->usual)
+    status = format->usual(out, context, &source, options ? options : &defaults);
+  fg__source_close(&source);
+  return name_the_file(context, status, input);
 }

@@ -1,4 +1,6 @@
-/* The rows of a field that a slab of it reads. */
+/* What formats share: rows of a field that a slab of it reads, samples, options. */
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,4 +56,25 @@ fg_status fg__field_slab_of(fg_field **out, fg_context *context, const fg_field 
   for (int k = 0; k < 3; ++k)
     free(velocity[k]);
   return status;
+}
+
+float fg__as_velocity(double number)
+{
+  if (!isinf(number) && fabs(number) > (double)FLT_MAX)
+    return number > 0.0 ? FLT_MAX : -FLT_MAX;
+  return (float)number;
+}
+
+fg_status fg__check_one_file(fg_context *context, const fg__source *source,
+                             const fg_read_options *options, const char *files)
+{
+  if (options->vars_from)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "%s: a second file with the other component cannot be used with %s",
+                    source->path, files);
+  if (options->level != 0)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: level %d is asked for, but the file holds one only, number 0",
+                    source->path, options->level);
+  return FG_STATUS_OK;
 }

@@ -2,7 +2,7 @@
 #include "base/context.h"
 #include "base/memory.h"
 #include "file/number_text.h"
-#include "read/moment.h"
+#include "read/time_words.h"
 
 #include <ctype.h>
 #include <math.h>

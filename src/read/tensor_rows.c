@@ -20,13 +20,11 @@ fg_status fg__tensor_rows_read(fg_field *row[2], fg_context *context, const char
                                int dimension)
 {
   fg__source source;
+  const fg__format *format;
   bool found = false;
   row[0] = row[1] = NULL;
-  fg_status status = fg__source_open(&source, context, path);
-  if (status)
-    return status;
-  const fg__format *format = fg__format_find(source.bytes, source.size);
-  if (format && format->tensors)
+  fg_status status = fg__source_open_known(&source, &format, context, path);
+  if (!status && format->tensors)
     status = format->tensors(row, &found, context, &source);
   fg__source_close(&source);
   if (!status && !found)

@@ -21,6 +21,10 @@ static fg_status check(fg_context *context, const fg_run_options *o)
       return fg__fail(context, FG_STATUS_ARGUMENT,
                       "scales: number %d is %d; they must descend, to 1 at least", k,
                       o->numbers[k]);
+  if (o->kind == FG_RUN_ARROWS && o->count > 0 && o->numbers[0] > FG__MOST_ARROWS)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%d arrows are too many to be placed: %d can be", o->numbers[0],
+                    FG__MOST_ARROWS);
   if (!(o->max_time >= 0.0) || o->max_steps < 0)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "scales: limits of t = %g, %" PRId64 " steps", o->max_time,

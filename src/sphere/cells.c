@@ -9,6 +9,14 @@
  * what is has a corner at a place that was never set. */
 static const double LEAST_COSINE = 0.8660254037844387; /* 30 degrees */
 
+/* Of a point, or of a cell with its places in the squares of locate.c. */
+static const double CELL_BYTES = 40.0;
+
+/* Cells of positions that are no grid's lie on each other, and finding one among them
+ * would take for ever. */
+static const double MOST_LAYERS = 4.0;
+enum { FEWEST_CELLS = 100 };
+
 int fg__sphere_corners(const fg__sphere *sphere, size_t cell, int point[4])
 {
   if (sphere->field) {
@@ -102,7 +110,10 @@ static fg_status keep_cells(fg__sphere *sphere, fg_context *context)
 
 static fg_status make(fg__sphere *sphere, fg_context *context, fg__sphere_cells *cells)
 {
-  fg_status status = check_cells(context, cells);
+  fg_status status = fg__check_memory(
+      context, "field", (double)cells->points + (double)cells->count, CELL_BYTES);
+  if (status == FG_STATUS_OK)
+    status = check_cells(context, cells);
   if (status != FG_STATUS_OK)
     return status;
   sphere->corner = cells->corner;
@@ -113,12 +124,19 @@ static fg_status make(fg__sphere *sphere, fg_context *context, fg__sphere_cells 
     status = keep_cells(sphere, context);
   if (status == FG_STATUS_OK)
     status = fg__sphere_fill(sphere, context);
-  if (status == FG_STATUS_OK)
-    fg__sphere_measure(sphere, cells->longitude, cells->latitude);
-  return status;
+  if (status != FG_STATUS_OK)
+    return status;
+  const double layers = fg__sphere_measure(sphere, cells->longitude, cells->latitude);
+  if (!(layers > MOST_LAYERS) || sphere->count < FEWEST_CELLS)
+    return FG_STATUS_OK;
+  const fg__sphere_extent *extent = &sphere->extent;
+  return fg__fail(context, FG_STATUS_FILE_FORMAT,
+                  "field: its cells lie on each other: they are %.3g times as large as "
+                  "the longitudes %g to %g and latitudes %g to %g that they cover",
+                  layers, extent->west, extent->east, extent->south, extent->north);
 }
 
-static void clear(fg__sphere_cells *cells)
+void fg__sphere_cells_clear(fg__sphere_cells *cells)
 {
   free(cells->longitude);
   free(cells->latitude);
@@ -135,7 +153,7 @@ fg_status fg__sphere_of_cells(fg__sphere **out, fg_context *context,
   fg__sphere *sphere = fg__allocate(1, sizeof *sphere);
   fg_status status = sphere ? make(sphere, context, taken)
                             : fg__fail_memory(context, "a sphere", sizeof *sphere);
-  clear(taken);
+  fg__sphere_cells_clear(taken);
   if (status == FG_STATUS_OK)
     status = fg__sphere_sort_cells(sphere, context);
   if (status == FG_STATUS_OK)

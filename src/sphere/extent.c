@@ -28,7 +28,7 @@ typedef struct cell_shape {
 
 static void add_longitude(cover *sum, double longitude, double reach)
 {
-  double turned = fmod(longitude, 360.0);
+  double turned = fabs(longitude) < 360.0 ? longitude : fmod(longitude, 360.0);
   turned = turned < 0.0 ? turned + 360.0 : turned;
   int n = (int)(turned / BIN);
   n = n < BINS ? n : BINS - 1;
@@ -45,6 +45,13 @@ static void add_longitude(cover *sum, double longitude, double reach)
   }
 }
 
+/* From one longitude to another, the shorter way. */
+static double turn_between(double from, double to)
+{
+  const double turn = to - from;
+  return fabs(turn) <= 180.0 ? turn : remainder(turn, 360.0);
+}
+
 /* Corners in consecutive turns, about the first that is not at a pole. Returns how many
  * times they go round the pole: 0, 1 or -1. */
 static int unwrap(cell_shape *shape, double *low, double *high)
@@ -58,7 +65,7 @@ static int unwrap(cell_shape *shape, double *low, double *high)
       first = last = *low = *high = longitude;
       continue;
     }
-    const double step = remainder(longitude - last, 360.0);
+    const double step = turn_between(last, longitude);
     round += step;
     last = longitude;
     *low = fmin(*low, first + round);
@@ -90,14 +97,11 @@ static double area_of(const fg__sphere *sphere, const int point[4], int corners)
   const double *q = sphere->position + 3 * (size_t)point[1];
   const double *r = sphere->position + 3 * (size_t)point[2];
   const double *s = sphere->position + 3 * (size_t)point[corners - 1];
-  double a[3], b[3];
-  for (int k = 0; k < 3; ++k) {
-    a[k] = r[k] - p[k];
-    b[k] = s[k] - q[k];
-  }
-  const double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                       a[0] * b[1] - a[1] * b[0]};
-  return 0.5 * sqrt(fg__dot(n, n));
+  double a[3], b[3], normal[3];
+  fg__along(r, -1.0, p, a);
+  fg__along(s, -1.0, q, b);
+  fg__cross(a, b, normal);
+  return 0.5 * fg__length(normal);
 }
 
 static double area_in_grid(const cell_shape *shape)
@@ -171,8 +175,8 @@ static void find_gap(fg__sphere_extent *out, const cover *sum)
     out->east -= 360.0;
 }
 
-void fg__sphere_measure(fg__sphere *sphere, const double *longitude,
-                        const double *latitude)
+double fg__sphere_measure(fg__sphere *sphere, const double *longitude,
+                          const double *latitude)
 {
   cover sum = {.south = 90.0, .north = -90.0};
   fg__sphere_extent *out = &sphere->extent;
@@ -185,4 +189,6 @@ void fg__sphere_measure(fg__sphere *sphere, const double *longitude,
   out->scattered = !sum.has_quads;
   out->spacing =
       sqrt(sum.area / (double)(sum.present > 0 ? sum.present : 1)) / FG__RADIANS;
+  const double height = sin(out->north * FG__RADIANS) - sin(out->south * FG__RADIANS);
+  return sum.area / ((out->east - out->west) * FG__RADIANS * height);
 }

@@ -102,7 +102,9 @@ fg_status fg__sphere_of_field(fg__sphere **out, fg_context *context,
 static double turn_to(const fg__axis *x, double longitude)
 {
   const double first = x->coordinate[0];
-  double offset = fmod(longitude - first, 360.0);
+  double offset = longitude - first;
+  if (!(offset >= 0.0 && offset < 360.0))
+    offset = fmod(offset, 360.0);
   if (offset < 0.0)
     offset += 360.0;
   const double length = x->coordinate[x->cells] - first;

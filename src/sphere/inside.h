@@ -2,17 +2,15 @@
 #ifndef FG__SPHERE_INSIDE_H
 #define FG__SPHERE_INSIDE_H
 
-#include <math.h>
 #include <stdint.h>
 
+#include "base/vector.h"
 #include "sphere/sphere.h"
 
 enum { FG__SPHERE_FACES = 6, FG__SPHERE_WORDS = 7 };
 
 /* Points of a place that no sample is at: the poles. */
 enum { FG__SPHERE_SOUTH = -1, FG__SPHERE_NORTH = -2 };
-
-#define FG__RADIANS 0.017453292519943295
 
 /* The part of a face of the cube round the sphere where cells lie, divided into columns *
  * rows squares; the cells that may have a part in square n are cell[start[n]] to
@@ -42,24 +40,6 @@ struct fg__sphere {
   unsigned char *faces; /* [count] while cells are sorted: a bit for each face */
   fg__sphere_face face[FG__SPHERE_FACES]; /* +x, -x, +y, -y, +z, -z */
 };
-
-/* Unit vectors up, east and north at a position in degrees. */
-typedef struct fg__sphere_frame {
-  double up[3], east[3], north[3];
-} fg__sphere_frame;
-
-static inline fg__sphere_frame fg__sphere_frame_at(double longitude, double latitude)
-{
-  const double s = sin(longitude * FG__RADIANS), c = cos(longitude * FG__RADIANS);
-  const double sine = sin(latitude * FG__RADIANS), cosine = cos(latitude * FG__RADIANS);
-  return (fg__sphere_frame){
-      {cosine * c, cosine * s, sine}, {-s, c, 0.0}, {-sine * c, -sine * s, cosine}};
-}
-
-static inline double fg__dot(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* Points of a cell round it; returns 3 or 4. */
 int fg__sphere_corners(const fg__sphere *sphere, size_t cell, int point[4]);
@@ -96,8 +76,9 @@ bool fg__sphere_place_in_cells(fg__sphere_place *out, const fg__sphere *sphere,
                                const double up[3], int *hint);
 
 /* extent.c: measures what the cells cover; longitude and latitude of the points, NULL on
- * a longitude-latitude grid. */
-void fg__sphere_measure(fg__sphere *sphere, const double *longitude,
-                        const double *latitude);
+ * a longitude-latitude grid. Returns the cells' area, all together, over that between the
+ * longitudes and latitudes in which they lie. */
+double fg__sphere_measure(fg__sphere *sphere, const double *longitude,
+                          const double *latitude);
 
 #endif

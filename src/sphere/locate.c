@@ -6,6 +6,7 @@
 
 #include <limits.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Positions a rounding error outside a cell, in widths of the cell, are inside. */
 static const double ROUNDING = 1e-7;
@@ -25,6 +26,13 @@ static const double *position_of(const fg__sphere *sphere, int point)
   return sphere->position + 3 * (size_t)point;
 }
 
+static int face_of(const double up[3])
+{
+  int axis = fabs(up[1]) > fabs(up[0]) ? 1 : 0;
+  axis = fabs(up[2]) > fabs(up[axis]) ? 2 : axis;
+  return 2 * axis + (up[axis] < 0.0);
+}
+
 /* Gnomonic coordinates on face f; false at or behind its horizon. */
 static bool project(double out[2], const double up[3], int f)
 {
@@ -32,8 +40,9 @@ static bool project(double out[2], const double up[3], int f)
   const double height = f & 1 ? -up[axis] : up[axis];
   if (height < LEAST_HEIGHT)
     return false;
-  out[0] = up[(axis + 1) % 3] / height;
-  out[1] = up[(axis + 2) % 3] / height;
+  const double inverse = 1.0 / height;
+  out[0] = up[(axis + 1) % 3] * inverse;
+  out[1] = up[(axis + 2) % 3] * inverse;
   return true;
 }
 
@@ -70,12 +79,28 @@ static bool cover(double low[2], double high[2], const fg__sphere *sphere, size_
   return (sphere->faces[n] >> f & 1) && cover_all(low, high, sphere, n, f);
 }
 
+/* The face that a cell lies inside of, with all of its corners; -1 for more than one. */
+static int only_face(const fg__sphere *sphere, size_t n)
+{
+  int point[4];
+  const int corners = fg__sphere_corners(sphere, n, point);
+  const int face = face_of(position_of(sphere, point[0])), axis = face / 2;
+  for (int k = 0; k < corners; ++k) {
+    const double *up = position_of(sphere, point[k]);
+    const double height = face & 1 ? -up[axis] : up[axis];
+    if (!(fabs(up[(axis + 1) % 3]) < height && fabs(up[(axis + 2) % 3]) < height))
+      return -1;
+  }
+  return face;
+}
+
 static void mark_faces(fg__sphere *sphere)
 {
   for (size_t n = 0; n < sphere->count; ++n) {
-    unsigned marks = 0;
+    const int only = only_face(sphere, n);
+    unsigned marks = only >= 0 ? 1U << only : 0U;
     double low[2], high[2];
-    for (int f = 0; f < FG__SPHERE_FACES; ++f)
+    for (int f = 0; f < FG__SPHERE_FACES && only < 0; ++f)
       marks |= cover_all(low, high, sphere, n, f) ? 1U << f : 0U;
     sphere->faces[n] = (unsigned char)marks;
   }
@@ -94,9 +119,11 @@ static void squares_of(int first[2], int last[2], const fg__sphere_face *face,
 {
   for (int c = 0; c < 2; ++c) {
     const int count = c == 0 ? face->columns : face->rows;
-    const double slack = ROUNDING * (high[c] - low[c]) + ROUNDING / face->inverse[c];
-    first[c] = clamped((low[c] - slack - face->low[c]) * face->inverse[c], count);
-    last[c] = clamped((high[c] + slack - face->low[c]) * face->inverse[c], count);
+    const double from = (low[c] - face->low[c]) * face->inverse[c];
+    const double to = (high[c] - face->low[c]) * face->inverse[c];
+    const double slack = ROUNDING * (to - from + 1.0);
+    first[c] = clamped(from - slack, count);
+    last[c] = clamped(to + slack, count);
   }
 }
 
@@ -125,31 +152,55 @@ static void divide(fg__sphere_face *face, const face_sum *sum)
   }
 }
 
-/* Squares become larger where cells of very different sizes would lie in too many. */
-static void merge_squares(fg__sphere *sphere, int f, size_t cells)
+/* Counts each square's cells, or once there is room for them puts them in, from
+ * start[n + 1] downwards. Returns in how many squares cells lie, all in all. */
+static uint64_t visit_squares(fg__sphere *sphere, int f)
 {
   fg__sphere_face *face = &sphere->face[f];
-  for (;;) {
-    double entries = 0.0;
-    for (size_t n = 0; n < sphere->count; ++n) {
-      double low[2], high[2];
-      int first[2], last[2];
-      if (!cover(low, high, sphere, n, f))
-        continue;
-      squares_of(first, last, face, low, high);
-      entries += (double)(last[0] - first[0] + 1) * (double)(last[1] - first[1] + 1);
-    }
-    if (entries <= (double)MOST_ENTRIES * (double)cells)
-      return;
+  uint64_t entries = 0;
+  for (size_t n = 0; n < sphere->count; ++n) {
+    double low[2], high[2];
+    int first[2], last[2];
+    if (!cover(low, high, sphere, n, f))
+      continue;
+    squares_of(first, last, face, low, high);
+    entries += (uint64_t)(last[0] - first[0] + 1) * (uint64_t)(last[1] - first[1] + 1);
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int i = first[0]; i <= last[0]; ++i) {
+        uint32_t *start = &face->start[(size_t)j * (size_t)face->columns + (size_t)i];
+        if (face->cell)
+          face->cell[--*start] = (int)n;
+        else
+          ++*start;
+      }
+  }
+  return entries;
+}
+
+static size_t squares_in(const fg__sphere_face *face)
+{
+  return (size_t)face->columns * (size_t)face->rows;
+}
+
+/* Counts the squares' cells. Squares become larger where cells of very different sizes
+ * would lie in too many. */
+static uint64_t count_in_squares(fg__sphere *sphere, int f, size_t cells)
+{
+  fg__sphere_face *face = &sphere->face[f];
+  uint64_t entries;
+  while ((entries = visit_squares(sphere, f)) > (uint64_t)MOST_ENTRIES * cells) {
+    memset(face->start, 0, squares_in(face) * sizeof *face->start);
     for (int c = 0; c < 2; ++c) {
       int *count = c == 0 ? &face->columns : &face->rows;
       face->inverse[c] *= (double)((*count + 1) / 2) / *count;
       *count = (*count + 1) / 2;
     }
   }
+  return entries;
 }
 
-static void outline_face(fg__sphere *sphere, int f)
+/* Returns how many cells lie on it. */
+static size_t outline_face(fg__sphere *sphere, int f)
 {
   fg__sphere_face *face = &sphere->face[f];
   face_sum sum = {0};
@@ -164,57 +215,30 @@ static void outline_face(fg__sphere *sphere, int f)
     }
     ++sum.cells;
   }
-  if (sum.cells == 0)
-    return;
-  divide(face, &sum);
-  merge_squares(sphere, f, sum.cells);
-}
-
-/* Counts each square's cells, or with `place` puts them in from start[n + 1] downwards.
- */
-static uint64_t visit_squares(fg__sphere *sphere, int f, bool place)
-{
-  fg__sphere_face *face = &sphere->face[f];
-  uint64_t entries = 0;
-  for (size_t n = 0; n < sphere->count; ++n) {
-    double low[2], high[2];
-    int first[2], last[2];
-    if (!cover(low, high, sphere, n, f))
-      continue;
-    squares_of(first, last, face, low, high);
-    for (int j = first[1]; j <= last[1]; ++j)
-      for (int i = first[0]; i <= last[0]; ++i) {
-        uint32_t *start = &face->start[(size_t)j * (size_t)face->columns + (size_t)i];
-        if (place)
-          face->cell[--*start] = (int)n;
-        else
-          ++*start;
-        ++entries;
-      }
-  }
-  return entries;
+  if (sum.cells > 0)
+    divide(face, &sum);
+  return sum.cells;
 }
 
 static fg_status sort_face(fg__sphere *sphere, fg_context *context, int f)
 {
   fg__sphere_face *face = &sphere->face[f];
-  outline_face(sphere, f);
-  if (face->columns == 0)
+  const size_t cells = outline_face(sphere, f);
+  if (cells == 0)
     return FG_STATUS_OK;
-  const size_t squares = (size_t)face->columns * (size_t)face->rows;
-  face->start = fg__allocate(squares + 1, sizeof *face->start);
+  const size_t most = squares_in(face) + 1;
+  face->start = fg__allocate(most, sizeof *face->start);
   if (!face->start)
-    return fg__fail_memory(context, "squares of the sphere",
-                           (squares + 1) * sizeof *face->start);
-  const uint64_t entries = visit_squares(sphere, f, false);
+    return fg__fail_memory(context, "squares of the sphere", most * sizeof *face->start);
+  const uint64_t entries = count_in_squares(sphere, f, cells);
   face->cell =
       entries < UINT32_MAX ? fg__allocate((size_t)entries, sizeof *face->cell) : NULL;
   if (!face->cell)
     return fg__fail_memory(context, "the squares' cells",
                            (size_t)entries * sizeof *face->cell);
-  for (size_t n = 1; n <= squares; ++n)
+  for (size_t n = 1; n <= squares_in(face); ++n)
     face->start[n] += face->start[n - 1];
-  visit_squares(sphere, f, true);
+  visit_squares(sphere, f);
   return FG_STATUS_OK;
 }
 
@@ -230,13 +254,6 @@ fg_status fg__sphere_sort_cells(fg__sphere *sphere, fg_context *context)
   free(sphere->faces);
   sphere->faces = NULL;
   return status;
-}
-
-static int face_of(const double up[3])
-{
-  int axis = fabs(up[1]) > fabs(up[0]) ? 1 : 0;
-  axis = fabs(up[2]) > fabs(up[axis]) ? 2 : axis;
-  return 2 * axis + (up[axis] < 0.0);
 }
 
 typedef struct flat_point {

@@ -135,19 +135,23 @@ static const float *vector_of(const fg__sphere *sphere, int point)
   return sphere->vector + 3 * (size_t)point;
 }
 
-static void interpolate(float *east, float *north, const fg__sphere *sphere,
-                        const fg__sphere_place *place, const fg__sphere_frame *at)
+static void add_vector(double sum[3], const fg__sphere *sphere,
+                       const fg__sphere_place *place)
 {
-  double w[3] = {0.0, 0.0, 0.0};
   for (int k = 0; k < 4; ++k) {
     if (place->weight[k] == 0.0)
       continue;
     const float *vector = vector_of(sphere, place->point[k]);
     for (int c = 0; c < 3; ++c)
-      w[c] += place->weight[k] * (double)vector[c];
+      sum[c] += place->weight[k] * (double)vector[c];
   }
-  *east = (float)fg__dot(w, at->east);
-  *north = (float)fg__dot(w, at->north);
+}
+
+static bool find_in_grid(fg__sphere_place *out, const fg__sphere *sphere,
+                         double longitude, double latitude)
+{
+  return fg__sphere_place_in_grid(out, sphere, longitude, latitude) &&
+         !fg__sphere_place_is_missing(sphere, out);
 }
 
 void fg__sphere_sample(float *east, float *north, const fg__sphere *sphere, size_t n,
@@ -160,14 +164,31 @@ void fg__sphere_sample(float *east, float *north, const fg__sphere *sphere, size
       continue;
     const fg__sphere_frame at = fg__sphere_frame_at(longitude[i], latitude[i]);
     fg__sphere_place place;
-    const bool found =
-        sphere->field
-            ? fg__sphere_place_in_grid(&place, sphere, longitude[i], latitude[i]) &&
-                  !fg__sphere_place_is_missing(sphere, &place)
-            : fg__sphere_place_in_cells(&place, sphere, at.up, &hint);
-    if (found)
-      interpolate(&east[i], &north[i], sphere, &place, &at);
+    if (sphere->field ? !find_in_grid(&place, sphere, longitude[i], latitude[i])
+                      : !fg__sphere_place_in_cells(&place, sphere, at.up, &hint))
+      continue;
+    double w[3] = {0.0, 0.0, 0.0};
+    add_vector(w, sphere, &place);
+    east[i] = (float)fg__dot(w, at.east);
+    north[i] = (float)fg__dot(w, at.north);
   }
+}
+
+size_t fg__sphere_add(double sum[3], const fg__sphere *sphere, size_t n,
+                      const double (*up)[3], int *hint)
+{
+  size_t found = 0;
+  for (size_t i = 0; i < n; ++i) {
+    fg__sphere_place place;
+    if (sphere->field
+            ? !find_in_grid(&place, sphere, atan2(up[i][1], up[i][0]) / FG__RADIANS,
+                            asin(fmax(-1.0, fmin(up[i][2], 1.0))) / FG__RADIANS)
+            : !fg__sphere_place_in_cells(&place, sphere, up[i], hint))
+      continue;
+    add_vector(sum, sphere, &place);
+    ++found;
+  }
+  return found;
 }
 
 void fg__sphere_extent_of(fg__sphere_extent *out, const fg__sphere *sphere)

@@ -2,7 +2,36 @@
 #ifndef FG__SPHERE_H
 #define FG__SPHERE_H
 
+#include <math.h>
+
 #include "base/context.h"
+
+#define FG__RADIANS 0.017453292519943295 /* in a degree */
+
+/* Metres in a degree of a great circle of the Earth. */
+#define FG__DEGREE_METRES 111195.0
+
+/* Unit vectors up, east and north at a position in degrees. */
+typedef struct fg__sphere_frame {
+  double up[3], east[3], north[3];
+} fg__sphere_frame;
+
+static inline fg__sphere_frame fg__sphere_frame_at(double longitude, double latitude)
+{
+  const double s = sin(longitude * FG__RADIANS), c = cos(longitude * FG__RADIANS);
+  const double sine = sin(latitude * FG__RADIANS), cosine = cos(latitude * FG__RADIANS);
+  return (fg__sphere_frame){
+      {cosine * c, cosine * s, sine}, {-s, c, 0.0}, {-sine * c, -sine * s, cosine}};
+}
+
+/* Degrees of the great circle between two positions in degrees, longitude first. */
+static inline double fg__sphere_distance(const double a[2], const double b[2])
+{
+  const double s = sin(0.5 * (b[1] - a[1]) * FG__RADIANS);
+  const double t = sin(0.5 * (b[0] - a[0]) * FG__RADIANS);
+  const double h = s * s + cos(a[1] * FG__RADIANS) * cos(b[1] * FG__RADIANS) * t * t;
+  return 2.0 * asin(fmin(sqrt(h), 1.0)) / FG__RADIANS;
+}
 
 typedef struct fg__sphere fg__sphere;
 
@@ -30,6 +59,9 @@ fg_status fg__sphere_of_field(fg__sphere **out, fg_context *context,
 fg_status fg__sphere_of_cells(fg__sphere **out, fg_context *context,
                               fg__sphere_cells *taken);
 
+/* Frees arrays that were not taken over. */
+void fg__sphere_cells_clear(fg__sphere_cells *cells);
+
 void fg__sphere_destroy(fg__sphere *sphere);
 
 /* Components at n positions in degrees, longitudes in any turn; NaN where no cell is, or
@@ -39,6 +71,11 @@ void fg__sphere_destroy(fg__sphere *sphere);
  * Threads may share a sphere. */
 void fg__sphere_sample(float *east, float *north, const fg__sphere *sphere, size_t n,
                        const double *longitude, const double *latitude);
+
+/* Adds the vectors at n unit vectors `up`, as vectors in space, to a sum; returns how
+ * many are there. *hint is -1 at first, and then what the last call has left. */
+size_t fg__sphere_add(double sum[3], const fg__sphere *sphere, size_t n,
+                      const double (*up)[3], int *hint);
 
 /* What it covers. */
 typedef struct fg__sphere_extent {

@@ -286,6 +286,12 @@ static void what_is_no_mesh_is_refused(void **state)
   refuses(context, &cells, "none of 24 cells");
   cells = displaced(3, 2, false); /* half a turn from corner to corner */
   refuses(context, &cells, "none of 2 cells");
+  cells = displaced(36, 18, false);
+  for (size_t n = 0; n < cells.points; ++n) {
+    cells.longitude[n] = 0.1 * (double)(n * 37 % 101);
+    cells.latitude[n] = 0.1 * (double)(n * 53 % 97);
+  }
+  refuses(context, &cells, "its cells lie on each other");
 }
 
 int main(void)

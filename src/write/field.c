@@ -104,7 +104,7 @@ cleanup:
 static fg_status write_image(fg_context *context, const char *path,
                              const fg_field_arrays *field)
 {
-  fg__vti_image image = {0};
+  fg__vti_image image = {.field = field};
   for (int k = 0; k < field->dimension; ++k) {
     fg_status status = describe_axis(&image, context, path, field, k);
     if (status != FG_STATUS_OK)

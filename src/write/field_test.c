@@ -113,6 +113,58 @@ static void netcdf_comes_back_bit_for_bit(void **state)
   }
 }
 
+/* A .vti carries what its axes are. */
+static void an_image_keeps_its_map(void **state)
+{
+  folder *f = *state;
+  static const char laea[] = "+proj=laea +lat_0=52 +lon_0=10 +R=6371000 +units=km";
+  static const struct {
+    fg_field_arrays words;
+    fg_status status; /* of reading it */
+  } cases[] = {{{.scale = FG_SCALE_GEO,
+                 .axis_name = {"longitude", "latitude"},
+                 .axis_units = {"°E", "°N"},
+                 .period = {NX * 0.25}},
+                FG_STATUS_OK},
+               {{.scale = FG_SCALE_MAP,
+                 .axis_units = {"km", "km"},
+                 .projection = laea,
+                 .time = "1982-07-16 12:00",
+                 .level = "850 hPa"},
+                FG_STATUS_OK},
+               {{.scale = FG_SCALE_MAP, .projection = "+proj=merc +nadgrids=/etc/passwd"},
+                FG_STATUS_FILE_FORMAT}};
+  for (size_t i = 0; i < 3; ++i) {
+    samples s;
+    const fg_field_arrays *words = &cases[i].words;
+    fg_field *field = make_field(f->context, &s, *words), *back = NULL;
+    assert_int_equal(fg_field_write(f->context, path_of(f, "a.vti"), field),
+                     FG_STATUS_OK);
+    if (i > 0 && !fg_has_feature(FG_FEATURE_MAPS)) {
+      fg_field_destroy(field);
+      continue;
+    }
+    assert_int_equal(fg_field_read(&back, f->context, f->path, NULL), cases[i].status);
+    fg_context_clear(f->context);
+    if (back) {
+      const fg_field_arrays *a = fg_field_contents(field), *b = fg_field_contents(back);
+      assert_true(b->scale == words->scale && b->period[0] == words->period[0]);
+      for (int k = 0; k < 2; ++k) {
+        assert_string_equal(b->axis_name[k], a->axis_name[k]);
+        assert_string_equal(b->axis_units[k], a->axis_units[k]);
+      }
+      if (i == 1) {
+        assert_string_equal(b->projection, laea);
+        assert_string_equal(b->time, "1982-07-16 12:00");
+        assert_string_equal(b->level, "850 hPa");
+      }
+      assert_same_samples(field, back, 1e-13);
+    }
+    fg_field_destroy(back);
+    fg_field_destroy(field);
+  }
+}
+
 static void analytic_fields_go_through_both_formats(void **state)
 {
   folder *f = *state;
@@ -233,6 +285,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       TEST(an_image_comes_back_bit_for_bit),
       TEST(netcdf_comes_back_bit_for_bit),
+      TEST(an_image_keeps_its_map),
       TEST(analytic_fields_go_through_both_formats),
       TEST(volumes_come_back_bit_for_bit),
       TEST(periodic_axes_are_closed),

@@ -65,6 +65,37 @@ static void write_number(FILE *stream, const char *name, const double *value)
           name, number);
 }
 
+/* Strings as VTK writes them in text: a number a byte, each ended by 0. */
+static void write_strings(FILE *stream, const char *name, const char *const string[],
+                          int count)
+{
+  if (!string[0] || !string[0][0])
+    return;
+  fprintf(stream,
+          "<Array type=\"String\" Name=\"%s\" NumberOfTuples=\"%d\" "
+          "format=\"ascii\">\n",
+          name, count);
+  for (int k = 0; k < count; ++k) {
+    for (const char *c = string[k]; *c; ++c)
+      fprintf(stream, "%d ", (unsigned char)*c);
+    fputs("0 ", stream);
+  }
+  fputs("\n</Array>\n", stream);
+}
+
+static void write_field_words(FILE *stream, const fg_field_arrays *field)
+{
+  static const char *const scales[] = {"plain", "geo", "map", "plain"};
+  write_strings(stream, "Scale", &scales[field->scale], 1);
+  write_strings(stream, "AxisNames", field->axis_name, field->dimension);
+  write_strings(stream, "AxisUnits", field->axis_units, field->dimension);
+  write_strings(stream, "Projection", &field->projection, 1);
+  write_strings(stream, "TimeWords", &field->time, 1);
+  write_strings(stream, "LevelWords", &field->level, 1);
+  if (field->period[0] > 0.0)
+    write_number(stream, "AxisPeriod", &field->period[0]);
+}
+
 void fg__vti_write_open(FILE *stream, const fg__vti_image *image, const char *vectors,
                         const char *scalars)
 {
@@ -82,10 +113,12 @@ void fg__vti_write_open(FILE *stream, const fg__vti_image *image, const char *ve
                (const double[]){image->spacing[0], image->spacing[1],
                                 flat ? 1.0 : image->spacing[2]});
   fputs(">\n", stream);
-  if (image->time || image->least_area) {
+  if (image->time || image->least_area || image->field) {
     fputs("<FieldData>\n", stream);
     write_number(stream, "TimeValue", image->time);
     write_number(stream, "LeastClusterArea", image->least_area);
+    if (image->field)
+      write_field_words(stream, image->field);
     fputs("</FieldData>\n", stream);
   }
   fprintf(stream, "<Piece Extent=\"0 %d 0 %d 0 %d\">\n<PointData", last[0], last[1],

@@ -13,8 +13,10 @@
 typedef struct fg__vti_image {
   int points[3];
   double origin[3], spacing[3];
-  const double *time;       /* TimeValue; NULL: none */
-  const double *least_area; /* LeastClusterArea; NULL: none */
+  const double *time;           /* TimeValue; NULL: none */
+  const double *least_area;     /* LeastClusterArea; NULL: none */
+  const fg_field_arrays *field; /* whose scale, axes' words, x's period, projection, time
+                                   and level in words are told; NULL: none */
 } fg__vti_image;
 
 /* An array to be written: float, unsigned char or int, by the size of one and the type's

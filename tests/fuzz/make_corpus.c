@@ -256,6 +256,86 @@ static void make_projected(const char *name)
   sample_end(&f);
 }
 
+/* Longitudes, latitudes, or whatever goes on by a step. */
+static void put_steps(const sample_file *f, const char *name, int dimension, int count,
+                      const double step[2])
+{
+  const int id = sample_variable(f, name, NC_DOUBLE, 1, &dimension);
+  double values[12];
+  for (int n = 0; n < count; ++n) {
+    const int column = n % 3, row = n / 3;
+    values[n] = step[0] * column + step[1] * row;
+  }
+  sample_put(f, id, values);
+}
+
+static void put_corners(const sample_file *f, const char *name, int rows, int columns,
+                        int start)
+{
+  static const int corner[5][4] = {
+      {0, 1, 4, 3}, {1, 2, 5, -1}, {1, 5, 4, -1}, {3, 4, 7, 6}, {4, 5, 8, 7}};
+  double values[20];
+  const int all[2] = {rows, columns};
+  const int id = sample_variable(f, name, NC_INT, 2, all);
+  for (int n = 0; n < 20; ++n)
+    values[n] = corner[n / 4][n % 4] + start;
+  sample_number(f, id, "_FillValue", NC_INT, start - 1.0);
+  sample_put(f, id, values);
+}
+
+/* Four quads, one of which is two triangles, each as UGRID and as MPAS has it. */
+static void make_unstructured(void)
+{
+  static const double east[2] = {5.0, 0.5}, north[2] = {0.5, 5.0}, u[2] = {1.0, -2.0};
+  sample_file f;
+  strcpy(f.path, "netcdf/seed-ugrid.nc");
+  sample_begin(&f, NC_CLASSIC_MODEL);
+  const int nodes = sample_dimension(&f, "nodes", 9);
+  const int mesh = sample_variable(&f, "mesh", NC_INT, 0, NULL);
+  sample_text(&f, mesh, "cf_role", "mesh_topology");
+  sample_text(&f, mesh, "node_coordinates", "lon lat");
+  sample_text(&f, mesh, "face_node_connectivity", "corners");
+  put_corners(&f, "corners", sample_dimension(&f, "faces", 5),
+              sample_dimension(&f, "four", 4), 0);
+  put_steps(&f, "lon", nodes, 9, east);
+  put_steps(&f, "lat", nodes, 9, north);
+  put_steps(&f, "u", nodes, 9, u);
+  put_steps(&f, "v", nodes, 9, north);
+  sample_end(&f);
+  static const double radians[2][2] = {{0.1, 0.01}, {0.01, 0.1}};
+  strcpy(f.path, "netcdf/seed-mpas.nc");
+  sample_begin(&f, NC_CLASSIC_MODEL);
+  const int cells = sample_dimension(&f, "nCells", 5);
+  const int vertices = sample_dimension(&f, "nVertices", 9);
+  put_corners(&f, "verticesOnCell", cells, sample_dimension(&f, "maxEdges", 4), 1);
+  put_steps(&f, "lonVertex", vertices, 9, radians[0]);
+  put_steps(&f, "latVertex", vertices, 9, radians[1]);
+  put_steps(&f, "lonCell", cells, 5, radians[0]);
+  put_steps(&f, "latCell", cells, 5, radians[1]);
+  put_steps(&f, "uReconstructZonal", cells, 5, u);
+  put_steps(&f, "uReconstructMeridional", cells, 5, north);
+  sample_end(&f);
+}
+
+static void make_healpix(void)
+{
+  static const double u[2] = {1.0, -2.0}, v[2] = {3.0, 1.0};
+  sample_file f;
+  strcpy(f.path, "netcdf/seed-healpix.nc");
+  sample_begin(&f, NC_CLASSIC_MODEL);
+  const int crs = sample_variable(&f, "crs", NC_INT, 0, NULL);
+  sample_text(&f, crs, "grid_mapping_name", "healpix");
+  sample_text(&f, crs, "indexing_scheme", "ring");
+  sample_number(&f, crs, "refinement_level", NC_INT, 4.0);
+  const int cells = sample_dimension(&f, "cell", 12);
+  const int number = sample_variable(&f, "cell", NC_INT, 1, &cells);
+  /* a pole with all that is round it */
+  sample_put(&f, number, (const double[]){0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+  put_steps(&f, "u", cells, 12, u);
+  put_steps(&f, "v", cells, 12, v);
+  sample_end(&f);
+}
+
 /* The same with something added. */
 static hid_t open_another(const char *name)
 {
@@ -337,6 +417,8 @@ static void make_netcdfs(void)
   make_netcdf("netcdf/seed-netcdf4.nc", NC_NETCDF4);
   make_staggered("netcdf/seed-staggered.nc");
   make_projected("netcdf/seed-projected.nc");
+  make_unstructured();
+  make_healpix();
   make_endless("netcdf/fault-endless-dimension.nc");
   make_links();
   make_set("netcdf/fault-stored-outside.nc", OUTSIDE);

@@ -12,11 +12,6 @@ static const double NO_COMPONENT = 1e-5;
 
 enum { SWEEPS = 12 }; /* Jacobi's method doubles its figures each time */
 
-static const double *position_of(const fg__cell_set *set, size_t cell, int i)
-{
-  return set->position + 3 * (size_t)set->corner[set->first[cell] + (size_t)i];
-}
-
 static void find_middle(double out[3], const fg__cell_set *set)
 {
   double count = 0.0;
@@ -24,20 +19,21 @@ static void find_middle(double out[3], const fg__cell_set *set)
   for (size_t c = 0; c < set->count; ++c)
     for (int i = 0; i < fg__cell_corners(set->shape[c]); ++i, ++count)
       for (int k = 0; k < 3; ++k)
-        out[k] += position_of(set, c, i)[k];
+        out[k] += fg__cell_set_corner(set, c, i)[k];
   for (int k = 0; k < 3; ++k)
     out[k] /= count;
 }
 
-/* Sums of products of the distances from the middle, along axes. */
-static void find_spread(double out[3][3], const fg__cell_set *set, const double middle[3])
+/* The corners' scatter matrix: sums of products of distances from the middle. */
+static void find_scatter(double out[3][3], const fg__cell_set *set,
+                         const double middle[3])
 {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       out[i][j] = 0.0;
   for (size_t c = 0; c < set->count; ++c)
     for (int n = 0; n < fg__cell_corners(set->shape[c]); ++n) {
-      const double *p = position_of(set, c, n);
+      const double *p = fg__cell_set_corner(set, c, n);
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           out[i][j] += (p[i] - middle[i]) * (p[j] - middle[j]);
@@ -68,18 +64,18 @@ static void rotate(double m[3][3], double v[3][3], int p, int q)
   }
 }
 
-/* The direction of the least spread, by Jacobi's method. */
-static void find_normal(double out[3], double spread[3][3])
+/* The scatter matrix' eigenvector of its least eigenvalue, by Jacobi's method. */
+static void find_normal(double out[3], double scatter[3][3])
 {
   double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int sweep = 0; sweep < SWEEPS; ++sweep) {
-    rotate(spread, v, 0, 1);
-    rotate(spread, v, 0, 2);
-    rotate(spread, v, 1, 2);
+    rotate(scatter, v, 0, 1);
+    rotate(scatter, v, 0, 2);
+    rotate(scatter, v, 1, 2);
   }
   int least = 0;
   for (int k = 1; k < 3; ++k)
-    if (spread[k][k] < spread[least][least])
+    if (scatter[k][k] < scatter[least][least])
       least = k;
   for (int k = 0; k < 3; ++k)
     out[k] = fabs(v[k][least]) < NO_COMPONENT ? 0.0 : v[k][least];
@@ -93,23 +89,23 @@ static void measure(double *off, double *width, double *rounding, const fg__cell
   *off = *width = *rounding = 0.0;
   for (size_t c = 0; c < set->count; ++c)
     for (int i = 0; i < fg__cell_corners(set->shape[c]); ++i) {
-      const double *p = position_of(set, c, i);
+      const double *p = fg__cell_set_corner(set, c, i);
       double from[3];
       for (int k = 0; k < 3; ++k) {
         from[k] = p[k] - middle[k];
         *width = fmax(*width, 2.0 * fabs(from[k]));
         *rounding = fmax(*rounding, 4.0 * (double)FLT_EPSILON * fabs(p[k]));
       }
-      *off = fmax(*off, fabs(fg__plane_product(from, normal)));
+      *off = fmax(*off, fabs(fg__dot(from, normal)));
     }
 }
 
 fg_status fg__cell_set_turn(fg__cell_set *set)
 {
-  double middle[3], spread[3][3], normal[3], off, width, rounding;
+  double middle[3], scatter[3][3], normal[3], off, width, rounding;
   find_middle(middle, set);
-  find_spread(spread, set, middle);
-  find_normal(normal, spread);
+  find_scatter(scatter, set, middle);
+  find_normal(normal, scatter);
   measure(&off, &width, &rounding, set, middle, normal);
   if (!fg__plane_basis_of(&set->basis, normal) || !(off <= FLAT * width + rounding)) {
     fg__fail(set->context, FG_STATUS_UNSUPPORTED,
@@ -123,8 +119,8 @@ fg_status fg__cell_set_turn(fg__cell_set *set)
   set->tilted = true;
   for (size_t n = 0; n < set->points; ++n) {
     double *p = set->position + 3 * n;
-    const double s = fg__plane_product(p, set->basis.direction[0]);
-    p[1] = fg__plane_product(p, set->basis.direction[1]);
+    const double s = fg__dot(p, set->basis.direction[0]);
+    p[1] = fg__dot(p, set->basis.direction[1]);
     p[0] = s;
     p[2] = 0.0;
   }

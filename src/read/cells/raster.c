@@ -13,8 +13,10 @@ enum {
   FINEST =
       8, /* samples a cell, where there is room: stairs at slanting edges are finer */
   MEASURED_CELLS = 1 << 16, /* so many, evenly chosen, tell the spacing */
-  MOST_COVER = 64 /* times that cells' boxes may cover the raster: sound meshes do it 1 to
-                     6 times (tetrahedra fill a sixth of their boxes) */
+  MOST_COVER = 64,     /* times that cells' boxes may cover the raster: sound meshes do it
+                          1 to 6 times (tetrahedra fill a sixth of their boxes), thin
+                          slanting layers 30 times and more */
+  MOST_TRIED = 1 << 24 /* samples in all boxes: they take 0.4 us each */
 };
 
 /* Of the width: single precision rounds coordinates by less, and no layer is thinner. */
@@ -45,16 +47,11 @@ static void extend(cell_box *box, const double position[3])
   }
 }
 
-static const double *position_of(const fg__cell_set *set, size_t cell, int i)
-{
-  return set->position + 3 * (size_t)set->corner[set->first[cell] + (size_t)i];
-}
-
 static cell_box box_of(const fg__cell_set *set, size_t cell)
 {
   cell_box box = empty_box();
   for (int i = 0; i < fg__cell_corners(set->shape[cell]); ++i)
-    extend(&box, position_of(set, cell, i));
+    extend(&box, fg__cell_set_corner(set, cell, i));
   return box;
 }
 
@@ -63,7 +60,7 @@ static fg_status find_box(cell_box *out, const fg__cell_set *set)
   *out = empty_box();
   for (size_t c = 0; c < set->count; ++c)
     for (int i = 0; i < fg__cell_corners(set->shape[c]); ++i) {
-      const double *position = position_of(set, c, i);
+      const double *position = fg__cell_set_corner(set, c, i);
       /* a sum of three is finite when each is, and far from where products overflow */
       if (!(fabs(position[0]) + fabs(position[1]) + fabs(position[2]) < 1e60))
         return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
@@ -81,7 +78,7 @@ static bool is_layer(const fg__cell_set *set, const cell_box *box, int axis)
   const double most = FLAT * (box->high[axis] - box->low[axis]);
   for (size_t c = 0; c < set->count; ++c)
     for (int i = 0; i < fg__cell_corners(set->shape[c]); ++i) {
-      const double at = position_of(set, c, i)[axis];
+      const double at = fg__cell_set_corner(set, c, i)[axis];
       if (at - box->low[axis] > most && box->high[axis] - at > most)
         return false;
     }
@@ -231,7 +228,7 @@ static fg_status check_cover(const fg__cell_set *set, size_t samples)
     if (samples_in(first, end, set, &box))
       tried += (double)(end[0] - first[0]) * (end[1] - first[1]) * (end[2] - first[2]);
   }
-  if (tried > MOST_COVER * (double)samples)
+  if (tried > fmin(MOST_COVER * (double)samples, MOST_TRIED))
     return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
                     "%s: its cells lie over each other: the boxes round them cover all "
                     "their space %.0f times",
@@ -254,10 +251,10 @@ static located_cell cell_at(const fg__cell_set *set, size_t cell, const cell_box
     if (dimension == 3 || k != set->flat)
       out.axis[n++] = k;
   for (int n = 0; n < dimension; ++n) {
-    out.zero[n] = position_of(set, cell, 0)[out.axis[n]];
+    out.zero[n] = fg__cell_set_corner(set, cell, 0)[out.axis[n]];
     out.width = fmax(out.width, box->high[out.axis[n]] - box->low[out.axis[n]]);
     for (int i = 0; i < fg__cell_corners(out.shape); ++i)
-      out.corner[i][n] = position_of(set, cell, i)[out.axis[n]] - out.zero[n];
+      out.corner[i][n] = fg__cell_set_corner(set, cell, i)[out.axis[n]] - out.zero[n];
   }
   return out;
 }

@@ -65,6 +65,14 @@ typedef struct fg__cell_set {
 
 void fg__cell_set_clear(fg__cell_set *set);
 
+/* What to do about cells that cannot be read. */
+#define FG__CELL_RESAMPLE                                                                \
+  "resample it to an image, with ParaView's filter Resample To Image or "                \
+  "vtkResampleToImage, and save that as .vti"
+
+/* Where a cell's corner is: x, y, z. */
+const double *fg__cell_set_corner(const fg__cell_set *set, size_t cell, int corner);
+
 int fg__cell_dimension(fg__cell_shape shape);
 int fg__cell_corners(fg__cell_shape shape);
 
@@ -87,7 +95,11 @@ fg_status fg__cell_set_add(fg__cell_set *set, fg__cell_shape shape, const double
 fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const double *node,
                               size_t nodes, const fg__cell_points *points, int number);
 
-/* The same with the points' places in `position` for corners, which are not checked. */
+/* The points' places in `position` of a cell's nodes. FILE_FORMAT (no such point). */
+fg_status fg__cell_set_resolve(int *out, const fg__cell_set *set, const double *node,
+                               size_t nodes, const fg__cell_points *points, int number);
+
+/* The same as fg__cell_set_add with such places for corners. */
 fg_status fg__cell_set_add_points(fg__cell_set *set, fg__cell_shape shape,
                                   const int *point, int number);
 

@@ -157,9 +157,7 @@ static fg_status fail_type(const fg__cell_set *set, int type, int number)
       "%s: cell %d is a %s (VTK's number %d); only linear and quadratic cells can be "
       "read",
       set->path, number, known ? known->name : "type that is not known", type);
-  fg__hint(set->context,
-           "resample it to an image, with ParaView's filter Resample To Image or "
-           "vtkResampleToImage, and save that as .vti");
+  fg__hint(set->context, "%s", FG__CELL_RESAMPLE);
   return FG_STATUS_UNSUPPORTED;
 }
 
@@ -169,20 +167,6 @@ static fg_status fail_nodes(const fg__cell_set *set, const char *name, size_t no
   return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
                   "%s: cell %d is a %s with %zu corners, not %d", set->path, number, name,
                   nodes, expected);
-}
-
-/* The point that a node is, for all of a cell's. */
-static fg_status resolve(int *out, const fg__cell_set *set, const double *node,
-                         size_t nodes, const fg__cell_points *points, int number)
-{
-  for (size_t i = 0; i < nodes; ++i) {
-    if (!(node[i] >= 0.0 && node[i] < (double)points->count))
-      return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
-                      "%s: corner %zu of cell %d is point %g of %zu", set->path, i,
-                      number, node[i], points->count);
-    out[i] = (int)(points->first + (size_t)node[i]);
-  }
-  return FG_STATUS_OK;
 }
 
 /* Adds a middle among a cell's points; *out is its place. */
@@ -246,7 +230,7 @@ static bool is_convex(const fg__cell_set *set, const int *point, size_t corners)
   }
   for (size_t i = 0; i < corners; ++i) {
     cross_at(bend, set, point[i], point[(i + 1) % corners], point[(i + 2) % corners]);
-    const double turn = fg__plane_product(bend, normal);
+    const double turn = fg__dot(bend, normal);
     most = fmax(most, turn);
     least = fmin(least, turn);
   }
@@ -290,7 +274,7 @@ static fg_status add_many(fg__cell_set *set, int type, const double *node, size_
   int *point = fg__allocate(nodes, sizeof *point);
   if (!point)
     return fg__fail_memory(set->context, "a polygon", nodes * sizeof *point);
-  fg_status status = resolve(point, set, node, nodes, points, number);
+  fg_status status = fg__cell_set_resolve(point, set, node, nodes, points, number);
   if (status == FG_STATUS_OK)
     status = (type == STRIP ? add_strip : add_polygon)(set, point, nodes, number);
   free(point);
@@ -310,6 +294,6 @@ fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const double *node,
     return fail_type(set, type, number);
   if (nodes != (size_t)known->nodes)
     return fail_nodes(set, known->name, nodes, known->nodes, number);
-  fg_status status = resolve(point, set, node, nodes, points, number);
+  fg_status status = fg__cell_set_resolve(point, set, node, nodes, points, number);
   return status == FG_STATUS_OK ? add_parts(set, known, point, number) : status;
 }

@@ -3,10 +3,8 @@
  * and each once. */
 #include "base/memory.h"
 #include "base/mix.h"
-#include "file/number_text.h"
 #include "read/composite/names.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,20 +38,6 @@ typedef struct composite {
   fg__vtk *along; /* of pieces along axes: extent, origin and spacing of the whole */
 } composite;
 
-static fg_status say_time(composite *c, double time)
-{
-  char number[FG__NUMBER_BYTES], words[FG__NUMBER_BYTES + 8];
-  fg__number_locale locale;
-  if (fg__number_locale_begin(&locale)) {
-    fg__number_write(number, time);
-    fg__number_locale_end(&locale);
-    snprintf(words, sizeof words, "t = %s", number);
-    c->whole->time = fg__copy_text(words);
-  }
-  return c->whole->time ? FG_STATUS_OK
-                        : fg__fail_memory(c->whole->context, "words", sizeof words);
-}
-
 static fg_status choose_time(composite *c, fg__vtk_names *list, const char *path)
 {
   double time = 0.0;
@@ -61,7 +45,9 @@ static fg_status choose_time(composite *c, fg__vtk_names *list, const char *path
   fg_status status =
       fg__vtk_names_choose_time(&time, &whole->times, &whole->time_list, list,
                                 whole->context, path, c->options ? c->options->time : 0);
-  return status == FG_STATUS_OK && whole->times > 0 ? say_time(c, time) : status;
+  return status == FG_STATUS_OK && whole->times > 0
+             ? fg__time_write(whole->time, whole->context, time)
+             : status;
 }
 
 static fg_status choose_block(composite *c, fg__vtk_names *list, const char *path)
@@ -264,9 +250,7 @@ static fg_status check_along(const composite *c, const fg__vtk *file)
   const fg__vtk *whole = c->along;
   bool good = file->kind == FG__VTK_ALONG_AXES && file->uneven == whole->uneven;
   for (size_t p = 0; p < file->piece_count && good; ++p)
-    for (int k = 0; k < 3; ++k)
-      good = good && file->pieces[p].extent[2 * k] >= whole->extent[2 * k] &&
-             file->pieces[p].extent[2 * k + 1] <= whole->extent[2 * k + 1];
+    good = fg__vtk_is_within(file->pieces[p].extent, whole->extent);
   return good ? FG_STATUS_OK
               : fg__fail(whole->context, FG_STATUS_FILE_FORMAT,
                          "%s: is no piece of the grid that %s names it for", file->path,

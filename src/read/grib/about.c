@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/mix.h"
 #include "read/grib/grib.h"
+#include "read/time_words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,16 +12,6 @@
 
 /* What ecCodes may ask for to tell a field's keys. */
 enum { MOST_BYTES = 256 << 20 };
-
-/* Days from 1970-01-01 to a day of the Gregorian calendar. */
-static int64_t day_of(int64_t year, int64_t month, int64_t day)
-{
-  const int64_t y = month <= 2 ? year - 1 : year;
-  const int64_t era = (y >= 0 ? y : y - 399) / 400;
-  const int64_t of_era = y - era * 400;
-  const int64_t of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
-  return era * 146097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
-}
 
 /* Bytes of a section that say a time; they do not tell fields apart. */
 typedef struct time_bytes {
@@ -65,7 +56,7 @@ static int64_t minutes_of(unsigned unit)
 /* Whether a date can be one; ecCodes judges others. */
 static bool tell_start(int64_t *out, int64_t year, const unsigned char clock[4])
 {
-  *out = (day_of(year, clock[0], clock[1]) * 24 + clock[2]) * 60 + clock[3];
+  *out = (fg__day_number(year, clock[0], clock[1]) * 24 + clock[2]) * 60 + clock[3];
   return clock[0] >= 1 && clock[0] <= 12 && clock[1] >= 1 && clock[1] <= 31 &&
          clock[2] < 24 && clock[3] < 60;
 }
@@ -192,7 +183,8 @@ static int64_t minutes_at(long date, long clock)
 {
   if (date < 0 || date > 99999999 || clock < 0 || clock > 9999)
     return 0;
-  return (day_of(date / 10000, date / 100 % 100, date % 100) * 24 + clock / 100) * 60 +
+  return (fg__day_number(date / 10000, date / 100 % 100, date % 100) * 24 + clock / 100) *
+             60 +
          clock % 100;
 }
 

@@ -2,7 +2,6 @@
 #include "read/grib/grib.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void list_pairs(const fg__grib_pairs *pairs, char *out, size_t size)
@@ -83,13 +82,8 @@ static fg_status find_named(fg__grib_pairs *out, const fg__grib_file *file,
 static void drop_others(fg__grib_pairs *pairs)
 {
   while (pairs->count > 1 && pairs->pair[0].is_velocity &&
-         !pairs->pair[pairs->count - 1].is_velocity) {
-    fg__grib_pairs last = {.pair = NULL};
-    last.pair = &pairs->pair[--pairs->count];
-    free(last.pair->place);
-    free(last.pair->time);
-    free(last.pair->level);
-  }
+         !pairs->pair[pairs->count - 1].is_velocity)
+    fg__grib_pair_clear(&pairs->pair[--pairs->count]);
 }
 
 fg_status fg__grib_choose(fg__grib_pairs *out, const fg__grib_file *file,
@@ -125,10 +119,10 @@ fg_status fg__grib_find_place(const fg__grib_place **out, const fg__grib_file *f
     status = check_index(file, "level", options->level, pair->levels);
   if (status != FG_STATUS_OK)
     return status;
-  const fg__grib_moment *moment = &pair->time[options->time];
+  const fg__grib_date *date = &pair->time[options->time];
   for (size_t i = 0; i < pair->places; ++i) {
     const fg__grib_place *p = &pair->place[i];
-    if (p->moment.time == moment->time && p->moment.started == moment->started &&
+    if (p->date.time == date->time && p->date.started == date->started &&
         p->level == pair->level[options->level]) {
       *out = p;
       return FG_STATUS_OK;

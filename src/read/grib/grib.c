@@ -93,26 +93,29 @@ static fg_status use_mask(float *u, float *work, const fg__grib_file *file,
   return status;
 }
 
+/* Of a point: both components, and one while it is unpacked. */
+static const double VALUE_BYTES = 2.0 * sizeof(float) + sizeof(double);
+
 /* Both components at a place, in the order of the axes and along them. */
 static fg_status read_values(float *velocity[2], const fg__grib_file *file,
                              const fg__grib_pair *pair, const fg__grib_place *place,
                              const fg__grib_grid *grid, const char *mask)
 {
   const fg__grib_field *field = NULL;
-  fg_status status = mask ? find_mask(&field, file, pair->kind[0], mask) : FG_STATUS_OK;
+  fg_status status =
+      fg__check_memory(file->context, file->path[0], (double)grid->points, VALUE_BYTES);
+  if (status == FG_STATUS_OK && mask)
+    status = find_mask(&field, file, pair->kind[0], mask);
   for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k) {
     velocity[k] = fg__allocate(grid->points, sizeof *velocity[k]);
     if (!velocity[k])
       return fg__fail_memory(file->context, "the velocity",
                              grid->points * sizeof *velocity[k]);
   }
-  if (field && status == FG_STATUS_OK) {
+  if (status == FG_STATUS_OK)
     status = fg__grib_values(velocity[0], file, place->component[0], grid);
-    if (status == FG_STATUS_OK)
-      status = use_mask(velocity[0], velocity[1], file, field, grid);
-  } else if (status == FG_STATUS_OK) {
-    status = fg__grib_values(velocity[0], file, place->component[0], grid);
-  }
+  if (status == FG_STATUS_OK && field)
+    status = use_mask(velocity[0], velocity[1], file, field, grid);
   if (status == FG_STATUS_OK)
     status = fg__grib_values(velocity[1], file, place->component[1], grid);
   if (status == FG_STATUS_OK)
@@ -303,7 +306,7 @@ static fg_status find_bounds(fg_inventory_vector *vector, fg_context *context,
     bounds[2] = n == 0 ? y : fmin(bounds[2], y);
     bounds[3] = n == 0 ? y : fmax(bounds[3], y);
   }
-  fg__grib_cells_clear(&cells);
+  fg__sphere_cells_clear(&cells);
   return FG_STATUS_OK;
 }
 

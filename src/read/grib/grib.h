@@ -87,12 +87,13 @@ fg_status fg__grib_tell_all(fg__grib_file *file);
 
 /* pairs.c: the vectors. */
 
-typedef struct fg__grib_moment {
+/* Minutes since 1970. */
+typedef struct fg__grib_date {
   int64_t time, started;
-} fg__grib_moment;
+} fg__grib_date;
 
 typedef struct fg__grib_place {
-  fg__grib_moment moment;
+  fg__grib_date date;
   double level;
   const fg__grib_field *component[2];
 } fg__grib_place;
@@ -103,7 +104,7 @@ typedef struct fg__grib_pair {
   bool is_velocity;
   fg__grib_place *place; /* ascending by time, then level */
   size_t places;
-  fg__grib_moment *time; /* ascending */
+  fg__grib_date *time; /* ascending */
   double *level;
   size_t times, levels;
 } fg__grib_pair;
@@ -120,6 +121,7 @@ fg_status fg__grib_pairs_find(fg__grib_pairs *out, const fg__grib_file *file);
 /* The pairs of components of these names: "u", "u10", "u@hybrid"; likewise. */
 fg_status fg__grib_pairs_named(fg__grib_pairs *out, const fg__grib_file *file,
                                const char *u, const char *v);
+void fg__grib_pair_clear(fg__grib_pair *pair);
 void fg__grib_pairs_clear(fg__grib_pairs *pairs);
 
 /* Whether a name that was asked for is that of a kind. */
@@ -191,10 +193,10 @@ void fg__grib_unusable(fg__grib_grid *grid, const char *format, ...)
 typedef struct fg__grib_numbers {
   char type[FG__GRIB_WORD];
   double points, columns, rows, x_descends, y_ascends, along_y, alternates, flags;
-  double first[2], last[2], step[2]; /* longitude, latitude; degrees */
-  double gaussian;                   /* rows between a pole and the equator */
-  double pole[2], pole_angle;        /* longitude, latitude of the south pole */
-  double spacing[2];                 /* metres */
+  double first[2], last[2];   /* longitude, latitude; degrees */
+  double gaussian;            /* rows between a pole and the equator */
+  double pole[2], pole_angle; /* longitude, latitude of the south pole */
+  double spacing[2];          /* metres */
   double meridian, parallel, parallel_1, parallel_2, south;
   double oblate, radius, major, minor; /* metres */
 } fg__grib_numbers;
@@ -226,10 +228,8 @@ fg_status fg__grib_values(float *out, const fg__grib_file *file,
 void fg__grib_turn(float *u, float *v, const fg__grib_grid *grid);
 
 /* sphere.c: points and cells of a grid of ROWS or REDUCED, with the components to east
- * and north, and the poles where rows close round them. To be taken by
- * fg__sphere_of_cells, or cleared. MEMORY. */
+ * and north, and the poles where rows close round them. MEMORY. */
 fg_status fg__grib_cells(fg__sphere_cells *out, fg_context *context,
                          const fg__grib_grid *grid, const float *const velocity[2]);
-void fg__grib_cells_clear(fg__sphere_cells *cells);
 
 #endif

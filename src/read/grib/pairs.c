@@ -47,7 +47,7 @@ static bool stand_together(const fg__grib_kind *u, const fg__grib_kind *v)
          strcmp(u->step_type, v->step_type) == 0;
 }
 
-static int compare_moments(const fg__grib_moment *a, const fg__grib_moment *b)
+static int compare_dates(const fg__grib_date *a, const fg__grib_date *b)
 {
   if (a->time != b->time)
     return a->time < b->time ? -1 : 1;
@@ -57,7 +57,7 @@ static int compare_moments(const fg__grib_moment *a, const fg__grib_moment *b)
 static int by_place(const void *one, const void *other)
 {
   const fg__grib_place *a = one, *b = other;
-  const int order = compare_moments(&a->moment, &b->moment);
+  const int order = compare_dates(&a->date, &b->date);
   return order ? order : (a->level > b->level) - (a->level < b->level);
 }
 
@@ -85,7 +85,7 @@ static fg_status list_places(fg__grib_place **out, size_t *count,
     const fg__grib_about *about = &file->about[field->about];
     if (&file->kind[about->kind] != kind)
       continue;
-    places[n].moment = (fg__grib_moment){field->time, field->started};
+    places[n].date = (fg__grib_date){field->time, field->started};
     places[n].level = about->level;
     places[n++].component[component] = field;
   }
@@ -126,9 +126,8 @@ static fg_status list_axes(fg__grib_pair *pair, fg_context *context)
     return fg__fail_memory(context, "times and levels",
                            pair->places * sizeof *pair->time);
   for (size_t i = 0; i < pair->places; ++i) {
-    if (i == 0 ||
-        compare_moments(&pair->time[pair->times - 1], &pair->place[i].moment) != 0)
-      pair->time[pair->times++] = pair->place[i].moment;
+    if (i == 0 || compare_dates(&pair->time[pair->times - 1], &pair->place[i].date) != 0)
+      pair->time[pair->times++] = pair->place[i].date;
     pair->level[i] = pair->place[i].level;
   }
   qsort(pair->level, pair->places, sizeof *pair->level, by_level);
@@ -138,7 +137,7 @@ static fg_status list_axes(fg__grib_pair *pair, fg_context *context)
   return FG_STATUS_OK;
 }
 
-static void clear_pair(fg__grib_pair *pair)
+void fg__grib_pair_clear(fg__grib_pair *pair)
 {
   free(pair->place);
   free(pair->time);
@@ -166,7 +165,7 @@ static fg_status add_pair(fg__grib_pairs *pairs, const fg__grib_file *file,
       status = fg__fail_memory(file->context, "a list of pairs", sizeof pair);
   }
   if (status != FG_STATUS_OK || pair.places == 0) {
-    clear_pair(&pair);
+    fg__grib_pair_clear(&pair);
     return status;
   }
   pairs->pair = all;
@@ -252,7 +251,7 @@ fg_status fg__grib_pairs_named(fg__grib_pairs *out, const fg__grib_file *file,
 void fg__grib_pairs_clear(fg__grib_pairs *pairs)
 {
   for (size_t i = 0; i < pairs->count; ++i)
-    clear_pair(&pairs->pair[i]);
+    fg__grib_pair_clear(&pairs->pair[i]);
   free(pairs->pair);
   *pairs = (fg__grib_pairs){0};
 }

@@ -258,16 +258,6 @@ fg_status fg__grib_cells(fg__sphere_cells *out, fg_context *context,
   }
   free(b.start);
   if (status != FG_STATUS_OK)
-    fg__grib_cells_clear(out);
+    fg__sphere_cells_clear(out);
   return status;
-}
-
-void fg__grib_cells_clear(fg__sphere_cells *cells)
-{
-  free(cells->longitude);
-  free(cells->latitude);
-  free(cells->east);
-  free(cells->north);
-  free(cells->corner);
-  memset(cells, 0, sizeof *cells);
 }

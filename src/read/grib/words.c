@@ -130,14 +130,14 @@ static size_t write_date(int64_t minutes, char *out, size_t size)
 /* Forecasts for one time that began at different times say when. */
 void fg__grib_time_words(const fg__grib_pair *pair, size_t time, char *out, size_t size)
 {
-  const fg__grib_moment *moment = &pair->time[time];
-  const bool shared = (time > 0 && moment[-1].time == moment->time) ||
-                      (time + 1 < pair->times && moment[1].time == moment->time);
-  size_t used = write_date(moment->time, out, size);
+  const fg__grib_date *date = &pair->time[time];
+  const bool shared = (time > 0 && date[-1].time == date->time) ||
+                      (time + 1 < pair->times && date[1].time == date->time);
+  size_t used = write_date(date->time, out, size);
   if (!shared || used + 16 > size)
     return;
   used += (size_t)snprintf(out + used, size - used, " from ");
-  write_date(moment->started, out + used, size - used);
+  write_date(date->started, out + used, size - used);
 }
 
 typedef struct level_words {

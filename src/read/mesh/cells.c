@@ -1,6 +1,7 @@
 /* Cells between the points of a grid in the plane of its indices, closed round the world
  * and across a fold. */
 #include "base/memory.h"
+#include "base/vector.h"
 #include "read/mesh/mesh.h"
 
 #include <math.h>
@@ -16,12 +17,7 @@ enum { MOST_REPEATED = 3, LOOKED_AT = 60 };
 
 static double distance(const double *unit, size_t a, size_t b)
 {
-  double sum = 0.0;
-  for (size_t c = 0; c < 3; ++c) {
-    const double d = unit[3 * a + c] - unit[3 * b + c];
-    sum += d * d;
-  }
-  return sqrt(sum);
+  return fg__apart(unit + 3 * a, unit + 3 * b);
 }
 
 /* The distance of the first column's points from those of another, in steps along i: the

@@ -142,6 +142,19 @@ static bool fits(const fg__nc_mesh *mesh)
   return mesh->size[0] < INT_MAX / 4 / mesh->size[1];
 }
 
+bool fg__nc_mesh_parts(fg__nc_mesh *mesh, const fg__nc_file *file,
+                       const fg__nc_pair *pair)
+{
+  const fg__nc_part *u = &mesh->part[0], *v = &mesh->part[1];
+  for (int k = 0; k < 2; ++k)
+    if (!set_part(&mesh->part[k], file, pair->component[k]))
+      return false;
+  mesh->size[0] = v->grid.axis[0].size;
+  mesh->size[1] = u->grid.axis[1].size;
+  return fits(mesh) && runs_alike(file, u, u->grid.time, v, v->grid.time) &&
+         runs_alike(file, u, u->grid.level, v, v->grid.level);
+}
+
 /* Variables of the centres that are 0 on land, where models say no fill values. */
 static void find_mask(fg__nc_mesh *mesh, const fg__nc_file *file)
 {
@@ -191,17 +204,10 @@ static fg_status recognise(fg__nc_mesh *mesh, fg__nc_grid *grid, const fg__nc_fi
                            const fg__nc_pair *pair, fg_frame frame, bool *found)
 {
   *found = false;
-  for (int k = 0; k < 2; ++k) {
-    if (!set_part(&mesh->part[k], file, pair->component[k]))
-      return FG_STATUS_OK;
-    find_positions(&mesh->part[k], file);
-  }
-  mesh->size[0] = mesh->part[1].grid.axis[0].size;
-  mesh->size[1] = mesh->part[0].grid.axis[1].size;
-  const fg__nc_part *u = &mesh->part[0], *v = &mesh->part[1];
-  if (!fits(mesh) || !runs_alike(file, u, u->grid.time, v, v->grid.time) ||
-      !runs_alike(file, u, u->grid.level, v, v->grid.level))
+  if (!fg__nc_mesh_parts(mesh, file, pair))
     return FG_STATUS_OK;
+  for (int k = 0; k < 2; ++k)
+    find_positions(&mesh->part[k], file);
   fg__nc_grid storage = {0};
   check_storage(&storage, file, mesh);
   if (storage.unusable[0])

@@ -37,11 +37,22 @@ struct fg__nc_mesh {
 };
 
 /* find.c. Finds how a pair's points lie, where the grid has no axes: then mesh is set,
- * and what the grid was unusable for is gone. What it then can not be read for is said in
- * unusable. MEMORY, FILE_ACCESS. */
+ * and what the grid was unusable for is gone. Why the mesh cannot be read, if so, is in
+ * `unusable`. MEMORY, FILE_ACCESS. */
 fg_status fg__nc_mesh_find(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_pair *pair, const fg_read_options *options);
 void fg__nc_mesh_destroy(fg__nc_mesh *mesh);
+
+/* Finds the samples of both components, without their places: false where they are not
+ * those of one grid. */
+bool fg__nc_mesh_parts(fg__nc_mesh *mesh, const fg__nc_file *file,
+                       const fg__nc_pair *pair);
+
+/* faces.c. Components that lie on the faces of cells along axes: those are the centres',
+ * and `faces` says where the components are; else all stays as it is. MEMORY,
+ * FILE_ACCESS. */
+fg_status fg__nc_faces_find(fg__nc_grid *grid, const fg__nc_file *file,
+                            const fg__nc_pair *pair);
 
 /* frame.c. Whether components are along east and north or along the grid, by the first
  * rule that applies; `rule` says which. False when none does. */
@@ -65,6 +76,10 @@ fg_status fg__nc_centres_read(fg__nc_positions *out, const fg__nc_file *file,
 /* Sets shift where sizes do not tell: from positions, then from attributes and names.
  * False where none does. */
 fg_status fg__nc_shift_find(bool *found, fg__nc_mesh *mesh, const fg__nc_file *file);
+
+/* Sets shift[k] by the number of faces, else by attributes and names; false where none
+ * tells. */
+bool fg__nc_shift_by_size(fg__nc_mesh *mesh, const fg__nc_file *file, int k);
 
 /* Unit vectors of positions, [3 * count]. */
 fg_status fg__nc_unit_vectors(double **out, const fg__nc_file *file,

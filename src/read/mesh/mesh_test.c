@@ -405,6 +405,20 @@ static void masks_keep_land_out(void **state)
   fg_field_destroy(sea);
 }
 
+/* Faces of different numbers, and no centres: nothing tells where these lie. */
+static void faces_need_centres(void **state)
+{
+  static const model_variable faces[] = {
+      LONLAT("lon_u", "lat_u", "eta_rho", "xi_u", 0, -1, 0.0, 0.5),
+      LONLAT("lon_v", "lat_v", "eta_v", "xi_rho", -1, 0, 0.5, 0.0),
+      {"u", ALONG_I, "eta_rho", "xi_u", 0, -1, 0.0, 0.5, {"units", "m s-1"}},
+      {"v", ALONG_J, "eta_v", "xi_rho", -1, 0, 0.5, 0.0, {"units", "m s-1"}},
+      {0}};
+  sample_file *f = *state;
+  write_model(f, faces);
+  refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, "a staggered grid");
+}
+
 /* Without a word about it, `frame` decides. */
 static void frames_may_be_said(void **state)
 {
@@ -479,7 +493,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(models_are_read),     CASE(two_files_of_one_shape),
       CASE(masks_keep_land_out), CASE(frames_may_be_said),
-      CASE(seams_close),
+      CASE(seams_close),         CASE(faces_need_centres),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Where the samples of a grid lie, and on which side of the centres components are. */
 #include "base/memory.h"
+#include "base/vector.h"
 #include "read/mesh/mesh.h"
 
 #include <math.h>
@@ -75,39 +76,45 @@ fg_status fg__nc_positions_read(fg__nc_positions *out, const fg__nc_file *file,
              : status;
 }
 
+/* The first number is NaN of a position that is none. */
+static void unit_vector(double out[3], double longitude, double latitude)
+{
+  const double a = longitude * RADIANS_PER_DEGREE, b = latitude * RADIANS_PER_DEGREE;
+  const bool there = fabs(latitude) <= 90.0 && isfinite(longitude);
+  out[0] = there ? cos(b) * cos(a) : (double)NAN;
+  out[1] = cos(b) * sin(a);
+  out[2] = sin(b);
+}
+
 fg_status fg__nc_unit_vectors(double **out, const fg__nc_file *file,
                               const fg__nc_positions *positions, size_t count)
 {
   double *unit = *out = fg__allocate(count, 3 * sizeof *unit);
   if (!unit)
     return fg__fail_memory(file->context, "positions", count * 3 * sizeof *unit);
-  for (size_t n = 0; n < count; ++n) {
-    const double longitude = positions->longitude[n] * RADIANS_PER_DEGREE;
-    const double latitude = positions->latitude[n] * RADIANS_PER_DEGREE;
-    const bool there = fabs(positions->latitude[n]) <= 90.0 && isfinite(longitude);
-    unit[3 * n] = there ? cos(latitude) * cos(longitude) : (double)NAN;
-    unit[3 * n + 1] = cos(latitude) * sin(longitude);
-    unit[3 * n + 2] = sin(latitude);
-  }
+  for (size_t n = 0; n < count; ++n)
+    unit_vector(unit + 3 * n, positions->longitude[n], positions->latitude[n]);
   return FG_STATUS_OK;
 }
 
-/* A lattice of positions as unit vectors. */
+/* Positions of a part's samples. */
 typedef struct lattice {
-  double *unit;
+  fg__nc_positions at;
   size_t size[2];
 } lattice;
 
 static fg_status read_lattice(lattice *out, const fg__nc_file *file,
                               const fg__nc_part *part)
 {
-  fg__nc_positions at;
-  *out = (lattice){NULL, {part->grid.axis[0].size, part->grid.axis[1].size}};
-  fg_status status = fg__nc_positions_read(&at, file, part, 0);
-  if (status == FG_STATUS_OK)
-    status = fg__nc_unit_vectors(&out->unit, file, &at, count_of(part));
-  fg__nc_positions_clear(&at);
-  return status;
+  *out = (lattice){{0}, {part->grid.axis[0].size, part->grid.axis[1].size}};
+  return fg__nc_positions_read(&out->at, file, part, 0);
+}
+
+/* The unit vector of sample (i, j). */
+static void place_of(double out[3], const lattice *of, size_t i, size_t j)
+{
+  const size_t n = j * of->size[0] + i;
+  unit_vector(out, of->at.longitude[n], of->at.latitude[n]);
 }
 
 /* The point half way between two samples along direction k: of (i, j) and the one before
@@ -115,22 +122,17 @@ static fg_status read_lattice(lattice *out, const fg__nc_file *file,
 static bool half_way(double out[3], const lattice *of, size_t i, size_t j, int k,
                      int side)
 {
-  const size_t at[2] = {i, j};
+  size_t at[2] = {i, j};
   if (at[0] >= of->size[0] || at[1] >= of->size[1] ||
       (side < 0 ? at[k] == 0 : at[k] + 1 >= of->size[k]))
     return false;
-  const size_t here = j * of->size[0] + i;
-  const size_t step = k == 0 ? 1 : of->size[0];
-  const size_t there = side < 0 ? here - step : here + step;
-  for (size_t c = 0; c < 3; ++c)
-    out[c] = 0.5 * (of->unit[3 * here + c] + of->unit[3 * there + c]);
+  double here[3], there[3];
+  at[k] = side < 0 ? at[k] - 1 : at[k] + 1;
+  place_of(here, of, i, j);
+  place_of(there, of, at[0], at[1]);
+  for (int c = 0; c < 3; ++c)
+    out[c] = 0.5 * (here[c] + there[c]);
   return isfinite(out[0]);
-}
-
-static double distance(const double a[3], const double b[3])
-{
-  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-              (a[2] - b[2]) * (a[2] - b[2]));
 }
 
 /* Points looked at along each direction. */
@@ -149,11 +151,11 @@ static double misfit(const lattice *component, const lattice *centre, int k, int
   size_t count = 0;
   for (size_t j = 0; j < component->size[1]; j += stride(component->size[1]))
     for (size_t i = 0; i < component->size[0]; i += stride(component->size[0])) {
-      double between[3];
-      const double *own = component->unit + 3 * (j * component->size[0] + i);
+      double between[3], own[3];
+      place_of(own, component, i, j);
       if (!half_way(between, centre, i, j, k, side) || !isfinite(own[0]))
         continue;
-      sum += distance(own, between);
+      sum += fg__apart(own, between);
       ++count;
     }
   return count > 0 ? sum / (double)count : HUGE_VAL;
@@ -170,7 +172,7 @@ static double misfit_between(const lattice *u, const lattice *v, const int side[
       double a[3], b[3];
       if (!half_way(a, u, i, j, 0, side[0]) || !half_way(b, v, i, j, 1, side[1]))
         continue;
-      sum += distance(a, b);
+      sum += fg__apart(a, b);
       ++count;
     }
   return count > 0 ? sum / (double)count : HUGE_VAL;
@@ -182,9 +184,11 @@ static double apart(const lattice *u, const lattice *v)
   double sum = 0.0, steps = 0.0;
   for (size_t j = 0; j < u->size[1]; j += stride(u->size[1]))
     for (size_t i = 0; i + 1 < u->size[0]; i += stride(u->size[0])) {
-      const size_t n = 3 * (j * u->size[0] + i);
-      const double here = distance(u->unit + n, v->unit + n);
-      const double step = distance(u->unit + n, u->unit + n + 3);
+      double of_u[3], of_v[3], next[3];
+      place_of(of_u, u, i, j);
+      place_of(of_v, v, i, j);
+      place_of(next, u, i + 1, j);
+      const double here = fg__apart(of_u, of_v), step = fg__apart(of_u, next);
       if (!isfinite(here) || !isfinite(step))
         continue;
       sum += here;
@@ -261,76 +265,102 @@ static void shift_by_words(bool *found, fg__nc_mesh *mesh, const fg__nc_file *fi
     }
 }
 
-static fg_status find_one(bool *found, fg__nc_mesh *mesh, const fg__nc_file *file, int k)
+/* Whether positions may tell on which side of the centres a component lies. */
+static bool may_be_compared(const fg__nc_mesh *mesh, int k)
+{
+  return mesh->part[k].grid.axis[k].size == mesh->size[k] && mesh->part[k].longitude;
+}
+
+bool fg__nc_shift_by_size(fg__nc_mesh *mesh, const fg__nc_file *file, int k)
 {
   const size_t own = mesh->part[k].grid.axis[k].size, centres = mesh->size[k];
+  bool found = own == centres + 1 || own + 1 == centres;
+  mesh->shift[k] = own > centres ? -1 : 1; /* at both ends, or inside */
+  if (own == centres)
+    shift_by_words(&found, mesh, file, k);
+  return found;
+}
+
+static fg_status find_one(bool *found, fg__nc_mesh *mesh, const fg__nc_file *file,
+                          const lattice *centre, int k)
+{
   *found = false;
-  if (own != centres) { /* one more: at both ends; one less: inside */
-    mesh->shift[k] = own > centres ? -1 : 1;
-    *found = own == centres + 1 || own + 1 == centres;
-    return FG_STATUS_OK;
-  }
-  lattice centre = {0}, component = {0};
+  lattice component = {0};
   fg_status status = FG_STATUS_OK;
-  if (mesh->centre.variable && mesh->part[k].longitude) {
-    status = read_lattice(&centre, file, &mesh->centre);
+  if (may_be_compared(mesh, k)) {
+    status = read_lattice(&component, file, &mesh->part[k]);
     if (status == FG_STATUS_OK)
-      status = read_lattice(&component, file, &mesh->part[k]);
-    if (status == FG_STATUS_OK)
-      shift_by_centre(found, mesh, &component, &centre, k);
+      shift_by_centre(found, mesh, &component, centre, k);
   }
   if (!*found && status == FG_STATUS_OK)
-    shift_by_words(found, mesh, file, k);
-  free(centre.unit);
-  free(component.unit);
+    *found = fg__nc_shift_by_size(mesh, file, k);
+  fg__nc_positions_clear(&component.at);
+  return status;
+}
+
+static fg_status find_from_centres(bool *found, fg__nc_mesh *mesh,
+                                   const fg__nc_file *file)
+{
+  bool one[2] = {false, false};
+  lattice centre = {0};
+  fg_status status = may_be_compared(mesh, 0) || may_be_compared(mesh, 1)
+                         ? read_lattice(&centre, file, &mesh->centre)
+                         : FG_STATUS_OK;
+  for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k)
+    status = find_one(&one[k], mesh, file, &centre, k);
+  *found = one[0] && one[1];
+  fg__nc_positions_clear(&centre.at);
   return status;
 }
 
 fg_status fg__nc_shift_find(bool *found, fg__nc_mesh *mesh, const fg__nc_file *file)
 {
   fg_status status = FG_STATUS_OK;
-  if (mesh->centre.variable) {
-    bool one[2] = {false, false};
-    for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k)
-      status = find_one(&one[k], mesh, file, k);
-    *found = one[0] && one[1];
-    return status;
-  }
-  lattice of[2] = {{0}, {0}};
+  *found = false;
+  if (mesh->centre.variable)
+    return find_from_centres(found, mesh, file);
+  lattice of[2] = {{{0}, {0}}, {{0}, {0}}};
   for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k)
     status = read_lattice(&of[k], file, &mesh->part[k]);
   if (status == FG_STATUS_OK)
     shift_by_both(found, mesh, of);
-  free(of[0].unit);
-  free(of[1].unit);
+  fg__nc_positions_clear(&of[0].at);
+  fg__nc_positions_clear(&of[1].at);
   return status;
 }
 
-/* Between the samples of u: where the first or last centre has one neighbour only, as far
- * beyond it. */
+/* Half way from sample n to the next on that side, or as far beyond it where there is
+ * none. */
+static void half_way_in_row(double out[3], const double *unit, size_t n, size_t columns,
+                            int side)
+{
+  const size_t i = n % columns;
+  const double *here = unit + 3 * n;
+  const double *before = i > 0 ? here - 3 : NULL;
+  const double *after = i + 1 < columns ? here + 3 : NULL;
+  const double *next = side < 0 ? before : after, *last = side < 0 ? after : before;
+  for (int c = 0; c < 3; ++c)
+    out[c] = next && isfinite(next[0]) ? 0.5 * (here[c] + next[c])
+             : last                    ? 1.5 * here[c] - 0.5 * last[c]
+                                       : (double)NAN;
+}
+
+/* Between the samples of u. */
 static fg_status centres_between(fg__nc_positions *out, const fg__nc_file *file,
                                  const fg__nc_mesh *mesh)
 {
-  lattice u;
-  fg_status status = read_lattice(&u, file, &mesh->part[0]);
   const size_t columns = mesh->size[0], count = columns * mesh->size[1];
-  *out = (fg__nc_positions){fg__allocate(count, sizeof(double)),
-                            fg__allocate(count, sizeof(double))};
-  if (status == FG_STATUS_OK && (!out->longitude || !out->latitude))
-    status = fg__fail_memory(file->context, "positions", 2 * count * sizeof(double));
-  const int side = -mesh->shift[0]; /* of the other neighbour */
+  double *unit = NULL;
+  fg_status status = fg__nc_positions_read(out, file, &mesh->part[0], 0);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_unit_vectors(&unit, file, out, count);
   for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n) {
-    double at[3], beyond[3];
-    const size_t i = n % columns, j = n / columns;
-    if (!half_way(at, &u, i, j, 0, side)) {
-      for (size_t c = 0; c < 3; ++c)
-        at[c] = half_way(beyond, &u, i, j, 0, -side) ? 2.0 * u.unit[3 * n + c] - beyond[c]
-                                                     : (double)NAN;
-    }
+    double at[3];
+    half_way_in_row(at, unit, n, columns, -mesh->shift[0]);
     out->longitude[n] = atan2(at[1], at[0]) / RADIANS_PER_DEGREE;
     out->latitude[n] = atan2(at[2], hypot(at[0], at[1])) / RADIANS_PER_DEGREE;
   }
-  free(u.unit);
+  free(unit);
   return status;
 }
 

@@ -13,6 +13,12 @@ static const double RADIANS_PER_DEGREE = 0.017453292519943295;
  * meaning where neither does: cosines of the mean difference. */
 static const double FITS = 0.985; /* 10 degrees */
 
+/* Rows and columns at which it is compared. */
+enum { COMPARED = 100 };
+
+/* At most, until the points and cells are a sphere. */
+static const double POINT_BYTES = 90.0;
+
 typedef struct centre_values {
   const fg__nc_mesh *mesh;
   size_t count;
@@ -37,10 +43,6 @@ static fg_status read_part(float **out, const fg__nc_file *file, const fg__nc_pa
                            size_t time, size_t level)
 {
   fg__nc_missing ignored = {0};
-  fg_status room = fg__check_memory(file->context, file->paths[0],
-                                    (double)part->grid.samples, 2.0 * sizeof **out);
-  if (room != FG_STATUS_OK)
-    return room;
   *out = fg__allocate(part->grid.samples, sizeof **out);
   if (!*out)
     return fg__fail_memory(file->context, "the velocity",
@@ -222,16 +224,19 @@ static fg_status read_angle(double *given[2], const centre_values *all,
  */
 static int sense_of(double *const given[2], const centre_values *all)
 {
+  const size_t *size = all->mesh->size;
   double same = 0.0, opposite = 0.0;
   size_t count = 0;
-  for (size_t n = 0; n < all->count; ++n) {
-    double turn[2];
-    if (!isfinite(given[0][n]) || !isfinite(given[1][n]) || !direction_at(turn, all, n))
-      continue;
-    same += given[0][n] * turn[0] + given[1][n] * turn[1];
-    opposite += given[0][n] * turn[0] - given[1][n] * turn[1];
-    ++count;
-  }
+  for (size_t j = 0; j < size[1]; j += size[1] / COMPARED + 1)
+    for (size_t i = 0; i < size[0]; i += size[0] / COMPARED + 1) {
+      const size_t n = j * size[0] + i;
+      double turn[2];
+      if (!isfinite(given[0][n]) || !isfinite(given[1][n]) || !direction_at(turn, all, n))
+        continue;
+      same += given[0][n] * turn[0] + given[1][n] * turn[1];
+      opposite += given[0][n] * turn[0] - given[1][n] * turn[1];
+      ++count;
+    }
   if (count == 0 || (same < FITS * (double)count && opposite < FITS * (double)count))
     return 0;
   return same >= opposite ? 1 : -1;
@@ -307,7 +312,10 @@ fg_status fg__nc_mesh_read(fg__sphere_cells *out, fg__nc_mesh *mesh,
 {
   centre_values all = {.mesh = mesh, .count = mesh->size[0] * mesh->size[1]};
   *out = (fg__sphere_cells){0};
-  fg_status status = fill(&all, mesh, file, time, level, mask);
+  fg_status status =
+      fg__check_memory(file->context, file->paths[0], (double)all.count, POINT_BYTES);
+  if (status == FG_STATUS_OK)
+    status = fill(&all, mesh, file, time, level, mask);
   if (status == FG_STATUS_OK)
     status = fg__nc_cells_make(&out->corner, &out->count, file, all.unit, mesh->size,
                                all.repeated, all.closed);

@@ -1,4 +1,4 @@
-/* A pair of a mesh as a field on the sphere, and what is said of it. */
+/* A pair of a mesh as a field on the sphere, and its entry in an inventory. */
 #include "read/mesh/mesh.h"
 
 #include <math.h>

@@ -23,8 +23,11 @@ static fg_status read_coordinates(const fg__nc_axis *axis, const fg__nc_file *fi
   double *out = axis->coordinate;
   size_t start[FG__NC_RANK] = {0};
   size_t size[FG__NC_RANK];
-  for (int k = 0; k < coordinate->rank; ++k)
-    size[k] = coordinate->dimension[k] == axis->dimension ? axis->size : 1;
+  for (int k = 0; k < coordinate->rank; ++k) {
+    const bool along = coordinate->dimension[k] == axis->dimension;
+    start[k] = along ? axis->first : 0;
+    size[k] = along ? axis->size : 1;
+  }
   const int error =
       nc_get_vara_double(coordinate->group, coordinate->id, start, size, out);
   if (error)

@@ -126,12 +126,30 @@ static fg_status fail_unusable(const fg__nc_file *file, const fg__nc_pair *pair,
   return status;
 }
 
+/* ": u, lat, lon", those that could be components first, as many as fit; "" none. */
+static void list_variables(char *out, size_t size, const fg__nc_file *file)
+{
+  size_t used = 0;
+  out[0] = '\0';
+  for (int turn = 0; turn < 2; ++turn)
+    for (size_t i = 0; i < file->variable_count; ++i) {
+      const fg__nc_variable *v = &file->variables[i];
+      const bool is_field = v->rank >= 2 && v->type != NC_CHAR;
+      if (is_field == (turn == 1) || used + strlen(v->name) + 8 > size)
+        continue;
+      used +=
+          (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : ": ", v->name);
+    }
+}
+
 static fg_status fail_no_vectors(const fg__nc_file *file)
 {
+  char names[1024];
+  list_variables(names, sizeof names, file);
   fg_status status =
       fg__fail(file->context, FG_STATUS_UNSUPPORTED,
-               "%s: no vectors found among its %zu variable%s", file->paths[0],
-               file->variable_count, file->variable_count == 1 ? "" : "s");
+               "%s: no vectors found among its %zu variable%s%s", file->paths[0],
+               file->variable_count, file->variable_count == 1 ? "" : "s", names);
   if (file->root_count == 1)
     fg__hint(file->context, "name the components with --vars U,V; when the other one is "
                             "in a second file, add --vars-from FILE");
@@ -167,7 +185,8 @@ static fg_status choose_best(fg__nc_pair *out, fg__nc_grid *grid, const fg__nc_f
   fg__nc_grid first_unusable = {0};
   int count = 0;
   for (size_t i = 0; i < all->count && status == FG_STATUS_OK; ++i) {
-    /* an unusable velocity is said, not silently replaced by another kind of vector */
+    /* an unusable velocity is reported, not silently replaced by another kind of vector
+     */
     if (all->pair[0].is_velocity && !all->pair[i].is_velocity)
       break;
     if (count > 0 && all->pair[i].rank > out->rank)

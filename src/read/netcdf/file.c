@@ -244,7 +244,7 @@ fg_status fg__nc_status(const fg__nc_file *file, fg_status status)
   return file->exhausted ? FG_STATUS_MEMORY : status;
 }
 
-/* Attributes that are not there, or are damaged, count as not said. */
+/* Attributes that are not there, or are damaged, count as not given. */
 static bool is_read(const fg__nc_variable *v, int error, size_t bytes)
 {
   if (error == NC_ENOMEM) {

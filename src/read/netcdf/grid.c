@@ -1,6 +1,7 @@
 /* The grid of a pair: dimensions, coordinates, units and scale. */
 #include "base/memory.h"
 #include "read/mesh/mesh.h"
+#include "read/unstructured/unstructured.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -41,6 +42,15 @@ static void set_index_axis(const fg__nc_file *file, const fg__nc_variable *v,
   snprintf(name, NC_MAX_NAME + 1, "%s", d->name);
 }
 
+void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_variable *v)
+{
+  set_index_axis(file, v, grid->time, &grid->times, &grid->time_variable,
+                 grid->time_name);
+  set_index_axis(file, v, grid->level, &grid->levels, &grid->level_variable,
+                 grid->level_name);
+}
+
 static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
                             const fg__nc_variable *v)
 {
@@ -75,10 +85,7 @@ static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
   fg__nc_check_storage(grid, file, v);
   grid->time = position[FG__NC_TIME];
   grid->level = position[FG__NC_LEVEL];
-  set_index_axis(file, v, grid->time, &grid->times, &grid->time_variable,
-                 grid->time_name);
-  set_index_axis(file, v, grid->level, &grid->levels, &grid->level_variable,
-                 grid->level_name);
+  fg__nc_set_index_axes(grid, file, v);
 }
 
 static const fg__nc_variable *axis_coordinate(const fg__nc_grid *grid,
@@ -248,6 +255,18 @@ static fg_status find_on_axes(fg__nc_grid *grid, const fg__nc_file *file,
   return status;
 }
 
+/* The same of the centres of a plane's cells, where components are on the faces. */
+static fg_status find_on_faces(fg__nc_grid *grid, const fg__nc_file *file,
+                               const fg__nc_pair *pair, const fg_read_options *options)
+{
+  fg_status status = fg__nc_faces_find(grid, file, pair);
+  if (status != FG_STATUS_OK || !grid->faces.used || !is_usable(grid))
+    return status;
+  fg__nc_quantity velocity;
+  check_units(grid, pair, &velocity);
+  return is_usable(grid) ? settle_scale(grid, file, pair, velocity, options) : status;
+}
+
 fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_pair *pair, const fg_read_options *options)
 {
@@ -257,18 +276,27 @@ fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
                         .times = 1,
                         .levels = 1,
                         .scale = options->scale};
-  for (int k = 0; k < 2; ++k)
-    fg__nc_check_variable(grid, pair->component[k]);
+  fg_status status = fg__nc_unstructured_find(grid, file, pair, options);
+  if (status != FG_STATUS_OK)
+    return status;
+  if (!grid->unstructured)
+    for (int k = 0; k < 2; ++k)
+      fg__nc_check_variable(grid, pair->component[k]);
   for (int k = 0; k < 2 && is_usable(grid); ++k)
     check_lengths(grid, file, pair->component[k]);
-  if (is_usable(grid))
+  if (is_usable(grid) && !grid->unstructured)
     find_dimensions(grid, file, pair->component[0]);
-  if (!is_usable(grid))
+  fg__nc_quantity velocity;
+  if (is_usable(grid) && grid->unstructured)
+    check_units(grid, pair, &velocity);
+  if (!is_usable(grid) || grid->unstructured)
     return FG_STATUS_OK;
-  fg_status status = find_on_axes(grid, file, pair, options);
+  status = find_on_axes(grid, file, pair, options);
   if (status == FG_STATUS_OK && grid->off_axes)
     status = fg__nc_mesh_find(grid, file, pair, options);
-  fg__nc_quantity velocity;
+  if (status == FG_STATUS_OK && grid->off_axes && !grid->mesh &&
+      options->scale != FG_SCALE_GEO)
+    status = find_on_faces(grid, file, pair, options);
   if (status == FG_STATUS_OK && grid->mesh && is_usable(grid))
     check_units(grid, pair, &velocity);
   return status;
@@ -282,4 +310,6 @@ void fg__nc_grid_clear(fg__nc_grid *grid)
   }
   fg__nc_mesh_destroy(grid->mesh);
   grid->mesh = NULL;
+  fg__nc_unstructured_destroy(grid->unstructured);
+  grid->unstructured = NULL;
 }

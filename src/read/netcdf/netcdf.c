@@ -1,6 +1,7 @@
 /* NetCDF: classic, 64-bit offset, CDF-5 and NetCDF-4, through NetCDF-C. */
 #include "field/slab.h"
 #include "read/mesh/mesh.h"
+#include "read/unstructured/unstructured.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,13 +26,14 @@ static fg_status add_second_file(fg__nc_file *file, fg_context *context, const c
   return status;
 }
 
-/* Components that are named are looked for in both files: where neither they nor the mask
- * are of the second, it is not the file that was meant. */
+/* Components that are named are looked for in both files: where neither they nor their
+ * mesh nor the mask are of the second, it is not the file that was meant. */
 static fg_status check_second(const fg__nc_file *file, const fg__nc_pair *pair,
-                              const char *mask)
+                              const fg__nc_grid *grid, const char *mask)
 {
   const fg__nc_variable *masked = mask ? fg__nc_find(file, mask) : NULL;
-  bool used = file->root_count < 2 || (masked && masked->file == 1);
+  bool used = file->root_count < 2 || (masked && masked->file == 1) ||
+              (grid->unstructured && fg__nc_unstructured_file(grid->unstructured) == 1);
   for (int k = 0; k < 3; ++k)
     used = used || (pair->component[k] && pair->component[k]->file == 1);
   if (used)
@@ -160,7 +162,7 @@ static fg_status open_chosen(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *
   if (status == FG_STATUS_OK)
     status = fg__nc_choose(pair, grid, file, options);
   if (status == FG_STATUS_OK)
-    status = check_second(file, pair, options->mask);
+    status = check_second(file, pair, grid, options->mask);
   if (status == FG_STATUS_OK)
     status = check_index(file, "time", options->time, grid->time, grid->times,
                          grid->time_name);
@@ -179,6 +181,8 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
     status = fg__nc_sphere_read(&sphere, &file, &pair, &grid, options);
     if (status == FG_STATUS_OK)
       status = fg__globe_field(out, context, sphere, slab);
+  } else if (status == FG_STATUS_OK && grid.unstructured) {
+    status = fg__nc_unstructured_field(out, &file, &pair, &grid, options, slab);
   } else if (status == FG_STATUS_OK) {
     status = make_field(out, &file, &pair, &grid, options, slab);
   }
@@ -198,6 +202,8 @@ static fg_status read_sphere(fg__sphere **out, fg_context *context,
   fg_status status = open_chosen(&file, &pair, &grid, context, source, options);
   if (status == FG_STATUS_OK && grid.mesh)
     status = fg__nc_sphere_read(out, &file, &pair, &grid, options);
+  else if (status == FG_STATUS_OK && grid.unstructured)
+    status = fg__nc_unstructured_sphere(out, &file, &pair, &grid, options);
   status = fg__nc_status(&file, status);
   fg__nc_grid_clear(&grid);
   fg__nc_file_close(&file);
@@ -259,11 +265,12 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
 /* counts: also what takes the reading of samples or of a mesh. */
 static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
                                const fg__nc_pair *pair, const fg__nc_grid *found,
-                               bool counts)
+                               const fg_read_options *options, bool counts)
 {
   char text[FG__NC_TEXT];
   char units[FG__NC_TEXT];
-  fg_status status = FG_STATUS_OK;
+  fg_usual usual;
+  fg_status status = fg__nc_usual(&usual, file, pair, found, options);
   const fg__nc_grid grid = *found;
   if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
     fg__nc_text(pair->component[1], "units", text, sizeof text);
@@ -279,6 +286,8 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
       .times = (int)grid.times,
       .levels = grid.dimension == 3 ? 1 : (int)grid.levels,
       .scale = grid.scale,
+      .usual_level = usual.level,
+      .absent = usual.absent[0] ? usual.absent : NULL,
       .periodic = {grid.axis[0].period > 0.0}};
   char frame[sizeof grid.projection + FG__NC_TEXT];
   snprintf(frame, sizeof frame, "%s of %s",
@@ -286,9 +295,16 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
            grid.projection);
   if (grid.projection[0])
     vector.frame = frame;
-  if (grid.mesh && counts && !grid.unusable[0])
+  else if (grid.faces.used)
+    vector.frame = "along the axes (a staggered grid)";
+  const bool off_axes = grid.mesh || grid.unstructured;
+  if (grid.mesh)
+    vector.frame = grid.mesh->rule;
+  if (status == FG_STATUS_OK && grid.mesh && counts && !grid.unusable[0])
     status = fg__nc_mesh_describe(&vector, file, pair, found);
-  for (int k = 0; k < grid.dimension && !grid.mesh; ++k) {
+  if (status == FG_STATUS_OK && grid.unstructured && counts && !grid.unusable[0])
+    status = fg__nc_unstructured_describe(&vector, file, pair, found);
+  for (int k = 0; k < grid.dimension && !off_axes; ++k) {
     vector.size[k] = (int)grid.axis[k].size;
     if (grid.axis[k].coordinate) {
       vector.bounds[2 * k] = grid.axis[k].coordinate[0];
@@ -300,7 +316,7 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
            grid.hint);
   if (grid.unusable[0])
     vector.unusable = reason;
-  else if (counts && !grid.mesh)
+  else if (status == FG_STATUS_OK && counts && !off_axes)
     status = count_missing(&vector, file, pair, found);
   return status == FG_STATUS_OK ? add_vector(inventory, &vector, file, found) : status;
 }
@@ -312,7 +328,7 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__nc_file *file,
   fg__nc_grid grid;
   fg_status status = fg__nc_grid_find(&grid, file, pair, &defaults);
   if (status == FG_STATUS_OK)
-    status = describe_grid(inventory, file, pair, &grid, true);
+    status = describe_grid(inventory, file, pair, &grid, &defaults, true);
   fg__nc_grid_clear(&grid);
   return status;
 }
@@ -334,24 +350,47 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
   return status;
 }
 
-/* The pair that these options would read. */
+/* Opens the pair that these options would read; ends with close_chosen. */
+static fg_status choose(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
+                        fg_context *context, const fg__source *source,
+                        const fg_read_options *options)
+{
+  fg_status status = fg__nc_file_open(file, context, source);
+  if (status == FG_STATUS_OK && options->vars_from)
+    status = add_second_file(file, context, options->vars_from);
+  return status == FG_STATUS_OK ? fg__nc_choose(pair, grid, file, options) : status;
+}
+
+static fg_status close_chosen(fg__nc_file *file, fg__nc_grid *grid, fg_status status)
+{
+  status = fg__nc_status(file, status);
+  fg__nc_grid_clear(grid);
+  fg__nc_file_close(file);
+  return status;
+}
+
 static fg_status describe_chosen(fg_inventory *inventory, fg_context *context,
                                  const fg__source *source, const fg_read_options *options)
 {
   fg__nc_file file = {0};
   fg__nc_pair pair = {0};
   fg__nc_grid grid = {0};
-  fg_status status = fg__nc_file_open(&file, context, source);
-  if (status == FG_STATUS_OK && options->vars_from)
-    status = add_second_file(&file, context, options->vars_from);
+  fg_status status = choose(&file, &pair, &grid, context, source, options);
   if (status == FG_STATUS_OK)
-    status = fg__nc_choose(&pair, &grid, &file, options);
+    status = describe_grid(inventory, &file, &pair, &grid, options, false);
+  return close_chosen(&file, &grid, status);
+}
+
+static fg_status find_usual(fg_usual *out, fg_context *context, const fg__source *source,
+                            const fg_read_options *options)
+{
+  fg__nc_file file = {0};
+  fg__nc_pair pair = {0};
+  fg__nc_grid grid = {0};
+  fg_status status = choose(&file, &pair, &grid, context, source, options);
   if (status == FG_STATUS_OK)
-    status = describe_grid(inventory, &file, &pair, &grid, false);
-  status = fg__nc_status(&file, status);
-  fg__nc_grid_clear(&grid);
-  fg__nc_file_close(&file);
-  return status;
+    status = fg__nc_usual(out, &file, &pair, &grid, options);
+  return close_chosen(&file, &grid, status);
 }
 
 const fg__format fg__format_netcdf = {
@@ -360,5 +399,6 @@ const fg__format fg__format_netcdf = {
     .is_mine = is_netcdf,
     .inventory = describe,
     .inventory_chosen = describe_chosen,
+    .usual = find_usual,
     .sphere = read_sphere,
     .read = read_field};

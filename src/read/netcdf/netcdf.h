@@ -104,6 +104,10 @@ bool fg__nc_seconds(const char *units, double *out);
 bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
                  size_t size);
 
+/* Writes a time from no known date on as its parts, "3 d", "1 d 6 h 30 min"; false where
+ * units are of no time, or it is no whole number of seconds. */
+bool fg__nc_duration(double value, const char *units, char *out, size_t size);
+
 typedef struct fg__nc_pair {
   const fg__nc_variable *component[3]; /* the third NULL when there is none */
   bool volume;                         /* the third is asked for, not only found */
@@ -145,6 +149,10 @@ bool fg__nc_counts(const fg__nc_variable *coordinate);
 int fg__nc_roles(int position[FG__NC_ROLES], const fg__nc_file *file,
                  const fg__nc_variable *variable);
 
+/* The same where dimension number `along` is the only one in space: it is X's. */
+int fg__nc_roles_beside(int position[FG__NC_ROLES], const fg__nc_file *file,
+                        const fg__nc_variable *variable, int along);
+
 typedef struct fg__nc_axis {
   int dimension;      /* index into the file's dimensions */
   int position;       /* among those of the variable */
@@ -159,10 +167,21 @@ typedef struct fg__nc_axis {
 } fg__nc_axis;
 
 typedef struct fg__nc_mesh fg__nc_mesh; /* mesh/mesh.h */
+typedef struct fg__nc_unstructured fg__nc_unstructured;
+
+/* Components on the faces of cells, whose centres the axes place. */
+typedef struct fg__nc_faces {
+  bool used;
+  int position[2][FG__NC_ROLES]; /* of each component's own dimensions, or -1 */
+  size_t before[2]; /* component k along axis k: of centre n the faces n - before[k] and
+                       the next, in the file's order */
+} fg__nc_faces;
 
 typedef struct fg__nc_grid {
-  fg__nc_mesh *mesh;    /* NULL: axes place its points */
-  bool off_axes;        /* they do not: it is a mesh or unusable */
+  fg__nc_mesh *mesh;                 /* NULL: axes place its points, or */
+  fg__nc_unstructured *unstructured; /* unstructured/unstructured.h; NULL: it is none */
+  bool off_axes; /* axes do not: it is a mesh, has faces or is unusable */
+  fg__nc_faces faces;
   int dimension;        /* 2: a plane at one level; 3 */
   fg__nc_axis axis[3];  /* x, y; the levels as z in 3D */
   int time, level;      /* positions among the dimensions, or -1 */
@@ -182,7 +201,7 @@ void fg__nc_unusable(fg__nc_grid *grid, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /* Compares the components' dimensions; staggered grids (Arakawa's C grid) keep them at
- * different places, which makes the pair unusable. */
+ * different places: the pair is off its axes, and unusable unless mesh/ reads it. */
 void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
                          const fg__nc_variable *u, const fg__nc_variable *v);
 
@@ -235,6 +254,10 @@ fg_status fg__nc_volume_find(fg__nc_grid *grid, const fg__nc_file *file,
 fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_pair *pair, const fg_read_options *options);
 void fg__nc_grid_clear(fg__nc_grid *grid);
+
+/* Sets the counts, coordinates and names of time and level, whose positions are known. */
+void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_variable *v);
 
 /* choice.c. Finds the pair that the options ask for, or the only one of the best rank
  * that can be read, with its grid, to be cleared even after a failure. ARGUMENT,
@@ -298,6 +321,10 @@ void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t siz
 /* Describes an index along time or level; name is the dimension's. */
 fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,
                              const char *name, size_t index, char *out, size_t size);
+
+/* usual.c. What is said before a field is read, by a pair's grid. */
+fg_status fg__nc_usual(fg_usual *out, const fg__nc_file *file, const fg__nc_pair *pair,
+                       const fg__nc_grid *grid, const fg_read_options *options);
 
 /* The values of a time or level axis, their texts in `text`; both end with free. NULL
  * where there is no coordinate, or more values than anyone would choose from. */

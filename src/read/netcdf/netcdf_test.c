@@ -296,7 +296,8 @@ static void files_without_vectors_say_so(void **state)
   const int x = sample_axis(f, "x", NX, X, "m");
   sample_variable(f, "temperature", NC_FLOAT, 1, &x);
   sample_end(f);
-  refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, "no vectors found among its 2 variables");
+  refuse_with(f, NULL, FG_STATUS_UNSUPPORTED,
+              "no vectors found among its 2 variables: x, temperature");
   fg_inventory *inventory = NULL;
   assert_int_equal(fg_inventory_read(&inventory, f->context, f->path), FG_STATUS_OK);
   assert_int_equal(fg_inventory_vector_count(inventory), 0);
@@ -378,6 +379,58 @@ static void inventories_tell_times_and_levels(void **state)
   fg_inventory_destroy(inventory);
 }
 
+/* A field of 3 levels, whose coordinate has these attributes; "" none. */
+static fg_usual usual_of(sample_file *f, const char *name, const char *positive,
+                         const char *units, const double levels[3])
+{
+  int id[3];
+  sample_begin(f, 0);
+  id[0] = sample_dimension(f, "level", 3);
+  const int level = sample_variable(f, "level", NC_DOUBLE, 1, id);
+  if (*name)
+    sample_text(f, level, "standard_name", name);
+  if (*positive)
+    sample_text(f, level, "positive", positive);
+  if (*units)
+    sample_text(f, level, "units", units);
+  id[1] = sample_dimension(f, "ny", NY);
+  id[2] = sample_dimension(f, "nx", NX);
+  for (int k = 0; k < 2; ++k) {
+    const int component = sample_variable(f, k ? "v" : "u", NC_FLOAT, 3, id);
+    sample_text(f, component, "units", "m/s");
+    sample_text(f, component, "coordinates", "level glat glon");
+  }
+  sample_put(f, level, levels);
+  sample_end(f);
+  fg_usual usual;
+  assert_int_equal(fg_usual_find(&usual, f->context, f->path, NULL), FG_STATUS_OK);
+  return usual;
+}
+
+/* Of the ocean the surface; of the air, and where nothing tells, the first. */
+static void the_usual_level_is_the_seas_surface(void **state)
+{
+  static const double rising[] = {-90.0, -5.0, -40.0}, depths[] = {40.0, 5.0, 90.0};
+  static const struct {
+    const char *name, *positive, *units;
+    const double *levels;
+    int level;
+  } cases[] = {{"ocean_s_coordinate_g2", "up", "", rising, 1},
+               {"ocean_sigma_coordinate", "", "", rising, 1},
+               {"depth", "", "m", depths, 1},
+               {"", "down", "m", depths, 1},
+               {"", "up", "m", rising, 1},
+               {"", "up", "m", depths, 0},
+               {"height", "up", "m", rising, 0},
+               {"air_pressure", "down", "hPa", depths, 0}};
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    const fg_usual usual = usual_of(*state, cases[n].name, cases[n].positive,
+                                    cases[n].units, cases[n].levels);
+    assert_int_equal(usual.level, cases[n].level);
+    assert_string_equal(usual.absent, "glat, glon");
+  }
+}
+
 /* The demonstration's own file: 65160 packed samples, none missing, round the globe. */
 static void the_demonstration_file_is_read(void **state)
 {
@@ -412,6 +465,7 @@ int main(void)
       CASE(files_without_vectors_say_so),
       CASE(inventories_tell_what_reading_gives),
       CASE(inventories_tell_times_and_levels),
+      CASE(the_usual_level_is_the_seas_surface),
       CASE(the_demonstration_file_is_read),
   };
   return cmocka_run_group_tests_name("read/netcdf/netcdf", tests, NULL, NULL);

@@ -3,7 +3,7 @@
  * component by '#' ("U_GRD_6_ISBL" is "#_GRD_6_ISBL" with component x); two variables
  * whose readings agree and whose components differ are a pair. */
 #include "base/memory.h"
-#include "read/netcdf/netcdf.h"
+#include "read/unstructured/unstructured.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -284,10 +284,9 @@ static bool is_quality_name(const char *standard_name)
   return contains_any(standard_name, quality, COUNT_OF(quality));
 }
 
-static bool may_be_component(const fg__nc_variable *v)
+static bool may_be_component(const fg__nc_file *file, const fg__nc_variable *v)
 {
-  return v->rank >= 2 && v->rank <= FG__NC_RANK && v->type >= NC_BYTE &&
-         v->type <= NC_UINT64 && v->type != NC_CHAR;
+  return fg__nc_is_array(v) && (v->rank >= 2 || fg__nc_unstructured_line(file, v));
 }
 
 static bool list_readings(reading_list *list, const fg__nc_file *file)
@@ -296,7 +295,7 @@ static bool list_readings(reading_list *list, const fg__nc_file *file)
     const fg__nc_variable *v = &file->variables[i];
     char text[FG__NC_TEXT];
     char label[FG__NC_TEXT];
-    if (!may_be_component(v))
+    if (!may_be_component(file, v))
       continue;
     fg__nc_text(v, "units", text, sizeof text);
     const fg__nc_quantity quantity = fg__nc_units(text, label, sizeof label);
@@ -398,7 +397,8 @@ static bool pair_group(pair_list *pairs, const fg__nc_file *file,
       shape_found = same_shape(u, &file->variables[list->entry[y].variable]);
     for (size_t y = middle; y < end; ++y) {
       const fg__nc_variable *v = &file->variables[list->entry[y].variable];
-      if (file->root_count == 2 && u->file == v->file)
+      if (file->root_count == 2 && u->file == v->file &&
+          !fg__nc_unstructured_elsewhere(file, u))
         continue;
       if (shape_found && !same_shape(u, v))
         continue;

@@ -72,10 +72,10 @@ static fg_status read_plane(plane *out, const fg__nc_file *file)
     count[k] = k < v->rank - 2 ? 1 : file->dimensions[v->dimension[k]].length;
     samples *= count[k];
   }
-  fg_status room = fg__check_memory(file->context, file->paths[0], (double)samples,
-                                    sizeof *out->value);
-  if (room != FG_STATUS_OK)
-    return room;
+  fg_status status = fg__check_memory(file->context, file->paths[0], (double)samples,
+                                      sizeof *out->value);
+  if (status != FG_STATUS_OK)
+    return status;
   out->value = fg__allocate(samples, sizeof *out->value);
   if (!out->value)
     return fg__fail_memory(file->context, "a coordinate", samples * sizeof *out->value);

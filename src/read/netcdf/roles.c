@@ -247,19 +247,10 @@ static int last_free(const int position[FG__NC_ROLES], const fg__nc_file *file,
   return -1;
 }
 
-int fg__nc_roles(int position[FG__NC_ROLES], const fg__nc_file *file,
-                 const fg__nc_variable *variable)
+/* Time and level of what is left; returns one that is neither, or -1. */
+static int assign_others(int position[FG__NC_ROLES], const fg__nc_file *file,
+                         const fg__nc_variable *variable)
 {
-  claim claims[FG__NC_RANK];
-  for (int k = 0; k < variable->rank; ++k)
-    claims[k] = claim_of(file, variable, k);
-  assign_claims(position, claims, variable->rank);
-  for (int role = FG__NC_X; role <= FG__NC_Y; ++role)
-    if (position[role] < 0)
-      position[role] = last_free(position, file, variable, 2);
-  for (int role = FG__NC_X; role <= FG__NC_Y; ++role)
-    if (position[role] < 0)
-      position[role] = last_free(position, file, variable, 0);
   for (int k = 0; k < variable->rank; ++k) {
     const fg__nc_dimension *d = &file->dimensions[variable->dimension[k]];
     if (is_taken(position, k))
@@ -274,4 +265,34 @@ int fg__nc_roles(int position[FG__NC_ROLES], const fg__nc_file *file,
       return k;
   }
   return -1;
+}
+
+int fg__nc_roles(int position[FG__NC_ROLES], const fg__nc_file *file,
+                 const fg__nc_variable *variable)
+{
+  claim claims[FG__NC_RANK];
+  for (int k = 0; k < variable->rank; ++k)
+    claims[k] = claim_of(file, variable, k);
+  assign_claims(position, claims, variable->rank);
+  for (int role = FG__NC_X; role <= FG__NC_Y; ++role)
+    if (position[role] < 0)
+      position[role] = last_free(position, file, variable, 2);
+  for (int role = FG__NC_X; role <= FG__NC_Y; ++role)
+    if (position[role] < 0)
+      position[role] = last_free(position, file, variable, 0);
+  return assign_others(position, file, variable);
+}
+
+int fg__nc_roles_beside(int position[FG__NC_ROLES], const fg__nc_file *file,
+                        const fg__nc_variable *variable, int along)
+{
+  claim claims[FG__NC_RANK];
+  for (int k = 0; k < variable->rank; ++k) {
+    claims[k] = claim_of(file, variable, k);
+    if (k == along || claims[k].role == FG__NC_X || claims[k].role == FG__NC_Y)
+      claims[k].role = FG__NC_NO_ROLE;
+  }
+  assign_claims(position, claims, variable->rank);
+  position[FG__NC_X] = along;
+  return assign_others(position, file, variable);
 }

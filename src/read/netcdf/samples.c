@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* Samples of one level, and the level of the file that is the grid's k-th. */
@@ -48,41 +49,105 @@ typedef struct source {
   size_t time, level;
 } source;
 
-static fg_status read_values(float *out, fg__nc_missing *missing, const source *from,
-                             const fg__nc_variable *variable, const fg__nc_grid *grid)
+/* The means of both faces; a missing face beside one that is not is a wall. Returns how
+ * many centres have neither. */
+static size_t average_faces(float *out, const float *face, const fg__nc_grid *grid, int k)
 {
+  const size_t columns = grid->axis[0].size, row = columns + (k == 0 ? 1 : 0);
+  size_t missing = 0;
+  for (size_t n = 0; n < plane_size(grid); ++n) {
+    const float *a = face + n / columns * row + n % columns;
+    const float *b = a + (k == 0 ? 1 : row);
+    const double sum = (isnan(*a) ? 0.0 : (double)*a) + (isnan(*b) ? 0.0 : (double)*b);
+    const bool none = isnan(*a) && isnan(*b);
+    out[n] = none ? NAN : (float)(0.5 * sum);
+    missing += none;
+  }
+  return missing;
+}
+
+/* Centres are missing for what most faces are. */
+static void count_centres(fg__nc_missing *missing, const fg__nc_missing *of_faces,
+                          size_t count)
+{
+  if (of_faces->fill >= of_faces->range && of_faces->fill >= of_faces->not_a_number)
+    missing->fill += count;
+  else if (of_faces->range >= of_faces->not_a_number)
+    missing->range += count;
+  else
+    missing->not_a_number += count;
+}
+
+/* Component k at the centres of a part of the grid. */
+static fg_status read_faces(float *out, fg__nc_missing *missing, const source *from,
+                            int k, const fg__nc_grid *grid)
+{
+  const fg__nc_faces *faces = &grid->faces;
+  const int *position = faces->position[k];
+  fg__nc_grid own = *grid;
+  for (int c = 0; c < 2; ++c)
+    own.axis[c].position = position[c];
+  own.time = position[FG__NC_TIME];
+  own.level = position[FG__NC_LEVEL];
+  own.axis[k].first -= faces->before[k];
+  ++own.axis[k].size;
+  const size_t samples = plane_size(&own);
+  float *face = fg__allocate(samples, sizeof *face);
+  if (!face)
+    return fg__fail_memory(from->file->context, "the velocity", samples * sizeof *face);
+  fg__nc_missing of_faces = {0};
+  const fg_status status =
+      fg__nc_values(face, &of_faces, from->file, from->pair->component[k], &own,
+                    from->time, from->level);
+  if (status == FG_STATUS_OK)
+    count_centres(missing, &of_faces, average_faces(out, face, grid, k));
+  free(face);
+  return status;
+}
+
+static fg_status read_values(float *out, fg__nc_missing *missing, const source *from,
+                             int k, const fg__nc_grid *grid)
+{
+  if (grid->faces.used)
+    return read_faces(out, missing, from, k, grid);
   fg_status status = FG_STATUS_OK;
   for (size_t z = 0; z < level_count(grid) && status == FG_STATUS_OK; ++z)
-    status =
-        fg__nc_values(out + z * plane_size(grid), missing, from->file, variable, grid,
-                      from->time, grid->dimension == 3 ? level_of(grid, z) : from->level);
+    status = fg__nc_values(out + z * plane_size(grid), missing, from->file,
+                           from->pair->component[k], grid, from->time,
+                           grid->dimension == 3 ? level_of(grid, z) : from->level);
   return status;
 }
 
 static fg_status read_component(fg__nc_samples *out, const source *from, int k)
 {
   const fg__rows *rows = from->rows;
-  const fg__nc_variable *variable = from->pair->component[k];
   const size_t row = row_size(from->grid), samples = row * (size_t)rows->held;
-  fg_status room =
+  fg_status status =
       fg__check_memory(from->file->context, from->file->paths[0], (double)samples,
                        from->grid->dimension * (double)sizeof(float));
-  if (room != FG_STATUS_OK)
-    return room;
+  if (status != FG_STATUS_OK)
+    return status;
   out->velocity[k] = fg__allocate(samples, sizeof *out->velocity[k]);
   if (!out->velocity[k])
     return fg__fail_memory(from->file->context, "the velocity",
                            samples * sizeof *out->velocity[k]);
   const fg__nc_grid own = rows_of_grid(from->grid, rows->first, rows->own);
-  fg_status status =
-      read_values(out->velocity[k], &out->missing[k], from, variable, &own);
+  status = read_values(out->velocity[k], &out->missing[k], from, k, &own);
   if (status != FG_STATUS_OK || rows->held == rows->own)
     return status;
   fg__nc_missing others = {0}; /* another part counts them */
   const fg__nc_grid rest =
       rows_of_grid(from->grid, rows->first + rows->own, rows->held - rows->own);
-  return read_values(out->velocity[k] + row * (size_t)rows->own, &others, from, variable,
-                     &rest);
+  return read_values(out->velocity[k] + row * (size_t)rows->own, &others, from, k, &rest);
+}
+
+/* A centre with one component has walls on both sides across the other. */
+static void close_walls(float *const velocity[2], size_t samples)
+{
+  for (size_t n = 0; n < samples; ++n)
+    for (int k = 0; k < 2; ++k)
+      if (isnan(velocity[k][n]) && !isnan(velocity[1 - k][n]))
+        velocity[k][n] = 0.0F;
 }
 
 static fg_status read_mask(fg__nc_samples *out, const source *from, const char *name)
@@ -114,6 +179,8 @@ fg_status fg__nc_samples_read(fg__nc_samples *out, const fg__nc_file *file,
   fg_status status = FG_STATUS_OK;
   for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k)
     status = read_component(out, &from, k);
+  if (status == FG_STATUS_OK && grid->faces.used)
+    close_walls(out->velocity, row_size(grid) * (size_t)rows->held);
   if (status == FG_STATUS_OK && mask)
     status = read_mask(out, &from, mask);
   return status;

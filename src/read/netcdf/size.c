@@ -1,5 +1,6 @@
 /* Whether a NetCDF file is as long as its header promises. libnetcdf reads a truncated
- * classic file without complaint and returns zeros, so the header is walked here first:
+ * classic file without complaint and returns zeros, and one with bytes added shifted
+ * values, so the header is walked here first:
  * "NetCDF Classic Format Specification" (Unidata), CDF-1, CDF-2 and CDF-5. That also
  * keeps damaged headers away from the library. */
 #include "read/netcdf/netcdf.h"
@@ -221,6 +222,24 @@ static void add_to_records(record_layout *records, const variable_extent *extent
   ++records->variables;
 }
 
+/* Data that go on beyond the last variable's lie elsewhere than the header says, but for
+ * padding, and for whole records of a file that was not closed. end: of the data. */
+static fg_status check_rest(fg_context *context, const fg__source *source,
+                            const record_layout *records, uint64_t end)
+{
+  const uint64_t step = records->variables == 1 ? records->only : records->bytes;
+  const uint64_t rest = end > 0 && end < source->size ? source->size - end : 0;
+  if (rest < 4 || (step > 0 && (rest % step < 4 || step - rest % step < 4)))
+    return FG_STATUS_OK;
+  fg_status status = fg__fail(context, FG_STATUS_FILE_FORMAT,
+                              "%s: damaged: its data end at byte %" PRIu64
+                              " by the header, the file has %zu bytes",
+                              source->path, end, source->size);
+  fg__hint(context, "where bytes were added in the middle, values are not where they "
+                    "should be; if they were at the end, nccopy leaves them out");
+  return status;
+}
+
 /* Walks the variables twice: the size of a record is known after the first time. */
 static fg_status check_variables(fg_context *context, const fg__source *source, cursor *c,
                                  const dimension_list *dimensions,
@@ -228,7 +247,7 @@ static fg_status check_variables(fg_context *context, const fg__source *source, 
 {
   const uint64_t count = read_list(c, TAG_VARIABLE, 20);
   const uint64_t start = c->at;
-  uint64_t header_end = start;
+  uint64_t header_end = start, data_end = 0;
   record_layout records = {0};
   for (int pass = 0; pass < 2; ++pass) {
     c->at = start;
@@ -266,12 +285,13 @@ static fg_status check_variables(fg_context *context, const fg__source *source, 
                         "%s: truncated: '%.*s' ends at byte %" PRIu64
                         ", the file has %zu bytes",
                         source->path, length, name, end, source->size);
+      data_end = end > data_end ? end : data_end;
     }
     if (!good(c))
       return fail_damaged(context, source, c);
     header_end = c->at;
   }
-  return FG_STATUS_OK;
+  return check_rest(context, source, &records, data_end);
 }
 
 static fg_status check_classic(fg_context *context, const fg__source *source)

@@ -117,6 +117,33 @@ static void truncated_classic_files_are_refused(void **state)
   }
 }
 
+/* Bytes added behind the header, which shift what is read, or at the end. Whole records
+ * more are those of a file that was not closed. */
+static void lengthened_classic_files_are_refused(void **state)
+{
+  static const size_t more[] = {4, 16, 64};
+  sample_file *f = *state;
+  for (int records = 0; records < 2; ++records)
+    for (size_t i = 0; i < sizeof more / sizeof *more; ++i)
+      for (int middle = 0; middle < 2; ++middle) {
+        size_t size;
+        fg_field *field;
+        make(f, 0, records == 1);
+        unsigned char *bytes = load(f->path, &size);
+        unsigned char *longer = calloc(1, size + more[i]);
+        assert_non_null(longer);
+        const size_t at = middle ? size - COUNT : size;
+        memcpy(longer, bytes, at);
+        memcpy(longer + at + more[i], bytes + at, size - at);
+        assert_int_equal(read_bytes(f, longer, size + more[i], &field),
+                         FG_STATUS_FILE_FORMAT);
+        assert_non_null(
+            strstr(fg_context_message(f->context), "damaged: its data end at"));
+        free(longer);
+        free(bytes);
+      }
+}
+
 static void truncated_netcdf4_is_refused(void **state)
 {
   make(*state, NC_NETCDF4, true);
@@ -200,6 +227,7 @@ int main(void)
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(truncated_classic_files_are_refused),
+      CASE(lengthened_classic_files_are_refused),
       CASE(truncated_netcdf4_is_refused),
       CASE(damaged_bytes_are_survived),
       CASE(absurd_dimensions_are_refused),

@@ -102,3 +102,30 @@ bool fg__nc_date(double value, const char *units, const char *calendar, char *ou
              d.day, (int)(rest / 3600), (int)(rest / 60 % 60), (int)(rest % 60));
   return true;
 }
+
+bool fg__nc_duration(double value, const char *units, char *out, size_t size)
+{
+  static const struct {
+    int64_t seconds;
+    const char *label;
+  } parts[] = {{86400, "d"}, {3600, "h"}, {60, "min"}, {1, "s"}};
+  double unit;
+  if (!fg__nc_seconds(units, &unit))
+    return false;
+  const double whole = nearbyint(fabs(value) * unit);
+  if (!(whole <= LARGEST_DAYS * (double)SECONDS_PER_DAY) ||
+      fabs(fabs(value) * unit - whole) > 1e-6)
+    return false;
+  int64_t rest = (int64_t)whole;
+  size_t used = 0;
+  for (int k = 0; k < 4 && used < size; ++k) {
+    const int64_t count = rest / parts[k].seconds;
+    rest -= count * parts[k].seconds;
+    const bool is_zero = whole == 0.0 && (k == 3 || (double)parts[k].seconds <= unit);
+    if (count > 0 || (is_zero && used == 0))
+      used += (size_t)snprintf(out + used, size - used, "%s%s%lld %s", used ? " " : "",
+                               used == 0 && value < 0.0 ? "-" : "", (long long)count,
+                               parts[k].label);
+  }
+  return true;
+}

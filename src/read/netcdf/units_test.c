@@ -159,6 +159,31 @@ static void what_is_no_date_is_left_alone(void **state)
   assert_date(-1e300, "milliseconds since 1970-01-01", "360_day", NULL);
 }
 
+static void durations_have_parts(void **state)
+{
+  (void)state;
+  static const struct {
+    double value;
+    const char *units, *wanted;
+  } times[] = {{259200.0, "second", "3 d"},
+               {95400.0, "s", "1 d 2 h 30 min"},
+               {0.0, "hours", "0 h"},
+               {0.0, "ms", "0 s"},
+               {-1.5, "days", "-1 d 12 h"},
+               {1e9, "seconds", "11574 d 1 h 46 min 40 s"},
+               {0.5, "s", NULL},
+               {3.0, "m", NULL},
+               {1e300, "s", NULL},
+               {(double)NAN, "s", NULL}};
+  for (size_t n = 0; n < sizeof times / sizeof *times; ++n) {
+    char out[FG__NC_TEXT] = "";
+    const bool known = fg__nc_duration(times[n].value, times[n].units, out, sizeof out);
+    if (known != (times[n].wanted != NULL) ||
+        (known && strcmp(out, times[n].wanted) != 0))
+      fail_msg("%g %s became \"%s\"", times[n].value, times[n].units, out);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -166,6 +191,7 @@ int main(void)
       cmocka_unit_test(dates_follow_the_calendar),
       cmocka_unit_test(dates_agree_with_the_c_library),
       cmocka_unit_test(what_is_no_date_is_left_alone),
+      cmocka_unit_test(durations_have_parts),
   };
   return cmocka_run_group_tests_name("read/netcdf/units", tests, NULL, NULL);
 }

@@ -165,26 +165,26 @@ typedef struct slab {
   size_t outer_step, inner_step; /* in the field's array */
 } slab;
 
-static void set_slab(slab *s, const fg__nc_variable *v, const fg__nc_grid *grid,
-                     const int position[FG__NC_ROLES], size_t time, size_t level)
+static slab slab_of(const fg__nc_variable *v, const fg__nc_grid *grid,
+                    const int position[FG__NC_ROLES], size_t time, size_t level)
 {
-  for (int k = 0; k < v->rank; ++k) {
-    s->start[k] = 0;
-    s->count[k] = 1;
-  }
+  slab s = {.count = {0}};
+  for (int k = 0; k < v->rank; ++k)
+    s.count[k] = 1;
   if (position[FG__NC_TIME] >= 0)
-    s->start[position[FG__NC_TIME]] = time;
+    s.start[position[FG__NC_TIME]] = time;
   if (position[FG__NC_LEVEL] >= 0)
-    s->start[position[FG__NC_LEVEL]] = level;
+    s.start[position[FG__NC_LEVEL]] = level;
   const int first = position[FG__NC_X] < position[FG__NC_Y] ? FG__NC_X : FG__NC_Y;
-  s->outer = position[first];
-  s->inner = position[1 - first];
-  s->outer_axis = &grid->axis[first];
-  s->inner_axis = &grid->axis[1 - first];
-  s->outer_step = first == FG__NC_X ? 1 : grid->axis[0].size;
-  s->inner_step = first == FG__NC_X ? grid->axis[0].size : 1;
-  s->start[s->inner] = s->inner_axis->first;
-  s->count[s->inner] = s->inner_axis->size;
+  s.outer = position[first];
+  s.inner = position[1 - first];
+  s.outer_axis = &grid->axis[first];
+  s.inner_axis = &grid->axis[1 - first];
+  s.outer_step = first == FG__NC_X ? 1 : grid->axis[0].size;
+  s.inner_step = first == FG__NC_X ? grid->axis[0].size : 1;
+  s.start[s.inner] = s.inner_axis->first;
+  s.count[s.inner] = s.inner_axis->size;
+  return s;
 }
 
 static size_t place(const fg__nc_axis *axis, size_t i)
@@ -194,11 +194,13 @@ static size_t place(const fg__nc_axis *axis, size_t i)
 
 typedef void sink(void *target, size_t index, double stored);
 
-static fg_status read_slab(slab *s, const fg__nc_file *file, const fg__nc_variable *v,
+static fg_status read_slab(slab s, const fg__nc_file *file, const fg__nc_variable *v,
                            sink *put, void *target)
 {
-  const size_t row = s->inner_axis->size;
-  const size_t rows = s->outer_axis->size;
+  if (file->exhausted)
+    return FG_STATUS_MEMORY;
+  const size_t row = s.inner_axis->size;
+  const size_t rows = s.outer_axis->size;
   size_t at_once = BLOCK_VALUES / row;
   at_once = at_once < 1 ? 1 : at_once > rows ? rows : at_once;
   double *block = fg__allocate(at_once * row, sizeof *block);
@@ -207,16 +209,16 @@ static fg_status read_slab(slab *s, const fg__nc_file *file, const fg__nc_variab
   fg_status status = FG_STATUS_OK;
   for (size_t first = 0; first < rows && status == FG_STATUS_OK; first += at_once) {
     const size_t count = rows - first < at_once ? rows - first : at_once;
-    s->start[s->outer] = s->outer_axis->first + first;
-    s->count[s->outer] = count;
-    const int error = nc_get_vara_double(v->group, v->id, s->start, s->count, block);
+    s.start[s.outer] = s.outer_axis->first + first;
+    s.count[s.outer] = count;
+    const int error = nc_get_vara_double(v->group, v->id, s.start, s.count, block);
     if (error)
       status = fg__nc_fail(file->context, v->path, v->name, error);
     for (size_t j = 0; j < count && status == FG_STATUS_OK; ++j)
       for (size_t i = 0; i < row; ++i)
         put(target,
-            place(s->outer_axis, first + j) * s->outer_step +
-                place(s->inner_axis, i) * s->inner_step,
+            place(s.outer_axis, first + j) * s.outer_step +
+                place(s.inner_axis, i) * s.inner_step,
             block[j * row + i]);
     if (status == FG_STATUS_OK)
       status = fg__check_stop(file->context);
@@ -249,12 +251,9 @@ fg_status fg__nc_values(float *out, fg__nc_missing *missing, const fg__nc_file *
   const packing p = find_packing(variable);
   const int position[FG__NC_ROLES] = {grid->axis[0].position, grid->axis[1].position,
                                       grid->time, grid->level};
-  slab s;
-  set_slab(&s, variable, grid, position, time, level);
   value_sink to = {&p, missing, out};
-  if (file->exhausted)
-    return FG_STATUS_MEMORY;
-  return read_slab(&s, file, variable, put_value, &to);
+  const slab s = slab_of(variable, grid, position, time, level);
+  return read_slab(s, file, variable, put_value, &to);
 }
 
 typedef struct mask_sink {
@@ -348,12 +347,9 @@ fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
                     "%s: the mask '%s' does not lie on the grid of '%s'", variable->path,
                     variable->name, component->name);
   const packing p = find_packing(variable);
-  slab s;
-  set_slab(&s, variable, grid, position, time, level);
   mask_sink to = {&p, out};
-  if (file->exhausted)
-    return FG_STATUS_MEMORY;
-  return read_slab(&s, file, variable, put_mask, &to);
+  const slab s = slab_of(variable, grid, position, time, level);
+  return read_slab(s, file, variable, put_mask, &to);
 }
 
 fg_status fg__nc_doubles(double *out, const fg__nc_file *file,
@@ -367,12 +363,9 @@ fg_status fg__nc_doubles(double *out, const fg__nc_file *file,
                     "%s: '%s' does not lie on the grid of '%s'", variable->path,
                     variable->name, component->name);
   const packing p = find_packing(variable);
-  slab s;
-  set_slab(&s, variable, grid, position, time, level);
   number_sink to = {&p, out};
-  if (file->exhausted)
-    return FG_STATUS_MEMORY;
-  return read_slab(&s, file, variable, put_number, &to);
+  const slab s = slab_of(variable, grid, position, time, level);
+  return read_slab(s, file, variable, put_number, &to);
 }
 
 fg_status fg__nc_line(double *out, const fg__nc_file *file,

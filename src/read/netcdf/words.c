@@ -151,7 +151,8 @@ static void write_words(const fg__nc_variable *coordinate, double value, char *o
   fg__nc_text(coordinate, "units", units, sizeof units);
   fg__nc_text(coordinate, "calendar", calendar, sizeof calendar);
   const fg__nc_quantity quantity = fg__nc_units(units, label, sizeof label);
-  if (quantity == FG__NC_DATE && fg__nc_date(value, units, calendar, out, size))
+  if ((quantity == FG__NC_DATE && fg__nc_date(value, units, calendar, out, size)) ||
+      fg__nc_duration(value, units, out, size))
     return;
   if (quantity == FG__NC_PRESSURE)
     snprintf(out, size, "%g %s", value, label);

@@ -1,5 +1,4 @@
 /* From arrays to a field: on axes, or of points. */
-#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -216,14 +215,6 @@ static double sample(const layout *l, size_t i, size_t j, size_t k)
                                      k * l->stride[2]);
 }
 
-/* Beyond float, but not infinite, a number stays beyond every speed that is taken. */
-static float as_velocity(double number)
-{
-  if (!isinf(number) && fabs(number) > (double)FLT_MAX)
-    return number > 0.0 ? FLT_MAX : -FLT_MAX;
-  return (float)number;
-}
-
 static bool is_hidden(const plan *p, size_t i, size_t j, size_t k)
 {
   if (!p->mask.array)
@@ -241,8 +232,9 @@ static fg_status read_velocity(float *out[3], const plan *p)
     for (size_t k = 0; k < p->size[2]; ++k)
       for (size_t j = 0; j < p->size[1]; ++j)
         for (size_t i = 0; i < p->size[0]; ++i)
-          *to++ =
-              is_hidden(p, i, j, k) ? NAN : as_velocity(sample(&p->velocity[c], i, j, k));
+          *to++ = is_hidden(p, i, j, k)
+                      ? NAN
+                      : fg__as_velocity(sample(&p->velocity[c], i, j, k));
   }
   return FG_STATUS_OK;
 }

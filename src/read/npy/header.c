@@ -198,8 +198,8 @@ static fg_status check_size(const fg__npy_array *a, fg_context *context, const c
                             size_t header, size_t all)
 {
   const size_t per = a->kind == FG__NPY_COMPLEX ? 2 * a->item : a->item;
-  size_t room = all > header ? (all - header) / per : 0;
-  const size_t there = room;
+  const size_t bytes = all > header ? all - header : 0, there = bytes / per;
+  size_t room = there, count = 1;
   bool fits = true;
   for (int k = 0; k < a->rank && k < FG__NPY_RANK && fits; ++k) {
     if (a->shape[k] == 0)
@@ -207,11 +207,16 @@ static fg_status check_size(const fg__npy_array *a, fg_context *context, const c
                       path, a->name);
     fits = a->shape[k] <= room;
     room /= a->shape[k];
+    count *= fits ? a->shape[k] : 1;
   }
   if (!fits || room == 0)
     return fg__fail(context, FG_STATUS_FILE_FORMAT,
                     "%s: array \"%s\" claims more numbers than the %zu that are there",
                     path, a->name, there);
+  if (count * per != bytes)
+    return fg__fail(context, FG_STATUS_FILE_FORMAT,
+                    "%s: after the %zu numbers of array \"%s\" come %zu bytes more", path,
+                    count, a->name, bytes - count * per);
   return FG_STATUS_OK;
 }
 

@@ -1,21 +1,6 @@
 /* NumPy's files as formats. */
 #include "read/npy/npy.h"
 
-static fg_status check_options(fg_context *context, const fg__source *source,
-                               const fg_read_options *options)
-{
-  if (options->vars_from)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "%s: a second file with the other component cannot be used with "
-                    "NumPy's files",
-                    source->path);
-  if (options->level != 0)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "%s: level %d is asked for, but the file holds one only, number 0",
-                    source->path, options->level);
-  return FG_STATUS_OK;
-}
-
 static fg_status read_either(fg_field **field, fg__sphere **sphere, fg_context *context,
                              const fg__source *source, const fg_read_options *options,
                              fg__slab_index slab)
@@ -23,7 +8,7 @@ static fg_status read_either(fg_field **field, fg__sphere **sphere, fg_context *
   fg__npy_file *file = NULL;
   fg__npy_choice choice = {0};
   size_t cells;
-  fg_status status = check_options(context, source, options);
+  fg_status status = fg__check_one_file(context, source, options, "NumPy's files");
   if (status == FG_STATUS_OK)
     status = fg__npy_open(&file, context, source);
   if (status == FG_STATUS_OK)

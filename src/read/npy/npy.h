@@ -91,7 +91,6 @@ typedef struct fg__npy_choice {
   fg__npy_array *mask;
   bool mask_hides; /* numbers that are not 0 hide, as in numpy.ma; else the others */
   bool geographic;
-  bool leading; /* velocity has a first axis more than the grid: times */
   const char *found_by;
 } fg__npy_choice;
 

@@ -77,6 +77,9 @@ static void choices_that_do_not_fit_are_refused(void **state)
       {"fault-bomb.npz", "claims to become 1073741952 bytes of 101", {0}},
       {"fault-overlap.npz", "entries overlap", {0}},
       {"fault-checksum.npz", "its checksum is not", {0}},
+      {"fault-more.npy",
+       "after the 24 numbers of array \"array\" come 4 bytes more",
+       {0}},
       {"fault-overflow.npy", "claims more numbers than the 24", {0}},
   };
   for (size_t i = 0; i < sizeof refused / sizeof *refused; ++i) {

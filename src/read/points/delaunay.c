@@ -41,6 +41,10 @@ typedef struct mesh {
   int *from;            /* [points + 1], the new triangle whose outer edge starts there */
 } mesh;
 
+/* Of a point, with its two triangles and its turn. */
+static const double POINT_BYTES =
+    sizeof(place) + 2 * 6 * sizeof(int) + 2 + sizeof(int) + sizeof(turn);
+
 static int next_edge(int edge)
 {
   return edge % 3 == 2 ? edge - 2 : edge + 1;
@@ -276,6 +280,9 @@ static void choose_order(turn *order, size_t points, const place *at)
   qsort(order, points, sizeof *order, by_key);
 }
 
+/* Of so narrow places the inverse is no number. */
+static const double NO_WIDTH = 1e-290;
+
 static void round_places(place *at, size_t points, const double *x, const double *y)
 {
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
@@ -286,7 +293,7 @@ static void round_places(place *at, size_t points, const double *x, const double
     high[1] = fmax(high[1], y[i]);
   }
   const double width = fmax(high[0] - low[0], high[1] - low[1]);
-  const double scale = width > 0.0 ? (double)((1 << BITS) - 1) / width : 0.0;
+  const double scale = width > NO_WIDTH ? (double)((1 << BITS) - 1) / width : 0.0;
   for (size_t i = 0; i < points; ++i) {
     at[i].x = (int64_t)((x[i] - low[0]) * scale + 0.5);
     at[i].y = (int64_t)((y[i] - low[1]) * scale + 0.5);
@@ -344,6 +351,9 @@ fg_status fg__delaunay(fg__triangles *out, fg_context *context, size_t points,
                     FG__DELAUNAY_MOST);
   if (points < 3)
     return FG_STATUS_OK;
+  fg_status status = fg__check_memory(context, "field", (double)points, POINT_BYTES);
+  if (status != FG_STATUS_OK)
+    return status;
   /* Euler: n points and the one at infinity have 2 (n + 1) - 4 triangles */
   const size_t triangles = 2 * points;
   mesh m = {.at = fg__allocate(points, sizeof *m.at),
@@ -352,7 +362,6 @@ fg_status fg__delaunay(fg__triangles *out, fg_context *context, size_t points,
             .taken = fg__allocate(triangles, sizeof *m.taken),
             .from = fg__allocate(points + 1, sizeof *m.from)};
   turn *order = fg__allocate(points, sizeof *order);
-  fg_status status = FG_STATUS_OK;
   if (!m.at || !m.corner || !m.twin || !m.taken || !m.from || !order)
     status = fg__fail_memory(context, "a triangulation", points * 6 * sizeof(int));
   if (status == FG_STATUS_OK) {

@@ -196,6 +196,9 @@ fg_status fg__scatter_find_grid(fg__point_grid *out, bool *found,
     *found = l[k].count > 1 &&
              samples <= fmin(MOST_EMPTY * (double)points->count + SMALL, INT_MAX);
   }
+  if (status == FG_STATUS_OK && *found)
+    status = fg__check_memory(points->context, points->path, samples,
+                              sizeof(int) + points->dimension * (double)sizeof(float));
   if (status == FG_STATUS_OK && *found) {
     point_at = fg__allocate((size_t)samples, sizeof *point_at);
     if (!point_at)

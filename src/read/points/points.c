@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "read/cells/set.h"
 #include "read/points/delaunay.h"
 
 /* Of the points: so many at most may have another value than one at their place. */
@@ -24,6 +23,7 @@ void fg__scatter_clear(fg__scatter *points)
     free(points->position[k]);
     free(points->velocity[k]);
   }
+  free(points->time);
   free(points->record);
   *points = (fg__scatter){0};
 }
@@ -169,27 +169,38 @@ static void keep(fg__scatter *points, const unsigned char *is_kept)
     }
     if (points->record)
       points->record[kept] = points->record[i];
+    if (points->time)
+      points->time[kept] = points->time[i];
     ++kept;
   }
   points->count = kept;
 }
 
-static fg_status merge_doubled(fg__scatter *points)
+/* The points in the order of their places. */
+static fg_status sort_spots(spot **out, const fg__scatter *points)
 {
   const size_t count = points->count;
-  spot *spots = fg__allocate(count, sizeof *spots);
-  unsigned char *is_kept = fg__allocate(count, 1);
-  fg_status status = FG_STATUS_OK;
-  if (!spots || !is_kept)
-    status = fg__fail_memory(points->context, "points", count * sizeof *spots);
-  for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i) {
+  spot *spots = *out = fg__allocate(count, sizeof *spots);
+  if (!spots)
+    return fg__fail_memory(points->context, "points", count * sizeof *spots);
+  for (size_t i = 0; i < count; ++i) {
     spots[i].point = i;
     for (int k = 0; k < points->dimension && k < 3; ++k)
       spots[i].at[k] = points->position[k][i];
   }
+  qsort(spots, count, sizeof *spots, by_spot);
+  return FG_STATUS_OK;
+}
+
+static fg_status merge_doubled(fg__scatter *points)
+{
+  const size_t count = points->count;
+  spot *spots = NULL;
+  unsigned char *is_kept = fg__allocate(count, 1);
+  fg_status status = sort_spots(&spots, points);
+  if (status == FG_STATUS_OK && !is_kept)
+    status = fg__fail_memory(points->context, "points", count);
   size_t doubled = 0, example[2] = {0, 0};
-  if (status == FG_STATUS_OK)
-    qsort(spots, count, sizeof *spots, by_spot);
   for (size_t i = 0, end; i < count && status == FG_STATUS_OK; i = end) {
     is_kept[spots[i].point] = 1;
     for (end = i + 1; end < count && is_same_place(&spots[i], &spots[end]); ++end)
@@ -211,6 +222,55 @@ static fg_status merge_doubled(fg__scatter *points)
   free(spots);
   free(is_kept);
   return status;
+}
+
+static fg_status find_times(double **out, size_t *times, const fg__scatter *points)
+{
+  spot *spots = NULL;
+  size_t doubled = 0;
+  *times = 1;
+  fg_status status = sort_spots(&spots, points);
+  bool known = true;
+  for (size_t i = 0; i < points->count && status == FG_STATUS_OK; ++i) {
+    doubled += i > 0 && is_same_place(&spots[i - 1], &spots[i]);
+    known = known && isfinite(points->time[i]);
+  }
+  free(spots);
+  if (!known || status != FG_STATUS_OK || (double)doubled <= FEW * (double)points->count)
+    return status;
+  double *time = *out = fg__allocate(points->count, sizeof *time);
+  if (!time)
+    return fg__fail_memory(points->context, "times", points->count * sizeof *time);
+  memcpy(time, points->time, points->count * sizeof *time);
+  qsort(time, points->count, sizeof *time, by_size);
+  for (size_t i = 1; i < points->count; ++i)
+    if (time[i] > time[*times - 1])
+      time[(*times)++] = time[i];
+  return FG_STATUS_OK;
+}
+
+fg_status fg__scatter_choose_time(fg__scatter *points, int wanted, int *times,
+                                  double **all)
+{
+  size_t count = 1;
+  *all = NULL;
+  fg_status status =
+      points->time && points->count > 0 ? find_times(all, &count, points) : FG_STATUS_OK;
+  *times = (int)count;
+  if (status == FG_STATUS_OK && (wanted < 0 || (size_t)wanted >= count))
+    return fg__fail(points->context, FG_STATUS_ARGUMENT,
+                    "%s: time %d is asked for; there %s %zu, from 0 on", points->path,
+                    wanted, count == 1 ? "is" : "are", count);
+  if (status != FG_STATUS_OK || !*all)
+    return status;
+  unsigned char *is_kept = fg__allocate(points->count, 1);
+  if (!is_kept)
+    return fg__fail_memory(points->context, "points", points->count);
+  for (size_t i = 0; i < points->count; ++i)
+    is_kept[i] = points->time[i] >= (*all)[wanted] && points->time[i] <= (*all)[wanted];
+  keep(points, is_kept);
+  free(is_kept);
+  return FG_STATUS_OK;
 }
 
 static fg_status add_cells(fg__cell_set *set, const fg__triangles *triangles)
@@ -245,20 +305,24 @@ static fg_status triangulate(fg__cell_set *set, const fg__scatter *points)
   return status;
 }
 
-static fg_status sample(fg__point_grid *out, const fg__cell_set *set,
-                        const fg__scatter *points)
+fg_status fg__point_grid_sample(fg__point_grid *out, const fg__cell_set *set,
+                                float *const velocity[2])
 {
   *out = (fg__point_grid){.dimension = 2, .cells = set->count};
   const size_t samples = (size_t)set->size[0] * (size_t)set->size[1];
+  const fg_status status =
+      fg__check_memory(set->context, set->path, (double)samples, 2.0 * sizeof(float));
+  if (status != FG_STATUS_OK)
+    return status;
   for (int k = 0; k < 2; ++k) {
     out->size[k] = set->size[k];
     out->axis[k] = fg__allocate((size_t)set->size[k], sizeof *out->axis[k]);
     out->velocity[k] = fg__allocate(samples, sizeof *out->velocity[k]);
     if (!out->axis[k] || !out->velocity[k])
-      return fg__fail_memory(points->context, "a field's samples", samples * 4);
+      return fg__fail_memory(set->context, "a field's samples", samples * 4);
     for (int i = 0; i < set->size[k]; ++i)
       out->axis[k][i] = set->origin[k] + set->spacing[k] * i;
-    fg__cell_set_sample(out->velocity[k], set, points->velocity[k], 0, samples);
+    fg__cell_set_sample(out->velocity[k], set, velocity[k], 0, samples);
   }
   return FG_STATUS_OK;
 }
@@ -270,7 +334,7 @@ static fg_status interpolate(fg__point_grid *out, const fg__scatter *points)
   if (status == FG_STATUS_OK)
     status = fg__cell_set_locate(&set);
   if (status == FG_STATUS_OK)
-    status = sample(out, &set, points);
+    status = fg__point_grid_sample(out, &set, points->velocity);
   fg__cell_set_clear(&set);
   return status;
 }
@@ -288,11 +352,14 @@ static fg_status arrange(fg__point_grid *out, bool *found, fg__scatter *points)
     status = merge_doubled(points);
   if (status == FG_STATUS_OK)
     status = fg__scatter_find_grid(out, found, points);
-  if (status == FG_STATUS_OK && !*found && points->dimension == 3)
-    status = fg__fail(points->context, FG_STATUS_UNSUPPORTED,
-                      "%s: its %zu points in space lie on no grid along the axes",
-                      points->path, points->count);
-  return status;
+  if (status != FG_STATUS_OK || *found || points->dimension < 3)
+    return status;
+  fg__fail(points->context, FG_STATUS_UNSUPPORTED,
+           "%s: its %zu points in space lie on no grid along the axes", points->path,
+           points->count);
+  fg__hint(points->context,
+           "bring them onto one, or give the cells between them, as .vtu");
+  return FG_STATUS_UNSUPPORTED;
 }
 
 fg_status fg__scatter_field(fg_field **out, size_t *cells, fg__scatter *points,

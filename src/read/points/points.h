@@ -3,6 +3,7 @@
 #ifndef FG__POINTS_H
 #define FG__POINTS_H
 
+#include "read/cells/set.h"
 #include "read/format.h"
 #include "read/points/delaunay.h"
 
@@ -15,12 +16,21 @@ typedef struct fg__scatter {
   int dimension;       /* coordinates a point has */
   double *position[3]; /* [count] each */
   float *velocity[3];  /* [count] each; NaN: missing */
+  double *time;        /* [count], when each was measured, or NULL; NaN: not known */
   int *record;         /* [count], where each stands in the file, or NULL */
   const char *records; /* what that is: "line" */
   bool geographic;     /* longitude and latitude in degrees; east and north */
 } fg__scatter;
 
 void fg__scatter_clear(fg__scatter *points);
+
+/* Where all points have times and more than a tenth lie where others do, keeps those
+ * of one time: number `wanted` of *times in ascending order. Else all count, and *times
+ * is
+ * 1. *all, to be freed: the times, NULL where all count. ARGUMENT (no such time), MEMORY.
+ */
+fg_status fg__scatter_choose_time(fg__scatter *points, int wanted, int *times,
+                                  double **all);
 
 /* Samples where lines along the axes cross; `cells` is 0 where each sample is one of the
  * file's, else they are interpolated from so many triangles. */
@@ -61,6 +71,11 @@ fg_status fg__scatter_on_sphere(fg__sphere **out, size_t *cells, fg__scatter *po
  * none may lack more crossings than have a point, but in holes. */
 fg_status fg__scatter_find_grid(fg__point_grid *out, bool *found,
                                 const fg__scatter *points);
+
+/* The raster of cells that are located, with the samples of two components at their
+ * points between them. MEMORY. */
+fg_status fg__point_grid_sample(fg__point_grid *out, const fg__cell_set *set,
+                                float *const velocity[2]);
 
 /* Makes the axes ascend, and finds out whether the longitudes go round. */
 fg_status fg__point_grid_straighten(fg__point_grid *grid, fg_context *context,

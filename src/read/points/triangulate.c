@@ -16,6 +16,9 @@ static const double ON_LINE = 1e-6;
  * opposite place; others go round the globe. */
 static const double FARTHEST_COSINE = -0.2;
 
+/* Half the square of a distance that is rounding. */
+static const double NEAREST = 1e-32;
+
 enum { CANDIDATES = 64 };
 
 /* Smallest over largest root mean square distance from a line through the centre. */
@@ -145,6 +148,7 @@ static void flatten(double *x, double *y, const double pole[3], const double *po
     double near = 0.0;
     for (int k = 0; k < 3; ++k)
       near += 0.5 * (p[k] - pole[k]) * (p[k] - pole[k]);
+    near = fmax(near, NEAREST); /* another point at the very place */
     x[n] = product(e, p) / near;
     y[n++] = product(f, p) / near;
   }
@@ -203,15 +207,6 @@ static fg_status make_cells(fg__sphere_cells *out, const fg__triangles *triangle
   return FG_STATUS_OK;
 }
 
-static void clear_cells(fg__sphere_cells *cells)
-{
-  free(cells->longitude);
-  free(cells->latitude);
-  free(cells->east);
-  free(cells->north);
-  free(cells->corner);
-}
-
 fg_status fg__scatter_on_sphere(fg__sphere **out, size_t *cells, fg__scatter *points,
                                 const fg_field_arrays *words)
 {
@@ -225,7 +220,7 @@ fg_status fg__scatter_on_sphere(fg__sphere **out, size_t *cells, fg__scatter *po
     if (status == FG_STATUS_OK)
       status = fg__sphere_of_cells(out, points->context, &made);
     else
-      clear_cells(&made);
+      fg__sphere_cells_clear(&made);
   }
   fg__triangles_clear(&triangles);
   return status;

@@ -106,13 +106,17 @@ void fg__table_places(fg__table_vector *out, const fg__table *table)
   out->position[2] = out->geographic ? -1 : find_listed(table, PLACES[2]);
 }
 
-/* Columns that tell which rows are measured: negative, or zero, or not zero means no. */
-static void find_validity(fg__table_vector *out, const fg__table *table)
+/* Columns that tell when rows were measured, and which were: negative, or zero, or not
+ * zero means no. */
+static void find_time_and_validity(fg__table_vector *out, const fg__table *table)
 {
   out->valid[0] = out->valid[1] = out->mask = -1;
   out->valid[0] = find_listed(table, "|chc|vector_type|isvalid|is_valid|flags|");
   if (find_plain(table, "flags") >= 0 || table->columns == 5)
     out->valid[1] = find_plain(table, "mask");
+  out->time = find_listed(table, "|time|t|time_s|timestep|time_step|step|snapshot|");
+  if (out->time >= 0 && strcmp(table->column[out->time].name, "T") == 0)
+    out->time = -1; /* a temperature */
 }
 
 static void add(fg__table_vector *list, int *count, const fg__table *table,
@@ -120,7 +124,7 @@ static void add(fg__table_vector *list, int *count, const fg__table *table,
 {
   fg__table_vector v = {.found_by = found_by};
   fg__table_places(&v, table);
-  find_validity(&v, table);
+  find_time_and_validity(&v, table);
   const bool placed = v.position[0] >= 0 && v.position[1] >= 0;
   if (*count == FG__TABLE_VECTORS || (!placed && !table->placeless))
     return;
@@ -196,7 +200,7 @@ int fg__table_vectors(fg__table_vector out[FG__TABLE_VECTORS], const fg__table *
   if (!table->named && table->columns == 4) {
     const int place[3] = {0, 1, -1};
     out[0] = (fg__table_vector){.dimension = 2, .found_by = "columns"};
-    find_validity(&out[0], table);
+    find_time_and_validity(&out[0], table);
     for (int k = 0; k < 3; ++k) {
       out[0].velocity[k] = first[k];
       out[0].position[k] = place[k];
@@ -283,7 +287,7 @@ static fg_status choose_named(fg__table_vector *out, const fg__table *table,
   *out = (fg__table_vector){.dimension = with_places ? count / 2 : count,
                             .found_by = "vars"};
   fg__table_places(out, table);
-  find_validity(out, table);
+  find_time_and_validity(out, table);
   for (int k = 0; k < 3; ++k) {
     const int at = with_places ? out->dimension + k : k;
     out->velocity[k] = k < out->dimension ? column[at] : -1;

@@ -1,5 +1,4 @@
 /* The rows of a table as points. */
-#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -10,9 +9,9 @@
 #include "file/number_text.h"
 #include "read/table/table.h"
 
-enum { ROLES = 9, VELOCITY = 3, VALID = 6, MASK = 8, STOP_EVERY = 1 << 16 };
+enum { ROLES = 10, VELOCITY = 3, VALID = 6, MASK = 8, TIME = 9, STOP_EVERY = 1 << 16 };
 
-/* What is read of each row: place, velocity, validity, mask. */
+/* What is read of each row: place, velocity, validity, mask, time. */
 typedef struct row_reader {
   const fg__table *table;
   const fg__table_vector *vector;
@@ -35,6 +34,7 @@ static fg_status set_roles(row_reader *r)
   for (int k = 0; k < 2; ++k)
     set_role(r, r->vector->valid[k], VALID + k);
   set_role(r, r->vector->mask, MASK);
+  set_role(r, r->vector->time, TIME);
   for (int k = 0; k < r->vector->dimension && k < 3; ++k) {
     set_role(r, r->vector->velocity[k], VELOCITY + k);
     set_role(r, r->vector->position[k], k);
@@ -92,7 +92,8 @@ static fg_status read_row(row_reader *r, const fg__table_line *line)
     if (count == table->columns || r->role[count] < 0)
       continue;
     double *value = &r->value[r->role[count]];
-    if (fg__table_number(value, &field, table->style.decimal) == FG__TABLE_NO_NUMBER)
+    if (fg__table_number(value, &field, table->style.decimal) == FG__TABLE_NO_NUMBER &&
+        r->role[count] != TIME)
       return fail_number(r, line, count, &field);
   }
   return count == table->columns ? FG_STATUS_OK : fail_columns(r, line, count);
@@ -128,16 +129,8 @@ static void turn_polar(row_reader *r)
   r->value[VELOCITY + 1] = speed == 0.0 ? 0.0 : speed * cos(angle);
 }
 
-/* Beyond float, but not infinite, a number stays beyond every speed that is taken. */
-static float as_velocity(double number)
-{
-  if (!isinf(number) && fabs(number) > (double)FLT_MAX)
-    return number > 0.0 ? FLT_MAX : -FLT_MAX;
-  return (float)number;
-}
-
 typedef struct growth {
-  size_t position[3], velocity[3], record;
+  size_t position[3], velocity[3], time, record;
 } growth;
 
 static bool grow(void **array, size_t *capacity, size_t count, size_t size)
@@ -163,14 +156,19 @@ static fg_status add_row(fg__scatter *out, growth *g, row_reader *r, int line)
     out->velocity[k] = velocity;
     if (grown) {
       out->position[k][n] = r->value[k];
-      out->velocity[k][n] = valid ? as_velocity(r->value[VELOCITY + k]) : NAN;
+      out->velocity[k][n] = valid ? fg__as_velocity(r->value[VELOCITY + k]) : NAN;
     }
   }
-  void *record = out->record;
+  void *time = out->time, *record = out->record;
+  if (r->vector->time >= 0)
+    grown = grown && grow(&time, &g->time, n, sizeof(double));
+  out->time = time;
   grown = grown && grow(&record, &g->record, n, sizeof(int));
   out->record = record;
   if (!grown)
     return fg__fail_memory(r->table->context, "points", n * 32);
+  if (r->vector->time >= 0)
+    out->time[n] = r->value[TIME];
   out->record[n] = line;
   ++out->count;
   return FG_STATUS_OK;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "read/time_words.h"
 
 enum { LOOKED_AT = 4096 };
 
@@ -46,22 +47,6 @@ void fg__table_clear(fg__table *table)
   table->column = NULL;
 }
 
-static fg_status check_options(fg_context *context, const fg__source *source,
-                               const fg_read_options *options)
-{
-  if (options->vars_from)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "%s: a second file with the other component cannot be used with a "
-                    "table",
-                    source->path);
-  if (options->time != 0 || options->level != 0)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "%s: %s %d is asked for, but the file holds one only, number 0",
-                    source->path, options->time != 0 ? "time" : "level",
-                    options->time != 0 ? options->time : options->level);
-  return FG_STATUS_OK;
-}
-
 /* Names and units of what is read; borrowed from the table. */
 static fg_field_arrays words_of(const fg__table *table, const fg__table_vector *vector,
                                 const fg_read_options *options)
@@ -90,11 +75,32 @@ static fg_status open_chosen(fg__table *table, fg__table_vector *vector,
                              fg_context *context, const fg__source *source,
                              const fg_read_options *options)
 {
-  fg_status status = check_options(context, source, options);
+  fg_status status = fg__check_one_file(context, source, options, "a table");
   *table = (fg__table){0};
   if (status == FG_STATUS_OK)
     status = fg__table_open(table, context, source);
   return status == FG_STATUS_OK ? fg__table_choose(vector, table, options) : status;
+}
+
+/* The times of a table, and which one is read. */
+typedef struct table_times {
+  int count;
+  double *all;
+  char chosen[FG__TIME_BYTES]; /* in words; "": there is no choice */
+} table_times;
+
+/* The rows of one time. Points and times are to be cleared even after a failure. */
+static fg_status read_rows(fg__scatter *points, table_times *times,
+                           const fg__table *table, const fg__table_vector *vector,
+                           int time)
+{
+  *times = (table_times){.count = 1};
+  fg_status status = fg__table_rows(points, table, vector);
+  if (status == FG_STATUS_OK)
+    status = fg__scatter_choose_time(points, time, &times->count, &times->all);
+  return status == FG_STATUS_OK && times->all
+             ? fg__time_write(times->chosen, table->context, times->all[time])
+             : status;
 }
 
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
@@ -103,15 +109,18 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
   fg__table table;
   fg__table_vector vector;
   fg__scatter points = {0};
+  table_times times = {0};
   size_t cells;
   *out = NULL;
   fg_status status = open_chosen(&table, &vector, context, source, options);
   if (status == FG_STATUS_OK)
-    status = fg__table_rows(&points, &table, &vector);
+    status = read_rows(&points, &times, &table, &vector, options->time);
   if (status == FG_STATUS_OK) {
-    const fg_field_arrays words = words_of(&table, &vector, options);
+    fg_field_arrays words = words_of(&table, &vector, options);
+    words.time = times.all ? times.chosen : NULL;
     status = fg__scatter_field(out, &cells, &points, &words, slab);
   }
+  free(times.all);
   fg__scatter_clear(&points);
   fg__table_clear(&table);
   return status;
@@ -123,20 +132,45 @@ static fg_status read_sphere(fg__sphere **out, fg_context *context,
   fg__table table;
   fg__table_vector vector;
   fg__scatter points = {0};
+  table_times times = {0};
   *out = NULL;
   fg_status status = open_chosen(&table, &vector, context, source, options);
   if (status == FG_STATUS_OK && vector.geographic) {
-    status = fg__table_rows(&points, &table, &vector);
-    const fg_field_arrays words = words_of(&table, &vector, options);
+    status = read_rows(&points, &times, &table, &vector, options->time);
+    fg_field_arrays words = words_of(&table, &vector, options);
+    words.time = times.all ? times.chosen : NULL;
     if (status == FG_STATUS_OK)
       status = fg__scatter_sphere(out, &points, &words);
   }
+  free(times.all);
   fg__scatter_clear(&points);
   fg__table_clear(&table);
   return status;
 }
 
-/* What a vector cannot be read for is said of it, not held against the file. */
+static fg_status add_entry(fg_inventory *inventory, const fg__table *table,
+                           const fg_field *field, fg_inventory_vector *entry,
+                           const table_times *times)
+{
+  const size_t count = times->all ? (size_t)times->count : 0;
+  fg_axis_value *values = fg__allocate(count, sizeof *values);
+  char(*words)[FG__TIME_BYTES] = fg__allocate(count, sizeof *words);
+  fg_status status =
+      values && words ? FG_STATUS_OK
+                      : fg__fail_memory(table->context, "times", count * sizeof *words);
+  for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i) {
+    status = fg__time_write(words[i], table->context, times->all[i]);
+    values[i] = (fg_axis_value){times->all[i], "", words[i]};
+  }
+  entry->times = times->count;
+  entry->time_value = count > 0 ? values : NULL;
+  if (status == FG_STATUS_OK)
+    status = fg__scatter_describe(inventory, table->context, field, *entry);
+  free(values);
+  free(words);
+  return status;
+}
+
 static fg_status describe_vector(fg_inventory *inventory, const fg__table *table,
                                  const fg__table_vector *vector)
 {
@@ -145,20 +179,21 @@ static fg_status describe_vector(fg_inventory *inventory, const fg__table *table
   fg_inventory_vector entry = {.components = vector->dimension,
                                .units = words.velocity_units,
                                .found_by = vector->found_by,
-                               .times = 1,
                                .levels = 1,
                                .scale = words.scale};
   for (int k = 0; k < vector->dimension && k < 3; ++k)
     entry.name[k] = table->column[vector->velocity[k]].name;
   fg__scatter points = {0};
+  table_times times;
   fg_field *field = NULL;
-  fg_status status = fg__table_rows(&points, table, vector);
+  fg_status status = read_rows(&points, &times, table, vector, 0);
   if (status == FG_STATUS_OK)
     status =
         fg__scatter_field(&field, &entry.cells, &points, &words, (fg__slab_index){0, 1});
   fg__scatter_clear(&points);
   if (status == FG_STATUS_OK)
-    status = fg__scatter_describe(inventory, table->context, field, entry);
+    status = add_entry(inventory, table, field, &entry, &times);
+  free(times.all);
   fg_field_destroy(field);
   return status;
 }

@@ -82,6 +82,40 @@ static void the_layout_is_found(void **state)
     check_small(read_text(*state, same[i]), -1);
 }
 
+/* Places that come again at other times; a time that is a text is no time, and points
+ * that move are all read. */
+static void times_are_chosen(void **state)
+{
+  static const char several[] =
+      "t,x,y,u,v\n2,1.5,10,1,-1\n0.5,1.5,10,11.5,-.25\n0.5,2.5,10,12.5,-.25\n"
+      "0.5,3.5,10,13.5,-.25\n0.5,1.5,20,21.5,-.25\n0.5,2.5,20,22.5,-.25\n"
+      "0.5,3.5,20,23.5,-.25\n2,2.5,10,2,-1\n2,3.5,10,3,-1\n2,1.5,20,4,-1\n"
+      "2,2.5,20,5,-1\n2,3.5,20,6,-1\n";
+  static const char *const single[] = {
+      "time,x,y,u,v\n09:00,1.5,10,11.5,-.25\n09:01,2.5,10,12.5,-.25\n"
+      "09:02,3.5,10,13.5,-.25\n09:03,1.5,20,21.5,-.25\n09:04,2.5,20,22.5,-.25\n"
+      "09:05,3.5,20,23.5,-.25\n",
+      "time,x,y,u,v\n1,1.5,10,11.5,-.25\n2,2.5,10,12.5,-.25\n3,3.5,10,13.5,-.25\n"
+      "4,1.5,20,21.5,-.25\n5,2.5,20,22.5,-.25\n6,3.5,20,23.5,-.25\n"};
+  fg_field *field = read_text(*state, several);
+  assert_string_equal(fg_field_contents(field)->time, "t = 0.5");
+  check_small(field, -1);
+  field = read_with(*state, several, &(fg_read_options){.time = 1});
+  assert_string_equal(fg_field_contents(field)->time, "t = 2");
+  for (int n = 0; n < 6; ++n)
+    assert_true(fg_field_contents(field)->velocity[0][n] == (float)(n + 1));
+  fg_field_destroy(field);
+  for (size_t i = 0; i < 2; ++i)
+    check_small(read_text(*state, single[i]), -1);
+  const fg__source source = source_of(several);
+  assert_int_equal(fg__format_table.read(&field, *state, &source,
+                                         &(fg_read_options){.time = 2},
+                                         (fg__slab_index){0, 1}),
+                   FG_STATUS_ARGUMENT);
+  assert_non_null(strstr(fg_context_message(*state), "there are 2"));
+  fg_context_clear(*state);
+}
+
 /* What PIV programs write, each with its word for an invalid vector. */
 static void exports_of_piv_are_known(void **state)
 {
@@ -265,6 +299,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_layout_is_found),
+      cmocka_unit_test(times_are_chosen),
       cmocka_unit_test(exports_of_piv_are_known),
       cmocka_unit_test(directions_are_turned_by_what_they_mean),
       cmocka_unit_test(columns_are_chosen_by_name_and_number),

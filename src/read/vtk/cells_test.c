@@ -155,10 +155,19 @@ static void a_flat_curvilinear_grid_is_a_plane(void **state)
   add_points(&file, &appended, &RAW, place, 6);
   example_words(&file, "</Piece>\n");
   example_end_kind(&file, &appended, &RAW, "StructuredGrid");
+  const fg__source source = {"x", .bytes = file.bytes, .size = file.size};
+  fg_inventory *inventory = NULL;
+  assert_int_equal(fg__inventory_create(&inventory, *state, "x"), FG_STATUS_OK);
+  assert_int_equal(fg__format_vti.inventory(inventory, *state, &source), FG_STATUS_OK);
+  const fg_inventory_vector *told = fg_inventory_vector_at(inventory, 0);
   fg_field *field = field_of(*state, file, NULL);
   const fg_field_arrays *f = fg_field_contents(field);
   assert_int_equal(f->dimension, 2);
-  assert_string_equal(f->axis_name[0], "y");
+  for (int k = 0; k < 2; ++k) {
+    assert_string_equal(f->axis_name[k], k ? "z" : "y");
+    assert_string_equal(told->axis_name[k], f->axis_name[k]);
+  }
+  fg_inventory_destroy(inventory);
   assert_true(f->axis[1][0] == 1.0 && f->axis[1][f->size[1] - 1] == 4.0);
   int missing = 0;
   for (int j = 0; j < f->size[1]; ++j)

@@ -32,7 +32,7 @@ static bool is_active(const fg__vtk *vtk, const fg__vtk_array *array)
 
 static bool has_vectors(const fg__vtk_array *array)
 {
-  return array->type != FG__VTK_UNKNOWN &&
+  return fg__vtk_size_of(array->type) > 0 &&
          (array->components == 2 || array->components == 3);
 }
 
@@ -87,7 +87,12 @@ static bool are_a_pair(const char *first, const char *second, const char *third)
 
 static bool is_scalar(const fg__vtk_array *array)
 {
-  return is_of_grid(array) && array->components == 1 && array->type != FG__VTK_UNKNOWN;
+  return is_of_grid(array) && array->components == 1 && fg__vtk_size_of(array->type) > 0;
+}
+
+static bool is_component(const fg__vtk_array *array)
+{
+  return is_scalar(array) && is_float(array) && !array->no_velocity;
 }
 
 static fg_status add(fg__vtk_vector **out, size_t *count, size_t *capacity,
@@ -108,7 +113,7 @@ static const fg__vtk_array *find_third(const fg__vtk *vtk, const fg__vtk_array *
   size_t arrays;
   const fg__vtk_array *third = arrays_of_file(vtk, &arrays);
   for (size_t i = 0; i < arrays; ++i, ++third)
-    if (third->place == first->place && is_scalar(third) && is_float(third) &&
+    if (third->place == first->place && is_component(third) &&
         are_a_pair(first->name, second->name, third->name))
       return third;
   return NULL;
@@ -120,7 +125,7 @@ static fg_status add_pairs(fg__vtk_vector **out, size_t *count, size_t *capacity
   size_t arrays;
   const fg__vtk_array *second = arrays_of_file(vtk, &arrays);
   for (size_t i = 0; i < arrays; ++i, ++second) {
-    if (second->place != first->place || !is_scalar(second) || !is_float(second) ||
+    if (second->place != first->place || !is_component(second) ||
         !are_a_pair(first->name, second->name, NULL))
       continue;
     const fg__vtk_array *third = components == 3 ? find_third(vtk, first, second) : NULL;
@@ -154,7 +159,7 @@ static fg_status list_vectors(fg__vtk_vector **out, size_t *count, const fg__vtk
     if (is_vector(vtk, array)) {
       if (components == 0 || array->components == components)
         status = add(out, count, &capacity, vtk, vector_of(vtk, array));
-    } else if (is_scalar(array) && is_float(array)) {
+    } else if (is_component(array)) {
       status = add_pairs(out, count, &capacity, vtk, array, components == 3 ? 3 : 2);
     }
   }

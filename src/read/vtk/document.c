@@ -165,7 +165,7 @@ static fg_status fail_type(fg__vtk *vtk, const xmlNode *root)
       "RectilinearGrid, StructuredGrid, UnstructuredGrid, PolyData, what names files "
       "of these in parallel or as blocks, and collections can be read",
       vtk->path, type ? type : "");
-  fg__hint(vtk->context, "%s", FG__VTK_RESAMPLE);
+  fg__hint(vtk->context, "%s", FG__CELL_RESAMPLE);
   free(type);
   return FG_STATUS_UNSUPPORTED;
 }
@@ -204,6 +204,8 @@ fg_status fg__vtk_read_document(fg__vtk *vtk)
                       !fg__vtk_attribute_is(vtk, appended, "encoding", "raw")))
       status = fg__vtk_bad_attribute(vtk, appended ? appended : root, "encoding");
   }
+  if (status == FG_STATUS_OK)
+    status = fg__vtk_check_appended(vtk);
   if (status == FG_STATUS_OK)
     status = fg__vtk_read_arrays(vtk, image, "FieldData", FG__VTK_FIELD);
   vtk->field_array_count = vtk->array_count;

@@ -32,6 +32,10 @@ fg_status fg__vtk_read_arrays(fg__vtk *vtk, const xmlNode *parent, const char *n
 /* Adds a piece with its arrays; nothing of one that is empty. */
 fg_status fg__vtk_read_piece(fg__vtk *vtk, const xmlNode *node);
 
+/* markup.c. Whether raw appended data end where the last array does. FILE_FORMAT,
+ * MEMORY. */
+fg_status fg__vtk_check_appended(fg__vtk *vtk);
+
 /* Takes what is in a document apart that was parsed. */
 fg_status fg__vtk_read_document(fg__vtk *vtk);
 

@@ -421,7 +421,7 @@ static fg_status fail_dataset(const fg__vtk *vtk, const char *kind)
            "%s: a legacy VTK file of a %.40s; only STRUCTURED_POINTS, RECTILINEAR_GRID, "
            "STRUCTURED_GRID, UNSTRUCTURED_GRID and POLYDATA can be read",
            vtk->path, kind);
-  fg__hint(vtk->context, "%s", FG__VTK_RESAMPLE);
+  fg__hint(vtk->context, "%s", FG__CELL_RESAMPLE);
   return FG_STATUS_UNSUPPORTED;
 }
 

@@ -1,6 +1,6 @@
 /* The markup of a VTK XML file, by libxml2, and where its appended data lie. */
 #include "base/memory.h"
-#include "read/vtk/vtk.h"
+#include "read/vtk/document.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -179,4 +179,107 @@ fg_status fg__vtk_parse(fg__vtk *vtk, const fg__source *source)
   status = parse(vtk, repaired, markup + sizeof REPAIR - 1);
   free(repaired);
   return status;
+}
+
+typedef struct offset_list {
+  uint64_t *offset;
+  size_t count, capacity;
+} offset_list;
+
+/* Collects the offsets of all elements that have one, wherever they are. */
+static fg_status collect(offset_list *out, fg__vtk *vtk, const xmlNode *root)
+{
+  for (const xmlNode *node = root; node;) {
+    char *text = node->type == XML_ELEMENT_NODE && !vtk->exhausted &&
+                         fg__vtk_attribute_is(vtk, node, "format", "appended")
+                     ? fg__vtk_attribute(vtk, node, "offset")
+                     : NULL;
+    if (text) {
+      void *grown = out->offset;
+      const bool good =
+          fg__grow(&grown, &out->capacity, out->count + 1, sizeof *out->offset);
+      out->offset = grown;
+      if (good)
+        out->offset[out->count++] = strtoull(text, NULL, 10);
+      free(text);
+      if (!good)
+        return fg__fail_memory(vtk->context, "offsets", out->count * sizeof *out->offset);
+    }
+    const xmlNode *next = node->type == XML_ELEMENT_NODE ? node->children : NULL;
+    for (; !next && node != root; node = node->parent)
+      if ((next = node->next))
+        break;
+    node = next;
+  }
+  return FG_STATUS_OK;
+}
+
+static bool read_size(uint64_t *out, const fg__vtk *vtk, uint64_t at)
+{
+  const size_t bytes = vtk->header_bytes;
+  const uint16_t one = 1;
+  const bool little = (*(const unsigned char *)&one == 1) != vtk->swap;
+  if (at > vtk->appended_size || vtk->appended_size - at < bytes)
+    return false;
+  *out = 0;
+  for (size_t k = 0; k < bytes; ++k)
+    *out = *out << 8 | vtk->appended[at + (little ? bytes - 1 - k : k)];
+  return true;
+}
+
+/* Where the array at an offset ends; false where that is beyond the data. */
+static bool find_end(uint64_t *end, const fg__vtk *vtk, uint64_t at)
+{
+  const uint64_t header = vtk->header_bytes;
+  uint64_t number;
+  if (!read_size(&number, vtk, at))
+    return false;
+  *end = at + header;
+  if (vtk->compression == FG__VTK_PLAIN) {
+    *end += number > vtk->appended_size ? vtk->appended_size + 1 : number;
+    return *end <= vtk->appended_size;
+  }
+  const uint64_t blocks = number;
+  if (blocks > vtk->appended_size / header)
+    return false;
+  *end += (2 + blocks) * header;
+  for (uint64_t k = 0; k < blocks && *end <= vtk->appended_size; ++k) {
+    if (!read_size(&number, vtk, at + (3 + k) * header) || number > vtk->appended_size)
+      return false;
+    *end += number;
+  }
+  return *end <= vtk->appended_size;
+}
+
+static bool are_blanks(const fg__vtk *vtk, uint64_t from)
+{
+  for (uint64_t at = from; at < vtk->appended_size; ++at)
+    if (!is_space(vtk->appended[at]))
+      return false;
+  return true;
+}
+
+/* Bytes that were added or lost in the middle shift all numbers after them, and nothing
+ * else shows it. */
+fg_status fg__vtk_check_appended(fg__vtk *vtk)
+{
+  offset_list list = {.offset = NULL};
+  uint64_t last = 0, end = 0;
+  if (!vtk->appended || vtk->appended_base64 ||
+      vtk->compression == FG__VTK_OTHER_COMPRESSION)
+    return FG_STATUS_OK;
+  fg_status status = collect(&list, vtk, xmlDocGetRootElement(vtk->document));
+  for (size_t n = 0; n < list.count; ++n)
+    last = list.offset[n] > last ? list.offset[n] : last;
+  const bool some = list.count > 0;
+  free(list.offset);
+  /* of an offset beyond the data the array's reading tells */
+  if (status != FG_STATUS_OK || !some || last > vtk->appended_size ||
+      (find_end(&end, vtk, last) && are_blanks(vtk, end)))
+    return status;
+  return fg__fail(
+      vtk->context, FG_STATUS_FILE_FORMAT,
+      "%s: damaged: the last of its appended arrays, at offset %llu, does not "
+      "end with the %zu bytes of appended data",
+      vtk->path, (unsigned long long)last, vtk->appended_size);
 }

@@ -9,10 +9,10 @@
 
 static fg__vtk_type type_of(const char *name)
 {
-  static const char *const names[] = {"",       "Int8",    "UInt8",  "Int16",
-                                      "UInt16", "Int32",   "UInt32", "Int64",
-                                      "UInt64", "Float32", "Float64"};
-  for (int i = FG__VTK_INT8; name && i <= FG__VTK_FLOAT64; ++i)
+  static const char *const names[] = {"",       "Int8",    "UInt8",   "Int16",
+                                      "UInt16", "Int32",   "UInt32",  "Int64",
+                                      "UInt64", "Float32", "Float64", "String"};
+  for (int i = FG__VTK_INT8; name && i <= FG__VTK_STRING; ++i)
     if (strcmp(names[i], name) == 0)
       return (fg__vtk_type)i;
   return FG__VTK_UNKNOWN;
@@ -156,7 +156,7 @@ fg_status fg__vtk_read_arrays(fg__vtk *vtk, const xmlNode *parent, const char *n
     vtk->vectors[place] = fg__vtk_attribute(vtk, data, "Vectors");
   const size_t first = vtk->array_count;
   for (const xmlNode *node = data->children; node; node = node->next)
-    if (fg__vtk_is_element(node, "DataArray")) {
+    if (fg__vtk_is_element(node, "DataArray") || fg__vtk_is_element(node, "Array")) {
       fg_status status = read_array(vtk, node, place);
       if (status != FG_STATUS_OK)
         return status;
@@ -232,7 +232,7 @@ static bool read_count(size_t *out, fg__vtk *vtk, const xmlNode *node, const cha
   return good;
 }
 
-static bool is_within(const int inner[6], const int outer[6])
+bool fg__vtk_is_within(const int inner[6], const int outer[6])
 {
   for (int k = 0; k < 3; ++k)
     if (inner[2 * k] < outer[2 * k] || inner[2 * k + 1] > outer[2 * k + 1])
@@ -316,7 +316,7 @@ fg_status fg__vtk_read_piece(fg__vtk *vtk, const xmlNode *node)
   for (int k = 0; k < 3; ++k)
     if (extent[2 * k + 1] < extent[2 * k])
       return FG_STATUS_OK; /* a processor that had nothing to write */
-  if (!is_within(extent, vtk->extent))
+  if (!fg__vtk_is_within(extent, vtk->extent))
     return fg__vtk_bad_attribute(vtk, node, "Extent");
 
   status = fg__vtk_add_piece(vtk, extent);

@@ -1,7 +1,6 @@
 /* VTK grids along the axes as fields, and VTK XML files as a format. */
 #include "base/memory.h"
 #include "field/field.h"
-#include "file/number_text.h"
 #include "read/vtk/vtk.h"
 
 #include <math.h>
@@ -17,33 +16,26 @@ enum {
 
 static const char LETTERS[] = "xyz";
 
-/* The moment that FieldData tells in TimeValue, as "t = 2.5"; *out stays NULL without. */
-static fg_status read_time(char **out, const fg__vtk *vtk)
+/* Copies the time in words, that of FieldData's TimeValue where none was chosen; `out`
+ * stays empty without. */
+static fg_status read_time(char out[FG__VTK_TEXT], const fg__vtk *vtk)
 {
   const fg__vtk *file = vtk->file_count > 0 ? vtk->files[0].vtk : vtk;
   const fg__vtk_array *array = fg__vtk_find(file, 0, FG__VTK_FIELD, "TimeValue");
   if (!array && !vtk->document) /* VisIt's name for it in legacy files */
     array = fg__vtk_find(file, 0, FG__VTK_FIELD, "TIME");
-  if (vtk->time) {
-    *out = fg__copy_text(vtk->time);
-    return *out ? FG_STATUS_OK : fg__fail_memory(vtk->context, "words", 0);
-  }
+  snprintf(out, FG__VTK_TEXT, "%s", vtk->time);
+  if (out[0])
+    return FG_STATUS_OK;
   if (!array)
     return FG_STATUS_OK;
   fg__vtk_values values;
   fg_status status = fg__vtk_values_create(&values, file, array, 1);
   if (status != FG_STATUS_OK)
     return status;
-  char number[FG__NUMBER_BYTES], words[FG__NUMBER_BYTES + 8];
-  fg__number_locale locale;
-  if (fg__number_locale_begin(&locale)) {
-    fg__number_write(number, fg__vtk_value(&values, 0));
-    fg__number_locale_end(&locale);
-    snprintf(words, sizeof words, "t = %s", number);
-    *out = fg__copy_text(words);
-  }
+  status = fg__time_write(out, vtk->context, fg__vtk_value(&values, 0));
   fg__vtk_values_clear(&values);
-  return *out ? FG_STATUS_OK : fg__fail_memory(vtk->context, "words", sizeof words);
+  return status;
 }
 
 /* "U_x" for a vector variable U; a scalar's own name. */
@@ -54,21 +46,6 @@ static void name_component(char name[NAME_BYTES], const fg__vtk_vector *vector, 
     snprintf(name, NAME_BYTES, "%.200s%s", vector->name[component], prime);
   else
     snprintf(name, NAME_BYTES, "%.200s_%c%s", vector->name[0], LETTERS[axis], prime);
-}
-
-static fg_status check_options(fg_context *context, const fg__source *source,
-                               const fg_read_options *options)
-{
-  if (options->vars_from)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "%s: a second file with the other component cannot be used with VTK "
-                    "files",
-                    source->path);
-  if (options->level != 0)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "%s: level %d is asked for, but the file holds one only, number 0",
-                    source->path, options->level);
-  return FG_STATUS_OK;
 }
 
 /* What only files that name others leave to choose from. */
@@ -103,18 +80,40 @@ static fg_status create_axes(double *out[3], const fg__vtk *vtk, const fg__vtk_g
   return FG_STATUS_OK;
 }
 
+/* What the file tells of its own axes, where the field has them. */
+static void use_words(fg_field_arrays *arrays, const fg__vtk_words *words,
+                      const fg__vtk_grid *grid)
+{
+  for (int k = 0; k < grid->dimension; ++k)
+    if (grid->axis[k] != k)
+      return;
+  for (int k = 0; k < grid->dimension; ++k) {
+    if (words->axis_name[k][0])
+      arrays->axis_name[k] = words->axis_name[k];
+    arrays->axis_units[k] = words->axis_units[k];
+  }
+  if (arrays->scale == FG_SCALE_AUTO)
+    arrays->scale = words->scale;
+  if (arrays->scale == FG_SCALE_GEO)
+    arrays->period[0] = words->period;
+  if (arrays->scale == FG_SCALE_MAP && words->projection[0])
+    arrays->projection = words->projection;
+}
+
 static fg_status create_field(fg_field **out, const fg__vtk *vtk,
                               const fg__vtk_grid *grid, const fg__vtk_vector *vector,
-                              fg_field_arrays arrays, float *velocity[3],
-                              double *const axis[3], const fg__slab_index *slab)
+                              const fg__vtk_words *words, fg_scale scale,
+                              float *velocity[3], double *const axis[3],
+                              const fg__slab_index *slab)
 {
   char component[3][NAME_BYTES], axis_name[3][3] = {"", "", ""};
   const fg__cell_set *cells = &vtk->cells;
-  arrays.dimension = grid->dimension;
-  arrays.velocity_units = vector->units;
-  arrays.title = vector->names == 1 ? vector->name[0] : NULL;
-  if (arrays.scale == FG_SCALE_AUTO)
-    arrays.scale = FG_SCALE_PLAIN;
+  fg_field_arrays arrays = {.dimension = grid->dimension,
+                            .scale = scale,
+                            .velocity_units = vector->units,
+                            .title = vector->names == 1 ? vector->name[0] : NULL,
+                            .time = words->time[0] ? words->time : NULL,
+                            .level = words->level[0] ? words->level : NULL};
   for (int k = 0; k < grid->dimension; ++k) {
     const int along = cells->tilted && k < 2 ? cells->basis.axis[k] : grid->axis[k];
     const char *prime =
@@ -129,6 +128,9 @@ static fg_status create_field(fg_field **out, const fg__vtk *vtk,
     arrays.velocity_name[k] = component[k];
     arrays.axis_name[k] = axis_name[k];
   }
+  use_words(&arrays, words, grid);
+  if (arrays.scale == FG_SCALE_AUTO)
+    arrays.scale = FG_SCALE_PLAIN;
   return fg__field_of_rows(out, vtk->context, &arrays, velocity, slab);
 }
 
@@ -167,27 +169,27 @@ static fg_status build(fg_field **out, const fg__vtk *vtk, fg__vtk_grid *grid,
   grid->rows = (size_t)rows.held;
   float *velocity[3] = {NULL, NULL, NULL};
   double *axis[3] = {NULL, NULL, NULL};
-  char *time = NULL;
+  fg__vtk_words words;
   double normal_share = 0.0;
   const bool plane = grid->dimension == 2 && vector->components == 3 && slab.count == 1;
   status = create_axes(axis, vtk, grid);
   if (status == FG_STATUS_OK)
-    status = read_time(&time, vtk);
+    status = fg__vtk_words_find(&words, vtk);
+  if (status == FG_STATUS_OK && (vtk->time[0] || !words.time[0]))
+    status = read_time(words.time, vtk);
   if (status == FG_STATUS_OK)
     status = fg__vtk_samples_read(velocity, vtk, grid, vector, options->mask, plane);
   if (status == FG_STATUS_OK && plane)
     normal_share = find_normal_share(velocity, grid);
   if (status == FG_STATUS_OK)
-    status = create_field(out, vtk, grid, vector,
-                          (fg_field_arrays){.scale = options->scale, .time = time},
-                          velocity, axis, &slab);
+    status = create_field(out, vtk, grid, vector, &words, options->scale, velocity, axis,
+                          &slab);
   if (status == FG_STATUS_OK)
     (*out)->normal_share = normal_share;
   for (int k = 0; k < 3; ++k) {
     free(velocity[k]);
     free(axis[k]);
   }
-  free(time);
   return status;
 }
 
@@ -196,7 +198,7 @@ fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *so
                        fg__vtk_opener *opener)
 {
   *out = NULL;
-  fg_status status = check_options(context, source, options);
+  fg_status status = fg__check_one_file(context, source, options, "VTK files");
   if (status != FG_STATUS_OK)
     return status;
   fg__vtk vtk;
@@ -275,18 +277,37 @@ static fg_status count_samples(fg_inventory_vector *entry, const fg__vtk *vtk,
   return FG_STATUS_OK;
 }
 
+/* Of a plane in space that is not that of x and y. */
+static void name_axes(const char *out[3], const fg__vtk *vtk, const fg__vtk_grid *grid)
+{
+  static const char *const names[2][3] = {{"x", "y", "z"}, {"x'", "y'", "z'"}};
+  const fg__cell_set *cells = &vtk->cells;
+  for (int k = 0; k < 2 && grid->dimension == 2; ++k) {
+    const int along = cells->tilted ? cells->basis.axis[k] : grid->axis[k];
+    out[k] = names[cells->tilted && !fg__plane_is_axis(&cells->basis, k)][along];
+  }
+}
+
 /* What is not supported is said of the vector, not held against the file. */
 static fg_status describe(fg_inventory_vector *entry, const fg__vtk *vtk,
                           const fg__vtk_vector *vector, bool with_samples)
 {
   fg__vtk_grid grid;
+  fg__vtk_words words = {.scale = FG_SCALE_AUTO};
   fg_status status = fg__vtk_grid_find(&grid, vtk);
   entry->dimension = grid.dimension;
+  name_axes(entry->axis_name, vtk, &grid);
   entry->cells = fg__cell_set_count(&vtk->cells);
   for (int k = 0; k < grid.dimension && status == FG_STATUS_OK; ++k) {
     entry->size[k] = (int)grid.points[k];
     entry->bounds[2 * k] = fg__vtk_coordinate(vtk, grid.axis[k], 0);
     entry->bounds[2 * k + 1] = fg__vtk_coordinate(vtk, grid.axis[k], grid.points[k] - 1);
+  }
+  if (status == FG_STATUS_OK)
+    status = fg__vtk_words_find(&words, vtk);
+  if (status == FG_STATUS_OK && words.scale != FG_SCALE_AUTO && grid.axis[1] == 1) {
+    entry->scale = words.scale;
+    entry->periodic[0] = words.period > 0.0;
   }
   if (with_samples && status == FG_STATUS_OK)
     status = count_samples(entry, vtk, &grid, vector);
@@ -294,23 +315,20 @@ static fg_status describe(fg_inventory_vector *entry, const fg__vtk *vtk,
 }
 
 /* The times of a collection with their words, which take `words`. */
-static fg_status list_times(fg_axis_value **out, char (**words)[FG__NUMBER_BYTES + 8],
+static fg_status list_times(fg_axis_value **out, char (**words)[FG__TIME_BYTES],
                             const fg__vtk *vtk)
 {
   const size_t count = (size_t)(vtk->time_list ? vtk->times : 0);
-  char number[FG__NUMBER_BYTES];
-  fg__number_locale locale;
+  fg_status status = FG_STATUS_OK;
   *out = fg__allocate(count, sizeof **out);
   *words = fg__allocate(count, sizeof **words);
-  if (!*out || !*words || !fg__number_locale_begin(&locale))
+  if (!*out || !*words)
     return fg__fail_memory(vtk->context, "times", count * sizeof **out);
-  for (size_t i = 0; i < count; ++i) {
-    fg__number_write(number, vtk->time_list[i]);
-    snprintf((*words)[i], sizeof **words, "t = %s", number);
+  for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i) {
+    status = fg__time_write((*words)[i], vtk->context, vtk->time_list[i]);
     (*out)[i] = (fg_axis_value){vtk->time_list[i], "", (*words)[i]};
   }
-  fg__number_locale_end(&locale);
-  return FG_STATUS_OK;
+  return status;
 }
 
 fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
@@ -319,7 +337,7 @@ fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
   fg__vtk vtk;
   fg__vtk_vector *vectors = NULL;
   fg_axis_value *times = NULL;
-  char(*words)[FG__NUMBER_BYTES + 8] = NULL;
+  char(*words)[FG__TIME_BYTES] = NULL;
   size_t count = 0;
   fg_status status = opener(&vtk, context, source, NULL);
   if (status == FG_STATUS_OK)

@@ -3,21 +3,12 @@
 #include "base/memory.h"
 #include "read/vtk/gather.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* vtkDataSetAttributes: what a sample of vtkGhostType says by its bits. */
 enum { HIDDEN_POINT = 2, REFINED_CELL = 8, HIDDEN_CELL = 32 };
-
-/* Beyond float, but not infinite, a number stays beyond every speed that is taken. */
-static float as_velocity(double number)
-{
-  if (!isinf(number) && fabs(number) > (double)FLT_MAX)
-    return number > 0.0 ? FLT_MAX : -FLT_MAX;
-  return (float)number;
-}
 
 static float as_flag(bool inside)
 {
@@ -296,7 +287,7 @@ static fg_status read_components(float *out[3], const fg__vtk *vtk,
     fg__vtk_gathering wanted = {.name = vector->name[one ? 0 : which[k]],
                                 .place = vector->place,
                                 .components = one ? count : 1,
-                                .means = as_velocity,
+                                .means = fg__as_velocity,
                                 .absent = NAN};
     for (int c = 0; one && c < count && c < 3; ++c)
       wanted.component[c] = which[c];
@@ -311,9 +302,9 @@ static void turn(float *out[3], const fg__vtk *vtk, const fg__vtk_grid *grid)
   const fg__plane_basis *basis = &vtk->cells.basis;
   for (size_t n = 0; out[2] && n < fg__vtk_grid_wanted(grid); ++n) {
     const double u[3] = {(double)out[0][n], (double)out[1][n], (double)out[2][n]};
-    out[0][n] = (float)fg__plane_product(u, basis->direction[0]);
-    out[1][n] = (float)fg__plane_product(u, basis->direction[1]);
-    out[2][n] = (float)fg__plane_product(u, basis->normal);
+    out[0][n] = (float)fg__dot(u, basis->direction[0]);
+    out[1][n] = (float)fg__dot(u, basis->direction[1]);
+    out[2][n] = (float)fg__dot(u, basis->normal);
   }
 }
 

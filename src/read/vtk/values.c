@@ -34,6 +34,7 @@ size_t fg__vtk_size_of(fg__vtk_type type)
   case FG__VTK_FLOAT64:
     return 8;
   case FG__VTK_UNKNOWN:
+  case FG__VTK_STRING:
     break;
   }
   return 0;
@@ -95,7 +96,11 @@ typedef struct block_layout {
   byte_stream data;  /* at the first block */
   uint64_t blocks, block_size, last_size;
   uint64_t stored; /* bytes of all blocks in the file */
+  uint64_t size;   /* of all that they hold */
 } block_layout;
+
+/* Of bytes that are expected: as many as the array says. */
+static const size_t ANY_SIZE = SIZE_MAX;
 
 static fg_status fail_array(const fg__vtk *vtk, const fg__vtk_array *array,
                             const char *what)
@@ -148,12 +153,12 @@ static fg_status read_plain_layout(block_layout *out, const fg__vtk *vtk,
   uint64_t size;
   if (!read_header(&out->data, vtk, &size))
     return fail_array(vtk, array, "is cut short: not even its size is there");
-  if (size != expected)
+  if (size != expected && expected != ANY_SIZE)
     return fail_size(vtk, array, size, expected);
   if (size > bytes_available(&out->data))
     return fail_short(vtk, array, size, bytes_available(&out->data));
   out->blocks = 1;
-  out->block_size = out->stored = size;
+  out->block_size = out->stored = out->size = size;
   return FG_STATUS_OK;
 }
 
@@ -206,8 +211,9 @@ static fg_status read_block_layout(block_layout *out, const fg__vtk *vtk,
   uint64_t total = out->blocks * out->block_size;
   if (out->last_size > 0 && out->blocks > 0)
     total -= out->block_size - out->last_size;
-  if (total != expected)
+  if (total != expected && expected != ANY_SIZE)
     return fail_size(vtk, array, total, expected);
+  out->size = total;
   out->sizes = out->data;
   return read_block_sizes(out, vtk, array);
 }
@@ -233,7 +239,7 @@ static fg_status read_layout(block_layout *out, const fg__vtk *vtk,
 static fg_status expected_count(size_t *count, const fg__vtk *vtk,
                                 const fg__vtk_array *array, size_t tuples)
 {
-  if (array->type == FG__VTK_UNKNOWN)
+  if (fg__vtk_size_of(array->type) == 0)
     return fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
                     "%s: array \"%.100s\" holds no numbers", vtk->path, array->name);
   size_t components = (size_t)array->components;
@@ -293,6 +299,15 @@ size_t fg__vtk_values_together(const fg__vtk *vtk, const fg__vtk_array *array,
     return 1; /* decoding it fails likewise */
   const size_t block = (size_t)layout.block_size / size + 1;
   return block < tuples ? block : tuples;
+}
+
+fg_status fg__vtk_values_count(size_t *out, const fg__vtk *vtk,
+                               const fg__vtk_array *array)
+{
+  block_layout layout;
+  fg_status status = read_layout(&layout, vtk, array, ANY_SIZE);
+  *out = (size_t)layout.size / fg__vtk_size_of(array->type);
+  return status;
 }
 
 /* Bytes of an array: those that are wanted, and all there are. */
@@ -471,6 +486,7 @@ double fg__vtk_value(const fg__vtk_values *values, size_t index)
   case FG__VTK_FLOAT64:
     RETURN_AS(double);
   case FG__VTK_UNKNOWN:
+  case FG__VTK_STRING:
     break;
   }
   return 0.0;

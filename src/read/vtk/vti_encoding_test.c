@@ -135,6 +135,35 @@ static void every_truncation_is_refused_or_equal(void **state)
     }
 }
 
+/* Bytes added anywhere in raw data shift the numbers behind them. */
+static void every_insertion_is_refused(void **state)
+{
+  enum { MORE = 24 }; /* a tuple of the vectors */
+  for (int packing = 0; packing < 3; ++packing) {
+    const example_encoding encoding = {.storage = EXAMPLE_APPENDED_RAW,
+                                       .zlib = packing == 1,
+                                       .lz4 = packing == 2,
+                                       .block = 64,
+                                       .big = packing == 0,
+                                       .type = EXAMPLE_FLOAT64};
+    example_text file = make_file(&encoding);
+    size_t at = 0;
+    while (memcmp(file.bytes + at, "\n _", 3) != 0)
+      ++at;
+    for (at += 3; memcmp(file.bytes + at, "\n</App", 6) != 0; ++at) {
+      unsigned char *bytes = calloc(1, file.size + MORE);
+      assert_non_null(bytes);
+      memcpy(bytes, file.bytes, at);
+      memcpy(bytes + at + MORE, file.bytes + at, file.size - at);
+      fg_field *field = NULL;
+      assert_int_equal(example_read(&field, *state, bytes, file.size + MORE, NULL),
+                       FG_STATUS_FILE_FORMAT);
+      free(bytes);
+    }
+    example_free(&file);
+  }
+}
+
 /* Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators" */
 static uint64_t next_random(uint64_t *state)
 {
@@ -194,6 +223,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_encoding_gives_the_same_field),
       cmocka_unit_test(every_truncation_is_refused_or_equal),
+      cmocka_unit_test(every_insertion_is_refused),
       cmocka_unit_test(no_mutation_does_harm),
   };
   return cmocka_run_group_tests_name("read/vtk/vti_encoding", tests, context_set_up,

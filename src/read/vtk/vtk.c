@@ -67,7 +67,6 @@ void fg__vtk_close(fg__vtk *vtk)
   free(vtk->vectors[0]);
   free(vtk->vectors[1]);
   free(vtk->compressor);
-  free(vtk->time);
   free(vtk->time_list);
   for (size_t i = 0; i < vtk->file_count; ++i) {
     fg__vtk_file *file = &vtk->files[i];

@@ -1,8 +1,8 @@
 /* A VTK file of a grid or of cells, taken apart: what document.c finds in the
  * markup that markup.c parsed, or legacy.c in a legacy file, values.c turns
- * into numbers, cells.c makes a set of cells and their raster of where the grid is
- * not along the axes, choice.c picks vectors from, samples.c brings onto the
- * points of a plane or a volume, and read.c makes a field of. Format: VTK File
+ * into numbers and words.c into texts, cells.c makes a set of cells and their raster of
+ * where the grid is not along the axes, choice.c picks vectors from, samples.c brings
+ * onto the points of a plane or a volume, and read.c makes a field of. Format: VTK File
  * Formats, Kitware. */
 #ifndef FG__VTK_H
 #define FG__VTK_H
@@ -10,6 +10,7 @@
 #include "read/cells/set.h"
 #include "read/format.h"
 #include "read/signature.h"
+#include "read/time_words.h"
 
 typedef enum fg__vtk_type {
   FG__VTK_UNKNOWN = 0, /* String, Bit, ... */
@@ -22,7 +23,8 @@ typedef enum fg__vtk_type {
   FG__VTK_INT64,
   FG__VTK_UINT64,
   FG__VTK_FLOAT32,
-  FG__VTK_FLOAT64
+  FG__VTK_FLOAT64,
+  FG__VTK_STRING /* of FieldData only: texts, each ended by a NUL */
 } fg__vtk_type;
 
 typedef enum fg__vtk_place {
@@ -88,6 +90,8 @@ typedef struct fg__vtk_piece {
   struct fg__vtk *file; /* that it is in; NULL: in the one that has this */
 } fg__vtk_piece;
 
+enum { FG__VTK_TEXT = 256 }; /* bytes of a text in FieldData */
+
 #define FG__VTK_NONE SIZE_MAX
 
 typedef enum fg__vtk_kind {
@@ -125,12 +129,12 @@ typedef struct fg__vtk {
   size_t field_array_count;
   struct fg__vtk_file *files; /* that this one names, and whose pieces it has */
   size_t file_count, file_capacity;
-  int times;         /* to choose from; 0: not said */
-  double *time_list; /* of these; NULL: not said */
-  bool has_blocks;   /* to choose from */
-  char *time;        /* the chosen one in words; NULL: as FieldData says */
-  char *vectors[2];  /* the Vectors attribute of the points' and of the cells' data */
-  bool exhausted; /* memory for what the markup says was lacking; the context says so */
+  int times;                 /* to choose from; 0: not said */
+  double *time_list;         /* of these; NULL: not said */
+  bool has_blocks;           /* to choose from */
+  char time[FG__TIME_BYTES]; /* the chosen one in words; "": as FieldData says */
+  char *vectors[2]; /* the Vectors attribute of the points' and of the cells' data */
+  bool exhausted;   /* memory for what the markup says was lacking; the context says so */
 } fg__vtk;
 
 /* Parses the markup into `document` and finds the appended data. */
@@ -201,6 +205,9 @@ size_t fg__vtk_length(const int extent[6], int axis, fg__vtk_place place);
 /* Their product; false when it does not fit an int: no field is that large. */
 bool fg__vtk_count(size_t *count, const int extent[6], fg__vtk_place place);
 
+/* Whether an extent lies in another. */
+bool fg__vtk_is_within(const int inner[6], const int outer[6]);
+
 /* Pieces too small for the whole are refused before anything is allocated for it. They
  * may overlap: VTK writes the whole in every piece when its source cannot be divided. */
 fg_status fg__vtk_check_pieces(const fg__vtk *vtk);
@@ -222,6 +229,10 @@ fg_status fg__vtk_values_check(const fg__vtk *vtk, const fg__vtk_array *array,
 size_t fg__vtk_values_together(const fg__vtk *vtk, const fg__vtk_array *array,
                                size_t tuples);
 
+/* How many numbers a binary array has by its own account. */
+fg_status fg__vtk_values_count(size_t *out, const fg__vtk *vtk,
+                               const fg__vtk_array *array);
+
 /* Decodes an array; checks as above first. */
 fg_status fg__vtk_values_create(fg__vtk_values *out, const fg__vtk *vtk,
                                 const fg__vtk_array *array, size_t tuples);
@@ -236,6 +247,17 @@ void fg__vtk_values_clear(fg__vtk_values *values);
 /* text.c. Reads an array of `all` numbers in text and keeps what out has room for. */
 fg_status fg__vtk_values_from_text(fg__vtk_values *out, const fg__vtk *vtk,
                                    const fg__vtk_array *array, size_t all);
+
+/* words.c. What FieldData tells of a grid along the axes, as fg_field_write has it. */
+typedef struct fg__vtk_words {
+  fg_scale scale; /* AUTO: not told */
+  double period;  /* of the first axis */
+  char projection[FG__VTK_TEXT], time[FG__VTK_TEXT], level[FG__VTK_TEXT];
+  char axis_name[3][FG__VTK_TEXT], axis_units[3][FG__VTK_TEXT];
+} fg__vtk_words;
+
+/* Texts that are not there are "". FILE_FORMAT, UNSUPPORTED, MEMORY. */
+fg_status fg__vtk_words_find(fg__vtk_words *out, const fg__vtk *vtk);
 
 /* Number `index` of the array; it must have been kept. */
 double fg__vtk_value(const fg__vtk_values *values, size_t index);
@@ -290,11 +312,6 @@ size_t fg__vtk_grid_wanted(const fg__vtk_grid *grid);
 fg_status fg__vtk_samples_read(float *out[3], const fg__vtk *vtk,
                                const fg__vtk_grid *grid, const fg__vtk_vector *vector,
                                const char *mask, bool normal);
-
-/* What to do about cells that cannot be read. */
-#define FG__VTK_RESAMPLE                                                                 \
-  "resample it to an image, with ParaView's filter Resample To Image or "                \
-  "vtkResampleToImage, and save that as .vti"
 
 /* What fg__format asks for, of a file opened by `opener`. */
 fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *source,

@@ -1,8 +1,13 @@
-/* Dates as ISO 8601 writes them, to be compared in any calendar. */
-#ifndef FG__MOMENT_H
-#define FG__MOMENT_H
+/* Times as words: dates as ISO 8601 writes them, to be compared in any calendar; and
+ * numbers. */
+#ifndef FG__TIME_WORDS_H
+#define FG__TIME_WORDS_H
+
+#include "base/context.h"
+#include "file/number_text.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 /* The month, day, hour, minute or second that a date names. */
 typedef struct fg__period {
@@ -17,5 +22,14 @@ bool fg__period_read(fg__period *out, const char *text);
 
 /* The same of the date that words begin with, of a day at least. */
 bool fg__period_read_start(fg__period *out, const char *words);
+
+/* Days from 1970-01-01 to a day of the proleptic Gregorian calendar; one past the end of
+ * its month lies in the next. */
+int64_t fg__day_number(int64_t year, int64_t month, int64_t day);
+
+enum { FG__TIME_BYTES = FG__NUMBER_BYTES + 8 };
+
+/* Writes a time that is a number as "t = 2.5". MEMORY (no locale). */
+fg_status fg__time_write(char out[FG__TIME_BYTES], fg_context *context, double time);
 
 #endif

@@ -1,8 +1,8 @@
-#include "read/moment.h"
+#include "read/time_words.h"
 
 #include <ctype.h>
 #include <math.h>
-#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,19 +30,6 @@ static bool read_year(const char **text, int *year)
   *year = **text == '-' ? -*year : *year;
   *text = at;
   return true;
-}
-
-/* Days from 1970-01-01 in the proleptic Gregorian calendar; a day past the end of its
- * month lies in the next. */
-static double day_number(int year, int month, int day)
-{
-  const int64_t y = month <= 2 ? (int64_t)year - 1 : year;
-  const int64_t era = (y >= 0 ? y : y - 399) / 400;
-  const int64_t year_of_era = y - era * 400;
-  const int64_t day_of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
-  const int64_t day_of_era =
-      year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year;
-  return (double)(era * 146097 + day_of_era - 719468);
 }
 
 /* The time of day after the date, as far as it goes; how long what it names is. */
@@ -94,7 +81,7 @@ static bool read_period(fg__period *out, const char **text, bool needs_day)
   const double days = (12.0 * year + month - 1) * 31.0 + day - 1;
   out->key = days * DAY_SECONDS + second;
   out->end_key = out->key + length;
-  out->seconds = day_number(year, month, day) * DAY_SECONDS + second;
+  out->seconds = (double)fg__day_number(year, month, day) * DAY_SECONDS + second;
   return true;
 }
 
@@ -106,4 +93,25 @@ bool fg__period_read(fg__period *out, const char *text)
 bool fg__period_read_start(fg__period *out, const char *words)
 {
   return read_period(out, &words, true) && (!*words || *words == ' ');
+}
+
+int64_t fg__day_number(int64_t year, int64_t month, int64_t day)
+{
+  const int64_t y = month <= 2 ? year - 1 : year;
+  const int64_t era = (y >= 0 ? y : y - 399) / 400;
+  const int64_t of_era = y - era * 400;
+  const int64_t of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+  return era * 146097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
+}
+
+fg_status fg__time_write(char out[FG__TIME_BYTES], fg_context *context, double time)
+{
+  char number[FG__NUMBER_BYTES];
+  fg__number_locale locale;
+  if (!fg__number_locale_begin(&locale))
+    return fg__fail_memory(context, "a locale", sizeof locale);
+  fg__number_write(number, time);
+  fg__number_locale_end(&locale);
+  snprintf(out, FG__TIME_BYTES, "t = %s", number);
+  return FG_STATUS_OK;
 }

@@ -1,0 +1,16 @@
+/* Values of different weight. */
+#ifndef FG__WEIGHTED_H
+#define FG__WEIGHTED_H
+
+#include <stddef.h>
+
+typedef struct fg__weighted {
+  double value, weight;
+} fg__weighted;
+
+/* Sorts the values and gives those that `beyond`, a share of all weight, lies below and
+ * above; 0 of no values. */
+void fg__weighted_range(double range[2], fg__weighted *values, size_t count,
+                        double beyond);
+
+#endif

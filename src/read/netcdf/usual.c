@@ -1,0 +1,116 @@
+/* What is said before a field is read: the level that is usual, and coordinates that are
+ * named and not there. */
+#include "base/memory.h"
+#include "read/netcdf/netcdf.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* More levels than this are none. */
+enum { MOST_LEVELS = 100000 };
+
+typedef enum direction { NEITHER = 0, UP = 1, DOWN = -1 } direction;
+
+/* Which way the numbers of a vertical coordinate grow. */
+static direction told_direction(const fg__nc_variable *coordinate)
+{
+  char text[FG__NC_TEXT];
+  fg__nc_text(coordinate, "positive", text, sizeof text);
+  return strcasecmp(text, "up") == 0     ? UP
+         : strcasecmp(text, "down") == 0 ? DOWN
+                                         : NEITHER;
+}
+
+/* Of a coordinate of the ocean: by its standard name (CF conventions, appendix D: sigma
+ * and s grow upwards), or as a length that is a depth, or a height of nothing above 0. */
+static direction direction_in_ocean(const fg__nc_variable *coordinate,
+                                    const double *value, size_t count)
+{
+  char name[FG__NC_TEXT], units[FG__NC_TEXT], label[FG__NC_TEXT];
+  const direction told = told_direction(coordinate);
+  fg__nc_text(coordinate, "standard_name", name, sizeof name);
+  fg__nc_text(coordinate, "units", units, sizeof units);
+  if (strstr(name, "ocean_s_") || strstr(name, "ocean_sigma"))
+    return told == NEITHER ? UP : told;
+  if (strcmp(name, "depth") == 0 ||
+      (!name[0] && strncasecmp(coordinate->plain_name, "depth", 5) == 0))
+    return told == NEITHER ? DOWN : told;
+  if (name[0] || fg__nc_units(units, label, sizeof label) != FG__NC_LENGTH || told != UP)
+    return name[0] || told != DOWN ? NEITHER : DOWN;
+  for (size_t n = 0; n < count; ++n)
+    if (value[n] > 0.0)
+      return NEITHER;
+  return UP;
+}
+
+static size_t find_surface(const fg__nc_variable *coordinate, const double *value,
+                           size_t count)
+{
+  const direction to = direction_in_ocean(coordinate, value, count);
+  size_t best = 0;
+  for (size_t n = 1; n < count && to != NEITHER; ++n)
+    if (to == UP ? value[n] > value[best] : value[n] < value[best])
+      best = n;
+  return best;
+}
+
+/* Levels of ROMS run from the bottom up, and may have no coordinate. */
+static bool runs_upwards(const char *name)
+{
+  return strcmp(name, "s_rho") == 0 || strcmp(name, "sc_r") == 0;
+}
+
+static fg_status find_level(int *out, const fg__nc_file *file, const fg__nc_grid *grid)
+{
+  const fg__nc_variable *coordinate = grid->level_variable;
+  *out = 0;
+  if (grid->dimension != 2 || grid->level < 0 || grid->levels < 2 ||
+      grid->levels > MOST_LEVELS)
+    return FG_STATUS_OK;
+  if (!coordinate || coordinate->rank != 1 || coordinate->type == NC_CHAR ||
+      coordinate->type > NC_UINT64) {
+    *out = runs_upwards(grid->level_name) ? (int)grid->levels - 1 : 0;
+    return FG_STATUS_OK;
+  }
+  double *value = fg__allocate(grid->levels, sizeof *value);
+  if (!value)
+    return fg__fail_memory(file->context, "levels", grid->levels * sizeof *value);
+  const int error = nc_get_var_double(coordinate->group, coordinate->id, value);
+  if (!error)
+    *out = (int)find_surface(coordinate, value, grid->levels);
+  free(value);
+  return error ? fg__nc_fail(file->context, coordinate->path, coordinate->name, error)
+               : FG_STATUS_OK;
+}
+
+static void add_name(char *out, size_t size, const char *name)
+{
+  const size_t used = strlen(out);
+  if (used + strlen(name) + 3 <= size)
+    snprintf(out + used, size - used, "%s%s", used ? ", " : "", name);
+}
+
+/* The names of an attribute `coordinates` that no variable has. */
+static void list_absent(char *out, size_t size, const fg__nc_file *file,
+                        const fg__nc_variable *component)
+{
+  char names[FG__NC_TEXT], *rest = NULL;
+  fg__nc_text(component, "coordinates", names, sizeof names);
+  for (char *name = strtok_r(names, " ", &rest); name; name = strtok_r(NULL, " ", &rest))
+    if (!fg__nc_find(file, name))
+      add_name(out, size, name);
+}
+
+fg_status fg__nc_usual(fg_usual *out, const fg__nc_file *file, const fg__nc_pair *pair,
+                       const fg__nc_grid *grid, const fg_read_options *options)
+{
+  *out = (fg_usual){0};
+  if (grid->unusable[0])
+    return FG_STATUS_OK;
+  if (grid->scale == FG_SCALE_PLAIN && options->scale != FG_SCALE_PLAIN &&
+      !grid->unstructured)
+    list_absent(out->absent, sizeof out->absent, file, pair->component[0]);
+  return find_level(&out->level, file, grid);
+}

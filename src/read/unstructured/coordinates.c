@@ -1,0 +1,197 @@
+/* Meshes by CF's coordinates: longitudes and latitudes along one dimension, cells whose
+ * corners are their bounds, and HEALPix, whose places follow from the numbers of its
+ * cells. */
+#include "read/unstructured/unstructured.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+enum { MOST_LEVELS = 13 }; /* 12 * 4^13 cells are the most that an int counts */
+
+/* The attribute that says how HEALPix is ordered, and of what. */
+static bool order_of(bool *nested, const fg__nc_variable *v, char *words, size_t size)
+{
+  static const char *const known[] = {"healpix_order", "indexing_scheme", "order"};
+  char text[FG__NC_TEXT];
+  for (size_t n = 0; n < sizeof known / sizeof *known; ++n) {
+    if (!fg__nc_text(v, known[n], text, sizeof text))
+      continue;
+    *nested = strncasecmp(text, "nest", 4) == 0;
+    if (!*nested && strcasecmp(text, "ring") != 0)
+      continue;
+    snprintf(words, size, "%s of '%.60s'", known[n],
+             v->id == NC_GLOBAL ? "the file" : v->plain_name);
+    return true;
+  }
+  return false;
+}
+
+static bool is_whole_power(double value)
+{
+  for (long n = 1; n <= 1L << MOST_LEVELS; n *= 2)
+    if (value >= (double)n && value <= (double)n)
+      return true;
+  return false;
+}
+
+/* N_side of a variable's attributes; 0 where it has none. */
+static long sides_of(const fg__nc_variable *v)
+{
+  double value = 0.0;
+  nc_type type;
+  if ((fg__nc_numbers(v, "healpix_nside", &value, 1, &type) == 1 ||
+       fg__nc_numbers(v, "nside", &value, 1, &type) == 1) &&
+      is_whole_power(value))
+    return (long)value;
+  if (fg__nc_numbers(v, "refinement_level", &value, 1, &type) == 1 && value >= 0.0 &&
+      value <= MOST_LEVELS)
+    return 1L << (int)value;
+  return 0;
+}
+
+static long sides_of_count(size_t cells)
+{
+  for (long n = 1; n <= 1L << MOST_LEVELS; n *= 2)
+    if ((size_t)n * (size_t)n * 12 == cells)
+      return n;
+  return 0;
+}
+
+/* The variable that names HEALPix as its grid mapping, the file's only one, or none. */
+static const fg__nc_variable *healpix_mapping(const fg__nc_search *search)
+{
+  char text[FG__NC_TEXT];
+  fg__nc_text(search->u, "grid_mapping", text, sizeof text);
+  text[strcspn(text, ": ")] = '\0';
+  const fg__nc_variable *v = text[0] ? fg__nc_find(search->file, text) : NULL;
+  if (!v)
+    v = fg__nc_find(search->file, "crs");
+  v = v ? v : fg__nc_find(search->file, "healpix");
+  return v && fg__nc_text(v, "grid_mapping_name", text, sizeof text) &&
+                 strcasecmp(text, "healpix") == 0
+             ? v
+             : NULL;
+}
+
+/* Numbers of cells along the dimension, where not all are there. */
+static const fg__nc_variable *find_numbers(const fg__nc_search *search)
+{
+  char text[FG__NC_TEXT];
+  const int dimension = search->u->dimension[search->k];
+  for (size_t n = 0; n < search->file->variable_count; ++n) {
+    const fg__nc_variable *v = &search->file->variables[n];
+    if (v->rank != 1 || !fg__nc_is_array(v) || v->dimension[0] != dimension)
+      continue;
+    fg__nc_text(v, "standard_name", text, sizeof text);
+    if (strcmp(text, "healpix_index") == 0 ||
+        strcmp(v->plain_name, search->file->dimensions[dimension].name) == 0)
+      return v;
+  }
+  return NULL;
+}
+
+bool fg__nc_find_healpix(fg__nc_unstructured *out, fg__nc_search *search)
+{
+  const size_t cells = search->file->dimensions[search->u->dimension[search->k]].length;
+  const fg__nc_variable *mapping = healpix_mapping(search);
+  const fg__nc_variable root = {.owner = search->u->owner,
+                                .group = search->file->roots[search->u->file],
+                                .id = NC_GLOBAL};
+  const fg__nc_variable *said[] = {mapping, search->u, &root};
+  char words[2 * FG__NC_TEXT] = "";
+  bool ordered = false;
+  for (int n = 0; n < 3 && !ordered; ++n)
+    if (said[n])
+      ordered = order_of(&out->nested, said[n], words, sizeof words);
+  /* "order" alone may be of anything */
+  if (!mapping && strncmp(words, "healpix", 7) != 0)
+    return false;
+  for (int n = 0; n < 3 && out->sides == 0; ++n)
+    if (said[n])
+      out->sides = sides_of(said[n]);
+  if (out->sides == 0)
+    out->sides = sides_of_count(cells);
+  if (out->sides == 0)
+    return false;
+  const size_t all = 12 * (size_t)out->sides * (size_t)out->sides;
+  out->pixel = find_numbers(search);
+  if (cells > all || (cells < all && !out->pixel))
+    return false; /* time or level */
+  if (!ordered) {
+    snprintf(search->lacks, sizeof search->lacks,
+             "nothing says whether its %zu HEALPix cells are in ring or nested order",
+             cells);
+    return false;
+  }
+  out->location = FG__NC_ON_FACES;
+  snprintf(out->rule, sizeof out->rule,
+           "east and north, on HEALPix cells, N_side %ld, %s order (%.120s)", out->sides,
+           out->nested ? "nested" : "ring", words);
+  return true;
+}
+
+/* Longitude and latitude along a dimension: those that the variable names, else the
+ * file's first. */
+static bool find_positions(const fg__nc_variable *out[2], const fg__nc_search *search)
+{
+  char names[FG__NC_TEXT];
+  fg__nc_text(search->u, "coordinates", names, sizeof names);
+  for (int named = 1; named >= 0; --named) {
+    out[0] = out[1] = NULL;
+    for (size_t n = 0; n < search->file->variable_count; ++n) {
+      const fg__nc_variable *v = &search->file->variables[n];
+      if (v->rank != 1 || !fg__nc_is_array(v) ||
+          !fg__nc_same_dimension(search->file, v->dimension[0],
+                                 search->u->dimension[search->k]) ||
+          (named && !strstr(names, v->plain_name)))
+        continue;
+      const fg__nc_role role = fg__nc_angle_role(v);
+      if (role != FG__NC_NO_ROLE && !out[role])
+        out[role] = v;
+    }
+    if (out[0] && out[1])
+      return true;
+  }
+  return false;
+}
+
+static bool find_bounds(fg__nc_unstructured *out, const fg__nc_search *search)
+{
+  for (int k = 0; k < 2; ++k) {
+    char name[FG__NC_TEXT];
+    fg__nc_text(out->centre[k], "bounds", name, sizeof name);
+    const fg__nc_variable *v = name[0] ? fg__nc_find(search->file, name) : NULL;
+    if (!v || !fg__nc_is_array(v) || v->rank != 2 ||
+        v->dimension[0] != out->centre[k]->dimension[0] ||
+        search->file->dimensions[v->dimension[1]].length < 3 ||
+        (k == 1 && v->dimension[1] != out->bounds[0]->dimension[1]))
+      return false;
+    out->bounds[k] = v;
+  }
+  return true;
+}
+
+bool fg__nc_find_coordinates(fg__nc_unstructured *out, fg__nc_search *search)
+{
+  if (!find_positions(out->centre, search))
+    return false;
+  const fg__nc_variable *x = out->centre[0], *y = out->centre[1];
+  if (find_bounds(out, search)) {
+    out->location = FG__NC_ON_FACES;
+    snprintf(out->rule, sizeof out->rule,
+             "east and north, on cells at '%.40s', '%.40s' with %zu corners ('%.40s')",
+             x->plain_name, y->plain_name,
+             search->file->dimensions[out->bounds[0]->dimension[1]].length,
+             out->bounds[0]->plain_name);
+    return true;
+  }
+  out->bounds[0] = out->bounds[1] = NULL;
+  out->node[0] = x;
+  out->node[1] = y;
+  out->centre[0] = out->centre[1] = NULL;
+  snprintf(out->rule, sizeof out->rule,
+           "east and north, on points at '%.40s', '%.40s', triangulated", x->plain_name,
+           y->plain_name);
+  return true;
+}
