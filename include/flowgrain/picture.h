@@ -40,7 +40,21 @@ typedef struct fg_picture_options {
   bool borders;     /* of a field on the Earth: also borders of countries */
   double
       scale_time; /* t of the scale, for the caption [the density's; none without it] */
+  int columns;    /* of fg_panels_write: panels in a row [from their shape] */
 } fg_picture_options;
+
+/* One of several panels in a figure. All are borrowed. */
+typedef struct fg_panel {
+  const fg_field *field;
+  const fg_icons *icons;
+  const fg_density *density;           /* NULL without tint */
+  const struct fg_texture *background; /* NULL: none */
+  double scale_time;                   /* as in fg_picture_options */
+  const char *label; /* above it, with {letter} for a, b, ..., and as in a title {title},
+                        {time}, {level}, {names}, {arrows}; "" none; NULL: the letter and
+                        what tells this panel from the others */
+  const char *name;  /* in messages; NULL: panel 1, panel 2, ... */
+} fg_panel;
 
 /* Names of the colour maps, ended by NULL. */
 FG_API const char *const *fg_picture_palettes(void);
@@ -56,6 +70,23 @@ FG_API fg_status fg_picture_write(fg_context *context, const char *path,
                                   const fg_field *field, const fg_density *density,
                                   const fg_icons *icons,
                                   const fg_picture_options *options);
+
+/* Draws `count` panels of one size, in columns and rows from the upper left, with one
+ * caption, one colour key for the speeds of all and one arrow for the size. Width, height
+ * and the size of the texts are the whole figure's. Numbers of axes and degrees are
+ * written at the outer sides; the caption's names stand for what all panels have in
+ * common. Fields must have the same box, map, components and units, 1 <= count <=
+ * FG_MOST_PANELS; of the options neither background nor scale_time count. Statuses as of
+ * fg_picture_write, ARGUMENT where two panels do not go together. */
+enum { FG_MOST_PANELS = 100 };
+FG_API fg_status fg_panels_write(fg_context *context, const char *path,
+                                 const fg_panel *panels, int count,
+                                 const fg_picture_options *options);
+
+/* Pixels that the whole domain has in each panel that fg_panels_write would draw: as
+ * fg_picture_frame. ARGUMENT, MEMORY. */
+FG_API fg_status fg_panels_frame(int size[2], fg_context *context, const fg_panel *panels,
+                                 int count, const fg_picture_options *options);
 
 /* Pixels that the whole domain has in the picture that fg_picture_write would draw with
  * these options, whose frame may show less of it: the size of a background that needs no

@@ -39,14 +39,20 @@ typedef struct fg_solid_options {
   const fg_surface *surface;   /* of the clusters, shown round the arrows, transparent
                                   [none] */
   /* Of pictures: */
-  int width, height;         /* pixels [1200; as high as needed, at most as wide] */
-  bool has_view;             /* the next two count [those of fg_solid_best_view] */
+  int width, height;       /* pixels [at most 480 points, and as large as needed; as high
+                              as needed, at most as wide] */
+  double pixels_per_point; /* of a point of 1/72 inch [2.5] */
+  bool has_view;           /* the next two count [those of fg_solid_best_view] */
   double azimuth, elevation; /* degrees: where the viewer stands, counter-clockwise from
                                 the front (the side of least y), and above the horizon,
                                 -90 to 90 */
   bool no_frame;             /* only arrows, and the outline of where the flow is */
   bool transparent;          /* no background */
   const char *title;         /* caption; NULL: from the field; "" none */
+  const char *subtitle;      /* below it, likewise; NULL under a wanted title: none */
+  const char *label;         /* of the colour key; NULL: speed and its units; "" none */
+  double font_size;          /* points [from the picture's size] */
+  bool no_keys;              /* no colour key */
   double scale_time;         /* t of the scale, for the caption [none] */
   int threads;               /* [all cores] */
 } fg_solid_options;
@@ -74,8 +80,8 @@ FG_API fg_status fg_solid_speed_range(double range[2], fg_context *context,
  * belongs to none: there `cluster`, `speed` and `volume` are 0. .glb: glTF 2.0 in one
  * file: a node with a mesh for each arrow, coloured by its speed, and for all spines,
  * streamlines, centres and clusters' surfaces; z is turned upwards as glTF has y. .png,
- * .svg, .pdf: a rendered picture, the same to the bit on any number of threads; 2.5
- * pixels a point; colours follow the speed along each arrow, and the surface of where the
+ * .svg, .pdf: a rendered picture, the same to the bit on any number of threads; colours
+ * follow the speed along each arrow, and the surface of where the
  * field is valid, or of what moves in a field that hardly does, is seen as a faint
  * outline, unless ranks share the field. The field is needed for pictures only, else
  * NULL. options may be NULL. FILE_ACCESS, UNSUPPORTED (another end; a picture without

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
+#include "base/weighted.h"
 
 /* Of the arrows' length, slower and faster than the ends of the colours. */
 static const double left_out = 0.02;
@@ -32,39 +33,15 @@ fg_status fg__arrow_speeds(double **out, fg_context *context, const fg_field *fi
   return FG_STATUS_OK;
 }
 
-/* A piece of an arrow. */
-typedef struct piece {
-  double speed, length;
-} piece;
-
-static int compare(const void *a, const void *b)
-{
-  const piece *one = a, *other = b;
-  return (one->speed > other->speed) - (one->speed < other->speed);
-}
-
-/* The speed that a share of all length stays below. */
-static double quantile(const piece *pieces, size_t count, double share)
-{
-  double all = 0.0, passed = 0.0;
-  for (size_t n = 0; n < count; ++n)
-    all += pieces[n].length;
-  for (size_t n = 0; n < count; ++n) {
-    passed += pieces[n].length;
-    if (passed >= share * all)
-      return pieces[n].speed;
-  }
-  return pieces[count - 1].speed;
-}
-
-static fg_status add_pieces(piece *out, size_t *count, fg_context *context,
+/* Speeds of the pieces of an arrow, weighted by their lengths. */
+static fg_status add_pieces(fg__weighted *out, size_t *count, fg_context *context,
                             const fg_field *field, const fg_icon *icon)
 {
   double *speed;
   fg_status status = fg__arrow_speeds(&speed, context, field, icon);
   for (int n = 0; n + 1 < icon->point_count && !status; ++n)
-    out[(*count)++] = (piece){(speed[n] + speed[n + 1]) / 2.0,
-                              fg__apart(icon->points[n], icon->points[n + 1])};
+    out[(*count)++] = (fg__weighted){(speed[n] + speed[n + 1]) / 2.0,
+                                     fg__apart(icon->points[n], icon->points[n + 1])};
   free(speed);
   return status;
 }
@@ -79,17 +56,14 @@ fg_status fg_solid_speed_range(double range[2], fg_context *context,
   size_t room = 0, count = 0;
   for (int n = 0; n < fg_icons_count(icons); ++n)
     room += (size_t)fg_icons_at(icons, n)->point_count;
-  piece *pieces = fg__allocate(room, sizeof *pieces);
+  fg__weighted *pieces = fg__allocate(room, sizeof *pieces);
   fg_status status =
       pieces ? FG_STATUS_OK
              : fg__fail_memory(context, "the arrows' speeds", room * sizeof *pieces);
   for (int n = 0; n < fg_icons_count(icons) && !status; ++n)
     status = add_pieces(pieces, &count, context, field, fg_icons_at(icons, n));
-  if (!status && count > 0) {
-    qsort(pieces, count, sizeof *pieces, compare);
-    range[0] = quantile(pieces, count, left_out);
-    range[1] = quantile(pieces, count, 1.0 - left_out);
-  }
+  if (!status)
+    fg__weighted_range(range, pieces, count, left_out);
   free(pieces);
   return status;
 }

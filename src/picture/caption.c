@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "picture/plain_text.h"
-#include "picture/ticks.h"
 
 void fg_picture_round_speeds(double range[2])
 {
@@ -22,15 +21,28 @@ void fg_picture_round_speeds(double range[2])
 
 bool fg__speed_range(double range[2], const fg_icons *icons)
 {
+  return fg__speed_range_common(range, &(fg_panel){.icons = icons}, 1);
+}
+
+bool fg__speed_range_common(double range[2], const fg_panel *panel, int count)
+{
+  double ends[2] = {HUGE_VAL, -HUGE_VAL};
   if (range[1] > range[0])
     return true;
-  fg_icons_speed_range(range, icons);
-  if (fg_icons_count(icons) == 0) {
-    range[1] = 1.0;
-    return false;
+  for (int k = 0; k < count; ++k) {
+    double own[2];
+    if (fg_icons_count(panel[k].icons) == 0)
+      continue;
+    fg_icons_speed_range(own, panel[k].icons);
+    ends[0] = fmin(ends[0], own[0]);
+    ends[1] = fmax(ends[1], own[1]);
   }
-  fg_picture_round_speeds(range);
-  return true;
+  const bool some = ends[0] <= ends[1];
+  range[0] = some ? ends[0] : 0.0;
+  range[1] = some ? ends[1] : 1.0;
+  if (some)
+    fg_picture_round_speeds(range);
+  return some;
 }
 
 void fg__speeds_beyond(bool beyond[2], const fg_icons *icons, const double range[2])
@@ -101,16 +113,36 @@ void fg__caption_fill(char out[FG__CAPTION_BYTES], const char *wanted,
   }
 }
 
-/* What a field and its icons say of themselves, cleaned. */
+/* A label of one's own still tells what was taken out of the numbers. */
+void fg__caption_label_speeds(fg__tick_axis *speed, const char *wanted, const char *units)
+{
+  char label[FG__CAPTION_BYTES];
+  if (!wanted)
+    return;
+  if (speed->offset != 0.0) {
+    fg__text_clean(label, sizeof label, wanted);
+    fg__axis_of_numbers(speed, speed->low, speed->high, speed->high - speed->low, label,
+                        units);
+    return;
+  }
+  const fg__caption_value known = {"{units}", speed->units};
+  snprintf(label, sizeof label, "%.250s%s", wanted,
+           *wanted && speed->factor != 1.0 && !strstr(wanted, known.name) ? " ({units})"
+                                                                          : "");
+  fg__caption_fill(speed->label, label, &known, 1);
+  speed->units[0] = '\0';
+}
+
+/* What a field and its icons say of themselves, cleaned; "" what they do not say. */
 typedef struct told_words {
   char title[FG__CAPTION_BYTES], names[FG__CAPTION_BYTES], time[FG__CAPTION_BYTES],
-      level[FG__CAPTION_BYTES], arrows[32];
+      level[FG__CAPTION_BYTES], scale[32], arrows[32];
   bool telling; /* the names are more than u and v */
 } told_words;
 
-static void collect_words(told_words *out, const fg_field_arrays *field,
-                          const fg_icons *icons)
+static void collect_words(told_words *out, const fg__caption_panel *panel)
 {
+  const fg_field_arrays *field = panel->field;
   char names[FG__CAPTION_BYTES];
   snprintf(names, sizeof names, "%.100s, %.100s", field->velocity_name[0],
            field->velocity_name[1]);
@@ -124,49 +156,130 @@ static void collect_words(told_words *out, const fg_field_arrays *field,
   fg__text_clean(out->title, sizeof out->title, field->title);
   fg__text_clean(out->time, sizeof out->time, field->time ? field->time : "");
   fg__text_clean(out->level, sizeof out->level, field->level ? field->level : "");
-  snprintf(out->arrows, sizeof out->arrows, "%d", icons ? fg_icons_count(icons) : 0);
+  out->scale[0] = '\0';
+  if (panel->scale_time > 0.0)
+    snprintf(out->scale, sizeof out->scale, "scale t = %.3g", panel->scale_time);
+  snprintf(out->arrows, sizeof out->arrows, "%d",
+           panel->icons ? fg_icons_count(panel->icons) : 0);
+}
+
+/* The texts of told words. */
+enum { WORDS = 6 };
+
+static char *words_of(told_words *told, int k)
+{
+  char *const words[WORDS] = {told->title, told->names, told->time,
+                              told->level, told->scale, told->arrows};
+  return words[k];
+}
+
+/* Only what all panels have in common. */
+static void collect_common(told_words *out, const fg__caption_panel *panel, int count)
+{
+  told_words other;
+  collect_words(out, &panel[0]);
+  for (int n = 1; n < count; ++n) {
+    collect_words(&other, &panel[n]);
+    for (int k = 0; k < WORDS; ++k)
+      if (strcmp(words_of(out, k), words_of(&other, k)) != 0)
+        words_of(out, k)[0] = '\0';
+  }
+}
+
+/* "40 arrows", "40 arrows each", "" where that is not told. */
+static const char *say_arrows(char *words, size_t room, const told_words *told,
+                              bool of_several)
+{
+  snprintf(words, room, "%s arrow%s%s", told->arrows,
+           strcmp(told->arrows, "1") == 0 ? "" : "s", of_several ? " each" : "");
+  return told->arrows[0] ? words : "";
 }
 
 static void write_subtitle(char subtitle[FG__CAPTION_BYTES], const told_words *told,
-                           const fg_icons *icons, double scale_time)
+                           const fg__caption_panel *panel, int count)
 {
   char words[64];
+  const fg_icons *icons = panel[0].icons;
   if (told->title[0] && told->telling)
     add_part(subtitle, told->names);
   add_part(subtitle, told->time);
   add_part(subtitle, told->level);
-  if (icons) {
-    snprintf(words, sizeof words, "%s arrow%s", told->arrows,
-             fg_icons_count(icons) == 1 ? "" : "s");
-    add_part(subtitle, words);
-    if (fg_icons_kept_score(icons))
-      add_part(subtitle, say_error(words, sizeof words, fg_icons_kept_score(icons)));
-  }
-  if (scale_time > 0.0) {
-    snprintf(words, sizeof words, "scale t = %.3g", scale_time);
-    add_part(subtitle, words);
-  }
+  if (icons)
+    add_part(subtitle, say_arrows(words, sizeof words, told, count > 1));
+  if (icons && count == 1 && fg_icons_kept_score(icons))
+    add_part(subtitle, say_error(words, sizeof words, fg_icons_kept_score(icons)));
+  add_part(subtitle, told->scale);
+}
+
+enum { CAPTION_NAMES = 5 };
+
+static void list_values(fg__caption_value out[CAPTION_NAMES], const told_words *told)
+{
+  const fg__caption_value values[CAPTION_NAMES] = {{"{title}", told->title},
+                                                   {"{names}", told->names},
+                                                   {"{time}", told->time},
+                                                   {"{level}", told->level},
+                                                   {"{arrows}", told->arrows}};
+  memcpy(out, values, sizeof values);
+}
+
+void fg__caption_write_common(char title[FG__CAPTION_BYTES],
+                              char subtitle[FG__CAPTION_BYTES],
+                              const fg__caption_panel *panel, int count,
+                              const char *const wanted[2])
+{
+  told_words told;
+  fg__caption_value values[CAPTION_NAMES];
+  collect_common(&told, panel, count);
+  list_values(values, &told);
+  title[0] = subtitle[0] = '\0';
+  if (wanted[0])
+    fg__caption_fill(title, wanted[0], values, CAPTION_NAMES);
+  else if (told.title[0] || told.telling)
+    snprintf(title, FG__CAPTION_BYTES, "%s", told.title[0] ? told.title : told.names);
+  if (wanted[1])
+    fg__caption_fill(subtitle, wanted[1], values, CAPTION_NAMES);
+  else if (!wanted[0])
+    write_subtitle(subtitle, &told, panel, count);
 }
 
 void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_BYTES],
                        const fg_field_arrays *field, const fg_icons *icons,
                        const char *const wanted[2], double scale_time)
 {
-  told_words told;
-  collect_words(&told, field, icons);
-  const fg__caption_value values[] = {{"{title}", told.title},
-                                      {"{names}", told.names},
-                                      {"{time}", told.time},
-                                      {"{level}", told.level},
-                                      {"{arrows}", told.arrows}};
-  const size_t count = sizeof values / sizeof *values;
-  title[0] = subtitle[0] = '\0';
-  if (wanted[0])
-    fg__caption_fill(title, wanted[0], values, count);
-  else if (told.title[0] || told.telling)
-    snprintf(title, FG__CAPTION_BYTES, "%s", told.title[0] ? told.title : told.names);
-  if (wanted[1])
-    fg__caption_fill(subtitle, wanted[1], values, count);
-  else if (!wanted[0])
-    write_subtitle(subtitle, &told, icons, scale_time);
+  const fg__caption_panel alone = {field, icons, scale_time};
+  fg__caption_write_common(title, subtitle, &alone, 1, wanted);
+}
+
+/* a to z, then aa, ab, ... */
+static void write_letter(char out[4], int k)
+{
+  if (k < 26)
+    snprintf(out, 4, "%c", 'a' + k);
+  else
+    snprintf(out, 4, "%c%c", 'a' + (k / 26 - 1) % 26, 'a' + k % 26);
+}
+
+void fg__caption_write_label(char label[FG__CAPTION_BYTES],
+                             const fg__caption_panel *panel, int count, int k,
+                             const char *wanted)
+{
+  told_words told, common;
+  fg__caption_value values[CAPTION_NAMES + 1];
+  char letter[4], words[64], rest[FG__CAPTION_BYTES] = "";
+  collect_words(&told, &panel[k]);
+  list_values(values, &told);
+  write_letter(letter, k);
+  values[CAPTION_NAMES] = (fg__caption_value){"{letter}", letter};
+  if (wanted) {
+    fg__caption_fill(label, wanted, values, CAPTION_NAMES + 1);
+    return;
+  }
+  collect_common(&common, panel, count);
+  for (int n = 0; n < WORDS; ++n)
+    if (strcmp(words_of(&told, n), words_of(&common, n)) != 0)
+      add_part(rest, words_of(&told, n) == told.arrows
+                         ? say_arrows(words, sizeof words, &told, false)
+                         : words_of(&told, n));
+  snprintf(label, FG__CAPTION_BYTES, "(%s)%s%.300s", letter, *rest ? " " : "", rest);
 }

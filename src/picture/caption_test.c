@@ -101,6 +101,60 @@ static void a_caption_tells_the_error_and_never_less(void **state)
   expect(NULL, "");
 }
 
+/* The caption tells what panels have in common, their labels what tells them apart. */
+static void panels_are_told_apart(void **state)
+{
+  char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES], label[FG__CAPTION_BYTES];
+  static const char *const none[2] = {NULL, NULL}, *const wanted[2] = {"{level}{time}",
+                                                                       ""};
+  fg_icons *few = lines(*state, 1), *more = lines(*state, 2);
+  fg_field_arrays field[2];
+  for (int k = 0; k < 2; ++k)
+    field[k] = (fg_field_arrays){.dimension = 2,
+                                 .velocity_name = {"U10", "V10"},
+                                 .title = "Wind",
+                                 .time = k ? "1982-07-16" : "1982-01-16",
+                                 .level = "10 m"};
+  fg__caption_panel panel[2] = {{&field[0], more, 0.0}, {&field[1], more, 0.0}};
+  fg__caption_write_common(title, subtitle, panel, 2, none);
+  assert_string_equal(title, "Wind");
+  assert_string_equal(subtitle, "U10, V10 \xC2\xB7 10 m \xC2\xB7 2 arrows each");
+  fg__caption_write_common(title, subtitle, panel, 2, wanted);
+  assert_string_equal(title, "10 m");
+  fg__caption_write_label(label, panel, 2, 1, NULL);
+  assert_string_equal(label, "(b) 1982-07-16");
+  fg__caption_write_label(label, panel, 2, 0, "{letter}: {level}");
+  assert_string_equal(label, "a: 10 m");
+  panel[0].icons = few;
+  field[0].time = field[1].time;
+  fg__caption_write_label(label, panel, 2, 0, NULL);
+  assert_string_equal(label, "(a) 1 arrow");
+  panel[1] = panel[0];
+  fg__caption_write_label(label, panel, 2, 1, NULL);
+  assert_string_equal(label, "(b)");
+  fg_icons_destroy(few);
+  fg_icons_destroy(more);
+}
+
+static void letters_go_on_after_z(void **state)
+{
+  (void)state;
+  char label[FG__CAPTION_BYTES];
+  const fg_field_arrays field = {
+      .dimension = 2, .velocity_name = {"u", "v"}, .title = ""};
+  fg__caption_panel panel[54];
+  for (int k = 0; k < 54; ++k)
+    panel[k] = (fg__caption_panel){&field, NULL, 0.0};
+  static const struct {
+    int k;
+    const char *label;
+  } cases[] = {{0, "(a)"}, {25, "(z)"}, {26, "(aa)"}, {51, "(az)"}, {52, "(ba)"}};
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    fg__caption_write_label(label, panel, 54, cases[n].k, NULL);
+    assert_string_equal(label, cases[n].label);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -108,6 +162,9 @@ int main(void)
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(names_in_braces_are_what_the_field_says,
                                       context_set_up, context_tear_down),
+      cmocka_unit_test_setup_teardown(panels_are_told_apart, context_set_up,
+                                      context_tear_down),
+      cmocka_unit_test(letters_go_on_after_z),
   };
   return cmocka_run_group_tests_name("picture/caption", tests, NULL, NULL);
 }

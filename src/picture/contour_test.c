@@ -317,6 +317,39 @@ static void a_staircase_becomes_a_slope(void **state)
   fg__polygons_clear(&polygons);
 }
 
+/* Steps of a coarse grid become a slope; what lies on the frame stays; small parts go. */
+static void coarse_steps_are_smoothed_away(void **state)
+{
+  (void)state;
+  const double from[2] = {0.0, 0.0}, to[2] = {40.0, 40.0};
+  fg__polygons stairs = {.point = NULL}, smooth = {.point = NULL};
+  assert_true(fg__polygons_begin(&stairs));
+  assert_true(fg__polygons_add(&stairs, (double[2]){0.0, 40.0}));
+  for (int n = 0; n < 20; ++n) {
+    assert_true(fg__polygons_add(&stairs, (double[2]){2.0 * n, 2.0 * n}));
+    assert_true(fg__polygons_add(&stairs, (double[2]){2.0 * n + 2.0, 2.0 * n}));
+  }
+  assert_true(fg__polygons_add(&stairs, (double[2]){40.0, 40.0}));
+  assert_true(fg__polygons_begin(&stairs)); /* a speck */
+  for (int n = 0; n < 3; ++n)
+    assert_true(
+        fg__polygons_add(&stairs, (double[2]){30.0 + 0.2 * n, 5.0 + 0.1 * n * n}));
+  assert_true(fg__polygons_add_smooth(&smooth, &stairs, 3.0, from, to));
+  assert_int_equal(smooth.count, 1);
+  int on_frame = 0, on_slope = 0;
+  for (size_t n = 0; n < smooth.point_count; ++n) {
+    const double *at = smooth.point[n];
+    on_frame += at[0] <= 0.0 || at[1] >= 40.0;
+    if (at[0] < 8.0 || at[0] > 32.0 || at[1] > at[0] + 4.0)
+      continue;
+    ++on_slope;
+    assert_true(fabs(at[1] - at[0] + 1.0) < 0.25); /* by 1, where it is a staircase */
+  }
+  assert_true(on_frame > 70 && on_slope > 30);
+  fg__polygons_clear(&stairs);
+  fg__polygons_clear(&smooth);
+}
+
 static void boundaries_of_the_grid_stay_straight(void **state)
 {
   (void)state;
@@ -383,6 +416,7 @@ int main(void)
       cmocka_unit_test(simplifying_keeps_the_shape),
       cmocka_unit_test(masks_keep_their_area),
       cmocka_unit_test(a_staircase_becomes_a_slope),
+      cmocka_unit_test(coarse_steps_are_smoothed_away),
       cmocka_unit_test(boundaries_of_the_grid_stay_straight),
       cmocka_unit_test(lone_cells_stay_visible),
       cmocka_unit_test(random_masks_close_and_stay_near),

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "picture/map/stroke.h"
+#include "sphere/sphere.h"
 
 /* Lines that a frame shows of either kind, about. */
 static const double lines_shown = 6.0;
@@ -96,15 +97,6 @@ static bool is_rim(const fg__plane *plane, const family *f, double position)
          fabs(fabs(position - plane->center[0]) - 180.0) < 1e-6;
 }
 
-static double away(const fg__plane *plane, double longitude, double latitude)
-{
-  const double degree = acos(-1.0) / 180.0;
-  const double turn = (longitude - plane->center[0]) * degree;
-  const double c = sin(latitude * degree) * sin(plane->center[1] * degree) +
-                   cos(latitude * degree) * cos(plane->center[1] * degree) * cos(turn);
-  return acos(fmin(fmax(c, -1.0), 1.0)) / degree;
-}
-
 static fg_status trace(fg__graticule *out, fg_context *context, const family *f,
                        double position)
 {
@@ -114,13 +106,12 @@ static fg_status trace(fg__graticule *out, fg_context *context, const family *f,
   const int pieces = (int)ceil((f->high - f->low) / step);
   for (int n = 0; n <= pieces; ++n) {
     const double at = f->low + (f->high - f->low) * n / pieces;
-    const double longitude = f->k == 0 ? position : at;
-    const double latitude = f->k == 0 ? at : position;
+    const double place[2] = {f->k == 0 ? position : at, f->k == 0 ? at : position};
     if (plane->kind == FG__PLANE_AZIMUTHAL &&
-        away(plane, longitude, latitude) > plane->reach)
+        fg__sphere_distance(plane->center, place) > plane->reach)
       fg__stroke_end(&stroke, &out->line, plane, false);
     else
-      fg__stroke_add(&stroke, longitude, latitude);
+      fg__stroke_add(&stroke, place[0], place[1]);
   }
   fg__stroke_end(&stroke, &out->line, plane, false);
   const bool failed = stroke.failed;

@@ -80,35 +80,18 @@ static void trace_area(fg__tracer *t, const fg__coast_part *p, double shift)
   fg__stroke_end(&t->stroke, t->areas, plane, true);
 }
 
-/* The shares of an edge that lie in the window, after Liang and Barsky (1984). */
-static bool clip_edge(const fg__plane *plane, const double a[2], const double b[2],
-                      double share[2])
-{
-  const double low[2] = {plane->west, plane->south};
-  const double high[2] = {plane->east, plane->north};
-  share[0] = 0.0, share[1] = 1.0;
-  for (int k = 0; k < 2; ++k) {
-    const double d = b[k] - a[k];
-    if (d == 0.0 && (a[k] < low[k] || a[k] > high[k]))
-      return false;
-    if (d == 0.0)
-      continue;
-    const double one = (low[k] - a[k]) / d, other = (high[k] - a[k]) / d;
-    share[0] = fmax(share[0], fmin(one, other));
-    share[1] = fmin(share[1], fmax(one, other));
-  }
-  return share[0] < share[1];
-}
-
 static void trace_lines(fg__tracer *t, const fg__coast_part *p, double shift)
 {
+  const double low[2] = {t->plane->west, t->plane->south};
+  const double high[2] = {t->plane->east, t->plane->north};
   bool going = false;
   for (size_t n = 0; n < fg__part_edges(p); ++n) {
     double a[2], b[2], share[2];
     fg__part_edge(p, n, a, b);
     a[0] += shift;
     b[0] += shift;
-    if (fg__edge_is_cut(a, b) || !clip_edge(t->plane, a, b, share)) {
+    fg__clip_edge(share, a, b, low, high);
+    if (fg__edge_is_cut(a, b) || share[0] >= share[1]) {
       fg__stroke_end(&t->stroke, t->lines, t->plane, false);
       going = false;
       continue;

@@ -3,8 +3,9 @@
 #include <math.h>
 
 #include "picture/map/tracer.h"
+#include "sphere/sphere.h"
 
-static const double degree = 0.017453292519943295;
+static const double degree = FG__RADIANS;
 
 /* Places along the circle. */
 static const double rim_step = 2.0;
@@ -15,6 +16,7 @@ typedef struct walk {
   double sine, cosine; /* of the centre's latitude */
   double least;        /* cosine of the distance of the circle */
   double direction, pushed, net;
+  double before[2]; /* of a line: the last place */
   bool begun, inside, ever_inside, ever_outside;
 } walk;
 
@@ -61,8 +63,9 @@ static void push_arc(walk *w, double direction)
     push_rim(w, from + turn * k / pieces);
 }
 
-static void visit(walk *w, const double place[2])
+static void visit_area(walk *w, const double place[2], bool cut)
 {
+  (void)cut;
   double direction;
   const bool inside = look(w, place, &direction);
   if (w->begun)
@@ -84,17 +87,24 @@ static void visit(walk *w, const double place[2])
   w->begun = true;
 }
 
-/* Places along an edge, but for its first. Returns how many pieces it has. */
-static int pieces_of(const fg__tracer *t, const double a[2], const double b[2])
+/* Visits places all along a part, but for its first. cut: on the data's own cut. */
+static void follow(walk *w, const fg__coast_part *p,
+                   void (*visit)(walk *w, const double place[2], bool cut))
 {
-  const double wide = fabs(b[0] - a[0]) * cos(0.5 * (a[1] + b[1]) * degree);
-  return (int)fmax(ceil(fmax(wide, fabs(b[1] - a[1])) / t->step), 1.0);
-}
-
-static void place_on(double out[2], const double a[2], const double b[2], double share)
-{
-  for (int k = 0; k < 2; ++k)
-    out[k] = a[k] + share * (b[k] - a[k]);
+  for (size_t n = 0; n < fg__part_edges(p); ++n) {
+    double a[2], b[2];
+    fg__part_edge(p, n, a, b);
+    const bool cut = fg__edge_is_cut(a, b);
+    const double wide = fabs(b[0] - a[0]) * cos(0.5 * (a[1] + b[1]) * degree);
+    const double length = fmax(wide, fabs(b[1] - a[1]));
+    const int pieces = (int)fmax(ceil(length / w->tracer->step), 1.0);
+    for (int k = 1; k <= pieces; ++k) {
+      const double share = (double)k / pieces;
+      visit(w,
+            (const double[2]){a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])},
+            cut);
+    }
+  }
 }
 
 /* Whether a place lies inside a ring: crossings of its meridian on the way north, of all
@@ -128,16 +138,8 @@ static void trace_area(fg__tracer *t, const fg__coast_part *p)
 {
   const fg__plane *plane = t->plane;
   walk w = walk_of(t);
-  visit(&w, p->point[0]);
-  for (size_t n = 0; n < fg__part_edges(p); ++n) {
-    double a[2], b[2], place[2];
-    fg__part_edge(p, n, a, b);
-    const int pieces = pieces_of(t, a, b);
-    for (int k = 1; k <= pieces; ++k) {
-      place_on(place, a, b, (double)k / pieces);
-      visit(&w, place);
-    }
-  }
+  visit_area(&w, p->point[0], false);
+  follow(&w, p, visit_area);
   if (!w.ever_inside && fabs(w.net) < 180.0)
     t->stroke.count = 0;
   fg__stroke_end(&t->stroke, t->areas, plane, true);
@@ -147,31 +149,27 @@ static void trace_area(fg__tracer *t, const fg__coast_part *p)
 }
 
 /* One place beyond the circle is kept at either end of a line. */
+static void visit_line(walk *w, const double place[2], bool cut)
+{
+  fg__tracer *t = w->tracer;
+  const bool now = look(w, place, &w->direction) && !cut;
+  if (now && !w->inside && w->begun)
+    fg__stroke_add(&t->stroke, w->before[0], w->before[1]);
+  if (now || w->inside)
+    fg__stroke_add(&t->stroke, place[0], place[1]);
+  if (!now)
+    fg__stroke_end(&t->stroke, t->lines, t->plane, false);
+  w->inside = now;
+  w->begun = true;
+  w->before[0] = place[0];
+  w->before[1] = place[1];
+}
+
 static void trace_lines(fg__tracer *t, const fg__coast_part *p)
 {
-  const walk w = walk_of(t);
-  double before[2] = {p->point[0][0], p->point[0][1]}, direction;
-  bool inside = look(&w, before, &direction);
-  if (inside)
-    fg__stroke_add(&t->stroke, before[0], before[1]);
-  for (size_t n = 0; n < fg__part_edges(p); ++n) {
-    double a[2], b[2], place[2];
-    fg__part_edge(p, n, a, b);
-    const int pieces = pieces_of(t, a, b);
-    for (int k = 1; k <= pieces; ++k) {
-      place_on(place, a, b, (double)k / pieces);
-      const bool now = look(&w, place, &direction) && !fg__edge_is_cut(a, b);
-      if (now && !inside)
-        fg__stroke_add(&t->stroke, before[0], before[1]);
-      if (now || inside)
-        fg__stroke_add(&t->stroke, place[0], place[1]);
-      if (!now)
-        fg__stroke_end(&t->stroke, t->lines, t->plane, false);
-      inside = now;
-      before[0] = place[0];
-      before[1] = place[1];
-    }
-  }
+  walk w = walk_of(t);
+  visit_line(&w, p->point[0], false);
+  follow(&w, p, visit_line);
   fg__stroke_end(&t->stroke, t->lines, t->plane, false);
 }
 

@@ -4,11 +4,12 @@
 
 #include "picture/map/land.h"
 #include "picture/map/missing.h"
+#include "picture/map/stroke.h"
 #include "picture/polygons.h"
 
 /* Metres on the ground in a point from which on coasts are generalised for 1 to 110, and
  * to 50 million: a world map 480 points wide has 76 km in a point, one of Europe 10. */
-static const double coarse_from = 20e3, middle_from = 2.5e3;
+static const double coarse_from = 20e3, middle_from = 6e3;
 
 /* Points: vertices that move a line by less are dropped; what is smaller than a speck is
  * not drawn; coordinates are multiples of a grain, which have few digits in SVG. */
@@ -19,8 +20,8 @@ static const double grain = 1.0 / 8.0;
 /* What is drawn about an arrow, its rim. */
 static const double clip_slack = 0.5;
 
-/* Of degrees inside a map, in units of the font size. */
-static const double inside_size = 0.88;
+/* Of degrees inside a map, and between them and arrows, in units of the font size. */
+static const double inside_size = 0.88, arrow_gap = 0.4;
 
 typedef struct placing {
   const fg__page *page;
@@ -145,6 +146,7 @@ fg_status fg__map_scene_create(fg__map_scene *out, fg_context *context,
   finish(&p, &out->graticule, 0.05, true);
   if (!status && !wishes->no_coast)
     status = add_coasts(out, context, &p, field, wishes->borders);
+  out->contained = p.plane->whole && !p.plane->disc && !out->missing.count;
   if (status)
     fg__map_scene_clear(out);
   return status;
@@ -166,60 +168,43 @@ static bool boxes_touch(const fg__page_box *a, const fg__page_box *b)
   return a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1;
 }
 
-/* Whether an edge comes into a box, after Liang and Barsky (1984). */
-static bool edge_in_box(const double a[2], const double b[2], const fg__page_box *box)
-{
-  const double low[2] = {box->x0, box->y0}, high[2] = {box->x1, box->y1};
-  double from = 0.0, to = 1.0;
-  for (int k = 0; k < 2; ++k) {
-    const double d = b[k] - a[k];
-    if (d == 0.0 && (a[k] < low[k] || a[k] > high[k]))
-      return false;
-    if (d == 0.0)
-      continue;
-    const double one = (low[k] - a[k]) / d, other = (high[k] - a[k]) / d;
-    from = fmax(from, fmin(one, other));
-    to = fmin(to, fmax(one, other));
-  }
-  return from <= to;
-}
-
 static bool loops_touch_box(const fg__polygons *loops, const fg__page_box *box)
 {
+  const double low[2] = {box->x0, box->y0}, high[2] = {box->x1, box->y1};
   for (size_t k = 0; k < loops->count; ++k)
     for (size_t n = loops->start[k]; n < loops->start[k + 1]; ++n) {
       const size_t next = n + 1 < loops->start[k + 1] ? n + 1 : loops->start[k];
-      if (edge_in_box(loops->point[n], loops->point[next], box))
+      double share[2];
+      fg__clip_edge(share, loops->point[n], loops->point[next], low, high);
+      if (share[0] <= share[1])
         return true;
     }
   return false;
-}
-
-/* By the even-odd rule. */
-static bool loop_contains(const fg__polygons *loops, size_t k, double x, double y)
-{
-  bool inside = false;
-  for (size_t n = loops->start[k]; n < loops->start[k + 1]; ++n) {
-    const size_t next = n + 1 < loops->start[k + 1] ? n + 1 : loops->start[k];
-    const double *a = loops->point[n], *b = loops->point[next];
-    if ((a[1] > y) != (b[1] > y) && x < a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]))
-      inside = !inside;
-  }
-  return inside;
 }
 
 bool fg__map_scene_holds(const fg__map_scene *scene, const fg__page *page,
                          const fg__polygons *loops, size_t loop)
 {
   const fg__page_box *frame = &page->frame;
-  for (size_t n = loops->start[loop]; n < loops->start[loop + 1]; ++n) {
-    const double x = loops->point[n][0], y = loops->point[n][1];
-    if (x < frame->x0 + clip_slack || x > frame->x1 - clip_slack ||
-        y < frame->y0 + clip_slack || y > frame->y1 - clip_slack ||
-        (scene->outline.count && !loop_contains(&scene->outline, 0, x, y)))
-      return false;
+  const size_t first = loops->start[loop], end = loops->start[loop + 1];
+  fg__page_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (size_t n = first; n < end; ++n) {
+    const double *at = loops->point[n];
+    box = (fg__page_box){fmin(box.x0, at[0]), fmin(box.y0, at[1]), fmax(box.x1, at[0]),
+                         fmax(box.y1, at[1])};
   }
-  return true;
+  if (box.x0 < frame->x0 + clip_slack || box.x1 > frame->x1 - clip_slack ||
+      box.y0 < frame->y0 + clip_slack || box.y1 > frame->y1 - clip_slack)
+    return false;
+  if (!scene->outline.count)
+    return true;
+  /* all of a box that the outline does not touch lies on the same side */
+  const bool apart = !loops_touch_box(&scene->outline, &box);
+  bool inside = true;
+  for (size_t n = first; n < end && inside && (n == first || !apart); ++n)
+    inside =
+        fg__polygon_contains(&scene->outline, 0, loops->point[n][0], loops->point[n][1]);
+  return inside;
 }
 
 /* Free of arrows, of the outline and of other texts, inside of the frame. */
@@ -234,10 +219,13 @@ static bool is_free(const fg__map_scene *scene, const fg__page *page,
     if (boxes_touch(&page->text[k].box, box))
       return false;
   if (scene->outline.count &&
-      !loop_contains(&scene->outline, 0, 0.5 * (box->x0 + box->x1),
-                     0.5 * (box->y0 + box->y1)))
+      !fg__polygon_contains(&scene->outline, 0, 0.5 * (box->x0 + box->x1),
+                            0.5 * (box->y0 + box->y1)))
     return false;
-  return !loops_touch_box(&scene->outline, box) && !loops_touch_box(arrows, box);
+  const double apart = arrow_gap * page->font_size;
+  const fg__page_box wider = {box->x0 - apart, box->y0 - apart, box->x1 + apart,
+                              box->y1 + apart};
+  return !loops_touch_box(&scene->outline, box) && !loops_touch_box(arrows, &wider);
 }
 
 /* Where a label's text would stand, with a little room round it. */

@@ -17,7 +17,8 @@ typedef struct fg__map_scene {
   fg__polygons rim;          /* lines where the data end */
   fg__polygons graticule;    /* lines */
   fg__polygons outline;      /* a closed loop; empty where the frame is a box */
-  fg__polygons arrow_rims;   /* a loop an arrow: its outline, less finely */
+  bool contained;          /* land and lines end at the outline, and nothing is missing */
+  fg__polygons arrow_rims; /* a loop an arrow: its outline, less finely */
   fg__page_box backing[FG__MAP_BACKINGS]; /* white, under texts inside the map */
   int backings;
 } fg__map_scene;

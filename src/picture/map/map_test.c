@@ -232,7 +232,7 @@ static void labels_say_where_lines_end(void **state)
       const fg__map_label *label = n < graticule->labels
                                        ? &graticule->label[n]
                                        : &graticule->inside[n - graticule->labels];
-      double said, place[2];
+      double given, place[2];
       bool is_latitude;
       /* a little inwards: on the rim itself there need be no way back */
       const double inwards =
@@ -240,10 +240,10 @@ static void labels_say_where_lines_end(void **state)
       const double x = label->at[0] - inwards * label->out[0];
       const double y = label->at[1] - inwards * label->out[1];
       fg__plane_inverse(&plane, 1, &x, &y, &place[0], &place[1]);
-      if (!read_degrees(label, &said, &is_latitude) || !isfinite(place[0]))
+      if (!read_degrees(label, &given, &is_latitude) || !isfinite(place[0]))
         continue;
       const double off =
-          is_latitude ? said - place[1] : remainder(said - place[0], 360.0);
+          is_latitude ? given - place[1] : remainder(given - place[0], 360.0);
       if (!(fabs(off) < 0.6))
         fail_msg("view %d: %s stands at %g, %g", k, label->text, place[0], place[1]);
     }
@@ -314,6 +314,54 @@ static double area_of(const fg__polygons *loops)
   return area;
 }
 
+static bool page_has(const fg__page *page, const char *text)
+{
+  for (int k = 0; k < page->text_count; ++k)
+    if (strcmp(page->text[k].text, text) == 0)
+      return true;
+  return false;
+}
+
+/* Where not all have room, as many west of the middle are labelled as east of it. */
+static void fewer_labels_are_still_even(void **state)
+{
+  fg_context *context = *state;
+  static const char *const pairs[][2] = {{"60\xC2\xB0W", "60\xC2\xB0"
+                                                         "E"},
+                                         {"120\xC2\xB0W", "120\xC2\xB0"
+                                                          "E"},
+                                         {"30\xC2\xB0S", "30\xC2\xB0N"},
+                                         {"60\xC2\xB0S", "60\xC2\xB0N"}};
+  fg__plane plane;
+  fg__graticule *graticule = calloc(1, sizeof *graticule);
+  fg__page *page = calloc(1, sizeof *page);
+  assert_non_null(graticule);
+  assert_non_null(page);
+  make_plane(&plane, context, &world);
+  assert_int_equal(fg__graticule_create(graticule, context, &plane), FG_STATUS_OK);
+  fg__page_plan plan = {.graticule = graticule, .outlined = true};
+  for (int i = 0; i < 2; ++i) {
+    plan.axis[i].low = plane.low[i];
+    plan.axis[i].high = plane.high[i];
+  }
+  cairo_t *ruler = fg__text_ruler();
+  int least = 100, most = 0;
+  for (plan.width = 60.0; plan.width < 500.0; plan.width += 40.0) {
+    fg__page_layout(page, &plan, ruler);
+    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; ++k)
+      assert_int_equal(page_has(page, pairs[k][0]), page_has(page, pairs[k][1]));
+    least = page->text_count < least ? page->text_count : least;
+    most = page->text_count > most ? page->text_count : most;
+  }
+  assert_true(least < most);
+  assert_int_equal(most, 10);
+  cairo_destroy(ruler);
+  fg__graticule_clear(graticule);
+  fg__plane_clear(&plane);
+  free(graticule);
+  free(page);
+}
+
 static void the_rim_is_where_data_end(void **state)
 {
   static const view sea = {"+proj=laea +lat_0=-35 +lon_0=-120 +R=6371000 +units=km",
@@ -369,6 +417,37 @@ static uint32_t pixel_of(const char *path, double x, double y)
   return pixel & 0xffffff;
 }
 
+/* Data that reach over Australia and its seas, and hardly over other land. */
+static bool near_australia(double x, double y)
+{
+  return x > 105.0 && x < 165.0 && y > -50.0 && y < 0.0;
+}
+
+/* Land covers a texture of data of the sea, which on coarse grids are on coasts, too. */
+static void land_covers_textures_of_the_sea(void **state)
+{
+  fg_context *context = *state;
+  char folder[] = "/tmp/flowgrain-map-XXXXXX", path[64];
+  assert_non_null(mkdtemp(folder));
+  snprintf(path, sizeof path, "%s/map.png", folder);
+  for (int all = 0; all < 2; ++all) {
+    fg_field *field = make_field(context, &degrees, all ? NULL : near_australia);
+    fg_texture *texture = NULL;
+    const fg_texture_style style = {.land = "#804020", .palette = "#00ff00"};
+    assert_int_equal(fg_texture_create(&texture, context, field,
+                                       &(fg_texture_options){.longest = 358}),
+                     FG_STATUS_OK);
+    assert_int_equal(fg_texture_write(context, path, field, texture, &style),
+                     FG_STATUS_OK);
+    const uint32_t pixel = pixel_of(path, (135.0 - 21.0) / 358.0, (89.0 + 25.0) / 178.0);
+    assert_true((pixel == 0x804020) == !all);
+    fg_texture_destroy(texture);
+    fg_field_destroy(field);
+  }
+  unlink(path);
+  rmdir(folder);
+}
+
 static void pictures_show_land(void **state)
 {
   fg_context *context = *state;
@@ -407,9 +486,10 @@ int main(void)
 #define TEST(name)                                                                       \
   cmocka_unit_test_setup_teardown(name, context_set_up, context_tear_down)
   const struct CMUnitTest tests[] = {
-      TEST(land_is_where_it_is),        TEST(coasts_do_not_cross_the_map),
-      TEST(labels_say_where_lines_end), TEST(no_two_labels_touch),
-      TEST(the_rim_is_where_data_end),  TEST(pictures_show_land),
+      TEST(land_is_where_it_is),         TEST(coasts_do_not_cross_the_map),
+      TEST(labels_say_where_lines_end),  TEST(no_two_labels_touch),
+      TEST(the_rim_is_where_data_end),   TEST(pictures_show_land),
+      TEST(fewer_labels_are_still_even), TEST(land_covers_textures_of_the_sea),
   };
   return cmocka_run_group_tests_name("picture/map/map", tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "field/field.h"
 #include "field/mask.h"
 #include "picture/polygons.h"
 
@@ -55,87 +56,92 @@ static bool create(raster *r, const fg__plane *plane)
   return r->node && r->scratch && r->level;
 }
 
-static int compare_numbers(const void *a, const void *b)
+/* Where polygons cross rows, from west to east row by row. */
+typedef struct crossing {
+  int row;
+  double x;
+} crossing;
+
+typedef struct crossings {
+  crossing *list;
+  size_t count, capacity;
+} crossings;
+
+static int compare_crossings(const void *a, const void *b)
 {
-  const double one = *(const double *)a, other = *(const double *)b;
-  return (one > other) - (one < other);
+  const crossing *one = a, *other = b;
+  if (one->row != other->row)
+    return one->row < other->row ? -1 : 1;
+  return (one->x > other->x) - (one->x < other->x);
 }
 
-/* Places along row j where polygons cross it, ascending. False: no memory. */
-static bool crossings_of(double **list, size_t *capacity, size_t *count,
-                         const fg__polygons *polygons, double y)
+/* The first or last row that an edge which ends at y may cross. */
+static int row_near(const raster *r, double y, int beyond)
 {
-  *count = 0;
-  for (size_t k = 0; k < polygons->count; ++k) {
-    const size_t first = polygons->start[k], end = polygons->start[k + 1];
-    for (size_t n = first; n < end; ++n) {
-      const double *a = polygons->point[n];
-      const double *b = polygons->point[n + 1 < end ? n + 1 : first];
-      if ((a[1] > y) == (b[1] > y))
-        continue;
-      void *grown = *list;
-      if (!fg__grow(&grown, capacity, *count + 1, sizeof **list))
-        return false;
-      *list = grown;
-      (*list)[(*count)++] = a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]);
-    }
+  const double row = (y - r->low[1]) / r->spacing[1] + beyond;
+  return (int)fmin(fmax(row, 0.0), r->size[1] - 1.0);
+}
+
+static bool add_crossings(crossings *out, const raster *r, const double a[2],
+                          const double b[2])
+{
+  const int last = row_near(r, fmax(a[1], b[1]), 1);
+  for (int j = row_near(r, fmin(a[1], b[1]), -1); j <= last; ++j) {
+    const double y = r->low[1] + j * r->spacing[1] + 1e-7 * r->spacing[1];
+    if ((a[1] > y) == (b[1] > y))
+      continue;
+    void *grown = out->list;
+    if (!fg__grow(&grown, &out->capacity, out->count + 1, sizeof *out->list))
+      return false;
+    out->list = grown;
+    out->list[out->count++] =
+        (crossing){j, a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1])};
   }
-  if (*count)
-    qsort(*list, *count, sizeof **list, compare_numbers);
   return true;
 }
 
 /* Marks the nodes that lie in polygons, by the even-odd rule. */
 static bool mark(raster *r, const fg__polygons *polygons, unsigned char what)
 {
-  double *list = NULL;
-  size_t capacity = 0, count = 0;
+  crossings all = {.list = NULL};
   bool good = true;
-  for (int j = 0; j < r->size[1] && good; ++j) {
-    good = crossings_of(&list, &capacity, &count, polygons,
-                        r->low[1] + j * r->spacing[1] + 1e-7 * r->spacing[1]);
-    for (size_t n = 0; good && n + 1 < count; n += 2) {
-      const double from = ceil((list[n] - r->low[0]) / r->spacing[0]);
-      const double to = floor((list[n + 1] - r->low[0]) / r->spacing[0]);
-      for (int i = (int)fmax(from, 0.0); i <= fmin(to, r->size[0] - 1.0); ++i)
-        r->node[at(r, i, j)] |= what;
-    }
+  for (size_t k = 0; k < polygons->count; ++k) {
+    const size_t first = polygons->start[k], end = polygons->start[k + 1];
+    for (size_t n = first; n < end && good; ++n)
+      good = add_crossings(&all, r, polygons->point[n],
+                           polygons->point[n + 1 < end ? n + 1 : first]);
   }
-  free(list);
+  if (all.count)
+    qsort(all.list, all.count, sizeof *all.list, compare_crossings);
+  for (size_t n = 0; good && n + 1 < all.count; n += 2) { /* a row has an even number */
+    const double from = ceil((all.list[n].x - r->low[0]) / r->spacing[0]);
+    const double to = floor((all.list[n + 1].x - r->low[0]) / r->spacing[0]);
+    for (int i = (int)fmax(from, 0.0); i <= fmin(to, r->size[0] - 1.0); ++i)
+      r->node[at(r, i, all.list[n].row)] |= what;
+  }
+  free(all.list);
   return good;
 }
 
-/* The sample nearest to a coordinate along axis k, -1 where the field has none. */
-static int nearest_sample(const fg_field_arrays *field, int k, double x)
+/* The sample nearest to a coordinate, -1 where the field has none; a rounding error
+ * beyond the axis is at its end. */
+static int nearest_sample(const fg__axis *axis, double x)
 {
-  const double *axis = field->axis[k];
-  const double period = field->period[k];
-  const int last = field->size[k] - 1;
-  if (period > 0.0)
-    x -= period * floor((x - axis[0]) / period);
-  if (x < axis[0] - 1e-9 * fabs(axis[last] - axis[0]) ||
-      (period == 0.0 && x > axis[last] + 1e-9 * fabs(axis[last] - axis[0])))
-    return -1;
-  int low = 0, high = last;
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    if (axis[middle] <= x)
-      low = middle;
-    else
-      high = middle;
-  }
-  if (period > 0.0 && x > axis[last])
-    return x - axis[last] < axis[0] + period - x ? last : 0;
-  return x - axis[low] < axis[high] - x ? low : high;
+  double share;
+  const double first = axis->coordinate[0], last = axis->coordinate[axis->cells];
+  const double slack = 1e-9 * (last - first);
+  if (axis->period == 0.0 && x >= first - slack && x <= last + slack)
+    x = fmin(fmax(x, first), last);
+  const int cell = fg__axis_cell(axis, x, &share);
+  return cell < 0 || share < 0.5 ? cell : (cell + 1) % axis->samples;
 }
 
 static void mark_valid(raster *r, const fg_field *field)
 {
-  const fg_field_arrays *grid = fg_field_contents(field);
   for (int j = 0; j < r->size[1]; ++j) {
-    const int y = nearest_sample(grid, 1, r->low[1] + j * r->spacing[1]);
+    const int y = nearest_sample(&field->axis[1], r->low[1] + j * r->spacing[1]);
     for (int i = 0; i < r->size[0] && y >= 0; ++i) {
-      const int x = nearest_sample(grid, 0, r->low[0] + i * r->spacing[0]);
+      const int x = nearest_sample(&field->axis[0], r->low[0] + i * r->spacing[0]);
       if (x >= 0 && fg__field_sample_is_valid(field, x, y))
         r->node[at(r, i, j)] |= VALID;
     }
@@ -159,7 +165,7 @@ static bool mark_missing(raster *r)
 }
 
 /* scratch becomes 1 wherever it was within `reach` nodes along axis k. */
-static void spread_along(raster *r, int k, int reach)
+static void dilate_along(raster *r, int k, int reach)
 {
   const int lines = r->size[1 - k], count = r->size[k];
   const size_t step = k == 0 ? 1 : (size_t)r->size[0];
@@ -187,10 +193,10 @@ static void spread_along(raster *r, int k, int reach)
   }
 }
 
-static void spread(raster *r, int reach)
+static void dilate(raster *r, int reach)
 {
-  spread_along(r, 0, reach);
-  spread_along(r, 1, reach);
+  dilate_along(r, 0, reach);
+  dilate_along(r, 1, reach);
 }
 
 static bool near_frame(const raster *r, size_t n)
@@ -205,10 +211,10 @@ static void open_up(raster *r)
 {
   for (size_t n = 0; n < nodes_of(r); ++n)
     r->scratch[n] = r->node[n] & INSIDE && !(r->node[n] & MISSING);
-  spread(r, STRIP);
+  dilate(r, STRIP);
   for (size_t n = 0; n < nodes_of(r); ++n)
     r->scratch[n] = !r->scratch[n] && !near_frame(r, n);
-  spread(r, STRIP);
+  dilate(r, STRIP);
   for (size_t n = 0; n < nodes_of(r); ++n)
     if (r->scratch[n] && r->node[n] & MISSING)
       r->node[n] |= KEPT;
@@ -255,13 +261,15 @@ static bool drop_specks(raster *r)
 }
 
 /* Averages, of which the outline is the line of one half; beyond the Earth's outline what
- * lies at it goes on. */
+ * lies at it goes on. False: nothing is kept. */
 static bool smooth(raster *r)
 {
   bool any = false;
   for (size_t n = 0; n < nodes_of(r); ++n)
     any = (r->scratch[n] = r->node[n] & KEPT ? 1 : 0) || any;
-  spread(r, 2 * SMOOTH + 1);
+  if (!any)
+    return false;
+  dilate(r, 2 * SMOOTH + 1);
   for (size_t n = 0; n < nodes_of(r); ++n)
     r->scratch[n] = r->node[n] & INSIDE ? (r->node[n] & KEPT) != 0 : r->scratch[n];
   for (int j = 0; j < r->size[1]; ++j)
@@ -281,7 +289,7 @@ static bool smooth(raster *r)
       const int all = (2 * SMOOTH + 1) * (2 * SMOOTH + 1);
       r->level[at(r, i, j)] = (float)sum / (float)all - 0.5F;
     }
-  return any;
+  return true;
 }
 
 static bool valid_near(const raster *r, double x, double y)

@@ -12,7 +12,7 @@ typedef struct fg__missing {
 
 /* Of a field that is there on the sea alone, the sea without data; of others all places
  * without. Strips of less than about a hundredth of the frame, which grids leave along
- * coasts, and small specks do not count. land: as fg__land_trace gives areas. MEMORY. */
+ * coasts, and small parts do not count. land: as fg__land_trace gives areas. MEMORY. */
 fg_status fg__missing_find(fg__missing *out, fg_context *context, const fg__plane *plane,
                            const fg_field *field, const fg__polygons *land);
 void fg__missing_clear(fg__missing *missing);

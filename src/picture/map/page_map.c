@@ -1,6 +1,9 @@
 #include "picture/map/page_map.h"
 
 #include <math.h>
+#include <stdlib.h>
+
+#include "picture/polygons.h"
 
 /* In units of the font size: from a line's end to its degrees; between two labels; the
  * height of a digit, and from its middle to its baseline. */
@@ -22,6 +25,10 @@ static const double outline_width = 0.7, rim_width = 0.5;
 /* Coasts on a texture: dark with a pale rim. */
 static const double strong_width = 0.6, strong_rim = 1.8, strong_opacity = 0.6;
 static const double rim_dashes[] = {3.0, 2.0};
+
+/* Stairs of a coarse grid are rounded on a texture over this share of the frame's longer
+ * side, about that of two degrees on a map of the world. */
+static const double stairs_share = 1.0 / 170.0;
 
 /* What lies outside of the data, through which land is still to be seen. */
 static const double fade = 0.72;
@@ -77,13 +84,51 @@ static void grow(fg__margins *room, const fg__page_box *frame, const fg__page_bo
   room->bottom = fmax(room->bottom, box->y1 - frame->y1);
 }
 
-void fg__page_place_graticule(fg__page *page, fg__margins *room,
-                              const fg__page_plan *plan, cairo_t *ruler)
+static bool is_at(const fg__page_sides *sides, const fg__map_label *label)
+{
+  return fabs(label->out[0]) > fabs(label->out[1])
+             ? (label->out[0] < 0.0 ? sides->left : sides->right)
+             : (label->out[1] < 0.0 ? sides->bottom : sides->top);
+}
+
+/* Which lines of a family, meridians or parallels, are labelled: every `stride`th from
+ * the middle one on. */
+typedef struct choice {
+  int middle, stride;
+  bool crowded; /* one of them found no place */
+} choice;
+
+enum { FAMILIES = 2, MOST_STRIDE = 4 };
+
+static bool is_chosen(const choice *families, int line)
+{
+  const choice *c = &families[line / FG__TICK_LIMIT];
+  return abs(line % FG__TICK_LIMIT - c->middle) % c->stride == 0;
+}
+
+static void find_middles(choice families[FAMILIES], const fg__graticule *graticule)
+{
+  for (int f = 0; f < FAMILIES; ++f) {
+    int first = FG__TICK_LIMIT, last = 0;
+    for (int k = 0; k < graticule->labels; ++k) {
+      const int line = graticule->label[k].line - f * FG__TICK_LIMIT;
+      if (line < 0 || line >= FG__TICK_LIMIT)
+        continue;
+      first = line < first ? line : first;
+      last = line > last ? line : last;
+    }
+    families[f] = (choice){.middle = (first + last) / 2, .stride = 1};
+  }
+}
+
+static void place_labels(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                         const fg__page_parts *parts, choice families[FAMILIES],
+                         cairo_t *ruler)
 {
   const fg__graticule *graticule = plan->graticule;
   const fg__plane *plane = graticule->plane;
   const int from = page->text_count;
-  bool done[2 * FG__TICK_LIMIT] = {false};
+  bool done[FAMILIES * FG__TICK_LIMIT] = {false};
   for (int k = 0; k < graticule->labels; ++k) {
     const fg__map_label *label = &graticule->label[k];
     const anchor a = {.x = page->frame.x0 + page->scale * (label->at[0] - plane->low[0]),
@@ -92,8 +137,17 @@ void fg__page_place_graticule(fg__page *page, fg__margins *room,
                       .width =
                           fg__text_width(ruler, label->text, page->font_size, false)};
     const fg__page_box box = box_of(page, plane, a);
-    if (done[label->line] || !is_free(page, from, &box))
+    if (done[label->line] || !is_chosen(families, label->line))
       continue;
+    if (!plane->disc && !is_at(&parts->sides, label)) {
+      done[label->line] = is_free(page, from, &box);
+      continue;
+    }
+    if (!is_free(page, from, &box)) {
+      families[label->line / FG__TICK_LIMIT].crowded = true;
+      continue;
+    }
+    done[label->line] = true;
     fg__page_text *text = fg__page_next_text(page, label->text);
     if (!text)
       return;
@@ -103,7 +157,30 @@ void fg__page_place_graticule(fg__page *page, fg__margins *room,
     text->box = (fg__page_box){box.x0, text->y - FG__TEXT_ASCENT * page->font_size,
                                box.x1, text->y + FG__TEXT_DESCENT * page->font_size};
     grow(room, &page->frame, &text->box);
-    done[label->line] = true;
+  }
+}
+
+void fg__page_place_graticule(fg__page *page, fg__margins *room,
+                              const fg__page_plan *plan, const fg__page_parts *parts,
+                              cairo_t *ruler)
+{
+  const fg__margins before = *room;
+  const int texts = page->text_count;
+  choice families[FAMILIES];
+  find_middles(families, plan->graticule);
+  for (;;) {
+    bool again = false;
+    place_labels(page, room, plan, parts, families, ruler);
+    /* of the world every second degree is read more easily than those that have room */
+    for (int f = 0; f < FAMILIES && plan->graticule->plane->whole; ++f) {
+      again = again || (families[f].crowded && families[f].stride < MOST_STRIDE);
+      families[f].stride += families[f].crowded && families[f].stride < MOST_STRIDE;
+      families[f].crowded = false;
+    }
+    if (!again)
+      return;
+    page->text_count = texts;
+    *room = before;
   }
 }
 
@@ -153,17 +230,45 @@ static void fill_missing(cairo_t *cairo, const fg__map_scene *scene,
   cairo_fill(cairo);
 }
 
-void fg__map_draw_land(cairo_t *cairo, const fg__map_scene *scene,
-                       const fg__map_style *style, const fg__polygons *within)
+/* Land and lines that end at the outline need no clip, which is slow, and long in SVG. */
+static void save(cairo_t *cairo, const fg__map_scene *scene, const fg__map_style *style)
 {
   cairo_save(cairo);
-  if (within) {
-    add_lines(cairo, within, true);
+  if (scene->contained && !style->on_texture)
+    cairo_reset_clip(cairo);
+}
+
+fg_status fg__map_cover_smooth(fg__map_cover *cover, fg_context *context,
+                               const double low[2], const double high[2])
+{
+  const double distance = stairs_share * fmax(high[0] - low[0], high[1] - low[1]);
+  if (fg__polygons_add_smooth(&cover->smooth, &cover->exact, distance, low, high))
+    return FG_STATUS_OK;
+  return fg__fail_memory(context, "a map's outlines",
+                         cover->exact.point_count * sizeof *cover->exact.point);
+}
+
+void fg__map_cover_clear(fg__map_cover *cover)
+{
+  fg__polygons_clear(&cover->exact);
+  fg__polygons_clear(&cover->smooth);
+}
+
+void fg__map_draw_land(cairo_t *cairo, const fg__map_scene *scene,
+                       const fg__map_style *style, const fg__map_cover *cover)
+{
+  save(cairo, scene, style);
+  if (cover) {
+    add_lines(cairo, &cover->smooth, true);
     set_color(cairo, style->missing);
     cairo_fill_preserve(cairo);
-    cairo_clip(cairo);
+    add_lines(cairo, &cover->exact, true);
+    if (scene->missing_on_land) /* else of the sea alone: land covers what there is on it
+                                 */
+      cairo_clip(cairo);
+    cairo_new_path(cairo);
   }
-  if (!scene->missing_on_land && !within)
+  if (!scene->missing_on_land && !cover)
     fill_missing(cairo, scene, style);
   cairo_set_fill_rule(cairo, CAIRO_FILL_RULE_EVEN_ODD);
   add_lines(cairo, &scene->land, true);
@@ -201,19 +306,40 @@ static void draw_strong(cairo_t *cairo, const fg__map_scene *scene)
 void fg__map_draw_lines(cairo_t *cairo, const fg__map_scene *scene,
                         const fg__map_style *style)
 {
+  save(cairo, scene, style);
   stroke(cairo, &scene->graticule, grid_width, grid_color);
-  if (style->on_texture) {
+  if (style->on_texture) { /* which ends where the data do */
     draw_strong(cairo, scene);
   } else {
     stroke(cairo, &scene->borders, border_width, border_color);
     stroke(cairo, &scene->banks, coast_width, coast_color);
     stroke(cairo, &scene->shore, coast_width, coast_color);
+    if (scene->missing_on_land)
+      fill_missing(cairo, scene, style);
+    draw_rim(cairo, scene);
   }
-  if (style->on_texture) /* which ends where the data do */
+  cairo_restore(cairo);
+}
+
+void fg__map_draw_outline_in(cairo_t *cairo, const fg__map_scene *scene, double width,
+                             double height)
+{
+  if (!scene->outline.count)
     return;
-  if (scene->missing_on_land)
-    fill_missing(cairo, scene, style);
-  draw_rim(cairo, scene);
+  cairo_set_line_width(cairo, outline_width);
+  set_color(cairo, outline_color);
+  cairo_save(cairo);
+  cairo_rectangle(cairo, 0.0, 0.0, width, height);
+  cairo_clip(cairo);
+  add_lines(cairo, &scene->outline, true);
+  cairo_stroke(cairo);
+  cairo_restore(cairo);
+  cairo_save(cairo);
+  fg__map_clip(cairo, scene);
+  cairo_rectangle(cairo, 0.5 * outline_width, 0.5 * outline_width, width - outline_width,
+                  height - outline_width);
+  cairo_stroke(cairo);
+  cairo_restore(cairo);
 }
 
 void fg__map_draw_outline(cairo_t *cairo, const fg__map_scene *scene,

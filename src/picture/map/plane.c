@@ -6,9 +6,7 @@
 #include "base/memory.h"
 #include "field/mask.h"
 #include "picture/polygons.h"
-
-static const double degree = 0.017453292519943295;
-static const double degree_metres = 111195.0;
+#include "sphere/sphere.h"
 
 /* The frame is sampled at so many places a side to find what of the Earth it shows. */
 enum { SAMPLES = 49, OUTLINE = 360 };
@@ -55,14 +53,6 @@ void fg__plane_inverse(const fg__plane *plane, size_t n, const double *x, const 
     longitude[i] = x[i];
     latitude[i] = y[i];
   }
-}
-
-static double distance(const double a[2], const double b[2])
-{
-  const double dlat = (b[1] - a[1]) * degree, dlon = (b[0] - a[0]) * degree;
-  const double s = sin(0.5 * dlat), t = sin(0.5 * dlon);
-  const double h = s * s + cos(a[1] * degree) * cos(b[1] * degree) * t * t;
-  return 2.0 * asin(fmin(sqrt(h), 1.0)) / degree;
 }
 
 /* The place of sample n of the frame's in the field's coordinates. */
@@ -123,7 +113,7 @@ static void find_window(fg__plane *plane)
     plane->east = fmax(plane->east, place[0]);
     plane->south = fmin(plane->south, place[1]);
     plane->north = fmax(plane->north, place[1]);
-    most = fmax(most, distance(plane->center, place));
+    most = fmax(most, fg__sphere_distance(plane->center, place));
   }
   if (plane->west > plane->east) { /* nothing of the Earth */
     plane->west = plane->east = plane->center[0];
@@ -231,7 +221,8 @@ static fg_status find_disc(fg__plane *plane, fg_context *context, const fg_field
   double rim[2];
   fg__map_inverse(plane->map, 1, &east, &middle[1], &rim[0], &rim[1]);
   plane->whole = plane->disc = true;
-  plane->radius = isfinite(rim[0]) ? distance(plane->center, rim) : plane->reach;
+  plane->radius =
+      isfinite(rim[0]) ? fg__sphere_distance(plane->center, rim) : plane->reach;
   return trace_circle(plane, middle, 0.5 * wide)
              ? FG_STATUS_OK
              : fg__fail_memory(context, "a map's outline", OUTLINE);
@@ -266,7 +257,7 @@ static fg_status find_world(fg__plane *plane, fg_context *context)
 static void describe_degrees(fg__plane *out)
 {
   out->kind = FG__PLANE_DEGREES;
-  out->metres = degree_metres;
+  out->metres = FG__DEGREE_METRES;
   out->west = out->low[0];
   out->east = out->high[0];
   out->south = fmax(out->low[1], -90.0);
@@ -334,7 +325,7 @@ static double metres_at(const fg__plane *plane, const double share[2])
     y[k] = plane->low[1] + (plane->high[1] - plane->low[1]) * share[1];
     fg__plane_inverse(plane, 1, &x[k], &y[k], &place[k][0], &place[k][1]);
   }
-  return degree_metres * distance(place[0], place[1]) / step;
+  return FG__DEGREE_METRES * fg__sphere_distance(place[0], place[1]) / step;
 }
 
 double fg__plane_true_metres(const fg__plane *plane)

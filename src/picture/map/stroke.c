@@ -77,6 +77,22 @@ void fg__stroke_end(fg__stroke *s, fg__polygons *out, const fg__plane *plane, bo
   s->count = 0;
 }
 
+void fg__clip_edge(double share[2], const double a[2], const double b[2],
+                   const double low[2], const double high[2])
+{
+  share[0] = 0.0, share[1] = 1.0;
+  for (int k = 0; k < 2; ++k) {
+    const double d = b[k] - a[k];
+    if (d == 0.0 && (a[k] < low[k] || a[k] > high[k]))
+      share[1] = -1.0;
+    if (d == 0.0)
+      continue;
+    const double one = (low[k] - a[k]) / d, other = (high[k] - a[k]) / d;
+    share[0] = fmax(share[0], fmin(one, other));
+    share[1] = fmin(share[1], fmax(one, other));
+  }
+}
+
 void fg__stroke_clear(fg__stroke *s)
 {
   free(s->longitude);

@@ -22,6 +22,12 @@ void fg__stroke_add_straight(fg__stroke *stroke, double longitude, double latitu
  * point and loops of two are left out. */
 void fg__stroke_end(fg__stroke *stroke, fg__polygons *out, const fg__plane *plane,
                     bool closed);
+
+/* The shares of an edge that lie in a box, after Liang and Barsky (1984); none: the first
+ * is the larger. */
+void fg__clip_edge(double share[2], const double a[2], const double b[2],
+                   const double low[2], const double high[2]);
+
 void fg__stroke_clear(fg__stroke *stroke);
 
 #endif

@@ -22,6 +22,24 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
   return fg__fail_absent(context, path, FG_FEATURE_PICTURES);
 }
 
+fg_status fg_panels_write(fg_context *context, const char *path, const fg_panel *panels,
+                          int count, const fg_picture_options *options)
+{
+  (void)options;
+  if (!path || !panels || count < 1)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "panels: a NULL argument");
+  return fg__fail_absent(context, path, FG_FEATURE_PICTURES);
+}
+
+fg_status fg_panels_frame(int size[2], fg_context *context, const fg_panel *panels,
+                          int count, const fg_picture_options *options)
+{
+  (void)options;
+  if (!size || !panels || count < 1)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "panels: a NULL argument");
+  return fg__fail_absent(context, "panels", FG_FEATURE_PICTURES);
+}
+
 fg_status fg_texture_write(fg_context *context, const char *path, const fg_field *field,
                            const fg_texture *texture, const fg_texture_style *style)
 {

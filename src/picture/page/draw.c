@@ -77,7 +77,7 @@ static void draw_areas(cairo_t *cairo, const fg__scene *scene, const fg__style *
   const bool coasts = style->map && style->map->coasts;
   if (coasts)
     fg__map_draw_land(cairo, style->map, &style->map_style,
-                      style->background ? &scene->mask : NULL);
+                      style->background ? style->cover : NULL);
   if (scene->tint.count) {
     fg__draw_path(cairo, &scene->tint);
     cairo_set_source_rgba(cairo, style->tint.red, style->tint.green, style->tint.blue,
@@ -222,10 +222,7 @@ static void draw_text(cairo_t *cairo, const fg__page_text *text, bool shapes)
   if (text->upwards)
     cairo_rotate(cairo, -0.5 * acos(-1.0));
   cairo_move_to(cairo, 0.0, 0.0);
-  if (shapes)
-    fg__text_draw_shapes(cairo, text->text, text->size, text->bold);
-  else
-    fg__text_draw(cairo, text->text, text->size, text->bold);
+  fg__text_draw(cairo, text->text, text->size, text->bold, shapes);
   cairo_restore(cairo);
 }
 
@@ -250,13 +247,15 @@ void fg__draw_key(cairo_t *cairo, const fg__page *page, const fg__palette *palet
   draw_lines(cairo, page);
 }
 
-void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
-              const fg__palette *palette, const fg__style *style)
+void fg__draw_white(cairo_t *cairo)
 {
-  if (!style->transparent) {
-    cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
-    cairo_paint(cairo); /* pixels that reach past the page's edge, too */
-  }
+  cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+  cairo_paint(cairo); /* pixels that reach past the page's edge, too */
+}
+
+void fg__draw_inside(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
+                     const fg__style *style)
+{
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
   cairo_save(cairo);
   add_box(cairo, &page->frame);
@@ -269,14 +268,19 @@ void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
   draw_arrows(cairo, page, scene, style);
   draw_skeletons(cairo, scene);
   cairo_restore(cairo);
+}
+
+void fg__draw_round(cairo_t *cairo, const fg__page *page, const fg__palette *palette,
+                    const fg__style *style, const fg__polygons *reference)
+{
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
   if (page->has_color_key)
     draw_color_key(cairo, page, palette);
   if (style->map)
     fg__map_draw_outline(cairo, style->map, &style->map_style);
   draw_lines(cairo, page);
-  if (page->has_size_key && scene->reference.count) {
-    fg__draw_path(cairo, &scene->reference);
+  if (page->has_size_key && reference->count) {
+    fg__draw_path(cairo, reference);
     set_color(cairo, quiet_ink);
     cairo_fill(cairo);
   }

@@ -8,11 +8,11 @@
 
 typedef struct fg__style {
   fg__color mask, tint;
-  bool transparent;
   cairo_surface_t *background; /* NULL: none */
   fg__page_box background_box; /* of the domain, which may be wider than the frame */
   fg__map_style map_style;
-  const fg__map_scene *map; /* NULL: what is drawn lies on no map */
+  const fg__map_scene *map;   /* NULL: what is drawn lies on no map */
+  const fg__map_cover *cover; /* of a background on a map; NULL: none */
 } fg__style;
 
 /* A light grey. */
@@ -30,8 +30,17 @@ void fg__draw_key(cairo_t *cairo, const fg__page *page, const fg__palette *palet
 /* All texts of a page, above what was drawn before; in SVG as texts unless as shapes. */
 void fg__draw_texts(fg__surface_file *surface, const fg__page *page, bool shapes);
 
-/* Draws all but texts, in points; what went wrong is in the context's status. */
-void fg__draw(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
-              const fg__palette *palette, const fg__style *style);
+/* White under all. */
+void fg__draw_white(cairo_t *cairo);
+
+/* What lies inside a page's frame, in points; what went wrong is in the context's status.
+ */
+void fg__draw_inside(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
+                     const fg__style *style);
+
+/* What lies round it but for texts: keys, a map's outline, the frame and its ticks.
+ * reference: the arrow of the size key. */
+void fg__draw_round(cairo_t *cairo, const fg__page *page, const fg__palette *palette,
+                    const fg__style *style, const fg__polygons *reference);
 
 #endif

@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/map/page_map.h"
-
 /* A figure's usual size in a journal, between one and two columns. */
 static const double usual_width = 480.0;
 
@@ -28,10 +26,13 @@ static const double least_share = 0.45;
 /* A caption cut to a few letters says nothing; in units of the font size. */
 static const double shortest_caption = 8.0;
 
+/* Of lengths that are sums of the same lengths, points. */
+static const double rounding = 1e-9;
+
 /* Passes in which the margins may grow until everything fits; three is usual. */
 enum { PASSES = 12 };
 
-static double font_size(const fg__page_plan *plan)
+double fg__page_font_size(const fg__page_plan *plan)
 {
   if (plan->font_size > 0.0)
     return plan->font_size;
@@ -94,21 +95,26 @@ static void place_caption(fg__page *page, fg__margins *room, const fg__page_plan
   }
 }
 
-/* Page and frame for the given margins; false when nothing is left for the frame. */
+/* Page and frame for the given margins, and gaps between panels; false when nothing is
+ * left for the frame. */
 static bool place_frame(fg__page *page, const fg__page_plan *plan,
-                        const fg__margins *margins, double narrowest)
+                        const fg__margins *margins, const double gap[2], double narrowest)
 {
+  const int across = fg__page_frames(plan, 0), upright = fg__page_frames(plan, 1);
+  const double gaps[2] = {(across - 1) * gap[0], (upright - 1) * gap[1]};
   double widest = plan->width > 0.0 ? plan->width : usual_width;
-  double wide = widest - margins->left - margins->right;
-  double high = plan->height > 0.0 ? plan->height - margins->top - margins->bottom
-                                   : tallest_frame * widest;
+  double wide = widest - margins->left - margins->right - gaps[0];
+  double high = plan->height > 0.0
+                    ? plan->height - margins->top - margins->bottom - gaps[1]
+                    : tallest_frame * widest;
   if (!(wide > 0.0 && high > 0.0))
     return false;
   if (plan->no_frame && !(plan->height > 0.0))
     high = HUGE_VAL; /* the domain's box and nothing else */
-  page->scale = fmin(wide / extent(plan, 0), high / extent(plan, 1));
-  double frame_wide = page->scale * extent(plan, 0);
-  double frame_high = page->scale * extent(plan, 1);
+  page->scale =
+      fmin(wide / (across * extent(plan, 0)), high / (upright * extent(plan, 1)));
+  double frame_wide = across * page->scale * extent(plan, 0) + gaps[0];
+  double frame_high = upright * page->scale * extent(plan, 1) + gaps[1];
   page->width = widest;
   if (!(plan->width > 0.0))
     page->width =
@@ -124,37 +130,71 @@ static bool place_frame(fg__page *page, const fg__page_plan *plan,
   return true;
 }
 
-/* Lets the margins grow until all the parts fit into them. */
-static bool lay_out(fg__page *page, const fg__page_plan *plan,
+static void clear(fg__page *page)
+{
+  page->text_count = 0;
+  page->line_count = 0;
+  page->has_color_key = false;
+  page->has_size_key = false;
+}
+
+/* Between bare panels: a share of theirs, so that something is left of each. */
+static double bare_gap(const fg__page_plan *plan)
+{
+  const double wide = plan->width > 0.0 ? plan->width : usual_width;
+  const double high = plan->height > 0.0 ? plan->height : wide;
+  return 0.03 * fmin(wide / fg__page_frames(plan, 0), high / fg__page_frames(plan, 1));
+}
+
+/* What lies round the frame, or the panels' frames, but for keys and caption. */
+static void place_round(fg__page *page, fg__page *panel, fg__margins *room,
+                        double between[2], const fg__page_plan *plan,
+                        const fg__page_parts *parts, cairo_t *ruler)
+{
+  if (panel)
+    fg__page_place_panels(panel, room, between, plan, parts, ruler);
+  else
+    fg__page_place_sides(page, room, plan, parts, ruler);
+}
+
+/* Lets the margins, and the gaps between panels, grow until all the parts fit into them.
+ */
+static bool lay_out(fg__page *page, fg__page *panel, const fg__page_plan *plan,
                     const fg__page_parts *parts, cairo_t *ruler)
 {
   const double em = page->font_size;
   const double edge = plan->no_frame ? 0.0 : 0.6 * em;
   fg__margins margins = {edge, edge, edge, edge};
+  double gap[2] = {0.0, 0.0};
+  if (plan->no_frame)
+    gap[0] = gap[1] = bare_gap(plan);
   for (int pass = 0; pass < PASSES; ++pass) {
-    page->text_count = 0;
-    page->line_count = 0;
-    page->has_color_key = false;
-    page->has_size_key = false;
-    if (!place_frame(page, plan, &margins, parts->caption ? 24.0 * em : 0.0))
+    clear(page);
+    if (!place_frame(page, plan, &margins, gap, parts->caption ? 24.0 * em : 0.0))
       return false;
     fg__margins room = {0.0, 0.0, 0.0, 0.0};
-    if (parts->axes && plan->graticule)
-      fg__page_place_graticule(page, &room, plan, ruler);
-    else if (parts->axes)
-      fg__page_place_axes(page, &room, plan, parts, ruler);
+    double between[2] = {0.0, 0.0};
+    for (int k = 0; panel && k < plan->panels; ++k)
+      clear(&panel[k]);
+    fg__page_place_frames(page, panel, plan, gap);
+    place_round(page, panel, &room, between, plan, parts, ruler);
     if (parts->color_key || parts->size_key)
       fg__page_place_keys(page, &room, plan, parts, ruler);
     if (parts->caption)
       place_caption(page, &room, plan, ruler);
-    bool fits = room.left + edge <= margins.left && room.right + edge <= margins.right &&
-                room.top + edge <= margins.top && room.bottom + edge <= margins.bottom;
+    const double spare = rounding - edge;
+    bool fits = room.left <= margins.left + spare &&
+                room.right <= margins.right + spare && room.top <= margins.top + spare &&
+                room.bottom <= margins.bottom + spare &&
+                between[0] <= gap[0] + rounding && between[1] <= gap[1] + rounding;
     if (fits)
       return true;
     margins.left = fmax(margins.left, room.left + edge);
     margins.right = fmax(margins.right, room.right + edge);
     margins.top = fmax(margins.top, room.top + edge);
     margins.bottom = fmax(margins.bottom, room.bottom + edge);
+    for (int k = 0; k < 2; ++k)
+      gap[k] = fmax(gap[k], between[k]);
   }
   return false;
 }
@@ -164,46 +204,58 @@ static double bare_scale(const fg__page_plan *plan)
 {
   fg__page bare = {0};
   fg__margins none = {0.0, 0.0, 0.0, 0.0};
-  place_frame(&bare, plan, &none, 0.0);
+  place_frame(&bare, plan, &none, (double[2]){0.0, 0.0}, 0.0);
   return bare.scale;
 }
 
-static bool keys_below(fg__page *page, const fg__page_plan *plan, fg__page_parts parts,
-                       cairo_t *ruler)
+static bool keys_below(fg__page *page, fg__page *panel, const fg__page_plan *plan,
+                       fg__page_parts parts, cairo_t *ruler)
 {
   if (!(plan->height > 0.0))
-    return extent(plan, 0) > wide_domain * extent(plan, 1);
+    return fg__page_frames(plan, 0) * extent(plan, 0) >
+           wide_domain * fg__page_frames(plan, 1) * extent(plan, 1);
   parts.keys_below = false;
-  double beside = lay_out(page, plan, &parts, ruler) ? page->scale : 0.0;
+  double beside = lay_out(page, panel, plan, &parts, ruler) ? page->scale : 0.0;
   parts.keys_below = true;
-  double below = lay_out(page, plan, &parts, ruler) ? page->scale : 0.0;
+  double below = lay_out(page, panel, plan, &parts, ruler) ? page->scale : 0.0;
   return below > beside;
 }
 
 void fg__page_layout(fg__page *out, const fg__page_plan *plan, cairo_t *ruler)
 {
-  *out = (fg__page){.font_size = font_size(plan),
-                    .framed = !plan->no_frame && !plan->outlined};
+  fg__page_layout_panels(out, NULL, plan, ruler);
+}
+
+void fg__page_layout_panels(fg__page *out, fg__page *panel, const fg__page_plan *plan,
+                            cairo_t *ruler)
+{
+  const fg__page empty = {.font_size = fg__page_font_size(plan),
+                          .framed = !plan->no_frame && !plan->outlined};
+  *out = empty;
+  for (int k = 0; panel && k < plan->panels; ++k)
+    panel[k] = empty;
+  out->framed = empty.framed && !plan->panels;
   fg__page_parts parts = {.axes = !plan->no_frame,
                           .axis_labels = !plan->no_frame,
                           .color_key = plan->color_key && !plan->no_frame,
                           .size_key = plan->size_key && !plan->no_frame,
                           .caption =
-                              (plan->title[0] || plan->subtitle[0]) && !plan->no_frame};
+                              (plan->title[0] || plan->subtitle[0]) && !plan->no_frame,
+                          .sides = {true, true, true, true}};
   bool *const dispensable[] = {&parts.size_key, &parts.axis_labels, &parts.caption,
                                &parts.color_key, &parts.axes};
   size_t count = sizeof dispensable / sizeof *dispensable;
   double least = least_share * bare_scale(plan);
   for (size_t k = 0; k < count; ++k) {
-    parts.keys_below = keys_below(out, plan, parts, ruler);
-    if (lay_out(out, plan, &parts, ruler) && out->scale >= least)
+    parts.keys_below = keys_below(out, panel, plan, parts, ruler);
+    if (lay_out(out, panel, plan, &parts, ruler) && out->scale >= least)
       return;
     *dispensable[k] = false;
   }
   fg__page_plan bare = *plan;
-  if (!lay_out(out, &bare, &parts, ruler)) {
+  if (!lay_out(out, panel, &bare, &parts, ruler)) {
     /* smaller than its own margins: the domain fills the page */
     bare.no_frame = true;
-    lay_out(out, &bare, &parts, ruler);
+    lay_out(out, panel, &bare, &parts, ruler);
   }
 }

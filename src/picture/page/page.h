@@ -74,11 +74,23 @@ typedef struct fg__page_plan {
   const struct fg__graticule *graticule; /* of a map: degrees where lines end, instead of
                                             axes; NULL: axes */
   bool outlined; /* the frame is no box: what lies in it has an outline of its own */
+  int panels, columns; /* frames of one size side by side, from the upper left, row by
+                          row; 0: one frame */
+  const char (*panel_label)[FG__PAGE_TEXT_BYTES]; /* of each panel; "" none */
 } fg__page_plan;
+
+/* The size of its texts, points. */
+double fg__page_font_size(const fg__page_plan *plan);
 
 /* Lays out a page. What would leave the domain too little room is left out, the least
  * needed first; no two texts touch, and none leaves the page. `ruler` measures. */
 void fg__page_layout(fg__page *out, const fg__page_plan *plan, cairo_t *ruler);
+
+/* The same with plan->panels: out has the caption, the keys and a frame round all panels;
+ * panel[k], of the same size, what lies round the frame of panel k: its label, and at the
+ * outer sides of the whole the numbers of its axes or degrees. */
+void fg__page_layout_panels(fg__page *out, fg__page *panel, const fg__page_plan *plan,
+                            cairo_t *ruler);
 
 /* Room round the frame, points. */
 typedef struct fg__margins {
@@ -108,16 +120,46 @@ void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y
 void fg__page_choose_ticks(fg__ticks *out, const fg__tick_axis *axis, cairo_t *ruler,
                            double length, double font_size, bool upright);
 
+/* Sides of a frame. */
+typedef struct fg__page_sides {
+  bool left, right, bottom, top;
+} fg__page_sides;
+
 /* Which parts a page has. */
 typedef struct fg__page_parts {
   bool axes, axis_labels, color_key, size_key, caption;
   bool keys_below;
+  fg__page_sides sides; /* where numbers and degrees are written; ticks are at all */
 } fg__page_parts;
 
-/* Both add to the page what lies round page->frame and report the room that takes. */
+/* page_panels.c. Frames in a row, k = 0, or in a column. */
+int fg__page_frames(const fg__page_plan *plan, int k);
+
+/* A number of columns from the shape of `panels` frames: the whole is
+ * about as wide as a page wants it, with few places left empty. */
+int fg__page_choose_columns(const fg__page_plan *plan);
+
+/* Frames of the panels in page->frame, `gap` apart across and upright. */
+void fg__page_place_frames(const fg__page *page, fg__page *panel,
+                           const fg__page_plan *plan, const double gap[2]);
+
+/* Adds to each panel what lies round its frame; reports the room that takes round all,
+ * and between two. */
+void fg__page_place_panels(fg__page *panel, fg__margins *room, double between[2],
+                           const fg__page_plan *plan, const fg__page_parts *parts,
+                           cairo_t *ruler);
+
+/* These add to the page what lies round page->frame and report the room that takes: axes;
+ * axes or a map's degrees, where the parts have them; keys. */
+void fg__page_place_sides(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                          const fg__page_parts *parts, cairo_t *ruler);
 void fg__page_place_axes(fg__page *page, fg__margins *room, const fg__page_plan *plan,
                          const fg__page_parts *parts, cairo_t *ruler);
 void fg__page_place_keys(fg__page *page, fg__margins *room, const fg__page_plan *plan,
                          const fg__page_parts *parts, cairo_t *ruler);
+
+/* Adds a key of speeds below a frame as wide as the page, in its middle; page->height
+ * grows by what it needs. Too narrow a page gets none. */
+void fg__page_place_lone_key(fg__page *page, const double range[2], const char *units);
 
 #endif

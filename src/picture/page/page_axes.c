@@ -60,7 +60,7 @@ void fg__page_choose_ticks(fg__ticks *out, const fg__tick_axis *axis, cairo_t *r
 }
 
 static void place_x(fg__page *page, fg__margins *room, const fg__page_plan *plan,
-                    cairo_t *ruler)
+                    bool numbers, cairo_t *ruler)
 {
   const double em = page->font_size;
   const fg__page_box *frame = &page->frame;
@@ -70,17 +70,20 @@ static void place_x(fg__page *page, fg__margins *room, const fg__page_plan *plan
   for (int k = 0; k < ticks.count; ++k) {
     double x = frame->x0 + page->scale * (ticks.position[k] - plan->axis[0].low);
     fg__page_add_line(page, x, frame->y1, x, frame->y1 + tick_length * em);
+    if (!numbers)
+      continue;
     double width =
         fg__page_add_text(page, ruler, ticks.text[k], x, baseline, FG__ALIGN_MIDDLE);
     room->left = fmax(room->left, frame->x0 - x + 0.5 * width);
     room->right = fmax(room->right, x + 0.5 * width - frame->x1);
   }
   if (ticks.count)
-    room->bottom = baseline + FG__TEXT_DESCENT * em - frame->y1;
+    room->bottom =
+        numbers ? baseline + FG__TEXT_DESCENT * em - frame->y1 : tick_length * em;
 }
 
 static void place_y(fg__page *page, fg__margins *room, const fg__page_plan *plan,
-                    cairo_t *ruler)
+                    bool numbers, cairo_t *ruler)
 {
   const double em = page->font_size;
   const fg__page_box *frame = &page->frame;
@@ -89,6 +92,9 @@ static void place_y(fg__page *page, fg__margins *room, const fg__page_plan *plan
   for (int k = 0; k < ticks.count; ++k) {
     double y = frame->y1 - page->scale * (ticks.position[k] - plan->axis[1].low);
     fg__page_add_line(page, frame->x0 - tick_length * em, y, frame->x0, y);
+    room->left = fmax(room->left, tick_length * em);
+    if (!numbers)
+      continue;
     double x = frame->x0 - (tick_length + label_gap) * em;
     double baseline = y + half_digit * em;
     double width =
@@ -139,13 +145,13 @@ static void place_y_label(fg__page *page, fg__margins *room, const char *label,
 void fg__page_place_axes(fg__page *page, fg__margins *room, const fg__page_plan *plan,
                          const fg__page_parts *parts, cairo_t *ruler)
 {
-  place_x(page, room, plan, ruler);
-  place_y(page, room, plan, ruler);
+  place_x(page, room, plan, parts->sides.bottom, ruler);
+  place_y(page, room, plan, parts->sides.left, ruler);
   room->bottom = fmax(room->bottom, 0.0);
   if (!parts->axis_labels)
     return;
-  if (plan->axis[1].label[0])
+  if (plan->axis[1].label[0] && parts->sides.left)
     place_y_label(page, room, plan->axis[1].label, ruler);
-  if (plan->axis[0].label[0])
+  if (plan->axis[0].label[0] && parts->sides.bottom)
     place_x_label(page, room, plan->axis[0].label, ruler);
 }

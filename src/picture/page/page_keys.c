@@ -14,8 +14,8 @@ static const double longest_bar = 36.0; /* longer ones only draw the eye */
 static const double widest_arrow = 7.0;
 static const double shortest_arrow = 0.8;
 
-/* What the size of an arrow stands for: the cluster that it was made from. */
-static const char size_words[] = "region length";
+/* Says that the reference arrow shows a length, not a speed. */
+static const char size_words[] = "length";
 
 static const fg__tick_axis *length_axis(const fg__page_plan *plan)
 {
@@ -241,7 +241,7 @@ static void size_beside(fg__page *page, const size_key *key, cairo_t *ruler, dou
 }
 
 /* A column to the right of the frame: the bar from its top, the reference arrow at its
- * lower end. */
+ * lower end; a bar alone in the middle. */
 static void place_beside(fg__page *page, fg__margins *room, const fg__page_plan *plan,
                          const fg__page_parts *parts, cairo_t *ruler)
 {
@@ -260,10 +260,10 @@ static void place_beside(fg__page *page, fg__margins *room, const fg__page_plan 
     size_beside(page, &key, ruler, x0, frame->y1);
     end = x0 + key.width;
   }
-  double y1 = has_size ? frame->y1 - size_height : frame->y1;
-  double y0 = fmax(frame->y0, y1 - longest_bar * em);
-  if (has_size)
-    y0 = frame->y0;
+  double y0 = frame->y0, y1 = has_size ? frame->y1 - size_height : frame->y1;
+  const double spare = fmax(y1 - y0 - longest_bar * em, 0.0);
+  if (!has_size)
+    y0 += 0.5 * spare; /* in the middle */
   y1 = fmin(y1, y0 + longest_bar * em);
   if (parts->color_key && y1 - y0 >= shortest_bar * em)
     end = fmax(end, bar_beside(page, room, plan, ruler, x0, y0, y1));
@@ -278,4 +278,28 @@ void fg__page_place_keys(fg__page *page, fg__margins *room, const fg__page_plan 
     place_below(page, room, plan, parts, ruler);
   else
     place_beside(page, room, plan, parts, ruler);
+}
+
+/* In units of the font size: more between a texture and its bar than between a frame and
+ * one, below the label, and room for half a number beyond either end. */
+static const double lone_gap = 0.2, lone_edge = 0.6, lone_indent = 2.0;
+
+void fg__page_place_lone_key(fg__page *page, const double range[2], const char *units)
+{
+  static const fg__page_parts parts = {.color_key = true, .keys_below = true};
+  fg__page_plan plan = {.color_key = true, .width = page->width};
+  const double em = page->font_size = fg__page_font_size(&plan);
+  const double wide = fmin(page->width - 2.0 * lone_indent * em, longest_bar * em);
+  const fg__page_box whole = page->frame;
+  fg__margins room = {.bottom = lone_gap * em};
+  cairo_t *ruler = fg__text_ruler();
+  fg__axis_of_numbers(&plan.speed, range[0], range[1], range[1] - range[0], "speed",
+                      units);
+  page->frame.x0 = 0.5 * (page->width - wide);
+  page->frame.x1 = page->frame.x0 + wide;
+  place_below(page, &room, &plan, &parts, ruler);
+  page->frame = whole;
+  if (page->has_color_key)
+    page->height += room.bottom + lone_edge * em;
+  cairo_destroy(ruler);
 }

@@ -293,6 +293,130 @@ static void no_frame_is_the_domain_alone(void **state)
   free(page);
 }
 
+/* What lies on the page of a figure: its own things but the frame, the panels' frames and
+ * texts. */
+static int collect_things(fg__page_box *things, const fg__page *page,
+                          const fg__page *panel, int panels)
+{
+  int count = 0;
+  for (int k = 0; k < page->text_count; ++k)
+    things[count++] = page->text[k].box;
+  if (page->has_color_key)
+    things[count++] = color_key_box(page);
+  if (page->has_size_key)
+    things[count++] = size_key_box(page);
+  for (int n = 0; n < panels; ++n) {
+    things[count++] = panel[n].frame;
+    for (int k = 0; k < panel[n].text_count; ++k)
+      things[count++] = panel[n].text[k].box;
+  }
+  return count;
+}
+
+/* No two things touch, all lie on the page, and all frames have one size. Returns how
+ * many panels have a label, which is the last of their texts. */
+static int check_figure(const fg__page *page, const fg__page *panel,
+                        const fg__page_plan *plan)
+{
+  static fg__page_box things[13 * FG__PAGE_TEXTS];
+  const int count = collect_things(things, page, panel, plan->panels);
+  for (int a = 0; a < count; ++a) {
+    check_inside(page, &things[a]);
+    for (int b = 0; b < a; ++b)
+      assert_false(boxes_meet(&things[a], &things[b]));
+  }
+  int labels = 0;
+  for (int n = 0; n < plan->panels; ++n) {
+    const double x = plan->axis[0].high - plan->axis[0].low;
+    const double y = plan->axis[1].high - plan->axis[1].low;
+    const fg__page_box *frame = &panel[n].frame;
+    assert_true(page->scale > 0.0 && panel[n].scale == page->scale);
+    assert_true(fabs((frame->x1 - frame->x0) / x / page->scale - 1.0) < 1e-6);
+    assert_true(fabs((frame->y1 - frame->y0) / y / page->scale - 1.0) < 1e-6);
+    const int last = panel[n].text_count - 1;
+    labels += last >= 0 && strncmp(panel[n].text[last].text, "(", 1) == 0;
+  }
+  return labels;
+}
+
+static bool has_number_at(const fg__page *page, bool left)
+{
+  for (int k = 0; k < page->text_count; ++k)
+    if (left ? page->text[k].box.x1 < page->frame.x0
+             : page->text[k].box.y0 > page->frame.y1)
+      return true;
+  return false;
+}
+
+static void panels_lie_side_by_side_with_numbers_outside(void **state)
+{
+  (void)state;
+  static const double widths[] = {0, 40, 252, 480, 1600}, heights[] = {0, 90, 500};
+  static const double shapes[][2] = {{360, 170}, {1, 1}, {1, 12}, {30, 1}};
+  static const char labels[12][FG__PAGE_TEXT_BYTES] = {
+      "(a) 1982-01-16",
+      "(b) a level of 300 hPa and a long word to say it",
+      "(c)",
+      "(d)",
+      "(e)",
+      "(f)",
+      "(g)",
+      "(h)",
+      "(i)",
+      "(j)",
+      "(k)",
+      "(l)"};
+  fg__page *page = malloc(13 * sizeof *page);
+  assert_non_null(page);
+  fg__page *panel = page + 1;
+  cairo_t *ruler = fg__text_ruler();
+  int labelled = 0, panels = 0, keys = 0, figures = 0;
+  for (size_t w = 0; w < sizeof widths / sizeof *widths; ++w)
+    for (size_t h = 0; h < sizeof heights / sizeof *heights; ++h)
+      for (size_t s = 0; s < sizeof shapes / sizeof *shapes; ++s)
+        for (int count = 1; count <= 12; count = 2 * count + 1) {
+          fg__page_plan plan = plan_of(widths[w], heights[h], shapes[s][0], shapes[s][1],
+                                       s == 0 ? 0 : 2, titles[w % 3]);
+          plan.panels = count;
+          plan.panel_label = labels;
+          plan.columns = count == 7 ? 3 : fg__page_choose_columns(&plan);
+          fg__page_layout_panels(page, panel, &plan, ruler);
+          labelled += check_figure(page, panel, &plan);
+          panels += count;
+          keys += page->has_color_key;
+          ++figures;
+          for (int n = 0; n < count; ++n) {
+            const bool has_axes = has_number_at(&panel[0], true);
+            assert_int_equal(has_number_at(&panel[n], true),
+                             has_axes && n % plan.columns == 0);
+          }
+        }
+  assert_true(labelled > panels / 2);
+  assert_true(keys > figures / 2);
+  cairo_destroy(ruler);
+  free(page);
+}
+
+/* Degrees and numbers below a panel stand where no other is below it. */
+static void a_last_row_that_is_not_full_leaves_no_column_without_numbers(void **state)
+{
+  (void)state;
+  static const char labels[5][FG__PAGE_TEXT_BYTES] = {"(a)", "(b)", "(c)", "(d)", "(e)"};
+  fg__page_plan plan = plan_of(480, 0, 40, 30, 0, "Wind");
+  plan.panels = 5;
+  plan.panel_label = labels;
+  plan.columns = fg__page_choose_columns(&plan);
+  assert_int_equal(plan.columns, 3);
+  fg__page *page = malloc(6 * sizeof *page);
+  assert_non_null(page);
+  cairo_t *ruler = fg__text_ruler();
+  fg__page_layout_panels(page, page + 1, &plan, ruler);
+  cairo_destroy(ruler);
+  for (int n = 0; n < 5; ++n)
+    assert_int_equal(has_number_at(&page[1 + n], false), n >= 2);
+  free(page);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -303,6 +427,8 @@ int main(void)
       cmocka_unit_test(ticks_mark_their_coordinates),
       cmocka_unit_test(the_reference_arrow_has_its_length),
       cmocka_unit_test(no_frame_is_the_domain_alone),
+      cmocka_unit_test(panels_lie_side_by_side_with_numbers_outside),
+      cmocka_unit_test(a_last_row_that_is_not_full_leaves_no_column_without_numbers),
   };
   return cmocka_run_group_tests_name("picture/page/page", tests, NULL, NULL);
 }

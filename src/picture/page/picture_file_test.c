@@ -21,6 +21,29 @@ static void writing_twice_gives_the_same_bytes(void **state)
   assert_int_equal(files_in(e->folder), 4);
 }
 
+static unsigned long number_at(const char *bytes)
+{
+  const unsigned char *at = (const unsigned char *)bytes;
+  return ((unsigned long)at[0] << 24) + ((unsigned long)at[1] << 16) +
+         ((unsigned long)at[2] << 8) + at[3];
+}
+
+/* The chunk pHYs, before the pixels. */
+static void a_png_says_how_large_it_is(void **state)
+{
+  const example *e = *state;
+  fg_picture_options options = {.pixels_per_point = 300.0 / 72.0};
+  write_picture(e, "a.png", &options);
+  size_t size;
+  char *bytes = read_file(e, "a.png", &size);
+  assert_memory_equal(bytes + 33 + 4, "pHYs", 4);
+  assert_int_equal(number_at(bytes + 33), 9);
+  assert_int_equal(number_at(bytes + 33 + 8), 11811); /* 300 an inch of 0.0254 m */
+  assert_int_equal(number_at(bytes + 33 + 12), 11811);
+  assert_int_equal(bytes[33 + 16], 1);
+  free(bytes);
+}
+
 static void expect_failure(const example *e, const char *path, fg_status expected,
                            const char *words, const fg_picture_options *options)
 {
@@ -91,6 +114,7 @@ int main(void)
   cmocka_unit_test_setup_teardown(name, example_set_up, example_tear_down)
   const struct CMUnitTest tests[] = {
       TEST(writing_twice_gives_the_same_bytes),
+      TEST(a_png_says_how_large_it_is),
       TEST(bad_options_are_refused),
       TEST(a_place_that_cannot_be_written_is_reported),
       TEST(a_full_disk_is_reported),

@@ -146,6 +146,151 @@ static void texts_of_an_svg_are_texts(void **state)
   free(text);
 }
 
+/* An arrow beyond the frame is not counted, and an error that it has a part in not told.
+ */
+static void captions_tell_what_is_shown(void **state)
+{
+  example *e = *state;
+  fg_icons_keep_score(e->icons, &(fg_score){.mean = 11.2});
+  for (int beyond = 0; beyond < 2; ++beyond) {
+    if (beyond)
+      add_arrow(e, 52.0, 2.0, -5.0, -3.0, 99.0);
+    write_picture(e, "a.svg", &(fg_picture_options){.no_keys = true});
+    size_t size;
+    char *text = read_file(e, "a.svg", &size);
+    assert_non_null(strstr(text, "3 arrows"));
+    assert_true((strstr(text, "read within 12") != NULL) == !beyond);
+    free(text);
+  }
+}
+
+/* A picture without a single arrow is none. */
+static void arrows_all_beyond_the_frame_are_refused(void **state)
+{
+  example *e = *state;
+  fg_icons *all = e->icons;
+  assert_int_equal(fg__icons_create_empty(&e->icons, e->context), FG_STATUS_OK);
+  add_arrow(e, 52.0, 2.0, -5.0, -3.0, 99.0);
+  char path[160];
+  path_in(path, e, "a.svg");
+  assert_int_equal(fg_picture_write(e->context, path, e->field, NULL, e->icons, NULL),
+                   FG_STATUS_ARGUMENT);
+  assert_non_null(strstr(fg_context_message(e->context), "none of its 1 arrow lies"));
+  assert_int_equal(files_in(e->folder), 0);
+  fg_icons_destroy(e->icons);
+  e->icons = all;
+}
+
+static int count_of(const char *text, const char *words)
+{
+  int count = 0;
+  for (const char *at = text; (at = strstr(at, words)); ++at)
+    ++count;
+  return count;
+}
+
+static fg_status write_panels(const example *e, const char *name, const fg_panel *panels,
+                              int count, const fg_picture_options *options)
+{
+  char path[160];
+  path_in(path, e, name);
+  return fg_panels_write(e->context, path, panels, count, options);
+}
+
+/* A panel alone, without what lies round it, is the picture. */
+static void a_bare_panel_is_the_picture(void **state)
+{
+  const example *e = *state;
+  const fg_panel panel = {.field = e->field, .icons = e->icons, .density = e->density};
+  const fg_picture_options options = {.width = 300.0, .tint = true, .no_frame = true};
+  static const char *const names[][2] = {{"a.svg", "b.svg"}, {"a.png", "b.png"}};
+  for (int k = 0; k < 2; ++k) {
+    size_t size[2];
+    write_picture(e, names[k][0], &options);
+    assert_int_equal(write_panels(e, names[k][1], &panel, 1, &options), FG_STATUS_OK);
+    char *one = read_file(e, names[k][0], &size[0]);
+    char *other = read_file(e, names[k][1], &size[1]);
+    assert_int_equal(size[0], size[1]);
+    assert_memory_equal(one, other, size[0]);
+    free(one);
+    free(other);
+  }
+}
+
+/* Three panels: arrows three times in the same colours, one key, one caption, names that
+ * occur once. */
+static void panels_have_one_key(void **state)
+{
+  const example *e = *state;
+  const fg_panel panel[3] = {
+      {.field = e->field, .icons = e->icons},
+      {.field = e->field, .icons = e->icons, .label = "{letter}) x"},
+      {.field = e->field, .icons = e->icons, .label = ""}};
+  const fg_picture_options options = {.speed_min = 1.0, .speed_max = 12.0};
+  size_t size;
+  assert_int_equal(write_panels(e, "a.svg", panel, 3, &options), FG_STATUS_OK);
+  char *text = read_file(e, "a.svg", &size);
+  assert_true(count_elements(text, "<text") > 10);
+  assert_int_equal(count_elements(text, "<linearGradient"), 1);
+  assert_int_equal(count_of(text, ">mean speed ("), 1);
+  assert_int_equal(count_of(text, ">length<"), 1);
+  assert_int_equal(count_of(text, ">Wind &amp; waves"), 1);
+  assert_int_equal(count_of(text, ">(a)<"), 1);
+  assert_int_equal(count_of(text, ">b) x<"), 1);
+  fg__palette palette;
+  assert_int_equal(fg__palette_create(&palette, NULL, NULL), FG_STATUS_OK);
+  for (int n = 0; n < 3; ++n) {
+    const fg__color color = fg__palette_color(&palette, (speeds[n] - 1.0) / 11.0);
+    double left[3] = {0.0}, rgb[3];
+    int found = 0;
+    for (const char *path = text; (path = strstr(path, "<path")); ++path) {
+      double box[4];
+      if (!fill_of(path, rgb) || fabs(rgb[0] - 100.0 * color.red) > 0.01 ||
+          fabs(rgb[2] - 100.0 * color.blue) > 0.01)
+        continue;
+      path_box(box, path);
+      assert_true(found < 3);
+      left[found++] = box[0];
+    }
+    assert_int_equal(found, 3);
+    assert_true(left[1] > left[0] + 10.0);
+    assert_true(fabs(left[2] - 2.0 * left[1] + left[0]) < 0.01); /* in a row */
+  }
+  for (const char *at = text; (at = strstr(at, " id=\"")); ++at) {
+    char name[64];
+    snprintf(name, sizeof name, " id=\"%.*s\"", (int)strcspn(at + 5, "\""), at + 5);
+    assert_int_equal(count_of(text, name), 1);
+  }
+  free(text);
+}
+
+static void panels_that_do_not_go_together_are_refused(void **state)
+{
+  const example *e = *state;
+  const fg_field_arrays *whole = fg_field_contents(e->field);
+  for (int k = 0; k < 4; ++k) {
+    static const char *const words[] = {"b has the units km/h, and a m/s",
+                                        "b shows p, v, and a u, v", "the projection",
+                                        "b reaches from -5 to 14.5 along y"};
+    fg_field_arrays arrays = *whole;
+    arrays.velocity_units = k == 0 ? "km/h" : arrays.velocity_units;
+    arrays.velocity_name[0] = k == 1 ? "p" : arrays.velocity_name[0];
+    arrays.scale = k == 2 ? FG_SCALE_GEO : arrays.scale;
+    arrays.size[1] -= k == 3;
+    fg_field *field = NULL;
+    assert_int_equal(fg_field_create(&field, e->context, &arrays), FG_STATUS_OK);
+    const fg_panel panel[2] = {{.field = e->field, .icons = e->icons, .name = "a"},
+                               {.field = field, .icons = e->icons, .name = "b"}};
+    assert_int_equal(write_panels(e, "a.svg", panel, 2, NULL), FG_STATUS_ARGUMENT);
+    assert_non_null(strstr(fg_context_message(e->context), words[k]));
+    fg_context_clear(e->context);
+    fg_field_destroy(field);
+  }
+  assert_int_equal(write_panels(e, "a.svg", NULL, 0, NULL), FG_STATUS_ARGUMENT);
+  assert_non_null(strstr(fg_context_message(e->context), "0 panels, 1 to 100"));
+  assert_int_equal(files_in(e->folder), 0);
+}
+
 int main(void)
 {
 #define TEST(name)                                                                       \
@@ -154,6 +299,11 @@ int main(void)
       TEST(an_svg_has_one_path_an_arrow_in_its_colour),
       TEST(framed_svgs_are_well_formed),
       TEST(texts_of_an_svg_are_texts),
+      TEST(captions_tell_what_is_shown),
+      TEST(arrows_all_beyond_the_frame_are_refused),
+      TEST(a_bare_panel_is_the_picture),
+      TEST(panels_have_one_key),
+      TEST(panels_that_do_not_go_together_are_refused),
   };
   return cmocka_run_group_tests_name("picture/page/picture_svg", tests, NULL, NULL);
 }

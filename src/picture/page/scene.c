@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "field/mask.h"
+#include "icon/icons.h"
 #include "icon/measure.h"
 #include "picture/polygons.h"
 
@@ -221,6 +222,45 @@ static void period_range(int range[2], const fg_icon *icon, int k, double low,
   range[1] = (int)fmin(floor((high - least + reach) / period), 2.0);
 }
 
+/* Whether a line, or a copy of it by a period, enters the frame. */
+static bool is_shown(const fg_field_arrays *field, const fg_icon *icon,
+                     const double low[2], const double high[2],
+                     const fg__polygons *outline)
+{
+  for (int n = 0; n < icon->point_count; ++n) {
+    bool inside = true;
+    for (int k = 0; k < 2; ++k) {
+      const double period = field->period[k], at = icon->points[n][k];
+      const double turns = period > 0.0 ? floor((at - low[k]) / period) : 0.0;
+      inside = inside && at - turns * period >= low[k] && at - turns * period <= high[k];
+    }
+    if (inside && (!outline->count || fg__polygon_contains(outline, 0, icon->points[n][0],
+                                                           icon->points[n][1])))
+      return true;
+  }
+  return false;
+}
+
+fg_status fg__scene_keep_shown(fg_icons **out, fg_context *context,
+                               const fg_field_arrays *field, const fg_icons *icons,
+                               const double low[2], const double high[2],
+                               const fg__polygons *outline)
+{
+  const int count = fg_icons_count(icons);
+  *out = NULL;
+  fg_status status = fg__icons_create_empty(out, context);
+  for (int n = 0; n < count && !status; ++n) {
+    const fg_icon *icon = fg_icons_at(icons, n);
+    if (is_shown(field, icon, low, high, outline))
+      status = fg__icons_add(*out, context, icon);
+  }
+  if (!status && fg_icons_count(*out) < count)
+    return FG_STATUS_OK;
+  fg_icons_destroy(*out);
+  *out = NULL;
+  return status;
+}
+
 static fg_status make_arrows(fg__scene *out, fg_context *context, const placement *p,
                              const double high[2], const fg_field_arrays *field,
                              const fg_icons *icons, const fg__palette *palette,
@@ -253,6 +293,7 @@ static fg_status make_arrows(fg__scene *out, fg_context *context, const placemen
 typedef struct ranked_icon {
   double key;
   int index;
+  const fg_icon *icon;
 } ranked_icon;
 
 static int compare_keys(const void *a, const void *b)
@@ -264,40 +305,41 @@ static int compare_keys(const void *a, const void *b)
 }
 
 fg_status fg__scene_typical_icon(fg__typical_icon *out, fg_context *context,
-                                 const fg_icons *icons)
+                                 const fg_panel *panel, int panels)
 {
   *out = (fg__typical_icon){0.0, NULL};
-  int count = fg_icons_count(icons);
+  int count = 0;
+  for (int k = 0; k < panels; ++k)
+    count += fg_icons_count(panel[k].icons);
   if (count == 0)
     return FG_STATUS_OK;
   ranked_icon *ranked = fg__allocate((size_t)count, sizeof *ranked);
   if (!ranked)
     return fg__fail_memory(context, "the arrows' lengths",
                            (size_t)count * sizeof *ranked);
-  for (int n = 0; n < count; ++n)
-    ranked[n] = (ranked_icon){fg__icon_length(fg_icons_at(icons, n)), n};
+  int used = 0;
+  for (int k = 0; k < panels; ++k)
+    for (int n = 0; n < fg_icons_count(panel[k].icons); ++n, ++used) {
+      const fg_icon *icon = fg_icons_at(panel[k].icons, n);
+      ranked[used] = (ranked_icon){fg__icon_length(icon), used, icon};
+    }
   qsort(ranked, (size_t)count, sizeof *ranked, compare_keys);
   out->length = ranked[count / 2].key;
-  for (int n = 0; n < count; ++n) {
-    const fg_icon *icon = fg_icons_at(icons, ranked[n].index);
-    ranked[n].key = ranked[n].key > 0.0 ? icon->width / ranked[n].key : 0.0;
-  }
+  for (int n = 0; n < count; ++n)
+    ranked[n].key = ranked[n].key > 0.0 ? ranked[n].icon->width / ranked[n].key : 0.0;
   qsort(ranked, (size_t)count, sizeof *ranked, compare_keys);
-  out->shape = fg_icons_at(icons, ranked[count / 2].index);
+  out->shape = ranked[count / 2].icon;
   free(ranked);
   return FG_STATUS_OK;
 }
 
-/* A straight arrow with the proportions of a typical one. */
-static fg_status make_reference(fg__polygons *out, fg_context *context,
-                                const fg__page *page, const fg_icons *icons)
+fg_status fg__scene_reference(fg__polygons *out, fg_context *context,
+                              const fg__page *page, const fg__typical_icon *median)
 {
   enum { POINTS = 9 };
-  fg__typical_icon median;
-  fg_status status = fg__scene_typical_icon(&median, context, icons);
-  if (status || !median.shape || !(median.length > 0.0) || !page->has_size_key)
-    return status;
-  const fg_icon *typical = median.shape;
+  if (!median->shape || !(median->length > 0.0) || !page->has_size_key)
+    return FG_STATUS_OK;
+  const fg_icon *typical = median->shape;
   double share = page->size_key_length / fg__icon_length(typical);
   double points[POINTS][3] = {{0}};
   for (int n = 0; n < POINTS; ++n)
@@ -317,7 +359,7 @@ static fg_status make_reference(fg__polygons *out, fg_context *context,
 }
 
 fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *page,
-                           const fg_field *field, const double low[2],
+                           const fg_field *field, bool masked, const double low[2],
                            const double high[2], const fg_density_arrays *density,
                            const fg_icons *icons, const fg__palette *palette,
                            const double range[2])
@@ -325,14 +367,14 @@ fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *
   const fg_field_arrays *grid = fg_field_contents(field);
   *out = (fg__scene){.arrow_color = NULL};
   const placement p = {{low[0], low[1]}, page->scale, &page->frame};
-  fg_status status = fg__scene_mask(&out->mask, context, page, field, low);
+  fg_status status = FG_STATUS_OK;
+  if (masked)
+    status = fg__scene_mask(&out->mask, context, page, field, low);
   if (!status && density)
     status = fg__contour_positive(&out->tint, context, density);
   place_all(&p, &out->tint);
   if (!status && icons)
     status = make_arrows(out, context, &p, high, grid, icons, palette, range);
-  if (!status && icons)
-    status = make_reference(&out->reference, context, page, icons);
   if (status) {
     fg__scene_clear(out);
     return status;
@@ -383,7 +425,6 @@ void fg__scene_clear(fg__scene *scene)
   fg__polygons_clear(&scene->mask);
   fg__polygons_clear(&scene->tint);
   fg__polygons_clear(&scene->arrows);
-  fg__polygons_clear(&scene->reference);
   fg__polygons_clear(&scene->spines);
   fg__polygons_clear(&scene->centers);
   free(scene->arrow_color);

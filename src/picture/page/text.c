@@ -60,7 +60,7 @@ double fg__text_width(cairo_t *cairo, const char *text, double size, bool bold)
   return width;
 }
 
-static void draw(cairo_t *cairo, const char *text, double size, bool bold, bool shapes)
+void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold, bool shapes)
 {
   double x, y;
   cairo_get_current_point(cairo, &x, &y);
@@ -80,16 +80,6 @@ static void draw(cairo_t *cairo, const char *text, double size, bool bold, bool 
     cairo_text_extents(cairo, piece, &extents);
     x += extents.x_advance;
   }
-}
-
-void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold)
-{
-  draw(cairo, text, size, bold, false);
-}
-
-void fg__text_draw_shapes(cairo_t *cairo, const char *text, double size, bool bold)
-{
-  draw(cairo, text, size, bold, true);
 }
 
 void fg__text_shorten(cairo_t *cairo, char *text, size_t capacity, double size, bool bold,

@@ -33,8 +33,7 @@ double fg__text_width(cairo_t *cairo, const char *text, double size, bool bold);
 
 /* Draws a text from the current point on, along the x axis of the current transform; or
  * its shapes. */
-void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold);
-void fg__text_draw_shapes(cairo_t *cairo, const char *text, double size, bool bold);
+void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold, bool shapes);
 
 /* Cuts a text without marks and ends it with an ellipsis, so that it is at most `width`
  * wide; it may become empty. */

@@ -49,7 +49,7 @@ static void ink_stays_in_the_box(void **state)
   static const char text[] = "Qgj m s" FG__TEXT_RAISE "\xE2\x88\x92"
                              "18" FG__TEXT_LOWER "|";
   cairo_move_to(cairo, x, y);
-  fg__text_draw(cairo, text, size, false);
+  fg__text_draw(cairo, text, size, false, false);
   double end = x + fg__text_width(cairo, text, size, false);
   cairo_surface_flush(surface);
   const unsigned char *pixels = cairo_image_surface_get_data(surface);

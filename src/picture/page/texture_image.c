@@ -110,6 +110,51 @@ static void paint(cairo_surface_t *surface, const coloring *c)
   cairo_surface_mark_dirty(surface);
 }
 
+/* Takes the colour of a neighbour that is nearer to what is known. */
+static void take_nearer(uint32_t *pixel, int *distance, size_t at, size_t neighbour,
+                        size_t pixel_at, size_t pixel_of_neighbour)
+{
+  if (distance[neighbour] + 1 >= distance[at])
+    return;
+  distance[at] = distance[neighbour] + 1;
+  pixel[pixel_at] = pixel[pixel_of_neighbour];
+}
+
+/* Missing pixels take the colour of the nearest that is not (city-block distances in two
+ * sweeps, Rosenfeld and Pfaltz 1966). What is missing is covered by outlines that are
+ * smoother than its pixels. */
+static fg_status spread(cairo_surface_t *surface, fg_context *context,
+                        const fg_texture_arrays *texture)
+{
+  const size_t wide = (size_t)texture->size[0], high = (size_t)texture->size[1];
+  const size_t count = wide * high;
+  const int far = texture->size[0] + texture->size[1];
+  const size_t stride = (size_t)cairo_image_surface_get_stride(surface) / 4;
+  uint32_t *pixel = (uint32_t *)(void *)cairo_image_surface_get_data(surface);
+  int *distance = fg__allocate(count, sizeof *distance);
+  if (!distance)
+    return fg__fail_memory(context, "a texture's image", count * sizeof *distance);
+  for (size_t n = 0; n < count; ++n)
+    distance[n] = isnan(texture->speed[n]) ? far : 0;
+  /* rows from below in the texture, from above in the image */
+  for (size_t n = 0; n < count; ++n) {
+    const size_t i = n % wide, at = (high - 1 - n / wide) * stride + i;
+    if (i > 0)
+      take_nearer(pixel, distance, n, n - 1, at, at - 1);
+    if (n >= wide)
+      take_nearer(pixel, distance, n, n - wide, at, at + stride);
+  }
+  for (size_t n = count; n-- > 0;) {
+    const size_t i = n % wide, at = (high - 1 - n / wide) * stride + i;
+    if (i + 1 < wide)
+      take_nearer(pixel, distance, n, n + 1, at, at + 1);
+    if (n + wide < count)
+      take_nearer(pixel, distance, n, n + wide, at, at - stride);
+  }
+  free(distance);
+  return FG_STATUS_OK;
+}
+
 fg_status fg__texture_image(cairo_surface_t **out, fg_context *context,
                             const fg_texture_arrays *texture,
                             const fg_texture_style *style)
@@ -128,6 +173,8 @@ fg_status fg__texture_image(cairo_surface_t **out, fg_context *context,
                            (size_t)texture->size[0] * (size_t)texture->size[1] * 4);
   }
   paint(surface, &c);
+  status = spread(surface, context, texture);
+  cairo_surface_mark_dirty(surface);
   *out = surface;
-  return FG_STATUS_OK;
+  return status;
 }

@@ -6,8 +6,9 @@
 
 #include "flowgrain/texture.h"
 
-/* Makes an image of a texture's size, its first row uppermost. The style's palette, range
- * of speeds and fade count. End with cairo_surface_destroy. ARGUMENT, MEMORY. */
+/* Makes an image of a texture's size, its first row uppermost; missing pixels have the
+ * colour of the nearest others. The style's palette, range of speeds and fade count. End
+ * with cairo_surface_destroy. ARGUMENT, MEMORY. */
 fg_status fg__texture_image(cairo_surface_t **out, fg_context *context,
                             const fg_texture_arrays *texture,
                             const fg_texture_style *style);

@@ -7,7 +7,6 @@
 #include "base/memory.h"
 #include "picture/page/draw.h"
 #include "picture/page/texture_image.h"
-#include "picture/page/texture_key.h"
 #include "picture/surface/surface.h"
 
 /* In files without pixels of their own: what the arrows' pictures have in PNG. */
@@ -45,7 +44,8 @@ static fg_status find_mask(fg__polygons *out, fg_context *context, const fg_fiel
 /* What is painted: an image, and what covers it. */
 typedef struct painted {
   cairo_surface_t *image;
-  fg__polygons mask; /* pixels; of a map points */
+  fg__polygons mask;   /* pixels */
+  fg__map_cover cover; /* of a map, points: what was the mask */
   fg__color mask_color;
   bool transparent;
   bool on_map;
@@ -59,28 +59,31 @@ static fg_status find_coasts(painted *out, fg_context *context, const fg_field *
 {
   double low[2], high[2];
   fg__plane plane;
-  const fg__map_wishes wishes = {
-      .no_coast = style->no_coast, .borders = style->borders, .no_graticule = true};
+  const fg__map_wishes wishes = {.borders = style->borders, .no_graticule = true};
+  if (style->no_coast)
+    return FG_STATUS_OK;
   fg__scene_box(low, high, fg_field_contents(field));
   const double wide = size[0] / pixels_per_point, tall = size[1] / pixels_per_point;
   const fg__page page = {.scale = wide / (high[0] - low[0]),
                          .frame = {0.0, 0.0, wide, tall}};
-  const double field_low[2] = {low[0], low[1]}, field_high[2] = {high[0], high[1]};
   fg_status status = fg__plane_create(&plane, context, field, low, high);
   fg__graticule *graticule = fg__allocate(1, sizeof *graticule);
   if (!status && !graticule)
     status = fg__fail_memory(context, "a map", sizeof *graticule);
-  if (!status && plane.kind != FG__PLANE_NONE && !style->no_coast) {
-    for (int k = 0; k < 2; ++k) {
-      plane.low[k] = field_low[k];
-      plane.high[k] = field_high[k];
-    }
+  if (!status && plane.kind != FG__PLANE_NONE) {
+    /* the image shows the whole box, not what an outline bounds */
+    fg__scene_box(plane.low, plane.high, fg_field_contents(field));
     graticule->plane = &plane;
     status = fg__map_scene_create(&out->map, context, &page, graticule, field, &wishes);
     out->on_map = !status;
     for (size_t n = 0; n < out->mask.point_count; ++n)
       for (int k = 0; k < 2; ++k)
         out->mask.point[n][k] /= pixels_per_point;
+    out->cover.exact = out->mask;
+    out->mask = (fg__polygons){.point = NULL};
+    if (!status)
+      status = fg__map_cover_smooth(&out->cover, context, (double[2]){0.0, 0.0},
+                                    (double[2]){wide, tall});
   }
   free(graticule);
   fg__plane_clear(&plane);
@@ -94,11 +97,12 @@ static void paint_image(cairo_t *cairo, const painted *p)
 }
 
 /* All but the mask: a rectangle of width and height less its polygons. */
-static void clip_to_known(cairo_t *cairo, const painted *p, double wide, double high)
+static void clip_to_known(cairo_t *cairo, const fg__polygons *mask, double wide,
+                          double high)
 {
   cairo_set_fill_rule(cairo, CAIRO_FILL_RULE_EVEN_ODD);
   cairo_rectangle(cairo, 0.0, 0.0, wide, high);
-  fg__draw_path(cairo, &p->mask);
+  fg__draw_path(cairo, mask);
   cairo_clip(cairo);
 }
 
@@ -106,7 +110,7 @@ static void paint(cairo_t *cairo, const painted *p)
 {
   cairo_scale(cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
   if (p->transparent && p->mask.count)
-    clip_to_known(cairo, p, cairo_image_surface_get_width(p->image),
+    clip_to_known(cairo, &p->mask, cairo_image_surface_get_width(p->image),
                   cairo_image_surface_get_height(p->image));
   paint_image(cairo, p);
   if (!p->transparent && p->mask.count)
@@ -125,14 +129,16 @@ static void paint_map(cairo_t *cairo, const painted *p)
   }
   fg__map_clip(cairo, &p->map);
   cairo_save(cairo);
-  if (p->transparent && p->mask.count)
-    clip_to_known(cairo, p, wide, high);
+  if (p->transparent && p->cover.smooth.count)
+    clip_to_known(cairo, &p->cover.smooth, wide, high);
   cairo_scale(cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
   paint_image(cairo, p);
   cairo_restore(cairo);
   if (!p->transparent)
-    fg__map_draw_land(cairo, &p->map, &p->map_style, &p->mask);
+    fg__map_draw_land(cairo, &p->map, &p->map_style, &p->cover);
   fg__map_draw_lines(cairo, &p->map, &p->map_style);
+  cairo_reset_clip(cairo);
+  fg__map_draw_outline_in(cairo, &p->map, wide, high);
 }
 
 /* A page as large as the image; with a key when the style wants it. */
@@ -149,7 +155,7 @@ static fg_status plan_page(fg__page *page, fg__palette *palette, fg_context *con
   double range[2];
   status = fg__texture_range(range, context, texture, style);
   if (!status)
-    fg__texture_key_place(page, range, fg_field_contents(field)->velocity_units);
+    fg__page_place_lone_key(page, range, fg_field_contents(field)->velocity_units);
   return status;
 }
 
@@ -223,6 +229,7 @@ fg_status fg_texture_write(fg_context *context, const char *path, const fg_field
   free(page);
   cairo_surface_destroy(p.image);
   fg__polygons_clear(&p.mask);
+  fg__map_cover_clear(&p.cover);
   fg__map_scene_clear(&p.map);
   return status;
 }

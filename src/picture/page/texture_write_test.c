@@ -6,6 +6,7 @@
 
 #include "base/context_test.h"
 #include "icon/icons.h"
+#include "picture/page/texture_image.h"
 
 /* A uniform stream on [0, 4] x [0, 2] that is missing in x > 2, where the speed grows
  * along y: 80 x 40 pixels. */
@@ -146,6 +147,25 @@ static void test_a_key_comes_below(void **state)
   cairo_surface_destroy(with);
   cairo_surface_destroy(none);
   fg_texture_destroy(texture);
+}
+
+/* Under what covers them. */
+static void test_missing_pixels_are_like_their_neighbours(void **state)
+{
+  example *e = *state;
+  const fg_texture_style style = {.palette = "gale"};
+  const fg_texture_arrays *t = fg_texture_contents(e->texture);
+  cairo_surface_t *image;
+  assert_int_equal(fg__texture_image(&image, e->context, t, &style), FG_STATUS_OK);
+  for (int j = 0; j < 40; ++j) {
+    int last = 0;
+    while (last < 79 && !isnan(t->speed[j * 80 + last + 1]))
+      ++last;
+    assert_true(last > 30 && last < 50);
+    const rgba known = pixel_at(image, last, 39 - j), far = pixel_at(image, 79, 39 - j);
+    assert_true(known.red == far.red && known.green == far.green);
+  }
+  cairo_surface_destroy(image);
 }
 
 static void test_missing_is_covered(void **state)
@@ -328,6 +348,8 @@ int main(void)
       cmocka_unit_test_setup_teardown(test_pixels_are_the_textures, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_a_key_comes_below, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_missing_is_covered, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_missing_pixels_are_like_their_neighbours,
+                                      set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_palette_shows_speed, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_fading_leads_to_white, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_background_fills_the_frame, set_up, tear_down),

@@ -9,7 +9,7 @@
 static const double tick_length = 0.35, number_gap = 0.3, label_gap = 0.55;
 static const double least_step = 4.5; /* from one number to the next */
 static const double shortest_axis = 3.0;
-static const double bar_width = 0.9;
+static const double bar_width = 0.9, name_gap = 0.8;
 
 /* Two numbers side by side read as one when they are nearer than this. */
 static const double least_gap[2] = {0.6, 0.25};
@@ -110,7 +110,7 @@ static bool is_free(const fg__box_axes *axes, const fg__pane *box)
   for (int n = 0; n < axes->texts; ++n)
     if (!are_apart(box, &axes->text[n].box, axes->em))
       return false;
-  return !(axes->kept.x1 > axes->kept.x0) || are_apart(box, &axes->kept, axes->em);
+  return true;
 }
 
 /* A text whose box lies beyond a point: it touches it at the side it comes from. */
@@ -176,17 +176,19 @@ static void place_axis(fg__box_axes *axes, const fg__view_box *view_box,
   place_text(axes, axes->axis[axis].label, at, away, ruler);
 }
 
-double fg__box_axes_place(fg__box_axes *axes, const fg__view_box *view_box,
-                          const fg__camera *camera, cairo_t *ruler)
+void fg__box_axes_place(fg__box_axes *axes, fg__pane *bounds,
+                        const fg__view_box *view_box, const fg__camera *camera,
+                        cairo_t *ruler)
 {
-  double lowest = 0.0;
   axes->texts = 0;
   for (int k = 0; k < 3; ++k)
     if (axes->edge[k][k])
       place_axis(axes, view_box, camera, k, ruler);
-  for (int n = 0; n < axes->texts; ++n)
-    lowest = fmax(lowest, axes->text[n].box.y1);
-  return lowest;
+  for (int n = 0; n < axes->texts; ++n) {
+    const fg__pane *box = &axes->text[n].box;
+    *bounds = (fg__pane){fmin(bounds->x0, box->x0), fmin(bounds->y0, box->y0),
+                         fmax(bounds->x1, box->x1), fmax(bounds->y1, box->y1)};
+  }
 }
 
 void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes,
@@ -208,23 +210,32 @@ void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes,
   cairo_stroke(cairo);
   for (int n = 0; n < axes->texts; ++n) {
     cairo_move_to(cairo, axes->text[n].box.x0, axes->text[n].box.y1);
-    fg__text_draw(cairo, axes->text[n].text, axes->em, false);
+    fg__text_draw(cairo, axes->text[n].text, axes->em, false, false);
   }
 }
 
-/* From the bar's pane to the baseline of the name above it. */
-static double name_rise(double em, const bool beyond[2])
+static void choose_bar_ticks(fg__ticks *out, double height, double em,
+                             const fg__tick_axis *speed)
 {
-  return 0.8 * em + (beyond[1] ? bar_width * em : 0.0);
+  const double range = speed->high - speed->low;
+  fg__ticks_fill(out, speed, fg__ticks_step(speed, range * 2.4 * em / height));
 }
 
-fg__pane fg__color_bar_box(const fg__pane *pane, double em, const fg__tick_axis *speed,
-                           const bool beyond[2], cairo_t *ruler)
+double fg__color_bar_width(double height, double em, const fg__tick_axis *speed,
+                           cairo_t *ruler)
 {
-  double label = fg__text_width(ruler, speed->label, em, false);
-  return (fg__pane){fmin(pane->x0, pane->x1 - label),
-                    pane->y0 - name_rise(em, beyond) - em, pane->x1,
-                    pane->y1 + (beyond[0] ? bar_width * em : 0.5 * em)};
+  fg__ticks ticks;
+  double widest = 0.0;
+  choose_bar_ticks(&ticks, height, em, speed);
+  for (int n = 0; n < ticks.count; ++n)
+    widest = fmax(widest, fg__text_width(ruler, ticks.text[n], em, false));
+  return fmax((bar_width + tick_length + number_gap) * em + widest,
+              fg__text_width(ruler, speed->label, em, false));
+}
+
+double fg__color_bar_rise(double em)
+{
+  return (name_gap + bar_width + FG__TEXT_ASCENT) * em;
 }
 
 void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
@@ -253,8 +264,8 @@ void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
   cairo_set_line_width(cairo, fmax(em / 16.0, 1.0));
   cairo_stroke(cairo);
   fg__ticks ticks;
-  double range = speed->high - speed->low;
-  fg__ticks_fill(&ticks, speed, fg__ticks_step(speed, range * 2.4 * em / height));
+  const double range = speed->high - speed->low;
+  choose_bar_ticks(&ticks, height, em, speed);
   for (int n = 0; n < ticks.count; ++n) {
     double y = pane->y1 - height * (ticks.position[n] - speed->low) / range;
     cairo_move_to(cairo, pane->x0 + width, y);
@@ -262,10 +273,9 @@ void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
     cairo_stroke(cairo);
     cairo_move_to(cairo, pane->x0 + width + (tick_length + number_gap) * em,
                   y + 0.36 * em);
-    fg__text_draw(cairo, ticks.text[n], em, false);
+    fg__text_draw(cairo, ticks.text[n], em, false, false);
   }
-  double label = fg__text_width(cairo, speed->label, em, false);
-  cairo_move_to(cairo, fmin(pane->x0, pane->x1 - label),
-                pane->y0 - name_rise(em, beyond));
-  fg__text_draw(cairo, speed->label, em, false);
+  cairo_move_to(cairo, pane->x0,
+                pane->y0 - name_gap * em - (beyond[1] ? bar_width * em : 0.0));
+  fg__text_draw(cairo, speed->label, em, false, false);
 }

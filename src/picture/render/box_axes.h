@@ -23,7 +23,6 @@ typedef struct fg__box_axes {
   int edge[3][3]; /* of axis k: the sides, -1 or 1, of the two others on which the edge
                      with the numbers lies; [k][k]: 0 when it is seen too short for any */
   double em;      /* font size, pixels */
-  fg__pane kept;  /* nothing is written here; all zero: no such place */
   fg__box_text text[FG__BOX_TEXTS];
   int texts;
 } fg__box_axes;
@@ -33,21 +32,25 @@ void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
                      const fg__view_box *view_box, const fg__camera *camera, double em,
                      cairo_t *ruler);
 
-/* Chooses where the numbers and names go: one that would touch another, or the kept
- * place, stands farther off the box, and is left out where that does not help. Returns
- * how low they reach, in pixels from above. The axes must stay where they are. */
-double fg__box_axes_place(fg__box_axes *axes, const fg__view_box *view_box,
-                          const fg__camera *camera, cairo_t *ruler);
+/* Chooses where the numbers and names go: one that would touch another stands farther off
+ * the box, and is left out where that does not help. `bounds` grows to hold them. The
+ * axes must stay where they are. */
+void fg__box_axes_place(fg__box_axes *axes, fg__pane *bounds,
+                        const fg__view_box *view_box, const fg__camera *camera,
+                        cairo_t *ruler);
 
 void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes,
                        const fg__view_box *view_box, const fg__camera *camera);
 
-/* Where a colour bar in a pane is, with all that is written at it. */
-fg__pane fg__color_bar_box(const fg__pane *pane, double em, const fg__tick_axis *speed,
-                           const bool beyond[2], cairo_t *ruler);
+/* How wide a colour bar of such a height is, with all that is written at it. */
+double fg__color_bar_width(double height, double em, const fg__tick_axis *speed,
+                           cairo_t *ruler);
 
-/* An upright bar in a pane, with numbers at its right and the speed's name above; its end
- * is a point where there are speeds below or above. */
+/* How far it reaches above its pane at most. */
+double fg__color_bar_rise(double em);
+
+/* An upright bar at the left of a pane, with numbers at its right and the speed's name
+ * above; its end is a point where there are speeds below or above. */
 void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
                         const fg__palette *palette, const fg__tick_axis *speed,
                         const bool beyond[2]);

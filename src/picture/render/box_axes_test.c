@@ -1,10 +1,15 @@
-/* Where the numbers round a box go. */
+/* Where the numbers round a box go, and how much of a page it takes. */
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/context_test.h"
+#include "icon/icons.h"
 #include "picture/page/text.h"
 #include "picture/render/box_axes.h"
+#include "picture/render/solid_picture.h"
 
 static const double EM = 20.0;
 static const fg__pane PANE = {84.0, 82.0, 1030.0, 720.0};
@@ -13,13 +18,12 @@ typedef struct scenery {
   fg__view_box view_box;
   fg__camera camera;
   fg__box_axes axes;
-  double lowest;
+  fg__pane bounds; /* of the texts */
   cairo_t *ruler;
 } scenery;
 
-/* A box from (-1, 0, 10) on, seen so; what is kept free. */
-static void look(scenery *s, const double side[3], double azimuth, double elevation,
-                 const fg__pane *kept)
+/* A box from (-1, 0, 10) on, seen so. */
+static void look(scenery *s, const double side[3], double azimuth, double elevation)
 {
   static const double low[3] = {-1.0, 0.0, 10.0};
   double axis[3][2];
@@ -35,9 +39,8 @@ static void look(scenery *s, const double side[3], double azimuth, double elevat
   fg__camera_look(&s->camera, &s->view_box, azimuth, elevation, &PANE);
   s->ruler = fg__text_ruler();
   fg__box_axes_of(&s->axes, &field, &s->view_box, &s->camera, EM, s->ruler);
-  if (kept)
-    s->axes.kept = *kept;
-  s->lowest = fg__box_axes_place(&s->axes, &s->view_box, &s->camera, s->ruler);
+  s->bounds = (fg__pane){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  fg__box_axes_place(&s->axes, &s->bounds, &s->view_box, &s->camera, s->ruler);
   cairo_destroy(s->ruler);
 }
 
@@ -63,9 +66,11 @@ static void texts_keep_apart(void **state)
   for (int azimuth = 5; azimuth < 360; azimuth += 25)
     for (int elevation = -60; elevation < 80; elevation += 17) {
       scenery s;
-      look(&s, side, azimuth, elevation, NULL);
+      look(&s, side, azimuth, elevation);
       for (int n = 0; n < s.axes.texts; ++n) {
-        assert_true(s.axes.text[n].box.y1 <= s.lowest);
+        const fg__pane *box = &s.axes.text[n].box;
+        assert_true(box->x0 >= s.bounds.x0 && box->x1 <= s.bounds.x1);
+        assert_true(box->y0 >= s.bounds.y0 && box->y1 <= s.bounds.y1);
         for (int m = 0; m < n; ++m)
           assert_false(are_near(&s.axes.text[n].box, &s.axes.text[m].box, 0.6 * EM - 1e-9,
                                 0.25 * EM - 1e-9));
@@ -83,25 +88,69 @@ static void both_numbers_of_a_corner_are_there(void **state)
   (void)state;
   static const double side[3] = {6.0, 2.5, 2.4};
   scenery s;
-  look(&s, side, 30.0, 22.0, NULL);
+  look(&s, side, 30.0, 22.0);
   assert_int_equal(s.axes.texts, wanted_of(&s.axes));
   int last = s.axes.ticks[0].count - 1;
   assert_string_equal(s.axes.text[last].text, "5");
   assert_string_equal(s.axes.text[last + 2].text, "0");
 }
 
-static void the_kept_place_stays_free(void **state)
+/* Pixels of a picture of a field of such sides, with an arrow along z. */
+static void measure_picture(int size[2], const double side[3])
+{
+  static const double line[2][3] = {{0.5, 0.5, 0.2}, {0.5, 0.5, 0.8}};
+  static float velocity[3][8];
+  char folder[] = "/tmp/flowgrain-box-XXXXXX", path[64];
+  double axis[3][2] = {{0.0, side[0]}, {0.0, side[1]}, {0.0, side[2]}};
+  fg_field_arrays arrays = {.dimension = 3, .size = {2, 2, 2}};
+  fg_field *field;
+  fg_icons *icons;
+  for (int k = 0; k < 3; ++k) {
+    arrays.axis[k] = axis[k];
+    arrays.velocity[k] = velocity[k];
+  }
+  for (int n = 0; n < 8; ++n)
+    velocity[2][n] = 1.0F;
+  const fg_icon icon = {.point_count = 2,
+                        .points = line,
+                        .width = 0.1,
+                        .tail_width = 0.1,
+                        .head_length = 0.2,
+                        .head_width = 0.2,
+                        .speed = 1.0};
+  const fg_solid_options options = {
+      .has_view = true, .azimuth = 30.0, .elevation = 22.0, .title = "a"};
+  assert_int_equal(fg_field_create(&field, NULL, &arrays), FG_STATUS_OK);
+  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
+  assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
+  assert_non_null(mkdtemp(folder));
+  snprintf(path, sizeof path, "%s/a.png", folder);
+  assert_int_equal(fg__solid_picture_write(NULL, path, field, icons, &options),
+                   FG_STATUS_OK);
+  unsigned char head[24];
+  FILE *file = fopen(path, "rb");
+  assert_non_null(file);
+  assert_int_equal(fread(head, 1, sizeof head, file), sizeof head);
+  fclose(file);
+  unlink(path);
+  rmdir(folder);
+  for (int k = 0; k < 2; ++k)
+    size[k] = head[18 + 4 * k] << 8 | head[19 + 4 * k];
+  fg_icons_destroy(icons);
+  fg_field_destroy(field);
+}
+
+/* Neither a tall box nor a flat one leaves half of its picture empty. */
+static void a_picture_is_as_large_as_its_box(void **state)
 {
   (void)state;
-  static const double side[3] = {6.0, 2.75, 2.4};
-  scenery s;
-  look(&s, side, 30.0, 22.0, NULL);
-  int all = s.axes.texts;
-  const fg__pane kept = {900.0, 100.0, 1200.0, 700.0};
-  look(&s, side, 30.0, 22.0, &kept);
-  assert_true(s.axes.texts > all / 2 && s.axes.texts < all);
-  for (int n = 0; n < s.axes.texts; ++n)
-    assert_false(are_near(&s.axes.text[n].box, &kept, 0.0, 0.0));
+  int tall[2], cube[2], flat[2];
+  measure_picture(tall, (const double[3]){1.0, 1.0, 5.0});
+  measure_picture(cube, (const double[3]){1.0, 1.0, 1.0});
+  measure_picture(flat, (const double[3]){5.0, 1.0, 1.0});
+  assert_true(tall[1] == 1200 && tall[0] >= 600 && tall[0] < 700);
+  assert_true(cube[0] > 1000 && cube[1] > 1000);
+  assert_true(flat[0] == 1200 && flat[1] >= 600 && flat[1] < 700);
 }
 
 int main(void)
@@ -109,7 +158,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(texts_keep_apart),
       cmocka_unit_test(both_numbers_of_a_corner_are_there),
-      cmocka_unit_test(the_kept_place_stays_free),
+      cmocka_unit_test(a_picture_is_as_large_as_its_box),
   };
   return cmocka_run_group_tests_name("picture/render/box_axes", tests, NULL, NULL);
 }

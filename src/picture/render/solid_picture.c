@@ -13,17 +13,20 @@
 #include "picture/silhouette.h"
 #include "picture/surface/surface.h"
 
-enum { USUAL_SIZE = 1200, LEAST_SIZE = 64, LARGEST_SIZE = 8192 };
+enum { LEAST_SIZE = 64, LARGEST_SIZE = 8192 };
 
 /* As pictures in 2D have it: 1200 pixels are 480 points. */
-static const double pixels_per_point = 2.5;
+static const double usual_pixels_per_point = 2.5, usual_points = 480.0;
 
 /* The font size in sides of the picture, and the least, pixels. */
 static const double font_share = 1.0 / 58.0, least_font = 9.0;
 
-/* Room round the box for what is written, in font sizes. */
-static const double left_room = 4.2, right_room = 2.6, key_room = 6.0, bottom_room = 4.2,
-                    top_room = 1.5, line_height = 1.3, edge = 1.2;
+/* In font sizes: round all, between the caption, the box with its numbers and the key,
+ * and from line to line. The key's label is at most so wide. */
+static const double edge = 1.2, gap = 1.6, line_height = 1.3, widest_label = 14.0;
+
+/* What is written takes at most this share of what the caption and the key leave. */
+static const double most_written = 0.7;
 
 /* The white round each arrow, of the picture's larger side. */
 static const double halo_share = 0.0021;
@@ -31,7 +34,7 @@ static const double halo_share = 0.0021;
 /* The least length of a head, likewise. */
 static const double head_share = 0.0135;
 
-/* The height is at least this share of the width, unless it is given. */
+/* The shorter side is at least this share of the longer one, unless it is given. */
 static const double flattest = 0.5;
 
 /* The colour bar is this much of the picture high. */
@@ -45,19 +48,40 @@ typedef struct solid_picture {
   fg_surface *silhouette;
   double azimuth, elevation;
   double em;
+  double pixels_per_point;
   bool framed, has_key;
   char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
 } solid_picture;
 
+static double pixels_per_point(const fg_solid_options *options)
+{
+  return options->pixels_per_point > 0.0 ? options->pixels_per_point
+                                         : usual_pixels_per_point;
+}
+
+static int width_of(const fg_solid_options *options)
+{
+  const double pixels = usual_points * pixels_per_point(options);
+  return options->width ? options->width : (int)fmin(pixels, 1e9);
+}
+
 static fg_status check_options(fg_context *context, const fg_solid_options *options)
 {
-  int wide = options->width ? options->width : USUAL_SIZE;
+  int wide = width_of(options);
   int high = options->height ? options->height : wide;
   if (wide < LEAST_SIZE || wide > LARGEST_SIZE || high < LEAST_SIZE ||
       high > LARGEST_SIZE)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "picture: %d x %d pixels, each must lie between %d and %d", wide,
                     high, LEAST_SIZE, LARGEST_SIZE);
+  if (!(options->pixels_per_point >= 0.0) || !isfinite(options->pixels_per_point))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: %g pixels a point, a positive number is needed",
+                    options->pixels_per_point);
+  if (!(options->font_size >= 0.0) || options->font_size > LARGEST_SIZE)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: a font of %g points, it must lie between 0 and %d",
+                    options->font_size, LARGEST_SIZE);
   if (!(fabs(options->azimuth) <= 3600.0) || !(fabs(options->elevation) <= 90.0))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "picture: a view from azimuth %g, elevation %g degrees; the second "
@@ -77,64 +101,122 @@ static void settle_threads(fg__rendering *out, int threads)
   out->threads = cores > 1 ? (int)cores : 1;
 }
 
-/* Where the box goes: the rest of the picture. */
-static fg__pane box_pane(const solid_picture *p)
+/* How low the caption reaches, with some room below it. */
+static double caption_end(const solid_picture *p)
 {
-  const fg__rendering *r = &p->rendering;
-  double em = p->em, rows = (p->title[0] != 0) + (p->subtitle[0] != 0);
-  if (!p->framed)
-    return (fg__pane){edge * em, edge * em, r->width - edge * em, r->height - edge * em};
-  return (fg__pane){left_room * em, (top_room + rows * line_height) * em,
-                    r->width - (p->has_key ? right_room + key_room : right_room) * em,
-                    r->height - bottom_room * em};
+  const int rows = (p->title[0] != 0) + (p->subtitle[0] != 0);
+  return (rows ? rows * line_height + gap : edge) * p->em;
 }
 
-/* The box's highest corner and its lowest, pixels from above. */
-static void box_rows(const fg__rendering *r, double *highest, double *lowest)
+/* The bar of the colour key. */
+static fg__pane key_pane(const solid_picture *p, cairo_t *ruler)
 {
-  double low = HUGE_VAL, high = -HUGE_VAL;
+  const fg__rendering *r = &p->rendering;
+  const double high = bar_share * r->height, middle = 0.5 * r->height;
+  const double wide = fg__color_bar_width(high, p->em, &p->speed, ruler);
+  return (fg__pane){r->width - edge * p->em - wide, middle - high / 2.0,
+                    r->width - edge * p->em, middle + high / 2.0};
+}
+
+/* What is left for the box and its numbers. */
+static fg__pane room_of(const solid_picture *p, cairo_t *ruler)
+{
+  const fg__rendering *r = &p->rendering;
+  const double em = p->em;
+  return (fg__pane){edge * em, caption_end(p),
+                    p->has_key ? key_pane(p, ruler).x0 - gap * em : r->width - edge * em,
+                    r->height - edge * em};
+}
+
+/* What the box takes of the picture. */
+static fg__pane box_bounds(const fg__rendering *r)
+{
+  fg__pane out = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (int c = 0; c < 8; ++c) {
     double corner[3], at[2];
     for (int k = 0; k < 3; ++k)
       corner[k] = c >> k & 1 ? r->view_box.half[k] : -r->view_box.half[k];
     fg__camera_project(&r->camera, corner, at);
-    low = fmin(low, at[1]);
-    high = fmax(high, at[1]);
+    out = (fg__pane){fmin(out.x0, at[0]), fmin(out.y0, at[1]), fmax(out.x1, at[0]),
+                     fmax(out.y1, at[1])};
   }
-  *highest = low;
-  *lowest = high;
+  return out;
 }
 
-/* Of a height that is not given, no more below the box than its numbers need. */
-static void trim(solid_picture *p, cairo_t *ruler)
+/* Takes room off either end, in proportion where there is too little. */
+static void shrink(double *low, double *high, double below, double above)
+{
+  const double whole = *high - *low, most = most_written * whole;
+  const double share = below + above > most ? most / (below + above) : 1.0;
+  *low += share * below;
+  *high -= share * above;
+}
+
+/* Looks at the box so that it and what is written round it fill the room. Returns what
+ * they take. */
+static fg__pane fit(solid_picture *p, const fg_field_arrays *field, cairo_t *ruler)
+{
+  enum { TURNS = 3 }; /* numbers change a little with the box's size */
+  fg__rendering *r = &p->rendering;
+  fg__pane box = {0}, all = {0};
+  for (int turn = 0; turn < TURNS; ++turn) {
+    fg__pane pane = room_of(p, ruler);
+    shrink(&pane.x0, &pane.x1, box.x0 - all.x0, all.x1 - box.x1);
+    shrink(&pane.y0, &pane.y1, box.y0 - all.y0, all.y1 - box.y1);
+    fg__camera_look(&r->camera, &r->view_box, p->azimuth, p->elevation, &pane);
+    all = box = box_bounds(r);
+    fg__box_axes_of(&p->axes, field, &r->view_box, &r->camera, p->em, ruler);
+    if (p->framed)
+      fg__box_axes_place(&p->axes, &all, &r->view_box, &r->camera, ruler);
+  }
+  return all;
+}
+
+/* The width that the caption needs. */
+static double caption_width(const solid_picture *p, cairo_t *ruler)
+{
+  return fmax(fg__text_width(ruler, p->title, p->em, true),
+              fg__text_width(ruler, p->subtitle, p->em, false)) +
+         2.0 * edge * p->em;
+}
+
+/* Sides that are not given are no longer than the box needs. */
+static void trim(solid_picture *p, const fg__pane *used, const fg_solid_options *options,
+                 cairo_t *ruler)
 {
   fg__rendering *r = &p->rendering;
-  double highest, lowest, least = flattest * r->width;
-  box_rows(r, &highest, &lowest);
-  lowest = fmax(lowest, fg__box_axes_place(&p->axes, &r->view_box, &r->camera, ruler));
-  r->height = (int)fmin(r->height, fmax(ceil(lowest + edge * p->em), least));
+  const fg__pane room = room_of(p, ruler);
+  const double spare[2] = {room.x1 - room.x0 - (used->x1 - used->x0),
+                           room.y1 - room.y0 - (used->y1 - used->y0)};
+  const double size[2] = {r->width, r->height};
+  double least[2] = {fmax(flattest * size[1], caption_width(p, ruler)),
+                     flattest * size[0]};
+  for (int k = 0; k < 2; ++k)
+    least[k] = fmax(ceil(size[k] - spare[k]), ceil(least[k]));
+  if (options->width == 0)
+    r->width = (int)fmin(r->width, least[0]);
+  if (options->height == 0)
+    r->height = (int)fmin(r->height, least[1]);
+}
+
+/* In a small picture the key's name would meet the caption. */
+static bool has_room_for_key(const solid_picture *p, cairo_t *ruler)
+{
+  return key_pane(p, ruler).y0 - fg__color_bar_rise(p->em) >= caption_end(p);
 }
 
 static void lay_out(solid_picture *p, const fg_field_arrays *field,
                     const fg_solid_options *options)
 {
-  fg__rendering *r = &p->rendering;
-  fg__pane pane = box_pane(p);
-  double azimuth = p->azimuth, elevation = p->elevation;
-  fg__view_box_of(&r->view_box, field);
-  fg__camera_look(&r->camera, &r->view_box, azimuth, elevation, &pane);
-  if (options->height == 0) { /* no more of it than a flat box needs */
-    double highest, lowest;
-    box_rows(r, &highest, &lowest);
-    double unused = pane.y1 - pane.y0 - (lowest - highest);
-    r->height -= (int)fmin(unused, (1.0 - flattest) * r->width);
-    pane = box_pane(p);
-    fg__camera_look(&r->camera, &r->view_box, azimuth, elevation, &pane);
-  }
   cairo_t *ruler = fg__text_ruler();
-  fg__box_axes_of(&p->axes, field, &r->view_box, &r->camera, p->em, ruler);
-  if (options->height == 0 && p->framed)
-    trim(p, ruler);
+  fg__text_shorten(ruler, p->speed.label, sizeof p->speed.label, p->em, false,
+                   widest_label * p->em);
+  fg__view_box_of(&p->rendering.view_box, field);
+  p->has_key = p->has_key && has_room_for_key(p, ruler);
+  const fg__pane used = fit(p, field, ruler);
+  trim(p, &used, options, ruler);
+  p->has_key = p->has_key && has_room_for_key(p, ruler);
+  fit(p, field, ruler);
   cairo_destroy(ruler);
 }
 
@@ -170,7 +252,7 @@ static fg_status prepare(solid_picture *p, fg_context *context, const fg_field *
     status = explore(p, context, field, icons, options);
   if (status)
     return status;
-  r->width = options->width ? options->width : USUAL_SIZE;
+  r->width = width_of(options);
   r->height = options->height ? options->height : r->width;
   r->halo = halo_share * fmax(r->width, r->height);
   r->least_head = head_share * fmax(r->width, r->height);
@@ -179,14 +261,18 @@ static fg_status prepare(solid_picture *p, fg_context *context, const fg_field *
   r->surface = options->surface;
   r->palette = &p->palette;
   bool has_speeds = fg__speed_range(r->range, icons);
+  p->pixels_per_point = pixels_per_point(options);
   p->framed = r->walls = !options->no_frame;
-  p->has_key = p->framed && has_speeds && !p->palette.uniform;
+  p->has_key = p->framed && has_speeds && !p->palette.uniform && !options->no_keys;
   r->transparent = options->transparent;
   settle_threads(r, options->threads);
-  p->em = fmax(font_share * fmin(r->width, r->height), least_font);
+  p->em = options->font_size > 0.0
+              ? options->font_size * p->pixels_per_point
+              : fmax(font_share * fmin(r->width, r->height), least_font);
   fg__axis_of_numbers(&p->speed, r->range[0], r->range[1], r->range[1] - r->range[0],
                       "speed", about->velocity_units);
-  const char *const wanted[2] = {options->title, NULL};
+  fg__caption_label_speeds(&p->speed, options->label, about->velocity_units);
+  const char *const wanted[2] = {options->title, options->subtitle};
   if (p->framed)
     fg__caption_write(p->title, p->subtitle, about, icons, wanted, options->scale_time);
   lay_out(p, about, options);
@@ -201,30 +287,19 @@ static void draw_line_of_text(cairo_t *cairo, char *text, double em, double widt
   *y += line_height * em;
   fg__text_shorten(cairo, text, FG__CAPTION_BYTES, em, bold, width);
   cairo_move_to(cairo, edge * em, *y);
-  fg__text_draw(cairo, text, em, bold);
-}
-
-/* The colour bar, where there is one. */
-static void draw_key(cairo_t *cairo, solid_picture *p)
-{
-  const fg__rendering *r = &p->rendering;
-  if (!p->has_key)
-    return;
-  double em = p->em, high = bar_share * r->height, middle = 0.5 * r->height;
-  fg__pane pane = {r->width - key_room * em, middle - high / 2.0, r->width - edge * em,
-                   middle + high / 2.0};
-  bool beyond[2];
-  fg__speeds_beyond(beyond, r->icons, r->range);
-  fg__color_bar_draw(cairo, &pane, em, &p->palette, &p->speed, beyond);
-  p->axes.kept = fg__color_bar_box(&pane, em, &p->speed, beyond, cairo);
+  fg__text_draw(cairo, text, em, bold, false);
 }
 
 static void draw_words(cairo_t *cairo, solid_picture *p)
 {
   const fg__rendering *r = &p->rendering;
   double em = p->em, y = 0.4 * em, width = r->width - 2.0 * edge * em;
-  draw_key(cairo, p);
-  fg__box_axes_place(&p->axes, &r->view_box, &r->camera, cairo);
+  if (p->has_key) {
+    const fg__pane pane = key_pane(p, cairo);
+    bool beyond[2];
+    fg__speeds_beyond(beyond, r->icons, r->range);
+    fg__color_bar_draw(cairo, &pane, em, &p->palette, &p->speed, beyond);
+  }
   fg__box_axes_draw(cairo, &p->axes, &r->view_box, &r->camera);
   cairo_set_source_rgb(cairo, 0.1, 0.1, 0.1);
   draw_line_of_text(cairo, p->title, em, width, true, &y);
@@ -250,15 +325,15 @@ static fg_status render(cairo_surface_t **out, fg_context *context, solid_pictur
 static fg_status draw(fg_context *context, const char *path, solid_picture *p)
 {
   const fg__rendering *r = &p->rendering;
+  const double pixels = p->pixels_per_point;
   cairo_surface_t *image;
   fg__surface_file surface;
   fg_status status = render(&image, context, p);
   if (!status)
-    status =
-        fg__surface_file_open(&surface, context, path, r->width / pixels_per_point,
-                              r->height / pixels_per_point, pixels_per_point, p->title);
+    status = fg__surface_file_open(&surface, context, path, r->width / pixels,
+                                   r->height / pixels, pixels, p->title);
   if (!status) {
-    cairo_scale(surface.cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
+    cairo_scale(surface.cairo, 1.0 / pixels, 1.0 / pixels);
     cairo_set_source_surface(surface.cairo, image, 0.0, 0.0);
     cairo_paint(surface.cairo);
     if (p->framed)

@@ -9,6 +9,7 @@
 #include <strings.h>
 
 #include "base/memory.h"
+#include "file/checksum.h"
 #include "picture/surface/svg_ids.h"
 
 fg__surface_file_format fg__surface_file_format_of(const char *path)
@@ -42,7 +43,48 @@ static cairo_status_t write_bytes(void *closure, const unsigned char *bytes,
   return CAIRO_STATUS_WRITE_ERROR;
 }
 
-/* The same of SVG, with the sheet. */
+/* Of PNG: after the signature and IHDR, which are the first 33 bytes of every file, goes
+ * the chunk pHYs with the size of a pixel, so that programs know the picture's own. */
+enum { PNG_HEAD = 33, PHYS_DATA = 9, PHYS_CHUNK = 4 + 4 + PHYS_DATA + 4 };
+
+static void put_number(unsigned char out[4], uint32_t number)
+{
+  for (int k = 0; k < 4; ++k)
+    out[k] = (unsigned char)(number >> (24 - 8 * k) & 255);
+}
+
+static void make_size_chunk(unsigned char out[PHYS_CHUNK], double pixels_per_point)
+{
+  static const double points_a_metre = 72.0 / 0.0254;
+  const uint32_t pixels = (uint32_t)lround(pixels_per_point * points_a_metre);
+  put_number(out, PHYS_DATA);
+  memcpy(out + 4, (const unsigned char[]){'p', 'H', 'Y', 's'}, 4);
+  put_number(out + 8, pixels);
+  put_number(out + 12, pixels);
+  out[16] = 1; /* a metre */
+  put_number(out + 17, fg__checksum(0, out + 4, 4 + PHYS_DATA));
+}
+
+static cairo_status_t write_png(void *closure, const unsigned char *bytes,
+                                unsigned int count)
+{
+  fg__surface_file *page_surface = closure;
+  const size_t before = page_surface->png_length;
+  const unsigned int head =
+      before < PNG_HEAD
+          ? (unsigned int)(PNG_HEAD - before < count ? PNG_HEAD - before : count)
+          : 0;
+  cairo_status_t status = write_bytes(&page_surface->file, bytes, head);
+  page_surface->png_length += count;
+  if (!status && head && before + head == PNG_HEAD) {
+    unsigned char chunk[PHYS_CHUNK];
+    make_size_chunk(chunk, page_surface->pixels_per_point);
+    status = write_bytes(&page_surface->file, chunk, PHYS_CHUNK);
+  }
+  return status ? status : write_bytes(&page_surface->file, bytes + head, count - head);
+}
+
+/* The same of SVG, which is kept until it is whole. */
 static cairo_status_t keep_bytes(void *closure, const unsigned char *bytes,
                                  unsigned int count)
 {
@@ -93,7 +135,8 @@ fg_status fg__surface_file_open(fg__surface_file *out, fg_context *context,
                                 const char *path, double width, double height,
                                 double pixels_per_point, const char *title)
 {
-  *out = (fg__surface_file){.format = fg__surface_file_format_of(path)};
+  *out = (fg__surface_file){.format = fg__surface_file_format_of(path),
+                            .pixels_per_point = pixels_per_point};
   fg_status status = fg__surface_file_format_check(context, path);
   if (!status)
     status = fg__whole_file_open(&out->file, context, path);
@@ -131,8 +174,8 @@ fg_status fg__surface_file_close(fg__surface_file *page_surface, fg_context *con
   cairo_status_t trouble = cairo_status(page_surface->cairo);
   cairo_destroy(page_surface->cairo);
   if (!status && !trouble && page_surface->format == FG__SURFACE_PNG)
-    trouble = cairo_surface_write_to_png_stream(page_surface->target, write_bytes,
-                                                &page_surface->file);
+    trouble =
+        cairo_surface_write_to_png_stream(page_surface->target, write_png, page_surface);
   cairo_surface_finish(page_surface->target);
   if (!trouble)
     trouble = cairo_surface_status(page_surface->target);

@@ -25,9 +25,12 @@ typedef struct fg__surface_file {
   char *svg;      /* the file as Cairo writes it */
   size_t svg_length, svg_capacity;
   fg__svg_texts texts; /* that follow it */
+  double pixels_per_point;
+  size_t png_length; /* of PNG, as Cairo writes it, so far */
 } fg__surface_file;
 
-/* Opens a surface of width x height points, which in PNG has pixels_per_point. title: for
+/* Opens a surface of width x height points, which in PNG has pixels_per_point, and says
+ * so. title: for
  * PDF, or NULL. FILE_ACCESS, UNSUPPORTED (the path's end), MEMORY; after a failure there
  * is nothing to close. */
 fg_status fg__surface_file_open(fg__surface_file *out, fg_context *context,
