@@ -5,7 +5,7 @@ MAKEFLAGS += --no-print-directory
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
 
-.PHONY: all setup demo check bench score install format clean
+.PHONY: all setup demo check check-python check-viewer wheel bench score install format clean
 
 all:
 	@cmake --preset release -DCMAKE_INSTALL_PREFIX=$(PREFIX) >build-log 2>&1 || \
@@ -19,10 +19,24 @@ setup:
 demo: setup
 	@$(MAKE) --no-print-directory all
 	@build/flowgrain run data/gfs_20140131.nc -o demo --force
-	@echo "The pictures are in $(CURDIR)/demo"
+	@echo "The pictures are in $(CURDIR)/demo; demo/index.html shows them all in a browser"
 
 check: setup
 	@scripts/check
+
+# the Python package: build-python/flowgrain-*.whl; its tests beside the program in build/
+wheel:
+	@scripts/setup --python
+	@python/wheel
+
+check-python: setup all
+	@scripts/setup --python
+	@python/check build
+
+# the npm package: build-viewer/package
+check-viewer: setup all
+	@scripts/setup --viewer
+	@viewer/check build
 
 # prints the tables of docs/benchmarks.md; WHOLE=1: the long ones, too
 bench: setup all

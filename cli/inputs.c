@@ -12,7 +12,7 @@
 static fg_input_options given;
 static unsigned char *bytes;
 
-enum { LEAST_ROOM = 1 << 20 };
+enum { FIRST_BYTES = 1 << 20 };
 
 bool inputs_is_standard(const char *input)
 {
@@ -48,26 +48,27 @@ static double usual_memory(void)
   return pages > 0 && size > 0 ? 0.75 * (double)pages * (double)size : 0.0;
 }
 
-static bool has_room(size_t *room, size_t used)
+/* Makes `bytes` larger where it is full. */
+static bool grow(size_t *capacity, size_t used)
 {
-  if (used < *room)
+  if (used < *capacity)
     return true;
-  const size_t more = *room ? *room + *room / 2 : LEAST_ROOM;
-  unsigned char *grown = more > *room ? realloc(bytes, more) : NULL;
+  const size_t more = *capacity ? *capacity + *capacity / 2 : FIRST_BYTES;
+  unsigned char *grown = more > *capacity ? realloc(bytes, more) : NULL;
   if (!grown)
     return false;
   bytes = grown;
-  *room = more;
+  *capacity = more;
   return true;
 }
 
 static int read_all(void)
 {
-  size_t room = 0, used = 0;
+  size_t capacity = 0, used = 0;
   for (;;) {
-    if (!has_room(&room, used))
+    if (!grow(&capacity, used))
       return complain_of_memory("standard input");
-    const ssize_t got = read(STDIN_FILENO, bytes + used, room - used);
+    const ssize_t got = read(STDIN_FILENO, bytes + used, capacity - used);
     if (got == 0)
       break;
     if (got < 0 && errno != EINTR)

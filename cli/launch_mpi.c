@@ -24,7 +24,7 @@ static bool is_local(void)
 
 /* On one machine no network is needed, and not to look for one saves Open MPI half of
  * MPI_Init: two ranks started in 0.2 s instead of 0.43 on a busy machine. TCP costs
- * nothing, and serves where there is no room for shared memory. What the user has set
+ * nothing, and serves where shared memory does not suffice. What the user has set
  * stays. */
 static void settle_for_one_machine(void)
 {
@@ -46,9 +46,9 @@ static size_t bytes_to_start(void)
 
 static bool can_have(size_t bytes)
 {
-  void *room = calloc(bytes, 1); /* never touched */
-  bool had = room != NULL;
-  free(room);
+  void *block = calloc(bytes, 1); /* never touched */
+  bool had = block != NULL;
+  free(block);
   return had;
 }
 

@@ -1,3 +1,4 @@
+#include <ctype.h>
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -90,6 +91,16 @@ static bool begins_with(const char *text, const char *start)
   return strncmp(text, start, strlen(start)) == 0;
 }
 
+/* The library's hints are clauses. */
+static void advise_in_a_sentence(const char *hint)
+{
+  const size_t length = strlen(hint);
+  const bool is_word = islower((unsigned char)hint[0]) && islower((unsigned char)hint[1]);
+  const bool is_ended = strchr(".?!", hint[length - 1]) != NULL;
+  advise("%c%s%s", is_word ? toupper((unsigned char)hint[0]) : hint[0], hint + 1,
+         is_ended ? "" : ".");
+}
+
 int complain_of(const fg_context *context, fg_status status, const char *file)
 {
   return complain_of_partial(context, status, file, file);
@@ -111,7 +122,7 @@ int complain_of_partial(const fg_context *context, fg_status status, const char 
   else
     complain("%s: %s", file, message);
   if (*hint)
-    advise("%s", hint);
+    advise_in_a_sentence(hint);
   return status == FG_STATUS_STOPPED ? EXIT_INTERRUPTED : EXIT_FAILED;
 }
 
@@ -147,10 +158,10 @@ int create_context(fg_context **out)
 
 static char *join(const char *first, const char *between, const char *second)
 {
-  size_t room = strlen(first) + strlen(between) + strlen(second) + 1;
-  char *text = malloc(room);
+  size_t size = strlen(first) + strlen(between) + strlen(second) + 1;
+  char *text = malloc(size);
   if (text)
-    snprintf(text, room, "%s%s%s", first, between, second);
+    snprintf(text, size, "%s%s%s", first, between, second);
   return text;
 }
 

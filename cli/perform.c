@@ -6,6 +6,7 @@
 #include "command/command.h"
 #include "inputs.h"
 #include "option/parse.h"
+#include "option/spelling.h"
 #include "ranks.h"
 #include "vectors.h"
 
@@ -17,6 +18,11 @@ static parse_result usage(void)
 
 static parse_result unknown(const char *word)
 {
+  for (size_t k = 0; k < command_count; ++k)
+    if (spelling_is_near(word, command_table[k].name)) {
+      complain("unknown command '%s'; is '%s' meant?", word, command_table[k].name);
+      return usage();
+    }
   complain("unknown %s '%s'", word[0] == '-' ? "option" : "command", word);
   return usage();
 }
@@ -64,9 +70,7 @@ static parse_result parse(const cli_command **command, any_settings *settings, i
 /* Of a command that reads fields. */
 static int prepare_inputs(const any_settings *settings, const cli_command *command)
 {
-  const unsigned bits = COMMAND_RUN | COMMAND_TEXTURE | COMMAND_RIVAL | COMMAND_SCORE |
-                        COMMAND_INFO | COMMAND_DRAW;
-  if (!(command->bit & bits))
+  if (!(command->bit & INPUTS))
     return EXIT_DONE;
   const char *const place = (const char *)settings;
   const char *input = settings->draw.input;

@@ -41,14 +41,14 @@ void progress_stage(cli_progress *progress, const char *text)
     draw(progress, text);
 }
 
-static void describe_seconds(char *text, size_t room, double seconds)
+static void describe_seconds(char *text, size_t size, double seconds)
 {
   if (seconds < 0.0)
-    snprintf(text, room, "--:--");
+    snprintf(text, size, "--:--");
   else if (seconds < 3600.0)
-    snprintf(text, room, "%d:%02d", (int)seconds / 60, (int)seconds % 60);
+    snprintf(text, size, "%d:%02d", (int)seconds / 60, (int)seconds % 60);
   else
-    snprintf(text, room, "%.1f h", seconds / 3600.0);
+    snprintf(text, size, "%.1f h", seconds / 3600.0);
 }
 
 /* Writes a bar that is full by a share. */

@@ -175,7 +175,7 @@ void do_in_child(child_outcome *out, void (*work)(void *), void *data,
 typedef struct reading {
   const char *input;
   const fg_read_options *options;
-  int slab, slabs; /* none: the inventory */
+  int slab, slabs; /* none: the inventory; -1: what is usual */
 } reading;
 
 static void read_once(void *data)
@@ -188,7 +188,12 @@ static void read_once(void *data)
     return;
   fg_read_options options = r->options ? *r->options : (fg_read_options){0};
   options.map = NULL; /* no work of the library in question */
+  fg_usual usual;
   fg_status status;
+  if (r->slabs < 0) {
+    fg_usual_find(&usual, context, r->input, &options);
+    return;
+  }
   if (r->options && r->slabs)
     status = fg_field_read_slab(&field, context, r->input, &options, r->slab, r->slabs);
   else if (r->options)
@@ -281,6 +286,11 @@ int sandbox_reading(const char *input, const fg_read_options *options)
 int sandbox_inventory(const char *input, const fg_read_options *options)
 {
   return sandbox_reading_part(input, options, 0, 0);
+}
+
+int sandbox_usual(const char *input, const fg_read_options *options)
+{
+  return sandbox_reading_part(input, options, 0, -1);
 }
 
 int sandbox_reading_part(const char *input, const fg_read_options *options, int slab,

@@ -32,6 +32,9 @@ int sandbox_reading(const char *input, const fg_read_options *options);
 /* The same for fg_inventory_read_chosen; options must not be NULL. */
 int sandbox_inventory(const char *input, const fg_read_options *options);
 
+/* The same for fg_usual_find, but what only fails there is no complaint. */
+int sandbox_usual(const char *input, const fg_read_options *options);
+
 /* The same for fg_field_read_slab; options must not be NULL. */
 int sandbox_reading_part(const char *input, const fg_read_options *options, int slab,
                          int slabs);

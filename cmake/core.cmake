@@ -11,3 +11,12 @@ target_include_directories(flowgrain_core PUBLIC
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 add_executable(example_core EXCLUDE_FROM_ALL examples/core.c)
 target_link_libraries(example_core PRIVATE flowgrain_core m)
+# The core for browsers: viewer/README.md.
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL wasm32)
+  add_executable(flowgrain_wasm EXCLUDE_FROM_ALL viewer/core/shim.c)
+  target_link_libraries(flowgrain_wasm PRIVATE flowgrain_settings flowgrain_core m)
+  set_source_files_properties(viewer/core/shim.c PROPERTIES
+    COMPILE_OPTIONS -Wno-missing-prototypes) # JavaScript calls them by name
+  target_link_options(flowgrain_wasm PRIVATE -mexec-model=reactor LINKER:--strip-all)
+  set_target_properties(flowgrain_wasm PROPERTIES OUTPUT_NAME flowgrain)
+endif()

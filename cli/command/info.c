@@ -17,13 +17,15 @@ static int name_count(const fg_inventory_vector *vector)
 }
 
 /* All of them, or the first and last few. */
-static void print_values(const char *what, const fg_axis_value *values, int count)
+static void print_values(const char *what, const fg_axis_value *values, int count,
+                         int usual)
 {
   enum { MOST = 12, FIRST = 8, LAST = 2 };
-  char room[CLEAN_BYTES];
+  char text[CLEAN_BYTES];
   printf("  %s: %d\n", what, count);
   for (int n = 0; n < count && values && count > 0; ++n) {
-    printf("    %d: %s\n", n, clean_text(room, values[n].words));
+    printf("    %d: %s%s\n", n, clean_text(text, values[n].words),
+           usual > 0 && n == usual ? " (read unless --level says another)" : "");
     if (count > MOST && n == FIRST - 1) {
       puts("    ...");
       n = count - LAST - 1;
@@ -31,18 +33,23 @@ static void print_values(const char *what, const fg_axis_value *values, int coun
   }
 }
 
+static const char *axis_of(const fg_inventory_vector *vector, int k)
+{
+  static const char *const usual[] = {"x", "y", "z"};
+  return vector->axis_name[k] ? vector->axis_name[k] : usual[k];
+}
+
 static void print_vector(const fg_inventory_vector *vector)
 {
-  static const char axis[] = "xyz";
-  char room[CLEAN_BYTES];
+  char text[CLEAN_BYTES];
   printf("vectors: ");
   for (int k = 0; k < name_count(vector); ++k)
-    printf("%s%s", k ? "," : "", clean_text(room, vector->name[k]));
-  printf("\n  found by: %s\n", clean_text(room, vector->found_by));
+    printf("%s%s", k ? "," : "", clean_text(text, vector->name[k]));
+  printf("\n  found by: %s\n", clean_text(text, vector->found_by));
   if (*vector->units)
-    printf("  units: %s\n", clean_text(room, vector->units));
+    printf("  units: %s\n", clean_text(text, vector->units));
   if (vector->unusable) { /* its grid is not known */
-    printf("  cannot be read: %s\n", clean_text(room, vector->unusable));
+    printf("  cannot be read: %s\n", clean_text(text, vector->unusable));
     return;
   }
   printf("  grid:");
@@ -52,17 +59,22 @@ static void print_vector(const fg_inventory_vector *vector)
     printf(", interpolated from %zu cells", vector->cells);
   putchar('\n');
   for (int k = 0; k < vector->dimension; ++k)
-    printf("  %c: %.6g to %.6g%s\n", axis[k], vector->bounds[2 * k],
+    printf("  %s: %.6g to %.6g%s\n", axis_of(vector, k), vector->bounds[2 * k],
            vector->bounds[2 * k + 1], vector->periodic[k] ? ", periodic" : "");
-  print_values("times", vector->time_value, vector->times);
-  print_values("levels", vector->level_value, vector->levels);
+  print_values("times", vector->time_value, vector->times, 0);
+  print_values("levels", vector->level_value, vector->levels, vector->usual_level);
   printf("  missing: %.1f %%\n", 100.0 * vector->missing_share);
   if (vector->normal_share > 0.0)
     printf("  normal to the plane: %.1f %% of the mean square\n",
            100.0 * vector->normal_share);
   printf("  scale: %s\n", scale_words[vector->scale]);
+  if (vector->absent)
+    printf("  its coordinates are not in the file: %s\n",
+           clean_text(text, vector->absent));
   if (vector->frame)
-    printf("  components: %s\n", clean_text(room, vector->frame));
+    printf("  components: %s\n", clean_text(text, vector->frame));
+  if (fg_map_auto(vector))
+    printf("  map: %s\n", fg_map_auto(vector));
 }
 
 static void add_values(cJSON *object, const char *name, const fg_axis_value *values,
@@ -113,18 +125,45 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
   if (vector->normal_share > 0.0)
     cJSON_AddNumberToObject(object, "normal_share", vector->normal_share);
   cJSON_AddStringToObject(object, "scale", scale_words[vector->scale]);
+  if (vector->levels > 1)
+    cJSON_AddNumberToObject(object, "usual_level", vector->usual_level);
+  if (vector->absent)
+    cJSON_AddStringToObject(object, "absent", vector->absent);
+  cJSON *names_of_axes = cJSON_AddArrayToObject(object, "axes");
+  for (int k = 0; k < vector->dimension; ++k)
+    cJSON_AddItemToArray(names_of_axes, cJSON_CreateString(axis_of(vector, k)));
   if (vector->frame)
     cJSON_AddStringToObject(object, "frame", vector->frame);
+  if (fg_map_auto(vector))
+    cJSON_AddStringToObject(object, "map", fg_map_auto(vector));
 }
 
-static int print_json(const char *file, const fg_inventory *inventory)
+/* What is told of a file: all that it holds, or the one vector that is asked for. */
+typedef struct listing {
+  const char *file;
+  fg_inventory *inventory;
+  bool is_chosen;
+  fg_inventory_vector chosen;
+} listing;
+
+static int count_of(const listing *list)
+{
+  return list->is_chosen ? 1 : fg_inventory_vector_count(list->inventory);
+}
+
+static const fg_inventory_vector *vector_at(const listing *list, int k)
+{
+  return list->is_chosen ? &list->chosen : fg_inventory_vector_at(list->inventory, k);
+}
+
+static int print_json(const listing *list)
 {
   cJSON *root = cJSON_CreateObject();
-  cJSON_AddStringToObject(root, "file", file);
-  cJSON_AddStringToObject(root, "format", fg_inventory_format(inventory));
+  cJSON_AddStringToObject(root, "file", list->file);
+  cJSON_AddStringToObject(root, "format", fg_inventory_format(list->inventory));
   cJSON *array = cJSON_AddArrayToObject(root, "vectors");
-  for (int k = 0; k < fg_inventory_vector_count(inventory); ++k)
-    add_vector(array, fg_inventory_vector_at(inventory, k));
+  for (int k = 0; k < count_of(list); ++k)
+    add_vector(array, vector_at(list, k));
   char *text = cJSON_Print(root);
   if (text)
     puts(text);
@@ -136,32 +175,104 @@ static int print_json(const char *file, const fg_inventory *inventory)
   return code;
 }
 
+static void print_text(const listing *list)
+{
+  printf("file: %s\nformat: %s\n", list->file, fg_inventory_format(list->inventory));
+  for (int k = 0; k < count_of(list); ++k)
+    print_vector(vector_at(list, k));
+}
+
+/* The grid of a field as it was read. */
+static void take_grid(fg_inventory_vector *vector, const fg_field *field)
+{
+  const fg_field_arrays *a = fg_field_contents(field);
+  size_t samples = 1, missing = 0;
+  vector->dimension = a->dimension;
+  for (int k = 0; k < a->dimension && k < 3; ++k) {
+    vector->size[k] = a->size[k];
+    vector->bounds[2 * k] = a->axis[k][0];
+    vector->bounds[2 * k + 1] = a->axis[k][a->size[k] - 1];
+    vector->periodic[k] = a->period[k] > 0.0;
+    samples *= (size_t)a->size[k];
+  }
+  for (size_t n = 0; n < samples; ++n) {
+    bool valid = !a->valid || a->valid[n];
+    for (int k = 0; k < a->dimension && k < 3; ++k)
+      valid = valid && isfinite(a->velocity[k][n]);
+    missing += !valid;
+  }
+  vector->missing_share = (double)missing / (double)samples;
+  vector->scale = a->scale;
+  vector->normal_share = fg_field_normal_share(field);
+}
+
+static bool chooses(const reading_settings *reading)
+{
+  return reading->vars || reading->vars_from || reading->block || reading->slice ||
+         reading->frame || reading->scale;
+}
+
+/* Lists the vector that is asked for, with the grid that it is read on: at the first
+ * time, or where there is nothing then, as in models that start from rest, the last. */
+static fg_status list_chosen(listing *list, fg_context *context,
+                             const fg_read_options *options)
+{
+  fg_field *field = NULL;
+  fg_status status =
+      fg_inventory_read_chosen(&list->inventory, context, list->file, options);
+  list->is_chosen = !status && fg_inventory_vector_count(list->inventory) > 0;
+  if (!list->is_chosen)
+    return status;
+  list->chosen = *fg_inventory_vector_at(list->inventory, 0);
+  status = fg_field_read(&field, context, list->file, options);
+  if (status == FG_STATUS_FILE_FORMAT && list->chosen.times > 1) {
+    fg_read_options last = *options;
+    last.time = list->chosen.times - 1;
+    fg_context_clear(context);
+    status = fg_field_read(&field, context, list->file, &last);
+  }
+  if (!status)
+    take_grid(&list->chosen, field);
+  fg_field_destroy(field);
+  return status;
+}
+
+/* Reading says what there is instead. */
+static int complain_of_none(fg_context *context, const listing *list,
+                            const fg_read_options *options)
+{
+  fg_field *field = NULL;
+  const fg_status status = fg_field_read(&field, context, list->file, options);
+  fg_field_destroy(field);
+  if (status)
+    return complain_of(context, status, list->file);
+  complain("%s: holds no vector field", list->file);
+  advise("`flowgrain run --vars U,V` takes variables by any names.");
+  return EXIT_FAILED;
+}
+
 int command_info(const void *given)
 {
   const info_settings *settings = given;
-  if (sandbox_reading(settings->file, NULL))
-    return EXIT_FAILED;
+  fg_read_options options = settings_reading(&settings->reading);
+  listing list = {.file = settings->reading.input};
   fg_context *context;
-  if (create_context(&context))
+  options.map = NULL;
+  const bool chosen = chooses(&settings->reading);
+  if (sandbox_reading(list.file, chosen ? &options : NULL) || create_context(&context))
     return EXIT_FAILED;
-  fg_inventory *inventory = NULL;
   int code = EXIT_DONE;
-  fg_status status = fg_inventory_read(&inventory, context, settings->file);
+  fg_status status = chosen ? list_chosen(&list, context, &options)
+                            : fg_inventory_read(&list.inventory, context, list.file);
   if (status)
-    code = complain_of(context, status, settings->file);
+    code = complain_of(context, status, list.file);
   else if (settings->json)
-    code = print_json(settings->file, inventory);
-  else {
-    printf("file: %s\nformat: %s\n", settings->file, fg_inventory_format(inventory));
-    for (int k = 0; k < fg_inventory_vector_count(inventory); ++k)
-      print_vector(fg_inventory_vector_at(inventory, k));
-  }
-  if (!status && fg_inventory_vector_count(inventory) == 0) {
-    complain("%s: holds no vector field", settings->file);
-    advise("`flowgrain run --vars U,V` takes variables by any names.");
-    code = EXIT_FAILED;
-  }
-  fg_inventory_destroy(inventory);
+    code = print_json(&list);
+  else
+    print_text(&list);
+  if (!status && count_of(&list) == 0)
+    code = complain_of_none(context, &list, &options);
+  fg_inventory_destroy(list.inventory);
   fg_context_destroy(context);
   return code;
 }

@@ -49,12 +49,12 @@ static int is_input(const rival_settings *settings, const char *path)
 static char *name_file(const rival_settings *settings, int count, const char *end)
 {
   int stem = (int)(strlen(settings->output) - strlen(name_end));
-  size_t room = strlen(settings->output) + 32;
-  char *path = malloc(room);
+  size_t size = strlen(settings->output) + 32;
+  char *path = malloc(size);
   if (path && settings->icons.count > 1)
-    snprintf(path, room, "%.*s-%d.%s", stem, settings->output, count, end);
+    snprintf(path, size, "%.*s-%d.%s", stem, settings->output, count, end);
   else if (path)
-    snprintf(path, room, "%.*s.%s", stem, settings->output, end);
+    snprintf(path, size, "%.*s.%s", stem, settings->output, end);
   return path;
 }
 

@@ -20,7 +20,7 @@ typedef struct score_work {
 static int score_file(score_work *work, int number)
 {
   const score_settings *settings = work->settings;
-  const char *path = settings->files[number];
+  const char *path = settings->files.operand[number];
   const fg_score_options options = {
       .lengths = (fg_score_class)settings->length_class,
       .count = settings->icons.count ? settings->icons.number[0] : 0,
@@ -50,10 +50,10 @@ static int prepare(score_work *work)
   if (status)
     return complain_of(work->context, status, settings->reading.input);
   say_infinite(settings->reading.input, work->field);
-  work->scores = calloc((size_t)settings->file_count, sizeof *work->scores);
+  work->scores = calloc((size_t)settings->files.count, sizeof *work->scores);
   if (work->scores)
     return EXIT_DONE;
-  complain("out of memory for %d scores", settings->file_count);
+  complain("out of memory for %d scores", settings->files.count);
   return EXIT_FAILED;
 }
 
@@ -92,8 +92,8 @@ static void print_table(const score_work *work)
 {
   puts(" icons  E_ang nearest inv.dist.  mean   95 %  E_adv    F1   void largest   ink "
        "clutter% tangency outside%  file");
-  for (int n = 0; n < work->settings->file_count; ++n)
-    print_row(&work->scores[n], work->settings->files[n]);
+  for (int n = 0; n < work->settings->files.count; ++n)
+    print_row(&work->scores[n], work->settings->files.operand[n]);
 }
 
 static void add_reader(cJSON *object, const char *name, const fg_reader_error *error)
@@ -137,8 +137,9 @@ static cJSON *describe(const fg_score *score, const char *path)
 static int print_json(const score_work *work)
 {
   cJSON *root = cJSON_CreateArray();
-  for (int n = 0; n < work->settings->file_count; ++n)
-    cJSON_AddItemToArray(root, describe(&work->scores[n], work->settings->files[n]));
+  for (int n = 0; n < work->settings->files.count; ++n)
+    cJSON_AddItemToArray(root,
+                         describe(&work->scores[n], work->settings->files.operand[n]));
   char *text = cJSON_Print(root);
   if (text)
     puts(text);
@@ -156,7 +157,7 @@ int command_score(const void *given)
   const score_settings *settings = given;
   score_work work = {.settings = settings};
   int code = prepare(&work);
-  for (int n = 0; !code && n < settings->file_count; ++n)
+  for (int n = 0; !code && n < settings->files.count; ++n)
     code = score_file(&work, n);
   if (!code && settings->json)
     code = print_json(&work);

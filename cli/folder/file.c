@@ -77,10 +77,10 @@ char *temporary_name(const char *path)
 {
   const char *slash = strrchr(path, '/');
   const char *name = slash ? slash + 1 : path;
-  size_t room = strlen(path) + 40;
-  char *text = malloc(room);
+  size_t size = strlen(path) + 40;
+  char *text = malloc(size);
   if (text)
-    snprintf(text, room, "%.*s.flowgrain-%ld-%s", (int)(name - path), path,
+    snprintf(text, size, "%.*s.flowgrain-%ld-%s", (int)(name - path), path,
              (long)getpid(), name);
   else
     complain("out of memory for a file's name");
@@ -100,4 +100,16 @@ int replace_file(char *partial, const char *path, int code)
     unlink(partial);
   free(partial);
   return code;
+}
+
+int write_text_file(const char *path, const char *text)
+{
+  char *partial = temporary_name(path);
+  if (!partial)
+    return EXIT_FAILED;
+  FILE *stream = fopen(partial, "w");
+  bool written = stream && fputs(text, stream) >= 0 && fputc('\n', stream) != EOF;
+  written = stream && fclose(stream) == 0 && written;
+  return replace_file(partial, path,
+                      written ? EXIT_DONE : complain_of_file(path, "cannot be written"));
 }

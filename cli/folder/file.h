@@ -31,4 +31,7 @@ int publish_file(char *partial, const char *path, int code);
 /* The same without a word to the folder. */
 int replace_file(char *partial, const char *path, int code);
 
+/* Writes a text and a newline to a file, by replace_file. Returns an exit code. */
+int write_text_file(const char *path, const char *text);
+
 #endif

@@ -37,7 +37,7 @@ int scale_of(const char *name)
 bool is_result(const char *name)
 {
   return strcmp(name, REPORT_NAME) == 0 || strcmp(name, TABLE_NAME) == 0 ||
-         scale_of(name) >= 0;
+         strcmp(name, VIEW_NAME) == 0 || scale_of(name) >= 0;
 }
 
 /* Names of whole files in the making are NAME.PROCESS-ATTEMPT.part, or NAME.part. */
@@ -192,7 +192,7 @@ void cut_to_parent(char *path)
 static bool is_absent(const char *path)
 {
   struct stat found;
-  return lstat(path, &found) != 0 && errno == ENOENT;
+  return lstat(path, &found) != 0 && (errno == ENOENT || errno == ENOTDIR);
 }
 
 char *nearest_existing(const char *path)

@@ -7,6 +7,7 @@
 /* Names in a run's folders. */
 #define REPORT_NAME "run.json"
 #define TABLE_NAME "evolution.csv"
+#define VIEW_NAME "index.html"
 #define CHECKPOINT_NAME "checkpoint"
 
 /* A name that a run leaves in DIR; no other is ever removed or replaced there. */
@@ -45,8 +46,8 @@ void synchronise_folder(const char *folder);
  * Returns an exit code. */
 int make_folders(const char *folder, char **topmost);
 
-/* The nearest folder at or above `path` that is there. NULL without memory; end with
- * free. */
+/* What is there of `path`: itself, or the nearest above it, which may be a file. NULL
+ * without memory; end with free. */
 char *nearest_existing(const char *path);
 
 /* Cuts the last part off a path: "a/b" becomes "a", "a" becomes ".", "/" stays. */

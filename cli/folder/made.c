@@ -31,6 +31,10 @@ static bool report_names(const cJSON *report, const char *name)
 {
   if (strcmp(name, REPORT_NAME) == 0 || strcmp(name, TABLE_NAME) == 0)
     return report != NULL;
+  const char *page =
+      cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(report, "page"));
+  if (page && strcmp(name, page) == 0)
+    return true;
   const cJSON *scale;
   cJSON_ArrayForEach(scale, cJSON_GetObjectItemCaseSensitive(report, "scales"))
   {
@@ -144,15 +148,7 @@ int made_check_inputs(const char *folder, const char *const *inputs, int count)
 static int write_report(const char *folder, const cJSON *report)
 {
   char *path = join_path(folder, REPORT_NAME), *text = cJSON_Print(report);
-  char *partial = path && text ? temporary_name(path) : NULL;
-  int code = EXIT_FAILED;
-  if (partial) {
-    FILE *stream = fopen(partial, "w");
-    bool written = stream && fputs(text, stream) >= 0 && fputc('\n', stream) != EOF;
-    written = stream && fclose(stream) == 0 && written;
-    code = written ? EXIT_DONE : complain_of_file(path, "cannot be written");
-    code = replace_file(partial, path, code);
-  }
+  int code = path && text ? write_text_file(path, text) : EXIT_FAILED;
   cJSON_free(text);
   free(path);
   return code;

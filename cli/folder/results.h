@@ -1,5 +1,5 @@
 /* The folder of a run's results. Everything is written to DIR/.flowgrain first, together
- * with the checkpoint, and takes its place in DIR when the run ends. Whatever the moment
+ * with the checkpoint, and takes its place in DIR when the run ends. Whatever the time
  * at which a run is killed, DIR/.flowgrain then has all to go on from the checkpoint. */
 #ifndef FOLDER_RESULTS_H
 #define FOLDER_RESULTS_H

@@ -66,9 +66,9 @@ void gallery_draw_substeps(FILE *svg)
   const double left = 70.0, right = 690.0, axis = 130.0;
   const double theta = 1.0 - 1.0 / sqrt(2.0), step = right - left;
   const double at[4] = {left, left + theta * step, right - theta * step, right};
-  const char *const moment[4] = {T_N, T_N " + \xCE\xB8\xCF\x84",
-                                 T_N " + (1 \xE2\x88\x92 \xCE\xB8)\xCF\x84",
-                                 T_N " + \xCF\x84"};
+  const char *const time[4] = {T_N, T_N " + \xCE\xB8\xCF\x84",
+                               T_N " + (1 \xE2\x88\x92 \xCE\xB8)\xCF\x84",
+                               T_N " + \xCF\x84"};
   const char *const implicit[3] = {"\xCE\xB1 K", "\xCE\xB2 K + \xCE\xA8\xE2\x80\xB2",
                                    "\xCE\xB1 K"};
   const char *const given[3] = {"\xCE\xB2 K + \xCE\xA8\xE2\x80\xB2", "\xCE\xB1 K",
@@ -78,7 +78,7 @@ void gallery_draw_substeps(FILE *svg)
   fprintf(svg, "<path d=\"M %.1f %.1f l -12 -5 l 0 10 z\"/>\n", right + 50.0, axis);
   for (int n = 0; n < 4; ++n) {
     line(svg, at[n], axis - 9.0, at[n], axis + 9.0, "stroke-width=\"2\"");
-    text(svg, at[n], axis + 32.0, moment[n]);
+    text(svg, at[n], axis + 32.0, time[n]);
   }
   for (int n = 0; n < 3; ++n) {
     double a = at[n], b = at[n + 1];

@@ -122,8 +122,8 @@ const gallery_figure gallery_figures[] = {
      .title = "A circular vortex in three dimensions",
      .paper = "Curved arrows of a vortex in 3D, from two viewpoints: a swirl that rises "
               "in the middle, and turns level along the boundaries.",
-     .differs = "The paper gives no formula of its field. Some flat clusters at the "
-                "boundaries have no room for a solid arrow.",
+     .differs = "The paper gives no formula of its field. Some clusters at the "
+                "boundaries are too flat for a solid arrow.",
      .command =
          {"run synth:vortex3d -o fig-10 --clusters 40,12 --view 30,22 --view 75,50"},
      .picture = {{"fig-10/scale-00.png", "40 clusters"},

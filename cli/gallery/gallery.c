@@ -94,12 +94,12 @@ static int copy_data(const char *folder)
   return code;
 }
 
-/* Splits a command at its spaces; `room` holds the words. Returns how many, at most
+/* Splits a command at its spaces; `text` holds the words. Returns how many, at most
  * `most`. */
-static int split_words(char *room, char *words[], int most)
+static int split_words(char *text, char *words[], int most)
 {
   int count = 0;
-  for (char *at = room; *at && count < most;) {
+  for (char *at = text; *at && count < most;) {
     words[count++] = at;
     at += strcspn(at, " ");
     if (*at)
@@ -113,13 +113,13 @@ static int split_words(char *room, char *words[], int most)
 static int do_command(const char *folder, const char *command, bool force)
 {
   static char program[] = "flowgrain", quiet[] = "--quiet", replace[] = "--force";
-  char *room = join_texts(command, ""), *words[MOST_WORDS] = {program};
+  char *text = join_texts(command, ""), *words[MOST_WORDS] = {program};
   int nowhere = open("/dev/null", O_WRONLY);
-  if (!room || nowhere == -1 || dup2(nowhere, STDOUT_FILENO) == -1)
+  if (!text || nowhere == -1 || dup2(nowhere, STDOUT_FILENO) == -1)
     return out_of_memory();
   if (chdir(folder) != 0)
     return complain_of_file(folder, "cannot be entered");
-  int count = 1 + split_words(room, words + 1, MOST_WORDS - 4);
+  int count = 1 + split_words(text, words + 1, MOST_WORDS - 4);
   if (strncmp(command, "run ", 4) == 0) {
     words[count++] = quiet;
     if (force)

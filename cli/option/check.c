@@ -1,9 +1,8 @@
 #include "option/check.h"
 
-#include "inputs.h"
-
 #include <string.h>
 
+#include "inputs.h"
 #include "option/value.h"
 
 /* A word that no file is likely to be called is a wrong one. */
@@ -105,21 +104,25 @@ static bool check_inputs(const input_settings *settings, const cli_command *comm
                      settings->max_memory);
 }
 
+static const void *group_of(const any_settings *settings, const cli_command *command,
+                            option_group group)
+{
+  return (const char *)settings + command->group[group];
+}
+
 bool options_check(const any_settings *settings, const cli_command *command)
 {
   const run_settings *run = &settings->run;
-  if ((command->bit & (COMMAND_RUN | COMMAND_TEXTURE | COMMAND_RIVAL | COMMAND_SCORE |
-                       COMMAND_INFO | COMMAND_DRAW)) &&
-      !check_inputs((const void *)((const char *)settings + command->group[GROUP_INPUTS]),
-                    command))
+  const void *inputs = group_of(settings, command, GROUP_INPUTS);
+  const void *reading = group_of(settings, command, GROUP_READING);
+  const void *picture = group_of(settings, command, GROUP_PICTURE);
+  if ((command->bit & INPUTS) && !check_inputs(inputs, command))
     return false;
-  const void *reading = (const char *)settings + command->group[GROUP_READING];
-  if ((command->bit & (COMMAND_RUN | COMMAND_TEXTURE | COMMAND_RIVAL | COMMAND_SCORE)) &&
-      (!check_slice(reading, command) || !check_map(reading, command)))
+  if ((command->bit & DESCRIBERS) && !check_slice(reading, command))
     return false;
-  const void *picture = (const char *)settings + command->group[GROUP_PICTURE];
-  if ((command->bit & (COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL)) &&
-      !check_picture(picture, command))
+  if ((command->bit & READERS) && !check_map(reading, command))
+    return false;
+  if ((command->bit & PICTURES) && !check_picture(picture, command))
     return false;
   if (command->bit == COMMAND_TEXTURE)
     return check_energy(&settings->texture.evolution, command);

@@ -52,6 +52,20 @@ static void print_option(FILE *stream, const option_entry *option)
   print_wrapped(stream, option->help, HELP_INDENT, HELP_INDENT);
 }
 
+static void print_family(FILE *stream, const option_family *family,
+                         const cli_command *command)
+{
+  bool begun = false;
+  for (size_t k = 0; k < family->count; ++k) {
+    if (!(family->option[k].commands & command->bit))
+      continue;
+    if (!begun)
+      fprintf(stream, "\n%s:\n", family->heading);
+    begun = true;
+    print_option(stream, &family->option[k]);
+  }
+}
+
 static void print_names(FILE *stream, const char *heading, const char *const *names)
 {
   fprintf(stream, "\n%s:", heading);
@@ -64,10 +78,8 @@ void print_command_help(FILE *stream, const cli_command *command)
 {
   fprintf(stream, "Usage: flowgrain %s %s\n", command->name, command->synopsis);
   print_wrapped(stream, command->text, 0, 0);
-  fputs("\nOptions:\n", stream);
-  for (size_t k = 0; k < option_count; ++k)
-    if (option_table[k].commands & command->bit)
-      print_option(stream, &option_table[k]);
+  for (size_t k = 0; option_families[k]; ++k)
+    print_family(stream, option_families[k], command);
   if (command->bit == COMMAND_SYNTH)
     print_names(stream, "Analytic fields", fg_field_analytic_names());
   if (command->bit & (COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL | COMMAND_TEXTURE))

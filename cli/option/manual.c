@@ -42,6 +42,22 @@ static void print_option(FILE *out, const option_entry *option)
   fputs(".\n", out);
 }
 
+static void print_options(FILE *out, const cli_command *command)
+{
+  for (size_t n = 0; option_families[n]; ++n) {
+    const option_family *family = option_families[n];
+    bool begun = false;
+    for (size_t k = 0; k < family->count; ++k) {
+      if (!(family->option[k].commands & command->bit))
+        continue;
+      if (!begun)
+        fprintf(out, ".PP\n%s:\n", family->heading);
+      begun = true;
+      print_option(out, &family->option[k]);
+    }
+  }
+}
+
 static void print_names(FILE *out, const char *const *names)
 {
   for (size_t k = 0; names[k]; ++k)
@@ -59,9 +75,7 @@ static bool fill_line(FILE *out, const char *line)
     fprintf(out, ".SS flowgrain %s %s\n", command->name, command->synopsis);
     print_text(out, command->text);
     fputc('\n', out);
-    for (size_t k = 0; k < option_count; ++k)
-      if (option_table[k].commands & command->bit)
-        print_option(out, &option_table[k]);
+    print_options(out, command);
   } else if (strcmp(line, "@fields@\n") == 0)
     print_names(out, fg_field_analytic_names());
   else if (strcmp(line, "@palettes@\n") == 0)

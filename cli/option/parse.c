@@ -6,10 +6,11 @@
 
 #include "build_features.h"
 #include "option/check.h"
+#include "option/spelling.h"
 #include "option/value.h"
 
-/* getopt_long's value for a long option is this plus its place in option_table, beyond
- * every letter. */
+/* getopt_long's value for a long option is this plus its index (option_at), beyond every
+ * letter. */
 enum { LONG_BASE = 256, MAX_OPTIONS = 128 };
 
 enum { TYPED_BYTES = 40 };
@@ -36,8 +37,8 @@ static void fill_tables(getopt_tables *tables, const cli_command *command)
   memset(tables, 0, sizeof *tables);
   size_t longs = 0, shorts = 0;
   tables->shorts[shorts++] = ':'; /* a missing argument is reported as ':' */
-  for (size_t k = 0; k < option_count && longs < MAX_OPTIONS; ++k) {
-    const option_entry *option = &option_table[k];
+  const option_entry *option;
+  for (size_t k = 0; (option = option_at(k)) && longs < MAX_OPTIONS; ++k) {
     if (!(option->commands & command->bit))
       continue;
     tables->longs[longs].name = option->name;
@@ -54,11 +55,48 @@ static void fill_tables(getopt_tables *tables, const cli_command *command)
 static const option_entry *find_option(const cli_command *command, int code)
 {
   if (code >= LONG_BASE)
-    return &option_table[code - LONG_BASE];
-  for (size_t k = 0; k < option_count; ++k)
-    if ((option_table[k].commands & command->bit) && option_table[k].letter == code)
-      return &option_table[k];
-  return NULL;
+    return option_at((size_t)(code - LONG_BASE));
+  const option_entry *option;
+  for (size_t k = 0; (option = option_at(k)); ++k)
+    if ((option->commands & command->bit) && option->letter == code)
+      break;
+  return option;
+}
+
+enum { NAME_BYTES = 64, LIST_BYTES = 256 };
+
+/* The long options that a word begins, separated by commas; returns how many. */
+static int list_begun(char out[LIST_BYTES], const cli_command *command, const char *name)
+{
+  const option_entry *option;
+  int count = 0;
+  size_t used = 0;
+  out[0] = '\0';
+  for (size_t k = 0; (option = option_at(k)); ++k)
+    if ((option->commands & command->bit) &&
+        strncmp(option->name, name, strlen(name)) == 0 && used < LIST_BYTES)
+      used += (size_t)snprintf(out + used, LIST_BYTES - used, "%s--%s",
+                               count++ ? ", " : "", option->name);
+  return count;
+}
+
+/* Of a long option that getopt_long has not found: it begins several, or none. */
+static void complain_of_unknown(const cli_command *command, const char *typed)
+{
+  char name[NAME_BYTES], begun[LIST_BYTES];
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(typed, "=") - 2, typed + 2);
+  if (list_begun(begun, command, name) > 1) {
+    usage_error(command, "%s: --%s may be %s", command->name, name, begun);
+    return;
+  }
+  const option_entry *option;
+  for (size_t k = 0; (option = option_at(k)); ++k)
+    if ((option->commands & command->bit) && spelling_is_near(name, option->name)) {
+      usage_error(command, "%s: unknown option %s; is --%s meant?", command->name, typed,
+                  option->name);
+      return;
+    }
+  usage_error(command, "%s: unknown option %s", command->name, typed);
 }
 
 static const void *at(const any_settings *settings, size_t place)
@@ -74,7 +112,7 @@ static bool check_operands(any_settings *out, const cli_command *command, int co
                        operands[0]);
   if (command->operand && !count)
     return usage_error(command, "%s: %s is missing", command->name, command->operand);
-  if (command->more && count == 1)
+  if (command->needs_more && count == 1)
     return usage_error(command, "%s: %s is missing", command->name, command->more);
   if (count > 1 && !command->more)
     return usage_error(command, "%s: one %s is expected, and '%s' is one more",
@@ -88,10 +126,9 @@ static bool check_operands(any_settings *out, const cli_command *command, int co
     return usage_error(command, "%s: -o is missing", command->name);
   if (count)
     memcpy((char *)out + command->operand_place, operands, sizeof *operands);
-  if (command->more) {
-    out->score.files = operands + 1;
-    out->score.file_count = count - 1;
-  }
+  const operand_list more = {operands + 1, count - 1};
+  if (command->more)
+    memcpy((char *)out + command->more_place, &more, sizeof more);
   return options_check(out, command);
 }
 
@@ -140,7 +177,7 @@ parse_result options_parse(any_settings *out, const cli_command *command, int ar
       else if (optopt)
         usage_error(command, "%s: unknown option -%c", command->name, optopt);
       else
-        usage_error(command, "%s: unknown option %s", command->name, argv[optind - 1]);
+        complain_of_unknown(command, argv[optind - 1]);
       return PARSE_WRONG;
     }
     const option_entry *option = find_option(command, code);

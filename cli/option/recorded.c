@@ -94,7 +94,7 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
   int whole;
   bool flag;
   switch (option->kind) {
-  case OPTION_PLACES: /* its index, however it was said */
+  case OPTION_PLACES: /* its index, however it was given */
     whole = strcmp(option->name, "time") == 0 ? settings->reading.time
                                               : settings->reading.level;
     if (whole)
@@ -162,13 +162,14 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
 cJSON *options_record(const run_settings *settings)
 {
   cJSON *object = cJSON_CreateObject();
-  for (size_t k = 0; object && k < option_count; ++k) {
+  const option_entry *option;
+  for (size_t k = 0; object && (option = option_at(k)); ++k) {
     char text[VALUE_BYTES];
-    if (!counts(&option_table[k]))
+    if (!counts(option))
       continue;
-    print_value(text, settings, &option_table[k]);
+    print_value(text, settings, option);
     if (*text)
-      cJSON_AddStringToObject(object, option_table[k].name, text);
+      cJSON_AddStringToObject(object, option->name, text);
   }
   return object;
 }
@@ -183,8 +184,8 @@ static void print_phrase(char text[VALUE_BYTES + 64], const option_entry *option
 
 bool options_match(const cJSON *earlier, const run_settings *settings)
 {
-  for (size_t k = 0; k < option_count; ++k) {
-    const option_entry *option = &option_table[k];
+  const option_entry *option;
+  for (size_t k = 0; (option = option_at(k)); ++k) {
     char now[VALUE_BYTES], one[VALUE_BYTES + 64], other[VALUE_BYTES + 64];
     if (!counts(option))
       continue;

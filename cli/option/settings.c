@@ -123,14 +123,16 @@ fg_solid_options settings_solid(const picture_settings *settings, int view,
 {
   /* pictures in 3D are 1200 pixels wide where those in 2D are 480 points */
   const double dpi = settings->dpi > 0.0 ? settings->dpi : 2.5 * POINTS_AN_INCH;
-  const double width = settings->width > 0.0 ? settings->width
-                       : settings->dpi > 0.0 ? 480.0
-                                             : 0.0;
   fg_solid_options out = {
       .palette = settings->palette,
-      .width = (int)lround(width * dpi / POINTS_AN_INCH),
+      .width = (int)lround(settings->width * dpi / POINTS_AN_INCH),
       .height = (int)lround(settings->height * dpi / POINTS_AN_INCH),
+      .pixels_per_point = dpi / POINTS_AN_INCH,
       .title = settings->title,
+      .subtitle = settings->subtitle,
+      .label = settings->label,
+      .font_size = settings->font_size,
+      .no_keys = settings->no_keys,
       .no_frame = settings->no_frame,
       .transparent = settings->transparent,
   };

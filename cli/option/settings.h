@@ -19,6 +19,12 @@ typedef struct number_list {
   int count;
 } number_list;
 
+/* Operands after the first. */
+typedef struct operand_list {
+  char *const *operand;
+  int count;
+} operand_list;
+
 /* How inputs are read. */
 typedef struct input_settings {
   const char *format;     /* NULL: found from the content */
@@ -29,7 +35,7 @@ typedef struct input_settings {
 typedef struct reading_settings {
   const char *input;
   const char *vars, *vars_from, *mask;
-  const char *time_wish, *level_wish; /* as they are given; NULL: not */
+  const char *time_text, *level_text; /* as they are given; NULL: not */
   int time, level;                    /* their indices, once they are found */
   int scale;                          /* fg_scale */
   int frame;                          /* fg_frame */
@@ -85,7 +91,7 @@ typedef struct run_settings {
   double max_time;
   int max_steps;
   unsigned formats; /* 0: the default, SVG and PNG, in 3D PNG */
-  bool save_field;
+  bool save_field, no_page;
   double checkpoint; /* seconds between checkpoints; 0: after every step */
   bool resume, force, quiet, verbose;
   bool member; /* of a series, which tells of it */
@@ -94,12 +100,16 @@ typedef struct run_settings {
 typedef struct draw_settings {
   input_settings inputs;
   picture_settings picture;
-  const char *folder;           /* DIR, of a finished run */
+  const char *folder;           /* DIR, of a finished run or a series; or icons */
+  operand_list more;            /* likewise */
   const char *output;           /* PICTURE */
   const char *input;            /* where the field is now */
   fg_map_options map;           /* another one than the run's */
   int scale_index;              /* -1 when not given */
-  number_list arrows, clusters; /* the finest scale with at most so many */
+  number_list arrows, clusters; /* for each the finest scale with at most so many */
+  bool all_scales;
+  int columns;             /* of panels; 0: from their shape */
+  const char *panel_label; /* NULL: not given */
 } draw_settings;
 
 typedef struct texture_settings {
@@ -131,7 +141,7 @@ typedef struct brush_settings {
 
 typedef struct info_settings {
   input_settings inputs;
-  const char *file;
+  reading_settings reading;
   bool json;
 } info_settings;
 
@@ -159,11 +169,10 @@ typedef struct rival_settings {
 typedef struct score_settings {
   input_settings inputs;
   reading_settings reading;
-  char *const *files; /* of icons */
-  int file_count;
-  int length_class;  /* fg_score_class */
-  number_list icons; /* the nominal number: one */
-  double ink;        /* 0: no limit */
+  operand_list files; /* of icons */
+  int length_class;   /* fg_score_class */
+  number_list icons;  /* the nominal number: one */
+  double ink;         /* 0: no limit */
   bool json;
 } score_settings;
 
@@ -173,7 +182,7 @@ typedef struct gallery_settings {
   bool force, quiet;
 } gallery_settings;
 
-/* Room for those of any command. */
+/* Those of any command. */
 typedef union any_settings {
   run_settings run;
   draw_settings draw;

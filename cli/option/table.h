@@ -1,5 +1,5 @@
-/* The tables of commands and options: parsing, --help and the manual page all follow
- * them. */
+/* The tables of commands (commands.c) and options (…_options.c): parsing, --help and the
+ * manual page all follow them. */
 #ifndef OPTION_TABLE_H
 #define OPTION_TABLE_H
 
@@ -16,7 +16,14 @@ enum {
   COMMAND_TEXTURE = 32,
   COMMAND_BRUSH = 64,
   COMMAND_GALLERY = 128,
-  COMMAND_SCORE = 256
+  COMMAND_SCORE = 256,
+
+  EVERY = 2 * COMMAND_SCORE - 1,
+  READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE | COMMAND_SCORE,
+  DESCRIBERS = READERS | COMMAND_INFO,            /* have reading_settings */
+  INPUTS = READERS | COMMAND_INFO | COMMAND_DRAW, /* have input_settings */
+  SEEDED = COMMAND_RUN | COMMAND_TEXTURE | COMMAND_BRUSH,
+  PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL /* have picture_settings */
 };
 
 /* The struct that an option's value lies in: the command's own, or a group of it. */
@@ -34,14 +41,15 @@ typedef struct cli_command {
   unsigned bit;
   const char *name;
   const char *operand;  /* the one operand's name; NULL: takes none */
-  const char *more;     /* name of one or more operands after it; NULL: takes none */
+  const char *more;     /* name of operands after it; NULL: takes none */
+  bool needs_more;      /* one at least */
   const char *synopsis; /* after the name */
   const char *summary;  /* a clause for the list of commands */
   const char *text;     /* a paragraph for its own help */
   int (*work)(const void *settings);
-  /* Offsets in its settings: of the groups that it has, of the operand, and of the -o
+  /* Offsets in its settings: of the groups that it has, of the operands, and of the -o
    * that it needs, which is never the first (0: it needs none). */
-  size_t group[GROUPS], operand_place, output_place;
+  size_t group[GROUPS], operand_place, more_place, output_place;
   size_t most_numbers; /* in a list of arrows or clusters */
 } cli_command;
 
@@ -83,8 +91,18 @@ typedef struct option_entry {
 
 extern const cli_command command_table[];
 extern const size_t command_count;
-extern const option_entry option_table[];
-extern const size_t option_count;
+/* Options that --help shows under one heading. */
+typedef struct option_family {
+  const char *heading;
+  const option_entry *option;
+  size_t count;
+} option_family;
+
+/* In the order of --help, ended by NULL. */
+extern const option_family *const option_families[];
+
+/* Of all families, from 0; NULL after the last. */
+const option_entry *option_at(size_t index);
 
 /* Where the value of an option lies in a command's settings. */
 size_t option_place(const cli_command *command, const option_entry *option);

@@ -79,12 +79,12 @@ static bool set_seed(void *out, const cli_command *command, const option_entry *
   return true;
 }
 
-void list_words(char *text, size_t room, const char *const *words)
+void list_words(char *text, size_t size, const char *const *words)
 {
   text[0] = '\0';
   for (size_t k = 0; words[k]; ++k) {
     size_t used = strlen(text);
-    snprintf(text + used, room - used, "%s%s", k ? ", " : "", words[k]);
+    snprintf(text + used, size - used, "%s%s", k ? ", " : "", words[k]);
   }
 }
 
@@ -103,10 +103,10 @@ static bool set_choice(void *out, const cli_command *command, const option_entry
 }
 
 /* The next item of a list with commas, copied to `item`; NULL after the last. */
-static const char *next_item(char *item, size_t room, const char *list)
+static const char *next_item(char *item, size_t size, const char *list)
 {
   size_t length = strcspn(list, ",");
-  snprintf(item, room, "%.*s", length < room ? (int)length : (int)room - 1, list);
+  snprintf(item, size, "%.*s", length < size ? (int)length : (int)size - 1, list);
   return list[length] ? list + length + 1 : NULL;
 }
 
@@ -213,18 +213,26 @@ static bool set_length(void *out, const cli_command *command, const option_entry
   return true;
 }
 
+/* Numbers separated by commas; returns how many, -1 for anything else or more than
+ * `most`. */
+static int parse_numbers(double *out, int most, const char *text)
+{
+  int count = 0;
+  for (const char *rest = text; rest; ++count) {
+    char item[32];
+    rest = next_item(item, sizeof item, rest);
+    if (count == most || !parse_number(&out[count], item))
+      return -1;
+  }
+  return count;
+}
+
 static bool set_range(void *out, const cli_command *command, const option_entry *option,
                       const char *text)
 {
-  char first[32], second[32];
   double ends[2];
-  const char *rest = next_item(first, sizeof first, text);
-  if (rest)
-    rest = next_item(second, sizeof second, rest);
-  else
-    second[0] = '\0';
-  if (rest || !parse_number(&ends[0], first) || !parse_number(&ends[1], second) ||
-      ends[0] < option->least || ends[1] > option->most || !(ends[1] > ends[0]))
+  if (parse_numbers(ends, 2, text) != 2 || ends[0] < option->least ||
+      ends[1] > option->most || !(ends[1] > ends[0]))
     return usage_error(command,
                        "--%s %s: two ascending numbers are needed, from %g to %g",
                        option->name, text, option->least, option->most);
@@ -252,15 +260,9 @@ static bool set_view(picture_settings *out, const cli_command *command,
                      const option_entry *option, const char *text)
 {
   int most = command->bit == COMMAND_RUN ? MAX_VIEWS : 1;
-  char azimuth[32], elevation[32];
   double view[2];
-  const char *rest = next_item(azimuth, sizeof azimuth, text);
-  if (rest)
-    rest = next_item(elevation, sizeof elevation, rest);
-  else
-    elevation[0] = '\0';
-  if (rest || !parse_number(&view[0], azimuth) || !parse_number(&view[1], elevation) ||
-      !(fabs(view[0]) <= 360.0) || !(fabs(view[1]) <= 90.0))
+  if (parse_numbers(view, 2, text) != 2 || !(fabs(view[0]) <= 360.0) ||
+      !(fabs(view[1]) <= 90.0))
     return usage_error(
         command,
         "--%s %s: AZIMUTH,ELEVATION is needed, in degrees, from -360 to 360 and "
@@ -271,20 +273,6 @@ static bool set_view(picture_settings *out, const cli_command *command,
                        most == 1 ? "" : "s");
   memcpy(out->views[out->view_count++], view, sizeof view);
   return true;
-}
-
-/* Numbers parted by commas; returns how many, -1 for anything else or more than `most`.
- */
-static int parse_numbers(double *out, int most, const char *text)
-{
-  int count = 0;
-  for (const char *rest = text; rest; ++count) {
-    char item[32];
-    rest = next_item(item, sizeof item, rest);
-    if (count == most || !parse_number(&out[count], item))
-      return -1;
-  }
-  return count;
 }
 
 static bool set_center(fg_map_options *out, const cli_command *command,

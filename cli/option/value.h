@@ -13,7 +13,7 @@ bool usage_error(const cli_command *command, const char *format, ...)
 bool value_set(void *settings, const cli_command *command, const option_entry *option,
                const char *typed, const char *text);
 
-/* "a, b, c", as far as there is room. */
-void list_words(char *text, size_t room, const char *const *words);
+/* "a, b, c", cut at size. */
+void list_words(char *text, size_t size, const char *const *words);
 
 #endif

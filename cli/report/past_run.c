@@ -41,21 +41,21 @@ char *read_text(const char *path)
     return NULL;
   }
   char *text = NULL;
-  size_t used = 0, room = 0, got = 0;
+  size_t used = 0, capacity = 0, got = 0;
   do {
     used += got;
-    if (room - used < 4096) {
-      room = room ? 2 * room : 65536;
-      char *larger = realloc(text, room);
+    if (capacity - used < 4096) {
+      capacity = capacity ? 2 * capacity : 65536;
+      char *larger = realloc(text, capacity);
       if (!larger) {
-        complain("%s: out of memory: %zu bytes", path, room);
+        complain("%s: out of memory: %zu bytes", path, capacity);
         free(text);
         fclose(stream);
         return NULL;
       }
       text = larger;
     }
-    got = fread(text + used, 1, room - used - 1, stream);
+    got = fread(text + used, 1, capacity - used - 1, stream);
   } while (got);
   text[used] = '\0';
   if (ferror(stream)) {
@@ -120,7 +120,7 @@ bool report_same_input(const void *input, const char *operand, const char *folde
     return true;
   const char *earlier = text_of(input, "path");
   complain("%s: holds the results of a run on %s", folder,
-           earlier ? earlier : "another input");
+           earlier ? inputs_name(earlier) : "another input");
   advise("Choose another folder with -o, or replace its results with --force.");
   return false;
 }

@@ -229,6 +229,8 @@ static void add_outcome(cJSON *root, const run_facts *facts)
   cJSON *scales = cJSON_AddArrayToObject(root, "scales");
   for (int k = 0; k < drawing_count(facts->drawing); ++k)
     add_scale(scales, facts, k);
+  if (facts->has_page)
+    cJSON_AddStringToObject(root, "page", VIEW_NAME);
   add_numbers(root, "speed_range", drawing_look(facts->drawing)->speeds, 2);
   if (scales_are_solid(facts->field))
     add_numbers(root, "view", drawing_look(facts->drawing)->view, 2);

@@ -18,6 +18,7 @@ typedef struct run_facts {
   long accepted, rejected;
   double mass_drift;
   bool energy_monotone; /* in steps, between coarsenings */
+  bool has_page;        /* for browsers */
   double seconds_read, seconds_evolve, seconds_total;
   int ranks;
   fg_communication communication[FG_PHASES], most_communication[FG_PHASES];

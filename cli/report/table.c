@@ -16,15 +16,15 @@ static const char heading[] =
 
 static bool append(cli_table *table, const char *text, size_t bytes)
 {
-  if (table->room - table->used < bytes) {
-    size_t room = 2 * (table->room + ENOUGH_BYTES);
-    char *larger = realloc(table->rows, room);
+  if (table->capacity - table->used < bytes) {
+    size_t capacity = 2 * (table->capacity + ENOUGH_BYTES);
+    char *larger = realloc(table->rows, capacity);
     if (!larger) {
-      complain("out of memory: %zu bytes for evolution.csv", room);
+      complain("out of memory: %zu bytes for evolution.csv", capacity);
       return false;
     }
     table->rows = larger;
-    table->room = room;
+    table->capacity = capacity;
   }
   memcpy(table->rows + table->used, text, bytes);
   table->used += bytes;

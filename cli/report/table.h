@@ -10,7 +10,7 @@ typedef struct cli_table {
   int file;        /* -1: not open */
   long long bytes; /* of the file, all of them whole rows */
   char *rows;      /* not written yet */
-  size_t used, room;
+  size_t used, capacity;
 } cli_table;
 
 /* Begins a table at `path`, with its heading, which it takes over (malloc'd). Returns an

@@ -22,26 +22,38 @@ int background_check(const picture_settings *settings, int ranks)
   return EXIT_DONE;
 }
 
+fg_status background_make(fg_texture **texture, fg_context *context,
+                          const picture_settings *settings, int threads,
+                          const int size[2], const fg_field *field,
+                          const fg_density *density)
+{
+  const fg_texture_options wanted = {.kind = kind_of(settings),
+                                     .size = {size[0], size[1]},
+                                     .density = density,
+                                     .threads = threads};
+  if (!settings->background)
+    return FG_STATUS_OK;
+  const fg_texture_arrays *last = fg_texture_contents(*texture);
+  const bool fits = last && wanted.kind != FG_TEXTURE_CLUSTERS &&
+                    last->size[0] == size[0] && last->size[1] == size[1];
+  if (fits)
+    return FG_STATUS_OK;
+  fg_texture_destroy(*texture);
+  *texture = NULL;
+  return fg_texture_create(texture, context, field, &wanted);
+}
+
 fg_status background_choose(fg_picture_options *options, fg_texture **texture,
                             fg_context *context, const picture_settings *settings,
                             int threads, const fg_field *field, const fg_density *density,
                             const fg_icons *icons)
 {
+  int size[2];
   if (!settings->background)
     return FG_STATUS_OK;
-  fg_texture_options wanted = {
-      .kind = kind_of(settings), .density = density, .threads = threads};
-  fg_status status = fg_picture_frame(wanted.size, context, field, icons, options);
-  if (status)
-    return status;
-  const fg_texture_arrays *last = fg_texture_contents(*texture);
-  const bool fits = last && wanted.kind != FG_TEXTURE_CLUSTERS &&
-                    last->size[0] == wanted.size[0] && last->size[1] == wanted.size[1];
-  if (!fits) {
-    fg_texture_destroy(*texture);
-    *texture = NULL;
-    status = fg_texture_create(texture, context, field, &wanted);
-  }
+  fg_status status = fg_picture_frame(size, context, field, icons, options);
+  if (!status)
+    status = background_make(texture, context, settings, threads, size, field, density);
   options->background = *texture;
   return status;
 }

@@ -243,6 +243,11 @@ const scale_result *drawing_result(const cli_drawing *drawing, int index)
   return &drawing->results[index];
 }
 
+const fg_field *drawing_field(const cli_drawing *drawing)
+{
+  return drawing->maker.field;
+}
+
 const common_look *drawing_look(const cli_drawing *drawing)
 {
   return &drawing->maker.look;

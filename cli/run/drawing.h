@@ -45,6 +45,9 @@ int drawing_ready(cli_drawing *drawing);       /* scales drawn */
 bool drawing_failed(cli_drawing *drawing);     /* drawing_finish says why */
 const scale_result *drawing_result(const cli_drawing *drawing, int index);
 
+/* The field, whole. */
+const fg_field *drawing_field(const cli_drawing *drawing);
+
 const common_look *drawing_look(const cli_drawing *drawing);
 double drawing_icon_seconds(const cli_drawing *drawing);
 double drawing_picture_seconds(const cli_drawing *drawing);

@@ -6,8 +6,17 @@
 #include <string.h>
 
 #include "folder/files.h"
+#include "inputs.h"
 #include "ranks.h"
 #include "run/scale_files.h"
+
+/* The page's scales begin with so many arrows, and end with no more than those. */
+enum { LEAST_MOST = 60, MOST_MOST = 400, MOST_FEWEST = 12 };
+
+static int within(int number, int least, int most)
+{
+  return number < least ? least : number > most ? most : number;
+}
 
 /* At the drawing's progress. */
 static const double seconds_between_looks = 0.2;
@@ -20,7 +29,7 @@ bool finish_can_go_on(const cli_run *run)
 
 static int complain_of_no_scale(const cli_run *run)
 {
-  const char *operand = run->settings->reading.input;
+  const char *operand = inputs_name(run->settings->reading.input);
   const fg_step *step = &run->step;
   if (run->facts.ended == FG_RUN_STOPPED) {
     complain("%s: interrupted at t = %.3g, before the first scale%s", operand, step->time,
@@ -56,6 +65,35 @@ int finish_drawing(cli_run *run)
   return drawing_count(run->drawing) ? EXIT_DONE : complain_of_no_scale(run);
 }
 
+/* The page for browsers, of placed arrows in 2D. */
+static int write_page(cli_run *run)
+{
+  const run_settings *settings = run->settings;
+  const fg_field *field = drawing_field(run->drawing);
+  if (!fg_has_feature(FG_FEATURE_VIEWER) || !settings_place(settings) ||
+      settings->no_page || scales_are_solid(field))
+    return EXIT_DONE;
+  const int *wanted;
+  int next, count = fg_run_wanted(&wanted, &next, run->scales);
+  const common_look *look = drawing_look(run->drawing);
+  char *path = output_path(&run->output, VIEW_NAME);
+  if (!path)
+    return EXIT_FAILED;
+  fg_status status = fg_view_write(
+      run->context, path, field,
+      &(fg_view_options){.most = within(wanted[0], LEAST_MOST, MOST_MOST),
+                         .fewest = within(wanted[count - 1], 1, MOST_FEWEST),
+                         .seed = settings->work.seed,
+                         .lengths = (fg_lengths)settings->lengths,
+                         .palette = settings->picture.palette,
+                         .speed_min = look->speeds[0],
+                         .speed_max = look->speeds[1],
+                         .title = settings->picture.title});
+  free(path);
+  run->facts.has_page = !status;
+  return status ? complain_of(run->context, status, settings->output) : EXIT_DONE;
+}
+
 static int write_results(cli_run *run)
 {
   if (!table_flush(&run->table, false))
@@ -63,8 +101,13 @@ static int write_results(cli_run *run)
   char *path = output_path(&run->output, REPORT_NAME);
   if (!path)
     return EXIT_FAILED;
+  int code = write_page(run);
+  if (code) {
+    free(path);
+    return code;
+  }
   run->facts.seconds_total = run->earlier_total + clock_seconds() - run->start;
-  int code = report_write(path, &run->facts);
+  code = report_write(path, &run->facts);
   free(path);
   return code ? code : output_publish(&run->output);
 }
@@ -109,7 +152,7 @@ static void say_first_scale(const cli_run *run)
   if (first > wanted / 2)
     return;
   complain("%s: no scale of about %d clusters: the first that could be counted were %d",
-           settings->reading.input, wanted, first);
+           inputs_name(settings->reading.input), wanted, first);
   advise("More --nodes begin with more clusters.");
 }
 
@@ -121,7 +164,7 @@ static int say_outcome(const cli_run *run)
   int next, most = fg_run_wanted(&wanted, &next, run->scales);
   if (run->facts.ended == FG_RUN_STATIONARY && next < most)
     complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
-             settings->reading.input, wanted[next], run->step.clusters);
+             inputs_name(settings->reading.input), wanted[next], run->step.clusters);
   if (run->facts.ended != FG_RUN_STOPPED) {
     say_first_scale(run);
     return EXIT_DONE;
@@ -133,8 +176,8 @@ static int say_outcome(const cli_run *run)
   else
     snprintf(reached, sizeof reached, "with %d clusters", run->step.clusters);
   complain("%s: interrupted at t = %.3g %s; the %d scale%s until then %s in %s",
-           settings->reading.input, run->step.time, reached, count, count == 1 ? "" : "s",
-           count == 1 ? "is" : "are", settings->output);
+           inputs_name(settings->reading.input), run->step.time, reached, count,
+           count == 1 ? "" : "s", count == 1 ? "is" : "are", settings->output);
   return EXIT_INTERRUPTED;
 }
 

@@ -11,38 +11,10 @@
 #include "ranks.h"
 #include "sandbox.h"
 
-/* Parts, but where icons are made of the whole density (snapshot.c). */
-int input_read(cli_run *run)
-{
-  const run_settings *settings = run->settings;
-  const bool whole =
-      settings->tolerance > 0.0 || settings->picture.tint || settings->picture.background;
-  const int slab = whole ? 0 : ranks_number(), slabs = whole ? 1 : ranks_count();
-  progress_stage(&run->progress, "reading");
-  fg_read_options reading = settings_reading(&settings->reading);
-  if (sandbox_reading_part(settings->reading.input, &reading, slab, slabs))
-    return EXIT_FAILED;
-  fg_status status = fg_field_read_slab(&run->field, run->context,
-                                        settings->reading.input, &reading, slab, slabs);
-  progress_wipe(&run->progress);
-  if (status)
-    return complain_of(run->context, status, run->settings->reading.input);
-  run->facts.field = run->field;
-  int dimension = fg_field_contents(run->field)->dimension;
-  int code = refuse_other_dimension("run", &settings->picture, dimension,
-                                    settings->reading.input);
-  return code ? code
-              : refuse_undrawable(settings->formats, settings->picture.background != 0,
-                                  dimension == 3);
-}
-
 /* How many times and levels there were to choose from; nothing when that is not known.
  */
 static void count_choices(cli_run *run)
 {
-  const fg_field_arrays *field = fg_field_contents(run->field);
-  if (!field->time && !field->level)
-    return;
   fg_context *context;
   fg_inventory *inventory = NULL;
   if (fg_context_create(&context))
@@ -60,20 +32,63 @@ static void count_choices(cli_run *run)
   fg_context_destroy(context);
 }
 
+/* What is all missing or zero may not be so at another time. */
+static int complain_of_reading(cli_run *run, fg_status status)
+{
+  const int code = complain_of(run->context, status, run->settings->reading.input);
+  const bool of_data = status == FG_STATUS_ARGUMENT || status == FG_STATUS_FILE_FORMAT;
+  if (!of_data || *fg_context_hint(run->context) || run->settings->reading.map.has_region)
+    return code;
+  count_choices(run);
+  const int times = run->facts.time_count, levels = run->facts.level_count;
+  if (times > 1 || levels > 1)
+    advise("Choose another with %s; flowgrain info lists them.", times > 1 && levels > 1
+                                                                     ? "--time or --level"
+                                                                 : times > 1 ? "--time"
+                                                                             : "--level");
+  return code;
+}
+
+/* Parts, but where icons are made of the whole density (snapshot.c). */
+int input_read(cli_run *run)
+{
+  const run_settings *settings = run->settings;
+  const bool whole =
+      settings->tolerance > 0.0 || settings->picture.tint || settings->picture.background;
+  const int slab = whole ? 0 : ranks_number(), slabs = whole ? 1 : ranks_count();
+  progress_stage(&run->progress, "reading");
+  fg_read_options reading = settings_reading(&settings->reading);
+  if (sandbox_reading_part(settings->reading.input, &reading, slab, slabs))
+    return EXIT_FAILED;
+  fg_status status = fg_field_read_slab(&run->field, run->context,
+                                        settings->reading.input, &reading, slab, slabs);
+  progress_wipe(&run->progress);
+  if (status)
+    return complain_of_reading(run, status);
+  run->facts.field = run->field;
+  int dimension = fg_field_contents(run->field)->dimension;
+  int code = refuse_other_dimension("run", &settings->picture, dimension,
+                                    settings->reading.input);
+  return code ? code
+              : refuse_undrawable(settings->formats, settings->picture.background != 0,
+                                  dimension == 3);
+}
+
 static void say_choice(const char *file, const char *kind, int index, int count,
                        const char *words)
 {
-  char room[CLEAN_BYTES];
+  char text[CLEAN_BYTES];
   if (count > 1)
     fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", inputs_name(file), kind,
-            index, count - 1, words ? ": " : "", clean_text(room, words ? words : ""));
+            index, count - 1, words ? ": " : "", clean_text(text, words ? words : ""));
 }
 
 static void say_choices(cli_run *run)
 {
   const run_settings *settings = run->settings;
   const fg_field_arrays *field = fg_field_contents(run->field);
-  count_choices(run);
+  if (field->time || field->level)
+    count_choices(run);
   say_choice(settings->reading.input, "time", settings->reading.time,
              run->facts.time_count, field->time);
   say_choice(settings->reading.input, "level", settings->reading.level,
@@ -84,7 +99,7 @@ int input_join(cli_run *run)
 {
   fg_status status = fg_field_join(run->context, run->field);
   if (status)
-    return complain_of(run->context, status, run->settings->reading.input);
+    return complain_of_reading(run, status);
   if (ranks_leader()) {
     say_choices(run);
     say_infinite(run->settings->reading.input, run->field);

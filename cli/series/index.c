@@ -7,9 +7,13 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "folder/file.h"
 #include "folder/files.h"
+#include "inputs.h"
 #include "option/recorded.h"
+#include "option/table.h"
 #include "report/past_run.h"
+#include "series/panels.h"
 
 static void add_place(cJSON *object, const char *name, const char *words_name, int index,
                       const fg_axis_value *values)
@@ -35,6 +39,18 @@ static void add_members(cJSON *root, const series_index *index)
   }
 }
 
+static void add_panels(cJSON *root, const series_index *index)
+{
+  cJSON *panels = index->panel_scales ? cJSON_AddArrayToObject(root, "panels") : NULL;
+  for (int scale = 0; scale < index->panel_scales; ++scale)
+    for (int kind = 0; kind < FORMAT_KINDS; ++kind) {
+      char name[PANELS_NAME_BYTES];
+      panels_name(name, scale, format_words[kind]);
+      if (index->panel_formats & (1U << kind))
+        cJSON_AddItemToArray(panels, cJSON_CreateString(name));
+    }
+}
+
 static cJSON *describe(const series_index *index)
 {
   const run_settings *settings = index->settings;
@@ -43,7 +59,9 @@ static cJSON *describe(const series_index *index)
   cJSON_AddStringToObject(root, "version", fg_version());
   cJSON *input = cJSON_AddObjectToObject(root, "input");
   cJSON_AddStringToObject(input, "path", settings->reading.input);
-  char *absolute = realpath(settings->reading.input, NULL);
+  char *absolute = inputs_is_standard(settings->reading.input)
+                       ? NULL
+                       : realpath(settings->reading.input, NULL);
   if (absolute)
     cJSON_AddStringToObject(input, "absolute", absolute);
   free(absolute);
@@ -55,31 +73,15 @@ static cJSON *describe(const series_index *index)
     cJSON_AddItemToArray(range, cJSON_CreateRaw(text));
   }
   add_members(root, index);
+  add_panels(root, index);
   return root;
-}
-
-static int write_text(const char *path, const char *text)
-{
-  char *part = join_texts(path, ".part");
-  if (!part)
-    return complain_of_memory("a file's name");
-  FILE *stream = fopen(part, "w");
-  bool written = stream && fputs(text, stream) >= 0 && fputc('\n', stream) != EOF;
-  written = stream && fclose(stream) == 0 && written;
-  int code = EXIT_DONE;
-  if (!written || rename(part, path) != 0) {
-    code = complain_of_file(path, "cannot be written");
-    unlink(part);
-  }
-  free(part);
-  return code;
 }
 
 int index_write(const series_index *index)
 {
   cJSON *root = describe(index);
   char *text = cJSON_Print(root), *path = join_path(index->settings->output, SERIES_NAME);
-  int code = text && path ? write_text(path, text) : complain_of_memory(SERIES_NAME);
+  int code = text && path ? write_text_file(path, text) : complain_of_memory(SERIES_NAME);
   free(path);
   cJSON_free(text);
   cJSON_Delete(root);
@@ -184,4 +186,17 @@ int index_names(char (**names)[MEMBER_NAME_BYTES], int *count, const char *folde
   int code = !root ? EXIT_FAILED : *names ? EXIT_DONE : complain_of_memory("names");
   cJSON_Delete(root);
   return code;
+}
+
+bool index_has_panels(const char *folder, const char *name)
+{
+  cJSON *root = series_is_there(folder) ? read_index(folder) : NULL;
+  const cJSON *panels = cJSON_GetObjectItemCaseSensitive(root, "panels");
+  bool found = false;
+  for (int n = 0; n < cJSON_GetArraySize(panels) && !found; ++n) {
+    const char *its = cJSON_GetStringValue(cJSON_GetArrayItem(panels, n));
+    found = its && strcmp(its, name) == 0;
+  }
+  cJSON_Delete(root);
+  return found;
 }

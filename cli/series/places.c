@@ -4,42 +4,43 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "inputs.h"
 #include "sandbox.h"
 
-/* A wish that needs no file to be understood: none, or an index. */
-static bool is_plain(const char *wish)
+/* A choice that needs no file to be understood: none, or an index. */
+static bool is_plain(const char *text)
 {
-  return !wish || !wish[strspn(wish, "0123456789")];
+  return !text || !text[strspn(text, "0123456789")];
 }
 
-static int take_index(fg_selection *out, const char *wish)
+static int take_index(fg_selection *out, const char *text)
 {
   *out = (fg_selection){.index = calloc(1, sizeof *out->index), .count = 1};
   if (!out->index)
     return complain_of_memory("an index");
-  out->index[0] = wish ? atoi(wish) : 0;
+  out->index[0] = text ? atoi(text) : 0;
   return EXIT_DONE;
 }
 
 static void say_nearest(const reading_settings *settings, const char *what,
-                        const char *wish, const fg_axis_value *value)
+                        const char *text, const fg_axis_value *value)
 {
   char words[CLEAN_BYTES];
   fprintf(stderr, "flowgrain: %s: no %s %s: the nearest is %s\n", settings->input, what,
-          wish, clean_text(words, value->words));
+          text, clean_text(words, value->words));
 }
 
 static int find_one(fg_selection *out, fg_context *context,
-                    const reading_settings *settings, const char *what, const char *wish,
+                    const reading_settings *settings, const char *what, const char *text,
                     const fg_axis_value *values, int count, bool quiet)
 {
-  if (is_plain(wish))
-    return take_index(out, wish);
-  fg_status status = fg_selection_find(out, context, what, wish, values, count);
+  if (is_plain(text))
+    return take_index(out, text);
+  fg_status status = fg_selection_find(out, context, what, text, values, count);
   if (status)
     return complain_of(context, status, settings->input);
   if (out->nearest && values && !quiet)
-    say_nearest(settings, what, wish, &values[out->index[0]]);
+    say_nearest(settings, what, text, &values[out->index[0]]);
   return EXIT_DONE;
 }
 
@@ -61,24 +62,49 @@ static int read_vector(chosen_places *out, fg_context *context,
   return EXIT_FAILED;
 }
 
+/* The level that is usual, where none is asked for, and a word on what the file lacks.
+ * What is wrong with the file its reading will say. */
+static int find_usual(int *level, fg_context *context, const reading_settings *settings,
+                      bool quiet)
+{
+  char words[CLEAN_BYTES];
+  fg_usual usual;
+  const fg_read_options options = settings_reading(settings);
+  *level = 0;
+  if (sandbox_usual(settings->input, &options))
+    return EXIT_FAILED;
+  if (fg_usual_find(&usual, context, settings->input, &options)) {
+    fg_context_clear(context);
+    return EXIT_DONE;
+  }
+  *level = settings->level_text ? 0 : usual.level;
+  if (usual.absent[0] && !quiet)
+    fprintf(stderr, "flowgrain: %s: its coordinates are not in the file: %s\n",
+            inputs_name(settings->input), clean_text(words, usual.absent));
+  return EXIT_DONE;
+}
+
 int places_find(chosen_places *out, const reading_settings *settings, bool quiet)
 {
   *out = (chosen_places){.inventory = NULL};
   fg_context *context;
-  int code = create_context(&context);
+  int code = create_context(&context), level = 0;
   if (code)
     return code;
-  if (!is_plain(settings->time_wish) || !is_plain(settings->level_wish))
+  code = find_usual(&level, context, settings, quiet);
+  if (!code && (!is_plain(settings->time_text) || !is_plain(settings->level_text)))
     code = read_vector(out, context, settings);
   const fg_inventory_vector *vector = out->vector;
   if (!code)
     code =
-        find_one(&out->time, context, settings, "time", settings->time_wish,
+        find_one(&out->time, context, settings, "time", settings->time_text,
                  vector ? vector->time_value : NULL, vector ? vector->times : 0, quiet);
   if (!code)
     code =
-        find_one(&out->level, context, settings, "level", settings->level_wish,
+        find_one(&out->level, context, settings, "level", settings->level_text,
                  vector ? vector->level_value : NULL, vector ? vector->levels : 0, quiet);
+  if (!code && !settings->level_text)
+    out->level.index[0] = level;
   fg_context_destroy(context);
   return code;
 }

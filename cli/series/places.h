@@ -11,8 +11,8 @@ typedef struct chosen_places {
   fg_selection time, level;
 } chosen_places;
 
-/* Says of a wish that is nearest what was taken; complains where there is none. Reads the
- * input's metadata unless plain indices do. Returns an exit code. */
+/* Tells which value was taken where what was asked for is not there; complains of none.
+ * Reads the input's metadata unless plain indices do. Returns an exit code. */
 int places_find(chosen_places *out, const reading_settings *settings, bool quiet);
 void places_clear(chosen_places *places);
 

@@ -13,6 +13,7 @@
 #include "ranks.h"
 #include "sandbox.h"
 #include "series/index.h"
+#include "series/panels.h"
 
 void series_member_name(char out[MEMBER_NAME_BYTES], const chosen_places *places,
                         int time, int level)
@@ -72,8 +73,9 @@ static int look(series_index *index, bool *goes_on)
     advise("Choose another folder with -o.");
     return EXIT_FAILED;
   }
-  if (!series_is_there(settings->output) || settings->force)
-    return EXIT_DONE;
+  code = panels_refuse_foreign(settings->output);
+  if (code || !series_is_there(settings->output) || settings->force)
+    return code;
   if (!settings->resume) {
     complain("%s: holds a series of runs", settings->output);
     advise("Choose another folder with -o, or replace its results with --force, or go on "
@@ -168,6 +170,8 @@ static int begin(series_index *index)
 {
   bool goes_on;
   int code = look(index, &goes_on);
+  if (!code)
+    code = panels_remove(index->settings->output);
   if (code || goes_on)
     return code;
   code = find_speeds(index);
@@ -223,6 +227,16 @@ static int run_members(const series_index *index,
   return failed ? EXIT_FAILED : EXIT_DONE;
 }
 
+/* Figures of those that could be done, too. */
+static int do_members(series_index *index, int (*run)(const run_settings *settings))
+{
+  const int code = run_members(index, run);
+  if (code != EXIT_DONE && code != EXIT_FAILED)
+    return code;
+  const int panels = ranks_agree(ranks_leader() ? panels_draw(index) : EXIT_DONE);
+  return code ? code : panels;
+}
+
 int series_run(const run_settings *settings, const chosen_places *places,
                int (*run)(const run_settings *settings))
 {
@@ -234,7 +248,7 @@ int series_run(const run_settings *settings, const chosen_places *places,
     code = ranks_agree(
         ranks_leader() ? EXIT_DONE : index_read_speeds(index.speeds, settings->output));
   if (!code)
-    code = run_members(&index, run);
+    code = do_members(&index, run);
   free(index.member);
   return code;
 }

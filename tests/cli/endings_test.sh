@@ -3,22 +3,11 @@
 # right exit code, the last checkpoint good, and nothing else left.
 source "$(dirname "$0")/harness.sh"
 
-run=(run synth:vortex3 --nodes 129 --quiet)
+run=(run synth:vortex3 --nodes 129 --width 200 --quiet)
 scales=(--clusters 25,12)
 try "${run[@]}" "${scales[@]}" -o whole
 expect_code 0
 
-# in_background ARGUMENTS...: a shell lets its background jobs ignore the interrupt.
-in_background() {
-  env --default-signal=INT "$program" "$@" >out 2>err &
-  pid=$!
-}
-# ends_by SIGNAL: the background run gets it.
-ends_by() {
-  kill "-$1" "$pid"
-  wait "$pid"
-  code=$?
-}
 expect_only_work() {
   [ "$(ls -A "$1")" = .flowgrain ] || fault "in $1: $(ls -A "$1")"
   local rest
@@ -27,32 +16,29 @@ expect_only_work() {
   [ -z "$rest" ] || fault "left in $1/.flowgrain: $rest"
 }
 
-# a mesh so fine that many steps, with a checkpoint each, come before the first scale
-early=(run synth:vortex3 --nodes 513 --mesh uniform --clusters 40,30 --formats svg --quiet)
+# steps with a checkpoint each come before the first scale
+early=(run synth:vortex3 --nodes 97 --clusters 12,8 --formats svg --quiet)
 try "${early[@]}" -o whole1
 expect_code 0
 for signal in INT TERM HUP; do
-  in_background "${early[@]}" -o "early-$signal" --checkpoint 0
-  until_there "early-$signal/.flowgrain/checkpoint" "$pid"
-  ends_by "$signal"
+  with_calls "$signal" 30 "${early[@]}" -o "early-$signal" --checkpoint 0
   expect_code 130
   expect_one_complaint
   expect_error 'interrupted at t = .*, before the first scale$'
   expect_error 'The same command with --resume goes on from step [1-9]'
   expect_only_work "early-$signal"
-  try "${early[@]}" -o "early-$signal" --resume
-  expect_code 0
-  expect_same_results whole1 "early-$signal"
-  expect_only_results "early-$signal"
-  done_with "SIG$signal before the first scale: a checkpoint, and --resume goes on"
+  done_with "SIG$signal before the first scale: a checkpoint"
 done
+try "${early[@]}" -o early-HUP --resume
+expect_code 0
+expect_same_results whole1 early-HUP
+expect_only_results early-HUP
+done_with "with which --resume goes on"
 
-wide=(run synth:vortex3 --nodes 513 --clusters 200,12 --quiet)
+wide=(run synth:vortex3 --nodes 193 --clusters 60,8 --width 200 --quiet)
 try "${wide[@]}" -o whole2
 expect_code 0
-in_background "${wide[@]}" -o stopped --checkpoint 0
-until_there stopped/.flowgrain/scale-00.geojson "$pid"
-ends_by INT
+with_calls INT scale-00.geojson "${wide[@]}" -o stopped --checkpoint 0
 expect_code 130
 expect_one_complaint
 expect_error 'interrupted at t = .* with [0-9]+ clusters; the [12] scales? until then'
@@ -70,13 +56,11 @@ expect_same_results whole2 stopped
 expect_only_results stopped
 done_with "an interrupted run writes the scales it has, and goes on from there"
 
-# its first scale is drawn while most of the evolution is still to come
+# its first scale is drawn while most of the evolution is still to come, however late
 long=(run synth:vortex3 --nodes 513 --mesh uniform --clusters 300,6 --formats svg --quiet)
 try "${long[@]}" -o whole3
 expect_code 0
-in_background "${long[@]}" -o never
-until_there never/.flowgrain/scale-00.geojson "$pid"
-ends_by TERM
+with_calls TERM scale-00.geojson "${long[@]}" -o never
 expect_code 130
 expect_file never/.flowgrain/checkpoint
 try "${long[@]}" -o never --resume
@@ -84,12 +68,10 @@ expect_code 0
 expect_same_results whole3 never
 done_with "its first checkpoint may be that of the interruption"
 
-placed=(run synth:vortex3 --nodes 513 --arrows 60,12 --effort 0 --formats svg --quiet)
+placed=(run synth:vortex3 --nodes 193 --arrows 60,12 --effort 0 --formats svg --quiet)
 try "${placed[@]}" -o whole4
 expect_code 0
-in_background "${placed[@]}" -o between --checkpoint 0
-until_there between/.flowgrain/scale-00.geojson "$pid"
-ends_by INT
+with_calls INT scale-00.geojson "${placed[@]}" -o between --checkpoint 0
 expect_code 130
 expect_one_complaint
 expect_error 'interrupted at t = .* before the scale of 12 arrows; the 1 scale until then is in between$'
@@ -101,36 +83,31 @@ expect_only_results between
 done_with "an interrupted run of placed arrows says which are missing, and goes on"
 
 # the evolution is short, the placing of so many is long
-in_background run synth:vortex3 --nodes 129 --arrows 400,399,398,397,396,395 --formats svg --quiet -o placing
-until_there placing/.flowgrain/scale-00.svg "$pid"
-ends_by INT
+with_calls INT scale-00.svg run synth:vortex3 --nodes 97 --arrows 200,199,198,197,196,195 --formats svg --quiet -o placing
 expect_code 130
 expect_one_complaint
 expect_json placing/run.json '.ended == "interrupted" and (.scales | length) >= 1 and (.scales | length) < 6'
-expect_json placing/run.json '[.scales[].icons] == [400,399,398,397,396,395][:(.scales | length)]'
+expect_json placing/run.json '[.scales[].icons] == [200,199,198,197,196,195][:(.scales | length)]'
 done_with "an interrupt while arrows are placed keeps the scales that are there"
 
 if "$program" --version | grep -q '[ ,]render'; then
-  # the evolution is short, the drawing of so many pixels is long
-  in_background run synth:vortex3d --nodes 33 --clusters 8,4,2 --width 2400 --quiet -o drawing
-  until_there drawing/.flowgrain/scale-01.glb "$pid"
-  ends_by INT
+  with_calls INT scale-01.glb run synth:vortex3d --nodes 33 --clusters 8,4,2 --width 300 --quiet -o drawing
   expect_code 130
   expect_one_complaint
   expect_error 'interrupted at t = .* with [0-9]+ clusters; the 1 scale until then is in drawing$'
   expect_json drawing/run.json '.ended == "interrupted" and (.scales | length) == 1'
   expect_file drawing/scale-00.png
   [ -z "$(find drawing -name 'scale-0[12]*')" ] || fault "of interrupted scales: $(ls drawing)"
-  in_background run synth:vortex3d --nodes 33 --clusters 8 --width 2400 --quiet -o first
-  until_there first/.flowgrain/scale-00.glb "$pid"
-  sleep 0.5
-  ends_by TERM
+  with_calls TERM scale-00.glb run synth:vortex3d --nodes 33 --clusters 8 --width 300 --quiet -o first
   expect_code 130
   expect_one_complaint
   [ -z "$(find first -name 'scale-*' 2>/dev/null)" ] || fault "of an interrupted scale: $(find first)"
-  in_background draw drawing -o large.png --width 2400
-  sleep 1
-  ends_by TERM
+  env --default-signal=INT "$program" draw drawing -o large.png --width 2400 >out 2>err &
+  pid=$!
+  sleep 0.5
+  kill -TERM "$pid"
+  wait "$pid"
+  code=$?
   expect_code 130
   expect_one_complaint
   [ -z "$(find . -maxdepth 1 -name '*large.png*')" ] || fault "left: $(find . -name '*large.png*')"
@@ -170,7 +147,7 @@ expect_code 0
 expect_same_results whole kept
 done_with "the last one stays good, and serves"
 
-for at in 1 2 3 4 5 9 40 150 400 600 700; do
+for at in 1 2 3 4 5 9 40 200; do
   rm -rf full
   with_calls full "$at" "${run[@]}" "${scales[@]}" -o full --checkpoint 0
   [ "$code" = 1 ] || fault "full at $at: code $code"
@@ -185,65 +162,61 @@ done
 done_with "on a disk that is full from some moment on, nothing is lost"
 
 # Address space: the least in which a tiny run works is what libraries take.
-if [ -n "$sanitized" ]; then
-  echo "# limits on memory are not tried with the address sanitizer, which reserves it all"
-else
-  least=50000
-  most=1000000
-  while [ $((most - least)) -gt 4000 ]; do
-    middle=$(((least + most) / 2))
-    if (ulimit -v "$middle" && "$program" run synth:vortex -o tiny --nodes 33 \
-      --clusters 9 --quiet --force --threads 1) >/dev/null 2>&1; then
-      most=$middle
-    else
-      least=$middle
-    fi
-  done
-  for more in 0 4 16 32; do
-    rm -rf small
-    (
-      ulimit -v $((most + 1024 * more))
-      try run synth:vortex3 -o small --nodes 1025 --quiet
-      echo "$code" >code
-    )
-    code=$(cat code)
-    expect_code 1
-    expect_one_complaint
-    expect_error 'out of memory: [0-9]+ bytes'
-    expect_nothing_at small
-  done
-  done_with "out of memory: one message, and nothing is left"
-
+least=50000
+most=1000000
+while [ $((most - least)) -gt 4000 ]; do
+  middle=$(((least + most) / 2))
+  if (ulimit -v "$middle" && "$program" run synth:vortex -o tiny --nodes 33 \
+    --clusters 9 --quiet --force --threads 1) >/dev/null 2>&1; then
+    most=$middle
+  else
+    least=$middle
+  fi
+done
+for more in 0 4 16 32; do
+  rm -rf small
   (
-    ulimit -v 300000
-    try run synth:vortex3d --nodes 17 --clusters 3 -o solid --quiet --threads 1
+    ulimit -v $((most + 1024 * more))
+    try run synth:vortex3 -o small --nodes 1025 --quiet
     echo "$code" >code
   )
   code=$(cat code)
-  if [ "$code" != 0 ]; then
-    expect_code 1
-    expect_error '^flowgrain: synth:vortex3d: out of memory: '
-  fi
-  done_with "nor is there another for pictures in 3D"
+  expect_code 1
+  expect_one_complaint
+  expect_error 'out of memory: [0-9]+ bytes'
+  expect_nothing_at small
+done
+done_with "out of memory: one message, and nothing is left"
 
-  with_calls kill 60 "${wide[@]}" -o tight --checkpoint 0
-  [ "$code" = 137 ] || fault "not killed: code $code"
-  for more in 4 8 12; do
-    (
-      ulimit -v $((most + 1024 * more))
-      try "${wide[@]}" -o tight --resume
-      echo "$code" >code
-    )
-    code=$(cat code)
-    [ "$code" = 0 ] && break
-    expect_code 1
-    expect_one_complaint
-    expect_error 'out of memory'
-  done
-  try "${wide[@]}" -o tight --resume
-  expect_code 0
-  expect_same_results whole2 tight
-  expect_only_results tight
-  done_with "out of memory when resumed: the checkpoint stays good"
+(
+  ulimit -v 300000
+  try run synth:vortex3d --nodes 17 --clusters 3 -o solid --quiet --threads 1
+  echo "$code" >code
+)
+code=$(cat code)
+if [ "$code" != 0 ]; then
+  expect_code 1
+  expect_error '^flowgrain: synth:vortex3d: out of memory: '
 fi
+done_with "nor is there another for pictures in 3D"
+
+with_calls kill 60 "${wide[@]}" -o tight --checkpoint 0
+[ "$code" = 137 ] || fault "not killed: code $code"
+for more in 4 8 12; do
+  (
+    ulimit -v $((most + 1024 * more))
+    try "${wide[@]}" -o tight --resume
+    echo "$code" >code
+  )
+  code=$(cat code)
+  [ "$code" = 0 ] && break
+  expect_code 1
+  expect_one_complaint
+  expect_error 'out of memory'
+done
+try "${wide[@]}" -o tight --resume
+expect_code 0
+expect_same_results whole2 tight
+expect_only_results tight
+done_with "out of memory when resumed: the checkpoint stays good"
 finish

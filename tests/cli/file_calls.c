@@ -1,10 +1,14 @@
 /* Preloaded into the program by tests: counts its calls that change files, from the first
  * within the folder of the work (MPI has files of its own before), and at one of them
- * lets it be killed or the disk be full.
+ * lets it be killed, get a signal or the disk be full.
  *
- * FILE_CALLS_AT   the number of the call, from 1; 0 or none: nothing happens
- * FILE_CALLS_DO   kill, or full: from that call on nothing can be written
- * FILE_CALLS_LOG  file that gets the number of calls when the program ends */
+ * FILE_CALLS_AT is the number of the call, from 1; with 0 or none nothing happens. Or it
+ * is a name: the first call on a path with that name in it.
+ *
+ * FILE_CALLS_DO is kill, a signal (INT, TERM, HUP), which is sent once, or full: from
+ * that call on nothing can be written.
+ *
+ * FILE_CALLS_LOG is a file that gets the number of calls when the program ends. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -29,17 +33,41 @@ static int is_of_the_run(const char *path, int file)
   return strstr(name, ".flowgrain") != NULL;
 }
 
+static int is_due(long number, const char *path)
+{
+  static atomic_int named;
+  const char *at = getenv("FILE_CALLS_AT");
+  if (!at || !*at)
+    return 0;
+  if (strspn(at, "0123456789") == strlen(at))
+    return atol(at) > 0 && number >= atol(at);
+  if (path && strstr(path, at))
+    named = 1;
+  return named;
+}
+
+static void send_once(int signal_number)
+{
+  static atomic_flag sent = ATOMIC_FLAG_INIT;
+  if (!atomic_flag_test_and_set(&sent))
+    kill(getpid(), signal_number);
+}
+
 /* True when the call, with a path or a file, has to fail, for want of space. */
 static int comes(const char *path, int file, int takes_space)
 {
+  static const struct {
+    const char *name;
+    int number;
+  } signals[] = {{"kill", SIGKILL}, {"INT", SIGINT}, {"TERM", SIGTERM}, {"HUP", SIGHUP}};
   if (!calls && !is_of_the_run(path, file))
     return 0;
-  long number = ++calls;
-  const char *at = getenv("FILE_CALLS_AT"), *what = getenv("FILE_CALLS_DO");
-  if (!at || !what || atol(at) < 1 || number < atol(at))
+  const char *what = getenv("FILE_CALLS_DO");
+  if (!is_due(++calls, path) || !what)
     return 0;
-  if (strcmp(what, "kill") == 0)
-    kill(getpid(), SIGKILL);
+  for (size_t k = 0; k < sizeof signals / sizeof *signals; ++k)
+    if (strcmp(what, signals[k].name) == 0)
+      send_once(signals[k].number);
   if (!takes_space || strcmp(what, "full") != 0)
     return 0;
   errno = ENOSPC;

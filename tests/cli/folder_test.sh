@@ -8,6 +8,10 @@ try run synth:vortex -o a/b/c "${quick[@]}"
 expect_code 0
 expect_file a/b/c/run.json
 done_with "parents of the folder are made"
+try run synth:vortex -o a/b/c/run.json/d "${quick[@]}"
+expect_code 1
+expect_error '^flowgrain: a/b/c/run.json: is a file, a folder is needed'
+done_with "a file is no folder's parent"
 
 before=$(cat a/b/c/* | cksum)
 try run synth:vortex -o a/b/c "${quick[@]}" --seed 3

@@ -74,20 +74,21 @@ expect_same_results() {
 # Nothing is left in a folder but results.
 expect_only_results() {
   local rest
-  rest=$(ls -A "$1" | grep -vE '^(scale-[0-9]{2}(-[0-9])?\.(geojson|svg|png|pdf|vti|vtp|glb)|run\.json|evolution\.csv)$')
+  rest=$(ls -A "$1" | grep -vE '^(scale-[0-9]{2}(-[0-9])?\.(geojson|svg|png|pdf|vti|vtp|glb)|run\.json|evolution\.csv|index\.html)$')
   [ -z "$rest" ] || fault "left in $1: $rest"
 }
 
-# with_calls KILL-OR-FULL NUMBER ARGUMENTS...: as try, and at that call of those that change
-# files the program is killed, or from it on the disk is full (file_calls.c).
+# with_calls WHAT AT ARGUMENTS...: as try, and at that call of those that change files, of a
+# number or on a path with a name, the program is killed or gets a signal, or from it on the
+# disk is full (file_calls.c). A shell's background jobs ignore the interrupt.
 with_calls() {
-  local what=$1 number=$2
+  local what=$1 at=$2
   shift 2
   : "${FILE_CALLS:?is to name libfile_calls.so, as ctest does}"
   # a sanitizer would insist on being loaded first
-  { FILE_CALLS_DO=$what FILE_CALLS_AT=$number FILE_CALLS_LOG=$PWD/calls \
-    ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0 \
-    LD_PRELOAD=$FILE_CALLS "$program" "$@" >out 2>err; } 2>/dev/null
+  { env --default-signal=INT FILE_CALLS_DO="$what" FILE_CALLS_AT="$at" FILE_CALLS_LOG="$PWD/calls" \
+    ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
+    LD_PRELOAD="$FILE_CALLS" "$program" "$@" >out 2>err; } 2>/dev/null
   code=$?
 }
 

@@ -67,6 +67,13 @@ chosen '^flowgrain: wind.nc: time 1 of 0 to 2: 1982-07-16 06:00$' 1 1 --time 198
 grep -q 'nearest' err && fault "nearest: $(cat err)"
 chosen '^flowgrain: wind.nc: no time 1982-07-16T12:00: the nearest is 1982-07-16 06:00$' 1 0 --time 1982-07-16T12:00
 chosen '^flowgrain: wind.nc: no level 800.: the nearest is 850 hPa$' 2 0 --time 2 --level 800.
+# levels as ROMS has them, from the bottom up: the surface, unless another is asked for
+perl -pe "s/\\x00{3}\\x03lev\\x00/\\x00\\x00\\x00\\x04sc_r/; s/hPa/xyz/" wind.nc >sea.nc
+try run sea.nc -o sea "${small[@]}"
+expect_code 0
+expect_json sea/run.json '.input.level == 1'
+try run sea.nc -o sea --force "${small[@]}" --level 0
+expect_json sea/run.json '.input.level == 0'
 try run wind.nc -o one --resume "${small[@]}" --time 1982-07-17 --level 85000Pa
 expect_code 0
 expect_error 'one: the run is finished'
@@ -96,7 +103,7 @@ done_with "what is not there is refused with what is; other commands take one"
 
 try run wind.nc -o series "${small[@]}" --time all --level 300hPa:1000hPa --quiet
 expect_code 0
-[ "$(ls -A series | xargs)" = "series.json time-0000-level-000 time-0000-level-001 time-0001-level-000 \
+[ "$(ls -A series | xargs)" = "panels-00.svg series.json time-0000-level-000 time-0000-level-001 time-0001-level-000 \
 time-0001-level-001 time-0002-level-000 time-0002-level-001" ] || fault "it holds $(ls -A series | xargs)"
 expect_json series/series.json '.members[3] == {folder: "time-0001-level-001", time: 1, time_words: "1982-07-16 06:00", level: 1, level_words: "300 hPa"}'
 for member in series/time*; do
@@ -108,14 +115,25 @@ try run wind.nc -o alone "${small[@]}" --time 1 --level 1 --quiet --speed-range 
 expect_same_results alone series/time-0001-level-001
 done_with "a series is a folder each, as a run by itself leaves it, with one colour range"
 
+[ "$(grep -c '<text.*>([a-f]) 1982.* hPa</text>' series/panels-00.svg)" = 6 ] || fault "not six labels"
+expect_json series/series.json '.panels == ["panels-00.svg"]'
+try draw series -o again.svg
+expect_code 0
+cmp -s again.svg series/panels-00.svg || fault "draw makes other panels"
+done_with "the scale of all members is one figure of panels"
+
 series=(run wind.nc "${small[@]}" --time 0:2 --quiet)
+mkdir -p mine
+echo mine >mine/panels-00.svg
+refuse 1 'mine: holds panels-00.svg, which no run' "${series[@]}" -o mine --force
+[ "$(cat mine/panels-00.svg)" = mine ] || fault "a file of others is replaced"
 refuse 1 'series: holds a series of runs' "${series[@]}" -o series
 refuse 1 'series: holds a series of other times or levels' "${series[@]}" -o series --resume
 refuse 1 'series: holds a series of runs' run wind.nc "${small[@]}" -o series --quiet
 refuse 1 'one: holds the results of a run' "${series[@]}" -o one --force
 try "${series[@]}" -o series --force
 expect_code 0
-[ "$(ls -A series | xargs)" = "series.json time-0000 time-0001 time-0002" ] || fault "left: $(ls -A series | xargs)"
+[ "$(ls -A series | xargs)" = "panels-00.svg series.json time-0000 time-0001 time-0002" ] || fault "left: $(ls -A series | xargs)"
 touch -d 2001-01-01 series/*/scale-00.svg
 try "${series[@]}" -o series --resume
 expect_code 0
@@ -130,7 +148,7 @@ for at in 1 2 4 $((all / 4)) $((all / 2)) $((3 * all / 4)) $((all - 2)); do
   [ "$code" = 137 ] || fault "call $at: not killed: code $code"
   try "${series[@]}" -o part --threads 1 --resume
   [ "$code" = 0 ] || fault "call $at: resumed: code $code: $(head -c 300 err)"
-  [ "$(ls -A part | xargs)" = "series.json time-0000 time-0001 time-0002" ] || fault "call $at: $(ls -A part | xargs)"
+  [ "$(ls -A part | xargs)" = "panels-00.svg series.json time-0000 time-0001 time-0002" ] || fault "call $at: $(ls -A part | xargs)"
   for member in time-0000 time-0001 time-0002; do
     expect_same_results "counted/$member" "part/$member"
     expect_only_results "part/$member"
@@ -138,10 +156,17 @@ for at in 1 2 4 $((all / 4)) $((all / 2)) $((3 * all / 4)) $((all - 2)); do
 done
 done_with "a series that was killed goes on"
 
+try run dead.nc -o dead "${small[@]}" --time 2
+expect_code 1
+expect_error 'zero everywhere'
+expect_error '^Choose another with --time or --level; flowgrain info lists them'
+expect_one_complaint
+done_with "a time without flow: others are named"
 try run dead.nc -o dead "${small[@]}" --time all --quiet
 expect_code 1
 expect_error 'dead: 1 of 3 fields could not be done'
 expect_file dead/time-0001/run.json
+grep -q '<text.*>(b) 1982' dead/panels-00.svg || fault "no panels of those that are done"
 expect_nothing_at dead/time-0002
 done_with "a time without wind does not keep the others from being drawn"
 
@@ -151,5 +176,6 @@ for member in time-0000 time-0001 time-0002; do
   expect_same_results "counted/$member" "ranks/$member"
 done
 cmp -s ranks/series.json counted/series.json || fault "another index"
+cmp -s ranks/panels-00.svg counted/panels-00.svg || fault "other panels"
 done_with "ranks make the same series"
 finish

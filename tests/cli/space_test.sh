@@ -2,7 +2,7 @@
 # What a run of a field in 3D leaves: icons as solids, the density and its clusters.
 source "$(dirname "$0")/harness.sh"
 
-small=(--nodes 49 --clusters "16,8" --quiet --width 96)
+small=(--nodes 33 --clusters "10,5" --quiet --width 96)
 files="evolution.csv run.json"
 pictures=
 # a program without that feature draws no pictures in 3D
@@ -30,10 +30,10 @@ done <out
 done_with "standard output names a file a scale"
 
 report=out1/run.json
-expect_json $report '.mesh.dimension == 3 and .mesh.cells == [48, 48, 48] and .mesh.active_cells == 110592'
+expect_json $report '.mesh.dimension == 3 and .mesh.cells == [32, 32, 32] and .mesh.active_cells == 32768'
 expect_json $report '(.mesh.spacing | length) == 3 and .mesh.domain_measure > 0.999 and .mesh.domain_measure < 1.001'
 expect_json $report '(.field.size | length) == 3 and (.field.bounds | length) == 6 and (.field.velocity | length) == 3'
-expect_json $report '[.scales[].wanted[]] == [16, 8] and ([.scales[] | .clusters <= .wanted[-1]] | all)'
+expect_json $report '[.scales[].wanted[]] == [10, 5] and ([.scales[] | .clusters <= .wanted[-1]] | all)'
 expect_json $report '[.scales[].vti] == ["scale-00.vti", "scale-01.vti"]'
 expect_json $report '[.scales[] | .vtp, .glb] == ["scale-00.vtp", "scale-00.glb", "scale-01.vtp", "scale-01.glb"] and ([.scales[] | has("svg")] | any | not)'
 expect_json $report '[.scales[] | .icons + .dropped == .clusters and .icons > .clusters / 2] | all'
@@ -59,7 +59,7 @@ done
 done_with "a scale is VTK polydata with centre, spine, streamline and arrow of each icon"
 
 awk -F, 'NR == 1 { next }
-  NF != 10 || $1 != NR - 1 || $9 != 110592 { print "line " NR ": " $0; exit }
+  NF != 10 || $1 != NR - 1 || $9 != 32768 { print "line " NR ": " $0; exit }
   NR > 2 && ($2 <= t || $4 > energy) { print "line " NR ": " $0; exit }
   NR > 2 && ($5 - mass > 1e-7 || mass - $5 > 1e-7) { print "line " NR ": mass " $5; exit }
   { t = $2; energy = $4; if (NR == 2) mass = $5 }' out1/evolution.csv >fault.txt
@@ -69,7 +69,7 @@ done_with "evolution.csv: energy never up, mass held"
 for scale in 0 1; do
   file=out1/scale-0$scale.vti
   xmllint --noout $file 2>fault.txt || fault "$(head -1 fault.txt)"
-  [ "$(xmllint --xpath 'string(/VTKFile/ImageData/@WholeExtent)' $file)" = "0 48 0 48 0 48" ] ||
+  [ "$(xmllint --xpath 'string(/VTKFile/ImageData/@WholeExtent)' $file)" = "0 32 0 32 0 32" ] ||
     fault "extent $(xmllint --xpath 'string(/VTKFile/ImageData/@WholeExtent)' $file)"
   for name in u cluster; do
     xmllint --xpath "//PointData/DataArray[@Name='$name']/@type" $file >/dev/null 2>&1 || fault "no $name"
@@ -87,7 +87,7 @@ reader.SetFileName(sys.argv[1])
 reader.Update()
 points = reader.GetOutput().GetPointData()
 u, cluster = (vtk_to_numpy(points.GetArray(name)) for name in ("u", "cluster"))
-assert u.size == 49 ** 3 and ((cluster != 0) == (u > 0)).all()
+assert u.size == 33 ** 3 and ((cluster != 0) == (u > 0)).all()
 assert set(range(1, int(sys.argv[2]) + 1)) == set(cluster[cluster > 0])
 END
 if /usr/bin/python3 -c 'import vtk' 2>/dev/null; then
@@ -139,6 +139,14 @@ if [ -n "$pictures" ]; then
   expect_code 0
   [ "$(head -c 5 side.pdf)" = "%PDF-" ] || fault "no PDF"
   done_with "draw draws a run in 3D again"
+
+  for option in '--title A' '--subtitle below' '--label fast' '--font-size 4' --no-keys; do
+    # shellcheck disable=SC2086
+    try draw out1 -o other.png --scale-index 0 --width 96 $option
+    expect_code 0
+    cmp -s out1/scale-00.png other.png && fault "$option changes nothing"
+  done
+  done_with "draw takes words for a picture in 3D"
 
   try run synth:vortex3d -o views --nodes 33 --clusters 6 --quiet --width 40 --view 30,22 --view -75,60 --no-frame
   expect_code 0

@@ -26,6 +26,9 @@ done_with "no output"
 wrong "one INPUT.*'b'" run a b -o x
 done_with "two operands"
 wrong 'unknown option --no-such' run a -o x --no-such
+wrong 'unknown option --arows; is --arrows meant' run a -o x --arows 20
+wrong '--no may be --no-page, --noise, --nodes, --no-arrows, --no-keys, --no-coast, --no-frame$' run a -o x --no
+wrong "unknown command 'rum'; is 'run' meant" rum a
 done_with "unknown long option"
 wrong 'unknown option -z' run a -o x -z
 done_with "unknown short option"
@@ -96,6 +99,10 @@ try texture a -o folder.png
 expect_code 1
 expect_error '^flowgrain: folder.png: cannot be written: Is a directory$'
 done_with "a folder is no place for a picture"
+try info folder.png
+expect_code 1
+expect_error '^Name one file in it\.$'
+done_with "the library's hints are sentences"
 try draw folder.png -o x.png
 expect_code 1
 expect_error "^Name the folder of a finished"

@@ -29,6 +29,15 @@ expect_json synth.json '.vectors[0].size == [64, 64, 64] and .vectors[0].periodi
 expect_info synth:abc 'z: 0 to .*, periodic'
 done_with "info tells the periods of an analytic volume"
 
+try info --json --slice y=0.5 synth:abc
+expect_code 0
+cp out cut.json
+expect_json cut.json '.vectors[0].size == [64, 64] and (.vectors[0].normal_share * 3 | round) == 1'
+try info --slice y=7 synth:vortex
+expect_code 1
+expect_error 'a cut through a field in 2 dimensions'
+done_with "info tells what a cut has"
+
 for end in vti nc; do
   try run abc.$end -o run-$end --nodes 33 --clusters 20 --quiet
   expect_code 0
@@ -91,7 +100,7 @@ done_with "a short file and one of a wrong kind are refused in a line and a hint
     done
   done
 } >cells.vtk
-expect_info cells.vtk 'interpolated from 4 cells' 'y: 0 to 3' 'missing: 0.0 %'
+expect_info cells.vtk 'interpolated from 4 cells' 'y: 0 to 5' 'z: 0 to 3' 'missing: 0.0 %'
 try info --json cells.vtk
 cp out cells.json
 expect_json cells.json '.vectors[0].cells == 4 and .vectors[0].bounds == [0, 5, 0, 3]'

@@ -1,0 +1,223 @@
+#include "drawn/scale.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "folder/file.h"
+#include "inputs.h"
+#include "option/validation.h"
+#include "run/background.h"
+#include "run/scale_files.h"
+#include "sandbox.h"
+
+int drawn_run_open(drawn_run *out, const char *folder)
+{
+  *out = (drawn_run){.folder = join_texts(folder, "")};
+  return out->folder ? report_read(&out->report, folder)
+                     : complain_of_memory("a folder's name");
+}
+
+void drawn_run_close(drawn_run *run)
+{
+  fg_field_destroy(run->field);
+  report_clear(&run->report);
+  free(run->folder);
+  *run = (drawn_run){.folder = NULL};
+}
+
+/* The finest scale that has at most so many of what is counted. */
+static int choose_at_most(const drawn_run *run, int (*count_of)(const cli_report *, int),
+                          int most, const char *what)
+{
+  const cli_report *report = &run->report;
+  for (int k = 0; k < report->scale_count; ++k)
+    if (count_of(report, k) <= most)
+      return k;
+  complain("%s: its coarsest scale has %d %s, and at most %d were asked for", run->folder,
+           count_of(report, report->scale_count - 1), what, most);
+  return -1;
+}
+
+int drawn_scale_choose(const drawn_run *run, const draw_settings *settings, int arrows,
+                       int clusters)
+{
+  const int count = run->report.scale_count;
+  if (settings->scale_index >= count) {
+    complain("%s: has %d scale%s, and --scale-index %d was asked for", run->folder, count,
+             count == 1 ? "" : "s", settings->scale_index);
+    return -1;
+  }
+  if (settings->scale_index >= 0)
+    return settings->scale_index;
+  if (arrows)
+    return choose_at_most(run, report_scale_arrows, arrows, "arrows");
+  if (clusters)
+    return choose_at_most(run, report_scale_clusters, clusters, "clusters");
+  return count - 1;
+}
+
+static int read_icons(drawn_scale *scale, fg_context *context)
+{
+  const char *folder = scale->run->folder;
+  const char *name =
+      scale->file ? scale->file : report_scale_icons(&scale->run->report, scale->index);
+  /* the name comes from a file: it must not lead out of its folder */
+  if (!scale->file && (!name || strchr(name, '/'))) {
+    complain("%s: run.json names no icons for scale %d", folder, scale->index);
+    return EXIT_FAILED;
+  }
+  char *path = scale->file ? join_texts(name, "") : join_path(folder, name);
+  if (!path)
+    return EXIT_FAILED;
+  fg_status status = fg_icons_read(&scale->icons, context, path);
+  free(path);
+  return status ? complain_of(context, status, scale->file ? scale->file : folder)
+                : EXIT_DONE;
+}
+
+static bool is_on_another_map(const draw_settings *settings)
+{
+  return settings->map.projection || settings->map.has_center || settings->map.has_region;
+}
+
+/* Of a density: it is of the run's own map. */
+int drawn_check_map(const draw_settings *settings)
+{
+  const given_option of_density[] = {
+      {"tint", settings->picture.tint && is_on_another_map(settings)},
+      {"background",
+       background_needs_density(&settings->picture) && is_on_another_map(settings)},
+  };
+  return refuse_given("draw", of_density, 2, "not on another map than the run's");
+}
+
+static int read_field(drawn_run *run, fg_context *context, const draw_settings *settings)
+{
+  const cli_report *report = &run->report;
+  if (run->field)
+    return EXIT_DONE;
+  const char *input = settings->input ? settings->input : report->input;
+  if (!settings->input && inputs_is_standard(input)) {
+    complain("%s: its input was standard input, which is gone", run->folder);
+    advise("Say with --input where the field is now.");
+    return EXIT_FAILED;
+  }
+  if (!settings->input && report->input_absolute &&
+      access(report->input_absolute, R_OK) == 0)
+    input = report->input_absolute;
+  fg_read_options reading = report->reading;
+  if (is_on_another_map(settings))
+    reading.map = &settings->map;
+  if (settings->output && check_is_no_input(settings->output, &input, 1))
+    return EXIT_FAILED; /* the pictures of a series lie in its folder */
+  if (sandbox_reading(input, &reading))
+    return EXIT_FAILED;
+  fg_status status = fg_field_read(&run->field, context, input, &reading);
+  if (!status)
+    say_infinite(input, run->field);
+  if (!status && !is_on_another_map(settings) &&
+      !report_is_of_field(report, run->folder, input, run->field)) {
+    fputs("Icons are drawn on the field that they were made of.\n", stderr);
+    return EXIT_FAILED;
+  }
+  if (!status)
+    return EXIT_DONE;
+  int code = complain_of(context, status, run->folder);
+  if (status != FG_STATUS_STOPPED && !*fg_context_hint(context))
+    fputs("Say with --input where the field is now.\n", stderr);
+  return code;
+}
+
+/* What the option is called that needs the density; NULL: none does. Placed arrows have
+ * regions of their own to tint. */
+static const char *density_user(const draw_settings *settings, const cli_report *report,
+                                bool solid)
+{
+  if (solid)
+    return settings->picture.surfaces ? "--surfaces" : NULL;
+  if (settings->picture.tint && !report->placed)
+    return "--tint";
+  return background_needs_density(&settings->picture) ? "--background clusters" : NULL;
+}
+
+/* The density that the run has saved, where it is needed. */
+static int read_density(drawn_scale *scale, fg_context *context,
+                        const draw_settings *settings)
+{
+  const drawn_run *run = scale->run;
+  const char *user = density_user(settings, &run->report, scales_are_solid(run->field));
+  if (!user)
+    return EXIT_DONE;
+  if (scale->file) {
+    complain("%s: %s needs the density of a scale, and this is a file of icons",
+             scale->file, user);
+    return EXIT_FAILED;
+  }
+  const char *name = report_scale_density(&run->report, scale->index);
+  if (!name || strchr(name, '/')) {
+    complain("%s: %s needs the density of scale %d, which was not saved", run->folder,
+             user, scale->index);
+    advise("Say --save-field to `flowgrain run`.");
+    return EXIT_FAILED;
+  }
+  char *path = join_path(run->folder, name);
+  if (!path)
+    return EXIT_FAILED;
+  fg_status status = fg_density_read(&scale->density, context, path, run->field);
+  free(path);
+  return status ? complain_of(context, status, run->folder) : EXIT_DONE;
+}
+
+/* The regions of placed arrows, where --tint shows them. */
+static int make_regions(drawn_scale *scale, fg_context *context,
+                        const draw_settings *settings)
+{
+  const drawn_run *run = scale->run;
+  if (!settings->picture.tint || !run->report.placed)
+    return EXIT_DONE;
+  fg_placement *placement = NULL;
+  fg_placement_options options = {.lengths = run->report.lengths};
+  fg_status status = fg_placement_create(&placement, context, run->field, &options);
+  if (!status)
+    status = fg_placement_resume(placement, scale->icons);
+  if (!status)
+    status = fg_placement_regions(&scale->regions, placement);
+  fg_placement_destroy(placement);
+  return status ? complain_of(context, status, run->folder) : EXIT_DONE;
+}
+
+int drawn_scale_read(drawn_scale *scale, fg_context *context,
+                     const draw_settings *settings)
+{
+  drawn_run *run = scale->run;
+  int code = read_icons(scale, context);
+  if (!code)
+    code = read_field(run, context, settings);
+  fg_status status =
+      code ? FG_STATUS_OK : fg_icons_project(&scale->icons, context, run->field);
+  if (status)
+    code = complain_of(context, status, scale->file ? scale->file : run->folder);
+  if (is_on_another_map(settings)) /* the error is of what the run's map shows */
+    fg_icons_keep_score(scale->icons, NULL);
+  if (!code)
+    code = read_density(scale, context, settings);
+  if (!code)
+    code = make_regions(scale, context, settings);
+  return code;
+}
+
+double drawn_scale_time(const drawn_scale *scale)
+{
+  const cli_report *report = &scale->run->report;
+  return report->placed || scale->file ? 0.0 : report_scale_time(report, scale->index);
+}
+
+void drawn_scale_clear(drawn_scale *scale)
+{
+  fg_density_destroy(scale->regions);
+  fg_density_destroy(scale->density);
+  fg_icons_destroy(scale->icons);
+  *scale = (drawn_scale){.run = NULL};
+}

@@ -1,0 +1,76 @@
+/* What is read, and on which map it is laid. */
+#include "option/families.h"
+
+const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
+const char *const frame_words[] = {"auto", "east", "grid", NULL};
+
+static const option_entry input_entries[] = {
+    {"scale-index", 0, "I", COMMAND_DRAW, OPTION_WHOLE, OWN(draw, scale_index), 0,
+     MAX_SCALES - 1, .help = "which scale, 0 being the finest [the coarsest]"},
+    {"arrows", 0, "LIST", COMMAND_DRAW, OPTION_NUMBERS, OWN(draw, arrows), 1, 1000000,
+     .help = "the finest scale with at most so many arrows; of several numbers, as "
+             "200,60,20, a panel each"},
+    {"clusters", 0, "LIST", COMMAND_DRAW, OPTION_NUMBERS, OWN(draw, clusters), 1, 1000000,
+     .help = "the finest scale with at most so many clusters, likewise"},
+    {"all-scales", 0, NULL, COMMAND_DRAW, OPTION_FLAG, OWN(draw, all_scales),
+     .help = "every scale, a panel each"},
+    {"input", 0, "FILE", COMMAND_DRAW, OPTION_TEXT, OWN(draw, input),
+     .help = "where the field is now, if it is no longer where run.json says"},
+    {"vars", 0, "U,V[,W]", DESCRIBERS, OPTION_TEXT, READING(vars),
+     .help =
+         "the two or three variables, or one vector variable [found by their standard or "
+         "usual names; an ambiguous choice is an error that lists the choices]"},
+    {"vars-from", 0, "FILE", DESCRIBERS, OPTION_TEXT, READING(vars_from),
+     .help = "second file, which holds the other component"},
+    {"time", 0, "TIME", READERS, OPTION_PLACES, READING(time_text),
+     .help = "which time: a whole number is an index, from 0; a number with a unit or a "
+             "point is a value, 3.5h; a date is the first time within it, 1982-07, "
+             "1982-07-16, 1982-07-16T12:00. What is not there is the nearest. run takes "
+             "several, a folder each and up to 12 as panels of one figure, too: 0:11, "
+             "1982-01:1982-06, 0,6, all [0]"},
+    {"level", 0, "LEVEL", READERS, OPTION_PLACES, READING(level_text),
+     .help = "which level, likewise: 2 is an index, 850hPa or 850. a value; its words, "
+             "too: surface [0]"},
+    {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask),
+     .help = "variable that is zero (or negative, or missing) outside the domain"},
+    {"format", 0, "NAME", INPUTS, OPTION_TEXT, INPUT(format),
+     .help = "read INPUT as netcdf, vtk, table or another format by its name [found from "
+             "the content]"},
+    {"max-memory", 0, "SIZE", INPUTS, OPTION_TEXT, INPUT(max_memory),
+     .help = "bytes that the samples of a field may take, as 500M or 2G; what declares "
+             "more is refused [three quarters of the machine's]"},
+    {"block", 0, "NAME", DESCRIBERS, OPTION_TEXT, READING(block),
+     .help = "of a file of several blocks (.vtm), the one of this name or those in it "
+             "[all together]"},
+    {"slice", 0, "PLANE", DESCRIBERS, OPTION_TEXT, READING(slice),
+     .help =
+         "cut a field in 3D: NAME=VALUE, as z=0.5, across an axis, or NX,NY,NZ@X,Y,Z, a "
+         "normal and a point; the components in the plane become a field in 2D"},
+    {"scale", 0, "KIND", DESCRIBERS, OPTION_CHOICE, READING(scale), .words = scale_words,
+     .help = "what the axes are: `geo` (degrees, velocity along east and north), `map` "
+             "(a projected plane) or `plain` [auto: from units and axes]"},
+    {"frame", 0, "KIND", DESCRIBERS, OPTION_CHOICE, READING(frame), .words = frame_words,
+     .help = "what the components on a model's grid are along: `east` (and north) or "
+             "`grid` (the directions of its indices) [auto: from names, attributes and "
+             "the grid, as `info` says]"},
+    {"projection", 0, "MAP", READERS, OPTION_TEXT, READING(map.projection),
+     .help =
+         "plane that a field in longitude and latitude is laid on: `auto`, by what it "
+         "covers (the globe on Equal Earth, a polar cap on Lambert's azimuthal, others "
+         "on a conformal one); `none`, degrees as they are; a name, as robinson, "
+         "mercator or polar; \"+proj=...\", a PROJ string; or EPSG:N [auto]"},
+    {"center", 0, "LON[,LAT]", READERS, OPTION_CENTER, READING(map),
+     .help = "middle of the map, degrees [from what the field or --region covers]"},
+    {"region", 0, "W,E,S,N", READERS, OPTION_REGION, READING(map),
+     .help = "part of the globe to show: west, east, south, north in degrees [all that "
+             "the field covers]"},
+    {"projection", 0, "MAP", COMMAND_DRAW, OPTION_TEXT, OWN(draw, map.projection),
+     .help = "draw on another map, as `flowgrain run` has them; arrows keep their lines "
+             "on the globe [the run's]"},
+    {"center", 0, "LON[,LAT]", COMMAND_DRAW, OPTION_CENTER, OWN(draw, map),
+     .help = "middle of another map, degrees"},
+    {"region", 0, "W,E,S,N", COMMAND_DRAW, OPTION_REGION, OWN(draw, map),
+     .help = "part of the globe that another map shows, degrees"},
+};
+const option_family input_options = {"Input", input_entries,
+                                     sizeof input_entries / sizeof *input_entries};

@@ -1,0 +1,467 @@
+// The page of a run.
+import { readAddress, writeAddress } from "./address.js";
+import { onDark } from "./colors.js";
+import { arrowLayers, DARK, drawAsSvg, drawOnCanvas, hedgehog, LIGHT, mapLayers, missingLayer, tintLayer } from "./draw.js";
+import { readField, velocityAt } from "./field.js";
+import { legendMarks } from "./legend.js";
+import { Maker, numbersOf } from "./maker.js";
+import { morph } from "./outline.js";
+import { locator } from "./place.js";
+import { control, View } from "./view.js";
+import { bearing, degrees, shortNumber, unitsOf } from "./words.js";
+
+const byId = (id) => /** @type {any} */ (document.getElementById(id));
+const run = JSON.parse(byId("run").textContent);
+const field = readField(run);
+const numbers = numbersOf(run.most, run.fewest);
+const view = new View(field.box);
+const canvas = byId("picture");
+const context = canvas.getContext("2d");
+const slider = byId("scale");
+const placeOf = locator(field.places, run.axes === "degrees");
+const palettes = { light: run.palette, dark: onDark(run.palette) };
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
+const systemDark = matchMedia("(prefers-color-scheme: dark)");
+
+const state = {
+  at: 0, // on the slider: index of a scale, with a part between two
+  exactly: 0, // arrows, where a number was chosen that no scale has; else 0
+  seed: run.seed,
+  theme: "",
+  show: { arrows: true, tint: false, hedgehog: false, coast: true, degrees: true },
+  playing: false,
+};
+
+let maker; // undefined until the core is compiled
+let single; // {scale, key}: made at once, for the view or the number at hand
+let fading; // {layers, since}: what was shown until a moment ago
+let hovered; // {arrow, at} in the picture
+let drawn = []; // the arrows that are shown
+let wanted = 0; // animation frame
+
+const colors = () => (isDark() ? DARK : LIGHT);
+const isDark = () => state.theme === "dark" || (!state.theme && systemDark.matches);
+const look = () => ({ palette: palettes[isDark() ? "dark" : "light"], speeds: run.speeds });
+const numberNow = () => state.exactly || numbers[Math.round(state.at)];
+const keyNow = () => JSON.stringify([view.part ?? null, state.seed, numberNow()]);
+const setNow = () => maker?.set(view.part, state.seed);
+
+// ---- what is shown
+
+/** Arrows and what they were made with, for the slider's place; undefined: not made yet. */
+function shown() {
+  const set = setNow();
+  if (!state.exactly && set) {
+    const low = Math.floor(state.at);
+    const [finer, coarser] = [set.scales[low], set.scales[Math.ceil(state.at)]];
+    if (finer && coarser) return { arrows: morph(finer, coarser, state.at - low), finer, coarser, share: state.at - low, key: "scales" };
+  }
+  if (single?.scale && single.key === keyNow()) return { arrows: single.scale.arrows, finer: single.scale, share: 0, key: single.key };
+  return undefined;
+}
+
+let last; // what was shown last: stays until there is something new
+
+function layersNow() {
+  const now = shown();
+  if (now && last && now.key !== last.key && !calm.matches) fading = { arrows: drawn, since: performance.now() };
+  if (now) last = now;
+  drawn = last?.arrows ?? [];
+  const c = colors();
+  const { under, over } = mapLayers(field.map, c, state.show);
+  const layers = [missingLayer(field, c), ...under];
+  if (state.show.tint && last?.finer.density) {
+    layers.push(tintLayer(last.finer.density, c, 1 - last.share));
+    if (last.share > 0 && last.coarser?.density) layers.push(tintLayer(last.coarser.density, c, last.share));
+  }
+  layers.push(...over);
+  if (state.show.hedgehog) layers.push(hedgehog(field, view, run.speeds[1], c.hedgehog));
+  if (state.show.arrows) {
+    const share = fading ? Math.min(1, (performance.now() - fading.since) / 250) : 1;
+    const faded = (arrows, part) => arrowLayers(arrows, look()).map((l) => ({ ...l, opacity: l.opacity * part }));
+    if (share < 1) layers.push(...faded(fading.arrows, 1 - share));
+    else fading = undefined;
+    layers.push(...faded(drawn, share));
+  }
+  return layers;
+}
+
+function ring(arrow) {
+  return { name: "ring", paths: [arrow.outline ?? arrow.path], closed: Boolean(arrow.outline), stroke: colors().ring, width: 2 };
+}
+
+function draw() {
+  wanted = 0;
+  const layers = layersNow();
+  if (hovered?.arrow && state.show.arrows && drawn.includes(hovered.arrow)) layers.push(ring(hovered.arrow));
+  const ratio = devicePixelRatio || 1;
+  drawOnCanvas(context, layers, view, ratio, colors(), field.border);
+  canvas.dataset.arrows = String(drawn.length);
+  canvas.dataset.made = shown() ? "yes" : "no";
+  canvas.dataset.scales = String(setNow()?.scales.length ?? 0);
+  if (fading) redraw();
+}
+
+function redraw() {
+  wanted ||= requestAnimationFrame(draw);
+}
+
+function say() {
+  const set = setNow();
+  const n = numberNow();
+  byId("count").textContent = String(n);
+  slider.setAttribute("aria-valuetext", `${n} arrows`);
+  if (document.activeElement !== byId("number")) byId("number").value = String(n);
+  const failed = (single?.key === keyNow() && single.error) || set?.error;
+  byId("status").textContent = failed ? failed.message.split("\n")[0]
+    : !shown() ? "Placing arrows …" : set?.begun && !set.done && set.scales.length < numbers.length && !view.part
+      ? `Placing scale ${set.scales.length + 1} of ${numbers.length} …` : "";
+  canvas.setAttribute("aria-label", `${drawn.length} arrows of ${run.title}${view.part ? ", a part" : ""}`);
+}
+
+function keep() {
+  const round = (x) => Number(x.toPrecision(6));
+  writeAddress({
+    n: numberNow(),
+    at: view.zoom > 1 ? view.center.map(round).join(",") : undefined,
+    zoom: view.zoom > 1 ? round(view.zoom) : undefined,
+    seed: state.seed === run.seed ? undefined : state.seed,
+    show: Object.keys(state.show).filter((name) => state.show[name]).join(","),
+    page: state.theme || undefined,
+  });
+}
+
+function update() {
+  redraw();
+  say();
+  keep();
+}
+
+// ---- what is made
+
+let asking = 0;
+
+/** Makes what the view, the number and the seed at hand want, a moment after they rest. */
+function want(delay = 120) {
+  clearTimeout(asking);
+  asking = setTimeout(make, delay);
+  update();
+}
+
+async function make() {
+  if (!maker) return;
+  const set = setNow();
+  if (!view.part) maker.run(set);
+  else if (maker.running !== set) maker.running = undefined;
+  if (shown()) return update();
+  const key = keyNow();
+  if (single?.key === key) return;
+  single = { key };
+  try {
+    const scale = await maker.ask(view.part, state.seed, numberNow());
+    if (scale && key === keyNow()) single = { key, scale };
+  } catch (error) {
+    if (key === keyNow()) single = { key, error };
+  }
+  update();
+}
+
+/** Where the slider is, for a number of arrows; beside the scales' own: exactly so many. */
+function choose(n) {
+  const index = numbers.indexOf(n);
+  state.exactly = index < 0 ? n : 0;
+  const nearest = numbers.reduce((best, m, k) => (Math.abs(m - n) < Math.abs(numbers[best] - n) ? k : best), 0);
+  state.at = index < 0 ? nearest : index;
+  slider.value = String(state.at);
+}
+
+// ---- controls
+
+function slide(at) {
+  state.at = Math.min(Math.max(at, 0), numbers.length - 1);
+  state.exactly = 0;
+  slider.value = String(state.at);
+  const set = setNow();
+  if (view.part && set) maker.run(set); // scales of the part, once they are wanted
+  want();
+}
+
+function play(on) {
+  state.playing = on && state.playing !== on;
+  byId("play").textContent = state.playing ? "Pause" : "Play";
+  byId("play").setAttribute("aria-label", state.playing ? "Pause" : "Play from many arrows to few");
+  if (!state.playing) return;
+  if (state.at >= numbers.length - 1) slide(0);
+  let before = performance.now();
+  const step = (now) => {
+    if (!state.playing) return;
+    const passed = Math.min(now - before, 100);
+    before = now;
+    const made = setNow()?.scales.length ?? 0;
+    const next = state.at + passed / (calm.matches ? 1500 : 600);
+    if (Math.ceil(next) < made) slide(next); // waits for scales that are being made
+    else if (made === numbers.length) {
+      slide(numbers.length - 1);
+      return play(false);
+    } else slide(state.at);
+    requestAnimationFrame(step);
+  };
+  requestAnimationFrame(step);
+}
+
+function nearestArrow([px, py]) {
+  let best;
+  let least = 14;
+  for (const arrow of drawn) {
+    for (let k = 0; k < arrow.path.length; k += 2) {
+      const [x, y] = view.toScreen(arrow.path[k], arrow.path[k + 1]);
+      const far = Math.hypot(x - px, y - py);
+      if (far < least) [least, best] = [far, arrow];
+    }
+  }
+  return best;
+}
+
+function speedWords(speed) {
+  const units = unitsOf(run.units);
+  return shortNumber(speed) + (units ? ` ${units}` : "");
+}
+
+/** From north on a map, else from the x axis. */
+function directionWords(x, y, [u, v]) {
+  const from = placeOf(x, y);
+  if (!from) return `${Math.round((Math.atan2(v, u) * 180) / Math.PI)}° from x`;
+  if (run.axes === "degrees") return `to ${bearing((Math.atan2(u, v) * 180) / Math.PI)}`;
+  const step = (1e-3 * (field.box[2] - field.box[0])) / Math.hypot(u, v);
+  const to = placeOf(x + step * u, y + step * v);
+  if (!to) return "";
+  const east = ((((to[0] - from[0] + 540) % 360) - 180) * Math.cos((from[1] * Math.PI) / 180));
+  return `to ${bearing((Math.atan2(east, to[1] - from[1]) * 180) / Math.PI)}`;
+}
+
+/** Of what all arrows stand for: of the field, or of its part in view. */
+function areaWords(area) {
+  const all = drawn.reduce((sum, arrow) => sum + arrow.area, 0);
+  return `for ${shortNumber((100 * area) / all, 2)} % of the ${view.part ? "view" : "field"}`;
+}
+
+function placeWords(x, y) {
+  const place = placeOf(x, y);
+  if (place) return degrees(...place);
+  const units = (text) => (text ? ` ${unitsOf(text)}` : "");
+  return `${run.xName} ${shortNumber(x, 4)}${units(run.xUnits)}, ${run.yName} ${shortNumber(y, 4)}${units(run.yUnits)}`;
+}
+
+function read(at, arrow) {
+  const box = byId("reading");
+  const [x, y] = view.toPlane(...at);
+  const velocity = velocityAt(field, x, y);
+  hovered = { at, arrow: arrow ?? nearestArrow(at) };
+  box.hidden = !velocity && !hovered.arrow;
+  if (box.hidden) return redraw();
+  const lines = [placeWords(x, y)];
+  if (velocity) lines.push(`${speedWords(Math.hypot(...velocity))}, ${directionWords(x, y, velocity)}`);
+  box.replaceChildren();
+  if (hovered.arrow) {
+    const title = document.createElement("b");
+    title.textContent = `Arrow: ${speedWords(hovered.arrow.speed)}, ${areaWords(hovered.arrow.area)}`;
+    box.append(title);
+  }
+  box.append(lines.join("\n"));
+  box.style.whiteSpace = "pre-line";
+  box.style.left = `${Math.max(0, Math.min(at[0] + 16, view.size[0] - box.offsetWidth - 4))}px`;
+  box.style.top = `${Math.max(0, at[1] + 16 + box.offsetHeight > view.size[1] ? at[1] - box.offsetHeight - 10 : at[1] + 16)}px`;
+  redraw();
+  return box.textContent;
+}
+
+function leave() {
+  hovered = undefined;
+  byId("reading").hidden = true;
+  redraw();
+}
+
+// The next arrow for keys, from left to right.
+function walk(step) {
+  const seen = drawn.filter((a) => view.toScreen(...a.center).every((p, k) => p >= 0 && p <= view.size[k]))
+    .sort((a, b) => a.center[0] - b.center[0]);
+  if (!seen.length) return;
+  const index = hovered?.arrow ? seen.indexOf(hovered.arrow) + step : step > 0 ? 0 : seen.length - 1;
+  const arrow = seen[(index + seen.length) % seen.length];
+  byId("status").textContent = read(view.toScreen(...arrow.center), arrow);
+}
+
+const keys = {
+  ",": () => slide(Math.ceil(state.at) - 1),
+  ".": () => slide(Math.floor(state.at) + 1),
+  " ": () => play(!state.playing),
+  n: () => walk(1),
+  p: () => walk(-1),
+  Escape: leave,
+};
+
+// ---- files
+
+function save(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+function svg() {
+  layersNow();
+  fading = undefined; // what goes is no part of it
+  const [w, h] = view.size;
+  const text = (y, size, words, weight = "normal") => `<text x="12" y="${y}" font-size="${size}" font-weight="${weight}" ` +
+    `font-family="DejaVu Sans, sans-serif" fill="${colors().text}">${words.replace(/[&<>]/g, (c) => `&#${c.charCodeAt(0)};`)}</text>`;
+  const extra = text(h + 26, 15, run.title, "bold") + text(h + 46, 12, `${drawn.length} arrows. ${run.subtitle}`) +
+    `<g transform="translate(${w - 252} ${h + 2})">${legendMarks(run, look().palette, colors().text)}</g>`;
+  return drawAsSvg(layersNow(), view, colors(), field.border, run.title, extra, 76);
+}
+
+function saveSvg() {
+  save("flowgrain.svg", new Blob([svg()], { type: "image/svg+xml" }));
+}
+
+async function savePng() {
+  const image = new Image();
+  image.src = `data:image/svg+xml,${encodeURIComponent(svg())}`;
+  await image.decode();
+  const paper = document.createElement("canvas");
+  [paper.width, paper.height] = [2 * image.width, 2 * image.height];
+  paper.getContext("2d").drawImage(image, 0, 0, paper.width, paper.height);
+  paper.toBlob((blob) => blob && save("flowgrain.png", blob));
+}
+
+// ---- the page
+
+function setTheme() {
+  document.documentElement.classList.toggle("dark", isDark());
+  byId("theme").value = state.theme;
+  byId("legend").setAttribute("viewBox", "0 0 240 72");
+  byId("legend").setAttribute("aria-label", `Speeds from ${speedWords(run.speeds[0])} to ${speedWords(run.speeds[1])}`);
+  byId("legend").innerHTML = legendMarks(run, look().palette, colors().text);
+  redraw();
+}
+
+function resize() {
+  const { clientWidth: w, clientHeight: h } = byId("stage");
+  const ratio = devicePixelRatio || 1;
+  view.size = [Math.max(1, w), Math.max(1, h)];
+  [canvas.width, canvas.height] = [Math.round(w * ratio), Math.round(h * ratio)];
+  view.settle();
+  draw();
+  want();
+}
+
+function restore() {
+  const address = readAddress();
+  const number = (text, low, high) => (Number(text) >= low && Number(text) <= high ? Number(text) : undefined);
+  choose(Math.round(number(address.n, 1, 400) ?? numbers[0]));
+  state.seed = Math.round(number(address.seed, 1, 999999999) ?? run.seed);
+  view.zoom = number(address.zoom, 1, 400) ?? 1;
+  const at = address.at?.split(",").map(Number);
+  if (at?.length === 2 && at.every(Number.isFinite)) view.center = at;
+  if (address.show !== undefined) {
+    const names = address.show.split(",");
+    for (const name of Object.keys(state.show)) state.show[name] = names.includes(name);
+  }
+  state.theme = ["light", "dark"].includes(address.page) ? address.page : "";
+  byId("seed").value = String(state.seed);
+}
+
+function connect() {
+  slider.max = String(numbers.length - 1);
+  slider.addEventListener("input", () => {
+    play(false);
+    slide(Number(slider.value));
+  });
+  // keys step from scale to scale
+  slider.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -4, PageUp: 4 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    slide(Math.round(state.at) + step);
+  });
+  byId("play").addEventListener("click", () => play(!state.playing));
+  byId("number").addEventListener("change", () => {
+    const n = Math.round(Number(byId("number").value));
+    if (!(n >= 1 && n <= 400)) return say();
+    choose(n);
+    want();
+  });
+  byId("seed").addEventListener("change", () => {
+    const seed = Math.round(Number(byId("seed").value));
+    if (seed >= 1 && seed <= 999999999) state.seed = seed;
+    byId("seed").value = String(state.seed);
+    want();
+  });
+  for (const box of document.querySelectorAll("[data-layer]")) {
+    const input = /** @type {HTMLInputElement} */ (box);
+    const name = String(input.dataset.layer);
+    input.checked = state.show[name];
+    input.addEventListener("change", () => {
+      state.show[name] = input.checked;
+      update();
+    });
+    if (!field.map && input.closest(".of-map")) input.closest("label")?.remove();
+  }
+  const zoom = (factor) => () => {
+    view.zoomAt(view.size[0] / 2, view.size[1] / 2, factor);
+    want();
+  };
+  byId("closer").addEventListener("click", zoom(1.5));
+  byId("farther").addEventListener("click", zoom(1 / 1.5));
+  byId("whole").addEventListener("click", () => {
+    view.reset();
+    want();
+  });
+  byId("theme").addEventListener("change", () => {
+    state.theme = byId("theme").value;
+    setTheme();
+    update();
+  });
+  systemDark.addEventListener("change", setTheme);
+  byId("svg").addEventListener("click", saveSvg);
+  byId("png").addEventListener("click", savePng);
+  control(canvas, view, {
+    changed: () => want(200),
+    hovered: (at) => (at ? read(at) : leave()),
+    key: (key) => {
+      if (!keys[key]) return false;
+      keys[key]();
+      return true;
+    },
+  });
+  new ResizeObserver(resize).observe(byId("stage"));
+  addEventListener("hashchange", () => {
+    restore();
+    setTheme();
+    want();
+  });
+}
+
+async function compile() {
+  const packed = Uint8Array.from(atob(byId("core").textContent), (c) => c.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compile(await new Response(stream).arrayBuffer());
+}
+
+async function start() {
+  document.title = run.title;
+  byId("title").textContent = run.title;
+  byId("subtitle").textContent = run.subtitle;
+  byId("made").textContent = `Made by flowgrain ${run.version}`;
+  restore();
+  connect();
+  setTheme();
+  const source = URL.createObjectURL(new Blob([JSON.parse(byId("worker").textContent)], { type: "text/javascript" }));
+  maker = new Maker(() => new Worker(source), await compile(), field, { numbers, lengths: run.lengths, told: update });
+  want(0);
+}
+
+start().catch((error) => {
+  byId("status").textContent = `This browser cannot show the page: ${error.message}`;
+});

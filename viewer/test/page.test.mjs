@@ -1,0 +1,157 @@
+// The page that the program writes, opened from disk in Chromium.
+//     FLOWGRAIN_PROGRAM=build/flowgrain node --test viewer/test
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { after, before, test } from "node:test";
+import { hasBrowser, startBrowser } from "./browser.mjs";
+
+const program = process.env.FLOWGRAIN_PROGRAM;
+const makesPages = program && /^with .*viewer/m.test(execFileSync(program, ["--version"], { encoding: "utf8" }));
+const skip = !makesPages ? "no program with the viewer" : (await hasBrowser()) ? false : "no Chromium, or no playwright-core (npm ci)";
+const winds = fileURLToPath(new URL("../../data/gfs_20140131.nc", import.meta.url));
+
+let folder;
+let browser;
+
+before(async () => {
+  if (skip) return;
+  folder = mkdtempSync(join(tmpdir(), "flowgrain-"));
+  const run = (out, ...given) => execFileSync(program, ["run", ...given, "-o", join(folder, out), "--quiet", "--formats", "svg"]);
+  run("vortex", "synth:vortex3", "--arrows", "30,8", "--nodes", "65");
+  run("map", winds, "--arrows", "12", "--nodes", "65", "--region", "-25,25,35,65");
+  browser = await startBrowser();
+});
+
+after(async () => {
+  await browser?.close();
+  if (folder) rmSync(folder, { recursive: true });
+});
+
+/** A page of a run; what it says on the console or asks for, and errors, are in `faults`. */
+async function open(name, address = "", options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1100, height: 760 }, bypassCSP: true, ...options });
+  const page = await context.newPage();
+  const faults = [];
+  page.on("console", (message) => faults.push(message.text()));
+  page.on("pageerror", (error) => faults.push(error.message));
+  page.on("request", (request) => /^(file|blob|data):/.test(request.url()) || faults.push(request.url()));
+  await page.goto(`file://${join(folder, name, "index.html")}${address}`);
+  await made(page);
+  return { page, faults, close: () => context.close() };
+}
+
+const data = (page) => page.locator("#picture").evaluate((canvas) => ({ ...canvas.dataset }));
+
+/** Waits until what is wanted is shown. */
+async function made(page) {
+  await page.waitForTimeout(250); // a view is answered when it rests
+  await page.waitForFunction(() => document.getElementById("picture").dataset.made === "yes");
+}
+
+const address = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
+
+/** Corners of the polygons of arrows in the SVG file that the page saves. */
+async function savedArrows(page) {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#svg")]);
+  const text = readFileSync(await download.path(), "utf8");
+  const shapes = [...text.matchAll(/<path d="([^"]+)" fill="rgb/g)].map(([, path]) =>
+    [...path.matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map(([, x, y]) => [Number(x), Number(y)]));
+  return { text, shapes };
+}
+
+test("scales follow one another, and the slider glides between them", { skip }, async () => {
+  const { page, faults, close } = await open("vortex", "#n=30");
+  assert.equal((await data(page)).arrows, "30");
+  const scales = await page.locator("#scale").evaluate((slider) => Number(slider.max) + 1);
+  assert.ok(scales >= 24, `${scales} scales`);
+  await page.waitForFunction((n) => document.getElementById("picture").dataset.scales === String(n), scales);
+  const between = await page.locator("#scale").evaluate(async (slider) => {
+    const canvas = document.getElementById("picture");
+    const found = [];
+    for (const at of [0, 9.5, Number(slider.max)]) {
+      slider.value = String(at);
+      slider.dispatchEvent(new Event("input"));
+      await new Promise((r) => setTimeout(r, 400));
+      found.push([Number(document.getElementById("count").textContent), Number(canvas.dataset.arrows)]);
+    }
+    return found;
+  });
+  assert.deepEqual(between[0], [60, 60]);
+  assert.ok(between[1][1] >= between[1][0], `${between[1]}`); // those that go are still there
+  assert.deepEqual(between[2], [8, 8]);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("a part that is zoomed into has as many arrows, all of them in view", { skip }, async () => {
+  const { page, faults, close } = await open("vortex", "#n=30");
+  await page.mouse.move(300, 300);
+  for (let n = 0; n < 4; ++n) await page.mouse.wheel(0, -150);
+  await made(page);
+  assert.ok(Number((await address(page)).zoom) > 3);
+  const { shapes } = await savedArrows(page);
+  const size = await page.locator("#picture").evaluate((c) => [c.clientWidth, c.clientHeight]);
+  const seen = shapes.filter((shape) => shape.some(([x, y]) => x >= 0 && y >= 0 && x <= size[0] && y <= size[1]));
+  assert.ok(Math.abs(seen.length - 30) <= 3, `${seen.length} arrows`);
+  assert.equal(shapes.length, 30);
+  await page.fill("#number", "17");
+  await page.press("#number", "Enter");
+  await made(page);
+  assert.equal((await savedArrows(page)).shapes.length, 17);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("the address keeps the view; another seed gives other arrows", { skip }, async () => {
+  const { page, close } = await open("vortex", "#n=21&at=0.3,0.6&zoom=2&seed=5&show=arrows,hedgehog&page=dark");
+  const one = (await savedArrows(page)).shapes;
+  assert.equal(one.length, 21);
+  await page.waitForTimeout(200);
+  const kept = await address(page);
+  assert.deepEqual([kept.n, kept.seed, kept.zoom, kept.show, kept.page], ["21", "5", "2", "arrows,hedgehog", "dark"]);
+  assert.ok(await page.evaluate(() => document.documentElement.classList.contains("dark")));
+  await page.fill("#seed", "6");
+  await page.press("#seed", "Enter");
+  await made(page);
+  assert.notDeepEqual((await savedArrows(page)).shapes, one);
+  await close();
+});
+
+test("keys move, zoom, step and go from arrow to arrow; the pointer reads the field", { skip }, async () => {
+  const { page, faults, close } = await open("map", "#n=12");
+  await page.focus("#picture");
+  await page.keyboard.press("n");
+  assert.match(await page.textContent("#status"), /^Arrow: [\d.]+ m\/s, for [\d.]+ % of the field/);
+  await page.keyboard.press(",");
+  assert.equal(await page.textContent("#count"), "13"); // the scale before
+  await page.keyboard.press("+");
+  await page.keyboard.press("ArrowLeft");
+  await page.waitForTimeout(300);
+  assert.equal((await address(page)).zoom, "1.5");
+  await page.keyboard.press("0");
+  await made(page);
+  assert.equal((await address(page)).zoom, undefined);
+  await page.mouse.move(400, 350);
+  // the region is 25 W to 25 E, 35 to 65 N
+  const [, latitude, ns, longitude] = /([\d.]+)° ([NS]), ([\d.]+)° [EW]/.exec(await page.textContent("#reading"));
+  assert.ok(ns === "N" && latitude > 35 && latitude < 66 && longitude < 30, `${latitude} ${longitude}`);
+  assert.match(await page.textContent("#reading"), /[\d.]+ m\/s, to \d+° \((north|south|east|west)/);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+for (const colorScheme of ["light", "dark"])
+  test(`WCAG AA holds by axe-core on a ${colorScheme} page`, { skip }, async () => {
+    const { page, close } = await open("map", "#n=12", { colorScheme });
+    await page.evaluate(readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8"));
+    const { violations } = await page.evaluate(() => globalThis.axe.run({ runOnly: ["wcag2a", "wcag2aa", "wcag21aa", "wcag22aa"] }));
+    assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(" ")}`), []);
+    const png = await Promise.all([page.waitForEvent("download"), page.click("#png")]);
+    assert.equal(readFileSync(await png[0].path()).subarray(1, 4).toString(), "PNG");
+    await close();
+  });
