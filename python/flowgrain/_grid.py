@@ -1,0 +1,318 @@
+"""Samples on a grid, from arrays as users have them: what the library takes as a field."""
+
+from __future__ import annotations
+
+from typing import Any, Sequence
+
+import numpy as np
+
+from ._core import ffi, lib
+from ._library import Context
+
+SCALES = {"plain": "FG_SCALE_PLAIN", "geo": "FG_SCALE_GEO"}
+
+
+class Grid:
+    """Samples on ascending axes.
+
+    Arrays have the shape ([nz,] ny, nx); missing samples are NaN. ``axes`` and ``periods`` (0:
+    none) are in the order x, y(, z).
+    """
+
+    def __init__(self, velocity: list[np.ndarray], axes: list[np.ndarray], periods: list[float],
+                 scale: str = "plain", places: Sequence[np.ndarray] = ()) -> None:
+        self.velocity, self.axes, self.periods, self.scale = velocity, axes, periods, scale
+        #: where each of the user's samples lies, x, y(, z) of the user's shape
+        self.places = list(places)
+
+    @property
+    def dimension(self) -> int:
+        return len(self.axes)
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """Lowest and highest coordinate along each axis, (dimension, 2)."""
+        ends = [(a[0], a[0] + p if p else a[-1]) for a, p in zip(self.axes, self.periods)]
+        return np.array(ends)
+
+    def create_field(self, context: Context) -> Any:
+        """The library's field, a copy."""
+        arrays = ffi.new("fg_field_arrays *")
+        arrays.dimension = self.dimension
+        arrays.scale = getattr(lib, SCALES[self.scale])
+        kept = []
+        for k, (axis, velocity) in enumerate(zip(self.axes, self.velocity)):
+            kept += [ffi.from_buffer("double[]", axis), ffi.from_buffer("float[]", velocity)]
+            arrays.size[k] = len(axis)
+            arrays.axis[k], arrays.velocity[k] = kept[-2:]
+            arrays.period[k] = self.periods[k]
+        return context.create(
+            "fg_field", lib.fg_field_destroy, lib.fg_field_create, context.handle, arrays
+        )
+
+    def at_samples(self, nodes: np.ndarray, origin: Sequence[float], spacing: Sequence[float],
+                   periodic: Sequence[float]) -> np.ndarray:
+        """Values of an even raster, ([nz,] ny, nx), at the node nearest to each of the user's
+        samples."""
+        index = []
+        for k, place in enumerate(self.places):
+            count = nodes.shape[-1 - k]
+            # a coordinate that is NaN is not of the grid: its label is that of some node
+            at = np.nan_to_num(np.rint((place - origin[k]) / spacing[k])).astype(np.intp)
+            index.append(at % count if periodic[k] else np.clip(at, 0, count - 1))
+        return nodes[tuple(index[::-1])]
+
+
+def real_array(name: str, values: Any) -> np.ndarray:
+    """Any numbers as float64, NaN where they are masked."""
+    array = np.ma.asanyarray(values)
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{name}: numbers are needed, not {array.dtype}")
+    return np.ma.filled(array.astype(np.float64), np.nan)
+
+
+def velocity_array(name: str, values: Any, shape: tuple[int, ...] | None) -> np.ndarray:
+    """A component as float32 samples, contiguous, NaN where they are masked."""
+    array = np.ma.asanyarray(values)
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{name}: numbers are needed, not {array.dtype}")
+    if shape is not None and array.shape != shape:
+        raise ValueError(f"{name} has the shape {array.shape}, but u has {shape}")
+    with np.errstate(over="ignore"):
+        samples = np.array(np.ma.getdata(array), np.float32, order="C")
+    if array.dtype.itemsize > 4 and np.isinf(samples).any():
+        too_fast = np.isinf(samples) & np.isfinite(np.ma.getdata(array))
+        samples[too_fast] = np.finfo(np.float32).max  # which the library refuses with its number
+    samples[np.ma.getmaskarray(array)] = np.nan
+    return samples
+
+
+def make_grid(
+    components: Sequence[Any],
+    coordinates: Sequence[Any],
+    mask: Any = None,
+    period: Any = None,
+    scale: str = "plain",
+) -> Grid:
+    """Checks and orders what a user has given."""
+    if scale not in SCALES:
+        raise ValueError(f"scale is {scale!r}, not one of {', '.join(SCALES)}")
+    names = "uvw"
+    first = np.ma.asanyarray(components[0])
+    dimension = len(components)
+    if first.ndim != dimension:
+        order = "(ny, nx)" if dimension == 2 else "(nz, ny, nx)"
+        raise ValueError(f"u has the shape {first.shape}; {order} is needed"
+                         + ("; in 3D there is also w" if first.ndim == 3 else ""))
+    shape = first.shape
+    velocity = [velocity_array(names[k], c, shape) for k, c in enumerate(components)]
+    if mask is not None:
+        out = np.ma.filled(np.ma.asanyarray(mask), True).astype(bool)
+        if out.shape != shape:
+            raise ValueError(f"mask has the shape {out.shape}, but u has {shape}")
+        for samples in velocity:
+            samples[out] = np.nan
+    periods = _periods(period, dimension)
+    axes = [_coordinate(k, coordinates[k], shape) for k in range(dimension)]
+    if any(axis.ndim > 1 for axis in axes):
+        axes = _reduced(axes, shape)
+    if any(axis.ndim > 1 for axis in axes):
+        return _curvilinear_grid(velocity, axes, periods, scale)
+    places = np.meshgrid(*axes[::-1], indexing="ij", sparse=True)[::-1]
+    grid = Grid(velocity, axes, periods, scale, list(places))
+    for k in range(dimension):
+        _order_axis(grid, k)
+    grid.velocity = [np.ascontiguousarray(samples) for samples in grid.velocity]
+    return grid
+
+
+def _periods(period: Any, dimension: int) -> list[float]:
+    if period is None:
+        return [0.0] * dimension
+    given = [period] if np.ndim(period) == 0 else list(period)
+    if len(given) > dimension:
+        raise ValueError(f"{len(given)} periods for {dimension} axes")
+    periods = [0.0 if p is None else float(p) for p in given]
+    if not all(np.isfinite(p) and p >= 0.0 for p in periods):
+        raise ValueError(f"a period of {period!r}: a length, or None, is needed")
+    return periods + [0.0] * (dimension - len(periods))
+
+
+def _coordinate(k: int, values: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """Coordinates along axis k, one for each sample along it or one for each sample."""
+    count = shape[-1 - k]
+    if values is None:
+        return np.arange(count, dtype=np.float64)
+    name = "xyz"[k]
+    array = real_array(name, values)
+    if array.shape not in ((count,), shape):
+        raise ValueError(
+            f"{name} has the shape {array.shape}; u, of shape {shape}, needs ({count},) or {shape}"
+            + (": is u transposed?" if array.ndim == 1 and len(array) in shape else "")
+        )
+    return array
+
+
+def _reduced(axes: list[np.ndarray], shape: tuple[int, ...]) -> list[np.ndarray]:
+    """Axes instead of coordinates of each sample, where these are the same along all others."""
+    found = []
+    for k, values in enumerate(axes):
+        if values.ndim == 1:
+            found.append(values)
+            continue
+        along = len(shape) - 1 - k
+        line = np.moveaxis(values, along, -1).reshape(-1, shape[along])[0]
+        spread = np.ptp(line) if np.isfinite(line).all() else np.nan
+        aligned = np.expand_dims(line, [d for d in range(len(shape)) if d != along])
+        if not np.abs(values - aligned).max() <= 1e-9 * spread:
+            return [np.broadcast_to(_expanded(a, m, len(shape)), shape) for m, a in enumerate(axes)]
+        found.append(np.ascontiguousarray(line))
+    return found
+
+
+def _expanded(values: np.ndarray, k: int, dimension: int) -> np.ndarray:
+    if values.ndim > 1:
+        return values
+    return np.expand_dims(values, [d for d in range(dimension) if d != dimension - 1 - k])
+
+
+def _order_axis(grid: Grid, k: int) -> None:
+    """Makes an axis ascend, and leaves out the sample that repeats the first a period later."""
+    axis, along = grid.axes[k], grid.dimension - 1 - k
+    if len(axis) > 1 and axis[0] > axis[-1]:
+        axis = axis[::-1]
+        grid.velocity = [np.flip(samples, along) for samples in grid.velocity]
+    period = grid.periods[k]
+    if period and len(axis) > 2 and abs(axis[-1] - axis[0] - period) <= 1e-6 * period:
+        axis = axis[:-1]
+        grid.velocity = [samples.take(range(len(axis)), along) for samples in grid.velocity]
+    grid.axes[k] = np.ascontiguousarray(axis)
+
+
+# A raster is as fine as the samples, within these limits of nodes along its longer side.
+FEWEST, MOST = 65, 769
+
+
+def _curvilinear_grid(
+    velocity: list[np.ndarray], places: list[np.ndarray], periods: list[float], scale: str
+) -> Grid:
+    """A regular grid instead of a curvilinear one in 2D, with linear interpolation in triangles."""
+    if len(velocity) == 3:
+        raise ValueError("in 3D x, y and z must be axes, arrays of one dimension each")
+    if any(periods):
+        raise ValueError("a period needs coordinates along the axes, x of shape (nx,) and y (ny,)")
+    x, y = places
+    good = np.isfinite(x) & np.isfinite(y)
+    if not good.any():
+        raise ValueError("x and y have no sample where both are numbers")
+    low = [x[good].min(), y[good].min()]
+    extent = [np.ptp(x[good]), np.ptp(y[good])]
+    if not min(extent) > 0.0:
+        raise ValueError(f"x and y extend over {extent[0]:g} x {extent[1]:g}: no area")
+    # about as many nodes as there are samples
+    spacing = np.sqrt(extent[0] * extent[1] / good.sum())
+    longest = max(extent)
+    spacing = min(max(spacing, longest / (MOST - 1)), longest / (FEWEST - 1))
+    axes = []
+    for start, length in zip(low, extent):
+        axes.append(np.linspace(start, start + length, max(int(np.ceil(length / spacing)) + 1, 2)))
+    thin = thinned([x, y, *velocity], MOST * MOST)
+    # longitudes that jump by a turn between neighbours: these are none
+    widest = 0.5 * extent[0] if min(x.shape) > 8 else np.inf
+    raster = resample_triangles(thin[0], thin[1], thin[2:], axes, widest)
+    grid = Grid([np.ascontiguousarray(r, np.float32) for r in raster], axes, periods, scale)
+    grid.places = places
+    return grid
+
+
+def thinned(arrays: Sequence[np.ndarray], most: int) -> list[np.ndarray]:
+    """Every second, third, ... row and column, and the last, of arrays of more values than so."""
+    shape = arrays[0].shape
+    every = max(int(np.ceil(np.sqrt(arrays[0].size / most))), 1)
+    kept = [np.unique(np.append(np.arange(0, n, every), n - 1)) for n in shape]
+    return [a[np.ix_(*kept)] for a in arrays] if every > 1 else list(arrays)
+
+
+def resample_triangles(
+    x: np.ndarray, y: np.ndarray, values: Sequence[np.ndarray], axes: Sequence[np.ndarray],
+    widest: float = np.inf,
+) -> list[np.ndarray]:
+    """Samples of a curvilinear grid at the nodes of an even raster.
+
+    Each cell of the grid is cut in two triangles, unless it is wider along x than `widest`; nodes
+    in a triangle get what is linear between its corners, others NaN.
+    """
+    number = np.arange(x.size).reshape(x.shape)
+    a, b = number[:-1, :-1].ravel(), number[:-1, 1:].ravel()
+    c, d = number[1:, 1:].ravel(), number[1:, :-1].ravel()
+    corners = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    px, py = x.ravel()[corners], y.ravel()[corners]
+    samples = [v.ravel()[corners].astype(np.float64) for v in values]
+    whole = np.isfinite(px).all(1) & np.isfinite(py).all(1)
+    whole &= px.max(1) - px.min(1) <= widest
+    for s in samples:
+        whole &= np.isfinite(s).all(1)
+    px, py, samples = px[whole], py[whole], [s[whole] for s in samples]
+    nodes = [len(axis) for axis in axes]
+    origin = [axis[0] for axis in axes]
+    step = [(axis[-1] - axis[0]) / (len(axis) - 1) for axis in axes]
+    # the triangles and nodes of which one may hold the other
+    first, size = [], []
+    for place, k in ((px, 0), (py, 1)):
+        low = np.ceil((place.min(1) - origin[k]) / step[k] - 1e-9).astype(np.int64)
+        high = np.floor((place.max(1) - origin[k]) / step[k] + 1e-9).astype(np.int64)
+        low, high = np.maximum(low, 0), np.minimum(high, nodes[k] - 1)
+        first.append(low)
+        size.append(np.maximum(high - low + 1, 0))
+    pairs = size[0] * size[1]
+    if pairs.sum() > 64 * nodes[0] * nodes[1] + 1_000_000:
+        raise ValueError("x and y: cells overlap; longitudes that jump by 360 between neighbours?")
+    triangle = np.repeat(np.arange(len(pairs)), pairs)
+    rank = np.arange(len(triangle)) - np.repeat(np.cumsum(pairs) - pairs, pairs)
+    column = first[0][triangle] + rank % np.maximum(size[0][triangle], 1)
+    row = first[1][triangle] + rank // np.maximum(size[0][triangle], 1)
+    weights = _barycentric(px[triangle], py[triangle],
+                           origin[0] + column * step[0], origin[1] + row * step[1])
+    inside = (weights >= -1e-9).all(1)
+    at = (row * nodes[0] + column)[inside]
+    rasters = []
+    for s in samples:
+        raster = np.full(nodes[0] * nodes[1], np.nan)
+        raster[at] = (weights[inside] * s[triangle[inside]]).sum(1)
+        rasters.append(raster.reshape(nodes[1], nodes[0]))
+    return rasters
+
+
+def _barycentric(px: np.ndarray, py: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Weights of three corners, (m, 3) each, at points; NaN in triangles without area."""
+    x1, x2 = px[:, 1] - px[:, 0], px[:, 2] - px[:, 0]
+    y1, y2 = py[:, 1] - py[:, 0], py[:, 2] - py[:, 0]
+    dx, dy = x - px[:, 0], y - py[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        area = x1 * y2 - x2 * y1
+        second, third = (dx * y2 - x2 * dy) / area, (x1 * dy - dx * y1) / area
+    return np.stack([1.0 - second - third, second, third], 1)
+
+
+def interpolate(grid: Grid, values: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Values of samples on the axes of a grid in 2D at any points, bilinear; NaN outside and where
+    a corner is missing."""
+    index, weight = [], []
+    outside = ~(np.isfinite(x) & np.isfinite(y))
+    for k, place in enumerate((x, y)):
+        axis, period = grid.axes[k], grid.periods[k]
+        place = np.where(outside, axis[0], place)
+        if period:
+            place = axis[0] + np.mod(place - axis[0], period)
+            axis = np.append(axis, axis[0] + period)
+        slack = 1e-9 * (axis[-1] - axis[0])
+        outside |= (place < axis[0] - slack) | (place > axis[-1] + slack)
+        low = np.clip(np.searchsorted(axis, place, "right") - 1, 0, len(axis) - 2)
+        index.append((low, (low + 1) % len(grid.axes[k])))
+        weight.append(np.clip((place - axis[low]) / (axis[low + 1] - axis[low]), 0.0, 1.0))
+    (i0, i1), (j0, j1) = index
+    wx, wy = weight
+    result = (1 - wy) * ((1 - wx) * values[j0, i0] + wx * values[j0, i1]) + wy * (
+        (1 - wx) * values[j1, i0] + wx * values[j1, i1]
+    )
+    return np.where(outside, np.nan, result)

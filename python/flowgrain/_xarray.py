@@ -1,0 +1,318 @@
+"""``Dataset.flowgrain`` of xarray: finds components and coordinates as the program does."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, Iterator, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ._arrows import Arrows, _choice, arrows
+from ._model import FRAMES, centred, frame_of, positions, turned
+from ._plane import _closes
+
+WORDS = (("u", "v"), ("x", "y"), ("eastward", "northward"), ("east", "north"),
+         ("zonal", "meridional"))  # fmt: skip
+PARTS = (("eastward", "northward"), ("zonal", "meridional"), ("vozo", "vome"), ("sozo", "some"),
+         ("east", "north"))  # fmt: skip
+# of standard names: a velocity, another vector, no vector
+VELOCITY = ("wind", "velocity", "drift")
+OTHER = ("stress", "shear", "flux", "tendency", "transport", "product", "momentum", "force",
+         "acceleration", "gradient", "displacement")  # fmt: skip
+NO_VECTOR = ("coordinate", "grid_index", "square_of", "derivative", "longitude", "latitude",
+             "inverse_of", "cell_", "index_at", "status_flag", "quality_flag",
+             "standard_error")  # fmt: skip
+# about a component without being one
+SPOILT = re.compile(
+    r"(?i)(?:^|_)[uv]?(?:sd|se|unc|var|num|nobs|lon|lat|count|rms|rmse|area|angle|index|longitude"
+    r"|latitude|weight|variance|status|(?:err|qc|qartod|flag|std|uncert|qual|mask|bnds|bounds)\w*)"
+    r"(?=_|$)")
+POINTS = r"_?(?:rho|psi|[tuvwcf]|\d+)"  # of a grid
+SPEEDS = re.compile(r"(?i)^\s*(?:|(?:[cmk]?m|knots?|kts?|miles?|feet|ft|meters?|metres?)\b.*)$")
+
+
+def _readings(name: str) -> Iterator[tuple[str, int]]:
+    """Ways to read a name as that of a component: what is left of it, and 0 or 1."""
+    for letters in re.finditer(r"[A-Za-z]+", name):
+        word = letters.group().lower()
+        start, end = letters.span()
+        whole = (start == 0 or not name[start - 1].isalpha()) and (
+            end == len(name) or not name[end].isalpha())
+        for pair in WORDS:
+            if whole and word in pair:
+                yield f"w{name[:start]}#{name[end:]}", pair.index(word)
+        if len(word) > 1:
+            if word[0] in "uv":
+                yield f"f{name[:start]}#{name[start + 1:]}", "uv".index(word[0])
+            for last in ("uv", "xy"):
+                if word[-1] in last:
+                    yield f"l{name[:end - 1]}#{name[end:]}", last.index(word[-1])
+    for pair in PARTS:
+        for k in (0, 1):
+            at = name.lower().find(pair[k])
+            if at >= 0:
+                rest = name[at + len(pair[k]):]
+                if pair[0] in ("vozo", "sozo"):  # NEMO's letters differ at the end, too
+                    rest = rest[:-1] + "#"
+                yield f"p{name[:at]}#{rest}", k
+
+
+def _standard_reading(variable: Any) -> tuple[int, str, int] | None:
+    """Rank, what is left of the standard name, and the component."""
+    name = str(variable.attrs.get("standard_name", ""))
+    if any(word in name for word in NO_VECTOR):
+        return None
+    other = any(word in name for word in OTHER)
+    if not other and not any(word in name for word in VELOCITY):
+        return None
+    name = re.sub(r"_at_[uv]_location.*", "", name)
+    tokens = name.split("_")
+    for n, token in enumerate(tokens):
+        for pair in WORDS:
+            if token in pair:
+                key = "_".join([*tokens[:n], "#", *tokens[n + 1:]])
+                return (2 if other else 0), key, pair.index(token)
+    return None
+
+
+def find_pair(dataset: xr.Dataset) -> tuple[str, str]:
+    """Names of the components of the velocity: by CF's standard names, else by their names."""
+    found: dict[tuple[int, str, tuple[Any, ...]], list[list[str]]] = {}
+
+    def add(rank: int, key: str, name: str, component: int) -> None:
+        # on the faces of cells they differ in the plane's dimensions
+        dims = dataset[name].dims[:-2]
+        entry = found.setdefault((rank, key, dims), [[], []])[component]
+        if name not in entry:
+            entry.append(name)
+
+    for name, variable in dataset.data_vars.items():
+        if variable.ndim < 2 or variable.dtype.kind not in "iuf":
+            continue
+        standard = _standard_reading(variable)
+        if standard is not None:
+            add(standard[0], standard[1], str(name), standard[2])
+        if not SPOILT.search(str(name)):
+            speed = bool(SPEEDS.match(str(variable.attrs.get("units", ""))))
+            for key, component in _readings(str(name)):
+                add(1 if speed else 3, key, str(name), component)
+    pairs: list[tuple[int, str, str]] = []
+    for (rank, _, _), (first, second) in found.items():
+        if len(first) == len(second) == 1:
+            pairs.append((rank, first[0], second[0]))
+        elif rank in (0, 2):  # several of one standard name, as u10 and u100: told apart by names
+            pairs += [(rank, a, b) for a in first for b in second
+                      if {k for k, c in _readings(a) if c == 0} & {k for k, c in _readings(b) if c}]
+    if not pairs:
+        raise ValueError("no pair of variables is known as a velocity by standard_name or name; "
+                         f"give u and v, of {', '.join(map(str, dataset.data_vars)) or 'none'}")
+    best = min(pairs, key=lambda pair: pair[0])
+    return best[1], best[2]
+
+
+def _role(coordinate: Any) -> str | None:
+    """Of a coordinate: "x" or "y", with "lon" or "lat" where it is in degrees."""
+    attrs = coordinate.attrs
+    standard = str(attrs.get("standard_name", ""))
+    units = str(attrs.get("units", "")).lower().replace(" ", "_")
+    name = str(coordinate.name).lower()
+    if "grid_index" in standard:
+        return None
+    for role, words, unit, axis in (
+        ("lon", ("lon", "longitude", "nav_lon"), ("degrees_east", "degree_east", "degrees_e"), "X"),
+        ("lat", ("lat", "latitude", "nav_lat"), ("degrees_north", "degree_north", "degrees_n"),
+         "Y"),
+    ):
+        if standard == words[1] or units in unit:
+            return role
+        if not standard and (name in words or re.fullmatch(words[0] + POINTS, name)):
+            return role
+        letter = axis.lower()
+        if attrs.get("axis") == axis or standard == f"projection_{letter}_coordinate":
+            return letter
+        if name in (letter, f"{letter}c", "rlon" if letter == "x" else "rlat"):
+            return letter
+    return None
+
+
+def find_coordinates(u: xr.DataArray) -> tuple[Any, Any, bool]:
+    """Coordinates along x and y, and whether they are longitude and latitude.
+
+    Those of one dimension are preferred, then those of two; without any, the last two dimensions.
+    """
+    for count in (1, 2):
+        roles: dict[str, Any] = {}
+        for coordinate in u.coords.values():
+            if coordinate.ndim == count and coordinate.size > 1:
+                role = _role(coordinate)
+                if role is not None:
+                    roles.setdefault(role, coordinate)
+        for x, y, degrees in (("lon", "lat", True), ("x", "y", False)):
+            if x in roles and y in roles:
+                return roles[x], roles[y], degrees
+    return u[u.dims[-1]], u[u.dims[-2]], False
+
+
+class _Field(NamedTuple):
+    u: Any  # with the dimensions of y and x last
+    v: Any
+    x: Any
+    y: Any
+    degrees: bool  # x and y are longitude and latitude
+    others: list[Any]  # other dimensions
+
+
+@xr.register_dataset_accessor("flowgrain")
+class DatasetFlowgrain:
+    """Arrows of a dataset's velocity.
+
+    The components are found by CF's standard names ("eastward_wind", "sea_water_x_velocity"), else
+    by their names ("u10" and "v10", "vozocrtx" and "vomecrty"); the coordinates by standard_name,
+    axis, units or name.
+    """
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self._dataset = dataset
+
+    def _field(self, u: Any, v: Any, x: Any, y: Any, frame: str) -> _Field:
+        if (u is None) != (v is None):
+            raise ValueError("both u and v are needed, or none")
+        if u is None:
+            u, v = find_pair(self._dataset)
+        _choice("frame", frame, FRAMES)
+        first, second, staggered = centred(self._dataset, self._dataset[u], self._dataset[v])
+        if (x is None) != (y is None):
+            raise ValueError("both x and y are needed, or none")
+        if x is None:
+            px, py, degrees = find_coordinates(first)
+        else:
+            px, py = self._dataset[x], self._dataset[y]
+            degrees = _role(px) == "lon" and _role(py) == "lat"
+        plane = [*py.dims, *(d for d in px.dims if d not in py.dims)]
+        if len(plane) != 2 or not set(plane) <= set(first.dims):
+            raise ValueError(f"{px.name} and {py.name} have the dimensions {', '.join(plane)}; "
+                             f"two of {u}'s, {', '.join(map(str, first.dims))}, are needed")
+        others = [d for d in first.dims if d not in plane]
+        if px.ndim == 2:
+            px, py = px.transpose(*plane), py.transpose(*plane)
+        first, second = (c.transpose(*others, *plane) for c in (first, second))
+        if frame == "auto":
+            frame = frame_of(self._dataset, first, second, staggered) or frame
+        first, second = self._in_frame(first, second, px, py, degrees, frame)
+        return _Field(first, second, px, py, degrees, others)
+
+    def _in_frame(self, u: Any, v: Any, px: Any, py: Any, degrees: bool,
+                  frame: str) -> tuple[Any, Any]:
+        """Components along east and north on longitudes and latitudes, else along the axes."""
+        if degrees and px.ndim == 2:
+            if frame == "auto":
+                raise ValueError(
+                    f"{u.name} and {v.name} may be along east and north or along the lines of "
+                    "their curvilinear grid: frame='east' or frame='grid' says it")
+            if frame == "grid":
+                east, north = turned(u.values, v.values, px.values, py.values)
+                return u.copy(data=east), v.copy(data=north)
+        elif not degrees and frame == "east":
+            places = positions(self._dataset, u.dims[-2:])
+            if places is not None:
+                one, other = turned(u.values, v.values, places[0], places[1], back=True)
+                return u.copy(data=one), v.copy(data=other)
+        return u, v
+
+    def arrows(self, u: str | None = None, v: str | None = None, *, x: str | None = None,
+               y: str | None = None, frame: str = "auto",
+               **options: Any) -> "Arrows | xr.DataArray":
+        """Arrows of the velocity.
+
+        Parameters
+        ----------
+        u, v, x, y : str, optional
+            Variables of the components and coordinates; found by default. Components on the faces
+            of cells (Arakawa's C grid) become means at the cells' centres.
+        frame : {"auto", "east", "grid"}
+            Whether the components are along east and north or along the lines of the grid. Those
+            of a curvilinear grid in longitude and latitude that are along the grid are turned by
+            the direction that its positions give. By default standard names and names tell.
+        **options
+            As of `flowgrain.arrows`. On longitudes and latitudes ``scale`` is "geo", and
+            ``period`` is 360 where they go round the globe.
+
+        Returns
+        -------
+        Arrows or DataArray
+            Where there are other dimensions, such as time, an array of `Arrows` with these
+            dimensions and their coordinates.
+
+        Raises
+        ------
+        ValueError
+            No velocity is found, or not how its components lie; and as `flowgrain.arrows`.
+        """
+        first, second, px, py, degrees, others = self._field(u, v, x, y, frame)
+        if degrees:
+            options.setdefault("scale", "geo")
+            if px.ndim == 1 and _closes(px.values, 360.0):
+                options.setdefault("period", 360.0)
+        found = np.empty([first.sizes[d] for d in others], object)
+        for index in np.ndindex(*found.shape):
+            found[index] = arrows(first[index].values, second[index].values, px.values, py.values,
+                                  **options)
+        if found.size == 1:
+            return found.reshape(-1)[0]
+        kept = {k: c for k, c in first.coords.items() if set(c.dims) <= set(others)}
+        return xr.DataArray(found, kept, others, name="arrows")
+
+    def quiver(self, ax: Any = None, u: str | None = None, v: str | None = None, *,
+               x: str | None = None, y: str | None = None, frame: str = "auto",
+               **options: Any) -> Any:
+        """Draws the velocity as few curved arrows.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            By default the current ones. On maps of cartopy longitudes and latitudes need no
+            ``transform``. Axes without labels get those of the coordinates.
+        u, v, x, y, frame : str, optional
+            As for `arrows`.
+        **options
+            As of `flowgrain.quiver`.
+
+        Returns
+        -------
+        Quiver
+
+        Raises
+        ------
+        ValueError
+            There are other dimensions, of which one place is to be chosen: ``ds.isel(time=0)``;
+            and as `flowgrain.quiver`.
+        """
+        import matplotlib.pyplot as plt
+
+        from ._quiver import quiver
+
+        first, second, px, py, degrees, others = self._field(u, v, x, y, frame)
+        for dimension in others:
+            if first.sizes[dimension] > 1:
+                raise ValueError(f"{first.name} has {first.sizes[dimension]} places along "
+                                 f"{dimension}; choose one: ds.isel({dimension}=0)")
+        first, second = first.squeeze(others), second.squeeze(others)
+        ax = plt.gca() if ax is None else ax
+        if degrees and hasattr(ax, "projection") and "transform" not in options:
+            import cartopy.crs as ccrs
+
+            options["transform"] = ccrs.PlateCarree()
+        artist = quiver(ax, px.values, py.values, first.values, second.values, **options)
+        if not hasattr(ax, "projection"):
+            for label, put, coordinate in ((ax.get_xlabel(), ax.set_xlabel, px),
+                                           (ax.get_ylabel(), ax.set_ylabel, py)):
+                if not label:
+                    put(_label(coordinate))
+        return artist
+
+
+def _label(variable: Any) -> str:
+    name = variable.attrs.get("long_name") or variable.attrs.get("standard_name") or variable.name
+    units = variable.attrs.get("units")
+    return f"{name} [{units}]" if units else str(name)

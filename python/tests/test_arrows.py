@@ -1,0 +1,302 @@
+import concurrent.futures
+import gc
+import json
+import os
+import pickle
+import resource
+import signal
+import subprocess
+import threading
+
+import numpy as np
+import pytest
+
+import flowgrain
+from conftest import vortices
+
+PROGRAM = os.environ.get("FLOWGRAIN_PROGRAM")
+
+
+def same(one, other):
+    return len(one) == len(other) and all(map(np.array_equal, one.paths, other.paths))
+
+
+@pytest.fixture(scope="module")
+def dozen(field):
+    return flowgrain.arrows(*field, n=12)
+
+
+def test_arrows_follow_the_flow(field, dozen):
+    u, v, x, y = field
+    assert len(dozen) == 12 and dozen.counts.arrows == 12
+    for arrow in dozen:
+        way = np.diff(arrow.path, axis=0)
+        middle = 0.5 * (arrow.path[1:] + arrow.path[:-1])
+        i, j = np.searchsorted(x, middle[:, 0]) - 1, np.searchsorted(y, middle[:, 1]) - 1
+        there = np.stack([u[j, i] + u[j + 1, i + 1], v[j, i] + v[j + 1, i + 1]], 1)
+        cosine = (way * there).sum(1) / np.hypot(*way.T) / np.hypot(*there.T)
+        assert np.median(cosine) > 0.98  # tail to tip, along the flow
+        assert abs(_area(arrow.outline)) > 0.5 * arrow.area * 0.01
+    assert np.isclose(dozen.area.sum(), 48.0, rtol=0.05)
+    assert 0.0 < dozen.error < 15.0
+    assert dozen.bounds.tolist() == [[1.0, 9.0], [-2.0, 4.0]]
+
+
+def _area(polygon):
+    x, y = polygon.T
+    return 0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
+
+
+@pytest.mark.skipif(not PROGRAM, reason="FLOWGRAIN_PROGRAM names no program to compare with")
+@pytest.mark.parametrize("options, arguments", [
+    (["--arrows", "20"], {"n": 20}),
+    (["--arrows", "9", "--seed", "5", "--start", "even"], {"n": 9, "seed": 5, "start": "even"}),
+    (["--clusters", "9", "--nodes", "129"], {"n": 9, "kind": "clusters", "nodes": 129}),
+])
+def test_same_bits_as_the_program(tmp_path, field, options, arguments):
+    u, v, x, y = field
+    np.savez(tmp_path / "field.npz", u=u, v=v, x=x, y=y)
+    subprocess.run([PROGRAM, "run", tmp_path / "field.npz", "-o", tmp_path / "out", "--quiet",
+                    *options], check=True)
+    theirs = json.loads((tmp_path / "out" / "scale-00.geojson").read_text())
+    ours = flowgrain.arrows(u, v, x, y, **arguments).to_geojson()
+    assert ours["clusters"] == theirs["clusters"] and ours["dropped"] == theirs["dropped"]
+    assert len(ours["features"]) == len(theirs["features"])
+    for mine, other in zip(ours["features"], theirs["features"]):
+        assert mine["geometry"] == other["geometry"]
+        for name, value in mine["properties"].items():
+            assert value == other["properties"][name], name
+    if "error" in theirs:
+        error = flowgrain.arrows(u, v, x, y, **arguments).error
+        assert error == pytest.approx(theirs["error"]["mean"], rel=1e-12)
+
+
+def test_any_type_and_order_of_samples(field, dozen):
+    u, v, x, y = field
+    assert same(dozen, flowgrain.arrows(u.astype(">f8"), np.asfortranarray(v), x, y, n=12))
+    assert same(dozen, flowgrain.arrows(u[::-1, ::-1], v[::-1, ::-1], x[::-1], y[::-1], n=12))
+    assert same(dozen, flowgrain.arrows(u, v, *np.meshgrid(x, y), n=12))
+    assert same(dozen, flowgrain.arrows(u.tolist(), v.tolist(), list(x), list(y), n=12))
+    whole = np.rint(u * 20).astype(np.int8), np.rint(v * 20).astype(np.int8)
+    floats = [c.astype(np.float32) for c in whole]
+    assert same(flowgrain.arrows(*whole, n=5), flowgrain.arrows(*floats, n=5))
+
+
+def test_missing_samples_are_avoided(field):
+    u, v, x, y = field
+    hole = np.hypot(*np.meshgrid(x - 6.0, y - 1.0)) < 1.2
+    nan = np.where(hole, np.nan, u)
+    masked = np.ma.masked_array(u, hole)
+    given = flowgrain.arrows(u, v, x, y, n=12, mask=hole)
+    assert same(given, flowgrain.arrows(nan, v, x, y, n=12))
+    assert same(given, flowgrain.arrows(masked, v, x, y, n=12))
+    for path in given.paths:
+        assert np.hypot(*(path - (6.0, 1.0)).T).min() > 1.1
+    assert (given.labels[np.hypot(*np.meshgrid(x - 6.0, y - 1.0)) < 1.0] < 1).all()
+
+
+def test_labels_are_of_the_samples(field, dozen):
+    u, v, x, y = field
+    assert dozen.labels.shape == u.shape
+    assert set(np.unique(dozen.labels)) >= set(range(1, dozen.counts.clusters + 1))
+    clusters = flowgrain.arrows(*field, n=12, kind="clusters")
+    assert len(clusters) + clusters.counts.dropped >= clusters.counts.clusters
+    for center, cluster in zip(clusters.center, clusters.cluster):
+        at = np.abs(y - center[1]).argmin(), np.abs(x - center[0]).argmin()
+        assert clusters.labels[at] == cluster
+    # turned samples have turned labels
+    turned = flowgrain.arrows(u[::-1], v[::-1], x, y[::-1], n=12)
+    assert np.array_equal(turned.labels, dozen.labels[::-1])
+
+
+def test_uneven_and_curvilinear_coordinates():
+    # solid rotation, which bilinear samples have exactly
+    x, y = np.linspace(-1.0, 1.0, 41) ** 3, np.linspace(-1.0, 1.0, 31)
+    x2, y2 = np.meshgrid(x, y)
+    uneven = flowgrain.arrows(-y2, x2, x, y, n=8)
+    for path in uneven.paths:
+        assert np.ptp(np.hypot(*path.T)) < 0.02
+    angle, radius = np.meshgrid(np.linspace(0.2, 2.9, 61), np.linspace(0.5, 1.5, 25))
+    px, py = radius * np.cos(angle), radius * np.sin(angle)
+    ring = flowgrain.arrows(-py, px, px, py, n=8)
+    for path in ring.paths:
+        distance = np.hypot(*path.T)
+        assert np.ptp(distance) < 0.02 and 0.5 < distance.mean() < 1.5
+    assert ring.labels.shape == px.shape
+
+
+def test_periodic_longitude_and_geojson():
+    longitude, latitude = np.arange(0.0, 361.0, 5.0), np.arange(-60.0, 61.0, 5.0)
+    lon, lat = np.meshgrid(np.radians(longitude), np.radians(latitude))
+    u, v = 10.0 * np.cos(lat), 3.0 * np.sin(3.0 * lon)
+    globe = flowgrain.arrows(u, v, longitude, latitude, n=15, period=360, scale="geo")
+    assert globe.bounds[0].tolist() == [0.0, 360.0]
+    assert globe.labels.shape == u.shape
+    collection = globe.to_geojson()
+    assert json.loads(json.dumps(collection)) == collection
+    for feature in collection["features"]:
+        lines = feature["geometry"]["coordinates"]
+        lines = lines if feature["geometry"]["type"] == "MultiLineString" else [lines]
+        for line in lines:
+            assert np.abs(np.array(line)[:, 0]).max() <= 180.0
+            assert np.abs(np.diff(np.array(line)[:, 0])).max() < 90.0
+
+
+def test_scales_follow_each_other(field):
+    scales = list(flowgrain.evolve(*field, n=[30, 12, 5]))
+    assert [len(s) for s in scales] == [30, 12, 5]
+    for finer, coarser in zip(scales, scales[1:]):
+        assert set(finer.parent) <= set(coarser.id)
+        assert len(set(finer.id) & set(coarser.id)) > 0
+        assert finer.time <= coarser.time and finer.error < coarser.error
+    assert same(scales[0], flowgrain.arrows(*field, n=30))
+
+
+def test_volume():
+    axis = np.linspace(0.0, 1.0, 17)
+    z, y, x = np.meshgrid(axis, axis, axis, indexing="ij")
+    found = flowgrain.arrows(0.5 - y, x - 0.5, axis, axis, w=0.1 + 0.0 * x, z=axis, n=6, nodes=17)
+    assert len(found) == 6 and found.paths[0].shape[1] == 3 and found.labels.shape == x.shape
+    vertices, triangles = found.solids()[0]
+    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), 1)
+    assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()  # closed
+    assert found._repr_svg_() is None
+    with pytest.raises(ValueError, match="solids"):
+        found.outlines
+    with pytest.raises(ValueError, match="outlines"):
+        flowgrain.arrows(x[0] + 1.0, y[0], n=3).solids()
+
+
+def test_tolerance(field):
+    few = flowgrain.arrows(*field, tolerance=8.0)
+    assert few.error <= 8.0 and 4 <= len(few) < 40
+
+
+def test_sequence(dozen):
+    assert isinstance(dozen[3:5], flowgrain.Arrows) and len(dozen[3:5]) == 2
+    assert np.array_equal(dozen[-1].path, dozen.paths[11])
+    fast = dozen[dozen.speed > np.median(dozen.speed)]
+    assert len(fast) == 6 and fast.speed.min() > np.median(dozen.speed)
+    assert np.array_equal(fast[0].outline, fast.outlines[0])
+    assert [a.id for a in dozen] == dozen.id.tolist()
+    with pytest.raises(IndexError):
+        dozen[12]
+    assert "12 arrows" in repr(dozen)
+    other = pickle.loads(pickle.dumps(dozen))
+    assert same(dozen, other) and other.error == dozen.error
+    assert np.array_equal(other.labels, dozen.labels)
+    picture = dozen._repr_svg_()
+    assert picture.count("<polygon") == 12 and 'width="480" height="360"' in picture
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"u": np.zeros((49, 65)), "v": np.zeros((49, 65))}, "zero everywhere"),
+    ({"u": np.full((49, 65), np.nan)}, "valid|missing"),
+    ({"v": np.zeros((65, 49))}, r"v has the shape \(65, 49\)"),
+    ({"u": np.zeros(65)}, r"\(ny, nx\) is needed"),
+    ({"u": np.zeros((49, 65), complex)}, "complex"),
+    ({"u": np.full((49, 65), 1e300)}, "fill value"),
+    ({"x": np.zeros(7)}, r"x has the shape \(7,\)"),
+    ({"x": np.zeros(65)}, "does not ascend"),
+    ({"x": np.array(["a"] * 65)}, "numbers are needed"),
+    ({"mask": np.zeros((3, 3))}, "mask has the shape"),
+    ({"mask": np.ones((49, 65))}, "valid|missing"),
+    ({"n": 0}, "n is 0"),
+    ({"n": 2.5}, "n is 2.5"),
+    ({"n": None}, "n is None"),
+    ({"n": 20001}, "20001 arrows are too many"),
+    ({"seed": -1}, "seed is -1"),
+    ({"seed": 2**64}, "seed is 18446744073709551616; a whole number from 1 to"),
+    ({"nodes": 7}, "7 nodes a side; from 9"),
+    ({"threads": 0}, "threads is 0"),
+    ({"tolerance": 0.0}, "tolerance is 0.0"),
+    ({"coverage": "much"}, "coverage is 'much'"),
+    ({"scale": "geographic"}, "not one of plain, geo"),
+    ({"scale": "geo", "y": np.linspace(0, 100, 49)}, "beyond the poles"),
+    ({"kind": "rings"}, "not one of arrows, clusters"),
+    ({"coverage": 2.0}, "coverage"),
+    ({"anisotropy": -1.0}, "anisotropy"),
+    ({"period": 3.0}, "does not fit its period"),
+    ({"period": float("nan")}, "period"),
+    ({"z": np.arange(3)}, "z is given without w"),
+])
+def test_refusals(field, change, message):
+    arguments = dict(zip(("u", "v", "x", "y"), field), n=12)
+    with pytest.raises(ValueError, match=message):
+        flowgrain.arrows(**{**arguments, **change})
+
+
+def test_hints_name_arguments_of_python():
+    axis = np.linspace(0.0, 1.0, 9)
+    cube = np.ones((9, 9, 9))
+    with pytest.raises(ValueError, match="cannot be handled yet\\nscale='plain' takes"):
+        flowgrain.arrows(cube, cube, axis, axis, w=cube, z=axis, scale="geo")
+
+
+def test_threads_give_the_same_bits_at_once(field, dozen):
+    others = [vortices(65, 49, 8.0, tall) for tall in (5.0, 7.0)]
+    alone = [flowgrain.arrows(*other, n=12) for other in others]
+    with concurrent.futures.ThreadPoolExecutor(3) as pool:
+        futures = [pool.submit(flowgrain.arrows, *f, n=12) for f in (field, *others)]
+        found = [future.result() for future in futures]
+    for one, other in zip([dozen, *alone], found):
+        assert same(one, other)
+
+
+def test_the_interpreter_goes_on_meanwhile():
+    """The GIL is released: Python code runs while arrows are placed."""
+    begun, ended, counted = threading.Event(), threading.Event(), 0
+
+    def work():
+        begun.set()
+        flowgrain.arrows(*vortices(), n=40)
+        ended.set()
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    begun.wait()
+    while not ended.is_set():
+        counted += 1
+    thread.join()
+    assert counted > 100
+
+
+def test_interrupt():
+    """Ctrl-C ends a call that would take minutes."""
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        flowgrain.arrows(*vortices(257, 193), n=3000)
+    timer.join()
+    assert threading.active_count() < 5
+    # and the next call works
+    assert len(flowgrain.arrows(*vortices(), n=5)) == 5
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="no /proc")
+def test_nothing_is_leaked(field):
+    def once():
+        found = flowgrain.arrows(*field, n=3, nodes=65)
+        found.outlines, found.labels, found.error
+        with pytest.raises(ValueError):
+            flowgrain.arrows(field[0] * 0.0, field[1] * 0.0)
+
+    def pages():
+        gc.collect()
+        with open("/proc/self/statm") as file:
+            return int(file.read().split()[1])
+
+    def work():  # in one thread, for each has memory of its own
+        for _ in range(5):
+            once()
+        before = pages()
+        for _ in range(10):
+            once()
+        grown.append((pages() - before) * resource.getpagesize())
+
+    grown = []
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    # a field has 25 KiB, a mesh more
+    assert grown[0] < 10 * 20000

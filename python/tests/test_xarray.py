@@ -1,0 +1,221 @@
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import flowgrain
+from conftest import vortices
+
+xr = pytest.importorskip("xarray")
+
+
+def dataset(**names):
+    u, v, x, y = vortices(33, 25)
+    return xr.Dataset({names.get("u", "u"): (("y", "x"), u), names.get("v", "v"): (("y", "x"), v)},
+                      {"x": x, "y": y})
+
+
+@pytest.mark.parametrize("u, v", [
+    ("u", "v"), ("u10", "v10"), ("10u", "10v"), ("uwnd", "vwnd"), ("UGRD", "VGRD"),
+    ("U_GRD_6_ISBL", "V_GRD_6_ISBL"), ("vozocrtx", "vomecrty"), ("windu", "windv"), ("vx", "vy"),
+    ("water_u", "water_v"), ("UVEL", "VVEL"), ("windEastward", "windNorthward"),
+])
+def test_components_are_found_by_name(u, v):
+    from flowgrain._xarray import find_pair
+
+    found = dataset(u=u, v=v)
+    found["temperature"] = found[u]
+    found[u + "_qc"], found[v + "_err"] = found[u], found[v]
+    assert find_pair(found) == (u, v)
+
+
+def test_components_are_found_by_standard_name():
+    from flowgrain._xarray import find_pair
+
+    found = dataset(u="first", v="second")
+    found["first"].attrs["standard_name"] = "sea_water_x_velocity"
+    found["second"].attrs["standard_name"] = "sea_water_y_velocity"
+    found["u"], found["v"] = found["first"], found["second"]  # names count less
+    found["u"].attrs, found["v"].attrs = {}, {}
+    found["tx"], found["ty"] = found["first"].copy(), found["second"].copy()
+    found["tx"].attrs["standard_name"] = "surface_downward_x_stress"
+    found["ty"].attrs["standard_name"] = "surface_downward_y_stress"
+    assert find_pair(found) == ("first", "second")
+    with pytest.raises(ValueError, match="no pair of variables"):
+        find_pair(found[["tx"]])
+
+
+def test_two_heights_of_one_standard_name():
+    from flowgrain._xarray import find_pair
+
+    found = dataset(u="u100", v="v100")
+    found["u10"], found["v10"] = found["u100"], found["v100"]
+    for name in found.data_vars:
+        way = "eastward" if name[0] == "u" else "northward"
+        found[name].attrs["standard_name"] = way + "_wind"
+    u, v = find_pair(found)
+    assert (u[1:], u[0], v[0]) == (v[1:], "u", "v")
+
+
+def test_arrows_are_those_of_the_arrays():
+    found = dataset()
+    expected = flowgrain.arrows(*vortices(33, 25), n=5)
+    for given in (found, found.transpose(), found.isel(y=slice(None, None, -1))):
+        ours = given.flowgrain.arrows(n=5)
+        assert all(map(np.array_equal, ours.paths, expected.paths))
+
+
+def test_time_is_kept():
+    found = dataset().expand_dims(time=np.array(["2001-01-01", "2001-02-01"], "M8[ns]"))
+    found = found.assign(u=found.u * xr.DataArray([1.0, -1.0], dims="time"))
+    several = found.flowgrain.arrows(n=4)
+    assert several.dims == ("time",) and (several.time == found.time).all()
+    last = several.sel(time="2001-02-01").item()
+    assert isinstance(last, flowgrain.Arrows) and len(last) == 4
+    assert not np.array_equal(last.paths[0], several[0].item().paths[0])
+    plt = pytest.importorskip("matplotlib.pyplot")
+    with pytest.raises(ValueError, match=r"ds.isel\(time=0\)"):
+        found.flowgrain.quiver()
+    q = found.isel(time=[0]).flowgrain.quiver(arrows=4)
+    assert len(q.get_paths()) == 4 and q.axes.get_xlabel() == "x"
+    plt.close("all")
+
+
+def globe():
+    lon, lat = np.arange(0.0, 360.0, 10.0), np.arange(80.0, -81.0, -10.0)
+    u = np.cos(np.radians(lat))[:, None] + 0.0 * lon
+    v = np.sin(np.radians(2.0 * lon)) * np.cos(np.radians(lat))[:, None]
+    found = xr.Dataset({"a": (("j", "i"), u), "b": (("j", "i"), v)},
+                       {"i": lon, "j": lat})
+    found["i"].attrs = {"units": "degrees_east", "long_name": "longitude"}
+    found["j"].attrs = {"standard_name": "latitude"}
+    found["a"].attrs = {"standard_name": "eastward_wind"}
+    found["b"].attrs = {"standard_name": "northward_wind"}
+    return found
+
+
+def test_longitude_and_latitude():
+    found = globe().flowgrain.arrows(n=6)
+    assert found.bounds.tolist() == [[0.0, 360.0], [-80.0, 80.0]]
+    assert found.to_geojson()["projection"] == "+proj=longlat"
+    flat = globe().reset_coords(drop=False)
+    lon, lat = np.meshgrid(globe().i, globe().j)
+    curved = xr.Dataset({"u": (("j", "i"), flat.a.values), "v": (("j", "i"), flat.b.values)},
+                        {"nav_lon": (("j", "i"), lon), "nav_lat": (("j", "i"), lat)})
+    assert curved.flowgrain.arrows(n=6).to_geojson()["projection"] == "+proj=longlat"
+
+
+def test_map():
+    ccrs = pytest.importorskip("cartopy.crs")
+    plt = pytest.importorskip("matplotlib.pyplot")
+    figure = plt.figure()
+    ax = figure.add_subplot(projection=ccrs.Robinson())
+    ax.set_global()
+    q = globe().flowgrain.quiver(ax, arrows=10)
+    assert len(q.get_paths()) == 10
+    assert np.ptp(np.concatenate(q._lines)[:, 0]) > 2e7  # metres
+    plt.close(figure)
+
+
+def staggered(names, sides, counts, coordinates=True):
+    """u = 2 + x, v = 3 - 2 y on the faces of 6 x 5 cells whose centres are at 0, 1, 2, ..."""
+    (face_x, x), (face_y, y) = names
+    cx, cy = np.arange(6.0), np.arange(5.0)
+    fx, fy = np.arange(counts[0]) + 0.5 * sides[0], np.arange(counts[1]) + 0.5 * sides[1]
+    found = xr.Dataset({
+        "u": ((y, face_x), np.broadcast_to(2.0 + fx, (5, counts[0])).copy()),
+        "v": ((face_y, x), np.broadcast_to(3.0 - 2.0 * fy[:, None], (counts[1], 6)).copy()),
+    })
+    if coordinates:
+        found = found.assign_coords({x: cx, y: cy, face_x: fx, face_y: fy})
+    return found
+
+
+@pytest.mark.parametrize("names, sides, counts, coordinates", [
+    ((("XG", "XC"), ("YG", "YC")), (-1, -1), (6, 5), True),
+    ((("XG", "XC"), ("YG", "YC")), (-1, -1), (6, 5), False),
+    ((("xi_u", "xi_rho"), ("eta_v", "eta_rho")), (1, 1), (5, 4), False),
+    ((("xq", "xh"), ("yq", "yh")), (1, 1), (6, 5), False),
+    ((("x_stag", "x"), ("y_stag", "y")), (-1, -1), (7, 6), False),
+    ((("a", "b"), ("c", "d")), (1, -1), (6, 5), True),
+])
+def test_components_on_faces_become_means_at_the_centres(names, sides, counts, coordinates):
+    found = staggered(names, sides, counts, coordinates).flowgrain._field(
+        None, None, None, None, "auto")
+    x, y = np.arange(6.0), np.arange(5.0)
+    u, v = np.broadcast_to(2.0 + x, (5, 6)).copy(), np.broadcast_to((3.0 - 2.0 * y)[:, None],
+                                                                    (5, 6)).copy()
+    for values, side, along, count, cells in ((u, sides[0], 1, counts[0], 6),
+                                              (v, sides[1], 0, counts[1], 5)):
+        ends = np.moveaxis(values, along, 0)
+        if side > 0:  # no face before the first centre
+            ends[0] = np.nan
+        if count < cells or (side < 0 and count == cells):  # and none behind the last
+            ends[-1] = np.nan
+    assert found.u.dims == found.v.dims == (names[1][1], names[0][1])
+    assert np.allclose(found.u, u, equal_nan=True) and np.allclose(found.v, v, equal_nan=True)
+
+
+def test_walls_and_masks_of_staggered_grids():
+    found = staggered((("xi_u", "xi_rho"), ("eta_v", "eta_rho")), (1, 1), (5, 4), False)
+    found["u"][2, 1] = np.nan
+    field = found.flowgrain._field("u", "v", None, None, "auto")
+    assert field.u[2, 1] == 0.5 * (2.0 + 0.5) and field.u[2, 2] == 0.5 * (2.0 + 2.5)
+    sea = np.ones((5, 6))
+    sea[1, 3] = 0.0
+    masked = found.assign(mask_rho=(("eta_rho", "xi_rho"), sea)).flowgrain._field(
+        "u", "v", None, None, "auto")
+    assert np.isnan(masked.u[1, 3]) and np.isnan(masked.v[1, 3]) and masked.u[1, 2] == 4.0
+    assert len(found.flowgrain.arrows(n=2)) == 2
+    with pytest.raises(ValueError, match="on which side"):
+        staggered((("a", "b"), ("c", "d")), (1, 1), (6, 5), False).flowgrain.arrows(n=2)
+    with pytest.raises(ValueError, match="at most one face "):
+        staggered((("a", "b"), ("c", "d")), (1, 1), (3, 5)).flowgrain.arrows(n=2)
+
+
+def test_components_along_the_grid_are_turned():
+    """A wind to the north-east on a grid that is turned and staggered; and back."""
+    turn = np.radians(25.0)
+    along, across = np.meshgrid(np.arange(9.0), np.arange(8.0))
+
+    def place(i, j):
+        lat = 50.0 + 0.1 * (i * np.sin(turn) + j * np.cos(turn))
+        return 10.0 + 0.1 * (i * np.cos(turn) - j * np.sin(turn)) / np.cos(np.radians(50.0)), lat
+
+    u, v = np.cos(np.radians(45.0) - turn), np.sin(np.radians(45.0) - turn)
+    dims = ("eta_rho", "xi_rho")
+    lon, lat = place(along, across)
+    found = xr.Dataset({"u": (("eta_rho", "xi_u"), np.full((8, 8), u)),
+                        "v": (("eta_v", "xi_rho"), np.full((7, 9), v))},
+                       {"lon_rho": (dims, lon), "lat_rho": (dims, lat)})
+    field = found.flowgrain._field(None, None, None, None, "auto")
+    inner = (slice(1, -1), slice(1, -1))
+    assert field.degrees and field.x.name == "lon_rho"
+    for component in (field.u, field.v):
+        assert component.values[inner] == pytest.approx(np.sqrt(0.5), abs=0.02)
+    plane = xr.Dataset({"a": (("y", "x"), np.ones((8, 9))), "b": (("y", "x"), np.ones((8, 9)))},
+                       {"lon": (("y", "x"), lon), "lat": (("y", "x"), lat),
+                        "x": 0.1 * np.arange(9.0), "y": 0.1 * np.arange(8.0)})
+    plane["x"].attrs["axis"], plane["y"].attrs["axis"] = "X", "Y"
+    back = plane.flowgrain._field("a", "b", None, None, "east")
+    assert back.u.values == pytest.approx(np.sqrt(2.0) * u, abs=0.02)
+    assert back.v.values == pytest.approx(np.sqrt(2.0) * v, abs=0.02)
+    with pytest.raises(ValueError, match="frame='east' or frame='grid'"):
+        plane.drop_vars(["x", "y"]).flowgrain.arrows("a", "b", n=3)
+
+
+def test_refusals():
+    with pytest.raises(ValueError, match="both u and v"):
+        dataset().flowgrain.arrows("u")
+    with pytest.raises(ValueError, match="both x and y"):
+        dataset().flowgrain.arrows(x="x")
+    with pytest.raises(ValueError, match="two of u's"):
+        dataset().assign_coords(t=("t", [1.0, 2.0])).flowgrain.arrows(x="t", y="y")
+
+
+def test_the_accessor_is_there_in_any_order():
+    """Here flowgrain is imported first."""
+    assert xr.Dataset().flowgrain
+    code = "import xarray, flowgrain; xarray.Dataset().flowgrain"
+    subprocess.run([sys.executable, "-c", code], check=True)
