@@ -2,6 +2,8 @@
 
 #include "place/placed_test.h"
 
+#include <limits.h>
+
 /* The fields that every count is placed on. */
 static const struct {
   const sampling *box;
