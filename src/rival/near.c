@@ -60,7 +60,7 @@ fg_status fg__near_add(fg__near *near, fg_context *context, const double positio
     return fg__fail_memory(context, "points of lines",
                            ((size_t)near->count + 1) * sizeof *near->point);
   fg__near_point *point = &near->point[near->count];
-  int bin[3];
+  int bin[3] = {0};
   locate(near, position, point->position, bin);
   point->line = line;
   point->s = s;

@@ -1,6 +1,7 @@
 /* Readers of the nearest tangents. */
 #include "score/reader.h"
 
+#include "base/clones.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -159,7 +160,7 @@ static void spell_out(row_work *row, int used, int columns, int dimension,
 }
 
 /* Adds the icon whose nearest samples were spelled out. */
-static void add_2d(const row_work *row, int columns, double epsilon)
+FG__CLONES static void add_2d(const row_work *row, int columns, double epsilon)
 {
   const double *restrict place = row->place, *restrict near_x = row->near_x,
                          *restrict rest = row->near_rest,
@@ -181,7 +182,7 @@ static void add_2d(const row_work *row, int columns, double epsilon)
   }
 }
 
-static void add_3d(const row_work *row, int columns, double epsilon)
+FG__CLONES static void add_3d(const row_work *row, int columns, double epsilon)
 {
   const double *restrict place = row->place, *restrict near_x = row->near_x,
                          *restrict rest = row->near_rest;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clones.h"
 #include "base/memory.h"
 #include "base/vector.h"
 
@@ -17,13 +18,6 @@ const double fg__sample_place[FG__SAMPLES][2] = {
     PLACE(10, 12), PLACE(6, 13), PLACE(14, 14), PLACE(2, 15)};
 #undef PLACE
 
-/* Compiled for wider vectors, too. */
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && defined(__GNUC__) &&        \
-    !defined(__clang__)
-#define CLONES __attribute__((target_clones("default", "avx2", "avx512f")))
-#else
-#define CLONES
-#endif
 #define INLINE static inline __attribute__((always_inline))
 
 /* Two surfaces nearer than this, in longest sides of the box, are one met at its edge. */
@@ -233,8 +227,8 @@ INLINE void keep_samples(const fg__view *view, const piece *p, int x, int y,
                   weight[0][s] + weight[1][s] + weight[2][s], &out[s]);
 }
 
-CLONES void fg__view_samples(const fg__view *view, int band, const int *chosen, int count,
-                             fg__face_at *out)
+FG__CLONES void fg__view_samples(const fg__view *view, int band, const int *chosen,
+                                 int count, fg__face_at *out)
 {
   int width = view->about->width, top = band * FG__BAND;
   for (ptrdiff_t n = 0; n < (ptrdiff_t)count * FG__SAMPLES; ++n)

@@ -1,5 +1,7 @@
 #include "place/reader/rows.h"
 
+#include "base/clones.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -7,12 +9,6 @@
 /* Square of epsilon in lambda: of the inverse distance, as the score has it. */
 #define PULL_EPSILON 0.0025F
 
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && defined(__GNUC__) &&        \
-    !defined(__clang__)
-#define CLONES __attribute__((target_clones("default", "avx2", "avx512f")))
-#else
-#define CLONES
-#endif
 #define INLINE static inline __attribute__((always_inline))
 
 /* Where the array of the sum begins. */
@@ -160,14 +156,14 @@ INLINE void tell_rows(const int dimension, fg__place_contribution *to,
     }
 }
 
-CLONES static void tell_2d(fg__place_contribution *to, const fg__place_raster *raster,
-                           const fg__place_line *line, float reach)
+FG__CLONES static void tell_2d(fg__place_contribution *to, const fg__place_raster *raster,
+                               const fg__place_line *line, float reach)
 {
   tell_rows(2, to, raster, line, reach);
 }
 
-CLONES static void tell_3d(fg__place_contribution *to, const fg__place_raster *raster,
-                           const fg__place_line *line, float reach)
+FG__CLONES static void tell_3d(fg__place_contribution *to, const fg__place_raster *raster,
+                               const fg__place_line *line, float reach)
 {
   tell_rows(3, to, raster, line, reach);
 }
@@ -215,14 +211,16 @@ INLINE void add_rows(const int dimension, fg__place_contribution *to,
     }
 }
 
-CLONES static void add_2d(fg__place_contribution *to, const fg__place_contribution *from,
-                          const fg__place_box *box)
+FG__CLONES static void add_2d(fg__place_contribution *to,
+                              const fg__place_contribution *from,
+                              const fg__place_box *box)
 {
   add_rows(2, to, from, box);
 }
 
-CLONES static void add_3d(fg__place_contribution *to, const fg__place_contribution *from,
-                          const fg__place_box *box)
+FG__CLONES static void add_3d(fg__place_contribution *to,
+                              const fg__place_contribution *from,
+                              const fg__place_box *box)
 {
   add_rows(3, to, from, box);
 }
@@ -318,18 +316,18 @@ INLINE double cost_rows(const int dimension, float *cost, const fg__place_raster
   return sum_of(sums);
 }
 
-CLONES static double cost_2d(float *cost, const fg__place_raster *raster,
-                             const fg__place_box *box,
-                             const fg__place_contribution *const parts[2],
-                             const fg__place_price *price)
+FG__CLONES static double cost_2d(float *cost, const fg__place_raster *raster,
+                                 const fg__place_box *box,
+                                 const fg__place_contribution *const parts[2],
+                                 const fg__place_price *price)
 {
   return cost_rows(2, cost, raster, box, parts, price);
 }
 
-CLONES static double cost_3d(float *cost, const fg__place_raster *raster,
-                             const fg__place_box *box,
-                             const fg__place_contribution *const parts[2],
-                             const fg__place_price *price)
+FG__CLONES static double cost_3d(float *cost, const fg__place_raster *raster,
+                                 const fg__place_box *box,
+                                 const fg__place_contribution *const parts[2],
+                                 const fg__place_price *price)
 {
   return cost_rows(3, cost, raster, box, parts, price);
 }
@@ -369,12 +367,12 @@ INLINE void diffuse_rows(const int dimension, const fg__place_window_rows *windo
     }
 }
 
-CLONES static void diffuse_2d(const fg__place_window_rows *window, float omega)
+FG__CLONES static void diffuse_2d(const fg__place_window_rows *window, float omega)
 {
   diffuse_rows(2, window, omega);
 }
 
-CLONES static void diffuse_3d(const fg__place_window_rows *window, float omega)
+FG__CLONES static void diffuse_3d(const fg__place_window_rows *window, float omega)
 {
   diffuse_rows(3, window, omega);
 }
@@ -384,9 +382,10 @@ void fg__place_diffuse_rows(const fg__place_window_rows *window, float omega)
   (window->dimension == 2 ? diffuse_2d : diffuse_3d)(window, omega);
 }
 
-CLONES void fg__place_inverse_rows(const fg__place_window_rows *window,
-                                   const float *strength, const fg__place_raster_rows *at,
-                                   const float *faces)
+FG__CLONES void fg__place_inverse_rows(const fg__place_window_rows *window,
+                                       const float *strength,
+                                       const fg__place_raster_rows *at,
+                                       const float *faces)
 {
   for (int z = 0; z < window->size[2]; ++z)
     for (int y = 0; y < window->size[1]; ++y) {
@@ -428,16 +427,16 @@ INLINE double angle_rows(const int dimension, float *error,
   return sum_of(sums);
 }
 
-CLONES static double angle_2d(float *error, const fg__place_window_rows *window,
-                              const fg__place_raster_rows *at,
-                              const fg__place_raster *raster, const float *before)
+FG__CLONES static double angle_2d(float *error, const fg__place_window_rows *window,
+                                  const fg__place_raster_rows *at,
+                                  const fg__place_raster *raster, const float *before)
 {
   return angle_rows(2, error, window, at, raster, before);
 }
 
-CLONES static double angle_3d(float *error, const fg__place_window_rows *window,
-                              const fg__place_raster_rows *at,
-                              const fg__place_raster *raster, const float *before)
+FG__CLONES static double angle_3d(float *error, const fg__place_window_rows *window,
+                                  const fg__place_raster_rows *at,
+                                  const fg__place_raster *raster, const float *before)
 {
   return angle_rows(3, error, window, at, raster, before);
 }
@@ -469,14 +468,14 @@ INLINE void nearest_points(const int dimension, float *square, const fg__place_l
   }
 }
 
-CLONES static void nearest_2d(float *square, const fg__place_line *line,
-                              const float *position, size_t stride, int count)
+FG__CLONES static void nearest_2d(float *square, const fg__place_line *line,
+                                  const float *position, size_t stride, int count)
 {
   nearest_points(2, square, line, position, stride, count);
 }
 
-CLONES static void nearest_3d(float *square, const fg__place_line *line,
-                              const float *position, size_t stride, int count)
+FG__CLONES static void nearest_3d(float *square, const fg__place_line *line,
+                                  const float *position, size_t stride, int count)
 {
   nearest_points(3, square, line, position, stride, count);
 }

@@ -305,8 +305,9 @@ fg_status fg__vtk_values_count(size_t *out, const fg__vtk *vtk,
                                const fg__vtk_array *array)
 {
   block_layout layout;
+  const size_t size = fg__vtk_size_of(array->type);
   fg_status status = read_layout(&layout, vtk, array, ANY_SIZE);
-  *out = (size_t)layout.size / fg__vtk_size_of(array->type);
+  *out = size > 0 ? (size_t)layout.size / size : 0;
   return status;
 }
 
