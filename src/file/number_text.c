@@ -24,11 +24,9 @@ void fg__number_locale_end(fg__number_locale *locale)
 void fg__number_write(char text[FG__NUMBER_BYTES], double number)
 {
   /* 15 digits survive text to double to text, 17 double to text to double (IEEE 754) */
-  for (int digits = 15; digits <= 17; ++digits) {
-    snprintf(text, FG__NUMBER_BYTES, "%.*g", digits, number);
-    if (strtod(text, NULL) == number)
-      return;
-  }
+  snprintf(text, FG__NUMBER_BYTES, "%.15g", number);
+  if (strtod(text, NULL) != number)
+    snprintf(text, FG__NUMBER_BYTES, "%.17g", number);
 }
 
 static const char *skip_space(const char *text)

@@ -16,8 +16,8 @@ void fg__number_locale_end(fg__number_locale *locale);
 
 enum { FG__NUMBER_BYTES = 32 };
 
-/* Writes the shortest decimal that reads back as the same number: 0.03, not
- * 0.029999999999999999. To be called between begin and end. */
+/* Writes a decimal that reads back as the same number, of 15 digits or fewer if that will
+ * do: 0.03, not 0.029999999999999999. To be called between begin and end. */
 void fg__number_write(char text[FG__NUMBER_BYTES], double number);
 
 /* Reads exactly `count` finite numbers parted by white space, and nothing else. */

@@ -14,12 +14,15 @@ static void a_chain_keeps_its_arrows(void **state)
     const sampling *box;
     velocity_of velocity;
     int count;
-  } cases[] = {
-      {&PLAIN, coast, 50}, {&STRIP, swirl, 50}, {&ROUND, winds, 40}, {&SOLID, hall, 20}};
+    fg_effort effort;
+  } cases[] = {{&PLAIN, coast, 50, FG_EFFORT_NORMAL},
+               {&STRIP, swirl, 50, FG_EFFORT_QUICK},
+               {&ROUND, winds, 40, FG_EFFORT_NORMAL},
+               {&SOLID, hall, 20, FG_EFFORT_QUICK}};
   for (int n = 0; n < 4; ++n) {
     const int count = cases[n].count, fewer = 9 * count / 10;
     fg_field *field = field_of(*state, cases[n].box, cases[n].velocity);
-    fg_placement *placement = placement_of(*state, field, FG_EFFORT_NORMAL);
+    fg_placement *placement = placement_of(*state, field, cases[n].effort);
     fg_icons *fine = place(*state, placement, count),
              *coarse = place(*state, placement, fewer);
     assert_int_equal(fg_icons_count(coarse), fewer);

@@ -45,6 +45,24 @@ static fg_icon_kind kind_of(const fg__place_search *search, const fg_icon *icon)
   return gap < CLOSED * diameter ? FG_ICON_RING : FG_ICON_SPIRAL;
 }
 
+/* The point halfway along the centreline. */
+static void set_center(fg_icon *icon)
+{
+  double left = 0.5 * fg__icon_length(icon);
+  for (int n = 1; n < icon->point_count; ++n) {
+    const double *from = icon->points[n - 1];
+    double along[3];
+    for (int k = 0; k < 3; ++k)
+      along[k] = icon->points[n][k] - from[k];
+    double length = fg__place_norm(along), share = length > left ? left / length : 1.0;
+    for (int k = 0; k < 3; ++k)
+      icon->center[k] = from[k] + share * along[k];
+    left -= length;
+    if (!(left > 0.0))
+      return;
+  }
+}
+
 static fg_status add_icon(fg_icons *icons, fg_context *context,
                           const fg__place_search *search, int index,
                           const fg__place_share *read)
@@ -72,10 +90,9 @@ static fg_status add_icon(fg_icons *icons, fg_context *context,
     fg__solid_set_slender(&icon, search->scale.lambda);
   else
     fg__icon_set_width(&icon, 2, width_of(search, icon.speed, fg__icon_length(&icon)));
-  for (int k = 0; k < 3; ++k) {
-    icon.center[k] = points[icon.point_count / 2][k];
+  set_center(&icon);
+  for (int k = 0; k < 3; ++k)
     icon.seed[k] = placed->seed.position[k];
-  }
   for (int k = 0; k < 2; ++k)
     icon.way[k] = placed->seed.way[k];
   status = fg__icons_add(icons, context, &icon);

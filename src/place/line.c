@@ -28,6 +28,13 @@ enum { MOST_HEAD_CUTS = 4 };
  * a place where the flow turns over within a step. */
 static const double MOST_APART = 0.05;
 
+/* Of a line for a picture so few points are kept that straight pieces between them leave
+ * it by this at most, in lambda, and its direction by this. A piece replaces so many at
+ * most. */
+static const double STRAIGHT = 5e-4;
+static const double STRAIGHT_COSINE = 0.99996192306417129; /* half a degree */
+enum { MOST_STRAIGHT = 32 };
+
 /* A sample that can not be reached is tried at halves of the way, this often. */
 enum { HALVINGS = 3, MOST_STEPS = 64, FINE_EVERY = 8 };
 
@@ -83,7 +90,7 @@ static bool try_step(const tracing *with, tip *out, double *error, const tip *fr
 }
 
 /* Moves a tip by an arc length, negative against the flow, in as many steps as it takes.
- */
+ * False where it can not go on or, in a search, where the line breaks between samples. */
 static bool move(tracing *with, tip *out, const tip *from, double way)
 {
   double sign = way < 0.0 ? -1.0 : 1.0, left = fabs(way);
@@ -103,6 +110,8 @@ static bool move(tracing *with, tip *out, const tip *from, double way)
       with->step = step * fmin(fmax(grow, 0.5), 2.0);
     else
       with->step = fmax(with->step, step * fmin(grow, 2.0));
+    if (!with->follows && fg__place_dot(next.direction, from->direction) < BREAK_COSINE)
+      return false;
     *out = next;
     left = step < left ? left - step : 0.0;
   }
@@ -289,6 +298,27 @@ static void place_of(double out[3], const fg__place_domain *domain,
     out[k] = domain->low[k] + (double)line->position[k][n] * scale->lambda;
 }
 
+/* Whether the last piece of a line, that long, turns too far from its end anywhere. */
+static bool breaks_within(const side *line, double range)
+{
+  int last = line->count - 1;
+  for (int n = last; n >= 0 && line->at[last] - line->at[n] < range; --n)
+    if (fg__place_dot(line->sample[n].direction, line->sample[last].direction) <
+        BREAK_COSINE)
+      return true;
+  return false;
+}
+
+/* Takes the end off that a head would have to bend round between the samples of the
+ * search. */
+static void end_before_break(side *line, double range)
+{
+  double least = line->at[line->count - 1] - 2.0 * range;
+  while (line->count > 1 && line->at[line->count - 1] > least &&
+         breaks_within(line, range))
+    --line->count;
+}
+
 /* Both sides of a line in small steps; false where they do not end as the line does. */
 static bool trace_finely(side both[2], const fg__place_domain *domain,
                          const fg__place_scale *scale, const fg__place_line *line)
@@ -308,6 +338,7 @@ static bool trace_finely(side both[2], const fg__place_domain *domain,
     if (fg__place_norm(end) > MOST_APART * scale->lambda)
       return false;
   }
+  end_before_break(&both[1], BREAK_RANGE * scale->lambda);
   return true;
 }
 
@@ -329,6 +360,41 @@ static void point_between(double out[3], const fg__place_domain *domain,
                 s * t * chord * slope;
     out[k] = domain->low[k] + at * scale->lambda;
   }
+}
+
+/* Whether one straight piece can stand for those between two points. */
+static bool is_straight(const double (*points)[3], int from, int to, double most)
+{
+  double whole[3], off[3], piece[3], across[3];
+  for (int k = 0; k < 3; ++k)
+    whole[k] = points[to][k] - points[from][k];
+  double length = fg__place_norm(whole);
+  for (int n = from; n < to; ++n) {
+    for (int k = 0; k < 3; ++k) {
+      off[k] = points[n][k] - points[from][k];
+      piece[k] = points[n + 1][k] - points[n][k];
+    }
+    fg__place_cross(across, whole, off);
+    if (!(fg__place_norm(across) <= most * length) ||
+        !(fg__place_dot(whole, piece) >=
+          STRAIGHT_COSINE * length * fg__place_norm(piece)))
+      return false;
+  }
+  return true;
+}
+
+/* Keeps the points that the line's shape needs; returns their number. */
+static int keep_needed(double (*points)[3], int count, double most)
+{
+  int kept = 1;
+  for (int from = 0, to; from < count - 1; from = to) {
+    to = from + 1;
+    while (to + 1 < count && to - from < MOST_STRAIGHT &&
+           is_straight((const double(*)[3])points, from, to + 1, most))
+      ++to;
+    memmove(points[kept++], points[to], sizeof *points);
+  }
+  return kept;
 }
 
 fg_status fg__place_trace_fine(double (**points)[3], int *count, fg_context *context,
@@ -357,6 +423,7 @@ fg_status fg__place_trace_fine(double (**points)[3], int *count, fg_context *con
     point_between((*points)[*count], domain, scale, line, n,
                   (double)(*count - n * FINE_EVERY) / FINE_EVERY);
   }
+  *count = keep_needed(*points, all, STRAIGHT * scale->lambda);
 cleanup:
   free(both);
   return status;

@@ -149,6 +149,29 @@ static void a_line_ends_before_the_flow_reverses_or_breaks(void **state)
   clear(&s);
 }
 
+/* To the right, but for a step to the left that is shorter than a sample of a line. */
+static const sampling CLOSE = {
+    .dimension = 2, .nodes = {241, 161}, .low = {-7, 3}, .high = {5, 11}};
+
+static void stair(const double position[3], double v[3])
+{
+  bool step = fabs(position[0] - EYE[0]) < 0.01;
+  v[0] = step ? 0.1 : 1.0;
+  v[1] = step ? 1.0 : 0.0;
+}
+
+static void a_line_ends_before_it_breaks_between_samples(void **state)
+{
+  setting s = set(*state, &CLOSE, stair, 12);
+  const double lambda = s.scale.lambda;
+  const fg__place_seed seed = {{EYE[0] - 0.45 * lambda, EYE[1]}, {0.4 * lambda, lambda}};
+  fg__place_line line;
+  fg__place_trace(&line, &s.domain, &s.scale, &seed);
+  assert_true(line.count > 0);
+  assert_true(line.way[1] < 0.46 * lambda && line.way[1] > 0.3 * lambda);
+  clear(&s);
+}
+
 static void too_short_a_line_is_none(void **state)
 {
   setting s = set(*state, &PLAIN, slant, 30);
@@ -212,7 +235,7 @@ static void compare_fine(fg_context *context, const sampling *box, velocity_of v
     assert_int_equal(
         fg__place_trace_fine(&fine, &fine_count, context, &s.domain, &s.scale, &line),
         FG_STATUS_OK);
-    assert_true(fine_count > line.count);
+    assert_true(fine_count >= 2);
     for (int i = 0; i < line.count; ++i) {
       double p[3];
       point_of(p, &s, &line, i);
@@ -234,6 +257,46 @@ static void a_fine_line_is_the_coarse_one(void **state)
   compare_fine(*state, &PLAIN, swirl, 60, 100);
   compare_fine(*state, &SOLID, swirl, 30, 100);
   compare_fine(*state, &PLAIN, noise, 60, 4000);
+}
+
+/* Traces through a seed a lambda to the right of the eye; *points is allocated. */
+static int trace_beside_eye(double (**points)[3], double *radius, const setting *s,
+                            fg_context *context)
+{
+  *radius = s->scale.lambda;
+  fg__place_seed seed = {{EYE[0] + *radius, EYE[1]},
+                         {0.5 * s->scale.lambda, 0.7 * s->scale.lambda}};
+  fg__place_line line;
+  int count;
+  fg__place_trace(&line, &s->domain, &s->scale, &seed);
+  assert_true(line.count > 7);
+  assert_int_equal(
+      fg__place_trace_fine(points, &count, context, &s->domain, &s->scale, &line),
+      FG_STATUS_OK);
+  return count;
+}
+
+static void a_fine_line_has_the_points_that_its_shape_needs(void **state)
+{
+  double(*points)[3], radius;
+  setting s = set(*state, &PLAIN, slant, 25);
+  int count = trace_beside_eye(&points, &radius, &s, *state);
+  assert_in_range(count, 2, 5);
+  free(points);
+  clear(&s);
+  s = set(*state, &PLAIN, vortex, 25);
+  count = trace_beside_eye(&points, &radius, &s, *state);
+  /* 69 degrees of an arc, in pieces that turn by 2 at most */
+  assert_in_range(count, 36, 75);
+  for (int n = 1; n < count; ++n) {
+    const double along[2] = {points[n][0] - points[n - 1][0],
+                             points[n][1] - points[n - 1][1]};
+    const double around[2] = {EYE[1] - points[n][1], points[n][0] - EYE[0]};
+    assert_close(degrees_between(along, around, 2), 0, 1.0);
+    assert_close(hypot(around[0], around[1]), radius, 1e-3 * s.scale.lambda);
+  }
+  free(points);
+  clear(&s);
 }
 
 static void a_ring_closes_and_a_spiral_does_not(void **state)
@@ -278,8 +341,10 @@ int main(void)
       CASE(a_line_ends_where_it_has_turned_enough),
       CASE(lines_keep_off_walls),
       CASE(a_line_ends_before_the_flow_reverses_or_breaks),
+      CASE(a_line_ends_before_it_breaks_between_samples),
       CASE(too_short_a_line_is_none),
       CASE(a_fine_line_is_the_coarse_one),
+      CASE(a_fine_line_has_the_points_that_its_shape_needs),
       CASE(a_ring_closes_and_a_spiral_does_not),
       CASE(turns_add_up_as_vectors),
   };

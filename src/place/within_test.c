@@ -38,7 +38,7 @@ static void what_does_not_fit_is_refused_with_the_number_that_does(void **state)
 
 static void the_fewest_within_an_error_are_found(void **state)
 {
-  static const double tolerances[] = {16, 10.5, 9.5};
+  static const double tolerances[] = {16, 10.5};
   fg_field *field = field_of(*state, &PLAIN, swirl);
   fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
   for (size_t n = 0; n < sizeof tolerances / sizeof *tolerances; ++n) {
