@@ -21,13 +21,13 @@ export async function startBrowser() {
   return player.launch({ executablePath: chromium, args: ["--no-sandbox"] });
 }
 
-/** Serves the package's modules, and an empty page. */
-export async function serve() {
+/** Serves the package's modules, and an empty page; or another folder. */
+export async function serve(folder = dist) {
   const server = createServer(async (request, answer) => {
     const path = normalize(new URL(request.url, "http://localhost").pathname);
     if (path === "/") return answer.setHeader("content-type", "text/html").end("<!doctype html><title>flowgrain</title>");
     try {
-      answer.setHeader("content-type", kinds[extname(path)] ?? "text/plain").end(await readFile(join(dist, path)));
+      answer.setHeader("content-type", kinds[extname(path)] ?? "text/plain").end(await readFile(join(folder, path)));
     } catch {
       answer.writeHead(404).end();
     }
