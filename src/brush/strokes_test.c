@@ -129,7 +129,7 @@ static void strokes_turn_with_the_image(void **state)
 /* Broad strokes first; the same strokes on any number of threads. */
 static void layers_go_from_broad_to_fine(void **state)
 {
-  const int clusters[] = {400, 90, 20};
+  const int clusters[] = {150, 45, 12};
   fg_brush_options options = {.clusters = clusters, .cluster_count = 3, .threads = 1};
   fg_image *image = image_of(*state, 140, 120, circles, NULL);
   fg_strokes *strokes = strokes_of(*state, image, &options);
@@ -199,13 +199,13 @@ static void refused(fg_context *context, const fg_image *image,
  * and white where they are not: its strokes have its own grey to the very rim. */
 static void what_lies_under_transparent_pixels_is_not_seen(void **state)
 {
-  enum { W = 130, H = 110 };
+  enum { W = 90, H = 76 };
   const float own = 0.3F;
   float *alpha = calloc(2 * W * H, sizeof *alpha);
   assert_non_null(alpha);
   float *sample = alpha + W * H;
   for (int n = 0; n < W * H; ++n) {
-    double inside = 42.0 - hypot(n % W - 70.0, n / W - 55.0); /* of the rim, in pixels */
+    double inside = 28.0 - hypot(n % W - 48.0, n / W - 38.0); /* of the rim, in pixels */
     alpha[n] = (float)fmin(fmax(0.5 + inside / 6.0, 0.0), 1.0);
     sample[n] = alpha[n] > 0.0F ? own : 1.0F;
   }

@@ -194,6 +194,13 @@ static inline void subject_clear(subject *s)
   fg_density_destroy(s->whole);
 }
 
+/* Half of the shapes and ways for an even number of ranks, the others for an odd one; of
+ * the two shapes of a pair each has what the other lacks. */
+static inline bool is_taken(int shape_index, int way)
+{
+  return (shape_index / 2 + shape_index + way + us.ranks->count) % 2 == 0;
+}
+
 /* The four ways to be periodic. */
 static inline void set_periods(bool periodic[2], int way)
 {

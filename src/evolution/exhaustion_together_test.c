@@ -16,8 +16,9 @@ typedef struct example {
   bool masked;
 } example;
 
-static int failures; /* in what was just lived through */
-static long created; /* what was asked for by the time an evolution was there */
+static int failures;  /* in what was just lived through */
+static long created;  /* what was asked for by the time an evolution was there */
+static long again[2]; /* by the time another like it was begun, and was there */
 
 /* False: there was no memory for it, once. */
 static bool done(fg_status status)
@@ -57,7 +58,9 @@ static void resume(const example *x, const fg_evolution_options *options)
   fg_evolution *later = NULL;
   fg_step step;
   again_if_need_be(fg_checkpoint_open(&checkpoint, us.context, path));
+  again[0] = asked;
   bool ready = done(fg_evolution_create(&later, us.context, x->field, options));
+  again[1] = asked;
   if (ready && done(fg_evolution_resume(later, &step, checkpoint)))
     again_if_need_be(fg_evolution_step(later, &step));
   fg_evolution_destroy(later);
@@ -115,11 +118,17 @@ static void fail_in_turn(life *live, const example *x,
                          bool from_the_beginning)
 {
   asked = unfreed = failures = 0;
+  again[0] = again[1] = 0;
   live(x, options);
   expect(unfreed == 0 && failures == 0);
   long all = known(asked, rank), first = from_the_beginning ? 0 : known(created, rank);
+  /* what is made alike again does not fail, of what resumes it one in four does */
+  long leave = known(again[0], rank), go_on = known(again[1], rank);
   double faults = 0.0;
-  for (long n = first; n < all && faults == 0.0; ++n) {
+  bool repeated = from_the_beginning && go_on > leave;
+  for (long n = first; n < all && faults == 0.0; n += repeated && n >= go_on ? 4 : 1) {
+    if (repeated && n == leave)
+      n = go_on;
     asked = unfreed = failures = 0;
     failing = us.ranks->rank == rank ? n : -1;
     live(x, options);

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-enum { WIDE = 57, HIGH = 97, DEEP = 13, MOST = WIDE * HIGH * DEEP };
+enum { WIDE = 57, HIGH = 97, DEEP = 9, MOST = WIDE * HIGH * DEEP };
 
 /* Rougher than the mesh in one half, uneven along y. */
 static fg_field *field_of(int dimension, const bool periodic[3], bool masked)
@@ -83,9 +83,10 @@ static void slabs_evolve_as_the_whole(void **state)
     const bool periodic[3] = {n & 1, n & 2, n & 4};
     int dimension = n % 3 == 2 ? 3 : 2;
     fg_field *whole = field_of(dimension, periodic, n % 2);
-    fg_evolution_options options = {.nodes = dimension == 3 ? 33 : 129,
+    fg_evolution_options options = {.nodes = dimension == 3 ? 33 : 65,
                                     .energy = energies[n / 2 % 3]};
-    compare(whole, &options);
+    if (dimension == 2 || n < 6)
+      compare(whole, &options);
     options.nodes = 17; /* six samples a cell along y */
     compare(whole, &options);
     fg_field_destroy(whole);

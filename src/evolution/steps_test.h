@@ -34,4 +34,17 @@ static inline void expect_same(const fg_step *a, const fg_step *b)
   expect(a->cells == b->cells);
 }
 
+/* Steps that all have taken together are the same on all. */
+static inline void expect_alike(const fg_step *step)
+{
+  const double numbers[] = {
+      step->time, step->tau,           step->energy,          step->increment,
+      step->mass, step->area_fraction, (double)step->clusters};
+  for (size_t n = 0; n < sizeof numbers / sizeof *numbers; ++n) {
+    uint64_t bits;
+    memcpy(&bits, &numbers[n], sizeof bits);
+    expect(fg__ranks_alike(us.ranks, bits));
+  }
+}
+
 #endif

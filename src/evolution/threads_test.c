@@ -9,7 +9,7 @@ typedef struct outcome {
 
 static outcome evolve(fixture *f, const fg_field *field, int nodes, int threads)
 {
-  enum { STEPS = 3 };
+  enum { STEPS = 2 };
   outcome out = {.density = NULL};
   fg_evolution *evolution;
   const fg_evolution_options options = {.nodes = nodes, .threads = threads};

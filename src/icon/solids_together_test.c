@@ -119,7 +119,10 @@ static void parts_give_the_icons_of_the_whole(void **state)
   for (int kind = 0; kind < 3; ++kind)
     for (int way = 0; way < 8; way += kind == 0 ? 1 : 3) {
       const bool periodic[3] = {way & 1, way & 2, way & 4};
-      subject s = subject_of(kind, periodic, way % 3 == 1);
+      /* of droplets half for an even number of ranks, the others for an odd one */
+      if (kind == 0 && (periodic[0] + periodic[1] + periodic[2] + us.ranks->count) % 2)
+        continue;
+      subject s = subject_of(kind, periodic, way % 3 == 1 || way == 6);
       fg_icons *icons;
       fg_field *part = way % 2 == kind % 2 ? joined_slab_of(s.field) : NULL;
       expect(fg_icons_create(&icons, us.context, part ? part : s.field, s.shared, NULL) ==
@@ -134,7 +137,7 @@ static void parts_give_the_icons_of_the_whole(void **state)
       fg_density_destroy(s.whole);
     }
   if (us.ranks->rank == 0)
-    expect(icons_seen > 40);
+    expect(icons_seen > 20);
   end_together();
 }
 

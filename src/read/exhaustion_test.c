@@ -5,27 +5,33 @@
 #include "read/netcdf/sample.h"
 #include "read/vtk/cells_example.h"
 
-static fg_status live_through(const sample_file *f, const fg_read_options *options)
+typedef fg_status use(const sample_file *f, const fg_read_options *options);
+
+static fg_status read_it(const sample_file *f, const fg_read_options *options)
 {
   fg_field *field = NULL;
-  fg_inventory *inventory = NULL;
-  fg_status status = fg_field_read(&field, f->context, f->path, options);
+  const fg_status status = fg_field_read(&field, f->context, f->path, options);
   assert_int_equal(status == FG_STATUS_OK, field != NULL);
   fg_field_destroy(field);
-  if (status != FG_STATUS_OK)
-    return status;
-  status = fg_inventory_read(&inventory, f->context, f->path);
+  return status;
+}
+
+static fg_status list_it(const sample_file *f, const fg_read_options *options)
+{
+  (void)options;
+  fg_inventory *inventory = NULL;
+  const fg_status status = fg_inventory_read(&inventory, f->context, f->path);
   assert_int_equal(status == FG_STATUS_OK, inventory != NULL);
   fg_inventory_destroy(inventory);
   return status;
 }
 
-static void fail_in_turn(const sample_file *f, const fg_read_options *options)
+static void fail_in_turn_of(use *of, const sample_file *f, const fg_read_options *options)
 {
   static const char words[] = "out of memory";
   failing = -1;
   asked = unfreed = 0;
-  if (live_through(f, options) != FG_STATUS_OK)
+  if (of(f, options) != FG_STATUS_OK)
     fail_msg("%s", fg_context_message(f->context));
   assert_int_equal(unfreed, 0);
   const long all = asked;
@@ -34,13 +40,19 @@ static void fail_in_turn(const sample_file *f, const fg_read_options *options)
     fg_context_clear(f->context);
     asked = unfreed = 0;
     failing = n;
-    const fg_status status = live_through(f, options);
+    const fg_status status = of(f, options);
     failing = -1;
     const char *message = fg_context_message(f->context);
     if (status != FG_STATUS_MEMORY || !strstr(message, words))
       fail_msg("allocation %ld of %ld: status %d, \"%s\"", n, all, status, message);
     assert_int_equal(unfreed, 0);
   }
+}
+
+static void fail_in_turn(const sample_file *f, const fg_read_options *options)
+{
+  fail_in_turn_of(read_it, f, options);
+  fail_in_turn_of(list_it, f, options);
 }
 
 static void fail_in_turn_at(const sample_file *f, example_text *text)

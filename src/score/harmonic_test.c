@@ -114,9 +114,9 @@ static void unsampled_cells_are_the_mean_of_their_neighbours(void **state)
 static void the_usual_tolerance_is_a_hundredth_of_a_degree(void **state)
 {
   static const int counts[] = {1, 6, 40};
-  for (int n = 0; n < 6; ++n) {
+  for (int n = 0; n < 3; ++n) {
     bench b;
-    set_up(&b, *state, &PLAIN, n % 2 ? coast : swirl, counts[n / 2]);
+    set_up(&b, *state, &PLAIN, n % 2 ? coast : swirl, counts[n]);
     take_samples(&b, *state);
     fg__harmonic usual = solve(&b, *state, 0), tight = solve(&b, *state, 1e-9);
     assert_close(error_of(&b, *state, &usual), error_of(&b, *state, &tight), 0.01);

@@ -214,30 +214,63 @@ static inline void get(const problem *p, const float *array, double *values)
   free(plain);
 }
 
-/* out := the integrals of A grad u . grad phi for each node, or with A = I. */
-static inline void apply_stiffness(const problem *p, bool laplacian, const double *u,
-                                   double *out)
+/* A term of A grad u . grad phi over a cell: what the entries of A with the same value
+ * multiply. */
+typedef struct term {
+  const float *value; /* of each cell; NULL: 1 */
+  double stiffness[8][8];
+} term;
+
+static inline int terms_of(const problem *p, bool laplacian, term terms[6])
 {
   const float *from[3][3] = {{p->tensor.xx, p->tensor.xy, p->tensor.xz},
                              {p->tensor.xy, p->tensor.yy, p->tensor.yz},
                              {p->tensor.xz, p->tensor.yz, p->tensor.zz}};
+  int count = 0;
+  for (int m = 0; m < p->dimension; ++m)
+    for (int n = m; n < p->dimension; ++n) {
+      if (laplacian && m != n)
+        continue;
+      term *t = &terms[laplacian ? 0 : count];
+      if (!laplacian || count == 0)
+        *t = (term){.value = laplacian ? NULL : from[m][n]};
+      for (int a = 0; a < p->corners; ++a)
+        for (int b = 0; b < p->corners; ++b)
+          t->stiffness[a][b] +=
+              p->stiffness[a][b][m][n] + (m == n ? 0.0 : p->stiffness[a][b][n][m]);
+      ++count;
+    }
+  return laplacian ? 1 : count;
+}
+
+/* out := the integrals of A grad u . grad phi for each node, or with A = I. */
+static inline void apply_stiffness(const problem *p, bool laplacian, const double *u,
+                                   double *out)
+{
+  term terms[6];
+  const int term_count = terms_of(p, laplacian, terms);
   memset(out, 0, p->nodes * sizeof *out);
   for (int k = 0; k < p->count[2]; ++k)
     for (int j = 0; j < p->count[1]; ++j)
       for (int i = 0; i < p->count[0]; ++i) {
-        size_t at = cell(p, i, j, k);
+        size_t at = cell(p, i, j, k), corners[8];
+        double values[8];
         if (!p->tensor.active[at])
           continue;
-        for (int a = 0; a < p->corners; ++a)
-          for (int b = 0; b < p->corners; ++b) {
-            double entry = 0.0;
-            for (int m = 0; m < p->dimension; ++m)
-              for (int n = 0; n < p->dimension; ++n) {
-                double A = laplacian ? (m == n) : (double)from[m][n][at];
-                entry += A * p->stiffness[a][b][m][n];
-              }
-            out[corner(p, i, j, k, a)] += entry * u[corner(p, i, j, k, b)];
+        for (int a = 0; a < p->corners; ++a) {
+          corners[a] = corner(p, i, j, k, a);
+          values[a] = u[corners[a]];
+        }
+        for (int t = 0; t < term_count; ++t) {
+          double value = terms[t].value ? (double)terms[t].value[at] : 1.0;
+          for (int a = 0; a < p->corners; ++a) {
+            const double *row = terms[t].stiffness[a];
+            double sum = 0.0;
+            for (int b = 0; b < p->corners; ++b)
+              sum += row[b] * values[b];
+            out[corners[a]] += value * sum;
           }
+        }
       }
 }
 

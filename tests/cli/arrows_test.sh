@@ -4,7 +4,7 @@
 source "$(dirname "$0")/harness.sh"
 
 wind=$root/data/gfs_20140131.nc
-run=(run "$wind" --projection none --nodes 129 --arrows 20,10,5 --formats svg --quiet)
+run=(run "$wind" --projection none --nodes 129 --arrows 20,10,5 --effort 0 --formats svg --quiet)
 
 # expect_counts FOLDER NUMBER...: a scale each.
 expect_counts() {
@@ -47,11 +47,11 @@ jq '[.features[].properties.id]' whole/scale-01.geojson >ids
 expect_json whole/scale-00.geojson "$(tr -d '\n' <ids) - [.features[].properties.id] | length <= 5"
 done_with "arrows keep their ids, and go into parents of the next scale"
 
+try score "$wind" --projection none whole/scale-0{0,1,2}.geojson --class free --json
+expect_code 0
 for scale in 0 1 2; do
-  try score "$wind" --projection none whole/scale-0$scale.geojson --class free --json
-  expect_code 0
   jq --argjson run "$(jq ".scales[$scale].error" whole/run.json)" --argjson file "$(jq .error whole/scale-0$scale.geojson)" \
-    '.[0] as $score | [$run, $file] | map(
+    ".[$scale]"' as $score | [$run, $file] | map(
       ([paths(type == "number")] | length == 11) and
       . as $error | [paths(type == "number")] | map(. as $p | ($error | getpath($p)) - ($score | getpath($p)) | fabs < 1e-6) | all) | all' out >agrees
   [ "$(cat agrees)" = true ] || fault "scale $scale: $(cat agrees) $(jq -c ".scales[$scale].error" whole/run.json)"
@@ -109,9 +109,9 @@ for name in scale-00.geojson scale-01.geojson; do
     <(jq 'del(.clusters, .features[].properties.cluster)' other/$name) || fault "$name differs"
 done
 # two scales of one state
-try run synth:vortex3 --nodes 65 --arrows 60,58,55 --effort 0 --formats svg --quiet -o many
+try run synth:vortex3 --nodes 33 --arrows 20,18,15 --effort 0 --formats svg --quiet -o many
 expect_code 0
-expect_counts many 60 58 55
+expect_counts many 20 18 15
 expect_json many/run.json '[.scales[].time] | .[0] == .[1] and .[1] == .[2]'
 done_with "an even start has no seed, and one state has several scales"
 
@@ -135,7 +135,7 @@ try run synth:vortex3 --arrows "$fewer" --start even --nodes 65 --formats svg --
 expect_json fewer/run.json '.scales[0].error.mean > 11'
 done_with "--tolerance: the fewest arrows within an error"
 
-space=(run synth:abc --arrows 6,4 --nodes 25 --effort 0 --width 40 --no-frame --quiet)
+space=(run synth:abc --arrows 6,4 --nodes 17 --effort 0 --width 40 --no-frame --quiet)
 try "${space[@]}" -o space
 expect_code 0
 expect_counts space 6 4
@@ -171,10 +171,10 @@ if command -v mpirun >/dev/null; then
   on 2 "${run[@]}" -o two
   expect_code 0
   expect_same_results whole two
-  on 2 run synth:vortex3 --tolerance 11 --nodes 65 --formats svg --quiet -o two-within
-  expect_code 0
-  expect_same_results within two-within
   if [ -z "$sanitized" ]; then
+    on 2 run synth:vortex3 --tolerance 11 --nodes 65 --formats svg --quiet -o two-within
+    expect_code 0
+    expect_same_results within two-within
     on 2 "${space[@]}" -o two-space
     expect_code 0
     for scale in 0 1; do

@@ -14,16 +14,16 @@ disc() {
 disc 1 >disc.pgm
 disc 257 >deep.pgm
 
-try brush disc.pgm -o one.png --clusters 300,40
+try brush disc.pgm -o one.png --clusters 100,30
 expect_code 0
 expect_file one.png
-try brush disc.pgm -o two.png --clusters 300,40 --threads 1 --seed 1
+try brush disc.pgm -o two.png --clusters 100,30 --threads 1 --seed 1
 expect_code 0
 cmp -s one.png two.png || fault "another painting on one thread"
-try brush deep.pgm -o two.png --clusters 300,40
+try brush deep.pgm -o two.png --clusters 100,30
 expect_code 0
 cmp -s one.png two.png || fault "another painting of 16 bits"
-try brush disc.pgm -o two.png --clusters 300,40 --seed 2
+try brush disc.pgm -o two.png --clusters 100,30 --seed 2
 expect_code 0
 cmp -s one.png two.png && fault "the same painting with another seed"
 try brush one.png -o two.png --clusters 40 --verbose

@@ -19,13 +19,13 @@ cmp -s by-clusters.svg last.svg || fault "--clusters 9 and --scale-index 1 diffe
 cmp -s by-clusters.svg fine.svg && fault "the scales do not differ"
 done_with "draw: a scale chosen by its clusters"
 
-placed=(run synth:saddle --nodes 65 --arrows 24,10 --effort 0 --quiet --formats svg)
+placed=(run synth:saddle --nodes 33 --arrows 12,5 --effort 0 --quiet --formats svg)
 try "${placed[@]}" -o placed --tint
 expect_code 0
-for arrows in 24 23; do # the second takes the next coarser scale
+for arrows in 12 11; do # the second takes the next coarser scale
   try draw placed -o again.svg --tint --arrows $arrows
   expect_code 0
-  scale=$((24 - arrows))
+  scale=$((12 - arrows))
   cmp -s <(without_numbers again.svg) <(without_numbers placed/scale-0$scale.svg) ||
     fault "--arrows $arrows is not scale $scale of the run"
 done
@@ -35,10 +35,10 @@ expect_code 0
 cmp -s <(without_numbers plain.svg) <(without_numbers untinted/scale-01.svg) || fault "without --tint"
 cmp -s <(without_numbers plain.svg) <(without_numbers placed/scale-01.svg) && fault "--tint changes nothing"
 done_with "draw: a scale of placed arrows, chosen by their number, and what they stand for"
-try draw placed -o x.svg --arrows 9
+try draw placed -o x.svg --arrows 4
 expect_code 1
 expect_one_complaint
-expect_error 'placed: its coarsest scale has 10 arrows, and at most 9 were asked for'
+expect_error 'placed: its coarsest scale has 5 arrows, and at most 4 were asked for'
 try draw placed -o x.svg --arrows 9 --clusters 9
 expect_code 2
 expect_one_complaint
@@ -50,15 +50,15 @@ expect_error '--tint needs the density of scale 1, which was not saved'
 expect_nothing_at x.svg
 done_with "draw: numbers of arrows and tints that there are not"
 
-try draw placed --arrows 24,10 -o panels.svg --panel-label '{letter}: {arrows}' --columns 1
+try draw placed --arrows 12,5 -o panels.svg --panel-label '{letter}: {arrows}' --columns 1
 expect_code 0
-for text in 'a: 24' 'b: 10' 'mean speed'; do
+for text in 'a: 12' 'b: 5' 'mean speed'; do
   [ "$(grep -c "<text.*>$text" panels.svg)" = 1 ] || fault "not once: '$text'"
 done
 [ "$(grep -c '<linearGradient' panels.svg)" = 1 ] || fault "not one key"
 try draw placed --all-scales -o all.svg
 expect_code 0
-grep -q '<text.*>(b) 10 arrows</text>' all.svg || fault "no label that tells the scales apart"
+grep -q '<text.*>(b) 5 arrows</text>' all.svg || fault "no label that tells the scales apart"
 try draw run placed/scale-00.geojson -o two.png --panel-label 'x|y'
 expect_code 0
 try draw placed/scale-00.geojson -o one.svg
@@ -84,7 +84,7 @@ refused 1 'x.svg: other shows .*, and placed .*: panels show the same components
 refused 1 'foreign.geojson: is of no run' foreign.geojson placed -o x.svg
 refused 2 '--panel-label a|b|c: 3 labels, and there are 2 panels' placed run -o x.svg --panel-label 'a|b|c'
 refused 2 '--columns: of several panels, and x.svg is one picture' placed -o x.svg --columns 2
-refused 2 '--all-scales and --arrows each choose' placed -o x.svg --all-scales --arrows 10
+refused 2 '--all-scales and --arrows each choose' placed -o x.svg --all-scales --arrows 5
 refused 2 'are drawn as panels of a picture' placed run -o x.glb
 done_with "draw: panels that cannot be"
 
@@ -92,7 +92,7 @@ try draw placed -o texts.svg --title 'A <title> of {arrows} & {time}' --subtitle
   --width 89mm --height 3in --font-size 2.5mm --speed-range 11,13
 expect_code 0
 grep -q 'width="252.28[0-9]*pt" height="216pt"' texts.svg || fault "the size is not 89mm by 3in"
-for text in 'A &lt;title&gt; of 10 &amp; ' below fast 11.0 13.0; do
+for text in 'A &lt;title&gt; of 5 &amp; ' below fast 11.0 13.0; do
   grep -q "<text.*>$text</text>" texts.svg || fault "no text '$text'"
 done
 try draw placed -o texts.png --dpi 300 --width 1in
@@ -230,7 +230,7 @@ expect_error "standard input: more than 102400 bytes"
 try rival "$cells" -o no.geojson --max-memory 100K
 expect_error "a field of 18721 samples takes 0.14"
 expect_nothing_at no.geojson
-try run - -o piped --arrows 9 --formats svg --quiet < "$cells"
+try run - -o piped --arrows 5 --effort 0 --nodes 65 --formats svg --quiet < "$cells"
 expect_code 0
 try draw piped -o again.svg
 expect_error "its input was standard input, which is gone"

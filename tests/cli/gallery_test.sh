@@ -2,7 +2,11 @@
 # The gallery: every figure is made, and the page shows what is there.
 source "$(dirname "$0")/harness.sh"
 
-try gallery -o all --quiet
+# the data of this program, but a small picture to be painted
+mkdir data
+cp "$root"/data/*.nc data
+try texture synth:vortex3 -o data/monalisa.png --pixels 64
+FLOWGRAIN_DATA=$PWD/data try gallery -o all --quiet
 expect_code 0
 [ ! -s err ] || fault "it said: $(head -c 300 err)"
 expect_file all/index.html
@@ -24,12 +28,27 @@ expect_one_complaint
 expect_error 'holds a gallery already'
 echo mine >all/notes.txt
 echo old >all/index.html
-try gallery -o all --quiet --force --figure 7
+cp all/fig-06/arrows/scale-00.geojson before
+touch -d 2001-01-01 all/fig-*.png all/monalisa.png
+try gallery -o all --quiet --force --figure 6
 expect_code 0
 [ "$(cat all/notes.txt)" = mine ] || fault "a foreign file has changed"
-grep -q 'Figure 7' all/index.html || fault "the page does not show figure 7"
+grep -q '<h2[^>]*>Figures 5 and 6' all/index.html || fault "the page does not show figure 6"
 ! grep -q 'Figure 3' all/index.html || fault "the page shows another figure"
+[ -z "$(find all -name 'fig-0[124]*.png' -newermt 2002-01-01)" ] || fault "another figure was made"
+cmp -s before all/fig-06/arrows/scale-00.geojson || fault "other arrows"
+# without that folder the program's own data are found
+cmp -s "$root/data/monalisa.png" all/monalisa.png || fault "the data are not the program's"
 done_with "a gallery is replaced only when asked for, and figures one by one"
+
+for picture in $(grep -o 'src="[^"]*"' all/index.html | sed 's/src="//; s/"//'); do
+  expect_file "all/$picture"
+done
+cmp -s all/fig-06/clusters/scale-00.geojson all/fig-06/arrows/scale-00.geojson ||
+  fault "clusters and arrows of different moments"
+rows=$(grep -c '<div class="row' all/index.html)
+[ "$rows" = 2 ] || fault "$rows rows of pictures instead of 2"
+done_with "figures that the paper has apart are made together"
 
 # the commands on the page make the pictures again
 sed -n '/<pre>/,/<\/pre>/p' all/index.html | sed 's/<[^>]*>//g' | grep '^flowgrain ' >commands
@@ -42,18 +61,6 @@ for picture in $(grep -o 'src="[^"]*png"' all/index.html | sed 's/src="//; s/"//
   cmp -s "all/$picture" "again/$picture" || fault "$picture differs"
 done
 done_with "the commands that the page names make the same pictures"
-
-try gallery -o six --quiet --figure 6
-expect_code 0
-grep -q '<h2[^>]*>Figures 5 and 6' six/index.html || fault "figure 6 is not in the page"
-for picture in $(grep -o 'src="[^"]*"' six/index.html | sed 's/src="//; s/"//'); do
-  expect_file "six/$picture"
-done
-cmp -s six/fig-06/clusters/scale-00.geojson six/fig-06/arrows/scale-00.geojson ||
-  fault "clusters and arrows of different moments"
-rows=$(grep -c '<div class="row' six/index.html)
-[ "$rows" = 2 ] || fault "$rows rows of pictures instead of 2"
-done_with "figures that the paper has apart are made together"
 
 try gallery -o none --figure 5000
 expect_code 2

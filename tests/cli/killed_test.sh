@@ -4,7 +4,7 @@
 [ -w /dev/shm ] && export TMPDIR=/dev/shm
 source "$(dirname "$0")/harness.sh"
 
-run=(run synth:vortex3 --nodes 33 --clusters 20,8 --width 200 --quiet --threads 1 --checkpoint 0)
+run=(run synth:vortex3 --nodes 33 --clusters 20,8 --formats svg --quiet --threads 1 --checkpoint 0)
 try "${run[@]}" -o whole
 expect_code 0
 expect_only_results whole
@@ -68,12 +68,12 @@ expect_only_results part
 done_with "killed again and again"
 
 # placed arrows go on from the file of the scale before, which each scale writes again
-run=(run synth:vortex3 --nodes 33 --arrows 20,9 --effort 0 --formats svg --quiet --threads 1 --checkpoint 0)
+run=(run synth:vortex3 --nodes 33 --arrows 6,3 --effort 0 --formats svg --quiet --threads 1 --checkpoint 0)
 try "${run[@]}" -o placed
 expect_code 0
 with_calls kill 0 "${run[@]}" -o placed-counted
 all=$(cat calls)
-for at in $(seq $((all - 90)) 5 "$all"); do
+for at in $(seq $((all - 90)) 8 "$all"); do
   rm -rf part
   with_calls kill "$at" "${run[@]}" -o part
   [ "$code" = 137 ] || fault "call $at: not killed: code $code"
@@ -87,7 +87,7 @@ done_with "placed arrows go on to the same"
 run=(run synth:vortex3 --nodes 193 --clusters 60,12 --width 200 --quiet --checkpoint 0.05)
 try "${run[@]}" -o whole2
 expect_code 0
-for turn in 1 2 3; do
+for turn in 1 2; do
   rm -rf part
   "$program" "${run[@]}" -o part >out 2>err &
   pid=$!

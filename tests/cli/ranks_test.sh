@@ -37,19 +37,19 @@ compare() {
   done
   done_with "ranks agree, 1 $counts: $name"
 }
-compare wind "2 3" "$wind" --nodes 65 --clusters 40,20 --formats svg --save-field
+compare wind "2 3" "$wind" --projection none --nodes 65 --clusters 20 --formats svg --save-field
 # where the wind blows from the west: in many parts, and round the globe
 compare masked "4" "$wind" --projection none --mask u10 --nodes 97 --clusters 60 --formats svg --save-field
 expect_json masked-1/run.json '.mesh | .active_cells < 0.4 * .cells[0] * .cells[1]'
 done_with "less than 40 % of the globe is in the mask"
 compare vortex3 "3" synth:vortex3 --nodes 65 --clusters 20,10 --formats svg --save-field
-compare halved "3" synth:vortex3 --nodes 513 --clusters 60,48 --formats svg --save-field
+compare halved "3" synth:vortex3 --nodes 513 --clusters 60 --formats svg --save-field
 expect_json halved-3/run.json '.mesh.coarser | length == 1'
 done_with "the mesh of three ranks was halved"
-compare vortex3d "4" synth:vortex3d --nodes 33 --clusters 30
-compare placed "3" "$wind" --nodes 65 --arrows 30,12 --effort 0 --formats svg --tint --save-field
-compare placed3d "2" synth:vortex3d --nodes 33 --arrows 20 --effort 0
-compare background "2" synth:benard --nodes 65 --clusters 8 --formats svg --background lic
+compare vortex3d "4" synth:vortex3d --nodes 33 --clusters 15 --width 60
+compare placed "2" "$wind" --nodes 65 --arrows 9,5 --effort 0 --formats svg --tint --save-field
+compare placed3d "2" synth:vortex3d --nodes 17 --arrows 6 --effort 0 --width 60
+compare background "2" synth:benard --nodes 65 --clusters 8 --formats svg --background lic --width 100
 compare whole "3" synth:benard --nodes 65 --clusters 8 --formats svg --tint
 compare tiny "4" synth:vortex3 --nodes 17 --clusters 3 --max-steps 60 --formats svg
 
@@ -59,7 +59,7 @@ expect_code 0
 compare image "4" rolls.vti --nodes 65 --clusters 20,10 --formats svg --save-field
 try synth abc -o space.nc --nodes 33
 expect_code 0
-compare space "3" space.nc --nodes 33 --clusters 60
+compare space "3" space.nc --nodes 33 --clusters 30 --width 60
 
 # damage where one rank alone reads
 size=$(stat -c %s rolls.vti)

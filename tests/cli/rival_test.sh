@@ -3,16 +3,16 @@
 source "$(dirname "$0")/harness.sh"
 
 for method in hedgehog grid-curved discrete top-down streamlines voronoi k-means farthest random; do
-  try rival synth:vortex3 -o $method.geojson --method $method --icons 49
+  try rival synth:vortex3 -o $method.geojson --method $method --icons 25 --width 200
   expect_code 0
   [ ! -s err ] || fault "standard error: $(head -c 200 err)"
-  expect_json $method.geojson '(.features | length) as $n | $n >= 48 and $n <= 50'
+  expect_json $method.geojson '(.features | length) as $n | $n >= 24 and $n <= 26'
   expect_json $method.geojson '[.features[].properties | .speed > 0 and .width > 0 and .area > 0 and (.center | length) == 2 and (.kind | length) > 0 and .cluster > 0] | all'
   expect_json $method.geojson '[.features[].geometry.coordinates[][] | . >= 0 and . <= 1] | all'
   xmllint --noout $method.svg 2>fault.txt || fault "$(head -1 fault.txt)"
   expect_file $method.png
   [ "$(ls -A | grep -c "$method")" = 3 ] || fault "$(ls -A)"
-  try rival synth:vortex3 -o again.geojson --method $method --icons 49 --formats pdf
+  try rival synth:vortex3 -o again.geojson --method $method --icons 25 --formats pdf
   expect_code 0
   cmp -s $method.geojson again.geojson || fault "two runs differ"
   expect_file again.pdf
@@ -22,20 +22,20 @@ for method in hedgehog grid-curved discrete top-down streamlines voronoi k-means
 done
 
 for method in voronoi k-means farthest random; do
-  try rival "$root/data/gfs_20140131.nc" -o exact.geojson --method $method --icons 37,11 --formats svg
+  try rival "$root/data/gfs_20140131.nc" -o exact.geojson --method $method --icons 19,7 --formats svg
   expect_code 0
-  expect_json exact-37.geojson '.features | length == 37'
-  expect_json exact-11.geojson '.features | length == 11'
+  expect_json exact-19.geojson '.features | length == 19'
+  expect_json exact-7.geojson '.features | length == 7'
   done_with "rival: exactly so many arrows of $method, round the Earth"
 done
 
 for method in hedgehog grid-curved voronoi k-means random; do
   for length in 0.5 1; do
-    try rival synth:vortex3 -o long-$length.geojson --method $method --icons 49 --length $length --formats svg
+    try rival synth:vortex3 -o long-$length.geojson --method $method --icons 25 --length $length --formats svg
     expect_code 0
   done
-  # a fair share of the unit square is a seventh of its side
-  expect_json long-0.5.geojson '[.features[].geometry.coordinates | [., .[1:]] | transpose[:-1] | map((.[0][0] - .[1][0]) * (.[0][0] - .[1][0]) + (.[0][1] - .[1][1]) * (.[0][1] - .[1][1]) | sqrt) | add] | max * 14 | . > 0.99 and . < 1.01'
+  # a fair share of the unit square is a fifth of its side
+  expect_json long-0.5.geojson '[.features[].geometry.coordinates | [., .[1:]] | transpose[:-1] | map((.[0][0] - .[1][0]) * (.[0][0] - .[1][0]) + (.[0][1] - .[1][1]) * (.[0][1] - .[1][1]) | sqrt) | add] | max * 10 | . > 0.99 and . < 1.01'
   cmp -s long-0.5.geojson long-1.geojson && fault "the length changes nothing"
   done_with "rival: lengths of $method"
 done
@@ -63,12 +63,12 @@ done_with "rival: clusters behind the arrows, and in a file"
 
 for method in hedgehog grid-curved streamlines voronoi k-means farthest random; do
   rm -f $method.*
-  try rival synth:vortex3d -o $method.geojson --method $method --icons 28 --width 72
+  try rival synth:vortex3d -o $method.geojson --method $method --icons 12 --width 72
   expect_code 0
   [ ! -s err ] || fault "standard error: $(head -c 200 err)"
-  expect_json $method.geojson '(.features | length) as $n | $n >= 25 and $n <= 31'
+  expect_json $method.geojson '(.features | length) as $n | $n >= 8 and $n <= 14'
   case $method in voronoi | k-means | farthest | random)
-    expect_json $method.geojson '.features | length == 28' ;;
+    expect_json $method.geojson '.features | length == 12' ;;
   esac
   expect_json $method.geojson '[.features[].geometry.coordinates[] | length == 3 and (map(. >= 0 and . <= 1) | all)] | all'
   expect_json $method.geojson '[.features[].properties | .speed > 0 and .width > 0 and .volume > 0] | all'
@@ -77,7 +77,7 @@ for method in hedgehog grid-curved streamlines voronoi k-means farthest random; 
   expect_nothing_at $method.svg
   if [ $method = hedgehog ]; then
     cp $method.geojson first.geojson
-    try rival synth:vortex3d -o $method.geojson --method $method --icons 28 --width 72 --view 10,70
+    try rival synth:vortex3d -o $method.geojson --method $method --icons 12 --width 72 --view 10,70
     expect_code 0
     cmp -s $method.geojson first.geojson || fault "two runs differ"
   fi

@@ -2,7 +2,8 @@
 # What a run leaves in its folder, and that it is the same however it was made.
 source "$(dirname "$0")/harness.sh"
 
-small=(--nodes 97 --clusters "30,15,8" --quiet)
+small=(--nodes 97 --clusters "30,15,8" --width 200 --quiet)
+one=(--nodes 97 --clusters 30 --formats svg --quiet) # the first of these scales
 
 try run synth:vortex3 -o out1 "${small[@]}" --threads 1 --save-field --formats svg,png,pdf
 expect_code 0
@@ -20,7 +21,7 @@ while read -r line; do
 done <out
 done_with "standard output names a picture a scale"
 
-try run synth:saddle -o small --nodes 65 --clusters 16,8 --quiet
+try run synth:saddle -o small --nodes 65 --clusters 16,8 --quiet --formats svg
 expect_code 0
 expect_json small/run.json '[.scales[].dropped] | add > 0'
 jq -r '.scales[] | "\(.clusters) clusters \(.icons) icons" + ({"0": "", "1": ", 1 cluster too small for one"}[
@@ -89,7 +90,7 @@ for scale in 0 1 2; do
 done
 done_with "one and two threads give identical icons and pictures"
 
-try run synth:vortex3 --formats svg -o out3 "${small[@]}" --seed 2
+try run synth:vortex3 -o out3 "${one[@]}" --seed 2
 expect_code 0
 cmp -s out1/scale-00.geojson out3/scale-00.geojson && fault "the seed changes nothing"
 done_with "another seed gives other icons"
@@ -100,15 +101,16 @@ expect_json out4/run.json '[.scales[].wanted[]] == [30, 29, 28]'
 expect_json out4/run.json '[.scales[] | .clusters <= .wanted[-1]] | all'
 done_with "numbers passed in one step are answered by one scale"
 
-try run synth:vortex3 -o out5 --nodes 97 --no-arrows --quiet
+try run synth:vortex3 -o out5 --nodes 97 --no-arrows --quiet --formats svg
 expect_code 0
 expect_json out5/run.json '.scales[-1].clusters <= 12 and .ended == "scales"'
 expect_json out5/run.json '[.scales[].wanted[]] | .[-1] == 12 and (. == (sort | reverse))'
 expect_json out5/run.json '.scales[0].clusters == .scales[0].wanted[0]'
 done_with "without arrows the default scales halve down to 12 clusters"
 
+if [ -z "$sanitized" ]; then # four hundred arrows
 # the clusters of this mesh are fewer than the arrows of its first scale
-try run synth:vortex3 -o usual --nodes 65 --effort 0 --formats svg --quiet
+try run synth:vortex3 -o usual --nodes 33 --effort 0 --formats svg --quiet
 expect_code 0
 expect_json usual/run.json '[.scales[].icons] == [200, 100, 50, 25, 12] and .ended == "scales"'
 expect_json usual/run.json '[.scales[].wanted[]] == [200, 100, 50, 25, 12] and .scales[0].clusters < 200'
@@ -117,6 +119,7 @@ expect_json usual/run.json '[.scales[].error.mean] | . == sort and .[0] > 0 and 
   fault "$(cat out)"
 [ ! -s err ] || fault "standard error: $(head -c 200 err)"
 done_with "the usual scales have 200 to 12 arrows, and the summary tells"
+fi
 
 steps=$(jq .steps.accepted out5/run.json)
 try run synth:vortex3 --formats svg -o out6 --nodes 97 --max-steps $((steps - 5)) --clusters 2 --quiet
@@ -193,7 +196,7 @@ awk -F, -v "$(jq -r '.mesh.coarser[0] | "step=\(.step)"' out9wind/run.json)" \
 done_with "run.json tells where a coarser mesh raises the energy"
 fi
 
-gamma=(run synth:vortex3 --nodes 65 --gamma 2e-3 --max-steps 40 --clusters 30 --quiet)
+gamma=(run synth:vortex3 --nodes 65 --gamma 2e-3 --max-steps 40 --clusters 30 --quiet --formats svg)
 try "${gamma[@]}" -o out9gamma
 expect_code 0
 expect_json out9gamma/run.json '.parameters.mesh == "uniform"'
@@ -210,11 +213,9 @@ expect_json out1/run.json '.parameters.scheme == "bdf2"'
 [ "$(awk -F, 'NR > 1 && $8 % 9' out9t/evolution.csv)" = "" ] || fault "cycles are not those of three substeps"
 done_with "the theta scheme"
 
-try run synth:vortex3 --formats svg -o out10 "${small[@]}" --extent cluster
+try run synth:vortex3 -o out10 "${one[@]}" --extent cluster
 expect_code 0
-for name in out10/scale-0?.geojson; do
-  cmp -s "$name" "out1/${name#out10/}" || fault "$name differs"
-done
+cmp -s out10/scale-00.geojson out1/scale-00.geojson || fault "scale-00.geojson differs"
 for folder in out1 out10; do
   expect_json $folder/run.json '.parameters.extent == "cluster"'
 done
@@ -225,7 +226,7 @@ expect_nothing_at out10t
 done_with "--extent cluster is the default, and there is no other"
 
 : >file
-TMPDIR=$PWD/file try run synth:vortex3 -o out11 "${small[@]}"
+TMPDIR=$PWD/file try run synth:vortex3 -o out11 "${one[@]}"
 expect_code 0
 [ ! -s err ] || fault "standard error: $(head -c 200 err)"
 done_with "a run on its own needs no folder for temporary files"
@@ -239,7 +240,7 @@ expect_json gfs/scale-00.geojson '.projection == "+proj=longlat" and ([.features
 expect_json gfs/run.json '.mass_drift >= 0 and .mass_drift < 1e-7'
 done_with "a global wind field, periodic in longitude"
 
-try run synth:vortex3 --formats svg -o rest --nodes 129 --clusters 1 --quiet
+try run synth:vortex3 --formats svg -o rest --nodes 65 --clusters 1 --quiet
 expect_code 0
 if [ "$(jq -r .ended rest/run.json)" = stationary ]; then
   expect_error 'no scale of 1 or fewer clusters: the pattern came to rest with'
@@ -250,18 +251,18 @@ done_with "what the pattern does not reach is said"
 
 # a diagonal channel, three samples wide
 awk 'BEGIN {
-  n = 160
+  n = 24
   printf "# vtk DataFile Version 3.0\nchannel\nASCII\nDATASET STRUCTURED_POINTS\n"
   printf "DIMENSIONS %d %d 1\nORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA %d\nVECTORS v float\n", n, n, n * n
   for (j = 0; j < n; ++j)
     for (i = 0; i < n; ++i)
       print (i - j < 2 && j - i < 2) ? "1 1 0" : "nan nan 0"
 }' >channel.vtk
-try run channel.vtk -o narrow --nodes 65 --arrows 10,4 --quiet --tint
+try run channel.vtk -o narrow --nodes 33 --arrows 4,2 --quiet --tint
 expect_code 0
-expect_json narrow/run.json '[.scales[] | .icons, .clusters] == [10, 0, 4, 0] and .ended == "stationary"'
+expect_json narrow/run.json '[.scales[] | .icons, .clusters] == [4, 0, 2, 0] and .ended == "stationary"'
 expect_json narrow/scale-01.geojson '[.features[].geometry.coordinates[] | .[0] - .[1] | fabs <= 2] | all'
-try run channel.vtk -o none --nodes 65 --clusters 10 --quiet
+try run channel.vtk -o none --nodes 33 --clusters 10 --quiet
 expect_code 1
 expect_error 'no clusters after [0-9]+ steps, .*: the pattern no longer changes'
 done_with "a channel too narrow for clusters has arrows all the same"
@@ -284,11 +285,11 @@ done_with "a mesh that begins with fewer clusters than were asked for is named"
   done
   echo "</DataArray></PointData></Piece></ImageData></VTKFile>"
 } >infinite.vti
-try run infinite.vti -o infinite --nodes 33 --clusters 3 --quiet
+try run infinite.vti -o infinite --nodes 33 --clusters 3 --quiet --formats svg
 expect_code 0
 expect_error 'infinite.vti: 2 samples are infinite and count as missing'
 [ "$(wc -l <err)" -le 2 ] || fault "more is said: $(cat err)"
-try texture infinite.vti -o infinite.png
+try texture infinite.vti -o infinite.png --pixels 100
 expect_code 0
 expect_one_complaint
 sed -i 's/^1 0\.44$/1 1e30/' infinite.vti

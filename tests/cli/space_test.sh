@@ -109,7 +109,7 @@ for scale in 0 1; do
 done
 done_with "one and two threads give identical scales"
 
-try run synth:vortex3d -o out3 "${small[@]}" --seed 2
+try run synth:vortex3d -o out3 "${small[@]}" --clusters 10 --seed 2
 expect_code 0
 cmp -s out1/scale-00.vti out3/scale-00.vti && fault "the seed changes nothing"
 done_with "another seed gives another pattern"
@@ -148,7 +148,7 @@ if [ -n "$pictures" ]; then
   done
   done_with "draw takes words for a picture in 3D"
 
-  try run synth:vortex3d -o views --nodes 33 --clusters 6 --quiet --width 40 --view 30,22 --view -75,60 --no-frame
+  try run synth:vortex3d -o views --nodes 17 --clusters 4 --quiet --width 40 --view 30,22 --view -75,60 --no-frame
   expect_code 0
   expect_json views/run.json '.scales[0] | .png == "scale-00.png" and .["png-2"] == "scale-00-2.png"'
   expect_file views/scale-00.png
@@ -157,8 +157,8 @@ if [ -n "$pictures" ]; then
   expect_only_results views
   done_with "each view has a picture"
 
-  try run synth:vortex3d -o bare --nodes 33 --clusters 6 --quiet --width 40 --no-frame
-  try run synth:vortex3d -o skins --nodes 33 --clusters 6 --quiet --width 40 --no-frame --surfaces
+  try run synth:vortex3d -o bare --nodes 17 --clusters 4 --quiet --width 40 --no-frame
+  try run synth:vortex3d -o skins --nodes 17 --clusters 4 --quiet --width 40 --no-frame --surfaces
   expect_code 0
   # shellcheck disable=SC2046
   try draw views -o chosen.png --width 40 --no-frame --view $(jq -r '.view | map(tostring) | join(",")' views/run.json)

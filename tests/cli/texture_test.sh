@@ -9,13 +9,13 @@ png_size() {
 }
 
 for kind in lic spots clusters stripes diffusion; do
-  try texture synth:benard -o $kind.png --kind $kind --pixels 200
+  try texture synth:benard -o $kind.png --kind $kind --pixels 100
   expect_code 0
-  [ "$(png_size $kind.png)" = "200 200" ] || fault "size $(png_size $kind.png)"
-  try texture synth:benard -o again.png --kind $kind --pixels 200 --threads 1 --seed 1
+  [ "$(png_size $kind.png)" = "100 100" ] || fault "size $(png_size $kind.png)"
+  try texture synth:benard -o again.png --kind $kind --pixels 100 --threads 1 --seed 1
   expect_code 0
   cmp -s $kind.png again.png || fault "another picture on one thread"
-  try texture synth:benard -o again.png --kind $kind --pixels 200 --seed 2
+  try texture synth:benard -o again.png --kind $kind --pixels 100 --seed 2
   expect_code 0
   cmp -s $kind.png again.png && fault "the same picture with another seed"
   done_with "texture: $kind"
@@ -25,12 +25,12 @@ done
 try run synth:benard -o timed --nodes 101 --clusters 20 --formats svg --quiet
 expect_code 0
 moment=$(sed -n '/"scales"/,$s/^.*"time":[[:space:]]*\([0-9.e-]*\).*$/\1/p' timed/run.json | head -n 1)
-try texture synth:benard -o counted.png --kind clusters --pixels 200 --nodes 101 --clusters 20
+try texture synth:benard -o counted.png --kind clusters --pixels 100 --nodes 101 --clusters 20
 expect_code 0
-try texture synth:benard -o timed.png --kind clusters --pixels 200 --nodes 101 --max-time "$moment"
+try texture synth:benard -o timed.png --kind clusters --pixels 100 --nodes 101 --max-time "$moment"
 expect_code 0
 cmp -s counted.png timed.png || fault "other clusters at t = $moment"
-try texture synth:benard -o early.png --kind clusters --pixels 200 --nodes 101 --max-time 1e-3
+try texture synth:benard -o early.png --kind clusters --pixels 100 --nodes 101 --max-time 1e-3
 expect_code 0
 cmp -s early.png timed.png && fault "the same clusters at t = 1e-3 and $moment"
 done_with "texture: clusters at a time"
@@ -55,7 +55,7 @@ grep -q 'width="50pt"' page.svg || fault "$(grep -m1 '<svg' page.svg)"
 done_with "texture: PDF and SVG"
 
 for kind in spots clusters; do
-  try run synth:saddle -o "run-$kind" --nodes 65 --clusters 12 --formats svg --background "$kind" --quiet
+  try run synth:saddle -o "run-$kind" --nodes 65 --clusters 12 --width 200 --formats svg --background "$kind" --quiet
   expect_code 0
   [ "$(grep -c '<image' "run-$kind/scale-00.svg")" = 1 ] || fault "no image in the picture"
 done
@@ -64,7 +64,7 @@ done_with "run: a texture behind the icons"
 try draw run-spots -o plain.svg
 expect_code 0
 grep -q '<image' plain.svg && fault "a background that was not asked for"
-try draw run-spots -o stripes.svg --background stripes
+try draw run-spots -o stripes.svg --background stripes --width 200
 expect_code 0
 grep -q '<image' stripes.svg || fault "no image in the picture"
 done_with "draw: a texture behind the icons"

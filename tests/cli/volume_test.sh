@@ -39,13 +39,13 @@ expect_error 'a cut through a field in 2 dimensions'
 done_with "info tells what a cut has"
 
 for end in vti nc; do
-  try run abc.$end -o run-$end --nodes 33 --clusters 20 --quiet
+  try run abc.$end -o run-$end --nodes 17 --clusters 8 --width 60 --quiet
   expect_code 0
-  expect_json run-$end/run.json '.field.size == [17, 17, 17] and .mesh.cells == [32, 32, 32]'
+  expect_json run-$end/run.json '.field.size == [17, 17, 17] and .mesh.cells == [16, 16, 16]'
 done
 done_with "a volume of either format is run"
 
-try run abc.vti -o skins --nodes 33 --clusters 20 --surfaces --width 60 --quiet
+try run abc.vti -o skins --nodes 17 --clusters 8 --surfaces --width 60 --quiet
 expect_code 0
 cmp -s skins/scale-00.geojson run-vti/scale-00.geojson || fault "other icons with surfaces"
 [ "$(wc -c <skins/scale-00.glb)" -gt "$(wc -c <run-vti/scale-00.glb)" ] || fault "no surfaces in the .glb"
@@ -129,7 +129,7 @@ for file in grid lines; do
   try info $file.vtk
   expect_code 0
   sed 1d out >$file.info
-  try run $file.vtk -o run-$file --nodes 17 --clusters 4 --quiet
+  try run $file.vtk -o run-$file --nodes 17 --clusters 4 --width 60 --quiet
   expect_code 0
 done
 cmp -s grid.info lines.info || fault "$(diff grid.info lines.info)"

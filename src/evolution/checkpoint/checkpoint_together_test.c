@@ -139,32 +139,40 @@ static void written_by_any_read_by_any(void **state)
   for (int n = 0; n < SUBJECT_COUNT; ++n) {
     const subject *s = &SUBJECTS[n];
     fg_field *field = field_of(s);
-    fg_evolution *all = begin(s, field, us.ranks),
-                 *alone = begin(s, field, &fg__single_rank);
-    advance(all, BEFORE);
-    fg_step left = advance(alone, BEFORE), step;
+    bool first = us.ranks->rank == 0; /* the one that works alone, too */
+    fg_evolution *all = begin(s, field, us.ranks), *alone = NULL, *by_one = NULL;
+    fg_step left = advance(all, BEFORE), step, expected = {0};
+    expect_alike(&left);
     expect(fg_evolution_save(all, path, "a note") == FG_STATUS_OK);
-    if (us.ranks->rank == 0)
+    if (first) {
+      alone = begin(s, field, &fg__single_rank);
+      step = advance(alone, BEFORE);
+      expect_same(&step, &left);
       expect(fg_evolution_save(alone, other, "a note") == FG_STATUS_OK);
+      expect(!is_there(part));
+      expect_same_files(path, other);
+      expected = advance(alone, AFTER);
+    }
     fg__ranks_agree(us.ranks, us.context, FG_STATUS_OK);
-    expect(!is_there(part));
-    expect_same_files(path, other);
-    fg_step expected = advance(alone, AFTER);
     fg_evolution *by_all = resume(s, field, us.ranks, other, &step);
     expect_same(&step, &left);
     step = advance(by_all, AFTER);
-    expect_same(&step, &expected);
-    fg_evolution *by_one = resume(s, field, &fg__single_rank, path, &step);
-    expect_same(&step, &left);
-    step = advance(by_one, AFTER);
-    expect_same(&step, &expected);
+    expect_alike(&step);
+    if (first) {
+      expect_same(&step, &expected);
+      by_one = resume(s, field, &fg__single_rank, path, &step);
+      expect_same(&step, &left);
+      step = advance(by_one, AFTER);
+      expect_same(&step, &expected);
+    }
     /* and once more, from the resumed ones */
     forget();
     expect(fg_evolution_save(by_all, path, "a note") == FG_STATUS_OK);
-    if (us.ranks->rank == 0)
+    if (first) {
       expect(fg_evolution_save(by_one, other, "a note") == FG_STATUS_OK);
+      expect_same_files(path, other);
+    }
     fg__ranks_agree(us.ranks, us.context, FG_STATUS_OK);
-    expect_same_files(path, other);
     fg_evolution_destroy(all);
     fg_evolution_destroy(alone);
     fg_evolution_destroy(by_all);

@@ -128,7 +128,7 @@ static const example_encoding RAW = {.storage = EXAMPLE_APPENDED_RAW,
 /* A curvilinear grid. */
 enum { NX = 5, NY = 4, NZ = 3, COUNT = NX * NY * NZ };
 
-static const double EDGES[3][NX] = {{-1, 0, 0.5, 2, 4}, {2, 3, 3.5, 5}, {0, 1, 4}};
+static const double EDGES[3][NX] = {{-1, 0, 1.25, 2.75, 4}, {2, 3, 4, 5.5}, {0, 2, 4.5}};
 
 /* Points of a grid, and what U is there; sheared by so much. */
 static inline void grid_points(double place[3 * COUNT], double vector[3 * COUNT],

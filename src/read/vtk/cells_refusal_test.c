@@ -160,7 +160,7 @@ static void damaged_files_do_no_harm(void **state)
     example_text file = file_of(kind);
     unsigned char *damaged = malloc(file.size);
     assert_non_null(damaged);
-    for (int round = 0; round < (kind < 8 ? 400 : 40); ++round) {
+    for (int round = 0; round < (kind < 8 ? 150 : 10); ++round) {
       memcpy(damaged, file.bytes, file.size);
       for (int change = 0; change <= round % 4; ++change) {
         random = random * 6364136223846793005U + 1442695040888963407U;
@@ -179,7 +179,7 @@ static void damaged_files_do_no_harm(void **state)
     free(damaged);
     example_free(&file);
   }
-  assert_true(refused > 300 && read > 300);
+  assert_true(refused > 100 && read > 100);
 }
 
 int main(void)

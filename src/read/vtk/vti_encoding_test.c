@@ -109,7 +109,7 @@ static void every_truncation_is_refused_or_equal(void **state)
 {
   fg_context *context = *state;
   for (int storage = 0; storage < EXAMPLE_STORAGES; ++storage)
-    for (int packing = 0; packing < 3; ++packing) {
+    for (int packing = 0; packing < (storage == EXAMPLE_ASCII ? 1 : 3); ++packing) {
       example_encoding encoding = {.storage = (example_storage)storage,
                                    .zlib = packing == 1,
                                    .lz4 = packing == 2,
@@ -189,7 +189,7 @@ static void no_mutation_does_harm(void **state)
                                    .wide = packing > 0,
                                    .type = EXAMPLE_FLOAT64};
       example_text file = make_file(&encoding);
-      for (int round = 0; round < 500; ++round) {
+      for (int round = 0; round < 150; ++round) {
         unsigned char *bytes = copy(&file, file.size);
         for (int changes = round % 3; changes >= 0; --changes) {
           size_t at = (size_t)(next_random(&random) % file.size);
@@ -215,7 +215,7 @@ static void no_mutation_does_harm(void **state)
       }
       example_free(&file);
     }
-  assert_true(accepted > 300 && refused > 300);
+  assert_true(accepted > 100 && refused > 100);
 }
 
 int main(void)

@@ -99,7 +99,7 @@ static void cells_belong_to_the_nearest_centre(void **state)
 {
   static const double weight[] = {0, 1};
   for (int w = 0; w < 2; w++)
-    for (int count = 1; count < 80; count += 13)
+    for (int count = 1; count < 80; count += 26)
       for (int round = 0; round < 2; round++) {
         bench b;
         set_up(&b, *state, round ? swirl : coast, round, count, weight[w]);
@@ -162,8 +162,8 @@ static void exactly_so_many_arrows(void **state)
   for (int m = 0; m < 2; m++)
     for (int round = 0; round < 2; round++) {
       fg_field *field = field_of(context, coast, round);
-      fg_rival *rival = rival_of(context, field, method[m], 121);
-      for (int count = 1; count < 150; count += 37) {
+      fg_rival *rival = rival_of(context, field, method[m], 81);
+      for (int count = 1; count < 150; count += 74) {
         fg_icons *icons = curved_icons(rival, field, count);
         assert_int_equal(fg_icons_count(icons), count);
         assert_int_equal(fg_icons_dropped(icons), 0);

@@ -110,8 +110,8 @@ static void exactly_so_many_arrows(void **state)
   fg_context *context = *state;
   for (int round = 0; round < 2; round++) {
     fg_field *field = field_of(context, coast, round);
-    fg_rival *rival = rival_of(context, field, FG_RIVAL_FARTHEST, 121);
-    for (int count = 1; count < 100; count += 24) {
+    fg_rival *rival = rival_of(context, field, FG_RIVAL_FARTHEST, 61);
+    for (int count = 1; count < 60; count += 24) {
       fg_icons *icons = curved_icons(rival, field, count);
       assert_int_equal(fg_icons_count(icons), count);
       for (int n = 0; n < count && round; n++) {
@@ -133,8 +133,8 @@ static void a_coarse_raster_is_made_finer(void **state)
   fg_context *context = *state;
   fg_field *field = field_of(context, swirl, false);
   fg_rival *rival = rival_of(context, field, FG_RIVAL_FARTHEST, 17);
-  fg_icons *icons = curved_icons(rival, field, 90);
-  assert_int_equal(fg_icons_count(icons), 90);
+  fg_icons *icons = curved_icons(rival, field, 60);
+  assert_int_equal(fg_icons_count(icons), 60);
   fg_icons_destroy(icons);
   fg_rival_destroy(rival);
   fg_field_destroy(field);
