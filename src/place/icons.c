@@ -20,6 +20,11 @@ static const double FAST_WIDTH = 0.066;
 /* In lengths of its line, at most: short arrows are slim, and their heads stay heads. */
 static const double WIDEST = 0.085;
 
+/* A head turns by this at most, and so does the body behind it over a quarter of its
+ * length. */
+static const double HEAD_TURN_COSINE = 0.5; /* 60 degrees */
+static const double BEHIND_HEAD = 0.25;
+
 /* A line that turns by more than this goes round something: a ring when the streamline
  * comes back to its tail within this share of its diameter, else a spiral. */
 static const double ROUND_TURNING = 4.4;
@@ -63,6 +68,56 @@ static void set_center(fg_icon *icon)
   }
 }
 
+/* The unit direction of the piece before point n, and its length. */
+static double direction_of(double out[3], const double (*points)[3], int n)
+{
+  for (int k = 0; k < 3; ++k)
+    out[k] = points[n][k] - points[n - 1][k];
+  const double length = fg__place_norm(out);
+  for (int k = 0; k < 3; ++k)
+    out[k] *= length > 0.0 ? 1.0 / length : 0.0;
+  return length;
+}
+
+/* Whether no two pieces of a line that ends at point `last` lie apart by more than a head
+ * may turn, over that length before its end. */
+static bool is_calm(const double (*points)[3], int last, double length)
+{
+  double piece[3], other[3], left = length;
+  for (int n = last; n > 0 && left > 0.0; --n) {
+    left -= direction_of(piece, points, n);
+    for (int m = last; m > n; --m) {
+      direction_of(other, points, m);
+      if (fg__place_dot(piece, other) < HEAD_TURN_COSINE)
+        return false;
+    }
+  }
+  return true;
+}
+
+/* The points of a line up to a place where its head is on a calm piece: the last one of
+ * those as near to its end as the piece is long. An even tight arc has none, and keeps
+ * its end. */
+static int count_to_calm(const fg_icon *icon)
+{
+  const double reach = (1.0 + BEHIND_HEAD) * icon->head_length;
+  double ignored[3], left = reach;
+  for (int last = icon->point_count - 1; last > 0 && left >= 0.0; --last) {
+    if (is_calm(icon->points, last, reach))
+      return last + 1;
+    left -= direction_of(ignored, icon->points, last);
+  }
+  return icon->point_count;
+}
+
+static void set_width(fg_icon *icon, const fg__place_search *search)
+{
+  if (search->scale.dimension == 3)
+    fg__solid_set_slender(icon, search->scale.lambda);
+  else
+    fg__icon_set_width(icon, 2, width_of(search, icon->speed, fg__icon_length(icon)));
+}
+
 static fg_status add_icon(fg_icons *icons, fg_context *context,
                           const fg__place_search *search, int index,
                           const fg__place_share *read)
@@ -86,10 +141,9 @@ static fg_status add_icon(fg_icons *icons, fg_context *context,
   if (!(read->measure > 0.0))
     icon.speed = fg__place_speed(search->domain, placed->seed.position);
   icon.kind = kind_of(search, &icon);
-  if (search->scale.dimension == 3)
-    fg__solid_set_slender(&icon, search->scale.lambda);
-  else
-    fg__icon_set_width(&icon, 2, width_of(search, icon.speed, fg__icon_length(&icon)));
+  set_width(&icon, search);
+  icon.point_count = count_to_calm(&icon);
+  set_width(&icon, search);
   set_center(&icon);
   for (int k = 0; k < 3; ++k)
     icon.seed[k] = placed->seed.position[k];

@@ -298,27 +298,6 @@ static void place_of(double out[3], const fg__place_domain *domain,
     out[k] = domain->low[k] + (double)line->position[k][n] * scale->lambda;
 }
 
-/* Whether the last piece of a line, that long, turns too far from its end anywhere. */
-static bool breaks_within(const side *line, double range)
-{
-  int last = line->count - 1;
-  for (int n = last; n >= 0 && line->at[last] - line->at[n] < range; --n)
-    if (fg__place_dot(line->sample[n].direction, line->sample[last].direction) <
-        BREAK_COSINE)
-      return true;
-  return false;
-}
-
-/* Takes the end off that a head would have to bend round between the samples of the
- * search. */
-static void end_before_break(side *line, double range)
-{
-  double least = line->at[line->count - 1] - 2.0 * range;
-  while (line->count > 1 && line->at[line->count - 1] > least &&
-         breaks_within(line, range))
-    --line->count;
-}
-
 /* Both sides of a line in small steps; false where they do not end as the line does. */
 static bool trace_finely(side both[2], const fg__place_domain *domain,
                          const fg__place_scale *scale, const fg__place_line *line)
@@ -338,7 +317,6 @@ static bool trace_finely(side both[2], const fg__place_domain *domain,
     if (fg__place_norm(end) > MOST_APART * scale->lambda)
       return false;
   }
-  end_before_break(&both[1], BREAK_RANGE * scale->lambda);
   return true;
 }
 
