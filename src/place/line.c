@@ -31,8 +31,8 @@ static const double MOST_APART = 0.05;
 /* Of a line for a picture so few points are kept that straight pieces between them leave
  * it by this at most, in lambda, and its direction by this. A piece replaces so many at
  * most. */
-static const double STRAIGHT = 5e-4;
-static const double STRAIGHT_COSINE = 0.99996192306417129; /* half a degree */
+static const double STRAIGHT = 1e-4;
+static const double STRAIGHT_COSINE = 0.99999390765779; /* a fifth of a degree */
 enum { MOST_STRAIGHT = 32 };
 
 /* A sample that can not be reached is tried at halves of the way, this often. */
