@@ -15,9 +15,9 @@ import { colorOf } from "./colors.js";
  */
 
 export const LIGHT = { page: "#ffffff", sea: "#ffffff", land: "#ebebea", shore: "#8f8f8f", degrees: "#d3d3d3",
-  frame: "#777777", tint: [70, 110, 160], tintShare: 0.2, hedgehog: "#6b7280", missing: "#eef0f3", ring: "#d0021b", text: "#1b1f24" };
+  frame: "#777777", tint: [70, 110, 160], tintShare: 0.2, flow: "#33506e", hedgehog: "#6b7280", missing: "#eef0f3", ring: "#d0021b", text: "#1b1f24" };
 export const DARK = { page: "#14171c", sea: "#14171c", land: "#24282e", shore: "#7d858f", degrees: "#363c45",
-  frame: "#8b929c", tint: [120, 160, 215], tintShare: 0.22, hedgehog: "#8b929c", missing: "#20242b", ring: "#ffb454", text: "#e8eaed" };
+  frame: "#8b929c", tint: [120, 160, 215], tintShare: 0.22, flow: "#a9c3de", hedgehog: "#8b929c", missing: "#20242b", ring: "#ffb454", text: "#e8eaed" };
 
 /** Arrows, slow ones first, so that fast ones lie above. */
 export function arrowLayers(arrows, look) {
@@ -128,14 +128,18 @@ function path2d(layer) {
   return path;
 }
 
-/** @param {CanvasRenderingContext2D} context @param {(Layer | undefined)[]} layers */
-export function drawOnCanvas(context, layers, view, ratio, colors, border) {
+/**
+ * Draws layers within the border of the field, on a page of that colour or on nothing.
+ * @param {CanvasRenderingContext2D} context @param {(Layer | undefined)[]} layers @param {string} [page]
+ */
+export function drawOnCanvas(context, layers, view, ratio, border, page) {
   const { scale } = view;
   const [w, h] = view.size;
   context.setTransform(1, 0, 0, 1, 0, 0);
   context.globalAlpha = 1;
-  context.fillStyle = colors.page;
-  context.fillRect(0, 0, w * ratio, h * ratio);
+  context.clearRect(0, 0, w * ratio, h * ratio);
+  context.fillStyle = page ?? "";
+  if (page) context.fillRect(0, 0, w * ratio, h * ratio);
   const world = () => context.setTransform(ratio * scale, 0, 0, -ratio * scale,
     ratio * (w / 2 - view.center[0] * scale), ratio * (h / 2 + view.center[1] * scale));
   context.save();
@@ -166,11 +170,11 @@ export function drawOnCanvas(context, layers, view, ratio, colors, border) {
     }
   }
   context.restore();
-  world();
-  context.globalAlpha = 1;
-  context.strokeStyle = colors.frame;
-  context.lineWidth = 1.5 / scale;
-  context.stroke(path2d(border));
+}
+
+/** The line round the field. */
+export function frameLayer(border, colors) {
+  return { ...border, stroke: colors.frame, width: 3 }; // half of it is outside, and clipped
 }
 
 const escape = (text) => String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);

@@ -1,14 +1,15 @@
 // The page of a run.
 import { readAddress, writeAddress } from "./address.js";
 import { onDark } from "./colors.js";
-import { arrowLayers, DARK, drawAsSvg, drawOnCanvas, hedgehog, LIGHT, mapLayers, missingLayer, tintLayer } from "./draw.js";
+import { arrowLayers, DARK, drawAsSvg, drawOnCanvas, frameLayer, hedgehog, LIGHT, mapLayers, missingLayer, tintLayer } from "./draw.js";
 import { readField, velocityAt } from "./field.js";
 import { legendMarks } from "./legend.js";
 import { Maker, numbersOf } from "./maker.js";
 import { morph } from "./outline.js";
-import { locator } from "./place.js";
+import { Particles } from "./particles.js";
+import { Streaks } from "./streaks.js";
 import { control, View } from "./view.js";
-import { bearing, degrees, shortNumber, unitsOf } from "./words.js";
+import { shortNumber, tellerOf } from "./words.js";
 
 const byId = (id) => /** @type {any} */ (document.getElementById(id));
 const run = JSON.parse(byId("run").textContent);
@@ -17,8 +18,12 @@ const numbers = numbersOf(run.most, run.fewest);
 const view = new View(field.box);
 const canvas = byId("picture");
 const context = canvas.getContext("2d");
+const ground = byId("ground");
+const under = ground.getContext("2d");
+const particles = new Particles(byId("moving"), field, view, run.speeds[1]);
+const streaks = new Streaks();
 const slider = byId("scale");
-const placeOf = locator(field.places, run.axes === "degrees");
+const { speedWords, directionWords, placeWords } = tellerOf(run, field);
 const palettes = { light: run.palette, dark: onDark(run.palette) };
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 const systemDark = matchMedia("(prefers-color-scheme: dark)");
@@ -28,7 +33,7 @@ const state = {
   exactly: 0, // arrows, where a number was chosen that no scale has; else 0
   seed: run.seed,
   theme: "",
-  show: { arrows: true, tint: false, hedgehog: false, coast: true, degrees: true },
+  show: { arrows: true, tint: false, particles: false, texture: false, hedgehog: false, coast: true, degrees: true },
   playing: false,
 };
 
@@ -62,11 +67,16 @@ function shown() {
 
 let last; // what was shown last: stays until there is something new
 
-function layersNow() {
+// What is to be shown from here on.
+function advance() {
   const now = shown();
   if (now && last && now.key !== last.key && !calm.matches) fading = { arrows: drawn, since: performance.now() };
   if (now) last = now;
   drawn = last?.arrows ?? [];
+}
+
+/** What lies under the particles. */
+function groundLayers() {
   const c = colors();
   const { under, over } = mapLayers(field.map, c, state.show);
   const layers = [missingLayer(field, c), ...under];
@@ -74,16 +84,20 @@ function layersNow() {
     layers.push(tintLayer(last.finer.density, c, 1 - last.share));
     if (last.share > 0 && last.coarser?.density) layers.push(tintLayer(last.coarser.density, c, last.share));
   }
+  if (state.show.texture && streaks.ready) layers.push(streaks.layer(field, view, devicePixelRatio || 1, c.flow));
   layers.push(...over);
   if (state.show.hedgehog) layers.push(hedgehog(field, view, run.speeds[1], c.hedgehog));
-  if (state.show.arrows) {
-    const share = fading ? Math.min(1, (performance.now() - fading.since) / 250) : 1;
-    const faded = (arrows, part) => arrowLayers(arrows, look()).map((l) => ({ ...l, opacity: l.opacity * part }));
-    if (share < 1) layers.push(...faded(fading.arrows, 1 - share));
-    else fading = undefined;
-    layers.push(...faded(drawn, share));
-  }
   return layers;
+}
+
+/** What lies above them. */
+function arrowsNow() {
+  if (!state.show.arrows) return [];
+  const share = fading ? Math.min(1, (performance.now() - fading.since) / 250) : 1;
+  const faded = (arrows, part) => arrowLayers(arrows, look()).map((l) => ({ ...l, opacity: l.opacity * part }));
+  if (share < 1) return [...faded(fading.arrows, 1 - share), ...faded(drawn, share)];
+  fading = undefined;
+  return faded(drawn, share);
 }
 
 function ring(arrow) {
@@ -92,14 +106,25 @@ function ring(arrow) {
 
 function draw() {
   wanted = 0;
-  const layers = layersNow();
+  advance();
+  const layers = [frameLayer(field.border, colors()), ...arrowsNow()];
   if (hovered?.arrow && state.show.arrows && drawn.includes(hovered.arrow)) layers.push(ring(hovered.arrow));
   const ratio = devicePixelRatio || 1;
-  drawOnCanvas(context, layers, view, ratio, colors(), field.border);
+  drawOnCanvas(context, layers, view, ratio, field.border);
+  drawGround(ratio);
   canvas.dataset.arrows = String(drawn.length);
   canvas.dataset.made = shown() ? "yes" : "no";
   canvas.dataset.scales = String(setNow()?.scales.length ?? 0);
   if (fading) redraw();
+}
+
+// Again only where it is another.
+function drawGround(ratio) {
+  const key = [...view.size, ...view.center, view.zoom, ratio, isDark(), JSON.stringify(state.show),
+    state.show.tint && [last?.finer.count, last?.key, last?.share]].join();
+  if (ground.dataset.key === key) return;
+  ground.dataset.key = key;
+  drawOnCanvas(under, groundLayers(), view, ratio, field.border, colors().page);
 }
 
 function redraw() {
@@ -222,34 +247,10 @@ function nearestArrow([px, py]) {
   return best;
 }
 
-function speedWords(speed) {
-  const units = unitsOf(run.units);
-  return shortNumber(speed) + (units ? ` ${units}` : "");
-}
-
-/** From north on a map, else from the x axis. */
-function directionWords(x, y, [u, v]) {
-  const from = placeOf(x, y);
-  if (!from) return `${Math.round((Math.atan2(v, u) * 180) / Math.PI)}° from x`;
-  if (run.axes === "degrees") return `to ${bearing((Math.atan2(u, v) * 180) / Math.PI)}`;
-  const step = (1e-3 * (field.box[2] - field.box[0])) / Math.hypot(u, v);
-  const to = placeOf(x + step * u, y + step * v);
-  if (!to) return "";
-  const east = ((((to[0] - from[0] + 540) % 360) - 180) * Math.cos((from[1] * Math.PI) / 180));
-  return `to ${bearing((Math.atan2(east, to[1] - from[1]) * 180) / Math.PI)}`;
-}
-
 /** Of what all arrows stand for: of the field, or of its part in view. */
 function areaWords(area) {
   const all = drawn.reduce((sum, arrow) => sum + arrow.area, 0);
   return `for ${shortNumber((100 * area) / all, 2)} % of the ${view.part ? "view" : "field"}`;
-}
-
-function placeWords(x, y) {
-  const place = placeOf(x, y);
-  if (place) return degrees(...place);
-  const units = (text) => (text ? ` ${unitsOf(text)}` : "");
-  return `${run.xName} ${shortNumber(x, 4)}${units(run.xUnits)}, ${run.yName} ${shortNumber(y, 4)}${units(run.yUnits)}`;
 }
 
 function read(at, arrow) {
@@ -311,14 +312,14 @@ function save(name, blob) {
 }
 
 function svg() {
-  layersNow();
+  advance();
   fading = undefined; // what goes is no part of it
   const [w, h] = view.size;
   const text = (y, size, words, weight = "normal") => `<text x="12" y="${y}" font-size="${size}" font-weight="${weight}" ` +
     `font-family="DejaVu Sans, sans-serif" fill="${colors().text}">${words.replace(/[&<>]/g, (c) => `&#${c.charCodeAt(0)};`)}</text>`;
   const extra = text(h + 26, 15, run.title, "bold") + text(h + 46, 12, `${drawn.length} arrows. ${run.subtitle}`) +
     `<g transform="translate(${w - 252} ${h + 2})">${legendMarks(run, look().palette, colors().text)}</g>`;
-  return drawAsSvg(layersNow(), view, colors(), field.border, run.title, extra, 76);
+  return drawAsSvg([...groundLayers(), ...arrowsNow()], view, colors(), field.border, run.title, extra, 76);
 }
 
 function saveSvg() {
@@ -346,11 +347,23 @@ function setTheme() {
   redraw();
 }
 
+/** Lets particles move, where they are wanted and may. */
+function move() {
+  const moves = state.show.particles && !calm.matches;
+  if (!moves) particles.stop();
+  const able = (!moves || particles.start(() => colors().flow)) && (!state.show.texture || streaks.ready);
+  const note = byId("layers-note");
+  note.textContent = !able ? "Particles and texture need WebGL2, which this browser does not offer."
+    : state.show.particles && !moves ? "Particles rest, for the system asks for less motion." : "";
+  note.hidden = !note.textContent;
+}
+
 function resize() {
   const { clientWidth: w, clientHeight: h } = byId("stage");
   const ratio = devicePixelRatio || 1;
   view.size = [Math.max(1, w), Math.max(1, h)];
-  [canvas.width, canvas.height] = [Math.round(w * ratio), Math.round(h * ratio)];
+  for (const layer of [ground, byId("moving"), canvas]) [layer.width, layer.height] = [Math.round(w * ratio), Math.round(h * ratio)];
+  ground.dataset.key = ""; // it is empty now
   view.settle();
   draw();
   want();
@@ -370,6 +383,8 @@ function restore() {
   }
   state.theme = ["light", "dark"].includes(address.page) ? address.page : "";
   byId("seed").value = String(state.seed);
+  for (const box of document.querySelectorAll("[data-layer]"))
+    /** @type {HTMLInputElement} */ (box).checked = state.show[/** @type {HTMLInputElement} */ (box).dataset.layer ?? ""];
 }
 
 function connect() {
@@ -401,13 +416,15 @@ function connect() {
   for (const box of document.querySelectorAll("[data-layer]")) {
     const input = /** @type {HTMLInputElement} */ (box);
     const name = String(input.dataset.layer);
-    input.checked = state.show[name];
     input.addEventListener("change", () => {
       state.show[name] = input.checked;
+      move();
       update();
     });
     if (!field.map && input.closest(".of-map")) input.closest("label")?.remove();
   }
+  calm.addEventListener("change", move);
+  move();
   const zoom = (factor) => () => {
     view.zoomAt(view.size[0] / 2, view.size[1] / 2, factor);
     want();
@@ -438,6 +455,7 @@ function connect() {
   new ResizeObserver(resize).observe(byId("stage"));
   addEventListener("hashchange", () => {
     restore();
+    move();
     setTheme();
     want();
   });

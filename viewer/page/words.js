@@ -1,4 +1,5 @@
 // Numbers, units and directions in words.
+import { locator } from "./place.js";
 
 const raised = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
@@ -26,4 +27,35 @@ export function bearing(degrees) {
 export function degrees(longitude, latitude) {
   const half = (x, plus, minus) => `${Math.abs(x).toFixed(2)}° ${x < 0 ? minus : plus}`;
   return `${half(latitude, "N", "S")}, ${half(longitude, "E", "W")}`;
+}
+
+/** Words for the speeds, directions and places of a run's field. */
+export function tellerOf(run, field) {
+  const placeOf = locator(field.places, run.axes === "degrees");
+
+  function speedWords(speed) {
+    const units = unitsOf(run.units);
+    return shortNumber(speed) + (units ? ` ${units}` : "");
+  }
+
+  /** From north on a map, else from the x axis. */
+  function directionWords(x, y, [u, v]) {
+    const from = placeOf(x, y);
+    if (!from) return `${Math.round((Math.atan2(v, u) * 180) / Math.PI)}° from x`;
+    if (run.axes === "degrees") return `to ${bearing((Math.atan2(u, v) * 180) / Math.PI)}`;
+    const step = (1e-3 * (field.box[2] - field.box[0])) / Math.hypot(u, v);
+    const to = placeOf(x + step * u, y + step * v);
+    if (!to) return "";
+    const east = ((((to[0] - from[0] + 540) % 360) - 180) * Math.cos((from[1] * Math.PI) / 180));
+    return `to ${bearing((Math.atan2(east, to[1] - from[1]) * 180) / Math.PI)}`;
+  }
+
+  function placeWords(x, y) {
+    const place = placeOf(x, y);
+    if (place) return degrees(...place);
+    const units = (text) => (text ? ` ${unitsOf(text)}` : "");
+    return `${run.xName} ${shortNumber(x, 4)}${units(run.xUnits)}, ${run.yName} ${shortNumber(y, 4)}${units(run.yUnits)}`;
+  }
+
+  return { speedWords, directionWords, placeWords };
 }

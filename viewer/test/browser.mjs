@@ -18,7 +18,7 @@ export async function hasBrowser() {
 
 export async function startBrowser() {
   const { chromium: player } = await import("playwright-core");
-  return player.launch({ executablePath: chromium, args: ["--no-sandbox"] });
+  return player.launch({ executablePath: chromium, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
 }
 
 /** Serves the package's modules, and an empty page; or another folder. */
