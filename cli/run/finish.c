@@ -65,13 +65,20 @@ int finish_drawing(cli_run *run)
   return drawing_count(run->drawing) ? EXIT_DONE : complain_of_no_scale(run);
 }
 
-/* The page for browsers, of placed arrows in 2D. */
+/* Whether there is a page for browsers: of fields in 2D, of the energy that it knows. */
+static bool wants_page(const cli_run *run)
+{
+  const run_settings *settings = run->settings;
+  const char *energy = settings->evolution.energy;
+  return fg_has_feature(FG_FEATURE_VIEWER) && !settings->no_page &&
+         !scales_are_solid(drawing_field(run->drawing)) &&
+         (!energy || strcmp(energy, "flow") == 0);
+}
+
 static int write_page(cli_run *run)
 {
   const run_settings *settings = run->settings;
-  const fg_field *field = drawing_field(run->drawing);
-  if (!fg_has_feature(FG_FEATURE_VIEWER) || !settings_place(settings) ||
-      settings->no_page || scales_are_solid(field))
+  if (!wants_page(run))
     return EXIT_DONE;
   const int *wanted;
   int next, count = fg_run_wanted(&wanted, &next, run->scales);
@@ -80,11 +87,15 @@ static int write_page(cli_run *run)
   if (!path)
     return EXIT_FAILED;
   fg_status status = fg_view_write(
-      run->context, path, field,
+      run->context, path, drawing_field(run->drawing),
       &(fg_view_options){.most = within(wanted[0], LEAST_MOST, MOST_MOST),
                          .fewest = within(wanted[count - 1], 1, MOST_FEWEST),
                          .seed = settings->work.seed,
+                         .kind =
+                             settings_place(settings) ? FG_RUN_ARROWS : FG_RUN_CLUSTERS,
                          .lengths = (fg_lengths)settings->lengths,
+                         .anisotropy = settings->evolution.anisotropy,
+                         .coverage = settings->evolution.coverage,
                          .palette = settings->picture.palette,
                          .speed_min = look->speeds[0],
                          .speed_max = look->speeds[1],

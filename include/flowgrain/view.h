@@ -3,7 +3,7 @@
 #ifndef FLOWGRAIN_VIEW_H
 #define FLOWGRAIN_VIEW_H
 
-#include "flowgrain/placement.h"
+#include "flowgrain/run.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -11,13 +11,16 @@ extern "C" {
 
 /* A zero field means its default, in brackets. */
 typedef struct fg_view_options {
-  int most, fewest;    /* arrows of the finest and the coarsest scale [200, 12] */
-  uint64_t seed;       /* of the clusters that arrows start from [1] */
-  fg_lengths lengths;  /* [free] */
-  const char *palette; /* as in fg_picture_options [gale] */
-  double speed_min;    /* ends of the colour key; both 0: [found from the field] */
-  double speed_max;    /* */
-  const char *title;   /* NULL: what the field says of itself */
+  int most, fewest;   /* arrows, or clusters, of the finest and the coarsest scale
+                         [200, 12] */
+  uint64_t seed;      /* of the clusters that arrows start from [1] */
+  fg_run_kind kind;   /* what the page begins with [arrows] */
+  fg_lengths lengths; /* of placed arrows [free] */
+  double anisotropy, coverage; /* as in fg_evolution_options */
+  const char *palette;         /* as in fg_picture_options [gale] */
+  double speed_min;  /* ends of the colour key; both 0: [found from the field] */
+  double speed_max;  /* */
+  const char *title; /* NULL: what the field says of itself */
 } fg_view_options;
 
 /* Writes a page of HTML that holds a field in 2D, the library for WebAssembly and all

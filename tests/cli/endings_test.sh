@@ -4,7 +4,7 @@
 source "$(dirname "$0")/harness.sh"
 
 run=(run synth:vortex3 --nodes 129 --width 200 --quiet)
-scales=(--clusters 25,12)
+scales=(--clusters 25,12 --no-page)
 try "${run[@]}" "${scales[@]}" -o whole
 expect_code 0
 

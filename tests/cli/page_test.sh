@@ -29,6 +29,16 @@ jq -e --slurpfile run one/run.json '.speeds[1] - $run[0].speed_range[1] | fabs <
 ! grep -qE '(src|href)="(https?:)?//' one/index.html || fault "the page loads something"
 done_with "a run of arrows has a page that holds the field"
 
+try run synth:saddle -o clusters --clusters 20,9 --anisotropy 0.3 --formats svg --quiet
+expect_code 0
+expect_json clusters/run.json '.page == "index.html"'
+field clusters/index.html >page.json
+expect_json page.json '.kind == "clusters" and .anisotropy == 0.3 and .coverage == 0.3'
+try run synth:saddle -o energy --clusters 9 --energy isotropic --formats svg --quiet
+expect_code 0
+[ ! -e energy/index.html ] || fault "a page of another energy"
+done_with "so has one of clusters, of the energy that the page knows"
+
 cp one/index.html before
 try run synth:saddle -o one "${small[@]}" --seed 3 --force --threads 1
 expect_code 0

@@ -5,7 +5,7 @@ source "$(dirname "$0")/harness.sh"
 small=(--nodes 97 --clusters "30,15,8" --width 200 --quiet)
 one=(--nodes 97 --clusters 30 --formats svg --quiet) # the first of these scales
 
-try run synth:vortex3 -o out1 "${small[@]}" --threads 1 --save-field --formats svg,png,pdf
+try run synth:vortex3 -o out1 "${small[@]}" --threads 1 --save-field --formats svg,png,pdf --no-page
 expect_code 0
 [ ! -s err ] || fault "standard error: $(head -c 200 err)"
 done_with "a run succeeds without a message"

@@ -31,7 +31,7 @@ const systemDark = matchMedia("(prefers-color-scheme: dark)");
 const state = {
   at: 0, // on the slider: index of a scale, with a part between two
   exactly: 0, // arrows, where a number was chosen that no scale has; else 0
-  seed: run.seed,
+  choice: { kind: run.kind, seed: run.seed, anisotropy: run.anisotropy, coverage: run.coverage },
   theme: "",
   show: { arrows: true, tint: false, particles: false, texture: false, hedgehog: false, coast: true, degrees: true },
   playing: false,
@@ -48,8 +48,8 @@ const colors = () => (isDark() ? DARK : LIGHT);
 const isDark = () => state.theme === "dark" || (!state.theme && systemDark.matches);
 const look = () => ({ palette: palettes[isDark() ? "dark" : "light"], speeds: run.speeds });
 const numberNow = () => state.exactly || numbers[Math.round(state.at)];
-const keyNow = () => JSON.stringify([view.part ?? null, state.seed, numberNow()]);
-const setNow = () => maker?.set(view.part, state.seed);
+const keyNow = () => JSON.stringify([view.part ?? null, state.choice, numberNow()]);
+const setNow = () => maker?.set(view.part, state.choice);
 
 // ---- what is shown
 
@@ -134,8 +134,9 @@ function redraw() {
 function say() {
   const set = setNow();
   const n = numberNow();
-  byId("count").textContent = String(n);
-  slider.setAttribute("aria-valuetext", `${n} arrows`);
+  const there = state.choice.kind === "clusters" && shown() ? drawn.length : n; // clusters are as many as there are
+  byId("count").textContent = String(there);
+  slider.setAttribute("aria-valuetext", `${there} arrows`);
   if (document.activeElement !== byId("number")) byId("number").value = String(n);
   const failed = (single?.key === keyNow() && single.error) || set?.error;
   byId("status").textContent = failed ? failed.message.split("\n")[0]
@@ -150,7 +151,7 @@ function keep() {
     n: numberNow(),
     at: view.zoom > 1 ? view.center.map(round).join(",") : undefined,
     zoom: view.zoom > 1 ? round(view.zoom) : undefined,
-    seed: state.seed === run.seed ? undefined : state.seed,
+    ...Object.fromEntries(Object.entries(state.choice).filter(([name, value]) => value !== run[name])),
     show: Object.keys(state.show).filter((name) => state.show[name]).join(","),
     page: state.theme || undefined,
   });
@@ -183,7 +184,7 @@ async function make() {
   if (single?.key === key) return;
   single = { key };
   try {
-    const scale = await maker.ask(view.part, state.seed, numberNow());
+    const scale = await maker.ask(view.part, { ...state.choice }, numberNow());
     if (scale && key === keyNow()) single = { key, scale };
   } catch (error) {
     if (key === keyNow()) single = { key, error };
@@ -373,7 +374,12 @@ function restore() {
   const address = readAddress();
   const number = (text, low, high) => (Number(text) >= low && Number(text) <= high ? Number(text) : undefined);
   choose(Math.round(number(address.n, 1, 400) ?? numbers[0]));
-  state.seed = Math.round(number(address.seed, 1, 999999999) ?? run.seed);
+  state.choice = {
+    kind: ["arrows", "clusters"].includes(address.kind) ? address.kind : run.kind,
+    seed: Math.round(number(address.seed, 1, 999999999) ?? run.seed),
+    anisotropy: number(address.anisotropy, 0.01, 1) ?? run.anisotropy,
+    coverage: number(address.coverage, 0.01, 0.9) ?? run.coverage,
+  };
   view.zoom = number(address.zoom, 1, 400) ?? 1;
   const at = address.at?.split(",").map(Number);
   if (at?.length === 2 && at.every(Number.isFinite)) view.center = at;
@@ -382,7 +388,7 @@ function restore() {
     for (const name of Object.keys(state.show)) state.show[name] = names.includes(name);
   }
   state.theme = ["light", "dark"].includes(address.page) ? address.page : "";
-  byId("seed").value = String(state.seed);
+  for (const name of Object.keys(state.choice)) byId(name).value = String(state.choice[name]);
   for (const box of document.querySelectorAll("[data-layer]"))
     /** @type {HTMLInputElement} */ (box).checked = state.show[/** @type {HTMLInputElement} */ (box).dataset.layer ?? ""];
 }
@@ -407,12 +413,18 @@ function connect() {
     choose(n);
     want();
   });
-  byId("seed").addEventListener("change", () => {
-    const seed = Math.round(Number(byId("seed").value));
-    if (seed >= 1 && seed <= 999999999) state.seed = seed;
-    byId("seed").value = String(state.seed);
+  byId("kind").addEventListener("change", () => {
+    state.choice.kind = byId("kind").value;
     want();
   });
+  for (const name of ["seed", "anisotropy", "coverage"]) {
+    const input = byId(name);
+    input.addEventListener("change", () => {
+      if (input.value && input.validity.valid) state.choice[name] = Number(input.value);
+      input.value = String(state.choice[name]);
+      want();
+    });
+  }
   for (const box of document.querySelectorAll("[data-layer]")) {
     const input = /** @type {HTMLInputElement} */ (box);
     const name = String(input.dataset.layer);

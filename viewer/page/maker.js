@@ -18,6 +18,19 @@ export function numbersOf(most, fewest, count = 28) {
   return [...out, fewest];
 }
 
+let named = 0;
+
+// Arrows of clusters get ids of their own; each goes into that of the cluster where it lay.
+function follow(before, scale) {
+  for (const arrow of scale.arrows) arrow.id = ++named;
+  const { nodes, origin, spacing, labels } = scale.density;
+  const of = new Map(scale.arrows.map((arrow) => [arrow.cluster, arrow.id]));
+  for (const arrow of before?.arrows ?? []) {
+    const [i, j] = [0, 1].map((k) => Math.min(Math.max(Math.round((arrow.center[k] - origin[k]) / spacing[k]), 0), nodes[k] - 1));
+    arrow.parent = of.get(labels[j * nodes[0] + i]) ?? 0;
+  }
+}
+
 const KEPT = 4; // sets of scales that are remembered
 
 export class Maker {
@@ -32,16 +45,19 @@ export class Maker {
     this.turn = 0;
   }
 
-  input(box, seed) {
-    return { ...part(this.field, box), seed, lengths: this.lengths, effort: "quick" };
+  input(box, choice) {
+    return { ...part(this.field, box), ...choice, lengths: this.lengths, effort: "quick" };
   }
 
-  /** The scales of a box (undefined: all) as far as they are made: {scales, done, error}. */
-  set(box, seed) {
-    const key = JSON.stringify([box ?? null, seed]);
+  /**
+   * The scales of a box (undefined: all) as far as they are made: {scales, done, error}.
+   * @param {{kind: string, seed: number, anisotropy: number, coverage: number}} choice
+   */
+  set(box, choice) {
+    const key = JSON.stringify([box ?? null, choice]);
     let set = this.sets.get(key);
     if (!set) {
-      set = { box, seed, scales: [], begun: false, done: false, error: undefined };
+      set = { box, choice: { ...choice }, scales: [], begun: false, done: false, error: undefined };
       this.sets.set(key, set);
       for (const [old, { box: some }] of this.sets)
         if (this.sets.size > KEPT && some && old !== key) this.sets.delete(old);
@@ -55,7 +71,8 @@ export class Maker {
     if (set.begun) return;
     set.begun = true;
     try {
-      for await (const scale of this.runner.evolve({ ...this.input(set.box, set.seed), numbers: this.numbers })) {
+      for await (const scale of this.runner.evolve({ ...this.input(set.box, set.choice), numbers: this.numbers })) {
+        if (set.choice.kind === "clusters") follow(set.scales.at(-1), scale);
         set.scales.push(scale);
         this.told(set);
         if (this.running !== set && set.box) break;
@@ -69,11 +86,11 @@ export class Maker {
   }
 
   /** Exactly n arrows of a box at once; undefined where something newer was asked since. */
-  async ask(box, seed, n) {
+  async ask(box, choice, n) {
     const turn = ++this.turn;
     await this.last?.catch(() => {});
     if (turn !== this.turn) return undefined;
-    this.last = this.asked.arrows({ ...this.input(box, seed), n });
+    this.last = this.asked.arrows({ ...this.input(box, choice), n });
     const scale = await this.last;
     return turn === this.turn ? scale : undefined;
   }

@@ -23,6 +23,7 @@ before(async () => {
   folder = mkdtempSync(join(tmpdir(), "flowgrain-"));
   const run = (out, ...given) => execFileSync(program, ["run", ...given, "-o", join(folder, out), "--quiet", "--formats", "svg"]);
   run("vortex", "synth:vortex3", "--arrows", "30,8", "--nodes", "65");
+  run("clusters", "synth:vortex3", "--clusters", "40,8", "--nodes", "65");
   run("map", winds, "--arrows", "12", "--nodes", "65", "--region", "-25,25,35,65");
   browser = await startBrowser();
 });
@@ -120,6 +121,35 @@ test("the address keeps the view; another seed gives other arrows", { skip }, as
   await page.press("#seed", "Enter");
   await made(page);
   assert.notDeepEqual((await savedArrows(page)).shapes, one);
+  await close();
+});
+
+test("a run of clusters shows one arrow in each, and evolves anew by other options", { skip }, async () => {
+  const { page, faults, close } = await open("clusters", "#show=arrows,tint");
+  assert.equal(await page.inputValue("#kind"), "clusters");
+  const first = (await savedArrows(page)).shapes;
+  assert.ok(first.length > 8 && first.length <= 60, `${first.length} arrows`);
+  await page.waitForFunction(() => Number(document.getElementById("picture").dataset.scales) > 5);
+  await page.focus("#picture");
+  for (let k = 0; k < 5; ++k) await page.keyboard.press(".");
+  await made(page);
+  const later = (await savedArrows(page)).shapes;
+  assert.ok(later.length < first.length, `${later.length} arrows of ${first.length}`);
+  assert.equal(await page.textContent("#count"), String(later.length));
+  await page.fill("#coverage", "0.5");
+  await page.press("#coverage", "Enter");
+  await made(page);
+  assert.notDeepEqual((await savedArrows(page)).shapes, later);
+  await page.waitForFunction(() => location.hash.includes("coverage=0.5"));
+  await page.fill("#anisotropy", "7"); // beyond what there is
+  await page.press("#anisotropy", "Enter");
+  assert.equal(await page.inputValue("#anisotropy"), "0.15");
+  await page.selectOption("#kind", "arrows");
+  await page.fill("#number", "25");
+  await page.press("#number", "Enter");
+  await made(page);
+  assert.equal((await savedArrows(page)).shapes.length, 25);
+  assert.deepEqual(faults, []);
   await close();
 });
 

@@ -10,6 +10,9 @@
 
 enum { MOST_SAMPLES = 300000, MOST = 200, FEWEST = 12, COLORS = 17 };
 
+/* The library's own. */
+static const double ANISOTROPY = 0.15, COVERAGE = 0.3;
+
 const char fg__view_mark[] = "@FLOWGRAIN_FIELD@";
 
 typedef struct view_look {
@@ -27,6 +30,8 @@ static fg_status choose_look(view_look *out, fg_context *context, const fg_field
   o->most = o->most ? o->most : MOST;
   o->fewest = o->fewest ? o->fewest : o->most < FEWEST ? o->most : FEWEST;
   o->seed = o->seed ? o->seed : 1;
+  o->anisotropy = o->anisotropy > 0.0 ? o->anisotropy : ANISOTROPY;
+  o->coverage = o->coverage > 0.0 ? o->coverage : COVERAGE;
   if (o->fewest < 1 || o->most < o->fewest)
     return fg__fail(context, FG_STATUS_ARGUMENT, "page: from %d to %d arrows", o->most,
                     o->fewest);
@@ -96,8 +101,10 @@ static fg_status write_field(FILE *stream, fg_context *context, const fg_field *
   write_words(stream, a, look);
   fprintf(stream,
           "\"most\":%d,\"fewest\":%d,\"seed\":%" PRIu64 ",\"lengths\":\"%s\","
+          "\"kind\":\"%s\",\"anisotropy\":%.9g,\"coverage\":%.9g,"
           "\"axes\":\"%s\",\"period\":[%.17g,%.17g],\"speeds\":[%.9g,%.9g],",
           o->most, o->fewest, o->seed, o->lengths == FG_LENGTHS_FAIR ? "fair" : "free",
+          o->kind == FG_RUN_CLUSTERS ? "clusters" : "arrows", o->anisotropy, o->coverage,
           a->scale == FG_SCALE_GEO ? "degrees" : "plain", a->period[0], a->period[1],
           look->speeds[0], look->speeds[1]);
   write_palette(stream, &look->palette);
