@@ -104,7 +104,7 @@ if "$program" --version | grep -q '[ ,]render'; then
   [ -z "$(find first -name 'scale-*' 2>/dev/null)" ] || fault "of an interrupted scale: $(find first)"
   env --default-signal=INT "$program" draw drawing -o large.png --width 2400 >out 2>err &
   pid=$!
-  sleep 0.5
+  until_heeded TERM "$pid"
   kill -TERM "$pid"
   wait "$pid"
   code=$?

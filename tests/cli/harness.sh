@@ -122,6 +122,15 @@ until_there() {
   done
 }
 
+# until_heeded SIGNAL PID: waits until the process has a handler of a signal, or has ended.
+until_heeded() {
+  local caught bit=$(($(kill -l "$1") - 1))
+  while caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$2/status" 2>/dev/null) &&
+    [ -n "$caught" ] && [ $((0x$caught >> bit & 1)) = 0 ]; do
+    sleep 0.02
+  done
+}
+
 # Once what was killed has ended.
 forget_launchers() {
   rm -rf "$TMPDIR"
