@@ -69,12 +69,26 @@ static void add_part(char text[FG__CAPTION_BYTES], const char *part)
              clean);
 }
 
+/* Where the mean weighted by speed is less than this share of the mean by area, most of
+ * the domain hardly moves (an artery in a box of noise: a fifth; open flows: a half or
+ * more). */
+static const double STILL_SHARE = 1.0 / 3.0;
+
 /* Whole degrees, below three with a decimal, never less than the error. */
+static double round_up(double degrees)
+{
+  return degrees < 3.0 ? ceil(10.0 * degrees) / 10.0 : ceil(degrees);
+}
+
 static const char *say_error(char *words, size_t room, const fg_score *score)
 {
-  double degrees =
-      score->mean < 3.0 ? ceil(10.0 * score->mean) / 10.0 : ceil(score->mean);
-  snprintf(words, room, "read within %g\xC2\xB0", degrees);
+  double weighted = (score->diffusion.speed_weighted + score->nearest.speed_weighted +
+                     score->inverse_distance.speed_weighted) /
+                    3.0;
+  int used = snprintf(words, room, "read within %g\xC2\xB0", round_up(score->mean));
+  if (weighted > 0.0 && weighted < STILL_SHARE * score->mean)
+    snprintf(words + used, room - (size_t)used, ", weighted by speed %g\xC2\xB0",
+             round_up(weighted));
   return words;
 }
 

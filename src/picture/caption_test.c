@@ -74,21 +74,29 @@ static void names_in_braces_are_what_the_field_says(void **state)
 static void a_caption_tells_the_error_and_never_less(void **state)
 {
   static const struct {
-    double mean;
+    double mean, weighted; /* by speed; 0: not known */
     const char *wanted;
   } cases[] = {
-      {16.2, "2 arrows \xC2\xB7 read within 17\xC2\xB0"},
-      {16.0, "2 arrows \xC2\xB7 read within 16\xC2\xB0"},
-      {3.0, "2 arrows \xC2\xB7 read within 3\xC2\xB0"},
-      {2.99, "2 arrows \xC2\xB7 read within 3\xC2\xB0"},
-      {2.31, "2 arrows \xC2\xB7 read within 2.4\xC2\xB0"},
-      {0.02, "2 arrows \xC2\xB7 read within 0.1\xC2\xB0"},
-      {89.5, "2 arrows \xC2\xB7 read within 90\xC2\xB0"},
+      {16.2, 0.0, "2 arrows \xC2\xB7 read within 17\xC2\xB0"},
+      {16.0, 0.0, "2 arrows \xC2\xB7 read within 16\xC2\xB0"},
+      {3.0, 0.0, "2 arrows \xC2\xB7 read within 3\xC2\xB0"},
+      {2.99, 0.0, "2 arrows \xC2\xB7 read within 3\xC2\xB0"},
+      {2.31, 0.0, "2 arrows \xC2\xB7 read within 2.4\xC2\xB0"},
+      {0.02, 0.0, "2 arrows \xC2\xB7 read within 0.1\xC2\xB0"},
+      {89.5, 0.0, "2 arrows \xC2\xB7 read within 90\xC2\xB0"},
+      {66.2, 23.0, "2 arrows \xC2\xB7 read within 67\xC2\xB0"},
+      {66.2, 13.4,
+       "2 arrows \xC2\xB7 read within 67\xC2\xB0, weighted by speed 14\xC2\xB0"},
   };
   fg_icons *icons = lines(*state, 2);
   expect(icons, "2 arrows");
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
-    const fg_score score = {.mean = cases[n].mean};
+    const double weighted = cases[n].weighted; /* mean of the three readers' */
+    const fg_score score = {.mean = cases[n].mean,
+                            .diffusion.speed_weighted = weighted + 1.0 * (weighted > 0.0),
+                            .nearest.speed_weighted = weighted,
+                            .inverse_distance.speed_weighted =
+                                weighted - 1.0 * (weighted > 0.0)};
     fg_icons_keep_score(icons, &score);
     expect(icons, cases[n].wanted);
   }
