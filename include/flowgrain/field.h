@@ -46,7 +46,15 @@ typedef struct fg_read_options {
 /* Reads a field from a file, or makes an analytic one from "synth:NAME" (sampled at 257
  * nodes a side in 2D, at 65 in 3D). The format is found from the content, not the name.
  * options may be NULL. FILE_ACCESS, FILE_FORMAT, UNSUPPORTED, ARGUMENT (names, indices),
- * MEMORY. */
+ * MEMORY.
+ *
+ * Of a file by a stranger: no other file is read than the named ones and, of VTK's
+ * composite files, what they name beside themselves. Sizes are checked before memory is
+ * taken; fg_input_options (context.h) limits what the field's samples take. A chunk of a
+ * NetCDF-4 file takes 256 MiB at most, once it is inflated, too. But libhdf5, under
+ * NetCDF-4, and ecCodes, under GRIB, can crash or go on for ever where a file's structure
+ * is damaged, in the process that calls them: such files are best read first by a child
+ * process with limits of time and memory, as the program does (cli/sandbox.c). */
 FG_API fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
                                const fg_read_options *options);
 

@@ -68,7 +68,7 @@ fg_status fg__exodus_numbers(double *out, const fg__exodus *e, const fg__nc_vari
   const fg_status status = fg__exodus_check(e, v, first, count, rank);
   if (status != FG_STATUS_OK)
     return status;
-  const int error = nc_get_vara_double(v->group, v->id, first, count, out);
+  const int error = fg__nc_fetch(v, first, count, out);
   return error ? fg__nc_fail(e->file.context, v->path, v->name, error) : FG_STATUS_OK;
 }
 
@@ -83,7 +83,9 @@ void fg__exodus_text(char out[FG__EXODUS_NAME], const fg__exodus *e, const char 
   size_t length = e->file.dimensions[v->dimension[1]].length;
   if (length >= FG__EXODUS_NAME)
     length = FG__EXODUS_NAME - 1;
-  if (nc_get_vara_text(v->group, v->id, (size_t[2]){row, 0}, (size_t[2]){1, length}, out))
+  const size_t start[2] = {row, 0}, count[2] = {1, length};
+  if (fg__nc_check_chunks(v, start, count) ||
+      nc_get_vara_text(v->group, v->id, start, count, out))
     length = 0;
   out[length] = '\0';
   for (length = strlen(out); length > 0 && out[length - 1] == ' ';)

@@ -24,8 +24,8 @@ static bool shift_by_lines(fg__nc_mesh *mesh, const fg__nc_file *file, int k)
   static const size_t start = 0, count = 2;
   double face[2], centre[2];
   if (!faces || !centres || faces == centres ||
-      nc_get_vara_double(faces->group, faces->id, &start, &count, face) ||
-      nc_get_vara_double(centres->group, centres->id, &start, &count, centre))
+      fg__nc_fetch(faces, &start, &count, face) ||
+      fg__nc_fetch(centres, &start, &count, centre))
     return false;
   const double off = (face[0] - centre[0]) / (centre[1] - centre[0]);
   if (!(fabs(off) > SAME_PLACE && fabs(off) < 1.0 - SAME_PLACE))
@@ -45,10 +45,10 @@ static bool varies_along(const fg__nc_variable *v, const fg__nc_file *file,
     double here, there;
     size_t at[2] = {0, 0};
     at[1 - other] = n;
-    if (nc_get_var1_double(v->group, v->id, at, &here))
+    if (fg__nc_fetch_one(v, at, &here))
       return false;
     at[other] = last;
-    if (nc_get_var1_double(v->group, v->id, at, &there))
+    if (fg__nc_fetch_one(v, at, &there))
       return false;
     most = fmax(most, fabs(there - here));
     step = n > 0 ? fabs(here - before) : 0.0;

@@ -28,8 +28,7 @@ static fg_status read_coordinates(const fg__nc_axis *axis, const fg__nc_file *fi
     start[k] = along ? axis->first : 0;
     size[k] = along ? axis->size : 1;
   }
-  const int error =
-      nc_get_vara_double(coordinate->group, coordinate->id, start, size, out);
+  const int error = fg__nc_fetch(coordinate, start, size, out);
   if (error)
     return fg__nc_fail(file->context, coordinate->path, coordinate->name, error);
   nc_type type;

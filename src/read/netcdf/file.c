@@ -173,10 +173,11 @@ fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
   file->context = context;
   if (file->root_count == 2)
     return fg__fail(context, FG_STATUS_ARGUMENT, "%s: a third file", source->path);
+  fg__nc_storage *storage = &file->storage[file->root_count];
   fg_status status = fg__nc_check_size(context, source);
   if (status == FG_STATUS_OK &&
       fg__nc_kind_of(source->bytes, source->size) == FG__NC_HDF5)
-    status = fg__nc_check_objects(context, source);
+    status = fg__nc_check_objects(storage, context, source);
   if (status != FG_STATUS_OK)
     return status;
   char *path = fg__copy_text(source->path);
@@ -211,6 +212,8 @@ void fg__nc_file_close(fg__nc_file *file)
     nc_close(file->roots[i]);
     free(file->paths[i]);
   }
+  for (int i = 0; i < 2; ++i)
+    fg__nc_storage_close(&file->storage[i]);
   free(file->dimensions);
   free(file->variables);
   *file = (fg__nc_file){0};

@@ -58,8 +58,7 @@ static bool same_numbers(const fg__nc_variable *a, const fg__nc_variable *b, siz
   double x[AT_ONCE], y[AT_ONCE];
   for (size_t start = 0; start < n; start += AT_ONCE) {
     const size_t count = n - start < AT_ONCE ? n - start : AT_ONCE;
-    if (nc_get_vara_double(a->group, a->id, &start, &count, x) ||
-        nc_get_vara_double(b->group, b->id, &start, &count, y) ||
+    if (fg__nc_fetch(a, &start, &count, x) || fg__nc_fetch(b, &start, &count, y) ||
         memcmp(x, y, count * sizeof *x) != 0)
       return false;
   }

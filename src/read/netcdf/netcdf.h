@@ -7,19 +7,44 @@
 #include "read/signature.h"
 
 #include <netcdf.h>
+#include <stdint.h>
 
 /* Compares the size of a file with what its header promises. FILE_FORMAT. */
 fg_status fg__nc_check_size(fg_context *context, const fg__source *source);
-
-/* Refuses a NetCDF-4 file whose links lead round, that takes data from other files, or
- * whose pieces take more than 256 MiB each. UNSUPPORTED, MEMORY. */
-fg_status fg__nc_check_objects(fg_context *context, const fg__source *source);
 
 enum {
   FG__NC_RANK = 8,                  /* more dimensions than any field has */
   FG__NC_TEXT = 256,                /* bytes of an attribute that are looked at */
   FG__NC_NAME = 2 * NC_MAX_NAME + 2 /* group/variable */
 };
+
+/* A chunk that was looked at: where its first sample is. */
+typedef struct fg__nc_seen {
+  const struct fg__nc_variable *variable;
+  uint64_t place[FG__NC_RANK];
+} fg__nc_seen;
+
+/* A NetCDF-4 file as HDF5 has it, open where some chunks have to be looked at before they
+ * are read. */
+enum { FG__NC_SEEN = 64 };
+typedef struct fg__nc_storage {
+  bool is_open;
+  int64_t file; /* hid_t */
+  fg__nc_seen seen[FG__NC_SEEN];
+  size_t next;
+} fg__nc_storage;
+
+/* Stored bytes that deflate to a gigabyte at most, 1032 times as many (RFC 1951). */
+#define FG__NC_HARMLESS_BYTES ((uint64_t)1 << 20)
+
+/* Whether a chunk is stored in far more bytes than it has when it is read. */
+bool fg__nc_is_swollen(uint64_t stored, uint64_t bytes);
+
+/* Refuses a NetCDF-4 file whose links lead round, that takes data from other files, or
+ * whose pieces take more than 256 MiB each; *out is to be closed. UNSUPPORTED, MEMORY. */
+fg_status fg__nc_check_objects(fg__nc_storage *out, fg_context *context,
+                               const fg__source *source);
+void fg__nc_storage_close(fg__nc_storage *storage);
 
 typedef struct fg__nc_dimension {
   int id;
@@ -48,6 +73,7 @@ typedef struct fg__nc_file {
   int roots[2];
   char *paths[2];
   size_t sizes[2]; /* bytes */
+  fg__nc_storage storage[2];
   int root_count;
   fg__nc_dimension *dimensions;
   size_t dimension_count, dimension_capacity;
@@ -71,6 +97,17 @@ fg_status fg__nc_fail(fg_context *context, const char *path, const char *what, i
 
 /* The variable of that name (whole, or its last part), or NULL. */
 const fg__nc_variable *fg__nc_find(const fg__nc_file *file, const char *name);
+
+/* Reads numbers of a variable as nc_get_vara_double does, and one as nc_get_var1_double,
+ * but no chunk that would become far larger in memory than the file says (NC_EFILTER, and
+ * the message tells it). */
+int fg__nc_fetch(const fg__nc_variable *variable, const size_t *start,
+                 const size_t *count, double *out);
+int fg__nc_fetch_one(const fg__nc_variable *variable, const size_t *index, double *out);
+
+/* That check alone. */
+int fg__nc_check_chunks(const fg__nc_variable *variable, const size_t *start,
+                        const size_t *count);
 
 /* A text attribute without white space at its ends, cut to the buffer; "" when there is
  * none. Returns whether there is one; fg__nc_status tells a lack of memory. */

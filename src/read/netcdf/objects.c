@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,12 +21,8 @@ enum {
  * few megabytes. */
 static const hsize_t LARGEST_CHUNK = (hsize_t)1 << 28;
 
-/* Inflated data are at most 1032 times as large as stored ones (RFC 1951): what takes
- * less than this becomes no gigabyte. */
-static const hsize_t SMALL_STORAGE = (hsize_t)1 << 20;
-
-/* HDF5 1.10 looks for a chunk by its number in all of them: of more only the sum is
- * looked at. */
+/* HDF5 1.10 looks for a chunk by its number in all of them: more are looked at when they
+ * are read (chunks.c). */
 enum { CHUNKS_LOOKED_AT = 256 };
 
 typedef struct walk {
@@ -36,6 +33,7 @@ typedef struct walk {
   size_t groups, group_capacity;
   size_t objects;
   int depth;
+  bool has_large; /* chunks that may become far too large */
   fg_status status;
 } walk;
 
@@ -47,9 +45,10 @@ static fg_status refuse(walk *w, const char *name, const char *why)
 
 /* Filters make data larger by little: what is stored in far more bytes than it has when
  * it is read would be inflated to any size. */
-static bool is_swollen(hsize_t stored, hsize_t bytes)
+bool fg__nc_is_swollen(uint64_t stored, uint64_t bytes)
 {
-  return stored > SMALL_STORAGE && stored - SMALL_STORAGE > bytes + bytes / 8;
+  return stored > FG__NC_HARMLESS_BYTES &&
+         stored - FG__NC_HARMLESS_BYTES > bytes + bytes / 8;
 }
 
 /* bytes: of a chunk in memory. */
@@ -58,14 +57,42 @@ static fg_status check_storage(walk *w, const char *name, hid_t set, hsize_t byt
   const hid_t space = H5Dget_space(set);
   hsize_t chunks = 0, stored = H5Dget_storage_size(set), all = stored;
   bool swollen = false;
-  if (stored > SMALL_STORAGE && H5Dget_num_chunks(set, space, &chunks) >= 0) {
-    swollen = chunks < SIZE_MAX / 2 / (bytes + 1) && is_swollen(all, chunks * bytes);
-    for (hsize_t n = 0; n < chunks && chunks <= CHUNKS_LOOKED_AT && !swollen; ++n)
-      swollen = H5Dget_chunk_info(set, space, n, NULL, NULL, NULL, &stored) >= 0 &&
-                is_swollen(stored, bytes);
+  if (stored > FG__NC_HARMLESS_BYTES && H5Dget_num_chunks(set, space, &chunks) >= 0) {
+    swollen =
+        chunks < SIZE_MAX / 2 / (bytes + 1) && fg__nc_is_swollen(all, chunks * bytes);
+    w->has_large = w->has_large || chunks > CHUNKS_LOOKED_AT;
+    for (hsize_t n = 0; n < chunks && chunks <= CHUNKS_LOOKED_AT && !swollen; ++n) {
+      if (H5Dget_chunk_info(set, space, n, NULL, NULL, NULL, &stored) < 0)
+        continue;
+      swollen = fg__nc_is_swollen(stored, bytes);
+      w->has_large = w->has_large || stored > FG__NC_HARMLESS_BYTES;
+    }
   }
   H5Sclose(space);
   return swollen ? refuse(w, name, "is stored in more bytes than it has") : FG_STATUS_OK;
+}
+
+/* What deflate makes of a chunk is counted before it is read (chunks.c), which sees one
+ * stage; and two filters make as many samples as their settings say. samples: of a chunk.
+ */
+static fg_status check_filters(walk *w, const char *name, hid_t creation, hsize_t samples)
+{
+  enum { SAMPLES = 2, SETTINGS = 20 }; /* H5Znbit.c, H5Zscaleoffset.c */
+  const int filters = H5Pget_nfilters(creation);
+  bool deflated = false;
+  for (int n = 0; n < filters; ++n) {
+    unsigned flags, setting[SETTINGS] = {0};
+    size_t settings = SETTINGS;
+    const H5Z_filter_t id =
+        H5Pget_filter2(creation, (unsigned)n, &flags, &settings, setting, 0, NULL, NULL);
+    if (deflated && id != H5Z_FILTER_FLETCHER32)
+      return refuse(w, name, "is compressed by another filter after deflate");
+    deflated = deflated || id == H5Z_FILTER_DEFLATE;
+    if ((id == H5Z_FILTER_NBIT || id == H5Z_FILTER_SCALEOFFSET) && settings > SAMPLES &&
+        setting[SAMPLES] > samples)
+      return refuse(w, name, "has chunks of fewer samples than their filter says");
+  }
+  return FG_STATUS_OK;
 }
 
 static fg_status check_chunk(walk *w, const char *name, hid_t set, hid_t creation)
@@ -73,7 +100,8 @@ static fg_status check_chunk(walk *w, const char *name, hid_t set, hid_t creatio
   hsize_t length[H5S_MAX_RANK];
   const int rank = H5Pget_chunk(creation, H5S_MAX_RANK, length);
   const hid_t type = H5Dget_type(set);
-  hsize_t bytes = H5Tget_size(type);
+  const hsize_t width = H5Tget_size(type);
+  hsize_t bytes = width;
   H5Tclose(type);
   for (int k = 0; k < rank; ++k) {
     if (length[k] > 0 && bytes > LARGEST_CHUNK / length[k])
@@ -82,7 +110,9 @@ static fg_status check_chunk(walk *w, const char *name, hid_t set, hid_t creatio
                       name, (unsigned long long)LARGEST_CHUNK);
     bytes *= length[k];
   }
-  return check_storage(w, name, set, bytes);
+  const fg_status status =
+      check_filters(w, name, creation, width ? bytes / width : bytes);
+  return status == FG_STATUS_OK ? check_storage(w, name, set, bytes) : status;
 }
 
 static fg_status check_set(walk *w, const char *name, hid_t set)
@@ -187,18 +217,34 @@ static fg_status check_file(walk *w, hid_t file)
 /* Below 0: what HDF5 does not open, libnetcdf does not either. */
 static hid_t open_file(const fg__source *source)
 {
-  if (source->on_disk)
-    return H5Fopen(source->path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  char name[64]; /* HDF5 takes two in memory with one name for the same */
+  snprintf(name, sizeof name, "memory-%p", (const void *)source->bytes);
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-  H5Pset_fapl_core(access, (size_t)1 << 16, false);
-  H5Pset_file_image(access, (void *)(uintptr_t)source->bytes, source->size);
-  const hid_t file = H5Fopen("memory", H5F_ACC_RDONLY, access);
+  if (source->on_disk) {
+    /* with libnetcdf's driver, HDF5 would take both for one file and refuse the second,
+     * whose settings are others */
+    H5Pset_fapl_stdio(access);
+  } else {
+    H5Pset_fapl_core(access, (size_t)1 << 16, false);
+    H5Pset_file_image(access, (void *)(uintptr_t)source->bytes, source->size);
+  }
+  const hid_t file =
+      H5Fopen(source->on_disk ? source->path : name, H5F_ACC_RDONLY, access);
   H5Pclose(access);
   return file;
 }
 
-fg_status fg__nc_check_objects(fg_context *context, const fg__source *source)
+void fg__nc_storage_close(fg__nc_storage *storage)
 {
+  if (storage->is_open)
+    H5Fclose((hid_t)storage->file);
+  *storage = (fg__nc_storage){0};
+}
+
+fg_status fg__nc_check_objects(fg__nc_storage *out, fg_context *context,
+                               const fg__source *source)
+{
+  *out = (fg__nc_storage){0};
   H5E_auto2_t print;
   void *print_data;
   H5Eget_auto2(H5E_DEFAULT, &print, &print_data);
@@ -208,7 +254,9 @@ fg_status fg__nc_check_objects(fg_context *context, const fg__source *source)
   const hid_t file = open_file(source);
   if (file >= 0) {
     status = check_file(&w, file);
-    H5Fclose(file);
+    *out = (fg__nc_storage){.is_open = true, .file = file};
+    if (status != FG_STATUS_OK || !w.has_large)
+      fg__nc_storage_close(out);
   }
   H5Eset_auto2(H5E_DEFAULT, print, print_data);
   return status;

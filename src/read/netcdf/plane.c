@@ -79,7 +79,7 @@ static fg_status read_plane(plane *out, const fg__nc_file *file)
   out->value = fg__allocate(samples, sizeof *out->value);
   if (!out->value)
     return fg__fail_memory(file->context, "a coordinate", samples * sizeof *out->value);
-  const int error = nc_get_vara_double(v->group, v->id, start, count, out->value);
+  const int error = fg__nc_fetch(v, start, count, out->value);
   return error ? fg__nc_fail(file->context, v->path, v->name, error) : FG_STATUS_OK;
 }
 

@@ -77,7 +77,8 @@ static fg_status find_level(int *out, const fg__nc_file *file, const fg__nc_grid
   double *value = fg__allocate(grid->levels, sizeof *value);
   if (!value)
     return fg__fail_memory(file->context, "levels", grid->levels * sizeof *value);
-  const int error = nc_get_var_double(coordinate->group, coordinate->id, value);
+  const size_t start = 0;
+  const int error = fg__nc_fetch(coordinate, &start, &grid->levels, value);
   if (!error)
     *out = (int)find_surface(coordinate, value, grid->levels);
   free(value);

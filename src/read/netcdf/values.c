@@ -211,7 +211,7 @@ static fg_status read_slab(slab s, const fg__nc_file *file, const fg__nc_variabl
     const size_t count = rows - first < at_once ? rows - first : at_once;
     s.start[s.outer] = s.outer_axis->first + first;
     s.count[s.outer] = count;
-    const int error = nc_get_vara_double(v->group, v->id, s.start, s.count, block);
+    const int error = fg__nc_fetch(v, s.start, s.count, block);
     if (error)
       status = fg__nc_fail(file->context, v->path, v->name, error);
     for (size_t j = 0; j < count && status == FG_STATUS_OK; ++j)
@@ -376,8 +376,7 @@ fg_status fg__nc_line(double *out, const fg__nc_file *file,
   const size_t start = 0;
   if (file->exhausted)
     return FG_STATUS_MEMORY;
-  const int error =
-      nc_get_vara_double(variable->group, variable->id, &start, &count, out);
+  const int error = fg__nc_fetch(variable, &start, &count, out);
   if (error)
     return fg__nc_fail(file->context, variable->path, variable->name, error);
   number_sink to = {&p, out};

@@ -174,7 +174,7 @@ fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coo
     return FG_STATUS_OK;
   }
   double value = 0.0;
-  const int error = nc_get_var1_double(coordinate->group, coordinate->id, &index, &value);
+  const int error = fg__nc_fetch_one(coordinate, &index, &value);
   if (error)
     return fg__nc_fail(file->context, coordinate->path, coordinate->name, error);
   write_words(coordinate, value, out, size);
@@ -211,7 +211,8 @@ static fg_status read_axis_values(fg_axis_value *out, char **text, double *numbe
                                   size_t count)
 {
   fg_context *context = coordinate->owner->context;
-  const int error = nc_get_var_double(coordinate->group, coordinate->id, number);
+  const size_t start = 0;
+  const int error = fg__nc_fetch(coordinate, &start, &count, number);
   if (error)
     return fg__nc_fail(context, coordinate->path, coordinate->name, error);
   if (!write_texts(text, starts, coordinate, number, count))
@@ -226,8 +227,8 @@ fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file
 {
   *out = NULL;
   *text = NULL;
-  if (!coordinate || count < 1 || count > MOST_VALUES || coordinate->type == NC_CHAR ||
-      coordinate->type > NC_UINT64)
+  if (!coordinate || coordinate->rank > 1 || count < 1 || count > MOST_VALUES ||
+      coordinate->type == NC_CHAR || coordinate->type > NC_UINT64)
     return FG_STATUS_OK;
   fg_status status = FG_STATUS_OK;
   double *number = fg__allocate(count, sizeof *number);

@@ -129,9 +129,9 @@ static bool is_constant(const fg__nc_variable *v, size_t length)
   double first, last, middle;
   const size_t at[3] = {0, length / 2, length - 1};
   return length < 2 ||
-         (nc_get_var1_double(v->group, v->id, &at[0], &first) == NC_NOERR &&
-          nc_get_var1_double(v->group, v->id, &at[1], &middle) == NC_NOERR &&
-          nc_get_var1_double(v->group, v->id, &at[2], &last) == NC_NOERR &&
+         (fg__nc_fetch_one(v, &at[0], &first) == NC_NOERR &&
+          fg__nc_fetch_one(v, &at[1], &middle) == NC_NOERR &&
+          fg__nc_fetch_one(v, &at[2], &last) == NC_NOERR &&
           !(first < middle || first > middle || first < last || first > last));
 }
 

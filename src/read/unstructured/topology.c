@@ -100,7 +100,7 @@ static fg_status read_numbers(number_list *out, const fg__nc_file *file,
   for (size_t first = 0; first < rows && status == FG_STATUS_OK; first += at_once) {
     const size_t from[2] = {first, 0};
     const size_t count[2] = {rows - first < at_once ? rows - first : at_once, row};
-    const int error = nc_get_vara_double(v->group, v->id, from, count, block);
+    const int error = fg__nc_fetch(v, from, count, block);
     if (error)
       status = fg__nc_fail(file->context, v->path, v->name, error);
     for (size_t n = 0; n < count[0] * row && status == FG_STATUS_OK; ++n) {
@@ -272,7 +272,7 @@ static fg_status read_bounds(fg__nc_topology *out, const fg__nc_file *file,
     const size_t count[2] = {faces - f < at_once ? faces - f : at_once, corners};
     for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k) {
       const fg__nc_variable *v = mesh->bounds[k];
-      const int error = nc_get_vara_double(v->group, v->id, from, count, block[k]);
+      const int error = fg__nc_fetch(v, from, count, block[k]);
       if (error)
         status = fg__nc_fail(file->context, v->path, v->name, error);
       const double factor = factor_of(mesh, mesh->centre[k]);

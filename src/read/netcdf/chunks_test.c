@@ -1,0 +1,138 @@
+/* Chunks that would become larger than they are said to be, of a variable that is read.
+ */
+#define H5_USE_110_API
+#include <hdf5.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+#include "read/netcdf/plain_test.h"
+
+/* A chunk of one variable: more than a megabyte when it is stored, of which any less
+ * becomes a gigabyte at most. */
+enum { SIDE = 700, SAMPLES = SIDE * SIDE, BYTES = 4 * SAMPLES, MORE = 64 << 20 };
+
+static void must(hid_t id)
+{
+  if (id < 0)
+    abort();
+}
+
+/* Figures that no packing makes fewer. */
+static void fill(float *value)
+{
+  uint64_t number = 88172645463325252U;
+  for (int n = 0; n < SAMPLES; ++n) {
+    number ^= number << 13;
+    number ^= number >> 7;
+    number ^= number << 17;
+    value[n] = (float)((double)(number >> 11) / 9007199254740992.0);
+  }
+}
+
+/* u and v, a chunk each. Along x and y are their numbers. */
+static void make_large(sample_file *f, const float *value)
+{
+  static const char *const names[] = {"u", "v"};
+  const size_t chunk[2] = {SIDE, SIDE};
+  sample_begin(f, NC_NETCDF4);
+  const int all[2] = {sample_dimension(f, "y", SIDE), sample_dimension(f, "x", SIDE)};
+  for (int k = 0; k < 2; ++k) {
+    const int id = sample_variable(f, names[k], NC_FLOAT, 2, all);
+    nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, chunk));
+    nc_must(nc_def_var_deflate(f->id, id, 0, 1, 1));
+    nc_must(nc_put_var_float(f->id, id, value));
+  }
+  sample_end(f);
+}
+
+/* The chunk of v goes on with zeros, which take few bytes. */
+static void swell(const sample_file *f, const float *value)
+{
+  const hsize_t origin[2] = {0, 0};
+  unsigned char *whole = calloc(1, (size_t)BYTES + MORE);
+  uLongf size = compressBound(BYTES + MORE);
+  unsigned char *packed = malloc(size);
+  if (!whole || !packed)
+    abort();
+  memcpy(whole, value, BYTES);
+  assert_int_equal(compress2(packed, &size, whole, (size_t)BYTES + MORE, 1), Z_OK);
+  assert_true(size > (1 << 20) && size < BYTES + (1 << 20)); /* not by its size alone */
+  const hid_t file = H5Fopen(f->path, H5F_ACC_RDWR, H5P_DEFAULT);
+  must(file);
+  const hid_t set = H5Dopen2(file, "v", H5P_DEFAULT);
+  must(set);
+  must(H5Dwrite_chunk(set, H5P_DEFAULT, 0, origin, (size_t)size, packed));
+  H5Dclose(set);
+  must(H5Fclose(file));
+  free(whole);
+  free(packed);
+}
+
+static void chunks_of_their_size_are_read(void **state)
+{
+  sample_file *f = *state;
+  float *value = malloc(BYTES);
+  assert_non_null(value);
+  fill(value);
+  make_large(f, value);
+  fg_field *field = read_with(f, NULL);
+  for (int k = 0; k < 2; ++k)
+    assert_memory_equal(fg_field_contents(field)->velocity[k], value, BYTES);
+  fg_field_destroy(field);
+  free(value);
+}
+
+static void chunks_that_swell_are_refused(void **state)
+{
+  sample_file *f = *state;
+  float *value = malloc(BYTES);
+  assert_non_null(value);
+  fill(value);
+  make_large(f, value);
+  swell(f, value);
+  refuse_with(f, NULL, FG_STATUS_FILE_FORMAT, "is more than the 1960000 that it should");
+  fg_inventory *inventory = NULL;
+  fg_context_clear(f->context);
+  assert_int_equal(fg_inventory_read(&inventory, f->context, f->path),
+                   FG_STATUS_FILE_FORMAT);
+  assert_null(inventory);
+  free(value);
+}
+
+/* What counts the bytes sees one stage of deflate. */
+static void deflate_twice_is_refused(void **state)
+{
+  sample_file *f = *state;
+  const hsize_t length[2] = {7, 5};
+  int id[2];
+  make_plain(f, NC_NETCDF4, NC_FLOAT, id);
+  sample_end(f);
+  const hid_t file = H5Fopen(f->path, H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t space = H5Screate_simple(2, length, NULL);
+  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+  must(H5Pset_chunk(creation, 2, length));
+  must(H5Pset_deflate(creation, 1));
+  must(H5Pset_filter(creation, H5Z_FILTER_SHUFFLE, 0, 0, NULL));
+  const hid_t set = H5Dcreate2(file, "extra", H5T_NATIVE_FLOAT, space, H5P_DEFAULT,
+                               creation, H5P_DEFAULT);
+  must(set);
+  H5Dclose(set);
+  H5Pclose(creation);
+  H5Sclose(space);
+  must(H5Fclose(file));
+  refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, "another filter after deflate");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(chunks_of_their_size_are_read, sample_set_up,
+                                      sample_tear_down),
+      cmocka_unit_test_setup_teardown(chunks_that_swell_are_refused, sample_set_up,
+                                      sample_tear_down),
+      cmocka_unit_test_setup_teardown(deflate_twice_is_refused, sample_set_up,
+                                      sample_tear_down),
+  };
+  return cmocka_run_group_tests_name("read/netcdf/chunks", tests, NULL, NULL);
+}
