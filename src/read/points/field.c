@@ -131,7 +131,7 @@ fg_status fg__scatter_describe(fg_inventory *inventory, fg_context *context,
     missing += !a->valid[n];
   vector.dimension = vector.components = a->dimension;
   vector.times = vector.times > 0 ? vector.times : 1;
-  vector.levels = 1;
+  vector.levels = vector.levels > 0 ? vector.levels : 1;
   vector.missing_share = (double)missing / (double)samples;
   vector.scale = a->scale;
   return fg__inventory_add(inventory, context, &vector);

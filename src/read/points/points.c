@@ -24,6 +24,7 @@ void fg__scatter_clear(fg__scatter *points)
     free(points->velocity[k]);
   }
   free(points->time);
+  free(points->level);
   free(points->record);
   *points = (fg__scatter){0};
 }
@@ -90,17 +91,6 @@ static fg_status unwrap(const fg__scatter *points)
   return FG_STATUS_OK;
 }
 
-/* A plane whose points have a third coordinate all the same. */
-static void drop_flat(fg__scatter *points)
-{
-  if (points->dimension < 3)
-    return;
-  for (size_t i = 1; i < points->count; ++i)
-    if (points->position[2][i] != points->position[2][0])
-      return;
-  points->dimension = 2;
-}
-
 typedef struct spot {
   double at[3];
   size_t point;
@@ -153,7 +143,9 @@ static fg_status fail_doubled(const fg__scatter *points, size_t doubled, size_t 
            "and %d, both at (%g, %g)",
            points->path, doubled, points->count, points->records, record_of(points, a),
            record_of(points, b), points->position[0][a], points->position[1][a]);
-  fg__hint(points->context, "leave one time and one level in the file");
+  fg__hint(points->context,
+           "name the column of times or levels t or z, or leave one time "
+           "and one level in the file");
   return FG_STATUS_FILE_FORMAT;
 }
 
@@ -171,6 +163,8 @@ static void keep(fg__scatter *points, const unsigned char *is_kept)
       points->record[kept] = points->record[i];
     if (points->time)
       points->time[kept] = points->time[i];
+    if (points->level)
+      points->level[kept] = points->level[i];
     ++kept;
   }
   points->count = kept;
@@ -224,50 +218,53 @@ static fg_status merge_doubled(fg__scatter *points)
   return status;
 }
 
-static fg_status find_times(double **out, size_t *times, const fg__scatter *points)
+/* The values that tell points at one place apart. */
+static fg_status find_values(double **out, size_t *values, const fg__scatter *points,
+                             const double *value)
 {
   spot *spots = NULL;
   size_t doubled = 0;
-  *times = 1;
+  *values = 1;
   fg_status status = sort_spots(&spots, points);
   bool known = true;
   for (size_t i = 0; i < points->count && status == FG_STATUS_OK; ++i) {
     doubled += i > 0 && is_same_place(&spots[i - 1], &spots[i]);
-    known = known && isfinite(points->time[i]);
+    known = known && isfinite(value[i]);
   }
   free(spots);
   if (!known || status != FG_STATUS_OK || (double)doubled <= FEW * (double)points->count)
     return status;
-  double *time = *out = fg__allocate(points->count, sizeof *time);
-  if (!time)
-    return fg__fail_memory(points->context, "times", points->count * sizeof *time);
-  memcpy(time, points->time, points->count * sizeof *time);
-  qsort(time, points->count, sizeof *time, by_size);
+  double *all = *out = fg__allocate(points->count, sizeof *all);
+  if (!all)
+    return fg__fail_memory(points->context, "times", points->count * sizeof *all);
+  memcpy(all, value, points->count * sizeof *all);
+  qsort(all, points->count, sizeof *all, by_size);
   for (size_t i = 1; i < points->count; ++i)
-    if (time[i] > time[*times - 1])
-      time[(*times)++] = time[i];
+    if (all[i] > all[*values - 1])
+      all[(*values)++] = all[i];
   return FG_STATUS_OK;
 }
 
-fg_status fg__scatter_choose_time(fg__scatter *points, int wanted, int *times,
-                                  double **all)
+fg_status fg__scatter_choose(fg__scatter *points, bool level, int wanted, int *values,
+                             double **all)
 {
+  const double *value = level ? points->level : points->time;
   size_t count = 1;
   *all = NULL;
   fg_status status =
-      points->time && points->count > 0 ? find_times(all, &count, points) : FG_STATUS_OK;
-  *times = (int)count;
+      value && points->count > 0 ? find_values(all, &count, points, value) : FG_STATUS_OK;
+  *values = (int)count;
   if (status == FG_STATUS_OK && (wanted < 0 || (size_t)wanted >= count))
     return fg__fail(points->context, FG_STATUS_ARGUMENT,
-                    "%s: time %d is asked for; there %s %zu, from 0 on", points->path,
-                    wanted, count == 1 ? "is" : "are", count);
+                    "%s: %s %d is asked for; there %s %zu, from 0 on", points->path,
+                    level ? "level" : "time", wanted, count == 1 ? "is" : "are", count);
   if (status != FG_STATUS_OK || !*all)
     return status;
   unsigned char *is_kept = fg__allocate(points->count, 1);
   if (!is_kept)
     return fg__fail_memory(points->context, "points", points->count);
   for (size_t i = 0; i < points->count; ++i)
-    is_kept[i] = points->time[i] >= (*all)[wanted] && points->time[i] <= (*all)[wanted];
+    is_kept[i] = value[i] >= (*all)[wanted] && value[i] <= (*all)[wanted];
   keep(points, is_kept);
   free(is_kept);
   return FG_STATUS_OK;
@@ -340,12 +337,14 @@ static fg_status interpolate(fg__point_grid *out, const fg__scatter *points)
 }
 
 /* Puts points in order, and on their grid when there is one. */
-static fg_status arrange(fg__point_grid *out, bool *found, fg__scatter *points)
+static fg_status arrange(fg__point_grid *out, bool *found, fg__scatter *points,
+                         fg__flat_words *words)
 {
   *out = (fg__point_grid){0};
   *found = false;
-  drop_flat(points);
   fg_status status = check_places(points);
+  if (status == FG_STATUS_OK)
+    fg__scatter_flatten(points, words);
   if (status == FG_STATUS_OK && points->geographic)
     status = unwrap(points);
   if (status == FG_STATUS_OK)
@@ -355,10 +354,11 @@ static fg_status arrange(fg__point_grid *out, bool *found, fg__scatter *points)
   if (status != FG_STATUS_OK || *found || points->dimension < 3)
     return status;
   fg__fail(points->context, FG_STATUS_UNSUPPORTED,
-           "%s: its %zu points in space lie on no grid along the axes", points->path,
-           points->count);
-  fg__hint(points->context,
-           "bring them onto one, or give the cells between them, as .vtu");
+           "%s: its %zu points in space lie neither on a grid along the axes nor in a "
+           "plane",
+           points->path, points->count);
+  fg__hint(points->context, "interpolate them to a grid, or give the cells between them, "
+                            "as .vtu");
   return FG_STATUS_UNSUPPORTED;
 }
 
@@ -369,7 +369,9 @@ fg_status fg__scatter_field(fg_field **out, size_t *cells, fg__scatter *points,
   fg__sphere *sphere = NULL;
   bool found;
   *cells = 0;
-  fg_status status = arrange(&grid, &found, points);
+  fg__flat_words flat = {.all = *words};
+  fg_status status = arrange(&grid, &found, points, &flat);
+  words = &flat.all;
   if (status == FG_STATUS_OK && !found && points->geographic) {
     status = fg__scatter_on_sphere(&sphere, cells, points, words);
     if (status == FG_STATUS_OK)
@@ -396,7 +398,8 @@ fg_status fg__scatter_sphere(fg__sphere **out, fg__scatter *points,
   bool found;
   size_t cells;
   *out = NULL;
-  fg_status status = arrange(&grid, &found, points);
+  fg__flat_words flat = {.all = *words};
+  fg_status status = arrange(&grid, &found, points, &flat);
   fg__point_grid_clear(&grid);
   return status == FG_STATUS_OK && !found
              ? fg__scatter_on_sphere(out, &cells, points, words)

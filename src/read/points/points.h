@@ -17,6 +17,7 @@ typedef struct fg__scatter {
   double *position[3]; /* [count] each */
   float *velocity[3];  /* [count] each; NaN: missing */
   double *time;        /* [count], when each was measured, or NULL; NaN: not known */
+  double *level;       /* [count], the same of its level */
   int *record;         /* [count], where each stands in the file, or NULL */
   const char *records; /* what that is: "line" */
   bool geographic;     /* longitude and latitude in degrees; east and north */
@@ -24,13 +25,23 @@ typedef struct fg__scatter {
 
 void fg__scatter_clear(fg__scatter *points);
 
-/* Where all points have times and more than a tenth lie where others do, keeps those
- * of one time: number `wanted` of *times in ascending order. Else all count, and *times
- * is
- * 1. *all, to be freed: the times, NULL where all count. ARGUMENT (no such time), MEMORY.
- */
-fg_status fg__scatter_choose_time(fg__scatter *points, int wanted, int *times,
-                                  double **all);
+/* Where all points have times (or levels) and more than a tenth lie where others do,
+ * keeps those of one: number `wanted` of *values in ascending order. Else all count, and
+ * *values is 1. *all, to be freed: the times or levels, NULL where all count. ARGUMENT
+ * (no such time), MEMORY. */
+fg_status fg__scatter_choose(fg__scatter *points, bool level, int wanted, int *values,
+                             double **all);
+
+/* The words of a field whose points may turn out to lie in a plane. */
+typedef struct fg__flat_words {
+  fg_field_arrays all;
+  char level[160];
+} fg__flat_words;
+
+/* Points in space that lie in one plane become points in 2D: of two of the axes as they
+ * are, else in the plane's own coordinates (field/plane.h), with the velocity's part in
+ * it. What all have in common is their level. */
+void fg__scatter_flatten(fg__scatter *points, fg__flat_words *words);
 
 /* Samples where lines along the axes cross; `cells` is 0 where each sample is one of the
  * file's, else they are interpolated from so many triangles. */
@@ -49,7 +60,7 @@ size_t fg__point_grid_samples(const fg__point_grid *grid);
  * fg_field_arrays. Points at one place become their mean. *cells: 0, or how many
  * triangles the samples are interpolated from. FILE_FORMAT (no numbers, more places with
  * several values than a slip explains), UNSUPPORTED (points on one line; in space, on no
- * grid), ARGUMENT, MEMORY, STOPPED. */
+ * grid and in no plane), ARGUMENT, MEMORY, STOPPED. */
 fg_status fg__scatter_field(fg_field **out, size_t *cells, fg__scatter *points,
                             const fg_field_arrays *words, fg__slab_index slab);
 

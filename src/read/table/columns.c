@@ -37,6 +37,11 @@ static const char *const OTHER[] = {
     "qc",     "flag",  "count", "pos",   "position", "coord",      "stress",
     "points", "flux",  "sd",    "se",    "variance", "uncertainty"};
 
+/* Of planes one above another. */
+static const char LEVELS[] =
+    "|z|zc|z_coordinate|z_coord|z_position|z_pos|pos_z|position_z|points_2|"
+    "coordinates_2|altitude|height|depth|level|lev|plane|";
+
 static bool is_one_of(const char *list, const char *name)
 {
   char word[FG__TABLE_NAME + 2];
@@ -106,8 +111,8 @@ void fg__table_places(fg__table_vector *out, const fg__table *table)
   out->position[2] = out->geographic ? -1 : find_listed(table, PLACES[2]);
 }
 
-/* Columns that tell when rows were measured, and which were: negative, or zero, or not
- * zero means no. */
+/* Columns that tell when and at which level rows were measured, and which were: negative,
+ * or zero, or not zero means no. */
 static void find_time_and_validity(fg__table_vector *out, const fg__table *table)
 {
   out->valid[0] = out->valid[1] = out->mask = -1;
@@ -117,6 +122,15 @@ static void find_time_and_validity(fg__table_vector *out, const fg__table *table
   out->time = find_listed(table, "|time|t|time_s|timestep|time_step|step|snapshot|");
   if (out->time >= 0 && strcmp(table->column[out->time].name, "T") == 0)
     out->time = -1; /* a temperature */
+  out->level = table->named ? find_listed(table, LEVELS) : -1;
+}
+
+/* A level's column has no other use. */
+static void settle_level(fg__table_vector *v)
+{
+  for (int k = 0; k < 3; ++k)
+    if (v->dimension == 3 || v->level == v->position[k] || v->level == v->velocity[k])
+      v->level = -1;
 }
 
 static void add(fg__table_vector *list, int *count, const fg__table *table,
@@ -137,6 +151,32 @@ static void add(fg__table_vector *list, int *count, const fg__table *table,
   }
   if (v.dimension == 2)
     v.position[2] = -1;
+  settle_level(&v);
+  list[(*count)++] = v;
+}
+
+/* A plane of x and z, or of y and z, where the third axis has no columns at all. */
+static void add_upright(fg__table_vector *list, int *count, const fg__table *table,
+                        const int velocity[3])
+{
+  fg__table_vector v = {.found_by = "names", .dimension = 2};
+  int axis[3], axes = 0;
+  fg__table_places(&v, table);
+  find_time_and_validity(&v, table);
+  for (int k = 0; k < 3; ++k) {
+    if ((velocity[k] >= 0) != (v.position[k] >= 0))
+      return;
+    if (velocity[k] >= 0)
+      axis[axes++] = k;
+  }
+  if (axes != 2 || *count == FG__TABLE_VECTORS)
+    return;
+  const int place[2] = {v.position[axis[0]], v.position[axis[1]]};
+  for (int k = 0; k < 3; ++k) {
+    v.position[k] = k < 2 ? place[k] : -1;
+    v.velocity[k] = k < 2 ? velocity[axis[k]] : -1;
+  }
+  settle_level(&v);
   list[(*count)++] = v;
 }
 
@@ -195,15 +235,14 @@ static void find_polar(fg__table_vector *list, int *count, const fg__table *tabl
 
 int fg__table_vectors(fg__table_vector out[FG__TABLE_VECTORS], const fg__table *table)
 {
-  static const int first[3] = {2, 3, -1};
   int count = 0;
-  if (!table->named && table->columns == 4) {
-    const int place[3] = {0, 1, -1};
-    out[0] = (fg__table_vector){.dimension = 2, .found_by = "columns"};
+  if (!table->named && (table->columns == 4 || table->columns == 6)) {
+    const int dimension = table->columns / 2;
+    out[0] = (fg__table_vector){.dimension = dimension, .found_by = "columns"};
     find_time_and_validity(&out[0], table);
     for (int k = 0; k < 3; ++k) {
-      out[0].velocity[k] = first[k];
-      out[0].position[k] = place[k];
+      out[0].velocity[k] = k < dimension ? dimension + k : -1;
+      out[0].position[k] = k < dimension ? k : -1;
     }
     return 1;
   }
@@ -213,6 +252,8 @@ int fg__table_vectors(fg__table_vector out[FG__TABLE_VECTORS], const fg__table *
                              find_plain(table, USUAL[i][2])};
     if (velocity[0] >= 0 && velocity[1] >= 0)
       add(out, &count, table, velocity, "names");
+    else
+      add_upright(out, &count, table, velocity);
   }
   if (count == 0)
     find_pairs(out, &count, table);
@@ -299,6 +340,7 @@ static fg_status choose_named(fg__table_vector *out, const fg__table *table,
   if (with_places)
     out->geographic = is_one_of(GLOBE[0], table->column[column[0]].plain) &&
                       is_one_of(GLOBE[1], table->column[column[1]].plain);
+  settle_level(out);
   if (table->placeless || (out->position[0] >= 0 && out->position[1] >= 0 &&
                            (out->dimension == 2 || out->position[2] >= 0)))
     return FG_STATUS_OK;

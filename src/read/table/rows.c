@@ -9,9 +9,17 @@
 #include "file/number_text.h"
 #include "read/table/table.h"
 
-enum { ROLES = 10, VELOCITY = 3, VALID = 6, MASK = 8, TIME = 9, STOP_EVERY = 1 << 16 };
+enum {
+  ROLES = 11,
+  VELOCITY = 3,
+  VALID = 6,
+  MASK = 8,
+  TIME = 9,
+  LEVEL = 10,
+  STOP_EVERY = 1 << 16
+};
 
-/* What is read of each row: place, velocity, validity, mask, time. */
+/* What is read of each row: place, velocity, validity, mask, time, level. */
 typedef struct row_reader {
   const fg__table *table;
   const fg__table_vector *vector;
@@ -35,6 +43,7 @@ static fg_status set_roles(row_reader *r)
     set_role(r, r->vector->valid[k], VALID + k);
   set_role(r, r->vector->mask, MASK);
   set_role(r, r->vector->time, TIME);
+  set_role(r, r->vector->level, LEVEL);
   for (int k = 0; k < r->vector->dimension && k < 3; ++k) {
     set_role(r, r->vector->velocity[k], VELOCITY + k);
     set_role(r, r->vector->position[k], k);
@@ -93,7 +102,7 @@ static fg_status read_row(row_reader *r, const fg__table_line *line)
       continue;
     double *value = &r->value[r->role[count]];
     if (fg__table_number(value, &field, table->style.decimal) == FG__TABLE_NO_NUMBER &&
-        r->role[count] != TIME)
+        r->role[count] < TIME)
       return fail_number(r, line, count, &field);
   }
   return count == table->columns ? FG_STATUS_OK : fail_columns(r, line, count);
@@ -130,7 +139,7 @@ static void turn_polar(row_reader *r)
 }
 
 typedef struct growth {
-  size_t position[3], velocity[3], time, record;
+  size_t position[3], velocity[3], time, level, record;
 } growth;
 
 static bool grow(void **array, size_t *capacity, size_t count, size_t size)
@@ -159,16 +168,21 @@ static fg_status add_row(fg__scatter *out, growth *g, row_reader *r, int line)
       out->velocity[k][n] = valid ? fg__as_velocity(r->value[VELOCITY + k]) : NAN;
     }
   }
-  void *time = out->time, *record = out->record;
+  void *time = out->time, *level = out->level, *record = out->record;
   if (r->vector->time >= 0)
     grown = grown && grow(&time, &g->time, n, sizeof(double));
   out->time = time;
+  if (r->vector->level >= 0)
+    grown = grown && grow(&level, &g->level, n, sizeof(double));
+  out->level = level;
   grown = grown && grow(&record, &g->record, n, sizeof(int));
   out->record = record;
   if (!grown)
     return fg__fail_memory(r->table->context, "points", n * 32);
   if (r->vector->time >= 0)
     out->time[n] = r->value[TIME];
+  if (r->vector->level >= 0)
+    out->level[n] = r->value[LEVEL];
   out->record[n] = line;
   ++out->count;
   return FG_STATUS_OK;

@@ -2,13 +2,15 @@
 #include "read/table/table.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "file/number_text.h"
 #include "read/time_words.h"
 
-enum { LOOKED_AT = 4096 };
+enum { LOOKED_AT = 4096, LEVEL_BYTES = 2 * FG__TABLE_NAME + FG__NUMBER_BYTES + 8 };
 
 /* Text with a digit, but no markup: the last format that is tried. */
 static bool is_text(const unsigned char *bytes, size_t size)
@@ -75,32 +77,69 @@ static fg_status open_chosen(fg__table *table, fg__table_vector *vector,
                              fg_context *context, const fg__source *source,
                              const fg_read_options *options)
 {
-  fg_status status = fg__check_one_file(context, source, options, "a table");
+  fg_read_options own = *options;
+  own.level = 0; /* looked at with the rows */
+  fg_status status = fg__check_one_file(context, source, &own, "a table");
   *table = (fg__table){0};
   if (status == FG_STATUS_OK)
     status = fg__table_open(table, context, source);
   return status == FG_STATUS_OK ? fg__table_choose(vector, table, options) : status;
 }
 
-/* The times of a table, and which one is read. */
-typedef struct table_times {
-  int count;
-  double *all;
-  char chosen[FG__TIME_BYTES]; /* in words; "": there is no choice */
-} table_times;
+/* The times and levels of a table, and which ones are read. */
+typedef struct table_choice {
+  int times, levels;
+  double *time, *level;
+  char chosen_time[FG__TIME_BYTES], chosen_level[LEVEL_BYTES]; /* "": no choice */
+} table_choice;
 
-/* The rows of one time. Points and times are to be cleared even after a failure. */
-static fg_status read_rows(fg__scatter *points, table_times *times,
-                           const fg__table *table, const fg__table_vector *vector,
-                           int time)
+static void clear_choice(table_choice *choice)
 {
-  *times = (table_times){.count = 1};
+  free(choice->time);
+  free(choice->level);
+  *choice = (table_choice){0};
+}
+
+/* "z = 2.5 m" */
+static fg_status write_level(char out[LEVEL_BYTES], const fg__table *table,
+                             const fg__table_vector *vector, double level)
+{
+  const fg__table_column *column = &table->column[vector->level];
+  char number[FG__NUMBER_BYTES];
+  fg__number_locale locale;
+  if (!fg__number_locale_begin(&locale))
+    return fg__fail_memory(table->context, "a locale", 1);
+  fg__number_write(number, level);
+  fg__number_locale_end(&locale);
+  snprintf(out, LEVEL_BYTES, "%s = %s%s%s", column->name, number,
+           column->units[0] ? " " : "", column->units);
+  return FG_STATUS_OK;
+}
+
+/* The rows of one time and level. Points and choice are to be cleared even after a
+ * failure. */
+static fg_status read_rows(fg__scatter *points, table_choice *choice,
+                           const fg__table *table, const fg__table_vector *vector,
+                           int time, int level)
+{
+  *choice = (table_choice){.times = 1, .levels = 1};
   fg_status status = fg__table_rows(points, table, vector);
   if (status == FG_STATUS_OK)
-    status = fg__scatter_choose_time(points, time, &times->count, &times->all);
-  return status == FG_STATUS_OK && times->all
-             ? fg__time_write(times->chosen, table->context, times->all[time])
-             : status;
+    status = fg__scatter_choose(points, false, time, &choice->times, &choice->time);
+  if (status == FG_STATUS_OK)
+    status = fg__scatter_choose(points, true, level, &choice->levels, &choice->level);
+  if (status == FG_STATUS_OK && choice->time)
+    status = fg__time_write(choice->chosen_time, table->context, choice->time[time]);
+  if (status == FG_STATUS_OK && choice->level)
+    status = write_level(choice->chosen_level, table, vector, choice->level[level]);
+  return status;
+}
+
+/* The words of what was chosen. */
+static void add_choice(fg_field_arrays *words, const table_choice *choice)
+{
+  words->time = choice->chosen_time[0] ? choice->chosen_time : NULL;
+  words->level = choice->chosen_level[0] ? choice->chosen_level : NULL;
 }
 
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
@@ -109,18 +148,18 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
   fg__table table;
   fg__table_vector vector;
   fg__scatter points = {0};
-  table_times times = {0};
+  table_choice choice = {0};
   size_t cells;
   *out = NULL;
   fg_status status = open_chosen(&table, &vector, context, source, options);
   if (status == FG_STATUS_OK)
-    status = read_rows(&points, &times, &table, &vector, options->time);
+    status = read_rows(&points, &choice, &table, &vector, options->time, options->level);
   if (status == FG_STATUS_OK) {
     fg_field_arrays words = words_of(&table, &vector, options);
-    words.time = times.all ? times.chosen : NULL;
+    add_choice(&words, &choice);
     status = fg__scatter_field(out, &cells, &points, &words, slab);
   }
-  free(times.all);
+  clear_choice(&choice);
   fg__scatter_clear(&points);
   fg__table_clear(&table);
   return status;
@@ -132,38 +171,47 @@ static fg_status read_sphere(fg__sphere **out, fg_context *context,
   fg__table table;
   fg__table_vector vector;
   fg__scatter points = {0};
-  table_times times = {0};
+  table_choice choice = {0};
   *out = NULL;
   fg_status status = open_chosen(&table, &vector, context, source, options);
   if (status == FG_STATUS_OK && vector.geographic) {
-    status = read_rows(&points, &times, &table, &vector, options->time);
+    status = read_rows(&points, &choice, &table, &vector, options->time, options->level);
     fg_field_arrays words = words_of(&table, &vector, options);
-    words.time = times.all ? times.chosen : NULL;
+    add_choice(&words, &choice);
     if (status == FG_STATUS_OK)
       status = fg__scatter_sphere(out, &points, &words);
   }
-  free(times.all);
+  clear_choice(&choice);
   fg__scatter_clear(&points);
   fg__table_clear(&table);
   return status;
 }
 
 static fg_status add_entry(fg_inventory *inventory, const fg__table *table,
-                           const fg_field *field, fg_inventory_vector *entry,
-                           const table_times *times)
+                           const fg__table_vector *vector, const fg_field *field,
+                           fg_inventory_vector *entry, const table_choice *choice)
 {
-  const size_t count = times->all ? (size_t)times->count : 0;
+  const size_t times = choice->time ? (size_t)choice->times : 0;
+  const size_t levels = choice->level ? (size_t)choice->levels : 0,
+               count = times + levels;
   fg_axis_value *values = fg__allocate(count, sizeof *values);
-  char(*words)[FG__TIME_BYTES] = fg__allocate(count, sizeof *words);
+  char(*words)[LEVEL_BYTES] = fg__allocate(count, sizeof *words);
   fg_status status =
       values && words ? FG_STATUS_OK
                       : fg__fail_memory(table->context, "times", count * sizeof *words);
-  for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i) {
-    status = fg__time_write(words[i], table->context, times->all[i]);
-    values[i] = (fg_axis_value){times->all[i], "", words[i]};
+  for (size_t i = 0; i < times && status == FG_STATUS_OK; ++i) {
+    status = fg__time_write(words[i], table->context, choice->time[i]);
+    values[i] = (fg_axis_value){choice->time[i], "", words[i]};
   }
-  entry->times = times->count;
-  entry->time_value = count > 0 ? values : NULL;
+  for (size_t i = times; i < count && status == FG_STATUS_OK; ++i) {
+    status = write_level(words[i], table, vector, choice->level[i - times]);
+    values[i] = (fg_axis_value){choice->level[i - times],
+                                table->column[vector->level].units, words[i]};
+  }
+  entry->times = choice->times;
+  entry->time_value = times > 0 ? values : NULL;
+  entry->levels = choice->levels;
+  entry->level_value = levels > 0 ? values + times : NULL;
   if (status == FG_STATUS_OK)
     status = fg__scatter_describe(inventory, table->context, field, *entry);
   free(values);
@@ -184,16 +232,16 @@ static fg_status describe_vector(fg_inventory *inventory, const fg__table *table
   for (int k = 0; k < vector->dimension && k < 3; ++k)
     entry.name[k] = table->column[vector->velocity[k]].name;
   fg__scatter points = {0};
-  table_times times;
+  table_choice choice = {0};
   fg_field *field = NULL;
-  fg_status status = read_rows(&points, &times, table, vector, 0);
+  fg_status status = read_rows(&points, &choice, table, vector, 0, 0);
   if (status == FG_STATUS_OK)
     status =
         fg__scatter_field(&field, &entry.cells, &points, &words, (fg__slab_index){0, 1});
   fg__scatter_clear(&points);
   if (status == FG_STATUS_OK)
-    status = add_entry(inventory, table, field, &entry, &times);
-  free(times.all);
+    status = add_entry(inventory, table, vector, field, &entry, &choice);
+  clear_choice(&choice);
   fg_field_destroy(field);
   return status;
 }

@@ -105,7 +105,8 @@ typedef struct fg__table_vector {
   int position[3];
   int valid[2]; /* columns that say whether the row counts */
   int mask;
-  int time; /* when the row was measured */
+  int time;  /* when the row was measured */
+  int level; /* in 2D: at which height or depth */
   bool geographic;
   bool polar; /* velocity is speed and direction */
   bool from;  /* the direction is where it comes from */

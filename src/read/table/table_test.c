@@ -116,6 +116,121 @@ static void times_are_chosen(void **state)
   fg_context_clear(*state);
 }
 
+/* A grid in space, its rows as they come, in uneven steps, with and without names. */
+static void grids_in_space_are_read(void **state)
+{
+  static const double x[] = {0.0, 1.0, 2.5, 7.0}, y[] = {-1.0, 0.5, 2.0},
+                      z[] = {3.0, 10.0};
+  enum { NX = 4, NY = 3, NZ = 2, COUNT = NX * NY * NZ };
+  for (int named = 0; named < 2; ++named) {
+    char text[2048];
+    size_t used = 0;
+    if (named)
+      used = (size_t)snprintf(text, sizeof text, "X,Y,Z,U,V,W\n");
+    for (int row = 0; row < COUNT; ++row) {
+      const int n = 7 * row % COUNT, i = n % NX, j = n / NX % NY, k = n / (NX * NY);
+      used += (size_t)snprintf(text + used, sizeof text - used,
+                               named ? "%g,%g,%g,%d,%g,%d\n" : "%g %g %g %d %g %d\n",
+                               x[i], y[j], z[k], n, 0.5 * n, -n);
+    }
+    fg_field *field = read_text(*state, text);
+    const fg_field_arrays *f = fg_field_contents(field);
+    assert_int_equal(f->dimension, 3);
+    assert_true(f->size[0] == NX && f->size[1] == NY && f->size[2] == NZ);
+    for (int n = 0; n < COUNT; ++n) {
+      assert_true(f->axis[0][n % NX] == x[n % NX]);
+      assert_true(f->axis[2][n / (NX * NY)] == z[n / (NX * NY)]);
+      assert_true(f->velocity[0][n] == (float)n && f->velocity[2][n] == (float)-n);
+      assert_true(f->velocity[1][n] == (float)(0.5 * n));
+    }
+    fg_field_destroy(field);
+  }
+}
+
+/* The small grid upright, with a coordinate that is the same everywhere or without one.
+ */
+static void planes_along_other_axes_are_read(void **state)
+{
+  static const char *const same[] = {
+      "x,y,z,u,v,w\n1.5,7,10,11.5,99,-.25\n2.5,7,10,12.5,99,-.25\n"
+      "3.5,7,10,13.5,99,-.25\n1.5,7,20,21.5,99,-.25\n2.5,7,20,22.5,99,-.25\n"
+      "3.5,7,20,23.5,99,-.25\n",
+      "x y z u v w\n-3 1.5 10 99 11.5 -.25\n-3 2.5 10 99 12.5 -.25\n"
+      "-3 3.5 10 99 13.5 -.25\n-3 1.5 20 99 21.5 -.25\n-3 2.5 20 99 22.5 -.25\n"
+      "-3 3.5 20 99 23.5 -.25\n",
+      "w,u,z,x\n-.25,11.5,10,1.5\n-.25,12.5,10,2.5\n-.25,13.5,10,3.5\n"
+      "-.25,21.5,20,1.5\n-.25,22.5,20,2.5\n-.25,23.5,20,3.5\n"};
+  static const char *const names[][4] = {
+      {"x", "z", "u", "w"}, {"y", "z", "v", "w"}, {"x", "z", "u", "w"}};
+  static const char *const level[] = {"y = 7", "x = -3", ""};
+  for (size_t i = 0; i < sizeof same / sizeof *same; ++i) {
+    fg_field *field = read_text(*state, same[i]);
+    const fg_field_arrays *f = fg_field_contents(field);
+    for (int k = 0; k < 2; ++k) {
+      assert_string_equal(f->axis_name[k], names[i][k]);
+      assert_string_equal(f->velocity_name[k], names[i][2 + k]);
+    }
+    assert_string_equal(f->level ? f->level : "", level[i]);
+    check_small(field, -1);
+  }
+}
+
+/* A grid of 4 x 3 in a plane that rises by 3 over 4 along x: coordinates in it, and the
+ * velocity's part; what points out of it is not told. */
+static void tilted_planes_have_their_own_axes(void **state)
+{
+  char text[1024];
+  size_t used = (size_t)snprintf(text, sizeof text, "x,y,z,u,v,w\n");
+  for (int n = 0; n < 12; ++n) {
+    const double s = 5.0 * (n % 4), t = n / 4, along = 1.0 + n, out = 2.0;
+    used += (size_t)snprintf(text + used, sizeof text - used, "%g,%g,%g,%g,%g,%g\n",
+                             0.8 * s, t, 1.0 + 0.6 * s, 0.8 * along - 0.6 * out, -t,
+                             0.6 * along + 0.8 * out);
+  }
+  fg_field *field = read_text(*state, text);
+  const fg_field_arrays *f = fg_field_contents(field);
+  assert_true(f->dimension == 2 && f->size[0] == 4 && f->size[1] == 3);
+  assert_string_equal(f->axis_name[0], "x'");
+  assert_string_equal(f->axis_name[1], "y");
+  for (int n = 0; n < 12; ++n) {
+    assert_true(fabs(f->axis[0][n % 4] - f->axis[0][0] - 5.0 * (n % 4)) < 1e-9);
+    assert_true(fabs((double)f->velocity[0][n] - 1.0 - n) < 1e-5);
+    assert_true(f->velocity[1][n] == (float)(-(n / 4)));
+  }
+  fg_field_destroy(field);
+}
+
+/* Planes one above another with two components are levels. */
+static void levels_are_chosen(void **state)
+{
+  static const char text[] =
+      "x,y,u,v,depth [m]\n1.5,10,1,0,50\n2.5,10,2,0,50\n3.5,10,3,0,50\n1.5,20,4,0,50\n"
+      "2.5,20,5,0,50\n3.5,20,6,0,50\n1.5,10,11.5,-.25,5\n2.5,10,12.5,-.25,5\n"
+      "3.5,10,13.5,-.25,5\n1.5,20,21.5,-.25,5\n2.5,20,22.5,-.25,5\n3.5,20,23.5,-.25,5\n";
+  fg_field *field = read_text(*state, text);
+  assert_string_equal(fg_field_contents(field)->level, "depth = 5 m");
+  check_small(field, -1);
+  field = read_with(*state, text, &(fg_read_options){.level = 1});
+  for (int n = 0; n < 6; ++n)
+    assert_true(fg_field_contents(field)->velocity[0][n] == (float)(n + 1));
+  fg_field_destroy(field);
+  const fg__source source = source_of(text);
+  fg_inventory *inventory = NULL;
+  assert_int_equal(fg__inventory_create(&inventory, *state, "table"), FG_STATUS_OK);
+  assert_int_equal(fg__format_table.inventory(inventory, *state, &source), FG_STATUS_OK);
+  const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
+  assert_int_equal(v->levels, 2);
+  assert_true(v->level_value[0].value == 5.0 && v->level_value[1].value == 50.0);
+  assert_string_equal(v->level_value[1].units, "m");
+  fg_inventory_destroy(inventory);
+  assert_int_equal(fg__format_table.read(&field, *state, &source,
+                                         &(fg_read_options){.level = 2},
+                                         (fg__slab_index){0, 1}),
+                   FG_STATUS_ARGUMENT);
+  assert_non_null(strstr(fg_context_message(*state), "level 2 is asked for"));
+  fg_context_clear(*state);
+}
+
 /* What PIV programs write, each with its word for an invalid vector. */
 static void exports_of_piv_are_known(void **state)
 {
@@ -228,6 +343,8 @@ static void what_is_wrong_is_told_by_its_place(void **state)
       {"1 2 3\n4 5 6\n", NULL, FG_STATUS_FILE_FORMAT, "line 1 has 3 columns, 3 of them"},
       {"1 2 3 4 5\n2 3 4 5 6\n1 3 4 5 6\n", NULL, FG_STATUS_UNSUPPORTED,
        "5 columns without names"},
+      {"x,y,z,u,v,w\n1,2,3,4,1,1\n1,3,3,4,1,1\n2,2,9,4,1,1\n5,3,5,3,4,1\n", NULL,
+       FG_STATUS_UNSUPPORTED, "4 points in space lie neither on a grid"},
       {"x,y,p,q\n1,2,3,4\n1,3,3,4\n2,2,3,4\n", NULL, FG_STATUS_UNSUPPORTED,
        "4 columns, x, y, p, q"},
       {"x,y,u,v\n1,2,3,4\n1,3,3,4\n2,2,3,4\n", "u,w", FG_STATUS_ARGUMENT,
@@ -300,6 +417,10 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_layout_is_found),
       cmocka_unit_test(times_are_chosen),
+      cmocka_unit_test(grids_in_space_are_read),
+      cmocka_unit_test(planes_along_other_axes_are_read),
+      cmocka_unit_test(tilted_planes_have_their_own_axes),
+      cmocka_unit_test(levels_are_chosen),
       cmocka_unit_test(exports_of_piv_are_known),
       cmocka_unit_test(directions_are_turned_by_what_they_mean),
       cmocka_unit_test(columns_are_chosen_by_name_and_number),
