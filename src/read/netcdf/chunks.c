@@ -72,8 +72,8 @@ static fg_status check_content(chunked *c, const hsize_t *place, hsize_t stored)
       (skipped >> c->deflate & 1U))
     return FG_STATUS_OK;
   const size_t size = (size_t)stored - (c->checksum ? CHECKSUM_BYTES : 0);
-  /* libhdf5's shuffle and checksum may lie within: a few bytes more */
-  return inflates_beyond(c->stored, size, c->bytes + CHECKSUM_BYTES)
+  /* what filters before deflate add: checksums, their own headers */
+  return inflates_beyond(c->stored, size, c->bytes + c->bytes / 8 + WINDOW_BYTES)
              ? fail_swollen(c, stored)
              : FG_STATUS_OK;
 }
@@ -107,13 +107,16 @@ static fg_status check_chunk(chunked *c, const hsize_t *place)
   hsize_t stored = 0;
   if (was_seen(c, place))
     return FG_STATUS_OK;
-  keep_seen(c, place);
   if (H5Dget_chunk_storage_size(c->set, place, &stored) < 0 ||
       stored <= FG__NC_HARMLESS_BYTES)
     return FG_STATUS_OK;
   if (fg__nc_is_swollen(stored, c->bytes))
     return fail_swollen(c, stored);
-  return c->deflate < 0 ? FG_STATUS_OK : check_content(c, place, stored);
+  const fg_status status =
+      c->deflate < 0 ? FG_STATUS_OK : check_content(c, place, stored);
+  if (status == FG_STATUS_OK)
+    keep_seen(c, place);
+  return status;
 }
 
 static bool describe_filters(chunked *c, hid_t creation)
