@@ -11,15 +11,7 @@
 static int write_texture(fg_context *context, const texture_settings *settings,
                          const fg_field *field, const fg_texture *texture)
 {
-  const fg_texture_style style = {
-      .palette = settings->palette,
-      .fade = settings->fade,
-      .transparent = settings->transparent,
-      .key = settings->key,
-      .no_coast = settings->no_coast,
-      .borders = settings->borders,
-      .land = settings->land,
-  };
+  const fg_texture_style style = settings_texture_style(settings);
   fg_status status = fg_texture_write(context, settings->output, field, texture, &style);
   return status ? complain_of(context, status, settings->output)
                 : made_record(settings->output);
@@ -40,6 +32,29 @@ static int paint(fg_context *context, const texture_settings *settings,
   return code;
 }
 
+/* What tells of the colours of speeds needs them. */
+static int check_key(const texture_settings *settings)
+{
+  const picture_settings *picture = &settings->picture;
+  const given_option of_colors[] = {
+      {"key", settings->key},
+      {"speed-range", picture->speed_range[1] > picture->speed_range[0]}};
+  const given_option label = {"label", picture->label != NULL};
+  if (!picture->palette)
+    return refuse_given("texture", of_colors, 2,
+                        "only with --palette, whose colours it "
+                        "shows") ||
+                   refuse_given("texture", &label, 1, "only with --key")
+               ? EXIT_USAGE
+               : EXIT_DONE;
+  if (picture->palette[0] == '#' &&
+      refuse_given("texture", of_colors, 2, "not with --palette %s, which is one colour",
+                   picture->palette))
+    return EXIT_USAGE;
+  return settings->key ? EXIT_DONE
+                       : refuse_given("texture", &label, 1, "only with --key");
+}
+
 static int check_options(const texture_settings *settings)
 {
   const given_option of_clusters[] = {
@@ -55,7 +70,6 @@ static int check_options(const texture_settings *settings)
   const char *const inputs[] = {settings->reading.input, settings->reading.vars_from,
                                 settings->evolution.energy};
   const given_option length = {"length", settings->length > 0.0};
-  const given_option key = {"key", settings->key};
   int code = EXIT_DONE;
   if (settings->kind == FG_TEXTURE_CLUSTERS)
     code = refuse_given("texture", &length, 1, "not with --kind clusters");
@@ -63,12 +77,8 @@ static int check_options(const texture_settings *settings)
     code =
         refuse_given("texture", of_clusters, sizeof of_clusters / sizeof of_clusters[0],
                      "only with --kind clusters");
-  if (!code && !settings->palette)
-    code =
-        refuse_given("texture", &key, 1, "only with --palette, whose colours it shows");
-  else if (!code && settings->palette[0] == '#')
-    code = refuse_given("texture", &key, 1, "not with --palette %s, which is one colour",
-                        settings->palette);
+  if (!code)
+    code = check_key(settings);
   if (!code)
     code = check_picture_name(settings->output, "texture");
   return code ? code : check_is_no_input(settings->output, inputs, 3);

@@ -60,12 +60,14 @@ const cli_command command_table[] = {
      .text = "Paints the field's whole box with streaks along the flow, at the "
              "resolution of the picture however coarse the field's grid; INPUT as for "
              "flowgrain run, the picture's format by the end of its name: .png (the "
-             "pixels themselves), .svg or .pdf.",
+             "pixels themselves), .svg or .pdf. --title and --key add a title above and "
+             "a colour key below.",
      .work = command_texture,
      .group = {[GROUP_READING] = offsetof(texture_settings, reading),
                [GROUP_INPUTS] = offsetof(texture_settings, inputs),
                [GROUP_EVOLUTION] = offsetof(texture_settings, evolution),
-               [GROUP_WORK] = offsetof(texture_settings, work)},
+               [GROUP_WORK] = offsetof(texture_settings, work),
+               [GROUP_PICTURE] = offsetof(texture_settings, picture)},
      .operand_place = offsetof(texture_settings, reading.input),
      .output_place = offsetof(texture_settings, output),
      .most_numbers = 1},

@@ -10,9 +10,10 @@ static const option_entry picture_entries[] = {
     {"fade", 0, "F", COMMAND_TEXTURE, OPTION_NUMBER, OWN(texture, fade), 0, 1,
      .help = "share of the way to white, from 0 to 1 [0]"},
     /* 14400 points are the largest page that PDF readers promise to show. */
-    {"width", 0, "LENGTH", PICTURES, OPTION_LENGTH, PICTURE(width), 36, 14400,
+    {"width", 0, "LENGTH", PICTURES | COMMAND_TEXTURE, OPTION_LENGTH, PICTURE(width), 36,
+     14400,
      .help = "width of the picture, in points of 1/72 inch or with a unit: 252, 89mm, "
-             "8.9cm, 3.5in [480, of a tall domain less]"},
+             "8.9cm, 3.5in [480, of a tall domain less; texture: half a point a pixel]"},
     {"width", 0, "LENGTH", COMMAND_BRUSH, OPTION_LENGTH, OWN(brush, width), 36, 14400,
      .help =
          "width of the picture, in points of 1/72 inch or with a unit: 252, 89mm, 8.9cm, "
@@ -22,15 +23,16 @@ static const option_entry picture_entries[] = {
     {"dpi", 0, "N", PICTURES, OPTION_NUMBER, PICTURE(dpi), 10, 2400,
      .help =
          "pixels an inch of a .png [144; in 3D, whose pictures are all of pixels, 180]"},
-    {"title", 0, "TEXT", PICTURES, OPTION_WORDS, PICTURE(title),
+    {"title", 0, "TEXT", PICTURES | COMMAND_TEXTURE, OPTION_WORDS, PICTURE(title),
      .help = "title of the picture, '' for none; {title}, {time}, {level}, {names} and "
              "{arrows} stand for what the field says of itself and the number of arrows "
-             "[from the field]"},
-    {"subtitle", 0, "TEXT", PICTURES, OPTION_WORDS, PICTURE(subtitle),
-     .help = "the line below the title, likewise [from the field; none with --title]"},
-    {"label", 0, "TEXT", PICTURES, OPTION_WORDS, PICTURE(label),
+             "[from the field; texture: none]"},
+    {"subtitle", 0, "TEXT", PICTURES | COMMAND_TEXTURE, OPTION_WORDS, PICTURE(subtitle),
+     .help = "the line below the title, likewise [from the field; none with --title, or "
+             "texture]"},
+    {"label", 0, "TEXT", PICTURES | COMMAND_TEXTURE, OPTION_WORDS, PICTURE(label),
      .help = "label of the colour key, '' for none; {units} stands for its units "
-             "[mean speed ({units}), in 3D speed]"},
+             "[mean speed ({units}), in 3D and of a texture speed]"},
     {"columns", 0, "N", COMMAND_DRAW, OPTION_WHOLE, OWN(draw, columns), 1, FG_MOST_PANELS,
      .help = "of several panels: how many in a row [from their shape]"},
     {"panel-label", 0, "TEXT", COMMAND_DRAW, OPTION_WORDS, OWN(draw, panel_label),
@@ -38,15 +40,18 @@ static const option_entry picture_entries[] = {
              "as 'now|then'; {letter} stands for a, b, ..., and {time}, {level}, "
              "{title}, {names} and {arrows} as in a title [({letter}) and what tells it "
              "from the others]"},
-    {"font-size", 0, "LENGTH", PICTURES, OPTION_LENGTH, PICTURE(font_size), 2, 200,
+    {"font-size", 0, "LENGTH", PICTURES | COMMAND_TEXTURE, OPTION_LENGTH,
+     PICTURE(font_size), 2, 200,
      .help = "size of the texts, in points or with a unit [9 at a width of 480 points, "
              "growing with its root]"},
-    {"outline-text", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(outline_text),
+    {"outline-text", 0, NULL, PICTURES | COMMAND_TEXTURE, OPTION_FLAG,
+     PICTURE(outline_text),
      .help = "in 2D: texts of .svg and .pdf as shapes, which look the same without their "
              "font, instead of texts, which can be searched and edited"},
-    {"speed-range", 0, "A,B", PICTURES, OPTION_RANGE, PICTURE(speed_range), 0, 1e15,
+    {"speed-range", 0, "A,B", PICTURES | COMMAND_TEXTURE, OPTION_RANGE,
+     PICTURE(speed_range), 0, 1e15,
      .help = "speeds at the ends of the colour key; what is slower or faster has the "
-             "end's colour [those of the arrows]"},
+             "end's colour [those of the arrows; texture: of the field]"},
     {"surfaces", 0, NULL, COMMAND_RUN | COMMAND_DRAW, OPTION_FLAG, PICTURE(surfaces),
      .help = "in 3D: show the clusters' surfaces round the arrows, transparent; in .vtp "
              "and .glb, too"},
@@ -56,7 +61,7 @@ static const option_entry picture_entries[] = {
              "picture each [from where most of the finest scale's arrows is seen]"},
     {"palette", 0, "NAME", PICTURES, OPTION_PALETTE, PICTURE(palette),
      .help = "colour map of the speed, or #rrggbb for one colour [gale]"},
-    {"palette", 0, "NAME", COMMAND_TEXTURE, OPTION_PALETTE, OWN(texture, palette),
+    {"palette", 0, "NAME", COMMAND_TEXTURE, OPTION_PALETTE, PICTURE(palette),
      .help = "colour map that shows the speed, or #rrggbb for one colour [greys]"},
     {"key", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, OWN(texture, key),
      .help = "with --palette: a key of the speeds' colours below the texture"},
@@ -82,7 +87,8 @@ static const option_entry picture_entries[] = {
              "--skeletons and the others remain"},
     {"no-keys", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_keys),
      .help = "no colour key, and no arrow that tells lengths"},
-    {"mask-color", 0, "#RRGGBB", PICTURES, OPTION_COLOR, PICTURE(mask_color),
+    {"mask-color", 0, "#RRGGBB", PICTURES | COMMAND_TEXTURE, OPTION_COLOR,
+     PICTURE(mask_color),
      .help = "in 2D: colour of where the field is missing [#dadad7]"},
     {"tint-color", 0, "#RRGGBB", PICTURES, OPTION_COLOR, PICTURE(tint_color),
      .help = "in 2D, with --tint: its colour [#d7e4f2]"},
@@ -97,15 +103,15 @@ static const option_entry picture_entries[] = {
      .help = "of a field on the Earth: colour of land, #rrggbb [#ececea]"},
     {"borders", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(borders),
      .help = "of a field on the Earth: borders of countries, too"},
-    {"no-coast", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, OWN(texture, no_coast),
+    {"no-coast", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, PICTURE(no_coast),
      .help = "of a field on the Earth: no coasts on it, and grey where it is missing"},
-    {"land", 0, "#RRGGBB", COMMAND_TEXTURE, OPTION_COLOR, OWN(texture, land),
+    {"land", 0, "#RRGGBB", COMMAND_TEXTURE, OPTION_COLOR, PICTURE(land),
      .help = "of a field on the Earth: colour of land where it is missing [#ececea]"},
-    {"borders", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, OWN(texture, borders),
+    {"borders", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, PICTURE(borders),
      .help = "of a field on the Earth: borders of countries, too"},
     {"no-frame", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_frame),
      .help = "only mask and arrows: no axes, no keys, no caption"},
-    {"transparent", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, OWN(texture, transparent),
+    {"transparent", 0, NULL, COMMAND_TEXTURE, OPTION_FLAG, PICTURE(transparent),
      .help = "nothing where the field is missing, instead of grey"},
     {"transparent", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(transparent),
      .help = "no background"},

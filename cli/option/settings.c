@@ -84,6 +84,29 @@ fg_texture_options settings_texture(const texture_settings *settings)
   };
 }
 
+fg_texture_style settings_texture_style(const texture_settings *settings)
+{
+  const picture_settings *picture = &settings->picture;
+  return (fg_texture_style){
+      .palette = picture->palette,
+      .speed_min = picture->speed_range[0],
+      .speed_max = picture->speed_range[1],
+      .fade = settings->fade,
+      .mask_color = picture->mask_color,
+      .transparent = picture->transparent,
+      .no_coast = picture->no_coast,
+      .land = picture->land,
+      .borders = picture->borders,
+      .key = settings->key,
+      .title = picture->title,
+      .subtitle = picture->subtitle,
+      .label = picture->label,
+      .width = picture->width,
+      .font_size = picture->font_size,
+      .outline_text = picture->outline_text,
+  };
+}
+
 fg_picture_options settings_picture(const picture_settings *settings)
 {
   return (fg_picture_options){

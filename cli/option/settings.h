@@ -117,17 +117,15 @@ typedef struct texture_settings {
   reading_settings reading;
   evolution_settings evolution; /* of clusters */
   work_settings work;
+  picture_settings picture;
   const char *output;
   int kind;           /* fg_texture_kind */
   int pixels;         /* along the longest side */
   double length;      /* of streaks, pixels */
   number_list number; /* of clusters: one */
   double max_time;
-  const char *palette;
   double fade;
-  bool transparent, key;
-  bool no_coast, borders;
-  const char *land; /* a colour */
+  bool key;
 } texture_settings;
 
 typedef struct brush_settings {
@@ -206,6 +204,7 @@ fg_placement_options settings_placement(const run_settings *settings);
 fg_run_options settings_run(const run_settings *settings);
 fg_texture_options settings_texture(const texture_settings *settings);
 fg_picture_options settings_picture(const picture_settings *settings);
+fg_texture_style settings_texture_style(const texture_settings *settings);
 
 /* The ends of the colour key, where they are given; else `speeds` stay. */
 void settings_speeds(double speeds[2], const picture_settings *settings);

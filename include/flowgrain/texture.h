@@ -78,11 +78,17 @@ typedef struct fg_texture_style {
                              missing */
   const char *land;       /* "#rrggbb", colour of land [a pale grey] */
   bool borders;           /* of a field on the Earth: also borders of countries */
-  bool key; /* with a colour map: a key below the texture, whose pixels come on top */
+  bool key;               /* with a colour map: a key below the texture */
+  const char *title, *subtitle; /* above the texture; names in braces as in
+                                   fg_picture_options, but for {arrows} [none] */
+  const char *label; /* of the key, likewise ["speed" and its units]; "" none */
+  double width;      /* of the picture, points [half a point a pixel] */
+  double font_size;  /* points [follows from the width] */
+  bool outline_text; /* texts are drawn as shapes */
 } fg_texture_style;
 
-/* Writes a texture: .png has its very pixels (and below them the key), .svg and .pdf hold
- * them as an image, half a point a pixel. What is masked in the field is covered; coasts
+/* Writes a texture: .png has its very pixels (and round them title and key), .svg and
+ * .pdf hold them as an image. What is masked in the field is covered; coasts
  * of a field on the Earth are drawn above.
  * FILE_ACCESS, UNSUPPORTED, ARGUMENT, MEMORY. */
 FG_API fg_status fg_texture_write(fg_context *context, const char *path,

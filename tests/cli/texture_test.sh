@@ -46,6 +46,19 @@ try texture "$root/data/gfs_20140131.nc" -o key.svg --pixels 300 --palette deep 
 expect_code 0
 xmllint --noout key.svg 2>/dev/null || fault "no XML"
 done_with "texture: a colour key"
+try texture "$root/data/gfs_20140131.nc" -o key.svg --pixels 300 --palette deep --key --title 'Wind: {names}' \
+  --label 'knots' --speed-range 2,12 --width 89mm --font-size 6
+expect_code 0
+for words in 'Wind: u10, v10' '>knots<' 'width="252' '>12<'; do
+  grep -q -- "$words" key.svg || fault "no $words in the picture"
+done
+for wrong in '--speed-range 2,12' '--label knots' '--palette gale --label knots' '--palette #aabbcc --speed-range 2,12'; do
+  # shellcheck disable=SC2086
+  try texture synth:saddle -o wrong.png --pixels 50 $wrong
+  expect_code 2
+  expect_nothing_at wrong.png
+done
+done_with "texture: title and words of the key"
 try texture synth:saddle -o page.pdf --pixels 100 --fade 0.5 --length 30
 expect_code 0
 [ "$(head -c 5 page.pdf)" = %PDF- ] || fault "no PDF"

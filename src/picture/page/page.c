@@ -66,9 +66,8 @@ static void break_caption(caption *out, const fg__page_plan *plan, cairo_t *rule
   out->count += out->titles;
 }
 
-/* The caption stands above whatever else stands above the frame. */
-static void place_caption(fg__page *page, fg__margins *room, const fg__page_plan *plan,
-                          cairo_t *ruler)
+void fg__page_place_caption(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                            cairo_t *ruler)
 {
   const double em = page->font_size, pad = 0.6 * em;
   double start = fmin(fmax(page->frame.x0, pad), 0.35 * page->width);
@@ -181,7 +180,7 @@ static bool lay_out(fg__page *page, fg__page *panel, const fg__page_plan *plan,
     if (parts->color_key || parts->size_key)
       fg__page_place_keys(page, &room, plan, parts, ruler);
     if (parts->caption)
-      place_caption(page, &room, plan, ruler);
+      fg__page_place_caption(page, &room, plan, ruler);
     const double spare = rounding - edge;
     bool fits = room.left <= margins.left + spare &&
                 room.right <= margins.right + spare && room.top <= margins.top + spare &&

@@ -158,8 +158,14 @@ void fg__page_place_axes(fg__page *page, fg__margins *room, const fg__page_plan 
 void fg__page_place_keys(fg__page *page, fg__margins *room, const fg__page_plan *plan,
                          const fg__page_parts *parts, cairo_t *ruler);
 
-/* Adds a key of speeds below a frame as wide as the page, in its middle; page->height
- * grows by what it needs. Too narrow a page gets none. */
-void fg__page_place_lone_key(fg__page *page, const double range[2], const char *units);
+/* Adds the caption above whatever else stands above the frame; too narrow a page gets
+ * none. */
+void fg__page_place_caption(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                            cairo_t *ruler);
+
+/* Adds the plan's caption above a frame as wide as the page, which moves down by a whole
+ * number of steps, and a key of speeds below, in its middle; page->height grows by what
+ * they need. Too narrow a page gets none. */
+void fg__page_place_lone(fg__page *page, const fg__page_plan *plan, double step);
 
 #endif

@@ -284,22 +284,44 @@ void fg__page_place_keys(fg__page *page, fg__margins *room, const fg__page_plan 
  * one, below the label, and room for half a number beyond either end. */
 static const double lone_gap = 0.2, lone_edge = 0.6, lone_indent = 2.0;
 
-void fg__page_place_lone_key(fg__page *page, const double range[2], const char *units)
+static void place_lone_key(fg__page *page, const fg__page_plan *plan, cairo_t *ruler)
 {
   static const fg__page_parts parts = {.color_key = true, .keys_below = true};
-  fg__page_plan plan = {.color_key = true, .width = page->width};
-  const double em = page->font_size = fg__page_font_size(&plan);
+  const double em = page->font_size;
   const double wide = fmin(page->width - 2.0 * lone_indent * em, longest_bar * em);
   const fg__page_box whole = page->frame;
   fg__margins room = {.bottom = lone_gap * em};
-  cairo_t *ruler = fg__text_ruler();
-  fg__axis_of_numbers(&plan.speed, range[0], range[1], range[1] - range[0], "speed",
-                      units);
   page->frame.x0 = 0.5 * (page->width - wide);
   page->frame.x1 = page->frame.x0 + wide;
-  place_below(page, &room, &plan, &parts, ruler);
+  place_below(page, &room, plan, &parts, ruler);
   page->frame = whole;
   if (page->has_color_key)
     page->height += room.bottom + lone_edge * em;
+}
+
+static void move_down(fg__page *page, double by)
+{
+  for (int n = 0; n < page->text_count; ++n) {
+    page->text[n].y += by;
+    page->text[n].box.y0 += by;
+    page->text[n].box.y1 += by;
+  }
+  page->frame.y0 += by;
+  page->frame.y1 += by;
+  page->height += by;
+}
+
+void fg__page_place_lone(fg__page *page, const fg__page_plan *plan, double step)
+{
+  fg__margins room = {0};
+  cairo_t *ruler = fg__text_ruler();
+  page->font_size = fg__page_font_size(plan);
+  if (plan->title[0] || plan->subtitle[0]) {
+    fg__page_place_caption(page, &room, plan, ruler);
+    if (room.top > 0.0)
+      move_down(page, step * ceil((room.top + lone_edge * page->font_size) / step));
+  }
+  if (plan->color_key)
+    place_lone_key(page, plan, ruler);
   cairo_destroy(ruler);
 }

@@ -10,7 +10,10 @@
 #include "picture/surface/surface.h"
 
 /* In files without pixels of their own: what the arrows' pictures have in PNG. */
-static const double pixels_per_point = 2.0;
+static const double usual_density = 2.0;
+
+/* Points: the least and largest width, which is what PDF readers promise to show. */
+static const double narrowest = 36.0, widest = 14400.0;
 
 static fg_status check_style(fg_context *context, const fg_texture_style *style)
 {
@@ -22,6 +25,13 @@ static fg_status check_style(fg_context *context, const fg_texture_style *style)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "texture: speeds cannot run from %g to %g", style->speed_min,
                     style->speed_max);
+  if (style->width != 0.0 && !(style->width >= narrowest && style->width <= widest))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "texture: a width of %g points, it must lie between %g and %g",
+                    style->width, narrowest, widest);
+  if (!(style->font_size >= 0.0 && isfinite(style->font_size)))
+    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: texts of %g points",
+                    style->font_size);
   return FG_STATUS_OK;
 }
 
@@ -44,6 +54,7 @@ static fg_status find_mask(fg__polygons *out, fg_context *context, const fg_fiel
 /* What is painted: an image, and what covers it. */
 typedef struct painted {
   cairo_surface_t *image;
+  double pixels_per_point;
   fg__polygons mask;   /* pixels */
   fg__map_cover cover; /* of a map, points: what was the mask */
   fg__color mask_color;
@@ -63,7 +74,8 @@ static fg_status find_coasts(painted *out, fg_context *context, const fg_field *
   if (style->no_coast)
     return FG_STATUS_OK;
   fg__scene_box(low, high, fg_field_contents(field));
-  const double wide = size[0] / pixels_per_point, tall = size[1] / pixels_per_point;
+  const double wide = size[0] / out->pixels_per_point;
+  const double tall = size[1] / out->pixels_per_point;
   const fg__page page = {.scale = wide / (high[0] - low[0]),
                          .frame = {0.0, 0.0, wide, tall}};
   fg_status status = fg__plane_create(&plane, context, field, low, high);
@@ -78,7 +90,7 @@ static fg_status find_coasts(painted *out, fg_context *context, const fg_field *
     out->on_map = !status;
     for (size_t n = 0; n < out->mask.point_count; ++n)
       for (int k = 0; k < 2; ++k)
-        out->mask.point[n][k] /= pixels_per_point;
+        out->mask.point[n][k] /= out->pixels_per_point;
     out->cover.exact = out->mask;
     out->mask = (fg__polygons){.point = NULL};
     if (!status)
@@ -108,7 +120,7 @@ static void clip_to_known(cairo_t *cairo, const fg__polygons *mask, double wide,
 
 static void paint(cairo_t *cairo, const painted *p)
 {
-  cairo_scale(cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
+  cairo_scale(cairo, 1.0 / p->pixels_per_point, 1.0 / p->pixels_per_point);
   if (p->transparent && p->mask.count)
     clip_to_known(cairo, &p->mask, cairo_image_surface_get_width(p->image),
                   cairo_image_surface_get_height(p->image));
@@ -119,8 +131,8 @@ static void paint(cairo_t *cairo, const painted *p)
 
 static void paint_map(cairo_t *cairo, const painted *p)
 {
-  const double wide = cairo_image_surface_get_width(p->image) / pixels_per_point;
-  const double high = cairo_image_surface_get_height(p->image) / pixels_per_point;
+  const double wide = cairo_image_surface_get_width(p->image) / p->pixels_per_point;
+  const double high = cairo_image_surface_get_height(p->image) / p->pixels_per_point;
   cairo_rectangle(cairo, 0.0, 0.0, wide, high);
   cairo_clip(cairo);
   if (!p->transparent) {
@@ -131,7 +143,7 @@ static void paint_map(cairo_t *cairo, const painted *p)
   cairo_save(cairo);
   if (p->transparent && p->cover.smooth.count)
     clip_to_known(cairo, &p->cover.smooth, wide, high);
-  cairo_scale(cairo, 1.0 / pixels_per_point, 1.0 / pixels_per_point);
+  cairo_scale(cairo, 1.0 / p->pixels_per_point, 1.0 / p->pixels_per_point);
   paint_image(cairo, p);
   cairo_restore(cairo);
   if (!p->transparent)
@@ -141,40 +153,81 @@ static void paint_map(cairo_t *cairo, const painted *p)
   fg__map_draw_outline_in(cairo, &p->map, wide, high);
 }
 
-/* A page as large as the image; with a key when the style wants it. */
+/* Whether some of what is seen is slower, or faster, than the ends that were asked for.
+ */
+static void look_beyond(bool beyond[2], const fg_texture_arrays *texture,
+                        const fg_texture_style *style)
+{
+  if (!(style->speed_max > style->speed_min))
+    return;
+  const size_t count = (size_t)texture->size[0] * (size_t)texture->size[1];
+  for (size_t n = 0; n < count; ++n) {
+    beyond[0] = beyond[0] || (double)texture->speed[n] < style->speed_min;
+    beyond[1] = beyond[1] || (double)texture->speed[n] > style->speed_max;
+  }
+}
+
+static fg_status plan_key(fg__page_plan *plan, fg_context *context, const fg_field *field,
+                          const fg_texture_arrays *texture, const fg_texture_style *style)
+{
+  const char *units = fg_field_contents(field)->velocity_units;
+  double range[2];
+  const fg_status status = fg__texture_range(range, context, texture, style);
+  if (status)
+    return status;
+  plan->color_key = true;
+  fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0], "speed",
+                      units);
+  fg__caption_label_speeds(&plan->speed, style->label, units);
+  look_beyond(plan->speeds_beyond, texture, style);
+  return FG_STATUS_OK;
+}
+
+/* A page as large as the image; with a caption and a key when the style wants them. */
 static fg_status plan_page(fg__page *page, fg__palette *palette, fg_context *context,
-                           const fg_field *field, const fg_texture_arrays *texture,
+                           const painted *p, const fg_field *field,
+                           const fg_texture_arrays *texture,
                            const fg_texture_style *style)
 {
-  const double wide = texture->size[0] / pixels_per_point;
-  const double high = texture->size[1] / pixels_per_point;
+  const double wide = texture->size[0] / p->pixels_per_point;
+  const double high = texture->size[1] / p->pixels_per_point;
+  const char *const wanted[2] = {style->title ? style->title : "",
+                                 style->subtitle ? style->subtitle : ""};
   *page = (fg__page){.width = wide, .height = high, .frame = {.x1 = wide, .y1 = high}};
+  fg__page_plan *plan = fg__allocate(1, sizeof *plan);
+  if (!plan)
+    return fg__fail_memory(context, "a page", sizeof *plan);
+  plan->width = wide;
+  plan->font_size = style->font_size;
+  fg__caption_write(plan->title, plan->subtitle, fg_field_contents(field), NULL, wanted,
+                    0.0);
   fg_status status = fg__palette_create(palette, context, style->palette);
-  if (status || !style->key || !style->palette || palette->uniform)
-    return status;
-  double range[2];
-  status = fg__texture_range(range, context, texture, style);
+  if (!status && style->key && style->palette && !palette->uniform)
+    status = plan_key(plan, context, field, texture, style);
   if (!status)
-    fg__page_place_lone_key(page, range, fg_field_contents(field)->velocity_units);
+    fg__page_place_lone(page, plan, 1.0 / p->pixels_per_point);
+  free(plan);
   return status;
 }
 
 static fg_status write(fg_context *context, const char *path, const painted *p,
-                       const fg__page *page, const fg__palette *palette)
+                       const fg__page *page, const fg__palette *palette,
+                       const fg_texture_style *style)
 {
   fg__surface_file surface;
   fg_status status = fg__surface_file_open(&surface, context, path, page->width,
-                                           page->height, pixels_per_point, NULL);
+                                           page->height, p->pixels_per_point, NULL);
   if (status)
     return status;
-  if (page->has_color_key) {
-    if (!p->transparent) {
-      cairo_set_source_rgb(surface.cairo, 1.0, 1.0, 1.0);
-      cairo_paint(surface.cairo);
-    }
-    fg__draw_key(surface.cairo, page, palette);
-    fg__draw_texts(&surface, page, false);
+  if (page->text_count > 0 && !p->transparent) {
+    cairo_set_source_rgb(surface.cairo, 1.0, 1.0, 1.0);
+    cairo_paint(surface.cairo);
   }
+  if (page->has_color_key)
+    fg__draw_key(surface.cairo, page, palette);
+  if (page->text_count > 0)
+    fg__draw_texts(&surface, page, style->outline_text);
+  cairo_translate(surface.cairo, page->frame.x0, page->frame.y0);
   if (p->on_map)
     paint_map(surface.cairo, p);
   else
@@ -214,6 +267,8 @@ fg_status fg_texture_write(fg_context *context, const char *path, const fg_field
   fg_status status = fg__surface_file_format_check(context, path);
   if (!status)
     status = check_style(context, &settled);
+  p.pixels_per_point =
+      settled.width > 0.0 ? contents->size[0] / settled.width : usual_density;
   if (!status)
     status = choose_colors(&p, context, &settled);
   if (!status)
@@ -223,9 +278,9 @@ fg_status fg_texture_write(fg_context *context, const char *path, const fg_field
   if (!status)
     status = fg__texture_image(&p.image, context, contents, &settled);
   if (!status)
-    status = plan_page(page, &palette, context, field, contents, &settled);
+    status = plan_page(page, &palette, context, &p, field, contents, &settled);
   if (!status)
-    status = write(context, path, &p, page, &palette);
+    status = write(context, path, &p, page, &palette, &settled);
   free(page);
   cairo_surface_destroy(p.image);
   fg__polygons_clear(&p.mask);

@@ -113,6 +113,47 @@ static cairo_surface_t *written_large(example *e, const fg_texture *texture,
   return image;
 }
 
+/* A title lies above, in a picture of a wanted width: the texture's pixels stay. */
+static void test_a_title_comes_above(void **state)
+{
+  example *e = *state;
+  const fg_texture_options options = {.longest = 400, .threads = 1};
+  fg_texture *texture = NULL;
+  assert_int_equal(fg_texture_create(&texture, e->context, e->field, &options),
+                   FG_STATUS_OK);
+  const fg_texture_style plain = {.palette = "gale"},
+                         titled = {.palette = "gale", .title = "Shear", .width = 200.0},
+                         small = {.palette = "gale",
+                                  .title = "Shear",
+                                  .width = 200.0,
+                                  .font_size = 5.0},
+                         narrow = {.width = 10.0};
+  cairo_surface_t *without = written_large(e, texture, &plain);
+  cairo_surface_t *with = written_large(e, texture, &titled);
+  cairo_surface_t *smaller = written_large(e, texture, &small);
+  const int height = cairo_image_surface_get_height(with), above = height - 200;
+  assert_true(above > 15 && above < 60);
+  assert_true(cairo_image_surface_get_height(smaller) < height);
+  double darkest = 1.0;
+  for (int j = 0; j < height; ++j)
+    for (int i = 0; i < 400; ++i) {
+      const rgba b = pixel_at(with, i, j);
+      if (j < above) {
+        darkest = fmin(darkest, b.green);
+        continue;
+      }
+      const rgba a = pixel_at(without, i, j - above);
+      assert_true(a.red == b.red && a.green == b.green && a.blue == b.blue);
+    }
+  assert_true(darkest < 0.5);
+  assert_int_equal(fg_texture_write(e->context, e->path, e->field, texture, &narrow),
+                   FG_STATUS_ARGUMENT);
+  cairo_surface_destroy(without);
+  cairo_surface_destroy(with);
+  cairo_surface_destroy(smaller);
+  fg_texture_destroy(texture);
+}
+
 /* The key lies below: what is above stays to the pixel. Its bar runs from the colours of
  * slow to those of fast places. */
 static void test_a_key_comes_below(void **state)
@@ -346,6 +387,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(test_pixels_are_the_textures, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_a_title_comes_above, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_a_key_comes_below, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_missing_is_covered, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_missing_pixels_are_like_their_neighbours,
