@@ -58,7 +58,7 @@ static double wrap(const fg__axis *axis, double x)
   return x < axis->coordinate[axis->cells] ? x : first;
 }
 
-int fg__axis_cell(const fg__axis *axis, double x, double *fraction)
+static inline int find_cell(const fg__axis *axis, double x, double *fraction)
 {
   const double *coordinate = axis->coordinate;
   if (axis->period > 0.0 && isfinite(x))
@@ -87,6 +87,11 @@ int fg__axis_cell(const fg__axis *axis, double x, double *fraction)
   const double inside = (x - coordinate[cell]) * axis->inverse_width[cell];
   *fraction = inside < 1.0 ? inside : 1.0;
   return cell;
+}
+
+int fg__axis_cell(const fg__axis *axis, double x, double *fraction)
+{
+  return find_cell(axis, x, fraction);
 }
 
 /* A point of a grid along axis k; one a rounding error beyond the axis is at its end. */
@@ -149,9 +154,32 @@ static bool has_cell(const fg_field *field, const int at[3])
   return true;
 }
 
+/* The same as below of a whole field in 2D, from which nearly all lines are traced,
+ * without calls and loops. */
+static bool velocity_in_2d(const fg_field *field, const double position[],
+                           double velocity[])
+{
+  const fg__axis *x = &field->axis[0], *y = &field->axis[1];
+  double s, t;
+  const int i = find_cell(x, position[0], &s);
+  const int j = i < 0 ? -1 : find_cell(y, position[1], &t);
+  if (j < 0 ||
+      (field->valid_cell && !field->valid_cell[(size_t)j * (size_t)x->cells + (size_t)i]))
+    return false;
+  const size_t row = (size_t)x->samples, right = (size_t)next_sample(x, i);
+  const size_t lower = (size_t)j * row, upper = (size_t)next_sample(y, j) * row;
+  const size_t corner[4] = {lower + (size_t)i, lower + right, upper + (size_t)i,
+                            upper + right};
+  velocity[0] = bilinear(field->velocity[0], corner, s, t);
+  velocity[1] = bilinear(field->velocity[1], corner, s, t);
+  return true;
+}
+
 bool fg_field_velocity(const fg_field *field, const double position[], double velocity[])
 {
   const int dimension = field->contents.dimension;
+  if (dimension == 2 && fg__field_is_whole(field))
+    return velocity_in_2d(field, position, velocity);
   double inside[3];
   int at[3] = {0};
   size_t cell = 0;
