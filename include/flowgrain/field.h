@@ -188,6 +188,8 @@ typedef struct fg_inventory_vector {
   double normal_share;  /* of a plane in space: fg_field_normal_share at the first time */
   const char *frame; /* of a model's grid: what the components are along, and which rule
                         says so; NULL: along the axes */
+  const char *plane; /* PROJ string of the plane in which a model's grid is even; NULL:
+                        not known */
   size_t cells;      /* 0, or how many cells, which are not along the axes, are
                         interpolated onto that grid; outside them is missing */
   const fg_axis_value *time_value, *level_value; /* [times], [levels]; NULL: not known */

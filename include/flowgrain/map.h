@@ -28,11 +28,13 @@ struct fg_map_options {
   int threads;      /* [as many as there are cores, where there is work for them] */
 };
 
-/* The name, PROJ's, of the projection that "auto" takes for a vector of a file; NULL
+/* The name, PROJ's, of the projection that "auto" takes for a vector of a file, or the
+ * string of its model's own; NULL
  * where it lies on no globe, and in builds without maps. */
 FG_API const char *fg_map_auto(const fg_inventory_vector *vector);
 
-/* Lays a field on a longitude-latitude grid (2D, scale GEO) on the plane of a projection:
+/* Lays a field on a longitude-latitude grid (2D, scale GEO), or on the plane of a known
+ * projection (2D, scale MAP; "auto" is then that one), on the plane of a projection:
  * a field of scale MAP in kilometres, whose velocity lies along the plane's axes and
  * keeps its length, with square samples; missing outside the outline. The same bits on
  * any number of threads. Projections of our own stand on a sphere of 6371 km. ARGUMENT

@@ -59,10 +59,22 @@ void fg__map_turn(const fg__map *map, size_t n, const double *longitude,
     east[i] = north[i] = NAN;
 }
 
+void fg__map_turn_back(const fg__map *map, size_t n, const double *longitude,
+                       const double *latitude, float *x, float *y)
+{
+  fg__map_turn(map, n, longitude, latitude, x, y);
+}
+
 void fg__map_turn_row(const fg__map *map, size_t n, const double *longitude,
                       const double *latitude, float *east, float *north)
 {
   fg__map_turn(map, n, longitude, latitude, east, north);
+}
+
+void fg__map_ellipsoid(const fg__map *map, double *radius, double *flatness)
+{
+  (void)map;
+  *radius = *flatness = (double)NAN;
 }
 
 double fg__map_area_scale(const fg__map *map, double longitude, double latitude)
@@ -128,6 +140,14 @@ fg_status fg__sphere_project(fg_field **out, fg_context *context,
   (void)options;
   (void)number;
   (void)count;
+  *out = NULL;
+  return fg__fail_absent(context, "projection", FG_FEATURE_MAPS);
+}
+
+fg_status fg__sphere_of_plane(fg__sphere **out, fg_context *context,
+                              const fg_field *field)
+{
+  (void)field;
   *out = NULL;
   return fg__fail_absent(context, "projection", FG_FEATURE_MAPS);
 }

@@ -111,6 +111,8 @@ const char *fg_map_auto(const fg_inventory_vector *vector)
   if (!vector || vector->unusable || vector->dimension != 2 ||
       vector->scale != FG_SCALE_GEO || !(vector->bounds[2] < vector->bounds[3]))
     return NULL;
+  if (vector->plane)
+    return vector->plane;
   const double west = vector->bounds[0];
   const double east = vector->periodic[0] ? west + 360.0 : vector->bounds[1];
   const fg__map_area area = {west, east, vector->bounds[2], vector->bounds[3], false};

@@ -43,7 +43,12 @@ void fg__map_inverse(const fg__map *map, size_t n, const double *x, const double
 void fg__map_turn(const fg__map *map, size_t n, const double *longitude,
                   const double *latitude, float *east, float *north);
 
-/* The same of positions whose images lie on a line, evenly spaced and less than a
+/* The way back: vectors along the plane's axes at positions in degrees become east and
+ * north. */
+void fg__map_turn_back(const fg__map *map, size_t n, const double *longitude,
+                       const double *latitude, float *x, float *y);
+
+/* As fg__map_turn, of positions whose images lie on a line, evenly spaced and less than a
  * hundredth of the Earth's radius apart or so: faster, where derivatives are smooth. */
 void fg__map_turn_row(const fg__map *map, size_t n, const double *longitude,
                       const double *latitude, float *east, float *north);
@@ -60,6 +65,9 @@ double fg__map_length_scale(const fg__map *map, double longitude, double latitud
  * degree.
  */
 double fg__map_unit(const fg__map *map);
+
+/* The ellipsoid's larger half-axis a in metres, and e squared. */
+void fg__map_ellipsoid(const fg__map *map, double *radius, double *flatness);
 
 /* The central meridian lon0: the cut is at lon0 - 180 and lon0 + 180. */
 double fg__map_center(const fg__map *map);

@@ -14,13 +14,22 @@ typedef struct fg__map_plane {
   double reach; /* degrees from the centre; 0: no bound */
 } fg__map_plane;
 
+/* Positions in degrees. */
+typedef struct fg__map_places {
+  size_t count;
+  double *longitude, *latitude;
+} fg__map_places;
+
 /* Finds the rectangle of an area. is_region: the area was asked for, and fills a
  * rectangle as long as its middle parallel and as high as its middle meridian, unless it
  * goes all round; else all of it is to be seen. Projections without an outline are shown
  * to where they enlarge lengths threefold, Mercator's to 80 degrees. samples: along the
- * longer side. ARGUMENT: nothing of the area has an image. */
+ * longer side. places: all that is to be seen, where no area was asked for; NULL or none
+ * of them: all of the area. ARGUMENT: nothing of the area has an image, or the image is
+ * torn elsewhere than along the meridian opposite the centre. */
 fg_status fg__map_plane_find(fg__map_plane *out, fg_context *context, const fg__map *map,
-                             const fg__map_area *area, bool is_region, int samples);
+                             const fg__map_area *area, const fg__map_places *places,
+                             bool is_region, int samples);
 
 /* Whether a position that the map has an image of is to be shown. */
 bool fg__map_plane_shows(const fg__map_plane *plane, const fg__map *map, double longitude,

@@ -24,6 +24,9 @@ static const double PART_STEPS = 1.5;
  * so much of its diagonal. */
 static const double STRAIGHT = 0.02;
 
+/* Places of points that are looked at for the rectangle in which they lie. */
+enum { MOST_PLACES = 200000 };
+
 /* Places that are worth a thread. */
 static const double THREAD_PLACES = 1e6;
 
@@ -383,6 +386,35 @@ static void find_area(fg__map_area *out, const fg__sphere *sphere,
   out->sea = out->east - out->west >= FG__MAP_ALL_ROUND && is_of_the_sea(sphere);
 }
 
+/* "auto" is the plane of the sphere's own points, if they have one that can be drawn. */
+static const char *find_own_plane(const fg__sphere *sphere, const fg_map_options *options)
+{
+  const char *own = fg__sphere_words(sphere)->projection;
+  fg__map_words words;
+  const bool is_auto = !options->projection || strcmp(options->projection, "auto") == 0;
+  return own && is_auto && !options->has_center &&
+                 fg__map_words_read(&words, NULL, own) == FG_STATUS_OK &&
+                 !fg__map_words_are_degrees(&words)
+             ? own
+             : NULL;
+}
+
+/* Places of points on a plane of their own: they fill it better than their longitudes and
+ * latitudes do. */
+static fg_status find_places(fg__map_places *out, fg_context *context,
+                             const fg__sphere *sphere)
+{
+  *out = (fg__map_places){0};
+  if (!fg__sphere_words(sphere)->projection)
+    return FG_STATUS_OK;
+  out->longitude = fg__allocate(MOST_PLACES, sizeof *out->longitude);
+  out->latitude = fg__allocate(MOST_PLACES, sizeof *out->latitude);
+  if (!out->longitude || !out->latitude)
+    return fg__fail_memory(context, "places", 2 * MOST_PLACES * sizeof *out->longitude);
+  out->count = fg__sphere_places(out->longitude, out->latitude, sphere, MOST_PLACES);
+  return FG_STATUS_OK;
+}
+
 fg_status fg__sphere_project(fg_field **out, fg_context *context,
                              const fg__sphere *sphere, const fg_map_options *options,
                              int number, int count)
@@ -390,17 +422,24 @@ fg_status fg__sphere_project(fg_field **out, fg_context *context,
   fg__map_area area;
   fg__map_plane plane;
   fg__map *map = NULL;
+  fg__map_places places = {0};
+  fg_map_options chosen = *options;
   char projection[FG__MAP_STRING_BYTES];
   *out = NULL;
   fg_status status = check_options(context, options);
   if (status != FG_STATUS_OK)
     return status;
   find_area(&area, sphere, options);
-  status = fg__map_choose(projection, context, options, &area);
+  const char *own = find_own_plane(sphere, options);
+  if (own)
+    chosen.projection = own;
+  status = fg__map_choose(projection, context, &chosen, &area);
   if (status == FG_STATUS_OK)
     status = fg__map_create(&map, context, projection);
   if (status == FG_STATUS_OK)
-    status = fg__map_plane_find(&plane, context, map, &area, options->has_region,
+    status = find_places(&places, context, sphere);
+  if (status == FG_STATUS_OK)
+    status = fg__map_plane_find(&plane, context, map, &area, &places, options->has_region,
                                 options->samples ? options->samples : SAMPLES);
   if (status == FG_STATUS_OK) {
     fg__sphere_extent extent;
@@ -412,6 +451,8 @@ fg_status fg__sphere_project(fg_field **out, fg_context *context,
                   threads_for(options, &plane, across), number, count);
   }
   fg__map_destroy(map);
+  free(places.longitude);
+  free(places.latitude);
   return status;
 }
 
@@ -423,13 +464,15 @@ fg_status fg_field_project(fg_field **out, fg_context *context, const fg_field *
     return fg__fail(context, FG_STATUS_ARGUMENT, "map: no field to lay on it");
   *out = NULL;
   const fg_field_arrays *arrays = fg_field_contents(field);
-  if (arrays->dimension != 2 || arrays->scale != FG_SCALE_GEO ||
+  const bool on_plane = arrays->scale == FG_SCALE_MAP && arrays->projection;
+  if (arrays->dimension != 2 || !(arrays->scale == FG_SCALE_GEO || on_plane) ||
       !fg__field_is_whole(field) || (options && !fg__map_is_asked(options)))
     return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "map: a whole field in longitude and latitude is needed, and a "
-                    "projection");
+                    "map: a whole field in longitude and latitude, or on the plane of a "
+                    "projection, is needed, and a projection");
   fg__sphere *sphere = NULL;
-  fg_status status = fg__sphere_of_field(&sphere, context, field);
+  fg_status status = on_plane ? fg__sphere_of_plane(&sphere, context, field)
+                              : fg__sphere_of_field(&sphere, context, field);
   if (status == FG_STATUS_OK)
     status =
         fg__sphere_project(out, context, sphere, options ? options : &defaults, 0, 1);

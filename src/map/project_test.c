@@ -287,6 +287,83 @@ static void regions_are_rectangles_or_round(void **state)
   fg_field_destroy(field);
 }
 
+/* A whole globe would be torn along meridians of its own; a lobe is whole, and so is a
+ * globe whose one cut is opposite the centre, wherever that is. */
+static void interrupted_planes_are_for_regions(void **state)
+{
+  (void)state;
+  static const char *const torn[] = {"+proj=igh", "+proj=imoll", "+proj=healpix",
+                                     "+proj=tcea",
+                                     "+proj=ob_tran +o_proj=moll +o_lat_p=45"};
+  static const char *const whole[] = {
+      "+proj=goode", "+proj=moll +lon_0=77",  "eqearth",    "+proj=hammer +lon_0=-120",
+      "robinson",    "+proj=bonne +lat_1=40", "+proj=poly", "polar"};
+  fg_field *field = make(&GLOBE), *out;
+  fg_map_options options = {.samples = 40};
+  for (size_t k = 0; k < sizeof torn / sizeof *torn; ++k) {
+    options.projection = torn[k];
+    assert_int_equal(fg_field_project(&out, NULL, field, &options), FG_STATUS_ARGUMENT);
+  }
+  for (size_t k = 0; k < sizeof whole / sizeof *whole; ++k) {
+    options.projection = whole[k];
+    if (fg_field_project(&out, NULL, field, &options) != FG_STATUS_OK)
+      fail_msg("%s is refused", whole[k]);
+    fg_field_destroy(out);
+  }
+  options = (fg_map_options){.projection = "+proj=igh",
+                             .has_region = true,
+                             .region = {10.0, 60.0, -40.0, 60.0},
+                             .samples = 60};
+  assert_int_equal(fg_field_project(&out, NULL, field, &options), FG_STATUS_OK);
+  assert_true(compare(out, 3e-3) > 0.9);
+  fg_field_destroy(out);
+  fg_field_destroy(field);
+}
+
+/* From a plane to another one by way of the globe: vectors are the rotation's in the
+ * second plane, too, whatever the axes of the first. */
+static void planes_become_others(void **state)
+{
+  (void)state;
+  static const grid europe = {-10.0, 30.0, 35.0, 70.0, 161, 141, false, false};
+  static const char *const first[] = {
+      "+proj=lcc +lat_1=30 +lat_2=60 +lat_0=40 +lon_0=60 +ellps=WGS84 +x_0=400000",
+      "+proj=stere +lat_0=90 +lat_ts=60 +lon_0=-60 +R=6371000", "aeqd"};
+  static const char *const second[] = {"laea", "mercator", "+proj=utm +zone=31"};
+  for (size_t k = 0; k < sizeof first / sizeof *first; ++k)
+    for (size_t n = 0; n < sizeof second / sizeof *second; ++n) {
+      fg_field *plane =
+          project(&europe, &(fg_map_options){.projection = first[k], .samples = 300});
+      fg_field *other;
+      assert_int_equal(
+          fg_field_project(&other, NULL, plane,
+                           &(fg_map_options){.projection = second[n], .samples = 120}),
+          FG_STATUS_OK);
+      assert_string_not_equal(fg_field_contents(other)->projection,
+                              fg_field_contents(plane)->projection);
+      assert_true(compare(other, 3e-3) > 0.3);
+      fg_field_destroy(other);
+      /* its own, unless another is asked for; a region is cut out of it */
+      const fg_map_options part = {
+          .has_region = true, .region = {0.0, 10.0, 45.0, 55.0}, .samples = 60};
+      assert_int_equal(fg_field_project(&other, NULL, plane, &part), FG_STATUS_OK);
+      fg__map *maps[2];
+      for (int i = 0; i < 2; ++i)
+        assert_int_equal(fg__map_create(&maps[i], NULL,
+                                        fg_field_contents(i ? other : plane)->projection),
+                         FG_STATUS_OK);
+      double x[2], y[2];
+      for (int i = 0; i < 2; ++i) {
+        fg__map_forward(maps[i], 1, (double[]){7.0}, (double[]){50.0}, &x[i], &y[i]);
+        fg__map_destroy(maps[i]);
+      }
+      assert_true(fabs(x[0] - x[1]) < 1e-6 && fabs(y[0] - y[1]) < 1e-6);
+      assert_true(compare(other, 3e-3) == 1.0);
+      fg_field_destroy(other);
+      fg_field_destroy(plane);
+    }
+}
+
 static void what_no_map_can_show_is_refused(void **state)
 {
   (void)state;
@@ -308,6 +385,7 @@ static void what_no_map_can_show_is_refused(void **state)
       {{.has_region = true, .region = {0, 10, 50, 50}}, "south below north"},
       {{.has_center = true, .center = {(double)NAN, 0}}, "centre"},
       {{.samples = 3}, "3 samples"},
+      {{.projection = "+proj=igh +lon_0=60"}, "it is torn near longitude"},
   };
   fg_context *context;
   fg_field *field = make(&europe), *out;
@@ -320,7 +398,7 @@ static void what_no_map_can_show_is_refused(void **state)
       fail_msg("%s", fg_context_message(context));
     fg_context_clear(context);
   }
-  assert_int_equal(fg_field_project(&out, context, field, NULL), FG_STATUS_OK);
+  assert_int_equal(fg_field_create_analytic(&out, context, "vortex", 9), FG_STATUS_OK);
   fg_field *again;
   assert_int_equal(fg_field_project(&again, context, out, NULL), FG_STATUS_ARGUMENT);
   fg_context_clear(context);
@@ -340,6 +418,8 @@ int main(void)
       cmocka_unit_test(finer_data_are_averaged),
       cmocka_unit_test(auto_takes_a_map_by_what_is_covered),
       cmocka_unit_test(regions_are_rectangles_or_round),
+      cmocka_unit_test(planes_become_others),
+      cmocka_unit_test(interrupted_planes_are_for_regions),
       cmocka_unit_test(what_no_map_can_show_is_refused),
   };
   return cmocka_run_group_tests_name("map/project", tests, NULL, NULL);

@@ -142,6 +142,7 @@ fg_status fg__globe_field(fg_field **out, fg_context *context, const fg__sphere 
     fg_field_arrays arrays = *fg__sphere_words(sphere);
     arrays.dimension = 2;
     arrays.scale = FG_SCALE_GEO;
+    arrays.projection = NULL;
     for (int k = 0; k < 2; ++k) {
       arrays.size[k] = r.size[k];
       arrays.axis[k] = all.axis[k];

@@ -14,7 +14,7 @@ typedef struct entry {
   char *name[3];
   char *units;
   char *found_by;
-  char *unusable, *frame, *absent;
+  char *unusable, *frame, *plane, *absent;
   value_list time, level;
 } entry;
 
@@ -73,6 +73,7 @@ static void clear_entry(entry *e)
   free(e->found_by);
   free(e->unusable);
   free(e->frame);
+  free(e->plane);
   free(e->absent);
 }
 
@@ -94,13 +95,16 @@ fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
   e.found_by = fg__copy_text(vector->found_by ? vector->found_by : "");
   e.unusable = fg__copy_text(vector->unusable);
   e.frame = fg__copy_text(vector->frame);
+  e.plane = fg__copy_text(vector->plane);
   e.absent = fg__copy_text(vector->absent);
   copied = copied && e.units && e.found_by && (e.unusable || !vector->unusable) &&
-           (e.frame || !vector->frame) && (e.absent || !vector->absent);
+           (e.frame || !vector->frame) && (e.plane || !vector->plane) &&
+           (e.absent || !vector->absent);
   e.vector.units = e.units;
   e.vector.found_by = e.found_by;
   e.vector.unusable = e.unusable;
   e.vector.frame = e.frame;
+  e.vector.plane = e.plane;
   e.vector.absent = e.absent;
   void *entries = inventory->entries;
   if (!copied ||

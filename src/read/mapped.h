@@ -5,9 +5,9 @@
 #include "read/format.h"
 
 /* Reads a slab of a file's field as its format does. Where options->map asks for a map,
- * what stands on longitudes and latitudes is laid on it; a file's own plane, and what is
- * on no globe, stays as it is under "auto", and the latter is refused by other maps.
- * Without a map points on no two axes are sampled onto such ones. Statuses as
+ * what stands on longitudes and latitudes is laid on it; a file's own plane stays as it
+ * is under "auto" alone, and what is on no globe is then left, too, but refused by other
+ * maps. Without a map points on no two axes are sampled onto such ones. Statuses as
  * fg_field_read. */
 fg_status fg__field_read_known(fg_field **out, fg_context *context,
                                const fg__format *format, const fg__source *source,

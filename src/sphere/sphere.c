@@ -44,7 +44,8 @@ static bool keep_texts(fg__sphere *sphere, const fg_field_arrays *words)
   return kept && keep_text(sphere, &own->velocity_units, words->velocity_units) &&
          keep_text(sphere, &own->title, words->title) &&
          keep_text(sphere, &own->time, words->time) &&
-         keep_text(sphere, &own->level, words->level);
+         keep_text(sphere, &own->level, words->level) &&
+         keep_text(sphere, &own->projection, words->projection);
 }
 
 fg_status fg__sphere_begin(fg__sphere *sphere, fg_context *context, size_t points,
@@ -194,6 +195,23 @@ size_t fg__sphere_add(double sum[3], const fg__sphere *sphere, size_t n,
 void fg__sphere_extent_of(fg__sphere_extent *out, const fg__sphere *sphere)
 {
   *out = sphere->extent;
+}
+
+size_t fg__sphere_places(double *longitude, double *latitude, const fg__sphere *sphere,
+                         size_t most)
+{
+  size_t count = 0;
+  if (!sphere->position)
+    return 0;
+  const size_t step = sphere->points / (most ? most : 1) + 1;
+  for (size_t n = 0; n < sphere->points && count < most; n += step) {
+    const double *up = sphere->position + 3 * n;
+    if (!isfinite(up[0]) || (sphere->missing && sphere->missing[n]))
+      continue;
+    longitude[count] = atan2(up[1], up[0]) / FG__RADIANS;
+    latitude[count++] = asin(fmin(fmax(up[2], -1.0), 1.0)) / FG__RADIANS;
+  }
+  return count;
 }
 
 const fg_field_arrays *fg__sphere_words(const fg__sphere *sphere)

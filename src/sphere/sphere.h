@@ -44,7 +44,8 @@ typedef struct fg__sphere_cells {
   int *corner; /* [4 * count] points round each cell, in either sense; a triangle has -1
                   as its last */
   const fg_field_arrays *words; /* names and units of the velocity, title, time, level;
-                                   NULL: none */
+                                   `projection`: of the plane in which the points are a
+                                   grid; NULL: none */
 } fg__sphere_cells;
 
 /* A field on a longitude-latitude grid (scale GEO, 2D, all of its rows), borrowed: it
@@ -89,7 +90,13 @@ typedef struct fg__sphere_extent {
 
 void fg__sphere_extent_of(fg__sphere_extent *out, const fg__sphere *sphere);
 
-/* The field's words, borrowed: names and units of the velocity, title, time, level. */
+/* Degrees of points in cells that have values, evenly among all, `most` at most: returns
+ * how many; of a longitude-latitude grid none. */
+size_t fg__sphere_places(double *longitude, double *latitude, const fg__sphere *sphere,
+                         size_t most);
+
+/* The field's words, borrowed: names and units of the velocity, title, time, level, and
+ * the projection in whose plane the points are a grid, where there is one. */
 const fg_field_arrays *fg__sphere_words(const fg__sphere *sphere);
 
 #endif

@@ -34,6 +34,8 @@ struct fg__nc_mesh {
   const fg__nc_variable *angle[2];
   const fg__nc_variable *mask; /* of the centres: 0 is land; NULL: none */
   char rule[2 * FG__NC_TEXT];  /* why this frame */
+  char plane[FG__NC_TEXT];     /* PROJ string of a plane in which the centres are an even
+                                  grid; "": none known */
 };
 
 /* find.c. Finds how a pair's points lie, where the grid has no axes: then mesh is set,
@@ -100,6 +102,11 @@ fg_status fg__nc_sphere_read(fg__sphere **out, const fg__nc_file *file,
  * grid's. */
 fg_status fg__nc_mesh_describe(fg_inventory_vector *vector, const fg__nc_file *file,
                                const fg__nc_pair *pair, const fg__nc_grid *grid);
+
+/* model_plane.c. Sets `plane` by the attributes that WRF writes, where they fit the
+ * centres' positions. */
+void fg__nc_model_plane(fg__nc_mesh *mesh, const fg__nc_file *file,
+                        const fg__nc_variable *u, const fg__sphere_cells *cells);
 
 /* cells.c. Cells between columns * rows points, which close round the world, or across
  * the fold of a tripolar grid's last row, where those are neighbours. *columns becomes

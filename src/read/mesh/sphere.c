@@ -15,12 +15,14 @@ fg_status fg__nc_sphere_read(fg__sphere **out, const fg__nc_file *file,
                               (size_t)options->level, options->mask);
   if (status != FG_STATUS_OK)
     return status;
+  fg__nc_model_plane(grid->mesh, file, pair->component[0], &cells);
   const fg_field_arrays of_field = {
       .velocity_name = {pair->component[0]->name, pair->component[1]->name},
       .velocity_units = words.units,
       .title = words.title,
       .time = words.time[0] ? words.time : NULL,
-      .level = words.level[0] ? words.level : NULL};
+      .level = words.level[0] ? words.level : NULL,
+      .projection = grid->mesh->plane[0] ? grid->mesh->plane : NULL};
   cells.words = &of_field;
   return fg__sphere_of_cells(out, file->context, &cells);
 }
@@ -34,6 +36,7 @@ fg_status fg__nc_mesh_describe(fg_inventory_vector *vector, const fg__nc_file *f
   const fg_status status = fg__nc_sphere_read(&sphere, file, pair, grid, &first);
   vector->frame = grid->mesh->rule;
   vector->missing_share = 1.0;
+  vector->plane = grid->mesh->plane[0] ? grid->mesh->plane : NULL;
   if (status == FG_STATUS_FILE_FORMAT) { /* nothing at the first time; others may have */
     fg_context_clear(file->context);
     return FG_STATUS_OK;

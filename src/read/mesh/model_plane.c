@@ -1,0 +1,122 @@
+/* The plane in which a weather model's grid is even: the projection that WRF writes among
+ * its file's attributes (Skamarock et al., A Description of the Advanced Research WRF,
+ * NCAR/TN-475+STR, section 3.4 and appendix of map projections). */
+#include "file/number_text.h"
+#include "map/map.h"
+#include "read/mesh/mesh.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* The Earth's radius in WRF, metres (share/module_model_constants). */
+static const double RADIUS = 6370000.0;
+
+/* MAP_PROJ. Grids of 3, Mercator's, and 6 stand on axes of longitude and latitude, which
+ * are no mesh. */
+enum { LAMBERT = 1, STEREOGRAPHIC = 2 };
+
+/* Points that are compared along each axis, and how far off an even grid they may lie, in
+ * cells: farther it is another projection, or a grid that was cut out in another way. */
+enum { COMPARED = 24 };
+static const double LARGEST_RESIDUAL = 0.5;
+
+/* A global attribute; NaN where there is none. */
+static double number_of(const fg__nc_variable *all, const char *name)
+{
+  double value;
+  nc_type type;
+  return fg__nc_numbers(all, name, &value, 1, &type) == 1 ? value : (double)NAN;
+}
+
+static double or_else(double value, double other)
+{
+  return isfinite(value) ? value : other;
+}
+
+static bool compose(char *out, size_t size, const fg__nc_variable *all)
+{
+  const double kind = number_of(all, "MAP_PROJ"), one = number_of(all, "TRUELAT1");
+  const double meridian = number_of(all, "STAND_LON");
+  const double latitude =
+      or_else(number_of(all, "MOAD_CEN_LAT"), number_of(all, "CEN_LAT"));
+  fg__number_locale locale;
+  int written = 0;
+  if (!(fabs(one) <= 90.0) || !fg__number_locale_begin(&locale))
+    return false;
+  if (kind == LAMBERT && fabs(meridian) <= 360.0 && fabs(latitude) < 90.0)
+    written =
+        snprintf(out, size, "+proj=lcc +lat_1=%.9g +lat_2=%.9g +lat_0=%.9g +lon_0=%.9g",
+                 one, or_else(number_of(all, "TRUELAT2"), one), latitude, meridian);
+  else if (kind == STEREOGRAPHIC && fabs(meridian) <= 360.0)
+    written = snprintf(out, size, "+proj=stere +lat_0=%d +lat_ts=%.9g +lon_0=%.9g",
+                       one < 0.0 ? -90 : 90, one, meridian);
+  if (written > 0 && (size_t)written < size)
+    written +=
+        snprintf(out + written, size - (size_t)written, " +R=%.9g +units=km", RADIUS);
+  fg__number_locale_end(&locale);
+  return written > 0 && (size_t)written < size;
+}
+
+/* The first and last index along each axis at which both coordinates are known. */
+static bool find_inside(size_t low[2], size_t high[2], const fg__sphere_cells *cells,
+                        const size_t size[2])
+{
+  low[0] = size[0], low[1] = size[1], high[0] = high[1] = 0;
+  for (size_t j = 0; j < size[1]; ++j)
+    for (size_t i = 0; i < size[0]; ++i) {
+      const size_t n = j * size[0] + i, at[2] = {i, j};
+      for (int k = 0; k < 2 && isfinite(cells->longitude[n]); ++k) {
+        low[k] = at[k] < low[k] ? at[k] : low[k];
+        high[k] = at[k] > high[k] ? at[k] : high[k];
+      }
+    }
+  return low[0] < high[0] && low[1] < high[1];
+}
+
+static void image_of(double at[2], const fg__map *map, const fg__sphere_cells *cells,
+                     size_t n)
+{
+  double longitude = cells->longitude[n];
+  longitude -= 360.0 * nearbyint((longitude - fg__map_center(map)) / 360.0);
+  fg__map_forward(map, 1, &longitude, &cells->latitude[n], &at[0], &at[1]);
+}
+
+/* Whether the points are an even grid along the plane's axes. */
+static bool is_even(const fg__map *map, const fg__sphere_cells *cells,
+                    const size_t size[2])
+{
+  size_t low[2], high[2];
+  double first[2], last[2], step[2];
+  if (cells->points != size[0] * size[1] || !find_inside(low, high, cells, size))
+    return false;
+  image_of(first, map, cells, low[1] * size[0] + low[0]);
+  image_of(last, map, cells, high[1] * size[0] + high[0]);
+  for (int k = 0; k < 2; ++k)
+    step[k] = (last[k] - first[k]) / (double)(high[k] - low[k]);
+  for (size_t j = low[1]; j <= high[1]; j += (high[1] - low[1]) / COMPARED + 1)
+    for (size_t i = low[0]; i <= high[0]; i += (high[0] - low[0]) / COMPARED + 1) {
+      double at[2];
+      image_of(at, map, cells, j * size[0] + i);
+      const double off[2] = {at[0] - first[0] - step[0] * (double)(i - low[0]),
+                             at[1] - first[1] - step[1] * (double)(j - low[1])};
+      if (!(fabs(off[0]) <= LARGEST_RESIDUAL * fabs(step[0]) &&
+            fabs(off[1]) <= LARGEST_RESIDUAL * fabs(step[1])))
+        return false;
+    }
+  return true;
+}
+
+void fg__nc_model_plane(fg__nc_mesh *mesh, const fg__nc_file *file,
+                        const fg__nc_variable *u, const fg__sphere_cells *cells)
+{
+  const fg__nc_variable all = {
+      .owner = u->owner, .group = file->roots[u->file], .id = NC_GLOBAL};
+  fg__map *map = NULL;
+  if (!fg_has_feature(FG_FEATURE_MAPS) ||
+      !compose(mesh->plane, sizeof mesh->plane, &all) ||
+      fg__map_create(&map, NULL, mesh->plane) != FG_STATUS_OK ||
+      !is_even(map, cells, mesh->size))
+    mesh->plane[0] = '\0';
+  fg__map_destroy(map);
+}
