@@ -4,7 +4,6 @@
 
 #include "evolution/evolution.h"
 #include "evolution/options.h"
-#include "grid/blocks.h"
 
 /* Cells a cluster, of all the domain's, from which on the mesh is finer than needed: each
  * keeps what clusters have on the meshes that are the default, at the scales at which
@@ -33,11 +32,7 @@ static fg_status check(const fg_evolution *e)
     return fg__fail(e->context, FG_STATUS_ARGUMENT,
                     "coarser mesh: %d cells along the longest side can not be halved",
                     fg__mesh_most_cells(&e->mesh));
-  int cells[3];
-  for (int k = 0; k < 3; ++k)
-    cells[k] = e->mesh.cells[k] / 2;
-  return fg__blocks_choose(&(fg__blocks){.unit = 0}, e->context, e->ranks,
-                           e->mesh.dimension, cells);
+  return FG_STATUS_OK;
 }
 
 /* Leaves one mesh for the next. */

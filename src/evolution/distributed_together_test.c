@@ -308,10 +308,11 @@ static outcome outcome_of(const subject *s, const fg__ranks *ranks)
   return out;
 }
 
+/* Four ranks share a cube of 33 nodes as slabs, of 17 as pencils. */
 static const subject SUBJECTS[] = {{"vortex3", 2, 65, false, NULL, 1},
                                    {"benard", 2, 129, false, NULL, 1},
                                    {"vortex3d", 3, 33, false, NULL, 1},
-                                   {"abc", 3, 33, false, NULL, 1},
+                                   {"abc", 3, 17, false, NULL, 1},
                                    {"benard", 2, 65, true, NULL, 1},
                                    {"abc", 3, 33, true, NULL, 1},
                                    {"vortex3", 2, 65, false, wall_and_moat, 3},
@@ -319,7 +320,8 @@ static const subject SUBJECTS[] = {{"vortex3", 2, 65, false, NULL, 1},
                                    {"vortex3", 2, 65, true, slats, 4},
                                    {"vortex3d", 3, 33, false, rooms, 3},
                                    {"abc", 3, 33, false, shell, 2},
-                                   {"vortex3d", 3, 33, true, rooms, 3},
+                                   {"vortex3d", 3, 17, false, rooms, 3},
+                                   {"vortex3d", 3, 17, true, NULL, 1},
                                    {"benard", 2, 65, false, bars, 27},
                                    {"abc", 3, 33, false, cages, 80}};
 

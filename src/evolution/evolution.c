@@ -30,8 +30,10 @@ static const double most_stiffness = 2e5;
 static fg_status create_mesh(fg_evolution *e, const fg_field *field)
 {
   const fg_field_arrays *arrays = fg_field_contents(field);
-  fg__mesh_description description = {
-      .dimension = arrays->dimension, .nodes = e->mesh_nodes, .ranks = e->ranks};
+  fg__mesh_description description = {.dimension = arrays->dimension,
+                                      .nodes = e->mesh_nodes,
+                                      .ranks = e->ranks,
+                                      .may_idle = e->halvings > 0};
   for (int k = 0; k < arrays->dimension; ++k) {
     description.origin[k] = arrays->axis[k][0];
     description.periodic[k] = arrays->period[k] > 0.0;

@@ -4,6 +4,9 @@
  * level (docs/design/distribution.md). */
 static const double whole_cost_2d = 0.8, whole_cost_3d = 1.7;
 
+/* And a node of pencils in the time of one of slabs (the same page). */
+static const double pencil_cost = 1.3;
+
 enum { THICK_CELLS = 8 /* three halvings */ };
 
 static int greatest_divisor_below(int number, int most)
@@ -24,23 +27,23 @@ static int divisor_near_root(int number)
 }
 
 /* As many blocks as ranks, at least `thickness` cells thick; false when they do not fit.
- * In 3D as near to a square as can be, or where one axis is too short for that, more of
- * them along the other. Fewer along y than along z: what is not cut along y is exchanged
- * in whole slices. */
+ * Slabs along the last axis; or pencils, in 3D, as near to a square as can be, or where
+ * one axis is too short for that, more of them along the other. Fewer along y than along
+ * z: what is not cut along y is exchanged in whole slices. */
 static bool arrange(int count[3], int ranks, int dimension, const int cells[3],
-                    int thickness)
+                    int thickness, bool pencils)
 {
-  int dims[2] = {ranks, 1}, room[3] = {1, 1, 1};
-  if (dimension == 3) {
-    dims[1] = divisor_near_root(ranks);
-    dims[0] = ranks / dims[1];
-  }
+  int room[3] = {1, 1, 1};
   for (int k = 1; k < dimension; ++k)
     room[k] = cells[k] / thickness;
-  count[0] = 1;
-  count[1] = dimension == 3 ? dims[1] : dims[0];
-  count[2] = dimension == 3 ? dims[0] : 1;
-  for (int k = 2; k > 0 && dimension == 3; --k)
+  count[0] = count[1] = count[2] = 1;
+  if (!pencils) {
+    count[dimension - 1] = ranks;
+    return ranks <= room[dimension - 1];
+  }
+  count[1] = divisor_near_root(ranks);
+  count[2] = ranks / count[1];
+  for (int k = 2; k > 0; --k)
     if (count[k] > room[k]) {
       count[k] = greatest_divisor_below(ranks, room[k]);
       count[3 - k] = count[k] > 0 ? ranks / count[k] : 0;
@@ -84,8 +87,9 @@ static double cost_of(const fg__blocks *blocks, int dimension, const int cells[3
     int count = blocks->count[k], units = cells[k] / blocks->unit;
     block *= count == 1 ? cells[k] : (units + count - 1) / count * blocks->unit;
   }
-  return block + (dimension == 3 ? whole_cost_3d : whole_cost_2d) *
-                     whole_nodes(blocks, dimension, cells);
+  double whole = dimension == 3 ? whole_cost_3d : whole_cost_2d;
+  return (dimension == 3 && blocks->count[1] > 1 ? pencil_cost : 1.0) * block +
+         whole * whole_nodes(blocks, dimension, cells);
 }
 
 static bool fits(const fg__blocks *blocks, int dimension, const int cells[3])
@@ -97,11 +101,39 @@ static bool fits(const fg__blocks *blocks, int dimension, const int cells[3])
   return true;
 }
 
-static fg_status refuse(fg_context *context, int ranks, int dimension, const int cells[3])
+/* The best unit for one arrangement, if it is better than `out` (unit 0: nothing yet). */
+static void try_arrangement(fg__blocks *out, double *least, int ranks, int dimension,
+                            const int cells[3], bool pencils)
 {
-  int fitting = ranks - 1, count[3];
-  while (fitting > 1 && !arrange(count, fitting, dimension, cells, FG__LEAST_BLOCK_CELLS))
-    --fitting;
+  fg__blocks tried = {.unit = THICK_CELLS};
+  while (!arrange(tried.count, ranks, dimension, cells, tried.unit, pencils)) {
+    tried.unit /= 2;
+    if (tried.unit < FG__LEAST_BLOCK_CELLS)
+      return;
+  }
+  do {
+    double cost = cost_of(&tried, dimension, cells);
+    if (out->unit == 0 || cost < *least) {
+      *least = cost;
+      *out = tried;
+    }
+    tried.unit *= 2;
+  } while (ranks > 1 && fits(&tried, dimension, cells));
+}
+
+static bool choose(fg__blocks *out, int ranks, int dimension, const int cells[3])
+{
+  double least = 0.0;
+  *out = (fg__blocks){.unit = 0};
+  try_arrangement(out, &least, ranks, dimension, cells, false);
+  if (dimension == 3 && ranks > 1)
+    try_arrangement(out, &least, ranks, dimension, cells, true);
+  return out->unit > 0;
+}
+
+static fg_status refuse(fg_context *context, int ranks, int fitting, int dimension,
+                        const int cells[3])
+{
   if (dimension == 3)
     return fg__fail(
         context, FG_STATUS_ARGUMENT,
@@ -115,23 +147,12 @@ static fg_status refuse(fg_context *context, int ranks, int dimension, const int
 }
 
 fg_status fg__blocks_choose(fg__blocks *out, fg_context *context, const fg__ranks *ranks,
-                            int dimension, const int cells[3])
+                            int dimension, const int cells[3], bool may_idle)
 {
-  fg__blocks tried = {.unit = THICK_CELLS};
-  while (!arrange(tried.count, ranks->count, dimension, cells, tried.unit)) {
-    tried.unit /= 2;
-    if (tried.unit < FG__LEAST_BLOCK_CELLS)
-      return refuse(context, ranks->count, dimension, cells);
-  }
-  *out = tried;
-  double least = cost_of(out, dimension, cells);
-  for (tried.unit *= 2; ranks->count > 1 && fits(&tried, dimension, cells);
-       tried.unit *= 2) {
-    double cost = cost_of(&tried, dimension, cells);
-    if (cost < least) {
-      least = cost;
-      *out = tried;
-    }
-  }
-  return FG_STATUS_OK;
+  int fitting = ranks->count;
+  while (!choose(out, fitting, dimension, cells) && fitting > 1)
+    --fitting;
+  return fitting == ranks->count || may_idle
+             ? FG_STATUS_OK
+             : refuse(context, ranks->count, fitting, dimension, cells);
 }

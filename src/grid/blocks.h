@@ -5,7 +5,7 @@
 #include "grid/ranks.h"
 
 typedef struct fg__blocks {
-  int count[3]; /* along each axis; in 3D as near to a square as can be */
+  int count[3]; /* along each axis */
   int unit;     /* blocks begin at multiples of so many cells, a power of two */
 } fg__blocks;
 
@@ -13,11 +13,12 @@ typedef struct fg__blocks {
  * level of the multigrid needs (FG__LEAST_BLOCK_NODES). */
 enum { FG__LEAST_BLOCK_CELLS = 4 };
 
-/* Chooses blocks for a mesh of cells[], so that the rank with most to do has least: small
- * units deal the cells out more evenly, large ones leave a coarser level that every rank
- * computes whole. The same on all ranks; not
- * collective. ARGUMENT (there are more ranks than blocks of the least thickness). */
+/* Chooses blocks for a mesh of cells[], so that the rank with most to do has least: slabs
+ * are faster than pencils of as many nodes; small units divide cells more evenly, large
+ * ones leave a smaller coarse level that every rank computes whole. The same on all
+ * ranks; not collective. There are as many blocks as ranks; where so many do not fit, as
+ * many as do if the other ranks `may_idle`, else ARGUMENT. */
 fg_status fg__blocks_choose(fg__blocks *out, fg_context *context, const fg__ranks *ranks,
-                            int dimension, const int cells[3]);
+                            int dimension, const int cells[3], bool may_idle);
 
 #endif

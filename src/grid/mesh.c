@@ -83,11 +83,11 @@ static fg_status choose_cells(fg__mesh *mesh, fg_context *context,
   return FG_STATUS_OK;
 }
 
-static fg_status share_nodes(fg__mesh *mesh, fg_context *context)
+static fg_status share_nodes(fg__mesh *mesh, fg_context *context, bool may_idle)
 {
   fg__blocks blocks;
-  fg_status status =
-      fg__blocks_choose(&blocks, context, mesh->ranks, mesh->dimension, mesh->cells);
+  fg_status status = fg__blocks_choose(&blocks, context, mesh->ranks, mesh->dimension,
+                                       mesh->cells, may_idle);
   if (!status)
     status = fg__partition_create(&mesh->partition, context, mesh->ranks, mesh->dimension,
                                   mesh->cells, mesh->periodic, blocks.count, blocks.unit);
@@ -107,7 +107,7 @@ fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
     status = choose_cells(out, context, description);
   out->ranks = description->ranks ? description->ranks : fg__ranks_of(context);
   if (!status)
-    status = share_nodes(out, context);
+    status = share_nodes(out, context, description->may_idle);
   if (status)
     fg__mesh_clear(out);
   return status;

@@ -1,5 +1,5 @@
 /* The mesh: a uniform grid of Q1 cells, which ranks share in blocks along the outer axes:
- * slabs of whole rows in 2D, pencils in 3D (blocks.h).
+ * slabs of whole rows or planes, or pencils in 3D (blocks.h).
  *
  * A block owns the nodes of its cells' lower corners, and those that close the grid at
  * upper ends of natural axes. Everything that computes works on a block as a plain array
@@ -29,13 +29,14 @@ typedef struct fg__mesh_description {
   bool periodic[3];
   int nodes;              /* wanted along the longest side */
   const fg__ranks *ranks; /* who shares it; NULL: all */
+  bool may_idle;          /* ranks that do not fit get no block, and are not refused */
 } fg__mesh_description;
 
 /* Builds a mesh. The cells along the longest side are nodes - 1 rounded up to a multiple
  * of 16, every other side gets the multiple of 8 (16 when periodic) that makes cells most
  * nearly cubes; so all can be coarsened at least three times; a domain so thin that this
  * makes cells more than twice as wide as long gets more cells along it. Collective.
- * ARGUMENT (fewer than 9 or too many nodes, an empty box, more ranks than blocks),
+ * ARGUMENT (fewer than 9 or too many nodes, an empty box, more ranks than fit),
  * MEMORY, MPI. */
 fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
                           const fg__mesh_description *description);

@@ -27,6 +27,11 @@ static void set_grid(fg__partition *out, int dimension, const int cells[3],
   }
 }
 
+static int block_count(const fg__partition *partition)
+{
+  return partition->blocks[1] * partition->blocks[2];
+}
+
 /* Where a rank's block lies among the others. */
 static void find_place(const fg__partition *partition, int rank, int place[3])
 {
@@ -55,7 +60,7 @@ fg_status fg__partition_create(fg__partition *out, fg_context *context,
     return status;
   set_grid(out, dimension, cells, periodic);
   memcpy(out->blocks, blocks, sizeof out->blocks);
-  for (int rank = 0; rank < ranks->count; ++rank) {
+  for (int rank = 0; rank < ranks->count && rank < block_count(out); ++rank) {
     fg__box *block = &out->block[rank];
     int place[3];
     find_place(out, rank, place);
@@ -100,6 +105,8 @@ bool fg__partition_is_workable(const fg__partition *partition, int least_nodes)
       return false;
     for (int n = 0; n < partition->ranks->count; ++n) {
       const fg__box *block = &partition->block[n];
+      if (fg__box_is_empty(block))
+        continue;
       if (block->first[k] % 2 != 0 || block->nodes[k] < least_nodes)
         return false;
     }
@@ -120,6 +127,8 @@ int fg__block_neighbour(const fg__partition *partition, int rank, const int step
 {
   const int *blocks = partition->blocks;
   int place[3];
+  if (rank >= block_count(partition))
+    return FG__NOBODY;
   find_place(partition, rank, place);
   for (int k = 0; k < 3; ++k) {
     place[k] += steps[k];

@@ -188,8 +188,13 @@ static void find_space_of_block(const fg__multigrid *multigrid,
   multigrid->kernel->find_curvature(&level->block, tau, &alone);
 }
 
+/* An idle rank only shares the work on replicated levels, which all do alike. */
 static void cycle_distributed(const fg__multigrid *multigrid, turn *now)
 {
+  if (fg__is_idle(&multigrid->partition)) {
+    cycle_gathered(multigrid, now);
+    return;
+  }
   const fg__kernel *kernel = multigrid->kernel;
   const fg__distributed *level = multigrid->distributed;
   int count = multigrid->distributed_count;
@@ -241,7 +246,7 @@ void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
                          float *before, const fg__thread *thread)
 {
   turn now = {.tau = (float)tau};
-  if (multigrid->linear)
+  if (multigrid->linear && !fg__is_idle(&multigrid->partition))
     multigrid->kernel->find_relaxation(fg__multigrid_finest(multigrid), now.tau, thread);
   for (int n = 1; n <= cycles; ++n) {
     now.more = n < cycles;

@@ -36,7 +36,8 @@ static bool is_distributed(const fg__multigrid *multigrid)
 static void work_on_finest(void *argument, const fg__thread *thread)
 {
   pass *p = argument;
-  p->work(p, fg__multigrid_finest(p->multigrid), thread);
+  if (!fg__is_idle(&p->multigrid->partition))
+    p->work(p, fg__multigrid_finest(p->multigrid), thread);
 }
 
 static void run_on_finest(pass *p, level_work *work)

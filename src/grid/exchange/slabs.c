@@ -15,8 +15,7 @@ bool fg__slabs_find(fg__slabs *out, const fg__partition *partition)
 {
   int last = partition->dimension - 1;
   *out = fg__slabs_along(partition, last);
-  return partition->ranks->count > 1 &&
-         partition->blocks[last] == partition->ranks->count;
+  return partition->blocks[last] > 1 && (last == 1 || partition->blocks[1] == 1);
 }
 
 /* With two ranks and a periodic axis the same neighbour is on both sides: tags tell

@@ -192,7 +192,7 @@ fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
 }
 
 /* True cells [low, low + count) of a level along each axis, those of a box and one
- * beyond; beyond natural boundaries there are none, nor beyond a box that is all of a
+ * beyond, none for an empty box; beyond natural boundaries there are none, nor beyond a box that is all of a
  * period. */
 typedef struct range {
   int low[3], count[3];
@@ -202,6 +202,8 @@ static range range_of(int dimension, const bool periodic[3], const fg__box *box,
                       const int level_cells[3])
 {
   range r = {{0, 0, 0}, {1, 1, 1}};
+  if (fg__box_is_empty(box))
+    return (range){.count = {0}};
   for (int k = 0; k < dimension; ++k) {
     int low = box->first[k] - 1, high = box->first[k] + box->nodes[k];
     bool ends = !periodic[k] || box->nodes[k] == level_cells[k];
@@ -232,6 +234,8 @@ fg__cells fg__cells_asked(const fg__tensor_recipe *recipe, const fg__box *box)
 {
   range r = range_of(recipe->dimension, recipe->periodic, box, recipe->cells);
   fg__cells cells = cells_of(recipe, &r);
+  if (fg__box_is_empty(box))
+    return cells;
   return fg__tensor_reach(recipe->law, &cells, recipe->periodic, recipe->width);
 }
 
@@ -277,7 +281,7 @@ fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
   fg__tensor tensor;
   *out = (fg__cells_of_box){0};
   fg_status status = take_tensor(&tensor, context, dimension, fg__cell_count(&cells));
-  if (!status)
+  if (!status && !fg__box_is_empty(box))
     status = ask(&tensor, context, recipe, wide, &cells, threads);
   fg__wide_tensor_clear(wide);
   if (!status)

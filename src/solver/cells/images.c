@@ -36,6 +36,8 @@ void fg__cell_images_fill(const fg__cell_layout *layout, const fg__box *box,
                           fg__copy_cell *copy, const void *cells)
 {
   int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+  if (fg__box_is_empty(box))
+    return;
   bool spans[3] = {false, false, false};
   for (int k = 0; k < 3 && k < layout->dimension; ++k) {
     int first = box->first[k], end = first + box->nodes[k];
