@@ -44,8 +44,9 @@ fg_status fg__field_slab_of(fg_field **out, fg_context *context, const fg_field 
 fg_status fg__globe_field(fg_field **out, fg_context *context, const fg__sphere *sphere,
                           fg__slab_index slab);
 
-/* The size of that grid; zeros where the cells have no area. */
-void fg__globe_size(int size[2], const fg__sphere_extent *extent);
+/* Size, bounds and period of that grid, as an inventory has them; the size is 0 x 0 where
+ * the cells have no area. */
+void fg__globe_describe(fg_inventory_vector *vector, const fg__sphere_extent *extent);
 
 typedef struct fg__format {
   const char *name; /* as `flowgrain info` shows it */

@@ -117,11 +117,16 @@ static bool has_area(const fg__sphere_extent *extent)
          extent->east > extent->west;
 }
 
-void fg__globe_size(int size[2], const fg__sphere_extent *extent)
+void fg__globe_describe(fg_inventory_vector *vector, const fg__sphere_extent *extent)
 {
   const raster r = has_area(extent) ? raster_of(extent) : (raster){0};
-  size[0] = r.size[0];
-  size[1] = r.size[1];
+  vector->size[0] = r.size[0];
+  vector->size[1] = r.size[1];
+  vector->bounds[0] = extent->west;
+  vector->bounds[1] = extent->east;
+  vector->bounds[2] = extent->south;
+  vector->bounds[3] = extent->north;
+  vector->periodic[0] = extent->east - extent->west >= 360.0;
 }
 
 fg_status fg__globe_field(fg_field **out, fg_context *context, const fg__sphere *sphere,

@@ -44,12 +44,7 @@ fg_status fg__nc_mesh_describe(fg_inventory_vector *vector, const fg__nc_file *f
   if (status != FG_STATUS_OK)
     return status;
   fg__sphere_extent_of(&extent, sphere);
-  fg__globe_size(vector->size, &extent);
-  vector->bounds[0] = extent.west;
-  vector->bounds[1] = extent.east;
-  vector->bounds[2] = extent.south;
-  vector->bounds[3] = extent.north;
-  vector->periodic[0] = extent.east - extent.west >= 360.0;
+  fg__globe_describe(vector, &extent);
   vector->missing_share = 1.0 - (double)extent.points / (double)grid->samples;
   vector->cells = grid->samples;
   fg__sphere_destroy(sphere);

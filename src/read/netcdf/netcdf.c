@@ -151,16 +151,24 @@ static fg_status check_level(const fg__nc_file *file, const fg__nc_grid *grid, i
   return FG_STATUS_ARGUMENT;
 }
 
-/* What the options ask for; grid and file are to be cleared even after a failure. */
-static fg_status open_chosen(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
-                             fg_context *context, const fg__source *source,
-                             const fg_read_options *options)
+/* Opens the pair that these options would read; grid and file are to be cleared
+ * even after a failure. */
+static fg_status choose(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
+                        fg_context *context, const fg__source *source,
+                        const fg_read_options *options)
 {
   fg_status status = fg__nc_file_open(file, context, source);
   if (status == FG_STATUS_OK && options->vars_from)
     status = add_second_file(file, context, options->vars_from);
-  if (status == FG_STATUS_OK)
-    status = fg__nc_choose(pair, grid, file, options);
+  return status == FG_STATUS_OK ? fg__nc_choose(pair, grid, file, options) : status;
+}
+
+/* The same, once all that the options ask for is known to be there. */
+static fg_status open_chosen(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
+                             fg_context *context, const fg__source *source,
+                             const fg_read_options *options)
+{
+  fg_status status = choose(file, pair, grid, context, source, options);
   if (status == FG_STATUS_OK)
     status = check_second(file, pair, grid, options->mask);
   if (status == FG_STATUS_OK)
@@ -348,17 +356,6 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
   free(pairs);
   fg__nc_file_close(&file);
   return status;
-}
-
-/* Opens the pair that these options would read; ends with close_chosen. */
-static fg_status choose(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
-                        fg_context *context, const fg__source *source,
-                        const fg_read_options *options)
-{
-  fg_status status = fg__nc_file_open(file, context, source);
-  if (status == FG_STATUS_OK && options->vars_from)
-    status = add_second_file(file, context, options->vars_from);
-  return status == FG_STATUS_OK ? fg__nc_choose(pair, grid, file, options) : status;
 }
 
 static fg_status close_chosen(fg__nc_file *file, fg__nc_grid *grid, fg_status status)

@@ -398,18 +398,6 @@ static void describe_field(fg_inventory_vector *vector, const fg_field *field)
   vector->scale = a->scale;
 }
 
-static void describe_sphere(fg_inventory_vector *vector, const fg__sphere *sphere)
-{
-  fg__sphere_extent extent;
-  fg__sphere_extent_of(&extent, sphere);
-  fg__globe_size(vector->size, &extent);
-  vector->bounds[0] = extent.west;
-  vector->bounds[1] = extent.east;
-  vector->bounds[2] = extent.south;
-  vector->bounds[3] = extent.north;
-  vector->periodic[0] = extent.east - extent.west >= 360.0;
-}
-
 fg_status fg__nc_unstructured_describe(fg_inventory_vector *vector,
                                        const fg__nc_file *file, const fg__nc_pair *pair,
                                        const fg__nc_grid *grid)
@@ -427,10 +415,13 @@ fg_status fg__nc_unstructured_describe(fg_inventory_vector *vector,
     status = make_sphere(&sphere, &missing, &r);
   if (status == FG_STATUS_OK && !sphere)
     status = make_field(&field, &missing, &r, (fg__slab_index){0, 1});
-  if (status == FG_STATUS_OK && sphere)
-    describe_sphere(vector, sphere);
-  else if (status == FG_STATUS_OK)
+  if (status == FG_STATUS_OK && sphere) {
+    fg__sphere_extent extent;
+    fg__sphere_extent_of(&extent, sphere);
+    fg__globe_describe(vector, &extent);
+  } else if (status == FG_STATUS_OK) {
     describe_field(vector, field);
+  }
   vector->missing_share = (double)missing / (double)grid->samples;
   if (status == FG_STATUS_FILE_FORMAT && missing == grid->samples) {
     fg_context_clear(file->context); /* nothing at the first time; others may have */
