@@ -146,7 +146,8 @@ static const option_entry method_entries[] = {
      .help = "nodes of the mesh along its longest side [from the number of arrows; with "
              "--clusters 257 in 2D, 65 in 3D]"},
     {"mesh", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, EVOLUTION(mesh), .words = mesh_words,
-     .help = "kind of mesh: `adaptive` is halved along each side, down to the default "
+     .help = "kind of mesh: `adaptive` is coarsened, half the cells along each side, "
+             "down to the default "
              "number of nodes, as clusters grow; `uniform` stays as it is; `auto` is "
              "adaptive unless --gamma is given [auto]"},
     {"scheme", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, EVOLUTION(scheme),

@@ -90,8 +90,8 @@ typedef struct fg_step {
 
 /* Builds mesh, tensor and initial density. nodes is rounded up so that the mesh can be
  * coarsened; fg_evolution_mesh says what it became. The field, and what a law's `data`
- * points to, must outlive the evolution. ARGUMENT (options out of range,
- * ranks that disagree on field or options), MEMORY, MPI. */
+ * points to, must outlive the evolution. ARGUMENT (options out of range, ranks that
+ * disagree on field or options, more ranks than the mesh has blocks for), MEMORY, MPI. */
 FG_API fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
                                      const fg_field *field,
                                      const fg_evolution_options *options);
@@ -113,9 +113,10 @@ FG_API bool fg_evolution_should_coarsen(const fg_evolution *evolution);
  * integral is conserved. Wider interfaces cost more and move faster: energies are
  * divided, times and time steps multiplied by two, so that they go on as on the first
  * mesh, but for a jump of the energy, by some per cent up or down. `step` becomes the
- * present state; it counts no cycles. fg_evolution_step does it by itself. Collective.
- * ARGUMENT (the cells can not be coarsened, or by fewer ranks only; the field has missing
- * values): nothing has changed; MEMORY, MPI: the evolution can only be destroyed. */
+ * present state; it counts no cycles. fg_evolution_step does it by itself. Ranks for
+ * which the coarser mesh has no block are idle from then on. Collective. ARGUMENT (the
+ * cells can not be coarsened; the field has missing values): nothing has changed; MEMORY,
+ * MPI: the evolution can only be destroyed. */
 FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step);
 
 /* A coarsening of the mesh: the step after which it was made, that step's time, what it

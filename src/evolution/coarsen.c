@@ -43,7 +43,7 @@ static fg_status change_mesh(fg_evolution *e, const fg__coarsened *coarsened)
   e->coarsened_mean = e->stepper.mean;
   e->earlier_steps += e->stepper.accepted;
   e->mesh_nodes = fg__mesh_most_cells(&e->mesh) / 2 + 1;
-  ++e->halvings;
+  ++e->coarsenings;
   fg__evolution_clear(e);
   fg_status status = fg__evolution_build(e);
   e->coarsened = NULL;

@@ -33,7 +33,7 @@ static fg_status create_mesh(fg_evolution *e, const fg_field *field)
   fg__mesh_description description = {.dimension = arrays->dimension,
                                       .nodes = e->mesh_nodes,
                                       .ranks = e->ranks,
-                                      .may_idle = e->halvings > 0};
+                                      .may_idle = e->coarsenings > 0};
   for (int k = 0; k < arrays->dimension; ++k) {
     description.origin[k] = arrays->axis[k][0];
     description.periodic[k] = arrays->period[k] > 0.0;
@@ -298,7 +298,7 @@ fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int re
                    .cycles = cycles,
                    .rejected = rejected,
                    .cells = e->info.active_cells,
-                   .coarsenings = e->halvings,
+                   .coarsenings = e->coarsenings,
                    .increment = s->increment,
                    .seconds = fg__evolution_seconds(e),
                    .stationary = fg__stepper_stationary(s)};

@@ -28,7 +28,7 @@ struct fg_evolution {
   int clusters;
   bool counting;         /* nucleation is over */
   int mesh_nodes;        /* wanted along the longest side of the present mesh */
-  int halvings;          /* of the mesh, since it was created */
+  int coarsenings;       /* of the mesh, since it was created */
   int64_t earlier_steps; /* accepted on finer meshes */
   const fg__coarsened
       *coarsened; /* NULL, or what a coarser mesh goes on from; while it is made */

@@ -32,7 +32,7 @@ double fg__evolution_cell_volume(const fg_evolution *e)
 
 double fg__evolution_unit(const fg_evolution *e)
 {
-  return ldexp(1.0, e->halvings);
+  return ldexp(1.0, e->coarsenings);
 }
 
 double fg__evolution_interface_energy(const fg_evolution *e)
@@ -41,7 +41,7 @@ double fg__evolution_interface_energy(const fg_evolution *e)
   bool isotropic = e->options.law->anisotropy >= 1.0;
   double width = (isotropic ? isotropic_interface_cells : interface_cells) * h;
   if (e->options.gamma > 0.0) /* of the first mesh */
-    return ldexp(e->options.gamma, 2 * e->halvings);
+    return ldexp(e->options.gamma, 2 * e->coarsenings);
   return width * width / e->options.anisotropy;
 }
 

@@ -46,7 +46,7 @@ static inline void cut_at_random(int *first, int count, int nodes, int alignment
   first[count] = nodes;
 }
 
-/* A slab a rank in 2D, in 3D a pencil; in any arrangement. */
+/* Slabs in 2D, slabs or pencils in 3D; in any arrangement. */
 static inline fg__partition divide_at_random(const grid *g, uint64_t seed, int alignment)
 {
   enum { MOST = 64 };

@@ -19,7 +19,7 @@ struct fg_checkpoint {
 /* What has to agree between an evolution and a checkpoint. */
 typedef struct parameters {
   uint64_t field, initial, law, seed;
-  int energy, nodes, halvings, cells[3], cycles, scheme;
+  int energy, nodes, coarsenings, cells[3], cycles, scheme;
   double anisotropy, isotropic_below, coverage, noise, gamma, accuracy;
 } parameters;
 
@@ -39,7 +39,7 @@ static const fg__named_value parameter_values[] = {
     {"scheme", FG__VALUE_INTEGER, offsetof(parameters, scheme)},
     {"field", FG__VALUE_BITS, offsetof(parameters, field)},
     {"initial", FG__VALUE_BITS, offsetof(parameters, initial)},
-    {"halvings", FG__VALUE_INTEGER, offsetof(parameters, halvings)},
+    {"halvings", FG__VALUE_INTEGER, offsetof(parameters, coarsenings)},
     {"gamma", FG__VALUE_REAL, offsetof(parameters, gamma)},
     {"cells-x", FG__VALUE_INTEGER, offsetof(parameters, cells[0])},
     {"cells-y", FG__VALUE_INTEGER, offsetof(parameters, cells[1])},
@@ -75,7 +75,7 @@ static parameters parameters_of(const fg_evolution *e)
                       .seed = e->options.seed,
                       .energy = (int)e->options.energy,
                       .nodes = e->options.nodes,
-                      .halvings = e->halvings,
+                      .coarsenings = e->coarsenings,
                       .cells = {e->info.cells[0], e->info.cells[1], e->info.cells[2]},
                       .cycles = e->options.cycles,
                       .scheme = (int)e->options.scheme,
@@ -337,12 +337,12 @@ const char *fg_checkpoint_damage(const fg_checkpoint *checkpoint)
 }
 
 /* How often the mesh has been coarsened. */
-static int halvings_of(const fg_checkpoint *checkpoint)
+static int coarsenings_of(const fg_checkpoint *checkpoint)
 {
   size_t length;
   const char *value = fg__value_find(checkpoint->file.text, "halvings", &length);
-  int64_t halvings = value ? strtol(value, NULL, 10) : 0;
-  return halvings > 0 && halvings < 32 ? (int)halvings : 0;
+  int64_t number = value ? strtol(value, NULL, 10) : 0;
+  return number > 0 && number < 32 ? (int)number : 0;
 }
 
 static fg_status check_version(const fg__checkpoint_file *file, fg_context *context)
@@ -437,7 +437,7 @@ fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
   counts counted;
   /* another field's mesh may not be one to be coarsened */
   fg_status status = fg__ranks_agree(e->ranks, e->context, check_origin(e, checkpoint));
-  for (int n = halvings_of(checkpoint) - e->halvings; !status && n > 0; --n)
+  for (int n = coarsenings_of(checkpoint) - e->coarsenings; !status && n > 0; --n)
     status = fg_evolution_coarsen(e, step);
   e->has_coarsening = false;
   if (!status)

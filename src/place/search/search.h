@@ -11,8 +11,8 @@ typedef struct fg__place_icon {
   double step;                         /* of its moves, input coordinates */
   int move;                            /* which was taken last */
   int identity;  /* stays as the icon moves, and from scale to scale */
-  double worth;  /* what the energy rises by when it goes, */
-  bool is_rated; /* where that is known */
+  double worth;  /* by how much the energy rises when the icon is removed */
+  bool is_rated; /* `worth` is known */
 } fg__place_icon;
 
 typedef struct fg__place_search {
@@ -39,38 +39,39 @@ fg_status fg__place_search_create(fg__place_search *out, fg_context *context,
                                   const fg__place_domain *domain, int count, bool free);
 void fg__place_search_clear(fg__place_search *search);
 
-/* Goes over to another number of icons, with the icons it has: lengths follow lambda.
- * MEMORY. */
+/* Changes the number of icons that the search is for. Its icons stay where they are, with
+ * lengths in proportion to the new lambda. MEMORY. */
 fg_status fg__place_search_rescale(fg__place_search *search, int count);
 
-/* Adds an icon at a seed; *added is false where no line can be. MEMORY. */
+/* Adds an icon at a seed; *added is false where no line can lie. MEMORY. */
 fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_seed *seed,
                         int identity);
 fg_status fg__place_drop(fg__place_search *search, int index);
 
-/* Up to `sweeps` times over all icons that still move, largest steps first tried. MEMORY,
- * STOPPED. */
+/* Tries moves of all icons that still move, up to `sweeps` times, large steps first.
+ * MEMORY, STOPPED. */
 fg_status fg__place_relax(fg__place_search *search, int sweeps);
 
-/* The same after a change at few places: the diffusion reader's field is not solved again
- * as a whole. MEMORY, STOPPED. */
+/* The same after changes in few places: the diffusion reader's field is solved again
+ * near them only. MEMORY, STOPPED. */
 fg_status fg__place_relax_some(fg__place_search *search, int sweeps);
 
 /* Lets the icons near a place, or all, try moves of `step` lambda again. */
 void fg__place_wake(fg__place_search *search, const double place[3], double step);
 void fg__place_wake_all(fg__place_search *search, double step);
 
-/* Takes off the icons that are missed least until `count` are left; the neighbours of
- * those that go move, and others that are not at rest. MEMORY, STOPPED. */
+/* Removes icons, first those whose removal raises the energy least, until `count` are
+ * left. Then their neighbours may move, and icons that had not stopped moving. MEMORY,
+ * STOPPED. */
 fg_status fg__place_thin(fg__place_search *search, int count);
 
-/* Brings the number of icons to the scale's, by inserting and removing. Where no more fit
- * the scale's shortest lines become shorter, and it ends early where that does not help.
- * MEMORY, STOPPED. */
+/* Inserts or removes icons until there are as many as the search is for. Where no more
+ * fit, shorter lines are allowed; where that does not help, there are fewer. MEMORY,
+ * STOPPED. */
 fg_status fg__place_complete(fg__place_search *search);
 
-/* Up to `most` exchanges of an icon for one elsewhere, given up after `failures` that did
- * not lower the energy. MEMORY, STOPPED. */
+/* Exchanges an icon for one elsewhere, at most `most` times, and stops after `failures`
+ * exchanges that did not lower the energy. MEMORY, STOPPED. */
 fg_status fg__place_exchange(fg__place_search *search, int most, int failures);
 
 /* The icons' seeds and the price of ink, to come back to. */
@@ -85,7 +86,7 @@ typedef struct fg__place_snapshot {
   double ink, shortest;
 } fg__place_snapshot;
 
-/* Keeps the state in place of what is in `out`. MEMORY. */
+/* Stores the state in `out`, whose earlier content is lost. MEMORY. */
 fg_status fg__place_remember(fg__place_snapshot *out, fg__place_search *search);
 fg_status fg__place_restore(fg__place_search *search, const fg__place_snapshot *from);
 void fg__place_snapshot_clear(fg__place_snapshot *snapshot);
@@ -93,7 +94,7 @@ void fg__place_snapshot_clear(fg__place_snapshot *snapshot);
 /* The readers' mean error now, degrees. MEMORY. */
 fg_status fg__place_error(fg__place_search *search, double *error);
 
-/* Sets E0 from that. MEMORY. */
+/* Sets E0 to that error. MEMORY. */
 fg_status fg__place_weigh(fg__place_search *search);
 
 /* The energy of all. MEMORY. */

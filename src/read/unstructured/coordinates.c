@@ -98,18 +98,18 @@ bool fg__nc_find_healpix(fg__nc_unstructured *out, fg__nc_search *search)
   const fg__nc_variable root = {.owner = search->u->owner,
                                 .group = search->file->roots[search->u->file],
                                 .id = NC_GLOBAL};
-  const fg__nc_variable *said[] = {mapping, search->u, &root};
+  const fg__nc_variable *variable[] = {mapping, search->u, &root};
   char words[2 * FG__NC_TEXT] = "";
   bool ordered = false;
   for (int n = 0; n < 3 && !ordered; ++n)
-    if (said[n])
-      ordered = order_of(&out->nested, said[n], words, sizeof words);
+    if (variable[n])
+      ordered = order_of(&out->nested, variable[n], words, sizeof words);
   /* "order" alone may be of anything */
   if (!mapping && strncmp(words, "healpix", 7) != 0)
     return false;
   for (int n = 0; n < 3 && out->sides == 0; ++n)
-    if (said[n])
-      out->sides = sides_of(said[n]);
+    if (variable[n])
+      out->sides = sides_of(variable[n]);
   if (out->sides == 0)
     out->sides = sides_of_count(cells);
   if (out->sides == 0)

@@ -74,12 +74,12 @@ static inline example_mesh mesh_made(int start, bool divided)
 }
 
 /* A variable of the file with an attribute or two. */
-typedef struct said {
+typedef struct attributes {
   const char *name, *value, *other, *text;
-} said;
+} attributes;
 
 static inline int put(const sample_file *f, const char *name, nc_type type, int rank,
-                      const int *dimensions, const double *values, said with)
+                      const int *dimensions, const double *values, attributes with)
 {
   const int id = sample_variable(f, name, type, rank, dimensions);
   if (with.name)
@@ -93,7 +93,7 @@ static inline int put(const sample_file *f, const char *name, nc_type type, int 
 /* The flow at places, as two variables along one dimension. */
 static inline void put_flow(const sample_file *f, const char *const name[2],
                             int dimension, size_t count, double *const at[2],
-                            const double *hole, said with)
+                            const double *hole, attributes with)
 {
   double *values = malloc(count * sizeof *values);
   assert_non_null(values);
@@ -108,9 +108,9 @@ static inline void put_flow(const sample_file *f, const char *const name[2],
   free(values);
 }
 
-static const said EAST = {"units", "degrees_east", NULL, NULL};
-static const said NORTH = {"units", "degrees_north", NULL, NULL};
-static const said NOTHING = {NULL, NULL, NULL, NULL};
+static const attributes EAST = {"units", "degrees_east", NULL, NULL};
+static const attributes NORTH = {"units", "degrees_north", NULL, NULL};
+static const attributes NOTHING = {NULL, NULL, NULL, NULL};
 
 static const char *const U_V[] = {"u", "v"};
 static const char *const LON_LAT[] = {"lon", "lat"};

@@ -65,7 +65,7 @@ static void ugrid(void **state)
     put_corners(f, "nodes_of_faces", &m, faces, corners, turned);
     put_places(f, LON_LAT, nodes, NODES, node, 1.0);
     put_flow(f, U_V, at_nodes ? nodes : faces, at_nodes ? NODES : m.faces,
-             at_nodes ? node : centre, NULL, (said){"mesh", "mesh", NULL, NULL});
+             at_nodes ? node : centre, NULL, (attributes){"mesh", "mesh", NULL, NULL});
     sample_end(f);
     read_and_compare(f, NULL, at_nodes ? 2e-3 : 5e-2,
                      at_nodes ? "on the nodes of the mesh 'mesh' (cf_role"
@@ -97,12 +97,12 @@ static void cells_with_bounds(void **state)
     for (size_t n = 0; n < m.faces; ++n)
       radians[n] = m.centre[k][n] * RADIANS;
     const int id = put(f, name[0][k], NC_DOUBLE, 1, dimension, radians,
-                       (said){"units", "radian", "bounds", name[1][k]});
+                       (attributes){"units", "radian", "bounds", name[1][k]});
     sample_text(f, id, "standard_name", word[k]);
     put(f, name[1][k], NC_DOUBLE, 2, dimension, bounds[k], NOTHING);
   }
   put_flow(f, U_V, dimension[0], m.faces, centre, hole,
-           (said){"coordinates", "clat clon", "CDI_grid_type", "unstructured"});
+           (attributes){"coordinates", "clat clon", "CDI_grid_type", "unstructured"});
   sample_end(f);
   read_and_compare(f, NULL, 5e-2, "on cells at 'clon', 'clat' with 4 corners ('clon_b')");
   fg_field *field = read_with(f, NULL);
@@ -204,9 +204,10 @@ static void fvcom_in_metres(void **state)
   put_corners(f, "nv", &m, cells[2], corners, true);
   for (int k = 0; k < 2; ++k) {
     put(f, LON_LAT[k], NC_DOUBLE, 1, &nodes, zero, k == 0 ? EAST : NORTH);
-    put(f, x_y[k], NC_DOUBLE, 1, &nodes, node[k], (said){"units", "meters", NULL, NULL});
+    put(f, x_y[k], NC_DOUBLE, 1, &nodes, node[k],
+        (attributes){"units", "meters", NULL, NULL});
     put(f, xc_yc[k], NC_DOUBLE, 1, &cells[2], centre[k],
-        (said){"units", "meters", NULL, NULL});
+        (attributes){"units", "meters", NULL, NULL});
   }
   for (size_t n = 0; n < m.faces; ++n)
     wet[n] = n % SIDE < 4 ? 0.0 : 1.0;
@@ -306,7 +307,7 @@ static void healpix_files(void **state)
     if (first > 0)
       put(f, "cell", NC_INT, 1, &cell, number, NOTHING);
     put_flow(f, U_V, cell, (size_t)count, places, NULL,
-             (said){"grid_mapping", "crs", NULL, NULL});
+             (attributes){"grid_mapping", "crs", NULL, NULL});
     sample_end(f);
     if (n == 3) {
       refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, "in ring or nested order");
@@ -351,7 +352,8 @@ static void faults_are_named(void **state)
         put_corners(f, n == 1 ? "other" : "nodes_of_faces", &m, faces, corners, false);
     sample_number(f, id, "start_index", NC_INT, 0.0);
     put_places(f, LON_LAT, nodes, NODES, node, 1.0);
-    put_flow(f, U_V, faces, m.faces, centre, NULL, (said){"mesh", "mesh", NULL, NULL});
+    put_flow(f, U_V, faces, m.faces, centre, NULL,
+             (attributes){"mesh", "mesh", NULL, NULL});
     if (n == 4)
       put_flow(f, (const char *const[]){"u_node", "v_node"}, nodes, NODES, node, NULL,
                NOTHING);

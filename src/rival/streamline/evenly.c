@@ -64,8 +64,8 @@ static fg_status add_sides(seeding *work)
 {
   const fg__placing *placing = &work->placing;
   const fg__lines_points *points = &placing->points;
-  int stations = (placing->last - placing->first) / SEED_STRIDE + 1;
-  size_t most = (size_t)work->sides + SIDES_IN_SPACE * (size_t)stations;
+  int samples = (placing->last - placing->first) / SEED_STRIDE + 1;
+  size_t most = (size_t)work->sides + SIDES_IN_SPACE * (size_t)samples;
   if (!fg__grow((void **)&work->side, &work->side_capacity, most, sizeof *work->side))
     return fg__fail_memory(placing->context, "seeds", most * sizeof *work->side);
   double away = BESIDE * placing->lines->separation;

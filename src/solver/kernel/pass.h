@@ -16,8 +16,8 @@ typedef struct work {
   bool correct, sweep, restriction;
 } work;
 
-/* What the rank above needs of the last slice. */
-static void hand_over(const fg__level *fine, const lines *gathered)
+/* Stores what the rank above needs of the last slice. */
+static void store_gathered(const fg__level *fine, const lines *gathered)
 {
   ptrdiff_t floats = fg__gathered_floats(fine);
   for (int n = 0; n < FG__RESTRICTED; ++n)
@@ -25,8 +25,8 @@ static void hand_over(const fg__level *fine, const lines *gathered)
            (size_t)floats * sizeof *fine->sent);
 }
 
-/* The slice before the first comes from the rank below. */
-static void take_over(const fg__level *fine, lines *gathered)
+/* Takes the slice before the first from what the rank below has sent. */
+static void use_received(const fg__level *fine, lines *gathered)
 {
   for (int n = 0; n < FG__RESTRICTED; ++n)
     gathered->value[n] = fine->received + n * fg__gathered_floats(fine);
@@ -62,7 +62,7 @@ static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool
   if (todo.restriction && fine->sent) {
     if (!together)
       take_slice(&r, mine.end - 1, &r.slice[0], linear);
-    hand_over(fine, &r.slice[0]);
+    store_gathered(fine, &r.slice[0]);
   }
   fg__threads_exchange(thread, (todo.sweep ? FG__LAST_SLICE : 0U) |
                                    (todo.restriction ? FG__GATHERED_SLICE : 0U));
@@ -70,7 +70,7 @@ static void pass(const fg__level *fine, const fg__level *coarse, float tau, bool
     return;
   int end = together ? started : last;
   if (fine->received)
-    take_over(fine, &r.slice[0]);
+    use_received(fine, &r.slice[0]);
   for (int S = first; S < end && S < last; ++S)
     restrict_slice(&r, S, S == first && !fine->received, out, linear);
   if (thread->index == 0)
