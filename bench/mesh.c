@@ -75,7 +75,7 @@ static void count_neighbours(int dimension, int nodes, int rank_count)
   const bool periodic[3] = {false, false, false};
   fg__blocks blocks;
   fg__partition level, coarse;
-  check(fg__blocks_choose(&blocks, NULL, &ranks, dimension, cells));
+  check(fg__blocks_choose(&blocks, NULL, &ranks, dimension, cells, false));
   check(fg__partition_create(&level, NULL, &ranks, dimension, cells, periodic,
                              blocks.count, blocks.unit));
   check(fg__partition_copy(&coarse, NULL, &level));
