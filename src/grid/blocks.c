@@ -4,8 +4,9 @@
  * level (docs/design/distribution.md). */
 static const double whole_cost_2d = 0.8, whole_cost_3d = 1.7;
 
-/* And a node of pencils in the time of one of slabs (the same page). */
-static const double pencil_cost = 1.3;
+/* And a node of pencils in the time of one of slabs; a ghost, whose 42 bytes a cycle take
+ * as long as a node where some nine ranks share a network card (the same page). */
+static const double pencil_cost = 1.3, ghost_cost = 1.0;
 
 enum { THICK_CELLS = 8 /* three halvings */ };
 
@@ -82,13 +83,16 @@ static double whole_nodes(const fg__blocks *blocks, int dimension, const int cel
 /* Of the rank with most to do, in nodes of the finest level. */
 static double cost_of(const fg__blocks *blocks, int dimension, const int cells[3])
 {
-  double block = 1.0;
+  double block = 1.0, ghosts = 0.0;
   for (int k = 0; k < dimension; ++k) {
     int count = blocks->count[k], units = cells[k] / blocks->unit;
-    block *= count == 1 ? cells[k] : (units + count - 1) / count * blocks->unit;
+    int side = count == 1 ? cells[k] : (units + count - 1) / count * blocks->unit;
+    block *= side;
+    ghosts += count == 1 ? 0.0 : 2.0 / side;
   }
   double whole = dimension == 3 ? whole_cost_3d : whole_cost_2d;
-  return (dimension == 3 && blocks->count[1] > 1 ? pencil_cost : 1.0) * block +
+  double node = dimension == 3 && blocks->count[1] > 1 ? pencil_cost : 1.0;
+  return (node + ghost_cost * ghosts) * block +
          whole * whole_nodes(blocks, dimension, cells);
 }
 

@@ -91,11 +91,8 @@ static void blocks_are_nearly_even(void **state)
     int dimension;
     const double *side;
     int nodes;
-  } cases[] = {{2, SQUARE, 257},
-               {2, LONG, 513},
-               {3, SQUARE, 65},
-               {3, LONG, 129},
-               {3, SQUARE, 17}};
+  } cases[] = {
+      {2, SQUARE, 257}, {2, LONG, 513}, {3, SQUARE, 65}, {3, LONG, 129}, {3, SQUARE, 17}};
   for (int n = 0; n < 5; ++n) {
     fg__mesh mesh = mesh_of(cases[n].dimension, cases[n].side, cases[n].nodes, 7);
     expect(share_of(&mesh) <= 1.125);

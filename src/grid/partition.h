@@ -1,6 +1,6 @@
 /* How ranks share the nodes of one level: a block of nodes each, which together divide
- * the outer axes: slabs in 2D (along y), slabs (along z) or pencils (along y and z) in 3D.
- * A row along x is never cut. Every rank knows the blocks of all: 24 bytes a rank and
+ * the outer axes: slabs in 2D (along y), slabs (along z) or pencils (along y and z) in
+ * 3D. A row along x is never cut. Every rank knows the blocks of all: 24 bytes a rank and
  * level.
  *
  * Ranks are numbered as MPI numbers those of a Cartesian topology whose axes are z and y:
@@ -47,9 +47,9 @@ fg_status fg__partition_coarsen(fg__partition *out, fg_context *context,
 enum { FG__LEAST_BLOCK_NODES = 4 };
 
 /* True when the level can be distributed and coarsened: its cells are even along each
- * axis, every block that is not empty has `least_nodes` or more a side and begins at even indices, so that
- * an even row of a block is even everywhere. (A block may end anywhere.) The same on all
- * ranks; not collective. */
+ * axis, every block that is not empty has `least_nodes` or more a side and begins at even
+ * indices, so that an even row of a block is even everywhere. (A block may end anywhere.)
+ * The same on all ranks; not collective. */
 bool fg__partition_is_workable(const fg__partition *partition, int least_nodes);
 void fg__partition_clear(fg__partition *partition);
 
