@@ -192,8 +192,8 @@ fg_status fg__cells_coarsen(fg__cells_of_box *out, fg_context *context,
 }
 
 /* True cells [low, low + count) of a level along each axis, those of a box and one
- * beyond, none for an empty box; beyond natural boundaries there are none, nor beyond a box that is all of a
- * period. */
+ * beyond, none for an empty box; beyond natural boundaries there are none, nor beyond a
+ * box that is all of a period. */
 typedef struct range {
   int low[3], count[3];
 } range;
