@@ -1,6 +1,7 @@
-# Puts the parts of the page together: cmake -DPAGE=… -DPARTS=… -DOUT=… -P viewer/page.cmake
+# Puts the parts of a page together: cmake -DPAGE=… -DPARTS=… -DOUT=… -P viewer/page.cmake
 file(READ ${PAGE}/index.html page)
-foreach(part STYLE CORE WORKER MAIN)
+file(GLOB parts RELATIVE ${PARTS} ${PARTS}/*)
+foreach(part IN LISTS parts)
   file(READ ${PARTS}/${part} text)
   string(STRIP "${text}" text)
   string(REPLACE "@${part}@" "${text}" page "${page}")

@@ -29,7 +29,7 @@ static const option_entry output_entries[] = {
      .help = "also write the density u and the clusters of every scale (scale-NN.vti); "
              "always done in 3D"},
     {"no-page", 0, NULL, COMMAND_RUN, OPTION_FLAG, OWN(run, no_page),
-     .help = "without index.html, the page for browsers that a run in 2D gets"},
+     .help = "without index.html, the page for browsers"},
     {"json", 0, NULL, COMMAND_INFO, OPTION_FLAG, OWN(info, json), .help = "as JSON"},
     {"json", 0, NULL, COMMAND_SCORE, OPTION_FLAG, OWN(score, json), .help = "as JSON"},
     {"force", 'f', NULL, COMMAND_GALLERY, OPTION_FLAG, OWN(gallery, force),

@@ -8,15 +8,8 @@
 #include "folder/files.h"
 #include "inputs.h"
 #include "ranks.h"
+#include "run/page.h"
 #include "run/scale_files.h"
-
-/* The page's scales begin with so many arrows, and end with no more than those. */
-enum { LEAST_MOST = 60, MOST_MOST = 400, MOST_FEWEST = 12 };
-
-static int within(int number, int least, int most)
-{
-  return number < least ? least : number > most ? most : number;
-}
 
 /* At the drawing's progress. */
 static const double seconds_between_looks = 0.2;
@@ -65,46 +58,6 @@ int finish_drawing(cli_run *run)
   return drawing_count(run->drawing) ? EXIT_DONE : complain_of_no_scale(run);
 }
 
-/* Whether there is a page for browsers: of fields in 2D, of the energy that it knows. */
-static bool wants_page(const cli_run *run)
-{
-  const run_settings *settings = run->settings;
-  const char *energy = settings->evolution.energy;
-  return fg_has_feature(FG_FEATURE_VIEWER) && !settings->no_page &&
-         !scales_are_solid(drawing_field(run->drawing)) &&
-         (!energy || strcmp(energy, "flow") == 0);
-}
-
-static int write_page(cli_run *run)
-{
-  const run_settings *settings = run->settings;
-  if (!wants_page(run))
-    return EXIT_DONE;
-  const int *wanted;
-  int next, count = fg_run_wanted(&wanted, &next, run->scales);
-  const common_look *look = drawing_look(run->drawing);
-  char *path = output_path(&run->output, VIEW_NAME);
-  if (!path)
-    return EXIT_FAILED;
-  fg_status status = fg_view_write(
-      run->context, path, drawing_field(run->drawing),
-      &(fg_view_options){.most = within(wanted[0], LEAST_MOST, MOST_MOST),
-                         .fewest = within(wanted[count - 1], 1, MOST_FEWEST),
-                         .seed = settings->work.seed,
-                         .kind =
-                             settings_place(settings) ? FG_RUN_ARROWS : FG_RUN_CLUSTERS,
-                         .lengths = (fg_lengths)settings->lengths,
-                         .anisotropy = settings->evolution.anisotropy,
-                         .coverage = settings->evolution.coverage,
-                         .palette = settings->picture.palette,
-                         .speed_min = look->speeds[0],
-                         .speed_max = look->speeds[1],
-                         .title = settings->picture.title});
-  free(path);
-  run->facts.has_page = !status;
-  return status ? complain_of(run->context, status, settings->output) : EXIT_DONE;
-}
-
 static int write_results(cli_run *run)
 {
   if (!table_flush(&run->table, false))
@@ -112,7 +65,7 @@ static int write_results(cli_run *run)
   char *path = output_path(&run->output, REPORT_NAME);
   if (!path)
     return EXIT_FAILED;
-  int code = write_page(run);
+  int code = page_write(run);
   if (code) {
     free(path);
     return code;

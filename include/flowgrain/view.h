@@ -1,17 +1,25 @@
-/* A page for browsers that shows a field's arrows at every scale, live. Included by
- * flowgrain.h. */
+/* A page for browsers that shows a field's arrows at every scale: in 2D placed anew by
+ * the page, in 3D those of a run. Included by flowgrain.h. */
 #ifndef FLOWGRAIN_VIEW_H
 #define FLOWGRAIN_VIEW_H
 
 #include "flowgrain/run.h"
+#include "flowgrain/solid.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
+/* A scale of a run in 3D, borrowed. Icons that are placed keep their `id` from scale to
+ * scale; others go into that of the cluster where their middle lies, else the nearest. */
+typedef struct fg_view_scale {
+  const fg_icons *icons;
+  const fg_density *density; /* of the clusters that are shown; NULL: none */
+} fg_view_scale;
+
 /* A zero field means its default, in brackets. */
 typedef struct fg_view_options {
-  int most, fewest;   /* arrows, or clusters, of the finest and the coarsest scale
+  int most, fewest;   /* in 2D: arrows, or clusters, of the finest and the coarsest scale
                          [200, 12] */
   uint64_t seed;      /* of the clusters that arrows start from [1] */
   fg_run_kind kind;   /* what the page begins with [arrows] */
@@ -21,13 +29,19 @@ typedef struct fg_view_options {
   double speed_min;  /* ends of the colour key; both 0: [found from the field] */
   double speed_max;  /* */
   const char *title; /* NULL: what the field says of itself */
+  /* In 3D: */
+  const fg_view_scale *scales; /* finest first, at least one */
+  int scale_count;
+  double azimuth, elevation; /* where the viewer stands first, as in fg_solid_options */
 } fg_view_options;
 
-/* Writes a page of HTML that holds a field in 2D, the library for WebAssembly and all
- * else that it needs; it is opened from disk and loads nothing. Velocities are rounded to
- * 11 bits; of more than 300,000 samples the page has means of neighbours. `options` may
- * be NULL. UNSUPPORTED (3D; a build without FLOWGRAIN_VIEWER), ARGUMENT (a part of a
- * field, numbers), FILE_ACCESS, MEMORY. */
+/* Writes a page of HTML that holds a field and all else that it needs; it is opened from
+ * disk and loads nothing. Velocities are rounded to 11 bits. In 2D it has the library for
+ * WebAssembly, and of more than 300,000 samples means of neighbours. In 3D it has the
+ * scales' icons, the surfaces of their clusters, simplified, and the velocity on an even
+ * raster of at most 48^3 nodes. `options` may be NULL in 2D. UNSUPPORTED (a build
+ * without FLOWGRAIN_VIEWER), ARGUMENT (a part of a field, numbers, 3D without scales),
+ * FILE_ACCESS, MEMORY. */
 FG_API fg_status fg_view_write(fg_context *context, const char *path,
                                const fg_field *field, const fg_view_options *options);
 

@@ -3,12 +3,17 @@
 source "$(dirname "$0")/harness.sh"
 
 small=(--nodes 33 --clusters "10,5" --quiet --width 96)
-files="evolution.csv run.json"
-pictures=
+files=evolution.csv
+pictures= page=
 # a program without that feature draws no pictures in 3D
 if "$program" --version | grep '^with ' | grep -qw render; then
   pictures=yes
 fi
+if "$program" --version | grep '^with ' | grep -qw viewer; then
+  page=yes
+  files="$files index.html"
+fi
+files="$files run.json"
 for scale in 00 01; do
   files="$files scale-$scale.geojson scale-$scale.glb"
   [ -z "$pictures" ] || files="$files scale-$scale.png"
@@ -100,6 +105,21 @@ else
   done_with "VTK reads the scales # SKIP no Python package vtk"
 fi
 
+if [ -n "$page" ]; then
+  sed -n '/<script type="application\/json" id="run">/,/<\/script>/p' out1/index.html |
+    sed -e 's/.*id="run">//; s/<\/script>.*//' >page.json
+  expect_json page.json '(.scales | length) == 2 and .low == [0, 0, 0] and .high == [1, 1, 1] and .field.nodes == [48, 48, 48]'
+  expect_json page.json "[.scales[].icons | length] == $(jq -c '[.scales[].icons]' $report)"
+  # every cluster's icon has a number of its own, and goes into one of the next scale
+  expect_json page.json '[.scales[].icons[].id] == [range(1; 1 + ([.scales[].icons[]] | length))]'
+  expect_json page.json '[.scales[0].icons[].parent] - [.scales[1].icons[].id] == []'
+  expect_json page.json '[.scales[].clusters.vertices > 100] | all'
+  [ "$(wc -c <out1/index.html)" -lt 3000000 ] || fault "$(wc -c <out1/index.html) bytes"
+  ! grep -qE '(src|href)="(https?:)?//' out1/index.html || fault "the page loads something"
+  expect_json $report '.page == "index.html"'
+  done_with "its page for browsers holds the scales"
+fi
+
 try run synth:vortex3d -o out2 "${small[@]}" --threads 2
 expect_code 0
 for scale in 0 1; do
@@ -107,6 +127,7 @@ for scale in 0 1; do
     cmp -s "out1/scale-0$scale.$end" "out2/scale-0$scale.$end" || fault "scale-0$scale.$end differs"
   done
 done
+[ -z "$page" ] || cmp -s out1/index.html out2/index.html || fault "another page"
 done_with "one and two threads give identical scales"
 
 try run synth:vortex3d -o out3 "${small[@]}" --clusters 10 --seed 2

@@ -1,14 +1,14 @@
 // The field as the page holds it, and parts of it.
 
-function bytes(text) {
+export function bytes(text) {
   const binary = atob(text);
   const out = new Uint8Array(binary.length);
   for (let n = 0; n < out.length; ++n) out[n] = binary.charCodeAt(n);
   return out;
 }
 
-/** IEEE 754 halves. */
-function halves(text, unit) {
+/** What each IEEE 754 half is worth, in a unit. */
+export function halfTable(unit) {
   const table = new Float32Array(65536);
   for (let h = 0; h < 65536; ++h) {
     const exponent = (h >> 10) & 31;
@@ -17,6 +17,11 @@ function halves(text, unit) {
       : exponent ? 2 ** (exponent - 25) * (1024 + part) : 2 ** -24 * part;
     table[h] = (h & 0x8000 ? -size : size) * unit;
   }
+  return table;
+}
+
+function halves(text, unit) {
+  const table = halfTable(unit);
   return Float32Array.from(new Uint16Array(bytes(text).buffer), (h) => table[h]);
 }
 

@@ -1,6 +1,7 @@
 // The page of a run.
 import { readAddress, writeAddress } from "./address.js";
 import { onDark } from "./colors.js";
+import { captionText, numberIn, placeBeside, Player, save } from "./common.js";
 import { arrowLayers, DARK, drawAsSvg, drawOnCanvas, frameLayer, hedgehog, LIGHT, mapLayers, missingLayer, tintLayer } from "./draw.js";
 import { readField, velocityAt } from "./field.js";
 import { legendMarks } from "./legend.js";
@@ -34,7 +35,6 @@ const state = {
   choice: { kind: run.kind, seed: run.seed, anisotropy: run.anisotropy, coverage: run.coverage },
   theme: "",
   show: { arrows: true, tint: false, particles: false, texture: false, hedgehog: false, coast: true, degrees: true },
-  playing: false,
 };
 
 let maker; // undefined until the core is compiled
@@ -212,28 +212,13 @@ function slide(at) {
   want();
 }
 
-function play(on) {
-  state.playing = on && state.playing !== on;
-  byId("play").textContent = state.playing ? "Pause" : "Play";
-  byId("play").setAttribute("aria-label", state.playing ? "Pause" : "Play from many arrows to few");
-  if (!state.playing) return;
-  if (state.at >= numbers.length - 1) slide(0);
-  let before = performance.now();
-  const step = (now) => {
-    if (!state.playing) return;
-    const passed = Math.min(now - before, 100);
-    before = now;
-    const made = setNow()?.scales.length ?? 0;
-    const next = state.at + passed / (calm.matches ? 1500 : 600);
-    if (Math.ceil(next) < made) slide(next); // waits for scales that are being made
-    else if (made === numbers.length) {
-      slide(numbers.length - 1);
-      return play(false);
-    } else slide(state.at);
-    requestAnimationFrame(step);
-  };
-  requestAnimationFrame(step);
-}
+const player = new Player(byId("play"), {
+  at: () => state.at,
+  last: () => numbers.length - 1,
+  made: () => setNow()?.scales.length ?? 0,
+  slide,
+  pace: () => (calm.matches ? 1500 : 600),
+});
 
 function nearestArrow([px, py]) {
   let best;
@@ -271,8 +256,7 @@ function read(at, arrow) {
   }
   box.append(lines.join("\n"));
   box.style.whiteSpace = "pre-line";
-  box.style.left = `${Math.max(0, Math.min(at[0] + 16, view.size[0] - box.offsetWidth - 4))}px`;
-  box.style.top = `${Math.max(0, at[1] + 16 + box.offsetHeight > view.size[1] ? at[1] - box.offsetHeight - 10 : at[1] + 16)}px`;
+  placeBeside(box, at, view.size);
   redraw();
   return box.textContent;
 }
@@ -296,7 +280,7 @@ function walk(step) {
 const keys = {
   ",": () => slide(Math.ceil(state.at) - 1),
   ".": () => slide(Math.floor(state.at) + 1),
-  " ": () => play(!state.playing),
+  " ": () => player.play(!player.playing),
   n: () => walk(1),
   p: () => walk(-1),
   Escape: leave,
@@ -304,21 +288,12 @@ const keys = {
 
 // ---- files
 
-function save(name, blob) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-}
-
 function svg() {
   advance();
   fading = undefined; // what goes is no part of it
   const [w, h] = view.size;
-  const text = (y, size, words, weight = "normal") => `<text x="12" y="${y}" font-size="${size}" font-weight="${weight}" ` +
-    `font-family="DejaVu Sans, sans-serif" fill="${colors().text}">${words.replace(/[&<>]/g, (c) => `&#${c.charCodeAt(0)};`)}</text>`;
-  const extra = text(h + 26, 15, run.title, "bold") + text(h + 46, 12, `${drawn.length} arrows. ${run.subtitle}`) +
+  const extra = captionText(h + 26, 15, run.title, colors().text, "bold") +
+    captionText(h + 46, 12, `${drawn.length} arrows. ${run.subtitle}`, colors().text) +
     `<g transform="translate(${w - 252} ${h + 2})">${legendMarks(run, look().palette, colors().text)}</g>`;
   return drawAsSvg([...groundLayers(), ...arrowsNow()], view, colors(), field.border, run.title, extra, 76);
 }
@@ -372,15 +347,14 @@ function resize() {
 
 function restore() {
   const address = readAddress();
-  const number = (text, low, high) => (Number(text) >= low && Number(text) <= high ? Number(text) : undefined);
-  choose(Math.round(number(address.n, 1, 400) ?? numbers[0]));
+  choose(Math.round(numberIn(address.n, 1, 400) ?? numbers[0]));
   state.choice = {
     kind: ["arrows", "clusters"].includes(address.kind) ? address.kind : run.kind,
-    seed: Math.round(number(address.seed, 1, 999999999) ?? run.seed),
-    anisotropy: number(address.anisotropy, 0.01, 1) ?? run.anisotropy,
-    coverage: number(address.coverage, 0.01, 0.9) ?? run.coverage,
+    seed: Math.round(numberIn(address.seed, 1, 999999999) ?? run.seed),
+    anisotropy: numberIn(address.anisotropy, 0.01, 1) ?? run.anisotropy,
+    coverage: numberIn(address.coverage, 0.01, 0.9) ?? run.coverage,
   };
-  view.zoom = number(address.zoom, 1, 400) ?? 1;
+  view.zoom = numberIn(address.zoom, 1, 400) ?? 1;
   const at = address.at?.split(",").map(Number);
   if (at?.length === 2 && at.every(Number.isFinite)) view.center = at;
   if (address.show !== undefined) {
@@ -396,7 +370,7 @@ function restore() {
 function connect() {
   slider.max = String(numbers.length - 1);
   slider.addEventListener("input", () => {
-    play(false);
+    player.play(false);
     slide(Number(slider.value));
   });
   // keys step from scale to scale
@@ -406,7 +380,6 @@ function connect() {
     event.preventDefault();
     slide(Math.round(state.at) + step);
   });
-  byId("play").addEventListener("click", () => play(!state.playing));
   byId("number").addEventListener("change", () => {
     const n = Math.round(Number(byId("number").value));
     if (!(n >= 1 && n <= 400)) return say();

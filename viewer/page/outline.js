@@ -4,18 +4,28 @@ const STATIONS = 28; // points of a line that changes
 const SWEEP = 0.12; // barbs lie behind the head's base by this share of its length
 const TAIL = 4; // vertices that round a tail's end, on each side
 
+/** How long a line of points of `stride` coordinates is up to each of them. */
+export function lengths(path, stride = 2) {
+  const along = new Float64Array(path.length / stride);
+  for (let k = 1; k < along.length; ++k) {
+    let sum = 0;
+    for (let i = 0; i < stride; ++i) sum += (path[stride * k + i] - path[stride * (k - 1) + i]) ** 2;
+    along[k] = along[k - 1] + Math.sqrt(sum);
+  }
+  return along;
+}
+
 /** A line as so many points at even distances along it. */
-export function stations(path, count = STATIONS) {
-  const n = path.length / 2;
-  const along = new Float64Array(n);
-  for (let k = 1; k < n; ++k)
-    along[k] = along[k - 1] + Math.hypot(path[2 * k] - path[2 * k - 2], path[2 * k + 1] - path[2 * k - 1]);
-  const out = new Float64Array(2 * count);
+export function stations(path, count = STATIONS, stride = 2) {
+  const along = lengths(path, stride);
+  const n = along.length;
+  const out = new Float64Array(stride * count);
   for (let k = 0, at = 0; k < count; ++k) {
     const s = (along[n - 1] * k) / (count - 1);
     while (at < n - 2 && along[at + 1] < s) ++at;
     const share = Math.min(1, (s - along[at]) / (along[at + 1] - along[at] || 1));
-    for (let i = 0; i < 2; ++i) out[2 * k + i] = path[2 * at + i] + share * (path[2 * at + 2 + i] - path[2 * at + i]);
+    for (let i = 0; i < stride; ++i)
+      out[stride * k + i] = path[stride * at + i] + share * (path[stride * (at + 1) + i] - path[stride * at + i]);
   }
   return out;
 }
@@ -23,9 +33,7 @@ export function stations(path, count = STATIONS) {
 /** The closed polygon of an arrow, as the library draws it but for sharp bends. */
 export function outline({ path, width, tailWidth, headLength, headWidth }) {
   const count = path.length / 2;
-  const along = new Float64Array(count);
-  for (let k = 1; k < count; ++k)
-    along[k] = along[k - 1] + Math.hypot(path[2 * k] - path[2 * k - 2], path[2 * k + 1] - path[2 * k - 1]);
+  const along = lengths(path);
   const length = along[count - 1];
   const head = Math.min(headLength, 0.8 * length);
   const body = length - head;
@@ -69,24 +77,49 @@ export function outline({ path, width, tailWidth, headLength, headWidth }) {
 }
 
 const blend = (a, b, t) => a + t * (b - a);
-const SIZES = ["width", "tailWidth", "headLength", "headWidth", "speed", "area"];
+const WIDTHS = ["width", "tailWidth", "headLength", "headWidth"];
+const SIZES = [...WIDTHS, "speed", "area"];
+const SOLID_STATIONS = 72; // of a line in 3D
+
+// Lines in 3D have `speeds`, at their points, which go with them.
+const strideOf = (arrow) => (arrow.speeds ? 3 : 2);
+
+function stationsOf(arrow) {
+  if (!arrow.stations) {
+    const count = arrow.speeds ? SOLID_STATIONS : STATIONS;
+    arrow.stations = stations(arrow.path, count, strideOf(arrow));
+    if (arrow.speeds) arrow.stationSpeeds = Float64Array.from({ length: count }, (_, k) =>
+      valueAt(arrow.speeds, arrow.along ??= lengths(arrow.path, 3), k / (count - 1)));
+  }
+  return arrow.stations;
+}
+
+/** A value at a share of a line's length, of values at its points. */
+function valueAt(values, along, share) {
+  const s = share * along[along.length - 1];
+  let at = 0;
+  while (at < along.length - 2 && along[at + 1] < s) ++at;
+  const part = Math.min(1, (s - along[at]) / (along[at + 1] - along[at] || 1));
+  return values[at] + part * (values[at + 1] - values[at]);
+}
 
 /** From an arrow of one scale to the same in the next. */
 function between(a, b, t) {
-  a.stations ??= stations(a.path);
-  b.stations ??= stations(b.path);
-  const out = { id: a.id, share: 1, path: a.stations.map((p, k) => blend(p, b.stations[k], t)) };
+  const [from, to] = [stationsOf(a), stationsOf(b)];
+  const out = { id: a.id, share: 1, path: from.map((p, k) => blend(p, to[k], t)) };
+  if (a.speeds) out.speeds = a.stationSpeeds.map((v, k) => blend(v, b.stationSpeeds[k], t));
   for (const name of SIZES) out[name] = blend(a[name], b[name], t);
   return out;
 }
 
 // The part of a line about a point of it, `share` as long.
 function shrunk(arrow, share) {
-  const path = arrow.stations ??= stations(arrow.path);
-  const middle = path.length / 2 - (path.length / 2) % 2;
-  const [x, y] = [path[middle], path[middle + 1]];
-  const out = { ...arrow, share, path: path.map((p, k) => blend(k & 1 ? y : x, p, 0.4 + 0.6 * share)) };
-  for (const name of ["width", "tailWidth", "headLength", "headWidth"]) out[name] *= 0.4 + 0.6 * share;
+  const path = stationsOf(arrow);
+  const stride = strideOf(arrow);
+  const middle = stride * Math.floor(path.length / stride / 2);
+  const out = { ...arrow, share, path: path.map((p, k) => blend(path[middle + (k % stride)], p, 0.4 + 0.6 * share)) };
+  if (arrow.speeds) out.speeds = arrow.stationSpeeds;
+  for (const name of WIDTHS) out[name] *= 0.4 + 0.6 * share;
   return out;
 }
 
@@ -109,14 +142,18 @@ export function morph(finer, coarser, t) {
   return out;
 }
 
-// Some of the way to the arrow that it goes into.
+// Some of the way to the arrow that it goes into, from the middle of its line.
 function goTo(arrow, parent, t) {
   if (!parent) return arrow;
-  const [x, y] = arrow.center;
-  let [nearest, dx, dy] = [Infinity, 0, 0];
-  for (let k = 0; k < parent.path.length; k += 2) {
-    const [px, py] = [parent.path[k] - x, parent.path[k + 1] - y];
-    if (px * px + py * py < nearest) [nearest, dx, dy] = [px * px + py * py, px, py];
+  const stride = strideOf(arrow);
+  const middle = stride * Math.floor(arrow.path.length / stride / 2);
+  const center = arrow.center ?? arrow.path.slice(middle, middle + stride);
+  let nearest = Infinity;
+  let way = center.map(() => 0);
+  for (let k = 0; k < parent.path.length; k += stride) {
+    const step = Array.from(center, (p, i) => parent.path[k + i] - p);
+    const far = step.reduce((sum, d) => sum + d * d, 0);
+    if (far < nearest) [nearest, way] = [far, step];
   }
-  return { ...arrow, path: arrow.path.map((p, k) => p + 0.35 * t * (k & 1 ? dy : dx)) };
+  return { ...arrow, path: arrow.path.map((p, k) => p + 0.35 * t * way[k % stride]) };
 }

@@ -63,11 +63,14 @@ export class View {
 }
 
 /**
- * Lets pointers, the wheel and keys on an element change a view.
- * @param {{changed: () => void, hovered: (at?: number[]) => void, key: (key: string) => boolean}} told
+ * Lets pointers, the wheel and keys on an element change a view: its zoomAt, pan and reset. What
+ * `grab` returns gets the steps of a pointer from there, in place of the view.
+ * @param {{changed: () => void, hovered: (at?: number[]) => void, key: (key: string) => boolean,
+ *   grab?: (at: number[]) => ((at: number[]) => void) | undefined}} told
  */
 export function control(element, view, told) {
   const held = new Map();
+  let drag; // of what was grabbed
   const at = (event) => {
     const box = element.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
@@ -79,6 +82,7 @@ export function control(element, view, told) {
   element.addEventListener("pointerdown", (event) => {
     element.setPointerCapture(event.pointerId);
     held.set(event.pointerId, at(event));
+    drag = held.size === 1 ? told.grab?.(at(event)) : undefined;
     told.hovered(at(event));
   });
   element.addEventListener("pointermove", (event) => {
@@ -86,18 +90,23 @@ export function control(element, view, told) {
     if (!before) return told.hovered(at(event));
     const old = held.size === 2 ? spread() : undefined;
     held.set(event.pointerId, at(event));
+    if (drag) return drag(at(event));
+    const slides = old !== undefined || event.shiftKey || event.buttons > 1;
     if (old) {
       const now = spread();
       view.zoomAt(...now.middle, now.apart / (old.apart || 1));
-      view.pan(now.middle[0] - old.middle[0], now.middle[1] - old.middle[1]);
+      view.pan(now.middle[0] - old.middle[0], now.middle[1] - old.middle[1], slides);
     } else if (held.size === 1) {
-      view.pan(event.clientX - element.getBoundingClientRect().left - before[0],
-        event.clientY - element.getBoundingClientRect().top - before[1]);
+      const now = at(event);
+      view.pan(now[0] - before[0], now[1] - before[1], slides);
     }
     told.changed();
   });
   for (const end of ["pointerup", "pointercancel"])
-    element.addEventListener(end, (event) => held.delete(event.pointerId));
+    element.addEventListener(end, (event) => {
+      held.delete(event.pointerId);
+      drag = undefined;
+    });
   element.addEventListener("pointerleave", () => told.hovered());
   element.addEventListener("wheel", (event) => {
     event.preventDefault();
@@ -113,7 +122,7 @@ export function control(element, view, told) {
   element.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const middle = [view.size[0] / 2, view.size[1] / 2];
-    if (moves[event.key]) view.pan(...moves[event.key]);
+    if (moves[event.key]) view.pan(moves[event.key][0], moves[event.key][1], event.shiftKey);
     else if (event.key === "+" || event.key === "=") view.zoomAt(...middle, 1.5);
     else if (event.key === "-") view.zoomAt(...middle, 1 / 1.5);
     else if (event.key === "0") view.reset();

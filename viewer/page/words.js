@@ -29,14 +29,16 @@ export function degrees(longitude, latitude) {
   return `${half(latitude, "N", "S")}, ${half(longitude, "E", "W")}`;
 }
 
+/** A number with its unit, if any. */
+export function withUnits(x, units, figures = 3) {
+  return shortNumber(x, figures) + (units ? ` ${unitsOf(units)}` : "");
+}
+
 /** Words for the speeds, directions and places of a run's field. */
 export function tellerOf(run, field) {
   const placeOf = locator(field.places, run.axes === "degrees");
 
-  function speedWords(speed) {
-    const units = unitsOf(run.units);
-    return shortNumber(speed) + (units ? ` ${units}` : "");
-  }
+  const speedWords = (speed) => withUnits(speed, run.units);
 
   /** From north on a map, else from the x axis. */
   function directionWords(x, y, [u, v]) {
@@ -53,8 +55,7 @@ export function tellerOf(run, field) {
   function placeWords(x, y) {
     const place = placeOf(x, y);
     if (place) return degrees(...place);
-    const units = (text) => (text ? ` ${unitsOf(text)}` : "");
-    return `${run.xName} ${shortNumber(x, 4)}${units(run.xUnits)}, ${run.yName} ${shortNumber(y, 4)}${units(run.yUnits)}`;
+    return `${run.xName} ${withUnits(x, run.xUnits, 4)}, ${run.yName} ${withUnits(y, run.yUnits, 4)}`;
   }
 
   return { speedWords, directionWords, placeWords };

@@ -1,50 +1,29 @@
 // The page that the program writes, opened from disk in Chromium.
 //     FLOWGRAIN_PROGRAM=build/flowgrain node --test viewer/test
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
-import { hasBrowser, startBrowser } from "./browser.mjs";
+import { address, Opened, skip } from "./opened.mjs";
 
-const program = process.env.FLOWGRAIN_PROGRAM;
-const makesPages = program && /^with .*viewer/m.test(execFileSync(program, ["--version"], { encoding: "utf8" }));
-const skip = !makesPages ? "no program with the viewer" : (await hasBrowser()) ? false : "no Chromium, or no playwright-core (npm ci)";
 const winds = fileURLToPath(new URL("../../data/gfs_20140131.nc", import.meta.url));
-
-let folder;
-let browser;
+const opened = new Opened();
 
 before(async () => {
   if (skip) return;
-  folder = mkdtempSync(join(tmpdir(), "flowgrain-"));
-  const run = (out, ...given) => execFileSync(program, ["run", ...given, "-o", join(folder, out), "--quiet", "--formats", "svg"]);
-  run("vortex", "synth:vortex3", "--arrows", "30,8", "--nodes", "65");
-  run("clusters", "synth:vortex3", "--clusters", "40,8", "--nodes", "65");
-  run("map", winds, "--arrows", "12", "--nodes", "65", "--region", "-25,25,35,65");
-  browser = await startBrowser();
+  await opened.start();
+  opened.run("vortex", "synth:vortex3", "--arrows", "30,8", "--nodes", "65", "--formats", "svg");
+  opened.run("clusters", "synth:vortex3", "--clusters", "40,8", "--nodes", "65", "--formats", "svg");
+  opened.run("map", winds, "--arrows", "12", "--nodes", "65", "--region", "-25,25,35,65", "--formats", "svg");
 });
 
-after(async () => {
-  await browser?.close();
-  if (folder) rmSync(folder, { recursive: true });
-});
+after(() => opened.end());
 
-/** A page of a run; what it says on the console or asks for, and errors, are in `faults`. */
-async function open(name, address = "", options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1100, height: 760 }, bypassCSP: true, ...options });
-  const page = await context.newPage();
-  const faults = [];
-  // the driver without a graphics processor tells that it is slow
-  page.on("console", (message) => message.text().includes("GL Driver Message") || faults.push(message.text()));
-  page.on("pageerror", (error) => faults.push(error.message));
-  page.on("request", (request) => /^(file|blob|data):/.test(request.url()) || faults.push(request.url()));
-  await page.goto(`file://${join(folder, name, "index.html")}${address}`);
-  await made(page);
-  return { page, faults, close: () => context.close() };
+async function open(...given) {
+  const all = await opened.open(...given);
+  await made(all.page);
+  return all;
 }
 
 const data = (page) => page.locator("#picture").evaluate((canvas) => ({ ...canvas.dataset }));
@@ -54,8 +33,6 @@ async function made(page) {
   await page.waitForTimeout(250); // a view is answered when it rests
   await page.waitForFunction(() => document.getElementById("picture").dataset.made === "yes");
 }
-
-const address = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
 
 /** Corners of the polygons of arrows in the SVG file that the page saves. */
 async function savedArrows(page) {

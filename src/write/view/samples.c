@@ -73,12 +73,15 @@ static bool mean_around(double mean[2], const fg_field_arrays *a, const thinning
   return true;
 }
 
-static double fastest(const fg_field_arrays *a)
+double fg__view_fastest(const fg_field *field)
 {
-  const size_t count = (size_t)a->size[0] * (size_t)a->size[1];
+  const fg_field_arrays *a = fg_field_contents(field);
+  size_t count = 1;
   double most = 0.0;
+  for (int k = 0; k < a->dimension; ++k)
+    count *= (size_t)a->size[k];
   for (size_t n = 0; n < count; ++n)
-    for (int k = 0; k < 2; ++k)
+    for (int k = 0; k < a->dimension; ++k)
       if (!a->valid || a->valid[n])
         most = fmax(most, fabs((double)a->velocity[k][n]));
   return most;
@@ -90,7 +93,6 @@ static void fill(fg__view_samples *s, const fg_field_arrays *a, const thinning a
     for (int i = 0; i < s->size[k]; ++i)
       s->axis[k][i] = a->axis[k][along[k].nearest[i]];
   const float missing = nanf("");
-  s->unit = fastest(a);
   size_t n = 0;
   for (int j = 0; j < s->size[1]; ++j)
     for (int i = 0; i < s->size[0]; ++i, ++n) {
@@ -122,6 +124,7 @@ fg_status fg__view_samples_create(fg__view_samples *out, fg_context *context,
     if (!out->axis[k] || !out->velocity[k])
       status = fg__fail_memory(context, "a page's samples", kept * sizeof(uint16_t));
   }
+  out->unit = fg__view_fastest(field);
   if (!status)
     fill(out, a, along);
   else

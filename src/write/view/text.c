@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include <zlib.h>
+
 void fg__view_text(FILE *stream, const char *text)
 {
   if (!text) {
@@ -32,6 +34,27 @@ bool fg__view_bytes(FILE *stream, const void *bytes, size_t size)
   putc('"', stream);
   free(text);
   return true;
+}
+
+bool fg__view_packed(FILE *stream, const int32_t *values, size_t count)
+{
+  uLongf size = compressBound((uLong)(4 * count));
+  unsigned char *plane = fg__allocate(count + 1, 4), *packed = fg__allocate(size, 1);
+  bool done = plane && packed;
+  uint32_t before = 0;
+  for (size_t n = 0; n < count && done; ++n) {
+    const uint32_t step = (uint32_t)values[n] - before;
+    const uint32_t zigzag = step << 1 ^ (step >> 31 ? 0xffffffffU : 0U);
+    for (size_t k = 0; k < 4; ++k)
+      plane[k * count + n] = (unsigned char)(zigzag >> 8 * k);
+    before = (uint32_t)values[n];
+  }
+  done = done &&
+         compress2(packed, &size, plane, (uLong)(4 * count), Z_BEST_COMPRESSION) == Z_OK;
+  done = done && fg__view_bytes(stream, packed, size);
+  free(plane);
+  free(packed);
+  return done;
 }
 
 static void put_place(unsigned char out[2], double share)

@@ -32,6 +32,10 @@ static fg_status choose_look(view_look *out, fg_context *context, const fg_field
   o->seed = o->seed ? o->seed : 1;
   o->anisotropy = o->anisotropy > 0.0 ? o->anisotropy : ANISOTROPY;
   o->coverage = o->coverage > 0.0 ? o->coverage : COVERAGE;
+  const bool solid = fg_field_contents(field)->dimension == 3;
+  if (solid && (o->scale_count < 1 || !o->scales))
+    return fg__fail(context, FG_STATUS_ARGUMENT, "page: %d scales of a field in 3D",
+                    o->scale_count);
   if (o->fewest < 1 || o->most < o->fewest)
     return fg__fail(context, FG_STATUS_ARGUMENT, "page: from %d to %d arrows", o->most,
                     o->fewest);
@@ -67,7 +71,8 @@ static void write_words(FILE *stream, const fg_field_arrays *a, const view_look 
   } words[] = {{"version", fg_version()},    {"title", look->title},
                {"subtitle", look->subtitle}, {"units", a->velocity_units},
                {"xName", a->axis_name[0]},   {"yName", a->axis_name[1]},
-               {"xUnits", a->axis_units[0]}, {"yUnits", a->axis_units[1]},
+               {"zName", a->axis_name[2]},   {"xUnits", a->axis_units[0]},
+               {"yUnits", a->axis_units[1]}, {"zUnits", a->axis_units[2]},
                {"projection", a->projection}};
   for (size_t k = 0; k < sizeof words / sizeof *words; ++k) {
     fprintf(stream, "\"%s\":", words[k].name);
@@ -92,41 +97,47 @@ static bool write_samples(FILE *stream, const fg__view_samples *s)
   return done;
 }
 
-static fg_status write_field(FILE *stream, fg_context *context, const fg_field *field,
-                             const view_look *look, const fg__view_samples *samples)
+static fg_status write_flat(FILE *stream, fg_context *context, const fg_field *field,
+                            const fg_view_options *o)
 {
   const fg_field_arrays *a = fg_field_contents(field);
-  const fg_view_options *o = &look->options;
-  putc('{', stream);
-  write_words(stream, a, look);
+  fg__view_samples samples;
+  fg_status status = fg__view_samples_create(&samples, context, field, MOST_SAMPLES);
+  if (status)
+    return status;
   fprintf(stream,
-          "\"most\":%d,\"fewest\":%d,\"seed\":%" PRIu64 ",\"lengths\":\"%s\","
+          ",\"most\":%d,\"fewest\":%d,\"seed\":%" PRIu64 ",\"lengths\":\"%s\","
           "\"kind\":\"%s\",\"anisotropy\":%.9g,\"coverage\":%.9g,"
-          "\"axes\":\"%s\",\"period\":[%.17g,%.17g],\"speeds\":[%.9g,%.9g],",
+          "\"axes\":\"%s\",\"period\":[%.17g,%.17g],",
           o->most, o->fewest, o->seed, o->lengths == FG_LENGTHS_FAIR ? "fair" : "free",
           o->kind == FG_RUN_CLUSTERS ? "clusters" : "arrows", o->anisotropy, o->coverage,
-          a->scale == FG_SCALE_GEO ? "degrees" : "plain", a->period[0], a->period[1],
-          look->speeds[0], look->speeds[1]);
-  write_palette(stream, &look->palette);
+          a->scale == FG_SCALE_GEO ? "degrees" : "plain", a->period[0], a->period[1]);
+  status = fg__view_map(stream, context, field);
   putc(',', stream);
-  fg_status status = fg__view_map(stream, context, field);
-  putc(',', stream);
-  if (!status && !write_samples(stream, samples))
+  if (!status && !write_samples(stream, &samples))
     status = fg__fail_memory(context, "a page's samples", 4);
-  putc('}', stream);
+  fg__view_samples_clear(&samples);
   return status;
 }
 
 static fg_status write_page(FILE *stream, fg_context *context, const fg_field *field,
-                            const view_look *look, const fg__view_samples *samples)
+                            const view_look *look)
 {
-  const char *page = (const char *)fg__view_page;
+  const bool solid = fg_field_contents(field)->dimension == 3;
+  const char *page = (const char *)(solid ? fg__space_page : fg__view_page);
+  const size_t size = solid ? fg__space_page_size : fg__view_page_size;
   const char *mark = strstr(page, fg__view_mark);
   const size_t before = mark ? (size_t)(mark - page) : 0;
   const size_t after = before + strlen(fg__view_mark);
   fwrite(page, 1, before, stream);
-  fg_status status = write_field(stream, context, field, look, samples);
-  fwrite(page + after, 1, fg__view_page_size - after, stream);
+  putc('{', stream);
+  write_words(stream, fg_field_contents(field), look);
+  write_palette(stream, &look->palette);
+  fprintf(stream, ",\"speeds\":[%.9g,%.9g]", look->speeds[0], look->speeds[1]);
+  fg_status status = solid ? fg__view_space(stream, context, field, &look->options)
+                           : write_flat(stream, context, field, &look->options);
+  putc('}', stream);
+  fwrite(page + after, 1, size - after, stream);
   return status;
 }
 
@@ -135,26 +146,18 @@ fg_status fg_view_write(fg_context *context, const char *path, const fg_field *f
 {
   if (!path || !field)
     return fg__fail(context, FG_STATUS_ARGUMENT, "page: a NULL argument");
-  if (fg_field_contents(field)->dimension != 2)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: the page shows fields in 2D",
-                    path);
   if (fg_field_is_slab(field, NULL, NULL))
     return fg__fail(context, FG_STATUS_ARGUMENT, "%s: a page needs the whole field",
                     path);
   view_look look;
-  fg__view_samples samples;
   fg__whole_file file;
   fg_status status = choose_look(&look, context, field, options);
   if (status)
     return status;
-  status = fg__view_samples_create(&samples, context, field, MOST_SAMPLES);
-  if (status)
-    return status;
   status = fg__whole_file_open(&file, context, path);
   if (!status) {
-    status = write_page(file.stream, context, field, &look, &samples);
+    status = write_page(file.stream, context, field, &look);
     status = fg__whole_file_close(&file, context, status);
   }
-  fg__view_samples_clear(&samples);
   return status;
 }

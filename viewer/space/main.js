@@ -1,0 +1,420 @@
+// The page of a run in 3D.
+import { readAddress, writeAddress } from "../page/address.js";
+import { onDark } from "../page/colors.js";
+import { numberIn, placeBeside, Player, save } from "../page/common.js";
+import { DARK, LIGHT } from "../page/draw.js";
+import { legendMarks } from "../page/legend.js";
+import { morph } from "../page/outline.js";
+import { control } from "../page/view.js";
+import { shortNumber, withUnits } from "../page/words.js";
+import { drawLabels, labelsOf } from "./axes.js";
+import { Camera } from "./camera.js";
+import { edgeNear, nearestArrow, pointOnCut, steps } from "./pick.js";
+import { drawPicture } from "./picture.js";
+import { Scene } from "./scene.js";
+import { readSurface, readVolume, velocityAt } from "./volume.js";
+
+const byId = (id) => /** @type {any} */ (document.getElementById(id));
+const run = JSON.parse(byId("run").textContent);
+const canvas = byId("picture");
+const context = canvas.getContext("2d");
+const slider = byId("scale");
+const palettes = { light: run.palette, dark: onDark(run.palette) };
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
+const systemDark = matchMedia("(prefers-color-scheme: dark)");
+const axes = ["x", "y", "z"];
+const names = axes.map((axis) => run[`${axis}Name`] || axis);
+
+const state = {
+  at: 0, // on the slider: index of a scale, with a part between two
+  cut: { axis: -1, share: 0.5, shows: "both", hides: false }, // axis -1: none
+  show: { arrows: true, clusters: false, outline: true, shadows: true, numbers: true },
+  theme: "",
+};
+
+let volume;
+let camera;
+let scene;
+let hovered; // {arrow, at}
+let shown = { at: -1, arrows: [] };
+let wanted = 0; // animation frame
+const counts = run.scales.map((scale) => scale.icons.length);
+const last = counts.length - 1;
+
+const isDark = () => state.theme === "dark" || (!state.theme && systemDark.matches);
+const colors = () => (isDark() ? DARK : LIGHT);
+const palette = () => palettes[isDark() ? "dark" : "light"];
+const nearest = () => Math.round(state.at);
+const hasCut = () => state.cut.axis >= 0;
+
+// ---- what is shown
+
+function arrowsNow() {
+  if (shown.at !== state.at) {
+    const low = Math.floor(state.at);
+    const [finer, coarser] = [volume.scales[low], volume.scales[Math.min(low + 1, last)]];
+    shown = { at: state.at, arrows: morph(finer, coarser, state.at - low) };
+    hovered = undefined;
+    byId("reading").hidden = true;
+  }
+  return shown.arrows;
+}
+
+/** Surfaces of the scales' clusters, read when they are first wanted. */
+function clustersNow() {
+  if (!state.show.clusters) return [];
+  const low = Math.floor(state.at);
+  const part = state.at - low;
+  return [[low, 1 - part], [low + 1, part]].flatMap(([index, share]) => {
+    const scale = volume.scales[index];
+    if (!scale?.packed || share <= 0) return [];
+    scale.reading ??= readSurface(scale.packed, volume.half).then((mesh) => {
+      scale.mesh = mesh;
+      redraw();
+    });
+    return scale.mesh ? [{ mesh: scale.mesh, share }] : [];
+  });
+}
+
+function pictureNow() {
+  const arrows = arrowsNow();
+  return {
+    arrows: state.show.arrows ? arrows : [], clusters: clustersNow(), cut: hasCut() ? state.cut : undefined,
+    outline: state.show.outline, shadows: state.show.shadows && state.show.arrows,
+    picked: hovered?.arrow ? arrows.indexOf(hovered.arrow) + 1 : -1,
+  };
+}
+
+const empty = [];
+
+function draw() {
+  wanted = 0;
+  if (!scene?.ready) return;
+  const ratio = devicePixelRatio || 1;
+  const what = pictureNow();
+  scene.draw(camera, { ...what, arrows: what.arrows.length ? what.arrows : empty }, ratio);
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, ...camera.size);
+  if (state.show.numbers) drawLabels(context, labelsOf(run, volume, camera), colors());
+  canvas.dataset.arrows = String(what.arrows.length);
+  canvas.dataset.made = "yes";
+  canvas.dataset.clusters = String(what.clusters.length);
+}
+
+function redraw() {
+  wanted ||= requestAnimationFrame(draw);
+}
+
+/** "12 arrows · read within 16° · …", as pictures have it. */
+const captionWords = () => run.scales[nearest()].caption;
+
+const speedWords = (speed) => withUnits(speed, run.units);
+
+function placeWords(place) {
+  return volume.toField(place).map((x, k) => `${names[k]} ${withUnits(x, run[`${axes[k]}Units`], 4)}`).join(", ");
+}
+
+/** Where to: its parts along the axes. */
+function directionWords(way) {
+  const size = Math.hypot(...way) || 1;
+  return `direction ${way.map((x, k) => `${names[k]} ${(x / size).toFixed(2).replace("-", "−")}`).join(", ")}`;
+}
+
+function say() {
+  byId("subtitle").textContent = captionWords();
+  byId("count").textContent = String(counts[nearest()]);
+  slider.setAttribute("aria-valuetext", `${counts[nearest()]} arrows`);
+  canvas.setAttribute("aria-label", `${counts[nearest()]} arrows of ${run.title}, in 3D`);
+  const { axis, share } = state.cut;
+  for (const id of ["cut-at", "cut-shows", "cut-hides"]) byId(id).disabled = axis < 0;
+  byId("cut-axis").value = axis < 0 ? "" : axes[axis];
+  byId("cut-at").value = String(share);
+  byId("cut-shows").value = state.cut.shows;
+  byId("cut-hides").checked = state.cut.hides;
+  const words = axis < 0 ? "" : `at ${names[axis]} ${withUnits(run.low[axis] + share * (run.high[axis] - run.low[axis]), run[`${axes[axis]}Units`], 4)}`;
+  byId("cut-place").textContent = words;
+  byId("cut-at").setAttribute("aria-valuetext", words);
+}
+
+function keep() {
+  const round = (x, digits = 4) => Number(x.toFixed(digits));
+  const { axis, share, shows, hides } = state.cut;
+  const [azimuth, elevation] = camera.first;
+  const turned = Math.abs(camera.azimuth - azimuth) + Math.abs(camera.elevation - elevation) > 0.05;
+  writeAddress({
+    n: counts[nearest()],
+    view: turned ? `${round(camera.azimuth, 1)},${round(camera.elevation, 1)}` : undefined,
+    zoom: Math.abs(camera.zoom - 1) > 1e-3 ? round(camera.zoom, 3) : undefined,
+    at: camera.target.some((x) => Math.abs(x) > 1e-4) ? camera.target.map((x) => round(x)).join(",") : undefined,
+    cut: axis < 0 ? undefined : `${axes[axis]},${round(share)}`,
+    shows: axis < 0 || shows === "both" ? undefined : shows,
+    before: axis >= 0 && hides ? "hidden" : undefined,
+    show: Object.keys(state.show).filter((name) => state.show[name]).join(","),
+    page: state.theme || undefined,
+  });
+}
+
+function update() {
+  redraw();
+  say();
+  keep();
+}
+
+// ---- controls
+
+function slide(at) {
+  state.at = Math.min(Math.max(at, 0), last);
+  slider.value = String(state.at);
+  update();
+}
+
+const player = new Player(byId("play"), {
+  at: () => state.at,
+  last: () => last,
+  made: () => last + 1,
+  slide,
+  pace: () => (calm.matches ? 4000 : 2000),
+});
+
+function cutAcross(axis) {
+  state.cut.axis = state.cut.axis === axis ? -1 : axis;
+  update();
+}
+
+function moveCut(share) {
+  if (!hasCut()) return;
+  state.cut.share = Math.min(Math.max(share, 0), 1);
+  update();
+}
+
+function read(at, given) {
+  const note = byId("reading");
+  const cut = hasCut() ? state.cut : undefined;
+  const found = given ?? (state.show.arrows ? nearestArrow(at, arrowsNow(), camera, cut, volume) : undefined);
+  const place = found ? undefined : cut && pointOnCut(at, cut, camera, volume);
+  const velocity = place && velocityAt(volume.velocity, place);
+  hovered = found && { ...found, at };
+  canvas.style.cursor = cut && edgeNear(at, cut, camera, volume) ? "move" : "";
+  note.hidden = !found && !velocity;
+  redraw();
+  if (note.hidden) return "";
+  const lines = [];
+  note.replaceChildren();
+  if (found) {
+    const title = document.createElement("b");
+    title.textContent = `Arrow: ${speedWords(found.arrow.speed)}`;
+    note.append(title);
+    const all = arrowsNow().reduce((sum, arrow) => sum + arrow.area, 0);
+    lines.push(`volume: ${shortNumber((100 * found.arrow.area) / all, 2)} % of what all arrows stand for`, directionWords(found.way),
+      `at ${placeWords(found.place)}`);
+  } else lines.push(placeWords(place), speedWords(Math.hypot(...velocity)), directionWords(velocity));
+  note.append(lines.join("\n"));
+  note.style.whiteSpace = "pre-line";
+  placeBeside(note, at, camera.size);
+  return [...note.childNodes].map((node) => node.textContent).join(", ").replaceAll("\n", ", ");
+}
+
+function leave() {
+  hovered = undefined;
+  byId("reading").hidden = true;
+  redraw();
+}
+
+// The next arrow for keys, from left to right.
+function walk(step) {
+  const next = steps(arrowsNow(), hovered?.arrow, step, camera);
+  if (next) byId("status").textContent = read(next.at, next);
+}
+
+const keys = {
+  ",": () => slide(Math.ceil(state.at) - 1),
+  ".": () => slide(Math.floor(state.at) + 1),
+  " ": () => player.play(!player.playing),
+  n: () => walk(1),
+  p: () => walk(-1),
+  x: () => cutAcross(0),
+  y: () => cutAcross(1),
+  z: () => cutAcross(2),
+  "[": () => moveCut(state.cut.share - 0.02),
+  "]": () => moveCut(state.cut.share + 0.02),
+  Escape: leave,
+};
+
+/** Moves the cut by its frame. */
+function grab(at) {
+  const held = hasCut() && edgeNear(at, state.cut, camera, volume);
+  return held ? (now) => moveCut(held(now)) : undefined;
+}
+
+async function savePng() {
+  const blob = await drawPicture(camera, 2, {
+    scene: (ratio) => scene.draw(camera, pictureNow(), ratio),
+    canvas: byId("space"),
+    labels: (paper) => state.show.numbers && drawLabels(paper, labelsOf(run, volume, camera), colors()),
+    title: run.title, words: captionWords(), colors: colors(), legend: legendMarks(run, palette(), colors().text, { isEven: true }),
+  });
+  resize();
+  if (blob) save("flowgrain.png", blob);
+}
+
+// ---- the page
+
+function setTheme() {
+  document.documentElement.classList.toggle("dark", isDark());
+  byId("theme").value = state.theme;
+  byId("legend").setAttribute("viewBox", "0 0 240 72");
+  byId("legend").setAttribute("aria-label", `Speeds from ${speedWords(run.speeds[0])} to ${speedWords(run.speeds[1])}`);
+  byId("legend").innerHTML = legendMarks(run, palette(), colors().text, { isEven: true });
+  if (scene?.ready) scene.setColors(palette(), colors());
+  redraw();
+}
+
+function resize() {
+  const { clientWidth: w, clientHeight: h } = byId("stage");
+  const ratio = devicePixelRatio || 1;
+  camera.size = [Math.max(1, w), Math.max(1, h)];
+  for (const layer of [byId("space"), canvas]) [layer.width, layer.height] = [Math.round(w * ratio), Math.round(h * ratio)];
+  draw();
+}
+
+function restore() {
+  const address = readAddress();
+  const n = numberIn(address.n, 0, 1e9);
+  state.at = n === undefined ? 0 : counts.reduce((best, m, k) => (Math.abs(m - n) < Math.abs(counts[best] - n) ? k : best), 0);
+  slider.value = String(state.at);
+  camera.reset();
+  const list = (text, count) => {
+    const values = (text ?? "").split(",").map(Number);
+    return text && values.length === count && values.every(Number.isFinite) ? values : undefined;
+  };
+  [camera.azimuth, camera.elevation] = list(address.view, 2) ?? camera.first;
+  camera.zoom = numberIn(address.zoom, 0.4, 60) ?? 1;
+  camera.target = list(address.at, 3) ?? [0, 0, 0];
+  camera.slide(0, 0); // within the box
+  camera.pan(0, 0);
+  const [axis, share] = (address.cut ?? "").split(",");
+  state.cut = { axis: axes.indexOf(axis), share: numberIn(share, 0, 1) ?? 0.5,
+    shows: ["speed", "arrows"].includes(address.shows) ? address.shows : "both", hides: address.before === "hidden" };
+  if (address.show !== undefined) {
+    const wished = address.show.split(",");
+    for (const name of Object.keys(state.show)) state.show[name] = wished.includes(name);
+  }
+  state.theme = ["light", "dark"].includes(address.page) ? address.page : "";
+  for (const box of document.querySelectorAll("[data-layer]"))
+    /** @type {HTMLInputElement} */ (box).checked = state.show[/** @type {HTMLInputElement} */ (box).dataset.layer ?? ""];
+}
+
+function connectCut() {
+  names.forEach((name, k) => byId("cut-axis").append(new Option(name, axes[k])));
+  byId("cut-axis").addEventListener("change", () => {
+    state.cut.axis = axes.indexOf(byId("cut-axis").value);
+    update();
+  });
+  byId("cut-at").addEventListener("input", () => moveCut(Number(byId("cut-at").value)));
+  byId("cut-shows").addEventListener("change", () => {
+    state.cut.shows = byId("cut-shows").value;
+    update();
+  });
+  byId("cut-hides").addEventListener("change", () => {
+    state.cut.hides = byId("cut-hides").checked;
+    update();
+  });
+}
+
+function connectView() {
+  const zoom = (factor) => () => {
+    camera.zoomAt(camera.size[0] / 2, camera.size[1] / 2, factor);
+    update();
+  };
+  byId("closer").addEventListener("click", zoom(1.25));
+  byId("farther").addEventListener("click", zoom(1 / 1.25));
+  byId("whole").addEventListener("click", () => {
+    camera.reset();
+    update();
+  });
+  for (const button of document.querySelectorAll("[data-view]"))
+    button.addEventListener("click", () => {
+      camera.reset();
+      [camera.azimuth, camera.elevation] = (/** @type {HTMLElement} */ (button).dataset.view ?? "").split(",").map(Number);
+      camera.settle();
+      update();
+    });
+  control(canvas, camera, {
+    changed: () => {
+      leave();
+      update();
+    },
+    hovered: (at) => (at ? read(at) : leave()),
+    key: (key) => {
+      if (!keys[key]) return false;
+      keys[key]();
+      return true;
+    },
+    grab,
+  });
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault()); // that button moves the view
+}
+
+function connect() {
+  slider.max = String(last);
+  slider.disabled = last === 0;
+  byId("play").disabled = last === 0;
+  slider.addEventListener("input", () => {
+    player.play(false);
+    slide(Number(slider.value));
+  });
+  slider.addEventListener("keydown", (event) => { // from scale to scale
+    const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -4, PageUp: 4 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    slide(nearest() + step);
+  });
+  const has = { clusters: run.scales.some((scale) => scale.clusters), outline: Boolean(run.outline) };
+  for (const box of document.querySelectorAll("[data-layer]")) {
+    const input = /** @type {HTMLInputElement} */ (box);
+    const name = String(input.dataset.layer);
+    if (has[name] === false) input.closest("label")?.remove();
+    input.addEventListener("change", () => {
+      state.show[name] = input.checked;
+      update();
+    });
+  }
+  connectCut();
+  connectView();
+  byId("theme").addEventListener("change", () => {
+    state.theme = byId("theme").value;
+    setTheme();
+    update();
+  });
+  systemDark.addEventListener("change", setTheme);
+  byId("png").addEventListener("click", savePng);
+  byId("space").addEventListener("webglcontextrestored", () => {
+    scene.prepare();
+    setTheme();
+  });
+  new ResizeObserver(resize).observe(byId("stage"));
+  addEventListener("hashchange", () => {
+    restore();
+    setTheme();
+    update();
+  });
+}
+
+async function start() {
+  document.title = run.title;
+  byId("title").textContent = run.title;
+  byId("made").textContent = `Made by flowgrain ${run.version}`;
+  volume = await readVolume(run);
+  camera = new Camera(volume.half, run.view);
+  scene = new Scene(byId("space"), volume, run);
+  restore();
+  connect();
+  setTheme();
+  resize();
+  update();
+  if (!scene.ready) throw new Error("it offers no WebGL2");
+}
+
+start().catch((error) => {
+  byId("status").textContent = `This browser cannot show the page: ${error.message}`;
+});
