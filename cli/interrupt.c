@@ -50,6 +50,11 @@ bool interrupt_came(void)
   return interrupts > 0;
 }
 
+int interrupt_count(void)
+{
+  return (int)interrupts;
+}
+
 void interrupt_end(void)
 {
   atomic_store(&stop_first, NULL);

@@ -15,8 +15,9 @@ void interrupt_second(fg_context *second);
 /* Whether the first signal from now on stops that, too. */
 void interrupt_second_at_once(bool at_once);
 
-/* Whether a signal has come. */
+/* Whether a signal has come, and how many. */
 bool interrupt_came(void);
+int interrupt_count(void);
 
 /* From here on signals stop nothing. */
 void interrupt_end(void);

@@ -67,10 +67,10 @@ static parse_result parse(const cli_command **command, any_settings *settings, i
   return options_parse(settings, *command, argc - 1, argv + 1);
 }
 
-/* Of a command that reads fields. */
+/* Of a command that reads fields; view may be given a folder, and sees to it itself. */
 static int prepare_inputs(const any_settings *settings, const cli_command *command)
 {
-  if (!(command->bit & INPUTS))
+  if (!(command->bit & INPUTS) || command->bit == COMMAND_VIEW)
     return EXIT_DONE;
   const char *const place = (const char *)settings;
   const char *input = settings->draw.input;

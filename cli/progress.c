@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -18,27 +19,60 @@ double clock_seconds(void)
 
 enum { BAR_COLUMNS = 24 };
 
-void progress_start(cli_progress *progress, bool quiet)
+void progress_start(cli_progress *progress, bool quiet, int told)
 {
   const char *terminal = getenv("TERM");
   memset(progress, 0, sizeof *progress);
+  progress->told = told;
   progress->shown =
       !quiet && isatty(STDERR_FILENO) && !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
-static void draw(cli_progress *progress, const char *text)
+/* Writes a bar that is full by a share. */
+static void draw_bar(char bar[BAR_COLUMNS + 1], double share)
 {
+  int full = (int)(share * BAR_COLUMNS);
+  for (int k = 0; k < BAR_COLUMNS; ++k)
+    bar[k] = k < full ? '=' : ' ';
+  bar[BAR_COLUMNS] = '\0';
+}
+
+static void draw(cli_progress *progress, const char *doing, double share,
+                 const char *words)
+{
+  char text[160], bar[BAR_COLUMNS + 1];
+  if (share >= 0.0) {
+    draw_bar(bar, share);
+    snprintf(text, sizeof text, "%-8s [%s] %s", doing, bar, words);
+  } else
+    snprintf(text, sizeof text, "%s", doing);
   /* a longer line would wrap on 80 columns and could not be wiped */
   fprintf(stderr, "\r\033[K%.79s", text);
   fflush(stderr);
   progress->drawn = true;
+}
+
+static void tell(const cli_progress *progress, const char *doing, double share,
+                 const char *words)
+{
+  progress_told told = {.share = share};
+  snprintf(told.words, sizeof told.words, "%s%s%s", doing, *words ? ": " : "", words);
+  (void)send(progress->told, &told, sizeof told, MSG_DONTWAIT | MSG_NOSIGNAL);
+}
+
+static void show(cli_progress *progress, const char *doing, double share,
+                 const char *words)
+{
+  if (progress->shown)
+    draw(progress, doing, share, words);
+  if (progress->told)
+    tell(progress, doing, share, words);
   progress->last_drawn = clock_seconds();
 }
 
 void progress_stage(cli_progress *progress, const char *text)
 {
-  if (progress->shown)
-    draw(progress, text);
+  show(progress, text, -1.0, "");
 }
 
 static void describe_seconds(char *text, size_t size, double seconds)
@@ -51,38 +85,26 @@ static void describe_seconds(char *text, size_t size, double seconds)
     snprintf(text, size, "%.1f h", seconds / 3600.0);
 }
 
-/* Writes a bar that is full by a share. */
-static void draw_bar(char bar[BAR_COLUMNS + 1], double share)
-{
-  int full = (int)(share * BAR_COLUMNS);
-  for (int k = 0; k < BAR_COLUMNS; ++k)
-    bar[k] = k < full ? '=' : ' ';
-  bar[BAR_COLUMNS] = '\0';
-}
-
 void progress_drawing(cli_progress *progress, int ready, int count)
 {
-  char text[160], bar[BAR_COLUMNS + 1];
-  if (!progress->shown || ready >= count)
+  char text[64];
+  if (ready >= count)
     return;
-  draw_bar(bar, (double)ready / count);
-  snprintf(text, sizeof text, "drawing  [%s] scale %d of %d", bar, ready + 1, count);
-  draw(progress, text);
+  snprintf(text, sizeof text, "scale %d of %d", ready + 1, count);
+  show(progress, "drawing", (double)ready / count, text);
 }
 
 void progress_evolution(cli_progress *progress, double share, double time, int clusters,
                         double seconds_left)
 {
-  if (!progress->shown || clock_seconds() - progress->last_drawn < seconds_between)
+  if (clock_seconds() - progress->last_drawn < seconds_between)
     return;
-  char text[160], left[32], count[32] = "clusters form", bar[BAR_COLUMNS + 1];
+  char text[96], left[32], count[32] = "clusters form";
   describe_seconds(left, sizeof left, seconds_left);
   if (clusters > 0)
     snprintf(count, sizeof count, "%d clusters", clusters);
-  draw_bar(bar, share);
-  snprintf(text, sizeof text, "evolving [%s] t = %.2e  %s  %s left", bar, time, count,
-           left);
-  draw(progress, text);
+  snprintf(text, sizeof text, "t = %.2e  %s  %s left", time, count, left);
+  show(progress, "evolving", share, text);
 }
 
 void progress_wipe(cli_progress *progress)

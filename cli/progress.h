@@ -1,4 +1,5 @@
-/* A line on the terminal that says how far a run is. */
+/* A line on the terminal that says how far a run is; the same is told to a process that
+ * shows it elsewhere (view/child.h). */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
@@ -6,11 +7,19 @@
 
 typedef struct cli_progress {
   bool shown;        /* standard error is a terminal and not quiet */
+  int told;          /* a socket that progress_told is sent to; 0: none */
   bool drawn;        /* the line is there now */
   double last_drawn; /* seconds of the monotonic clock */
 } cli_progress;
 
-void progress_start(cli_progress *progress, bool quiet);
+/* What a socket is told. A message that finds it full is left out. */
+enum { PROGRESS_WORDS = 80 };
+typedef struct progress_told {
+  double share; /* of the work that `words` name, 0 to 1; negative: not known */
+  char words[PROGRESS_WORDS];
+} progress_told;
+
+void progress_start(cli_progress *progress, bool quiet, int told);
 
 /* Shows a stage's line at once. */
 void progress_stage(cli_progress *progress, const char *text);

@@ -20,7 +20,7 @@ static fg_status paint(fg_context *context, const brush_settings *settings,
                               .transparent = settings->transparent};
   fg_strokes *strokes = NULL;
   cli_progress progress;
-  progress_start(&progress, false);
+  progress_start(&progress, false, 0);
   progress_stage(&progress, "strokes grow on the image, layer after layer");
   fg_status status = fg_strokes_create(&strokes, context, image, &brush);
   progress_stage(&progress, "painting");

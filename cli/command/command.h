@@ -11,5 +11,6 @@ int command_synth(const void *synth_settings);
 int command_rival(const void *rival_settings);
 int command_score(const void *score_settings);
 int command_gallery(const void *gallery_settings);
+int command_view(const void *view_settings);
 
 #endif

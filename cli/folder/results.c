@@ -12,7 +12,6 @@
 #include "folder/made.h"
 #include "report/past_run.h"
 
-#define WORK_NAME ".flowgrain"
 #define LOCK_NAME "lock"
 #define PREVIOUS_NAME CHECKPOINT_NAME ".previous"
 

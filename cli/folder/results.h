@@ -6,6 +6,9 @@
 
 #include "folder/files.h"
 
+/* The folder of the work in DIR. */
+#define WORK_NAME ".flowgrain"
+
 typedef struct cli_output {
   char *folder;    /* DIR */
   char *work;      /* DIR/.flowgrain */

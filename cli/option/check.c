@@ -19,7 +19,7 @@ static bool check_energy(const evolution_settings *settings, const cli_command *
     return true;
   char words[128];
   list_words(words, sizeof words, energy_words);
-  bool takes_file = command->bit == COMMAND_RUN;
+  bool takes_file = (command->bit & RUNS) != 0;
   if (!takes_file || !strpbrk(settings->energy, "./"))
     return usage_error(command, "--energy %s: not known; the choice is: %s%s",
                        settings->energy, words, takes_file ? ", or a file" : "");
@@ -126,7 +126,7 @@ bool options_check(const any_settings *settings, const cli_command *command)
     return false;
   if (command->bit == COMMAND_TEXTURE)
     return check_energy(&settings->texture.evolution, command);
-  if (command->bit != COMMAND_RUN)
+  if (!(command->bit & RUNS))
     return true;
   if (run->resume && run->force)
     return usage_error(command,

@@ -30,6 +30,25 @@ const cli_command command_table[] = {
      .operand_place = offsetof(run_settings, reading.input),
      .output_place = offsetof(run_settings, output),
      .most_numbers = MAX_SCALES},
+    {.bit = COMMAND_VIEW,
+     .name = "view",
+     .operand = "FILE or DIR",
+     .synopsis = "FILE|DIR [options]",
+     .summary = "show a run, or a field while it is run, in a browser",
+     .text =
+         "Shows the page that `flowgrain run` left in DIR, or runs FILE, an INPUT as in "
+         "flowgrain run, whose options are taken too, and shows each scale as soon as "
+         "it is made, and in the end the page. Prints the address, which only this "
+         "machine can open and nobody guesses, opens it in a browser ($BROWSER, else "
+         "the desktop's), and serves it until it is interrupted.",
+     .work = command_view,
+     .group = {[GROUP_READING] = offsetof(view_settings, run.reading),
+               [GROUP_INPUTS] = offsetof(view_settings, run.inputs),
+               [GROUP_EVOLUTION] = offsetof(view_settings, run.evolution),
+               [GROUP_WORK] = offsetof(view_settings, run.work),
+               [GROUP_PICTURE] = offsetof(view_settings, run.picture)},
+     .operand_place = offsetof(view_settings, run.reading.input),
+     .most_numbers = MAX_SCALES},
     {.bit = COMMAND_DRAW,
      .name = "draw",
      .operand = "DIR",
@@ -175,6 +194,13 @@ const cli_command *command_find(const char *name)
     if (strcmp(command_table[k].name, name) == 0)
       return &command_table[k];
   return NULL;
+}
+
+bool option_is_told(const cli_command *command, const option_entry *option)
+{
+  const bool handed_on = command->bit == COMMAND_VIEW && (option->commands & COMMAND_RUN);
+  const bool general = option->commands == EVERY;
+  return (option->commands & command->bit) && (!handed_on || general);
 }
 
 size_t option_place(const cli_command *command, const option_entry *option)

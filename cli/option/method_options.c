@@ -91,73 +91,67 @@ static const option_entry method_entries[] = {
     {"max-time", 0, "T", COMMAND_TEXTURE, OPTION_NUMBER, OWN(texture, max_time), 0, 1e300,
      .open_below = true,
      .help = "--kind clusters: the first snapshot from the simulated scale t = T on"},
-    {"arrows", 0, "LIST", COMMAND_RUN, OPTION_NUMBERS, OWN(run, arrows), 1, 20000,
+    {"arrows", 0, "LIST", RUNS, OPTION_NUMBERS, OWN(run, arrows), 1, 20000,
      .help = "numbers of arrows, descending: a scale of exactly so many each, placed so "
              "that readers get the field back [200,100,50,25,12; in 3D 60,25,12]"},
-    {"tolerance", 0, "DEG", COMMAND_RUN, OPTION_NUMBER, OWN(run, tolerance), 0, 90,
+    {"tolerance", 0, "DEG", RUNS, OPTION_NUMBER, OWN(run, tolerance), 0, 90,
      .open_below = true,
      .help = "one scale: the fewest arrows from which the field is read within DEG "
              "degrees, the mean error of three readers"},
-    {"lengths", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, OWN(run, lengths),
+    {"lengths", 0, "KIND", RUNS, OPTION_CHOICE, OWN(run, lengths),
      .words = arrow_lengths_words,
      .help = "arrows of `free` length, up to twice the fair share (the root of area / "
              "arrows), or of the `fair` share at most [free]"},
-    {"start", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, OWN(run, start),
-     .words = start_words,
+    {"start", 0, "KIND", RUNS, OPTION_CHOICE, OWN(run, start), .words = start_words,
      .help = "what the first scale's arrows start from: the `clusters` at that number, "
              "or an `even` distribution, which has no seed [clusters]"},
-    {"effort", 0, "E", COMMAND_RUN, OPTION_CHOICE, OWN(run, effort),
-     .words = effort_words,
+    {"effort", 0, "E", RUNS, OPTION_CHOICE, OWN(run, effort), .words = effort_words,
      .help = "work that placing takes, 0 to 2: less error for more time [1]"},
-    {"clusters", 0, "LIST", COMMAND_RUN, OPTION_NUMBERS, OWN(run, clusters), 1, 1000000,
+    {"clusters", 0, "LIST", RUNS, OPTION_NUMBERS, OWN(run, clusters), 1, 1000000,
      .help = "instead of --arrows an arrow inside each cluster, as in the paper: numbers "
              "of clusters, descending, as 200,50,12; a scale is the first snapshot at or "
              "below the number"},
-    {"extent", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, OWN(run, extent),
-     .words = extent_words,
+    {"extent", 0, "KIND", RUNS, OPTION_CHOICE, OWN(run, extent), .words = extent_words,
      .help = "where an arrow ends: inside its `cluster`, the only KIND [cluster]"},
-    {"energy", 0, "KIND", COMMAND_RUN, OPTION_TEXT, EVOLUTION(energy),
+    {"energy", 0, "KIND", RUNS, OPTION_TEXT, EVOLUTION(energy),
      .help = "interfacial energy: `flow` draws clusters out along the streamlines, "
              "`gradient` along the level sets of the speed, `isotropic` ignores the "
              "field; or a file with a symmetric tensor field, of VTK tensors or "
              "variables xx, xy, yy (zz, xz, yz) [flow]"},
-    {"anisotropy", 0, "A", COMMAND_RUN, OPTION_NUMBER, EVOLUTION(anisotropy), 0, 1,
+    {"anisotropy", 0, "A", RUNS, OPTION_NUMBER, EVOLUTION(anisotropy), 0, 1,
      .open_below = true,
      .help = "cost of an interface along the flow against one across it, in (0,1]; "
              "clusters become about 1/sqrt(A) times as long as wide [0.15]"},
-    {"isotropic-below", 0, "SPEED", COMMAND_RUN, OPTION_NUMBER,
-     EVOLUTION(isotropic_below), 0, 1e300, .open_below = true,
+    {"isotropic-below", 0, "SPEED", RUNS, OPTION_NUMBER, EVOLUTION(isotropic_below), 0,
+     1e300, .open_below = true,
      .help = "speed, in the input's units, below which the flow's direction counts the "
              "less the slower it is: A tends to 1 [A everywhere]"},
-    {"coverage", 0, "C", COMMAND_RUN, OPTION_NUMBER, EVOLUTION(coverage), 0, 1,
+    {"coverage", 0, "C", RUNS, OPTION_NUMBER, EVOLUTION(coverage), 0, 1,
      .open_below = true, .open_above = true,
      .help = "share of the area (volume) that clusters shall cover, in (0,1) [0.3]"},
-    {"gamma", 0, "G", COMMAND_RUN, OPTION_NUMBER, EVOLUTION(gamma), 0, 1,
-     .open_below = true,
+    {"gamma", 0, "G", RUNS, OPTION_NUMBER, EVOLUTION(gamma), 0, 1, .open_below = true,
      .help = "interface energy, in units of the longest side squared [(1.1 h)^2 / A for "
              "cells of size h; isotropic (1.5 h)^2]"},
-    {"noise", 0, "A", COMMAND_RUN, OPTION_NUMBER, EVOLUTION(noise), 0, 5,
-     .open_below = true,
+    {"noise", 0, "A", RUNS, OPTION_NUMBER, EVOLUTION(noise), 0, 5, .open_below = true,
      .help = "amplitude of the initial noise, in (0,5]; weak noise, as 0.05, begins with "
              "the separation of the phases and gives longer clusters [1.5]"},
     {"seed", 0, "S", SEEDED, OPTION_SEED, WORK(seed), 1, 0,
      .help = "seed of the initial noise, from 1 [1]"},
-    {"nodes", 0, "N", COMMAND_RUN, OPTION_WHOLE, EVOLUTION(nodes), 17, 16385,
+    {"nodes", 0, "N", RUNS, OPTION_WHOLE, EVOLUTION(nodes), 17, 16385,
      .help = "nodes of the mesh along its longest side [from the number of arrows; with "
              "--clusters 257 in 2D, 65 in 3D]"},
-    {"mesh", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, EVOLUTION(mesh), .words = mesh_words,
+    {"mesh", 0, "KIND", RUNS, OPTION_CHOICE, EVOLUTION(mesh), .words = mesh_words,
      .help = "kind of mesh: `adaptive` is coarsened, half the cells along each side, "
              "down to the default "
              "number of nodes, as clusters grow; `uniform` stays as it is; `auto` is "
              "adaptive unless --gamma is given [auto]"},
-    {"scheme", 0, "KIND", COMMAND_RUN, OPTION_CHOICE, EVOLUTION(scheme),
-     .words = scheme_words,
+    {"scheme", 0, "KIND", RUNS, OPTION_CHOICE, EVOLUTION(scheme), .words = scheme_words,
      .help = "time steps: backward differences of second order, implicit `euler`, or the "
              "`theta` splitting, stable in far shorter steps only [bdf2]"},
-    {"max-time", 0, "T", COMMAND_RUN, OPTION_NUMBER, OWN(run, max_time), 0, 1e300,
+    {"max-time", 0, "T", RUNS, OPTION_NUMBER, OWN(run, max_time), 0, 1e300,
      .open_below = true,
      .help = "stop when the simulated scale t reaches T; its state is the last scale"},
-    {"max-steps", 0, "K", COMMAND_RUN, OPTION_WHOLE, OWN(run, max_steps), 1, INT_MAX,
+    {"max-steps", 0, "K", RUNS, OPTION_WHOLE, OWN(run, max_steps), 1, INT_MAX,
      .help = "stop after K time steps; the state reached is the last scale"},
     {"anisotropy", 0, "A", COMMAND_BRUSH, OPTION_NUMBER, OWN(brush, anisotropy), 0, 1,
      .open_below = true, .open_above = true,

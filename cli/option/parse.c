@@ -150,7 +150,7 @@ static void set_defaults(any_settings *out, const cli_command *command)
     out->draw.scale_index = -1;
   else if (command->bit == COMMAND_RIVAL)
     out->rival.position_weight = -1.0;
-  else if (command->bit == COMMAND_RUN)
+  else if (command->bit & RUNS)
     out->run.checkpoint = 60.0;
 }
 
@@ -192,8 +192,11 @@ parse_result options_parse(any_settings *out, const cli_command *command, int ar
     char typed[TYPED_BYTES];
     if (!value_set(out, command, option, typed_name(typed, option, code), optarg))
       return PARSE_WRONG;
+    if (command->bit == COMMAND_VIEW && !out->view.first_option &&
+        !option_is_told(command, option))
+      out->view.first_option = option->name;
   }
-  if (command->bit == COMMAND_RUN)
+  if (command->bit & RUNS)
     set_samples(&out->run);
   return check_operands(out, command, argc - optind, argv + optind) ? PARSE_GO
                                                                     : PARSE_WRONG;

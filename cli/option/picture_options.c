@@ -52,7 +52,7 @@ static const option_entry picture_entries[] = {
      PICTURE(speed_range), 0, 1e15,
      .help = "speeds at the ends of the colour key; what is slower or faster has the "
              "end's colour [those of the arrows; texture: of the field]"},
-    {"surfaces", 0, NULL, COMMAND_RUN | COMMAND_DRAW, OPTION_FLAG, PICTURE(surfaces),
+    {"surfaces", 0, NULL, RUNS | COMMAND_DRAW, OPTION_FLAG, PICTURE(surfaces),
      .help = "in 3D: show the clusters' surfaces round the arrows, transparent; in .vtp "
              "and .glb, too"},
     {"view", 0, "AZ,EL", PICTURES, OPTION_VIEW, GROUP_PICTURE, 0,
@@ -67,22 +67,22 @@ static const option_entry picture_entries[] = {
      .help = "with --palette: a key of the speeds' colours below the texture"},
     {"tint", 0, NULL, COMMAND_RIVAL, OPTION_FLAG, PICTURE(tint),
      .help = "discrete, top-down: tint the clusters behind their arrows"},
-    {"tint", 0, NULL, COMMAND_RUN, OPTION_FLAG, PICTURE(tint),
+    {"tint", 0, NULL, RUNS, OPTION_FLAG, PICTURE(tint),
      .help = "in 2D: tint what each arrow stands for behind it: the points nearest to "
              "it, with --clusters its cluster"},
     {"tint", 0, NULL, COMMAND_DRAW, OPTION_FLAG, PICTURE(tint),
      .help = "in 2D: tint what each arrow stands for behind it; clusters only of a run "
              "with --save-field"},
-    {"background", 0, "KIND", COMMAND_RUN | COMMAND_DRAW, OPTION_CHOICE,
-     PICTURE(background), .words = background_words,
+    {"background", 0, "KIND", RUNS | COMMAND_DRAW, OPTION_CHOICE, PICTURE(background),
+     .words = background_words,
      .help = "in 2D: a pale texture behind the icons, as flowgrain texture paints: "
              "`lic`, `spots`, `stripes`, `diffusion`, or the `clusters` of the scale "
              "(draw: of a run with --save-field) [none]"},
-    {"skeletons", 0, NULL, COMMAND_RUN, OPTION_FLAG, PICTURE(skeletons),
+    {"skeletons", 0, NULL, RUNS, OPTION_FLAG, PICTURE(skeletons),
      .help = "in 2D, of clusters: mark each spine by dots, and each centre by a ring"},
-    {"centers", 0, NULL, COMMAND_RUN, OPTION_FLAG, PICTURE(centers),
+    {"centers", 0, NULL, RUNS, OPTION_FLAG, PICTURE(centers),
      .help = "in 2D, of clusters: mark each centre by a ring"},
-    {"no-arrows", 0, NULL, COMMAND_RUN, OPTION_FLAG, PICTURE(no_arrows),
+    {"no-arrows", 0, NULL, RUNS, OPTION_FLAG, PICTURE(no_arrows),
      .help = "in 2D: show clusters, and leave the arrows out of the picture; --tint, "
              "--skeletons and the others remain"},
     {"no-keys", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_keys),
@@ -92,7 +92,7 @@ static const option_entry picture_entries[] = {
      .help = "in 2D: colour of where the field is missing [#dadad7]"},
     {"tint-color", 0, "#RRGGBB", PICTURES, OPTION_COLOR, PICTURE(tint_color),
      .help = "in 2D, with --tint: its colour [#d7e4f2]"},
-    {"background-fade", 0, "F", COMMAND_RUN | COMMAND_DRAW, OPTION_NUMBER,
+    {"background-fade", 0, "F", RUNS | COMMAND_DRAW, OPTION_NUMBER,
      PICTURE(background_fade), 0, 1, .open_below = true,
      .help =
          "with --background: share of its way to white, in (0,1] [0.7, stripes 0.85]"},

@@ -95,7 +95,14 @@ typedef struct run_settings {
   double checkpoint; /* seconds between checkpoints; 0: after every step */
   bool resume, force, quiet, verbose;
   bool member; /* of a series, which tells of it */
+  int told;    /* a socket that the progress is told to (progress.h); 0: none */
 } run_settings;
+
+typedef struct view_settings {
+  run_settings run; /* first: it takes run's options; its input may be the DIR of a run */
+  const char *first_option; /* of run that was given; NULL: none */
+  bool no_browser;
+} view_settings;
 
 typedef struct draw_settings {
   input_settings inputs;
@@ -183,6 +190,7 @@ typedef struct gallery_settings {
 /* Those of any command. */
 typedef union any_settings {
   run_settings run;
+  view_settings view;
   draw_settings draw;
   texture_settings texture;
   brush_settings brush;

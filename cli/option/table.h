@@ -17,13 +17,15 @@ enum {
   COMMAND_BRUSH = 64,
   COMMAND_GALLERY = 128,
   COMMAND_SCORE = 256,
+  COMMAND_VIEW = 512,
 
-  EVERY = 2 * COMMAND_SCORE - 1,
-  READERS = COMMAND_RUN | COMMAND_RIVAL | COMMAND_TEXTURE | COMMAND_SCORE,
+  EVERY = 2 * COMMAND_VIEW - 1,
+  RUNS = COMMAND_RUN | COMMAND_VIEW, /* have run_settings */
+  READERS = RUNS | COMMAND_RIVAL | COMMAND_TEXTURE | COMMAND_SCORE,
   DESCRIBERS = READERS | COMMAND_INFO,            /* have reading_settings */
   INPUTS = READERS | COMMAND_INFO | COMMAND_DRAW, /* have input_settings */
-  SEEDED = COMMAND_RUN | COMMAND_TEXTURE | COMMAND_BRUSH,
-  PICTURES = COMMAND_RUN | COMMAND_DRAW | COMMAND_RIVAL /* have picture_settings */
+  SEEDED = RUNS | COMMAND_TEXTURE | COMMAND_BRUSH,
+  PICTURES = RUNS | COMMAND_DRAW | COMMAND_RIVAL /* have picture_settings */
 };
 
 /* The struct that an option's value lies in: the command's own, or a group of it. */
@@ -119,6 +121,10 @@ extern const char *const energy_words[],
                                                        *const effort_words[],
                                                            *const extent_words[];
 int energy_place(const char *word);
+
+/* Whether --help and the manual tell of an option under a command: view's are told but
+ * for those that it hands on to run. */
+bool option_is_told(const cli_command *command, const option_entry *option);
 
 /* Finds a command by its name; NULL when there is none. */
 const cli_command *command_find(const char *name);

@@ -83,13 +83,24 @@ static double number_of(const cJSON *object, const char *name, double least, dou
   return item->valuedouble;
 }
 
+/* A folder's run.json; NULL: none that can be read. */
+static cJSON *read_tree(const char *folder)
+{
+  if (!file_is_there(folder, REPORT_NAME))
+    return NULL;
+  char *path = join_path(folder, REPORT_NAME);
+  char *text = path ? read_text(path) : NULL;
+  cJSON *tree = text ? cJSON_Parse(text) : NULL;
+  free(text);
+  free(path);
+  return tree;
+}
+
 run_outcome report_outcome(const char *folder)
 {
   if (!file_is_there(folder, REPORT_NAME))
     return OUTCOME_NONE;
-  char *path = join_path(folder, REPORT_NAME);
-  char *text = path ? read_text(path) : NULL;
-  cJSON *tree = text ? cJSON_Parse(text) : NULL;
+  cJSON *tree = read_tree(folder);
   const char *ended = text_of(tree, "ended");
   run_outcome outcome = OUTCOME_COMPLETE;
   if (ended && strcmp(ended, "interrupted") == 0)
@@ -97,9 +108,17 @@ run_outcome report_outcome(const char *folder)
   if (ended && (strcmp(ended, "time") == 0 || strcmp(ended, "steps") == 0))
     outcome = OUTCOME_LIMIT;
   cJSON_Delete(tree);
-  free(text);
-  free(path);
   return outcome;
+}
+
+bool report_has_page(const char *folder)
+{
+  cJSON *tree = read_tree(folder);
+  const char *program = text_of(tree, "program"), *page = text_of(tree, "page");
+  const bool has = program && strcmp(program, "flowgrain") == 0 && page &&
+                   strcmp(page, VIEW_NAME) == 0 && file_is_there(folder, VIEW_NAME);
+  cJSON_Delete(tree);
+  return has;
 }
 
 /* Paths of one file may differ; synth:NAME has no path. */

@@ -14,6 +14,9 @@ typedef enum run_outcome {
 
 run_outcome report_outcome(const char *folder);
 
+/* Whether the run has left a page for browsers there. */
+bool report_has_page(const char *folder);
+
 /* Whether the finished run in a folder is the one that is asked for now: the same input
  * and options. Else complains. */
 bool report_is_of(const char *folder, const run_settings *settings);

@@ -124,7 +124,7 @@ static int find_speeds(series_index *index)
     return code;
   interrupt_start(context);
   cli_progress progress;
-  progress_start(&progress, settings->quiet);
+  progress_start(&progress, settings->quiet, 0);
   const fg_read_options first = reading_of(settings, &index->member[0]);
   if (sandbox_reading(settings->reading.input, &first))
     code = EXIT_FAILED;

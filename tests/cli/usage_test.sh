@@ -126,7 +126,7 @@ expect_code 0
 grep -qE '^flowgrain [0-9]+\.[0-9]+\.[0-9]+$' out || fault "$(cat out)"
 grep -qE '^with(out)? [a-z]+(, [a-z]+)*$' out || fault "no features: $(cat out)"
 done_with "--version"
-for command in run draw info synth; do
+for command in run view draw info synth; do
   try "$command" --help
   expect_code 0
   grep -q "^Usage: flowgrain $command" out || fault "no usage line"

@@ -1,0 +1,129 @@
+#include "view/pages.h"
+
+#include <cjson/cJSON.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "folder/file.h"
+#include "folder/results.h"
+#include "inputs.h"
+
+/* Larger files than that are no pages. */
+enum { MOST_BYTES = 1 << 28 };
+
+static char *read_bytes(size_t *size, int file)
+{
+  struct stat about;
+  if (fstat(file, &about) != 0 || !S_ISREG(about.st_mode) || about.st_size > MOST_BYTES)
+    return NULL;
+  char *bytes = malloc((size_t)about.st_size + 1);
+  size_t used = 0;
+  while (bytes && used < (size_t)about.st_size) {
+    const ssize_t got = read(file, bytes + used, (size_t)about.st_size - used);
+    if (got <= 0)
+      break;
+    used += (size_t)got;
+  }
+  *size = used;
+  return bytes;
+}
+
+/* By no symbolic link, which may lead anywhere. */
+static bool give_file(cli_answer *out, const char *folder, const char *name,
+                      const char *kind)
+{
+  char *path = join_path(folder, name);
+  int file = path ? open(path, O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC) : -1;
+  free(path);
+  if (file < 0)
+    return false;
+  size_t size = 0;
+  char *bytes = read_bytes(&size, file);
+  close(file);
+  if (bytes)
+    *out = (cli_answer){.kind = kind, .bytes = bytes, .size = size, .owned = bytes};
+  return bytes != NULL;
+}
+
+/* Where the run's files are: NULL without memory; end with free. */
+static char *find_folder(const cli_child *child)
+{
+  return child->process ? join_path(child->folder, WORK_NAME)
+                        : join_texts(child->folder, "");
+}
+
+static const char *kind_of(const char *name)
+{
+  return ends_with(name, ".svg")       ? "image/svg+xml"
+         : ends_with(name, ".png")     ? "image/png"
+         : ends_with(name, ".geojson") ? "application/geo+json"
+                                       : NULL;
+}
+
+/* Names of the pictures of scales, from the first, whose icons are there, too: the page
+ * counts them. */
+static void add_pictures(cJSON *state, const char *folder)
+{
+  static const char *const ends[] = {".svg", ".png"};
+  cJSON *pictures = cJSON_AddArrayToObject(state, "pictures");
+  for (int index = 0; index < MAX_SCALES; ++index) {
+    char name[SCALE_NAME_BYTES];
+    bool found = false;
+    scale_name(name, index, ".geojson");
+    if (!file_is_there(folder, name))
+      return;
+    for (int k = 0; k < 2 && !found; ++k) {
+      scale_name(name, index, ends[k]);
+      found = file_is_there(folder, name);
+    }
+    if (!found)
+      return;
+    cJSON_AddItemToArray(pictures, cJSON_CreateString(name));
+  }
+}
+
+static void give_state(cli_answer *out, const view_pages *pages, const char *folder)
+{
+  const cli_child *child = pages->child;
+  char clean[CLEAN_BYTES];
+  cJSON *state = cJSON_CreateObject();
+  cJSON_AddStringToObject(state, "input", clean_text(clean, inputs_name(pages->input)));
+  cJSON_AddBoolToObject(state, "ended", !child->process);
+  cJSON_AddBoolToObject(state, "page",
+                        !child->process && file_is_there(folder, VIEW_NAME));
+  cJSON_AddStringToObject(state, "doing", child->last.words);
+  cJSON_AddNumberToObject(state, "share", child->last.share);
+  add_pictures(state, folder);
+  char *text = cJSON_PrintUnformatted(state);
+  cJSON_Delete(state);
+  if (text)
+    *out = (cli_answer){
+        .kind = "application/json", .bytes = text, .size = strlen(text), .owned = text};
+}
+
+static void give_page(cli_answer *out, const cli_child *child, const char *folder)
+{
+  if (!child->process && give_file(out, folder, VIEW_NAME, "text/html"))
+    return;
+  *out = (cli_answer){.kind = "text/html",
+                      .bytes = (const char *)view_live_page,
+                      .size = view_live_page_size};
+}
+
+void pages_give(cli_answer *out, const char *name, void *data)
+{
+  const view_pages *pages = data;
+  char *folder = find_folder(pages->child);
+  if (!folder)
+    return;
+  if (!*name)
+    give_page(out, pages->child, folder);
+  else if (strcmp(name, "state") == 0)
+    give_state(out, pages, folder);
+  else if (scale_of(name) >= 0 && kind_of(name))
+    give_file(out, folder, name, kind_of(name));
+  free(folder);
+}
