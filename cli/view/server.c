@@ -47,7 +47,7 @@ static bool set_up(int socket)
 static int make_token(char out[TOKEN_DIGITS + 1])
 {
   static const char source[] = "/dev/urandom";
-  unsigned char bytes[TOKEN_DIGITS / 2];
+  unsigned char bytes[TOKEN_DIGITS / 2] = {0};
   int file = open(source, O_RDONLY | O_CLOEXEC);
   ssize_t got = file >= 0 ? read(file, bytes, sizeof bytes) : -1;
   int code = got == (ssize_t)sizeof bytes ? EXIT_DONE

@@ -46,7 +46,7 @@ static int places_of(double size)
 /* Writes whole / 10^places without needless zeros. */
 static void write_decimal(char *text, bool is_negative, long long whole, int places)
 {
-  char digit[FG__NUMBER_BYTES];
+  char digit[FG__NUMBER_BYTES] = "";
   int count = 0;
   for (; places > 0 && whole % 10 == 0; --places)
     whole /= 10;
