@@ -151,15 +151,18 @@ static void grids_in_space_are_read(void **state)
  */
 static void planes_along_other_axes_are_read(void **state)
 {
-  static const char *const same[] = {
+  static const char across_y[] =
       "x,y,z,u,v,w\n1.5,7,10,11.5,99,-.25\n2.5,7,10,12.5,99,-.25\n"
       "3.5,7,10,13.5,99,-.25\n1.5,7,20,21.5,99,-.25\n2.5,7,20,22.5,99,-.25\n"
-      "3.5,7,20,23.5,99,-.25\n",
+      "3.5,7,20,23.5,99,-.25\n";
+  static const char across_x[] =
       "x y z u v w\n-3 1.5 10 99 11.5 -.25\n-3 2.5 10 99 12.5 -.25\n"
       "-3 3.5 10 99 13.5 -.25\n-3 1.5 20 99 21.5 -.25\n-3 2.5 20 99 22.5 -.25\n"
-      "-3 3.5 20 99 23.5 -.25\n",
+      "-3 3.5 20 99 23.5 -.25\n";
+  static const char without_y[] =
       "w,u,z,x\n-.25,11.5,10,1.5\n-.25,12.5,10,2.5\n-.25,13.5,10,3.5\n"
-      "-.25,21.5,20,1.5\n-.25,22.5,20,2.5\n-.25,23.5,20,3.5\n"};
+      "-.25,21.5,20,1.5\n-.25,22.5,20,2.5\n-.25,23.5,20,3.5\n";
+  static const char *const same[] = {across_y, across_x, without_y};
   static const char *const names[][4] = {
       {"x", "z", "u", "w"}, {"y", "z", "v", "w"}, {"x", "z", "u", "w"}};
   static const char *const level[] = {"y = 7", "x = -3", ""};
