@@ -41,6 +41,7 @@ let maker; // undefined until the core is compiled
 let single; // {scale, key}: made at once, for the view or the number at hand
 let fading; // {layers, since}: what was shown until a moment ago
 let hovered; // {arrow, at} in the picture
+let told; // of the arrow that keys came to
 let drawn = []; // the arrows that are shown
 let wanted = 0; // animation frame
 
@@ -140,8 +141,8 @@ function say() {
   if (document.activeElement !== byId("number")) byId("number").value = String(n);
   const failed = (single?.key === keyNow() && single.error) || set?.error;
   byId("status").textContent = failed ? failed.message.split("\n")[0]
-    : !shown() ? "Placing arrows …" : set?.begun && !set.done && set.scales.length < numbers.length && !view.part
-      ? `Placing scale ${set.scales.length + 1} of ${numbers.length} …` : "";
+    : !shown() ? "Placing arrows …" : told && told.arrow === hovered?.arrow ? told.words
+      : set?.begun && !set.done && set.scales.length < numbers.length && !view.part ? `Placing scale ${set.scales.length + 1} of ${numbers.length} …` : "";
   canvas.setAttribute("aria-label", `${drawn.length} arrows of ${run.title}${view.part ? ", a part" : ""}`);
 }
 
@@ -170,6 +171,7 @@ let asking = 0;
 /** Makes what the view, the number and the seed at hand want, a moment after they rest. */
 function want(delay = 120) {
   clearTimeout(asking);
+  told = undefined;
   asking = setTimeout(make, delay);
   update();
 }
@@ -274,7 +276,8 @@ function walk(step) {
   if (!seen.length) return;
   const index = hovered?.arrow ? seen.indexOf(hovered.arrow) + step : step > 0 ? 0 : seen.length - 1;
   const arrow = seen[(index + seen.length) % seen.length];
-  byId("status").textContent = read(view.toScreen(...arrow.center), arrow);
+  told = { arrow, words: read(view.toScreen(...arrow.center), arrow) };
+  say();
 }
 
 const keys = {

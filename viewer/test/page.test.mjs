@@ -132,6 +132,7 @@ test("a run of clusters shows one arrow in each, and evolves anew by other optio
 
 test("keys move, zoom, step and go from arrow to arrow; the pointer reads the field", { skip }, async () => {
   const { page, faults, close } = await open("map", "#n=12");
+  await made(page);
   await page.focus("#picture");
   await page.keyboard.press("n");
   assert.match(await page.textContent("#status"), /^Arrow: [\d.]+ m\/s, for [\d.]+ % of the field/);
