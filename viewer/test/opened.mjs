@@ -30,6 +30,7 @@ export class Opened {
   /** A page of a run; what it says on the console or asks for, and errors, are in `faults`. */
   async open(name, address = "", options = {}) {
     const context = await this.browser.newContext({ viewport: { width: 1100, height: 760 }, bypassCSP: true, ...options });
+    context.setDefaultTimeout(180_000); // however slow the machine
     const page = await context.newPage();
     const faults = [];
     // the driver without a graphics processor tells that it is slow

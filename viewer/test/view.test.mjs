@@ -30,6 +30,7 @@ async function view(given, options = {}) {
     server.once("exit", (code) => reject(new Error(`exit code ${code}`)));
   });
   const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, bypassCSP: true, ...options });
+  context.setDefaultTimeout(180_000); // however slow the machine
   const page = await context.newPage();
   const faults = [];
   page.on("console", (message) => faults.push(`${message.text()} ${message.location().url}`));
