@@ -18,7 +18,7 @@ typedef struct effort {
 
 static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5},
                                  [FG_EFFORT_QUICK] = {8, 0, 0, 0},
-                                 [FG_EFFORT_THOROUGH] = {14, 40, 3, 8}};
+                                 [FG_EFFORT_THOROUGH] = {14, 13, 30, 5}};
 
 /* Beyond so many icons there are fewer exchanges, each of which looks at all icons and
  * changes less and less of the picture. */
@@ -32,12 +32,13 @@ enum { FEW = 200 };
 /* Sweeps after the first scale is complete. */
 enum { SETTLING = 3 };
 
-/* Up to so many icons in 2D a second placement is made: what errors the few have depends
- * much on where they began. It comes down from a finer scale by another ratio, if that
- * had so many times as many icons, or for a first scale from so many of them. */
+/* Other placements are made, of which the best stays: what errors icons have depends much
+ * on where they began. Each comes down from a finer scale by a ratio of its own, if that
+ * had so many times as many icons, or for a first scale from so many of them. By default
+ * there is one, in 2D up to so many icons; a thorough search makes all for any number. */
 enum { MOST_TWICE = 40, MOST_TWICE_FAIR = 80 };
-static const double OTHER_RATIO = 0.65;
-static const double MANY_MORE = 1.5;
+static const double OTHER_RATIOS[] = {0.65, 0.5};
+static const double MANY_MORE[] = {1.5, 2.0};
 
 /* A scale is reached by numbers of icons that fall by this factor. */
 static const double CHAIN_RATIO = 0.8;
@@ -143,23 +144,30 @@ static fg__place_seed seed_of(const fg_icon *icon, const fg__place_scale *scale)
   return seed;
 }
 
-/* Refuses icons far smaller than what the data can tell, and more than can be placed in
- * a while: their number is a mistake. */
-static fg_status check_fineness(const fg_placement *placement, int count)
+/* The most icons that are placed: more would be far smaller than what the data can tell.
+ */
+static double count_most(const fg_placement *placement)
 {
   const fg__place_domain *domain = &placement->domain;
-  double least = FINEST * domain->data_step;
-  double most = domain->measure / pow(least, domain->dimension);
+  const double least = FINEST * domain->data_step;
+  const double most = domain->measure / pow(least, domain->dimension);
+  return fmin(fmax(floor(most), FEW), FG__MOST_ARROWS);
+}
+
+/* Refuses a number that must be a mistake. */
+static fg_status check_fineness(const fg_placement *placement, int count)
+{
   if (count > FG__MOST_ARROWS)
     return fg__fail(placement->context, FG_STATUS_ARGUMENT,
                     "%d arrows are too many to be placed: %d can be", count,
                     FG__MOST_ARROWS);
-  if (count <= most || count <= FEW)
+  const double most = count_most(placement);
+  if (count <= most)
     return FG_STATUS_OK;
   return fg__fail(placement->context, FG_STATUS_ARGUMENT,
                   "%d arrows do not fit into this field: %.0f do, each for an eighth of "
                   "the distance between samples",
-                  count, fmax(floor(most), FEW));
+                  count, most);
 }
 
 /* A search for `count` icons, with none. */
@@ -341,9 +349,9 @@ fg_status fg__placement_begin_again(fg_placement *placement, int count)
 }
 
 /* To `count` icons from those of the finer scale `from`, or without one from evenly
- * distributed points. */
+ * distributed points, in the way with that number. */
 static fg_status place_otherwise(fg_placement *placement, int count,
-                                 const fg__place_snapshot *from)
+                                 const fg__place_snapshot *from, int way)
 {
   fg__place_search *search = &placement->search;
   fg_status status;
@@ -352,16 +360,16 @@ static fg_status place_otherwise(fg_placement *placement, int count,
     if (status == FG_STATUS_OK)
       status = fg__place_restore(search, from);
   } else {
-    status = place_first(placement, (int)(MANY_MORE * count), NULL);
+    status = place_first(placement, (int)(MANY_MORE[way] * count), NULL);
   }
   if (status == FG_STATUS_OK)
-    status = go_down(placement, count, OTHER_RATIO);
+    status = go_down(placement, count, OTHER_RATIOS[way]);
   return status == FG_STATUS_OK ? polish(placement) : status;
 }
 
 /* Looks for another placement, and goes back where it is no better. */
 static fg_status improve(fg_placement *placement, int count,
-                         const fg__place_snapshot *from)
+                         const fg__place_snapshot *from, int way)
 {
   fg__place_search *search = &placement->search;
   fg__place_snapshot best = {0};
@@ -371,7 +379,7 @@ static fg_status improve(fg_placement *placement, int count,
   if (status == FG_STATUS_OK)
     status = fg__place_remember(&best, search);
   if (status == FG_STATUS_OK)
-    status = place_otherwise(placement, count, from);
+    status = place_otherwise(placement, count, from, way);
   if (search->next_identity < next_identity) /* it began anew */
     search->next_identity = next_identity;
   if (status == FG_STATUS_OK)
@@ -393,12 +401,19 @@ static void number_icons(fg__place_search *search)
   search->next_identity = search->count;
 }
 
-static bool is_made_twice(const fg_placement *placement, int count)
+/* How many other placements are made of so many icons, of those that are possible. */
+static int count_others(const fg_placement *placement, int count, bool is_first)
 {
-  bool fair = placement->options.lengths == FG_LENGTHS_FAIR;
-  return placement->domain.dimension == 2 &&
-         placement->options.effort != FG_EFFORT_QUICK &&
-         count <= (fair ? MOST_TWICE_FAIR : MOST_TWICE);
+  const double finer = is_first ? count_most(placement) : (double)placement->search.count;
+  const bool fair = placement->options.lengths == FG_LENGTHS_FAIR;
+  int possible = sizeof OTHER_RATIOS / sizeof *OTHER_RATIOS;
+  while (possible > 0 && finer < MANY_MORE[is_first ? possible - 1 : 0] * count)
+    --possible;
+  if (placement->options.effort == FG_EFFORT_THOROUGH)
+    return possible;
+  if (placement->domain.dimension == 3 || placement->options.effort == FG_EFFORT_QUICK)
+    return 0;
+  return count <= (fair ? MOST_TWICE_FAIR : MOST_TWICE) && possible > 0;
 }
 
 fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons *clusters)
@@ -409,15 +424,14 @@ fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons 
   fg__place_search *search = &placement->search;
   fg__place_snapshot finer = {0};
   fg_status status = FG_STATUS_OK;
-  bool twice = is_made_twice(placement, count);
-  bool is_first = !placement->begun || count > search->count;
+  const bool is_first = !placement->begun || count > search->count;
+  int others = count_others(placement, count, is_first);
   if (is_first) {
-    if (clusters && fg_icons_count(clusters) > 0)
-      twice = twice && !is_placed(fg_icons_at(clusters, 0));
+    if (clusters && fg_icons_count(clusters) > 0 && is_placed(fg_icons_at(clusters, 0)))
+      others = 0;
     status = place_first(placement, count, clusters);
   } else {
-    twice = twice && search->count >= MANY_MORE * count;
-    if (twice)
+    if (others > 0)
       status = fg__place_remember(&finer, search);
     if (status == FG_STATUS_OK)
       status = go_down(placement, count, CHAIN_RATIO);
@@ -426,8 +440,8 @@ fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons 
     status = polish(placement);
   if (status == FG_STATUS_OK)
     status = check_count(placement, count);
-  if (status == FG_STATUS_OK && twice)
-    status = improve(placement, count, &finer);
+  for (int way = 0; way < others && status == FG_STATUS_OK; ++way)
+    status = improve(placement, count, &finer, way);
   if (status == FG_STATUS_OK && is_first)
     number_icons(search);
   fg__place_snapshot_clear(&finer);

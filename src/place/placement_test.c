@@ -167,6 +167,43 @@ static void placing_lowers_the_error(void **state)
   fg_field_destroy(field);
 }
 
+/* A thorough search makes the placement of the normal one and others, and takes the best;
+ * it makes none that would not fit. */
+static void a_thorough_search_is_better(void **state)
+{
+  const struct {
+    const sampling *box;
+    velocity_of velocity;
+    int count;
+  } cases[] = {{&PLAIN, coast, 50}, {&SOLID, hall, 20}};
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    fg_field *field = field_of(*state, cases[n].box, cases[n].velocity);
+    double error[2];
+    for (int k = 0; k < 2; ++k) {
+      fg_placement *placement =
+          placement_of(*state, field, k ? FG_EFFORT_THOROUGH : FG_EFFORT_NORMAL);
+      fg_icons *icons = place(*state, placement, cases[n].count);
+      fg_score score;
+      const fg_score_options options = {.lengths = FG_SCORE_FREE, .readers_only = true};
+      assert_int_equal(fg_icons_count(icons), cases[n].count);
+      assert_int_equal(fg_icons_score(&score, *state, field, icons, &options),
+                       FG_STATUS_OK);
+      error[k] = score.mean;
+      fg_icons_destroy(icons);
+      fg_placement_destroy(placement);
+    }
+    assert_true(error[1] < error[0]);
+    fg_field_destroy(field);
+  }
+  const sampling cell = {
+      .dimension = 2, .nodes = {2, 2}, .low = {-3, 4}, .high = {5, 11}};
+  fg_field *field = field_of(*state, &cell, slant); /* has room for 200 */
+  fg_placement *placement = placement_of(*state, field, FG_EFFORT_THOROUGH);
+  fg_icons_destroy(place(*state, placement, 190));
+  fg_placement_destroy(placement);
+  fg_field_destroy(field);
+}
+
 /* One call gives what placing in steps gives. */
 static void one_call_is_enough(void **state)
 {
@@ -298,7 +335,7 @@ int main(void)
       CASE(a_turned_field_is_read_as_well), CASE(placing_lowers_the_error),
       CASE(icons_of_clusters_are_a_start),  CASE(one_call_is_enough),
       CASE(wrong_arguments_are_refused),    CASE(more_than_can_be_placed_are_refused),
-      CASE(a_river_gets_its_arrows),
+      CASE(a_river_gets_its_arrows),        CASE(a_thorough_search_is_better),
   };
   return cmocka_run_group_tests_name("place/placement", tests, NULL, NULL);
 }
