@@ -1,7 +1,5 @@
 #!/usr/bin/env bash
 # A run that is killed, at whatever moment, goes on to the results of one that was not.
-# thousands of checkpoints: bringing them to a disk would take minutes
-[ -w /dev/shm ] && export TMPDIR=/dev/shm
 source "$(dirname "$0")/harness.sh"
 
 run=(run synth:vortex3 --nodes 33 --clusters 20,8 --formats svg --no-page --quiet --threads 1 --checkpoint 0)

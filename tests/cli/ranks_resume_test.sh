@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Checkpoints of several ranks: whatever ends a run, it goes on on any number of ranks to
 # the results of one that was never ended; one message, and no rank is left waiting.
-[ -w /dev/shm ] && export TMPDIR=/dev/shm
 source "$(dirname "$0")/harness.sh"
 need_ranks
 

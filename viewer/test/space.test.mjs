@@ -16,8 +16,9 @@ before(async () => {
 
 after(() => opened.end());
 
-async function open(...given) {
-  const all = await opened.open(...given);
+// without a graphics processor each frame is drawn pixel by pixel, and that of a file four times as large
+async function open(name, address, options) {
+  const all = await opened.open(name, address, { viewport: { width: 760, height: 560 }, ...options });
   await all.page.waitForFunction(() => document.getElementById("picture").dataset.made === "yes");
   return all;
 }
