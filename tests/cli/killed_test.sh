@@ -1,10 +1,8 @@
 #!/usr/bin/env bash
 # A run that is killed, at whatever moment, goes on to the results of one that was not.
-# thousands of checkpoints: bringing them to a disk would take minutes
-[ -w /dev/shm ] && export TMPDIR=/dev/shm
 source "$(dirname "$0")/harness.sh"
 
-run=(run synth:vortex3 --nodes 33 --clusters 20,8 --formats svg --quiet --threads 1 --checkpoint 0)
+run=(run synth:vortex3 --nodes 33 --clusters 20,8 --formats svg --no-page --quiet --threads 1 --checkpoint 0)
 try "${run[@]}" -o whole
 expect_code 0
 expect_only_results whole
@@ -31,14 +29,14 @@ for at in {1..36}; do
   killed_at "$at"
 done
 done_with "killed at each of its first calls"
-for at in $(seq 50 47 $((all - 50))); do
+for at in $(seq 50 71 $((all - 50))); do
   killed_at "$at"
 done
 done_with "killed on the way"
 
 # the end is the same from a late checkpoint on
 rm -rf late
-with_calls kill $((all - 60)) "${run[@]}" -o late
+with_calls kill $((all - 45)) "${run[@]}" -o late
 cp -r late part
 with_calls kill 0 "${run[@]}" -o part --resume
 rest=$(cat calls)
@@ -73,7 +71,7 @@ try "${run[@]}" -o placed
 expect_code 0
 with_calls kill 0 "${run[@]}" -o placed-counted
 all=$(cat calls)
-for at in $(seq $((all - 90)) 8 "$all"); do
+for at in $(seq $((all - 70)) 6 "$all"); do
   rm -rf part
   with_calls kill "$at" "${run[@]}" -o part
   [ "$code" = 137 ] || fault "call $at: not killed: code $code"
@@ -84,7 +82,7 @@ for at in $(seq $((all - 90)) 8 "$all"); do
 done
 done_with "placed arrows go on to the same"
 
-run=(run synth:vortex3 --nodes 193 --clusters 60,12 --width 200 --quiet --checkpoint 0.05)
+run=(run synth:vortex3 --nodes 193 --clusters 60,12 --formats svg --no-page --quiet --checkpoint 0.05)
 try "${run[@]}" -o whole2
 expect_code 0
 for turn in 1 2; do
