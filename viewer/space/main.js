@@ -37,6 +37,8 @@ let scene;
 let hovered; // {arrow, at}
 let shown = { at: -1, arrows: [] };
 let wanted = 0; // animation frame
+let wantedSince = 0;
+let resting = 0; // timer: all is drawn finely again
 let chain; // of scales, of the run and between them
 
 const last = () => chain.length - 1;
@@ -89,12 +91,17 @@ function pictureNow() {
 
 const empty = [];
 
+// Milliseconds: until a frame that was wanted is drawn, and without another one.
+const SLOW = 70;
+const REST = 250;
+
 function draw() {
   wanted = 0;
   if (!scene?.ready) return;
   const ratio = devicePixelRatio || 1;
+  const quick = isSlow();
   const what = pictureNow();
-  scene.draw(camera, { ...what, arrows: what.arrows.length ? what.arrows : empty }, ratio);
+  scene.draw(camera, { ...what, arrows: what.arrows.length ? what.arrows : empty }, setFineness(quick ? ratio / 2 : ratio), quick);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, ...camera.size);
   if (state.show.numbers) drawLabels(context, labelsOf(run, volume, camera), theme.colors);
@@ -104,7 +111,27 @@ function draw() {
 }
 
 function redraw() {
+  if (!wanted) wantedSince = performance.now();
   wanted ||= requestAnimationFrame(draw);
+}
+
+/** Whether the picture moves and frames take long, as without a graphics processor: then coarse ones do until it rests. */
+function isSlow() {
+  if (!resting && performance.now() - wantedSince < SLOW) return false;
+  clearTimeout(resting);
+  resting = setTimeout(() => {
+    resting = 0;
+    redraw();
+  }, REST);
+  return true;
+}
+
+/** Gives the canvas so many pixels for one of the window. */
+function setFineness(ratio) {
+  const space = byId("space");
+  const size = camera.size.map((length) => Math.round(length * ratio));
+  if (space.width !== size[0] || space.height !== size[1]) [space.width, space.height] = size;
+  return ratio;
 }
 
 /** "12 arrows · read within 16° · …", as pictures have it. */
@@ -274,7 +301,7 @@ async function savePng() {
 // ---- the page
 
 function resize() {
-  camera.size = fit(byId("space"), canvas);
+  camera.size = fit(canvas);
   draw();
 }
 
