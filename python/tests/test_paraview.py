@@ -201,6 +201,10 @@ def test_refusals_are_said(field):
         add(line.GetPointData(), np.ones((9, 3)))
         with pytest.raises(ValueError, match="9 x 1 x 1"):
             flowgrain_filter.field_of(line, "v")
+        x, y = np.meshgrid(field[2], field[3])
+        sheet = grid_of(x[None], y[None], np.cos(x)[None], [a[None] for a in (x, y, x)])
+        with pytest.raises(ValueError, match="lie in no plane"):
+            flowgrain_filter.field_of(sheet, "v")
     finally:
         window.SetInstance(before)
 
@@ -217,10 +221,17 @@ few = FlowgrainArrows(Input=source)
 assert list(few.Vectors) == ["POINTS", "v"], few.Vectors
 assert (few.Arrows, few.Seed, few.Coverage, few.Anisotropy) == (40, 1, 0.3, 0.15)
 few.Arrows, few.Seed, few.Coverage = 9, 2, 0.4
-few.UpdatePipeline()
-data = servermanager.Fetch(few)
-number = data.GetCellData().GetArray("arrow")
-print("ARROWS", len({{number.GetValue(n) for n in range(number.GetNumberOfTuples())}}))
+
+def arrows_at(time):
+    few.UpdatePipeline(time)
+    speed, number = (few.CellData[name] for name in ("speed", "arrow"))
+    return number and (number.GetRange(0)[1], speed.GetRange(0)[1])
+
+assert list(source.TimestepValues) == [0.0, 2.0]
+print("ARROWS", *arrows_at(0.0), *arrows_at(2.0))
+few.Coverage = 2.0
+assert arrows_at(2.0) is None  # and says why
+few.Coverage = 0.4
 view = CreateView("RenderView")
 ColorBy(Show(few, view), ("CELLS", "speed"))
 ResetCamera(view)
@@ -233,15 +244,25 @@ SaveScreenshot({picture!r}, view, ImageResolution=[300, 200])
 def test_in_paraview(tmp_path, field):
     from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-    writer = vtkXMLImageDataWriter()
-    writer.SetInputData(image(vortices()))
-    writer.SetFileName(str(tmp_path / "field.vti"))
-    writer.Write()
+    u, v, x, y = vortices()
+    for name, factor in (("one", 1.0), ("other", 2.0)):
+        writer = vtkXMLImageDataWriter()
+        writer.SetInputData(image((factor * u, factor * v, x, y)))
+        writer.SetFileName(str(tmp_path / f"{name}.vti"))
+        writer.Write()
+    (tmp_path / "field.pvd").write_text(
+        '<VTKFile type="Collection" version="0.1"><Collection>'
+        '<DataSet timestep="0" file="one.vti"/><DataSet timestep="2" file="other.vti"/>'
+        '</Collection></VTKFile>')
     (tmp_path / "script.py").write_text(SCRIPT.format(
-        plugin=str(PLUGIN), field=str(tmp_path / "field.vti"), picture=str(tmp_path / "out.png")))
+        plugin=str(PLUGIN), field=str(tmp_path / "field.pvd"), picture=str(tmp_path / "out.png")))
     found = subprocess.run(["xvfb-run", "-a", "pvpython", str(tmp_path / "script.py")],
                            capture_output=True, text=True)
-    assert "ARROWS 9" in found.stdout, found.stderr
+    line = [line for line in found.stdout.splitlines() if line.startswith("ARROWS")]
+    assert line, found.stderr
+    count, speed, then, faster = (float(word) for word in line[0].split()[1:])
+    assert (count, then, faster) == (9, 9, 2.0 * speed)
+    assert "Flowgrain Arrows: coverage 2" in found.stdout + found.stderr
     image_ = pytest.importorskip("matplotlib.image")
     picture = image_.imread(tmp_path / "out.png")[..., :3]
     assert len(np.unique(np.round(picture.reshape(-1, 3), 2), axis=0)) > 9  # colours of speeds

@@ -1,10 +1,9 @@
 // The page of a run.
 import { readAddress, writeAddress } from "./address.js";
-import { onDark } from "./colors.js";
 import { captionText, numberIn, placeBeside, Player, save } from "./common.js";
-import { arrowLayers, DARK, drawAsSvg, drawOnCanvas, frameLayer, hedgehog, LIGHT, mapLayers, missingLayer, tintLayer } from "./draw.js";
+import { byId, connectLayers, connectSlider, connectZoom, doing, fit, introduce, layerNames, restoreLayers, Theme } from "./controls.js";
+import { arrowLayers, drawAsSvg, drawOnCanvas, frameLayer, hedgehog, mapLayers, missingLayer, tintLayer } from "./draw.js";
 import { readField, velocityAt } from "./field.js";
-import { legendMarks } from "./legend.js";
 import { Maker, numbersOf } from "./maker.js";
 import { morph } from "./outline.js";
 import { Particles } from "./particles.js";
@@ -12,7 +11,6 @@ import { Streaks } from "./streaks.js";
 import { control, View } from "./view.js";
 import { shortNumber, tellerOf } from "./words.js";
 
-const byId = (id) => /** @type {any} */ (document.getElementById(id));
 const run = JSON.parse(byId("run").textContent);
 const field = readField(run);
 const numbers = numbersOf(run.most, run.fewest);
@@ -25,15 +23,13 @@ const particles = new Particles(byId("moving"), field, view, run.speeds[1]);
 const streaks = new Streaks();
 const slider = byId("scale");
 const { speedWords, directionWords, placeWords } = tellerOf(run, field);
-const palettes = { light: run.palette, dark: onDark(run.palette) };
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
-const systemDark = matchMedia("(prefers-color-scheme: dark)");
+const theme = new Theme(run, {}, () => update(), () => redraw());
 
 const state = {
   at: 0, // on the slider: index of a scale, with a part between two
   exactly: 0, // arrows, where a number was chosen that no scale has; else 0
   choice: { kind: run.kind, seed: run.seed, anisotropy: run.anisotropy, coverage: run.coverage },
-  theme: "",
   show: { arrows: true, tint: false, particles: false, texture: false, hedgehog: false, coast: true, degrees: true },
 };
 
@@ -45,9 +41,7 @@ let told; // of the arrow that keys came to
 let drawn = []; // the arrows that are shown
 let wanted = 0; // animation frame
 
-const colors = () => (isDark() ? DARK : LIGHT);
-const isDark = () => state.theme === "dark" || (!state.theme && systemDark.matches);
-const look = () => ({ palette: palettes[isDark() ? "dark" : "light"], speeds: run.speeds });
+const look = () => ({ palette: theme.palette, speeds: run.speeds });
 const numberNow = () => state.exactly || numbers[Math.round(state.at)];
 const keyNow = () => JSON.stringify([view.part ?? null, state.choice, numberNow()]);
 const setNow = () => maker?.set(view.part, state.choice);
@@ -78,7 +72,7 @@ function advance() {
 
 /** What lies under the particles. */
 function groundLayers() {
-  const c = colors();
+  const c = theme.colors;
   const { under, over } = mapLayers(field.map, c, state.show);
   const layers = [missingLayer(field, c), ...under];
   if (state.show.tint && last?.finer.density) {
@@ -102,13 +96,13 @@ function arrowsNow() {
 }
 
 function ring(arrow) {
-  return { name: "ring", paths: [arrow.outline ?? arrow.path], closed: Boolean(arrow.outline), stroke: colors().ring, width: 2 };
+  return { name: "ring", paths: [arrow.outline ?? arrow.path], closed: Boolean(arrow.outline), stroke: theme.colors.ring, width: 2 };
 }
 
 function draw() {
   wanted = 0;
   advance();
-  const layers = [frameLayer(field.border, colors()), ...arrowsNow()];
+  const layers = [frameLayer(field.border, theme.colors), ...arrowsNow()];
   if (hovered?.arrow && state.show.arrows && drawn.includes(hovered.arrow)) layers.push(ring(hovered.arrow));
   const ratio = devicePixelRatio || 1;
   drawOnCanvas(context, layers, view, ratio, field.border);
@@ -121,11 +115,11 @@ function draw() {
 
 // Again only where it is another.
 function drawGround(ratio) {
-  const key = [...view.size, ...view.center, view.zoom, ratio, isDark(), JSON.stringify(state.show),
+  const key = [...view.size, ...view.center, view.zoom, ratio, theme.isDark, JSON.stringify(state.show),
     state.show.tint && [last?.finer.count, last?.key, last?.share]].join();
   if (ground.dataset.key === key) return;
   ground.dataset.key = key;
-  drawOnCanvas(under, groundLayers(), view, ratio, field.border, colors().page);
+  drawOnCanvas(under, groundLayers(), view, ratio, field.border, theme.colors.page);
 }
 
 function redraw() {
@@ -153,8 +147,8 @@ function keep() {
     at: view.zoom > 1 ? view.center.map(round).join(",") : undefined,
     zoom: view.zoom > 1 ? round(view.zoom) : undefined,
     ...Object.fromEntries(Object.entries(state.choice).filter(([name, value]) => value !== run[name])),
-    show: Object.keys(state.show).filter((name) => state.show[name]).join(","),
-    page: state.theme || undefined,
+    show: layerNames(state.show),
+    page: theme.choice || undefined,
   });
 }
 
@@ -295,10 +289,10 @@ function svg() {
   advance();
   fading = undefined; // what goes is no part of it
   const [w, h] = view.size;
-  const extra = captionText(h + 26, 15, run.title, colors().text, "bold") +
-    captionText(h + 46, 12, `${drawn.length} arrows. ${run.subtitle}`, colors().text) +
-    `<g transform="translate(${w - 252} ${h + 2})">${legendMarks(run, look().palette, colors().text)}</g>`;
-  return drawAsSvg([...groundLayers(), ...arrowsNow()], view, colors(), field.border, run.title, extra, 76);
+  const extra = captionText(h + 26, 15, run.title, theme.colors.text, "bold") +
+    captionText(h + 46, 12, `${drawn.length} arrows. ${run.subtitle}`, theme.colors.text) +
+    `<g transform="translate(${w - 252} ${h + 2})">${theme.legend}</g>`;
+  return drawAsSvg([...groundLayers(), ...arrowsNow()], view, theme.colors, field.border, run.title, extra, 76);
 }
 
 function saveSvg() {
@@ -317,20 +311,11 @@ async function savePng() {
 
 // ---- the page
 
-function setTheme() {
-  document.documentElement.classList.toggle("dark", isDark());
-  byId("theme").value = state.theme;
-  byId("legend").setAttribute("viewBox", "0 0 240 72");
-  byId("legend").setAttribute("aria-label", `Speeds from ${speedWords(run.speeds[0])} to ${speedWords(run.speeds[1])}`);
-  byId("legend").innerHTML = legendMarks(run, look().palette, colors().text);
-  redraw();
-}
-
 /** Lets particles move, where they are wanted and may. */
 function move() {
   const moves = state.show.particles && !calm.matches;
   if (!moves) particles.stop();
-  const able = (!moves || particles.start(() => colors().flow)) && (!state.show.texture || streaks.ready);
+  const able = (!moves || particles.start(() => theme.colors.flow)) && (!state.show.texture || streaks.ready);
   const note = byId("layers-note");
   note.textContent = !able ? "Particles and texture need WebGL2, which this browser does not offer."
     : state.show.particles && !moves ? "Particles rest, for the system asks for less motion." : "";
@@ -338,10 +323,7 @@ function move() {
 }
 
 function resize() {
-  const { clientWidth: w, clientHeight: h } = byId("stage");
-  const ratio = devicePixelRatio || 1;
-  view.size = [Math.max(1, w), Math.max(1, h)];
-  for (const layer of [ground, byId("moving"), canvas]) [layer.width, layer.height] = [Math.round(w * ratio), Math.round(h * ratio)];
+  view.size = fit(ground, byId("moving"), canvas);
   ground.dataset.key = ""; // it is empty now
   view.settle();
   draw();
@@ -360,29 +342,16 @@ function restore() {
   view.zoom = numberIn(address.zoom, 1, 400) ?? 1;
   const at = address.at?.split(",").map(Number);
   if (at?.length === 2 && at.every(Number.isFinite)) view.center = at;
-  if (address.show !== undefined) {
-    const names = address.show.split(",");
-    for (const name of Object.keys(state.show)) state.show[name] = names.includes(name);
-  }
-  state.theme = ["light", "dark"].includes(address.page) ? address.page : "";
+  theme.restore(address.page);
   for (const name of Object.keys(state.choice)) byId(name).value = String(state.choice[name]);
-  for (const box of document.querySelectorAll("[data-layer]"))
-    /** @type {HTMLInputElement} */ (box).checked = state.show[/** @type {HTMLInputElement} */ (box).dataset.layer ?? ""];
+  restoreLayers(state.show, address.show);
 }
 
 function connect() {
   slider.max = String(numbers.length - 1);
-  slider.addEventListener("input", () => {
-    player.play(false);
-    slide(Number(slider.value));
-  });
-  // keys step from scale to scale
-  slider.addEventListener("keydown", (event) => {
-    const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -4, PageUp: 4 }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    slide(Math.round(state.at) + step);
-  });
+  const step = (by) => () => slide(Math.round(state.at) + by);
+  connectSlider(slider, player, slide, { ArrowLeft: step(-1), ArrowDown: step(-1), ArrowRight: step(1), ArrowUp: step(1),
+    PageDown: step(-4), PageUp: step(4) });
   byId("number").addEventListener("change", () => {
     const n = Math.round(Number(byId("number").value));
     if (!(n >= 1 && n <= 400)) return say();
@@ -401,50 +370,25 @@ function connect() {
       want();
     });
   }
-  for (const box of document.querySelectorAll("[data-layer]")) {
-    const input = /** @type {HTMLInputElement} */ (box);
-    const name = String(input.dataset.layer);
-    input.addEventListener("change", () => {
-      state.show[name] = input.checked;
-      move();
-      update();
-    });
-    if (!field.map && input.closest(".of-map")) input.closest("label")?.remove();
-  }
-  calm.addEventListener("change", move);
-  move();
-  const zoom = (factor) => () => {
-    view.zoomAt(view.size[0] / 2, view.size[1] / 2, factor);
-    want();
-  };
-  byId("closer").addEventListener("click", zoom(1.5));
-  byId("farther").addEventListener("click", zoom(1 / 1.5));
-  byId("whole").addEventListener("click", () => {
-    view.reset();
-    want();
-  });
-  byId("theme").addEventListener("change", () => {
-    state.theme = byId("theme").value;
-    setTheme();
+  connectLayers(state.show, (name) => field.map || !["coast", "degrees"].includes(name), () => {
+    move();
     update();
   });
-  systemDark.addEventListener("change", setTheme);
+  calm.addEventListener("change", move);
+  move();
+  connectZoom(view, 1.5, () => want());
   byId("svg").addEventListener("click", saveSvg);
   byId("png").addEventListener("click", savePng);
   control(canvas, view, {
     changed: () => want(200),
     hovered: (at) => (at ? read(at) : leave()),
-    key: (key) => {
-      if (!keys[key]) return false;
-      keys[key]();
-      return true;
-    },
+    key: doing(keys),
   });
   new ResizeObserver(resize).observe(byId("stage"));
   addEventListener("hashchange", () => {
     restore();
     move();
-    setTheme();
+    theme.apply();
     want();
   });
 }
@@ -456,13 +400,11 @@ async function compile() {
 }
 
 async function start() {
-  document.title = run.title;
-  byId("title").textContent = run.title;
+  introduce(run);
   byId("subtitle").textContent = run.subtitle;
-  byId("made").textContent = `Made by flowgrain ${run.version}`;
   restore();
   connect();
-  setTheme();
+  theme.apply();
   const source = URL.createObjectURL(new Blob([JSON.parse(byId("worker").textContent)], { type: "text/javascript" }));
   maker = new Maker(() => new Worker(source), await compile(), field, { numbers, lengths: run.lengths, told: update });
   want(0);

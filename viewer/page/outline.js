@@ -104,7 +104,7 @@ function valueAt(values, along, share) {
 }
 
 /** From an arrow of one scale to the same in the next. */
-function between(a, b, t) {
+export function between(a, b, t) {
   const [from, to] = [stationsOf(a), stationsOf(b)];
   const out = { id: a.id, share: 1, path: from.map((p, k) => blend(p, to[k], t)) };
   if (a.speeds) out.speeds = a.stationSpeeds.map((v, k) => blend(v, b.stationSpeeds[k], t));

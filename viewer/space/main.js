@@ -1,35 +1,34 @@
 // The page of a run in 3D.
 import { readAddress, writeAddress } from "../page/address.js";
-import { onDark } from "../page/colors.js";
 import { numberIn, placeBeside, Player, save } from "../page/common.js";
-import { DARK, LIGHT } from "../page/draw.js";
-import { legendMarks } from "../page/legend.js";
+import { byId, connectLayers, connectSlider, connectZoom, doing, fit, introduce, layerNames, restoreLayers, Theme } from "../page/controls.js";
 import { morph } from "../page/outline.js";
 import { control } from "../page/view.js";
 import { shortNumber, withUnits } from "../page/words.js";
 import { drawLabels, labelsOf } from "./axes.js";
 import { Camera } from "./camera.js";
+import { chainOf } from "./chain.js";
 import { edgeNear, nearestArrow, pointOnCut, steps } from "./pick.js";
 import { drawPicture } from "./picture.js";
 import { Scene } from "./scene.js";
 import { readSurface, readVolume, velocityAt } from "./volume.js";
 
-const byId = (id) => /** @type {any} */ (document.getElementById(id));
 const run = JSON.parse(byId("run").textContent);
 const canvas = byId("picture");
 const context = canvas.getContext("2d");
 const slider = byId("scale");
-const palettes = { light: run.palette, dark: onDark(run.palette) };
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
-const systemDark = matchMedia("(prefers-color-scheme: dark)");
+const theme = new Theme(run, { isEven: true }, () => update(), () => {
+  if (scene?.ready) scene.setColors(theme.palette, theme.colors);
+  redraw();
+});
 const axes = ["x", "y", "z"];
 const names = axes.map((axis) => run[`${axis}Name`] || axis);
 
 const state = {
-  at: 0, // on the slider: index of a scale, with a part between two
+  at: 0, // on the slider: index in the chain, with a part between two
   cut: { axis: -1, share: 0.5, shows: "both", hides: false }, // axis -1: none
   show: { arrows: true, clusters: false, outline: true, shadows: true, numbers: true },
-  theme: "",
 };
 
 let volume;
@@ -38,13 +37,12 @@ let scene;
 let hovered; // {arrow, at}
 let shown = { at: -1, arrows: [] };
 let wanted = 0; // animation frame
-const counts = run.scales.map((scale) => scale.icons.length);
-const last = counts.length - 1;
+let wantedSince = 0;
+let resting = 0; // timer: all is drawn finely again
+let chain; // of scales, of the run and between them
 
-const isDark = () => state.theme === "dark" || (!state.theme && systemDark.matches);
-const colors = () => (isDark() ? DARK : LIGHT);
-const palette = () => palettes[isDark() ? "dark" : "light"];
-const nearest = () => Math.round(state.at);
+const last = () => chain.length - 1;
+const link = () => chain[Math.round(state.at)];
 const hasCut = () => state.cut.axis >= 0;
 
 // ---- what is shown
@@ -52,7 +50,7 @@ const hasCut = () => state.cut.axis >= 0;
 function arrowsNow() {
   if (shown.at !== state.at) {
     const low = Math.floor(state.at);
-    const [finer, coarser] = [volume.scales[low], volume.scales[Math.min(low + 1, last)]];
+    const [finer, coarser] = [chain[low], chain[Math.min(low + 1, last())]];
     shown = { at: state.at, arrows: morph(finer, coarser, state.at - low) };
     hovered = undefined;
     byId("reading").hidden = true;
@@ -60,11 +58,17 @@ function arrowsNow() {
   return shown.arrows;
 }
 
+/** Where the slider is among the run's own scales. */
+function placeInRun() {
+  const [finer, coarser] = [chain[Math.floor(state.at)], chain[Math.ceil(state.at)]];
+  return finer.at + (state.at - Math.floor(state.at)) * (coarser.at - finer.at);
+}
+
 /** Surfaces of the scales' clusters, read when they are first wanted. */
 function clustersNow() {
   if (!state.show.clusters) return [];
-  const low = Math.floor(state.at);
-  const part = state.at - low;
+  const low = Math.floor(placeInRun());
+  const part = placeInRun() - low;
   return [[low, 1 - part], [low + 1, part]].flatMap(([index, share]) => {
     const scale = volume.scales[index];
     if (!scale?.packed || share <= 0) return [];
@@ -87,26 +91,56 @@ function pictureNow() {
 
 const empty = [];
 
+// Milliseconds: until a frame that was wanted is drawn, and without another one.
+const SLOW = 70;
+const REST = 250;
+
 function draw() {
   wanted = 0;
   if (!scene?.ready) return;
   const ratio = devicePixelRatio || 1;
+  const quick = isSlow();
   const what = pictureNow();
-  scene.draw(camera, { ...what, arrows: what.arrows.length ? what.arrows : empty }, ratio);
+  scene.draw(camera, { ...what, arrows: what.arrows.length ? what.arrows : empty }, setFineness(quick ? ratio / 2 : ratio), quick);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, ...camera.size);
-  if (state.show.numbers) drawLabels(context, labelsOf(run, volume, camera), colors());
+  if (state.show.numbers) drawLabels(context, labelsOf(run, volume, camera), theme.colors);
   canvas.dataset.arrows = String(what.arrows.length);
   canvas.dataset.made = "yes";
   canvas.dataset.clusters = String(what.clusters.length);
 }
 
 function redraw() {
+  if (!wanted) wantedSince = performance.now();
   wanted ||= requestAnimationFrame(draw);
 }
 
+/** Whether the picture moves and frames take long, as without a graphics processor: then coarse ones do until it rests. */
+function isSlow() {
+  if (!resting && performance.now() - wantedSince < SLOW) return false;
+  clearTimeout(resting);
+  resting = setTimeout(() => {
+    resting = 0;
+    redraw();
+  }, REST);
+  return true;
+}
+
+/** Gives the canvas so many pixels for one of the window. */
+function setFineness(ratio) {
+  const space = byId("space");
+  const size = camera.size.map((length) => Math.round(length * ratio));
+  if (space.width !== size[0] || space.height !== size[1]) [space.width, space.height] = size;
+  return ratio;
+}
+
 /** "12 arrows · read within 16° · …", as pictures have it. */
-const captionWords = () => run.scales[nearest()].caption;
+function captionWords() {
+  const { at, count } = link();
+  if (Number.isInteger(at)) return run.scales[at].caption;
+  const [more, fewer] = [Math.floor(at), Math.ceil(at)].map((n) => run.scales[n].icons.length);
+  return `${count} arrows · between the run's scales of ${more} and ${fewer}`;
+}
 
 const speedWords = (speed) => withUnits(speed, run.units);
 
@@ -122,9 +156,9 @@ function directionWords(way) {
 
 function say() {
   byId("subtitle").textContent = captionWords();
-  byId("count").textContent = String(counts[nearest()]);
-  slider.setAttribute("aria-valuetext", `${counts[nearest()]} arrows`);
-  canvas.setAttribute("aria-label", `${counts[nearest()]} arrows of ${run.title}, in 3D`);
+  byId("count").textContent = String(link().count);
+  slider.setAttribute("aria-valuetext", `${link().count} arrows`);
+  canvas.setAttribute("aria-label", `${link().count} arrows of ${run.title}, in 3D`);
   const { axis, share } = state.cut;
   for (const id of ["cut-at", "cut-shows", "cut-hides"]) byId(id).disabled = axis < 0;
   byId("cut-axis").value = axis < 0 ? "" : axes[axis];
@@ -142,15 +176,15 @@ function keep() {
   const [azimuth, elevation] = camera.first;
   const turned = Math.abs(camera.azimuth - azimuth) + Math.abs(camera.elevation - elevation) > 0.05;
   writeAddress({
-    n: counts[nearest()],
+    n: link().count,
     view: turned ? `${round(camera.azimuth, 1)},${round(camera.elevation, 1)}` : undefined,
     zoom: Math.abs(camera.zoom - 1) > 1e-3 ? round(camera.zoom, 3) : undefined,
     at: camera.target.some((x) => Math.abs(x) > 1e-4) ? camera.target.map((x) => round(x)).join(",") : undefined,
     cut: axis < 0 ? undefined : `${axes[axis]},${round(share)}`,
     shows: axis < 0 || shows === "both" ? undefined : shows,
     before: axis >= 0 && hides ? "hidden" : undefined,
-    show: Object.keys(state.show).filter((name) => state.show[name]).join(","),
-    page: state.theme || undefined,
+    show: layerNames(state.show),
+    page: theme.choice || undefined,
   });
 }
 
@@ -163,18 +197,25 @@ function update() {
 // ---- controls
 
 function slide(at) {
-  state.at = Math.min(Math.max(at, 0), last);
+  state.at = Math.min(Math.max(at, 0), last());
   slider.value = String(state.at);
   update();
 }
 
-const player = new Player(byId("play"), {
-  at: () => state.at,
-  last: () => last,
-  made: () => last + 1,
-  slide,
-  pace: () => (calm.matches ? 4000 : 2000),
-});
+/** To the run's next scale of fewer arrows, or of more. */
+function leap(way) {
+  let at = way > 0 ? Math.floor(state.at) + 1 : Math.ceil(state.at) - 1;
+  while (chain[at] && !Number.isInteger(chain[at].at)) at += way;
+  slide(at);
+}
+
+// Two seconds from one of the run's scales to the next, more where many arrows change one by one.
+function pace() {
+  const low = Math.min(Math.floor(state.at), last() - 1);
+  return Math.max(2000 * (chain[low + 1].at - chain[low].at), 150) * (calm.matches ? 2 : 1);
+}
+
+const player = new Player(byId("play"), { at: () => state.at, last, made: () => chain.length, slide, pace });
 
 function cutAcross(axis) {
   state.cut.axis = state.cut.axis === axis ? -1 : axis;
@@ -227,8 +268,8 @@ function walk(step) {
 }
 
 const keys = {
-  ",": () => slide(Math.ceil(state.at) - 1),
-  ".": () => slide(Math.floor(state.at) + 1),
+  ",": () => leap(-1),
+  ".": () => leap(1),
   " ": () => player.play(!player.playing),
   n: () => walk(1),
   p: () => walk(-1),
@@ -250,8 +291,8 @@ async function savePng() {
   const blob = await drawPicture(camera, 2, {
     scene: (ratio) => scene.draw(camera, pictureNow(), ratio),
     canvas: byId("space"),
-    labels: (paper) => state.show.numbers && drawLabels(paper, labelsOf(run, volume, camera), colors()),
-    title: run.title, words: captionWords(), colors: colors(), legend: legendMarks(run, palette(), colors().text, { isEven: true }),
+    labels: (paper) => state.show.numbers && drawLabels(paper, labelsOf(run, volume, camera), theme.colors),
+    title: run.title, words: captionWords(), colors: theme.colors, legend: theme.legend,
   });
   resize();
   if (blob) save("flowgrain.png", blob);
@@ -259,28 +300,16 @@ async function savePng() {
 
 // ---- the page
 
-function setTheme() {
-  document.documentElement.classList.toggle("dark", isDark());
-  byId("theme").value = state.theme;
-  byId("legend").setAttribute("viewBox", "0 0 240 72");
-  byId("legend").setAttribute("aria-label", `Speeds from ${speedWords(run.speeds[0])} to ${speedWords(run.speeds[1])}`);
-  byId("legend").innerHTML = legendMarks(run, palette(), colors().text, { isEven: true });
-  if (scene?.ready) scene.setColors(palette(), colors());
-  redraw();
-}
-
 function resize() {
-  const { clientWidth: w, clientHeight: h } = byId("stage");
-  const ratio = devicePixelRatio || 1;
-  camera.size = [Math.max(1, w), Math.max(1, h)];
-  for (const layer of [byId("space"), canvas]) [layer.width, layer.height] = [Math.round(w * ratio), Math.round(h * ratio)];
+  camera.size = fit(canvas);
   draw();
 }
 
 function restore() {
   const address = readAddress();
   const n = numberIn(address.n, 0, 1e9);
-  state.at = n === undefined ? 0 : counts.reduce((best, m, k) => (Math.abs(m - n) < Math.abs(counts[best] - n) ? k : best), 0);
+  state.at = n === undefined ? 0
+    : chain.reduce((best, { count }, k) => (Math.abs(count - n) < Math.abs(chain[best].count - n) ? k : best), 0);
   slider.value = String(state.at);
   camera.reset();
   const list = (text, count) => {
@@ -295,13 +324,8 @@ function restore() {
   const [axis, share] = (address.cut ?? "").split(",");
   state.cut = { axis: axes.indexOf(axis), share: numberIn(share, 0, 1) ?? 0.5,
     shows: ["speed", "arrows"].includes(address.shows) ? address.shows : "both", hides: address.before === "hidden" };
-  if (address.show !== undefined) {
-    const wished = address.show.split(",");
-    for (const name of Object.keys(state.show)) state.show[name] = wished.includes(name);
-  }
-  state.theme = ["light", "dark"].includes(address.page) ? address.page : "";
-  for (const box of document.querySelectorAll("[data-layer]"))
-    /** @type {HTMLInputElement} */ (box).checked = state.show[/** @type {HTMLInputElement} */ (box).dataset.layer ?? ""];
+  theme.restore(address.page);
+  restoreLayers(state.show, address.show);
 }
 
 function connectCut() {
@@ -322,16 +346,7 @@ function connectCut() {
 }
 
 function connectView() {
-  const zoom = (factor) => () => {
-    camera.zoomAt(camera.size[0] / 2, camera.size[1] / 2, factor);
-    update();
-  };
-  byId("closer").addEventListener("click", zoom(1.25));
-  byId("farther").addEventListener("click", zoom(1 / 1.25));
-  byId("whole").addEventListener("click", () => {
-    camera.reset();
-    update();
-  });
+  connectZoom(camera, 1.25, update);
   for (const button of document.querySelectorAll("[data-view]"))
     button.addEventListener("click", () => {
       camera.reset();
@@ -345,71 +360,45 @@ function connectView() {
       update();
     },
     hovered: (at) => (at ? read(at) : leave()),
-    key: (key) => {
-      if (!keys[key]) return false;
-      keys[key]();
-      return true;
-    },
+    key: doing(keys),
     grab,
   });
   canvas.addEventListener("contextmenu", (event) => event.preventDefault()); // that button moves the view
 }
 
 function connect() {
-  slider.max = String(last);
-  slider.disabled = last === 0;
-  byId("play").disabled = last === 0;
-  slider.addEventListener("input", () => {
-    player.play(false);
-    slide(Number(slider.value));
-  });
-  slider.addEventListener("keydown", (event) => { // from scale to scale
-    const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -4, PageUp: 4 }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    slide(nearest() + step);
-  });
+  slider.max = String(last());
+  slider.disabled = last() === 0;
+  byId("play").disabled = last() === 0;
+  const step = (by) => () => slide(Math.round(state.at) + by);
+  connectSlider(slider, player, slide, { ArrowLeft: step(-1), ArrowDown: step(-1), ArrowRight: step(1), ArrowUp: step(1),
+    PageDown: () => leap(-1), PageUp: () => leap(1) });
   const has = { clusters: run.scales.some((scale) => scale.clusters), outline: Boolean(run.outline) };
-  for (const box of document.querySelectorAll("[data-layer]")) {
-    const input = /** @type {HTMLInputElement} */ (box);
-    const name = String(input.dataset.layer);
-    if (has[name] === false) input.closest("label")?.remove();
-    input.addEventListener("change", () => {
-      state.show[name] = input.checked;
-      update();
-    });
-  }
+  connectLayers(state.show, (name) => has[name] !== false, update);
   connectCut();
   connectView();
-  byId("theme").addEventListener("change", () => {
-    state.theme = byId("theme").value;
-    setTheme();
-    update();
-  });
-  systemDark.addEventListener("change", setTheme);
   byId("png").addEventListener("click", savePng);
   byId("space").addEventListener("webglcontextrestored", () => {
     scene.prepare();
-    setTheme();
+    theme.apply();
   });
   new ResizeObserver(resize).observe(byId("stage"));
   addEventListener("hashchange", () => {
     restore();
-    setTheme();
+    theme.apply();
     update();
   });
 }
 
 async function start() {
-  document.title = run.title;
-  byId("title").textContent = run.title;
-  byId("made").textContent = `Made by flowgrain ${run.version}`;
+  introduce(run);
   volume = await readVolume(run);
+  chain = chainOf(volume);
   camera = new Camera(volume.half, run.view);
   scene = new Scene(byId("space"), volume, run);
   restore();
   connect();
-  setTheme();
+  theme.apply();
   resize();
   update();
   if (!scene.ready) throw new Error("it offers no WebGL2");

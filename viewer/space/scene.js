@@ -99,8 +99,9 @@ export class Scene {
    * @param {import("./camera.js").Camera} camera
    * @param {{arrows: any[], clusters: {mesh: any, share: number}[], cut: any, outline: boolean, shadows: boolean, picked: number}} what
    * @param {number} ratio pixels of the canvas in one of the window
+   * @param {boolean} quick coarsely
    */
-  draw(camera, what, ratio) {
+  draw(camera, what, ratio, quick = false) {
     const { gl, volume, theme } = this;
     if (gl.isContextLost()) return;
     const { half, period } = volume;
@@ -118,7 +119,7 @@ export class Scene {
     }
     const floor = what.shadows && camera.seesInside(2, -1) ? -half[2] + 0.001 : undefined;
     const fog = [camera.distance - camera.radius, 2 * camera.radius];
-    const about = { setUp: (at) => this.setUp(at), matrix: this.matrix, eye: this.eye, size: this.size, palette: this.palette,
+    const about = { setUp: (at) => this.setUp(at), matrix: this.matrix, eye: this.eye, size: this.size, palette: this.palette, quick,
       speeds: this.run.speeds, ...theme, theme: theme.name, floor, fog, picked: what.picked,
       isDark: (speed) => luminance(colorParts(theme.given[0], this.run.speeds, speed)) < 0.3 };
     this.tubes.draw(about);

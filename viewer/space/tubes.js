@@ -3,6 +3,7 @@ import { build } from "../page/shaders.js";
 import { SECTION } from "./frames.js";
 
 const SIDES = 24;
+const FEWER_SIDES = 10; // of arrows that move, where drawing is slow
 const HALO = 1.6; // pixels of the page's colour round an arrow, so that crossing ones are told apart
 
 const vertex = `
@@ -14,6 +15,7 @@ layout(location = 4) in vec4 to_tangent;
 layout(location = 5) in vec4 to_normal;
 uniform mat4 view;
 uniform vec2 halo; // in the window, from -1 to 1
+uniform float sides;
 uniform float floor_at; // a shadow's; beyond the box: none
 out vec3 place;
 out vec3 normal;
@@ -21,7 +23,7 @@ out float speed;
 flat out float arrow;
 void main() {
   bool end = (gl_VertexID & 1) == 1;
-  float angle = 6.2831853 * float(gl_VertexID >> 1) / ${SIDES}.0;
+  float angle = 6.2831853 * float(gl_VertexID >> 1) / sides;
   vec4 at = end ? to_place : from_place;
   vec3 tangent = end ? to_tangent.xyz : from_tangent.xyz;
   vec3 side = end ? to_normal.xyz : from_normal.xyz;
@@ -129,17 +131,21 @@ export class Tubes {
     gl.bindVertexArray(this.array);
     gl.disable(gl.BLEND);
     gl.depthMask(true);
+    const sides = scene.quick ? FEWER_SIDES : SIDES;
+    gl.uniform1f(at("sides"), sides);
     const pass = (halo, plain, floor) => {
       gl.uniform2f(at("halo"), halo * (2 / scene.size[0]), halo * (2 / scene.size[1]));
       gl.uniform4fv(at("plain"), plain);
       gl.uniform1f(at("floor_at"), floor);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 2 * (SIDES + 1), this.bands);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 2 * (sides + 1), this.bands);
     };
     if (scene.floor !== undefined) pass(0, [...scene.shadow, 1], scene.floor);
-    gl.enable(gl.CULL_FACE);
-    gl.cullFace(gl.BACK); // bands wind the other way: what is seen of a thicker arrow behind the arrow itself
-    pass(HALO, [...scene.page, 1], -10);
-    gl.disable(gl.CULL_FACE);
+    if (!scene.quick) {
+      gl.enable(gl.CULL_FACE);
+      gl.cullFace(gl.BACK); // bands wind the other way: what is seen of a thicker arrow behind the arrow itself
+      pass(HALO, [...scene.page, 1], -10);
+      gl.disable(gl.CULL_FACE);
+    }
     pass(0, [0, 0, 0, 0], -10);
   }
 }

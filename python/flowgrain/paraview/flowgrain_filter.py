@@ -187,6 +187,9 @@ def _on_raster(data, samples):
     points = dataset_adapter.WrapDataObject(cells).Points.astype(np.float64)
     ways, origin = _plane_of(points)
     flat = len(ways) == 2
+    if not flat and _dimension_of(cells) < 3:
+        raise ValueError("the cells are a surface or lines that lie in no plane; vectors of a "
+                         "volume or of a plane are needed, as of a slice")
     if flat:
         points = (points - origin) @ ways.T
         _move(cells, np.column_stack([points, np.zeros(len(points))]))
@@ -225,6 +228,12 @@ def _plane_of(points):
     ways = np.array([pair[k] for k in sorted(pair)])
     ways[np.abs(ways) < 1e-7] = 0.0
     return ways, (middle @ normal) * normal
+
+
+def _dimension_of(cells):
+    types = vtk_to_numpy(cells.GetCellTypesArray())
+    return max(cells.GetCell(int(n)).GetCellDimension()
+               for n in np.unique(types, return_index=True)[1])
 
 
 def _move(cells, places):
