@@ -107,6 +107,10 @@ fg_status fg__nc_mesh_describe(fg_inventory_vector *vector, const fg__nc_file *f
 void fg__nc_model_plane(fg__nc_mesh *mesh, const fg__nc_file *file,
                         const fg__nc_variable *u, const fg__sphere_cells *cells);
 
+/* The same of a grid on axes of longitude and latitude; NULL: none. */
+const char *fg__nc_axes_plane(char out[FG__NC_TEXT], const fg__nc_file *file,
+                              const fg__nc_variable *u, const fg__nc_grid *grid);
+
 /* cells.c. Cells between columns * rows points, which close round the world, or across
  * the fold of a tripolar grid's last row, where those are neighbours. *columns becomes
  * less where the last ones repeat the first; points keep their places. */
