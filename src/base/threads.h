@@ -30,6 +30,9 @@ static inline fg__thread fg__single_thread(void)
 fg_status fg__threads_create(fg__threads **out, fg_context *context, int thread_count);
 void fg__threads_destroy(fg__threads *threads);
 
+/* Threads that can run at the same time, 1 to FG__MOST_THREADS. */
+int fg__threads_available(void);
+
 /* 1 for NULL. */
 int fg__threads_count(const fg__threads *threads);
 

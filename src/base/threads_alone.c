@@ -14,6 +14,11 @@ void fg__threads_destroy(fg__threads *threads)
   (void)threads;
 }
 
+int fg__threads_available(void)
+{
+  return 1;
+}
+
 int fg__threads_count(const fg__threads *threads)
 {
   (void)threads;

@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 
@@ -31,6 +32,12 @@ typedef struct start {
   fg__threads *threads;
   int index;
 } start;
+
+int fg__threads_available(void)
+{
+  const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+  return cores < 1 ? 1 : cores > FG__MOST_THREADS ? FG__MOST_THREADS : (int)cores;
+}
 
 static inline void pause_briefly(unsigned look)
 {

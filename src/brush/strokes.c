@@ -1,10 +1,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/memory.h"
 #include "base/mix.h"
+#include "base/threads.h"
 #include "brush/layer.h"
 
 static const double default_anisotropy = 0.15;
@@ -106,7 +106,7 @@ static fg_status settle(work *w)
   if (o->seed == 0)
     o->seed = 1;
   if (o->threads == 0)
-    o->threads = (int)fmax((double)sysconf(_SC_NPROCESSORS_ONLN), 1.0);
+    o->threads = fg__threads_available();
   if (!o->clusters)
     o->cluster_count = 0;
   if (o->cluster_count < 0 || o->cluster_count > FG_MOST_BRUSH_SCALES)

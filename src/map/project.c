@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/memory.h"
 #include "base/threads.h"
@@ -326,10 +325,9 @@ static int threads_for(const fg_map_options *options, const fg__map_plane *plane
                        int parts)
 {
   const double places = (double)plane->size[0] * plane->size[1] * parts * parts;
-  const long cores = sysconf(_SC_NPROCESSORS_ONLN);
   if (options->threads > 0)
     return options->threads;
-  return (int)fmax(1.0, fmin((double)cores, places / THREAD_PLACES));
+  return (int)fmax(1.0, fmin(fg__threads_available(), places / THREAD_PLACES));
 }
 
 static fg_status check_options(fg_context *context, const fg_map_options *options)

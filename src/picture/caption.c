@@ -104,6 +104,40 @@ static void append(char out[FG__CAPTION_BYTES], const char *text, size_t length)
   out[used + length] = '\0';
 }
 
+/* Bytes at the beginning of a text that part what stands beside them: spaces, commas, a
+ * middle dot (C2 B7), dashes (E2 80 93, 94). */
+static size_t parting(const char *text)
+{
+  size_t length = 0;
+  for (;;) {
+    const char *at = text + length;
+    if (*at && strchr(" ,;:|/-", *at))
+      ++length;
+    else if (strncmp(at, "\xC2\xB7", 2) == 0)
+      length += 2;
+    else if (strncmp(at, "\xE2\x80\x93", 3) == 0 || strncmp(at, "\xE2\x80\x94", 3) == 0)
+      length += 3;
+    else
+      return length;
+  }
+}
+
+/* A value that is not there: what would part it from what stands before it goes, too, or
+ * at the beginning from what comes; so do brackets round it. Returns where the wish goes
+ * on. */
+static const char *leave_out(char out[FG__CAPTION_BYTES], const char *at)
+{
+  size_t used = strlen(out);
+  if (used > 0 && out[used - 1] == '(' && *at == ')') {
+    out[--used] = '\0';
+    ++at;
+  }
+  for (size_t n = 0; n < used; ++n)
+    if (((unsigned char)out[n] & 0xC0) != 0x80 && n + parting(out + n) == used)
+      out[used = n] = '\0';
+  return used == 0 ? at + parting(at) : at;
+}
+
 void fg__caption_fill(char out[FG__CAPTION_BYTES], const char *wanted,
                       const fg__caption_value *values, size_t count)
 {
@@ -119,8 +153,10 @@ void fg__caption_fill(char out[FG__CAPTION_BYTES], const char *wanted,
       ++k;
     if (*at && k < count) {
       const char *text = values[k].text ? values[k].text : "";
-      append(out, text, strlen(text));
       at += strlen(values[k].name);
+      append(out, text, strlen(text));
+      if (!*text)
+        at = leave_out(out, at);
     } else if (*at) {
       append(out, at++, 1);
     }

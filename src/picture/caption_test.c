@@ -31,6 +31,29 @@ static void expect(const fg_icons *icons, const char *wanted)
   assert_string_equal(subtitle, "");
 }
 
+/* Nothing is left of a value that the field does not have, nor of what would part it. */
+static void names_without_a_value(const fg_icons *icons)
+{
+  static const char *const cases[][2] = {
+      {"Wind, {time}", "Wind"},
+      {"{time}: wind", "wind"},
+      {"Wind, {time}, {level}", "Wind, 10 m"},
+      {"Wind ({time}), {level}", "Wind, 10 m"},
+      {"Wind \xE2\x80\x93 {time} \xC2\xB7 {level}", "Wind \xC2\xB7 10 m"},
+      {"{time}", ""},
+      {"\xC3\xB7{time}", "\xC3\xB7"}, /* ends in the middle dot's last byte */
+      {"{level}, ", "10 m, "},
+  };
+  const fg_field_arrays field = {
+      .dimension = 2, .velocity_name = {"U10", "V10"}, .title = "Field", .level = "10 m"};
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
+    const char *const wanted[2] = {cases[n][0], NULL};
+    fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
+    assert_string_equal(title, cases[n][1]);
+  }
+}
+
 /* What stands for a name may hold what looks like one. */
 static void names_in_braces_are_what_the_field_says(void **state)
 {
@@ -57,6 +80,7 @@ static void names_in_braces_are_what_the_field_says(void **state)
     assert_string_equal(text[0], cases[n].expected[0]);
     assert_string_equal(text[1], cases[n].expected[1]);
   }
+  names_without_a_value(icons);
   /* cut before a whole character */
   char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES], wish[100], long_time[300];
   memset(long_time, 'x', sizeof long_time);

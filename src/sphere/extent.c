@@ -1,10 +1,16 @@
 /* What a sphere's cells cover: longitudes and latitudes, area, mean spacing. */
+#include "base/memory.h"
 #include "field/field.h"
 #include "sphere/inside.h"
+
+#include <stdlib.h>
 
 enum { BINS = 720 }; /* of longitude, half a degree each */
 
 static const double BIN = 360.0 / BINS;
+/* Of the cells, for threads; fewer cells are not divided. */
+enum { PARTS = 64, DIVIDED = 1 << 16 };
+
 static const double WHOLE_AREA = 12.566370614359172; /* 4 pi */
 
 /* The longitudes of a bin that are covered, in degrees from its beginning. */
@@ -124,10 +130,17 @@ static void place_corners(cell_shape *shape, const fg__sphere *sphere,
   }
 }
 
-static void add_cells(cover *sum, const fg__sphere *sphere, const double *longitude,
-                      const double *latitude)
+typedef struct measuring {
+  const fg__sphere *sphere;
+  const double *longitude, *latitude;
+  int parts;
+  cover *part; /* [parts] */
+} measuring;
+
+static void add_cells(cover *sum, const measuring *work, size_t begin, size_t end)
 {
-  for (size_t n = 0; n < sphere->count; ++n) {
+  const fg__sphere *sphere = work->sphere;
+  for (size_t n = begin; n < end; ++n) {
     int point[4], present = 0;
     cell_shape shape = {.corners = fg__sphere_corners(sphere, n, point)};
     sum->has_quads = sum->has_quads || shape.corners > 3;
@@ -135,14 +148,53 @@ static void add_cells(cover *sum, const fg__sphere *sphere, const double *longit
       present += !sphere->missing || !sphere->missing[point[k]];
     if (present == 0)
       continue;
-    place_corners(&shape, sphere, longitude, latitude, point);
+    place_corners(&shape, sphere, work->longitude, work->latitude, point);
     add_cell(sum, &shape);
     const double area =
         sphere->field ? area_in_grid(&shape) : area_of(sphere, point, shape.corners);
     sum->area += area * present / shape.corners;
   }
-  for (size_t n = 0; n < sphere->points; ++n)
+}
+
+static void add_points(cover *sum, const fg__sphere *sphere, size_t begin, size_t end)
+{
+  for (size_t n = begin; n < end; ++n)
     sum->present += !sphere->missing || !sphere->missing[n];
+}
+
+/* The parts' division does not depend on the threads, nor so the area's last bits. */
+static void measure_parts(void *argument, const fg__thread *thread)
+{
+  const measuring *work = argument;
+  const fg__sphere *sphere = work->sphere;
+  for (int k = thread->index; k < work->parts; k += thread->count) {
+    cover *sum = &work->part[k];
+    const size_t parts = (size_t)work->parts, part = (size_t)k;
+    sum->south = 90.0;
+    sum->north = -90.0;
+    add_cells(sum, work, sphere->count * part / parts,
+              sphere->count * (part + 1) / parts);
+    add_points(sum, sphere, sphere->points * part / parts,
+               sphere->points * (part + 1) / parts);
+  }
+}
+
+static void unite(cover *sum, const cover *part)
+{
+  for (int n = 0; n < BINS; ++n) {
+    const bin *more = &part->bins[n];
+    bin *b = &sum->bins[n];
+    if (!more->covered)
+      continue;
+    b->low = b->covered ? fmin(b->low, more->low) : more->low;
+    b->high = b->covered ? fmax(b->high, more->high) : more->high;
+    b->covered = true;
+  }
+  sum->south = fmin(sum->south, part->south);
+  sum->north = fmax(sum->north, part->north);
+  sum->area += part->area;
+  sum->present += part->present;
+  sum->has_quads = sum->has_quads || part->has_quads;
 }
 
 /* West and east of the longest run of bins that nothing covers. */
@@ -175,20 +227,37 @@ static void find_gap(fg__sphere_extent *out, const cover *sum)
     out->east -= 360.0;
 }
 
-double fg__sphere_measure(fg__sphere *sphere, const double *longitude,
-                          const double *latitude)
+static double describe(fg__sphere *sphere, const cover *sum)
 {
-  cover sum = {.south = 90.0, .north = -90.0};
   fg__sphere_extent *out = &sphere->extent;
-  add_cells(&sum, sphere, longitude, latitude);
-  find_gap(out, &sum);
-  out->south = sphere->has_pole[0] ? -90.0 : sum.south;
-  out->north = sphere->has_pole[1] ? 90.0 : sum.north;
-  out->share = fmin(sum.area / WHOLE_AREA, 1.0);
-  out->points = sum.present;
-  out->scattered = !sum.has_quads;
+  find_gap(out, sum);
+  out->south = sphere->has_pole[0] ? -90.0 : sum->south;
+  out->north = sphere->has_pole[1] ? 90.0 : sum->north;
+  out->share = fmin(sum->area / WHOLE_AREA, 1.0);
+  out->points = sum->present;
+  out->scattered = !sum->has_quads;
   out->spacing =
-      sqrt(sum.area / (double)(sum.present > 0 ? sum.present : 1)) / FG__RADIANS;
+      sqrt(sum->area / (double)(sum->present > 0 ? sum->present : 1)) / FG__RADIANS;
   const double height = sin(out->north * FG__RADIANS) - sin(out->south * FG__RADIANS);
-  return sum.area / ((out->east - out->west) * FG__RADIANS * height);
+  return sum->area / ((out->east - out->west) * FG__RADIANS * height);
+}
+
+fg_status fg__sphere_measure(double *layers, fg__sphere *sphere, fg_context *context,
+                             fg__threads *threads, const double *longitude,
+                             const double *latitude)
+{
+  measuring work = {.sphere = sphere,
+                    .longitude = longitude,
+                    .latitude = latitude,
+                    .parts = sphere->count < DIVIDED ? 1 : PARTS};
+  work.part = fg__allocate((size_t)work.parts, sizeof *work.part);
+  if (!work.part)
+    return fg__fail_memory(context, "what the cells cover",
+                           (size_t)work.parts * sizeof *work.part);
+  fg__threads_run(threads, measure_parts, &work);
+  for (int k = 1; k < work.parts; ++k)
+    unite(&work.part[0], &work.part[k]);
+  *layers = describe(sphere, &work.part[0]);
+  free(work.part);
+  return FG_STATUS_OK;
 }

@@ -14,6 +14,19 @@ static int columns_of(const fg_field *field)
   return field->contents.size[0];
 }
 
+void fg__sphere_grid_corners(const fg__sphere *sphere, size_t cell, int point[4])
+{
+  const fg_field_arrays *grid = fg_field_contents(sphere->field);
+  const size_t columns = (size_t)grid->size[0];
+  const size_t across = grid->period[0] > 0.0 ? columns : columns - 1;
+  const size_t i = cell % across, next = i + 1 == columns ? 0 : i + 1;
+  const size_t row = cell / across * columns;
+  point[0] = (int)(row + i);
+  point[1] = (int)(row + next);
+  point[2] = (int)(row + columns + next);
+  point[3] = (int)(row + columns + i);
+}
+
 /* The row of a grid nearest the pole, and how far off it is from that in rows. */
 static int last_row(const fg_field *field, bool north, double *rows_off)
 {
@@ -58,14 +71,16 @@ static fg_status set_vectors(fg__sphere *sphere, fg_context *context)
   const int columns = columns_of(field);
   fg_status status = fg__sphere_begin(sphere, context,
                                       (size_t)columns * (size_t)arrays->size[1], arrays);
+  bool all = true;
   for (int j = 0; j < arrays->size[1] && status == FG_STATUS_OK; ++j)
-    for (int i = 0; i < columns && status == FG_STATUS_OK; ++i) {
+    for (int i = 0; i < columns; ++i) {
       const size_t n = (size_t)j * (size_t)columns + (size_t)i;
       const fg__sphere_frame at =
           fg__sphere_frame_at(arrays->axis[0][i], arrays->axis[1][j]);
-      status = fg__sphere_set(sphere, context, n, &at, arrays->velocity[0][n],
-                              arrays->velocity[1][n]);
+      all &=
+          fg__sphere_set(sphere, n, &at, arrays->velocity[0][n], arrays->velocity[1][n]);
     }
+  fg__sphere_all_set(sphere, !all);
   sphere->count = (size_t)field->axis[0].cells * (size_t)field->axis[1].cells;
   return status;
 }
@@ -87,13 +102,16 @@ fg_status fg__sphere_of_field(fg__sphere **out, fg_context *context,
   fg_status status = set_vectors(sphere, context);
   if (status == FG_STATUS_OK)
     status = fg__sphere_fill(sphere, context);
+  if (status == FG_STATUS_OK) {
+    double layers;
+    add_pole(sphere, false);
+    add_pole(sphere, true);
+    status = fg__sphere_measure(&layers, sphere, context, NULL, NULL, NULL);
+  }
   if (status != FG_STATUS_OK) {
     fg__sphere_destroy(sphere);
     return status;
   }
-  add_pole(sphere, false);
-  add_pole(sphere, true);
-  fg__sphere_measure(sphere, NULL, NULL);
   *out = sphere;
   return FG_STATUS_OK;
 }

@@ -53,7 +53,8 @@ fg_status fg__sphere_begin(fg__sphere *sphere, fg_context *context, size_t point
 {
   sphere->points = points;
   sphere->vector = fg__allocate(points, 3 * sizeof *sphere->vector);
-  if (!sphere->vector)
+  sphere->missing = fg__allocate(points, 1);
+  if (!sphere->vector || !sphere->missing)
     return fg__fail_memory(context, "vectors on the sphere",
                            points * 3 * sizeof *sphere->vector);
   if (words && !keep_texts(sphere, words))
@@ -61,21 +62,12 @@ fg_status fg__sphere_begin(fg__sphere *sphere, fg_context *context, size_t point
   return FG_STATUS_OK;
 }
 
-fg_status fg__sphere_set(fg__sphere *sphere, fg_context *context, size_t n,
-                         const fg__sphere_frame *at, float east, float north)
+void fg__sphere_all_set(fg__sphere *sphere, bool any_missing)
 {
-  if (isfinite(east) && isfinite(north)) {
-    for (int k = 0; k < 3; ++k)
-      sphere->vector[3 * n + (size_t)k] =
-          (float)((double)east * at->east[k] + (double)north * at->north[k]);
-    return FG_STATUS_OK;
-  }
-  if (!sphere->missing)
-    sphere->missing = fg__allocate(sphere->points, 1);
-  if (!sphere->missing)
-    return fg__fail_memory(context, "the mask", sphere->points);
-  sphere->missing[n] = 1;
-  return FG_STATUS_OK;
+  if (any_missing)
+    return;
+  free(sphere->missing);
+  sphere->missing = NULL;
 }
 
 /* Adds the corners of a cell that are not missing to those that are. */

@@ -46,6 +46,7 @@ typedef struct fg__sphere_cells {
   const fg_field_arrays *words; /* names and units of the velocity, title, time, level;
                                    `projection`: of the plane in which the points are a
                                    grid; NULL: none */
+  int threads; /* 0: as many as there are cores, where there is work for them */
 } fg__sphere_cells;
 
 /* A field on a longitude-latitude grid (scale GEO, 2D, all of its rows), borrowed: it

@@ -200,6 +200,43 @@ static void cells_are_smooth_everywhere(void **state)
   }
 }
 
+/* Any number of threads makes the same sphere, to the bit: of enough cells to be divided,
+ * some of them missing, with the first face's in the middle of the order. */
+static void threads_make_the_same(void **state)
+{
+  enum { COLUMNS = 501, ROWS = 161, PLACES = 4000 };
+  fg_context *context = *state;
+  fg__sphere_extent extent[3];
+  static float u[3][PLACES], v[3][PLACES];
+  static double longitude[PLACES], latitude[PLACES];
+  for (int n = 0; n < PLACES; ++n) {
+    longitude[n] = 360.0 * (n * 0.618034 - floor(n * 0.618034));
+    latitude[n] = -30.0 + 120.0 * (n + 0.5) / PLACES;
+  }
+  size_t present = 0;
+  for (int k = 0; k < 3; ++k) {
+    fg__sphere_cells cells = displaced(COLUMNS, ROWS, false);
+    cells.threads = 1 + 2 * k;
+    for (size_t n = 0; n < cells.points; ++n)
+      if (n % COLUMNS / 40 % 3 == 1 && n / COLUMNS / 20 % 2)
+        cells.east[n] = NAN;
+    fg__sphere *sphere;
+    must(context, fg__sphere_of_cells(&sphere, context, &cells));
+    fg__sphere_extent_of(&extent[k], sphere);
+    fg__sphere_sample(u[k], v[k], sphere, PLACES, longitude, latitude);
+    fg__sphere_destroy(sphere);
+    assert_memory_equal(u[k], u[0], sizeof u[0]);
+    assert_memory_equal(v[k], v[0], sizeof v[0]);
+    assert_true(extent[k].spacing == extent[0].spacing);
+    assert_true(extent[k].share == extent[0].share);
+    assert_true(extent[k].points == extent[0].points);
+    assert_true(extent[k].west == extent[0].west && extent[k].north == extent[0].north);
+  }
+  for (int n = 0; n < PLACES; ++n)
+    present += isfinite(u[0][n]);
+  assert_true(present > PLACES / 2 && present < PLACES - PLACES / 20);
+}
+
 /* Points on the corners and the sides of cells are found, and have the same value from
  * whichever cell; the order and the sense of the corners do not matter. */
 static void sides_belong_to_both(void **state)
@@ -300,6 +337,7 @@ int main(void)
       cmocka_unit_test(grids_are_smooth_everywhere),
       cmocka_unit_test(a_grid_ends_where_it_ends),
       cmocka_unit_test(cells_are_smooth_everywhere),
+      cmocka_unit_test(threads_make_the_same),
       cmocka_unit_test(sides_belong_to_both),
       cmocka_unit_test(coasts_lie_half_way),
       cmocka_unit_test(what_is_no_mesh_is_refused),

@@ -2,9 +2,9 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "base/memory.h"
+#include "base/threads.h"
 #include "texture/contrast.h"
 
 enum { LEAST_LONGEST = 16, MOST_PIXELS = 16384, USUAL_LONGEST = 1024 };
@@ -98,10 +98,7 @@ static double choose_length(const int size[2], const fg_texture_options *o)
 
 static int choose_threads(const fg_texture_options *o)
 {
-  if (o->threads)
-    return o->threads;
-  const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-  return cores < 1 ? 1 : (cores > FG__MOST_THREADS ? FG__MOST_THREADS : (int)cores);
+  return o->threads ? o->threads : fg__threads_available();
 }
 
 static fg_status paint(fg_texture *texture, fg_context *context, const fg__canvas *canvas)

@@ -3,9 +3,9 @@
 #include <cairo.h>
 #include <math.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "base/memory.h"
+#include "base/threads.h"
 #include "picture/caption.h"
 #include "picture/page/text.h"
 #include "picture/render/box_axes.h"
@@ -97,8 +97,7 @@ static fg_status check_options(fg_context *context, const fg_solid_options *opti
 
 static void settle_threads(fg__rendering *out, int threads)
 {
-  long cores = threads > 0 ? threads : sysconf(_SC_NPROCESSORS_ONLN);
-  out->threads = cores > 1 ? (int)cores : 1;
+  out->threads = threads > 0 ? threads : fg__threads_available();
 }
 
 /* How low the caption reaches, with some room below it. */

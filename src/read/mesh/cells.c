@@ -15,21 +15,24 @@ static const double NEXT_PLACE = 1.6;
 
 enum { MOST_REPEATED = 3, LOOKED_AT = 60 };
 
-static double distance(const double *unit, size_t a, size_t b)
+static double distance(const fg__nc_positions *at, size_t a, size_t b)
 {
-  return fg__apart(unit + 3 * a, unit + 3 * b);
+  double one[3], other[3];
+  fg__nc_unit_vector(one, at, a);
+  fg__nc_unit_vector(other, at, b);
+  return fg__apart(one, other);
 }
 
 /* The distance of the first column's points from those of another, in steps along i: the
  * mean over rows. */
-static double seam(const double *unit, const size_t size[2], size_t column)
+static double seam(const fg__nc_positions *at, const size_t size[2], size_t column)
 {
   double sum = 0.0;
   size_t count = 0;
   for (size_t j = 0; j < size[1]; j += size[1] / LOOKED_AT + 1) {
     const size_t row = j * size[0];
-    const double step = distance(unit, row, row + 1);
-    const double off = distance(unit, row, row + column);
+    const double step = distance(at, row, row + 1);
+    const double off = distance(at, row, row + column);
     if (!(step > 0.0) || !isfinite(off))
       continue;
     sum += off / step;
@@ -38,28 +41,28 @@ static double seam(const double *unit, const size_t size[2], size_t column)
   return count > 0 ? sum / (double)count : HUGE_VAL;
 }
 
-void fg__nc_closure(size_t *repeated, bool *closed, const double *unit,
+void fg__nc_closure(size_t *repeated, bool *closed, const fg__nc_positions *at,
                     const size_t size[2])
 {
   *repeated = 0;
   *closed = false;
   for (size_t r = 1; r <= MOST_REPEATED && size[0] > 2 * r + 2; ++r)
-    if (seam(unit, size, size[0] - r) < SAME_PLACE) {
+    if (seam(at, size, size[0] - r) < SAME_PLACE) {
       *repeated = r;
       *closed = true;
       return;
     }
-  *closed = size[0] > 3 && seam(unit, size, size[0] - 1) < NEXT_PLACE;
+  *closed = size[0] > 3 && seam(at, size, size[0] - 1) < NEXT_PLACE;
 }
 
 /* Whether the last row lies beside itself, column i beside the last but i. */
-static bool is_folded(const double *unit, const size_t size[2], size_t columns)
+static bool is_folded(const fg__nc_positions *at, const size_t size[2], size_t columns)
 {
   double across = 0.0, steps = 0.0;
   const size_t last = (size[1] - 1) * size[0];
   for (size_t i = 0; i < columns; i += columns / LOOKED_AT + 1) {
-    const double off = distance(unit, last + i, last + columns - 1 - i);
-    const double step = distance(unit, last + i, last + i - size[0]);
+    const double off = distance(at, last + i, last + columns - 1 - i);
+    const double step = distance(at, last + i, last + i - size[0]);
     if (!isfinite(off) || !isfinite(step))
       continue;
     across += off;
@@ -77,11 +80,11 @@ static void put(int *corner, size_t n, size_t a, size_t b, size_t c, size_t d)
 }
 
 fg_status fg__nc_cells_make(int **corner, size_t *count, const fg__nc_file *file,
-                            const double *unit, const size_t size[2], size_t repeated,
-                            bool closed)
+                            const fg__nc_positions *at, const size_t size[2],
+                            size_t repeated, bool closed)
 {
   const size_t columns = size[0] - repeated, across = closed ? columns : columns - 1;
-  const bool folded = is_folded(unit, size, columns);
+  const bool folded = is_folded(at, size, columns);
   const size_t most = across * size[1];
   size_t n = 0;
   *corner = fg__allocate(most, 4 * sizeof **corner);

@@ -83,9 +83,8 @@ fg_status fg__nc_shift_find(bool *found, fg__nc_mesh *mesh, const fg__nc_file *f
  * tells. */
 bool fg__nc_shift_by_size(fg__nc_mesh *mesh, const fg__nc_file *file, int k);
 
-/* Unit vectors of positions, [3 * count]. */
-fg_status fg__nc_unit_vectors(double **out, const fg__nc_file *file,
-                              const fg__nc_positions *positions, size_t count);
+/* The unit vector of position n; the first number is NaN where there is none. */
+void fg__nc_unit_vector(double out[3], const fg__nc_positions *positions, size_t n);
 
 /* read.c. The points and cells of a pair at one time and level; mask may be NULL. */
 fg_status fg__nc_mesh_read(fg__sphere_cells *out, fg__nc_mesh *mesh,
@@ -108,15 +107,19 @@ fg_status fg__nc_mesh_describe(fg_inventory_vector *vector, const fg__nc_file *f
 void fg__nc_model_plane(fg__nc_mesh *mesh, const fg__nc_file *file,
                         const fg__nc_variable *u, const fg__sphere_cells *cells);
 
+/* The same of a grid on axes of longitude and latitude; NULL: none. */
+const char *fg__nc_axes_plane(char out[FG__NC_TEXT], const fg__nc_file *file,
+                              const fg__nc_variable *u, const fg__nc_grid *grid);
+
 /* cells.c. Cells between columns * rows points, which close round the world, or across
  * the fold of a tripolar grid's last row, where those are neighbours. *columns becomes
  * less where the last ones repeat the first; points keep their places. */
 fg_status fg__nc_cells_make(int **corner, size_t *count, const fg__nc_file *file,
-                            const double *unit, const size_t size[2], size_t repeated,
-                            bool closed);
+                            const fg__nc_positions *at, const size_t size[2],
+                            size_t repeated, bool closed);
 
 /* How many of the last columns repeat the first ones, and whether the row closes. */
-void fg__nc_closure(size_t *repeated, bool *closed, const double *unit,
+void fg__nc_closure(size_t *repeated, bool *closed, const fg__nc_positions *at,
                     const size_t size[2]);
 
 #endif

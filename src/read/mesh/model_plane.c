@@ -12,9 +12,9 @@
 /* The Earth's radius in WRF, metres (share/module_model_constants). */
 static const double RADIUS = 6370000.0;
 
-/* MAP_PROJ. Grids of 3, Mercator's, and 6 stand on axes of longitude and latitude, which
- * are no mesh. */
-enum { LAMBERT = 1, STEREOGRAPHIC = 2 };
+/* MAP_PROJ. Grids of MERCATOR and 6 stand on axes of longitude and latitude, which are no
+ * mesh; those of 6 are even in degrees. */
+enum { LAMBERT = 1, STEREOGRAPHIC = 2, MERCATOR = 3 };
 
 /* Points that are compared along each axis, and how far off an even grid they may lie, in
  * cells: farther it is another projection, or a grid that was cut out in another way. */
@@ -51,6 +51,8 @@ static bool compose(char *out, size_t size, const fg__nc_variable *all)
   else if (kind == STEREOGRAPHIC && fabs(meridian) <= 360.0)
     written = snprintf(out, size, "+proj=stere +lat_0=%d +lat_ts=%.9g +lon_0=%.9g",
                        one < 0.0 ? -90 : 90, one, meridian);
+  else if (kind == MERCATOR && fabs(one) < 90.0 && fabs(meridian) <= 360.0)
+    written = snprintf(out, size, "+proj=merc +lat_ts=%.9g +lon_0=%.9g", one, meridian);
   if (written > 0 && (size_t)written < size)
     written +=
         snprintf(out + written, size - (size_t)written, " +R=%.9g +units=km", RADIUS);
@@ -58,15 +60,26 @@ static bool compose(char *out, size_t size, const fg__nc_variable *all)
   return written > 0 && (size_t)written < size;
 }
 
-/* The first and last index along each axis at which both coordinates are known. */
-static bool find_inside(size_t low[2], size_t high[2], const fg__sphere_cells *cells,
-                        const size_t size[2])
+/* Where the points of a grid lie: each of its own, or on axes. */
+typedef struct lattice {
+  const double *longitude, *latitude;
+  size_t size[2];
+  bool on_axes;
+} lattice;
+
+static double longitude_of(const lattice *of, size_t i, size_t j)
 {
-  low[0] = size[0], low[1] = size[1], high[0] = high[1] = 0;
-  for (size_t j = 0; j < size[1]; ++j)
-    for (size_t i = 0; i < size[0]; ++i) {
-      const size_t n = j * size[0] + i, at[2] = {i, j};
-      for (int k = 0; k < 2 && isfinite(cells->longitude[n]); ++k) {
+  return of->longitude[of->on_axes ? i : j * of->size[0] + i];
+}
+
+/* The first and last index along each axis at which both coordinates are known. */
+static bool find_inside(size_t low[2], size_t high[2], const lattice *of)
+{
+  low[0] = of->size[0], low[1] = of->size[1], high[0] = high[1] = 0;
+  for (size_t j = 0; j < of->size[1]; ++j)
+    for (size_t i = 0; i < of->size[0]; ++i) {
+      const size_t at[2] = {i, j};
+      for (int k = 0; k < 2 && isfinite(longitude_of(of, i, j)); ++k) {
         low[k] = at[k] < low[k] ? at[k] : low[k];
         high[k] = at[k] > high[k] ? at[k] : high[k];
       }
@@ -74,30 +87,30 @@ static bool find_inside(size_t low[2], size_t high[2], const fg__sphere_cells *c
   return low[0] < high[0] && low[1] < high[1];
 }
 
-static void image_of(double at[2], const fg__map *map, const fg__sphere_cells *cells,
-                     size_t n)
+static void image_of(double at[2], const fg__map *map, const lattice *of, size_t i,
+                     size_t j)
 {
-  double longitude = cells->longitude[n];
+  double longitude = longitude_of(of, i, j);
+  const double latitude = of->latitude[of->on_axes ? j : j * of->size[0] + i];
   longitude -= 360.0 * nearbyint((longitude - fg__map_center(map)) / 360.0);
-  fg__map_forward(map, 1, &longitude, &cells->latitude[n], &at[0], &at[1]);
+  fg__map_forward(map, 1, &longitude, &latitude, &at[0], &at[1]);
 }
 
 /* Whether the points are an even grid along the plane's axes. */
-static bool is_even(const fg__map *map, const fg__sphere_cells *cells,
-                    const size_t size[2])
+static bool is_even(const fg__map *map, const lattice *of)
 {
   size_t low[2], high[2];
   double first[2], last[2], step[2];
-  if (cells->points != size[0] * size[1] || !find_inside(low, high, cells, size))
+  if (!find_inside(low, high, of))
     return false;
-  image_of(first, map, cells, low[1] * size[0] + low[0]);
-  image_of(last, map, cells, high[1] * size[0] + high[0]);
+  image_of(first, map, of, low[0], low[1]);
+  image_of(last, map, of, high[0], high[1]);
   for (int k = 0; k < 2; ++k)
     step[k] = (last[k] - first[k]) / (double)(high[k] - low[k]);
   for (size_t j = low[1]; j <= high[1]; j += (high[1] - low[1]) / COMPARED + 1)
     for (size_t i = low[0]; i <= high[0]; i += (high[0] - low[0]) / COMPARED + 1) {
       double at[2];
-      image_of(at, map, cells, j * size[0] + i);
+      image_of(at, map, of, i, j);
       const double off[2] = {at[0] - first[0] - step[0] * (double)(i - low[0]),
                              at[1] - first[1] - step[1] * (double)(j - low[1])};
       if (!(fabs(off[0]) <= LARGEST_RESIDUAL * fabs(step[0]) &&
@@ -107,16 +120,40 @@ static bool is_even(const fg__map *map, const fg__sphere_cells *cells,
   return true;
 }
 
-void fg__nc_model_plane(fg__nc_mesh *mesh, const fg__nc_file *file,
-                        const fg__nc_variable *u, const fg__sphere_cells *cells)
+/* The plane that the attributes tell, "" where they tell none or it does not fit. */
+static void find_plane(char *out, size_t size, const fg__nc_file *file,
+                       const fg__nc_variable *u, const lattice *of)
 {
   const fg__nc_variable all = {
       .owner = u->owner, .group = file->roots[u->file], .id = NC_GLOBAL};
   fg__map *map = NULL;
-  if (!fg_has_feature(FG_FEATURE_MAPS) ||
-      !compose(mesh->plane, sizeof mesh->plane, &all) ||
-      fg__map_create(&map, NULL, mesh->plane) != FG_STATUS_OK ||
-      !is_even(map, cells, mesh->size))
-    mesh->plane[0] = '\0';
+  if (!fg_has_feature(FG_FEATURE_MAPS) || !compose(out, size, &all) ||
+      fg__map_create(&map, NULL, out) != FG_STATUS_OK || !is_even(map, of))
+    out[0] = '\0';
   fg__map_destroy(map);
+}
+
+void fg__nc_model_plane(fg__nc_mesh *mesh, const fg__nc_file *file,
+                        const fg__nc_variable *u, const fg__sphere_cells *cells)
+{
+  const lattice of = {.longitude = cells->longitude,
+                      .latitude = cells->latitude,
+                      .size = {mesh->size[0], mesh->size[1]}};
+  mesh->plane[0] = '\0';
+  if (cells->points == mesh->size[0] * mesh->size[1])
+    find_plane(mesh->plane, sizeof mesh->plane, file, u, &of);
+}
+
+const char *fg__nc_axes_plane(char out[FG__NC_TEXT], const fg__nc_file *file,
+                              const fg__nc_variable *u, const fg__nc_grid *grid)
+{
+  if (grid->dimension != 2 || grid->scale != FG_SCALE_GEO || !grid->axis[0].coordinate ||
+      !grid->axis[1].coordinate)
+    return NULL;
+  const lattice of = {.longitude = grid->axis[0].coordinate,
+                      .latitude = grid->axis[1].coordinate,
+                      .size = {grid->axis[0].size, grid->axis[1].size},
+                      .on_axes = true};
+  find_plane(out, FG__NC_TEXT, file, u, &of);
+  return out[0] ? out : NULL;
 }

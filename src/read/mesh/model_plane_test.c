@@ -31,6 +31,8 @@ static const model MODELS[] = {
     {2, 60.0, -45.0, 71.0,
      "+proj=stere +lat_0=90 +lat_ts=60 +lon_0=-45 +R=6370000 +units=km", "+proj=stere",
      1.0},
+    {3, 20.0, 178.0, 24.0, "+proj=merc +lat_ts=20 +lon_0=178 +R=6370000 +units=km",
+     "+proj=merc", 0.0},
 };
 
 static void put_variable(const sample_file *f, const char *name, const int dimensions[2],

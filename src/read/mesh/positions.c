@@ -86,15 +86,9 @@ static void unit_vector(double out[3], double longitude, double latitude)
   out[2] = sin(b);
 }
 
-fg_status fg__nc_unit_vectors(double **out, const fg__nc_file *file,
-                              const fg__nc_positions *positions, size_t count)
+void fg__nc_unit_vector(double out[3], const fg__nc_positions *positions, size_t n)
 {
-  double *unit = *out = fg__allocate(count, 3 * sizeof *unit);
-  if (!unit)
-    return fg__fail_memory(file->context, "positions", count * 3 * sizeof *unit);
-  for (size_t n = 0; n < count; ++n)
-    unit_vector(unit + 3 * n, positions->longitude[n], positions->latitude[n]);
-  return FG_STATUS_OK;
+  unit_vector(out, positions->longitude[n], positions->latitude[n]);
 }
 
 /* Positions of a part's samples. */
@@ -113,8 +107,7 @@ static fg_status read_lattice(lattice *out, const fg__nc_file *file,
 /* The unit vector of sample (i, j). */
 static void place_of(double out[3], const lattice *of, size_t i, size_t j)
 {
-  const size_t n = j * of->size[0] + i;
-  unit_vector(out, of->at.longitude[n], of->at.latitude[n]);
+  fg__nc_unit_vector(out, &of->at, j * of->size[0] + i);
 }
 
 /* The point half way between two samples along direction k: of (i, j) and the one before
@@ -329,13 +322,12 @@ fg_status fg__nc_shift_find(bool *found, fg__nc_mesh *mesh, const fg__nc_file *f
   return status;
 }
 
-/* Half way from sample n to the next on that side, or as far beyond it where there is
- * none. */
-static void half_way_in_row(double out[3], const double *unit, size_t n, size_t columns,
+/* Half way from sample i of a row's unit vectors to the next on that side, or as far
+ * beyond it where there is none. */
+static void half_way_in_row(double out[3], const double *row, size_t i, size_t columns,
                             int side)
 {
-  const size_t i = n % columns;
-  const double *here = unit + 3 * n;
+  const double *here = row + 3 * i;
   const double *before = i > 0 ? here - 3 : NULL;
   const double *after = i + 1 < columns ? here + 3 : NULL;
   const double *next = side < 0 ? before : after, *last = side < 0 ? after : before;
@@ -350,18 +342,23 @@ static fg_status centres_between(fg__nc_positions *out, const fg__nc_file *file,
                                  const fg__nc_mesh *mesh)
 {
   const size_t columns = mesh->size[0], count = columns * mesh->size[1];
-  double *unit = NULL;
   fg_status status = fg__nc_positions_read(out, file, &mesh->part[0], 0);
-  if (status == FG_STATUS_OK)
-    status = fg__nc_unit_vectors(&unit, file, out, count);
-  for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n) {
+  if (status != FG_STATUS_OK)
+    return status;
+  double *row = fg__allocate(columns, 3 * sizeof *row);
+  if (!row)
+    return fg__fail_memory(file->context, "a row's positions", columns * 3 * sizeof *row);
+  for (size_t n = 0; n < count; ++n) {
+    const size_t i = n % columns;
+    for (size_t k = 0; k < columns && i == 0; ++k)
+      fg__nc_unit_vector(row + 3 * k, out, n + k);
     double at[3];
-    half_way_in_row(at, unit, n, columns, -mesh->shift[0]);
+    half_way_in_row(at, row, i, columns, -mesh->shift[0]);
     out->longitude[n] = atan2(at[1], at[0]) / RADIANS_PER_DEGREE;
     out->latitude[n] = atan2(at[2], hypot(at[0], at[1])) / RADIANS_PER_DEGREE;
   }
-  free(unit);
-  return status;
+  free(row);
+  return FG_STATUS_OK;
 }
 
 fg_status fg__nc_centres_read(fg__nc_positions *out, const fg__nc_file *file,

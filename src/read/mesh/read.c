@@ -25,7 +25,6 @@ typedef struct centre_values {
   float *component[2];
   unsigned char *wet; /* NULL: not told */
   fg__nc_positions at;
-  double *unit; /* [3 * count] */
   size_t repeated;
   bool closed;
 } centre_values;
@@ -35,7 +34,6 @@ static void clear(centre_values *all)
   free(all->component[0]);
   free(all->component[1]);
   free(all->wet);
-  free(all->unit);
   fg__nc_positions_clear(&all->at);
 }
 
@@ -153,33 +151,35 @@ static fg_status read_mask(centre_values *all, const fg__nc_file *file, const ch
 }
 
 /* The derivative of the position along i: across both neighbours, or of the parabola
- * through two on one side where there are such. */
-static void differ(double along[3], const centre_values *all, size_t n)
+ * through two on one side where there are such. unit: of the row. */
+static void differ(double along[3], const centre_values *all, const double *unit,
+                   size_t i)
 {
-  const size_t columns = all->mesh->size[0], i = n % columns;
+  const size_t columns = all->mesh->size[0];
   const size_t round = all->closed ? columns - all->repeated - 1 : 0;
-  const double *unit = all->unit;
-  size_t low = i > 0 ? n - 1 : n + round;
-  size_t high = i + 1 < columns ? n + 1 : n - (all->repeated ? 0 : round);
-  low = isfinite(unit[3 * low]) ? low : n;
-  high = isfinite(unit[3 * high]) ? high : n;
-  const bool after = low == n && i + 2 < columns && isfinite(unit[3 * (n + 2)]);
-  const bool before = high == n && i >= 2 && isfinite(unit[3 * (n - 2)]);
+  size_t low = i > 0 ? i - 1 : i + round;
+  size_t high = i + 1 < columns ? i + 1 : i - (all->repeated ? 0 : round);
+  low = isfinite(unit[3 * low]) ? low : i;
+  high = isfinite(unit[3 * high]) ? high : i;
+  const bool after = low == i && i + 2 < columns && isfinite(unit[3 * (i + 2)]);
+  const bool before = high == i && i >= 2 && isfinite(unit[3 * (i - 2)]);
   for (size_t c = 0; c < 3; ++c) {
     along[c] = unit[3 * high + c] - unit[3 * low + c];
     if (high != low && after)
-      along[c] = 4.0 * along[c] - (unit[3 * (n + 2) + c] - unit[3 * n + c]);
+      along[c] = 4.0 * along[c] - (unit[3 * (i + 2) + c] - unit[3 * i + c]);
     else if (high != low && before)
-      along[c] = 4.0 * along[c] - (unit[3 * n + c] - unit[3 * (n - 2) + c]);
+      along[c] = 4.0 * along[c] - (unit[3 * i + c] - unit[3 * (i - 2) + c]);
   }
 }
 
-/* The direction of i at a point: cosine and sine of its angle from east; false where it
- * has no neighbour. */
-static bool direction_at(double turn[2], const centre_values *all, size_t n)
+/* The direction of i at a point of row j: cosine and sine of its angle from east; false
+ * where it has no neighbour. */
+static bool direction_at(double turn[2], const centre_values *all, const double *unit,
+                         size_t i, size_t j)
 {
   double along[3];
-  differ(along, all, n);
+  const size_t n = j * all->mesh->size[0] + i;
+  differ(along, all, unit, i);
   const double longitude = all->at.longitude[n] * RADIANS_PER_DEGREE;
   const double latitude = all->at.latitude[n] * RADIANS_PER_DEGREE;
   const double s = sin(longitude), c = cos(longitude);
@@ -190,6 +190,13 @@ static bool direction_at(double turn[2], const centre_values *all, size_t n)
   turn[0] = east / length;
   turn[1] = north / length;
   return length > 0.0;
+}
+
+static void find_row(double *unit, const centre_values *all, size_t j)
+{
+  const size_t columns = all->mesh->size[0];
+  for (size_t i = 0; i < columns; ++i)
+    fg__nc_unit_vector(unit + 3 * i, &all->at, j * columns + i);
 }
 
 /* Cosines and sines of the angle that the file gives; NULL where it gives none. */
@@ -222,29 +229,35 @@ static fg_status read_angle(double *given[2], const centre_values *all,
 
 /* Compares the given angle with the grid's own: 1 as it is, -1 its opposite, 0 neither.
  */
-static int sense_of(double *const given[2], const centre_values *all)
+static int sense_of(double *const given[2], const centre_values *all, double *unit)
 {
   const size_t *size = all->mesh->size;
   double same = 0.0, opposite = 0.0;
   size_t count = 0;
-  for (size_t j = 0; j < size[1]; j += size[1] / COMPARED + 1)
+  for (size_t j = 0; j < size[1]; j += size[1] / COMPARED + 1) {
+    find_row(unit, all, j);
     for (size_t i = 0; i < size[0]; i += size[0] / COMPARED + 1) {
       const size_t n = j * size[0] + i;
       double turn[2];
-      if (!isfinite(given[0][n]) || !isfinite(given[1][n]) || !direction_at(turn, all, n))
+      if (!isfinite(given[0][n]) || !isfinite(given[1][n]) ||
+          !direction_at(turn, all, unit, i, j))
         continue;
       same += given[0][n] * turn[0] + given[1][n] * turn[1];
       opposite += given[0][n] * turn[0] - given[1][n] * turn[1];
       ++count;
     }
+  }
   if (count == 0 || (same < FITS * (double)count && opposite < FITS * (double)count))
     return 0;
   return same >= opposite ? 1 : -1;
 }
 
-static void turn_components(const centre_values *all, double *const given[2], int sense)
+static void turn_row(const centre_values *all, double *const given[2], int sense,
+                     const double *unit, size_t j)
 {
-  for (size_t n = 0; n < all->count; ++n) {
+  const size_t columns = all->mesh->size[0];
+  for (size_t i = 0; i < columns; ++i) {
+    const size_t n = j * columns + i;
     double turn[2] = {0.0, 0.0};
     bool known = false;
     if (sense != 0) {
@@ -252,12 +265,29 @@ static void turn_components(const centre_values *all, double *const given[2], in
       turn[1] = sense * given[1][n];
       known = isfinite(turn[0]) && isfinite(turn[1]);
     }
-    known = known || direction_at(turn, all, n);
+    known = known || direction_at(turn, all, unit, i, j);
     const double u = known ? (double)all->component[0][n] : (double)NAN;
     const double v = (double)all->component[1][n];
     all->component[0][n] = (float)(u * turn[0] - v * turn[1]);
     all->component[1][n] = (float)(u * turn[1] + v * turn[0]);
   }
+}
+
+static fg_status turn_components(const centre_values *all, const fg__nc_file *file,
+                                 double *const given[2], int *sense)
+{
+  const size_t columns = all->mesh->size[0];
+  double *unit = fg__allocate(columns, 3 * sizeof *unit);
+  if (!unit)
+    return fg__fail_memory(file->context, "a row's positions",
+                           columns * 3 * sizeof *unit);
+  *sense = given[0] ? sense_of(given, all, unit) : 0;
+  for (size_t j = 0; j < all->mesh->size[1]; ++j) {
+    find_row(unit, all, j);
+    turn_row(all, given, *sense, unit, j);
+  }
+  free(unit);
+  return FG_STATUS_OK;
 }
 
 static fg_status turn(centre_values *all, fg__nc_mesh *mesh, const fg__nc_file *file,
@@ -266,18 +296,17 @@ static fg_status turn(centre_values *all, fg__nc_mesh *mesh, const fg__nc_file *
   if (mesh->turn == FG__NC_TURN_NONE)
     return FG_STATUS_OK;
   double *given[2] = {NULL, NULL};
-  const fg_status status = read_angle(given, all, file, time);
-  if (status == FG_STATUS_OK) {
-    const int sense = given[0] ? sense_of(given, all) : 0;
-    turn_components(all, given, sense);
-    if (given[0] && sense <= 0)
-      snprintf(mesh->rule, sizeof mesh->rule,
-               sense < 0 ? "along the grid, turned by '%.60s', which is the angle from "
-                           "the grid to east"
-                         : "along the grid, turned by its positions: '%.60s' is not its "
-                           "angle from east",
-               mesh->angle[0]->plain_name);
-  }
+  int sense = 0;
+  fg_status status = read_angle(given, all, file, time);
+  if (status == FG_STATUS_OK)
+    status = turn_components(all, file, given, &sense);
+  if (status == FG_STATUS_OK && given[0] && sense <= 0)
+    snprintf(mesh->rule, sizeof mesh->rule,
+             sense < 0 ? "along the grid, turned by '%.60s', which is the angle from "
+                         "the grid to east"
+                       : "along the grid, turned by its positions: '%.60s' is not its "
+                         "angle from east",
+             mesh->angle[0]->plain_name);
   free(given[0]);
   free(given[1]);
   return status;
@@ -289,9 +318,7 @@ static fg_status fill(centre_values *all, fg__nc_mesh *mesh, const fg__nc_file *
   float *part[2] = {NULL, NULL};
   fg_status status = fg__nc_centres_read(&all->at, file, mesh, time);
   if (status == FG_STATUS_OK)
-    status = fg__nc_unit_vectors(&all->unit, file, &all->at, all->count);
-  if (status == FG_STATUS_OK)
-    fg__nc_closure(&all->repeated, &all->closed, all->unit, mesh->size);
+    fg__nc_closure(&all->repeated, &all->closed, &all->at, mesh->size);
   for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k)
     status = read_part(&part[k], file, &mesh->part[k], time, level);
   if (status == FG_STATUS_OK)
@@ -317,7 +344,7 @@ fg_status fg__nc_mesh_read(fg__sphere_cells *out, fg__nc_mesh *mesh,
   if (status == FG_STATUS_OK)
     status = fill(&all, mesh, file, time, level, mask);
   if (status == FG_STATUS_OK)
-    status = fg__nc_cells_make(&out->corner, &out->count, file, all.unit, mesh->size,
+    status = fg__nc_cells_make(&out->corner, &out->count, file, &all.at, mesh->size,
                                all.repeated, all.closed);
   if (status == FG_STATUS_OK) {
     out->points = all.count;

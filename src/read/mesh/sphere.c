@@ -1,4 +1,5 @@
 /* A pair of a mesh as a field on the sphere, and its entry in an inventory. */
+#include "flowgrain/map.h"
 #include "read/mesh/mesh.h"
 
 #include <math.h>
@@ -24,6 +25,7 @@ fg_status fg__nc_sphere_read(fg__sphere **out, const fg__nc_file *file,
       .level = words.level[0] ? words.level : NULL,
       .projection = grid->mesh->plane[0] ? grid->mesh->plane : NULL};
   cells.words = &of_field;
+  cells.threads = options->map ? options->map->threads : 0;
   return fg__sphere_of_cells(out, file->context, &cells);
 }
 

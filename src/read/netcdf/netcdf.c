@@ -1,5 +1,6 @@
 /* NetCDF: classic, 64-bit offset, CDF-5 and NetCDF-4, through NetCDF-C. */
 #include "field/slab.h"
+#include "map/project.h"
 #include "read/mesh/mesh.h"
 #include "read/unstructured/unstructured.h"
 
@@ -99,6 +100,7 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
 {
   fg__nc_words words;
   fg__nc_samples read = {0};
+  char plane[FG__NC_TEXT]; /* in which degrees are laid */
   const fg__nc_axis *last = &grid->axis[grid->dimension - 1];
   if (last->period > 0.0)
     slab = (fg__slab_index){0, 1};
@@ -120,6 +122,8 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
                               .title = words.title,
                               .time = words.time[0] ? words.time : NULL,
                               .level = words.level[0] ? words.level : NULL};
+    if (!arrays.projection && fg__map_is_asked(options->map))
+      arrays.projection = fg__nc_axes_plane(plane, file, pair->component[0], grid);
     for (int k = 0; k < grid->dimension; ++k) {
       arrays.size[k] = (int)grid->axis[k].size;
       arrays.axis[k] = grid->axis[k].coordinate;
@@ -319,6 +323,9 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
       vector.bounds[2 * k + 1] = grid.axis[k].coordinate[grid.axis[k].size - 1];
     }
   }
+  char plane[FG__NC_TEXT];
+  if (!off_axes && !grid.unusable[0] && !grid.projection[0])
+    vector.plane = fg__nc_axes_plane(plane, file, pair->component[0], &grid);
   char reason[sizeof grid.unusable + sizeof grid.hint + 2];
   snprintf(reason, sizeof reason, "%s%s%s", grid.unusable, grid.hint[0] ? "; " : "",
            grid.hint);

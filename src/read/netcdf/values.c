@@ -10,8 +10,9 @@
 #include <string.h>
 #include <strings.h>
 
-/* Values read at once: 32 megabytes as double, whole chunks of common files. */
-static const size_t BLOCK_VALUES = (size_t)1 << 22;
+/* Values read at once: 32 megabytes as double, whole chunks of common files; where there
+ * are no chunks, what stays in a core's cache. */
+static const size_t BLOCK_VALUES = (size_t)1 << 22, PLAIN_BLOCK_VALUES = (size_t)1 << 16;
 
 enum { MOST_FILLS = 16 };
 
@@ -192,7 +193,22 @@ static size_t place(const fg__nc_axis *axis, size_t i)
   return axis->reversed ? axis->size - 1 - i : i;
 }
 
-typedef void sink(void *target, size_t index, double stored);
+static size_t next_place(size_t at, ptrdiff_t step)
+{
+  return (size_t)((ptrdiff_t)at + step);
+}
+
+/* Takes a row of samples as stored, to places `step` apart from `first` on, downwards
+ * where it is reversed. */
+typedef void sink(void *target, size_t first, ptrdiff_t step, const double *stored,
+                  size_t count);
+
+static size_t values_at_once(const fg__nc_variable *v)
+{
+  int storage = NC_CHUNKED;
+  const bool known = nc_inq_var_chunking(v->group, v->id, &storage, NULL) == NC_NOERR;
+  return known && storage == NC_CONTIGUOUS ? PLAIN_BLOCK_VALUES : BLOCK_VALUES;
+}
 
 static fg_status read_slab(slab s, const fg__nc_file *file, const fg__nc_variable *v,
                            sink *put, void *target)
@@ -201,7 +217,9 @@ static fg_status read_slab(slab s, const fg__nc_file *file, const fg__nc_variabl
     return FG_STATUS_MEMORY;
   const size_t row = s.inner_axis->size;
   const size_t rows = s.outer_axis->size;
-  size_t at_once = BLOCK_VALUES / row;
+  const ptrdiff_t step =
+      s.inner_axis->reversed ? -(ptrdiff_t)s.inner_step : (ptrdiff_t)s.inner_step;
+  size_t at_once = values_at_once(v) / row;
   at_once = at_once < 1 ? 1 : at_once > rows ? rows : at_once;
   double *block = fg__allocate(at_once * row, sizeof *block);
   if (!block)
@@ -215,11 +233,10 @@ static fg_status read_slab(slab s, const fg__nc_file *file, const fg__nc_variabl
     if (error)
       status = fg__nc_fail(file->context, v->path, v->name, error);
     for (size_t j = 0; j < count && status == FG_STATUS_OK; ++j)
-      for (size_t i = 0; i < row; ++i)
-        put(target,
-            place(s.outer_axis, first + j) * s.outer_step +
-                place(s.inner_axis, i) * s.inner_step,
-            block[j * row + i]);
+      put(target,
+          place(s.outer_axis, first + j) * s.outer_step +
+              place(s.inner_axis, 0) * s.inner_step,
+          step, block + j * row, row);
     if (status == FG_STATUS_OK)
       status = fg__check_stop(file->context);
   }
@@ -233,15 +250,19 @@ typedef struct value_sink {
   float *out;
 } value_sink;
 
-static void put_value(void *target, size_t index, double stored)
+static void put_values(void *target, size_t first, ptrdiff_t step, const double *stored,
+                       size_t count)
 {
   const value_sink *to = target;
-  const double value = unpack(to->packing, stored, to->missing);
-  /* beyond float, but not infinite: it stays beyond every speed that is taken */
-  if (!isinf(stored) && fabs(value) > (double)FLT_MAX)
-    to->out[index] = value > 0.0 ? FLT_MAX : -FLT_MAX;
-  else
-    to->out[index] = (float)value;
+  const packing p = *to->packing;
+  for (size_t i = 0, at = first; i < count; ++i, at = next_place(at, step)) {
+    const double value = unpack(&p, stored[i], to->missing);
+    /* beyond float, but not infinite: it stays beyond every speed that is taken */
+    if (!isinf(stored[i]) && fabs(value) > (double)FLT_MAX)
+      to->out[at] = value > 0.0 ? FLT_MAX : -FLT_MAX;
+    else
+      to->out[at] = (float)value;
+  }
 }
 
 fg_status fg__nc_values(float *out, fg__nc_missing *missing, const fg__nc_file *file,
@@ -253,7 +274,7 @@ fg_status fg__nc_values(float *out, fg__nc_missing *missing, const fg__nc_file *
                                       grid->time, grid->level};
   value_sink to = {&p, missing, out};
   const slab s = slab_of(variable, grid, position, time, level);
-  return read_slab(s, file, variable, put_value, &to);
+  return read_slab(s, file, variable, put_values, &to);
 }
 
 typedef struct mask_sink {
@@ -261,12 +282,13 @@ typedef struct mask_sink {
   unsigned char *out;
 } mask_sink;
 
-static void put_mask(void *target, size_t index, double stored)
+static void put_mask(void *target, size_t first, ptrdiff_t step, const double *stored,
+                     size_t count)
 {
   const mask_sink *to = target;
   fg__nc_missing ignored = {0};
-  const double value = unpack(to->packing, stored, &ignored);
-  to->out[index] = value > 0.0; /* false for NaN */
+  for (size_t i = 0, at = first; i < count; ++i, at = next_place(at, step))
+    to->out[at] = unpack(to->packing, stored[i], &ignored) > 0.0; /* false for NaN */
 }
 
 typedef struct number_sink {
@@ -274,11 +296,14 @@ typedef struct number_sink {
   double *out;
 } number_sink;
 
-static void put_number(void *target, size_t index, double stored)
+static void put_numbers(void *target, size_t first, ptrdiff_t step, const double *stored,
+                        size_t count)
 {
   const number_sink *to = target;
+  const packing p = *to->packing;
   fg__nc_missing ignored = {0};
-  to->out[index] = unpack(to->packing, stored, &ignored);
+  for (size_t i = 0, at = first; i < count; ++i, at = next_place(at, step))
+    to->out[at] = unpack(&p, stored[i], &ignored);
 }
 
 /* The variable's own dimension that matches one of the component's, or -1. */
@@ -365,7 +390,7 @@ fg_status fg__nc_doubles(double *out, const fg__nc_file *file,
   const packing p = find_packing(variable);
   number_sink to = {&p, out};
   const slab s = slab_of(variable, grid, position, time, level);
-  return read_slab(s, file, variable, put_number, &to);
+  return read_slab(s, file, variable, put_numbers, &to);
 }
 
 fg_status fg__nc_line(double *out, const fg__nc_file *file,
@@ -380,7 +405,6 @@ fg_status fg__nc_line(double *out, const fg__nc_file *file,
   if (error)
     return fg__nc_fail(file->context, variable->path, variable->name, error);
   number_sink to = {&p, out};
-  for (size_t n = 0; n < count; ++n)
-    put_number(&to, n, out[n]);
+  put_numbers(&to, 0, 1, out, count);
   return FG_STATUS_OK;
 }
