@@ -92,7 +92,7 @@ try draw placed -o texts.svg --title 'A <title> of {arrows} & {time}' --subtitle
   --width 89mm --height 3in --font-size 2.5mm --speed-range 11,13
 expect_code 0
 grep -q 'width="252.28[0-9]*pt" height="216pt"' texts.svg || fault "the size is not 89mm by 3in"
-for text in 'A &lt;title&gt; of 5 &amp; ' below fast 11.0 13.0; do
+for text in 'A &lt;title&gt; of 5 &amp;' below fast 11.0 13.0; do
   grep -q "<text.*>$text</text>" texts.svg || fault "no text '$text'"
 done
 try draw placed -o texts.png --dpi 300 --width 1in
