@@ -1,6 +1,10 @@
 import numpy as np
 import pytest
 
+# -noreset: by default the server starts again when its last client goes, and ParaView, which
+# first looks what the server can do, would then find none
+WITH_A_DISPLAY = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset"]
+
 
 def vortices(nx=65, ny=49, wide=8.0, tall=6.0):
     """A field without symmetry: u, v, x, y."""

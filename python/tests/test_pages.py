@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import pytest
+from conftest import WITH_A_DISPLAY
 
 ROOT = pathlib.Path(__file__).parents[2]
 WHEELS = sorted((ROOT / "build-python").glob("flowgrain-*.whl"))
@@ -61,6 +62,6 @@ def run_in_paraview(environment, folder):
     subprocess.run([program, "synth", "vortex3d", "-o", folder / "field.vti", "--nodes", "33"],
                    check=True)
     (folder / "script.py").write_text(blocks("paraview.md", "python"))
-    subprocess.run(["xvfb-run", "-a", "pvpython", "script.py"], cwd=folder, env=environment,
+    subprocess.run([*WITH_A_DISPLAY, "pvpython", "script.py"], cwd=folder, env=environment,
                    check=True)
     assert (folder / "arrows.png").stat().st_size > 5000

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import flowgrain
-from conftest import vortices
+from conftest import WITH_A_DISPLAY, vortices
 
 pytest.importorskip("vtkmodules")
 from vtkmodules import vtkCommonDataModel as model  # noqa: E402
@@ -256,7 +256,7 @@ def test_in_paraview(tmp_path, field):
         '</Collection></VTKFile>')
     (tmp_path / "script.py").write_text(SCRIPT.format(
         plugin=str(PLUGIN), field=str(tmp_path / "field.pvd"), picture=str(tmp_path / "out.png")))
-    found = subprocess.run(["xvfb-run", "-a", "pvpython", str(tmp_path / "script.py")],
+    found = subprocess.run([*WITH_A_DISPLAY, "pvpython", str(tmp_path / "script.py")],
                            capture_output=True, text=True)
     line = [line for line in found.stdout.splitlines() if line.startswith("ARROWS")]
     assert line, found.stderr

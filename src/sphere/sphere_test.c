@@ -233,7 +233,7 @@ static void threads_make_the_same(void **state)
     assert_true(extent[k].west == extent[0].west && extent[k].north == extent[0].north);
   }
   for (int n = 0; n < PLACES; ++n)
-    present += isfinite(u[0][n]);
+    present += isfinite(u[0][n]) ? 1 : 0;
   assert_true(present > PLACES / 2 && present < PLACES - PLACES / 20);
 }
 
