@@ -187,7 +187,9 @@ static fg_status make(fg__sphere *sphere, fg_context *context, fg__sphere_cells 
     status = fg__sphere_fill(sphere, context);
   if (status == FG_STATUS_OK)
     status = measure(&work, context, threads);
-  fg__sphere_cells_clear(cells);
+  free(cells->longitude);
+  free(cells->latitude);
+  cells->longitude = cells->latitude = NULL;
   if (status == FG_STATUS_OK)
     status = fg__sphere_sort_cells(sphere, context, threads);
   return status;
