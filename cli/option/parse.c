@@ -143,6 +143,17 @@ static void set_samples(run_settings *run)
     run->reading.map.samples = (int)fmin(2.0 * nodes, MOST);
 }
 
+/* What reading takes of the other options. */
+static void set_map(any_settings *out, const cli_command *command)
+{
+  if (command->bit & RUNS) {
+    set_samples(&out->run);
+    out->run.reading.map.threads = out->run.work.threads;
+  } else if (command->bit == COMMAND_TEXTURE) {
+    out->texture.reading.map.threads = out->texture.work.threads;
+  }
+}
+
 static void set_defaults(any_settings *out, const cli_command *command)
 {
   memset(out, 0, sizeof *out);
@@ -196,8 +207,7 @@ parse_result options_parse(any_settings *out, const cli_command *command, int ar
         !option_is_told(command, option))
       out->view.first_option = option->name;
   }
-  if (command->bit & RUNS)
-    set_samples(&out->run);
+  set_map(out, command);
   return check_operands(out, command, argc - optind, argv + optind) ? PARSE_GO
                                                                     : PARSE_WRONG;
 }

@@ -32,7 +32,7 @@ static void expect(const fg_icons *icons, const char *wanted)
 }
 
 /* Nothing is left of a value that the field does not have, nor of what would part it. */
-static void names_without_a_value(const fg_icons *icons)
+static void names_without_a_value_leave_nothing(void **state)
 {
   static const char *const cases[][2] = {
       {"Wind, {time}", "Wind"},
@@ -44,6 +44,7 @@ static void names_without_a_value(const fg_icons *icons)
       {"\xC3\xB7{time}", "\xC3\xB7"}, /* ends in the middle dot's last byte */
       {"{level}, ", "10 m, "},
   };
+  fg_icons *icons = lines(*state, 2);
   const fg_field_arrays field = {
       .dimension = 2, .velocity_name = {"U10", "V10"}, .title = "Field", .level = "10 m"};
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
@@ -52,6 +53,7 @@ static void names_without_a_value(const fg_icons *icons)
     fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
     assert_string_equal(title, cases[n][1]);
   }
+  fg_icons_destroy(icons);
 }
 
 /* What stands for a name may hold what looks like one. */
@@ -80,7 +82,6 @@ static void names_in_braces_are_what_the_field_says(void **state)
     assert_string_equal(text[0], cases[n].expected[0]);
     assert_string_equal(text[1], cases[n].expected[1]);
   }
-  names_without_a_value(icons);
   /* cut before a whole character */
   char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES], wish[100], long_time[300];
   memset(long_time, 'x', sizeof long_time);
@@ -194,6 +195,8 @@ int main(void)
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(names_in_braces_are_what_the_field_says,
                                       context_set_up, context_tear_down),
+      cmocka_unit_test_setup_teardown(names_without_a_value_leave_nothing, context_set_up,
+                                      context_tear_down),
       cmocka_unit_test_setup_teardown(panels_are_told_apart, context_set_up,
                                       context_tear_down),
       cmocka_unit_test(letters_go_on_after_z),

@@ -11,14 +11,14 @@
 #include <string.h>
 
 /* Sweeps of descent; exchanges, so many and one more for so many icons (0: none), and how
- * many may fail before they end. */
+ * many may fail before they end; other placements. */
 typedef struct effort {
-  int sweeps, exchanges, icons_an_exchange, failures;
+  int sweeps, exchanges, icons_an_exchange, failures, others;
 } effort;
 
-static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5},
-                                 [FG_EFFORT_QUICK] = {8, 0, 0, 0},
-                                 [FG_EFFORT_THOROUGH] = {14, 13, 30, 5}};
+static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5, 1},
+                                 [FG_EFFORT_QUICK] = {8, 0, 0, 0, 0},
+                                 [FG_EFFORT_THOROUGH] = {14, 13, 30, 5, 2}};
 
 /* Beyond so many icons there are fewer exchanges, each of which looks at all icons and
  * changes less and less of the picture. */
@@ -33,12 +33,19 @@ enum { FEW = 200 };
 enum { SETTLING = 3 };
 
 /* Other placements are made, of which the best stays: what errors icons have depends much
- * on where they began. Each comes down from a finer scale by a ratio of its own, if that
- * had so many times as many icons, or for a first scale from so many of them. By default
- * there is one, in 2D up to so many icons; a thorough search makes all for any number. */
+ * on where they began. Each comes down by a ratio of its own from the finer scale, or for
+ * a first scale from so many times as many even points. */
+typedef struct descent {
+  double ratio, start;
+} descent;
+
+static const descent OTHERS[] = {{0.65, 1.5}, {0.5, 2.0}};
+
+/* A finer scale that other placements come down from has so many times as many icons. */
+static const double LEAST_FINER = 1.5;
+
+/* By default there are others in 2D for up to so many icons. */
 enum { MOST_TWICE = 40, MOST_TWICE_FAIR = 80 };
-static const double OTHER_RATIOS[] = {0.65, 0.5};
-static const double MANY_MORE[] = {1.5, 2.0};
 
 /* A scale is reached by numbers of icons that fall by this factor. */
 static const double CHAIN_RATIO = 0.8;
@@ -349,9 +356,9 @@ fg_status fg__placement_begin_again(fg_placement *placement, int count)
 }
 
 /* To `count` icons from those of the finer scale `from`, or without one from evenly
- * distributed points, in the way with that number. */
+ * distributed points. */
 static fg_status place_otherwise(fg_placement *placement, int count,
-                                 const fg__place_snapshot *from, int way)
+                                 const fg__place_snapshot *from, const descent *by)
 {
   fg__place_search *search = &placement->search;
   fg_status status;
@@ -360,16 +367,16 @@ static fg_status place_otherwise(fg_placement *placement, int count,
     if (status == FG_STATUS_OK)
       status = fg__place_restore(search, from);
   } else {
-    status = place_first(placement, (int)(MANY_MORE[way] * count), NULL);
+    status = place_first(placement, (int)(by->start * count), NULL);
   }
   if (status == FG_STATUS_OK)
-    status = go_down(placement, count, OTHER_RATIOS[way]);
+    status = go_down(placement, count, by->ratio);
   return status == FG_STATUS_OK ? polish(placement) : status;
 }
 
 /* Looks for another placement, and goes back where it is no better. */
 static fg_status improve(fg_placement *placement, int count,
-                         const fg__place_snapshot *from, int way)
+                         const fg__place_snapshot *from, const descent *by)
 {
   fg__place_search *search = &placement->search;
   fg__place_snapshot best = {0};
@@ -379,7 +386,7 @@ static fg_status improve(fg_placement *placement, int count,
   if (status == FG_STATUS_OK)
     status = fg__place_remember(&best, search);
   if (status == FG_STATUS_OK)
-    status = place_otherwise(placement, count, from, way);
+    status = place_otherwise(placement, count, from, by);
   if (search->next_identity < next_identity) /* it began anew */
     search->next_identity = next_identity;
   if (status == FG_STATUS_OK)
@@ -401,19 +408,21 @@ static void number_icons(fg__place_search *search)
   search->next_identity = search->count;
 }
 
-/* How many other placements are made of so many icons, of those that are possible. */
+/* How many other placements are made of so many icons, of those that there is room for.
+ */
 static int count_others(const fg_placement *placement, int count, bool is_first)
 {
-  const double finer = is_first ? count_most(placement) : (double)placement->search.count;
   const bool fair = placement->options.lengths == FG_LENGTHS_FAIR;
-  int possible = sizeof OTHER_RATIOS / sizeof *OTHER_RATIOS;
-  while (possible > 0 && finer < MANY_MORE[is_first ? possible - 1 : 0] * count)
-    --possible;
-  if (placement->options.effort == FG_EFFORT_THOROUGH)
-    return possible;
-  if (placement->domain.dimension == 3 || placement->options.effort == FG_EFFORT_QUICK)
+  const bool few =
+      placement->domain.dimension == 2 && count <= (fair ? MOST_TWICE_FAIR : MOST_TWICE);
+  int others = EFFORTS[placement->options.effort].others;
+  if (placement->options.effort != FG_EFFORT_THOROUGH && !few)
     return 0;
-  return count <= (fair ? MOST_TWICE_FAIR : MOST_TWICE) && possible > 0;
+  if (!is_first)
+    return placement->search.count >= LEAST_FINER * count ? others : 0;
+  while (others > 0 && OTHERS[others - 1].start * count > count_most(placement))
+    --others;
+  return others;
 }
 
 fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons *clusters)
@@ -440,8 +449,8 @@ fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons 
     status = polish(placement);
   if (status == FG_STATUS_OK)
     status = check_count(placement, count);
-  for (int way = 0; way < others && status == FG_STATUS_OK; ++way)
-    status = improve(placement, count, &finer, way);
+  for (int n = 0; n < others && status == FG_STATUS_OK; ++n)
+    status = improve(placement, count, &finer, &OTHERS[n]);
   if (status == FG_STATUS_OK && is_first)
     number_icons(search);
   fg__place_snapshot_clear(&finer);

@@ -8,9 +8,6 @@
 enum { BINS = 720 }; /* of longitude, half a degree each */
 
 static const double BIN = 360.0 / BINS;
-/* Of the cells, for threads; fewer cells are not divided. */
-enum { PARTS = 64, DIVIDED = 1 << 16 };
-
 static const double WHOLE_AREA = 12.566370614359172; /* 4 pi */
 
 /* The longitudes of a bin that are covered, in degrees from its beginning. */
@@ -249,7 +246,7 @@ fg_status fg__sphere_measure(double *layers, fg__sphere *sphere, fg_context *con
   measuring work = {.sphere = sphere,
                     .longitude = longitude,
                     .latitude = latitude,
-                    .parts = sphere->count < DIVIDED ? 1 : PARTS};
+                    .parts = fg__sphere_parts(sphere)};
   work.part = fg__allocate((size_t)work.parts, sizeof *work.part);
   if (!work.part)
     return fg__fail_memory(context, "what the cells cover",

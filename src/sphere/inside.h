@@ -56,6 +56,13 @@ static inline int fg__sphere_corners(const fg__sphere *sphere, size_t cell, int 
   return point[3] < 0 ? 3 : 4;
 }
 
+/* Into how many parts the cells are divided for threads, whose number it does not depend
+ * on. */
+static inline int fg__sphere_parts(const fg__sphere *sphere)
+{
+  return sphere->count < 1 << 16 ? 1 : 64;
+}
+
 /* Makes room for the vectors of the points, and what is missing of them. MEMORY. */
 fg_status fg__sphere_begin(fg__sphere *sphere, fg_context *context, size_t points,
                            const fg_field_arrays *words);

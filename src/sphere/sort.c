@@ -13,9 +13,6 @@ static const int MOST_SQUARES = 1 << 14;
 /* Squares that a cell lies in, in the mean: some four where all cells are alike. */
 static const int MOST_ENTRIES = 16;
 
-/* Of the cells, for threads; fewer cells are not divided. */
-enum { PARTS = 64, DIVIDED = 1 << 16 };
-
 /* Of the cells on a face. */
 typedef struct face_sum {
   size_t cells;
@@ -37,8 +34,8 @@ typedef struct sorting {
 static bool cover(double low[2], double high[2], const fg__sphere *sphere, size_t n,
                   int f)
 {
-  const int *point = sphere->corner + 4 * n;
-  const int corners = point[3] < 0 ? 3 : 4;
+  int point[4];
+  const int corners = fg__sphere_corners(sphere, n, point);
   low[0] = low[1] = HUGE_VAL;
   high[0] = high[1] = -HUGE_VAL;
   for (int k = 0; k < corners; ++k) {
@@ -62,8 +59,8 @@ static bool cover(double low[2], double high[2], const fg__sphere *sphere, size_
 /* The face that a cell lies inside of, with all of its corners; -1 for more than one. */
 static int only_face(const fg__sphere *sphere, size_t n)
 {
-  const int *point = sphere->corner + 4 * n;
-  const int corners = point[3] < 0 ? 3 : 4;
+  int point[4];
+  const int corners = fg__sphere_corners(sphere, n, point);
   const int face = fg__sphere_face_of(fg__sphere_position(sphere, point[0]));
   const int axis = face / 2, first = axis == 2 ? 0 : axis + 1;
   const int second = first == 2 ? 0 : first + 1;
@@ -270,7 +267,7 @@ static void sort_faces(void *argument, const fg__thread *thread)
 fg_status fg__sphere_sort_cells(fg__sphere *sphere, fg_context *context,
                                 fg__threads *threads)
 {
-  sorting work = {.sphere = sphere, .parts = sphere->count < DIVIDED ? 1 : PARTS};
+  sorting work = {.sphere = sphere, .parts = fg__sphere_parts(sphere)};
   fg_status status = FG_STATUS_OK;
   work.faces = fg__allocate(sphere->count, 1);
   work.part = fg__allocate((size_t)work.parts, sizeof *work.part);

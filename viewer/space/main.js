@@ -91,9 +91,8 @@ function pictureNow() {
 
 const empty = [];
 
-// Milliseconds: until a frame that was wanted is drawn, and without another one.
-const SLOW = 70;
-const REST = 250;
+const SLOW = 70; // milliseconds that a frame takes, from when it is wanted
+const REST = 250; // milliseconds without a frame: the picture rests
 
 function draw() {
   wanted = 0;

@@ -1,5 +1,4 @@
-/* Chunks that would become larger than declared, of a variable that is read.
- */
+/* Chunks that would become larger than declared, of a variable that is read. */
 #define H5_USE_110_API
 #include <hdf5.h>
 #include <stdlib.h>

@@ -100,7 +100,7 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
 {
   fg__nc_words words;
   fg__nc_samples read = {0};
-  char plane[FG__NC_TEXT]; /* in which degrees are laid */
+  char plane[FG__NC_TEXT]; /* of the model, whose grid is on axes of degrees */
   const fg__nc_axis *last = &grid->axis[grid->dimension - 1];
   if (last->period > 0.0)
     slab = (fg__slab_index){0, 1};
