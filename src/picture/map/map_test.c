@@ -253,10 +253,26 @@ static void labels_say_where_lines_end(void **state)
   }
 }
 
+/* Labels between the frame and the colour key beside it; each leaves a gap. */
+static int count_before_key(const fg__page *page)
+{
+  int count = 0;
+  for (int n = 0; n < page->text_count; ++n) {
+    const fg__page_box *box = &page->text[n].box;
+    if (!page->color_key_upright || box->x0 < page->frame.x1 ||
+        box->x0 > page->color_key.x0)
+      continue;
+    assert_true(box->x1 < page->color_key.x0 - page->font_size);
+    ++count;
+  }
+  return count;
+}
+
 /* A page of 480 points: no two texts touch, and all are on it. */
 static void no_two_labels_touch(void **state)
 {
   fg_context *context = *state;
+  int before_key = 0;
   for (int k = 0; k < VIEWS; ++k) {
     fg__plane plane;
     fg__graticule *graticule = calloc(1, sizeof *graticule);
@@ -282,6 +298,7 @@ static void no_two_labels_touch(void **state)
     cairo_destroy(ruler);
     assert_true(page->text_count > 8);
     assert_int_equal(page->framed, !plane.whole);
+    before_key += count_before_key(page);
     for (int n = 0; n < page->text_count; ++n) {
       const fg__page_box *a = &page->text[n].box;
       assert_true(a->x0 >= 0.0 && a->y0 >= 0.0 && a->x1 <= page->width &&
@@ -297,6 +314,7 @@ static void no_two_labels_touch(void **state)
     free(graticule);
     free(page);
   }
+  assert_true(before_key > 0);
 }
 
 /* Of a sea's field with data up to x = 2000 km, on a plane without land in it. */

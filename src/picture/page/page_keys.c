@@ -240,6 +240,15 @@ static void size_beside(fg__page *page, const size_key *key, cairo_t *ruler, dou
   page->size_key_length = key->length;
 }
 
+/* Whether degrees or numbers stand to the right of the frame. */
+static bool has_words_at_right(const fg__page *page)
+{
+  for (int n = 0; n < page->text_count; ++n)
+    if (page->text[n].box.x0 >= page->frame.x1)
+      return true;
+  return false;
+}
+
 /* A column to the right of the frame: the bar from its top, the reference arrow at its
  * lower end; a bar alone in the middle. */
 static void place_beside(fg__page *page, fg__margins *room, const fg__page_plan *plan,
@@ -248,7 +257,8 @@ static void place_beside(fg__page *page, fg__margins *room, const fg__page_plan 
   const double em = page->font_size;
   const fg__page_box *frame = &page->frame;
   const double size_height = 5.6 * em; /* arrow, two lines, and the gap above them */
-  double x0 = frame->x1 + fmax(room->right + 0.5 * em, key_gap * em);
+  const double gap = (has_words_at_right(page) ? key_gap : 0.5) * em;
+  double x0 = frame->x1 + fmax(room->right + gap, key_gap * em);
   double high = frame->y1 - frame->y0;
   double end = x0;
   size_key key;
