@@ -16,7 +16,7 @@ typedef struct effort {
   int sweeps, exchanges, icons_an_exchange, failures, others;
 } effort;
 
-static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5, 1},
+static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5, 2},
                                  [FG_EFFORT_QUICK] = {8, 0, 0, 0, 0},
                                  [FG_EFFORT_THOROUGH] = {14, 13, 30, 5, 2}};
 
