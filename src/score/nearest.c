@@ -12,18 +12,19 @@ typedef struct site {
   double at[3], tangent[3];
 } site;
 
-/* Of a row of cells, a number a cell each. */
+/* Of a row of cells, a number a cell each; single precision places a sample within 1e-4
+ * cells of a raster of some hundred. */
 typedef struct row_work {
-  double *place; /* x of the centre */
-  double *near_x,
+  float *place; /* x of the centre */
+  float *near_x,
       *near_rest;          /* of the icon's nearest sample: x, squared distance across */
-  double *near_tangent[3]; /* and tangent */
-  double *best, *best_tangent[3]; /* squared distance of the nearest so far */
-  double *sum[3];
+  float *near_tangent[3]; /* and tangent */
+  float *best, *best_tangent[3]; /* squared distance of the nearest so far */
+  float *sum[3];
   /* the envelope: samples, and from which x on each is the nearest */
   const site **hull;
   double *start;
-  double *memory;
+  float *memory;
 } row_work;
 
 typedef struct work {
@@ -68,7 +69,7 @@ static fg_status sort_sites(work *w, fg_context *context)
 static bool row_create(row_work *row, const work *w)
 {
   const size_t columns = (size_t)w->raster->size[0];
-  double **const part[] = {&row->place,
+  float **const part[] = {&row->place,
                            &row->near_x,
                            &row->near_rest,
                            &row->near_tangent[0],
@@ -82,13 +83,13 @@ static bool row_create(row_work *row, const work *w)
                            &row->sum[1],
                            &row->sum[2]};
   const size_t parts = sizeof part / sizeof part[0];
-  row->memory = fg__allocate(parts * columns, sizeof(double));
+  row->memory = fg__allocate(parts * columns, sizeof(float));
   row->hull = fg__allocate(w->most, sizeof(const site *));
   row->start = fg__allocate(w->most + 1, sizeof(double));
   for (size_t n = 0; row->memory && n < parts; ++n)
     *part[n] = row->memory + n * columns;
   for (size_t i = 0; row->memory && i < columns; ++i)
-    row->place[i] = ((double)i + 0.5) * w->raster->cell[0] / w->scale;
+    row->place[i] = (float)(((double)i + 0.5) * w->raster->cell[0] / w->scale);
   return row->memory && row->hull && row->start;
 }
 
@@ -146,33 +147,33 @@ static void spell_out(row_work *row, int used, int columns, int dimension,
     const double rest = rest_of(sample, centre);
     const double end = n + 1 < used ? row->start[n + 1] : HUGE_VAL;
     const int begin = i;
-    while (i < columns && row->place[i] < end)
+    while (i < columns && (double)row->place[i] < end)
       ++i;
     for (int c = begin; c < i; ++c) {
-      row->near_x[c] = sample->at[0];
-      row->near_rest[c] = rest;
-      row->near_tangent[0][c] = sample->tangent[0];
-      row->near_tangent[1][c] = sample->tangent[1];
+      row->near_x[c] = (float)sample->at[0];
+      row->near_rest[c] = (float)rest;
+      row->near_tangent[0][c] = (float)sample->tangent[0];
+      row->near_tangent[1][c] = (float)sample->tangent[1];
     }
     for (int c = begin; dimension == 3 && c < i; ++c)
-      row->near_tangent[2][c] = sample->tangent[2];
+      row->near_tangent[2][c] = (float)sample->tangent[2];
   }
 }
 
 /* Adds the icon whose nearest samples were spelled out. */
-FG__CLONES static void add_2d(const row_work *row, int columns, double epsilon)
+FG__CLONES static void add_2d(const row_work *row, int columns, float epsilon)
 {
-  const double *restrict place = row->place, *restrict near_x = row->near_x,
+  const float *restrict place = row->place, *restrict near_x = row->near_x,
                          *restrict rest = row->near_rest,
                          *restrict tangent_x = row->near_tangent[0],
                          *restrict tangent_y = row->near_tangent[1];
-  double *restrict best = row->best, *restrict best_x = row->best_tangent[0],
+  float *restrict best = row->best, *restrict best_x = row->best_tangent[0],
                    *restrict best_y = row->best_tangent[1], *restrict sum_x = row->sum[0],
                    *restrict sum_y = row->sum[1];
   for (int i = 0; i < columns; ++i) {
-    const double along = place[i] - near_x[i];
-    const double square = along * along + rest[i], rounded = square + epsilon;
-    const double weight = 1.0 / (rounded * sqrt(rounded));
+    const float along = place[i] - near_x[i];
+    const float square = along * along + rest[i], rounded = square + epsilon;
+    const float weight = 1.0F / (rounded * sqrtf(rounded));
     const bool nearer = square < best[i];
     sum_x[i] += weight * tangent_x[i];
     sum_y[i] += weight * tangent_y[i];
@@ -182,19 +183,19 @@ FG__CLONES static void add_2d(const row_work *row, int columns, double epsilon)
   }
 }
 
-FG__CLONES static void add_3d(const row_work *row, int columns, double epsilon)
+FG__CLONES static void add_3d(const row_work *row, int columns, float epsilon)
 {
-  const double *restrict place = row->place, *restrict near_x = row->near_x,
+  const float *restrict place = row->place, *restrict near_x = row->near_x,
                          *restrict rest = row->near_rest;
-  double *restrict best = row->best;
+  float *restrict best = row->best;
   for (int i = 0; i < columns; ++i) {
-    const double along = place[i] - near_x[i];
-    const double square = along * along + rest[i], rounded = square + epsilon;
-    const double weight = 1.0 / (rounded * rounded);
+    const float along = place[i] - near_x[i];
+    const float square = along * along + rest[i], rounded = square + epsilon;
+    const float weight = 1.0F / (rounded * rounded);
     const bool nearer = square < best[i];
     best[i] = nearer ? square : best[i];
     for (int k = 0; k < 3; ++k) {
-      const double tangent = row->near_tangent[k][i];
+      const float tangent = row->near_tangent[k][i];
       row->sum[k][i] += weight * tangent;
       row->best_tangent[k][i] = nearer ? tangent : row->best_tangent[k][i];
     }
@@ -209,13 +210,13 @@ static void write_row(const work *w, const row_work *row, size_t first)
     double field[3] = {0}, near[3] = {0}, weighted[3] = {0};
     if (!raster->inside[place])
       continue;
-    w->out->distance[place] = (float)(sqrt(row->best[i]) * w->scale);
+    w->out->distance[place] = (float)(sqrt((double)row->best[i]) * w->scale);
     if (!raster->counts[place])
       continue;
     for (int k = 0; k < raster->dimension; ++k) {
       field[k] = (double)raster->direction[k][place];
-      near[k] = row->best_tangent[k][i];
-      weighted[k] = row->sum[k][i];
+      near[k] = (double)row->best_tangent[k][i];
+      weighted[k] = (double)row->sum[k][i];
     }
     w->out->angle[place] = (float)fg__angle(near, field);
     w->out->weighted_angle[place] = (float)fg__angle(weighted, field);
@@ -243,9 +244,9 @@ static void read_row(const work *w, row_work *row, int number)
   for (int k = 1; k < dimension; ++k)
     centre[k] = (at[k - 1] + 0.5) * raster->cell[k] / w->scale;
   for (int i = 0; i < columns; ++i) {
-    row->best[i] = HUGE_VAL;
+    row->best[i] = HUGE_VALF;
     for (int k = 0; k < 3; ++k)
-      row->sum[k][i] = row->best_tangent[k][i] = 0.0;
+      row->sum[k][i] = row->best_tangent[k][i] = 0.0F;
   }
   for (int n = 0; n < samples->icons; ++n) {
     const size_t begin = samples->first[n], end = samples->first[n + 1];
@@ -253,7 +254,7 @@ static void read_row(const work *w, row_work *row, int number)
       continue;
     const int used = find_envelope(row, w->sites + begin, end - begin, centre);
     spell_out(row, used, columns, dimension, centre);
-    (dimension == 3 ? add_3d : add_2d)(row, columns, w->epsilon);
+    (dimension == 3 ? add_3d : add_2d)(row, columns, (float)w->epsilon);
   }
   write_row(w, row, first);
 }
