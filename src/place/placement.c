@@ -11,14 +11,15 @@
 #include <string.h>
 
 /* Sweeps of descent; exchanges, so many and one more for so many icons (0: none), and how
- * many may fail before they end; other placements. */
+ * many may fail before they end; other placements of a first scale, which take longer,
+ * and of one that comes down from a finer. */
 typedef struct effort {
-  int sweeps, exchanges, icons_an_exchange, failures, others;
+  int sweeps, exchanges, icons_an_exchange, failures, first_others, others;
 } effort;
 
-static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5, 2},
-                                 [FG_EFFORT_QUICK] = {8, 0, 0, 0, 0},
-                                 [FG_EFFORT_THOROUGH] = {14, 13, 30, 5, 2}};
+static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5, 1, 2},
+                                 [FG_EFFORT_QUICK] = {8, 0, 0, 0, 0, 0},
+                                 [FG_EFFORT_THOROUGH] = {14, 13, 30, 5, 2, 2}};
 
 /* Beyond so many icons there are fewer exchanges, each of which looks at all icons and
  * changes less and less of the picture. */
@@ -27,7 +28,7 @@ enum { MOST_EXCHANGED = 1500 };
 /* The least fair-share length in distances between samples, and a number of icons that
  * any field may have. */
 static const double FINEST = 0.125;
-enum { FEW = 200 };
+enum { ALWAYS = 200 };
 
 /* Sweeps after the first scale is complete. */
 enum { SETTLING = 3 };
@@ -45,7 +46,7 @@ static const descent OTHERS[] = {{0.65, 1.5}, {0.5, 2.0}};
 static const double LEAST_FINER = 1.5;
 
 /* By default there are others in 2D for up to so many icons. */
-enum { MOST_TWICE = 40, MOST_TWICE_FAIR = 80 };
+enum { FEW_FREE = 40, FEW_FAIR = 80 };
 
 /* A scale is reached by numbers of icons that fall by this factor. */
 static const double CHAIN_RATIO = 0.8;
@@ -151,14 +152,13 @@ static fg__place_seed seed_of(const fg_icon *icon, const fg__place_scale *scale)
   return seed;
 }
 
-/* The most icons that are placed: more would be far smaller than what the data can tell.
- */
+/* The most icons that are placed; more would be far smaller than what data can tell. */
 static double count_most(const fg_placement *placement)
 {
   const fg__place_domain *domain = &placement->domain;
   const double least = FINEST * domain->data_step;
   const double most = domain->measure / pow(least, domain->dimension);
-  return fmin(fmax(floor(most), FEW), FG__MOST_ARROWS);
+  return fmin(fmax(floor(most), ALWAYS), FG__MOST_ARROWS);
 }
 
 /* Refuses a number that must be a mistake. */
@@ -408,14 +408,14 @@ static void number_icons(fg__place_search *search)
   search->next_identity = search->count;
 }
 
-/* How many other placements are made of so many icons, of those that there is room for.
- */
+/* How many other placements are made of so many icons, for which there is room. */
 static int count_others(const fg_placement *placement, int count, bool is_first)
 {
   const bool fair = placement->options.lengths == FG_LENGTHS_FAIR;
   const bool few =
-      placement->domain.dimension == 2 && count <= (fair ? MOST_TWICE_FAIR : MOST_TWICE);
-  int others = EFFORTS[placement->options.effort].others;
+      placement->domain.dimension == 2 && count <= (fair ? FEW_FAIR : FEW_FREE);
+  const effort *much = &EFFORTS[placement->options.effort];
+  int others = is_first ? much->first_others : much->others;
   if (placement->options.effort != FG_EFFORT_THOROUGH && !few)
     return 0;
   if (!is_first)
