@@ -204,6 +204,27 @@ static void a_thorough_search_is_better(void **state)
   fg_field_destroy(field);
 }
 
+/* A few that come down from a finer scale are placed as a thorough search places them. */
+static void few_are_searched_for_thoroughly(void **state)
+{
+  fg_field *field = field_of(*state, &PLAIN, coast);
+  fg_placement *first = placement_of(*state, field, FG_EFFORT_QUICK);
+  fg_icons *finer = place(*state, first, 60), *few[2];
+  for (int k = 0; k < 2; ++k) {
+    fg_placement *placement =
+        placement_of(*state, field, k ? FG_EFFORT_THOROUGH : FG_EFFORT_NORMAL);
+    assert_int_equal(fg_placement_resume(placement, finer), FG_STATUS_OK);
+    few[k] = place(*state, placement, 20);
+    fg_placement_destroy(placement);
+  }
+  assert_same_icons(few[0], few[1]);
+  fg_icons_destroy(few[0]);
+  fg_icons_destroy(few[1]);
+  fg_icons_destroy(finer);
+  fg_placement_destroy(first);
+  fg_field_destroy(field);
+}
+
 /* One call gives what placing in steps gives. */
 static void one_call_is_enough(void **state)
 {
@@ -331,11 +352,12 @@ static void a_river_gets_its_arrows(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(there_are_as_many_as_asked_for), CASE(a_field_has_one_picture),
-      CASE(a_turned_field_is_read_as_well), CASE(placing_lowers_the_error),
-      CASE(icons_of_clusters_are_a_start),  CASE(one_call_is_enough),
-      CASE(wrong_arguments_are_refused),    CASE(more_than_can_be_placed_are_refused),
-      CASE(a_river_gets_its_arrows),        CASE(a_thorough_search_is_better),
+      CASE(there_are_as_many_as_asked_for),  CASE(a_field_has_one_picture),
+      CASE(a_turned_field_is_read_as_well),  CASE(placing_lowers_the_error),
+      CASE(icons_of_clusters_are_a_start),   CASE(one_call_is_enough),
+      CASE(wrong_arguments_are_refused),     CASE(more_than_can_be_placed_are_refused),
+      CASE(a_river_gets_its_arrows),         CASE(a_thorough_search_is_better),
+      CASE(few_are_searched_for_thoroughly),
   };
   return cmocka_run_group_tests_name("place/placement", tests, NULL, NULL);
 }
