@@ -219,6 +219,15 @@ void fg__grib_forward(const fg__grib_projection *projection, double longitude,
 /* png.c: whether an image is whole, one that libpng unpacks without complaint. */
 bool fg__grib_is_png(const unsigned char *png, size_t size);
 
+/* packing.c: whether an image of JPEG 2000 says that it has one component of so many
+ * samples. */
+bool fg__grib_jpeg_has(const unsigned char *jpeg, size_t size, uint64_t count);
+
+/* packing.c: whether the groups of complex packing have so many values together, all in
+ * the data; packing is section 5, data what follows the head of section 7. */
+bool fg__grib_groups_fit(const unsigned char *packing, size_t packing_size,
+                         const unsigned char *data, size_t size, uint64_t count);
+
 /* values.c: fills out[points] in the order of the axes, x fastest; REDUCED: in that of
  * the file. NAN: missing. FILE_FORMAT, UNSUPPORTED, MEMORY. */
 fg_status fg__grib_values(float *out, const fg__grib_file *file,
