@@ -11,7 +11,8 @@ static const double MOST_SAMPLES = 16.0;
 /* Between scattered points samples are finer, each way, as long as they are not many. */
 static const double FINEST = 8.0, MANY = 262144.0;
 
-/* Samples along an axis: no model has so many; a sliver may ask for any number. */
+/* Samples along an axis: no model has so many. A sliver, which may ask for any number,
+ * has no more than its points allow. */
 static const double MOST_ALONG = 1 << 22;
 
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;
@@ -22,11 +23,11 @@ typedef struct raster {
   bool closed; /* all longitudes */
 } raster;
 
-/* Samples at both ends, `spacing` or less apart. */
-static int count_along(double length, double spacing)
+/* Samples at both ends, `spacing` or less apart where that makes no more than `most`. */
+static int count_along(double length, double spacing, double most)
 {
   const double cells = ceil(length / spacing - 1e-6);
-  return !(cells >= 1.0) ? 2 : 1 + (int)fmin(cells, MOST_ALONG);
+  return !(cells >= 1.0) ? 2 : 1 + (int)fmin(cells, fmin(most, MOST_ALONG));
 }
 
 static double least_cosine_inverse(const fg__sphere_extent *extent)
@@ -50,11 +51,12 @@ static raster raster_of(const fg__sphere_extent *extent)
     spacing *= sqrt(samples / most);
     samples = most;
   }
-  if (extent->scattered)
-    spacing /= fmin(FINEST, fmax(1.0, sqrt(MANY / samples)));
+  const double finer =
+      extent->scattered ? fmin(FINEST, fmax(1.0, sqrt(MANY / samples))) : 1.0;
+  spacing /= finer;
   raster out = {.closed = width >= 360.0, .first = {extent->west, extent->south}};
-  out.size[0] = count_along(width, spacing * wider);
-  out.size[1] = count_along(height, spacing);
+  out.size[0] = count_along(width, spacing * wider, finer * most);
+  out.size[1] = count_along(height, spacing, finer * most);
   out.step[0] = width / (out.size[0] - 1);
   out.step[1] = height / (out.size[1] - 1);
   out.size[0] -= out.closed && out.size[0] > 3;
