@@ -10,13 +10,18 @@
 
 enum {
   MOST_SAMPLES = 1 << 20,
+  FEWEST_SAMPLES = 1 << 12,
   FINEST =
       8, /* samples a cell, where there is room: stairs at slanting edges are finer */
   MEASURED_CELLS = 1 << 16, /* so many, evenly chosen, tell the spacing */
-  MOST_COVER = 64,     /* times that cells' boxes may cover the raster: sound meshes do it
-                          1 to 6 times (tetrahedra fill a sixth of their boxes), thin
-                          slanting layers 30 times and more */
-  MOST_TRIED = 1 << 24 /* samples in all boxes: they take 0.4 us each */
+  MOST_COVER = 64, /* times that cells' boxes may cover the raster: sound meshes do it
+                      1 to 6 times (tetrahedra fill a sixth of their boxes), thin
+                      slanting layers 30 times and more */
+  MOST_TRIED = 1 << 24, /* samples in all boxes: they take 0.4 us each */
+  /* Samples in all boxes of few cells, and more of each: a raster in which a handful of
+     cells lie over each other is coarser. */
+  FEW_TRIED = 3 << 19,
+  TRIED_A_CELL = FINEST * FINEST * FINEST
 };
 
 /* Of the width: single precision rounds coordinates by less, and no layer is thinner. */
@@ -162,10 +167,11 @@ static double count_samples(const int intervals[3])
   return (intervals[0] + 1.0) * (intervals[1] + 1.0) * (intervals[2] + 1.0);
 }
 
-/* Whole numbers of intervals: as many times those suggested as there is room for, or the
- * same share of each. In a volume two at least, for a layer would be taken for a plane.
+/* Whole numbers of intervals: as many times those suggested as `most` samples allow, or
+ * the same share of each. In a volume two at least, for a layer would be taken for a
+ * plane.
  */
-static void fit_intervals(int out[3], const double suggested[3], int flat)
+static void fit_intervals(int out[3], const double suggested[3], int flat, double most)
 {
   const double least = flat < 0 ? 2.0 : 1.0;
   double times = FINEST;
@@ -175,30 +181,7 @@ static void fit_intervals(int out[3], const double suggested[3], int flat)
       out[k] = k == flat ? 0 : (int)fmin(fmax(wanted, least), MOST_SAMPLES);
     }
     times = times > 1.0 ? times - 1.0 : 0.98 * times;
-  } while (count_samples(out) > MOST_SAMPLES);
-}
-
-fg_status fg__cell_set_choose_raster(fg__cell_set *set)
-{
-  cell_box box;
-  double intervals[3] = {0.0, 0.0, 0.0};
-  int fitted[3];
-  fg_status status = find_box_and_flat(&box, set);
-  for (int k = 0; k < 3 && status == FG_STATUS_OK; ++k)
-    if (k != set->flat)
-      status = count_intervals(&intervals[k], set, k, box.high[k] - box.low[k]);
-  if (status != FG_STATUS_OK)
-    return status;
-  fit_intervals(fitted, intervals, set->flat);
-  set->dimension = set->flat < 0 ? 3 : 2;
-  for (int k = 0; k < 3; ++k) {
-    set->size[k] = fitted[k] + 1;
-    set->origin[k] = box.low[k];
-    set->spacing[k] = fitted[k] > 0 ? (box.high[k] - box.low[k]) / fitted[k] : 1.0;
-  }
-  if (set->flat >= 0) /* the middle of a layer */
-    set->origin[set->flat] = 0.5 * (box.low[set->flat] + box.high[set->flat]);
-  return FG_STATUS_OK;
+  } while (count_samples(out) > fmax(most, FEWEST_SAMPLES));
 }
 
 /* Samples that a cell's box, made larger by the tolerance, holds: [first, end). */
@@ -218,8 +201,8 @@ static bool samples_in(int first[3], int end[3], const fg__cell_set *set,
   return true;
 }
 
-/* How many samples are to be tried, for all cells together. */
-static fg_status check_cover(const fg__cell_set *set, size_t samples)
+/* Samples in the boxes of all cells together. */
+static double count_tried(const fg__cell_set *set)
 {
   double tried = 0.0;
   for (size_t c = 0; c < set->count; ++c) {
@@ -228,6 +211,51 @@ static fg_status check_cover(const fg__cell_set *set, size_t samples)
     if (samples_in(first, end, set, &box))
       tried += (double)(end[0] - first[0]) * (end[1] - first[1]) * (end[2] - first[2]);
   }
+  return tried;
+}
+
+/* The raster of a box whose intervals are as suggested where `most` samples allow. */
+static void set_raster(fg__cell_set *set, const cell_box *box, const double suggested[3],
+                       double most)
+{
+  int fitted[3];
+  fit_intervals(fitted, suggested, set->flat, most);
+  for (int k = 0; k < 3; ++k) {
+    set->size[k] = fitted[k] + 1;
+    set->origin[k] = box->low[k];
+    set->spacing[k] = fitted[k] > 0 ? (box->high[k] - box->low[k]) / fitted[k] : 1.0;
+  }
+  if (set->flat >= 0) /* the middle of a layer */
+    set->origin[set->flat] = 0.5 * (box->low[set->flat] + box->high[set->flat]);
+}
+
+static double count_raster(const fg__cell_set *set)
+{
+  return (double)set->size[0] * set->size[1] * set->size[2];
+}
+
+fg_status fg__cell_set_choose_raster(fg__cell_set *set)
+{
+  cell_box box;
+  double intervals[3] = {0.0, 0.0, 0.0};
+  fg_status status = find_box_and_flat(&box, set);
+  for (int k = 0; k < 3 && status == FG_STATUS_OK; ++k)
+    if (k != set->flat)
+      status = count_intervals(&intervals[k], set, k, box.high[k] - box.low[k]);
+  if (status != FG_STATUS_OK)
+    return status;
+  set->dimension = set->flat < 0 ? 3 : 2;
+  set_raster(set, &box, intervals, MOST_SAMPLES);
+  const double tried = count_tried(set);
+  const double most = FEW_TRIED + TRIED_A_CELL * (double)set->count;
+  if (tried > most)
+    set_raster(set, &box, intervals, count_raster(set) * most / tried);
+  return FG_STATUS_OK;
+}
+
+static fg_status check_cover(const fg__cell_set *set, size_t samples)
+{
+  const double tried = count_tried(set);
   if (tried > fmin(MOST_COVER * (double)samples, MOST_TRIED))
     return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
                     "%s: its cells lie over each other: the boxes round them cover all "

@@ -271,6 +271,38 @@ static void the_raster_has_an_upper_limit(void **state)
   fg__cell_set_clear(&set);
 }
 
+/* Each is looked at with every sample in its box: a few cells in one place, made fine by
+ * small ones, get a coarser raster. */
+static void few_cells_over_each_other_have_few_samples(void **state)
+{
+  enum { LARGE = 12, SMALL = 24, CELLS = LARGE + SMALL };
+  static const int round[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                  {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  double position[3 * 8 * CELLS];
+  for (int n = 0; n < 8 * CELLS; ++n)
+    for (int k = 0; k < 3; ++k)
+      position[3 * n + k] =
+          n / 8 < LARGE ? round[n % 8][k] : 0.01 * (n / 8 + round[n % 8][k]);
+  fg__cell_set set = set_of(*state, position, 8 * CELLS);
+  for (int c = 0; c < CELLS; ++c) {
+    int corner[8];
+    for (int i = 0; i < 8; ++i)
+      corner[i] = 8 * c + i;
+    add(&set, FG__CELL_HEXAHEDRON, corner);
+  }
+  locate(&set);
+  const size_t samples = samples_of(&set);
+  assert_true(samples > 1 << 16 && samples * LARGE < 1 << 21);
+  float *value = sample(&set, linear);
+  for (size_t n = 0; n < samples; ++n) {
+    double p[3];
+    position_of(p, &set, n);
+    assert_true(fabs((double)value[n] - linear(p)) < 1e-4);
+  }
+  free(value);
+  fg__cell_set_clear(&set);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -284,6 +316,7 @@ int main(void)
       cmocka_unit_test(cells_over_each_other_are_refused),
       cmocka_unit_test(cells_that_fill_nothing_are_left_out),
       cmocka_unit_test(the_raster_has_an_upper_limit),
+      cmocka_unit_test(few_cells_over_each_other_have_few_samples),
   };
   return cmocka_run_group_tests_name("read/cells/set", tests, context_set_up,
                                      context_tear_down);
