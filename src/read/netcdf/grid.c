@@ -49,6 +49,8 @@ void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
                  grid->time_name);
   set_index_axis(file, v, grid->level, &grid->levels, &grid->level_variable,
                  grid->level_name);
+  if (grid->time >= 0 && !grid->time_variable)
+    grid->time_variable = fg__nc_date_texts(file, v->dimension[grid->time]);
 }
 
 static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,

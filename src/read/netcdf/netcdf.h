@@ -141,6 +141,11 @@ bool fg__nc_seconds(const char *units, double *out);
 bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
                  size_t size);
 
+/* Writes a date that is written in a file in the same way: "2010-07-16_12:00:00", with a
+ * space or a T instead of the underscore, perhaps parts of a second and a Z, which are
+ * left out; false when it is none. */
+bool fg__nc_date_of_text(const char *text, char *out, size_t size);
+
 /* Writes a time from no known date on as its parts, "3 d", "1 d 6 h 30 min"; false where
  * units are of no time, or it is no whole number of seconds. */
 bool fg__nc_duration(double value, const char *units, char *out, size_t size);
@@ -223,7 +228,8 @@ typedef struct fg__nc_grid {
   fg__nc_axis axis[3];  /* x, y; the levels as z in 3D */
   int time, level;      /* positions among the dimensions, or -1 */
   size_t times, levels; /* 1 when there is none */
-  const fg__nc_variable *time_variable, *level_variable; /* or NULL */
+  const fg__nc_variable *time_variable, *level_variable; /* or NULL; time's may be
+                                                            texts (date_texts.c) */
   char time_name[NC_MAX_NAME + 1], level_name[NC_MAX_NAME + 1];
   fg_scale scale;
   char projection[2 * FG__NC_TEXT]; /* of scale MAP: a PROJ string; "" not known */
@@ -367,6 +373,17 @@ fg_status fg__nc_usual(fg_usual *out, const fg__nc_file *file, const fg__nc_pair
  * where there is no coordinate, or more values than anyone would choose from. */
 fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file *file,
                              const fg__nc_variable *coordinate, size_t count);
+
+/* date_texts.c. The variable that has a date as text for each step of a dimension, or
+ * NULL. */
+const fg__nc_variable *fg__nc_date_texts(const fg__nc_file *file, int dimension);
+
+/* The date of one step, "" where the text is none; and fg__nc_axis_values of all, which
+ * have no numbers, NULL where one of the texts is no date. */
+fg_status fg__nc_date_text(char *out, size_t size, const fg__nc_variable *texts,
+                           size_t index);
+fg_status fg__nc_date_values(fg_axis_value **out, char **text,
+                             const fg__nc_variable *texts, size_t count);
 
 /* What captions say of the samples that options choose. */
 typedef struct fg__nc_words {

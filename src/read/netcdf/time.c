@@ -69,6 +69,17 @@ static bool read_reference(const char *units, double *unit, fg__date *date,
   return fabs(*seconds) <= 2.0 * (double)SECONDS_PER_DAY;
 }
 
+/* With the time of day, `rest` seconds, as far as it is told. */
+static void write_date(char *out, size_t size, fg__date d, int64_t rest)
+{
+  const int hour = (int)(rest / 3600), minute = (int)(rest / 60 % 60);
+  int used = snprintf(out, size, "%04lld-%02d-%02d", (long long)d.year, d.month, d.day);
+  if (rest > 0 && used > 0 && (size_t)used < size)
+    used += snprintf(out + used, size - (size_t)used, " %02d:%02d", hour, minute);
+  if (rest % 60 > 0 && used > 0 && (size_t)used < size)
+    snprintf(out + used, size - (size_t)used, ":%02d", (int)(rest % 60));
+}
+
 bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
                  size_t size)
 {
@@ -92,14 +103,27 @@ bool fg__nc_date(double value, const char *units, const char *calendar, char *ou
   /* COARDS: a reference in year 0 marks a climatology, whose year means nothing */
   if (reference.year == 0 && d.year <= 1)
     snprintf(out, size, "%d %s (climatology)", d.day, month_name[d.month - 1]);
-  else if (rest == 0)
-    snprintf(out, size, "%04lld-%02d-%02d", (long long)d.year, d.month, d.day);
-  else if (rest % 60 == 0)
-    snprintf(out, size, "%04lld-%02d-%02d %02d:%02d", (long long)d.year, d.month, d.day,
-             (int)(rest / 3600), (int)(rest / 60 % 60));
   else
-    snprintf(out, size, "%04lld-%02d-%02d %02d:%02d:%02d", (long long)d.year, d.month,
-             d.day, (int)(rest / 3600), (int)(rest / 60 % 60), (int)(rest % 60));
+    write_date(out, size, d, rest);
+  return true;
+}
+
+bool fg__nc_date_of_text(const char *text, char *out, size_t size)
+{
+  int year, month, day, hour, minute, second, used = 0;
+  char parting;
+  const int count = sscanf(text, "%4d-%2d-%2d%c%2d:%2d:%2d%n", &year, &month, &day,
+                           &parting, &hour, &minute, &second, &used);
+  if (count != 7 || !strchr("_ Tt", parting) || year < 0 || month < 1 || month > 12 ||
+      day < 1 || day > 31 || hour < 0 || hour > 23 || minute < 0 || minute > 59 ||
+      second < 0 || second > 59)
+    return false;
+  used += text[used] == '.' ? 1 + (int)strspn(text + used + 1, "0123456789") : 0;
+  used += text[used] == 'Z';
+  if (text[used + (int)strspn(text + used, " ")])
+    return false;
+  write_date(out, size, (fg__date){year, month, day},
+             (int64_t)hour * 3600 + minute * 60 + second);
   return true;
 }
 

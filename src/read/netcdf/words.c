@@ -169,7 +169,12 @@ static void write_words(const fg__nc_variable *coordinate, double value, char *o
 fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,
                              const char *name, size_t index, char *out, size_t size)
 {
-  if (!coordinate) {
+  if (coordinate && coordinate->type == NC_CHAR) {
+    const fg_status status = fg__nc_date_text(out, size, coordinate, index);
+    if (status != FG_STATUS_OK || out[0])
+      return status;
+  }
+  if (!coordinate || coordinate->type == NC_CHAR) {
     snprintf(out, size, "%.200s %zu", name, index);
     return FG_STATUS_OK;
   }
@@ -227,8 +232,11 @@ fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file
 {
   *out = NULL;
   *text = NULL;
-  if (!coordinate || coordinate->rank > 1 || count < 1 || count > MOST_VALUES ||
-      coordinate->type == NC_CHAR || coordinate->type > NC_UINT64)
+  if (!coordinate || count < 1 || count > MOST_VALUES)
+    return FG_STATUS_OK;
+  if (coordinate->type == NC_CHAR)
+    return fg__nc_date_values(out, text, coordinate, count);
+  if (coordinate->rank > 1 || coordinate->type > NC_UINT64)
     return FG_STATUS_OK;
   fg_status status = FG_STATUS_OK;
   double *number = fg__allocate(count, sizeof *number);
