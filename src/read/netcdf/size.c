@@ -222,6 +222,16 @@ static void add_to_records(record_layout *records, const variable_extent *extent
   ++records->variables;
 }
 
+/* libnetcdf moves data by blocks where a header grows, and leaves the rest of the last.
+ */
+static bool is_zero(const unsigned char *bytes, size_t size)
+{
+  for (size_t i = 0; i < size; ++i)
+    if (bytes[i])
+      return false;
+  return true;
+}
+
 /* Data that go on beyond the last variable's lie elsewhere than the header says, but for
  * padding, and for whole records of a file that was not closed. end: of the data. */
 static fg_status check_rest(fg_context *context, const fg__source *source,
@@ -229,7 +239,9 @@ static fg_status check_rest(fg_context *context, const fg__source *source,
 {
   const uint64_t step = records->variables == 1 ? records->only : records->bytes;
   const uint64_t rest = end > 0 && end < source->size ? source->size - end : 0;
-  if (rest < 4 || (step > 0 && (rest % step < 4 || step - rest % step < 4)))
+  const uint64_t padding = (4 - end % 4) % 4;
+  if (rest < 4 || (step > 0 && (rest % step < 4 || step - rest % step < 4)) ||
+      is_zero(source->bytes + end + padding, (size_t)(rest - padding)))
     return FG_STATUS_OK;
   fg_status status = fg__fail(context, FG_STATUS_FILE_FORMAT,
                               "%s: damaged: its data end at byte %" PRIu64

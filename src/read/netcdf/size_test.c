@@ -130,8 +130,9 @@ static void lengthened_classic_files_are_refused(void **state)
         fg_field *field;
         make(f, 0, records == 1);
         unsigned char *bytes = load(f->path, &size);
-        unsigned char *longer = calloc(1, size + more[i]);
+        unsigned char *longer = malloc(size + more[i]);
         assert_non_null(longer);
+        memset(longer, 7, size + more[i]);
         const size_t at = middle ? size - COUNT : size;
         memcpy(longer, bytes, at);
         memcpy(longer + at + more[i], bytes + at, size - at);
@@ -142,6 +143,27 @@ static void lengthened_classic_files_are_refused(void **state)
         free(longer);
         free(bytes);
       }
+}
+
+/* libnetcdf moves data by blocks of 8192 bytes where a header grows, and leaves the rest
+ * of the last behind them. */
+static void zeros_behind_the_data_are_passed_over(void **state)
+{
+  static const size_t more[] = {4, 64, 6000};
+  sample_file *f = *state;
+  for (int records = 0; records < 2; ++records)
+    for (size_t i = 0; i < sizeof more / sizeof *more; ++i) {
+      size_t size;
+      fg_field *field;
+      make(f, 0, records == 1);
+      unsigned char *bytes = load(f->path, &size);
+      memset(bytes + size, 0, more[i]);
+      assert_int_equal(read_bytes(f, bytes, size + more[i], &field), FG_STATUS_OK);
+      const fg_field_arrays *a = fg_field_contents(field);
+      assert_true(a->velocity[0][0] == 90.0f + COUNT);
+      fg_field_destroy(field);
+      free(bytes);
+    }
 }
 
 static void truncated_netcdf4_is_refused(void **state)
@@ -228,6 +250,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(truncated_classic_files_are_refused),
       CASE(lengthened_classic_files_are_refused),
+      CASE(zeros_behind_the_data_are_passed_over),
       CASE(truncated_netcdf4_is_refused),
       CASE(damaged_bytes_are_survived),
       CASE(absurd_dimensions_are_refused),
