@@ -88,26 +88,34 @@ function stationsOf(arrow) {
   if (!arrow.stations) {
     const count = arrow.speeds ? SOLID_STATIONS : STATIONS;
     arrow.stations = stations(arrow.path, count, strideOf(arrow));
-    if (arrow.speeds) arrow.stationSpeeds = Float64Array.from({ length: count }, (_, k) =>
-      valueAt(arrow.speeds, arrow.along ??= lengths(arrow.path, 3), k / (count - 1)));
+    if (arrow.speeds) arrow.stationSpeeds = stationValues(arrow.speeds, lengths(arrow.path, 3), count);
   }
   return arrow.stations;
 }
 
-/** A value at a share of a line's length, of values at its points. */
-function valueAt(values, along, share) {
-  const s = share * along[along.length - 1];
-  let at = 0;
-  while (at < along.length - 2 && along[at + 1] < s) ++at;
-  const part = Math.min(1, (s - along[at]) / (along[at + 1] - along[at] || 1));
-  return values[at] + part * (values[at + 1] - values[at]);
+/** What values at a line's points are at its stations. */
+function stationValues(values, along, count) {
+  const out = new Float64Array(count);
+  for (let k = 0, at = 0; k < count; ++k) {
+    const s = (along[along.length - 1] * k) / (count - 1);
+    while (at < along.length - 2 && along[at + 1] < s) ++at;
+    const part = Math.min(1, (s - along[at]) / (along[at + 1] - along[at] || 1));
+    out[k] = values[at] + part * (values[at + 1] - values[at]);
+  }
+  return out;
+}
+
+function blendAll(from, to, t) {
+  const out = new Float64Array(from.length);
+  for (let k = 0; k < out.length; ++k) out[k] = from[k] + t * (to[k] - from[k]);
+  return out;
 }
 
 /** From an arrow of one scale to the same in the next. */
 export function between(a, b, t) {
   const [from, to] = [stationsOf(a), stationsOf(b)];
-  const out = { id: a.id, share: 1, path: from.map((p, k) => blend(p, to[k], t)) };
-  if (a.speeds) out.speeds = a.stationSpeeds.map((v, k) => blend(v, b.stationSpeeds[k], t));
+  const out = { id: a.id, share: 1, path: blendAll(from, to, t) };
+  if (a.speeds) out.speeds = blendAll(a.stationSpeeds, b.stationSpeeds, t);
   for (const name of SIZES) out[name] = blend(a[name], b[name], t);
   return out;
 }
@@ -117,7 +125,8 @@ function shrunk(arrow, share) {
   const path = stationsOf(arrow);
   const stride = strideOf(arrow);
   const middle = stride * Math.floor(path.length / stride / 2);
-  const out = { ...arrow, share, path: path.map((p, k) => blend(path[middle + (k % stride)], p, 0.4 + 0.6 * share)) };
+  const out = { ...arrow, share, path: new Float64Array(path.length) };
+  for (let k = 0; k < path.length; ++k) out.path[k] = blend(path[middle + (k % stride)], path[k], 0.4 + 0.6 * share);
   if (arrow.speeds) out.speeds = arrow.stationSpeeds;
   for (const name of WIDTHS) out[name] *= 0.4 + 0.6 * share;
   return out;
@@ -149,11 +158,13 @@ function goTo(arrow, parent, t) {
   const middle = stride * Math.floor(arrow.path.length / stride / 2);
   const center = arrow.center ?? arrow.path.slice(middle, middle + stride);
   let nearest = Infinity;
-  let way = center.map(() => 0);
+  let at = 0; // of the parent's points the nearest
   for (let k = 0; k < parent.path.length; k += stride) {
-    const step = Array.from(center, (p, i) => parent.path[k + i] - p);
-    const far = step.reduce((sum, d) => sum + d * d, 0);
-    if (far < nearest) [nearest, way] = [far, step];
+    let far = 0;
+    for (let i = 0; i < stride; ++i) far += (parent.path[k + i] - center[i]) ** 2;
+    if (far < nearest) [nearest, at] = [far, k];
   }
-  return { ...arrow, path: arrow.path.map((p, k) => p + 0.35 * t * way[k % stride]) };
+  const path = new Float64Array(arrow.path.length);
+  for (let k = 0; k < path.length; ++k) path[k] = arrow.path[k] + 0.35 * t * (parent.path[at + (k % stride)] - center[k % stride]);
+  return { ...arrow, path };
 }

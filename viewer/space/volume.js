@@ -7,6 +7,10 @@ const PLACE_STEPS = 65535;
 const SPEED_STEPS = 4095;
 const SURFACE_STEPS = 4095;
 
+// of sampleVelocity: where in a cell, and the weighted sum of its corners
+const part = new Float64Array(3);
+const sum = new Float64Array(4);
+
 function boxOf({ low, high }) {
   const scale = 1 / Math.max(...low.map((l, k) => high[k] - l));
   const middle = low.map((l, k) => (l + high[k]) / 2);
@@ -68,27 +72,34 @@ async function readVelocity({ nodes, unit, ...packed }, half) {
   return { nodes, samples, half };
 }
 
-/** The velocity at a place in the view box; undefined where there is none. */
-export function velocityAt({ nodes, samples, half }, place) {
-  const [low, part] = [[], []];
-  for (let k = 0; k < 3; ++k) {
+/**
+ * The velocity at a place in the view box, into the first three of `out`. Returns whether there is
+ * one. Lines are traced by it, and so it makes nothing.
+ */
+export function sampleVelocity(out, { nodes, samples, half }, place) {
+  let node = 0; // of the cell's first corner
+  for (let k = 2; k >= 0; --k) {
     const at = (place[k] / half[k] / 2 + 0.5) * (nodes[k] - 1);
-    if (!(at > -1e-6 && at < nodes[k] - 1 + 1e-6)) return undefined;
-    low[k] = Math.min(Math.max(Math.floor(at), 0), nodes[k] - 2);
-    part[k] = at - low[k];
+    if (!(at > -1e-6 && at < nodes[k] - 1 + 1e-6)) return false;
+    const low = Math.min(Math.max(Math.floor(at), 0), nodes[k] - 2);
+    part[k] = at - low;
+    node = node * nodes[k] + low;
   }
-  const sum = [0, 0, 0, 0];
+  sum.fill(0);
   for (let c = 0; c < 8; ++c) {
-    let weight = 1;
-    let node = 0;
-    for (let k = 2; k >= 0; --k) {
-      const side = (c >> k) & 1;
-      weight *= side ? part[k] : 1 - part[k];
-      node = node * nodes[k] + low[k] + side;
-    }
-    for (let i = 0; i < 4; ++i) sum[i] += weight * samples[4 * node + i];
+    const [x, y, z] = [c & 1, (c >> 1) & 1, c >> 2];
+    const weight = (x ? part[0] : 1 - part[0]) * (y ? part[1] : 1 - part[1]) * (z ? part[2] : 1 - part[2]);
+    const at = 4 * (node + x + nodes[0] * (y + nodes[1] * z));
+    for (let i = 0; i < 4; ++i) sum[i] += weight * samples[at + i];
   }
-  return sum[3] > 0.5 ? sum.slice(0, 3).map((v) => v / sum[3]) : undefined;
+  for (let i = 0; i < 3; ++i) out[i] = sum[i] / sum[3];
+  return sum[3] > 0.5;
+}
+
+/** The velocity at a place in the view box; undefined where there is none. */
+export function velocityAt(velocity, place) {
+  const out = [0, 0, 0];
+  return sampleVelocity(out, velocity, place) ? out : undefined;
 }
 
 /** @param {any} run the JSON in the page */
