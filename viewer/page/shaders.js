@@ -1,8 +1,8 @@
 // Programs for the graphics processor (WebGL2).
 
 /** A WebGL2 context of a canvas; undefined where the browser has none. */
-export function graphics(canvas) {
-  return canvas.getContext("webgl2", { alpha: true, premultipliedAlpha: true, antialias: true }) ?? undefined;
+export function graphics(canvas, antialias = true) {
+  return canvas.getContext("webgl2", { alpha: true, premultipliedAlpha: true, antialias }) ?? undefined;
 }
 
 /** @param {WebGL2RenderingContext} gl */
@@ -17,7 +17,11 @@ export function build(gl, vertex, fragment) {
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
     throw new Error(gl.getProgramInfoLog(program) ?? "a shader");
-  const at = (name) => gl.getUniformLocation(program, name);
+  const places = new Map();
+  const at = (name) => {
+    if (!places.has(name)) places.set(name, gl.getUniformLocation(program, name));
+    return places.get(name);
+  };
   return { program, at };
 }
 

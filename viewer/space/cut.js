@@ -1,10 +1,12 @@
 // A plane through the volume, across an axis: colours of the speed on it, and arrows along the
 // flow in it.
 import { build } from "../page/shaders.js";
+import { along, cross } from "./camera.js";
 import { velocityAt } from "./volume.js";
 
 const GLYPHS = 22; // along the longer side
 const LONGEST = 0.92; // of the room of a glyph
+const THICK = 0.1; // of it
 const SLOWEST = 0.04; // of the fastest: no glyph
 const LIFT = 0.002; // over the plane, towards the viewer
 
@@ -40,24 +42,13 @@ void main() {
   pixel = vec4(shown.rgb * shown.a, shown.a);
 }`;
 
-// A shaft and a head, in the plane.
 const glyphVertex = `
-layout(location = 0) in vec3 middle;
-layout(location = 1) in vec4 along; // and whether the plane is dark there
+layout(location = 0) in vec4 corner; // and whether the plane is dark there
 uniform mat4 view;
-uniform vec3 across; // the plane's normal
-uniform float thick;
 flat out float dark;
 void main() {
-  vec3 way = along.xyz;
-  dark = along.w;
-  vec3 side = normalize(cross(across, way)) * thick;
-  vec3 tip = middle + 0.5 * way, tail = middle - 0.5 * way;
-  float head = min(4.2 * thick, 0.6 * length(way));
-  vec3 base = tip - normalize(way) * head;
-  vec3 at[9] = vec3[9](tail - 0.5 * side, tail + 0.5 * side, base - 0.5 * side, base - 0.5 * side,
-    tail + 0.5 * side, base + 0.5 * side, base - 1.8 * side, base + 1.8 * side, tip);
-  gl_Position = view * vec4(at[gl_VertexID], 1.0);
+  dark = corner.w;
+  gl_Position = view * vec4(corner.xyz, 1.0);
 }`;
 
 const glyphFragment = `
@@ -74,11 +65,22 @@ export function planeOf({ axis, share }, half) {
   return { middle: [0, 1, 2].map((k) => (k === axis ? at : 0)), at, sides: [unit(i), unit(j)], others: [i, j] };
 }
 
-/** Arrows on the plane: middle and way of each, and 1 where the plane's colour is dark. */
+/** The three triangles of a shaft and a head in a plane: along the way, and across it. */
+function corners(middle, way, normal, thick) {
+  const size = Math.hypot(...way);
+  const side = cross(normal, way).map((x) => (x / size) * thick);
+  const head = Math.min(4.2 * thick, 0.6 * size);
+  const [tail, base, tip] = [-0.5, 0.5 - head / size, 0.5];
+  return [[tail, -0.5], [tail, 0.5], [base, -0.5], [base, -0.5], [tail, 0.5], [base, 0.5], [base, -1.8], [base, 1.8], [tip, 0]]
+    .map(([t, s]) => along(along(middle, t, way), s, side));
+}
+
+/** Arrows on the plane: corners of triangles, and 1 where the plane's colour is dark. */
 function glyphsOf(cut, volume, { speeds, isDark }) {
   const fastest = speeds[1];
   const { half, velocity } = volume;
   const { middle, others: [i, j] } = planeOf(cut, half);
+  const normal = [0, 1, 2].map((k) => Number(k === cut.axis));
   const gap = (2 * Math.max(half[i], half[j])) / GLYPHS;
   const out = [];
   const counts = [i, j].map((k) => Math.max(1, Math.round((2 * half[k]) / gap)));
@@ -93,9 +95,10 @@ function glyphsOf(cut, volume, { speeds, isDark }) {
       if (speed < SLOWEST * fastest) continue;
       const way = [0, 0, 0];
       for (const k of [i, j]) way[k] = (v[k] / speed) * LONGEST * gap * Math.min(1, 0.25 + (0.75 * speed) / fastest);
-      out.push(...place, ...way, cut.shows !== "arrows" && isDark(Math.hypot(...v)) ? 1 : 0);
+      const dark = cut.shows !== "arrows" && isDark(Math.hypot(...v)) ? 1 : 0;
+      for (const corner of corners(place, way, normal, THICK * gap)) out.push(...corner, dark);
     }
-  return { list: Float32Array.from(out), thick: 0.1 * gap };
+  return Float32Array.from(out);
 }
 
 export class Cut {
@@ -117,11 +120,8 @@ export class Cut {
     this.buffer = gl.createBuffer();
     gl.bindVertexArray(this.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
-    for (const k of [0, 1]) {
-      gl.enableVertexAttribArray(k);
-      gl.vertexAttribPointer(k, 3 + k, gl.FLOAT, false, 28, 12 * k);
-      gl.vertexAttribDivisor(k, 1);
-    }
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 0, 0);
   }
 
   /** @param {any} scene @param {{axis: number, share: number, shows: string}} cut */
@@ -169,7 +169,7 @@ export class Cut {
     if (this.key !== key) {
       this.key = key;
       this.made = glyphsOf(cut, this.volume, scene);
-      gl.bufferData(gl.ARRAY_BUFFER, this.made.list, gl.DYNAMIC_DRAW);
+      gl.bufferData(gl.ARRAY_BUFFER, this.made, gl.DYNAMIC_DRAW);
     }
     const { program, at } = this.glyphs;
     gl.useProgram(program);
@@ -177,10 +177,8 @@ export class Cut {
     const lift = Math.sign(scene.eye[cut.axis] - offset) * LIFT;
     for (let k = 0; k < 4; ++k) lifted[12 + k] += lift * scene.matrix[4 * cut.axis + k];
     gl.uniformMatrix4fv(at("view"), false, lifted);
-    gl.uniform3fv(at("across"), [0, 1, 2].map((k) => Number(k === cut.axis)));
-    gl.uniform1f(at("thick"), this.made.thick);
     gl.uniform3fv(at("inks"), [...(cut.shows === "arrows" ? scene.ink : [0.08, 0.09, 0.11]), 1, 1, 1]);
     gl.bindVertexArray(this.array);
-    gl.drawArraysInstanced(gl.TRIANGLES, 0, 9, this.made.list.length / 7);
+    gl.drawArrays(gl.TRIANGLES, 0, this.made.length / 4);
   }
 }

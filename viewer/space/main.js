@@ -8,6 +8,7 @@ import { shortNumber, withUnits } from "../page/words.js";
 import { drawLabels, labelsOf } from "./axes.js";
 import { Camera } from "./camera.js";
 import { chainOf } from "./chain.js";
+import { Pace } from "./pace.js";
 import { edgeNear, nearestArrow, pointOnCut, steps } from "./pick.js";
 import { drawPicture } from "./picture.js";
 import { Scene } from "./scene.js";
@@ -37,8 +38,8 @@ let scene;
 let hovered; // {arrow, at}
 let shown = { at: -1, arrows: [] };
 let wanted = 0; // animation frame
-let wantedSince = 0;
-let resting = 0; // timer: all is drawn finely again
+let fitted; // the stage's size, as the canvas has it
+let numbers; // what is written at the box, as it was asked for
 let chain; // of scales, of the run and between them
 
 const last = () => chain.length - 1;
@@ -91,38 +92,45 @@ function pictureNow() {
 
 const empty = [];
 
-const SLOW = 70; // milliseconds that a frame takes, from when it is wanted
-const REST = 250; // milliseconds without a frame: the picture rests
+const MOST_PIXELS = 8e5; // of a coarse picture
 
 function draw() {
+  cancelAnimationFrame(wanted);
   wanted = 0;
   if (!scene?.ready) return;
   const ratio = devicePixelRatio || 1;
-  const quick = isSlow();
   const what = pictureNow();
-  scene.draw(camera, { ...what, arrows: what.arrows.length ? what.arrows : empty }, setFineness(quick ? ratio / 2 : ratio), quick);
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  context.clearRect(0, 0, ...camera.size);
-  if (state.show.numbers) drawLabels(context, labelsOf(run, volume, camera), theme.colors);
+  const { isCoarse } = pace;
+  if (!isCoarse) pace.measure();
+  const fineness = setFineness(isCoarse ? coarseRatio(ratio) : ratio);
+  scene.draw(camera, { ...what, arrows: what.arrows.length ? what.arrows : empty }, fineness, isCoarse);
+  drawNumbers(ratio);
   canvas.dataset.arrows = String(what.arrows.length);
   canvas.dataset.made = "yes";
   canvas.dataset.clusters = String(what.clusters.length);
 }
 
+/** The numbers at the box, unless they are there. */
+function drawNumbers(ratio) {
+  const { azimuth, elevation, zoom, target, size } = camera;
+  const wish = [azimuth, elevation, zoom, target, size, ratio, theme.isDark, state.show.numbers].join();
+  if (numbers === wish) return;
+  numbers = wish;
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, ...size);
+  if (state.show.numbers) drawLabels(context, labelsOf(run, volume, camera), theme.colors);
+}
+
 function redraw() {
-  if (!wanted) wantedSince = performance.now();
   wanted ||= requestAnimationFrame(draw);
 }
 
-/** Whether the picture moves and frames take long, as without a graphics processor: then coarse ones do until it rests. */
-function isSlow() {
-  if (!resting && performance.now() - wantedSince < SLOW) return false;
-  clearTimeout(resting);
-  resting = setTimeout(() => {
-    resting = 0;
-    redraw();
-  }, REST);
-  return true;
+const pace = new Pace(redraw);
+
+/** Pixels of a coarse picture for one of the window, along each side. */
+function coarseRatio(ratio) {
+  const [w, h] = camera.size;
+  return Math.min(ratio, Math.sqrt(MOST_PIXELS / (w * h)));
 }
 
 /** Gives the canvas so many pixels for one of the window. */
@@ -193,12 +201,17 @@ function update() {
   keep();
 }
 
+function move() {
+  pace.move();
+  update();
+}
+
 // ---- controls
 
 function slide(at) {
   state.at = Math.min(Math.max(at, 0), last());
   slider.value = String(state.at);
-  update();
+  move();
 }
 
 /** To the run's next scale of fewer arrows, or of more. */
@@ -209,12 +222,12 @@ function leap(way) {
 }
 
 // Two seconds from one of the run's scales to the next, more where many arrows change one by one.
-function pace() {
+function pause() {
   const low = Math.min(Math.floor(state.at), last() - 1);
   return Math.max(2000 * (chain[low + 1].at - chain[low].at), 150) * (calm.matches ? 2 : 1);
 }
 
-const player = new Player(byId("play"), { at: () => state.at, last, made: () => chain.length, slide, pace });
+const player = new Player(byId("play"), { at: () => state.at, last, made: () => chain.length, slide, pace: pause });
 
 function cutAcross(axis) {
   state.cut.axis = state.cut.axis === axis ? -1 : axis;
@@ -224,7 +237,7 @@ function cutAcross(axis) {
 function moveCut(share) {
   if (!hasCut()) return;
   state.cut.share = Math.min(Math.max(share, 0), 1);
-  update();
+  move();
 }
 
 function read(at, given) {
@@ -233,10 +246,10 @@ function read(at, given) {
   const found = given ?? (state.show.arrows ? nearestArrow(at, arrowsNow(), camera, cut, volume) : undefined);
   const place = found ? undefined : cut && pointOnCut(at, cut, camera, volume);
   const velocity = place && velocityAt(volume.velocity, place);
+  if (hovered?.arrow !== found?.arrow) redraw();
   hovered = found && { ...found, at };
   canvas.style.cursor = cut && edgeNear(at, cut, camera, volume) ? "move" : "";
   note.hidden = !found && !velocity;
-  redraw();
   if (note.hidden) return "";
   const lines = [];
   note.replaceChildren();
@@ -255,9 +268,9 @@ function read(at, given) {
 }
 
 function leave() {
+  if (hovered) redraw();
   hovered = undefined;
   byId("reading").hidden = true;
-  redraw();
 }
 
 // The next arrow for keys, from left to right.
@@ -293,14 +306,19 @@ async function savePng() {
     labels: (paper) => state.show.numbers && drawLabels(paper, labelsOf(run, volume, camera), theme.colors),
     title: run.title, words: captionWords(), colors: theme.colors, legend: theme.legend,
   });
-  resize();
+  draw(); // on the canvas of the window again
   if (blob) save("flowgrain.png", blob);
 }
 
 // ---- the page
 
 function resize() {
+  const { clientWidth, clientHeight } = byId("stage");
+  const size = [clientWidth, clientHeight, devicePixelRatio].join();
+  if (size === fitted) return;
+  fitted = size;
   camera.size = fit(canvas);
+  numbers = undefined; // a canvas of another size is empty
   draw();
 }
 
@@ -345,7 +363,7 @@ function connectCut() {
 }
 
 function connectView() {
-  connectZoom(camera, 1.25, update);
+  connectZoom(camera, 1.25, move);
   for (const button of document.querySelectorAll("[data-view]"))
     button.addEventListener("click", () => {
       camera.reset();
@@ -356,7 +374,7 @@ function connectView() {
   control(canvas, camera, {
     changed: () => {
       leave();
-      update();
+      move();
     },
     hovered: (at) => (at ? read(at) : leave()),
     key: doing(keys),
@@ -398,8 +416,8 @@ async function start() {
   restore();
   connect();
   theme.apply();
-  resize();
   update();
+  resize();
   if (!scene.ready) throw new Error("it offers no WebGL2");
 }
 

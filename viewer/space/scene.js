@@ -3,7 +3,8 @@ import { build, graphics, parts } from "../page/shaders.js";
 import { colorOf } from "../page/colors.js";
 import { edgesOf } from "./axes.js";
 import { Cut, planeOf } from "./cut.js";
-import { layOut } from "./frames.js";
+import { COARSE, FINE } from "./frames.js";
+import { Samples } from "./samples.js";
 import { Surfaces } from "./surfaces.js";
 import { Tubes } from "./tubes.js";
 
@@ -28,7 +29,7 @@ export class Scene {
   /** @param {HTMLCanvasElement} canvas @param {any} volume @param {any} run */
   constructor(canvas, volume, run) {
     Object.assign(this, { canvas, volume, run });
-    this.gl = graphics(canvas);
+    this.gl = graphics(canvas, false); // samples.js has it
     if (!this.gl) return;
     canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     this.prepare();
@@ -40,6 +41,7 @@ export class Scene {
 
   prepare() {
     const { gl } = this;
+    this.samples = new Samples(gl);
     this.tubes = new Tubes(gl);
     this.surfaces = new Surfaces(gl);
     this.cut = new Cut(gl, this.volume, this.run.field.unit);
@@ -51,7 +53,6 @@ export class Scene {
     gl.enableVertexAttribArray(0);
     gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
     this.palette = gl.createTexture();
-    this.shown = undefined;
     if (this.theme) this.setColors(...this.theme.given);
   }
 
@@ -99,28 +100,36 @@ export class Scene {
    * @param {import("./camera.js").Camera} camera
    * @param {{arrows: any[], clusters: {mesh: any, share: number}[], cut: any, outline: boolean, shadows: boolean, picked: number}} what
    * @param {number} ratio pixels of the canvas in one of the window
-   * @param {boolean} quick coarsely
+   * @param {boolean} coarse without samples, rims and round arrows
    */
-  draw(camera, what, ratio, quick = false) {
-    const { gl, volume, theme } = this;
+  draw(camera, what, ratio, coarse = false) {
+    const { gl } = this;
     if (gl.isContextLost()) return;
+    const size = camera.size.map((length) => Math.round(length * ratio));
+    if (!coarse) this.samples.begin(size);
+    gl.viewport(0, 0, ...size);
+    this.drawAll(camera, what, ratio, coarse ? COARSE : FINE);
+    if (!coarse) this.samples.end();
+  }
+
+  drawAll(camera, what, ratio, detail) {
+    const { gl, volume, theme } = this;
     const { half, period } = volume;
     Object.assign(this, { camera, matrix: camera.matrix, eye: camera.eye, size: camera.size, clip: this.clipOf(what.cut, camera) });
     this.wall = period.map((p, k) => (p > 0 ? half[k] + 1e-4 : FAR));
-    gl.viewport(0, 0, Math.round(camera.size[0] * ratio), Math.round(camera.size[1] * ratio));
     gl.clearColor(...theme.page, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     this.drawBox(camera);
-    if (this.shown !== what.arrows) {
-      this.shown = what.arrows;
-      this.tubes.set(layOut(what.arrows, half, period));
-    }
+    this.tubes.set(what.arrows, volume, detail);
     const floor = what.shadows && camera.seesInside(2, -1) ? -half[2] + 0.001 : undefined;
     const fog = [camera.distance - camera.radius, 2 * camera.radius];
-    const about = { setUp: (at) => this.setUp(at), matrix: this.matrix, eye: this.eye, size: this.size, palette: this.palette, quick,
+    const about = { setUp: (at) => this.setUp(at), matrix: this.matrix, eye: this.eye, size: this.size, palette: this.palette, scale: ratio * camera.scale,
       speeds: this.run.speeds, ...theme, theme: theme.name, floor, fog, picked: what.picked,
+      isCoarse: detail === COARSE,
+      isClosed: !what.cut?.hides && !period.some((p) => p > 0), // no arrow is cut open
+     
       isDark: (speed) => luminance(colorParts(theme.given[0], this.run.speeds, speed)) < 0.3 };
     this.tubes.draw(about);
     if (what.cut) this.cut.draw(about, what.cut);

@@ -1,5 +1,6 @@
 // Transparent surfaces, seen most where they are seen from the side.
 import { build } from "../page/shaders.js";
+import { merged } from "./merge.js";
 import { cutting } from "./tubes.js";
 
 const vertex = `
@@ -60,7 +61,7 @@ export class Surfaces {
     if (!layers.length) return;
     const { gl } = this;
     const { program, at } = this.program;
-    const meshes = layers.map((layer) => this.buffersOf(layer.mesh));
+    const meshes = layers.map(({ mesh }) => this.buffersOf(scene.isCoarse ? mesh.merged ??= merged(mesh) : mesh));
     gl.useProgram(program);
     scene.setUp(at);
     gl.enable(gl.BLEND);

@@ -27,10 +27,14 @@ export class Opened {
     if (this.folder) rmSync(this.folder, { recursive: true });
   }
 
-  /** A page of a run; what it says on the console or asks for, and errors, are in `faults`. */
-  async open(name, address = "", options = {}) {
+  /**
+   * A page of a run; what it says on the console or asks for, and errors, are in `faults`. Before all of the
+   * page `first` runs there, of `given`.
+   */
+  async open(name, address = "", { first, given, ...options } = {}) {
     const context = await this.browser.newContext({ viewport: { width: 1100, height: 760 }, bypassCSP: true, ...options });
     context.setDefaultTimeout(180_000); // however slow the machine
+    if (first) await context.addInitScript(first, given);
     const page = await context.newPage();
     const faults = [];
     // the driver without a graphics processor tells that it is slow

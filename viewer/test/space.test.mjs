@@ -28,20 +28,25 @@ async function saved(page) {
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#png")]);
   const file = readFileSync(await download.path());
   assert.equal(file.subarray(1, 4).toString(), "PNG");
+  return decoded(page, file, 4);
+}
+
+/** A picture of a PNG file's pixels, one for `step` times `step` of them. */
+async function decoded(page, file, step) {
   // as a text: the driver takes seconds for an array of as many numbers
-  const { width, height, bytes } = await page.evaluate(async (text) => {
+  const { width, height, bytes } = await page.evaluate(async ({ text, step }) => {
     const image = new Image();
     image.src = `data:image/png;base64,${text}`;
     await image.decode();
     const paper = document.createElement("canvas");
-    [paper.width, paper.height] = [image.width / 4, image.height / 4];
+    [paper.width, paper.height] = [image.width / step, image.height / step];
     const context = paper.getContext("2d");
     context.drawImage(image, 0, 0, paper.width, paper.height);
     const { data } = context.getImageData(0, 0, paper.width, paper.height);
     let bytes = "";
     for (let n = 0; n < data.length; n += 4096) bytes += String.fromCharCode(...data.subarray(n, n + 4096));
     return { width: image.width, height: image.height, bytes };
-  }, file.toString("base64"));
+  }, { text: file.toString("base64"), step });
   return { width, height, pixels: Buffer.from(bytes, "latin1") };
 }
 
@@ -181,6 +186,64 @@ test("keys turn, zoom, cut and go from arrow to arrow", { skip }, async () => {
   await page.keyboard.press("y");
   await page.keyboard.press("0");
   await page.waitForFunction(() => !/cut=|view=|zoom=/.test(location.hash));
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+/** Frames take so many milliseconds by the page's clock; timers eight times as long, for a slow machine to keep up. */
+function keepTime(milliseconds) {
+  const [animate, wait] = [globalThis.requestAnimationFrame, globalThis.setTimeout];
+  let now = 0;
+  let last;
+  performance.now = () => now;
+  globalThis.requestAnimationFrame = (call) => animate((time) => {
+    if (time !== last) now += milliseconds; // once for all that is done in a frame
+    last = time;
+    call(now);
+  });
+  globalThis.setTimeout = (call, time, ...given) => wait(call, 8 * time, ...given);
+}
+
+/** Opens it on a screen of small pixels, where a frame takes so long. */
+async function openAt(milliseconds) {
+  const all = await open("vortex", "", { viewport: { width: 560, height: 420 }, deviceScaleFactor: 3, first: keepTime, given: milliseconds });
+  const width = () => all.page.locator("#space").evaluate((canvas) => canvas.width / canvas.clientWidth);
+  /** Moves the slider again and again. @returns {Promise<number[]>} pixels of the canvas in one of the window, after each time */
+  const drag = () => all.page.evaluate(async () => {
+    const [slider, canvas] = ["scale", "space"].map((id) => document.getElementById(id));
+    const seen = [];
+    for (let n = 1; n <= 12; ++n) {
+      slider.value = String(0.1 * n);
+      slider.dispatchEvent(new Event("input"));
+      await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+      seen.push(canvas.width / canvas.clientWidth);
+    }
+    return seen;
+  });
+  return { ...all, width, drag };
+}
+
+test("where frames take long what moves is drawn coarsely, and finely when it rests", { skip }, async () => {
+  const { page, faults, close, width, drag } = await openAt(100);
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  assert.equal(await width(), 3);
+  const seen = await drag();
+  const stage = page.locator("#stage");
+  const moving = await decoded(page, await stage.screenshot(), 1);
+  assert.ok(seen.slice(2).every((ratio) => ratio < 2.9 && ratio >= 1), seen.join());
+  await page.waitForFunction(() => document.getElementById("space").width === 3 * document.getElementById("space").clientWidth);
+  const resting = await decoded(page, await stage.screenshot(), 1);
+  const [first, second] = [colourful(moving), colourful(resting)];
+  assert.ok(first > 0.005 && first > 0.6 * second && first < 1.4 * second, `${first} ${second}`); // the same arrows
+  const apartBy = apart(moving, resting);
+  assert.ok(apartBy > 0.001 && apartBy < 0.1, `${apartBy}`);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("where frames are fast all are drawn finely", { skip }, async () => {
+  const { faults, close, drag } = await openAt(10);
+  assert.ok((await drag()).every((ratio) => ratio === 3));
   assert.deepEqual(faults, []);
   await close();
 });
