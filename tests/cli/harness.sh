@@ -29,7 +29,7 @@ fault() {
 }
 
 expect_code() {
-  [ "$code" = "$1" ] || fault "exit code $code, not $1: $(head -c 300 err)"
+  [ "$code" = "$1" ] || fault "exit code $code, not $1: $(head -c 2000 err)"
 }
 
 expect_error() {
