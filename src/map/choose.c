@@ -140,7 +140,7 @@ static double longitude_of(const fg_map_options *options, const fg__map_area *ar
   if (options->has_center)
     return options->center[0];
   if (width_of(area) >= 350.0)
-    return area->sea ? -160.0 : 0.0;
+    return area->sea && !is_cap(area) ? -160.0 : 0.0;
   return turned(rounded(0.5 * (area->west + area->east), width_of(area)));
 }
 

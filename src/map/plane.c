@@ -98,40 +98,6 @@ static void include_area(box *out, const fg__map *map, double reach,
   }
 }
 
-/* The length of the image of a line of positions, as far as it is to be seen. */
-static double length_of(const fg__map *map, double reach, const double from[2],
-                        const double to[2])
-{
-  double length = 0.0, last[2] = {(double)NAN, (double)NAN};
-  for (int i = 0; i < ACROSS; ++i) {
-    box one = NOTHING;
-    const double share = (double)i / (ACROSS - 1);
-    include(&one, map, reach, from[0] + (to[0] - from[0]) * share,
-            from[1] + (to[1] - from[1]) * share);
-    const double piece = hypot(one.low[0] - last[0], one.low[1] - last[1]);
-    length += isfinite(piece) ? piece : 0.0;
-    memcpy(last, one.low, sizeof last);
-  }
-  return length;
-}
-
-/* As long as the middle parallel, as high as the middle meridian. */
-static void include_middle(box *out, const fg__map *map, double reach,
-                           const fg__map_area *area)
-{
-  const double longitude = 0.5 * (area->west + area->east);
-  const double latitude = 0.5 * (area->south + area->north);
-  const double length[] = {length_of(map, reach, (double[2]){area->west, latitude},
-                                     (double[2]){area->east, latitude}),
-                           length_of(map, reach, (double[2]){longitude, area->south},
-                                     (double[2]){longitude, area->north})};
-  include(out, map, reach, longitude, latitude);
-  for (int k = 0; k < 2; ++k) {
-    out->low[k] -= 0.5 * length[k];
-    out->high[k] += 0.5 * length[k];
-  }
-}
-
 static double reach_of(const fg__map *map, bool is_region)
 {
   if (fg__map_kind_of(map) != FG__MAP_AZIMUTHAL)
@@ -212,11 +178,9 @@ fg_status fg__map_plane_find(fg__map_plane *out, fg_context *context, const fg__
   box found = NOTHING;
   *out = (fg__map_plane){.area = *area, .bounded = is_region && all_round};
   out->reach = reach_of(map, is_region);
-  if (is_region && !all_round)
-    include_middle(&found, map, out->reach, area);
   for (size_t n = 0; !is_region && places && n < places->count; ++n)
     include(&found, map, out->reach, places->longitude[n], places->latitude[n]);
-  if (!(found.low[0] < found.high[0]) && !(is_region && !all_round))
+  if (!(found.low[0] < found.high[0]))
     include_area(&found, map, out->reach, area);
   const double width = found.high[0] - found.low[0],
                height = found.high[1] - found.low[1];

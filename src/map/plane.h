@@ -20,10 +20,9 @@ typedef struct fg__map_places {
   double *longitude, *latitude;
 } fg__map_places;
 
-/* Finds the rectangle of an area. is_region: the area was asked for, and fills a
- * rectangle as long as its middle parallel and as high as its middle meridian, unless it
- * goes all round; else all of it is to be seen. Projections without an outline are shown
- * to where they enlarge lengths threefold, Mercator's to 80 degrees. samples: along the
+/* Finds the rectangle round the image of an area. is_region: the area was asked for; one
+ * that goes all round bounds what is shown. Projections without an outline are shown to
+ * where they enlarge lengths threefold, Mercator's to 80 degrees. samples: along the
  * longer side. places: all that is to be seen, where no area was asked for; NULL or none
  * of them: all of the area. ARGUMENT: nothing of the area has an image, or the image is
  * torn elsewhere than along the meridian opposite the centre. */

@@ -255,6 +255,28 @@ static void label_crossings(fg__graticule *out, size_t first, side wanted,
     }
 }
 
+/* A parallel that ends within the box, at the meridian where the map is cut, has its label
+ * at the left side, too. */
+static void label_end(fg__graticule *out, size_t first, const char *text, int line)
+{
+  const fg__plane *plane = out->plane;
+  const double *west = NULL;
+  for (int n = 0; n < out->labels; ++n)
+    if (out->label[n].line == line)
+      return;
+  for (size_t k = first; k < out->line.count; ++k) {
+    const size_t ends[2] = {out->line.start[k], out->line.start[k + 1] - 1};
+    for (int n = 0; n < 2; ++n) {
+      const double *end = out->line.point[ends[n]];
+      if (in_box(plane, end) && (!west || end[0] < west[0]))
+        west = end;
+    }
+  }
+  if (west)
+    add_label(out->label, &out->labels, text, line,
+              (const double[2]){plane->low[0], west[1]}, -1.0, 0.0);
+}
+
 /* The first line of the polygons that belongs to each line of the two families. */
 typedef struct places {
   size_t first[2][FG__TICK_LIMIT + 1];
@@ -274,6 +296,10 @@ static void label_box(fg__graticule *out, const family *f, const places *where)
         label_crossings(out, where->first[which][n], order[which][k],
                         f[which].ticks.text[n], FG__TICK_LIMIT * which + n);
       }
+  for (int n = 0; n < f[1].ticks.count; ++n) {
+    lines->count = where->first[1][n + 1];
+    label_end(out, where->first[1][n], f[1].ticks.text[n], FG__TICK_LIMIT + n);
+  }
   lines->count = all;
 }
 

@@ -13,51 +13,7 @@
 #include "picture/map/map_scene.h"
 #include "picture/map/missing.h"
 #include "picture/map/page_map.h"
-
-enum { SIDE = 61 };
-
-typedef struct view {
-  const char *projection; /* NULL: degrees */
-  double low[2], high[2]; /* of the field's axes */
-  bool disc;              /* corners are missing */
-} view;
-
-static const view world = {
-    "+proj=eqearth +R=6371000 +units=km", {-17300, -8400}, {17300, 8400}, false};
-static const view pacific = {"+proj=eqearth +lon_0=200 +R=6371000 +units=km",
-                             {-17300, -8400},
-                             {17300, 8400},
-                             false};
-static const view south = {
-    "+proj=laea +lat_0=-90 +R=6371000 +units=km", {-7000, -7000}, {7000, 7000}, true};
-static const view north = {"+proj=stere +lat_0=90 +lon_0=-30 +R=6371000 +units=km",
-                           {-5000, -5000},
-                           {5000, 5000},
-                           true};
-static const view atlantic = {
-    "+proj=lcc +lat_1=28 +lat_2=62 +lat_0=45 +lon_0=-35 +R=6371000 +units=m",
-    {-4e6, -3.6e6},
-    {4e6, 3.5e6},
-    false};
-/* its antipode lies in Asia */
-static const view oblique = {"+proj=laea +lat_0=-35 +lon_0=-100 +R=6371000 +units=km",
-                             {-12742, -12742},
-                             {12742, 12742},
-                             true};
-static const view globe = {"+proj=ortho +lat_0=40 +lon_0=10 +R=6371000 +units=km",
-                           {-6371, -6371},
-                           {6371, 6371},
-                           true};
-/* inside one continent: no coast is to be seen */
-static const view sahara = {"+proj=laea +lat_0=22 +lon_0=10 +R=6371000 +units=km",
-                            {-300, -300},
-                            {300, 300},
-                            false};
-static const view degrees = {NULL, {21.0, -89.0}, {379.0, 89.0}, false};
-
-static const view *const views[] = {&world,   &pacific, &south,  &north,  &atlantic,
-                                    &oblique, &globe,   &sahara, &degrees};
-enum { VIEWS = sizeof views / sizeof *views };
+#include "picture/map/views_test.h"
 
 static const struct {
   double longitude, latitude;
@@ -81,41 +37,6 @@ static const struct {
     {-140.0, -60.0, false},                        /* the Southern Ocean */
 };
 enum { PLACES = sizeof places / sizeof *places };
-
-static fg_field *make_field(fg_context *context, const view *v,
-                            bool (*there)(double x, double y))
-{
-  static double axis[2][SIDE];
-  static float u[SIDE * SIDE], zero[SIDE * SIDE];
-  for (int k = 0; k < 2; ++k)
-    for (int n = 0; n < SIDE; ++n)
-      axis[k][n] = v->low[k] + (v->high[k] - v->low[k]) * n / (SIDE - 1);
-  const double radius = 0.5 * (v->high[0] - v->low[0]);
-  for (int n = 0; n < SIDE * SIDE; ++n) {
-    const double x = axis[0][n % SIDE], y = axis[1][n / SIDE];
-    const bool inside = !v->disc || hypot(x, y) <= radius;
-    u[n] = inside && (!there || there(x, y)) ? 1.0F : NAN;
-  }
-  const fg_field_arrays arrays = {.dimension = 2,
-                                  .size = {SIDE, SIDE, 0},
-                                  .axis = {axis[0], axis[1], NULL},
-                                  .velocity = {u, zero, NULL},
-                                  .scale = v->projection ? FG_SCALE_MAP : FG_SCALE_GEO,
-                                  .projection = v->projection};
-  fg_field *field = NULL;
-  assert_int_equal(fg_field_create(&field, context, &arrays), FG_STATUS_OK);
-  return field;
-}
-
-static void make_plane(fg__plane *plane, fg_context *context, const view *v)
-{
-  double low[2] = {v->low[0], v->low[1]}, high[2] = {v->high[0], v->high[1]};
-  fg_field *field = make_field(context, v, NULL);
-  assert_int_equal(fg__plane_create(plane, context, field, low, high), FG_STATUS_OK);
-  assert_int_equal(plane->kind == FG__PLANE_DEGREES, v->projection == NULL);
-  assert_int_equal(plane->disc, v->disc);
-  fg_field_destroy(field);
-}
 
 /* By the even-odd rule. */
 static bool contains(const fg__polygons *loops, const double at[2])
@@ -251,6 +172,26 @@ static void labels_say_where_lines_end(void **state)
     fg__plane_clear(&plane);
     free(graticule);
   }
+}
+
+/* Parallels end within the frame, at the cut. */
+static void a_band_round_the_globe_has_its_own_frame(void **state)
+{
+  fg__plane plane;
+  fg__graticule *graticule = calloc(1, sizeof *graticule);
+  int parallels = 0;
+  assert_non_null(graticule);
+  make_plane(&plane, *state, &tropics);
+  assert_false(plane.whole);
+  for (int k = 0; k < 2; ++k)
+    assert_true(plane.low[k] == tropics.low[k] && plane.high[k] == tropics.high[k]);
+  assert_int_equal(fg__graticule_create(graticule, *state, &plane), FG_STATUS_OK);
+  for (int n = 0; n < graticule->labels; ++n)
+    parallels += graticule->label[n].at[0] == plane.low[0];
+  assert_int_equal(parallels, 5); /* 20 S, 10 S, 0, 10 N, 20 N */
+  fg__graticule_clear(graticule);
+  fg__plane_clear(&plane);
+  free(graticule);
 }
 
 /* A page of 480 points: no two texts touch, all are on it, and the key keeps its gap. */
@@ -491,10 +432,15 @@ int main(void)
 #define TEST(name)                                                                       \
   cmocka_unit_test_setup_teardown(name, context_set_up, context_tear_down)
   const struct CMUnitTest tests[] = {
-      TEST(land_is_where_it_is),         TEST(coasts_do_not_cross_the_map),
-      TEST(labels_say_where_lines_end),  TEST(no_two_labels_touch),
-      TEST(the_rim_is_where_data_end),   TEST(pictures_show_land),
-      TEST(fewer_labels_are_still_even), TEST(land_covers_textures_of_the_sea),
+      TEST(land_is_where_it_is),
+      TEST(coasts_do_not_cross_the_map),
+      TEST(labels_say_where_lines_end),
+      TEST(no_two_labels_touch),
+      TEST(a_band_round_the_globe_has_its_own_frame),
+      TEST(the_rim_is_where_data_end),
+      TEST(pictures_show_land),
+      TEST(fewer_labels_are_still_even),
+      TEST(land_covers_textures_of_the_sea),
   };
   return cmocka_run_group_tests_name("picture/map/map", tests, NULL, NULL);
 }

@@ -26,6 +26,9 @@ static const double most_latitude = 89.5;
 static const double world_arc = 350.0;
 static const double rectangle_share = 0.985;
 
+/* What is less high than this share of the world has a frame of its own. */
+static const double band_share = 0.5;
+
 /* Lengths on the map, over those on the ground, that one key may stand for. */
 static const double most_distortion = 1.35;
 
@@ -238,7 +241,8 @@ static fg_status find_world(fg__plane *plane, fg_context *context)
     return fg__fail_memory(context, "a map's outline", OUTLINE);
   outline_box(low, high, &plane->outline);
   const double box = (high[0] - low[0]) * (high[1] - low[1]);
-  if (fabs(fg__polygon_area(&plane->outline, 0)) > rectangle_share * box) {
+  const bool is_band = plane->high[1] - plane->low[1] < band_share * (high[1] - low[1]);
+  if (is_band || fabs(fg__polygon_area(&plane->outline, 0)) > rectangle_share * box) {
     fg__polygons_clear(&plane->outline);
     return FG_STATUS_OK;
   }
