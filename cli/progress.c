@@ -52,12 +52,30 @@ static void draw(cli_progress *progress, const char *doing, double share,
   progress->drawn = true;
 }
 
+size_t progress_told_size(const progress_told *told)
+{
+  return offsetof(progress_told, u) + (size_t)told->nodes[0] * (size_t)told->nodes[1];
+}
+
+static void send_told(const cli_progress *progress, const progress_told *told)
+{
+  (void)send(progress->told, told, progress_told_size(told), MSG_DONTWAIT | MSG_NOSIGNAL);
+}
+
 static void tell(const cli_progress *progress, const char *doing, double share,
                  const char *words)
 {
-  progress_told told = {.share = share};
+  progress_told told;
+  memset(&told, 0, offsetof(progress_told, u));
+  told.share = share;
   snprintf(told.words, sizeof told.words, "%s%s%s", doing, *words ? ": " : "", words);
-  (void)send(progress->told, &told, sizeof told, MSG_DONTWAIT | MSG_NOSIGNAL);
+  send_told(progress, &told);
+}
+
+void progress_density(const cli_progress *progress, const progress_told *told)
+{
+  if (progress->told)
+    send_told(progress, told);
 }
 
 static void show(cli_progress *progress, const char *doing, double share,

@@ -4,6 +4,7 @@
 #define PROGRESS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 typedef struct cli_progress {
   bool shown;        /* standard error is a terminal and not quiet */
@@ -12,12 +13,19 @@ typedef struct cli_progress {
   double last_drawn; /* seconds of the monotonic clock */
 } cli_progress;
 
-/* What a socket is told. A message that finds it full is left out. */
-enum { PROGRESS_WORDS = 80 };
+/* What a socket is told: words, or a density. A message that finds it full is left out.
+ */
+enum { PROGRESS_WORDS = 80, PROGRESS_NODES = 260 };
 typedef struct progress_told {
   double share; /* of the work that `words` name, 0 to 1; negative: not known */
   char words[PROGRESS_WORDS];
+  int nodes[2]; /* of the density, along x and y; 0: there are words */
+  unsigned char u[PROGRESS_NODES * PROGRESS_NODES]; /* x fastest: 0 missing, else u from
+                                                       -1 to 1 as 1 to 255 */
 } progress_told;
+
+/* Bytes of such a message, without the end that it does not need. */
+size_t progress_told_size(const progress_told *told);
 
 void progress_start(cli_progress *progress, bool quiet, int told);
 
@@ -31,6 +39,9 @@ void progress_evolution(cli_progress *progress, double share, double time, int c
 
 /* Shows how many of the scales are drawn; nothing when all are. */
 void progress_drawing(cli_progress *progress, int ready, int count);
+
+/* Tells a density. */
+void progress_density(const cli_progress *progress, const progress_told *told);
 
 /* Wipes the line, before a message and at the end. */
 void progress_wipe(cli_progress *progress);

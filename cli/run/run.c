@@ -16,6 +16,7 @@
 #include "report/past_run.h"
 #include "run/background.h"
 #include "run/checkpoint.h"
+#include "run/evolving.h"
 #include "run/finish.h"
 #include "run/input.h"
 #include "run/placing.h"
@@ -160,6 +161,7 @@ static void show_progress(cli_run *run)
   double share, left;
   fg_run_progress(&share, &left, run->scales);
   progress_evolution(&run->progress, share, run->step.time, run->step.clusters, left);
+  evolving_show(run);
 }
 
 static int advance(cli_run *run)

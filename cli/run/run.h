@@ -25,6 +25,7 @@ typedef struct cli_run {
   double evolving_since; /* clock of the process */
   double earlier_evolve; /* seconds of the runs that this one goes on from */
   double earlier_total;
+  double density_due; /* clock when the density is told next */
   double save_tried;  /* clock when a checkpoint was last tried */
   int64_t saved_step; /* of the last checkpoint; 0: none */
   bool finished;      /* nothing is left to go on from */

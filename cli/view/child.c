@@ -87,7 +87,27 @@ int child_start(cli_child *out, const run_settings *given, void (*close_all)(voi
   return code;
 }
 
-/* What was last told. */
+static bool is_whole(const progress_told *told, ssize_t size)
+{
+  for (int k = 0; k < 2; ++k)
+    if (size < (ssize_t)offsetof(progress_told, u) || told->nodes[k] < 0 ||
+        told->nodes[k] > PROGRESS_NODES)
+      return false;
+  return (size_t)size == progress_told_size(told);
+}
+
+static void take(cli_child *child, const progress_told *told)
+{
+  if (told->nodes[0]) {
+    densities_add(&child->densities, told);
+    return;
+  }
+  child->began = child->began || told->share >= 0.0;
+  child->share = told->share;
+  memcpy(child->doing, told->words, sizeof child->doing);
+}
+
+/* All that was told. */
 static void listen_to(cli_child *child)
 {
   progress_told told;
@@ -95,13 +115,12 @@ static void listen_to(cli_child *child)
     const ssize_t got = recv(child->socket, &told, sizeof told, MSG_DONTWAIT);
     if (got < 0 && (errno == EAGAIN || errno == EINTR))
       return;
-    if (got != (ssize_t)sizeof told) { /* its end */
+    if (!is_whole(&told, got)) { /* its end */
       close(child->socket);
       child->socket = -1;
       return;
     }
-    child->began = child->began || told.share >= 0.0;
-    child->last = told;
+    take(child, &told);
   }
 }
 
@@ -172,6 +191,7 @@ void child_end(cli_child *child)
   if (child->socket >= 0)
     close(child->socket);
   child->socket = -1;
+  densities_clear(&child->densities);
   if (child->temporary)
     remove_temporary(child);
 }

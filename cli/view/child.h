@@ -5,7 +5,7 @@
 #include <sys/types.h>
 
 #include "option/settings.h"
-#include "progress.h"
+#include "view/densities.h"
 
 typedef struct cli_child {
   pid_t process;      /* 0: none, or it has ended */
@@ -13,8 +13,10 @@ typedef struct cli_child {
   const char *folder; /* of the results */
   char *temporary;    /* that folder, where it goes at the end; NULL: the user's own */
   bool began;         /* it has read its input, and evolves */
-  progress_told last; /* what it told last */
-  int code;           /* its exit code, once it has ended */
+  double share;       /* of the work that it told of last, and its words */
+  char doing[PROGRESS_WORDS];
+  view_densities densities;
+  int code; /* its exit code, once it has ended */
 } cli_child;
 
 /* Starts the run of `settings`, in their folder or a temporary one. `close` is what the

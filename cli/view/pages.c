@@ -94,8 +94,9 @@ static void give_state(cli_answer *out, const view_pages *pages, const char *fol
   cJSON_AddBoolToObject(state, "ended", !child->process);
   cJSON_AddBoolToObject(state, "page",
                         !child->process && file_is_there(folder, VIEW_NAME));
-  cJSON_AddStringToObject(state, "doing", child->last.words);
-  cJSON_AddNumberToObject(state, "share", child->last.share);
+  cJSON_AddStringToObject(state, "doing", child->doing);
+  cJSON_AddNumberToObject(state, "share", child->share);
+  cJSON_AddNumberToObject(state, "densities", child->densities.count);
   add_pictures(state, folder);
   char *text = cJSON_PrintUnformatted(state);
   cJSON_Delete(state);
@@ -113,6 +114,26 @@ static void give_page(cli_answer *out, const cli_child *child, const char *folde
                       .size = view_live_page_size};
 }
 
+/* "density-7": the number; negative: another name. */
+static int density_of(const char *name)
+{
+  static const char begin[] = "density-";
+  const size_t length = sizeof begin - 1;
+  if (strncmp(name, begin, length) != 0 || !name[length] ||
+      strspn(name + length, "0123456789") != strlen(name + length) ||
+      strlen(name + length) > 4)
+    return -1;
+  return atoi(name + length);
+}
+
+static void give_density(cli_answer *out, const view_densities *densities, int index)
+{
+  if (index >= 0 && index < densities->count)
+    *out = (cli_answer){.kind = "application/octet-stream",
+                        .bytes = (const char *)densities->bytes[index],
+                        .size = densities->size[index]};
+}
+
 void pages_give(cli_answer *out, const char *name, void *data)
 {
   const view_pages *pages = data;
@@ -125,5 +146,7 @@ void pages_give(cli_answer *out, const char *name, void *data)
     give_state(out, pages, folder);
   else if (scale_of(name) >= 0 && kind_of(name))
     give_file(out, folder, name, kind_of(name));
+  else
+    give_density(out, &pages->child->densities, density_of(name));
   free(folder);
 }

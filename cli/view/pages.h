@@ -1,5 +1,5 @@
 /* What the server gives: the page of a run; while it goes on a page that follows it, its
- * state and the pictures of its scales. */
+ * state, the density as it evolved and the pictures of its scales. */
 #ifndef VIEW_PAGES_H
 #define VIEW_PAGES_H
 
@@ -11,7 +11,7 @@ typedef struct view_pages {
   const char *input;
 } view_pages;
 
-/* A give_answer, `data` being view_pages: nothing but these files of the run's folder. */
+/* A give_answer, `data` being view_pages: nothing else of the run's folder. */
 void pages_give(cli_answer *out, const char *name, void *pages);
 
 /* The page that follows a run: live.html, as CMake makes it a string. */

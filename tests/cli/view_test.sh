@@ -146,6 +146,16 @@ expect_json state.json '.ended and .input == "synth:saddle" and .pictures == ["s
 get scale-01.geojson
 sed '1,/^\r$/d' answer >icons.json
 expect_json icons.json '.features | length == 9'
+last=$(($(jq .densities state.json) - 1))
+get "density-$last"
+LC_ALL=C sed '1,/^\r$/d' answer >density
+[ "$(od -An -tu2 -N4 density | xargs)" = "65 65" ] || fault "a density of $(od -An -tu2 -N4 density) nodes"
+[ "$(wc -c <density)" = $((4 + 65 * 65)) ] || fault "$(wc -c <density) bytes of a density"
+od -An -v -tu1 -w1 -j4 density | awk '$1 > 240 { ++inside } $1 < 16 { ++outside } !$1 { ++missing }
+  END { exit !(inside / NR > 0.1 && outside / NR > 0.4 && !missing) }' || fault "no clusters in the last density"
+for name in "density-$((last + 1))" density- density--1 density-0x density-99999999999; do
+  refused 404 "GET /$token/$name HTTP/1.1" "Host: 127.0.0.1:$port"
+done
 get ""
 [ -z "$with_page" ] || grep -q 'id="run"' answer || fault "not the page of the run"
 [ "$(cat out)" = "$address" ] || fault "more than the address: $(cat out)"

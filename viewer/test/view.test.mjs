@@ -58,6 +58,37 @@ test("a run is followed scale by scale, and ends as its page", { skip }, async (
   assert.equal(await close(), 130);
 });
 
+/** Shares of the pixels of the density that are inside of clusters, outside and missing. */
+const density = (page) => page.locator("#density").evaluate((canvas) => {
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  const shares = { inside: 0, outside: 0, missing: 0, width: canvas.width };
+  for (let n = 0; n < data.length; n += 4) {
+    const [red, , blue] = data.subarray(n, n + 3);
+    const kind = blue < red ? "missing" : red < 120 ? "inside" : red > 240 ? "outside" : undefined;
+    if (kind) shares[kind] += 4 / data.length;
+  }
+  return shares;
+});
+
+test("until there are arrows the density is shown as it evolves, and then when it is asked for", { skip }, async () => {
+  const { page, faults, close } = await view(["synth:vortex3", "--arrows", "300,60", "--nodes", "513"]);
+  await page.waitForSelector("#density", { state: "visible" });
+  assert.ok(await page.locator("#picture").isHidden());
+  await page.waitForSelector("#scales button[aria-pressed=true] >> text=300");
+  assert.ok(await page.locator("#density").isHidden());
+  await page.click("#evolution");
+  assert.ok(await page.locator("#picture").isHidden());
+  assert.deepEqual(await page.locator("[aria-pressed=true]").allTextContents(), ["Evolution"]);
+  await page.waitForFunction(() => document.getElementById("density").dataset.left === "0");
+  const { inside, outside, missing, width } = await density(page);
+  assert.equal(width, 257); // every second node
+  assert.ok(inside > 0.1 && outside > 0.3 && !missing, `${inside} ${outside} ${missing}`);
+  await page.click("#scales button");
+  assert.ok(await page.locator("#density").isHidden());
+  assert.deepEqual(faults, []);
+  await close();
+});
+
 for (const colorScheme of ["light", "dark"])
   test(`a run without a page keeps its pictures; WCAG AA holds on a ${colorScheme} page`, { skip }, async () => {
     const { page, faults, close } = await view(["synth:vortex3", "--clusters", "30,10", "--energy", "isotropic", "--nodes", "65"], { colorScheme });
@@ -69,6 +100,8 @@ for (const colorScheme of ["light", "dark"])
     await page.evaluate(readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8"));
     const { violations } = await page.evaluate(() => globalThis.axe.run({ runOnly: ["wcag2a", "wcag2aa", "wcag21aa", "wcag22aa"] }));
     assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(" ")}`), []);
+    await page.click("#evolution");
+    await page.waitForSelector("#density", { state: "visible" });
     if (process.env.SHOTS) await page.screenshot({ path: `${process.env.SHOTS}/view-${colorScheme}.png` });
     assert.deepEqual(faults, []);
     assert.equal(await close(), 130);
