@@ -146,20 +146,28 @@ static void texts_of_an_svg_are_texts(void **state)
   free(text);
 }
 
-/* An arrow beyond the frame is not counted, and an error that it has a part in not told.
- */
+/* An arrow whose head or most of whose line is beyond the frame is left out and not
+ * counted, and an error that it has a part in not told. */
 static void captions_tell_what_is_shown(void **state)
 {
   example *e = *state;
   fg_icons_keep_score(e->icons, &(fg_score){.mean = 11.2});
-  for (int beyond = 0; beyond < 2; ++beyond) {
-    if (beyond)
-      add_arrow(e, 52.0, 2.0, -5.0, -3.0, 99.0);
+  static const struct {
+    double x, dx;
+    const char *arrows;
+  } more[] = {{0.0, 0.0, "3 arrows"},
+              {52.0, -5.0, "3 arrows"},
+              {37.0, 4.0, "3 arrows"},   /* its head */
+              {46.0, -10.0, "3 arrows"}, /* three fifths of its line */
+              {42.0, -6.0, "4 arrows"}};
+  for (size_t n = 0; n < sizeof more / sizeof *more; ++n) {
+    if (n > 0)
+      add_arrow(e, more[n].x, 2.0, more[n].dx, 0.0, 99.0);
     write_picture(e, "a.svg", &(fg_picture_options){.no_keys = true});
     size_t size;
     char *text = read_file(e, "a.svg", &size);
-    assert_non_null(strstr(text, "3 arrows"));
-    assert_true((strstr(text, "read within 12") != NULL) == !beyond);
+    assert_non_null(strstr(text, more[n].arrows));
+    assert_true((strstr(text, "read within 12") != NULL) == (n == 0));
     free(text);
   }
 }

@@ -222,23 +222,36 @@ static void period_range(int range[2], const fg_icon *icon, int k, double low,
   range[1] = (int)fmin(floor((high - least + reach) / period), 2.0);
 }
 
-/* Whether a line, or a copy of it by a period, enters the frame. */
+/* Whether a point, or a copy of it by a period, is in the frame. */
+static bool is_within(const fg_field_arrays *field, const double point[3],
+                      const double low[2], const double high[2],
+                      const fg__polygons *outline)
+{
+  for (int k = 0; k < 2; ++k) {
+    const double period = field->period[k];
+    const double turns = period > 0.0 ? floor((point[k] - low[k]) / period) : 0.0;
+    const double at = point[k] - turns * period;
+    if (at < low[k] || at > high[k])
+      return false;
+  }
+  return !outline->count || fg__polygon_contains(outline, 0, point[0], point[1]);
+}
+
+/* Whether a head is in the frame, and at least half of its line. */
 static bool is_shown(const fg_field_arrays *field, const fg_icon *icon,
                      const double low[2], const double high[2],
                      const fg__polygons *outline)
 {
-  for (int n = 0; n < icon->point_count; ++n) {
-    bool inside = true;
-    for (int k = 0; k < 2; ++k) {
-      const double period = field->period[k], at = icon->points[n][k];
-      const double turns = period > 0.0 ? floor((at - low[k]) / period) : 0.0;
-      inside = inside && at - turns * period >= low[k] && at - turns * period <= high[k];
-    }
-    if (inside && (!outline->count || fg__polygon_contains(outline, 0, icon->points[n][0],
-                                                           icon->points[n][1])))
-      return true;
+  double all = 0.0, shown = 0.0;
+  bool within = false, before = false;
+  for (int n = 0; n < icon->point_count; ++n, before = within) {
+    const double *at = icon->points[n], *from = icon->points[n > 0 ? n - 1 : 0];
+    const double length = hypot(at[0] - from[0], at[1] - from[1]);
+    within = is_within(field, at, low, high, outline);
+    all += length;
+    shown += within && before ? length : 0.0;
   }
-  return false;
+  return within && shown >= 0.5 * all;
 }
 
 fg_status fg__scene_keep_shown(fg_icons **out, fg_context *context,

@@ -23,8 +23,8 @@ void fg__scene_box(double low[2], double high[2], const fg_field_arrays *field);
  * margin, when that is much smaller. A side with a period is shown whole. */
 void fg__scene_shown(double low[2], double high[2], const fg_field *field);
 
-/* Icons of which the frame shows something: copies of those whose line enters it and the
- * outline, which is empty where the frame is a box; NULL where that is all of them. A
+/* Icons that the frame shows: copies of those whose head and half of whose line lie in it
+ * and in the outline, which is empty where the frame is a box; NULL where that is all. A
  * score is of all and not kept. MEMORY. */
 fg_status fg__scene_keep_shown(fg_icons **out, fg_context *context,
                                const fg_field_arrays *field, const fg_icons *icons,
