@@ -230,6 +230,21 @@ class Arrows(Sequence[Arrow]):
         part._outlines = None if self._outlines is None else [self._outlines[n] for n in chosen]
         return part
 
+    def _stretched(self, factor: np.ndarray) -> "Arrows":
+        """The same with coordinates along each axis times a factor, all factors about equal."""
+        part = self[:]
+        size = float(factor.prod() ** (1.0 / len(factor)))
+        part.paths, part.center = [path * factor for path in self.paths], self.center * factor
+        part.area = self.area * factor.prod()
+        for name in ("width", "tail_width", "head_length", "head_width"):
+            setattr(part, name, getattr(self, name) * size)
+        part._outlines = None
+        grid = self._scale.grid
+        axes = [axis * f for axis, f in zip(grid.axes, factor)]
+        periods = [period * f for period, f in zip(grid.periods, factor)]
+        part._scale = self._scale._replace(grid=Grid(grid.velocity, axes, periods, grid.scale))
+        return part
+
     def __iter__(self) -> Iterator[Arrow]:
         return (self[n] for n in range(len(self)))
 

@@ -1,4 +1,7 @@
-"""Where coordinates lie on the page, and which way vectors point there."""
+"""Where coordinates lie in the axes, and which way vectors point there.
+
+Places are shares of the axes' box, (0, 0) to (1, 1): the same bits at any resolution.
+"""
 
 from __future__ import annotations
 
@@ -16,8 +19,9 @@ class TransformPlane:
         self._ax, self._transform = ax, transform
 
     @property
-    def _to_display(self) -> Any:
-        return self._ax.transData if self._transform is None else self._transform
+    def _to_axes(self) -> Any:
+        given = self._ax.transData if self._transform is None else self._transform
+        return given - self._ax.transAxes
 
     @property
     def is_data(self) -> bool:
@@ -35,24 +39,25 @@ class TransformPlane:
         return 2.0 * np.pi if self._ax.name == "polar" and _closes(x, 2.0 * np.pi) else None
 
     def forward(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Display coordinates, (n, 2); NaN where there are none."""
+        """Places, (n, 2); NaN where there are none."""
         with np.errstate(all="ignore"):
-            places = self._to_display.transform(np.stack([x, y], 1))
+            places = self._to_axes.transform(np.stack([x, y], 1))
         return _finite(np.ma.filled(places, np.nan))
 
-    def inverse(self, display: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def inverse(self, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         with np.errstate(all="ignore"):
-            x, y = np.ma.filled(self._to_display.inverted().transform(display), np.nan).T
+            x, y = np.ma.filled(self._to_axes.inverted().transform(places), np.nan).T
         return x, y
 
-    def turn(self, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.ndarray) -> list[np.ndarray]:
-        """Vectors on the page that have the direction in which the flow goes there, and the
-        length that they have."""
+    def turn(self, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.ndarray,
+             page: np.ndarray) -> list[np.ndarray]:
+        """Vectors on the page, of which the axes fill so much, that have the direction in which
+        the flow goes there, and the length that they have."""
         near = [np.hypot(*np.gradient(a)) for a in (x, y)]
         with np.errstate(all="ignore"):
             step = 0.01 / np.fmax(np.abs(u) / near[0], np.abs(v) / near[1])
             dx, dy = step * u, step * v
-        return _turned(self, x, y, u, v, dx, dy)
+        return _turned(self, x, y, u, v, dx, dy, page)
 
 
 class CrsPlane:
@@ -69,6 +74,10 @@ class CrsPlane:
         degrees = (ccrs.PlateCarree, ccrs.Geodetic, ccrs.RotatedPole, ccrs.RotatedGeodetic)
         self.is_geographic = isinstance(crs, degrees)
 
+    @property
+    def _to_axes(self) -> Any:
+        return self._ax.transData - self._ax.transAxes
+
     def axes(self, x: np.ndarray, y: np.ndarray, shape: tuple[int, ...]) -> Any:
         return _axes_of(x, y, shape)
 
@@ -77,24 +86,25 @@ class CrsPlane:
 
     def forward(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         plane = self._ax.projection.transform_points(self._crs, np.asarray(x), np.asarray(y))
-        return _finite(self._ax.transData.transform(_finite(plane[:, :2])))
+        return _finite(self._to_axes.transform(_finite(plane[:, :2])))
 
-    def inverse(self, display: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        plane = self._ax.transData.inverted().transform(display)
+    def inverse(self, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        plane = self._to_axes.inverted().transform(places)
         with np.errstate(all="ignore"):
             back = self._crs.transform_points(self._ax.projection, plane[:, 0], plane[:, 1])
         x, y = _finite(back[:, :2]).T
         # beyond the outline of a map PROJ finds places that lie elsewhere on it
         again = self.forward(x, y)
-        off = ~(np.hypot(*(again - display).T) < 1.0)
+        off = ~(np.hypot(*(again - places).T) < 0.002)
         return np.where(off, np.nan, x), np.where(off, np.nan, y)
 
     def outline(self) -> np.ndarray:
-        """Corners of the map's own extent, display coordinates."""
+        """Corners of the map's own extent."""
         (left, right), (low, high) = self._ax.projection.x_limits, self._ax.projection.y_limits
-        return self._ax.transData.transform([(left, low), (right, high)])
+        return self._to_axes.transform([(left, low), (right, high)])
 
-    def turn(self, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.ndarray) -> list[np.ndarray]:
+    def turn(self, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.ndarray,
+             page: np.ndarray) -> list[np.ndarray]:
         """As that of TransformPlane; u and v are along east and north, or along the CRS's axes."""
         with np.errstate(all="ignore"):
             if self.is_geographic:
@@ -104,17 +114,17 @@ class CrsPlane:
                 along = u
                 step = 1.0 / np.hypot(u, v)  # a metre
             dx, dy = step * along, step * v
-        return _turned(self, x, y, u, v, dx, dy)
+        return _turned(self, x, y, u, v, dx, dy, page)
 
 
 def _turned(plane: Any, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.ndarray,
-            dx: np.ndarray, dy: np.ndarray) -> list[np.ndarray]:
+            dx: np.ndarray, dy: np.ndarray, page: np.ndarray) -> list[np.ndarray]:
     """Lengths of (u, v) in the direction in which a small step goes on the page; at a map's edge
     and cut the step back counts, or the smaller of both."""
     flat = [np.nan_to_num(a).ravel() for a in (x, y, dx, dy)]
     here = plane.forward(flat[0], flat[1])
-    ahead = plane.forward(flat[0] + flat[2], flat[1] + flat[3]) - here
-    back = here - plane.forward(flat[0] - flat[2], flat[1] - flat[3])
+    ahead = (plane.forward(flat[0] + flat[2], flat[1] + flat[3]) - here) * page
+    back = (here - plane.forward(flat[0] - flat[2], flat[1] - flat[3])) * page
     lengths = [np.where(np.isfinite(d).all(1), np.hypot(*d.T), np.inf) for d in (ahead, back)]
     with np.errstate(all="ignore"):
         way = np.where((lengths[0] > 4.0 * lengths[1])[:, None], back, ahead)

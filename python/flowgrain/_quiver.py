@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,11 @@ gale = LinearSegmentedColormap.from_list("gale", GALE)
 
 ANGLES = ("xy", "uv")
 NODES = 257  # of the raster that arrows are placed on, along its longer side
+PAGE = 400.0  # the axes' longer side on the page that arrows are placed on
+# Changes of a layout that arrows are kept through. The text of axes has another size at another
+# resolution, and so has what a layout leaves to the axes: by less than a hundredth.
+LEAST_SHIFT = 1.0 / (NODES - 1)  # of the axes' box
+LEAST_RATIO = 0.04  # relative, of the proportions of its sides
 MOST_SAMPLES = 200_000  # of a curvilinear grid that are looked at
 
 
@@ -44,7 +50,8 @@ class Quiver(PatchCollection):
         self._given = (x, y)
         self._mask = mask
         self._drawn = False  # just now
-        self._signature: Any = None
+        self._view: Any = None  # what the axes showed when arrows were placed
+        self._page = np.full(2, PAGE)  # the axes' box then
         self._placed: Arrows | None = None
         self._icons: Any = None
         self._lines: list[np.ndarray] = []
@@ -92,13 +99,16 @@ class Quiver(PatchCollection):
                                    self._plane.period(axes[0], shape[1])).velocity[0]
             self._values = self._c = np.asarray(values, np.float64)
 
-    # What the axes show, in points (1/72 inch) from the corner of the axes.
+    # Arrows are placed on a page that the axes' box fills, of one size and of rounded proportions:
+    # neither resolution nor a layout that differs by parts of a pixel gives others. All that is
+    # kept is in coordinates of the data.
 
-    def _to_points(self, display: np.ndarray) -> np.ndarray:
-        return (display - self.axes.bbox.min) * (72.0 / self.axes.figure.dpi)
+    def _to_page(self, places: np.ndarray) -> np.ndarray:
+        return places * self._page
 
-    def _from_points(self, points: np.ndarray) -> np.ndarray:
-        return points * (self.axes.figure.dpi / 72.0) + self.axes.bbox.min
+    def _stretch(self) -> np.ndarray:
+        """Points (1/72 inch) of the axes' box now for one length of the page."""
+        return self.axes.bbox.size * (72.0 / self.axes.figure.dpi) / self._page
 
     def _outline_of_samples(self) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates round and within the grid."""
@@ -110,21 +120,24 @@ class Quiver(PatchCollection):
         x, y = np.meshgrid(np.linspace(left, right, 17), np.linspace(low, high, 17))
         return x.ravel(), y.ravel()
 
-    def _window(self) -> tuple[Any, np.ndarray]:
-        """What is to be compared to know whether the view has changed, and the part of the plane
-        to be filled, ((left, low), (right, high)), in points."""
-        places = self._to_points(self._plane.forward(*self._outline_of_samples()))
+    def _look(self) -> tuple[np.ndarray, float]:
+        """What is to be compared to know whether the view has changed: places of the grid's
+        outline, and the logarithm of the proportions of the axes' box."""
+        width, height = self.axes.bbox.size
+        ratio = math.log(width / height) if width > 0.0 and height > 0.0 else 0.0
+        return self._plane.forward(*self._outline_of_samples()), ratio
+
+    def _window(self, places: np.ndarray) -> np.ndarray:
+        """The part of the page to be filled, ((left, low), (right, high))."""
         seen = places[np.isfinite(places).all(1)]
-        size = self.axes.bbox.size * (72.0 / self.axes.figure.dpi)
         if not len(seen):
-            return None, np.zeros((2, 2))
-        window = np.stack([seen.min(0), seen.max(0)])
+            return np.zeros((2, 2))
         if self._plane.fills_outline:  # 17 samples a side do not find the outline of a map
-            outline = self._to_points(self._plane.outline())
-            window = np.stack([outline.min(0), outline.max(0)])
+            seen = self._plane.outline()
+        window = np.stack([seen.min(0), seen.max(0)])
         if self._adaptive:
-            window = np.stack([np.maximum(window[0], 0.0), np.minimum(window[1], size)])
-        return (np.round(places, 1).tobytes(), *np.round(size, 1)), window
+            window = np.stack([np.maximum(window[0], 0.0), np.minimum(window[1], 1.0)])
+        return self._to_page(window)
 
     def _raster(self, window: np.ndarray) -> Grid:
         """The field as it is seen: directions on the page, with the speeds of the samples."""
@@ -141,20 +154,20 @@ class Quiver(PatchCollection):
     def _from_axes(self, axes: list[np.ndarray]) -> list[np.ndarray]:
         assert self._grid is not None
         nodes = np.stack(np.meshgrid(*axes), -1)
-        x, y = self._plane.inverse(self._from_points(nodes.reshape(-1, 2)))
+        x, y = self._plane.inverse(nodes.reshape(-1, 2) / self._page)
         x, y = x.reshape(nodes.shape[:2]), y.reshape(nodes.shape[:2])
         u, v = (interpolate(self._grid, c, x, y) for c in self._velocity)
         if self._along_axes:
-            return self._plane.turn(x, y, u, v)
+            return self._plane.turn(x, y, u, v, self._page)
         return [u, v]
 
     def _from_curvilinear(self, axes: list[np.ndarray]) -> list[np.ndarray]:
         x, y = self._given
         x, y, u, v = thinned([x, y, *self._velocity], MOST_SAMPLES)
-        velocity = self._plane.turn(x, y, u, v) if self._along_axes else [u, v]
-        places = self._to_points(self._plane.forward(x.ravel(), y.ravel())).reshape(*x.shape, 2)
+        velocity = self._plane.turn(x, y, u, v, self._page) if self._along_axes else [u, v]
+        places = self._to_page(self._plane.forward(x.ravel(), y.ravel())).reshape(*x.shape, 2)
         # neighbours on either side of a map's cut are none
-        widest = self.axes.bbox.width * (36.0 / self.axes.figure.dpi)
+        widest = 0.5 * self._page[0]
         return resample_triangles(places[..., 0], places[..., 1], velocity, axes,
                                   widest if self._plane.fills_outline else np.inf)
 
@@ -165,14 +178,18 @@ class Quiver(PatchCollection):
             self.axes.apply_aspect(locate(self.axes, None) if locate else None)
         if self._placed is not None and (not self._adaptive or _is_panned(self.axes)):
             return
-        signature, window = self._window()
-        if self._placed is not None and signature == self._signature:
+        view = self._look()
+        same = self._view is not None and _alike(self._view, view)
+        if self._placed is not None and same:
             return
-        warm = self._icons if signature == self._signature else None
-        self._signature = signature
+        if not same:
+            # where U and V are along the page, its proportions turn them
+            step = LEAST_RATIO if self._along_axes else 0.025 * LEAST_RATIO
+            self._view, self._page, self._icons = view, _page_of(view[1], step), None
         self._lines, self._sizes = [], np.zeros((0, 4))
-        self._placed, self._icons = None, None
-        if signature is not None and (window[1] - window[0] > 1.0).all():
+        warm, self._placed, self._icons = self._icons, None, None
+        window = self._window(self._view[0])
+        if (window[1] - window[0] > 1.0).all():
             self._fill(self._raster(window), warm)
 
     def _fill(self, raster: Grid, warm: Any) -> None:
@@ -186,8 +203,8 @@ class Quiver(PatchCollection):
         if found is None:
             self.set_array(np.zeros(0) if self._mapped else None)
             return
-        back = self.axes.transData.inverted()
-        self._lines = [back.transform(self._from_points(path)) for path in found.paths]
+        back = (self.axes.transData - self.axes.transAxes).inverted()
+        self._lines = [back.transform(path / self._page) for path in found.paths]
         self._sizes = np.stack(
             [found.width, found.tail_width, found.head_length, found.head_width], 1)
         if self._mapped:
@@ -198,7 +215,7 @@ class Quiver(PatchCollection):
         assert self._c is not None
         means = []
         for path in paths:
-            x, y = self._plane.inverse(self._from_points(path))
+            x, y = self._plane.inverse(path / self._page)
             if self._grid is not None:
                 values = interpolate(self._grid, self._c, x, y)
             else:
@@ -213,21 +230,22 @@ class Quiver(PatchCollection):
     def arrows(self) -> Arrows | None:
         """What is shown, in points from the lower left corner of the axes; None: nothing."""
         self._update()
-        return self._placed
+        return self._shown()
+
+    def _shown(self) -> Arrows | None:
+        return None if self._placed is None else self._placed._stretched(self._stretch())
 
     def set_UVC(self, U: Any, V: Any, C: Any = None) -> None:
         """Shows other values on the same coordinates; arrows move on from where they are."""
         self._set_samples(U, V, C)
-        if self._placed is not None:
-            signature, icons = self._signature, self._icons
-            self._placed = None
-            self._signature, self._icons = signature, icons
+        self._placed = None
         self.stale = True
 
     def get_paths(self) -> list[Path]:
         """Polygons of the arrows, in display coordinates."""
         self._update()
-        forward, scale = self.axes.transData, self.axes.figure.dpi / 72.0
+        forward = self.axes.transData
+        scale = np.sqrt(self._stretch().prod()) * self.axes.figure.dpi / 72.0
         self._paths = []
         for line, sizes in zip(self._lines, self._sizes):
             polygon = line_outline(forward.transform(line), sizes * scale)
@@ -238,7 +256,7 @@ class Quiver(PatchCollection):
 
     def __getstate__(self) -> dict[str, Any]:
         """Arrows are placed again after unpickling."""
-        return {**super().__getstate__(), "_placed": None, "_icons": None, "_signature": None}
+        return {**super().__getstate__(), "_placed": None, "_icons": None, "_view": None}
 
     @allow_rasterization
     def draw(self, renderer: Any) -> None:
@@ -254,7 +272,8 @@ class Quiver(PatchCollection):
         if self._plane.is_data and transData is self.axes.transData:  # without rounding
             places = np.stack([x, y], 1)
         else:
-            places = transData.inverted().transform(self._plane.forward(x, y))
+            display = self.axes.transAxes.transform(self._plane.forward(x, y))
+            places = transData.inverted().transform(display)
         places = places[np.isfinite(places).all(1)]
         return Bbox([places.min(0), places.max(0)]) if len(places) else Bbox.null()
 
@@ -272,6 +291,19 @@ class Quiver(PatchCollection):
     def width_of(self, speed: float) -> float:
         """Width in points, where the head begins, of an arrow of some speed."""
         return _width_of(self.arrows, speed)
+
+
+def _page_of(ratio: float, step: float) -> np.ndarray:
+    """Width and height of the page, of proportions that are given by their logarithm and rounded
+    by a step."""
+    shorter = np.round(PAGE * math.exp(-step * abs(round(ratio / step))), 3)
+    return np.array([PAGE, shorter] if ratio > 0.0 else [shorter, PAGE])
+
+
+def _alike(view: tuple[np.ndarray, float], other: tuple[np.ndarray, float]) -> bool:
+    """Whether arrows that are placed for one view may be kept in another."""
+    return abs(view[1] - other[1]) < LEAST_RATIO and np.allclose(
+        view[0], other[0], rtol=0.0, atol=LEAST_SHIFT, equal_nan=True)
 
 
 def _width_of(found: Arrows | None, speed: float) -> float:
@@ -469,7 +501,7 @@ class QuiverKey(Artist):
 
     def get_window_extent(self, renderer: Any = None) -> Bbox:
         # layouts ask before the axes have their size: no arrows are placed for that
-        patch, (x, y) = self._parts(self.Q._placed)
+        patch, (x, y) = self._parts(self.Q._shown())
         self.text.set_position((x, y))
         return Bbox.union([patch.get_window_extent(renderer),
                            self.text.get_window_extent(renderer)])

@@ -109,6 +109,52 @@ def test_resolution_does_not_matter(ax, field):
         assert lines(q) is before  # not placed again
 
 
+def test_a_layout_of_another_resolution_keeps_arrows(field):
+    """The text of axes has another size at another resolution, and so has what it leaves."""
+    u, v, x, y = field
+    figure, ax = plt.subplots(layout="constrained")
+    q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
+    ax.set(xlabel="x", ylabel="y", title="a field")
+    figure.colorbar(q, label="m/s")
+    before, sizes = None, set()
+    for options in ({"dpi": 120}, {"format": "svg"}, {"format": "pdf"}, {"dpi": 37}):
+        figure.savefig(io.BytesIO(), **options)
+        before = lines(q) if before is None else before
+        assert lines(q) is before
+        sizes.add(tuple(ax.get_position().size))
+    assert len(sizes) > 1  # the layouts differ
+    figure.set_size_inches(6.4, 3.0)
+    figure.savefig(io.BytesIO())
+    assert lines(q) is not before
+    plt.close(figure)
+
+
+def test_figures_of_any_resolution_have_the_same_bits(field):
+    u, v, x, y = field
+    found = []
+    for dpi in (72, 100, 217, 300):
+        figure, ax = plt.subplots(dpi=dpi)
+        q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
+        figure.canvas.draw()
+        found.append((lines(q), q._sizes))
+        plt.close(figure)
+    for other, sizes in found[1:]:
+        assert np.array_equal(sizes, found[0][1])
+        assert all(np.array_equal(a, b) for a, b in zip(other, found[0][0]))
+
+
+def test_arrows_are_told_in_points_of_the_axes(ax, field):
+    u, v, x, y = field
+    q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
+    scale = 72.0 / ax.figure.dpi
+    for path, line in zip(q.arrows.paths, lines(q)):
+        seen = (ax.transData.transform(line) - ax.bbox.min) * scale
+        assert np.allclose(path, seen, rtol=0, atol=1e-6)
+    for outline, polygon in zip(q.arrows.outlines, q.get_paths()):
+        seen = (polygon.vertices[:-1] - ax.bbox.min) * scale
+        assert np.allclose(outline, seen, rtol=0, atol=1e-6)
+
+
 def test_colours(ax, field):
     u, v, x, y = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
@@ -283,7 +329,7 @@ class TestMaps:
         u, v = np.cos(lon), np.sin(2 * lat)
         q = flowgrain.quiver(polar, lon, lat, u, v, arrows=3, transform=source)
         assert q.arrows is not None  # the axes have their aspect
-        ours = q._plane.turn(lon, lat, u, v)
+        ours = q._plane.turn(lon, lat, u, v, q._page)
         east = u / np.cos(np.radians(lat))
         theirs = polar.projection.transform_vectors(source, lon, lat, east, v)
         scale = np.hypot(u, v) / np.hypot(*theirs)
@@ -303,6 +349,21 @@ class TestMaps:
         assert all(inside.contains(shapely.Point(p)) for p in places[::7])
         assert np.ptp(places[:, 0]) > 0.9 * np.ptp(globe.projection.x_limits)
         plt.close(figure)
+
+    def test_maps_of_any_resolution_have_the_same_bits(self):
+        found = []
+        for dpi in (72, 120, 300):
+            figure = plt.figure(dpi=dpi, layout="constrained")
+            globe = figure.add_subplot(projection=self.ccrs.Orthographic(-40, 30))
+            globe.set_global()
+            q = flowgrain.quiver(globe, self.longitude, self.latitude, *self.wind(), arrows=30,
+                                 transform=self.ccrs.PlateCarree())
+            figure.colorbar(q, label="m/s")
+            figure.canvas.draw()
+            found.append(lines(q))
+            plt.close(figure)
+        for other in found[1:]:
+            assert all(np.array_equal(a, b) for a, b in zip(other, found[0]))
 
     def test_a_crs_needs_a_map(self, ax):
         with pytest.raises(ValueError, match="axes are not"):
