@@ -35,8 +35,8 @@ MOST_SAMPLES = 200_000  # of a curvilinear grid that are looked at
 class Quiver(PatchCollection):
     """Curved arrows in axes: what `quiver` returns.
 
-    The arrows are placed when they are drawn, on what the axes show then. Until then `get_array` is
-    None; `arrows` places them at once.
+    The arrows are placed when they are drawn, on what the axes show then; `arrows`, `get_array` and
+    a colour bar place them at once.
     """
 
     def __init__(self, ax: Any, args: tuple[Any, ...], *, arrows: int, transform: Any,
@@ -50,6 +50,8 @@ class Quiver(PatchCollection):
         self._given = (x, y)
         self._mask = mask
         self._drawn = False  # just now
+        self._mapped = False  # to colours
+        self._is_ranged = True  # ends of the colours are the user's, or set
         self._view: Any = None  # what the axes showed when arrows were placed
         self._page = np.full(2, PAGE)  # the axes' box then
         self._placed: Arrows | None = None
@@ -66,7 +68,7 @@ class Quiver(PatchCollection):
             self.set_cmap(gale if cmap is None else cmap)
             self.set_norm(norm)
             self.set_clim(vmin, vmax)
-            _fill_range(self.norm, self._values)
+            self._is_ranged = norm is not None or vmin is not None or vmax is not None
         self._mapped = mapped
         self.set_transform(IdentityTransform())
 
@@ -187,6 +189,7 @@ class Quiver(PatchCollection):
             step = LEAST_RATIO if self._along_axes else 0.025 * LEAST_RATIO
             self._view, self._page, self._icons = view, _page_of(view[1], step), None
         self._lines, self._sizes = [], np.zeros((0, 4))
+        self.set_array(np.zeros(0) if self._mapped else None)
         warm, self._placed, self._icons = self._icons, None, None
         window = self._window(self._view[0])
         if (window[1] - window[0] > 1.0).all():
@@ -201,7 +204,6 @@ class Quiver(PatchCollection):
                 count //= 2
         found = self._placed
         if found is None:
-            self.set_array(np.zeros(0) if self._mapped else None)
             return
         back = (self.axes.transData - self.axes.transAxes).inverted()
         self._lines = [back.transform(path / self._page) for path in found.paths]
@@ -209,6 +211,9 @@ class Quiver(PatchCollection):
             [found.width, found.tail_width, found.head_length, found.head_width], 1)
         if self._mapped:
             self.set_array(found.speed if self._c is None else self._along(found.paths))
+            if not self._is_ranged and self._c is None:
+                _set_range(self.norm, found.speed_range)
+            self._is_ranged = True
 
     def _along(self, paths: list[np.ndarray]) -> np.ndarray:
         """Mean of C along each line."""
@@ -234,6 +239,25 @@ class Quiver(PatchCollection):
 
     def _shown(self) -> Arrows | None:
         return None if self._placed is None else self._placed._stretched(self._stretch())
+
+    def get_array(self) -> Any:
+        """Speeds, or means of C, of the arrows."""
+        if self._mapped and self._placed is None and self.axes is not None:
+            self._update()
+        return super().get_array()
+
+    def autoscale_None(self) -> None:
+        """Ends of the colours that are not given: of the arrows, or where there is none in view of
+        all values."""
+        values = self.get_array()
+        if values is not None and not len(values):
+            values = self._values[np.isfinite(self._values)]
+        self.norm.autoscale_None(values)
+
+    def to_rgba(self, x: Any, *args: Any, **kwargs: Any) -> np.ndarray:
+        if self._mapped and not self.norm.scaled():
+            self.autoscale_None()
+        return super().to_rgba(x, *args, **kwargs)
 
     def set_UVC(self, U: Any, V: Any, C: Any = None) -> None:
         """Shows other values on the same coordinates; arrows move on from where they are."""
@@ -343,16 +367,10 @@ def _plane_of(ax: Any, transform: Any) -> Any:
     raise ValueError(f"transform is a {type(transform).__name__}, not one of matplotlib or cartopy")
 
 
-def _fill_range(norm: Any, values: np.ndarray) -> None:
-    """Ends of the colours, where none are given: of all but the twentieth of least and of largest
-    values, so that the colours of frames and of parts that are zoomed into can be compared."""
-    finite = values[np.isfinite(values)]
-    if len(finite) and (norm.vmin is None or norm.vmax is None):
-        low, high = np.percentile(finite, (5.0, 95.0))
-        if not low < high:
-            low, high = finite.min(), finite.max()
-        norm.vmin = low if norm.vmin is None else norm.vmin
-        norm.vmax = high if norm.vmax is None else norm.vmax
+def _set_range(norm: Any, speeds: tuple[float, float]) -> None:
+    """Ends of the colours; speeds that differ by rounding are equal."""
+    low, high = speeds
+    norm.vmin, norm.vmax = low if high - low > 1e-6 * high else 0.0, high
 
 
 def _is_panned(ax: Any) -> bool:
@@ -405,7 +423,10 @@ def quiver(
     mask : array_like of bool, (ny, nx), optional
         True where a sample is missing.
     cmap, norm, vmin, vmax
-        As in matplotlib; by default the program's palette, from the 5th to the 95th percentile.
+        As in matplotlib. By default the program's palette, from the slowest to the fastest arrow
+        but for few that are far faster than the others, of those that are placed first: later
+        frames and views keep these ends. Of C, and where one of norm, vmin and vmax is given, the
+        ends that are not are the least and the largest value of the arrows.
     **kwargs
         Properties of `matplotlib.collections.PatchCollection`. ``color`` gives all arrows one.
 
@@ -480,7 +501,10 @@ class QuiverKey(Artist):
         polygon = line_outline(line, np.array([width, tail, head[0] * width, head[1] * width]))
         color = self.color
         if color is None:
-            color = self.Q.to_rgba(self.U) if self.Q._mapped else self.Q.get_facecolor()[0]
+            if self.Q._mapped:  # before arrows are placed, for a layout, colours do not matter
+                color = "none" if found is None else self.Q.to_rgba(self.U)
+            else:
+                color = self.Q.get_facecolor()[0]
         gap = self.labelsep * dpi
         off = {"N": (0.0, gap), "S": (0.0, -gap), "E": (half + gap, 0.0), "W": (-half - gap, 0.0)}
         x, y = middle + off[self.labelpos]

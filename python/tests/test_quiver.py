@@ -159,9 +159,11 @@ def test_colours(ax, field):
     u, v, x, y = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     bar = ax.figure.colorbar(q)
+    ends = bar.vmin, bar.vmax
     ax.figure.canvas.draw()
     speed = np.hypot(u, v)
-    assert (bar.vmin, bar.vmax) == pytest.approx(tuple(np.percentile(speed, (5, 95))))
+    assert ends == (bar.vmin, bar.vmax) == q.arrows.speed_range
+    assert ends == (q.get_array().min(), q.get_array().max())
     assert speed.min() <= q.get_array().min() < q.get_array().max() <= speed.max()
     assert np.array_equal(q.get_facecolors(), q.to_rgba(q.get_array()))
     px, _ = np.meshgrid(x, y)
@@ -172,6 +174,30 @@ def test_colours(ax, field):
     plain = flowgrain.quiver(ax, x, y, u, v, arrows=3, color="red")
     ax.figure.canvas.draw()
     assert plain.get_facecolors().tolist() == [[1, 0, 0, 1]]
+
+
+def test_ends_of_colours(ax, field):
+    """Those of the arrows that are placed first, of all values where there is no arrow; given ones
+    are matplotlib's."""
+    u, v, x, y = field
+    q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
+    color = q.to_rgba(0.3)
+    ends = q.get_clim()
+    assert ends == q.arrows.speed_range
+    q.set_UVC(2 * u, 2 * v)
+    ax.figure.canvas.draw()
+    assert q.get_clim() == ends and q.get_array().max() > 1.5 * ends[1]
+    assert np.array_equal(q.to_rgba(0.3), color)
+    half = flowgrain.quiver(ax, x, y, u, v, arrows=15, vmin=0)
+    ax.figure.canvas.draw()
+    assert half.get_clim() == (0, half.get_array().max())
+    even = flowgrain.quiver(ax, x, y, np.ones_like(u), 0 * v, arrows=5)
+    assert len(even.get_array()) == 5 and even.get_clim() == (0, 1)
+    ax.set_xlim(100, 101)
+    away = flowgrain.quiver(ax, x, y, u, v, arrows=5)
+    bar = ax.figure.colorbar(away)
+    speed = np.hypot(u, v)
+    assert (bar.vmin, bar.vmax) == pytest.approx((speed.min(), speed.max()))
 
 
 def test_animation_moves_on(ax):
@@ -247,10 +273,13 @@ def test_arrows_are_placed_once_for_a_layout(field, monkeypatch):
     monkeypatch.setattr(_quiver, "place", lambda *a: counted.append(a) or place(*a))
     figure, ax = plt.subplots(layout="constrained")
     q = flowgrain.quiver(ax, x, y, u, v, arrows=5)
-    figure.colorbar(q)
     flowgrain.quiverkey(q, 0.8, 1.05, 0.3, "0.3 m/s")
     figure.canvas.draw()
     assert len(counted) == 1
+    figure.colorbar(q)  # of the arrows that are there
+    assert len(counted) == 1
+    figure.canvas.draw()  # it takes room from the axes
+    assert len(counted) == 2
     plt.close(figure)
 
 
