@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from typing import Any, Iterator, NamedTuple
 
@@ -180,6 +181,7 @@ class DatasetFlowgrain:
             raise ValueError("both u and v are needed, or none")
         if u is None:
             u, v = find_pair(self._dataset)
+        self._check_names(u=u, v=v, x=x, y=y)
         _choice("frame", frame, FRAMES)
         first, second, staggered = centred(self._dataset, self._dataset[u], self._dataset[v])
         if (x is None) != (y is None):
@@ -201,6 +203,18 @@ class DatasetFlowgrain:
             frame = frame_of(self._dataset, first, second, staggered) or frame
         first, second = self._in_frame(first, second, px, py, degrees, frame)
         return _Field(first, second, px, py, degrees, others)
+
+    def _check_names(self, **given: Any) -> None:
+        for role, name in given.items():
+            try:
+                if name is not None:
+                    self._dataset[name]
+            except KeyError:
+                fewest = 2 if role in "uv" else 1  # dimensions
+                known = [str(k) for k, v in self._dataset.variables.items() if v.ndim >= fewest]
+                near = difflib.get_close_matches(str(name), known, len(known) or 1, 0.0)
+                raise ValueError(f"{role} is {name!r}, which is none of the variables that may be "
+                                 f"it: {', '.join(near) or 'there is none'}") from None
 
     def _in_frame(self, u: Any, v: Any, px: Any, py: Any, degrees: bool,
                   frame: str) -> tuple[Any, Any]:
@@ -247,7 +261,8 @@ class DatasetFlowgrain:
         Raises
         ------
         ValueError
-            No velocity is found, or not how its components lie; and as `flowgrain.arrows`.
+            No velocity is found, or not how its components lie; the dataset has no variable of a
+            name; and as `flowgrain.arrows`.
         """
         first, second, px, py, degrees, others = self._field(u, v, x, y, frame)
         if degrees:

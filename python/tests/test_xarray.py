@@ -46,6 +46,18 @@ def test_components_are_found_by_standard_name():
         find_pair(found[["tx"]])
 
 
+def test_names_that_are_not_there_are_told_the_nearest():
+    found = dataset(u="UWND", v="VWND")
+    with pytest.raises(ValueError, match="u is 'UWNDD'.*: UWND, VWND$"):
+        found.flowgrain.quiver(u="UWNDD", v="VWND")
+    with pytest.raises(ValueError, match="v is 'VWIND'.*: VWND, UWND$"):
+        found.flowgrain.arrows(u="UWND", v="VWIND")
+    with pytest.raises(ValueError, match="x is 'lon'.*: .*x"):
+        found.flowgrain.arrows(x="lon", y="y")
+    bare = found.drop_vars(["x", "y"])  # a dimension is a coordinate, too
+    assert len(bare.flowgrain.arrows(x="x", y="y", n=3)) == 3
+
+
 def test_two_heights_of_one_standard_name():
     from flowgrain._xarray import find_pair
 
