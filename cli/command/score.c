@@ -94,6 +94,13 @@ static void print_table(const score_work *work)
        "clutter% tangency outside%  file");
   for (int n = 0; n < work->settings->files.count; ++n)
     print_row(&work->scores[n], work->settings->files.operand[n]);
+  /* which of the two classes these are, since errors differ by degrees between them */
+  puts(work->settings->length_class == FG_SCORE_FREE
+           ? "--class free: lines count as long as they are, as in the captions of "
+             "pictures. --class arrows\ncompares methods whose lines differ in length."
+           : "--class arrows: longer lines count for their middle fair-share length, so "
+             "that methods whose\nlines differ in length compare. --class free: as they "
+             "are, as in the captions of pictures.");
 }
 
 static void add_reader(cJSON *object, const char *name, const fg_reader_error *error)
