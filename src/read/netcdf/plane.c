@@ -20,7 +20,7 @@ typedef struct plane {
 static bool is_listed(const char *names, const char *name)
 {
   const size_t length = strlen(name);
-  for (const char *c = names; (c = strstr(c, name)); c += length)
+  for (const char *c = names; length > 0 && (c = strstr(c, name)); c += length)
     if ((c == names || c[-1] == ' ') && (c[length] == '\0' || c[length] == ' '))
       return true;
   return false;
