@@ -57,6 +57,8 @@ static void print_vector(const fg_inventory_vector *vector)
     printf("%s %d", k ? " x" : "", vector->size[k]);
   if (vector->cells > 0)
     printf(", interpolated from %zu cells", vector->cells);
+  if (vector->points > 0)
+    printf(", interpolated from %zu points", vector->points);
   putchar('\n');
   for (int k = 0; k < vector->dimension; ++k)
     printf("  %s: %.6g to %.6g%s\n", axis_of(vector, k), vector->bounds[2 * k],
@@ -109,6 +111,8 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
                         cJSON_CreateIntArray(vector->size, vector->dimension));
   if (vector->cells > 0)
     cJSON_AddNumberToObject(object, "cells", (double)vector->cells);
+  if (vector->points > 0)
+    cJSON_AddNumberToObject(object, "points", (double)vector->points);
   cJSON_AddItemToObject(object, "bounds",
                         cJSON_CreateDoubleArray(vector->bounds, 2 * vector->dimension));
   cJSON_AddBoolToObject(object, "periodic",

@@ -192,6 +192,7 @@ typedef struct fg_inventory_vector {
                         not known */
   size_t cells;      /* 0, or how many cells, which are not along the axes, are
                         interpolated onto that grid; outside them is missing */
+  size_t points;     /* 0, or how many points in space, which lie on no grid, are */
   const fg_axis_value *time_value, *level_value; /* [times], [levels]; NULL: not known */
   int usual_level;                               /* fg_usual.level */
   const char *absent;                            /* fg_usual.absent; NULL: none */

@@ -305,7 +305,7 @@ static fg_field_arrays words_of(const plan *p, const fg_read_options *options)
   return words;
 }
 
-fg_status fg__npy_field(fg_field **out, size_t *cells, fg__sphere **sphere,
+fg_status fg__npy_field(fg_field **out, fg__scatter_between *between, fg__sphere **sphere,
                         fg__npy_file *file, const fg__npy_choice *choice,
                         const fg_read_options *options, fg__slab_index slab)
 {
@@ -313,7 +313,7 @@ fg_status fg__npy_field(fg_field **out, size_t *cells, fg__sphere **sphere,
   fg__point_grid grid = {0};
   fg__scatter points = {0};
   fg_status status = FG_STATUS_OK;
-  *cells = 0;
+  *between = (fg__scatter_between){0};
   if (choice->table)
     plan_rows(&p);
   else if (choice->velocity[1])
@@ -342,7 +342,7 @@ fg_status fg__npy_field(fg_field **out, size_t *cells, fg__sphere **sphere,
     status = make_points(&points, &p);
     if (status == FG_STATUS_OK)
       status = sphere ? fg__scatter_sphere(sphere, &points, &words)
-                      : fg__scatter_field(out, cells, &points, &words, slab);
+                      : fg__scatter_field(out, between, &points, &words, slab);
   }
   fg__point_grid_clear(&grid);
   fg__scatter_clear(&points);

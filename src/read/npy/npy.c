@@ -7,14 +7,14 @@ static fg_status read_either(fg_field **field, fg__sphere **sphere, fg_context *
 {
   fg__npy_file *file = NULL;
   fg__npy_choice choice = {0};
-  size_t cells;
+  fg__scatter_between between;
   fg_status status = fg__check_one_file(context, source, options, "NumPy's files");
   if (status == FG_STATUS_OK)
     status = fg__npy_open(&file, context, source);
   if (status == FG_STATUS_OK)
     status = fg__npy_choose(&choice, file, options);
   if (status == FG_STATUS_OK)
-    status = fg__npy_field(field, &cells, sphere, file, &choice, options, slab);
+    status = fg__npy_field(field, &between, sphere, file, &choice, options, slab);
   fg__npy_close(file);
   return status;
 }
@@ -49,16 +49,19 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
   fg__npy_file *file = NULL;
   fg__npy_choice choice = {0};
   fg_field *field = NULL;
+  fg__scatter_between between = {0};
   fg_inventory_vector entry = {.units = ""};
   fg_status status = fg__npy_open(&file, context, source);
   if (status == FG_STATUS_OK)
     status = fg__npy_choose(&choice, file, &defaults);
   if (status == FG_STATUS_OK)
-    status = fg__npy_field(&field, &entry.cells, NULL, file, &choice, &defaults,
+    status = fg__npy_field(&field, &between, NULL, file, &choice, &defaults,
                            (fg__slab_index){0, 1});
   if (status == FG_STATUS_OK) {
     for (int k = 0; k < 3 && choice.velocity[k]; ++k)
       entry.name[k] = choice.velocity[k]->name;
+    entry.cells = between.cells;
+    entry.points = between.points;
     entry.found_by = choice.found_by;
     entry.times = count_times(&choice);
     status = fg__scatter_describe(inventory, context, field, entry);

@@ -98,9 +98,9 @@ typedef struct fg__npy_choice {
 fg_status fg__npy_choose(fg__npy_choice *out, fg__npy_file *file,
                          const fg_read_options *options);
 
-/* field.c. Makes the field of a choice, and tells of how many triangles; with `sphere`,
- * and scattered longitudes and latitudes, the field on the sphere instead. */
-fg_status fg__npy_field(fg_field **out, size_t *cells, fg__sphere **sphere,
+/* field.c. Makes the field of a choice, and tells what is between its points; with
+ * `sphere`, and scattered longitudes and latitudes, the field on the sphere instead. */
+fg_status fg__npy_field(fg_field **out, fg__scatter_between *between, fg__sphere **sphere,
                         fg__npy_file *file, const fg__npy_choice *choice,
                         const fg_read_options *options, fg__slab_index slab);
 

@@ -351,37 +351,41 @@ static fg_status arrange(fg__point_grid *out, bool *found, fg__scatter *points,
     status = merge_doubled(points);
   if (status == FG_STATUS_OK)
     status = fg__scatter_find_grid(out, found, points);
-  if (status != FG_STATUS_OK || *found || points->dimension < 3)
+  if (status != FG_STATUS_OK || *found || points->dimension < 3 ||
+      fg__scatter_fills_space(points))
     return status;
   fg__fail(points->context, FG_STATUS_UNSUPPORTED,
            "%s: its %zu points in space lie neither on a grid along the axes nor in a "
-           "plane",
-           points->path, points->count);
+           "plane%s",
+           points->path, points->count,
+           points->geographic ? ", and not on one level" : ", and are too few");
   fg__hint(points->context, "interpolate them to a grid, or give the cells between them, "
                             "as .vtu");
   return FG_STATUS_UNSUPPORTED;
 }
 
-fg_status fg__scatter_field(fg_field **out, size_t *cells, fg__scatter *points,
-                            const fg_field_arrays *words, fg__slab_index slab)
+fg_status fg__scatter_field(fg_field **out, fg__scatter_between *between,
+                            fg__scatter *points, const fg_field_arrays *words,
+                            fg__slab_index slab)
 {
   fg__point_grid grid;
   fg__sphere *sphere = NULL;
   bool found;
-  *cells = 0;
+  *between = (fg__scatter_between){0};
   fg__flat_words flat = {.all = *words};
   fg_status status = arrange(&grid, &found, points, &flat);
   words = &flat.all;
   if (status == FG_STATUS_OK && !found && points->geographic) {
-    status = fg__scatter_on_sphere(&sphere, cells, points, words);
+    status = fg__scatter_on_sphere(&sphere, &between->cells, points, words);
     if (status == FG_STATUS_OK)
       status = fg__globe_field(out, points->context, sphere, slab);
     fg__sphere_destroy(sphere);
     return status;
   }
   if (status == FG_STATUS_OK && !found)
-    status = interpolate(&grid, points);
-  *cells = grid.cells;
+    status = points->dimension == 3 ? fg__scatter_fit(&grid, points)
+                                    : interpolate(&grid, points);
+  *between = (fg__scatter_between){grid.cells, grid.points};
   if (status == FG_STATUS_OK)
     status = fg__point_grid_straighten(&grid, points->context, points->path,
                                        points->geographic);

@@ -43,26 +43,31 @@ typedef struct fg__flat_words {
  * it. What all have in common is their level. */
 void fg__scatter_flatten(fg__scatter *points, fg__flat_words *words);
 
-/* Samples where lines along the axes cross; `cells` is 0 where each sample is one of the
- * file's, else they are interpolated from so many triangles. */
+/* Samples where lines along the axes cross: each one of the file's where both numbers are
+ * 0, else interpolated from so many triangles, or from so many points in space. */
 typedef struct fg__point_grid {
   int dimension, size[3];
   double *axis[3]; /* [size[k]], ascending */
   double period;   /* of the first axis, or 0 */
   float *velocity[3];
-  size_t cells;
+  size_t cells, points;
 } fg__point_grid;
 
 void fg__point_grid_clear(fg__point_grid *grid);
 size_t fg__point_grid_samples(const fg__point_grid *grid);
 
+/* What the samples of a field are interpolated from; both 0: each is the file's. */
+typedef struct fg__scatter_between {
+  size_t cells, points;
+} fg__scatter_between;
+
 /* The field of points, whose arrays it may change; the words are those of
- * fg_field_arrays. Points at one place become their mean. *cells: 0, or how many
- * triangles the samples are interpolated from. FILE_FORMAT (no numbers, more places with
- * several values than a slip explains), UNSUPPORTED (points on one line; in space, on no
- * grid and in no plane), ARGUMENT, MEMORY, STOPPED. */
-fg_status fg__scatter_field(fg_field **out, size_t *cells, fg__scatter *points,
-                            const fg_field_arrays *words, fg__slab_index slab);
+ * fg_field_arrays. Points at one place become their mean. FILE_FORMAT (no numbers, more
+ * places with several values than a slip explains), UNSUPPORTED (points on one line; in
+ * space, on no grid, in no plane, and too few), ARGUMENT, MEMORY, STOPPED. */
+fg_status fg__scatter_field(fg_field **out, fg__scatter_between *between,
+                            fg__scatter *points, const fg_field_arrays *words,
+                            fg__slab_index slab);
 
 /* The same of longitudes and latitudes as a field on the sphere; *out stays NULL where
  * they are a grid's. */
@@ -82,6 +87,11 @@ fg_status fg__scatter_on_sphere(fg__sphere **out, size_t *cells, fg__scatter *po
  * none may lack more crossings than have a point, but in holes. */
 fg_status fg__scatter_find_grid(fg__point_grid *out, bool *found,
                                 const fg__scatter *points);
+
+/* Whether points in space are enough for a field between them; it, on a lattice, missing
+ * where points are on one side only or far. MEMORY, STOPPED. */
+bool fg__scatter_fills_space(const fg__scatter *points);
+fg_status fg__scatter_fit(fg__point_grid *out, const fg__scatter *points);
 
 /* The raster of cells that are located, with the samples of two components at their
  * points between them. MEMORY. */

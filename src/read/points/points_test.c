@@ -111,13 +111,13 @@ static given make_points(fg_context *context, size_t count)
   return g;
 }
 
-static fg_field *field_of(given *g, size_t *cells)
+static fg_field *field_of(given *g, fg__scatter_between *between)
 {
   const fg_field_arrays words = {.scale = g->scatter.geographic ? FG_SCALE_GEO
                                                                 : FG_SCALE_PLAIN};
   fg_field *field = NULL;
   fg_context *context = g->scatter.context;
-  if (fg__scatter_field(&field, cells, &g->scatter, &words, (fg__slab_index){0, 1}))
+  if (fg__scatter_field(&field, between, &g->scatter, &words, (fg__slab_index){0, 1}))
     fail_msg("%s", fg_context_message(context));
   fg__scatter_clear(&g->scatter);
   return field;
@@ -128,7 +128,8 @@ static void points_of_a_grid_become_it(void **state)
 {
   enum { NX = 12, NY = 9 };
   given g = make_points(*state, (size_t)NX * NY);
-  size_t n = 0, cells;
+  size_t n = 0;
+  fg__scatter_between between;
   for (size_t i = 0; i < (size_t)NX * NY; ++i) {
     const size_t place = i * 65 % ((size_t)NX * NY), a = place % NX, b = place / NX;
     if (a > 6 && b > 5) /* a corner */
@@ -139,9 +140,9 @@ static void points_of_a_grid_become_it(void **state)
     g.v[n++] = a == 2 && b == 3 ? NAN : 1.0f;
   }
   g.scatter.count = n;
-  fg_field *field = field_of(&g, &cells);
+  fg_field *field = field_of(&g, &between);
   const fg_field_arrays *f = fg_field_contents(field);
-  assert_int_equal(cells, 0);
+  assert_int_equal(between.cells, 0);
   assert_int_equal(f->size[0], NX);
   assert_int_equal(f->size[1], NY);
   for (size_t i = 0; i < (size_t)NX * NY; ++i) {
@@ -160,7 +161,8 @@ static void points_of_a_grid_become_it(void **state)
 static void scattered_points_are_interpolated_between(void **state)
 {
   given g = make_points(*state, MOST);
-  size_t n = 0, cells, inside = 0;
+  size_t n = 0, inside = 0;
+  fg__scatter_between between;
   for (size_t i = 0; n < MOST; ++i) {
     const double x = dice(2 * i), y = dice(2 * i + 1);
     if (hypot(x - 0.5, y - 0.5) < 0.1)
@@ -170,9 +172,9 @@ static void scattered_points_are_interpolated_between(void **state)
     g.u[n] = (float)(1.0 + x);
     g.v[n++] = (float)(2.0 - x - 3.0 * y);
   }
-  fg_field *field = field_of(&g, &cells);
+  fg_field *field = field_of(&g, &between);
   const fg_field_arrays *f = fg_field_contents(field);
-  assert_true(cells > 2 * MOST - 200 && cells < 2 * MOST);
+  assert_true(between.cells > 2 * MOST - 200 && between.cells < 2 * MOST);
   for (int j = 0; j < f->size[1]; ++j)
     for (int i = 0; i < f->size[0]; ++i) {
       const size_t s = (size_t)j * (size_t)f->size[0] + (size_t)i;
@@ -235,11 +237,11 @@ static void points_on_the_globe_close_round_it(void **state)
 static void refuse(given *g, fg_status status, const char *words)
 {
   fg_field *field = NULL;
-  size_t cells;
+  fg__scatter_between between;
   const fg_field_arrays none = {.scale = FG_SCALE_PLAIN};
   fg_context *context = g->scatter.context;
   assert_int_equal(
-      fg__scatter_field(&field, &cells, &g->scatter, &none, (fg__slab_index){0, 1}),
+      fg__scatter_field(&field, &between, &g->scatter, &none, (fg__slab_index){0, 1}),
       status);
   assert_null(field);
   if (!strstr(fg_context_message(context), words))

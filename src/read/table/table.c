@@ -149,7 +149,7 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
   fg__table_vector vector;
   fg__scatter points = {0};
   table_choice choice = {0};
-  size_t cells;
+  fg__scatter_between between;
   *out = NULL;
   fg_status status = open_chosen(&table, &vector, context, source, options);
   if (status == FG_STATUS_OK)
@@ -157,7 +157,7 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
   if (status == FG_STATUS_OK) {
     fg_field_arrays words = words_of(&table, &vector, options);
     add_choice(&words, &choice);
-    status = fg__scatter_field(out, &cells, &points, &words, slab);
+    status = fg__scatter_field(out, &between, &points, &words, slab);
   }
   clear_choice(&choice);
   fg__scatter_clear(&points);
@@ -232,13 +232,15 @@ static fg_status describe_vector(fg_inventory *inventory, const fg__table *table
   for (int k = 0; k < vector->dimension && k < 3; ++k)
     entry.name[k] = table->column[vector->velocity[k]].name;
   fg__scatter points = {0};
+  fg__scatter_between between = {0};
   table_choice choice = {0};
   fg_field *field = NULL;
   fg_status status = read_rows(&points, &choice, table, vector, 0, 0);
   if (status == FG_STATUS_OK)
-    status =
-        fg__scatter_field(&field, &entry.cells, &points, &words, (fg__slab_index){0, 1});
+    status = fg__scatter_field(&field, &between, &points, &words, (fg__slab_index){0, 1});
   fg__scatter_clear(&points);
+  entry.cells = between.cells;
+  entry.points = between.points;
   if (status == FG_STATUS_OK)
     status = add_entry(inventory, table, vector, field, &entry, &choice);
   clear_choice(&choice);

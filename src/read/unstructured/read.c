@@ -308,14 +308,14 @@ static fg_status plane_field(fg_field **out, size_t *missing, const request *r,
   fg__sphere_cells cells = {0};
   fg__scatter points = {0};
   fg__point_grid grid = {0};
-  size_t count;
+  fg__scatter_between between;
   fg_status status = name_axes(&plane, &texts, r);
   if (status != FG_STATUS_OK)
     return status;
   if (r->grid->unstructured->location == FG__NC_ON_POINTS) {
     status = make_scatter(&points, missing, r);
     if (status == FG_STATUS_OK)
-      status = fg__scatter_field(out, &count, &points, &texts, slab);
+      status = fg__scatter_field(out, &between, &points, &texts, slab);
     fg__scatter_clear(&points);
     return status;
   }
@@ -335,7 +335,7 @@ static fg_status grid_of_points(fg_field **out, size_t *missing, const request *
 {
   fg__scatter points = {0};
   fg_field_arrays texts = r->texts;
-  size_t count;
+  fg__scatter_between between;
   texts.scale = FG_SCALE_GEO;
   for (int k = 0; k < 2; ++k) {
     texts.axis_name[k] = k == 0 ? "longitude" : "latitude";
@@ -343,7 +343,7 @@ static fg_status grid_of_points(fg_field **out, size_t *missing, const request *
   }
   fg_status status = make_scatter(&points, missing, r);
   if (status == FG_STATUS_OK)
-    status = fg__scatter_field(out, &count, &points, &texts, slab);
+    status = fg__scatter_field(out, &between, &points, &texts, slab);
   fg__scatter_clear(&points);
   return status;
 }
