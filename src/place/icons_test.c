@@ -74,16 +74,16 @@ static void a_head_lies_on_a_calm_piece(void **state)
   const double seed[2] = {EYE[0] - 0.5 * lambda, EYE[1]};
   fg_icons_destroy(first);
   /* the search looks at 0.15 lambda, the head of the fastest flow has 0.2 */
-  static const double beyond[] = {0.16, 0.18, 0.2, 0.22, 0.3, 0.4};
+  static const double beyond[] = {0.16, 0.18, 0.2, 0.22, 0.3, 0.5};
   for (size_t n = 0; n < sizeof beyond / sizeof *beyond; ++n) {
     const double way[2] = {0.5 * lambda, (0.5 + beyond[n]) * lambda};
     fg_icons *made = icons_with(*state, placement, seed, way);
     const fg_icon *icon = fg_icons_at(made, 4);
     assert_true(icon->head_length > 0.19 * lambda);
     assert_true(turn_before_end(icon, icon->head_length) < 60.5);
-    /* no more is taken off than that needs */
-    const double longest = (1.0 + (beyond[n] > 0.25 ? beyond[n] : 0.0)) * lambda;
-    assert_true(fabs(length_of(icon) - longest) < 0.04 * lambda);
+    /* no more is taken off than that needs, and a sample of the search */
+    const double longest = (1.0 + (beyond[n] > 0.35 ? beyond[n] : 0.0)) * lambda;
+    assert_true(fabs(length_of(icon) - longest) < 0.11 * lambda);
     fg_icons_destroy(made);
   }
   fg_placement_destroy(placement);

@@ -24,6 +24,11 @@ static const double HEAD_BEND = 40.0 * FG__PLACE_PI / 180.0;
 static const double UNEVEN = 1.5;
 enum { MOST_HEAD_CUTS = 4 };
 
+/* Nor does it lie just behind an elbow: a line ends before it bends by this angle less
+ * than so much before its end, in lambda. */
+static const double ELBOW = 60.0 * FG__PLACE_PI / 180.0;
+static const double HOOK = 0.4;
+
 /* A line traced finely that ends farther than so many lambda from the coarse one has met
  * a place where the flow turns over within a step. */
 static const double MOST_APART = 0.05;
@@ -229,6 +234,27 @@ static void straighten_head(side *line, double range)
   }
 }
 
+/* Takes a hook off: an elbow and the short piece behind it. */
+static void cut_hook(side *line, double range, double hook)
+{
+  const double length = line->at[line->count - 1];
+  for (int last = line->count - 1; line->at[last] > 2.0 * range; --last) {
+    const int middle = sample_before(line, last, range);
+    const int before = sample_before(line, middle, range);
+    const double bend = bend_between(line, middle, last);
+    int end = middle; /* the last sample before it bends */
+    if (length - line->at[middle] > hook + range)
+      return;
+    if (bend < ELBOW || bend < UNEVEN * bend_between(line, before, middle))
+      continue;
+    while (bend_between(line, middle, end + 1) < 0.25 * ELBOW)
+      ++end;
+    if (length - line->at[end] < hook)
+      line->count = end + 1;
+    return;
+  }
+}
+
 /* Both sides of a seed; false: no line can be here. */
 static bool trace_both(side both[2], const fg__place_domain *domain,
                        const fg__place_scale *scale, const fg__place_seed *seed)
@@ -246,6 +272,7 @@ static bool trace_both(side both[2], const fg__place_domain *domain,
     with.step = sampling;
     trace_side(&both[n], &with, &start, n ? 1.0 : -1.0, seed->way[n], sampling);
   }
+  cut_hook(&both[1], BREAK_RANGE * scale->lambda, HOOK * scale->lambda);
   straighten_head(&both[1], BREAK_RANGE * scale->lambda);
   /* narrow seas may have short ones */
   double ends = both[0].at[both[0].count - 1] + both[1].at[both[1].count - 1];

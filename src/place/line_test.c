@@ -172,6 +172,41 @@ static void a_line_ends_before_it_breaks_between_samples(void **state)
   clear(&s);
 }
 
+/* To the right, and from x = 1 on 70 degrees up. */
+static void elbow(const double position[3], double v[3])
+{
+  const double angle = position[0] < 1.0 ? 0.0 : 70.0 / 57.29577951308232;
+  v[0] = cos(angle);
+  v[1] = sin(angle);
+  v[2] = 0;
+}
+
+/* A head is not on a short piece behind an elbow; a longer one stays. */
+static void a_line_ends_before_a_hook(void **state)
+{
+  const sampling box = {
+      .dimension = 2, .nodes = {81, 71}, .low = {-3, 4}, .high = {5, 11}};
+  setting s = set(*state, &box, elbow, 25);
+  const struct {
+    double behind; /* lambda */
+    bool goes_on;
+  } cases[] = {{0.2, false}, {0.3, false}, {0.6, true}, {0.9, true}};
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    const double before = 0.7 * s.scale.lambda;
+    fg__place_seed seed = {
+        {1.0 - before, 5.0},
+        {0.2 * s.scale.lambda, before + cases[n].behind * s.scale.lambda}};
+    fg__place_line line;
+    fg__place_trace(&line, &s.domain, &s.scale, &seed);
+    assert_true(line.count > 2);
+    double end[3];
+    point_of(end, &s, &line, line.count - 1);
+    assert_int_equal(end[0] > 1.0, cases[n].goes_on);
+    assert_true(end[0] > 1.0 - 0.3 * s.scale.lambda);
+  }
+  clear(&s);
+}
+
 static void too_short_a_line_is_none(void **state)
 {
   setting s = set(*state, &PLAIN, slant, 30);
@@ -342,6 +377,7 @@ int main(void)
       CASE(lines_keep_off_walls),
       CASE(a_line_ends_before_the_flow_reverses_or_breaks),
       CASE(a_line_ends_before_it_breaks_between_samples),
+      CASE(a_line_ends_before_a_hook),
       CASE(too_short_a_line_is_none),
       CASE(a_fine_line_is_the_coarse_one),
       CASE(a_fine_line_has_the_points_that_its_shape_needs),
