@@ -9,10 +9,14 @@ import { startBrowser } from "./test/browser.mjs";
 const [file, width = "1280", height = "800", from = "0", to = "1"] = process.argv.slice(2);
 if (!file || !existsSync(file)) throw new Error("which page?");
 const browser = await startBrowser();
-const page = await browser.newPage({ viewport: { width: Number(width), height: Number(height) } });
+const page = await browser.newPage({ viewport: { width: Number(width), height: Number(height) }, bypassCSP: true });
 await page.goto(`file://${resolve(file)}`);
 await page.waitForFunction(() => document.getElementById("picture").dataset.made === "yes");
 console.log(`opened in ${(await page.evaluate(() => performance.now())).toFixed(0)} ms`);
+await page.waitForFunction(() => { // in 2D scales are placed by the page
+  const made = document.getElementById("picture").dataset.scales;
+  return made === undefined || Number(made) > Number(document.getElementById("scale").max);
+}, undefined, { timeout: 0 });
 await page.waitForTimeout(1000);
 
 /** Drags as a hand does: an event for each frame, there and back in four seconds. */
