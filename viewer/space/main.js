@@ -312,14 +312,19 @@ async function savePng() {
 
 // ---- the page
 
-function resize() {
+/** Gives the view the stage's size; whether that is another. */
+function refit() {
   const { clientWidth, clientHeight } = byId("stage");
   const size = [clientWidth, clientHeight, devicePixelRatio].join();
-  if (size === fitted) return;
+  if (size === fitted) return false;
   fitted = size;
   camera.size = fit(canvas);
   numbers = undefined; // a canvas of another size is empty
-  draw();
+  return true;
+}
+
+function resize() {
+  if (refit()) draw();
 }
 
 function restore() {
@@ -416,8 +421,9 @@ async function start() {
   restore();
   connect();
   theme.apply();
+  refit();
+  pace.start();
   update();
-  resize();
   if (!scene.ready) throw new Error("it offers no WebGL2");
 }
 
