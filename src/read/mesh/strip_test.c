@@ -1,4 +1,4 @@
-/* The grid that samples of the sphere are put on. */
+/* The longitude-latitude grid that samples of a thin mesh are put on. */
 #include "base/context_test.h"
 #include "read/netcdf/sample.h"
 
