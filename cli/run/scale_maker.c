@@ -39,7 +39,7 @@ static fg_status write_solids(scale_maker *maker, int index, const fg_icons *ico
     char *path = scale_path(maker, index, ends[k]);
     if (!path)
       return FG_STATUS_MEMORY;
-    status = fg_solid_write(maker->context, path, NULL, icons, &options);
+    status = fg_solid_write(maker->context, path, maker->field, icons, &options);
     free(path);
   }
   return status;

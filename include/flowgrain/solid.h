@@ -34,8 +34,8 @@ FG_API fg_status fg_density_surface(fg_surface **out, fg_context *context,
 /* A zero field means its default, in brackets. */
 typedef struct fg_solid_options {
   const char *palette; /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
-  double speed_min, speed_max; /* ends of the colours; equal: of pictures those of
-                                  fg_solid_speed_range, else from the icons */
+  double speed_min, speed_max; /* ends of the colours; equal: those of
+                                  fg_solid_speed_range */
   const fg_surface *surface;   /* of the clusters, shown round the arrows, transparent
                                   [none] */
   /* Of pictures: */
@@ -76,15 +76,17 @@ FG_API fg_status fg_solid_speed_range(double range[2], fg_context *context,
 
 /* Writes icons in 3D; the format follows the name's end. .vtp: VTK polydata in input
  * coordinates, with the cells' array `part` (0 a centre, 1 a spine, 2 a streamline, 3 an
- * arrow, 4 the clusters' surface) and those of their cluster; the clusters' surface
- * belongs to none: there `cluster`, `speed` and `volume` are 0. .glb: glTF 2.0 in one
- * file: a node with a mesh for each arrow, coloured by its speed, and for all spines,
- * streamlines, centres and clusters' surfaces; z is turned upwards as glTF has y. .png,
- * .svg, .pdf: a rendered picture, the same to the bit on any number of threads; colours
- * follow the speed along each arrow, and the surface of where the
- * field is valid, or of what moves in a field that hardly does, is seen as a faint
- * outline, unless ranks share the field. The field is needed for pictures only, else
- * NULL. options may be NULL. FILE_ACCESS, UNSUPPORTED (another end; a picture without
+ * arrow, 4 the clusters' surface) and those of their cluster; the points' array
+ * `local_speed` is the speed along each line and arrow; the clusters' surface belongs to
+ * none: there `cluster`, `speed`, `volume` and `local_speed` are 0. .glb: glTF 2.0 in one
+ * file: a node with a mesh for each arrow, whose vertices have the colours of the speed
+ * along it, and for all spines, streamlines, centres and clusters' surfaces; z is turned
+ * upwards as glTF has y. .png, .svg, .pdf: a rendered picture, the same to the bit on any
+ * number of threads; colours follow the speed along each arrow, and the surface of where
+ * the field is valid, or of what moves in a field that hardly does, is seen as a faint
+ * outline, unless ranks share the field. Pictures need the field; without it (NULL), or
+ * where ranks share it, an arrow has its mean speed all along. options may be NULL.
+ * FILE_ACCESS, UNSUPPORTED (another end; a picture without
  * FG_FEATURE_RENDER), ARGUMENT, MEMORY, STOPPED. */
 FG_API fg_status fg_solid_write(fg_context *context, const char *path,
                                 const fg_field *field, const fg_icons *icons,

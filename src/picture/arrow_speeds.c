@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/vector.h"
 #include "base/weighted.h"
+#include "solid/tube.h"
 
 /* Of the arrows' length, slower and faster than the ends of the colours. */
 static const double left_out = 0.02;
@@ -31,6 +32,19 @@ fg_status fg__arrow_speeds(double **out, fg_context *context, const fg_field *fi
   for (int n = 0; n < first; ++n)
     speed[n] = speed[first];
   return FG_STATUS_OK;
+}
+
+fg_status fg__arrow_solid(fg_surface **out, float **at_vertex, fg_context *context,
+                          const fg_field *field, const fg_icon *icon)
+{
+  double *speed;
+  *out = NULL;
+  *at_vertex = NULL;
+  fg_status status = fg__arrow_speeds(&speed, context, field, icon);
+  if (!status)
+    status = fg__solid_with_values(out, at_vertex, context, icon, speed);
+  free(speed);
+  return status;
 }
 
 /* Speeds of the pieces of an arrow, weighted by their lengths. */

@@ -10,4 +10,9 @@
 fg_status fg__arrow_speeds(double **out, fg_context *context, const fg_field *field,
                            const fg_icon *icon);
 
+/* The solid of an icon, and for each of its vertices the speed at its place along the
+ * line. *at_vertex: free it. MEMORY, ARGUMENT. */
+fg_status fg__arrow_solid(fg_surface **out, float **at_vertex, fg_context *context,
+                          const fg_field *field, const fg_icon *icon);
+
 #endif

@@ -4,6 +4,8 @@
 
 #include "file/folder_test.h"
 #include "icon/icons.h"
+#include "picture/palette.h"
+#include "picture/solid_field_test.h"
 
 static int set_up(void **state)
 {
@@ -239,6 +241,75 @@ static void the_surface_of_clusters_is_transparent(void **state)
   fg_icons_destroy(icons);
 }
 
+/* Speed 1 at the side of least x, 5 at the other. */
+static bool faster_along_x(const double place[3], double velocity[3])
+{
+  velocity[1] = 1.0 + 2.0 * (place[0] - field_low[0]);
+  return true;
+}
+
+static double linear(double level)
+{
+  return level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4);
+}
+
+static const cJSON *primitive_of(const glb *g, int mesh)
+{
+  return cJSON_GetArrayItem(
+      cJSON_GetObjectItemCaseSensitive(entry(g, "meshes", mesh), "primitives"), 0);
+}
+
+/* Across the flow's gradient, from x = 3.3 to 4.7: its vertices have the colours of 1.6
+ * to 4.4, whatever its mean is. */
+static void an_arrow_is_coloured_by_the_speed_along_it(void **state)
+{
+  folder *f = *state;
+  enum { LINE = 8 };
+  double points[LINE][3];
+  for (int n = 0; n < LINE; ++n)
+    for (int k = 0; k < 3; ++k)
+      points[n][k] = (double[]){3.3 + 0.2 * n, -0.3, 10.2}[k];
+  const fg_icon icon = {.cluster = 1,
+                        .point_count = LINE,
+                        .points = (const double(*)[3])points,
+                        .width = 0.02,
+                        .tail_width = 0.01,
+                        .head_length = 0.2,
+                        .head_width = 0.05,
+                        .speed = 9.0};
+  fg_icons *icons = NULL;
+  fg_field *field = field_of(faster_along_x);
+  fg__palette palette;
+  assert_int_equal(fg__palette_create(&palette, f->context, NULL), FG_STATUS_OK);
+  assert_int_equal(fg__icons_create_empty(&icons, f->context), FG_STATUS_OK);
+  assert_int_equal(fg__icons_add(icons, f->context, &icon), FG_STATUS_OK);
+  fg_solid_options options = {.speed_min = 1, .speed_max = 5};
+  assert_int_equal(fg_solid_write(f->context, f->path, field, icons, &options),
+                   FG_STATUS_OK);
+  glb g = read_glb(f->path);
+  const int arrow =
+      cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(g.json, "meshes")) - 1;
+  const cJSON *attributes =
+      cJSON_GetObjectItemCaseSensitive(primitive_of(&g, arrow), "attributes");
+  int places, colors;
+  const unsigned char *place = data_of(&g, (int)number(attributes, "POSITION"), &places);
+  const unsigned char *color = data_of(&g, (int)number(attributes, "COLOR_0"), &colors);
+  const cJSON *moved =
+      cJSON_GetObjectItemCaseSensitive(entry(&g, "nodes", 0), "translation");
+  assert_int_equal(colors, places);
+  for (int n = 0; n < places; ++n) {
+    double x =
+        (double)float_at(place + 12 * n) + cJSON_GetArrayItem(moved, 0)->valuedouble;
+    fg__color wanted = fg__palette_color(&palette, (x - 3.0) / 2.0);
+    assert_true(fabs((double)float_at(color + 12 * n) - linear(wanted.red)) < 1e-3);
+    assert_true(fabs((double)float_at(color + 12 * n + 4) - linear(wanted.green)) < 1e-3);
+    assert_true(fabs((double)float_at(color + 12 * n + 8) - linear(wanted.blue)) < 1e-3);
+  }
+  clear_glb(&g);
+  fg_icons_destroy(icons);
+  fg_field_destroy(field);
+}
+
 static void no_icons_make_an_empty_scene(void **state)
 {
   folder *f = *state;
@@ -265,6 +336,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       TEST(a_file_holds_what_was_written),
       TEST(the_surface_of_clusters_is_transparent),
+      TEST(an_arrow_is_coloured_by_the_speed_along_it),
       TEST(no_icons_make_an_empty_scene),
   };
   return cmocka_run_group_tests_name("write/glb", tests, NULL, NULL);

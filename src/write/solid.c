@@ -20,9 +20,9 @@ fg_status fg_solid_write(fg_context *context, const char *path, const fg_field *
                     path ? "none" : "no file name");
   options = options ? options : &usual;
   if (ends_with(path, ".vtp"))
-    return fg__vtp_write(context, path, icons, options->surface);
+    return fg__vtp_write(context, path, field, icons, options->surface);
   if (ends_with(path, ".glb"))
-    return fg__glb_write(context, path, icons, options);
+    return fg__glb_write(context, path, field, icons, options);
   if (!field)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "%s: solids without a field are written as .vtp or .glb", path);

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "file/number_text.h"
 #include "file/whole_file.h"
+#include "picture/arrow_speeds.h"
 #include "write/vti.h"
 
 #include <limits.h>
@@ -22,16 +23,20 @@ typedef struct cells {
 
 typedef struct polydata {
   double (*point)[3];
-  size_t points, capacity;
+  float *speed; /* [points] of the flow there */
+  size_t points, capacity, speed_capacity;
   cells kind[KINDS];
 } polydata;
 
 /* False when there is no memory. */
-static bool add_point(polydata *data, const double position[3])
+static bool add_point(polydata *data, const double position[3], double speed)
 {
   if (!fg__grow((void **)&data->point, &data->capacity, data->points + 1,
-                sizeof *data->point))
+                sizeof *data->point) ||
+      !fg__grow((void **)&data->speed, &data->speed_capacity, data->points + 1,
+                sizeof *data->speed))
     return false;
+  data->speed[data->points] = (float)speed;
   memcpy(data->point[data->points++], position, sizeof *data->point);
   return true;
 }
@@ -58,29 +63,40 @@ static bool add_cell(cells *to, const int *point, int count, const fg_icon *icon
   return true;
 }
 
-static bool add_line(polydata *data, const double (*line)[3], int count,
-                     const fg_icon *icon, fg__vtp_part part)
+/* A line of an icon, or of one point its centre. */
+static fg_status add_line(polydata *data, fg_context *context, const fg_field *field,
+                          const fg_icon *icon, const double (*line)[3], int count,
+                          fg__vtp_part part)
 {
-  if (!line || count < 2)
-    return true;
-  int first = (int)data->points, *point = fg__allocate((size_t)count, sizeof *point);
+  const int kind = part == FG__VTP_CENTER ? 0 : 1, first = (int)data->points;
+  if (!line || count < 1 + kind)
+    return FG_STATUS_OK;
+  const fg_icon along = {.points = line, .point_count = count, .speed = icon->speed};
+  double *speed;
+  fg_status status = fg__arrow_speeds(&speed, context, field, &along);
+  if (status)
+    return status;
+  int *point = fg__allocate((size_t)count, sizeof *point);
   bool room = point != NULL;
   for (int n = 0; n < count && room; ++n) {
     point[n] = first + n;
-    room = add_point(data, line[n]);
+    room = add_point(data, line[n], speed[n]);
   }
-  room = room && add_cell(&data->kind[1], point, count, icon, part);
+  room = room && add_cell(&data->kind[kind], point, count, icon, part);
   free(point);
-  return room;
+  free(speed);
+  return room ? FG_STATUS_OK
+              : fg__fail_memory(context, "icons to write", data->points * 24);
 }
 
-static bool add_surface(polydata *data, const fg_surface *solid, const fg_icon *icon,
-                        fg__vtp_part part)
+/* speed: of each vertex; NULL: 0. */
+static bool add_surface(polydata *data, const fg_surface *solid, const float *speed,
+                        const fg_icon *icon, fg__vtp_part part)
 {
   int first = (int)data->points;
   bool room = true;
   for (int n = 0; n < solid->vertex_count && room; ++n)
-    room = add_point(data, solid->vertex[n]);
+    room = add_point(data, solid->vertex[n], speed ? (double)speed[n] : 0.0);
   for (int n = 0; n < solid->triangle_count && room; ++n) {
     int point[3];
     for (int k = 0; k < 3; ++k)
@@ -90,29 +106,36 @@ static bool add_surface(polydata *data, const fg_surface *solid, const fg_icon *
   return room;
 }
 
-static fg_status add_solid(polydata *data, fg_context *context, const fg_icon *icon)
+static fg_status add_solid(polydata *data, fg_context *context, const fg_field *field,
+                           const fg_icon *icon)
 {
   fg_surface *solid;
-  fg_status status = fg_icon_solid(&solid, context, icon);
+  float *speed;
+  fg_status status = fg__arrow_solid(&solid, &speed, context, field, icon);
   if (status)
     return status;
-  bool room = add_surface(data, solid, icon, FG__VTP_ARROW);
+  bool room = add_surface(data, solid, speed, icon, FG__VTP_ARROW);
+  free(speed);
   fg_surface_destroy(solid);
   return room ? FG_STATUS_OK
               : fg__fail_memory(context, "icons to write", data->points * 24);
 }
 
-static fg_status add_icon(polydata *data, fg_context *context, const fg_icon *icon)
+static fg_status add_icon(polydata *data, fg_context *context, const fg_field *field,
+                          const fg_icon *icon)
 {
-  int center = (int)data->points;
-  bool room =
-      add_point(data, icon->center) &&
-      add_cell(&data->kind[0], &center, 1, icon, FG__VTP_CENTER) &&
-      add_line(data, icon->spine, icon->spine_count, icon, FG__VTP_SPINE) &&
-      add_line(data, icon->streamline, icon->streamline_count, icon, FG__VTP_STREAMLINE);
-  if (!room)
-    return fg__fail_memory(context, "icons to write", data->points * 24);
-  return add_solid(data, context, icon);
+  const struct {
+    const double (*line)[3];
+    int count;
+    fg__vtp_part part;
+  } lines[] = {{&icon->center, 1, FG__VTP_CENTER},
+               {icon->spine, icon->spine_count, FG__VTP_SPINE},
+               {icon->streamline, icon->streamline_count, FG__VTP_STREAMLINE}};
+  fg_status status = FG_STATUS_OK;
+  for (size_t n = 0; n < sizeof lines / sizeof *lines && !status; ++n)
+    status = add_line(data, context, field, icon, lines[n].line, lines[n].count,
+                      lines[n].part);
+  return status ? status : add_solid(data, context, field, icon);
 }
 
 static void clear(polydata *data)
@@ -126,6 +149,7 @@ static void clear(polydata *data)
     free(data->kind[k].volume);
   }
   free(data->point);
+  free(data->speed);
 }
 
 static fg_status write_array(FILE *stream, fg_context *context, const char *name,
@@ -194,7 +218,12 @@ static fg_status write_polydata(FILE *stream, fg_context *context, const polydat
           "NumberOfLines=\"%zu\" NumberOfStrips=\"0\" NumberOfPolys=\"%zu\">\n",
           fg__vti_byte_order(), data->points, data->kind[0].count, data->kind[1].count,
           data->kind[2].count);
-  fg_status status = write_cell_data(stream, context, data);
+  fputs("<PointData Scalars=\"local_speed\">\n", stream);
+  fg_status status = write_array(stream, context, "local_speed", "Float32", data->speed,
+                                 data->points, sizeof(float), 1);
+  fputs("</PointData>\n", stream);
+  if (!status)
+    status = write_cell_data(stream, context, data);
   fputs("<Points>\n", stream);
   if (!status)
     status = write_array(stream, context, "Points", "Float64", data->point,
@@ -214,8 +243,8 @@ static fg_status write_polydata(FILE *stream, fg_context *context, const polydat
   return status;
 }
 
-fg_status fg__vtp_write(fg_context *context, const char *path, const fg_icons *icons,
-                        const fg_surface *surface)
+fg_status fg__vtp_write(fg_context *context, const char *path, const fg_field *field,
+                        const fg_icons *icons, const fg_surface *surface)
 {
   /* of all clusters, and of none: its numbers are 0 */
   static const fg_icon none = {0};
@@ -224,13 +253,13 @@ fg_status fg__vtp_write(fg_context *context, const char *path, const fg_icons *i
   fg__whole_file file;
   fg_status status = FG_STATUS_OK;
   for (int n = 0; n < fg_icons_count(icons) && !status; ++n) {
-    status = add_icon(&data, context, fg_icons_at(icons, n));
+    status = add_icon(&data, context, field, fg_icons_at(icons, n));
     if (!status && data.points > INT_MAX / 8)
       status = fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: too many points", path);
   }
   if (!status && surface && (size_t)surface->vertex_count + data.points > INT_MAX / 8)
     status = fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: too many points", path);
-  if (!status && surface && !add_surface(&data, surface, &none, FG__VTP_CLUSTER))
+  if (!status && surface && !add_surface(&data, surface, NULL, &none, FG__VTP_CLUSTER))
     status = fg__fail_memory(context, "clusters to write", data.points * 24);
   if (!status && !fg__number_locale_begin(&locale))
     status = fg__fail_memory(context, "a locale", sizeof locale);

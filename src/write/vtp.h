@@ -14,8 +14,8 @@ typedef enum fg__vtp_part {
   FG__VTP_CLUSTER
 } fg__vtp_part;
 
-/* fg_solid_write of a .vtp. surface: of all clusters, or NULL. */
-fg_status fg__vtp_write(fg_context *context, const char *path, const fg_icons *icons,
-                        const fg_surface *surface);
+/* fg_solid_write of a .vtp. field: may be NULL. surface: of all clusters, or NULL. */
+fg_status fg__vtp_write(fg_context *context, const char *path, const fg_field *field,
+                        const fg_icons *icons, const fg_surface *surface);
 
 #endif

@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,7 @@
 #include "base/context_test.h"
 #include "file/base64.h"
 #include "icon/icons.h"
+#include "picture/solid_field_test.h"
 #include "write/vtp.h"
 
 static const char *const path = "vtp_test.vtp";
@@ -68,7 +70,7 @@ static void a_surface_has_numbers(void **state)
   assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
   assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
   assert_int_equal(fg_icon_solid(&surface, NULL, &icon), FG_STATUS_OK);
-  assert_int_equal(fg__vtp_write(NULL, path, icons, surface), FG_STATUS_OK);
+  assert_int_equal(fg__vtp_write(NULL, path, NULL, icons, surface), FG_STATUS_OK);
   char *text = read_text();
   size_t count = read_array(text, "part", part, sizeof part);
   assert_int_equal(read_array(text, "speed", speed, sizeof speed), 8 * count);
@@ -89,8 +91,62 @@ static void a_surface_has_numbers(void **state)
   fg_icons_destroy(icons);
 }
 
+/* Speed 1 at the side of least x, 5 at the other. */
+static bool faster_along_x(const double place[3], double velocity[3])
+{
+  velocity[1] = 1.0 + 2.0 * (place[0] - field_low[0]);
+  return true;
+}
+
+/* Each point of the lines and of the solid has the speed of the flow at its place along
+ * its line, not the arrow's mean. */
+static void points_have_the_speed_of_the_flow_there(void **state)
+{
+  (void)state;
+  enum { MOST = 4096, LINE = 5 };
+  static float speed[MOST];
+  static double place[MOST][3];
+  double arrow[LINE][3], line[LINE][3];
+  for (int n = 0; n < LINE; ++n)
+    for (int k = 0; k < 3; ++k) {
+      arrow[n][k] = (double[]){4.5 - 0.3 * n, -0.3, 10.2}[k];
+      line[n][k] = (double[]){3.3 + 0.3 * n, -0.5, 10.3}[k];
+    }
+  const fg_icon icon = {.cluster = 1,
+                        .point_count = LINE,
+                        .points = (const double(*)[3])arrow,
+                        .width = 0.02,
+                        .tail_width = 0.01,
+                        .head_length = 0.2,
+                        .head_width = 0.05,
+                        .center = {3.4, -0.4, 10.4},
+                        .speed = 9.0,
+                        .spine = (const double(*)[3])line,
+                        .spine_count = LINE,
+                        .streamline = (const double(*)[3])line,
+                        .streamline_count = LINE};
+  fg_icons *icons = NULL;
+  fg_field *field = field_of(faster_along_x);
+  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
+  assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
+  assert_int_equal(fg__vtp_write(NULL, path, field, icons, NULL), FG_STATUS_OK);
+  char *text = read_text();
+  size_t count = read_array(text, "local_speed", speed, sizeof speed) / sizeof *speed;
+  assert_int_equal(read_array(text, "Points", place, sizeof place), 24 * count);
+  assert_true(count > 1 + 2 * LINE);
+  for (size_t n = 0; n < count; ++n)
+    assert_true(fabs((double)speed[n] - (1.0 + 2.0 * (place[n][0] - 3.0))) < 1e-4);
+  free(text);
+  unlink(path);
+  fg_icons_destroy(icons);
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_surface_has_numbers)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_surface_has_numbers),
+      cmocka_unit_test(points_have_the_speed_of_the_flow_there),
+  };
   return cmocka_run_group_tests_name("write/vtp", tests, NULL, NULL);
 }
