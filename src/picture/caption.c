@@ -213,6 +213,36 @@ static void collect_words(told_words *out, const fg__caption_panel *panel)
            panel->icons ? fg_icons_count(panel->icons) : 0);
 }
 
+/* How far a date in words goes: 10 bytes to its day, 16 to the minute, 19 to the second;
+ * 0: it is none. */
+static size_t date_length(const char *text)
+{
+  static const char form[] = "0000-00-00 00:00:00";
+  size_t length = strlen(text);
+  if (length != 10 && length != 16 && length != 19)
+    return 0;
+  for (size_t n = 0; n < length; ++n)
+    if (form[n] == '0' ? text[n] < '0' || text[n] > '9' : text[n] != form[n])
+      return 0;
+  return length;
+}
+
+/* A date goes as far as the longest of those that stand beside it. */
+static void complete_date(told_words *out, const fg__caption_panel *panel, int count)
+{
+  static const char midnight[] = " 00:00:00";
+  const size_t own = date_length(out->time);
+  size_t longest = own;
+  for (int n = 0; n < count && own; ++n) {
+    const char *time = panel[n].field->time;
+    const size_t length = date_length(time ? time : "");
+    longest = length > longest ? length : longest;
+  }
+  if (longest > own)
+    snprintf(out->time + own, sizeof out->time - own, "%.*s", (int)(longest - own),
+             midnight + own - 10);
+}
+
 /* The texts of told words. */
 enum { WORDS = 6 };
 
@@ -318,6 +348,7 @@ void fg__caption_write_label(char label[FG__CAPTION_BYTES],
   fg__caption_value values[CAPTION_NAMES + 1];
   char letter[4], words[64], rest[FG__CAPTION_BYTES] = "";
   collect_words(&told, &panel[k]);
+  complete_date(&told, panel, count);
   list_values(values, &told);
   write_letter(letter, k);
   values[CAPTION_NAMES] = (fg__caption_value){"{letter}", letter};

@@ -169,6 +169,40 @@ static void panels_are_told_apart(void **state)
   fg_icons_destroy(more);
 }
 
+/* Where one date has an hour, all have. */
+static void dates_of_panels_go_equally_far(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *time[3], *label[3];
+  } cases[] = {
+      {{"2016-01-14", "2016-01-14 01:00", "2016-01-15"},
+       {"(a) 2016-01-14 00:00", "(b) 2016-01-14 01:00", "(c) 2016-01-15 00:00"}},
+      {{"2016-01-14 06:00", "2016-01-14", "2016-01-14 06:00:30"},
+       {"(a) 2016-01-14 06:00:00", "(b) 2016-01-14 00:00:00", "(c) 2016-01-14 06:00:30"}},
+      {{"2016-01-14", "2016-01-15", "t = 2.5"},
+       {"(a) 2016-01-14", "(b) 2016-01-15", "(c) t = 2.5"}},
+      {{"January", "2016-01-14 01:00", NULL},
+       {"(a) January", "(b) 2016-01-14 01:00", "(c)"}},
+  };
+  char label[FG__CAPTION_BYTES];
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    fg_field_arrays field[3];
+    fg__caption_panel panel[3];
+    for (int k = 0; k < 3; ++k) {
+      field[k] = (fg_field_arrays){.dimension = 2,
+                                   .velocity_name = {"u", "v"},
+                                   .title = "",
+                                   .time = cases[n].time[k]};
+      panel[k] = (fg__caption_panel){&field[k], NULL, 0.0};
+    }
+    for (int k = 0; k < 3; ++k) {
+      fg__caption_write_label(label, panel, 3, k, NULL);
+      assert_string_equal(label, cases[n].label[k]);
+    }
+  }
+}
+
 static void letters_go_on_after_z(void **state)
 {
   (void)state;
@@ -197,6 +231,7 @@ int main(void)
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(names_without_a_value_leave_nothing, context_set_up,
                                       context_tear_down),
+      cmocka_unit_test(dates_of_panels_go_equally_far),
       cmocka_unit_test_setup_teardown(panels_are_told_apart, context_set_up,
                                       context_tear_down),
       cmocka_unit_test(letters_go_on_after_z),
