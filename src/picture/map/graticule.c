@@ -185,7 +185,9 @@ static void label_spoke(fg__graticule *out, const family *f, int n, int line)
   add_label(out->label, &out->labels, f->ticks.text[n], line, at, out_of[0], out_of[1]);
 }
 
-/* Places on the line between lines of the other kind, from the middle on. */
+/* Places on the line between lines of the other kind, from the middle on. Parallels round
+ * a pole: the first alone, so that all maps of a run have their degrees in the same row.
+ */
 static void label_within(fg__graticule *out, const family *f, int n, int line)
 {
   const fg__plane *plane = out->plane;
@@ -193,7 +195,8 @@ static void label_within(fg__graticule *out, const family *f, int n, int line)
   const double step = f->k == 0 ? step_of(plane, 1) : step_of(plane, 0);
   if (f->k == 1 && fabs(position) > 90.0 - 1e-6)
     return;
-  for (int k = 0; k < 12; ++k) {
+  const bool row = f->k == 1 && is_polar(plane);
+  for (int k = 0; k < (row ? 1 : 12); ++k) {
     const double offset = (k % 2 ? -1.0 : 1.0) * (k / 2 + 0.5) * step;
     double at[2];
     if (f->k == 0 && fabs(plane->center[1] + offset) > nearest_pole)
@@ -204,6 +207,8 @@ static void label_within(fg__graticule *out, const family *f, int n, int line)
       project(plane, plane->center[0] + offset, position, at);
     add_label(out->inside, &out->insides, f->ticks.text[n], line, at, 0.0, 0.0);
   }
+  if (row && out->insides > 0)
+    out->inside[out->insides - 1].over = true;
 }
 
 static bool in_box(const fg__plane *plane, const double at[2])

@@ -207,9 +207,9 @@ bool fg__map_scene_holds(const fg__map_scene *scene, const fg__page *page,
   return inside;
 }
 
-/* Free of arrows, of the outline and of other texts, inside of the frame. */
-static bool is_free(const fg__map_scene *scene, const fg__page *page,
-                    const fg__polygons *arrows, const fg__page_box *box)
+/* Free of the outline and of other texts, inside of the frame. */
+static bool has_room(const fg__map_scene *scene, const fg__page *page,
+                     const fg__page_box *box)
 {
   const fg__page_box *frame = &page->frame;
   if (box->x0 < frame->x0 || box->y0 < frame->y0 || box->x1 > frame->x1 ||
@@ -222,10 +222,18 @@ static bool is_free(const fg__map_scene *scene, const fg__page *page,
       !fg__polygon_contains(&scene->outline, 0, 0.5 * (box->x0 + box->x1),
                             0.5 * (box->y0 + box->y1)))
     return false;
+  return !loops_touch_box(&scene->outline, box);
+}
+
+/* Free of arrows, too, unless the label stands over them. */
+static bool is_free(const fg__map_scene *scene, const fg__page *page,
+                    const fg__polygons *arrows, const fg__map_label *label,
+                    const fg__page_box *box)
+{
   const double apart = arrow_gap * page->font_size;
   const fg__page_box wider = {box->x0 - apart, box->y0 - apart, box->x1 + apart,
                               box->y1 + apart};
-  return !loops_touch_box(&scene->outline, box) && !loops_touch_box(arrows, &wider);
+  return has_room(scene, page, box) && (label->over || !loops_touch_box(arrows, &wider));
 }
 
 /* Where a label's text would stand, with a little room round it. */
@@ -250,7 +258,9 @@ static void add_label(fg__map_scene *scene, fg__page *page, const fg__map_label 
   text->x = box->x0 + 0.12 * text->size;
   text->y = 0.5 * (box->y0 + box->y1) + 0.36 * text->size;
   text->box = *box;
-  scene->backing[scene->backings++] = *box;
+  text->halo = label->over;
+  if (!label->over)
+    scene->backing[scene->backings++] = *box;
 }
 
 /* Which of the places that each line has is free for most lines: labels in a row. */
@@ -264,7 +274,7 @@ static int best_place(const fg__map_scene *scene, const fg__page *page,
     if (k > 0 && label->line != label[-1].line)
       place = 0;
     const fg__page_box box = box_of(page, label, graticule->plane, ruler);
-    free_places[place] += is_free(scene, page, arrows, &box);
+    free_places[place] += is_free(scene, page, arrows, label, &box);
   }
   for (int place = 1; place < FG__MAP_LABELS; ++place)
     if (free_places[place] > free_places[best])
@@ -286,7 +296,7 @@ void fg__map_scene_label(fg__map_scene *scene, fg__page *page,
     for (int k = -1; k < count && scene->backings < FG__MAP_BACKINGS; ++k) {
       const fg__map_label *choice = &label[k < 0 ? (best < count ? best : 0) : k];
       const fg__page_box box = box_of(page, choice, graticule->plane, ruler);
-      if (is_free(scene, page, arrows, &box)) {
+      if (is_free(scene, page, arrows, choice, &box)) {
         add_label(scene, page, choice, &box);
         break;
       }

@@ -42,7 +42,7 @@ bool fg__map_scene_holds(const fg__map_scene *scene, const fg__page *page,
                          const fg__polygons *loops, size_t loop);
 
 /* Writes degrees inside the map where lines do not end at its rim: where they touch
- * neither arrows nor each other, else nowhere. */
+ * neither each other nor, but for those that stand over them, arrows, else nowhere. */
 void fg__map_scene_label(fg__map_scene *scene, fg__page *page,
                          const fg__graticule *graticule, const fg__polygons *arrows,
                          cairo_t *ruler);

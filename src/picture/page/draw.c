@@ -14,6 +14,9 @@ static const double coast_width = 0.4;
 static const double rim_width = 0.9;
 static const double rim_width_on_map = 0.25;
 
+/* Of a text over other things, in units of its size. */
+static const double halo_width = 0.2;
+
 /* Opacity of a tint through which a texture, or land, is still to be seen. */
 static const double tint_on_texture = 0.55;
 
@@ -270,6 +273,19 @@ void fg__draw_inside(cairo_t *cairo, const fg__page *page, const fg__scene *scen
   cairo_restore(cairo);
 }
 
+static void draw_halos(cairo_t *cairo, const fg__page *page)
+{
+  cairo_set_source_rgba(cairo, 1.0, 1.0, 1.0, 0.9);
+  for (int k = 0; k < page->text_count; ++k) {
+    const fg__page_text *text = &page->text[k];
+    if (!text->halo)
+      continue;
+    cairo_move_to(cairo, text->x, text->y);
+    fg__text_stroke(cairo, text->text, text->size, text->bold,
+                    2.0 * halo_width * text->size);
+  }
+}
+
 void fg__draw_round(cairo_t *cairo, const fg__page *page, const fg__palette *palette,
                     const fg__style *style, const fg__polygons *reference)
 {
@@ -278,6 +294,8 @@ void fg__draw_round(cairo_t *cairo, const fg__page *page, const fg__palette *pal
     draw_color_key(cairo, page, palette);
   if (style->map)
     fg__map_draw_outline(cairo, style->map, &style->map_style);
+  if (style->map && !style->map_style.transparent)
+    draw_halos(cairo, page);
   draw_lines(cairo, page);
   if (page->has_size_key && reference->count) {
     fg__draw_path(cairo, reference);

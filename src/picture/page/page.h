@@ -28,6 +28,7 @@ typedef struct fg__page_text {
   char text[FG__PAGE_TEXT_BYTES];
   double size;
   bool bold, quiet;
+  bool halo;       /* stands over other things: has a white rim */
   bool upwards;    /* reads from below to above */
   fg__align align; /* what of it keeps its place in another font */
   double x, y;     /* where its baseline begins */

@@ -60,7 +60,23 @@ double fg__text_width(cairo_t *cairo, const char *text, double size, bool bold)
   return width;
 }
 
-void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold, bool shapes)
+typedef void draw_piece(cairo_t *cairo, const char *piece);
+
+static void fill_piece(cairo_t *cairo, const char *piece)
+{
+  cairo_text_path(cairo, piece);
+  cairo_fill(cairo);
+}
+
+static void stroke_piece(cairo_t *cairo, const char *piece)
+{
+  cairo_text_path(cairo, piece);
+  cairo_stroke(cairo);
+}
+
+/* From the current point on. */
+static void draw_pieces(cairo_t *cairo, const char *text, double size, bool bold,
+                        draw_piece *draw)
 {
   double x, y;
   cairo_get_current_point(cairo, &x, &y);
@@ -70,16 +86,24 @@ void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold, boo
     text = fg__text_next_piece(text, piece, &raised);
     choose_font(cairo, raised ? FG__TEXT_RAISED_SIZE * size : size, bold);
     cairo_move_to(cairo, x, raised ? y - FG__TEXT_RAISED_HEIGHT * size : y);
-    if (shapes) {
-      cairo_text_path(cairo, piece);
-      cairo_fill(cairo);
-    } else {
-      cairo_show_text(cairo, piece);
-    }
+    draw(cairo, piece);
     cairo_text_extents_t extents;
     cairo_text_extents(cairo, piece, &extents);
     x += extents.x_advance;
   }
+}
+
+void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold, bool shapes)
+{
+  draw_pieces(cairo, text, size, bold, shapes ? fill_piece : cairo_show_text);
+}
+
+void fg__text_stroke(cairo_t *cairo, const char *text, double size, bool bold,
+                     double line_width)
+{
+  cairo_set_line_width(cairo, line_width);
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+  draw_pieces(cairo, text, size, bold, stroke_piece);
 }
 
 void fg__text_shorten(cairo_t *cairo, char *text, size_t capacity, double size, bool bold,

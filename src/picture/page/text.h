@@ -35,6 +35,10 @@ double fg__text_width(cairo_t *cairo, const char *text, double size, bool bold);
  * its shapes. */
 void fg__text_draw(cairo_t *cairo, const char *text, double size, bool bold, bool shapes);
 
+/* Draws the outlines of a text's shapes, half the line's width round them. */
+void fg__text_stroke(cairo_t *cairo, const char *text, double size, bool bold,
+                     double line_width);
+
 /* Cuts a text without marks and ends it with an ellipsis, so that it is at most `width`
  * wide; it may become empty. */
 void fg__text_shorten(cairo_t *cairo, char *text, size_t capacity, double size, bool bold,
