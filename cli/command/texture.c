@@ -11,7 +11,7 @@
 static int write_texture(fg_context *context, const texture_settings *settings,
                          const fg_field *field, const fg_texture *texture)
 {
-  const fg_texture_style style = settings_texture_style(settings);
+  const fg_texture_style style = settings_texture_style(settings, texture);
   fg_status status = fg_texture_write(context, settings->output, field, texture, &style);
   return status ? complain_of(context, status, settings->output)
                 : made_record(settings->output);
@@ -55,6 +55,17 @@ static int check_key(const texture_settings *settings)
                        : refuse_given("texture", &label, 1, "only with --key");
 }
 
+/* Of pixels, width and pixels an inch two tell the third. */
+static int check_pixels(const texture_settings *settings)
+{
+  const picture_settings *picture = &settings->picture;
+  const given_option pixels = {"pixels", settings->pixels > 0};
+  return picture->width > 0.0 && picture->dpi > 0.0
+             ? refuse_given("texture", &pixels, 1,
+                            "not with both --width and --dpi, from which they follow")
+             : EXIT_DONE;
+}
+
 static int check_options(const texture_settings *settings)
 {
   const given_option of_clusters[] = {
@@ -77,6 +88,8 @@ static int check_options(const texture_settings *settings)
     code =
         refuse_given("texture", of_clusters, sizeof of_clusters / sizeof of_clusters[0],
                      "only with --kind clusters");
+  if (!code)
+    code = check_pixels(settings);
   if (!code)
     code = check_key(settings);
   if (!code)

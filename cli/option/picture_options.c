@@ -20,9 +20,10 @@ static const option_entry picture_entries[] = {
          "3.5in; a .png has two pixels a point [a point for every pixel of the image]"},
     {"height", 0, "LENGTH", PICTURES, OPTION_LENGTH, PICTURE(height), 36, 14400,
      .help = "height of the picture, likewise [from the domain's shape]"},
-    {"dpi", 0, "N", PICTURES, OPTION_NUMBER, PICTURE(dpi), 10, 2400,
+    {"dpi", 0, "N", PICTURES | COMMAND_TEXTURE, OPTION_NUMBER, PICTURE(dpi), 10, 2400,
      .help =
-         "pixels an inch of a .png [144; in 3D, whose pictures are all of pixels, 180]"},
+         "pixels an inch of a .png [144; in 3D, whose pictures are all of pixels, 180; "
+         "texture: its pixels are those of --width, or its width that of --pixels]"},
     {"title", 0, "TEXT", PICTURES | COMMAND_TEXTURE, OPTION_WORDS, PICTURE(title),
      .help = "title of the picture, '' for none; {title}, {time}, {level}, {names} and "
              "{arrows} stand for what the field says of itself and the number of arrows "

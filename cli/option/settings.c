@@ -73,9 +73,11 @@ fg_placement_options settings_placement(const run_settings *settings)
 
 fg_texture_options settings_texture(const texture_settings *settings)
 {
+  const picture_settings *picture = &settings->picture;
   return (fg_texture_options){
       .kind = (fg_texture_kind)settings->kind,
       .longest = settings->pixels,
+      .size = {(int)lround(picture->width * picture->dpi / POINTS_AN_INCH)},
       .length = settings->length,
       .clusters = settings->number.count ? settings->number.number[0] : 0,
       .max_time = settings->max_time,
@@ -84,7 +86,16 @@ fg_texture_options settings_texture(const texture_settings *settings)
   };
 }
 
-fg_texture_style settings_texture_style(const texture_settings *settings)
+/* Where --dpi says how wide so many pixels are. */
+static double texture_width(const picture_settings *picture, const fg_texture *texture)
+{
+  if (picture->width > 0.0 || !(picture->dpi > 0.0))
+    return picture->width;
+  return fg_texture_contents(texture)->size[0] * POINTS_AN_INCH / picture->dpi;
+}
+
+fg_texture_style settings_texture_style(const texture_settings *settings,
+                                        const fg_texture *texture)
 {
   const picture_settings *picture = &settings->picture;
   return (fg_texture_style){
@@ -101,7 +112,7 @@ fg_texture_style settings_texture_style(const texture_settings *settings)
       .title = picture->title,
       .subtitle = picture->subtitle,
       .label = picture->label,
-      .width = picture->width,
+      .width = texture_width(picture, texture),
       .font_size = picture->font_size,
       .outline_text = picture->outline_text,
   };

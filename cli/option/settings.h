@@ -212,7 +212,8 @@ fg_placement_options settings_placement(const run_settings *settings);
 fg_run_options settings_run(const run_settings *settings);
 fg_texture_options settings_texture(const texture_settings *settings);
 fg_picture_options settings_picture(const picture_settings *settings);
-fg_texture_style settings_texture_style(const texture_settings *settings);
+fg_texture_style settings_texture_style(const texture_settings *settings,
+                                        const fg_texture *texture);
 
 /* The ends of the colour key, where they are given; else `speeds` stay. */
 void settings_speeds(double speeds[2], const picture_settings *settings);

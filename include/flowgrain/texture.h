@@ -30,8 +30,8 @@ typedef enum fg_texture_kind {
 typedef struct fg_texture_options {
   fg_texture_kind kind; /* [line integral convolution] */
   int longest;          /* pixels along the longest side, 16 to 16384 [1024] */
-  int size[2];          /* pixels along x and y, 1 to 16384; 0, 0: from `longest` and the
-                           domain's shape */
+  int size[2];          /* pixels along x and y, 1 to 16384; one of them 0: from the other
+                           and the domain's shape; both: from `longest` and that */
   double length; /* of streaks (LIC), the longest spots, four stripes' width together, in
                     pixels, 2 to 400 [a 25th of the longest side, of spots an 18th, of
                     DIFFUSION a 20th; 20 at least]; not for CLUSTERS */

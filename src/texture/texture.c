@@ -50,12 +50,6 @@ static fg_status check_options(fg_context *context, const fg_texture_options *o)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "texture: %d pixels along the longest side, %d to %d are possible",
                     o->longest, LEAST_LONGEST, MOST_PIXELS);
-  const bool sized = o->size[0] || o->size[1];
-  if (sized && (o->size[0] < 1 || o->size[1] < 1 || o->size[0] > MOST_PIXELS ||
-                o->size[1] > MOST_PIXELS))
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "texture: %d x %d pixels, 1 to %d are possible", o->size[0],
-                    o->size[1], MOST_PIXELS);
   if (o->length != 0.0 && !(o->length >= least_length && o->length <= most_length))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "texture: streaks of %g pixels, %g to %g are possible", o->length,
@@ -76,16 +70,26 @@ static double side_of(const fg_field_arrays *field, int k)
                                 : field->axis[k][field->size[k] - 1] - field->axis[k][0];
 }
 
-static void choose_size(int size[2], const fg_field_arrays *field,
-                        const fg_texture_options *o)
+static fg_status choose_size(int size[2], fg_context *context,
+                             const fg_field_arrays *field, const fg_texture_options *o)
 {
   const double side[2] = {side_of(field, 0), side_of(field, 1)};
-  const double longest = o->longest ? o->longest : USUAL_LONGEST;
+  const int longest = o->longest ? o->longest : USUAL_LONGEST;
+  double wanted[2];
   for (int k = 0; k < 2; ++k) {
-    size[k] = o->size[k];
-    if (!o->size[0])
-      size[k] = (int)fmax(floor(longest * (side[k] / fmax(side[0], side[1])) + 0.5), 1.0);
+    const int other = o->size[1 - k];
+    const double from = other ? other : longest;
+    const double unit = other ? side[1 - k] : fmax(side[0], side[1]);
+    wanted[k] = o->size[k] ? o->size[k] : fmax(floor(from * (side[k] / unit) + 0.5), 1.0);
   }
+  for (int k = 0; k < 2; ++k)
+    if (!(wanted[k] >= 1.0 && wanted[k] <= MOST_PIXELS))
+      return fg__fail(context, FG_STATUS_ARGUMENT,
+                      "texture: %g x %g pixels, 1 to %d are possible", wanted[0],
+                      wanted[1], MOST_PIXELS);
+  for (int k = 0; k < 2; ++k)
+    size[k] = (int)wanted[k];
+  return FG_STATUS_OK;
 }
 
 static double choose_length(const int size[2], const fg_texture_options *o)
@@ -128,10 +132,12 @@ static fg_status make(fg_texture *texture, fg_context *context, const fg_field *
                        .evolution = o->evolution,
                        .density = o->density};
   int size[2];
-  choose_size(size, fg_field_contents(field), o);
+  fg_status status = choose_size(size, context, fg_field_contents(field), o);
+  if (status)
+    return status;
   canvas.length = choose_length(size, o);
   const int margin = kinds[o->kind].margin(canvas.length);
-  fg_status status = fg__threads_create(&canvas.threads, context, choose_threads(o));
+  status = fg__threads_create(&canvas.threads, context, choose_threads(o));
   if (!status)
     status =
         fg__raster_create(&canvas.raster, context, field, size, margin, canvas.threads);

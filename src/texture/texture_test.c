@@ -204,10 +204,10 @@ static void assert_refused(fg_context *context, const fg_field *field,
 static void test_refusals(void **state)
 {
   static const fg_texture_options wrong[] = {
-      {.longest = 3},    {.longest = 20000},
-      {.size = {10, 0}}, {.size = {20000, 5}},
-      {.length = 1.0},   {.length = (double)NAN},
-      {.threads = -1},   {.kind = (fg_texture_kind)99},
+      {.longest = 3},     {.longest = 20000},
+      {.size = {10, -1}}, {.size = {20000, 5}},
+      {.length = 1.0},    {.length = (double)NAN},
+      {.threads = -1},    {.kind = (fg_texture_kind)99},
   };
   const formula f = {swirl, 0.0, false};
   fg_field *field = field_of(*state, &f);
@@ -218,6 +218,28 @@ static void test_refusals(void **state)
   assert_int_equal(fg_field_create_analytic(&field, *state, "abc", 5), FG_STATUS_OK);
   assert_refused(*state, field, NULL, FG_STATUS_UNSUPPORTED);
   fg_field_destroy(field);
+}
+
+/* What is not given of a size follows from the domain's shape: 3 x 2 here. */
+static void test_sizes(void **state)
+{
+  static const struct {
+    int longest, size[2], made[2];
+  } cases[] = {
+      {60, {0, 0}, {60, 40}},
+      {60, {30, 0}, {30, 20}},
+      {60, {0, 30}, {45, 30}},
+      {0, {17, 31}, {17, 31}},
+  };
+  const formula f = {swirl, 0.0, false};
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    const fg_texture_options options = {.longest = cases[n].longest,
+                                        .size = {cases[n].size[0], cases[n].size[1]}};
+    fg_texture *texture = texture_of(*state, &f, &options);
+    for (int k = 0; k < 2; ++k)
+      assert_int_equal(fg_texture_contents(texture)->size[k], cases[n].made[k]);
+    fg_texture_destroy(texture);
+  }
 }
 
 /* As large as the streaks, or a single row. */
@@ -248,6 +270,7 @@ int main(void)
       cmocka_unit_test(test_missing_and_still_places),
       cmocka_unit_test(test_threads_and_seeds),
       cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_sizes),
       cmocka_unit_test(test_tiny_pictures),
   };
   return cmocka_run_group_tests(tests, context_set_up, context_tear_down);

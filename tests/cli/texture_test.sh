@@ -39,6 +39,24 @@ try texture "$root/data/gfs_20140131.nc" -o wind.png --projection none --pixels 
 expect_code 0
 [ "$(png_size wind.png)" = "300 150" ] || fault "size $(png_size wind.png)"
 done_with "texture: the domain's shape"
+
+# of pixels, width and pixels an inch two tell the third
+try texture synth:benard -o wide.png --width 17cm --dpi 60
+expect_code 0
+[ "$(png_size wide.png)" = "402 402" ] || fault "17 cm at 60 dpi: $(png_size wide.png)"
+try texture "$root/data/gfs_20140131.nc" -o wide.svg --projection none --pixels 150 --dpi 75
+expect_code 0
+grep -q 'width="144[^0-9]' wide.svg || fault "$(grep -m1 '<svg' wide.svg)"
+try texture synth:benard -o none.png --width 17cm --dpi 60 --pixels 500
+expect_code 2
+expect_error '^flowgrain: --pixels: not with both --width and --dpi, from which they follow$'
+expect_nothing_at none.png
+try texture synth:benard -o none.png --width 200in --dpi 2400
+expect_code 1
+expect_error 'texture: 480000 x 480000 pixels, 1 to 16384 are possible'
+expect_nothing_at none.png
+done_with "texture: pixels an inch"
+
 try texture "$root/data/gfs_20140131.nc" -o key.png --pixels 300 --palette deep --key
 expect_code 0
 [ "$(png_size key.png)" != "300 150" ] || fault "no key"
