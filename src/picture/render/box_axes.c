@@ -10,12 +10,13 @@ static const double tick_length = 0.35, number_gap = 0.3, label_gap = 0.55;
 static const double least_step = 4.5; /* from one number to the next */
 static const double shortest_axis = 3.0;
 static const double bar_width = 0.9, name_gap = 0.8;
+static const double digit_height = 0.72;
 
 /* Two numbers side by side read as one when they are nearer than this. */
 static const double least_gap[2] = {0.6, 0.25};
 
 /* Texts in the way of another are tried so much farther off the box, in steps. */
-static const double aside_step = 0.25, most_aside = 1.5;
+static const double aside_step = 0.25, most_aside = 2.5;
 
 static const double ink = 0.22;
 
@@ -58,22 +59,58 @@ static void choose_edge(int out[3], const fg__view_box *view_box,
   }
 }
 
-/* Numbers along x need their width, those along z their height. */
-static void choose_ticks(fg__box_axes *out, int axis, double pixels, cairo_t *ruler)
+static double widest_of(const fg__ticks *ticks, double em, cairo_t *ruler)
 {
+  double widest = 0.0;
+  for (int n = 0; n < ticks->count; ++n)
+    widest = fmax(widest, fg__text_width(ruler, ticks->text[n], em, false));
+  return widest;
+}
+
+/* At least two numbers, without which there is no scale to be read: those of the largest
+ * step that has them, or the first and the last of these where not all have room. `along`
+ * is the edge, pixels. */
+static void refine_ticks(fg__box_axes *out, int axis, const double along[2],
+                         cairo_t *ruler)
+{
+  fg__ticks *ticks = &out->ticks[axis];
+  const fg__tick_axis *of = &out->axis[axis];
+  const double range = of->high - of->low;
+  double step = fg__ticks_step(of, range);
+  fg__ticks_fill(ticks, of, step);
+  while (ticks->count < 2 && step > 0.1 * range) {
+    step = fg__ticks_step_below(of, step);
+    fg__ticks_fill(ticks, of, step);
+  }
+  const double x = fabs(along[0]) * step / range, y = fabs(along[1]) * step / range;
+  if (ticks->count <= 2 ||
+      x >= widest_of(ticks, out->em, ruler) + least_gap[0] * out->em ||
+      y >= (digit_height + least_gap[1]) * out->em)
+    return;
+  const int last = ticks->count - 1;
+  ticks->position[1] = ticks->position[last];
+  memcpy(ticks->text[1], ticks->text[last], sizeof ticks->text[1]);
+  ticks->count = 2;
+}
+
+/* Numbers along x need their width, those along z their height. */
+static void choose_ticks(fg__box_axes *out, int axis, const double along[2],
+                         cairo_t *ruler)
+{
+  const double pixels = fmax(hypot(along[0], along[1]), 1.0);
   fg__ticks *ticks = &out->ticks[axis];
   const fg__tick_axis *of = &out->axis[axis];
   double range = of->high - of->low;
   double step = fg__ticks_step(of, range * fmin(least_step * out->em / pixels, 1.0));
   for (int turn = 0; turn < 6; ++turn) {
     fg__ticks_fill(ticks, of, step);
-    double widest = 0.0;
-    for (int n = 0; n < ticks->count; ++n)
-      widest = fmax(widest, fg__text_width(ruler, ticks->text[n], out->em, false));
+    const double widest = widest_of(ticks, out->em, ruler);
     if (ticks->count > 0 && (widest + out->em) < pixels * step / range)
-      return;
+      break;
     step = fg__ticks_step(of, 1.2 * step);
   }
+  if (ticks->count < 2)
+    refine_ticks(out, axis, along, ruler);
 }
 
 void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
@@ -93,9 +130,9 @@ void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
     choose_edge(out->edge[k], view_box, camera, k);
     pixel_at(view_box, camera, out->edge[k], k, -view_box->half[k], from);
     pixel_at(view_box, camera, out->edge[k], k, view_box->half[k], to);
-    double pixels = hypot(to[0] - from[0], to[1] - from[1]);
-    out->edge[k][k] = pixels > shortest_axis * em;
-    choose_ticks(out, k, fmax(pixels, 1.0), ruler);
+    const double along[2] = {to[0] - from[0], to[1] - from[1]};
+    out->edge[k][k] = hypot(along[0], along[1]) > shortest_axis * em;
+    choose_ticks(out, k, along, ruler);
   }
 }
 
@@ -118,7 +155,7 @@ static void place_text(fg__box_axes *axes, const char *text, const double at[2],
                        const double away[2], cairo_t *ruler)
 {
   double em = axes->em, width = fg__text_width(ruler, text, em, false);
-  double height = 0.72 * em; /* of digits */
+  double height = digit_height * em;
   for (double aside = 0.0; aside <= most_aside; aside += aside_step) {
     double x = at[0] + away[0] * (width / 2.0 + aside * em) - width / 2.0;
     double y = at[1] + away[1] * (height / 2.0 + aside * em) + height / 2.0;
@@ -160,17 +197,17 @@ static void place_axis(fg__box_axes *axes, const fg__view_box *view_box,
                        const fg__camera *camera, int axis, cairo_t *ruler)
 {
   const fg__ticks *ticks = &axes->ticks[axis];
-  double end[2][2], away[2], at[2], em = axes->em, widest = 0.0;
+  double end[2][2], away[2], at[2], em = axes->em;
+  const double widest = widest_of(ticks, em, ruler);
   find_edge(axes, view_box, camera, axis, end, away);
   for (int n = 0; n < ticks->count; ++n) {
     tick_at(axes, view_box, camera, axis, n, at);
     for (int k = 0; k < 2; ++k)
       at[k] += (tick_length + number_gap) * em * away[k];
     place_text(axes, ticks->text[n], at, away, ruler);
-    widest = fmax(widest, fg__text_width(ruler, ticks->text[n], em, false));
   }
   double beyond = (tick_length + number_gap + label_gap) * em + fabs(away[0]) * widest +
-                  fabs(away[1]) * 0.72 * em;
+                  fabs(away[1]) * digit_height * em;
   for (int k = 0; k < 2; ++k)
     at[k] = (end[0][k] + end[1][k]) / 2.0 + beyond * away[k];
   place_text(axes, axes->axis[axis].label, at, away, ruler);

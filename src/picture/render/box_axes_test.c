@@ -22,10 +22,9 @@ typedef struct scenery {
   cairo_t *ruler;
 } scenery;
 
-/* A box from (-1, 0, 10) on, seen so. */
-static void look(scenery *s, const double side[3], double azimuth, double elevation)
+static void look_at(scenery *s, const double low[3], const double side[3], double azimuth,
+                    double elevation)
 {
-  static const double low[3] = {-1.0, 0.0, 10.0};
   double axis[3][2];
   fg_field_arrays field = {.dimension = 3, .size = {2, 2, 2}};
   for (int k = 0; k < 3; ++k) {
@@ -42,6 +41,12 @@ static void look(scenery *s, const double side[3], double azimuth, double elevat
   s->bounds = (fg__pane){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   fg__box_axes_place(&s->axes, &s->bounds, &s->view_box, &s->camera, s->ruler);
   cairo_destroy(s->ruler);
+}
+
+/* A box from (-1, 0, 10) on, seen so. */
+static void look(scenery *s, const double side[3], double azimuth, double elevation)
+{
+  look_at(s, (const double[3]){-1.0, 0.0, 10.0}, side, azimuth, elevation);
 }
 
 static bool are_near(const fg__pane *a, const fg__pane *b, double x, double y)
@@ -93,6 +98,42 @@ static void both_numbers_of_a_corner_are_there(void **state)
   int last = s.axes.ticks[0].count - 1;
   assert_string_equal(s.axes.text[last].text, "5");
   assert_string_equal(s.axes.text[last + 2].text, "0");
+}
+
+/* Different ones that stand beside an axis. */
+static int numbers_of(const fg__box_axes *axes, int k)
+{
+  const fg__ticks *ticks = &axes->ticks[k];
+  int count = 0;
+  for (int n = 0; n < ticks->count; ++n) {
+    bool placed = false;
+    for (int m = 0; m < axes->texts; ++m)
+      placed = placed || axes->text[m].text == ticks->text[n];
+    for (int m = 0; m < n; ++m)
+      placed = placed && strcmp(ticks->text[m], ticks->text[n]) != 0;
+    count += placed;
+  }
+  return count;
+}
+
+/* Of a thin pipe, too, every side that has an axis has two numbers at least. */
+static void each_axis_tells_its_scale(void **state)
+{
+  (void)state;
+  static const double low[3] = {-0.0103, -0.0098, 0.0}, side[3] = {0.0206, 0.0199, 0.1};
+  int thin = 0;
+  for (int azimuth = 5; azimuth < 360; azimuth += 25)
+    for (int elevation = -60; elevation < 80; elevation += 17) {
+      scenery s;
+      look_at(&s, low, side, azimuth, elevation);
+      for (int k = 0; k < 3; ++k) {
+        if (!s.axes.edge[k][k])
+          continue;
+        thin += k < 2;
+        assert_true(numbers_of(&s.axes, k) >= 2);
+      }
+    }
+  assert_true(thin > 100);
 }
 
 /* Pixels of a picture of a field of such sides, with an arrow along z. */
@@ -158,6 +199,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(texts_keep_apart),
       cmocka_unit_test(both_numbers_of_a_corner_are_there),
+      cmocka_unit_test(each_axis_tells_its_scale),
       cmocka_unit_test(a_picture_is_as_large_as_its_box),
   };
   return cmocka_run_group_tests_name("picture/render/box_axes", tests, NULL, NULL);
