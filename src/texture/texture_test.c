@@ -220,6 +220,25 @@ static void test_refusals(void **state)
   fg_field_destroy(field);
 }
 
+/* Along a straight stream a smooth kernel leaves hardly any change from pixel to pixel.
+ */
+static void test_diffusion_has_no_dots(void **state)
+{
+  static const int steps[][2] = {{2, 0}, {1, 1}, {2, 1}, {1, 2}};
+  for (size_t n = 0; n < sizeof steps / sizeof *steps; ++n) {
+    const fg_texture_options options = {
+        .kind = FG_TEXTURE_DIFFUSION, .longest = 400, .length = 60.0, .threads = 2};
+    const formula f = {straight, atan2(steps[n][1], steps[n][0]) * 180.0 / acos(-1.0),
+                       false};
+    fg_texture *texture = texture_of(*state, &f, &options);
+    const double left =
+        1.0 - correlation(fg_texture_contents(texture), steps[n][0], steps[n][1]);
+    if (left > 0.012)
+      fail_msg("(%d, %d): %g of the contrast", steps[n][0], steps[n][1], left);
+    fg_texture_destroy(texture);
+  }
+}
+
 /* What is not given of a size follows from the domain's shape: 3 x 2 here. */
 static void test_sizes(void **state)
 {
@@ -270,6 +289,7 @@ int main(void)
       cmocka_unit_test(test_missing_and_still_places),
       cmocka_unit_test(test_threads_and_seeds),
       cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_diffusion_has_no_dots),
       cmocka_unit_test(test_sizes),
       cmocka_unit_test(test_tiny_pictures),
   };
