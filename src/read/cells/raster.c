@@ -11,6 +11,9 @@
 enum {
   MOST_SAMPLES = 1 << 20,
   FEWEST_SAMPLES = 1 << 12,
+  /* few cells of very different sizes have at most so many, and these of each */
+  SAMPLES_OF_FEW = 1 << 16,
+  SAMPLES_A_CELL = 1 << 12,
   FINEST =
       8, /* samples a cell, where there is room: stairs at slanting edges are finer */
   MEASURED_CELLS = 1 << 16, /* so many, evenly chosen, tell the spacing */
@@ -245,7 +248,8 @@ fg_status fg__cell_set_choose_raster(fg__cell_set *set)
   if (status != FG_STATUS_OK)
     return status;
   set->dimension = set->flat < 0 ? 3 : 2;
-  set_raster(set, &box, intervals, MOST_SAMPLES);
+  set_raster(set, &box, intervals,
+             fmin(MOST_SAMPLES, SAMPLES_OF_FEW + SAMPLES_A_CELL * (double)set->count));
   const double tried = count_tried(set);
   const double most = FEW_TRIED + TRIED_A_CELL * (double)set->count;
   if (tried > most)

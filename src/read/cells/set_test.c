@@ -303,6 +303,24 @@ static void few_cells_over_each_other_have_few_samples(void **state)
   fg__cell_set_clear(&set);
 }
 
+/* The narrower of two cells would have the wider one in 80,000 samples along an axis. */
+static void a_narrow_cell_makes_no_large_raster(void **state)
+{
+  static const double position[] = {0,    0, 0, 1e-4, 0, 0, 1, 0, 0,
+                                    1e-4, 1, 0, 0,    1, 0, 1, 1, 0};
+  static const int narrow[] = {0, 1, 3, 4}, wide[] = {1, 2, 5, 3};
+  fg__cell_set set = set_of(*state, position, 6);
+  add(&set, FG__CELL_QUAD, narrow);
+  add(&set, FG__CELL_QUAD, wide);
+  locate(&set);
+  assert_true(samples_of(&set) > 1 << 14 && samples_of(&set) < 1 << 17);
+  float *value = sample(&set, linear);
+  for (size_t n = 0; n < samples_of(&set); ++n)
+    assert_true(!isnan(value[n]));
+  free(value);
+  fg__cell_set_clear(&set);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -317,6 +335,7 @@ int main(void)
       cmocka_unit_test(cells_that_fill_nothing_are_left_out),
       cmocka_unit_test(the_raster_has_an_upper_limit),
       cmocka_unit_test(few_cells_over_each_other_have_few_samples),
+      cmocka_unit_test(a_narrow_cell_makes_no_large_raster),
   };
   return cmocka_run_group_tests_name("read/cells/set", tests, context_set_up,
                                      context_tear_down);
