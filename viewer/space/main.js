@@ -93,6 +93,7 @@ function pictureNow() {
 const empty = [];
 
 const MOST_PIXELS = 8e5; // of a coarse picture
+const FEWER_PIXELS = 2e5; // where clusters are seen through one another, which takes most of its time
 
 function draw() {
   cancelAnimationFrame(wanted);
@@ -102,7 +103,7 @@ function draw() {
   const what = pictureNow();
   const { isCoarse } = pace;
   if (!isCoarse) pace.measure();
-  const fineness = setFineness(isCoarse ? coarseRatio(ratio) : ratio);
+  const fineness = setFineness(isCoarse ? coarseRatio(ratio, what.clusters.length > 0) : ratio);
   scene.draw(camera, { ...what, arrows: what.arrows.length ? what.arrows : empty }, fineness, isCoarse);
   drawNumbers(ratio);
   canvas.dataset.arrows = String(what.arrows.length);
@@ -128,9 +129,9 @@ function redraw() {
 const pace = new Pace(redraw);
 
 /** Pixels of a coarse picture for one of the window, along each side. */
-function coarseRatio(ratio) {
+function coarseRatio(ratio, hasClusters) {
   const [w, h] = camera.size;
-  return Math.min(ratio, Math.sqrt(MOST_PIXELS / (w * h)));
+  return Math.min(ratio, Math.sqrt((hasClusters ? FEWER_PIXELS : MOST_PIXELS) / (w * h)));
 }
 
 /** Gives the canvas so many pixels for one of the window. */
