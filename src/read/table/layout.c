@@ -115,6 +115,29 @@ static void find_numbers(bool *is_number, const fg__table *table,
     is_number[c] = is_number[c] && !is_text[c];
 }
 
+/* Whether most of the lines with all columns are points: numbers, or words for missing
+ * ones, at least two of them numbers. */
+static bool has_points(const fg__table *table, const fg__table_line *lines, int count)
+{
+  int rows = 0, points = 0;
+  for (int i = 0; i < count; ++i) {
+    fg__table_field field;
+    int fields = 0, numbers = 0, missing = 0;
+    for (size_t at = 0; fields <= table->columns &&
+                        fg__table_split(&field, &lines[i], &at, table->style);
+         ++fields) {
+      double value;
+      const fg__table_value kind = fg__table_number(&value, &field, table->style.decimal);
+      numbers += kind == FG__TABLE_NUMBER_VALUE;
+      missing += kind == FG__TABLE_MISSING;
+    }
+    rows += fields == table->columns;
+    /* a damaged one is told by its place */
+    points += fields == table->columns && numbers >= 2 && numbers + missing >= LEAST - 1;
+  }
+  return 2 * points >= rows;
+}
+
 static fg_status fail_no_table(const fg__table *table, const fg__source *source)
 {
   fg__table_cursor cursor = fg__table_begin(source);
@@ -131,6 +154,14 @@ static fg_status fail_no_table(const fg__table *table, const fg__source *source)
       numbers = found;
     }
   }
+  fg__table_line next;
+  bool more = false;
+  while (!more && fg__table_next(&next, &cursor))
+    more = !fg__table_is_blank(&next) && !fg__table_is_comment(&next);
+  if (!more && best >= LEAST && numbers == 0)
+    return fg__fail(table->context, FG_STATUS_FILE_FORMAT,
+                    "%s: a table with the names of %d columns, and without rows",
+                    table->path, best);
   fg__fail(table->context, FG_STATUS_FILE_FORMAT,
            "%s: is text, but no table of points: line %d has %d column%s, %d of them "
            "numbers",
@@ -157,7 +188,7 @@ static fg_status find_style(fg__table *table, const fg__source *source,
       table->columns = found.columns;
     }
   }
-  if (most < LEAST)
+  if (most < LEAST || !has_points(table, line, lines))
     return fail_no_table(table, source);
   find_numbers(is_number, table, line, lines);
   return FG_STATUS_OK;

@@ -12,11 +12,10 @@
 
 enum { LOOKED_AT = 4096, LEVEL_BYTES = 2 * FG__TABLE_NAME + FG__NUMBER_BYTES + 8 };
 
-/* Text with a digit, but no markup: the last format that is tried. */
+/* Text, but no markup: the last format that is tried. */
 static bool is_text(const unsigned char *bytes, size_t size)
 {
   size_t first = 0, shown = 0;
-  bool digit = false;
   if (size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0)
     first = 3;
   for (size_t i = first; i < size && i < LOOKED_AT; ++i) {
@@ -26,9 +25,8 @@ static bool is_text(const unsigned char *bytes, size_t size)
     if (shown == 0 && strchr("<{[", bytes[i]))
       return false;
     shown += bytes[i] > ' ';
-    digit = digit || (bytes[i] >= '0' && bytes[i] <= '9');
   }
-  return digit;
+  return shown > 0;
 }
 
 fg_status fg__table_open(fg__table *out, fg_context *context, const fg__source *source)
