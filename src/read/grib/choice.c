@@ -18,10 +18,20 @@ static void list_pairs(const fg__grib_pairs *pairs, char *out, size_t size)
   }
 }
 
-static fg_status fail_none(const fg__grib_file *file, const char *vars)
+static void hint_at_pairs(const fg__grib_file *file)
 {
   fg__grib_pairs all;
   char list[1024];
+  if (fg__grib_pairs_find(&all, file) != FG_STATUS_OK)
+    return;
+  list_pairs(&all, list, sizeof list);
+  if (list[0])
+    fg__hint(file->context, "pairs in it: %s", list);
+  fg__grib_pairs_clear(&all);
+}
+
+static fg_status fail_none(const fg__grib_file *file, const char *vars)
+{
   if (vars)
     fg__fail(file->context, FG_STATUS_ARGUMENT,
              "%s: has no fields '%s' at a time and level that both have", file->path[0],
@@ -36,15 +46,11 @@ static fg_status fail_none(const fg__grib_file *file, const char *vars)
     fg__fail(file->context, FG_STATUS_UNSUPPORTED,
              "%s: no vectors found among its %zu kind%s of fields", file->path[0],
              file->kinds, file->kinds == 1 ? "" : "s");
-  if (vars && fg__grib_pairs_find(&all, file) == FG_STATUS_OK) {
-    list_pairs(&all, list, sizeof list);
-    if (list[0])
-      fg__hint(file->context, "pairs in it: %s", list);
-    fg__grib_pairs_clear(&all);
-  } else if (!vars) {
+  if (vars)
+    hint_at_pairs(file);
+  else
     fg__hint(file->context, "name the components with --vars U,V as grib_ls does; when "
                             "the other one is in a second file, add --vars-from FILE");
-  }
   return vars ? FG_STATUS_ARGUMENT : FG_STATUS_UNSUPPORTED;
 }
 
@@ -69,8 +75,10 @@ static fg_status find_named(fg__grib_pairs *out, const fg__grib_file *file,
   if (!comma || comma == vars || !comma[1] || strchr(comma + 1, ',') ||
       strlen(vars) >= sizeof u) {
     fg__fail(file->context, FG_STATUS_ARGUMENT,
-             "%s: '%.200s' are not the names of two components", file->path[0], vars);
-    fg__hint(file->context, "name two fields: --vars U,V");
+             comma ? "%s: '%.200s' is not two names with a comma between"
+                   : "%s: '%.200s' is one field, and a velocity has two components",
+             file->path[0], vars);
+    hint_at_pairs(file);
     return FG_STATUS_ARGUMENT;
   }
   snprintf(u, sizeof u, "%.*s", (int)(comma - vars), vars);

@@ -285,6 +285,8 @@ static void times_and_levels(void **state)
   grib_refuse(f, &(fg_read_options){.vars = "u,v"}, FG_STATUS_ARGUMENT,
               "at time 0 (2014-01-31 06:00) and level 0 (300 hPa)");
   grib_refuse(f, &(fg_read_options){.vars = "u,w"}, FG_STATUS_ARGUMENT, "'u,w'");
+  grib_refuse(f, &(fg_read_options){.vars = "u"}, FG_STATUS_ARGUMENT,
+              "'u' is one field, and a velocity has two components");
   fg_field *field = grib_read(f, &(fg_read_options){.vars = "u,v", .time = 1});
   assert_string_equal(fg_field_contents(field)->level, "300 hPa");
   assert_string_equal(fg_field_contents(field)->time, "2014-02-01 06:00");

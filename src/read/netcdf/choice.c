@@ -69,11 +69,20 @@ static fg_status fail_unknown_name(const fg__nc_file *file, const candidates *al
   return status;
 }
 
-static fg_status fail_names(const fg__nc_file *file, const char *vars)
+static fg_status fail_names(const fg__nc_file *file, const candidates *all,
+                            const char *vars)
 {
+  char list[1024];
   fg__fail(file->context, FG_STATUS_ARGUMENT,
-           "%s: '%s' are not the names of two or three components", file->paths[0], vars);
-  fg__hint(file->context, "name two variables: --vars U,V; or three: --vars U,V,W");
+           strchr(vars, ',')
+               ? "%s: '%s' is not two or three names with commas between"
+               : "%s: '%s' is one variable, and a velocity has two or three components",
+           file->paths[0], vars);
+  list_pairs(all, NULL, list, sizeof list);
+  if (list[0])
+    fg__hint(file->context, "pairs in it: %s", list);
+  else
+    fg__hint(file->context, "name two variables: --vars U,V; or three: --vars U,V,W");
   return FG_STATUS_ARGUMENT;
 }
 
@@ -100,7 +109,7 @@ static fg_status choose_named(fg__nc_pair *out, const fg__nc_file *file,
   char name[3][FG__NC_NAME];
   const int count = split_names(name, vars);
   if (count == 0)
-    return fail_names(file, vars);
+    return fail_names(file, all, vars);
   *out = (fg__nc_pair){.found_by = "request", .volume = count == 3};
   for (int k = 0; k < count; ++k) {
     out->component[k] = find_named(file, name[k], k > 0 ? file->root_count - 1 : 0);

@@ -271,7 +271,8 @@ static void only_possible_requests_are_met(void **state)
   sample_text(f, slow, "units", "cm/s");
   sample_end(f);
   refuse_with(f, &(fg_read_options){.vars = "u"}, FG_STATUS_ARGUMENT,
-              "two or three components");
+              "'u' is one variable, and a velocity has two or three components");
+  assert_non_null(strstr(fg_context_hint(f->context), "pairs in it: u,v"));
   refuse_with(f, &(fg_read_options){.vars = "u,v,w"}, FG_STATUS_ARGUMENT, "'w'");
   refuse_with(f, &(fg_read_options){.vars = ",v"}, FG_STATUS_ARGUMENT, "two");
   refuse_with(f, &(fg_read_options){.vars = "u,u"}, FG_STATUS_ARGUMENT, "both");

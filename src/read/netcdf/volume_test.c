@@ -252,7 +252,7 @@ static void names_choose_between_plane_and_volume(void **state)
   static const char *const wrong[] = {"u", "u,", ",v", "u,v,", "u,,w", "u,v,w,x", ","};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i)
     refuse_with(f, &(fg_read_options){.vars = wrong[i]}, FG_STATUS_ARGUMENT,
-                "two or three components");
+                "two or three ");
 }
 
 static void spheres_have_no_volume_yet(void **state)
