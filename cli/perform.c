@@ -6,7 +6,6 @@
 #include "command/command.h"
 #include "inputs.h"
 #include "option/parse.h"
-#include "option/spelling.h"
 #include "ranks.h"
 #include "vectors.h"
 
@@ -19,7 +18,7 @@ static parse_result usage(void)
 static parse_result unknown(const char *word)
 {
   for (size_t k = 0; k < command_count; ++k)
-    if (spelling_is_near(word, command_table[k].name)) {
+    if (fg_word_is_near(word, command_table[k].name)) {
       complain("unknown command '%s'; is '%s' meant?", word, command_table[k].name);
       return usage();
     }

@@ -6,7 +6,6 @@
 
 #include "build_features.h"
 #include "option/check.h"
-#include "option/spelling.h"
 #include "option/value.h"
 
 /* getopt_long's value for a long option is this plus its index (option_at), beyond every
@@ -91,7 +90,7 @@ static void complain_of_unknown(const cli_command *command, const char *typed)
   }
   const option_entry *option;
   for (size_t k = 0; (option = option_at(k)); ++k)
-    if ((option->commands & command->bit) && spelling_is_near(name, option->name)) {
+    if ((option->commands & command->bit) && fg_word_is_near(name, option->name)) {
       usage_error(command, "%s: unknown option %s; is --%s meant?", command->name, typed,
                   option->name);
       return;

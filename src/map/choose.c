@@ -61,6 +61,21 @@ static const struct named {
     {"utm", "utm", ZONE},
 };
 
+const char *fg__map_name_near(const char *string)
+{
+  static const char key[] = "+proj=";
+  const char *at = strstr(string, key);
+  char name[32];
+  if (!at)
+    return NULL;
+  at += sizeof key - 1;
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(at, " "), at);
+  for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k)
+    if (fg_word_is_near(name, NAMES[k].name))
+      return NAMES[k].name;
+  return NULL;
+}
+
 static double width_of(const fg__map_area *area)
 {
   return area->east - area->west;

@@ -22,6 +22,9 @@ fg_status fg__map_choose(char out[FG__MAP_STRING_BYTES], fg_context *context,
 /* The name that "auto" stands for; "laea" is then about a pole or oblique by the area. */
 const char *fg__map_auto(const fg__map_area *area);
 
+/* The name of ours that the "+proj=" of a string may be another for; NULL: none. */
+const char *fg__map_name_near(const char *string);
+
 /* The string of a projected system of coordinates "EPSG:n", by PROJ's database. */
 fg_status fg__map_of_code(fg__map_words *out, fg_context *context, const char *code);
 

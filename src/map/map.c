@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "map/choose.h"
 #include "map/words.h"
 #include "sphere/sphere.h"
 
@@ -68,7 +69,11 @@ static fg_status fail(const fg__map *map, fg_context *context, const char *strin
   fg_status status = fg__fail(
       context, FG_STATUS_ARGUMENT, "projection \"%.200s\": PROJ refuses it: %s", string,
       error ? proj_context_errno_string(map->context, error) : "it is no projection");
-  fg__hint(context, "`proj -l` lists PROJ's projections, proj.org their parameters");
+  const char *near = fg__map_name_near(string);
+  if (near)
+    fg__hint(context, "is %s meant?", near);
+  else
+    fg__hint(context, "`proj -l` lists PROJ's projections, proj.org their parameters");
   return status;
 }
 

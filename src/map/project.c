@@ -9,6 +9,7 @@
 #include "base/vector.h"
 #include "field/slab.h"
 #include "map/plane.h"
+#include "map/values.h"
 
 /* Samples along the longer side: two a node of the mesh for 200 arrows on the globe. */
 enum { SAMPLES = 768, FEWEST_SAMPLES = 16, MOST_SAMPLES = 16384 };
@@ -254,25 +255,6 @@ static fg_status fill_axes(fg_field_arrays *arrays, fg_context *context,
   return FG_STATUS_OK;
 }
 
-/* Whether a slab, or any sample of all, has a value; other slabs may. */
-static fg_status check_values(const sampling *work, fg_context *context, bool all)
-{
-  const size_t n = (size_t)work->plane->size[0] * (size_t)work->rows;
-  size_t i = 0;
-  while (i < n && isnan(work->velocity[0][i]))
-    ++i;
-  if (i < n || !all)
-    return FG_STATUS_OK;
-  fg__sphere_extent extent;
-  fg__sphere_extent_of(&extent, work->sphere);
-  const fg__map_area *area = &work->plane->area;
-  return fg__fail(context, FG_STATUS_ARGUMENT,
-                  "field: the map of longitudes %g to %g and latitudes %g to %g has no "
-                  "values; there are some from %g to %g and from %g to %g",
-                  area->west, area->east, area->south, area->north, extent.west,
-                  extent.east, extent.south, extent.north);
-}
-
 static fg_status make(fg_field **out, fg_context *context, const fg__sphere *sphere,
                       const fg__map_plane *plane, const char *projection, int parts,
                       int threads, int number, int count)
@@ -309,7 +291,8 @@ static fg_status make(fg_field **out, fg_context *context, const fg__sphere *sph
   if (status == FG_STATUS_OK)
     status = sample(&work, context, threads > 0 ? threads : 1);
   if (status == FG_STATUS_OK)
-    status = check_values(&work, context, count == 1);
+    status = fg__map_check_values(context, &plane->area, sphere, work.velocity, samples,
+                                  count == 1);
   if (status == FG_STATUS_OK)
     status = count == 1 ? fg__field_take(out, context, &arrays, work.velocity)
                         : fg__field_create_slab(out, context, &arrays, work.velocity,

@@ -1,4 +1,4 @@
-#include "option/spelling.h"
+#include "flowgrain/context.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -29,8 +29,10 @@ static int distance(const char *one, size_t m, const char *other, size_t n)
   return cost[m][n];
 }
 
-bool spelling_is_near(const char *typed, const char *known)
+bool fg_word_is_near(const char *typed, const char *known)
 {
+  if (!typed || !known)
+    return false;
   const size_t m = strlen(typed), n = strlen(known);
   if (m > LONGEST || n > LONGEST)
     return false;
