@@ -72,9 +72,52 @@ static bool check_map(const reading_settings *settings, const cli_command *comma
   const fg_map_options *map = &settings->map;
   const bool none = map->projection && strcmp(map->projection, "none") == 0;
   if (none && (map->has_center || map->has_region))
-    return usage_error(command, "--%s: not with --projection none",
+    return usage_error(command,
+                       "--%s: not with --projection none, which draws all of the degrees "
+                       "that the field covers; --projection eqc keeps degrees on a map",
                        map->has_center ? "center" : "region");
   return true;
+}
+
+/* A word in braces is one that stands for something; other braces are text. */
+static bool check_braces(const char *option, const char *text, const char *const *known,
+                         const cli_command *command)
+{
+  for (const char *at = text; at && (at = strchr(at, '{')); ++at) {
+    const size_t length = strspn(at + 1, "abcdefghijklmnopqrstuvwxyz_-"
+                                         "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    size_t k = 0;
+    if (length == 0 || at[length + 1] != '}')
+      continue;
+    while (known[k] &&
+           (strlen(known[k]) != length || strncmp(known[k], at + 1, length) != 0))
+      ++k;
+    if (known[k])
+      continue;
+    char words[128] = "";
+    for (size_t n = 0, used = 0; known[n] && used < sizeof words; ++n)
+      used += (size_t)snprintf(words + used, sizeof words - used, "%s{%s}", n ? ", " : "",
+                               known[n]);
+    return usage_error(command, "--%s: {%.*s} stands for nothing; known: %s", option,
+                       (int)length, at + 1, words);
+  }
+  return true;
+}
+
+static bool check_texts(const picture_settings *settings, const cli_command *command)
+{
+  static const char *const titles[] = {"title", "time", "level", "names", "arrows", NULL};
+  static const char *const labels[] = {"units", NULL};
+  return check_braces("title", settings->title, titles, command) &&
+         check_braces("subtitle", settings->subtitle, titles, command) &&
+         check_braces("label", settings->label, labels, command);
+}
+
+static bool check_panels(const draw_settings *settings, const cli_command *command)
+{
+  static const char *const labels[] = {"letter", "title",  "time", "level",
+                                       "names",  "arrows", NULL};
+  return check_braces("panel-label", settings->panel_label, labels, command);
 }
 
 /* What would say nothing. */
@@ -122,8 +165,12 @@ bool options_check(const any_settings *settings, const cli_command *command)
     return false;
   if ((command->bit & READERS) && !check_map(reading, command))
     return false;
+  if ((command->bit & (PICTURES | COMMAND_TEXTURE)) && !check_texts(picture, command))
+    return false;
   if ((command->bit & PICTURES) && !check_picture(picture, command))
     return false;
+  if (command->bit == COMMAND_DRAW)
+    return check_panels(&settings->draw, command);
   if (command->bit == COMMAND_TEXTURE)
     return check_energy(&settings->texture.evolution, command);
   if (!(command->bit & RUNS))

@@ -52,7 +52,8 @@ static const option_entry picture_entries[] = {
     {"speed-range", 0, "A,B", PICTURES | COMMAND_TEXTURE, OPTION_RANGE,
      PICTURE(speed_range), 0, 1e15,
      .help = "speeds at the ends of the colour key; what is slower or faster has the "
-             "end's colour [those of the arrows; texture: of the field]"},
+             "end's colour [those of the arrows, but for few that are far above the "
+             "others; texture: of the field, but for its fastest hundredth]"},
     {"surfaces", 0, NULL, RUNS | COMMAND_DRAW, OPTION_FLAG, PICTURE(surfaces),
      .help = "in 3D: show the clusters' surfaces round the arrows, transparent; in .vtp "
              "and .glb, too"},

@@ -41,11 +41,12 @@ static int complain_of_reading(cli_run *run, fg_status status)
     return code;
   count_choices(run);
   const int times = run->facts.time_count, levels = run->facts.level_count;
-  if (times > 1 || levels > 1)
-    advise("Choose another with %s; flowgrain info lists them.", times > 1 && levels > 1
-                                                                     ? "--time or --level"
-                                                                 : times > 1 ? "--time"
-                                                                             : "--level");
+  const int other = run->settings->reading.time == 0 ? 1 : 0;
+  if (times > 1)
+    advise("Choose another with --time%s, as --time %d; flowgrain info lists them.",
+           levels > 1 ? " or --level" : "", other);
+  else if (levels > 1)
+    advise("Choose another with --level; flowgrain info lists them.");
   return code;
 }
 

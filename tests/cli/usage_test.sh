@@ -34,6 +34,17 @@ wrong 'unknown option -z' run a -o x -z
 done_with "unknown short option"
 wrong 'scheme thta: not known; the choice is: bdf2, euler, theta' run a -o x --scheme thta
 done_with "a word that is no choice"
+wrong 'effort 3: not known; the choice is: 0, 1, 2$' run a -o x --effort 3
+wrong '--title: \{tiem\} stands for nothing; known: \{title\}, \{time\}, \{level\}, \{names\}, \{arrows\}$' run a -o x --title 'At {tiem}, {time}'
+wrong '--subtitle: \{units\} stands for nothing' texture a -o x.png --subtitle '{units}'
+wrong '--label: \{unit\} stands for nothing; known: \{units\}$' rival a -o x.geojson --label '{unit}'
+wrong '--panel-label: \{a\} stands for nothing; known: \{letter\}, ' draw a -o x.svg --panel-label '{letter}|{a}'
+done_with "words in braces that stand for nothing"
+try run synth:vortex -o braces --title '10^{-2} {arrows} {} { }' --arrows 9 --formats svg --no-page
+expect_code 0
+grep -qF '10^{-2} 9 {} { }' braces/scale-00.svg || fault "other braces are not drawn as they are"
+done_with "other braces are text"
+wrong '--region: not with --projection none, which draws all of the degrees' run a -o x --projection none --region 0,9,0,9
 wrong 'say one' run a -o x --resume --force
 done_with "--resume and --force exclude each other"
 wrong 'checkpoint -1: a number in .0, 1e.09.' run a -o x --checkpoint -1
