@@ -159,7 +159,7 @@ done_with "a series that was killed goes on"
 try run dead.nc -o dead "${small[@]}" --time 2
 expect_code 1
 expect_error 'zero everywhere'
-expect_error '^Choose another with --time or --level; flowgrain info lists them'
+expect_error '^Choose another with --time or --level, as --time 0; flowgrain info lists them'
 expect_one_complaint
 done_with "a time without flow: others are named"
 try run dead.nc -o dead "${small[@]}" --time all --quiet
