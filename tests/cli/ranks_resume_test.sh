@@ -85,6 +85,10 @@ killed() {
   mpirun -n "$2" "$program" "${run[@]}" -o "$1" --resume >out 2>err &
   local mpirun=$! rank
   until_there "$1/.flowgrain/checkpoint" $mpirun
+  # a rank that begins once its launcher was killed would run on
+  until [ "$(pgrep -c -P $mpirun)" -ge "$2" ] || ! kill -0 $mpirun 2>/dev/null; do
+    sleep 0.02
+  done
   sleep "$(printf '0.%02d' $((RANDOM % 15)))" # on idle cores it runs for 0.4 s
   local ranks
   ranks=$(pgrep -P $mpirun)
