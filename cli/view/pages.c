@@ -63,6 +63,15 @@ static const char *kind_of(const char *name)
                                        : NULL;
 }
 
+/* At its end a run moves its files, one after the other, out of the folder for its work.
+ */
+static void give_result(cli_answer *out, const cli_child *child, const char *folder,
+                        const char *name)
+{
+  if (!give_file(out, folder, name, kind_of(name)) && child->process)
+    give_file(out, child->folder, name, kind_of(name));
+}
+
 /* Names of the pictures of scales, from the first, whose icons are there, too: the page
  * counts them. */
 static void add_pictures(cJSON *state, const char *folder)
@@ -145,7 +154,7 @@ void pages_give(cli_answer *out, const char *name, void *data)
   else if (strcmp(name, "state") == 0)
     give_state(out, pages, folder);
   else if (scale_of(name) >= 0 && kind_of(name))
-    give_file(out, folder, name, kind_of(name));
+    give_result(out, pages->child, folder, name);
   else
     give_density(out, &pages->child->densities, density_of(name));
   free(folder);

@@ -176,6 +176,7 @@ async function make() {
   if (!view.part) maker.run(set);
   else if (maker.running !== set) maker.running = undefined;
   if (shown()) return update();
+  if (!view.part && set.begun && !set.scales.length && numberNow() === numbers[0]) return; // on its way
   const key = keyNow();
   if (single?.key === key) return;
   single = { key };

@@ -20,7 +20,7 @@ after(async () => {
   await browser?.close();
 });
 
-/** Starts it; a page of its address, faults, and an end that tells the exit code. */
+/** Starts it; a page of its address, faults, and an end that tells the exit code. hold and go on: the run alone. */
 async function view(given, options = {}) {
   const server = spawn(program, ["view", ...given, "--no-browser", "--quiet"], { stdio: ["ignore", "pipe", "ignore"] });
   servers.push(server);
@@ -29,7 +29,11 @@ async function view(given, options = {}) {
     server.stdout.once("data", (text) => resolve(String(text).trim()));
     server.once("exit", (code) => reject(new Error(`exit code ${code}`)));
   });
-  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, bypassCSP: true, ...options });
+  const run = () => Number(readFileSync(`/proc/${server.pid}/task/${server.pid}/children`, "utf8"));
+  const hold = () => process.kill(run(), "SIGSTOP");
+  const goOn = () => process.kill(run(), "SIGCONT");
+  if (options.held) hold();
+  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, bypassCSP: true, ...(options.scheme && { colorScheme: options.scheme }) });
   context.setDefaultTimeout(180_000); // however slow the machine
   const page = await context.newPage();
   const faults = [];
@@ -42,18 +46,22 @@ async function view(given, options = {}) {
     server.kill("SIGINT");
     return ended;
   };
-  return { page, faults, close };
+  return { page, faults, close, hold, goOn };
 }
 
 test("a run is followed scale by scale, and ends as its page", { skip }, async () => {
-  const { page, faults, close } = await view(["synth:vortex3", "--arrows", "150,80,40", "--nodes", "129"]);
-  await page.waitForSelector("#scales button[aria-pressed=true] >> text=150");
-  assert.match(await page.getAttribute("#picture", "alt"), /150 arrows/);
+  const { page, faults, close, hold, goOn } = await view(["synth:vortex3", "--arrows", "300,250,200,150,100", "--nodes", "129"], { held: true });
+  goOn();
+  await page.waitForSelector("#scales button >> text=300");
+  hold();
+  await page.click("#scales button >> text=300");
+  assert.match(await page.getAttribute("#picture", "alt"), /300 arrows/);
   assert.ok(await page.locator("#picture").evaluate((image) => image.decode().then(() => image.naturalWidth > 100)));
   assert.ok(await page.locator("#share").isVisible());
+  goOn();
   await page.waitForSelector("canvas#picture");
   await page.waitForFunction(() => document.getElementById("picture").dataset.made === "yes");
-  assert.equal(await page.inputValue("#number"), "150");
+  assert.equal(await page.inputValue("#number"), "300");
   assert.deepEqual(faults, []);
   assert.equal(await close(), 130);
 });
@@ -71,10 +79,15 @@ const density = (page) => page.locator("#density").evaluate((canvas) => {
 });
 
 test("until there are arrows the density is shown as it evolves, and then when it is asked for", { skip }, async () => {
-  const { page, faults, close } = await view(["synth:vortex3", "--arrows", "300,60", "--nodes", "513"]);
+  const { page, faults, close, hold, goOn } = await view(["synth:vortex3", "--arrows", "300,250,200,150,100", "--nodes", "513"], { held: true });
+  goOn();
   await page.waitForSelector("#density", { state: "visible" });
+  hold();
   assert.ok(await page.locator("#picture").isHidden());
-  await page.waitForSelector("#scales button[aria-pressed=true] >> text=300");
+  goOn();
+  await page.waitForSelector("#scales button >> text=300");
+  hold();
+  await page.waitForSelector("#scales button[aria-pressed=true]:not(#evolution)");
   assert.ok(await page.locator("#density").isHidden());
   await page.click("#evolution");
   assert.ok(await page.locator("#picture").isHidden());
@@ -86,12 +99,13 @@ test("until there are arrows the density is shown as it evolves, and then when i
   await page.click("#scales button");
   assert.ok(await page.locator("#density").isHidden());
   assert.deepEqual(faults, []);
+  goOn();
   await close();
 });
 
 for (const colorScheme of ["light", "dark"])
   test(`a run without a page keeps its pictures; WCAG AA holds on a ${colorScheme} page`, { skip }, async () => {
-    const { page, faults, close } = await view(["synth:vortex3", "--clusters", "30,10", "--energy", "isotropic", "--nodes", "65"], { colorScheme });
+    const { page, faults, close } = await view(["synth:vortex3", "--clusters", "30,10", "--energy", "isotropic", "--nodes", "65"], { scheme: colorScheme });
     await page.waitForFunction(() => /has ended/.test(document.getElementById("doing").textContent));
     assert.equal(await page.locator("#scales button").count(), 2);
     await page.click("#scales button >> nth=0");
