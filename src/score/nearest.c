@@ -17,7 +17,7 @@ typedef struct site {
 typedef struct row_work {
   float *place; /* x of the centre */
   float *near_x,
-      *near_rest;          /* of the icon's nearest sample: x, squared distance across */
+      *near_rest;         /* of the icon's nearest sample: x, squared distance across */
   float *near_tangent[3]; /* and tangent */
   float *best, *best_tangent[3]; /* squared distance of the nearest so far */
   float *sum[3];
@@ -70,18 +70,18 @@ static bool row_create(row_work *row, const work *w)
 {
   const size_t columns = (size_t)w->raster->size[0];
   float **const part[] = {&row->place,
-                           &row->near_x,
-                           &row->near_rest,
-                           &row->near_tangent[0],
-                           &row->near_tangent[1],
-                           &row->near_tangent[2],
-                           &row->best,
-                           &row->best_tangent[0],
-                           &row->best_tangent[1],
-                           &row->best_tangent[2],
-                           &row->sum[0],
-                           &row->sum[1],
-                           &row->sum[2]};
+                          &row->near_x,
+                          &row->near_rest,
+                          &row->near_tangent[0],
+                          &row->near_tangent[1],
+                          &row->near_tangent[2],
+                          &row->best,
+                          &row->best_tangent[0],
+                          &row->best_tangent[1],
+                          &row->best_tangent[2],
+                          &row->sum[0],
+                          &row->sum[1],
+                          &row->sum[2]};
   const size_t parts = sizeof part / sizeof part[0];
   row->memory = fg__allocate(parts * columns, sizeof(float));
   row->hull = fg__allocate(w->most, sizeof(const site *));
@@ -164,12 +164,12 @@ static void spell_out(row_work *row, int used, int columns, int dimension,
 FG__CLONES static void add_2d(const row_work *row, int columns, float epsilon)
 {
   const float *restrict place = row->place, *restrict near_x = row->near_x,
-                         *restrict rest = row->near_rest,
-                         *restrict tangent_x = row->near_tangent[0],
-                         *restrict tangent_y = row->near_tangent[1];
+                        *restrict rest = row->near_rest,
+                        *restrict tangent_x = row->near_tangent[0],
+                        *restrict tangent_y = row->near_tangent[1];
   float *restrict best = row->best, *restrict best_x = row->best_tangent[0],
-                   *restrict best_y = row->best_tangent[1], *restrict sum_x = row->sum[0],
-                   *restrict sum_y = row->sum[1];
+                  *restrict best_y = row->best_tangent[1], *restrict sum_x = row->sum[0],
+                  *restrict sum_y = row->sum[1];
   for (int i = 0; i < columns; ++i) {
     const float along = place[i] - near_x[i];
     const float square = along * along + rest[i], rounded = square + epsilon;
@@ -186,7 +186,7 @@ FG__CLONES static void add_2d(const row_work *row, int columns, float epsilon)
 FG__CLONES static void add_3d(const row_work *row, int columns, float epsilon)
 {
   const float *restrict place = row->place, *restrict near_x = row->near_x,
-                         *restrict rest = row->near_rest;
+                        *restrict rest = row->near_rest;
   float *restrict best = row->best;
   for (int i = 0; i < columns; ++i) {
     const float along = place[i] - near_x[i];

@@ -260,8 +260,8 @@ static void label_crossings(fg__graticule *out, size_t first, side wanted,
     }
 }
 
-/* A parallel that ends within the box, at the meridian where the map is cut, has its label
- * at the left side, too. */
+/* A parallel that ends within the box, at the meridian where the map is cut, has its
+ * label at the left side, too. */
 static void label_end(fg__graticule *out, size_t first, const char *text, int line)
 {
   const fg__plane *plane = out->plane;
