@@ -88,21 +88,6 @@ void list_words(char *text, size_t size, const char *const *words)
   }
 }
 
-/* Numbers ascend; words stand as they are, the default first. */
-static void list_choices(char *text, size_t size, const char *const *words)
-{
-  const char *choice[12] = {NULL};
-  for (size_t k = 0; words[k] && k + 1 < sizeof choice / sizeof *choice; ++k) {
-    size_t at = k;
-    for (; at > 0 && isdigit((unsigned char)words[k][0]) &&
-           strcmp(choice[at - 1], words[k]) > 0;
-         --at)
-      choice[at] = choice[at - 1];
-    choice[at] = words[k];
-  }
-  list_words(text, size, choice);
-}
-
 static bool set_choice(void *out, const cli_command *command, const option_entry *option,
                        const char *text)
 {
@@ -112,7 +97,7 @@ static bool set_choice(void *out, const cli_command *command, const option_entry
       return true;
     }
   char words[128];
-  list_choices(words, sizeof words, option->words);
+  list_words(words, sizeof words, option->words);
   return usage_error(command, "--%s %s: not known; the choice is: %s", option->name, text,
                      words);
 }

@@ -34,7 +34,6 @@ wrong 'unknown option -z' run a -o x -z
 done_with "unknown short option"
 wrong 'scheme thta: not known; the choice is: bdf2, euler, theta' run a -o x --scheme thta
 done_with "a word that is no choice"
-wrong 'effort 3: not known; the choice is: 0, 1, 2$' run a -o x --effort 3
 wrong '--title: \{tiem\} stands for nothing; known: \{title\}, \{time\}, \{level\}, \{names\}, \{arrows\}$' run a -o x --title 'At {tiem}, {time}'
 wrong '--subtitle: \{units\} stands for nothing' texture a -o x.png --subtitle '{units}'
 wrong '--label: \{unit\} stands for nothing; known: \{units\}$' rival a -o x.geojson --label '{unit}'

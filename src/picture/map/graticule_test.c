@@ -2,36 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/context_test.h"
 #include "picture/map/map_scene.h"
 #include "picture/map/page_map.h"
+#include "picture/map/views_test.h"
 #include "picture/polygons.h"
-
-enum { SIDE = 41 };
-
-/* A cap round a pole, of that many kilometres. */
-static void make_cap(fg__plane *plane, fg_context *context, const char *projection,
-                     double radius)
-{
-  static double axis[SIDE];
-  static float u[SIDE * SIDE], v[SIDE * SIDE];
-  double low[2] = {-radius, -radius}, high[2] = {radius, radius};
-  for (int n = 0; n < SIDE; ++n)
-    axis[n] = radius * (2.0 * n / (SIDE - 1) - 1.0);
-  for (int n = 0; n < SIDE * SIDE; ++n)
-    u[n] = hypot(axis[n % SIDE], axis[n / SIDE]) <= radius ? 1.0F : NAN;
-  const fg_field_arrays arrays = {.dimension = 2,
-                                  .size = {SIDE, SIDE, 0},
-                                  .axis = {axis, axis, NULL},
-                                  .velocity = {u, v, NULL},
-                                  .scale = FG_SCALE_MAP,
-                                  .projection = projection};
-  fg_field *field = NULL;
-  assert_int_equal(fg_field_create(&field, context, &arrays), FG_STATUS_OK);
-  assert_int_equal(fg__plane_create(plane, context, field, low, high), FG_STATUS_OK);
-  assert_true(plane->whole && plane->disc);
-  fg_field_destroy(field);
-}
 
 /* Bars across all of the frame, so near to each other that nothing fits between. */
 static void cover(fg__polygons *out, const fg__page_box *frame)
@@ -77,27 +51,26 @@ static int label(double at[][2], const fg__graticule *graticule, const fg__page 
 static void parallels_round_a_pole_are_labelled_in_a_row(void **state)
 {
   static const struct {
-    const char *projection;
-    double radius;
+    view cap;
     int parallels;
   } caps[] = {
-      {"+proj=laea +lat_0=-90 +R=6371000 +units=km", 5300.0, 4},
-      {"+proj=stere +lat_0=90 +lon_0=-30 +R=6371000 +units=km", 4500.0, 3},
-  };
+      {{"+proj=laea +lat_0=-90 +R=6371000 +units=km", {-5300, -5300}, {5300, 5300}, true},
+       4},
+      {{"+proj=stere +lat_0=90 +lon_0=-30 +R=6371000 +units=km",
+        {-4500, -4500},
+        {4500, 4500},
+        true},
+       3}};
   fg_context *context = *state;
   for (size_t n = 0; n < sizeof caps / sizeof *caps; ++n) {
     fg__plane plane;
-    make_cap(&plane, context, caps[n].projection, caps[n].radius);
+    make_plane(&plane, context, &caps[n].cap);
     fg__graticule *graticule = calloc(1, sizeof *graticule);
     fg__page *page = calloc(1, sizeof *page);
     assert_non_null(graticule);
     assert_non_null(page);
     assert_int_equal(fg__graticule_create(graticule, context, &plane), FG_STATUS_OK);
-    fg__page_plan plan = {.graticule = graticule, .outlined = true};
-    for (int i = 0; i < 2; ++i) {
-      plan.axis[i].low = plane.low[i];
-      plan.axis[i].high = plane.high[i];
-    }
+    const fg__page_plan plan = plan_of(&plane, graticule);
     cairo_t *ruler = fg__text_ruler();
     fg__page_layout(page, &plan, ruler);
     cairo_destroy(ruler);

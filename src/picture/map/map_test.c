@@ -207,14 +207,9 @@ static void no_two_labels_touch(void **state)
     assert_non_null(page);
     make_plane(&plane, context, views[k]);
     assert_int_equal(fg__graticule_create(graticule, context, &plane), FG_STATUS_OK);
-    fg__page_plan plan = {.title = "A title",
-                          .color_key = true,
-                          .graticule = graticule,
-                          .outlined = plane.whole};
-    for (int i = 0; i < 2; ++i) {
-      plan.axis[i].low = plane.low[i];
-      plan.axis[i].high = plane.high[i];
-    }
+    fg__page_plan plan = plan_of(&plane, graticule);
+    strcpy(plan.title, "A title");
+    plan.color_key = true;
     fg__axis_of_numbers(&plan.speed, 0.0, 10.0, 10.0, "mean speed", "m/s");
     cairo_t *ruler = fg__text_ruler();
     fg__page_layout(page, &plan, ruler);
@@ -285,11 +280,7 @@ static void fewer_labels_are_still_even(void **state)
   assert_non_null(page);
   make_plane(&plane, context, &world);
   assert_int_equal(fg__graticule_create(graticule, context, &plane), FG_STATUS_OK);
-  fg__page_plan plan = {.graticule = graticule, .outlined = true};
-  for (int i = 0; i < 2; ++i) {
-    plan.axis[i].low = plane.low[i];
-    plan.axis[i].high = plane.high[i];
-  }
+  fg__page_plan plan = plan_of(&plane, graticule);
   cairo_t *ruler = fg__text_ruler();
   int least = 100, most = 0;
   for (plan.width = 60.0; plan.width < 500.0; plan.width += 40.0) {

@@ -8,6 +8,7 @@
 #include "base/context_test.h"
 #include "flowgrain/flowgrain.h"
 #include "picture/map/plane.h"
+#include "picture/page/page.h"
 
 enum { SIDE = 61 };
 
@@ -91,6 +92,18 @@ static inline void make_plane(fg__plane *plane, fg_context *context, const view 
   assert_int_equal(plane->kind == FG__PLANE_DEGREES, v->projection == NULL);
   assert_int_equal(plane->disc, v->disc);
   fg_field_destroy(field);
+}
+
+/* Of a page that shows a plane alone. */
+static inline fg__page_plan plan_of(const fg__plane *plane,
+                                    const struct fg__graticule *graticule)
+{
+  fg__page_plan plan = {.graticule = graticule, .outlined = plane->whole};
+  for (int k = 0; k < 2; ++k) {
+    plan.axis[k].low = plane->low[k];
+    plan.axis[k].high = plane->high[k];
+  }
+  return plan;
 }
 
 #endif

@@ -45,22 +45,9 @@ static size_t skip_space(const fg__table_line *line, size_t at)
   return at;
 }
 
-/* Below the names of a table in Markdown: | --- | :-: | */
-static bool is_rule(const fg__table_line *line)
-{
-  size_t bars = 0, dashes = 0;
-  for (size_t i = 0; i < line->size; ++i) {
-    bars += line->text[i] == '|';
-    dashes += line->text[i] == '-';
-    if (!strchr("|-: \t\r", line->text[i]))
-      return false;
-  }
-  return bars > 0 && dashes > bars;
-}
-
 bool fg__table_is_blank(const fg__table_line *line)
 {
-  return skip_space(line, 0) == line->size || is_rule(line);
+  return skip_space(line, 0) == line->size;
 }
 
 bool fg__table_is_comment(const fg__table_line *line)

@@ -48,7 +48,6 @@ fg__table_cursor fg__table_begin(const fg__source *source);
 
 /* The next line; false at the end. */
 bool fg__table_next(fg__table_line *line, fg__table_cursor *cursor);
-/* Also the rule below the names of a table in Markdown. */
 bool fg__table_is_blank(const fg__table_line *line);
 
 /* Whether the line begins with # or %, or blanks and one. */

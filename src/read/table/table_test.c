@@ -347,9 +347,6 @@ static void what_is_wrong_is_told_by_its_place(void **state)
        "a table with the names of 4 columns, and without rows"},
       {"of 2 or 3 ways\nthe 1 that is new\nwent 4 miles on\nand 5 miles back\n", NULL,
        FG_STATUS_FILE_FORMAT, "is text, but no table of points: line 1 has 5"},
-      {"| a | b | p | q |\n|---|:-:|--:|---|\n| 1 | 2 | 3 | 4 |\n| 2 | 2 | 3 | 4 |\n"
-       "| 1 | 3 | 3 | 4 |\n",
-       NULL, FG_STATUS_UNSUPPORTED, "6 columns, , a, b, p, q, : which"},
       {"1 2 3\n4 5 6\n", NULL, FG_STATUS_FILE_FORMAT, "line 1 has 3 columns, 3 of them"},
       {"1 2 3 4 5\n2 3 4 5 6\n1 3 4 5 6\n", NULL, FG_STATUS_UNSUPPORTED,
        "5 columns without names"},
