@@ -17,21 +17,4 @@ static inline double fg__place_arccos(double x)
   return x < 0.0 ? FG__PLACE_PI - angle : angle;
 }
 
-static inline double fg__place_dot(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static inline void fg__place_cross(double out[3], const double a[3], const double b[3])
-{
-  out[0] = a[1] * b[2] - a[2] * b[1];
-  out[1] = a[2] * b[0] - a[0] * b[2];
-  out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static inline double fg__place_norm(const double a[3])
-{
-  return sqrt(fg__place_dot(a, a));
-}
-
 #endif

@@ -2,10 +2,10 @@
 #include "place/placement.h"
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "icon/icons.h"
 #include "icon/measure.h"
 #include "icon/slender.h"
-#include "place/angle.h"
 #include "place/regions.h"
 
 #include <math.h>
@@ -59,7 +59,7 @@ static void set_center(fg_icon *icon)
     double along[3];
     for (int k = 0; k < 3; ++k)
       along[k] = icon->points[n][k] - from[k];
-    double length = fg__place_norm(along), share = length > left ? left / length : 1.0;
+    double length = fg__length(along), share = length > left ? left / length : 1.0;
     for (int k = 0; k < 3; ++k)
       icon->center[k] = from[k] + share * along[k];
     left -= length;
@@ -73,7 +73,7 @@ static double direction_of(double out[3], const double (*points)[3], int n)
 {
   for (int k = 0; k < 3; ++k)
     out[k] = points[n][k] - points[n - 1][k];
-  const double length = fg__place_norm(out);
+  const double length = fg__length(out);
   for (int k = 0; k < 3; ++k)
     out[k] *= length > 0.0 ? 1.0 / length : 0.0;
   return length;
@@ -88,7 +88,7 @@ static bool is_calm(const double (*points)[3], int last, double length)
     left -= direction_of(piece, points, n);
     for (int m = last; m > n; --m) {
       direction_of(other, points, m);
-      if (fg__place_dot(piece, other) < HEAD_TURN_COSINE)
+      if (fg__dot(piece, other) < HEAD_TURN_COSINE)
         return false;
     }
   }
@@ -120,7 +120,7 @@ static void set_width(fg_icon *icon, const fg__place_search *search)
 
 static fg_status add_icon(fg_icons *icons, fg_context *context,
                           const fg__place_search *search, int index,
-                          const fg__place_share *read)
+                          const fg__place_region *read)
 {
   const fg__place_icon *placed = search->icon[index];
   double(*points)[3] = NULL;
@@ -159,11 +159,11 @@ fg_status fg_placement_icons(fg_icons **out, const fg_placement *placement)
   const fg__place_search *search = fg__placement_search(placement);
   fg_context *context = search->context;
   fg_icons *icons = NULL;
-  fg__place_share *read = fg__allocate((size_t)search->count, sizeof *read);
+  fg__place_region *read = fg__allocate((size_t)search->count, sizeof *read);
   *out = NULL;
   if (!read)
     return fg__fail_memory(context, "the icons", (size_t)search->count * sizeof *read);
-  fg_status status = fg__place_find_shares(read, context, search);
+  fg_status status = fg__place_measure_regions(read, context, search);
   if (status == FG_STATUS_OK)
     status = fg__icons_create_empty(&icons, context);
   if (status == FG_STATUS_OK)

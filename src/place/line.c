@@ -1,6 +1,7 @@
 #include "place/line.h"
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "place/angle.h"
 
 #include <math.h>
@@ -67,7 +68,7 @@ static bool advance_stage(const tracing *with, double out[3], const double from[
   for (int k = 0; k < 3; ++k)
     place[k] = from[k] + step * slope[k];
   return fg__place_direction(with->domain, place, out) &&
-         fg__place_dot(out, slope) > 0.0; /* else it reverses */
+         fg__dot(out, slope) > 0.0; /* else it reverses */
 }
 
 /* One step of the pair, to `out`; false where a stage falls outside or turns back. */
@@ -115,7 +116,7 @@ static bool move(tracing *with, tip *out, const tip *from, double way)
       with->step = step * fmin(fmax(grow, 0.5), 2.0);
     else
       with->step = fmax(with->step, step * fmin(grow, 2.0));
-    if (!with->follows && fg__place_dot(next.direction, from->direction) < BREAK_COSINE)
+    if (!with->follows && fg__dot(next.direction, from->direction) < BREAK_COSINE)
       return false;
     *out = next;
     left = step < left ? left - step : 0.0;
@@ -126,7 +127,7 @@ static bool move(tracing *with, tip *out, const tip *from, double way)
 /* Whether a line may go on to a place; adds up its turn. */
 static bool accept(const tracing *with, tip *next, const tip *from)
 {
-  double turn[3], cosine = fg__place_dot(from->direction, next->direction);
+  double turn[3], cosine = fg__dot(from->direction, next->direction);
   if (with->follows)
     return true;
   next->clearance = fg__place_clearance(with->domain, next->position);
@@ -134,14 +135,14 @@ static bool accept(const tracing *with, tip *next, const tip *from)
     return false;
   if (!(cosine > 0.0))
     return false;
-  fg__place_cross(turn, from->direction, next->direction);
-  double sine = fg__place_norm(turn);
+  fg__cross(from->direction, next->direction, turn);
+  double sine = fg__length(turn);
   if (sine > 0.0) {
     double angle = fg__place_arccos(cosine) / sine;
     for (int k = 0; k < 3; ++k)
       next->turned[k] = from->turned[k] + angle * turn[k];
   }
-  return fg__place_norm(next->turned) <= with->scale->turning;
+  return fg__length(next->turned) <= with->scale->turning;
 }
 
 /* A side's samples, the seed's first. */
@@ -157,7 +158,7 @@ static bool breaks(const side *line, double range)
   int last = line->count - 1, first = last;
   while (first > 0 && line->at[last] - line->at[first] < range)
     --first;
-  return fg__place_dot(line->sample[first].direction, line->sample[last].direction) <
+  return fg__dot(line->sample[first].direction, line->sample[last].direction) <
          BREAK_COSINE;
 }
 
@@ -217,7 +218,7 @@ static int sample_before(const side *line, int last, double range)
 static double bend_between(const side *line, int first, int last)
 {
   return fg__place_arccos(
-      fg__place_dot(line->sample[first].direction, line->sample[last].direction));
+      fg__dot(line->sample[first].direction, line->sample[last].direction));
 }
 
 /* Takes the end off that a head would have to bend round. An even arc, as of a ring, has
@@ -341,7 +342,7 @@ static bool trace_finely(side both[2], const fg__place_domain *domain,
     place_of(end, domain, scale, line, n ? line->count - 1 : 0);
     for (int k = 0; k < 3; ++k)
       end[k] -= both[n].sample[both[n].count - 1].position[k];
-    if (fg__place_norm(end) > MOST_APART * scale->lambda)
+    if (fg__length(end) > MOST_APART * scale->lambda)
       return false;
   }
   return true;
@@ -373,16 +374,15 @@ static bool is_straight(const double (*points)[3], int from, int to, double most
   double whole[3], off[3], piece[3], across[3];
   for (int k = 0; k < 3; ++k)
     whole[k] = points[to][k] - points[from][k];
-  double length = fg__place_norm(whole);
+  double length = fg__length(whole);
   for (int n = from; n < to; ++n) {
     for (int k = 0; k < 3; ++k) {
       off[k] = points[n][k] - points[from][k];
       piece[k] = points[n + 1][k] - points[n][k];
     }
-    fg__place_cross(across, whole, off);
-    if (!(fg__place_norm(across) <= most * length) ||
-        !(fg__place_dot(whole, piece) >=
-          STRAIGHT_COSINE * length * fg__place_norm(piece)))
+    fg__cross(whole, off, across);
+    if (!(fg__length(across) <= most * length) ||
+        !(fg__dot(whole, piece) >= STRAIGHT_COSINE * length * fg__length(piece)))
       return false;
   }
   return true;
@@ -441,19 +441,19 @@ double fg__place_turning(const double (*points)[3], int count)
     double along[3], turn[3];
     for (int k = 0; k < 3; ++k)
       along[k] = points[n][k] - points[n - 1][k];
-    double size = fg__place_norm(along);
+    double size = fg__length(along);
     if (!(size > 0.0))
       continue;
     for (int k = 0; k < 3; ++k)
       along[k] /= size;
-    fg__place_cross(turn, before, along);
-    double sine = fg__place_norm(turn);
-    double angle = fg__place_arccos(fg__place_dot(before, along));
+    fg__cross(before, along, turn);
+    double sine = fg__length(turn);
+    double angle = fg__place_arccos(fg__dot(before, along));
     for (int k = 0; k < 3 && sine > 0.0; ++k)
       sum[k] += turn[k] * angle / sine;
     memcpy(before, along, sizeof before);
   }
-  return fg__place_norm(sum);
+  return fg__length(sum);
 }
 
 bool fg__place_close(double *gap, double *diameter, const fg__place_domain *domain,
@@ -478,9 +478,9 @@ bool fg__place_close(double *gap, double *diameter, const fg__place_domain *doma
     now = next;
     for (int k = 0; k < 3; ++k)
       off[k] = now.position[k] - start[k];
-    *gap = fg__place_norm(off);
+    *gap = fg__length(off);
     *diameter = fmax(*diameter, *gap);
-    if (fg__place_norm(now.turned) >= 2.0 * FG__PLACE_PI)
+    if (fg__length(now.turned) >= 2.0 * FG__PLACE_PI)
       return true;
   }
   return false;

@@ -3,7 +3,6 @@
 #include "base/memory.h"
 #include "icon/icons.h"
 #include "icon/measure.h"
-#include "place/angle.h"
 #include "place/search/even.h"
 
 #include <math.h>
@@ -52,11 +51,11 @@ enum { FEW_FREE = 40, FEW_FAIR = 80 };
 static const double CHAIN_RATIO = 0.8;
 static const double CHAIN_STEP = 0.1; /* of its icons, in lambda */
 
-/* Ink of a free placement, at most; its price rises until that holds. */
+/* Ink of a free placement, at most; its penalty is raised in steps until that holds. */
 static const double MOST_INK = 1.48;
-static const double FIRST_PRICE = 0.25;
-static const double PRICE_GROWTH = 1.6;
-enum { MOST_PRICES = 12 };
+static const double FIRST_INK_PENALTY = 0.25;
+static const double INK_PENALTY_GROWTH = 1.6;
+enum { MOST_INK_STEPS = 12 };
 
 struct fg_placement {
   fg_context *context;
@@ -255,11 +254,11 @@ fg_status fg_placement_resume(fg_placement *placement, const fg_icons *icons)
 static fg_status descend(fg__place_search *search, int sweeps)
 {
   fg_status status = fg__place_relax(search, sweeps);
-  for (int n = 0; n < MOST_PRICES && status == FG_STATUS_OK && search->scale.free &&
+  for (int n = 0; n < MOST_INK_STEPS && status == FG_STATUS_OK && search->scale.free &&
                   fg__place_ink(search) > MOST_INK;
        ++n) {
-    search->scale.ink = fmax(search->scale.ink * PRICE_GROWTH, FIRST_PRICE);
-    fg__place_wake_all(search, 0.2);
+    search->scale.ink = fmax(search->scale.ink * INK_PENALTY_GROWTH, FIRST_INK_PENALTY);
+    fg__place_reactivate_all(search, 0.2);
     status = fg__place_relax(search, 2);
   }
   return status;
@@ -272,7 +271,7 @@ static fg_status settle(fg__place_search *search)
   if (status == FG_STATUS_OK)
     status = fg__place_complete(search);
   if (status == FG_STATUS_OK)
-    status = fg__place_weigh(search);
+    status = fg__place_set_reference_error(search);
   if (status == FG_STATUS_OK)
     status = fg__place_relax(search, SETTLING);
   return status;
@@ -295,7 +294,7 @@ static fg_status polish(fg_placement *placement)
     status =
         fg__place_exchange(search, count_exchanges(much, search->count), much->failures);
   if (status == FG_STATUS_OK) {
-    fg__place_wake_all(search, 0.1);
+    fg__place_reactivate_all(search, 0.1);
     status = descend(search, much->sweeps);
   }
   return status;
@@ -307,16 +306,17 @@ static fg_status go_on(fg__place_search *search, int count)
 {
   fg_status status = fg__place_search_rescale(search, count);
   if (status == FG_STATUS_OK)
-    status = fg__place_weigh(search);
-  fg__place_wake_all(search, CHAIN_STEP);
+    status = fg__place_set_reference_error(search);
+  fg__place_reactivate_all(search, CHAIN_STEP);
   if (status == FG_STATUS_OK)
     status = fg__place_relax(search, 2);
-  fg__place_wake_all(search, 0.0); /* then only the neighbours of those that go move */
+  fg__place_reactivate_all(search,
+                           0.0); /* then only the neighbours of those that go move */
   if (status == FG_STATUS_OK)
     status = fg__place_thin(search, count);
   if (status == FG_STATUS_OK)
     status = fg__place_complete(search);
-  fg__place_wake_all(search, CHAIN_STEP);
+  fg__place_reactivate_all(search, CHAIN_STEP);
   if (status == FG_STATUS_OK)
     status = fg__place_relax(search, 3);
   return status;

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Points a cell is asked at, along each axis, for the picture of regions. */
+/* Nodes along each axis to a cell of the domain's map, for the picture of regions. */
 enum { NODES_A_CELL = 2 };
 
 /* Half the gap between two regions of a picture, in its cells. */
@@ -32,7 +32,7 @@ static void clear(owners *all)
   free(all->owner);
 }
 
-/* Asks the points within an icon's reach for their distance to its line. */
+/* Gives an icon the points in its reach that are nearer to it than to those before. */
 static void claim(owners *all, const fg__place_search *search, int index)
 {
   const fg__place_line *line = &search->icon[index]->line;
@@ -109,8 +109,8 @@ static fg_status find_owners(owners *all, fg_context *context,
   return FG_STATUS_OK;
 }
 
-fg_status fg__place_find_shares(fg__place_share *out, fg_context *context,
-                                const fg__place_search *search)
+fg_status fg__place_measure_regions(fg__place_region *out, fg_context *context,
+                                    const fg__place_search *search)
 {
   owners all;
   fg_status status = find_owners(&all, context, search, search->scale.cell, true);

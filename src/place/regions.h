@@ -1,17 +1,18 @@
-/* Which icon reads a point: the one that is nearest to it. */
+/* The region of an icon: the points that are nearer to it than to any other. */
 #ifndef FG__PLACE_REGIONS_H
 #define FG__PLACE_REGIONS_H
 
 #include "place/search/search.h"
 
-/* What the points of an icon's region add up to. */
-typedef struct fg__place_share {
+/* An icon's region. */
+typedef struct fg__place_region {
   double measure; /* area or volume */
   double speed;   /* mean |v| */
-} fg__place_share;
+} fg__place_region;
 
-/* A share for each icon of a search, by the cells of its raster. MEMORY. */
-fg_status fg__place_find_shares(fg__place_share *out, fg_context *context,
-                                const fg__place_search *search);
+/* Measures the region of each icon of a search, by the cells of its raster; out[] is
+ * zeroed. MEMORY. */
+fg_status fg__place_measure_regions(fg__place_region *out, fg_context *context,
+                                    const fg__place_search *search);
 
 #endif

@@ -23,6 +23,7 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
       .shortest = 0.5 * lambda,
       .turning = 165.0 * RADIANS_PER_DEGREE,
       .longest = (free ? 2.0 : 1.0) * lambda,
+      .first_way = (free ? 0.6 : 0.5) * lambda,
       .crowding = 0.2,
       .crowd_range = 0.3 * lambda,
       .ends = 0.7,

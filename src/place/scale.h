@@ -7,30 +7,32 @@
 
 typedef struct fg__place_scale {
   int dimension, count;
-  double lambda;   /* (|domain| / N)^(1/dimension) */
-  double cell;     /* of the raster on which readers are asked */
-  double sampling; /* along a line */
-  double reach;    /* R: what an icon tells, and no farther */
-  double clearance, shortest;
-  double turning;     /* either way from the seed, radians */
-  double longest;     /* the sum of both ways */
-  double crowding;    /* mu */
-  double crowd_range; /* s */
-  double ends;        /* price of an end that lies on another line, */
-  double end_gap;     /* and falls to 0 at this distance */
-  double diffusion;   /* what a degree of the diffusion reader counts */
-  double touch;       /* price of a line as long as lambda that lies on another one, */
-  double touch_gap;   /* and falls to 0 at this distance */
-  double far;         /* kappa: price of distance */
-  double brevity;     /* nu */
-  double ink;         /* p */
+  double lambda;      /* (|domain| / N)^(1/dimension) */
+  double cell;        /* of the raster on which readers are evaluated */
+  double sampling;    /* along a line */
+  double reach;       /* R: readers take nothing from an icon farther away */
+  double clearance;   /* least distance to a wall */
+  double shortest;    /* least length of a line */
+  double longest;     /* greatest sum of both ways (line.h) */
+  double first_way;   /* each way of a new icon */
+  double turning;     /* greatest turn on either side of the seed, radians */
+  double crowding;    /* mu: penalty for lines that lie close together, */
+  double crowd_range; /* s: as a Gaussian of this width */
+  double ends;        /* chi: penalty for an end that lies on another line, */
+  double end_gap;     /* which falls to 0 at this distance */
+  double diffusion;   /* weight of the diffusion reader beside the others' 1 */
+  double touch;       /* tau: penalty for a length lambda that lies on another line, */
+  double touch_gap;   /* which falls to 0 at this distance */
+  double far;         /* kappa: weight of the distance to the nearest line */
+  double brevity;     /* nu: penalty for short lines */
+  double ink;         /* p: penalty for length */
   bool free;          /* each icon has a length of its own */
 } fg__place_scale;
 
-/* `measure` is what fg__place_domain calls so. */
+/* `measure`: of the domain (fg__place_domain). */
 fg__place_scale fg__place_scale_of(int dimension, int count, double measure, bool free);
 
-/* Allows shorter lines; false where they are as short as may be. */
+/* Lowers the least length of lines; false where it is as low as it may be. */
 bool fg__place_shorten(fg__place_scale *scale);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* The error shall be at most this share of what is asked for: other programs that score
+/* The error shall be at most this share of the tolerance: other programs that score
  * the same arrows differ by up to half a per cent, in where a line is sampled. */
 static const double MARGIN = 0.99;
 

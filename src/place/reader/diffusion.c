@@ -176,7 +176,7 @@ static fg_status open_window(fg__place_window *window, fg_context *context, int 
   size_t plane = wide * ((size_t)size[1] + 2);
   size_t deep = dimension == 3 ? (size_t)size[2] + 2 : 1;
   /* a row is read in whole vectors, from one cell before to one behind */
-  size_t needed = plane * deep + 2 * PAD, count = fg__place_apart(needed);
+  size_t needed = plane * deep + 2 * PAD, count = fg__place_array_stride(needed);
   size_t arrays = WINDOW_SCALARS + 3 * (size_t)dimension;
   window->stride[0] = wide;
   window->stride[1] = plane;

@@ -104,9 +104,10 @@ static void fields_between_two_lines_are_linear(void **state)
   clear(&s);
 }
 
-/* A trial's growth tells what a solution of the whole with the new line has more, and
+/* A trial's growth is what a solution of the whole with the new line has more, and
  * what is kept becomes that solution. */
-static void trials_tell_what_becomes(setting *s, const double place[][3], int lines)
+static void trials_agree_with_whole_solutions(setting *s, const double place[][3],
+                                              int lines)
 {
   fg__place_line line[8];
   const double lambda = s->scale.lambda;
@@ -144,23 +145,23 @@ static void trials_tell_what_becomes(setting *s, const double place[][3], int li
   fg__place_diffusion_clear(&again);
 }
 
-static void trials_tell_what_becomes_in_the_plane(void **state)
+static void trials_agree_with_whole_solutions_in_the_plane(void **state)
 {
   static const double place[][3] = {{-1.2, 7.1}, {-5, 5},    {-4.6, 9},   {1.4, 4.6},
                                     {1.1, 9.2},  {3.4, 6.8}, {-2.1, 4.2}, {-0.4, 6.2}};
   setting s;
   set(&s, *state, &PLAIN, swirl, 8);
-  trials_tell_what_becomes(&s, place, 8);
+  trials_agree_with_whole_solutions(&s, place, 8);
   clear(&s);
 }
 
-static void trials_tell_what_becomes_in_space(void **state)
+static void trials_agree_with_whole_solutions_in_space(void **state)
 {
   static const double place[][3] = {
       {-4.3, 5.1, 0.4}, {-3.1, 4.2, 1.1}, {-5.2, 6.3, -0.7}, {-5.5, 4.4, 1.4}};
   setting s;
   set(&s, *state, &SOLID, swirl, 4);
-  trials_tell_what_becomes(&s, place, 4);
+  trials_agree_with_whole_solutions(&s, place, 4);
   clear(&s);
 }
 
@@ -231,8 +232,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       CASE(fields_between_two_lines_are_linear),
-      CASE(trials_tell_what_becomes_in_the_plane),
-      CASE(trials_tell_what_becomes_in_space),
+      CASE(trials_agree_with_whole_solutions_in_the_plane),
+      CASE(trials_agree_with_whole_solutions_in_space),
       CASE(every_part_of_a_domain_is_read),
       CASE(nothing_is_read_without_lines),
   };

@@ -26,21 +26,22 @@ void fg__place_raster_center(double center[3], const fg__place_raster *raster,
             : 0.0;
 }
 
+/* The least area (volume) of a subdomain that counts. */
 static double smallest_subdomain(const fg__place_domain *domain,
                                  const fg__place_scale *scale)
 {
-  double largest = 0.0,
-         share = pow(scale->lambda, domain->dimension) *
+  double largest = 0.0;
+  double least = pow(scale->lambda, domain->dimension) *
                  (domain->dimension == 2 ? SMALLEST_PART_2D : SMALLEST_PART_3D);
   for (int n = 0; n < domain->subdomain_count; ++n)
     largest = fmax(largest, domain->subdomains[n].measure);
-  return fmin(share, largest);
+  return fmin(least, largest);
 }
 
 static void fill_raster(fg__place_raster *raster, const fg__place_domain *domain,
                         const fg__place_scale *scale)
 {
-  double sum = 0.0, subdomain_fraction = smallest_subdomain(domain, scale);
+  double sum = 0.0, smallest = smallest_subdomain(domain, scale);
   size_t cell = 0;
   for (int z = 0; z < raster->cells[2]; ++z)
     for (int y = 0; y < raster->cells[1]; ++y)
@@ -54,7 +55,7 @@ static void fill_raster(fg__place_raster *raster, const fg__place_domain *domain
           continue;
         for (int k = 0; k < raster->dimension; ++k)
           raster->direction[k][cell] = (float)direction[k];
-        if (subdomain->measure < subdomain_fraction)
+        if (subdomain->measure < smallest)
           continue;
         double weight = fg__place_weight(domain, speed);
         raster->weight[cell] = (float)weight;
@@ -117,7 +118,7 @@ static fg_status make_room(fg__place_contribution *contribution, fg_context *con
   if (count <= contribution->capacity)
     return FG_STATUS_OK;
   free(contribution->room);
-  contribution->capacity = fg__place_apart(count + count / 4);
+  contribution->capacity = fg__place_array_stride(count + count / 4);
   size_t values = contribution->capacity * FG__PLACE_ARRAYS((size_t)dimension) +
                   2 * (size_t)FG__PLACE_PAD;
   contribution->room = fg__allocate_aligned(values, sizeof(float));
@@ -126,7 +127,7 @@ static fg_status make_room(fg__place_contribution *contribution, fg_context *con
     return FG_STATUS_OK;
   }
   contribution->capacity = 0;
-  return fg__fail_memory(context, "what icons tell", values * sizeof(float));
+  return fg__fail_memory(context, "icons' contributions", values * sizeof(float));
 }
 
 fg_status fg__place_contribution_start(fg__place_contribution *contribution,
@@ -186,15 +187,16 @@ void fg__place_box_widen(fg__place_box *box, const fg__place_box *by)
   }
 }
 
-fg_status fg__place_tell(fg__place_contribution *out, fg_context *context,
-                         const fg__place_raster *raster, const fg__place_scale *scale,
-                         const fg__place_line *line)
+fg_status fg__place_contribution_compute(fg__place_contribution *out, fg_context *context,
+                                         const fg__place_raster *raster,
+                                         const fg__place_scale *scale,
+                                         const fg__place_line *line)
 {
   float reach = (float)(scale->reach / scale->lambda);
   fg__place_box box = fg__place_box_of(raster, scale, line);
   fg_status status = make_room(out, context, raster->dimension, &box);
   if (status == FG_STATUS_OK)
-    fg__place_tell_rows(out, raster, line, reach);
+    fg__place_contribute_rows(out, raster, line, reach);
   return status;
 }
 
@@ -222,10 +224,11 @@ void fg__place_contribution_add(fg__place_contribution *to,
 
 double fg__place_cost(float *cost, const fg__place_raster *raster,
                       const fg__place_box *box, const fg__place_contribution *one,
-                      const fg__place_contribution *other, const fg__place_price *price)
+                      const fg__place_contribution *other,
+                      const fg__place_weights *weights)
 {
   const fg__place_contribution *const parts[2] = {one, other};
-  return fg__place_cost_rows(cost, raster, box, parts, price);
+  return fg__place_cost_rows(cost, raster, box, parts, weights);
 }
 
 static const float BEYOND = 1e9F;

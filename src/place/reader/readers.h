@@ -6,13 +6,13 @@
 
 #include "place/line.h"
 
-/* The raster on which readers are asked, in units of lambda from the domain's low corner.
- */
+/* The raster on which readers are evaluated, in units of lambda from the domain's low
+ * corner. */
 typedef struct fg__place_raster {
   int dimension, cells[3];
   size_t count;
   float cell;
-  float *direction[3]; /* of the flow, unit; 0 where nothing is asked */
+  float *direction[3]; /* of the flow, unit; 0 where it has none: no error there */
   float *weight;       /* their sum is the number of icons */
 } fg__place_raster;
 
@@ -31,10 +31,10 @@ void fg__place_raster_center(double center[3], const fg__place_raster *raster,
  * read in whole vectors (rows.h). */
 enum { FG__PLACE_PAD = 16 };
 
-/* How far apart arrays of so many elements begin. Where that is about a multiple of a
- * page of memory, to write one while others are read takes many times as long: they begin
- * a seventh of a page on. */
-static inline size_t fg__place_apart(size_t count)
+/* Elements between the starts of arrays of at least `count` elements each. Starts that
+ * differ by about a multiple of a page make loads wait for stores to other arrays (4 KiB
+ * aliasing), so they differ by a seventh of a page more. */
+static inline size_t fg__place_array_stride(size_t count)
 {
   return count / 1024 * 1024 + 1024 + 144;
 }
@@ -57,7 +57,7 @@ static inline bool fg__place_boxes_meet(const fg__place_box *a, const fg__place_
   return meet;
 }
 
-/* The contribution of some icons to the readers in a box of cells. */
+/* The contribution of some icons to what readers reconstruct in a box of cells. */
 enum { FG__PLACE_NEAR = 1 };
 #define FG__PLACE_ARRAYS(dimension) (FG__PLACE_NEAR + 2 * (dimension))
 
@@ -65,10 +65,10 @@ typedef struct fg__place_contribution {
   fg__place_box box;
   int dimension;
   size_t capacity; /* cells, FG__PLACE_PAD of them to spare */
-  float *room;     /* what `value` lies in, with more before and behind */
+  float *room;     /* allocated: `value` with FG__PLACE_PAD more before and behind */
   float *value;    /* FG__PLACE_ARRAYS arrays of `capacity`: square of the distance to the
                       nearest sample; from NEAR on its tangent, then the sum over icons of
-                      the nearest tangent by inverse distance */
+                      their nearest tangents weighted by inverse distance */
 } fg__place_contribution;
 
 void fg__place_contribution_clear(fg__place_contribution *contribution);
@@ -109,26 +109,29 @@ fg__place_box fg__place_box_of(const fg__place_raster *raster,
 /* Makes a box hold another one, which may be empty. */
 void fg__place_box_widen(fg__place_box *box, const fg__place_box *by);
 
-/* Tells what a line tells, over its box. MEMORY. */
-fg_status fg__place_tell(fg__place_contribution *out, fg_context *context,
-                         const fg__place_raster *raster, const fg__place_scale *scale,
-                         const fg__place_line *line);
+/* Computes a line's contribution, over the box that it reaches. MEMORY. */
+fg_status fg__place_contribution_compute(fg__place_contribution *out, fg_context *context,
+                                         const fg__place_raster *raster,
+                                         const fg__place_scale *scale,
+                                         const fg__place_line *line);
 
 /* Adds one contribution to another, where both have cells. */
 void fg__place_contribution_add(fg__place_contribution *to,
                                 const fg__place_contribution *from);
 
-/* Weighs the readers' errors. */
-typedef struct fg__place_price {
-  float inverse_error; /* 1 / E0, a degree's price */
-  float far;           /* kappa */
+/* Weights of the readers' errors in the energy. */
+typedef struct fg__place_weights {
+  float inverse_error; /* 1 / E0: weight of a degree */
+  float far;           /* kappa: weight of the distance to the nearest line */
   float reach;         /* R in lambda */
-} fg__place_price;
+} fg__place_weights;
 
-/* The price of each cell of `box`, told by both contributions (either may be NULL, or end
- * within the box), summed up; kept in `cost` unless NULL. */
+/* The weighted errors of the readers in the cells of `box`, who reconstruct from the sum
+ * of two contributions (either may be NULL, or cover a part of the box). Returns their
+ * sum; `cost`, unless NULL, gets each cell's. */
 double fg__place_cost(float *cost, const fg__place_raster *raster,
                       const fg__place_box *box, const fg__place_contribution *one,
-                      const fg__place_contribution *other, const fg__place_price *price);
+                      const fg__place_contribution *other,
+                      const fg__place_weights *weights);
 
 #endif

@@ -42,8 +42,9 @@ static void add(setting *s, double x, double y, double z)
   fg__place_line *line = &s->line[s->lines];
   fg__place_trace(line, &s->domain, &s->scale, &seed);
   assert_true(line->count > 0);
-  assert_int_equal(fg__place_tell(&s->contribution[s->lines++], s->context, &s->raster,
-                                  &s->scale, line),
+  assert_int_equal(fg__place_contribution_compute(&s->contribution[s->lines++],
+                                                  s->context, &s->raster, &s->scale,
+                                                  line),
                    FG_STATUS_OK);
 }
 
@@ -114,7 +115,7 @@ static double degrees_of(const double *vector, const double *flow, int dimension
   return square > 0.0 ? degrees_between(vector, flow, dimension) : 90.0;
 }
 
-/* Every cell of the raster: what it is told, and what that costs. */
+/* Every cell of the raster: the sum of contributions, and its weighted errors. */
 static void check(setting *s)
 {
   const int dimension = s->raster.dimension;
@@ -124,11 +125,11 @@ static void check(setting *s)
   for (int l = 0; l < s->lines; ++l)
     fg__place_contribution_add(&all, &s->contribution[l]);
   fg__place_box box = whole_box(s);
-  const fg__place_price price = {1 / 20.0F, far, reach};
+  const fg__place_weights weighting = {1 / 20.0F, far, reach};
   float *cost = calloc(s->raster.count, sizeof *cost);
-  double sum = fg__place_cost(cost, &s->raster, &box, &all, NULL, &price), total = 0.0,
-         angles = 0.0, weights = 0.0;
-  int told = 0, doubtful = 0;
+  double sum = fg__place_cost(cost, &s->raster, &box, &all, NULL, &weighting),
+         total = 0.0, angles = 0.0, weights = 0.0;
+  int reached = 0, doubtful = 0;
   for (size_t n = 0; n < s->raster.count; ++n) {
     size_t rest = n;
     double point[3] = {0}, flow[3] = {0}, angle = 0.0;
@@ -161,22 +162,22 @@ static void check(setting *s)
       if (weight > 0.0)
         angle += degrees_of(a.vector[reader], flow, dimension);
     }
-    told += a.square < (double)(reach * reach);
+    reached += a.square < (double)(reach * reach);
     angles += weight * angle;
     assert_close((double)cost[n], weight * (angle / 20 + (double)far * a.square),
                  2e-3 * weight + 1e-9);
   }
-  assert_true(told > 200 && doubtful < told / 4);
+  assert_true(reached > 200 && doubtful < reached / 4);
   assert_close(sum, total, 1e-4 * total);
   assert_close(weights, s->scale.count, 1e-3 * s->scale.count);
-  const fg__place_price errors = {1.0F, 0.0F, reach};
+  const fg__place_weights errors = {1.0F, 0.0F, reach};
   assert_close(fg__place_cost(NULL, &s->raster, &box, &all, NULL, &errors) / weights,
                angles / weights, 0.2);
   free(cost);
   fg__place_contribution_clear(&all);
 }
 
-static void readers_are_told_by_their_definitions(void **state)
+static void readers_follow_their_definitions(void **state)
 {
   setting s = set(*state, &PLAIN, coast, 17);
   add(&s, 1.3, 8.1, 0);
@@ -212,34 +213,36 @@ static void two_contributions_are_one_in_any_order(void **state)
     assert_memory_equal(one.value + (size_t)array * one.capacity,
                         other.value + (size_t)array * other.capacity,
                         s.raster.count * sizeof(float));
-  /* priced apart they cost what they cost together */
-  const fg__place_price price = {1 / 30.0F, 5.0F,
-                                 (float)(s.scale.reach / s.scale.lambda)};
+  /* both passed apart cost what their sum costs */
+  const fg__place_weights weights = {1 / 30.0F, 5.0F,
+                                     (float)(s.scale.reach / s.scale.lambda)};
   fg__place_box box = whole_box(&s), inner = s.contribution[0].box;
-  double together = fg__place_cost(NULL, &s.raster, &box, &one, NULL, &price);
+  double together = fg__place_cost(NULL, &s.raster, &box, &one, NULL, &weights);
   double apart = fg__place_cost(NULL, &s.raster, &box, &s.contribution[0],
-                                &s.contribution[1], &price);
+                                &s.contribution[1], &weights);
   assert_true(together == apart);
-  double untold = fg__place_cost(NULL, &s.raster, &box, NULL, NULL, &price);
-  double alone = fg__place_cost(NULL, &s.raster, &box, &s.contribution[0], NULL, &price);
-  assert_true(together < alone && alone < untold);
+  double none = fg__place_cost(NULL, &s.raster, &box, NULL, NULL, &weights);
+  double alone =
+      fg__place_cost(NULL, &s.raster, &box, &s.contribution[0], NULL, &weights);
+  assert_true(together < alone && alone < none);
   /* a line costs nothing outside its box */
-  double fall = fg__place_cost(NULL, &s.raster, &inner, NULL, NULL, &price) -
-                fg__place_cost(NULL, &s.raster, &inner, &s.contribution[0], NULL, &price);
-  assert_close(fall, untold - alone, 1e-4 * untold);
+  double fall =
+      fg__place_cost(NULL, &s.raster, &inner, NULL, NULL, &weights) -
+      fg__place_cost(NULL, &s.raster, &inner, &s.contribution[0], NULL, &weights);
+  assert_close(fall, none - alone, 1e-4 * none);
   fg__place_contribution_clear(&one);
   fg__place_contribution_clear(&other);
   clear(&s);
 }
 
-/* Of the cells that nobody tells anything. */
-static double untold_weight(const setting *s, const fg__place_contribution *told)
+/* Of the cells that no line reaches. */
+static double unreached_weight(const setting *s, const fg__place_contribution *all)
 {
   const double reach = s->scale.reach / s->scale.lambda;
   double sum = 0.0;
   for (size_t n = 0; n < s->raster.count; ++n)
     sum +=
-        (double)told->value[n] < reach * reach - 1e-4 ? 0.0 : (double)s->raster.weight[n];
+        (double)all->value[n] < reach * reach - 1e-4 ? 0.0 : (double)s->raster.weight[n];
   return sum;
 }
 
@@ -252,11 +255,11 @@ static void an_exact_picture_has_no_error(void **state)
   start(&all, &s);
   fg__place_contribution_add(&all, &s.contribution[0]);
   fg__place_contribution_add(&all, &s.contribution[1]);
-  const fg__place_price errors = {1.0F, 0.0F, (float)(s.scale.reach / s.scale.lambda)};
+  const fg__place_weights errors = {1.0F, 0.0F, (float)(s.scale.reach / s.scale.lambda)};
   fg__place_box box = whole_box(&s);
-  double told = fg__place_cost(NULL, &s.raster, &box, &all, NULL, &errors);
-  assert_true(fabs(told - 180.0 * untold_weight(&s, &all)) < 0.1 * s.scale.count);
-  /* nobody tells anything: a right angle everywhere */
+  double cost = fg__place_cost(NULL, &s.raster, &box, &all, NULL, &errors);
+  assert_true(fabs(cost - 180.0 * unreached_weight(&s, &all)) < 0.1 * s.scale.count);
+  /* no line: a right angle everywhere */
   fg__place_contribution none;
   start(&none, &s);
   assert_close(fg__place_cost(NULL, &s.raster, &box, &none, NULL, &errors),
@@ -269,7 +272,7 @@ static void an_exact_picture_has_no_error(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(readers_are_told_by_their_definitions),
+      CASE(readers_follow_their_definitions),
       CASE(readers_in_space_too),
       CASE(two_contributions_are_one_in_any_order),
       CASE(an_exact_picture_has_no_error),

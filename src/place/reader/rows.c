@@ -88,14 +88,15 @@ typedef struct row_place {
   float cell, reach;
 } row_place;
 
-/* What a line tells some cells: the nearest sample's tangent. */
-typedef struct line_told {
+/* For some cells the square of the distance to the line's nearest sample, and its
+ * tangent. */
+typedef struct line_values {
   vector near, tangent[3];
-} line_told;
+} line_values;
 
 /* `x` of the cells from the row's low end; `aside` is the square of the sample's distance
  * to the row. */
-INLINE void tell_sample(const int dimension, line_told *out, vector x,
+INLINE void take_sample(const int dimension, line_values *out, vector x,
                         const fg__place_line *line, int n, float aside,
                         const row_place *row)
 {
@@ -108,22 +109,22 @@ INLINE void tell_sample(const int dimension, line_told *out, vector x,
     out->tangent[k] = choose(nearer, zero + line->tangent[k][n], out->tangent[k]);
 }
 
-/* Each sample tells the cells that lie within its reach: their own tangents, and the pull
- * of the icon as a whole. */
-INLINE void tell_cells(const int dimension, float *value, size_t stride, int first,
-                       const fg__place_line *line, const row_place *row)
+/* The contribution of a line to WIDTH cells of a row: the nearest sample's square and
+ * tangent, and that tangent weighted by the inverse distance. */
+INLINE void contribute_cells(const int dimension, float *value, size_t stride, int first,
+                             const fg__place_line *line, const row_place *row)
 {
   static const float steps[WIDTH] = {0, 1, 2,  3,  4,  5,  6,  7,
                                      8, 9, 10, 11, 12, 13, 14, 15};
   const float reach_square = row->reach * row->reach;
-  line_told out = {.near = (vector){0} + reach_square};
+  line_values out = {.near = (vector){0} + reach_square};
   vector x = (load(steps) + ((float)first + 0.5F)) * row->cell;
   for (int n = 0; n < line->count; ++n) {
     float dy = row->y - line->position[1][n];
     float dz = dimension == 3 ? row->z - line->position[2][n] : 0.0F;
     float aside = dy * dy + dz * dz;
     if (aside < reach_square)
-      tell_sample(dimension, &out, x, line, n, aside, row);
+      take_sample(dimension, &out, x, line, n, aside, row);
   }
   vector q = out.near + PULL_EPSILON;
   vector power = dimension == 2 ? q * root(q) : q * q;
@@ -138,9 +139,9 @@ INLINE void tell_cells(const int dimension, float *value, size_t stride, int fir
   }
 }
 
-INLINE void tell_rows(const int dimension, fg__place_contribution *to,
-                      const fg__place_raster *raster, const fg__place_line *line,
-                      float reach)
+INLINE void contribute_rows(const int dimension, fg__place_contribution *to,
+                            const fg__place_raster *raster, const fg__place_line *line,
+                            float reach)
 {
   const fg__place_box *box = &to->box;
   row_place row = {
@@ -150,37 +151,39 @@ INLINE void tell_rows(const int dimension, fg__place_contribution *to,
     for (int y = 0; y < box->size[1]; ++y, value += box->size[0]) {
       row.y = ((float)(box->low[1] + y) + 0.5F) * raster->cell;
       row.z = ((float)(box->low[2] + z) + 0.5F) * raster->cell;
-      /* what is told beyond a row's end, the next row overwrites */
+      /* what is written beyond a row's end, the next row overwrites */
       for (int first = 0; first < box->size[0]; first += WIDTH)
-        tell_cells(dimension, value, to->capacity, first, line, &row);
+        contribute_cells(dimension, value, to->capacity, first, line, &row);
     }
 }
 
-FG__CLONES static void tell_2d(fg__place_contribution *to, const fg__place_raster *raster,
+FG__CLONES static void contribute_2d(fg__place_contribution *to,
+                                     const fg__place_raster *raster,
+                                     const fg__place_line *line, float reach)
+{
+  contribute_rows(2, to, raster, line, reach);
+}
+
+FG__CLONES static void contribute_3d(fg__place_contribution *to,
+                                     const fg__place_raster *raster,
+                                     const fg__place_line *line, float reach)
+{
+  contribute_rows(3, to, raster, line, reach);
+}
+
+void fg__place_contribute_rows(fg__place_contribution *to, const fg__place_raster *raster,
                                const fg__place_line *line, float reach)
 {
-  tell_rows(2, to, raster, line, reach);
+  (raster->dimension == 2 ? contribute_2d : contribute_3d)(to, raster, line, reach);
 }
 
-FG__CLONES static void tell_3d(fg__place_contribution *to, const fg__place_raster *raster,
-                               const fg__place_line *line, float reach)
-{
-  tell_rows(3, to, raster, line, reach);
-}
-
-void fg__place_tell_rows(fg__place_contribution *to, const fg__place_raster *raster,
-                         const fg__place_line *line, float reach)
-{
-  (raster->dimension == 2 ? tell_2d : tell_3d)(to, raster, line, reach);
-}
-
-/* What some cells are told by all. */
-typedef struct cells_told {
+/* The sum of contributions in some cells. */
+typedef struct cell_values {
   vector value[FG__PLACE_ARRAYS(3)];
-} cells_told;
+} cell_values;
 
-/* Joins to it what the cells of `have` are told. */
-INLINE void join(const int dimension, cells_told *to, const float *value, size_t stride,
+/* Adds a contribution's values, in the cells of `have`. */
+INLINE void join(const int dimension, cell_values *to, const float *value, size_t stride,
                  mask have)
 {
   vector square = choose(have, load(value), to->value[0]);
@@ -201,7 +204,7 @@ INLINE void add_rows(const int dimension, fg__place_contribution *to,
       const float *other =
           from->value + row_in(from, y, z) + (box->low[0] - from->box.low[0]);
       for (int i = 0; i < box->size[0]; i += WIDTH) {
-        cells_told all = {{{0}}};
+        cell_values all = {{{0}}};
         for (int k = 0; k < FG__PLACE_ARRAYS(dimension); ++k)
           all.value[k] = load(mine + (size_t)k * to->capacity + i);
         join(dimension, &all, other + i, from->capacity, lanes_below(box->size[0] - i));
@@ -250,16 +253,16 @@ INLINE vector angle_to(const int dimension, const vector value[3],
   return choose(cosine < 0.0F, 180.0F - angle, angle);
 }
 
-/* A part's cells in a row, from cell `first` on. */
-typedef struct told_row {
+/* A contribution's cells in a row, from cell `first` on. */
+typedef struct contribution_row {
   const float *value; /* NULL: none */
   size_t stride;
   int first, end;
-} told_row;
+} contribution_row;
 
-INLINE told_row row_of(const fg__place_contribution *part, int low, int y, int z)
+INLINE contribution_row row_of(const fg__place_contribution *part, int low, int y, int z)
 {
-  told_row row = {0};
+  contribution_row row = {0};
   if (!part || part->box.size[0] == 0 || y < part->box.low[1] ||
       y >= part->box.low[1] + part->box.size[1] || z < part->box.low[2] ||
       z >= part->box.low[2] + part->box.size[2])
@@ -271,40 +274,40 @@ INLINE told_row row_of(const fg__place_contribution *part, int low, int y, int z
   return row;
 }
 
-/* Prices of cells i to i + WIDTH of a row of a box. */
-INLINE vector price_cells(const int dimension, int i, const fg__place_raster *raster,
-                          size_t cell, const told_row rows[2],
-                          const fg__place_price *price)
+/* Weighted errors of cells i to i + WIDTH of a row of a box. */
+INLINE vector cost_cells(const int dimension, int i, const fg__place_raster *raster,
+                         size_t cell, const contribution_row rows[2],
+                         const fg__place_weights *weights)
 {
-  cells_told told = {{{0}}};
+  cell_values all = {{{0}}};
   vector direction[3] = {{0}};
-  told.value[0] += price->reach * price->reach;
+  all.value[0] += weights->reach * weights->reach;
   for (int n = 0; n < 2; ++n)
     if (rows[n].value && rows[n].first < i + WIDTH && rows[n].end > i)
-      join(dimension, &told, rows[n].value + (i - rows[n].first), rows[n].stride,
+      join(dimension, &all, rows[n].value + (i - rows[n].first), rows[n].stride,
            lanes_below(rows[n].end - i) & ~lanes_below(rows[n].first - i));
   for (int k = 0; k < dimension; ++k)
     direction[k] = load(raster->direction[k] + cell);
-  vector angles = angle_to(dimension, told.value + FG__PLACE_NEAR, direction) +
-                  angle_to(dimension, told.value + pull_array(dimension), direction);
+  vector angles = angle_to(dimension, all.value + FG__PLACE_NEAR, direction) +
+                  angle_to(dimension, all.value + pull_array(dimension), direction);
   return load(raster->weight + cell) *
-         (angles * price->inverse_error + price->far * told.value[0]);
+         (angles * weights->inverse_error + weights->far * all.value[0]);
 }
 
 INLINE double cost_rows(const int dimension, float *cost, const fg__place_raster *raster,
                         const fg__place_box *box,
                         const fg__place_contribution *const parts[2],
-                        const fg__place_price *price)
+                        const fg__place_weights *weights)
 {
   wide sums = {0};
   for (int z = box->low[2]; z < box->low[2] + box->size[2]; ++z)
     for (int y = box->low[1]; y < box->low[1] + box->size[1]; ++y) {
-      const told_row rows[2] = {row_of(parts[0], box->low[0], y, z),
-                                row_of(parts[1], box->low[0], y, z)};
+      const contribution_row rows[2] = {row_of(parts[0], box->low[0], y, z),
+                                        row_of(parts[1], box->low[0], y, z)};
       size_t cell = row_of_raster(raster, y, z) + (size_t)box->low[0];
       for (int i = 0; i < box->size[0]; i += WIDTH) {
         int count = box->size[0] - i < WIDTH ? box->size[0] - i : WIDTH;
-        vector cells = price_cells(dimension, i, raster, cell + (size_t)i, rows, price);
+        vector cells = cost_cells(dimension, i, raster, cell + (size_t)i, rows, weights);
         cells = (vector)(lanes_below(count) & (mask)cells);
         sums += __builtin_convertvector(cells, wide);
         if (cost) {
@@ -319,25 +322,25 @@ INLINE double cost_rows(const int dimension, float *cost, const fg__place_raster
 FG__CLONES static double cost_2d(float *cost, const fg__place_raster *raster,
                                  const fg__place_box *box,
                                  const fg__place_contribution *const parts[2],
-                                 const fg__place_price *price)
+                                 const fg__place_weights *weights)
 {
-  return cost_rows(2, cost, raster, box, parts, price);
+  return cost_rows(2, cost, raster, box, parts, weights);
 }
 
 FG__CLONES static double cost_3d(float *cost, const fg__place_raster *raster,
                                  const fg__place_box *box,
                                  const fg__place_contribution *const parts[2],
-                                 const fg__place_price *price)
+                                 const fg__place_weights *weights)
 {
-  return cost_rows(3, cost, raster, box, parts, price);
+  return cost_rows(3, cost, raster, box, parts, weights);
 }
 
 double fg__place_cost_rows(float *cost, const fg__place_raster *raster,
                            const fg__place_box *box,
                            const fg__place_contribution *const parts[2],
-                           const fg__place_price *price)
+                           const fg__place_weights *weights)
 {
-  return (raster->dimension == 2 ? cost_2d : cost_3d)(cost, raster, box, parts, price);
+  return (raster->dimension == 2 ? cost_2d : cost_3d)(cost, raster, box, parts, weights);
 }
 
 INLINE size_t row_of_window(const fg__place_window_rows *window, int y, int z)

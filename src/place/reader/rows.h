@@ -1,4 +1,4 @@
-/* The inner loops of reading: boxes of cells, row by row, compiled for several vector
+/* The inner loops of the readers: boxes of cells, row by row, compiled for several vector
  * widths. Every width gives the same bits: products and sums stay apart, and sums go in
  * sixteen fixed lanes. Rows are read and written in whole vectors: arrays have
  * FG__PLACE_PAD more elements behind, what lies there does not count. */
@@ -7,12 +7,12 @@
 
 #include "place/reader/readers.h"
 
-/* Tells the untold cells of `to`, its whole box, what a line tells. */
-void fg__place_tell_rows(fg__place_contribution *to, const fg__place_raster *raster,
-                         const fg__place_line *line, float reach);
+/* Writes a line's contribution to all cells of `to`. */
+void fg__place_contribute_rows(fg__place_contribution *to, const fg__place_raster *raster,
+                               const fg__place_line *line, float reach);
 
-/* Joins what other icons tell to the cells of a box that both have: the nearer of two,
- * the sums of the rest. */
+/* Adds one contribution to another in the cells of a box that both have: the nearer of
+ * two samples, and the sums over icons. */
 void fg__place_add_rows(fg__place_contribution *to, const fg__place_contribution *from,
                         const fg__place_box *box);
 
@@ -20,7 +20,7 @@ void fg__place_add_rows(fg__place_contribution *to, const fg__place_contribution
 double fg__place_cost_rows(float *cost, const fg__place_raster *raster,
                            const fg__place_box *box,
                            const fg__place_contribution *const parts[2],
-                           const fg__place_price *price);
+                           const fg__place_weights *weights);
 
 /* Cells in a row. */
 typedef struct fg__place_run {

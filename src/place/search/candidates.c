@@ -15,9 +15,6 @@ static const double OFFSET = 0.25;
  * the distance in lambda. Rough coasts would draw all new icons else. */
 static const float BESIDE = 0.04F;
 
-/* Ways of a new icon in a free placement, in lambda. */
-static const double FREE_WAY = 0.6;
-
 static void smooth_axis(float *out, const float *in, const fg__place_raster *raster,
                         int k)
 {
@@ -72,7 +69,8 @@ static bool take_maximum(fg__place_search *search, fg__place_peaks *peaks,
   return true;
 }
 
-/* How much a new icon at a seed lowers the energy; `whole` tells what all do. */
+/* How much a new icon at a seed lowers the energy; `search->whole` has the contribution
+ * of all icons. */
 static fg_status try_seed(fg__place_search *search, const fg__place_seed *seed,
                           double *fall)
 {
@@ -81,18 +79,18 @@ static fg_status try_seed(fg__place_search *search, const fg__place_seed *seed,
   fg__place_trace(&line, search->domain, &search->scale, seed);
   if (line.count == 0)
     return FG_STATUS_OK;
-  fg_status status = fg__place_tell(&search->trial, search->context, &search->raster,
-                                    &search->scale, &line);
+  fg_status status = fg__place_contribution_compute(
+      &search->trial, search->context, &search->raster, &search->scale, &line);
   if (status != FG_STATUS_OK)
     return status;
   const fg__place_box *box = &search->trial.box;
   double before =
-      fg__place_cost(NULL, &search->raster, box, &search->whole, NULL, &search->price);
+      fg__place_cost(NULL, &search->raster, box, &search->whole, NULL, &search->weights);
   double after = fg__place_cost(NULL, &search->raster, box, &search->whole,
-                                &search->trial, &search->price);
+                                &search->trial, &search->weights);
   double diffusion;
-  status = fg__place_diffusion_price(&diffusion, search, NULL, &line);
-  *fall = before - after - diffusion - fg__place_own_price(search, &line);
+  status = fg__place_diffusion_cost(&diffusion, search, NULL, &line);
+  *fall = before - after - diffusion - fg__place_line_penalty(search, &line);
   return status;
 }
 
@@ -102,7 +100,7 @@ static fg__place_seed seed_at(const fg__place_search *search, const float positi
   fg__place_seed seed = {{0}, {0}};
   for (int k = 0; k < 3 && k < scale->dimension; ++k)
     seed.position[k] = search->domain->low[k] + (double)position[k] * scale->lambda;
-  seed.way[0] = seed.way[1] = (scale->free ? FREE_WAY : 0.5) * scale->lambda;
+  seed.way[0] = seed.way[1] = scale->first_way;
   return seed;
 }
 
@@ -189,8 +187,8 @@ fg_status fg__place_list_candidates(fg__place_candidates *best, fg__place_search
   if (status != FG_STATUS_OK)
     return status;
   fg__place_cost(search->map, &search->raster, &search->whole.box, &search->whole, NULL,
-                 &search->price);
-  float diffusion = (float)search->scale.diffusion * search->price.inverse_error;
+                 &search->weights);
+  float diffusion = (float)search->scale.diffusion * search->weights.inverse_error;
   for (size_t n = 0; n < search->raster.count; ++n)
     search->map[n] = (search->map[n] + diffusion * search->diffusion.error[n]) *
                      search->whole.value[n] / (search->whole.value[n] + BESIDE);

@@ -1,4 +1,4 @@
-/* What a placement costs (docs/method/placement.md). */
+/* The energy of a placement (docs/method/placement.md). */
 #include "place/search/search.h"
 
 #include <math.h>
@@ -6,31 +6,32 @@
 #include <string.h>
 
 /* The readers' error counts by its own size, but not below this many degrees: where most
- * of the field is told well, icons would gather in what is left. 8 raises the mean error
- * at free lengths by 1 %. */
+ * of the field is reconstructed well, icons would gather in what is left. 8 raises the
+ * mean error at free lengths by 1 %. */
 static const double LEAST_ERROR = 5.0;
 
 /* Shorter than this many lambda costs nu times the square of what is missing. */
 static const double BRIEF = 0.8;
 
-static bool tells(const fg__place_search *search, int index, const fg__place_box *box,
-                  int except)
+/* Whether an icon other than `except` contributes to a box. */
+static bool reaches(const fg__place_search *search, int index, const fg__place_box *box,
+                    int except)
 {
   return index != except && fg__place_boxes_meet(box, &search->box[index]);
 }
 
-/* Samples of the icons but one that tell a box anything. */
+/* Samples of the icons but one that contribute to a box. */
 static fg_status gather_points(fg__place_search *search, const fg__place_box *box,
                                int except)
 {
   int most = 0;
   for (int n = 0; n < search->count; ++n)
-    if (tells(search, n, box, except))
+    if (reaches(search, n, box, except))
       most += search->icon[n]->line.count;
   fg_status status = fg__place_points_start(&search->beside, search->context,
                                             search->scale.dimension, most);
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
-    if (tells(search, n, box, except))
+    if (reaches(search, n, box, except))
       fg__place_points_add(&search->beside, &search->icon[n]->line);
   return status;
 }
@@ -41,17 +42,17 @@ fg_status fg__place_gather(fg__place_contribution *out, fg__place_search *search
   fg_status status = fg__place_contribution_start(
       out, search->context, search->scale.dimension, box, (float)fg__place_reach(search));
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
-    if (tells(search, n, box, except))
+    if (reaches(search, n, box, except))
       fg__place_contribution_add(out, &search->icon[n]->contribution);
   return status == FG_STATUS_OK ? gather_points(search, box, except) : status;
 }
 
-fg_status fg__place_diffusion_price(double *price, fg__place_search *search,
-                                    const fg__place_line *from, const fg__place_line *to)
+fg_status fg__place_diffusion_cost(double *cost, fg__place_search *search,
+                                   const fg__place_line *from, const fg__place_line *to)
 {
   fg_status status =
-      fg__place_diffusion_try(price, &search->diffusion, search->context, from, to);
-  *price *= search->scale.diffusion * (double)search->price.inverse_error;
+      fg__place_diffusion_try(cost, &search->diffusion, search->context, from, to);
+  *cost *= search->scale.diffusion * (double)search->weights.inverse_error;
   return status;
 }
 
@@ -64,20 +65,20 @@ static double decay(double x)
 }
 
 /* A head that touches another arrow's tail makes one arrow of two. */
-static double price_of_end(const fg__place_scale *scale, float square)
+static double end_penalty(const fg__place_scale *scale, float square)
 {
   double near = fmax(0.0, 1.0 - sqrt((double)square) * scale->lambda / scale->end_gap);
   return scale->ends * near * near;
 }
 
 /* A line that touches another one. */
-static double price_of_touch(const fg__place_scale *scale, float square)
+static double touch_penalty(const fg__place_scale *scale, float square)
 {
   double near = fmax(0.0, 1.0 - sqrt((double)square) * scale->lambda / scale->touch_gap);
   return scale->touch * near * near;
 }
 
-double fg__place_own_price(const fg__place_search *search, const fg__place_line *line)
+double fg__place_line_penalty(const fg__place_search *search, const fg__place_line *line)
 {
   const fg__place_scale *scale = &search->scale;
   double range = scale->crowd_range / scale->lambda, crowd = 0.0, ends = 0.0;
@@ -88,9 +89,9 @@ double fg__place_own_price(const fg__place_search *search, const fg__place_line 
   for (int n = 0; n < line->count; ++n)
     crowd += (double)line->share[n] * sampling *
              (2.0 * scale->crowding * decay((double)square[n] / (2.0 * range * range)) +
-              price_of_touch(scale, square[n]));
+              touch_penalty(scale, square[n]));
   if (line->count > 0)
-    ends = price_of_end(scale, square[0]) + price_of_end(scale, square[line->count - 1]);
+    ends = end_penalty(scale, square[0]) + end_penalty(scale, square[line->count - 1]);
   double brief = fmax(0.0, BRIEF - length);
   return crowd + ends + scale->brevity * brief * brief + scale->ink * length;
 }
@@ -109,7 +110,7 @@ fg_status fg__place_error(fg__place_search *search, double *error)
     status = fg__place_diffusion_solve(&search->diffusion, search->context, false);
   if (status != FG_STATUS_OK)
     return status;
-  fg__place_price errors = {1.0F, 0.0F, (float)fg__place_reach(search)};
+  fg__place_weights errors = {1.0F, 0.0F, (float)fg__place_reach(search)};
   double sum = fg__place_cost(NULL, &search->raster, &search->whole.box, &search->whole,
                               NULL, &errors);
   sum += search->scale.diffusion * fg__place_diffusion_sum(&search->diffusion);
@@ -117,15 +118,15 @@ fg_status fg__place_error(fg__place_search *search, double *error)
   return FG_STATUS_OK;
 }
 
-fg_status fg__place_weigh(fg__place_search *search)
+fg_status fg__place_set_reference_error(fg__place_search *search)
 {
-  fg_status status = fg__place_error(search, &search->error);
+  fg_status status = fg__place_error(search, &search->reference_error);
   if (status != FG_STATUS_OK)
     return status;
-  search->error = fmax(search->error, LEAST_ERROR);
-  search->price.inverse_error = (float)(1.0 / search->error);
+  search->reference_error = fmax(search->reference_error, LEAST_ERROR);
+  search->weights.inverse_error = (float)(1.0 / search->reference_error);
   for (int n = 0; n < search->count; ++n)
-    search->icon[n]->is_rated = false;
+    search->icon[n]->has_removal_cost = false;
   return FG_STATUS_OK;
 }
 
@@ -137,14 +138,14 @@ fg_status fg__place_energy(fg__place_search *search, double *energy)
   *energy = 0.0;
   if (status == FG_STATUS_OK)
     *energy = fg__place_cost(NULL, &search->raster, &search->whole.box, &search->whole,
-                             NULL, &search->price) +
-              search->scale.diffusion * (double)search->price.inverse_error *
+                             NULL, &search->weights) +
+              search->scale.diffusion * (double)search->weights.inverse_error *
                   fg__place_diffusion_sum(&search->diffusion);
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
     fg__place_icon *icon = search->icon[n];
     status = gather_points(search, &icon->contribution.box, n);
     if (status == FG_STATUS_OK) /* both of a pair pay */
-      *energy += fg__place_own_price(search, &icon->line);
+      *energy += fg__place_line_penalty(search, &icon->line);
   }
   return status;
 }

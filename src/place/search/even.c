@@ -9,9 +9,6 @@
 
 enum { LLOYD_STEPS = 12 };
 
-/* Ways of an icon in a free placement, in lambda. */
-static const double FREE_WAY = 0.6;
-
 typedef struct points {
   const fg__place_raster *raster;
   float (*place)[3]; /* a seed, in cells */
@@ -152,7 +149,7 @@ static fg_status add_icons(fg__place_search *search, const points *all)
     for (int k = 0; k < scale->dimension; ++k)
       seed.position[k] =
           search->domain->low[k] + ((double)all->place[n][k] + 0.5) * scale->cell;
-    seed.way[0] = seed.way[1] = (scale->free ? FREE_WAY : 0.5) * scale->lambda;
+    seed.way[0] = seed.way[1] = scale->first_way;
     status = fg__place_add(search, &added, &seed, search->next_identity);
     search->next_identity += added;
   }

@@ -1,14 +1,14 @@
-/* Icons come and go: where readers err most, and where one is missed least. */
+/* Icons are added where readers err most, and removed where that costs least. */
 #include "place/search/search.h"
 
 #include "base/memory.h"
-#include "place/angle.h"
+#include "base/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Sweeps after an icon has come, and after one has gone. */
+/* Sweeps after an icon was added, and after one was removed. */
 enum { EXCHANGE_SWEEPS = 2 };
 
 /* A fall of the energy by less than this share of it is kept, but counts as a failure:
@@ -17,8 +17,9 @@ static const double LITTLE_GAIN = 3e-4;
 
 static const double FRESH = 0.1; /* first step of the neighbours, in lambda */
 
-/* Icons that come or go in one round are at least this many lambda apart: each is priced
- * beside its neighbours. Sweeps of those after a round. */
+/* Icons that are added or removed in one round are at least this many lambda apart, for
+ * the cost of each is computed with its neighbours in place. Sweeps of these after a
+ * round. */
 static const double APART_IN_A_ROUND = 1.3;
 enum { THIN_SWEEPS = 2 };
 
@@ -31,7 +32,7 @@ static bool is_near(const fg__place_search *search, const double a[3], const dou
   double near = APART_IN_A_ROUND * search->scale.lambda, way[3];
   for (int k = 0; k < 3; ++k)
     way[k] = a[k] - b[k];
-  return fg__place_dot(way, way) < near * near;
+  return fg__dot(way, way) < near * near;
 }
 
 /* Adds the better half of the candidates that are not near each other, as many as there
@@ -83,31 +84,32 @@ static fg_status fill(fg__place_search *search)
     int first = search->count;
     status = add_round(search, &added);
     for (int n = first; n < search->count; ++n)
-      fg__place_wake(search, search->icon[n]->seed.position, FRESH);
+      fg__place_reactivate(search, search->icon[n]->seed.position, FRESH);
     if (status == FG_STATUS_OK)
       status = fg__place_relax(search, THIN_SWEEPS);
   }
   return status;
 }
 
-/* What the energy rises by when an icon goes. */
-static fg_status rate(fg__place_search *search, int index)
+/* Finds by how much the energy rises when an icon is removed, unless that is known. */
+static fg_status find_removal_cost(fg__place_search *search, int index)
 {
   fg__place_icon *icon = search->icon[index];
   const fg__place_box *box = &icon->contribution.box;
-  if (icon->is_rated)
+  if (icon->has_removal_cost)
     return FG_STATUS_OK;
   fg_status status = fg__place_gather(&search->others, search, box, index);
   if (status != FG_STATUS_OK)
     return status;
   double with = fg__place_cost(NULL, &search->raster, box, &search->others,
-                               &icon->contribution, &search->price);
+                               &icon->contribution, &search->weights);
   double without =
-      fg__place_cost(NULL, &search->raster, box, &search->others, NULL, &search->price);
+      fg__place_cost(NULL, &search->raster, box, &search->others, NULL, &search->weights);
   double diffusion;
-  status = fg__place_diffusion_price(&diffusion, search, &icon->line, NULL);
-  icon->worth = without - with + diffusion - fg__place_own_price(search, &icon->line);
-  icon->is_rated = status == FG_STATUS_OK;
+  status = fg__place_diffusion_cost(&diffusion, search, &icon->line, NULL);
+  icon->removal_cost =
+      without - with + diffusion - fg__place_line_penalty(search, &icon->line);
+  icon->has_removal_cost = status == FG_STATUS_OK;
   return status;
 }
 
@@ -120,16 +122,16 @@ static int least_of(const double *rise, int count)
   return least;
 }
 
-/* Takes an icon off, and lets its neighbours move and stay. */
-static fg_status take_off(fg__place_search *search, double *rise, int index)
+/* Removes an icon; its neighbours may move, and stay in this round. */
+static fg_status remove_in_round(fg__place_search *search, double *rise, int index)
 {
   double place[3];
   memcpy(place, search->icon[index]->seed.position, sizeof place);
-  fg_status status = fg__place_drop(search, index);
+  fg_status status = fg__place_remove(search, index);
   if (status != FG_STATUS_OK)
     return status;
   memmove(&rise[index], &rise[index + 1], (size_t)(search->count - index) * sizeof *rise);
-  fg__place_wake(search, place, FRESH);
+  fg__place_reactivate(search, place, FRESH);
   for (int n = 0; n < search->count; ++n)
     if (is_near(search, search->icon[n]->seed.position, place))
       rise[n] = HUGE_VAL;
@@ -141,18 +143,18 @@ fg_status fg__place_thin(fg__place_search *search, int count)
   fg_status status = FG_STATUS_OK;
   double *rise = fg__allocate((size_t)search->count, sizeof *rise);
   if (!rise)
-    return fg__fail_memory(search->context, "the worth of icons",
+    return fg__fail_memory(search->context, "the removal costs of icons",
                            (size_t)search->count * sizeof *rise);
   while (status == FG_STATUS_OK && search->count > count) {
     for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
-      status = rate(search, n);
-      rise[n] = search->icon[n]->worth;
+      status = find_removal_cost(search, n);
+      rise[n] = search->icon[n]->removal_cost;
     }
     while (status == FG_STATUS_OK && search->count > count) {
       int least = least_of(rise, search->count);
       if (!(rise[least] < HUGE_VAL))
         break;
-      status = take_off(search, rise, least);
+      status = remove_in_round(search, rise, least);
     }
     if (status == FG_STATUS_OK)
       status = fg__place_relax(search, THIN_SWEEPS);
@@ -161,19 +163,19 @@ fg_status fg__place_thin(fg__place_search *search, int count)
   return status;
 }
 
-/* Takes off the icon that is missed least, from where others may come. */
+/* Removes the icon of the least removal cost; `place` becomes that of its seed. */
 static fg_status remove_least(fg__place_search *search, double place[3])
 {
   int least = 0;
   for (int n = 0; n < search->count; ++n) {
-    fg_status status = rate(search, n);
+    fg_status status = find_removal_cost(search, n);
     if (status != FG_STATUS_OK)
       return status;
-    if (search->icon[n]->worth < search->icon[least]->worth)
+    if (search->icon[n]->removal_cost < search->icon[least]->removal_cost)
       least = n;
   }
   memcpy(place, search->icon[least]->seed.position, 3 * sizeof *place);
-  return fg__place_drop(search, least);
+  return fg__place_remove(search, least);
 }
 
 fg_status fg__place_complete(fg__place_search *search)
@@ -213,12 +215,12 @@ static fg_status exchange_one(fg__place_search *search, const fg__place_seed *se
   if (status != FG_STATUS_OK || !inserted)
     return status;
   ++search->next_identity;
-  fg__place_wake(search, search->icon[search->count - 1]->seed.position, FRESH);
+  fg__place_reactivate(search, search->icon[search->count - 1]->seed.position, FRESH);
   status = fg__place_relax_some(search, EXCHANGE_SWEEPS);
   if (status == FG_STATUS_OK)
     status = remove_least(search, place);
   if (status == FG_STATUS_OK) {
-    fg__place_wake(search, place, FRESH);
+    fg__place_reactivate(search, place, FRESH);
     status = fg__place_relax_some(search, EXCHANGE_SWEEPS);
   }
   return status;

@@ -11,9 +11,9 @@ static fg__place_peak peak_of(const fg__place_peaks *peaks, size_t row)
   const float *weight = peaks->weight ? peaks->weight + row * (size_t)columns : NULL;
   fg__place_peak best = {-1.0F, 0};
   for (int x = 0; x < columns; ++x) {
-    float worth = !weight ? value[x] : weight[x] > 0.0F ? value[x] * weight[x] : -1.0F;
-    if (worth > best.worth)
-      best = (fg__place_peak){worth, x};
+    float height = !weight ? value[x] : weight[x] > 0.0F ? value[x] * weight[x] : -1.0F;
+    if (height > best.height)
+      best = (fg__place_peak){height, x};
   }
   return best;
 }
@@ -59,8 +59,8 @@ float fg__place_peaks_top(size_t *cell, const fg__place_peaks *peaks)
   const size_t rows = (size_t)cells[1] * (size_t)cells[2];
   size_t best = 0;
   for (size_t row = 1; row < rows; ++row)
-    if (peaks->row[row].worth > peaks->row[best].worth)
+    if (peaks->row[row].height > peaks->row[best].height)
       best = row;
   *cell = best * (size_t)cells[0] + (size_t)peaks->row[best].column;
-  return peaks->row[best].worth;
+  return peaks->row[best].height;
 }

@@ -1,11 +1,11 @@
-/* The largest value of a raster that changes in boxes: each row knows its own. */
+/* The maximum of a raster that changes in boxes of cells; each row's maximum is kept. */
 #ifndef FG__PLACE_PEAKS_H
 #define FG__PLACE_PEAKS_H
 
 #include "place/reader/readers.h"
 
 typedef struct fg__place_peak {
-  float worth; /* of the row's best cell; negative: it has none */
+  float height; /* value times weight of the row's highest cell; negative: none counts */
   int column;
 } fg__place_peak;
 
@@ -22,11 +22,11 @@ fg_status fg__place_peaks_create(fg__place_peaks *out, fg_context *context,
                                  const float *weight);
 void fg__place_peaks_clear(fg__place_peaks *peaks);
 
-/* Looks again at the rows from low to below high, along y and z. */
+/* Finds the maxima of the rows from low to below high, along y and z, again. */
 void fg__place_peaks_renew(fg__place_peaks *peaks, const int low[3], const int high[3]);
 
-/* The cell whose value times weight is largest, the first of such; negative: the worth
- * where no cell counts, *cell is then 0. */
+/* Returns the largest value times weight, and the first cell that has it; negative, with
+ * *cell 0, where no cell counts. */
 float fg__place_peaks_top(size_t *cell, const fg__place_peaks *peaks);
 
 #endif

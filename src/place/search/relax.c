@@ -1,20 +1,20 @@
 /* Moves of single icons that lower the energy. */
 #include "place/search/search.h"
 
-#include "place/angle.h"
+#include "base/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Steps of moves in lambda: where they begin, the largest, and below which an icon rests.
- */
+/* Steps of moves in lambda: the largest, the smallest, below which an icon is no longer
+ * moved, and the growth after a move that was accepted. */
 static const double LARGEST_STEP = 0.35;
 static const double SMALLEST_STEP = 0.02;
 static const double GROWTH = 1.3;
 
-/* What is left of the step of an icon that found no lower place: the minimum of the
- * parabolas through its trials was tried, too. */
+/* A step shrinks by this factor where no move lowered the energy, that to the minimum of
+ * the parabolas through the trials included. */
 static const double SHRINKAGE = 0.35;
 
 /* Ways from the seed in a free placement, in lambda. */
@@ -25,7 +25,7 @@ static const double SHORTEST_WAY = 0.1;
 static const double LEAST_FALL = 1e-6;
 
 /* A minimum of parabolas is tried where it promises this share. */
-static const double LEAST_HOPE = 1e-4;
+static const double LEAST_PROMISE = 1e-4;
 
 /* Icons whose seeds are so many lambda from a change are its neighbours. */
 static const double NEIGHBOURS = 1.3;
@@ -53,11 +53,11 @@ static int across(double out[2][3], int dimension, const double direction[3])
       least = k;
   double axis[3] = {0};
   axis[least] = 1.0;
-  fg__place_cross(out[0], direction, axis);
-  double size = fg__place_norm(out[0]);
+  fg__cross(direction, axis, out[0]);
+  double size = fg__length(out[0]);
   for (int k = 0; k < 3; ++k)
     out[0][k] /= size;
-  fg__place_cross(out[1], direction, out[0]);
+  fg__cross(direction, out[0], out[1]);
   return 2;
 }
 
@@ -123,25 +123,26 @@ static void swap_contributions(fg__place_contribution *a, fg__place_contribution
   *b = kept;
 }
 
-/* The energy of a region, told by the others and a line. */
-static double price(const fg__place_search *search, const fg__place_box *box,
-                    const fg__place_contribution *contribution,
-                    const fg__place_line *line)
+/* The energy of a region without the diffusion reader's errors, from the contributions of
+ * all other icons and of a line in place of the icon's. */
+static double region_energy(const fg__place_search *search, const fg__place_box *box,
+                            const fg__place_contribution *contribution,
+                            const fg__place_line *line)
 {
   return fg__place_cost(NULL, &search->raster, box, &search->others, contribution,
-                        &search->price) +
-         fg__place_own_price(search, line);
+                        &search->weights) +
+         fg__place_line_penalty(search, line);
 }
 
-/* A seed in a free placement has the ways that its line really goes. */
-static void settle(fg__place_icon *icon, const fg__place_scale *scale)
+/* Shortens the ways of a seed in a free placement to those that its line reaches. */
+static void clip_ways(fg__place_icon *icon, const fg__place_scale *scale)
 {
   for (int k = 0; k < 2 && scale->free; ++k)
     icon->seed.way[k] =
         fmax(fmin(icon->seed.way[k], icon->line.way[k]), SHORTEST_WAY * scale->lambda);
 }
 
-/* Makes a region hold a box; what the others tell it is then gathered again. */
+/* Extends a region to hold a box, and gathers the others' contributions to it again. */
 static fg_status extend_region(fg__place_search *search, fg__place_box *region,
                                const fg__place_box *by, int index, double *now)
 {
@@ -149,7 +150,7 @@ static fg_status extend_region(fg__place_search *search, fg__place_box *region,
   fg__place_box_widen(region, by);
   fg_status status = fg__place_gather(&search->others, search, region, index);
   if (status == FG_STATUS_OK)
-    *now = price(search, region, &icon->contribution, &icon->line);
+    *now = region_energy(search, region, &icon->contribution, &icon->line);
   return status;
 }
 
@@ -162,7 +163,7 @@ static bool holds(const fg__place_box *box, const fg__place_box *other)
   return true;
 }
 
-/* The box with room for a move of the icon's step. */
+/* The box of an icon's contribution, widened by the step of its moves. */
 static fg__place_box room_of(const fg__place_search *search, const fg__place_icon *icon)
 {
   const fg__place_raster *raster = &search->raster;
@@ -176,7 +177,7 @@ static fg__place_box room_of(const fg__place_search *search, const fg__place_ico
   return box;
 }
 
-/* Tries a seed. *rise is what it adds to the energy; it is taken where that falls. */
+/* Tries a seed. *rise is what it adds to the energy; it is accepted when that falls. */
 static fg_status attempt(double *rise, bool *taken, fg__place_search *search, int index,
                          const fg__place_seed *seed, fg__place_box *region, double *now)
 {
@@ -187,27 +188,27 @@ static fg_status attempt(double *rise, bool *taken, fg__place_search *search, in
   fg__place_trace(&line, search->domain, &search->scale, seed);
   if (line.count == 0)
     return FG_STATUS_OK;
-  fg_status status = fg__place_tell(&search->trial, search->context, &search->raster,
-                                    &search->scale, &line);
+  fg_status status = fg__place_contribution_compute(
+      &search->trial, search->context, &search->raster, &search->scale, &line);
   if (status == FG_STATUS_OK && !holds(region, &search->trial.box))
     status = extend_region(search, region, &search->trial.box, index, now);
   if (status != FG_STATUS_OK)
     return status;
-  *rise = price(search, region, &search->trial, &line) - *now;
+  *rise = region_energy(search, region, &search->trial, &line) - *now;
   double diffusion;
-  status = fg__place_diffusion_price(&diffusion, search, &icon->line, &line);
+  status = fg__place_diffusion_cost(&diffusion, search, &icon->line, &line);
   if (status != FG_STATUS_OK)
     return status;
   *rise += diffusion;
   if (*rise < -LEAST_FALL * fabs(*now)) {
     fg__place_diffusion_keep(&search->diffusion, &icon->line, &line);
-    fg__place_forget_worth(search, &icon->contribution.box);
-    fg__place_forget_worth(search, &search->trial.box);
+    fg__place_forget_removal_costs(search, &icon->contribution.box);
+    fg__place_forget_removal_costs(search, &search->trial.box);
     icon->seed = *seed;
     icon->line = line;
     swap_contributions(&icon->contribution, &search->trial);
     search->box[index] = icon->contribution.box;
-    settle(icon, &search->scale);
+    clip_ways(icon, &search->scale);
     *taken = true;
   }
   return FG_STATUS_OK;
@@ -255,7 +256,7 @@ static fg_status visit(fg__place_search *search, int index)
     }
   }
   double step[AXES], unused;
-  if (status == FG_STATUS_OK && lowest(step, icon, rise) > LEAST_HOPE * fabs(now)) {
+  if (status == FG_STATUS_OK && lowest(step, icon, rise) > LEAST_PROMISE * fabs(now)) {
     fg__place_seed seed = moved(search, icon, step);
     if (seed.way[0] + seed.way[1] <= search->scale.longest || !search->scale.free)
       status = attempt(&unused, &taken, search, index, &seed, &region, &now);
@@ -292,7 +293,7 @@ fg_status fg__place_relax_some(fg__place_search *search, int sweeps)
   return relax(search, sweeps, false);
 }
 
-void fg__place_wake(fg__place_search *search, const double place[3], double step)
+void fg__place_reactivate(fg__place_search *search, const double place[3], double step)
 {
   double near = NEIGHBOURS * search->scale.lambda;
   for (int n = 0; n < search->count; ++n) {
@@ -300,12 +301,12 @@ void fg__place_wake(fg__place_search *search, const double place[3], double step
     double way[3];
     for (int k = 0; k < 3; ++k)
       way[k] = icon->seed.position[k] - place[k];
-    if (fg__place_dot(way, way) < near * near)
+    if (fg__dot(way, way) < near * near)
       icon->step = fmax(icon->step, step * search->scale.lambda);
   }
 }
 
-void fg__place_wake_all(fg__place_search *search, double step)
+void fg__place_reactivate_all(fg__place_search *search, double step)
 {
   for (int n = 0; n < search->count; ++n) {
     search->icon[n]->step = step * search->scale.lambda;

@@ -1,7 +1,6 @@
 #include "place/search/search.h"
 
 #include "base/memory.h"
-#include "place/angle.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,9 +22,10 @@ static fg_status set_scale(fg__place_search *search, int count, bool free)
   if (!search->map || !search->smooth)
     return fg__fail_memory(search->context, "a map of errors",
                            2 * search->raster.count * sizeof *search->map);
-  search->price = (fg__place_price){.inverse_error = (float)(1.0 / search->error),
-                                    .far = (float)search->scale.far,
-                                    .reach = (float)fg__place_reach(search)};
+  search->weights =
+      (fg__place_weights){.inverse_error = (float)(1.0 / search->reference_error),
+                          .far = (float)search->scale.far,
+                          .reach = (float)fg__place_reach(search)};
   return FG_STATUS_OK;
 }
 
@@ -41,7 +41,8 @@ static void clear_scale(fg__place_search *search)
 fg_status fg__place_search_create(fg__place_search *out, fg_context *context,
                                   const fg__place_domain *domain, int count, bool free)
 {
-  *out = (fg__place_search){.domain = domain, .context = context, .error = 30.0};
+  *out =
+      (fg__place_search){.domain = domain, .context = context, .reference_error = 30.0};
   fg_status status = set_scale(out, count, free);
   if (status != FG_STATUS_OK)
     fg__place_search_clear(out);
@@ -68,14 +69,16 @@ void fg__place_search_clear(fg__place_search *search)
   *search = (fg__place_search){0};
 }
 
-static fg_status tell(fg__place_search *search, fg__place_contribution *out,
-                      const fg__place_line *line)
+/* The contribution of a line on the search's raster. */
+static fg_status compute(fg__place_search *search, fg__place_contribution *out,
+                         const fg__place_line *line)
 {
-  return fg__place_tell(out, search->context, &search->raster, &search->scale, line);
+  return fg__place_contribution_compute(out, search->context, &search->raster,
+                                        &search->scale, line);
 }
 
-/* Forgets an icon that the diffusion reader does not know. */
-static void forget(fg__place_search *search, int index)
+/* Removes an icon from the list; the diffusion reader's field has no part of it. */
+static void erase(fg__place_search *search, int index)
 {
   free_icon(search->icon[index]);
   --search->count;
@@ -97,13 +100,13 @@ fg_status fg__place_search_rescale(fg__place_search *search, int count)
     for (int k = 0; k < 2; ++k)
       icon->seed.way[k] *= grown;
     icon->step *= grown;
-    icon->is_rated = false;
+    icon->has_removal_cost = false;
     fg__place_trace(&icon->line, search->domain, &search->scale, &icon->seed);
     if (icon->line.count == 0) {
-      forget(search, n--);
+      erase(search, n--);
       continue;
     }
-    status = tell(search, &icon->contribution, &icon->line);
+    status = compute(search, &icon->contribution, &icon->line);
     search->box[n] = icon->contribution.box;
   }
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
@@ -113,11 +116,11 @@ fg_status fg__place_search_rescale(fg__place_search *search, int count)
              : status;
 }
 
-void fg__place_forget_worth(fg__place_search *search, const fg__place_box *box)
+void fg__place_forget_removal_costs(fg__place_search *search, const fg__place_box *box)
 {
   for (int n = 0; n < search->count; ++n)
     if (fg__place_boxes_meet(box, &search->box[n]))
-      search->icon[n]->is_rated = false;
+      search->icon[n]->has_removal_cost = false;
 }
 
 fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_seed *seed,
@@ -140,7 +143,7 @@ fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_s
   fg__place_trace(&icon->line, search->domain, &search->scale, seed);
   fg_status status = FG_STATUS_OK;
   if (icon->line.count > 0)
-    status = tell(search, &icon->contribution, &icon->line);
+    status = compute(search, &icon->contribution, &icon->line);
   if (status == FG_STATUS_OK && icon->line.count > 0) {
     double growth;
     status = fg__place_diffusion_try(&growth, &search->diffusion, search->context, NULL,
@@ -152,14 +155,14 @@ fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_s
     free_icon(icon);
     return status;
   }
-  fg__place_forget_worth(search, &icon->contribution.box);
+  fg__place_forget_removal_costs(search, &icon->contribution.box);
   search->box[search->count] = icon->contribution.box;
   search->icon[search->count++] = icon;
   *added = true;
   return FG_STATUS_OK;
 }
 
-fg_status fg__place_drop(fg__place_search *search, int index)
+fg_status fg__place_remove(fg__place_search *search, int index)
 {
   double growth;
   const fg__place_line *line = &search->icon[index]->line;
@@ -167,8 +170,8 @@ fg_status fg__place_drop(fg__place_search *search, int index)
       fg__place_diffusion_try(&growth, &search->diffusion, search->context, line, NULL);
   if (status == FG_STATUS_OK) {
     fg__place_diffusion_keep(&search->diffusion, line, NULL);
-    fg__place_forget_worth(search, &search->icon[index]->contribution.box);
-    forget(search, index);
+    fg__place_forget_removal_costs(search, &search->icon[index]->contribution.box);
+    erase(search, index);
   }
   return status;
 }

@@ -1,4 +1,5 @@
-/* The descent: icons move to where readers get more of the field back. */
+/* The descent: icons are moved, added and removed as long as the energy falls
+ * (docs/method/placement.md). */
 #ifndef FG__PLACE_SEARCH_H
 #define FG__PLACE_SEARCH_H
 
@@ -7,12 +8,12 @@
 typedef struct fg__place_icon {
   fg__place_seed seed;
   fg__place_line line;
-  fg__place_contribution contribution; /* what it tells */
+  fg__place_contribution contribution; /* of its line to what readers reconstruct */
   double step;                         /* of its moves, input coordinates */
-  int move;                            /* which was taken last */
-  int identity;  /* stays as the icon moves, and from scale to scale */
-  double worth;  /* by how much the energy rises when the icon is removed */
-  bool is_rated; /* `worth` is known */
+  int move;                            /* the last one that was accepted */
+  int identity;          /* stays as the icon moves, and from scale to scale */
+  double removal_cost;   /* by how much the energy rises when the icon is removed */
+  bool has_removal_cost; /* it is known */
 } fg__place_icon;
 
 typedef struct fg__place_search {
@@ -20,15 +21,15 @@ typedef struct fg__place_search {
   fg_context *context;
   fg__place_scale scale;
   fg__place_raster raster;
-  fg__place_price price;
+  fg__place_weights weights;
   fg__place_diffusion diffusion;
-  double error;          /* E0, degrees */
-  fg__place_icon **icon; /* [count] */
-  fg__place_box *box;    /* [count] where each tells something: its contribution's */
+  double reference_error; /* E0, degrees */
+  fg__place_icon **icon;  /* [count] */
+  fg__place_box *box;     /* [count] of each icon's contribution */
   int count;
   size_t capacity, box_capacity;
   int next_identity;
-  /* Room to work in: */
+  /* Working memory: */
   fg__place_contribution others, trial, whole;
   fg__place_points beside; /* samples of the icons that were gathered last */
   float *map, *smooth;     /* a value a raster cell */
@@ -46,7 +47,7 @@ fg_status fg__place_search_rescale(fg__place_search *search, int count);
 /* Adds an icon at a seed; *added is false where no line can lie. MEMORY. */
 fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_seed *seed,
                         int identity);
-fg_status fg__place_drop(fg__place_search *search, int index);
+fg_status fg__place_remove(fg__place_search *search, int index);
 
 /* Tries moves of all icons that still move, up to `sweeps` times, large steps first.
  * MEMORY, STOPPED. */
@@ -56,9 +57,9 @@ fg_status fg__place_relax(fg__place_search *search, int sweeps);
  * near them only. MEMORY, STOPPED. */
 fg_status fg__place_relax_some(fg__place_search *search, int sweeps);
 
-/* Lets the icons near a place, or all, try moves of `step` lambda again. */
-void fg__place_wake(fg__place_search *search, const double place[3], double step);
-void fg__place_wake_all(fg__place_search *search, double step);
+/* Lets the icons near a place, or all, try moves of at least `step` lambda again. */
+void fg__place_reactivate(fg__place_search *search, const double place[3], double step);
+void fg__place_reactivate_all(fg__place_search *search, double step);
 
 /* Removes icons, first those whose removal raises the energy least, until `count` are
  * left. Then their neighbours may move, and icons that had not stopped moving. MEMORY,
@@ -74,13 +75,13 @@ fg_status fg__place_complete(fg__place_search *search);
  * exchanges that did not lower the energy. MEMORY, STOPPED. */
 fg_status fg__place_exchange(fg__place_search *search, int most, int failures);
 
-/* The icons' seeds and the price of ink, to come back to. */
+/* The icons' seeds and the penalty of ink, to be restored. */
 typedef struct fg__place_snapshot {
   struct fg__place_remembered {
     fg__place_seed seed;
-    double step, worth;
+    double step, removal_cost;
     int identity;
-    bool is_rated;
+    bool has_removal_cost;
   } * icon; /* [count] */
   int count;
   double ink, shortest;
@@ -95,7 +96,7 @@ void fg__place_snapshot_clear(fg__place_snapshot *snapshot);
 fg_status fg__place_error(fg__place_search *search, double *error);
 
 /* Sets E0 to that error. MEMORY. */
-fg_status fg__place_weigh(fg__place_search *search);
+fg_status fg__place_set_reference_error(fg__place_search *search);
 
 /* The energy of all. MEMORY. */
 fg_status fg__place_energy(fg__place_search *search, double *energy);
@@ -111,23 +112,25 @@ static inline double fg__place_reach(const fg__place_search *search)
   return search->scale.reach / search->scale.lambda;
 }
 
-/* What a line costs by itself, beside the icons that were gathered last. */
-double fg__place_own_price(const fg__place_search *search, const fg__place_line *line);
+/* The penalties of a line: those of its length, and those for lines near it, which are
+ * the icons gathered last. */
+double fg__place_line_penalty(const fg__place_search *search, const fg__place_line *line);
 
-/* What line `to` in place of line `from` (NULL: none) adds to the price of the diffusion
- * reader's errors. MEMORY. */
-fg_status fg__place_diffusion_price(double *price, fg__place_search *search,
-                                    const fg__place_line *from, const fg__place_line *to);
+/* What line `to` in place of line `from` (NULL: none) adds to the weighted errors of the
+ * diffusion reader. MEMORY. */
+fg_status fg__place_diffusion_cost(double *cost, fg__place_search *search,
+                                   const fg__place_line *from, const fg__place_line *to);
 
-/* Forgets the worth of icons that tell a box anything, before or after a change there. */
-void fg__place_forget_worth(fg__place_search *search, const fg__place_box *box);
+/* Marks the removal costs of icons that contribute to a box as unknown, before or after a
+ * change there. */
+void fg__place_forget_removal_costs(fg__place_search *search, const fg__place_box *box);
 
-/* What all icons but `except` (-1: all) tell a box; search->beside gets the samples of
- * those that tell it anything. MEMORY. */
+/* The sum of the contributions of all icons but `except` (-1: none) to a box;
+ * search->beside gets the samples of those that reach it. MEMORY. */
 fg_status fg__place_gather(fg__place_contribution *out, fg__place_search *search,
                            const fg__place_box *box, int except);
 
-/* What all icons tell all cells, to search->whole. MEMORY. */
+/* Sets search->whole to the contribution of all icons to all cells. MEMORY. */
 fg_status fg__place_gather_whole(fg__place_search *search);
 
 /* A seed for a new icon, and how much that would lower the energy. */

@@ -48,7 +48,7 @@ static void descend(fg_context *context, const sampling *box, velocity_of veloci
 {
   setting s;
   set_even(&s, context, box, velocity, 24, free);
-  assert_int_equal(fg__place_weigh(&s.search), FG_STATUS_OK);
+  assert_int_equal(fg__place_set_reference_error(&s.search), FG_STATUS_OK);
   double first = energy_of(&s), before = first;
   for (int sweep = 0; sweep < 8; ++sweep) {
     assert_int_equal(fg__place_relax(&s.search, 1), FG_STATUS_OK);
@@ -75,7 +75,7 @@ static void an_exchange_that_does_not_pay_is_undone(void **state)
   setting s;
   set_even(&s, *state, &PLAIN, coast, COUNT, true);
   assert_int_equal(fg__place_relax(&s.search, 2), FG_STATUS_OK);
-  assert_int_equal(fg__place_weigh(&s.search), FG_STATUS_OK);
+  assert_int_equal(fg__place_set_reference_error(&s.search), FG_STATUS_OK);
   assert_int_equal(fg__place_relax(&s.search, 8), FG_STATUS_OK);
   int paid = 0, undone = 0;
   for (int n = 0; n < 14 && undone < 3; ++n) {
@@ -99,25 +99,25 @@ static void an_exchange_that_does_not_pay_is_undone(void **state)
   clear(&s);
 }
 
-/* The price of a region told by the others and by one line. */
-static double price_of(setting *s, const fg__place_box *box, int index)
+/* The energy of a region, from the others' contributions and one line's. */
+static double region_energy_of(setting *s, const fg__place_box *box, int index)
 {
   fg__place_search *search = &s->search;
   fg__place_icon *icon = search->icon[index];
   assert_int_equal(fg__place_gather(&search->others, search, box, index), FG_STATUS_OK);
   return fg__place_cost(NULL, &search->raster, box, &search->others, &icon->contribution,
-                        &search->price) +
-         fg__place_own_price(search, &icon->line);
+                        &search->weights) +
+         fg__place_line_penalty(search, &icon->line);
 }
 
 /* Icons move one after the other, most of them by moves that the search would not take:
- * the region's price changes by as much as the energy of all. */
-static void a_move_is_priced_where_it_tells(void **state)
+ * the region's energy changes by as much as that of all. */
+static void a_move_changes_the_energy_of_its_region_alone(void **state)
 {
   setting s;
   set_even(&s, *state, &PLAIN, swirl, 20, true);
   s.search.scale.crowding = s.search.scale.ends = s.search.scale.touch = 0.0;
-  assert_int_equal(fg__place_weigh(&s.search), FG_STATUS_OK);
+  assert_int_equal(fg__place_set_reference_error(&s.search), FG_STATUS_OK);
   unsigned random = 17;
   int moved = 0;
   for (int n = 0; n < s.search.count; ++n) {
@@ -133,13 +133,15 @@ static void a_move_is_priced_where_it_tells(void **state)
     fg__place_box region = icon->contribution.box,
                   to = fg__place_box_of(&s.search.raster, &s.search.scale, &line);
     fg__place_box_widen(&region, &to);
-    double all = energy_of(&s), here = price_of(&s, &region, n);
+    double all = energy_of(&s), here = region_energy_of(&s, &region, n);
     icon->seed = seed;
     icon->line = line;
-    assert_int_equal(fg__place_tell(&icon->contribution, *state, &s.search.raster,
-                                    &s.search.scale, &line),
+    assert_int_equal(fg__place_contribution_compute(&icon->contribution, *state,
+                                                    &s.search.raster, &s.search.scale,
+                                                    &line),
                      FG_STATUS_OK);
-    assert_close(price_of(&s, &region, n) - here, energy_of(&s) - all, 1e-5 * all);
+    assert_close(region_energy_of(&s, &region, n) - here, energy_of(&s) - all,
+                 1e-5 * all);
     ++moved;
   }
   assert_true(moved > 10);
@@ -167,13 +169,13 @@ static void set_two(setting *s, fg_context *context, double along, double across
 }
 
 /* What a line costs beside all icons but one. */
-static double price_beside(setting *s, const fg__place_line *line, int except)
+static double penalty_beside(setting *s, const fg__place_line *line, int except)
 {
   fg__place_box all = {{0}, {0}};
   memcpy(all.size, s->search.raster.cells, sizeof all.size);
   assert_int_equal(fg__place_gather(&s->search.others, &s->search, &all, except),
                    FG_STATUS_OK);
-  return fg__place_own_price(&s->search, line);
+  return fg__place_line_penalty(&s->search, line);
 }
 
 static void crowding_is_dear_and_so_are_short_lines(void **state)
@@ -182,15 +184,15 @@ static void crowding_is_dear_and_so_are_short_lines(void **state)
   set_two(&s, *state, 0.0, 0.1);
   s.search.scale.ends = s.search.scale.touch = 0.0;
   /* 2 mu for each lambda */
-  assert_close(price_beside(&s, &s.search.icon[1]->line, 1),
+  assert_close(penalty_beside(&s, &s.search.icon[1]->line, 1),
                2 * s.search.scale.crowding * exp(-0.01 / 0.18), 0.01);
-  assert_int_equal(fg__place_drop(&s.search, 0), FG_STATUS_OK);
-  assert_true(price_beside(&s, &s.search.icon[0]->line, 0) < 1e-9);
+  assert_int_equal(fg__place_remove(&s.search, 0), FG_STATUS_OK);
+  assert_true(penalty_beside(&s, &s.search.icon[0]->line, 0) < 1e-9);
   const double brief = 0.3 * s.search.scale.lambda;
   const fg__place_seed seed = {{2, 8}, {brief, brief}};
   fg__place_line shorter;
   fg__place_trace(&shorter, &s.domain, &s.search.scale, &seed);
-  assert_close(price_beside(&s, &shorter, 0), 4 * 0.2 * 0.2, 1e-6);
+  assert_close(penalty_beside(&s, &shorter, 0), 4 * 0.2 * 0.2, 1e-6);
   clear(&s);
 }
 
@@ -201,8 +203,8 @@ static void lines_do_not_touch(void **state)
   s.search.scale.crowding = s.search.scale.ends = 0.0;
   const fg__place_line *line = &s.search.icon[1]->line;
   const double length = line->length / s.search.scale.lambda;
-  const double price = 6 * length * pow(1 - 0.06 / 0.15, 2);
-  assert_close(price_beside(&s, line, 1), price, 0.1 * price);
+  const double penalty = 6 * length * pow(1 - 0.06 / 0.15, 2);
+  assert_close(penalty_beside(&s, line, 1), penalty, 0.1 * penalty);
   clear(&s);
 }
 
@@ -213,9 +215,9 @@ static void heads_keep_away_from_other_ends(void **state)
   setting s;
   set_two(&s, *state, 1.1, 0.0);
   s.search.scale.crowding = s.search.scale.touch = 0.0;
-  assert_close(price_beside(&s, &s.search.icon[1]->line, 1), 0.7 * 0.25, 0.02);
-  assert_int_equal(fg__place_drop(&s.search, 0), FG_STATUS_OK);
-  assert_true(price_beside(&s, &s.search.icon[0]->line, 0) < 1e-9);
+  assert_close(penalty_beside(&s, &s.search.icon[1]->line, 1), 0.7 * 0.25, 0.02);
+  assert_int_equal(fg__place_remove(&s.search, 0), FG_STATUS_OK);
+  assert_true(penalty_beside(&s, &s.search.icon[0]->line, 0) < 1e-9);
   clear(&s);
 }
 
@@ -223,7 +225,7 @@ static void thinning_takes_the_ones_that_say_least(void **state)
 {
   setting s;
   set_even(&s, *state, &PLAIN, slant, 12, true);
-  assert_int_equal(fg__place_weigh(&s.search), FG_STATUS_OK);
+  assert_int_equal(fg__place_set_reference_error(&s.search), FG_STATUS_OK);
   int twin = s.search.next_identity;
   const double *at = s.search.icon[4]->seed.position;
   int other = s.search.icon[4]->identity;
@@ -309,7 +311,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(the_energy_falls),
       CASE(an_exchange_that_does_not_pay_is_undone),
-      CASE(a_move_is_priced_where_it_tells),
+      CASE(a_move_changes_the_energy_of_its_region_alone),
       CASE(crowding_is_dear_and_so_are_short_lines),
       CASE(lines_do_not_touch),
       CASE(heads_keep_away_from_other_ends),

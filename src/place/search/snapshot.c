@@ -26,8 +26,8 @@ fg_status fg__place_remember(fg__place_snapshot *out, fg__place_search *search)
     out->icon[n].seed = search->icon[n]->seed;
     out->icon[n].step = search->icon[n]->step;
     out->icon[n].identity = search->icon[n]->identity;
-    out->icon[n].worth = search->icon[n]->worth;
-    out->icon[n].is_rated = search->icon[n]->is_rated;
+    out->icon[n].removal_cost = search->icon[n]->removal_cost;
+    out->icon[n].has_removal_cost = search->icon[n]->has_removal_cost;
   }
   return FG_STATUS_OK;
 }
@@ -45,7 +45,7 @@ fg_status fg__place_restore(fg__place_search *search, const fg__place_snapshot *
       same = from->icon[k].identity == icon->identity &&
              memcmp(&from->icon[k].seed, &icon->seed, sizeof icon->seed) == 0;
     if (!same)
-      status = fg__place_drop(search, n);
+      status = fg__place_remove(search, n);
   }
   for (int k = 0; k < from->count && status == FG_STATUS_OK; ++k) {
     int n = k;
@@ -66,8 +66,8 @@ fg_status fg__place_restore(fg__place_search *search, const fg__place_snapshot *
     icon->step = from->icon[k].step;
   }
   for (int k = 0; k < search->count && status == FG_STATUS_OK; ++k) {
-    search->icon[k]->worth = from->icon[k].worth;
-    search->icon[k]->is_rated = from->icon[k].is_rated;
+    search->icon[k]->removal_cost = from->icon[k].removal_cost;
+    search->icon[k]->has_removal_cost = from->icon[k].has_removal_cost;
   }
   return status;
 }
