@@ -27,6 +27,9 @@ typedef struct fg_run_options {
   fg_placement_options placement; /* of arrows */
   bool even_start; /* the first scale's arrows start from evenly distributed points [from
                       clusters] */
+  const fg_icons *first; /* icons of the first scale, as many as its number, that were
+                            placed before on this field or one that differs little from
+                            it; they must outlive the run [placed] */
   double max_time; /* ends the run at this t; the state there is the last scale [none] */
   int64_t max_steps; /* the same at a number of steps [none] */
 } fg_run_options;

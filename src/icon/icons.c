@@ -76,6 +76,24 @@ fg_status fg__icons_add(fg_icons *icons, fg_context *context, const fg_icon *ico
   return FG_STATUS_OK;
 }
 
+fg_status fg__icons_copy(fg_icons **out, fg_context *context, const fg_icons *icons)
+{
+  fg_status status = fg__icons_create_empty(out, context);
+  for (size_t n = 0; n < icons->count && !status; ++n)
+    status = fg__icons_add(*out, context, &icons->entries[n]->icon);
+  if (!status)
+    status = fg__icons_set_projection(*out, context, icons->projection);
+  if (status) {
+    fg_icons_destroy(*out);
+    *out = NULL;
+    return status;
+  }
+  (*out)->clusters = icons->clusters;
+  (*out)->dropped = icons->dropped;
+  (*out)->next_id = icons->next_id;
+  return FG_STATUS_OK;
+}
+
 fg_status fg__icons_set_projection(fg_icons *icons, fg_context *context,
                                    const char *projection)
 {

@@ -228,21 +228,31 @@ static fg_status add_again(fg_placement *placement, bool *added, const fg_icon *
   return status;
 }
 
+fg_status fg__placement_resume(fg_placement *placement, const fg_icons *icons,
+                               int *missing)
+{
+  *missing = 0;
+  fg_status status = begin(placement, fg_icons_count(icons));
+  for (int n = 0; n < fg_icons_count(icons) && status == FG_STATUS_OK; ++n) {
+    bool added;
+    status = add_again(placement, &added, fg_icons_at(icons, n));
+    *missing += !added;
+  }
+  placement->search.next_identity = fg__icons_next_id(icons) - 1;
+  return status;
+}
+
 fg_status fg_placement_resume(fg_placement *placement, const fg_icons *icons)
 {
   if (!placement || !icons || fg_icons_count(icons) < 1)
     return fg__fail(placement ? placement->context : NULL, FG_STATUS_ARGUMENT,
                     "placement: no icons to go on from");
-  fg_status status = begin(placement, fg_icons_count(icons));
-  for (int n = 0; n < fg_icons_count(icons) && status == FG_STATUS_OK; ++n) {
-    bool added;
-    status = add_again(placement, &added, fg_icons_at(icons, n));
-    if (status == FG_STATUS_OK && !added)
-      status = fg__fail(placement->context, FG_STATUS_ARGUMENT,
-                        "placement: icon %d of %d was not placed on this field", n,
-                        fg_icons_count(icons));
-  }
-  placement->search.next_identity = fg__icons_next_id(icons) - 1;
+  int missing;
+  fg_status status = fg__placement_resume(placement, icons, &missing);
+  if (status == FG_STATUS_OK && missing > 0)
+    status = fg__fail(placement->context, FG_STATUS_ARGUMENT,
+                      "placement: %d of %d icons were not placed on this field", missing,
+                      fg_icons_count(icons));
   if (status != FG_STATUS_OK && placement->begun) {
     fg__place_search_clear(&placement->search);
     placement->begun = false;
@@ -455,46 +465,4 @@ fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons 
     number_icons(search);
   fg__place_snapshot_clear(&finer);
   return status;
-}
-
-/* Square of the distance from a point to a line, lambda. */
-static double distance_to(const fg__place_search *search, const fg__place_line *line,
-                          const double point[3])
-{
-  double least = HUGE_VAL;
-  for (int n = 0; n < line->count; ++n) {
-    double square = 0.0;
-    for (int k = 0; k < search->scale.dimension; ++k) {
-      double way = (point[k] - search->domain->low[k]) / search->scale.lambda -
-                   (double)line->position[k][n];
-      square += way * way;
-    }
-    least = fmin(least, square);
-  }
-  return least;
-}
-
-static int parent_of(const fg__place_search *search, const fg_icon *icon)
-{
-  double least = HUGE_VAL;
-  int parent = 0;
-  for (int n = 0; n < search->count; ++n) {
-    const fg__place_icon *placed = search->icon[n];
-    if (placed->identity + 1 == icon->id)
-      return icon->id;
-    double square = distance_to(search, &placed->line, icon->seed);
-    if (square < least) {
-      least = square;
-      parent = placed->identity + 1;
-    }
-  }
-  return parent;
-}
-
-void fg_placement_find_parents(const fg_placement *placement, fg_icons *finer)
-{
-  for (int n = 0; n < fg_icons_count(finer); ++n) {
-    fg_icon *icon = fg__icons_change(finer, n);
-    icon->parent = parent_of(&placement->search, icon);
-  }
 }

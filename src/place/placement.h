@@ -14,6 +14,11 @@ const fg_field *fg__placement_field(const fg_placement *placement);
  * MEMORY, STOPPED. */
 fg_status fg__placement_begin_again(fg_placement *placement, int count);
 
+/* As fg_placement_resume, without those icons whose lines find no room on this field;
+ * *missing is how many. MEMORY, STOPPED. */
+fg_status fg__placement_resume(fg_placement *placement, const fg_icons *icons,
+                               int *missing);
+
 /* Its icons, borrowed. */
 const fg__place_search *fg__placement_search(const fg_placement *placement);
 

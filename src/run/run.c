@@ -5,6 +5,7 @@
 
 #include "base/context.h"
 #include "base/memory.h"
+#include "icon/icons.h"
 #include "place/placement.h"
 
 static fg_status check(fg_context *context, const fg_run_options *o)
@@ -25,6 +26,12 @@ static fg_status check(fg_context *context, const fg_run_options *o)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "%d arrows are too many to be placed: %d can be", o->numbers[0],
                     FG__MOST_ARROWS);
+  if (o->first && (o->kind != FG_RUN_ARROWS || o->count < 1 ||
+                   fg_icons_count(o->first) != o->numbers[0]))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "scales: %d icons are given for the first, of %d arrows",
+                    fg_icons_count(o->first),
+                    o->kind == FG_RUN_ARROWS && o->count > 0 ? o->numbers[0] : 0);
   if (!(o->max_time >= 0.0) || o->max_steps < 0)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "scales: limits of t = %g, %" PRId64 " steps", o->max_time,
@@ -50,6 +57,7 @@ fg_status fg_run_create(fg_run **out, fg_context *context, const fg_field *field
                 .max_time = o.max_time,
                 .max_steps = o.max_steps,
                 .even_start = o.even_start,
+                .first_icons = o.first,
                 .how = o.placement};
   fg_evolution_options evolution = o.evolution;
   if (o.kind == FG_RUN_CLUSTERS)
@@ -203,14 +211,33 @@ fg_status fg_run_place(fg_icons **out, fg_context *context, fg_placement *placem
   return status;
 }
 
+/* The first scale's icons, where they are given. A field that differs a little from that
+ * on which they were placed may have no room for the one or other. */
+static fg_status take_first(fg_run *s)
+{
+  const int count = fg_icons_count(s->first_icons);
+  int missing;
+  fg_status status = fg__placement_resume(s->placement, s->first_icons, &missing);
+  if (!status && missing > count / 2)
+    status = fg__fail(s->context, FG_STATUS_ARGUMENT,
+                      "scales: %d of the first's %d icons were not placed on this field",
+                      missing, count);
+  if (!status)
+    status = fg__icons_copy(&s->icons, s->context, s->first_icons);
+  return status ? status : fg_placement_find_clusters(s->context, s->icons, s->density);
+}
+
 static fg_status place(fg_run *s, int count)
 {
   fg_status status = FG_STATUS_OK;
   if (!s->placement)
     status = fg_placement_create(&s->placement, s->context, s->field, &s->how);
-  return status ? status
-                : fg_run_place(&s->icons, s->context, s->placement, count, s->density,
-                               s->even_start, s->finer);
+  if (status)
+    return status;
+  if (s->first_icons && s->scale.index == 0)
+    return take_first(s);
+  return fg_run_place(&s->icons, s->context, s->placement, count, s->density,
+                      s->even_start, s->finer);
 }
 
 /* Of the present state; of a distributed density rank 0 places what it has gathered. */

@@ -19,6 +19,7 @@ struct fg_run {
   int64_t max_steps;
   fg_run_outcome outcome;
   bool even_start;
+  const fg_icons *first_icons; /* NULL: they are placed */
   fg_placement_options how;
 
   /* of fg_run_next */

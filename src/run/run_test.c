@@ -1,5 +1,6 @@
 /* A run of scales: what it gives is what its parts give, and it always ends. */
 #include "run/run_test.h"
+#include "icon/icons.h"
 
 /* Clusters: each scale is the first state at or below its number, with the icons of its
  * density. */
@@ -45,6 +46,54 @@ static void clusters_are_those_of_the_evolution(void **state)
   assert_int_equal(fg_run_ended(run), FG_RUN_ALL);
   fg_evolution_destroy(evolution);
   fg_run_destroy(run);
+  fg_field_destroy(field);
+}
+
+/* Icons of the first scale that are given are it, and the others follow from them. */
+static void the_first_scale_may_be_given(void **state)
+{
+  static const int numbers[] = {30, 21, 11};
+  fg_context *context = *state;
+  fg_field *field = field_of(context, "vortex3");
+  fg_run_options options = {
+      .numbers = numbers, .count = 3, .placement = {.effort = FG_EFFORT_QUICK}};
+  fg_run *run = run_of(context, field, &options);
+  const fg_run_scale *scale, *again;
+  assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+  fg_icons *first = NULL;
+  assert_int_equal(fg__icons_copy(&first, context, scale->icons), FG_STATUS_OK);
+  options.first = first;
+  options.evolution.seed = 8;
+  fg_run *later = run_of(context, field, &options);
+  assert_int_equal(fg_run_next(&again, later), FG_STATUS_OK);
+  for (int k = 0; k < 3; ++k) {
+    assert_int_equal(fg_icons_count(again->icons), numbers[k]);
+    for (int n = 0; n < numbers[k]; ++n) {
+      const fg_icon *a = fg_icons_at(scale->icons, n), *b = fg_icons_at(again->icons, n);
+      assert_int_equal(a->id, b->id);
+      assert_int_equal(a->point_count, b->point_count);
+      assert_memory_equal(a->points, b->points,
+                          (size_t)a->point_count * sizeof *a->points);
+      assert_in_range(b->cluster, 1, fg_density_contents(again->density)->clusters);
+    }
+    for (int n = 0; k > 0 && n < numbers[k - 1]; ++n)
+      assert_int_equal(fg_icons_at(scale->finer, n)->parent,
+                       fg_icons_at(again->finer, n)->parent);
+    assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+    assert_int_equal(fg_run_next(&again, later), FG_STATUS_OK);
+  }
+  assert_null(again);
+  fg_run_destroy(run);
+  fg_run_destroy(later);
+
+  for (int n = 0; n < 16; ++n) /* more than half are none that were placed */
+    fg__icons_change(first, n)->id = 0;
+  run = run_of(context, field, &options);
+  assert_int_equal(fg_run_next(&again, run), FG_STATUS_ARGUMENT);
+  fg_run_destroy(run);
+  options.numbers = &numbers[1];
+  assert_int_equal(fg_run_create(&run, context, field, &options), FG_STATUS_ARGUMENT);
+  fg_icons_destroy(first);
   fg_field_destroy(field);
 }
 
@@ -140,6 +189,8 @@ int main(void)
       cmocka_unit_test_setup_teardown(clusters_are_those_of_the_evolution, context_set_up,
                                       context_tear_down),
       cmocka_unit_test_setup_teardown(arrows_are_as_many_as_are_wanted, context_set_up,
+                                      context_tear_down),
+      cmocka_unit_test_setup_teardown(the_first_scale_may_be_given, context_set_up,
                                       context_tear_down),
       cmocka_unit_test_setup_teardown(a_run_that_falls_short_shows_what_it_has,
                                       context_set_up, context_tear_down),
