@@ -45,7 +45,8 @@ static fg_status read_scale(page_scales *scales, fg_context *context, const cli_
   fg_status status = icons && density ? FG_STATUS_OK : FG_STATUS_MEMORY;
   if (!status)
     status = fg_icons_read(&scales->icons[index], context, icons);
-  if (!status && access(density, F_OK) == 0) /* a scale may have no clusters */
+  if (!status && scales_are_solid(drawing_field(run->drawing)) &&
+      access(density, F_OK) == 0) /* a scale may have no clusters */
     status = fg_density_read(&scales->density[index], context, density,
                              drawing_field(run->drawing));
   scales->scale[index] = (fg_view_scale){scales->icons[index], scales->density[index]};
@@ -62,6 +63,19 @@ static void clear_scales(page_scales *scales)
   }
 }
 
+/* In 2D the page has the first scale alone, and none of clusters or of more arrows than
+ * it shows. */
+static int count_scales(const cli_run *run)
+{
+  const int count = drawing_count(run->drawing);
+  if (scales_are_solid(drawing_field(run->drawing)))
+    return count;
+  const int *wanted;
+  int next;
+  fg_run_wanted(&wanted, &next, run->scales);
+  return count > 0 && settings_place(run->settings) && wanted[0] <= MOST_MOST;
+}
+
 static fg_status write_page(fg_context *context, const char *path, const cli_run *run)
 {
   const run_settings *settings = run->settings;
@@ -69,18 +83,17 @@ static fg_status write_page(fg_context *context, const char *path, const cli_run
   const common_look *look = drawing_look(run->drawing);
   const int *wanted;
   int next, count = fg_run_wanted(&wanted, &next, run->scales);
-  page_scales scales = {.count = 0};
+  page_scales scales = {.count = count_scales(run)};
   fg_view_options options = {.palette = settings->picture.palette,
                              .speed_min = look->speeds[0],
                              .speed_max = look->speeds[1],
-                             .title = settings->picture.title};
+                             .title = settings->picture.title,
+                             .scales = scales.scale,
+                             .scale_count = scales.count};
   fg_status status = FG_STATUS_OK;
+  for (int k = 0; k < scales.count && !status; ++k)
+    status = read_scale(&scales, context, run, k);
   if (scales_are_solid(field)) {
-    scales.count = drawing_count(run->drawing);
-    for (int k = 0; k < scales.count && !status; ++k)
-      status = read_scale(&scales, context, run, k);
-    options.scales = scales.scale;
-    options.scale_count = scales.count;
     options.azimuth = look->view[0];
     options.elevation = look->view[1];
   } else {

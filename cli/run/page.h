@@ -4,8 +4,8 @@
 
 #include "run/run.h"
 
-/* Writes index.html, where the run has one: once all scales are drawn, whose files the
- * page of a run in 3D holds. Of rank 0. Returns an exit code. */
+/* Writes index.html, where the run has one, from the files of scales: once all are drawn.
+ * Of rank 0. Returns an exit code. */
 int page_write(cli_run *run);
 
 #endif

@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* A scale of a run in 3D, borrowed. Icons that are placed keep their `id` from scale to
- * scale; others go into that of the cluster where their middle lies, else the nearest. */
+/* A scale of a run, borrowed. Icons that are placed keep their `id` from scale to scale;
+ * others go into that of the cluster where their middle lies, else the nearest. */
 typedef struct fg_view_scale {
   const fg_icons *icons;
   const fg_density *density; /* of the clusters that are shown; NULL: none */
@@ -29,19 +29,21 @@ typedef struct fg_view_options {
   double speed_min;  /* ends of the colour key; both 0: [found from the field] */
   double speed_max;  /* */
   const char *title; /* NULL: what the field says of itself */
-  /* In 3D: */
-  const fg_view_scale *scales; /* finest first, at least one */
+  const fg_view_scale *scales; /* of a run, finest first: in 3D at least one; in 2D the
+                                  page opens with the first's arrows, where they are
+                                  placed [made by the page] */
   int scale_count;
-  double azimuth, elevation; /* where the viewer stands first, as in fg_solid_options */
+  double azimuth, elevation; /* in 3D: where the viewer stands first, as in
+                                fg_solid_options */
 } fg_view_options;
 
 /* Writes a page of HTML that holds a field and all else that it needs; it is opened from
  * disk and loads nothing. Velocities are rounded to 11 bits. In 2D it has the library for
- * WebAssembly, and of more than 300,000 samples means of neighbours. In 3D it has the
- * scales' icons, the surfaces of their clusters, simplified, and the velocity on an even
- * raster of at most 48^3 nodes. `options` may be NULL in 2D. UNSUPPORTED (a build
- * without FLOWGRAIN_VIEWER), ARGUMENT (a part of a field, numbers, 3D without scales),
- * FILE_ACCESS, MEMORY. */
+ * WebAssembly, of more than 300,000 samples means of neighbours, and the arrows that it
+ * opens with. In 3D it has the scales' icons, the surfaces of their clusters, simplified,
+ * and the velocity on an even raster of at most 48^3 nodes. `options` may be NULL in 2D.
+ * UNSUPPORTED (a build without FLOWGRAIN_VIEWER), ARGUMENT (a part of a field, numbers,
+ * 3D without scales), FILE_ACCESS, MEMORY. */
 FG_API fg_status fg_view_write(fg_context *context, const char *path,
                                const fg_field *field, const fg_view_options *options);
 

@@ -23,6 +23,7 @@ expect_json one/run.json '.page == "index.html"'
 field one/index.html >page.json
 expect_json page.json '.most == 60 and .fewest == 9 and .seed == 3 and .map == null'
 expect_json page.json '.width == 257 and .height == 257 and (.palette | length) == 17'
+expect_json page.json '.arrows | keys == ["high", "low", "rows", "x", "y"]'
 jq -e --slurpfile run one/run.json '.speeds[1] - $run[0].speed_range[1] | fabs < 1e-6' page.json >/dev/null ||
   fault "other ends of the colour key: $(jq -c .speeds page.json)"
 [ "$(wc -c <one/index.html)" -lt 1500000 ] || fault "$(wc -c <one/index.html) bytes"
@@ -33,7 +34,7 @@ try run synth:saddle -o clusters --clusters 20,9 --anisotropy 0.3 --formats svg 
 expect_code 0
 expect_json clusters/run.json '.page == "index.html"'
 field clusters/index.html >page.json
-expect_json page.json '.kind == "clusters" and .anisotropy == 0.3 and .coverage == 0.3'
+expect_json page.json '.kind == "clusters" and .anisotropy == 0.3 and .coverage == 0.3 and .arrows == null'
 try run synth:saddle -o energy --clusters 9 --energy isotropic --formats svg --quiet
 expect_code 0
 [ ! -e energy/index.html ] || fault "a page of another energy"

@@ -2,6 +2,8 @@
  * results lie in tables of numbers that JavaScript copies (viewer/src/core.js). */
 #include <flowgrain/flowgrain.h>
 
+#include "icon/icons.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,9 +23,23 @@ enum {
   HEAD_WIDTH,
   CENTER_X,
   CENTER_Y,
+  SEED_X,
+  SEED_Y,
+  WAY_BACK,
+  WAY_ON,
   POINTS,   /* how many, in the table of points from where the row before ends */
   VERTICES, /* likewise */
   COLUMNS
+};
+
+/* What a row holds of an arrow that is given; src/options.js has the same list. */
+enum {
+  GIVEN_ID,
+  GIVEN_SPEED,
+  GIVEN_CENTER,
+  GIVEN_SEED = GIVEN_CENTER + 2,
+  GIVEN_WAY = GIVEN_SEED + 2,
+  GIVEN_COLUMNS = GIVEN_WAY + 2
 };
 
 typedef struct shim_scales {
@@ -32,6 +48,7 @@ typedef struct shim_scales {
   fg_run *run;             /* NULL: arrows are placed without an evolution */
   fg_placement *placement; /* then */
   fg_icons *finer;
+  fg_icons *first; /* of the first scale, where they are given; else NULL */
   int numbers[FG_MOST_SCALES], count, next;
   fg_density *regions;       /* what placed arrows stand for, when asked for */
   const fg_density *density; /* of the present scale, or NULL */
@@ -81,6 +98,7 @@ void SHIM(scales_close)(shim_scales *s)
   fg_icons_destroy(s->finer);
   fg_placement_destroy(s->placement);
   fg_run_destroy(s->run);
+  fg_icons_destroy(s->first);
   fg_field_destroy(s->field);
   fg_context_destroy(s->context);
   free(s);
@@ -96,6 +114,37 @@ shim_scales *SHIM(scales_create)(void)
     s = NULL;
   }
   return s;
+}
+
+static fg_icon given_icon(const double *row, double seed[2][3])
+{
+  fg_icon icon = {.id = (int)row[GIVEN_ID],
+                  .speed = row[GIVEN_SPEED],
+                  .point_count = 2,
+                  .points = (const double(*)[3])seed};
+  for (int k = 0; k < 2; ++k) {
+    icon.center[k] = row[GIVEN_CENTER + k];
+    icon.way[k] = row[GIVEN_WAY + k];
+    seed[0][k] = seed[1][k] = icon.seed[k] = row[GIVEN_SEED + k];
+  }
+  return icon;
+}
+
+/* Gives the arrows of the first scale before scales_open, a row for each. Their lines are
+ * not needed, and the first scale has none. Returns a status. */
+int SHIM(scales_give_first)(shim_scales *s, const double *rows, int count)
+{
+  fg_status status = fg__icons_create_empty(&s->first, s->context);
+  int last = 0;
+  for (int n = 0; n < count && !status; ++n) {
+    double seed[2][3] = {{0.0}};
+    const fg_icon icon = given_icon(rows + (size_t)n * GIVEN_COLUMNS, seed);
+    status = fg__icons_add(s->first, s->context, &icon);
+    last = icon.id > last ? icon.id : last;
+  }
+  if (!status)
+    fg__icons_set_next_id(s->first, last + 1);
+  return (int)status;
 }
 
 static fg_status make_field(shim_scales *s, const shim_input *in)
@@ -116,7 +165,7 @@ static fg_status begin(shim_scales *s, const shim_options *o)
   const fg_placement_options placement = {.lengths =
                                               o->fair ? FG_LENGTHS_FAIR : FG_LENGTHS_FREE,
                                           .effort = (fg_effort)o->effort};
-  if (o->even && !o->clusters && s->count)
+  if (o->even && !o->clusters && s->count && !s->first)
     return fg_placement_create(&s->placement, s->context, s->field, &placement);
   return fg_run_create(
       &s->run, s->context, s->field,
@@ -124,6 +173,7 @@ static fg_status begin(shim_scales *s, const shim_options *o)
                         .numbers = s->numbers,
                         .count = s->count,
                         .even_start = o->even,
+                        .first = s->first,
                         .placement = placement,
                         .evolution = {.nodes = o->nodes,
                                       .seed = (uint64_t)o->seed,
@@ -165,6 +215,10 @@ static void fill_row(double *row, const fg_icon *icon)
   row[HEAD_WIDTH] = icon->head_width;
   row[CENTER_X] = icon->center[0];
   row[CENTER_Y] = icon->center[1];
+  row[SEED_X] = icon->seed[0];
+  row[SEED_Y] = icon->seed[1];
+  row[WAY_BACK] = icon->way[0];
+  row[WAY_ON] = icon->way[1];
   row[POINTS] = icon->point_count;
 }
 
@@ -173,6 +227,8 @@ static fg_status add_outline(shim_scales *s, int row, const fg_icon *icon, size_
   double(*polygon)[2] = NULL;
   int count = 0;
   fg_status status = fg_icon_outline(icon, &polygon, &count);
+  if (status == FG_STATUS_ARGUMENT) /* it was given, without a line */
+    return FG_STATUS_OK;
   if (status)
     return status;
   void *grown = realloc(s->vertices, (*used + (size_t)count + 1) * sizeof *s->vertices);

@@ -1,4 +1,5 @@
 // The page of a run.
+import { readArrows } from "./arrows.js";
 import { readAddress, writeAddress } from "./address.js";
 import { captionText, numberIn, placeBeside, Player, save } from "./common.js";
 import { byId, connectLayers, connectSlider, connectZoom, doing, fit, introduce, layerNames, restoreLayers, Theme } from "./controls.js";
@@ -26,14 +27,16 @@ const { speedWords, directionWords, placeWords } = tellerOf(run, field);
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 const theme = new Theme(run, {}, () => update(), () => redraw());
 
+const ownChoice = { kind: run.kind, seed: run.seed, anisotropy: run.anisotropy, coverage: run.coverage };
+
 const state = {
   at: 0, // on the slider: index of a scale, with a part between two
   exactly: 0, // arrows, where a number was chosen that no scale has; else 0
-  choice: { kind: run.kind, seed: run.seed, anisotropy: run.anisotropy, coverage: run.coverage },
+  choice: ownChoice,
   show: { arrows: true, tint: false, particles: false, texture: false, hedgehog: false, coast: true, degrees: true },
 };
 
-let maker; // undefined until the core is compiled
+let maker; // before the core is compiled it has the run's own arrows alone
 let single; // {scale, key}: made at once, for the view or the number at hand
 let fading; // {layers, since}: what was shown until a moment ago
 let hovered; // {arrow, at} in the picture
@@ -56,8 +59,10 @@ function shown() {
     const [finer, coarser] = [set.scales[low], set.scales[Math.ceil(state.at)]];
     if (finer && coarser) return { arrows: morph(finer, coarser, state.at - low), finer, coarser, share: state.at - low, key: "scales" };
   }
-  if (single?.scale && single.key === keyNow()) return { arrows: single.scale.arrows, finer: single.scale, share: 0, key: single.key };
-  return undefined;
+  const key = keyNow();
+  if (single?.scale && single.key === key) return { arrows: single.scale.arrows, finer: single.scale, share: 0, key };
+  const own = maker?.ownOf(view.part, state.choice, numberNow());
+  return own && { arrows: own, finer: { arrows: own }, share: 0, key, waits: true }; // for their clusters
 }
 
 let last; // what was shown last: stays until there is something new
@@ -116,7 +121,7 @@ function draw() {
 // Again only where it is another.
 function drawGround(ratio) {
   const key = [...view.size, ...view.center, view.zoom, ratio, theme.isDark, JSON.stringify(state.show),
-    state.show.tint && [last?.finer.count, last?.key, last?.share]].join();
+    state.show.tint && [last?.finer.arrows.length, last?.key, last?.share, Boolean(last?.finer.density)]].join();
   if (ground.dataset.key === key) return;
   ground.dataset.key = key;
   drawOnCanvas(under, groundLayers(), view, ratio, field.border, theme.colors.page);
@@ -171,11 +176,12 @@ function want(delay = 120) {
 }
 
 async function make() {
-  if (!maker) return;
+  if (!maker.ready) return;
   const set = setNow();
   if (!view.part) maker.run(set);
   else if (maker.running !== set) maker.running = undefined;
-  if (shown()) return update();
+  const now = shown();
+  if (now && !now.waits) return update();
   if (!view.part && set.begun && !set.scales.length && numberNow() === numbers[0]) return; // on its way
   const key = keyNow();
   if (single?.key === key) return;
@@ -189,9 +195,9 @@ async function make() {
   update();
 }
 
-/** Where the slider is, for a number of arrows; beside the scales' own: exactly so many. */
+/** Where the slider is, for a number of arrows; beside the scales' own: exactly so many. Fewer arrows of a run are no scale. */
 function choose(n) {
-  const index = numbers.indexOf(n);
+  const index = n === maker.own?.arrows.length && n < numbers[0] ? -1 : numbers.indexOf(n);
   state.exactly = index < 0 ? n : 0;
   const nearest = numbers.reduce((best, m, k) => (Math.abs(m - n) < Math.abs(numbers[best] - n) ? k : best), 0);
   state.at = index < 0 ? nearest : index;
@@ -255,7 +261,7 @@ function read(at, arrow) {
   box.style.whiteSpace = "pre-line";
   placeBeside(box, at, view.size);
   redraw();
-  return box.textContent;
+  return [box.firstChild.textContent, ...lines].join("; ");
 }
 
 function leave() {
@@ -333,7 +339,7 @@ function resize() {
 
 function restore() {
   const address = readAddress();
-  choose(Math.round(numberIn(address.n, 1, 400) ?? numbers[0]));
+  choose(Math.round(numberIn(address.n, 1, 400) ?? maker.own?.arrows.length ?? numbers[0]));
   state.choice = {
     kind: ["arrows", "clusters"].includes(address.kind) ? address.kind : run.kind,
     seed: Math.round(numberIn(address.seed, 1, 999999999) ?? run.seed),
@@ -401,13 +407,15 @@ async function compile() {
 }
 
 async function start() {
+  const arrows = run.arrows && await readArrows(run.arrows);
+  maker = new Maker(field, { numbers, lengths: run.lengths, told: update, own: arrows && { arrows, choice: { ...ownChoice } } });
   introduce(run);
   byId("subtitle").textContent = run.subtitle;
   restore();
   connect();
   theme.apply();
   const source = URL.createObjectURL(new Blob([JSON.parse(byId("worker").textContent)], { type: "text/javascript" }));
-  maker = new Maker(() => new Worker(source), await compile(), field, { numbers, lengths: run.lengths, told: update });
+  maker.start(() => new Worker(source), await compile());
   want(0);
 }
 

@@ -34,15 +34,31 @@ function follow(before, scale) {
 const KEPT = 4; // sets of scales that are remembered
 
 export class Maker {
-  /** @param {() => Worker} start @param {WebAssembly.Module} module */
-  constructor(start, module, field, { numbers, lengths, told }) {
+  /**
+   * @param {{numbers: number[], lengths: string, told: () => void, own?: {arrows: any[], choice: any}}} about
+   *   own: a run's arrows, and the choice that they are of
+   */
+  constructor(field, { numbers, lengths, told, own }) {
     this.field = field;
     this.numbers = numbers;
     this.lengths = lengths;
     this.told = told;
+    this.own = own;
     this.sets = new Map();
-    [this.runner, this.asked] = [0, 1].map(() => new Client(start(), module));
+    this.ready = false;
     this.turn = 0;
+  }
+
+  /** @param {() => Worker} worker @param {WebAssembly.Module} module */
+  start(worker, module) {
+    [this.runner, this.asked] = [0, 1].map(() => new Client(worker(), module));
+    this.ready = true;
+  }
+
+  /** The run's arrows, where they are n of a box and a choice. */
+  ownOf(box, choice, n) {
+    const { own } = this;
+    return !box && own?.arrows.length === n && JSON.stringify(choice) === JSON.stringify(own.choice) ? own.arrows : undefined;
   }
 
   input(box, choice) {
@@ -57,7 +73,8 @@ export class Maker {
     const key = JSON.stringify([box ?? null, choice]);
     let set = this.sets.get(key);
     if (!set) {
-      set = { box, choice: { ...choice }, scales: [], begun: false, done: false, error: undefined };
+      const own = this.ownOf(box, choice, this.numbers[0]);
+      set = { box, choice: { ...choice }, own, scales: own ? [{ arrows: own }] : [], begun: false, done: false, error: undefined };
       this.sets.set(key, set);
       for (const [old, { box: some }] of this.sets)
         if (this.sets.size > KEPT && some && old !== key) this.sets.delete(old);
@@ -68,16 +85,19 @@ export class Maker {
   /** Goes through the scales of a set; those of another are left. */
   async run(set) {
     this.running = set;
-    if (set.begun) return;
+    if (set.begun || !this.ready) return;
     set.begun = true;
+    const input = { ...this.input(set.box, set.choice), numbers: this.numbers, first: set.own };
+    let made = 0;
     try {
-      for await (const scale of this.runner.evolve({ ...this.input(set.box, set.choice), numbers: this.numbers })) {
-        if (set.choice.kind === "clusters") follow(set.scales.at(-1), scale);
-        set.scales.push(scale);
+      for await (const scale of this.runner.evolve(input)) {
+        if (set.choice.kind === "clusters") follow(set.scales[made - 1], scale);
+        if (set.own && !made) scale.arrows = set.own; // the same objects
+        set.scales[made++] = scale;
         this.told(set);
         if (this.running !== set && set.box) break;
       }
-      set.done = set.scales.length === this.numbers.length;
+      set.done = made === this.numbers.length;
       set.begun = set.done;
     } catch (error) {
       set.error = error;
@@ -90,8 +110,10 @@ export class Maker {
     const turn = ++this.turn;
     await this.last?.catch(() => {});
     if (turn !== this.turn) return undefined;
-    this.last = this.asked.arrows({ ...this.input(box, choice), n });
+    const first = this.ownOf(box, choice, n);
+    this.last = this.asked.arrows({ ...this.input(box, choice), n, first });
     const scale = await this.last;
+    if (first) scale.arrows = first;
     return turn === this.turn ? scale : undefined;
   }
 }

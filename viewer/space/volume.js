@@ -1,7 +1,7 @@
 // A run in 3D as the page holds it. All places are in the view box: the middle of the field's
 // box is 0, its longest side 1.
 import { halfTable } from "../page/field.js";
-import { unpack, unpackAxes } from "./unpack.js";
+import { unpack, unpackAxes } from "../page/unpack.js";
 
 const PLACE_STEPS = 65535;
 const SPEED_STEPS = 4095;

@@ -1,7 +1,7 @@
 // The WebAssembly core and what of its memory JavaScript reads and writes.
 
 // columns of the table of arrows, as core/shim.c fills it
-const COLUMNS = 14;
+const COLUMNS = 18;
 const KINDS = ["arrow", "ring", "spiral"];
 const FACTS = 14;
 const STATUS_MEMORY = 1;
@@ -92,6 +92,7 @@ export class Core {
       const { calls } = this;
       const addresses = [plan.x, plan.y, plan.u, plan.v, plan.valid].map(pass);
       const numbers = pass(Int32Array.from(plan.numbers));
+      if (plan.first) this.check(scales, calls.scales_give_first(scales, pass(plan.first), plan.numbers[0]));
       const has = pass(new Int32Array(1));
       const facts = pass(new Float64Array(16));
       this.check(scales, calls.scales_open(scales, plan.width, plan.height, ...addresses,
@@ -151,13 +152,13 @@ export class Core {
     let vertices = calls.scales_vertices(scales);
     return Array.from({ length: count }, (_, n) => {
       const [kind, cluster, id, parent, area, speed, width, tailWidth, headLength, headWidth, x, y,
-        pointCount, vertexCount] = rows.subarray(n * COLUMNS, (n + 1) * COLUMNS);
+        seedX, seedY, back, on, pointCount, vertexCount] = rows.subarray(n * COLUMNS, (n + 1) * COLUMNS);
       const path = this.copy(Float64Array, points, 2 * pointCount);
       const outline = this.copy(Float64Array, vertices, 2 * vertexCount);
       points += path.byteLength;
       vertices += outline.byteLength;
       return { path, outline, kind: KINDS[kind], cluster, id, parent, area, speed, width, tailWidth,
-        headLength, headWidth, center: [x, y] };
+        headLength, headWidth, center: [x, y], seed: [seedX, seedY], way: [back, on] };
     });
   }
 }

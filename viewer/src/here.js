@@ -44,6 +44,7 @@ export async function* evolve(input) {
   let before;
   for (const scale of core.scales(plan)) {
     if (before) setParents(before, scale);
+    else if (plan.first) scale.arrows = input.first.map((arrow, n) => ({ ...arrow, cluster: scale.arrows[n].cluster }));
     before = scale;
     yield scale;
   }

@@ -34,6 +34,11 @@ export interface Options extends Field {
   coverage?: number;
   /** With start "even": whether `density` shall be that of the parts that arrows stand for. */
   regions?: boolean;
+  /**
+   * The first scale's arrows, as many as there are to be, that were placed before on this field or one that differs
+   * little: the scales go on from them.
+   */
+  first?: Arrow[];
   /** false: in this thread. */
   worker?: boolean;
 }
@@ -59,6 +64,9 @@ export interface Arrow {
   headLength: number;
   headWidth: number;
   center: [number, number];
+  /** Of placed arrows: a point of its line, and how far that may go against the flow and along it. */
+  seed: [number, number];
+  way: [number, number];
 }
 
 /** The clusters, or the parts that arrows stand for, at the nodes of an even raster. */

@@ -10,7 +10,7 @@
  * @property {number[]} numbers @property {boolean} clusters @property {boolean} even
  * @property {number} effort @property {boolean} fair @property {number} nodes
  * @property {number} seed @property {number} anisotropy @property {number} coverage
- * @property {boolean} regions
+ * @property {boolean} regions @property {Float64Array | undefined} first
  */
 
 const MOST_SCALES = 64;
@@ -53,6 +53,16 @@ function axis(name, value, count) {
   return Float64Array.from(value);
 }
 
+// Arrows that the first scale has: a row for each, as core/shim.c reads it.
+function given(arrows, { kind }, numbers) {
+  if (arrows === undefined) return undefined;
+  if (kind === "clusters" || arrows.length !== numbers[0])
+    throw new RangeError(`first has ${arrows.length} arrows; as many are needed as the first scale has placed ones`);
+  const rows = Array.from(arrows, ({ id, speed, center, seed, way }) => [id, speed, ...center, ...seed, ...way]).flat();
+  if (!rows.every(Number.isFinite)) throw new RangeError("first has arrows that were not placed");
+  return Float64Array.from(rows);
+}
+
 /**
  * @param {any} input what callers give: index.d.ts
  * @param {number[]} numbers of the scales, none: the library's own
@@ -90,5 +100,6 @@ export function makePlan(input, numbers) {
     anisotropy: share("anisotropy", input.anisotropy),
     coverage: share("coverage", input.coverage),
     regions: Boolean(input.regions),
+    first: given(input.first, input, numbers),
   };
 }

@@ -71,6 +71,25 @@ test("clusters become fewer, and each has an arrow in itself", async () => {
   assert.equal(scales, numbers.length);
 });
 
+test("scales go on from arrows that are given, as from their own", async () => {
+  const field = { ...vortices(65), effort: "quick" };
+  const [own, later] = [[], []];
+  for await (const scale of evolve({ ...field, numbers: [24, 20, 9] })) own.push(scale);
+  const { arrows: first } = own[0];
+  for await (const scale of evolve({ ...field, numbers: [24, 20, 9], first, seed: 5, start: "even" })) later.push(scale);
+  assert.deepEqual(later[0].arrows.map(({ cluster, ...rest }) => rest), first.map(({ cluster, ...rest }) => rest));
+  assert.deepEqual(later[0].speedRange, own[0].speedRange);
+  for (const k of [1, 2]) {
+    assert.deepEqual(later[k].arrows.map((a) => [a.id, a.path]), own[k].arrows.map((a) => [a.id, a.path]));
+    assert.deepEqual(later[k].parents, own[k].parents);
+  }
+  assert.deepEqual((await arrows({ ...field, n: 24, first })).arrows.map((a) => a.id), first.map((a) => a.id));
+  await assert.rejects(arrows({ ...field, n: 23, first }), /first has 24 arrows/);
+  await assert.rejects(arrows({ ...field, kind: "clusters", n: 24, first }), RangeError);
+  await assert.rejects(arrows({ ...field, n: 24, first: first.map((a) => ({ ...a, id: 0 })) }), FlowgrainError);
+  await assert.rejects(arrows({ ...field, n: 24, first: first.map((a) => ({ ...a, id: NaN })) }), RangeError);
+});
+
 test("a mask and missing values are the same", async () => {
   const { u, v, ...rest } = holed();
   const mask = Array.from(u, Number.isNaN);

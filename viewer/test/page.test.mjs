@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
 import { address, Opened, skip } from "./opened.mjs";
@@ -14,6 +15,7 @@ before(async () => {
   if (skip) return;
   await opened.start();
   opened.run("vortex", "synth:vortex3", "--arrows", "30,8", "--nodes", "65", "--formats", "svg");
+  opened.run("many", "synth:vortex3", "--arrows", "70,8", "--nodes", "65", "--formats", "svg");
   opened.run("clusters", "synth:vortex3", "--clusters", "40,8", "--nodes", "65", "--formats", "svg");
   opened.run("map", winds, "--arrows", "12", "--nodes", "65", "--region", "-25,25,35,65", "--formats", "svg");
 });
@@ -42,6 +44,76 @@ async function savedArrows(page) {
     [...path.matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map(([, x, y]) => [Number(x), Number(y)]));
   return { text, shapes };
 }
+
+/** Before all of a page: what is said to a worker waits until release() is called there. */
+function holdWorkers() {
+  const Real = globalThis.Worker;
+  const released = new Promise((resolve) => (globalThis.release = resolve));
+  globalThis.Worker = class {
+    constructor(...given) {
+      this.real = new Real(...given);
+    }
+    addEventListener(...given) {
+      this.real.addEventListener(...given);
+    }
+    postMessage(message) {
+      released.then(() => this.real.postMessage(message));
+    }
+  };
+}
+
+/** Tails and tips of the arrows of a run's first scale, slow ones first, in a picture of the unit square. */
+function firstArrows(name, [width, height]) {
+  const { features } = JSON.parse(readFileSync(join(opened.folder, name, "scale-00.geojson"), "utf8"));
+  const scale = Math.min(width, height);
+  const place = ([x, y]) => [width / 2 + scale * (x - 0.5), height / 2 - scale * (y - 0.5)];
+  return features.sort((a, b) => a.properties.speed - b.properties.speed)
+    .map(({ geometry: { coordinates } }) => [place(coordinates[0]), place(coordinates.at(-1))]);
+}
+
+for (const [name, count] of [["many", 70], ["vortex", 30]])
+  test(`the ${count} arrows of the run are there before a worker has answered, and stay`, { skip }, async () => {
+    const { page, faults, close } = await open(name, "", { first: holdWorkers });
+    assert.equal((await data(page)).arrows, String(count));
+    assert.equal(await page.textContent("#count"), String(count));
+    const size = await page.locator("#picture").evaluate((c) => [c.clientWidth, c.clientHeight]);
+    const { shapes, text } = await savedArrows(page);
+    const expected = firstArrows(name, size);
+    assert.equal(shapes.length, count);
+    shapes.forEach((shape, n) => {
+      const [tail, tip] = expected[n];
+      for (const end of [tail, tip])
+        assert.ok(shape.some(([x, y]) => Math.hypot(x - end[0], y - end[1]) < 0.1), `arrow ${n} of ${count}`);
+    });
+    await page.focus("#picture");
+    await page.keyboard.press("n");
+    assert.match(await page.textContent("#status"), /^Arrow: [\d.]+, for [\d.]+ % of the field/);
+    await page.keyboard.press("Escape");
+    await page.evaluate(() => globalThis.release());
+    await page.waitForFunction(() => Number(document.getElementById("picture").dataset.scales) > Number(document.getElementById("scale").max));
+    assert.equal((await savedArrows(page)).text, text);
+    await page.check("[data-layer=tint]"); // of the clusters, which the worker knows
+    await page.waitForTimeout(300);
+    assert.match((await savedArrows(page)).text, /<image /);
+    assert.deepEqual(faults, []);
+    await close();
+  });
+
+test("the next scale, which a worker places, has most of the run's own arrows where they are", { skip }, async () => {
+  const { page, close } = await open("many");
+  await page.waitForFunction(() => Number(document.getElementById("picture").dataset.scales) > 1);
+  const ends = async () => (await savedArrows(page)).shapes.map((shape) => shape[0]);
+  const before = await ends();
+  await page.locator("#scale").evaluate((slider) => {
+    slider.value = "1";
+    slider.dispatchEvent(new Event("input"));
+  });
+  await page.waitForTimeout(300);
+  const after = await ends();
+  const stay = after.filter(([x, y]) => before.some((end) => Math.hypot(end[0] - x, end[1] - y) < 20));
+  assert.ok(after.length < 70 && stay.length > 0.8 * after.length, `${stay.length} of ${after.length}`);
+  await close();
+});
 
 test("scales follow one another, and the slider glides between them", { skip }, async () => {
   const { page, faults, close } = await open("vortex", "#n=30");

@@ -49,6 +49,17 @@ bool fg__view_lines(FILE *stream, const char *name, const fg__polygons *lines,
  * differences, zigzag, in planes of bytes, by deflate (RFC 1950). False: no memory. */
 bool fg__view_packed(FILE *stream, const int32_t *values, size_t count);
 
+/* A share of so many steps, 0 to 1, as the nearest one. */
+int32_t fg__view_step(double share, int steps);
+
+/* Writes "low":[...],"high":[...],"x":,"y":(,"z":) of all points of all icons' lines, one
+ * after the other, packed, places from 0 to 65535 between low and high. MEMORY. */
+fg_status fg__view_paths(FILE *stream, fg_context *context, const fg_icons *icons,
+                         int dimension);
+
+/* Writes "arrows":{"rows":, paths} of placed icons in 2D. MEMORY. */
+fg_status fg__view_arrows(FILE *stream, fg_context *context, const fg_icons *icons);
+
 /* Writes {"vertices":N,"corners":N,"x":,"y":,"z":,"triangles":} of a surface in a box,
  * packed, places from 0 to FG__VIEW_STEPS; null for NULL or no triangle.
  * Vertices in the same one of `cells` cells along the box's longest side become one

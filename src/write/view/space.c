@@ -19,7 +19,7 @@ enum { MOST_NODES = 48 * 48 * 48 };
  * page. */
 enum { CLUSTER_CELLS = 48, CLUSTER_SCALES = 4, OUTLINE_CELLS = 80 };
 
-enum { SPEED_STEPS = 4095, PLACE_STEPS = 65535 };
+enum { SPEED_STEPS = 4095 };
 
 typedef struct space_page {
   FILE *stream;
@@ -119,83 +119,44 @@ static fg_status write_samples(const space_page *page)
   return done ? FG_STATUS_OK : fail(page, 3 * count * sizeof *all);
 }
 
-/* Points of all icons' lines, and the speeds there. */
-typedef struct icon_lines {
-  int32_t *value[4]; /* x, y, z, speed */
-  size_t count;
-  double low[3], high[3], fastest;
-} icon_lines;
-
-static size_t measure(icon_lines *lines, const fg_icons *icons)
+/* Speeds at all points of the icons' lines. */
+static fg_status find_speeds(int32_t *step, const space_page *page, const fg_icons *icons,
+                             double fastest)
 {
-  size_t count = 0;
-  for (int k = 0; k < 3; ++k) {
-    lines->low[k] = HUGE_VAL;
-    lines->high[k] = -HUGE_VAL;
-  }
   for (int n = 0; n < fg_icons_count(icons); ++n) {
     const fg_icon *icon = fg_icons_at(icons, n);
-    count += (size_t)icon->point_count;
-    for (int i = 0; i < icon->point_count; ++i)
-      for (int k = 0; k < 3; ++k) {
-        lines->low[k] = fmin(lines->low[k], icon->points[i][k]);
-        lines->high[k] = fmax(lines->high[k], icon->points[i][k]);
-      }
+    double *speed;
+    fg_status status = fg__arrow_speeds(&speed, page->context, page->field, icon);
+    for (int i = 0; i < icon->point_count && !status; ++i)
+      *step++ = fg__view_step(speed[i] / fastest, SPEED_STEPS);
+    free(speed);
+    if (status)
+      return status;
   }
-  for (int k = 0; k < 3; ++k)
-    if (!(lines->high[k] > lines->low[k]))
-      lines->high[k] = lines->low[k] + 1.0;
-  return count;
+  return FG_STATUS_OK;
 }
 
-static int32_t step_of(double share, int steps)
+static fg_status write_speeds(const space_page *page, const fg_icons *icons)
 {
-  return (int32_t)floor(steps * fmin(fmax(share, 0.0), 1.0) + 0.5);
-}
-
-static fg_status add_line(icon_lines *lines, const space_page *page, const fg_icon *icon)
-{
-  double *speed;
-  fg_status status = fg__arrow_speeds(&speed, page->context, page->field, icon);
-  for (int i = 0; i < icon->point_count && !status; ++i, ++lines->count) {
-    for (int k = 0; k < 3; ++k)
-      lines->value[k][lines->count] =
-          step_of((icon->points[i][k] - lines->low[k]) / (lines->high[k] - lines->low[k]),
-                  PLACE_STEPS);
-    lines->value[3][lines->count] = step_of(speed[i] / lines->fastest, SPEED_STEPS);
-  }
-  free(speed);
+  const double fastest = sqrt(3.0) * fg__view_fastest(page->field);
+  size_t count = 0;
+  for (int n = 0; n < fg_icons_count(icons); ++n)
+    count += (size_t)fg_icons_at(icons, n)->point_count;
+  int32_t *steps = fg__allocate(count + 1, sizeof *steps);
+  fg_status status = steps ? find_speeds(steps, page, icons, fastest)
+                           : fail(page, count * sizeof *steps);
+  fprintf(page->stream, ",\"fastest\":%.9g,\"speeds\":", fastest);
+  if (!status && !fg__view_packed(page->stream, steps, count))
+    status = fail(page, count * sizeof *steps);
+  free(steps);
   return status;
-}
-
-static bool write_lines(const space_page *page, const icon_lines *lines)
-{
-  static const char *const names[] = {"x", "y", "z", "speeds"};
-  bool done = true;
-  put_triple(page->stream, "low", lines->low);
-  put_triple(page->stream, "high", lines->high);
-  fprintf(page->stream, ",\"fastest\":%.9g,\"points\":%zu", lines->fastest, lines->count);
-  for (int k = 0; k < 4 && done; ++k) {
-    fprintf(page->stream, ",\"%s\":", names[k]);
-    done = fg__view_packed(page->stream, lines->value[k], lines->count);
-  }
-  return done;
 }
 
 static fg_status write_paths(const space_page *page, const fg_icons *icons)
 {
-  icon_lines lines = {.fastest = sqrt(3.0) * fg__view_fastest(page->field)};
-  const size_t points = measure(&lines, icons);
-  int32_t *all = fg__allocate(4 * points, sizeof *all);
-  fg_status status = all ? FG_STATUS_OK : fail(page, 4 * points * sizeof *all);
-  for (int k = 0; k < 4 && all; ++k)
-    lines.value[k] = all + (size_t)k * points;
-  for (int n = 0; n < fg_icons_count(icons) && !status; ++n)
-    status = add_line(&lines, page, fg_icons_at(icons, n));
-  if (!status && !write_lines(page, &lines))
-    status = fail(page, 4 * points * sizeof *all);
-  free(all);
-  return status;
+  putc(',', page->stream);
+  fg_status status = fg__view_paths(page->stream, page->context, icons, 3);
+  return status ? status : write_speeds(page, icons);
 }
 
 /* The cluster at a place: the label of the nearest node; 0: none. */

@@ -97,6 +97,13 @@ static bool write_samples(FILE *stream, const fg__view_samples *s)
   return done;
 }
 
+/* Arrows of clusters are made anew by the page. */
+static bool has_arrows(const fg_view_options *o)
+{
+  return o->scale_count > 0 && fg_icons_count(o->scales[0].icons) > 0 &&
+         fg_icons_at(o->scales[0].icons, 0)->id > 0;
+}
+
 static fg_status write_flat(FILE *stream, fg_context *context, const fg_field *field,
                             const fg_view_options *o)
 {
@@ -114,6 +121,10 @@ static fg_status write_flat(FILE *stream, fg_context *context, const fg_field *f
           a->scale == FG_SCALE_GEO ? "degrees" : "plain", a->period[0], a->period[1]);
   status = fg__view_map(stream, context, field);
   putc(',', stream);
+  if (!status && has_arrows(o)) {
+    status = fg__view_arrows(stream, context, o->scales[0].icons);
+    putc(',', stream);
+  }
   if (!status && !write_samples(stream, &samples))
     status = fg__fail_memory(context, "a page's samples", 4);
   fg__view_samples_clear(&samples);
