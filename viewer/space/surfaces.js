@@ -7,27 +7,26 @@ const vertex = `
 layout(location = 0) in vec3 at;
 layout(location = 1) in vec3 outwards;
 uniform mat4 view;
+uniform vec3 eye;
+uniform vec2 opacity; // seen from the front and from the side
 out vec3 place;
-out vec3 normal;
+out float share;
 void main() {
   place = at;
-  normal = outwards;
+  float facing = abs(dot(normalize(eye - place), normalize(outwards)));
+  share = mix(opacity.y, opacity.x, pow(facing, 0.6));
   gl_Position = view * vec4(at, 1.0);
 }`;
 
 const fragment = `
 in vec3 place;
-in vec3 normal;
-uniform vec3 eye;
+in float share;
 uniform vec3 color;
-uniform vec2 opacity; // seen from the front and from the side
 out vec4 pixel;
 ${cutting}
 void main() {
   stay_inside(place);
-  float facing = abs(dot(normalize(eye - place), normalize(normal)));
-  float a = mix(opacity.y, opacity.x, pow(facing, 0.6));
-  pixel = vec4(color * a, a);
+  pixel = vec4(color * share, share);
 }`;
 
 export class Surfaces {
@@ -67,8 +66,8 @@ export class Surfaces {
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthMask(false);
-    gl.enable(gl.CULL_FACE);
-    for (const side of [gl.FRONT, gl.BACK]) { // what is behind first
+    if (!scene.isCoarse) gl.enable(gl.CULL_FACE);
+    for (const side of scene.isCoarse ? [gl.FRONT] : [gl.FRONT, gl.BACK]) { // what is behind first, unless there is no time
       gl.cullFace(side);
       layers.forEach(({ color, opacity }, k) => {
         gl.uniform3fv(at("color"), color);
