@@ -1,16 +1,17 @@
 // How many frames a second a page shows while its slider is dragged, in headless Chromium: from when it is
 // opened, and again.
-//     node viewer/frames.mjs RUN/index.html [WIDTH HEIGHT [FROM TO]]
-// FROM and TO are shares of the slider.
+//     node viewer/frames.mjs RUN/index.html[#ADDRESS] [WIDTH HEIGHT [FROM TO]]
+// FROM and TO are shares of the slider; ADDRESS is the page's, as #show=arrows,clusters.
 import { existsSync } from "node:fs";
 import { resolve } from "node:path";
 import { startBrowser } from "./test/browser.mjs";
 
-const [file, width = "1280", height = "800", from = "0", to = "1"] = process.argv.slice(2);
+const [given = "", width = "1280", height = "800", from = "0", to = "1"] = process.argv.slice(2);
+const [file, address = ""] = given.split("#");
 if (!file || !existsSync(file)) throw new Error("which page?");
 const browser = await startBrowser();
 const page = await browser.newPage({ viewport: { width: Number(width), height: Number(height) }, bypassCSP: true });
-await page.goto(`file://${resolve(file)}`);
+await page.goto(`file://${resolve(file)}#${address}`);
 await page.waitForFunction(() => document.getElementById("picture").dataset.made === "yes");
 console.log(`opened in ${(await page.evaluate(() => performance.now())).toFixed(0)} ms`);
 await page.waitForFunction(() => { // in 2D scales are placed by the page

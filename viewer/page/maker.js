@@ -51,7 +51,8 @@ export class Maker {
 
   /** @param {() => Worker} worker @param {WebAssembly.Module} module */
   start(worker, module) {
-    [this.runner, this.asked] = [0, 1].map(() => new Client(worker(), module));
+    this.startOne = () => new Client(worker(), module);
+    this.runner = this.startOne();
     this.ready = true;
   }
 
@@ -111,6 +112,7 @@ export class Maker {
     await this.last?.catch(() => {});
     if (turn !== this.turn) return undefined;
     const first = this.ownOf(box, choice, n);
+    this.asked ??= this.startOne();
     this.last = this.asked.arrows({ ...this.input(box, choice), n, first });
     const scale = await this.last;
     if (first) scale.arrows = first;
