@@ -30,8 +30,8 @@ const char *last_advice(void);
  * file's name of its own; returns the exit code for the failure. */
 int complain_of(const fg_context *context, fg_status status, const char *file);
 
-/* The same of a file that is written under the name `partial` first, which is not told.
- */
+/* The same of a file that is written under the name `partial` first: the message names
+ * `file` instead. */
 int complain_of_partial(const fg_context *context, fg_status status, const char *partial,
                         const char *file);
 

@@ -19,11 +19,11 @@ double clock_seconds(void)
 
 enum { BAR_COLUMNS = 24 };
 
-void progress_start(cli_progress *progress, bool quiet, int told)
+void progress_start(cli_progress *progress, bool quiet, int socket)
 {
   const char *terminal = getenv("TERM");
   memset(progress, 0, sizeof *progress);
-  progress->told = told;
+  progress->socket = socket;
   progress->shown =
       !quiet && isatty(STDERR_FILENO) && !(terminal && strcmp(terminal, "dumb") == 0);
 }
@@ -52,30 +52,33 @@ static void draw(cli_progress *progress, const char *doing, double share,
   progress->drawn = true;
 }
 
-size_t progress_told_size(const progress_told *told)
+size_t progress_message_size(const progress_message *message)
 {
-  return offsetof(progress_told, u) + (size_t)told->nodes[0] * (size_t)told->nodes[1];
+  return offsetof(progress_message, u) +
+         (size_t)message->nodes[0] * (size_t)message->nodes[1];
 }
 
-static void send_told(const cli_progress *progress, const progress_told *told)
+static void send_message(const cli_progress *progress, const progress_message *message)
 {
-  (void)send(progress->told, told, progress_told_size(told), MSG_DONTWAIT | MSG_NOSIGNAL);
+  (void)send(progress->socket, message, progress_message_size(message),
+             MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
-static void tell(const cli_progress *progress, const char *doing, double share,
-                 const char *words)
+static void send_words(const cli_progress *progress, const char *doing, double share,
+                       const char *words)
 {
-  progress_told told;
-  memset(&told, 0, offsetof(progress_told, u));
-  told.share = share;
-  snprintf(told.words, sizeof told.words, "%s%s%s", doing, *words ? ": " : "", words);
-  send_told(progress, &told);
+  progress_message message;
+  memset(&message, 0, offsetof(progress_message, u));
+  message.share = share;
+  snprintf(message.words, sizeof message.words, "%s%s%s", doing, *words ? ": " : "",
+           words);
+  send_message(progress, &message);
 }
 
-void progress_density(const cli_progress *progress, const progress_told *told)
+void progress_density(const cli_progress *progress, const progress_message *message)
 {
-  if (progress->told)
-    send_told(progress, told);
+  if (progress->socket)
+    send_message(progress, message);
 }
 
 static void show(cli_progress *progress, const char *doing, double share,
@@ -83,8 +86,8 @@ static void show(cli_progress *progress, const char *doing, double share,
 {
   if (progress->shown)
     draw(progress, doing, share, words);
-  if (progress->told)
-    tell(progress, doing, share, words);
+  if (progress->socket)
+    send_words(progress, doing, share, words);
   progress->last_drawn = clock_seconds();
 }
 

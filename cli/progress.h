@@ -1,5 +1,5 @@
-/* A line on the terminal that says how far a run is; the same is told to a process that
- * shows it elsewhere (view/child.h). */
+/* A line on the terminal that says how far a run is. The same is sent as messages through
+ * a socket to a process that shows it elsewhere (view/child.h). */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
@@ -8,26 +8,25 @@
 
 typedef struct cli_progress {
   bool shown;        /* standard error is a terminal and not quiet */
-  int told;          /* a socket that progress_told is sent to; 0: none */
+  int socket;        /* through which messages are sent; 0: none */
   bool drawn;        /* the line is there now */
   double last_drawn; /* seconds of the monotonic clock */
 } cli_progress;
 
-/* What a socket is told: words, or a density. A message that finds it full is left out.
- */
+/* A message: words, or a density. One that finds the socket full is dropped. */
 enum { PROGRESS_WORDS = 80, PROGRESS_NODES = 260 };
-typedef struct progress_told {
+typedef struct progress_message {
   double share; /* of the work that `words` name, 0 to 1; negative: not known */
   char words[PROGRESS_WORDS];
   int nodes[2]; /* of the density, along x and y; 0: there are words */
   unsigned char u[PROGRESS_NODES * PROGRESS_NODES]; /* x fastest: 0 missing, else u from
                                                        -1 to 1 as 1 to 255 */
-} progress_told;
+} progress_message;
 
-/* Bytes of such a message, without the end that it does not need. */
-size_t progress_told_size(const progress_told *told);
+/* Bytes of a message up to the last node of its density. */
+size_t progress_message_size(const progress_message *message);
 
-void progress_start(cli_progress *progress, bool quiet, int told);
+void progress_start(cli_progress *progress, bool quiet, int socket);
 
 /* Shows a stage's line at once. */
 void progress_stage(cli_progress *progress, const char *text);
@@ -40,8 +39,8 @@ void progress_evolution(cli_progress *progress, double share, double time, int c
 /* Shows how many of the scales are drawn; nothing when all are. */
 void progress_drawing(cli_progress *progress, int ready, int count);
 
-/* Tells a density. */
-void progress_density(const cli_progress *progress, const progress_told *told);
+/* Sends a density. */
+void progress_density(const cli_progress *progress, const progress_message *message);
 
 /* Wipes the line, before a message and at the end. */
 void progress_wipe(cli_progress *progress);

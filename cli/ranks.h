@@ -1,6 +1,6 @@
 /* Ranks: several processes that a launcher such as mpirun started with the same command
  * line. Rank 0 alone prints, draws and writes; the others keep their complaints until all
- * agree on a failure, which rank 0 then tells. */
+ * agree on a failure, which rank 0 then prints. */
 #ifndef RANKS_H
 #define RANKS_H
 
@@ -22,8 +22,8 @@ int ranks_number(void);  /* this one's, from 0 */
 int ranks_count(void);
 
 /* Makes one exit code of all ranks': that of the lowest rank that failed;
- * EXIT_INTERRUPTED gives way to failures. Rank 0 tells what that rank complained of,
- * unless it has told of a failure of its own. Every rank must come here, or the others
+ * EXIT_INTERRUPTED gives way to failures. Rank 0 prints the complaint of that rank,
+ * unless it has printed one of its own. Every rank must come here, or the others
  * wait for ever. */
 int ranks_agree(int code);
 

@@ -10,8 +10,8 @@ struct cJSON;
  * again: {"seed": "2", "clusters": "60,20"}. NULL without memory. */
 struct cJSON *options_record(const run_settings *settings);
 
-/* Whether an earlier run was told the same; else complains, naming the first option that
- * differs, with both values. */
+/* Whether an earlier run had the same options; else complains, naming the first option
+ * that differs, with both values. */
 bool options_match(const struct cJSON *earlier, const run_settings *settings);
 
 #endif

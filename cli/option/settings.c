@@ -1,4 +1,4 @@
-/* What the library is told of a command's settings. */
+/* The library's option structs from a command's settings. */
 #include "option/settings.h"
 
 #include <math.h>

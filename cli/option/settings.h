@@ -94,8 +94,8 @@ typedef struct run_settings {
   bool save_field, no_page;
   double checkpoint; /* seconds between checkpoints; 0: after every step */
   bool resume, force, quiet, verbose;
-  bool member; /* of a series, which tells of it */
-  int told;    /* a socket that the progress is told to (progress.h); 0: none */
+  bool member;         /* of a series, which prints the messages about it */
+  int progress_socket; /* see progress.h; 0: none */
 } run_settings;
 
 typedef struct view_settings {
@@ -204,7 +204,7 @@ typedef union any_settings {
 /* Whether arrows are placed, exactly so many; else they are their clusters' own. */
 bool settings_place(const run_settings *settings);
 
-/* What the library is told of them. */
+/* The library's option structs for them. */
 fg_read_options settings_reading(const reading_settings *settings);
 fg_evolution_options settings_evolution(const evolution_settings *settings,
                                         const work_settings *work);

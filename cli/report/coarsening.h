@@ -6,7 +6,7 @@
 
 struct cJSON;
 
-/* Keeps the evolution's last one, and with --verbose tells of it. */
+/* Records the evolution's last coarsening, and prints it with --verbose. */
 const fg_coarsening *coarsening_record(cli_run *run);
 
 /* "coarser" in run.json and in a checkpoint's note: each coarsening's step, time, energy

@@ -25,7 +25,8 @@ static const entry numbers[] = {
 };
 enum { NUMBERS = sizeof numbers / sizeof *numbers };
 
-/* Per time of the phase; what no phase counts is told as a whole. */
+/* The counts of a phase divided by the times that it was begun; those outside of any
+ * phase are totals. */
 static double value_of(const fg_communication *communication, const entry *number)
 {
   const char *at = (const char *)communication + number->place;
@@ -54,7 +55,7 @@ void communication_print(const run_facts *facts)
 {
   if (facts->ranks == 1)
     return;
-  fprintf(stderr, "flowgrain: what each of %d ranks told the others, mean (most):\n",
+  fprintf(stderr, "flowgrain: communication of each of %d ranks, mean (greatest):\n",
           facts->ranks);
   for (int a = 1; a < FG_PHASES; ++a)
     print_phase(names[a], &facts->communication[a], &facts->most_communication[a]);

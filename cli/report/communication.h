@@ -1,4 +1,4 @@
-/* What the ranks of a run told each other, for --verbose and run.json. */
+/* The communication of a run's ranks, for --verbose and run.json. */
 #ifndef REPORT_COMMUNICATION_H
 #define REPORT_COMMUNICATION_H
 

@@ -302,10 +302,10 @@ static double number_at(const cJSON *list, int index)
 bool report_is_of_field(const cli_report *report, const char *folder, const char *input,
                         const fg_field *field)
 {
-  const cJSON *told = cJSON_GetObjectItemCaseSensitive(report->tree, "field");
-  const cJSON *size = cJSON_GetObjectItemCaseSensitive(told, "size");
-  const cJSON *bounds = cJSON_GetObjectItemCaseSensitive(told, "bounds");
-  const char *scale = text_of(told, "scale");
+  const cJSON *recorded = cJSON_GetObjectItemCaseSensitive(report->tree, "field");
+  const cJSON *size = cJSON_GetObjectItemCaseSensitive(recorded, "size");
+  const cJSON *bounds = cJSON_GetObjectItemCaseSensitive(recorded, "bounds");
+  const char *scale = text_of(recorded, "scale");
   const fg_field_arrays *got = fg_field_contents(field);
   if (!cJSON_IsArray(size) || !cJSON_IsArray(bounds))
     return true; /* it does not say */

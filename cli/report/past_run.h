@@ -1,10 +1,10 @@
-/* What a folder's run.json tells of the run that left it. */
+/* Reads the run.json of an earlier run in a folder. */
 #ifndef REPORT_PAST_RUN_H
 #define REPORT_PAST_RUN_H
 
 #include "option/settings.h"
 
-/* How the run ended that a folder's run.json tells of. */
+/* How the run of a folder's run.json ended. */
 typedef enum run_outcome {
   OUTCOME_NONE, /* there is no run.json */
   OUTCOME_INTERRUPTED,

@@ -170,7 +170,7 @@ static bool prepare(cli_run *run, char **note)
   return *note;
 }
 
-/* False: it could not be, and rank 0 has told. */
+/* False: it could not be, and rank 0 has printed why. */
 static bool save(cli_run *run)
 {
   char *note = NULL;
@@ -329,7 +329,7 @@ static int restore_results(cli_run *run, const cJSON *note, bool is_previous)
   return !code && is_previous ? output_use_previous(&run->output) : code;
 }
 
-/* Whether this rank was told what the run was begun with. */
+/* Whether this rank has the options that the run was begun with. */
 static int check_note(const cli_run *run, const cJSON *note)
 {
   if (note)

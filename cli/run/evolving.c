@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* From one density to the next: at least so many seconds, so much of the evolution so
- * far, and so many times what the last one took. */
+/* The interval between two densities is at least so many seconds, this share of the
+ * evolution so far, and so many times the seconds that the last one took. */
 static const double least_seconds = 0.02, share_of_evolution = 0.05, times_its_work = 10;
 
 static int smaller(int a, int b)
@@ -61,13 +61,13 @@ static unsigned char tone(const density_slice *slice, int x, int y, int width)
   return (unsigned char)(1 + lround(127.0 * (1.0 + mean)));
 }
 
-static void draw(progress_told *out, const fg_density_arrays *density)
+static void draw(progress_message *out, const fg_density_arrays *density)
 {
   const density_slice slice = slice_of(density);
   const int *nodes = density->nodes;
   const int longest = nodes[0] > nodes[1] ? nodes[0] : nodes[1];
   const int width = (longest + PROGRESS_NODES - 1) / PROGRESS_NODES;
-  memset(out, 0, offsetof(progress_told, u));
+  memset(out, 0, offsetof(progress_message, u));
   for (int k = 0; k < 2; ++k)
     out->nodes[k] = (nodes[k] + width - 1) / width;
   unsigned char *pixel = out->u;
@@ -80,17 +80,17 @@ void evolving_show(cli_run *run)
 {
   const double begin = clock_seconds();
   fg_density *density;
-  if (!run->progress.told || (begin < run->density_due && !fg_run_ended(run->scales)))
+  if (!run->progress.socket || (begin < run->density_due && !fg_run_ended(run->scales)))
     return;
   run->density_due = INFINITY; /* without memory for one there are no more */
   if (fg_density_create(&density, fg_run_evolution(run->scales))) {
     fg_context_clear(run->context);
     return;
   }
-  progress_told told;
-  draw(&told, fg_density_contents(density));
+  progress_message message;
+  draw(&message, fg_density_contents(density));
   fg_density_destroy(density);
-  progress_density(&run->progress, &told);
+  progress_density(&run->progress, &message);
   const double end = clock_seconds();
   run->density_due = end + fmax(fmax(least_seconds, times_its_work * (end - begin)),
                                 share_of_evolution * (end - run->evolving_since));

@@ -1,11 +1,11 @@
-/* The density while it evolves, for a page that follows the run (view/child.h). */
+/* The density while it evolves, sent to the process that shows it (view/child.h). */
 #ifndef RUN_EVOLVING_H
 #define RUN_EVOLVING_H
 
 #include "run/run.h"
 
-/* Tells the page how the density is now, at times ever farther apart, as clusters grow
- * ever slower, and at the end. Where nobody is told it does nothing. */
+/* Sends the present density, at intervals that grow, as clusters grow ever slower, and at
+ * the end. Without a socket it does nothing. */
 void evolving_show(cli_run *run);
 
 #endif

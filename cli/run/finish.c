@@ -76,7 +76,7 @@ static int write_results(cli_run *run)
   return code ? code : output_publish(&run->output);
 }
 
-/* What else there is to tell of a scale's arrows; "" for nothing. */
+/* The number of clusters without an icon; "" where there are none. */
 enum { ASIDE_BYTES = 64 };
 static const char *say_dropped(char out[ASIDE_BYTES], int dropped)
 {
@@ -120,7 +120,7 @@ static void say_first_scale(const cli_run *run)
   advise("More --nodes begin with more clusters.");
 }
 
-/* What is told where a run ends early, or reached less than was wanted. */
+/* The complaint of a run that ended early, or reached less than was wanted. */
 static int say_outcome(const cli_run *run)
 {
   const run_settings *settings = run->settings;

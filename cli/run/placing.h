@@ -31,7 +31,7 @@ fg_status placing_make(fg_icons **out, cli_placing *placing, int count,
 /* What the picture's --tint shows of them; NULL in 3D or without --tint. */
 fg_status placing_regions(fg_density **out, const cli_placing *placing);
 
-/* Lets icons keep what readers of them get wrong; where that cannot be told, nothing. */
+/* Stores the readers' errors with icons; nothing where the field cannot be scored. */
 fg_status placing_score(fg_context *context, const fg_field *field, fg_icons *icons);
 
 /* The number of arrows that --tolerance asks for. Returns an exit code. */

@@ -298,7 +298,8 @@ static int run_once(const run_settings *settings)
                  .table = {.file = -1}};
   run.facts.settings = settings;
   run.facts.energy_monotone = true;
-  progress_start(&run.progress, settings->quiet || !ranks_leader(), settings->told);
+  progress_start(&run.progress, settings->quiet || !ranks_leader(),
+                 settings->progress_socket);
   if (fg_context_create(&run.context)) {
     complain("out of memory");
     return EXIT_FAILED;

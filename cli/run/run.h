@@ -25,11 +25,11 @@ typedef struct cli_run {
   double evolving_since; /* clock of the process */
   double earlier_evolve; /* seconds of the runs that this one goes on from */
   double earlier_total;
-  double density_due; /* clock when the density is told next */
+  double density_due; /* clock when the density is sent next (evolving.h) */
   double save_tried;  /* clock when a checkpoint was last tried */
   int64_t saved_step; /* of the last checkpoint; 0: none */
   bool finished;      /* nothing is left to go on from */
-  bool save_failed;   /* the last try failed, and the user was told */
+  bool save_failed;   /* the last try failed, with a warning */
 } cli_run;
 
 #endif

@@ -68,7 +68,7 @@ int child_start(cli_child *out, const run_settings *given, void (*close_all)(voi
   if (socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends) != 0)
     return complain_of_file("the run", "cannot be started");
   settings.output = out->folder;
-  settings.told = ends[1];
+  settings.progress_socket = ends[1];
   fflush(NULL); /* or both would write it */
   const pid_t parent = getpid();
   out->process = fork();
@@ -87,40 +87,40 @@ int child_start(cli_child *out, const run_settings *given, void (*close_all)(voi
   return code;
 }
 
-static bool is_whole(const progress_told *told, ssize_t size)
+static bool is_whole(const progress_message *message, ssize_t size)
 {
   for (int k = 0; k < 2; ++k)
-    if (size < (ssize_t)offsetof(progress_told, u) || told->nodes[k] < 0 ||
-        told->nodes[k] > PROGRESS_NODES)
+    if (size < (ssize_t)offsetof(progress_message, u) || message->nodes[k] < 0 ||
+        message->nodes[k] > PROGRESS_NODES)
       return false;
-  return (size_t)size == progress_told_size(told);
+  return (size_t)size == progress_message_size(message);
 }
 
-static void take(cli_child *child, const progress_told *told)
+static void take(cli_child *child, const progress_message *message)
 {
-  if (told->nodes[0]) {
-    densities_add(&child->densities, told);
+  if (message->nodes[0]) {
+    densities_add(&child->densities, message);
     return;
   }
-  child->began = child->began || told->share >= 0.0;
-  child->share = told->share;
-  memcpy(child->doing, told->words, sizeof child->doing);
+  child->began = child->began || message->share >= 0.0;
+  child->share = message->share;
+  memcpy(child->doing, message->words, sizeof child->doing);
 }
 
-/* All that was told. */
+/* Receives all messages that are there. */
 static void listen_to(cli_child *child)
 {
-  progress_told told;
+  progress_message message;
   while (child->socket >= 0) {
-    const ssize_t got = recv(child->socket, &told, sizeof told, MSG_DONTWAIT);
+    const ssize_t got = recv(child->socket, &message, sizeof message, MSG_DONTWAIT);
     if (got < 0 && (errno == EAGAIN || errno == EINTR))
       return;
-    if (!is_whole(&told, got)) { /* its end */
+    if (!is_whole(&message, got)) { /* its end */
       close(child->socket);
       child->socket = -1;
       return;
     }
-    take(child, &told);
+    take(child, &message);
   }
 }
 

@@ -9,12 +9,12 @@
 
 typedef struct cli_child {
   pid_t process;      /* 0: none, or it has ended */
-  int socket;         /* that it tells its progress to; -1: none */
+  int socket;         /* from which its messages are received (progress.h); -1: none */
   const char *folder; /* of the results */
   char *temporary;    /* that folder, where it goes at the end; NULL: the user's own */
   bool began;         /* it has read its input, and evolves */
-  double share;       /* of the work that it told of last, and its words */
-  char doing[PROGRESS_WORDS];
+  double share;       /* of the last message with words */
+  char doing[PROGRESS_WORDS]; /* its words */
   view_densities densities;
   int code; /* its exit code, once it has ended */
 } cli_child;
@@ -24,7 +24,7 @@ typedef struct cli_child {
 int child_start(cli_child *out, const run_settings *settings, void (*close)(void *data),
                 void *data);
 
-/* Takes what it has told, and learns of its end. */
+/* Receives its messages, and its exit code once it has ended. */
 void child_look(cli_child *child);
 
 /* Passes a signal on: the run keeps its scales, a second one ends its drawing, too. With
