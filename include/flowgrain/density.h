@@ -18,17 +18,19 @@ typedef struct fg_density_arrays {
   double origin[3];  /* node (0, 0, 0), input coordinates */
   double spacing[3]; /* input coordinates */
   bool periodic[3];
-  const float *u;              /* a value a node; inside a cluster u > 0; NULL: shared */
+  const float *u; /* a value a node, x fastest; u > 0 inside a cluster; NULL: it
+                     is distributed */
   const unsigned char *active; /* a byte a cell, 0 = masked; nodes[k] - 1 cells along an
                                   axis, nodes[k] when periodic; NULL: all active */
   double debris_area; /* components of less area (volume) than this are not clusters, in
                          input coordinates squared (cubed) */
-  double time, energy, area_fraction;
-  int clusters;
+  double time, energy, area_fraction; /* as in fg_step */
+  int clusters;                       /* that `u` has, as in fg_step */
 } fg_density_arrays;
 
 /* Takes a snapshot. Where several ranks evolve, each gets its block: `u` and `active` of
- * its contents are NULL, and what takes a distributed density is collective. MEMORY. */
+ * its contents are NULL. This call, and those that take a distributed density, are
+ * collective. MEMORY, ARGUMENT (a block too large for labels of type int), MPI. */
 FG_API fg_status fg_density_create(fg_density **out, const fg_evolution *evolution);
 
 /* Whether a density is distributed among several ranks. */
@@ -51,8 +53,9 @@ FG_API const int *fg_density_labels(const fg_density *density);
 
 /* Writes u, the number of each node's cluster (0 outside, -1 in components too small to
  * be clusters) and the mask as .vti. Of a distributed density rank 0 writes what the
- * others send it, packed and part by part; `path` is not read elsewhere. FILE_ACCESS,
- * UNSUPPORTED, MEMORY. */
+ * others send it, packed and part by part; `path` is not read elsewhere, and the call is
+ * collective. FILE_ACCESS, UNSUPPORTED (another name's end, too many nodes), ARGUMENT,
+ * MEMORY. */
 FG_API fg_status fg_density_write(fg_context *context, const char *path,
                                   const fg_density *density);
 

@@ -73,9 +73,11 @@ typedef struct fg_step {
   int64_t step;         /* accepted steps so far */
   double time;          /* t, in units of (longest side)^2 */
   double tau;           /* size of this step */
-  double energy;        /* E(u); like t and tau in the first mesh's units: see
-                           fg_evolution_coarsen; it grows at coarsenings only */
-  double mass;          /* integral of u over the domain, in double */
+  double energy;        /* E(u), in units of the longest side; like t and tau it refers
+                           to the first mesh (fg_evolution_coarsen), and grows at
+                           coarsenings only */
+  double mass;          /* integral of u over the domain, in units of (longest side)^2,
+                           in 3D ^3 */
   double area_fraction; /* share of the domain where u > 0 */
   int clusters;         /* components of {u > 0} above the size of debris; 0 while the
                            covered area is below 0.8 of the coverage */
@@ -83,29 +85,32 @@ typedef struct fg_step {
   int rejected;         /* attempts rejected before this step was accepted */
   int64_t cells;        /* active cells of the mesh */
   int coarsenings;      /* of the mesh, since the evolution began */
-  double increment;     /* rms of the change of u */
+  double increment;     /* rms of the change of u in this step */
   double seconds;       /* wall time since the evolution was created */
   bool stationary;      /* the pattern no longer changes */
 } fg_step;
 
 /* Builds mesh, tensor and initial density. nodes is rounded up so that the mesh can be
  * coarsened; fg_evolution_mesh says what it became. The field, and what a law's `data`
- * points to, must outlive the evolution. ARGUMENT (options out of range, ranks that
- * disagree on field or options, more ranks than the mesh has blocks for), MEMORY, MPI. */
+ * points to, must outlive the evolution. Collective. ARGUMENT (options out of range,
+ * ranks that disagree on field or options, more ranks than the mesh has blocks for),
+ * MEMORY, MPI. */
 FG_API fg_status fg_evolution_create(fg_evolution **out, fg_context *context,
                                      const fg_field *field,
                                      const fg_evolution_options *options);
 FG_API void fg_evolution_destroy(fg_evolution *evolution);
 
-/* Makes one accepted time step and describes it. The mesh is coarsened before the step
- * where the options and the clusters ask for it. NO_CONVERGENCE when no step small enough
- * is accepted, or mass is not conserved or the energy grows; STOPPED. */
+/* Makes one accepted time step and describes it. An adaptive mesh is first coarsened
+ * where fg_evolution_should_coarsen says so. Collective. NO_CONVERGENCE
+ * (no step small enough is accepted; the mean of u has drifted), STOPPED (before the
+ * step), MEMORY, MPI. */
 FG_API fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step);
 
-/* Whether a mesh with half the cells along each side resolves the clusters: 4096 cells of
- * the domain (in 3D 32768) to a cluster, and more nodes a side than a mesh has by
- * default. False in a domain with missing values, whose narrow parts a coarser mesh would
- * lose. */
+/* Whether a mesh with half the cells along each side resolves the clusters: the domain
+ * has at least 4096 cells (in 3D 32768) to a cluster, and the longest side at least twice
+ * as many as a mesh has by default. False before clusters are counted, where cells can
+ * not be halved along each side, and in a domain with missing values, whose narrow parts
+ * a coarser mesh would lose. */
 FG_API bool fg_evolution_should_coarsen(const fg_evolution *evolution);
 
 /* Coarsens the mesh: half the cells along each side, interfaces twice as wide, four times

@@ -210,7 +210,7 @@ FG_API fg_status fg_inventory_read_chosen(fg_inventory **out, fg_context *contex
                                           const char *input,
                                           const fg_read_options *options);
 
-/* What options should be, and what there is to say, before a field is read. */
+/* The default level of a vector, and what its file lacks, found before it is read. */
 typedef struct fg_usual {
   int level;        /* of an ocean's levels the one at the surface, which has the greatest
                        height or the least depth; else 0 */
@@ -219,8 +219,8 @@ typedef struct fg_usual {
 } fg_usual;
 
 /* Finds these for the vector that fg_field_read would read with these options, whose
- * level does not count. Reads no samples; only NetCDF tells anything. Statuses as
- * fg_field_read; options may be NULL. */
+ * level does not count. Reads no samples. Of other files than NetCDF the level is 0 and
+ * `absent` empty. Statuses as fg_field_read; options may be NULL. */
 FG_API fg_status fg_usual_find(fg_usual *out, fg_context *context, const char *input,
                                const fg_read_options *options);
 

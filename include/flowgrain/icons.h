@@ -11,13 +11,15 @@ extern "C" {
 typedef enum fg_icon_kind {
   FG_ICON_ARROW = 0, /* a curved arrow along one streamline */
   FG_ICON_RING,      /* an arrow round a vortex, an arc of at most about 330 degrees */
-  FG_ICON_SPIRAL,    /* the same where the streamline does not close */
+  FG_ICON_SPIRAL     /* the same where the streamline does not close */
 } fg_icon_kind;
 
 /* A curved arrow: a tapering body round the centreline and a triangular head; in 3D a
- * tube and a cone. */
+ * tube and a cone. Lengths, widths and areas are in the coordinates of the field's axes,
+ * speeds in the field's units. All pointers are the list's. */
 typedef struct fg_icon {
-  int cluster; /* label in the density, from 1; 0: placed, and none is there */
+  int cluster; /* label in the density, from 1; 0: none; of placed icons `id` until
+                  fg_placement_find_clusters */
   fg_icon_kind kind;
   int point_count;           /* of the centreline, at least 2 */
   const double (*points)[3]; /* from tail to the tip of the head; z = 0 in 2D; in 3D, and
@@ -33,18 +35,18 @@ typedef struct fg_icon {
   /* Of placed icons (placement.h), else 0: */
   int id;         /* from 1, the same in all scales */
   int parent;     /* id of the icon that it goes into in the next scale; 0: not known */
-  double seed[3]; /* a point of its line, */
-  double way[2];  /* and how far that may go against the flow and along it */
-  /* Unless the icon was read from a file: the cluster's spine from end to end, a ring's
-   * back to where it begins; and in 3D all of the streamline in the cluster, of which the
-   * centreline is a part. */
+  double seed[3]; /* the point from which its line was traced, */
+  double way[2];  /* and the greatest length against the flow and along it */
+  /* Of icons of clusters, unless read from a file, else 0 and NULL: the cluster's spine
+   * from end to end, of a ring back to where it begins; and in 3D the whole streamline in
+   * the cluster, of which the centreline is a part. */
   int spine_count, streamline_count;
   const double (*spine)[3], (*streamline)[3];
 } fg_icon;
 
 /* A zero field means its default, in brackets. */
 typedef struct fg_icon_options {
-  int threads; /* [1] */
+  int threads; /* the result does not depend on it [1] */
 } fg_icon_options;
 
 typedef struct fg_icons fg_icons;
@@ -55,14 +57,20 @@ typedef struct fg_icons fg_icons;
  * periodic boundary: a cluster with a quarter of itself, or of the mean cluster, on
  * either side gives an icon on each, with the same `cluster`. Of a distributed density
  * each rank makes the icons of some clusters, from what lies round them, and rank 0 gets
- * all, the same as of the whole; on other ranks *out becomes NULL. MEMORY, STOPPED. */
+ * all, the same as of the whole, and on other ranks *out becomes NULL; then the call is
+ * collective. ARGUMENT (a density and a field of different dimensions), MEMORY, STOPPED,
+ * MPI. */
 FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
                                  const fg_field *field, const fg_density *density,
                                  const fg_icon_options *options);
 FG_API void fg_icons_destroy(fg_icons *icons);
 FG_API int fg_icons_count(const fg_icons *icons);
+
+/* Icon `index`, from 0 to count - 1, borrowed. */
 FG_API const fg_icon *fg_icons_at(const fg_icons *icons, int index);
-FG_API int fg_icons_clusters(const fg_icons *icons); /* clusters, drawn or dropped */
+
+/* How many clusters the density had, and how many of them gave no icon. */
+FG_API int fg_icons_clusters(const fg_icons *icons);
 FG_API int fg_icons_dropped(const fg_icons *icons);
 
 /* The plane that the icons' coordinates are of: a PROJ string (fg_field_arrays), degrees
@@ -76,7 +84,7 @@ FG_API const char *fg_icons_projection(const fg_icons *icons);
 FG_API void fg_icons_speed_range(double range[2], const fg_icons *icons);
 
 /* Outline of an icon as a closed polygon, the first vertex not repeated. *vertices is
- * allocated with malloc: free it. MEMORY. */
+ * allocated with malloc: free it. 2D. ARGUMENT, MEMORY. */
 FG_API fg_status fg_icon_outline(const fg_icon *icon, double (**vertices)[2], int *count);
 
 /* Writes icons as GeoJSON (RFC 7946), or reads them back, bit for bit. Icons of a map or

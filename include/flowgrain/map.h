@@ -17,20 +17,20 @@ struct fg_map_options {
    * the field covers; a PROJ string, "+proj=laea +lat_0=52 +lon_0=10"; or "EPSG:3035".
    * ["auto"] */
   const char *projection;
-  bool has_center; /* [from what the field covers] */
-  bool has_center_latitude;
+  bool has_center;          /* center[0] counts [from what the field covers] */
+  bool has_center_latitude; /* so does center[1] [likewise] */
   double center[2]; /* longitude and latitude in the middle, degrees; not of strings and
                        codes, which have theirs */
-  bool has_region;  /* [all that the field covers] */
+  bool has_region;  /* `region` counts [all that the field covers] */
   double region[4]; /* west, east, south, north in degrees; an east that is not beyond
                        west is a turn farther */
   int samples;      /* along the plane's longer side [768] */
   int threads;      /* [as many as there are cores, where there is work for them] */
 };
 
-/* The name, PROJ's, of the projection that "auto" takes for a vector of a file, or the
- * string of its model's own; NULL
- * where it lies on no globe, and in builds without maps. */
+/* The projection that "auto" takes for a vector of a file: PROJ's name of it, or the PROJ
+ * string of a model's own; NULL where the vector lies on no globe, and in builds without
+ * maps. Borrowed; it lives as long as the inventory. */
 FG_API const char *fg_map_auto(const fg_inventory_vector *vector);
 
 /* Lays a field on a longitude-latitude grid (2D, scale GEO), or on the plane of a known

@@ -88,9 +88,8 @@ typedef struct fg_texture_style {
 } fg_texture_style;
 
 /* Writes a texture: .png has its very pixels (and round them title and key), .svg and
- * .pdf hold them as an image. What is masked in the field is covered; coasts
- * of a field on the Earth are drawn above.
- * FILE_ACCESS, UNSUPPORTED, ARGUMENT, MEMORY. */
+ * .pdf hold them as an image. What is masked in the field is covered; coasts of a field
+ * on the Earth are drawn above. FILE_ACCESS, UNSUPPORTED, ARGUMENT, MEMORY. */
 FG_API fg_status fg_texture_write(fg_context *context, const char *path,
                                   const fg_field *field, const fg_texture *texture,
                                   const fg_texture_style *style);
