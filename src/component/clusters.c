@@ -21,7 +21,7 @@ static int outer_axis(const fg__clusters *c)
   return c->halo.partition->dimension - 1;
 }
 
-static fg_status lack(fg_context *context, const fg__clusters *c)
+static fg_status fail_memory(fg_context *context, const fg__clusters *c)
 {
   return fg__fail_memory(context, "the clusters", 2 * c->halo.size * sizeof *c->u);
 }
@@ -103,13 +103,13 @@ static void pair(void *argument, const fg__thread *thread)
 }
 
 /* One failure of all slabs, of all ranks. Collective. */
-static fg_status settle(const fg__clusters *c, fg_context *context)
+static fg_status agree(const fg__clusters *c, fg_context *context)
 {
   const int *nodes = c->block.nodes;
   fg_status status = FG_STATUS_OK;
   for (int n = 0; n < c->slabs && !status; ++n)
     if (c->status[n] == FG_STATUS_MEMORY)
-      status = lack(context, c);
+      status = fail_memory(context, c);
     else if (c->status[n])
       status =
           fg__fail(context, c->status[n], "clusters: %d x %d x %d nodes are too many",
@@ -117,9 +117,9 @@ static fg_status settle(const fg__clusters *c, fg_context *context)
   return fg__ranks_agree(c->halo.partition->ranks, context, status);
 }
 
-/* Where this rank's entries begin in a table of all ranks', `own` of `total`. Collective.
- */
-static void find_place(const fg__clusters *c, size_t own, size_t *before, size_t *total)
+/* The offset of this rank's `own` entries in a list of all ranks', which has `total`.
+ * Collective. */
+static void find_offset(const fg__clusters *c, size_t own, size_t *before, size_t *total)
 {
   const fg__ranks *ranks = c->halo.partition->ranks;
   memset(c->table, 0, (size_t)ranks->count * sizeof *c->table);
@@ -142,11 +142,11 @@ static fg_status merge(fg__clusters *c, fg_context *context, size_t before, size
   size_t own = 0, pairs, first_pair;
   for (int n = 0; n < c->slabs; ++n)
     own += c->slab[n].pair_count;
-  find_place(c, own, &first_pair, &pairs);
+  find_offset(c, own, &first_pair, &pairs);
   fg_status status = FG_STATUS_OK;
   if (!fg__grow((void **)&all->piece, &all->piece_capacity, pieces, sizeof *all->piece) ||
       !fg__grow((void **)&all->pair, &all->pair_capacity, pairs, sizeof *all->pair))
-    status = lack(context, c);
+    status = fail_memory(context, c);
   status = fg__ranks_agree(ranks, context, status);
   if (status)
     return status;
@@ -182,13 +182,13 @@ static fg_status join(task *t, fg_context *context, double debris_area)
     own += (size_t)c->slab[n].piece_count;
     c->slab[n].pair_count = 0;
   }
-  find_place(c, own, &before, &total);
+  find_offset(c, own, &before, &total);
   c->before = (int)before;
   if (c->number) {
     fg__threads_run(t->grid->threads, number, t);
     fg__halo_fill(&c->halo, c->number);
     fg__threads_run(t->grid->threads, pair, t);
-    fg_status status = settle(c, context);
+    fg_status status = agree(c, context);
     if (status)
       return status;
   }
@@ -238,7 +238,7 @@ static fg_status prepare(fg__clusters *c, fg_context *context,
   fg__clusters_clear(c);
   fg_status status = fg__halo_create(&c->halo, context, grid->partition);
   if (!status && !take_memory(c, grid->partition->ranks, slabs))
-    status = lack(context, c);
+    status = fail_memory(context, c);
   if (status) { /* or the next call would take it for prepared */
     fg__clusters_clear(c);
     return status;
@@ -251,20 +251,20 @@ static fg_status prepare(fg__clusters *c, fg_context *context,
 
 fg_status fg__clusters_find(fg__clusters *clusters, fg_context *context,
                             const fg__cluster_grid *grid, const float *u,
-                            const fg__cluster_wish *wish)
+                            const fg__cluster_request *request)
 {
   fg__clusters *c = clusters;
   const fg__ranks *ranks = grid->partition->ranks;
-  task t = {.clusters = c, .grid = grid, .u = u, .counting = wish->counting};
+  task t = {.clusters = c, .grid = grid, .u = u, .counting = request->counting};
   fg_status status = prepare(c, context, grid);
   status = fg__ranks_agree(ranks, context, status);
   if (status)
     return status;
   describe(&c->block, grid, &c->halo);
   c->block.u = u ? c->u + c->halo.first : NULL;
-  c->block.enough = wish->enough;
+  c->block.enough = request->enough;
   fg__threads_run(grid->threads, cut, &t);
-  status = settle(c, context);
+  status = agree(c, context);
   if (status)
     return status;
   double covered = 0.0;
@@ -273,7 +273,7 @@ fg_status fg__clusters_find(fg__clusters *clusters, fg_context *context,
   uint64_t eighths = (uint64_t)(8.0 * covered); /* covered is a multiple of 1/8 */
   fg__ranks_add(ranks, &eighths, 1);
   c->covered = (double)eighths / 8.0;
-  return wish->counting ? join(&t, context, wish->debris_area) : FG_STATUS_OK;
+  return request->counting ? join(&t, context, request->debris_area) : FG_STATUS_OK;
 }
 
 void fg__clusters_label(const fg__clusters *clusters, int *label)

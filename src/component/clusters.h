@@ -37,18 +37,18 @@ typedef struct fg__clusters {
   int before;           /* pieces of the ranks before this one */
 } fg__clusters;
 
-typedef struct fg__cluster_wish {
+typedef struct fg__cluster_request {
   bool counting;      /* clusters too, not only what is covered */
   double debris_area; /* in cells */
   double enough;      /* areas beyond it need not be exact; 0: all are */
-} fg__cluster_wish;
+} fg__cluster_request;
 
 /* Finds what is covered and the clusters of u, an array of the layout whose ghosts are
  * filled (NULL: 1 everywhere). The same result for any ranks and threads. Collective.
  * MEMORY, ARGUMENT (a block too large for int labels). */
 fg_status fg__clusters_find(fg__clusters *clusters, fg_context *context,
                             const fg__cluster_grid *grid, const float *u,
-                            const fg__cluster_wish *wish);
+                            const fg__cluster_request *request);
 
 /* Writes the labels (components.h) of the block's nodes to a plain array, x fastest, once
  * clusters were counted. */

@@ -130,14 +130,14 @@ static void compare_labels(const world *w, const fg__clusters *found,
 /* In 2D without a mask large areas may be known by a lower bound alone; returns how many
  * were. */
 static int compare_areas(const world *w, const fg__components *found,
-                         const fg__components *want, const fg__cluster_wish *wish)
+                         const fg__components *want, const fg__cluster_request *request)
 {
-  bool bounds = wish->enough > 0.0 && w->g->dimension == 2 && !w->active;
+  bool bounds = request->enough > 0.0 && w->g->dimension == 2 && !w->active;
   int bounded = 0;
   for (int n = 0; n < want->count && found->count == want->count; ++n) {
     bool same = memcmp(&found->area[n], &want->area[n], sizeof *want->area) == 0;
     expect(same || bounds);
-    expect(found->area[n] >= wish->debris_area);
+    expect(found->area[n] >= request->debris_area);
     expect(found->area[n] <= want->area[n] * (1.0 + 1e-6));
     bounded += !same;
   }
@@ -149,19 +149,19 @@ static int compare(world *w, double debris_area)
   fg__components want = {0};
   w->plain.debris_area = debris_area;
   expect(fg__components_find(&want, us.context, &w->plain) == FG_STATUS_OK);
-  fg__cluster_wish wish = {.debris_area = debris_area};
+  fg__cluster_request request = {.debris_area = debris_area};
   fg__clusters found = {0};
   int bounded = 0;
   for (int way = 0; way < 3; ++way) { /* covered alone, bounds of areas, areas */
-    wish.counting = way > 0;
-    wish.enough = way == 1 ? debris_area : 0.0;
-    expect(fg__clusters_find(&found, us.context, &w->block, w->array, &wish) ==
+    request.counting = way > 0;
+    request.enough = way == 1 ? debris_area : 0.0;
+    expect(fg__clusters_find(&found, us.context, &w->block, w->array, &request) ==
            FG_STATUS_OK);
     expect(memcmp(&found.covered, &want.covered, sizeof want.covered) == 0);
     if (way == 0)
       continue;
     expect(found.found.count == want.count && found.found.debris == want.debris);
-    bounded += compare_areas(w, &found.found, &want, &wish);
+    bounded += compare_areas(w, &found.found, &want, &request);
     compare_labels(w, &found, &want);
   }
   fg__clusters_clear(&found);
@@ -203,11 +203,11 @@ static void memory_is_used_again(void **state)
   w.active = NULL;
   make_block(&w, seed);
   expect(fg__threads_create(&w.block.threads, us.context, 3) == FG_STATUS_OK);
-  const fg__cluster_wish wish = {.counting = true};
+  const fg__cluster_request request = {.counting = true};
   fg__clusters found = {0};
   int count[3] = {0};
   for (int time = 0; time < 3; ++time) {
-    expect(fg__clusters_find(&found, us.context, &w.block, w.array, &wish) ==
+    expect(fg__clusters_find(&found, us.context, &w.block, w.array, &request) ==
            FG_STATUS_OK);
     count[time] = found.found.count;
     for (size_t n = 0; n < w.layout.array_size; ++n)

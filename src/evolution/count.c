@@ -23,9 +23,9 @@ static fg__cluster_grid grid_of(const fg_evolution *e)
 static fg_status count(fg_evolution *e, bool counting)
 {
   const fg__cluster_grid grid = grid_of(e);
-  const fg__cluster_wish wish = {counting, e->debris_area, e->debris_area};
-  fg_status status =
-      fg__clusters_find(e->clusters_found, e->context, &grid, e->stepper.current, &wish);
+  const fg__cluster_request request = {counting, e->debris_area, e->debris_area};
+  fg_status status = fg__clusters_find(e->clusters_found, e->context, &grid,
+                                       e->stepper.current, &request);
   e->area_fraction = e->clusters_found->covered / (double)e->active_cells;
   e->clusters = e->clusters_found->found.count;
   return status;
@@ -86,10 +86,10 @@ static fg_status find_clusters(fg__density_block *out, const fg_evolution *e,
                                double debris_cells)
 {
   const fg__cluster_grid grid = grid_of(e);
-  const fg__cluster_wish wish = {.counting = true, .debris_area = debris_cells};
+  const fg__cluster_request request = {.counting = true, .debris_area = debris_cells};
   fg__components *found = &e->clusters_found->found;
-  fg_status status =
-      fg__clusters_find(e->clusters_found, e->context, &grid, e->stepper.current, &wish);
+  fg_status status = fg__clusters_find(e->clusters_found, e->context, &grid,
+                                       e->stepper.current, &request);
   if (status)
     return status;
   fg__clusters_label(e->clusters_found, out->label);

@@ -239,9 +239,9 @@ static void count(const run *r, outcome *out)
                                  .active = active ? active + origin : NULL,
                                  .cell_row = block->tensor.row,
                                  .cell_plane = block->tensor.plane};
-  const fg__cluster_wish wish = {.counting = true, .debris_area = 3.0};
+  const fg__cluster_request request = {.counting = true, .debris_area = 3.0};
   fg__clusters c = {0};
-  expect(fg__clusters_find(&c, us.context, &grid, r->stepper.current, &wish) ==
+  expect(fg__clusters_find(&c, us.context, &grid, r->stepper.current, &request) ==
          FG_STATUS_OK);
   out->clusters = c.found.count;
   out->covered = c.covered;

@@ -8,23 +8,23 @@
 #include "field/fingerprint.h"
 #include "grid/field_slabs.h"
 
-/* A thinner one lies between two nodes and can not move. */
+/* A thinner interface lies between two nodes and can not move (pinning). */
 static const double least_interface_cells = 0.3;
 
 /* The minima of the double well are at -1 and 1; an initial density far beyond them is a
  * mistake. */
 static const double most_initial = 10.0;
 
-/* Debris: less than this many squares (in 3D cubes) of the interface width across the
- * stream, sqrt(gamma a); about a dozen cells by default, balls of the same radius in 3D.
- * Such a drop is all interface. */
+/* Debris is less than this many squares (in 3D cubes) of the least interface width,
+ * sqrt(gamma a): about a dozen cells by default, and in 3D a ball of the same radius.
+ * Such a droplet has no bulk, and is about to vanish. */
 static const double debris_squares = 10.0, debris_cubes = 24.0;
 
-/* The first step, as a share of the fastest growth time of linear theory; and the first
- * on a coarser mesh, where interfaces are there. */
+/* The first step, as a share of the growth time of linear theory (least over modes); and
+ * the first on a coarsened mesh, whose u has interfaces already. */
 static const double first_step_share = 1e-3, first_coarsened_fraction = 0.1;
 
-/* tau gamma / h^4 (measured at 1025 nodes, docs/design/evolution.md). */
+/* Greatest tau gamma / h^4 (measured at 1025 nodes, docs/design/evolution.md). */
 static const double most_stiffness = 2e5;
 
 static fg_status create_mesh(fg_evolution *e, const fg_field *field)
@@ -67,8 +67,8 @@ static fg_status check_initial(const fg_evolution *e)
   return FG_STATUS_OK;
 }
 
-/* Beyond it the theta scheme is not stable, and the cycles of implicit steps move less of
- * a pattern than such a step should, unseen. */
+/* The longest step. Beyond it the theta scheme is unstable, and the cycles of an implicit
+ * step move interfaces less than the step should, which the correction does not show. */
 static double most_step(const fg_evolution *e)
 {
   double gamma = e->info.gamma;
@@ -91,7 +91,8 @@ static void count_cells(fg_evolution *e)
   }
 }
 
-static void describe(fg_evolution *e)
+/* Fills in what fg_evolution_mesh returns. */
+static void describe_mesh(fg_evolution *e)
 {
   int dimension = e->mesh.dimension;
   e->info = (fg_mesh_info){.dimension = dimension,
@@ -111,10 +112,14 @@ static void describe(fg_evolution *e)
   }
   e->info.active_cells = e->active_cells;
   e->info.domain_measure = cell * (double)e->info.active_cells;
+}
+
+static double find_debris_cells(const fg_evolution *e)
+{
   double width = sqrt(e->info.gamma * e->info.anisotropy);
-  double debris = dimension == 3 ? debris_cubes * width * width * width
-                                 : debris_squares * width * width;
-  e->debris_area = debris / fg__evolution_cell_volume(e);
+  double debris = e->mesh.dimension == 3 ? debris_cubes * width * width * width
+                                         : debris_squares * width * width;
+  return debris / fg__evolution_cell_volume(e);
 }
 
 static fg_status take_mask(fg_evolution *e, const fg__multigrid *multigrid)
@@ -205,7 +210,8 @@ fg_status fg__evolution_build(fg_evolution *evolution)
   if (!status)
     status = fg__evolution_cells_create(e, field);
   if (!status) {
-    describe(e);
+    describe_mesh(e);
+    e->debris_area = find_debris_cells(e);
     status = check_interface(e);
   }
   if (!status)
@@ -309,7 +315,7 @@ fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step)
   fg_evolution *e = evolution;
   fg_step coarsened;
   fg_phase before = fg__phase_begin(e->ranks->counters, FG_PHASE_STEPS);
-  /* asked once only: a step that has begun ends, so that it is the same when resumed */
+  /* not within the step: one that has begun is ended, as a resumed run would do it */
   fg_status status = fg__ranks_agree(e->ranks, e->context, fg__check_stop(e->context));
   /* before a step, not after: a checkpoint holds what the next step begins with */
   if (!status && fg__evolution_adapts(e) && fg_evolution_should_coarsen(e))

@@ -44,16 +44,17 @@ struct fg_evolution {
   bool has_coarsening;
 };
 
-/* The public calls, for given ranks instead of all. */
+/* The public calls, for given ranks instead of the context's. */
 fg_status fg__evolution_create(fg_evolution **out, fg_context *context,
                                const fg__ranks *ranks, const fg_field *field,
                                const fg_evolution_options *options);
 fg_status fg__checkpoint_open(fg_checkpoint **out, fg_context *context, const char *path,
                               const fg__ranks *ranks);
 
-/* In units of the longest side: the cells' greatest and least side and volume, and gamma,
- * as asked for or as the mesh has it. Rate at which the fastest mode grows. Alpha of the
- * theta scheme; 0: an implicit one. */
+/* Of the present mesh, in units of the longest side: the greatest and the least spacing,
+ * the volume of a cell, gamma (that of the options or the default), and the growth rate
+ * of the fastest mode of linear theory. Alpha of the theta scheme; 0: an implicit scheme.
+ */
 double fg__evolution_spacing(const fg_evolution *evolution);
 double fg__evolution_least_spacing(const fg_evolution *evolution);
 double fg__evolution_cell_volume(const fg_evolution *evolution);
@@ -61,21 +62,22 @@ double fg__evolution_interface_energy(const fg_evolution *evolution);
 double fg__evolution_growth_rate(const fg_evolution *evolution);
 double fg__evolution_alpha(const fg_evolution *evolution);
 
-/* Times and energies of the first mesh in units of the present one's. With the mesh's
- * spacing the width of interfaces doubles, and with it their energy and the speed of
- * coarsening. */
+/* The factor 2^coarsenings: times of the present mesh times this, and its energies over
+ * this, are those of the first mesh, which are reported. Each coarsening doubles the
+ * width of interfaces, and with it their energy and the speed at which clusters coarsen.
+ */
 double fg__evolution_unit(const fg_evolution *evolution);
 
 /* Makes everything that depends on the mesh, for options that are settled. Collective. */
 fg_status fg__evolution_build(fg_evolution *evolution);
 
-/* Whether steps coarsen the mesh by themselves. */
+/* Whether fg_evolution_step coarsens the mesh. */
 bool fg__evolution_adapts(const fg_evolution *evolution);
 
-/* Frees it again; what the evolution remembers of its past stays. */
+/* Frees what depends on the mesh; the options and the record of the past stay. */
 void fg__evolution_clear(fg_evolution *evolution);
 
-/* Puts noise, the caller's density or that of a finer mesh into the finest u. Collective.
+/* Sets the finest u to noise, the caller's density or that of a finer mesh. Collective.
  * MEMORY, ARGUMENT (the caller's is not the same on all ranks). */
 fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multigrid);
 

@@ -7,14 +7,14 @@
 #include "evolution/widen.h"
 #include "field/noise.h"
 
-/* The nodes of a block to be filled, of which threads take rows: with noise, or the
- * caller's density. */
+/* The nodes of a block to be filled by rows, which threads share: with noise, the
+ * caller's density or that of a finer mesh. */
 typedef struct filling {
   const fg_evolution *e;
   const fg__level *level;
   const fg__box *block;
   const fg__noise *noise;
-  const float *values; /* of the block alone, x fastest; NULL: noise or the caller's */
+  const float *values; /* that of a finer mesh, of the block, x fastest; NULL: another */
   float *row;          /* one a thread */
   float *u;
 } filling;
@@ -62,9 +62,9 @@ static fg_status fill_block(const fg_evolution *e, const fg__level *level,
   return FG_STATUS_OK;
 }
 
-/* Shifts the noise so that its mean is met exactly. Sums are exact: it does not matter
- * who holds which nodes. Nodes without mass become 0. */
-static void settle_mean(const fg__multigrid *multigrid, double mean)
+/* Shifts u to a mean. Sums are exact, so that the result does not depend on blocks. Nodes
+ * without mass become 0. */
+static void set_mean(const fg__multigrid *multigrid, double mean)
 {
   fg__array_shape shape = fg__multigrid_shape(multigrid, 0);
   float *u = fg__multigrid_u(multigrid), *ones = fg__multigrid_p(multigrid);
@@ -75,24 +75,24 @@ static void settle_mean(const fg__multigrid *multigrid, double mean)
   fg__pass_shift(multigrid, u, mean - sum / weight);
 }
 
-/* In a part of a few nodes behind a mask the noise may have a mean beyond the minima,
- * which no evolution within the part could change: it becomes a pure phase. */
-static fg_status settle_parts(const fg_evolution *e, const fg__multigrid *multigrid,
-                              double mean)
+/* In a subdomain of a few nodes the noise may have a mean beyond the minima of the double
+ * well, which the evolution would conserve: the subdomain becomes a pure phase. */
+static fg_status bound_subdomain_means(const fg_evolution *e,
+                                       const fg__multigrid *multigrid, double mean)
 {
   float *u = fg__multigrid_u(multigrid);
   fg__mass_constraint masses;
   fg_status status = fg__mass_constraint_create(&masses, e->context, multigrid, u);
   if (!status && fg__mass_constraint_bound(&masses, -1.0, 1.0)) {
     fg__mass_constraint_restore(&masses, multigrid, u);
-    settle_mean(multigrid, mean);
+    set_mean(multigrid, mean);
   }
   fg__mass_constraint_clear(&masses);
   return status;
 }
 
-/* What the block gets of the density of a finer mesh; the caller frees it. */
-static fg_status take_halved(float **out, const fg_evolution *e)
+/* The block's part of the density coarsened from a finer mesh; the caller frees it. */
+static fg_status receive_coarsened(float **out, const fg_evolution *e)
 {
   size_t count = (size_t)fg__box_count(fg__own_block(&e->mesh.partition));
   float *values = *out = fg__allocate(count, sizeof *values);
@@ -116,7 +116,7 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
   float *u = fg__multigrid_u(multigrid), *values = NULL;
   fg_status status = FG_STATUS_OK;
   if (e->coarsened)
-    status = take_halved(&values, e);
+    status = receive_coarsened(&values, e);
   if (!status)
     status = fill_block(e, fg__multigrid_finest(multigrid),
                         fg__own_block(&e->mesh.partition), &noise, values, u);
@@ -128,7 +128,7 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
   if (e->coarsened) {
     fg__widen_interfaces(multigrid, e->info.gamma, 1.0 - fg__evolution_alpha(e),
                          fg__evolution_least_spacing(e));
-    settle_mean(multigrid, e->coarsened_mean);
+    set_mean(multigrid, e->coarsened_mean);
   } else if (e->options.initial) {
     e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial, e->nodes);
     if (!fg__ranks_alike(e->ranks, e->initial_fingerprint))
@@ -136,8 +136,8 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
                       "the %d ranks have different initial densities", e->ranks->count);
     fg__pass_shift(multigrid, u, 0.0);
   } else {
-    settle_mean(multigrid, mean);
-    status = settle_parts(e, multigrid, mean);
+    set_mean(multigrid, mean);
+    status = bound_subdomain_means(e, multigrid, mean);
   }
   return status;
 }

@@ -29,14 +29,15 @@ static fg_status check_range(fg_context *context, const char *name, double value
                   low_included ? '[' : '(', low, high);
 }
 
-static fg_status check_slow(const fg_evolution_options *o, fg_context *context)
+static fg_status check_isotropic_below(const fg_evolution_options *o, fg_context *context)
 {
   if (!(o->isotropic_below >= 0.0) || isinf(o->isotropic_below))
-    return fg__fail(context, FG_STATUS_ARGUMENT, "isotropic below the speed %g",
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "isotropic_below: the speed %g is not in [0, inf)",
                     o->isotropic_below);
   if (o->isotropic_below > 0.0 && o->energy != FG_ENERGY_FLOW)
     return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "isotropic below the speed %g: only with the energy flow",
+                    "isotropic_below: the speed %g: only with the energy flow",
                     o->isotropic_below);
   return FG_STATUS_OK;
 }
@@ -79,7 +80,7 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
   if (!status)
     status = check_range(context, "accuracy", o->accuracy, 0.0, 1.0, false);
   if (!status)
-    status = check_slow(o, context);
+    status = check_isotropic_below(o, context);
   if (!status)
     status = check_range(context, "noise", o->noise, 0.0, most_noise, false);
   if (!status)
@@ -89,7 +90,9 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
   if (!status)
     status = check_range(context, "vectors", o->vectors, 0, FG_VECTORS_AVX512, true);
   if (!status && o->threads < 0)
-    status = fg__fail(context, FG_STATUS_ARGUMENT, "%d threads", o->threads);
+    status =
+        fg__fail(context, FG_STATUS_ARGUMENT,
+                 "threads: %d; at least 1, or 0 for all cores, is needed", o->threads);
   return status;
 }
 

@@ -1,4 +1,4 @@
-/* What an evolution is asked for: defaults, limits, and the same on every rank. */
+/* An evolution's options: defaults, limits, and that they are the same on every rank. */
 #ifndef FG__EVOLUTION_OPTIONS_H
 #define FG__EVOLUTION_OPTIONS_H
 

@@ -7,13 +7,14 @@
 
 #include "base/memory.h"
 
-/* The control (docs/design/interfaces.md): the last cycle's correction relative to the
- * step's change says how well the cycles solved it. It is an estimate of the error before
- * the last cycle, hence the large values. A step that is not good enough is given more
- * cycles before it is given up. */
+/* Step control (docs/design/interfaces.md). The rms correction of the last cycle over the
+ * rms change of the step, delta, estimates the algebraic error before that cycle; after
+ * it the error is much smaller, so that delta may be large. An attempt that is not
+ * accepted is given up to MORE_CYCLES cycles, unless it is hopeless, before it is
+ * rejected. */
 static const double acceptable_correction = 1.0; /* delta above this rejects */
 static const double wanted_correction = 1.0;     /* delta that keeps tau */
-static const double hopeless_correction = 2.0;
+static const double hopeless_correction = 2.0;   /* no more cycles above this */
 enum { MORE_CYCLES = 3 };
 static const double correction_floor = 0.2; /* of eta: least change it is compared to */
 static const double acceptable_increment = 3.0; /* in units of eta */
@@ -21,21 +22,22 @@ static const double most_growth = 2.0, most_shrinkage = 0.4;
 static const double reject_factor = 0.5, after_reject = 0.75, relaxation = 1.3;
 static const double most_extrapolation = 2.0;
 
-/* Below this share of the first step something is wrong with the system itself. */
+/* A step below this share of the first fails: not its length is the cause. */
 static const double least_tau_share = 1e-9;
 
 /* Mass is held to the rounding of the stored precision. */
 static const double mass_tolerance = 1e-7;
 
-/* A step that moves the density by less than this and raises the energy, by less than
- * this share, which is several times what rounding to floats moves it, leaves the density
- * as it is: what moves would lower it. */
+/* At rest: an attempt that changes u by less than rest_increment (rms), and raises the
+ * energy by less than the share energy_rounding, a few times the rounding of u to floats.
+ * It is discarded and time alone goes on, for a real motion would lower the energy. */
 static const double energy_rounding = 1e-7, rest_increment = 1e-4;
 
-/* A pattern at rest: so many steps in a row at whose rate u would change by less than
- * this (rms) while time doubles; coarsening changes it by some tenths. Not before this
- * many first steps, twenty growth times of linear theory (a coarsened mesh begins with
- * longer steps: more), in which a weak perturbation may still be growing unseen. */
+/* A pattern is stationary after QUIET_STEPS steps in a row at whose rate u would change
+ * by less than quiet_change (rms) while time doubles; coarsening of clusters changes it
+ * by some tenths. Not before quiet_after times the first step, which is twenty growth
+ * times of linear theory (more on a coarsened mesh, whose first step is longer), because
+ * a weak perturbation may grow unseen until then. */
 enum { QUIET_STEPS = 12 };
 static const double quiet_change = 1e-3, quiet_after = 2e4;
 
@@ -127,8 +129,9 @@ static void guess(fg__stepper *s, double tau, double share)
   fg__pass_predict(m, s->current, s->previous, omega, u);
 }
 
-/* Keeps what the last cycle starts from. Parts get their means back after each cycle,
- * before the next one restricts what they lack. */
+/* Runs cycles; s->first_iterate becomes u before the last one. With several subdomains
+ * the mean of each is restored after every cycle, so that the next one does not restrict
+ * the error of the mean. */
 static fg__changes solve(fg__stepper *s, double tau, int cycles)
 {
   fg__multigrid *m = &s->multigrid;
@@ -143,9 +146,10 @@ static fg__changes solve(fg__stepper *s, double tau, int cycles)
                           s->previous);
 }
 
-/* Backward differences: over one step at first, and after a reject, when w is what the
- * failed attempt left and starts again from the density; else of second order, over two
- * steps of unequal size. */
+/* Sets up the system of backward differences; returns the tau in its formula. Without
+ * history, at first and after a rejected attempt, they are of first order, and w, which
+ * may be left from that attempt, is evaluated anew; else of second order, over two steps
+ * of unequal size. */
 static double prepare_implicit(fg__stepper *s, double tau)
 {
   fg__multigrid *m = &s->multigrid;
@@ -162,43 +166,50 @@ static double prepare_implicit(fg__stepper *s, double tau)
   return tau * (1.0 + omega) / both;
 }
 
-/* Its correction is that of the substep solved worst. */
+/* The correction is the largest of the substeps'. */
 static fg__changes step_by_theta(fg__stepper *s, double tau)
 {
   fg__changes sums = {0};
   guess(s, tau, fg__theta_share(0));
   for (int n = 0; n < FG__THETA_SUBSTEPS; ++n) {
-    double worst = sums.from_b;
+    double worst = sums.correction;
     double substep = fg__theta_prepare(&s->theta, &s->multigrid, n, tau, s->current);
     sums = solve(s, substep, s->cycles);
-    sums.from_b = fmax(sums.from_b, worst);
+    sums.correction = fmax(sums.correction, worst);
   }
   return sums;
 }
 
 typedef struct outcome {
   double increment, correction, energy, mean;
-  double persistence; /* how much of the last step's rate of change went on */
+  double
+      persistence; /* the rate of change projected on the last step's, as a share of it */
   bool accepted;
   bool at_rest; /* the change is within the rounding of the stored density */
 } outcome;
 
-/* What the cycles say of the step; its mean is set right. */
+/* Cycles do not conserve the mean of u: restores it, in the domain and each subdomain. */
+static void restore_means(fg__stepper *s, const fg__changes *sums)
+{
+  float *u = fg__multigrid_u(&s->multigrid);
+  fg__pass_shift(&s->multigrid, u, s->mean - sums->u / s->total_mass);
+  fg__mass_constraint_restore(&s->masses, &s->multigrid, u);
+}
+
+/* Whether the attempt in the level's u, of which `sums` are, is accepted. */
 static outcome judge(fg__stepper *s, double tau, fg__changes sums)
 {
   fg__multigrid *m = &s->multigrid;
-  float *u = fg__multigrid_u(m);
-  fg__pass_shift(m, u, s->mean - sums.u / s->total_mass);
-  fg__mass_constraint_restore(&s->masses, m, u);
   outcome result;
-  result.increment = sqrt(sums.from_a / s->total_mass);
-  result.correction = sqrt(sums.from_b / s->total_mass) /
+  restore_means(s, &sums);
+  result.increment = sqrt(sums.change / s->total_mass);
+  result.correction = sqrt(sums.correction / s->total_mass) /
                       fmax(result.increment, correction_floor * s->accuracy);
   result.persistence = 0.0;
   if (s->increment > 0.0)
     result.persistence =
-        sums.along * s->last_tau / (tau * s->increment * s->increment * s->total_mass);
-  fg__sums shifted = fg__pass_evaluate(m, u, s->first_iterate);
+        sums.product * s->last_tau / (tau * s->increment * s->increment * s->total_mass);
+  fg__sums shifted = fg__pass_evaluate(m, fg__multigrid_u(m), s->first_iterate);
   result.energy = s->cell_volume * shifted.energy;
   result.mean = shifted.u / s->total_mass;
   result.at_rest = result.increment < rest_increment && result.energy >= s->energy &&
@@ -215,7 +226,7 @@ static outcome attempt(fg__stepper *s, double tau)
   if (s->theta.alpha > 0.0)
     return judge(s, tau, step_by_theta(s, tau));
   double effective = prepare_implicit(s, tau);
-  bool failed = s->tau_limit < s->most_tau; /* of late */
+  bool failed = s->tau_limit < s->most_tau; /* an attempt was rejected lately */
   fg__subdomains_solve(&s->subdomains, &s->multigrid, tau, effective, s->current, failed);
   outcome result = judge(s, tau, solve(s, effective, s->cycles));
   for (int n = 0; n < MORE_CYCLES; ++n) {
@@ -269,6 +280,19 @@ static void pass_time(fg__stepper *s, double tau)
   s->increment = 0.0;
 }
 
+static fg_status fail_step(const fg__stepper *s, fg_context *context, double tau,
+                           const outcome *result)
+{
+  fg__fail(context, FG_STATUS_NO_CONVERGENCE,
+           "no time step is accepted after step %" PRId64 " at t = %g, down to tau = %g: "
+           "its rms change is %g, its relative correction %g (at most %g), its energy %g "
+           "(at most %g)",
+           s->accepted, s->time, tau, result->increment, result->correction,
+           acceptable_correction, result->energy, s->energy);
+  fg__hint(context, "Take a larger gamma or more nodes.");
+  return FG_STATUS_NO_CONVERGENCE;
+}
+
 fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
 {
   fg__stepper *s = stepper;
@@ -293,11 +317,7 @@ fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context)
     s->tau_limit = after_reject * tau;
     tau *= reject_factor;
     if (!(tau > least_tau_share * s->first_tau))
-      return fg__fail(context, FG_STATUS_NO_CONVERGENCE,
-                      "no time step is accepted after step %" PRId64
-                      " at t = %g: change %g, "
-                      "correction %g at tau = %g",
-                      s->accepted, s->time, result.increment, result.correction, tau);
+      return fail_step(s, context, tau, &result);
   }
 }
 

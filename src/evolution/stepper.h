@@ -15,7 +15,7 @@ typedef struct fg__stepper {
   int cycles;                 /* a step, or a substep of the theta scheme */
   double cell_volume;         /* hx hy (hz), units of the longest side */
   double total_mass;          /* sum of the nodes' relative masses */
-  double mean;                /* of u, held */
+  double mean;                /* of u, conserved */
   fg__mass_constraint masses; /* of each subdomain */
   fg__subdomains subdomains;  /* those of few nodes; the theta scheme has none */
   double first_tau, most_tau;
@@ -23,12 +23,12 @@ typedef struct fg__stepper {
   int64_t accepted, rejected, cycles_spent;
   double time, tau;    /* tau: the next step to try */
   double last_tau;     /* the last accepted one */
-  double tau_limit;    /* after a reject */
+  double tau_limit;    /* lowered by a rejected attempt, relaxed by accepted steps */
   double energy, mass; /* of the current u, units of the longest side */
   double increment;    /* rms of the last step's change */
   double persistence;  /* share of the last change that the predictor continues */
-  bool history;        /* the last step's predecessor may be used */
-  int64_t quiet_steps; /* steps in a row that changed next to nothing */
+  bool history;        /* `previous` is the density one step before `current` */
+  int64_t quiet_steps; /* steps in a row that are quiet (fg__stepper_stationary) */
 
   /* Arrays of the finest level. A step is computed in the level's own u, which then
    * becomes current: the three are passed round, never copied. */

@@ -66,12 +66,12 @@ static bool nonlinear(const fg__multigrid *multigrid, int n)
   return n == 0 && multigrid->distributed_count == 0 && !multigrid->linear;
 }
 
-/* One of several cycles: what the last one has done for it, and whether it shall do so
- * for a next. */
-typedef struct turn {
+/* State of a cycle among several. */
+typedef struct cycle_state {
   float tau;
-  bool restricted, more;
-} turn;
+  bool restricted; /* the last cycle has restricted the finest level's residuals */
+  bool more;       /* a cycle follows, for which this one restricts them */
+} cycle_state;
 
 /* Makes a coarse level's system from the restricted quantities. */
 static void find_space(const fg__multigrid *multigrid, const fg__level *level, float tau,
@@ -83,7 +83,7 @@ static void find_space(const fg__multigrid *multigrid, const fg__level *level, f
 
 /* Restricts to the coarse level; its u and w become 0. A linear level is swept first. */
 static void descend(const fg__multigrid *multigrid, const fg__level *fine,
-                    const fg__level *coarse, bool linear, const turn *now,
+                    const fg__level *coarse, bool linear, const cycle_state *now,
                     const fg__thread *thread)
 {
   const fg__kernel *kernel = multigrid->kernel;
@@ -95,7 +95,7 @@ static void descend(const fg__multigrid *multigrid, const fg__level *fine,
 
 /* The coarse level's correction; then a sweep, and perhaps the next restriction. */
 static void ascend(const fg__multigrid *multigrid, const fg__level *coarse,
-                   const fg__level *fine, bool linear, const turn *now,
+                   const fg__level *fine, bool linear, const cycle_state *now,
                    const fg__thread *thread)
 {
   const fg__kernel *kernel = multigrid->kernel;
@@ -108,7 +108,7 @@ static void ascend(const fg__multigrid *multigrid, const fg__level *coarse,
 }
 
 /* The same for level n of the replicated ones. */
-static void go_down(const fg__multigrid *multigrid, int n, const turn *now,
+static void go_down(const fg__multigrid *multigrid, int n, const cycle_state *now,
                     const fg__thread *thread)
 {
   const fg__level *level = &multigrid->level[n];
@@ -116,7 +116,7 @@ static void go_down(const fg__multigrid *multigrid, int n, const turn *now,
   find_space(multigrid, level + 1, now->tau, thread);
 }
 
-static void go_up(const fg__multigrid *multigrid, int n, const turn *now,
+static void go_up(const fg__multigrid *multigrid, int n, const cycle_state *now,
                   const fg__thread *thread)
 {
   const fg__level *level = &multigrid->level[n];
@@ -125,7 +125,7 @@ static void go_up(const fg__multigrid *multigrid, int n, const turn *now,
 }
 
 /* Levels n and coarser, by one thread. */
-static void cycle_alone(const fg__multigrid *multigrid, int n, const turn *now)
+static void cycle_alone(const fg__multigrid *multigrid, int n, const cycle_state *now)
 {
   const fg__kernel *kernel = multigrid->kernel;
   int last = multigrid->level_count - 1;
@@ -142,7 +142,7 @@ static void cycle_alone(const fg__multigrid *multigrid, int n, const turn *now)
 }
 
 /* The replicated levels, alike on all ranks: of a process alone all of them. */
-static void cycle_replicated(const fg__multigrid *multigrid, const turn *now,
+static void cycle_replicated(const fg__multigrid *multigrid, const cycle_state *now,
                              const fg__thread *thread)
 {
   int last = multigrid->level_count - 1;
@@ -157,12 +157,12 @@ static void cycle_replicated(const fg__multigrid *multigrid, const turn *now,
 }
 
 /* From the blocks to level[0] and back. */
-static void cycle_gathered(const fg__multigrid *multigrid, const turn *now)
+static void cycle_gathered(const fg__multigrid *multigrid, const cycle_state *now)
 {
-  const fg__level *image = &multigrid->distributed[multigrid->distributed_count].block;
+  const fg__level *block = &multigrid->distributed[multigrid->distributed_count].block;
   const fg__level *replicated = &multigrid->level[0];
   fg__thread alone = fg__single_thread();
-  float *const sent[] = {image->p, image->q, image->coupling, image->shape_curvature};
+  float *const sent[] = {block->p, block->q, block->coupling, block->shape_curvature};
   float *const received[] = {replicated->p, replicated->q, replicated->coupling,
                              replicated->shape_curvature};
   fg__gather_fill(multigrid->gather, FG__RESTRICTED, sent, received);
@@ -173,7 +173,7 @@ static void cycle_gathered(const fg__multigrid *multigrid, const turn *now)
   find_space(multigrid, replicated, now->tau, &alone);
   cycle_replicated(multigrid, now, &alone);
   multigrid->kernel->unscale(replicated, &alone);
-  float *const own[] = {image->u, image->w};
+  float *const own[] = {block->u, block->w};
   fg__gather_return(multigrid->gather, 2, solution, own);
 }
 
@@ -189,7 +189,7 @@ static void find_space_of_block(const fg__multigrid *multigrid,
 }
 
 /* An idle rank only shares the work on replicated levels, which all do alike. */
-static void cycle_distributed(const fg__multigrid *multigrid, turn *now)
+static void cycle_distributed(const fg__multigrid *multigrid, cycle_state *now)
 {
   if (fg__is_idle(&multigrid->partition)) {
     cycle_gathered(multigrid, now);
@@ -245,7 +245,7 @@ void fg__multigrid_copy(const fg__multigrid *multigrid, const float *from, float
 void fg__multigrid_solve(const fg__multigrid *multigrid, double tau, int cycles,
                          float *before, const fg__thread *thread)
 {
-  turn now = {.tau = (float)tau};
+  cycle_state now = {.tau = (float)tau};
   if (multigrid->linear && !fg__is_idle(&multigrid->partition))
     multigrid->kernel->find_relaxation(fg__multigrid_finest(multigrid), now.tau, thread);
   for (int n = 1; n <= cycles; ++n) {

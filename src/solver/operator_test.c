@@ -258,9 +258,9 @@ static void sums_are_integrals(const problem *p)
     b[n] += a[n];
   double from_b = inner_product(p, b, b);
   assert_true(fabs(cell * changes.u - mass) < ROUNDING * fabs(mass));
-  assert_true(fabs(cell * changes.from_a - from_a) < ROUNDING * from_a);
-  assert_true(fabs(cell * changes.from_b - from_b) < ROUNDING * from_b);
-  assert_true(fabs(cell * changes.along - along) < ROUNDING * (from_a + from_b));
+  assert_true(fabs(cell * changes.change - from_a) < ROUNDING * from_a);
+  assert_true(fabs(cell * changes.correction - from_b) < ROUNDING * from_b);
+  assert_true(fabs(cell * changes.product - along) < ROUNDING * (from_a + from_b));
   free(u);
   free(a);
   free(b);

@@ -159,9 +159,9 @@ static void changes(pass *p, const fg__level *level, const fg__thread *thread)
       p->multigrid->kernel->changes(level, p->from, p->a, p->b, p->c, thread);
   fg__changes *sum = &p->changes[thread->index];
   sum->u += part.u;
-  sum->from_a += part.from_a;
-  sum->from_b += part.from_b;
-  sum->along += part.along;
+  sum->change += part.change;
+  sum->correction += part.correction;
+  sum->product += part.product;
 }
 
 fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
@@ -172,16 +172,16 @@ fg__changes fg__pass_changes(const fg__multigrid *multigrid, const float *u,
   fg__changes total = {0.0, 0.0, 0.0, 0.0};
   for (int n = 0; n < FG__MOST_THREADS; ++n) {
     total.u += p.changes[n].u;
-    total.from_a += p.changes[n].from_a;
-    total.from_b += p.changes[n].from_b;
-    total.along += p.changes[n].along;
+    total.change += p.changes[n].change;
+    total.correction += p.changes[n].correction;
+    total.product += p.changes[n].product;
   }
   if (is_distributed(multigrid)) {
     double nodes = node_count(multigrid);
     double rounding = fg__level_rounding(nodes), fine = fg__level_change_rounding(nodes);
     add_over_ranks(
         multigrid,
-        (double *const[]){&total.u, &total.from_a, &total.from_b, &total.along},
+        (double *const[]){&total.u, &total.change, &total.correction, &total.product},
         (const double[]){rounding, fine, fine, fine}, 4);
   }
   return total;

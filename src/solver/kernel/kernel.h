@@ -17,16 +17,17 @@
  * are bounded (solver/kernel/stencil.h). In scale * v, written u there, their system has
  * the mass m, the coupling: m u + tau L w = p and m w - (curvature + K) u = q. */
 
-/* The quantities restricted: residuals of both equations, the second times d; d; and d J
- * d. */
+/* The number of quantities that are restricted: the residuals of both equations, the
+ * second times d; d; and d J d, J = Psi''(u). */
 enum { FG__RESTRICTED = 4 };
 
-/* Sums over nodes, m the relative mass. */
+/* Sums over nodes, m the relative mass: u after a step, a before it, b before the step's
+ * last cycle, c before the step before. */
 typedef struct fg__changes {
-  double u;      /* m u */
-  double from_a; /* m (u - a)^2 */
-  double from_b; /* m (u - b)^2 */
-  double along;  /* m (u - a) (a - c) */
+  double u;          /* m u */
+  double change;     /* m (u - a)^2 */
+  double correction; /* m (u - b)^2 */
+  double product;    /* m (u - a) (a - c) */
 } fg__changes;
 
 typedef struct fg__sums {

@@ -148,9 +148,9 @@ static void changes(const fg__kernel *kernel, const fg__level *fine,
   kernel->extrapolate(fine, fine->u, fine->w, 0.1F, fine->p, thread);
   fg__changes result = kernel->changes(fine, fine->u, fine->p, fine->p, fine->u, thread);
   sums[0] = result.u;
-  sums[1] = result.from_a;
-  sums[2] = result.from_b;
-  sums[3] = result.along;
+  sums[1] = result.change;
+  sums[2] = result.correction;
+  sums[3] = result.product;
 }
 
 static void extrapolate(const fg__kernel *kernel, const fg__level *fine,

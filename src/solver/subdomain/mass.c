@@ -87,7 +87,7 @@ static fg_status find_subdomains(fg__clusters *subdomains, fg_context *context,
                                    .cell_row = block->tensor.row,
                                    .cell_plane = block->tensor.plane};
     status = fg__clusters_find(subdomains, context, &grid, NULL,
-                               &(fg__cluster_wish){.counting = true});
+                               &(fg__cluster_request){.counting = true});
   }
   free(active);
   return status;
