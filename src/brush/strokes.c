@@ -114,7 +114,8 @@ static fg_status settle(work *w)
                     o->cluster_count, FG_MOST_BRUSH_SCALES);
   for (int k = 0; k < o->cluster_count; ++k)
     if (o->clusters[k] < 1)
-      return fg__fail(w->context, FG_STATUS_ARGUMENT, "brush: %d clusters",
+      return fg__fail(w->context, FG_STATUS_ARGUMENT,
+                      "brush: scale %d has %d clusters; at least 1 is needed", k,
                       o->clusters[k]);
   choose_clusters(w);
   return FG_STATUS_OK;

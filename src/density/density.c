@@ -28,9 +28,11 @@ static fg_status check(fg_context *context, const fg_density_arrays *arrays)
                       arrays->nodes[k], k);
     if (!(arrays->spacing[k] > 0.0) || !isfinite(arrays->spacing[k]) ||
         !isfinite(arrays->origin[k]))
-      return fg__fail(context, FG_STATUS_ARGUMENT,
-                      "density: spacing %g and origin %g along axis %d",
-                      arrays->spacing[k], arrays->origin[k], k);
+      return fg__fail(
+          context, FG_STATUS_ARGUMENT,
+          "density: spacing %g and origin %g along axis %d; a spacing above 0 and "
+          "finite numbers are needed",
+          arrays->spacing[k], arrays->origin[k], k);
     if ((size_t)arrays->nodes[k] > SIZE_MAX / 16 / count)
       return fg__fail(context, FG_STATUS_ARGUMENT, "density: the grid is too large");
     count *= (size_t)arrays->nodes[k];

@@ -55,7 +55,8 @@ fg_status fg_image_create(fg_image **out, fg_context *context,
     return fg__fail(context, FG_STATUS_ARGUMENT, "image: %d channels; 1 or 3 are needed",
                     arrays->channels);
   if (arrays->width < 0 || arrays->height < 0)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "image: %d x %d pixels", arrays->width,
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "image: %d x %d pixels; at least 2 x 2 are needed", arrays->width,
                     arrays->height);
   fg_image *image;
   fg_status status =
@@ -67,7 +68,8 @@ fg_status fg_image_create(fg_image **out, fg_context *context,
   if (!copy_values(image->sample, arrays->sample, count * (size_t)arrays->channels) ||
       (arrays->alpha && !copy_values(image->alpha, arrays->alpha, count))) {
     fg_image_destroy(image);
-    return fg__fail(context, FG_STATUS_ARGUMENT, "image: a value outside 0 to 1");
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "image: a sample or an alpha is outside 0 to 1");
   }
   *out = image;
   return FG_STATUS_OK;

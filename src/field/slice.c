@@ -329,8 +329,9 @@ static fg_status begin(cut *c, const fg_plane *plane)
                     "field: a cut through a field in %d dimensions; it needs 3",
                     a->dimension);
   if (!fg__field_is_whole(c->volume))
-    return fg__fail(c->context, FG_STATUS_ARGUMENT,
-                    "field: a cut through a field that ranks share");
+    return fg__fail(
+        c->context, FG_STATUS_ARGUMENT,
+        "field: a cut through a part of a field that ranks share; the whole is needed");
   double size = 0.0;
   for (int k = 0; k < 3; ++k)
     size += fabs(plane->point[k]);

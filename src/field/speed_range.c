@@ -41,8 +41,10 @@ fg_status fg_field_speed_range(double range[2], fg_context *context,
                                const fg_field *field)
 {
   if (!range || !field || field->slab)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "speeds of no field, or of one that ranks share");
+    return fg__fail(context, FG_STATUS_ARGUMENT, "speed range: %s",
+                    field && field->slab
+                        ? "of a part of a field that ranks share; the whole is needed"
+                        : "a NULL argument");
   const fg_field_arrays *arrays = fg_field_contents(field);
   size_t samples = 1;
   for (int k = 0; k < arrays->dimension; ++k)

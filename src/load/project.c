@@ -26,14 +26,15 @@ static void move_point(double out[3], double *longitude, const planes *between,
   *longitude = degrees[0];
 }
 
-/* The root of how much larger areas become at a point, in lengths of either plane. */
+/* The root of the ratio of areas on the new plane to areas on the old one at a point. */
 static double length_factor(const planes *between, const double point[3])
 {
   double degrees[2];
   fg__map_inverse(between->from, 1, &point[0], &point[1], &degrees[0], &degrees[1]);
-  const double now = fg__map_area_scale(between->from, degrees[0], degrees[1]);
-  const double then = fg__map_area_scale(between->to, degrees[0], degrees[1]);
-  return sqrt(then / now) * fg__map_unit(between->from) / fg__map_unit(between->to);
+  const double old_scale = fg__map_area_scale(between->from, degrees[0], degrees[1]);
+  const double new_scale = fg__map_area_scale(between->to, degrees[0], degrees[1]);
+  return sqrt(new_scale / old_scale) * fg__map_unit(between->from) /
+         fg__map_unit(between->to);
 }
 
 /* The longest run of points within half a turn of the new centre and with an image. */

@@ -104,9 +104,9 @@ static void append(char out[FG__CAPTION_BYTES], const char *text, size_t length)
   out[used + length] = '\0';
 }
 
-/* Bytes at the beginning of a text that part what stands beside them: spaces, commas, a
- * middle dot (C2 B7), dashes (E2 80 93, 94). */
-static size_t parting(const char *text)
+/* Bytes of the separator at the beginning of a text: spaces, commas, a middle dot (C2
+ * B7), dashes (E2 80 93, 94). */
+static size_t separator(const char *text)
 {
   size_t length = 0;
   for (;;) {
@@ -122,9 +122,8 @@ static size_t parting(const char *text)
   }
 }
 
-/* A value that is not there: what would part it from what stands before it goes, too, or
- * at the beginning from what comes; so do brackets round it. Returns where the wish goes
- * on. */
+/* For a name without a value: removes the separator before it, or at the beginning of the
+ * text the one after it, and brackets round it. Returns where the template goes on. */
 static const char *leave_out(char out[FG__CAPTION_BYTES], const char *at)
 {
   size_t used = strlen(out);
@@ -133,9 +132,9 @@ static const char *leave_out(char out[FG__CAPTION_BYTES], const char *at)
     ++at;
   }
   for (size_t n = 0; n < used; ++n)
-    if (((unsigned char)out[n] & 0xC0) != 0x80 && n + parting(out + n) == used)
+    if (((unsigned char)out[n] & 0xC0) != 0x80 && n + separator(out + n) == used)
       out[used = n] = '\0';
-  return used == 0 ? at + parting(at) : at;
+  return used == 0 ? at + separator(at) : at;
 }
 
 void fg__caption_fill(char out[FG__CAPTION_BYTES], const char *wanted,

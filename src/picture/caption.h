@@ -54,9 +54,8 @@ typedef struct fg__caption_value {
 void fg__caption_label_speeds(fg__tick_axis *speed, const char *wanted,
                               const char *units);
 
-/* Copies a wish, cleaned, with what stands for the names in it; cut to its room. Where a
- * value is not there, neither is what parts it from the rest: "Wind, {time}" is "Wind".
- */
+/* Fills in the values of the names in a template, cleaned and cut to the room. Where a
+ * value is not there, its separator is left out, too: "Wind, {time}" becomes "Wind". */
 void fg__caption_fill(char out[FG__CAPTION_BYTES], const char *wanted,
                       const fg__caption_value *values, size_t count);
 

@@ -15,32 +15,33 @@
  * 24 bits. */
 static const double same_share = 1e-6;
 
-enum { WISH_BYTES = 256, UNIT_BYTES = 32, MOST_INDEX_DIGITS = 9 };
+enum { ITEM_BYTES = 256, UNIT_BYTES = 32, MOST_INDEX_DIGITS = 9 };
 
-typedef enum wish_kind {
-  WISH_NONE,
-  WISH_INDEX,
-  WISH_VALUE,
-  WISH_DATE,
-  WISH_WORDS
-} wish_kind;
+typedef enum item_kind {
+  ITEM_NONE,
+  ITEM_INDEX,
+  ITEM_VALUE,
+  ITEM_DATE,
+  ITEM_WORDS
+} item_kind;
 
 /* One end of a range, or an item by itself. */
-typedef struct wish {
-  wish_kind kind;
+typedef struct item {
+  item_kind kind;
   int index;
   double value;
   char unit[UNIT_BYTES]; /* "": the file's */
   fg__period period;     /* of a date */
-  char text[WISH_BYTES]; /* as it was typed */
-} wish;
+  char text[ITEM_BYTES]; /* as it was typed */
+} item;
 
-typedef struct asked {
+/* The times or levels that there are. */
+typedef struct value_axis {
   fg_context *context;
   const char *what; /* "time", "level" */
   const fg_axis_value *values;
   int count;
-} asked;
+} value_axis;
 
 /* Units that can be told from each other: what they measure, and how many of its base
  * unit they are. */
@@ -78,7 +79,7 @@ static double unit_factor(const char *from, const char *to)
 }
 
 /* A number with a unit, a point or an exponent. */
-static bool read_value(wish *out, const char *text)
+static bool read_value(item *out, const char *text)
 {
   fg__number_locale locale;
   if (!strchr("+-.0123456789", text[0]) || !fg__number_locale_begin(&locale))
@@ -99,7 +100,7 @@ static bool read_value(wish *out, const char *text)
   return true;
 }
 
-static bool read_index(wish *out, const char *text)
+static bool read_index(item *out, const char *text)
 {
   const size_t digits = strspn(text, "0123456789");
   if (digits == 0 || text[digits] || digits > MOST_INDEX_DIGITS)
@@ -114,125 +115,125 @@ static bool are_words(const char *text)
   return (isalpha((unsigned char)text[0]) || strchr(text, '_')) && !strpbrk(text, ":/");
 }
 
-static bool read_wish(wish *out, const char *text)
+static bool read_item(item *out, const char *text)
 {
-  *out = (wish){.kind = WISH_NONE};
+  *out = (item){.kind = ITEM_NONE};
   snprintf(out->text, sizeof out->text, "%s", text);
   if (!*text)
     return true;
   if (read_index(out, text))
-    out->kind = WISH_INDEX;
+    out->kind = ITEM_INDEX;
   else if (fg__period_read(&out->period, text))
-    out->kind = WISH_DATE;
+    out->kind = ITEM_DATE;
   else if (read_value(out, text))
-    out->kind = WISH_VALUE;
+    out->kind = ITEM_VALUE;
   else if (are_words(text))
-    out->kind = WISH_WORDS;
-  return out->kind != WISH_NONE;
+    out->kind = ITEM_WORDS;
+  return out->kind != ITEM_NONE;
 }
 
 /* Parts "A:B" or "A/B" where both ends can be read and are of one kind; a colon may also
  * be a time of day's. */
-static bool read_range(wish ends[2], const char *text)
+static bool read_range(item ends[2], const char *text)
 {
-  char first[WISH_BYTES];
+  char first[ITEM_BYTES];
   for (const char *at = text; (at = strpbrk(at, ":/")); ++at) {
     snprintf(first, sizeof first, "%.*s", (int)(at - text), text);
-    if (read_wish(&ends[0], first) && read_wish(&ends[1], at + 1) &&
-        (ends[0].kind || ends[1].kind) && ends[0].kind != WISH_WORDS &&
-        ends[1].kind != WISH_WORDS &&
+    if (read_item(&ends[0], first) && read_item(&ends[1], at + 1) &&
+        (ends[0].kind || ends[1].kind) && ends[0].kind != ITEM_WORDS &&
+        ends[1].kind != ITEM_WORDS &&
         (!ends[0].kind || !ends[1].kind || ends[0].kind == ends[1].kind))
       return true;
   }
   return false;
 }
 
-/* "12 times, 1982-01-16 to 1982-12-16" for messages. */
-static const char *describe_values(char *out, size_t room, const asked *a)
+/* "0 is 1982-01-16, 11 is 1982-12-16", for messages. */
+static const char *describe_values(char *out, size_t room, const value_axis *axis)
 {
-  const int last = a->count - 1;
-  if (!a->values)
+  const int last = axis->count - 1;
+  if (!axis->values)
     snprintf(out, room, "they have no values, only the indices 0 to %d", last);
   else if (last == 0)
-    snprintf(out, room, "the only one is %s", a->values[0].words);
+    snprintf(out, room, "the only one is %s", axis->values[0].words);
   else
-    snprintf(out, room, "0 is %s, %d is %s", a->values[0].words, last,
-             a->values[last].words);
+    snprintf(out, room, "0 is %s, %d is %s", axis->values[0].words, last,
+             axis->values[last].words);
   return out;
 }
 
-static fg_status fail_absent(const asked *a, const char *text, const char *why)
+static fg_status fail_absent(const value_axis *axis, const char *text, const char *why)
 {
-  char held[2 * WISH_BYTES];
-  return fg__fail(a->context, FG_STATUS_UNSUPPORTED, "no %s %s: %s%s", a->what, text, why,
-                  describe_values(held, sizeof held, a));
+  char held[2 * ITEM_BYTES];
+  return fg__fail(axis->context, FG_STATUS_UNSUPPORTED, "no %s %s: %s%s", axis->what,
+                  text, why, describe_values(held, sizeof held, axis));
 }
 
-static fg_status fail_index(const asked *a, const wish *w)
+static fg_status fail_index(const value_axis *axis, const item *w)
 {
-  char held[2 * WISH_BYTES];
-  fg__fail(a->context, FG_STATUS_UNSUPPORTED, "%s %d asked for, and there %s %d: %s",
-           a->what, w->index, a->count == 1 ? "is" : "are", a->count,
-           describe_values(held, sizeof held, a));
-  fg__hint(a->context,
+  char held[2 * ITEM_BYTES];
+  fg__fail(axis->context, FG_STATUS_UNSUPPORTED, "%s %d asked for, and there %s %d: %s",
+           axis->what, w->index, axis->count == 1 ? "is" : "are", axis->count,
+           describe_values(held, sizeof held, axis));
+  fg__hint(axis->context,
            "a whole number is an index, from 0; a value has its unit or a "
            "point: %s",
-           strcmp(a->what, "time") == 0 ? "1982-07-16, 2.5" : "850hPa, 850.");
+           strcmp(axis->what, "time") == 0 ? "1982-07-16, 2.5" : "850hPa, 850.");
   return FG_STATUS_UNSUPPORTED;
 }
 
-/* Where value number n lies on the line that the wish's own place is on; NaN: not on it.
+/* Value number n in the item's unit, or of a date its seconds; NaN: it has no such value.
  */
-static double place_of(const asked *a, const wish *w, int n)
+static double place_of(const value_axis *axis, const item *w, int n)
 {
   fg__period period;
-  if (!a->values)
+  if (!axis->values)
     return (double)NAN;
-  if (w->kind == WISH_DATE)
-    return fg__period_read_start(&period, a->values[n].words) ? period.seconds
-                                                              : (double)NAN;
-  const double factor = unit_factor(w->unit, a->values[n].units);
-  return factor > 0.0 ? a->values[n].value / factor : (double)NAN;
+  if (w->kind == ITEM_DATE)
+    return fg__period_read_start(&period, axis->values[n].words) ? period.seconds
+                                                                 : (double)NAN;
+  const double factor = unit_factor(w->unit, axis->values[n].units);
+  return factor > 0.0 ? axis->values[n].value / factor : (double)NAN;
 }
 
-static double own_place(const wish *w)
+static double own_place(const item *w)
 {
-  return w->kind == WISH_DATE ? w->period.seconds : w->value;
+  return w->kind == ITEM_DATE ? w->period.seconds : w->value;
 }
 
-static double slack_of(const wish *w)
+static double slack_of(const item *w)
 {
-  return w->kind == WISH_DATE ? 0.0 : same_share * fabs(w->value);
+  return w->kind == ITEM_DATE ? 0.0 : same_share * fabs(w->value);
 }
 
-/* Whether value number n is what the wish names. */
-static bool is_named(const asked *a, const wish *w, int n)
+/* Whether value number n is what the item names. */
+static bool is_named(const value_axis *axis, const item *w, int n)
 {
   fg__period period;
-  if (w->kind == WISH_DATE)
-    return a->values && fg__period_read_start(&period, a->values[n].words) &&
+  if (w->kind == ITEM_DATE)
+    return axis->values && fg__period_read_start(&period, axis->values[n].words) &&
            period.key >= w->period.key && period.key < w->period.end_key;
-  return fabs(place_of(a, w, n) - own_place(w)) <= slack_of(w);
+  return fabs(place_of(axis, w, n) - own_place(w)) <= slack_of(w);
 }
 
-/* The largest distance of a value to the one next to it on this line. */
-static double end_spacing(const asked *a, const wish *w, double end)
+/* The distance of the first or last value, `end`, to the one next to it. */
+static double end_spacing(const value_axis *axis, const item *w, double end)
 {
   double spacing = HUGE_VAL;
-  for (int n = 0; n < a->count; ++n) {
-    const double d = fabs(place_of(a, w, n) - end);
+  for (int n = 0; n < axis->count; ++n) {
+    const double d = fabs(place_of(axis, w, n) - end);
     if (d > 0.0 && d < spacing)
       spacing = d;
   }
   return isfinite(spacing) ? spacing : 0.0;
 }
 
-static fg_status find_nearest(int *index, const asked *a, const wish *w)
+static fg_status find_nearest(int *index, const value_axis *axis, const item *w)
 {
   double least = HUGE_VAL, low = HUGE_VAL, high = -HUGE_VAL;
   const double wanted = own_place(w);
-  for (int n = 0; n < a->count; ++n) {
-    const double place = place_of(a, w, n);
+  for (int n = 0; n < axis->count; ++n) {
+    const double place = place_of(axis, w, n);
     if (!isfinite(place))
       continue;
     low = fmin(low, place);
@@ -243,13 +244,13 @@ static fg_status find_nearest(int *index, const asked *a, const wish *w)
     }
   }
   if (!isfinite(least))
-    return fail_absent(a, w->text,
-                       w->kind == WISH_DATE ? "none of them is a date; "
+    return fail_absent(axis, w->text,
+                       w->kind == ITEM_DATE ? "none of them is a date; "
                        : w->unit[0]         ? "none of them is in such a unit; "
                                             : "");
   const double beyond = wanted < low ? low - wanted : wanted > high ? wanted - high : 0.0;
-  if (beyond > 0.0 && beyond > end_spacing(a, w, wanted < low ? low : high))
-    return fail_absent(a, w->text, "");
+  if (beyond > 0.0 && beyond > end_spacing(axis, w, wanted < low ? low : high))
+    return fail_absent(axis, w->text, "");
   return FG_STATUS_OK;
 }
 
@@ -259,7 +260,7 @@ static int plain_letter(char letter)
   return letter == '_' ? ' ' : tolower((unsigned char)letter);
 }
 
-/* Whether other words are a part of one's. */
+/* Whether the text `one` contains `other`. */
 static bool has_words(const char *one, const char *other)
 {
   const size_t length = strlen(other), all = strlen(one);
@@ -273,69 +274,71 @@ static bool has_words(const char *one, const char *other)
   return false;
 }
 
-/* All of the words; or a part of them that only one has. */
-static bool choose_words(bool *chosen, const asked *a, const wish *w)
+/* Chooses the values whose words are the item's text; without any, the only one whose
+ * words contain it. */
+static bool choose_words(bool *chosen, const value_axis *axis, const item *w)
 {
   bool found = false;
   int with_part = 0, index = 0;
-  for (int n = 0; n < a->count && a->values; ++n) {
-    if (!has_words(a->values[n].words, w->text))
+  for (int n = 0; n < axis->count && axis->values; ++n) {
+    if (!has_words(axis->values[n].words, w->text))
       continue;
-    if (strlen(a->values[n].words) == strlen(w->text))
+    if (strlen(axis->values[n].words) == strlen(w->text))
       found = chosen[n] = true;
     ++with_part;
     index = n;
   }
-  if (!found && w->kind == WISH_WORDS && with_part == 1)
+  if (!found && w->kind == ITEM_WORDS && with_part == 1)
     found = chosen[index] = true;
   return found;
 }
 
-static fg_status choose_one(bool *chosen, bool *nearest, const asked *a, const wish *w)
+static fg_status choose_one(bool *chosen, bool *nearest, const value_axis *axis,
+                            const item *w)
 {
-  if (w->kind == WISH_INDEX) {
-    if (w->index >= a->count)
-      return fail_index(a, w);
+  if (w->kind == ITEM_INDEX) {
+    if (w->index >= axis->count)
+      return fail_index(axis, w);
     chosen[w->index] = true;
     return FG_STATUS_OK;
   }
-  if (choose_words(chosen, a, w))
+  if (choose_words(chosen, axis, w))
     return FG_STATUS_OK;
-  if (w->kind == WISH_WORDS)
-    return fail_absent(a, w->text, "");
-  for (int n = 0; n < a->count; ++n)
-    if (is_named(a, w, n)) {
+  if (w->kind == ITEM_WORDS)
+    return fail_absent(axis, w->text, "");
+  for (int n = 0; n < axis->count; ++n)
+    if (is_named(axis, w, n)) {
       chosen[n] = true;
       return FG_STATUS_OK;
     }
   int index = 0;
-  fg_status status = find_nearest(&index, a, w);
+  fg_status status = find_nearest(&index, axis, w);
   if (status)
     return status;
   chosen[index] = *nearest = true;
   return FG_STATUS_OK;
 }
 
-static bool in_index_range(const wish ends[2], int n)
+static bool in_index_range(const item ends[2], int n)
 {
   return (!ends[0].kind || n >= ends[0].index) && (!ends[1].kind || n <= ends[1].index);
 }
 
-static bool in_date_range(const asked *a, const wish ends[2], int n)
+static bool in_date_range(const value_axis *axis, const item ends[2], int n)
 {
   fg__period period;
-  return a->values && fg__period_read_start(&period, a->values[n].words) &&
+  return axis->values && fg__period_read_start(&period, axis->values[n].words) &&
          (!ends[0].kind || period.key >= ends[0].period.key) &&
          (!ends[1].kind || period.key < ends[1].period.end_key);
 }
 
 /* Levels of pressure descend: the ends may stand in either order. */
-static bool in_value_range(const asked *a, const wish ends[2], int n)
+static bool in_value_range(const value_axis *axis, const item ends[2], int n)
 {
   double side[2] = {-HUGE_VAL, HUGE_VAL};
   for (int k = 0; k < 2; ++k)
     if (ends[k].kind)
-      side[k] = place_of(a, &ends[k], n) - ends[k].value;
+      side[k] = place_of(axis, &ends[k], n) - ends[k].value;
   if (isnan(side[0]) || isnan(side[1]))
     return false;
   if (!ends[0].kind || !ends[1].kind) {
@@ -348,69 +351,70 @@ static bool in_value_range(const asked *a, const wish ends[2], int n)
   return (side[0] > 0.0) != (side[1] > 0.0);
 }
 
-static fg_status choose_range(bool *chosen, const asked *a, const wish ends[2],
+static fg_status choose_range(bool *chosen, const value_axis *axis, const item ends[2],
                               const char *text)
 {
-  const wish_kind kind = ends[0].kind ? ends[0].kind : ends[1].kind;
-  for (int k = 0; k < 2 && kind == WISH_INDEX; ++k)
-    if (ends[k].kind && ends[k].index >= a->count)
-      return fail_index(a, &ends[k]);
+  const item_kind kind = ends[0].kind ? ends[0].kind : ends[1].kind;
+  for (int k = 0; k < 2 && kind == ITEM_INDEX; ++k)
+    if (ends[k].kind && ends[k].index >= axis->count)
+      return fail_index(axis, &ends[k]);
   bool found = false;
-  for (int n = 0; n < a->count; ++n) {
-    const bool within = kind == WISH_INDEX  ? in_index_range(ends, n)
-                        : kind == WISH_DATE ? in_date_range(a, ends, n)
-                                            : in_value_range(a, ends, n);
+  for (int n = 0; n < axis->count; ++n) {
+    const bool within = kind == ITEM_INDEX  ? in_index_range(ends, n)
+                        : kind == ITEM_DATE ? in_date_range(axis, ends, n)
+                                            : in_value_range(axis, ends, n);
     chosen[n] = chosen[n] || within;
     found = found || within;
   }
-  return found ? FG_STATUS_OK : fail_absent(a, text, "");
+  return found ? FG_STATUS_OK : fail_absent(axis, text, "");
 }
 
-static fg_status fail_spelling(const asked *a, const char *text)
+static fg_status fail_spelling(const value_axis *axis, const char *text)
 {
-  return fg__fail(a->context, FG_STATUS_ARGUMENT,
+  return fg__fail(axis->context, FG_STATUS_ARGUMENT,
                   "'%s' is no index, value, date, range or `all`", text);
 }
 
-static bool is_descending(const wish ends[2])
+static bool is_descending(const item ends[2])
 {
   if (!ends[0].kind || !ends[1].kind)
     return false;
-  return ends[0].kind == WISH_INDEX  ? ends[0].index > ends[1].index
-         : ends[0].kind == WISH_DATE ? ends[0].period.key >= ends[1].period.end_key
+  return ends[0].kind == ITEM_INDEX  ? ends[0].index > ends[1].index
+         : ends[0].kind == ITEM_DATE ? ends[0].period.key >= ends[1].period.end_key
                                      : false;
 }
 
-static fg_status choose_item(fg_selection *out, bool *chosen, const asked *a,
-                             const char *item)
+static fg_status choose_item(fg_selection *out, bool *chosen, const value_axis *axis,
+                             const char *text)
 {
-  wish one, ends[2];
-  if (strcasecmp(item, "all") == 0) {
+  item one, ends[2];
+  if (strcasecmp(text, "all") == 0) {
     out->several = true;
-    for (int n = 0; n < a->count; ++n)
+    for (int n = 0; n < axis->count; ++n)
       chosen[n] = true;
     return FG_STATUS_OK;
   }
-  if (*item && read_wish(&one, item))
-    return a->count ? choose_one(chosen, &out->nearest, a, &one) : FG_STATUS_OK;
-  if (!read_range(ends, item))
-    return fail_spelling(a, item);
+  if (*text && read_item(&one, text))
+    return axis->count ? choose_one(chosen, &out->nearest, axis, &one) : FG_STATUS_OK;
+  if (!read_range(ends, text))
+    return fail_spelling(axis, text);
   if (is_descending(ends))
-    return fg__fail(a->context, FG_STATUS_ARGUMENT, "'%s' ends before it begins", item);
+    return fg__fail(axis->context, FG_STATUS_ARGUMENT, "'%s' ends before it begins",
+                    text);
   out->several = true;
-  return a->count ? choose_range(chosen, a, ends, item) : FG_STATUS_OK;
+  return axis->count ? choose_range(chosen, axis, ends, text) : FG_STATUS_OK;
 }
 
-static fg_status collect(fg_selection *out, const asked *a, const bool *chosen)
+static fg_status collect(fg_selection *out, const value_axis *axis, const bool *chosen)
 {
-  for (int n = 0; n < a->count; ++n)
+  for (int n = 0; n < axis->count; ++n)
     out->count += chosen[n];
   out->index = fg__allocate((size_t)out->count, sizeof *out->index);
   if (!out->index)
-    return fg__fail_memory(a->context, "a selection",
+    return fg__fail_memory(axis->context, "a selection",
                            (size_t)out->count * sizeof *out->index);
   int *next = out->index;
-  for (int n = 0; n < a->count; ++n)
+  for (int n = 0; n < axis->count; ++n)
     if (chosen[n])
       *next++ = n;
   return FG_STATUS_OK;
@@ -420,23 +424,24 @@ fg_status fg_selection_find(fg_selection *out, fg_context *context, const char *
                             const char *text, const fg_axis_value *values, int count)
 {
   if (!out || !what || !text || count < 0)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "a selection without its text");
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "selection: a NULL argument, or %d values", count);
   *out = (fg_selection){.index = NULL};
-  const asked a = {context, what, values, count};
+  const value_axis axis = {context, what, values, count};
   bool *chosen = fg__allocate((size_t)count, sizeof *chosen);
   if (!chosen)
     return fg__fail_memory(context, "a selection", (size_t)count * sizeof *chosen);
   fg_status status = FG_STATUS_OK;
   out->several = strchr(text, ',') != NULL;
   for (const char *rest = text; rest && !status;) {
-    char item[WISH_BYTES];
+    char one[ITEM_BYTES];
     const size_t length = strcspn(rest, ",");
-    snprintf(item, sizeof item, "%.*s", (int)(length < WISH_BYTES ? length : 0), rest);
-    status = choose_item(out, chosen, &a, item);
+    snprintf(one, sizeof one, "%.*s", (int)(length < ITEM_BYTES ? length : 0), rest);
+    status = choose_item(out, chosen, &axis, one);
     rest = rest[length] ? rest + length + 1 : NULL;
   }
   if (!status)
-    status = collect(out, &a, chosen);
+    status = collect(out, &axis, chosen);
   free(chosen);
   return status;
 }

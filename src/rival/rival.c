@@ -105,7 +105,8 @@ fg_status fg_rival_create(fg_rival **out, fg_context *context, const fg_field *f
                     out ? "field" : "place for the result");
   *out = NULL;
   if (fg_field_is_slab(field, NULL, NULL))
-    return fg__fail(context, FG_STATUS_ARGUMENT, "rival: of a field that ranks share");
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "rival: of a part of a field that ranks share; the whole is needed");
   fg_rival *rival = fg__allocate(1, sizeof *rival);
   if (!rival)
     return fg__fail_memory(context, "a rival", sizeof *rival);

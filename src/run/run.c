@@ -34,8 +34,8 @@ static fg_status check(fg_context *context, const fg_run_options *o)
                     o->kind == FG_RUN_ARROWS && o->count > 0 ? o->numbers[0] : 0);
   if (!(o->max_time >= 0.0) || o->max_steps < 0)
     return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "scales: limits of t = %g, %" PRId64 " steps", o->max_time,
-                    o->max_steps);
+                    "scales: max_time %g and max_steps %" PRId64 " must not be negative",
+                    o->max_time, o->max_steps);
   return FG_STATUS_OK;
 }
 

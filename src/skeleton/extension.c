@@ -10,7 +10,7 @@ static bool is_inside(const fg__window *window, const double point[2])
   return fg__window_level(window, point) > 0.0;
 }
 
-static double between(const double a[2], const double b[2])
+static double distance_between(const double a[2], const double b[2])
 {
   return hypot(b[0] - a[0], b[1] - a[1]);
 }
@@ -44,7 +44,7 @@ static const double *point_before(const fg__polyline *line, double base)
 {
   int last = line->count - 1;
   int k = last;
-  while (k > 0 && between(line->point[k], line->point[last]) < base)
+  while (k > 0 && distance_between(line->point[k], line->point[last]) < base)
     --k;
   return line->point[k];
 }
@@ -72,7 +72,7 @@ static bool is_beyond(const beyond *region, int node)
   double ahead = (place[0] - region->end[0]) * (region->end[0] - region->before[0]) +
                  (place[1] - region->end[1]) * (region->end[1] - region->before[1]);
   return region->window->level[node] > 0.0F && !region->seen[node] && ahead >= 0.0 &&
-         between(place, region->end) <= region->reach;
+         distance_between(place, region->end) <= region->reach;
 }
 
 static void add_node(beyond *region, int x, int y)
@@ -123,13 +123,13 @@ static bool farthest_beyond(const beyond *region, double distance, double middle
   double place[2];
   for (int k = 0; k < region->count; ++k) {
     node_place(region->window, region->queue[k], place);
-    most = fmax(most, between(place, region->before));
+    most = fmax(most, distance_between(place, region->before));
   }
   int count = 0;
   middle[0] = middle[1] = 0.0;
   for (int k = 0; k < region->count; ++k) {
     node_place(region->window, region->queue[k], place);
-    if (between(place, region->before) < most - 0.5 * distance)
+    if (distance_between(place, region->before) < most - 0.5 * distance)
       continue;
     middle[0] += place[0];
     middle[1] += place[1];
@@ -160,8 +160,9 @@ static fg_status aim(double direction[2], const fg__polyline *line, fg_context *
   }
   flood(&region);
   double middle[2];
-  if (farthest_beyond(&region, base, middle) && between(end, middle) > 0.25 * base) {
-    double length = between(end, middle);
+  if (farthest_beyond(&region, base, middle) &&
+      distance_between(end, middle) > 0.25 * base) {
+    double length = distance_between(end, middle);
     direction[0] = (middle[0] - end[0]) / length;
     direction[1] = (middle[1] - end[1]) / length;
   }
@@ -201,7 +202,7 @@ static fg_status extend_end(fg__polyline *line, fg_context *context,
   double h = fmax(window->spacing[0], window->spacing[1]);
   double base = fmax(fg__signed_distance_at(field, end), 2.0 * h);
   const double *before = point_before(line, base);
-  double length = between(before, end);
+  double length = distance_between(before, end);
   if (!(length > 0.0))
     return FG_STATUS_OK;
   double direction[2] = {(end[0] - before[0]) / length, (end[1] - before[1]) / length};

@@ -33,7 +33,7 @@ static double cell_size(const fg__window *window)
   return sqrt(window->spacing[0] * window->spacing[1]);
 }
 
-static double between(const double a[2], const double b[2])
+static double distance_between(const double a[2], const double b[2])
 {
   return hypot(b[0] - a[0], b[1] - a[1]);
 }
@@ -58,7 +58,7 @@ static int covered_end(const fg__polyline *line, const fg__signed_distance *fiel
   int end = 0;
   double length = 0.0;
   for (int k = 1; k < line->count; ++k) {
-    length += between(line->point[k - 1], line->point[k]);
+    length += distance_between(line->point[k - 1], line->point[k]);
     double factor =
         fg__signed_distance_to_domain(field, line->point[k]) ? reach_at_boundary : reach;
     if (length <= factor * (fg__signed_distance_at(field, line->point[k]) +
@@ -68,7 +68,7 @@ static int covered_end(const fg__polyline *line, const fg__signed_distance *fiel
   double further = 0.5 * fg__signed_distance_at(field, line->point[end]);
   int turn = end;
   while (end > 0 && turn + 1 < line->count &&
-         between(line->point[turn], line->point[end]) < further)
+         distance_between(line->point[turn], line->point[end]) < further)
     ++turn;
   return turn;
 }

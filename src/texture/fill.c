@@ -40,8 +40,8 @@ static int clamped(int index, int size)
   return index < 0 ? 0 : (index < size ? index : size - 1);
 }
 
-/* What the coarser level says at a pixel, between the middles of its squares. */
-static void between(float out[3], const level *coarse, int i, int j)
+/* The coarser level's value at a pixel, interpolated between the middles of its cells. */
+static void interpolate(float out[3], const level *coarse, int i, int j)
 {
   const int x[2] = {clamped(i / 2, coarse->size[0]),
                     clamped(i / 2 + (i % 2 ? 1 : -1), coarse->size[0])};
@@ -65,7 +65,7 @@ static void push(const level *fine, const level *coarse)
       if (sum[2] >= 1.0F)
         continue;
       float guess[3];
-      between(guess, coarse, i, j);
+      interpolate(guess, coarse, i, j);
       const float missing = 1.0F - sum[2];
       for (int k = 0; k < 3; ++k)
         sum[k] += missing * guess[k];

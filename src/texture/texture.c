@@ -55,12 +55,17 @@ static fg_status check_options(fg_context *context, const fg_texture_options *o)
                     "texture: streaks of %g pixels, %g to %g are possible", o->length,
                     least_length, most_length);
   if (o->clusters < 0)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: %d clusters", o->clusters);
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "texture: %d clusters; at least 1, or 0 for the default, is needed",
+                    o->clusters);
   if (!(o->max_time >= 0.0))
-    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: clusters at t = %g",
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "texture: clusters until t = %g; 0 (no limit) or more is needed",
                     o->max_time);
   if (o->threads < 0)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: %d threads", o->threads);
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "texture: threads: %d; at least 1, or 0 for all cores, is needed",
+                    o->threads);
   return FG_STATUS_OK;
 }
 
@@ -172,7 +177,9 @@ fg_status fg_texture_create(fg_texture **out, fg_context *context, const fg_fiel
                     "a field in %d dimensions; textures are made of those in 2",
                     dimension);
   if (fg_field_is_slab(field, NULL, NULL))
-    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: of a field that ranks share");
+    return fg__fail(
+        context, FG_STATUS_ARGUMENT,
+        "texture: of a part of a field that ranks share; the whole is needed");
   fg_texture *texture = fg__allocate(1, sizeof *texture);
   if (!texture)
     return fg__fail_memory(context, "a texture", sizeof *texture);

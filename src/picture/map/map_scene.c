@@ -133,19 +133,19 @@ static fg_status add_coasts(fg__map_scene *out, fg_context *context, const placi
 
 fg_status fg__map_scene_create(fg__map_scene *out, fg_context *context,
                                const fg__page *page, const fg__graticule *graticule,
-                               const fg_field *field, const fg__map_wishes *wishes)
+                               const fg_field *field, const fg__map_layers *layers)
 {
   const placing p = {page, graticule->plane};
   fg_status status = FG_STATUS_OK;
   *out = (fg__map_scene){.coasts = false};
   if (!copy(&out->outline, &graticule->plane->outline) ||
-      (!wishes->no_graticule && !copy(&out->graticule, &graticule->line)))
+      (!layers->no_graticule && !copy(&out->graticule, &graticule->line)))
     status = fg__fail_memory(context, "a map's lines",
                              graticule->line.point_count * sizeof(double[2]));
   finish(&p, &out->outline, 0.02, true);
   finish(&p, &out->graticule, 0.05, true);
-  if (!status && !wishes->no_coast)
-    status = add_coasts(out, context, &p, field, wishes->borders);
+  if (!status && !layers->no_coast)
+    status = add_coasts(out, context, &p, field, layers->borders);
   out->contained = p.plane->whole && !p.plane->disc && !out->missing.count;
   if (status)
     fg__map_scene_clear(out);

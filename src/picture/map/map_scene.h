@@ -23,14 +23,14 @@ typedef struct fg__map_scene {
   int backings;
 } fg__map_scene;
 
-typedef struct fg__map_wishes {
+typedef struct fg__map_layers {
   bool no_coast, borders, no_graticule;
-} fg__map_wishes;
+} fg__map_layers;
 
 /* MEMORY. */
 fg_status fg__map_scene_create(fg__map_scene *out, fg_context *context,
                                const fg__page *page, const fg__graticule *graticule,
-                               const fg_field *field, const fg__map_wishes *wishes);
+                               const fg_field *field, const fg__map_layers *layers);
 
 /* Takes the arrows' outlines. MEMORY. */
 fg_status fg__map_scene_rim(fg__map_scene *scene, fg_context *context,

@@ -72,11 +72,11 @@ static fg_status make_map(fg__figure *figure, int k, fg_context *context,
   fg__page *page = fg__figure_page(figure, k);
   if (figure->plane.kind == FG__PLANE_NONE)
     return FG_STATUS_OK;
-  const fg__map_wishes wishes = {.no_coast = options->no_coast,
+  const fg__map_layers layers = {.no_coast = options->no_coast,
                                  .borders = options->borders,
                                  .no_graticule = options->no_frame};
   fg_status status = fg__map_scene_create(&panel->map, context, page, &figure->graticule,
-                                          figure->given[k].field, &wishes);
+                                          figure->given[k].field, &layers);
   if (!status)
     status = fg__map_scene_rim(&panel->map, context, &panel->scene.arrows);
   if (status)

@@ -70,7 +70,7 @@ static fg_status find_coasts(painted *out, fg_context *context, const fg_field *
 {
   double low[2], high[2];
   fg__plane plane;
-  const fg__map_wishes wishes = {.borders = style->borders, .no_graticule = true};
+  const fg__map_layers layers = {.borders = style->borders, .no_graticule = true};
   if (style->no_coast)
     return FG_STATUS_OK;
   fg__scene_box(low, high, fg_field_contents(field));
@@ -86,7 +86,7 @@ static fg_status find_coasts(painted *out, fg_context *context, const fg_field *
     /* the image shows the whole box, not what an outline bounds */
     fg__scene_box(plane.low, plane.high, fg_field_contents(field));
     graticule->plane = &plane;
-    status = fg__map_scene_create(&out->map, context, &page, graticule, field, &wishes);
+    status = fg__map_scene_create(&out->map, context, &page, graticule, field, &layers);
     out->on_map = !status;
     for (size_t n = 0; n < out->mask.point_count; ++n)
       for (int k = 0; k < 2; ++k)
