@@ -42,7 +42,7 @@ bool inputs_read_size(double *out, const char *text)
 }
 
 /* Three quarters of the machine's. */
-static double usual_memory(void)
+static double default_memory(void)
 {
   const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
   return pages > 0 && size > 0 ? 0.75 * (double)pages * (double)size : 0.0;
@@ -102,7 +102,7 @@ static int read_standard_input(void)
 
 int inputs_prepare(const input_settings *settings, const char *const *inputs, int count)
 {
-  given = (fg_input_options){.format = settings->format, .most_memory = usual_memory()};
+  given = (fg_input_options){.format = settings->format, .most_memory = default_memory()};
   if (settings->max_memory)
     inputs_read_size(&given.most_memory, settings->max_memory);
   for (int k = 0; k < count; ++k)

@@ -283,9 +283,9 @@ static int prepare(rival_work *work)
 int command_rival(const void *given)
 {
   const rival_settings *settings = given;
-  static const int usual_counts[] = {60};
+  static const int default_counts[] = {60};
   int count = settings->icons.count;
-  const int *counts = count ? settings->icons.number : usual_counts;
+  const int *counts = count ? settings->icons.number : default_counts;
   rival_work work = {.settings = settings};
   int code = check_method(settings);
   if (!code)

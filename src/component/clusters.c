@@ -262,7 +262,7 @@ fg_status fg__clusters_find(fg__clusters *clusters, fg_context *context,
     return status;
   describe(&c->block, grid, &c->halo);
   c->block.u = u ? c->u + c->halo.first : NULL;
-  c->block.enough = request->enough;
+  c->block.exact_below = request->exact_below;
   fg__threads_run(grid->threads, cut, &t);
   status = agree(c, context);
   if (status)

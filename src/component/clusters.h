@@ -40,7 +40,8 @@ typedef struct fg__clusters {
 typedef struct fg__cluster_request {
   bool counting;      /* clusters too, not only what is covered */
   double debris_area; /* in cells */
-  double enough;      /* areas beyond it need not be exact; 0: all are */
+  double exact_below; /* areas above may be lower bounds instead, which are above, too; 0:
+                    all are exact */
 } fg__cluster_request;
 
 /* Finds what is covered and the clusters of u, an array of the layout whose ghosts are

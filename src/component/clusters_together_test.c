@@ -132,7 +132,7 @@ static void compare_labels(const world *w, const fg__clusters *found,
 static int compare_areas(const world *w, const fg__components *found,
                          const fg__components *want, const fg__cluster_request *request)
 {
-  bool bounds = request->enough > 0.0 && w->g->dimension == 2 && !w->active;
+  bool bounds = request->exact_below > 0.0 && w->g->dimension == 2 && !w->active;
   int bounded = 0;
   for (int n = 0; n < want->count && found->count == want->count; ++n) {
     bool same = memcmp(&found->area[n], &want->area[n], sizeof *want->area) == 0;
@@ -154,7 +154,7 @@ static int compare(world *w, double debris_area)
   int bounded = 0;
   for (int way = 0; way < 3; ++way) { /* covered alone, bounds of areas, areas */
     request.counting = way > 0;
-    request.enough = way == 1 ? debris_area : 0.0;
+    request.exact_below = way == 1 ? debris_area : 0.0;
     expect(fg__clusters_find(&found, us.context, &w->block, w->array, &request) ==
            FG_STATUS_OK);
     expect(memcmp(&found.covered, &want.covered, sizeof want.covered) == 0);

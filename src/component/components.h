@@ -55,8 +55,8 @@ typedef struct fg__component_box {
   ptrdiff_t row, plane;   /* from a row of u to the next, from a plane to the next */
   const unsigned char *active; /* the cell whose lowest corner is that node, or NULL */
   ptrdiff_t cell_row, cell_plane;
-  double enough; /* cells: a piece that has more by a cheap lower bound is given that for
-                    its size (2D without a mask); 0: all are measured */
+  double exact_below; /* cells: in 2D without a mask a piece may have a lower bound of its
+                         size instead, if that bound is larger; 0: all sizes are exact */
 } fg__component_box;
 
 /* The part of a component in a box. */

@@ -58,15 +58,15 @@ static fg_status gather_pieces(fg__cutter *c, fg_context *context)
   return FG_STATUS_OK;
 }
 
-/* Measures, in 2D, the pieces whose cells that are positive throughout are not enough.
- * Until it is known, -1 - size stands for the size of such a piece. */
+/* Measures, in 2D, the pieces whose lower bound, the cells that are positive throughout,
+ * is not above exact_below. Meanwhile -1 - size stands for the size of such a piece. */
 static void measure_small_pieces(fg__cutter *c)
 {
   fg__components *components = c->components;
   const fg__shape *s = &c->shape;
   fg__component_piece *piece = components->piece;
   for (int n = 0; n < components->piece_count; ++n)
-    if (piece[n].size < c->enough)
+    if (piece[n].size < c->exact_below)
       piece[n].size = -1;
   for (int k = 0; k < s->nodes[2]; ++k)
     for (int n = components->run_of_row[k]; n < components->run_of_row[k + 1]; ++n) {
@@ -132,8 +132,9 @@ static fg_status take_memory(fg__cutter *c, fg_context *context,
       ones[n] = 1.0F;
     c->shape.ones = ones + 1;
   }
-  if (box->enough > 0.0 && box->u && !box->active && c->shape.high[1] == FG__SIDE_FLAT)
-    c->enough = 1 + (int64_t)(box->enough * (1.0 + rounding) * FG__WHOLE_CELL);
+  if (box->exact_below > 0.0 && box->u && !box->active &&
+      c->shape.high[1] == FG__SIDE_FLAT)
+    c->exact_below = 1 + (int64_t)(box->exact_below * (1.0 + rounding) * FG__WHOLE_CELL);
   components->run_of_row[0] = 0;
   return FG_STATUS_OK;
 }
@@ -151,10 +152,10 @@ fg_status fg__components_cut(fg__components *components, fg_context *context,
   fg_status status = take_memory(&c, context, box);
   int64_t covered = 0;
   const fg__component_stretch all = {0, c.shape.nodes[0] - 1};
-  if (!status && !c.enough)
+  if (!status && !c.exact_below)
     fg__share_plane(&c.shape, -1, all, c.space, c.plane[0]);
   for (int k = 0; !status && k < c.shape.nodes[2]; ++k) {
-    if (!c.enough)
+    if (!c.exact_below)
       fg__share_plane(&c.shape, k, all, c.space, c.plane[1]);
     status = cut_plane(&c, context, k, &covered);
     float *swap = c.plane[0];
@@ -168,7 +169,7 @@ fg_status fg__components_cut(fg__components *components, fg_context *context,
       fg__cutter_join_below(&c, j, 0, c.shape.nodes[2] - 1);
   components->covered = cells_of(&c.shape, covered);
   status = gather_pieces(&c, context);
-  if (!status && c.enough)
+  if (!status && c.exact_below)
     measure_small_pieces(&c);
   return status;
 }

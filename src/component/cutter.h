@@ -18,8 +18,8 @@ typedef struct fg__cutter {
   int *ends;            /* where runs start, and where each has ended; then steps */
   float *plane[2];      /* shares from the planes of cells before and after the row */
   float *space;
-  int64_t
-      enough; /* as in the box, in steps of a share; 0: every run is measured at once */
+  int64_t exact_below; /* as in the box, in steps of a share; 0: every run is measured at
+                          once */
 } fg__cutter;
 
 /* Marks the positive nodes of row (j, k), of a masked grid only those with an active

@@ -49,7 +49,7 @@ static void join_rows(fg__cutter *c, const int a[2], const int b[2], const fg__g
     if (low <= high) {
       if (p->parent != q->parent && fg__gate_open(gate, s, low - 1, high))
         fg__cutter_join(run, (int)(p - run), (int)(q - run));
-      if (c->enough) /* cells that are positive throughout */
+      if (c->exact_below) /* cells that are positive throughout */
         run[p - run].size += (int64_t)(high - low) * FG__WHOLE_CELL;
     } else if (low == high + 1) {
       bool forward = p->last == high;

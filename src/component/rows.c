@@ -138,7 +138,7 @@ static void add_run(fg__cutter *c, int first, int last)
       .parent = number,
       .first = first,
       .last = last,
-      .size = c->enough ? 0 : fg__cutter_steps(c, first, last)};
+      .size = c->exact_below ? 0 : fg__cutter_steps(c, first, last)};
 }
 
 int64_t fg__cutter_cut_row(fg__cutter *c, int j, int k)
@@ -150,7 +150,7 @@ int64_t fg__cutter_cut_row(fg__cutter *c, int j, int k)
                        : list_changes(c->marks, width, c->ends);
   if (ends == 0)
     return 0;
-  if (!c->enough)
+  if (!c->exact_below)
     fg__cutter_measure(c, j, k, (fg__component_stretch){0, width - 1});
   int weight = fg__cutter_row_weight(s, j, k);
   int64_t covered = 0;

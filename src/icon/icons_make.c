@@ -15,7 +15,7 @@ enum { MOST_THREADS = 64 };
 
 /* In 3D a cluster's fair share of the domain is its volume over this, the coverage that
  * is usual: by it an arrow counts as plump. */
-static const double USUAL_COVERAGE = 0.3;
+static const double DEFAULT_COVERAGE = 0.3;
 
 /* What all threads share; each takes the next cluster until there is none. */
 typedef struct icon_job {
@@ -57,7 +57,7 @@ static fg_status make_icons(icon_job *job, fg_context *context, fg__chooser *cho
                            &part[k].window);
     icon[k].area = source->labels->area[cluster - 1] * part[k].share;
     if (source->density->dimension == 3)
-      fg__solid_slim(&icon[k], cbrt(icon[k].area / USUAL_COVERAGE));
+      fg__solid_slim(&icon[k], cbrt(icon[k].area / DEFAULT_COVERAGE));
   }
   for (int k = 0; k < parts; k++)
     fg__window_clear(&part[k].window);

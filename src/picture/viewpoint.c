@@ -12,7 +12,7 @@ enum { AZIMUTHS = 36, ELEVATIONS = 11 };
 static const double azimuth_step = 10.0, lowest = 10.0, elevation_step = 4.0;
 
 /* The view that is taken when others are not better by more than `as_good`. */
-static const double usual_azimuth = 30.0, usual_elevation = 22.0;
+static const double default_azimuth = 30.0, default_elevation = 22.0;
 static const double as_good = 0.04;
 
 /* A head is read for the direction, a body for the way: in lengths of the body. */
@@ -144,11 +144,11 @@ static double merit_of(const crowd *all, const fg__camera *camera, shade *seen,
   return sum;
 }
 
-/* The cosine of the angle to the usual view. */
+/* The cosine of the angle to the default view. */
 static double nearness(double azimuth, double elevation)
 {
-  double a = (azimuth - usual_azimuth) * radians_per_degree;
-  double e = elevation * radians_per_degree, u = usual_elevation * radians_per_degree;
+  double a = (azimuth - default_azimuth) * radians_per_degree;
+  double e = elevation * radians_per_degree, u = default_elevation * radians_per_degree;
   return cos(e) * cos(u) * cos(a) + sin(e) * sin(u);
 }
 

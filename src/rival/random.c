@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 /* An arrow is a fair share long. */
-static const double USUAL_LENGTH = 1;
+static const double DEFAULT_LENGTH = 1;
 
 /* The same lots every time. */
 static const uint64_t KEY = 0x66676c6f74730001U;
@@ -49,7 +49,7 @@ static void draw_point(const fg__domain *domain, const int *cells, int count,
 fg_status fg__rival_random(fg_icons *icons, const fg_rival *rival, int count)
 {
   const fg__domain *domain = &rival->domain;
-  double share = rival->options.length > 0 ? rival->options.length : USUAL_LENGTH;
+  double share = rival->options.length > 0 ? rival->options.length : DEFAULT_LENGTH;
   double length = share * fg__domain_fair_share(domain, count);
   int *cells = NULL, moving = 0, drawn = 0;
   uint64_t lot = 0;

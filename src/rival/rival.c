@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 /* Defaults of the discrete clustering: docs/method/rival-discrete.md measures others. */
-static const double USUAL_POSITION_WEIGHT = 0.95;
-static const double USUAL_ELONGATION = 2;
+static const double DEFAULT_POSITION_WEIGHT = 0.95;
+static const double DEFAULT_ELONGATION = 2;
 static const double LARGEST_ELONGATION = 1e6;
 
 /* In fair-share lengths: more than any box has room for. */
@@ -16,8 +16,8 @@ static const double LARGEST_LENGTH = 1000;
 
 /* In 3D a raster of 1025 nodes a side still has fewer cells than an int can count. */
 enum {
-  USUAL_NODES = 257,
-  USUAL_NODES_IN_SPACE = 49,
+  DEFAULT_NODES = 257,
+  DEFAULT_NODES_IN_SPACE = 49,
   FEWEST_NODES = 3,
   MOST_NODES = 16385,
   MOST_NODES_IN_SPACE = 1025
@@ -71,7 +71,7 @@ static fg_status settle(fg_rival_options *settled, fg_context *context,
                     "rival: the field has 3 dimensions, and the method %s is made for 2",
                     methods[settled->method].name);
   if (settled->nodes == 0)
-    settled->nodes = dimension == 2 ? USUAL_NODES : USUAL_NODES_IN_SPACE;
+    settled->nodes = dimension == 2 ? DEFAULT_NODES : DEFAULT_NODES_IN_SPACE;
   if (settled->nodes < FEWEST_NODES || settled->nodes > most)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "rival: a raster of %d nodes, from %d to %d are taken",
@@ -83,9 +83,9 @@ static fg_status settle(fg_rival_options *settled, fg_context *context,
   if (settled->direction_only)
     settled->position_weight = 0;
   else if (!(settled->position_weight != 0))
-    settled->position_weight = USUAL_POSITION_WEIGHT;
+    settled->position_weight = DEFAULT_POSITION_WEIGHT;
   if (!(settled->elongation != 0))
-    settled->elongation = USUAL_ELONGATION;
+    settled->elongation = DEFAULT_ELONGATION;
   if (!(settled->position_weight >= 0 && settled->position_weight <= 1))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "rival: a weight of position of %g, it must lie in [0, 1]",

@@ -20,10 +20,10 @@ void fg__plan_start(fg__plan *plan, const int *list, int count)
 void fg__plan_start_placed(fg__plan *plan, const int *list, int count, int dimension)
 {
   static const int flat[] = {200, 100, 50, 25, 12}, solid[] = {60, 25, 12};
-  const int *usual = dimension == 3 ? solid : flat;
-  size_t usual_count = dimension == 3 ? sizeof solid : sizeof flat;
+  const int *defaults = dimension == 3 ? solid : flat;
+  size_t default_count = dimension == 3 ? sizeof solid : sizeof flat;
   if (!count)
-    fg__plan_start(plan, usual, (int)(usual_count / sizeof *usual));
+    fg__plan_start(plan, defaults, (int)(default_count / sizeof *defaults));
   else
     fg__plan_start(plan, list, count);
   plan->placed = true;

@@ -11,7 +11,7 @@
 #include "field/noise.h"
 #include "texture/contrast.h"
 
-enum { USUAL_CLUSTERS = 300, LEAST_NODES = 65, MOST_NODES = 1025 };
+enum { DEFAULT_CLUSTERS = 300, LEAST_NODES = 65, MOST_NODES = 1025 };
 
 /* A mesh cell to two pixels: cubics between nodes show no cells. */
 static const double pixels_a_cell = 2.0;
@@ -81,7 +81,7 @@ static bool few_clusters(const fg_step *step, const fg_mesh_info *mesh,
 {
   (void)mesh;
   const bool timed = canvas->max_time > 0.0;
-  const int wanted = canvas->clusters || timed ? canvas->clusters : USUAL_CLUSTERS;
+  const int wanted = canvas->clusters || timed ? canvas->clusters : DEFAULT_CLUSTERS;
   return (timed && step->time >= canvas->max_time) ||
          (step->clusters && step->clusters <= wanted);
 }

@@ -7,12 +7,12 @@
 #include "base/threads.h"
 #include "texture/contrast.h"
 
-enum { LEAST_LONGEST = 16, MOST_PIXELS = 16384, USUAL_LONGEST = 1024 };
+enum { LEAST_LONGEST = 16, MOST_PIXELS = 16384, DEFAULT_LONGEST = 1024 };
 
 static const double least_length = 2.0, most_length = 400.0;
 
 /* Shorter streaks hardly show their direction. */
-static const double least_usual_length = 20.0;
+static const double least_default_length = 20.0;
 
 /* Contrast is evened over windows of this radius: wide enough to hold many streaks. */
 static const double window_radius = 0.6;
@@ -79,7 +79,7 @@ static fg_status choose_size(int size[2], fg_context *context,
                              const fg_field_arrays *field, const fg_texture_options *o)
 {
   const double side[2] = {side_of(field, 0), side_of(field, 1)};
-  const int longest = o->longest ? o->longest : USUAL_LONGEST;
+  const int longest = o->longest ? o->longest : DEFAULT_LONGEST;
   double wanted[2];
   for (int k = 0; k < 2; ++k) {
     const int other = o->size[1 - k];
@@ -102,7 +102,7 @@ static double choose_length(const int size[2], const fg_texture_options *o)
   if (o->length > 0.0)
     return o->length;
   const double longest = fmax(size[0], size[1]);
-  return fmin(fmax(kinds[o->kind].length * longest, least_usual_length), most_length);
+  return fmin(fmax(kinds[o->kind].length * longest, least_default_length), most_length);
 }
 
 static int choose_threads(const fg_texture_options *o)

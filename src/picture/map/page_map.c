@@ -9,8 +9,8 @@
  * height of a digit, and from its middle to its baseline. */
 static const double label_gap = 0.45, between = 0.5, digit = 0.72, half_digit = 0.36;
 
-const fg__color fg__usual_land = {0.925, 0.925, 0.918};
-const fg__color fg__usual_missing = {0.955, 0.958, 0.965};
+const fg__color fg__default_land = {0.925, 0.925, 0.918};
+const fg__color fg__default_missing = {0.955, 0.958, 0.965};
 static const fg__color coast_color = {0.56, 0.56, 0.56};
 static const fg__color border_color = {0.70, 0.70, 0.70};
 static const fg__color grid_color = {0.83, 0.83, 0.83};

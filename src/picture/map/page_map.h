@@ -20,7 +20,7 @@ typedef struct fg__map_style {
   bool on_texture;  /* coasts must stand out from one */
 } fg__map_style;
 
-extern const fg__color fg__usual_land, fg__usual_missing;
+extern const fg__color fg__default_land, fg__default_missing;
 
 /* Adds the outline to the clip, where there is one. */
 void fg__map_clip(cairo_t *cairo, const fg__map_scene *scene);

@@ -6,7 +6,7 @@
 static const fg__color ink = {0.15, 0.16, 0.18};
 static const fg__color quiet_ink = {0.40, 0.41, 0.43};
 
-const fg__color fg__usual_mask = {0.855, 0.855, 0.845};
+const fg__color fg__default_mask = {0.855, 0.855, 0.845};
 
 /* Points. Journals ask for lines of at least half a point. */
 static const double frame_width = 0.6;

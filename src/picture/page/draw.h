@@ -16,7 +16,7 @@ typedef struct fg__style {
 } fg__style;
 
 /* A light grey. */
-extern const fg__color fg__usual_mask;
+extern const fg__color fg__default_mask;
 
 /* What is masked, with its coast. */
 void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color);

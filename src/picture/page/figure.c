@@ -10,9 +10,9 @@
 
 /* A0 paper is 3370 points high; a page six times that is a mistake. */
 static const double largest_page = 20000.0;
-static const double usual_pixels_per_point = 2.0;
+static const double default_pixels_per_point = 2.0;
 
-static const fg__color usual_tint = {0.845, 0.895, 0.950};
+static const fg__color default_tint = {0.845, 0.895, 0.950};
 
 /* Of clusters that no arrows shall stand out from. */
 static const fg__color lone_tint = {0.56, 0.68, 0.83};
@@ -259,16 +259,16 @@ static fg_status choose_colors(fg__style *out, fg_context *context,
                                const fg_picture_options *options)
 {
   fg_status status =
-      fg__color_choose(&out->mask, context, options->mask_color, fg__usual_mask);
+      fg__color_choose(&out->mask, context, options->mask_color, fg__default_mask);
   if (!status)
     status = fg__color_choose(&out->tint, context, options->tint_color,
-                              options->no_arrows ? lone_tint : usual_tint);
+                              options->no_arrows ? lone_tint : default_tint);
   if (!status)
     status =
-        fg__color_choose(&out->map_style.land, context, options->land, fg__usual_land);
+        fg__color_choose(&out->map_style.land, context, options->land, fg__default_land);
   if (!status)
     status = fg__color_choose(&out->map_style.missing, context, options->mask_color,
-                              fg__usual_missing);
+                              fg__default_missing);
   out->map_style.transparent = options->transparent;
   return status;
 }
@@ -305,7 +305,7 @@ static fg_status prepare(fg__figure *out, fg_context *context, bool several,
   out->transparent = options->transparent;
   out->outline_text = options->outline_text;
   out->pixels_per_point = options->pixels_per_point > 0.0 ? options->pixels_per_point
-                                                          : usual_pixels_per_point;
+                                                          : default_pixels_per_point;
   if (!status)
     status = plan_figure(out, context, several, options);
   if (!status)

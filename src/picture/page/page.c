@@ -4,12 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A figure's usual size in a journal, between one and two columns. */
-static const double usual_width = 480.0;
+/* The default width: a figure in a journal, between one and two columns. */
+static const double default_width = 480.0;
 
-/* 9 points at the usual width: what journals ask for. It grows with the root of the size,
- * as on posters; below 7 points print is unreadable. */
-static const double usual_font = 9.0;
+/* 9 points at the default width: what journals ask for. It grows with the root of the
+ * size, as on posters; below 7 points print is unreadable. */
+static const double default_font = 9.0;
 static const double smallest_font = 7.0;
 
 /* Without a wish for a height, a frame is at most so many page widths high: it then fits
@@ -36,10 +36,10 @@ double fg__page_font_size(const fg__page_plan *plan)
 {
   if (plan->font_size > 0.0)
     return plan->font_size;
-  double size = plan->width > 0.0 ? plan->width : usual_width;
+  double size = plan->width > 0.0 ? plan->width : default_width;
   if (plan->height > 0.0)
     size = fmin(size, tallest_frame * plan->height);
-  return fmax(usual_font * sqrt(size / usual_width), smallest_font);
+  return fmax(default_font * sqrt(size / default_width), smallest_font);
 }
 
 static double extent(const fg__page_plan *plan, int k)
@@ -101,7 +101,7 @@ static bool place_frame(fg__page *page, const fg__page_plan *plan,
 {
   const int across = fg__page_frames(plan, 0), upright = fg__page_frames(plan, 1);
   const double gaps[2] = {(across - 1) * gap[0], (upright - 1) * gap[1]};
-  double widest = plan->width > 0.0 ? plan->width : usual_width;
+  double widest = plan->width > 0.0 ? plan->width : default_width;
   double wide = widest - margins->left - margins->right - gaps[0];
   double high = plan->height > 0.0
                     ? plan->height - margins->top - margins->bottom - gaps[1]
@@ -140,7 +140,7 @@ static void clear(fg__page *page)
 /* Between bare panels: a share of theirs, so that something is left of each. */
 static double bare_gap(const fg__page_plan *plan)
 {
-  const double wide = plan->width > 0.0 ? plan->width : usual_width;
+  const double wide = plan->width > 0.0 ? plan->width : default_width;
   const double high = plan->height > 0.0 ? plan->height : wide;
   return 0.03 * fmin(wide / fg__page_frames(plan, 0), high / fg__page_frames(plan, 1));
 }

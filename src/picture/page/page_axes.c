@@ -11,10 +11,10 @@ static const double half_digit = 0.36;
 
 /* Distance of ticks in units of the font size that reads easily; what short axes with
  * fewer than FEW_TICKS ticks may go down to; and the most ticks. */
-static const double usual_spacing = 5.0;
-static const double usual_spacing_upright = 4.2;
+static const double default_spacing = 5.0;
+static const double default_spacing_upright = 4.2;
 static const double least_spacing_upright = 2.6;
-enum { USUAL_TICKS = 12, FEW_TICKS = 4, TRIES = 16 };
+enum { DEFAULT_TICKS = 12, FEW_TICKS = 4, TRIES = 16 };
 
 static bool labels_fit(const fg__ticks *ticks, const fg__tick_axis *axis, cairo_t *ruler,
                        double length, double font_size, bool upright)
@@ -38,8 +38,9 @@ void fg__page_choose_ticks(fg__ticks *out, const fg__tick_axis *axis, cairo_t *r
                            double length, double font_size, bool upright)
 {
   double range = axis->high - axis->low;
-  double spacing = (upright ? usual_spacing_upright : usual_spacing) * font_size;
-  double step = fg__ticks_step(axis, fmax(range * spacing / length, range / USUAL_TICKS));
+  double spacing = (upright ? default_spacing_upright : default_spacing) * font_size;
+  double step =
+      fg__ticks_step(axis, fmax(range * spacing / length, range / DEFAULT_TICKS));
   for (int k = 0; k < TRIES; ++k) {
     fg__ticks_fill(out, axis, step);
     if (labels_fit(out, axis, ruler, length, font_size, upright))

@@ -7,7 +7,7 @@
 
 /* A0 paper is 3370 points high; a page six times that is a mistake. */
 static const double largest_page = 20000.0;
-static const double usual_pixels_per_point = 2.0;
+static const double default_pixels_per_point = 2.0;
 /* 2^28 pixels take 1 GiB. */
 static const double most_pixels = 268435456.0;
 
@@ -106,7 +106,8 @@ fg_status fg_painting_write(fg_context *context, const char *path, const fg_imag
                 .ground = !o.transparent && !fg_image_contents(image)->alpha};
   double width = o.width == 0.0 ? p.image->width : o.width;
   p.points_per_pixel = width / p.image->width;
-  double pixels = o.pixels_per_point == 0.0 ? usual_pixels_per_point : o.pixels_per_point;
+  double pixels =
+      o.pixels_per_point == 0.0 ? default_pixels_per_point : o.pixels_per_point;
   double height = p.points_per_pixel * p.image->height;
   if (!(width > 0.0 && width <= largest_page && height <= largest_page))
     return fg__fail(context, FG_STATUS_ARGUMENT,

@@ -16,7 +16,7 @@ static const double most_pixels = 268435456.0;
 /* A texture as it is outshines what is drawn on it; by eye, on winds and vortices.
  * Stripes are black and white with little between: paler, they are not darker than land.
  */
-static const double usual_fade = 0.7, stripes_fade = 0.85;
+static const double default_fade = 0.7, stripes_fade = 0.85;
 static const double most_background = 16384.0;
 
 /* Where the frame shows a small part of the domain, the texture of all of it has at most
@@ -48,7 +48,7 @@ static fg_status make_background(fg__style *out, fg_context *context,
   if (!panel->background)
     return FG_STATUS_OK;
   if (!(style.fade > 0.0))
-    style.fade = texture->kind == FG_TEXTURE_STRIPES ? stripes_fade : usual_fade;
+    style.fade = texture->kind == FG_TEXTURE_STRIPES ? stripes_fade : default_fade;
   return fg__texture_image(&out->background, context, texture, &style);
 }
 
@@ -155,10 +155,10 @@ static int pixels_of(double length)
 static fg_status measure(int size[2], fg_context *context, const fg_panel *panel,
                          int count, bool several, const fg_picture_options *options)
 {
-  const fg_picture_options usual = {0};
+  const fg_picture_options defaults = {0};
   fg__figure *figure = NULL;
   fg_status status = fg__figure_create(&figure, context, panel, count, several,
-                                       options ? options : &usual);
+                                       options ? options : &defaults);
   if (!status) {
     const fg__page_box *box = &figure->panel[0].style.background_box;
     const fg__page_box *frame = &fg__figure_page(figure, 0)->frame;
@@ -331,11 +331,11 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
                            const fg_density *density, const fg_icons *icons,
                            const fg_picture_options *options)
 {
-  const fg_picture_options usual = {0};
+  const fg_picture_options defaults = {0};
   if (!path || !field || !icons)
     return fg__fail(context, FG_STATUS_ARGUMENT, "picture: a NULL argument");
   if (!options)
-    options = &usual;
+    options = &defaults;
   const fg_panel panel = {.field = field,
                           .icons = icons,
                           .density = density,
@@ -350,11 +350,11 @@ fg_status fg_picture_write(fg_context *context, const char *path, const fg_field
 fg_status fg_panels_write(fg_context *context, const char *path, const fg_panel *panels,
                           int count, const fg_picture_options *options)
 {
-  const fg_picture_options usual = {0};
+  const fg_picture_options defaults = {0};
   if (!path)
     return fg__fail(context, FG_STATUS_ARGUMENT, "panels: a NULL argument");
   if (!options)
-    options = &usual;
+    options = &defaults;
   fg_status status = fg__surface_file_format_check(context, path);
   if (!status)
     status = check_panels(context, path, panels, count, options);

@@ -10,7 +10,7 @@
 #include "picture/surface/surface.h"
 
 /* In files without pixels of their own: what the arrows' pictures have in PNG. */
-static const double usual_density = 2.0;
+static const double default_density = 2.0;
 
 /* Points: the least and largest width, which is what PDF readers promise to show. */
 static const double narrowest = 36.0, widest = 14400.0;
@@ -241,12 +241,12 @@ static fg_status choose_colors(painted *p, fg_context *context,
   p->transparent = style->transparent;
   p->map_style = (fg__map_style){.transparent = style->transparent, .on_texture = true};
   fg_status status =
-      fg__color_choose(&p->mask_color, context, style->mask_color, fg__usual_mask);
+      fg__color_choose(&p->mask_color, context, style->mask_color, fg__default_mask);
   if (!status)
     status = fg__color_choose(&p->map_style.missing, context, style->mask_color,
-                              fg__usual_missing);
+                              fg__default_missing);
   if (!status)
-    status = fg__color_choose(&p->map_style.land, context, style->land, fg__usual_land);
+    status = fg__color_choose(&p->map_style.land, context, style->land, fg__default_land);
   return status;
 }
 
@@ -268,7 +268,7 @@ fg_status fg_texture_write(fg_context *context, const char *path, const fg_field
   if (!status)
     status = check_style(context, &settled);
   p.pixels_per_point =
-      settled.width > 0.0 ? contents->size[0] / settled.width : usual_density;
+      settled.width > 0.0 ? contents->size[0] / settled.width : default_density;
   if (!status)
     status = choose_colors(&p, context, &settled);
   if (!status)

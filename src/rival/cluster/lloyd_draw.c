@@ -4,7 +4,7 @@
 #include "rival/cluster/lloyd.h"
 
 /* An arrow is a fair share long. */
-static const double USUAL_LENGTH = 1;
+static const double DEFAULT_LENGTH = 1;
 
 typedef struct drawing {
   const fg_rival *rival;
@@ -44,7 +44,7 @@ static fg_status draw_cluster(fg_icons *icons, drawing *d, const fg__lloyd *lloy
 fg_status fg__lloyd_draw(fg_icons *icons, const fg_rival *rival, const fg__lloyd *lloyd,
                          int count, bool through_member)
 {
-  double share = rival->options.length > 0 ? rival->options.length : USUAL_LENGTH;
+  double share = rival->options.length > 0 ? rival->options.length : DEFAULT_LENGTH;
   drawing d = {.rival = rival,
                .length = share * fg__domain_fair_share(&rival->domain, count)};
   fg_status status = FG_STATUS_OK;
