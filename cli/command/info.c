@@ -142,7 +142,7 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
     cJSON_AddStringToObject(object, "map", fg_map_auto(vector));
 }
 
-/* What is told of a file: all that it holds, or the one vector that is asked for. */
+/* The inventory that is printed: of the whole file, or of the one vector chosen. */
 typedef struct listing {
   const char *file;
   fg_inventory *inventory;

@@ -108,8 +108,7 @@ static int split_words(char *text, char *words[], int most)
   return count;
 }
 
-/* In a process of its own: does a command in `folder`; what it prints on standard output
- * nobody asked for. */
+/* In a process of its own: does a command in `folder`, without its standard output. */
 static int do_command(const char *folder, const char *command, bool force)
 {
   static char program[] = "flowgrain", quiet[] = "--quiet", replace[] = "--force";

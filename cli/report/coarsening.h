@@ -1,4 +1,4 @@
-/* What a run remembers of the coarsenings of its mesh. */
+/* The coarsenings of a run's mesh, for its report. */
 #ifndef REPORT_COARSENING_H
 #define REPORT_COARSENING_H
 

@@ -4,7 +4,7 @@
 
 #include "option/settings.h"
 
-/* A snapshot to be drawn; whoever gets one ends its parts. */
+/* A snapshot to be drawn. It owns its parts (snapshot_clear). */
 typedef struct scale_snapshot {
   fg_density *density; /* NULL: what needs it has been done */
   fg_icons *icons;     /* NULL: to be made, unless the density is missing, too */

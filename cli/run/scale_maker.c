@@ -160,8 +160,7 @@ static fg_status find_finer(scale_maker *maker, int index)
   return status;
 }
 
-/* Exactly as many icons as the scale asks for. The finer scale's icons are told which
- * ones they went into. */
+/* Makes exactly `count` icons, and sets the parents of the finer scale's. */
 static fg_status place_icons(scale_maker *maker, int index, int count,
                              scale_snapshot *snapshot)
 {

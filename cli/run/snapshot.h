@@ -1,4 +1,4 @@
-/* A snapshot of the evolution on its way to the drawing. */
+/* Takes the snapshots of an evolution that are drawn. */
 #ifndef RUN_SNAPSHOT_H
 #define RUN_SNAPSHOT_H
 

@@ -11,8 +11,9 @@ typedef struct chosen_places {
   fg_selection time, level;
 } chosen_places;
 
-/* Tells which value was taken where what was asked for is not there; complains of none.
- * Reads the input's metadata unless plain indices do. Returns an exit code. */
+/* Finds them, in the input's metadata unless all are plain indices. Prints which value
+ * was taken where the one asked for is not there, and complains where none is near.
+ * Returns an exit code. */
 int places_find(chosen_places *out, const reading_settings *settings, bool quiet);
 void places_clear(chosen_places *places);
 

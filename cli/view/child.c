@@ -32,7 +32,7 @@ static int make_temporary(cli_child *child)
   return EXIT_DONE;
 }
 
-/* The summary of a run names files, which with a temporary folder nobody can use. */
+/* The summary of a run names files, which are of no use in a temporary folder. */
 static void silence_summary(void)
 {
   int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);

@@ -9,23 +9,23 @@
 extern "C" {
 #endif
 
-/* Where a tensor is asked for: the centre of a cell of the finest mesh that lies within
- * the field's domain. */
+/* The place of a tensor: the centre of a cell of the finest mesh that lies within the
+ * field's domain. */
 typedef struct fg_energy_place {
-  const fg_field *field; /* that ranks share by parts is known here up to half a
-                            spacing from the position, and beyond as missing */
+  const fg_field *field; /* of one that ranks share the values within half a spacing of
+                            the position are known; others are missing */
   double position[3];    /* input coordinates */
   double spacing[3];     /* of the mesh, likewise */
   double direction[3];   /* of the streamline here, as fg_field_tangent gives it */
   double anisotropy;     /* a of the options */
 } fg_energy_place;
 
-/* Writes the symmetric tensor A of a place, xx, xy, yy and in 3D also zz, xz, yz, where
- * fg_evolution_create asks for it. A piece of interface of normal n costs sqrt(n.A n), so
- * clusters grow long along A's eigenvectors of large eigenvalues. The eigenvalues must
- * lie between a and 1. It is called by several threads at once, on each rank for its own
- * part of the domain and the cells round it, and for one cell more than once; so its
- * result must depend on the place and `data` alone. */
+/* Writes the symmetric tensor A of a place, xx, xy, yy and in 3D also zz, xz, yz; called
+ * by fg_evolution_create, and where the mesh is coarsened. A piece of interface of normal
+ * n costs sqrt(n.A n), so clusters grow long along A's eigenvectors of large eigenvalues.
+ * The eigenvalues must lie between a and 1. It is called by several threads at once, on
+ * each rank for its own part of the domain and the cells round it, and for one cell more
+ * than once; so its result must depend on the place and `data` alone. */
 typedef void fg_energy_tensor(double tensor[6], const fg_energy_place *place,
                               const void *data);
 
@@ -39,7 +39,7 @@ struct fg_energy_law {
                         the same only; 0 where there is no data */
   bool axes; /* A is made of one unit vector e a cell, of either sign: a I + (1 - a) e e^T
                 or I - (1 - a) e e^T. Then A is averaged over the width of an interface
-                (docs/design/tensor.md), which rough data ask for. */
+                (docs/design/tensor.md), which rough data need. */
   double anisotropy; /* the least eigenvalue there is, in place of the option; 0: the
                         option's */
 };

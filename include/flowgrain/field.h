@@ -230,7 +230,7 @@ FG_API int fg_inventory_vector_count(const fg_inventory *inventory);
 FG_API const fg_inventory_vector *fg_inventory_vector_at(const fg_inventory *inventory,
                                                          int index);
 
-/* Times or levels that a text asks for. */
+/* Times or levels that a text selects. */
 typedef struct fg_selection {
   int *index;   /* [count] ascending */
   int count;    /* at least 1 */
@@ -238,7 +238,7 @@ typedef struct fg_selection {
   bool nearest; /* what was asked for is not there, and the nearest to it was taken */
 } fg_selection;
 
-/* Finds which of `count` times (what: "time") or levels ("level") a text asks for, items
+/* Finds which of `count` times (what: "time") or levels ("level") a text selects, items
  * with commas between them:
  *   7            a plain whole number is an index, from 0
  *   300hPa 2.5h 0.995 850.   a number with a unit or a decimal point or exponent is a

@@ -47,8 +47,9 @@ typedef enum fg_run_outcome {
 /* One scale; all is borrowed until the next call for the same run. */
 typedef struct fg_run_scale {
   int index;         /* from 0, the finest */
-  const int *wanted; /* the numbers that it is the scale of: clusters can pass several at
-                        once, and none where the run ended before its last number */
+  const int *wanted; /* the numbers that it is the scale of: clusters can fall below
+                        several at once; none where the run ended before its last
+                        number */
   int wanted_count;
   fg_step step;              /* the state of the evolution */
   const fg_density *density; /* of that state, which ranks share; of placed arrows all of
@@ -83,20 +84,21 @@ FG_API fg_run_outcome fg_run_ended(const fg_run *run);
 /* Makes a step. Collective. As fg_evolution_step; on STOPPED `step` stays what it was. */
 FG_API fg_status fg_run_step(fg_step *step, fg_run *run);
 
-/* Takes a scale of the present state, without density and icons; false: there is none
- * (more). */
+/* Takes the next scale of the present state, without density and icons; false: there is
+ * none (more). */
 FG_API bool fg_run_take(fg_run_scale *out, fg_run *run);
 
-/* What is left of an ended run becomes scales of its last state: all arrows that are
- * wanted, unless it was stopped; clusters as many as there are. */
+/* Ends a run: the scales that were not reached become scales of its last state. Of placed
+ * arrows all of them, unless the run was stopped; of clusters one, with as many as there
+ * are. */
 FG_API void fg_run_close(fg_run *run);
 
-/* The numbers wanted, descending; *next of them are behind. Those of clusters are not
- * known by default until clusters are counted. Returns how many. */
+/* The numbers wanted, descending, borrowed; the first *next of them are reached. Default
+ * numbers of clusters are known once clusters are counted. Returns how many. */
 FG_API int fg_run_wanted(const int **wanted, int *next, const fg_run *run);
 
-/* Share of the way to the last scale, 0 to 1, and the seconds that are left, negative
- * while nothing is known: clusters coarsen as t^-0.43. */
+/* Share of the way to the last scale, 0 to 1, and an estimate of the seconds left,
+ * negative while there is none; the number of clusters is taken to fall as t^-0.43. */
 FG_API void fg_run_progress(double *share, double *seconds_left, const fg_run *run);
 
 /* The run's evolution, to be saved, described and asked for densities. */
@@ -111,7 +113,7 @@ FG_API fg_status fg_run_place(fg_icons **out, fg_context *context,
                               const fg_density *density, bool even_start,
                               fg_icons *finer);
 
-/* What a run remembers beside its evolution, to be kept with a checkpoint. */
+/* The state of a run beside its evolution's, to be stored with a checkpoint. */
 typedef struct fg_run_record {
   int wanted[FG_MOST_SCALES], count, next;
   int taken;         /* scales */

@@ -1,5 +1,5 @@
 /* What a density holds: of a grid that ranks divide each rank has u, labels and mask of
- * its block, and whoever needs more asks for a region. A process alone has one block. */
+ * its block; other nodes are gathered as regions. A process alone has one block. */
 #ifndef FG__DENSITY_H
 #define FG__DENSITY_H
 

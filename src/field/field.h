@@ -26,15 +26,15 @@ int fg__axis_cell(const fg__axis *axis, double x, double *fraction);
 typedef struct fg__field_slab fg__field_slab;
 
 /* A field has all samples of its grid; or it is a part, rows along the last axis; or a
- * window, a box of samples that was asked of the parts. Indices are always the whole
- * grid's. */
+ * window, a box of samples gathered from the parts. Indices are always the whole grid's.
+ */
 struct fg_field {
   fg_field_arrays contents;
   fg__axis axis[3];
   int first[3], held[3]; /* samples that it has along each axis, from `first` on; on a
                             periodic axis they may go on round its end */
   float *velocity[3];
-  unsigned char *valid;        /* NULL: all; in a part or window NaN tells */
+  unsigned char *valid;        /* NULL: all; in a part or window NaN is missing */
   unsigned char *valid_cell;   /* NULL: all, or a part or window */
   char *word[FG__FIELD_WORDS]; /* owned copies of the texts */
   int words;

@@ -14,8 +14,8 @@ typedef struct fg__map_area {
   bool sea; /* values at sea alone: the map is cut through land */
 } fg__map_area;
 
-/* Finds the PROJ string of what is asked, in kilometres. ARGUMENT (an unknown name or
- * code, a centre beside a string). */
+/* Finds the PROJ string of the options' projection, in kilometres. ARGUMENT (an unknown
+ * name or code, a centre beside a string). */
 fg_status fg__map_choose(char out[FG__MAP_STRING_BYTES], fg_context *context,
                          const fg_map_options *options, const fg__map_area *area);
 

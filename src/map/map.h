@@ -1,8 +1,8 @@
 /* Map projections, by PROJ: longitude and latitude to coordinates of a plane and back.
  *
  * A projection is given by a PROJ string, "+proj=laea +lat_0=90 +R=6371000 +units=km". No
- * file and no network is asked: strings that name files (grids, init files) or pipelines
- * are refused. */
+ * file is read and no network used: strings that name files (grids, init files) or
+ * pipelines are refused. */
 #ifndef FG__MAP_H
 #define FG__MAP_H
 

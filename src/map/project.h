@@ -9,7 +9,7 @@
 /* Whether a map is asked for: not NULL, not "none". */
 bool fg__map_is_asked(const fg_map_options *options);
 
-/* Whether more than "auto" is asked for, which takes a field as it comes. */
+/* Whether the options choose a map, centre or region, beyond "auto". */
 bool fg__map_is_named(const fg_map_options *options);
 
 /* A field on the plane of a projection (scale MAP, 2D, whole) as one on the sphere, which

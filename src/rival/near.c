@@ -78,7 +78,7 @@ void fg__near_forget(fg__near *near, int count)
   }
 }
 
-/* What is asked for. */
+/* A search for the nearest point. */
 typedef struct query {
   double inside[3];
   double square; /* of the distance */

@@ -6,8 +6,8 @@
 #include "base/threads.h"
 
 /* The cells to give a tensor to: a box of cells of a uniform grid that fills the domain,
- * in the input's coordinates. What a cell gets does not depend, to the bit, on the box it
- * is asked for in. */
+ * in the input's coordinates. A cell's tensor has the same bits whichever box it is
+ * computed in. */
 typedef struct fg__cells {
   int dimension;       /* 2 or 3 */
   int count[3];        /* cells of the box; count[2] is not read in 2D */
@@ -36,26 +36,25 @@ fg_status fg__tensor_fill(fg__tensor *tensor, fg_context *context, const fg_fiel
                           const fg_energy_law *law, double anisotropy,
                           const fg__cells *cells, fg__threads *threads);
 
-/* Length of a mean of directions from which on the full anisotropy comes back. */
+/* Length of the mean of directions from which on the tensor has the full anisotropy. */
 extern const double fg__full_coherence;
 
 /* Averages the directions that a law with axes prefers over a Gaussian of standard
  * deviation `width` (same unit as spacing) within the active cells, in place, so that an
- * interface of that width meets a tensor that hardly varies across it; rough measured
- * fields ask for that. Where directions agree at least by half the full anisotropy comes
- * back, where they cancel the tensor tends to I (docs/design/tensor.md). A box is
- * averaged over what it holds; it goes round a periodic axis when it is all of it.
- * MEMORY.
- */
+ * interface of that width meets a tensor that hardly varies across it: rough measured
+ * fields need that. Where the mean of directions is at least fg__full_coherence long the
+ * tensor has the full anisotropy; it tends to I where they cancel
+ * (docs/design/tensor.md). The mean is over cells of the box alone, and wraps round a
+ * periodic axis that the box spans. MEMORY. */
 fg_status fg__tensor_smooth(fg__tensor *tensor, fg_context *context, double anisotropy,
                             const fg__cells *cells, const bool periodic[3], double width,
                             fg__threads *threads);
 
 /* Both for any box of the domain, which may go on beyond the ends of a periodic axis:
- * fills and, for a law with axes and a width above 0, smooths; what lies round the box
- * within the Gaussian's reach is computed again for that, so that each rank asks for its
- * own boxes alone and gets what the whole domain would have there; the threads (NULL: one
- * thread) works on a box that is the whole domain. A box without an active cell is no
+ * fills and, for a law with axes and a width above 0, smooths. Cells round the box within
+ * the Gaussian's reach are computed, too, so that each rank computes its own boxes alone,
+ * with the values of the whole domain. Threads (NULL: one thread) share the work on a box
+ * that is the whole domain. A box without an active cell is no
  * failure unless it is the whole domain. Statuses as fg__tensor_fill; MEMORY. */
 fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
                               const fg_field *field, const fg_energy_law *law,
@@ -65,7 +64,8 @@ fg_status fg__tensor_fill_box(fg__tensor *tensor, fg_context *context,
 /* The same in steps, for a field that comes window by window: a box's tensor with what
  * smoothing reaches round it. MEMORY. */
 typedef struct fg__wide_tensor {
-  fg__cells cells; /* at whose centres a law is asked; it may look half a cell round */
+  fg__cells cells; /* at whose centres a law is evaluated; it may read the field within
+                      half a cell */
   fg__tensor tensor;
   void *memory;
 } fg__wide_tensor;

@@ -23,8 +23,7 @@ static inline void fg__blocks_begin(fg__texture_blocks *blocks, const fg__raster
   atomic_init(&blocks->next, 0);
 }
 
-/* The lowest pixel and the size of a block that nobody has taken yet; false when there is
- * none. */
+/* Takes the next block: its lowest pixel and size; false when all are taken. */
 static inline bool fg__blocks_take(fg__texture_blocks *blocks, int first[2], int size[2])
 {
   int number = atomic_fetch_add_explicit(&blocks->next, 1, memory_order_relaxed);

@@ -1,6 +1,5 @@
-/* What packed values say of their own number and size, where ecCodes believes it: it
- * writes an image of JPEG 2000 beyond its own room, and reads groups beyond the message.
- */
+/* Checks the numbers and sizes of packed values that ecCodes does not check: it would
+ * write an image of JPEG 2000 beyond its buffer, and read groups beyond the message. */
 #include "read/grib/grib.h"
 
 #include <string.h>

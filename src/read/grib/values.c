@@ -40,8 +40,7 @@ static size_t count_bits(const unsigned char *bytes, size_t bits)
   return count;
 }
 
-/* What the sections of values say of themselves has to hold before ecCodes believes it.
- */
+/* Checks what the sections of values say of their sizes, which ecCodes does not. */
 static const char *check_second_edition(const fg__grib_field *field, size_t points)
 {
   size_t size, bitmap_size, data_size;
