@@ -42,23 +42,8 @@ static fg_status check_isotropic_below(const fg_evolution_options *o, fg_context
   return FG_STATUS_OK;
 }
 
-fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *context,
-                                       int dimension)
+static void fill_in_defaults(fg_evolution_options *o)
 {
-  fg_status status = check_range(context, "scheme", o->scheme, 0, FG_SCHEME_THETA, true);
-  if (!status)
-    status = check_range(context, "mesh", o->mesh, 0, FG_MESH_UNIFORM, true);
-  if (status)
-    return status;
-  if (o->nodes == 0)
-    o->nodes = fg__default_nodes(dimension);
-  if (o->law)
-    o->energy = FG_ENERGY_LAW;
-  else
-    o->law = fg__energy(o->energy);
-  if (!o->law)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "there is no energy number %d",
-                    (int)o->energy);
   if (o->law->anisotropy > 0.0)
     o->anisotropy = o->law->anisotropy;
   else if (o->anisotropy == 0.0)
@@ -73,7 +58,11 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
     o->accuracy = default_accuracy[o->scheme];
   if (o->cycles == 0)
     o->cycles = default_cycles[o->scheme];
-  status = check_range(context, "anisotropy", o->anisotropy, 0.0, 1.0, false);
+}
+
+static fg_status check_numbers(const fg_evolution_options *o, fg_context *context)
+{
+  fg_status status = check_range(context, "anisotropy", o->anisotropy, 0.0, 1.0, false);
   if (!status && !(o->coverage > 0.0 && o->coverage < 1.0))
     status = fg__fail(context, FG_STATUS_ARGUMENT, "coverage %g is not in (0, 1)",
                       o->coverage);
@@ -94,6 +83,27 @@ fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *cont
         fg__fail(context, FG_STATUS_ARGUMENT,
                  "threads: %d; at least 1, or 0 for all cores, is needed", o->threads);
   return status;
+}
+
+fg_status fg__evolution_options_settle(fg_evolution_options *o, fg_context *context,
+                                       int dimension)
+{
+  fg_status status = check_range(context, "scheme", o->scheme, 0, FG_SCHEME_THETA, true);
+  if (!status)
+    status = check_range(context, "mesh", o->mesh, 0, FG_MESH_UNIFORM, true);
+  if (status)
+    return status;
+  if (o->nodes == 0)
+    o->nodes = fg__default_nodes(dimension);
+  if (o->law)
+    o->energy = FG_ENERGY_LAW;
+  else
+    o->law = fg__energy(o->energy);
+  if (!o->law)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "there is no energy number %d",
+                    (int)o->energy);
+  fill_in_defaults(o);
+  return check_numbers(o, context);
 }
 
 fg_status fg__evolution_check_alike(const fg_evolution *e)

@@ -181,6 +181,15 @@ static fg_status open_chosen(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *
   return status == FG_STATUS_OK ? check_level(file, grid, options->level) : status;
 }
 
+/* Ends what choose() or open_chosen() has opened. */
+static fg_status close_chosen(fg__nc_file *file, fg__nc_grid *grid, fg_status status)
+{
+  status = fg__nc_status(file, status);
+  fg__nc_grid_clear(grid);
+  fg__nc_file_close(file);
+  return status;
+}
+
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
                             const fg_read_options *options, fg__slab_index slab)
 {
@@ -198,11 +207,8 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
   } else if (status == FG_STATUS_OK) {
     status = make_field(out, &file, &pair, &grid, options, slab);
   }
-  status = fg__nc_status(&file, status);
   fg__sphere_destroy(sphere);
-  fg__nc_grid_clear(&grid);
-  fg__nc_file_close(&file);
-  return status;
+  return close_chosen(&file, &grid, status);
 }
 
 static fg_status read_sphere(fg__sphere **out, fg_context *context,
@@ -216,10 +222,7 @@ static fg_status read_sphere(fg__sphere **out, fg_context *context,
     status = fg__nc_sphere_read(out, &file, &pair, &grid, options);
   else if (status == FG_STATUS_OK && grid.unstructured)
     status = fg__nc_unstructured_sphere(out, &file, &pair, &grid, options);
-  status = fg__nc_status(&file, status);
-  fg__nc_grid_clear(&grid);
-  fg__nc_file_close(&file);
-  return status;
+  return close_chosen(&file, &grid, status);
 }
 
 /* Samples that an inventory has in memory at a time. */
@@ -274,66 +277,89 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
   return status;
 }
 
-/* counts: also what takes the reading of samples or of a mesh. */
-static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
-                               const fg__nc_pair *pair, const fg__nc_grid *found,
-                               const fg_read_options *options, bool counts)
+/* The texts of a vector that is described. */
+typedef struct vector_texts {
+  char units[FG__NC_TEXT], plane[FG__NC_TEXT];
+  char frame[3 * FG__NC_TEXT];        /* a projection, and a few words */
+  char unusable[3 * FG__NC_TEXT + 2]; /* the reason; and the hint */
+} vector_texts;
+
+static const char *describe_frame(char *out, size_t size, const fg__nc_grid *grid)
 {
-  char text[FG__NC_TEXT];
-  char units[FG__NC_TEXT];
-  fg_usual usual;
-  fg_status status = fg__nc_usual(&usual, file, pair, found, options);
-  const fg__nc_grid grid = *found;
-  if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
-    fg__nc_text(pair->component[1], "units", text, sizeof text);
-  fg__nc_units(text, units, sizeof units);
-  fg_inventory_vector vector = {
-      .components = grid.dimension,
-      .name = {pair->component[0]->name, pair->component[1]->name,
-               grid.dimension == 3 ? pair->component[2]->name : NULL},
-      .units = units,
-      .found_by = pair->found_by,
-      .dimension = grid.dimension,
-      .size = {0, 0, 1},
-      .times = (int)grid.times,
-      .levels = grid.dimension == 3 ? 1 : (int)grid.levels,
-      .scale = grid.scale,
-      .usual_level = usual.level,
-      .absent = usual.absent[0] ? usual.absent : NULL,
-      .periodic = {grid.axis[0].period > 0.0}};
-  char frame[sizeof grid.projection + FG__NC_TEXT];
-  snprintf(frame, sizeof frame, "%s of %s",
-           grid.points_east ? "east and north, turned to the axes" : "along the axes",
-           grid.projection);
-  if (grid.projection[0])
-    vector.frame = frame;
-  else if (grid.faces.used)
-    vector.frame = "along the axes (a staggered grid)";
-  const bool off_axes = grid.mesh || grid.unstructured;
-  if (grid.mesh)
-    vector.frame = grid.mesh->rule;
-  if (status == FG_STATUS_OK && grid.mesh && counts && !grid.unusable[0])
-    status = fg__nc_mesh_describe(&vector, file, pair, found);
-  if (status == FG_STATUS_OK && grid.unstructured && counts && !grid.unusable[0])
-    status = fg__nc_unstructured_describe(&vector, file, pair, found);
-  for (int k = 0; k < grid.dimension && !off_axes; ++k) {
-    vector.size[k] = (int)grid.axis[k].size;
-    if (grid.axis[k].coordinate) {
-      vector.bounds[2 * k] = grid.axis[k].coordinate[0];
-      vector.bounds[2 * k + 1] = grid.axis[k].coordinate[grid.axis[k].size - 1];
+  if (grid->mesh)
+    return grid->mesh->rule;
+  if (!grid->projection[0])
+    return grid->faces.used ? "along the axes (a staggered grid)" : NULL;
+  snprintf(out, size, "%s of %s",
+           grid->points_east ? "east and north, turned to the axes" : "along the axes",
+           grid->projection);
+  return out;
+}
+
+static void describe_axes(fg_inventory_vector *vector, const fg__nc_grid *grid)
+{
+  for (int k = 0; k < grid->dimension; ++k) {
+    const fg__nc_axis *axis = &grid->axis[k];
+    vector->size[k] = (int)axis->size;
+    if (axis->coordinate) {
+      vector->bounds[2 * k] = axis->coordinate[0];
+      vector->bounds[2 * k + 1] = axis->coordinate[axis->size - 1];
     }
   }
-  char plane[FG__NC_TEXT];
-  if (!off_axes && !grid.unusable[0] && !grid.projection[0])
-    vector.plane = fg__nc_axes_plane(plane, file, pair->component[0], &grid);
-  char reason[sizeof grid.unusable + sizeof grid.hint + 2];
-  snprintf(reason, sizeof reason, "%s%s%s", grid.unusable, grid.hint[0] ? "; " : "",
-           grid.hint);
-  if (grid.unusable[0])
-    vector.unusable = reason;
-  else if (status == FG_STATUS_OK && counts && !off_axes)
-    status = count_missing(&vector, file, pair, found);
-  return status == FG_STATUS_OK ? add_vector(inventory, &vector, file, found) : status;
+}
+
+/* What takes the reading of a mesh or of samples. */
+static fg_status describe_samples(fg_inventory_vector *vector, const fg__nc_file *file,
+                                  const fg__nc_pair *pair, const fg__nc_grid *grid)
+{
+  if (grid->mesh)
+    return fg__nc_mesh_describe(vector, file, pair, grid);
+  if (grid->unstructured)
+    return fg__nc_unstructured_describe(vector, file, pair, grid);
+  return count_missing(vector, file, pair, grid);
+}
+
+/* Adds the vector of a pair. reads: also what takes the reading of a mesh or samples. */
+static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
+                               const fg__nc_pair *pair, const fg__nc_grid *grid,
+                               const fg_read_options *options, bool reads)
+{
+  char text[FG__NC_TEXT];
+  vector_texts texts;
+  fg_usual usual;
+  fg_status status = fg__nc_usual(&usual, file, pair, grid, options);
+  if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
+    fg__nc_text(pair->component[1], "units", text, sizeof text);
+  fg__nc_units(text, texts.units, sizeof texts.units);
+  fg_inventory_vector vector = {
+      .components = grid->dimension,
+      .name = {pair->component[0]->name, pair->component[1]->name,
+               grid->dimension == 3 ? pair->component[2]->name : NULL},
+      .units = texts.units,
+      .found_by = pair->found_by,
+      .dimension = grid->dimension,
+      .size = {0, 0, 1},
+      .times = (int)grid->times,
+      .levels = grid->dimension == 3 ? 1 : (int)grid->levels,
+      .scale = grid->scale,
+      .frame = describe_frame(texts.frame, sizeof texts.frame, grid),
+      .usual_level = usual.level,
+      .absent = usual.absent[0] ? usual.absent : NULL,
+      .periodic = {grid->axis[0].period > 0.0}};
+  const bool on_axes = !grid->mesh && !grid->unstructured;
+  if (on_axes)
+    describe_axes(&vector, grid);
+  if (grid->unusable[0]) {
+    snprintf(texts.unusable, sizeof texts.unusable, "%s%s%s", grid->unusable,
+             grid->hint[0] ? "; " : "", grid->hint);
+    vector.unusable = texts.unusable;
+  } else {
+    if (on_axes && !grid->projection[0])
+      vector.plane = fg__nc_axes_plane(texts.plane, file, pair->component[0], grid);
+    if (status == FG_STATUS_OK && reads)
+      status = describe_samples(&vector, file, pair, grid);
+  }
+  return status == FG_STATUS_OK ? add_vector(inventory, &vector, file, grid) : status;
 }
 
 static fg_status describe_pair(fg_inventory *inventory, const fg__nc_file *file,
@@ -362,14 +388,6 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
   status = fg__nc_status(&file, status);
   free(pairs);
   fg__nc_file_close(&file);
-  return status;
-}
-
-static fg_status close_chosen(fg__nc_file *file, fg__nc_grid *grid, fg_status status)
-{
-  status = fg__nc_status(file, status);
-  fg__nc_grid_clear(grid);
-  fg__nc_file_close(file);
   return status;
 }
 
