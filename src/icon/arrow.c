@@ -42,12 +42,8 @@ static const double CLEARANCE_ENOUGH = 0.8;
  * straight. */
 static const double HEAD_BOW = 0.55;
 
-/* What width is worth beside length: a line's area grows with both, but its length is
- * what shows the flow. */
-static const double WIDTH_WORTH = 0.4;
-
 /* What uneven bending costs (see bending_of): a right angle within a tenth of the arrow
- * costs 40 % of its worth, a smooth S of 60 degrees to either side a tenth. */
+ * costs 40 % of its score, a smooth S of 60 degrees to either side a tenth. */
 static const double UNEVEN_COST = 0.03;
 
 /* Beyond this turning (radians) an arrow must deserve it: each radian more costs. */
@@ -87,7 +83,7 @@ typedef struct arrow_search {
   double width;     /* tried now */
   double weight;    /* what it makes of a length */
   fg__arrow best;
-  double worth;
+  double score; /* of `best`: length, times width to FG__WIDTH_EXPONENT, over bending */
 } arrow_search;
 
 double fg__arrow_widest(double length, const fg__interior *interior)
@@ -232,15 +228,15 @@ static void consider(arrow_search *search, int tail, int tip)
   const fg__arc_sample *sample = search->samples->sample;
   double length = sample[tip].s - sample[tail].s;
   double visible = length * search->weight;
-  if (visible <= search->worth)
+  if (visible <= search->score)
     return;
   double total = sample[search->samples->count - 1].s;
   double aside = fabs(sample[tail].s + sample[tip].s - total) / total;
   visible *= 1 - ASIDE_COST * aside;
   double bending = bending_of(search, tail, tip);
-  if (visible / bending <= search->worth)
+  if (visible / bending <= search->score)
     return;
-  search->worth = visible / bending;
+  search->score = visible / bending;
   search->best = (fg__arrow){
       .tail = sample[tail].s,
       .tip = sample[tip].s,
@@ -289,8 +285,8 @@ static void try_width(arrow_search *search, double width, double end_gap)
   double ratio = width > search->narrowest ? LARGEST_WIDTH : SMALL_ARROW_WIDTH;
   double least = fmax(SHORTEST * search->interior->spacing, width / ratio);
   double slim = width / SLIMMEST, most = slim * search->rolled_up;
-  double weight = pow(width / search->interior->spacing, WIDTH_WORTH);
-  if (fmin(most, total) * weight <= search->worth)
+  double weight = pow(width / search->interior->spacing, FG__WIDTH_EXPONENT);
+  if (fmin(most, total) * weight <= search->score)
     return;
   search->width = width;
   search->weight = weight;
@@ -300,10 +296,10 @@ static void try_width(arrow_search *search, double width, double end_gap)
   int gap = (int)ceil(end_gap / search->samples->step), last = count - 1 - gap;
   for (int tip = last; tip > gap + 1; tip--) {
     double length = sample[tip].s - sample[gap].s;
-    if (fmin(length, most) * weight <= search->worth)
+    if (fmin(length, most) * weight <= search->score)
       break;
     double aside = fabs(sample[gap].s + sample[tip].s - total) / total;
-    if (length < most && length * weight * (1 - ASIDE_COST * aside) <= search->worth)
+    if (length < most && length * weight * (1 - ASIDE_COST * aside) <= search->score)
       continue;
     int base = tip;
     if (!head_fits(search, gap, tip, &base))

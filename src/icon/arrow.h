@@ -21,6 +21,10 @@
 /* An arc of at most 300 degrees: a gap shows where a ring begins and ends. */
 #define FG__LARGEST_TURNING 5.236
 
+/* An arrow is seen as length times width to this power: its area grows with both, but its
+ * length is what shows the flow. */
+#define FG__WIDTH_EXPONENT 0.4
+
 /* The part of a streamline that an arrow takes, by arc length, and its body's width. */
 typedef struct fg__arrow {
   double tail, tip;
@@ -30,12 +34,11 @@ typedef struct fg__arrow {
                      hairpins */
 } fg__arrow;
 
-/* Finds the arrow on the streamline that is seen best: length times width to the power of
- * 0.4. Shorter than 3 or with a head narrower than 1.2 spacings gives width 0. In 2D it
- * bends evenly, and its outline lies in the interior and does not meet itself. In 3D the
- * ball of the arrow's radius lies in the cluster at each of its points, the radius is
- * below that of the curve, its head is nearly straight, and no part of it comes near
- * another. MEMORY. */
+/* Finds the arrow on the streamline that is seen best. Shorter than 3 or with a head
+ * narrower than 1.2 spacings gives width 0. In 2D it bends evenly, and its outline lies
+ * in the interior and does not meet itself. In 3D the ball of the arrow's radius lies in
+ * the cluster at each of its points, the radius is below that of the curve, its head is
+ * nearly straight, and no part of it comes near another. MEMORY. */
 fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
                         const fg__streamline *streamline, const fg__interior *interior,
                         fg__arc_samples *samples);

@@ -24,8 +24,6 @@ static const double WIDEST = 0.09, SLIMMEST = 0.028;
 /* Widths are tried from the widest down in such steps. */
 static const double NARROWER = 0.88;
 
-static const double WIDTH_WORTH = 0.4;
-
 /* Least length, and least width of the head, in spacings: as in 2D. */
 static const double SHORTEST = 3.0, LEAST_HEAD = 1.2;
 
@@ -129,23 +127,23 @@ fg_status fg__arrow_fit_solid(fg__arrow *out, fg_context *context,
   double least = LEAST_HEAD * interior->spacing / FG__SOLID_HEAD_WIDTH;
   double width = fmin(WIDEST * length, 2 * deepest / FG__SOLID_HEAD_WIDTH);
   for (; width >= least; width *= NARROWER) {
-    if (length * pow(width, WIDTH_WORTH) <= best)
+    if (length * pow(width, FG__WIDTH_EXPONENT) <= best)
       break;
     for (int tip = samples->count - 1; tip > 0; tip--) {
       int base;
-      if (tip * samples->step * pow(width, WIDTH_WORTH) <= best)
+      if (tip * samples->step * pow(width, FG__WIDTH_EXPONENT) <= best)
         break;
       if (!head_fits(samples, tip, width, &base))
         continue;
       int tail = find_tail(samples, base, tip, width);
       int longest = (int)(width / (SLIMMEST * samples->step));
       tail = tip - tail > longest ? tip - longest : tail;
-      double value = (tip - tail) * samples->step * pow(width, WIDTH_WORTH);
+      double value = (tip - tail) * samples->step * pow(width, FG__WIDTH_EXPONENT);
       if (tail >= base || value <= best)
         continue;
       tail = clear_itself(samples, tail, tip, width);
       double taken = (tip - tail) * samples->step;
-      value = taken * pow(width, WIDTH_WORTH);
+      value = taken * pow(width, FG__WIDTH_EXPONENT);
       if (value <= best || tail >= base || taken < SHORTEST * interior->spacing ||
           width > WIDEST * taken)
         continue;

@@ -15,9 +15,9 @@ enum { POINTS_FLAT = 150, POINTS_SOLID = 250, ARROW_POINTS = 32 };
  * length from it: which ones lie farther away counts less and less. */
 static const double REACH = 0.2;
 
-/* A choice that keeps 20 % more distance from the cluster's points is as good when its
- * arrow is twice as wide. */
-static const double WIDTH_WORTH = 0.25;
+/* An arrow's cost is its distance from the cluster's points over its width to this power:
+ * 20 % more distance is as good when the arrow is twice as wide. */
+static const double WIDTH_EXPONENT = 0.25;
 
 /* No line in 2D is traced from where one has passed already: nearer than this share of
  * the distance from the middle of the spine to the boundary. */
@@ -104,7 +104,7 @@ static double cost_of(const fg__choice *choice, double tail, double tip, double 
     }
     sum += nearest / (nearest + choice->reach);
   }
-  return sqrt(sum / fmax(chooser->point_count, 1)) / pow(width, WIDTH_WORTH);
+  return sqrt(sum / fmax(chooser->point_count, 1)) / pow(width, WIDTH_EXPONENT);
 }
 
 /* The node next to a point, or -1 outside the window. */

@@ -274,8 +274,8 @@ static fg_status descend(fg__place_search *search, int sweeps)
   return status;
 }
 
-/* From whatever icons there are to near a minimum of the energy. */
-static fg_status settle(fg__place_search *search)
+/* Relaxes any icons, and adds or removes some until there are as many as wanted. */
+static fg_status relax_to_count(fg__place_search *search)
 {
   fg_status status = fg__place_relax(search, 2);
   if (status == FG_STATUS_OK)
@@ -287,32 +287,32 @@ static fg_status settle(fg__place_search *search)
   return status;
 }
 
-static int count_exchanges(const effort *much, int icons)
+static int count_exchanges(const effort *work, int icons)
 {
   if (icons <= MOST_EXCHANGED)
-    return much->exchanges + icons / much->icons_an_exchange;
-  const int most = much->exchanges + MOST_EXCHANGED / much->icons_an_exchange;
+    return work->exchanges + icons / work->icons_an_exchange;
+  const int most = work->exchanges + MOST_EXCHANGED / work->icons_an_exchange;
   return (int)((int64_t)most * MOST_EXCHANGED / icons);
 }
 
-static fg_status polish(fg_placement *placement)
+static fg_status refine(fg_placement *placement)
 {
   fg__place_search *search = &placement->search;
-  const effort *much = &EFFORTS[placement->options.effort];
+  const effort *work = &EFFORTS[placement->options.effort];
   fg_status status = FG_STATUS_OK;
-  if (much->exchanges > 0)
+  if (work->exchanges > 0)
     status =
-        fg__place_exchange(search, count_exchanges(much, search->count), much->failures);
+        fg__place_exchange(search, count_exchanges(work, search->count), work->failures);
   if (status == FG_STATUS_OK) {
     fg__place_reactivate_all(search, 0.1);
-    status = descend(search, much->sweeps);
+    status = descend(search, work->sweeps);
   }
   return status;
 }
 
-/* A step of the chain: fewer icons, those that are left a little longer. All of it
- * follows from the icons' seeds, so that a run can go on from a file. */
-static fg_status go_on(fg__place_search *search, int count)
+/* A step of the chain of scales: fewer icons, of which each is a little longer. The
+ * result depends on the icons' seeds alone, so that a run can be resumed from a file. */
+static fg_status thin_to(fg__place_search *search, int count)
 {
   fg_status status = fg__place_search_rescale(search, count);
   if (status == FG_STATUS_OK)
@@ -320,8 +320,8 @@ static fg_status go_on(fg__place_search *search, int count)
   fg__place_reactivate_all(search, CHAIN_STEP);
   if (status == FG_STATUS_OK)
     status = fg__place_relax(search, 2);
-  fg__place_reactivate_all(search,
-                           0.0); /* then only the neighbours of those that go move */
+  /* then only the neighbours of removed icons move */
+  fg__place_reactivate_all(search, 0.0);
   if (status == FG_STATUS_OK)
     status = fg__place_thin(search, count);
   if (status == FG_STATUS_OK)
@@ -339,7 +339,7 @@ static fg_status go_down(fg_placement *placement, int count, double ratio)
   for (int now = search->count; now > count && status == FG_STATUS_OK;) {
     int next = (int)(ratio * now);
     now = next > count ? next : count;
-    status = go_on(search, now);
+    status = thin_to(search, now);
   }
   return status;
 }
@@ -356,13 +356,13 @@ static fg_status check_count(const fg_placement *placement, int count)
 static fg_status place_first(fg_placement *placement, int count, const fg_icons *clusters)
 {
   fg_status status = start(placement, count, clusters);
-  return status == FG_STATUS_OK ? settle(&placement->search) : status;
+  return status == FG_STATUS_OK ? relax_to_count(&placement->search) : status;
 }
 
 fg_status fg__placement_begin_again(fg_placement *placement, int count)
 {
   fg_status status = place_first(placement, count, NULL);
-  return status == FG_STATUS_OK ? polish(placement) : status;
+  return status == FG_STATUS_OK ? refine(placement) : status;
 }
 
 /* To `count` icons from those of the finer scale `from`, or without one from evenly
@@ -381,7 +381,7 @@ static fg_status place_otherwise(fg_placement *placement, int count,
   }
   if (status == FG_STATUS_OK)
     status = go_down(placement, count, by->ratio);
-  return status == FG_STATUS_OK ? polish(placement) : status;
+  return status == FG_STATUS_OK ? refine(placement) : status;
 }
 
 /* Looks for another placement, and goes back where it is no better. */
@@ -424,8 +424,8 @@ static int count_others(const fg_placement *placement, int count, bool is_first)
   const bool fair = placement->options.lengths == FG_LENGTHS_FAIR;
   const bool few =
       placement->domain.dimension == 2 && count <= (fair ? FEW_FAIR : FEW_FREE);
-  const effort *much = &EFFORTS[placement->options.effort];
-  int others = is_first ? much->first_others : much->others;
+  const effort *work = &EFFORTS[placement->options.effort];
+  int others = is_first ? work->first_others : work->others;
   if (placement->options.effort != FG_EFFORT_THOROUGH && !few)
     return 0;
   if (!is_first)
@@ -456,7 +456,7 @@ fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons 
       status = go_down(placement, count, CHAIN_RATIO);
   }
   if (status == FG_STATUS_OK)
-    status = polish(placement);
+    status = refine(placement);
   if (status == FG_STATUS_OK)
     status = check_count(placement, count);
   for (int n = 0; n < others && status == FG_STATUS_OK; ++n)

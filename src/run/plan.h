@@ -4,7 +4,7 @@
 
 #include "flowgrain/run.h"
 
-/* Numbers at which to take a scale, descending, and how many are behind. */
+/* Numbers at which to take a scale, descending, and how many are reached. */
 typedef struct fg__plan {
   int wanted[FG_MOST_SCALES];
   int count;

@@ -1,4 +1,4 @@
-/* What a run remembers beside its evolution; apart from the core, which has no files. */
+/* The record of a run for a checkpoint; not in the core, which has no files. */
 #include "base/context.h"
 #include "run/run.h"
 
@@ -21,7 +21,7 @@ fg_status fg_run_resume(fg_step *step, fg_run *run, const fg_checkpoint *checkpo
   if (record->count < 0 || record->count > FG_MOST_SCALES || record->next < 0 ||
       record->next > record->count)
     return fg__fail(s->context, FG_STATUS_ARGUMENT,
-                    "scales: a record of %d numbers, %d of them behind", record->count,
+                    "scales: a record of %d numbers, %d of them reached", record->count,
                     record->next);
   fg_status status = fg_evolution_resume(s->evolution, &s->step, checkpoint);
   if (status)

@@ -58,7 +58,7 @@ fg_status fg_run_create(fg_run **out, fg_context *context, const fg_field *field
                 .max_steps = o.max_steps,
                 .even_start = o.even_start,
                 .first_icons = o.first,
-                .how = o.placement};
+                .placement_options = o.placement};
   fg_evolution_options evolution = o.evolution;
   if (o.kind == FG_RUN_CLUSTERS)
     fg__plan_start(&s->plan, o.numbers, o.count);
@@ -121,7 +121,7 @@ fg_status fg_run_step(fg_step *step, fg_run *run)
     return status;
   if (s->step.clusters && !s->first.step)
     s->first = s->step;
-  s->due = fg__plan_reach(&s->plan, s->step.clusters);
+  s->pending = fg__plan_reach(&s->plan, s->step.clusters);
   s->outcome = fg__run_ending(s);
   *step = s->step;
   return FG_STATUS_OK;
@@ -130,16 +130,16 @@ fg_status fg_run_step(fg_step *step, fg_run *run)
 bool fg_run_take(fg_run_scale *out, fg_run *run)
 {
   fg_run *s = run;
-  if (!s->due && !s->rest)
+  if (!s->pending && !s->extra)
     return false;
   *out = (fg_run_scale){.index = s->taken, .step = s->step};
-  if (s->due) {
-    out->wanted = &s->plan.wanted[s->plan.next - s->due];
-    out->wanted_count = s->plan.placed ? 1 : s->due;
-    s->due -= out->wanted_count;
+  if (s->pending) {
+    out->wanted = &s->plan.wanted[s->plan.next - s->pending];
+    out->wanted_count = s->plan.placed ? 1 : s->pending;
+    s->pending -= out->wanted_count;
   }
-  if (!s->due)
-    s->rest = false;
+  if (!s->pending)
+    s->extra = false;
   ++s->taken;
   s->last_clusters = s->step.clusters;
   return true;
@@ -156,12 +156,12 @@ void fg_run_close(fg_run *run)
   if (fg__plan_done(&s->plan) || (!s->step.clusters && !(s->plan.placed && settled)))
     return;
   if (!s->plan.placed) {
-    s->rest = s->last_clusters != s->step.clusters;
+    s->extra = s->last_clusters != s->step.clusters;
     return;
   }
   if (s->outcome == FG_RUN_STOPPED)
     return;
-  s->due = s->plan.count - s->plan.next;
+  s->pending = s->plan.count - s->plan.next;
   s->plan.next = s->plan.count;
 }
 
@@ -231,7 +231,8 @@ static fg_status place(fg_run *s, int count)
 {
   fg_status status = FG_STATUS_OK;
   if (!s->placement)
-    status = fg_placement_create(&s->placement, s->context, s->field, &s->how);
+    status =
+        fg_placement_create(&s->placement, s->context, s->field, &s->placement_options);
   if (status)
     return status;
   if (s->first_icons && s->scale.index == 0)

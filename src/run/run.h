@@ -11,16 +11,17 @@ struct fg_run {
   fg__plan plan;
   fg_step step;  /* the last accepted one */
   fg_step first; /* the first with a number of clusters; step 0: none yet */
-  int due;       /* numbers that the present state is the scale of, still to be taken */
-  bool rest;     /* the present state is one more, of no number */
-  bool closed;
-  int taken, last_clusters;
+  int pending; /* wanted numbers that the present state is the scale of, not taken yet */
+  bool extra;  /* the present state is one more scale, of no wanted number */
+  bool closed; /* by fg_run_close */
+  int taken;   /* scales */
+  int last_clusters; /* of the last one taken */
   double max_time;
   int64_t max_steps;
   fg_run_outcome outcome;
   bool even_start;
   const fg_icons *first_icons; /* NULL: they are placed */
-  fg_placement_options how;
+  fg_placement_options placement_options;
 
   /* of fg_run_next */
   fg_placement *placement; /* NULL: not begun */
@@ -29,7 +30,7 @@ struct fg_run {
   fg_icons *icons, *finer;
 };
 
-/* Why the present state ends it, if it does. */
+/* Why the present state ends the run; FG_RUN_GO_ON: it does not. */
 fg_run_outcome fg__run_ending(const fg_run *run);
 
 #endif
