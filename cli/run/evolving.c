@@ -82,7 +82,7 @@ void evolving_show(cli_run *run)
   fg_density *density;
   if (!run->progress.socket || (begin < run->density_due && !fg_run_ended(run->scales)))
     return;
-  run->density_due = INFINITY; /* without memory for one there are no more */
+  run->density_due = (double)INFINITY; /* without memory for one there are no more */
   if (fg_density_create(&density, fg_run_evolution(run->scales))) {
     fg_context_clear(run->context);
     return;
