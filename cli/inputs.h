@@ -9,7 +9,7 @@
  * of a terminal, of too much, and on several ranks; an exit code. */
 int inputs_prepare(const input_settings *settings, const char *const *inputs, int count);
 
-/* Tells a context. */
+/* Sets these for a context (fg_context_set_input). */
 void inputs_give(fg_context *context);
 
 /* Bytes of standard input; NULL where it is no input. */

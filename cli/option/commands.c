@@ -199,7 +199,7 @@ const cli_command *command_find(const char *name)
   return NULL;
 }
 
-bool option_is_told(const cli_command *command, const option_entry *option)
+bool option_is_documented(const cli_command *command, const option_entry *option)
 {
   const bool handed_on = command->bit == COMMAND_VIEW && (option->commands & COMMAND_RUN);
   const bool general = option->commands == EVERY;

@@ -57,7 +57,7 @@ static void print_family(FILE *stream, const option_family *family,
 {
   bool begun = false;
   for (size_t k = 0; k < family->count; ++k) {
-    if (!option_is_told(command, &family->option[k]))
+    if (!option_is_documented(command, &family->option[k]))
       continue;
     if (!begun)
       fprintf(stream, "\n%s:\n", family->heading);

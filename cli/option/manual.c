@@ -48,7 +48,7 @@ static void print_options(FILE *out, const cli_command *command)
     const option_family *family = option_families[n];
     bool begun = false;
     for (size_t k = 0; k < family->count; ++k) {
-      if (!option_is_told(command, &family->option[k]))
+      if (!option_is_documented(command, &family->option[k]))
         continue;
       if (!begun)
         fprintf(out, ".PP\n%s:\n", family->heading);

@@ -203,7 +203,7 @@ parse_result options_parse(any_settings *out, const cli_command *command, int ar
     if (!value_set(out, command, option, typed_name(typed, option, code), optarg))
       return PARSE_WRONG;
     if (command->bit == COMMAND_VIEW && !out->view.first_option &&
-        !option_is_told(command, option))
+        !option_is_documented(command, option))
       out->view.first_option = option->name;
   }
   set_map(out, command);

@@ -122,9 +122,9 @@ extern const char *const energy_words[],
                                                            *const extent_words[];
 int energy_place(const char *word);
 
-/* Whether --help and the manual tell of an option under a command: view's are told but
- * for those that it hands on to run. */
-bool option_is_told(const cli_command *command, const option_entry *option);
+/* Whether --help and the manual list an option under a command: all that it has, but of
+ * view not those that it hands on to run. */
+bool option_is_documented(const cli_command *command, const option_entry *option);
 
 /* Finds a command by its name; NULL when there is none. */
 const cli_command *command_find(const char *name);
