@@ -186,8 +186,21 @@ void fg__caption_label_speeds(fg__tick_axis *speed, const char *wanted, const ch
 typedef struct told_words {
   char title[FG__CAPTION_BYTES], names[FG__CAPTION_BYTES], time[FG__CAPTION_BYTES],
       level[FG__CAPTION_BYTES], scale[32], arrows[32];
-  bool telling; /* the names are more than u and v */
+  bool telling;  /* the names are more than u and v */
+  bool repeated; /* the names are the title's components, as U_x and U_y of U */
 } told_words;
+
+static bool names_components(const fg_field_arrays *field)
+{
+  const size_t length = strlen(field->title);
+  for (int k = 0; k < field->dimension; ++k) {
+    const char *name = field->velocity_name[k];
+    if (strncmp(name, field->title, length) != 0 || name[length] != '_' ||
+        name[length + 1] != "xyz"[k] || name[length + 2])
+      return false;
+  }
+  return true;
+}
 
 static void collect_words(told_words *out, const fg__caption_panel *panel)
 {
@@ -203,6 +216,7 @@ static void collect_words(told_words *out, const fg__caption_panel *panel)
   }
   fg__text_clean(out->names, sizeof out->names, names);
   fg__text_clean(out->title, sizeof out->title, field->title);
+  out->repeated = names_components(field);
   fg__text_clean(out->time, sizeof out->time, field->time ? field->time : "");
   fg__text_clean(out->level, sizeof out->level, field->level ? field->level : "");
   out->scale[0] = '\0';
@@ -279,7 +293,7 @@ static void write_subtitle(char subtitle[FG__CAPTION_BYTES], const told_words *t
 {
   char words[64];
   const fg_icons *icons = panel[0].icons;
-  if (told->title[0] && told->telling)
+  if (told->title[0] && told->telling && !told->repeated)
     add_part(subtitle, told->names);
   add_part(subtitle, told->time);
   add_part(subtitle, told->level);

@@ -56,6 +56,22 @@ static void names_without_a_value_leave_nothing(void **state)
   fg_icons_destroy(icons);
 }
 
+static void components_of_the_title_are_not_named_again(void **state)
+{
+  fg_icons *icons = lines(*state, 2);
+  fg_field_arrays field = {
+      .dimension = 2, .velocity_name = {"vel_x", "vel_y"}, .title = "vel"};
+  const char *const wanted[2] = {NULL, NULL};
+  char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
+  fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
+  assert_string_equal(title, "vel");
+  assert_string_equal(subtitle, "2 arrows");
+  field.velocity_name[1] = "vel_z"; /* a plane of a volume */
+  fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
+  assert_string_equal(subtitle, "vel_x, vel_z \xC2\xB7 2 arrows");
+  fg_icons_destroy(icons);
+}
+
 /* What stands for a name may hold what looks like one. */
 static void names_in_braces_are_what_the_field_says(void **state)
 {
@@ -226,6 +242,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(a_caption_tells_the_error_and_never_less,
+                                      context_set_up, context_tear_down),
+      cmocka_unit_test_setup_teardown(components_of_the_title_are_not_named_again,
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(names_in_braces_are_what_the_field_says,
                                       context_set_up, context_tear_down),
