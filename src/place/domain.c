@@ -105,7 +105,8 @@ double fg__place_clearance(const fg__place_domain *domain, const double position
 
 double fg__place_weight(const fg__place_domain *domain, double speed)
 {
-  return domain->dead ? speed / (speed + domain->root_mean_square) : 1.0;
+  double square = domain->root_mean_square * domain->root_mean_square;
+  return domain->dead ? speed * speed / (speed * speed + square) : 1.0;
 }
 
 static void choose_map(fg__place_domain *domain)
