@@ -9,7 +9,8 @@
 #include "solver/subdomain/mass.h"
 #include "solver/subdomain/subdomain.h"
 
-/* Words that ranks exchange of a node: first its place, later u, the guess and p. */
+/* Words of 32 bits that ranks exchange for a node: in the set-up its place in the grid,
+ * in a step u, the guess of the new u, and p. */
 enum { FG__SUBDOMAIN_WORDS = 3 };
 
 typedef struct fg__subdomains {
@@ -18,17 +19,18 @@ typedef struct fg__subdomains {
   int entries; /* of a row */
   int *first;  /* [count + 1] a subdomain's first node */
   int *target; /* [nodes * entries] from the subdomain's first node; -1: none */
-  double *laplacian, *energy, *mass;
-  int own_count;       /* nodes that this rank owns */
-  int *own;            /* [own_count] which they are */
-  ptrdiff_t *at;       /* [own_count] where they lie in arrays of the finest level */
-  uint32_t *word;      /* [3 * nodes] u, guess and p as they travel */
-  float *u, *w;        /* [nodes] the solution */
-  int small;           /* those of up to so many nodes are solved in every step, */
-  int largest;         /* larger ones to this where cycles have failed */
-  double stiffness;    /* greatest of a node's own L times K */
+  double *laplacian, *energy; /* [nodes * entries] rows of L and K over the mass */
+  double *mass;               /* [nodes] relative */
+  int own_count;              /* nodes that this rank owns */
+  int *own;                   /* [own_count] which they are */
+  ptrdiff_t *at;    /* [own_count] where they lie in arrays of the finest level */
+  uint32_t *word;   /* [FG__SUBDOMAIN_WORDS * nodes] floats as words, exchanged */
+  float *u, *w;     /* [nodes] the solution */
+  int small;        /* subdomains of up to so many nodes are solved in each long step; */
+  int largest;      /* larger ones up to so many after a rejected step */
+  double stiffness; /* greatest product of the diagonal entries of L and K */
   unsigned char *done; /* [nodes] solved in this step */
-  double *space;       /* for one of them */
+  double *space;       /* working memory of fg__subdomain_step */
 } fg__subdomains;
 
 /* Collects a domain's small subdomains. Collective. MEMORY. */
@@ -39,7 +41,7 @@ void fg__subdomains_clear(fg__subdomains *subdomains);
 
 fg__subdomain fg__subdomain_of(const fg__subdomains *subdomains, int n);
 
-/* Floats travel as words. */
+/* A float as a word that fg__ranks_combine exchanges, and back. */
 static inline uint32_t fg__bits_of(float value)
 {
   uint32_t word;
@@ -54,14 +56,16 @@ static inline double fg__float_of(uint32_t word)
   return (double)value;
 }
 
-/* Solves the finest level's system of a step of length tau, whose formula has another,
- * from u and p, where the step is long enough; larger subdomains only with `failed`,
- * after a rejected step. Collective. */
+/* Solves the finest level's system, from its u and p, where the step is long enough. tau:
+ * the step's length; effective: the tau in its formula (fg__subdomain_task); current: u
+ * before the step; failed: an attempt was rejected lately, so that larger subdomains are
+ * solved, too. Collective. */
 void fg__subdomains_solve(const fg__subdomains *subdomains,
                           const fg__multigrid *multigrid, double tau, double effective,
                           const float *current, bool failed);
 
-/* Puts the solution into u, w and a copy of u, without ghosts. */
+/* Writes the solution to the finest level's u and w and to `copy`, an array like u,
+ * without ghosts. */
 void fg__subdomains_apply(const fg__subdomains *subdomains,
                           const fg__multigrid *multigrid, float *copy);
 
