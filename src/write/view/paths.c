@@ -13,7 +13,8 @@ int32_t fg__view_step(double share, int steps)
   return (int32_t)floor(steps * fmin(fmax(share, 0.0), 1.0) + 0.5);
 }
 
-/* The box round all points, of no side without length; returns how many there are. */
+/* The box round all points, of no side without length, the unit box without points;
+ * returns how many there are. */
 static size_t measure(double low[3], double high[3], const fg_icons *icons)
 {
   size_t count = 0;
@@ -30,9 +31,11 @@ static size_t measure(double low[3], double high[3], const fg_icons *icons)
         high[k] = fmax(high[k], icon->points[i][k]);
       }
   }
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3; ++k) {
+    low[k] = count > 0 ? low[k] : 0.0;
     if (!(high[k] > low[k]))
       high[k] = low[k] + 1.0;
+  }
   return count;
 }
 
@@ -63,7 +66,7 @@ static void write_corner(FILE *stream, const char *name, const double corner[3],
 fg_status fg__view_paths(FILE *stream, fg_context *context, const fg_icons *icons,
                          int dimension)
 {
-  double low[3], high[3];
+  double low[3] = {0.0}, high[3] = {0.0};
   const size_t count = measure(low, high, icons);
   int32_t *steps = fg__allocate(count + 1, sizeof *steps);
   bool done = steps != NULL;
