@@ -78,10 +78,54 @@ static void a_lost_arrow_goes_into_the_nearest(void **state)
   fg_field_destroy(field);
 }
 
+/* How many of these have one of the others where they are. */
+static int count_near(const fg_icons *icons, const fg_icons *others, double reach)
+{
+  int near = 0;
+  for (int n = 0; n < fg_icons_count(icons); ++n) {
+    bool found = false;
+    for (int m = 0; m < fg_icons_count(others) && !found; ++m)
+      found = distance_between(fg_icons_at(icons, n)->center,
+                               fg_icons_at(others, m)->center, 3) < reach;
+    near += found;
+  }
+  return near;
+}
+
+/* Of a placement that starts from another's icons, as from an animation's frame before.
+ */
+static void most_arrows_stay_where_they_were(void **state)
+{
+  static const struct {
+    const sampling *box;
+    velocity_of velocity;
+    int count;
+  } cases[] = {{&PLAIN, swirl, 60}, {&ROUND, winds, 60}, {&PLAIN, coast, 60}};
+  for (int n = 0; n < 3; ++n) {
+    const int count = cases[n].count;
+    fg_field *field = field_of(*state, cases[n].box, cases[n].velocity);
+    fg_placement *placement = placement_of(*state, field, FG_EFFORT_NORMAL);
+    fg_placement *later = placement_of(*state, field, FG_EFFORT_NORMAL);
+    fg_icons *before = place(*state, placement, count), *after = NULL;
+    assert_int_equal(fg_placement_place(later, count, before), FG_STATUS_OK);
+    assert_int_equal(fg_placement_icons(&after, later), FG_STATUS_OK);
+    assert_int_equal(fg_icons_count(after), count);
+    const int stay = count_near(before, after, 0.15 * lambda_of(placement));
+    assert_true(stay > 8 * count / 10);
+    assert_true(error_of(*state, field, after) < 1.05 * error_of(*state, field, before));
+    fg_icons_destroy(before);
+    fg_icons_destroy(after);
+    fg_placement_destroy(placement);
+    fg_placement_destroy(later);
+    fg_field_destroy(field);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       CASE(a_chain_keeps_its_arrows),
+      CASE(most_arrows_stay_where_they_were),
       CASE(a_lost_arrow_goes_into_the_nearest),
   };
   return cmocka_run_group_tests_name("place/chain", tests, NULL, NULL);

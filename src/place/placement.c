@@ -57,6 +57,13 @@ static const double FIRST_INK_PENALTY = 0.25;
 static const double INK_PENALTY_GROWTH = 1.6;
 enum { MOST_INK_STEPS = 12 };
 
+/* From icons of another placement, as of an animation's frame before, so that they stay:
+ * the first steps, in lambda, those where ink is too much, and the least fall by an
+ * exchange as a share of the energy. Above a share of the most ink its penalty begins
+ * with what it usually comes to: without it all become longer first. */
+static const double NEAR_STEP = 0.03, NEAR_SHORTER = 0.1, NEAR_FALL = 0.01;
+static const double NEAR_INK = 0.9, NEAR_INK_PENALTY = 0.64;
+
 struct fg_placement {
   fg_context *context;
   fg_placement_options options;
@@ -260,15 +267,16 @@ fg_status fg_placement_resume(fg_placement *placement, const fg_icons *icons)
   return status;
 }
 
-/* Descends, with the ink within its bounds. */
-static fg_status descend(fg__place_search *search, int sweeps)
+/* Descends, with the ink within its bounds: by steps of `step` lambda, where it was not.
+ */
+static fg_status descend(fg__place_search *search, int sweeps, double step)
 {
   fg_status status = fg__place_relax(search, sweeps);
   for (int n = 0; n < MOST_INK_STEPS && status == FG_STATUS_OK && search->scale.free &&
                   fg__place_ink(search) > MOST_INK;
        ++n) {
     search->scale.ink = fmax(search->scale.ink * INK_PENALTY_GROWTH, FIRST_INK_PENALTY);
-    fg__place_reactivate_all(search, 0.2);
+    fg__place_reactivate_all(search, step);
     status = fg__place_relax(search, 2);
   }
   return status;
@@ -301,11 +309,11 @@ static fg_status refine(fg_placement *placement)
   const effort *work = &EFFORTS[placement->options.effort];
   fg_status status = FG_STATUS_OK;
   if (work->exchanges > 0)
-    status =
-        fg__place_exchange(search, count_exchanges(work, search->count), work->failures);
+    status = fg__place_exchange(search, count_exchanges(work, search->count),
+                                work->failures, 0.0);
   if (status == FG_STATUS_OK) {
     fg__place_reactivate_all(search, 0.1);
-    status = descend(search, work->sweeps);
+    status = descend(search, work->sweeps, 0.2);
   }
   return status;
 }
@@ -357,6 +365,29 @@ static fg_status place_first(fg_placement *placement, int count, const fg_icons 
 {
   fg_status status = start(placement, count, clusters);
   return status == FG_STATUS_OK ? relax_to_count(&placement->search) : status;
+}
+
+static bool are_placed(const fg_icons *icons)
+{
+  return icons && fg_icons_count(icons) > 0 && is_placed(fg_icons_at(icons, 0));
+}
+
+/* Near icons of another placement. */
+static fg_status place_near(fg_placement *placement, int count, const fg_icons *icons)
+{
+  fg__place_search *search = &placement->search;
+  const effort *work = &EFFORTS[placement->options.effort];
+  fg_status status = start(placement, count, icons);
+  if (status != FG_STATUS_OK)
+    return status;
+  if (search->scale.free && fg__place_ink(search) > NEAR_INK * MOST_INK)
+    search->scale.ink = NEAR_INK_PENALTY;
+  fg__place_reactivate_all(search, NEAR_STEP);
+  status = relax_to_count(search);
+  if (status == FG_STATUS_OK && work->exchanges > 0)
+    status =
+        fg__place_exchange(search, count_exchanges(work, search->count), 1, NEAR_FALL);
+  return status == FG_STATUS_OK ? descend(search, work->sweeps, NEAR_SHORTER) : status;
 }
 
 fg_status fg__placement_begin_again(fg_placement *placement, int count)
@@ -444,10 +475,11 @@ fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons 
   fg__place_snapshot finer = {0};
   fg_status status = FG_STATUS_OK;
   const bool is_first = !placement->begun || count > search->count;
-  int others = count_others(placement, count, is_first);
-  if (is_first) {
-    if (clusters && fg_icons_count(clusters) > 0 && is_placed(fg_icons_at(clusters, 0)))
-      others = 0;
+  const bool is_near = is_first && are_placed(clusters);
+  const int others = is_near ? 0 : count_others(placement, count, is_first);
+  if (is_near) {
+    status = place_near(placement, count, clusters);
+  } else if (is_first) {
     status = place_first(placement, count, clusters);
   } else {
     if (others > 0)
@@ -455,7 +487,7 @@ fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons 
     if (status == FG_STATUS_OK)
       status = go_down(placement, count, CHAIN_RATIO);
   }
-  if (status == FG_STATUS_OK)
+  if (status == FG_STATUS_OK && !is_near)
     status = refine(placement);
   if (status == FG_STATUS_OK)
     status = check_count(placement, count);

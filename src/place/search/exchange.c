@@ -226,7 +226,8 @@ static fg_status exchange_one(fg__place_search *search, const fg__place_seed *se
   return status;
 }
 
-fg_status fg__place_exchange(fg__place_search *search, int most, int failures)
+fg_status fg__place_exchange(fg__place_search *search, int most, int failures,
+                             double least_fall)
 {
   double energy;
   choice places = {.is_made = false};
@@ -243,7 +244,7 @@ fg_status fg__place_exchange(fg__place_search *search, int most, int failures)
       status = exchange_one(search, &places.list[failed].seed);
     if (status == FG_STATUS_OK)
       status = fg__place_energy(search, &now);
-    if (status == FG_STATUS_OK && now < energy) {
+    if (status == FG_STATUS_OK && now < energy * (1.0 - least_fall)) {
       failed = now < energy * (1.0 - LITTLE_GAIN) ? 0 : failed + 1;
       energy = now;
       places.is_made = false;

@@ -72,8 +72,9 @@ fg_status fg__place_thin(fg__place_search *search, int count);
 fg_status fg__place_complete(fg__place_search *search);
 
 /* Exchanges an icon for one elsewhere, at most `most` times, and stops after `failures`
- * exchanges that did not lower the energy. MEMORY, STOPPED. */
-fg_status fg__place_exchange(fg__place_search *search, int most, int failures);
+ * exchanges that did not lower the energy by more than a share of it. MEMORY, STOPPED. */
+fg_status fg__place_exchange(fg__place_search *search, int most, int failures,
+                             double least_fall);
 
 /* The icons' seeds and the penalty of ink, to be restored. */
 typedef struct fg__place_snapshot {

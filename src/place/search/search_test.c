@@ -86,7 +86,7 @@ static void an_exchange_that_does_not_pay_is_undone(void **state)
       identity[k] = s.search.icon[k]->identity;
     }
     double before = energy_of(&s);
-    assert_int_equal(fg__place_exchange(&s.search, 1, 1), FG_STATUS_OK);
+    assert_int_equal(fg__place_exchange(&s.search, 1, 1, 0.0), FG_STATUS_OK);
     assert_int_equal(s.search.count, COUNT);
     bool same = true;
     for (int k = 0; k < COUNT; ++k)
