@@ -137,18 +137,32 @@ bool drawing_add(cli_drawing *drawing, const scale_snapshot *snapshot, const int
     snapshot_clear(&refused);
     return drawing->cut;
   }
+  return true;
+}
+
+/* Without a thread: draws what waits. */
+static void draw_here(cli_drawing *drawing)
+{
   if (drawing->threaded)
-    return true;
+    return;
   drawing->closed = true; /* work returns when nothing waits */
   drawing->heeds = true;  /* nothing else goes on meanwhile */
-  interrupt_second_at_once(true);
   work(drawing);
+}
+
+bool drawing_keep_up(cli_drawing *drawing)
+{
+  if (drawing->threaded)
+    return true;
+  interrupt_second_at_once(true);
+  draw_here(drawing);
   interrupt_second_at_once(false);
   return !drawing->status;
 }
 
 bool drawing_wait(cli_drawing *drawing)
 {
+  drawing_keep_up(drawing);
   pthread_mutex_lock(&drawing->lock);
   while (drawing->drawn < drawing->added && !drawing->status)
     pthread_cond_wait(&drawing->changed, &drawing->lock);
@@ -181,6 +195,7 @@ void drawing_heed_interrupts(cli_drawing *drawing)
 bool drawing_wait_for(cli_drawing *drawing, double seconds)
 {
   struct timespec until;
+  draw_here(drawing);
   timespec_get(&until, TIME_UTC);
   double end = (double)until.tv_nsec * 1e-9 + seconds;
   until.tv_sec += (time_t)end;

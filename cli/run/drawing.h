@@ -6,8 +6,8 @@
 
 typedef struct cli_drawing cli_drawing;
 
-/* Starts a worker thread, or with `threads` 1 none: then drawing_add draws before it
- * returns. The field and output are borrowed; of a part of a field the whole is read
+/* Starts a worker thread, or with `threads` 1 none: then drawing_keep_up and those that
+ * wait draw. The field and output are borrowed; of a part of a field the whole is read
  * again. Returns an exit code. */
 int drawing_start(cli_drawing **out, const run_settings *settings, const fg_field *field,
                   const cli_output *output);
@@ -16,6 +16,9 @@ int drawing_start(cli_drawing **out, const run_settings *settings, const fg_fiel
  * memory; its parts are destroyed all the same. */
 bool drawing_add(cli_drawing *drawing, const scale_snapshot *snapshot, const int *wanted,
                  int wanted_count);
+
+/* Without a worker thread: draws what was added. False: it has failed. */
+bool drawing_keep_up(cli_drawing *drawing);
 
 /* Waits until all that was added is drawn. False: it has failed. */
 bool drawing_wait(cli_drawing *drawing);

@@ -124,9 +124,8 @@ static void say_first_scale(const cli_run *run)
 static int say_outcome(const cli_run *run)
 {
   const run_settings *settings = run->settings;
-  const int *wanted;
-  int next, most = fg_run_wanted(&wanted, &next, run->scales);
-  if (run->facts.ended == FG_RUN_STATIONARY && next < most)
+  const int *wanted = run->record.wanted, next = run->record.next;
+  if (run->facts.ended == FG_RUN_STATIONARY && next < run->record.count)
     complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
              inputs_name(settings->reading.input), wanted[next], run->step.clusters);
   if (run->facts.ended != FG_RUN_STOPPED) {

@@ -70,10 +70,7 @@ static int count_scales(const cli_run *run)
   const int count = drawing_count(run->drawing);
   if (scales_are_solid(drawing_field(run->drawing)))
     return count;
-  const int *wanted;
-  int next;
-  fg_run_wanted(&wanted, &next, run->scales);
-  return count > 0 && settings_place(run->settings) && wanted[0] <= MOST_MOST;
+  return count > 0 && settings_place(run->settings) && run->record.wanted[0] <= MOST_MOST;
 }
 
 static fg_status write_page(fg_context *context, const char *path, const cli_run *run)
@@ -81,8 +78,7 @@ static fg_status write_page(fg_context *context, const char *path, const cli_run
   const run_settings *settings = run->settings;
   const fg_field *field = drawing_field(run->drawing);
   const common_look *look = drawing_look(run->drawing);
-  const int *wanted;
-  int next, count = fg_run_wanted(&wanted, &next, run->scales);
+  const int *wanted = run->record.wanted, count = run->record.count;
   page_scales scales = {.count = count_scales(run)};
   fg_view_options options = {.palette = settings->picture.palette,
                              .speed_min = look->speeds[0],

@@ -141,8 +141,10 @@ static int draw_scale(cli_run *run, const fg_run_scale *scale)
             scale->index, run->step.step, run->step.time, run->step.clusters,
             run->step.seconds);
   }
-  /* a failure of the drawing is complained of where the run ends */
-  bool added = drawing_add(run->drawing, &snapshot, scale->wanted, scale->wanted_count);
+  /* a failure of the drawing is complained of where the run ends; scales of the last
+   * state are drawn once the evolution is gone */
+  bool added = drawing_add(run->drawing, &snapshot, scale->wanted, scale->wanted_count) &&
+               (fg_run_ended(run->scales) || drawing_keep_up(run->drawing));
   return ranks_agree(added ? EXIT_DONE : EXIT_FAILED);
 }
 
@@ -255,6 +257,17 @@ static int prepare(cli_run *run, bool *done)
   return input_create_scales(run, &scales);
 }
 
+/* Frees the evolution, whose memory the last drawing and the writing can use. */
+static void end_evolution(cli_run *run)
+{
+  communication_collect(&run->facts, fg_run_evolution(run->scales));
+  fg_run_describe(&run->record, run->scales);
+  fg_run_destroy(run->scales);
+  run->scales = NULL;
+  fg_tensors_destroy(run->tensors);
+  run->tensors = NULL;
+}
+
 static int work(cli_run *run)
 {
   bool done = false, goes_on = false;
@@ -281,7 +294,7 @@ static int work(cli_run *run)
     return finish_drawing(run);
   if (code)
     return code;
-  communication_collect(&run->facts, fg_run_evolution(run->scales));
+  end_evolution(run);
   if (run->settings->verbose && ranks_leader()) {
     progress_wipe(&run->progress);
     communication_print(&run->facts);

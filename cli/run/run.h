@@ -12,8 +12,9 @@ typedef struct cli_run {
   const run_settings *settings;
   fg_context *context;
   fg_field *field;
-  fg_tensors *tensors; /* of which the energy is, or NULL */
-  fg_run *scales;
+  fg_tensors *tensors;  /* of which the energy is, or NULL */
+  fg_run *scales;       /* NULL once the evolution is not needed any more */
+  fg_run_record record; /* of the scales, from then on */
   cli_drawing *drawing;
   cli_output output;
   char *checkpoint; /* its path */

@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Damps what coarser rasters do not see (Trottenberg, Oosterlee and Schueller 2001). */
-static const double DAMPING = 0.8;
-
 static bool allocate(double **out, size_t count)
 {
   *out = fg__allocate(count, sizeof(double));
@@ -27,9 +24,9 @@ fg_status fg__score_level_create(fg__score_level *out, fg_context *context, int 
   out->begin = fg__score_level_place(out, 0, 0, 0);
   out->end = fg__score_level_place(out, size[0] - 1, size[1] - 1, size[2] - 1) + 1;
   out->kind = fg__allocate(out->cells, 1);
-  bool all = out->kind;
-  double **const vectors[] = {&out->degree, &out->relax,      &out->share,
-                              &out->right,  &out->correction, &out->work};
+  out->degree = fg__allocate(out->cells, 1);
+  bool all = out->kind && out->degree;
+  double **const vectors[] = {&out->share, &out->work};
   for (size_t n = 0; n < sizeof vectors / sizeof vectors[0]; ++n)
     all = all && allocate(vectors[n], out->cells);
   for (int k = 0; k < dimension; ++k)
@@ -38,18 +35,18 @@ fg_status fg__score_level_create(fg__score_level *out, fg_context *context, int 
   all = all && allocate(&out->coarse_line, (size_t)size[0] + 6);
   return all ? FG_STATUS_OK
              : fg__fail_memory(context, "a raster to diffuse on",
-                               out->cells * (6 + (size_t)dimension) * sizeof(double));
+                               out->cells * (2 + (size_t)dimension) * sizeof(double));
 }
 
 void fg__score_level_clear(fg__score_level *level)
 {
-  double *const vectors[] = {level->degree,   level->relax,      level->share,
-                             level->right,    level->correction, level->work,
-                             level->value[0], level->value[1],   level->value[2],
-                             level->line,     level->coarse_line};
+  double *const vectors[] = {level->share,    level->right,    level->correction,
+                             level->work,     level->value[0], level->value[1],
+                             level->value[2], level->line,     level->coarse_line};
   for (size_t n = 0; n < sizeof vectors / sizeof vectors[0]; ++n)
     free(vectors[n]);
   free(level->kind);
+  free(level->degree);
   *level = (fg__score_level){0};
 }
 
@@ -76,8 +73,7 @@ void fg__score_level_finish(fg__score_level *level)
     int neighbours = 0;
     for (int k = 0; k < level->dimension; ++k)
       neighbours += (kind[step[k]] != FG__OUTSIDE) + (kind[-step[k]] != FG__OUTSIDE);
-    level->degree[n] = neighbours;
-    level->relax[n] = neighbours ? DAMPING / neighbours : 0.0;
+    level->degree[n] = (unsigned char)neighbours;
     ++level->unknown;
   }
 }
@@ -118,6 +114,10 @@ fg_status fg__score_level_coarsen(fg__score_level *coarse, fg_context *context,
   fg_status status = fg__score_level_create(coarse, context, fine->dimension, size);
   if (status != FG_STATUS_OK)
     return status;
+  if (!allocate(&coarse->right, coarse->cells) ||
+      !allocate(&coarse->correction, coarse->cells))
+    return fg__fail_memory(context, "a raster to diffuse on",
+                           2 * coarse->cells * sizeof(double));
   for (int k = 0; k < fine->size[2]; ++k)
     for (int j = 0; j < fine->size[1]; ++j)
       for (int i = 0; i < fine->size[0]; ++i)
@@ -216,25 +216,25 @@ void fg__score_level_restrict(const fg__score_level *coarse, double *to,
       }
     }
   for (size_t n = 0; n < coarse->cells; ++n)
-    to[n] = coarse->degree[n] > 0.0 ? to[n] : 0.0;
+    to[n] = coarse->degree[n] ? to[n] : 0.0;
 }
 
 void fg__score_level_apply(const fg__score_level *level, double *restrict out,
                            const double *restrict x)
 {
   const ptrdiff_t row = level->step[1], layer = level->step[2];
-  const double *restrict degree = level->degree;
+  const unsigned char *restrict degree = level->degree;
   if (level->dimension == 2)
     for (size_t n = level->begin; n < level->end; ++n) {
       const double *at = x + n;
       const double product = degree[n] * at[0] - (at[-1] + at[1] + at[-row] + at[row]);
-      out[n] = degree[n] > 0.0 ? product : 0.0;
+      out[n] = degree[n] ? product : 0.0;
     }
   else
     for (size_t n = level->begin; n < level->end; ++n) {
       const double *at = x + n;
       const double product = degree[n] * at[0] - (at[-1] + at[1] + at[-row] + at[row] +
                                                   at[-layer] + at[layer]);
-      out[n] = degree[n] > 0.0 ? product : 0.0;
+      out[n] = degree[n] ? product : 0.0;
     }
 }

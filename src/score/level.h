@@ -19,12 +19,12 @@ typedef struct fg__score_level {
   size_t begin, end; /* the cells that may be unknown */
   size_t unknown;
   unsigned char *kind;
-  double *value[3]; /* of vectors; 0 outside */
-  double *degree;   /* neighbours in the domain, of an unknown cell; else 0 */
-  double *relax;    /* what is taken of the residual in a Jacobi step */
-  double *share;    /* of unknown cells: 1 / weights of the coarse cells in the domain */
-  double *right, *correction, *work; /* of the V-cycle */
-  double *line, *coarse_line;        /* a row, with room around */
+  double *value[3];      /* of vectors; 0 outside */
+  unsigned char *degree; /* neighbours in the domain, of an unknown cell; else 0 */
+  double *share; /* of unknown cells: 1 / weights of the coarse cells in the domain */
+  double *work;  /* of the V-cycle */
+  double *right, *correction; /* of the V-cycle, but on the finest raster */
+  double *line, *coarse_line; /* a row, with room around */
 } fg__score_level;
 
 static inline size_t fg__score_level_place(const fg__score_level *level, int i, int j,
@@ -44,7 +44,7 @@ void fg__score_level_clear(fg__score_level *level);
  * cancel each other tell nothing. */
 void fg__score_level_fix(fg__score_level *level, size_t place);
 
-/* Sets degree, relax and unknown, once the kinds of cells are known. */
+/* Sets degree and unknown, once the kinds of cells are known. */
 void fg__score_level_finish(fg__score_level *level);
 
 /* Two cells a side become one, fixed when one of its cells is; sets the fine one's share,

@@ -68,20 +68,22 @@ static fg_status read_nearest(scoring *s, fg_score *out, fg_context *context)
   if (status == FG_STATUS_OK)
     status = fg__reader_error(&out->inverse_distance, context, &s->raster,
                               s->nearest.weighted_angle);
+  if (s->options->readers_only)
+    fg__nearest_clear(&s->nearest);
   return status;
 }
 
 static fg_status read_diffusion(scoring *s, fg_score *out, fg_context *context)
 {
+  fg_status status =
+      fg__harmonic_create(&s->harmonic, context, &s->raster, &s->samples, 0.0);
+  if (status != FG_STATUS_OK)
+    return status;
   float *angle = fg__allocate(s->raster.cells, sizeof *angle);
   if (!angle)
     return fg__fail_memory(context, "angles", s->raster.cells * sizeof *angle);
-  fg_status status =
-      fg__harmonic_create(&s->harmonic, context, &s->raster, &s->samples, 0.0);
-  if (status == FG_STATUS_OK) {
-    fg__harmonic_angles(angle, &s->raster, &s->harmonic);
-    status = fg__reader_error(&out->diffusion, context, &s->raster, angle);
-  }
+  fg__harmonic_angles(angle, &s->raster, &s->harmonic);
+  status = fg__reader_error(&out->diffusion, context, &s->raster, angle);
   free(angle);
   return status;
 }
