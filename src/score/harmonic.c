@@ -170,22 +170,30 @@ static void cycle(const levels *all, int number, double *restrict x,
 /* The vectors of the iteration; all are 0 where no cell is unknown. */
 typedef struct vectors {
   double *residual[3], *search[3], *product[3];
-  double *memory;
 } vectors;
 
+/* Ends with vectors_clear, also after a failure. */
 static fg_status vectors_create(vectors *out, fg_context *context,
                                 const fg__score_level *level)
 {
-  const size_t count = 3 * (size_t)level->dimension;
-  out->memory = fg__allocate(count * level->cells, sizeof(double));
-  if (!out->memory)
-    return fg__fail_memory(context, "a reader", count * level->cells * sizeof(double));
+  *out = (vectors){0};
   for (int k = 0; k < level->dimension; ++k) {
-    out->residual[k] = out->memory + (size_t)(3 * k) * level->cells;
-    out->search[k] = out->residual[k] + level->cells;
-    out->product[k] = out->search[k] + level->cells;
+    out->residual[k] = fg__allocate(level->cells, sizeof(double));
+    out->search[k] = fg__allocate(level->cells, sizeof(double));
+    out->product[k] = fg__allocate(level->cells, sizeof(double));
+    if (!out->residual[k] || !out->search[k] || !out->product[k])
+      return fg__fail_memory(context, "a reader", 3 * level->cells * sizeof(double));
   }
   return FG_STATUS_OK;
+}
+
+static void vectors_clear(vectors *v)
+{
+  for (int k = 0; k < 3; ++k) {
+    free(v->residual[k]);
+    free(v->search[k]);
+    free(v->product[k]);
+  }
 }
 
 /* Always added up in the same order. */
@@ -272,13 +280,13 @@ static fg_status solve(levels *all, fg_context *context, double tolerance)
   fg_status status = FG_STATUS_OK;
   for (int n = all->count - 1; n >= 0 && status == FG_STATUS_OK; --n) {
     const fg__score_level *level = &all->level[n];
-    vectors v = {0};
+    vectors v;
     for (int k = 0; n + 1 < all->count && k < level->dimension; ++k)
       fg__score_level_interpolate(level, level->value[k], level + 1, level[1].value[k]);
     status = vectors_create(&v, context, level);
     if (status == FG_STATUS_OK)
       status = iterate(all, n, context, &v, n > 0 ? 10.0 * tolerance : tolerance);
-    free(v.memory);
+    vectors_clear(&v);
   }
   return status;
 }
