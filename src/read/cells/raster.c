@@ -8,22 +8,29 @@
 #include "base/memory.h"
 #include "read/cells/set.h"
 
+/* Fuzzing takes rasters of fewer samples: what it tries in a second is what counts. */
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+enum { FEWER = 6 };
+#else
+enum { FEWER = 0 };
+#endif
+
 enum {
-  MOST_SAMPLES = 1 << 20,
-  FEWEST_SAMPLES = 1 << 12,
+  MOST_SAMPLES = 1 << (20 - FEWER),
+  FEWEST_SAMPLES = 1 << (12 - FEWER),
   /* few cells of very different sizes have at most so many, and these of each */
-  SAMPLES_OF_FEW = 1 << 16,
-  SAMPLES_A_CELL = 1 << 12,
+  SAMPLES_OF_FEW = 1 << (16 - FEWER),
+  SAMPLES_A_CELL = 1 << (12 - FEWER),
   FINEST =
       8, /* samples a cell, where there is room: stairs at slanting edges are finer */
   MEASURED_CELLS = 1 << 16, /* so many, evenly chosen, tell the spacing */
   MOST_COVER = 64, /* times that cells' boxes may cover the raster: sound meshes do it
                       1 to 6 times (tetrahedra fill a sixth of their boxes), thin
                       slanting layers 30 times and more */
-  MOST_TRIED = 1 << 24, /* samples in all boxes: they take 0.4 us each */
+  MOST_TRIED = 1 << (24 - FEWER), /* samples in all boxes: they take 0.4 us each */
   /* Samples in all boxes of few cells, and more of each: a raster in which a handful of
      cells lie over each other is coarser. */
-  FEW_TRIED = 3 << 19,
+  FEW_TRIED = 3 << (19 - FEWER),
   TRIED_A_CELL = FINEST * FINEST * FINEST
 };
 

@@ -3,6 +3,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "read/vtk/vtk.h"
@@ -197,7 +198,8 @@ static fg_status find_axes(bool *found, fg__vtk *vtk)
 {
   size_t length[3] = {1, 1, 1}, step = 1;
   double rounding[3] = {0.0, 0.0, 0.0};
-  *found = vtk->piece_count == 1 && vtk->cells.points > 0;
+  *found = vtk->piece_count == 1 && vtk->cells.points > 0 &&
+           memcmp(vtk->pieces[0].extent, vtk->extent, sizeof vtk->extent) == 0;
   for (int k = 0; k < 3 && *found; ++k) {
     length[k] = fg__vtk_length(vtk->extent, k, FG__VTK_POINTS);
     double *axis = vtk->coordinate[k] = fg__allocate(length[k], sizeof *axis);
