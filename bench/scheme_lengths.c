@@ -48,9 +48,9 @@ static bool solve(engine *s, double tau)
     fg__pass_solve(m, tau, 1, s->before);
     fg__changes c =
         fg__pass_changes(m, fg__multigrid_u(m), s->start, s->before, s->start);
-    if (!(c.from_a < 1e30))
+    if (!(c.change < 1e30))
       return false;
-    if (n > 0 && c.from_b <= solved * solved * c.from_a)
+    if (n > 0 && c.correction <= solved * solved * c.change)
       return true;
   }
   return false;

@@ -92,6 +92,7 @@ static void the_first_scale_may_be_given(void **state)
   assert_int_equal(fg_run_next(&again, run), FG_STATUS_ARGUMENT);
   fg_run_destroy(run);
   options.numbers = &numbers[1];
+  options.count = 2;
   assert_int_equal(fg_run_create(&run, context, field, &options), FG_STATUS_ARGUMENT);
   fg_icons_destroy(first);
   fg_field_destroy(field);
