@@ -5,8 +5,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 enum { YEAR_DIGITS = 6, DAY_SECONDS = 86400 };
+
+/* From 1970 to the year 9999 and a little. */
+static const double MOST_SECONDS = 2.5e11;
 
 /* Reads a number of exactly so many digits; advances. */
 static bool read_digits(const char **text, int digits, int least, int most, int *out)
@@ -113,5 +117,22 @@ fg_status fg__time_write(char out[FG__TIME_BYTES], fg_context *context, double t
   fg__number_write(number, time);
   fg__number_locale_end(&locale);
   snprintf(out, FG__TIME_BYTES, "t = %s", number);
+  return FG_STATUS_OK;
+}
+
+fg_status fg__date_write(char out[FG__TIME_BYTES], fg_context *context, double seconds)
+{
+  struct tm date;
+  const double whole = floor(seconds);
+  if (!(fabs(seconds) < MOST_SECONDS) || !gmtime_r(&(time_t){(time_t)whole}, &date))
+    return fg__time_write(out, context, seconds);
+  size_t used = strftime(out, FG__TIME_BYTES, "%Y-%m-%d", &date);
+  if (date.tm_hour + date.tm_min + date.tm_sec > 0 || seconds > whole)
+    used += strftime(out + used, FG__TIME_BYTES - used, " %H:%M", &date);
+  if (date.tm_sec > 0 || seconds > whole)
+    used += strftime(out + used, FG__TIME_BYTES - used, ":%S", &date);
+  if (seconds > whole)
+    snprintf(out + used, FG__TIME_BYTES - used, ".%03d",
+             (int)floor(1000.0 * (seconds - whole)));
   return FG_STATUS_OK;
 }

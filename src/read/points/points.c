@@ -11,6 +11,11 @@
 /* Of the points: so many at most may have another value than one at their place. */
 static const double FEW = 0.1;
 
+/* So many points of one time or level at least, whose squared distances to their mean are
+ * this part at least of what all points' are to theirs. */
+enum { MANY = 8 };
+static const double WIDELY = 0.5;
+
 /* Degrees: longitudes are cut there rather than where their numbers end. */
 static const double WIDE_GAP = 30.0;
 
@@ -218,31 +223,94 @@ static fg_status merge_doubled(fg__scatter *points)
   return status;
 }
 
-/* The values that tell points at one place apart. */
+/* A point's time or level. */
+typedef struct moment {
+  double value;
+  size_t point;
+} moment;
+
+static int by_value(const void *a, const void *b)
+{
+  const moment *x = a, *y = b;
+  return x->value < y->value   ? -1
+         : x->value > y->value ? 1
+                               : (x->point > y->point) - (x->point < y->point);
+}
+
+/* Sum of the squared distances of `count` points to their mean, along the axes. */
+static void add_spread(double sum[3], const fg__scatter *points, const moment *first,
+                       size_t count)
+{
+  for (int k = 0; k < points->dimension && k < 3; ++k) {
+    const double *at = points->position[k];
+    double mean = 0.0;
+    for (size_t i = 0; i < count; ++i)
+      mean += at[first[i].point] / (double)count;
+    for (size_t i = 0; i < count; ++i)
+      sum[k] += (at[first[i].point] - mean) * (at[first[i].point] - mean);
+  }
+}
+
+/* Whether each value is that of MANY points or more, which are spread like all of them:
+ * particles that move, balloons that are read at some heights. A ship's places of one
+ * hour are not. `moments` ascend. */
+static bool is_overlaid(const fg__scatter *points, const moment *moments)
+{
+  double within[3] = {0.0}, all[3] = {0.0};
+  for (size_t i = 0, end; i < points->count; i = end) {
+    for (end = i + 1; end < points->count && moments[end].value <= moments[i].value;)
+      ++end;
+    if (end - i < MANY)
+      return false;
+    add_spread(within, points, moments + i, end - i);
+  }
+  add_spread(all, points, moments, points->count);
+  for (int k = 0; k < points->dimension && k < 3; ++k)
+    if (!(within[k] >= WIDELY * all[k]))
+      return false;
+  return true;
+}
+
+/* How many points lie where another does. */
+static fg_status count_doubled(size_t *out, const fg__scatter *points)
+{
+  spot *spots = NULL;
+  const fg_status status = sort_spots(&spots, points);
+  *out = 0;
+  for (size_t i = 1; i < points->count && status == FG_STATUS_OK; ++i)
+    *out += is_same_place(&spots[i - 1], &spots[i]);
+  free(spots);
+  return status;
+}
+
+/* The values that tell points apart, ascending. */
 static fg_status find_values(double **out, size_t *values, const fg__scatter *points,
                              const double *value)
 {
-  spot *spots = NULL;
-  size_t doubled = 0;
+  const size_t count = points->count;
   *values = 1;
-  fg_status status = sort_spots(&spots, points);
-  bool known = true;
-  for (size_t i = 0; i < points->count && status == FG_STATUS_OK; ++i) {
-    doubled += i > 0 && is_same_place(&spots[i - 1], &spots[i]);
-    known = known && isfinite(value[i]);
+  for (size_t i = 0; i < count; ++i)
+    if (!isfinite(value[i]))
+      return FG_STATUS_OK;
+  moment *moments = fg__allocate(count, sizeof *moments);
+  if (!moments)
+    return fg__fail_memory(points->context, "times", count * sizeof *moments);
+  for (size_t i = 0; i < count; ++i)
+    moments[i] = (moment){value[i], i};
+  qsort(moments, count, sizeof *moments, by_value);
+  size_t doubled;
+  fg_status status = count_doubled(&doubled, points);
+  if (status == FG_STATUS_OK &&
+      ((double)doubled > FEW * (double)count || is_overlaid(points, moments))) {
+    *out = fg__allocate(count, sizeof **out);
+    if (!*out)
+      status = fg__fail_memory(points->context, "times", count * sizeof **out);
+    for (size_t i = *values = 0; *out && i < count; ++i)
+      if (i == 0 || moments[i].value > moments[i - 1].value)
+        (*out)[(*values)++] = moments[i].value;
   }
-  free(spots);
-  if (!known || status != FG_STATUS_OK || (double)doubled <= FEW * (double)points->count)
-    return status;
-  double *all = *out = fg__allocate(points->count, sizeof *all);
-  if (!all)
-    return fg__fail_memory(points->context, "times", points->count * sizeof *all);
-  memcpy(all, value, points->count * sizeof *all);
-  qsort(all, points->count, sizeof *all, by_size);
-  for (size_t i = 1; i < points->count; ++i)
-    if (all[i] > all[*values - 1])
-      all[(*values)++] = all[i];
-  return FG_STATUS_OK;
+  free(moments);
+  return status;
 }
 
 fg_status fg__scatter_choose(fg__scatter *points, bool level, int wanted, int *values,

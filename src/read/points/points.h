@@ -17,6 +17,7 @@ typedef struct fg__scatter {
   double *position[3]; /* [count] each */
   float *velocity[3];  /* [count] each; NaN: missing */
   double *time;        /* [count], when each was measured, or NULL; NaN: not known */
+  bool dated;          /* times are seconds from 1970-01-01 on */
   double *level;       /* [count], the same of its level */
   int *record;         /* [count], where each stands in the file, or NULL */
   const char *records; /* what that is: "line" */
@@ -25,10 +26,11 @@ typedef struct fg__scatter {
 
 void fg__scatter_clear(fg__scatter *points);
 
-/* Where all points have times (or levels) and more than a tenth lie where others do,
- * keeps those of one: number `wanted` of *values in ascending order. Else all count, and
- * *values is 1. *all, to be freed: the times or levels, NULL where all count. ARGUMENT
- * (no such time), MEMORY. */
+/* Where all points have times (or levels), and more than a tenth lie where others do or
+ * each time has 8 points or more that are spread like all of them, keeps those of one:
+ * number `wanted` of *values in ascending order. Else all count, and *values is 1. *all,
+ * to be freed: the times or levels, NULL where all count. ARGUMENT (no such time),
+ * MEMORY. */
 fg_status fg__scatter_choose(fg__scatter *points, bool level, int wanted, int *values,
                              double **all);
 

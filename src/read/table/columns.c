@@ -119,7 +119,9 @@ static void find_time_and_validity(fg__table_vector *out, const fg__table *table
   out->valid[0] = find_listed(table, "|chc|vector_type|isvalid|is_valid|flags|");
   if (find_plain(table, "flags") >= 0 || table->columns == 5)
     out->valid[1] = find_plain(table, "mask");
-  out->time = find_listed(table, "|time|t|time_s|timestep|time_step|step|snapshot|");
+  out->time =
+      find_listed(table, "|time|t|time_s|timestep|time_step|step|snapshot|date|"
+                         "datetime|date_time|timestamp|time_utc|date_utc|valid_time|");
   if (out->time >= 0 && strcmp(table->column[out->time].name, "T") == 0)
     out->time = -1; /* a temperature */
   out->level = table->named ? find_listed(table, LEVELS) : -1;

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "file/number_text.h"
 #include "read/table/table.h"
+#include "read/time_words.h"
 
 enum {
   ROLES = 11,
@@ -25,6 +26,7 @@ typedef struct row_reader {
   const fg__table_vector *vector;
   signed char *role; /* [columns], of each column; -1: none */
   double value[ROLES];
+  bool dated; /* the time of this row is a date, in seconds from 1970 on */
 } row_reader;
 
 static void set_role(row_reader *r, int column, int role)
@@ -85,6 +87,21 @@ static fg_status check_line(const fg__table *table, const fg__table_line *line)
   return FG_STATUS_OK;
 }
 
+/* A time as ISO 8601 writes dates. */
+static bool read_date(double *out, const fg__table_field *field)
+{
+  char text[FG__TABLE_NUMBER];
+  fg__period period;
+  if (field->size >= sizeof text)
+    return false;
+  memcpy(text, field->text, field->size);
+  text[field->size] = '\0';
+  if (!fg__period_read(&period, text))
+    return false;
+  *out = period.seconds;
+  return true;
+}
+
 static fg_status read_row(row_reader *r, const fg__table_line *line)
 {
   const fg__table *table = r->table;
@@ -92,6 +109,7 @@ static fg_status read_row(row_reader *r, const fg__table_line *line)
   int count = 0;
   for (int k = 0; k < ROLES; ++k)
     r->value[k] = (double)NAN;
+  r->dated = false;
   fg_status status = check_line(table, line);
   if (status != FG_STATUS_OK)
     return status;
@@ -100,10 +118,14 @@ static fg_status read_row(row_reader *r, const fg__table_line *line)
        ++count) {
     if (count == table->columns || r->role[count] < 0)
       continue;
-    double *value = &r->value[r->role[count]];
-    if (fg__table_number(value, &field, table->style.decimal) == FG__TABLE_NO_NUMBER &&
-        r->role[count] < TIME)
+    const int role = r->role[count];
+    double *value = &r->value[role];
+    if (fg__table_number(value, &field, table->style.decimal) != FG__TABLE_NO_NUMBER)
+      continue;
+    if (role < TIME)
       return fail_number(r, line, count, &field);
+    if (role == TIME)
+      r->dated = read_date(value, &field);
   }
   return count == table->columns ? FG_STATUS_OK : fail_columns(r, line, count);
 }
@@ -179,8 +201,10 @@ static fg_status add_row(fg__scatter *out, growth *g, row_reader *r, int line)
   out->record = record;
   if (!grown)
     return fg__fail_memory(r->table->context, "points", n * 32);
+  if (n == 0)
+    out->dated = r->dated;
   if (r->vector->time >= 0)
-    out->time[n] = r->value[TIME];
+    out->time[n] = r->dated == out->dated ? r->value[TIME] : (double)NAN;
   if (r->vector->level >= 0)
     out->level[n] = r->value[LEVEL];
   out->record[n] = line;

@@ -88,6 +88,7 @@ static fg_status open_chosen(fg__table *table, fg__table_vector *vector,
 typedef struct table_choice {
   int times, levels;
   double *time, *level;
+  bool dated; /* times are seconds from 1970-01-01 on */
   char chosen_time[FG__TIME_BYTES], chosen_level[LEVEL_BYTES]; /* "": no choice */
 } table_choice;
 
@@ -96,6 +97,14 @@ static void clear_choice(table_choice *choice)
   free(choice->time);
   free(choice->level);
   *choice = (table_choice){0};
+}
+
+/* "t = 2.5", or a date. */
+static fg_status write_time(char out[FG__TIME_BYTES], const fg__table *table,
+                            const table_choice *choice, double time)
+{
+  return choice->dated ? fg__date_write(out, table->context, time)
+                       : fg__time_write(out, table->context, time);
 }
 
 /* "z = 2.5 m" */
@@ -126,8 +135,9 @@ static fg_status read_rows(fg__scatter *points, table_choice *choice,
     status = fg__scatter_choose(points, false, time, &choice->times, &choice->time);
   if (status == FG_STATUS_OK)
     status = fg__scatter_choose(points, true, level, &choice->levels, &choice->level);
+  choice->dated = points->dated;
   if (status == FG_STATUS_OK && choice->time)
-    status = fg__time_write(choice->chosen_time, table->context, choice->time[time]);
+    status = write_time(choice->chosen_time, table, choice, choice->time[time]);
   if (status == FG_STATUS_OK && choice->level)
     status = write_level(choice->chosen_level, table, vector, choice->level[level]);
   return status;
@@ -198,7 +208,7 @@ static fg_status add_entry(fg_inventory *inventory, const fg__table *table,
       values && words ? FG_STATUS_OK
                       : fg__fail_memory(table->context, "times", count * sizeof *words);
   for (size_t i = 0; i < times && status == FG_STATUS_OK; ++i) {
-    status = fg__time_write(words[i], table->context, choice->time[i]);
+    status = write_time(words[i], table, choice, choice->time[i]);
     values[i] = (fg_axis_value){choice->time[i], "", words[i]};
   }
   for (size_t i = times; i < count && status == FG_STATUS_OK; ++i) {
@@ -217,6 +227,28 @@ static fg_status add_entry(fg_inventory *inventory, const fg__table *table,
   return status;
 }
 
+/* Adds "; rows of every height, 2 to 998 m" where values differ and tell no rows apart.
+ */
+static void add_untold(char *out, size_t size, const fg__table_column *column,
+                       const double *value, size_t count, bool dated, fg_context *context)
+{
+  char ends[2][FG__TIME_BYTES];
+  double end[2] = {INFINITY, -INFINITY};
+  for (size_t i = 0; value && i < count; ++i) {
+    end[0] = fmin(end[0], value[i]);
+    end[1] = fmax(end[1], value[i]);
+  }
+  const size_t used = strlen(out);
+  if (!(end[0] < end[1]))
+    return;
+  for (int k = 0; k < 2; ++k)
+    if (!dated || fg__date_write(ends[k], context, end[k]) != FG_STATUS_OK)
+      snprintf(ends[k], sizeof ends[k], "%g", end[k]);
+  snprintf(out + used, size - used, "; rows of every %s, %s to %s%s%s", column->name,
+           ends[0], ends[1], column->units[0] && !dated ? " " : "",
+           dated ? "" : column->units);
+}
+
 static fg_status describe_vector(fg_inventory *inventory, const fg__table *table,
                                  const fg__table_vector *vector)
 {
@@ -224,7 +256,6 @@ static fg_status describe_vector(fg_inventory *inventory, const fg__table *table
   const fg_field_arrays words = words_of(table, vector, &defaults);
   fg_inventory_vector entry = {.components = vector->dimension,
                                .units = words.velocity_units,
-                               .found_by = vector->found_by,
                                .levels = 1,
                                .scale = words.scale};
   for (int k = 0; k < vector->dimension && k < 3; ++k)
@@ -233,7 +264,16 @@ static fg_status describe_vector(fg_inventory *inventory, const fg__table *table
   fg__scatter_between between = {0};
   table_choice choice = {0};
   fg_field *field = NULL;
+  char found_by[8 * FG__TABLE_NAME];
   fg_status status = read_rows(&points, &choice, table, vector, 0, 0);
+  snprintf(found_by, sizeof found_by, "%s", vector->found_by);
+  if (status == FG_STATUS_OK && !choice.time && vector->time >= 0)
+    add_untold(found_by, sizeof found_by, &table->column[vector->time], points.time,
+               points.count, points.dated, table->context);
+  if (status == FG_STATUS_OK && !choice.level && vector->level >= 0)
+    add_untold(found_by, sizeof found_by, &table->column[vector->level], points.level,
+               points.count, false, table->context);
+  entry.found_by = found_by;
   if (status == FG_STATUS_OK)
     status = fg__scatter_field(&field, &between, &points, &words, (fg__slab_index){0, 1});
   fg__scatter_clear(&points);

@@ -116,6 +116,64 @@ static void times_are_chosen(void **state)
   fg_context_clear(*state);
 }
 
+/* ISO 8601's dates are times as well, as ERDDAP writes them. */
+static void dates_are_chosen(void **state)
+{
+  static const char text[] =
+      "time,longitude,latitude,u,v\nUTC,degrees_east,degrees_north,m s-1,m s-1\n"
+      "2014-01-31T12:30:00Z,1.5,10,1,-1\n2014-01-31T12:30:00Z,2.5,10,2,-1\n"
+      "2014-01-31T12:30:00Z,3.5,10,3,-1\n2014-01-31T12:30:00Z,1.5,20,4,-1\n"
+      "2014-01-31T12:30:00Z,2.5,20,5,-1\n2014-01-31T12:30:00Z,3.5,20,6,-1\n"
+      "2014-01-31T00:00:00Z,1.5,10,11.5,-.25\n2014-01-31T00:00:00Z,2.5,10,12.5,-.25\n"
+      "2014-01-31T00:00:00Z,3.5,10,13.5,-.25\n2014-01-31T00:00:00Z,1.5,20,21.5,-.25\n"
+      "2014-01-31T00:00:00Z,2.5,20,22.5,-.25\n2014-01-31T00:00:00Z,3.5,20,23.5,-.25\n";
+  static const char *const words[] = {"2014-01-31", "2014-01-31 12:30"};
+  for (int k = 0; k < 2; ++k) {
+    fg_field *field = read_with(*state, text, &(fg_read_options){.time = k});
+    assert_string_equal(fg_field_contents(field)->time, words[k]);
+    assert_true(fg_field_contents(field)->velocity[0][5] == (k ? 6.0f : 23.5f));
+    fg_field_destroy(field);
+  }
+}
+
+/* Rows of so many places each, at two heights; of one height they lie over each other or
+ * side by side. */
+static void write_soundings(char *text, size_t size, int rows, bool side_by_side)
+{
+  size_t used = (size_t)snprintf(text, size, "x,y,height,u,v\n");
+  for (int n = 0; n < 2 * rows; ++n) {
+    const int high = n / rows;
+    const double x = n % rows + 0.3 * high + (side_by_side ? rows * high : 0.0);
+    used += (size_t)snprintf(text + used, size - used, "%.3f,%.3f,%d,%d,1\n", x,
+                             n * n % 7 + 0.1 * high, 100 * high, high);
+  }
+}
+
+static void levels_are_told_by_their_spread(void **state)
+{
+  static const struct {
+    int rows;
+    bool side_by_side;
+    int levels;
+    const char *found_by;
+  } cases[] = {{8, false, 2, "names"},
+               {7, false, 1, "names; rows of every height, 0 to 100"},
+               {8, true, 1, "names; rows of every height, 0 to 100"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    char text[1024];
+    write_soundings(text, sizeof text, cases[i].rows, cases[i].side_by_side);
+    const fg__source source = source_of(text);
+    fg_inventory *inventory = NULL;
+    assert_int_equal(fg__inventory_create(&inventory, *state, "table"), FG_STATUS_OK);
+    assert_int_equal(fg__format_table.inventory(inventory, *state, &source),
+                     FG_STATUS_OK);
+    const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
+    assert_int_equal(v->levels, cases[i].levels);
+    assert_string_equal(v->found_by, cases[i].found_by);
+    fg_inventory_destroy(inventory);
+  }
+}
+
 /* A grid in space, its rows as they come, in uneven steps, with and without names. */
 static void grids_in_space_are_read(void **state)
 {
@@ -428,6 +486,8 @@ int main(void)
       cmocka_unit_test(planes_along_other_axes_are_read),
       cmocka_unit_test(tilted_planes_have_their_own_axes),
       cmocka_unit_test(levels_are_chosen),
+      cmocka_unit_test(levels_are_told_by_their_spread),
+      cmocka_unit_test(dates_are_chosen),
       cmocka_unit_test(exports_of_piv_are_known),
       cmocka_unit_test(directions_are_turned_by_what_they_mean),
       cmocka_unit_test(columns_are_chosen_by_name_and_number),
