@@ -212,10 +212,12 @@ static void find_polar(fg__table_vector *list, int *count, const fg__table *tabl
   for (int c = 0; c < table->columns; ++c) {
     const char *plain = table->column[c].plain;
     const char *at = strstr(plain, "dir");
+    if (!at)
+      at = strstr(plain, "drct"); /* as METAR archives have it */
     if (!at || (at != plain && at[-1] != '_' && strncmp(plain, "wdir", 4) != 0 &&
                 strncmp(plain, "winddir", 7) != 0))
       continue;
-    const char *const speeds[] = {"speed", "spd", "vel", "velocity"};
+    const char *const speeds[] = {"speed", "spd", "vel", "velocity", "sknt"};
     int speed = -1;
     for (size_t s = 0; s < sizeof speeds / sizeof *speeds && speed < 0; ++s) {
       char name[2 * FG__TABLE_NAME];
@@ -229,8 +231,8 @@ static void find_polar(fg__table_vector *list, int *count, const fg__table *tabl
       *count = before; /* clockwise from north, or against it from x: who knows */
     } else if (*count > before) {
       list[before].polar = true;
-      list[before].from =
-          strstr(plain, "wind") != NULL || plain[0] == 'w' || has_word(plain, "from");
+      list[before].from = strstr(plain, "wind") != NULL || plain[0] == 'w' ||
+                          has_word(plain, "from") || strncmp(at, "drct", 4) == 0;
     }
   }
 }

@@ -111,8 +111,8 @@ bool fg__table_split(fg__table_field *field, const fg__table_line *line, size_t 
 
 static bool is_missing(const fg__table_field *field)
 {
-  static const char *const words[] = {"nan", "na",  "n/a", "null", "none", "-",
-                                      "--",  "---", "nil", "-nan", "+nan", "masked"};
+  static const char *const words[] = {"nan", "na",  "n/a",  "null", "none",   "-", "--",
+                                      "---", "nil", "-nan", "+nan", "masked", "m", "mm"};
   if (field->size == 0)
     return true;
   for (size_t i = 0; i < sizeof words / sizeof *words; ++i)

@@ -337,14 +337,16 @@ static void exports_of_piv_are_known(void **state)
 static void directions_are_turned_by_what_they_mean(void **state)
 {
   static const char *const head[] = {"lon,lat,wind_speed (m/s),wind_direction\n",
-                                     "Latitude,Longitude,current speed,current dir\n"};
-  for (int way = 0; way < 2; ++way) {
+                                     "Latitude,Longitude,current speed,current dir\n",
+                                     "lon,lat,sknt,drct\nM,M,M,M\n"};
+  for (int n = 0; n < 3; ++n) {
+    const bool way = n == 1;
     char text[2048];
-    size_t n = (size_t)snprintf(text, sizeof text, "%s", head[way]);
+    size_t used = (size_t)snprintf(text, sizeof text, "%s", head[n]);
     for (int j = -1; j <= 1; ++j)
       for (int i = 0; i < 12; ++i)
-        n += (size_t)snprintf(text + n, sizeof text - n, "%d,%d,2,30\n",
-                              way ? 30 * j : 30 * i, way ? 30 * i : 30 * j);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%d,%d,2,30\n",
+                                 way ? 30 * j : 30 * i, way ? 30 * i : 30 * j);
     fg_field *field = read_text(*state, text);
     const fg_field_arrays *f = fg_field_contents(field);
     const double sign = way ? 1.0 : -1.0;
