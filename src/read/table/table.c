@@ -47,12 +47,19 @@ void fg__table_clear(fg__table *table)
   table->column = NULL;
 }
 
+/* A column's units, or those that its name implies. */
+static const char *units_of(const fg__table_column *column)
+{
+  return !column->units[0] && strcmp(column->plain, "sknt") == 0 ? "kn" : column->units;
+}
+
 /* Names and units of what is read; borrowed from the table. */
 static fg_field_arrays words_of(const fg__table *table, const fg__table_vector *vector,
                                 const fg_read_options *options)
 {
   fg_field_arrays words = {.scale = vector->geographic ? FG_SCALE_GEO : options->scale,
-                           .velocity_units = table->column[vector->velocity[0]].units};
+                           .velocity_units =
+                               units_of(&table->column[vector->velocity[0]])};
   if (words.scale == FG_SCALE_AUTO)
     words.scale = FG_SCALE_PLAIN;
   for (int k = 0; k < vector->dimension && k < 3; ++k) {

@@ -351,6 +351,7 @@ static void directions_are_turned_by_what_they_mean(void **state)
     const fg_field_arrays *f = fg_field_contents(field);
     const double sign = way ? 1.0 : -1.0;
     assert_int_equal(f->scale, FG_SCALE_GEO);
+    assert_string_equal(f->velocity_units, n == 0 ? "m/s" : n == 1 ? "" : "kn");
     assert_true(f->period[0] == 360.0 && f->size[0] == 12 && f->size[1] == 3);
     assert_true(fabs((double)f->velocity[0][5] - sign) < 1e-6);
     assert_true(fabs((double)f->velocity[1][5] - sign * sqrt(3.0)) < 1e-6);
