@@ -338,7 +338,7 @@ static void directions_are_turned_by_what_they_mean(void **state)
 {
   static const char *const head[] = {"lon,lat,wind_speed (m/s),wind_direction\n",
                                      "Latitude,Longitude,current speed,current dir\n",
-                                     "lon,lat,sknt,drct\nM,M,M,M\n"};
+                                     "lon,lat,sknt,drct\n"};
   for (int n = 0; n < 3; ++n) {
     const bool way = n == 1;
     char text[2048];
@@ -347,6 +347,8 @@ static void directions_are_turned_by_what_they_mean(void **state)
       for (int i = 0; i < 12; ++i)
         used += (size_t)snprintf(text + used, sizeof text - used, "%d,%d,2,30\n",
                                  way ? 30 * j : 30 * i, way ? 30 * i : 30 * j);
+    if (n == 2) /* nothing was measured; there is a measurement at its place */
+      snprintf(text + used, sizeof text - used, "0,0,M,M\n");
     fg_field *field = read_text(*state, text);
     const fg_field_arrays *f = fg_field_contents(field);
     const double sign = way ? 1.0 : -1.0;
