@@ -257,21 +257,22 @@ fg_status fg__cell_set_choose_raster(fg__cell_set *set)
   set->dimension = set->flat < 0 ? 3 : 2;
   set_raster(set, &box, intervals,
              fmin(MOST_SAMPLES, SAMPLES_OF_FEW + SAMPLES_A_CELL * (double)set->count));
-  const double tried = count_tried(set);
   const double most = FEW_TRIED + TRIED_A_CELL * (double)set->count;
-  if (tried > most)
-    set_raster(set, &box, intervals, count_raster(set) * most / tried);
+  set->tried = count_tried(set);
+  if (set->tried > most) {
+    set_raster(set, &box, intervals, count_raster(set) * most / set->tried);
+    set->tried = count_tried(set);
+  }
   return FG_STATUS_OK;
 }
 
 static fg_status check_cover(const fg__cell_set *set, size_t samples)
 {
-  const double tried = count_tried(set);
-  if (tried > fmin(MOST_COVER * (double)samples, MOST_TRIED))
+  if (set->tried > fmin(MOST_COVER * (double)samples, MOST_TRIED))
     return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
                     "%s: its cells lie over each other: the boxes round them cover all "
                     "their space %.0f times",
-                    set->path, tried / (double)samples);
+                    set->path, set->tried / (double)samples);
   return FG_STATUS_OK;
 }
 
