@@ -124,6 +124,7 @@ static fg_status plan_map(fg__figure *out, fg_context *context)
   if (status)
     return status;
   plan->graticule = out->graticule.plane ? &out->graticule : NULL;
+  plan->short_key = plan->graticule != NULL;
   plan->outlined = out->plane.whole;
   describe_axes(plan, fg_field_contents(field), out->low, out->high);
   return FG_STATUS_OK;

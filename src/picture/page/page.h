@@ -74,6 +74,8 @@ typedef struct fg__page_plan {
   double arrow_length;  /* of a typical arrow, coordinates */
   const struct fg__graticule *graticule; /* of a map: degrees where lines end, instead of
                                             axes; NULL: axes */
+  bool short_key; /* of colours, as on maps: about half as long as the frame's side, and
+                     in its middle */
   bool outlined; /* the frame is no box: what lies in it has an outline of its own */
   int panels, columns; /* frames of one size side by side, from the upper left, row by
                           row; 0: one frame */

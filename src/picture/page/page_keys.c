@@ -11,11 +11,23 @@ static const double line_height = 1.25;
 static const double key_gap = 1.4;      /* between the frame's labels and a key */
 static const double shortest_bar = 6.0; /* two ticks and their labels */
 static const double longest_bar = 36.0; /* longer ones only draw the eye */
+static const double least_short_bar = 14.0;
+static const double short_bar_share = 0.5; /* of the frame's side */
+static const double between_keys = 3.0, frame_gap = 0.7;
 static const double widest_arrow = 7.0;
 static const double shortest_arrow = 0.8;
 
 /* Says that the reference arrow shows a length, not a speed. */
 static const char size_words[] = "length";
+
+/* The longest bar along a side of the frame. */
+static double bar_limit(const fg__page *page, const fg__page_plan *plan, double side)
+{
+  const double em = page->font_size;
+  const double most =
+      plan->short_key ? fmax(short_bar_share * side, least_short_bar * em) : side;
+  return fmin(fmin(most, longest_bar * em), side);
+}
 
 static const fg__tick_axis *length_axis(const fg__page_plan *plan)
 {
@@ -159,30 +171,35 @@ static void size_below(fg__page *page, fg__margins *room, const size_key *key,
   room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
 }
 
-/* One row under the frame: the bar at its left end, the reference arrow at its right. */
+/* One row under the frame: the bar at its left end, a short one in its middle or as near
+ * to that as the reference arrow at the right end lets it. */
 static void place_below(fg__page *page, fg__margins *room, const fg__page_plan *plan,
                         const fg__page_parts *parts, cairo_t *ruler)
 {
   const double em = page->font_size;
   const fg__page_box *frame = &page->frame;
-  double y0 = frame->y1 + room->bottom + 0.7 * em;
+  double y0 = frame->y1 + room->bottom + frame_gap * em;
   double wide = frame->x1 - frame->x0;
   size_key key;
   bool has_size = parts->size_key && measure_size_key(&key, page, plan, ruler);
-  double length = fmin(wide, longest_bar * em);
+  double room_for_bar = wide;
   if (has_size && parts->color_key)
-    length = fmin(wide - key.width - 3.0 * em, longest_bar * em);
-  if (has_size && parts->color_key && length < shortest_bar * em) {
+    room_for_bar = wide - key.width - between_keys * em;
+  if (has_size && parts->color_key && room_for_bar < shortest_bar * em) {
     has_size = false;
-    length = fmin(wide, longest_bar * em);
+    room_for_bar = wide;
   }
+  const double length = fmin(bar_limit(page, plan, wide), room_for_bar);
   if (has_size) {
     double middle = frame->x1 - 0.5 * key.width;
     size_below(page, room, &key, ruler, middle, y0);
     room->left = fmax(room->left, frame->x0 - middle + 0.5 * key.width);
   }
-  if (parts->color_key && length >= shortest_bar * em)
-    bar_below(page, room, plan, ruler, frame->x0, y0, length);
+  if (parts->color_key && length >= shortest_bar * em) {
+    const double indent = fmin(0.5 * (wide - length), room_for_bar - length);
+    bar_below(page, room, plan, ruler, frame->x0 + (plan->short_key ? indent : 0.0), y0,
+              length);
+  }
 }
 
 static double bar_beside(fg__page *page, fg__margins *room, const fg__page_plan *plan,
@@ -250,7 +267,7 @@ static bool has_words_at_right(const fg__page *page)
 }
 
 /* A column to the right of the frame: the bar from its top, the reference arrow at its
- * lower end; a bar alone in the middle. */
+ * lower end; a bar alone, or a short one, in the middle. */
 static void place_beside(fg__page *page, fg__margins *room, const fg__page_plan *plan,
                          const fg__page_parts *parts, cairo_t *ruler)
 {
@@ -271,10 +288,10 @@ static void place_beside(fg__page *page, fg__margins *room, const fg__page_plan 
     end = x0 + key.width;
   }
   double y0 = frame->y0, y1 = has_size ? frame->y1 - size_height : frame->y1;
-  const double spare = fmax(y1 - y0 - longest_bar * em, 0.0);
-  if (!has_size)
-    y0 += 0.5 * spare; /* in the middle */
-  y1 = fmin(y1, y0 + longest_bar * em);
+  const double length = fmin(bar_limit(page, plan, high), y1 - y0);
+  if (!has_size || plan->short_key)
+    y0 += fmin(0.5 * (high - length), y1 - y0 - length);
+  y1 = y0 + length;
   if (parts->color_key && y1 - y0 >= shortest_bar * em)
     end = fmax(end, bar_beside(page, room, plan, ruler, x0, y0, y1));
   if (end > x0)
@@ -296,17 +313,14 @@ static const double lone_gap = 0.2, lone_edge = 0.6, lone_indent = 2.0;
 
 static void place_lone_key(fg__page *page, const fg__page_plan *plan, cairo_t *ruler)
 {
-  static const fg__page_parts parts = {.color_key = true, .keys_below = true};
   const double em = page->font_size;
-  const double wide = fmin(page->width - 2.0 * lone_indent * em, longest_bar * em);
-  const fg__page_box whole = page->frame;
-  fg__margins room = {.bottom = lone_gap * em};
-  page->frame.x0 = 0.5 * (page->width - wide);
-  page->frame.x1 = page->frame.x0 + wide;
-  place_below(page, &room, plan, &parts, ruler);
-  page->frame = whole;
-  if (page->has_color_key)
-    page->height += room.bottom + lone_edge * em;
+  const double length = bar_limit(page, plan, page->width - 2.0 * lone_indent * em);
+  const double y0 = page->frame.y1 + (lone_gap + frame_gap) * em;
+  fg__margins room = {0};
+  if (length < shortest_bar * em)
+    return;
+  bar_below(page, &room, plan, ruler, 0.5 * (page->width - length), y0, length);
+  page->height += room.bottom + lone_edge * em;
 }
 
 static void move_down(fg__page *page, double by)

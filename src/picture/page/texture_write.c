@@ -198,6 +198,7 @@ static fg_status plan_page(fg__page *page, fg__palette *palette, fg_context *con
   if (!plan)
     return fg__fail_memory(context, "a page", sizeof *plan);
   plan->width = wide;
+  plan->short_key = p->on_map;
   plan->font_size = style->font_size;
   fg__caption_write(plan->title, plan->subtitle, fg_field_contents(field), NULL, wanted,
                     0.0);
