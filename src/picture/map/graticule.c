@@ -186,8 +186,7 @@ static void label_spoke(fg__graticule *out, const family *f, int n, int line)
 }
 
 /* Places on the line between lines of the other kind, from the middle on. Parallels round
- * a pole: the first alone, so that all maps of a run have their degrees in the same row.
- */
+ * a pole have no other. */
 static void label_within(fg__graticule *out, const family *f, int n, int line)
 {
   const fg__plane *plane = out->plane;
@@ -195,8 +194,8 @@ static void label_within(fg__graticule *out, const family *f, int n, int line)
   const double step = f->k == 0 ? step_of(plane, 1) : step_of(plane, 0);
   if (f->k == 1 && fabs(position) > 90.0 - 1e-6)
     return;
-  const bool row = f->k == 1 && is_polar(plane);
-  for (int k = 0; k < (row ? 1 : 12); ++k) {
+  const int first = out->insides;
+  for (int k = 0; k < 12; ++k) {
     const double offset = (k % 2 ? -1.0 : 1.0) * (k / 2 + 0.5) * step;
     double at[2];
     if (f->k == 0 && fabs(plane->center[1] + offset) > nearest_pole)
@@ -207,8 +206,8 @@ static void label_within(fg__graticule *out, const family *f, int n, int line)
       project(plane, plane->center[0] + offset, position, at);
     add_label(out->inside, &out->insides, f->ticks.text[n], line, at, 0.0, 0.0);
   }
-  if (row && out->insides > 0)
-    out->inside[out->insides - 1].over = true;
+  for (int k = first; k < out->insides; ++k)
+    out->inside[k].needed = f->k == 1 && is_polar(plane);
 }
 
 static bool in_box(const fg__plane *plane, const double at[2])

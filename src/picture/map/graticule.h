@@ -12,7 +12,7 @@ typedef struct fg__map_label {
   double at[2];  /* where its line ends, or a place on the line; field's coordinates */
   double out[2]; /* from there to the label, y upwards, of length 1; inside: unused */
   int line;      /* labels of the same line have the same number */
-  bool over;     /* inside: it stands over what arrows there are */
+  bool needed;   /* inside: it stands over arrows rather than nowhere */
 } fg__map_label;
 
 typedef struct fg__graticule {
@@ -20,7 +20,7 @@ typedef struct fg__graticule {
   fg__map_label label[FG__MAP_LABELS];  /* the most needed first, one a line is enough */
   fg__map_label inside[FG__MAP_LABELS]; /* for lines that end nowhere at the rim: places
                                            to choose from, the best first; round a pole
-                                           one for each, in a row along a meridian */
+                                           those of a place are a row along a meridian */
   int labels, insides;
   const fg__plane *plane; /* borrowed */
 } fg__graticule;

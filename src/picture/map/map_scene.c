@@ -8,8 +8,9 @@
 #include "picture/polygons.h"
 
 /* Metres on the ground in a point from which on coasts are generalised for 1 to 110, and
- * to 50 million: a world map 480 points wide has 76 km in a point, one of Europe 10. */
-static const double coarse_from = 20e3, middle_from = 6e3;
+ * to 50 million, whose edges are 84 and 13 km long (half of the coasts' length): about
+ * two points. A world map 480 points wide has 76 km in a point, one of Europe 10. */
+static const double coarse_from = 40e3, middle_from = 6e3;
 
 /* Points: vertices that move a line by less are dropped; what is smaller than a speck is
  * not drawn; coordinates are multiples of a grain, which have few digits in SVG. */
@@ -116,10 +117,12 @@ static fg_status add_coasts(fg__map_scene *out, fg_context *context, const placi
     status =
         fg__land_trace(NULL, &out->borders, context, p->plane, FG__COAST_BORDERS, detail);
   if (!status)
-    status = fg__missing_find(&missing, context, p->plane, field, &out->land);
+    status =
+        fg__missing_find(&missing, context, p->plane, field, &out->land, &out->lakes);
   out->coasts = true;
   out->missing = missing.area;
   out->missing_on_land = missing.on_land;
+  out->missing_lakes = missing.lakes;
   out->rim = missing.rim;
   finish(p, &out->land, line_tolerance, false);
   finish(p, &out->lakes, line_tolerance, false);
@@ -225,15 +228,14 @@ static bool has_room(const fg__map_scene *scene, const fg__page *page,
   return !loops_touch_box(&scene->outline, box);
 }
 
-/* Free of arrows, too, unless the label stands over them. */
+/* Free of arrows, too. */
 static bool is_free(const fg__map_scene *scene, const fg__page *page,
-                    const fg__polygons *arrows, const fg__map_label *label,
-                    const fg__page_box *box)
+                    const fg__polygons *arrows, const fg__page_box *box)
 {
   const double apart = arrow_gap * page->font_size;
   const fg__page_box wider = {box->x0 - apart, box->y0 - apart, box->x1 + apart,
                               box->y1 + apart};
-  return has_room(scene, page, box) && (label->over || !loops_touch_box(arrows, &wider));
+  return has_room(scene, page, box) && !loops_touch_box(arrows, &wider);
 }
 
 /* Where a label's text would stand, with a little room round it. */
@@ -247,8 +249,7 @@ static fg__page_box box_of(const fg__page *page, const fg__map_label *label,
   return (fg__page_box){x - half, y - 0.5 * size - pad, x + half, y + 0.5 * size + pad};
 }
 
-static void add_label(fg__map_scene *scene, fg__page *page, const fg__map_label *label,
-                      const fg__page_box *box)
+static void add_label(fg__page *page, const fg__map_label *label, const fg__page_box *box)
 {
   fg__page_text *text = fg__page_next_text(page, label->text);
   if (!text)
@@ -258,9 +259,7 @@ static void add_label(fg__map_scene *scene, fg__page *page, const fg__map_label 
   text->x = box->x0 + 0.12 * text->size;
   text->y = 0.5 * (box->y0 + box->y1) + 0.36 * text->size;
   text->box = *box;
-  text->halo = label->over;
-  if (!label->over)
-    scene->backing[scene->backings++] = *box;
+  text->halo = true;
 }
 
 /* Which of the places that each line has is free for most lines: labels in a row. */
@@ -274,7 +273,7 @@ static int best_place(const fg__map_scene *scene, const fg__page *page,
     if (k > 0 && label->line != label[-1].line)
       place = 0;
     const fg__page_box box = box_of(page, label, graticule->plane, ruler);
-    free_places[place] += is_free(scene, page, arrows, label, &box);
+    free_places[place] += is_free(scene, page, arrows, &box);
   }
   for (int place = 1; place < FG__MAP_LABELS; ++place)
     if (free_places[place] > free_places[best])
@@ -282,7 +281,33 @@ static int best_place(const fg__map_scene *scene, const fg__page *page,
   return best;
 }
 
-void fg__map_scene_label(fg__map_scene *scene, fg__page *page,
+/* The free one of a line's labels that is nearest to the best place; one that is needed
+ * stands there over arrows rather than nowhere. */
+static void label_line(const fg__map_scene *scene, fg__page *page,
+                       const fg__graticule *graticule, const fg__map_label *label,
+                       int count, int best, const fg__polygons *arrows, cairo_t *ruler)
+{
+  const fg__map_label *chosen = NULL;
+  double least = HUGE_VAL;
+  for (int k = 0; k < count; ++k) {
+    const double away =
+        hypot(label[k].at[0] - label[best].at[0], label[k].at[1] - label[best].at[1]);
+    const fg__page_box box = box_of(page, &label[k], graticule->plane, ruler);
+    if (away < least && is_free(scene, page, arrows, &box)) {
+      chosen = &label[k];
+      least = away;
+    }
+  }
+  const fg__page_box usual = box_of(page, &label[best], graticule->plane, ruler);
+  if (!chosen && label->needed && has_room(scene, page, &usual))
+    chosen = &label[best];
+  if (chosen) {
+    const fg__page_box box = box_of(page, chosen, graticule->plane, ruler);
+    add_label(page, chosen, &box);
+  }
+}
+
+void fg__map_scene_label(const fg__map_scene *scene, fg__page *page,
                          const fg__graticule *graticule, const fg__polygons *arrows,
                          cairo_t *ruler)
 {
@@ -293,14 +318,8 @@ void fg__map_scene_label(fg__map_scene *scene, fg__page *page,
     while (first + count < graticule->insides && label[count].line == label->line)
       ++count;
     end = first + count;
-    for (int k = -1; k < count && scene->backings < FG__MAP_BACKINGS; ++k) {
-      const fg__map_label *choice = &label[k < 0 ? (best < count ? best : 0) : k];
-      const fg__page_box box = box_of(page, choice, graticule->plane, ruler);
-      if (is_free(scene, page, arrows, choice, &box)) {
-        add_label(scene, page, choice, &box);
-        break;
-      }
-    }
+    label_line(scene, page, graticule, label, count, best < count ? best : 0, arrows,
+               ruler);
   }
 }
 

@@ -5,8 +5,6 @@
 #include "picture/map/graticule.h"
 #include "picture/page/page.h"
 
-enum { FG__MAP_BACKINGS = 2 * FG__TICK_LIMIT };
-
 typedef struct fg__map_scene {
   bool coasts;               /* land and what follows from it is drawn */
   fg__polygons land, lakes;  /* areas, even-odd rule */
@@ -14,13 +12,12 @@ typedef struct fg__map_scene {
   fg__polygons borders;      /* lines */
   fg__polygons missing;      /* areas without data, winding rule */
   bool missing_on_land;      /* they fade land, too, else the sea alone */
+  bool missing_lakes;        /* lakes have no data */
   fg__polygons rim;          /* lines where the data end */
   fg__polygons graticule;    /* lines */
   fg__polygons outline;      /* a closed loop; empty where the frame is a box */
   bool contained;          /* land and lines end at the outline, and nothing is missing */
   fg__polygons arrow_rims; /* a loop an arrow: its outline, less finely */
-  fg__page_box backing[FG__MAP_BACKINGS]; /* white, under texts inside the map */
-  int backings;
 } fg__map_scene;
 
 typedef struct fg__map_layers {
@@ -42,8 +39,9 @@ bool fg__map_scene_holds(const fg__map_scene *scene, const fg__page *page,
                          const fg__polygons *loops, size_t loop);
 
 /* Writes degrees inside the map where lines do not end at its rim: where they touch
- * neither each other nor, but for those that stand over them, arrows, else nowhere. */
-void fg__map_scene_label(fg__map_scene *scene, fg__page *page,
+ * neither each other nor arrows; else those that are needed stand over arrows, others
+ * nowhere. */
+void fg__map_scene_label(const fg__map_scene *scene, fg__page *page,
                          const fg__graticule *graticule, const fg__polygons *arrows,
                          cairo_t *ruler);
 void fg__map_scene_clear(fg__map_scene *scene);

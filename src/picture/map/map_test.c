@@ -11,7 +11,6 @@
 #include "flowgrain/flowgrain.h"
 #include "picture/map/land.h"
 #include "picture/map/map_scene.h"
-#include "picture/map/missing.h"
 #include "picture/map/page_map.h"
 #include "picture/map/views_test.h"
 
@@ -243,20 +242,6 @@ static void no_two_labels_touch(void **state)
 }
 
 /* Of a sea's field with data up to x = 2000 km, on a plane without land in it. */
-static bool in_the_west(double x, double y)
-{
-  (void)y;
-  return x < 2000.0;
-}
-
-static double area_of(const fg__polygons *loops)
-{
-  double area = 0.0;
-  for (size_t k = 0; k < loops->count; ++k)
-    area += fg__polygon_area(loops, k);
-  return area;
-}
-
 static bool page_has(const fg__page *page, const char *text)
 {
   for (int k = 0; k < page->text_count; ++k)
@@ -297,46 +282,6 @@ static void fewer_labels_are_still_even(void **state)
   fg__plane_clear(&plane);
   free(graticule);
   free(page);
-}
-
-static void the_rim_is_where_data_end(void **state)
-{
-  static const view sea = {"+proj=laea +lat_0=-35 +lon_0=-120 +R=6371000 +units=km",
-                           {-3000, -3000},
-                           {3000, 3000},
-                           false};
-  fg_context *context = *state;
-  double low[2] = {-3000, -3000}, high[2] = {3000, 3000};
-  fg_field *field = make_field(context, &sea, in_the_west);
-  fg__plane plane;
-  fg__missing missing;
-  const fg__polygons no_land = {0};
-  assert_int_equal(fg__plane_create(&plane, context, field, low, high), FG_STATUS_OK);
-  assert_int_equal(fg__missing_find(&missing, context, &plane, field, &no_land),
-                   FG_STATUS_OK);
-  /* samples lie 100 km apart: data reach to between 1900 and 2000 */
-  assert_true(fabs(area_of(&missing.area) - 1050.0 * 6000.0) < 60.0 * 6000.0);
-  assert_int_equal(missing.rim.count, 1);
-  for (size_t n = 0; n < missing.rim.point_count; ++n)
-    assert_true(fabs(missing.rim.point[n][0] - 1950.0) < 60.0);
-  fg__missing_clear(&missing);
-  /* what land explains is not missing: the same field with land where it ends */
-  const double corner[][2] = {{1900, -4000}, {4000, -4000}, {4000, 4000}, {1900, 4000}};
-  fg__polygons land = {.point = calloc(4, sizeof *land.point),
-                       .start = calloc(2, sizeof *land.start),
-                       .count = 1,
-                       .point_count = 4};
-  assert_non_null(land.point);
-  assert_non_null(land.start);
-  memcpy(land.point, corner, sizeof corner);
-  land.start[1] = 4;
-  assert_int_equal(fg__missing_find(&missing, context, &plane, field, &land),
-                   FG_STATUS_OK);
-  assert_int_equal(missing.area.count, 0);
-  fg__polygons_clear(&land);
-  fg__missing_clear(&missing);
-  fg__plane_clear(&plane);
-  fg_field_destroy(field);
 }
 
 static uint32_t pixel_of(const char *path, double x, double y)
@@ -428,7 +373,6 @@ int main(void)
       TEST(labels_say_where_lines_end),
       TEST(no_two_labels_touch),
       TEST(a_band_round_the_globe_has_its_own_frame),
-      TEST(the_rim_is_where_data_end),
       TEST(pictures_show_land),
       TEST(fewer_labels_are_still_even),
       TEST(land_covers_textures_of_the_sea),

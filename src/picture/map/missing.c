@@ -12,22 +12,34 @@
 /* Nodes along the frame's longer side. */
 enum { NODES = 400 };
 
-/* Nodes: strips of twice this width vanish; what is averaged for a smooth outline. */
-enum { STRIP = 3, SMOOTH = 2 };
+/* Nodes: what lies so near to data everywhere is of the grid's making, as strips along
+ * coasts are; a narrower one along the Earth's outline is half a step of the grid; what
+ * is averaged for a smooth outline. */
+enum { STRIP = 6, OUTER_STRIP = 3, SMOOTH = 2 };
 
-/* Areas of less than this share of the frame are specks. */
-static const double speck_share = 0.004;
+/* Areas of less than this share of the frame are specks; of bays, whose bounds are coasts
+ * but for this share, smaller ones are seen, too. */
+static const double speck_share = 0.004, bay_speck_share = 1.5e-4, mouth_share = 0.35;
 
 /* A field with values on more than this share of the land is there on land, too: ocean
  * models on coarse grids have them near coasts. */
 static const double land_share = 0.3;
 
-enum { INSIDE = 1, VALID = 2, LAND = 4, MISSING = 8, KEPT = 16 };
+enum {
+  INSIDE = 1,
+  VALID = 2,
+  LAND = 4,
+  LAKE = 8,
+  MISSING = 16,
+  KEPT = 32,
+  COASTAL = 64 /* as near to land that a field has no values on as a strip is wide */
+};
 
 typedef struct raster {
   int size[2];
   double low[2], spacing[2];
   unsigned char *node, *scratch;
+  int *list; /* room for all nodes */
   float *level;
 } raster;
 
@@ -52,8 +64,9 @@ static bool create(raster *r, const fg__plane *plane)
   }
   r->node = fg__allocate(nodes_of(r), 1);
   r->scratch = fg__allocate(nodes_of(r), 1);
+  r->list = fg__allocate(nodes_of(r), sizeof *r->list);
   r->level = fg__allocate(nodes_of(r), sizeof *r->level);
-  return r->node && r->scratch && r->level;
+  return r->node && r->scratch && r->list && r->level;
 }
 
 /* Where polygons cross rows, from west to east row by row. */
@@ -199,71 +212,124 @@ static void dilate(raster *r, int reach)
   dilate_along(r, 1, reach);
 }
 
-static bool near_frame(const raster *r, size_t n)
+/* The eight nodes round one, those beside it first. Returns how many there are. */
+static int nodes_round(size_t out[8], const raster *r, size_t n)
 {
+  static const int ways[][2] = {{-1, 0},  {1, 0},  {0, -1}, {0, 1},
+                                {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
   const int i = (int)(n % (size_t)r->size[0]), j = (int)(n / (size_t)r->size[0]);
-  return i < STRIP || j < STRIP || i >= r->size[0] - STRIP || j >= r->size[1] - STRIP;
+  int count = 0;
+  for (int k = 0; k < 8; ++k) {
+    const int x = i + ways[k][0], y = j + ways[k][1];
+    if (x >= 0 && y >= 0 && x < r->size[0] && y < r->size[1])
+      out[count++] = at(r, x, y);
+  }
+  return count;
 }
 
-/* A morphological opening (Matheron 1975): beyond the outline counts as missing, beyond
- * the frame as there. */
-static void open_up(raster *r)
+/* From the nodes whose scratch is 1 through missing ones without the mark `barrier`:
+ * scratch becomes the number of steps plus 1, and stays 0 beyond `reach` steps; reach 0:
+ * it becomes 1 at any distance. */
+static void spread(raster *r, int reach, unsigned char barrier)
+{
+  size_t count = 0, round[8];
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    if (r->scratch[n])
+      r->list[count++] = (int)n;
+  for (size_t done = 0; done < count; ++done) {
+    const int steps = r->scratch[r->list[done]];
+    const bool ends = reach && steps > reach;
+    const int near = ends ? 0 : nodes_round(round, r, (size_t)r->list[done]);
+    for (int k = 0; k < near; ++k)
+      if ((r->node[round[k]] & (MISSING | barrier)) == MISSING && !r->scratch[round[k]]) {
+        r->scratch[round[k]] = (unsigned char)(reach ? steps + 1 : 1);
+        r->list[count++] = (int)round[k];
+      }
+  }
+}
+
+static bool at_outline(const raster *r, size_t n)
+{
+  size_t round[8];
+  const int count = nodes_round(round, r, n);
+  for (int k = 0; k < count; ++k)
+    if (!(r->node[round[k]] & INSIDE))
+      return true;
+  return false;
+}
+
+static void mark_coastal(raster *r)
 {
   for (size_t n = 0; n < nodes_of(r); ++n)
-    r->scratch[n] = r->node[n] & INSIDE && !(r->node[n] & MISSING);
+    r->scratch[n] = r->node[n] & LAND ? 1 : 0;
   dilate(r, STRIP);
   for (size_t n = 0; n < nodes_of(r); ++n)
-    r->scratch[n] = !r->scratch[n] && !near_frame(r, n);
-  dilate(r, STRIP);
+    if (r->scratch[n])
+      r->node[n] |= COASTAL;
+}
+
+/* Keeps what is missing farther than a strip from data, by a way over what is missing, so
+ * that a bay counts however near data lie beyond its shore; what is as near to that, or
+ * to the Earth's outline, beyond which nothing is; and what is connected with it away
+ * from coasts, as a wedge between data and the frame. */
+static void keep_wide(raster *r)
+{
   for (size_t n = 0; n < nodes_of(r); ++n)
-    if (r->scratch[n] && r->node[n] & MISSING)
+    r->scratch[n] = r->node[n] & VALID ? 1 : 0;
+  spread(r, STRIP, 0);
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    r->scratch[n] = r->node[n] & MISSING &&
+                    (!r->scratch[n] || (r->scratch[n] > OUTER_STRIP && at_outline(r, n)));
+  spread(r, STRIP, 0);
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    r->scratch[n] = r->scratch[n] ? 1 : 0;
+  spread(r, 0, COASTAL);
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    if (r->scratch[n])
       r->node[n] |= KEPT;
 }
 
-/* Clears a connected area of KEPT nodes when it is small. stack: room for all nodes. */
-static void drop_speck(raster *r, size_t from, int *stack, size_t least)
+/* Clears a connected area of KEPT nodes when it is small. inside: nodes of the frame. */
+static void drop_speck(raster *r, size_t from, double inside)
 {
-  size_t count = 1;
-  stack[0] = (int)from;
+  size_t count = 1, round[8], bounds = 0, mouths = 0;
+  r->list[0] = (int)from;
   r->scratch[from] = 1;
   for (size_t done = 0; done < count; ++done) {
-    const int i = stack[done] % r->size[0], j = stack[done] / r->size[0];
-    static const int ways[][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    for (int k = 0; k < 4; ++k) {
-      const int x = i + ways[k][0], y = j + ways[k][1];
-      if (x < 0 || y < 0 || x >= r->size[0] || y >= r->size[1])
-        continue;
-      const size_t n = at(r, x, y);
+    const int near = nodes_round(round, r, (size_t)r->list[done]);
+    for (int k = 0; k < near; ++k) {
+      const size_t n = round[k];
+      bounds += !(r->node[n] & KEPT);
+      mouths += !(r->node[n] & KEPT) && !(r->node[n] & LAND);
       if (!(r->node[n] & KEPT) || r->scratch[n])
         continue;
       r->scratch[n] = 1;
-      stack[count++] = (int)n;
+      r->list[count++] = (int)n;
     }
   }
-  for (size_t done = 0; done < count && count < least; ++done)
-    r->node[stack[done]] &= (unsigned char)~KEPT;
+  const bool bay = (double)mouths <= mouth_share * (double)bounds;
+  const double least = (bay ? bay_speck_share : speck_share) * inside;
+  for (size_t done = 0; done < count && (double)count <= least; ++done)
+    r->node[r->list[done]] &= (unsigned char)~KEPT;
 }
 
-static bool drop_specks(raster *r)
+static void drop_specks(raster *r)
 {
   size_t inside = 0;
-  int *stack = fg__allocate(nodes_of(r), sizeof *stack);
-  if (!stack)
-    return false;
   for (size_t n = 0; n < nodes_of(r); ++n)
     inside += r->node[n] & INSIDE;
   memset(r->scratch, 0, nodes_of(r));
   for (size_t n = 0; n < nodes_of(r); ++n)
     if (r->node[n] & KEPT && !r->scratch[n])
-      drop_speck(r, n, stack, (size_t)(speck_share * (double)inside) + 1);
-  free(stack);
-  return true;
+      drop_speck(r, n, (double)inside);
 }
 
-/* Averages, of which the outline is the line of one half; beyond the Earth's outline what
- * lies at it goes on. False: nothing is kept. */
-static bool smooth(raster *r)
+/* Averages, of which the outline is the line of one half. What lies at the Earth's
+ * outline goes on beyond it, and what lies at a coast goes on under land that is drawn
+ * above it (over_land), so that narrow bays stay. False: nothing is kept. */
+static bool smooth(raster *r, bool over_land)
 {
+  const unsigned char exact = INSIDE | (over_land ? LAND : 0);
   bool any = false;
   for (size_t n = 0; n < nodes_of(r); ++n)
     any = (r->scratch[n] = r->node[n] & KEPT ? 1 : 0) || any;
@@ -271,7 +337,8 @@ static bool smooth(raster *r)
     return false;
   dilate(r, 2 * SMOOTH + 1);
   for (size_t n = 0; n < nodes_of(r); ++n)
-    r->scratch[n] = r->node[n] & INSIDE ? (r->node[n] & KEPT) != 0 : r->scratch[n];
+    if ((r->node[n] & exact) == INSIDE)
+      r->scratch[n] = (r->node[n] & KEPT) != 0;
   for (int j = 0; j < r->size[1]; ++j)
     for (int i = 0; i < r->size[0]; ++i) {
       int sum = 0;
@@ -292,10 +359,13 @@ static bool smooth(raster *r)
   return true;
 }
 
-static bool valid_near(const raster *r, double x, double y)
+static bool valid_near(const raster *r, double x, double y, bool over_land)
 {
   const int i = (int)floor((x - r->low[0]) / r->spacing[0] + 0.5);
   const int j = (int)floor((y - r->low[1]) / r->spacing[1] + 0.5);
+  if (over_land && i >= 0 && j >= 0 && i < r->size[0] && j < r->size[1] &&
+      r->node[at(r, i, j)] & LAND)
+    return false;
   for (int dj = -SMOOTH; dj <= SMOOTH; ++dj)
     for (int di = -SMOOTH; di <= SMOOTH; ++di)
       if (i + di >= 0 && j + dj >= 0 && i + di < r->size[0] && j + dj < r->size[1] &&
@@ -326,7 +396,8 @@ static bool add_rim(fg__missing *out, const raster *r)
       const double *a = out->area.point[n];
       const double *b = out->area.point[n + 1 < end ? n + 1 : first];
       const bool wanted =
-          !on_frame(r, a, b) && valid_near(r, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]));
+          !on_frame(r, a, b) &&
+          valid_near(r, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), !out->on_land);
       if (wanted && !going)
         good = fg__polygons_begin(&out->rim) && fg__polygons_add(&out->rim, a);
       if (wanted && good)
@@ -350,8 +421,21 @@ static fg_status contour(fg__missing *out, fg_context *context, const raster *r)
   return status;
 }
 
+/* Whether lakes are shown and the field has values on hardly any of them. */
+static bool lakes_are_missing(const raster *r)
+{
+  size_t lakes = 0, both = 0;
+  for (size_t n = 0; n < nodes_of(r); ++n)
+    if (r->node[n] & INSIDE && r->node[n] & LAKE) {
+      ++lakes;
+      both += r->node[n] & VALID ? 1 : 0;
+    }
+  return (double)both <= land_share * (double)lakes;
+}
+
 fg_status fg__missing_find(fg__missing *out, fg_context *context, const fg__plane *plane,
-                           const fg_field *field, const fg__polygons *land)
+                           const fg_field *field, const fg__polygons *land,
+                           const fg__polygons *lakes)
 {
   raster r = {.node = NULL};
   fg_status status = FG_STATUS_OK;
@@ -360,19 +444,23 @@ fg_status fg__missing_find(fg__missing *out, fg_context *context, const fg__plan
   if (good && !plane->whole)
     memset(r.node, INSIDE, nodes_of(&r));
   good = good && (!plane->whole || mark(&r, &plane->outline, INSIDE)) &&
-         mark(&r, land, LAND);
+         mark(&r, land, LAND) && mark(&r, lakes, LAKE);
   if (good) {
     mark_valid(&r, field);
     out->on_land = mark_missing(&r);
-    open_up(&r);
-    good = drop_specks(&r);
+    out->lakes = !out->on_land && lakes_are_missing(&r);
+    if (!out->on_land)
+      mark_coastal(&r);
+    keep_wide(&r);
+    drop_specks(&r);
   }
   if (!good)
     status = fg__fail_memory(context, "where a field is missing", nodes_of(&r));
-  else if (smooth(&r))
+  else if (smooth(&r, !out->on_land))
     status = contour(out, context, &r);
   free(r.node);
   free(r.scratch);
+  free(r.list);
   free(r.level);
   if (status)
     fg__missing_clear(out);

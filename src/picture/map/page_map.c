@@ -10,7 +10,7 @@
 static const double label_gap = 0.45, between = 0.5, digit = 0.72, half_digit = 0.36;
 
 const fg__color fg__default_land = {0.925, 0.925, 0.918};
-const fg__color fg__default_missing = {0.955, 0.958, 0.965};
+const fg__color fg__default_missing = {0.894, 0.906, 0.925};
 static const fg__color coast_color = {0.56, 0.56, 0.56};
 static const fg__color border_color = {0.70, 0.70, 0.70};
 static const fg__color grid_color = {0.83, 0.83, 0.83};
@@ -276,7 +276,7 @@ void fg__map_draw_land(cairo_t *cairo, const fg__map_scene *scene,
   cairo_fill(cairo);
   if (!style->transparent && scene->lakes.count) {
     add_lines(cairo, &scene->lakes, true);
-    set_color(cairo, white);
+    set_color(cairo, scene->missing_lakes ? style->missing : white);
     cairo_fill(cairo);
   }
   cairo_restore(cairo);
@@ -342,19 +342,12 @@ void fg__map_draw_outline_in(cairo_t *cairo, const fg__map_scene *scene, double 
   cairo_restore(cairo);
 }
 
-void fg__map_draw_outline(cairo_t *cairo, const fg__map_scene *scene,
-                          const fg__map_style *style)
+void fg__map_draw_outline(cairo_t *cairo, const fg__map_scene *scene)
 {
-  if (scene->outline.count) {
-    add_lines(cairo, &scene->outline, true);
-    cairo_set_line_width(cairo, outline_width);
-    set_color(cairo, outline_color);
-    cairo_stroke(cairo);
-  }
-  for (int k = 0; k < scene->backings && !style->transparent; ++k) {
-    const fg__page_box *box = &scene->backing[k];
-    cairo_rectangle(cairo, box->x0, box->y0, box->x1 - box->x0, box->y1 - box->y0);
-    cairo_set_source_rgba(cairo, 1.0, 1.0, 1.0, 0.8);
-    cairo_fill(cairo);
-  }
+  if (!scene->outline.count)
+    return;
+  add_lines(cairo, &scene->outline, true);
+  cairo_set_line_width(cairo, outline_width);
+  set_color(cairo, outline_color);
+  cairo_stroke(cairo);
 }

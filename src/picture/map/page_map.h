@@ -50,8 +50,6 @@ void fg__map_draw_lines(cairo_t *cairo, const fg__map_scene *scene,
 void fg__map_draw_outline_in(cairo_t *cairo, const fg__map_scene *scene, double width,
                              double height);
 
-/* The outline, and what lies under texts. */
-void fg__map_draw_outline(cairo_t *cairo, const fg__map_scene *scene,
-                          const fg__map_style *style);
+void fg__map_draw_outline(cairo_t *cairo, const fg__map_scene *scene);
 
 #endif

@@ -293,7 +293,7 @@ void fg__draw_round(cairo_t *cairo, const fg__page *page, const fg__palette *pal
   if (page->has_color_key)
     draw_color_key(cairo, page, palette);
   if (style->map)
-    fg__map_draw_outline(cairo, style->map, &style->map_style);
+    fg__map_draw_outline(cairo, style->map);
   if (style->map && !style->map_style.transparent)
     draw_halos(cairo, page);
   draw_lines(cairo, page);
