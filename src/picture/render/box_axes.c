@@ -12,11 +12,16 @@ static const double shortest_axis = 3.0;
 static const double bar_width = 0.9, name_gap = 0.8;
 static const double digit_height = 0.72;
 
-/* Two numbers side by side read as one when they are nearer than this. */
+/* Two numbers side by side read as one when they are nearer than this; the same number of
+ * two axes, at the corner where they meet, is written once within `corner_gap`. */
 static const double least_gap[2] = {0.6, 0.25};
+static const double corner_gap = 1.2;
 
 /* Texts in the way of another are tried so much farther off the box, in steps. */
 static const double aside_step = 0.25, most_aside = 2.5;
+
+/* Of so many numbers of an axis the first and the last are dispensable. */
+enum { MANY = 4 };
 
 static const double ink = 0.22;
 
@@ -136,32 +141,36 @@ void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
   }
 }
 
-static bool are_apart(const fg__pane *a, const fg__pane *b, double em)
+static bool are_apart(const fg__box_text *a, const fg__box_text *b, double em)
 {
-  return a->x0 >= b->x1 + least_gap[0] * em || b->x0 >= a->x1 + least_gap[0] * em ||
-         a->y0 >= b->y1 + least_gap[1] * em || b->y0 >= a->y1 + least_gap[1] * em;
+  const bool same = strcmp(a->text, b->text) == 0 && (a->dispensable || b->dispensable);
+  const double across = (same ? corner_gap : least_gap[0]) * em;
+  const double upright = (same ? corner_gap : least_gap[1]) * em;
+  return a->box.x0 >= b->box.x1 + across || b->box.x0 >= a->box.x1 + across ||
+         a->box.y0 >= b->box.y1 + upright || b->box.y0 >= a->box.y1 + upright;
 }
 
-static bool is_free(const fg__box_axes *axes, const fg__pane *box)
+static bool is_free(const fg__box_axes *axes, const fg__box_text *text)
 {
   for (int n = 0; n < axes->texts; ++n)
-    if (!are_apart(box, &axes->text[n].box, axes->em))
+    if (!are_apart(text, &axes->text[n], axes->em))
       return false;
   return true;
 }
 
-/* A text whose box lies beyond a point: it touches it at the side it comes from. */
-static void place_text(fg__box_axes *axes, const char *text, const double at[2],
-                       const double away[2], cairo_t *ruler)
+/* A text whose box lies beyond a point: it touches it at the side it comes from, or lies
+ * aside, but for one that is dispensable. */
+static void place_text(fg__box_axes *axes, const char *words, bool dispensable,
+                       const double at[2], const double away[2], cairo_t *ruler)
 {
-  double em = axes->em, width = fg__text_width(ruler, text, em, false);
-  double height = digit_height * em;
-  for (double aside = 0.0; aside <= most_aside; aside += aside_step) {
+  const double em = axes->em, width = fg__text_width(ruler, words, em, false);
+  const double height = digit_height * em, most = dispensable ? 0.0 : most_aside;
+  for (double aside = 0.0; aside <= most; aside += aside_step) {
     double x = at[0] + away[0] * (width / 2.0 + aside * em) - width / 2.0;
     double y = at[1] + away[1] * (height / 2.0 + aside * em) + height / 2.0;
-    const fg__pane box = {x, y - height, x + width, y};
-    if (is_free(axes, &box)) {
-      axes->text[axes->texts++] = (fg__box_text){box, text};
+    const fg__box_text text = {{x, y - height, x + width, y}, words, dispensable};
+    if (is_free(axes, &text)) {
+      axes->text[axes->texts++] = text;
       return;
     }
   }
@@ -204,13 +213,14 @@ static void place_axis(fg__box_axes *axes, const fg__view_box *view_box,
     tick_at(axes, view_box, camera, axis, n, at);
     for (int k = 0; k < 2; ++k)
       at[k] += (tick_length + number_gap) * em * away[k];
-    place_text(axes, ticks->text[n], at, away, ruler);
+    const bool at_corner = n == 0 || n == ticks->count - 1;
+    place_text(axes, ticks->text[n], at_corner && ticks->count >= MANY, at, away, ruler);
   }
   double beyond = (tick_length + number_gap + label_gap) * em + fabs(away[0]) * widest +
                   fabs(away[1]) * digit_height * em;
   for (int k = 0; k < 2; ++k)
     at[k] = (end[0][k] + end[1][k]) / 2.0 + beyond * away[k];
-  place_text(axes, axes->axis[axis].label, at, away, ruler);
+  place_text(axes, axes->axis[axis].label, false, at, away, ruler);
 }
 
 void fg__box_axes_place(fg__box_axes *axes, fg__pane *bounds,

@@ -100,6 +100,23 @@ static void both_numbers_of_a_corner_are_there(void **state)
   assert_string_equal(s.axes.text[last + 2].text, "0");
 }
 
+/* Two axes that begin with the same number have it once at the corner where they meet. */
+static void a_shared_number_of_a_corner_is_there_once(void **state)
+{
+  (void)state;
+  static const double low[3] = {0.0, 0.0, 0.0}, side[3] = {1.0, 0.5, 1.0};
+  scenery s;
+  look_at(&s, low, side, 0.0, 25.0);
+  int zeros = 0, lowest = 0;
+  for (int n = 0; n < s.axes.texts; ++n)
+    if (strcmp(s.axes.text[n].text, "0.0") == 0) {
+      ++zeros;
+      lowest += s.axes.text[n].box.y1 > s.bounds.y1 - 6.0 * EM;
+    }
+  assert_true(zeros >= 1);
+  assert_int_equal(lowest, 1);
+}
+
 /* Different ones that stand beside an axis. */
 static int numbers_of(const fg__box_axes *axes, int k)
 {
@@ -199,6 +216,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(texts_keep_apart),
       cmocka_unit_test(both_numbers_of_a_corner_are_there),
+      cmocka_unit_test(a_shared_number_of_a_corner_is_there_once),
       cmocka_unit_test(each_axis_tells_its_scale),
       cmocka_unit_test(a_picture_is_as_large_as_its_box),
   };
