@@ -316,6 +316,15 @@ static void list_values(fg__caption_value out[CAPTION_NAMES], const told_words *
   memcpy(out, values, sizeof values);
 }
 
+/* A name in words begins as a sentence does: "wind at 10 m"; one of a variable stays. */
+static void begin_sentence(char *title, const told_words *told)
+{
+  const bool word = title[0] >= 'a' && title[0] <= 'z' && title[1] >= 'a' &&
+                    title[1] <= 'z' && !strchr(title, '_');
+  if (word && !told->repeated)
+    title[0] = (char)(title[0] - 'a' + 'A');
+}
+
 void fg__caption_write_common(char title[FG__CAPTION_BYTES],
                               char subtitle[FG__CAPTION_BYTES],
                               const fg__caption_panel *panel, int count,
@@ -328,8 +337,11 @@ void fg__caption_write_common(char title[FG__CAPTION_BYTES],
   title[0] = subtitle[0] = '\0';
   if (wanted[0])
     fg__caption_fill(title, wanted[0], values, CAPTION_NAMES);
-  else if (told.title[0] || told.telling)
-    snprintf(title, FG__CAPTION_BYTES, "%s", told.title[0] ? told.title : told.names);
+  else if (told.title[0]) {
+    snprintf(title, FG__CAPTION_BYTES, "%s", told.title);
+    begin_sentence(title, &told);
+  } else if (told.telling)
+    snprintf(title, FG__CAPTION_BYTES, "%s", told.names);
   if (wanted[1])
     fg__caption_fill(subtitle, wanted[1], values, CAPTION_NAMES);
   else if (!wanted[0])

@@ -156,7 +156,8 @@ static void label_world(fg__graticule *out, const family *f, int n, int line)
     add_label(out->label, &out->labels, text, line, at, 0.0, -1.0);
     return;
   }
-  static const double latitudes[] = {0.0, -15.0, 15.0, -45.0, 45.0};
+  static const double latitudes[] = {0.0,  -15.0, 15.0,  -45.0, 45.0, -8.0, 8.0,
+                                     23.0, -23.0, -38.0, 38.0,  52.0, -52.0};
   for (size_t k = 0; k < sizeof latitudes / sizeof *latitudes; ++k) {
     project(plane, position, latitudes[k], at);
     add_label(out->inside, &out->insides, text, line, at, 0.0, 0.0);
@@ -186,13 +187,13 @@ static void label_spoke(fg__graticule *out, const family *f, int n, int line)
 }
 
 /* Places on the line between lines of the other kind, from the middle on. Parallels round
- * a pole have no other. */
+ * a pole have no other. The equator has none: 0° is what a meridian has, too. */
 static void label_within(fg__graticule *out, const family *f, int n, int line)
 {
   const fg__plane *plane = out->plane;
   const double position = f->ticks.position[n];
   const double step = f->k == 0 ? step_of(plane, 1) : step_of(plane, 0);
-  if (f->k == 1 && fabs(position) > 90.0 - 1e-6)
+  if (f->k == 1 && (fabs(position) > 90.0 - 1e-6 || fabs(position) < 1e-6))
     return;
   const int first = out->insides;
   for (int k = 0; k < 12; ++k) {

@@ -58,6 +58,22 @@ void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y
     page->line[page->line_count++] = (fg__page_line){x0, y0, x1, y1};
 }
 
+/* Where a line of a caption that is too long ends: before the last middle dot between its
+ * parts, else after the last word that is whole. *next: where what follows begins. */
+static size_t line_end(const char *line, size_t length, size_t *next)
+{
+  static const char dot[] = " \xC2\xB7 ";
+  const char *last = NULL;
+  for (const char *at = strstr(line, dot); at && at < line + length;
+       at = strstr(at + 1, dot))
+    last = at;
+  *next = length;
+  if (!last || last == line)
+    return length;
+  *next = (size_t)(last - line) + sizeof dot - 1;
+  return (size_t)(last - line);
+}
+
 /* Fills lines of a width with as many words as fit; the last, where there are `limit`,
  * takes the rest. Whether all are as narrow as they should be. */
 static bool break_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
@@ -78,8 +94,7 @@ static bool break_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
         --length;
       if (length == 0)
         break; /* one long word */
-      out[length] = '\0';
-      kept = length;
+      out[line_end(out, length, &kept)] = '\0';
     }
     fits = fits && fg__text_width(ruler, out, size, bold) <= width;
     rest += kept;

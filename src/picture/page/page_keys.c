@@ -72,7 +72,7 @@ static void make_quiet(fg__page *page)
 }
 
 /* The colour key's label in lines. The usual one gives way to its unit where it is longer
- * than the bar; one that was asked for, which has no unit by itself, is broken. */
+ * than its room; one that was asked for, which has no unit by itself, is broken. */
 typedef struct bar_label {
   char line[FG__LABEL_LINES][FG__PAGE_TEXT_BYTES];
   int count;
@@ -80,16 +80,29 @@ typedef struct bar_label {
 } bar_label;
 
 static void break_label(bar_label *out, const fg__page_plan *plan, cairo_t *ruler,
-                        double font_size, double length)
+                        double font_size, double room)
 {
   const char *text = plan->speed.label;
   out->count = 0;
-  if (plan->speed.units[0] && fg__text_width(ruler, text, font_size, false) > length)
+  if (plan->speed.units[0] && fg__text_width(ruler, text, font_size, false) > room)
     text = plan->speed.units;
-  if (plan->speed.units[0] && fg__text_width(ruler, text, font_size, false) > length)
+  if (plan->speed.units[0] && fg__text_width(ruler, text, font_size, false) > room)
     return;
   out->size = fg__page_fit_lines(out->line, FG__LABEL_LINES, &out->count, ruler, text,
-                                 font_size, false, length);
+                                 font_size, false, room);
+}
+
+/* Where a bar lies along its side, and from where to where its label may reach. */
+typedef struct bar_place {
+  double start, end, label_low, label_high;
+} bar_place;
+
+/* The longest label about the bar's middle. */
+static double label_room(const bar_place *at)
+{
+  const double middle = 0.5 * (at->start + at->end);
+  return fmax(at->end - at->start,
+              2.0 * fmin(middle - at->label_low, at->label_high - middle));
 }
 
 /* Gives the text just added the label's size; its baseline stays. */
@@ -121,15 +134,15 @@ static void add_points(fg__page *page, const fg__page_plan *plan, double *start,
 }
 
 static void bar_below(fg__page *page, fg__margins *room, const fg__page_plan *plan,
-                      cairo_t *ruler, double x0, double y0, double length)
+                      cairo_t *ruler, const bar_place *at, double y0)
 {
   const double em = page->font_size;
   const fg__tick_axis *speed = &plan->speed;
   page->has_color_key = true;
   page->color_key_upright = false;
-  double x1 = x0 + length;
+  double x0 = at->start, x1 = at->end;
   add_points(page, plan, &x0, &x1);
-  length = x1 - x0;
+  const double length = x1 - x0;
   page->color_key = (fg__page_box){x0, y0, x1, y0 + bar_thickness * em};
   fg__ticks ticks;
   fg__page_choose_ticks(&ticks, speed, ruler, length, em, false);
@@ -145,7 +158,7 @@ static void bar_below(fg__page *page, fg__margins *room, const fg__page_plan *pl
     room->right = fmax(room->right, x + 0.5 * width - page->frame.x1);
   }
   bar_label label;
-  break_label(&label, plan, ruler, em, length);
+  break_label(&label, plan, ruler, em, label_room(at));
   for (int k = 0; k < label.count; ++k) {
     baseline += line_height * (k ? label.size : em);
     fg__page_add_text(page, ruler, label.line[k], x0 + 0.5 * length, baseline,
@@ -196,23 +209,25 @@ static void place_below(fg__page *page, fg__margins *room, const fg__page_plan *
     room->left = fmax(room->left, frame->x0 - middle + 0.5 * key.width);
   }
   if (parts->color_key && length >= shortest_bar * em) {
-    const double indent = fmin(0.5 * (wide - length), room_for_bar - length);
-    bar_below(page, room, plan, ruler, frame->x0 + (plan->short_key ? indent : 0.0), y0,
-              length);
+    const double indent =
+        plan->short_key ? fmin(0.5 * (wide - length), room_for_bar - length) : 0.0;
+    const double x0 = frame->x0 + indent, x1 = x0 + length;
+    const bar_place at = {x0, x1, plan->short_key ? frame->x0 : x0,
+                          plan->short_key ? frame->x0 + room_for_bar : x1};
+    bar_below(page, room, plan, ruler, &at, y0);
   }
 }
 
 static double bar_beside(fg__page *page, fg__margins *room, const fg__page_plan *plan,
-                         cairo_t *ruler, double x0, double y0, double y1)
+                         cairo_t *ruler, const bar_place *at, double x0)
 {
   const double em = page->font_size;
   const fg__tick_axis *speed = &plan->speed;
   page->has_color_key = true;
   page->color_key_upright = true;
-  double above = -y0, below = -y1;
+  double above = -at->start, below = -at->end;
   add_points(page, plan, &below, &above);
-  y0 = -above;
-  y1 = -below;
+  const double y0 = -above, y1 = -below;
   page->color_key = (fg__page_box){x0, y0, x0 + bar_thickness * em, y1};
   fg__ticks ticks;
   fg__page_choose_ticks(&ticks, speed, ruler, y1 - y0, em, true);
@@ -231,7 +246,7 @@ static double bar_beside(fg__page *page, fg__margins *room, const fg__page_plan 
     room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
   }
   bar_label label;
-  break_label(&label, plan, ruler, em, y1 - y0);
+  break_label(&label, plan, ruler, em, label_room(at));
   for (int k = 0; k < label.count; ++k) {
     double x = end + (k ? 0.0 : 0.35 * em) + FG__TEXT_ASCENT * em;
     fg__page_add_text_upwards(page, ruler, label.line[k], x, 0.5 * (y0 + y1));
@@ -287,13 +302,15 @@ static void place_beside(fg__page *page, fg__margins *room, const fg__page_plan 
     size_beside(page, &key, ruler, x0, frame->y1);
     end = x0 + key.width;
   }
-  double y0 = frame->y0, y1 = has_size ? frame->y1 - size_height : frame->y1;
+  double y0 = frame->y0;
+  const double y1 = has_size ? frame->y1 - size_height : frame->y1;
   const double length = fmin(bar_limit(page, plan, high), y1 - y0);
   if (!has_size || plan->short_key)
     y0 += fmin(0.5 * (high - length), y1 - y0 - length);
-  y1 = y0 + length;
-  if (parts->color_key && y1 - y0 >= shortest_bar * em)
-    end = fmax(end, bar_beside(page, room, plan, ruler, x0, y0, y1));
+  const bar_place at = {y0, y0 + length, plan->short_key ? frame->y0 : y0,
+                        plan->short_key ? y1 : y0 + length};
+  if (parts->color_key && length >= shortest_bar * em)
+    end = fmax(end, bar_beside(page, room, plan, ruler, &at, x0));
   if (end > x0)
     room->right = end - frame->x1;
 }
@@ -319,7 +336,9 @@ static void place_lone_key(fg__page *page, const fg__page_plan *plan, cairo_t *r
   fg__margins room = {0};
   if (length < shortest_bar * em)
     return;
-  bar_below(page, &room, plan, ruler, 0.5 * (page->width - length), y0, length);
+  const double x0 = 0.5 * (page->width - length);
+  const bar_place at = {x0, x0 + length, page->frame.x0, page->frame.x1};
+  bar_below(page, &room, plan, ruler, &at, y0);
   page->height += room.bottom + lone_edge * em;
 }
 
