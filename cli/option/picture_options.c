@@ -91,7 +91,8 @@ static const option_entry picture_entries[] = {
      .help = "no colour key, and no arrow that tells lengths"},
     {"mask-color", 0, "#RRGGBB", PICTURES | COMMAND_TEXTURE, OPTION_COLOR,
      PICTURE(mask_color),
-     .help = "in 2D: colour of where the field is missing [#dadad7]"},
+     .help = "in 2D: colour of where the field is missing [#dadad7,"
+             " on a map #e4e7ec]"},
     {"tint-color", 0, "#RRGGBB", PICTURES, OPTION_COLOR, PICTURE(tint_color),
      .help = "in 2D, with --tint: its colour [#d7e4f2]"},
     {"background-fade", 0, "F", RUNS | COMMAND_DRAW, OPTION_NUMBER,
