@@ -5,7 +5,7 @@
 #include "picture/map/plane.h"
 #include "picture/ticks.h"
 
-enum { FG__MAP_LABELS = 8 * FG__TICK_LIMIT };
+enum { FG__MAP_LABELS = 16 * FG__TICK_LIMIT };
 
 typedef struct fg__map_label {
   char text[FG__TICK_BYTES];

@@ -21,8 +21,9 @@ static const double grain = 1.0 / 8.0;
 /* What is drawn about an arrow, its rim. */
 static const double clip_slack = 0.5;
 
-/* Of degrees inside a map, and between them and arrows, in units of the font size. */
-static const double inside_size = 0.88, arrow_gap = 0.4;
+/* Of degrees inside a map, and between them and arrows, where there is room and at least,
+ * in units of the font size. */
+static const double inside_size = 0.88, arrow_gap = 0.4, least_arrow_gap = 0.1;
 
 typedef struct placing {
   const fg__page *page;
@@ -230,9 +231,9 @@ static bool has_room(const fg__map_scene *scene, const fg__page *page,
 
 /* Free of arrows, too. */
 static bool is_free(const fg__map_scene *scene, const fg__page *page,
-                    const fg__polygons *arrows, const fg__page_box *box)
+                    const fg__polygons *arrows, const fg__page_box *box, double gap)
 {
-  const double apart = arrow_gap * page->font_size;
+  const double apart = gap * page->font_size;
   const fg__page_box wider = {box->x0 - apart, box->y0 - apart, box->x1 + apart,
                               box->y1 + apart};
   return has_room(scene, page, box) && !loops_touch_box(arrows, &wider);
@@ -273,7 +274,7 @@ static int best_place(const fg__map_scene *scene, const fg__page *page,
     if (k > 0 && label->line != label[-1].line)
       place = 0;
     const fg__page_box box = box_of(page, label, graticule->plane, ruler);
-    free_places[place] += is_free(scene, page, arrows, &box);
+    free_places[place] += is_free(scene, page, arrows, &box, arrow_gap);
   }
   for (int place = 1; place < FG__MAP_LABELS; ++place)
     if (free_places[place] > free_places[best])
@@ -281,30 +282,45 @@ static int best_place(const fg__map_scene *scene, const fg__page *page,
   return best;
 }
 
-/* The free one of a line's labels that is nearest to the best place; one that is needed
- * stands there over arrows rather than nowhere. */
-static void label_line(const fg__map_scene *scene, fg__page *page,
-                       const fg__graticule *graticule, const fg__map_label *label,
-                       int count, int best, const fg__polygons *arrows, cairo_t *ruler)
+/* The free one of a line's labels that is nearest to the best place; NULL: none is free.
+ */
+static const fg__map_label *nearest_free(const fg__map_scene *scene, const fg__page *page,
+                                         const fg__graticule *graticule,
+                                         const fg__map_label *label, int count, int best,
+                                         const fg__polygons *arrows, double gap,
+                                         cairo_t *ruler)
 {
-  const fg__map_label *chosen = NULL;
+  const fg__map_label *nearest = NULL;
   double least = HUGE_VAL;
   for (int k = 0; k < count; ++k) {
     const double away =
         hypot(label[k].at[0] - label[best].at[0], label[k].at[1] - label[best].at[1]);
     const fg__page_box box = box_of(page, &label[k], graticule->plane, ruler);
-    if (away < least && is_free(scene, page, arrows, &box)) {
-      chosen = &label[k];
+    if (away < least && is_free(scene, page, arrows, &box, gap)) {
+      nearest = &label[k];
       least = away;
     }
   }
-  const fg__page_box usual = box_of(page, &label[best], graticule->plane, ruler);
-  if (!chosen && label->needed && has_room(scene, page, &usual))
+  return nearest;
+}
+
+/* One of a line's labels; one that is needed stands over arrows rather than nowhere. */
+static void label_line(const fg__map_scene *scene, fg__page *page,
+                       const fg__graticule *graticule, const fg__map_label *label,
+                       int count, int best, const fg__polygons *arrows, cairo_t *ruler)
+{
+  const fg__map_label *chosen =
+      nearest_free(scene, page, graticule, label, count, best, arrows, arrow_gap, ruler);
+  if (!chosen)
+    chosen = nearest_free(scene, page, graticule, label, count, best, arrows,
+                          least_arrow_gap, ruler);
+  if (!chosen && label->needed)
     chosen = &label[best];
-  if (chosen) {
-    const fg__page_box box = box_of(page, chosen, graticule->plane, ruler);
+  if (!chosen)
+    return;
+  const fg__page_box box = box_of(page, chosen, graticule->plane, ruler);
+  if (has_room(scene, page, &box))
     add_label(page, chosen, &box);
-  }
 }
 
 void fg__map_scene_label(const fg__map_scene *scene, fg__page *page,

@@ -93,6 +93,29 @@ static void what_land_explains_is_not_missing(void **state)
   fg__missing_clear(&missing);
 }
 
+/* A coarse grid of the sea has values on a third of the land, along its coast. */
+static void a_field_on_coasts_is_of_the_sea(void **state)
+{
+  static const double corner[][2] = {
+      {1500, -4000}, {4000, -4000}, {4000, 4000}, {1500, 4000}};
+  static const double inland[][2] = {
+      {-2000, -4000}, {4000, -4000}, {4000, 4000}, {-2000, 4000}};
+  fg__polygons land = {0};
+  fg__missing missing;
+  add_loop(&land, corner, 4);
+  find(&missing, *state, &land, &nothing);
+  assert_false(missing.on_land);
+  assert_int_equal(missing.area.count, 0);
+  fg__polygons_clear(&land);
+  fg__missing_clear(&missing);
+  add_loop(&land, inland, 4);
+  find(&missing, *state, &land, &nothing);
+  assert_true(missing.on_land);
+  assert_true(missing.area.count > 0);
+  fg__polygons_clear(&land);
+  fg__missing_clear(&missing);
+}
+
 /* A long bay that is narrower than strips are, beyond a coast with data before it, and a
  * lake. */
 static void bays_without_data_are_missing(void **state)
@@ -127,6 +150,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       TEST(the_rim_is_where_data_end),
       TEST(what_land_explains_is_not_missing),
+      TEST(a_field_on_coasts_is_of_the_sea),
       TEST(bays_without_data_are_missing),
   };
   return cmocka_run_group_tests_name("picture/map/missing", tests, NULL, NULL);

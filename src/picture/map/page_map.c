@@ -64,16 +64,17 @@ static fg__page_box box_of(const fg__page *page, const fg__plane *plane, anchor 
   return (fg__page_box){x - half[0], y - half[1], x + half[0], y + half[1]};
 }
 
-static bool is_free(const fg__page *page, int from, const fg__page_box *box)
+/* The first text from a number on that is too near to a box; -1: none. */
+static int text_near(const fg__page *page, int from, const fg__page_box *box)
 {
   const double gap = between * page->font_size;
   for (int k = from; k < page->text_count; ++k) {
     const fg__page_box *other = &page->text[k].box;
     if (box->x0 - gap < other->x1 && other->x0 < box->x1 + gap &&
         box->y0 - 0.3 * gap < other->y1 && other->y0 < box->y1 + 0.3 * gap)
-      return false;
+      return k;
   }
-  return true;
+  return -1;
 }
 
 static void grow(fg__margins *room, const fg__page_box *frame, const fg__page_box *box)
@@ -129,6 +130,7 @@ static void place_labels(fg__page *page, fg__margins *room, const fg__page_plan 
   const fg__plane *plane = graticule->plane;
   const int from = page->text_count;
   bool done[FAMILIES * FG__TICK_LIMIT] = {false};
+  int family_of[FG__PAGE_TEXTS];
   for (int k = 0; k < graticule->labels; ++k) {
     const fg__map_label *label = &graticule->label[k];
     const anchor a = {.x = page->frame.x0 + page->scale * (label->at[0] - plane->low[0]),
@@ -137,17 +139,22 @@ static void place_labels(fg__page *page, fg__margins *room, const fg__page_plan 
                       .width =
                           fg__text_width(ruler, label->text, page->font_size, false)};
     const fg__page_box box = box_of(page, plane, a);
+    const int family = label->line / FG__TICK_LIMIT;
     if (done[label->line] || !is_chosen(families, label->line))
       continue;
+    const int near = text_near(page, from, &box);
     if (!plane->disc && !is_at(&parts->sides, label)) {
-      done[label->line] = is_free(page, from, &box);
+      done[label->line] = near < 0;
       continue;
     }
-    if (!is_free(page, from, &box)) {
-      families[label->line / FG__TICK_LIMIT].crowded = true;
+    if (near >= 0) {
+      families[family].crowded = true;
+      /* a line between two that have theirs at this side needs none at the other */
+      done[label->line] = family_of[near] == family;
       continue;
     }
     done[label->line] = true;
+    family_of[page->text_count] = family;
     fg__page_text *text = fg__page_next_text(page, label->text);
     if (!text)
       return;
