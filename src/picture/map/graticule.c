@@ -186,9 +186,9 @@ static void label_spoke(fg__graticule *out, const family *f, int n, int line)
   add_label(out->label, &out->labels, f->ticks.text[n], line, at, out_of[0], out_of[1]);
 }
 
-/* Places on the line from the middle on, first halfway between lines of the other kind,
- * then a third of that aside. Parallels round a pole have no other. The equator has none:
- * 0° is what a meridian has, too. */
+/* Places on the line from the middle on, halfway between lines of the other kind.
+ * Parallels round a pole, which are labelled nowhere else, have more, a third of that
+ * aside. The equator has none: 0° is what a meridian has, too. */
 static void label_within(fg__graticule *out, const family *f, int n, int line)
 {
   const fg__plane *plane = out->plane;
@@ -197,7 +197,8 @@ static void label_within(fg__graticule *out, const family *f, int n, int line)
   if (f->k == 1 && (fabs(position) > 90.0 - 1e-6 || fabs(position) < 1e-6))
     return;
   const int first = out->insides;
-  for (int k = 0; k < 36; ++k) {
+  const bool needed = f->k == 1 && is_polar(plane);
+  for (int k = 0; k < (needed ? 36 : 12); ++k) {
     static const double aside[] = {0.0, 1.0 / 3.0, -1.0 / 3.0};
     const double offset =
         (k % 2 ? -1.0 : 1.0) * (k % 12 / 2 + 0.5 + aside[k / 12]) * step;
@@ -211,7 +212,7 @@ static void label_within(fg__graticule *out, const family *f, int n, int line)
     add_label(out->inside, &out->insides, f->ticks.text[n], line, at, 0.0, 0.0);
   }
   for (int k = first; k < out->insides; ++k)
-    out->inside[k].needed = f->k == 1 && is_polar(plane);
+    out->inside[k].needed = needed;
 }
 
 static bool in_box(const fg__plane *plane, const double at[2])
