@@ -8,8 +8,13 @@
 /* Cells along a side of the square or cube as large as the domain. */
 enum { CELLS_2D = 256, CELLS_3D = 64 };
 
-/* A domain that fills less of its box would take gigabytes. */
-enum { MOST_CELLS = 1 << 24 };
+/* A domain that fills little of its box gets wider cells, or time and memory would be
+ * those of the box: at so many they are half a second and 0.3 GB. Where it fills less of
+ * it than the second allows, cells would be wider than the domain. */
+enum { AMPLE_CELLS = 1 << 21, MOST_CELLS = 1 << 24 };
+
+/* By which they become wider until there are few enough. */
+static const double WIDENING = 1.05;
 
 /* Slower flow has no direction worth telling. */
 static const double STILL = 1e-3;
@@ -68,8 +73,8 @@ static box find_box(const fg_field *field)
   return out;
 }
 
-static fg_status set_size(fg__score_raster *raster, fg_context *context,
-                          const box *bounds)
+/* Sets the cells along each axis, of about the wanted side; returns how many it takes. */
+static double set_size(fg__score_raster *raster, const box *bounds)
 {
   double cells = 1.0;
   for (int k = 0; k < 3; ++k) {
@@ -81,17 +86,28 @@ static fg_status set_size(fg__score_raster *raster, fg_context *context,
     const double count = fmax(1.0, round(length / raster->spacing));
     cells *= count;
     if (cells > MOST_CELLS)
-      return fg__fail(
-          context, FG_STATUS_UNSUPPORTED,
-          "score: the domain, %g of %g in its box, takes more than %d cells",
-          raster->measure,
-          (bounds->high[0] - bounds->low[0]) * (bounds->high[1] - bounds->low[1]) *
-              (raster->dimension == 3 ? bounds->high[2] - bounds->low[2] : 1.0),
-          MOST_CELLS);
+      break;
     raster->size[k] = (int)count;
     raster->cell[k] = length / count;
     raster->origin[k] = bounds->low[k];
   }
+  return cells;
+}
+
+static fg_status choose_size(fg__score_raster *raster, fg_context *context,
+                             const box *bounds)
+{
+  double cells = set_size(raster, bounds);
+  if (cells > MOST_CELLS)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "score: the domain, %g of %g in its box, takes more than %d cells",
+                    raster->measure,
+                    (bounds->high[0] - bounds->low[0]) *
+                        (bounds->high[1] - bounds->low[1]) *
+                        (raster->dimension == 3 ? bounds->high[2] - bounds->low[2] : 1.0),
+                    MOST_CELLS);
+  for (; cells > AMPLE_CELLS; cells = set_size(raster, bounds))
+    raster->spacing *= WIDENING;
   raster->cells = (size_t)cells;
   return FG_STATUS_OK;
 }
@@ -169,7 +185,7 @@ fg_status fg__score_raster_create(fg__score_raster *out, fg_context *context,
   out->measure = bounds.measure;
   out->side = out->dimension == 3 ? cbrt(bounds.measure) : sqrt(bounds.measure);
   out->spacing = out->side / (out->dimension == 3 ? CELLS_3D : CELLS_2D);
-  fg_status status = set_size(out, context, &bounds);
+  fg_status status = choose_size(out, context, &bounds);
   if (status == FG_STATUS_OK)
     status = allocate(out, context);
   if (status != FG_STATUS_OK)
