@@ -18,8 +18,11 @@
 #include "interrupt.h"
 
 /* A loop in a damaged file takes for ever. A good one takes some time for each byte, and
- * its arrays are at most a thousand times as large: what deflate can do. */
-enum { MOST_SECONDS = 10, BYTES_A_SECOND = 20000000, TIMES_LARGER = 4096 };
+ * its arrays are at most a thousand times as large: what deflate can do. So it gets a
+ * second and one more for each 25 kB, but no more than ten and one for each 20 MB, as
+ * large ones are less compressed. Good files take a fifth of that, or less. */
+enum { SMALL_BYTES_A_SECOND = 25000, BYTES_A_SECOND = 20000000, MOST_SECONDS = 10 };
+enum { TIMES_LARGER = 4096 };
 static const size_t MOST_BYTES = (size_t)1 << 30;
 
 /* Between looks at whether an interrupt came, milliseconds: one may come just before. */
@@ -257,8 +260,10 @@ static void look_at(const char **library, size_t *size, const char *path)
 
 static child_bounds bounds_for(size_t size)
 {
-  size_t most = (SIZE_MAX / 4 - MOST_BYTES) / TIMES_LARGER;
-  return (child_bounds){.seconds = MOST_SECONDS + (unsigned)(size / BYTES_A_SECOND),
+  const size_t most = (SIZE_MAX / 4 - MOST_BYTES) / TIMES_LARGER;
+  const size_t small = 1 + size / SMALL_BYTES_A_SECOND;
+  const size_t large = MOST_SECONDS + size / BYTES_A_SECOND;
+  return (child_bounds){.seconds = (unsigned)(small < large ? small : large),
                         .bytes = MOST_BYTES + TIMES_LARGER * (size < most ? size : most)};
 }
 
