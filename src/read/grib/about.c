@@ -13,6 +13,9 @@
 /* What ecCodes may ask for to tell a field's keys. */
 enum { MOST_BYTES = 256 << 20 };
 
+/* Steps of a forecast: ecCodes goes to its date by single days. */
+enum { MOST_STEPS = 1000000000 };
+
 /* Bytes of a section that say a time; they do not tell fields apart. */
 typedef struct time_bytes {
   size_t first, count;
@@ -151,6 +154,23 @@ static void name_by_numbers(fg__grib_kind *kind, const fg__grib_field *field)
   kind->other_name[0] = kind->title[0] = '\0';
 }
 
+/* Units of time whose length ecCodes knows; it looks beyond a table for that of others.
+ */
+static bool is_unit(long unit)
+{
+  return (unit >= 0 && unit <= 3) || (unit >= 10 && unit <= 14) || unit == 254;
+}
+
+static bool has_wild_steps(codes_handle *handle)
+{
+  long unit, step;
+  if (codes_get_long(handle, "indicatorOfUnitOfTimeRange", &unit) == CODES_SUCCESS &&
+      !is_unit(unit))
+    return true;
+  return codes_get_long(handle, "endStep", &step) == CODES_SUCCESS &&
+         (step > MOST_STEPS || step < -MOST_STEPS);
+}
+
 static void tell(codes_handle *handle, void *data)
 {
   static const char *const dates[] = {"dataDate", "dataTime", "validityDate",
@@ -158,7 +178,9 @@ static void tell(codes_handle *handle, void *data)
   telling *t = data;
   fg__grib_kind *kind = &t->kind;
   t->error = handle ? CODES_SUCCESS : CODES_INVALID_MESSAGE;
-  if (!handle)
+  if (handle && has_wild_steps(handle))
+    t->error = CODES_OUT_OF_RANGE;
+  if (t->error)
     return;
   get_word(handle, "shortName", kind->name, sizeof kind->name);
   get_word(handle, "cfVarName", kind->other_name, sizeof kind->other_name);
@@ -196,7 +218,7 @@ static fg_status check_unit(const fg__grib_file *file, const fg__grib_field *fie
   if (field->edition == 2 && (size < 22 || fg__grib_number(at + 7, 2) > 15))
     return FG_STATUS_OK;
   const unsigned unit = at[17];
-  if (unit <= 3 || (unit >= 10 && unit <= 14) || unit == 254)
+  if (is_unit(unit))
     return FG_STATUS_OK;
   return fg__fail(file->context, FG_STATUS_UNSUPPORTED,
                   "%s: message %zu counts time in units of a kind that is not known, %u",
