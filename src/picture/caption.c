@@ -187,6 +187,7 @@ typedef struct told_words {
   char title[FG__CAPTION_BYTES], names[FG__CAPTION_BYTES], time[FG__CAPTION_BYTES],
       level[FG__CAPTION_BYTES], scale[32], arrows[32];
   bool telling;  /* the names are more than u and v */
+  bool in_words; /* the title is of a file that describes its variables */
   bool repeated; /* the names are the title's components, as U_x and U_y of U */
 } told_words;
 
@@ -217,6 +218,7 @@ static void collect_words(told_words *out, const fg__caption_panel *panel)
   fg__text_clean(out->names, sizeof out->names, names);
   fg__text_clean(out->title, sizeof out->title, field->title);
   out->repeated = names_components(field);
+  out->in_words = field->scale != FG_SCALE_PLAIN && !out->repeated;
   fg__text_clean(out->time, sizeof out->time, field->time ? field->time : "");
   fg__text_clean(out->level, sizeof out->level, field->level ? field->level : "");
   out->scale[0] = '\0';
@@ -316,12 +318,13 @@ static void list_values(fg__caption_value out[CAPTION_NAMES], const told_words *
   memcpy(out, values, sizeof values);
 }
 
-/* A name in words begins as a sentence does: "wind at 10 m"; one of a variable stays. */
+/* A name in words begins as a sentence does: "wind at 10 m"; that of a variable or of an
+ * analytic field stays. */
 static void begin_sentence(char *title, const told_words *told)
 {
   const bool word = title[0] >= 'a' && title[0] <= 'z' && title[1] >= 'a' &&
                     title[1] <= 'z' && !strchr(title, '_');
-  if (word && !told->repeated)
+  if (word && told->in_words)
     title[0] = (char)(title[0] - 'a' + 'A');
 }
 

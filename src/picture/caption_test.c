@@ -72,6 +72,34 @@ static void components_of_the_title_are_not_named_again(void **state)
   fg_icons_destroy(icons);
 }
 
+/* Of a field on the Earth, whose file describes it; a title that was asked for stays. */
+static void a_title_in_words_begins_with_a_capital(void **state)
+{
+  static const struct {
+    const char *title, *wanted, *expected;
+    fg_scale scale;
+  } cases[] = {
+      {"wind at 10 m", NULL, "Wind at 10 m", FG_SCALE_GEO},
+      {"wind at 10 m", NULL, "Wind at 10 m", FG_SCALE_MAP},
+      {"wind at 10 m", "{title}", "wind at 10 m", FG_SCALE_GEO},
+      {"vortex (analytic)", NULL, "vortex (analytic)", FG_SCALE_PLAIN},
+      {"u10, v10", NULL, "u10, v10", FG_SCALE_GEO},
+      {"ua_850", NULL, "ua_850", FG_SCALE_GEO},
+  };
+  fg_icons *icons = lines(*state, 2);
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    const fg_field_arrays field = {.dimension = 2,
+                                   .velocity_name = {"u", "v"},
+                                   .title = cases[n].title,
+                                   .scale = cases[n].scale};
+    char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
+    const char *const wanted[2] = {cases[n].wanted, NULL};
+    fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
+    assert_string_equal(title, cases[n].expected);
+  }
+  fg_icons_destroy(icons);
+}
+
 /* What stands for a name may hold what looks like one. */
 static void names_in_braces_are_what_the_field_says(void **state)
 {
@@ -244,6 +272,8 @@ int main(void)
       cmocka_unit_test_setup_teardown(a_caption_tells_the_error_and_never_less,
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(components_of_the_title_are_not_named_again,
+                                      context_set_up, context_tear_down),
+      cmocka_unit_test_setup_teardown(a_title_in_words_begins_with_a_capital,
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(names_in_braces_are_what_the_field_says,
                                       context_set_up, context_tear_down),

@@ -8,6 +8,9 @@
 /* Points in a reach, and the most of a line; a longer one is not a stroke. */
 enum { IN_REACH = 20, MOST_POINTS = 4000 };
 
+/* Over more of an even arc's radius it would be moved. */
+static const double RADIUS_SHARE = 1.25;
+
 static double length_of(const double (*points)[3], int count)
 {
   double sum = 0.0;
@@ -35,12 +38,13 @@ static void resample(double (*out)[3], int count, const double (*points)[3],
   }
 }
 
-/* The mean about point n over `reach` steps to either side. */
-static void average(double out[2], const double (*points)[3], int n, int reach)
+/* The mean about point n over less than `reach` steps to either side. */
+static void average(double out[2], const double (*points)[3], int n, double reach)
 {
+  const int most = (int)ceil(reach) - 1;
   double sum = 0.0, mean[2] = {0.0, 0.0};
-  for (int k = -reach; k <= reach; ++k) {
-    const double u = (double)k / (reach + 1), one = 1.0 - u * u;
+  for (int k = -most; k <= most; ++k) {
+    const double u = k / reach, one = 1.0 - u * u;
     const double weight = one * one * (1.0 - 3.0 * u * u);
     sum += weight;
     for (int i = 0; i < 2; ++i)
@@ -48,6 +52,19 @@ static void average(double out[2], const double (*points)[3], int n, int reach)
   }
   for (int i = 0; i < 2; ++i)
     out[i] = mean[i] / sum;
+}
+
+/* How many steps to either side are averaged: on an arc at most so much of its radius. */
+static double reach_at(const double (*points)[3], int count, int n)
+{
+  const int ends = n < count - 1 - n ? n : count - 1 - n;
+  const int most = ends < IN_REACH ? ends : IN_REACH;
+  const double *from = points[n - most], *here = points[n], *to = points[n + most];
+  const double before[2] = {here[0] - from[0], here[1] - from[1]};
+  const double after[2] = {to[0] - here[0], to[1] - here[1]};
+  const double turn = fabs(atan2(before[0] * after[1] - before[1] * after[0],
+                                 before[0] * after[0] + before[1] * after[1]));
+  return 1.0 + fmin(most, RADIUS_SHARE * most / fmax(turn, 1e-6));
 }
 
 bool fg__smooth_line(double (**out)[3], int *count, const double (*points)[3],
@@ -66,8 +83,8 @@ bool fg__smooth_line(double (**out)[3], int *count, const double (*points)[3],
   if (good)
     resample(even, samples, points, point_count, length);
   for (int n = 0; good && n < samples; ++n) {
-    const int near = n < samples - 1 - n ? n : samples - 1 - n;
-    average(smooth[n], (const double(*)[3])even, n, near < IN_REACH ? near : IN_REACH);
+    const double(*line)[3] = (const double(*)[3])even;
+    average(smooth[n], line, n, reach_at(line, samples, n));
     most = fmax(most, hypot(smooth[n][0] - even[n][0], smooth[n][1] - even[n][1]));
   }
   if (good && most >= least) {

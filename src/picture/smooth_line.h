@@ -5,9 +5,9 @@
 #include <stdbool.h>
 
 /* Averages a line along itself with a kernel that leaves parabolas as they are (of fourth
- * order: Gasser and Mueller 1979), over `reach` to either side and less towards the ends,
- * which stay. *out is allocated: free it; NULL where no point moves by `least` or more.
- * The third coordinate is 0. False: no memory. */
+ * order: Gasser and Mueller 1979), over `reach` to either side, less on tight arcs and
+ * towards the ends, which stay. *out is allocated: free it; NULL where no point moves by
+ * `least` or more. The third coordinate is 0. False: no memory. */
 bool fg__smooth_line(double (**out)[3], int *count, const double (*points)[3],
                      int point_count, double reach, double least);
 

@@ -47,6 +47,7 @@ static double sharpest(const double (*points)[3], int count)
   return most;
 }
 
+/* One that is tighter than the reach, too. */
 static void even_arcs_stay(void **state)
 {
   (void)state;
@@ -62,6 +63,13 @@ static void even_arcs_stay(void **state)
   for (int n = 0; n < count; ++n)
     assert_true(fabs(smooth[n][1] - parabola(smooth[n][0])) < 1e-3);
   free(smooth);
+  for (int n = 0; n < POINTS; ++n) {
+    line[n][0] = 0.3 * cos(5.0 * n / (POINTS - 1));
+    line[n][1] = 0.3 * sin(5.0 * n / (POINTS - 1));
+  }
+  assert_true(
+      fg__smooth_line(&smooth, &count, (const double(*)[3])line, POINTS, 0.6, 3e-3));
+  assert_null(smooth);
 }
 
 static void kinks_are_rounded_and_ends_stay(void **state)

@@ -89,11 +89,12 @@ static fg__page_plan plan_of(double width, double height, double x, double y, in
     fg__axis_of_numbers(&plan.axis[1], 0.1 * y, 1.1 * y, larger, "y", units);
   }
   fg__axis_of_numbers(&plan.speed, 0.0, 13.7, 13.7, "mean speed", "m s-1");
-  if (style == 2) { /* a label that was asked for, without units */
+  if (style >= 2) { /* a label that was asked for, without units */
     snprintf(plan.speed.label, sizeof plan.speed.label, "%s", title);
     plan.speed.units[0] = '\0';
   }
   plan.color_key = plan.size_key = true;
+  plan.short_key = style == 3;
   plan.speeds_beyond[0] = style == 1;
   plan.speeds_beyond[1] = style > 0;
   plan.arrow_length = 0.13 * sqrt(x * y);
@@ -117,9 +118,9 @@ static void nothing_collides_on_any_page(void **state)
   for (size_t w = 0; w < sizeof widths / sizeof *widths; ++w)
     for (size_t h = 0; h < sizeof heights / sizeof *heights; ++h)
       for (size_t s = 0; s < sizeof shapes / sizeof *shapes; ++s)
-        for (int style = 0; style < 3; ++style) {
+        for (int style = 0; style < 4; ++style) {
           const char *title = titles[(w + h + s + (size_t)style) % 5];
-          double unit = style == 1 ? 1e5 : style == 2 ? 1e-4 : 1.0;
+          double unit = style == 1 ? 1e5 : style >= 2 ? 1e-4 : 1.0;
           double x = unit * shapes[s][0], y = unit * shapes[s][1];
           /* of the squares of a chessboard one colour */
           if ((w + h + s + (size_t)style) % 2 || (style == 0 && (x > 360 || y > 180)))
@@ -173,6 +174,44 @@ static void a_usual_page_has_everything(void **state)
     assert_true(page->frame.x1 - page->frame.x0 > 0.55 * page->width);
     free(page);
   }
+}
+
+/* A short key of colours lies in the middle of its side, and a label that is longer than
+ * it is on one line. */
+static void a_short_key_is_in_the_middle(void **state)
+{
+  (void)state;
+  static const double shapes[][2] = {{360, 170}, {40, 40}};
+  static const char label[] = "speed of the current near the surface";
+  for (int s = 0; s < 2; ++s) {
+    fg__page_plan plan = plan_of(480, 0, shapes[s][0], shapes[s][1], 3, label);
+    fg__page *page = lay_out(&plan);
+    check_page(page, &plan);
+    assert_true(page->has_color_key && page->has_size_key && has_text(page, label));
+    const fg__page_box *f = &page->frame, key = color_key_box(page);
+    const double side = s ? f->y1 - f->y0 : f->x1 - f->x0;
+    const double length = s ? key.y1 - key.y0 : key.x1 - key.x0;
+    const double off =
+        s ? key.y0 + key.y1 - f->y0 - f->y1 : key.x0 + key.x1 - f->x0 - f->x1;
+    assert_true(fabs(length / side - 0.5) < 1e-6);
+    assert_true(fabs(off) < 1e-6 * side);
+    free(page);
+  }
+}
+
+/* A line below the title that is too long is broken between its parts. */
+static void captions_break_between_their_parts(void **state)
+{
+  (void)state;
+  fg__page_plan plan = plan_of(190, 0, 40, 40, 0, "Wind");
+  snprintf(plan.subtitle, sizeof plan.subtitle,
+           "2022-02-21 12:00 \xC2\xB7 depth 0 m \xC2\xB7 80 arrows \xC2\xB7 "
+           "read within 15\xC2\xB0");
+  fg__page *page = lay_out(&plan);
+  check_page(page, &plan);
+  assert_true(has_text(page, "2022-02-21 12:00 \xC2\xB7 depth 0 m \xC2\xB7 80 arrows"));
+  assert_true(has_text(page, "read within 15\xC2\xB0"));
+  free(page);
 }
 
 /* What was asked for is written whole, in as many lines and as small as that takes. */
@@ -423,6 +462,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(nothing_collides_on_any_page),
       cmocka_unit_test(a_usual_page_has_everything),
+      cmocka_unit_test(captions_break_between_their_parts),
+      cmocka_unit_test(a_short_key_is_in_the_middle),
       cmocka_unit_test(long_titles_and_labels_are_broken_or_shrink),
       cmocka_unit_test(a_key_points_at_speeds_beyond),
       cmocka_unit_test(ticks_mark_their_coordinates),
