@@ -14,7 +14,7 @@ static inline double fg__length(const double a[3])
   return sqrt(fg__dot(a, a));
 }
 
-static inline double fg__apart(const double a[3], const double b[3])
+static inline double fg__distance(const double a[3], const double b[3])
 {
   const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
   return fg__length(d);
@@ -28,23 +28,30 @@ static inline void fg__cross(const double a[3], const double b[3], double out[3]
     out[k] = c[k];
 }
 
+/* out = a - b */
+static inline void fg__subtract(const double a[3], const double b[3], double out[3])
+{
+  for (int k = 0; k < 3; ++k)
+    out[k] = a[k] - b[k];
+}
+
 /* out = a + t b */
-static inline void fg__along(const double a[3], double t, const double b[3],
-                             double out[3])
+static inline void fg__add_scaled(const double a[3], double t, const double b[3],
+                                  double out[3])
 {
   for (int k = 0; k < 3; ++k)
     out[k] = a[k] + t * b[k];
 }
 
-/* The point that is a share of the way from one to another. */
-static inline void fg__between(const double a[3], double share, const double b[3],
-                               double out[3])
+/* out = a + t (b - a) */
+static inline void fg__lerp(const double a[3], double t, const double b[3], double out[3])
 {
   for (int k = 0; k < 3; ++k)
-    out[k] = a[k] + share * (b[k] - a[k]);
+    out[k] = a[k] + t * (b[k] - a[k]);
 }
 
-/* Makes a vector one long; false, and unchanged, when it has no direction. */
+/* Scales a vector to length 1; false, and unchanged, where its length is 0 or not finite.
+ */
 static inline int fg__normalise(double a[3])
 {
   double length = fg__length(a);
@@ -55,7 +62,8 @@ static inline int fg__normalise(double a[3])
   return 1;
 }
 
-/* A unit vector across a unit vector, along the coordinate axis that is least in it. */
+/* A unit vector perpendicular to the unit vector a: the coordinate axis of a's smallest
+ * component less its projection on a. */
 static inline void fg__any_normal(const double a[3], double out[3])
 {
   int least = 0;

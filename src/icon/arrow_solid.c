@@ -104,7 +104,8 @@ static int clear_itself(const fg__arc_samples *samples, int tail, int tip, doubl
   int apart = (int)ceil(SEPARATE * head / samples->step);
   for (int i = tip; i - apart >= tail; i--)
     for (int j = i - apart; j >= tail; j--)
-      if (fg__apart(samples->sample[i].position, samples->sample[j].position) < wanted) {
+      if (fg__distance(samples->sample[i].position, samples->sample[j].position) <
+          wanted) {
         tail = j + 1;
         break;
       }

@@ -98,7 +98,7 @@ static double cost_of(const fg__choice *choice, double tail, double tip, double 
     double nearest = HUGE_VAL;
     for (int k = 0; k < ARROW_POINTS; k++) {
       double d[3];
-      fg__along(line[k], -1, chooser->point[i], d);
+      fg__subtract(line[k], chooser->point[i], d);
       double square = fg__dot(d, d);
       nearest = square < nearest ? square : nearest;
     }

@@ -114,7 +114,7 @@ static double length_of(const double (*points)[3], int count)
 {
   double length = 0.0;
   for (int n = 1; n < count; ++n)
-    length += fg__apart(points[n], points[n - 1]);
+    length += fg__distance(points[n], points[n - 1]);
   return length;
 }
 
@@ -133,7 +133,7 @@ static void an_arrow_lies_in_its_cluster_along_the_flow(void **state)
     double middle[3], along[3], v[3], across[3];
     for (int k = 0; k < 3; ++k)
       middle[k] = (icon.points[n][k] + icon.points[n - 1][k]) / 2.0;
-    fg__along(icon.points[n], -1, icon.points[n - 1], along);
+    fg__subtract(icon.points[n], icon.points[n - 1], along);
     velocity_at(middle, v);
     fg__cross(along, v, across);
     angle = fmax(angle, atan2(fg__length(across), fg__dot(along, v)));
@@ -153,7 +153,7 @@ static void an_arrow_lies_in_its_cluster_along_the_flow(void **state)
   }
   double nearest = 1.0;
   for (int n = 0; n < icon.point_count; ++n)
-    nearest = fmin(nearest, fg__apart(icon.center, icon.points[n]));
+    nearest = fmin(nearest, fg__distance(icon.center, icon.points[n]));
   assert_true(nearest < 2.0 / (NODES - 1));
   fg_surface_destroy(solid);
   fg__icon_free(&icon);
@@ -176,7 +176,7 @@ static void a_turned_field_has_turned_icons(void **state)
       for (int n = 0; n < before.point_count; ++n) {
         double turned[3];
         turn_on(&t, before.points[n], turned);
-        worst = fmax(worst, fg__apart(turned, after.points[n]));
+        worst = fmax(worst, fg__distance(turned, after.points[n]));
       }
       assert_true(worst < 1e-6);
       assert_true(fabs(after.speed - before.speed) < 1e-6);

@@ -29,11 +29,11 @@ void fg__icon_set_center(fg_icon *icon, const double center[3])
   for (int i = 0; i + 1 < icon->point_count; i++) {
     const double *p = icon->points[i], *q = icon->points[i + 1];
     double along[3], to[3], on[3], off[3];
-    fg__along(q, -1, p, along);
-    fg__along(center, -1, p, to);
+    fg__subtract(q, p, along);
+    fg__subtract(center, p, to);
     double t = fmin(fmax(fg__dot(to, along) / fg__dot(along, along), 0), 1);
-    fg__along(p, t, along, on);
-    fg__along(center, -1, on, off);
+    fg__add_scaled(p, t, along, on);
+    fg__subtract(center, on, off);
     double distance = hypot3(off);
     if (distance < nearest) {
       nearest = distance;
@@ -45,7 +45,7 @@ void fg__icon_set_center(fg_icon *icon, const double center[3])
 static double piece_of(const fg_icon *icon, int n)
 {
   double along[3];
-  fg__along(icon->points[n], -1, icon->points[n - 1], along);
+  fg__subtract(icon->points[n], icon->points[n - 1], along);
   return hypot3(along);
 }
 

@@ -21,7 +21,7 @@ static const double plump = 1.5;
 
 static double piece_of(const fg_icon *icon, int n, double along[3])
 {
-  fg__along(icon->points[n + 1], -1, icon->points[n], along);
+  fg__subtract(icon->points[n + 1], icon->points[n], along);
   double length = fg__length(along);
   fg__normalise(along);
   return length;
@@ -35,7 +35,7 @@ static double least_radius(const fg_icon *icon)
   double length = piece_of(icon, 0, before);
   for (int n = 1; n + 1 < icon->point_count; ++n) {
     double next = piece_of(icon, n, after);
-    double turning = 2 * asin(fmin(fg__apart(before, after) / 2, 1));
+    double turning = 2 * asin(fmin(fg__distance(before, after) / 2, 1));
     if (turning > 0)
       least = fmin(least, (length + next) / (2 * turning));
     length = next;
@@ -52,7 +52,7 @@ static double straight_end(const fg_icon *icon)
   piece_of(icon, icon->point_count - 2, last);
   for (int n = icon->point_count - 2; n >= 0; --n) {
     double length = piece_of(icon, n, here);
-    if (2 * asin(fmin(fg__apart(last, here) / 2, 1)) > head_turning)
+    if (2 * asin(fmin(fg__distance(last, here) / 2, 1)) > head_turning)
       return passed;
     passed += length;
   }

@@ -85,7 +85,7 @@ static double judge(const fg_icons *icons, fg_context *context, const double cen
       assert_true(depth_at(solid->vertex[i], center) > -0.05 * SPACING[1]);
     }
     const double *tail = icon->points[0], *tip = icon->points[icon->point_count - 1];
-    assert_true(tip[0] - tail[0] > 0.9 * fg__apart(tip, tail));
+    assert_true(tip[0] - tail[0] > 0.9 * fg__distance(tip, tail));
     fg_surface_destroy(solid);
     volume += icon->area;
   }

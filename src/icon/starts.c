@@ -162,7 +162,7 @@ static fg_status try_around(fg__choice *choice, const double center[3])
   double way = ASIDE * fg__interior_distance(choice->interior, center);
   for (int side = 0; side < 4 && status == FG_STATUS_OK; side++) {
     double start[3];
-    fg__along(center, side < 2 ? way : -way, normal[side % 2], start);
+    fg__add_scaled(center, side < 2 ? way : -way, normal[side % 2], start);
     status = fg__choice_try(choice, start);
   }
   return status;
@@ -176,7 +176,7 @@ static fg_status try_farthest(fg__choice *choice, const double middle[3])
   double away[MOST_POINTS];
   int count = chooser->point_count < MOST_POINTS ? chooser->point_count : MOST_POINTS;
   for (int i = 0; i < count; i++)
-    away[i] = fg__apart(chooser->point[i], middle);
+    away[i] = fg__distance(chooser->point[i], middle);
   fg_status status = FG_STATUS_OK;
   for (int n = 0; n < EVERYWHERE_SOLID && n < count && status == FG_STATUS_OK; n++) {
     int farthest = 0;
@@ -185,7 +185,7 @@ static fg_status try_farthest(fg__choice *choice, const double middle[3])
     double start[3];
     memcpy(start, chooser->point[farthest], sizeof start);
     for (int i = 0; i < count; i++)
-      away[i] = fmin(away[i], fg__apart(chooser->point[i], start));
+      away[i] = fmin(away[i], fg__distance(chooser->point[i], start));
     status = fg__choice_try(choice, start);
   }
   return status;

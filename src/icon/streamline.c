@@ -59,7 +59,7 @@ static bool try_step(const tracing *tracer, const double from[3], const double k
                      double step, trial *out)
 {
   double k2[3], k3[3], point[3];
-  fg__along(from, step / 2, k1, point);
+  fg__add_scaled(from, step / 2, k1, point);
   if (!find_direction(tracer, point, k2) || fg__dot(k1, k2) < LARGEST_TURN_COSINE)
     return false;
   for (int a = 0; a < 3; a++)

@@ -126,7 +126,7 @@ static bool place_parts(double (*up)[3], const line *at, int i, int parts,
   double mean[3];
   for (int k = 0; k < 3; ++k)
     mean[k] = 0.25 * (a[k] + b[k] + c[k] + d[k]);
-  if (!(fg__apart(mean, middle) < STRAIGHT * fg__apart(a, d)))
+  if (!(fg__distance(mean, middle) < STRAIGHT * fg__distance(a, d)))
     return false;
   for (int part = 0; part < parts * parts; ++part) {
     const double s = (part % parts + 0.5) / parts, t = (part / parts + 0.5) / parts;

@@ -55,7 +55,7 @@ static fg_status add_pieces(fg__weighted *out, size_t *count, fg_context *contex
   fg_status status = fg__arrow_speeds(&speed, context, field, icon);
   for (int n = 0; n + 1 < icon->point_count && !status; ++n)
     out[(*count)++] = (fg__weighted){(speed[n] + speed[n + 1]) / 2.0,
-                                     fg__apart(icon->points[n], icon->points[n + 1])};
+                                     fg__distance(icon->points[n], icon->points[n + 1])};
   free(speed);
   return status;
 }

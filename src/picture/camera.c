@@ -31,7 +31,7 @@ void fg__view_box_of(fg__view_box *out, const fg_field_arrays *field)
 static void see(const fg__camera *camera, const double point[3], double out[2])
 {
   double to[3];
-  fg__along(point, -1, camera->eye, to);
+  fg__subtract(point, camera->eye, to);
   double depth = fg__dot(to, camera->forward);
   out[0] = fg__dot(to, camera->right) / depth;
   out[1] = fg__dot(to, camera->up) / depth;
@@ -79,8 +79,9 @@ void fg__camera_project(const fg__camera *camera, const double point[3], double 
 
 void fg__camera_ray(const fg__camera *camera, double x, double y, double direction[3])
 {
-  fg__along(camera->forward, (x - camera->x) / camera->factor, camera->right, direction);
-  fg__along(direction, (camera->y - y) / camera->factor, camera->up, direction);
+  fg__add_scaled(camera->forward, (x - camera->x) / camera->factor, camera->right,
+                 direction);
+  fg__add_scaled(direction, (camera->y - y) / camera->factor, camera->up, direction);
   fg__normalise(direction);
 }
 

@@ -17,7 +17,7 @@ static bool everywhere(const double place[3], double velocity[3])
 static bool round_a_ball(const double place[3], double velocity[3])
 {
   velocity[1] = 2.0;
-  return fg__apart(place, middle) > 0.31;
+  return fg__distance(place, middle) > 0.31;
 }
 
 /* Along an upright vessel, which fills a fortieth of the box, and noise outside. */
@@ -54,7 +54,7 @@ static double volume_round(const fg_surface *s, const double center[3])
   for (int n = 0; n < s->triangle_count; ++n) {
     double to[3][3], across[3];
     for (int c = 0; c < 3; ++c)
-      fg__along(s->vertex[s->corner[s->triangle[n][c]]], -1, center, to[c]);
+      fg__subtract(s->vertex[s->corner[s->triangle[n][c]]], center, to[c]);
     fg__cross(to[1], to[2], across);
     sum += fg__dot(to[0], across) / 6.0;
   }
@@ -69,7 +69,7 @@ static void a_hole_is_shown(void **state)
   assert_int_equal(fg__silhouette_create(&surface, NULL, field), FG_STATUS_OK);
   assert_non_null(surface);
   for (int n = 0; n < surface->vertex_count; ++n) {
-    double radius = fg__apart(surface->vertex[n], middle);
+    double radius = fg__distance(surface->vertex[n], middle);
     assert_true(radius > 0.27 && radius < 0.40); /* cells with a missing corner count */
   }
   /* the flow is outside: normals point into the ball */

@@ -63,7 +63,7 @@ static double length_of(const fg_icon *icon)
 {
   double length = 0.0;
   for (int n = 0; n + 1 < icon->point_count; ++n)
-    length += fg__apart(icon->points[n], icon->points[n + 1]);
+    length += fg__distance(icon->points[n], icon->points[n + 1]);
   return length;
 }
 
@@ -74,7 +74,7 @@ static fg_status add_icon(crowd *out, fg_context *context, const fg__view_box *v
   fg_status status = FG_STATUS_OK;
   for (int n = 0; n + 1 < icon->point_count && !status; ++n) {
     const double *from = icon->points[n], *to = icon->points[n + 1];
-    double piece = fg__apart(from, to);
+    double piece = fg__distance(from, to);
     int parts = (int)fmin(fmax(ceil(piece * view_box->scale / longest_step), 1.0), 1e4);
     for (int m = 0; m < parts && !status; ++m) {
       double t = (double)m / parts, at = passed + t * piece;
@@ -128,7 +128,7 @@ static double merit_of(const crowd *all, const fg__camera *camera, shade *seen,
       depth[y][x] = INFINITY;
   for (size_t n = 0; n < all->count; ++n) {
     double to[3];
-    fg__along(all->ball[n].place, -1, camera->eye, to);
+    fg__subtract(all->ball[n].place, camera->eye, to);
     fg__camera_project(camera, all->ball[n].place, seen[n].pixel);
     seen[n].depth = fg__dot(to, camera->forward);
     seen[n].radius = all->ball[n].radius * camera->factor / seen[n].depth;
@@ -138,7 +138,7 @@ static double merit_of(const crowd *all, const fg__camera *camera, shade *seen,
     double piece = hypot(seen[n + 1].pixel[0] - seen[n].pixel[0],
                          seen[n + 1].pixel[1] - seen[n].pixel[1]);
     if (all->ball[n].counts > 0.0 && is_seen(depth, &seen[n]) &&
-        fg__apart(all->ball[n].place, all->ball[n + 1].place) < 2.0 * longest_step)
+        fg__distance(all->ball[n].place, all->ball[n + 1].place) < 2.0 * longest_step)
       sum += all->ball[n].counts * piece * distance / camera->factor;
   }
   return sum;

@@ -117,7 +117,7 @@ static double keep_inside(double (*points)[3], int *count, const fg__domain *dom
       length = 0;
       continue;
     }
-    length += fg__apart(points[i], points[i - 1]);
+    length += fg__distance(points[i], points[i - 1]);
     if (length > longest) {
       longest = length;
       first = begin;

@@ -63,7 +63,7 @@ static void vessel(const double x[3], double v[3])
 {
   const double center[3] = {3, 6, 15};
   whirl(x, v);
-  if (fg__apart(x, center) < 2 || x[0] + x[2] < 9)
+  if (fg__distance(x, center) < 2 || x[0] + x[2] < 9)
     v[0] = (double)NAN;
 }
 
@@ -111,8 +111,8 @@ static void assert_fits(const fg_icon *icon, const fg_field *field, bool curved)
     const double *p = icon->points[i - 1], *q = icon->points[i];
     for (int n = 0; n <= 4; n++) {
       double point[3], tangent[3], piece[3];
-      fg__along(q, -1, p, piece);
-      fg__along(p, n / 4.0, piece, point);
+      fg__subtract(q, p, piece);
+      fg__add_scaled(p, n / 4.0, piece, point);
       assert_true(is_in_box(field, point));
       assert_true(fg_field_tangent(field, point, tangent) || n % 2);
       if (n != 2 || !curved)
@@ -204,7 +204,7 @@ static double distance_to(const fg__domain *domain, const double place[3],
   double least = HUGE_VAL;
   for (int i = 0; i < count; i++) {
     double way[3];
-    fg__along(place, -1, points[i], way);
+    fg__subtract(place, points[i], way);
     fg__domain_shortest(domain, way);
     least = fmin(least, fg__length(way));
   }
@@ -270,7 +270,7 @@ static void turned_axes_turn_the_seeds(void **state)
         double back[3];
         for (int k = 0; k < 3; k++)
           back[k] = lloyd[turn].center[m][(k + turn) % 3];
-        nearest = fmin(nearest, fg__apart(back, lloyd[0].center[n]));
+        nearest = fmin(nearest, fg__distance(back, lloyd[0].center[n]));
       }
       assert_true(nearest < 0.05);
     }

@@ -203,9 +203,9 @@ static void find_middle(fg__spine *spine)
   memcpy(spine->middle, spine->point[0], sizeof spine->middle);
   for (int n = 1; n < spine->count; ++n) {
     const double *a = spine->point[n - 1], *b = spine->point[n];
-    double piece = fg__apart(a, b);
+    double piece = fg__distance(a, b);
     if (piece >= left && piece > 0.0) {
-      fg__between(a, left / piece, b, spine->middle);
+      fg__lerp(a, left / piece, b, spine->middle);
       spine->center = n - 1;
       return;
     }

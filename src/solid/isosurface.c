@@ -119,8 +119,8 @@ static bool add_triangle(isosurface *s, const int v[3])
                 (size_t)out->triangle_count + 1, sizeof *out->triangle))
     return false;
   double a[3], b[3], face[3], side = 0.0;
-  fg__along(out->vertex[v[1]], -1, out->vertex[v[0]], a);
-  fg__along(out->vertex[v[2]], -1, out->vertex[v[0]], b);
+  fg__subtract(out->vertex[v[1]], out->vertex[v[0]], a);
+  fg__subtract(out->vertex[v[2]], out->vertex[v[0]], b);
   fg__cross(a, b, face);
   for (int n = 0; n < 3; ++n)
     for (int k = 0; k < 3; ++k)

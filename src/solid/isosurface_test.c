@@ -97,7 +97,7 @@ static void a_ball_is_a_closed_surface(void **state)
                             1.0 + 0.48 * D * SPACING[2]};
   for (int n = 0; n < s->corner_count; ++n) {
     double out[3];
-    fg__along(s->vertex[s->corner[n]], -1, middle, out);
+    fg__subtract(s->vertex[s->corner[n]], middle, out);
     assert_true(fabs(fg__length(out) - 1.1) < 0.02);
     assert_true(fg__normalise(out));
     const float *f = s->normal[n];

@@ -37,7 +37,7 @@ static double length_of(const fg_icon *icon)
 {
   double length = 0;
   for (int i = 1; i < icon->point_count; i++)
-    length += fg__apart(icon->points[i], icon->points[i - 1]);
+    length += fg__distance(icon->points[i], icon->points[i - 1]);
   return length;
 }
 
@@ -50,11 +50,11 @@ static void add_sections(shape *out, const fg_icon *icon, const double *value,
   double passed = 0, slope = (radius_last - radius_first) / (s[count - 1] - s[0]);
   int piece = 0;
   for (int n = 0; n < count; n++) {
-    double length = fg__apart(icon->points[piece + 1], icon->points[piece]);
+    double length = fg__distance(icon->points[piece + 1], icon->points[piece]);
     while (piece + 2 < icon->point_count && passed + length < s[n]) {
       passed += length;
       piece++;
-      length = fg__apart(icon->points[piece + 1], icon->points[piece]);
+      length = fg__distance(icon->points[piece + 1], icon->points[piece]);
     }
     double t = length > 0 ? fmin(fmax((s[n] - passed) / length, 0), 1) : 0;
     section *add = &out->section[out->count++];
@@ -159,7 +159,7 @@ static int add_ring(fg_surface *out, const shape *s, int n)
   for (int side = 0; side < SIDES; side++) {
     double away[3], position[3];
     radial(s, n, side, 0, away);
-    fg__along(s->section[n].position, s->section[n].radius, away, position);
+    fg__add_scaled(s->section[n].position, s->section[n].radius, away, position);
     add_vertex(out, position);
   }
   return first;
@@ -172,7 +172,7 @@ static int add_side_corners(fg_surface *out, const shape *s, int n, int ring)
   for (int side = 0; side < SIDES; side++) {
     double normal[3];
     radial(s, n, side, 0, normal);
-    fg__along(normal, -s->section[n].slope, s->tangent[n], normal);
+    fg__add_scaled(normal, -s->section[n].slope, s->tangent[n], normal);
     add_corner(out, ring + side, normal);
   }
   return first;
@@ -214,7 +214,7 @@ static void add_tip(fg_surface *out, const shape *s, int corners)
   for (int side = 0; side < SIDES; side++) {
     double normal[3];
     radial(s, last, side, 0.5, normal);
-    fg__along(normal, -s->section[last].slope, s->tangent[last], normal);
+    fg__add_scaled(normal, -s->section[last].slope, s->tangent[last], normal);
     int tip = add_corner(out, vertex, normal);
     add_triangle(out, corners + side, corners + (side + 1) % SIDES, tip);
   }

@@ -66,8 +66,8 @@ static void expect_normals(const fg_surface *s)
   for (int n = 0; n < s->triangle_count; ++n) {
     const int *t = s->triangle[n];
     double a[3], b[3], face[3];
-    fg__along(s->vertex[s->corner[t[1]]], -1, s->vertex[s->corner[t[0]]], a);
-    fg__along(s->vertex[s->corner[t[2]]], -1, s->vertex[s->corner[t[0]]], b);
+    fg__subtract(s->vertex[s->corner[t[1]]], s->vertex[s->corner[t[0]]], a);
+    fg__subtract(s->vertex[s->corner[t[2]]], s->vertex[s->corner[t[0]]], b);
     fg__cross(a, b, face);
     assert_true(fg__normalise(face));
     for (int k = 0; k < 3; ++k) {

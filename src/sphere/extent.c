@@ -101,8 +101,8 @@ static double area_of(const fg__sphere *sphere, const int point[4], int corners)
   const double *r = sphere->position + 3 * (size_t)point[2];
   const double *s = sphere->position + 3 * (size_t)point[corners - 1];
   double a[3], b[3], normal[3];
-  fg__along(r, -1.0, p, a);
-  fg__along(s, -1.0, q, b);
+  fg__subtract(r, p, a);
+  fg__subtract(s, q, b);
   fg__cross(a, b, normal);
   return 0.5 * fg__length(normal);
 }

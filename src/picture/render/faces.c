@@ -48,7 +48,7 @@ static void place_of(const maker *m, const surface_use *use, int corner, double 
 static void project(const fg__camera *camera, const double place[3], double out[3])
 {
   double to[3];
-  fg__along(place, -1, camera->eye, to);
+  fg__subtract(place, camera->eye, to);
   out[2] = fg__dot(to, camera->forward);
   out[0] = camera->x * out[2] + camera->factor * fg__dot(to, camera->right);
   out[1] = camera->y * out[2] - camera->factor * fg__dot(to, camera->up);
@@ -116,7 +116,7 @@ static void add_corners(const maker *m, fg__faces *faces, const surface_use *use
     project(camera, place, corner->at);
     if (outwards) {
       double width = m->about->halo * corner->at[2] / camera->factor;
-      fg__along(place, width, outwards[surface->corner[n]], place);
+      fg__add_scaled(place, width, outwards[surface->corner[n]], place);
       project(camera, place, corner->at);
     }
     for (int k = 0; k < 3; ++k)
@@ -161,8 +161,8 @@ static fg_status add_halo(const maker *m, const surface_use *use)
 static bool casts_shadows(const fg__caster *caster)
 {
   double one[3], other[3], normal[3];
-  fg__along(caster->at[1], -1, caster->at[0], one);
-  fg__along(caster->at[2], -1, caster->at[0], other);
+  fg__subtract(caster->at[1], caster->at[0], one);
+  fg__subtract(caster->at[2], caster->at[0], other);
   fg__cross(one, other, normal);
   return caster->clipped || normal[2] > -steepest_light * fg__length(normal);
 }
@@ -244,7 +244,7 @@ static fg_icon legible(const fg__rendering *about, const fg_icon *icon)
   fg_icon out = *icon;
   double length = 0.0, pixel = fg__length(camera->eye) / camera->factor;
   for (int n = 0; n + 1 < icon->point_count; ++n)
-    length += fg__apart(icon->points[n], icon->points[n + 1]);
+    length += fg__distance(icon->points[n], icon->points[n + 1]);
   double least =
       fmin(about->least_head * pixel / about->view_box.scale, head_share * length);
   double factor = icon->head_length > 0.0 ? fmax(least / icon->head_length, 1.0) : 1.0;
@@ -259,14 +259,14 @@ static fg_icon legible(const fg__rendering *about, const fg_icon *icon)
 static bool is_straight(const fg_icon *icon, int from, int to, double pixel)
 {
   double along[3];
-  fg__along(icon->points[to], -1, icon->points[from], along);
+  fg__subtract(icon->points[to], icon->points[from], along);
   double length = fg__length(along);
   if (!(length > 0.0) || length > longest_piece * pixel)
     return false;
   for (int n = from + 1; n < to; ++n) {
     double way[3], across[3];
-    fg__along(icon->points[n], -1, icon->points[from], way);
-    fg__along(way, -fg__dot(way, along) / (length * length), along, across);
+    fg__subtract(icon->points[n], icon->points[from], way);
+    fg__add_scaled(way, -fg__dot(way, along) / (length * length), along, across);
     if (!(fg__length(across) < most_deviation * pixel))
       return false;
   }

@@ -100,7 +100,7 @@ fg__light fg__light_arrow(const fg__tones *tones, fg__color color, const fg__lit
   double light = lamp_share * facing + sky_share * (0.7 + 0.3 * lit->normal[2]) +
                  viewer_share * fmax(fg__dot(lit->normal, lit->to_viewer), 0.0);
   double half[3];
-  fg__along(lit->lamp, 1, lit->to_viewer, half);
+  fg__add_scaled(lit->lamp, 1, lit->to_viewer, half);
   fg__normalise(half);
   double glint = glint_of(fmax(fg__dot(lit->normal, half), 0.0)), level[3];
   const double given[3] = {color.red, color.green, color.blue};

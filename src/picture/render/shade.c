@@ -72,10 +72,10 @@ static fg__light light_ground(const fg__shading *s, fg__shade_at *p)
   if (!about->walls || !cross_box(about, p->direction, 0.0, &box))
     return (fg__light){0};
   p->seen = FG__SEEN_EDGE;
-  fg__along(about->camera.eye, box.enter, p->direction, place);
+  fg__add_scaled(about->camera.eye, box.enter, p->direction, place);
   if (on_edge(about, box.door, place, box.enter))
     return fg__light_edge(&s->tones, depth_of(s, box.enter));
-  fg__along(about->camera.eye, box.leave, p->direction, place);
+  fg__add_scaled(about->camera.eye, box.leave, p->direction, place);
   if (on_edge(about, box.exit, place, box.leave))
     return fg__light_edge(&s->tones, depth_of(s, box.leave));
   p->seen = FG__SEEN_WALL + box.exit;
@@ -127,7 +127,7 @@ static fg__light light_layer(const fg__shading *s, const fg__layer *layer,
     return fg__light_isosurface(&lit);
   const fg__rendering *about = s->about;
   double width = 2.0 * half_line * distance / about->camera.factor;
-  fg__along(about->camera.eye, distance, direction, place);
+  fg__add_scaled(about->camera.eye, distance, direction, place);
   bool cut = false;
   for (int k = 0; k < 3; ++k)
     cut = cut || (!(about->view_box.period[k] > 0.0) && fabs(normal[k]) < upright &&
@@ -190,7 +190,7 @@ static void find_depths(fg__shading *s)
       s->low[k] = c > 0 ? fg__least(s->low[k], at[k]) : at[k];
       s->high[k] = c > 0 ? fg__most(s->high[k], at[k]) : at[k];
     }
-    double distance = fg__apart(corner, s->about->camera.eye);
+    double distance = fg__distance(corner, s->about->camera.eye);
     s->nearest = fmin(s->nearest, distance);
     s->farthest = fmax(s->farthest, distance);
   }

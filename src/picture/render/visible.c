@@ -61,8 +61,8 @@ INLINE bool weigh(const edges *e, double x, double y, double weight[3])
 static void way_to(const fg__camera *camera, double x, double y, double depth,
                    double out[3])
 {
-  fg__along(camera->forward, (x - camera->x) / camera->factor, camera->right, out);
-  fg__along(out, (camera->y - y) / camera->factor, camera->up, out);
+  fg__add_scaled(camera->forward, (x - camera->x) / camera->factor, camera->right, out);
+  fg__add_scaled(out, (camera->y - y) / camera->factor, camera->up, out);
   for (int k = 0; k < 3; ++k)
     out[k] *= depth;
 }

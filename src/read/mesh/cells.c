@@ -20,7 +20,7 @@ static double distance(const fg__nc_positions *at, size_t a, size_t b)
   double one[3], other[3];
   fg__nc_unit_vector(one, at, a);
   fg__nc_unit_vector(other, at, b);
-  return fg__apart(one, other);
+  return fg__distance(one, other);
 }
 
 /* The distance of the first column's points from those of another, in steps along i: the

@@ -148,7 +148,7 @@ static double misfit(const lattice *component, const lattice *centre, int k, int
       place_of(own, component, i, j);
       if (!half_way(between, centre, i, j, k, side) || !isfinite(own[0]))
         continue;
-      sum += fg__apart(own, between);
+      sum += fg__distance(own, between);
       ++count;
     }
   return count > 0 ? sum / (double)count : HUGE_VAL;
@@ -165,7 +165,7 @@ static double misfit_between(const lattice *u, const lattice *v, const int side[
       double a[3], b[3];
       if (!half_way(a, u, i, j, 0, side[0]) || !half_way(b, v, i, j, 1, side[1]))
         continue;
-      sum += fg__apart(a, b);
+      sum += fg__distance(a, b);
       ++count;
     }
   return count > 0 ? sum / (double)count : HUGE_VAL;
@@ -181,7 +181,7 @@ static double apart(const lattice *u, const lattice *v)
       place_of(of_u, u, i, j);
       place_of(of_v, v, i, j);
       place_of(next, u, i + 1, j);
-      const double here = fg__apart(of_u, of_v), step = fg__apart(of_u, next);
+      const double here = fg__distance(of_u, of_v), step = fg__distance(of_u, next);
       if (!isfinite(here) || !isfinite(step))
         continue;
       sum += here;

@@ -73,7 +73,7 @@ static fg_status add_sides(seeding *work)
     double side[SIDES_IN_SPACE][3];
     int count = find_sides(work, points->tangent[i], side);
     for (int n = 0; n < count; n++)
-      fg__along(points->position[i], away, side[n], work->side[work->sides++]);
+      fg__add_scaled(points->position[i], away, side[n], work->side[work->sides++]);
   }
   return FG_STATUS_OK;
 }

@@ -186,7 +186,7 @@ static double distance_to(const fg_icon *icon, const double place[3])
 {
   double least = HUGE_VAL;
   for (int i = 0; i < icon->point_count; ++i)
-    least = fmin(least, fg__apart(icon->points[i], place));
+    least = fmin(least, fg__distance(icon->points[i], place));
   return least;
 }
 
