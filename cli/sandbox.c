@@ -159,9 +159,9 @@ void do_in_child(child_outcome *out, void (*work)(void *), void *data,
   if (pipe(ends) != 0)
     return; /* no process to be had: the reading itself will show */
   /* where this process was told to ignore it, a child's end would not be told */
-  struct sigaction before, usual = {.sa_handler = SIG_DFL};
-  sigemptyset(&usual.sa_mask);
-  sigaction(SIGCHLD, &usual, &before);
+  struct sigaction before, standard = {.sa_handler = SIG_DFL};
+  sigemptyset(&standard.sa_mask);
+  sigaction(SIGCHLD, &standard, &before);
   fflush(stdout);
   pid_t own = getpid(), child = fork();
   if (child == 0) {
@@ -178,7 +178,7 @@ void do_in_child(child_outcome *out, void (*work)(void *), void *data,
 typedef struct reading {
   const char *input;
   const fg_read_options *options;
-  int slab, slabs; /* none: the inventory; -1: what is usual */
+  int slab, slabs; /* none: the inventory; -1: the defaults */
 } reading;
 
 static void read_once(void *data)
@@ -191,10 +191,10 @@ static void read_once(void *data)
     return;
   fg_read_options options = r->options ? *r->options : (fg_read_options){0};
   options.map = NULL; /* no work of the library in question */
-  fg_usual usual;
+  fg_read_defaults defaults;
   fg_status status;
   if (r->slabs < 0) {
-    fg_usual_find(&usual, context, r->input, &options);
+    fg_read_defaults_find(&defaults, context, r->input, &options);
     return;
   }
   if (r->options && r->slabs)
@@ -293,7 +293,7 @@ int sandbox_inventory(const char *input, const fg_read_options *options)
   return sandbox_reading_part(input, options, 0, 0);
 }
 
-int sandbox_usual(const char *input, const fg_read_options *options)
+int sandbox_defaults(const char *input, const fg_read_options *options)
 {
   return sandbox_reading_part(input, options, 0, -1);
 }

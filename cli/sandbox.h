@@ -23,7 +23,7 @@ typedef struct child_outcome {
 void do_in_child(child_outcome *out, void (*work)(void *), void *data,
                  const child_bounds *bounds);
 
-/* The HDF5 library under NetCDF-4 can crash on damaged metadata, and ask for any amount
+/* The HDF5 library under NetCDF-4 can crash on damaged metadata, and allocate any amount
  * of memory, and ecCodes can on damaged messages. So a file of these kinds is first read
  * by a child process: when that dies or fails, complains and returns EXIT_FAILED, else
  * EXIT_DONE. With options as fg_field_read would, with NULL as fg_inventory_read. */
@@ -32,8 +32,8 @@ int sandbox_reading(const char *input, const fg_read_options *options);
 /* The same for fg_inventory_read_chosen; options must not be NULL. */
 int sandbox_inventory(const char *input, const fg_read_options *options);
 
-/* The same for fg_usual_find, but what only fails there is no complaint. */
-int sandbox_usual(const char *input, const fg_read_options *options);
+/* The same for fg_read_defaults_find; of its failures only a crash is reported. */
+int sandbox_defaults(const char *input, const fg_read_options *options);
 
 /* The same for fg_field_read_slab; options must not be NULL. */
 int sandbox_reading_part(const char *input, const fg_read_options *options, int slab,

@@ -18,14 +18,15 @@ static int name_count(const fg_inventory_vector *vector)
 
 /* All of them, or the first and last few. */
 static void print_values(const char *what, const fg_axis_value *values, int count,
-                         int usual)
+                         int default_index)
 {
   enum { MOST = 12, FIRST = 8, LAST = 2 };
   char text[CLEAN_BYTES];
   printf("  %s: %d\n", what, count);
   for (int n = 0; n < count && values && count > 0; ++n) {
     printf("    %d: %s%s\n", n, clean_text(text, values[n].words),
-           usual > 0 && n == usual ? " (read unless --level says another)" : "");
+           default_index > 0 && n == default_index ? " (read unless --level says another)"
+                                                   : "");
     if (count > MOST && n == FIRST - 1) {
       puts("    ...");
       n = count - LAST - 1;
@@ -35,8 +36,8 @@ static void print_values(const char *what, const fg_axis_value *values, int coun
 
 static const char *axis_of(const fg_inventory_vector *vector, int k)
 {
-  static const char *const usual[] = {"x", "y", "z"};
-  return vector->axis_name[k] ? vector->axis_name[k] : usual[k];
+  static const char *const standard[] = {"x", "y", "z"};
+  return vector->axis_name[k] ? vector->axis_name[k] : standard[k];
 }
 
 static void print_vector(const fg_inventory_vector *vector)
@@ -216,8 +217,9 @@ static bool chooses(const reading_settings *reading)
          reading->frame || reading->scale;
 }
 
-/* Lists the vector that is asked for, with the grid that it is read on: at the first
- * time, or where there is nothing then, as in models that start from rest, the last. */
+/* Lists the vector that the options choose, with the grid that it is read on: at the
+ * first time, or where there is nothing then, as in models that start from rest, the
+ * last. */
 static fg_status list_chosen(listing *list, fg_context *context,
                              const fg_read_options *options)
 {

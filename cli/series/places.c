@@ -62,25 +62,25 @@ static int read_vector(chosen_places *out, fg_context *context,
   return EXIT_FAILED;
 }
 
-/* The level that is usual, where none is asked for, and a word on what the file lacks.
- * What is wrong with the file its reading will say. */
-static int find_usual(int *level, fg_context *context, const reading_settings *settings,
-                      bool quiet)
+/* The default level where none is given; prints which coordinates the file lacks. A file
+ * that cannot be read is reported when it is read. */
+static int find_defaults(int *level, fg_context *context,
+                         const reading_settings *settings, bool quiet)
 {
   char words[CLEAN_BYTES];
-  fg_usual usual;
+  fg_read_defaults defaults;
   const fg_read_options options = settings_reading(settings);
   *level = 0;
-  if (sandbox_usual(settings->input, &options))
+  if (sandbox_defaults(settings->input, &options))
     return EXIT_FAILED;
-  if (fg_usual_find(&usual, context, settings->input, &options)) {
+  if (fg_read_defaults_find(&defaults, context, settings->input, &options)) {
     fg_context_clear(context);
     return EXIT_DONE;
   }
-  *level = settings->level_text ? 0 : usual.level;
-  if (usual.absent[0] && !quiet)
+  *level = settings->level_text ? 0 : defaults.level;
+  if (defaults.absent[0] && !quiet)
     fprintf(stderr, "flowgrain: %s: its coordinates are not in the file: %s\n",
-            inputs_name(settings->input), clean_text(words, usual.absent));
+            inputs_name(settings->input), clean_text(words, defaults.absent));
   return EXIT_DONE;
 }
 
@@ -91,7 +91,7 @@ int places_find(chosen_places *out, const reading_settings *settings, bool quiet
   int code = create_context(&context), level = 0;
   if (code)
     return code;
-  code = find_usual(&level, context, settings, quiet);
+  code = find_defaults(&level, context, settings, quiet);
   if (!code && (!is_plain(settings->time_text) || !is_plain(settings->level_text)))
     code = read_vector(out, context, settings);
   const fg_inventory_vector *vector = out->vector;

@@ -1,4 +1,4 @@
-/* Times and levels that are asked for by index, value, date, range or `all`, found in the
+/* Times and levels that are chosen by index, value, date, range or `all`, found in the
  * input. */
 #ifndef SERIES_PLACES_H
 #define SERIES_PLACES_H
@@ -6,13 +6,13 @@
 #include "option/settings.h"
 
 typedef struct chosen_places {
-  fg_inventory *inventory; /* NULL: nothing but indices was asked for, or nothing */
+  fg_inventory *inventory;           /* NULL: only indices, or nothing, were given */
   const fg_inventory_vector *vector; /* of it, the one that is read */
   fg_selection time, level;
 } chosen_places;
 
 /* Finds them, in the input's metadata unless all are plain indices. Prints which value
- * was taken where the one asked for is not there, and complains where none is near.
+ * was taken where the one given is not there, and complains where none is near.
  * Returns an exit code. */
 int places_find(chosen_places *out, const reading_settings *settings, bool quiet);
 void places_clear(chosen_places *places);

@@ -32,11 +32,11 @@
  * All of this is made of parts that can be called alone; examples/ has programs.
  *
  * The manual is the headers that this one includes: context.h (statuses, messages,
- * ranks), field.h, map.h and slabs.h (in), evolution.h, energy.h and checkpoint.h (the
- * work), density.h and icons.h (its results), placement.h (exactly N arrows), run.h
- * (scales), picture.h, view.h, solid.h, texture.h and brush.h (out), rival.h (what to
- * compare with), score.h (how good it is); and mpi.h (several processes), which it does
- * not include. Each can be included alone.
+ * ranks), field.h, inventory.h, map.h and slabs.h (in), evolution.h, energy.h and
+ * checkpoint.h (the work), density.h and icons.h (its results), placement.h (exactly N
+ * arrows), run.h (scales), picture.h, view.h, solid.h, texture.h and brush.h (out),
+ * rival.h (what to compare with), score.h (how good it is); and mpi.h (several
+ * processes), which it does not include. Each can be included alone.
  *
  * The library flowgrain_core is this one without files: what reads or writes them,
  * checkpoints and all of picture.h, texture.h, brush.h and rival.h are not in it.
@@ -68,6 +68,7 @@
 #include "flowgrain/evolution.h"
 #include "flowgrain/field.h"
 #include "flowgrain/icons.h"
+#include "flowgrain/inventory.h"
 #include "flowgrain/map.h"
 #include "flowgrain/picture.h"
 #include "flowgrain/placement.h"

@@ -3,8 +3,8 @@
 #ifndef FLOWGRAIN_MAP_H
 #define FLOWGRAIN_MAP_H
 
-#include "flowgrain/field.h"
 #include "flowgrain/icons.h"
+#include "flowgrain/inventory.h"
 
 #ifdef __cplusplus
 extern "C" {

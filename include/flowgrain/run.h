@@ -101,7 +101,7 @@ FG_API int fg_run_wanted(const int **wanted, int *next, const fg_run *run);
  * negative while there is none; the number of clusters is taken to fall as t^-0.43. */
 FG_API void fg_run_progress(double *share, double *seconds_left, const fg_run *run);
 
-/* The run's evolution, to be saved, described and asked for densities. */
+/* The run's evolution, borrowed: to save or describe it, or to copy its density. */
 FG_API fg_evolution *fg_run_evolution(const fg_run *run);
 
 /* Makes the icons of a scale of exactly `count` arrows. density: not distributed; the

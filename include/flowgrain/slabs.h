@@ -20,7 +20,7 @@ FG_API fg_status fg_field_read_slab(fg_field **out, fg_context *context,
 /* Makes one field of the slabs that all ranks have read, slab `rank` each: checks it as
  * fg_field_read does, on all ranks. From then on it can be given to fg_evolution_create
  * and, with a distributed density, to fg_icons_create, which exchange its samples. On
- * rank 0 it can be drawn. Functions that ask for a velocity or write it use its own rows
+ * rank 0 it can be drawn. Functions that evaluate or write it use the rank's rows alone,
  * or fail. A field that one rank holds whole stays as it is. Collective. ARGUMENT (slabs
  * of different fields), FILE_FORMAT, MEMORY, MPI. */
 FG_API fg_status fg_field_join(fg_context *context, fg_field *field);

@@ -60,9 +60,9 @@ typedef struct fg__format {
    * found among all by --vars, or the first that can be read. */
   fg_status (*inventory_chosen)(fg_inventory *inventory, fg_context *context,
                                 const fg__source *source, const fg_read_options *options);
-  /* fg_usual_find; NULL: there is nothing to say. */
-  fg_status (*usual)(fg_usual *out, fg_context *context, const fg__source *source,
-                     const fg_read_options *options);
+  /* fg_read_defaults_find; NULL: level 0, and all coordinates are there. */
+  fg_status (*defaults)(fg_read_defaults *out, fg_context *context,
+                        const fg__source *source, const fg_read_options *options);
   fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
                     const fg_read_options *options, fg__slab_index slab);
   /* Vectors whose points lie on no two axes, as a field on the sphere; *out stays NULL
@@ -104,7 +104,7 @@ const char *fg__input_name(const fg_context *context, const char *input);
 /* Finds the format of bytes; NULL when no reader knows them. */
 const fg__format *fg__format_find(const unsigned char *bytes, size_t size);
 
-/* Opens a file and finds its format, the one that is asked for or that knows its bytes.
+/* Opens a file and finds its format: fg_input_options.format, or the one of its bytes.
  * To be closed even after a failure. FILE_ACCESS, FILE_FORMAT (unknown), ARGUMENT (no
  * such name), UNSUPPORTED (not in this build). */
 fg_status fg__source_open_known(fg__source *out, const fg__format **format,

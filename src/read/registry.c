@@ -37,7 +37,7 @@ static bool is_called(const fg__format *format, const char *word)
   return *name == '\0' || *name == ' ';
 }
 
-/* The format that is asked for; of two of a name the one that knows the bytes. */
+/* The format of a name; of two of that name the one that knows the bytes. */
 static fg_status find_named(const fg__format **out, fg_context *context, const char *word,
                             const fg__source *source)
 {
@@ -334,20 +334,20 @@ fg_status fg_inventory_read_chosen(fg_inventory **out, fg_context *context,
   return read_inventory(out, context, input, options ? options : &defaults);
 }
 
-fg_status fg_usual_find(fg_usual *out, fg_context *context, const char *input,
-                        const fg_read_options *options)
+fg_status fg_read_defaults_find(fg_read_defaults *out, fg_context *context,
+                                const char *input, const fg_read_options *options)
 {
   static const fg_read_options defaults = {0};
   if (!out || !input)
     return fg__fail(context, FG_STATUS_ARGUMENT, "no input to look at");
-  *out = (fg_usual){0};
+  *out = (fg_read_defaults){0};
   if (is_synthetic(input))
     return FG_STATUS_OK;
   fg__source source;
   const fg__format *format;
   fg_status status = fg__source_open_known(&source, &format, context, input);
-  if (status == FG_STATUS_OK && format->usual)
-    status = format->usual(out, context, &source, options ? options : &defaults);
+  if (status == FG_STATUS_OK && format->defaults)
+    status = format->defaults(out, context, &source, options ? options : &defaults);
   fg__source_close(&source);
   return name_the_file(context, status, input);
 }

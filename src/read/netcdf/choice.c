@@ -1,4 +1,4 @@
-/* Which pair of a file is read: the one that is asked for, or the only best one. */
+/* Which pair of a file is read: the one that the options name, or the only best one. */
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 

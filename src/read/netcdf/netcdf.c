@@ -167,7 +167,7 @@ static fg_status choose(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
   return status == FG_STATUS_OK ? fg__nc_choose(pair, grid, file, options) : status;
 }
 
-/* The same, once all that the options ask for is known to be there. */
+/* The same; the time and level of the options are checked. */
 static fg_status open_chosen(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
                              fg_context *context, const fg__source *source,
                              const fg_read_options *options)
@@ -326,8 +326,8 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
 {
   char text[FG__NC_TEXT];
   vector_texts texts;
-  fg_usual usual;
-  fg_status status = fg__nc_usual(&usual, file, pair, grid, options);
+  fg_read_defaults defaults;
+  fg_status status = fg__nc_defaults(&defaults, file, pair, grid, options);
   if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
     fg__nc_text(pair->component[1], "units", text, sizeof text);
   fg__nc_units(text, texts.units, sizeof texts.units);
@@ -343,8 +343,8 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
       .levels = grid->dimension == 3 ? 1 : (int)grid->levels,
       .scale = grid->scale,
       .frame = describe_frame(texts.frame, sizeof texts.frame, grid),
-      .usual_level = usual.level,
-      .absent = usual.absent[0] ? usual.absent : NULL,
+      .usual_level = defaults.level,
+      .absent = defaults.absent[0] ? defaults.absent : NULL,
       .periodic = {grid->axis[0].period > 0.0}};
   const bool on_axes = !grid->mesh && !grid->unstructured;
   if (on_axes)
@@ -403,15 +403,15 @@ static fg_status describe_chosen(fg_inventory *inventory, fg_context *context,
   return close_chosen(&file, &grid, status);
 }
 
-static fg_status find_usual(fg_usual *out, fg_context *context, const fg__source *source,
-                            const fg_read_options *options)
+static fg_status find_defaults(fg_read_defaults *out, fg_context *context,
+                               const fg__source *source, const fg_read_options *options)
 {
   fg__nc_file file = {0};
   fg__nc_pair pair = {0};
   fg__nc_grid grid = {0};
   fg_status status = choose(&file, &pair, &grid, context, source, options);
   if (status == FG_STATUS_OK)
-    status = fg__nc_usual(out, &file, &pair, &grid, options);
+    status = fg__nc_defaults(out, &file, &pair, &grid, options);
   return close_chosen(&file, &grid, status);
 }
 
@@ -421,6 +421,6 @@ const fg__format fg__format_netcdf = {
     .is_mine = is_netcdf,
     .inventory = describe,
     .inventory_chosen = describe_chosen,
-    .usual = find_usual,
+    .defaults = find_defaults,
     .sphere = read_sphere,
     .read = read_field};

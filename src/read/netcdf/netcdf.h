@@ -152,7 +152,7 @@ bool fg__nc_duration(double value, const char *units, char *out, size_t size);
 
 typedef struct fg__nc_pair {
   const fg__nc_variable *component[3]; /* the third NULL when there is none */
-  bool volume;                         /* the third is asked for, not only found */
+  bool volume;                         /* the options name the third */
   const char *found_by;
   int rank;         /* the smallest is the best */
   bool is_velocity; /* not a stress, a flux, or something of unfit units */
@@ -287,8 +287,8 @@ fg_status fg__nc_projection_turn(float *const velocity[2], const fg__nc_file *fi
                                  const fg__nc_grid *grid, const fg__rows *rows);
 
 /* volume.c. Makes a grid found for the first two components one in 3D when there
- * is a third, all levels are one axis in space, and space has one measure; when the third
- * is asked for, what is in the way makes the pair unusable. */
+ * is a third, all levels are one axis in space, and space has one measure; where
+ * the options name the third, an obstacle makes the pair unusable. */
 fg_status fg__nc_volume_find(fg__nc_grid *grid, const fg__nc_file *file,
                              const fg__nc_pair *pair);
 
@@ -302,7 +302,7 @@ void fg__nc_grid_clear(fg__nc_grid *grid);
 void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_variable *v);
 
-/* choice.c. Finds the pair that the options ask for, or the only one of the best rank
+/* choice.c. Finds the pair that the options name, or the only one of the best rank
  * that can be read, with its grid, to be cleared even after a failure. ARGUMENT,
  * UNSUPPORTED, FILE_ACCESS, MEMORY. */
 fg_status fg__nc_choose(fg__nc_pair *pair, fg__nc_grid *grid, const fg__nc_file *file,
@@ -365,9 +365,10 @@ void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t siz
 fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,
                              const char *name, size_t index, char *out, size_t size);
 
-/* usual.c. What is said before a field is read, by a pair's grid. */
-fg_status fg__nc_usual(fg_usual *out, const fg__nc_file *file, const fg__nc_pair *pair,
-                       const fg__nc_grid *grid, const fg_read_options *options);
+/* defaults.c. As fg_read_defaults_find, of a pair on its grid. */
+fg_status fg__nc_defaults(fg_read_defaults *out, const fg__nc_file *file,
+                          const fg__nc_pair *pair, const fg__nc_grid *grid,
+                          const fg_read_options *options);
 
 /* The values of a time or level axis, their texts in `text`; both end with free. NULL
  * where there is no coordinate, or more values than anyone would choose from. */

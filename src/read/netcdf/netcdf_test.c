@@ -381,8 +381,9 @@ static void inventories_tell_times_and_levels(void **state)
 }
 
 /* A field of 3 levels, whose coordinate has these attributes; "" none. */
-static fg_usual usual_of(sample_file *f, const char *name, const char *positive,
-                         const char *units, const double levels[3])
+static fg_read_defaults defaults_of(sample_file *f, const char *name,
+                                    const char *positive, const char *units,
+                                    const double levels[3])
 {
   int id[3];
   sample_begin(f, 0);
@@ -403,9 +404,10 @@ static fg_usual usual_of(sample_file *f, const char *name, const char *positive,
   }
   sample_put(f, level, levels);
   sample_end(f);
-  fg_usual usual;
-  assert_int_equal(fg_usual_find(&usual, f->context, f->path, NULL), FG_STATUS_OK);
-  return usual;
+  fg_read_defaults defaults;
+  assert_int_equal(fg_read_defaults_find(&defaults, f->context, f->path, NULL),
+                   FG_STATUS_OK);
+  return defaults;
 }
 
 /* Of the ocean the surface; of the air, and where nothing tells, the first. */
@@ -425,10 +427,10 @@ static void the_usual_level_is_the_seas_surface(void **state)
                {"height", "up", "m", rising, 0},
                {"air_pressure", "down", "hPa", depths, 0}};
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
-    const fg_usual usual = usual_of(*state, cases[n].name, cases[n].positive,
-                                    cases[n].units, cases[n].levels);
-    assert_int_equal(usual.level, cases[n].level);
-    assert_string_equal(usual.absent, "glat, glon");
+    const fg_read_defaults defaults = defaults_of(
+        *state, cases[n].name, cases[n].positive, cases[n].units, cases[n].levels);
+    assert_int_equal(defaults.level, cases[n].level);
+    assert_string_equal(defaults.absent, "glat, glon");
   }
 }
 

@@ -133,7 +133,7 @@ static void check_space(fg__nc_grid *grid, const fg__nc_file *file,
              "units; --vars U,V reads the plane of one level");
 }
 
-/* What is found, not asked for, must leave no doubt. */
+/* Whether a third component that the options do not name may be used. */
 static bool is_beyond_doubt(const fg__nc_grid *grid, const fg__nc_file *file,
                             const fg__nc_variable *u)
 {

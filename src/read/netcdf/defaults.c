@@ -1,5 +1,5 @@
-/* What is said before a field is read: the level that is usual, and coordinates that are
- * named and not there. */
+/* The default level of a vector, and coordinates that its components name and the file
+ * lacks. */
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 
@@ -104,10 +104,11 @@ static void list_absent(char *out, size_t size, const fg__nc_file *file,
       add_name(out, size, name);
 }
 
-fg_status fg__nc_usual(fg_usual *out, const fg__nc_file *file, const fg__nc_pair *pair,
-                       const fg__nc_grid *grid, const fg_read_options *options)
+fg_status fg__nc_defaults(fg_read_defaults *out, const fg__nc_file *file,
+                          const fg__nc_pair *pair, const fg__nc_grid *grid,
+                          const fg_read_options *options)
 {
-  *out = (fg_usual){0};
+  *out = (fg_read_defaults){0};
   if (grid->unusable[0])
     return FG_STATUS_OK;
   if (grid->scale == FG_SCALE_PLAIN && options->scale != FG_SCALE_PLAIN &&
