@@ -38,18 +38,18 @@ static fg_feature feature_of(bool solid)
   return solid ? FG_FEATURE_RENDER : FG_FEATURE_PICTURES;
 }
 
-unsigned formats_to_draw(unsigned asked, bool solid)
+unsigned formats_to_draw(unsigned requested, bool solid)
 {
   if (!fg_has_feature(feature_of(solid)))
     return 0;
-  if (asked)
-    return asked;
+  if (requested)
+    return requested;
   return solid ? FORMAT_PNG : FORMAT_SVG | FORMAT_PNG;
 }
 
-int refuse_undrawable(unsigned asked, bool background, bool solid)
+int refuse_undrawable(unsigned requested, bool background, bool solid)
 {
-  if (asked)
+  if (requested)
     return require_feature("--formats", feature_of(solid));
   if (background)
     return require_feature("--background", feature_of(solid));

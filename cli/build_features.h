@@ -10,11 +10,11 @@ void print_version(void);
 /* Complains of `what` where a feature is lacking; an exit code. */
 int require_feature(const char *what, fg_feature feature);
 
-/* The formats of pictures (bits, FORMAT_SVG, ...) that each scale gets: those `asked`
- * for, or the usual ones; none where pictures cannot be drawn. */
-unsigned formats_to_draw(unsigned asked, bool solid);
+/* The formats of pictures (bits, FORMAT_SVG, ...) that each scale gets: the `requested`
+ * ones, or the defaults; none where pictures cannot be drawn. */
+unsigned formats_to_draw(unsigned requested, bool solid);
 
-/* Complains where pictures are asked for that cannot be drawn; an exit code. */
-int refuse_undrawable(unsigned asked, bool background, bool solid);
+/* Complains where pictures are requested that cannot be drawn; an exit code. */
+int refuse_undrawable(unsigned requested, bool background, bool solid);
 
 #endif

@@ -174,7 +174,7 @@ int drawn_panels_check_labels(const drawn_panels *panels, const draw_settings *s
   return EXIT_USAGE;
 }
 
-/* `copy` of what was asked for is cut into the labels and keeps them. */
+/* Cuts `copy`, of the option's text, into the labels, which point into it. */
 static void set_labels(fg_panel *panel, int count, char *copy)
 {
   const bool several = copy && labels_given(copy) > 1;

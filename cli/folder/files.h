@@ -37,7 +37,7 @@ int remove_file(const char *folder, const char *name);
  * Returns an exit code. */
 int duplicate_file(const char *folder, const char *name, const char *from);
 
-/* Brings a file, or a folder's names, to the disk, where that can be asked for. Returns
+/* Flushes a file, or a folder's names, to the disk, where that is supported. Returns
  * an exit code. */
 int synchronise_file(const char *folder, const char *name);
 void synchronise_folder(const char *folder);

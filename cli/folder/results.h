@@ -31,7 +31,7 @@ typedef struct output_contents {
 } output_contents;
 
 /* Refuses, with nothing written, a DIR that is no folder or can not be written to, and
- * one that another run is writing to. Not to be asked by the run that does (a process
+ * one that another run is writing to. Not to be called by the run that does (a process
  * that closes a file loses its lock). Returns an exit code. */
 int output_check(const char *folder);
 

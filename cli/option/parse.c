@@ -135,10 +135,10 @@ static bool check_operands(any_settings *out, const cli_command *command, int co
  * arrows: 18 sqrt(2 N) nodes on a globe. */
 static void set_samples(run_settings *run)
 {
-  enum { USUAL = 768, MOST = 8192 };
+  enum { DEFAULT_SAMPLES = 768, MOST = 8192 };
   const double arrows = run->arrows.count ? run->arrows.number[0] : 0.0;
   const double nodes = fmax(run->evolution.nodes, 18.0 * sqrt(2.1 * arrows));
-  if (2.0 * nodes > USUAL)
+  if (2.0 * nodes > DEFAULT_SAMPLES)
     run->reading.map.samples = (int)fmin(2.0 * nodes, MOST);
 }
 

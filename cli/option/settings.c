@@ -153,7 +153,7 @@ void settings_speeds(double speeds[2], const picture_settings *settings)
 }
 
 fg_solid_options settings_solid(const picture_settings *settings, int view,
-                                const double usual[2])
+                                const double preset[2])
 {
   /* pictures in 3D are 1200 pixels wide where those in 2D are 480 points */
   const double dpi = settings->dpi > 0.0 ? settings->dpi : 2.5 * POINTS_AN_INCH;
@@ -170,7 +170,7 @@ fg_solid_options settings_solid(const picture_settings *settings, int view,
       .no_frame = settings->no_frame,
       .transparent = settings->transparent,
   };
-  const double *from = view < settings->view_count ? settings->views[view] : usual;
+  const double *from = view < settings->view_count ? settings->views[view] : preset;
   if (from) {
     out.has_view = true;
     out.azimuth = from[0];

@@ -28,7 +28,7 @@ typedef struct operand_list {
 /* How inputs are read. */
 typedef struct input_settings {
   const char *format;     /* NULL: found from the content */
-  const char *max_memory; /* NULL: the usual */
+  const char *max_memory; /* NULL: the default */
 } input_settings;
 
 /* A field to be read: INPUT and what is taken of it. */
@@ -72,7 +72,7 @@ typedef struct picture_settings {
   const char *land;           /* a colour */
   int background;             /* 0: none; 1 more than fg_texture_kind */
   double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
-  int view_count;             /* 0: one, the usual */
+  int view_count;             /* 0: one, the default */
 } picture_settings;
 
 typedef struct run_settings {
@@ -218,9 +218,9 @@ fg_texture_style settings_texture_style(const texture_settings *settings,
 /* The ends of the colour key, where they are given; else `speeds` stay. */
 void settings_speeds(double speeds[2], const picture_settings *settings);
 
-/* The options of one of the views in 3D, from 0. usual: azimuth and elevation where none
- * is asked for, or NULL. */
+/* The options of one of the views in 3D, from 0. preset: azimuth and elevation of a view
+ * that has none, or NULL. */
 fg_solid_options settings_solid(const picture_settings *settings, int view,
-                                const double usual[2]);
+                                const double preset[2]);
 
 #endif

@@ -1,4 +1,4 @@
-/* Options that have no effect on what is asked for are wrong usage. */
+/* Options without effect on what a command does are wrong usage. */
 #ifndef OPTION_VALIDATION_H
 #define OPTION_VALIDATION_H
 

@@ -17,8 +17,8 @@ run_outcome report_outcome(const char *folder);
 /* Whether the run has left a page for browsers there. */
 bool report_has_page(const char *folder);
 
-/* Whether the finished run in a folder is the one that is asked for now: the same input
- * and options. Else complains. */
+/* Whether the finished run in a folder is the one that the settings describe: the same
+ * input and options. Else complains. */
 bool report_is_of(const char *folder, const run_settings *settings);
 
 /* Whether a report's `input` is the file that is given now; if not, complains. */

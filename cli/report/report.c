@@ -36,7 +36,7 @@ static void add_words(cJSON *object, const char *name, const char *const *words,
     cJSON_AddItemToArray(array, cJSON_CreateString(words[k]));
 }
 
-/* As it was asked for; "field" has what came of it. */
+/* As the options have it; "field" has what was read. */
 static void add_map(cJSON *input, const fg_map_options *map)
 {
   cJSON *object = cJSON_AddObjectToObject(input, "map");

@@ -52,7 +52,7 @@ int table_start(cli_table *out, char *path)
   return append(out, heading, sizeof heading - 1) ? EXIT_DONE : EXIT_FAILED;
 }
 
-/* A disk that gets full takes a part first, and says why only when asked again. */
+/* On a full disk a write is short first; only the next one sets errno. */
 static bool write_all(int file, const char *bytes, size_t count)
 {
   while (count > 0) {

@@ -11,7 +11,7 @@ int background_check(const picture_settings *settings, int ranks);
 /* Whether it shows the clusters. */
 bool background_needs_density(const picture_settings *settings);
 
-/* Makes the background that the settings ask for, none included, with so many pixels.
+/* Makes the background that the settings choose, none included, with so many pixels.
  * *texture: the last picture's, kept when it fits, or NULL at first; the caller ends it.
  */
 fg_status background_make(fg_texture **texture, fg_context *context,
@@ -19,7 +19,7 @@ fg_status background_make(fg_texture **texture, fg_context *context,
                           const int size[2], const fg_field *field,
                           const fg_density *density);
 
-/* Gives a picture's options the background that the settings ask for, at the pixels of
+/* Gives a picture's options the background that the settings choose, at the pixels of
  * its frame. *texture: the last picture's, kept when it fits, or NULL at first; the
  * caller ends it. density: the clusters of this picture, or NULL. */
 fg_status background_choose(fg_picture_options *options, fg_texture **texture,

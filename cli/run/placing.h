@@ -34,7 +34,7 @@ fg_status placing_regions(fg_density **out, const cli_placing *placing);
 /* Stores the readers' errors with icons; nothing where the field cannot be scored. */
 fg_status placing_score(fg_context *context, const fg_field *field, fg_icons *icons);
 
-/* The number of arrows that --tolerance asks for. Returns an exit code. */
+/* Finds the fewest arrows that reach --tolerance. Returns an exit code. */
 int placing_find_count(int *count, fg_context *context, const run_settings *settings,
                        const fg_field *field);
 

@@ -1,4 +1,4 @@
-/* A request of a browser: what it asks for, and whether it may. */
+/* A request of a browser: the name of what it wants, and whether it is allowed. */
 #ifndef VIEW_REQUEST_H
 #define VIEW_REQUEST_H
 
@@ -12,7 +12,7 @@ enum { TOKEN_DIGITS = 32 };
  * tell ports apart. */
 enum { REQUEST_BYTES = 16384 };
 
-/* Longest name that is asked for. */
+/* Longest name in a request. */
 enum { REQUEST_NAME_BYTES = 64 };
 
 /* Whether the empty line that ends a request is there. */

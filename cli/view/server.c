@@ -135,7 +135,7 @@ static const char *words_of(int status)
   }
 }
 
-/* What is asked for does not leave the browser: nothing is stored, shown within other
+/* What is served stays in the browser's tab: nothing is stored, shown within other
  * pages, or told to where its links lead. */
 static void answer(cli_connection *connection, int status)
 {

@@ -1,4 +1,4 @@
-/* What strokes ask of an image: its grey values, and planes of it blurred. */
+/* Grey values of an image, and blurred copies of it, for strokes. */
 #ifndef FG__GREY_H
 #define FG__GREY_H
 

@@ -1,4 +1,4 @@
-/* Patches of a density on the ranks that ask for them. */
+/* Patches of a density on the ranks that need them. */
 #ifndef FG__PATCHES_H
 #define FG__PATCHES_H
 

@@ -356,7 +356,7 @@ static void steps_coarsen_the_mesh_by_themselves(void **state)
   fg_field_destroy(field);
 }
 
-/* The width of interfaces that is asked for stays, unless the mesh shall follow. */
+/* A given width of interfaces stays, unless the mesh shall follow. */
 static void a_given_gamma_keeps_the_mesh(void **state)
 {
   fg_context *context = *state;
@@ -413,7 +413,7 @@ static void what_can_not_be_coarsened_stays(void **state)
   fg_field_destroy(field);
 }
 
-/* The width of interfaces that was asked for is that of the first mesh. */
+/* A given width of interfaces is that of the first mesh. */
 static void a_given_gamma_grows_like_the_default(void **state)
 {
   fg_context *context = *state;

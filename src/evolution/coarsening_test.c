@@ -1,5 +1,5 @@
 /* How patterns coarsen: by gamma and not by the mesh, without pinning, and to the shape
- * that the anisotropy asks for. docs/design quotes the figures printed here. */
+ * that the anisotropy needs. docs/design quotes the figures printed here. */
 #include "component/components.h"
 #include "evolution/curve_test.h"
 

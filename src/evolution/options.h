@@ -4,7 +4,7 @@
 
 #include "evolution/evolution.h"
 
-/* Nodes along the longest side of a mesh when none are asked for. */
+/* Default number of nodes along the longest side of a mesh. */
 int fg__default_nodes(int dimension);
 
 /* Fills in the defaults of a mesh in `dimension` dimensions, then checks every option.

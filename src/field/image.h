@@ -11,7 +11,7 @@ struct fg_image {
   float *sample, *alpha; /* owned; alpha may be NULL */
 };
 
-/* More pixels than that are refused before memory is asked for: 2^26 are 67 million. */
+/* More pixels are refused before memory is allocated: 2^26 are 67 million. */
 enum { FG__MOST_PIXELS = 1 << 26 };
 
 /* Makes an image whose arrays are to be filled, opaque unless `has_alpha`. `name` goes

@@ -18,8 +18,8 @@ typedef struct fg__chooser {
 
 /* Tries streamlines through the spine's middle, through other points of it and through
  * points beside it, fits an arrow to each, and keeps in chooser->best the one whose arrow
- * lies nearest to all of the cluster: the smallest mean square distance, which asks for a
- * long arrow through the middle at once. No arrow fits: arrow->width is 0. MEMORY. */
+ * lies nearest to all of the cluster: the smallest mean square distance, which a
+ * long arrow through the middle has. No arrow fits: arrow->width is 0. MEMORY. */
 fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *context,
                            const fg_field *field, const fg__interior *interior,
                            const fg__spine *spine);

@@ -71,7 +71,7 @@ static int count_together(const making *s, int first, size_t *load)
  * cell of the density: less than this many nodes beyond the patch. */
 enum { BEYOND_PATCH = 2 };
 
-/* The samples that the icons of a patch ask for. */
+/* The samples of the field that the icons of a patch need. */
 static fg__region samples_of(const making *s, const fg__wanted_patch *wanted)
 {
   const fg_density_arrays *grid = fg_density_contents(s->density);

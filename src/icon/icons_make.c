@@ -13,8 +13,8 @@
 
 enum { MOST_THREADS = 64 };
 
-/* In 3D a cluster's fair share of the domain is its volume over this, the coverage that
- * is usual: by it an arrow counts as plump. */
+/* In 3D a cluster's fair share of the domain is its volume over the default coverage: an
+ * arrow is plump relative to that share. */
 static const double DEFAULT_COVERAGE = 0.3;
 
 /* What all threads share; each takes the next cluster until there is none. */

@@ -66,8 +66,8 @@ void fg__solid_set_slender(fg_icon *icon, double lambda)
     length += piece_of(icon, n, ignored);
   double head = 0;
   if (length > 0 && lambda > 0) {
-    double usual = fmin(head_of_share * lambda, head_of_length * length);
-    head = fmax(fmin(usual, straight_end(icon)), least_head * usual);
+    double full = fmin(head_of_share * lambda, head_of_length * length);
+    head = fmax(fmin(full, straight_end(icon)), least_head * full);
     double width = body_of_head * head_aspect * head;
     head *= fmin(1, 2 * largest_bend * least_radius(icon) / width);
   }

@@ -186,9 +186,9 @@ bool fg__color_read(fg__color *out, const char *text)
 }
 
 fg_status fg__color_choose(fg__color *out, fg_context *context, const char *text,
-                           fg__color usual)
+                           fg__color preset)
 {
-  *out = usual;
+  *out = preset;
   if (!text || fg__color_read(out, text))
     return FG_STATUS_OK;
   return fg__fail(context, FG_STATUS_ARGUMENT, "picture: no colour '%.40s'; use #rrggbb",

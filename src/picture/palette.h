@@ -24,9 +24,9 @@ fg__color fg__palette_color(const fg__palette *palette, double share);
 /* Reads "#rrggbb". */
 bool fg__color_read(fg__color *out, const char *text);
 
-/* Reads "#rrggbb"; NULL: `usual`. ARGUMENT. */
+/* Reads "#rrggbb"; NULL: `preset`. ARGUMENT. */
 fg_status fg__color_choose(fg__color *out, fg_context *context, const char *text,
-                           fg__color usual);
+                           fg__color preset);
 
 /* Relative luminance, 0 to 1 (WCAG 2.1). */
 double fg__color_luminance(fg__color color);

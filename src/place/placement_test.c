@@ -63,7 +63,7 @@ static void check_areas(const fg_field *field, const fg_icons *icons)
   assert_close(sum, domain, 0.03 * domain);
 }
 
-static void there_are_as_many_as_asked_for(void **state)
+static void there_are_exactly_as_many_as_given(void **state)
 {
   for (int n = 0; n < CASE_COUNT; ++n) {
     const int counts[] = {1, 2, 7, n < 2 ? 60 : 20};
@@ -352,11 +352,16 @@ static void a_river_gets_its_arrows(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(there_are_as_many_as_asked_for),  CASE(a_field_has_one_picture),
-      CASE(a_turned_field_is_read_as_well),  CASE(placing_lowers_the_error),
-      CASE(icons_of_clusters_are_a_start),   CASE(one_call_is_enough),
-      CASE(wrong_arguments_are_refused),     CASE(more_than_can_be_placed_are_refused),
-      CASE(a_river_gets_its_arrows),         CASE(a_thorough_search_is_better),
+      CASE(there_are_exactly_as_many_as_given),
+      CASE(a_field_has_one_picture),
+      CASE(a_turned_field_is_read_as_well),
+      CASE(placing_lowers_the_error),
+      CASE(icons_of_clusters_are_a_start),
+      CASE(one_call_is_enough),
+      CASE(wrong_arguments_are_refused),
+      CASE(more_than_can_be_placed_are_refused),
+      CASE(a_river_gets_its_arrows),
+      CASE(a_thorough_search_is_better),
       CASE(few_are_searched_for_thoroughly),
   };
   return cmocka_run_group_tests_name("place/placement", tests, NULL, NULL);

@@ -16,8 +16,8 @@ typedef struct best {
   double error;
 } best;
 
-/* Places `count` icons anew and asks the readers. Where fewer fit the error is infinite,
- * and *least that of those that do. */
+/* Places `count` icons anew and scores them. Where fewer fit the error is infinite, and
+ * *least is that of those that do. */
 static fg_status measure(fg_placement *placement, int count, double *error, best *least)
 {
   fg_context *context = fg__placement_context(placement);

@@ -11,8 +11,8 @@ static const double MOST_SAMPLES = 16.0;
 /* Between scattered points samples are finer, each way, as long as they are not many. */
 static const double FINEST = 8.0, MANY = 262144.0;
 
-/* Samples along an axis: no model has so many. A sliver, which may ask for any number,
- * has no more than its points allow. */
+/* Samples along an axis: no model has so many. A sliver, for which that may be any
+ * number, has no more than its points allow. */
 static const double MOST_ALONG = 1 << 22;
 
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;

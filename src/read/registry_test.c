@@ -219,7 +219,7 @@ static void planes_are_read_from_words(void **state)
                       "synth:vortex: a cut through a field in 2 dimensions; it needs 3");
 }
 
-/* Bytes that a context was given are what "-" stands for, in the format asked for. */
+/* Bytes that a context was given are what "-" stands for, in the given format. */
 static void bytes_are_an_input(void **state)
 {
   place *p = *state;

@@ -1,4 +1,4 @@
-/* Which times or levels a text asks for: by index, value, date, range, words, or all. */
+/* Which times or levels a text selects: by index, value, date, range, words, or all. */
 #include "base/context.h"
 #include "base/memory.h"
 #include "file/number_text.h"

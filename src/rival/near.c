@@ -91,18 +91,18 @@ static bool is_periodic(const fg__domain *domain)
   return domain->period[0] > 0 || domain->period[1] > 0 || domain->period[2] > 0;
 }
 
-static bool bin_has(const fg__near *near, int bin, const query *asked)
+static bool bin_has(const fg__near *near, int bin, const query *search)
 {
   bool periodic = is_periodic(near->domain);
   for (int i = near->top[bin]; i >= 0; i = near->point[i].below) {
     const fg__near_point *point = &near->point[i];
     double way[3];
     for (int k = 0; k < 3; k++)
-      way[k] = point->position[k] - asked->inside[k];
+      way[k] = point->position[k] - search->inside[k];
     if (periodic)
       fg__domain_shortest(near->domain, way);
-    if (way[0] * way[0] + way[1] * way[1] + way[2] * way[2] < asked->square &&
-        (point->line != asked->line || fabs(point->s - asked->s) > asked->own))
+    if (way[0] * way[0] + way[1] * way[1] + way[2] * way[2] < search->square &&
+        (point->line != search->line || fabs(point->s - search->s) > search->own))
       return true;
   }
   return false;
@@ -128,13 +128,13 @@ bool fg__near_has(const fg__near *near, const double position[], double distance
 {
   /* the middle first: there most is near */
   static const int order[3] = {0, -1, 1};
-  query asked = {.square = distance * distance, .line = line, .s = s, .own = own};
+  query search = {.square = distance * distance, .line = line, .s = s, .own = own};
   int bin[3] = {0}, beside = near->domain->dimension == 2 ? 9 : 27;
-  locate(near, position, asked.inside, bin);
+  locate(near, position, search.inside, bin);
   for (int n = 0; n < beside; n++) {
     const int step[3] = {order[n % 3], order[n / 3 % 3], order[n / 9]};
     int there = bin_beside(near, bin, step);
-    if (there >= 0 && bin_has(near, there, &asked))
+    if (there >= 0 && bin_has(near, there, &search))
       return true;
   }
   return false;

@@ -22,7 +22,7 @@ typedef struct fg__near {
   int count;
 } fg__near;
 
-/* Nothing farther than `reach` will be asked for. MEMORY. */
+/* reach: the greatest distance of a search. MEMORY. */
 fg_status fg__near_create(fg__near *out, fg_context *context, const fg__domain *domain,
                           double reach);
 void fg__near_clear(fg__near *near);

@@ -57,11 +57,12 @@ static void the_default_halves(void **state)
   }
 }
 
-/* Numbers of arrows: what is asked for, or the usual ones. */
+/* Numbers of arrows: the given ones, or the defaults. */
 static void placed_arrows_have_numbers_of_their_own(void **state)
 {
   (void)state;
-  static const int list[] = {70, 9}, usual[][5] = {{200, 100, 50, 25, 12}, {60, 25, 12}};
+  static const int list[] = {70, 9},
+                   defaults[][5] = {{200, 100, 50, 25, 12}, {60, 25, 12}};
   fg__plan plan;
   fg__plan_start(&plan, list, 2);
   assert_false(plan.placed);
@@ -74,7 +75,7 @@ static void placed_arrows_have_numbers_of_their_own(void **state)
     fg__plan_start_placed(&plan, NULL, 0, dimension);
     assert_true(plan.placed);
     assert_int_equal(plan.count, dimension == 2 ? 5 : 3);
-    assert_memory_equal(plan.wanted, usual[dimension - 2],
+    assert_memory_equal(plan.wanted, defaults[dimension - 2],
                         (size_t)plan.count * sizeof(int));
     assert_false(fg__plan_done(&plan));
   }

@@ -111,7 +111,7 @@ static void assert_same(const fg__cells *domain, const owned_tensor *whole,
       }
 }
 
-/* Whichever box asks, a cell gets the same bits. */
+/* A cell gets the same bits whichever box it is computed in. */
 static void boxes_get_what_the_whole_has(void **state)
 {
   (void)state;

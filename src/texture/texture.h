@@ -10,7 +10,7 @@ typedef struct fg__canvas {
   const fg_field *field;
   fg__raster raster;
   double length;                         /* of streaks */
-  int clusters;                          /* at most; 0: the usual number */
+  int clusters;                          /* at most; 0: the default */
   double max_time;                       /* no later than about here; 0: no matter */
   const fg_evolution_options *evolution; /* of the clusters; NULL: defaults */
   const fg_density *density;             /* of the clusters to show; NULL: evolve them */

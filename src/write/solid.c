@@ -14,11 +14,11 @@ static bool ends_with(const char *path, const char *end)
 fg_status fg_solid_write(fg_context *context, const char *path, const fg_field *field,
                          const fg_icons *icons, const fg_solid_options *options)
 {
-  static const fg_solid_options usual = {0};
+  static const fg_solid_options defaults = {0};
   if (!path || !icons)
     return fg__fail(context, FG_STATUS_ARGUMENT, "solids: %s to write",
                     path ? "none" : "no file name");
-  options = options ? options : &usual;
+  options = options ? options : &defaults;
   if (ends_with(path, ".vtp"))
     return fg__vtp_write(context, path, field, icons, options->surface);
   if (ends_with(path, ".glb"))

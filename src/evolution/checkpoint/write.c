@@ -115,7 +115,7 @@ void fg__checkpoint_settle(fg__box_record *records, size_t count, const fg__rank
   }
 }
 
-/* Brings the file to the disk; some file systems can not be asked to. */
+/* Flushes the file to the disk, where the file system supports it. */
 static bool synchronise(int file)
 {
   return fsync(file) == 0 || errno == EINVAL || errno == ENOSYS;

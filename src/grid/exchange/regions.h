@@ -1,4 +1,4 @@
-/* Gathers regions of a grid from the blocks of all ranks on the ranks that ask for them:
+/* Gathers regions of a grid from the blocks of all ranks on the ranks that need them:
  * the window round a cluster, the rows of a file.
  *
  * Every rank knows all blocks and all regions, so each finds by itself what to send to

@@ -100,8 +100,8 @@ typedef struct fg__margins {
   double left, right, top, bottom;
 } fg__margins;
 
-/* page_items.c. The next of the texts, of the usual size and nowhere yet; NULL when there
- * are too many. */
+/* page_items.c. The next of the texts, of the default size and not yet placed; NULL when
+ * there are too many. */
 fg__page_text *fg__page_next_text(fg__page *page, const char *text);
 
 /* Adds a text with its baseline at y, aligned at x. Returns its width. */

@@ -71,8 +71,8 @@ static void make_quiet(fg__page *page)
   page->text[page->text_count - 1].quiet = true;
 }
 
-/* The colour key's label in lines. The usual one gives way to its unit where it is longer
- * than its room; one that was asked for, which has no unit by itself, is broken. */
+/* The colour key's label in lines. The default one is shortened to its unit where it is
+ * longer than its room; one given by the options is broken into lines. */
 typedef struct bar_label {
   char line[FG__LABEL_LINES][FG__PAGE_TEXT_BYTES];
   int count;

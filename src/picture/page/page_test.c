@@ -89,7 +89,7 @@ static fg__page_plan plan_of(double width, double height, double x, double y, in
     fg__axis_of_numbers(&plan.axis[1], 0.1 * y, 1.1 * y, larger, "y", units);
   }
   fg__axis_of_numbers(&plan.speed, 0.0, 13.7, 13.7, "mean speed", "m s-1");
-  if (style >= 2) { /* a label that was asked for, without units */
+  if (style >= 2) { /* a given label, without units */
     snprintf(plan.speed.label, sizeof plan.speed.label, "%s", title);
     plan.speed.units[0] = '\0';
   }
@@ -214,7 +214,7 @@ static void captions_break_between_their_parts(void **state)
   free(page);
 }
 
-/* What was asked for is written whole, in as many lines and as small as that takes. */
+/* A given label is written whole, in as many lines and as small as that takes. */
 static void long_titles_and_labels_are_broken_or_shrink(void **state)
 {
   (void)state;

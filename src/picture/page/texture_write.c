@@ -153,8 +153,7 @@ static void paint_map(cairo_t *cairo, const painted *p)
   fg__map_draw_outline_in(cairo, &p->map, wide, high);
 }
 
-/* Whether some of what is seen is slower, or faster, than the ends that were asked for.
- */
+/* Whether some of what is seen is slower, or faster, than the ends of the colour key. */
 static void look_beyond(bool beyond[2], const fg_texture_arrays *texture,
                         const fg_texture_style *style)
 {

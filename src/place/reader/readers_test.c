@@ -72,7 +72,7 @@ typedef struct answer {
   double vector[2][3]; /* nearest, by inverse distance */
 } answer;
 
-static answer ask(const setting *s, const double point[3])
+static answer evaluate(const setting *s, const double point[3])
 {
   const int dimension = s->scale.dimension;
   const double reach = s->scale.reach / s->scale.lambda, epsilon = 0.05 * 0.05;
@@ -140,7 +140,7 @@ static void check(setting *s)
       flow[k] = (double)s->raster.direction[k][n];
     }
     double weight = (double)s->raster.weight[n];
-    const answer a = ask(s, point);
+    const answer a = evaluate(s, point);
     total += (double)cost[n];
     weights += weight;
     if (a.doubt < 1e-4) {

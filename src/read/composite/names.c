@@ -173,8 +173,8 @@ fg_status fg__vtk_names_choose_time(double *out, int *count, double **all,
   return status;
 }
 
-/* Whether a block is asked for: by its own name, by its path, or by one of those that it
- * is in. */
+/* Whether `wanted` selects a block: by its own name, its path, or the name of a block
+ * that contains it. */
 static bool is_in(const char *block, const char *wanted)
 {
   const size_t length = strlen(wanted);

@@ -40,8 +40,8 @@ typedef struct fg__exodus {
 /* Length of a dimension; 0 when it is not there. */
 size_t fg__exodus_length(const fg__exodus *e, const char *name);
 
-/* Whether a variable has count[0] * ... numbers and such a rank, before memory for them
- * is asked for; and reads them, which checks again. FILE_FORMAT, MEMORY. */
+/* Checks that a variable has count[0] * ... numbers and such a rank, before memory for
+ * them is allocated; and reads them, which checks again. FILE_FORMAT, MEMORY. */
 fg_status fg__exodus_check(const fg__exodus *e, const fg__nc_variable *v,
                            const size_t *first, const size_t *count, int rank);
 fg_status fg__exodus_numbers(double *out, const fg__exodus *e, const fg__nc_variable *v,

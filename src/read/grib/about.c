@@ -1,5 +1,5 @@
 /* What each field is of: parameter, level, time, member, grid. Most fields of a file
- * differ in their time alone, so ecCodes is asked once for what the others share. */
+ * differ in their time alone, so ecCodes decodes once what the others share. */
 #include "base/memory.h"
 #include "base/mix.h"
 #include "read/grib/grib.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What ecCodes may ask for to tell a field's keys. */
+/* What ecCodes may allocate to decode a field's keys. */
 enum { MOST_BYTES = 256 << 20 };
 
 /* Steps of a forecast: ecCodes goes to its date by single days. */

@@ -1,4 +1,4 @@
-/* The pair, time and level that are asked for. */
+/* Choosing the pair, time and level by the options. */
 #include "read/grib/grib.h"
 
 #include <stdio.h>

@@ -76,8 +76,8 @@ uint64_t fg__grib_number(const unsigned char *at, int bytes);
 /* library.c: ecCodes, which may stop at damaged messages, and prints. */
 
 /* Calls work(data), which calls ecCodes. Where ecCodes finds itself in a state that must
- * not be, or asks for more than `most` bytes, it is left, and what it had is lost.
- * FILE_FORMAT then; else OK, and work says itself how it went. */
+ * not be, or allocates more than `most` bytes, it is left by longjmp, and its memory
+ * is lost: FILE_FORMAT. Else OK; `work` reports its own failures through data. */
 fg_status fg__grib_guard(const fg__grib_file *file, const fg__grib_field *field,
                          size_t most, void (*work)(codes_handle *handle, void *data),
                          void *data);
@@ -124,7 +124,7 @@ fg_status fg__grib_pairs_named(fg__grib_pairs *out, const fg__grib_file *file,
 void fg__grib_pair_clear(fg__grib_pair *pair);
 void fg__grib_pairs_clear(fg__grib_pairs *pairs);
 
-/* Whether a name that was asked for is that of a kind. */
+/* Whether a name of --vars is that of a kind. */
 bool fg__grib_is_named(const fg__grib_kind *kind, const char *name);
 
 /* words.c */
@@ -143,8 +143,8 @@ void fg__grib_units(const char *units, char *out, size_t size);
 /* The units of a pair's levels, "" when they have none. */
 const char *fg__grib_level_units(const fg__grib_pair *pair);
 
-/* choice.c: the one pair that is asked for; and its place at a time and level, where not
- * every time has every level. To be cleared even after a failure. ARGUMENT, UNSUPPORTED,
+/* choice.c: the one pair that the options choose, at their time and level; not every
+ * time need have every level. To be cleared even after a failure. ARGUMENT, UNSUPPORTED,
  * MEMORY. */
 fg_status fg__grib_choose(fg__grib_pairs *out, const fg__grib_file *file,
                           const fg_read_options *options);

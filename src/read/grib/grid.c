@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What ecCodes may ask for to tell a grid, beside its message. */
+/* What ecCodes may allocate to decode a grid, beside its message. */
 enum { MOST_BYTES = 256 << 20 };
 
 /* A field may have so many points, and so many more for each byte of its message: fields

@@ -1,5 +1,5 @@
 /* ecCodes behind a guard. It was made for sound messages: at others it may print, abort
- * the process, or ask for as much memory as a number in them says. */
+ * the process, or allocate as much memory as a number in them says. */
 #include "base/memory.h"
 #include "read/grib/grib.h"
 
@@ -17,7 +17,7 @@ enum { OVERHEAD = 64 };
 typedef struct guard {
   jmp_buf back;
   bool active;
-  size_t left; /* bytes that may still be asked for */
+  size_t left; /* bytes that may still be allocated */
   char reason[FG__GRIB_TEXT];
 } guard;
 

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What ecCodes may ask for beside so many bytes for each value and byte of the message.
- */
+/* What ecCodes may allocate, and how much more for each value and each byte of the
+ * message. */
 enum { MOST_BYTES = 256 << 20, BYTES_A_VALUE = 256, BYTES_A_BYTE = 16 };
 
 /* Stands for a missing value while ecCodes has them; no velocity is as large. */

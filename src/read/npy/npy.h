@@ -49,7 +49,7 @@ typedef struct fg__zip {
 fg_status fg__zip_list(fg__zip *out, fg_context *context, const fg__source *source);
 
 /* The first `size` bytes of an entry, or fewer when it has fewer: *got. FILE_FORMAT
- * (damaged; the checksum, when all are asked for), MEMORY. */
+ * (damaged; the checksum is compared when all are read), MEMORY. */
 fg_status fg__zip_extract(unsigned char *out, size_t size, size_t *got,
                           fg_context *context, const char *path,
                           const fg__zip_entry *entry);

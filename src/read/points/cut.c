@@ -90,16 +90,17 @@ static double local_spacing(const int *corner, const float *spacing)
   return (double)fmaxf(spacing[corner[0]], fmaxf(spacing[corner[1]], spacing[corner[2]]));
 }
 
-/* Keeps the triangles whose circles are small enough for their place, or as small as most
- * are: points along tracks are close to their neighbours on the track alone. */
+/* Keeps the triangles whose circumradius is at most `most` times the greater of the local
+ * spacing and the median circumradius: points along tracks are close to their neighbours
+ * on the track alone. */
 static size_t cut(fg__triangles *triangles, const float *radius, const float *spacing,
-                  double most, double usual)
+                  double most, double median_radius)
 {
   const size_t all = triangles->count;
   size_t kept = 0;
   for (size_t t = 0; t < all; ++t) {
     const int *corner = triangles->corner + 3 * t;
-    const double limit = most * fmax(local_spacing(corner, spacing), usual);
+    const double limit = most * fmax(local_spacing(corner, spacing), median_radius);
     if ((double)radius[t] <= limit)
       memmove(triangles->corner + 3 * kept++, corner, 3 * sizeof *corner);
   }
@@ -125,8 +126,8 @@ fg_status fg__triangles_cut(fg__triangles *triangles, size_t *dropped,
     find_medians(spacing, &s, filled, triangles, points, position, own);
     for (size_t t = 0; t < triangles->count; ++t)
       s.number[t] = radius[t] = (float)circle(position, triangles->corner + 3 * t);
-    const float usual = median(s.number, triangles->count);
-    *dropped = cut(triangles, radius, spacing, most, (double)usual);
+    const float median_radius = median(s.number, triangles->count);
+    *dropped = cut(triangles, radius, spacing, most, (double)median_radius);
   }
   free(own);
   free(spacing);

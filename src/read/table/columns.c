@@ -21,9 +21,9 @@ static const char *const GLOBE[2] = {
     "|lat|latitude|nav_lat|xlat|glat|lat_deg|latitude_deg|lat_n|degrees_north|lat_dd|"};
 
 /* Velocities that go by these names alone, before others. */
-static const char *const USUAL[][3] = {{"u", "v", "w"},    {"vx", "vy", "vz"},
-                                       {"ux", "uy", "uz"}, {"east", "north", "up"},
-                                       {"ve", "vn", "vu"}, {"e", "n", "u"}};
+static const char *const VELOCITY_NAMES[][3] = {
+    {"u", "v", "w"},         {"vx", "vy", "vz"}, {"ux", "uy", "uz"},
+    {"east", "north", "up"}, {"ve", "vn", "vu"}, {"e", "n", "u"}};
 
 /* What stands for one component in another's place in a name. */
 static const char *const WORDS[][3] = {
@@ -250,10 +250,11 @@ int fg__table_vectors(fg__table_vector out[FG__TABLE_VECTORS], const fg__table *
     }
     return 1;
   }
-  for (size_t i = 0; i < sizeof USUAL / sizeof *USUAL && count == 0; ++i) {
-    const int velocity[3] = {find_plain(table, USUAL[i][0]),
-                             find_plain(table, USUAL[i][1]),
-                             find_plain(table, USUAL[i][2])};
+  for (size_t i = 0; i < sizeof VELOCITY_NAMES / sizeof *VELOCITY_NAMES && count == 0;
+       ++i) {
+    const int velocity[3] = {find_plain(table, VELOCITY_NAMES[i][0]),
+                             find_plain(table, VELOCITY_NAMES[i][1]),
+                             find_plain(table, VELOCITY_NAMES[i][2])};
     if (velocity[0] >= 0 && velocity[1] >= 0)
       add(out, &count, table, velocity, "names");
     else

@@ -313,7 +313,7 @@ fg_status fg__vtk_samples_read(float *out[3], const fg__vtk *vtk,
                                const fg__vtk_grid *grid, const fg__vtk_vector *vector,
                                const char *mask, bool normal);
 
-/* What fg__format asks for, of a file opened by `opener`. */
+/* The functions of a fg__format, for a file opened by `opener`. */
 fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *source,
                        const fg_read_options *options, fg__slab_index slab,
                        fg__vtk_opener *opener);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const fg__merge_weights usual = {.position = 0.95, .elongation = 2};
+static const fg__merge_weights defaults = {.position = 0.95, .elongation = 2};
 
 /* A domain, its hierarchy and one cut. */
 typedef struct bench {
@@ -71,7 +71,7 @@ static void clusters_are_nested_and_as_many_as_wanted(void **state)
 {
   static const int counts[] = {150, 77, 60, 25, 7, 2, 1};
   bench b;
-  set_up(&b, *state, swirl, false, 61, &usual);
+  set_up(&b, *state, swirl, false, 61, &defaults);
   int *finer = NULL, finer_count = 0;
   double before = -1;
   for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
@@ -104,7 +104,7 @@ static void clusters_are_nested_and_as_many_as_wanted(void **state)
 static void numbers_are_in_the_order_of_first_cells(void **state)
 {
   bench b;
-  set_up(&b, *state, coast, false, 61, &usual);
+  set_up(&b, *state, coast, false, 61, &defaults);
   int found, left_out, highest = 0;
   int *label = cut(&b, 40, &found, &left_out);
   for (int i = 0; i < raster_count(&b); i++) {
@@ -145,7 +145,7 @@ static int flood(const bench *b, const int *label, int from, unsigned char *reac
 static void clusters_are_connected(void **state)
 {
   bench b;
-  set_up(&b, *state, coast, false, 61, &usual);
+  set_up(&b, *state, coast, false, 61, &defaults);
   int found, left_out;
   int *label = cut(&b, 33, &found, &left_out);
   unsigned char *reached = calloc((size_t)raster_count(&b), 1);
@@ -210,7 +210,7 @@ static void a_piecewise_constant_field_is_recovered(void **state)
 static void the_most_alike_are_merged(void **state)
 {
   bench b;
-  set_up(&b, *state, coast, true, 15, &usual);
+  set_up(&b, *state, coast, true, 15, &defaults);
   int cells = raster_count(&b), w = b.domain.cells[0];
   int *at = malloc((size_t)cells * sizeof *at);
   assert_non_null(at);
@@ -227,7 +227,7 @@ static void the_most_alike_are_merged(void **state)
         if (at[i] >= 0 && others[d] >= 0 && at[i] != others[d])
           least =
               fmin(least, fg__merge_error(&b.tree.node[at[i]], &b.tree.node[others[d]],
-                                          &b.domain, &usual));
+                                          &b.domain, &defaults));
     }
     assert_true(fabs(b.tree.node[made].error - least) < 1e-12);
     for (int i = 0; i < cells; i++)
@@ -277,7 +277,7 @@ static void elongation_draws_clusters_out(void **state)
 static void clusters_go_across_a_periodic_boundary(void **state)
 {
   bench b;
-  set_up(&b, *state, slant, true, 62, &usual);
+  set_up(&b, *state, slant, true, 62, &defaults);
   int found, left_out, across = 0, w = b.domain.cells[0];
   int *label = cut(&b, 12, &found, &left_out);
   for (int y = 0; y < b.domain.cells[1]; y++)
@@ -299,7 +299,7 @@ static void waters(double x, double y, double v[2])
 static void small_lines_take_no_place(void **state)
 {
   bench b;
-  set_up(&b, *state, waters, false, 61, &usual);
+  set_up(&b, *state, waters, false, 61, &defaults);
   int found, left_out, roots = 0;
   for (int n = 0; n < b.tree.nodes; n++)
     roots += b.tree.node[n].parent < 0;

@@ -72,10 +72,10 @@ static double shortest(double way, double period)
   return way < -period / 2 ? way + period : way;
 }
 
-static double cost_of(const query *asked, int seed)
+static double cost_of(const query *search, int seed)
 {
-  const fg__seed *to = &asked->bins->seed[seed], *from = asked->from;
-  const double *period = asked->bins->domain->period;
+  const fg__seed *to = &search->bins->seed[seed], *from = search->from;
+  const double *period = search->bins->domain->period;
   double place = 0, turn = 0;
   for (int k = 0; k < 3; k++) {
     double way = to->position[k] - from->position[k];
@@ -85,28 +85,28 @@ static double cost_of(const query *asked, int seed)
     place += way * way;
     turn += d * d;
   }
-  return place * asked->place_weight + turn * asked->turn_weight;
+  return place * search->place_weight + turn * search->turn_weight;
 }
 
-static void look_into(query *asked, int bin)
+static void look_into(query *search, int bin)
 {
-  for (int n = asked->bins->top[bin]; n >= 0; n = asked->bins->next[n]) {
-    double cost = cost_of(asked, n);
-    if (cost < asked->cost || (cost <= asked->cost && n < asked->best)) {
-      asked->cost = cost;
-      asked->best = n;
+  for (int n = search->bins->top[bin]; n >= 0; n = search->bins->next[n]) {
+    double cost = cost_of(search, n);
+    if (cost < search->cost || (cost <= search->cost && n < search->best)) {
+      search->cost = cost;
+      search->best = n;
     }
   }
 }
 
 /* The bin so many steps away; -1 where the box ends or, round a period, others lie
  * nearer. */
-static int bin_beside(const query *asked, const int step[3])
+static int bin_beside(const query *search, const int step[3])
 {
-  const fg__seed_bins *bins = asked->bins;
+  const fg__seed_bins *bins = search->bins;
   int index = 0;
   for (int k = bins->domain->dimension == 3 ? 2 : 1; k >= 0; k--) {
-    int at = asked->bin[k] + step[k];
+    int at = search->bin[k] + step[k];
     if (bins->domain->period[k] > 0) {
       if (2 * abs(step[k]) > bins->bins[k])
         return -1;
@@ -120,30 +120,30 @@ static int bin_beside(const query *asked, const int step[3])
 }
 
 /* All bins that are `ring` steps away along some axis, and no more along any. */
-static void look_round(query *asked, int ring)
+static void look_round(query *search, int ring)
 {
-  bool flat = asked->bins->domain->dimension == 2;
+  bool flat = search->bins->domain->dimension == 2;
   int step[3], high = flat ? 0 : ring;
   for (step[2] = -high; step[2] <= high; step[2]++)
     for (step[1] = -ring; step[1] <= ring; step[1]++) {
       bool inner = abs(step[2]) < ring && abs(step[1]) < ring;
       for (step[0] = -ring; step[0] <= ring;
            step[0] += inner && ring > 0 ? 2 * ring : 1) {
-        int bin = bin_beside(asked, step);
+        int bin = bin_beside(search, step);
         if (bin >= 0)
-          look_into(asked, bin);
+          look_into(search, bin);
       }
     }
 }
 
 /* How near a seed in the next ring can be at least, and whether there is one. */
-static double least_way(const query *asked, int ring)
+static double least_way(const query *search, int ring)
 {
-  const fg__seed_bins *bins = asked->bins;
+  const fg__seed_bins *bins = search->bins;
   double least = HUGE_VAL;
   for (int k = 0; k < bins->domain->dimension; k++) {
-    double low = asked->from->position[k] - bins->domain->origin[k] -
-                 asked->bin[k] * bins->size[k];
+    double low = search->from->position[k] - bins->domain->origin[k] -
+                 search->bin[k] * bins->size[k];
     double edge = fmax(fmin(low, bins->size[k] - low), 0);
     if (ring < bins->bins[k])
       least = fmin(least, edge + (ring - 1) * bins->size[k]);
@@ -154,20 +154,20 @@ static double least_way(const query *asked, int ring)
 int fg__seed_bins_nearest(const fg__seed_bins *bins, const fg__seed *from, double weight,
                           int guess, double *cost)
 {
-  query asked = {.bins = bins,
-                 .from = from,
-                 .place_weight = 1 / (bins->lambda * bins->lambda),
-                 .turn_weight = weight * weight,
-                 .best = guess};
+  query search = {.bins = bins,
+                  .from = from,
+                  .place_weight = 1 / (bins->lambda * bins->lambda),
+                  .turn_weight = weight * weight,
+                  .best = guess};
   for (int k = 0; k < bins->domain->dimension; k++)
-    asked.bin[k] = bin_of(bins, from->position, k);
-  asked.cost = cost_of(&asked, guess);
+    search.bin[k] = bin_of(bins, from->position, k);
+  search.cost = cost_of(&search, guess);
   for (int ring = 0;; ring++) {
-    double way = ring == 0 ? 0 : least_way(&asked, ring);
-    if (way * way > asked.cost * bins->lambda * bins->lambda || way == HUGE_VAL)
+    double way = ring == 0 ? 0 : least_way(&search, ring);
+    if (way * way > search.cost * bins->lambda * bins->lambda || way == HUGE_VAL)
       break;
-    look_round(&asked, ring);
+    look_round(&search, ring);
   }
-  *cost = asked.cost;
-  return asked.best;
+  *cost = search.cost;
+  return search.best;
 }

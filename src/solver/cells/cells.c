@@ -230,7 +230,7 @@ static fg__cells cells_of(const fg__tensor_recipe *recipe, const range *r)
   return cells;
 }
 
-fg__cells fg__cells_asked(const fg__tensor_recipe *recipe, const fg__box *box)
+fg__cells fg__cells_needed(const fg__tensor_recipe *recipe, const fg__box *box)
 {
   range r = range_of(recipe->dimension, recipe->periodic, box, recipe->cells);
   fg__cells cells = cells_of(recipe, &r);
@@ -260,9 +260,9 @@ static fg_status take_tensor(fg__tensor *out, fg_context *context, int dimension
   return FG_STATUS_OK;
 }
 
-static fg_status ask(fg__tensor *out, fg_context *context,
-                     const fg__tensor_recipe *recipe, fg__wide_tensor *wide,
-                     const fg__cells *cells, fg__threads *threads)
+static fg_status fill_tensor(fg__tensor *out, fg_context *context,
+                             const fg__tensor_recipe *recipe, fg__wide_tensor *wide,
+                             const fg__cells *cells, fg__threads *threads)
 {
   if (wide->memory)
     return fg__wide_tensor_finish(out, context, wide, recipe->law, recipe->anisotropy,
@@ -282,7 +282,7 @@ fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
   *out = (fg__cells_of_box){0};
   fg_status status = take_tensor(&tensor, context, dimension, fg__cell_count(&cells));
   if (!status && !fg__box_is_empty(box))
-    status = ask(&tensor, context, recipe, wide, &cells, threads);
+    status = fill_tensor(&tensor, context, recipe, wide, &cells, threads);
   fg__wide_tensor_clear(wide);
   if (!status)
     status = allocate(out, context, dimension, box->nodes);

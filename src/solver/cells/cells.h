@@ -45,11 +45,11 @@ typedef struct fg__tensor_recipe {
   double origin[3], spacing[3]; /* input coordinates */
 } fg__tensor_recipe;
 
-/* The cells whose centres that takes the field at, for a box of nodes. */
-fg__cells fg__cells_asked(const fg__tensor_recipe *recipe, const fg__box *box);
+/* The cells at whose centres the recipe evaluates the field for a box of nodes. */
+fg__cells fg__cells_needed(const fg__tensor_recipe *recipe, const fg__box *box);
 
-/* The cells round a box of nodes of the finest level. wide: the recipe's law at all cells
- * asked, of which this is made, unless it is empty (solver/cells/field_boxes.h); it is
+/* The cells round a box of nodes of the finest level. wide: the recipe's law at
+ * fg__cells_needed (solver/cells/field_boxes.h), which is used unless it is empty, and
  * cleared. MEMORY, and the statuses of the law. */
 fg_status fg__cells_for_box(fg__cells_of_box *out, fg_context *context,
                             const fg__tensor_recipe *recipe, const fg__box *box,

@@ -30,7 +30,7 @@ static fg__region region_of(const fg_field *field, const fg__cells *cells, int r
 typedef struct rounds {
   const fg_field *field;
   int ranks;
-  fg__cells *asked; /* [ranks] */
+  fg__cells *needed; /* [ranks] */
   fg__region *region;
   fg_field **window;
   int count;
@@ -38,7 +38,7 @@ typedef struct rounds {
 
 static void clear(rounds *r)
 {
-  free(r->asked);
+  free(r->needed);
   free(r->region);
   free(r->window);
 }
@@ -49,17 +49,17 @@ static fg_status plan(rounds *r, fg_context *context, const fg__tensor_recipe *r
   const size_t ranks = (size_t)partition->ranks->count;
   *r = (rounds){.field = recipe->field,
                 .ranks = partition->ranks->count,
-                .asked = fg__allocate(ranks, sizeof *r->asked),
+                .needed = fg__allocate(ranks, sizeof *r->needed),
                 .region = fg__allocate(ranks, sizeof *r->region),
                 .window = fg__allocate(ranks, sizeof *r->window)};
-  if (!r->asked || !r->region || !r->window)
-    return fg__fail_memory(context, "windows of the field", ranks * sizeof *r->asked);
+  if (!r->needed || !r->region || !r->window)
+    return fg__fail_memory(context, "windows of the field", ranks * sizeof *r->needed);
   double most = 0.0, samples = 1.0;
   for (int k = 0; k < recipe->dimension; ++k)
     samples *= fg_field_contents(recipe->field)->size[k];
   for (int rank = 0; rank < r->ranks; ++rank) {
-    r->asked[rank] = fg__cells_asked(recipe, &partition->block[rank]);
-    fg__region region = region_of(recipe->field, &r->asked[rank], rank);
+    r->needed[rank] = fg__cells_needed(recipe, &partition->block[rank]);
+    fg__region region = region_of(recipe->field, &r->needed[rank], rank);
     double count = (double)fg__box_count(&region.nodes);
     most = count > most ? count : most;
   }
@@ -71,7 +71,7 @@ static fg_status plan(rounds *r, fg_context *context, const fg__tensor_recipe *r
 /* Layers [*first, *first + *count) of a block's cells are those of a round. */
 static bool has_layers(const rounds *r, int rank, int round, int *first, int *count)
 {
-  const fg__cells *cells = &r->asked[rank];
+  const fg__cells *cells = &r->needed[rank];
   fg__slab_rows(first, count, cells->count[cells->dimension - 1], round, r->count);
   return *count > 0;
 }
@@ -84,10 +84,10 @@ static fg_status go_round(rounds *r, fg_context *context, const fg__tensor_recip
     r->region[rank] = (fg__region){.rank = NOBODY};
     if (!has_layers(r, rank, round, &first, &count))
       continue;
-    fg__cells layers = r->asked[rank];
+    fg__cells layers = r->needed[rank];
     const int last = layers.dimension - 1;
     for (int k = 0; k <= last; ++k)
-      layers.domain_count[k] = fg__domain_count(&r->asked[rank], k);
+      layers.domain_count[k] = fg__domain_count(&r->needed[rank], k);
     layers.first[last] += first;
     layers.count[last] = count;
     r->region[rank] = region_of(r->field, &layers, rank);
@@ -114,7 +114,7 @@ fg_status fg__wide_of_block(fg__wide_tensor *out, fg_context *context,
   rounds r;
   fg_status status = plan(&r, context, recipe, partition);
   if (!status)
-    status = fg__wide_tensor_create(out, context, &r.asked[ranks->rank]);
+    status = fg__wide_tensor_create(out, context, &r.needed[ranks->rank]);
   status = fg__ranks_agree(ranks, context, status);
   for (int round = 0; round < r.count && !status; ++round)
     status = go_round(&r, context, recipe, ranks, out, round);

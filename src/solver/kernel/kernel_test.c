@@ -414,8 +414,8 @@ static void all_widths_and_threads_give_the_same_bits_with_a_mask(void **state)
   compare_on_all_sizes(outside_holes);
 }
 
-/* Options ask for less than the machine has, never for more. */
-static void narrower_vectors_can_be_asked_for(void **state)
+/* Options choose at most the vector width that the machine has. */
+static void narrower_vectors_can_be_chosen(void **state)
 {
   (void)state;
   static const fg_vectors widths[] = {FG_VECTORS_GENERIC, FG_VECTORS_AVX2,
@@ -435,7 +435,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(all_widths_and_threads_give_the_same_bits),
       cmocka_unit_test(all_widths_and_threads_give_the_same_bits_with_a_mask),
-      cmocka_unit_test(narrower_vectors_can_be_asked_for),
+      cmocka_unit_test(narrower_vectors_can_be_chosen),
   };
   return cmocka_run_group_tests_name("solver/kernel/kernel", tests, NULL, NULL);
 }

@@ -13,8 +13,8 @@ typedef struct lines {
   float *value[FG__RESTRICTED];
 } lines;
 
-/* The interface shape of the finest u, slice by slice: the three round the last one asked
- * for. */
+/* The interface shape of the finest u, slice by slice: the three round the last one
+ * computed. */
 typedef struct shapes {
   const fg__level *level;
   float *slot[3]; /* that of slice s is s + 1 modulo 3 */

@@ -78,7 +78,8 @@ static void define_axis(writing *w, int *dimension, int *variable,
   put_text(w, *variable, "axis", words.letter);
 }
 
-/* Usual names are kept, so that a reader finds them; two of one name could not be. */
+/* Conventional names are kept, so that a reader finds them; two of one name could not be.
+ */
 static void name_components(char name[3][NAME_BYTES], const fg_field_arrays *field)
 {
   static const char *const taken[] = {"lon", "lat", "x", "y", "z"};
