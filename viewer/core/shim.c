@@ -3,32 +3,21 @@
 #include <flowgrain/flowgrain.h>
 
 #include "icon/icons.h"
+#include "icon/row.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define SHIM(name) __attribute__((export_name(#name))) name
 
-/* What a row of the table of arrows holds; src/core.js has the same list. */
+/* A row of the table of arrows; src/core.js has the same list. */
 enum {
   KIND,
   CLUSTER,
   ID,
   PARENT,
-  AREA,
-  SPEED,
-  WIDTH,
-  TAIL_WIDTH,
-  HEAD_LENGTH,
-  HEAD_WIDTH,
-  CENTER_X,
-  CENTER_Y,
-  SEED_X,
-  SEED_Y,
-  WAY_BACK,
-  WAY_ON,
-  POINTS,   /* how many, in the table of points from where the row before ends */
-  VERTICES, /* likewise */
+  NUMBERS, /* icon/row.h; its points follow those of the row before, in their own table */
+  VERTICES = NUMBERS + FG__ROW_COLUMNS, /* how many; they follow likewise */
   COLUMNS
 };
 
@@ -207,19 +196,7 @@ static void fill_row(double *row, const fg_icon *icon)
   row[CLUSTER] = icon->cluster;
   row[ID] = icon->id;
   row[PARENT] = icon->parent;
-  row[AREA] = icon->area;
-  row[SPEED] = icon->speed;
-  row[WIDTH] = icon->width;
-  row[TAIL_WIDTH] = icon->tail_width;
-  row[HEAD_LENGTH] = icon->head_length;
-  row[HEAD_WIDTH] = icon->head_width;
-  row[CENTER_X] = icon->center[0];
-  row[CENTER_Y] = icon->center[1];
-  row[SEED_X] = icon->seed[0];
-  row[SEED_Y] = icon->seed[1];
-  row[WAY_BACK] = icon->way[0];
-  row[WAY_ON] = icon->way[1];
-  row[POINTS] = icon->point_count;
+  fg__icon_row(row + NUMBERS, icon);
 }
 
 static fg_status add_outline(shim_scales *s, int row, const fg_icon *icon, size_t *used)
