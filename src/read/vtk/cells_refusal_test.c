@@ -27,6 +27,8 @@ static void wrong_cells_of_xml_are_refused(void **state)
       {"'offsets'", "'ends'", FG_STATUS_FILE_FORMAT, "\"offsets\""},
       {"'types'", "'kinds'", FG_STATUS_FILE_FORMAT, "\"types\""},
       {"<Points>", "<Points><DataArray/>", FG_STATUS_FILE_FORMAT, "one array of points"},
+      {"Name='P'", "format='appended' offset='9'", FG_STATUS_FILE_FORMAT,
+       "array \"Points\""},
       {"0 2 3", "0 2 4", FG_STATUS_FILE_FORMAT, "corner 2 of cell 1 is point 4 of 4"},
       {"0 2 3", "0 2 -1", FG_STATUS_FILE_FORMAT, "corner 2 of cell 1 is point -1"},
       {"3 6", "6 3", FG_STATUS_FILE_FORMAT, "after its 3 numbers"},

@@ -114,7 +114,10 @@ static fg_status read_array(fg__vtk *vtk, const xmlNode *node, fg__vtk_place pla
 {
   fg__vtk_array *array = NULL;
   char *name = fg__vtk_attribute(vtk, node, "Name");
-  fg_status status = fg__vtk_add_array(&array, vtk, name ? name : "", place);
+  /* for messages: points need no name of their own */
+  const char *unnamed =
+      place == FG__VTK_COORDINATES ? (const char *)node->parent->name : "";
+  fg_status status = fg__vtk_add_array(&array, vtk, name ? name : unnamed, place);
   free(name);
   if (status != FG_STATUS_OK)
     return status;
