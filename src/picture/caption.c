@@ -56,7 +56,7 @@ void fg__speeds_beyond(bool beyond[2], const fg_icons *icons, const double range
   }
 }
 
-/* Adds a part of the subtitle after a middle dot. */
+/* Appends a part to a text, after a middle dot where it is not the first. */
 static void add_part(char text[FG__CAPTION_BYTES], const char *part)
 {
   char clean[FG__CAPTION_BYTES];
@@ -80,7 +80,7 @@ static double round_up(double degrees)
   return degrees < 3.0 ? ceil(10.0 * degrees) / 10.0 : ceil(degrees);
 }
 
-static const char *say_error(char *words, size_t room, const fg_score *score)
+static const char *format_error(char *words, size_t room, const fg_score *score)
 {
   double weighted = (score->diffusion.speed_weighted + score->nearest.speed_weighted +
                      score->inverse_distance.speed_weighted) /
@@ -162,7 +162,7 @@ void fg__caption_fill(char out[FG__CAPTION_BYTES], const char *wanted,
   }
 }
 
-/* A label of one's own still tells what was taken out of the numbers. */
+/* A given label is kept with the offset or factor that the ticks' numbers leave out. */
 void fg__caption_label_speeds(fg__tick_axis *speed, const char *wanted, const char *units)
 {
   char label[FG__CAPTION_BYTES];
@@ -182,14 +182,15 @@ void fg__caption_label_speeds(fg__tick_axis *speed, const char *wanted, const ch
   speed->units[0] = '\0';
 }
 
-/* What a field and its icons say of themselves, cleaned; "" what they do not say. */
-typedef struct told_words {
+/* The texts of a caption, from a field and its icons, cleaned; "" where they have none.
+ */
+typedef struct caption_texts {
   char title[FG__CAPTION_BYTES], names[FG__CAPTION_BYTES], time[FG__CAPTION_BYTES],
       level[FG__CAPTION_BYTES], scale[32], arrows[32];
-  bool telling;  /* the names are more than u and v */
-  bool in_words; /* the title is of a file that describes its variables */
-  bool repeated; /* the names are the title's components, as U_x and U_y of U */
-} told_words;
+  bool has_names;      /* other than u, v and one name for all components */
+  bool in_words;       /* the title is of a file that describes its variables */
+  bool names_of_title; /* the names are the title's components, as U_x and U_y of U */
+} caption_texts;
 
 static bool names_components(const fg_field_arrays *field)
 {
@@ -203,22 +204,22 @@ static bool names_components(const fg_field_arrays *field)
   return true;
 }
 
-static void collect_words(told_words *out, const fg__caption_panel *panel)
+static void collect_texts(caption_texts *out, const fg__caption_panel *panel)
 {
   const fg_field_arrays *field = panel->field;
   char names[FG__CAPTION_BYTES];
   snprintf(names, sizeof names, "%.100s, %.100s", field->velocity_name[0],
            field->velocity_name[1]);
-  out->telling = strcmp(names, "u, v") != 0 &&
-                 strcmp(field->velocity_name[0], field->velocity_name[1]) != 0;
-  if (out->telling && field->dimension == 3) {
+  out->has_names = strcmp(names, "u, v") != 0 &&
+                   strcmp(field->velocity_name[0], field->velocity_name[1]) != 0;
+  if (out->has_names && field->dimension == 3) {
     size_t used = strlen(names);
     snprintf(names + used, sizeof names - used, ", %.100s", field->velocity_name[2]);
   }
   fg__text_clean(out->names, sizeof out->names, names);
   fg__text_clean(out->title, sizeof out->title, field->title);
-  out->repeated = names_components(field);
-  out->in_words = field->scale != FG_SCALE_PLAIN && !out->repeated;
+  out->names_of_title = names_components(field);
+  out->in_words = field->scale != FG_SCALE_PLAIN && !out->names_of_title;
   fg__text_clean(out->time, sizeof out->time, field->time ? field->time : "");
   fg__text_clean(out->level, sizeof out->level, field->level ? field->level : "");
   out->scale[0] = '\0';
@@ -228,8 +229,8 @@ static void collect_words(told_words *out, const fg__caption_panel *panel)
            panel->icons ? fg_icons_count(panel->icons) : 0);
 }
 
-/* How far a date in words goes: 10 bytes to its day, 16 to the minute, 19 to the second;
- * 0: it is none. */
+/* Length of a date in ISO 8601 form: 10 bytes to its day, 16 to the minute, 19 to the
+ * second; 0: the text is none. */
 static size_t date_length(const char *text)
 {
   static const char form[] = "0000-00-00 00:00:00";
@@ -242,8 +243,8 @@ static size_t date_length(const char *text)
   return length;
 }
 
-/* A date goes as far as the longest of those that stand beside it. */
-static void complete_date(told_words *out, const fg__caption_panel *panel, int count)
+/* Extends a date to the precision of the most precise one among the panels. */
+static void complete_date(caption_texts *out, const fg__caption_panel *panel, int count)
 {
   static const char midnight[] = " 00:00:00";
   const size_t own = date_length(out->time);
@@ -258,73 +259,72 @@ static void complete_date(told_words *out, const fg__caption_panel *panel, int c
              midnight + own - 10);
 }
 
-/* The texts of told words. */
-enum { WORDS = 6 };
+enum { TEXTS = 6 };
 
-static char *words_of(told_words *told, int k)
+static char *text_at(caption_texts *texts, int k)
 {
-  char *const words[WORDS] = {told->title, told->names, told->time,
-                              told->level, told->scale, told->arrows};
+  char *const words[TEXTS] = {texts->title, texts->names, texts->time,
+                              texts->level, texts->scale, texts->arrows};
   return words[k];
 }
 
-/* Only what all panels have in common. */
-static void collect_common(told_words *out, const fg__caption_panel *panel, int count)
+/* The texts that all panels have in common, "" for others. */
+static void collect_common(caption_texts *out, const fg__caption_panel *panel, int count)
 {
-  told_words other;
-  collect_words(out, &panel[0]);
+  caption_texts other;
+  collect_texts(out, &panel[0]);
   for (int n = 1; n < count; ++n) {
-    collect_words(&other, &panel[n]);
-    for (int k = 0; k < WORDS; ++k)
-      if (strcmp(words_of(out, k), words_of(&other, k)) != 0)
-        words_of(out, k)[0] = '\0';
+    collect_texts(&other, &panel[n]);
+    for (int k = 0; k < TEXTS; ++k)
+      if (strcmp(text_at(out, k), text_at(&other, k)) != 0)
+        text_at(out, k)[0] = '\0';
   }
 }
 
-/* "40 arrows", "40 arrows each", "" where that is not told. */
-static const char *say_arrows(char *words, size_t room, const told_words *told,
-                              bool of_several)
+/* "40 arrows", "40 arrows each"; "" where the number is not known. */
+static const char *format_arrows(char *words, size_t room, const caption_texts *texts,
+                                 bool of_several)
 {
-  snprintf(words, room, "%s arrow%s%s", told->arrows,
-           strcmp(told->arrows, "1") == 0 ? "" : "s", of_several ? " each" : "");
-  return told->arrows[0] ? words : "";
+  snprintf(words, room, "%s arrow%s%s", texts->arrows,
+           strcmp(texts->arrows, "1") == 0 ? "" : "s", of_several ? " each" : "");
+  return texts->arrows[0] ? words : "";
 }
 
-static void write_subtitle(char subtitle[FG__CAPTION_BYTES], const told_words *told,
+static void write_subtitle(char subtitle[FG__CAPTION_BYTES], const caption_texts *texts,
                            const fg__caption_panel *panel, int count)
 {
   char words[64];
   const fg_icons *icons = panel[0].icons;
-  if (told->title[0] && told->telling && !told->repeated)
-    add_part(subtitle, told->names);
-  add_part(subtitle, told->time);
-  add_part(subtitle, told->level);
+  if (texts->title[0] && texts->has_names && !texts->names_of_title)
+    add_part(subtitle, texts->names);
+  add_part(subtitle, texts->time);
+  add_part(subtitle, texts->level);
   if (icons)
-    add_part(subtitle, say_arrows(words, sizeof words, told, count > 1));
+    add_part(subtitle, format_arrows(words, sizeof words, texts, count > 1));
   if (icons && count == 1 && fg_icons_kept_score(icons))
-    add_part(subtitle, say_error(words, sizeof words, fg_icons_kept_score(icons)));
-  add_part(subtitle, told->scale);
+    add_part(subtitle, format_error(words, sizeof words, fg_icons_kept_score(icons)));
+  add_part(subtitle, texts->scale);
 }
 
 enum { CAPTION_NAMES = 5 };
 
-static void list_values(fg__caption_value out[CAPTION_NAMES], const told_words *told)
+static void list_values(fg__caption_value out[CAPTION_NAMES], const caption_texts *texts)
 {
-  const fg__caption_value values[CAPTION_NAMES] = {{"{title}", told->title},
-                                                   {"{names}", told->names},
-                                                   {"{time}", told->time},
-                                                   {"{level}", told->level},
-                                                   {"{arrows}", told->arrows}};
+  const fg__caption_value values[CAPTION_NAMES] = {{"{title}", texts->title},
+                                                   {"{names}", texts->names},
+                                                   {"{time}", texts->time},
+                                                   {"{level}", texts->level},
+                                                   {"{arrows}", texts->arrows}};
   memcpy(out, values, sizeof values);
 }
 
 /* A name in words begins as a sentence does: "wind at 10 m"; that of a variable or of an
  * analytic field stays. */
-static void begin_sentence(char *title, const told_words *told)
+static void begin_sentence(char *title, const caption_texts *texts)
 {
   const bool word = title[0] >= 'a' && title[0] <= 'z' && title[1] >= 'a' &&
                     title[1] <= 'z' && !strchr(title, '_');
-  if (word && told->in_words)
+  if (word && texts->in_words)
     title[0] = (char)(title[0] - 'a' + 'A');
 }
 
@@ -333,22 +333,22 @@ void fg__caption_write_common(char title[FG__CAPTION_BYTES],
                               const fg__caption_panel *panel, int count,
                               const char *const wanted[2])
 {
-  told_words told;
+  caption_texts own;
   fg__caption_value values[CAPTION_NAMES];
-  collect_common(&told, panel, count);
-  list_values(values, &told);
+  collect_common(&own, panel, count);
+  list_values(values, &own);
   title[0] = subtitle[0] = '\0';
   if (wanted[0])
     fg__caption_fill(title, wanted[0], values, CAPTION_NAMES);
-  else if (told.title[0]) {
-    snprintf(title, FG__CAPTION_BYTES, "%s", told.title);
-    begin_sentence(title, &told);
-  } else if (told.telling)
-    snprintf(title, FG__CAPTION_BYTES, "%s", told.names);
+  else if (own.title[0]) {
+    snprintf(title, FG__CAPTION_BYTES, "%s", own.title);
+    begin_sentence(title, &own);
+  } else if (own.has_names)
+    snprintf(title, FG__CAPTION_BYTES, "%s", own.names);
   if (wanted[1])
     fg__caption_fill(subtitle, wanted[1], values, CAPTION_NAMES);
   else if (!wanted[0])
-    write_subtitle(subtitle, &told, panel, count);
+    write_subtitle(subtitle, &own, panel, count);
 }
 
 void fg__caption_write(char title[FG__CAPTION_BYTES], char subtitle[FG__CAPTION_BYTES],
@@ -372,12 +372,12 @@ void fg__caption_write_label(char label[FG__CAPTION_BYTES],
                              const fg__caption_panel *panel, int count, int k,
                              const char *wanted)
 {
-  told_words told, common;
+  caption_texts own, common;
   fg__caption_value values[CAPTION_NAMES + 1];
   char letter[4], words[64], rest[FG__CAPTION_BYTES] = "";
-  collect_words(&told, &panel[k]);
-  complete_date(&told, panel, count);
-  list_values(values, &told);
+  collect_texts(&own, &panel[k]);
+  complete_date(&own, panel, count);
+  list_values(values, &own);
   write_letter(letter, k);
   values[CAPTION_NAMES] = (fg__caption_value){"{letter}", letter};
   if (wanted) {
@@ -385,10 +385,10 @@ void fg__caption_write_label(char label[FG__CAPTION_BYTES],
     return;
   }
   collect_common(&common, panel, count);
-  for (int n = 0; n < WORDS; ++n)
-    if (strcmp(words_of(&told, n), words_of(&common, n)) != 0)
-      add_part(rest, words_of(&told, n) == told.arrows
-                         ? say_arrows(words, sizeof words, &told, false)
-                         : words_of(&told, n));
+  for (int n = 0; n < TEXTS; ++n)
+    if (strcmp(text_at(&own, n), text_at(&common, n)) != 0)
+      add_part(rest, text_at(&own, n) == own.arrows
+                         ? format_arrows(words, sizeof words, &own, false)
+                         : text_at(&own, n));
   snprintf(label, FG__CAPTION_BYTES, "(%s)%s%.300s", letter, *rest ? " " : "", rest);
 }
