@@ -1,4 +1,4 @@
-/* From placed lines to arrows. */
+/* From placed lines to arrows, and from icons to the seeds of lines. */
 #include "place/placement.h"
 
 #include "base/memory.h"
@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Body widths in lambda: of an arrow in still and in fast flow (that of the domain's
  * upper twentieth). A reader takes broad arrows for strong flow, so that width says the
@@ -180,4 +181,32 @@ fg_status fg_placement_icons(fg_icons **out, const fg_placement *placement)
   fg__icons_set_next_id(icons, search->next_identity + 1);
   *out = icons;
   return FG_STATUS_OK;
+}
+
+bool fg__place_is_placed(const fg_icon *icon)
+{
+  return icon->way[0] + icon->way[1] > 0.0;
+}
+
+fg__place_seed fg__place_seed_of(const fg_icon *icon, const fg__place_scale *scale)
+{
+  fg__place_seed seed = {{0}, {0}};
+  if (fg__place_is_placed(icon)) {
+    memcpy(seed.position, icon->seed, sizeof seed.position);
+    memcpy(seed.way, icon->way, sizeof seed.way);
+    return seed;
+  }
+  double length = fg__icon_length(icon), half = length / 2.0, done = 0.0;
+  memcpy(seed.position, icon->points[0], sizeof seed.position);
+  for (int n = 1; n < icon->point_count && done < half; ++n) {
+    const double *a = icon->points[n - 1], *b = icon->points[n];
+    double piece = fg__distance(a, b);
+    double t = piece > 0.0 ? fmin(1.0, (half - done) / piece) : 0.0;
+    fg__lerp(a, t, b, seed.position);
+    done += piece;
+  }
+  double way = scale->free ? fmin(fmax(half, 0.3 * scale->lambda), scale->lambda)
+                           : 0.5 * scale->lambda;
+  seed.way[0] = seed.way[1] = way;
+  return seed;
 }

@@ -152,16 +152,24 @@ typedef struct side {
   int count;
 } side;
 
-/* Takes the samples off behind which the line breaks. */
-static bool breaks(const side *line, double range)
+/* The last sample at least `range` before sample `last`; 0 where there is none. */
+static int sample_before(const side *line, int last, double range)
 {
-  int last = line->count - 1, first = last;
+  int first = last;
   while (first > 0 && line->at[last] - line->at[first] < range)
     --first;
+  return first;
+}
+
+/* Whether the line turns back within `range` of its end. */
+static bool breaks(const side *line, double range)
+{
+  const int last = line->count - 1, first = sample_before(line, last, range);
   return fg__dot(line->sample[first].direction, line->sample[last].direction) <
          BREAK_COSINE;
 }
 
+/* Removes the samples within `range` of the end. */
 static void cut_break(side *line, double range)
 {
   double end = line->at[line->count - 1] - range;
@@ -206,23 +214,14 @@ double fg__place_least_clearance(const fg__place_domain *domain,
   return subdomain ? fmin(scale->clearance, 0.5 * subdomain->widest) : HUGE_VAL;
 }
 
-/* The sample a range before another one. */
-static int sample_before(const side *line, int last, double range)
-{
-  int first = last;
-  while (first > 0 && line->at[last] - line->at[first] < range)
-    --first;
-  return first;
-}
-
 static double bend_between(const side *line, int first, int last)
 {
   return fg__place_arccos(
       fg__dot(line->sample[first].direction, line->sample[last].direction));
 }
 
-/* Takes the end off that a head would have to bend round. An even arc, as of a ring, has
- * no such end. */
+/* Shortens the line where its end bends more than an arrowhead can, and more than the
+ * piece before it: not on an even arc, as of a ring. */
 static void straighten_head(side *line, double range)
 {
   for (int n = 0; n < MOST_HEAD_CUTS && line->count > 2; ++n) {
@@ -235,7 +234,7 @@ static void straighten_head(side *line, double range)
   }
 }
 
-/* Takes a hook off: an elbow and the short piece behind it. */
+/* Removes a hook at the end: a sharp bend and the short piece behind it. */
 static void cut_hook(side *line, double range, double hook)
 {
   const double length = line->at[line->count - 1];
@@ -340,9 +339,8 @@ static bool trace_finely(side both[2], const fg__place_domain *domain,
     with.step = sampling;
     trace_side(&both[n], &with, &start, n ? 1.0 : -1.0, line->way[n], sampling);
     place_of(end, domain, scale, line, n ? line->count - 1 : 0);
-    for (int k = 0; k < 3; ++k)
-      end[k] -= both[n].sample[both[n].count - 1].position[k];
-    if (fg__length(end) > MOST_APART * scale->lambda)
+    if (fg__distance(end, both[n].sample[both[n].count - 1].position) >
+        MOST_APART * scale->lambda)
       return false;
   }
   return true;
@@ -368,18 +366,16 @@ static void point_between(double out[3], const fg__place_domain *domain,
   }
 }
 
-/* Whether one straight piece can stand for those between two points. */
+/* Whether the chord between two points is within `most` of those between, which all go
+ * forwards along it. */
 static bool is_straight(const double (*points)[3], int from, int to, double most)
 {
   double whole[3], off[3], piece[3], across[3];
-  for (int k = 0; k < 3; ++k)
-    whole[k] = points[to][k] - points[from][k];
+  fg__subtract(points[to], points[from], whole);
   double length = fg__length(whole);
   for (int n = from; n < to; ++n) {
-    for (int k = 0; k < 3; ++k) {
-      off[k] = points[n][k] - points[from][k];
-      piece[k] = points[n + 1][k] - points[n][k];
-    }
+    fg__subtract(points[n], points[from], off);
+    fg__subtract(points[n + 1], points[n], piece);
     fg__cross(whole, off, across);
     if (!(fg__length(across) <= most * length) ||
         !(fg__dot(whole, piece) >= STRAIGHT_COSINE * length * fg__length(piece)))
@@ -388,7 +384,8 @@ static bool is_straight(const double (*points)[3], int from, int to, double most
   return true;
 }
 
-/* Keeps the points that the line's shape needs; returns their number. */
+/* Drops the points whose neighbours' chord is within `most` of them; returns how many are
+ * left. */
 static int keep_needed(double (*points)[3], int count, double most)
 {
   int kept = 1;
@@ -439,8 +436,7 @@ double fg__place_turning(const double (*points)[3], int count)
   double sum[3] = {0}, before[3] = {0};
   for (int n = 1; n < count; ++n) {
     double along[3], turn[3];
-    for (int k = 0; k < 3; ++k)
-      along[k] = points[n][k] - points[n - 1][k];
+    fg__subtract(points[n], points[n - 1], along);
     double size = fg__length(along);
     if (!(size > 0.0))
       continue;
@@ -460,7 +456,7 @@ bool fg__place_close(double *gap, double *diameter, const fg__place_domain *doma
                      const fg__place_scale *scale, const double start[3], double radius)
 {
   enum { STEPS = 400 };
-  double step = radius * FG__PLACE_PI / 60.0, off[3];
+  double step = radius * FG__PLACE_PI / 60.0;
   tracing with = {domain, scale, FINE_ERROR * radius, step, 0.0, true};
   tip now = {{0}, {0}, 0, {0}}, next;
   memcpy(now.position, start, sizeof now.position);
@@ -476,9 +472,7 @@ bool fg__place_close(double *gap, double *diameter, const fg__place_domain *doma
     if (!move(&with, &next, &now, step) || !accept(&with, &next, &now))
       return false;
     now = next;
-    for (int k = 0; k < 3; ++k)
-      off[k] = now.position[k] - start[k];
-    *gap = fg__length(off);
+    *gap = fg__distance(now.position, start);
     *diameter = fmax(*diameter, *gap);
     if (fg__length(now.turned) >= 2.0 * FG__PLACE_PI)
       return true;

@@ -2,56 +2,63 @@
 
 #include "base/memory.h"
 #include "icon/icons.h"
-#include "icon/measure.h"
 #include "place/search/even.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Sweeps of descent; exchanges, so many and one more for so many icons (0: none), and how
- * many may fail before they end; other placements of a first scale, which take longer,
- * and of one that comes down from a finer. */
 typedef struct effort {
-  int sweeps, exchanges, icons_an_exchange, failures, first_others, others;
+  int sweeps;            /* of the descent */
+  int exchanges;         /* of icons, */
+  int icons_an_exchange; /* and one more for so many icons; 0: none */
+  int failures;          /* exchanges in a row that may fail before they end */
+  int first_others;      /* other placements that are tried of a first scale, */
+  int others;            /* and of one that is reached from a finer one */
 } effort;
 
 static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5, 1, 2},
                                  [FG_EFFORT_QUICK] = {8, 0, 0, 0, 0, 0},
                                  [FG_EFFORT_THOROUGH] = {14, 13, 30, 5, 2, 2}};
 
-/* Beyond so many icons there are fewer exchanges, each of which looks at all icons and
- * changes less and less of the picture. */
+/* From so many icons on the number of exchanges falls: each takes time in proportion to
+ * the number of icons and changes a smaller share of the picture. */
 enum { MOST_EXCHANGED = 1500 };
 
-/* The least fair-share length in distances between samples, and a number of icons that
- * any field may have. */
+/* The least spacing of icons, lambda, in distances between samples; and a number of icons
+ * that any field may have. */
 static const double FINEST = 0.125;
 enum { ALWAYS = 200 };
 
 /* Sweeps after the first scale is complete. */
 enum { SETTLING = 3 };
 
-/* Other placements are made, of which the best stays: what errors icons have depends much
- * on where they began. Each comes down by a ratio of its own from the finer scale, or for
- * a first scale from so many times as many even points. */
+/* The descent ends in a local minimum that depends on where it starts. So other
+ * placements are made, and the best is kept. */
 typedef struct descent {
-  double ratio, start;
+  double ratio; /* of the numbers of icons in a chain of scales */
+  double start; /* of a first scale: icons at even points where the chain begins, as a
+                   multiple of those wanted */
 } descent;
 
 static const descent OTHERS[] = {{0.65, 1.5}, {0.5, 2.0}};
 
-/* A finer scale that other placements come down from has so many times as many icons. */
+/* Other placements start from a finer scale that has at least so many times as many
+ * icons.
+ */
 static const double LEAST_FINER = 1.5;
 
-/* By default there are others in 2D for up to so many icons. */
+/* Without FG_EFFORT_THOROUGH there are other placements in 2D only, of up to so many
+ * icons of free or fair lengths. */
 enum { FEW_FREE = 40, FEW_FAIR = 80 };
 
-/* A scale is reached by numbers of icons that fall by this factor. */
+/* A coarser scale is reached in a chain of scales, whose numbers of icons fall by this
+ * ratio; in each, icons move by so much. */
 static const double CHAIN_RATIO = 0.8;
-static const double CHAIN_STEP = 0.1; /* of its icons, in lambda */
+static const double CHAIN_STEP = 0.1; /* in lambda */
 
-/* Ink of a free placement, at most; its penalty is raised in steps until that holds. */
+/* The most ink of a free placement (fg__place_ink); its penalty grows until that holds.
+ */
 static const double MOST_INK = 1.48;
 static const double FIRST_INK_PENALTY = 0.25;
 static const double INK_PENALTY_GROWTH = 1.6;
@@ -125,40 +132,7 @@ void fg_placement_destroy(fg_placement *placement)
   free(placement);
 }
 
-/* Whether an icon comes from a placement, not from a cluster. */
-static bool is_placed(const fg_icon *icon)
-{
-  return icon->way[0] + icon->way[1] > 0.0;
-}
-
-/* The seed of an icon that was placed; of a cluster's its middle, and half its length
- * either way. */
-static fg__place_seed seed_of(const fg_icon *icon, const fg__place_scale *scale)
-{
-  fg__place_seed seed = {{0}, {0}};
-  if (is_placed(icon)) {
-    memcpy(seed.position, icon->seed, sizeof seed.position);
-    memcpy(seed.way, icon->way, sizeof seed.way);
-    return seed;
-  }
-  double length = fg__icon_length(icon), half = length / 2.0, done = 0.0;
-  memcpy(seed.position, icon->points[0], sizeof seed.position);
-  for (int n = 1; n < icon->point_count && done < half; ++n) {
-    const double *a = icon->points[n - 1], *b = icon->points[n];
-    double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    double piece = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    double t = piece > 0.0 ? fmin(1.0, (half - done) / piece) : 0.0;
-    for (int k = 0; k < 3; ++k)
-      seed.position[k] = a[k] + t * d[k];
-    done += piece;
-  }
-  double way = scale->free ? fmin(fmax(half, 0.3 * scale->lambda), scale->lambda)
-                           : 0.5 * scale->lambda;
-  seed.way[0] = seed.way[1] = way;
-  return seed;
-}
-
-/* The most icons that are placed; more would be far smaller than what data can tell. */
+/* The most icons that are placed; more would be far smaller than the samples resolve. */
 static double count_most(const fg_placement *placement)
 {
   const fg__place_domain *domain = &placement->domain;
@@ -167,7 +141,7 @@ static double count_most(const fg_placement *placement)
   return fmin(fmax(floor(most), ALWAYS), FG__MOST_ARROWS);
 }
 
-/* Refuses a number that must be a mistake. */
+/* Refuses more icons than that. */
 static fg_status check_fineness(const fg_placement *placement, int count)
 {
   if (count > FG__MOST_ARROWS)
@@ -183,7 +157,7 @@ static fg_status check_fineness(const fg_placement *placement, int count)
                   count, most);
 }
 
-/* A search for `count` icons, with none. */
+/* Starts a search for `count` icons, of which there are none yet. */
 static fg_status begin(fg_placement *placement, int count)
 {
   fg_status fine = check_fineness(placement, count);
@@ -208,7 +182,7 @@ static fg_status start(fg_placement *placement, int count, const fg_icons *clust
   if (!clusters)
     return fg__place_start_even(search);
   for (int n = 0; n < fg_icons_count(clusters) && status == FG_STATUS_OK; ++n) {
-    fg__place_seed seed = seed_of(fg_icons_at(clusters, n), &search->scale);
+    fg__place_seed seed = fg__place_seed_of(fg_icons_at(clusters, n), &search->scale);
     bool added;
     status = fg__place_add(search, &added, &seed, search->next_identity);
     search->next_identity += added;
@@ -267,8 +241,8 @@ fg_status fg_placement_resume(fg_placement *placement, const fg_icons *icons)
   return status;
 }
 
-/* Descends, with the ink within its bounds: by steps of `step` lambda, where it was not.
- */
+/* Relaxes, and while the ink exceeds MOST_INK raises its penalty and relaxes again, by
+ * steps of `step` lambda. */
 static fg_status descend(fg__place_search *search, int sweeps, double step)
 {
   fg_status status = fg__place_relax(search, sweeps);
@@ -282,7 +256,8 @@ static fg_status descend(fg__place_search *search, int sweeps, double step)
   return status;
 }
 
-/* Relaxes any icons, and adds or removes some until there are as many as wanted. */
+/* Relaxes the icons, and adds or removes some until there are as many as the search is
+ * for. */
 static fg_status relax_to_count(fg__place_search *search)
 {
   fg_status status = fg__place_relax(search, 2);
@@ -318,8 +293,8 @@ static fg_status refine(fg_placement *placement)
   return status;
 }
 
-/* A step of the chain of scales: fewer icons, of which each is a little longer. The
- * result depends on the icons' seeds alone, so that a run can be resumed from a file. */
+/* A step of the chain of scales, to fewer icons, which are a little longer. The result
+ * depends on the icons' seeds alone, so that a run can be resumed from a file. */
 static fg_status thin_to(fg__place_search *search, int count)
 {
   fg_status status = fg__place_search_rescale(search, count);
@@ -369,10 +344,10 @@ static fg_status place_first(fg_placement *placement, int count, const fg_icons 
 
 static bool are_placed(const fg_icons *icons)
 {
-  return icons && fg_icons_count(icons) > 0 && is_placed(fg_icons_at(icons, 0));
+  return icons && fg_icons_count(icons) > 0 && fg__place_is_placed(fg_icons_at(icons, 0));
 }
 
-/* Near icons of another placement. */
+/* Places icons near those of another placement. */
 static fg_status place_near(fg_placement *placement, int count, const fg_icons *icons)
 {
   fg__place_search *search = &placement->search;
@@ -396,8 +371,8 @@ fg_status fg__placement_begin_again(fg_placement *placement, int count)
   return status == FG_STATUS_OK ? refine(placement) : status;
 }
 
-/* To `count` icons from those of the finer scale `from`, or without one from evenly
- * distributed points. */
+/* Places `count` icons by a chain of scales from the finer scale `from`, or where that is
+ * empty from evenly distributed points. */
 static fg_status place_otherwise(fg_placement *placement, int count,
                                  const fg__place_snapshot *from, const descent *by)
 {
@@ -415,7 +390,7 @@ static fg_status place_otherwise(fg_placement *placement, int count,
   return status == FG_STATUS_OK ? refine(placement) : status;
 }
 
-/* Looks for another placement, and goes back where it is no better. */
+/* Tries another placement, and restores the present one where that is no better. */
 static fg_status improve(fg_placement *placement, int count,
                          const fg__place_snapshot *from, const descent *by)
 {
@@ -449,7 +424,7 @@ static void number_icons(fg__place_search *search)
   search->next_identity = search->count;
 }
 
-/* How many other placements are made of so many icons, for which there is room. */
+/* How many other placements are tried. */
 static int count_others(const fg_placement *placement, int count, bool is_first)
 {
   const bool fair = placement->options.lengths == FG_LENGTHS_FAIR;

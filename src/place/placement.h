@@ -19,6 +19,13 @@ fg_status fg__placement_begin_again(fg_placement *placement, int count);
 fg_status fg__placement_resume(fg_placement *placement, const fg_icons *icons,
                                int *missing);
 
+/* Whether an icon comes from a placement, not from a cluster. */
+bool fg__place_is_placed(const fg_icon *icon);
+
+/* The seed of an icon: the one it was placed from; of a cluster's icon the middle of its
+ * line, and half its length each way. */
+fg__place_seed fg__place_seed_of(const fg_icon *icon, const fg__place_scale *scale);
+
 /* Its icons, borrowed. */
 const fg__place_search *fg__placement_search(const fg_placement *placement);
 
