@@ -15,7 +15,7 @@ typedef enum fg_energy {
   FG_ENERGY_FLOW = 0,  /* interfaces along streamlines are cheap */
   FG_ENERGY_ISOTROPIC, /* the original Cahn-Hilliard model */
   FG_ENERGY_GRADIENT,  /* interfaces along level sets of the speed are cheap */
-  FG_ENERGY_LAW        /* of the caller's own: `law` in the options says which */
+  FG_ENERGY_LAW        /* the caller's own: `law` in the options */
 } fg_energy;
 
 typedef struct fg_energy_law fg_energy_law; /* flowgrain/energy.h */
@@ -91,7 +91,7 @@ typedef struct fg_step {
 } fg_step;
 
 /* Builds mesh, tensor and initial density. nodes is rounded up so that the mesh can be
- * coarsened; fg_evolution_mesh says what it became. The field, and what a law's `data`
+ * coarsened; fg_evolution_mesh has the result. The field, and what a law's `data`
  * points to, must outlive the evolution. Collective. ARGUMENT (options out of range,
  * ranks that disagree on field or options, more ranks than the mesh has blocks for),
  * MEMORY, MPI. */
@@ -124,8 +124,8 @@ FG_API bool fg_evolution_should_coarsen(const fg_evolution *evolution);
  * MPI: the evolution can only be destroyed. */
 FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step);
 
-/* A coarsening of the mesh: the step after which it was made, that step's time, what it
- * made of the energy, and clusters and cells on the new mesh. */
+/* A coarsening of the mesh: the step after which it was made and that step's time, the
+ * energy before and after it, and clusters and cells on the new mesh. */
 typedef struct fg_coarsening {
   int64_t step;
   double time, energy_before, energy_after;
@@ -165,11 +165,11 @@ enum { FG_PHASES = FG_PHASE_SNAPSHOTS + 1 };
 /* Communication counters of one rank. An exchange is one round of messages to the
  * neighbours. */
 typedef struct fg_communication {
-  double times; /* that the phase was begun; 0 for OTHER */
-  double exchanges;
-  double messages, bytes;     /* sent to single ranks */
-  double gathers, gathered;   /* all ranks' pieces on each; bytes received from others */
-  double reductions, reduced; /* sums and the like over all ranks; bytes given */
+  double times;             /* that the phase was begun; 0 for OTHER */
+  double exchanges;         /* rounds */
+  double messages, bytes;   /* sent to single ranks */
+  double gathers, gathered; /* of all ranks' pieces on each; bytes received from others */
+  double reductions, reduced; /* over all ranks; bytes that this one contributes */
 } fg_communication;
 
 /* Communication among the ranks of an evolution since its context was given a

@@ -56,10 +56,10 @@ typedef struct fg_icons fg_icons;
  * small for a readable arrow give none; fg_icons_dropped counts them. No arrow crosses a
  * periodic boundary: a cluster with a quarter of itself, or of the mean cluster, on
  * either side gives an icon on each, with the same `cluster`. Of a distributed density
- * each rank makes the icons of some clusters, from what lies round them, and rank 0 gets
- * all, the same as of the whole, and on other ranks *out becomes NULL; then the call is
- * collective. ARGUMENT (a density and a field of different dimensions), MEMORY, STOPPED,
- * MPI. */
+ * the call is collective: each rank makes the icons of some clusters from a window round
+ * each, and rank 0 gets all, the same as of the whole density; on other ranks *out
+ * becomes NULL. ARGUMENT (a density and a field of different dimensions), MEMORY,
+ * STOPPED, MPI. */
 FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
                                  const fg_field *field, const fg_density *density,
                                  const fg_icon_options *options);
@@ -73,14 +73,14 @@ FG_API const fg_icon *fg_icons_at(const fg_icons *icons, int index);
 FG_API int fg_icons_clusters(const fg_icons *icons);
 FG_API int fg_icons_dropped(const fg_icons *icons);
 
-/* The plane that the icons' coordinates are of: a PROJ string (fg_field_arrays), degrees
+/* The plane of the icons' coordinates: a PROJ string (fg_field_arrays), degrees
  * as "+proj=longlat"; NULL: of no map. */
 FG_API const char *fg_icons_projection(const fg_icons *icons);
 
-/* Least and largest speed, the ends of a colour key. Of 8 icons or more, one that is far
- * out does not count, so that it leaves the others their colours: faster than the upper
- * quartile by more than 3 times the distance between the quartiles (Tukey 1977). Without
- * icons 0, 0. */
+/* Least and largest speed, the ends of a colour key, in the field's units; 0, 0 without
+ * icons. Of 8 icons or more, outliers do not count, which would leave the others a small
+ * part of the colours: those faster than the upper quartile by more than 3 times the
+ * distance between the quartiles (Tukey 1977). */
 FG_API void fg_icons_speed_range(double range[2], const fg_icons *icons);
 
 /* Outline of an icon as a closed polygon, the first vertex not repeated. *vertices is

@@ -41,9 +41,9 @@ typedef struct fg_inventory_vector {
                     missing outside its cells; 0: the file has a grid */
   size_t points; /* scattered in space, interpolated likewise; 0: none */
   const fg_axis_value *time_value, *level_value; /* [times], [levels]; NULL: not known */
-  int usual_level;          /* fg_read_defaults.level */
-  const char *absent;       /* fg_read_defaults.absent; NULL: none */
-  const char *axis_name[3]; /* of a plane in space; NULL: x, y, z */
+  int usual_level;                               /* fg_read_defaults.level */
+  const char *absent;                            /* fg_read_defaults.absent; NULL: none */
+  const char *axis_name[3];                      /* of a plane in space; NULL: x, y, z */
 } fg_inventory_vector;
 
 /* Lists the vectors of a file; where the format allows, without reading all samples.

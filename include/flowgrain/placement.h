@@ -12,7 +12,7 @@ extern "C" {
 /* Lengths are given in fair-share lengths lambda: the root (2D) or cube root (3D) of
  * (area or volume of the domain / number of arrows). */
 typedef enum fg_lengths {
-  FG_LENGTHS_FREE = 0, /* each arrow as long as it tells most, 0.35 to 2 lambda */
+  FG_LENGTHS_FREE = 0, /* each as long as readers gain most from, 0.35 to 2 lambda */
   FG_LENGTHS_FAIR      /* lambda at most */
 } fg_lengths;
 
@@ -37,7 +37,7 @@ typedef struct fg_arrows_options {
 
 /* Places exactly options->count arrows on a field, 2D or 3D, in one call, from evenly
  * distributed points; `options` may be NULL. An icon's points run from tail to head in
- * the field's coordinates; all that icons have is set (fg_placement_icons). The same on
+ * the field's coordinates; all members of icons are set (fg_placement_icons). The same on
  * any machine and any number of threads. ARGUMENT (so many have no room: the message says
  * how many have), MEMORY, STOPPED. */
 FG_API fg_status fg_arrows_create(fg_icons **out, fg_context *context,
@@ -55,13 +55,14 @@ FG_API fg_status fg_placement_create(fg_placement **out, fg_context *context,
                                      const fg_placement_options *options);
 FG_API void fg_placement_destroy(fg_placement *placement);
 
-/* Places exactly `count` arrows. The first time they start from `clusters`, one for each
- * of these icons and more or fewer until there are `count`; NULL: from evenly distributed
- * points. Icons of another placement, of an earlier frame of an animation, may stand in
- * place of those of clusters: then arrows stay near them. Scales of fewer arrows go on
- * from the one before, and `clusters` is not looked at; one of more begins anew. The same
- * on any machine and any number of threads. ARGUMENT (count below 1; so many have no
- * room: the message says how many have), MEMORY, STOPPED. */
+/* Places exactly `count` arrows. A first scale starts from `clusters`, one arrow for each
+ * of these icons, of which some are removed or others added until there are `count`;
+ * NULL: from evenly distributed points. `clusters` may also be icons of another
+ * placement, as of an earlier frame of an animation: then arrows stay near them. A scale
+ * of fewer arrows than the present one starts from that, and `clusters` is ignored; one
+ * of more is a first scale again. The same on any machine and any number of threads.
+ * ARGUMENT (count below 1; so many have no room: the message says how many have), MEMORY,
+ * STOPPED. */
 FG_API fg_status fg_placement_place(fg_placement *placement, int count,
                                     const fg_icons *clusters);
 
@@ -77,9 +78,9 @@ FG_API fg_status fg_placement_within(fg_placement *placement, double degrees, in
  * that speed, and `cluster` is the id until fg_placement_find_clusters. MEMORY. */
 FG_API fg_status fg_placement_icons(fg_icons **out, const fg_placement *placement);
 
-/* The regions that the arrows stand for, each point with the arrow nearest to it, as a
- * density to be drawn behind the arrows: u > 0 inside each and below between two. 2D.
- * MEMORY, UNSUPPORTED. */
+/* The regions of the arrows, each point in that of the arrow nearest to it, as a density
+ * to be drawn behind the arrows: u > 0 inside each region, below 0 between two. 2D.
+ * MEMORY, UNSUPPORTED (3D). */
 FG_API fg_status fg_placement_regions(fg_density **out, const fg_placement *placement);
 
 /* Sets each icon's `cluster` to the cluster of a density, not distributed, that is
@@ -92,7 +93,7 @@ FG_API fg_status fg_placement_find_clusters(fg_context *context, fg_icons *icons
 FG_API void fg_placement_find_parents(const fg_placement *placement, fg_icons *finer);
 
 /* Goes on from the icons of a scale, as fg_placement_icons gave them or fg_icons_read
- * read them: the scales that follow are the same. ARGUMENT (they are no placed icons),
+ * read them: the scales that follow are the same. ARGUMENT (not icons of a placement),
  * MEMORY.
  */
 FG_API fg_status fg_placement_resume(fg_placement *placement, const fg_icons *icons);

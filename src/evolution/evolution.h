@@ -26,7 +26,7 @@ struct fg_evolution {
   double debris_area; /* in cells */
   double area_fraction;
   int clusters;
-  bool counting;         /* nucleation is over */
+  bool counting;         /* clusters are counted: nucleation is over */
   int mesh_nodes;        /* wanted along the longest side of the present mesh */
   int coarsenings;       /* of the mesh, since it was created */
   int64_t earlier_steps; /* accepted on finer meshes */

@@ -107,7 +107,7 @@ typedef struct fg__level_description {
   bool periodic[3];
   double spacing[3];
   double gamma;
-  bool finest;          /* no second right-hand side and space of corrections */
+  bool finest;          /* has no second right-hand side and no space of corrections */
   bool masked;          /* somewhere on the level, if not here */
   fg__threads *threads; /* that builds it and will work on it; NULL: one thread */
   const fg__box *box;   /* the block, when there are several; NULL: all nodes */
@@ -117,8 +117,8 @@ typedef struct fg__level_description {
 double fg__level_rounding(double nodes);
 double fg__level_change_rounding(double nodes);
 
-/* A sum of such terms as a number of its smallest unit, as which those of several ranks
- * are added (fg__ranks_add); what is no number becomes larger than any sum can be. */
+/* A sum of such terms as an integer multiple of its smallest unit, in which sums of
+ * several ranks are added (fg__ranks_add); NaN becomes more than any sum can be. */
 uint64_t fg__level_units(double sum, double rounding, int ranks);
 double fg__level_sum(uint64_t units, double rounding);
 

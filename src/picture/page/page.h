@@ -57,7 +57,7 @@ typedef struct fg__page {
   double size_key_length; /* points */
 } fg__page;
 
-/* What a page shall hold. */
+/* What is laid out on a page. */
 typedef struct fg__page_plan {
   double width;     /* points; 0: 480 at most, less for a tall domain */
   double height;    /* points; 0: follows */
@@ -138,22 +138,22 @@ typedef struct fg__page_parts {
 /* page_panels.c. Frames in a row, k = 0, or in a column. */
 int fg__page_frames(const fg__page_plan *plan, int k);
 
-/* A number of columns from the shape of `panels` frames: the whole is
- * about as wide as a page wants it, with few places left empty. */
+/* The number of columns, for the shape of `panels` frames: the whole has about the shape
+ * 3 : 2, and few places are empty. */
 int fg__page_choose_columns(const fg__page_plan *plan);
 
 /* Frames of the panels in page->frame, `gap` apart across and upright. */
 void fg__page_place_frames(const fg__page *page, fg__page *panel,
                            const fg__page_plan *plan, const double gap[2]);
 
-/* Adds to each panel what lies round its frame; reports the room that takes round all,
- * and between two. */
+/* Adds to each panel what lies round its frame; sets the space that this takes round all
+ * panels, and between two. */
 void fg__page_place_panels(fg__page *panel, fg__margins *room, double between[2],
                            const fg__page_plan *plan, const fg__page_parts *parts,
                            cairo_t *ruler);
 
-/* These add to the page what lies round page->frame and report the room that takes: axes;
- * axes or a map's degrees, where the parts have them; keys. */
+/* These add to the page what lies round page->frame, and set `room` to the space that it
+ * takes: axes or a map's degrees, where the parts have them; axes; keys. */
 void fg__page_place_sides(fg__page *page, fg__margins *room, const fg__page_plan *plan,
                           const fg__page_parts *parts, cairo_t *ruler);
 void fg__page_place_axes(fg__page *page, fg__margins *room, const fg__page_plan *plan,

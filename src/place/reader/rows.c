@@ -40,8 +40,8 @@ INLINE vector choose(mask which, vector yes, vector no)
   return (vector)((which & (mask)yes) | (~which & (mask)no));
 }
 
-/* The first `count` lanes: of a table, for comparisons that are no part of a choice GCC
- * takes apart lane by lane. */
+/* The first `count` lanes, from a table: GCC compiles a comparison whose result is not
+ * used in a choice lane by lane. */
 INLINE mask lanes_below(int count)
 {
   static const int32_t table[2 * WIDTH] = {-1, -1, -1, -1, -1, -1, -1, -1,
@@ -82,7 +82,7 @@ INLINE size_t row_of_raster(const fg__place_raster *raster, int y, int z)
   return ((size_t)z * (size_t)raster->cells[1] + (size_t)y) * (size_t)raster->cells[0];
 }
 
-/* Where a row of cells lies, in lambda. */
+/* The position of a row of cells, in lambda. */
 typedef struct row_place {
   float x, y, z; /* its low end, its middle */
   float cell, reach;

@@ -51,7 +51,7 @@ static size_t bytes_available(const byte_stream *stream)
                          : stream->base64.size - stream->base64.at;
 }
 
-/* A NULL `out` skips. */
+/* Reads `count` bytes; NULL: skips them. False where fewer are left. */
 static bool read_bytes(byte_stream *stream, unsigned char *out, size_t count)
 {
   if (stream->encoded)
@@ -99,7 +99,7 @@ typedef struct block_layout {
   uint64_t size;   /* of all that they hold */
 } block_layout;
 
-/* Of bytes that are expected: as many as the array says. */
+/* For a number of expected bytes: any, as the array has it. */
 static const size_t ANY_SIZE = SIZE_MAX;
 
 static fg_status fail_array(const fg__vtk *vtk, const fg__vtk_array *array,
