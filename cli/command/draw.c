@@ -6,6 +6,7 @@
 #include "command/command.h"
 #include "drawn/panels.h"
 #include "folder/file.h"
+#include "folder/made.h"
 #include "interrupt.h"
 #include "option/validation.h"
 #include "run/background.h"

@@ -7,6 +7,7 @@
 #include "build_features.h"
 #include "command/command.h"
 #include "folder/file.h"
+#include "folder/made.h"
 #include "option/table.h"
 #include "option/validation.h"
 #include "sandbox.h"

@@ -4,6 +4,7 @@
 
 #include "command/command.h"
 #include "folder/file.h"
+#include "folder/made.h"
 #include "option/settings.h"
 
 static bool name_is_known(const char *name)

@@ -10,7 +10,6 @@
 
 #include "build_features.h"
 #include "folder/files.h"
-#include "folder/made.h"
 
 bool ends_with(const char *text, const char *end)
 {
@@ -85,11 +84,6 @@ char *temporary_name(const char *path)
   else
     complain("out of memory for a file's name");
   return text;
-}
-
-int publish_file(char *partial, const char *path, int code)
-{
-  return replace_file(partial, path, code ? code : made_record(path));
 }
 
 int replace_file(char *partial, const char *path, int code)

@@ -24,11 +24,7 @@ int check_is_no_input(const char *path, const char *const *inputs, int count);
 char *temporary_name(const char *path);
 
 /* Ends such a name: gives its file the name `path`, or removes it when it could not be
- * written, as a `code` other than EXIT_DONE says. In a run's folder the file is recorded
- * as the program's (made.h). Returns an exit code. */
-int publish_file(char *partial, const char *path, int code);
-
-/* The same without recording it. */
+ * written, as a `code` other than EXIT_DONE says. Returns an exit code. */
 int replace_file(char *partial, const char *path, int code);
 
 /* Writes a text and a newline to a file, by replace_file. Returns an exit code. */

@@ -174,3 +174,8 @@ int made_record(const char *path)
   free(folder);
   return code;
 }
+
+int publish_file(char *partial, const char *path, int code)
+{
+  return replace_file(partial, path, code ? code : made_record(path));
+}

@@ -29,4 +29,8 @@ int made_check_inputs(const char *folder, const char *const *inputs, int count);
  * the name of a result; any other file needs no naming. Returns an exit code. */
 int made_record(const char *path);
 
+/* Replaces `path` by a written file (replace_file in file.h), recorded as above. Returns
+ * an exit code. */
+int publish_file(char *partial, const char *path, int code);
+
 #endif

@@ -13,6 +13,7 @@
 #include "command/command.h"
 #include "folder/file.h"
 #include "folder/files.h"
+#include "folder/made.h"
 #include "folder/results.h"
 #include "ranks.h"
 
