@@ -17,9 +17,8 @@ enum { LARGE_PAGE = 1 << 21 };
  * read a grid of 9 million points. */
 static const size_t LARGE_ARRAY = (size_t)1 << 25;
 
-/* A sweep reads rows of many arrays at once; with small pages it waits for their
- * addresses to be found (docs/design/evolution.md). Only a wish, and only where the
- * system can be told. */
+/* A sweep reads rows of many arrays at once; with small pages it waits for address
+ * translation (docs/design/evolution.md). A hint, where the system takes it. */
 static void prefer_large_pages(unsigned char *memory, size_t bytes)
 {
 #if defined(MADV_HUGEPAGE)

@@ -11,8 +11,8 @@ typedef struct fg__coarsened {
 
 /* Takes the means of `u`, an array of the finest level whose ghosts are filled, with the
  * weights (1/4, 1/2, 1/4) along each axis: without a mask the sum of the nodes' masses
- * times u stays what it is. `fine` shares out the finest level; along each axis its cells
- * are even. Collective. MEMORY. */
+ * times u is conserved. `fine` is the partition of the finest level; along each axis its
+ * cells are even. Collective. MEMORY. */
 fg_status fg__coarsened_create(fg__coarsened *out, fg_context *context,
                                const fg__multigrid *multigrid, const fg__partition *fine,
                                const float *u);

@@ -157,14 +157,14 @@ static bool sample_is_infinite(const fg_field_arrays *arrays, size_t i)
   return false;
 }
 
-/* Samples of its own; what follows them is another part's. */
+/* The number of its own samples; those after them belong to the next part. */
 static size_t own_samples(const fg_field *field)
 {
   const size_t rows = (size_t)field->held[fg__field_last_axis(field)];
   return fg__field_held(field) / rows * (field->slab ? (size_t)field->slab->own : rows);
 }
 
-/* `i` counts those that the field has. */
+/* Refuses the speed of a sample; `i` is its index among those held. */
 static fg_status fail_speed(const fg_field *field, fg_context *context, int k,
                             double value, size_t i)
 {
@@ -188,8 +188,8 @@ static fg_status fail_speed(const fg_field *field, fg_context *context, int k,
   return status;
 }
 
-/* Copies the samples that the field has, or takes them over where they are, and counts
- * those that miss. In a part NaN alone tells which. */
+/* Copies the samples of the field, or takes over the arrays `taken`, and counts those
+ * that are missing, which become NaN. */
 static fg_status copy_samples(fg_field *field, fg_context *context,
                               const fg_field_arrays *arrays, float *taken[3],
                               size_t *missing)
@@ -241,7 +241,7 @@ static bool moves(const fg_field *field, size_t i)
   return false;
 }
 
-/* Adds up a row of cells; marks them in valid_cell unless that is NULL. */
+/* Counts a row of cells; sets valid_cell unless that is NULL. */
 static void find_row(const fg_field *field, int j, int k, unsigned char *valid_cell,
                      fg__slab_counts *counts)
 {

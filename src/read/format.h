@@ -94,8 +94,8 @@ void fg__source_close(fg__source *source);
 fg_status fg__check_one_file(fg_context *context, const fg__source *source,
                              const fg_read_options *options, const char *files);
 
-/* A velocity of a number: beyond float, but not infinite, it stays beyond every speed
- * that is taken. */
+/* A number as a velocity: a finite one beyond float becomes the largest float, which is
+ * larger than any speed that is accepted. */
 float fg__as_velocity(double number);
 
 /* How an input is called in messages. */

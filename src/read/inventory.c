@@ -39,7 +39,8 @@ fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
   return FG_STATUS_OK;
 }
 
-/* False: no memory; NULL stays NULL. All texts lie in one. */
+/* Copies values with their texts, all in one allocation; NULL gives NULL. False: no
+ * memory. */
 static bool copy_values(value_list *out, const fg_axis_value *values, int count)
 {
   if (!values || count < 1)

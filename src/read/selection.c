@@ -32,7 +32,7 @@ typedef struct item {
   double value;
   char unit[UNIT_BYTES]; /* "": the file's */
   fg__period period;     /* of a date */
-  char text[ITEM_BYTES]; /* as it was typed */
+  char text[ITEM_BYTES]; /* as typed */
 } item;
 
 /* The times or levels that there are. */
@@ -43,8 +43,7 @@ typedef struct value_axis {
   int count;
 } value_axis;
 
-/* Units that can be told from each other: what they measure, and how many of its base
- * unit they are. */
+/* A unit: the quantity it measures, and its size in the base unit of that quantity. */
 typedef struct known_unit {
   const char *name;
   int measure;
@@ -109,7 +108,7 @@ static bool read_index(item *out, const char *text)
   return true;
 }
 
-/* Words that could be nothing else. */
+/* Text that is no number, date or range. */
 static bool are_words(const char *text)
 {
   return (isalpha((unsigned char)text[0]) || strchr(text, '_')) && !strpbrk(text, ":/");

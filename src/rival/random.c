@@ -13,7 +13,8 @@ static const double DEFAULT_LENGTH = 1;
 /* The same lots every time. */
 static const uint64_t KEY = 0x66676c6f74730001U;
 
-/* So many lots an arrow are drawn before the field has no room for all. */
+/* Random points tried for each arrow before the field is taken to have no room for all.
+ */
 enum { LOTS = 1000 };
 
 /* A number in [0, 1), by lot. */

@@ -11,7 +11,7 @@ static const double DEFAULT_POSITION_WEIGHT = 0.95;
 static const double DEFAULT_ELONGATION = 2;
 static const double LARGEST_ELONGATION = 1e6;
 
-/* In fair-share lengths: more than any box has room for. */
+/* In fair-share lengths: longer than any box. */
 static const double LARGEST_LENGTH = 1000;
 
 /* In 3D a raster of 1025 nodes a side still has fewer cells than an int can count. */

@@ -145,7 +145,7 @@ bool fg_run_take(fg_run_scale *out, fg_run *run)
   return true;
 }
 
-/* Placed arrows can be as few as is wanted even where no cluster has room. */
+/* Any number of arrows can be placed, even where no cluster has room for an icon. */
 void fg_run_close(fg_run *run)
 {
   fg_run *s = run;
@@ -211,8 +211,8 @@ fg_status fg_run_place(fg_icons **out, fg_context *context, fg_placement *placem
   return status;
 }
 
-/* The first scale's icons, where they are given. A field that differs a little from that
- * on which they were placed may have no room for the one or other. */
+/* Takes the given icons of the first scale. On a field that differs a little from the one
+ * on which they were placed some may not fit. */
 static fg_status take_first(fg_run *s)
 {
   const int count = fg_icons_count(s->first_icons);

@@ -94,8 +94,8 @@ static int half_way(const fg__graph *graph, int state)
   return k % graph->nodes;
 }
 
-/* Looks for a way round the largest hole that is at least as long as `length`; the path
- * stays as it is when there is none. */
+/* Replaces the path by a closed one round the largest hole, where there is one at least
+ * `length` long. */
 static fg_status find_closed_path(fg__ridge *ridge, fg_context *context, fg__graph *graph,
                                   const double *distance, double length)
 {

@@ -24,8 +24,8 @@ static const double reach_at_boundary = 2.5;
  * spacing. */
 enum { ROUNDS = 8 };
 
-/* Rounds in 3D, where no line is centred: a staircase of unit steps then stays within a
- * third of a step of a straight line. */
+/* Smoothing steps in 3D, where no line is centred: after these a staircase of unit steps
+ * is within a third of a step of a straight line. */
 enum { SMOOTHINGS = 6 };
 
 static double cell_size(const fg__window *window)

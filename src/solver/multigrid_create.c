@@ -42,8 +42,8 @@ static void choose_coarsest_sweeps(fg__multigrid *multigrid)
       COARSEST_SWEEPS * (side > COARSEST_CELLS ? side / COARSEST_CELLS : 1);
 }
 
-/* The tensor of a level has done its service once the next level has its own; the finest
- * level's weights still tell the parts of the domain. */
+/* The tensor of a level is freed once the next level has its own; the finest level's
+ * weights are kept, because they define the subdomains. */
 static fg_status create_coarser(fg__multigrid *out, fg_context *context, double gamma)
 {
   while (out->level_count < FG__MOST_LEVELS &&

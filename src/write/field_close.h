@@ -17,9 +17,9 @@ typedef struct fg__closed_field {
   float *velocity[3];
 } fg__closed_field;
 
-/* Copies a field so that each periodic axis shows its first sample again at its end; but
- * a circle of longitude stays as it is, for readers close it. Without such an axis all is
- * borrowed, with one the words are. To be cleared even after a failure. MEMORY. */
+/* Copies a field and repeats the first sample of each periodic axis at its end, but not
+ * of a circle of longitude, which readers close. Without such an axis all arrays are
+ * borrowed, with one the texts are. To be cleared even after a failure. MEMORY. */
 fg_status fg__closed_field_create(fg__closed_field *out, fg_context *context,
                                   const fg_field_arrays *field);
 void fg__closed_field_clear(fg__closed_field *closed);

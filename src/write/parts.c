@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-/* A centimetre on the ground: finer digits tell nothing of a line that is drawn. */
+/* A centimetre on the ground: finer digits do not change a line that is drawn. */
 static const double DIGITS = 1e7;
 
 static double turned(double longitude)

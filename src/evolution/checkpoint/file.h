@@ -1,7 +1,7 @@
 /* The file of a checkpoint: arrays of nodal values and a text, every byte under a
  * checksum (docs/design/checkpoint.md has the layout). A record holds an array at the
  * nodes of a grid, or of a box of it, by their places in the whole: ranks write and read
- * their own boxes of it, and the bytes do not tell how many ranks there were. All ranks
+ * their own boxes of it, and the bytes do not depend on the number of ranks. All ranks
  * need the same file system.
  *
  * Writing: every rank begins (one of them creates the file before the others), writes its
@@ -59,8 +59,8 @@ fg_status fg__checkpoint_end_share(fg__checkpoint_writer *writer, fg_context *co
                                    fg_status status);
 
 /* With OK, the worst status of all ranks, writes text and table, brings all to the disk
- * and gives the file its name. Otherwise, and on failure, PATH.part goes and PATH stays
- * as it was. Returns `status` or a failure. FILE_ACCESS, MEMORY. */
+ * and gives the file its name. Otherwise, and on failure, PATH.part is removed and PATH
+ * is kept. Returns `status` or a failure. FILE_ACCESS, MEMORY. */
 fg_status fg__checkpoint_commit(fg__checkpoint_writer *writer, fg_context *context,
                                 const char *text, const fg__box_record *records,
                                 size_t count, fg_status status);

@@ -76,7 +76,7 @@ typedef struct fg__page_plan {
                                             axes; NULL: axes */
   bool short_key; /* of colours, as on maps: about half as long as the frame's side, and
                      in its middle */
-  bool outlined; /* the frame is no box: what lies in it has an outline of its own */
+  bool outlined;  /* the frame is no box: what lies in it has an outline of its own */
   int panels, columns; /* frames of one size side by side, from the upper left, row by
                           row; 0: one frame */
   const char (*panel_label)[FG__PAGE_TEXT_BYTES]; /* of each panel; "" none */

@@ -50,8 +50,8 @@ void fg__nc_mesh_destroy(fg__nc_mesh *mesh);
 bool fg__nc_mesh_parts(fg__nc_mesh *mesh, const fg__nc_file *file,
                        const fg__nc_pair *pair);
 
-/* faces.c. Components that lie on the faces of cells along axes: those are the centres',
- * and `faces` says where the components are; else all stays as it is. MEMORY,
+/* faces.c. For components on the faces of cells along axes: the axes become those of the
+ * centres, and `faces` has the sides of the components. Else nothing is changed. MEMORY,
  * FILE_ACCESS. */
 fg_status fg__nc_faces_find(fg__nc_grid *grid, const fg__nc_file *file,
                             const fg__nc_pair *pair);
@@ -75,12 +75,13 @@ void fg__nc_positions_clear(fg__nc_positions *positions);
 fg_status fg__nc_centres_read(fg__nc_positions *out, const fg__nc_file *file,
                               const fg__nc_mesh *mesh, size_t time);
 
-/* Sets shift where sizes do not tell: from positions, then from attributes and names.
+/* Sets shift where it does not follow from sizes: from positions, then from attributes
+ * and names.
  * False where none does. */
 fg_status fg__nc_shift_find(bool *found, fg__nc_mesh *mesh, const fg__nc_file *file);
 
-/* Sets shift[k] by the number of faces, else by attributes and names; false where none
- * tells. */
+/* Sets shift[k] by the number of faces, else by attributes and names; false where it
+ * follows from none. */
 bool fg__nc_shift_by_size(fg__nc_mesh *mesh, const fg__nc_file *file, int k);
 
 /* The unit vector of position n; the first number is NaN where there is none. */

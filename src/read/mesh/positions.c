@@ -258,7 +258,7 @@ static void shift_by_words(bool *found, fg__nc_mesh *mesh, const fg__nc_file *fi
     }
 }
 
-/* Whether positions may tell on which side of the centres a component lies. */
+/* Whether the side of the centres on which a component lies may follow from positions. */
 static bool may_be_compared(const fg__nc_mesh *mesh, int k)
 {
   return mesh->part[k].grid.axis[k].size == mesh->size[k] && mesh->part[k].longitude;

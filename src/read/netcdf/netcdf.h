@@ -100,7 +100,7 @@ const fg__nc_variable *fg__nc_find(const fg__nc_file *file, const char *name);
 
 /* Reads numbers of a variable as nc_get_vara_double does, and one as nc_get_var1_double,
  * but no chunk that would become far larger in memory than the file says (NC_EFILTER, and
- * the message tells it). */
+ * a message). */
 int fg__nc_fetch(const fg__nc_variable *variable, const size_t *start,
                  const size_t *count, double *out);
 int fg__nc_fetch_one(const fg__nc_variable *variable, const size_t *index, double *out);
@@ -110,7 +110,7 @@ int fg__nc_check_chunks(const fg__nc_variable *variable, const size_t *start,
                         const size_t *count);
 
 /* A text attribute without white space at its ends, cut to the buffer; "" when there is
- * none. Returns whether there is one; fg__nc_status tells a lack of memory. */
+ * none. Returns whether there is one; fg__nc_status reports a lack of memory. */
 bool fg__nc_text(const fg__nc_variable *variable, const char *attribute, char *out,
                  size_t size);
 

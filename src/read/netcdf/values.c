@@ -257,7 +257,7 @@ static void put_values(void *target, size_t first, ptrdiff_t step, const double 
   const packing p = *to->packing;
   for (size_t i = 0, at = first; i < count; ++i, at = next_place(at, step)) {
     const double value = unpack(&p, stored[i], to->missing);
-    /* beyond float, but not infinite: it stays beyond every speed that is taken */
+    /* beyond float, but not infinite: still larger than any speed that is accepted */
     if (!isinf(stored[i]) && fabs(value) > (double)FLT_MAX)
       to->out[at] = value > 0.0 ? FLT_MAX : -FLT_MAX;
     else

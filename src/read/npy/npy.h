@@ -98,7 +98,7 @@ typedef struct fg__npy_choice {
 fg_status fg__npy_choose(fg__npy_choice *out, fg__npy_file *file,
                          const fg_read_options *options);
 
-/* field.c. Makes the field of a choice, and tells what is between its points; with
+/* field.c. Makes the field of a choice; *between is how points were interpolated; with
  * `sphere`, and scattered longitudes and latitudes, the field on the sphere instead. */
 fg_status fg__npy_field(fg_field **out, fg__scatter_between *between, fg__sphere **sphere,
                         fg__npy_file *file, const fg__npy_choice *choice,

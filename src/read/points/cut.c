@@ -1,4 +1,4 @@
-/* Triangles that bridge what no point tells of: gaps, bays, the slivers of the hull. */
+/* Removes triangles over regions without data: gaps, bays, the slivers of the hull. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

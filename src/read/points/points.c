@@ -8,15 +8,16 @@
 #include "base/memory.h"
 #include "read/points/delaunay.h"
 
-/* Of the points: so many at most may have another value than one at their place. */
+/* The largest share of points that may have another value than one at the same place. */
 static const double FEW = 0.1;
 
-/* So many points of one time or level at least, whose squared distances to their mean are
- * this part at least of what all points' are to theirs. */
+/* A time or level has at least so many points, and their mean square distance to their
+ * centroid is at least this share of that of all points. */
 enum { MANY = 8 };
 static const double WIDELY = 0.5;
 
-/* Degrees: longitudes are cut there rather than where their numbers end. */
+/* Longitudes are cut in a gap of at least so many degrees, else where their values end.
+ */
 static const double WIDE_GAP = 30.0;
 
 /* Coordinates whose products are far from overflow. */
@@ -283,7 +284,7 @@ static fg_status count_doubled(size_t *out, const fg__scatter *points)
   return status;
 }
 
-/* The values that tell points apart, ascending. */
+/* The distinct times or levels of the points, ascending. */
 static fg_status find_values(double **out, size_t *values, const fg__scatter *points,
                              const double *value)
 {

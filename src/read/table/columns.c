@@ -111,8 +111,8 @@ void fg__table_places(fg__table_vector *out, const fg__table *table)
   out->position[2] = out->geographic ? -1 : find_listed(table, PLACES[2]);
 }
 
-/* Columns that tell when and at which level rows were measured, and which were: negative,
- * or zero, or not zero means no. */
+/* Finds the columns of the time and level of rows, and those that mark rows without a
+ * measurement (rows.c has which values do). */
 static void find_time_and_validity(fg__table_vector *out, const fg__table *table)
 {
   out->valid[0] = out->valid[1] = out->mask = -1;

@@ -28,7 +28,7 @@ bool fg__legacy_is(const char *word, const char *keyword);
 void fg__legacy_skip_line(fg__legacy_cursor *cursor);
 
 /* The next word as a whole number from `least` on that fits an int, or as a finite one.
- * FILE_FORMAT; `what` says what it is. */
+ * `what` names it in messages. FILE_FORMAT. */
 fg_status fg__legacy_whole(fg__legacy_cursor *cursor, int *out, int least,
                            const char *what);
 fg_status fg__legacy_number(fg__legacy_cursor *cursor, double *out, const char *what);

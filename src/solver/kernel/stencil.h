@@ -117,7 +117,7 @@ static const float leeway = 0.02F;
 INLINE float bounded_change(float u, float change)
 {
   float up = greater(1.0F - u, 0.0F) + leeway, down = -greater(1.0F + u, 0.0F) - leeway;
-  float bounded = change > up ? up : change; /* no number stays none */
+  float bounded = change > up ? up : change; /* NaN remains NaN */
   return bounded < down ? down : bounded;
 }
 
