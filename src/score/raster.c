@@ -9,9 +9,9 @@
 enum { CELLS_2D = 256, CELLS_3D = 64 };
 
 /* A domain that fills little of its box gets wider cells, or time and memory would be
- * those of the box: at so many they are half a second and 0.3 GB. Where it fills less of
+ * those of the box: at so many they are half a second and 0.25 GB. Where it fills less of
  * it than the second allows, cells would be wider than the domain. */
-enum { AMPLE_CELLS = 1 << 21, MOST_CELLS = 1 << 24 };
+enum { AMPLE_CELLS = 3 << 19, MOST_CELLS = 1 << 24 };
 
 /* By which they become wider until there are few enough. */
 static const double WIDENING = 1.05;

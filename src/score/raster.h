@@ -6,7 +6,7 @@
 #include "field/field.h"
 
 /* The bounding box of the domain in cells of about side / 256, in 3D side / 64, or up to
- * three times as wide where the domain fills less than 1/32 of its box, in 3D 1/8; x
+ * three times as wide where the domain fills less than 1/24 of its box, in 3D 1/6; x
  * fastest. A cell lies in the domain when its centre does. */
 typedef struct fg__score_raster {
   const fg_field *field;

@@ -240,7 +240,7 @@ static void add_untold(char *out, size_t size, const fg__table_column *column,
                        const double *value, size_t count, bool dated, fg_context *context)
 {
   char ends[2][FG__TIME_BYTES];
-  double end[2] = {INFINITY, -INFINITY};
+  double end[2] = {HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; value && i < count; ++i) {
     end[0] = fmin(end[0], value[i]);
     end[1] = fmax(end[1], value[i]);
