@@ -59,7 +59,8 @@ static const option_entry general_entries[] = {
     {"quiet", 'q', NULL, COMMAND_GALLERY, OPTION_FLAG, OWN(gallery, quiet),
      .help = "do not say which figure is being made"},
     {"quiet", 'q', NULL, RUNS, OPTION_FLAG, OWN(run, quiet),
-     .help = "no progress bar (there is none when standard error is no terminal)"},
+     .help = "no word on which time and level is read, and no progress bar (there is "
+             "none when standard error is no terminal)"},
     {"verbose", 'v', NULL, RUNS, OPTION_FLAG, OWN(run, verbose),
      .help = "say on standard error what is being done"},
     {"verbose", 'v', NULL, COMMAND_BRUSH, OPTION_FLAG, OWN(brush, verbose),

@@ -90,6 +90,8 @@ static void say_choices(cli_run *run)
   const fg_field_arrays *field = fg_field_contents(run->field);
   if (field->time || field->level)
     count_choices(run);
+  if (settings->quiet)
+    return;
   say_choice(settings->reading.input, "time", settings->reading.time,
              run->facts.time_count, field->time);
   say_choice(settings->reading.input, "level", settings->reading.level,

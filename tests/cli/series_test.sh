@@ -65,6 +65,9 @@ chosen() { # PATTERN-OF-STDERR TIME LEVEL OPTIONS...: what run.json says was rea
 }
 chosen '^flowgrain: wind.nc: time 1 of 0 to 2: 1982-07-16 06:00$' 1 1 --time 1982-07-16T06:00 --level 300hPa
 grep -q 'nearest' err && fault "nearest: $(cat err)"
+try run wind.nc -o silent --quiet "${small[@]}" --time 1 --level 300hPa
+expect_code 0
+[ ! -s err ] || fault "--quiet: $(cat err)"
 chosen '^flowgrain: wind.nc: no time 1982-07-16T12:00: the nearest is 1982-07-16 06:00$' 1 0 --time 1982-07-16T12:00
 chosen '^flowgrain: wind.nc: no level 800.: the nearest is 850 hPa$' 2 0 --time 2 --level 800.
 # levels as ROMS has them, from the bottom up: the surface, unless another is asked for
