@@ -156,16 +156,17 @@ static void name_by_numbers(fg__grib_kind *kind, const fg__grib_field *field)
 
 /* Units of time whose length ecCodes knows; it looks beyond a table for that of others.
  */
-static bool is_unit(long unit)
+static bool is_unit(long unit, int edition)
 {
-  return (unit >= 0 && unit <= 3) || (unit >= 10 && unit <= 14) || unit == 254;
+  return (unit >= 0 && unit <= 3) || (unit >= 10 && unit <= 13) ||
+         (edition == 1 && (unit == 14 || unit == 254));
 }
 
-static bool has_wild_steps(codes_handle *handle)
+static bool has_wild_steps(codes_handle *handle, int edition)
 {
   long unit, step;
   if (codes_get_long(handle, "indicatorOfUnitOfTimeRange", &unit) == CODES_SUCCESS &&
-      !is_unit(unit))
+      !is_unit(unit, edition))
     return true;
   return codes_get_long(handle, "endStep", &step) == CODES_SUCCESS &&
          (step > MOST_STEPS || step < -MOST_STEPS);
@@ -178,7 +179,7 @@ static void tell(codes_handle *handle, void *data)
   telling *t = data;
   fg__grib_kind *kind = &t->kind;
   t->error = handle ? CODES_SUCCESS : CODES_INVALID_MESSAGE;
-  if (handle && has_wild_steps(handle))
+  if (handle && has_wild_steps(handle, t->field->edition))
     t->error = CODES_OUT_OF_RANGE;
   if (t->error)
     return;
@@ -218,7 +219,7 @@ static fg_status check_unit(const fg__grib_file *file, const fg__grib_field *fie
   if (field->edition == 2 && (size < 22 || fg__grib_number(at + 7, 2) > 15))
     return FG_STATUS_OK;
   const unsigned unit = at[17];
-  if (is_unit(unit))
+  if (is_unit(unit, field->edition))
     return FG_STATUS_OK;
   return fg__fail(file->context, FG_STATUS_UNSUPPORTED,
                   "%s: message %zu counts time in units of a kind that is not known, %u",
