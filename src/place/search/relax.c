@@ -20,6 +20,9 @@ static const double SHRINKAGE = 0.35;
 /* Ways from the seed in a free placement, in lambda. */
 static const double SHORTEST_WAY = 0.1;
 
+/* Ways that differ by less, in lambda, are the same. */
+static const double SAME_WAY = 1e-6;
+
 /* A move is taken when it lowers a region's energy by this share of it: more than the
  * sums' rounding. */
 static const double LEAST_FALL = 1e-6;
@@ -134,12 +137,29 @@ static double region_energy(const fg__place_search *search, const fg__place_box 
          fg__place_line_penalty(search, line);
 }
 
-/* Shortens the ways of a seed in a free placement to those that its line reaches. */
-static void clip_ways(fg__place_icon *icon, const fg__place_scale *scale)
+static bool is_same_length(const fg__place_line *a, const fg__place_line *b,
+                           double tolerance)
 {
-  for (int k = 0; k < 2 && scale->free; ++k)
-    icon->seed.way[k] =
-        fmax(fmin(icon->seed.way[k], icon->line.way[k]), SHORTEST_WAY * scale->lambda);
+  return a->count == b->count && fabs(a->way[0] - b->way[0]) <= tolerance &&
+         fabs(a->way[1] - b->way[1]) <= tolerance;
+}
+
+/* Shortens the ways of a seed in a free placement to those that its line reaches. A way
+ * stays where the line would then be another: where it breaks or ends in a hook it is
+ * shortened once more. So a seed always gives its icon's line. */
+static void clip_ways(fg__place_icon *icon, const fg__place_search *search)
+{
+  const fg__place_scale *scale = &search->scale;
+  for (int k = 0; k < 2 && scale->free; ++k) {
+    fg__place_seed clipped = icon->seed;
+    fg__place_line line;
+    clipped.way[k] = fmax(icon->line.way[k], SHORTEST_WAY * scale->lambda);
+    if (!(clipped.way[k] < icon->seed.way[k]))
+      continue;
+    fg__place_trace(&line, search->domain, scale, &clipped);
+    if (is_same_length(&line, &icon->line, SAME_WAY * scale->lambda))
+      icon->seed = clipped;
+  }
 }
 
 /* Extends a region to hold a box, and gathers the others' contributions to it again. */
@@ -208,7 +228,7 @@ static fg_status attempt(double *rise, bool *taken, fg__place_search *search, in
     icon->line = line;
     swap_contributions(&icon->contribution, &search->trial);
     search->box[index] = icon->contribution.box;
-    clip_ways(icon, &search->scale);
+    clip_ways(icon, search);
     *taken = true;
   }
   return FG_STATUS_OK;

@@ -99,6 +99,52 @@ static void an_exchange_that_does_not_pay_is_undone(void **state)
   clear(&s);
 }
 
+static const sampling ROUGH = {
+    .dimension = 2, .nodes = {129, 129}, .low = {0, 0}, .high = {128, 128}};
+
+/* Waves of all directions down to five nodes: lines break and end in hooks. */
+static void eddies(const double position[3], double v[3])
+{
+  unsigned state = 2;
+  v[0] = v[1] = 0.0;
+  for (int n = 0; n < 120; ++n) {
+    const double k = 0.1 * pow(14.0, n / 120.0);
+    const double angle = 360.0 * DEGREE * next_random(&state);
+    const double phase = 360.0 * DEGREE * next_random(&state);
+    const double wave =
+        pow(k, 0.4) *
+        sin(k * (cos(angle) * position[0] + sin(angle) * position[1]) + phase);
+    v[0] -= sin(angle) * wave;
+    v[1] += cos(angle) * wave;
+  }
+}
+
+/* Also where lines were cut: a state that is left comes back whole. */
+static void a_seed_gives_its_icons_line(void **state)
+{
+  enum { COUNT = 25 };
+  setting s;
+  fg__place_snapshot before = {0};
+  set_even(&s, *state, &ROUGH, eddies, COUNT, true);
+  assert_int_equal(fg__place_set_reference_error(&s.search), FG_STATUS_OK);
+  assert_int_equal(fg__place_relax(&s.search, 8), FG_STATUS_OK);
+  for (int n = 0; n < COUNT; ++n) {
+    const fg__place_icon *icon = s.search.icon[n];
+    fg__place_line line;
+    fg__place_trace(&line, &s.domain, &s.search.scale, &icon->seed);
+    for (int k = 0; k < 2; ++k)
+      assert_true(fabs(line.way[k] - icon->line.way[k]) < 1e-5 * s.search.scale.lambda);
+  }
+  const double energy = energy_of(&s);
+  assert_int_equal(fg__place_remember(&before, &s.search), FG_STATUS_OK);
+  assert_int_equal(fg__place_thin(&s.search, COUNT / 2), FG_STATUS_OK);
+  assert_int_equal(fg__place_restore(&s.search, &before), FG_STATUS_OK);
+  assert_int_equal(s.search.count, COUNT);
+  assert_true(fabs(energy_of(&s) - energy) < 1e-2 * energy);
+  fg__place_snapshot_clear(&before);
+  clear(&s);
+}
+
 /* The energy of a region, from the others' contributions and one line's. */
 static double region_energy_of(setting *s, const fg__place_box *box, int index)
 {
@@ -311,6 +357,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(the_energy_falls),
       CASE(an_exchange_that_does_not_pay_is_undone),
+      CASE(a_seed_gives_its_icons_line),
       CASE(a_move_changes_the_energy_of_its_region_alone),
       CASE(crowding_is_dear_and_so_are_short_lines),
       CASE(lines_do_not_touch),

@@ -32,6 +32,19 @@ fg_status fg__place_remember(fg__place_snapshot *out, fg__place_search *search)
   return FG_STATUS_OK;
 }
 
+/* Moves icon n to a place before it. */
+static void move_to(fg__place_search *search, int n, int place)
+{
+  fg__place_icon *icon = search->icon[n];
+  const fg__place_box box = search->box[n];
+  const size_t between = (size_t)(n - place);
+  memmove(&search->icon[place + 1], &search->icon[place],
+          between * sizeof(fg__place_icon *));
+  memmove(&search->box[place + 1], &search->box[place], between * sizeof box);
+  search->icon[place] = icon;
+  search->box[place] = box;
+}
+
 fg_status fg__place_restore(fg__place_search *search, const fg__place_snapshot *from)
 {
   fg_status status = FG_STATUS_OK;
@@ -47,8 +60,9 @@ fg_status fg__place_restore(fg__place_search *search, const fg__place_snapshot *
     if (!same)
       status = fg__place_remove(search, n);
   }
+  int kept = 0;
   for (int k = 0; k < from->count && status == FG_STATUS_OK; ++k) {
-    int n = k;
+    int n = kept;
     while (n < search->count && search->icon[n]->identity != from->icon[k].identity)
       ++n;
     bool added = true;
@@ -56,18 +70,14 @@ fg_status fg__place_restore(fg__place_search *search, const fg__place_snapshot *
       status = fg__place_add(search, &added, &from->icon[k].seed, from->icon[k].identity);
     if (status != FG_STATUS_OK || !added)
       continue;
-    fg__place_icon *icon = search->icon[n];
-    memmove(&search->icon[k + 1], &search->icon[k],
-            (size_t)(n - k) * sizeof(fg__place_icon *));
-    search->icon[k] = icon;
-    fg__place_box box = search->box[n];
-    memmove(&search->box[k + 1], &search->box[k], (size_t)(n - k) * sizeof box);
-    search->box[k] = box;
-    icon->step = from->icon[k].step;
+    move_to(search, n, kept);
+    search->icon[kept++]->step = from->icon[k].step;
   }
-  for (int k = 0; k < search->count && status == FG_STATUS_OK; ++k) {
-    search->icon[k]->removal_cost = from->icon[k].removal_cost;
-    search->icon[k]->has_removal_cost = from->icon[k].has_removal_cost;
+  for (int k = 0, n = 0; k < from->count && n < kept && status == FG_STATUS_OK; ++k) {
+    if (search->icon[n]->identity != from->icon[k].identity)
+      continue;
+    search->icon[n]->removal_cost = from->icon[k].removal_cost;
+    search->icon[n++]->has_removal_cost = from->icon[k].has_removal_cost;
   }
   return status;
 }
