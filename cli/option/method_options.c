@@ -106,7 +106,7 @@ static const option_entry method_entries[] = {
      .help = "what the first scale's arrows start from: the `clusters` at that number, "
              "or an `even` distribution, which has no seed [clusters]"},
     {"effort", 0, "E", RUNS, OPTION_CHOICE, OWN(run, effort), .words = effort_words,
-     .help = "work that placing takes, 0 to 2: less error for more time [1]"},
+     .help = "work that placing takes, 0, 1 or 2: less error for more time [1]"},
     {"clusters", 0, "LIST", RUNS, OPTION_NUMBERS, OWN(run, clusters), 1, 1000000,
      .help = "instead of --arrows an arrow inside each cluster, as in the paper: numbers "
              "of clusters, descending, as 200,50,12; a scale is the first snapshot at or "

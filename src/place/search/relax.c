@@ -153,7 +153,7 @@ static void clip_ways(fg__place_icon *icon, const fg__place_search *search)
   for (int k = 0; k < 2 && scale->free; ++k) {
     fg__place_seed clipped = icon->seed;
     fg__place_line line;
-    clipped.way[k] = fmax(icon->line.way[k], SHORTEST_WAY * scale->lambda);
+    clipped.way[k] = icon->line.way[k];
     if (!(clipped.way[k] < icon->seed.way[k]))
       continue;
     fg__place_trace(&line, search->domain, scale, &clipped);
