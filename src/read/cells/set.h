@@ -60,7 +60,7 @@ typedef struct fg__cell_set {
   int flat; /* in 2D the axis that it has one sample along; else -1 */
   int size[3];
   double origin[3], spacing[3];
-  double tried; /* samples in the boxes of all cells together */
+  double tried;          /* samples in the boxes of all cells together */
   fg__cell_place *place; /* [size[0] * size[1] * size[2]] */
 } fg__cell_set;
 

@@ -24,7 +24,7 @@ enum {
 typedef struct row_reader {
   const fg__table *table;
   const fg__table_vector *vector;
-  signed char *role; /* [columns], of each column; -1: none */
+  int *role; /* [columns], of each column; -1: none */
   double value[ROLES];
   bool dated; /* the time of this row is a date, in seconds from 1970 on */
 } row_reader;
@@ -32,15 +32,17 @@ typedef struct row_reader {
 static void set_role(row_reader *r, int column, int role)
 {
   if (column >= 0)
-    r->role[column] = (signed char)role;
+    r->role[column] = role;
 }
 
 static fg_status set_roles(row_reader *r)
 {
-  r->role = fg__allocate((size_t)r->table->columns, 1);
+  const size_t columns = (size_t)r->table->columns;
+  r->role = fg__allocate(columns, sizeof *r->role);
   if (!r->role)
-    return fg__fail_memory(r->table->context, "columns", (size_t)r->table->columns);
-  memset(r->role, -1, (size_t)r->table->columns);
+    return fg__fail_memory(r->table->context, "columns", columns * sizeof *r->role);
+  for (size_t c = 0; c < columns; ++c)
+    r->role[c] = -1;
   for (int k = 0; k < 2; ++k)
     set_role(r, r->vector->valid[k], VALID + k);
   set_role(r, r->vector->mask, MASK);
