@@ -15,9 +15,9 @@
  * is averaged for a smooth outline. */
 enum { STRIP = 6, OUTER_STRIP = 3, SMOOTH = 2 };
 
-/* Areas of less than this share of the frame are specks; of bays, whose bounds are coasts
- * but for this share, smaller ones are seen, too. */
-static const double speck_share = 0.004, bay_speck_share = 1.5e-4, mouth_share = 0.35;
+/* Areas of less than this share of the frame are left out; of bays, whose bounds are
+ * coasts but for this share, smaller ones are seen, too. */
+static const double small_share = 0.004, small_bay_share = 1.5e-4, mouth_share = 0.35;
 
 /* A field with values on more than this share of the land is there on land, too: of the
  * half of the land that is farthest from the sea, as coarse grids of the sea have values
@@ -118,7 +118,7 @@ static void mark_missing(fg__map_raster *r, bool on_land)
 /* From the nodes whose scratch is 1 through missing ones without the mark `barrier`:
  * scratch becomes the number of steps plus 1, and stays 0 beyond `reach` steps; reach 0:
  * it becomes 1 at any distance. */
-static void spread(fg__map_raster *r, int reach, unsigned char barrier)
+static void flood(fg__map_raster *r, int reach, unsigned char barrier)
 {
   size_t count = 0, round[8];
   for (size_t n = 0; n < fg__map_raster_nodes(r); ++n)
@@ -164,21 +164,21 @@ static void keep_wide(fg__map_raster *r)
 {
   for (size_t n = 0; n < fg__map_raster_nodes(r); ++n)
     r->scratch[n] = r->node[n] & VALID ? 1 : 0;
-  spread(r, STRIP, 0);
+  flood(r, STRIP, 0);
   for (size_t n = 0; n < fg__map_raster_nodes(r); ++n)
     r->scratch[n] = r->node[n] & MISSING &&
                     (!r->scratch[n] || (r->scratch[n] > OUTER_STRIP && at_outline(r, n)));
-  spread(r, STRIP, 0);
+  flood(r, STRIP, 0);
   for (size_t n = 0; n < fg__map_raster_nodes(r); ++n)
     r->scratch[n] = r->scratch[n] ? 1 : 0;
-  spread(r, 0, COASTAL);
+  flood(r, 0, COASTAL);
   for (size_t n = 0; n < fg__map_raster_nodes(r); ++n)
     if (r->scratch[n])
       r->node[n] |= KEPT;
 }
 
 /* Clears a connected area of KEPT nodes when it is small. inside: nodes of the frame. */
-static void drop_speck(fg__map_raster *r, size_t from, double inside)
+static void drop_small(fg__map_raster *r, size_t from, double inside)
 {
   size_t count = 1, round[8], bounds = 0, mouths = 0;
   r->list[0] = (int)from;
@@ -196,12 +196,12 @@ static void drop_speck(fg__map_raster *r, size_t from, double inside)
     }
   }
   const bool bay = (double)mouths <= mouth_share * (double)bounds;
-  const double least = (bay ? bay_speck_share : speck_share) * inside;
+  const double least = (bay ? small_bay_share : small_share) * inside;
   for (size_t done = 0; done < count && (double)count <= least; ++done)
     r->node[r->list[done]] &= (unsigned char)~KEPT;
 }
 
-static void drop_specks(fg__map_raster *r)
+static void drop_small_areas(fg__map_raster *r)
 {
   size_t inside = 0;
   for (size_t n = 0; n < fg__map_raster_nodes(r); ++n)
@@ -209,7 +209,7 @@ static void drop_specks(fg__map_raster *r)
   memset(r->scratch, 0, fg__map_raster_nodes(r));
   for (size_t n = 0; n < fg__map_raster_nodes(r); ++n)
     if (r->node[n] & KEPT && !r->scratch[n])
-      drop_speck(r, n, (double)inside);
+      drop_small(r, n, (double)inside);
 }
 
 /* Averages, of which the outline is the line of one half. What lies at the Earth's
@@ -341,7 +341,7 @@ fg_status fg__missing_find(fg__missing *out, fg_context *context, const fg__plan
     if (!out->on_land)
       mark_coastal(&r);
     keep_wide(&r);
-    drop_specks(&r);
+    drop_small_areas(&r);
   }
   if (!good)
     status =

@@ -225,22 +225,22 @@ static fg_status merge_doubled(fg__scatter *points)
 }
 
 /* A point's time or level. */
-typedef struct moment {
+typedef struct valued_point {
   double value;
   size_t point;
-} moment;
+} valued_point;
 
 static int by_value(const void *a, const void *b)
 {
-  const moment *x = a, *y = b;
+  const valued_point *x = a, *y = b;
   return x->value < y->value   ? -1
          : x->value > y->value ? 1
                                : (x->point > y->point) - (x->point < y->point);
 }
 
 /* Sum of the squared distances of `count` points to their mean, along the axes. */
-static void add_spread(double sum[3], const fg__scatter *points, const moment *first,
-                       size_t count)
+static void add_squares(double sum[3], const fg__scatter *points,
+                        const valued_point *first, size_t count)
 {
   for (int k = 0; k < points->dimension && k < 3; ++k) {
     const double *at = points->position[k];
@@ -252,20 +252,20 @@ static void add_spread(double sum[3], const fg__scatter *points, const moment *f
   }
 }
 
-/* Whether each value is that of MANY points or more, which are spread like all of them:
- * particles that move, balloons that are read at some heights. A ship's places of one
- * hour are not. `moments` ascend. */
-static bool is_overlaid(const fg__scatter *points, const moment *moments)
+/* Whether each value is that of MANY points or more, which are scattered like all of
+ * them: particles that move, balloons that are read at some heights. A ship's places of
+ * one hour are not. `sorted` ascends by value. */
+static bool is_overlaid(const fg__scatter *points, const valued_point *sorted)
 {
   double within[3] = {0.0}, all[3] = {0.0};
   for (size_t i = 0, end; i < points->count; i = end) {
-    for (end = i + 1; end < points->count && moments[end].value <= moments[i].value;)
+    for (end = i + 1; end < points->count && sorted[end].value <= sorted[i].value;)
       ++end;
     if (end - i < MANY)
       return false;
-    add_spread(within, points, moments + i, end - i);
+    add_squares(within, points, sorted + i, end - i);
   }
-  add_spread(all, points, moments, points->count);
+  add_squares(all, points, sorted, points->count);
   for (int k = 0; k < points->dimension && k < 3; ++k)
     if (!(within[k] >= WIDELY * all[k]))
       return false;
@@ -293,24 +293,24 @@ static fg_status find_values(double **out, size_t *values, const fg__scatter *po
   for (size_t i = 0; i < count; ++i)
     if (!isfinite(value[i]))
       return FG_STATUS_OK;
-  moment *moments = fg__allocate(count, sizeof *moments);
-  if (!moments)
-    return fg__fail_memory(points->context, "times", count * sizeof *moments);
+  valued_point *sorted = fg__allocate(count, sizeof *sorted);
+  if (!sorted)
+    return fg__fail_memory(points->context, "times", count * sizeof *sorted);
   for (size_t i = 0; i < count; ++i)
-    moments[i] = (moment){value[i], i};
-  qsort(moments, count, sizeof *moments, by_value);
+    sorted[i] = (valued_point){value[i], i};
+  qsort(sorted, count, sizeof *sorted, by_value);
   size_t doubled;
   fg_status status = count_doubled(&doubled, points);
   if (status == FG_STATUS_OK &&
-      ((double)doubled > FEW * (double)count || is_overlaid(points, moments))) {
+      ((double)doubled > FEW * (double)count || is_overlaid(points, sorted))) {
     *out = fg__allocate(count, sizeof **out);
     if (!*out)
       status = fg__fail_memory(points->context, "times", count * sizeof **out);
     for (size_t i = *values = 0; *out && i < count; ++i)
-      if (i == 0 || moments[i].value > moments[i - 1].value)
-        (*out)[(*values)++] = moments[i].value;
+      if (i == 0 || sorted[i].value > sorted[i - 1].value)
+        (*out)[(*values)++] = sorted[i].value;
   }
-  free(moments);
+  free(sorted);
   return status;
 }
 

@@ -27,7 +27,7 @@ typedef struct fg__scatter {
 void fg__scatter_clear(fg__scatter *points);
 
 /* Where all points have times (or levels), and more than a tenth lie where others do or
- * each time has 8 points or more that are spread like all of them, keeps those of one:
+ * each time has 8 points or more that are scattered like all of them, keeps those of one:
  * number `wanted` of *values in ascending order. Else all count, and *values is 1. *all,
  * to be freed: the times or levels, NULL where all count. ARGUMENT (no such time),
  * MEMORY. */

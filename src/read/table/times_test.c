@@ -71,7 +71,7 @@ static void write_soundings(char *text, size_t size, int rows, bool side_by_side
   }
 }
 
-static void levels_are_told_by_their_spread(void **state)
+static void levels_are_told_by_their_scatter(void **state)
 {
   static const struct {
     int rows;
@@ -132,7 +132,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(times_are_chosen),
       cmocka_unit_test(dates_are_chosen),
-      cmocka_unit_test(levels_are_told_by_their_spread),
+      cmocka_unit_test(levels_are_told_by_their_scatter),
       cmocka_unit_test(levels_are_chosen),
   };
   return cmocka_run_group_tests(tests, context_set_up, context_tear_down);
