@@ -38,11 +38,16 @@ static const double MOST_APART = 0.05;
  * it by this at most, in lambda, and its direction by this. A piece replaces so many at
  * most. */
 static const double STRAIGHT = 1e-4;
-static const double STRAIGHT_COSINE = 0.99999390765779; /* a fifth of a degree */
+static const double STRAIGHT_COSINE = 0.99997563070539; /* two fifths of a degree */
 enum { MOST_STRAIGHT = 32 };
 
 /* A sample that can not be reached is tried at halves of the way, this often. */
-enum { HALVINGS = 3, MOST_STEPS = 64, FINE_EVERY = 8 };
+enum { HALVINGS = 3, MOST_STEPS = 64 };
+
+/* So many steps a sample has a line for a picture, more up to the second number where a
+ * step would turn by more than this. */
+enum { FINE_EVERY = 8, FINEST_EVERY = 64, MOST_FINE = FG__PLACE_SAMPLES * FINEST_EVERY };
+static const double FINE_TURN_COSINE = 0.99939082701910; /* two degrees */
 
 typedef struct tracing {
   const fg__place_domain *domain;
@@ -128,8 +133,6 @@ static bool move(tracing *with, tip *out, const tip *from, double way)
 static bool accept(const tracing *with, tip *next, const tip *from)
 {
   double turn[3], cosine = fg__dot(from->direction, next->direction);
-  if (with->follows)
-    return true;
   next->clearance = fg__place_clearance(with->domain, next->position);
   if (next->clearance < with->wall && next->clearance < from->clearance)
     return false;
@@ -147,8 +150,8 @@ static bool accept(const tracing *with, tip *next, const tip *from)
 
 /* A side's samples, the seed's first. */
 typedef struct side {
-  tip sample[FG__PLACE_SAMPLES * FINE_EVERY];
-  double at[FG__PLACE_SAMPLES * FINE_EVERY]; /* arc length from the seed */
+  tip sample[FG__PLACE_SAMPLES];
+  double at[FG__PLACE_SAMPLES]; /* arc length from the seed */
   int count;
 } side;
 
@@ -180,12 +183,11 @@ static void cut_break(side *line, double range)
 static void trace_side(side *line, tracing *with, const tip *seed, double sign,
                        double way, double sampling)
 {
-  enum { MOST = FG__PLACE_SAMPLES * FINE_EVERY };
   double range = BREAK_RANGE * with->scale->lambda;
   line->sample[0] = *seed;
   line->at[0] = 0.0;
   line->count = 1;
-  while (line->count < MOST) {
+  while (line->count < FG__PLACE_SAMPLES) {
     const tip *from = &line->sample[line->count - 1];
     tip *next = &line->sample[line->count];
     double done = line->at[line->count - 1], step = fmin(sampling, way - done);
@@ -198,7 +200,7 @@ static void trace_side(side *line, tracing *with, const tip *seed, double sign,
     if (halving == HALVINGS)
       return;
     line->at[line->count++] = done + step;
-    if (!with->follows && breaks(line, range)) {
+    if (breaks(line, range)) {
       cut_break(line, range);
       return;
     }
@@ -325,23 +327,62 @@ static void place_of(double out[3], const fg__place_domain *domain,
     out[k] = domain->low[k] + (double)line->position[k][n] * scale->lambda;
 }
 
-/* Both sides of a line in small steps; false where they do not end as the line does. */
-static bool trace_finely(side both[2], const fg__place_domain *domain,
+/* Adds the points of one side of a line behind those of `points`, in small steps. */
+static void follow_side(double (*points)[3], int *count, tracing *with, const tip *seed,
+                        double sign, double way)
+{
+  const double sampling = with->scale->sampling / FINE_EVERY;
+  const double finest = with->scale->sampling / FINEST_EVERY;
+  double left = way, step = sampling;
+  tip now = *seed, next;
+  with->step = sampling;
+  while (left > 0.05 * sampling && *count < MOST_FINE) {
+    step = fmin(step, left);
+    bool reached = move(with, &next, &now, sign * step);
+    bool turns = reached && fg__dot(now.direction, next.direction) < FINE_TURN_COSINE;
+    if ((turns || !reached) && step > finest) {
+      step = fmax(0.5 * step, finest);
+      continue;
+    }
+    if (!reached)
+      return;
+    memcpy(points[(*count)++], next.position, sizeof *points);
+    left -= step;
+    step = fmin(2.0 * step, sampling);
+    now = next;
+  }
+}
+
+/* Reverses the order of points. */
+static void turn_round(double (*points)[3], int count)
+{
+  for (int n = 0; n < count / 2; ++n)
+    for (int k = 0; k < 3; ++k) {
+      double first = points[n][k];
+      points[n][k] = points[count - 1 - n][k];
+      points[count - 1 - n][k] = first;
+    }
+}
+
+/* The points of a line in small steps; false where they do not end as the line does. */
+static bool trace_finely(double (*points)[3], int *count, const fg__place_domain *domain,
                          const fg__place_scale *scale, const fg__place_line *line)
 {
-  double sampling = scale->sampling / FINE_EVERY, end[3];
-  tracing with = {domain, scale, FINE_ERROR * scale->lambda, sampling, 0.0, true};
+  tracing with = {domain, scale, FINE_ERROR * scale->lambda, 0.0, 0.0, true};
+  double end[3];
   tip start = {{0}, {0}, 0, {0}};
   place_of(start.position, domain, scale, line, line->seed);
   if (!fg__place_direction(domain, start.position, start.direction))
     return false;
+  memcpy(points[0], start.position, sizeof *points);
+  *count = 1;
   for (int n = 0; n < 2; ++n) {
-    with.step = sampling;
-    trace_side(&both[n], &with, &start, n ? 1.0 : -1.0, line->way[n], sampling);
+    follow_side(points, count, &with, &start, n ? 1.0 : -1.0, line->way[n]);
     place_of(end, domain, scale, line, n ? line->count - 1 : 0);
-    if (fg__distance(end, both[n].sample[both[n].count - 1].position) >
-        MOST_APART * scale->lambda)
+    if (fg__distance(end, points[*count - 1]) > MOST_APART * scale->lambda)
       return false;
+    if (n == 0)
+      turn_round(points, *count);
   }
   return true;
 }
@@ -363,6 +404,19 @@ static void point_between(double out[3], const fg__place_domain *domain,
     double at = s * s * (1.0 + 2.0 * t) * from + t * t * (1.0 + 2.0 * s) * to +
                 s * t * chord * slope;
     out[k] = domain->low[k] + at * scale->lambda;
+  }
+}
+
+/* The points of a line along the cubics through its samples. */
+static void follow_samples(double (*points)[3], int *count,
+                           const fg__place_domain *domain, const fg__place_scale *scale,
+                           const fg__place_line *line)
+{
+  *count = (line->count - 1) * FINE_EVERY + 1;
+  for (int i = 0; i < *count; ++i) {
+    int n = i / FINE_EVERY < line->count - 1 ? i / FINE_EVERY : line->count - 2;
+    point_between(points[i], domain, scale, line, n,
+                  (double)(i - n * FINE_EVERY) / FINE_EVERY);
   }
 }
 
@@ -403,32 +457,14 @@ fg_status fg__place_trace_fine(double (**points)[3], int *count, fg_context *con
                                const fg__place_domain *domain,
                                const fg__place_scale *scale, const fg__place_line *line)
 {
-  fg_status status = FG_STATUS_OK;
-  *points = NULL;
   *count = 0;
-  side *both = fg__allocate(2, sizeof *both);
-  if (!both)
-    return fg__fail_memory(context, "a line", 2 * sizeof *both);
-  bool fine = trace_finely(both, domain, scale, line);
-  int all = fine ? both[0].count + both[1].count - 1 : (line->count - 1) * FINE_EVERY + 1;
-  *points = fg__allocate((size_t)all, sizeof **points);
-  if (!*points) {
-    status = fg__fail_memory(context, "a line", (size_t)all * sizeof **points);
-    goto cleanup;
-  }
-  for (int n = both[0].count - 1; fine && n >= 0; --n, ++*count)
-    memcpy((*points)[*count], both[0].sample[n].position, sizeof **points);
-  for (int n = 1; fine && n < both[1].count; ++n, ++*count)
-    memcpy((*points)[*count], both[1].sample[n].position, sizeof **points);
-  for (; *count < all; ++*count) {
-    int n = *count / FINE_EVERY < line->count - 1 ? *count / FINE_EVERY : line->count - 2;
-    point_between((*points)[*count], domain, scale, line, n,
-                  (double)(*count - n * FINE_EVERY) / FINE_EVERY);
-  }
-  *count = keep_needed(*points, all, STRAIGHT * scale->lambda);
-cleanup:
-  free(both);
-  return status;
+  *points = fg__allocate(MOST_FINE, sizeof **points);
+  if (!*points)
+    return fg__fail_memory(context, "a line", MOST_FINE * sizeof **points);
+  if (!trace_finely(*points, count, domain, scale, line))
+    follow_samples(*points, count, domain, scale, line);
+  *count = keep_needed(*points, *count, STRAIGHT * scale->lambda);
+  return FG_STATUS_OK;
 }
 
 double fg__place_turning(const double (*points)[3], int count)

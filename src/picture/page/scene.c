@@ -240,10 +240,28 @@ static void period_range(int range[2], const fg_icon *icon, int k, double low,
   range[1] = (int)fmin(floor((high - least + reach) / period), 2.0);
 }
 
+/* Whether an icon lies all on one side of an outline: no edge of it is in its box. */
+static bool is_clear_of(const fg_icon *icon, const fg__polygons *outline)
+{
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (int n = 0; n < icon->point_count; ++n)
+    for (int k = 0; k < 2; ++k) {
+      low[k] = fmin(low[k], icon->points[n][k]);
+      high[k] = fmax(high[k], icon->points[n][k]);
+    }
+  const size_t count = outline->start[1];
+  for (size_t n = 0; n < count; ++n) {
+    const double *a = outline->point[n], *b = outline->point[n + 1 < count ? n + 1 : 0];
+    if (fmax(a[0], b[0]) >= low[0] && fmin(a[0], b[0]) <= high[0] &&
+        fmax(a[1], b[1]) >= low[1] && fmin(a[1], b[1]) <= high[1])
+      return false;
+  }
+  return true;
+}
+
 /* Whether a point, or a copy of it by a period, is in the frame. */
 static bool is_within(const fg_field_arrays *field, const double point[3],
-                      const double low[2], const double high[2],
-                      const fg__polygons *outline)
+                      const double low[2], const double high[2])
 {
   for (int k = 0; k < 2; ++k) {
     const double period = field->period[k];
@@ -252,7 +270,7 @@ static bool is_within(const fg_field_arrays *field, const double point[3],
     if (at < low[k] || at > high[k])
       return false;
   }
-  return !outline->count || fg__polygon_contains(outline, 0, point[0], point[1]);
+  return true;
 }
 
 /* Whether a head is in the frame, and at least half of its line. */
@@ -261,11 +279,16 @@ static bool is_shown(const fg_field_arrays *field, const fg_icon *icon,
                      const fg__polygons *outline)
 {
   double all = 0.0, shown = 0.0;
-  bool within = false, before = false;
+  bool within = false, before = false, inside = true;
+  const bool cut = outline->count && !is_clear_of(icon, outline);
+  if (outline->count)
+    inside = fg__polygon_contains(outline, 0, icon->points[0][0], icon->points[0][1]);
   for (int n = 0; n < icon->point_count; ++n, before = within) {
     const double *at = icon->points[n], *from = icon->points[n > 0 ? n - 1 : 0];
     const double length = hypot(at[0] - from[0], at[1] - from[1]);
-    within = is_within(field, at, low, high, outline);
+    if (cut)
+      inside = fg__polygon_contains(outline, 0, at[0], at[1]);
+    within = inside && is_within(field, at, low, high);
     all += length;
     shown += within && before ? length : 0.0;
   }
