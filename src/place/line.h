@@ -34,7 +34,7 @@ void fg__place_trace(fg__place_line *out, const fg__place_domain *domain,
 
 /* A line for a picture: that which a search has found, with a hundredth of the error and
  * steps of an eighth, shorter where it turns by more than two degrees in one, and of
- * these the points that its shape needs (to 1e-4 lambda and two fifths of a degree);
+ * these the points that its shape needs (to 1e-4 lambda and a fifth of a degree);
  * where the flow turns over within a step, as in noise, the cubics through the line's
  * samples. *points is allocated, from tail to tip: free it. MEMORY. */
 fg_status fg__place_trace_fine(double (**points)[3], int *count, fg_context *context,
