@@ -79,7 +79,7 @@ int fg_icons_dropped(const fg_icons *icons);
 void fg_icons_speed_range(double range[2], const fg_icons *icons);
 const double *icon_points(const fg_icon *icon);
 fg_status line_outline(double **vertices, int *count, const double *points, int point_count,
-                       const double sizes[4]);
+                       const double sizes[4], int id);
 
 typedef struct fg_surface {
   int vertex_count, corner_count, triangle_count;
@@ -179,9 +179,10 @@ static fg_icon icon_of(const double *points, int point_count, const double sizes
 }
 
 static fg_status line_outline(double **vertices, int *count, const double *points,
-                              int point_count, const double sizes[4])
+                              int point_count, const double sizes[4], int id)
 {
-  const fg_icon icon = icon_of(points, point_count, sizes);
+  fg_icon icon = icon_of(points, point_count, sizes);
+  icon.id = id;
   double(*polygon)[2] = NULL;
   fg_status status = fg_icon_outline(&icon, &polygon, count);
   *vertices = status ? NULL : polygon[0];

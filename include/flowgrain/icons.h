@@ -83,8 +83,9 @@ FG_API const char *fg_icons_projection(const fg_icons *icons);
  * distance between the quartiles (Tukey 1977). */
 FG_API void fg_icons_speed_range(double range[2], const fg_icons *icons);
 
-/* Outline of an icon as a closed polygon, the first vertex not repeated. *vertices is
- * allocated with malloc: free it. 2D. ARGUMENT, MEMORY. */
+/* Outline of an icon as a closed polygon, the first vertex not repeated; of placed icons
+ * (`id` above 0) without kinks of the centreline that a body of this width cannot follow.
+ * *vertices is allocated with malloc: free it. 2D. ARGUMENT, MEMORY. */
 FG_API fg_status fg_icon_outline(const fg_icon *icon, double (**vertices)[2], int *count);
 
 /* Writes icons as GeoJSON (RFC 7946), or reads them back, bit for bit. Icons of a map or

@@ -137,7 +137,7 @@ class Arrows(Sequence[Arrow]):
             if self.bounds.shape[0] == 3:
                 raise ValueError("arrows in 3D have no outlines; their triangles are solids()")
             sizes = np.stack([self.width, self.tail_width, self.head_length, self.head_width], 1)
-            self._outlines = [line_outline(p, s) for p, s in zip(self.paths, sizes)]
+            self._outlines = [line_outline(p, s, i) for p, s, i in zip(self.paths, sizes, self.id)]
         return self._outlines
 
     def solids(self) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -315,7 +315,7 @@ class Arrows(Sequence[Arrow]):
             path = (self.paths[n] - (left, low)) * (scale, -upright) + (0.0, tall)
             sizes = size * np.array([self.width[n], self.tail_width[n], self.head_length[n],
                                      self.head_width[n]])
-            points = " ".join(f"{x:.2f},{y:.2f}" for x, y in line_outline(path, sizes))
+            points = " ".join(f"{x:.2f},{y:.2f}" for x, y in line_outline(path, sizes, self.id[n]))
             color = GALE[int(share[n] * (len(GALE) - 1) + 0.5)]
             lines.append(f'<polygon points="{points}" fill="{color}"/>')
         return "\n".join(lines) + "</svg>"
@@ -340,14 +340,15 @@ def _cut(path: np.ndarray) -> list[list[list[float]]]:
     return parts
 
 
-def line_outline(path: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """The polygon of an arrow along a line in 2D; sizes: width, tail width, head length, width."""
+def line_outline(path: np.ndarray, sizes: np.ndarray, id: int = 0) -> np.ndarray:
+    """The polygon of an arrow along a line in 2D; sizes: width, tail width, head length, width.
+    That of a placed arrow, which has an id, is without kinks."""
     points = np.zeros((len(path), 3))
     points[:, :2] = path
     sizes = np.ascontiguousarray(sizes, np.float64)
     vertices, count = ffi.new("double **"), ffi.new("int *")
     status = lib.line_outline(vertices, count, ffi.from_buffer("double[]", points), len(path),
-                              ffi.from_buffer("double[]", sizes))
+                              ffi.from_buffer("double[]", sizes), int(id))
     if status == lib.FG_STATUS_MEMORY:
         raise MemoryError("no memory for an arrow's outline")
     if status != lib.FG_STATUS_OK:  # of no length or width

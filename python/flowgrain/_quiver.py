@@ -272,7 +272,7 @@ class Quiver(PatchCollection):
         scale = np.sqrt(self._stretch().prod()) * self.axes.figure.dpi / 72.0
         self._paths = []
         for line, sizes in zip(self._lines, self._sizes):
-            polygon = line_outline(forward.transform(line), sizes * scale)
+            polygon = line_outline(forward.transform(line), sizes * scale, 1)
             if not len(polygon):
                 polygon = np.full((1, 2), np.nan)
             self._paths.append(Path(np.append(polygon, polygon[:1], 0), closed=True))

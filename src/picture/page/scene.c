@@ -5,7 +5,6 @@
 #include "icon/icons.h"
 #include "icon/measure.h"
 #include "picture/polygons.h"
-#include "picture/smooth_line.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,10 +13,6 @@
  * 3600 dots an inch; the areas behind the arrows have no sharp details. */
 static const double outline_tolerance = 0.02;
 static const double area_tolerance = 0.06;
-
-/* In widths of an arrow: over how much of its line to either side kinks are averaged
- * away, and a line that this moves by less has none. */
-static const double smooth_reach = 10.0, smooth_least = 0.1;
 
 /* Finer masks than so many cells a point are sampled: nobody sees the difference. */
 static const double mask_cells_a_point = 2.0;
@@ -192,25 +187,12 @@ fg_status fg__scene_mask(fg__polygons *out, fg_context *context, const fg__page 
   return FG_STATUS_OK;
 }
 
-/* Of a placed arrow, as it is drawn: without kinks. Those of clusters are drawn as they
- * are, for they are known to lie in their clusters. */
-static bool add_outline(fg__polygons *out, const fg_icon *given, const placement *p,
+static bool add_outline(fg__polygons *out, const fg_icon *icon, const placement *p,
                         const double offset[2])
 {
-  fg_icon icon = *given;
-  double(*vertices)[2] = NULL, (*smooth)[3] = NULL;
+  double(*vertices)[2] = NULL;
   int count = 0;
-  if (icon.way[0] + icon.way[1] > 0.0 &&
-      !fg__smooth_line(&smooth, &count, icon.points, icon.point_count,
-                       smooth_reach * icon.width, smooth_least * icon.width))
-    return false;
-  if (smooth) {
-    icon.points = (const double(*)[3])smooth;
-    icon.point_count = count;
-  }
-  const fg_status status = fg_icon_outline(&icon, &vertices, &count);
-  free(smooth);
-  if (status)
+  if (fg_icon_outline(icon, &vertices, &count))
     return false;
   bool good = fg__polygons_begin(out);
   for (int n = 0; good && n < count; ++n) {

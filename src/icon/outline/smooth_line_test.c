@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "base/context_test.h"
-#include "picture/smooth_line.h"
+#include "icon/outline/smooth_line.h"
 
 enum { POINTS = 301 };
 

@@ -189,6 +189,42 @@ static void stays_simple_on_foreign_icons(void **state)
   free(drawing.vertex);
 }
 
+/* The sharpest turn of the outline's left side, all but the tail and the head. */
+static double sharpest_turn(const test_drawing *drawing)
+{
+  double most = 0;
+  for (int i = 1; i + 1 < drawing->count; i++) {
+    const double *a = drawing->vertex[i - 1], *b = drawing->vertex[i],
+                 *c = drawing->vertex[i + 1];
+    if (a[0] < 0.5 || c[0] > 2.0)
+      continue;
+    double turn = atan2((b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]),
+                        (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]));
+    most = fmax(most, fabs(turn));
+  }
+  return most;
+}
+
+static void placed_ones_have_no_kinks(void **state)
+{
+  (void)state;
+  test_drawing drawing;
+  for (int i = 0; i < 101; i++) {
+    double x = 0.03 * i;
+    drawing.point[i][0] = x;
+    drawing.point[i][1] = x < 1.2 ? 0.1 * x : 0.12 + 1.5 * (x - 1.2);
+    drawing.point[i][2] = 0;
+  }
+  set_numbers(&drawing, 101, 0.06);
+  outline(&drawing); /* a cluster's */
+  assert_true(sharpest_turn(&drawing) > 0.2);
+  free(drawing.vertex);
+  drawing.icon.id = 7;
+  outline(&drawing);
+  assert_true(sharpest_turn(&drawing) < 0.15);
+  free(drawing.vertex);
+}
+
 static void refuses_what_is_no_arrow(void **state)
 {
   (void)state;
@@ -219,6 +255,7 @@ int main(void)
       cmocka_unit_test(heads_are_straight_in_bends),
       cmocka_unit_test(turns_and_mirrors_with_its_points),
       cmocka_unit_test(stays_simple_on_foreign_icons),
+      cmocka_unit_test(placed_ones_have_no_kinks),
       cmocka_unit_test(refuses_what_is_no_arrow),
   };
   return cmocka_run_group_tests_name("icon/outline", tests, NULL, NULL);

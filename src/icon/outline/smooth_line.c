@@ -1,4 +1,4 @@
-#include "picture/smooth_line.h"
+#include "icon/outline/smooth_line.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,6 +7,10 @@
 
 /* Points in a reach, and the most of a line; a longer one is not a stroke. */
 enum { IN_REACH = 20, MOST_POINTS = 4000 };
+
+/* In widths of an icon: over how much of its line to either side kinks are averaged away,
+ * and a line that this moves by less has none. */
+static const double REACH = 10.0, LEAST = 0.1;
 
 /* Over more of an even arc's radius it would be moved. */
 static const double RADIUS_SHARE = 1.25;
@@ -95,4 +99,12 @@ bool fg__smooth_line(double (**out)[3], int *count, const double (*points)[3],
   free(even);
   free(smooth);
   return good;
+}
+
+bool fg__icon_smooth(double (**out)[3], int *count, const fg_icon *icon)
+{
+  *out = NULL;
+  *count = 0;
+  return icon->id == 0 || fg__smooth_line(out, count, icon->points, icon->point_count,
+                                          REACH * icon->width, LEAST * icon->width);
 }

@@ -2,6 +2,8 @@
 #ifndef FG__SMOOTH_LINE_H
 #define FG__SMOOTH_LINE_H
 
+#include "flowgrain/icons.h"
+
 #include <stdbool.h>
 
 /* Averages a line along itself with a kernel that leaves parabolas as they are (of fourth
@@ -10,5 +12,10 @@
  * `least` or more. The third coordinate is 0. False: no memory. */
 bool fg__smooth_line(double (**out)[3], int *count, const double (*points)[3],
                      int point_count, double reach, double least);
+
+/* The line of a placed icon as it is drawn; *out is allocated: free it, NULL: as it is.
+ * Those of clusters stay, for they are known to lie in their clusters. 2D. False: no
+ * memory. */
+bool fg__icon_smooth(double (**out)[3], int *count, const fg_icon *icon);
 
 #endif

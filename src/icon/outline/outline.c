@@ -1,6 +1,7 @@
 #include "icon/arrow.h"
 
 #include "base/memory.h"
+#include "icon/outline/smooth_line.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -257,14 +258,8 @@ static bool is_drawable(const fg_icon *icon)
   return true;
 }
 
-fg_status fg_icon_outline(const fg_icon *icon, double (**vertices)[2], int *count)
+static fg_status outline_of(const fg_icon *icon, double (**vertices)[2], int *count)
 {
-  if (!icon || !vertices || !count)
-    return FG_STATUS_ARGUMENT;
-  *vertices = NULL;
-  *count = 0;
-  if (!is_drawable(icon))
-    return FG_STATUS_ARGUMENT;
   size_t n = (size_t)icon->point_count;
   /* each point is met at most twice a side, where head and body overlap */
   size_t side = 2 * n + TAIL_VERTICES + 2;
@@ -313,5 +308,27 @@ cleanup:
   free(sides.left);
   free(sides.right);
   free(polygon);
+  return status;
+}
+
+fg_status fg_icon_outline(const fg_icon *icon, double (**vertices)[2], int *count)
+{
+  if (!icon || !vertices || !count)
+    return FG_STATUS_ARGUMENT;
+  *vertices = NULL;
+  *count = 0;
+  if (!is_drawable(icon))
+    return FG_STATUS_ARGUMENT;
+  fg_icon drawn = *icon;
+  double(*smooth)[3] = NULL;
+  int points = 0;
+  if (!fg__icon_smooth(&smooth, &points, icon))
+    return FG_STATUS_MEMORY;
+  if (smooth) {
+    drawn.points = (const double(*)[3])smooth;
+    drawn.point_count = points;
+  }
+  fg_status status = outline_of(&drawn, vertices, count);
+  free(smooth);
   return status;
 }
