@@ -1,20 +1,20 @@
-/* What the library in use can do, and what follows from that. */
+/* Features of the library in this build, and checks that depend on them. */
 #ifndef BUILD_FEATURES_H
 #define BUILD_FEATURES_H
 
 #include "option/settings.h"
 
-/* Prints the version, the features that are there and those that are not. */
+/* Prints the version, the features of this build and those that it lacks. */
 void print_version(void);
 
-/* Complains of `what` where a feature is lacking; an exit code. */
+/* Prints an error that names `what` where a feature is lacking; returns an exit code. */
 int require_feature(const char *what, fg_feature feature);
 
-/* The formats of pictures (bits, FORMAT_SVG, ...) that each scale gets: the `requested`
- * ones, or the defaults; none where pictures cannot be drawn. */
+/* The picture formats (bits, FORMAT_SVG, ...) for each scale: the `requested` ones, or
+ * the defaults; none where this build cannot draw. */
 unsigned formats_to_draw(unsigned requested, bool solid);
 
-/* Complains where pictures are requested that cannot be drawn; an exit code. */
+/* Prints an error where requested pictures cannot be drawn; returns an exit code. */
 int refuse_undrawable(unsigned requested, bool background, bool solid);
 
 #endif

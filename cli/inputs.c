@@ -41,14 +41,14 @@ bool inputs_read_size(double *out, const char *text)
   return *end == '\0' && *out >= 1.0 && *out < 9e18;
 }
 
-/* Three quarters of the machine's. */
+/* Three quarters of the machine's memory. */
 static double default_memory(void)
 {
   const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
   return pages > 0 && size > 0 ? 0.75 * (double)pages * (double)size : 0.0;
 }
 
-/* Makes `bytes` larger where it is full. */
+/* Enlarges the buffer when it is full. */
 static bool grow(size_t *capacity, size_t used)
 {
   if (used < *capacity)

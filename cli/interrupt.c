@@ -3,7 +3,7 @@
 #include <signal.h>
 #include <stdatomic.h>
 
-/* A handler can not be given an argument, hence the globals. */
+/* Signal handlers have no argument, hence these variables. */
 static _Atomic(fg_context *) stop_first;
 static _Atomic(fg_context *) stop_second;
 static volatile sig_atomic_t interrupts;
@@ -29,7 +29,7 @@ void interrupt_start(fg_context *first)
   const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
   for (int k = 0; k < 3; ++k) {
     struct sigaction before;
-    /* nohup and shells that run jobs in the background ignore signals for us */
+    /* keep signals ignored that nohup or a shell's background job ignores */
     if (sigaction(numbers[k], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
       sigaction(numbers[k], &action, NULL);
   }

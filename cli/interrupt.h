@@ -1,25 +1,25 @@
-/* SIGINT, SIGTERM and SIGHUP: the first asks the evolution to end its step and stop, the
- * second also the drawing. */
+/* SIGINT, SIGTERM and SIGHUP: the first stops the evolution after its step, the second
+ * also the drawing. */
 #ifndef INTERRUPT_H
 #define INTERRUPT_H
 
 #include "program.h"
 
-/* Begins to take signals, except for those that are ignored. What belongs to the context
- * is stopped by the first. */
+/* Starts to handle signals, except ignored ones. The first signal stops work of this
+ * context. */
 void interrupt_start(fg_context *first);
 
-/* What the second stops; NULL: nothing. */
+/* Sets the context that the second signal stops; NULL: none. */
 void interrupt_second(fg_context *second);
 
-/* Whether the first signal from now on stops that, too. */
+/* Whether the first signal from now on also stops the second context. */
 void interrupt_second_at_once(bool at_once);
 
-/* Whether a signal has come, and how many. */
+/* Whether a signal has arrived, and how many. */
 bool interrupt_came(void);
 int interrupt_count(void);
 
-/* From here on signals stop nothing. */
+/* From here on signals do not stop any context. */
 void interrupt_end(void);
 
 #endif

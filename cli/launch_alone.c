@@ -4,7 +4,7 @@
 
 #include "program.h"
 
-/* How many a launcher says that it started. */
+/* The number of processes according to the launcher's environment variables. */
 static int launched(void)
 {
   static const char *const names[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
@@ -16,7 +16,7 @@ static int launched(void)
   return 1;
 }
 
-/* Several that know nothing of each other would all write the same results. */
+/* Refuses several processes: without MPI each would write the same results. */
 int launch_start(void)
 {
   if (launched() <= 1)

@@ -7,8 +7,9 @@
 #include "program.h"
 #include "ranks.h"
 
-/* A standard stream that the caller closed must not become the number of a file we open:
- * a picture would end up with messages in it. Output then fails, and is reported. */
+/* Opens /dev/null for standard streams that the caller closed. Otherwise a file that the
+ * program opens would get their number, and messages would be written into it. Output to
+ * the replaced stream fails, and is reported. */
 static void hold_standard_streams(void)
 {
   for (int stream = 0; stream <= 2; ++stream)
@@ -19,7 +20,8 @@ static void hold_standard_streams(void)
     }
 }
 
-/* A limit on the size of files is then an error like a full disk, not the end. */
+/* Ignores SIGXFSZ: writing beyond a file-size limit then is an error, like a full
+ * disk. */
 static void take_file_limits_as_errors(void)
 {
   signal(SIGXFSZ, SIG_IGN);

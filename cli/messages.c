@@ -8,7 +8,7 @@
 #include "inputs.h"
 #include "program.h"
 
-enum { TEXT_BYTES = 2048 }; /* of a context's message */
+enum { TEXT_BYTES = 2048 }; /* longest message of a context */
 static char complaint[TEXT_BYTES], advice[TEXT_BYTES];
 static bool silent;
 
@@ -17,7 +17,7 @@ void keep_complaints(void)
   silent = true;
 }
 
-/* Bytes of the character that begins here, as far as they belong to it. */
+/* Bytes of the UTF-8 character at `text`. */
 static size_t character_bytes(const unsigned char *text)
 {
   size_t wanted = *text >= 0xf0 ? 4 : *text >= 0xe0 ? 3 : *text >= 0xc2 ? 2 : 1;
@@ -27,7 +27,7 @@ static size_t character_bytes(const unsigned char *text)
   return bytes == wanted ? wanted : 1;
 }
 
-/* Of ASCII, and those that Unicode has from 0x80 to 0x9f, also as single bytes. */
+/* Control characters of ASCII, and of Unicode from 0x80 to 0x9f, also as single bytes. */
 static bool is_control(const unsigned char *text, size_t bytes)
 {
   unsigned char last = text[bytes - 1];
@@ -91,7 +91,7 @@ static bool begins_with(const char *text, const char *start)
   return strncmp(text, start, strlen(start)) == 0;
 }
 
-/* The library's hints are clauses. */
+/* Hints of the library are clauses; prints them as a sentence. */
 static void advise_in_a_sentence(const char *hint)
 {
   const size_t length = strlen(hint);
@@ -138,7 +138,7 @@ int complain_of_memory(const char *what)
   return EXIT_FAILED;
 }
 
-void say_infinite(const char *file, const fg_field *field)
+void report_infinite(const char *file, const fg_field *field)
 {
   size_t count = fg_field_infinite(field);
   if (count > 0)

@@ -1,4 +1,4 @@
-/* From a command line to the command. */
+/* Parses the command line and calls the command. */
 #include <stdio.h>
 #include <string.h>
 
@@ -66,7 +66,8 @@ static parse_result parse(const cli_command **command, any_settings *settings, i
   return options_parse(settings, *command, argc - 1, argv + 1);
 }
 
-/* Of a command that reads fields; view may be given a folder, and sees to it itself. */
+/* Prepares standard input for commands that read fields. `view` does it itself, as its
+ * operand may be a folder. */
 static int prepare_inputs(const any_settings *settings, const cli_command *command)
 {
   if (!(command->bit & INPUTS) || command->bit == COMMAND_VIEW)
@@ -94,7 +95,7 @@ int program_perform(int argc, char **argv)
   if (code)
     return code;
   if (command->work != command_run && !ranks_leader())
-    return EXIT_DONE; /* work for one */
+    return EXIT_DONE; /* a single rank does this command's work */
   code = prepare_inputs(&settings, command);
   if (command->work == command_run)
     code = ranks_agree(code);

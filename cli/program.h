@@ -1,4 +1,5 @@
-/* What the files of the program share: exit codes and messages. */
+/* Exit codes and messages, for all files of the program. To "complain" is to print an
+ * error or a warning; to "advise" is to print a second line, what to do about it. */
 #ifndef PROGRAM_H
 #define PROGRAM_H
 
@@ -7,52 +8,53 @@
 /* Exit codes of every command. */
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
 
-/* From now on complaints are kept, not printed: on ranks other than 0, for all to agree
- * on (ranks.h). */
+/* Stores complaints instead of printing them: on ranks other than 0 (ranks.h). */
 void keep_complaints(void);
 
-/* Prints "flowgrain: TEXT" on standard error, or keeps it. */
+/* Prints "flowgrain: TEXT" on standard error, or stores it. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* The same of a second line, which says what to do about the complaint. */
+/* Prints the second line, or stores it. */
 void advise(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* A text of a file without what a terminal would obey: control characters become '?'.
+/* Copies a text from a file without terminal escapes: control characters become '?'.
  * Returns `out`; longer texts are cut. */
 enum { CLEAN_BYTES = 1024 };
 const char *clean_text(char out[CLEAN_BYTES], const char *text);
 
-/* What was last complained of, and advised on it; "" before. */
+/* The last complaint and its advice; "" before. */
 const char *last_complaint(void);
 const char *last_advice(void);
 
-/* Prints a context's message and its hint, after `file` unless the message begins with a
- * file's name of its own; returns the exit code for the failure. */
+/* Prints a context's message and hint, after `file` unless the message begins with
+ * another file's name; returns the exit code of the failure. */
 int complain_of(const fg_context *context, fg_status status, const char *file);
 
-/* The same of a file that is written under the name `partial` first: the message names
+/* The same for a file that is first written under the name `partial`; the message names
  * `file` instead. */
 int complain_of_partial(const fg_context *context, fg_status status, const char *partial,
                         const char *file);
 
-/* Prints a file's error from errno, "flowgrain: PATH: No such file ..."; EXIT_FAILED. */
+/* Prints the error of errno for a file, "flowgrain: PATH: No such file ..."; returns
+ * EXIT_FAILED. */
 int complain_of_file(const char *path, const char *what);
 
-/* "out of memory for WHAT"; EXIT_FAILED. */
+/* Prints "out of memory for WHAT"; returns EXIT_FAILED. */
 int complain_of_memory(const char *what);
 
-/* Says how many samples of a field are missing because they are infinite, if any are. */
-void say_infinite(const char *file, const fg_field *field);
+/* Prints how many samples of a field are missing because they are infinite, if any
+ * are. */
+void report_infinite(const char *file, const fg_field *field);
 
-/* Creates a context, or complains. Returns an exit code. */
+/* Creates a context, or prints an error. Returns an exit code. */
 int create_context(fg_context **out);
 
-/* Joins two texts, or a folder and a name with a slash between. NULL without memory. End
- * with free. */
+/* Concatenates two texts, or a folder and a name with a slash between. NULL without
+ * memory. To be freed. */
 char *join_texts(const char *first, const char *second);
 char *join_path(const char *folder, const char *name);
 
-/* Does what a command line says, argv[0] being the program; returns its exit code. */
+/* Performs a command line, where argv[0] is the program; returns its exit code. */
 int program_perform(int argc, char **argv);
 
 #endif

@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Often enough to look alive, seldom enough to cost nothing. */
+/* Interval of updates: visible progress at no cost. */
 static const double seconds_between = 0.1;
 
 double clock_seconds(void)
@@ -28,7 +28,7 @@ void progress_start(cli_progress *progress, bool quiet, int socket)
       !quiet && isatty(STDERR_FILENO) && !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
-/* Writes a bar that is full by a share. */
+/* Writes a bar, `share` of it filled. */
 static void draw_bar(char bar[BAR_COLUMNS + 1], double share)
 {
   int full = (int)(share * BAR_COLUMNS);
@@ -46,7 +46,7 @@ static void draw(cli_progress *progress, const char *doing, double share,
     snprintf(text, sizeof text, "%-8s [%s] %s", doing, bar, words);
   } else
     snprintf(text, sizeof text, "%s", doing);
-  /* a longer line would wrap on 80 columns and could not be wiped */
+  /* a line of 80 columns would wrap, and could not be erased */
   fprintf(stderr, "\r\033[K%.79s", text);
   fflush(stderr);
   progress->drawn = true;

@@ -1,5 +1,5 @@
-/* A line on the terminal that says how far a run is. The same is sent as messages through
- * a socket to a process that shows it elsewhere (view/child.h). */
+/* A progress line on the terminal. Messages of the same content go through a socket to
+ * the process that shows the run in a browser (view/child.h). */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
@@ -7,18 +7,18 @@
 #include <stddef.h>
 
 typedef struct cli_progress {
-  bool shown;        /* standard error is a terminal and not quiet */
-  int socket;        /* through which messages are sent; 0: none */
-  bool drawn;        /* the line is there now */
+  bool shown;        /* standard error is a terminal, and --quiet is not given */
+  int socket;        /* socket for messages; 0: none */
+  bool drawn;        /* the line is on the terminal */
   double last_drawn; /* seconds of the monotonic clock */
 } cli_progress;
 
-/* A message: words, or a density. One that finds the socket full is dropped. */
+/* A message has either text or a density. It is dropped if the socket is full. */
 enum { PROGRESS_WORDS = 80, PROGRESS_NODES = 260 };
 typedef struct progress_message {
-  double share; /* of the work that `words` name, 0 to 1; negative: not known */
+  double share; /* fraction of the work that `words` name, 0 to 1; negative: unknown */
   char words[PROGRESS_WORDS];
-  int nodes[2]; /* of the density, along x and y; 0: there are words */
+  int nodes[2]; /* of the density, along x and y; 0: the message has text */
   unsigned char u[PROGRESS_NODES * PROGRESS_NODES]; /* x fastest: 0 missing, else u from
                                                        -1 to 1 as 1 to 255 */
 } progress_message;
@@ -28,21 +28,21 @@ size_t progress_message_size(const progress_message *message);
 
 void progress_start(cli_progress *progress, bool quiet, int socket);
 
-/* Shows a stage's line at once. */
+/* Prints the line of a stage at once. */
 void progress_stage(cli_progress *progress, const char *text);
 
-/* Shows the evolution's state, at most ten times a second. share: of the way, 0 to 1;
- * clusters 0: not known yet; seconds_left negative: not known. */
+/* Prints the evolution's state, at most ten times a second. share: fraction done, 0 to 1;
+ * clusters 0: unknown yet; seconds_left negative: unknown. */
 void progress_evolution(cli_progress *progress, double share, double time, int clusters,
                         double seconds_left);
 
-/* Shows how many of the scales are drawn; nothing when all are. */
+/* Prints how many scales are drawn, unless all are. */
 void progress_drawing(cli_progress *progress, int ready, int count);
 
 /* Sends a density. */
 void progress_density(const cli_progress *progress, const progress_message *message);
 
-/* Wipes the line, before a message and at the end. */
+/* Erases the line, before a message and at the end. */
 void progress_wipe(cli_progress *progress);
 
 /* Seconds of the monotonic clock. */

@@ -56,7 +56,7 @@ int ranks_count(void)
   return count;
 }
 
-/* Any status does that is told apart from success, from a stop and from misuse. */
+/* Statuses that fg_context_agree distinguishes from success, a stop and misuse. */
 static fg_status status_of(int code)
 {
   switch (code) {

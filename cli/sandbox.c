@@ -17,15 +17,16 @@
 #include "inputs.h"
 #include "interrupt.h"
 
-/* A loop in a damaged file takes for ever. A good one takes some time for each byte, and
- * its arrays are at most a thousand times as large: what deflate can do. So it gets a
- * second and one more for each 25 kB, but no more than ten and one for each 20 MB, as
- * large ones are less compressed. Good files take a fifth of that, or less. */
+/* Bound of CPU time, as damaged files can cause an endless loop. Valid files take time in
+ * proportion to their bytes, and their arrays are at most a thousand times as large
+ * (deflate). The bound is one second, plus one for each 25 kB, but at most ten plus one
+ * for each 20 MB, as large files are less compressed. Valid files need a fifth of it, or
+ * less. */
 enum { SMALL_BYTES_A_SECOND = 25000, BYTES_A_SECOND = 20000000, MOST_SECONDS = 10 };
 enum { TIMES_LARGER = 4096 };
 static const size_t MOST_BYTES = (size_t)1 << 30;
 
-/* Between looks at whether an interrupt came, milliseconds: one may come just before. */
+/* Interval, in milliseconds, at which a pending interrupt is detected. */
 enum { LONGEST_WAIT = 100 };
 
 static void silence(void)
@@ -37,7 +38,7 @@ static void silence(void)
   dup2(nowhere, STDERR_FILENO);
 }
 
-/* Bytes of addresses that this process has; 0: not known. */
+/* Bytes of this process's address space; 0: unknown. */
 static size_t own_bytes(void)
 {
   unsigned long pages = 0;
@@ -62,7 +63,8 @@ static void set_bounds(const child_bounds *bounds)
   setrlimit(RLIMIT_AS, &space);
 }
 
-/* Signals do what they do by default, but what this process was told to ignore. */
+/* Restores default signal handlers, except for signals that this process was started to
+ * ignore. */
 static void reset_signals(void)
 {
   const int numbers[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE,
@@ -74,7 +76,7 @@ static void reset_signals(void)
   }
 }
 
-/* Otherwise a child would go on where this process is killed. */
+/* Ends the child when this process is killed. */
 static void end_with_parent(pid_t parent)
 {
 #ifdef __linux__
@@ -86,7 +88,7 @@ static void end_with_parent(pid_t parent)
 
 static void send_text(int to, const char *text)
 {
-  size_t length = strlen(text) + 1; /* less than a pipe takes at once */
+  size_t length = strlen(text) + 1; /* less than a pipe's buffer */
   if (write(to, text, length) != (ssize_t)length)
     _exit(0);
 }
@@ -99,14 +101,14 @@ static void be_child(pid_t parent, int to, void (*work)(void *), void *data,
   reset_signals();
   silence();
   keep_complaints();
-  complain("%s", ""); /* earlier complaints are not its own */
+  complain("%s", ""); /* forget earlier complaints of the parent */
   work(data);
   send_text(to, last_complaint());
   send_text(to, last_advice());
   _exit(0);
 }
 
-/* Reads what the child sends, until it has ended or an interrupt comes. */
+/* Reads the child's messages until it ends or an interrupt arrives. */
 static size_t receive(char *out, size_t size, int from, pid_t child)
 {
   size_t used = 0;
@@ -157,8 +159,8 @@ void do_in_child(child_outcome *out, void (*work)(void *), void *data,
   memset(out, 0, sizeof *out);
   int ends[2];
   if (pipe(ends) != 0)
-    return; /* no process to be had: the reading itself will show */
-  /* where this process was told to ignore it, a child's end would not be told */
+    return; /* no process: the reading itself will fail if the file is damaged */
+  /* while SIGCHLD is ignored waitpid cannot return a child's status */
   struct sigaction before, standard = {.sa_handler = SIG_DFL};
   sigemptyset(&standard.sa_mask);
   sigaction(SIGCHLD, &standard, &before);
@@ -178,7 +180,7 @@ void do_in_child(child_outcome *out, void (*work)(void *), void *data,
 typedef struct reading {
   const char *input;
   const fg_read_options *options;
-  int slab, slabs; /* none: the inventory; -1: the defaults */
+  int slab, slabs; /* slabs 0: the inventory; -1: the defaults */
 } reading;
 
 static void read_once(void *data)
@@ -190,7 +192,7 @@ static void read_once(void *data)
   if (create_context(&context))
     return;
   fg_read_options options = r->options ? *r->options : (fg_read_options){0};
-  options.map = NULL; /* no work of the library in question */
+  options.map = NULL; /* a map needs none of the bounded libraries */
   fg_read_defaults defaults;
   fg_status status;
   if (r->slabs < 0) {
@@ -207,10 +209,11 @@ static void read_once(void *data)
     complain_of(context, status, r->input);
 }
 
-/* Where a message of GRIB begins at the latest, behind a heading. */
-enum { LOOKED_AT = 256 };
+/* A GRIB message begins within so many bytes, behind a heading. */
+enum { HEADING_BYTES = 256 };
 
-/* The library that reads a file which begins with these bytes, where it can crash. */
+/* The library for a file that begins with these bytes, if it may crash on damaged
+ * files. */
 static const char *library_of(const char *start, size_t size)
 {
   static const char hdf5[8] = "\211HDF\r\n\032\n";
@@ -230,22 +233,23 @@ static void add(const char **library, size_t *size, const char *found, size_t by
   *size += bytes;
 }
 
-static void look_at_standard(const char **library, size_t *size)
+static void add_standard_input(const char **library, size_t *size)
 {
   size_t bytes;
   const unsigned char *start = inputs_bytes(&bytes);
   if (start)
     add(library, size,
-        library_of((const char *)start, bytes < LOOKED_AT ? bytes : LOOKED_AT), bytes);
+        library_of((const char *)start, bytes < HEADING_BYTES ? bytes : HEADING_BYTES),
+        bytes);
 }
 
-/* Adds the size of a file that such a library reads, and says which. */
-static void look_at(const char **library, size_t *size, const char *path)
+/* Adds the size of a file that such a library reads, and sets the library's name. */
+static void add_file(const char **library, size_t *size, const char *path)
 {
-  char start[LOOKED_AT];
+  char start[HEADING_BYTES];
   struct stat about;
   if (inputs_is_standard(path)) {
-    look_at_standard(library, size);
+    add_standard_input(library, size);
     return;
   }
   if (!path || stat(path, &about) != 0 || !S_ISREG(about.st_mode))
@@ -303,8 +307,8 @@ int sandbox_reading_part(const char *input, const fg_read_options *options, int 
 {
   const char *library = NULL;
   size_t size = 0;
-  look_at(&library, &size, input);
-  look_at(&library, &size, options ? options->vars_from : NULL);
+  add_file(&library, &size, input);
+  add_file(&library, &size, options ? options->vars_from : NULL);
   if (!library)
     return EXIT_DONE;
   reading r = {input, options, slab, slabs};
@@ -312,6 +316,6 @@ int sandbox_reading_part(const char *input, const fg_read_options *options, int 
   child_outcome outcome;
   do_in_child(&outcome, read_once, &r, &bounds);
   if (interrupt_came() || (!outcome.signal && !outcome.complaint[0]))
-    return EXIT_DONE; /* an interrupt ends the reading itself */
+    return EXIT_DONE; /* the reading itself stops at an interrupt */
   return complain_of_child(input, library, &outcome, &bounds);
 }

@@ -104,8 +104,8 @@ static void its_memory_is_bounded(void **state)
 
 #endif
 
-/* Where a parent ignores the end of its children, waiting for one ends in an error. */
-static void the_end_of_an_ignored_child_is_told(void **state)
+/* While a parent ignores SIGCHLD, waitpid fails. */
+static void the_end_of_an_ignored_child_is_seen(void **state)
 {
   (void)state;
   signal(SIGCHLD, SIG_IGN);
@@ -115,7 +115,7 @@ static void the_end_of_an_ignored_child_is_told(void **state)
   assert_true(signal(SIGCHLD, SIG_DFL) == SIG_IGN);
 }
 
-/* Writes its number, then stays. */
+/* Writes its process number, then waits. */
 static void stay(void *data)
 {
   pid_t own = getpid();
@@ -141,7 +141,7 @@ static void a_child_ends_with_its_parent(void **state)
   assert_int_equal(read(ends[0], &child, sizeof child), sizeof child);
   kill(parent, SIGKILL);
   waitpid(parent, NULL, 0);
-  /* the child holds the other end as long as it lives */
+  /* the child has the other end open until it ends */
   char none;
   alarm(20);
   assert_int_equal(read(ends[0], &none, 1), 0);
@@ -190,10 +190,10 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_child_reports_how_it_ended),
       cmocka_unit_test(its_last_complaint_is_kept),
-#ifndef __SANITIZE_ADDRESS__ /* which ends a process that gets no memory */
+#ifndef __SANITIZE_ADDRESS__ /* the sanitizer ends a process whose allocation fails */
       cmocka_unit_test(its_memory_is_bounded),
 #endif
-      cmocka_unit_test(the_end_of_an_ignored_child_is_told),
+      cmocka_unit_test(the_end_of_an_ignored_child_is_seen),
       cmocka_unit_test(a_child_ends_with_its_parent),
       cmocka_unit_test(an_interrupt_ends_the_wait),
       cmocka_unit_test(only_hdf5_files_are_probed),

@@ -1,4 +1,4 @@
-/* The commands: each does what its settings say, and returns an exit code. */
+/* The commands. Each takes its settings and returns an exit code. */
 #ifndef COMMAND_COMMAND_H
 #define COMMAND_COMMAND_H
 

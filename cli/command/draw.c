@@ -1,4 +1,4 @@
-/* Draws scales of finished runs again: one, or several as panels of a figure. */
+/* Draws scales of finished runs: one, or several as panels of a figure. */
 #include <stdio.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@
 #include "run/background.h"
 #include "series/series.h"
 
-/* What only pictures have. */
+/* Refuses options of pictures for solids. */
 static int check_solids(const draw_settings *settings)
 {
   const given_option of_pictures[] = {
@@ -134,7 +134,7 @@ static int write_picture(drawn_panels *panels, fg_context *context,
   return publish_file(partial, settings->output, code);
 }
 
-/* Panels are pictures in 2D; what only they have needs several. */
+/* Panels are pictures in 2D; options for panels need several. */
 static int check_panels(const drawn_panels *panels, const draw_settings *settings,
                         bool several)
 {

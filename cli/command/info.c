@@ -1,4 +1,4 @@
-/* Says what a file holds. */
+/* Prints the contents of a file. */
 #include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ static int name_count(const fg_inventory_vector *vector)
   return count;
 }
 
-/* All of them, or the first and last few. */
+/* Prints all values, or the first and last few. */
 static void print_values(const char *what, const fg_axis_value *values, int count,
                          int default_index)
 {
@@ -49,7 +49,7 @@ static void print_vector(const fg_inventory_vector *vector)
   printf("\n  found by: %s\n", clean_text(text, vector->found_by));
   if (*vector->units)
     printf("  units: %s\n", clean_text(text, vector->units));
-  if (vector->unusable) { /* its grid is not known */
+  if (vector->unusable) { /* without a known grid */
     printf("  cannot be read: %s\n", clean_text(text, vector->unusable));
     return;
   }
@@ -104,7 +104,7 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
   cJSON_AddStringToObject(object, "units", vector->units);
   cJSON_AddStringToObject(object, "found_by", vector->found_by);
   cJSON_AddItemToArray(array, object);
-  if (vector->unusable) { /* its grid is not known */
+  if (vector->unusable) { /* without a known grid */
     cJSON_AddStringToObject(object, "unusable", vector->unusable);
     return;
   }
@@ -143,7 +143,7 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
     cJSON_AddStringToObject(object, "map", fg_map_auto(vector));
 }
 
-/* The inventory that is printed: of the whole file, or of the one vector chosen. */
+/* The inventory to print: of the whole file, or of the chosen vector. */
 typedef struct listing {
   const char *file;
   fg_inventory *inventory;
@@ -187,7 +187,7 @@ static void print_text(const listing *list)
     print_vector(vector_at(list, k));
 }
 
-/* The grid of a field as it was read. */
+/* Sets the grid from the field as read. */
 static void take_grid(fg_inventory_vector *vector, const fg_field *field)
 {
   const fg_field_arrays *a = fg_field_contents(field);
@@ -217,9 +217,8 @@ static bool chooses(const reading_settings *reading)
          reading->frame || reading->scale;
 }
 
-/* Lists the vector that the options choose, with the grid that it is read on: at the
- * first time, or where there is nothing then, as in models that start from rest, the
- * last. */
+/* Lists the vector that the options choose with its grid as read at the first time, or at
+ * the last where the first has no values (models that start from rest). */
 static fg_status list_chosen(listing *list, fg_context *context,
                              const fg_read_options *options)
 {
@@ -243,7 +242,7 @@ static fg_status list_chosen(listing *list, fg_context *context,
   return status;
 }
 
-/* Reading says what there is instead. */
+/* Prints the error of reading, which names the contents of the file. */
 static int complain_of_none(fg_context *context, const listing *list,
                             const fg_read_options *options)
 {

@@ -1,4 +1,4 @@
-/* Draws the field by a method to compare with. */
+/* Draws the field by another method, for comparison. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 
 static const char name_end[] = ".geojson";
 
-/* A file under its temporary name, and the name it gets when all are whole. */
+/* A file under a temporary name, and its final name. */
 typedef struct result_file {
   char *partial, *path;
   struct result_file *next;
@@ -26,7 +26,7 @@ typedef struct rival_work {
   fg_context *context;
   fg_field *field;
   fg_rival *rival;
-  double speeds[2]; /* of the first count's icons: the ends of every colour key */
+  double speeds[2]; /* of the icons of the first count: the ends of all colour keys */
   result_file *files;
 } rival_work;
 
@@ -46,7 +46,7 @@ static int is_input(const rival_settings *settings, const char *path)
   return check_is_no_input(path, inputs, 2);
 }
 
-/* Where the picture of one count goes: FILE, or with several counts FILE-COUNT. */
+/* The picture's path for one count: FILE, or FILE-COUNT with several. */
 static char *name_file(const rival_settings *settings, int count, const char *end)
 {
   int stem = (int)(strlen(settings->output) - strlen(name_end));
@@ -101,7 +101,7 @@ static int write_clusters(rival_work *work, int count, const fg_density *cluster
   return status ? complain_of_result(work, file, status) : EXIT_DONE;
 }
 
-/* Files of one count beside its icons: pictures, in 3D also solids. */
+/* Files of one count beside its icons: pictures, in 3D also a scene of solids. */
 typedef struct rival_files {
   rival_work *work;
   int count;
@@ -158,7 +158,7 @@ static int write_pictures(const rival_files *files)
   return code;
 }
 
-/* The icons of a count and, where they are to be seen, its clusters. */
+/* Makes the icons of one count and, for a picture of clusters, its density. */
 static fg_status make(rival_work *work, int count, fg_icons **icons,
                       fg_density **clusters)
 {
@@ -201,7 +201,7 @@ static int draw(rival_work *work, int count)
   return code;
 }
 
-/* All files get their names, or none is left. */
+/* Renames all files to their final names, or removes all. */
 static int publish(rival_work *work, int code)
 {
   for (result_file *file = work->files, *next; file; file = next) {
@@ -214,7 +214,7 @@ static int publish(rival_work *work, int code)
   return code;
 }
 
-/* Whether all arrows of a method are meant to be equally long. */
+/* Whether arrows of a method have equal lengths. */
 static bool has_length(fg_rival_method method)
 {
   return method == FG_RIVAL_HEDGEHOG || method == FG_RIVAL_GRID_CURVED ||
@@ -268,7 +268,7 @@ static int prepare(rival_work *work)
                               .position_weight = fmax(settings->position_weight, 0.0),
                               .elongation = settings->elongation};
   if (!status) {
-    say_infinite(settings->reading.input, work->field);
+    report_infinite(settings->reading.input, work->field);
     int dimension = fg_field_contents(work->field)->dimension;
     int code = refuse_other_dimension("rival", &settings->picture, dimension,
                                       settings->reading.input);

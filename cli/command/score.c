@@ -1,4 +1,4 @@
-/* Prints how well icons tell a field. */
+/* Prints the error with which icons represent a field. */
 #include <cjson/cJSON.h>
 #include <ctype.h>
 #include <math.h>
@@ -14,7 +14,7 @@ typedef struct score_work {
   const score_settings *settings;
   fg_context *context;
   fg_field *field;
-  fg_score *scores; /* one a file */
+  fg_score *scores; /* one for each file */
 } score_work;
 
 static int score_file(score_work *work, int number)
@@ -49,7 +49,7 @@ static int prepare(score_work *work)
       fg_field_read(&work->field, work->context, settings->reading.input, &reading);
   if (status)
     return complain_of(work->context, status, settings->reading.input);
-  say_infinite(settings->reading.input, work->field);
+  report_infinite(settings->reading.input, work->field);
   work->scores = calloc((size_t)settings->files.count, sizeof *work->scores);
   if (work->scores)
     return EXIT_DONE;
@@ -57,7 +57,7 @@ static int prepare(score_work *work)
   return EXIT_FAILED;
 }
 
-/* A number in so many columns; what there is none of as a dash. */
+/* Prints a number in a column of this width, NAN as a dash. */
 static void print_number(double number, int columns, int decimals)
 {
   if (isfinite(number))
@@ -94,7 +94,7 @@ static void print_table(const score_work *work)
        "clutter% tangency outside%  file");
   for (int n = 0; n < work->settings->files.count; ++n)
     print_row(&work->scores[n], work->settings->files.operand[n]);
-  /* which of the two classes these are, since errors differ by degrees between them */
+  /* name the class, as errors of the two classes differ */
   puts(work->settings->length_class == FG_SCORE_FREE
            ? "--class free: lines count as long as they are, as in the captions of "
              "pictures. --class arrows\ncompares methods whose lines differ in length."
@@ -111,7 +111,7 @@ static void add_reader(cJSON *object, const char *name, const fg_reader_error *e
   cJSON_AddNumberToObject(reader, "speed_weighted", error->speed_weighted);
 }
 
-/* What there is none of becomes null. */
+/* NAN becomes null. */
 static cJSON *describe(const fg_score *score, const char *path)
 {
   const struct {
@@ -158,7 +158,7 @@ static int print_json(const score_work *work)
   return code;
 }
 
-/* All files are scored, or nothing is printed. */
+/* Prints nothing unless all files can be scored. */
 int command_score(const void *given)
 {
   const score_settings *settings = given;

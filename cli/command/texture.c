@@ -1,4 +1,4 @@
-/* Paints a texture of a field. */
+/* Makes a texture image of a field. */
 #include "command/command.h"
 #include "folder/file.h"
 #include "folder/made.h"
@@ -32,7 +32,7 @@ static int paint(fg_context *context, const texture_settings *settings,
   return code;
 }
 
-/* What tells of the colours of speeds needs them. */
+/* Options of the colour key need colours of speed. */
 static int check_key(const texture_settings *settings)
 {
   const picture_settings *picture = &settings->picture;
@@ -55,7 +55,7 @@ static int check_key(const texture_settings *settings)
                        : refuse_given("texture", &label, 1, "only with --key");
 }
 
-/* Of pixels, width and pixels an inch two tell the third. */
+/* --width and --dpi determine --pixels. */
 static int check_pixels(const texture_settings *settings)
 {
   const picture_settings *picture = &settings->picture;
@@ -115,7 +115,7 @@ int command_texture(const void *given)
   fg_field *field = NULL;
   fg_status status = fg_field_read(&field, context, settings->reading.input, &reading);
   if (!status)
-    say_infinite(settings->reading.input, field);
+    report_infinite(settings->reading.input, field);
   code = status ? complain_of(context, status, settings->reading.input)
                 : paint(context, settings, field);
   interrupt_end();

@@ -9,7 +9,7 @@
 #include "run/background.h"
 #include "series/index.h"
 
-/* A run stays where it is, for what is read points into its report. */
+/* Allocates each run by itself, as scales point to it. */
 static int add_run(drawn_panels *out, const char *folder)
 {
   drawn_run **more = realloc(out->run, ((size_t)out->runs + 1) * sizeof(drawn_run *));
@@ -27,7 +27,7 @@ static drawn_run *last_run(const drawn_panels *panels)
   return panels->run[panels->runs - 1];
 }
 
-/* Of the last run. */
+/* Adds a panel of the last run. */
 static int add_panel(drawn_panels *out, int index, const char *file)
 {
   if (out->scales == FG_MOST_PANELS) {
@@ -43,7 +43,7 @@ static int add_panel(drawn_panels *out, int index, const char *file)
   return EXIT_DONE;
 }
 
-/* The scales of the last run that the options choose. */
+/* Adds the scales of the last run that the options choose. */
 static int add_scales(drawn_panels *out, const draw_settings *settings)
 {
   const drawn_run *run = last_run(out);
@@ -96,8 +96,8 @@ static int add_series(drawn_panels *out, const draw_settings *settings,
   return code;
 }
 
-/* Icons of a file: a scale of the run in its folder, or, of another program or method, on
- * the field of the run before it. */
+/* Adds a file of icons: a scale of the run in its folder, or, if made by another program
+ * or method, icons on the field of the run before it. */
 static int add_file(drawn_panels *out, const char *path)
 {
   const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -174,7 +174,7 @@ int drawn_panels_check_labels(const drawn_panels *panels, const draw_settings *s
   return EXIT_USAGE;
 }
 
-/* Cuts `copy`, of the option's text, into the labels, which point into it. */
+/* Splits a copy of the option's text into labels, which point into it. */
 static void set_labels(fg_panel *panel, int count, char *copy)
 {
   const bool several = copy && labels_given(copy) > 1;
@@ -188,7 +188,7 @@ static void set_labels(fg_panel *panel, int count, char *copy)
   }
 }
 
-/* What the runs' pictures have, together. */
+/* The union of the runs' ranges of speed. */
 static void join_speeds(double speeds[2], const drawn_panels *panels)
 {
   for (int k = 0; k < panels->runs; ++k) {

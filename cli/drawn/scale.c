@@ -27,7 +27,7 @@ void drawn_run_close(drawn_run *run)
   *run = (drawn_run){.folder = NULL};
 }
 
-/* The finest scale that has at most so many of what is counted. */
+/* The finest scale with at most so many arrows or clusters. */
 static int choose_at_most(const drawn_run *run, int (*count_of)(const cli_report *, int),
                           int most, const char *what)
 {
@@ -63,7 +63,7 @@ static int read_icons(drawn_scale *scale, fg_context *context)
   const char *folder = scale->run->folder;
   const char *name =
       scale->file ? scale->file : report_scale_icons(&scale->run->report, scale->index);
-  /* the name comes from a file: it must not lead out of its folder */
+  /* the name comes from run.json; it must not refer to another folder */
   if (!scale->file && (!name || strchr(name, '/'))) {
     complain("%s: run.json names no icons for scale %d", folder, scale->index);
     return EXIT_FAILED;
@@ -82,7 +82,7 @@ static bool is_on_another_map(const draw_settings *settings)
   return settings->map.projection || settings->map.has_center || settings->map.has_region;
 }
 
-/* Of a density: it is of the run's own map. */
+/* A density is on the run's own map. */
 int drawn_check_map(const draw_settings *settings)
 {
   const given_option of_density[] = {
@@ -111,12 +111,12 @@ static int read_field(drawn_run *run, fg_context *context, const draw_settings *
   if (is_on_another_map(settings))
     reading.map = &settings->map;
   if (settings->output && check_is_no_input(settings->output, &input, 1))
-    return EXIT_FAILED; /* the pictures of a series lie in its folder */
+    return EXIT_FAILED; /* the pictures of a series are in its folder */
   if (sandbox_reading(input, &reading))
     return EXIT_FAILED;
   fg_status status = fg_field_read(&run->field, context, input, &reading);
   if (!status)
-    say_infinite(input, run->field);
+    report_infinite(input, run->field);
   if (!status && !is_on_another_map(settings) &&
       !report_is_of_field(report, run->folder, input, run->field)) {
     fputs("Icons are drawn on the field that they were made of.\n", stderr);
@@ -130,8 +130,8 @@ static int read_field(drawn_run *run, fg_context *context, const draw_settings *
   return code;
 }
 
-/* What the option is called that needs the density; NULL: none does. Placed arrows have
- * regions of their own to tint. */
+/* The option that needs the density; NULL: none. Placed arrows have regions of their own,
+ * which --tint shows. */
 static const char *density_user(const draw_settings *settings, const cli_report *report,
                                 bool solid)
 {
@@ -142,7 +142,7 @@ static const char *density_user(const draw_settings *settings, const cli_report 
   return background_needs_density(&settings->picture) ? "--background clusters" : NULL;
 }
 
-/* The density that the run has saved, where it is needed. */
+/* Reads the run's density file where it is needed. */
 static int read_density(drawn_scale *scale, fg_context *context,
                         const draw_settings *settings)
 {
@@ -170,7 +170,7 @@ static int read_density(drawn_scale *scale, fg_context *context,
   return status ? complain_of(context, status, run->folder) : EXIT_DONE;
 }
 
-/* The regions of placed arrows, where --tint shows them. */
+/* Makes the regions of placed arrows, for --tint. */
 static int make_regions(drawn_scale *scale, fg_context *context,
                         const draw_settings *settings)
 {
@@ -199,7 +199,7 @@ int drawn_scale_read(drawn_scale *scale, fg_context *context,
       code ? FG_STATUS_OK : fg_icons_project(&scale->icons, context, run->field);
   if (status)
     code = complain_of(context, status, scale->file ? scale->file : run->folder);
-  if (is_on_another_map(settings)) /* the error is of what the run's map shows */
+  if (is_on_another_map(settings)) /* the recorded error is of the run's map */
     fg_icons_keep_score(scale->icons, NULL);
   if (!code)
     code = read_density(scale, context, settings);

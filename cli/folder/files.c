@@ -26,7 +26,7 @@ int scale_of(const char *name)
   if (strncmp(name, "scale-", 6) != 0 || digits(name + 6) != 2)
     return -1;
   const char *end = name + 8;
-  if (end[0] == '-' && digits(end + 1) > 0) /* a further view */
+  if (end[0] == '-' && digits(end + 1) > 0) /* a second or later view */
     end += 1 + digits(end + 1);
   for (size_t k = 0; k < sizeof ends / sizeof ends[0]; ++k)
     if (strcmp(end, ends[k]) == 0)
@@ -40,7 +40,7 @@ bool is_result(const char *name)
          strcmp(name, VIEW_NAME) == 0 || scale_of(name) >= 0;
 }
 
-/* Names of whole files in the making are NAME.PROCESS-ATTEMPT.part, or NAME.part. */
+/* Temporary names are NAME.PROCESS-ATTEMPT.part or NAME.part. */
 bool is_partial(const char *name)
 {
   char stem[64];
@@ -134,7 +134,7 @@ int duplicate_file(const char *folder, const char *name, const char *from)
 {
   char *source = join_path(from, name), *path = join_path(folder, name);
   int code = EXIT_DONE;
-  /* some file systems know no second names */
+  /* some file systems have no hard links */
   if (!source || !path)
     code = complain_of_memory("a file's name");
   else if (link(source, path) != 0 && (errno == EEXIST || !copy_file(path, source)))
@@ -168,7 +168,7 @@ void synchronise_folder(const char *folder)
   int file = open(folder, O_RDONLY | O_CLOEXEC);
   if (file < 0)
     return;
-  (void)fsync(file); /* not every file system can */
+  (void)fsync(file); /* not every file system supports it */
   close(file);
 }
 
@@ -188,7 +188,7 @@ void cut_to_parent(char *path)
   slash[slash == path ? 1 : 0] = '\0';
 }
 
-/* A symbolic link is there even where it leads to nothing. */
+/* A symbolic link counts as present even if its target is missing. */
 static bool is_absent(const char *path)
 {
   struct stat found;
@@ -256,7 +256,7 @@ int make_folders(const char *folder, char **topmost)
 
 void remove_empty_folders(const char *folder, const char *topmost)
 {
-  /* rmdir leaves alone what is not empty */
+  /* rmdir fails on a folder that is not empty */
   char *path = join_texts(folder, "");
   size_t shortest = strlen(topmost);
   while (path && strlen(path) >= shortest && rmdir(path) == 0)

@@ -46,7 +46,7 @@ static int refuse_kind(const char *path, const char *wanted)
   return EXIT_FAILED;
 }
 
-/* What is not of the program's making may lead anywhere, or to nothing. */
+/* Refuses symbolic links and other kinds of files, which the program has not made. */
 static int check_work(const char *work, const char *lock)
 {
   struct stat found;
@@ -57,7 +57,7 @@ static int check_work(const char *work, const char *lock)
   return EXIT_DONE;
 }
 
-/* A run that is killed loses its lock. A file system without locks lets all pass. */
+/* A killed run loses its lock. On a file system without locks all runs may start. */
 static int check_lock(const char *folder, const char *work)
 {
   char *path = join_path(work, LOCK_NAME);
@@ -93,7 +93,7 @@ int output_check(const char *folder)
   return code;
 }
 
-int output_look(output_contents *out, const char *folder)
+int output_inspect(output_contents *out, const char *folder)
 {
   *out = (output_contents){.state = OUTPUT_EMPTY};
   char *work = join_path(folder, WORK_NAME);
@@ -114,7 +114,7 @@ int output_look(output_contents *out, const char *folder)
   return EXIT_DONE;
 }
 
-/* Its last owner may just have removed the file: a lock on what has no name is none. */
+/* The last owner may have just removed the file; a lock on a removed file is void. */
 static int set_lock(const cli_output *out)
 {
   struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
@@ -195,7 +195,7 @@ static int clear_work(const cli_output *out)
   return code;
 }
 
-/* What a run was killed in publishing goes, while the reports that name it are there. */
+/* Removes what a killed run had published, while the reports that name it exist. */
 static int remove_half_published(const cli_output *out)
 {
   return file_is_there(out->folder, REPORT_NAME) ? EXIT_DONE
@@ -263,7 +263,7 @@ static int duplicate_one(const char *work, const char *name, const void *data)
   return duplicate_file(data, name, work);
 }
 
-/* The old report moves to the work's folder, where it goes on naming what it did. */
+/* Moves the old report to the work folder, where it still names the old results. */
 static int set_aside(const cli_output *out)
 {
   char *report = join_path(out->folder, REPORT_NAME);
@@ -278,7 +278,7 @@ static int set_aside(const cli_output *out)
   return code;
 }
 
-/* The new report is in the work's folder already, and names what is linked to DIR. */
+/* The new report is already in the work folder, and names the files linked to DIR. */
 int output_publish(const cli_output *out)
 {
   char foreign[SCALE_NAME_BYTES];
@@ -295,7 +295,7 @@ int output_publish(const cli_output *out)
   if (!code)
     code = duplicate_file(out->folder, REPORT_NAME, out->work);
   if (code)
-    made_remove(out->folder, out->work); /* a failed run leaves no picture */
+    made_remove(out->folder, out->work); /* a failed run leaves no result */
   return code;
 }
 
@@ -306,10 +306,10 @@ bool output_close(cli_output *out, bool finished)
     can_go_on = !finished && has_checkpoint(out->work);
     if (can_go_on) {
       for_names(out->work, is_partial, remove_one, NULL);
-      remove_file(out->work, REPORT_NAME); /* names what DIR may get from elsewhere */
+      remove_file(out->work, REPORT_NAME); /* names files of the interrupted run */
       remove_file(out->work, REPLACED_NAME);
     } else {
-      /* results must be on the disk before what they could be made from goes */
+      /* results must be on disk before the checkpoint is removed */
       if (finished && has_checkpoint(out->work)) {
         for_names(out->folder, is_result, synchronise_one, NULL);
         synchronise_folder(out->folder);

@@ -10,7 +10,7 @@ const int gallery_data_count = sizeof gallery_data / sizeof gallery_data[0];
   "texture synth:vortex3 -o " picture " --kind clusters --nodes 257 --pixels "           \
   "768 " options
 
-/* The same but for the anisotropy, at the same time. */
+/* The same clusters at the same time with another anisotropy. */
 #define ANISOTROPY(picture, a)                                                           \
   CLUSTERS(picture, "--gamma 2e-4 --max-time 0.02 --anisotropy " a)
 

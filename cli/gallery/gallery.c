@@ -1,5 +1,5 @@
-/* Every figure of the paper, and a page that shows them. A command of a figure is done
- * by a process of its own, in the gallery's folder, as its user would. */
+/* Makes every figure of the paper, and a page that shows them. Commands run in processes
+ * of their own, in the gallery's folder, as a user would run them. */
 #include "gallery/gallery.h"
 
 #include <errno.h>
@@ -27,8 +27,8 @@ static int out_of_memory(void)
   return EXIT_FAILED;
 }
 
-/* The folder of the program's own data: $FLOWGRAIN_DATA, or beside the program, where it
- * is installed or built. NULL: not found. End with free. */
+/* The folder of the program's data: $FLOWGRAIN_DATA, or the one installed or built beside
+ * the program. NULL: not found. To be freed. */
 static char *find_data(void)
 {
   static const char *const beside[] = {"/../share/flowgrain", "/../data"};
@@ -95,7 +95,7 @@ static int copy_data(const char *folder)
   return code;
 }
 
-/* Splits a command at its spaces; `text` holds the words. Returns how many, at most
+/* Splits a command at spaces; `text` holds the words. Returns their number, at most
  * `most`. */
 static int split_words(char *text, char *words[], int most)
 {
@@ -109,7 +109,7 @@ static int split_words(char *text, char *words[], int most)
   return count;
 }
 
-/* In a process of its own: does a command in `folder`, without its standard output. */
+/* Performs a command in `folder`, without standard output, in a process of its own. */
 static int do_command(const char *folder, const char *command, bool force)
 {
   static char program[] = "flowgrain", quiet[] = "--quiet", replace[] = "--force";
@@ -159,7 +159,7 @@ static int run_command(const char *command, const gallery_settings *settings)
   return await(command, process);
 }
 
-/* Writes DIR/name by `print`, whole or not at all. */
+/* Writes DIR/name by `print`, completely or not at all. */
 static int write_file(const gallery_settings *settings, const char *name,
                       void (*print)(FILE *stream, const gallery_settings *settings),
                       void (*draw)(FILE *stream))

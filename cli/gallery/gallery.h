@@ -13,15 +13,15 @@ typedef struct gallery_picture {
 
 enum { GALLERY_COMMANDS = 8, GALLERY_PICTURES = 8, GALLERY_ROWS = 3 };
 
-/* Commands are words after `flowgrain`, with a space between; files of data/ that they
- * read stand in the gallery's folder. */
+/* Commands are words after `flowgrain`, separated by spaces. Files of data/ that they
+ * read are in the gallery's folder. */
 typedef struct gallery_figure {
   int number; /* the paper's */
-  int last;   /* of those that are one here; 0: the same */
+  int last;   /* last number of those that are one figure here; 0: the same */
   const char *title;
-  const char *paper;                     /* what the paper's figure shows */
-  const char *differs;                   /* from it, and why; NULL: nothing to say */
-  void (*draw)(FILE *svg);               /* a diagram: fig-NN.svg */
+  const char *paper;       /* what the paper's figure shows */
+  const char *differs;     /* difference from the paper and its reason; NULL: none */
+  void (*draw)(FILE *svg); /* a diagram: fig-NN.svg */
   const char *command[GALLERY_COMMANDS]; /* up to the first NULL */
   gallery_picture picture[GALLERY_PICTURES];
   int row[GALLERY_ROWS]; /* pictures in each row on the page; all 0: one row */
@@ -34,11 +34,10 @@ extern const int gallery_figure_count;
 extern const char *const gallery_data[];
 extern const int gallery_data_count;
 
-/* Whether a figure is the one of that number; all are, when it is 0. */
+/* Whether the number selects the figure; 0 selects all. */
 bool gallery_shows(const gallery_figure *figure, int number);
 
-/* The page that shows them, all or the one of the settings: what is there of their
- * pictures. */
+/* Prints the page with the pictures that exist, of all figures or of the chosen one. */
 void gallery_print_page(FILE *page, const gallery_settings *settings);
 
 /* The double well, and the substeps of the theta-scheme. */

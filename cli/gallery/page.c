@@ -1,4 +1,4 @@
-/* The gallery's page: each figure beside what the paper's shows, and its commands. */
+/* The gallery's page: each figure with a description of the paper's, and its commands. */
 #include <string.h>
 
 #include "folder/files.h"
@@ -31,7 +31,7 @@ static const char head[] =
     "arrow "
     "have none.</p>\n";
 
-/* Text as HTML: the three characters that mean something there. */
+/* Text with the three special characters of HTML escaped. */
 static void print_text(FILE *page, const char *text)
 {
   for (const char *c = text; *c; ++c)
@@ -58,7 +58,7 @@ static int count_pictures(const gallery_figure *figure)
   return count;
 }
 
-/* A build may draw nothing in 3D; the figure then says so. */
+/* A build without 3D rendering has no picture; the page then says so. */
 static void print_row(FILE *page, const char *folder, const gallery_picture *picture,
                       int count)
 {

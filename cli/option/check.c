@@ -5,7 +5,7 @@
 #include "inputs.h"
 #include "option/value.h"
 
-/* A word that no file is likely to be called is a wrong one. */
+/* A word that is unlikely to be a file's name is a misspelt energy. */
 static bool check_energy(const evolution_settings *settings, const cli_command *command)
 {
   if (settings->anisotropy > 0.0 && energy_place(settings->energy) == FG_ENERGY_ISOTROPIC)
@@ -29,7 +29,8 @@ static bool check_energy(const evolution_settings *settings, const cli_command *
   return true;
 }
 
-/* Arrows are counted, or clusters, or found by their error. */
+/* Options that choose scales by arrows, by clusters or by tolerance exclude each
+ * other. */
 static bool check_placement(const run_settings *settings, const cli_command *command)
 {
   if (settings->arrows.count && settings->clusters.count)
@@ -79,7 +80,7 @@ static bool check_map(const reading_settings *settings, const cli_command *comma
   return true;
 }
 
-/* A word in braces is one that stands for something; other braces are text. */
+/* A word in braces must be a known placeholder; other braces are text. */
 static bool check_braces(const char *option, const char *text, const char *const *known,
                          const cli_command *command)
 {
@@ -120,7 +121,7 @@ static bool check_panels(const draw_settings *settings, const cli_command *comma
   return check_braces("panel-label", settings->panel_label, labels, command);
 }
 
-/* What would say nothing. */
+/* Refuses options that have no effect. */
 static bool check_picture(const picture_settings *settings, const cli_command *command)
 {
   const char *framed = settings->title      ? "title"

@@ -1,11 +1,11 @@
-/* Of the tables of options: input_options.c, method_options.c, picture_options.c and
+/* Tables of options: input_options.c, method_options.c, picture_options.c and
  * work_options.c. */
 #ifndef OPTION_FAMILIES_H
 #define OPTION_FAMILIES_H
 
 #include "option/table.h"
 
-/* An option's place: in the settings of a command, or in a group of several. */
+/* Location of an option's value: in a command's own settings, or in a shared group. */
 #define OWN(command, member) GROUP_OWN, offsetof(command##_settings, member)
 #define READING(member) GROUP_READING, offsetof(reading_settings, member)
 #define EVOLUTION(member) GROUP_EVOLUTION, offsetof(evolution_settings, member)

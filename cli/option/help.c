@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* Help is set for terminals of 80 columns; what an option does starts in this column. */
+/* Help is set for terminals of 80 columns; descriptions start at HELP_INDENT. */
 enum { HELP_COLUMNS = 79, HELP_INDENT = 22 };
 
 /* Prints words from column `at` on, broken at HELP_COLUMNS and indented. */

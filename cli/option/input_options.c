@@ -1,4 +1,4 @@
-/* What is read, and on which map it is laid. */
+/* Options of the input and of its map. */
 #include "option/families.h"
 
 const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};

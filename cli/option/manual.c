@@ -1,13 +1,13 @@
-/* Fills the options into the manual page: manual PAGE.in PAGE. A line `@options NAME@`
- * of PAGE.in stands for a command's options, `@fields@` and `@palettes@` for the names
- * that the library knows, `@heading@` for the title with the version. */
+/* Completes the manual page: manual PAGE.in PAGE. A line `@options NAME@` of PAGE.in is
+ * replaced by a command's options, `@fields@` and `@palettes@` by the library's names,
+ * `@heading@` by the title with the version. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "option/table.h"
 
-/* Text for troff: hyphens that are minus signs, backslashes, `words` in bold. */
+/* Text for troff: hyphens as minus signs, backslashes, `words` in bold. */
 static void print_text(FILE *out, const char *text)
 {
   bool bold = false;

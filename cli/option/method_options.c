@@ -1,4 +1,4 @@
-/* Evolution, placement, and what the other commands do instead. */
+/* Options of the evolution and of placement, and of other commands' methods. */
 #include <limits.h>
 #include <string.h>
 
@@ -19,8 +19,9 @@ const char *const effort_words[] = {"1", "0", "2", NULL};
 static const char *const class_words[] = {"arrows", "free", NULL};
 const char *const extent_words[] = {"cluster", NULL};
 
-/* Ranges are those that no input can make sensible beyond; what depends on the input, the
- * library refuses. 16385 nodes a side is 2^14 cells: 270 million nodes, several GB. */
+/* Ranges exclude values that make no sense for any input; the library refuses those that
+ * do not fit the input. 16385 nodes a side is 2^14 cells: 270 million nodes, several
+ * GB. */
 static const option_entry method_entries[] = {
     {"method", 0, "KIND", COMMAND_RIVAL, OPTION_CHOICE, OWN(rival, method),
      .words = method_words,

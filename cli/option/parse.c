@@ -8,14 +8,13 @@
 #include "option/check.h"
 #include "option/value.h"
 
-/* getopt_long's value for a long option is this plus its index (option_at), beyond every
- * letter. */
+/* getopt_long's value for a long option is this plus its index (option_at), larger than
+ * any letter. */
 enum { LONG_BASE = 256, MAX_OPTIONS = 128 };
 
 enum { TYPED_BYTES = 40 };
 
-/* An option as it was typed, "-o" or "--output"; `code` is what getopt_long made of it.
- */
+/* An option as typed, "-o" or "--output"; `code` is getopt_long's value. */
 static const char *typed_name(char out[TYPED_BYTES], const option_entry *option, int code)
 {
   if (code >= LONG_BASE)
@@ -25,7 +24,7 @@ static const char *typed_name(char out[TYPED_BYTES], const option_entry *option,
   return out;
 }
 
-/* getopt_long's two descriptions of the options that a command knows. */
+/* The short and long options of a command for getopt_long. */
 typedef struct getopt_tables {
   struct option longs[MAX_OPTIONS + 1];
   char shorts[2 * MAX_OPTIONS + 2];
@@ -35,7 +34,7 @@ static void fill_tables(getopt_tables *tables, const cli_command *command)
 {
   memset(tables, 0, sizeof *tables);
   size_t longs = 0, shorts = 0;
-  tables->shorts[shorts++] = ':'; /* a missing argument is reported as ':' */
+  tables->shorts[shorts++] = ':'; /* ':' reports a missing argument */
   const option_entry *option;
   for (size_t k = 0; (option = option_at(k)) && longs < MAX_OPTIONS; ++k) {
     if (!(option->commands & command->bit))
@@ -64,7 +63,7 @@ static const option_entry *find_option(const cli_command *command, int code)
 
 enum { NAME_BYTES = 64, LIST_BYTES = 256 };
 
-/* The long options that a word begins, separated by commas; returns how many. */
+/* Lists long options with this prefix, separated by commas; returns their number. */
 static int list_begun(char out[LIST_BYTES], const cli_command *command, const char *name)
 {
   const option_entry *option;
@@ -79,7 +78,7 @@ static int list_begun(char out[LIST_BYTES], const cli_command *command, const ch
   return count;
 }
 
-/* Of a long option that getopt_long has not found: it begins several, or none. */
+/* Prints an error for a long option that is ambiguous or unknown. */
 static void complain_of_unknown(const cli_command *command, const char *typed)
 {
   char name[NAME_BYTES], begun[LIST_BYTES];
@@ -142,7 +141,7 @@ static void set_samples(run_settings *run)
     run->reading.map.samples = (int)fmin(2.0 * nodes, MOST);
 }
 
-/* What reading takes of the other options. */
+/* Sets the options of reading that follow from others. */
 static void set_map(any_settings *out, const cli_command *command)
 {
   if (command->bit & RUNS) {
@@ -171,7 +170,7 @@ parse_result options_parse(any_settings *out, const cli_command *command, int ar
   fill_tables(&tables, command);
   set_defaults(out, command);
   opterr = 0;
-  optind = 0; /* the C library's way to start afresh */
+  optind = 0; /* restarts getopt */
   for (;;) {
     int code = getopt_long(argc, argv, tables.shorts, tables.longs, NULL);
     if (code == -1)

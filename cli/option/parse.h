@@ -1,4 +1,4 @@
-/* A command line becomes settings. */
+/* Parses a command line into settings. */
 #ifndef OPTION_PARSE_H
 #define OPTION_PARSE_H
 
@@ -6,7 +6,7 @@
 
 /* What parsing a command line came to. */
 typedef enum parse_result {
-  PARSE_GO,    /* do the command */
+  PARSE_GO,    /* perform the command */
   PARSE_DONE,  /* help or version was printed */
   PARSE_WRONG, /* a usage error was printed */
 } parse_result;

@@ -1,4 +1,4 @@
-/* How pictures look. */
+/* Options of pictures. */
 #include "option/families.h"
 
 static const char *const background_words[] = {
@@ -9,7 +9,7 @@ static const option_entry picture_entries[] = {
      .help = "pixels along the longest side [1024]"},
     {"fade", 0, "F", COMMAND_TEXTURE, OPTION_NUMBER, OWN(texture, fade), 0, 1,
      .help = "share of the way to white, from 0 to 1 [0]"},
-    /* 14400 points are the largest page that PDF readers promise to show. */
+    /* 14400 points is the largest page that PDF readers have to support */
     {"width", 0, "LENGTH", PICTURES | COMMAND_TEXTURE, OPTION_LENGTH, PICTURE(width), 36,
      14400,
      .help = "width of the picture, in points of 1/72 inch or with a unit: 252, 89mm, "

@@ -8,8 +8,8 @@
 
 #include "option/table.h"
 
-/* Where a result goes, how fast and how long it is worked at; and files, whose names
- * depend on where one stands: their content is compared. */
+/* Options without influence on results: place of output, speed, duration; and files, as
+ * paths depend on the working directory (their contents are compared). */
 static const char *const no_part[] = {
     "output", "vars-from", "max-memory", "max-time", "max-steps", "threads", "checkpoint",
     "resume", "force",     "quiet",      "verbose",  "help",      "version",
@@ -82,7 +82,7 @@ static void print_region(char *text, const fg_map_options *map)
              region[2], region[3]);
 }
 
-/* The value as it could be given; "" when it was not. */
+/* Prints the value in the form of the command line; "" if not given. */
 static void print_value(char text[VALUE_BYTES], const run_settings *settings,
                         const option_entry *option)
 {
@@ -94,13 +94,13 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
   int whole;
   bool flag;
   switch (option->kind) {
-  case OPTION_PLACES: /* its index, however it was given */
+  case OPTION_PLACES: /* the index, in whatever form it was given */
     whole = strcmp(option->name, "time") == 0 ? settings->reading.time
                                               : settings->reading.level;
     if (whole)
       snprintf(text, VALUE_BYTES, "%d", whole);
     break;
-  case OPTION_WORDS: /* an empty one is not none */
+  case OPTION_WORDS: /* an empty text counts as given */
     memcpy(&words, place, sizeof words);
     snprintf(text, VALUE_BYTES, "%s", !words ? "" : *words ? words : "''");
     break;

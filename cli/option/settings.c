@@ -1,4 +1,4 @@
-/* The library's option structs from a command's settings. */
+/* Converts a command's settings to option structs of the library. */
 #include "option/settings.h"
 
 #include <math.h>
@@ -86,7 +86,7 @@ fg_texture_options settings_texture(const texture_settings *settings)
   };
 }
 
-/* Where --dpi says how wide so many pixels are. */
+/* The width of a texture that --dpi and its pixels determine. */
 static double texture_width(const picture_settings *picture, const fg_texture *texture)
 {
   if (picture->width > 0.0 || !(picture->dpi > 0.0))

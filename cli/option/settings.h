@@ -1,5 +1,5 @@
-/* What a command line gives: a struct for each command, made of the groups that several
- * have in common. Zero means "not given". */
+/* Results of parsing: a struct for each command, composed of groups that several share.
+ * Zero means "not given". */
 #ifndef OPTION_SETTINGS_H
 #define OPTION_SETTINGS_H
 
@@ -31,12 +31,12 @@ typedef struct input_settings {
   const char *max_memory; /* NULL: the default */
 } input_settings;
 
-/* A field to be read: INPUT and what is taken of it. */
+/* A field to read: INPUT and options that select from it. */
 typedef struct reading_settings {
   const char *input;
   const char *vars, *vars_from, *mask;
-  const char *time_text, *level_text; /* as they are given; NULL: not */
-  int time, level;                    /* their indices, once they are found */
+  const char *time_text, *level_text; /* as given; NULL: not given */
+  int time, level;                    /* indices, set when the input is known */
   int scale;                          /* fg_scale */
   int frame;                          /* fg_frame */
   const char *slice;                  /* a plane */
@@ -48,7 +48,7 @@ typedef struct evolution_settings {
   int nodes;
   int mesh;           /* fg_mesh_kind */
   int scheme;         /* fg_scheme */
-  const char *energy; /* a word of energy_words or a file; NULL: flow */
+  const char *energy; /* a word of energy_words, or a file; NULL: flow */
   double anisotropy, isotropic_below, coverage, gamma, noise;
 } evolution_settings;
 
@@ -57,7 +57,7 @@ typedef struct work_settings {
   int threads;
 } work_settings;
 
-/* How icons look. */
+/* Appearance of pictures. */
 typedef struct picture_settings {
   double width, height, font_size;      /* points */
   double dpi;                           /* of pixels */
@@ -70,9 +70,9 @@ typedef struct picture_settings {
   bool surfaces;
   bool no_coast, borders;
   const char *land;           /* a colour */
-  int background;             /* 0: none; 1 more than fg_texture_kind */
+  int background;             /* 0: none; else fg_texture_kind + 1 */
   double views[MAX_VIEWS][2]; /* azimuth, elevation, degrees */
-  int view_count;             /* 0: one, the default */
+  int view_count;             /* 0: one default view */
 } picture_settings;
 
 typedef struct run_settings {
@@ -82,7 +82,7 @@ typedef struct run_settings {
   work_settings work;
   picture_settings picture;
   const char *output;           /* DIR */
-  number_list arrows, clusters; /* none of both: the default numbers of arrows */
+  number_list arrows, clusters; /* neither: the default numbers of arrows */
   double tolerance;             /* degrees */
   int start;                    /* of a placement: clusters (0), even */
   int effort;                   /* fg_effort */
@@ -92,30 +92,31 @@ typedef struct run_settings {
   int max_steps;
   unsigned formats; /* 0: the default, SVG and PNG, in 3D PNG */
   bool save_field, no_page;
-  double checkpoint; /* seconds between checkpoints; 0: after every step */
+  double checkpoint; /* seconds between checkpoints; 0: after each step */
   bool resume, force, quiet, verbose;
-  bool member;         /* of a series, which prints the messages about it */
-  int progress_socket; /* see progress.h; 0: none */
+  bool member;         /* part of a series, which prints the messages about it */
+  int progress_socket; /* for progress.h; 0: none */
 } run_settings;
 
 typedef struct view_settings {
-  run_settings run; /* first: it takes run's options; its input may be the DIR of a run */
-  const char *first_option; /* of run that was given; NULL: none */
+  run_settings run; /* first, as options of `run` are set in it; its input may be the DIR
+                       of a run */
+  const char *first_option; /* first given option of `run`; NULL: none */
   bool no_browser;
 } view_settings;
 
 typedef struct draw_settings {
   input_settings inputs;
   picture_settings picture;
-  const char *folder;           /* DIR, of a finished run or a series; or icons */
-  operand_list more;            /* likewise */
-  const char *output;           /* PICTURE */
-  const char *input;            /* where the field is now */
-  fg_map_options map;           /* another one than the run's */
-  int scale_index;              /* -1 when not given */
-  number_list arrows, clusters; /* for each the finest scale with at most so many */
+  const char *folder; /* DIR of a finished run or a series, or a file of icons */
+  operand_list more;  /* further ones */
+  const char *output; /* PICTURE */
+  const char *input;  /* current path of the input */
+  fg_map_options map; /* instead of the run's map */
+  int scale_index;    /* -1: not given */
+  number_list arrows, clusters; /* for each the finest scale with at most this number */
   bool all_scales;
-  int columns;             /* of panels; 0: from their shape */
+  int columns;             /* of panels; 0: automatic */
   const char *panel_label; /* NULL: not given */
 } draw_settings;
 
@@ -164,7 +165,7 @@ typedef struct rival_settings {
   number_list icons;      /* how many */
   int nodes;              /* of the raster that is clustered */
   double length;          /* of an arrow, fair shares */
-  int by_speed;           /* lengths are equal (0), in proportion to the speed */
+  int by_speed;           /* 0: equal lengths; 1: proportional to speed */
   double position_weight; /* -1 when not given */
   double elongation;
   unsigned formats;
@@ -187,7 +188,7 @@ typedef struct gallery_settings {
   bool force, quiet;
 } gallery_settings;
 
-/* Those of any command. */
+/* Settings of any command. */
 typedef union any_settings {
   run_settings run;
   view_settings view;
@@ -201,10 +202,10 @@ typedef union any_settings {
   gallery_settings gallery;
 } any_settings;
 
-/* Whether arrows are placed, exactly so many; else they are their clusters' own. */
+/* Whether arrows are placed, in exact number; otherwise there is one for each cluster. */
 bool settings_place(const run_settings *settings);
 
-/* The library's option structs for them. */
+/* Conversion to option structs of the library. */
 fg_read_options settings_reading(const reading_settings *settings);
 fg_evolution_options settings_evolution(const evolution_settings *settings,
                                         const work_settings *work);
@@ -215,11 +216,11 @@ fg_picture_options settings_picture(const picture_settings *settings);
 fg_texture_style settings_texture_style(const texture_settings *settings,
                                         const fg_texture *texture);
 
-/* The ends of the colour key, where they are given; else `speeds` stay. */
+/* Sets the ends of the colour key if given; else `speeds` stay. */
 void settings_speeds(double speeds[2], const picture_settings *settings);
 
-/* The options of one of the views in 3D, from 0. preset: azimuth and elevation of a view
- * that has none, or NULL. */
+/* Options of one view in 3D, from 0. preset: azimuth and elevation of a view without its
+ * own, or NULL. */
 fg_solid_options settings_solid(const picture_settings *settings, int view,
                                 const double preset[2]);
 

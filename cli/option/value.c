@@ -102,7 +102,7 @@ static bool set_choice(void *out, const cli_command *command, const option_entry
                      words);
 }
 
-/* The next item of a list with commas, copied to `item`; NULL after the last. */
+/* Copies the next item of a comma-separated list to `item`; NULL after the last. */
 static const char *next_item(char *item, size_t size, const char *list)
 {
   size_t length = strcspn(list, ",");
@@ -170,7 +170,7 @@ static bool set_color(void *out, const cli_command *command, const option_entry 
   return true;
 }
 
-/* Only their spelling can be known before the input is. */
+/* Only the syntax can be checked before the input is known. */
 static bool set_places(void *out, const cli_command *command, const option_entry *option,
                        const char *text)
 {
@@ -187,7 +187,7 @@ static bool set_places(void *out, const cli_command *command, const option_entry
   return true;
 }
 
-/* Points, or a length in a unit. */
+/* Parses points, or a length with a unit. */
 static bool set_length(void *out, const cli_command *command, const option_entry *option,
                        const char *text)
 {
@@ -213,7 +213,7 @@ static bool set_length(void *out, const cli_command *command, const option_entry
   return true;
 }
 
-/* Numbers separated by commas; returns how many, -1 for anything else or more than
+/* Parses comma-separated numbers; returns how many, -1 for anything else or more than
  * `most`. */
 static int parse_numbers(double *out, int most, const char *text)
 {

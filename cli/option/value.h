@@ -1,4 +1,4 @@
-/* The value of an option, from its text. */
+/* Parses the value of an option. */
 #ifndef OPTION_VALUE_H
 #define OPTION_VALUE_H
 
@@ -8,12 +8,12 @@
 bool usage_error(const cli_command *command, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Sets the value in a command's settings. typed: the option as it was typed. False: a
- * usage error was printed. */
+/* Sets a value in a command's settings. typed: the option as typed. False after a usage
+ * error was printed. */
 bool value_set(void *settings, const cli_command *command, const option_entry *option,
                const char *typed, const char *text);
 
-/* "a, b, c", cut at size. */
+/* Joins words to "a, b, c", cut at size. */
 void list_words(char *text, size_t size, const char *const *words);
 
 #endif

@@ -1,4 +1,4 @@
-/* Results and the work. */
+/* Options of results and of the work. */
 #include "option/families.h"
 
 const char *const format_words[FORMAT_KINDS] = {"svg", "png", "pdf"};
@@ -40,7 +40,7 @@ static const option_entry output_entries[] = {
      .help = "replace the gallery in DIR; other files in it stay"},
     {"force", 'f', NULL, RUNS, OPTION_FLAG, OWN(run, force),
      .help = "replace the results of a finished run in DIR; other files in it stay"},
-    /* 1e9 seconds are 32 years: never */
+    /* 1e9 seconds are 32 years: no checkpoint */
     {"checkpoint", 0, "S", RUNS, OPTION_NUMBER, OWN(run, checkpoint), 0, 1e9,
      .help = "seconds between checkpoints, from which the run can go on when it is "
              "killed; 0: after every step [60]"},

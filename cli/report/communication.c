@@ -8,7 +8,7 @@
 static const char *const names[FG_PHASES] = {"other", "setup",    "step",
                                              "cycle", "counting", "snapshot"};
 
-/* A number of fg_communication by its place, so that all are treated alike. */
+/* A number of fg_communication by its offset, for a loop over all. */
 typedef struct entry {
   const char *name;
   size_t place;
@@ -25,8 +25,7 @@ static const entry numbers[] = {
 };
 enum { NUMBERS = sizeof numbers / sizeof *numbers };
 
-/* The counts of a phase divided by the times that it was begun; those outside of any
- * phase are totals. */
+/* Counts of a phase per repetition; counts outside of phases are totals. */
 static double value_of(const fg_communication *communication, const entry *number)
 {
   const char *at = (const char *)communication + number->place;

@@ -1,4 +1,4 @@
-/* The communication of a run's ranks, for --verbose and run.json. */
+/* Communication between a run's ranks, for --verbose and run.json. */
 #ifndef REPORT_COMMUNICATION_H
 #define REPORT_COMMUNICATION_H
 
@@ -6,13 +6,13 @@
 
 struct cJSON;
 
-/* Asks all ranks; collective. */
+/* Collects the counters of all ranks. Collective. */
 void communication_collect(run_facts *facts, const fg_evolution *evolution);
 
-/* Prints a line a phase, when there are several ranks. */
+/* Prints one line for each phase, if there are several ranks. */
 void communication_print(const run_facts *facts);
 
-/* The object "traffic" of run.json. */
+/* Adds the object "traffic" to run.json. */
 void communication_add(struct cJSON *root, const run_facts *facts);
 
 #endif

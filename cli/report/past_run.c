@@ -15,7 +15,7 @@
 #include "option/recorded.h"
 #include "option/table.h"
 
-/* A pipe would wait for ever, and a device might never end. */
+/* Opening a pipe would block, and a device may have no end. */
 static FILE *open_regular(const char *path)
 {
   int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -72,7 +72,7 @@ static const char *text_of(const cJSON *object, const char *name)
   return cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(object, name));
 }
 
-/* A number of run.json within [least, most]; NaN and absent become `otherwise`. */
+/* A number of run.json within [least, most]; `otherwise` if it is missing or NaN. */
 static double number_of(const cJSON *object, const char *name, double least, double most,
                         double otherwise)
 {
@@ -83,7 +83,7 @@ static double number_of(const cJSON *object, const char *name, double least, dou
   return item->valuedouble;
 }
 
-/* A folder's run.json; NULL: none that can be read. */
+/* Parses a folder's run.json; NULL: missing or unreadable. */
 static cJSON *read_tree(const char *folder)
 {
   if (!file_is_there(folder, REPORT_NAME))
@@ -121,7 +121,7 @@ bool report_has_page(const char *folder)
   return has;
 }
 
-/* Paths of one file may differ; synth:NAME has no path. */
+/* The same file can have several paths; synth:NAME has none. */
 static bool same_input(const cJSON *input, const char *operand)
 {
   char *absolute = inputs_is_standard(operand) ? NULL : realpath(operand, NULL);
@@ -165,7 +165,7 @@ static const cJSON *scale_at(const cli_report *report, int index)
                             index);
 }
 
-/* Up to `most` numbers; returns how many there are. */
+/* Copies up to `most` numbers; returns how many there are. */
 static int fill_numbers(double *out, int most, const cJSON *list)
 {
   const int count = cJSON_GetArraySize(list);
@@ -178,7 +178,7 @@ static int fill_numbers(double *out, int most, const cJSON *list)
   return count <= most ? count : 0;
 }
 
-/* Runs before maps were on none. */
+/* Earlier versions had no maps. */
 static void fill_map(cli_report *out, const cJSON *map)
 {
   const char *projection = text_of(map, "projection");
@@ -216,7 +216,7 @@ static void fill_reading(cli_report *out, const cJSON *input)
   out->input_absolute = text_of(input, "absolute");
 }
 
-/* Only placed arrows have a rule of lengths. */
+/* Only placed arrows have lengths to choose. */
 static void fill_placement(cli_report *out, const cJSON *parameters)
 {
   const char *lengths = text_of(parameters, "lengths");
@@ -290,7 +290,8 @@ double report_scale_time(const cli_report *report, int index)
   return number_of(scale_at(report, index), "time", 0.0, 1e300, 0.0);
 }
 
-/* Ends of axes pass through text and through units: what differs by less is the same. */
+/* Ends of axes are rounded as text and by unit conversion; smaller relative differences
+ * count as equal. */
 static const double same_share = 1e-6;
 
 static double number_at(const cJSON *list, int index)
@@ -308,7 +309,7 @@ bool report_is_of_field(const cli_report *report, const char *folder, const char
   const char *scale = text_of(recorded, "scale");
   const fg_field_arrays *got = fg_field_contents(field);
   if (!cJSON_IsArray(size) || !cJSON_IsArray(bounds))
-    return true; /* it does not say */
+    return true; /* not recorded */
   int dimension = cJSON_GetArraySize(size);
   if (dimension != got->dimension) {
     complain("%s: %s is a field in %d dimensions, and the run's is in %d", folder, input,

@@ -36,7 +36,7 @@ static void add_words(cJSON *object, const char *name, const char *const *words,
     cJSON_AddItemToArray(array, cJSON_CreateString(words[k]));
 }
 
-/* As the options have it; "field" has what was read. */
+/* The options of the map; "field" has the grid that was read. */
 static void add_map(cJSON *input, const fg_map_options *map)
 {
   cJSON *object = cJSON_AddObjectToObject(input, "map");
@@ -120,7 +120,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   cJSON_AddNumberToObject(object, "coverage", mesh->coverage);
   cJSON_AddNumberToObject(object, "gamma", mesh->gamma);
   cJSON_AddNumberToObject(object, "noise", mesh->noise);
-  /* a double would round a large seed */
+  /* a double cannot hold every seed */
   char seed[32];
   snprintf(seed, sizeof seed, "%llu",
            (unsigned long long)(settings->work.seed ? settings->work.seed : 1));
@@ -149,7 +149,7 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   if (settings->work.threads)
     cJSON_AddNumberToObject(object, "threads", settings->work.threads);
 
-  /* as they were given, so that --resume can tell whether this is its run */
+  /* in the form of the command line, so that --resume can compare them */
   cJSON_AddItemToObject(root, "options", options_record(settings));
 
   cJSON *made = cJSON_AddObjectToObject(root, "mesh");
@@ -170,7 +170,7 @@ static void add_files(cJSON *scale, const run_facts *facts, int index)
   int files = scale_file_ends(ends, facts->settings, facts->field);
   for (int n = 0; n < files; ++n) {
     scale_name(name, index, ends[n]);
-    /* further views are called after their place: "png-2" */
+    /* further views have a number: "png-2" */
     char key[SCALE_END_BYTES];
     const char *dot = strrchr(ends[n], '.');
     snprintf(key, sizeof key, "%s%.*s", dot + 1, (int)(dot - ends[n]), ends[n]);

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Rows are written together once there are so many bytes of them. */
+/* Rows are buffered up to this size. */
 enum { ENOUGH_BYTES = 1 << 16, ROW_BYTES = 512 };
 
 static const char heading[] =
@@ -52,7 +52,7 @@ int table_start(cli_table *out, char *path)
   return append(out, heading, sizeof heading - 1) ? EXIT_DONE : EXIT_FAILED;
 }
 
-/* On a full disk a write is short first; only the next one sets errno. */
+/* On a full disk the first write is short; only the next one sets errno. */
 static bool write_all(int file, const char *bytes, size_t count)
 {
   while (count > 0) {
@@ -65,7 +65,7 @@ static bool write_all(int file, const char *bytes, size_t count)
   return true;
 }
 
-/* Another version may have had other columns. */
+/* Another version may have other columns. */
 static int check_heading(const char *path, int source)
 {
   char begin[sizeof heading - 1];
@@ -73,13 +73,13 @@ static int check_heading(const char *path, int source)
   if (got < 0)
     return complain_of_file(path, "cannot be read");
   if ((size_t)got < sizeof begin || memcmp(begin, heading, sizeof begin) == 0)
-    return EXIT_DONE; /* what is too short is found to be so as it is copied */
+    return EXIT_DONE; /* copy_start reports a file that is too short */
   complain("%s: has the columns of another version of flowgrain", path);
   advise("Start anew with --force.");
   return EXIT_FAILED;
 }
 
-/* Copies the rows to keep. */
+/* Copies the first `bytes` bytes. */
 static int copy_start(const char *to, const char *from, long long bytes)
 {
   int source = open(from, O_RDONLY | O_CLOEXEC);
@@ -138,7 +138,7 @@ int table_add(cli_table *table, const fg_step *step)
   if (!append(table, row, (size_t)bytes))
     return EXIT_FAILED;
   if (table->used >= ENOUGH_BYTES)
-    table_flush(table, false); /* what fails now is tried again */
+    table_flush(table, false); /* a failed write is repeated later */
   return EXIT_DONE;
 }
 

@@ -1,5 +1,5 @@
-/* evolution.csv: a row for every accepted step. Rows wait in memory until they are
- * written, so that a disk that is full for a while costs none. */
+/* evolution.csv: a row for every accepted step. Rows stay in memory until they are
+ * written, so that a disk that is full for a while loses none. */
 #ifndef REPORT_TABLE_H
 #define REPORT_TABLE_H
 
@@ -8,24 +8,24 @@
 typedef struct cli_table {
   char *path;
   int file;        /* -1: not open */
-  long long bytes; /* of the file, all of them whole rows */
-  char *rows;      /* not written yet */
+  long long bytes; /* of the file, in complete rows */
+  char *rows;      /* not yet written */
   size_t used, capacity;
 } cli_table;
 
-/* Begins a table at `path`, with its heading, which it takes over (malloc'd). Returns an
- * exit code. */
+/* Creates a table at `path` with its heading, and takes ownership of `path` (malloc'd).
+ * Returns an exit code. */
 int table_start(cli_table *out, char *path);
 
-/* Goes on with one after its first `bytes`; what follows them is dropped, and what else
- * the file is known as keeps it. Returns an exit code. */
+/* Continues a table after its first `bytes` bytes and drops the rest, in a new file: hard
+ * links to the old one keep its contents. Returns an exit code. */
 int table_resume(cli_table *out, char *path, long long bytes);
 
-/* Adds a step's row. Returns an exit code. */
+/* Adds the row of a step. Returns an exit code. */
 int table_add(cli_table *table, const fg_step *step);
 
-/* Writes the rows that wait, and with `to_disk` sees to it that they survive the machine.
- * False: they wait on, and errno says why. */
+/* Writes buffered rows, with `to_disk` also through to the disk. On failure returns false
+ * with errno set, and keeps the rows. */
 bool table_flush(cli_table *table, bool to_disk);
 void table_close(cli_table *table);
 

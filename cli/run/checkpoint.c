@@ -15,7 +15,7 @@
 #include "report/coarsening.h"
 #include "run/scale_files.h"
 
-/* cJSON rounds to 15 digits where it thinks that near enough. */
+/* cJSON may write only 15 digits of a number. */
 static void add_exact(cJSON *object, const char *name, double value)
 {
   char text[32];
@@ -30,7 +30,7 @@ static void add_whole(cJSON *object, const char *name, long value)
 
 enum { SCORE_NUMBERS = 11 };
 
-/* The numbers of a score that a run reports, to be kept or set. */
+/* The numbers of a score that a run reports, to be saved or restored. */
 static void find_score_numbers(double *out[SCORE_NUMBERS], fg_score *score)
 {
   fg_reader_error *const readers[] = {&score->diffusion, &score->nearest,
@@ -103,8 +103,7 @@ static void add_record(cJSON *root, const fg_run *scales)
   add_exact(root, "first_seconds", record.first.seconds);
 }
 
-/* All that the program needs to go on, as JSON. NULL without memory; end with
- * cJSON_free. */
+/* The program's state as JSON. NULL without memory; to be freed by cJSON_free. */
 static char *describe(const cli_run *run)
 {
   const run_facts *facts = &run->facts;
@@ -155,7 +154,7 @@ static void warn_of_file(cli_run *run, const char *path)
   warn(run, text);
 }
 
-/* What rank 0 does before all write: what the checkpoint counts on goes to the disk. */
+/* On rank 0, before all write: flushes the files on which the checkpoint depends. */
 static bool prepare(cli_run *run, char **note)
 {
   if (!table_flush(&run->table, true)) {
@@ -163,14 +162,14 @@ static bool prepare(cli_run *run, char **note)
     return false;
   }
   if (output_synchronise(&run->output))
-    return false; /* it has complained */
+    return false; /* an error was printed */
   *note = describe(run);
   if (!*note)
     warn(run, "out of memory for a checkpoint");
   return *note;
 }
 
-/* False: it could not be, and rank 0 has printed why. */
+/* On failure rank 0 has printed the reason. */
 static bool save(cli_run *run)
 {
   char *note = NULL;
@@ -189,7 +188,7 @@ int checkpoint_save(cli_run *run)
 {
   if (run->step.step == run->saved_step)
     return EXIT_DONE;
-  /* a failure of the drawing is complained of where the run ends */
+  /* a failed drawing is reported at the end of the run */
   bool drawn = !ranks_leader() || drawing_wait(run->drawing);
   int code = ranks_agree(drawn ? EXIT_DONE : EXIT_FAILED);
   if (code)
@@ -241,7 +240,7 @@ static int list_of(int *out, int most, const cJSON *object, const char *name)
   return count;
 }
 
-/* A file that the checkpoint counts on, and that is not there any more. */
+/* Whether a file on which the checkpoint depends is missing. */
 static bool lacks(const cli_run *run, int index, const char *end)
 {
   char name[SCALE_NAME_BYTES];
@@ -306,7 +305,7 @@ static void restore_record(fg_run_record *out, const cJSON *note)
   out->count = list_of(out->wanted, MAX_SCALES, note, "wanted");
 }
 
-/* What all ranks know. */
+/* On all ranks. */
 static void restore_counts(cli_run *run, const cJSON *note)
 {
   run->facts.accepted = run->step.step;
@@ -319,7 +318,7 @@ static void restore_counts(cli_run *run, const cJSON *note)
   run->earlier_total = real_of(note, "seconds_total");
 }
 
-/* What rank 0 writes. */
+/* On rank 0. */
 static int restore_results(cli_run *run, const cJSON *note, bool is_previous)
 {
   int code = table_resume(&run->table, output_path(&run->output, TABLE_NAME),
@@ -329,7 +328,7 @@ static int restore_results(cli_run *run, const cJSON *note, bool is_previous)
   return !code && is_previous ? output_use_previous(&run->output) : code;
 }
 
-/* Whether this rank has the options that the run was begun with. */
+/* Whether this rank's options are those of the checkpoint. */
 static int check_note(const cli_run *run, const cJSON *note)
 {
   if (note)

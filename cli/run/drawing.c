@@ -10,23 +10,23 @@
 
 struct cli_drawing {
   scale_maker maker;
-  fg_field *whole; /* of a part of a field; else NULL */
+  fg_field *whole; /* read again where `field` is a slab; else NULL */
   bool threaded;
   pthread_t thread;
 
-  pthread_mutex_t lock; /* guards what follows up to `results` */
+  pthread_mutex_t lock; /* guards the members up to `results` */
   pthread_cond_t changed;
-  scale_snapshot waiting[MAX_SCALES + 1]; /* one more than wanted: a last state */
+  scale_snapshot waiting[MAX_SCALES + 1]; /* one more than wanted, for a last state */
   int added, drawn;
-  bool closed; /* no more snapshots will come */
-  bool heeds;  /* interrupts, from now on */
-  bool cut;    /* by one */
+  bool closed; /* no more snapshots will be added */
+  bool heeds;  /* interrupts stop the drawing from now on */
+  bool cut;    /* an interrupt has stopped the drawing */
   fg_status status;
 
-  scale_result results[MAX_SCALES + 1]; /* written by the worker, read after it ended */
+  scale_result results[MAX_SCALES + 1]; /* by the worker; read after it has ended */
 };
 
-/* After an interrupt that is heeded: the scales from `index` on are left out. */
+/* Drops the scales from `index` on after an interrupt. */
 static void cut(cli_drawing *drawing, int index)
 {
   drawing->cut = true;
@@ -70,7 +70,8 @@ static void *work(void *argument)
   return NULL;
 }
 
-/* Reads what other ranks have of a field: placing, scoring and pictures in 3D need it. */
+/* Reads the whole field if this rank has a slab of it, for placement, scores and pictures
+ * in 3D. */
 static int read_whole(cli_drawing *drawing)
 {
   if (!fg_field_is_slab(drawing->maker.field, NULL, NULL))
@@ -111,7 +112,7 @@ int drawing_start(cli_drawing **out, const run_settings *settings, const fg_fiel
       (cli_placing){settings, drawing->maker.field, drawing->maker.context, NULL};
   pthread_mutex_init(&drawing->lock, NULL);
   pthread_cond_init(&drawing->changed, NULL);
-  /* without a thread to be had, the drawing is done in order: the result is the same */
+  /* without a thread scales are drawn in order, with the same result */
   drawing->threaded = settings->work.threads != 1 &&
                       pthread_create(&drawing->thread, NULL, work, drawing) == 0;
   return EXIT_DONE;
@@ -140,13 +141,13 @@ bool drawing_add(cli_drawing *drawing, const scale_snapshot *snapshot, const int
   return true;
 }
 
-/* Without a thread: draws what waits. */
+/* Without a worker thread: draws the snapshots that wait. */
 static void draw_here(cli_drawing *drawing)
 {
   if (drawing->threaded)
     return;
-  drawing->closed = true; /* work returns when nothing waits */
-  drawing->heeds = true;  /* nothing else goes on meanwhile */
+  drawing->closed = true; /* so that work() returns when no snapshot waits */
+  drawing->heeds = true;  /* nothing else runs meanwhile */
   work(drawing);
 }
 
@@ -288,7 +289,7 @@ void drawing_destroy(cli_drawing *drawing)
   if (!drawing)
     return;
   if (drawing->threaded)
-    fg_context_stop(drawing->maker.context); /* not finished: the scales are not wanted */
+    fg_context_stop(drawing->maker.context); /* drops unfinished scales */
   drawing_finish(drawing);
   for (int k = 0; k <= MAX_SCALES; ++k)
     snapshot_clear(&drawing->waiting[k]);

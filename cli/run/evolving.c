@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The interval between two densities is at least so many seconds, this share of the
- * evolution so far, and so many times the seconds that the last one took. */
+/* The interval between two densities is at least this many seconds, this fraction of the
+ * evolution so far, and this multiple of the time that the last density took. */
 static const double least_seconds = 0.02, share_of_evolution = 0.05, times_its_work = 10;
 
 static int smaller(int a, int b)
@@ -12,7 +12,7 @@ static int smaller(int a, int b)
   return a < b ? a : b;
 }
 
-/* A slice of a density: across z in the middle, where it has a z. */
+/* A plane of a density; in 3D the middle one across z. */
 typedef struct density_slice {
   const fg_density_arrays *density;
   const float *u;
@@ -43,7 +43,7 @@ static bool is_active(const density_slice *slice, int x, int y)
          slice->active[(size_t)row * (size_t)slice->cells[0] + (size_t)column];
 }
 
-/* The mean of u over nodes from (x, y), as a byte. */
+/* The mean of u over a square of nodes from (x, y), as a byte. */
 static unsigned char tone(const density_slice *slice, int x, int y, int width)
 {
   const int *nodes = slice->density->nodes;
@@ -82,7 +82,7 @@ void evolving_show(cli_run *run)
   fg_density *density;
   if (!run->progress.socket || (begin < run->density_due && !fg_run_ended(run->scales)))
     return;
-  run->density_due = (double)INFINITY; /* without memory for one there are no more */
+  run->density_due = (double)INFINITY; /* no more densities without memory */
   if (fg_density_create(&density, fg_run_evolution(run->scales))) {
     fg_context_clear(run->context);
     return;

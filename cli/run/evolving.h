@@ -1,11 +1,11 @@
-/* The density while it evolves, sent to the process that shows it (view/child.h). */
+/* Sends densities to the process that shows the run (view/child.h). */
 #ifndef RUN_EVOLVING_H
 #define RUN_EVOLVING_H
 
 #include "run/run.h"
 
-/* Sends the present density, at intervals that grow, as clusters grow ever slower, and at
- * the end. Without a socket it does nothing. */
+/* Sends the current density, at increasing intervals (clusters grow ever more slowly),
+ * and at the end. Does nothing without a socket. */
 void evolving_show(cli_run *run);
 
 #endif

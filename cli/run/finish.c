@@ -11,7 +11,7 @@
 #include "run/page.h"
 #include "run/scale_files.h"
 
-/* At the drawing's progress. */
+/* Interval of checks of the drawing's progress. */
 static const double seconds_between_looks = 0.2;
 
 bool finish_can_go_on(const cli_run *run)
@@ -49,7 +49,7 @@ int finish_drawing(cli_run *run)
   fg_status status = drawing_finish(run->drawing);
   progress_wipe(&run->progress);
   if (status == FG_STATUS_STOPPED && drawing_ready(run->drawing) <= 1) {
-    run->facts.ended = FG_RUN_STOPPED; /* while the first scale was drawn */
+    run->facts.ended = FG_RUN_STOPPED; /* while the first scale was being drawn */
     return complain_of_no_scale(run);
   }
   if (status)
@@ -76,9 +76,9 @@ static int write_results(cli_run *run)
   return code ? code : output_publish(&run->output);
 }
 
-/* The number of clusters without an icon; "" where there are none. */
+/* Writes the number of clusters without an icon; "" for none. */
 enum { ASIDE_BYTES = 64 };
-static const char *say_dropped(char out[ASIDE_BYTES], int dropped)
+static const char *format_dropped(char out[ASIDE_BYTES], int dropped)
 {
   out[0] = '\0';
   if (dropped > 0)
@@ -94,19 +94,19 @@ static void print_summary(const cli_run *run)
   for (int k = 0; k < drawing_count(run->drawing); ++k) {
     const scale_result *result = drawing_result(run->drawing, k);
     char name[SCALE_NAME_BYTES], aside[ASIDE_BYTES];
-    scale_name(name, k, ends[count > 1 ? 1 : 0]); /* its first picture, if any */
+    scale_name(name, k, ends[count > 1 ? 1 : 0]); /* its first picture, if there is one */
     char *path = join_path(run->settings->output, name);
     if (settings_place(run->settings))
       printf("%4d arrows  %s\n", result->icons, path ? path : name);
     else
       printf("%4d clusters %4d icons%s  %s\n", result->clusters, result->icons,
-             say_dropped(aside, result->dropped), path ? path : name);
+             format_dropped(aside, result->dropped), path ? path : name);
     free(path);
   }
 }
 
-/* A coarse mesh begins with few clusters. */
-static void say_first_scale(const cli_run *run)
+/* Warns that a coarse mesh began with few clusters. */
+static void warn_of_few_clusters(const cli_run *run)
 {
   const run_settings *settings = run->settings;
   if (settings->clusters.count < 1 || drawing_count(run->drawing) < 1)
@@ -120,8 +120,8 @@ static void say_first_scale(const cli_run *run)
   advise("More --nodes begin with more clusters.");
 }
 
-/* The complaint of a run that ended early, or reached less than was wanted. */
-static int say_outcome(const cli_run *run)
+/* Prints why a run ended early, or has fewer scales than requested. */
+static int report_outcome(const cli_run *run)
 {
   const run_settings *settings = run->settings;
   const int *wanted = run->record.wanted, next = run->record.next;
@@ -129,7 +129,7 @@ static int say_outcome(const cli_run *run)
     complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
              inputs_name(settings->reading.input), wanted[next], run->step.clusters);
   if (run->facts.ended != FG_RUN_STOPPED) {
-    say_first_scale(run);
+    warn_of_few_clusters(run);
     return EXIT_DONE;
   }
   int count = drawing_count(run->drawing);
@@ -155,11 +155,11 @@ int finish_run(cli_run *run)
     return code;
   run->finished = !finish_can_go_on(run);
   print_summary(run);
-  return say_outcome(run);
+  return report_outcome(run);
 }
 
-/* Unless something else was advised. The drawing's own context is gone; its failures
- * advise nothing. */
+/* Keeps earlier advice; the drawing's context is gone, but its failures have no
+ * advice. */
 void finish_advise(const cli_run *run, int code, bool resumable)
 {
   bool ended_here = run->saved_step && (code == EXIT_FAILED || code == EXIT_INTERRUPTED);

@@ -1,22 +1,21 @@
-/* How a run ends: its last results, and what is printed about them. */
+/* The end of a run: last results, and what is printed about them. */
 #ifndef RUN_FINISH_H
 #define RUN_FINISH_H
 
 #include "run/run.h"
 
-/* A run that did not come to the end of its scales can go on later. */
+/* Whether the run ended before its last scale and can be resumed. */
 bool finish_can_go_on(const cli_run *run);
 
-/* Waits for the drawing, and says why when it has drawn nothing. Of rank 0. Returns an
- * exit code. */
+/* Waits for the drawing, and prints an error when it has drawn nothing. Rank 0. Returns
+ * an exit code. */
 int finish_drawing(cli_run *run);
 
-/* All that is left to do after the evolution: the drawing, the report, the results' own
- * names, the summary. Of rank 0. Returns an exit code. */
+/* Everything after the evolution: drawing, report, moving results to their place,
+ * summary. Rank 0. Returns an exit code. */
 int finish_run(cli_run *run);
 
-/* The second line of the complaint that `code` goes with, where a checkpoint makes it
- * worth while. */
+/* Prints as second line of a complaint that --resume continues the run, if it can. */
 void finish_advise(const cli_run *run, int code, bool resumable);
 
 #endif

@@ -11,8 +11,7 @@
 #include "ranks.h"
 #include "sandbox.h"
 
-/* How many times and levels there were to choose from; nothing when that is not known.
- */
+/* Counts the times and levels of the input; leaves 0 where that is unknown. */
 static void count_choices(cli_run *run)
 {
   fg_context *context;
@@ -32,7 +31,8 @@ static void count_choices(cli_run *run)
   fg_context_destroy(context);
 }
 
-/* What is all missing or zero may not be so at another time. */
+/* Prints the error of reading. Another time may have values where all are missing or
+ * zero. */
 static int complain_of_reading(cli_run *run, fg_status status)
 {
   const int code = complain_of(run->context, status, run->settings->reading.input);
@@ -50,7 +50,7 @@ static int complain_of_reading(cli_run *run, fg_status status)
   return code;
 }
 
-/* Parts, but where icons are made of the whole density (snapshot.c). */
+/* Reads a slab, unless icons need the whole density (snapshot.c). */
 int input_read(cli_run *run)
 {
   const run_settings *settings = run->settings;
@@ -75,8 +75,8 @@ int input_read(cli_run *run)
                                   dimension == 3);
 }
 
-static void say_choice(const char *file, const char *kind, int index, int count,
-                       const char *words)
+static void print_choice(const char *file, const char *kind, int index, int count,
+                         const char *words)
 {
   char text[CLEAN_BYTES];
   if (count > 1)
@@ -84,7 +84,7 @@ static void say_choice(const char *file, const char *kind, int index, int count,
             index, count - 1, words ? ": " : "", clean_text(text, words ? words : ""));
 }
 
-static void say_choices(cli_run *run)
+static void print_choices(cli_run *run)
 {
   const run_settings *settings = run->settings;
   const fg_field_arrays *field = fg_field_contents(run->field);
@@ -92,10 +92,10 @@ static void say_choices(cli_run *run)
     count_choices(run);
   if (settings->quiet)
     return;
-  say_choice(settings->reading.input, "time", settings->reading.time,
-             run->facts.time_count, field->time);
-  say_choice(settings->reading.input, "level", settings->reading.level,
-             run->facts.level_count, field->level);
+  print_choice(settings->reading.input, "time", settings->reading.time,
+               run->facts.time_count, field->time);
+  print_choice(settings->reading.input, "level", settings->reading.level,
+               run->facts.level_count, field->level);
 }
 
 int input_join(cli_run *run)
@@ -104,8 +104,8 @@ int input_join(cli_run *run)
   if (status)
     return complain_of_reading(run, status);
   if (ranks_leader()) {
-    say_choices(run);
-    say_infinite(run->settings->reading.input, run->field);
+    print_choices(run);
+    report_infinite(run->settings->reading.input, run->field);
   }
   return EXIT_DONE;
 }
@@ -130,7 +130,7 @@ static void print_mesh(const fg_mesh_info *mesh, int scheme)
           scheme_names[scheme], mesh->kernel);
 }
 
-/* Of a file that says the energy; complains and returns the exit code. All ranks. */
+/* Reads the file of --energy. Returns an exit code, the same on all ranks. */
 static int read_energy(fg_tensors **out, const cli_run *run)
 {
   const char *path = run->settings->evolution.energy;

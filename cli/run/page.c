@@ -6,7 +6,8 @@
 
 #include "run/scale_files.h"
 
-/* In 2D the page's scales begin with so many arrows, and end with no more than those. */
+/* In 2D: bounds of the page's largest number of arrows, and upper bound of its
+ * smallest. */
 enum { LEAST_MOST = 60, MOST_MOST = 400, MOST_FEWEST = 12 };
 
 static int within(int number, int least, int most)
@@ -14,7 +15,7 @@ static int within(int number, int least, int most)
   return number < least ? least : number > most ? most : number;
 }
 
-/* In 2D the page makes arrows itself, of the energy that it knows. */
+/* In 2D the page places arrows by itself, for the energies that it supports. */
 static bool wants_page(const cli_run *run)
 {
   const run_settings *settings = run->settings;
@@ -46,7 +47,7 @@ static fg_status read_scale(page_scales *scales, fg_context *context, const cli_
   if (!status)
     status = fg_icons_read(&scales->icons[index], context, icons);
   if (!status && scales_are_solid(drawing_field(run->drawing)) &&
-      access(density, F_OK) == 0) /* a scale may have no clusters */
+      access(density, F_OK) == 0) /* a scale without clusters has none */
     status = fg_density_read(&scales->density[index], context, density,
                              drawing_field(run->drawing));
   scales->scale[index] = (fg_view_scale){scales->icons[index], scales->density[index]};
@@ -63,8 +64,8 @@ static void clear_scales(page_scales *scales)
   }
 }
 
-/* In 2D the page has the first scale alone, and none of clusters or of more arrows than
- * it shows. */
+/* In 2D the page has the first scale only, and none for clusters or for more arrows than
+ * its largest number. */
 static int count_scales(const cli_run *run)
 {
   const int count = drawing_count(run->drawing);
@@ -114,7 +115,7 @@ int page_write(cli_run *run)
   char *path = output_path(&run->output, VIEW_NAME);
   if (!path)
     return EXIT_FAILED;
-  fg_context *context; /* the run's own may have been stopped by an interrupt */
+  fg_context *context; /* an interrupt may have stopped the run's context */
   fg_status status = fg_context_create(&context);
   if (!status)
     status = write_page(context, path, run);

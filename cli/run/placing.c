@@ -11,7 +11,7 @@ fg_status placing_score(fg_context *context, const fg_field *field, fg_icons *ic
     fg_icons_keep_score(icons, &score);
   if (status != FG_STATUS_UNSUPPORTED)
     return status;
-  fg_context_clear(context); /* a narrow domain: its icons have no score */
+  fg_context_clear(context); /* in too narrow a domain icons have no score */
   return FG_STATUS_OK;
 }
 

@@ -1,4 +1,5 @@
-/* The main job: read, evolve, take scales, draw them, and leave a folder of results. */
+/* The command `run`: read, evolve, take snapshots, draw them, write a folder of
+ * results. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -23,8 +24,8 @@
 #include "run/snapshot.h"
 #include "series/series.h"
 
-/* Whether there is anything to do, and whether it may be done. *done: a finished run,
- * which --resume leaves as it is. */
+/* Whether the run may start. *done: --resume found a finished run, which stays as it
+ * is. */
 static int decide(const cli_run *run, const output_contents *there, bool *done)
 {
   const run_settings *settings = run->settings;
@@ -54,9 +55,9 @@ static int check_inputs(const run_settings *settings)
   return made_check_inputs(settings->output, inputs, 3);
 }
 
-static int look(const cli_run *run, output_contents *there, bool *done)
+static int inspect_folder(const cli_run *run, output_contents *there, bool *done)
 {
-  int code = output_look(there, run->settings->output);
+  int code = output_inspect(there, run->settings->output);
   if (!code)
     code = decide(run, there, done);
   return code || *done ? code : check_inputs(run->settings);
@@ -85,15 +86,15 @@ static int go_on(cli_run *run)
   return EXIT_DONE;
 }
 
-/* Of rank 0. *goes_on: from the checkpoint that is there. */
+/* On rank 0. *goes_on: resume from the checkpoint. */
 static int open_results(cli_run *run, bool *done, bool *goes_on)
 {
   int code = output_open(&run->output, run->settings->output);
   if (code)
     return code;
-  /* once more, as another run may have ended here since */
+  /* again, under the lock */
   output_contents there;
-  code = look(run, &there, done);
+  code = inspect_folder(run, &there, done);
   if (code || *done)
     return code;
   code = drawing_start(&run->drawing, run->settings, run->field, &run->output);
@@ -105,7 +106,7 @@ static int open_results(cli_run *run, bool *done, bool *goes_on)
   return *goes_on ? EXIT_DONE : start_anew(run);
 }
 
-/* Where the mesh was coarsened before the step, the energy may have grown by that. */
+/* A coarsening before the step may have raised the energy. */
 static int record_step(cli_run *run, const fg_step *before)
 {
   const fg_step *step = &run->step;
@@ -117,7 +118,7 @@ static int record_step(cli_run *run, const fg_step *before)
   run->facts.rejected += step->rejected;
   if (before->step && step->energy > energy)
     run->facts.energy_monotone = false;
-  /* masses are in units of the longest side; the initial one is known by construction */
+  /* masses are in units of the longest side; the initial mass is known exactly */
   double measure = mesh->domain_measure / pow(mesh->length, mesh->dimension);
   double drift = fabs(step->mass / measure - (2.0 * mesh->coverage - 1.0));
   if (drift > run->facts.mass_drift)
@@ -125,7 +126,7 @@ static int record_step(cli_run *run, const fg_step *before)
   return ranks_leader() ? table_add(&run->table, step) : EXIT_DONE;
 }
 
-/* Collective; rank 0 draws what all made of the density together. */
+/* Collective; rank 0 draws what all have made of the density. */
 static int draw_scale(cli_run *run, const fg_run_scale *scale)
 {
   scale_snapshot snapshot;
@@ -141,14 +142,14 @@ static int draw_scale(cli_run *run, const fg_run_scale *scale)
             scale->index, run->step.step, run->step.time, run->step.clusters,
             run->step.seconds);
   }
-  /* a failure of the drawing is complained of where the run ends; scales of the last
-   * state are drawn once the evolution is gone */
+  /* a failed drawing is reported at the end of the run; scales of the last state are
+   * drawn after the evolution is freed */
   bool added = drawing_add(run->drawing, &snapshot, scale->wanted, scale->wanted_count) &&
                (fg_run_ended(run->scales) || drawing_keep_up(run->drawing));
   return ranks_agree(added ? EXIT_DONE : EXIT_FAILED);
 }
 
-/* The scales that the present state is. Collective. */
+/* Takes the scales that the current state provides. Collective. */
 static int draw_scales(cli_run *run)
 {
   int code = EXIT_DONE;
@@ -205,8 +206,8 @@ static int evolve(cli_run *run)
   return code;
 }
 
-/* Numbers of arrows or of clusters. Every rank finds the same number of arrows for
- * --tolerance, which *found keeps. */
+/* Numbers of arrows or of clusters. For --tolerance every rank finds the same number of
+ * arrows, and *found keeps it. */
 static int choose_scales(cli_run *run, fg_run_options *out, int *found)
 {
   const run_settings *settings = run->settings;
@@ -222,7 +223,8 @@ static int choose_scales(cli_run *run, fg_run_options *out, int *found)
   return code;
 }
 
-/* All ranks read; rank 0 sees to the results' folder. *done: nothing is left to do. */
+/* All ranks read; rank 0 opens the results' folder. *done: there is nothing left to
+ * do. */
 static int prepare(cli_run *run, bool *done)
 {
   output_contents there;
@@ -235,9 +237,9 @@ static int prepare(cli_run *run, bool *done)
   if (!code && ranks_leader()) {
     code = output_check(run->settings->output);
     if (!code)
-      code = look(run, &there, done);
+      code = inspect_folder(run, &there, done);
   }
-  /* before the reading: a finished run does not need its input any more */
+  /* before reading, as a finished run needs its input no more */
   code = ranks_agree(code);
   *done = ranks_any(*done);
   if (code || *done)
@@ -257,7 +259,7 @@ static int prepare(cli_run *run, bool *done)
   return input_create_scales(run, &scales);
 }
 
-/* Frees the evolution, whose memory the last drawing and the writing can use. */
+/* Frees the evolution, as drawing and writing can use its memory. */
 static void end_evolution(cli_run *run)
 {
   communication_collect(&run->facts, fg_run_evolution(run->scales));
@@ -280,7 +282,7 @@ static int work(cli_run *run)
   code = ranks_agree(code);
   done = ranks_any(done);
   if (!code && done) {
-    run->finished = true; /* what its end left undone is done where this one ends */
+    run->finished = true; /* an earlier process may have missed clean-up */
     if (ranks_leader() && !run->settings->member)
       fprintf(stderr, "flowgrain: %s: the run is finished\n", run->settings->output);
     return EXIT_DONE;
@@ -302,7 +304,7 @@ static int work(cli_run *run)
   return ranks_agree(ranks_leader() ? finish_run(run) : EXIT_DONE);
 }
 
-/* On one time and level. */
+/* A run on one time and level. */
 static int run_once(const run_settings *settings)
 {
   cli_run run = {.settings = settings,

@@ -45,8 +45,8 @@ static fg_status write_solids(scale_maker *maker, int index, const fg_icons *ico
   return status;
 }
 
-/* Which view a file of that end shows, from 0; -1: it is no picture. In 3D. Files of
- * views are called scale-NN.png, scale-NN-2.png, ... */
+/* The view of a picture's ending in 3D, from 0; -1: no picture. Files of views are named
+ * scale-NN.png, scale-NN-2.png, ... */
 static int solid_view_of(const char *end)
 {
   if (strcmp(end, ".vtp") == 0 || strcmp(end, ".glb") == 0 || strcmp(end, ".vti") == 0 ||
@@ -55,7 +55,7 @@ static int solid_view_of(const char *end)
   return end[0] == '-' ? atoi(end + 1) - 1 : 0;
 }
 
-/* A picture for each view and format. */
+/* Writes a picture for each view and format. */
 static fg_status write_renderings(scale_maker *maker, int index,
                                   const scale_snapshot *snapshot, const fg_icons *icons,
                                   const fg_surface *surface)
@@ -71,7 +71,7 @@ static fg_status write_renderings(scale_maker *maker, int index,
     fg_solid_options options = settings_solid(&settings->picture, view, maker->look.view);
     options.speed_min = maker->look.speeds[0];
     options.speed_max = maker->look.speeds[1];
-    if (!settings_place(settings)) /* the time of clusters */
+    if (!settings_place(settings)) /* only clusters have a simulated time */
       options.scale_time = snapshot->time;
     options.surface = surface;
     options.threads = settings->work.threads;
@@ -110,7 +110,7 @@ static fg_status write_density(scale_maker *maker, int index, const fg_density *
   return status;
 }
 
-/* `regions`: what placed arrows stand for, in place of the clusters; NULL: none. */
+/* regions: of placed arrows, shown instead of clusters; NULL: none. */
 static fg_status write_pictures(scale_maker *maker, int index,
                                 const scale_snapshot *snapshot, const fg_icons *icons,
                                 const fg_density *regions)
@@ -147,7 +147,7 @@ static fg_status make_icons(scale_maker *maker, scale_snapshot *snapshot)
                          snapshot->density, NULL);
 }
 
-/* The last scale's icons, from its file after a resume. */
+/* The last scale's icons; after a resume read from the file. */
 static fg_status find_finer(scale_maker *maker, int index)
 {
   if (index == 0 || maker->finer)
@@ -160,7 +160,7 @@ static fg_status find_finer(scale_maker *maker, int index)
   return status;
 }
 
-/* Makes exactly `count` icons, and sets the parents of the finer scale's. */
+/* Makes exactly `count` icons, and sets the parents of the finer scale's icons. */
 static fg_status place_icons(scale_maker *maker, int index, int count,
                              scale_snapshot *snapshot)
 {
@@ -183,7 +183,7 @@ static fg_status draw_flat(scale_maker *maker, int index, const scale_snapshot *
   return status;
 }
 
-/* Of the finest scale. */
+/* From the finest scale. */
 static fg_status choose_look(scale_maker *maker, const fg_icons *icons)
 {
   common_look *look = &maker->look;
@@ -233,7 +233,7 @@ static fg_status draw_icons(scale_maker *maker, int index, scale_result *result,
       result->score = *score;
     result->dropped = fg_icons_dropped(icons);
   }
-  /* now that there is a coarser scale, the finer one's file names its icons */
+  /* the parents of the finer scale's icons are known now */
   if (!status && settings_place(maker->settings) && maker->finer)
     status = write_icons(maker, index - 1, maker->finer);
   if (!status && settings_place(maker->settings)) {

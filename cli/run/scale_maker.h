@@ -1,4 +1,4 @@
-/* One scale's icons, densities and pictures, from a snapshot to its files. */
+/* Makes the files of one scale, icons, densities and pictures, from a snapshot. */
 #ifndef RUN_SCALE_MAKER_H
 #define RUN_SCALE_MAKER_H
 
@@ -6,17 +6,16 @@
 #include "run/placing.h"
 
 typedef struct scale_result {
-  int wanted[MAX_SCALES]; /* the numbers of clusters that this scale answers */
+  int wanted[MAX_SCALES]; /* requested numbers of clusters for which this is the scale */
   int wanted_count;
   int clusters, icons, dropped;
   double time, energy, area_fraction;
   bool has_score;
-  fg_score score; /* of its icons: the readers' errors */
+  fg_score score; /* of its icons */
 } scale_result;
 
-/* What all scales' pictures have in common, found from the finest scale's icons: the ends
- * of the colour key, so that a colour means the same in all of them, and in 3D the
- * viewpoint, azimuth and elevation. */
+/* What the pictures of all scales share, from the finest scale's icons: the ends of the
+ * colour key, and in 3D the viewpoint's azimuth and elevation. */
 typedef struct common_look {
   double speeds[2], view[2];
 } common_look;
@@ -25,23 +24,24 @@ typedef struct common_look {
 typedef struct scale_maker {
   const run_settings *settings;
   const fg_field *field;    /* whole */
-  const cli_output *output; /* where files go */
+  const cli_output *output; /* destination of files */
   fg_context *context;
-  fg_texture *background; /* of the last picture, NULL: none */
+  fg_texture *background; /* of the last picture, or NULL */
   cli_placing placing;
-  fg_icons *finer; /* placed icons of the last scale, whose parents come with the next */
+  fg_icons *finer; /* placed icons of the last scale, whose parents come later */
   common_look look;
   double icon_seconds, picture_seconds;
 } scale_maker;
 
-/* Makes the files of a scale; its numbers wanted are in `result`, which gets the rest. */
+/* Makes the files of a scale. `result` has its requested numbers, and receives the
+ * rest. */
 fg_status scale_make(scale_maker *maker, int index, scale_result *result,
                      scale_snapshot *snapshot);
 
-/* Removes what there is of a scale that was interrupted. */
+/* Removes the files of an interrupted scale. */
 void scale_remove(const scale_maker *maker, int index);
 
-/* A file of a scale; NULL: no memory. End with free. */
+/* The path of a scale's file; NULL: no memory. To be freed. */
 char *scale_path(const scale_maker *maker, int index, const char *end);
 
 void scale_maker_clear(scale_maker *maker);

@@ -5,7 +5,7 @@
 #include "ranks.h"
 #include "run/scale_files.h"
 
-/* What only the whole density can give. */
+/* Whether a feature needs the whole density. */
 static bool needs_all(const cli_run *run)
 {
   const run_settings *settings = run->settings;
@@ -35,8 +35,8 @@ static fg_status write_density(scale_snapshot *snapshot, fg_context *context,
   return status;
 }
 
-/* With a context of its own: after an interrupt a scale that was reached is still drawn,
- * and the drawing's own is in use. */
+/* Uses a context of its own: after an interrupt a completed scale is still drawn, and the
+ * drawing's context is in use by its thread. */
 static int take_shared(scale_snapshot *snapshot, cli_run *run, const fg_density *shared)
 {
   fg_context *context;

@@ -68,7 +68,7 @@ static cJSON *describe(const series_index *index)
   cJSON_AddItemToObject(root, "options", options_record(settings));
   cJSON *range = cJSON_AddArrayToObject(root, "speed_range");
   for (int k = 0; k < 2; ++k) {
-    char text[32]; /* cJSON rounds to 15 digits where it thinks that near enough */
+    char text[32]; /* cJSON may write only 15 digits of a number */
     snprintf(text, sizeof text, "%.17g", index->speeds[k]);
     cJSON_AddItemToArray(range, cJSON_CreateRaw(text));
   }
@@ -88,7 +88,7 @@ int index_write(const series_index *index)
   return code;
 }
 
-/* NULL: there is none, or a complaint was printed. */
+/* NULL: missing, or an error was printed. */
 static cJSON *read_index(const char *folder)
 {
   char *path = join_path(folder, SERIES_NAME);
@@ -160,7 +160,7 @@ bool index_matches(series_index *index)
   return same;
 }
 
-/* "time-0001", "level-012", or both: nothing that leads elsewhere. */
+/* "time-0001", "level-012", or both; no path to another folder. */
 static bool is_member_name(const char *name)
 {
   return (strncmp(name, "time-", 5) == 0 || strncmp(name, "level-", 6) == 0) &&

@@ -12,7 +12,7 @@
 #include "option/table.h"
 #include "run/background.h"
 
-/* More are too small to be read in a figure as wide as a picture. */
+/* With more members panels are too small to read at a picture's width. */
 enum { MOST_MEMBERS = 12 };
 
 void panels_name(char out[PANELS_NAME_BYTES], int scale, const char *format)
@@ -75,7 +75,7 @@ int panels_remove(const char *folder)
   return for_names(folder, is_panels_or_part, remove_one, NULL);
 }
 
-/* Whether what the pictures show is in the runs' files. */
+/* Whether the files of the runs have all that pictures show. */
 static bool can_be_drawn(const run_settings *settings)
 {
   const picture_settings *picture = &settings->picture;
@@ -122,7 +122,7 @@ static int draw_scale(drawn_panels *panels, fg_context *context, int scale,
   return code;
 }
 
-/* Panels of other maps or regions are no fault of the runs, whose results stay. */
+/* Runs on different maps or regions have no common figure; that is a warning. */
 static int explain(series_index *index, const fg_context *context, fg_status status)
 {
   if (status != FG_STATUS_ARGUMENT)
@@ -166,7 +166,7 @@ int panels_draw(series_index *index)
   index->panel_scales = code || panels.runs < 2 ? 0 : scales_of(&panels);
   index->panel_formats = formats;
   if (!code && index->panel_scales > 0)
-    code = index_write(index); /* which names them before they are there */
+    code = index_write(index); /* names files before they exist */
   if (!code && index->panel_scales > 0)
     code = create_context(&context);
   if (context) {

@@ -1,5 +1,5 @@
-/* The figures of a series: for each scale its pictures of all times and levels as panels,
- * with one key. */
+/* Figures of a series: for each scale the pictures of all times and levels as panels,
+ * with a common colour key. */
 #ifndef SERIES_PANELS_H
 #define SERIES_PANELS_H
 
@@ -9,17 +9,16 @@
 enum { PANELS_NAME_BYTES = 24 };
 void panels_name(char out[PANELS_NAME_BYTES], int scale, const char *format);
 
-/* Complains of a file in DIR with such a name that no series is known to have made.
- * Returns an exit code. */
+/* Prints an error if DIR has a file with such a name that no series has made. Returns an
+ * exit code. */
 int panels_refuse_foreign(const char *folder);
 
-/* Removes those that DIR/series.json names, and what a run was killed in writing. Returns
- * an exit code. */
+/* Removes the figures that DIR/series.json names, and temporary files of a killed run.
+ * Returns an exit code. */
 int panels_remove(const char *folder);
 
-/* Draws them when the runs are done, where there are few enough of them, and names them
- * in the index. Runs that do not go together have none, which is said. Returns an exit
- * code. */
+/* Draws the figures after all runs, if there are few enough, and adds them to the index.
+ * Prints why runs have no common figure. Returns an exit code. */
 int panels_draw(series_index *index);
 
 #endif

@@ -7,7 +7,7 @@
 #include "inputs.h"
 #include "sandbox.h"
 
-/* A choice that needs no file to be understood: none, or an index. */
+/* Whether a choice needs no file: none, or an index. */
 static bool is_plain(const char *text)
 {
   return !text || !text[strspn(text, "0123456789")];
@@ -22,8 +22,8 @@ static int take_index(fg_selection *out, const char *text)
   return EXIT_DONE;
 }
 
-static void say_nearest(const reading_settings *settings, const char *what,
-                        const char *text, const fg_axis_value *value)
+static void print_nearest(const reading_settings *settings, const char *what,
+                          const char *text, const fg_axis_value *value)
 {
   char words[CLEAN_BYTES];
   fprintf(stderr, "flowgrain: %s: no %s %s: the nearest is %s\n", settings->input, what,
@@ -40,7 +40,7 @@ static int find_one(fg_selection *out, fg_context *context,
   if (status)
     return complain_of(context, status, settings->input);
   if (out->nearest && values && !quiet)
-    say_nearest(settings, what, text, &values[out->index[0]]);
+    print_nearest(settings, what, text, &values[out->index[0]]);
   return EXIT_DONE;
 }
 
@@ -62,8 +62,8 @@ static int read_vector(chosen_places *out, fg_context *context,
   return EXIT_FAILED;
 }
 
-/* The default level where none is given; prints which coordinates the file lacks. A file
- * that cannot be read is reported when it is read. */
+/* Finds the default level where none is given, and prints missing coordinates. Failures
+ * are left to the reading. */
 static int find_defaults(int *level, fg_context *context,
                          const reading_settings *settings, bool quiet)
 {

@@ -58,8 +58,8 @@ static int list_members(series_index *out)
   return EXIT_DONE;
 }
 
-/* Whether there may be a series in DIR. *goes_on: the one that is there. */
-static int look(series_index *index, bool *goes_on)
+/* Checks that DIR can hold the series. *goes_on: it holds an unfinished one. */
+static int check_folder(series_index *index, bool *goes_on)
 {
   const run_settings *settings = index->settings;
   *goes_on = false;
@@ -95,7 +95,7 @@ static fg_read_options reading_of(const run_settings *settings,
   return reading;
 }
 
-/* Widens the range by a member's field; one that cannot be read will say so itself. */
+/* Extends the range by a member's field. Failures are left to the member's run. */
 static void add_speeds(double speeds[2], fg_context *context,
                        const run_settings *settings, const series_member *member)
 {
@@ -113,7 +113,7 @@ static void add_speeds(double speeds[2], fg_context *context,
   fg_field_destroy(field);
 }
 
-/* Of all fields, unless the ends are given. */
+/* Finds the common range of all fields, unless it is given. */
 static int find_speeds(series_index *index)
 {
   const run_settings *settings = index->settings;
@@ -145,7 +145,7 @@ static int find_speeds(series_index *index)
   return code;
 }
 
-/* Members of the series that is replaced, as far as this one has no such folder. */
+/* Removes folders of the replaced series that are not members of this one. */
 static int remove_others(const series_index *index)
 {
   char(*names)[MEMBER_NAME_BYTES];
@@ -158,18 +158,18 @@ static int remove_others(const series_index *index)
     if (folder)
       code = made_remove(folder, NULL);
     if (folder)
-      rmdir(folder); /* which leaves alone what is not empty */
+      rmdir(folder); /* fails on a folder that is not empty */
     free(folder);
   }
   free(names);
   return code;
 }
 
-/* Rank 0 decides, finds the range and writes the index. */
+/* On rank 0: checks the folder, finds the range, writes the index. */
 static int begin(series_index *index)
 {
   bool goes_on;
-  int code = look(index, &goes_on);
+  int code = check_folder(index, &goes_on);
   if (!code)
     code = panels_remove(index->settings->output);
   if (code || goes_on)
@@ -201,7 +201,7 @@ static int run_member(const series_index *index, const series_member *member,
   return code;
 }
 
-/* One that fails for its data does not keep the others from being done. */
+/* A member that fails because of its data does not stop the others. */
 static int run_members(const series_index *index,
                        int (*run)(const run_settings *settings))
 {
@@ -227,7 +227,7 @@ static int run_members(const series_index *index,
   return failed ? EXIT_FAILED : EXIT_DONE;
 }
 
-/* Figures of those that could be done, too. */
+/* Also draws figures of the members that succeeded. */
 static int do_members(series_index *index, int (*run)(const run_settings *settings))
 {
   const int code = run_members(index, run);

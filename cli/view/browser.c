@@ -5,8 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* In a session of its own, for an interrupt from the terminal not to end a browser that
- * the user works in; and not on standard output, which has the address alone. */
+/* Starts a session, so that an interrupt from the terminal does not end the user's
+ * browser, and detaches standard output, which carries only the address. */
 static _Noreturn void become_browser(const char *address)
 {
   const char *wanted = getenv("BROWSER");

@@ -32,7 +32,7 @@ static int make_temporary(cli_child *child)
   return EXIT_DONE;
 }
 
-/* The summary of a run names files, which are of no use in a temporary folder. */
+/* Suppresses the run's summary, as its file names are useless in a temporary folder. */
 static void silence_summary(void)
 {
   int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -40,8 +40,8 @@ static void silence_summary(void)
     dup2(nothing, STDOUT_FILENO);
 }
 
-/* In a group of its own, for an interrupt from the terminal to reach it once, by the
- * parent, and not longer there than that. */
+/* Runs in a process group of its own, so that only the parent gets an interrupt from the
+ * terminal and passes it on; ends with the parent. */
 static _Noreturn void run(const cli_child *child, run_settings *settings, pid_t parent)
 {
   setpgid(0, 0);
@@ -69,7 +69,7 @@ int child_start(cli_child *out, const run_settings *given, void (*close_all)(voi
     return complain_of_file("the run", "cannot be started");
   settings.output = out->folder;
   settings.progress_socket = ends[1];
-  fflush(NULL); /* or both would write it */
+  fflush(NULL); /* or both processes would write buffered output */
   const pid_t parent = getpid();
   out->process = fork();
   if (out->process == 0) {
@@ -107,7 +107,7 @@ static void take(cli_child *child, const progress_message *message)
   memcpy(child->doing, message->words, sizeof child->doing);
 }
 
-/* Receives all messages that are there. */
+/* Receives all pending messages. */
 static void listen_to(cli_child *child)
 {
   progress_message message;
@@ -115,7 +115,7 @@ static void listen_to(cli_child *child)
     const ssize_t got = recv(child->socket, &message, sizeof message, MSG_DONTWAIT);
     if (got < 0 && (errno == EAGAIN || errno == EINTR))
       return;
-    if (!is_whole(&message, got)) { /* its end */
+    if (!is_whole(&message, got)) { /* the socket was closed */
       close(child->socket);
       child->socket = -1;
       return;
@@ -135,7 +135,7 @@ static void learn_of_end(cli_child *child, int how)
   child->code = EXIT_FAILED;
 }
 
-void child_look(cli_child *child)
+void child_receive(cli_child *child)
 {
   int how;
   if (!child->process)
@@ -163,7 +163,7 @@ static int remove_one(const char *folder, const char *name, const void *data)
   return remove_file(folder, name);
 }
 
-/* The folder is of this process alone, and so is all in it. */
+/* Removes the temporary folder, in which all files are this process's. */
 static void remove_temporary(cli_child *child)
 {
   char *work = join_path(child->temporary, WORK_NAME);

@@ -11,7 +11,7 @@
 #include "folder/results.h"
 #include "inputs.h"
 
-/* Larger files than that are no pages. */
+/* Larger files are not pages. */
 enum { MOST_BYTES = 1 << 28 };
 
 static char *read_bytes(size_t *size, int file)
@@ -31,7 +31,7 @@ static char *read_bytes(size_t *size, int file)
   return bytes;
 }
 
-/* By no symbolic link, which may lead anywhere. */
+/* Follows no symbolic link, which could lead out of the folder. */
 static bool give_file(cli_answer *out, const char *folder, const char *name,
                       const char *kind)
 {
@@ -48,7 +48,7 @@ static bool give_file(cli_answer *out, const char *folder, const char *name,
   return bytes != NULL;
 }
 
-/* Where the run's files are: NULL without memory; end with free. */
+/* The folder with the run's files. NULL without memory; to be freed. */
 static char *find_folder(const cli_child *child)
 {
   return child->process ? join_path(child->folder, WORK_NAME)
@@ -63,8 +63,8 @@ static const char *kind_of(const char *name)
                                        : NULL;
 }
 
-/* At its end a run moves its files, one after the other, out of the folder for its work.
- */
+/* The file may be in the work folder or, when the run has ended, in DIR; at the end files
+ * move one by one. */
 static void give_result(cli_answer *out, const cli_child *child, const char *folder,
                         const char *name)
 {
@@ -72,8 +72,7 @@ static void give_result(cli_answer *out, const cli_child *child, const char *fol
     give_file(out, child->folder, name, kind_of(name));
 }
 
-/* Names of the pictures of scales, from the first, whose icons are there, too: the page
- * counts them. */
+/* Lists the pictures of scales whose icons exist, too, as the page counts them. */
 static void add_pictures(cJSON *state, const char *folder)
 {
   static const char *const ends[] = {".svg", ".png"};
@@ -123,7 +122,7 @@ static void give_page(cli_answer *out, const cli_child *child, const char *folde
                       .size = view_live_page_size};
 }
 
-/* "density-7": the number; negative: another name. */
+/* The number in "density-7"; negative: another name. */
 static int density_of(const char *name)
 {
   static const char begin[] = "density-";

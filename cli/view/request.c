@@ -10,7 +10,7 @@ bool request_is_whole(const char *text)
   return strstr(text, "\r\n\r\n") != NULL;
 }
 
-/* The value of a header, without blanks around it; NULL: it is not there, or not once. */
+/* The value of a header without surrounding blanks; NULL: missing or repeated. */
 static const char *find_header(size_t *length, const char *text, const char *name)
 {
   const size_t name_length = strlen(name);
@@ -31,7 +31,7 @@ static const char *find_header(size_t *length, const char *text, const char *nam
   return found;
 }
 
-/* By any port: it is another one where the address is forwarded (ssh -L). */
+/* Any port is accepted, as a forwarded address has another one (ssh -L). */
 static bool is_this_host(const char *text)
 {
   static const char *const names[] = {"127.0.0.1", "localhost"};
@@ -50,7 +50,7 @@ static bool is_this_host(const char *text)
   return false;
 }
 
-/* In a time that does not tell how much of it is right. */
+/* Compares in constant time. */
 static bool is_token(const char *text, size_t length, const char *token)
 {
   unsigned differences = length != TOKEN_DIGITS;
@@ -59,7 +59,7 @@ static bool is_token(const char *text, size_t length, const char *token)
   return differences == 0;
 }
 
-/* Of a path "/TOKEN/NAME" the name. */
+/* Extracts NAME from "/TOKEN/NAME". */
 static bool read_path(char name[REQUEST_NAME_BYTES], const char *path, size_t length,
                       const char *token)
 {

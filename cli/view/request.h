@@ -1,27 +1,26 @@
-/* A request of a browser: the name of what it wants, and whether it is allowed. */
+/* A browser's HTTP request: the name it asks for, and whether it is allowed. */
 #ifndef VIEW_REQUEST_H
 #define VIEW_REQUEST_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Of 128 random bits, in hexadecimal digits. */
+/* 128 random bits as hexadecimal digits. */
 enum { TOKEN_DIGITS = 32 };
 
-/* Longest request. Cookies of other servers on this machine come along: browsers do not
- * tell ports apart. */
+/* Longest request, with cookies of other servers on this machine: browsers send them to
+ * any port. */
 enum { REQUEST_BYTES = 16384 };
 
 /* Longest name in a request. */
 enum { REQUEST_NAME_BYTES = 64 };
 
-/* Whether the empty line that ends a request is there. */
+/* Whether the request is complete (ends with an empty line). */
 bool request_is_whole(const char *text);
 
-/* Status of the answer: 200 with the name behind /TOKEN/, which has no slash and may be
- * empty; 400 for what is no request; 403 where it is made to another host: a page of
- * another site whose name was made to lead here (DNS rebinding) names that; 404 for any
- * other place; 405 for another method than GET. */
+/* HTTP status of a request. 200: `name` is what follows /TOKEN/, without a slash,
+ * possibly empty. 400: no valid request. 403: for another host name (DNS rebinding by a
+ * page of another site). 404: any other path. 405: a method other than GET. */
 int request_read(char name[REQUEST_NAME_BYTES], const char *text, const char *token);
 
 #endif

@@ -15,18 +15,18 @@
 #include "progress.h"
 #include "view/request.h"
 
-/* A browser opens six connections to a host at most; what others open must wait. */
+/* A browser opens at most six connections to a host; further ones wait. */
 enum { CONNECTIONS = 16, HEAD_BYTES = 512, TURN_MILLISECONDS = 100 };
 
-/* Without a byte in either direction a connection is closed. */
+/* A connection is closed after this time without data. */
 static const double patience_seconds = 10.0;
 
 typedef struct cli_connection {
   int socket;   /* -1: none */
-  double moved; /* when bytes last went over it */
+  double moved; /* clock of the last transfer */
   char request[REQUEST_BYTES + 1];
   size_t got;
-  char head[HEAD_BYTES]; /* of the answer; empty until there is one */
+  char head[HEAD_BYTES]; /* of the answer; empty before */
   size_t head_size, sent;
   cli_answer body;
 } cli_connection;
@@ -37,7 +37,7 @@ struct cli_server {
   cli_connection connection[CONNECTIONS];
 };
 
-/* Not for programs that this one starts, and never waiting. */
+/* Closed in child processes, and non-blocking. */
 static bool set_up(int socket)
 {
   return fcntl(socket, F_SETFD, FD_CLOEXEC) == 0 &&
@@ -135,8 +135,7 @@ static const char *words_of(int status)
   }
 }
 
-/* What is served stays in the browser's tab: nothing is stored, shown within other
- * pages, or told to where its links lead. */
+/* Content must not be cached, embedded in other pages, or sent as a referrer. */
 static void answer(cli_connection *connection, int status)
 {
   cli_answer *body = &connection->body;
@@ -199,7 +198,7 @@ static void receive(const cli_server *server, cli_connection *connection,
     answer(connection, 431);
 }
 
-/* What was not read would make the system cut the answer off. */
+/* Reads the rest of a request; closing with unread data would reset the connection. */
 static void drain(cli_connection *connection)
 {
   enum { TURNS = 16 };
@@ -255,7 +254,7 @@ void server_turn(cli_server *server, int file, give_answer *give, void *data)
       (struct pollfd){.fd = has_room ? server->socket : -1, .events = POLLIN};
   ready[CONNECTIONS + 1] = (struct pollfd){.fd = file, .events = POLLIN};
   if (poll(ready, CONNECTIONS + 2, TURN_MILLISECONDS) < 0)
-    return; /* a signal */
+    return; /* interrupted by a signal */
   for (int k = 0; k < CONNECTIONS; ++k)
     if (server->connection[k].socket >= 0)
       serve(server, &server->connection[k], ready[k].revents, give, data);

@@ -1,32 +1,32 @@
-/* A server of HTTP for browsers on this machine, in one thread. */
+/* An HTTP server for browsers on this machine, in one thread. */
 #ifndef VIEW_SERVER_H
 #define VIEW_SERVER_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* What a name stands for. */
+/* The content of a name. */
 typedef struct cli_answer {
-  const char *kind;  /* media type; NULL: there is nothing of that name */
-  const char *bytes; /* `size` of them; owned by `owned`, or they stay */
+  const char *kind;  /* media type; NULL: no such name */
+  const char *bytes; /* `size` bytes, owned by `owned` or static */
   size_t size;
-  void *owned; /* ended with free */
+  void *owned; /* to be freed */
 } cli_answer;
 
 typedef void give_answer(cli_answer *out, const char *name, void *data);
 
 typedef struct cli_server cli_server;
 
-/* Begins to listen at a port of 127.0.0.1 that the system chooses. Complains; returns an
- * exit code. */
+/* Listens on a port of 127.0.0.1 that the system chooses. Prints errors; returns an exit
+ * code. */
 int server_start(cli_server **out);
 
-/* Where it is, "http://127.0.0.1:PORT/TOKEN/". */
+/* Its address, "http://127.0.0.1:PORT/TOKEN/". */
 enum { ADDRESS_BYTES = 80 };
 const char *server_address(const cli_server *server);
 
-/* Waits until there is something to do for it, on `file` (negative: none), or a tenth of
- * a second has passed, and does it. */
+/* Waits for requests, for input on `file` (negative: none), or for a tenth of a second,
+ * and answers requests. */
 void server_turn(cli_server *server, int file, give_answer *give, void *data);
 
 void server_end(cli_server *server);

@@ -1,4 +1,4 @@
-/* Shows a run in a browser: one that a folder holds, or one that goes on meanwhile. */
+/* The command `view`: shows in a browser a finished run, or one that it starts. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,7 +41,7 @@ static int refuse_folder(const char *folder)
   return EXIT_FAILED;
 }
 
-/* What is shown, and to whom. */
+/* State of the command. */
 typedef struct cli_view {
   const view_settings *settings;
   cli_server *server;
@@ -49,10 +49,10 @@ typedef struct cli_view {
   view_pages pages;
   bool announced;
   pid_t browser;
-  int interrupts; /* passed on to the child */
+  int interrupts; /* number of them passed on to the child */
 } cli_view;
 
-/* Once there is something to show: what cannot be read opens no browser. */
+/* Prints the address and opens the browser, once there is something to show. */
 static int announce(cli_view *view)
 {
   view->announced = true;
@@ -64,8 +64,8 @@ static int announce(cli_view *view)
   return EXIT_DONE;
 }
 
-/* An interrupt while the run goes on is passed on to it; it then ends, and so does this.
- * Returns whether there is no more to wait for. */
+/* Passes interrupts on to the run, whose end ends this command. Returns whether it is
+ * over. */
 static bool is_over(cli_view *view)
 {
   cli_child *child = &view->child;
@@ -82,7 +82,7 @@ static int serve(cli_view *view)
 {
   int code = EXIT_DONE;
   while (!code && !is_over(view)) {
-    child_look(&view->child);
+    child_receive(&view->child);
     const bool has_something =
         view->child.process ? view->child.began : !view->child.code;
     if (has_something && !view->announced)
@@ -94,14 +94,15 @@ static int serve(cli_view *view)
   return code;
 }
 
-/* What a run that was interrupted leaves is told by itself. */
-static int say_end(const cli_view *view)
+/* Prints that nothing is kept of an interrupted run in a temporary folder; about other
+ * ends the run has printed. Returns the exit code. */
+static int report_end(const cli_view *view)
 {
   const char *input = view->settings->run.reading.input;
   if (view->child.process && view->child.temporary) {
     cli_progress line;
     progress_start(&line, view->settings->run.quiet, 0);
-    line.drawn = line.shown; /* by the run */
+    line.drawn = line.shown; /* drawn by the run */
     progress_wipe(&line);
     complain("%s: interrupted; nothing of its run is kept without -o DIR",
              inputs_name(input));
@@ -124,11 +125,11 @@ static int prepare(cli_view *view)
   }
   int code = inputs_prepare(&run.inputs, &input, 1);
   if (run.formats && !(run.formats & (FORMAT_SVG | FORMAT_PNG)))
-    run.formats |= FORMAT_PNG; /* a browser shows no PDF in a page */
+    run.formats |= FORMAT_PNG; /* a page cannot show PDF */
   return code ? code : child_start(&view->child, &run, end_server, view->server);
 }
 
-/* Options of run are for a FILE. */
+/* Refuses options of `run` unless the operand is a FILE. */
 static bool fits(const view_settings *settings)
 {
   const char *input = settings->run.reading.input;
@@ -157,7 +158,7 @@ int command_view(const void *given)
   if (!code)
     code = serve(&view);
   if (!code)
-    code = say_end(&view);
+    code = report_end(&view);
   child_end(&view.child);
   server_end(view.server);
   interrupt_end();

@@ -1,5 +1,5 @@
-/* Cells between the points of a grid in the plane of its indices, closed round the world
- * and across a fold. */
+/* Quadrilaterals between neighbouring points of a curvilinear grid, which may close
+ * around the globe and across a tripolar fold. */
 #include "base/memory.h"
 #include "base/vector.h"
 #include "read/mesh/mesh.h"
@@ -7,13 +7,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Points that lie nearer than this part of a step repeat each other. */
+/* Points nearer than this fraction of a step coincide. */
 static const double SAME_PLACE = 0.1;
 
-/* Neighbours across the seam lie within so many steps. */
+/* Largest distance of neighbours across the seam, in steps. */
 static const double NEXT_PLACE = 1.6;
 
-enum { MOST_REPEATED = 3, LOOKED_AT = 60 };
+enum { MOST_REPEATED = 3, COMPARED = 60 };
 
 static double distance(const fg__nc_positions *at, size_t a, size_t b)
 {
@@ -23,13 +23,13 @@ static double distance(const fg__nc_positions *at, size_t a, size_t b)
   return fg__distance(one, other);
 }
 
-/* The distance of the first column's points from those of another, in steps along i: the
- * mean over rows. */
+/* The mean distance, over rows, of the first column's points from those of another, in
+ * steps along i. */
 static double seam(const fg__nc_positions *at, const size_t size[2], size_t column)
 {
   double sum = 0.0;
   size_t count = 0;
-  for (size_t j = 0; j < size[1]; j += size[1] / LOOKED_AT + 1) {
+  for (size_t j = 0; j < size[1]; j += size[1] / COMPARED + 1) {
     const size_t row = j * size[0];
     const double step = distance(at, row, row + 1);
     const double off = distance(at, row, row + column);
@@ -55,12 +55,12 @@ void fg__nc_closure(size_t *repeated, bool *closed, const fg__nc_positions *at,
   *closed = size[0] > 3 && seam(at, size, size[0] - 1) < NEXT_PLACE;
 }
 
-/* Whether the last row lies beside itself, column i beside the last but i. */
+/* Whether the last row is folded: column i is beside column n - 1 - i. */
 static bool is_folded(const fg__nc_positions *at, const size_t size[2], size_t columns)
 {
   double across = 0.0, steps = 0.0;
   const size_t last = (size[1] - 1) * size[0];
-  for (size_t i = 0; i < columns; i += columns / LOOKED_AT + 1) {
+  for (size_t i = 0; i < columns; i += columns / COMPARED + 1) {
     const double off = distance(at, last + i, last + columns - 1 - i);
     const double step = distance(at, last + i, last + i - size[0]);
     if (!isfinite(off) || !isfinite(step))

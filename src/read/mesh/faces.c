@@ -1,4 +1,4 @@
-/* Components on the faces of cells along axes: Arakawa's C grid in a plane. */
+/* Components on the faces of rectilinear cells: Arakawa's C grid in a plane. */
 #include "read/mesh/mesh.h"
 
 #include <ctype.h>
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Values of a coordinate that differ by less than this part of a step are one. */
+/* Coordinates that differ by less than this fraction of a step are equal. */
 static const double SAME_PLACE = 0.1;
 
 static const fg__nc_variable *line_of(const fg__nc_file *file, const fg__nc_part *part,
@@ -57,7 +57,7 @@ static bool varies_along(const fg__nc_variable *v, const fg__nc_file *file,
   return most < SAME_PLACE * step;
 }
 
-/* A coordinate of both dimensions of the centres, in a unit of length: x_rho of ROMS, XC
+/* A coordinate in a unit of length on both dimensions of the centres: x_rho of ROMS, XC
  * of MITgcm. */
 static const fg__nc_variable *find_plane(const fg__nc_grid *grid, const fg__nc_file *file,
                                          int k)
@@ -91,7 +91,8 @@ static fg_status read_axes(fg__nc_grid *grid, const fg__nc_file *file,
   return status;
 }
 
-/* The centres between two faces. False where there are too few. */
+/* Restricts the axes to centres that lie between two faces. False where there are too
+ * few. */
 static bool place_centres(fg__nc_grid *grid, const fg__nc_mesh *mesh)
 {
   for (int k = 0; k < 2; ++k) {
@@ -118,7 +119,7 @@ fg_status fg__nc_faces_find(fg__nc_grid *grid, const fg__nc_file *file,
   for (int k = 0; k < 2 && grid->scale == FG_SCALE_AUTO; ++k)
     if (fg__nc_plane_coordinate(&mesh.part[k].grid, file, mesh.part[k].variable,
                                 FG__NC_X))
-      return FG_STATUS_OK; /* on the Earth */
+      return FG_STATUS_OK; /* in degrees: mesh/find.c */
   for (int k = 0; k < 2; ++k) {
     bool found =
         mesh.part[k].grid.axis[k].size == mesh.size[k] && shift_by_lines(&mesh, file, k);

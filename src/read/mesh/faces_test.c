@@ -1,4 +1,4 @@
-/* Staggered components in a plane, and the walls between them. */
+/* Staggered components in a plane, and walls between them. */
 #include <math.h>
 
 #include "base/context_test.h"
@@ -18,9 +18,9 @@ static double plane_flow(int k, double x, double y)
 
 typedef struct plane_model {
   const char *along[2], *across[2]; /* dimensions of the faces, of the centres */
-  int more;                         /* faces than centres */
+  int more;                         /* number of faces less number of centres */
   double shift;                     /* of face 0 from centre 0, in cells */
-  bool lines; /* the dimensions have coordinates; else x_rho, y_rho */
+  bool lines; /* the dimensions have coordinates, else there are x_rho, y_rho */
 } plane_model;
 
 enum { PLANE_COLUMNS = 7, PLANE_ROWS = 5 };
@@ -72,8 +72,8 @@ static void write_plane_model(sample_file *f, const plane_model *model)
   sample_end(f);
 }
 
-/* Runs without an Earth: faces and centres are where their coordinates say, or the
- * dimensions' names. Rows descend. */
+/* Grids in metres: faces and centres are placed by coordinates, or by the dimensions'
+ * names. Rows descend. */
 static void planes_have_faces(void **state)
 {
   static const plane_model models[] = {
@@ -104,8 +104,8 @@ static void planes_have_faces(void **state)
   }
 }
 
-/* A face without a value beside one that has one is a wall; a centre has no value where
- * no face of either component has. */
+/* A missing face beside a present one is a wall; a centre is missing where all faces of
+ * either component are. */
 static void walls_are_zero(void **state)
 {
   static const double x[] = {0.0, 1.0, 2.0, 3.0}, xf[] = {-0.5, 0.5, 1.5, 2.5, 3.5};

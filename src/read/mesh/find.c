@@ -1,4 +1,4 @@
-/* How the points of a pair lie, where no two axes place them. */
+/* Finds the positions of a pair's points that do not lie on two axes. */
 #include "base/memory.h"
 #include "read/mesh/mesh.h"
 
@@ -13,7 +13,7 @@ void fg__nc_mesh_destroy(fg__nc_mesh *mesh)
   free(mesh);
 }
 
-/* The plane's dimensions of a variable, its time and level. */
+/* Sets the variable's dimensions in the plane, its time and level. */
 static bool set_part(fg__nc_part *part, const fg__nc_file *file,
                      const fg__nc_variable *variable)
 {
@@ -37,7 +37,8 @@ static bool set_part(fg__nc_part *part, const fg__nc_file *file,
   return true;
 }
 
-/* Longitude and latitude of a part's dimensions: arrays of both, or a line along each. */
+/* Finds longitude and latitude of a part's dimensions: two-dimensional, or one along
+ * each. */
 static void find_positions(fg__nc_part *part, const fg__nc_file *file)
 {
   const fg__nc_variable *u = part->variable;
@@ -69,8 +70,9 @@ static bool names_centres(const fg__nc_variable *v)
   return length > 4 && strcmp(v->plain_name + length - 4, "_rho") == 0;
 }
 
-/* Longitudes of the centres: in the dimensions that each component has across its own
- * direction, or (ROMS, whose components name theirs otherwise) of these sizes. */
+/* Finds longitudes of the centres: on the dimension that each component has across its
+ * own direction, or (ROMS, whose components have other dimensions) on dimensions of these
+ * sizes. */
 static bool find_centres(fg__nc_mesh *mesh, const fg__nc_file *file)
 {
   const int dimension[2] = {mesh->part[1].grid.axis[0].dimension,
@@ -96,7 +98,8 @@ static bool find_centres(fg__nc_mesh *mesh, const fg__nc_file *file)
   return false;
 }
 
-/* Staggered along axes: each component lies on the other's line in its own direction. */
+/* For a grid staggered along axes: each component has the centres' coordinate across its
+ * own direction. */
 static bool find_centre_lines(fg__nc_mesh *mesh, const fg__nc_file *file)
 {
   const fg__nc_part *u = &mesh->part[0], *v = &mesh->part[1];
@@ -155,7 +158,8 @@ bool fg__nc_mesh_parts(fg__nc_mesh *mesh, const fg__nc_file *file,
          runs_alike(file, u, u->grid.level, v, v->grid.level);
 }
 
-/* Variables of the centres that are 0 on land, where models say no fill values. */
+/* Finds a variable on the centres that is 0 on land, where models write no fill
+ * values. */
 static void find_mask(fg__nc_mesh *mesh, const fg__nc_file *file)
 {
   static const char *const known[] = {"wetdry_mask_rho", "mask_rho", "tmask", "maskC",
@@ -191,7 +195,7 @@ static fg_status find_shift(bool *found, fg__nc_mesh *mesh, const fg__nc_file *f
 {
   *found = true;
   if (is_same_place(&mesh->part[0], &mesh->part[1]) && mesh->part[0].longitude)
-    return FG_STATUS_OK; /* both on one point */
+    return FG_STATUS_OK; /* not staggered */
   if (!find_centres(mesh, file) && !find_centre_lines(mesh, file) &&
       (!mesh->part[0].longitude || !mesh->part[1].longitude)) {
     *found = false;

@@ -35,7 +35,7 @@ static bool contains(const char *text, const char *word)
   return false;
 }
 
-/* A word of the second rule in the names of a component. */
+/* The word in a component's name that the second rule accepts, or NULL. */
 static const char *geographic_word(const fg__nc_variable *v)
 {
   static const char *const words[] = {"zonal", "meridional", "eastward", "northward"};
@@ -100,7 +100,8 @@ static bool counts_cells(const char *name)
   return false;
 }
 
-/* u and v along dimensions that models name after their grid's own directions. */
+/* Whether u and v are along dimensions that models name after the grid's own
+ * directions. */
 static bool is_on_indices(const fg__nc_mesh *mesh, const fg__nc_file *file)
 {
   for (int k = 0; k < 2; ++k)
@@ -109,7 +110,7 @@ static bool is_on_indices(const fg__nc_mesh *mesh, const fg__nc_file *file)
   return true;
 }
 
-/* NEMO's names are of its grid's directions. */
+/* Whether the names are NEMO's for components along the grid. */
 static bool is_of_nemo(const fg__nc_variable *u)
 {
   return starts_with(u->plain_name, "vozo") || starts_with(u->plain_name, "sozo");
@@ -120,7 +121,7 @@ static bool is_staggered(const fg__nc_mesh *mesh)
   return mesh->shift[0] != 0 || mesh->shift[1] != 0;
 }
 
-static void say(fg__nc_mesh *mesh, const char *why)
+static void set_rule(fg__nc_mesh *mesh, const char *why)
 {
   if (mesh->turn == FG__NC_TURN_NONE)
     snprintf(mesh->rule, sizeof mesh->rule, "east and north (%.200s)", why);
@@ -164,6 +165,6 @@ bool fg__nc_frame_find(fg__nc_mesh *mesh, const fg__nc_file *file,
   if (frame > 0)
     mesh->turn = FG__NC_TURN_NONE;
   if (frame != 0)
-    say(mesh, why);
+    set_rule(mesh, why);
   return frame != 0;
 }

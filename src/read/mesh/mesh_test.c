@@ -1,7 +1,7 @@
-/* Grids as ocean and weather models write them, each with its own names, staggering and
- * angles, made of one rotation of the whole sphere: what is read is that rotation, to the
- * error of interpolation. A component taken from the wrong side would be a cell off,
- * which is ten times as much; a wrong frame or angle more. */
+/* Grids as ocean and weather models write them, with their names, staggering and angles.
+ * All have the same field, a rotation of the sphere, which must be read to the error of
+ * interpolation. A component shifted to the wrong side gives ten times that error, a
+ * wrong frame or angle more. */
 #include <math.h>
 
 #include "base/context_test.h"
@@ -20,9 +20,9 @@ static double dot(const double a[3], const double b[3])
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The place of index (i, j), centres at whole numbers: a longitude-latitude grid about a
- * point of the equator, tipped to 100 degrees east, 62 north. Its corner lies beyond the
- * pole, so that the antimeridian runs through it. */
+/* The position of index (i, j), centres at whole numbers: a longitude-latitude grid about
+ * a point of the equator, rotated to 100 degrees east, 62 north. Its corner is beyond the
+ * pole, so that the antimeridian crosses it. */
 static void place_of(double at[3], double i, double j)
 {
   const double a = STEP * (i - 0.5 * COLUMNS) * RADIANS;
@@ -42,7 +42,7 @@ static void degrees_of(double *longitude, double *latitude, const double at[3])
   *latitude = asin(at[2]) / RADIANS;
 }
 
-/* Shear and strain: a linear map of space, without its part upwards. */
+/* Shear and strain: a linear map of space, projected to the tangent plane. */
 static void flow_at(double w[3], const double at[3])
 {
   for (int k = 0; k < 3; ++k)
@@ -126,12 +126,12 @@ static double value_of(quantity what, double i, double j)
   return 0.0;
 }
 
-/* A variable of a model: dimensions are made when they are first named. */
+/* A variable of a model; its dimensions are defined at their first use. */
 typedef struct model_variable {
   const char *name;
   quantity what;
   const char *row, *column;       /* dimensions */
-  int more_rows, more_columns;    /* than centres */
+  int more_rows, more_columns;    /* difference from the number of centres */
   double shift_row, shift_column; /* of sample 0 from centre 0 */
   const char *attributes[6];      /* name, value, ... */
 } model_variable;
@@ -170,7 +170,7 @@ static void write_model(sample_file *f, const model_variable *v)
   sample_end(f);
 }
 
-/* Every sample is the flow's; `least`: how many have a value. */
+/* Asserts every sample; `least`: lower bound of the number of valid ones. */
 static void assert_near(const fg_field *field, size_t least, double tolerance)
 {
   const fg_field_arrays *a = fg_field_contents(field);
@@ -246,7 +246,7 @@ static const model_variable WRF[] = {
     {"SINALPHA", SINE, "south_north", "west_east", 0, 0, 0.0, 0.0, {0}},
     {0}};
 
-/* its angle is the other way round */
+/* its angle has the opposite sign */
 static const model_variable MOM6[] = {
     LONLAT("geolon", "geolat", "yh", "xh", 0, 0, 0.0, 0.0),
     LONLAT("geolon_u", "geolat_u", "yh", "xq", 0, 0, 0.0, 0.5),
@@ -272,7 +272,7 @@ static const model_variable MOM6[] = {
     {"sin_rot", OPPOSITE, "yh", "xh", 0, 0, 0.0, 0.0, {0}},
     {0}};
 
-/* both at the corners of the tracers' cells, whose positions are in the file, too */
+/* both at the corners of the tracers' cells, whose positions are also in the file */
 static const model_variable POP[] = {
     LONLAT("TLONG", "TLAT", "nlat", "nlon", 0, 0, -0.5, -0.5),
     LONLAT("ULONG", "ULAT", "nlat", "nlon", 0, 0, 0.0, 0.0),
@@ -347,8 +347,8 @@ static void models_are_read(void **state)
   }
 }
 
-/* Components in a file each, of one shape: nothing but the positions tells on which side
- * of the centres they are, or that they are on the centres. */
+/* One file for each component, of equal shapes: only positions show on which side of the
+ * centres components are, or that they are on the centres. */
 static void two_files_of_one_shape(void **state)
 {
   sample_file *f = *state;
@@ -374,8 +374,7 @@ static void two_files_of_one_shape(void **state)
   }
 }
 
-/* Land west of column 6, of which the mask alone knows: its velocities are zeros there.
- */
+/* Land west of column 6 is only in the mask; velocities are zero there. */
 static void masks_keep_land_out(void **state)
 {
   sample_file *f = *state;
@@ -392,7 +391,7 @@ static void masks_keep_land_out(void **state)
   assert_near(sea, 200, 10.0 * TOLERANCE); /* half a cell is as its neighbours */
   fg_inventory *inventory;
   assert_int_equal(fg_inventory_read(&inventory, f->context, f->path), FG_STATUS_OK);
-  /* 19 x 20 of the centres: the outermost lack a face */
+  /* of 19 x 20 centres the outermost lack a face */
   assert_float_equal(fg_inventory_vector_at(inventory, 0)->missing_share, 0.3356643,
                      1e-6);
   fg_inventory_destroy(inventory);
@@ -405,7 +404,7 @@ static void masks_keep_land_out(void **state)
   fg_field_destroy(sea);
 }
 
-/* Faces of different numbers, and no centres: nothing tells where these lie. */
+/* Faces of different counts and no centres: the positions of centres are undetermined. */
 static void faces_need_centres(void **state)
 {
   static const model_variable faces[] = {
@@ -419,8 +418,8 @@ static void faces_need_centres(void **state)
   refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, "a staggered grid");
 }
 
-/* Without a word about it, `frame` decides. */
-static void frames_may_be_said(void **state)
+/* Where no rule applies, the option `frame` decides. */
+static void frames_may_be_given(void **state)
 {
   static const model_variable plain[] = {
       LONLAT("lon", "lat", "rows", "columns", 0, 0, 0.0, 0.0),
@@ -444,7 +443,7 @@ static void frames_may_be_said(void **state)
 }
 
 /* A tripolar grid: confocal ellipses about a segment through the pole, in the
- * stereographic plane. Its rows close, and the last one lies beside itself. */
+ * stereographic plane. Its rows close, and the last row is folded. */
 static void seams_close(void **state)
 {
   enum { AROUND = 72, ACROSS = 20 };
@@ -492,7 +491,7 @@ int main(void)
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(models_are_read),     CASE(two_files_of_one_shape),
-      CASE(masks_keep_land_out), CASE(frames_may_be_said),
+      CASE(masks_keep_land_out), CASE(frames_may_be_given),
       CASE(seams_close),         CASE(faces_need_centres),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

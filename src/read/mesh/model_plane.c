@@ -1,5 +1,5 @@
-/* The plane in which a weather model's grid is even: the projection that WRF writes among
- * its file's attributes (Skamarock et al., A Description of the Advanced Research WRF,
+/* The plane in which a weather model's grid is evenly spaced: the projection in the
+ * global attributes of WRF (Skamarock et al., A Description of the Advanced Research WRF,
  * NCAR/TN-475+STR, section 3.4 and appendix of map projections). */
 #include "file/number_text.h"
 #include "map/map.h"
@@ -12,12 +12,12 @@
 /* The Earth's radius in WRF, metres (share/module_model_constants). */
 static const double RADIUS = 6370000.0;
 
-/* MAP_PROJ. Grids of MERCATOR and 6 stand on axes of longitude and latitude, which are no
- * mesh; those of 6 are even in degrees. */
+/* Values of MAP_PROJ. MERCATOR and 6 (longitude-latitude) have rectilinear grids, which
+ * are no mesh; with 6 they are evenly spaced in degrees. */
 enum { LAMBERT = 1, STEREOGRAPHIC = 2, MERCATOR = 3 };
 
-/* Points that are compared along each axis, and how far off an even grid they may lie, in
- * cells: farther it is another projection, or a grid that was cut out in another way. */
+/* Number of points compared along each axis, and their largest deviation from an even
+ * grid, in cells. A larger one means another projection, or a subset of the grid. */
 enum { COMPARED = 24 };
 static const double LARGEST_RESIDUAL = 0.5;
 
@@ -60,7 +60,7 @@ static bool compose(char *out, size_t size, const fg__nc_variable *all)
   return written > 0 && (size_t)written < size;
 }
 
-/* Where the points of a grid lie: each of its own, or on axes. */
+/* Positions of a grid: one for each point, or along axes. */
 typedef struct lattice {
   const double *longitude, *latitude;
   size_t size[2];
@@ -72,7 +72,7 @@ static double longitude_of(const lattice *of, size_t i, size_t j)
   return of->longitude[of->on_axes ? i : j * of->size[0] + i];
 }
 
-/* The first and last index along each axis at which both coordinates are known. */
+/* The first and last index along each axis with both coordinates. */
 static bool find_inside(size_t low[2], size_t high[2], const lattice *of)
 {
   low[0] = of->size[0], low[1] = of->size[1], high[0] = high[1] = 0;
@@ -96,7 +96,7 @@ static void image_of(double at[2], const fg__map *map, const lattice *of, size_t
   fg__map_forward(map, 1, &longitude, &latitude, &at[0], &at[1]);
 }
 
-/* Whether the points are an even grid along the plane's axes. */
+/* Whether the points are evenly spaced along the plane's axes. */
 static bool is_even(const fg__map *map, const lattice *of)
 {
   size_t low[2], high[2];
@@ -120,7 +120,8 @@ static bool is_even(const fg__map *map, const lattice *of)
   return true;
 }
 
-/* The plane that the attributes tell, "" where they tell none or it does not fit. */
+/* The plane of the attributes; "" without them, or where they do not agree with
+ * positions. */
 static void find_plane(char *out, size_t size, const fg__nc_file *file,
                        const fg__nc_variable *u, const lattice *of)
 {

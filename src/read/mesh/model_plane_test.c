@@ -1,6 +1,6 @@
-/* The plane of a WRF grid, made here by the projections' formulas: wind to the true east,
- * written along the grid, comes back along the plane's axes at the angle that they say.
- */
+/* The plane of a WRF grid, computed here by the projections' formulas: wind towards true
+ * east, stored along the grid, must be read with the angle that they give to the plane's
+ * axes. */
 #include <math.h>
 
 #include "base/context_test.h"
@@ -18,7 +18,7 @@ typedef struct model {
   double parallel, meridian, latitude;
   const char *projection;
   const char *name;
-  double cone; /* of the angle: east is cone * (longitude - meridian) off x */
+  double cone; /* angle of east from x is cone * (longitude - meridian) */
 } model;
 
 static const model MODELS[] = {
@@ -48,8 +48,8 @@ static void put_number(const sample_file *f, const char *name, double value)
   nc_must(nc_put_att_double(f->id, NC_GLOBAL, name, NC_DOUBLE, 1, &value));
 }
 
-/* told: the meridian that the attributes say. */
-static void write_model(sample_file *f, const model *m, double told)
+/* stand_lon: the attribute STAND_LON. */
+static void write_model(sample_file *f, const model *m, double stand_lon)
 {
   static double value[6][POINTS];
   static const char *const names[] = {"XLONG", "XLAT",     "U10",
@@ -78,7 +78,7 @@ static void write_model(sample_file *f, const model *m, double told)
   put_number(f, "MAP_PROJ", m->kind);
   put_number(f, "TRUELAT1", m->parallel);
   put_number(f, "TRUELAT2", m->parallel);
-  put_number(f, "STAND_LON", told);
+  put_number(f, "STAND_LON", stand_lon);
   put_number(f, "MOAD_CEN_LAT", m->latitude);
   for (int k = 0; k < 6; ++k)
     put_variable(f, names[k], plane, value[k], units[k]);
@@ -126,7 +126,7 @@ static void wind_is_turned_to_the_models_plane(void **state)
       fg__map_inverse(map, 1, &a->axis[0][n % a->size[0]], &a->axis[1][n / a->size[0]],
                       &longitude, &latitude);
       const double off = m->cone * remainder(longitude - m->meridian, 360.0) * RADIANS;
-      if (fabs(latitude) > 89.0) /* no east at the pole */
+      if (fabs(latitude) > 89.0) /* east is undefined at the pole */
         continue;
       ++found;
       assert_true(fabs((double)a->velocity[0][n] - SPEED * cos(off)) < 0.02 * SPEED);
@@ -142,8 +142,9 @@ static void wind_is_turned_to_the_models_plane(void **state)
   }
 }
 
-/* A centre, another projection or none are obeyed; a region is cut out of the plane. */
-static void other_maps_may_be_asked_for(void **state)
+/* The options of a centre, another projection or no map take precedence; a region cuts
+ * the plane. */
+static void other_maps_may_be_chosen(void **state)
 {
   static const fg_map_options centred = {
       .has_center = true, .center = {95.0}, .samples = 40};
@@ -170,8 +171,8 @@ static void other_maps_may_be_asked_for(void **state)
   fg_field_destroy(field);
 }
 
-/* Attributes that do not fit the positions, as of a file that was joined of others, are
- * not taken. */
+/* Attributes that contradict the positions, as in files joined from others, are
+ * ignored. */
 static void other_grids_planes_are_not_taken(void **state)
 {
   static const fg_map_options automatic = {.samples = 40};
@@ -196,7 +197,7 @@ int main(void)
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(wind_is_turned_to_the_models_plane),
-      CASE(other_maps_may_be_asked_for),
+      CASE(other_maps_may_be_chosen),
       CASE(other_grids_planes_are_not_taken),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* Where the samples of a grid lie, and on which side of the centres components are. */
+/* Positions of a grid's samples, and on which side of the centres components are. */
 #include "base/memory.h"
 #include "base/vector.h"
 #include "read/mesh/mesh.h"
@@ -9,7 +9,7 @@
 
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
-/* Points that lie nearer than this part of a cell are one. */
+/* Points nearer than this fraction of a cell coincide. */
 static const double SAME_PLACE = 0.1;
 
 void fg__nc_positions_clear(fg__nc_positions *positions)
@@ -24,7 +24,7 @@ static size_t count_of(const fg__nc_part *part)
   return part->grid.axis[0].size * part->grid.axis[1].size;
 }
 
-/* A coordinate with one dimension is the same all along the other. */
+/* Reads a coordinate of one dimension and repeats it along the other. */
 static fg_status read_line(double *out, const fg__nc_file *file, const fg__nc_part *part,
                            const fg__nc_variable *v)
 {
@@ -76,7 +76,7 @@ fg_status fg__nc_positions_read(fg__nc_positions *out, const fg__nc_file *file,
              : status;
 }
 
-/* The first number is NaN of a position that is none. */
+/* The unit vector of a position; out[0] is NaN where the position is missing. */
 static void unit_vector(double out[3], double longitude, double latitude)
 {
   const double a = longitude * RADIANS_PER_DEGREE, b = latitude * RADIANS_PER_DEGREE;
@@ -110,8 +110,8 @@ static void place_of(double out[3], const lattice *of, size_t i, size_t j)
   fg__nc_unit_vector(out, &of->at, j * of->size[0] + i);
 }
 
-/* The point half way between two samples along direction k: of (i, j) and the one before
- * or after it; false where there is none. */
+/* The mid-point of sample (i, j) and the one before or after it along direction k; false
+ * where there is none. */
 static bool half_way(double out[3], const lattice *of, size_t i, size_t j, int k,
                      int side)
 {
@@ -128,16 +128,16 @@ static bool half_way(double out[3], const lattice *of, size_t i, size_t j, int k
   return isfinite(out[0]);
 }
 
-/* Points looked at along each direction. */
-enum { LOOKED_AT = 40 };
+/* Number of points compared along each direction. */
+enum { COMPARED = 40 };
 
 static size_t stride(size_t size)
 {
-  return size / LOOKED_AT + 1;
+  return size / COMPARED + 1;
 }
 
-/* The mean distance of a component's samples from the points between the centres (i, j)
- * and the next on that side. */
+/* The mean distance of a component's samples from the mid-points of centre (i, j) and its
+ * neighbour on that side. */
 static double misfit(const lattice *component, const lattice *centre, int k, int side)
 {
   double sum = 0.0;
@@ -154,8 +154,8 @@ static double misfit(const lattice *component, const lattice *centre, int k, int
   return count > 0 ? sum / (double)count : HUGE_VAL;
 }
 
-/* The mean distance of points of equal index, or of those half way to the neighbours of
- * each on the given sides. */
+/* The mean distance of the two components' points at equal indices, each shifted half way
+ * to its neighbour on the given side. */
 static double misfit_between(const lattice *u, const lattice *v, const int side[2])
 {
   double sum = 0.0;
@@ -171,7 +171,7 @@ static double misfit_between(const lattice *u, const lattice *v, const int side[
   return count > 0 ? sum / (double)count : HUGE_VAL;
 }
 
-/* The mean distance of points of equal index, in steps along i. */
+/* The mean distance of points at equal indices, in steps along i. */
 static double apart(const lattice *u, const lattice *v)
 {
   double sum = 0.0, steps = 0.0;
@@ -190,7 +190,7 @@ static double apart(const lattice *u, const lattice *v)
   return steps > 0.0 ? sum / steps : HUGE_VAL;
 }
 
-/* Without centres: they lie between samples of u as between samples of v. */
+/* Without positions of centres: they are mid-points of u's samples and of v's. */
 static void shift_by_both(bool *found, fg__nc_mesh *mesh, const lattice of[2])
 {
   if (of[0].size[0] != of[1].size[0] || of[0].size[1] != of[1].size[1])
@@ -207,7 +207,7 @@ static void shift_by_both(bool *found, fg__nc_mesh *mesh, const lattice of[2])
     if (off >= least)
       continue;
     least = off;
-    /* samples before and on the index: the component lies after its centre */
+    /* a sample before and one at the index: the component lies after the centre */
     mesh->shift[0] = -side[0];
     mesh->shift[1] = -side[1];
     *found = true;
@@ -231,7 +231,7 @@ static void shift_by_centre(bool *found, fg__nc_mesh *mesh, const lattice *compo
   *found = true;
 }
 
-/* What the dimension's coordinate says (ROMS, CROCO), or its name. */
+/* Uses the attributes of the dimension's coordinate (ROMS, CROCO), or its name. */
 static void shift_by_words(bool *found, fg__nc_mesh *mesh, const fg__nc_file *file, int k)
 {
   static const struct {
@@ -258,7 +258,7 @@ static void shift_by_words(bool *found, fg__nc_mesh *mesh, const fg__nc_file *fi
     }
 }
 
-/* Whether the side of the centres on which a component lies may follow from positions. */
+/* Whether positions can determine the side of the centres on which a component lies. */
 static bool may_be_compared(const fg__nc_mesh *mesh, int k)
 {
   return mesh->part[k].grid.axis[k].size == mesh->size[k] && mesh->part[k].longitude;
@@ -268,7 +268,7 @@ bool fg__nc_shift_by_size(fg__nc_mesh *mesh, const fg__nc_file *file, int k)
 {
   const size_t own = mesh->part[k].grid.axis[k].size, centres = mesh->size[k];
   bool found = own == centres + 1 || own + 1 == centres;
-  mesh->shift[k] = own > centres ? -1 : 1; /* at both ends, or inside */
+  mesh->shift[k] = own > centres ? -1 : 1; /* one more at both ends, or one less */
   if (own == centres)
     shift_by_words(&found, mesh, file, k);
   return found;
@@ -322,8 +322,8 @@ fg_status fg__nc_shift_find(bool *found, fg__nc_mesh *mesh, const fg__nc_file *f
   return status;
 }
 
-/* Half way from sample i of a row's unit vectors to the next on that side, or as far
- * beyond it where there is none. */
+/* The mid-point of sample i and the next on that side in a row of unit vectors,
+ * extrapolated beyond the ends. */
 static void half_way_in_row(double out[3], const double *row, size_t i, size_t columns,
                             int side)
 {
@@ -337,7 +337,7 @@ static void half_way_in_row(double out[3], const double *row, size_t i, size_t c
                                        : (double)NAN;
 }
 
-/* Between the samples of u. */
+/* Mid-points of u's samples. */
 static fg_status centres_between(fg__nc_positions *out, const fg__nc_file *file,
                                  const fg__nc_mesh *mesh)
 {

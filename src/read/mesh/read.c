@@ -1,5 +1,5 @@
-/* Points and cells of a mesh: components brought to the centres and turned to east and
- * north. */
+/* Points and cells of a mesh: components interpolated to the centres and rotated to east
+ * and north. */
 #include "base/memory.h"
 #include "read/mesh/mesh.h"
 
@@ -9,21 +9,22 @@
 
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
-/* A given angle is of the other sense where its opposite fits the grid, and of another
- * meaning where neither does: cosines of the mean difference. */
+/* The angle in the file is used with the opposite sign where only that agrees with the
+ * grid; where neither agrees it has another meaning. The limit is the cosine of the mean
+ * difference. */
 static const double FITS = 0.985; /* 10 degrees */
 
-/* Rows and columns at which it is compared. */
+/* Number of rows and columns compared. */
 enum { COMPARED = 100 };
 
-/* At most, until the points and cells are a sphere. */
+/* At most, while points and cells are made. */
 static const double POINT_BYTES = 90.0;
 
 typedef struct centre_values {
   const fg__nc_mesh *mesh;
   size_t count;
   float *component[2];
-  unsigned char *wet; /* NULL: not told */
+  unsigned char *wet; /* NULL: no mask */
   fg__nc_positions at;
   size_t repeated;
   bool closed;
@@ -50,9 +51,8 @@ static fg_status read_part(float **out, const fg__nc_file *file, const fg__nc_pa
                        part->grid.level >= 0 ? level : 0);
 }
 
-/* The faces of a centre along direction k: places in the component, or -1 beyond its
- * ends.
- */
+/* The faces of a centre along direction k, as indices of the component's samples; -1
+ * beyond its ends. */
 static void faces_of(ptrdiff_t face[2], const centre_values *all, int k, size_t i,
                      size_t j)
 {
@@ -74,8 +74,8 @@ static void faces_of(ptrdiff_t face[2], const centre_values *all, int k, size_t 
   }
 }
 
-/* The mean of both faces; NaN where the grid ends at one. A missing face beside one that
- * is not is a wall: *any becomes true where one is not. */
+/* The mean of both faces; NaN where the grid has only one. A missing face beside a
+ * present one is a wall (0). *any is set where a face is present. */
 static float mean_of(const float *component, const ptrdiff_t face[2], bool *any)
 {
   double sum = 0.0;
@@ -89,8 +89,8 @@ static float mean_of(const float *component, const ptrdiff_t face[2], bool *any)
   return (float)(sum / 2.0);
 }
 
-/* A centre at the grid's end has no second face: the field ends before it. */
-static void bring_to_centre(centre_values *all, float *const part[2], size_t n)
+/* A centre at the grid's edge with one face only is missing. */
+static void interpolate_to_centre(centre_values *all, float *const part[2], size_t n)
 {
   const fg__nc_mesh *mesh = all->mesh;
   const size_t i = n % mesh->size[0], j = n / mesh->size[0];
@@ -110,9 +110,10 @@ static void bring_to_centre(centre_values *all, float *const part[2], size_t n)
     all->component[0][n] = NAN;
 }
 
-/* Both components at the centres; those that are there are taken over. */
-static fg_status bring_to_centres(centre_values *all, const fg__nc_file *file,
-                                  float *part[2])
+/* Interpolates both components to the centres; samples that are already there are
+ * moved. */
+static fg_status interpolate_to_centres(centre_values *all, const fg__nc_file *file,
+                                        float *part[2])
 {
   const fg__nc_mesh *mesh = all->mesh;
   if (mesh->shift[0] == 0 && mesh->shift[1] == 0) {
@@ -129,7 +130,7 @@ static fg_status bring_to_centres(centre_values *all, const fg__nc_file *file,
                              all->count * sizeof *all->component[k]);
   }
   for (size_t n = 0; n < all->count; ++n)
-    bring_to_centre(all, part, n);
+    interpolate_to_centre(all, part, n);
   return FG_STATUS_OK;
 }
 
@@ -150,8 +151,8 @@ static fg_status read_mask(centre_values *all, const fg__nc_file *file, const ch
   return fg__nc_mask(all->wet, file, mask, &at->grid, at->variable, time, level);
 }
 
-/* The derivative of the position along i: across both neighbours, or of the parabola
- * through two on one side where there are such. unit: of the row. */
+/* The derivative of the position along i: centred, or at an end by the parabola through
+ * two neighbours where there are such. unit: positions of the row. */
 static void differ(double along[3], const centre_values *all, const double *unit,
                    size_t i)
 {
@@ -173,7 +174,7 @@ static void differ(double along[3], const centre_values *all, const double *unit
 }
 
 /* The direction of i at a point of row j: cosine and sine of its angle from east; false
- * where it has no neighbour. */
+ * without a neighbour. */
 static bool direction_at(double turn[2], const centre_values *all, const double *unit,
                          size_t i, size_t j)
 {
@@ -199,7 +200,7 @@ static void find_row(double *unit, const centre_values *all, size_t j)
     fg__nc_unit_vector(unit + 3 * i, &all->at, j * columns + i);
 }
 
-/* Cosines and sines of the angle that the file gives; NULL where it gives none. */
+/* Cosines and sines of the angle in the file; NULL where it has none. */
 static fg_status read_angle(double *given[2], const centre_values *all,
                             const fg__nc_file *file, size_t time)
 {
@@ -227,8 +228,7 @@ static fg_status read_angle(double *given[2], const centre_values *all,
   return FG_STATUS_OK;
 }
 
-/* Compares the given angle with the grid's own: 1 as it is, -1 its opposite, 0 neither.
- */
+/* Compares the angle in the file with the grid's: 1 equal, -1 opposite, 0 neither. */
 static int sense_of(double *const given[2], const centre_values *all, double *unit)
 {
   const size_t *size = all->mesh->size;
@@ -322,7 +322,7 @@ static fg_status fill(centre_values *all, fg__nc_mesh *mesh, const fg__nc_file *
   for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k)
     status = read_part(&part[k], file, &mesh->part[k], time, level);
   if (status == FG_STATUS_OK)
-    status = bring_to_centres(all, file, part);
+    status = interpolate_to_centres(all, file, part);
   free(part[0]);
   free(part[1]);
   if (status == FG_STATUS_OK)

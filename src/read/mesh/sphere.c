@@ -39,7 +39,8 @@ fg_status fg__nc_mesh_describe(fg_inventory_vector *vector, const fg__nc_file *f
   vector->frame = grid->mesh->rule;
   vector->missing_share = 1.0;
   vector->plane = grid->mesh->plane[0] ? grid->mesh->plane : NULL;
-  if (status == FG_STATUS_FILE_FORMAT) { /* nothing at the first time; others may have */
+  if (status == FG_STATUS_FILE_FORMAT) { /* all samples of the first time are missing;
+                                            other times may have some */
     fg_context_clear(file->context);
     return FG_STATUS_OK;
   }

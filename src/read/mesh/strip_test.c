@@ -1,4 +1,4 @@
-/* The longitude-latitude grid that samples of a thin mesh are put on. */
+/* The longitude-latitude grid to which samples of a thin mesh are interpolated. */
 #include "base/context_test.h"
 #include "read/netcdf/sample.h"
 
@@ -30,7 +30,8 @@ static fg_field *read_strip(sample_file *f, double height)
   return read_with(f, NULL);
 }
 
-/* Were samples as close along it as the strip is thin, there would be any number. */
+/* The spacing of samples along the strip does not follow its width, which would give any
+ * number of them. */
 static void a_thin_strip_has_few_samples(void **state)
 {
   static const double heights[] = {0.5, 1e-3, 1e-5, 1e-8};

@@ -1,4 +1,4 @@
-/* In builds without NetCDF: its files are known, and refused. */
+/* In builds without NetCDF its files are recognised and refused. */
 #include "read/format.h"
 #include "read/signature.h"
 

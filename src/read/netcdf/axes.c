@@ -1,5 +1,5 @@
-/* Coordinates along one axis: read, unwrapped, made to ascend, and closed where longitude
- * does. */
+/* Coordinates along one axis: read, unwrapped, sorted to ascend, with a period of 360
+ * degrees where longitudes go round the globe. */
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 
@@ -8,15 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A circle of longitude is closed when what is missing to 360 degrees is a cell like the
- * others; within a quarter of it, which uneven spacing needs and regional grids miss. */
+/* Longitudes go round the globe when the gap to 360 degrees is one cell, within a quarter
+ * of a cell: uneven spacing needs that much, and regional grids have larger gaps. */
 static const double CLOSING_TOLERANCE = 0.25;
 
-/* A column that repeats the first lies there within a hundredth of a cell: float rounding
- * stays below on grids down to 0.003 degrees. */
+/* A column repeats the first when it lies within a hundredth of a cell of it; rounding to
+ * float is smaller than that on grids down to 0.003 degrees. */
 static const double REPEATED_TOLERANCE = 0.01;
 
-/* Reads along the axis's dimension, at the start of any other. */
+/* Reads along the axis's dimension, at index 0 of all others. */
 static fg_status read_coordinates(const fg__nc_axis *axis, const fg__nc_file *file,
                                   const fg__nc_variable *coordinate)
 {
@@ -41,7 +41,8 @@ static fg_status read_coordinates(const fg__nc_axis *axis, const fg__nc_file *fi
   return FG_STATUS_OK;
 }
 
-/* Longitudes that jump from 180 to -180 or from 360 to 0 go on. */
+/* Adds multiples of 360 degrees where longitudes jump from 180 to -180 or from 360 to
+ * 0. */
 static void unwrap(double *x, size_t count)
 {
   double turn = 0.0;
@@ -90,8 +91,8 @@ static bool check_order(fg__nc_grid *grid, const double *x, size_t count, bool r
   return true;
 }
 
-/* Drops columns that repeat others 360 degrees on, and sets the period where the rest
- * closes the circle. */
+/* Drops columns that repeat others at 360 degrees, and sets the period where the
+ * remaining ones go round the globe. */
 static void close_circle(fg__nc_axis *axis)
 {
   const double *x = axis->coordinate;
@@ -119,7 +120,7 @@ static void describe_axis(fg__nc_axis *axis, const fg__nc_variable *coordinate, 
   snprintf(axis->name, sizeof axis->name, "%s", coordinate->plain_name);
   const fg__nc_role geographic = fg__nc_geographic(coordinate);
   if (strncmp(text, "grid_l", 6) == 0) {
-    /* a rotated pole: degrees, but neither east nor north */
+    /* rotated pole: degrees, neither east nor north */
     axis->quantity = FG__NC_DEGREES;
     snprintf(axis->units, sizeof axis->units, "°");
     snprintf(axis->name, sizeof axis->name, "grid %s", text + 5);

@@ -6,7 +6,7 @@ enum { ROWS = 3, MOST = 80 };
 
 static const double LATITUDES[ROWS] = {-10.0, 5.0, 30.0};
 
-/* Column i holds u = i + 1, so that a column can be followed to its longitude. */
+/* Column i holds u = i + 1, which identifies it at its longitude. */
 static void put_columns(sample_file *f, int u, int v, size_t columns)
 {
   double values[ROWS * MOST];
@@ -83,7 +83,8 @@ static void a_region_is_not_periodic(void **state)
   fg_field_destroy(field);
 }
 
-/* From 0 to 360, or farther: the columns that come twice are read once, at either end. */
+/* Longitudes from 0 to 360 or beyond: columns at either end that repeat others are read
+ * once. */
 static void repeated_columns_are_dropped(void **state)
 {
   sample_file *f = *state;
@@ -144,10 +145,10 @@ static void axes_out_of_order_are_refused(void **state)
   refuse(f, "only 1 sample");
 }
 
-/* Two-dimensional longitude and latitude; the rows and columns may change places. */
+/* Two-dimensional longitude and latitude; dimensions may be swapped. */
 static void make_plane(sample_file *f, double shear, bool transposed, bool timed)
 {
-  static const double lon[4] = {300.0, 350.0, 5.0, 20.0}; /* jumps */
+  static const double lon[4] = {300.0, 350.0, 5.0, 20.0}; /* jumps from 360 to 0 */
   double plane[2][4 * ROWS];
   double value[4 * ROWS];
   sample_begin(f, NC_NETCDF4);
@@ -179,7 +180,7 @@ static void grids_in_disguise_are_recognised(void **state)
 {
   sample_file *f = *state;
   for (int way = 0; way < 4; ++way) {
-    make_plane(f, 1e-5, way % 2 == 1, way >= 2); /* rounding of float */
+    make_plane(f, 1e-5, way % 2 == 1, way >= 2); /* shear like the rounding of float */
     fg_field *field = read_field(f);
     const fg_field_arrays *a = fg_field_contents(field);
     assert_int_equal(a->scale, FG_SCALE_GEO);
@@ -268,7 +269,7 @@ static void a_rotated_pole_has_a_sphere_of_its_own(void **state)
   fg_field_destroy(field);
 }
 
-/* Neither coordinates nor names that tell: the last dimension is x. */
+/* Without coordinates or known names the last dimension is x. */
 static void bare_arrays_are_read_on_their_indices(void **state)
 {
   sample_file *f = *state;
@@ -320,7 +321,7 @@ static void dimensions_that_fit_nothing_are_refused(void **state)
   refuse(f, "only one dimension in space");
 }
 
-/* A file of a few kilobytes that promises gigabytes must cost neither. */
+/* A file of a few kilobytes that declares gigabytes must cost neither time nor memory. */
 static void grids_that_no_file_can_hold_are_refused(void **state)
 {
   sample_file *f = *state;
@@ -340,7 +341,7 @@ static void grids_that_no_file_can_hold_are_refused(void **state)
   }
 }
 
-/* Nor is it read through to learn whether the components lie at the same places. */
+/* Nor are declared values read to compare the components' places. */
 static void coordinates_that_no_file_can_hold_are_not_compared(void **state)
 {
   sample_file *f = *state;

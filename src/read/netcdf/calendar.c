@@ -3,8 +3,8 @@
 #include <stddef.h>
 #include <strings.h>
 
-/* The standard calendar counts from its first Gregorian day; the Julian name of that day
- * was 5 October. */
+/* The first Gregorian day of the standard calendar, which is 5 October in the Julian
+ * one. */
 static const fg__date REFORM = {1582, 10, 15};
 static const fg__date REFORM_JULIAN = {1582, 10, 5};
 
@@ -57,7 +57,7 @@ static int64_t floor_divide(int64_t a, int64_t b)
 /* Days from 1 January of year 0 to that of `year`. */
 static int64_t days_before(fg__calendar calendar, int64_t year)
 {
-  const int64_t last = year - 1; /* leap years in 0 ... last, year 0 among them */
+  const int64_t last = year - 1; /* leap years in 0 ... last, with year 0 */
   switch (calendar) {
   case FG__CALENDAR_360_DAYS:
     return 360 * year;
@@ -97,7 +97,7 @@ fg__date fg__calendar_date(fg__calendar calendar, int64_t day)
                : fg__calendar_date(
                      FG__CALENDAR_JULIAN,
                      day + fg__calendar_day(FG__CALENDAR_JULIAN, REFORM_JULIAN));
-  /* not after the day: no year is longer than 366 days, none shorter than 360 */
+  /* at or before the day: a year has 360 to 366 days */
   fg__date date = {.year = floor_divide(day, day < 0 ? 360 : 366) - 1, .month = 1};
   while (days_before(calendar, date.year + 1) <= day)
     ++date.year;

@@ -4,7 +4,7 @@
 
 enum { CALENDARS = FG__CALENDAR_360_DAYS + 1 };
 
-/* Days between dates, as cftime 1.6.2 counts them, with a year 0. */
+/* Days between dates, from cftime 1.6.2 with a year 0. */
 static void days_between_dates(void **state)
 {
   (void)state;
@@ -35,7 +35,7 @@ static bool is_next(fg__calendar calendar, fg__date a, fg__date b)
                        : b.month == a.month + 1 && b.year == a.year);
 }
 
-/* Over years of both signs, each century and the reform. */
+/* Over years before and after 0, centuries and the reform. */
 static void dates_follow_one_another(void **state)
 {
   (void)state;

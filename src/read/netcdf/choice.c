@@ -1,4 +1,5 @@
-/* Which pair of a file is read: the one that the options name, or the only best one. */
+/* Selects the pair to read: the one that the options name, or the only one of best
+ * rank. */
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 
@@ -19,8 +20,8 @@ static int write_names(char *out, size_t size, const fg__nc_pair *pair, bool vol
                   volume ? pair->component[2]->name : "");
 }
 
-/* Lists pairs as "u,v; u10,v10", as many as fit: all, or those whose dimension is not 0.
- */
+/* Lists pairs as "u,v; u10,v10", as many as fit: all, or those whose dimension is not
+ * 0. */
 static void list_pairs(const candidates *all, const int *dimension, char *out,
                        size_t size)
 {
@@ -86,7 +87,7 @@ static fg_status fail_names(const fg__nc_file *file, const candidates *all,
   return FG_STATUS_ARGUMENT;
 }
 
-/* Parts "u,v" or "u,v,w"; returns how many, 0 for anything else. */
+/* Splits "u,v" or "u,v,w"; returns the number of names, 0 for anything else. */
 static int split_names(char name[3][FG__NC_NAME], const char *vars)
 {
   int count = 0;
@@ -135,7 +136,8 @@ static fg_status fail_unusable(const fg__nc_file *file, const fg__nc_pair *pair,
   return status;
 }
 
-/* ": u, lat, lon", those that could be components first, as many as fit; "" none. */
+/* Lists variables as ": u, lat, lon", possible components first, as many as fit; "":
+ * none. */
 static void list_variables(char *out, size_t size, const fg__nc_file *file)
 {
   size_t used = 0;
@@ -180,8 +182,7 @@ static fg_status fail_ambiguous(const fg__nc_file *file, const candidates *all,
   return status;
 }
 
-/* The only usable pair of the best rank that has one; the grid found on the way is kept.
- */
+/* The only usable pair of the best rank that has one, with its grid. */
 static fg_status choose_best(fg__nc_pair *out, fg__nc_grid *grid, const fg__nc_file *file,
                              const candidates *all, const fg_read_options *options)
 {
@@ -194,8 +195,7 @@ static fg_status choose_best(fg__nc_pair *out, fg__nc_grid *grid, const fg__nc_f
   fg__nc_grid first_unusable = {0};
   int count = 0;
   for (size_t i = 0; i < all->count && status == FG_STATUS_OK; ++i) {
-    /* an unusable velocity is reported, not silently replaced by another kind of vector
-     */
+    /* an unusable velocity is an error; another kind of vector does not replace it */
     if (all->pair[0].is_velocity && !all->pair[i].is_velocity)
       break;
     if (count > 0 && all->pair[i].rank > out->rank)

@@ -1,8 +1,7 @@
-/* Numbers of variables, read only where their chunks become no larger than they should.
- * libhdf5 inflates a chunk to whatever comes out of it, up to 1032 times its stored bytes
- * (RFC 1951), before it compares that with the chunk's declared size. So the chunks of a
- * variable that could become far too large are inflated here first, into a buffer that is
- * thrown away. */
+/* Reads numbers of variables after a check of their chunks' sizes. libhdf5 inflates a
+ * chunk completely, up to 1032 times its stored bytes (RFC 1951), before it compares the
+ * result with the declared size. Chunks of which that could be too much are therefore
+ * inflated here first, into a buffer of fixed size. */
 #define H5_USE_110_API
 #include <hdf5.h>
 
@@ -16,7 +15,7 @@
 
 enum { CHECKSUM_BYTES = 4, WINDOW_BYTES = 1 << 16 };
 
-/* A data set in chunks, and the part of it that is to be read. */
+/* A chunked data set, and the part of it that is read. */
 typedef struct chunked {
   const fg__nc_variable *variable;
   fg__nc_storage *storage;
@@ -24,13 +23,13 @@ typedef struct chunked {
   int rank;
   hsize_t length[H5S_MAX_RANK]; /* of a chunk */
   hsize_t bytes;                /* of a chunk in memory */
-  int deflate;                  /* place of the filter, or -1 */
-  bool checksum;                /* behind it */
-  unsigned char *stored;        /* the last chunk that was looked at */
+  int deflate;                  /* index of the filter, or -1 */
+  bool checksum;                /* a checksum filter follows deflate */
+  unsigned char *stored;        /* the chunk that was checked last */
   size_t capacity;
 } chunked;
 
-static fg_status fail_swollen(const chunked *c, hsize_t stored)
+static fg_status fail_overlong(const chunked *c, hsize_t stored)
 {
   return fg__fail(c->variable->owner->context, FG_STATUS_FILE_FORMAT,
                   "%s: damaged: a chunk of '%.200s', stored in %llu bytes, is more than "
@@ -39,8 +38,8 @@ static fg_status fail_swollen(const chunked *c, hsize_t stored)
                   (unsigned long long)c->bytes);
 }
 
-/* Whether deflated bytes become more than `most`. What is no such stream, or ends early,
- * is left to libhdf5. */
+/* Whether a deflate stream inflates to more than `most` bytes. Damaged and truncated
+ * streams are left to libhdf5 (false). */
 static bool inflates_beyond(unsigned char *bytes, size_t size, hsize_t most)
 {
   unsigned char window[WINDOW_BYTES];
@@ -59,7 +58,7 @@ static bool inflates_beyond(unsigned char *bytes, size_t size, hsize_t most)
   return made > most;
 }
 
-/* A chunk's content, when it could become too large. */
+/* Checks one chunk by inflating it. */
 static fg_status check_content(chunked *c, const hsize_t *place, hsize_t stored)
 {
   fg_context *context = c->variable->owner->context;
@@ -72,50 +71,51 @@ static fg_status check_content(chunked *c, const hsize_t *place, hsize_t stored)
       (skipped >> c->deflate & 1U))
     return FG_STATUS_OK;
   const size_t size = (size_t)stored - (c->checksum ? CHECKSUM_BYTES : 0);
-  /* what filters before deflate add: checksums, their own headers */
+  /* filters before deflate add checksums and headers of their own */
   return inflates_beyond(c->stored, size, c->bytes + c->bytes / 8 + WINDOW_BYTES)
-             ? fail_swollen(c, stored)
+             ? fail_overlong(c, stored)
              : FG_STATUS_OK;
 }
 
-/* Levels and rows of one chunk are read one after another: it is looked at once. */
-static bool was_seen(const chunked *c, const hsize_t *place)
+/* Levels and rows of one chunk are read one after the other; each chunk is checked
+ * once. */
+static bool is_checked(const chunked *c, const hsize_t *place)
 {
   const fg__nc_storage *s = c->storage;
-  for (size_t n = 0; n < FG__NC_SEEN; ++n) {
-    bool same = s->seen[n].variable == c->variable;
+  for (size_t n = 0; n < FG__NC_CHECKED_CHUNKS; ++n) {
+    bool same = s->checked[n].variable == c->variable;
     for (int k = 0; k < c->rank && same; ++k)
-      same = s->seen[n].place[k] == place[k];
+      same = s->checked[n].place[k] == place[k];
     if (same)
       return true;
   }
   return false;
 }
 
-static void keep_seen(const chunked *c, const hsize_t *place)
+static void mark_checked(const chunked *c, const hsize_t *place)
 {
   fg__nc_storage *s = c->storage;
-  fg__nc_seen *seen = &s->seen[s->next];
-  s->next = (s->next + 1) % FG__NC_SEEN;
-  seen->variable = c->variable;
+  fg__nc_checked_chunk *chunk = &s->checked[s->next];
+  s->next = (s->next + 1) % FG__NC_CHECKED_CHUNKS;
+  chunk->variable = c->variable;
   for (int k = 0; k < c->rank; ++k)
-    seen->place[k] = place[k];
+    chunk->place[k] = place[k];
 }
 
 static fg_status check_chunk(chunked *c, const hsize_t *place)
 {
   hsize_t stored = 0;
-  if (was_seen(c, place))
+  if (is_checked(c, place))
     return FG_STATUS_OK;
   if (H5Dget_chunk_storage_size(c->set, place, &stored) < 0 ||
       stored <= FG__NC_HARMLESS_BYTES)
     return FG_STATUS_OK;
-  if (fg__nc_is_swollen(stored, c->bytes))
-    return fail_swollen(c, stored);
+  if (fg__nc_is_overlong(stored, c->bytes))
+    return fail_overlong(c, stored);
   const fg_status status =
       c->deflate < 0 ? FG_STATUS_OK : check_content(c, place, stored);
   if (status == FG_STATUS_OK)
-    keep_seen(c, place);
+    mark_checked(c, place);
   return status;
 }
 
@@ -135,7 +135,7 @@ static bool describe_filters(chunked *c, hid_t creation)
   return filters > 0;
 }
 
-/* False: there are no chunks that filters could make larger. */
+/* Returns false when no filter could enlarge chunks. */
 static bool describe(chunked *c)
 {
   const hid_t creation = H5Dget_create_plist(c->set);
@@ -150,13 +150,14 @@ static bool describe(chunked *c)
   c->bytes = H5Tget_size(type);
   H5Tclose(type);
   for (int k = 0; k < c->rank; ++k)
-    c->bytes *= c->length[k]; /* fits: the file's chunks were looked at before */
+    c->bytes *= c->length[k]; /* no overflow: objects.c has checked chunk sizes */
   return filtered && c->rank == c->variable->rank;
 }
 
-/* The next chunk of the part, in places of its first sample; false: there is none. */
-static bool go_on(hsize_t *place, const chunked *c, const size_t *start,
-                  const size_t *count)
+/* Moves `place`, the index of a chunk's first sample, to the next chunk of the part;
+ * false after the last. */
+static bool next_chunk(hsize_t *place, const chunked *c, const size_t *start,
+                       const size_t *count)
 {
   for (int k = c->rank - 1; k >= 0; --k) {
     place[k] += c->length[k];
@@ -178,12 +179,12 @@ static fg_status check_part(chunked *c, const size_t *start, const size_t *count
   }
   do
     status = check_chunk(c, place);
-  while (status == FG_STATUS_OK && go_on(place, c, start, count));
+  while (status == FG_STATUS_OK && next_chunk(place, c, start, count));
   return status;
 }
 
-/* libnetcdf writes a variable that is named like a dimension, but is no coordinate of
- * it, under another name. */
+/* libnetcdf stores a variable with the name of a dimension, which is no coordinate of it,
+ * under another name. */
 static hid_t open_set(hid_t file, const fg__nc_variable *v)
 {
   static const char *const before[] = {"", "_nc4_non_coord_"};

@@ -1,4 +1,4 @@
-/* Chunks that would become larger than declared, of a variable that is read. */
+/* Chunks that inflate to more than their declared size. */
 #define H5_USE_110_API
 #include <hdf5.h>
 #include <stdlib.h>
@@ -7,8 +7,8 @@
 
 #include "read/netcdf/plain_test.h"
 
-/* A chunk of one variable: more than a megabyte when it is stored, of which any less
- * becomes a gigabyte at most. */
+/* A chunk of more than a megabyte as stored; smaller ones inflate to a gigabyte at
+ * most. */
 enum { SIDE = 700, SAMPLES = SIDE * SIDE, BYTES = 4 * SAMPLES, MORE = 64 << 20 };
 
 static void must(hid_t id)
@@ -17,7 +17,7 @@ static void must(hid_t id)
     abort();
 }
 
-/* Figures that no packing makes fewer. */
+/* Incompressible numbers. */
 static void fill(float *value)
 {
   uint64_t number = 88172645463325252U;
@@ -29,7 +29,7 @@ static void fill(float *value)
   }
 }
 
-/* u and v, a chunk each. Along x and y are their numbers. */
+/* u and v in one chunk each, on axes that count samples. */
 static void make_large(sample_file *f, const float *value)
 {
   static const char *const names[] = {"u", "v"};
@@ -45,8 +45,8 @@ static void make_large(sample_file *f, const float *value)
   sample_end(f);
 }
 
-/* The chunk of v goes on with zeros, which take few bytes. */
-static void swell(const sample_file *f, const float *value)
+/* Appends zeros to the chunk of v, which compress to few bytes. */
+static void append_zeros(const sample_file *f, const float *value)
 {
   const hsize_t origin[2] = {0, 0};
   unsigned char *whole = calloc(1, (size_t)BYTES + MORE);
@@ -56,7 +56,7 @@ static void swell(const sample_file *f, const float *value)
     abort();
   memcpy(whole, value, BYTES);
   assert_int_equal(compress2(packed, &size, whole, (size_t)BYTES + MORE, 1), Z_OK);
-  assert_true(size > (1 << 20) && size < BYTES + (1 << 20)); /* not by its size alone */
+  assert_true(size > (1 << 20) && size < BYTES + (1 << 20)); /* not overlong by size */
   const hid_t file = H5Fopen(f->path, H5F_ACC_RDWR, H5P_DEFAULT);
   must(file);
   const hid_t set = H5Dopen2(file, "v", H5P_DEFAULT);
@@ -89,7 +89,7 @@ static void chunks_that_swell_are_refused(void **state)
   assert_non_null(value);
   fill(value);
   make_large(f, value);
-  swell(f, value);
+  append_zeros(f, value);
   refuse_with(f, NULL, FG_STATUS_FILE_FORMAT, "is more than the 1960000 that it should");
   fg_inventory *inventory = NULL;
   fg_context_clear(f->context);
@@ -99,7 +99,7 @@ static void chunks_that_swell_are_refused(void **state)
   free(value);
 }
 
-/* What counts the bytes sees one stage of deflate. */
+/* The check of inflated sizes handles one stage of deflate. */
 static void deflate_twice_is_refused(void **state)
 {
   sample_file *f = *state;

@@ -1,4 +1,4 @@
-/* Dates that are written as text, one for each step of a dimension: Times of WRF,
+/* Dates that files have as text, one for each index of a dimension: Times of WRF,
  * "2010-07-16_12:00:00", and of FVCOM, xtime of MPAS. */
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
@@ -9,7 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* A date takes 19 letters, and others may stand behind it. */
+/* A date has 19 characters; more may follow. */
 enum { MOST_LETTERS = 64, DATE_BYTES = 40 };
 
 const fg__nc_variable *fg__nc_date_texts(const fg__nc_file *file, int dimension)
@@ -32,7 +32,7 @@ static size_t letters_of(const fg__nc_variable *texts)
   return texts->owner->dimensions[texts->dimension[1]].length;
 }
 
-/* Fills out[count][letters_of]. */
+/* Reads the texts into out[count][letters_of]. */
 static fg_status read_letters(char *out, const fg__nc_variable *texts, size_t first,
                               size_t count)
 {
@@ -67,7 +67,7 @@ fg_status fg__nc_date_text(char *out, size_t size, const fg__nc_variable *texts,
 static bool write_dates(fg_axis_value *out, char *text, const char *letters,
                         size_t length, size_t count)
 {
-  text[0] = '\0'; /* they have no units */
+  text[0] = '\0'; /* dates have no units */
   for (size_t n = 0; n < count; ++n) {
     char *date = text + 1 + n * DATE_BYTES;
     if (!write_date(date, letters + n * length, length))

@@ -1,11 +1,11 @@
-/* Dates written as text, as WRF, FVCOM and MPAS have them. */
+/* Dates as text, as WRF, FVCOM and MPAS write them. */
 #include <math.h>
 
 #include "read/netcdf/plain_test.h"
 
 enum { TIMES = 3, LETTERS = 27 };
 
-/* A pair with a date for each of three times, filled with spaces. */
+/* A pair with a date for each of three times, padded with spaces. */
 static void make_timed(sample_file *f, int mode, const char *name,
                        const char *const text[TIMES])
 {

@@ -1,5 +1,5 @@
-/* The default level of a vector, and coordinates that its components name and the file
- * lacks. */
+/* The default level of a vector, and coordinates that its components refer to but the
+ * file does not have. */
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 
@@ -8,13 +8,13 @@
 #include <string.h>
 #include <strings.h>
 
-/* More levels than this are none. */
+/* Axes with more levels get no default level. */
 enum { MOST_LEVELS = 100000 };
 
 typedef enum direction { NEITHER = 0, UP = 1, DOWN = -1 } direction;
 
-/* Which way the numbers of a vertical coordinate grow. */
-static direction told_direction(const fg__nc_variable *coordinate)
+/* The direction of the attribute `positive`. */
+static direction attribute_direction(const fg__nc_variable *coordinate)
 {
   char text[FG__NC_TEXT];
   fg__nc_text(coordinate, "positive", text, sizeof text);
@@ -23,22 +23,24 @@ static direction told_direction(const fg__nc_variable *coordinate)
                                          : NEITHER;
 }
 
-/* Of a coordinate of the ocean: by its standard name (CF conventions, appendix D: sigma
- * and s grow upwards), or as a length that is a depth, or a height of nothing above 0. */
+/* The direction of a coordinate in the ocean: by its standard name (CF conventions,
+ * appendix D: sigma and s increase upwards); or, in units of length, depth that increases
+ * downwards, or height with no value above 0. */
 static direction direction_in_ocean(const fg__nc_variable *coordinate,
                                     const double *value, size_t count)
 {
   char name[FG__NC_TEXT], units[FG__NC_TEXT], label[FG__NC_TEXT];
-  const direction told = told_direction(coordinate);
+  const direction positive = attribute_direction(coordinate);
   fg__nc_text(coordinate, "standard_name", name, sizeof name);
   fg__nc_text(coordinate, "units", units, sizeof units);
   if (strstr(name, "ocean_s_") || strstr(name, "ocean_sigma"))
-    return told == NEITHER ? UP : told;
+    return positive == NEITHER ? UP : positive;
   if (strcmp(name, "depth") == 0 ||
       (!name[0] && strncasecmp(coordinate->plain_name, "depth", 5) == 0))
-    return told == NEITHER ? DOWN : told;
-  if (name[0] || fg__nc_units(units, label, sizeof label) != FG__NC_LENGTH || told != UP)
-    return name[0] || told != DOWN ? NEITHER : DOWN;
+    return positive == NEITHER ? DOWN : positive;
+  if (name[0] || fg__nc_units(units, label, sizeof label) != FG__NC_LENGTH ||
+      positive != UP)
+    return name[0] || positive != DOWN ? NEITHER : DOWN;
   for (size_t n = 0; n < count; ++n)
     if (value[n] > 0.0)
       return NEITHER;
@@ -56,7 +58,7 @@ static size_t find_surface(const fg__nc_variable *coordinate, const double *valu
   return best;
 }
 
-/* Levels of ROMS run from the bottom up, and may have no coordinate. */
+/* Levels of ROMS run from the bottom up, and may lack a coordinate. */
 static bool runs_upwards(const char *name)
 {
   return strcmp(name, "s_rho") == 0 || strcmp(name, "sc_r") == 0;
@@ -93,7 +95,7 @@ static void add_name(char *out, size_t size, const char *name)
     snprintf(out + used, size - used, "%s%s", used ? ", " : "", name);
 }
 
-/* The names of an attribute `coordinates` that no variable has. */
+/* Lists the names in the attribute `coordinates` for which there is no variable. */
 static void list_absent(char *out, size_t size, const fg__nc_file *file,
                         const fg__nc_variable *component)
 {

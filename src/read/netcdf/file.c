@@ -1,4 +1,4 @@
-/* Opening a NetCDF file and listing its dimensions and variables, those of groups too. */
+/* Opens a NetCDF file and lists its dimensions and variables, also those in groups. */
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEEPEST_GROUP = 8 }; /* files nest groups two or three deep */
+enum { DEEPEST_GROUP = 8 }; /* in practice groups are nested two or three deep */
 
 fg_status fg__nc_fail(fg_context *context, const char *path, const char *what, int error)
 {
@@ -142,8 +142,8 @@ static fg_status list_group(fg__nc_file *file, int root, int group, const char *
   return error ? fg__nc_fail(file->context, path, "its groups", error) : status;
 }
 
-/* libnetcdf takes names like "http:..." for addresses; a path that starts with a
- * directory is always a file. */
+/* libnetcdf takes a name like "http:..." for a URL; a path that starts with a directory
+ * is always a file. */
 static char *local_path(const char *path)
 {
   const size_t length = strlen(path);
@@ -197,7 +197,7 @@ fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
   file->sizes[file->root_count] = source->size;
   file->roots[file->root_count++] = root;
   status = list_group(file, root, root, "", path, 0);
-  /* the list may have moved while it grew */
+  /* the array may have moved as it grew */
   for (size_t i = 0; i < file->variable_count; ++i) {
     fg__nc_variable *v = &file->variables[i];
     const char *slash = strrchr(v->name, '/');
@@ -247,7 +247,7 @@ fg_status fg__nc_status(const fg__nc_file *file, fg_status status)
   return file->exhausted ? FG_STATUS_MEMORY : status;
 }
 
-/* Attributes that are not there, or are damaged, count as not given. */
+/* A missing or damaged attribute counts as not given. */
 static bool is_read(const fg__nc_variable *v, int error, size_t bytes)
 {
   if (error == NC_ENOMEM) {

@@ -1,13 +1,13 @@
-/* Whether variables can be a pair's components at all: numbers enough, and all at the
- * same places. */
+/* Whether variables can be a vector's components: numeric, not larger than the file can
+ * hold, and at the same places. */
 #include "read/netcdf/netcdf.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Deflate makes 1032 bytes of one at most (zlib's documentation): a field whose file is
- * smaller still was never written. */
+/* Deflate compresses by at most 1032 (zlib's documentation); a field of more bytes than
+ * that times the file's size is not in the file. */
 static const size_t LARGEST_COMPRESSION = 1032;
 
 void fg__nc_unusable(fg__nc_grid *grid, const char *format, ...)
@@ -51,7 +51,8 @@ static bool fits_file(const fg__nc_file *file, const fg__nc_variable *v, size_t 
          samples / LARGEST_COMPRESSION * width <= file->sizes[v->file];
 }
 
-/* A part at a time: a header alone must not make them take memory. */
+/* Compares in blocks, so that a small file that declares large variables takes little
+ * memory. */
 static bool same_numbers(const fg__nc_variable *a, const fg__nc_variable *b, size_t n)
 {
   enum { AT_ONCE = 4096 };

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* 2^31 samples take 24 gigabytes on the way to a field; more cannot be meant. */
+/* 2^31 samples take 24 gigabytes while a field is made; more is taken as damage. */
 static const size_t MOST_SAMPLES = (size_t)1 << 31;
 
 static bool is_usable(const fg__nc_grid *grid)
@@ -160,8 +160,8 @@ static fg_scale natural_scale(const fg__nc_grid *grid, fg__nc_quantity velocity)
   const fg__nc_quantity y = grid->axis[1].quantity;
   const bool rotated = strcmp(grid->axis[0].name, "grid longitude") == 0 &&
                        strcmp(grid->axis[1].name, "grid latitude") == 0;
-  /* any vector along east and north follows the sphere; an angular speed counts degrees
-   */
+  /* any vector along east and north lies on the sphere; an angular speed counts
+   * degrees */
   if (((x == FG__NC_DEGREES_EAST && y == FG__NC_DEGREES_NORTH) || rotated) &&
       velocity != FG__NC_ANGULAR_SPEED)
     return FG_SCALE_GEO;
@@ -171,8 +171,8 @@ static fg_scale natural_scale(const fg__nc_grid *grid, fg__nc_quantity velocity)
 }
 
 /* Components along east and north are not components along the axes of a projection or of
- * a rotated pole; on Mercator's and its kin's they are. Without the projection they can
- * not be turned. */
+ * a rotated pole, except in cylindrical projections such as Mercator's. Without the
+ * projection they cannot be rotated. */
 static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
                              const fg__nc_variable *u, fg_frame frame)
 {
@@ -232,7 +232,7 @@ static fg_status settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
   return status;
 }
 
-/* What lies on axes: their coordinates, units and scale. */
+/* Reads the axes: their coordinates, units and scale. */
 static fg_status find_on_axes(fg__nc_grid *grid, const fg__nc_file *file,
                               const fg__nc_pair *pair, const fg_read_options *options)
 {
@@ -253,11 +253,11 @@ static fg_status find_on_axes(fg__nc_grid *grid, const fg__nc_file *file,
     return status;
   if (pair->component[2])
     status = fg__nc_volume_find(grid, file, pair);
-  grid->off_axes = false; /* the third component may be */
+  grid->off_axes = false; /* the third component alone may be staggered */
   return status;
 }
 
-/* The same of the centres of a plane's cells, where components are on the faces. */
+/* The same for the centres of cells in a plane, where components are on the faces. */
 static fg_status find_on_faces(fg__nc_grid *grid, const fg__nc_file *file,
                                const fg__nc_pair *pair, const fg_read_options *options)
 {

@@ -1,4 +1,4 @@
-/* NetCDF: classic, 64-bit offset, CDF-5 and NetCDF-4, through NetCDF-C. */
+/* NetCDF files: classic, 64-bit offset, CDF-5 and NetCDF-4, through NetCDF-C. */
 #include "field/slab.h"
 #include "map/project.h"
 #include "read/mesh/mesh.h"
@@ -27,8 +27,8 @@ static fg_status add_second_file(fg__nc_file *file, fg_context *context, const c
   return status;
 }
 
-/* Components that are named are looked for in both files: where neither they nor their
- * mesh nor the mask are of the second, it is not the file that was meant. */
+/* Components are searched in both files. When neither they, their mesh nor the mask are
+ * in the second file, it is refused as the wrong file. */
 static fg_status check_second(const fg__nc_file *file, const fg__nc_pair *pair,
                               const fg__nc_grid *grid, const char *mask)
 {
@@ -77,7 +77,8 @@ static fg_status check_missing(const fg__nc_file *file, const fg__nc_variable *v
                   missing->not_a_number);
 }
 
-/* What is missing of a part is judged with all others. */
+/* Records the missing samples of a slab; whether all are missing is known once all slabs
+ * are read. */
 static void keep_missing(const fg_field *field, const fg__nc_samples *read)
 {
   fg__field_slab *slab = field->slab;
@@ -100,7 +101,7 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
 {
   fg__nc_words words;
   fg__nc_samples read = {0};
-  char plane[FG__NC_TEXT]; /* of the model, whose grid is on axes of degrees */
+  char plane[FG__NC_TEXT]; /* of the model whose grid has axes in degrees */
   const fg__nc_axis *last = &grid->axis[grid->dimension - 1];
   if (last->period > 0.0)
     slab = (fg__slab_index){0, 1};
@@ -155,8 +156,8 @@ static fg_status check_level(const fg__nc_file *file, const fg__nc_grid *grid, i
   return FG_STATUS_ARGUMENT;
 }
 
-/* Opens the pair that these options would read; grid and file are to be cleared
- * even after a failure. */
+/* Opens the source and selects the pair; grid and file have to be cleared, also after a
+ * failure. */
 static fg_status choose(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
                         fg_context *context, const fg__source *source,
                         const fg_read_options *options)
@@ -167,7 +168,7 @@ static fg_status choose(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
   return status == FG_STATUS_OK ? fg__nc_choose(pair, grid, file, options) : status;
 }
 
-/* The same; the time and level of the options are checked. */
+/* The same, with time and level of the options checked. */
 static fg_status open_chosen(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
                              fg_context *context, const fg__source *source,
                              const fg_read_options *options)
@@ -181,7 +182,7 @@ static fg_status open_chosen(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *
   return status == FG_STATUS_OK ? check_level(file, grid, options->level) : status;
 }
 
-/* Ends what choose() or open_chosen() has opened. */
+/* Closes what choose() or open_chosen() has opened. */
 static fg_status close_chosen(fg__nc_file *file, fg__nc_grid *grid, fg_status status)
 {
   status = fg__nc_status(file, status);
@@ -225,7 +226,7 @@ static fg_status read_sphere(fg__sphere **out, fg_context *context,
   return close_chosen(&file, &grid, status);
 }
 
-/* Samples that an inventory has in memory at a time. */
+/* Samples in memory at a time while an inventory counts missing values. */
 enum { COUNTED_AT_ONCE = 1 << 22 };
 
 static fg_status count_missing(fg_inventory_vector *vector, const fg__nc_file *file,
@@ -253,7 +254,7 @@ static fg_status count_missing(fg_inventory_vector *vector, const fg__nc_file *f
   return status;
 }
 
-/* Adds the vector, with its times and levels. */
+/* Adds a vector with its times and levels. */
 static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector,
                             const fg__nc_file *file, const fg__nc_grid *grid)
 {
@@ -277,11 +278,11 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
   return status;
 }
 
-/* The texts of a vector that is described. */
+/* Texts that a vector of the inventory points to. */
 typedef struct vector_texts {
   char units[FG__NC_TEXT], plane[FG__NC_TEXT];
-  char frame[3 * FG__NC_TEXT];        /* a projection, and a few words */
-  char unusable[3 * FG__NC_TEXT + 2]; /* the reason; and the hint */
+  char frame[3 * FG__NC_TEXT];        /* a projection, and its directions */
+  char unusable[3 * FG__NC_TEXT + 2]; /* the reason and the hint */
 } vector_texts;
 
 static const char *describe_frame(char *out, size_t size, const fg__nc_grid *grid)
@@ -308,7 +309,7 @@ static void describe_axes(fg_inventory_vector *vector, const fg__nc_grid *grid)
   }
 }
 
-/* What takes the reading of a mesh or of samples. */
+/* Fills in what requires reading the mesh or all samples. */
 static fg_status describe_samples(fg_inventory_vector *vector, const fg__nc_file *file,
                                   const fg__nc_pair *pair, const fg__nc_grid *grid)
 {
@@ -319,7 +320,8 @@ static fg_status describe_samples(fg_inventory_vector *vector, const fg__nc_file
   return count_missing(vector, file, pair, grid);
 }
 
-/* Adds the vector of a pair. reads: also what takes the reading of a mesh or samples. */
+/* Adds the vector of a pair to the inventory. reads: the mesh or all samples may be
+ * read. */
 static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
                                const fg__nc_pair *pair, const fg__nc_grid *grid,
                                const fg_read_options *options, bool reads)

@@ -14,34 +14,36 @@ fg_status fg__nc_check_size(fg_context *context, const fg__source *source);
 
 enum {
   FG__NC_RANK = 8,                  /* more dimensions than any field has */
-  FG__NC_TEXT = 256,                /* bytes of an attribute that are looked at */
+  FG__NC_TEXT = 256,                /* bytes kept of a text attribute */
   FG__NC_NAME = 2 * NC_MAX_NAME + 2 /* group/variable */
 };
 
-/* A chunk that was looked at: where its first sample is. */
-typedef struct fg__nc_seen {
+/* A chunk whose content has been checked: the index of its first sample. */
+typedef struct fg__nc_checked_chunk {
   const struct fg__nc_variable *variable;
   uint64_t place[FG__NC_RANK];
-} fg__nc_seen;
+} fg__nc_checked_chunk;
 
-/* A NetCDF-4 file as HDF5 has it, open where some chunks have to be looked at before they
- * are read. */
-enum { FG__NC_SEEN = 64 };
+/* A NetCDF-4 file as HDF5 sees it, open where chunks have to be checked before they are
+ * read (chunks.c). */
+enum { FG__NC_CHECKED_CHUNKS = 64 };
 typedef struct fg__nc_storage {
   bool is_open;
   int64_t file; /* hid_t */
-  fg__nc_seen seen[FG__NC_SEEN];
+  fg__nc_checked_chunk checked[FG__NC_CHECKED_CHUNKS];
   size_t next;
 } fg__nc_storage;
 
-/* Stored bytes that deflate to a gigabyte at most, 1032 times as many (RFC 1951). */
+/* Deflate makes at most 1032 bytes of one (RFC 1951), so that a chunk of at most so many
+ * stored bytes inflates to a gigabyte at most. */
 #define FG__NC_HARMLESS_BYTES ((uint64_t)1 << 20)
 
-/* Whether a chunk is stored in far more bytes than it has when it is read. */
-bool fg__nc_is_swollen(uint64_t stored, uint64_t bytes);
+/* Whether a chunk takes far more bytes in the file than in memory. */
+bool fg__nc_is_overlong(uint64_t stored, uint64_t bytes);
 
-/* Refuses a NetCDF-4 file whose links lead round, that takes data from other files, or
- * whose pieces take more than 256 MiB each; *out is to be closed. UNSUPPORTED, MEMORY. */
+/* Refuses a NetCDF-4 file whose links form a cycle, that refers to data in other files,
+ * or whose chunks take more than 256 MiB each. *out has to be closed, also after a
+ * failure. UNSUPPORTED, MEMORY. */
 fg_status fg__nc_check_objects(fg__nc_storage *out, fg_context *context,
                                const fg__source *source);
 void fg__nc_storage_close(fg__nc_storage *storage);
@@ -79,7 +81,7 @@ typedef struct fg__nc_file {
   size_t dimension_count, dimension_capacity;
   fg__nc_variable *variables;
   size_t variable_count, variable_capacity;
-  bool exhausted; /* memory for an attribute was lacking, which the context says */
+  bool exhausted; /* memory for an attribute was lacking; the context has the message */
 } fg__nc_file;
 
 /* Opens a source and lists its dimensions and variables; may be called a second time to
@@ -88,8 +90,7 @@ fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
                            const fg__source *source);
 void fg__nc_file_close(fg__nc_file *file);
 
-/* MEMORY where an attribute could not be read for lack of memory, whatever came of it;
- * else `status`. */
+/* MEMORY where an attribute could not be read for lack of memory, else `status`. */
 fg_status fg__nc_status(const fg__nc_file *file, fg_status status);
 
 /* Records a failure of libnetcdf. */
@@ -105,21 +106,22 @@ int fg__nc_fetch(const fg__nc_variable *variable, const size_t *start,
                  const size_t *count, double *out);
 int fg__nc_fetch_one(const fg__nc_variable *variable, const size_t *index, double *out);
 
-/* That check alone. */
+/* Only checks the chunks of that part. */
 int fg__nc_check_chunks(const fg__nc_variable *variable, const size_t *start,
                         const size_t *count);
 
 /* A text attribute without white space at its ends, cut to the buffer; "" when there is
- * none. Returns whether there is one; fg__nc_status reports a lack of memory. */
+ * none. Returns whether there is one. A lack of memory is reported by fg__nc_status. */
 bool fg__nc_text(const fg__nc_variable *variable, const char *attribute, char *out,
                  size_t size);
 
-/* The numbers of an attribute, at most `capacity`; returns how many; likewise. */
+/* The numbers of an attribute, at most `capacity`; returns how many. A lack of memory is
+ * reported by fg__nc_status. */
 int fg__nc_numbers(const fg__nc_variable *variable, const char *attribute, double *out,
                    int capacity, nc_type *type);
 
 typedef enum fg__nc_quantity {
-  FG__NC_UNKNOWN = 0, /* no units, or none that is known here */
+  FG__NC_UNKNOWN = 0, /* no units, or unknown ones */
   FG__NC_SPEED,
   FG__NC_ANGULAR_SPEED,
   FG__NC_LENGTH,
@@ -130,39 +132,39 @@ typedef enum fg__nc_quantity {
   FG__NC_DATE /* "hours since ..." */
 } fg__nc_quantity;
 
-/* Classifies units and writes them as an axis label has them: "m s**-1" as "m/s". */
+/* Classifies units and writes them in the form of an axis label: "m s**-1" as "m/s". */
 fg__nc_quantity fg__nc_units(const char *units, char *label, size_t size);
 
-/* The length of a unit of time, "hours"; false where it is none. */
+/* The seconds of a unit of time ("hours"); false for any other unit. */
 bool fg__nc_seconds(const char *units, double *out);
 
 /* Writes a time as a date of its calendar in UTC, "2014-01-31 03:00[:30]"; false when
- * units or calendar are not known. */
+ * units or calendar are unknown. */
 bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
                  size_t size);
 
-/* Writes a date that is written in a file in the same way: "2010-07-16_12:00:00", with a
- * space or a T instead of the underscore, perhaps parts of a second and a Z, which are
- * left out; false when it is none. */
+/* Converts a date that a file has as text to the same form. Text is
+ * "2010-07-16_12:00:00", with a space or T in place of the underscore; fractions of a
+ * second and a Z at the end are dropped. False when it is no date. */
 bool fg__nc_date_of_text(const char *text, char *out, size_t size);
 
-/* Writes a time from no known date on as its parts, "3 d", "1 d 6 h 30 min"; false where
- * units are of no time, or it is no whole number of seconds. */
+/* Writes a time without a known reference date as a duration, "3 d", "1 d 6 h 30 min";
+ * false where units are not of time, or the time is no whole number of seconds. */
 bool fg__nc_duration(double value, const char *units, char *out, size_t size);
 
 typedef struct fg__nc_pair {
   const fg__nc_variable *component[3]; /* the third NULL when there is none */
-  bool volume;                         /* the options name the third */
+  bool volume;                         /* the options name all three */
   const char *found_by;
   int rank;         /* the smallest is the best */
-  bool is_velocity; /* not a stress, a flux, or something of unfit units */
+  bool is_velocity; /* units of a speed, unlike a stress or a flux */
 } fg__nc_pair;
 
-/* Lists the pairs, best rank first, in the file's order in each. *out is for free(). */
+/* Lists the pairs, best rank first, then in the order of the file. *out is for free(). */
 fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file);
 
-/* The variable that goes with a pair as the third component: same dimensions and units,
- * and named like them; NULL for none. */
+/* The third component of a pair: a variable of the same dimensions and units, with a
+ * matching name; NULL: none. */
 const fg__nc_variable *fg__nc_third(const fg__nc_file *file, const fg__nc_pair *pair);
 
 typedef enum fg__nc_role {
@@ -182,8 +184,7 @@ fg__nc_role fg__nc_geographic(const fg__nc_variable *coordinate);
 const fg__nc_variable *fg__nc_coordinate(const fg__nc_file *file,
                                          const fg__nc_variable *variable, int k);
 
-/* Whether a coordinate may only count samples: neither units nor a standard name say that
- * it measures anything. */
+/* Whether a coordinate may be a mere index: it has neither units nor a standard name. */
 bool fg__nc_counts(const fg__nc_variable *coordinate);
 
 /* Finds the position among a variable's dimensions of each role, -1 where there is none.
@@ -191,16 +192,17 @@ bool fg__nc_counts(const fg__nc_variable *coordinate);
 int fg__nc_roles(int position[FG__NC_ROLES], const fg__nc_file *file,
                  const fg__nc_variable *variable);
 
-/* The same where dimension number `along` is the only one in space: it is X's. */
+/* The same for a variable with one dimension in space, number `along`, which gets role
+ * X. */
 int fg__nc_roles_beside(int position[FG__NC_ROLES], const fg__nc_file *file,
                         const fg__nc_variable *variable, int along);
 
 typedef struct fg__nc_axis {
   int dimension;      /* index into the file's dimensions */
-  int position;       /* among those of the variable */
+  int position;       /* among the variable's dimensions */
   size_t first;       /* first sample in the file */
   size_t size;        /* samples that are used */
-  bool reversed;      /* the last of them comes first */
+  bool reversed;      /* the file's order is descending */
   double *coordinate; /* [size], ascending */
   double period;
   fg__nc_quantity quantity;
@@ -211,99 +213,98 @@ typedef struct fg__nc_axis {
 typedef struct fg__nc_mesh fg__nc_mesh; /* mesh/mesh.h */
 typedef struct fg__nc_unstructured fg__nc_unstructured;
 
-/* Components on the faces of cells, whose centres the axes place. */
+/* Components on the faces of cells whose centres lie on the axes. */
 typedef struct fg__nc_faces {
   bool used;
   int position[2][FG__NC_ROLES]; /* of each component's own dimensions, or -1 */
-  size_t before[2]; /* component k along axis k: of centre n the faces n - before[k] and
-                       the next, in the file's order */
+  size_t before[2]; /* component k along axis k: centre n lies between the faces n -
+                       before[k] and the next, in the file's order */
 } fg__nc_faces;
 
 typedef struct fg__nc_grid {
-  fg__nc_mesh *mesh;                 /* NULL: axes place its points, or */
-  fg__nc_unstructured *unstructured; /* unstructured/unstructured.h; NULL: it is none */
-  bool off_axes; /* axes do not: it is a mesh, has faces or is unusable */
+  fg__nc_mesh *mesh; /* of a curvilinear grid; NULL: points lie on axes, or */
+  fg__nc_unstructured *unstructured; /* unstructured/; NULL: no such mesh */
+  bool off_axes; /* points do not lie on axes: a mesh, faces, or unusable */
   fg__nc_faces faces;
   int dimension;        /* 2: a plane at one level; 3 */
   fg__nc_axis axis[3];  /* x, y; the levels as z in 3D */
   int time, level;      /* positions among the dimensions, or -1 */
   size_t times, levels; /* 1 when there is none */
-  const fg__nc_variable *time_variable, *level_variable; /* or NULL; time's may be
-                                                            texts (date_texts.c) */
+  const fg__nc_variable *time_variable, *level_variable; /* or NULL; time may be text */
   char time_name[NC_MAX_NAME + 1], level_name[NC_MAX_NAME + 1];
   fg_scale scale;
-  char projection[2 * FG__NC_TEXT]; /* of scale MAP: a PROJ string; "" not known */
-  bool points_east;                 /* components along east and north, not the axes */
-  size_t samples;                   /* of the axes together */
-  char unusable[2 * FG__NC_TEXT];   /* "" or why the pair cannot be read */
+  char projection[2 * FG__NC_TEXT]; /* PROJ string of scale MAP; "": not known */
+  bool points_east; /* components along east and north, not along the axes */
+  size_t samples;   /* product of the axes' sizes */
+  char unusable[2 * FG__NC_TEXT]; /* "" or why the pair cannot be read */
   char hint[FG__NC_TEXT];
 } fg__nc_grid;
 
-/* fitness.c. Writes why a pair cannot be read, once. */
+/* fitness.c. Sets the reason why a pair cannot be read, unless one is set already. */
 void fg__nc_unusable(fg__nc_grid *grid, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Compares the components' dimensions; staggered grids (Arakawa's C grid) keep them at
- * different places: the pair is off its axes, and unusable unless mesh/ reads it. */
+/* Compares the components' dimensions. A staggered grid (Arakawa's C grid) has different
+ * ones for each: the grid is then off_axes, and unusable unless mesh/ can read it. */
 void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
                          const fg__nc_variable *u, const fg__nc_variable *v);
 
-/* A variable that is no field of numbers makes the pair unusable, or one larger than the
- * file can hold. */
+/* Makes the pair unusable where a variable is not numeric, or has more samples than a
+ * file of this size can hold. */
 void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v);
 void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
                           const fg__nc_variable *v);
 
-/* axes.c. Reads a coordinate along an axis, makes it ascend, finds where it
- * repeats. */
+/* axes.c. Reads a coordinate along an axis, makes it ascending, and finds its period. */
 fg_status fg__nc_axis_read(fg__nc_grid *grid, const fg__nc_file *file, int k,
                            const fg__nc_variable *coordinate);
 
-/* Makes the samples' numbers, from 0, the coordinate. */
+/* Uses the indices, from 0, as the coordinate. */
 fg_status fg__nc_axis_count(fg__nc_grid *grid, const fg__nc_file *file, int k);
 
-/* plane.c. Looks for two-dimensional longitude and latitude. When they vary along
- * one dimension each they become the axes, and *found is true; otherwise the pair is
+/* plane.c. Finds two-dimensional longitude and latitude. Where each varies along one
+ * dimension only they become the axes, and *found is true; otherwise the pair is
  * unusable, unless the scale is plain. */
 fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
                             const fg__nc_variable *variable, bool *found);
 
-/* The two-dimensional longitude (X) or latitude (Y) of a variable that lies on a grid's
- * dimensions, perhaps for each time; one that the variable names among its coordinates
- * goes before others. NULL: there is none. */
+/* The two-dimensional longitude (X) or latitude (Y) of a variable, on two of the grid's
+ * dimensions and perhaps one for each time. One that the attribute `coordinates` names is
+ * preferred. NULL: there is none. */
 const fg__nc_variable *fg__nc_plane_coordinate(const fg__nc_grid *grid,
                                                const fg__nc_file *file,
                                                const fg__nc_variable *variable,
                                                fg__nc_role role);
 
-/* projection.c. Finds the PROJ string of axes along x and y, or about a rotated pole,
- * from the variable's grid mapping; where the file's longitudes and latitudes are not
- * those of the projection, the grid is off its axes. MEMORY, FILE_ACCESS. */
+/* projection.c. Finds the PROJ string of axes in a projection or about a rotated pole
+ * from the variable's grid mapping. Where the file's longitudes and latitudes contradict
+ * the projection, the grid is off_axes. MEMORY, FILE_ACCESS. */
 fg_status fg__nc_projection_find(fg__nc_grid *grid, const fg__nc_file *file,
                                  const fg__nc_variable *u);
 
-/* Turns samples of some rows to the directions of the projection's plane. */
+/* Rotates the components of some rows to the directions of the projection's plane. */
 fg_status fg__nc_projection_turn(float *const velocity[2], const fg__nc_file *file,
                                  const fg__nc_grid *grid, const fg__rows *rows);
 
-/* volume.c. Makes a grid found for the first two components one in 3D when there
- * is a third, all levels are one axis in space, and space has one measure; where
- * the options name the third, an obstacle makes the pair unusable. */
+/* volume.c. Makes the grid of the first two components three-dimensional when there is a
+ * third component, all levels form one axis in space, and the axes have one unit. Where
+ * the options name the third component, whatever prevents that makes the pair
+ * unusable. */
 fg_status fg__nc_volume_find(fg__nc_grid *grid, const fg__nc_file *file,
                              const fg__nc_pair *pair);
 
-/* Finds the grid of a pair. What makes it unusable goes to `unusable`; only failures to
- * read or a lack of memory are statuses. */
+/* Finds the grid of a pair. The reason why a pair cannot be read goes to `unusable`; a
+ * status is returned only for failures of reading and lack of memory. */
 fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_pair *pair, const fg_read_options *options);
 void fg__nc_grid_clear(fg__nc_grid *grid);
 
-/* Sets the counts, coordinates and names of time and level, whose positions are known. */
+/* Sets counts, coordinates and names of the time and level axes from their positions. */
 void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_variable *v);
 
-/* choice.c. Finds the pair that the options name, or the only one of the best rank
- * that can be read, with its grid, to be cleared even after a failure. ARGUMENT,
+/* choice.c. Finds the pair that the options name, or else the only readable pair of the
+ * best rank, with its grid. The grid has to be cleared, also after a failure. ARGUMENT,
  * UNSUPPORTED, FILE_ACCESS, MEMORY. */
 fg_status fg__nc_choose(fg__nc_pair *pair, fg__nc_grid *grid, const fg__nc_file *file,
                         const fg_read_options *options);
@@ -313,7 +314,7 @@ typedef struct fg__nc_missing {
 } fg__nc_missing;
 
 /* Reads a component at one time and level into out, x fastest, both axes ascending; NaN
- * where a value is missing. missing is added to. */
+ * where a value is missing. Adds to `missing`. */
 fg_status fg__nc_values(float *out, fg__nc_missing *missing, const fg__nc_file *file,
                         const fg__nc_variable *variable, const fg__nc_grid *grid,
                         size_t time, size_t level);
@@ -324,7 +325,7 @@ fg_status fg__nc_mask(unsigned char *out, const fg__nc_file *file,
                       const fg__nc_variable *variable, const fg__nc_grid *grid,
                       const fg__nc_variable *component, size_t time, size_t level);
 
-/* Whether it holds numbers along 1 to FG__NC_RANK dimensions. */
+/* Whether a variable is numeric and has 1 to FG__NC_RANK dimensions. */
 bool fg__nc_is_array(const fg__nc_variable *v);
 
 /* Whether a variable has both dimensions of a grid, and no others but the component's
@@ -332,8 +333,8 @@ bool fg__nc_is_array(const fg__nc_variable *v);
 bool fg__nc_lies_on(const fg__nc_file *file, const fg__nc_variable *v,
                     const fg__nc_grid *grid, const fg__nc_variable *component);
 
-/* Reads the numbers of such a variable into out, x fastest; NaN where they are missing.
- * FILE_FORMAT (it does not lie on the grid), FILE_ACCESS, MEMORY. */
+/* Reads such a variable into out, x fastest; NaN where a value is missing. FILE_FORMAT
+ * (not on the grid), FILE_ACCESS, MEMORY. */
 fg_status fg__nc_doubles(double *out, const fg__nc_file *file,
                          const fg__nc_variable *variable, const fg__nc_grid *grid,
                          const fg__nc_variable *component, size_t time, size_t level);
@@ -345,48 +346,48 @@ fg_status fg__nc_line(double *out, const fg__nc_file *file,
 /* The samples of some rows of a field. */
 typedef struct fg__nc_samples {
   float *velocity[3];
-  fg__nc_missing missing[3]; /* of its own rows */
+  fg__nc_missing missing[3]; /* in these rows */
   unsigned char *valid;      /* NULL: all */
 } fg__nc_samples;
 
-/* Reads a pair's rows at one time and, in 2D, level; mask may be NULL. To be cleared even
- * after a failure. FILE_ACCESS, ARGUMENT (mask), MEMORY. */
+/* Reads a pair's rows at one time and, in 2D, one level; mask may be NULL. *out has to be
+ * cleared, also after a failure. FILE_ACCESS, ARGUMENT (mask), MEMORY. */
 fg_status fg__nc_samples_read(fg__nc_samples *out, const fg__nc_file *file,
                               const fg__nc_pair *pair, const fg__nc_grid *grid,
                               const fg__rows *rows, size_t time, size_t level,
                               const char *mask);
 void fg__nc_samples_clear(fg__nc_samples *samples);
 
-/* What the components are together, from their long or standard names; else the title of
- * their file (or group), or their names. */
+/* A title of the vector: what the components' long or standard names share, else the
+ * title of their file or group, else their names. */
 void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t size);
 
-/* Describes an index along time or level; name is the dimension's. */
+/* Describes the time or level of an index; `name` is the dimension's. */
 fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,
                              const char *name, size_t index, char *out, size_t size);
 
-/* defaults.c. As fg_read_defaults_find, of a pair on its grid. */
+/* defaults.c. fg_read_defaults_find for a pair and its grid. */
 fg_status fg__nc_defaults(fg_read_defaults *out, const fg__nc_file *file,
                           const fg__nc_pair *pair, const fg__nc_grid *grid,
                           const fg_read_options *options);
 
-/* The values of a time or level axis, their texts in `text`; both end with free. NULL
- * where there is no coordinate, or more values than anyone would choose from. */
+/* The values of a time or level axis; their texts point into *text. Both are for free().
+ * NULL where there is no coordinate, or too many values to choose from. */
 fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file *file,
                              const fg__nc_variable *coordinate, size_t count);
 
-/* date_texts.c. The variable that has a date as text for each step of a dimension, or
+/* date_texts.c. The variable with a date as text for each index of a dimension, or
  * NULL. */
 const fg__nc_variable *fg__nc_date_texts(const fg__nc_file *file, int dimension);
 
-/* The date of one step, "" where the text is none; and fg__nc_axis_values of all, which
- * have no numbers, NULL where one of the texts is no date. */
+/* The date at one index, "" where the text is no date. Then fg__nc_axis_values of all
+ * dates, whose numbers are NaN; NULL where one of the texts is no date. */
 fg_status fg__nc_date_text(char *out, size_t size, const fg__nc_variable *texts,
                            size_t index);
 fg_status fg__nc_date_values(fg_axis_value **out, char **text,
                              const fg__nc_variable *texts, size_t count);
 
-/* What captions say of the samples that options choose. */
+/* The texts of a picture's caption. */
 typedef struct fg__nc_words {
   char title[FG__NC_TEXT], units[FG__NC_TEXT];
   char time[FG__NC_TEXT], level[FG__NC_TEXT]; /* "": none */

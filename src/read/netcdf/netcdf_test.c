@@ -18,7 +18,8 @@ static void assert_samples(const fg_field *field, int t, int z)
     }
 }
 
-/* Fills the variables along dimensions given in any order by roles "tzyx". */
+/* Fills the variables; the letters of `order` are the roles of the dimensions, as
+ * "tzyx". */
 static void put_ordered(const sample_file *f, int u, int v, const char *order,
                         const double *x, const double *y)
 {
@@ -122,7 +123,7 @@ static void any_order_of_dimensions_is_read(void **state)
     }
 }
 
-/* u / cos latitude, from the file to the tangent. */
+/* u / cos latitude, as stored and as a tangent vector. */
 static void winds_on_the_sphere_are_recognised(void **state)
 {
   sample_file *f = *state;
@@ -336,7 +337,7 @@ static void inventories_tell_what_reading_gives(void **state)
   fg_inventory_destroy(inventory);
 }
 
-/* With a second pair, of one time and level only: what is chosen is what is read. */
+/* With a second pair of one time and level, to test that the chosen pair is read. */
 static void inventories_tell_times_and_levels(void **state)
 {
   sample_file *f = *state;
@@ -380,7 +381,7 @@ static void inventories_tell_times_and_levels(void **state)
   fg_inventory_destroy(inventory);
 }
 
-/* A field of 3 levels, whose coordinate has these attributes; "" none. */
+/* The defaults of a field of 3 levels whose coordinate has these attributes; "" none. */
 static fg_read_defaults defaults_of(sample_file *f, const char *name,
                                     const char *positive, const char *units,
                                     const double levels[3])
@@ -410,7 +411,7 @@ static fg_read_defaults defaults_of(sample_file *f, const char *name,
   return defaults;
 }
 
-/* Of the ocean the surface; of the air, and where nothing tells, the first. */
+/* In the ocean the surface; in the air, or without attributes, the first level. */
 static void the_usual_level_is_the_seas_surface(void **state)
 {
   static const double rising[] = {-90.0, -5.0, -40.0}, depths[] = {40.0, 5.0, 90.0};
@@ -434,7 +435,7 @@ static void the_usual_level_is_the_seas_surface(void **state)
   }
 }
 
-/* The demonstration's own file: 65160 packed samples, none missing, round the globe. */
+/* The file of the demonstration: 65160 packed global samples, none missing. */
 static void the_demonstration_file_is_read(void **state)
 {
   sample_file *f = *state;

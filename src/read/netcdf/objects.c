@@ -1,7 +1,7 @@
-/* What a NetCDF-4 file is made of, before libnetcdf opens it. libnetcdf follows every
- * link of HDF5: one that leads round makes it list the same groups again and again, one
- * that leads into another file makes it show that file's bytes. So all links and data
- * sets are looked at here first, with HDF5 itself, and no more than once each. */
+/* Checks the structure of a NetCDF-4 file before libnetcdf opens it. libnetcdf follows
+ * every HDF5 link: it would list the groups of a cyclic link repeatedly, and would read
+ * from another file through an external link. All links and data sets are therefore
+ * checked here first, with HDF5 itself, each object once. */
 #define H5_USE_110_API
 #include <hdf5.h>
 
@@ -13,27 +13,27 @@
 #include <string.h>
 
 enum {
-  MOST_OBJECTS = 1 << 15, /* data sets and groups; files of models have hundreds */
+  MOST_OBJECTS = 1 << 15, /* data sets and groups; model output has hundreds */
   DEEPEST = 64            /* groups within groups */
 };
 
-/* A chunk is in memory as a whole, twice while it is inflated. Writers make chunks of a
- * few megabytes. */
+/* A chunk is in memory as a whole, twice while it is inflated. Usual chunks have a few
+ * megabytes. */
 static const hsize_t LARGEST_CHUNK = (hsize_t)1 << 28;
 
-/* HDF5 1.10 looks for a chunk by its number in all of them: more are looked at when they
- * are read (chunks.c). */
-enum { CHUNKS_LOOKED_AT = 256 };
+/* HDF5 1.10 finds a chunk by its number with a search through all of them. With more
+ * chunks than this, each is checked when it is read (chunks.c). */
+enum { MOST_CHUNKS = 256 };
 
 typedef struct walk {
   fg_context *context;
   const char *path;
-  hid_t access; /* of links: those into other files are not followed */
+  hid_t access; /* of links; external links are not followed */
   haddr_t *group;
   size_t groups, group_capacity;
   size_t objects;
   int depth;
-  bool has_large; /* chunks that may become far too large */
+  bool has_large; /* some chunks may become far too large */
   fg_status status;
 } walk;
 
@@ -43,38 +43,38 @@ static fg_status refuse(walk *w, const char *name, const char *why)
                   why);
 }
 
-/* Filters make data larger by little: what is stored in far more bytes than it has when
- * it is read would be inflated to any size. */
-bool fg__nc_is_swollen(uint64_t stored, uint64_t bytes)
+/* Filters enlarge data by little. A chunk that takes many more bytes in the file than in
+ * memory is a forged stream, which HDF5 would inflate to any size. */
+bool fg__nc_is_overlong(uint64_t stored, uint64_t bytes)
 {
   return stored > FG__NC_HARMLESS_BYTES &&
          stored - FG__NC_HARMLESS_BYTES > bytes + bytes / 8;
 }
 
-/* bytes: of a chunk in memory. */
+/* bytes: size of a chunk in memory. */
 static fg_status check_storage(walk *w, const char *name, hid_t set, hsize_t bytes)
 {
   const hid_t space = H5Dget_space(set);
   hsize_t chunks = 0, stored = H5Dget_storage_size(set), all = stored;
-  bool swollen = false;
+  bool overlong = false;
   if (stored > FG__NC_HARMLESS_BYTES && H5Dget_num_chunks(set, space, &chunks) >= 0) {
-    swollen =
-        chunks < SIZE_MAX / 2 / (bytes + 1) && fg__nc_is_swollen(all, chunks * bytes);
-    w->has_large = w->has_large || chunks > CHUNKS_LOOKED_AT;
-    for (hsize_t n = 0; n < chunks && chunks <= CHUNKS_LOOKED_AT && !swollen; ++n) {
+    overlong =
+        chunks < SIZE_MAX / 2 / (bytes + 1) && fg__nc_is_overlong(all, chunks * bytes);
+    w->has_large = w->has_large || chunks > MOST_CHUNKS;
+    for (hsize_t n = 0; n < chunks && chunks <= MOST_CHUNKS && !overlong; ++n) {
       if (H5Dget_chunk_info(set, space, n, NULL, NULL, NULL, &stored) < 0)
         continue;
-      swollen = fg__nc_is_swollen(stored, bytes);
+      overlong = fg__nc_is_overlong(stored, bytes);
       w->has_large = w->has_large || stored > FG__NC_HARMLESS_BYTES;
     }
   }
   H5Sclose(space);
-  return swollen ? refuse(w, name, "is stored in more bytes than it has") : FG_STATUS_OK;
+  return overlong ? refuse(w, name, "is stored in more bytes than it has") : FG_STATUS_OK;
 }
 
-/* What deflate makes of a chunk is counted before it is read (chunks.c), which sees one
- * stage; and two filters make as many samples as their settings say. samples: of a chunk.
- */
+/* Inflated sizes are checked before a chunk is read (chunks.c), for one stage of deflate
+ * only; and nbit and scaleoffset make as many samples as their parameters say, which must
+ * not exceed the `samples` of a chunk. */
 static fg_status check_filters(walk *w, const char *name, hid_t creation, hsize_t samples)
 {
   enum { SAMPLES = 2, SETTINGS = 20 }; /* H5Znbit.c, H5Zscaleoffset.c */
@@ -119,7 +119,7 @@ static fg_status check_set(walk *w, const char *name, hid_t set)
 {
   const hid_t creation = H5Dget_create_plist(set);
   if (creation < 0)
-    return FG_STATUS_OK; /* damaged: libnetcdf says it */
+    return FG_STATUS_OK; /* damaged: libnetcdf reports it */
   fg_status status = FG_STATUS_OK;
   const H5D_layout_t layout = H5Pget_layout(creation);
   if (H5Pget_external_count(creation) > 0)
@@ -134,7 +134,8 @@ static fg_status check_set(walk *w, const char *name, hid_t set)
 
 static fg_status walk_group(walk *w, hid_t group);
 
-/* Each group once: with two ways to each of thirty groups there are 2^30 ways. */
+/* Visits each group once: with two links to each of thirty nested groups there are 2^30
+ * paths. */
 static fg_status enter_group(walk *w, const char *name, hid_t group, haddr_t address)
 {
   for (size_t i = 0; i < w->groups; ++i)
@@ -214,15 +215,15 @@ static fg_status check_file(walk *w, hid_t file)
   return status;
 }
 
-/* Below 0: what HDF5 does not open, libnetcdf does not either. */
+/* Negative: HDF5 cannot open the file, and neither can libnetcdf. */
 static hid_t open_file(const fg__source *source)
 {
-  char name[64]; /* HDF5 takes two in memory with one name for the same */
+  char name[64]; /* HDF5 treats two files in memory with one name as the same file */
   snprintf(name, sizeof name, "memory-%p", (const void *)source->bytes);
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   if (source->on_disk) {
-    /* with libnetcdf's driver, HDF5 would take both for one file and refuse the second,
-     * whose settings are others */
+    /* with libnetcdf's driver HDF5 would recognise its open file and refuse the second
+     * because of other access properties */
     H5Pset_fapl_stdio(access);
   } else {
     H5Pset_fapl_core(access, (size_t)1 << 16, false);

@@ -1,4 +1,4 @@
-/* NetCDF-4 files that lead round, into other files, or ask for more memory than they
+/* NetCDF-4 files with cyclic or external links, or that declare more memory than they
  * hold. */
 #define H5_USE_110_API
 #include <hdf5.h>
@@ -14,7 +14,7 @@ static void must(hid_t id)
     abort();
 }
 
-/* Adds something to a good file of the variables u and v. */
+/* Opens a valid file of u and v, to add something to it. */
 static hid_t begin(sample_file *f)
 {
   int id[2];
@@ -138,9 +138,9 @@ static void large_chunks_are_refused(void **state)
   fg_field_destroy(read_with(f, NULL));
 }
 
-/* A chunk of 100 kB that is stored in a stream of far more, which HDF5 would inflate
- * to its end, whatever that takes. */
-static void swollen_chunks_are_refused(void **state)
+/* A chunk of 100 kB stored as a far longer stream, which HDF5 would inflate to its
+ * end. */
+static void overlong_chunks_are_refused(void **state)
 {
   enum { NOISE = 3 << 20, SIDE = 160 };
   sample_file *f = *state;
@@ -192,7 +192,7 @@ int main(void)
                                       sample_tear_down),
       cmocka_unit_test_setup_teardown(large_chunks_are_refused, sample_set_up,
                                       sample_tear_down),
-      cmocka_unit_test_setup_teardown(swollen_chunks_are_refused, sample_set_up,
+      cmocka_unit_test_setup_teardown(overlong_chunks_are_refused, sample_set_up,
                                       sample_tear_down),
   };
   return cmocka_run_group_tests_name("read/netcdf/objects", tests, NULL, NULL);

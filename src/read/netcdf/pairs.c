@@ -1,7 +1,7 @@
-/* Which variables are the two components of a vector: by CF standard_name, then by names.
- * A name is read in several ways, each of which replaces a word or a letter that names a
- * component by '#' ("U_GRD_6_ISBL" is "#_GRD_6_ISBL" with component x); two variables
- * whose readings agree and whose components differ are a pair. */
+/* Finds the pairs of variables that are components of one vector: by CF standard_name,
+ * then by name. A pattern of a name has '#' in place of a word or letter that denotes a
+ * component: "U_GRD_6_ISBL" is "#_GRD_6_ISBL" with component x. A name can have several
+ * patterns. Two variables with the same pattern and different components are a pair. */
 #include "base/memory.h"
 #include "read/unstructured/unstructured.h"
 
@@ -21,18 +21,18 @@ enum {
   RANK_NAMED_OTHER = 3
 };
 
-typedef struct reading {
+typedef struct pattern {
   size_t variable;
   int component;
   bool standard;
   bool velocity;
   char key[KEY_BYTES];
-} reading;
+} pattern;
 
-typedef struct reading_list {
-  reading *entry;
+typedef struct pattern_list {
+  pattern *entry;
   size_t count, capacity;
-} reading_list;
+} pattern_list;
 
 typedef struct token {
   size_t start, length;
@@ -46,7 +46,7 @@ static const char *const COMPONENT_WORDS[][2] = {
     {"zonal", "meridional"},
 };
 
-/* Longer words are found inside a name too ("windEastward", "vozocrtx" and "vomecrty" of
+/* Longer words also count inside a name ("windEastward"; "vozocrtx" and "vomecrty" of
  * NEMO). */
 static const char *const COMPONENT_PARTS[][2] = {
     {"eastward", "northward"}, {"zonal", "meridional"}, {"vozo", "vome"},
@@ -74,8 +74,8 @@ static bool is_word(const char *text, size_t length, const char *word)
   return strlen(word) == length && strncasecmp(text, word, length) == 0;
 }
 
-/* The component that a token names by itself, digits at its ends left out ("u10", "10v");
- * -1 when none. *core becomes the part that names it. */
+/* The component that a token alone denotes, without digits at its ends ("u10", "10v");
+ * -1: none. *core becomes the part that denotes it. */
 static int component_of_token(const char *name, token t, token *core)
 {
   while (t.length > 0 && isdigit((unsigned char)name[t.start])) {
@@ -92,7 +92,7 @@ static int component_of_token(const char *name, token t, token *core)
   return -1;
 }
 
-/* Words that say that a variable is about a component without being one. */
+/* Words in the name of a variable that is derived from a component, but is none. */
 static bool spoils(const char *text, size_t length)
 {
   static const char *const whole[] = {
@@ -122,7 +122,7 @@ static bool is_spoilt(const char *name, const token *tokens, int count)
   return false;
 }
 
-static bool add_reading(reading_list *list, const reading *r)
+static bool add_pattern(pattern_list *list, const pattern *r)
 {
   void *grown = list->entry;
   if (!fg__grow(&grown, &list->capacity, list->count + 1, sizeof *r))
@@ -132,11 +132,11 @@ static bool add_reading(reading_list *list, const reading *r)
   return true;
 }
 
-/* The name with the given parts replaced by '#', all from one component, as a reading. */
-static bool add_replaced(reading_list *list, size_t variable, char rule, int component,
+/* Adds a pattern: the name with the given parts replaced by '#', all of one component. */
+static bool add_replaced(pattern_list *list, size_t variable, char rule, int component,
                          const char *name, const token *parts, int part_count)
 {
-  reading r = {.variable = variable, .component = component};
+  pattern r = {.variable = variable, .component = component};
   size_t at = 0;
   size_t n = 0;
   r.key[n++] = rule;
@@ -148,10 +148,10 @@ static bool add_replaced(reading_list *list, size_t variable, char rule, int com
   }
   while (name[at] && n < KEY_BYTES - 2)
     r.key[n++] = name[at++];
-  return add_reading(list, &r);
+  return add_pattern(list, &r);
 }
 
-static bool add_word_readings(reading_list *list, size_t variable, const char *name,
+static bool add_word_patterns(pattern_list *list, size_t variable, const char *name,
                               const token *tokens, int count)
 {
   token found[MOST_TOKENS];
@@ -176,9 +176,9 @@ static bool add_word_readings(reading_list *list, size_t variable, const char *n
   return added;
 }
 
-/* "uwnd", "UGRD", "10uwind" by the first letter, "windu", "vx" by the last, of the first
- * and the last token. */
-static bool add_letter_readings(reading_list *list, size_t variable, const char *name,
+/* Patterns by the first letter ("uwnd", "UGRD", "10uwind") or the last ("windu", "vx") of
+ * the first and the last token. */
+static bool add_letter_patterns(pattern_list *list, size_t variable, const char *name,
                                 const token *tokens, int count)
 {
   bool added = true;
@@ -202,7 +202,7 @@ static bool add_letter_readings(reading_list *list, size_t variable, const char 
   return added;
 }
 
-static bool add_part_readings(reading_list *list, size_t variable, const char *name)
+static bool add_part_patterns(pattern_list *list, size_t variable, const char *name)
 {
   for (size_t w = 0; w < sizeof COMPONENT_PARTS / sizeof *COMPONENT_PARTS; ++w)
     for (int k = 0; k < 2; ++k) {
@@ -211,7 +211,7 @@ static bool add_part_readings(reading_list *list, size_t variable, const char *n
       for (size_t i = 0; name[i]; ++i) {
         if (strncasecmp(name + i, part, length) != 0)
           continue;
-        /* NEMO's letters differ at the end too: "crtx", "crty" */
+        /* NEMO: "crtx" and "crty" also differ at the end */
         const size_t end = strlen(name) - 1;
         const token parts[] = {{i, length}, {end, 1}};
         const bool nemo = part[0] == 'v' || part[0] == 's';
@@ -222,15 +222,15 @@ static bool add_part_readings(reading_list *list, size_t variable, const char *n
   return true;
 }
 
-static bool add_name_readings(reading_list *list, size_t variable, const char *name)
+static bool add_name_patterns(pattern_list *list, size_t variable, const char *name)
 {
   token tokens[MOST_TOKENS];
   const int count = split_tokens(name, tokens);
   if (count == 0 || is_spoilt(name, tokens, count))
     return true;
-  return add_word_readings(list, variable, name, tokens, count) &&
-         add_letter_readings(list, variable, name, tokens, count) &&
-         add_part_readings(list, variable, name);
+  return add_word_patterns(list, variable, name, tokens, count) &&
+         add_letter_patterns(list, variable, name, tokens, count) &&
+         add_part_patterns(list, variable, name);
 }
 
 static bool contains_any(const char *text, const char *const *words, size_t count)
@@ -242,7 +242,7 @@ static bool contains_any(const char *text, const char *const *words, size_t coun
 }
 
 /* CF standard names: "eastward_wind", "sea_water_x_velocity_at_u_location". */
-static bool add_standard_reading(reading_list *list, size_t variable, char *name)
+static bool add_standard_pattern(pattern_list *list, size_t variable, char *name)
 {
   static const char *const no_vector[] = {"coordinate", "grid_index", "square_of",
                                           "derivative", "longitude",  "latitude",
@@ -270,7 +270,7 @@ static bool add_standard_reading(reading_list *list, size_t variable, char *name
       continue;
     if (!add_replaced(list, variable, 's', component, name, &core, 1))
       return false;
-    reading *added = &list->entry[list->count - 1];
+    pattern *added = &list->entry[list->count - 1];
     added->standard = true;
     added->velocity = is_velocity;
     return true;
@@ -289,7 +289,7 @@ static bool may_be_component(const fg__nc_file *file, const fg__nc_variable *v)
   return fg__nc_is_array(v) && (v->rank >= 2 || fg__nc_unstructured_line(file, v));
 }
 
-static bool list_readings(reading_list *list, const fg__nc_file *file)
+static bool list_patterns(pattern_list *list, const fg__nc_file *file)
 {
   for (size_t i = 0; i < file->variable_count; ++i) {
     const fg__nc_variable *v = &file->variables[i];
@@ -305,10 +305,10 @@ static bool list_readings(reading_list *list, const fg__nc_file *file)
     fg__nc_text(v, "standard_name", text, sizeof text);
     if (is_quality_name(text))
       continue;
-    if (!add_standard_reading(list, i, text))
+    if (!add_standard_pattern(list, i, text))
       return false;
     const size_t first = list->count;
-    if (!add_name_readings(list, i, v->name))
+    if (!add_name_patterns(list, i, v->name))
       return false;
     for (size_t k = first; k < list->count; ++k)
       list->entry[k].velocity = unitless || quantity != FG__NC_UNKNOWN;
@@ -316,10 +316,10 @@ static bool list_readings(reading_list *list, const fg__nc_file *file)
   return true;
 }
 
-static int compare_readings(const void *left, const void *right)
+static int compare_patterns(const void *left, const void *right)
 {
-  const reading *a = left;
-  const reading *b = right;
+  const pattern *a = left;
+  const pattern *b = right;
   const int by_key = strcmp(a->key, b->key);
   if (by_key != 0)
     return by_key;
@@ -334,9 +334,9 @@ static bool same_shape(const fg__nc_variable *a, const fg__nc_variable *b)
          memcmp(a->dimension, b->dimension, (size_t)a->rank * sizeof *a->dimension) == 0;
 }
 
-/* Two variables of one standard name at different heights ("u10", "u100") are told apart
+/* Variables of one standard name at different heights ("u10", "u100") are distinguished
  * by their names. */
-static bool names_agree(const reading_list *list, size_t x, size_t y)
+static bool names_agree(const pattern_list *list, size_t x, size_t y)
 {
   for (size_t a = 0; a < list->count; ++a) {
     if (list->entry[a].variable != x || list->entry[a].standard)
@@ -355,8 +355,8 @@ typedef struct pair_list {
   size_t count, capacity;
 } pair_list;
 
-static bool add_pair(pair_list *pairs, const fg__nc_file *file, const reading *x,
-                     const reading *y)
+static bool add_pair(pair_list *pairs, const fg__nc_file *file, const pattern *x,
+                     const pattern *y)
 {
   const int rank = x->standard
                        ? (x->velocity ? RANK_STANDARD_VELOCITY : RANK_STANDARD_OTHER)
@@ -382,9 +382,9 @@ static bool add_pair(pair_list *pairs, const fg__nc_file *file, const reading *x
   return true;
 }
 
-/* Pairs the readings first ... end - 1 of one key. */
+/* Pairs the patterns first ... end - 1, which are equal. */
 static bool pair_group(pair_list *pairs, const fg__nc_file *file,
-                       const reading_list *list, size_t first, size_t end)
+                       const pattern_list *list, size_t first, size_t end)
 {
   size_t middle = first;
   while (middle < end && list->entry[middle].component == 0)
@@ -423,11 +423,11 @@ static int compare_pairs(const void *left, const void *right)
 
 fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file)
 {
-  reading_list list = {0};
+  pattern_list list = {0};
   pair_list pairs = {0};
-  bool memory = list_readings(&list, file);
+  bool memory = list_patterns(&list, file);
   if (list.count > 0)
-    qsort(list.entry, list.count, sizeof *list.entry, compare_readings);
+    qsort(list.entry, list.count, sizeof *list.entry, compare_patterns);
   for (size_t first = 0; first < list.count && memory;) {
     size_t end = first + 1;
     while (end < list.count && strcmp(list.entry[end].key, list.entry[first].key) == 0)

@@ -191,7 +191,7 @@ static void read_first_name(sample_file *f, char *out, size_t size)
   fg_field_destroy(field);
 }
 
-/* Standard names go before names, velocities before other vectors. */
+/* Standard names take precedence over names, velocities over other vectors. */
 static void the_better_evidence_wins(void **state)
 {
   static const declared standard[] = {{"u", NULL, "m/s"},
@@ -218,7 +218,7 @@ static void the_better_evidence_wins(void **state)
   assert_string_equal(name, "u");
 }
 
-/* Arakawa's C grid: listed with the reason, never replaced by another kind of vector. */
+/* Arakawa's C grid: listed with the reason, and no other kind of vector replaces it. */
 static void staggered_pairs_are_listed_as_unusable(void **state)
 {
   sample_file *f = *state;
@@ -250,7 +250,7 @@ static void staggered_pairs_are_listed_as_unusable(void **state)
   assert_non_null(strstr(fg_context_message(f->context), "staggered"));
 }
 
-/* The same sizes, other places. */
+/* Equal sizes at different places. */
 static void places_matter_not_only_sizes(void **state)
 {
   sample_file *f = *state;

@@ -9,7 +9,7 @@ enum { NX = 5, NY = 4, COUNT = NX * NY };
 static const double X[NX] = {1.5, 2.0, 4.0, 4.5, 7.0};
 static const double Y[NY] = {-3.0, -1.0, 0.5, 0.75};
 
-/* Unlike in every index, so that any mix-up shows. */
+/* Different for every index, so that swapped indices show. */
 static inline double u_of(double x, double y, int t, int z)
 {
   return 1.0 + 0.5 * x - 0.25 * y + 10.0 * t + 100.0 * z;

@@ -1,5 +1,5 @@
-/* Longitude and latitude kept as two-dimensional arrays: a grid in disguise when each
- * varies along one dimension only, else curvilinear. */
+/* Longitude and latitude in two-dimensional arrays: a rectilinear grid when each varies
+ * along one dimension only, else a curvilinear one. */
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Departures from a rectilinear grid by less than this part of a cell, anywhere, are
- * rounding: arrays in float depart by 1.5e-5 degrees. */
+/* Deviations from a rectilinear grid by less than this fraction of a cell are rounding:
+ * those of float are 1.5e-5 degrees. */
 static const double STRAIGHT_TOLERANCE = 0.01;
 
 typedef struct plane {
@@ -31,7 +31,7 @@ static const int *last_dimensions(const fg__nc_variable *v)
   return v->dimension + v->rank - 2;
 }
 
-/* Time may go before: WRF repeats the coordinates for every time. */
+/* Time may be the first dimension: WRF repeats the coordinates for every time. */
 static bool lies_in_plane(const fg__nc_variable *v, int x, int y)
 {
   if (v->rank < 2 || v->rank > 3 || v->type == NC_CHAR || v->type > NC_UINT64)
@@ -83,7 +83,7 @@ static fg_status read_plane(plane *out, const fg__nc_file *file)
   return error ? fg__nc_fail(file->context, v->path, v->name, error) : FG_STATUS_OK;
 }
 
-/* The dimension (0 or 1) along which alone the plane varies, or -1. Longitudes are
+/* The only dimension (0 or 1) along which the array varies, or -1. Longitudes are
  * compared modulo 360. */
 static int direction_of(const plane *p, size_t n0, size_t n1, bool longitude)
 {

@@ -1,6 +1,6 @@
-/* The projection of a grid along x and y, or about a rotated pole: CF's grid mapping as a
- * PROJ string (CF conventions, appendix F), compared with the longitudes and latitudes of
- * the file where it has them. */
+/* The projection of a grid's axes, or its rotated pole: CF's grid mapping as a PROJ
+ * string (CF conventions, appendix F), checked against the file's longitudes and
+ * latitudes where it has them. */
 #include "base/memory.h"
 #include "file/number_text.h"
 #include "map/map.h"
@@ -13,17 +13,17 @@
 
 static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
-/* Longitudes and latitudes that are compared along each axis. */
+/* Number of positions compared along each axis. */
 enum { COMPARED = 24 };
 
-/* Offsets of the axes below this part of a cell are rounding, differences from place to
- * place beyond this one another projection. */
+/* Fractions of a cell: a smaller offset of the axes is rounding; deviations beyond the
+ * second mean another projection. */
 static const double SMALLEST_SHIFT = 1e-3;
 static const double LARGEST_RESIDUAL = 0.5;
 
 typedef struct cf_mapping {
   const char *name, *projection;
-  const char *parallel; /* what its standard parallels are; two of them: lat_1, lat_2 */
+  const char *parallel; /* PROJ name of the standard parallel; with two: lat_1, lat_2 */
 } cf_mapping;
 
 static const cf_mapping *mapping_of(const char *name)
@@ -48,7 +48,7 @@ static const cf_mapping *mapping_of(const char *name)
   return NULL;
 }
 
-/* A PROJ string that grows; nothing more is added once it is full. */
+/* A PROJ string under construction; text beyond its capacity is dropped. */
 typedef struct proj_text {
   char *out;
   size_t size, used;
@@ -127,13 +127,14 @@ static void add_parameters(proj_text *text, const fg__nc_variable *v,
     add_number(text, "lat_2", parallel[1]);
 }
 
-/* Metres of an axis's unit; 1 where it is not known. */
+/* Metres in the axis's unit; 1 where it is unknown. */
 static double metres_of(const fg__nc_axis *axis)
 {
   return strcmp(axis->units, "km") == 0 ? 1000.0 : 1.0;
 }
 
-/* shift: added to the false easting and northing, in the axes' units. */
+/* Writes the PROJ string. shift: added to false easting and northing, in the axes'
+ * units. */
 static bool compose(fg__nc_grid *grid, const fg__nc_variable *v, const double shift[2])
 {
   char name[FG__NC_TEXT];
@@ -163,8 +164,9 @@ static bool compose(fg__nc_grid *grid, const fg__nc_variable *v, const double sh
   return text.used > 0;
 }
 
-/* The file's longitudes and latitudes at some of its points, on the plane, against the
- * axes there: their mean difference, and the largest difference from that in cells. */
+/* The file's longitudes and latitudes at some points, projected to the plane, minus the
+ * axes' coordinates there: the mean difference, and the largest deviation from it in
+ * cells. */
 typedef struct agreement {
   double shift[2], residual;
   size_t count;
@@ -219,7 +221,7 @@ static fg_status read_positions(double *position[2], const fg__nc_file *file,
   return FG_STATUS_OK;
 }
 
-/* Compares, and shifts the projection or leaves it. */
+/* Compares; shifts or rejects the projection. */
 static fg_status check(fg__nc_grid *grid, const fg__nc_file *file,
                        const fg__nc_variable *u, const fg__nc_variable *described)
 {
@@ -273,7 +275,8 @@ fg_status fg__nc_projection_find(fg__nc_grid *grid, const fg__nc_file *file,
   return check(grid, file, u, described);
 }
 
-/* About a rotated pole a degree of longitude is shorter than one of latitude. */
+/* Scales components from degrees to lengths: about a rotated pole a degree of longitude
+ * is shorter than one of latitude. */
 static void stretch(float *u, float *v, size_t n, double latitude)
 {
   const double cosine = fmax(cos(latitude * RADIANS_PER_DEGREE), 1e-6);

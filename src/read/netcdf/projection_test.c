@@ -21,13 +21,14 @@ static void degrees_of(double *longitude, double *latitude, double x, double y)
 
 typedef struct plane_file {
   double unit;   /* metres of the axes' unit */
-  double offset; /* of the axes from the plane, in metres */
+  double offset; /* of the axes from the projection's origin, in metres */
   bool east;     /* components along east and north */
   bool has_positions;
   double wrong; /* added to the longitudes, degrees */
 } plane_file;
 
-/* A wind of 3 along x and 4 along y everywhere; or the same turned to east and north. */
+/* A wind of 3 along x and 4 along y everywhere, or its components along east and
+ * north. */
 static void write_plane(sample_file *f, const plane_file *how)
 {
   double x[SIDE], y[SIDE], longitude[SIDE * SIDE], latitude[SIDE * SIDE], u[SIDE * SIDE],
@@ -40,7 +41,7 @@ static void write_plane(sample_file *f, const plane_file *how)
   for (int n = 0; n < SIDE * SIDE; ++n) {
     degrees_of(&longitude[n], &latitude[n], STEP * (n % SIDE - 1.5),
                STEP * (n / SIDE - 6.2));
-    const double turn = (longitude[n] - MERIDIAN) * RADIANS; /* of east from x */
+    const double turn = (longitude[n] - MERIDIAN) * RADIANS; /* angle of east from x */
     u[n] = how->east ? 3.0 * cos(turn) + 4.0 * sin(turn) : 3.0;
     v[n] = how->east ? 4.0 * cos(turn) - 3.0 * sin(turn) : 4.0;
     longitude[n] += how->wrong;
@@ -100,7 +101,7 @@ static void projections_come_with_the_field(void **state)
   }
 }
 
-/* Longitudes that no shift brings to x and y go before these. */
+/* Longitudes that no shift of the axes explains take precedence over the projection. */
 static void positions_go_before_a_wrong_projection(void **state)
 {
   sample_file *f = *state;
@@ -111,8 +112,8 @@ static void positions_go_before_a_wrong_projection(void **state)
   fg_field_destroy(field);
 }
 
-/* About a pole of its own a grid is a plane of degrees: directions there are those of the
- * wind, lengths its speed. */
+/* A rotated grid is a plane of degrees: directions are those of the wind, lengths its
+ * speed. */
 static void rotated_poles_are_planes(void **state)
 {
   static const double x[4] = {-3.0, -1.0, 1.0, 3.0}, y[3] = {50.0, 55.0, 60.0};

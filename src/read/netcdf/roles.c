@@ -1,5 +1,5 @@
-/* Which dimension runs along x, y, time and level: by the coordinates' attributes first
- * (CF conventions, chapter 4), then by their names, then by their order. */
+/* Which dimension is x, y, time and level: by the coordinates' attributes (CF
+ * conventions, chapter 4), then by their names, then by their order. */
 #include "read/netcdf/netcdf.h"
 
 #include <ctype.h>
@@ -93,8 +93,7 @@ static bool starts_with_any(const char *text, const char *const *starts, size_t 
   return false;
 }
 
-/* Only names that are hardly ever used for anything else: "gridx" counts rows in files
- * converted from GRIB. */
+/* Only unambiguous names: in files converted from GRIB "gridx" is an index. */
 static fg__nc_role role_of_name(const char *name)
 {
   static const word_role whole[] = {
@@ -196,7 +195,7 @@ const fg__nc_variable *fg__nc_coordinate(const fg__nc_file *file,
 
 typedef struct claim {
   fg__nc_role role;
-  int strength; /* 2 by attributes, 1 by name */
+  int strength; /* 2: by attributes; 1: by name */
 } claim;
 
 static claim claim_of(const fg__nc_file *file, const fg__nc_variable *variable, int k)
@@ -214,7 +213,8 @@ static claim claim_of(const fg__nc_file *file, const fg__nc_variable *variable, 
   return c;
 }
 
-/* x and y are the last of several claimants, time and level the first. */
+/* Where several dimensions claim a role, x and y go to the last, time and level to the
+ * first. */
 static void assign_claims(int position[FG__NC_ROLES], const claim *claims, int rank)
 {
   for (int role = 0; role < FG__NC_ROLES; ++role) {
@@ -247,7 +247,8 @@ static int last_free(const int position[FG__NC_ROLES], const fg__nc_file *file,
   return -1;
 }
 
-/* Time and level of what is left; returns one that is neither, or -1. */
+/* Assigns time and level to remaining dimensions; returns one that can be neither, or
+ * -1. */
 static int assign_others(int position[FG__NC_ROLES], const fg__nc_file *file,
                          const fg__nc_variable *variable)
 {

@@ -58,7 +58,7 @@ static inline void sample_end(sample_file *f)
   nc_must(nc_close(f->id));
 }
 
-/* Calls between definitions: classic files forbid them while data are written. */
+/* Runs definitions; classic files forbid them while data are written. */
 static inline void sample_define(const sample_file *f)
 {
   const int error = nc_redef(f->id);

@@ -1,12 +1,12 @@
-/* A field's samples, or those of some of its rows: its components, level by level in 3D,
- * and its mask. */
+/* Samples of a field or of some of its rows: components, level by level in 3D, and
+ * mask. */
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Samples of one level, and the level of the file that is the grid's k-th. */
+/* Number of samples on one level. */
 static size_t plane_size(const fg__nc_grid *grid)
 {
   return grid->axis[0].size * grid->axis[1].size;
@@ -23,13 +23,13 @@ static size_t level_count(const fg__nc_grid *grid)
   return grid->dimension == 3 ? grid->axis[2].size : 1;
 }
 
-/* Samples of one row along the last axis. */
+/* Number of samples in one row along the last axis. */
 static size_t row_size(const fg__nc_grid *grid)
 {
   return grid->dimension == 3 ? plane_size(grid) : grid->axis[0].size;
 }
 
-/* The grid of rows [first, first + count) alone. */
+/* The grid restricted to rows [first, first + count). */
 static fg__nc_grid rows_of_grid(const fg__nc_grid *grid, int first, int count)
 {
   fg__nc_grid out = *grid;
@@ -40,7 +40,7 @@ static fg__nc_grid rows_of_grid(const fg__nc_grid *grid, int first, int count)
   return out;
 }
 
-/* Where samples are read from. */
+/* The source of samples. */
 typedef struct source {
   const fg__nc_file *file;
   const fg__nc_pair *pair;
@@ -49,8 +49,8 @@ typedef struct source {
   size_t time, level;
 } source;
 
-/* The means of both faces; a missing face beside one that is not is a wall. Returns how
- * many centres have neither. */
+/* The means of both faces; a missing face beside a present one is a wall (0). Returns the
+ * number of centres with neither. */
 static size_t average_faces(float *out, const float *face, const fg__nc_grid *grid, int k)
 {
   const size_t columns = grid->axis[0].size, row = columns + (k == 0 ? 1 : 0);
@@ -66,7 +66,7 @@ static size_t average_faces(float *out, const float *face, const fg__nc_grid *gr
   return missing;
 }
 
-/* Centres are missing for what most faces are. */
+/* Counts missing centres by the most frequent reason of missing faces. */
 static void count_centres(fg__nc_missing *missing, const fg__nc_missing *of_faces,
                           size_t count)
 {
@@ -78,7 +78,7 @@ static void count_centres(fg__nc_missing *missing, const fg__nc_missing *of_face
     missing->not_a_number += count;
 }
 
-/* Component k at the centres of a part of the grid. */
+/* Component k at the centres, in some rows of the grid. */
 static fg_status read_faces(float *out, fg__nc_missing *missing, const source *from,
                             int k, const fg__nc_grid *grid)
 {
@@ -135,13 +135,13 @@ static fg_status read_component(fg__nc_samples *out, const source *from, int k)
   status = read_values(out->velocity[k], &out->missing[k], from, k, &own);
   if (status != FG_STATUS_OK || rows->held == rows->own)
     return status;
-  fg__nc_missing others = {0}; /* another part counts them */
+  fg__nc_missing others = {0}; /* counted with another slab */
   const fg__nc_grid rest =
       rows_of_grid(from->grid, rows->first + rows->own, rows->held - rows->own);
   return read_values(out->velocity[k] + row * (size_t)rows->own, &others, from, k, &rest);
 }
 
-/* A centre with one component has walls on both sides across the other. */
+/* A centre with one component gets 0 for the other, which has walls on both sides. */
 static void close_walls(float *const velocity[2], size_t samples)
 {
   for (size_t n = 0; n < samples; ++n)

@@ -1,8 +1,7 @@
-/* Whether a NetCDF file is as long as its header promises. libnetcdf reads a truncated
- * classic file without complaint and returns zeros, and one with bytes added shifted
- * values, so the header is walked here first:
- * "NetCDF Classic Format Specification" (Unidata), CDF-1, CDF-2 and CDF-5. That also
- * keeps damaged headers away from the library. */
+/* Whether a NetCDF file is as long as its header implies. libnetcdf reads zeros from a
+ * truncated classic file and shifted values from one with inserted bytes, without an
+ * error; so the header is parsed here first ("NetCDF Classic Format Specification",
+ * Unidata: CDF-1, CDF-2 and CDF-5). That also keeps damaged headers from the library. */
 #include "read/netcdf/netcdf.h"
 
 #include <inttypes.h>
@@ -23,13 +22,13 @@ typedef struct cursor {
   uint64_t size;
   uint64_t at;
   int version;
-  bool ended;   /* ran past the end of the file */
-  bool damaged; /* found something no header holds */
+  bool ended;   /* reached the end of the file */
+  bool damaged; /* found an invalid value */
 } cursor;
 
 typedef struct variable_extent {
   uint64_t begin; /* first byte of its data */
-  uint64_t bytes; /* of all its data, or of one record's, padding left out */
+  uint64_t bytes; /* of all its data, or of one record, without padding */
   bool by_record;
 } variable_extent;
 
@@ -74,7 +73,7 @@ static void skip_padded(cursor *c, uint64_t count)
   c->at += count + (4 - count % 4) % 4;
 }
 
-/* Names are returned as they lie in the file. */
+/* A name, in place; it is not terminated. */
 static const char *read_name(cursor *c, int *length)
 {
   const uint64_t count = read_count(c);
@@ -93,7 +92,7 @@ static uint64_t type_size(uint64_t type, int version)
   return type < types ? size[type] : 0;
 }
 
-/* Number of elements of the list that starts here; each takes `least` bytes or more. */
+/* Number of elements of the list at the cursor; each takes `least` bytes or more. */
 static uint64_t read_list(cursor *c, uint64_t wanted_tag, uint64_t least)
 {
   const uint64_t tag = read_tag(c);
@@ -150,7 +149,7 @@ static dimension_list read_dimensions(cursor *c, uint64_t *lengths, uint64_t cap
   return list;
 }
 
-/* False when the product of the lengths overflows. */
+/* False on overflow of the product of lengths. */
 static bool read_extent(cursor *c, const dimension_list *dimensions,
                         const uint64_t *lengths, variable_extent *out)
 {
@@ -177,7 +176,7 @@ static bool read_extent(cursor *c, const dimension_list *dimensions,
   }
   skip_attributes(c);
   const uint64_t size = type_size(read_tag(c), c->version);
-  read_count(c); /* vsize: too small for large variables, so it is not believed */
+  read_count(c); /* vsize is too small for large variables, so it is ignored */
   out->begin = read_big_endian(c, c->version == 1 ? 4 : 8);
   if (good(c) && size == 0)
     c->damaged = true;
@@ -209,8 +208,8 @@ static fg_status fail_damaged(fg_context *context, const fg__source *source,
 
 typedef struct record_layout {
   uint64_t bytes;     /* from one record to the next */
-  uint64_t variables; /* that are kept by record */
-  uint64_t only;      /* bytes of the only one, which has no padding */
+  uint64_t variables; /* with a record dimension */
+  uint64_t only;      /* size of the only one, which has no padding */
 } record_layout;
 
 static void add_to_records(record_layout *records, const variable_extent *extent)
@@ -222,8 +221,8 @@ static void add_to_records(record_layout *records, const variable_extent *extent
   ++records->variables;
 }
 
-/* libnetcdf moves data by blocks where a header grows, and leaves the rest of the last.
- */
+/* libnetcdf moves data by blocks when a header grows, and leaves old bytes in the
+ * last. */
 static bool is_zero(const unsigned char *bytes, size_t size)
 {
   for (size_t i = 0; i < size; ++i)
@@ -232,8 +231,8 @@ static bool is_zero(const unsigned char *bytes, size_t size)
   return true;
 }
 
-/* Data that go on beyond the last variable's lie elsewhere than the header says, but for
- * padding, and for whole records of a file that was not closed. end: of the data. */
+/* Data beyond the last variable mean that the header is wrong, except for padding, and
+ * for whole records of a file that was not closed. end: of the last variable. */
 static fg_status check_rest(fg_context *context, const fg__source *source,
                             const record_layout *records, uint64_t end)
 {
@@ -252,7 +251,7 @@ static fg_status check_rest(fg_context *context, const fg__source *source,
   return status;
 }
 
-/* Walks the variables twice: the size of a record is known after the first time. */
+/* Two passes over the variables: the size of a record is known after the first. */
 static fg_status check_variables(fg_context *context, const fg__source *source, cursor *c,
                                  const dimension_list *dimensions,
                                  const uint64_t *lengths, uint64_t record_count)
@@ -323,8 +322,8 @@ static fg_status check_classic(fg_context *context, const fg__source *source)
   return check_variables(context, source, &c, &dimensions, lengths, record_count);
 }
 
-/* The superblock of HDF5 tells the end of the file ("HDF5 File Format Specification" 3.0,
- * II.A). Other layouts of the superblock than the usual are left to the library. */
+/* The superblock of HDF5 has the end of the file ("HDF5 File Format Specification" 3.0,
+ * II.A). Unusual layouts of the superblock are left to the library. */
 static fg_status check_hdf5(fg_context *context, const fg__source *source)
 {
   enum { LEAST = 48 };

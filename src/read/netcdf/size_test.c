@@ -59,7 +59,7 @@ static fg_status read_last_record(sample_file *f, fg_field **field)
   return fg_field_read(field, f->context, f->path, &options);
 }
 
-/* The same of bytes in memory, which a disk need not be asked for thousands of times. */
+/* The same for bytes in memory: thousands of files on disk would be slow. */
 static fg_status read_bytes(sample_file *f, const unsigned char *bytes, size_t size,
                             fg_field **field)
 {
@@ -73,7 +73,7 @@ static fg_status read_bytes(sample_file *f, const unsigned char *bytes, size_t s
              : fg__fail(f->context, FG_STATUS_FILE_FORMAT, "%s: unknown", f->path);
 }
 
-/* Each truncated length is refused, or reads as the whole file does. */
+/* Each truncated file is refused, or reads the same as the whole file. */
 static void check_truncations(sample_file *f, size_t step)
 {
   size_t size;
@@ -117,8 +117,8 @@ static void truncated_classic_files_are_refused(void **state)
   }
 }
 
-/* Bytes added behind the header, which shift what is read, or at the end. Whole records
- * more are those of a file that was not closed. */
+/* Bytes inserted after the header, which shift the data, or at the end. Additional whole
+ * records are those of a file that was not closed. */
 static void lengthened_classic_files_are_refused(void **state)
 {
   static const size_t more[] = {4, 16, 64};
@@ -172,8 +172,8 @@ static void truncated_netcdf4_is_refused(void **state)
   check_truncations(*state, 97);
 }
 
-/* Whatever one byte becomes, the reader answers, and never with anything but finite
- * numbers on a grid in order. */
+/* Whatever value one byte gets, the reader returns an error or a field of finite numbers
+ * on a valid grid. */
 static void damaged_bytes_are_survived(void **state)
 {
   sample_file *f = *state;

@@ -1,4 +1,4 @@
-/* What stored numbers stand for: packed, missing, masked, not to be used. */
+/* Meaning of stored numbers: packed, missing, masked, out of range. */
 #include <math.h>
 
 #include "read/netcdf/plain_test.h"
@@ -54,13 +54,13 @@ static void missing_values_are_found(void **state)
     for (int i = 0; i < COUNT; ++i)
       stored[i] = i + 1;
 
-    make_plain(f, 0, type[k], id); /* what was never written */
+    make_plain(f, 0, type[k], id); /* values that were never written */
     stored[3] = fill;
     sample_put(f, id[1], stored);
     sample_end(f);
     assert_missing(f, (int[]){3}, 1);
 
-    make_plain(f, 0, type[k], id); /* two kinds at once; the range is of stored values */
+    make_plain(f, 0, type[k], id); /* two reasons; the range is of stored values */
     stored[3] = -999.0;
     stored[4] = -777.0;
     stored[19] = 300.0;
@@ -90,7 +90,7 @@ static void not_a_number_is_missing(void **state)
   assert_missing(f, (int[]){2, 17}, 2);
 }
 
-/* A range of the unpacked type is one of unpacked values. */
+/* A range of the unpacked type applies to unpacked values. */
 static void unpacked_ranges_are_understood(void **state)
 {
   sample_file *f = *state;

@@ -12,10 +12,10 @@
 
 static const int64_t SECONDS_PER_DAY = 86400;
 
-/* Farther dates are no dates: a wrong unit or damage. */
+/* Dates farther from the reference are an error of units, or damage. */
 static const double LARGEST_DAYS = 1e8;
 
-/* Reads "15:30", "15:15:42.5", "-6", "-6:00" or "+0530"; false when there is none. */
+/* Parses "15:30", "15:15:42.5", "-6", "-6:00" or "+0530"; false when there is none. */
 static bool read_clock(const char **text, double *seconds)
 {
   const char *at = *text + strspn(*text, " Tt");
@@ -40,8 +40,8 @@ static bool read_clock(const char **text, double *seconds)
   return isfinite(*seconds);
 }
 
-/* Reads the unit, and the time that is counted from: a date, perhaps the time of day, and
- * perhaps how far its clock is ahead of UTC. */
+/* Parses the unit and the reference: a date, an optional time of day, and an optional
+ * offset from UTC. */
 static bool read_reference(const char *units, double *unit, fg__date *date,
                            double *seconds)
 {
@@ -69,7 +69,7 @@ static bool read_reference(const char *units, double *unit, fg__date *date,
   return fabs(*seconds) <= 2.0 * (double)SECONDS_PER_DAY;
 }
 
-/* With the time of day, `rest` seconds, as far as it is told. */
+/* Writes a date, with hours, minutes and seconds as far as `rest` seconds have them. */
 static void write_date(char *out, size_t size, fg__date d, int64_t rest)
 {
   const int hour = (int)(rest / 3600), minute = (int)(rest / 60 % 60);

@@ -1,5 +1,5 @@
-/* Units as files write them ("m s**-1", "centimeter/s", "degrees_north") and as an axis
- * label has them ("m/s", "cm/s", "°N"). */
+/* Units in files ("m s**-1", "centimeter/s", "degrees_north") and on axis labels ("m/s",
+ * "cm/s", "°N"). */
 #include "read/netcdf/netcdf.h"
 
 #include <ctype.h>
@@ -20,9 +20,9 @@ typedef enum unit_kind {
 
 typedef struct unit {
   unit_kind kind;
-  double seconds; /* of a time */
+  double seconds; /* of a unit of time */
   const char *label;
-  const char *words; /* parted by |, in small letters, singular */
+  const char *words; /* separated by |, lower case, singular */
 } unit;
 
 static const unit UNITS[] = {
@@ -66,7 +66,7 @@ static bool is_one_of(const char *words, const char *word, size_t length)
   return false;
 }
 
-/* The unit of a word, perhaps in the plural; NULL where it is not known. */
+/* The unit of a word, singular or plural; NULL: unknown. */
 static const unit *find_unit(const char *word)
 {
   const size_t length = strlen(word);
@@ -78,7 +78,7 @@ static const unit *find_unit(const char *word)
   return NULL;
 }
 
-/* Copies units in small letters, signs beyond ASCII as what stands for them in it. */
+/* Copies units in lower case, with ASCII substitutes for other characters. */
 static void simplify(const char *units, char out[FG__NC_TEXT])
 {
   static const struct {
@@ -102,12 +102,12 @@ static void simplify(const char *units, char out[FG__NC_TEXT])
   out[n] = '\0';
 }
 
-/* Splits "centimeter/s", "m s-1", "m.s^-1", "m per second" into what is above and what is
- * below the line; false when it is not one word over one word. */
+/* Splits "centimeter/s", "m s-1", "m.s^-1", "m per second" into numerator and
+ * denominator; false unless each is one word. */
 static bool split_quotient(const char *c, char above[FG__NC_TEXT],
                            char below[FG__NC_TEXT])
 {
-  int sign = 1; /* of the next word's power */
+  int sign = 1; /* of the next word's exponent */
   above[0] = below[0] = '\0';
   while (*(c += strspn(c, " .*(){}"))) {
     if (*c == '/') {

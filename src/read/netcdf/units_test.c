@@ -83,7 +83,7 @@ static void assert_date(double value, const char *units, const char *calendar,
     fail_msg("%g %s (%s) became \"%s\"", value, units, calendar, out);
 }
 
-/* Known days: from the calendars' definitions and from almanacs. */
+/* Dates from the calendars' definitions and from almanacs. */
 static void dates_follow_the_calendar(void **state)
 {
   (void)state;

@@ -1,4 +1,4 @@
-/* Samples of a component at one time and level: missing values found, packing undone (CF
+/* Samples of a component at one time and level: unpacked, with missing values found (CF
  * conventions, chapters 2.5 and 8.1). */
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
@@ -10,22 +10,23 @@
 #include <string.h>
 #include <strings.h>
 
-/* Values read at once: 32 megabytes as double, whole chunks of common files; where there
- * are no chunks, what stays in a core's cache. */
+/* Values in a block: 32 megabytes as double hold whole chunks of common files; without
+ * chunks, as many as stay in a core's cache. */
 static const size_t BLOCK_VALUES = (size_t)1 << 22, PLAIN_BLOCK_VALUES = (size_t)1 << 16;
 
 enum { MOST_FILLS = 16 };
 
 typedef struct packing {
   double scale, offset;
-  double fill[MOST_FILLS]; /* as stored */
+  double fill[MOST_FILLS]; /* in stored values */
   int fills;
   double least, largest; /* valid range */
-  bool range_unpacked;   /* it is of the values, not of what is stored */
+  bool range_unpacked;   /* the range is of unpacked values, not of stored ones */
   double wrap;           /* added to negative values of _Unsigned data, or 0 */
 } packing;
 
-/* What libnetcdf stores where nothing was written. Bytes have none: each value counts. */
+/* The fill value of libnetcdf for values that were never written; types of one byte have
+ * none. */
 static bool default_fill(nc_type type, double *fill)
 {
   switch (type) {
@@ -100,7 +101,7 @@ static void find_range(packing *p, const fg__nc_variable *v, bool packed)
     p->least = round_to_type(p->least, v->type);
     p->largest = round_to_type(p->largest, v->type);
   }
-  if (!(p->least <= p->largest)) { /* an empty range is a mistake, not a wish */
+  if (!(p->least <= p->largest)) { /* an empty range is a mistake and ignored */
     p->least = -HUGE_VAL;
     p->largest = HUGE_VAL;
   }
@@ -136,7 +137,7 @@ static packing find_packing(const fg__nc_variable *v)
   return p;
 }
 
-/* The value of what is stored, NaN when it is missing. */
+/* The value of a stored number, NaN when it is missing. */
 static double unpack(const packing *p, double stored, fg__nc_missing *missing)
 {
   if (isnan(stored)) {
@@ -163,7 +164,7 @@ typedef struct slab {
   size_t start[FG__NC_RANK], count[FG__NC_RANK];
   int outer, inner; /* positions of the two axes, in the file's order */
   const fg__nc_axis *outer_axis, *inner_axis;
-  size_t outer_step, inner_step; /* in the field's array */
+  size_t outer_step, inner_step; /* strides in the field's array */
 } slab;
 
 static slab slab_of(const fg__nc_variable *v, const fg__nc_grid *grid,
@@ -198,8 +199,8 @@ static size_t next_place(size_t at, ptrdiff_t step)
   return (size_t)((ptrdiff_t)at + step);
 }
 
-/* Takes a row of samples as stored, to places `step` apart from `first` on, downwards
- * where it is reversed. */
+/* Receives a row of stored samples, for places `step` apart from `first` on; a reversed
+ * axis has a negative step. */
 typedef void sink(void *target, size_t first, ptrdiff_t step, const double *stored,
                   size_t count);
 
@@ -257,7 +258,7 @@ static void put_values(void *target, size_t first, ptrdiff_t step, const double 
   const packing p = *to->packing;
   for (size_t i = 0, at = first; i < count; ++i, at = next_place(at, step)) {
     const double value = unpack(&p, stored[i], to->missing);
-    /* beyond float, but not infinite: still larger than any speed that is accepted */
+    /* finite, but larger than float: still larger than any accepted speed */
     if (!isinf(stored[i]) && fabs(value) > (double)FLT_MAX)
       to->out[at] = value > 0.0 ? FLT_MAX : -FLT_MAX;
     else
@@ -306,7 +307,7 @@ static void put_numbers(void *target, size_t first, ptrdiff_t step, const double
     to->out[at] = unpack(&p, stored[i], &ignored);
 }
 
-/* The variable's own dimension that matches one of the component's, or -1. */
+/* The variable's dimension that corresponds to one of the component's, or -1. */
 static int matching(const fg__nc_file *file, const fg__nc_variable *v, int dimension)
 {
   const fg__nc_dimension *wanted = &file->dimensions[dimension];
@@ -319,8 +320,8 @@ static int matching(const fg__nc_file *file, const fg__nc_variable *v, int dimen
   return -1;
 }
 
-/* Where the dimensions of a component's grid are among a variable's; false where it lacks
- * one of the plane's or has others. */
+/* Finds the positions of a component's grid dimensions among a variable's; false where it
+ * lacks one of the plane's or has others. */
 static bool find_places(int position[FG__NC_ROLES], const fg__nc_file *file,
                         const fg__nc_variable *v, const fg__nc_grid *grid,
                         const fg__nc_variable *component)

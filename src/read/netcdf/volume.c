@@ -1,5 +1,5 @@
-/* Levels as an axis in space: the third component, and whether the three make a volume.
- */
+/* Levels as an axis in space: finds the third component, and whether the three form a
+ * volume. */
 #include "read/netcdf/netcdf.h"
 
 #include <stdio.h>
@@ -27,8 +27,8 @@ static bool same_units(const fg__nc_variable *a, const fg__nc_variable *b)
   return strcmp(of_a, of_b) == 0;
 }
 
-/* Where the names of the pair differ, by the letters u and v or x and y, the third has w
- * or z, and the same everywhere else: u v w, vx vy vz, uwnd vwnd wwnd, U_x U_y U_z. */
+/* Where the names of the pair differ, by letters u and v or x and y, the third has w or
+ * z, and is otherwise equal: u v w, vx vy vz, uwnd vwnd wwnd, U_x U_y U_z. */
 static bool is_named_like(const char *w, const char *u, const char *v)
 {
   static const char *const letters[] = {"uvw", "UVW", "xyz", "XYZ"};
@@ -84,8 +84,8 @@ static const fg__nc_variable *axis_variable(const fg__nc_file *file,
   return NULL;
 }
 
-/* Maps and the atmosphere above them are not of one measure: one is a hundred times as
- * wide as the other is high, and their files are read level by level. */
+/* Maps and atmospheric layers are not read as a volume: they are a hundred times as wide
+ * as high. Their files are read level by level. */
 static bool is_map(const fg__nc_file *file, const fg__nc_grid *grid,
                    const fg__nc_variable *u)
 {
@@ -133,7 +133,7 @@ static void check_space(fg__nc_grid *grid, const fg__nc_file *file,
              "units; --vars U,V reads the plane of one level");
 }
 
-/* Whether a third component that the options do not name may be used. */
+/* Whether a third component that the options do not name may be used without doubt. */
 static bool is_beyond_doubt(const fg__nc_grid *grid, const fg__nc_file *file,
                             const fg__nc_variable *u)
 {

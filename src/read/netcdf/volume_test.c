@@ -1,4 +1,4 @@
-/* Fields in 3D from NetCDF, and what stays a plane. */
+/* Fields in 3D from NetCDF, and pairs that stay a plane. */
 #include <math.h>
 
 #include "read/netcdf/sample.h"
@@ -10,7 +10,7 @@ static const double Y[NY] = {-3.0, -1.0, 0.5, 0.75};
 static const double Z[NZ] = {10.0, 10.5, 12.0};
 static const char *const NAMES[3] = {"u", "v", "w"};
 
-/* Unlike in every index, so that any mix-up shows. */
+/* Different for every index, so that swapped indices show. */
 static double value_of(int component, double x, double y, double z, int t)
 {
   return 1.0 + component + (component + 1) * x - 0.5 * y + 20.0 * z * (component - 1) +

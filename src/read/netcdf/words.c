@@ -1,4 +1,4 @@
-/* Words for captions: what a pair is, which time, which level. */
+/* Texts of captions: the vector's title, its time and its level. */
 #include "base/memory.h"
 #include "read/netcdf/netcdf.h"
 
@@ -16,7 +16,7 @@ typedef struct word_list {
   int count;
 } word_list;
 
-/* Words of a text, what stands in brackets left out; underscores part words. */
+/* Words of a text without bracketed parts; underscores separate words. */
 static void split_words(word_list *list, const char *text)
 {
   int depth = 0;
@@ -65,8 +65,8 @@ static bool is_shouted(const char *word)
   return n > 3;
 }
 
-/* Joins the words that both components share: "Zonal 10 metre wind", "Meridional 10 metre
- * wind" is "10 metre wind". */
+/* Joins the words that both components share: "Zonal 10 metre wind" and "Meridional 10
+ * metre wind" have "10 metre wind". */
 static bool join_shared(const char *of_u, const char *of_v, char *out, size_t size)
 {
   word_list u;
@@ -141,7 +141,7 @@ static const char *kind_of_height(const fg__nc_variable *coordinate)
   return coordinate->plain_name;
 }
 
-/* What a coordinate's value is called. */
+/* Writes a coordinate's value as text. */
 static void write_words(const fg__nc_variable *coordinate, double value, char *out,
                         size_t size)
 {
@@ -186,10 +186,10 @@ fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coo
   return FG_STATUS_OK;
 }
 
-/* A century of hours. */
+/* One century of hourly values. */
 enum { MOST_VALUES = 1000000 };
 
-/* The texts of all values one after the other, after their units. */
+/* Writes the texts of all values one after the other, behind their units. */
 static bool write_texts(char **text, size_t *starts, const fg__nc_variable *coordinate,
                         const double *number, size_t count)
 {
@@ -210,7 +210,7 @@ static bool write_texts(char **text, size_t *starts, const fg__nc_variable *coor
   return true;
 }
 
-/* With room for the numbers, and for where each one's text starts. */
+/* `number` and `starts` have room for all numbers and for the offsets of their texts. */
 static fg_status read_axis_values(fg_axis_value *out, char **text, double *number,
                                   size_t *starts, const fg__nc_variable *coordinate,
                                   size_t count)
