@@ -139,14 +139,14 @@ static fg_status copy_axis(fg_field *field, fg_context *context,
   return FG_STATUS_OK;
 }
 
-static bool sample_is_valid(const fg_field_arrays *arrays, size_t i)
+bool fg__field_is_missing(const fg_field_arrays *arrays, size_t i)
 {
   if (arrays->valid && !arrays->valid[i])
-    return false;
+    return true;
   for (int k = 0; k < arrays->dimension; ++k)
     if (isnan(arrays->velocity[k][i]))
-      return false;
-  return true;
+      return true;
+  return false;
 }
 
 static bool sample_is_infinite(const fg_field_arrays *arrays, size_t i)
@@ -205,7 +205,7 @@ static fg_status copy_samples(fg_field *field, fg_context *context,
       taken[k] = NULL;
   }
   for (size_t i = 0; i < count; ++i) {
-    const bool present = sample_is_valid(arrays, i);
+    const bool present = !fg__field_is_missing(arrays, i);
     const bool infinite = present && sample_is_infinite(arrays, i);
     const bool valid = present && !infinite;
     *missing += !valid;

@@ -73,6 +73,9 @@ static inline int fg__field_last_axis(const fg_field *field)
   return field->contents.dimension - 1;
 }
 
+/* Whether sample i is missing, by the mask or by any of its components. */
+bool fg__field_is_missing(const fg_field_arrays *arrays, size_t i);
+
 /* Places of the corners of cell (i, j, k), k = 0 in 2D, among the samples that the field
  * has; x fastest. */
 void fg__field_corners_of(const fg_field *field, int i, int j, int k,

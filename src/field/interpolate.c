@@ -1,4 +1,5 @@
 /* Velocity and direction between the samples. */
+#include "base/angle.h"
 #include "field/field.h"
 
 #include <math.h>
@@ -7,8 +8,6 @@
  * the rows of any grid in use: the direction there is east or west, its limit, and
  * finite. */
 static const double SMALLEST_COSINE = 1.745e-4;
-
-static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
 /* The sample after n, round a periodic axis. */
 static int next_sample(const fg__axis *axis, int n)
@@ -213,7 +212,7 @@ bool fg_field_tangent(const fg_field *field, const double position[], double tan
     return false;
   if (field->contents.scale == FG_SCALE_GEO) {
     /* dlon/dt = u / (R cos latitude), dlat/dt = v / R */
-    const double cosine = cos(position[1] * RADIANS_PER_DEGREE);
+    const double cosine = cos(position[1] * FG__RADIANS);
     tangent[0] /= cosine > SMALLEST_COSINE ? cosine : SMALLEST_COSINE;
   }
   return true;

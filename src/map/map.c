@@ -10,8 +10,6 @@
 #include "map/words.h"
 #include "sphere/sphere.h"
 
-static const double DEGREE = FG__RADIANS;
-
 /* A way there and back may be so many metres off; libproj answers outside the outline of
  * several projections, far off. */
 static const double ROUND_TRIP = 1000.0;
@@ -92,8 +90,9 @@ static PJ_COORD transform(const fg__map *map, PJ_DIRECTION direction, double x, 
 
 static void forward(const fg__map *map, double longitude, double latitude, double out[2])
 {
-  const double factor = map->angular ? 1.0 / DEGREE : 1.0;
-  const PJ_COORD to = transform(map, PJ_FWD, longitude * DEGREE, latitude * DEGREE);
+  const double factor = map->angular ? 1.0 / FG__RADIANS : 1.0;
+  const PJ_COORD to =
+      transform(map, PJ_FWD, longitude * FG__RADIANS, latitude * FG__RADIANS);
   out[0] = to.xy.x * factor;
   out[1] = to.xy.y * factor;
 }
@@ -117,10 +116,10 @@ static double turned(const fg__map *map, double longitude)
 
 static void inverse(const fg__map *map, double x, double y, double out[2])
 {
-  const double factor = map->angular ? DEGREE : 1.0;
+  const double factor = map->angular ? FG__RADIANS : 1.0;
   const double slack = 1e-7; /* degrees: the cut itself is inside */
   PJ_COORD to = transform(map, PJ_INV, x * factor, y * factor);
-  double longitude = to.xy.x / DEGREE, latitude = to.xy.y / DEGREE, back[2];
+  double longitude = to.xy.x / FG__RADIANS, latitude = to.xy.y / FG__RADIANS, back[2];
   out[0] = out[1] = (double)NAN;
   if (map->degrees && fabs(x) <= 1e4 && fabs(y) <= 90.0 + slack) {
     out[0] = turned(map, x);
@@ -196,7 +195,7 @@ static void find_ellipsoid(fg__map *map)
 static double angle_of(const fg__map_words *words, const char *key, double otherwise)
 {
   const char *value = fg__map_words_find(words, key);
-  return value ? proj_dmstor(value, NULL) / DEGREE : otherwise;
+  return value ? proj_dmstor(value, NULL) / FG__RADIANS : otherwise;
 }
 
 static void find_center(fg__map *map, const fg__map_words *words)

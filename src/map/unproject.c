@@ -12,18 +12,6 @@
 static const double SAMPLE_BYTES =
     2 * sizeof(double) + 2 * sizeof(float) + 4 * sizeof(int);
 
-static bool make_room(fg__sphere_cells *out, size_t samples, size_t cells)
-{
-  out->points = samples;
-  out->count = cells;
-  out->longitude = fg__allocate(samples, sizeof *out->longitude);
-  out->latitude = fg__allocate(samples, sizeof *out->latitude);
-  out->east = fg__allocate(samples, sizeof *out->east);
-  out->north = fg__allocate(samples, sizeof *out->north);
-  out->corner = fg__allocate(cells, 4 * sizeof *out->corner);
-  return out->longitude && out->latitude && out->east && out->north && out->corner;
-}
-
 /* The sample after n, round a periodic axis. */
 static int next_of(const fg__axis *axis, int n)
 {
@@ -71,7 +59,7 @@ fg_status fg__sphere_of_plane(fg__sphere **out, fg_context *context,
                     "field: a whole field in 2D on the plane of a projection is needed");
   const size_t samples = (size_t)arrays->size[0] * (size_t)arrays->size[1];
   const size_t count = (size_t)field->axis[0].cells * (size_t)field->axis[1].cells;
-  fg__sphere_cells cells = {.words = arrays};
+  fg__sphere_cells cells = {.count = count, .words = arrays};
   fg__map *map = NULL;
   double *place = NULL;
   fg_status status = fg__check_memory(context, "field", (double)samples, SAMPLE_BYTES);
@@ -80,7 +68,7 @@ fg_status fg__sphere_of_plane(fg__sphere **out, fg_context *context,
   if (status != FG_STATUS_OK)
     return status;
   place = fg__allocate((size_t)arrays->size[0], sizeof *place);
-  if (!place || !make_room(&cells, samples, count)) {
+  if (!place || !fg__sphere_cells_allocate(&cells, samples, count)) {
     status =
         fg__fail_memory(context, "the globe's samples", samples * (size_t)SAMPLE_BYTES);
     goto cleanup;

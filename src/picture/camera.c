@@ -2,13 +2,12 @@
 
 #include <math.h>
 
+#include "base/angle.h"
 #include "base/vector.h"
 
 /* The viewer's distance in half diagonals of the box: near enough that what is behind
  * looks smaller, far enough that parallels look so. */
 static const double viewing_distance = 5.0;
-
-static const double radians_per_degree = 0.017453292519943295;
 
 void fg__view_box_of(fg__view_box *out, const fg_field_arrays *field)
 {
@@ -40,7 +39,7 @@ static void see(const fg__camera *camera, const double point[3], double out[2])
 void fg__camera_look(fg__camera *out, const fg__view_box *view_box, double azimuth,
                      double elevation, const fg__pane *pane)
 {
-  double a = azimuth * radians_per_degree, e = elevation * radians_per_degree;
+  double a = azimuth * FG__RADIANS, e = elevation * FG__RADIANS;
   double distance = viewing_distance * fg__length(view_box->half);
   const double to_viewer[3] = {sin(a) * cos(e), -cos(a) * cos(e), sin(e)};
   for (int k = 0; k < 3; ++k) {

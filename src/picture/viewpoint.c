@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angle.h"
 #include "base/memory.h"
 #include "base/vector.h"
 #include "picture/camera.h"
@@ -23,8 +24,6 @@ enum { SIDE = 192 };
 
 /* Points of an icon's line are at most so far apart, in longest sides of the box. */
 static const double longest_step = 0.008;
-
-static const double radians_per_degree = 0.017453292519943295;
 
 /* A point of a line: a ball of the arrow. */
 typedef struct ball {
@@ -147,8 +146,8 @@ static double merit_of(const crowd *all, const fg__camera *camera, shade *seen,
 /* The cosine of the angle to the default view. */
 static double nearness(double azimuth, double elevation)
 {
-  double a = (azimuth - default_azimuth) * radians_per_degree;
-  double e = elevation * radians_per_degree, u = default_elevation * radians_per_degree;
+  double a = (azimuth - default_azimuth) * FG__RADIANS;
+  double e = elevation * FG__RADIANS, u = default_elevation * FG__RADIANS;
   return cos(e) * cos(u) * cos(a) + sin(e) * sin(u);
 }
 

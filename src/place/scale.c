@@ -1,12 +1,11 @@
 #include "place/scale.h"
+#include "base/angle.h"
 
 #include <math.h>
 
 /* Lines get shorter by this factor where no more fit, down to so many lambda. */
 static const double SHORTER = 0.7;
 static const double LEAST_LENGTH = 0.2;
-
-static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
 fg__place_scale fg__place_scale_of(int dimension, int count, double measure, bool free)
 {
@@ -21,7 +20,7 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
       .reach = lambda * (flat ? 1.0 : 1.1),
       .clearance = lambda * (flat ? 0.1 : 0.05),
       .shortest = 0.5 * lambda,
-      .turning = 165.0 * RADIANS_PER_DEGREE,
+      .turning = 165.0 * FG__RADIANS,
       .longest = (free ? 2.0 : 1.0) * lambda,
       .first_way = (free ? 0.6 : 0.5) * lambda,
       .crowding = 0.2,

@@ -110,6 +110,11 @@ const fg__format *fg__format_find(const unsigned char *bytes, size_t size);
 fg_status fg__source_open_known(fg__source *out, const fg__format **format,
                                 fg_context *context, const char *path);
 
+/* Sets the reason why a vector of a file cannot be read, unless one is set already. */
+enum { FG__REASON_BYTES = 512 };
+void fg__set_unusable(char reason[FG__REASON_BYTES], const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 /* Makes an empty inventory of a file in a format of that name. MEMORY. */
 fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
                                const char *format);

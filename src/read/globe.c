@@ -1,4 +1,5 @@
 /* A field on the sphere as a longitude-latitude grid of its own mean spacing. */
+#include "base/angle.h"
 #include "base/memory.h"
 #include "read/format.h"
 
@@ -14,8 +15,6 @@ static const double FINEST = 8.0, MANY = 262144.0;
 /* Samples along an axis: no model has so many. A sliver, for which that may be any
  * number, has no more than its points allow. */
 static const double MOST_ALONG = 1 << 22;
-
-static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
 typedef struct raster {
   int size[2];
@@ -35,7 +34,7 @@ static double least_cosine_inverse(const fg__sphere_extent *extent)
   const double nearest = extent->south > 0.0   ? extent->south
                          : extent->north < 0.0 ? extent->north
                                                : 0.0;
-  const double cosine = cos(nearest * RADIANS_PER_DEGREE);
+  const double cosine = cos(nearest * FG__RADIANS);
   return cosine > 1e-3 ? 1.0 / cosine : 1e3;
 }
 

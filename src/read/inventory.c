@@ -1,6 +1,8 @@
 #include "base/memory.h"
 #include "read/format.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,6 +26,16 @@ struct fg_inventory {
   size_t count;
   size_t capacity;
 };
+
+void fg__set_unusable(char reason[FG__REASON_BYTES], const char *format, ...)
+{
+  if (reason[0])
+    return;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(reason, FG__REASON_BYTES, format, arguments);
+  va_end(arguments);
+}
 
 fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
                                const char *format)

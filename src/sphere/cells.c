@@ -206,6 +206,17 @@ static fg_status check_size(fg_context *context, const fg__sphere_cells *cells)
                           CELL_BYTES);
 }
 
+bool fg__sphere_cells_allocate(fg__sphere_cells *out, size_t points, size_t cells)
+{
+  out->points = points;
+  out->longitude = fg__allocate(points, sizeof *out->longitude);
+  out->latitude = fg__allocate(points, sizeof *out->latitude);
+  out->east = fg__allocate(points, sizeof *out->east);
+  out->north = fg__allocate(points, sizeof *out->north);
+  out->corner = fg__allocate(cells, 4 * sizeof *out->corner);
+  return out->longitude && out->latitude && out->east && out->north && out->corner;
+}
+
 void fg__sphere_cells_clear(fg__sphere_cells *cells)
 {
   free(cells->longitude);

@@ -4,12 +4,21 @@
 
 #include <math.h>
 
+#include "base/angle.h"
 #include "base/context.h"
-
-#define FG__RADIANS 0.017453292519943295 /* in a degree */
 
 /* Metres in a degree of a great circle of the Earth. */
 #define FG__DEGREE_METRES 111195.0
+
+/* The unit vector to a position in degrees. */
+static inline void fg__sphere_unit_vector(double out[3], double longitude,
+                                          double latitude)
+{
+  const double l = longitude * FG__RADIANS, p = latitude * FG__RADIANS;
+  out[0] = cos(p) * cos(l);
+  out[1] = cos(p) * sin(l);
+  out[2] = sin(p);
+}
 
 /* Unit vectors up, east and north at a position in degrees. */
 typedef struct fg__sphere_frame {
@@ -60,6 +69,10 @@ fg_status fg__sphere_of_field(fg__sphere **out, fg_context *context,
  * no cell left, a field that is zero everywhere), MEMORY. */
 fg_status fg__sphere_of_cells(fg__sphere **out, fg_context *context,
                               fg__sphere_cells *taken);
+
+/* Sets `points`, allocates the arrays of points, uninitialised, and `corner` for `cells`
+ * cells; `count` is left to the caller. False without memory; then to be cleared, too. */
+bool fg__sphere_cells_allocate(fg__sphere_cells *out, size_t points, size_t cells);
 
 /* Frees arrays that were not taken over. */
 void fg__sphere_cells_clear(fg__sphere_cells *cells);

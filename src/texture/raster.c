@@ -4,13 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angle.h"
 #include "base/memory.h"
 #include "field/field.h"
 
 /* As fg_field_tangent has it. */
 static const double smallest_cosine = 1.745e-4;
-static const double radians_per_degree = 0.017453292519943295;
-
 /* Where pixels lie between the field's samples along one axis. */
 typedef struct places {
   double *coordinate;
@@ -79,8 +78,7 @@ static void sample_row(const sampling *s, float *const row[2], int j)
     mix_rows(row[k], s, k, cell_row, s->axis[1].fraction[j]);
   double factor[2] = {s->pixels_a_unit[0], s->pixels_a_unit[1]};
   if (s->field->contents.scale == FG_SCALE_GEO)
-    factor[0] /=
-        fmax(cos(s->axis[1].coordinate[j] * radians_per_degree), smallest_cosine);
+    factor[0] /= fmax(cos(s->axis[1].coordinate[j] * FG__RADIANS), smallest_cosine);
   const unsigned char *valid = s->field->valid_cell;
   if (valid)
     valid += (size_t)cell_row * (size_t)x->cells;

@@ -1,4 +1,5 @@
 /* Fields as VTK XML image data or as NetCDF. */
+#include "field/field.h"
 #include "base/memory.h"
 #include "file/number_text.h"
 #include "write/field_close.h"

@@ -1,6 +1,7 @@
 #include "write/field_close.h"
 
 #include "base/memory.h"
+#include "field/field.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,16 +13,6 @@ size_t fg__field_samples(const fg_field_arrays *field)
   for (int k = 0; k < field->dimension; ++k)
     count *= (size_t)field->size[k];
   return count;
-}
-
-bool fg__field_is_missing(const fg_field_arrays *field, size_t i)
-{
-  if (field->valid && !field->valid[i])
-    return true;
-  for (int k = 0; k < field->dimension; ++k)
-    if (isnan(field->velocity[k][i]))
-      return true;
-  return false;
 }
 
 static fg_status close_axis(fg__closed_field *out, fg_context *context,

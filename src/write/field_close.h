@@ -7,9 +7,6 @@
 /* How many samples a field has. */
 size_t fg__field_samples(const fg_field_arrays *field);
 
-/* Whether sample i is missing, by the mask or by any of its components. */
-bool fg__field_is_missing(const fg_field_arrays *field, size_t i);
-
 /* A field's arrays, or owned copies that end where they began. */
 typedef struct fg__closed_field {
   fg_field_arrays arrays;

@@ -5,8 +5,6 @@
 #include "picture/map/tracer.h"
 #include "sphere/sphere.h"
 
-static const double degree = FG__RADIANS;
-
 /* Places along the circle. */
 static const double rim_step = 2.0;
 
@@ -29,17 +27,18 @@ static walk walk_of(fg__tracer *t)
 {
   const fg__plane *plane = t->plane;
   return (walk){.tracer = t,
-                .sine = sin(plane->center[1] * degree),
-                .cosine = cos(plane->center[1] * degree),
-                .least = cos(plane->reach * degree)};
+                .sine = sin(plane->center[1] * FG__RADIANS),
+                .cosine = cos(plane->center[1] * FG__RADIANS),
+                .least = cos(plane->reach * FG__RADIANS)};
 }
 
 /* Whether a place is within reach, and its direction from the centre. */
 static bool look(const walk *w, const double place[2], double *direction)
 {
-  const double turn = (place[0] - w->tracer->plane->center[0]) * degree;
-  const double s = sin(place[1] * degree), c = cos(place[1] * degree);
-  *direction = atan2(c * sin(turn), w->cosine * s - w->sine * c * cos(turn)) / degree;
+  const double turn = (place[0] - w->tracer->plane->center[0]) * FG__RADIANS;
+  const double s = sin(place[1] * FG__RADIANS), c = cos(place[1] * FG__RADIANS);
+  *direction =
+      atan2(c * sin(turn), w->cosine * s - w->sine * c * cos(turn)) / FG__RADIANS;
   return w->sine * s + w->cosine * c * cos(turn) >= w->least;
 }
 
@@ -47,11 +46,12 @@ static bool look(const walk *w, const double place[2], double *direction)
 static void push_rim(walk *w, double direction)
 {
   const double sine = sqrt(fmax(1.0 - w->least * w->least, 0.0));
-  const double s = sin(direction * degree), c = cos(direction * degree);
+  const double s = sin(direction * FG__RADIANS), c = cos(direction * FG__RADIANS);
   const double up = w->sine * w->least + w->cosine * sine * c;
-  const double turn = atan2(s * sine, w->cosine * w->least - w->sine * sine * c) / degree;
+  const double turn =
+      atan2(s * sine, w->cosine * w->least - w->sine * sine * c) / FG__RADIANS;
   fg__stroke_add(&w->tracer->stroke, w->tracer->plane->center[0] + turn,
-                 asin(fmin(fmax(up, -1.0), 1.0)) / degree);
+                 asin(fmin(fmax(up, -1.0), 1.0)) / FG__RADIANS);
   w->pushed = direction;
 }
 
@@ -95,7 +95,7 @@ static void follow(walk *w, const fg__coast_part *p,
     double a[2], b[2];
     fg__part_edge(p, n, a, b);
     const bool cut = fg__edge_is_cut(a, b);
-    const double wide = fabs(b[0] - a[0]) * cos(0.5 * (a[1] + b[1]) * degree);
+    const double wide = fabs(b[0] - a[0]) * cos(0.5 * (a[1] + b[1]) * FG__RADIANS);
     const double length = fmax(wide, fabs(b[1] - a[1]));
     const int pieces = (int)fmax(ceil(length / w->tracer->step), 1.0);
     for (int k = 1; k <= pieces; ++k) {

@@ -174,20 +174,16 @@ typedef struct fg__grib_grid {
   double *west, *step; /* REDUCED: first longitude of each row, and between points */
   bool rotated;        /* the pole below is not the Earth's */
   double pole_latitude, pole_longitude, pole_angle; /* of the south pole; degrees */
-  double cone, meridian, apex;    /* PLANE: north turns by cone * (longitude - meridian);
-                                     its poles lie at x = 0, y = apex */
-  char projection[FG__GRIB_TEXT]; /* PLANE: for PROJ; "" else */
-  char unusable[FG__GRIB_TEXT];   /* "" or why it cannot be read */
+  double cone, meridian, apex;     /* PLANE: north turns by cone * (longitude - meridian);
+                                      its poles lie at x = 0, y = apex */
+  char projection[FG__GRIB_TEXT];  /* PLANE: for PROJ; "" else */
+  char unusable[FG__REASON_BYTES]; /* "" or why it cannot be read */
 } fg__grib_grid;
 
 /* Finds the grid of a field. What makes it unusable is no status. FILE_FORMAT, MEMORY. */
 fg_status fg__grib_grid_find(fg__grib_grid *out, const fg__grib_file *file,
                              const fg__grib_field *field);
 void fg__grib_grid_clear(fg__grib_grid *grid);
-
-/* Writes why a grid cannot be read, once. */
-void fg__grib_unusable(fg__grib_grid *grid, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
 
 /* The numbers that say a grid, as ecCodes tells them; NAN where there is none. */
 typedef struct fg__grib_numbers {

@@ -1,5 +1,6 @@
 /* Grids in the plane of a projection. Its formulas are Snyder's (Map Projections: A
  * Working Manual, 1987); the plane is the one that PROJ makes of the same numbers. */
+#include "base/angle.h"
 #include "base/memory.h"
 #include "file/number_text.h"
 #include "read/grib/grib.h"
@@ -7,8 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-static const double DEGREE = 0.017453292519943295;
 
 /* Snyder's m (14-15): the radius of a parallel over the larger half-axis. */
 static double radius_at(double sine, double cosine, double e)
@@ -19,14 +18,14 @@ static double radius_at(double sine, double cosine, double e)
 /* Snyder's t (15-9): 0 at the North Pole. */
 static double conformal_at(double latitude, double e)
 {
-  const double sine = sin(latitude * DEGREE);
-  return tan((45.0 - 0.5 * latitude) * DEGREE) /
+  const double sine = sin(latitude * FG__RADIANS);
+  return tan((45.0 - 0.5 * latitude) * FG__RADIANS) /
          pow((1.0 - e * sine) / (1.0 + e * sine), 0.5 * e);
 }
 
 static double radius_of(double latitude, double e)
 {
-  return radius_at(sin(latitude * DEGREE), cos(latitude * DEGREE), e);
+  return radius_at(sin(latitude * FG__RADIANS), cos(latitude * FG__RADIANS), e);
 }
 
 void fg__grib_forward(const fg__grib_projection *p, double longitude, double latitude,
@@ -36,11 +35,12 @@ void fg__grib_forward(const fg__grib_projection *p, double longitude, double lat
   turn += turn < -180.0 ? 360.0 : turn > 180.0 ? -360.0 : 0.0;
   const double t = conformal_at(latitude, p->eccentricity);
   if (p->kind == FG__GRIB_MERCATOR) {
-    *x = p->scale * turn * DEGREE;
+    *x = p->scale * turn * FG__RADIANS;
     *y = -p->scale * log(t);
     return;
   }
-  const double distance = p->scale * pow(t, p->cone), angle = p->cone * turn * DEGREE;
+  const double distance = p->scale * pow(t, p->cone),
+               angle = p->cone * turn * FG__RADIANS;
   *x = distance * sin(angle);
   *y = p->apex - distance * cos(angle);
 }
@@ -49,7 +49,7 @@ static void make_lambert(fg__grib_projection *p, const fg__grib_numbers *n)
 {
   const double e = p->eccentricity, one = n->parallel_1, two = n->parallel_2;
   const double t = conformal_at(one, e);
-  p->cone = fabs(one - two) < 1e-9 ? sin(one * DEGREE)
+  p->cone = fabs(one - two) < 1e-9 ? sin(one * FG__RADIANS)
                                    : (log(radius_of(one, e)) - log(radius_of(two, e))) /
                                          (log(t) - log(conformal_at(two, e)));
   p->scale = p->radius * radius_of(one, e) / (p->cone * pow(t, p->cone));
@@ -73,7 +73,8 @@ static void make_mercator(fg__grib_projection *p, const fg__grib_grid *grid,
                           const fg__grib_numbers *n)
 {
   p->scale = p->radius * radius_of(n->parallel, p->eccentricity);
-  const double width = (double)(grid->size[0] - 1) * n->spacing[0] / p->scale / DEGREE;
+  const double width =
+      (double)(grid->size[0] - 1) * n->spacing[0] / p->scale / FG__RADIANS;
   p->meridian = n->first[0] + (grid->x_descends ? -0.5 : 0.5) * width;
   p->meridian -= 360.0 * floor((p->meridian + 180.0) / 360.0);
   if (!(width <= 360.0 + 1e-3))
@@ -95,18 +96,19 @@ static bool check_numbers(fg__grib_grid *grid, const fg__grib_numbers *n, double
   const double numbers[] = {n->first[0], n->first[1], n->meridian, n->parallel};
   const bool lambert = strcmp(grid->type, "lambert") == 0;
   if (!(n->spacing[0] > 0.0 && n->spacing[1] > 0.0))
-    fg__grib_unusable(grid, "its points lie %g and %g m apart", n->spacing[0],
-                      n->spacing[1]);
+    fg__set_unusable(grid->unusable, "its points lie %g and %g m apart", n->spacing[0],
+                     n->spacing[1]);
   else if (!(major >= 1e6 && major <= 1e8 && minor >= 0.9 * major && minor <= major))
-    fg__grib_unusable(grid, "the Earth has half-axes of %g and %g m there", major, minor);
+    fg__set_unusable(grid->unusable, "the Earth has half-axes of %g and %g m there",
+                     major, minor);
   else if (!are_finite(numbers, 4) || fabs(n->first[1]) > 90.0 ||
            fabs(n->parallel) > 90.0 || fabs(n->first[0]) > 720.0 ||
            fabs(n->meridian) > 720.0 ||
            (lambert && !(fabs(n->parallel_1) < 90.0 && fabs(n->parallel_2) < 90.0)))
-    fg__grib_unusable(grid, "its projection is not said in full");
+    fg__set_unusable(grid->unusable, "its projection is not said in full");
   else if (strcmp(grid->type, "mercator") == 0 && n->meridian != 0.0)
-    fg__grib_unusable(grid, "its projection is Mercator's turned by %g degrees",
-                      n->meridian);
+    fg__set_unusable(grid->unusable, "its projection is Mercator's turned by %g degrees",
+                     n->meridian);
   return !grid->unusable[0];
 }
 
@@ -180,8 +182,9 @@ fg_status fg__grib_plane(fg__grib_grid *grid, fg_context *context,
   make_projection(&p, grid, n, major, minor);
   fg__grib_forward(&p, n->first[0], n->first[1], &first[0], &first[1]);
   if (!are_finite(first, 2) || !(fabs(first[0]) < 1e9 && fabs(first[1]) < 1e9)) {
-    fg__grib_unusable(grid, "its projection does not show its first point, %g, %g",
-                      n->first[0], n->first[1]);
+    fg__set_unusable(grid->unusable,
+                     "its projection does not show its first point, %g, %g", n->first[0],
+                     n->first[1]);
     return FG_STATUS_OK;
   }
   grid->cone = p.cone;

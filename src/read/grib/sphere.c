@@ -1,76 +1,43 @@
 /* Points on the sphere and the cells between them: grids with a pole of their own, and
  * rows of different lengths. */
+#include "base/angle.h"
 #include "base/memory.h"
+#include "base/vector.h"
 #include "read/grib/grib.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double DEGREE = 0.017453292519943295;
-
 /* A pole within so many rows of the last one belongs to the grid. */
 static const double POLE_WITHIN = 1.01;
 
-typedef struct vector {
-  double x[3];
-} vector;
-
-/* Units to east, to north and up at a place. */
-typedef struct frame {
-  vector east, north, up;
-} frame;
-
-static frame frame_at(double longitude, double latitude)
-{
-  const double cosine = cos(longitude * DEGREE), sine = sin(longitude * DEGREE);
-  const double level = cos(latitude * DEGREE), height = sin(latitude * DEGREE);
-  return (frame){.east = {{-sine, cosine, 0.0}},
-                 .north = {{-height * cosine, -height * sine, level}},
-                 .up = {{level * cosine, level * sine, height}}};
-}
-
-static double dot(vector a, vector b)
-{
-  return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2];
-}
-
-static vector sum(vector a, double s, vector b, double t)
-{
-  vector out;
-  for (int k = 0; k < 3; ++k)
-    out.x[k] = s * a.x[k] + t * b.x[k];
-  return out;
-}
-
-/* The turn that takes a grid's own pole to the Earth's. */
+/* The rotation that moves a grid's own pole to the Earth's. */
 typedef struct turn {
-  vector row[3];
+  double row[3][3];
 } turn;
 
-/* As ecCodes turns points: about the y axis, then about the Earth's. */
+/* The rotation of ecCodes: about the y axis, then about the Earth's. */
 static turn turn_of(const fg__grib_grid *grid)
 {
-  const double t = grid->rotated ? -(90.0 + grid->pole_latitude) * DEGREE : 0.0;
+  const double t = grid->rotated ? -(90.0 + grid->pole_latitude) * FG__RADIANS : 0.0;
   const double o =
-      grid->rotated ? (grid->pole_angle - grid->pole_longitude) * DEGREE : 0.0;
+      grid->rotated ? (grid->pole_angle - grid->pole_longitude) * FG__RADIANS : 0.0;
   const double ct = cos(t), st = sin(t), co = cos(o), so = sin(o);
-  return (turn){{{{ct * co, so, st * co}}, {{-ct * so, co, -st * so}}, {{-st, 0.0, ct}}}};
+  return (turn){{{ct * co, so, st * co}, {-ct * so, co, -st * so}, {-st, 0.0, ct}}};
 }
 
-static vector turned(const turn *r, vector a)
+static void apply(double out[3], const turn *r, const double a[3])
 {
-  return (vector){{dot(r->row[0], a), dot(r->row[1], a), dot(r->row[2], a)}};
+  for (int k = 0; k < 3; ++k)
+    out[k] = fg__dot(r->row[k], a);
 }
 
-static double longitude_of(vector up)
+/* Sets the position of a point to that of a unit vector. */
+static void set_position(fg__sphere_cells *cells, size_t n, const double up[3])
 {
-  return atan2(up.x[1], up.x[0]) / DEGREE;
-}
-
-static double latitude_of(vector up)
-{
-  return atan2(up.x[2], hypot(up.x[0], up.x[1])) / DEGREE;
+  cells->longitude[n] = atan2(up[1], up[0]) / FG__RADIANS;
+  cells->latitude[n] = atan2(up[2], hypot(up[0], up[1])) / FG__RADIANS;
 }
 
 typedef struct building {
@@ -96,22 +63,25 @@ static void place_point(building *b, size_t n, double longitude, double latitude
                         float v)
 {
   fg__sphere_cells *cells = b->cells;
-  const frame own = frame_at(longitude, latitude);
+  const fg__sphere_frame own = fg__sphere_frame_at(longitude, latitude);
+  double up[3], vector[3], turned[3];
   cells->east[n] = u;
   cells->north[n] = v;
   cells->longitude[n] = longitude;
   cells->latitude[n] = latitude;
   if (!b->grid->rotated)
     return;
-  const vector up = turned(&b->turn, own.up);
-  cells->longitude[n] = longitude_of(up);
-  cells->latitude[n] = latitude_of(up);
+  apply(up, &b->turn, own.up);
+  set_position(cells, n, up);
   if (!b->turns)
     return;
-  const frame there = frame_at(cells->longitude[n], cells->latitude[n]);
-  const vector w = turned(&b->turn, sum(own.east, (double)u, own.north, (double)v));
-  cells->east[n] = (float)dot(w, there.east);
-  cells->north[n] = (float)dot(w, there.north);
+  const fg__sphere_frame there =
+      fg__sphere_frame_at(cells->longitude[n], cells->latitude[n]);
+  for (int k = 0; k < 3; ++k)
+    vector[k] = (double)u * own.east[k] + (double)v * own.north[k];
+  apply(turned, &b->turn, vector);
+  cells->east[n] = (float)fg__dot(turned, there.east);
+  cells->north[n] = (float)fg__dot(turned, there.north);
 }
 
 static void place_points(building *b, const float *const velocity[2])
@@ -128,24 +98,26 @@ static void place_points(building *b, const float *const velocity[2])
 static void place_pole(building *b, size_t n, size_t row)
 {
   fg__sphere_cells *cells = b->cells;
-  vector mean = {{0.0, 0.0, 0.0}};
-  const vector own = {{0.0, 0.0, row == 0 ? -1.0 : 1.0}};
-  const vector up = turned(&b->turn, own);
+  const double own[3] = {0.0, 0.0, row == 0 ? -1.0 : 1.0};
+  double sum[3] = {0.0, 0.0, 0.0}, up[3];
   size_t count = 0;
   for (size_t i = 0; i < row_length(b, row); ++i) {
     const size_t from = b->start[row] + i;
-    const frame there = frame_at(cells->longitude[from], cells->latitude[from]);
+    const fg__sphere_frame there =
+        fg__sphere_frame_at(cells->longitude[from], cells->latitude[from]);
     const double east = (double)cells->east[from], north = (double)cells->north[from];
     if (!isfinite(east) || !isfinite(north))
       continue;
-    mean = sum(mean, 1.0, sum(there.east, east, there.north, north), 1.0);
+    for (int k = 0; k < 3; ++k)
+      sum[k] += east * there.east[k] + north * there.north[k];
     ++count;
   }
-  cells->longitude[n] = longitude_of(up);
-  cells->latitude[n] = latitude_of(up);
-  const frame there = frame_at(cells->longitude[n], cells->latitude[n]);
-  cells->east[n] = count > 0 ? (float)(dot(mean, there.east) / (double)count) : NAN;
-  cells->north[n] = count > 0 ? (float)(dot(mean, there.north) / (double)count) : NAN;
+  apply(up, &b->turn, own);
+  set_position(cells, n, up);
+  const fg__sphere_frame there =
+      fg__sphere_frame_at(cells->longitude[n], cells->latitude[n]);
+  cells->east[n] = count > 0 ? (float)(fg__dot(sum, there.east) / (double)count) : NAN;
+  cells->north[n] = count > 0 ? (float)(fg__dot(sum, there.north) / (double)count) : NAN;
 }
 
 static void add_cell(fg__sphere_cells *cells, size_t a, size_t b, size_t c, int d)
@@ -208,20 +180,12 @@ static bool has_pole(const fg__grib_grid *grid, size_t row)
 static fg_status allocate(building *b, fg_context *context, size_t poles)
 {
   const fg__grib_grid *grid = b->grid;
-  fg__sphere_cells *cells = b->cells;
   const size_t rows = grid->size[1], points = grid->points + poles;
   const size_t most = 2 * grid->points + 2 * grid->size[0];
-  cells->points = points;
-  cells->longitude = fg__allocate(points, sizeof *cells->longitude);
-  cells->latitude = fg__allocate(points, sizeof *cells->latitude);
-  cells->east = fg__allocate(points, sizeof *cells->east);
-  cells->north = fg__allocate(points, sizeof *cells->north);
-  cells->corner = fg__allocate(most, 4 * sizeof *cells->corner);
   b->start = fg__allocate(rows, sizeof *b->start);
-  if (!cells->longitude || !cells->latitude || !cells->east || !cells->north ||
-      !cells->corner || !b->start)
+  if (!fg__sphere_cells_allocate(b->cells, points, most) || !b->start)
     return fg__fail_memory(context, "points and cells",
-                           points * 24 + most * 4 * sizeof *cells->corner);
+                           points * 24 + most * 4 * sizeof *b->cells->corner);
   size_t at = 0;
   for (size_t k = 0; k < rows; ++k) { /* a reduced grid's points are as in the file */
     const size_t j = grid->row && grid->y_descends ? rows - 1 - k : k;

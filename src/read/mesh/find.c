@@ -223,10 +223,10 @@ static fg_status recognise(fg__nc_mesh *mesh, fg__nc_grid *grid, const fg__nc_fi
   check_storage(grid, file, mesh);
   find_mask(mesh, file);
   if (!fg__nc_frame_find(mesh, file, pair, frame)) {
-    fg__nc_unusable(grid,
-                    "nothing says whether '%.60s' and '%.60s' point east and north or "
-                    "along the grid",
-                    pair->component[0]->plain_name, pair->component[1]->plain_name);
+    fg__set_unusable(grid->unusable,
+                     "nothing says whether '%.60s' and '%.60s' point east and north or "
+                     "along the grid",
+                     pair->component[0]->plain_name, pair->component[1]->plain_name);
     snprintf(grid->hint, sizeof grid->hint,
              "--frame east or --frame grid says so; --scale plain reads it on its index "
              "grid");

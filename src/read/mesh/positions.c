@@ -1,4 +1,5 @@
 /* Positions of a grid's samples, and on which side of the centres components are. */
+#include "base/angle.h"
 #include "base/memory.h"
 #include "base/vector.h"
 #include "read/mesh/mesh.h"
@@ -6,8 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
 /* Points nearer than this fraction of a cell coincide. */
 static const double SAME_PLACE = 0.1;
@@ -45,7 +44,7 @@ static double degrees_of(const fg__nc_variable *v)
 {
   char units[FG__NC_TEXT];
   fg__nc_text(v, "units", units, sizeof units);
-  return strncmp(units, "rad", 3) == 0 ? 1.0 / RADIANS_PER_DEGREE : 1.0;
+  return strncmp(units, "rad", 3) == 0 ? 1.0 / FG__RADIANS : 1.0;
 }
 
 static fg_status read_coordinate(double **out, const fg__nc_file *file,
@@ -79,11 +78,9 @@ fg_status fg__nc_positions_read(fg__nc_positions *out, const fg__nc_file *file,
 /* The unit vector of a position; out[0] is NaN where the position is missing. */
 static void unit_vector(double out[3], double longitude, double latitude)
 {
-  const double a = longitude * RADIANS_PER_DEGREE, b = latitude * RADIANS_PER_DEGREE;
-  const bool there = fabs(latitude) <= 90.0 && isfinite(longitude);
-  out[0] = there ? cos(b) * cos(a) : (double)NAN;
-  out[1] = cos(b) * sin(a);
-  out[2] = sin(b);
+  fg__sphere_unit_vector(out, longitude, latitude);
+  if (!(fabs(latitude) <= 90.0) || !isfinite(longitude))
+    out[0] = (double)NAN;
 }
 
 void fg__nc_unit_vector(double out[3], const fg__nc_positions *positions, size_t n)
@@ -354,8 +351,8 @@ static fg_status centres_between(fg__nc_positions *out, const fg__nc_file *file,
       fg__nc_unit_vector(row + 3 * k, out, n + k);
     double at[3];
     half_way_in_row(at, row, i, columns, -mesh->shift[0]);
-    out->longitude[n] = atan2(at[1], at[0]) / RADIANS_PER_DEGREE;
-    out->latitude[n] = atan2(at[2], hypot(at[0], at[1])) / RADIANS_PER_DEGREE;
+    out->longitude[n] = atan2(at[1], at[0]) / FG__RADIANS;
+    out->latitude[n] = atan2(at[2], hypot(at[0], at[1])) / FG__RADIANS;
   }
   free(row);
   return FG_STATUS_OK;

@@ -1,13 +1,12 @@
 /* Points and cells of a mesh: components interpolated to the centres and rotated to east
  * and north. */
+#include "base/angle.h"
 #include "base/memory.h"
 #include "read/mesh/mesh.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
 /* The angle in the file is used with the opposite sign where only that agrees with the
  * grid; where neither agrees it has another meaning. The limit is the cosine of the mean
@@ -181,8 +180,8 @@ static bool direction_at(double turn[2], const centre_values *all, const double 
   double along[3];
   const size_t n = j * all->mesh->size[0] + i;
   differ(along, all, unit, i);
-  const double longitude = all->at.longitude[n] * RADIANS_PER_DEGREE;
-  const double latitude = all->at.latitude[n] * RADIANS_PER_DEGREE;
+  const double longitude = all->at.longitude[n] * FG__RADIANS;
+  const double latitude = all->at.latitude[n] * FG__RADIANS;
   const double s = sin(longitude), c = cos(longitude);
   const double east = c * along[1] - s * along[0];
   const double north =
@@ -221,7 +220,7 @@ static fg_status read_angle(double *given[2], const centre_values *all,
   fg__nc_text(mesh->angle[0], "units", units, sizeof units);
   const bool degrees = fg__nc_units(units, label, sizeof label) == FG__NC_DEGREES;
   for (size_t n = 0; n < all->count; ++n) {
-    const double angle = given[0][n] * (degrees ? RADIANS_PER_DEGREE : 1.0);
+    const double angle = given[0][n] * (degrees ? FG__RADIANS : 1.0);
     given[0][n] = cos(angle);
     given[1][n] = sin(angle);
   }

@@ -68,8 +68,9 @@ static bool check_coordinates(fg__nc_grid *grid, const double *x, size_t count,
 {
   for (size_t i = 0; i < count; ++i)
     if (!isfinite(x[i]) || fabs(x[i]) > 1e18) {
-      fg__nc_unusable(grid, "coordinate %zu of '%s' is %g, not a usable number", i, name,
-                      x[i]);
+      fg__set_unusable(grid->unusable,
+                       "coordinate %zu of '%s' is %g, not a usable number", i, name,
+                       x[i]);
       return false;
     }
   return true;
@@ -81,11 +82,12 @@ static bool check_order(fg__nc_grid *grid, const double *x, size_t count, bool r
   for (size_t i = 1; i < count; ++i)
     if (!(x[i] > x[i - 1])) {
       const size_t before = reversed ? count - 1 - i : i - 1;
-      fg__nc_unusable(grid,
-                      "axis '%s' is not strictly monotonic: %g and %g at samples %zu and "
-                      "%zu",
-                      name, reversed ? x[i] : x[i - 1], reversed ? x[i - 1] : x[i],
-                      before, before + 1);
+      fg__set_unusable(
+          grid->unusable,
+          "axis '%s' is not strictly monotonic: %g and %g at samples %zu and "
+          "%zu",
+          name, reversed ? x[i] : x[i - 1], reversed ? x[i - 1] : x[i], before,
+          before + 1);
       return false;
     }
   return true;

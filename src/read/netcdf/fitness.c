@@ -2,23 +2,12 @@
  * hold, and at the same places. */
 #include "read/netcdf/netcdf.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 /* Deflate compresses by at most 1032 (zlib's documentation); a field of more bytes than
  * that times the file's size is not in the file. */
 static const size_t LARGEST_COMPRESSION = 1032;
-
-void fg__nc_unusable(fg__nc_grid *grid, const char *format, ...)
-{
-  if (grid->unusable[0])
-    return;
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(grid->unusable, sizeof grid->unusable, format, arguments);
-  va_end(arguments);
-}
 
 static void write_shape(char *out, size_t size, const fg__nc_file *file,
                         const fg__nc_variable *v)
@@ -33,15 +22,16 @@ static void write_shape(char *out, size_t size, const fg__nc_file *file,
 void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v)
 {
   if (v->type == NC_CHAR || v->type == NC_STRING)
-    fg__nc_unusable(grid, "'%s' holds text, not numbers", v->name);
+    fg__set_unusable(grid->unusable, "'%s' holds text, not numbers", v->name);
   else if (v->type < NC_BYTE || v->type > NC_UINT64)
-    fg__nc_unusable(grid, "'%s' is of a type made by its author, not of numbers",
-                    v->name);
+    fg__set_unusable(grid->unusable,
+                     "'%s' is of a type made by its author, not of numbers", v->name);
   else if (v->rank < 2)
-    fg__nc_unusable(grid, "'%s' has %d dimension%s; a field has two or more", v->name,
-                    v->rank, v->rank == 1 ? "" : "s");
+    fg__set_unusable(grid->unusable, "'%s' has %d dimension%s; a field has two or more",
+                     v->name, v->rank, v->rank == 1 ? "" : "s");
   else if (v->rank > FG__NC_RANK)
-    fg__nc_unusable(grid, "'%s' has more than %d dimensions", v->name, FG__NC_RANK);
+    fg__set_unusable(grid->unusable, "'%s' has more than %d dimensions", v->name,
+                     FG__NC_RANK);
 }
 
 static bool fits_file(const fg__nc_file *file, const fg__nc_variable *v, size_t samples)
@@ -87,15 +77,17 @@ void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
   write_shape(of_v, sizeof of_v, file, v);
   if (strcmp(of_u, of_v) != 0) {
     grid->off_axes = true;
-    fg__nc_unusable(grid, "'%.60s' is %s, '%.60s' is %s samples: a staggered grid",
-                    u->plain_name, of_u, v->plain_name, of_v);
+    fg__set_unusable(grid->unusable,
+                     "'%.60s' is %s, '%.60s' is %s samples: a staggered grid",
+                     u->plain_name, of_u, v->plain_name, of_v);
     return;
   }
   for (int k = 0; k < u->rank; ++k)
     if (u->dimension[k] != v->dimension[k] && !same_coordinates(file, u, v, k)) {
       grid->off_axes = true;
-      fg__nc_unusable(
-          grid, "'%.60s' runs along '%.60s', '%.60s' along '%.60s': a staggered grid",
+      fg__set_unusable(
+          grid->unusable,
+          "'%.60s' runs along '%.60s', '%.60s' along '%.60s': a staggered grid",
           u->plain_name, file->dimensions[u->dimension[k]].name, v->plain_name,
           file->dimensions[v->dimension[k]].name);
     }
@@ -105,6 +97,7 @@ void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
                           const fg__nc_variable *v)
 {
   if (!fits_file(file, v, grid->samples))
-    fg__nc_unusable(grid, "'%.120s' has %zu samples, but the file has only %zu bytes",
-                    v->name, grid->samples, file->sizes[v->file]);
+    fg__set_unusable(grid->unusable,
+                     "'%.120s' has %zu samples, but the file has only %zu bytes", v->name,
+                     grid->samples, file->sizes[v->file]);
 }

@@ -22,10 +22,10 @@ static void check_lengths(fg__nc_grid *grid, const fg__nc_file *file,
   for (int k = 0; k < v->rank; ++k) {
     const fg__nc_dimension *d = &file->dimensions[v->dimension[k]];
     if (d->length == 0)
-      fg__nc_unusable(grid, "dimension '%.120s' is empty", d->name);
+      fg__set_unusable(grid->unusable, "dimension '%.120s' is empty", d->name);
     else if (d->length >= INT_MAX)
-      fg__nc_unusable(grid, "dimension '%.120s' has %zu samples, more than %d", d->name,
-                      d->length, INT_MAX - 1);
+      fg__set_unusable(grid->unusable, "dimension '%.120s' has %zu samples, more than %d",
+                       d->name, d->length, INT_MAX - 1);
   }
 }
 
@@ -60,15 +60,16 @@ static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
   const int extra = fg__nc_roles(position, file, v);
   if (extra >= 0) {
     const fg__nc_dimension *d = &file->dimensions[v->dimension[extra]];
-    fg__nc_unusable(grid, "dimension '%.120s' of %zu samples is neither time nor level",
-                    d->name, d->length);
+    fg__set_unusable(grid->unusable,
+                     "dimension '%.120s' of %zu samples is neither time nor level",
+                     d->name, d->length);
     return;
   }
   if (position[FG__NC_X] < 0 || position[FG__NC_Y] < 0) {
-    fg__nc_unusable(grid,
-                    "'%.120s' has only one dimension in space: a profile, a section "
-                    "or an unstructured mesh",
-                    v->name);
+    fg__set_unusable(grid->unusable,
+                     "'%.120s' has only one dimension in space: a profile, a section "
+                     "or an unstructured mesh",
+                     v->name);
     return;
   }
   for (int k = 0; k < 2; ++k) {
@@ -77,21 +78,22 @@ static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
     grid->axis[k].dimension = dimension;
     grid->axis[k].size = d->length;
     if (d->length < 2)
-      fg__nc_unusable(grid, "its %c axis '%.120s' has only %zu sample", "xy"[k],
-                      d -> name, d -> length);
+      fg__set_unusable(grid->unusable, "its %c axis '%.120s' has only %zu sample",
+                       "xy"[k], d -> name, d -> length);
   }
   grid->samples = grid->axis[0].size * grid->axis[1].size;
   if (grid->samples > MOST_SAMPLES)
-    fg__nc_unusable(grid, "%zu x %zu samples are more than the %zu that are handled",
-                    grid->axis[0].size, grid->axis[1].size, MOST_SAMPLES);
+    fg__set_unusable(grid->unusable,
+                     "%zu x %zu samples are more than the %zu that are handled",
+                     grid->axis[0].size, grid->axis[1].size, MOST_SAMPLES);
   fg__nc_check_storage(grid, file, v);
   grid->time = position[FG__NC_TIME];
   grid->level = position[FG__NC_LEVEL];
   fg__nc_set_index_axes(grid, file, v);
 }
 
-static const fg__nc_variable *axis_coordinate(const fg__nc_grid *grid,
-                                              const fg__nc_file *file,
+const fg__nc_variable *fg__nc_axis_coordinate(const fg__nc_file *file,
+                                              const fg__nc_grid *grid,
                                               const fg__nc_variable *v, int k)
 {
   for (int p = 0; p < v->rank; ++p)
@@ -106,7 +108,7 @@ static fg_status read_axes(fg__nc_grid *grid, const fg__nc_file *file,
   const fg__nc_variable *coordinate[2];
   bool both = true;
   for (int k = 0; k < 2; ++k) {
-    coordinate[k] = axis_coordinate(grid, file, v, k);
+    coordinate[k] = fg__nc_axis_coordinate(file, grid, v, k);
     both = both && coordinate[k] && !fg__nc_counts(coordinate[k]);
   }
   if (!both) {
@@ -147,9 +149,9 @@ static void check_units(fg__nc_grid *grid, const fg__nc_pair *pair,
   *quantity = velocity_units(pair->component[0], of_u, sizeof of_u);
   const fg__nc_quantity other = velocity_units(pair->component[1], of_v, sizeof of_v);
   if (of_u[0] && of_v[0] && strcmp(of_u, of_v) != 0)
-    fg__nc_unusable(grid, "'%.60s' is in %.40s, '%.60s' in %.40s",
-                    pair->component[0]->plain_name, of_u, pair->component[1]->plain_name,
-                    of_v);
+    fg__set_unusable(grid->unusable, "'%.60s' is in %.40s, '%.60s' in %.40s",
+                     pair->component[0]->plain_name, of_u, pair->component[1]->plain_name,
+                     of_v);
   if (*quantity == FG__NC_UNKNOWN)
     *quantity = other;
 }
@@ -195,8 +197,9 @@ static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
   for (size_t i = 0; i < sizeof upright / sizeof *upright; ++i)
     if (strcmp(mapping, upright[i]) == 0)
       return;
-  fg__nc_unusable(grid, "'%.60s' points east, but the axes of its %.60s grid do not",
-                  u->plain_name, mapping);
+  fg__set_unusable(grid->unusable,
+                   "'%.60s' points east, but the axes of its %.60s grid do not",
+                   u->plain_name, mapping);
   snprintf(grid->hint, sizeof grid->hint,
            "--scale map or plain takes the components as if they were along the axes");
 }
@@ -224,11 +227,12 @@ static fg_status settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
     check_directions(grid, file, pair->component[0], options->frame);
   if (grid->scale == FG_SCALE_GEO &&
       (x->quantity == FG__NC_LENGTH || y->quantity == FG__NC_LENGTH))
-    fg__nc_unusable(grid, "scale geo needs axes in degrees; '%.60s' is in %.40s", x->name,
-                    x->units);
+    fg__set_unusable(grid->unusable,
+                     "scale geo needs axes in degrees; '%.60s' is in %.40s", x->name,
+                     x->units);
   if (grid->scale == FG_SCALE_MAP && strcmp(x->units, y->units) != 0)
-    fg__nc_unusable(grid, "'%.60s' is in %.40s, '%.60s' in %.40s: no plane", x->name,
-                    x->units, y->name, y->units);
+    fg__set_unusable(grid->unusable, "'%.60s' is in %.40s, '%.60s' in %.40s: no plane",
+                     x->name, x->units, y->name, y->units);
   return status;
 }
 

@@ -236,16 +236,13 @@ typedef struct fg__nc_grid {
   char projection[2 * FG__NC_TEXT]; /* PROJ string of scale MAP; "": not known */
   bool points_east; /* components along east and north, not along the axes */
   size_t samples;   /* product of the axes' sizes */
-  char unusable[2 * FG__NC_TEXT]; /* "" or why the pair cannot be read */
+  char unusable[FG__REASON_BYTES]; /* "" or why the pair cannot be read */
   char hint[FG__NC_TEXT];
 } fg__nc_grid;
 
-/* fitness.c. Sets the reason why a pair cannot be read, unless one is set already. */
-void fg__nc_unusable(fg__nc_grid *grid, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-/* Compares the components' dimensions. A staggered grid (Arakawa's C grid) has different
- * ones for each: the grid is then off_axes, and unusable unless mesh/ can read it. */
+/* fitness.c. Compares the components' dimensions. A staggered grid (Arakawa's C grid) has
+ * different ones for each: the grid is then off_axes, and unusable unless mesh/ can read
+ * it. */
 void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
                          const fg__nc_variable *u, const fg__nc_variable *v);
 
@@ -259,7 +256,13 @@ void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
 fg_status fg__nc_axis_read(fg__nc_grid *grid, const fg__nc_file *file, int k,
                            const fg__nc_variable *coordinate);
 
-/* Uses the indices, from 0, as the coordinate. */
+/* grid.c. The coordinate of axis k, from the dimension of a variable on the grid; NULL:
+ * none. */
+const fg__nc_variable *fg__nc_axis_coordinate(const fg__nc_file *file,
+                                              const fg__nc_grid *grid,
+                                              const fg__nc_variable *v, int k);
+
+/* axes.c. Uses the indices, from 0, as the coordinate. */
 fg_status fg__nc_axis_count(fg__nc_grid *grid, const fg__nc_file *file, int k);
 
 /* plane.c. Finds two-dimensional longitude and latitude. Where each varies along one

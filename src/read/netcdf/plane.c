@@ -135,9 +135,10 @@ fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
   const int y_dimension = y < 0 ? -1 : other[y];
   if (x < 0 || y < 0 || dimension[x] == y_dimension) {
     grid->off_axes = true;
-    fg__nc_unusable(grid,
-                    "a curvilinear grid: '%s' and '%s' vary along both of its dimensions",
-                    longitude.variable->name, latitude.variable->name);
+    fg__set_unusable(
+        grid->unusable,
+        "a curvilinear grid: '%s' and '%s' vary along both of its dimensions",
+        longitude.variable->name, latitude.variable->name);
     snprintf(grid->hint, sizeof grid->hint,
              "--scale plain reads it on its index grid, columns and rows as the axes");
     goto cleanup;

@@ -1,6 +1,7 @@
 /* The projection of a grid's axes, or its rotated pole: CF's grid mapping as a PROJ
  * string (CF conventions, appendix F), checked against the file's longitudes and
  * latitudes where it has them. */
+#include "base/angle.h"
 #include "base/memory.h"
 #include "file/number_text.h"
 #include "map/map.h"
@@ -10,8 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
 /* Number of positions compared along each axis. */
 enum { COMPARED = 24 };
@@ -236,8 +235,9 @@ static fg_status check(fg__nc_grid *grid, const fg__nc_file *file,
   if (got.count > 0 && (got.residual > LARGEST_RESIDUAL ||
                         (angular && (got.shift[0] != 0.0 || got.shift[1] != 0.0)))) {
     grid->off_axes = true;
-    fg__nc_unusable(grid, "the longitudes and latitudes of its points are not those of "
-                          "its projection");
+    fg__set_unusable(grid->unusable,
+                     "the longitudes and latitudes of its points are not those of "
+                     "its projection");
   } else if (got.shift[0] != 0.0 || got.shift[1] != 0.0) {
     compose(grid, described, got.shift);
   }
@@ -279,7 +279,7 @@ fg_status fg__nc_projection_find(fg__nc_grid *grid, const fg__nc_file *file,
  * is shorter than one of latitude. */
 static void stretch(float *u, float *v, size_t n, double latitude)
 {
-  const double cosine = fmax(cos(latitude * RADIANS_PER_DEGREE), 1e-6);
+  const double cosine = fmax(cos(latitude * FG__RADIANS), 1e-6);
   for (size_t i = 0; i < n; ++i) {
     const double x = (double)u[i] / cosine, y = (double)v[i];
     const double length = hypot(x, y);

@@ -74,23 +74,13 @@ const fg__nc_variable *fg__nc_third(const fg__nc_file *file, const fg__nc_pair *
   return upward_count == 1 ? upward : NULL;
 }
 
-static const fg__nc_variable *axis_variable(const fg__nc_file *file,
-                                            const fg__nc_grid *grid,
-                                            const fg__nc_variable *u, int k)
-{
-  for (int p = 0; p < u->rank; ++p)
-    if (u->dimension[p] == grid->axis[k].dimension)
-      return fg__nc_coordinate(file, u, p);
-  return NULL;
-}
-
 /* Maps and atmospheric layers are not read as a volume: they are a hundred times as wide
  * as high. Their files are read level by level. */
 static bool is_map(const fg__nc_file *file, const fg__nc_grid *grid,
                    const fg__nc_variable *u)
 {
   char name[FG__NC_TEXT] = "";
-  const fg__nc_variable *x = axis_variable(file, grid, u, FG__NC_X);
+  const fg__nc_variable *x = fg__nc_axis_coordinate(file, grid, u, FG__NC_X);
   if (x)
     fg__nc_text(x, "standard_name", name, sizeof name);
   return strncmp(name, "projection_", 11) == 0;
@@ -110,8 +100,8 @@ static void check_components(fg__nc_grid *grid, const fg__nc_file *file,
   if (!grid->unusable[0])
     fg__nc_check_shapes(grid, file, u, w);
   if (!same_units(u, w))
-    fg__nc_unusable(grid, "'%.60s' and '%.60s' differ in units", u->plain_name,
-                    w->plain_name);
+    fg__set_unusable(grid->unusable, "'%.60s' and '%.60s' differ in units", u->plain_name,
+                     w->plain_name);
 }
 
 static void check_space(fg__nc_grid *grid, const fg__nc_file *file,
@@ -120,13 +110,15 @@ static void check_space(fg__nc_grid *grid, const fg__nc_file *file,
   const fg__nc_variable *u = pair->component[0];
   const fg__nc_axis *x = &grid->axis[0], *z = &grid->axis[2];
   if (grid->scale == FG_SCALE_GEO)
-    fg__nc_unusable(grid, "longitude, latitude and height together cannot be handled "
-                          "yet");
+    fg__set_unusable(grid->unusable,
+                     "longitude, latitude and height together cannot be handled "
+                     "yet");
   else if (grid->scale == FG_SCALE_MAP && strcmp(x->units, z->units) != 0)
-    fg__nc_unusable(grid, "'%.60s' is in %.40s, '%.60s' in %.40s: no space", x->name,
-                    x->units, z->name, z->units[0] ? z->units : "no units");
-  else if (grid->scale != FG_SCALE_PLAIN && counts_down(axis_variable(file, grid, u, 2)))
-    fg__nc_unusable(grid, "'%.60s' counts downwards", z->name);
+    fg__set_unusable(grid->unusable, "'%.60s' is in %.40s, '%.60s' in %.40s: no space",
+                     x->name, x->units, z->name, z->units[0] ? z->units : "no units");
+  else if (grid->scale != FG_SCALE_PLAIN &&
+           counts_down(fg__nc_axis_coordinate(file, grid, u, 2)))
+    fg__set_unusable(grid->unusable, "'%.60s' counts downwards", z->name);
   if (grid->unusable[0])
     snprintf(grid->hint, sizeof grid->hint,
              "--scale plain takes the velocity as if it were along the axes, in their "
@@ -138,7 +130,7 @@ static bool is_beyond_doubt(const fg__nc_grid *grid, const fg__nc_file *file,
                             const fg__nc_variable *u)
 {
   return strcmp(grid->axis[0].units, grid->axis[2].units) == 0 &&
-         !is_map(file, grid, u) && !counts_down(axis_variable(file, grid, u, 2));
+         !is_map(file, grid, u) && !counts_down(fg__nc_axis_coordinate(file, grid, u, 2));
 }
 
 static fg_status find_levels(fg__nc_grid *grid, const fg__nc_file *file,
@@ -146,15 +138,16 @@ static fg_status find_levels(fg__nc_grid *grid, const fg__nc_file *file,
 {
   fg__nc_axis *z = &grid->axis[2];
   if (grid->level < 0 || grid->levels < 2) {
-    fg__nc_unusable(grid, "'%.120s' has only two dimensions in space", u->name);
+    fg__set_unusable(grid->unusable, "'%.120s' has only two dimensions in space",
+                     u->name);
     return FG_STATUS_OK;
   }
   z->dimension = u->dimension[grid->level];
   z->position = grid->level;
   z->size = grid->levels;
   if (z->size > SIZE_MAX / sizeof(float) / grid->samples)
-    fg__nc_unusable(grid, "%zu levels of %zu samples are too many", z->size,
-                    grid->samples);
+    fg__set_unusable(grid->unusable, "%zu levels of %zu samples are too many", z->size,
+                     grid->samples);
   if (grid->unusable[0])
     return FG_STATUS_OK;
   grid->samples *= z->size;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "read/points/points.h"
 
 /* Triangles round larger empty circles are dropped. Of 1e6 points at random the largest
@@ -69,28 +70,6 @@ fg_status fg__scatter_triangulate(fg__triangles *out, const fg__scatter *points,
              : status;
 }
 
-static const double RADIANS_PER_DEGREE = 0.017453292519943295;
-
-static void place_on_sphere(double *out, double longitude, double latitude)
-{
-  const double l = longitude * RADIANS_PER_DEGREE, p = latitude * RADIANS_PER_DEGREE;
-  out[0] = cos(p) * cos(l);
-  out[1] = cos(p) * sin(l);
-  out[2] = sin(p);
-}
-
-static double product(const double *a, const double *b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void make_unit(double *v)
-{
-  const double length = sqrt(product(v, v));
-  for (int k = 0; k < 3; ++k)
-    v[k] /= length;
-}
-
 /* The point opposite to the middle of all; false when they lie all round. */
 static bool find_opposite(double pole[3], const double *position, size_t points)
 {
@@ -99,11 +78,11 @@ static bool find_opposite(double pole[3], const double *position, size_t points)
   for (size_t i = 0; i < points; ++i)
     for (int k = 0; k < 3; ++k)
       pole[k] -= position[3 * i + (size_t)k] / (double)points;
-  if (product(pole, pole) < 1e-12)
+  if (fg__dot(pole, pole) < 1e-12)
     return false;
-  make_unit(pole);
+  fg__normalise(pole);
   for (size_t i = 0; i < points; ++i)
-    least = fmin(least, -product(pole, position + 3 * i));
+    least = fmin(least, -fg__dot(pole, position + 3 * i));
   return least > FARTHEST_COSINE;
 }
 
@@ -117,7 +96,7 @@ static int find_lonely(const double *position, size_t points)
     double nearest = -1.0;
     for (size_t i = 0; i < points; ++i)
       if (i != c)
-        nearest = fmax(nearest, product(position + 3 * c, position + 3 * i));
+        nearest = fmax(nearest, fg__dot(position + 3 * c, position + 3 * i));
     if (nearest < best) {
       best = nearest;
       found = (int)c;
@@ -133,10 +112,10 @@ static void flatten(double *x, double *y, const double pole[3], const double *po
 {
   double e[3] = {0.0, 0.0, 0.0}, f[3];
   e[fabs(pole[2]) < 0.7 ? 2 : 0] = 1.0;
-  const double along = product(e, pole);
+  const double along = fg__dot(e, pole);
   for (int k = 0; k < 3; ++k)
     e[k] -= along * pole[k];
-  make_unit(e);
+  fg__normalise(e);
   for (int k = 0; k < 3; ++k)
     f[k] = pole[(k + 1) % 3] * e[(k + 2) % 3] - pole[(k + 2) % 3] * e[(k + 1) % 3];
   size_t n = 0;
@@ -149,8 +128,8 @@ static void flatten(double *x, double *y, const double pole[3], const double *po
     for (int k = 0; k < 3; ++k)
       near += 0.5 * (p[k] - pole[k]) * (p[k] - pole[k]);
     near = fmax(near, NEAREST); /* another point at the very place */
-    x[n] = product(e, p) / near;
-    y[n++] = product(f, p) / near;
+    x[n] = fg__dot(e, p) / near;
+    y[n++] = fg__dot(f, p) / near;
   }
 }
 
@@ -165,7 +144,8 @@ static fg_status triangulate_sphere(fg__triangles *out, const fg__scatter *point
   if (!position || !x || !y)
     status = fg__fail_memory(points->context, "points", 5 * count * sizeof *x);
   for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i)
-    place_on_sphere(position + 3 * i, points->position[0][i], points->position[1][i]);
+    fg__sphere_unit_vector(position + 3 * i, points->position[0][i],
+                           points->position[1][i]);
   if (status == FG_STATUS_OK) {
     if (!find_opposite(pole, position, count)) {
       far = find_lonely(position, count);

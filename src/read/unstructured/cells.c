@@ -1,14 +1,14 @@
 /* Cells between the vectors of a mesh. Those of faces lie between the centres of the
  * faces round each node: the dual mesh, on which what is linear is interpolated exactly
  * (docs/design/unstructured.md). */
+#include "base/angle.h"
 #include "base/memory.h"
+#include "base/vector.h"
 #include "read/unstructured/unstructured.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double RADIANS_PER_DEGREE = 0.017453292519943295;
 
 typedef struct mesh_work {
   fg_context *context;
@@ -31,17 +31,12 @@ typedef struct spoke {
   double angle;
 } spoke;
 
-static double product(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static void place_in_space(double out[3], double x, double y, bool on_sphere)
 {
-  const double l = x * RADIANS_PER_DEGREE, p = y * RADIANS_PER_DEGREE;
-  out[0] = on_sphere ? cos(p) * cos(l) : x;
-  out[1] = on_sphere ? cos(p) * sin(l) : y;
-  out[2] = on_sphere ? sin(p) : 0.0;
+  if (on_sphere)
+    fg__sphere_unit_vector(out, x, y);
+  else
+    memcpy(out, (const double[3]){x, y, 0.0}, 3 * sizeof *out);
 }
 
 /* Unit vectors east and north there; in a plane x and y. */
@@ -130,7 +125,7 @@ static void find_middle(double out[3], const mesh_work *w, size_t f)
   for (int k = faces->first[f]; k < faces->first[f + 1]; ++k)
     for (int c = 0; c < 3; ++c)
       out[c] += w->node[3 * (size_t)faces->node[k] + (size_t)c] / count;
-  const double length = w->on_sphere ? sqrt(product(out, out)) : 1.0;
+  const double length = w->on_sphere ? fg__length(out) : 1.0;
   for (int c = 0; c < 3; ++c)
     out[c] /= length;
 }
@@ -148,8 +143,8 @@ static void place_centre(mesh_work *w, size_t f)
     return;
   }
   find_middle(centre, w, f);
-  *x = w->on_sphere ? atan2(centre[1], centre[0]) / RADIANS_PER_DEGREE : centre[0];
-  *y = w->on_sphere ? atan2(centre[2], hypot(centre[0], centre[1])) / RADIANS_PER_DEGREE
+  *x = w->on_sphere ? atan2(centre[1], centre[0]) / FG__RADIANS : centre[0];
+  *y = w->on_sphere ? atan2(centre[2], hypot(centre[0], centre[1])) / FG__RADIANS
                     : centre[1];
 }
 
@@ -204,9 +199,9 @@ static double angle_of(const mesh_work *w, const spoke *s, int node, const doubl
   for (int k = 0; k < 2; ++k) {
     const double *other = w->node + 3 * (size_t)side[k];
     const double way[3] = {other[0] - at[0], other[1] - at[1], other[2] - at[2]};
-    const double length = sqrt(product(way, way));
-    x += product(way, east) / length;
-    y += product(way, north) / length;
+    const double length = fg__length(way);
+    x += fg__dot(way, east) / length;
+    y += fg__dot(way, north) / length;
   }
   return atan2(y, x);
 }
@@ -259,8 +254,8 @@ static bool is_convex(const mesh_work *w, const spoke *s, int count, int node,
     for (int k = 0; k < 3; ++k) {
       const double *c = w->centre + 3 * (size_t)s[(i + k) % count].face;
       const double way[3] = {c[0] - at[0], c[1] - at[1], c[2] - at[2]};
-      x[k] = product(way, east);
-      y[k] = product(way, north);
+      x[k] = fg__dot(way, east);
+      y[k] = fg__dot(way, north);
     }
     if (!((x[1] - x[0]) * (y[2] - y[1]) - (y[1] - y[0]) * (x[2] - x[1]) > 0.0))
       return false;
@@ -288,8 +283,8 @@ static int point_at(mesh_work *w, int node)
   frame_at(east, north, at, w->on_sphere);
   out->longitude[point] = w->faces->at[0][node];
   out->latitude[point] = w->faces->at[1][node];
-  out->east[point] = (float)product(sum, east);
-  out->north[point] = (float)product(sum, north);
+  out->east[point] = (float)fg__dot(sum, east);
+  out->north[point] = (float)fg__dot(sum, north);
   return w->point_of[node] = (int)point;
 }
 

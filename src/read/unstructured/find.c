@@ -153,7 +153,7 @@ static void check_storage(fg__nc_grid *grid, const fg__nc_file *file,
     }
     fg__nc_check_storage(&one, file, all[n]);
     if (one.unusable[0])
-      fg__nc_unusable(grid, "%s", one.unusable);
+      fg__set_unusable(grid->unusable, "%s", one.unusable);
   }
 }
 
@@ -181,16 +181,18 @@ static void check_pair(fg__nc_grid *grid, const fg__nc_file *file,
   fg__nc_unstructured *mesh = grid->unstructured;
   const fg__nc_variable *u = pair->component[0], *v = pair->component[1];
   if (!fg__nc_unstructured_axis(grid, file, u, mesh->dimension))
-    fg__nc_unusable(grid, "'%.60s' has a dimension that is neither time nor level",
-                    u->plain_name);
+    fg__set_unusable(grid->unusable,
+                     "'%.60s' has a dimension that is neither time nor level",
+                     u->plain_name);
   else if (!fg__nc_unstructured_axis(&mesh->of_v, file, v, mesh->dimension) ||
            mesh->of_v.times != grid->times || mesh->of_v.levels != grid->levels)
-    fg__nc_unusable(grid, "'%.60s' does not lie on the dimensions of '%.60s'",
-                    v->plain_name, u->plain_name);
+    fg__set_unusable(grid->unusable, "'%.60s' does not lie on the dimensions of '%.60s'",
+                     v->plain_name, u->plain_name);
   else if (pair->volume)
-    fg__nc_unusable(grid, "three components on an unstructured mesh; two can be read");
+    fg__set_unusable(grid->unusable,
+                     "three components on an unstructured mesh; two can be read");
   else if (options->frame == FG_FRAME_GRID)
-    fg__nc_unusable(grid, "an unstructured mesh has no directions of its own");
+    fg__set_unusable(grid->unusable, "an unstructured mesh has no directions of its own");
   check_storage(grid, file, mesh, pair);
 }
 
@@ -212,7 +214,7 @@ fg_status fg__nc_unstructured_find(fg__nc_grid *grid, const fg__nc_file *file,
   if (!recognise(mesh, &search)) {
     free(mesh);
     if (search.lacks[0])
-      fg__nc_unusable(grid, "%s", search.lacks);
+      fg__set_unusable(grid->unusable, "%s", search.lacks);
     if (search.elsewhere)
       snprintf(grid->hint, sizeof grid->hint,
                "--vars-from names a second file, which may have the mesh");
@@ -224,7 +226,7 @@ fg_status fg__nc_unstructured_find(fg__nc_grid *grid, const fg__nc_file *file,
   check_pair(grid, file, pair, options);
   grid->scale = mesh->in_plane ? FG_SCALE_MAP : FG_SCALE_GEO;
   if (options->scale == FG_SCALE_GEO && mesh->in_plane)
-    fg__nc_unusable(grid, "scale geo needs longitudes and latitudes");
+    fg__set_unusable(grid->unusable, "scale geo needs longitudes and latitudes");
   if (options->scale == FG_SCALE_PLAIN || options->scale == FG_SCALE_MAP) {
     grid->scale = options->scale;
     mesh->in_plane = true;

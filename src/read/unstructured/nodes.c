@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double RADIANS_PER_DEGREE = 0.017453292519943295;
-
 /* Places nearer than this part of the sphere's radius are one: 6 cm of the Earth's. */
 static const double SAME_PLACE = 1e-8;
 
@@ -82,9 +80,9 @@ static bool grow_nodes(fg__nc_node_table *table)
 
 int fg__nc_node_at(fg__nc_node_table *table, double longitude, double latitude)
 {
-  const double l = longitude * RADIANS_PER_DEGREE, p = latitude * RADIANS_PER_DEGREE;
-  const double at[3] = {cos(p) * cos(l), cos(p) * sin(l), sin(p)};
+  double at[3];
   long long key[3];
+  fg__sphere_unit_vector(at, longitude, latitude);
   for (int k = 0; k < 3; ++k)
     key[k] = llround(at[k] / SAME_PLACE);
   if (2 * (table->nodes + 1) > table->slots && !grow_slots(table))

@@ -1,6 +1,7 @@
 #include "write/netcdf/netcdf.h"
 
 #include "base/memory.h"
+#include "field/field.h"
 #include "file/whole_file.h"
 #include "write/field_close.h"
 

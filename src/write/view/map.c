@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "picture/map/graticule.h"
 #include "picture/map/land.h"
+#include "sphere/sphere.h"
 #include "write/view/parts.h"
 
 #include <math.h>
@@ -14,8 +15,6 @@ static const double round_tolerance = 1.0 / 50000.0; /* of degrees and the outli
 
 /* Lines go on beyond the frame; up to this share of the longest side they are kept. */
 static const double margin = 0.05;
-
-static const double degree = 0.017453292519943295;
 
 /* Metres in this share from which on coasts are generalised, as pictures have them for a
  * point of 480 (picture/map/map_scene.c). */
@@ -48,10 +47,10 @@ static fg_status write_places(FILE *stream, fg_context *context, const fg__plane
     }
     fg__plane_inverse(plane, COUNT, x, y, longitude, latitude);
     for (int n = 0; n < COUNT; ++n) {
-      const double a = longitude[n] * degree, b = latitude[n] * degree;
-      direction[3 * n] = (float)(cos(b) * cos(a));
-      direction[3 * n + 1] = (float)(cos(b) * sin(a));
-      direction[3 * n + 2] = (float)sin(b);
+      double up[3];
+      fg__sphere_unit_vector(up, longitude[n], latitude[n]);
+      for (int k = 0; k < 3; ++k)
+        direction[3 * n + k] = (float)up[k];
     }
     fprintf(stream,
             ",\"places\":{\"nodes\":[%d,%d],\"low\":[%.17g,%.17g],"
