@@ -123,6 +123,16 @@ static bool is_same_place(const fg__nc_part *a, const fg__nc_part *b)
          a->longitude == b->longitude && a->latitude == b->latitude;
 }
 
+/* Whether names are alike, or differ in a u of one where the other has a v ("depthu" and
+ * "depthv" of NEMO). */
+static bool named_alike(const char *of_u, const char *of_v)
+{
+  for (; *of_u && *of_v; ++of_u, ++of_v)
+    if (*of_u != *of_v && !(*of_u == 'u' && *of_v == 'v'))
+      return false;
+  return *of_u == *of_v;
+}
+
 /* Whether components have the same times, or the same levels. */
 static bool runs_alike(const fg__nc_file *file, const fg__nc_part *u, int of_u,
                        const fg__nc_part *v, int of_v)
@@ -131,7 +141,7 @@ static bool runs_alike(const fg__nc_file *file, const fg__nc_part *u, int of_u,
     return of_u == of_v;
   const int a = u->variable->dimension[of_u], b = v->variable->dimension[of_v];
   const fg__nc_dimension *of = file->dimensions;
-  return a == b || (of[a].length == of[b].length && strcmp(of[a].name, of[b].name) == 0);
+  return a == b || (of[a].length == of[b].length && named_alike(of[a].name, of[b].name));
 }
 
 static bool fits(const fg__nc_mesh *mesh)

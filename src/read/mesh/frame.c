@@ -35,16 +35,29 @@ static bool contains(const char *text, const char *word)
   return false;
 }
 
-/* The word in a component's name that the second rule accepts, or NULL. */
-static const char *geographic_word(const fg__nc_variable *v)
+/* Words of the second rule. Of components along a grid models say zonal, too (POP). */
+static const char *const geographic_words[] = {"eastward", "northward", "zonal",
+                                               "meridional"};
+enum { UNAMBIGUOUS_WORDS = 2, GEOGRAPHIC_WORDS = 4 };
+
+/* The first of them in the names of a component; NULL: it has none. */
+static const char *geographic_word(const fg__nc_variable *v, size_t count)
 {
-  static const char *const words[] = {"zonal", "meridional", "eastward", "northward"};
   char text[FG__NC_TEXT];
   fg__nc_text(v, "long_name", text, sizeof text);
-  for (size_t n = 0; n < sizeof words / sizeof *words; ++n)
-    if (contains(v->plain_name, words[n]) || contains(text, words[n]))
-      return words[n];
+  for (size_t n = 0; n < count; ++n)
+    if (contains(v->plain_name, geographic_words[n]) ||
+        contains(text, geographic_words[n]))
+      return geographic_words[n];
   return NULL;
+}
+
+/* The same of a pair; in a file with the grid's angle only an unambiguous word counts. */
+static const char *word_of_pair(const fg__nc_pair *pair, bool angle)
+{
+  const size_t count = angle ? UNAMBIGUOUS_WORDS : GEOGRAPHIC_WORDS;
+  const char *word = geographic_word(pair->component[0], count);
+  return word ? word : geographic_word(pair->component[1], count);
 }
 
 static const fg__nc_variable *find_on(const fg__nc_mesh *mesh, const fg__nc_file *file,
@@ -141,9 +154,8 @@ bool fg__nc_frame_find(fg__nc_mesh *mesh, const fg__nc_file *file,
   mesh->turn = FG__NC_TURN_GEOMETRY;
   find_angle(mesh, file);
   const int standard = by_standard_name(u, name, sizeof name);
-  const char *word =
-      geographic_word(u) ? geographic_word(u) : geographic_word(pair->component[1]);
   const bool angle = mesh->turn != FG__NC_TURN_GEOMETRY;
+  const char *word = word_of_pair(pair, angle);
   int frame = 0; /* 1: east, -1: grid */
   if (wanted != FG_FRAME_AUTO) {
     frame = wanted == FG_FRAME_EAST ? 1 : -1;
@@ -151,7 +163,7 @@ bool fg__nc_frame_find(fg__nc_mesh *mesh, const fg__nc_file *file,
   } else if (standard != 0) {
     frame = standard;
     snprintf(why, sizeof why, "standard_name %.120s", name);
-  } else if (word && !angle && !is_staggered(mesh)) {
+  } else if (word && !is_staggered(mesh)) {
     frame = 1;
     snprintf(why, sizeof why, "its name says %s", word);
   } else if (angle || is_staggered(mesh) || is_of_nemo(u) || is_on_indices(mesh, file)) {
