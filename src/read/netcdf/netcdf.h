@@ -132,6 +132,9 @@ typedef enum fg__nc_quantity {
   FG__NC_DATE /* "hours since ..." */
 } fg__nc_quantity;
 
+/* The other unit of dates, which CDI writes (ICON, ECHAM): the number 20200115.25. */
+#define FG__NC_ABSOLUTE "day as %Y%m%d.%f"
+
 /* Classifies units and writes them in the form of an axis label: "m s**-1" as "m/s". */
 fg__nc_quantity fg__nc_units(const char *units, char *label, size_t size);
 

@@ -80,6 +80,23 @@ static void write_date(char *out, size_t size, fg__date d, int64_t rest)
     snprintf(out + used, size - (size_t)used, ":%02d", (int)(rest % 60));
 }
 
+/* Absolute times of CDI (ICON, ECHAM): the digits of the date, and the part of the day.
+ */
+static bool write_absolute(char *out, size_t size, double value)
+{
+  const double whole = floor(value);
+  if (!(whole >= 101.0 && whole <= 99991231.0))
+    return false;
+  const int64_t digits = (int64_t)whole;
+  int64_t seconds = llround((value - whole) * (double)SECONDS_PER_DAY); /* to 1 ms */
+  const fg__date date = {digits / 10000, (int)(digits / 100 % 100), (int)(digits % 100)};
+  if (date.month < 1 || date.month > 12 || date.day < 1 || date.day > 31)
+    return false;
+  seconds = seconds < SECONDS_PER_DAY ? seconds : SECONDS_PER_DAY - 1;
+  write_date(out, size, date, seconds);
+  return true;
+}
+
 bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
                  size_t size)
 {
@@ -90,6 +107,8 @@ bool fg__nc_date(double value, const char *units, const char *calendar, char *ou
   double unit;
   fg__date reference;
   double offset;
+  if (strcasecmp(units, FG__NC_ABSOLUTE) == 0)
+    return write_absolute(out, size, value);
   if (!fg__calendar_find(&kind, calendar) ||
       !read_reference(units, &unit, &reference, &offset))
     return false;

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 typedef enum unit_kind {
   LENGTH,
@@ -179,7 +180,7 @@ fg__nc_quantity fg__nc_units(const char *units, char *label, size_t size)
   char plain[FG__NC_TEXT];
   simplify(units, plain);
   snprintf(label, size, "%s", units);
-  if (strstr(plain, " since "))
+  if (strstr(plain, " since ") || strcasecmp(units, FG__NC_ABSOLUTE) == 0)
     return FG__NC_DATE;
   const unit *found = find_unit(plain);
   if (!found)

@@ -48,6 +48,7 @@ static void units_are_classified_and_written_shortly(void **state)
       {"hectopascals", FG__NC_PRESSURE, "hPa"},
       {"decibar", FG__NC_PRESSURE, "dbar"},
       {"hours since 1900-01-01", FG__NC_DATE, "hours since 1900-01-01"},
+      {"day as %Y%m%d.%f", FG__NC_DATE, "day as %Y%m%d.%f"},
       {"", FG__NC_UNKNOWN, ""},
       {"1", FG__NC_UNKNOWN, "1"},
       {"degrees_west", FG__NC_UNKNOWN, "degrees_west"},
@@ -99,6 +100,8 @@ static void dates_follow_the_calendar(void **state)
   assert_date(0.0, "hours since 2001-03-01 03:00 +0530", "noleap", "2001-02-28 21:30");
   assert_date(0.0, "hours since 2001-03-01 23 -2", "360_day", "2001-03-02 01:00");
   assert_date(0.0, "hours since 2001-03-01 12:00 UTC", "", "2001-03-01 12:00");
+  assert_date(20200115.25, "day as %Y%m%d.%f", "proleptic_gregorian", "2020-01-15 06:00");
+  assert_date(20200229.0, "day as %Y%m%d.%f", "", "2020-02-29");
   assert_date(3.0, "milliseconds since 2001-03-01T12:00:59.9995Z", "",
               "2001-03-01 12:01");
   assert_date(1.0, "days since 1900-02-28", "julian", "1900-02-29");
