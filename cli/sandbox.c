@@ -14,6 +14,7 @@
 #include <sys/prctl.h>
 #endif
 
+#include "alternatives.h"
 #include "inputs.h"
 #include "interrupt.h"
 
@@ -205,8 +206,11 @@ static void read_once(void *data)
     status = fg_inventory_read_chosen(&inventory, context, r->input, &options);
   else
     status = fg_inventory_read(&inventory, context, r->input);
-  if (status)
-    complain_of(context, status, r->input);
+  if (!status)
+    return;
+  complain_of(context, status, r->input);
+  if (r->slabs)
+    advise_alternatives(context, status, r->input, &options);
 }
 
 /* A GRIB message begins within so many bytes, behind a heading. */

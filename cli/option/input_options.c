@@ -30,8 +30,9 @@ static const option_entry input_entries[] = {
              "that is from the next. run takes several, a folder each and up to 12 as "
              "panels of one figure, too: 0:11, 1982-01:1982-06, 0,6, all [0]"},
     {"level", 0, "LEVEL", READERS, OPTION_PLACES, READING(level_text),
-     .help = "which level, likewise: 2 is an index, 850hPa or 850. a value; its words, "
-             "too: surface [0]"},
+     .help = "which level, likewise: 2 is an index, 850hPa or 850. a value, and 850, "
+             "too, where there are fewer levels; its words, too: surface [that at the "
+             "surface of an ocean, else 0]"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask),
      .help = "variable that is zero (or negative, or missing) outside the domain"},
     {"format", 0, "NAME", INPUTS, OPTION_TEXT, INPUT(format),

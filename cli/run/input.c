@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "alternatives.h"
 #include "build_features.h"
 #include "inputs.h"
 #include "option/table.h"
@@ -14,21 +15,9 @@
 /* Counts the times and levels of the input; leaves 0 where that is unknown. */
 static void count_choices(cli_run *run)
 {
-  fg_context *context;
-  fg_inventory *inventory = NULL;
-  if (fg_context_create(&context))
-    return;
-  inputs_give(context);
   const fg_read_options reading = settings_reading(&run->settings->reading);
-  if (!fg_inventory_read_chosen(&inventory, context, run->settings->reading.input,
-                                &reading) &&
-      fg_inventory_vector_count(inventory) > 0) {
-    const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, 0);
-    run->facts.time_count = vector->times;
-    run->facts.level_count = vector->levels;
-  }
-  fg_inventory_destroy(inventory);
-  fg_context_destroy(context);
+  count_alternatives(&run->facts.time_count, &run->facts.level_count,
+                     run->settings->reading.input, &reading);
 }
 
 /* Prints the error of reading. Another time may have values where all are missing or
@@ -36,17 +25,9 @@ static void count_choices(cli_run *run)
 static int complain_of_reading(cli_run *run, fg_status status)
 {
   const int code = complain_of(run->context, status, run->settings->reading.input);
-  const bool of_data = status == FG_STATUS_ARGUMENT || status == FG_STATUS_FILE_FORMAT;
-  if (!of_data || *fg_context_hint(run->context) || run->settings->reading.map.has_region)
-    return code;
-  count_choices(run);
-  const int times = run->facts.time_count, levels = run->facts.level_count;
-  const int other = run->settings->reading.time == 0 ? 1 : 0;
-  if (times > 1)
-    advise("Choose another with --time%s, as --time %d; flowgrain info lists them.",
-           levels > 1 ? " or --level" : "", other);
-  else if (levels > 1)
-    advise("Choose another with --level; flowgrain info lists them.");
+  const fg_read_options reading = settings_reading(&run->settings->reading);
+  if (!run->settings->reading.map.has_region)
+    advise_alternatives(run->context, status, run->settings->reading.input, &reading);
   return code;
 }
 

@@ -10,7 +10,7 @@
 /* Whether a choice needs no file: none, or an index. */
 static bool is_plain(const char *text)
 {
-  return !text || !text[strspn(text, "0123456789")];
+  return !text || (strlen(text) == 1 && strchr("0123456789", text[0]));
 }
 
 static int take_index(fg_selection *out, const char *text)

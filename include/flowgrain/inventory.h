@@ -98,7 +98,8 @@ typedef struct fg_selection {
 
 /* Finds which of `count` times (what: "time") or levels ("level") a text selects, items
  * with commas between them:
- *   7            a plain whole number is an index, from 0
+ *   7            a plain whole number is an index, from 0; beyond the last one it is a
+ *                value that is there
  *   300hPa 2.5h 0.995 850.   a number with a unit or a decimal point or exponent is a
  *                value, without a unit in the file's; pressures, lengths and times are
  *                converted

@@ -50,20 +50,24 @@ typedef struct known_unit {
   double factor;
 } known_unit;
 
+/* The unit of a name, perhaps in the plural; NULL where it is not known. */
 static const known_unit *find_unit(const char *name)
 {
   static const known_unit known[] = {
-      {"Pa", 1, 1.0},       {"hPa", 1, 100.0},   {"mb", 1, 100.0},
-      {"mbar", 1, 100.0},   {"kPa", 1, 1000.0},  {"dbar", 1, 1e4},
-      {"bar", 1, 1e5},      {"m", 2, 1.0},       {"km", 2, 1000.0},
-      {"dm", 2, 0.1},       {"cm", 2, 0.01},     {"mm", 2, 0.001},
-      {"ft", 2, 0.3048},    {"s", 3, 1.0},       {"ms", 3, 0.001},
-      {"min", 3, 60.0},     {"h", 3, 3600.0},    {"d", 3, 86400.0},
-      {"sec", 3, 1.0},      {"seconds", 3, 1.0}, {"minutes", 3, 60.0},
-      {"hours", 3, 3600.0}, {"days", 3, 86400.0}};
-  for (size_t k = 0; k < sizeof known / sizeof *known; ++k)
-    if (strcasecmp(known[k].name, name) == 0)
+      {"Pa", 1, 1.0},         {"hPa", 1, 100.0},   {"mb", 1, 100.0},   {"mbar", 1, 100.0},
+      {"millibar", 1, 100.0}, {"kPa", 1, 1000.0},  {"dbar", 1, 1e4},   {"bar", 1, 1e5},
+      {"m", 2, 1.0},          {"meter", 2, 1.0},   {"metre", 2, 1.0},  {"km", 2, 1000.0},
+      {"dm", 2, 0.1},         {"cm", 2, 0.01},     {"mm", 2, 0.001},   {"ft", 2, 0.3048},
+      {"s", 3, 1.0},          {"sec", 3, 1.0},     {"second", 3, 1.0}, {"ms", 3, 0.001},
+      {"min", 3, 60.0},       {"minute", 3, 60.0}, {"h", 3, 3600.0},   {"hr", 3, 3600.0},
+      {"hour", 3, 3600.0},    {"d", 3, 86400.0},   {"day", 3, 86400.0}};
+  for (size_t k = 0; k < sizeof known / sizeof *known; ++k) {
+    const size_t length = strlen(known[k].name);
+    if (strncasecmp(known[k].name, name, length) != 0)
+      continue;
+    if (!name[length] || (length > 2 && strcasecmp(name + length, "s") == 0))
       return &known[k];
+  }
   return NULL;
 }
 
@@ -292,13 +296,25 @@ static bool choose_words(bool *chosen, const value_axis *axis, const item *w)
   return found;
 }
 
+/* Where a whole number beyond the last index is a value ("850" of pressures in hPa); -1:
+ * nowhere. */
+static int index_of_value(const value_axis *axis, int number)
+{
+  const item w = {.kind = ITEM_VALUE, .value = number};
+  for (int n = 0; n < axis->count; ++n)
+    if (is_named(axis, &w, n))
+      return n;
+  return -1;
+}
+
 static fg_status choose_one(bool *chosen, bool *nearest, const value_axis *axis,
                             const item *w)
 {
   if (w->kind == ITEM_INDEX) {
-    if (w->index >= axis->count)
+    const int n = w->index < axis->count ? w->index : index_of_value(axis, w->index);
+    if (n < 0)
       return fail_index(axis, w);
-    chosen[w->index] = true;
+    chosen[n] = true;
     return FG_STATUS_OK;
   }
   if (choose_words(chosen, axis, w))

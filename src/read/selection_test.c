@@ -77,6 +77,17 @@ static void dates_indices_and_values_of_times(void **state)
   expect(expected, sizeof expected / sizeof *expected, "time", monthly, MONTHLY);
 }
 
+/* Units of time as words, in either number (CROCO: "second"). */
+static void times_with_units_in_words(void **state)
+{
+  static const fg_axis_value elapsed[] = {
+      {0.0, "second", "0 s"}, {259200.0, "second", "3 d"}, {518400.0, "second", "6 d"}};
+  static const expectation expected[] = {
+      {"3d", "1"}, {"6 days", "2"}, {"72 hour", "1"}, {"4d", "near 1"}};
+  (void)state;
+  expect(expected, sizeof expected / sizeof *expected, "time", elapsed, 3);
+}
+
 static void values_of_levels_with_units(void **state)
 {
   static const expectation expected[] = {
@@ -96,6 +107,9 @@ static void values_of_levels_with_units(void **state)
       {":600hPa", "+ 2 3"},
       {"3,1000hPa", "+ 0 3"},
       {"1050hPa", "near 0"},
+      {"850", "1"}, /* beyond the last index */
+      {"4", "4"},
+      {"850 millibars", "1"},
   };
   (void)state;
   expect(expected, sizeof expected / sizeof *expected, "level", pressures, PRESSURES);
@@ -155,6 +169,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(dates_indices_and_values_of_times),
       cmocka_unit_test(values_of_levels_with_units),
+      cmocka_unit_test(times_with_units_in_words),
       cmocka_unit_test(what_is_not_there_is_refused_with_what_is),
       cmocka_unit_test(misspelt_wishes_are_known_before_reading),
   };

@@ -68,6 +68,7 @@ grep -q 'nearest' err && fault "nearest: $(cat err)"
 try run wind.nc -o silent --quiet "${small[@]}" --time 1 --level 300hPa
 expect_code 0
 [ ! -s err ] || fault "--quiet: $(cat err)"
+chosen '^flowgrain: wind.nc: level 1 of 0 to 1: 300 hPa$' 0 1 --level 300
 chosen '^flowgrain: wind.nc: no time 1982-07-16T12:00: the nearest is 1982-07-16 06:00$' 1 0 --time 1982-07-16T12:00
 chosen '^flowgrain: wind.nc: no level 800.: the nearest is 850 hPa$' 2 0 --time 2 --level 800.
 # levels as ROMS has them, from the bottom up: the surface, unless another is asked for
@@ -94,7 +95,7 @@ refuse() { # CODE PATTERN ARGUMENTS...
 }
 refuse 1 'no time 1990-01-01: 0 is 1982-07-16, 2 is 1982-07-17 06:00' run wind.nc -o x --time 1990-01-01
 refuse 1 'no level 10m: none of them is in such a unit' run wind.nc -o x --level 10m
-refuse 1 "level 850 asked for, but 'lev' has 2: 0 to 1" run wind.nc -o x --level 850
+refuse 1 'level 700 asked for, and there are 2: 0 is 850 hPa, 1 is 300 hPa' run wind.nc -o x --level 700
 grep -q 'a value has its unit or a point: 850hPa' err || fault "no hint: $(cat err)"
 refuse 2 '--time noon:1: no index, value' run wind.nc -o x --time noon:1
 refuse 2 '--time all: texture takes one time' texture wind.nc -o x.svg --time all
@@ -162,6 +163,12 @@ done_with "a series that was killed goes on"
 try run dead.nc -o dead "${small[@]}" --time 2
 expect_code 1
 expect_error 'zero everywhere'
+expect_error '^Choose another with --time or --level, as --time 0; flowgrain info lists them'
+expect_one_complaint
+# a child process reads what looks like GRIB first, and says the same
+perl -pe "s/\\x00{3}\\x03lev\\x00/\\x00\\x00\\x00\\x04GRIB/" dead.nc >child.nc
+try run child.nc -o dead "${small[@]}" --time 2
+expect_code 1
 expect_error '^Choose another with --time or --level, as --time 0; flowgrain info lists them'
 expect_one_complaint
 done_with "a time without flow: others are named"
